@@ -7,9 +7,9 @@ use clap::Args;
 
 /// Which of two limit cycles wins
 ///
-/// Runs transients with two seeds: two waves on the built-in disc, two modes on any other body. Bisects the ratio of the seeds
-/// above which the second one wins. With one mode it finds the kick that tips stable sliding into its limit cycle. Needs a
-/// [basin] section. A map over speed and friction is a sweep with analyses = ["basin"].
+/// Runs transients with two seeds: two waves on the built-in disc, two modes on any other body. Bisects the ratio of
+/// the seeds above which the second one wins. With one mode it finds the kick that tips stable sliding into its limit
+/// cycle. Needs a [basin] section. A map over speed and friction is a sweep with analyses = ["basin"].
 #[derive(Args)]
 pub struct Arguments {
     #[command(flatten)]

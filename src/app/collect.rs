@@ -13,7 +13,8 @@ use std::time::Instant;
 
 /// Gather the points of a sweep that several processes share
 ///
-/// Writes points.csv and summary.json. Names missing points and exits with 1 if there are any; the table has the others.
+/// Writes points.csv and summary.json. Names missing points and exits with 1 if there are any; the table has the
+/// others.
 #[derive(Args)]
 pub struct Arguments {
     /// Output folder of the sweep

@@ -15,8 +15,8 @@ use std::path::{Path, PathBuf};
 
 /// Set finished runs side by side: numbers and curves
 ///
-/// Reads summary.json and figures.bin of each results folder; nothing is computed again. The other folders are compared with
-/// the first one. Without --out the results are in results/compare, in a folder named after the runs.
+/// Reads summary.json and figures.bin of each results folder; nothing is computed again. The other folders are compared
+/// with the first one. Without --out the results are in results/compare, in a folder named after the runs.
 #[derive(Args)]
 pub struct Arguments {
     /// Results folders, the first of which the others are compared with
@@ -82,7 +82,8 @@ impl Run for Arguments {
     }
 }
 
-/// `results/compare/A-B`, after the names of the runs; where that holds another comparison, with the beginning of its own hash.
+/// `results/compare/A-B`, after the names of the runs; where that holds another comparison, with the beginning of its
+/// own hash.
 fn default_folder(runs: &[ComparedRun], manifest: &Manifest, is_forced: bool) -> PathBuf {
     let is_plain = |c: char| c.is_alphanumeric() || matches!(c, '.' | '_');
     let names = runs.iter().map(|run| {

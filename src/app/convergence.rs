@@ -9,8 +9,9 @@ use clap::Args;
 
 /// Show that results have converged over mesh and time step
 ///
-/// Runs the analyses of a case on refined meshes, and its transient with shorter time steps. Reads the observed order off the
-/// three finest runs, extrapolates after Richardson, and marks what does not converge. Needs a section `[convergence]`.
+/// Runs the analyses of a case on refined meshes, and its transient with shorter time steps. Reads the observed order
+/// off the three finest runs, extrapolates after Richardson, and marks what does not converge. Needs a section
+/// `[convergence]`.
 #[derive(Args)]
 pub struct Arguments {
     #[command(flatten)]

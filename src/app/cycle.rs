@@ -13,10 +13,10 @@ use serde_json::Value;
 
 /// The vibration that each unstable mode saturates to
 ///
-/// Finds limit cycles without time stepping. On the built-in disc a limit cycle is a rotating wave, solved along its phase. On
-/// any other body it is the periodic motion that a growing mode saturates to, solved over one period of the transient.
-/// cycle.continuation follows it over a parameter. Its stability is computed, and a short transient confirms it. Ctrl-C
-/// keeps finished cycles and branch points; --resume continues. Needs a section `[cycle]`.
+/// Finds limit cycles without time stepping. On the built-in disc a limit cycle is a rotating wave, solved along its
+/// phase. On any other body it is the periodic motion that a growing mode saturates to, solved over one period of the
+/// transient. cycle.continuation follows it over a parameter. Its stability is computed, and a short transient confirms
+/// it. Ctrl-C keeps finished cycles and branch points; --resume continues. Needs a section `[cycle]`.
 #[derive(Args)]
 pub struct Arguments {
     /// The case and how to run it.

@@ -14,16 +14,18 @@ use std::path::PathBuf;
 /// Find parameters of a case from measured modes or squeal frequencies
 ///
 /// Fits the keys of fit.parameters, each between its bounds, to a table of frequencies, real parts or damping factors.
-/// Gives the confidence interval of each value, the mode of each line, and the parameters that the data cannot tell apart.
-/// Needs a section `[fit]`.
+/// Gives the confidence interval of each value, the mode of each line, and the parameters that the data cannot tell
+/// apart. Needs a section `[fit]`.
 #[derive(Args)]
 pub struct Arguments {
     #[command(flatten)]
     options: RunOptions,
-    /// Measured modes: frequency_hz and, where known, real_hz or damping_factor, harmonic, sigma_hz, unstable (1: heard)
+    /// Measured modes: frequency_hz and, where known, real_hz or damping_factor, harmonic, sigma_hz, unstable (1:
+    /// heard)
     #[arg(value_name = "MODES.csv", value_hint = ValueHint::FilePath)]
     modes: PathBuf,
-    /// Measured shapes of some of these modes, found by their frequency: universal file (dataset 55) or table, as of mac
+    /// Measured shapes of some of these modes, found by their frequency: universal file (dataset 55) or table, as of
+    /// mac
     #[arg(long, value_name = "SHAPES", value_hint = ValueHint::FilePath)]
     shapes: Option<PathBuf>,
     /// Factor that takes the coordinates of the shapes to metres

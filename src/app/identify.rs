@@ -15,8 +15,8 @@ use std::path::PathBuf;
 /// Find damping from a measured frequency response
 ///
 /// Reads a text table, a universal file (UFF 58) or a MATLAB file with one or several responses. These are real and
-/// imaginary part, or magnitude (linear or dB) with or without phase. Finds the resonances and the damping of each by a fit of the whole
-/// response. Fits alpha_R and beta_R of C = alpha_R M + beta_R K.
+/// imaginary part, or magnitude (linear or dB) with or without phase. Finds the resonances and the damping of each by a
+/// fit of the whole response. Fits alpha_R and beta_R of C = alpha_R M + beta_R K.
 #[derive(Args)]
 pub struct Arguments {
     /// Table of one or more frequency responses, UFF or MATLAB file

@@ -9,8 +9,8 @@ use clap::Args;
 /// Find changes that silence the unstable modes
 ///
 /// Computes the derivatives of growth rates by a mass, spring, dashpot, damping layer or removed patch at every place.
-/// Predicts the best places with all modes together. Runs the best candidates again as cases of their own. The [improve]
-/// section limits what may be changed and by how much.
+/// Predicts the best places with all modes together. Runs the best candidates again as cases of their own. The
+/// [improve] section limits what may be changed and by how much.
 #[derive(Args)]
 pub struct Arguments {
     #[command(flatten)]

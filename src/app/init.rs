@@ -32,7 +32,8 @@ pub struct Arguments {
     /// Shipped case or its short name; see --list
     #[arg(default_value = "cea")]
     template: String,
-    /// Mesh file to start from: of Abaqus or CalculiX, Nastran, Gmsh, or a universal file; the case has all that the file holds
+    /// Mesh file to start from: of Abaqus or CalculiX, Nastran, Gmsh, or a universal file; the case has all that the
+    /// file holds
     #[arg(long, value_name = "MESH", value_hint = ValueHint::FilePath, conflicts_with = "template")]
     from: Option<PathBuf>,
     /// File to write, `-` for stdout [default: <TEMPLATE>.toml]; its meshes and tables go beside it. With --all

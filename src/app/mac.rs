@@ -13,9 +13,9 @@ use std::path::PathBuf;
 
 /// Compare measured shapes with the modes of a case
 ///
-/// Computes the modal assurance criterion of every measured shape with every mode at the case's friction coefficient, and
-/// pairs them. A measured point is compared at its nearest node. Shapes come from a universal file (dataset 55) or a table.
-/// Its columns are x, y, z, ux, uy, uz (complex, or ux_re, ux_im ...), mode, frequency_hz.
+/// Computes the modal assurance criterion of every measured shape with every mode at the case's friction coefficient,
+/// and pairs them. A measured point is compared at its nearest node. Shapes come from a universal file (dataset 55) or
+/// a table. Its columns are x, y, z, ux, uy, uz (complex, or ux_re, ux_im ...), mode, frequency_hz.
 #[derive(Args)]
 pub struct Arguments {
     #[command(flatten)]

@@ -9,10 +9,10 @@ use clap::Args;
 
 /// Export the matrices of a case to other programs
 ///
-/// Writes what the eigenvalue analysis solves, as Matrix Market and as NPZ for scipy.sparse.load_npz. These are M, C and K at the
-/// friction coefficient of the case, and the coefficients by which they change with it. The contact rows stand beside.
-/// The file matrices.json lists what multiplies what, unknowns.csv the node and direction of each unknown. Needs a section
-/// `[cea]`.
+/// Writes what the eigenvalue analysis solves, as Matrix Market and as NPZ for scipy.sparse.load_npz. These are M, C
+/// and K at the friction coefficient of the case, and the coefficients by which they change with it. The contact rows
+/// stand beside. The file matrices.json lists what multiplies what, unknowns.csv the node and direction of each
+/// unknown. Needs a section `[cea]`.
 #[derive(Args)]
 pub struct Arguments {
     #[command(flatten)]

@@ -96,8 +96,8 @@ impl OutputOptions {
     /// The folder for a run, and what it may replace there.
     ///
     /// Without `--out` it is `results/STEM/COMMAND`. Where that holds other results, the folder beside it that is named
-    /// after what this run differs in: its overrides, or the folder that its input lies in. `is_continued`: a run that goes
-    /// on takes the folder that is there.
+    /// after what this run differs in: its overrides, or the folder that its input lies in. `is_continued`: a run that
+    /// goes on takes the folder that is there.
     pub fn destination(&self, manifest: &Manifest, is_continued: bool) -> (PathBuf, Replace) {
         let replace = if self.force { Replace::Anything } else { Replace::SameCase };
         if let Some(path) = &self.out {
@@ -233,7 +233,8 @@ impl OutputOptions {
     }
 }
 
-/// Refuses to replace what lies in a folder where that might be the input itself: all there but cases that no run wrote.
+/// Refuses to replace what lies in a folder where that might be the input itself: all there but cases that no run
+/// wrote.
 fn refuse_input_inside(folder: &Path, input: &Path) -> Result<(), Failure> {
     let (Ok(folder), Ok(input)) = (folder.canonicalize(), input.canonicalize()) else {
         return Ok(());
@@ -246,7 +247,8 @@ fn refuse_input_inside(folder: &Path, input: &Path) -> Result<(), Failure> {
         return Ok(());
     }
     Err(Failure::usage(format!(
-        "--force would replace {}, which is the input: choose another folder with --out, or move the file out of this one",
+        "--force would replace {}, which is the input: choose another folder with --out, or move the file out of this \
+        one",
         input.display()
     )))
 }

@@ -32,8 +32,8 @@ const LAST_SHARE: f64 = 0.2;
 
 /// Spectrum of a sound or vibration beside the modes of a case
 ///
-/// Reads one or more channels from a text table, a universal file (UFF 58), a WAV or a MATLAB file. Lists the peaks that
-/// stand out of the noise, their superharmonics, the growth rate, and the modes of a case beside them.
+/// Reads one or more channels from a text table, a universal file (UFF 58), a WAV or a MATLAB file. Lists the peaks
+/// that stand out of the noise, their superharmonics, the growth rate, and the modes of a case beside them.
 #[derive(Args)]
 pub struct Arguments {
     /// Table of the signal, UFF, WAV or MATLAB file
@@ -60,8 +60,8 @@ pub struct Arguments {
     /// End of the interval for the peaks, s after the first sample
     #[arg(long, value_name = "S")]
     to: Option<f64>,
-    /// Smallest spacing between two peaks: the spectrum is averaged over blocks of 4/HZ seconds [default: 2 Hz, or more where
-    /// the interval is short]
+    /// Smallest spacing between two peaks: the spectrum is averaged over blocks of 4/HZ seconds [default: 2 Hz, or more
+    /// where the interval is short]
     #[arg(long, value_name = "HZ")]
     resolution: Option<f64>,
     /// Window of the spectrogram, s [default: 0.0005, or 1/400 of a record longer than 0.2 s]

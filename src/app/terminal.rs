@@ -127,8 +127,8 @@ pub fn report_usage(error: &clap::Error) -> u8 {
 /// Exit code of a process that Ctrl-C or SIGTERM ended.
 pub const INTERRUPTED: u8 = 130;
 
-/// Makes Ctrl-C and SIGTERM end the process with exit code 130 and a word on what is kept and how to go on. Inside another
-/// program, whose signals are its own, the word is kept for it.
+/// Makes Ctrl-C and SIGTERM end the process with exit code 130 and a word on what is kept and how to go on. Inside
+/// another program, whose signals are its own, the word is kept for it.
 pub fn catch_signals(advice: &'static str) {
     if let Some(run) = embedded::current() {
         return run.advise(advice);
@@ -152,8 +152,8 @@ pub fn error_word() -> &'static str {
     if is_coloured() { "\x1b[1m\x1b[91merror\x1b[0m\x1b[1m:\x1b[0m" } else { "error:" }
 }
 
-/// Sends the log to stderr: information and warnings; with one `quiet` warnings, with two errors only. An embedded run has
-/// a log of its own.
+/// Sends the log to stderr: information and warnings; with one `quiet` warnings, with two errors only. An embedded run
+/// has a log of its own.
 pub fn start_log(quiet: u8, verbose: u8) {
     if embedded::current().is_some() {
         return;
@@ -193,8 +193,8 @@ fn track(done: u64, length: Option<u64>) -> String {
     format!("[{:<1$}] ", "=".repeat(filled) + head, BAR as usize)
 }
 
-/// A progress bar with a template of its own, in which `{track}` is the bar, `{count}` how many are done of how many, and `{left}`
-/// the time left; none says anything before there is something to say.
+/// A progress bar with a template of its own, in which `{track}` is the bar, `{count}` how many are done of how many,
+/// and `{left}` the time left; none says anything before there is something to say.
 pub fn progress_in(quiet: bool, length: u64, template: &str) -> ProgressBar {
     if let Some(run) = embedded::current() {
         return run.bar(length);

@@ -19,10 +19,10 @@ const SAMPLES: &str = "samples";
 
 /// How likely squeal is, and which parameter decides it
 ///
-/// Draws samples of the keys of uncertainty.distributions and finds the critical frictions of each. Gives the probability of
-/// an unstable mode at the case's friction coefficient and the distribution of the lowest critical friction. Gives the share
-/// of each parameter in its variance, too. Finished blocks of samples are kept: a killed run continues with --resume, and several
-/// processes may work on one folder.
+/// Draws samples of the keys of uncertainty.distributions and finds the critical frictions of each. Gives the
+/// probability of an unstable mode at the case's friction coefficient and the distribution of the lowest critical
+/// friction. Gives the share of each parameter in its variance, too. Finished blocks of samples are kept: a killed run
+/// continues with --resume, and several processes may work on one folder.
 #[derive(Args)]
 pub struct Arguments {
     #[command(flatten)]

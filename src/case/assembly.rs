@@ -98,8 +98,8 @@ impl AssemblyParts {
     }
 }
 
-/// Reads the sections of an assembly; its first contact and motion give the common contact of the case: a sweep varies the
-/// friction coefficient of the first contact, and the others keep their ratio to it.
+/// Reads the sections of an assembly; its first contact and motion give the common contact of the case: a sweep varies
+/// the friction coefficient of the first contact, and the others keep their ratio to it.
 pub(super) fn sections(
     root: &Section<'_>,
     tables: &mut TableFiles<'_>,

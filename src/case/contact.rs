@@ -88,8 +88,8 @@ impl Case {
     }
 }
 
-/// `annulus` is that of a generated body, with whether it is three-dimensional; `is_pressed` says whether a boundary has a
-/// pressure of its own.
+/// `annulus` is that of a generated body, with whether it is three-dimensional; `is_pressed` says whether a boundary
+/// has a pressure of its own.
 pub(super) fn contact(
     root: &Section<'_>,
     annulus: Option<(&AnnulusSpecification, bool)>,

@@ -48,8 +48,8 @@ impl Convergence {
 }
 
 impl super::Case {
-    /// The case on a mesh whose elements are `factor` times as fine: a generated mesh has so many times as many elements in
-    /// every direction, an imported one is split.
+    /// The case on a mesh whose elements are `factor` times as fine: a generated mesh has so many times as many
+    /// elements in every direction, an imported one is split.
     ///
     /// # Errors
     /// An imported mesh that cannot be refined.

@@ -22,7 +22,8 @@ pub struct Cycle {
     pub onsets: OnsetChoice,
     /// Phases along the wave; `None` takes as many as the mesh asks for.
     pub phases: Option<usize>,
-    /// Harmonics in which the motion of a body without symmetry is told; `None` takes as many as leave a thousandth of it.
+    /// Harmonics in which the motion of a body without symmetry is told; `None` takes as many as leave a thousandth of
+    /// it.
     pub harmonic_count: Option<usize>,
     /// Times over one period at which the whole field is written.
     pub frames: usize,
@@ -62,8 +63,8 @@ impl Case {
     /// The search for limit cycles.
     ///
     /// # Errors
-    /// A case without `[cycle]`, a body that the transient cannot step, a counterface at rest, and of rotating waves a cylinder
-    /// that turns backwards.
+    /// A case without `[cycle]`, a body that the transient cannot step, a counterface at rest, and of rotating waves a
+    /// cylinder that turns backwards.
     pub fn require_cycle(&self) -> Result<&Cycle, CaseErrors> {
         self.refuse_losses_in_time("the search for limit cycles")?;
         self.refuse_what_has_no_cycle()?;
@@ -98,7 +99,8 @@ impl Case {
         match &self.body {
             Body::Annulus(_) => self.require_quad4("limit cycles need \"quad4\"")?,
             Body::Revolution(_) => self.require_quad4(
-                "limit cycles need bricks of 8 nodes, \"quad4\": they are motions of the transient, which lumps the mass",
+                "limit cycles need bricks of 8 nodes, \"quad4\": they are motions of the transient, which lumps the \
+                mass",
             )?,
             Body::Imported(_) => {}
             Body::Assembly(assembly) => self.check_stepped(assembly)?,
@@ -106,8 +108,9 @@ impl Case {
         Ok(())
     }
 
-    /// Whether the limit cycles of the body are rotating waves: on the generated annulus around a rigid shaft, with a constant
-    /// friction coefficient, in contact that does not stiffen with pressure. Those of any other plane body are motions of the whole mesh.
+    /// Whether the limit cycles of the body are rotating waves: on the generated annulus around a rigid shaft, with a
+    /// constant friction coefficient, in contact that does not stiffen with pressure. Those of any other plane body are
+    /// motions of the whole mesh.
     pub fn has_rotating_waves(&self) -> bool {
         let annulus = self.body.annulus();
         annulus.is_some_and(|annulus| annulus.specification.shaft.is_none())

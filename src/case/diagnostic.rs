@@ -227,7 +227,8 @@ macro_rules! diagnosis {
     ($case:expr, $($said:tt)*) => { $crate::case::said!(diagnosis, $case, $($said)*) };
 }
 
-/// Refuses a key of a section: `refuse!(section, key, what; label; remedy)`; behind `=>` what is wrong follows the key's name.
+/// Refuses a key of a section: `refuse!(section, key, what; label; remedy)`; behind `=>` what is wrong follows the
+/// key's name.
 macro_rules! refuse {
     ($($said:tt)*) => { $crate::case::at_key!(reject, $($said)*) };
 }

@@ -178,8 +178,8 @@ fn axes(section: &Section<'_>) -> MaterialAxes {
     })
 }
 
-/// Lays cylindrical axes about the body's own, and refuses axes under which the body is not what its analyses take it for.
-/// `path` is the material's section: `["material"]` or `["materials", NAME]`.
+/// Lays cylindrical axes about the body's own, and refuses axes under which the body is not what its analyses take it
+/// for. `path` is the material's section: `["material"]` or `["materials", NAME]`.
 pub(super) fn place_axes(
     root: &Section<'_>,
     path: &[&str],

@@ -164,7 +164,8 @@ fn material_section(
                         keyword: format!("axis of the cylindrical orientation of {}", material.region),
                         place: material.place.clone(),
                         count: 1,
-                        reason: format!("axes are about the motion's axis here, there through {from:?} and {to:?}: check it"),
+                        reason: format!("axes are about the motion's axis here, there through {from:?} and {to:?}: \
+                        check it"),
                         is_part: false,
                     });
                     text("cylindrical")
@@ -199,8 +200,8 @@ fn material_section(
     }
 }
 
-/// `[material]` where the file gives every region one of its own: that of the region with most elements, which no region uses.
-/// In the plane the formulation, too.
+/// `[material]` where the file gives every region one of its own: that of the region with most elements, which no
+/// region uses. In the plane the formulation, too.
 fn common_material(file: &FileMesh, own: &[FileSection]) -> Option<FileSection> {
     let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
     file.elements.iter().for_each(|element| *counts.entry(&element.region).or_default() += 1);

@@ -28,7 +28,8 @@ pub struct Fit {
     pub parameters: Vec<FitParameter>,
     /// Points within the bounds at which the search looks first.
     pub starts: usize,
-    /// What a measured shape counts that has nothing of its line's mode: the share of the frequency that counts as much.
+    /// What a measured shape counts that has nothing of its line's mode: the share of the frequency that counts as
+    /// much.
     pub shape_weight: f64,
 }
 

@@ -74,8 +74,8 @@ pub(super) fn generated(
     (body, contact)
 }
 
-/// A body of revolution, as a whole mesh where modifications break its symmetry, where losses or moduli over frequency part the
-/// waves +n and -n of its harmonics, where it has several materials, and where that is asked for.
+/// A body of revolution, as a whole mesh where modifications break its symmetry, where losses or moduli over frequency
+/// part the waves +n and -n of its harmonics, where it has several materials, and where that is asked for.
 fn revolution_body(
     root: &Section<'_>,
     revolution: Revolution,

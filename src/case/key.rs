@@ -186,7 +186,8 @@ pub struct CaseKey {
     pub example: &'static str,
     /// What it is, to be read behind "is".
     pub meaning: &'static str,
-    /// What holds where `cycle` and `basin` seek rotating waves, which do not use it; empty of a key that every command uses.
+    /// What holds where `cycle` and `basin` seek rotating waves, which do not use it; empty of a key that every command
+    /// uses.
     pub of_waves: &'static str,
     /// First version that knows it.
     pub since: &'static str,

@@ -273,8 +273,8 @@ impl Case {
         Err(self.raw.errors(all))
     }
 
-    /// Whether the response is solved harmonic by harmonic where nothing else is asked for: of equal sectors, but not of disc and
-    /// shaft apart, which are two bodies.
+    /// Whether the response is solved harmonic by harmonic where nothing else is asked for: of equal sectors, but not
+    /// of disc and shaft apart, which are two bodies.
     pub fn responds_by_harmonics(&self, frf: &Frf) -> bool {
         let has_shaft = self.body.grid().is_some_and(|grid| grid.shaft.is_some());
         let is_apart = frf.boundary != crate::frf::FrfBoundary::Sliding;

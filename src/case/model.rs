@@ -190,8 +190,8 @@ fn length_factor(mesh: &Section<'_>) -> f64 {
     10f64.powi(units.length())
 }
 
-/// `[materials.*]` with their axes and those of `[material]` laid into the body. A case without `[material]` gets the constants
-/// of its first region for what asks for one.
+/// `[materials.*]` with their axes and those of `[material]` laid into the body. A case without `[material]` gets the
+/// constants of its first region for what asks for one.
 fn materials(
     root: &Section<'_>,
     common: &mut ElasticMaterial,
@@ -226,14 +226,15 @@ fn region_names<'a>(root: &Section<'a>) -> Vec<&'a str> {
     root.section("materials", false).remaining().into_iter().map(|(name, _)| name).collect()
 }
 
-/// Whether `[material]` has the constants of regions without a section of their own; a formulation alone gives them none.
+/// Whether `[material]` has the constants of regions without a section of their own; a formulation alone gives them
+/// none.
 fn has_common_constants(root: &Section<'_>) -> bool {
     let given = root.section("material", false).remaining();
     given.iter().any(|(key, _)| *key != "formulation")
 }
 
-/// `[material]`. Where every region of a mesh file may have a section of its own, it can be left out: the constants are then
-/// those of the first region, once it is read.
+/// `[material]`. Where every region of a mesh file may have a section of its own, it can be left out: the constants are
+/// then those of the first region, once it is read.
 pub(super) fn material(root: &Section<'_>, tables: &mut TableFiles<'_>) -> TabledMaterial {
     let has_regions = root.section("mesh", false).has("file") && !region_names(root).is_empty();
     let is_needed = !has_regions || has_common_constants(root);

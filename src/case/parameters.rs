@@ -205,7 +205,8 @@ impl super::Case {
     }
 
     /// The continuous parameters of the model that the case gives as numbers, with these, by key; the friction
-    /// coefficient of `[contact]`, which sweeps vary, and the thickness of a plane body, which scales results alone, are left out.
+    /// coefficient of `[contact]`, which sweeps vary, and the thickness of a plane body, which scales results alone,
+    /// are left out.
     pub fn model_numbers(&self) -> Vec<(String, f64)> {
         let mut found = Vec::new();
         collect_numbers("", &self.raw.root, &mut found);

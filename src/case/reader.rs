@@ -122,8 +122,8 @@ impl<'a> Section<'a> {
         self.table.is_some_and(|table| table.contains_key(key))
     }
 
-    /// Takes note of keys, apart by blanks, that the case cannot have: those that it gives all the same. A default that is
-    /// written out changes nothing.
+    /// Takes note of keys, apart by blanks, that the case cannot have: those that it gives all the same. A default that
+    /// is written out changes nothing.
     pub fn refused<'k>(&self, keys: &'k str) -> Vec<&'k str> {
         let keys = keys.split_whitespace();
         self.asked.borrow_mut().extend(keys.clone().map(str::to_owned));

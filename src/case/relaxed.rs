@@ -11,7 +11,8 @@ const LOWEST: f64 = 0.01;
 /// Least part of the highest frequency of a table at which its chain begins.
 const LOWEST_OF_TABLE: f64 = 1e-5;
 
-/// The materials of a case in time; none where they are what they are in any case, and where there is no band to fit them to.
+/// The materials of a case in time; none where they are what they are in any case, and where there is no band to fit
+/// them to.
 pub(super) fn relaxed(case: &Case) -> Option<RelaxedMaterials> {
     let (materials, count) = (case.materials(), case.body.region_count());
     let is_solid_of_revolution = matches!(case.body, Body::Revolution(_));

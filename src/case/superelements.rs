@@ -51,8 +51,8 @@ impl FreeSystem {
     /// Reads the matrices of a case, whose files are relative to it.
     ///
     /// # Errors
-    /// [`CaseErrors`]: several superelements, a file that is not readable or no matrix, sizes that differ, an unknown without entries,
-    /// a key that means nothing here.
+    /// [`CaseErrors`]: several superelements, a file that is not readable or no matrix, sizes that differ, an unknown
+    /// without entries, a key that means nothing here.
     pub fn read(raw: RawCase) -> Result<Self, CaseErrors> {
         let findings = Findings::of(&raw.root);
         let end = raw.text.trim_end().len();

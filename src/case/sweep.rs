@@ -53,7 +53,8 @@ impl Sweep {
         }
     }
 
-    /// The overrides that make point `index`, one for each key and for each that goes with it, in the order of the keys.
+    /// The overrides that make point `index`, one for each key and for each that goes with it, in the order of the
+    /// keys.
     pub fn overrides(&self, index: usize) -> Vec<String> {
         let mut rest = index;
         let mut places: Vec<usize> = self

@@ -1,4 +1,5 @@
-//! Tables beside a case: `materials.*.table`, modulus and loss factor over frequency, and `contacts.*.gap`, a measured surface.
+//! Tables beside a case: `materials.*.table`, modulus and loss factor over frequency, and `contacts.*.gap`, a measured
+//! surface.
 
 use super::raw::{RawCase, TableBytes};
 use super::reader::Section;
@@ -12,8 +13,8 @@ use std::sync::Arc;
 
 /// Softest material, Pa: with less the frequencies of a body spread over more decades than a table can follow.
 const SOFTEST: f64 = 100.0;
-/// A modulus that falls by more than this part of its largest value so far, beyond the scatter of measurements, is none of a passive
-/// material.
+/// A modulus that falls by more than this part of its largest value so far, beyond the scatter of measurements, is none
+/// of a passive material.
 const FALL: f64 = 0.05;
 
 /// The tables of a case: known already, or files beside it.
@@ -147,7 +148,8 @@ fn sound(rows: &[ModulusRow]) -> Result<(), (usize, String, &'static str)> {
         }
         if loss_factor > 1.0 {
             let what = format!(
-                "the loss factor {loss_factor} is beyond 1, where half of the strain energy is lost in a sixth of a cycle"
+                "the loss factor {loss_factor} is beyond 1, where half of the strain energy is lost in a sixth of a \
+                cycle"
             );
             return Err((line, what, "at most 1; rubber has 0.1 to 1. Is it in percent?"));
         }

@@ -10,7 +10,8 @@ use crate::linalg::Distribution;
 /// Share of a distribution beyond what its key can take from which on it is refused.
 const MOST_BEYOND: f64 = 0.05;
 
-/// Standard deviation of the logarithm beyond which a log-normal distribution is hardly meant: a factor of 20 either way.
+/// Standard deviation of the logarithm beyond which a log-normal distribution is hardly meant: a factor of 20 either
+/// way.
 const LARGEST_LOG_DEVIATION: f64 = 3.0;
 
 /// A parameter and what is known of it.
@@ -37,7 +38,8 @@ impl UncertainParameter {
 pub struct Uncertainty {
     /// Samples.
     pub samples: usize,
-    /// Samples that the indices are worked out from; each costs one run more than there are parameters. 0 for no indices.
+    /// Samples that the indices are worked out from; each costs one run more than there are parameters. 0 for no
+    /// indices.
     pub index_samples: usize,
     /// Seed of their scrambling.
     pub seed: u64,
@@ -92,7 +94,8 @@ fn uncertain(
     entry: &RawEntry,
 ) -> UncertainParameter {
     let key = &parameter.key;
-    let help = "a distribution is { normal = [mean, deviation] }, { log_normal = [median, deviation of the logarithm] } \
+    let help = "a distribution is { normal = [mean, deviation] }, \
+    { log_normal = [median, deviation of the logarithm] } \
                 or { uniform = [from, to] }";
     let reject = |message: String, label: &str, help: &str| {
         section.reject_placed(&entry.item.at, message, label.to_owned(), help);

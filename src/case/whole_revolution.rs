@@ -1,5 +1,5 @@
-//! A body of revolution in three dimensions on its whole mesh: what it is where something breaks the symmetry that its harmonics
-//! are solved by.
+//! A body of revolution in three dimensions on its whole mesh: what it is where something breaks the symmetry that its
+//! harmonics are solved by.
 
 use super::assembly::AssemblyBody;
 use super::body::{Body, Revolution};

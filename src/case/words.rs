@@ -247,7 +247,10 @@ macro_rules! choices {
 
 choices! {
     ElementKind { "quad4" = Self::Quad4, "quad8" = Self::Quad8 }
-    PlaneFormulation { "plane-strain" = Self::PlaneStrain, "plane-stress" = Self::PlaneStress, "three-dimensional" = Self::ThreeDimensional }
+    PlaneFormulation {
+        "plane-strain" = Self::PlaneStrain, "plane-stress" = Self::PlaneStress,
+        "three-dimensional" = Self::ThreeDimensional
+    }
     MassKind { "consistent" = Self::Consistent, "lumped" = Self::Lumped }
     Spacing { "linear" = Self::Linear, "log" = Self::Logarithmic }
     OperatorChoice { "auto" = Self::Auto, "cyclic" = Self::Cyclic, "sparse" = Self::Sparse }

@@ -8,7 +8,8 @@ pub fn format_number(value: f64) -> String {
     if value.is_finite() { format!("{:?}", value + 0.0) } else { String::new() }
 }
 
-/// A cell that no spreadsheet takes for a formula: one that begins like one, and is no number, stands behind an apostrophe.
+/// A cell that no spreadsheet takes for a formula: one that begins like one, and is no number, stands behind an
+/// apostrophe.
 fn tamed(cell: &[u8]) -> Cow<'_, [u8]> {
     let is_formula = match cell {
         [b'=' | b'@' | b'\t' | b'\r', ..] => true,

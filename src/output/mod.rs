@@ -1,8 +1,8 @@
 //! Findings as documents: columns and tables that are declared once, and what is made of them.
 //!
-//! A [`Column`] says how a value is called, what it means, its digits, and where it stands in a row. A [`Table`] of such columns
-//! is a CSV file, a table of the terminal and one of the page. A [`Document`] holds the tables and sentences of a result.
-//! Nothing here knows what the findings are about.
+//! A [`Column`] says how a value is called, what it means, its digits, and where it stands in a row. A [`Table`] of
+//! such columns is a CSV file, a table of the terminal and one of the page. A [`Document`] holds the tables and
+//! sentences of a result. Nothing here knows what the findings are about.
 
 pub mod csv;
 mod described;

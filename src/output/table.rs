@@ -121,8 +121,8 @@ impl<T> Column<T> {
     }
 }
 
-/// Declares columns: `NAME: row as Type; key: "meaning" = cell, Always "label" Fixed(2); ...`; a constant may stand for a
-/// meaning, and columns that no file has need none.
+/// Declares columns: `NAME: row as Type; key: "meaning" = cell, Always "label" Fixed(2); ...`; a constant may stand for
+/// a meaning, and columns that no file has need none.
 macro_rules! columns {
     ($(#[$meta:meta])* $vis:vis $name:ident: $row:ident as $type:ty;
      $($key:ident $(: $meaning:tt)? = $cell:expr $(, $when:ident $label:literal $format:expr)?;)+) => {
@@ -214,7 +214,8 @@ impl Table {
         self.group("", "", columns, rows.into_iter().map(Some))
     }
 
-    /// The same with further columns behind a prefix of their names and one of their labels; nothing where an item is none.
+    /// The same with further columns behind a prefix of their names and one of their labels; nothing where an item is
+    /// none.
     #[must_use]
     pub fn group<T, R: Borrow<T>>(
         mut self,

@@ -17,7 +17,8 @@ pub fn parameter_axis(key: &str) -> Axis {
     }
 }
 
-/// A value of a case key among others, as text in the unit that [`shared_unit`] gives them: at most four significant digits.
+/// A value of a case key among others, as text in the unit that [`shared_unit`] gives them: at most four significant
+/// digits.
 pub fn in_unit(value: f64, factor: f64) -> String {
     literal(&rounded(value * factor, 4).to_string())
 }

@@ -23,8 +23,8 @@ pub struct NamedFigure {
 
 /// A report on one result.
 ///
-/// It needs no network and no other file: drawings are inline, and so are the scripts that let a reader zoom, sort, animate
-/// and listen. Every number and every drawing is there without them.
+/// It needs no network and no other file: drawings are inline, and so are the scripts that let a reader zoom, sort,
+/// animate and listen. Every number and every drawing is there without them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Report {
     /// Title, from the case.
@@ -36,7 +36,8 @@ pub struct Report {
 }
 
 impl Report {
-    /// The page of a document: each figure stands in the first section that names the beginning of its name, notes in the first.
+    /// The page of a document: each figure stands in the first section that names the beginning of its name, notes in
+    /// the first.
     pub fn of(document: Document, mut figures: Vec<NamedFigure>, manifest: &Manifest) -> Self {
         let mut notes = document.notes;
         let part = |mut section: Section| {

@@ -86,15 +86,16 @@ impl ResponseSummary {
     }
 }
 
-/// Degrees beyond half a turn up to which the phase goes on before it is drawn a turn away: noise about half a turn is no jump.
+/// Degrees beyond half a turn up to which the phase goes on before it is drawn a turn away: noise about half a turn is
+/// no jump.
 const PHASE_MARGIN: f64 = 25.0;
 /// Least rise of a maximum over its surroundings, as a natural logarithm (3 dB), and in units of the noise.
 const PROMINENCE: (f64, f64) = (0.345, 12.0);
 /// Most maxima that are marked.
 const MOST_MAXIMA: usize = 40;
 
-/// The phase, degrees, followed from value to value and drawn a whole number of turns away only where it leaves the axis; where
-/// that happens the line breaks.
+/// The phase, degrees, followed from value to value and drawn a whole number of turns away only where it leaves the
+/// axis; where that happens the line breaks.
 fn followed_phase(frequencies: &[f64], values: &[c64]) -> Vec<(f64, f64)> {
     let limit = 180.0 + PHASE_MARGIN;
     let mut points: Vec<(f64, f64)> = Vec::with_capacity(values.len());
@@ -114,9 +115,9 @@ fn followed_phase(frequencies: &[f64], values: &[c64]) -> Vec<(f64, f64)> {
 
 /// Places of the maxima that rise out of their surroundings by more than the noise does, highest rise first.
 ///
-/// The rise of a maximum is the smaller of the two depths to which the logarithm of the magnitude falls on its sides before it
-/// climbs higher again. The noise is the median distance of neighbouring logarithms over 0.95, which of independent normal
-/// values is their standard deviation.
+/// The rise of a maximum is the smaller of the two depths to which the logarithm of the magnitude falls on its sides
+/// before it climbs higher again. The noise is the median distance of neighbouring logarithms over 0.95, which of
+/// independent normal values is their standard deviation.
 fn maxima(magnitude: &[f64]) -> Vec<usize> {
     let logs: Vec<f64> = magnitude.iter().map(|m| m.max(1e-300).ln()).collect();
     let mut steps: Vec<f64> = logs.windows(2).map(|pair| (pair[1] - pair[0]).abs()).collect();

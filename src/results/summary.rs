@@ -1,7 +1,7 @@
 //! Typed summaries: the struct that `summary.json` is.
 //!
-//! Its fields are the keys in their order. A value that may be absent is an `Option` and null in JSON: JSON has neither NaN
-//! nor infinity.
+//! Its fields are the keys in their order. A value that may be absent is an `Option` and null in JSON: JSON has neither
+//! NaN nor infinity.
 
 use super::folder::{FolderError, OutputFolder};
 use super::reopening::{SUMMARY, read_own};
@@ -133,8 +133,8 @@ pub fn write_summary(
 /// The summary of a results folder.
 ///
 /// # Errors
-/// [`FolderError::NotResults`] if there is none, as after a run that was killed, if it is damaged, or if it is of another
-/// command; those of the file system.
+/// [`FolderError::NotResults`] if there is none, as after a run that was killed, if it is damaged, or if it is of
+/// another command; those of the file system.
 pub fn read_summary<T: DeserializeOwned>(path: &Path) -> Result<T, FolderError> {
     let bytes = read_own(path, SUMMARY)?;
     serde_json::from_slice(&bytes).map_err(|error| FolderError::NotResults {

@@ -24,12 +24,12 @@ const MOST_SERIES: usize = 12;
 /// Fraction of sticking nodes below which none is said to stick.
 const NO_STICK: f64 = 0.005;
 
-/// Draws what a study has points for: main frequency and contact status over the rotation speed, or else over another swept
-/// key; critical friction if one key besides friction was swept through eigenvalue analyses; the operating matrix of their unstable
-/// modes; branches of limit cycles if they were followed at its points.
+/// Draws what a study has points for: main frequency and contact status over the rotation speed, or else over another
+/// swept key; critical friction if one key besides friction was swept through eigenvalue analyses; the operating matrix
+/// of their unstable modes; branches of limit cycles if they were followed at its points.
 ///
-/// `modes` are unstable modes at `friction_coefficient`, the case's own; `highest_friction` is the largest of its eigenvalue
-/// analysis.
+/// `modes` are unstable modes at `friction_coefficient`, the case's own; `highest_friction` is the largest of its
+/// eigenvalue analysis.
 pub fn draw_sweep(
     records: &[PointRecord],
     (friction_coefficient, highest_friction): (f64, f64),
@@ -78,8 +78,8 @@ struct Study {
 }
 
 impl Study {
-    /// The points of a study over the rotation speed, where that was swept, or over the first swept key with several values;
-    /// one series for each choice of the other keys.
+    /// The points of a study over the rotation speed, where that was swept, or over the first swept key with several
+    /// values; one series for each choice of the other keys.
     fn of(records: &[PointRecord]) -> Self {
         let value = |record: &PointRecord, key: &str| number(record.swept.get(key));
         let several = |key: &&String| {
@@ -199,7 +199,8 @@ impl Study {
             }
         }
         let caption = format!(
-            "Main frequency of the vibration over {}, with markers for the number of nodal diameters; dashed: unstable modes{}.",
+            "Main frequency of the vibration over {}, with markers for the number of nodal diameters; dashed: \
+            unstable modes{}.",
             self.over(),
             self.ring_caption()
         );

@@ -102,8 +102,8 @@ impl Field {
         ]
     }
 
-    /// The stresses at the nodes of a solid body: `von_mises_pa`, `hydrostatic_pressure_pa`, and the components along `axes`, one
-    /// letter each.
+    /// The stresses at the nodes of a solid body: `von_mises_pa`, `hydrostatic_pressure_pa`, and the components along
+    /// `axes`, one letter each.
     pub fn solid_stresses(stresses: &[SolidStress], axes: &str) -> Vec<Self> {
         let mut fields = vec![
             Self::scalars("von_mises_pa", stresses.iter().map(SolidStress::von_mises).collect()),
@@ -122,7 +122,8 @@ impl Field {
         fields
     }
 
-    /// The stress components along `x` and `y` of a body that is no annulus about the origin, where polar ones say little.
+    /// The stress components along `x` and `y` of a body that is no annulus about the origin, where polar ones say
+    /// little.
     pub fn cartesian_stresses(mesh: &Mesh, stresses: &[NodalStress]) -> Vec<Self> {
         if mesh.is_cyclic {
             return Vec::new();

@@ -23,8 +23,8 @@ use std::time::Instant;
 /// Bisects for the amplitude ratio at saturation that decides between the two rivals of `[basin]`.
 ///
 /// # Errors
-/// [`StudyError::Case`] for a case without `[basin]`; steady sliding of rotating waves that is stable; a transient that cannot
-/// start.
+/// [`StudyError::Case`] for a case without `[basin]`; steady sliding of rotating waves that is stable; a transient that
+/// cannot start.
 pub fn boundary(case: &Case, simd: SimdLevel) -> Result<BasinBoundary, StudyError> {
     Ok(contest(case, simd)?.1)
 }

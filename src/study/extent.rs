@@ -3,8 +3,8 @@
 use crate::case::Case;
 use crate::results::Extent;
 
-/// Whether forces, torques, powers and energies of a case are of its whole body, or for each metre of a plane body's thickness,
-/// which the case does not give.
+/// Whether forces, torques, powers and energies of a case are of its whole body, or for each metre of a plane body's
+/// thickness, which the case does not give.
 pub fn extent_of(case: &Case) -> Extent {
     let is_whole = case.body.dimension() == 3 || case.raw.find("geometry.thickness").is_some();
     if is_whole { Extent::WholeBody } else { Extent::MetreOfThickness }

@@ -24,10 +24,10 @@ const UNITS: [(f64, &str); 4] =
 /// MAC = |phi^H y|^2 / (phi^H phi  y^H y)
 /// ```
 ///
-/// of every measured shape `y` with every mode `phi` at the case's friction coefficient, over the measured points, each at its
-/// nearest node, and directions; each shape is paired with one mode so that the sum is largest. `scale` is the factor on the
-/// coordinates of the file. Points off the body are left out, and said. The
-/// source of the shapes, the time and the manifest are left open.
+/// of every measured shape `y` with every mode `phi` at the case's friction coefficient, over the measured points, each
+/// at its nearest node, and directions; each shape is paired with one mode so that the sum is largest. `scale` is the
+/// factor on the coordinates of the file. Points off the body are left out, and said. The source of the shapes, the
+/// time and the manifest are left open.
 ///
 /// Source: R. J. Allemang, The modal assurance criterion: twenty years of use and abuse, Sound and Vibration 37 (2003).
 ///
@@ -186,7 +186,8 @@ impl Placed {
     fn note(&self, shape: &MeasuredShape, size: f64) -> Option<String> {
         (self.off > 0).then(|| {
             format!(
-                "shape {}: {} of {} points lie off the body, up to {:.3e} m from it (more than {:.1e} m), and are left out",
+                "shape {}: {} of {} points lie off the body, up to {:.3e} m from it (more than {:.1e} m), and are \
+                left out",
                 shape.name,
                 self.off,
                 shape.points.len(),

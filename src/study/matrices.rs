@@ -14,9 +14,9 @@ use crate::results::matrices::{
 };
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Mass, damping, stiffness and contact rows of a case's body around steady sliding, by power of the distance from the case's own
-/// friction coefficient, or from another one in its place: of a body of revolution those of its whole mesh. The base states are those
-/// of the eigenvalue analysis.
+/// Mass, damping, stiffness and contact rows of a case's body around steady sliding, by power of the distance from the
+/// case's own friction coefficient, or from another one in its place: of a body of revolution those of its whole mesh.
+/// The base states are those of the eigenvalue analysis.
 ///
 /// # Errors
 /// A case without `[cea]`; no steady sliding.
@@ -208,8 +208,8 @@ fn unknowns(mesh: &Mesh, tangent: &SlidingTangent) -> Vec<ExportedUnknown> {
     tangent.unknowns.dofs.iter().map(unknown).collect()
 }
 
-/// The contact points and their motion along the normal and along the sliding. In rigid contact the normal motion of a pressed point
-/// is no unknown: its row is empty.
+/// The contact points and their motion along the normal and along the sliding. In rigid contact the normal motion of a
+/// pressed point is no unknown: its row is empty.
 fn contact_rows(body: &SlidingBody<'_>, system: &mut ExportedSystem) {
     let combined: BTreeMap<usize, &Row> = {
         let distances = body.tangent.distances.iter();

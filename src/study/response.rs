@@ -27,7 +27,8 @@ use crate::prestress::{BaseChoice, SlidingTangent, SteadySliding, WaveTangent};
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-/// Hears how many frequencies are solved, a few at a time, from any thread; the cyclic method and the reduction are silent.
+/// Hears how many frequencies are solved, a few at a time, from any thread; the cyclic method and the reduction are
+/// silent.
 pub type Progress<'a> = dyn Fn(usize) + Sync + 'a;
 
 /// The system that a case excites, ready to be solved.
@@ -82,8 +83,8 @@ impl<'a> FrequencyStudy<'a> {
     /// Builds the system of `[frf]`, with its base state where the contact slides.
     ///
     /// # Errors
-    /// A case without `[frf]`, a node that does not exist or is held, a method that the body does not allow, each with its
-    /// key; a mesh that cannot be built; no state of sliding.
+    /// A case without `[frf]`, a node that does not exist or is held, a method that the body does not allow, each with
+    /// its key; a mesh that cannot be built; no state of sliding.
     pub fn new(case: &'a Case) -> Result<Self, StudyError> {
         let frf = case.require_frf()?;
         let is_lossy = case.has_structural_damping();
@@ -98,7 +99,8 @@ impl<'a> FrequencyStudy<'a> {
             }
             FrfMethod::Reduced if is_lossy => {
                 let refusal = case.loss_error(
-                    "frf.method = \"reduced\" projects on real spaces of viscous damping, which structural damping is not".to_owned(),
+                    "frf.method = \"reduced\" projects on real spaces of viscous damping, which structural damping is \
+                    not".to_owned(),
                     "not in a reduced model",
                     "use frf.method = \"direct\"",
                 );

@@ -1,4 +1,5 @@
-//! The summary of one analysis of a case, as its command prints it, without a file written: what a point of a sweep holds.
+//! The summary of one analysis of a case, as its command prints it, without a file written: what a point of a sweep
+//! holds.
 
 use super::cycle::{CycleStudy, PeriodicStudy, refuse_nothing};
 use super::eigenvalues::{self, SlidingModel};
@@ -57,7 +58,8 @@ fn transient(case: &Case, manifest: &Manifest) -> Result<Value, StudyError> {
     Ok(object(&results::transient::summary(&report, manifest))?)
 }
 
-/// The limit cycles with their branches as `curves`, of which the command itself writes tables; `judge` may refuse what was found.
+/// The limit cycles with their branches as `curves`, of which the command itself writes tables; `judge` may refuse what
+/// was found.
 pub(super) fn cycle(
     case: &Case,
     manifest: &Manifest,

@@ -4,8 +4,8 @@ use crate::case::Case;
 use crate::fem::MassKind;
 use crate::prestress::{DampingModel, TangentOptions};
 
-/// How a case takes the tangent of steady sliding: geometric stiffness as its `[cea]` or its body says, damping of body or of
-/// body and contact, contact stiffness and dashpots.
+/// How a case takes the tangent of steady sliding: geometric stiffness as its `[cea]` or its body says, damping of body
+/// or of body and contact, contact stiffness and dashpots.
 pub fn tangent_options(case: &Case, mass: MassKind) -> TangentOptions {
     TangentOptions {
         mass,

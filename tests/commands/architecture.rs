@@ -37,13 +37,13 @@ fn rust_files(folder: &Path, files: &mut Vec<PathBuf>) {
 /// after a merge that conflicts here, the failure names the numbers to write.
 const BUDGETS: &[(&str, usize)] = &[
     ("crates/bounds", 196),
-    ("crates/chart", 4_969),
+    ("crates/chart", 4_978),
     ("crates/described", 104),
     ("crates/formats", 6_852),
     ("crates/linalg", 4_103),
-    ("crates/signal", 6_578),
-    ("src/app", 5_312),
-    ("src/case", 11_870),
+    ("crates/signal", 6_581),
+    ("src/app", 5_320),
+    ("src/case", 11_906),
     ("src/cea", 10_626),
     ("src/contact", 2_879),
     ("src/cycle", 8_303),
@@ -53,10 +53,10 @@ const BUDGETS: &[(&str, usize)] = &[
     ("src/lib.rs", 103),
     ("src/main.rs", 5),
     ("src/mesh", 4_644),
-    ("src/output", 813),
+    ("src/output", 815),
     ("src/prestress", 5_362),
-    ("src/results", 20_265),
-    ("src/study", 12_417),
+    ("src/results", 20_330),
+    ("src/study", 12_470),
     ("src/transient", 5_013),
 ];
 

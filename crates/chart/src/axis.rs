@@ -30,7 +30,8 @@ pub struct Axis {
 }
 
 impl Axis {
-    /// A linear axis for values in this unit, with a little room around the data; names are mark-up, an empty unit shows none.
+    /// A linear axis for values in this unit, with a little room around the data; names are mark-up, an empty unit
+    /// shows none.
     pub fn new(quantity: &str, unit: &str) -> Self {
         Self {
             quantity: quantity.into(),

@@ -8,11 +8,12 @@ pub(super) const COLUMNS_PER_POINT: f64 = 200.0 / 72.0;
 /// Width of the widest drawing, mm.
 pub const WIDEST: f64 = 420.0;
 
-/// Columns to which series are thinned for keeps, four for each one of the widest drawing: no eye tells it from the whole.
+/// Columns to which series are thinned for keeps, four for each one of the widest drawing: no eye tells it from the
+/// whole.
 const FINEST: f64 = 4.0 * WIDEST * POINTS_PER_MM * COLUMNS_PER_POINT;
 
-/// Places of the samples that drawings of any width need: all, or of a series so long that most samples have no column of their
-/// own those of [`keep_extremes`]. `fraction_of` is the place of an abscissa along its axis.
+/// Places of the samples that drawings of any width need: all, or of a series so long that most samples have no column
+/// of their own those of [`keep_extremes`]. `fraction_of` is the place of an abscissa along its axis.
 pub(super) fn lasting(xs: &[f64], ys: &[f64], fraction_of: &dyn Fn(f64) -> f64) -> Vec<usize> {
     match xs.len() as f64 > 4.0 * FINEST {
         true => kept(xs, ys, |x| FINEST * fraction_of(x)),

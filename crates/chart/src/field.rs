@@ -108,8 +108,8 @@ impl Field {
 /// Image pixels for each point of the drawing.
 const PIXELS_PER_POINT: f64 = 3.0;
 
-/// Value of the shape functions at the centre times the nodes: of quadratic elements on four sides -1/4 at corners and 1/2 at
-/// sides, on three -1/9 and 4/9.
+/// Value of the shape functions at the centre times the nodes: of quadratic elements on four sides -1/4 at corners and
+/// 1/2 at sides, on three -1/9 and 4/9.
 fn centre(ring: &[[f64; 3]], is_quadratic: bool) -> [f64; 3] {
     let count = ring.len() as f64;
     let (corner, side) = match (is_quadratic, ring.len()) {

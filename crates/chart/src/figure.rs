@@ -124,7 +124,8 @@ impl Figure {
         self
     }
 
-    /// Whether its lists are as long as they must be and its counts are in range, as those of one that was read must be.
+    /// Whether its lists are as long as they must be and its counts are in range, as those of one that was read must
+    /// be.
     pub fn is_whole(&self) -> bool {
         self.grid.is_whole() && self.grid.panels().all(Panel::is_whole)
     }
@@ -150,7 +151,8 @@ impl Figure {
         }
     }
 
-    /// The finished drawing, `width_mm` wide or as wide as it is meant to be; in a narrower one panels stand one below the other.
+    /// The finished drawing, `width_mm` wide or as wide as it is meant to be; in a narrower one panels stand one below
+    /// the other.
     ///
     /// # Errors
     /// [`ChartError::Empty`] if no panel has data.

@@ -63,8 +63,9 @@ pub(super) struct IndexedImage {
 }
 
 impl IndexedImage {
-    /// Calls `see` with the index of every pixel whose centre lies inside or on the edge of a triangle (x, y in pixels), and the
-    /// weights `v`, `w` of its second and third corner there. Neighbours share the pixels on their common edge, so no seam shows.
+    /// Calls `see` with the index of every pixel whose centre lies inside or on the edge of a triangle (x, y in
+    /// pixels), and the weights `v`, `w` of its second and third corner there. Neighbours share the pixels on their
+    /// common edge, so no seam shows.
     pub fn over_triangle(
         &mut self,
         [a, b, c]: [[f64; 2]; 3],

@@ -127,7 +127,8 @@ impl<'a> Layout<'a> {
         layout
     }
 
-    /// Widths: margins of each column are those of its neediest panel, the rest is shared; of panels in a stack each has its own.
+    /// Widths: margins of each column are those of its neediest panel, the rest is shared; of panels in a stack each
+    /// has its own.
     fn place_columns(&mut self, columns: usize) {
         let width = self.width;
         for cell in &mut self.placed {

@@ -11,9 +11,9 @@
 //! # Ok::<(), frictionsim_chart::ChartError>(())
 //! ```
 //!
-//! Layers hold data in the units of the program; axes bring them to the unit shown. Frames, clips, letters, legends of what is
-//! there to be seen, empty and non-finite data are dealt with here, once. Sizes are journal column widths, equal data give
-//! equal bytes, text stays text. Nothing here computes physics or touches a file.
+//! Layers hold data in the units of the program; axes bring them to the unit shown. Frames, clips, letters, legends of
+//! what is there to be seen, empty and non-finite data are dealt with here, once. Sizes are journal column widths,
+//! equal data give equal bytes, text stays text. Nothing here computes physics or touches a file.
 
 mod axis;
 mod colour;

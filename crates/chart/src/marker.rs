@@ -63,7 +63,8 @@ impl Marker {
     }
 }
 
-/// Look of the `index`-th of several series: its colour, marker and dashes, which together do not repeat before the 35th.
+/// Look of the `index`-th of several series: its colour, marker and dashes, which together do not repeat before the
+/// 35th.
 pub fn look(index: usize) -> (&'static str, Marker, &'static [f64]) {
     const DASHES: [&[f64]; 3] = [&[], &[4.0, 1.6], &[1.2, 1.2]];
     let colour = SERIES[index % SERIES.len()];

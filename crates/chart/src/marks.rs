@@ -144,8 +144,8 @@ impl Label {
         Self { style, ..self }
     }
 
-    /// The baseline point, moved as little as keeps the text off the frame; a text that starts at its point and passes the
-    /// right end stands on the other side of it.
+    /// The baseline point, moved as little as keeps the text off the frame; a text that starts at its point and passes
+    /// the right end stands on the other side of it.
     fn inside(&self, frame: &Frame, (x, y): (f64, f64)) -> (f64, f64) {
         let (area, style) = (&frame.area, &self.style);
         let width = text::width(&self.text, style.size, style.bold);

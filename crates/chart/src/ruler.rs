@@ -26,7 +26,8 @@ pub struct Ruler {
 }
 
 impl Ruler {
-    /// An axis over a range in the unit of the data, which `factor` brings to the unit shown; ends that make no range are mended.
+    /// An axis over a range in the unit of the data, which `factor` brings to the unit shown; ends that make no range
+    /// are mended.
     pub(super) fn new(
         title: String,
         scale: Scale,

@@ -46,7 +46,8 @@ pub struct Surface {
 enum Paint {
     /// Values at the nodes.
     Values(Vec<f64>, Box<Colours>),
-    /// The part that each triangle belongs to; colour and name of each part, with "" for one that the legend leaves out.
+    /// The part that each triangle belongs to; colour and name of each part, with "" for one that the legend leaves
+    /// out.
     Parts(Vec<usize>, Vec<(Colour, String)>),
 }
 
@@ -64,8 +65,8 @@ impl Surface {
         Self { mesh, positions, paint: Paint::Values(values, colours) }
     }
 
-    /// Triangles in the colours of the parts that they belong to, by index; `parts` has colour and name of each ("": not in the
-    /// legend). From the sixteenth on parts take the colours of the first ones again.
+    /// Triangles in the colours of the parts that they belong to, by index; `parts` has colour and name of each ("":
+    /// not in the legend). From the sixteenth on parts take the colours of the first ones again.
     pub fn of_parts(
         mesh: Arc<SurfaceMesh>,
         positions: Vec<[f64; 3]>,

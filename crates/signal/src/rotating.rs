@@ -18,11 +18,12 @@ pub struct RotatingLine {
     pub amplitude: f64,
 }
 
-/// The lines of a complex series `z(t) = sum_k A_k e^{2 pi i f_k t}` that are not weaker than `weakest`, strongest first.
+/// The lines of a complex series `z(t) = sum_k A_k e^{2 pi i f_k t}` that are not weaker than `weakest`, strongest
+/// first.
 ///
-/// Blackman-Harris window over the whole series: lines nearer than four bins to each other count as one, lines nearer than
-/// four bins to zero as drift of the mean. The place between the bins is that of a parabola through the logarithms of three.
-/// No noise is told from a line: `weakest` has to be above it.
+/// Blackman-Harris window over the whole series: lines nearer than four bins to each other count as one, lines nearer
+/// than four bins to zero as drift of the mean. The place between the bins is that of a parabola through the logarithms
+/// of three. No noise is told from a line: `weakest` has to be above it.
 pub fn rotating_lines(series: &[c64], sampling_rate: f64, weakest: f64) -> Vec<RotatingLine> {
     let count = series.len();
     if count < FEWEST {

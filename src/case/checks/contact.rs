@@ -17,10 +17,11 @@ const STICKING_FRICTION: f64 = 1000.0;
 const LARGEST_INTERFERENCE: f64 = 0.05;
 /// Share of the modulus beyond which a contact pressure is no small strain.
 const LARGEST_PRESSURE: f64 = 0.1;
-/// Part of the body's size that a surface may stand inside its counterface where nothing is pushed in: round-off of the file.
+/// Part of the body's size that a surface may stand inside its counterface where nothing is pushed in: round-off of the
+/// file.
 const ROUND_OFF: f64 = 1e-5;
-/// Contact stiffness over the modulus over the radius: it is as good as none below the first, drowns the body in round-off
-/// beyond the second, and leaves no digit of it beyond the third.
+/// Contact stiffness over the modulus over the radius: it is as good as none below the first, drowns the body in
+/// round-off beyond the second, and leaves no digit of it beyond the third.
 const STIFFNESS_RATIOS: [f64; 3] = [1e-5, 1e8, 1e14];
 
 /// A sliding speed that no dry contact has.
@@ -59,8 +60,8 @@ pub(super) fn friction(case: &Case) -> Option<Limit> {
     Some(Limit { is_possible: value <= STICKING_FRICTION, said })
 }
 
-/// Pressure of an annulus clamped at `b` and widened by `delta` at `a`, after Lame:
-/// `p = 2 B ((lambda + mu) / b^2 + mu / a^2)` with `B = delta a b^2 / (b^2 - a^2)`. None for a body of no known pressure.
+/// Pressure of an annulus clamped at `b` and widened by `delta` at `a`, after Lame: `p = 2 B ((lambda + mu) / b^2 + mu
+/// / a^2)` with `B = delta a b^2 / (b^2 - a^2)`. None for a body of no known pressure.
 pub(super) fn lame_pressure(case: &Case) -> Option<f64> {
     let grid = case.body.grid()?;
     let (a, b) = (grid.inner_radius, grid.outer_radius);

@@ -89,8 +89,8 @@ pub(super) fn poisson_ratio(case: &Case) -> Option<Diagnostic> {
         "above 0.49"; "use a lower ratio or plane stress, and study the convergence"))
 }
 
-/// `zeta = (alpha / omega + beta omega) / 2` at the highest frequency asked for, else where a bar as long as the body has its
-/// first mode.
+/// `zeta = (alpha / omega + beta omega) / 2` at the highest frequency asked for, else where a bar as long as the body
+/// has its first mode.
 pub(super) fn overdamping(case: &Case) -> Option<Diagnostic> {
     let limit = match case.cea.as_ref().map(|cea| cea.modes) {
         Some(ModeSelection::BelowHz(limit)) => limit,

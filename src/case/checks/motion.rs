@@ -84,7 +84,8 @@ pub(super) fn seeds(case: &Case) -> Option<Limit> {
     })
 }
 
-/// Half the mass of a contact element for each unit of edge (kg/m2), and the time step of the transient of a generated body.
+/// Half the mass of a contact element for each unit of edge (kg/m2), and the time step of the transient of a generated
+/// body.
 fn edge_inertia(case: &Case) -> Option<[f64; 2]> {
     let grid = case.body.grid()?;
     let step = case.cost().transient?.time_step;
@@ -93,8 +94,8 @@ fn edge_inertia(case: &Case) -> Option<[f64; 2]> {
     Some([mass, step])
 }
 
-/// Springs whose own motion of the contact nodes the time step does not resolve, `k dt^2 > 4 m`: those of contact that stiffens
-/// at the pressure of rigid contact.
+/// Springs whose own motion of the contact nodes the time step does not resolve, `k dt^2 > 4 m`: those of contact that
+/// stiffens at the pressure of rigid contact.
 pub(super) fn unresolved_springs(case: &Case) -> Option<Diagnostic> {
     let springs = case.springs().into_iter().next()?;
     let [mass, step] = edge_inertia(case)?;

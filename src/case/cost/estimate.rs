@@ -25,7 +25,8 @@ const SOLID_BYTES: f64 = 600.0;
 /// Memory of a whole plane mesh, bytes: at all, and for each unknown and vector of its basis.
 const SPARSE_BYTES: [f64; 2] = [1e8, 100.0];
 
-/// Factors of `n` unknowns of solid bodies, measured from 1e3 to 2e4: bytes for each of `n^(4/3)`, and for each unknown and mode.
+/// Factors of `n` unknowns of solid bodies, measured from 1e3 to 2e4: bytes for each of `n^(4/3)`, and for each unknown
+/// and mode.
 const FACTOR_BYTES: [f64; 2] = [3.6e3, 240.0];
 /// Their operations at each friction value, for each of `n^2`.
 const FACTORS: f64 = 120.0;
@@ -256,8 +257,8 @@ fn frf_cost_of(lines: usize, bytes: f64, each: f64) -> FrfCost {
     FrfCost { lines, run: RunCost { memory_bytes, operations: each * lines as f64 } }
 }
 
-/// One band of three unknowns at each node of a sheet for each harmonic, complex, eliminated for each line; with friction the waves
-/// with and against the rotor differ.
+/// One band of three unknowns at each node of a sheet for each harmonic, complex, eliminated for each line; with
+/// friction the waves with and against the rotor differ.
 fn solid_frf_cost(frf: &Frf, solid: &SolidSpecification, dofs: f64) -> FrfCost {
     let sectors = solid.annulus.circumferential_elements.max(1) as f64;
     let unknowns = dofs / sectors;
@@ -319,8 +320,8 @@ fn sparse_fill(dofs: f64) -> f64 {
     9.0 * dofs * dofs.max(2.0).log2()
 }
 
-/// Half the bandwidth of a harmonic of a body of revolution: neighbours in the numbering of a sheet, along its shorter side,
-/// with 20 nodes in four rows.
+/// Half the bandwidth of a harmonic of a body of revolution: neighbours in the numbering of a sheet, along its shorter
+/// side, with 20 nodes in four rows.
 fn solid_half_bandwidth(solid: &SolidSpecification) -> f64 {
     let short = solid.annulus.radial_elements.min(solid.axial_elements) as f64;
     3.0 * match solid.annulus.element.is_quadratic() {

@@ -5,8 +5,8 @@ use crate::fem::{ElasticMaterial, MaterialField, TabledMaterial};
 use crate::mesh::{AnnulusSpecification, Mesh};
 use std::f64::consts::TAU;
 
-/// Highest frequency of a quadratic element over that of a linear one of its size, about: its nodes lie half as far apart,
-/// and its lumped mass is uneven.
+/// Highest frequency of a quadratic element over that of a linear one of its size, about: its nodes lie half as far
+/// apart, and its lumped mass is uneven.
 const QUADRATIC: f64 = 2.5;
 
 /// Size of a mesh.

@@ -15,8 +15,8 @@ struct Boundary {
     high: Option<f64>,
 }
 
-/// Amplitude ratio at saturation above which the second wave wins, over the rotation speed or the first swept key; one line
-/// for each choice of the other keys.
+/// Amplitude ratio at saturation above which the second wave wins, over the rotation speed or the first swept key; one
+/// line for each choice of the other keys.
 ///
 /// # Errors
 /// [`ChartError`] if no point has a boundary.
@@ -89,7 +89,8 @@ pub fn basin_map(records: &[PointRecord]) -> Result<Figure, ChartError> {
             ));
     }
     let caption = format!(
-        "Amplitude of *n* = {two} over that of *n* = {one} at the first stick or opening, above which *n* = {two} wins; bars: the \
+        "Amplitude of *n* = {two} over that of *n* = {one} at the first stick or opening, above which *n* = {two} \
+        wins; bars: the \
          bounds found."
     );
     Ok(Figure::new("basins", caption).panel(panel))

@@ -113,8 +113,8 @@ impl BasinSummary {
         }
     }
 
-    /// Whether steady sliding is one of the two: ratios are of the amplitude of the other one's seed to the one that makes a contact
-    /// node stick.
+    /// Whether steady sliding is one of the two: ratios are of the amplitude of the other one's seed to the one that
+    /// makes a contact node stick.
     fn is_kick(&self) -> bool {
         self.of_modes && self.harmonics[0] == 0
     }
@@ -140,7 +140,8 @@ impl BasinSummary {
             }
             return match (self.winner, self.boundary.low, self.boundary.high) {
                 (Some(0), Some(low), _) => format!(
-                    "steady sliding comes back from every kick along {name} looked at, up to {low:.3} of the one that makes a contact \
+                    "steady sliding comes back from every kick along {name} looked at, up to {low:.3} of the one that \
+                    makes a contact \
                      node stick"
                 ),
                 (None, Some(low), Some(high)) if low > high => format!(
@@ -149,7 +150,8 @@ impl BasinSummary {
                      between: narrow basin.seed_ratio_from and basin.seed_ratio_to"
                 ),
                 (None, Some(low), Some(high)) => format!(
-                    "a kick along {name} tips steady sliding into a limit cycle from {low:.3} to {high:.3} of the one that makes a \
+                    "a kick along {name} tips steady sliding into a limit cycle from {low:.3} to {high:.3} of the one \
+                    that makes a \
                      contact node stick"
                 ),
                 _ => format!(

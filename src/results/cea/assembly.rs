@@ -60,8 +60,8 @@ columns! {
 }
 
 impl AssemblyReport {
-    /// Writes `prestress.csv` (contact points) and `prestress.vtu` (displacement and stress; pressure, traction and closed share
-    /// of the points around each node of a contact surface, zero elsewhere).
+    /// Writes `prestress.csv` (contact points) and `prestress.vtu` (displacement and stress; pressure, traction and
+    /// closed share of the points around each node of a contact surface, zero elsewhere).
     pub fn write_base(&self, folder: &OutputFolder, mesh: &Mesh) -> Result<(), FolderError> {
         let points = || self.points.iter();
         let table = Table::new("prestress.csv", "")
@@ -97,8 +97,8 @@ impl AssemblyReport {
         self.traction(mesh, ("shear", "friction traction"), |point| point.shear)
     }
 
-    /// A traction on each contact surface, seen from outside along its mean normal, with the sliding over it; grey where it is
-    /// open.
+    /// A traction on each contact surface, seen from outside along its mean normal, with the sliding over it; grey
+    /// where it is open.
     fn traction(
         &self,
         mesh: &Mesh,
@@ -117,7 +117,8 @@ impl AssemblyReport {
         let largest = tractions.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
         let axis = || Axis::new(what, "Pa").prefixed().between(0.0, largest);
         let caption = format!(
-            "Base state: {what} on each contact surface, seen from outside; grey where it is open. The other surface slides \
+            "Base state: {what} on each contact surface, seen from outside; grey where it is open. The other surface \
+            slides \
              over it along the arrow."
         );
         let arrows = self.surfaces.iter().map(|(contact, _)| self.arrow(contact));

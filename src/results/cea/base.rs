@@ -113,8 +113,8 @@ pub struct BaseField {
 impl BaseField {
     /// The contact nodes as figures and tables list them: place in the fields of this struct and angle, rad.
     ///
-    /// Around a whole circle the angles rise from 0 to `2 pi`; along an arc they go on from that of its first node without a
-    /// jump by a turn. Shares of a straight edge stay as they are.
+    /// Around a whole circle the angles rise from 0 to `2 pi`; along an arc they go on from that of its first node
+    /// without a jump by a turn. Shares of a straight edge stay as they are.
     pub fn along_contact(&self, mesh: &Mesh) -> Vec<(usize, f64)> {
         let mut places: Vec<(usize, f64)> = self.angles.iter().copied().enumerate().collect();
         if matches!(mesh.counterface, Counterface::Plane { .. }) {
@@ -137,8 +137,8 @@ impl BaseField {
     }
 }
 
-/// Writes `prestress.csv` (contact nodes) and `prestress.vtu` (displacement and stress of all nodes; status, pressure and
-/// friction traction of the contact edge; friction coefficient and power of the whole).
+/// Writes `prestress.csv` (contact nodes) and `prestress.vtu` (displacement and stress of all nodes; status, pressure
+/// and friction traction of the contact edge; friction coefficient and power of the whole).
 pub fn write_base(
     folder: &OutputFolder,
     mesh: &Mesh,

@@ -10,9 +10,9 @@ const NEAR: f64 = 0.05;
 
 /// A sentence for each branch that turns unstable whose partner is known.
 ///
-/// On a body of revolution the two waves of a pair couple, the one with and the one against the rotor. On any other body the
-/// partner is the mode nearest in frequency, within 5 %, at the first friction value at which the branch is unstable, whose
-/// real part has fallen since the lowest friction while that of the branch rose.
+/// On a body of revolution the two waves of a pair couple, the one with and the one against the rotor. On any other
+/// body the partner is the mode nearest in frequency, within 5 %, at the first friction value at which the branch is
+/// unstable, whose real part has fallen since the lowest friction while that of the branch rose.
 pub(super) fn sentences(report: &CeaReport<'_>) -> Vec<String> {
     let mut told: Vec<Branch> = Vec::new();
     let mut out = Vec::new();
@@ -31,7 +31,8 @@ fn of_pair((harmonic, branch, direction): Branch) -> Option<String> {
     let (own, other) = (direction_name(direction), direction_name(-direction));
     (harmonic > 0 && direction != 0).then(|| {
         format!(
-            "n = {harmonic}, branch {branch}: friction couples the two waves of the pair; the one {own} the rotor gains what the \
+            "n = {harmonic}, branch {branch}: friction couples the two waves of the pair; the one {own} the rotor \
+            gains what the \
              one {other} it loses."
         )
     })

@@ -66,8 +66,8 @@ columns! {
 }
 
 impl Feed {
-    /// Writes `feed.csv`, a row for each unstable mode and contact point, and `feed.vtu`, growth for each area of the contact
-    /// surfaces, the mean of the points around each node, 0 elsewhere.
+    /// Writes `feed.csv`, a row for each unstable mode and contact point, and `feed.vtu`, growth for each area of the
+    /// contact surfaces, the mean of the points around each node, 0 elsewhere.
     pub fn write(&self, folder: &OutputFolder, report: &CeaReport<'_>) -> Result<(), FolderError> {
         let rows = self.modes.iter().flat_map(|own| {
             let points = self.places.iter().zip(&own.rates);
@@ -135,7 +135,8 @@ impl Feed {
         };
         let friction = first.mode.friction_coefficient;
         let caption = format!(
-            "Where the contact feeds the unstable modes at friction {friction}: growth rate for each area of the surface; red \
+            "Where the contact feeds the unstable modes at friction {friction}: growth rate for each area of the \
+            surface; red \
              feeds, blue takes. The sum over the surface is the contact's part in the budget."
         );
         match report.assembly {

@@ -58,8 +58,8 @@ pub fn draw(
     write_page(folder, document(report, View::Page), declared(figures)?, options)
 }
 
-/// Frequency and damping factor over friction of each pair of waves that turns unstable, that with the rotor and that against
-/// it as two lines; without symmetry of each mode.
+/// Frequency and damping factor over friction of each pair of waves that turns unstable, that with the rotor and that
+/// against it as two lines; without symmetry of each mode.
 fn pairs(report: &CeaReport<'_>) -> Result<Figure, ChartError> {
     let sweep = report.sweep;
     if sweep.points.len() < 2 {
@@ -187,13 +187,15 @@ fn prestress(report: &CeaReport<'_>) -> Figure {
             .height(86.0)
             .layer(Line::through(wrapped(points, is_closed)).solid(colour, 1.2))
     };
+    let stressed = disc.field(von_mises, stress, ColourMap::Viridis);
+    let stressed = disc.panel(0.01).beside(2).height(190.0).layer(stressed);
     Figure::new(
         "prestress",
         "Steady sliding: von Mises stress (a), contact pressure (b) and friction traction (c) around the contact edge.",
     )
     .weighted(&[1.0, 1.15])
     .shared_x()
-    .panel(disc.panel(0.01).beside(2).height(190.0).layer(disc.field(von_mises, stress, ColourMap::Viridis)).colour_bar(Side::Right))
+    .panel(stressed.colour_bar(Side::Right))
     .panel(around("pressure *p*", &field.pressures, SERIES[0]))
     .panel(around("traction *τ*", &field.shears, SERIES[1]))
 }
@@ -236,7 +238,8 @@ fn shapes(report: &CeaReport<'_>, friction: f64) -> Figure {
         _ => 7,
     };
     let caption = format!(
-        "Mode shapes at friction coefficient {friction}: the deformed body, coloured by displacement amplitude; unstable modes in red."
+        "Mode shapes at friction coefficient {friction}: the deformed body, coloured by displacement amplitude; \
+        unstable modes in red."
     );
     let body = Body::new(report, if columns < 6 { 24 } else { 12 });
     let panels = shapes.iter().map(|shape| {

@@ -103,8 +103,8 @@ pub fn write_universal(folder: &OutputFolder, report: &CeaReport<'_>) -> Result<
     })
 }
 
-/// The time of a mode in the collection: its frequency, Hz, by which ParaView animates modes. It takes files of one time for
-/// parts of one body: of equal frequencies the later one stands a hair higher.
+/// The time of a mode in the collection: its frequency, Hz, by which ParaView animates modes. It takes files of one
+/// time for parts of one body: of equal frequencies the later one stands a hair higher.
 fn time_of(mode: &ComplexMode, before: &[PvdEntry]) -> f64 {
     let mut time = mode.frequency_hz();
     while before.iter().any(|entry| rounded(entry.time, 12) == rounded(time, 12)) {

@@ -34,8 +34,8 @@ pub struct KeptSteps<'a> {
 }
 
 impl<'a> KeptSteps<'a> {
-    /// Takes up the steps that an earlier run left in `folder` if `is_continued`, else drops them. `heard` is told how far the
-    /// sweep has come.
+    /// Takes up the steps that an earlier run left in `folder` if `is_continued`, else drops them. `heard` is told how
+    /// far the sweep has come.
     pub fn new(
         folder: &'a OutputFolder,
         is_continued: bool,

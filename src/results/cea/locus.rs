@@ -15,11 +15,12 @@ use std::f64::consts::TAU;
 /// Damping that regions of a body have, with the mark-up that names it.
 pub type NamedDamping = (String, RayleighDamping);
 
-/// How much further to the left than the right end, or than where nine tenths of the eigenvalues begin, the plane is shown.
+/// How much further to the left than the right end, or than where nine tenths of the eigenvalues begin, the plane is
+/// shown.
 const LEFT_SHARE: f64 = 3.0;
 
-/// The ends of the real axis, Hz, and how many eigenvalues lie left of them: a few strongly damped ones must not push all
-/// others together.
+/// The ends of the real axis, Hz, and how many eigenvalues lie left of them: a few strongly damped ones must not push
+/// all others together.
 fn real_ends(reals: &[f64]) -> (f64, f64, usize) {
     let mut sorted: Vec<f64> = reals.iter().copied().filter(|v| v.is_finite()).collect();
     sorted.sort_by(f64::total_cmp);
@@ -35,8 +36,8 @@ fn real_ends(reals: &[f64]) -> (f64, f64, usize) {
     (left - room, right + room, hidden)
 }
 
-/// The curves on which modes without friction lie, one for each damping: (5) of the paper, with the undamped frequency as
-/// parameter.
+/// The curves on which modes without friction lie, one for each damping: (5) of the paper, with the undamped frequency
+/// as parameter.
 fn damping_curves(dampings: &[NamedDamping], highest_hz: f64) -> Vec<Line> {
     let curve = |(index, (name, damping)): (usize, &NamedDamping)| {
         let undamped = (1..=400).map(|step| TAU * 1.05 * highest_hz * f64::from(step) / 400.0);
@@ -54,8 +55,8 @@ fn damping_curves(dampings: &[NamedDamping], highest_hz: f64) -> Vec<Line> {
     dampings.iter().enumerate().map(curve).collect()
 }
 
-/// The eigenvalues in the complex plane as friction rises, with the curves of Rayleigh damping on which they start, and beside
-/// it the friction intervals in which each branch grows.
+/// The eigenvalues in the complex plane as friction rises, with the curves of Rayleigh damping on which they start, and
+/// beside it the friction intervals in which each branch grows.
 pub(super) fn locus(report: &CeaReport<'_>, dampings: &[NamedDamping]) -> Figure {
     let sweep = report.sweep;
     let place = |mode: &ComplexMode| (mode.real_hz(), mode.frequency_hz());

@@ -103,8 +103,8 @@ impl CeaReport<'_> {
         numbered.map(|(index, mode)| (of(mode), index + 1)).collect()
     }
 
-    /// A branch as figures and tables name it: by harmonic, rank and sense of travel, or without symmetry by the number that
-    /// its mode has at the case's own friction, after its nodal diameters on a body of one sector.
+    /// A branch as figures and tables name it: by harmonic, rank and sense of travel, or without symmetry by the number
+    /// that its mode has at the case's own friction, after its nodal diameters on a body of one sector.
     fn branch_name(&self, branch: Branch, numbers: &BTreeMap<Branch, usize>) -> String {
         match (self.has_harmonics, numbers.get(&branch)) {
             (true, _) => format!("n = {}, branch {}{}", branch.0, branch.1, travels(branch.2)),

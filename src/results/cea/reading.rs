@@ -135,8 +135,8 @@ impl Reading {
             .columns(COUPLINGS, rows)
     }
 
-    /// The unstable modes at a friction coefficient in a sentence each, the fastest first: which modes couple, what feeds and
-    /// what takes.
+    /// The unstable modes at a friction coefficient in a sentence each, the fastest first: which modes couple, what
+    /// feeds and what takes.
     pub(super) fn sentences(&self, friction: f64, most: usize) -> Vec<String> {
         let mut unstable: Vec<&Coupling> = Vec::new();
         for coupling in &self.couplings {

@@ -71,9 +71,9 @@ impl SensitivityReport {
         changes
     }
 
-    /// `sensitivities.csv`, one row for each branch: the derivative of its growth rate (1/s) and of its frequency (Hz) for each
-    /// unit of each parameter, empty of one by which there is none; and the first critical friction coefficient of the branch
-    /// with its derivatives.
+    /// `sensitivities.csv`, one row for each branch: the derivative of its growth rate (1/s) and of its frequency (Hz)
+    /// for each unit of each parameter, empty of one by which there is none; and the first critical friction
+    /// coefficient of the branch with its derivatives.
     pub(super) fn table(&self) -> Table {
         let rows = || self.rows.iter();
         let mut table = Table::new("sensitivities.csv", "").columns(ROWS, rows());
@@ -98,7 +98,8 @@ impl SensitivityReport {
         table
     }
 
-    /// Tables of the modes that grow fastest, at most `most`: what one per cent more of each parameter changes, largest first.
+    /// Tables of the modes that grow fastest, at most `most`: what one per cent more of each parameter changes, largest
+    /// first.
     pub(super) fn tables(&self, most: usize) -> Vec<Table> {
         let mut rows: Vec<&SensitivityRow> = self.rows.iter().collect();
         rows.sort_by(|a, b| b.eigenvalue.re.total_cmp(&a.eigenvalue.re));

@@ -86,8 +86,8 @@ impl<'a> Body<'a> {
 
 /// The deformed body under some lines of heading, coloured by the displacement amplitude of the real part.
 ///
-/// A travelling wave is shown at the instant that puts its crest at angle zero; every shape is scaled to its own maximum,
-/// which an eigenvector leaves open.
+/// A travelling wave is shown at the instant that puts its crest at angle zero; every shape is scaled to its own
+/// maximum, which an eigenvector leaves open.
 fn shape_panel(disc: &Disc<'_>, mesh: &Mesh, shape: &ModeShape<'_>, lines: &[String; 3]) -> Panel {
     let values = shape.mode.shape.as_deref().unwrap_or(&[]);
     let turn = crest_phase(mesh, values, shape.mode.harmonic);
@@ -179,9 +179,9 @@ fn moving_mesh(
 
 /// Unit factor that turns a shape to the instant drawn.
 ///
-/// A standing wave (`|sum u^2|` near `sum |u|^2`) is turned to its largest real part; a travelling one so that the wave that
-/// carries most of it has its tangential crest at angle zero. Both depend on the shape alone, not on the arbitrary phase a
-/// solver gave it.
+/// A standing wave (`|sum u^2|` near `sum |u|^2`) is turned to its largest real part; a travelling one so that the wave
+/// that carries most of it has its tangential crest at angle zero. Both depend on the shape alone, not on the arbitrary
+/// phase a solver gave it.
 fn crest_phase(mesh: &Mesh, shape: &[c64], harmonic: usize) -> c64 {
     let zero = c64::new(0.0, 0.0);
     let square = shape.iter().fold(zero, |sum, u| sum + u * u);

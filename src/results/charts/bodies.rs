@@ -4,8 +4,9 @@ use super::solid::SolidView;
 use crate::chart::{Axis, ChartError, ColourMap, Figure, Line, Panel, Side, literal};
 use crate::mesh::{Mesh, SolidFace, SolidSector};
 
-/// Values at nodes (NaN: grey) on each contact surface, seen from outside along its mean normal; `surfaces` has the name and the
-/// boundary of each, `axis` is common to all. `arrows` are ends of an arrow on the surface of the same place among them.
+/// Values at nodes (NaN: grey) on each contact surface, seen from outside along its mean normal; `surfaces` has the
+/// name and the boundary of each, `axis` is common to all. `arrows` are ends of an arrow on the surface of the same
+/// place among them.
 pub fn contact_surfaces(
     (name, caption): (&str, &str),
     (mesh, surfaces): (&Mesh, &[(String, usize)]),
@@ -28,8 +29,8 @@ pub fn contact_surfaces(
     figure.colour_foot(axis(), ColourMap::Viridis)
 }
 
-/// Speed over the surface of solid bodies in several frames, each a heading and a velocity field (nodal frames, m/s), each picture
-/// with colours of its own.
+/// Speed over the surface of solid bodies in several frames, each a heading and a velocity field (nodal frames, m/s),
+/// each picture with colours of its own.
 ///
 /// # Errors
 /// [`ChartError::Empty`] without frames.

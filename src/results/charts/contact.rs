@@ -15,12 +15,12 @@ use std::f64::consts::TAU;
 
 /// Columns of a status map: three for each point of a wide panel.
 const FINEST: usize = 900;
-/// The status of all contact nodes over time between two instants, and the interval between the instants shown (s) if not
-/// every sample is; `codes` are 0 open, 1 stick, 2 slip, sample by sample, all nodes of one sample together, evenly spaced in
-/// time and around the circle.
+/// The status of all contact nodes over time between two instants, and the interval between the instants shown (s) if
+/// not every sample is; `codes` are 0 open, 1 stick, 2 slip, sample by sample, all nodes of one sample together, evenly
+/// spaced in time and around the circle.
 ///
-/// Where there are more samples than the drawing has columns, every so many-th is shown: a pattern that travels by more than half
-/// its length from one to the next seems to go another way.
+/// Where there are more samples than the drawing has columns, every so many-th is shown: a pattern that travels by more
+/// than half its length from one to the next seems to go another way.
 pub fn status_map(
     times: &[f64],
     nodes: usize,
@@ -105,8 +105,8 @@ pub struct ContactInstant<'a> {
     pub velocity: ContactVelocity<'a>,
 }
 
-/// The contact at one instant, its nodes evenly spaced, on a ground coloured by status: tractions (Pa) and tangential velocity
-/// (m/s), and around a whole hole arcs of stick, slip and separation.
+/// The contact at one instant, its nodes evenly spaced, on a ground coloured by status: tractions (Pa) and tangential
+/// velocity (m/s), and around a whole hole arcs of stick, slip and separation.
 pub fn contact_figure(body: &ShownBody<'_>, own: &ContactInstant<'_>) -> Figure {
     match body.mesh.has_round_contact() {
         true => round_contact(body.counterface(), own),
@@ -137,7 +137,8 @@ fn open_contact(own: &ContactInstant<'_>) -> Figure {
     Figure::new(own.name.clone(), caption).shared_x().panel(traction).panel(velocity)
 }
 
-/// Tractions (Pa) and tangential velocity along a contact; `names` are those of the counterface and of an absolute velocity.
+/// Tractions (Pa) and tangential velocity along a contact; `names` are those of the counterface and of an absolute
+/// velocity.
 fn contact_panels(
     panel: impl Fn(Axis) -> Panel,
     line: impl Fn(&[f64]) -> Line,
@@ -217,8 +218,8 @@ pub fn shear_stress_figure<'a>(
     field_figure(names, &disc, &axis, ColourMap::Diverging, frames)
 }
 
-/// Velocity fields (nodal frames, m/s) side by side, each with its heading and the status of the contact nodes; `when` they are.
-/// What is no faster than `rest` is at rest.
+/// Velocity fields (nodal frames, m/s) side by side, each with its heading and the status of the contact nodes; `when`
+/// they are. What is no faster than `rest` is at rest.
 pub fn velocity_figure<'a>(
     body: &ShownBody<'_>,
     (when, rest): (&str, f64),
@@ -243,8 +244,8 @@ pub fn velocity_figure<'a>(
     field_figure(("velocity", &caption), &disc, &axis, ColourMap::Viridis, frames.collect())
 }
 
-/// Fields side by side, each with its own scale of colours, as amplitudes may differ by decades, and with the contact status
-/// around the hole where it is known.
+/// Fields side by side, each with its own scale of colours, as amplitudes may differ by decades, and with the contact
+/// status around the hole where it is known.
 fn field_figure(
     (name, caption): (&str, &str),
     disc: &Disc<'_>,
@@ -274,8 +275,8 @@ fn field_figure(
     Ok(if has_status { figure.note("ring inside the hole: contact status") } else { figure })
 }
 
-/// A closed or open curve coloured by the status of the samples it starts from; slip, over which a node runs back and forth,
-/// is wide.
+/// A closed or open curve coloured by the status of the samples it starts from; slip, over which a node runs back and
+/// forth, is wide.
 pub fn status_curves(points: &[(f64, f64)], status: &[ContactStatus]) -> Vec<Line> {
     let mut lines = Vec::new();
     for wanted in [ContactStatus::Slip, ContactStatus::Stick, ContactStatus::Open] {

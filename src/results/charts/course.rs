@@ -27,8 +27,8 @@ pub struct Stage {
 
 /// Decibels shown below the maximum of a spectrogram.
 const DEPTH: f64 = 80.0;
-/// Windows that are this much weaker than the loudest hold round-off, and are left blank where each is shown relative to its
-/// own maximum.
+/// Windows that are this much weaker than the loudest hold round-off, and are left blank where each is shown relative
+/// to its own maximum.
 const SILENCE: f64 = 1e-10;
 
 /// The time axis of a run up to the round number just above its last sample, if only a sample is missing.
@@ -126,8 +126,8 @@ pub fn spectrogram_panels(
     ]
 }
 
-/// Spectra of several components on one logarithmic axis, with the modes named above, and the main frequency of the first component (its strongest where none is given) and
-/// its multiples marked where they stand out.
+/// Spectra of several components on one logarithmic axis, with the modes named above, and the main frequency of the
+/// first component (its strongest where none is given) and its multiples marked where they stand out.
 pub fn spectrum_panel(
     spectra: &[(&str, &[f64], &[f64])],
     unit: &str,
@@ -154,8 +154,8 @@ pub fn spectrum_panel(
     panel.height(150.0).layers(rules).layers(lines).layers(peaks.unwrap_or_default())
 }
 
-/// Labels at a main frequency and at its whole multiples, where they stand out of what lies around them: at the tops of the
-/// lines, with the frequency given, or with that of the strongest line between the values of the spectrum.
+/// Labels at a main frequency and at its whole multiples, where they stand out of what lies around them: at the tops of
+/// the lines, with the frequency given, or with that of the strongest line between the values of the spectrum.
 fn multiples(
     frequencies: &[f64],
     amplitudes: &[f64],

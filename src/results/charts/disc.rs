@@ -18,8 +18,8 @@ impl<'a> Disc<'a> {
         Self::with_lattice(mesh, 0)
     }
 
-    /// The same with about so many rays of nodes, and circles to match, as thin lines that show a deformation; a body that is no
-    /// uniform annulus shows none.
+    /// The same with about so many rays of nodes, and circles to match, as thin lines that show a deformation; a body
+    /// that is no uniform annulus shows none.
     pub fn with_lattice(mesh: &'a Mesh, rays: usize) -> Self {
         let cells = (0..mesh.element_count()).map(|element| Cell {
             ring: mesh.element_outline(element),

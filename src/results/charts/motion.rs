@@ -83,7 +83,8 @@ impl<'a> MovingBody<'a> {
         }
     }
 
-    /// The surface of a solid body in the colours of parts; `parts` has colour and name of each in mark-up ("": not there).
+    /// The surface of a solid body in the colours of parts; `parts` has colour and name of each in mark-up ("": not
+    /// there).
     pub fn parts(
         &self,
         part_of: impl Fn(&BoundaryFace) -> usize,
@@ -104,8 +105,8 @@ impl<'a> MovingBody<'a> {
         self.corners.iter().map(place).collect()
     }
 
-    /// What varies around each circle of nodes about the origin, in nodal frames of a plane body: the wave without the state it
-    /// rides on.
+    /// What varies around each circle of nodes about the origin, in nodal frames of a plane body: the wave without the
+    /// state it rides on.
     pub fn wave(&self, displacement: &[f64]) -> Vec<[f64; 3]> {
         let radius = |node: usize| {
             (self.mesh.nodes[node][0].hypot(self.mesh.nodes[node][1]) * 1e9).round() as i64

@@ -27,7 +27,8 @@ pub const MATERIAL_DISSIPATION: &str = "#009e73";
 /// Power of the normal contact forces.
 pub const NORMAL_POWER: &str = "#cc79a7";
 
-/// The states in the order of every legend, each with name, colour of areas, tint of grounds under curves, colour of lines.
+/// The states in the order of every legend, each with name, colour of areas, tint of grounds under curves, colour of
+/// lines.
 pub const STATUSES: [(ContactStatus, &str, &str, &str, &str); 3] = [
     (ContactStatus::Stick, "stick", STICK, "#cce3f0", STICK),
     (ContactStatus::Slip, "slip", SLIP, "#faeccc", SLIP),

@@ -61,8 +61,8 @@ impl<'a> SolidView<'a> {
         Self { mesh, faces, shown: Arc::new(shown), axes: [right, towards.cross(&right), towards] }
     }
 
-    /// Values at the nodes (NaN: none) on the bodies displaced by `displacement` (nodal frames, three values a node, m) times
-    /// `magnification`.
+    /// Values at the nodes (NaN: none) on the bodies displaced by `displacement` (nodal frames, three values a node, m)
+    /// times `magnification`.
     pub fn surface(
         &self,
         values: Vec<f64>,
@@ -81,8 +81,8 @@ impl<'a> SolidView<'a> {
         Surface::new(Arc::clone(&self.shown), positions, values, axis, map)
     }
 
-    /// The bodies with the edges of their elements, each face in the colour of its part; `parts` has colour and name of each ("":
-    /// not in the legend).
+    /// The bodies with the edges of their elements, each face in the colour of its part; `parts` has colour and name of
+    /// each ("": not in the legend).
     pub fn parts(
         &self,
         part_of: impl Fn(&BoundaryFace) -> usize,
@@ -100,7 +100,8 @@ impl<'a> SolidView<'a> {
         Surface::of_parts(Arc::new(shown), positions, part_of, parts)
     }
 
-    /// Edges of faces between corners: where faces meet at an angle, between regions, at the rim of open surfaces; or all.
+    /// Edges of faces between corners: where faces meet at an angle, between regions, at the rim of open surfaces; or
+    /// all.
     pub(super) fn corner_edges(mesh: &Mesh, faces: &[BoundaryFace], all: bool) -> Vec<[u32; 2]> {
         let edges = edge_paths(mesh, faces, all).into_iter();
         edges.map(|path| [path[0], path[path.len() - 1]]).collect()
@@ -146,7 +147,8 @@ fn edges(mesh: &Mesh, faces: &[BoundaryFace], all: bool) -> Vec<[u32; 2]> {
     steps.collect()
 }
 
-/// Nodes along each edge between faces that meet at an angle, between regions, and at the rim of open surfaces; or along all.
+/// Nodes along each edge between faces that meet at an angle, between regions, and at the rim of open surfaces; or
+/// along all.
 fn edge_paths(mesh: &Mesh, faces: &[BoundaryFace], all: bool) -> Vec<Vec<u32>> {
     type Side = (Vector3<f64>, usize);
     let mut edges: BTreeMap<[u32; 2], (Vec<u32>, Vec<Side>)> = BTreeMap::new();

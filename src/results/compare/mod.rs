@@ -154,7 +154,8 @@ fn unit(path: &str) -> &'static str {
     units.into_iter().find(|unit| !unit.is_empty()).unwrap_or_default()
 }
 
-/// Path, unit, the value of each run, then differences from the first, absolute and relative; people see the latter in per cent.
+/// Path, unit, the value of each run, then differences from the first, absolute and relative; people see the latter in
+/// per cent.
 fn table_of(
     (file, caption): (&str, &str),
     runs: &[ComparedRun],
@@ -198,7 +199,8 @@ pub fn file(runs: &[ComparedRun], quantities: &[SharedQuantity]) -> Table {
 /// Most lines of the table for the terminal.
 const MOST_PRINTED: usize = 30;
 
-/// The numbers that differ, but for costs: what a person asks first, then the others, the largest relative difference first.
+/// The numbers that differ, but for costs: what a person asks first, then the others, the largest relative difference
+/// first.
 fn differing(quantities: &[SharedQuantity]) -> Vec<&SharedQuantity> {
     let is_cost = |shared: &SharedQuantity| COSTS.contains(&shared.last_key());
     let differs = |shared: &&SharedQuantity| !shared.is_equal() && !is_cost(shared);

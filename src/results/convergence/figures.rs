@@ -3,8 +3,8 @@
 use super::{Quantity, Refinement, Series};
 use crate::chart::{Axis, Figure, Line, MUTED, Panel, Points, Rule, Stroke, look};
 
-/// For each series the change of every quantity from level to level, relative to its size, over the resolution; and the orders
-/// that the three finest levels show.
+/// For each series the change of every quantity from level to level, relative to its size, over the resolution; and the
+/// orders that the three finest levels show.
 pub(super) fn convergence(series: &[Series]) -> Figure {
     let panels = series.iter().flat_map(|series| [changes(series), orders(series)]);
     Figure::new(

@@ -24,8 +24,9 @@ impl BranchRecord {
         self.stable.get(cycle).copied().flatten()
     }
 
-    /// Every fold on the curve. Where the curve meets the same value before and after, it turns there and is drawn to turn; two
-    /// folds between two values are narrower than the spacing of the cycles, and are marked on the curve that goes on.
+    /// Every fold on the curve. Where the curve meets the same value before and after, it turns there and is drawn to
+    /// turn; two folds between two values are narrower than the spacing of the cycles, and are marked on the curve that
+    /// goes on.
     pub(super) fn fold_places(&self) -> (Vec<Place>, Vec<Place>) {
         let (mut left, mut turns) = (self.folds.clone(), Vec::new());
         for (before, pair) in
@@ -65,8 +66,8 @@ impl BranchRecord {
         places
     }
 
-    /// Where stability changes between a cycle and the next: where the growth rate vanishes on the line between them, or
-    /// half-way.
+    /// Where stability changes between a cycle and the next: where the growth rate vanishes on the line between them,
+    /// or half-way.
     fn change(&self, before: usize) -> Option<Place> {
         let (a, b) = (self.stability(before)?, self.stability(before + 1)?);
         if a == b {

@@ -19,7 +19,8 @@ pub struct CycleFrame {
 type Frame<'a> = (f64, &'a [Vec<f64>; 2], Option<&'a ContactInstant>);
 
 /// Writes each frame as a VTU file, `cycles.pvd` over the waves at time zero and, where there are several frames,
-/// `cycle-TAG.pvd` over the time; of a motion of two waves likewise `two-waves-nN-nM.vtu`, over one period of the first.
+/// `cycle-TAG.pvd` over the time; of a motion of two waves likewise `two-waves-nN-nM.vtu`, over one period of the
+/// first.
 pub(super) fn write_fields(
     folder: &OutputFolder,
     report: &CycleReport<'_>,
@@ -72,7 +73,8 @@ impl CycleFrame {
 }
 
 impl CycleReport<'_> {
-    /// Writes the frames of one motion of the `group`, whose files begin with `stem`, and of several a list over the time.
+    /// Writes the frames of one motion of the `group`, whose files begin with `stem`, and of several a list over the
+    /// time.
     fn write_frames<'f>(
         &self,
         folder: &OutputFolder,

@@ -119,7 +119,8 @@ impl<'a> CycleFigures<'a> {
         Ok(Figure::new(format!("status-{}", motion.tag), caption).panel(panel))
     }
 
-    /// The contact at time zero; of a wave around the whole circle, where a node at angle `theta` is in phase `n theta`.
+    /// The contact at time zero; of a wave around the whole circle, where a node at angle `theta` is in phase `n
+    /// theta`.
     fn at_one_instant(&self, motion: &MotionRecord) -> Figure {
         let body = &self.report.body;
         if body.is_assembly() {
@@ -165,7 +166,8 @@ impl<'a> CycleFigures<'a> {
         let largest = pressure.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
         let axis = || Axis::new("contact pressure", "Pa").prefixed().between(0.0, largest);
         let caption = format!(
-            "Limit cycle of {} at one instant: contact pressure on each contact surface, seen from outside; grey where it is open.",
+            "Limit cycle of {} at one instant: contact pressure on each contact surface, seen from outside; grey \
+            where it is open.",
             motion.whose()
         );
         let name = format!("contact-{}", motion.tag);

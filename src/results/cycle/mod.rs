@@ -62,7 +62,8 @@ pub struct CycleReport<'a> {
     pub extent: Extent,
     /// Friction coefficient of the case.
     pub friction_coefficient: f64,
-    /// Where along the parameter of the case sliding loses its stability, where it is stable at its own operating point.
+    /// Where along the parameter of the case sliding loses its stability, where it is stable at its own operating
+    /// point.
     pub critical: Option<CriticalValue>,
     /// What was sought, and found.
     pub search: Search,

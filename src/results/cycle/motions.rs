@@ -220,7 +220,8 @@ impl PeriodicResult {
         let enough = found.motion.harmonics_within(REMAINDER);
         (found.harmonic_count < enough).then(|| {
             format!(
-                "{}: {} harmonics leave {left:.1e} of the motion of the contact: {enough} leave less than a thousandth (raise \
+                "{}: {} harmonics leave {left:.1e} of the motion of the contact: {enough} leave less than a \
+                thousandth (raise \
                  cycle.harmonic_count, or leave it out)",
                 self.mode, found.harmonic_count,
             )
@@ -352,8 +353,9 @@ fn contact_node(motion: &PeriodicMotion, i: usize, node: (usize, [f64; 3])) -> C
     }
 }
 
-/// The arrays `time_s (F)`, `angle_rad (N)`, `status (F, N)`, `pressure_pa (F, N)`, `shear_pa (F, N)`, `u_n_m (F, N)` and
-/// `u_t_m (F, N)` for `F` instants and `N` contact nodes, with the codes of `status`, as in the `contact.npz` of a transient.
+/// The arrays `time_s (F)`, `angle_rad (N)`, `status (F, N)`, `pressure_pa (F, N)`, `shear_pa (F, N)`, `u_n_m (F, N)`
+/// and `u_t_m (F, N)` for `F` instants and `N` contact nodes, with the codes of `status`, as in the `contact.npz` of a
+/// transient.
 fn encode_contact(interface: &ContactInterface, motion: &PeriodicMotion) -> io::Result<Vec<u8>> {
     let instants = &motion.instants;
     let shape = [instants.len(), interface.len()];

@@ -24,8 +24,8 @@ pub struct MotionRecord {
     pub counterface_speed: f64,
     /// Friction coefficient there; none where it falls with the slip speed.
     pub friction_coefficient: Option<f64>,
-    /// Pressure (Pa), shear (Pa) and velocity along the counterface (m/s) of all contact nodes at time zero, of a wave along
-    /// the phase.
+    /// Pressure (Pa), shear (Pa) and velocity along the counterface (m/s) of all contact nodes at time zero, of a wave
+    /// along the phase.
     pub edge: [Vec<f64>; 3],
     /// Amplitudes of the harmonics along the normal and along the counterface, m; none of a wave.
     pub harmonics: [Vec<f64>; 2],

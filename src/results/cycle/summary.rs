@@ -26,7 +26,8 @@ pub struct CycleSummary {
     /// Where the search has started.
     #[serde(flatten)]
     pub origin: Origin,
-    /// Where along the parameter of the case sliding loses its stability, where it is stable at its own operating point.
+    /// Where along the parameter of the case sliding loses its stability, where it is stable at its own operating
+    /// point.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub critical_value: Option<CriticalSummary>,
     /// What powers are of, in the tables too.
@@ -247,8 +248,8 @@ pub struct CycleMotion {
     pub power_w: MeanPowers,
     /// Residual of the energy balance, relative to the external power.
     pub balance_residual: f64,
-    /// Amplitude along the counterface, m: of the wave's own harmonic. On other bodies half the range of the contact node
-    /// that moves most.
+    /// Amplitude along the counterface, m: of the wave's own harmonic. On other bodies half the range of the contact
+    /// node that moves most.
     pub amplitude_m: Option<f64>,
     /// Level of the velocity, root mean square over time and mass, over 5e-8 m/s, dB.
     pub velocity_level_db: Option<f64>,
@@ -271,8 +272,8 @@ pub struct SteppedMotion {
     pub steps: usize,
     /// Label of the contact node that moves most along the counterface.
     pub contact_node: usize,
-    /// Velocity of a kick that tips stable sliding into this cycle: `2 pi f` times the amplitude of the unstable cycle between both,
-    /// m/s.
+    /// Velocity of a kick that tips stable sliding into this cycle: `2 pi f` times the amplitude of the unstable cycle
+    /// between both, m/s.
     pub kick_velocity: Option<f64>,
     /// Estimate of the sound that it radiates, of a body with flat faces.
     #[serde(skip_serializing_if = "Option::is_none")]

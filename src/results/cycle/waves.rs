@@ -75,8 +75,8 @@ impl WaveSearch {
     }
 }
 
-/// Amplitude of the wave's own harmonic of the edge's tangential displacement, m; half the peak-to-peak motion where the
-/// summary's harmonics do not reach.
+/// Amplitude of the wave's own harmonic of the edge's tangential displacement, m; half the peak-to-peak motion where
+/// the summary's harmonics do not reach.
 fn amplitude(cycle: &LimitCycle) -> f64 {
     match cycle.harmonics.get(cycle.harmonic) {
         Some(&amplitude) => amplitude,
@@ -198,7 +198,8 @@ impl CycleResult {
         }
     }
 
-    /// The exponents of the cycle at the case's own operating point, then along the branch, each with the value of its parameter.
+    /// The exponents of the cycle at the case's own operating point, then along the branch, each with the value of its
+    /// parameter.
     fn exponents(&self) -> Vec<(Option<f64>, Perturbation)> {
         let mut findings: Vec<(f64, &Finding)> = Vec::new();
         match (&self.branch, &self.cycle) {

@@ -19,7 +19,8 @@ pub fn unit_of(quantity: ResponseQuantity) -> &'static str {
     }
 }
 
-/// The first response with its fit and its half-power points, and the damping factors with the fitted curve of equation (3).
+/// The first response with its fit and its half-power points, and the damping factors with the fitted curve of equation
+/// (3).
 pub fn identification(response: &FrequencyResponse, found: &Identification) -> Figure {
     let frequencies = response.frequencies_hz();
     let magnitude = response.magnitudes();

@@ -27,7 +27,8 @@ const LOSSLESS: &str = "(lambda^2 M + lambda C + K) x = 0,";
 /// The same with structural damping.
 const LOSSY: &str = "(lambda^2 M + lambda C + K + i H) x = 0 where Im lambda > 0,";
 /// What each matrix is.
-const SUMS: &str = "each the sum over its entries in matrices of (mu - friction_coefficient)^friction_power times the file";
+const SUMS: &str = "each the sum over its entries in matrices of (mu - friction_coefficient)^friction_power times the \
+file";
 
 /// One exported matrix.
 #[derive(Clone, Debug, PartialEq)]
@@ -50,7 +51,8 @@ impl ExportedMatrix {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum MatrixRole {
-    /// Coefficient of `(mu - mu_0)^power`, `mu_0` the friction coefficient of the export, in the mass `M`, kg/m; of solid bodies kg.
+    /// Coefficient of `(mu - mu_0)^power`, `mu_0` the friction coefficient of the export, in the mass `M`, kg/m; of
+    /// solid bodies kg.
     Mass {
         /// Power of the distance from that friction coefficient.
         friction_power: usize,
@@ -135,7 +137,8 @@ pub struct ExportedSystem {
 }
 
 impl ExportedSystem {
-    /// Mass, damping and stiffness at its friction coefficient, without what friction changes and without the contact rows.
+    /// Mass, damping and stiffness at its friction coefficient, without what friction changes and without the contact
+    /// rows.
     #[must_use]
     pub fn at_one_friction(mut self) -> Self {
         self.matrices.retain(|own| own.role.friction_power() == Some(0));
@@ -276,8 +279,8 @@ impl MatricesSummary {
     }
 }
 
-/// Writes every matrix in both formats, the two tables and what multiplies what; at one friction coefficient the Matrix Market
-/// files alone.
+/// Writes every matrix in both formats, the two tables and what multiplies what; at one friction coefficient the Matrix
+/// Market files alone.
 pub fn write_matrices(
     folder: &OutputFolder,
     system: &ExportedSystem,

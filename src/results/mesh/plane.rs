@@ -30,8 +30,8 @@ pub struct MeshStatistics {
     /// Counts.
     #[serde(flatten)]
     pub size: MeshSize,
-    /// Layers of bricks over the thickness of a body in three dimensions. Edges, quality and areas are of its plane section
-    /// then.
+    /// Layers of bricks over the thickness of a body in three dimensions. Edges, quality and areas are of its plane
+    /// section then.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub axial_elements: Option<usize>,
     /// On the annulus, nodes of one ray of corner nodes: node `1 + j (nodes_per_sector) + i`.
@@ -107,7 +107,8 @@ impl Measured for MeshStatistics {
         ];
         let layers = self.axial_elements.map(|layers| {
             format!(
-                "{layers} layers of bricks over the thickness; edges, quality, areas and picture are of the section across the axis"
+                "{layers} layers of bricks over the thickness; edges, quality, areas and picture are of the section \
+                across the axis"
             )
         });
         let ids = self.nodes_per_sector.map(|nodes| match self.axial_elements {

@@ -64,7 +64,8 @@ fn panel(surface: Surface, caption: String) -> Panel {
     panel.caption(caption).layer(surface)
 }
 
-/// The kind of each face of a boundary that holds, loads or touches, by its nodes. A face of several boundaries is of the first kind.
+/// The kind of each face of a boundary that holds, loads or touches, by its nodes. A face of several boundaries is of
+/// the first kind.
 fn conditions_of_faces(
     mesh: &Mesh,
     roles: &BTreeMap<usize, &'static str>,

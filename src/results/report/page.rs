@@ -82,7 +82,8 @@ impl Report {
         if self.has_case() {
             let _ = write!(
                 out,
-                "<section id=\"case\">\n<h2>Case</h2>\n<pre tabindex=\"0\" role=\"region\" aria-label=\"Case\"><code>{}</code></pre>\n</section>\n",
+                "<section id=\"case\">\n<h2>Case</h2>\n<pre tabindex=\"0\" role=\"region\" \
+                aria-label=\"Case\"><code>{}</code></pre>\n</section>\n",
                 escape(&manifest.case_text)
             );
         }
@@ -171,7 +172,8 @@ fn write_figure(out: &mut String, number: usize, figure: &NamedFigure) {
     let own = format!("{ID_PREFIX}{number}-");
     let _ = write!(
         out,
-        "<figure id=\"{}\">\n<div class=\"scroll picture\" role=\"region\" aria-label=\"Figure {number}\" tabindex=\"0\">\n{}</div>\n\
+        "<figure id=\"{}\">\n<div class=\"scroll picture\" role=\"region\" aria-label=\"Figure {number}\" \
+        tabindex=\"0\">\n{}</div>\n\
          <figcaption><b>Figure {number}.</b> {}</figcaption>\n</figure>\n",
         escape(&figure.name),
         figure.svg.replace(ID_PREFIX, &own),
@@ -194,7 +196,8 @@ fn write_table(out: &mut String, table: &Table) {
     };
     let _ = write!(
         out,
-        "<div class=\"scroll\" role=\"region\" aria-label=\"{0}\" tabindex=\"0\"><table>\n<caption>{0}</caption>\n<thead><tr>",
+        "<div class=\"scroll\" role=\"region\" aria-label=\"{0}\" \
+        tabindex=\"0\"><table>\n<caption>{0}</caption>\n<thead><tr>",
         escape(&table.caption)
     );
     for (column, name) in labels.iter().enumerate() {

@@ -15,8 +15,8 @@ fn name(onset: &CriticalFriction) -> (Option<usize>, usize, i8) {
     (onset.harmonic, onset.branch, onset.direction.unwrap_or(0))
 }
 
-/// The critical friction of each branch over the one swept key besides friction; below all of them steady sliding is stable.
-/// `highest` is the largest friction coefficient that was studied.
+/// The critical friction of each branch over the one swept key besides friction; below all of them steady sliding is
+/// stable. `highest` is the largest friction coefficient that was studied.
 ///
 /// # Errors
 /// [`ChartError::Empty`] where not one key was swept through eigenvalue analyses.

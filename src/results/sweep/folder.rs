@@ -208,7 +208,8 @@ impl SweepFolder {
         })
     }
 
-    /// What the clock said of a finished point; nothing where its file is missing or damaged, which no result depends on.
+    /// What the clock said of a finished point; nothing where its file is missing or damaged, which no result depends
+    /// on.
     pub fn read_clock(&self, point: usize) -> PointClock {
         let bytes = read_file(&self.path.join(clock_name(point)), RESULT).unwrap_or_default();
         let value = own_value(&bytes, false).ok();

@@ -85,8 +85,8 @@ pub fn long_tables(keys: &[String], analyses: &[&str], records: &[PointRecord]) 
     tables
 }
 
-/// The swept keys, the columns and the number of the point, with the rows of each entry of a list of an analysis; an entry of
-/// another version has none.
+/// The swept keys, the columns and the number of the point, with the rows of each entry of a list of an analysis; an
+/// entry of another version has none.
 fn long<S: DeserializeOwned, T>(
     (file, analysis, list): (&str, &str, &str),
     keys: &[String],

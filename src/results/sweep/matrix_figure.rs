@@ -43,8 +43,8 @@ enum Role {
     Other,
 }
 
-/// Frequency of the unstable modes over the operating conditions, marked by growth; one panel for each direction of rotation
-/// and each choice of what is left over.
+/// Frequency of the unstable modes over the operating conditions, marked by growth; one panel for each direction of
+/// rotation and each choice of what is left over.
 pub(in crate::results) fn operating_matrix(records: &[PointRecord]) -> Result<Figure, ChartError> {
     let matrix = OperatingMatrix::of(records);
     let conditions = &matrix.conditions;
@@ -202,7 +202,8 @@ impl Layout {
     }
 
     fn caption(&self) -> String {
-        let mut caption = "Unstable modes under the operating conditions of the study: frequency, marked by growth rate".to_owned();
+        let mut caption = "Unstable modes under the operating conditions of the study: frequency, marked by growth \
+        rate".to_owned();
         if self.panel_count() > PANELS {
             caption += &format!(
                 "; the first {PANELS} of {} panels (unstable_modes.csv has all)",
@@ -210,7 +211,8 @@ impl Layout {
             );
         }
         caption
-            + ". A dot at the foot is a condition that was solved: one without marks above it is stable, none at all failed."
+            + ". A dot at the foot is a condition that was solved: one without marks above it is stable, none at all \
+            failed."
     }
 }
 
@@ -251,8 +253,8 @@ fn class_name(bounds: &[f64], class: usize) -> String {
     }
 }
 
-/// Everything that takes several values over the conditions: the swept keys, those that go together as one, rotation of both
-/// signs as direction and speed, and friction.
+/// Everything that takes several values over the conditions: the swept keys, those that go together as one, rotation of
+/// both signs as direction and speed, and friction.
 fn dimensions(conditions: &[Condition<'_>]) -> Vec<Dimension> {
     let mut found: Vec<Dimension> = Vec::new();
     let keys = conditions.first().into_iter().flat_map(|own| own.swept.keys());

@@ -5,8 +5,8 @@ use serde_json::{Map, Value};
 
 /// A finished point: what was swept to which values, and what came out of it.
 ///
-/// Holds no case text: the folder's manifest has it once, and `swept` is all that a point changes. Holds nothing that the
-/// clock says either: the same point has the same bytes whoever computed it.
+/// Holds no case text: the folder's manifest has it once, and `swept` is all that a point changes. Holds nothing that
+/// the clock says either: the same point has the same bytes whoever computed it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PointRecord {
     /// Number of the point, from 1.

@@ -23,7 +23,8 @@ fn first(point: &PointRecord, path: &str) -> Cell {
     }
 }
 
-/// The lowest critical friction; the first friction of the analysis is only a bound of it, as is one where its branch was lost.
+/// The lowest critical friction; the first friction of the analysis is only a bound of it, as is one where its branch
+/// was lost.
 fn critical(point: &PointRecord) -> Cell {
     let said = |key: &str| first(point, &format!("/critical_frictions/0/{key}"));
     let is_from_start = matches!(said("unstable_from_start"), Cell::Flag(true));

@@ -124,7 +124,8 @@ fn flatten(
     }
 }
 
-/// Name of a list's item: of a mode harmonic, branch (or onset) and direction, of what is known at one friction coefficient that.
+/// Name of a list's item: of a mode harmonic, branch (or onset) and direction, of what is known at one friction
+/// coefficient that.
 fn item_name(item: &Value) -> Option<String> {
     let number = |key: &str| item.get(key).and_then(Value::as_i64);
     if let (None, Some(friction)) = (number("harmonic"), item.get("friction_coefficient")) {

@@ -106,7 +106,8 @@ struct Borrowed<'a> {
     record: Option<&'a Recorder>,
 }
 
-/// Writes a checkpoint; the one before stays until this one is complete. Without a record it goes with that of the folder.
+/// Writes a checkpoint; the one before stays until this one is complete. Without a record it goes with that of the
+/// folder.
 pub fn write_checkpoint(
     folder: &OutputFolder,
     case_hash: &str,

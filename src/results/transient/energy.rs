@@ -24,8 +24,8 @@ struct Course {
     name: &'static str,
 }
 
-/// Mean over a window centred on each sample; within half a window of an end there is none, as half a window would weigh
-/// what happens there twice.
+/// Mean over a window centred on each sample; within half a window of an end there is none, as half a window would
+/// weigh what happens there twice.
 fn moving_average(values: &[f64], window: usize) -> Vec<f64> {
     let half = (window / 2).min(values.len().saturating_sub(1) / 2);
     let mut sums = vec![0.0];

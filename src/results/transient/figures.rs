@@ -107,12 +107,14 @@ impl RunFigures<'_> {
             .caption(format!("contact node {}", self.run.probe_label(edge)))
             .layer(approach(&path))
             .layers(status_curves(&path[start..], &status));
-        let caption = "Phase plot of an internal node (a) and path of a contact node (b), whose last fifth is coloured by contact status.";
+        let caption = "Phase plot of an internal node (a) and path of a contact node (b), whose last fifth is \
+        coloured by contact status.";
         Ok(Figure::new("trajectories", caption).columns(2).panel(phase_panel).panel(path_panel))
     }
 
-    /// Status of a contact node from a sample on, from its motion: off the cylinder it is open, with the cylinder's velocity it
-    /// sticks. Finer in time than the contact frames; the node touches the cylinder at its smallest radial displacement.
+    /// Status of a contact node from a sample on, from its motion: off the cylinder it is open, with the cylinder's
+    /// velocity it sticks. Finer in time than the contact frames; the node touches the cylinder at its smallest radial
+    /// displacement.
     fn traced_status(&self, probe: usize, start: usize) -> Vec<ContactStatus> {
         let rows = &self.run.record.probe_rows[probe][start..];
         if self.run.body.mesh.opposite.is_some() {

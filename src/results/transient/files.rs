@@ -62,8 +62,8 @@ struct ProbeRows<'a> {
     turn: Option<(f64, f64)>,
 }
 
-/// Motion of a probe; the accelerations are means since the last sample, those of the sampled step alone come behind them
-/// where they are kept, and motions along `x` and `y` last.
+/// Motion of a probe; the accelerations are means since the last sample, those of the sampled step alone come behind
+/// them where they are kept, and motions along `x` and `y` last.
 fn write_probe(
     out: &mut dyn Write,
     samples: &[SampleRow],
@@ -196,10 +196,11 @@ fn write_harmonics(out: &mut dyn Write, record: &Recorder) -> io::Result<()> {
     table.finish()
 }
 
-/// `contact.npz`, the contact edge over time, node by node: the arrays `time_s (F)`, `angle_rad (N)`, `status (F, N)`, `pressure_pa (F, N)` and `shear_pa (F, N)` for `F`
-/// frames and `N` contact nodes, as NumPy reads them; the numbers `interval_s` between frames, and `status_open` (0),
-/// `status_stick` (1), `status_slip` (2), which say what the codes of `status` mean. A body in three dimensions has
-/// `shear_across_pa (F, N)` too, along `e_z` on its inner edge and `e_r` on its top.
+/// `contact.npz`, the contact edge over time, node by node: the arrays `time_s (F)`, `angle_rad (N)`, `status (F, N)`,
+/// `pressure_pa (F, N)` and `shear_pa (F, N)` for `F` frames and `N` contact nodes, as NumPy reads them; the numbers
+/// `interval_s` between frames, and `status_open` (0), `status_stick` (1), `status_slip` (2), which say what the codes
+/// of `status` mean. A body in three dimensions has `shear_across_pa (F, N)` too, along `e_z` on its inner edge and
+/// `e_r` on its top.
 ///
 /// A frame is the state of one step; frames may lie several samples apart.
 fn encode_contact(record: &Recorder) -> io::Result<Vec<u8>> {
@@ -253,8 +254,8 @@ fn write_snapshots(folder: &OutputFolder, report: &TransientReport<'_>) -> Resul
     folder.write("snapshots.pvd", |out| write_pvd(out, &entries))
 }
 
-/// Motion and stress of all nodes, and the contact at the same step: status (0 open, 1 stick, 2 slip; -1 off the contact
-/// edge), pressure, shear and gap (zero off the contact edge).
+/// Motion and stress of all nodes, and the contact at the same step: status (0 open, 1 stick, 2 slip; -1 off the
+/// contact edge), pressure, shear and gap (zero off the contact edge).
 fn snapshot_fields(report: &TransientReport<'_>, snapshot: &Snapshot) -> Vec<Field> {
     let (body, displacement) = (&report.run.body, &snapshot.displacement);
     let mesh = body.mesh;

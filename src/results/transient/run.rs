@@ -25,7 +25,8 @@ pub struct RecordedRun<'a> {
     pub extent: Extent,
 }
 
-/// Unstable modes of steady sliding as the time loop has it: the same mesh and contact, lumped mass, small displacements.
+/// Unstable modes of steady sliding as the time loop has it: the same mesh and contact, lumped mass, small
+/// displacements.
 #[derive(Clone, Debug, Default)]
 pub struct LinearStage {
     /// Frequencies, numbered among all modes by frequency, for the lines across spectrograms and spectra.
@@ -83,8 +84,8 @@ impl RunFigures<'_> {
         rows.map(|row| row[column]).collect()
     }
 
-    /// Which component of a probe is shown: the tangential one, which friction drives and over which runs are compared; of solid
-    /// bodies of a mesh, which may lie anyhow, the strongest.
+    /// Which component of a probe is shown: the tangential one, which friction drives and over which runs are compared;
+    /// of solid bodies of a mesh, which may lie anyhow, the strongest.
     pub(super) fn shown_component(&self, probe: usize) -> usize {
         if !self.run.body.is_assembly() {
             return 1;

@@ -155,8 +155,8 @@ impl RunFigures<'_> {
             .panel(panel.caption(format!("accelerations of node {node}")))
     }
 
-    /// Growth of the contact edge's vibration, all of it, beside the rate of the mode at its frequency; the whole run where there is no
-    /// linear stage.
+    /// Growth of the contact edge's vibration, all of it, beside the rate of the mode at its frequency; the whole run
+    /// where there is no linear stage.
     fn growth_of_edge(&self) -> Figure {
         let (record, times) = (self.run.record, self.times());
         let (start, last) = extremes([times.first(), times.last()].into_iter().flatten().copied());
@@ -251,7 +251,8 @@ impl RunFigures<'_> {
             .layers(linear_end.map(nonlinear));
         let figure = Figure::new(
             "growth",
-            "Growth of the harmonics of the tangential displacement of the contact edge, with the rates of the eigenvalue analysis.",
+            "Growth of the harmonics of the tangential displacement of the contact edge, with the rates of the \
+            eigenvalue analysis.",
         )
         .panel(panel);
         match end < last {

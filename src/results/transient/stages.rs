@@ -4,12 +4,12 @@ use crate::chart::extremes;
 use crate::results::charts::Stage;
 use crate::transient::{EndState, Recorder, SampleRow, TransientAnalysis};
 
-/// The stages of a run as figure 8 of the paper letters them: A vibrations of the start die out, B exponential growth, C stick
-/// and separation set in, D limit cycle.
+/// The stages of a run as figure 8 of the paper letters them: A vibrations of the start die out, B exponential growth,
+/// C stick and separation set in, D limit cycle.
 ///
-/// B begins where the strongest harmonic other than zero overtakes the vibration of harmonic zero (half its range over 0.5 ms),
-/// D where it stays within 2 % of its last value for good. A run that ends before a stage has the letters up to it; one
-/// without growth has none.
+/// B begins where the strongest harmonic other than zero overtakes the vibration of harmonic zero (half its range over
+/// 0.5 ms), D where it stays within 2 % of its last value for good. A run that ends before a stage has the letters up
+/// to it; one without growth has none.
 pub(super) fn stages(record: &Recorder, analysis: &TransientAnalysis) -> Vec<Stage> {
     let rows = &record.rows;
     let size = |row: &SampleRow, n: usize| row.harmonics[n][0].hypot(row.harmonics[n][1]);

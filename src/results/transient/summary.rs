@@ -68,19 +68,20 @@ pub struct TransientSummary {
     pub power_w: MeanPowers,
     /// What powers, energies and forces are of, in the tables too.
     pub extent: Extent,
-    /// Share of the steps of contact nodes that could have ended in stick and in slip alike; absent where there is none.
+    /// Share of the steps of contact nodes that could have ended in stick and in slip alike; absent where there is
+    /// none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub ambiguous_friction: Option<f64>,
     /// Steps in which the forces between two bodies had not converged; absent where there is none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub unconverged_steps: Option<u64>,
-    /// Mean amplitudes of the harmonics 0 to 8 of the contact edge's tangential displacement, m; empty for a body without
-    /// symmetry.
+    /// Mean amplitudes of the harmonics 0 to 8 of the contact edge's tangential displacement, m; empty for a body
+    /// without symmetry.
     pub harmonics: Vec<f64>,
     /// The same of all harmonics `n >= 1` above a thousandth of the largest, by `nN`.
     pub significant_harmonics_m: BTreeMap<String, f64>,
-    /// Rates in the linear stage of the perturbed harmonics that have one; of a body without symmetry that of its strongest
-    /// vibration.
+    /// Rates in the linear stage of the perturbed harmonics that have one; of a body without symmetry that of its
+    /// strongest vibration.
     pub growth: Vec<GrowthSummary>,
     /// Why the others have none, by `nN`; `strongest` for a body without symmetry.
     pub no_growth: BTreeMap<String, String>,

@@ -163,7 +163,8 @@ fn warnings(summary: &TransientSummary) -> Vec<String> {
     let periods = summary.main_frequency_hz.map(|f| f * summary.contact_interval_s);
     let coarse = periods.is_some_and(|periods| periods > COARSE_FRAMES).then(|| {
         format!(
-            "contact.npz has a frame every {:.2e} s, too few for a wave of that frequency: set output.contact_interval.",
+            "contact.npz has a frame every {:.2e} s, too few for a wave of that frequency: set \
+            output.contact_interval.",
             summary.contact_interval_s
         )
     });

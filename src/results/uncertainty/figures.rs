@@ -38,7 +38,8 @@ pub fn uncertainty(summary: &UncertaintySummary) -> Figure {
         .legend();
     Figure::new(
         "uncertainty",
-        "Distribution of the critical friction of each family of modes (a), probability of squeal over the friction coefficient \
+        "Distribution of the critical friction of each family of modes (a), probability of squeal over the friction \
+        coefficient \
          (b).",
     )
     .columns(2)
@@ -54,8 +55,8 @@ fn probability(points: &[[f64; 4]]) -> (Line, Fill) {
     (Line::new(&at, &value).solid(SERIES[0], 1.2), interval)
 }
 
-/// The friction coefficient up to which something happens, with a little room: onsets of families, changes of the probability,
-/// the case's own friction.
+/// The friction coefficient up to which something happens, with a little room: onsets of families, changes of the
+/// probability, the case's own friction.
 fn shown_friction(summary: &UncertaintySummary) -> f64 {
     let families = summary.families.iter();
     let onsets = families.flat_map(|family| &family.critical_friction_percentiles);
@@ -139,7 +140,8 @@ pub fn robust(summary: &RobustSummary) -> Figure {
     };
     Figure::new(
         "robust",
-        "Probability of squeal at the friction coefficient of the case over each design parameter, the uncertain parameters \
+        "Probability of squeal at the friction coefficient of the case over each design parameter, the uncertain \
+        parameters \
          scattering as stated.",
     )
     .columns(summary.curves.len().min(2))

@@ -27,7 +27,8 @@ pub struct Onset {
     pub restabilized: Option<f64>,
     /// Frequency at the onset, Hz.
     pub frequency_hz: f64,
-    /// Whether it is unstable at the lowest friction already, or was lost below its onset: that is lower then; absent in points of earlier versions.
+    /// Whether it is unstable at the lowest friction already, or was lost below its onset: that is lower then; absent
+    /// in points of earlier versions.
     #[serde(default)]
     pub unstable_from_start: bool,
 }
@@ -51,7 +52,8 @@ pub struct Sample {
     pub friction_coefficient: f64,
     /// Its onsets, by rising friction.
     pub onsets: Vec<Onset>,
-    /// Harmonic (0 of a body without) and branch of its modes below the frequency limit; absent in points of earlier versions.
+    /// Harmonic (0 of a body without) and branch of its modes below the frequency limit; absent in points of earlier
+    /// versions.
     #[serde(default)]
     pub within: Vec<(usize, usize)>,
     /// Why it has none, where it could not be solved.

@@ -6,9 +6,9 @@ use rayon::prelude::*;
 /// Cycles whose exponents are found one after the other, each from its neighbour's; the groups run in parallel.
 const GROUP: usize = 8;
 
-/// Stability of every cycle of a branch, settled in the transient. Where a wave only scales from one cycle to the next, its
-/// stability is the same. The cycles stay what they are: their powers are those of the wave, whose balance is exact, while
-/// the few periods of a transient that settles still lose or gain some energy.
+/// Stability of every cycle of a branch, settled in the transient. Where a wave only scales from one cycle to the next,
+/// its stability is the same. The cycles stay what they are: their powers are those of the wave, whose balance is
+/// exact, while the few periods of a transient that settles still lose or gain some energy.
 pub fn along(
     stepping: &MeshStepping<'_>,
     cycles: &[LimitCycle],

@@ -9,8 +9,8 @@ const NEAR: f64 = 1e-5;
 /// Values of a range, evenly over it, at which growth is looked for.
 const LOOKED_AT: usize = 9;
 
-/// Values of a range at which sliding may be unstable, in the order in which they are looked at: both ends, the one nearer to `here`
-/// first, then some between, likewise.
+/// Values of a range at which sliding may be unstable, in the order in which they are looked at: both ends, the one
+/// nearer to `here` first, then some between, likewise.
 pub(super) fn candidates(values: &[f64], here: f64) -> Vec<f64> {
     let last = values.len() - 1;
     let by_distance = |places: &mut dyn Iterator<Item = usize>| {
@@ -26,8 +26,8 @@ pub(super) fn candidates(values: &[f64], here: f64) -> Vec<f64> {
     [ends, between].concat()
 }
 
-/// The value of a parameter between one at which steady sliding is stable and one at which it is not: where its largest `growth`
-/// rate vanishes, by false position; none where it is not stable at the first.
+/// The value of a parameter between one at which steady sliding is stable and one at which it is not: where its largest
+/// `growth` rate vanishes, by false position; none where it is not stable at the first.
 pub(super) fn critical(
     parameter: Parameter,
     mut growth: impl FnMut(f64) -> Option<f64>,

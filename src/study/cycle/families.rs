@@ -58,8 +58,8 @@ pub fn next_onset(case: &Case, friction: f64) -> Option<Onset> {
     None
 }
 
-/// The value of a parameter towards its range at which the lowest onset comes down to the case's friction coefficient; none of
-/// parameters that no onset depends on: sliding at constant friction knows neither speed nor interference.
+/// The value of a parameter towards its range at which the lowest onset comes down to the case's friction coefficient;
+/// none of parameters that no onset depends on: sliding at constant friction knows neither speed nor interference.
 pub fn critical_value(case: &Case, parameter: Parameter, values: &[f64]) -> Option<CriticalValue> {
     let mut point = operating_point(case);
     let (model, here) = (disc_model(case).ok()?, parameter.of(&point));
@@ -104,7 +104,8 @@ pub fn mode_limit(case: &Case) -> ModeLimit {
 }
 
 /// One solver for each family asked for; where no harmonic is named, for every wave that is unstable at the case's
-/// friction. A harmonic that is named is sought even where steady sliding is stable: its cycles may outlive their birth.
+/// friction. A harmonic that is named is sought even where steady sliding is stable: its cycles may outlive their
+/// birth.
 pub fn solvers(case: &Case, cycle: &Cycle, onsets: &[Onset]) -> Result<Vec<Sought>, StudyError> {
     let (model, limit) = (disc_model(case)?, mode_limit(case));
     let mut harmonics: Vec<usize> = match &cycle.harmonics {

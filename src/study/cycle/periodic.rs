@@ -52,10 +52,12 @@ pub struct PeriodicStudy<'a> {
 }
 
 impl<'a> PeriodicStudy<'a> {
-    /// Steady sliding and its modes, with the lumped mass and without the geometric stiffness, as the transient has them.
+    /// Steady sliding and its modes, with the lumped mass and without the geometric stiffness, as the transient has
+    /// them.
     ///
-    /// Where none of them grows at the case's own operating point, and a range of a parameter is to be gone through, the search
-    /// starts in the range where one does, at its ends first: the cycles that are born there may live on beside stable sliding.
+    /// Where none of them grows at the case's own operating point, and a range of a parameter is to be gone through,
+    /// the search starts in the range where one does, at its ends first: the cycles that are born there may live on
+    /// beside stable sliding.
     ///
     /// # Errors
     /// A bad case; a body without a state of steady sliding; those of the eigenvalue solver.
@@ -170,8 +172,8 @@ impl<'a> PeriodicStudy<'a> {
         Some(branch.map(|branch| self.with_onsets(branch, start)))
     }
 
-    /// A branch with the values at which steady sliding loses its stability, between a value at which it has lost it and the
-    /// farthest cycles on both sides.
+    /// A branch with the values at which steady sliding loses its stability, between a value at which it has lost it
+    /// and the farthest cycles on both sides.
     fn with_onsets(&self, mut branch: PeriodicBranch, growing: f64) -> PeriodicBranch {
         let parameter = branch.parameter;
         let onsets = branch.beyond(growing).into_iter().flatten();
@@ -182,8 +184,8 @@ impl<'a> PeriodicStudy<'a> {
         branch
     }
 
-    /// The cycles, with the whole field at so many times over a period; `watch` keeps what is done for a search that goes on
-    /// after an interruption, `done` hears of every result.
+    /// The cycles, with the whole field at so many times over a period; `watch` keeps what is done for a search that
+    /// goes on after an interruption, `done` hears of every result.
     ///
     /// # Errors
     /// A mesh that the time loop cannot take.
@@ -359,7 +361,8 @@ fn first_growing(
     Ok(None)
 }
 
-/// The value of a parameter between one at which steady sliding is stable and one at which a mode grows, where it does neither.
+/// The value of a parameter between one at which steady sliding is stable and one at which a mode grows, where it does
+/// neither.
 fn onset(
     of: (&Case, &SteppedMesh<'_>),
     parameter: Parameter,

@@ -6,9 +6,9 @@ use crate::cycle::{CycleSolver, LimitCycle, MeshStepping, Verdict};
 use crate::results::cycle::{CycleResult, FoundTwoWaves, TwoWaveResult, known};
 
 impl CycleStudy<'_> {
-    /// For each family the motion in which its wave and the one that grows on it live together: from the cycle at the case's own
-    /// operating point where it is unstable, else from the first unstable one of its branch. `watch` keeps what is done for a search
-    /// that goes on after an interruption.
+    /// For each family the motion in which its wave and the one that grows on it live together: from the cycle at the
+    /// case's own operating point where it is unstable, else from the first unstable one of its branch. `watch` keeps
+    /// what is done for a search that goes on after an interruption.
     pub fn two_waves(&self, results: &[CycleResult], watch: &dyn SweepWatch) -> Vec<TwoWaveResult> {
         if !self.choices.two_frequencies {
             return Vec::new();
@@ -71,8 +71,8 @@ impl CycleStudy<'_> {
     }
 }
 
-/// The cycle of a family that loses its stability to a wave of another harmonic, at the case's own operating point or first along
-/// the branch, and that harmonic.
+/// The cycle of a family that loses its stability to a wave of another harmonic, at the case's own operating point or
+/// first along the branch, and that harmonic.
 fn loses_to_another(result: &CycleResult) -> Option<(&LimitCycle, usize)> {
     let own = result.cycle.as_ref().ok().map(|cycle| (cycle, &result.stability));
     let branch = result.branch.iter().flat_map(|branch| &branch.cycles);

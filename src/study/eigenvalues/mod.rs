@@ -68,8 +68,8 @@ pub struct Solution {
     pub notes: Vec<String>,
 }
 
-/// Modes at the case's own friction coefficient and the onsets over its sweep; mode shapes only of a body without symmetry,
-/// whose modes are recognised by nothing else.
+/// Modes at the case's own friction coefficient and the onsets over its sweep; mode shapes only of a body without
+/// symmetry, whose modes are recognised by nothing else.
 ///
 /// # Errors
 /// Those of the mesh, of steady sliding and of the solver; a frequency limit below the first mode.
@@ -87,11 +87,13 @@ pub fn modes_and_onsets(case: &Case) -> Result<FrictionSweep, StudyError> {
     Ok(sweep)
 }
 
-/// Motions below a frequency limit up to which they are told apart, for so many may be rigid; unknowns up to which tables are tried.
+/// Motions below a frequency limit up to which they are told apart, for so many may be rigid; unknowns up to which
+/// tables are tried.
 const MOST_RIGID: usize = 12;
 const MOST_TABLED: usize = 3_000;
 
-/// Refuses what a run refuses before it follows branches: no steady sliding, no mode below the limit, modes beyond a table.
+/// Refuses what a run refuses before it follows branches: no steady sliding, no mode below the limit, modes beyond a
+/// table.
 ///
 /// Modes without friction are counted: by one factorization of `K - omega^2 M`, or by one of each harmonic.
 ///

@@ -27,7 +27,8 @@ pub enum Solver {
 }
 
 impl Solver {
-    /// The solver that `method` means for the body of a case: `auto` uses the rotational symmetry where the body has it.
+    /// The solver that `method` means for the body of a case: `auto` uses the rotational symmetry where the body has
+    /// it.
     ///
     /// # Errors
     /// A method that the body does not have; a counterface at rest, on which the body sticks.
@@ -239,7 +240,8 @@ impl Model {
         }
     }
 
-    /// The spectrum at the friction coefficients that the model was made for; `progress` hears of every one that is solved.
+    /// The spectrum at the friction coefficients that the model was made for; `progress` hears of every one that is
+    /// solved.
     pub fn spectrum(
         &self,
         case: &Case,
@@ -249,7 +251,8 @@ impl Model {
         self.spectrum_with_waves(case, (request, &[]), progress)
     }
 
-    /// [`Self::spectrum`] that keeps the waves of one sector at some of the friction coefficients, where there are sectors.
+    /// [`Self::spectrum`] that keeps the waves of one sector at some of the friction coefficients, where there are
+    /// sectors.
     pub fn spectrum_with_waves(
         &self,
         case: &Case,
@@ -280,8 +283,8 @@ impl Model {
         }
     }
 
-    /// The model of a case with the base states of this one, of a body solved on its whole mesh: for a case that differs in
-    /// nothing that these depend on.
+    /// The model of a case with the base states of this one, of a body solved on its whole mesh: for a case that
+    /// differs in nothing that these depend on.
     pub(super) fn with_its_states(&self, case: &Case, options: TangentOptions) -> Option<Self> {
         match self {
             Self::Whole(whole) => Some(Self::Whole(Box::new(WholeMesh {
@@ -369,8 +372,8 @@ impl Model {
         })
     }
 
-    /// The spectrum of some harmonics of a plane annulus, without a proof that none is missed; `None` for another body, and
-    /// where a branch meets one that only the whole spectrum has.
+    /// The spectrum of some harmonics of a plane annulus, without a proof that none is missed; `None` for another body,
+    /// and where a branch meets one that only the whole spectrum has.
     pub fn sweep_in(
         &self,
         harmonics: &[usize],
@@ -390,7 +393,8 @@ impl Model {
 fn reduction_note(found: &WaveSweep, request: &SweepRequest<'_>) -> String {
     let frictions = request.friction_coefficients.iter();
     format!(
-        "each harmonic is solved in a small space (residuals are those there): relative error of an eigenvalue up to {:.1e}, \
+        "each harmonic is solved in a small space (residuals are those there): relative error of an eigenvalue up to \
+        {:.1e}, \
          estimated at friction {}",
         found.reduction_error,
         frictions.fold(0.0_f64, |m, &mu| m.max(mu)),

@@ -35,7 +35,8 @@ fn count_note(count: &ModeCount) -> String {
     match &count.missing {
         Ok(0) => format!("{what}: complete{searched}; {place}"),
         Ok(missing @ 1..) => format!(
-            "ALARM: {what}, but {known} are listed: {missing} missing{near}, and a search did not find them{searched}; {place}"
+            "ALARM: {what}, but {known} are listed: {missing} missing{near}, and a search did not find \
+            them{searched}; {place}"
         ),
         Ok(excess) => format!(
             "ALARM: {what}, but {known} are listed: {} of them are none{near}; {place}",
@@ -142,8 +143,8 @@ pub(super) fn damping_note(case: &Case, sweep: &FrictionSweep) -> Option<String>
     ))
 }
 
-/// The modes of a whole mesh that friction across slow sliding damps beyond the critical, that change too fast to be followed, that did
-/// not converge or grow just above the list, and its rigid motions.
+/// The modes of a whole mesh that friction across slow sliding damps beyond the critical, that change too fast to be
+/// followed, that did not converge or grow just above the list, and its rigid motions.
 pub(super) fn ended_notes(sweep: &FrictionSweep) -> Vec<String> {
     let (mut damped, mut lost) = (Vec::new(), Vec::new());
     let between =
@@ -280,7 +281,8 @@ pub(super) fn friction_note(case: &Case, model: &SlidingModel) -> Option<String>
 pub(super) fn coverage_note(model: &Model, coverage: &Coverage) -> String {
     match model {
         Model::SolidSectors(_) => format!(
-            "harmonics {} hold modes at rest (by inertia counts, up to {} of {}) and were followed from {:.0} Hz downwards",
+            "harmonics {} hold modes at rest (by inertia counts, up to {} of {}) and were followed from {:.0} Hz \
+            downwards",
             ranges(&coverage.followed),
             coverage.counted_empty.last().unwrap_or(&coverage.largest_harmonic),
             coverage.largest_harmonic,

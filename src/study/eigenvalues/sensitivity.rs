@@ -46,21 +46,21 @@ struct Place {
     pairs: Vec<Option<ModePair>>,
 }
 
-/// Derivatives of the listed eigenvalues at the case's own friction coefficient, and of the first critical friction coefficient
-/// of their branches, by every number that the case gives its model.
+/// Derivatives of the listed eigenvalues at the case's own friction coefficient, and of the first critical friction
+/// coefficient of their branches, by every number that the case gives its model.
 ///
 /// ```text
 /// d lambda / d p = - w^T (lambda^2 dM/dp + lambda dC/dp + dK/dp) x / w^T (2 lambda M + C) x
 /// d mu_c / d p   = - Re(d lambda / d p) / Re(d lambda / d mu)
 /// ```
 ///
-/// with right and left vectors of the full problem, or of one harmonic of a body that has `waves`, and differences of the
-/// assembled matrices, for which the case is read, its base state solved and its tangent taken with the parameter a little
-/// larger and smaller: pressure, prestress and dashpots of friction follow. Where contact points open or close within that step,
-/// or where modes coincide, there is no derivative.
+/// with right and left vectors of the full problem, or of one harmonic of a body that has `waves`, and differences of
+/// the assembled matrices, for which the case is read, its base state solved and its tangent taken with the parameter a
+/// little larger and smaller: pressure, prestress and dashpots of friction follow. Where contact points open or close
+/// within that step, or where modes coincide, there is no derivative.
 ///
-/// Source: H. M. Adelman, R. T. Haftka, Sensitivity analysis of discrete structural systems, AIAA Journal 24 (1986), section on
-/// the semi-analytical method.
+/// Source: H. M. Adelman, R. T. Haftka, Sensitivity analysis of discrete structural systems, AIAA Journal 24 (1986),
+/// section on the semi-analytical method.
 ///
 /// # Errors
 /// Those of the base state.

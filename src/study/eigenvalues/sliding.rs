@@ -76,7 +76,8 @@ impl SlidingModel {
         Ok(model)
     }
 
-    /// Refuses a contact that nothing presses: friction does nothing there, and critical frictions would be those of no contact.
+    /// Refuses a contact that nothing presses: friction does nothing there, and critical frictions would be those of no
+    /// contact.
     fn refuse_no_pressure(&self, case: &Case) -> Result<(), StudyError> {
         let assembly = case.body.assembly();
         let is_free =

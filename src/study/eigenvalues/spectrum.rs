@@ -35,8 +35,8 @@ pub fn modes_below(case: &Case, limit_hz: f64) -> Result<Vec<ComplexMode>, Study
     Ok(modes_with_waves_below(case, limit_hz, &[])?.0)
 }
 
-/// [`modes_below`] with the branches of a body solved harmonic by harmonic, and with the shapes of the modes where `shapes_at`
-/// holds the case's own friction coefficient.
+/// [`modes_below`] with the branches of a body solved harmonic by harmonic, and with the shapes of the modes where
+/// `shapes_at` holds the case's own friction coefficient.
 pub fn modes_with_waves_below(
     case: &Case,
     limit_hz: f64,
@@ -54,7 +54,8 @@ pub fn modes_with_waves_below(
     Ok((point.map_or_else(Vec::new, |point| point.modes), found.waves))
 }
 
-/// The modes of a case at its own friction coefficient, by frequency; no shapes. With all the symmetry that the body has.
+/// The modes of a case at its own friction coefficient, by frequency; no shapes. With all the symmetry that the body
+/// has.
 ///
 /// # Errors
 /// Those of the mesh, of steady sliding, and of the solver.
@@ -78,7 +79,8 @@ pub struct OnsetSearch {
     pub intervals: Vec<UnstableInterval>,
     /// The harmonics that hold modes, where all were looked at.
     pub followed: Vec<usize>,
-    /// Harmonic and branch of the modes within the range of frequencies at some friction coefficient, each once, rising.
+    /// Harmonic and branch of the modes within the range of frequencies at some friction coefficient, each once,
+    /// rising.
     pub within: Vec<(usize, usize)>,
 }
 

@@ -58,8 +58,8 @@ impl WholeMesh {
         SlidingTangent::linearize(&self.mesh, materials, &stiffness, state, options)
     }
 
-    /// Solves the sparse eigenproblems at the friction coefficients that it was made for: each base state has a tangent and a
-    /// sweep of its own, which the friction coefficients where one state gives way to the next end and begin.
+    /// Solves the sparse eigenproblems at the friction coefficients that it was made for: each base state has a tangent
+    /// and a sweep of its own, which the friction coefficients where one state gives way to the next end and begin.
     pub(super) fn sweep(
         &self,
         case: &Case,
@@ -128,10 +128,12 @@ const COARSE: f64 = 1e-7;
 const MOST_ROUNDS: usize = 30;
 
 impl<S> States<'_, S> {
-    /// A sweep of each state with its tangent, which the friction coefficients where one gives way to the next end and begin.
+    /// A sweep of each state with its tangent, which the friction coefficients where one gives way to the next end and
+    /// begin.
     ///
-    /// Between two friction coefficients asked for contact points may open or close one after the other. Where the stability of a branch
-    /// changes there, the states between are solved too, by bisection, until one of them has the critical friction, or two meet there.
+    /// Between two friction coefficients asked for contact points may open or close one after the other. Where the
+    /// stability of a branch changes there, the states between are solved too, by bisection, until one of them has the
+    /// critical friction, or two meet there.
     pub(super) fn sweep(
         &self,
         request: &SweepRequest<'_>,

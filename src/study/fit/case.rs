@@ -84,14 +84,15 @@ pub fn summarize(
     Ok(summary::of(case, case.require_fit()?, fitted, &before))
 }
 
-/// Lines of a table of modes beyond which it is hardly one: assigning them to modes grows with the cube of their number.
+/// Lines of a table of modes beyond which it is hardly one: assigning them to modes grows with the cube of their
+/// number.
 const MOST_LINES: usize = 1000;
 
 /// Frequencies that a measured mode has, Hz.
 const FREQUENCIES_HZ: [f64; 2] = [1e-3, 1e9];
 
-/// Refuses fewer measured numbers than there are parameters, more lines than modes that anybody measures, and frequencies
-/// that are none.
+/// Refuses fewer measured numbers than there are parameters, more lines than modes that anybody measures, and
+/// frequencies that are none.
 ///
 /// # Errors
 /// [`StudyError::Case`] for a case without `[fit]`, and at `fit.parameters`; [`StudyError::Fit`] for such a table.
@@ -185,8 +186,8 @@ fn model_modes(
     modes.iter().zip(assurances).enumerate().map(of).collect()
 }
 
-/// Derivatives of modes of a body solved harmonic by harmonic by each parameter, with the keys that follow it; `None` where
-/// there is none.
+/// Derivatives of modes of a body solved harmonic by harmonic by each parameter, with the keys that follow it; `None`
+/// where there is none.
 fn wave_rates(
     (case, cea): (&Case, &Cea),
     modes: &[ComplexMode],

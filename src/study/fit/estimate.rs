@@ -42,7 +42,8 @@ pub struct Fitted {
     pub lines: Vec<LineFit>,
     /// All modes of the fitted model.
     pub modes: Vec<ModelMode>,
-    /// Root mean square of the differences of frequencies, and of real parts where measured, as shares of the frequency.
+    /// Root mean square of the differences of frequencies, and of real parts where measured, as shares of the
+    /// frequency.
     pub scatter: [Option<f64>; 2],
     /// Values of the parameters at other minima that the data cannot tell from the best.
     pub others: Vec<Vec<f64>>,
@@ -52,9 +53,9 @@ pub struct Fitted {
 
 /// Fits the parameters.
 ///
-/// Without `sigma_hz` differences weigh as shares of the frequency; frequencies and real parts scatter each by their own
-/// measure where there are eight of each or more, so that the weight between the two is the data's own. Intervals are
-/// those of the linearised model with the scatter of the differences (Student's t).
+/// Without `sigma_hz` differences weigh as shares of the frequency; frequencies and real parts scatter each by their
+/// own measure where there are eight of each or more, so that the weight between the two is the data's own. Intervals
+/// are those of the linearised model with the scatter of the differences (Student's t).
 ///
 /// # Errors
 /// [`FitError`].

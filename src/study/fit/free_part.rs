@@ -42,8 +42,8 @@ pub(super) fn shaped_modes(case: &Case, cea: &Cea) -> Result<Vec<ComplexMode>, S
 /// d omega / d p = phi^T (dK/dp - omega^2 dM/dp) phi / (2 omega phi^T M phi)
 /// ```
 ///
-/// with central differences of the matrices, for which the case is read with the parameter a little larger and smaller; `None`
-/// where it cannot be.
+/// with central differences of the matrices, for which the case is read with the parameter a little larger and smaller;
+/// `None` where it cannot be.
 pub(super) fn rates<'p>(
     case: &Case,
     cea: &Cea,

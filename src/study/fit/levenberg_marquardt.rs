@@ -161,8 +161,8 @@ impl Squares<'_> {
     }
 }
 
-/// The same mode in another spectrum: by its name where the body has harmonics, by the shape of its line if that was measured, else
-/// the nearest.
+/// The same mode in another spectrum: by its name where the body has harmonics, by the shape of its line if that was
+/// measured, else the nearest.
 fn same<'m>(mode: &ModelMode, weights: &Weights, modes: &'m [ModelMode]) -> Option<&'m ModelMode> {
     let distance = |other: &&ModelMode| {
         let away = (other.eigenvalue - mode.eigenvalue).norm() / mode.eigenvalue.norm();

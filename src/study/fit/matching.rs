@@ -2,8 +2,8 @@
 
 use super::{MeasuredMode, ModelMode};
 
-/// Share of a line's own frequency that it costs to be matched by nothing, or by a stable mode where the line was heard:
-/// more than any difference that makes sense.
+/// Share of a line's own frequency that it costs to be matched by nothing, or by a stable mode where the line was
+/// heard: more than any difference that makes sense.
 const PENALTY: f64 = 1.0;
 /// Cost above which a match counts as one that is no number: sums of several would lose the others to round-off.
 const LARGEST_COST: f64 = 1e150;
@@ -77,8 +77,8 @@ pub(super) fn differences(line: &MeasuredMode, mode: &ModelMode) -> [f64; 2] {
     [line.frequency_hz - mode.frequency_hz(), real]
 }
 
-/// The column of each row, all different, at the smallest sum of costs; no more rows than columns. A cost that is no finite number
-/// is dearer than all the others together.
+/// The column of each row, all different, at the smallest sum of costs; no more rows than columns. A cost that is no
+/// finite number is dearer than all the others together.
 ///
 /// Shortest augmenting paths with potentials: R. Jonker, A. Volgenant, "A shortest augmenting path algorithm for dense
 /// and sparse linear assignment problems", Computing 38 (1987) 325.

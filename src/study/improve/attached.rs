@@ -14,8 +14,8 @@
 //!
 //! is solved with all of its eigenvalues, whatever the size of `D`.
 //!
-//! Source: E. J. Grimme, Krylov projection methods for model reduction, thesis, University of Illinois (1997), chapter 3 (two-sided
-//! rational interpolation).
+//! Source: E. J. Grimme, Krylov projection methods for model reduction, thesis, University of Illinois (1997), chapter
+//! 3 (two-sided rational interpolation).
 
 use super::base::{Base, PairedMode};
 use crate::linalg::dense::{dot, transpose_product};
@@ -29,7 +29,8 @@ const MOST_MODES: usize = 16;
 /// Part of its length that a response must keep beside the others.
 const LEAST_PART: f64 = 1e-8;
 
-/// Distance beyond the outermost mode of the space, relative to it, within which eigenvalues of the small problem are modes.
+/// Distance beyond the outermost mode of the space, relative to it, within which eigenvalues of the small problem are
+/// modes.
 const REACH: f64 = 1.02;
 
 /// The projected problem with what is attached, `[M, C, K]` by power of friction.
@@ -76,8 +77,8 @@ impl<'a> NearModes<'a> {
         self.modes.len() == self.base.modes.len()
     }
 
-    /// The problem with `[M, C, K]` attached at some dofs, all of them unknowns that no contact touches. `dynamic` holds frequencies
-    /// and the factors of the whole problem there.
+    /// The problem with `[M, C, K]` attached at some dofs, all of them unknowns that no contact touches. `dynamic`
+    /// holds frequencies and the factors of the whole problem there.
     pub fn attached(
         &self,
         dofs: &[usize],

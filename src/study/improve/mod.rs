@@ -138,7 +138,8 @@ pub fn improve(case: &Case) -> Result<Improvement, StudyError> {
     Ok(Improvement { summary, mesh: Arc::clone(&base.mesh), fields })
 }
 
-/// Sizes of the modifications that the case gives, or that follow, to four digits, from its bodies and the fastest of its targets.
+/// Sizes of the modifications that the case gives, or that follow, to four digits, from its bodies and the fastest of
+/// its targets.
 fn sizes(base: &Base<'_>, thickness: f64) -> Sizes {
     let asked = &base.case.improve;
     let worst = base.outlook.worst.map_or(1.0, |mode| mode.im);

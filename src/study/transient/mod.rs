@@ -5,7 +5,8 @@
 //! use frictionsim::fem::operator::SimdLevel;
 //! use frictionsim::study::transient::TransientStudy;
 //!
-//! # let coarse = ["mesh.circumferential_elements=24", "mesh.radial_elements=4", "output.snapshots=[]", "output.probes=[1]"];
+//! # let mesh = ["mesh.circumferential_elements=24", "mesh.radial_elements=4"];
+//! # let coarse = [&mesh[..], &["output.snapshots=[]", "output.probes=[1]"]].concat();
 //! # let shorter = ["transient.duration=2e-4", "transient.expansion_time=1e-4"];
 //! # let overrides: Vec<String> = coarse.iter().chain(&shorter).map(|text| text.to_string()).collect();
 //! let bytes = std::fs::read("cases/polycarbonate-610rpm.toml")?;
@@ -209,8 +210,8 @@ impl<'a> TransientStudy<'a> {
         })
     }
 
-    /// Sets the run up to its first step: finds out whether it can start, and gives its time step. A limit cycle that it
-    /// would start on is not looked for.
+    /// Sets the run up to its first step: finds out whether it can start, and gives its time step. A limit cycle that
+    /// it would start on is not looked for.
     ///
     /// # Errors
     /// As [`Self::start`] and [`Self::recorder`].

@@ -127,7 +127,8 @@ impl TransientStudy<'_> {
         let frequency = analysis.last_fifth.main_frequency_hz?;
         (frequency > limit).then(|| {
             format!(
-                "the main frequency of {frequency:.1} Hz is above cea.max_frequency_hz = {limit}: `cea` on this case does \
+                "the main frequency of {frequency:.1} Hz is above cea.max_frequency_hz = {limit}: `cea` on this case \
+                does \
                  not find the mode behind it"
             )
         })
@@ -136,8 +137,9 @@ impl TransientStudy<'_> {
 
 /// That the time step costs accuracy.
 ///
-/// Central differences vibrate a little too fast, and nodes that come to rest or leave it do so at whole steps. Where the nodes of
-/// a wave do so one after the other that averages out; where all do at once, the period may be too short by up to a step.
+/// Central differences vibrate a little too fast, and nodes that come to rest or leave it do so at whole steps. Where
+/// the nodes of a wave do so one after the other that averages out; where all do at once, the period may be too short
+/// by up to a step.
 fn coarse_step(record: &Recorder, analysis: &TransientAnalysis, time_step: f64) -> Option<String> {
     let frequency = analysis.last_fifth.main_frequency_hz?;
     let start = record.rows.len() - record.rows.len().div_ceil(5);

@@ -100,7 +100,8 @@ impl<'a> SteppedMesh<'a> {
         self.sector.is_some() || self.assembly.is_some()
     }
 
-    /// What powers and energies are multiplied by, m: those of a body in three dimensions are of the whole, and this is 1.
+    /// What powers and energies are multiplied by, m: those of a body in three dimensions are of the whole, and this is
+    /// 1.
     pub fn thickness(&self, case: &Case) -> f64 {
         if self.is_solid() { 1.0 } else { case.thickness }
     }

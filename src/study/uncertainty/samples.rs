@@ -32,8 +32,8 @@ impl<'a> Sampler<'a> {
     /// The samples of a case.
     ///
     /// # Errors
-    /// A case without uncertain parameters, or that has no onsets to look for as it is written: a method that its body does not
-    /// have, a contact at rest.
+    /// A case without uncertain parameters, or that has no onsets to look for as it is written: a method that its body
+    /// does not have, a contact at rest.
     pub fn new(case: &'a Case) -> Result<Self, StudyError> {
         let uncertainty = case.require_uncertainty()?;
         let sampler = Self { case, uncertainty, plan: SamplePlan::new(uncertainty) };

@@ -58,11 +58,11 @@ pub fn indices(a: &[f64], b: &[f64], mixed: &[Vec<f64>]) -> Vec<[f64; 2]> {
 /// Resamples that the intervals of indices rest on.
 const RESAMPLES: usize = 400;
 
-/// First-order and total index of each parameter with 95 % intervals: the percentiles over samples drawn from the given ones
-/// with replacement.
+/// First-order and total index of each parameter with 95 % intervals: the percentiles over samples drawn from the given
+/// ones with replacement.
 ///
-/// G. E. B. Archer, A. Saltelli, I. M. Sobol, "Sensitivity measures, ANOVA-like techniques and the use of bootstrap", J. Stat.
-/// Comput. Simul. 58 (1997) 99.
+/// G. E. B. Archer, A. Saltelli, I. M. Sobol, "Sensitivity measures, ANOVA-like techniques and the use of bootstrap",
+/// J. Stat. Comput. Simul. 58 (1997) 99.
 pub fn indices_with_intervals(a: &[f64], b: &[f64], mixed: &[Vec<f64>]) -> Vec<Index> {
     let count = a.len();
     // A fixed sequence of numbers: the same samples have the same intervals.

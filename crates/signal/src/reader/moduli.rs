@@ -29,7 +29,8 @@ pub struct ModulusRow {
     pub loss_factor: f64,
 }
 
-/// Reads a table of columns `frequency_hz`, `young_modulus` and `loss_factor`; without names, three columns in this order.
+/// Reads a table of columns `frequency_hz`, `young_modulus` and `loss_factor`; without names, three columns in this
+/// order.
 ///
 /// Nothing is asked of the numbers but that they are some: what a material cannot be is the caller's to say.
 ///

@@ -25,8 +25,9 @@ pub struct MeasuredShape {
 
 /// Reads all shapes of a file: a universal file with datasets 55 and nodes, or a table with a head of names.
 ///
-/// A table has the columns `x`, `y`, `z` (left out in the plane) and, of those measured, `ux`, `uy`, `uz`: complex numbers
-/// `0.1+0.2j`, or two columns `ux_re`, `ux_im` each. `mode` tells several shapes apart, `frequency_hz` is each one's frequency.
+/// A table has the columns `x`, `y`, `z` (left out in the plane) and, of those measured, `ux`, `uy`, `uz`: complex
+/// numbers `0.1+0.2j`, or two columns `ux_re`, `ux_im` each. `mode` tells several shapes apart, `frequency_hz` is each
+/// one's frequency.
 ///
 /// # Errors
 /// [`ReadError`] with the place: no such column, a cell that is no number, a dataset that ends early.

@@ -10,8 +10,8 @@ use crate::study::StudyError;
 use crate::study::transient::SteppedMesh;
 use crate::transient::OperatorChoice;
 
-/// The boundary between the basins of two modes that grow, or between that of one mode and steady sliding, and the numbers of the
-/// two rivals, 0 for steady sliding.
+/// The boundary between the basins of two modes that grow, or between that of one mode and steady sliding, and the
+/// numbers of the two rivals, 0 for steady sliding.
 ///
 /// # Errors
 /// A mode that there is not; a body that the time loop cannot take.

@@ -10,8 +10,8 @@ use std::f64::consts::TAU;
 /// Difference of the areas of two surfaces that cover each other wholly.
 const SAME: f64 = 0.01;
 
-/// The flat faces of a body in three dimensions that are in air; none of a plane body, whose faces do not move along their normals
-/// and whose thin edges send no beam.
+/// The flat faces of a body in three dimensions that are in air; none of a plane body, whose faces do not move along
+/// their normals and whose thin edges send no beam.
 pub fn faces_in_air(case: &Case, stepped: &SteppedMesh<'_>) -> Vec<FlatFace> {
     match (&stepped.sector, case.body.assembly()) {
         (Some(sector), _) => [SolidFace::Top, SolidFace::Bottom]

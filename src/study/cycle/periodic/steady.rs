@@ -91,8 +91,8 @@ impl Steady {
         Self::of(&other, &SteppedMesh::of(&other)?)
     }
 
-    /// The lowest critical friction coefficient above the case's own, at which sliding is stable; none up to 2, nor of solid bodies,
-    /// where each value has a contact of its own.
+    /// The lowest critical friction coefficient above the case's own, at which sliding is stable; none up to 2, nor of
+    /// solid bodies, where each value has a contact of its own.
     pub fn critical_friction(case: &Case, stepped: &SteppedMesh<'_>) -> Option<f64> {
         let friction = case.contact.sliding.friction_coefficient;
         if stepped.assembly.is_some() || friction <= 0.0 {

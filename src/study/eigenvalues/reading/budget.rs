@@ -7,8 +7,8 @@ use crate::linalg::c64;
 use crate::results::cea::{Contribution, ModeName, Source};
 use crate::study::eigenvalues::sliding::SlidingModel;
 
-/// Forms of each mode of one friction value in one region or support: `phi^H M phi` (NaN without mass), `phi^H K phi`, and what
-/// takes part in the damping, `phi^H C phi`.
+/// Forms of each mode of one friction value in one region or support: `phi^H M phi` (NaN without mass), `phi^H K phi`,
+/// and what takes part in the damping, `phi^H C phi`.
 pub(super) struct Row {
     pub name: String,
     pub source: Source,
@@ -133,8 +133,8 @@ impl Parts<'_> {
         rows
     }
 
-    /// What the gyroscopic forces `lambda G` of regions that turn add: `G` is skew, `phi^H G phi = i g`, and takes no power of a
-    /// motion that neither grows nor decays; of one that does `-sigma g / (2 omega m)`.
+    /// What the gyroscopic forces `lambda G` of regions that turn add: `G` is skew, `phi^H G phi = i g`, and takes no
+    /// power of a motion that neither grows nor decays; of one that does `-sigma g / (2 omega m)`.
     pub fn of_rotation(&self, shapes: &Shapes<'_>, sums: &mut Sums) -> Option<Row> {
         let [gyroscopic, transport] = self.rotation.as_ref()?.multiply(shapes.columns.as_ref());
         let skew = shapes.skew_forms(&gyroscopic);
@@ -165,8 +165,8 @@ impl Parts<'_> {
         names.zip(shares).collect()
     }
 
-    /// `Im(phi^H f) / (2 omega m)` of the forces on the surfaces of each contact; what forces on nodes of two contacts leave of the
-    /// sum `fed` is shared out evenly.
+    /// `Im(phi^H f) / (2 omega m)` of the forces on the surfaces of each contact; what forces on nodes of two contacts
+    /// leave of the sum `fed` is shared out evenly.
     fn feeds(
         &self,
         shapes: &Shapes<'_>,

@@ -9,7 +9,8 @@
 //! mu_h - mu = - Re(lambda_h - lambda) / Re(d lambda / d mu)                  at critical friction
 //! ```
 //!
-//! with `a(e_w, e_x)` of [`DiscretizationError`]. Outlines that the mesh cuts off, and geometry of its own, are no part of it.
+//! with `a(e_w, e_x)` of [`DiscretizationError`]. Outlines that the mesh cuts off, and geometry of its own, are no part
+//! of it.
 
 use super::parts::Parts;
 use crate::case::Case;
@@ -24,14 +25,15 @@ const MOST_DAMPED: f64 = 0.2;
 /// Modes for which the estimate is made at every friction value; of more, at the ends and at the case's own friction.
 const MOST_MODES: f64 = 256.0;
 
-/// Whether it is made: not with a mass that is lumped, whose own error it would leave out, nor with a modulus that follows a table.
+/// Whether it is made: not with a mass that is lumped, whose own error it would leave out, nor with a modulus that
+/// follows a table.
 fn is_made(case: &Case, mass: MassKind) -> bool {
     let mut regions = 0..case.body.region_count();
     mass == MassKind::Consistent && regions.all(|region| case.materials().table(region).is_none())
 }
 
-/// Those of the friction values `shown` with their shapes at which it is made, and so left vectors are needed, of about so many
-/// `modes` each.
+/// Those of the friction values `shown` with their shapes at which it is made, and so left vectors are needed, of about
+/// so many `modes` each.
 pub fn lefts_needed(case: &Case, mass: MassKind, shown: &[f64], modes: f64) -> Vec<f64> {
     let least = shown.iter().copied().fold(f64::INFINITY, f64::min);
     let most = shown.iter().copied().fold(f64::NEG_INFINITY, f64::max);

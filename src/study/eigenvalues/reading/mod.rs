@@ -1,6 +1,7 @@
 //! Where the growth of a mode comes from, and which modes couple.
 //!
-//! With `phi` a mode over all dofs, `m = phi^H M phi`, `c` and `k` alike, and `p` the power-like product of the contact forces,
+//! With `phi` a mode over all dofs, `m = phi^H M phi`, `c` and `k` alike, and `p` the power-like product of the contact
+//! forces,
 //!
 //! ```text
 //! lambda^2 m + lambda c + k + i h = p,     lambda = sigma + i omega
@@ -32,8 +33,8 @@ use shapes::Shapes;
 /// Bytes of mode shapes over a sweep beyond which they are taken at the ends and at the case's own friction alone.
 const MOST_SHAPES: f64 = 5e8;
 
-/// Friction coefficients whose shapes the reading needs, of those that are solved: all of them on a whole mesh, or the lowest and the
-/// case's own where they would fill the memory; none where the waves of one sector are enough.
+/// Friction coefficients whose shapes the reading needs, of those that are solved: all of them on a whole mesh, or the
+/// lowest and the case's own where they would fill the memory; none where the waves of one sector are enough.
 pub(super) fn shapes_needed(case: &Case, model: &Model, frictions: &[f64], modes: f64) -> Vec<f64> {
     let dofs = case.body.dimension() as f64 * case.body.node_count() as f64;
     let own = case.contact.sliding.friction_coefficient;

@@ -182,7 +182,8 @@ impl<'a> Parts<'a> {
     }
 }
 
-/// The dofs on both surfaces of each contact; a node that several contacts touch is of the one whose finer surface is nearest.
+/// The dofs on both surfaces of each contact; a node that several contacts touch is of the one whose finer surface is
+/// nearest.
 fn contact_dofs(mesh: &Mesh, contacts: &[(String, Vec<usize>)]) -> Vec<(String, Vec<usize>)> {
     let nodes = |boundary: usize| mesh.boundaries[boundary].nodes.iter().map(|&n| n as usize);
     let distance = |node: usize, contact: usize| {

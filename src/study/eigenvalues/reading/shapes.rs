@@ -93,8 +93,8 @@ impl<'a> Shapes<'a> {
         }
     }
 
-    /// Shares of the reference modes in every unstable mode, the largest first: `|phi_ref^H M phi|^2` over the product of
-    /// both modes' `phi^H M phi`, with `M phi` of these shapes and of the references.
+    /// Shares of the reference modes in every unstable mode, the largest first: `|phi_ref^H M phi|^2` over the product
+    /// of both modes' `phi^H M phi`, with `M phi` of these shapes and of the references.
     pub fn couplings(
         &self,
         own_images: &Mat<f64>,

@@ -130,8 +130,8 @@ impl Apart {
 
     /// The feed of the unstable modes at the case's own friction coefficient.
     ///
-    /// What a small space of a harmonic, or round-off, leaves between the forces on the contact nodes and the contact's part in the
-    /// budget is spread over the area.
+    /// What a small space of a harmonic, or round-off, leaves between the forces on the contact nodes and the contact's
+    /// part in the budget is spread over the area.
     fn feed(
         &self,
         case: &Case,
@@ -189,8 +189,8 @@ impl Apart {
 const CONTACT: &str = "contact";
 
 impl Waving<'_> {
-    /// The modes of the lowest friction value in this one, the largest share first. Waves of different harmonics, and those that
-    /// travel in opposite directions, are orthogonal.
+    /// The modes of the lowest friction value in this one, the largest share first. Waves of different harmonics, and
+    /// those that travel in opposite directions, are orthogonal.
     fn couplings(&self, references: &[Waving<'_>]) -> Vec<Coupling> {
         let is_alike = |other: &&Waving<'_>| {
             (other.mode.harmonic, other.wave.is_backward)

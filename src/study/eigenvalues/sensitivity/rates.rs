@@ -11,8 +11,9 @@ use crate::study::eigenvalues::model::{Model, Solver};
 use crate::study::tangent_options;
 use std::f64::consts::TAU;
 
-/// Step of a parameter for the differences of the matrices, relative to its value: entries are linear in most parameters, and
-/// smooth in the others to `STEP^2`; their round-off, divided by it, stays small beside a mode's own stiffness.
+/// Step of a parameter for the differences of the matrices, relative to its value: entries are linear in most
+/// parameters, and smooth in the others to `STEP^2`; their round-off, divided by it, stays small beside a mode's own
+/// stiffness.
 const STEP: f64 = 1e-4;
 /// How much longer the steps of waves are, whose quotients are of fourth order: their matrices are small.
 const WIDER: f64 = 10.0;
@@ -88,8 +89,8 @@ impl Linearized {
         self.model.pressed(self.model.state_of()[place])
     }
 
-    /// Nonzero values of `K`, `C`, `M` and the structural damping `H` there, empty without, at a frequency in Hz where stiffness
-    /// depends on that.
+    /// Nonzero values of `K`, `C`, `M` and the structural damping `H` there, empty without, at a frequency in Hz where
+    /// stiffness depends on that.
     fn values(&self, place: usize, frequency_hz: f64) -> [Vec<f64>; 4] {
         let (tangent, mu) = (self.tangent(place), self.frictions[place]);
         let tangent = tangent.at_frequency(frequency_hz);
@@ -103,8 +104,8 @@ impl Linearized {
     }
 }
 
-/// The terms of a difference quotient with their weights: on either side of a value, or on one side where the other is refused,
-/// both to the square of the step.
+/// The terms of a difference quotient with their weights: on either side of a value, or on one side where the other is
+/// refused, both to the square of the step.
 ///
 /// # Errors
 /// Why there is no value on either side.
@@ -122,8 +123,8 @@ fn quotient<T>(
     Ok(vec![(2.0 / side, near), (-0.5 / side, far), (-1.5 / side, own)])
 }
 
-/// Derivatives of eigenpairs of waves at the friction coefficient of a case by a parameter from its `value` on; `moved` is the
-/// case with it elsewhere.
+/// Derivatives of eigenpairs of waves at the friction coefficient of a case by a parameter from its `value` on; `moved`
+/// is the case with it elsewhere.
 ///
 /// # Errors
 /// Why there are none.

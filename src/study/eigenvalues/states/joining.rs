@@ -109,7 +109,8 @@ pub fn label(parts: &mut [Part]) {
     }
 }
 
-/// One sweep of the parts, with the friction coefficients asked for: one at which a state gives way to the next is that of the next.
+/// One sweep of the parts, with the friction coefficients asked for: one at which a state gives way to the next is that
+/// of the next.
 pub fn joined(mut parts: Vec<Part>, frictions: &[f64]) -> FrictionSweep {
     let found = joined_intervals(&mut parts, frictions);
     let parts: Vec<FrictionSweep> = parts.into_iter().map(|part| part.sweep).collect();
@@ -162,7 +163,8 @@ fn joined_intervals(
                     known.restabilized = interval.restabilized;
                     continue;
                 }
-                // One that is stable before the change begins at it; one that was not there came from above the range, or was lost.
+                // One that is stable before the change begins at it; one that was not there came from above the range,
+                // or was lost.
                 let last = before.last().and_then(Part::last).map_or(&[][..], |last| &last.modes);
                 let is_known = last.iter().any(|mode| name(mode) == own);
                 let earlier =

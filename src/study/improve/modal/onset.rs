@@ -7,19 +7,22 @@ use crate::linalg::{LinalgError, c64};
 const SCAN: usize = 12;
 const HALVINGS: usize = 14;
 
-/// Error of the onset without a change, relative to it, up to which the closer model is taken at other friction than the base's.
+/// Error of the onset without a change, relative to it, up to which the closer model is taken at other friction than
+/// the base's.
 const HOLDS: f64 = 0.03;
 
 impl ModalModel<'_> {
-    /// The friction coefficient above which, up to that of the base, a mode of the window grows; `None` where none does there.
+    /// The friction coefficient above which, up to that of the base, a mode of the window grows; `None` where none does
+    /// there.
     pub fn onset(&self, change: Option<&Change>) -> Result<Option<f64>, LinalgError> {
         self.onset_of(&|mu| self.spectrum(mu, change))
     }
 
-    /// [`Self::onset`] less what the small problem is off for the body without the change, of which the onset is `known`.
+    /// [`Self::onset`] less what the small problem is off for the body without the change, of which the onset is
+    /// `known`.
     ///
-    /// The vectors are those of the base's own friction coefficient. Where the closer model of what is attached to a node does not hold
-    /// down to that onset, the listed modes alone are taken.
+    /// The vectors are those of the base's own friction coefficient. Where the closer model of what is attached to a
+    /// node does not hold down to that onset, the listed modes alone are taken.
     pub fn corrected_onset(
         &self,
         change: &Change,
