@@ -260,7 +260,7 @@ impl Body {
 
     /// Whether the springs of a support have structural damping.
     pub(super) fn has_lossy_supports(&self) -> bool {
-        let is_lossy = |condition: &BoundaryCondition| matches!(condition, BoundaryCondition::Support(own) if own.loss_factor != 0.0);
+        let is_lossy = |own: &BoundaryCondition| matches!(own, BoundaryCondition::Support(s) if s.loss_factor != 0.0);
         match self {
             Self::Annulus(annulus) => {
                 let (outer, shaft) = (&annulus.specification.outer, annulus.specification.shaft);

@@ -118,6 +118,22 @@ fn no_room_has_more_lines_than_its_budget() {
     assert!(broken.is_empty(), "{}", broken.join("\n"));
 }
 
+/// Texts and comments too, which the formatter leaves as they are.
+#[test]
+fn lines_of_the_upper_rooms_have_120_columns_at_most() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut files = Vec::new();
+    let rooms = ["src/case", "src/study", "src/results", "src/output", "src/app"];
+    for room in rooms.iter().chain(&["crates/chart", "crates/signal"]) {
+        rust_files(&root.join(room), &mut files);
+    }
+    for path in files {
+        let code = fs::read_to_string(&path).unwrap();
+        let long = code.lines().position(|line| line.chars().count() > 120);
+        assert_eq!(long, None, "{}, counted from 0", path.display());
+    }
+}
+
 /// Code without its line comments.
 fn without_comments(code: &str) -> String {
     let lines = code.lines();

@@ -227,7 +227,11 @@ mod tests {
 
     #[test]
     fn a_column_has_one_mode_in_all_rows_whatever_its_rank() {
-        let onset = |branch: usize, mu: f64| json!({ "harmonic": 1, "branch": branch, "direction": -1, "critical_friction": mu });
+        let onset = |branch: usize, mu: f64| {
+            let mut own = json!({ "harmonic": 1, "branch": branch, "direction": -1 });
+            own["critical_friction"] = json!(mu);
+            own
+        };
         let both = record(1, json!({ "onsets": [onset(1, 0.1), onset(0, 0.2)] }));
         let one = record(2, json!({ "onsets": [onset(0, 0.15)] }));
         let text = table(&[both, one]);
