@@ -54,7 +54,8 @@ pub enum PrestressError {
     #[error(
         "there is no state of steady sliding at friction {friction_coefficient}: every choice of \
          pressed and open contact nodes pulls one or lets one penetrate. Friction this large has \
-         no such state, or several. Lower the friction coefficient"
+         no such state, or several. Lower contact.friction_coefficient, or the largest of \
+         cea.friction_coefficients"
     )]
     NoState {
         /// Friction coefficient.
