@@ -251,6 +251,10 @@ impl MatrixPolynomial {
     #[inline]
     pub fn cancellation(&self, mu: f64) -> f64 {
         let largest = |values: &[f64]| values.iter().fold(0.0_f64, |most, v| most.max(v.abs()));
+        // Two terms are a stiffness and its change: they do not cancel each other.
+        if self.coefficients.len() <= 2 {
+            return 1.0;
+        }
         let terms = self.coefficients.iter().enumerate();
         let terms = terms.map(|(place, own)| self.weights().at(place, mu).abs() * largest(own));
         match largest(&self.evaluate(mu)) {

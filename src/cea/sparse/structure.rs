@@ -22,8 +22,8 @@ pub struct StructureMatrices<'a> {
     /// Parts whose stiffness depends on frequency, with its nonzero values by rows.
     tabled: Vec<(&'a TabledStiffness, Vec<f64>)>,
     linearization: Linearization,
-    /// How many times larger than `K`, `C` and `M` the rounded terms of each are, where that shows.
-    rounding: [f64; 3],
+    /// What they are evaluated from, and where.
+    source: (&'a SlidingTangent, f64),
 }
 
 impl<'a> StructureMatrices<'a> {
@@ -34,14 +34,13 @@ impl<'a> StructureMatrices<'a> {
         let damping = if is_general { of(&tangent.damping) } else { Vec::new() };
         let structural = tangent.structural.as_ref().filter(|_| is_general);
         let tabled = tangent.tabled.iter().filter(|_| is_general);
-        let all = [&tangent.stiffness, &tangent.damping, &tangent.mass];
         Self {
             pattern: tangent.stiffness.pattern(),
             values: [of(&tangent.stiffness), damping, of(&tangent.mass)],
             structural: structural.map(of),
             tabled: tabled.map(|part| (part, of(&part.stiffness))).collect(),
             linearization,
-            rounding: all.map(|p| (p.cancellation(mu) / CANCELLING).max(1.0)),
+            source: (tangent, mu),
         }
     }
 
@@ -122,7 +121,10 @@ impl<'a> StructureMatrices<'a> {
             };
             (0..self.pattern.dimension()).map(row_sum).fold(0.0, f64::max)
         };
-        let [stiff, damped, inert] = [0, 1, 2].map(|i| self.rounding[i] * norm(&self.values[i]));
+        let (tangent, mu) = self.source;
+        let terms = [&tangent.stiffness, &tangent.damping, &tangent.mass];
+        let rounding = terms.map(|p| (p.cancellation(mu) / CANCELLING).max(1.0));
+        let [stiff, damped, inert] = [0, 1, 2].map(|i| rounding[i] * norm(&self.values[i]));
         let damped = match self.linearization {
             Linearization::Reduced(damping, _) => {
                 damping.mass_coefficient * inert + damping.stiffness_coefficient * stiff
