@@ -247,8 +247,8 @@ fn refuse_input_inside(folder: &Path, input: &Path) -> Result<(), Failure> {
         return Ok(());
     }
     Err(Failure::usage(format!(
-        "--force would replace {}, which is the input: choose another folder with --out, or move the file out of this \
-        one",
+        "--force would replace {}, which is the input: choose another folder with --out, or move \
+        the file out of this one",
         input.display()
     )))
 }

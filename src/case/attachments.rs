@@ -21,8 +21,8 @@ pub(super) fn reshaped_annulus(
     let key = first.map_or_else(String::new, |own| format!("modifications.{}", own.name));
     let spec = &annulus.specification;
     if spec.shaft.is_some() {
-        let why = "modifications are for one body on a rigid cylinder; give a disc with a deformable shaft as a mesh \
-        file";
+        let why = "modifications are for one body on a rigid cylinder; give a disc with a \
+        deformable shaft as a mesh file";
         return Err((key, why.to_owned()));
     }
     let mesh = crate::mesh::AnnulusMesh::generate(spec);

@@ -260,7 +260,11 @@ impl Body {
 
     /// Whether the springs of a support have structural damping.
     pub(super) fn has_lossy_supports(&self) -> bool {
-        let is_lossy = |own: &BoundaryCondition| matches!(own, BoundaryCondition::Support(s) if s.loss_factor != 0.0);
+        let loss_factor = |own: &BoundaryCondition| match own {
+            BoundaryCondition::Support(support) => support.loss_factor,
+            _ => 0.0,
+        };
+        let is_lossy = |own: &BoundaryCondition| loss_factor(own) != 0.0;
         match self {
             Self::Annulus(annulus) => {
                 let (outer, shaft) = (&annulus.specification.outer, annulus.specification.shaft);

@@ -99,8 +99,8 @@ impl Case {
         match &self.body {
             Body::Annulus(_) => self.require_quad4("limit cycles need \"quad4\"")?,
             Body::Revolution(_) => self.require_quad4(
-                "limit cycles need bricks of 8 nodes, \"quad4\": they are motions of the transient, which lumps the \
-                mass",
+                "limit cycles need bricks of 8 nodes, \"quad4\": they are motions of the \
+                transient, which lumps the mass",
             )?,
             Body::Imported(_) => {}
             Body::Assembly(assembly) => self.check_stepped(assembly)?,

@@ -161,11 +161,16 @@ fn material_section(
                 }
                 MaterialAxes::Cylindrical([from, to]) => {
                     left_out.push(LeftOut {
-                        keyword: format!("axis of the cylindrical orientation of {}", material.region),
+                        keyword: format!(
+                            "axis of the cylindrical orientation of {}",
+                            material.region
+                        ),
                         place: material.place.clone(),
                         count: 1,
-                        reason: format!("axes are about the motion's axis here, there through {from:?} and {to:?}: \
-                        check it"),
+                        reason: format!(
+                            "axes are about the motion's axis here, there through \
+                        {from:?} and {to:?}: check it"
+                        ),
                         is_part: false,
                     });
                     text("cylindrical")

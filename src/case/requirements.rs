@@ -148,12 +148,12 @@ impl Case {
         }
         Err(self.loss_error(
             format!(
-                "{what} is over time, and a stiffness K (1 + i eta) belongs to one frequency: in time it would act \
-                before its cause"
+                "{what} is over time, and a stiffness K (1 + i eta) belongs to one frequency: in \
+                time it would act before its cause"
             ),
             "for `cea` and `frf`",
-            "use damping.stiffness_coefficient = eta / (2 pi f), which loses as much at the frequency f, and set \
-            loss_factor = 0",
+            "use damping.stiffness_coefficient = eta / (2 pi f), which loses as much at the \
+            frequency f, and set loss_factor = 0",
         ))
     }
 

@@ -43,8 +43,8 @@ pub fn case_from(path: &Path, shown: &str) -> Result<String, String> {
     let word = ["m-kg-s", "mm-t-s"][usize::from(units == UnitsWord::MmTS)];
     let _ = write!(
         out,
-        "# Made from {shown} by `frictionsim init --from`. Values are in SI units; what stands here wins over the \
-        file.\n\
+        "# Made from {shown} by `frictionsim init --from`. Values are in SI units; what stands \
+        here wins over the file.\n\
          title = {title}\n\n[mesh]\nfile = {}\nunits = \"{word}\"    # of the file: {reason}\n",
         RawValue::String(shown.to_owned())
     );
@@ -52,8 +52,8 @@ pub fn case_from(path: &Path, shown: &str) -> Result<String, String> {
     if !lost.is_empty() {
         let _ = writeln!(
             out,
-            "# CHOOSE: the file holds, loads or joins parts by what is not understood (below). Without it the answer \
-            is that of\n\
+            "# CHOOSE: the file holds, loads or joins parts by what is not understood (below). \
+            Without it the answer is that of\n\
              # another structure: say it in this case in other words, or leave it out:\n# {}",
             drop_key(&lost)
         );
@@ -179,8 +179,8 @@ fn proposed_motion(file: &FileMesh, units: UnitsWord, sections: &[FileSection], 
     let center = sum / nodes.len() as f64 * 10f64.powi(units.length());
     let _ = write!(
         out,
-        "\n[motion.{}]    # CHOOSE: the file has none; about the mean normal of {}, through the mean of the region's \
-        nodes\n\
+        "\n[motion.{}]    # CHOOSE: the file has none; about the mean normal of {}, through the \
+        mean of the region's nodes\n\
          axis = [{}, {}, {}]\ncenter = [{}, {}, {}]    # m\nrotation_speed_rpm = {SPEED_RPM:?}\n",
         quote(&region),
         contact.counter,
@@ -213,15 +213,15 @@ fn plane_contact(file: &FileMesh) -> String {
     match file.model.contacts.first() {
         Some(contact) => format!(
             "\n[contact]\nboundary = {}\ncounterface = \"body\"\ncounter_boundary = {}\nfriction_coefficient = {}\n\
-             interference = 1e-6    # CHOOSE\nspeed = 1.0    # CHOOSE: m/s along a straight contact, or \
-             rotation_speed_rpm\n",
+             interference = 1e-6    # CHOOSE\nspeed = 1.0    # CHOOSE: m/s along a straight \
+             contact, or rotation_speed_rpm\n",
             RawValue::String(contact.surface.clone()),
             RawValue::String(contact.counter.clone()),
             friction(contact.friction_coefficient)
         ),
         None => format!(
-            "\n[contact]    # CHOOSE: the curve that touches, of {}, and what it slides on\nboundary = \
-            {}\ncounterface = \"plane\"\n\
+            "\n[contact]    # CHOOSE: the curve that touches, of {}, and what it slides \
+            on\nboundary = {}\ncounterface = \"plane\"\n\
              friction_coefficient = {FRICTION}\ninterference = 1e-6\nspeed = 1.0\n",
             names.join(", "),
             RawValue::String(names.first().copied().unwrap_or_default().to_owned())
@@ -241,8 +241,8 @@ fn analysis(file: &FileMesh, out: &mut String) {
         let surfaces: Vec<&str> = file.surfaces.keys().map(String::as_str).collect();
         let _ = write!(
             out,
-            "\n# A contact: the file names none. Its surfaces are {}.\n# [contacts.NAME]\n# surface = \"...\"    # \
-            the finer, softer one\n\
+            "\n# A contact: the file names none. Its surfaces are {}.\n# [contacts.NAME]\n# \
+            surface = \"...\"    # the finer, softer one\n\
              # counter = \"...\"\n# friction_coefficient = {FRICTION}\n# [motion.REGION]\n# axis = [0.0, 0.0, 1.0]\n\
              # rotation_speed_rpm = {SPEED_RPM:?}\n",
             surfaces.join(", ")

@@ -148,8 +148,8 @@ fn sound(rows: &[ModulusRow]) -> Result<(), (usize, String, &'static str)> {
         }
         if loss_factor > 1.0 {
             let what = format!(
-                "the loss factor {loss_factor} is beyond 1, where half of the strain energy is lost in a sixth of a \
-                cycle"
+                "the loss factor {loss_factor} is beyond 1, where half of the strain energy is \
+                lost in a sixth of a cycle"
             );
             return Err((line, what, "at most 1; rubber has 0.1 to 1. Is it in percent?"));
         }

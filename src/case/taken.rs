@@ -282,13 +282,13 @@ impl Taken {
             let _ = write!(named, "; {more} more");
         }
         let message = format!(
-            "{} holds, loads or joins parts by what is not understood: {named}; the answer would be that of another \
-            structure",
+            "{} holds, loads or joins parts by what is not understood: {named}; the answer would \
+            be that of another structure",
             self.file
         );
         let help = format!(
-            "say the same in the case (boundaries, ties, contacts, modifications), and what may be left out in \
-            [mesh]: {}",
+            "say the same in the case (boundaries, ties, contacts, modifications), and what may be \
+            left out in [mesh]: {}",
             drop_key(&self.missing_parts)
         );
         Some(Diagnostic::error(message, "parts would be missing", at.clone(), Some(help)))

@@ -30,8 +30,8 @@ impl Extent {
         match self {
             Self::WholeBody => None,
             Self::MetreOfThickness => Some(
-                "forces, torques, powers and energies are for each metre of thickness: the case gives no \
-                geometry.thickness",
+                "forces, torques, powers and energies are for each metre of thickness: the case \
+                gives no geometry.thickness",
             ),
         }
     }

@@ -199,8 +199,8 @@ impl Study {
             }
         }
         let caption = format!(
-            "Main frequency of the vibration over {}, with markers for the number of nodal diameters; dashed: \
-            unstable modes{}.",
+            "Main frequency of the vibration over {}, with markers for the number of nodal \
+            diameters; dashed: unstable modes{}.",
             self.over(),
             self.ring_caption()
         );

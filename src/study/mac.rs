@@ -186,8 +186,8 @@ impl Placed {
     fn note(&self, shape: &MeasuredShape, size: f64) -> Option<String> {
         (self.off > 0).then(|| {
             format!(
-                "shape {}: {} of {} points lie off the body, up to {:.3e} m from it (more than {:.1e} m), and are \
-                left out",
+                "shape {}: {} of {} points lie off the body, up to {:.3e} m from it (more than \
+                {:.1e} m), and are left out",
                 shape.name,
                 self.off,
                 shape.points.len(),

@@ -99,8 +99,9 @@ impl<'a> FrequencyStudy<'a> {
             }
             FrfMethod::Reduced if is_lossy => {
                 let refusal = case.loss_error(
-                    "frf.method = \"reduced\" projects on real spaces of viscous damping, which structural damping is \
-                    not".to_owned(),
+                    "frf.method = \"reduced\" projects on real spaces of viscous damping, which \
+                    structural damping is not"
+                        .to_owned(),
                     "not in a reduced model",
                     "use frf.method = \"direct\"",
                 );

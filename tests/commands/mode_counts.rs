@@ -79,7 +79,8 @@ fn jaw() -> String {
     let elements: Vec<String> = lines.chain(faces).collect();
     let numbered = elements.iter().enumerate().map(|(e, element)| format!("{} {element}", e + 1));
     format!(
-        "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n3\n1 1 \"sole\"\n1 2 \"top\"\n2 3 \"jaw\"\n\
+        "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n3\n1 1 \"sole\"\n1 2 \"top\"\n\
+        2 3 \"jaw\"\n\
          $EndPhysicalNames\n$Nodes\n{}\n{}$EndNodes\n$Elements\n{}\n{}$EndElements\n",
         nodes.len(),
         nodes.iter().map(node).collect::<String>(),
@@ -95,7 +96,8 @@ fn modes_near_jamming_are_listed_as_far_as_rounding_lets_them() {
     let folder = folder_with(&[("jaw.msh", jaw().as_bytes())]);
     let case = "[mesh]\nfile = \"jaw.msh\"\nunits = \"mm-t-s\"\n\
         [material]\nyoung_modulus = 2.1e11\npoisson_ratio = 0.3\ndensity = 7850.0\n\
-        [boundaries.top]\ncondition = \"support\"\nnormal_stiffness = 1e12\ntangential_stiffness = 1e12\n\
+        [boundaries.top]\ncondition = \"support\"\nnormal_stiffness = 1e12\n\
+        tangential_stiffness = 1e12\n\
         [damping]\nstiffness_coefficient = 1e-8\n\
         [contact]\nboundary = \"sole\"\ncounterface = \"plane\"\nspeed = 1.0\n\
         friction_coefficient = 0.33\ninterference = 1e-6\n[cea]\nmodes = 20\n";

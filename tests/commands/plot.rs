@@ -113,21 +113,25 @@ drawn_again! {
     study_figures_are_drawn_again: "sweep" on "speed-friction-study.toml" with [
         COARSE[0],
         COARSE[1],
-        "output.probes=[1] ; transient.duration=0.004 ; sweep.\"contact.rotation_speed_rpm\"=[70,610]",
+        "output.probes=[1] ; transient.duration=0.004 ; \
+         sweep.\"contact.rotation_speed_rpm\"=[70,610]",
         "sweep.\"contact.friction_coefficient\"=[0.3]",
     ];
     "frequencies status", of which "frequencies" says &["unstable mode of the eigenvalue analysis"];
 
     limit_cycle_figures_are_drawn_again: "cycle" on "limit-cycle.toml" with
         [CYCLE_MESH, "cycle.continuation.count=9"];
-    "contact-n1 history-n1 orbit-n1 contact-n2 history-n2 orbit-n2 velocity shear-stress branch-frequencies branch-shares",
+    "contact-n1 history-n1 orbit-n1 contact-n2 history-n2 orbit-n2 velocity shear-stress \
+     branch-frequencies branch-shares",
         of which "branch-frequencies" says &["rotation speed", "onset of the instability"];
 
     figures_of_cycles_of_a_whole_mesh_are_drawn_again: "cycle" on "sliding-block.toml" with [
         "contact.friction_coefficient=0.7 ; cycle.stability=\"branch\"",
-        "cycle.continuation={ key = \"contact.friction_coefficient\", from = 0.69, to = 0.71, count = 3 }",
+        "cycle.continuation={ key = \"contact.friction_coefficient\", from = 0.69, to = 0.71, \
+         count = 3 }",
     ];
-    "status-mode7 contact-mode7 history-mode7 orbit-mode7 harmonics-mode7 branch-frequencies branch-shares velocity shear-stress",
+    "status-mode7 contact-mode7 history-mode7 orbit-mode7 harmonics-mode7 branch-frequencies \
+     branch-shares velocity shear-stress",
         of which "velocity" says &[];
 
     figures_of_a_study_of_limit_cycles_are_drawn_again: "sweep" on "limit-cycle.toml" with [

@@ -46,8 +46,8 @@ pub(super) fn search(summary: &BasinSummary) -> Result<Figure, ChartError> {
         match summary.of_modes {
             true => "What wins over the ratio, one point for each transient.",
             false => {
-                "The wave that wins over the ratio of the amplitudes of both at the first stick or opening, one point \
-                for each transient."
+                "The wave that wins over the ratio of the amplitudes of both at the first stick or \
+                opening, one point for each transient."
             }
         },
     )

@@ -89,8 +89,8 @@ pub fn basin_map(records: &[PointRecord]) -> Result<Figure, ChartError> {
             ));
     }
     let caption = format!(
-        "Amplitude of *n* = {two} over that of *n* = {one} at the first stick or opening, above which *n* = {two} \
-        wins; bars: the \
+        "Amplitude of *n* = {two} over that of *n* = {one} at the first stick or opening, above \
+        which *n* = {two} wins; bars: the \
          bounds found."
     );
     Ok(Figure::new("basins", caption).panel(panel))

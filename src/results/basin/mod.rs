@@ -140,8 +140,8 @@ impl BasinSummary {
             }
             return match (self.winner, self.boundary.low, self.boundary.high) {
                 (Some(0), Some(low), _) => format!(
-                    "steady sliding comes back from every kick along {name} looked at, up to {low:.3} of the one that \
-                    makes a contact \
+                    "steady sliding comes back from every kick along {name} looked at, up to \
+                    {low:.3} of the one that makes a contact \
                      node stick"
                 ),
                 (None, Some(low), Some(high)) if low > high => format!(
@@ -150,8 +150,8 @@ impl BasinSummary {
                      between: narrow basin.seed_ratio_from and basin.seed_ratio_to"
                 ),
                 (None, Some(low), Some(high)) => format!(
-                    "a kick along {name} tips steady sliding into a limit cycle from {low:.3} to {high:.3} of the one \
-                    that makes a \
+                    "a kick along {name} tips steady sliding into a limit cycle from {low:.3} to \
+                    {high:.3} of the one that makes a \
                      contact node stick"
                 ),
                 _ => format!(

@@ -117,8 +117,8 @@ impl AssemblyReport {
         let largest = tractions.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
         let axis = || Axis::new(what, "Pa").prefixed().between(0.0, largest);
         let caption = format!(
-            "Base state: {what} on each contact surface, seen from outside; grey where it is open. The other surface \
-            slides \
+            "Base state: {what} on each contact surface, seen from outside; grey where it is open. \
+            The other surface slides \
              over it along the arrow."
         );
         let arrows = self.surfaces.iter().map(|(contact, _)| self.arrow(contact));

@@ -135,8 +135,8 @@ impl Feed {
         };
         let friction = first.mode.friction_coefficient;
         let caption = format!(
-            "Where the contact feeds the unstable modes at friction {friction}: growth rate for each area of the \
-            surface; red \
+            "Where the contact feeds the unstable modes at friction {friction}: growth rate for \
+            each area of the surface; red \
              feeds, blue takes. The sum over the surface is the contact's part in the budget."
         );
         match report.assembly {

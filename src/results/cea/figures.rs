@@ -238,8 +238,8 @@ fn shapes(report: &CeaReport<'_>, friction: f64) -> Figure {
         _ => 7,
     };
     let caption = format!(
-        "Mode shapes at friction coefficient {friction}: the deformed body, coloured by displacement amplitude; \
-        unstable modes in red."
+        "Mode shapes at friction coefficient {friction}: the deformed body, coloured by \
+        displacement amplitude; unstable modes in red."
     );
     let body = Body::new(report, if columns < 6 { 24 } else { 12 });
     let panels = shapes.iter().map(|shape| {

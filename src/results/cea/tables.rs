@@ -108,7 +108,8 @@ columns! {
         = onset.restabilized_frequency_hz, IfAny "frequency there" Fixed(2);
     unstable_from_start: "whether it is unstable at the lowest friction solved already"
         = onset.unstable_from_start;
-    lost_after: "friction coefficient between which and critical_friction it turns unstable, where it was lost"
+    lost_after: "friction coefficient between which and critical_friction it turns unstable, where \
+    it was lost"
         = onset.lost_after;
 }
 

@@ -166,8 +166,8 @@ impl<'a> CycleFigures<'a> {
         let largest = pressure.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
         let axis = || Axis::new("contact pressure", "Pa").prefixed().between(0.0, largest);
         let caption = format!(
-            "Limit cycle of {} at one instant: contact pressure on each contact surface, seen from outside; grey \
-            where it is open.",
+            "Limit cycle of {} at one instant: contact pressure on each contact surface, seen from \
+            outside; grey where it is open.",
             motion.whose()
         );
         let name = format!("contact-{}", motion.tag);

@@ -220,8 +220,8 @@ impl PeriodicResult {
         let enough = found.motion.harmonics_within(REMAINDER);
         (found.harmonic_count < enough).then(|| {
             format!(
-                "{}: {} harmonics leave {left:.1e} of the motion of the contact: {enough} leave less than a \
-                thousandth (raise \
+                "{}: {} harmonics leave {left:.1e} of the motion of the contact: {enough} leave \
+                less than a thousandth (raise \
                  cycle.harmonic_count, or leave it out)",
                 self.mode, found.harmonic_count,
             )

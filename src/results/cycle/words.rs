@@ -106,8 +106,8 @@ impl CycleReport<'_> {
             ),
             Search::Motions(search) => (
                 search.results.iter().filter_map(|own| own.coarse_harmonics()).collect(),
-                "trust the transient, or give it more periods (cycle.confirmation_periods): a slow perturbation may \
-                take them",
+                "trust the transient, or give it more periods (cycle.confirmation_periods): a slow \
+                perturbation may take them",
             ),
         };
         let cycles = self.cycles();
@@ -159,8 +159,8 @@ impl SoughtCycle {
         let side = if off > 0.0 { "above" } else { "below" };
         (off.abs() > ASTRAY).then(|| {
             format!(
-                "{}: the frequency of this cycle is {:.1} % {side} that of the mode: what grows from it may end in \
-                the motion of another",
+                "{}: the frequency of this cycle is {:.1} % {side} that of the mode: what grows \
+                from it may end in the motion of another",
                 self.name,
                 100.0 * off.abs(),
             )
@@ -191,8 +191,8 @@ impl SoughtCycle {
         let verdict = match (run.agrees, self.leaves()) {
             (true, false) => "a transient stays on it".to_owned(),
             (true, true) => format!(
-                "a transient is still on it, in a time in which the leading perturbation makes {:.1} e-folds: too few \
-                to tell",
+                "a transient is still on it, in a time in which the leading perturbation makes \
+                {:.1} e-folds: too few to tell",
                 run.e_folds
             ),
             (false, true) => "a transient leaves it, as its leading perturbation says".to_owned(),

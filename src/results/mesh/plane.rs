@@ -107,8 +107,8 @@ impl Measured for MeshStatistics {
         ];
         let layers = self.axial_elements.map(|layers| {
             format!(
-                "{layers} layers of bricks over the thickness; edges, quality, areas and picture are of the section \
-                across the axis"
+                "{layers} layers of bricks over the thickness; edges, quality, areas and picture \
+                are of the section across the axis"
             )
         });
         let ids = self.nodes_per_sector.map(|nodes| match self.axial_elements {

@@ -172,8 +172,8 @@ fn write_figure(out: &mut String, number: usize, figure: &NamedFigure) {
     let own = format!("{ID_PREFIX}{number}-");
     let _ = write!(
         out,
-        "<figure id=\"{}\">\n<div class=\"scroll picture\" role=\"region\" aria-label=\"Figure {number}\" \
-        tabindex=\"0\">\n{}</div>\n\
+        "<figure id=\"{}\">\n<div class=\"scroll picture\" role=\"region\" aria-label=\"Figure \
+        {number}\" tabindex=\"0\">\n{}</div>\n\
          <figcaption><b>Figure {number}.</b> {}</figcaption>\n</figure>\n",
         escape(&figure.name),
         figure.svg.replace(ID_PREFIX, &own),

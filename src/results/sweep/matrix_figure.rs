@@ -202,8 +202,9 @@ impl Layout {
     }
 
     fn caption(&self) -> String {
-        let mut caption = "Unstable modes under the operating conditions of the study: frequency, marked by growth \
-        rate".to_owned();
+        let mut caption = "Unstable modes under the operating conditions of the study: frequency, \
+        marked by growth rate"
+            .to_owned();
         if self.panel_count() > PANELS {
             caption += &format!(
                 "; the first {PANELS} of {} panels (unstable_modes.csv has all)",
@@ -211,8 +212,8 @@ impl Layout {
             );
         }
         caption
-            + ". A dot at the foot is a condition that was solved: one without marks above it is stable, none at all \
-            failed."
+            + ". A dot at the foot is a condition that was solved: one without marks above it is \
+            stable, none at all failed."
     }
 }
 

@@ -107,8 +107,8 @@ impl RunFigures<'_> {
             .caption(format!("contact node {}", self.run.probe_label(edge)))
             .layer(approach(&path))
             .layers(status_curves(&path[start..], &status));
-        let caption = "Phase plot of an internal node (a) and path of a contact node (b), whose last fifth is \
-        coloured by contact status.";
+        let caption = "Phase plot of an internal node (a) and path of a contact node (b), whose \
+        last fifth is coloured by contact status.";
         Ok(Figure::new("trajectories", caption).columns(2).panel(phase_panel).panel(path_panel))
     }
 

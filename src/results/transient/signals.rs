@@ -251,8 +251,8 @@ impl RunFigures<'_> {
             .layers(linear_end.map(nonlinear));
         let figure = Figure::new(
             "growth",
-            "Growth of the harmonics of the tangential displacement of the contact edge, with the rates of the \
-            eigenvalue analysis.",
+            "Growth of the harmonics of the tangential displacement of the contact edge, with the \
+            rates of the eigenvalue analysis.",
         )
         .panel(panel);
         match end < last {

@@ -38,8 +38,8 @@ pub fn uncertainty(summary: &UncertaintySummary) -> Figure {
         .legend();
     Figure::new(
         "uncertainty",
-        "Distribution of the critical friction of each family of modes (a), probability of squeal over the friction \
-        coefficient \
+        "Distribution of the critical friction of each family of modes (a), probability of squeal \
+        over the friction coefficient \
          (b).",
     )
     .columns(2)
@@ -140,8 +140,8 @@ pub fn robust(summary: &RobustSummary) -> Figure {
     };
     Figure::new(
         "robust",
-        "Probability of squeal at the friction coefficient of the case over each design parameter, the uncertain \
-        parameters \
+        "Probability of squeal at the friction coefficient of the case over each design parameter, \
+        the uncertain parameters \
          scattering as stated.",
     )
     .columns(summary.curves.len().min(2))

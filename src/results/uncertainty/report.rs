@@ -24,7 +24,8 @@ columns! {
     branch: BRANCH = onset.branch;
     direction: DIRECTION = onset.direction;
     frequency_hz: "frequency at the onset" = onset.frequency_hz;
-    unstable_from_start: "whether it is unstable at the lowest friction already, or was lost below its onset"
+    unstable_from_start: "whether it is unstable at the lowest friction already, or was lost below \
+    its onset"
         = onset.unstable_from_start;
 }
 

@@ -168,8 +168,8 @@ pub fn base_state(case: &Case, report: &AssemblyReport) -> BaseState {
 pub fn notes(model: &AssemblyModel) -> Vec<String> {
     let body = &model.body;
     let closed = (body.base == BaseChoice::Closed).then(|| {
-        "the base state is closed and free of stress: no pressure, no geometric stiffness, no dashpot of friction \
-        across the \
+        "the base state is closed and free of stress: no pressure, no geometric stiffness, no \
+        dashpot of friction across the \
          sliding"
             .to_owned()
     });

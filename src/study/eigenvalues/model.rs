@@ -393,8 +393,8 @@ impl Model {
 fn reduction_note(found: &WaveSweep, request: &SweepRequest<'_>) -> String {
     let frictions = request.friction_coefficients.iter();
     format!(
-        "each harmonic is solved in a small space (residuals are those there): relative error of an eigenvalue up to \
-        {:.1e}, \
+        "each harmonic is solved in a small space (residuals are those there): relative error of \
+        an eigenvalue up to {:.1e}, \
          estimated at friction {}",
         found.reduction_error,
         frictions.fold(0.0_f64, |m, &mu| m.max(mu)),

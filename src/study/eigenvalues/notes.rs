@@ -35,8 +35,8 @@ fn count_note(count: &ModeCount) -> String {
     match &count.missing {
         Ok(0) => format!("{what}: complete{searched}; {place}"),
         Ok(missing @ 1..) => format!(
-            "ALARM: {what}, but {known} are listed: {missing} missing{near}, and a search did not find \
-            them{searched}; {place}"
+            "ALARM: {what}, but {known} are listed: {missing} missing{near}, and a search did not \
+            find them{searched}; {place}"
         ),
         Ok(excess) => format!(
             "ALARM: {what}, but {known} are listed: {} of them are none{near}; {place}",
@@ -165,8 +165,9 @@ pub(super) fn ended_notes(sweep: &FrictionSweep) -> Vec<String> {
     let which = ["mode near critical damping is", "modes near critical damping are"];
     let damped = listed(damped, which).map(|(which, places)| {
         format!(
-            "{which} not followed beyond it ({places}). Friction across the sliding is a dashpot of \
-             mu p / V there. It grows as the sliding slows down, and holds that motion in the limit"
+            "{which} not followed beyond it ({places}). Friction across the sliding is a dashpot \
+             of mu p / V there. It grows as the sliding slows down, and holds that motion in the \
+             limit"
         )
     });
     let lost = listed(lost, ["branch changes", "branches change"]).map(|(which, places)| {
@@ -212,8 +213,8 @@ pub(super) fn weak_note(sweep: &FrictionSweep) -> Option<String> {
     let which = ["unstable branch hardly grows", "unstable branches hardly grow"];
     listed(places.collect(), which).map(|(which, places)| {
         format!(
-            "{which} ({places}): by less than {WEAK:.0e} of critical damping at every friction value. \
-             Any real part damps more: give the case its damping"
+            "{which} ({places}): by less than {WEAK:.0e} of critical damping at every friction \
+             value. Any real part damps more: give the case its damping"
         )
     })
 }
@@ -281,8 +282,8 @@ pub(super) fn friction_note(case: &Case, model: &SlidingModel) -> Option<String>
 pub(super) fn coverage_note(model: &Model, coverage: &Coverage) -> String {
     match model {
         Model::SolidSectors(_) => format!(
-            "harmonics {} hold modes at rest (by inertia counts, up to {} of {}) and were followed from {:.0} Hz \
-            downwards",
+            "harmonics {} hold modes at rest (by inertia counts, up to {} of {}) and were followed \
+            from {:.0} Hz downwards",
             ranges(&coverage.followed),
             coverage.counted_empty.last().unwrap_or(&coverage.largest_harmonic),
             coverage.largest_harmonic,

@@ -159,8 +159,8 @@ pub enum FitError {
     },
     /// More lines than modes that anybody measures.
     #[error(
-        "the table has {lines} lines, at most {most} modes can be fitted: give the modes alone, not a frequency \
-        response"
+        "the table has {lines} lines, at most {most} modes can be fitted: give the modes alone, \
+        not a frequency response"
     )]
     TooManyLines {
         /// Lines.
@@ -170,8 +170,8 @@ pub enum FitError {
     },
     /// A frequency that no mode has.
     #[error(
-        "line {line} of the table: {frequency_hz:e} Hz is no frequency of a mode, which lies between {least:e} and \
-        {most:e} Hz"
+        "line {line} of the table: {frequency_hz:e} Hz is no frequency of a mode, which lies \
+        between {least:e} and {most:e} Hz"
     )]
     Frequency {
         /// Its line.
@@ -185,8 +185,8 @@ pub enum FitError {
     },
     /// A shape that belongs to no line.
     #[error(
-        "shape {name} belongs to no line of the table: {reason}; give its frequency, within {within} % of that of its \
-        line"
+        "shape {name} belongs to no line of the table: {reason}; give its frequency, within \
+        {within} % of that of its line"
     )]
     Shape {
         /// Its name.
@@ -223,8 +223,8 @@ pub enum FitError {
     },
     /// The data do not change along a direction of the parameters.
     #[error(
-        "the data cannot tell these parameters apart: no measured number changes with {0} together; fix one of them, \
-        or measure what depends on it"
+        "the data cannot tell these parameters apart: no measured number changes with {0} \
+        together; fix one of them, or measure what depends on it"
     )]
     Blind(String),
 }

@@ -228,18 +228,19 @@ pub(in crate::study) fn refuse_bodies(case: &Case) -> Result<(), CaseErrors> {
     };
     if case.has_structural_damping() {
         return Err(case.loss_error(
-            "improve takes derivatives of conjugate pairs of modes, which structural damping K (1 + i eta) does not \
-            leave".to_owned(),
+            "improve takes derivatives of conjugate pairs of modes, which structural damping K (1 \
+            + i eta) does not leave"
+                .to_owned(),
             "not in improve",
-            "set it to 0 and give the damping by damping.stiffness_coefficient: beta = eta / omega at the frequency \
-            of the mode",
+            "set it to 0 and give the damping by damping.stiffness_coefficient: beta = eta / omega \
+            at the frequency of the mode",
         ));
     }
     match &case.body {
         Body::Annulus(annulus) if annulus.specification.shaft.is_some() => refuse(
             "geometry.shaft_inner_radius",
-            "improve adds to, or takes from, one place of a body, which breaks the symmetry that disc and shaft are \
-            solved by",
+            "improve adds to, or takes from, one place of a body, which breaks the symmetry that \
+            disc and shaft are solved by",
             "a deformable shaft",
             "give both bodies as a mesh file (mesh.file)",
         ),

@@ -125,8 +125,8 @@ pub enum ReadProblem {
     },
     /// Not a list of modes.
     #[error(
-        "{0} rows, one for each mode, are too many; is this a frequency response? `frictionsim identify` finds its \
-         modes"
+        "{0} rows, one for each mode, are too many; is this a frequency response? `frictionsim \
+         identify` finds its modes"
     )]
     TooManyModes(usize),
     /// Columns without names that could mean several things.
