@@ -112,10 +112,12 @@ impl SparseSweep<'_> {
                 let moving = own.into_iter().enumerate().filter(|(k, state)| {
                     !is_same || (state.mu - before[*k]).abs() > SETTLED.max(state.doubt())
                 });
+                let known = open.len();
                 open.extend(moving.map(|(_, state)| state));
-                moved.resize(open.len(), i);
+                if open.len() > known {
+                    moved.push(i);
+                }
             }
-            moved.dedup();
             // Then those whose residual is too large: what that basis says about other branches is worth no more.
             let missed = || found.iter().flatten().filter_map(FoundInterval::missed);
             if open.is_empty() {
