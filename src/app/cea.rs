@@ -167,6 +167,7 @@ mod tests {
         let points = values.into_iter().map(|friction_coefficient| FrictionPoint {
             friction_coefficient,
             modes: vec![mode.clone()],
+            above: Vec::new(),
         });
         Solution {
             sweep: FrictionSweep {

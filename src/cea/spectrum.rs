@@ -112,6 +112,16 @@ pub struct FrictionPoint {
     pub friction_coefficient: f64,
     /// Modes in order of rising frequency.
     pub modes: Vec<ComplexMode>,
+    /// Some of those just above, which are not listed, by rising frequency; one that is on no branch has the number 0. With base states
+    /// that give way to each other a branch may leave the list and another one enter it in one place.
+    pub above: Vec<ComplexMode>,
+}
+
+impl FrictionPoint {
+    /// All of them.
+    pub fn known(&self) -> impl Iterator<Item = &ComplexMode> {
+        self.modes.iter().chain(&self.above)
+    }
 }
 
 /// Relative distance of two frequencies below which they are one: modes of a degenerate pair.

@@ -33,6 +33,7 @@ fn sweep(mesh: &AnnulusMesh) -> FrictionSweep {
     let point = |friction_coefficient: f64, modes: &[ComplexMode]| FrictionPoint {
         friction_coefficient,
         modes: modes.to_vec(),
+        above: Vec::new(),
     };
     let stable = [mode(-20.0, 7600.0, 1, 1), mode(-30.0, 9890.0, 2, -1)];
     FrictionSweep {

@@ -50,7 +50,7 @@ pub(super) fn point(
     if let ModeLimit::Lowest(count) = request.limit {
         modes.truncate(keeping_ties(modes.iter().map(|mode| mode.eigenvalue.im), count));
     }
-    FrictionPoint { friction_coefficient: friction, modes }
+    FrictionPoint { friction_coefficient: friction, modes, above: Vec::new() }
 }
 
 /// One wave of a path at one friction value, if it oscillates below the limit.

@@ -226,8 +226,12 @@ fn merged(mut parts: Vec<FrictionSweep>, limit: ModeLimit) -> FrictionSweep {
         rank_of.entry((part, branch)).or_insert(next);
     }
     for (part, sweep) in parts.iter_mut().enumerate() {
-        let modes = sweep.points.iter_mut().flat_map(|point| &mut point.modes);
-        modes.for_each(|mode| mode.branch = rank_of[&(part, mode.branch)]);
+        for point in &mut sweep.points {
+            let all = point.modes.iter_mut().chain(&mut point.above);
+            all.for_each(|mode| {
+                mode.branch = rank_of.get(&(part, mode.branch)).copied().unwrap_or_default();
+            });
+        }
     }
 
     // All modes at each friction coefficient, as many as are wanted.
@@ -238,13 +242,15 @@ fn merged(mut parts: Vec<FrictionSweep>, limit: ModeLimit) -> FrictionSweep {
         let own = parts.iter().flat_map(|part| part.points[k].modes.iter().cloned());
         let mut modes: Vec<ComplexMode> = own.collect();
         modes.sort_by(|a, b| a.eigenvalue.im.total_cmp(&b.eigenvalue.im));
+        let mut above = Vec::new();
         if let ModeLimit::Lowest(wanted) = limit {
             let frequencies = modes.iter().map(|mode| mode.eigenvalue.im);
-            let above = modes.split_off(keeping_ties(frequencies, wanted));
+            above = modes.split_off(keeping_ties(frequencies, wanted));
             let growing = above.iter().filter(|mode| mode.is_unstable());
             beyond.extend(growing.map(|own| BeyondMode::of(friction_coefficient, own.eigenvalue)));
         }
-        FrictionPoint { friction_coefficient, modes }
+        above.extend(parts.iter().flat_map(|part| part.points[k].above.iter().cloned()));
+        FrictionPoint { friction_coefficient, modes, above }
     });
     let points: Vec<FrictionPoint> = points.collect();
     let counts = merged_counts(&parts, &points);

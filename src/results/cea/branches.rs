@@ -81,6 +81,7 @@ mod tests {
         let point = |friction_coefficient: f64, own: &[usize]| FrictionPoint {
             friction_coefficient,
             modes: own.iter().map(|&branch| mode(branch)).collect(),
+            above: Vec::new(),
         };
         let sweep = FrictionSweep {
             points: vec![

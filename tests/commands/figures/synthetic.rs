@@ -142,7 +142,8 @@ pub fn sweep(count: usize) -> FrictionSweep {
     let points = (0..count)
         .map(|i| {
             let friction_coefficient = i as f64 / (count - 1) as f64;
-            FrictionPoint { friction_coefficient, modes: modes(friction_coefficient, None) }
+            let modes = modes(friction_coefficient, None);
+            FrictionPoint { friction_coefficient, modes, above: Vec::new() }
         })
         .collect();
     let mut intervals = Vec::new();

@@ -169,10 +169,14 @@ impl SparseSweep<'_> {
             false => Vec::new(),
         };
         let mut vectors = vectors.into_iter();
-        let modes = wanted.iter().zip(&point.checks).enumerate().map(|(i, (mode, check))| {
+        let modes = point.modes.iter().zip(&point.checks).enumerate().map(|(i, (mode, check))| {
             let branch = branches.iter().find(|b| b.modes[k] == Some(i));
+            let nameless = usize::from(i < point.wanted);
             let label = branch.map_or_else(
-                || BranchLabel { harmonic: self.edge.harmonic(&check.edge, check.peak), branch: 1 },
+                || BranchLabel {
+                    harmonic: self.edge.harmonic(&check.edge, check.peak),
+                    branch: nameless,
+                },
                 |b| b.label,
             );
             // Without friction any combination of a degenerate pair is a mode: it has no direction.
@@ -204,6 +208,9 @@ impl SparseSweep<'_> {
                 wave: None,
             }
         });
-        FrictionPoint { friction_coefficient: point.friction_coefficient, modes: modes.collect() }
+        let mut modes: Vec<ComplexMode> = modes.collect();
+        let mut above = modes.split_off(point.wanted);
+        above.retain(|mode| mode.residual <= RESIDUAL_BOUND);
+        FrictionPoint { friction_coefficient: point.friction_coefficient, modes, above }
     }
 }

@@ -48,18 +48,24 @@ struct Jump<'a> {
 
 /// The branches that both of two neighbours know where they meet, and whose stability changes there.
 fn jumps_between<'a>(before: &'a Part, after: &'a Part) -> impl Iterator<Item = Jump<'a>> {
-    let (last, first) = (before.last(), after.first());
-    let old = last.map_or(&[][..], |point| &point.modes);
-    let new = first.map_or(&[][..], |point| &point.modes);
-    let friction_coefficient = first.map_or(f64::NAN, |point| point.friction_coefficient);
-    new.iter().filter_map(move |mode| {
-        let same = old.iter().find(|other| name(other) == name(mode))?;
-        (same.is_unstable() != mode.is_unstable()).then(|| Jump {
-            friction_coefficient,
-            name: name(mode),
-            mode,
+    let ends = before.last().zip(after.first());
+    ends.into_iter().flat_map(|(last, first)| {
+        first.known().enumerate().filter_map(move |(j, mode)| {
+            let mut old = last.known().enumerate();
+            let (i, same) = old.find(|(_, other)| is_same(other, mode))?;
+            let is_listed = i < last.modes.len() || j < first.modes.len();
+            (is_listed && same.is_unstable() != mode.is_unstable()).then(|| Jump {
+                friction_coefficient: first.friction_coefficient,
+                name: name(mode),
+                mode,
+            })
         })
     })
+}
+
+/// Whether two modes are on one branch.
+fn is_same(one: &ComplexMode, other: &ComplexMode) -> bool {
+    one.branch > 0 && name(one) == name(other)
 }
 
 /// Friction coefficients at which the growth of a branch jumps across zero.
@@ -165,8 +171,8 @@ fn joined_intervals(
                 }
                 // One that is stable before the change begins at it; one that was not there came from above the range,
                 // or was lost.
-                let last = before.last().and_then(Part::last).map_or(&[][..], |last| &last.modes);
-                let is_known = last.iter().any(|mode| name(mode) == own);
+                let last = before.last().and_then(Part::last);
+                let is_known = last.is_some_and(|last| last.known().any(|mode| name(mode) == own));
                 let earlier =
                     frictions.iter().copied().filter(|mu| *mu < interval.critical_friction);
                 interval.lost_after = earlier.max_by(f64::total_cmp).filter(|_| !is_known);
@@ -183,26 +189,29 @@ fn relabel(before: &Part, after: &mut Part) {
     let (Some(last), Some(first)) = (before.last(), after.first()) else {
         return;
     };
-    // Nearest pairs first, each mode once.
+    // Nearest pairs first, each mode once; those just above the list too, which may enter it.
+    let [old, new] = [last, first].map(|point| point.known().collect::<Vec<_>>());
     let mut pairs: Vec<(f64, usize, usize)> = Vec::new();
-    for (i, old) in last.modes.iter().enumerate() {
-        for (j, new) in first.modes.iter().enumerate() {
+    for (i, old) in old.iter().enumerate() {
+        for (j, new) in new.iter().enumerate() {
             if old.nodal_diameters == new.nodal_diameters {
                 pairs.push(((old.eigenvalue - new.eigenvalue).norm(), i, j));
             }
         }
     }
     pairs.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let mut is_old_taken = vec![false; last.modes.len()];
+    let mut is_taken = [vec![false; old.len()], vec![false; new.len()]];
     let mut name_at = BTreeMap::new();
     for (_, i, j) in pairs {
-        if !is_old_taken[i] && !name_at.contains_key(&name(&first.modes[j])) {
-            is_old_taken[i] = true;
-            name_at.insert(name(&first.modes[j]), name(&last.modes[i]));
+        if !is_taken[0][i] && !is_taken[1][j] {
+            (is_taken[0][i], is_taken[1][j]) = (true, true);
+            if old[i].branch > 0 && new[j].branch > 0 {
+                name_at.insert(name(new[j]), name(old[i]));
+            }
         }
     }
     // Others have new numbers.
-    let known = before.sweep.points.iter().flat_map(|point| &point.modes).map(|mode| mode.branch);
+    let known = before.sweep.points.iter().flat_map(FrictionPoint::known).map(|mode| mode.branch);
     let mut next = known.max().map_or(1, |branch| branch + 1);
     let mut rename = |harmonic: &mut usize, branch: &mut usize| {
         (*harmonic, *branch) = *name_at.entry((*harmonic, *branch)).or_insert_with(|| {
@@ -210,8 +219,10 @@ fn relabel(before: &Part, after: &mut Part) {
             (*harmonic, next - 1)
         });
     };
-    let modes = after.sweep.points.iter_mut().flat_map(|point| &mut point.modes);
-    modes.for_each(|mode| rename(&mut mode.harmonic, &mut mode.branch));
+    let points = after.sweep.points.iter_mut();
+    let modes = points.flat_map(|point| point.modes.iter_mut().chain(&mut point.above));
+    let named = modes.filter(|mode| mode.branch > 0);
+    named.for_each(|mode| rename(&mut mode.harmonic, &mut mode.branch));
     let intervals = after.sweep.intervals.iter_mut();
     intervals.for_each(|own| rename(&mut own.harmonic, &mut own.branch));
 }
