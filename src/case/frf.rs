@@ -64,10 +64,15 @@ pub(super) fn read(root: &Section<'_>, nodes: &Nodes<'_>) -> Option<Frf> {
         }
         direction
     };
+    let force_direction = direction("force_direction");
+    let response_direction = match section.has("response_direction") {
+        true => direction("response_direction"),
+        false => force_direction,
+    };
     let frf = Frf {
         boundary: section.choice("boundary"),
-        force: Terminal { node: force_node, direction: direction("force_direction") },
-        response: Terminal { node: response_node, direction: direction("response_direction") },
+        force: Terminal { node: force_node, direction: force_direction },
+        response: Terminal { node: response_node, direction: response_direction },
         frequencies_hz,
         quantity: section.choice("quantity"),
         method: section.choice("method"),

@@ -148,7 +148,7 @@ pub struct UnstableInterval {
     pub harmonic: usize,
     /// See [`ComplexMode::nodal_diameters`].
     pub nodal_diameters: Option<usize>,
-    /// Branch within the harmonic.
+    /// Branch within the harmonic; 0 of a motion that grows without oscillating, where steady sliding loses its static stability.
     pub branch: usize,
     /// Travelling direction (see [`ComplexMode::direction`]).
     pub direction: i8,

@@ -2,7 +2,10 @@
 //! checks): these know one contact state each, and follow no branch.
 
 use crate::body::rectangle;
+use crate::matrices::lossy_eigenvalues;
 use crate::prelude::*;
+use crate::sliding_bodies::sums;
+use frictionsim::study::matrices::matrices;
 
 /// A block on an elastic mounting, which the drag tilts: between friction 0.2 and 0.66 six of its nine contact nodes lift.
 const CASE: &str = "[mesh]\nfile = \"block.msh\"
@@ -124,4 +127,53 @@ fn a_branch_that_leaves_the_list_as_contact_opens_keeps_its_name() {
         assert!((own - other).abs() < 1e-8, "{found:?} {expected:?}");
     }
     assert!((found[1] - 0.2268).abs() < 1e-4, "{found:?}");
+}
+
+/// A rubber strut that leans against the sliding: its foot is pressed the more, the larger friction is, until it buckles or digs in.
+const STRUT: &str = "[mesh]\nfile = \"strut.msh\"
+[boundaries.head]\ncondition = \"clamped\"
+[material]\nyoung_modulus = 1e8\npoisson_ratio = 0.3\ndensity = 1200.0\n\
+     formulation = \"plane-strain\"
+[damping]\nstiffness_coefficient = 1e-7
+[contact]\nboundary = \"foot\"\ncounterface = \"plane\"\ndirection = [1.0, 0.0]\n\
+     speed = 1.0\nfriction_coefficient = 0.1\ninterference = 1e-3
+[cea]\nfriction_coefficients = [0.0, 0.2]\nmodes = 8\n";
+
+fn strut() -> TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    let (xs, ys) = (even(0.01, 2), even(0.06, 10));
+    let mesh = quadrilaterals(&xs, &ys, ["foot", "head", "strut"], |x, y| [x + 0.3 * y, y]);
+    fs::write(folder.path().join("strut.msh"), mesh).unwrap();
+    folder
+}
+
+/// Positive real eigenvalues of the matrices at one friction coefficient, 1/s, by a dense decomposition (independent check).
+fn static_growth(folder: &TempDir, friction: f64) -> Vec<f64> {
+    let name = folder.path().join("case.toml").display().to_string();
+    let case = case_of(name, STRUT, &[format!("contact.friction_coefficient={friction:?}")]);
+    let [mass, damping, stiffness, losses] = sums(&matrices(&case, Some(friction)).unwrap());
+    let values = lossy_eigenvalues([&mass, &damping, &stiffness, &losses]);
+    let real = values.iter().filter(|own| own.re > 0.0 && own.im.abs() < 1e-6 * own.re);
+    real.map(|own| own.re).collect()
+}
+
+/// Where it is lost a mode has come to frequency zero. Beyond 0.376 a second one has, and the determinant of the stiffness has the sign
+/// that it had.
+#[test]
+fn static_stability_is_lost_where_a_real_eigenvalue_passes_zero() {
+    let folder = strut();
+    let mut places = Vec::new();
+    for last in [0.34, 0.38] {
+        let found = sweep_of(STRUT, &folder, &[0.0, 0.2, last]);
+        let statically = found.intervals.iter().find(|own| own.branch == 0).unwrap();
+        assert_eq!((statically.frequency_hz, statically.restabilized), (0.0, None));
+        places.push(statically.critical_friction);
+    }
+    assert!((places[0] - places[1]).abs() < 1e-8, "{places:?}");
+    let around = [-1e-6, 1e-6].map(|step| static_growth(&folder, places[0] + step).len());
+    assert_eq!(around, [0, 1]);
+    assert_eq!(static_growth(&folder, 0.38).len(), 2);
+    // Below, there is nothing to tell.
+    let below = sweep_of(STRUT, &folder, &[0.0, 0.2, 0.3]);
+    assert!(below.intervals.is_empty(), "{:?}", below.intervals);
 }

@@ -111,7 +111,7 @@ fn part(slider: &Slider) -> Case {
 }
 
 /// Mass, damping, stiffness and structural damping of an export at one friction coefficient.
-fn sums(system: &ExportedSystem) -> [Mat<f64>; 4] {
+pub fn sums(system: &ExportedSystem) -> [Mat<f64>; 4] {
     let size = system.matrices[0].matrix.rows;
     let mut sums = [(); 4].map(|()| Mat::zeros(size, size));
     for own in &system.matrices {

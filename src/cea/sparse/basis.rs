@@ -19,7 +19,7 @@ use crate::linalg::dense::{
 use crate::linalg::{
     BlockOperator, KrylovSchurSettings, LinalgError, MatrixPolynomial, krylov_schur,
 };
-use crate::linalg::{Mat, Scale, c64};
+use crate::linalg::{LuAnalysis, Mat, Scale, c64};
 use crate::prestress::SlidingTangent;
 use std::borrow::Cow;
 
@@ -278,6 +278,11 @@ impl<'a> BasisBuilder<'a> {
         Ok(has_grown)
     }
 
+    /// The order of elimination of all matrices of the body.
+    pub fn analysis(&self) -> Result<&LuAnalysis, LinalgError> {
+        self.analysis.of(self.stiffness.pattern())
+    }
+
     /// The vectors of [`Self::sample`]: of the quadratic problem real and imaginary part of each mode, of the reduced one each.
     fn dominant_vectors(
         &self,
@@ -290,10 +295,7 @@ impl<'a> BasisBuilder<'a> {
             0.0 if self.linearization.is_symmetric(self.tangent) => {
                 StiffnessFactors::frictionless(&self.stiffness)?
             }
-            _ => {
-                let analysis = self.analysis.of(self.stiffness.pattern())?;
-                StiffnessFactors::general(&self.stiffness, analysis, mu)?
-            }
+            _ => StiffnessFactors::general(&self.stiffness, self.analysis()?, mu)?,
         };
         let operator = ShiftInverted::new(&matrices, &factors);
 

@@ -42,12 +42,25 @@ pub struct TrackedBranch {
 }
 
 /// Where a branch ends, and why.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug)]
 pub struct BranchEnd {
     /// Index of the last point where it was seen.
     pub after: usize,
     /// Whether damping of friction takes it beyond the critical one; else it could not be told from others at the next point.
     pub is_damped: bool,
+    /// The mode where it was last seen, between that point and the next ...
+    pub mode: ReducedMode,
+    /// ... the friction coefficient there, and the next one, where it is none of the modes.
+    pub between: [f64; 2],
+    /// Friction coefficient at which the mode ceases to oscillate as steady sliding loses its static stability.
+    pub diverges_at: Option<f64>,
+}
+
+impl BranchEnd {
+    /// Whether the mode could not be told from others.
+    pub fn is_lost(&self) -> bool {
+        !self.is_damped && self.diverges_at.is_none()
+    }
 }
 
 /// A mode where its branch was last seen.
@@ -69,15 +82,6 @@ fn may_vanish(mode: &ReducedMode, step: f64) -> bool {
 fn leaves_range(mode: &ReducedMode, step: f64, range_end: f64) -> bool {
     let (frequency, change) = (mode.eigenvalue.im, mode.derivative.im * step);
     frequency.min(frequency + change) > range_end * (1.0 + ABOVE_RANGE) + change.abs()
-}
-
-/// A branch with no continuation.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Lost {
-    /// Index of the last point where it was seen.
-    pub point: usize,
-    /// Friction coefficient about which it was lost, between that point and the next.
-    pub place: f64,
 }
 
 /// Names the first `count` modes of the first point and rotates degenerate ones so that they are the limits of the modes with more
@@ -173,7 +177,7 @@ fn rotate(
 /// Where this is not clear the interval is bisected.
 ///
 /// A wanted mode that no branch reaches has come from above the range, or from motions that did not oscillate: it starts a branch. A mode
-/// whose damping nears the critical one may cease to oscillate: its branch ends, as do those that are lost, which are told beside.
+/// whose damping nears the critical one may cease to oscillate: its branch ends, as do those that are lost.
 ///
 /// # Errors
 /// If a dense decomposition fails.
@@ -182,8 +186,7 @@ pub fn track(
     model: &ReducedModel,
     edge: &ContactEdge,
     labels: &[BranchLabel],
-) -> Result<(Vec<TrackedBranch>, Vec<Lost>), LinalgError> {
-    let mut all_lost = Vec::new();
+) -> Result<Vec<TrackedBranch>, LinalgError> {
     let mut branches: Vec<TrackedBranch> = labels
         .iter()
         .enumerate()
@@ -209,21 +212,19 @@ pub fn track(
                 && let Err(seen) = &links[i]
                 && i < needed
                 && stays(&before.modes[i])
-                && let [seen_at, lost_at] = seen.between
-                && !leaves_range(&seen.mode, after.friction_coefficient - seen_at, after.range_end)
+                && let rest = after.friction_coefficient - seen.between[0]
+                && !leaves_range(&seen.mode, rest, after.range_end)
             {
+                let LastSeen { mode, between } = seen.clone();
                 let is_damped = may_vanish(&before.modes[i], step);
-                if !is_damped {
-                    all_lost.push(Lost { point: k - 1, place: 0.5 * (seen_at + lost_at) });
-                }
-                let after = k - 1;
-                branch.end = Some(BranchEnd { after, is_damped });
+                let end = BranchEnd { after: k - 1, is_damped, mode, between, diverges_at: None };
+                branch.end = Some(end);
             }
             branch.modes.push(next);
         }
         adopt_newcomers(&mut branches, after, edge, k);
     }
-    Ok((branches, all_lost))
+    Ok(branches)
 }
 
 /// Starts a branch for every wanted mode of point `k` that has none.

@@ -44,7 +44,7 @@ mod sweep;
 mod term;
 
 pub use basis::BasisBuilder;
-pub use branches::{BranchLabel, Lost, TrackedBranch, label_first, track};
+pub use branches::{BranchLabel, TrackedBranch, label_first, track};
 pub use count::{ModeCounter, Winding};
 pub use edge::ContactEdge;
 pub use factors::StiffnessFactors;

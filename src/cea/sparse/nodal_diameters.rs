@@ -265,11 +265,14 @@ fn merged(mut parts: Vec<FrictionSweep>, limit: ModeLimit) -> FrictionSweep {
         ended.extend(sweep.ended);
         unconverged.extend(sweep.unconverged);
         for (mut interval, crossing) in sweep.intervals.into_iter().zip(sweep.crossings) {
-            let rank = rank_of.get(&(part, interval.branch));
-            let Some(rank) = rank.filter(|rank| is_listed(**rank)) else {
-                continue;
-            };
-            interval.branch = *rank;
+            // Static instability has no modes.
+            if interval.branch > 0 {
+                let rank = rank_of.get(&(part, interval.branch));
+                let Some(rank) = rank.filter(|rank| is_listed(**rank)) else {
+                    continue;
+                };
+                interval.branch = *rank;
+            }
             found.push((interval, crossing));
         }
     }

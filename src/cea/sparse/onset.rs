@@ -82,7 +82,12 @@ impl OnsetFinder<'_> {
             mu: point.friction_coefficient,
             mode: point.modes[i].clone(),
         });
-        let states: Vec<State> = states.filter(|state| state.mu >= self.lowest).collect();
+        // Between the points it may be followed beyond the last that has it.
+        let last =
+            branch.end.iter().map(|end| State { mu: end.between[0], mode: end.mode.clone() });
+        let mut states: Vec<State> = states.filter(|state| state.mu >= self.lowest).collect();
+        let end = states.last().map_or(self.lowest, |state| state.mu);
+        states.extend(last.filter(|state| state.mu > end));
         let begin = states.first().map_or(self.lowest, |state| state.mu);
         let mut intervals = Vec::new();
         for mut found in instabilities(self, &states)? {

@@ -1,6 +1,7 @@
 //! The stages of a sweep.
 
 mod counts;
+mod divergence;
 mod ladder;
 mod results;
 
@@ -327,17 +328,24 @@ impl<'a> SparseSweep<'a> {
         let mut searched = Vec::new();
         loop {
             let (model, edge) = (&self.builder.model, &self.edge);
-            let (branches, mut open) = track(&self.points, model, edge, &self.labels)?;
-            open.retain(|lost| !searched.contains(&lost.point));
-            open.dedup_by_key(|lost| lost.point);
+            let mut branches = track(&self.points, model, edge, &self.labels)?;
+            for end in branches.iter_mut().filter_map(|branch| branch.end.as_mut()) {
+                end.diverges_at = self.diverges_at(end)?;
+            }
+            let ends = branches.iter().filter_map(|branch| branch.end.as_ref());
+            let lost = ends.filter(|end| end.is_lost() && !searched.contains(&end.after));
+            let mut open: Vec<(usize, [f64; 2])> =
+                lost.map(|end| (end.after, end.between)).collect();
+            open.sort_by_key(|(k, _)| *k);
+            open.dedup_by_key(|(k, _)| *k);
             if open.is_empty() {
                 return Ok(branches);
             }
-            for lost in open {
-                let (from, to) = (self.grid[lost.point], self.grid[lost.point + 1]);
-                let is_sampling = self.builder.is_sampling();
-                if !(is_sampling && self.builder.improve_between(from, to, lost.place)?) {
-                    searched.push(lost.point);
+            for (k, [seen_at, lost_at]) in open {
+                let (from, to) = (self.grid[k], self.grid[k + 1]);
+                let (is_sampling, place) = (self.builder.is_sampling(), 0.5 * (seen_at + lost_at));
+                if !(is_sampling && self.builder.improve_between(from, to, place)?) {
+                    searched.push(k);
                     self.builder.search(to, TRACKING_MARGIN)?;
                 }
             }

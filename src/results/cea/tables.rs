@@ -97,7 +97,8 @@ columns! {
     /// A branch that turns unstable.
     pub(in crate::results) ONSETS: onset as CriticalFriction;
     harmonic: HARMONIC = onset.harmonic, IfAny "n" Count;
-    branch: BRANCH = onset.branch, Always "branch" Count;
+    branch: "0 of a motion that grows without oscillating; rank within the harmonic, else among all, from 1"
+        = onset.branch, Always "branch" Count;
     direction: DIRECTION = onset.direction;
     critical_friction: "friction coefficient above which the branch is unstable"
         = onset.critical_friction, Always "unstable above" Fixed(6);
@@ -125,7 +126,8 @@ columns! {
     ONSET_WORDS: onset as CriticalFriction;
     travels = onset.direction.map(direction_name), IfAny "travels" Plain;
     remark = onset.lost_after.map(|below| format!("lost: begins above {below}"))
-        .or(onset.unstable_from_start.then(|| "from the start".to_owned())), IfAny "remark" Plain;
+        .or(onset.unstable_from_start.then(|| "from the start".to_owned()))
+        .or((onset.branch == 0).then(|| "does not oscillate".to_owned())), IfAny "remark" Plain;
 }
 
 /// Where a document is read.
@@ -357,7 +359,13 @@ fn facts(report: &CeaReport<'_>) -> Vec<(String, String)> {
     if let Some(point) = at_own {
         let unstable = point.modes.iter().filter(|mode| mode.is_unstable());
         let name = format!("unstable modes at friction {own}");
-        rows.push((name, format!("{} of {}", unstable.clone().count(), point.modes.len())));
+        let of_all = format!("{} of {}", unstable.clone().count(), point.modes.len());
+        let is_static = intervals.iter().any(|interval| {
+            let end = interval.restabilized.map_or(f64::INFINITY, |(mu, _)| mu);
+            interval.branch == 0 && (interval.critical_friction..end).contains(&own)
+        });
+        let beside = if is_static { ", and a motion that does not oscillate" } else { "" };
+        rows.push((name, of_all + beside));
         let fastest = unstable.max_by(|a, b| a.real_hz().total_cmp(&b.real_hz()));
         rows.extend(fastest.map(|mode| {
             let rate = fixed(TAU * mode.real_hz(), 2);

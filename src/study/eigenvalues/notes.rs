@@ -193,7 +193,16 @@ pub(super) fn ended_notes(sweep: &FrictionSweep) -> Vec<String> {
              growing at {growth_rate:.2} 1/s; more cea.modes, or a higher cea.max_frequency_hz, list it"
         )
     });
-    damped.into_iter().chain(lost).chain(open).chain(beyond).chain(rigid).collect()
+    let statically = sweep.intervals.iter().find(|own| own.branch == 0).map(|own| {
+        format!(
+            "steady sliding loses its static stability at friction {:.6}: beyond, a motion grows \
+             without oscillating, as in a part that digs in. It is branch 0 at 0 Hz, and none of \
+             the modes listed",
+            own.critical_friction
+        )
+    });
+    let ended = damped.into_iter().chain(lost).chain(statically);
+    ended.chain(open).chain(beyond).chain(rigid).collect()
 }
 
 /// Damping factor of a growing mode that the damping of any real part exceeds.

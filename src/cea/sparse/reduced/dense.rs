@@ -7,7 +7,7 @@ use crate::cea::sparse::mode::ReducedMode;
 use crate::cea::sparse::own_frequency;
 use crate::cea::sparse::projected::ProjectedMatrices;
 use crate::linalg::dense::{product, random_columns};
-use crate::linalg::dense_eigen::{RealEigen, complex_eigen, real_eigen};
+use crate::linalg::dense_eigen::{RealEigen, complex_eigen, real_eigen, real_eigenvalues};
 use crate::linalg::{BlockOperator, KrylovSchurSettings, krylov_schur};
 use crate::linalg::{ComplexDenseLu, DenseLu, LinalgError, MatrixPolynomial};
 use crate::linalg::{Mat, MatRef, Scale, c64};
@@ -200,6 +200,18 @@ impl ReducedModel {
             structural,
             tabled: Vec::new(),
         })
+    }
+
+    /// How many motions grow without oscillating at `mu`: positive real eigenvalues.
+    pub fn static_growth(&self, mu: f64) -> Result<usize, LinalgError> {
+        let at = self.at(mu);
+        let centred = self.centred(&at);
+        let at = centred.as_ref().unwrap_or(&at);
+        let operator = self.shift_inverted(at, &DenseLu::factorize(at.stiffness.clone()));
+        let values = real_eigenvalues(operator.as_ref())?.into_iter();
+        let values = values.filter(|s| s.im == 0.0).map(|s| self.linearization.value(s).re);
+        let sign = if let Linearization::Reduced(..) = self.linearization { -1.0 } else { 1.0 };
+        Ok(values.filter(|value| sign * value > 0.0).count())
     }
 
     /// The dense shift-inverted operator of the linearisation.

@@ -36,8 +36,6 @@ impl SparseSweep<'_> {
             let is_told = modes.peek().is_none() || modes.any(ComplexMode::is_unstable);
             is_told || own.is_located() || own.restabilized.is_some()
         });
-        let critical = |own: &FoundInterval| own.interval.critical_friction;
-        found.sort_by(|a, b| critical(a).total_cmp(&critical(b)));
         let vectors = |own: &FoundInterval| {
             let State { mu, mode } = own.onset().filter(|_| !request.lefts_at.is_empty())?;
             let solver = self.point_solver();
@@ -45,16 +43,13 @@ impl SparseSweep<'_> {
             let found = solver.vectors(basis, (*mu, true), std::slice::from_ref(mode));
             found.into_iter().next()
         };
-        let crossings = found.iter().map(vectors).collect();
+        let found = found.iter().map(|own| (own.interval.clone(), vectors(own)));
+        let found = found.chain(self.divergence(branches)?.map(|own| (own, None)));
         Ok(FrictionSweep {
-            points,
-            intervals: found.into_iter().map(|own| own.interval).collect(),
-            crossings,
-            ended: self.ended(branches),
             unconverged: self.unconverged.clone(),
             beyond: self.beyond(),
             rigid_motions: self.builder.rigid,
-            counts: Vec::new(),
+            ..FrictionSweep::joined(points, found.collect(), self.ended(branches))
         })
     }
 
@@ -75,7 +70,7 @@ impl SparseSweep<'_> {
     /// The modes whose branches end.
     fn ended(&self, branches: &[TrackedBranch]) -> Vec<EndedMode> {
         let ended = branches.iter().filter_map(|branch| {
-            let end = branch.end?;
+            let end = branch.end.as_ref().filter(|end| end.diverges_at.is_none())?;
             let point = &self.points[end.after];
             let last = branch.modes[end.after]?;
             let next = &self.points[end.after + 1];
@@ -85,9 +80,7 @@ impl SparseSweep<'_> {
                 lost_before: (!end.is_damped).then_some(next.friction_coefficient),
             })
         });
-        let mut ended: Vec<EndedMode> = ended.collect();
-        ended.sort_by(|a, b| a.friction_coefficient.total_cmp(&b.friction_coefficient));
-        ended
+        ended.collect()
     }
 
     /// Unstable intervals of all branches. The basis holds the modes of a few friction coefficients only, or of all that were asked for:

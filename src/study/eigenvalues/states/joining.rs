@@ -29,6 +29,8 @@ impl Part {
 
 /// Name of a branch: harmonic and number.
 type Name = (usize, usize);
+/// That of a motion that grows without oscillating.
+const STATIC: Name = (0, 0);
 
 fn name(mode: &ComplexMode) -> Name {
     (mode.harmonic, mode.branch)
@@ -61,6 +63,13 @@ fn jumps_between<'a>(before: &'a Part, after: &'a Part) -> impl Iterator<Item = 
             })
         })
     })
+}
+
+/// Whether the static stability is lost between two neighbours.
+fn begins_statically(before: &Part, after: &Part) -> bool {
+    let is_open = |own: &UnstableInterval| name_of(own) == STATIC && own.restabilized.is_none();
+    let begins = |own: &UnstableInterval| name_of(own) == STATIC && own.unstable_from_start;
+    after.sweep.intervals.iter().any(begins) && !before.sweep.intervals.iter().any(is_open)
 }
 
 /// Whether two modes are on one branch.
@@ -102,7 +111,9 @@ pub fn undecided(parts: &[Part]) -> impl Iterator<Item = Undecided> {
         };
         let all = pair[1].sweep.intervals.iter().flat_map(ends).flatten();
         let guess = all.filter(|mu| gap.contains(mu)).min_by(|a, b| a.total_cmp(b));
-        let is_open = guess.is_some() || jumps_between(&pair[0], &pair[1]).next().is_some();
+        let is_open = guess.is_some()
+            || begins_statically(&pair[0], &pair[1])
+            || jumps_between(&pair[0], &pair[1]).next().is_some();
         is_open.then_some(Undecided { gap, guess })
     })
 }
@@ -160,6 +171,13 @@ fn joined_intervals(
                 known.restabilized = Some((jump.friction_coefficient, jump.mode.frequency_hz()));
             }
         }
+        // So does one of static instability where the next state is stable.
+        let is_static = |own: &UnstableInterval| own.branch == 0 && own.unstable_from_start;
+        if !intervals.iter().any(is_static)
+            && let Some((known, _)) = found.iter_mut().find(|(own, _)| is_open(own, STATIC))
+        {
+            known.restabilized = part.first().map(|first| (first.friction_coefficient, 0.0));
+        }
         for (mut interval, crossing) in intervals.into_iter().zip(crossings) {
             if interval.unstable_from_start {
                 // A branch that is unstable on both sides of a change goes on.
@@ -172,7 +190,8 @@ fn joined_intervals(
                 // One that is stable before the change begins at it; one that was not there came from above the range,
                 // or was lost.
                 let last = before.last().and_then(Part::last);
-                let is_known = last.is_some_and(|last| last.known().any(|mode| name(mode) == own));
+                let is_known = own == STATIC
+                    || last.is_some_and(|last| last.known().any(|mode| name(mode) == own));
                 let earlier =
                     frictions.iter().copied().filter(|mu| *mu < interval.critical_friction);
                 interval.lost_after = earlier.max_by(f64::total_cmp).filter(|_| !is_known);
@@ -223,6 +242,6 @@ fn relabel(before: &Part, after: &mut Part) {
     let modes = points.flat_map(|point| point.modes.iter_mut().chain(&mut point.above));
     let named = modes.filter(|mode| mode.branch > 0);
     named.for_each(|mode| rename(&mut mode.harmonic, &mut mode.branch));
-    let intervals = after.sweep.intervals.iter_mut();
+    let intervals = after.sweep.intervals.iter_mut().filter(|own| own.branch > 0);
     intervals.for_each(|own| rename(&mut own.harmonic, &mut own.branch));
 }

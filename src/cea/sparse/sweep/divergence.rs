@@ -1,0 +1,107 @@
+//! Where steady sliding loses its static stability: a motion grows there without oscillating.
+
+use super::SparseSweep;
+use crate::cea::sparse::branches::{BranchEnd, TrackedBranch};
+use crate::cea::sparse::mode::ReducedMode;
+use crate::cea::{CeaError, UnstableInterval};
+use crate::linalg::c64;
+
+/// Width of the range of friction coefficients in which the loss is located.
+const LOCATED: f64 = 1e-10;
+
+impl SparseSweep<'_> {
+    /// From where on a motion grows without oscillating, as an interval of the branch 0 and the frequency 0.
+    ///
+    /// `det K(mu)` has the sign of `(-1)^n` with `n` positive real eigenvalues: it changes where one passes zero. A mode that friction
+    /// takes to frequency zero becomes two of them, so the ends of branches are where to look; a sweep that is continued may begin so.
+    ///
+    /// # Errors
+    /// If the analysis of the pattern fails.
+    pub fn divergence(
+        &self,
+        branches: &[TrackedBranch],
+    ) -> Result<Option<UnstableInterval>, CeaError> {
+        if !self.is_static() {
+            return Ok(None);
+        }
+        let first = self.grid[self.first_asked()];
+        // Of two the determinant has no sign.
+        let is_unstable = self.is_continued
+            && (self.static_determinant(first, 0.0)? < 0.0
+                || self.builder.model.static_growth(first)? > 1);
+        let ends = branches.iter().filter_map(|branch| branch.end.as_ref()?.diverges_at);
+        let places = ends.chain(is_unstable.then_some(first));
+        let lowest = places.min_by(f64::total_cmp);
+        Ok(lowest.map(|critical_friction| UnstableInterval {
+            harmonic: 0,
+            nodal_diameters: None,
+            branch: 0,
+            direction: 0,
+            critical_friction,
+            frequency_hz: 0.0,
+            restabilized: None,
+            unstable_from_start: is_unstable,
+            lost_after: None,
+        }))
+    }
+
+    /// Where, as a branch ends, `det K` changes its sign: by false position with the Illinois rule.
+    pub(super) fn diverges_at(&self, end: &BranchEnd) -> Result<Option<f64>, CeaError> {
+        if !self.is_static() {
+            return Ok(None);
+        }
+        let [mut low, beyond] = end.between;
+        let size = self.ln_static(low)?.re;
+        let mut before = self.static_determinant(low, size)?;
+        // Near zero the square of an eigenvalue moves evenly: as far again. What is damped beyond the critical may come there later.
+        let ReducedMode { eigenvalue, derivative, .. } = end.mode;
+        let next = self.grid[if end.is_damped { self.grid.len() - 1 } else { end.after + 1 }];
+        let reach = low - (eigenvalue / derivative).re;
+        let places = [beyond, reach.clamp(beyond, next), if end.is_damped { next } else { beyond }];
+        let mut bracket = None;
+        for high in places {
+            let after = self.static_determinant(high, size)?;
+            if before * after < 0.0 {
+                bracket = Some((high, after));
+                break;
+            }
+        }
+        let Some((mut high, mut after)) = bracket else {
+            return Ok(None);
+        };
+        while high - low > LOCATED * (1.0 + high) {
+            // Values far apart in size would keep the secant at one end.
+            let t = (before / (before - after)).clamp(0.05, 0.95);
+            let middle = low + t * (high - low);
+            let value = self.static_determinant(middle, size)?;
+            if value == 0.0 {
+                return Ok(Some(middle));
+            }
+            if value * before > 0.0 {
+                (low, before, after) = (middle, value, 0.5 * after);
+            } else {
+                (high, after, before) = (middle, value, 0.5 * before);
+            }
+        }
+        Ok(Some(0.5 * (low + high)))
+    }
+
+    /// Whether the stiffness at rest is known, and nothing moves rigidly.
+    fn is_static(&self) -> bool {
+        self.builder.rigid == 0 && self.tangent.tabled.is_empty()
+    }
+
+    /// `ln det K(mu)`; minus infinity where there are no factors.
+    fn ln_static(&self, mu: f64) -> Result<c64, CeaError> {
+        let stiffness = self.tangent.stiffness.evaluate(mu);
+        let entries: Vec<c64> = stiffness.into_iter().map(|k| c64::new(k, 0.0)).collect();
+        let found = self.builder.analysis()?.ln_determinant(&entries);
+        Ok(found.unwrap_or(c64::new(f64::NEG_INFINITY, 0.0)))
+    }
+
+    /// `det K(mu) / exp size`.
+    fn static_determinant(&self, mu: f64, size: f64) -> Result<f64, CeaError> {
+        let ln = self.ln_static(mu)?;
+        Ok(ln.im.cos() * (ln.re - size).exp())
+    }
+}
