@@ -1,6 +1,6 @@
 //! The small motions around steady sliding of a body of equal sectors, harmonic by harmonic, from the terms of one sector.
 
-use super::wave_terms::{RegionTerms, WaveTerms};
+use super::wave_terms::WaveTerms;
 use super::{DampingModel, FrictionPolynomial, HarmonicTangent, TangentOptions, WaveSector};
 use crate::contact::ContactStiffness;
 use crate::fem::fold::{MirrorParity, SectorMatrix, WaveDofs};
@@ -81,7 +81,7 @@ impl WaveTangent {
             damping_model: DampingModel::WholeTangent,
             contact: ContactStiffness::default(),
         };
-        let terms = WaveTerms::of(sector, material, mass);
+        let terms = WaveTerms::of(sector, material, (mass, damping));
         Self::new(sector, (terms, WaveContact::default()), &options, 1.0)
     }
 
@@ -222,14 +222,12 @@ impl WaveTangent {
 
     /// Whether `C = alpha_R M + beta_R K_t` exactly.
     pub fn is_proportional(&self) -> bool {
-        let WaveTerms { regions, supports, contact, .. } = &self.terms;
-        let is_own = |own: RayleighDamping| own != self.options.damping;
-        let has_own = regions.iter().any(|region| region.damping.is_some_and(is_own));
+        let WaveTerms { supports, contact, extra_damping, .. } = &self.terms;
         let is_whole = self.options.damping_model == DampingModel::WholeTangent;
         let mut further = supports.iter().flat_map(|(_, own)| own);
         let mut dashpots = contact.dashpots.iter().chain([&contact.friction_dashpots]);
         is_whole
-            && !has_own
+            && extra_damping.is_empty()
             && further.all(SectorMatrix::is_empty)
             && dashpots.all(SectorMatrix::is_empty)
     }
@@ -326,27 +324,20 @@ impl WaveTangent {
         stiffness: &[BandedMatrix; 2],
     ) -> [BandedMatrix; 2] {
         let common = self.options.damping;
-        let elastic = |regions: &[RegionTerms]| {
-            let elastic: Vec<_> = regions.iter().map(|region| &region.elastic).collect();
-            self.wave(n, MirrorParity::Even, &elastic)
-        };
+        let elastic = self.terms.regions.iter().map(|region| &region.elastic);
         let mut damping = match self.options.damping_model {
             DampingModel::WholeTangent => stiffness.clone(),
-            DampingModel::BodyOnly => [elastic(&self.terms.regions), self.dofs.zeros()],
+            DampingModel::BodyOnly => {
+                let elastic = elastic.collect::<Vec<_>>();
+                [self.wave(n, MirrorParity::Even, &elastic), self.dofs.zeros()]
+            }
         };
         for matrix in &mut damping {
             matrix.scale(common.stiffness_coefficient);
         }
         let [rest, sheared] = &mut damping;
         rest.add_scaled(common.mass_coefficient, mass);
-        for region in &self.terms.regions {
-            if let Some(own) = region.damping.filter(|own| *own != common) {
-                let alpha = own.mass_coefficient - common.mass_coefficient;
-                let beta = own.stiffness_coefficient - common.stiffness_coefficient;
-                rest.add_scaled(alpha, &self.wave(n, MirrorParity::Even, &[&region.mass]));
-                rest.add_scaled(beta, &elastic(std::slice::from_ref(region)));
-            }
-        }
+        rest.add_scaled(1.0, &self.wave(n, MirrorParity::Even, &[&self.terms.extra_damping]));
         rest.add_scaled(1.0, &self.of_supports(n, 1));
         let [even, odd] = &self.terms.contact.dashpots;
         self.dofs.add(rest, n, MirrorParity::Even, &[even]);

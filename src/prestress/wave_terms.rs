@@ -13,6 +13,8 @@ pub(super) struct WaveTerms {
     pub supports: Vec<(String, [SectorMatrix; 2])>,
     /// Contact forces that turn with their nodes, without friction and for each unit of it.
     pub turning: [SectorMatrix; 2],
+    /// Damping of regions beyond that of the whole body.
+    pub extra_damping: SectorMatrix,
     /// Over the distances across the contact where that joins two bodies.
     pub contact: ContactTerms,
 }
@@ -30,7 +32,11 @@ pub(super) struct RegionTerms {
 
 impl WaveTerms {
     /// Regions without stress and supports of a sector.
-    pub fn of<S: WaveSector>(sector: &S, material: &dyn MaterialField, kind: MassKind) -> Self {
+    pub fn of<S: WaveSector>(
+        sector: &S,
+        material: &dyn MaterialField,
+        (kind, damping): (MassKind, RayleighDamping),
+    ) -> Self {
         let region = |region: usize| RegionTerms {
             mass: sector::mass_of(sector, material, kind, Some(region)),
             elastic: sector::stiffness_of(sector, material, Some(region)),
@@ -40,6 +46,7 @@ impl WaveTerms {
         Self {
             regions: (0..sector.region_count()).map(region).collect(),
             supports: sector.supports(),
+            extra_damping: sector::extra_damping(sector, material, kind, damping),
             ..Self::default()
         }
     }

@@ -77,6 +77,48 @@ fn the_whole_mesh_of_a_body_of_revolution_has_the_spectrum_of_its_harmonics() {
     }
 }
 
+/// A ring of steel in the lower half, with damping of its own, on a finer mesh.
+const RING: [&str; 2] = [
+    "materials.ring={radii=[0.0438333333333333,0.0671666666666667],heights=[0.0,0.0045],young_modulus=2e11,\
+     poisson_ratio=0.3,density=7850.0,mass_coefficient=300.0,stiffness_coefficient=2e-7}",
+    "mesh.axial_elements=2",
+];
+
+/// Independent, as above: parts of several materials are those of the whole mesh, in modes and in steps.
+#[test]
+fn several_materials_of_a_body_of_revolution_are_those_of_its_whole_mesh() {
+    let folder = folder();
+    for (out, method) in [("waves", "auto"), ("whole", "sparse")] {
+        let method = format!("cea.method=\"{method}\"");
+        run(folder.path(), "cea", DISC, out, &[RING[0], RING[1], &method]).code(0);
+    }
+    let [waves, whole] = ["waves", "whole"].map(|out| modes(folder.path(), out));
+    let error = distance(&whole, &waves).max(distance(&waves, &whole));
+    println!("{error:e}");
+    assert!(error < 1e-7, "{error:e}");
+    let listed = rows(&folder.path().join("waves").join("eigenvalues.csv"));
+    assert!(listed.iter().any(|row| row["direction"] == "1"), "solved on the whole mesh");
+
+    // Energies and losses of every step, from a press that reaches both materials.
+    let steps = "transient={duration=3e-4,expansion_time=1e-4}";
+    let motions = ["auto", "sparse"].map(|operator| {
+        let out = format!("steps-{operator}");
+        let operator = format!("transient.operator=\"{operator}\"");
+        let sets = [RING[0], RING[1], steps, &operator];
+        run(folder.path(), "transient", DISC, &out, &sets).code(0);
+        let energies = rows(&folder.path().join(out).join("energy.csv")).into_iter();
+        let columns = ["kinetic_j", "strain_j", "material_damping_w"];
+        energies.map(|row| row.numbers(columns)).collect::<Vec<[f64; 3]>>()
+    });
+    assert_eq!(motions[0].len(), motions[1].len());
+    for column in 0..3 {
+        let largest = motions[1].iter().fold(0.0, |m: f64, row| m.max(row[column]));
+        let pairs = motions[0].iter().zip(&motions[1]);
+        let error = pairs.map(|(a, b)| (a[column] - b[column]).abs()).fold(0.0, f64::max);
+        assert!(error < 1e-9 * largest, "{error:e} of {largest:e}");
+    }
+}
+
 /// Independent, as above: losses of the body and of what holds it part the waves of each harmonic.
 #[test]
 fn losses_of_a_body_of_revolution_are_those_of_its_whole_mesh() {
