@@ -74,8 +74,8 @@ pub(super) fn generated(
     (body, contact)
 }
 
-/// A body of revolution, as a whole mesh where modifications break its symmetry, where losses or moduli over frequency
-/// part the waves +n and -n of its harmonics, where it has several materials, and where that is asked for.
+/// A body of revolution, as a whole mesh where modifications break its symmetry, where its losses have a chain of
+/// dashpots in time, and where that is asked for.
 fn revolution_body(
     root: &Section<'_>,
     revolution: Revolution,
@@ -87,8 +87,7 @@ fn revolution_body(
         || root.section("transient", false).is_text("operator", "sparse");
     let body = Body::Revolution(revolution.clone());
     let is_lossy = body.has_structural_damping() || contact.stiffness.loss_factor > 0.0;
-    let has_parts = revolution.materials.len() > 1;
-    if changes.is_empty() && !is_asked_for && !is_lossy && !has_parts {
+    if changes.is_empty() && !is_asked_for && !(is_lossy && root.has("transient")) {
         return Some(body);
     }
     let found = whole_revolution(&revolution, contact, changes);

@@ -1,6 +1,5 @@
 //! What materials with loss factors and tables over frequency are in time.
 
-use super::body::Body;
 use super::diagnostic::CaseErrors;
 use super::{Case, ModeSelection};
 use crate::fem::{MaterialField, MaxwellChain, RelaxedMaterials};
@@ -15,8 +14,7 @@ const LOWEST_OF_TABLE: f64 = 1e-5;
 /// them to.
 pub(super) fn relaxed(case: &Case) -> Option<RelaxedMaterials> {
     let (materials, count) = (case.materials(), case.body.region_count());
-    let is_solid_of_revolution = matches!(case.body, Body::Revolution(_));
-    if case.transient.is_none() || !has_losses(case) || is_solid_of_revolution {
+    if case.transient.is_none() || !has_losses(case) {
         return None;
     }
     let band = constant_band(case);
@@ -73,10 +71,6 @@ impl Case {
         }
         if self.relaxed.is_some() {
             return Ok(());
-        }
-        if matches!(self.body, Body::Revolution(_)) {
-            return self
-                .refuse_losses_in_time("of a body of revolution in three dimensions, a transient");
         }
         Err(self.loss_error(
             "a transient has a Maxwell chain in place of a loss factor. It is fitted from a \

@@ -114,6 +114,14 @@ impl SectorMatrix {
         Self::of_entries(components, self.entries().chain(other.entries()))
     }
 
+    /// It times a factor.
+    pub fn scaled(&self, factor: f64) -> Self {
+        Self::of_entries(
+            self.components,
+            self.entries().map(|(i, j, at, v)| (i, j, at, factor * v)),
+        )
+    }
+
     /// Whether it has no entry.
     pub fn is_empty(&self) -> bool {
         self.entries.is_empty()

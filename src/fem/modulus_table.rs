@@ -57,6 +57,13 @@ impl ModulusTable {
         self.rows[0][1]
     }
 
+    /// The frequency of the smallest or largest modulus, as `pick` says, Hz.
+    pub fn extreme_hz(&self, pick: fn(f64, f64) -> f64) -> f64 {
+        let best = self.rows.iter().map(|row| row[1]).reduce(pick);
+        let row = self.rows.iter().find(|row| Some(row[1]) == best);
+        row.map_or(0.0, |row| row[0])
+    }
+
     /// `[E, eta]` at a frequency in Hz.
     pub fn at(&self, frequency_hz: f64) -> [f64; 2] {
         let (row, share) = self.place(frequency_hz);

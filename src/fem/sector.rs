@@ -4,7 +4,7 @@
 
 use super::element::ElementGeometry;
 use super::fold::{SectorMatrix, WaveDofs};
-use super::{ElasticMaterial, MassKind, MaterialField};
+use super::{ElasticMaterial, MassKind, MaterialField, RayleighDamping};
 use crate::mesh::{SectorMesh, SolidSector};
 use nalgebra::{DMatrix, DVector, Matrix3};
 use std::collections::BTreeMap;
@@ -168,6 +168,26 @@ pub fn mass_of<S: Sectored>(
 /// [`mass_of`] all regions.
 pub fn mass<S: Sectored>(sector: &S, material: &dyn MaterialField, kind: MassKind) -> SectorMatrix {
     mass_of(sector, material, kind, None)
+}
+
+/// Damping that regions have in place of the `common` one,
+/// `sum_r (alpha_r - alpha) M_r + (beta_r - beta) K_r`: N s/m, in the plane Pa s.
+pub fn extra_damping<S: Sectored>(
+    sector: &S,
+    material: &dyn MaterialField,
+    kind: MassKind,
+    common: RayleighDamping,
+) -> SectorMatrix {
+    let regions = 0..sector.region_count();
+    let own = regions.filter_map(|r| Some((r, material.own_damping(r)?)).filter(|o| o.1 != common));
+    let terms = own.flat_map(|(region, own)| {
+        let alpha = own.mass_coefficient - common.mass_coefficient;
+        let beta = own.stiffness_coefficient - common.stiffness_coefficient;
+        let mass = mass_of(sector, material, kind, Some(region));
+        let stiffness = stiffness_of(sector, material, Some(region));
+        [mass.scaled(alpha), stiffness.scaled(beta)]
+    });
+    terms.fold(SectorMatrix::default(), |sum, own| sum.plus(&own))
 }
 
 /// Geometric stiffness `∫ (grad N_I . sigma . grad N_J) I dV` of a region for the stress that a displacement, the same in every

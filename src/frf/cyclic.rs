@@ -1,7 +1,7 @@
 //! Direct solution of each harmonic at each frequency.
 
 use super::cyclic_system::Place;
-use super::harmonic::{Damping, Harmonic};
+use super::harmonic::Harmonic;
 use super::system::check_frequencies;
 use super::{CyclicSystem, FrfError, Terminal};
 use crate::linalg::LinalgError;
@@ -96,18 +96,14 @@ impl Wave {
         if force.is_tangential {
             factor *= -i;
         }
-        let is_real = |band: &[c64]| band.iter().all(|value| value.im == 0.0);
-        let has_real_damping = match &harmonic.damping {
-            Damping::Proportional(_) => true,
-            Damping::Band(band) => is_real(band),
+        let is_real = {
+            let own = &harmonic.bands;
+            let damping = Some(&own.damping).filter(|_| harmonic.proportional.is_none());
+            let bands = [&own.mass, &own.stiffness].into_iter().chain(damping);
+            let mut bands = bands.chain(own.losses.iter().map(|(_, values)| values));
+            bands.all(|band| band.iter().all(|value| value.im == 0.0))
         };
-        Self {
-            is_real: is_real(&harmonic.mass) && is_real(&harmonic.stiffness) && has_real_damping,
-            force: force.unknown,
-            response: response.unknown,
-            harmonic,
-            factor,
-        }
+        Self { is_real, force: force.unknown, response: response.unknown, harmonic, factor }
     }
 }
 
@@ -159,21 +155,24 @@ impl<'a> Lines<'a> {
         let omega = |lane: usize| sign * TAU * lane_frequency(lane);
         let batch = self
             .batch
-            .get_or_insert_with(|| BandedBatch::new(self.dimension, harmonic.half_bandwidth));
+            .get_or_insert_with(|| BandedBatch::new(self.dimension, harmonic.bands.half_bandwidth));
         let lanes = |factor: &dyn Fn(f64) -> c64| Lanes::from_fn(|lane| factor(omega(lane)));
-        match &harmonic.damping {
-            Damping::Proportional(rayleigh) => {
-                let (alpha, beta) = (rayleigh.mass_coefficient, rayleigh.stiffness_coefficient);
-                let mass = lanes(&|w| c64::new(-w * w, w * alpha));
-                let stiffness = lanes(&|w| c64::new(1.0, w * beta));
-                batch.assemble(&[(stiffness, &harmonic.stiffness), (mass, &harmonic.mass)]);
-            }
-            Damping::Band(damping) => batch.assemble(&[
-                (lanes(&|_| c64::new(1.0, 0.0)), &harmonic.stiffness),
-                (lanes(&|w| c64::new(-w * w, 0.0)), &harmonic.mass),
-                (lanes(&|w| c64::new(0.0, w)), damping),
-            ]),
+        let bands = &harmonic.bands;
+        let (alpha, beta) = match &harmonic.proportional {
+            Some(own) => (own.mass_coefficient, own.stiffness_coefficient),
+            None => (0.0, 0.0),
+        };
+        let mut terms: Vec<(Lanes, &[c64])> = vec![
+            (lanes(&|w| c64::new(1.0, w * beta)), &bands.stiffness),
+            (lanes(&|w| c64::new(-w * w, w * alpha)), &bands.mass),
+        ];
+        if harmonic.proportional.is_none() {
+            terms.push((lanes(&|w| c64::new(0.0, w)), &bands.damping));
         }
+        for (gain, values) in &bands.losses {
+            terms.push((lanes(&|w| gain.at(c64::new(0.0, w))), values));
+        }
+        batch.assemble(&terms);
         let quality = batch.solve(wave.force);
         let mut result = [c64::new(0.0, 0.0); LANES];
         let mut largest = 0.0_f64;
@@ -217,7 +216,7 @@ struct Pivoted {
 
 impl Pivoted {
     fn solve(band: &[c64], harmonic: &Harmonic, force: usize) -> Self {
-        let h = harmonic.half_bandwidth;
+        let h = harmonic.bands.half_bandwidth;
         let dimension = band.len() / (2 * h + 1);
         let mut lu = BandedLu::new(dimension, h);
         lu.factorize(band);

@@ -1,11 +1,10 @@
 //! Harmonics of a body of equal sectors in the state that is excited.
 
-use super::harmonic::{Damping, Harmonic};
+use super::harmonic::Harmonic;
 use super::{Direction, FrfError, Terminal};
 use crate::fem::fold::WaveDofs;
 use crate::fem::{MassKind, MaterialField, RayleighDamping};
-use crate::mesh::{BoundaryCondition, SectorMesh, SolidSector};
-use crate::prestress::{MovingHarmonic, WaveTangent};
+use crate::prestress::{WaveSector, WaveTangent};
 
 /// [`super::FrfSystem`] of an annulus or of a body of revolution, as the matrices of its circumferential harmonics.
 #[derive(Clone, Debug)]
@@ -26,37 +25,19 @@ pub(super) struct Place {
 }
 
 impl CyclicSystem {
-    /// The body without contact and prestress, free or with its outer edge clamped, `C = alpha_R M +
-    /// beta_R K`.
-    pub fn body(
-        sector: &SectorMesh,
+    /// The body without contact and prestress, held by its supports or all of it free, `C = alpha_R M + beta_R K` and the dashpots of
+    /// its supports.
+    pub fn body<S: WaveSector>(
+        sector: &S,
         material: &dyn MaterialField,
         mass: MassKind,
         damping: RayleighDamping,
-        is_clamped: bool,
+        is_held: bool,
     ) -> Self {
-        let mut sector = sector.clone();
-        if !is_clamped {
-            sector = sector.with_free_outer_edge();
-        }
-        let tangent = WaveTangent::of_free(&sector, material, mass, damping);
-        Self::sliding(&tangent, 0.0)
-    }
-
-    /// A body of revolution without contact and prestress, all of it free or held by the conditions of its faces,
-    /// `C = alpha_R M + beta_R K` and the dashpots of its supports.
-    pub fn solid_body(
-        sector: &SolidSector,
-        material: &dyn MaterialField,
-        mass: MassKind,
-        damping: RayleighDamping,
-        is_clamped: bool,
-    ) -> Self {
-        let mut sector = sector.clone();
-        if !is_clamped {
-            sector.specification.conditions = [BoundaryCondition::Free; 4];
-        }
-        let tangent = WaveTangent::of_free(&sector, material, mass, damping);
+        let tangent = match is_held {
+            true => WaveTangent::of_free(sector, material, mass, damping),
+            false => WaveTangent::of_free(&sector.unheld(), material, mass, damping),
+        };
         Self::sliding(&tangent, 0.0)
     }
 
@@ -127,13 +108,10 @@ impl CyclicSystem {
     /// Matrices of harmonic `n`.
     pub(super) fn harmonic(&self, n: usize) -> Harmonic {
         let harmonic = self.tangent.harmonic(n);
-        let MovingHarmonic { half_bandwidth, mass, damping, stiffness } =
-            harmonic.at(self.friction_coefficient);
-        let damping = match harmonic.damping {
-            Some(_) => Damping::Band(damping),
-            None => Damping::Proportional(harmonic.rayleigh),
-        };
-        let is_standing = self.tangent.is_standing(n);
-        Harmonic { half_bandwidth, mass, stiffness, damping, is_standing }
+        Harmonic {
+            proportional: harmonic.damping.is_none().then_some(harmonic.rayleigh),
+            is_standing: self.tangent.is_standing(n),
+            bands: harmonic.at(self.friction_coefficient),
+        }
     }
 }

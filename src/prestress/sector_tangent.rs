@@ -24,7 +24,7 @@ impl WaveTangent {
         options: &TangentOptions,
         contact: &SlidingContact,
     ) -> Result<Self, PrestressError> {
-        let mut terms = WaveTerms::of(sector, material, options.mass);
+        let mut terms = WaveTerms::of(sector, material, (options.mass, options.damping));
         // The state that all parts have together.
         let [springs, _] = supports(sector);
         let supported = terms.elastic().plus(&springs);

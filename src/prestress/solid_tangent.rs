@@ -23,7 +23,7 @@ impl WaveTangent {
         if contact.rotation_speed == 0.0 {
             return Err(PrestressError::AtRest);
         }
-        let mut terms = WaveTerms::of(sector, material, options.mass);
+        let mut terms = WaveTerms::of(sector, material, (options.mass, options.damping));
         let base =
             SolidSliding::solve(sector, &terms.elastic(), contact, options.contact.base_law())?;
         if options.geometric_stiffness {

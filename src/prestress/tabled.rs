@@ -37,6 +37,24 @@ impl TabledGain {
     }
 }
 
+/// What multiplies a stiffness beside the real one at an eigenvalue: `i` of structural damping, `g` of a table.
+#[derive(Clone, Debug)]
+pub struct LossGain(pub Option<TabledGain>);
+
+impl LossGain {
+    /// The factor. Motions are real: what belongs to `-f` is the conjugate of what belongs to `f`.
+    pub fn at(&self, lambda: c64) -> c64 {
+        let at = |own| self.0.as_ref().map_or(c64::new(0.0, 1.0), |gain| gain.at(own));
+        if lambda.im < 0.0 { at(lambda.conj()).conj() } else { at(lambda) }
+    }
+
+    /// Its derivative by the angular frequency, s.
+    pub fn slope(&self, lambda: c64) -> c64 {
+        let at = |own| self.0.as_ref().map_or(c64::ZERO, |gain| gain.slope(own));
+        if lambda.im < 0.0 { -at(lambda.conj()).conj() } else { at(lambda) }
+    }
+}
+
 /// A part with such a table.
 #[derive(Clone, Debug)]
 pub struct TabledStiffness {

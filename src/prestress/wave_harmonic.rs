@@ -1,8 +1,10 @@
 //! The matrices of one harmonic, by power of the friction coefficient and at one of its values.
 
+use super::LossGain;
 use crate::fem::RayleighDamping;
 use crate::linalg::banded::{BandedMatrix, multiply_band};
 use crate::linalg::c64;
+use std::borrow::Cow;
 
 /// A matrix that depends on the friction coefficient, `P(mu) = sum_p P_p (i mu)^p` with real `P_p`.
 pub type FrictionPolynomial = Vec<BandedMatrix>;
@@ -38,6 +40,8 @@ pub struct HarmonicTangent {
     pub damping: Option<FrictionPolynomial>,
     /// Dashpots of friction along and across the sliding: `mu` times this is a further part of `C_n`, N s/m.
     pub friction_dashpots: Option<FrictionPolynomial>,
+    /// Stiffness of loss factors and of tables over frequency, which `K_n` has beside it with these factors, N/m.
+    pub losses: Vec<(LossGain, FrictionPolynomial)>,
     /// Forms of the mass whose values over that of the mass itself are the shares of kinetic energy of the contact's nodes and of
     /// axial motion; where unknowns are no displacements.
     pub shares: Option<[BandedMatrix; 2]>,
@@ -56,8 +60,10 @@ pub struct MovingHarmonic {
     pub mass: Vec<c64>,
     /// `C`, N s/m.
     pub damping: Vec<c64>,
-    /// `K`, N/m.
+    /// `K`, N/m, without what [`Self::stiffness_at`] adds.
     pub stiffness: Vec<c64>,
+    /// See [`HarmonicTangent::losses`].
+    pub losses: Vec<(LossGain, Vec<c64>)>,
 }
 
 impl HarmonicTangent {
@@ -78,7 +84,8 @@ impl HarmonicTangent {
             damping.iter_mut().zip(added).for_each(|(sum, c)| *sum += c * mu);
         }
         let half_bandwidth = self.mass[0].half_bandwidth();
-        MovingHarmonic { half_bandwidth, mass, damping, stiffness }
+        let losses = self.losses.iter().map(|(gain, own)| (gain.clone(), evaluate(own, z)));
+        MovingHarmonic { half_bandwidth, mass, damping, stiffness, losses: losses.collect() }
     }
 }
 
@@ -88,21 +95,37 @@ impl MovingHarmonic {
         self.mass.len() / (2 * self.half_bandwidth + 1)
     }
 
+    /// `K` that an eigenvalue sees, losses and tables included.
+    pub fn stiffness_at(&self, lambda: c64) -> Cow<'_, [c64]> {
+        let mut sum = Cow::Borrowed(&self.stiffness[..]);
+        for (gain, own) in &self.losses {
+            let factor = gain.at(lambda);
+            sum.to_mut().iter_mut().zip(own).for_each(|(sum, value)| *sum += factor * value);
+        }
+        sum
+    }
+
     /// `(lambda^2 M + lambda C + K) x`, or the adjoint's product.
     pub fn apply(&self, lambda: c64, x: &[c64], adjoint: bool) -> Vec<c64> {
-        let one = c64::new(1.0, 0.0);
-        self.combine([lambda * lambda, lambda, one], x, adjoint)
+        let stiffness = self.stiffness_at(lambda);
+        let one = (c64::new(1.0, 0.0), &stiffness[..]);
+        self.combine([(lambda * lambda, &self.mass), (lambda, &self.damping), one], x, adjoint)
     }
 
     /// `(2 lambda M + C) x`, or the adjoint's product.
     pub fn apply_slope(&self, lambda: c64, x: &[c64], adjoint: bool) -> Vec<c64> {
-        self.combine([lambda + lambda, c64::new(1.0, 0.0), c64::ZERO], x, adjoint)
+        let one = c64::new(1.0, 0.0);
+        self.combine([(lambda + lambda, &self.mass[..]), (one, &self.damping)], x, adjoint)
     }
 
-    fn combine(&self, factors: [c64; 3], x: &[c64], adjoint: bool) -> Vec<c64> {
+    fn combine<const N: usize>(
+        &self,
+        terms: [(c64, &[c64]); N],
+        x: &[c64],
+        adjoint: bool,
+    ) -> Vec<c64> {
         let mut sum = vec![c64::ZERO; x.len()];
-        let bands = [&self.mass, &self.damping, &self.stiffness];
-        for (factor, band) in factors.into_iter().zip(bands).filter(|(f, _)| *f != c64::ZERO) {
+        for (factor, band) in terms {
             let factor = if adjoint { factor.conj() } else { factor };
             let image = multiply_band(band, self.half_bandwidth, x, adjoint);
             sum.iter_mut().zip(image).for_each(|(sum, value)| *sum += factor * value);
@@ -113,12 +136,11 @@ impl MovingHarmonic {
     /// A sum of matrices of the same unknowns, each with its weight; `None` where the unknowns differ.
     pub fn combined(terms: &[(f64, Self)]) -> Option<Self> {
         let (weight, first) = terms.first()?;
-        let size = (first.half_bandwidth, first.mass.len());
-        let is_like = |(_, own): &(f64, Self)| (own.half_bandwidth, own.mass.len()) == size;
-        if !terms.iter().all(is_like) {
+        let shape = |own: &Self| (own.half_bandwidth, own.mass.len(), own.losses.len());
+        if !terms.iter().all(|(_, own)| shape(own) == shape(first)) {
             return None;
         }
-        let sum = |of: fn(&Self) -> &Vec<c64>| {
+        let sum = |of: &dyn for<'a> Fn(&'a Self) -> &'a Vec<c64>| {
             let mut sum: Vec<c64> = of(first).iter().map(|v| v * *weight).collect();
             for (weight, term) in &terms[1..] {
                 sum.iter_mut().zip(of(term)).for_each(|(sum, v)| *sum += v * *weight);
@@ -127,9 +149,13 @@ impl MovingHarmonic {
         };
         Some(Self {
             half_bandwidth: first.half_bandwidth,
-            mass: sum(|own| &own.mass),
-            damping: sum(|own| &own.damping),
-            stiffness: sum(|own| &own.stiffness),
+            mass: sum(&|own| &own.mass),
+            damping: sum(&|own| &own.damping),
+            stiffness: sum(&|own| &own.stiffness),
+            losses: {
+                let gains = first.losses.iter().map(|(gain, _)| gain.clone()).enumerate();
+                gains.map(|(part, gain)| (gain, sum(&|own| &own.losses[part].1))).collect()
+            },
         })
     }
 }

@@ -10,14 +10,15 @@
 //! is that of the whole tangent. Everything is of one sector, in the unknowns of the harmonic.
 
 use super::wave_terms::RegionTerms;
-use super::{DampingModel, WaveTangent};
+use super::{DampingModel, SectorSupport, WaveTangent};
 use crate::fem::RayleighDamping;
 use crate::fem::fold::{MirrorParity, SectorMatrix};
 use crate::linalg::banded::CompactRows;
 use crate::linalg::c64;
 
 /// One region in one harmonic.
-struct RegionWave {
+struct RegionWave<'a> {
+    terms: &'a RegionTerms,
     mass: CompactRows,
     elastic: CompactRows,
     /// `P` and `S` of the geometric stiffness.
@@ -26,10 +27,10 @@ struct RegionWave {
 }
 
 /// All parts of one harmonic.
-pub struct HarmonicParts {
-    regions: Vec<RegionWave>,
-    /// Springs and dashpots.
-    supports: Vec<[CompactRows; 2]>,
+pub struct HarmonicParts<'a> {
+    regions: Vec<RegionWave<'a>>,
+    /// Springs and dashpots, and the loss factor of the springs.
+    supports: Vec<([CompactRows; 2], f64)>,
     /// Unknowns of each contact node, or ring of them, of one sector.
     contact: Vec<Vec<usize>>,
     /// What `beta_R` multiplies of the geometric stiffness.
@@ -43,15 +44,17 @@ pub struct PartForms {
     pub mass: f64,
     /// Twice the strain energy.
     pub stiffness: f64,
-    /// What the damping takes, over `|lambda|^2`.
+    /// What the damping takes, over `|lambda|^2`; a loss factor takes like a dashpot `eta k / omega`.
     pub damping: f64,
 }
 
-impl HarmonicParts {
-    /// Forms of each region at a friction coefficient; the geometric stiffness has a part in the damping alone.
-    pub fn of_regions(&self, friction: f64, x: &[c64]) -> Vec<PartForms> {
-        let of = |region: &RegionWave| {
+impl HarmonicParts<'_> {
+    /// Forms of each region at an eigenvalue of the wave `+n` and a friction coefficient; the geometric stiffness has a part in the
+    /// damping alone.
+    pub fn of_regions(&self, root: c64, friction: f64, x: &[c64]) -> Vec<PartForms> {
+        let of = |region: &RegionWave<'_>| {
             let [mass, stiffness] = [&region.mass, &region.elastic].map(|a| a.form(x, x).re);
+            let ratio = region.terms.ratio(root);
             let stress = region.stress.as_ref().filter(|_| self.stress_damping != 0.0);
             let stress = stress.map_or(0.0, |[pressed, sheared]| {
                 let turned = c64::new(0.0, friction) * sheared.form(x, x);
@@ -61,19 +64,21 @@ impl HarmonicParts {
                 region.damping;
             PartForms {
                 mass,
-                stiffness,
-                damping: alpha * mass + beta * stiffness + self.stress_damping * stress,
+                stiffness: ratio.re * stiffness,
+                damping: alpha * mass
+                    + (beta + ratio.im / root.im) * stiffness
+                    + self.stress_damping * stress,
             }
         };
         self.regions.iter().map(of).collect()
     }
 
     /// Forms of each support.
-    pub fn of_supports(&self, x: &[c64]) -> Vec<PartForms> {
-        let of = |[springs, dashpots]: &[CompactRows; 2]| PartForms {
-            mass: 0.0,
-            stiffness: springs.form(x, x).re,
-            damping: dashpots.form(x, x).re,
+    pub fn of_supports(&self, root: c64, x: &[c64]) -> Vec<PartForms> {
+        let of = |([springs, dashpots], eta): &([CompactRows; 2], f64)| {
+            let stiffness = springs.form(x, x).re;
+            let damping = dashpots.form(x, x).re + eta * stiffness / root.im.abs();
+            PartForms { mass: 0.0, stiffness, damping }
         };
         self.supports.iter().map(of).collect()
     }
@@ -100,17 +105,17 @@ impl HarmonicParts {
         for region in &self.regions {
             let RayleighDamping { mass_coefficient: alpha, stiffness_coefficient: beta } =
                 region.damping;
-            let RegionWave { mass, elastic, .. } = region;
+            let RegionWave { mass, elastic, terms, .. } = region;
             mass.add_product(root * (root + alpha), x, &mut forces);
-            elastic.add_product(one + root * beta, x, &mut forces);
+            elastic.add_product(terms.ratio(root) + root * beta, x, &mut forces);
             if let Some([pressed, sheared]) = &region.stress {
                 let factor = one + root * self.stress_damping;
                 pressed.add_product(factor, x, &mut forces);
                 sheared.add_product(factor * c64::new(0.0, friction), x, &mut forces);
             }
         }
-        for [springs, dashpots] in &self.supports {
-            springs.add_product(one, x, &mut forces);
+        for ([springs, dashpots], eta) in &self.supports {
+            springs.add_product(c64::new(1.0, eta * root.im.signum()), x, &mut forces);
             dashpots.add_product(root, x, &mut forces);
         }
         let work = |unknowns: &Vec<usize>| -> f64 {
@@ -124,31 +129,32 @@ impl HarmonicParts {
 impl WaveTangent {
     /// Names of the supported boundaries.
     pub fn support_names(&self) -> impl Iterator<Item = &str> {
-        self.terms.supports.iter().map(|(name, _)| name.as_str())
+        self.terms.supports.iter().map(|own| own.name.as_str())
     }
 
     /// All parts in the unknowns of harmonic `n`.
-    pub fn parts(&self, n: usize) -> HarmonicParts {
+    pub fn parts(&self, n: usize) -> HarmonicParts<'_> {
         let wave = |matrix: &SectorMatrix, parity| {
             CompactRows::new(&self.restricted(self.wave(n, parity, &[matrix])))
         };
         let even = |matrix: &SectorMatrix| wave(matrix, MirrorParity::Even);
-        let of_region = |region: &RegionTerms| {
-            let [pressed, sheared] = &region.stress;
+        let regions = self.terms.regions.iter().map(|terms| {
+            let RegionTerms { mass, elastic, stress: [pressed, sheared], damping, .. } = terms;
             let acts = !pressed.is_empty() || !sheared.is_empty();
             RegionWave {
-                mass: even(&region.mass),
-                elastic: even(&region.elastic),
+                terms,
+                mass: even(mass),
+                elastic: even(elastic),
                 stress: acts.then(|| [even(pressed), wave(sheared, MirrorParity::Odd)]),
-                damping: region.damping.unwrap_or(self.options.damping),
+                damping: damping.unwrap_or(self.options.damping),
             }
-        };
+        });
         let place = |dof: &usize| self.unknowns().unknown_of[*dof];
         let contact = self.contact.places.iter();
-        let supports = self.terms.supports.iter();
+        let support = |own: &SectorSupport| (own.terms.each_ref().map(even), own.loss_factor);
         HarmonicParts {
-            regions: self.terms.regions.iter().map(of_region).collect(),
-            supports: supports.map(|(_, own)| own.each_ref().map(even)).collect(),
+            regions: regions.collect(),
+            supports: self.terms.supports.iter().map(support).collect(),
             contact: contact.map(|dofs| dofs.iter().filter_map(place).collect()).collect(),
             stress_damping: match self.options.damping_model {
                 DampingModel::WholeTangent => self.options.damping.stiffness_coefficient,

@@ -12,8 +12,22 @@ pub trait WaveSector: Sectored {
     /// Sector node of each node of a sector, in the order of the mesh, and its angle in halves of a sector.
     fn nodes(&self) -> Vec<(usize, usize)>;
 
-    /// Name, springs and dashpots of each supported boundary: N/m and N s/m, in the plane Pa and Pa s.
-    fn supports(&self) -> Vec<(String, [SectorMatrix; 2])>;
+    /// Each supported boundary.
+    fn supports(&self) -> Vec<SectorSupport>;
+
+    /// The same with nothing that holds it.
+    fn unheld(&self) -> Self;
+}
+
+/// A supported boundary of a sector.
+#[derive(Clone, Debug)]
+pub struct SectorSupport {
+    /// Its name.
+    pub name: String,
+    /// Springs and dashpots: N/m and N s/m, in the plane Pa and Pa s.
+    pub terms: [SectorMatrix; 2],
+    /// Structural damping of the springs.
+    pub loss_factor: f64,
 }
 
 impl WaveSector for SectorMesh {
@@ -22,9 +36,12 @@ impl WaveSector for SectorMesh {
         own.map(|&node| (node, self.half_step(node))).collect()
     }
 
-    fn supports(&self) -> Vec<(String, [SectorMatrix; 2])> {
+    fn supports(&self) -> Vec<SectorSupport> {
         let boundaries = &self.strip.boundaries;
         let of = |own: usize| {
+            let BoundaryCondition::Support(support) = boundaries[own].condition else {
+                return None;
+            };
             // The sector with this support alone.
             let mut alone = self.strip.clone();
             for (other, boundary) in alone.boundaries.iter_mut().enumerate() {
@@ -42,11 +59,14 @@ impl WaveSector for SectorMesh {
                 SectorMatrix::sum(2, own)
             };
             let terms = [sum(|support| support.stiffness), sum(|support| support.damping)];
-            (boundaries[own].name.clone(), terms)
+            let name = boundaries[own].name.clone();
+            Some(SectorSupport { name, terms, loss_factor: support.loss_factor })
         };
-        let is_supported =
-            |own: &usize| matches!(boundaries[*own].condition, BoundaryCondition::Support(_));
-        (0..boundaries.len()).filter(is_supported).map(of).collect()
+        (0..boundaries.len()).filter_map(of).collect()
+    }
+
+    fn unheld(&self) -> Self {
+        self.clone().with_free_outer_edge()
     }
 }
 
@@ -55,8 +75,14 @@ impl WaveSector for SolidSector {
         self.nodes.iter().map(|node| node.half_step).enumerate().collect()
     }
 
-    fn supports(&self) -> Vec<(String, [SectorMatrix; 2])> {
+    fn supports(&self) -> Vec<SectorSupport> {
         supported_faces(self)
+    }
+
+    fn unheld(&self) -> Self {
+        let mut free = self.clone();
+        free.specification.conditions = [BoundaryCondition::Free; 4];
+        free
     }
 }
 
@@ -64,7 +90,7 @@ impl WaveSector for SolidSector {
 pub fn supports<S: WaveSector>(sector: &S) -> [SectorMatrix; 2] {
     let all = sector.supports();
     [0, 1].map(|part| {
-        let own = all.iter().map(|(_, own)| &own[part]);
+        let own = all.iter().map(|own| &own.terms[part]);
         own.fold(SectorMatrix::default(), |sum, own| sum.plus(own))
     })
 }
@@ -79,7 +105,7 @@ pub fn supported_stiffness<S: WaveSector>(
 }
 
 /// Each supported face.
-fn supported_faces(sector: &SolidSector) -> Vec<(String, [SectorMatrix; 2])> {
+fn supported_faces(sector: &SolidSector) -> Vec<SectorSupport> {
     let mut all = Vec::new();
     for (face, condition) in SolidFace::ALL.into_iter().zip(&sector.specification.conditions) {
         let BoundaryCondition::Support(support) = condition else {
@@ -117,7 +143,8 @@ fn supported_faces(sector: &SolidSector) -> Vec<(String, [SectorMatrix; 2])> {
                 *sum = sum.plus(&face_matrix(sector, &elements, &term));
             }
         }
-        all.push((face.name().to_owned(), terms));
+        let name = face.name().to_owned();
+        all.push(SectorSupport { name, terms, loss_factor: support.loss_factor });
     }
     all
 }

@@ -1,7 +1,10 @@
 //! The small motions around steady sliding of a body of equal sectors, harmonic by harmonic, from the terms of one sector.
 
-use super::wave_terms::{RegionTerms, WaveTerms};
-use super::{DampingModel, FrictionPolynomial, HarmonicTangent, TangentOptions, WaveSector};
+use super::wave_terms::WaveTerms;
+use super::{
+    DampingModel, FrictionPolynomial, HarmonicTangent, LossGain, TabledGain, TangentOptions,
+    WaveSector,
+};
 use crate::contact::ContactStiffness;
 use crate::fem::fold::{MirrorParity, SectorMatrix, WaveDofs};
 use crate::fem::{DofMap, MassKind, MaterialField, RayleighDamping};
@@ -81,7 +84,7 @@ impl WaveTangent {
             damping_model: DampingModel::WholeTangent,
             contact: ContactStiffness::default(),
         };
-        let terms = WaveTerms::of(sector, material, mass);
+        let terms = WaveTerms::of(sector, material, (mass, damping));
         Self::new(sector, (terms, WaveContact::default()), &options, 1.0)
     }
 
@@ -222,14 +225,13 @@ impl WaveTangent {
 
     /// Whether `C = alpha_R M + beta_R K_t` exactly.
     pub fn is_proportional(&self) -> bool {
-        let WaveTerms { regions, supports, contact, .. } = &self.terms;
-        let is_own = |own: RayleighDamping| own != self.options.damping;
-        let has_own = regions.iter().any(|region| region.damping.is_some_and(is_own));
+        let WaveTerms { supports, contact, extra_damping, .. } = &self.terms;
         let is_whole = self.options.damping_model == DampingModel::WholeTangent;
-        let mut further = supports.iter().flat_map(|(_, own)| own);
+        let mut further = supports.iter().flat_map(|own| &own.terms);
         let mut dashpots = contact.dashpots.iter().chain([&contact.friction_dashpots]);
         is_whole
-            && !has_own
+            && !self.is_lossy()
+            && extra_damping.is_empty()
             && further.all(SectorMatrix::is_empty)
             && dashpots.all(SectorMatrix::is_empty)
     }
@@ -239,7 +241,7 @@ impl WaveTangent {
         let mass = self.mass(n);
         let mut stiffness = [MirrorParity::Even, MirrorParity::Odd].map(|p| self.stiffness(n, p));
         let damping = (!self.is_proportional()).then(|| self.damping(n, &mass, &stiffness));
-        stiffness[0].add_scaled(1.0, &self.of_supports(n, 0));
+        self.add_undamped(n, &mut stiffness[0]);
         let dashpots = &self.terms.contact.friction_dashpots;
         let dashpots = (!dashpots.is_empty())
             .then(|| vec![self.dofs.fold(n, MirrorParity::Even, &[dashpots])]);
@@ -249,6 +251,7 @@ impl WaveTangent {
             stiffness: self.project(stiffness.into()),
             damping: damping.map(|damping| self.project(damping.into())),
             friction_dashpots: dashpots.map(|dashpots| self.project(dashpots)),
+            losses: self.losses(n),
             shares: None,
             rayleigh: self.options.damping,
             contact: self.contact_unknowns(),
@@ -273,8 +276,19 @@ impl WaveTangent {
     /// `M_n` and `K_n` without friction, the normals in rigid contact included.
     fn all_at_rest(&self, n: usize) -> [BandedMatrix; 2] {
         let mut stiffness = self.stiffness(n, MirrorParity::Even);
-        stiffness.add_scaled(1.0, &self.of_supports(n, 0));
+        self.add_undamped(n, &mut stiffness);
         [self.mass(n), stiffness]
+    }
+
+    /// Adds the stiffness that `beta_R` does not multiply: springs, and what tables have at their reference.
+    fn add_undamped(&self, n: usize, stiffness: &mut BandedMatrix) {
+        stiffness.add_scaled(1.0, &self.of_supports(n, 0));
+        for region in &self.terms.regions {
+            if let Some(table) = &region.table {
+                let elastic = self.wave(n, MirrorParity::Even, &[&region.elastic]);
+                stiffness.add_scaled(table.reference() - 1.0, &elastic);
+            }
+        }
     }
 
     /// Harmonic `n` of a sum of terms over displacements, with distances across the contact.
@@ -301,7 +315,7 @@ impl WaveTangent {
 
     /// Springs (0) or dashpots (1) of all supports.
     fn of_supports(&self, n: usize, part: usize) -> BandedMatrix {
-        let own = self.terms.supports.iter().map(|(_, own)| &own[part]);
+        let own = self.terms.supports.iter().map(|own| &own.terms[part]);
         self.wave(n, MirrorParity::Even, &own.collect::<Vec<_>>())
     }
 
@@ -326,32 +340,77 @@ impl WaveTangent {
         stiffness: &[BandedMatrix; 2],
     ) -> [BandedMatrix; 2] {
         let common = self.options.damping;
-        let elastic = |regions: &[RegionTerms]| {
-            let elastic: Vec<_> = regions.iter().map(|region| &region.elastic).collect();
-            self.wave(n, MirrorParity::Even, &elastic)
-        };
+        let elastic = self.terms.regions.iter().map(|region| &region.elastic);
         let mut damping = match self.options.damping_model {
             DampingModel::WholeTangent => stiffness.clone(),
-            DampingModel::BodyOnly => [elastic(&self.terms.regions), self.dofs.zeros()],
+            DampingModel::BodyOnly => {
+                let elastic = elastic.collect::<Vec<_>>();
+                [self.wave(n, MirrorParity::Even, &elastic), self.dofs.zeros()]
+            }
         };
         for matrix in &mut damping {
             matrix.scale(common.stiffness_coefficient);
         }
         let [rest, sheared] = &mut damping;
         rest.add_scaled(common.mass_coefficient, mass);
-        for region in &self.terms.regions {
-            if let Some(own) = region.damping.filter(|own| *own != common) {
-                let alpha = own.mass_coefficient - common.mass_coefficient;
-                let beta = own.stiffness_coefficient - common.stiffness_coefficient;
-                rest.add_scaled(alpha, &self.wave(n, MirrorParity::Even, &[&region.mass]));
-                rest.add_scaled(beta, &elastic(std::slice::from_ref(region)));
-            }
-        }
+        rest.add_scaled(1.0, &self.wave(n, MirrorParity::Even, &[&self.terms.extra_damping]));
         rest.add_scaled(1.0, &self.of_supports(n, 1));
         let [even, odd] = &self.terms.contact.dashpots;
         self.dofs.add(rest, n, MirrorParity::Even, &[even]);
         self.dofs.add(sheared, n, MirrorParity::Odd, &[odd]);
         damping
+    }
+
+    /// Whether the stiffness has losses, or depends on frequency.
+    pub fn is_lossy(&self) -> bool {
+        let WaveTerms { regions, supports, .. } = &self.terms;
+        regions.iter().any(|own| own.loss_factor != 0.0 || own.table.is_some())
+            || supports.iter().any(|own| own.loss_factor != 0.0)
+            || self.options.contact.loss_factor != 0.0
+    }
+
+    /// Moduli over frequency of regions.
+    pub fn tables(&self) -> impl Iterator<Item = &TabledGain> {
+        self.terms.regions.iter().filter_map(|region| region.table.as_ref())
+    }
+
+    /// Whether regions have viscous damping other than that of the whole body.
+    pub fn has_own_damping(&self) -> bool {
+        !self.terms.extra_damping.is_empty()
+    }
+
+    /// The same with real stiffness at the largest moduli of tables, in place of the smallest.
+    pub fn stiffest(&self) -> Self {
+        let mut other = self.clone();
+        let tables = other.terms.regions.iter_mut().filter_map(|region| region.table.as_mut());
+        tables.for_each(|own| own.reference_hz = own.table.extreme_hz(f64::max));
+        other
+    }
+
+    /// `sum eta K` of regions, supports, and the normal law of the contact, which friction follows; and regions with tables.
+    fn losses(&self, n: usize) -> Vec<(LossGain, FrictionPolynomial)> {
+        if !self.is_lossy() {
+            return Vec::new();
+        }
+        let WaveTerms { regions, supports, contact, .. } = &self.terms;
+        let even = |own: &SectorMatrix| self.wave(n, MirrorParity::Even, &[own]);
+        let of_regions = regions.iter().map(|own| (own.loss_factor, &own.elastic));
+        let of_supports = supports.iter().map(|own| (own.loss_factor, &own.terms[0]));
+        let lossy = of_regions.chain(of_supports).filter(|(eta, _)| *eta != 0.0);
+        let eta = self.options.contact.loss_factor;
+        let mut lost = [(MirrorParity::Even, 0), (MirrorParity::Odd, 1)].map(|(parity, part)| {
+            let mut own = self.dofs.fold(n, parity, &[&contact.penalty[part]]);
+            own.scale(eta);
+            own
+        });
+        lossy.for_each(|(eta, own)| lost[0].add_scaled(eta, &even(own)));
+        let structural = lost.iter().any(|own| own.values().iter().any(|value| *value != 0.0));
+        let structural = structural.then(|| (LossGain(None), self.project(lost.into())));
+        let tabled = regions.iter().filter_map(|own| {
+            let gain = LossGain(Some(own.table.clone()?));
+            Some((gain, self.project(vec![even(&own.elastic)])))
+        });
+        structural.into_iter().chain(tabled).collect()
     }
 
     /// Onto the unknowns; for rigid contact each normal row is added to its tangential rows with the

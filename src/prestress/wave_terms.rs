@@ -1,18 +1,21 @@
 //! The matrices of one sector that the tangent of its waves is made of.
 
-use super::WaveSector;
 use super::solid_contact::ContactTerms;
+use super::{LossGain, SectorSupport, TabledGain, WaveSector};
 use crate::fem::fold::SectorMatrix;
 use crate::fem::{MassKind, MaterialField, RayleighDamping, sector};
+use crate::linalg::c64;
+use std::sync::Arc;
 
 /// What the matrices are made of.
 #[derive(Clone, Debug, Default)]
 pub(super) struct WaveTerms {
     pub regions: Vec<RegionTerms>,
-    /// Name, springs and dashpots of each supported boundary.
-    pub supports: Vec<(String, [SectorMatrix; 2])>,
+    pub supports: Vec<SectorSupport>,
     /// Contact forces that turn with their nodes, without friction and for each unit of it.
     pub turning: [SectorMatrix; 2],
+    /// Damping of regions beyond that of the whole body.
+    pub extra_damping: SectorMatrix,
     /// Over the distances across the contact where that joins two bodies.
     pub contact: ContactTerms,
 }
@@ -26,20 +29,45 @@ pub(super) struct RegionTerms {
     pub stress: [SectorMatrix; 2],
     /// Rayleigh coefficients of its own, else those of the whole body.
     pub damping: Option<RayleighDamping>,
+    /// Structural damping `eta`.
+    pub loss_factor: f64,
+    /// Modulus over frequency; the elastic stiffness has that of the lowest.
+    pub table: Option<TabledGain>,
+}
+
+impl RegionTerms {
+    /// What its stiffness is multiplied by at an eigenvalue of the wave `+n`.
+    pub fn ratio(&self, root: c64) -> c64 {
+        let gain = LossGain(self.table.clone());
+        match &self.table {
+            Some(table) => table.reference() + gain.at(root),
+            None => 1.0 + self.loss_factor * gain.at(root),
+        }
+    }
 }
 
 impl WaveTerms {
     /// Regions without stress and supports of a sector.
-    pub fn of<S: WaveSector>(sector: &S, material: &dyn MaterialField, kind: MassKind) -> Self {
+    pub fn of<S: WaveSector>(
+        sector: &S,
+        material: &dyn MaterialField,
+        (kind, damping): (MassKind, RayleighDamping),
+    ) -> Self {
         let region = |region: usize| RegionTerms {
             mass: sector::mass_of(sector, material, kind, Some(region)),
             elastic: sector::stiffness_of(sector, material, Some(region)),
             stress: Default::default(),
             damping: material.own_damping(region),
+            loss_factor: material.of(region).loss_factor,
+            table: material.table(region).map(|table| TabledGain {
+                table: Arc::clone(table),
+                reference_hz: table.extreme_hz(f64::min),
+            }),
         };
         Self {
             regions: (0..sector.region_count()).map(region).collect(),
             supports: sector.supports(),
+            extra_damping: sector::extra_damping(sector, material, kind, damping),
             ..Self::default()
         }
     }

@@ -11,19 +11,21 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-use super::eigenvalues::{AssemblyModel, no_cyclic_losses};
+use super::eigenvalues::AssemblyModel;
 use super::{StudyError, tangent_options};
 use crate::case::{AssemblyBody, Body, Case, CaseErrors, Frf, FrfMethod, refusal};
-use crate::fem::assemble_stiffness;
+use crate::contact::SlidingContact;
+use crate::fem::{MaterialField, assemble_stiffness};
 use crate::frf::{
     Axis, CyclicSystem, FrfBoundary, FrfError, FrfSystem, Port, ReductionSettings, cyclic_response,
     direct_response_with, reduced_response,
 };
 use crate::linalg::{GaussianNoise, c64};
-use crate::mesh::{
-    AnnulusSpecification, BoundaryCondition, Mesh, SectorMesh, SolidSector, SolidSpecification,
+use crate::mesh::{BoundaryCondition, Mesh, SectorMesh, SolidSector};
+use crate::prestress::{
+    BaseChoice, PrestressError, SlidingTangent, SteadySliding, TangentOptions, WaveSector,
+    WaveTangent,
 };
-use crate::prestress::{BaseChoice, SlidingTangent, SteadySliding, WaveTangent};
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
@@ -90,13 +92,6 @@ impl<'a> FrequencyStudy<'a> {
         let is_lossy = case.has_structural_damping();
         refuse_beyond_tables(case, frf)?;
         let system = match frf.method {
-            FrfMethod::Auto | FrfMethod::Cyclic if is_lossy && case.body.revolution().is_some() => {
-                return Err(no_cyclic_losses(case, "the response").into());
-            }
-            FrfMethod::Auto if is_lossy => whole(case, frf, Reduction::No)?,
-            FrfMethod::Cyclic if is_lossy && case.has_sectors() => {
-                return Err(no_cyclic_losses(case, "frf.method = \"cyclic\"").into());
-            }
             FrfMethod::Reduced if is_lossy => {
                 let refusal = case.loss_error(
                     "frf.method = \"reduced\" projects on real spaces of viscous damping, which \
@@ -112,6 +107,7 @@ impl<'a> FrequencyStudy<'a> {
                 return Err(disc_and_shaft_apart(case).into());
             }
             FrfMethod::Cyclic => cyclic(case, frf)?,
+            FrfMethod::Auto if is_lossy => whole(case, frf, Reduction::No)?,
             FrfMethod::Auto => whole(case, frf, Reduction::Tried)?,
             FrfMethod::Reduced => whole(case, frf, Reduction::Asked)?,
             FrfMethod::Direct => whole(case, frf, Reduction::No)?,
@@ -231,8 +227,14 @@ fn cyclic(case: &Case, frf: &Frf) -> Result<System, StudyError> {
         refuse_rest(case)?;
     }
     let system = match &case.body {
-        Body::Annulus(body) => annulus(case, frf, &body.specification)?,
-        Body::Revolution(body) => solid(case, frf, &body.specification)?,
+        Body::Annulus(body) => {
+            let sector = SectorMesh::generate(&body.specification)?;
+            sectors(case, frf, &sector, WaveTangent::of_annulus)?
+        }
+        Body::Revolution(body) => {
+            let sector = SolidSector::generate(&body.specification)?;
+            sectors(case, frf, &sector, WaveTangent::of_revolution)?
+        }
         Body::Imported(_) | Body::Assembly(_) => {
             return Err(StudyError::Case(refusal!(case, "frf.method",
                 "frf.method = \"cyclic\" needs the symmetry of the built-in annulus";
@@ -246,38 +248,25 @@ fn cyclic(case: &Case, frf: &Frf) -> Result<System, StudyError> {
     Ok(System::Cyclic(Box::new(system)))
 }
 
-fn annulus(
+/// The harmonics of a body of equal sectors, linearised by `slide` where it slides.
+fn sectors<S: WaveSector>(
     case: &Case,
     frf: &Frf,
-    specification: &AnnulusSpecification,
+    sector: &S,
+    slide: impl Fn(
+        &S,
+        &dyn MaterialField,
+        &TangentOptions,
+        &SlidingContact,
+    ) -> Result<WaveTangent, PrestressError>,
 ) -> Result<CyclicSystem, StudyError> {
-    let sector = SectorMesh::generate(specification)?;
-    let contact = &case.contact.sliding;
+    let (materials, contact) = (case.materials(), &case.contact.sliding);
     if frf.boundary == FrfBoundary::Sliding {
-        let options = tangent_options(case, frf.mass);
-        let tangent = WaveTangent::of_annulus(&sector, case.materials(), &options, contact)?;
+        let tangent = slide(sector, materials, &tangent_options(case, frf.mass), contact)?;
         return Ok(CyclicSystem::sliding(&tangent, contact.friction_coefficient));
     }
-    let is_clamped = frf.boundary == FrfBoundary::Clamped;
-    let rayleigh = case.damping.rayleigh;
-    Ok(CyclicSystem::body(&sector, case.materials(), frf.mass, rayleigh, is_clamped))
-}
-
-fn solid(
-    case: &Case,
-    frf: &Frf,
-    specification: &SolidSpecification,
-) -> Result<CyclicSystem, StudyError> {
-    let sector = SolidSector::generate(specification)?;
-    let contact = &case.contact.sliding;
-    if frf.boundary == FrfBoundary::Sliding {
-        let options = tangent_options(case, frf.mass);
-        let tangent = WaveTangent::of_revolution(&sector, case.materials(), &options, contact)?;
-        return Ok(CyclicSystem::sliding(&tangent, contact.friction_coefficient));
-    }
-    let is_clamped = frf.boundary == FrfBoundary::Clamped;
-    let rayleigh = case.damping.rayleigh;
-    Ok(CyclicSystem::solid_body(&sector, case.materials(), frf.mass, rayleigh, is_clamped))
+    let is_held = frf.boundary == FrfBoundary::Clamped;
+    Ok(CyclicSystem::body(sector, materials, frf.mass, case.damping.rayleigh, is_held))
 }
 
 /// Matrices of the whole mesh as it is held, and the ports of force and response.

@@ -11,6 +11,7 @@ use super::{Perturbation, StepPlan, TransientError, TransientSettings};
 use crate::contact::{ContactInterface, ContactStiffness, SlidingContact};
 use crate::fem::fold::SectorMatrix;
 use crate::fem::operator::{StiffnessOperator, largest_frequency_of};
+use crate::fem::sector::{Sectored, extra_damping};
 use crate::fem::{
     MassKind, MaterialField, RayleighDamping, Triplets, assemble_extra_damping, assemble_pressures,
     assemble_supports,
@@ -195,7 +196,9 @@ impl<'a> TransientModel<'a> {
                 bound.stiffness_coefficient.max(own.stiffness_coefficient);
         };
         let Some(mesh) = self.mesh() else {
-            cover(self.damping);
+            let SteppedBody::Revolution(sector) = self.body else { return bound };
+            let regions = 0..sector.region_count();
+            regions.for_each(|r| cover(self.material.own_damping(r).unwrap_or(self.damping)));
             bound.mass_coefficient += rates.iter().copied().fold(0.0, f64::max);
             return bound;
         };
@@ -220,9 +223,13 @@ impl<'a> TransientModel<'a> {
         if beta != 0.0 {
             damping.entries.extend(springs.scaled(-beta).entries);
         }
-        let own = self.mesh().and_then(|mesh| {
-            assemble_extra_damping(mesh, self.material, MassKind::Lumped, self.damping)
-        });
+        let (material, kind, common) = (self.material, MassKind::Lumped, self.damping);
+        let own = match (self.body, self.mesh()) {
+            (SteppedBody::Revolution(sector), _) => {
+                Some(everywhere(sector, &extra_damping(sector, material, kind, common)))
+            }
+            (_, mesh) => mesh.and_then(|mesh| assemble_extra_damping(mesh, material, kind, common)),
+        };
         damping.entries.extend(own.unwrap_or_default().entries);
         let pressure = match self.body {
             SteppedBody::Plane { mesh, .. } => assemble_pressures(mesh),
@@ -324,11 +331,14 @@ impl<'a> TransientModel<'a> {
     }
 }
 
-/// A matrix that couples no two sectors, in all of them.
+/// A matrix of bricks with 8 nodes, in all sectors.
 fn everywhere(sector: &SolidSector, matrix: &SectorMatrix) -> Triplets {
-    let dofs = 3 * sector.node_count();
-    let all = (0..sector.sector_count()).flat_map(|s| {
-        matrix.entries().map(move |(i, j, _, value)| (dofs * s + i, dofs * s + j, value))
+    let (dofs, count) = (3 * sector.node_count(), sector.sector_count());
+    let all = (0..count).flat_map(|s| {
+        matrix.entries().map(move |(i, j, halves_ahead, value)| {
+            let other = (s + count).wrapping_add_signed(halves_ahead / 2) % count;
+            (dofs * s + i, dofs * other + j, value)
+        })
     });
     Triplets { entries: all.collect() }
 }

@@ -77,23 +77,143 @@ fn the_whole_mesh_of_a_body_of_revolution_has_the_spectrum_of_its_harmonics() {
     }
 }
 
-/// Independent, as above: losses of the body and of what holds it part the waves of each harmonic.
+/// A ring of steel in the lower half, with damping of its own, on a finer mesh.
+const RING: [&str; 2] = [
+    "materials.ring={radii=[0.0438333333333333,0.0671666666666667],heights=[0.0,0.0045],young_modulus=2e11,\
+     poisson_ratio=0.3,density=7850.0,mass_coefficient=300.0,stiffness_coefficient=2e-7}",
+    "mesh.axial_elements=2",
+];
+
+/// Independent, as above: parts of several materials are those of the whole mesh, in modes and in steps.
+#[test]
+fn several_materials_of_a_body_of_revolution_are_those_of_its_whole_mesh() {
+    let folder = folder();
+    for (out, method) in [("waves", "auto"), ("whole", "sparse")] {
+        let method = format!("cea.method=\"{method}\"");
+        run(folder.path(), "cea", DISC, out, &[RING[0], RING[1], &method]).code(0);
+    }
+    let [waves, whole] = ["waves", "whole"].map(|out| modes(folder.path(), out));
+    let error = distance(&whole, &waves).max(distance(&waves, &whole));
+    println!("{error:e}");
+    assert!(error < 1e-7, "{error:e}");
+    let listed = rows(&folder.path().join("waves").join("eigenvalues.csv"));
+    assert!(listed.iter().any(|row| row["direction"] == "1"), "solved on the whole mesh");
+
+    // Energies and losses of every step, from a press that reaches both materials.
+    let steps = "transient={duration=3e-4,expansion_time=1e-4}";
+    let motions = ["auto", "sparse"].map(|operator| {
+        let out = format!("steps-{operator}");
+        let operator = format!("transient.operator=\"{operator}\"");
+        let sets = [RING[0], RING[1], steps, &operator];
+        run(folder.path(), "transient", DISC, &out, &sets).code(0);
+        let energies = rows(&folder.path().join(out).join("energy.csv")).into_iter();
+        let columns = ["kinetic_j", "strain_j", "material_damping_w"];
+        energies.map(|row| row.numbers(columns)).collect::<Vec<[f64; 3]>>()
+    });
+    assert_eq!(motions[0].len(), motions[1].len());
+    for column in 0..3 {
+        let largest = motions[1].iter().fold(0.0, |m: f64, row| m.max(row[column]));
+        let pairs = motions[0].iter().zip(&motions[1]);
+        let error = pairs.map(|(a, b)| (a[column] - b[column]).abs()).fold(0.0, f64::max);
+        assert!(error < 1e-9 * largest, "{error:e} of {largest:e}");
+    }
+}
+
+/// Modulus and loss factor of rubber that stiffens over the modes of the disc.
+const RUBBER: &str = "frequency_hz,young_modulus,loss_factor\n\
+     0,1.2e9,0.02\n4000,1.6e9,0.1\n9000,2.2e9,0.2\n40000,4e9,0.1\n";
+
+/// Independent, as above: losses of the body, of a part with dashpots of its own, and moduli over frequency part the waves of each
+/// harmonic. The part makes top and bottom differ.
 #[test]
 fn losses_of_a_body_of_revolution_are_those_of_its_whole_mesh() {
     let folder = folder();
-    let held = "boundaries.outer={condition=\"support\",normal_stiffness=1e12,\
-         tangential_stiffness=1e12,axial_stiffness=1e12,loss_factor=0.1}";
-    let sets = [held, "material.loss_factor=0.02"];
-    run(folder.path(), "cea", DISC, "waves", &sets).code(0);
-    let whole = [held, sets[1], "cea.method=\"sparse\""];
-    run(folder.path(), "cea", DISC, "whole", &whole).code(0);
-    let [waves, whole] = ["waves", "whole"].map(|out| modes(folder.path(), out));
-    assert_eq!(waves.len(), whole.len());
-    let error = distance(&whole, &waves).max(distance(&waves, &whole));
+    fs::write(folder.path().join("rubber.csv"), RUBBER).unwrap();
+    let lossy_ring = RING[0].replace("young", "loss_factor=0.2,young");
+    let rubber_ring = RING[0].replace("young_modulus=2e11", "table=\"rubber.csv\"");
+    for (name, sets) in [
+        ("disc", vec!["material.loss_factor=0.02"]),
+        ("ring", vec![&lossy_ring, RING[1], "material.loss_factor=0.05"]),
+        ("rubber", vec![&rubber_ring, RING[1]]),
+    ] {
+        let further = [
+            "cea.friction_coefficients=[0.0, 0.3, 0.6] ; cea.modes=16",
+            "contact.rotation_speed_rpm=1e12",
+        ];
+        let [waves, whole] = ["auto", "sparse"].map(|method| {
+            let out = format!("{name}-{method}");
+            let method = format!("cea.method=\"{method}\"");
+            let sets = [&sets[..], &further, &[&method]].concat();
+            let answer = run(folder.path(), "cea", DISC, &out, &sets).code(0);
+            let onsets = rows(&folder.path().join(&out).join("stability.csv"));
+            let onsets = onsets.iter().map(|row| row.number("critical_friction"));
+            (modes(folder.path(), &out), onsets.collect::<Vec<f64>>(), answer.summary())
+        });
+        assert_eq!(waves.2["method"], "cyclic");
+        assert_eq!(waves.0.len(), whole.0.len());
+        let error = distance(&whole.0, &waves.0).max(distance(&waves.0, &whole.0));
+        println!("{name}: {error:e}, {:?} {:?}", waves.1, whole.1);
+        assert!(error < 1e-10, "{name}: {error:e}");
+        assert!(!waves.1.is_empty() && waves.1.len() == whole.1.len());
+        for (a, b) in waves.1.iter().zip(&whole.1) {
+            assert!((a - b).abs() < 1e-8, "{a} {b}");
+        }
+        let listed = rows(&folder.path().join(format!("{name}-auto")).join("eigenvalues.csv"));
+        assert!(listed.iter().any(|row| row["direction"] == "1" && row["harmonic"] == "3"));
+    }
+}
+
+/// Exact: one loss factor of the body, of what holds it and of the springs of its contact makes `(1 + i eta) lambda^2` of each
+/// `lambda^2`, friction or not, where nothing else damps.
+#[test]
+fn one_loss_factor_of_body_and_springs_turns_every_eigenvalue() {
+    let folder = folder();
+    let held = "condition=\"support\",normal_stiffness=1e12,tangential_stiffness=1e12,axial_stiffness=1e12";
+    let springs = [
+        "contact.normal_stiffness=1e12 ; contact.base_state=\"compliant\"",
+        "damping.mass_coefficient=0 ; damping.stiffness_coefficient=0",
+    ];
+    for (out, losses) in [("plain", ""), ("lossy", ",loss_factor=0.1")] {
+        let held = format!("boundaries.outer={{{held}{losses}}}");
+        let lossy = "material.loss_factor=0.1 ; contact.loss_factor=0.1";
+        let sets = [springs[0], springs[1], &held, if losses.is_empty() { "" } else { lossy }];
+        let sets: Vec<&str> = sets.into_iter().filter(|set| !set.is_empty()).collect();
+        run(folder.path(), "cea", DISC, out, &sets).code(0);
+    }
+    let [mut plain, lossy] = ["plain", "lossy"].map(|out| modes(folder.path(), out));
+    for mode in &mut plain {
+        let square = c64::new(mode[2], TAU * mode[1]).powi(2) * c64::new(1.0, 0.1);
+        let root = square.sqrt();
+        let root = if root.im < 0.0 { -root } else { root };
+        (mode[1], mode[2]) = (root.im / TAU, root.re);
+    }
+    let error = distance(&lossy, &plain);
     println!("{error:e}");
-    assert!(error < 1e-9, "{error:e}");
-    let listed = rows(&folder.path().join("waves").join("eigenvalues.csv"));
-    assert!(listed.iter().any(|row| row["harmonic"] == "3"));
+    assert!(error < 1e-7, "{error:e}");
+}
+
+/// Independent: a response harmonic by harmonic, with losses, and that of the whole mesh.
+#[test]
+fn the_response_of_a_lossy_body_of_revolution_is_that_of_its_whole_mesh() {
+    let folder = folder();
+    let place = "{x=0.0,y=0.0671666666666667}";
+    let frf = format!(
+        "frf={{force_node={place},response_node={place},force_direction=\"axial\",\
+         response_direction=\"axial\",frequencies_hz=[600.0,1200.0,2400.0],boundary=\"clamped\"}}"
+    );
+    let [waves, whole] = ["auto", "sparse"].map(|method| {
+        let set = format!("cea.method=\"{method}\"");
+        let sets = [&frf, "material.loss_factor=0.05", &set];
+        run(folder.path(), "frf", DISC, method, &sets).code(0);
+        let lines = rows(&folder.path().join(method).join("frf.csv")).into_iter();
+        let columns = ["accelerance_real", "accelerance_imaginary"];
+        let lines = lines.map(|row| row.numbers(columns)).map(|[re, im]| c64::new(re, im));
+        lines.collect::<Vec<c64>>()
+    });
+    assert_eq!(waves.len(), 3);
+    for (a, b) in waves.iter().zip(&whole) {
+        assert!((a - b).norm() < 1e-9 * b.norm(), "{a} {b}");
+    }
 }
 
 /// What the harmonics cannot do is done on the whole mesh: a mass on the disc, its matrices, measured shapes, improvements.

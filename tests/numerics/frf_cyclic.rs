@@ -87,20 +87,25 @@ fn harmonics_in_sliding_contact_sum_to_the_response_of_the_whole_mesh() {
         let stiffness = assemble_stiffness(&mesh, &POLYCARBONATE);
         let base = SteadySliding::solve(&mesh, &stiffness, &contact(610.0)).unwrap();
         for damping_model in [DampingModel::WholeTangent, DampingModel::BodyOnly] {
-            for normal_stiffness in [None, Some(7.4e12)] {
+            for (normal_stiffness, loss_factor) in
+                [(None, 0.0), (Some(7.4e12), 0.0), (None, 0.02), (Some(7.4e12), 0.05)]
+            {
+                let material = ElasticMaterial { loss_factor, ..POLYCARBONATE };
+                let own = if normal_stiffness.is_some() { loss_factor } else { 0.0 };
                 let options = TangentOptions {
                     geometric_stiffness: true,
                     damping_model,
-                    contact: ContactStiffness { normal_stiffness, ..RIGID },
+                    contact: ContactStiffness { normal_stiffness, loss_factor: own, ..RIGID },
                     ..TANGENT
                 };
                 let whole =
-                    SlidingTangent::linearize(&mesh, &POLYCARBONATE, &stiffness, &base, &options);
+                    SlidingTangent::linearize(&mesh, &material, &stiffness, &base, &options);
                 let cyclic =
-                    WaveTangent::of_annulus(&sector, &POLYCARBONATE, &options, &contact(610.0))
-                        .unwrap();
-                let what =
-                    format!("{:?}, {damping_model:?}, {normal_stiffness:?}", specification.element);
+                    WaveTangent::of_annulus(&sector, &material, &options, &contact(610.0)).unwrap();
+                let what = format!(
+                    "{:?}, {damping_model:?}, {normal_stiffness:?}, {loss_factor}",
+                    specification.element
+                );
                 assert_agreement(
                     &FrfSystem::sliding(&whole, 0.3),
                     &CyclicSystem::sliding(&cyclic, 0.3),

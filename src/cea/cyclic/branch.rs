@@ -11,7 +11,8 @@ use std::convert::Infallible;
 
 /// `theta` of the path that carries a wave of eigenvalue `lambda`.
 pub(super) fn path_theta(problem: &HarmonicProblem, is_backward: bool, lambda: c64) -> c64 {
-    let own = if problem.is_proportional() { problem.rayleigh.kappa(lambda) } else { lambda };
+    let own =
+        if problem.is_proportional() { problem.tangent.rayleigh.kappa(lambda) } else { lambda };
     if is_backward { own.conj() } else { own }
 }
 
@@ -60,7 +61,7 @@ pub(super) fn eigenvalue_of(problem: &HarmonicProblem, waves: Waves, theta: c64)
 }
 
 /// A wave of a path at one of its points.
-fn point_of(problem: &HarmonicProblem, waves: Waves, pair: &Eigenpair) -> BranchPoint {
+pub(super) fn point_of(problem: &HarmonicProblem, waves: Waves, pair: &Eigenpair) -> BranchPoint {
     let (eigenvalue, slope) = eigenvalue_of(problem, waves, pair.theta);
     let rate = if waves == Waves::Backward { pair.rate.conj() } else { pair.rate };
     BranchPoint {
@@ -78,7 +79,7 @@ fn branch_of(
     sliding_direction: f64,
 ) -> ModeBranch {
     let mut branch = ModeBranch {
-        harmonic: problem.harmonic,
+        harmonic: problem.tangent.harmonic,
         branch: path.branch,
         direction: direction_of(problem, waves, sliding_direction),
         points: path.points.iter().map(|p| point_of(problem, waves, p)).collect(),

@@ -42,7 +42,7 @@ pub(super) fn verify(
 ) -> Verdict {
     let region = region(tangent, limit);
     let friction = checks.iter().copied().fold(0.0, f64::max);
-    let is_followed = |n: &usize| followed.iter().any(|paths| paths.problem.harmonic == *n);
+    let is_followed = |n: &usize| followed.iter().any(|paths| paths.problem.tangent.harmonic == *n);
     let others: Vec<usize> = (0..=tangent.largest_harmonic()).filter(|n| !is_followed(n)).collect();
     let tangential = tangent.tangential_unknowns();
     let verdicts: Vec<(usize, bool, bool)> = others
@@ -64,7 +64,7 @@ pub(super) fn verify(
                 |&mu: &f64| missed(&paths.problem, Some(paths), limit, region, mu) == Some(0);
             !checks.iter().all(is_complete)
         })
-        .map(|paths| paths.problem.harmonic)
+        .map(|paths| paths.problem.tangent.harmonic)
         .collect();
     let pick = |proven: bool| {
         let chosen = verdicts.iter().filter(|v| v.1 == proven && v.2);

@@ -242,6 +242,7 @@ mod tests {
             stiffness: vec![stiffness, friction],
             damping: None,
             friction_dashpots: None,
+            losses: Vec::new(),
             shares: None,
             rayleigh: RayleighDamping::default(),
         }

@@ -78,18 +78,18 @@ fn mode(
     let wants_wave = producer.waves_at.contains(&friction);
     Some(ComplexMode {
         eigenvalue,
-        harmonic: problem.harmonic,
+        harmonic: problem.tangent.harmonic,
         branch: path.branch,
         direction: if friction == 0.0 { 0 } else { direction },
         residual: pair.residual,
         uncertainty: pair.uncertainty,
         contact_share: pair.contact_share,
         axial_share: Some(pair.axial_share).filter(|share| !share.is_nan()),
-        shape: wants_shape.then(|| (producer.expand)(problem.harmonic, waves, &pair.x)),
+        shape: wants_shape.then(|| (producer.expand)(problem.tangent.harmonic, waves, &pair.x)),
         left: None,
         nodal_diameters: None,
         wave: wants_wave.then(|| ModeWave {
-            unknowns: (producer.unknowns)(problem.harmonic, &pair.x),
+            unknowns: (producer.unknowns)(problem.tangent.harmonic, &pair.x),
             is_backward: waves == Waves::Backward,
         }),
     })

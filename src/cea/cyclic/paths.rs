@@ -38,7 +38,7 @@ pub(super) fn follow_harmonic(
     let count = rest::count_below(mass, stiffness, limit);
     if pairs.len() != count {
         return Err(CeaError::Incomplete {
-            harmonic: problem.harmonic,
+            harmonic: problem.tangent.harmonic,
             counted: count,
             found: pairs.len(),
         });
@@ -68,7 +68,8 @@ fn follow_all(
     control: StepControl,
 ) -> Result<Vec<Path>, CeaError> {
     let problem = follower.problem;
-    let lost = |friction: f64| CeaError::LostHarmonic { harmonic: problem.harmonic, friction };
+    let lost =
+        |friction: f64| CeaError::LostHarmonic { harmonic: problem.tangent.harmonic, friction };
     let at_rest = Rc::new(problem.at(0.0));
     let mut paths = Vec::new();
     for (branch, (kappa, shape)) in (1..).zip(pairs) {
@@ -187,7 +188,7 @@ pub(super) fn start(
 }
 
 /// Whether no two paths have come to the same eigenpair.
-fn are_distinct(paths: &[Path]) -> bool {
+pub(super) fn are_distinct(paths: &[Path]) -> bool {
     let ends: Vec<&Eigenpair> = paths.iter().filter_map(|path| path.points.last()).collect();
     ends.iter().enumerate().all(|(i, a)| {
         ends[..i].iter().all(|b| {

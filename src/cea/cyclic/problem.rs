@@ -3,10 +3,11 @@
 use super::path::Eigenpair;
 use super::vectors::{ZERO, add, dot, largest, product};
 use crate::cea::counted::STANDSTILL;
-use crate::fem::RayleighDamping;
+use crate::fem::own_frequency_step;
 use crate::linalg::banded::{BandedLu, BandedMatrix};
 use crate::linalg::{Mat, c64};
-use crate::prestress::{FrictionPolynomial, HarmonicTangent, evaluate};
+use crate::prestress::{FrictionPolynomial, HarmonicTangent, LossGain, evaluate};
+use std::borrow::Cow;
 
 pub(super) const I: c64 = c64::new(0.0, 1.0);
 
@@ -14,22 +15,14 @@ pub(super) const I: c64 = c64::new(0.0, 1.0);
 ///
 /// With proportional damping the unknown is `theta = kappa` of `T = K - kappa M`, and
 /// `lambda^2 + alpha lambda + (1 + beta lambda) kappa = 0`; otherwise it is `theta = lambda` of
-/// `T = lambda^2 M + lambda C + K`. Either way `T = a(theta) M + b(theta) C + K`.
+/// `T = lambda^2 M + lambda C + K`. Either way `T = a(theta) M + b(theta) C + K`. With losses `K` has
+/// `sum_p g_p(lambda) K_p` beside it: `i eta K_p` for the wave `+n`, the conjugate for `-n`.
 pub(super) struct HarmonicProblem {
-    pub harmonic: usize,
+    pub tangent: HarmonicTangent,
     /// `+n` and `-n` are the same wave.
     pub is_standing: bool,
     pub dimension: usize,
     pub half_bandwidth: usize,
-    mass: FrictionPolynomial,
-    stiffness: FrictionPolynomial,
-    damping: Option<FrictionPolynomial>,
-    /// `mu` times this is a further part of `C`.
-    friction_dashpots: Option<FrictionPolynomial>,
-    shares: Option<[BandedMatrix; 2]>,
-    pub rayleigh: RayleighDamping,
-    /// Unknowns that belong to the contact edge.
-    contact: Vec<usize>,
 }
 
 /// The matrices at one friction value and their derivatives with respect to it, as bands of values.
@@ -40,44 +33,57 @@ pub(super) struct Matrices {
     mass_rate: Option<Vec<c64>>,
     stiffness_rate: Option<Vec<c64>>,
     damping_rate: Option<Vec<c64>>,
+    losses: Vec<Loss>,
     /// Largest row sums of `M`, `C`, `K`.
     norms: [f64; 3],
+}
+
+/// Stiffness that is multiplied by what the eigenvalue says.
+struct Loss {
+    gain: LossGain,
+    values: Vec<c64>,
+    rate: Option<Vec<c64>>,
+}
+
+impl Matrices {
+    /// `K` that an eigenvalue sees, losses included.
+    fn stiffness_at(&self, theta: c64) -> Cow<'_, [c64]> {
+        let mut sum = Cow::Borrowed(&self.stiffness[..]);
+        for loss in &self.losses {
+            let factor = loss.gain.at(theta);
+            sum.to_mut().iter_mut().zip(&loss.values).for_each(|(sum, own)| *sum += factor * own);
+        }
+        sum
+    }
 }
 
 impl HarmonicProblem {
     pub fn new(tangent: HarmonicTangent, is_standing: bool) -> Self {
         Self {
-            harmonic: tangent.harmonic,
-            contact: tangent.contact,
             is_standing,
             dimension: tangent.mass[0].dimension(),
             half_bandwidth: tangent.mass[0].half_bandwidth(),
-            mass: tangent.mass,
-            stiffness: tangent.stiffness,
-            damping: tangent.damping,
-            friction_dashpots: tangent.friction_dashpots,
-            shares: tangent.shares,
-            rayleigh: tangent.rayleigh,
+            tangent,
         }
     }
 
     pub fn is_proportional(&self) -> bool {
-        self.damping.is_none()
+        self.tangent.damping.is_none()
     }
 
     /// `M` and `K` without friction, real symmetric.
     pub fn at_rest(&self) -> (&BandedMatrix, &BandedMatrix) {
-        (&self.mass[0], &self.stiffness[0])
+        (&self.tangent.mass[0], &self.tangent.stiffness[0])
     }
 
     /// Matrices at friction coefficient `mu`.
     pub fn at(&self, mu: f64) -> Matrices {
         let z = c64::new(0.0, mu);
-        let mass = evaluate(&self.mass, z);
-        let stiffness = evaluate(&self.stiffness, z);
-        let mut damping = self.damping.as_ref().map(|c| evaluate(c, z));
-        let mut damping_rate = self.damping.as_ref().and_then(|c| rate(c, z));
-        if let (Some(dashpots), Some(damping)) = (&self.friction_dashpots, &mut damping) {
+        let mass = evaluate(&self.tangent.mass, z);
+        let stiffness = evaluate(&self.tangent.stiffness, z);
+        let mut damping = self.tangent.damping.as_ref().map(|c| evaluate(c, z));
+        let mut damping_rate = self.tangent.damping.as_ref().and_then(|c| rate(c, z));
+        if let (Some(dashpots), Some(damping)) = (&self.tangent.friction_dashpots, &mut damping) {
             let rate = damping_rate.get_or_insert_with(|| vec![ZERO; damping.len()]);
             // `mu P(i mu)`: a term of power p is one of degree p + 1 in mu.
             let mut power = c64::new(1.0, 0.0);
@@ -91,14 +97,21 @@ impl HarmonicProblem {
                 power *= z;
             }
         }
+        let losses = self.tangent.losses.iter().map(|(gain, own)| Loss {
+            gain: gain.clone(),
+            values: evaluate(own, z),
+            rate: rate(own, z),
+        });
+        let losses = losses.collect();
         let norms = self.norms(&mass, damping.as_deref(), &stiffness);
         Matrices {
             mass,
             stiffness,
             damping,
-            mass_rate: rate(&self.mass, z),
-            stiffness_rate: rate(&self.stiffness, z),
+            mass_rate: rate(&self.tangent.mass, z),
+            stiffness_rate: rate(&self.tangent.stiffness, z),
             damping_rate,
+            losses,
             norms,
         }
     }
@@ -118,6 +131,10 @@ impl HarmonicProblem {
         if let Some(damping) = &mut matrices.damping {
             damping.iter_mut().for_each(|value| *value *= damped);
         }
+        for loss in &mut matrices.losses {
+            loss.rate = Some(loss.values.clone());
+            loss.values.iter_mut().for_each(|value| *value *= damped);
+        }
         matrices
     }
 
@@ -128,8 +145,8 @@ impl HarmonicProblem {
             sums.fold(0.0, f64::max)
         };
         let (m, k) = (norm(mass), norm(stiffness));
-        let proportional = self.rayleigh.mass_coefficient.abs() * m
-            + self.rayleigh.stiffness_coefficient.abs() * k;
+        let proportional = self.tangent.rayleigh.mass_coefficient.abs() * m
+            + self.tangent.rayleigh.stiffness_coefficient.abs() * k;
         [m, damping.map_or(proportional, norm), k]
     }
 
@@ -146,7 +163,7 @@ impl HarmonicProblem {
     pub fn assemble(&self, at: &Matrices, theta: c64, values: &mut Vec<c64>) {
         let [a, b, _, _] = self.factors(theta);
         values.clear();
-        values.extend(at.stiffness.iter().zip(&at.mass).map(|(k, m)| k + a * m));
+        values.extend(at.stiffness_at(theta).iter().zip(&at.mass).map(|(k, m)| k + a * m));
         if let Some(damping) = &at.damping {
             for (value, c) in values.iter_mut().zip(damping) {
                 *value += b * c;
@@ -169,7 +186,7 @@ impl HarmonicProblem {
     pub fn rayleigh_quotient(&self, at: &Matrices, theta: c64, x: &[c64], y: &[c64]) -> (c64, c64) {
         let one = c64::new(1.0, 0.0);
         let form = |values: &[c64]| dot(y, &self.multiply(values, one, x, false));
-        let (m, k) = (form(&at.mass), form(&at.stiffness));
+        let (m, k) = (form(&at.mass), form(&at.stiffness_at(theta)));
         let Some(damping) = &at.damping else {
             return (k / m, -m);
         };
@@ -178,8 +195,26 @@ impl HarmonicProblem {
         let candidates = [(root - c) / (m * 2.0), (-root - c) / (m * 2.0)];
         let distance = |candidate: c64| (candidate - theta).norm();
         let nearest = if distance(candidates[0]) <= distance(candidates[1]) { 0 } else { 1 };
-        let theta = candidates[nearest];
-        (theta, m * theta * 2.0 + c)
+        let root = candidates[nearest];
+        let slope = m * root * 2.0 + c;
+        let step = self.own_step(at, theta, [x, y], (root - theta, slope));
+        (step.map_or(root, |step| theta + step), slope)
+    }
+
+    /// The step of an eigenvalue whose stiffness follows it, from the `step` at fixed stiffness and `y^H T' x`; `None` without
+    /// tables.
+    fn own_step(
+        &self,
+        at: &Matrices,
+        theta: c64,
+        [x, y]: [&[c64]; 2],
+        (step, slope): (c64, c64),
+    ) -> Option<c64> {
+        let tabled = at.losses.iter().map(|own| (own.gain.slope(theta), &own.values));
+        let tabled = tabled.filter(|(rate, _)| *rate != ZERO);
+        let own = tabled.map(|(rate, values)| dot(y, &self.multiply(values, rate, x, false)));
+        let own = own.reduce(|sum, own| sum + own)?;
+        Some(own_frequency_step(step, own / slope))
     }
 
     /// `d theta / d parameter = -y^H (dT) x / y^H T' x`.
@@ -187,18 +222,21 @@ impl HarmonicProblem {
         let [a, b, _, _] = self.factors(theta);
         let one = c64::new(1.0, 0.0);
         let terms = [(a, &at.mass_rate), (b, &at.damping_rate), (one, &at.stiffness_rate)];
+        let losses = at.losses.iter().map(|loss| (loss.gain.at(theta), &loss.rate));
         let change: c64 = terms
             .into_iter()
+            .chain(losses)
             .filter_map(|(factor, values)| values.as_ref().map(|v| (factor, v)))
             .map(|(factor, values)| dot(y, &self.multiply(values, factor, x, false)))
             .sum();
-        -change / slope
+        let step = -change / slope;
+        self.own_step(at, theta, [x, y], (step, slope)).unwrap_or(step)
     }
 
     /// `T(theta) x`.
     pub fn apply(&self, at: &Matrices, theta: c64, x: &[c64]) -> Vec<c64> {
         let [a, b, _, _] = self.factors(theta);
-        let mut force = self.multiply(&at.stiffness, c64::new(1.0, 0.0), x, false);
+        let mut force = self.multiply(&at.stiffness_at(theta), c64::new(1.0, 0.0), x, false);
         add(&mut force, &self.multiply(&at.mass, a, x, false));
         if let Some(damping) = &at.damping {
             add(&mut force, &self.multiply(damping, b, x, false));
@@ -211,7 +249,7 @@ impl HarmonicProblem {
         let force = self.apply(at, theta, x);
         let (lambda, factor) = if self.is_proportional() {
             let lambda = self.eigenvalue(theta);
-            (lambda, (1.0 + self.rayleigh.stiffness_coefficient * lambda).norm())
+            (lambda, (1.0 + self.tangent.rayleigh.stiffness_coefficient * lambda).norm())
         } else {
             (theta, 1.0)
         };
@@ -227,7 +265,7 @@ impl HarmonicProblem {
         let slope = dot(&pair.y, &self.apply_slope(at, pair.theta, &pair.x, false));
         // dT/dlambda from dT/dtheta; of the reduced problem T(lambda) = (1 + beta lambda) (K - kappa M).
         let [factor, rate] = if self.is_proportional() {
-            let factor = 1.0 + self.rayleigh.stiffness_coefficient * lambda;
+            let factor = 1.0 + self.tangent.rayleigh.stiffness_coefficient * lambda;
             [factor, self.eigenvalue_slope(pair.theta)]
         } else {
             [c64::new(1.0, 0.0); 2]
@@ -254,8 +292,18 @@ impl HarmonicProblem {
         sums.fold(0.0, f64::max) / largest(x)
     }
 
-    /// Dense `M`, `C`, `K`.
-    pub fn dense(&self, at: &Matrices) -> [Mat<c64>; 3] {
+    /// Whether a table makes the stiffness follow the eigenvalue.
+    pub fn is_tabled(&self) -> bool {
+        self.tangent.losses.iter().any(|(gain, _)| gain.0.is_some())
+    }
+
+    /// Whether `K` is not the same for the waves `+n` and `-n`.
+    pub fn is_lossy(&self) -> bool {
+        !self.tangent.losses.is_empty()
+    }
+
+    /// Dense `M`, `C`, and `K` as it is at `theta`.
+    pub fn dense(&self, at: &Matrices, theta: c64) -> [Mat<c64>; 3] {
         let (n, h) = (self.dimension, self.half_bandwidth);
         let full = |values: &[c64]| {
             Mat::from_fn(n, n, |i, j| match i.abs_diff(j) <= h {
@@ -264,19 +312,20 @@ impl HarmonicProblem {
             })
         };
         let none = vec![ZERO; at.mass.len()];
-        [full(&at.mass), full(at.damping.as_deref().unwrap_or(&none)), full(&at.stiffness)]
+        let damping = at.damping.as_deref().unwrap_or(&none);
+        [full(&at.mass), full(damping), full(&at.stiffness_at(theta))]
     }
 
     /// Kinetic energy of the contact edge's nodes over the whole, see [`crate::cea::ComplexMode`].
     pub fn contact_share(&self, x: &[c64]) -> f64 {
-        if let Some([contact, _]) = &self.shares {
+        if let Some([contact, _]) = &self.tangent.shares {
             return self.share(contact, x);
         }
         let part = |of: fn(&c64) -> f64| {
             let x: Vec<f64> = x.iter().map(of).collect();
-            let momentum = self.mass[0].multiply(&x);
+            let momentum = self.tangent.mass[0].multiply(&x);
             let energy = |k: usize| x[k] * momentum[k];
-            let contact = self.contact.iter().map(|&k| energy(k)).sum::<f64>();
+            let contact = self.tangent.contact.iter().map(|&k| energy(k)).sum::<f64>();
             [contact, (0..x.len()).map(energy).sum::<f64>()]
         };
         let (real, imaginary) = (part(|v| v.re), part(|v| v.im));
@@ -285,7 +334,7 @@ impl HarmonicProblem {
 
     /// Kinetic energy of axial motion over the whole; not a number in the plane.
     pub fn axial_share(&self, x: &[c64]) -> f64 {
-        let shares = self.shares.as_ref();
+        let shares = self.tangent.shares.as_ref();
         shares.map_or(f64::NAN, |[_, axial]| self.share(axial, x))
     }
 
@@ -297,7 +346,7 @@ impl HarmonicProblem {
             x.iter().zip(image).map(|(a, b)| a * b).sum::<f64>()
         };
         let both = |matrix: &BandedMatrix| value(matrix, |v| v.re) + value(matrix, |v| v.im);
-        both(form) / both(&self.mass[0])
+        both(form) / both(&self.tangent.mass[0])
     }
 
     /// `lambda` with `Im >= 0` of the wave `+n`.
@@ -305,12 +354,12 @@ impl HarmonicProblem {
         if !self.is_proportional() {
             return theta;
         }
-        self.rayleigh.eigenvalue(theta)
+        self.tangent.rayleigh.eigenvalue(theta)
     }
 
     /// Whether the matrices are small full ones, of a harmonic in three dimensions.
     pub fn is_reduced(&self) -> bool {
-        self.shares.is_some()
+        self.tangent.shares.is_some()
     }
 
     /// Whether a motion hardly oscillates any more under the dashpot across the sliding, on the way to where it does not at all.
@@ -333,7 +382,7 @@ impl HarmonicProblem {
         if !self.is_proportional() {
             return c64::new(1.0, 0.0);
         }
-        self.rayleigh.eigenvalue_slope(self.eigenvalue(theta), theta)
+        self.tangent.rayleigh.eigenvalue_slope(self.eigenvalue(theta), theta)
     }
 
     /// `factor A x` or `factor A^H x` of a band of values.

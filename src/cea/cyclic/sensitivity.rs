@@ -1,24 +1,19 @@
 //! Right and left vectors of waves, and what small changes of the model do to their eigenvalues.
 
-use super::vectors::{ZERO, dot, normalize};
-use crate::cea::ModeBranch;
-use crate::linalg::banded::{BandedLu, multiply_band};
+use super::branch::{path_theta, point_of};
+use super::follow::Follower;
+use super::path::Waves;
+use super::problem::HarmonicProblem;
+use super::vectors::{ZERO, dot};
+use crate::cea::{BranchPoint, ModeBranch};
+use crate::fem::own_frequency_step;
 use crate::linalg::c64;
 use crate::prestress::{HarmonicTangent, MovingHarmonic, WaveTangent};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
-/// Rayleigh quotient iterations of one branch at most, each with two solves of either side.
-const ITERATIONS: usize = 8;
-
-/// Change of an eigenvalue relative to it at which its vectors have settled to the square of that.
-const SETTLED: f64 = 1e-8;
-
 /// Distance relative to an eigenvalue from that of its branch above which it is another's: small spaces leave out far less.
 const LOST: f64 = 1e-3;
-
-/// Step of the friction coefficient: the matrices are quadratic in it, of which the central difference is exact.
-const FRICTION_STEP: f64 = 1e-3;
 
 /// The eigenpair of a branch at one friction coefficient, over the unknowns of its whole harmonic.
 #[derive(Clone, Debug)]
@@ -43,6 +38,8 @@ pub struct WavePair {
     left: Vec<c64>,
     /// `y^H (2 lambda M + C) x`.
     slope: c64,
+    /// `y^H (dK / d omega) x` of stiffness that depends on frequency, over that.
+    own_slope: c64,
 }
 
 /// The eigenpairs of branches, each at a friction coefficient: `None` where the branch does not oscillate there, and where
@@ -50,8 +47,9 @@ pub struct WavePair {
 pub fn wave_pairs(tangent: &WaveTangent, wanted: &[(&ModeBranch, f64)]) -> Vec<Option<WavePair>> {
     let numbers = wanted.iter().map(|(branch, _)| (branch.harmonic, ()));
     let numbers: BTreeMap<usize, ()> = numbers.collect();
-    let harmonics: BTreeMap<usize, HarmonicTangent> =
-        numbers.into_par_iter().map(|(n, ())| (n, tangent.harmonic(n))).collect();
+    let problem = |n| (n, HarmonicProblem::new(tangent.harmonic(n), tangent.is_standing(n)));
+    let harmonics: BTreeMap<usize, HarmonicProblem> =
+        numbers.into_par_iter().map(|(n, ())| problem(n)).collect();
     let direction = tangent.sliding_direction;
     let pair = |&(branch, friction): &(&ModeBranch, f64)| {
         let is_backward = f64::from(branch.direction) * direction > 0.0;
@@ -104,13 +102,19 @@ pub fn wave_responses(pairs: &[&WavePair], quotient: &[Beside]) -> Option<Vec<c6
 impl WavePair {
     /// Change of the eigenvalue where the matrices change; `None` of matrices of other unknowns.
     fn response(&self, change: &MovingHarmonic) -> Option<c64> {
-        let MovingHarmonic { half_bandwidth: h, mass, damping, stiffness } = change;
-        if mass.len() != self.right.len() * (2 * h + 1) {
+        let h = change.half_bandwidth;
+        if change.mass.len() != self.right.len() * (2 * h + 1) {
             return None;
         }
-        let form = |band: &[c64]| form(band, *h, &self.left, &self.right);
-        let changed = self.root * (self.root * form(mass) + form(damping)) + form(stiffness);
-        Some(of_wave(-changed / self.slope, self.is_backward))
+        let form = |band: &[c64]| form(band, h, &self.left, &self.right);
+        let [mass, damping, stiffness] =
+            [&change.mass[..], &change.damping, &change.stiffness_at(self.root)].map(form);
+        let changed = self.root * (self.root * mass + damping) + stiffness;
+        let mut step = -changed / self.slope;
+        if self.own_slope != ZERO {
+            step = own_frequency_step(step, self.own_slope);
+        }
+        Some(of_wave(step, self.is_backward))
     }
 }
 
@@ -131,72 +135,36 @@ fn form(band: &[c64], h: usize, y: &[c64], x: &[c64]) -> c64 {
 
 /// The pair of a branch, by two-sided Rayleigh quotient iteration from its eigenvalue.
 fn pair_of(
-    harmonic: &HarmonicTangent,
+    problem: &HarmonicProblem,
     (branch, friction): (&ModeBranch, f64),
     is_backward: bool,
 ) -> Option<WavePair> {
-    let start = of_wave(branch.interpolate(friction)?, is_backward);
-    let at = harmonic.at(friction);
-    let count = at.dimension();
-    let (mut right, mut left) = (any_vector(count, 0.3), any_vector(count, 1.1));
-    let mut root = start;
-    for _ in 0..ITERATIONS {
-        let lu = factorized(&at, root);
-        for _ in 0..2 {
-            right = at.apply_slope(root, &right, false);
-            lu.solve(&mut right);
-            normalize(&mut right);
-            left = at.apply_slope(root, &left, true);
-            lu.solve_adjoint(&mut left);
-            normalize(&mut left);
-        }
-        let last = root;
-        root = rayleigh_quotient(&at, last, &right, &left);
-        if (root - last).norm() <= SETTLED * root.norm() {
-            break;
-        }
-    }
+    let start = branch.interpolate(friction)?;
+    let guess = path_theta(problem, is_backward, start);
+    let found = Follower::new(problem).find(&problem.at(friction), friction, guess)?;
+    let waves = if is_backward { Waves::Backward } else { Waves::Forward };
+    let BranchPoint { eigenvalue, rate, .. } = point_of(problem, waves, &found);
     // Not so of what is not a number.
-    let is_it = (root - start).norm() <= LOST * start.norm();
-    let mut pair = WavePair {
+    let is_it = (eigenvalue - start).norm() <= LOST * start.norm();
+    let (root, right, left) = (of_wave(eigenvalue, is_backward), found.x, found.y);
+    let at = problem.tangent.at(friction);
+    let slope = dot(&left, &at.apply_slope(root, &right, false));
+    let own = at.losses.iter().map(|(gain, band)| (gain.slope(root), band));
+    let own = own.filter(|(rate, _)| *rate != ZERO);
+    let own = own.map(|(rate, band)| rate * form(band, at.half_bandwidth, &left, &right));
+    let own_slope = own.fold(ZERO, |sum, own| sum + own) / slope;
+    is_it.then_some(WavePair {
         harmonic: branch.harmonic,
         branch: branch.branch,
         direction: branch.direction,
         friction_coefficient: friction,
-        eigenvalue: of_wave(root, is_backward),
-        derivative: ZERO,
+        eigenvalue,
+        derivative: rate,
         is_backward,
         root,
-        slope: dot(&left, &at.apply_slope(root, &right, false)),
         right,
         left,
-    };
-    let sides = [1.0, -1.0]
-        .map(|sign| (0.5 * sign / FRICTION_STEP, harmonic.at(friction + sign * FRICTION_STEP)));
-    pair.derivative = pair.response(&MovingHarmonic::combined(&sides)?)?;
-    is_it.then_some(pair)
-}
-
-/// A vector with a part of every mode.
-fn any_vector(count: usize, phase: f64) -> Vec<c64> {
-    let entry = |i: usize| c64::new(1.0 + (1.7 * i as f64).sin(), (phase + 0.9 * i as f64).cos());
-    (0..count).map(entry).collect()
-}
-
-/// `T(root)`, factorized.
-fn factorized(at: &MovingHarmonic, root: c64) -> BandedLu {
-    let entries = at.mass.iter().zip(&at.damping).zip(&at.stiffness);
-    let band: Vec<c64> = entries.map(|((m, c), k)| k + root * (c + root * m)).collect();
-    let mut lu = BandedLu::new(at.dimension(), at.half_bandwidth);
-    lu.factorize(&band);
-    lu
-}
-
-/// The root of `y^H T(.) x = 0` nearest to `near`.
-fn rayleigh_quotient(at: &MovingHarmonic, near: c64, x: &[c64], y: &[c64]) -> c64 {
-    let [m, c, k] = [&at.mass, &at.damping, &at.stiffness]
-        .map(|band| dot(y, &multiply_band(band, at.half_bandwidth, x, false)));
-    let root = (c * c - m * k * 4.0).sqrt();
-    let [one, other] = [(root - c) / (m * 2.0), (-root - c) / (m * 2.0)];
-    if (one - near).norm() <= (other - near).norm() { one } else { other }
+        slope,
+        own_slope,
+    })
 }

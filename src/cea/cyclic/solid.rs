@@ -12,6 +12,7 @@ mod damped;
 mod error;
 mod modes_below;
 mod reduction;
+mod refined;
 mod rest;
 mod sweep;
 

@@ -211,7 +211,7 @@ fn finish(tangent: WaveTangent, found: Found, verdict: Verdict) -> WaveSweep {
     let Found { followed, points, limit, margin } = found;
     let coverage = Coverage {
         largest_harmonic: tangent.largest_harmonic(),
-        followed: followed.iter().map(|paths| paths.problem.harmonic).collect(),
+        followed: followed.iter().map(|paths| paths.problem.tangent.harmonic).collect(),
         proven_empty: verdict.proven,
         counted_empty: verdict.counted,
         limit_hz: limit / TAU,

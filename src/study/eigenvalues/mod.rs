@@ -26,7 +26,7 @@ mod states;
 
 pub use assembly::AssemblyModel;
 pub use dampings::dampings;
-pub use model::{Model, Solver, Spectrum, Waves, asked_modes, mode_limit, no_cyclic_losses};
+pub use model::{Model, Solver, Spectrum, Waves, asked_modes, mode_limit};
 pub(super) use sensitivity::rates::rates_of_waves;
 pub use sensitivity::{BodySensitivities, body_sensitivities};
 pub use sliding::{SlidingModel, SteadyState};

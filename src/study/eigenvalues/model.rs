@@ -44,9 +44,7 @@ impl Solver {
                     "the mesh file has the whole body";
                     "give a mesh of one sector with mesh.sectors, or use \"auto\" or \"sparse\""))
             }
-            (Body::Annulus(_), CeaMethod::Cyclic) if is_lossy => {
-                Err(no_cyclic_losses(case, "cea.method = \"cyclic\""))
-            }
+            (Body::Annulus(_), CeaMethod::Cyclic) if is_lossy => Err(no_cyclic_losses(case)),
             (Body::Annulus(_), CeaMethod::Sparse) => Ok(Self::WholeMesh),
             (_, _) => Ok(Self::by_symmetry(case)),
         }
@@ -76,15 +74,15 @@ impl Solver {
     }
 }
 
-/// Why a body of sectors with structural damping is not solved harmonic by harmonic.
-pub fn no_cyclic_losses(case: &Case, what: &str) -> CaseErrors {
+/// Why a plane annulus with structural damping is not solved harmonic by harmonic.
+fn no_cyclic_losses(case: &Case) -> CaseErrors {
     case.loss_error(
-        format!(
-            "{what} of a body of sectors takes the waves +n and -n from one real problem, whose \
-             roots come in conjugate pairs. With structural damping K (1 + i eta) they do not"
-        ),
+        "cea.method = \"cyclic\" of a plane annulus takes the waves +n and -n from one real \
+         problem, whose roots come in conjugate pairs. With structural damping K (1 + i eta) they \
+         do not"
+            .to_owned(),
         "not harmonic by harmonic",
-        "use method = \"sparse\" or \"auto\" (frf: \"direct\") on a plane body, a mesh file, or [damping]",
+        "use cea.method = \"sparse\" or \"auto\", or [damping]",
     )
 }
 
@@ -269,8 +267,12 @@ impl Model {
             }
             Self::SolidSectors(model) => {
                 let found = cyclic::solid_sweep_with_waves(model, request, waves_at)?;
-                let note = reduction_note(&found, request);
-                Ok(spectrum_of_waves(found, vec![note]))
+                // With losses every eigenvalue is solved over all unknowns.
+                let notes = match found.tangent.is_lossy() {
+                    true => Vec::new(),
+                    false => vec![reduction_note(&found, request)],
+                };
+                Ok(spectrum_of_waves(found, notes))
             }
             Self::Whole(whole) => {
                 let found = whole.sweep(case, request, progress)?;

@@ -2,7 +2,6 @@
 
 use crate::case::{Annulus, AssemblyBody, Body, Case, Revolution};
 use crate::cycle::OperatingPoint;
-use crate::fem::MaterialField;
 use crate::mesh::{AnnulusMesh, Mesh, SolidSector};
 use crate::prestress::Assembly;
 use crate::results::ShownBody;
@@ -68,10 +67,7 @@ impl<'a> SteppedMesh<'a> {
             (None, Some(sector)) => SteppedBody::Revolution(sector),
             (None, None) => SteppedBody::Plane { mesh: &self.mesh, annulus: self.annulus.as_ref() },
         };
-        let material: &dyn MaterialField = match body {
-            SteppedBody::Revolution(_) => &case.material,
-            _ => case.materials_in_time(),
-        };
+        let material = case.materials_in_time();
         TransientModel {
             stiffness: case.contact.stiffness,
             contact_damping: match case.damping.include_contact {

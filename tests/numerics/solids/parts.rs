@@ -1,9 +1,6 @@
 //! Parts of a body of revolution that have materials of their own.
 
 use crate::prelude::*;
-use frictionsim::case::Body;
-use frictionsim::fem::TabledMaterial;
-use frictionsim::mesh::{SolidPart, SolidSpecification};
 
 /// A disc on a cylinder, free of prestress in its modes; parts and analysis follow.
 const DISC: &str = "[geometry]\ninner_radius = 0.02\nouter_radius = 0.05\nthickness = 0.01\n\
@@ -42,32 +39,4 @@ fn a_part_of_the_same_material_is_none() {
         assert!((a / b - 1.0).abs() < 1e-9, "{a} {b}");
     }
     assert!((steel[0] / uniform[0] - 1.0).abs() > 0.01);
-}
-
-/// Independent check: the whole mesh of a disc with a ring of steel, by nodal diameters, against the harmonics of its sector.
-#[test]
-fn the_whole_mesh_of_a_disc_with_a_ring_has_the_modes_of_its_harmonics() {
-    let Body::Revolution(plain) = case("").body else { panic!("not solved by harmonics") };
-    let with_ring = case(RING);
-    let materials = with_ring.body.assembly().unwrap().materials.clone();
-    let ring = with_ring.body.assembly().unwrap().mesh.regions.iter().position(|own| own == "ring");
-    let own: TabledMaterial = materials[ring.unwrap()].clone();
-    let part = SolidPart { name: "ring".to_owned(), radii: [0.03, 0.04], heights: [0.0, 0.005] };
-    let model = SolidModel {
-        specification: SolidSpecification { parts: vec![part], ..*plain.specification },
-        material: vec![plain.materials[0].clone(), own],
-        options: TangentOptions {
-            damping: RayleighDamping { mass_coefficient: 0.0, stiffness_coefficient: 0.0 },
-            ..TANGENT
-        },
-        contact: sliding_at(0.0, 2e-5, 600.0 * TAU / 60.0),
-    };
-    let request = sweep_request(&[0.0], ModeLimit::Lowest(20));
-    let harmonic = solid_sweep(&model, &request).unwrap().sweep.points;
-    let (harmonic, whole) = (frequencies(&harmonic[0].modes), whole(RING));
-    println!("{harmonic:?} {whole:?}");
-    assert!(harmonic.len() >= 20 && whole.len() >= 20);
-    for (a, b) in harmonic.iter().zip(&whole) {
-        assert!((a / b - 1.0).abs() < 1e-8, "{a} {b}");
-    }
 }

@@ -9,7 +9,7 @@ use Direction::{Axial, Radial, Tangential};
 pub fn body(model: &SolidModel, is_clamped: bool) -> CyclicSystem {
     let sector = SolidSector::generate(&model.specification).unwrap();
     let options = &model.options;
-    CyclicSystem::solid_body(&sector, &model.material, options.mass, options.damping, is_clamped)
+    CyclicSystem::body(&sector, &model.material, options.mass, options.damping, is_clamped)
 }
 
 pub fn sliding(model: &SolidModel, friction: f64) -> CyclicSystem {

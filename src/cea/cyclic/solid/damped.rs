@@ -26,6 +26,9 @@ const SHORTEST: f64 = 5e-3;
 /// little imaginary part friction gives them; slow modes of the body come from rest.
 const CREEP: f64 = 1e-3;
 
+/// Eigenvalues up to this much above the largest wanted may come into the range where the stiffness follows them.
+const BEYOND: f64 = 2.0;
+
 /// Branches that do not reach back to rest are numbered from here on, beyond those at rest: how many of these lie below a bound changes
 /// with the model, and with it names would.
 const FIRST_BORN: usize = 1000;
@@ -101,7 +104,10 @@ impl Course<'_> {
     /// Takes every branch to the next friction coefficient, and adds those of the eigenvalues that none has come to.
     fn step(&mut self, before: f64, friction: f64) -> Result<Overdamped, CeaError> {
         let shared = Rc::new(self.problem.at(friction));
-        let all = spectrum(self.problem, &shared, self.largest)?;
+        let mut all = spectrum(self.problem, &shared, self.largest)?;
+        if self.problem.is_tabled() {
+            all = self.settled(&all, friction, &shared);
+        }
         let was_open: Vec<usize> =
             (0..self.paths.len()).filter(|&index| self.paths[index].is_open).collect();
         self.advance(before, friction, &shared);
@@ -138,6 +144,21 @@ impl Course<'_> {
         Ok(self.overdamped(friction, &all))
     }
 
+    /// The eigenvalues that those with the stiffness of one frequency settle at, each with that of its own.
+    fn settled(&mut self, frozen: &[c64], friction: f64, shared: &Matrices) -> Vec<c64> {
+        let mut all: Vec<c64> = Vec::new();
+        for &value in frozen {
+            if self.is_overdamped(&value) || value.norm() > BEYOND * self.largest {
+                all.push(value);
+                continue;
+            }
+            let found = self.follower.find(shared, friction, value).map(|found| found.theta);
+            let is_new = |own: &c64| all.iter().all(|o| (o - own).norm() > SAME * own.norm());
+            all.extend(found.filter(is_new));
+        }
+        all
+    }
+
     /// Takes the open branches on; those that stop to oscillate, or turn too fast, are closed where they have come to.
     fn advance(&mut self, before: f64, friction: f64, shared: &Rc<Matrices>) {
         let problem = self.problem;
@@ -171,7 +192,7 @@ impl Course<'_> {
         });
         let Some(found) = found else {
             return Err(CeaError::Unrefined {
-                harmonic: problem.harmonic,
+                harmonic: problem.tangent.harmonic,
                 friction,
                 frequency_hz: value.im.abs() / TAU,
             });
@@ -256,10 +277,29 @@ fn is_same(a: &Eigenpair, b: &Eigenpair) -> bool {
 ///
 /// `C` enters through `T(sigma)` alone, so dashpots of any strength leave the matrix of the size of `1 / sigma`. `size` is that of
 /// the eigenvalues wanted, rad/s.
+///
+/// Losses part the waves `+n` and `-n`: each has matrices of its own, whose other half of the plane means nothing. Stiffness that
+/// depends on frequency is taken in the middle of the range.
 fn spectrum(problem: &HarmonicProblem, at: &Matrices, size: f64) -> Result<Vec<c64>, CeaError> {
+    let middle = c64::new(0.0, 0.5 * size);
+    if !problem.is_lossy() {
+        return spectrum_at(problem, at, size, middle);
+    }
+    let [ahead, back] = [middle, -middle].map(|place| spectrum_at(problem, at, size, place));
+    let ahead = ahead?.into_iter().filter(|value| value.im > 0.0);
+    Ok(ahead.chain(back?.into_iter().filter(|value| value.im <= 0.0)).collect())
+}
+
+/// The same with the stiffness that belongs to one place.
+fn spectrum_at(
+    problem: &HarmonicProblem,
+    at: &Matrices,
+    size: f64,
+    place: c64,
+) -> Result<Vec<c64>, CeaError> {
     let n = problem.dimension;
     let (sigma, scale) = (c64::new(0.7 * size, 0.0), c64::new(size, 0.0));
-    let [mass, damping, stiffness] = problem.dense(at);
+    let [mass, damping, stiffness] = problem.dense(at, place);
     let shifted = Mat::from_fn(n, n, |i, j| {
         stiffness[(i, j)] + sigma * (damping[(i, j)] + sigma * mass[(i, j)])
     });

@@ -45,11 +45,12 @@ impl Reduction {
     /// the normals in rigid contact. What two terms leave out is estimated by
     /// [`super::error::reduction_error`]: 1.7e-8 of an eigenvalue at 11 kHz on 24 x 5 x 1 bricks.
     ///
-    /// `held` are modes with the motion across the sliding held, where dashpots are strong enough to do so.
+    /// `held` are modes with the motion across the sliding held, where dashpots are strong enough to do so; `lossy` are matrices of
+    /// parts, with the forces of which on the modes the response begins as well.
     pub fn new(
         pencil: &Pencil,
         [normal_masses, normals]: [Vec<Vec<f64>>; 2],
-        contact: &[usize],
+        (contact, lossy): (&[usize], &[&BandedMatrix]),
         (modes, held): (Modes, Modes),
     ) -> Self {
         let count = pencil.stiffness().dimension();
@@ -60,6 +61,7 @@ impl Reduction {
         };
         let mut loads: Vec<Vec<f64>> = contact.iter().map(|&u| unit(u)).collect();
         loads.extend(normals);
+        loads.extend(lossy.iter().flat_map(|own| modes.iter().map(|mode| own.multiply(&mode.1))));
         let first = main_directions(pencil, loads);
         let mut loads: Vec<Vec<f64>> = first.iter().map(|x| pencil.mass.multiply(x)).collect();
         loads.extend(normal_masses);
@@ -152,7 +154,9 @@ impl Reduction {
                 Some(powers)
             }
         };
+        let losses = harmonic.losses.iter().map(|(gain, own)| (gain.clone(), self.project(own)));
         HarmonicTangent {
+            losses: losses.collect(),
             harmonic: harmonic.harmonic,
             shares: Some([share(&harmonic.contact), share(axial)]),
             mass: self.project(&harmonic.mass),

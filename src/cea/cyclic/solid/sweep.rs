@@ -5,6 +5,7 @@ use super::damped::{Range, follow_damped};
 use super::error::{ReducedPair, reduction_error};
 use super::modes_below::{AtRest, bound, modes_below, wanted};
 use super::reduction::Reduction;
+use super::refined::{of_all_unknowns, refined};
 use super::rest::Pencil;
 use crate::cea::cyclic::Coverage;
 use crate::cea::cyclic::modes::{ShapeProducer, expand, point};
@@ -15,6 +16,7 @@ use crate::cea::cyclic::sweep::{Overdamped, WaveSweep, together};
 use crate::cea::{CeaError, FrictionPoint, SweepRequest};
 use crate::contact::SlidingContact;
 use crate::fem::{ElasticMaterial, MaterialField};
+use crate::linalg::banded::BandedMatrix;
 use crate::linalg::c64;
 use crate::mesh::{SolidSector, SolidSpecification};
 use crate::prestress::{HarmonicTangent, TangentOptions, WaveTangent};
@@ -55,7 +57,8 @@ struct Reduced {
 /// What one harmonic has come to.
 struct Solved {
     paths: HarmonicPaths,
-    reduction: Reduction,
+    /// The space of its vectors; `None` where they are over all unknowns.
+    reduction: Option<Reduction>,
     error: f64,
     overdamped: Vec<Overdamped>,
 }
@@ -85,9 +88,17 @@ pub fn solid_sweep_with_waves<M: MaterialField>(
     let sector = SolidSector::generate(&model.specification)?;
     let tangent =
         WaveTangent::of_revolution(&sector, &model.material, &model.options, &model.contact)?;
-    let (bound, known) = bound(&tangent, request.limit)?;
+    // With tables modes at rest have the smallest moduli, and those wanted at most the largest.
+    let is_tabled = tangent.tables().next().is_some();
+    let (bound, known) = match is_tabled {
+        true => (bound(&tangent.stiffest(), request.limit)?.0, Vec::new()),
+        false => bound(&tangent, request.limit)?,
+    };
     let (mut found, empty) = modes_below(&tangent, bound * (MARGIN * SPAN).powi(2), known)?;
-    let wanted = wanted(&tangent, &found, request.limit, bound)?;
+    let wanted = match is_tabled {
+        true => bound,
+        false => wanted(&tangent, &found, request.limit, bound)?,
+    };
     let margin = wanted * MARGIN * MARGIN;
     found.retain(|found| found.modes.iter().any(|mode| mode.0 < margin));
     let reduced = reduce(&tangent, found, &grid, margin);
@@ -107,8 +118,9 @@ pub fn solid_sweep_with_waves<M: MaterialField>(
     let direction = tangent.sliding_direction;
     let unknowns = |n: usize, x: &[c64]| {
         let mut all = followed.iter().zip(&reductions);
-        let own = all.find(|(paths, _)| paths.problem.harmonic == n);
-        own.map_or(Vec::new(), |(_, reduction)| reduction.expand(x))
+        let own = all.find(|(paths, _)| paths.problem.tangent.harmonic == n);
+        let own = own.and_then(|(_, reduction)| reduction.as_ref());
+        own.map_or_else(|| x.to_vec(), |reduction| reduction.expand(x))
     };
     let expand = |n: usize, waves: Waves, x: &[c64]| expand(&tangent, n, waves, &unknowns(n, x));
     let producer = ShapeProducer {
@@ -120,10 +132,11 @@ pub fn solid_sweep_with_waves<M: MaterialField>(
     let frictions = request.friction_coefficients.iter();
     let points: Vec<FrictionPoint> =
         frictions.map(|&friction| point(&producer, &followed, friction, request)).collect();
+    check_tables(&tangent, &points)?;
     let (sweep, branches) = together(points, &followed, direction);
     let coverage = Coverage {
         largest_harmonic: tangent.largest_harmonic(),
-        followed: followed.iter().map(|paths| paths.problem.harmonic).collect(),
+        followed: followed.iter().map(|paths| paths.problem.tangent.harmonic).collect(),
         proven_empty: Vec::new(),
         counted_empty: empty,
         limit_hz: wanted.sqrt() / TAU,
@@ -172,13 +185,35 @@ fn follow(
             _ => damped()?,
         },
     };
+    if tangent.is_lossy() {
+        let problem = of_all_unknowns(found.harmonic, &axial, tangent.is_standing(n));
+        let paths = refined(paths, problem, kept)?;
+        return Ok(Solved { paths, reduction: None, error: 0.0, overdamped });
+    }
     let whole = (&found.reduction, &found.harmonic, &found.pencil);
     Ok(Solved {
         error: largest_error(&paths, whole, wanted),
-        reduction: found.reduction,
+        reduction: Some(found.reduction),
         paths,
         overdamped,
     })
+}
+
+/// Refuses modes whose stiffness follows from a table that does not reach them.
+fn check_tables(tangent: &WaveTangent, points: &[FrictionPoint]) -> Result<(), CeaError> {
+    for (point, mode) in points.iter().flat_map(|p| p.modes.iter().map(move |mode| (p, mode))) {
+        let frequency_hz = mode.frequency_hz();
+        if let Some(own) = tangent.tables().find(|own| !own.table.covers(frequency_hz)) {
+            return Err(CeaError::BeyondTable {
+                key: own.table.key().to_owned(),
+                file: own.table.file().to_owned(),
+                range_hz: own.table.range_hz(),
+                friction_coefficient: point.friction_coefficient,
+                frequency_hz,
+            });
+        }
+    }
+    Ok(())
 }
 
 /// The overdamped motions of all harmonics at each friction value.
@@ -223,12 +258,18 @@ fn reduce(tangent: &WaveTangent, found: Vec<AtRest>, grid: &[f64], margin: f64) 
     let solve = |found: AtRest| {
         let harmonic = tangent.harmonic(found.harmonic);
         let columns = tangent.normal_columns(found.harmonic);
+        let lossy = harmonic.losses.iter().map(|(_, own)| &own[0]);
+        // Damping of parts, other than that of the whole body.
+        let damped =
+            harmonic.damping.iter().map(|own| &own[0]).filter(|_| tangent.has_own_damping());
+        let lossy: Vec<&BandedMatrix> = lossy.chain(damped).collect();
+        let loads = (&touched[..], &lossy[..]);
         let (pencil, across) = (found.pencil, Across::new(&harmonic, &sideways));
         if !across.are_strong(&found.modes, friction) {
             let modes = (found.modes, Vec::new());
             return Reduced {
                 number: found.harmonic,
-                reduction: Reduction::new(&pencil, columns, &touched, modes),
+                reduction: Reduction::new(&pencil, columns, loads, modes),
                 is_damped: false,
                 harmonic,
                 across,
@@ -236,7 +277,7 @@ fn reduce(tangent: &WaveTangent, found: Vec<AtRest>, grid: &[f64], margin: f64) 
             };
         }
         let held = across.held_modes(&pencil, margin * SPAN * SPAN);
-        let reduction = Reduction::new(&pencil, columns, &touched, (found.modes, held));
+        let reduction = Reduction::new(&pencil, columns, loads, (found.modes, held));
         let answering = across.added_to(&pencil, friction * margin.sqrt());
         Reduced {
             number: found.harmonic,

@@ -15,10 +15,10 @@ use crate::study::eigenvalues::sliding::{SlidingModel, SteadyState};
 use std::collections::BTreeMap;
 
 /// A body taken apart, and its harmonics as far as they were needed.
-struct Apart {
+struct Apart<'a> {
     regions: Vec<String>,
     supports: Vec<String>,
-    harmonics: BTreeMap<usize, HarmonicParts>,
+    harmonics: BTreeMap<usize, HarmonicParts<'a>>,
 }
 
 /// A mode with its wave, and `M x` of it.
@@ -60,8 +60,8 @@ pub(super) fn read(
     Some(reading)
 }
 
-impl Apart {
-    fn new(model: &SlidingModel, tangent: &WaveTangent, sweep: &FrictionSweep) -> Self {
+impl<'t> Apart<'t> {
+    fn new(model: &SlidingModel, tangent: &'t WaveTangent, sweep: &FrictionSweep) -> Self {
         let modes = sweep.points.iter().flat_map(|point| &point.modes);
         let mut numbers: Vec<usize> =
             modes.filter(|mode| mode.wave.is_some()).map(|mode| mode.harmonic).collect();
@@ -98,9 +98,9 @@ impl Apart {
     /// What each region, support and the contact adds to a mode.
     fn contributions(&self, own: &Waving<'_>, out: &mut Vec<Contribution>) {
         let parts = &self.harmonics[&own.mode.harmonic];
-        let x = &own.wave.unknowns;
-        let regions = parts.of_regions(own.name.friction_coefficient, x);
-        let supports = parts.of_supports(x);
+        let (x, root) = (&own.wave.unknowns, own.wave.root(own.mode.eigenvalue));
+        let regions = parts.of_regions(root, own.name.friction_coefficient, x);
+        let supports = parts.of_supports(root, x);
         let strain = |forms: &[PartForms]| -> f64 { forms.iter().map(|own| own.stiffness).sum() };
         let sums = Sums {
             kinetic: vec![own.mass],
