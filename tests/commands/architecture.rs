@@ -43,13 +43,8 @@ const BUDGETS: &[(&str, usize)] = &[
     ("crates/linalg", 4_107),
     ("crates/signal", 6_581),
     ("src/app", 5_320),
-<<<<<<< HEAD
-    ("src/case", 11_920),
-    ("src/cea", 10_784),
-=======
     ("src/case", 11_913),
     ("src/cea", 10_963),
->>>>>>> f30f59c19e0eb1f82434424c3a799d2ea69a2376
     ("src/contact", 2_879),
     ("src/cycle", 8_303),
     ("src/fem", 5_027),
@@ -59,17 +54,10 @@ const BUDGETS: &[(&str, usize)] = &[
     ("src/main.rs", 5),
     ("src/mesh", 4_644),
     ("src/output", 815),
-<<<<<<< HEAD
-    ("src/prestress", 5_363),
-    ("src/results", 20_341),
-    ("src/study", 12_512),
-    ("src/transient", 5_013),
-=======
     ("src/prestress", 5_527),
     ("src/results", 20_341),
     ("src/study", 12_499),
     ("src/transient", 5_023),
->>>>>>> f30f59c19e0eb1f82434424c3a799d2ea69a2376
 ];
 
 /// Lines of a file before its unit tests.
