@@ -30,9 +30,8 @@ impl SparseSweep<'_> {
             && (self.static_determinant(first, 0.0)? < 0.0
                 || self.builder.model.static_growth(first)? > 1);
         let ends = branches.iter().filter_map(|branch| branch.end.as_ref()?.diverges_at);
-        let places = ends.chain(is_unstable.then_some(first));
-        let lowest = places.min_by(f64::total_cmp);
-        Ok(lowest.map(|critical_friction| UnstableInterval {
+        let places = ends.chain(is_unstable.then_some(first)).map(|mu| mu.max(first));
+        Ok(places.min_by(f64::total_cmp).map(|critical_friction| UnstableInterval {
             harmonic: 0,
             nodal_diameters: None,
             branch: 0,
@@ -40,7 +39,7 @@ impl SparseSweep<'_> {
             critical_friction,
             frequency_hz: 0.0,
             restabilized: None,
-            unstable_from_start: is_unstable,
+            unstable_from_start: critical_friction == first,
             lost_after: None,
         }))
     }
