@@ -1,10 +1,8 @@
 //! Solve times of the cyclic eigenvalue analysis on one thread and on all. Without `--bench` (as `cargo test --benches` calls
 //! it) meshes are five times coarser.
 
-#[path = "../tests/common/disc.rs"]
-mod disc;
-
-use disc::{DAMPING, POLYCARBONATE, annulus, contact};
+use crate::disc::{DAMPING, POLYCARBONATE, annulus, contact};
+use crate::is_measured;
 use divan::Bencher;
 use frictionsim::cea::cyclic::{WaveSweep, sweep};
 use frictionsim::cea::{ModeLimit, SweepRequest};
@@ -13,13 +11,9 @@ use frictionsim::fem::MassKind;
 use frictionsim::mesh::ElementKind;
 use frictionsim::prestress::{DampingModel, TangentOptions};
 
-fn main() {
-    divan::main();
-}
-
 /// 30 modes of the disc with prestress, `values` friction coefficients from 0 to 1.
 fn solve(circumferential: usize, radial: usize, values: usize) -> WaveSweep {
-    let coarser = if std::env::args().any(|argument| argument == "--bench") { 1 } else { 5 };
+    let coarser = if is_measured() { 1 } else { 5 };
     let specification = annulus(ElementKind::Quad4, circumferential / coarser, radial / coarser);
     let options = TangentOptions {
         mass: MassKind::Consistent,

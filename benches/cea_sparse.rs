@@ -2,10 +2,8 @@
 //! 0 to 1, consistent mass, no prestress; and one friction value on 200,000 unknowns. Without `--bench` (as `cargo test --benches`
 //! calls it) meshes are four times coarser.
 
-#[path = "../tests/common/disc.rs"]
-mod disc;
-
-use disc::{DAMPING, POLYCARBONATE, annulus, contact};
+use crate::disc::{DAMPING, POLYCARBONATE, annulus, contact};
+use crate::is_measured;
 use divan::Bencher;
 use frictionsim::cea::sparse::{SparseSweep, StiffnessFactors, sweep};
 use frictionsim::cea::{ModeLimit, SweepRequest, Unwatched};
@@ -15,13 +13,9 @@ use frictionsim::linalg::LuAnalysis;
 use frictionsim::mesh::{AnnulusMesh, ElementKind};
 use frictionsim::prestress::{DampingModel, SlidingTangent, SteadySliding, TangentOptions};
 
-fn main() {
-    divan::main();
-}
-
 /// Four times coarser where nothing is measured.
 fn tangent(circumferential: usize, radial: usize) -> SlidingTangent {
-    let coarser = if std::env::args().any(|argument| argument == "--bench") { 1 } else { 4 };
+    let coarser = if is_measured() { 1 } else { 4 };
     let specification = annulus(ElementKind::Quad4, circumferential / coarser, radial / coarser);
     let mesh = AnnulusMesh::generate(&specification).expect("a valid annulus").mesh;
     let elastic = assemble_stiffness(&mesh, &POLYCARBONATE);

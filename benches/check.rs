@@ -1,8 +1,9 @@
 //! What `check` says of time and memory beside what the command takes, one thread.
 //!
-//! `cargo bench --bench check` runs whole commands and prints a table; `cargo test --bench check` the first two. Time is that of the
+//! `cargo bench check` runs whole commands and prints a table; without `--bench` the first two. Time is that of the
 //! processor, memory the largest resident size, both as Linux tells them.
 
+use crate::is_measured;
 use serde_json::Value;
 use std::path::Path;
 use std::process::{Command, Stdio};
@@ -29,10 +30,8 @@ const JOBS: [Job; 14] = [
     ("frf", "hammer-test", &[]),
 ];
 
-fn main() {
-    // `cargo bench` says so; a test run is to be quick.
-    let is_bench = std::env::args().any(|argument| argument == "--bench");
-    let jobs = if is_bench { &JOBS[..] } else { &JOBS[..2] };
+pub fn run() {
+    let jobs = if is_measured() { &JOBS[..] } else { &JOBS[..2] };
     println!(
         "{:<10} {:<24} {:>9} {:>9} {:>6} {:>9} {:>9} {:>6}",
         "command", "case", "said s", "took s", "ratio", "said MiB", "took MiB", "ratio"

@@ -1,11 +1,12 @@
 //! Cost of limit cycles on the mesh of 180 x 35 elements, and along a parameter on a body without rotating waves.
 //!
-//! `cargo bench --bench cycle`. Prints, for one and two nodal diameters, the time to find the cycle at 610 rpm from its
+//! `cargo bench cycle`. Prints, for one and two nodal diameters, the time to find the cycle at 610 rpm from its
 //! birth, the time from a cycle to a neighbour at a speed 2 % higher or 20 % lower (fastest of several), that of its
 //! stability, and the time of the branch over 61 speeds from 10 to 6000 rpm. Then 60 cycles of the shipped case on 300 x 13
 //! elements (8,400 unknowns, 300 contact nodes), where friction falls with speed, over friction and over speed. Without `--bench`
 //! (as `cargo test --benches` calls it) meshes are coarse, branches have three values, and everything is done once.
 
+use crate::is_measured;
 use frictionsim::case::Case;
 use frictionsim::cea::Unwatched;
 use frictionsim::contact::SlidingContact;
@@ -19,10 +20,10 @@ use std::time::{Duration, Instant};
 
 /// A count where something is measured, else a small one.
 fn counted(full: usize, small: usize) -> usize {
-    if std::env::args().any(|argument| argument == "--bench") { full } else { small }
+    if is_measured() { full } else { small }
 }
 
-fn main() {
+pub fn run() {
     let specification = AnnulusSpecification {
         inner_radius: 0.0205,
         outer_radius: 0.0905,

@@ -1,8 +1,9 @@
 //! Cost of frequency responses of the disc of 180 x 35 elements at 1000 frequencies, one thread.
 //!
-//! `cargo bench --bench frf`. Matrices and meshes are made outside the measured time. Without `--bench` (as `cargo test
+//! `cargo bench frf`. Matrices and meshes are made outside the measured time. Without `--bench` (as `cargo test
 //! --benches` calls it) it takes 60 x 11 elements at 50 frequencies.
 
+use crate::is_measured;
 use divan::Bencher;
 use frictionsim::contact::{ContactStiffness, SlidingContact};
 use frictionsim::fem::{
@@ -18,15 +19,6 @@ use frictionsim::mesh::{
 use frictionsim::prestress::{
     DampingModel, SlidingTangent, SteadySliding, TangentOptions, WaveTangent,
 };
-
-fn main() {
-    divan::main();
-}
-
-/// Whether something is measured.
-fn is_measured() -> bool {
-    std::env::args().any(|argument| argument == "--bench")
-}
 
 fn specification() -> AnnulusSpecification {
     let (circumferential_elements, radial_elements) =

@@ -1,23 +1,18 @@
 //! Three dimensions: cost of an explicit step and of the eigenvalues of a disc of 180 x 35 x 4 bricks of 8 nodes, one thread.
 //!
-//! `cargo bench --bench solid`. Prints, for each instruction set, microseconds a step (the fastest of many batches, so that
+//! `cargo bench solid`. Prints, for each instruction set, microseconds a step (the fastest of many batches, so that
 //! other load on the machine counts little), nanoseconds a brick, how many times the floor of the stencil that is, and the share
 //! of the processor's fused multiply-add peak, which it measures first; then the time of 30 modes at 21 friction values; then a
 //! step of a body from a mesh file on one thread and on two, with the bandwidth that its bytes take of the memory's.
 //! Without `--bench` (as `cargo test --benches` calls it) everything is done once, on a small mesh.
 
 #[allow(dead_code)]
-#[path = "../tests/common/bricks.rs"]
-mod bricks;
-#[path = "../tests/common/disc.rs"]
-mod disc;
-#[path = "../tests/common/fma_peak.rs"]
-mod fma_peak;
-#[allow(dead_code)]
 #[path = "../tests/numerics/solids/model.rs"]
 mod model;
 
-use fma_peak::fma_peak;
+use crate::bricks::{Block, file_of};
+use crate::fma_peak::fma_peak;
+use crate::{Ignore, is_measured};
 use frictionsim::cea::cyclic::{SolidModel, solid_sweep};
 use frictionsim::cea::{ModeLimit, SweepRequest};
 use frictionsim::fem::operator::{
@@ -26,12 +21,11 @@ use frictionsim::fem::operator::{
 use frictionsim::fem::{ElasticMaterial, PlaneFormulation, assemble_stiffness, lumped_masses};
 use frictionsim::mesh::{ElementKind, FileMesh, Mesh, SolidSector};
 use frictionsim::transient::{
-    CentralDifference, InitialState, Observer, OperatorChoice, Perturbation, Sample, SteppedBody,
-    TimeStep, TransientModel, TransientSettings,
+    CentralDifference, InitialState, OperatorChoice, Perturbation, SteppedBody, TimeStep,
+    TransientModel, TransientSettings,
 };
 use rayon::prelude::*;
 use std::hint::black_box;
-use std::ops::ControlFlow;
 use std::time::Instant;
 
 /// Node-steps of a batch.
@@ -51,17 +45,8 @@ const STEEL: ElasticMaterial = ElasticMaterial {
     ..ElasticMaterial::PLAIN
 };
 
-struct Ignore;
-
-impl Observer for Ignore {
-    fn observe(&mut self, _: &Sample<'_>) -> ControlFlow<()> {
-        ControlFlow::Continue(())
-    }
-}
-
-fn main() {
-    let is_measured = std::env::args().any(|argument| argument == "--bench");
-    let (divisions, batches) = match is_measured {
+pub fn run() {
+    let (divisions, batches) = match is_measured() {
         true => ([180, 35, 4], 100),
         false => ([36, 7, 2], 1),
     };
@@ -76,13 +61,13 @@ fn main() {
         }
     }
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build();
-    let samples = if is_measured { 5 } else { 1 };
+    let samples = if is_measured() { 5 } else { 1 };
     let best = pool
         .expect("a thread")
         .install(|| (0..samples).map(|_| eigenvalues(divisions)))
         .fold(f64::INFINITY, f64::min);
     println!("30 modes at 21 friction values: {:.0} ms", 1e3 * best);
-    let divisions = if is_measured { 40 } else { 6 };
+    let divisions = if is_measured() { 40 } else { 6 };
     println!("threads  ms/step    GB/s  GB/s of reading memory");
     for threads in [1, 2] {
         assembled(divisions, threads);
@@ -91,9 +76,8 @@ fn main() {
 
 /// Prints a row: the step of a cube of bricks in a mesh file, without contact.
 fn assembled(divisions: usize, threads: usize) {
-    let cube =
-        bricks::Block { name: "cube", origin: [0.0; 3], size: [0.1; 3], counts: [divisions; 3] };
-    let file = FileMesh::read(&bricks::file_of(&[cube], |point| point)).expect("a mesh file");
+    let cube = Block { name: "cube", origin: [0.0; 3], size: [0.1; 3], counts: [divisions; 3] };
+    let file = FileMesh::read(&file_of(&[cube], |point| point)).expect("a mesh file");
     let mesh = Mesh::from_solids(&file, 1.0, &[]).expect("a body");
     let stiffness = assemble_stiffness(&mesh, &STEEL);
     let masses = lumped_masses(&mesh, &STEEL);

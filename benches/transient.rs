@@ -1,39 +1,26 @@
 //! Cost of an explicit step on the paper's mesh, contact, energies and status included.
 //!
-//! `cargo bench --bench transient`. Prints, for each operator and instruction set, microseconds a step
+//! `cargo bench transient`. Prints, for each operator and instruction set, microseconds a step
 //! (the fastest of many batches, so that other load on the machine counts little), nanoseconds an element-step,
 //! and the share of the processor's fused multiply-add peak, which it measures first; then bodies without like
 //! elements, threads, and what a step of two bodies costs over one of a single body. Without `--bench` (as
 //! `cargo test --benches` calls it) it takes ten steps of each on meshes four times coarser.
 
-#[path = "../tests/common/disc.rs"]
-mod disc;
-#[path = "../tests/common/fma_peak.rs"]
-mod fma_peak;
-#[path = "../tests/common/mesh_text.rs"]
-mod mesh_text;
-#[path = "../tests/common/msh.rs"]
-mod msh;
 #[allow(dead_code)]
 #[path = "../tests/numerics/two_bodies/model.rs"]
 mod two_bodies;
 
-use disc::{DAMPING, POLYCARBONATE, annulus, contact};
-use fma_peak::fma_peak;
+use crate::disc::{DAMPING, POLYCARBONATE, annulus, contact};
+use crate::fma_peak::fma_peak;
+use crate::{Ignore, is_measured};
 use frictionsim::fem::operator::SimdLevel;
 use frictionsim::mesh::{AnnulusMesh, BoundaryCondition, ElementKind, Mesh, ShaftSpecification};
 use frictionsim::transient::{
-    CentralDifference, InitialState, Observer, OperatorChoice, Perturbation, Sample, SteppedBody,
-    TimeStep, TransientModel, TransientSettings,
+    CentralDifference, InitialState, OperatorChoice, Perturbation, SteppedBody, TimeStep,
+    TransientModel, TransientSettings,
 };
 use std::collections::BTreeSet;
-use std::ops::ControlFlow;
 use std::time::Instant;
-
-/// Whether something is measured.
-fn is_measured() -> bool {
-    std::env::args().any(|argument| argument == "--bench")
-}
 
 /// Batches, of which the fastest counts.
 const BATCHES: usize = 240;
@@ -46,15 +33,7 @@ const OPERATIONS_STENCIL: f64 = 78.0;
 /// The same with nine 2 x 2 blocks a node: 72 for `K v`.
 const OPERATIONS_BLOCKS: f64 = 102.0;
 
-struct Ignore;
-
-impl Observer for Ignore {
-    fn observe(&mut self, _: &Sample<'_>) -> ControlFlow<()> {
-        ControlFlow::Continue(())
-    }
-}
-
-fn main() {
+pub fn run() {
     if !is_measured() {
         println!("a trial: ten steps, meshes four times coarser than they are called");
     }

@@ -216,17 +216,3 @@ fn write(path: &Path, bytes: &[u8], force: bool) -> Result<(), Failure> {
         _ => failed(error),
     })
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::case::Case;
-
-    #[test]
-    fn every_short_name_is_a_shipped_case() {
-        assert!(SHORT_NAMES.iter().all(|(short, _)| find(short).is_ok()));
-        assert!(find("nothing").is_err());
-        let case = Case::parse(REFERENCE, reference::template().as_bytes(), &[]);
-        assert!(case.is_ok(), "{}", case.unwrap_err());
-    }
-}

@@ -265,19 +265,6 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_help_names_every_command_once_within_100_columns() {
-        let help = command_line().render_long_help().to_string();
-        for sub in command_line().get_subcommands() {
-            let line = format!("\n  {} ", sub.get_name());
-            assert_eq!(help.matches(&line).count(), 1, "{}\n{help}", sub.get_name());
-        }
-        assert!(help.lines().all(|line| line.chars().count() <= 100), "{help}");
-        let titles = ["Analyse:", "Study:", "Design:", "Measure:", "Inspect:", "Help:"];
-        let places: Vec<_> = titles.map(|title| help.find(title).expect(title)).into();
-        assert!(places.is_sorted(), "{help}");
-    }
-
-    #[test]
     fn options_may_stand_before_the_subcommand() {
         let command = command_line();
         command.clone().debug_assert();
@@ -294,19 +281,6 @@ mod tests {
             ("f cea -q", "f cea -q"),
         ] {
             assert_eq!(moved(given), behind);
-        }
-    }
-
-    #[test]
-    fn every_command_takes_the_options_of_all() {
-        for command in command_line().get_subcommands() {
-            for option in ["threads", "simd", "quiet", "verbose"] {
-                let mut arguments = command.get_arguments();
-                assert!(
-                    arguments.any(|own| own.get_long() == Some(option)),
-                    "{command} --{option}"
-                );
-            }
         }
     }
 }

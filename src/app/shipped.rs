@@ -78,38 +78,3 @@ pub fn all_files() -> Vec<ShippedFile> {
     found.sort_by_key(|(path, _)| *path);
     found
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::case::Case;
-    use std::path::Path;
-
-    #[test]
-    fn every_shipped_case_is_valid_beside_its_files_under_any_name() {
-        let cases = all_cases();
-        assert!(cases.len() > 20, "{}", cases.len());
-        for case in cases {
-            let folder = tempfile::tempdir().unwrap();
-            for (name, bytes) in case.files() {
-                let path = folder.path().join(name);
-                std::fs::create_dir_all(path.parent().unwrap()).unwrap();
-                std::fs::write(path, bytes).unwrap();
-            }
-            let text = case.named("case.toml");
-            assert!(!text.contains("cases/"), "{}", case.file);
-            let path = folder.path().join("case.toml").display().to_string();
-            let read = Case::parse(&path, text.as_bytes(), &[]);
-            assert!(read.is_ok(), "{}", read.unwrap_err());
-            assert!(!case.title().is_empty(), "{}", case.file);
-        }
-    }
-
-    #[test]
-    fn the_program_holds_the_folder_of_shipped_cases_as_it_is() {
-        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases");
-        for (path, bytes) in all_files() {
-            assert_eq!(std::fs::read(folder.join(path)).unwrap(), bytes, "{path}");
-        }
-    }
-}

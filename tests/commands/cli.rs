@@ -38,18 +38,6 @@ fn help_lists_the_exit_codes_and_version_prints_the_package_version() {
 }
 
 #[test]
-fn every_shipped_case_is_valid_and_has_a_cost() {
-    let folder = folder();
-    let entries = fs::read_dir(shipped("")).unwrap();
-    let paths = entries.map(|entry| entry.unwrap().path());
-    let paths: Vec<PathBuf> =
-        paths.filter(|p| p.extension().is_some_and(|e| e == "toml")).collect();
-    let answer = run(&folder, &["check"]).args(&paths).done().says(&["steps", "MiB", "unknowns"]);
-    assert_eq!(answer.stdout.matches(": valid").count(), paths.len(), "{}", answer.stdout);
-    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0, "check wrote something");
-}
-
-#[test]
 fn check_reports_the_cost_as_numbers() {
     let cost = |name: &str| {
         let answer = run(&folder(), &["check", "--json", &shipped(name)]).done();
@@ -96,6 +84,19 @@ fn an_eigenvalue_sweep_has_the_same_bytes_for_any_thread_count() {
 }
 
 #[test]
+fn a_sweep_has_the_values_asked_for_and_that_of_the_case() {
+    for at in ["", " ; cea.shapes_at=[0.1]"] {
+        let asked = format!("cea.friction_coefficients=[0.1, 0.2]{at}");
+        let folder = folder();
+        let answer = on_disc(&folder, "cea", &["--no-figures"]).set(&[asked]).out("o").done();
+        let rows = answer.rows("eigenvalues.csv");
+        let found: std::collections::BTreeSet<&String> =
+            rows.iter().map(|row| &row["friction_coefficient"]).collect();
+        assert_eq!(found.into_iter().collect::<Vec<_>>(), ["0.1", "0.2", "0.3"]);
+    }
+}
+
+#[test]
 fn cea_prints_the_table_and_draws_its_figures() {
     let folder = folder();
     let answer = on_disc(&folder, "cea", &["--verbose"]).out("here").done().says(&[
@@ -103,7 +104,20 @@ fn cea_prints_the_table_and_draws_its_figures() {
          stable up to",
     ]);
     assert_eq!(answer.stderr, "");
-    for name in ["figures/locus.svg", "figures/pairs.png", "modes/mu-0.3-mode-001.vtu"] {
+    for name in [
+        "eigenvalues.csv",
+        "stability.csv",
+        "summary.json",
+        "manifest.json",
+        "modes.pvd",
+        "modes/mu-0.3-mode-001.vtu",
+        "prestress.csv",
+        "prestress.vtu",
+        "figures/locus.svg",
+        "figures/pairs.png",
+        "figures/prestress.png",
+        "figures/modes-mu-0.3.png",
+    ] {
         assert!(answer.path(name).exists(), "{name}");
     }
 }
@@ -243,13 +257,19 @@ fn warnings_go_to_stderr_and_stay_unless_quiet_is_said_twice() {
 #[test]
 fn init_writes_cases_that_check_accepts_and_overwrites_nothing() {
     let folder = folder();
+    let mut cost = String::new();
     for line in run(&folder, &["init", "--list"]).done().stdout.lines() {
-        let name = line.split_whitespace().next().unwrap();
+        let mut words = line.split_whitespace();
+        let name = words.next().unwrap();
+        assert!(words.count() > 1, "no title: {line}");
         let file = format!("{name}.toml");
         // Meshes and tables that the case reads are listed behind it.
         let said = run(&folder, &["init", name]).done().stdout;
         assert!(said.starts_with(&format!("{file}\n")), "{said}");
-        run(&folder, &["check", &file]).done();
+        let there = || fs::read_dir(folder.path()).unwrap().count();
+        let before = there();
+        cost += &run(&folder, &["check", &file]).done().says(&[": valid"]).stdout;
+        assert_eq!(there(), before, "check wrote something");
         let written = fs::read(folder.path().join(&file)).unwrap();
         fs::write(folder.path().join(&file), "precious").unwrap();
         run(&folder, &["init", name]).refused(&["exists", "--force"]);
@@ -257,6 +277,7 @@ fn init_writes_cases_that_check_accepts_and_overwrites_nothing() {
         run(&folder, &["init", name, "--force"]).done();
         assert_eq!(fs::read(folder.path().join(&file)).unwrap(), written);
     }
+    has(&cost, &["steps ; MiB ; unknowns"]);
 }
 
 #[test]
@@ -266,18 +287,30 @@ fn init_all_writes_every_shipped_case_with_its_mesh_and_overwrites_nothing() {
     all().done().says(&["cases/sliding-block.toml"]);
     let entries = fs::read_dir(shipped("")).unwrap().flatten();
     let names = entries.map(|entry| entry.file_name());
-    let toml: Vec<_> = names.filter(|name| name.to_string_lossy().ends_with(".toml")).collect();
-    assert!(toml.len() > 20);
+    let names: Vec<_> = names.map(|name| name.to_string_lossy().into_owned()).collect();
+    assert!(names.iter().filter(|name| name.ends_with(".toml")).count() > 20);
     // Each is the shipped one, which another test checks.
-    for name in toml {
-        let written = fs::read(folder.path().join("cases").join(&name)).unwrap();
-        assert_eq!(written, fs::read(shipped(&name.to_string_lossy())).unwrap());
+    let files = names.iter().map(String::as_str).filter(|name| name.contains('.'));
+    for name in files.chain(["meshes/brake.inp"]) {
+        let written = fs::read(folder.path().join("cases").join(name)).unwrap();
+        assert_eq!(written, fs::read(shipped(name)).unwrap(), "{name}");
     }
-    assert!(folder.path().join("cases/meshes/brake.inp").exists());
     // What is there as it would be written stays; what is not is not overwritten.
     assert_eq!(all().done().stdout, "");
     fs::write(folder.path().join("cases/basin.toml"), "precious").unwrap();
     all().refused(&["basin.toml exists"]);
+}
+
+#[test]
+fn every_short_name_is_a_shipped_case() {
+    let folder = folder();
+    let said = run(&folder, &["init", "nothing"]).refused(&["no template"]).stderr;
+    let (_, names) = said.split_once("choose one of ").unwrap();
+    let names: Vec<&str> = names.trim().split(", ").collect();
+    assert!(names.contains(&"two-bodies") && names.contains(&"reference"), "{said}");
+    for name in names {
+        run(&folder, &["init", name, "--out", "-"]).done();
+    }
 }
 
 #[test]
@@ -290,6 +323,9 @@ fn init_to_stdout_is_the_case_alone() {
 fn completions_and_manual_name_every_subcommand() {
     let folder = folder();
     let help = run(&folder, &["--help"]).done().stdout;
+    assert!(help.lines().all(|line| line.chars().count() <= 100), "{help}");
+    let titles = ["Analyse:", "Study:", "Design:", "Measure:", "Inspect:", "Help:"];
+    assert!(titles.map(|title| help.find(title).expect(title)).is_sorted(), "{help}");
     let lines = help.lines().skip_while(|line| !line.starts_with("Analyse:"));
     let lines = lines.take_while(|line| !line.starts_with("Options:"));
     let names: Vec<&str> = lines
@@ -305,6 +341,10 @@ fn completions_and_manual_name_every_subcommand() {
     for name in names.iter().filter(|name| **name != "help") {
         let page = folder.path().join(format!("pages/frictionsim-{name}.1"));
         assert!(page.exists(), "{}", page.display());
+        assert_eq!(help.matches(&format!("\n  {name} ")).count(), 1, "{name}\n{help}");
+        // Every command takes the options of all.
+        let own = run(&folder, &[name, "--help"]).done();
+        own.says(&["--threads ; --simd ; --quiet ; --verbose"]);
     }
 }
 

@@ -21,6 +21,43 @@ fn study(sweep: &str) -> Case {
     Case::parse("study.toml", text.as_bytes(), &[]).unwrap()
 }
 
+const SEVEN: &str = "\n[sweep]\nanalyses = [\"cea\"]\n\
+    \"contact.friction_coefficient\" = { from = 0.1, to = 0.7, count = 7 }\n";
+
+#[test]
+fn shards_are_disjoint_and_cover_every_point() {
+    let case = study(SEVEN);
+    let plan = SweepPlan::new(&case).unwrap();
+    for count in 1..=9 {
+        let shards =
+            (1..=count).map(|number| plan.points(format!("{number}/{count}").parse().ok()));
+        let mut all: Vec<usize> = shards.flatten().collect();
+        all.sort_unstable();
+        assert_eq!(all, [1, 2, 3, 4, 5, 6, 7]);
+    }
+    for text in ["0/4", "5/4", "1", "a/b", "1/0", "-1/4", ""] {
+        assert!(text.parse::<Shard>().is_err(), "{text}");
+    }
+    assert!("4/4".parse::<Shard>().is_ok());
+}
+
+#[test]
+fn a_point_is_the_case_with_the_swept_values_as_overrides() {
+    let swept = study(SEVEN);
+    let point = SweepPlan::new(&swept).unwrap().point_case(3).unwrap();
+    let set = ["contact.friction_coefficient=0.3".to_owned()];
+    let file = include_bytes!("../../cases/polycarbonate-disc.toml");
+    let plain = Case::parse("case.toml", file, &set).unwrap();
+    assert_eq!(point.raw.hash(), plain.raw.hash());
+    assert_eq!(point.contact.sliding.friction_coefficient, 0.3);
+}
+
+#[test]
+fn a_case_runs_the_analyses_that_it_has_sections_for() {
+    let both = "\n[sweep]\n\"contact.friction_coefficient\" = [0.2]\n[transient]\nduration = 0.01";
+    assert_eq!(SweepPlan::new(&study(both)).unwrap().analysis_names(), ["transient", "cea"]);
+}
+
 fn manifest(case: &Case) -> Manifest {
     Manifest {
         case_text: case.raw.text.clone(),

@@ -2,6 +2,7 @@
 
 use crate::prelude::*;
 use frictionsim::fem::nodal_stress;
+use frictionsim::study::eigenvalues::{SlidingModel, SteadyState};
 
 const ELEMENTS: [ElementKind; 2] = [ElementKind::Quad4, ElementKind::Quad8];
 
@@ -122,4 +123,23 @@ fn contact_without_interference_is_reported_as_open_with_node_and_angle() {
     let error = SteadySliding::solve(&mesh, &stiffness, &contact).unwrap_err();
     assert!(matches!(error, PrestressError::Separation { count: 24, node: 1, .. }));
     assert!(error.to_string().contains("contact.interference"));
+}
+
+/// Independent check: torque is thickness times radius times the sum of traction times tributary length; pressure is Lame's.
+#[test]
+fn the_reported_torque_and_power_are_those_of_the_whole_thickness() {
+    let coarse = "mesh.circumferential_elements=24 ; mesh.radial_elements=4";
+    let case = shipped_case("polycarbonate-disc.toml", &[coarse]);
+    let model = SlidingModel::new(&case, case.cea.as_ref().unwrap()).unwrap();
+    let (base, field) = (model.base_state(&case), model.base_field(&case));
+    let SteadyState::Plane(steady) = &model.state else {
+        panic!("a plane annulus");
+    };
+    let lengths = &steady.interface.tributary_lengths;
+    let force: f64 = field.shears.iter().zip(lengths).map(|(t, w)| t * w).sum();
+    let torque = 0.009 * 0.0205 * force;
+    assert!((base.torque_n_m.unwrap() / torque - 1.0).abs() < 1e-12);
+    assert!((base.power_w / (torque * 610.0 * TAU / 60.0) - 1.0).abs() < 1e-12);
+    // Lame's pressure for this interference: 2.827 MPa at nu = 0.38, a coarse mesh within 2 %.
+    assert!((base.pressure_pa[0] / 2.827e6 - 1.0).abs() < 0.02, "{base:?}");
 }

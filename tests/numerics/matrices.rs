@@ -219,7 +219,9 @@ fn exported_matrices_of_solid_bodies_have_the_eigenvalues_of_the_analysis() {
 fn tall_block(folder: &TempDir, contact: &str, frictions: &str) {
     let block =
         |name, z: f64, height, counts| brick(name, [0.0, 0.0, z], [0.02, 0.02, height], counts);
-    let blocks = [block("low", 0.0, 0.01, [2, 2, 1]), block("high", 0.01, 0.03, [3, 2, 2])];
+    let across = sized(1, 2);
+    let blocks =
+        [block("low", 0.0, 0.01, [2, across, 1]), block("high", 0.01, 0.03, [3, across, 2])];
     let text = format!(
         "[mesh]\nfile = \"block.msh\"\n[material]\nyoung_modulus = 2e10\npoisson_ratio = 0.3\ndensity = 2500.0\n\
         [damping]\nmass_coefficient = 10.0\nstiffness_coefficient = 1e-7\n\
@@ -313,7 +315,7 @@ fn exported_matrices_hold_where_contact_that_stiffens_has_opened() {
         let range = &read("matrices/matrices.json")["friction_range"];
         assert!(range[0].as_f64().unwrap() > 0.2, "nothing opens: {range}");
         let base = &read("cea/summary.json")["base_state"];
-        assert!(base["open"].as_u64().unwrap() > 100, "{base}");
+        assert!(base["open"].as_u64().unwrap() > sized(50, 100), "{base}");
         assert!(base["pressure_pa"][0].as_f64().unwrap() >= 0.0, "{base}");
     }
 }

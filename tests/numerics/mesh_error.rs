@@ -51,7 +51,17 @@ fn estimates_of_frequencies_are_within_a_factor_of_two_of_the_error_by_refinemen
                     density = 2500.0\n[cea]\nmodes = 8\n";
         case_of(folder.join("part.toml"), text, AS_IT_IS)
     };
-    let disc = shipped("disc-triangles", 6, "[0.3]");
+    let disc = {
+        let specification = crate::disc::annulus(ElementKind::Quad4, 48, 8);
+        let mesh = crate::triangles::triangles(&specification, true);
+        let folder = kept("mesh-error-disc");
+        fs::write(folder.join("disc.msh"), write_msh(&mesh, FORMS[0], &[], |point| point)).unwrap();
+        let shipped = fs::read_to_string(crate::program::shipped("disc-triangles.toml")).unwrap();
+        let text = shipped.replace("meshes/disc.msh", "disc.msh").replace("scale = 0.001", "");
+        let set = ["cea.modes=6 ; cea.friction_coefficients=[0.3] ; cea.sensitivities=false"];
+        case_of(folder.join("disc.toml"), &text, &set)
+    };
+    let disc = sized(disc, shipped("disc-triangles", 6, "[0.3]"));
     // The strain of bricks with incompatible modes is better than that of others, and so less is recovered.
     for (name, most, [coarse, fine]) in [
         ("lining", 2.3, [lining(1), lining(2)]),
@@ -95,7 +105,12 @@ fn estimates_of_one_layer_of_bricks_in_bending_are_of_the_size_of_the_error() {
 /// large parts: errors of 1e-4 and more are estimated within a factor of two on this body.
 #[test]
 fn estimates_of_critical_friction_follow_the_error_by_refinement() {
-    let coarse = shipped("test-bench", 10, "[0.1, 0.2]");
+    let annulus = [
+        "mesh.circumferential_elements=36 ; mesh.radial_elements=6",
+        "cea={modes=8,friction_coefficients=[0.1,0.2],method=\"sparse\"}",
+    ];
+    let coarse =
+        sized(shipped_case("limit-cycle.toml", &annulus), shipped("test-bench", 10, "[0.1, 0.2]"));
     let fine = coarse.refined(2.0).unwrap();
     let onsets = |case: &Case| -> Vec<[f64; 2]> {
         let solution = solved(case);
