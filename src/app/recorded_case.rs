@@ -1,9 +1,8 @@
 //! The case of a folder of results.
 
 use super::Failure;
-use super::session::MESH;
 use crate::case::{Case, MeshBytes, RawCase, RawValue, TableBytes};
-use crate::results::Manifest;
+use crate::results::{MESH, Manifest};
 use frictionsim_bounds::{RESULT, read_file};
 use std::path::Path;
 

@@ -5,14 +5,11 @@ use super::terminal;
 use super::{Failure, RunOptions, embedded};
 use crate::case::{Case, RawCase};
 use crate::fem::operator::SimdLevel;
-use crate::results::{FolderError, Manifest, OutputFolder};
+use crate::results::{FolderError, MESH, Manifest, OutputFolder};
 use crate::study::refuse_memory;
 use frictionsim_bounds::CASE;
 use std::path::Path;
 use std::time::Instant;
-
-/// The mesh file among the results.
-pub const MESH: &str = "mesh.msh";
 
 /// A validated case on its way through one subcommand.
 #[derive(Debug)]

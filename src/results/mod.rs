@@ -44,8 +44,8 @@ pub use pvd::{PvdEntry, write_pvd};
 pub use response::{ResponseSummary, response_figure, write_response, write_universal_response};
 pub use shown_body::ShownBody;
 pub use store::{
-    FolderError, Manifest, OutputFolder, Record, Replace, is_result, read_manifest, read_record,
-    record_bytes,
+    FolderError, MESH, Manifest, OutputFolder, Record, Replace, is_result, read_manifest,
+    read_record, record_bytes,
 };
 pub use summary::{object, read_summary, write_summary};
 pub use vtu::{EncodedMesh, Field, cartesian_vectors, write_vtu};

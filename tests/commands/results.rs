@@ -377,10 +377,14 @@ fn a_run_interrupted_before_its_first_file_leaves_its_folder_to_any_case() {
     assert!(folder.path().join("manifest.json").exists());
     OutputFolder::may_open(folder.path(), &manifest("b"), Replace::SameCase).unwrap();
     let second = open(folder.path(), "b", Replace::SameCase).unwrap();
+    second.write("mesh.msh", |out| out.write_all(b"1")).unwrap();
+    drop(second);
+    // So does one that failed after its mesh was written.
+    let second = open(folder.path(), "c", Replace::SameCase).unwrap();
     second.write("a.csv", |out| out.write_all(b"1")).unwrap();
     drop(second);
-    // One that has written a file keeps its folder.
-    let refused = open(folder.path(), "c", Replace::SameCase).unwrap_err();
+    // One that has written a result keeps its folder.
+    let refused = open(folder.path(), "d", Replace::SameCase).unwrap_err();
     assert!(matches!(refused, FolderError::OtherCase { .. }));
 }
 

@@ -168,6 +168,9 @@ fn static_stability_is_lost_where_a_real_eigenvalue_passes_zero() {
         let statically = found.intervals.iter().find(|own| own.branch == 0).unwrap();
         assert_eq!((statically.frequency_hz, statically.restabilized), (0.0, None));
         places.push(statically.critical_friction);
+        // What does not oscillate takes no places of modes.
+        let lists = found.points.iter().map(|point| point.modes.len());
+        assert!(lists.clone().all(|count| count == 8), "{:?}", lists.collect::<Vec<_>>());
     }
     assert!((places[0] - places[1]).abs() < 1e-8, "{places:?}");
     let around = [-1e-6, 1e-6].map(|step| static_growth(&folder, places[0] + step).len());

@@ -68,15 +68,22 @@ fn sweep_holding(
     sweep.limit = request.limit;
     sweep.cover()?;
     sweep.solve()?;
-    // Friction brings modes from above a limit in frequency: there may be more where all that are held lie below.
+    let branches = sweep.track()?;
+    // Friction brings modes from above a limit in frequency: there may be more where all that are held lie below. What grows without
+    // oscillating takes the places of modes.
     let (held, all) = (sweep.builder.count, tangent.unknowns.len() - sweep.builder.rigid);
-    let is_full = held < all && sweep.points.iter().any(|point| point.wanted >= held);
-    if is_full && matches!(request.limit, ModeLimit::MaxFrequency(_)) {
+    let mut wanted = sweep.points.iter().map(|point| point.wanted);
+    let is_short = match request.limit {
+        ModeLimit::MaxFrequency(_) => wanted.any(|own| own >= held),
+        ModeLimit::Lowest(count) => {
+            wanted.any(|own| own < count) && sweep.divergence(&branches)?.is_some()
+        }
+    };
+    if held < all && is_short {
         let watch = PartWatch { whole: watch, prefix: format!("of-{held}-"), is_heard: true };
         let more = ModeLimit::Lowest((held + GUARD_MODES).min(all));
         return sweep_holding(tangent, request, more, &watch);
     }
-    let branches = sweep.track()?;
     let (branches, counts) = sweep.count(request, branches)?;
     let found = sweep.finish(request, &branches)?;
     Ok(FrictionSweep { counts, ..found })

@@ -14,6 +14,8 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 pub(crate) const LOCK: &str = ".lock";
+/// The mesh file of a case among its results.
+pub const MESH: &str = "mesh.msh";
 /// Folder in which results are built that replace others.
 const STAGING: &str = ".replacing";
 
@@ -373,9 +375,9 @@ fn remove_temporaries(path: &Path) {
     }
 }
 
-/// Whether a folder holds nobody's results: those of a run that ended before its first file.
+/// Whether a folder holds nobody's results: those of a run that ended before its first file, or with its mesh alone.
 fn is_void(path: &Path, contents: &Contents) -> bool {
-    let is_there = |name: &str| is_inside(name) && path.join(name).exists();
+    let is_there = |name: &str| name != MESH && is_inside(name) && path.join(name).exists();
     let unfinished = read_text(&path.join(JOURNAL), RESULT).unwrap_or_default();
     let mut names = contents.files.iter().map(String::as_str);
     !names.any(is_there) && !unfinished.lines().any(is_there)

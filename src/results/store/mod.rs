@@ -9,7 +9,7 @@ pub(crate) mod reopening;
 pub(crate) mod whole_file;
 
 pub use error::FolderError;
-pub use folder::{OutputFolder, Replace};
+pub use folder::{MESH, OutputFolder, Replace};
 pub use manifest::Manifest;
 pub use record::{Record, read_record, record_bytes};
 pub use reopening::{is_result, read_manifest};
