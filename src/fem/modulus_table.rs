@@ -57,11 +57,10 @@ impl ModulusTable {
         self.rows[0][1]
     }
 
-    /// The frequency of the smallest or largest modulus, as `pick` says, Hz.
-    pub fn extreme_hz(&self, pick: fn(f64, f64) -> f64) -> f64 {
-        let best = self.rows.iter().map(|row| row[1]).reduce(pick);
-        let row = self.rows.iter().find(|row| Some(row[1]) == best);
-        row.map_or(0.0, |row| row[0])
+    /// The frequency of the largest modulus, Hz.
+    pub fn stiffest_hz(&self) -> f64 {
+        let rows = self.rows.iter().copied();
+        rows.reduce(|best, row| if row[1] > best[1] { row } else { best }).map_or(0.0, |row| row[0])
     }
 
     /// `[E, eta]` at a frequency in Hz.

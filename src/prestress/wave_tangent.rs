@@ -7,7 +7,7 @@ use super::{
 };
 use crate::contact::ContactStiffness;
 use crate::fem::fold::{MirrorParity, SectorMatrix, WaveDofs};
-use crate::fem::{DofMap, MassKind, MaterialField, RayleighDamping};
+use crate::fem::{DofMap, MassKind, MaterialField, ModulusTable, RayleighDamping};
 use crate::linalg::banded::BandedMatrix;
 use crate::linalg::c64;
 
@@ -379,11 +379,11 @@ impl WaveTangent {
         !self.terms.extra_damping.is_empty()
     }
 
-    /// The same with real stiffness at the largest moduli of tables, in place of the smallest.
-    pub fn stiffest(&self) -> Self {
+    /// The same with the real stiffness of tables at other frequencies, Hz.
+    pub fn referred_to(&self, frequency_hz: impl Fn(&ModulusTable) -> f64) -> Self {
         let mut other = self.clone();
         let tables = other.terms.regions.iter_mut().filter_map(|region| region.table.as_mut());
-        tables.for_each(|own| own.reference_hz = own.table.extreme_hz(f64::max));
+        tables.for_each(|own| own.reference_hz = frequency_hz(&own.table));
         other
     }
 

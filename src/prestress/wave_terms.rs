@@ -61,7 +61,7 @@ impl WaveTerms {
             loss_factor: material.of(region).loss_factor,
             table: material.table(region).map(|table| TabledGain {
                 table: Arc::clone(table),
-                reference_hz: table.extreme_hz(f64::min),
+                reference_hz: table.range_hz()[0],
             }),
         };
         Self {

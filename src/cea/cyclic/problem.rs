@@ -26,6 +26,7 @@ pub(super) struct HarmonicProblem {
 }
 
 /// The matrices at one friction value and their derivatives with respect to it, as bands of values.
+#[derive(Clone)]
 pub(super) struct Matrices {
     mass: Vec<c64>,
     stiffness: Vec<c64>,
@@ -39,6 +40,7 @@ pub(super) struct Matrices {
 }
 
 /// Stiffness that is multiplied by what the eigenvalue says.
+#[derive(Clone)]
 struct Loss {
     gain: LossGain,
     values: Vec<c64>,
@@ -54,6 +56,12 @@ impl Matrices {
             sum.to_mut().iter_mut().zip(&loss.values).for_each(|(sum, own)| *sum += factor * own);
         }
         sum
+    }
+
+    /// The same with the stiffness of one place, whatever the eigenvalue.
+    pub fn frozen(&self, theta: c64) -> Self {
+        let stiffness = self.stiffness_at(theta).into_owned();
+        Self { stiffness, losses: Vec::new(), ..self.clone() }
     }
 }
 
@@ -302,8 +310,8 @@ impl HarmonicProblem {
         !self.tangent.losses.is_empty()
     }
 
-    /// Dense `M`, `C`, and `K` as it is at `theta`.
-    pub fn dense(&self, at: &Matrices, theta: c64) -> [Mat<c64>; 3] {
+    /// Dense `M`, `C`, `K`.
+    pub fn dense(&self, at: &Matrices) -> [Mat<c64>; 3] {
         let (n, h) = (self.dimension, self.half_bandwidth);
         let full = |values: &[c64]| {
             Mat::from_fn(n, n, |i, j| match i.abs_diff(j) <= h {
@@ -312,8 +320,7 @@ impl HarmonicProblem {
             })
         };
         let none = vec![ZERO; at.mass.len()];
-        let damping = at.damping.as_deref().unwrap_or(&none);
-        [full(&at.mass), full(damping), full(&at.stiffness_at(theta))]
+        [full(&at.mass), full(at.damping.as_deref().unwrap_or(&none)), full(&at.stiffness)]
     }
 
     /// Kinetic energy of the contact edge's nodes over the whole, see [`crate::cea::ComplexMode`].

@@ -5,6 +5,8 @@
 
 use crate::prelude::*;
 use crate::solids::model::disc;
+use frictionsim::fem::{MaterialField, ModulusTable, TabledMaterial};
+use std::sync::Arc;
 
 const FRICTION: f64 = 0.3;
 const LIMIT: f64 = 9000.0;
@@ -18,7 +20,7 @@ fn turning(element: ElementKind, divisions: [usize; 3], rpm: f64) -> SolidModel 
     model
 }
 
-fn solved(model: &SolidModel) -> WaveSweep {
+fn solved<M: MaterialField>(model: &SolidModel<M>) -> WaveSweep {
     let request = sweep_request(&[FRICTION], ModeLimit::MaxFrequency(LIMIT));
     solid_sweep(model, &request).unwrap()
 }
@@ -34,6 +36,16 @@ fn listed(found: &WaveSweep, n: usize) -> Vec<c64> {
 ///
 /// Eigenvalues `1 / (lambda - sigma)` of the linearized problem have the unknowns `(x, lambda x / sigma)`.
 fn dense(model: &SolidModel, n: usize, is_held: &dyn Fn(usize) -> bool) -> Vec<c64> {
+    dense_at(model, n, is_held, TAU)
+}
+
+/// The same with the stiffness of an angular frequency.
+fn dense_at<M: MaterialField>(
+    model: &SolidModel<M>,
+    n: usize,
+    is_held: &dyn Fn(usize) -> bool,
+    omega: f64,
+) -> Vec<c64> {
     let sector = SolidSector::generate(&model.specification).unwrap();
     let tangent =
         WaveTangent::of_revolution(&sector, &model.material, &model.options, &model.contact)
@@ -53,7 +65,7 @@ fn dense(model: &SolidModel, n: usize, is_held: &dyn Fn(usize) -> bool) -> Vec<c
     };
     // Losses are the conjugates for the other half of the plane.
     let halves = [1.0, -1.0].map(|sign| {
-        let stiffness = full(&at.stiffness_at(c64::new(0.0, sign)));
+        let stiffness = full(&at.stiffness_at(c64::new(0.0, sign * omega)));
         let values = inverse_spectrum([full(&at.mass), full(&at.damping), stiffness], sigma);
         values.into_iter().filter(move |value| value.im * sign > 0.0)
     });
@@ -125,6 +137,33 @@ fn slow_sliding_has_the_eigenvalues_of_a_dense_solution_of_the_whole_harmonic() 
                 let what = format!("{element:?} at {rpm} rpm, loss factor {loss_factor}");
                 assert_equal(&found, n, &exact, &what);
             }
+        }
+    }
+}
+
+/// Exact: with a table a mode is one of the stiffness of its own frequency, and as many lie below the limit as with that of the limit.
+#[test]
+fn slow_sliding_with_a_table_has_the_eigenvalues_of_dense_solutions_at_their_frequencies() {
+    let rows = vec![[0.0, 1e9, 0.05], [4000.0, 2e9, 0.2], [20000.0, 5e9, 0.1]];
+    for rpm in [10.0, 1e4] {
+        let SolidModel { specification, material, options, contact } =
+            turning(ElementKind::Quad4, [24, 6, 2], rpm);
+        let table = Some(Arc::new(ModulusTable::new("material.table", "rubber.csv", rows.clone())));
+        let elastic = ElasticMaterial { young_modulus: 1e9, ..material };
+        let own = RegionMaterial { elastic, damping: None };
+        let material = vec![TabledMaterial { own, table }];
+        let model = SolidModel { specification, material, options, contact };
+        let found = solved(&model);
+        for n in [0, 1, 2] {
+            let listed = listed(&found, n);
+            for value in &listed {
+                let error = distance(&[*value], &dense_at(&model, n, &|_| false, value.im));
+                assert!(error < 1e-9, "{rpm} rpm, n = {n}, {value}: {error:e}");
+            }
+            let below = dense_at(&model, n, &|_| false, TAU * LIMIT);
+            println!("{rpm} rpm, n = {n}: {} modes", listed.len());
+            assert!(!listed.is_empty());
+            assert_eq!(listed.len(), below.len(), "{rpm} rpm, n = {n}");
         }
     }
 }

@@ -26,8 +26,8 @@ const SHORTEST: f64 = 5e-3;
 /// little imaginary part friction gives them; slow modes of the body come from rest.
 const CREEP: f64 = 1e-3;
 
-/// Eigenvalues up to this much above the largest wanted may come into the range where the stiffness follows them.
-const BEYOND: f64 = 2.0;
+/// Rayleigh quotients that take an eigenvalue to the stiffness of its own frequency.
+const QUOTIENTS: usize = 4;
 
 /// Branches that do not reach back to rest are numbered from here on, beyond those at rest: how many of these lie below a bound changes
 /// with the model, and with it names would.
@@ -105,12 +105,12 @@ impl Course<'_> {
     fn step(&mut self, before: f64, friction: f64) -> Result<Overdamped, CeaError> {
         let shared = Rc::new(self.problem.at(friction));
         let mut all = spectrum(self.problem, &shared, self.largest)?;
-        if self.problem.is_tabled() {
-            all = self.settled(&all, friction, &shared);
-        }
         let was_open: Vec<usize> =
             (0..self.paths.len()).filter(|&index| self.paths[index].is_open).collect();
         self.advance(before, friction, &shared);
+        if self.problem.is_tabled() {
+            all = self.settled(&all, friction, &shared);
+        }
         // Every branch claims the eigenvalue that it has come to; two cannot share one.
         let mut is_claimed = vec![false; all.len()];
         for tracked in self.paths.iter_mut().filter(|tracked| tracked.is_open) {
@@ -144,19 +144,31 @@ impl Course<'_> {
         Ok(self.overdamped(friction, &all))
     }
 
-    /// The eigenvalues that those with the stiffness of one frequency settle at, each with that of its own.
+    /// Eigenvalues with the stiffness of their own frequencies: those that branches have come to, and what others with the
+    /// stiffness of one frequency settle at.
     fn settled(&mut self, frozen: &[c64], friction: f64, shared: &Matrices) -> Vec<c64> {
-        let mut all: Vec<c64> = Vec::new();
-        for &value in frozen {
-            if self.is_overdamped(&value) || value.norm() > BEYOND * self.largest {
-                all.push(value);
-                continue;
+        let open = self.paths.iter().filter(|tracked| tracked.is_open);
+        let ends = open.map(|tracked| tracked.last().theta).collect::<Vec<c64>>();
+        let (slow, others): (Vec<c64>, Vec<c64>) = frozen
+            .iter()
+            .partition(|value| self.is_overdamped(value) || value.norm() > self.largest);
+        let halves = [1.0, -1.0].map(|sign| shared.frozen(c64::new(0.0, sign * self.largest)));
+        let found = others.into_iter().filter_map(|value| {
+            // Quotients of the vectors first: they keep to the mode while its frequency moves.
+            let half = &halves[usize::from(value.im < 0.0)];
+            let Eigenpair { mut theta, x, y, .. } = self.follower.find(half, friction, value)?;
+            for _ in 0..QUOTIENTS {
+                theta = self.problem.rayleigh_quotient(shared, theta, &x, &y).0;
             }
-            let found = self.follower.find(shared, friction, value).map(|found| found.theta);
-            let is_new = |own: &c64| all.iter().all(|o| (o - own).norm() > SAME * own.norm());
-            all.extend(found.filter(is_new));
+            Some(self.follower.refine(shared, friction, theta, &x, &y)?.theta)
+        });
+        let mut all: Vec<c64> = Vec::new();
+        for own in ends.into_iter().chain(found.collect::<Vec<c64>>()) {
+            if all.iter().all(|other| (other - own).norm() > SAME * own.norm()) {
+                all.push(own);
+            }
         }
-        all
+        all.into_iter().chain(slow).collect()
     }
 
     /// Takes the open branches on; those that stop to oscillate, or turn too fast, are closed where they have come to.
@@ -279,27 +291,22 @@ fn is_same(a: &Eigenpair, b: &Eigenpair) -> bool {
 /// the eigenvalues wanted, rad/s.
 ///
 /// Losses part the waves `+n` and `-n`: each has matrices of its own, whose other half of the plane means nothing. Stiffness that
-/// depends on frequency is taken in the middle of the range.
+/// depends on frequency is that of the highest: as many eigenvalues lie below it as with that of their own.
 fn spectrum(problem: &HarmonicProblem, at: &Matrices, size: f64) -> Result<Vec<c64>, CeaError> {
-    let middle = c64::new(0.0, 0.5 * size);
     if !problem.is_lossy() {
-        return spectrum_at(problem, at, size, middle);
+        return spectrum_of(problem, at, size);
     }
-    let [ahead, back] = [middle, -middle].map(|place| spectrum_at(problem, at, size, place));
+    let halves = [size, -size].map(|top| at.frozen(c64::new(0.0, top)));
+    let [ahead, back] = halves.map(|half| spectrum_of(problem, &half, size));
     let ahead = ahead?.into_iter().filter(|value| value.im > 0.0);
     Ok(ahead.chain(back?.into_iter().filter(|value| value.im <= 0.0)).collect())
 }
 
-/// The same with the stiffness that belongs to one place.
-fn spectrum_at(
-    problem: &HarmonicProblem,
-    at: &Matrices,
-    size: f64,
-    place: c64,
-) -> Result<Vec<c64>, CeaError> {
+/// The same of one stiffness.
+fn spectrum_of(problem: &HarmonicProblem, at: &Matrices, size: f64) -> Result<Vec<c64>, CeaError> {
     let n = problem.dimension;
     let (sigma, scale) = (c64::new(0.7 * size, 0.0), c64::new(size, 0.0));
-    let [mass, damping, stiffness] = problem.dense(at, place);
+    let [mass, damping, stiffness] = problem.dense(at);
     let shifted = Mat::from_fn(n, n, |i, j| {
         stiffness[(i, j)] + sigma * (damping[(i, j)] + sigma * mass[(i, j)])
     });

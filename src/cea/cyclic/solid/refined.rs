@@ -8,11 +8,15 @@ use crate::cea::cyclic::path::Eigenpair;
 use crate::cea::cyclic::paths::{HarmonicPaths, are_distinct, describe};
 use crate::cea::cyclic::problem::HarmonicProblem;
 use crate::linalg::banded::BandedMatrix;
+use crate::linalg::c64;
 use crate::prestress::HarmonicTangent;
 use std::f64::consts::TAU;
 
 /// Largest distance of an eigenvalue from its guess, relative to it: beyond, it is another's.
 const NEAR: f64 = 1e-2;
+
+/// Motions slower than this share of the largest creep against dashpots.
+const SLOW: f64 = 1e-2;
 
 /// A harmonic over all its unknowns; modes have shares of the kinetic energy of the contact's and of the `axial` ones.
 pub(super) fn of_all_unknowns(
@@ -32,11 +36,12 @@ pub(super) fn of_all_unknowns(
     HarmonicProblem::new(HarmonicTangent { shares, ..harmonic }, is_standing)
 }
 
-/// Every point of the branches, solved in `problem`; those at the friction coefficients `kept` have vectors.
+/// Every point of the branches that come below `|lambda| = largest`, solved in `problem`; those at the friction coefficients `kept`
+/// have vectors.
 pub(super) fn refined(
     mut small: HarmonicPaths,
     problem: HarmonicProblem,
-    kept: &[f64],
+    (kept, largest): (&[f64], f64),
 ) -> Result<HarmonicPaths, CeaError> {
     let mut follower = Follower::new(&problem);
     let lost = |guess: &Eigenpair| CeaError::Unrefined {
@@ -44,9 +49,15 @@ pub(super) fn refined(
         friction: guess.parameter,
         frequency_hz: guess.theta.im.abs() / TAU,
     };
+    // Losses have no meaning for a motion that does not oscillate or creeps; fast ones are not listed.
+    let matters = |theta: c64| {
+        let size = theta.norm();
+        !problem.is_ending(theta) && size > SLOW * largest && size <= largest
+    };
     for path in &mut small.paths {
         let mut points: Vec<Eigenpair> = Vec::new();
-        for guess in &path.points {
+        let guesses = path.points.iter().skip_while(|guess| guess.theta.norm() > largest);
+        for guess in guesses {
             let at = problem.at(guess.parameter);
             // The vectors of the point before tell two eigenvalues apart that lie close together.
             let found = match points.last() {
@@ -56,17 +67,16 @@ pub(super) fn refined(
             let away = |own: &Eigenpair| (own.theta - guess.theta).norm() / guess.theta.norm();
             match found.filter(|own| away(own) <= NEAR) {
                 Some(found) => points.push(found),
-                // Losses have no meaning for a motion that does not oscillate.
-                None if problem.is_ending(guess.theta) => break,
-                None => return Err(lost(guess)),
+                None if matters(guess.theta) => return Err(lost(guess)),
+                None => break,
             }
             describe(&problem, &at, &mut points, kept);
         }
         path.points = points;
     }
     small.paths.retain(|path| !path.points.is_empty());
-    let ends = small.paths.iter().filter_map(|path| path.points.last());
-    if let (false, Some(end)) = (are_distinct(&small.paths), ends.last()) {
+    let mut ends = small.paths.iter().filter_map(|path| path.points.last());
+    if let (false, Some(end)) = (are_distinct(&small.paths), ends.next_back()) {
         return Err(lost(end));
     }
     let factorizations = small.factorizations + follower.factorizations;

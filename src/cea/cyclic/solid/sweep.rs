@@ -15,7 +15,7 @@ use crate::cea::cyclic::problem::HarmonicProblem;
 use crate::cea::cyclic::sweep::{Overdamped, WaveSweep, together};
 use crate::cea::{CeaError, FrictionPoint, SweepRequest};
 use crate::contact::SlidingContact;
-use crate::fem::{ElasticMaterial, MaterialField};
+use crate::fem::{ElasticMaterial, MaterialField, ModulusTable};
 use crate::linalg::banded::BandedMatrix;
 use crate::linalg::c64;
 use crate::mesh::{SolidSector, SolidSpecification};
@@ -86,14 +86,18 @@ pub fn solid_sweep_with_waves<M: MaterialField>(
     let grid = request.rising_grid()?;
     request.limit.check()?;
     let sector = SolidSector::generate(&model.specification)?;
-    let tangent =
+    let mut tangent =
         WaveTangent::of_revolution(&sector, &model.material, &model.options, &model.contact)?;
-    // With tables modes at rest have the smallest moduli, and those wanted at most the largest.
     let is_tabled = tangent.tables().next().is_some();
     let (bound, known) = match is_tabled {
-        true => (bound(&tangent.stiffest(), request.limit)?.0, Vec::new()),
+        true => {
+            (bound(&tangent.referred_to(ModulusTable::stiffest_hz), request.limit)?.0, Vec::new())
+        }
         false => bound(&tangent, request.limit)?,
     };
+    // As many modes lie below a frequency as with the moduli of that frequency, as long as these rise less than its square.
+    let highest = bound.sqrt() * MARGIN / TAU;
+    tangent = tangent.referred_to(|_| highest);
     let (mut found, empty) = modes_below(&tangent, bound * (MARGIN * SPAN).powi(2), known)?;
     let wanted = match is_tabled {
         true => bound,
@@ -187,7 +191,7 @@ fn follow(
     };
     if tangent.is_lossy() {
         let problem = of_all_unknowns(found.harmonic, &axial, tangent.is_standing(n));
-        let paths = refined(paths, problem, kept)?;
+        let paths = refined(paths, problem, (kept, margin.sqrt()))?;
         return Ok(Solved { paths, reduction: None, error: 0.0, overdamped });
     }
     let whole = (&found.reduction, &found.harmonic, &found.pencil);
