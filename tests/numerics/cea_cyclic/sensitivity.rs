@@ -79,7 +79,8 @@ fn sensitivities_equal_finite_differences() {
         // A strong prestress, so that its share cannot hide.
         contact.interference = 3e-4;
         let material = ElasticMaterial { formulation, ..POLYCARBONATE };
-        let specification = annulus(element, 24, 6);
+        let [around, across] = sized([20, 4], [24, 6]);
+        let specification = annulus(element, around, across);
         let model = CyclicModel { specification, material: material.into(), options, contact };
         let own = POLYCARBONATE;
         let damping = options.damping;

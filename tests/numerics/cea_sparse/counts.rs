@@ -138,7 +138,8 @@ fn determinant_of_a_disc_is_that_of_dense_elimination() {
 #[test]
 fn sweep_of_a_disc_is_complete_by_count() {
     for damping_model in [DampingModel::WholeTangent, DampingModel::BodyOnly] {
-        let disc = Disc { damping_model, ..Disc::coarse() };
+        let [circumferential, radial] = sized([32, 6], [48, 10]);
+        let disc = Disc { damping_model, circumferential, radial, ..Disc::coarse() };
         let tangent = disc.tangent();
         for limit in [ModeLimit::Lowest(13), ModeLimit::MaxFrequency(15_000.0)] {
             let request =
