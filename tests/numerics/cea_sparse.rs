@@ -234,8 +234,13 @@ fn exact_modes(
     let analysis = LuAnalysis::new(tangent.stiffness.pattern()).unwrap();
     let factors = StiffnessFactors::general(&tangent.stiffness, &analysis, mu).unwrap();
     let operator = ShiftInverted::new(&matrices, &factors);
-    let settings =
-        KrylovSchurSettings { wanted, tolerance: 1e-11, max_applications: 5000, dense_up_to: 0 };
+    let settings = KrylovSchurSettings {
+        wanted,
+        tie: 1.0,
+        tolerance: 1e-11,
+        max_applications: 5000,
+        dense_up_to: 0,
+    };
     let start = random_columns(operator.dimension(), 3, 0x5eed);
     let pairs = krylov_schur(&operator, start, &|_| true, &settings).unwrap();
     assert!(pairs.residuals.iter().all(|residual| *residual <= 1e-11));

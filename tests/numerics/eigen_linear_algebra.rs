@@ -78,7 +78,13 @@ fn inverse_of(p: &MatrixPolynomial) -> Inverse {
 }
 
 fn settings(wanted: usize) -> KrylovSchurSettings {
-    KrylovSchurSettings { wanted, tolerance: 1e-12, max_applications: 2000, dense_up_to: 0 }
+    KrylovSchurSettings {
+        wanted,
+        tie: 1.0,
+        tolerance: 1e-12,
+        max_applications: 2000,
+        dense_up_to: 0,
+    }
 }
 
 fn largest(p: &MatrixPolynomial, wanted: usize) -> RealPairs {

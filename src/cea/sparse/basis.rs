@@ -43,6 +43,9 @@ const DENSE_UP_TO: usize = 150;
 /// Start vectors of an iteration from the modes without friction: modes may come in pairs of equal eigenvalue, and factors are read once
 /// for both.
 const START_WIDTH: usize = 2;
+/// Frequency up to which modes are held, over the highest one: two that differ in damping change places as they converge, and the one
+/// of lower frequency may have the larger eigenvalue.
+const CHANGE_PLACES: f64 = 1.01;
 /// Refinements of the modes at one friction coefficient for structural damping, each of which wins about the loss factor.
 const LOSSY_ROUNDS: usize = 6;
 /// Refinements of one basis before the preconditioner is considered unfit.
@@ -312,13 +315,14 @@ impl<'a> BasisBuilder<'a> {
                 (join_rows(x, y), 2 * count, SAMPLE_RESIDUAL)
             }
         };
+        let is_companion = matches!(self.linearization, Linearization::Companion { .. });
         let settings = KrylovSchurSettings {
             wanted,
+            tie: if is_companion { CHANGE_PLACES } else { 1.0 },
             tolerance,
             max_applications: 10 * (wanted + 20),
             dense_up_to: DENSE_UP_TO * operator.dimension() / unknowns,
         };
-        let is_companion = matches!(self.linearization, Linearization::Companion { .. });
         let is_wanted = |s: c64| !is_companion || self.linearization.eigenvalue(s.conj()).is_some();
         let mut vectors = krylov_schur(&operator, start, &is_wanted, &settings)?.vectors;
         match self.linearization {

@@ -1,6 +1,8 @@
 //! A basis of the modes at a few friction coefficients, each from an iteration of its own.
 
-use super::{BasisBuilder, LOSSY_ROUNDS, VECTOR_TOLERANCE, scale_to_unit_length, turn_to_real};
+use super::{
+    BasisBuilder, CHANGE_PLACES, LOSSY_ROUNDS, VECTOR_TOLERANCE, scale_to_unit_length, turn_to_real,
+};
 use crate::cea::CeaError;
 use crate::cea::sparse::full_problem::FullProblem;
 use crate::cea::sparse::linearization::Linearization;
@@ -20,8 +22,6 @@ const HISTORY: usize = 3;
 /// Unknowns up to which a problem, of twice that size, is decomposed: where its modes are lossy or do not converge. That takes a
 /// second or two for each friction value.
 const MOST_DENSE: usize = 300;
-/// Frequency up to which modes are held, over the highest one: two that differ in damping change places as they converge.
-const CHANGE_PLACES: f64 = 1.01;
 /// Samples between two friction values, at places where branches were lost, after which more of them are no help.
 const MOST_BETWEEN: usize = 8;
 impl BasisBuilder<'_> {

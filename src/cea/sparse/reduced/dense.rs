@@ -255,6 +255,7 @@ fn few_eigenvalues(matrix: &Mat<f64>, leading: usize) -> Option<RealEigen> {
     }
     let settings = KrylovSchurSettings {
         wanted: leading,
+        tie: 1.0,
         tolerance: FEW_TOLERANCE,
         max_applications: 20 * leading,
         dense_up_to: 0,
