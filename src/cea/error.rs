@@ -1,5 +1,6 @@
 //! Errors of an eigenvalue analysis.
 
+use crate::fem::ModulusTable;
 use crate::linalg::LinalgError;
 use crate::mesh::MeshError;
 use crate::prestress::PrestressError;
@@ -182,6 +183,22 @@ pub enum CeaError {
 }
 
 impl CeaError {
+    /// A `table` that a mode lies beyond.
+    pub(super) fn beyond_table(
+        table: &ModulusTable,
+        friction_coefficient: f64,
+        frequency_hz: f64,
+    ) -> Self {
+        let [key, file] = [table.key(), table.file()].map(str::to_owned);
+        Self::BeyondTable {
+            key,
+            file,
+            range_hz: table.range_hz(),
+            friction_coefficient,
+            frequency_hz,
+        }
+    }
+
     /// Whether the case asks for what cannot be, rather than the run having failed.
     pub fn is_usage(&self) -> bool {
         matches!(

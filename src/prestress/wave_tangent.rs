@@ -1,13 +1,12 @@
 //! The small motions around steady sliding of a body of equal sectors, harmonic by harmonic, from the terms of one sector.
 
+mod losses;
+
 use super::wave_terms::WaveTerms;
-use super::{
-    DampingModel, FrictionPolynomial, HarmonicTangent, LossGain, TabledGain, TangentOptions,
-    WaveSector,
-};
+use super::{DampingModel, FrictionPolynomial, HarmonicTangent, TangentOptions, WaveSector};
 use crate::contact::ContactStiffness;
 use crate::fem::fold::{MirrorParity, SectorMatrix, WaveDofs};
-use crate::fem::{DofMap, MassKind, MaterialField, ModulusTable, RayleighDamping};
+use crate::fem::{DofMap, MassKind, MaterialField, RayleighDamping};
 use crate::linalg::banded::BandedMatrix;
 use crate::linalg::c64;
 
@@ -361,56 +360,9 @@ impl WaveTangent {
         damping
     }
 
-    /// Whether the stiffness has losses, or depends on frequency.
-    pub fn is_lossy(&self) -> bool {
-        let WaveTerms { regions, supports, .. } = &self.terms;
-        regions.iter().any(|own| own.loss_factor != 0.0 || own.table.is_some())
-            || supports.iter().any(|own| own.loss_factor != 0.0)
-            || self.options.contact.loss_factor != 0.0
-    }
-
-    /// Moduli over frequency of regions.
-    pub fn tables(&self) -> impl Iterator<Item = &TabledGain> {
-        self.terms.regions.iter().filter_map(|region| region.table.as_ref())
-    }
-
     /// Whether regions have viscous damping other than that of the whole body.
     pub fn has_own_damping(&self) -> bool {
         !self.terms.extra_damping.is_empty()
-    }
-
-    /// The same with the real stiffness of tables at other frequencies, Hz.
-    pub fn referred_to(&self, frequency_hz: impl Fn(&ModulusTable) -> f64) -> Self {
-        let mut other = self.clone();
-        let tables = other.terms.regions.iter_mut().filter_map(|region| region.table.as_mut());
-        tables.for_each(|own| own.reference_hz = frequency_hz(&own.table));
-        other
-    }
-
-    /// `sum eta K` of regions, supports, and the normal law of the contact, which friction follows; and regions with tables.
-    fn losses(&self, n: usize) -> Vec<(LossGain, FrictionPolynomial)> {
-        if !self.is_lossy() {
-            return Vec::new();
-        }
-        let WaveTerms { regions, supports, contact, .. } = &self.terms;
-        let even = |own: &SectorMatrix| self.wave(n, MirrorParity::Even, &[own]);
-        let of_regions = regions.iter().map(|own| (own.loss_factor, &own.elastic));
-        let of_supports = supports.iter().map(|own| (own.loss_factor, &own.terms[0]));
-        let lossy = of_regions.chain(of_supports).filter(|(eta, _)| *eta != 0.0);
-        let eta = self.options.contact.loss_factor;
-        let mut lost = [(MirrorParity::Even, 0), (MirrorParity::Odd, 1)].map(|(parity, part)| {
-            let mut own = self.dofs.fold(n, parity, &[&contact.penalty[part]]);
-            own.scale(eta);
-            own
-        });
-        lossy.for_each(|(eta, own)| lost[0].add_scaled(eta, &even(own)));
-        let structural = lost.iter().any(|own| own.values().iter().any(|value| *value != 0.0));
-        let structural = structural.then(|| (LossGain(None), self.project(lost.into())));
-        let tabled = regions.iter().filter_map(|own| {
-            let gain = LossGain(Some(own.table.clone()?));
-            Some((gain, self.project(vec![even(&own.elastic)])))
-        });
-        structural.into_iter().chain(tabled).collect()
     }
 
     /// Onto the unknowns; for rigid contact each normal row is added to its tangential rows with the

@@ -306,13 +306,8 @@ impl<'a> SparseSweep<'a> {
             for (mode, check) in point.modes.iter().zip(&point.checks).take(point.wanted) {
                 let frequency_hz = mode.eigenvalue.im / TAU;
                 if let Some(table) = self.tangent.table_without(frequency_hz) {
-                    return Err(CeaError::BeyondTable {
-                        key: table.key().to_owned(),
-                        file: table.file().to_owned(),
-                        range_hz: table.range_hz(),
-                        friction_coefficient: point.friction_coefficient,
-                        frequency_hz,
-                    });
+                    let mu = point.friction_coefficient;
+                    return Err(CeaError::beyond_table(table, mu, frequency_hz));
                 }
                 let is_unsettled = !(check.residual <= RESIDUAL_BOUND);
                 if let Some(part) = self.tangent.tabled.first().filter(|_| is_unsettled) {

@@ -97,7 +97,8 @@ columns! {
     /// A branch that turns unstable.
     pub(in crate::results) ONSETS: onset as CriticalFriction;
     harmonic: HARMONIC = onset.harmonic, IfAny "n" Count;
-    branch: "0 of a motion that grows without oscillating; rank within the harmonic, else among all, from 1"
+    branch: "0 of a motion that grows without oscillating; rank within the harmonic, else among \
+        all, from 1"
         = onset.branch, Always "branch" Count;
     direction: DIRECTION = onset.direction;
     critical_friction: "friction coefficient above which the branch is unstable"

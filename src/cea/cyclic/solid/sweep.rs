@@ -208,13 +208,8 @@ fn check_tables(tangent: &WaveTangent, points: &[FrictionPoint]) -> Result<(), C
     for (point, mode) in points.iter().flat_map(|p| p.modes.iter().map(move |mode| (p, mode))) {
         let frequency_hz = mode.frequency_hz();
         if let Some(own) = tangent.tables().find(|own| !own.table.covers(frequency_hz)) {
-            return Err(CeaError::BeyondTable {
-                key: own.table.key().to_owned(),
-                file: own.table.file().to_owned(),
-                range_hz: own.table.range_hz(),
-                friction_coefficient: point.friction_coefficient,
-                frequency_hz,
-            });
+            let mu = point.friction_coefficient;
+            return Err(CeaError::beyond_table(&own.table, mu, frequency_hz));
         }
     }
     Ok(())

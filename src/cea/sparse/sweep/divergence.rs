@@ -56,17 +56,16 @@ impl SparseSweep<'_> {
         let ReducedMode { eigenvalue, derivative, .. } = end.mode;
         let next = self.grid[if end.is_damped { self.grid.len() - 1 } else { end.after + 1 }];
         let reach = low - (eigenvalue / derivative).re;
-        let places = [beyond, reach.clamp(beyond, next), if end.is_damped { next } else { beyond }];
-        let mut bracket = None;
-        for high in places {
+        let places = [beyond, reach.clamp(beyond, next)].into_iter();
+        let mut places = places.chain(end.is_damped.then_some(next));
+        let (mut high, mut after) = loop {
+            let Some(high) = places.next() else {
+                return Ok(None);
+            };
             let after = self.static_determinant(high, size)?;
             if before * after < 0.0 {
-                bracket = Some((high, after));
-                break;
+                break (high, after);
             }
-        }
-        let Some((mut high, mut after)) = bracket else {
-            return Ok(None);
         };
         while high - low > LOCATED * (1.0 + high) {
             // Values far apart in size would keep the secant at one end.
