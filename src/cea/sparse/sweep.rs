@@ -150,12 +150,12 @@ impl<'a> SparseSweep<'a> {
         let mut grid = request.rising_grid()?;
         request.limit.check()?;
         let lowest = grid[0];
+        let modes = FrictionlessModes::compute_watched(tangent, request.limit, watch)?;
         // What structural damping leaves of rigid motions is recognised by following them from rest.
-        let is_continued = request.is_continued && !tangent.is_lossy();
+        let is_continued = request.is_continued && !(tangent.is_lossy() && modes.rigid > 0);
         if lowest > 0.0 && !is_continued {
             grid.insert(0, 0.0);
         }
-        let modes = FrictionlessModes::compute_watched(tangent, request.limit, watch)?;
         let highest = modes.frequencies.last().copied().unwrap_or(1.0);
         let linearization = Linearization::of(tangent, highest, modes.centre);
         Ok(Self {
