@@ -122,6 +122,20 @@ impl SectorMatrix {
         )
     }
 
+    /// Over all dofs what motions that are the same in every sector see of a sum of terms of even parity: harmonic zero, whose
+    /// tangential part does not mix with the others.
+    pub fn alike_in_all(terms: &[&Self]) -> Triplets {
+        let entries = terms.iter().flat_map(|term| {
+            let is_tangential = |dof: usize| dof % term.components == 1;
+            let entries = term.entries().map(|(row, column, _, value)| (row, column, value));
+            entries.filter(move |&(row, column, _)| is_tangential(row) == is_tangential(column))
+        });
+        let mut sum = Triplets { entries: entries.collect() };
+        sum.merge();
+        sum.entries.retain(|entry| entry.2 != 0.0);
+        sum
+    }
+
     /// Whether it has no entry.
     pub fn is_empty(&self) -> bool {
         self.entries.is_empty()

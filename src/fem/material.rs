@@ -171,11 +171,6 @@ impl ElasticMaterial {
         loss_factor: 0.0,
     };
 
-    /// The same without stiffness.
-    pub fn without_stiffness(&self) -> Self {
-        Self { young_modulus: 0.0, orthotropy: None, ..*self }
-    }
-
     /// The same with all its stiffness multiplied by a factor.
     pub fn scaled(&self, factor: f64) -> Self {
         let scaled = |values: [f64; 3]| values.map(|value| factor * value);

@@ -193,8 +193,7 @@ pub fn extra_damping<S: Sectored>(
 /// Geometric stiffness `∫ (grad N_I . sigma . grad N_J) I dV` of a region for the stress that a displacement, the same in every
 /// sector, causes, the amplitudes of the incompatible modes that come with it included: N/m, in the plane Pa.
 ///
-/// `displacement` holds the components of each sector node, m; of nodes that come last and do not move it may lack them. One
-/// without tangential components gives a matrix of even parity, a purely tangential one of odd parity.
+/// `displacement` holds the components of each sector node, m. One without tangential components gives a matrix of even parity, a purely tangential one of odd parity.
 pub fn geometric_stiffness<S: Sectored>(
     sector: &S,
     material: &dyn MaterialField,
@@ -203,12 +202,11 @@ pub fn geometric_stiffness<S: Sectored>(
 ) -> SectorMatrix {
     let mut known: BTreeMap<usize, Option<DMatrix<f64>>> = BTreeMap::new();
     let own = material.of(region);
-    let component = |dof: usize| displacement.get(dof).copied().unwrap_or(0.0);
     let elements = (0..sector.element_count()).filter(|e| sector.region(*e) == region);
     let matrices = elements.map(|e| {
         let (nodes, alike) = (sector.places(e), sector.alike(e));
         let dofs = nodes.iter().flat_map(|(node, _)| (0..S::COMPONENTS).map(move |c| (node, c)));
-        let values = dofs.map(|(node, c)| component(S::COMPONENTS * node + c));
+        let values = dofs.map(|(node, c)| displacement[S::COMPONENTS * node + c]);
         let values = DVector::from_iterator(S::COMPONENTS * nodes.len(), values);
         let recovered = known.entry(alike).or_insert_with(|| sector.geometry(alike).recovered(own));
         let internal = recovered.as_ref().map(|recovered| recovered * &values);

@@ -1,12 +1,13 @@
 //! Direct solution of each harmonic at each frequency.
 
 use super::cyclic_system::Place;
-use super::harmonic::Harmonic;
 use super::system::check_frequencies;
 use super::{CyclicSystem, FrfError, Terminal};
+use crate::fem::RayleighDamping;
 use crate::linalg::LinalgError;
 use crate::linalg::banded::{BandedBatch, BandedLu, LANES, Lanes};
 use crate::linalg::c64;
+use crate::prestress::MovingHarmonic;
 use rayon::prelude::*;
 use std::f64::consts::{PI, TAU};
 
@@ -71,7 +72,11 @@ pub fn cyclic_response(
 
 /// One harmonic with what it has to do with force and response.
 struct Wave {
-    harmonic: Harmonic,
+    bands: MovingHarmonic,
+    /// Where `C = alpha_R M + beta_R K`.
+    proportional: Option<RayleighDamping>,
+    /// No other harmonic is the mirror image of this one.
+    is_standing: bool,
     force: usize,
     response: usize,
     /// From a solution for a unit force in the basis `(u_r, -i u_theta)` to the response.
@@ -82,7 +87,7 @@ struct Wave {
 
 impl Wave {
     fn new(system: &CyclicSystem, n: usize, force: Place, response: Place) -> Self {
-        let harmonic = system.harmonic(n);
+        let (bands, proportional) = system.harmonic(n);
         let sectors = system.sector_count();
         // Modulo a full turn, so that high harmonics lose no digits.
         let steps = response.half_steps + 2 * sectors - force.half_steps;
@@ -97,13 +102,20 @@ impl Wave {
             factor *= -i;
         }
         let is_real = {
-            let own = &harmonic.bands;
-            let damping = Some(&own.damping).filter(|_| harmonic.proportional.is_none());
-            let bands = [&own.mass, &own.stiffness].into_iter().chain(damping);
-            let mut bands = bands.chain(own.losses.iter().map(|(_, values)| values));
-            bands.all(|band| band.iter().all(|value| value.im == 0.0))
+            let damping = Some(&bands.damping).filter(|_| proportional.is_none());
+            let all = [&bands.mass, &bands.stiffness].into_iter().chain(damping);
+            let mut all = all.chain(bands.losses.iter().map(|(_, values)| values));
+            all.all(|band| band.iter().all(|value| value.im == 0.0))
         };
-        Self { is_real, force: force.unknown, response: response.unknown, harmonic, factor }
+        Self {
+            is_standing: n == 0 || 2 * n == sectors,
+            is_real,
+            force: force.unknown,
+            response: response.unknown,
+            bands,
+            proportional,
+            factor,
+        }
     }
 }
 
@@ -125,7 +137,7 @@ impl<'a> Lines<'a> {
         for wave in waves {
             let (ahead, error) = self.solve(wave, 1.0)?;
             largest = largest.max(error);
-            if wave.harmonic.is_standing {
+            if wave.is_standing {
                 // The wave and its mirror image are one.
                 for (sum, x) in sums.iter_mut().zip(&ahead) {
                     *sum += wave.factor * x;
@@ -148,17 +160,16 @@ impl<'a> Lines<'a> {
 
     /// The response unknown of one harmonic at `sign` times the frequencies, and the backward error.
     fn solve(&mut self, wave: &Wave, sign: f64) -> Result<([c64; LANES], f64), FrfError> {
-        let harmonic = &wave.harmonic;
         let frequencies = self.frequencies_hz;
         // Lanes left over repeat the last frequency.
         let lane_frequency = |lane: usize| frequencies[lane.min(frequencies.len() - 1)];
         let omega = |lane: usize| sign * TAU * lane_frequency(lane);
         let batch = self
             .batch
-            .get_or_insert_with(|| BandedBatch::new(self.dimension, harmonic.bands.half_bandwidth));
+            .get_or_insert_with(|| BandedBatch::new(self.dimension, wave.bands.half_bandwidth));
         let lanes = |factor: &dyn Fn(f64) -> c64| Lanes::from_fn(|lane| factor(omega(lane)));
-        let bands = &harmonic.bands;
-        let (alpha, beta) = match &harmonic.proportional {
+        let bands = &wave.bands;
+        let (alpha, beta) = match &wave.proportional {
             Some(own) => (own.mass_coefficient, own.stiffness_coefficient),
             None => (0.0, 0.0),
         };
@@ -166,7 +177,7 @@ impl<'a> Lines<'a> {
             (lanes(&|w| c64::new(1.0, w * beta)), &bands.stiffness),
             (lanes(&|w| c64::new(-w * w, w * alpha)), &bands.mass),
         ];
-        if harmonic.proportional.is_none() {
+        if wave.proportional.is_none() {
             terms.push((lanes(&|w| c64::new(0.0, w)), &bands.damping));
         }
         for (gain, values) in &bands.losses {
@@ -182,7 +193,7 @@ impl<'a> Lines<'a> {
             if quality[lane].backward_error <= BACKWARD_ERROR_BOUND {
                 largest = largest.max(quality[lane].backward_error);
             } else {
-                let solved = Pivoted::solve(&batch.system(lane), harmonic, wave.force);
+                let solved = Pivoted::solve(&batch.system(lane), bands.half_bandwidth, wave.force);
                 (result[lane], growth) = (solved.solution[wave.response], solved.growth);
                 largest = largest.max(solved.backward_error);
             }
@@ -215,8 +226,7 @@ struct Pivoted {
 }
 
 impl Pivoted {
-    fn solve(band: &[c64], harmonic: &Harmonic, force: usize) -> Self {
-        let h = harmonic.bands.half_bandwidth;
+    fn solve(band: &[c64], h: usize, force: usize) -> Self {
         let dimension = band.len() / (2 * h + 1);
         let mut lu = BandedLu::new(dimension, h);
         lu.factorize(band);

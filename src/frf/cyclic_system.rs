@@ -1,10 +1,9 @@
 //! Harmonics of a body of equal sectors in the state that is excited.
 
-use super::harmonic::Harmonic;
 use super::{Direction, FrfError, Terminal};
 use crate::fem::fold::WaveDofs;
 use crate::fem::{MassKind, MaterialField, RayleighDamping};
-use crate::prestress::{WaveSector, WaveTangent};
+use crate::prestress::{MovingHarmonic, WaveSector, WaveTangent};
 
 /// [`super::FrfSystem`] of an annulus or of a body of revolution, as the matrices of its circumferential harmonics.
 #[derive(Clone, Debug)]
@@ -105,13 +104,10 @@ impl CyclicSystem {
         })
     }
 
-    /// Matrices of harmonic `n`.
-    pub(super) fn harmonic(&self, n: usize) -> Harmonic {
+    /// Matrices of harmonic `n`, and the coefficients of proportional damping.
+    pub(super) fn harmonic(&self, n: usize) -> (MovingHarmonic, Option<RayleighDamping>) {
         let harmonic = self.tangent.harmonic(n);
-        Harmonic {
-            proportional: harmonic.damping.is_none().then_some(harmonic.rayleigh),
-            is_standing: self.tangent.is_standing(n),
-            bands: harmonic.at(self.friction_coefficient),
-        }
+        let proportional = harmonic.damping.is_none().then_some(harmonic.rayleigh);
+        (harmonic.at(self.friction_coefficient), proportional)
     }
 }

@@ -14,7 +14,6 @@ mod cyclic_system;
 mod direct;
 mod error;
 mod factors;
-mod harmonic;
 mod krylov;
 mod neighbours;
 mod port;

@@ -3,14 +3,14 @@
 use super::{Axis, Direction, FrfError, Port, Terminal};
 use crate::contact::Row;
 use crate::fem::{
-    DofMap, MassKind, MaterialField, RayleighDamping, assemble_extra_damping, assemble_losses,
-    assemble_mass, assemble_stiffness, assemble_structural_damping, assemble_supports,
-    assemble_tabled,
+    DofMap, MassKind, MaterialField, RayleighDamping, assemble_stiffness,
+    assemble_structural_damping, assemble_supports,
 };
-use crate::linalg::c64;
-use crate::linalg::{MatrixPolynomial, SparsityPattern};
+use crate::linalg::{SparsityPattern, c64};
 use crate::mesh::Mesh;
-use crate::prestress::{SlidingTangent, TabledGain};
+use crate::prestress::{
+    BodyTerms, ContactDofs, Elimination, SlidingTangent, TabledGain, TangentOptions,
+};
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
@@ -45,67 +45,18 @@ impl FrfSystem {
         damping: RayleighDamping,
         is_clamped: bool,
     ) -> Self {
-        let unknowns = if is_clamped {
-            DofMap::clamped(mesh)
-        } else {
-            DofMap::excluding(mesh.dof_count(), [])
-        };
-        let restricted = |entries: &[(usize, usize, f64)]| -> Vec<(usize, usize, f64)> {
-            let at = |dof: usize| unknowns.unknown_of[dof];
-            entries
-                .iter()
-                .filter_map(|(row, column, value)| Some((at(*row)?, at(*column)?, *value)))
-                .collect()
-        };
-        let [springs, mut dashpots] = assemble_supports(mesh);
-        let is_held = is_clamped && !springs.entries.is_empty();
-        if !is_held {
-            dashpots.entries.clear();
+        let options = TangentOptions::of_free(mass, damping);
+        let supports = if is_clamped { assemble_supports(mesh) } else { Default::default() };
+        let elastic = assemble_stiffness(mesh, material);
+        let mut body = BodyTerms::of((mesh, material), elastic, supports, &options);
+        if !is_clamped {
+            body.structural = assemble_structural_damping(mesh, material);
         }
-        if let Some(own) = assemble_extra_damping(mesh, material, mass, damping) {
-            dashpots.entries.extend(own.entries);
-        }
-        let structural = match is_held {
-            true => assemble_losses(mesh, material),
-            false => assemble_structural_damping(mesh, material),
-        };
-        let tabled = assemble_tabled(mesh, material);
-        let is_viscous = structural.is_none() && tabled.is_empty();
-        let is_proportional = !is_held && dashpots.entries.is_empty() && is_viscous;
-        let structural = structural.map(|terms| restricted(&terms.entries));
-        let mass = restricted(&assemble_mass(mesh, material, mass).entries);
-        let body = restricted(&assemble_stiffness(mesh, material).entries);
-        let mut stiffness = body.clone();
-        if is_held {
-            stiffness.extend(restricted(&springs.entries));
-        }
-        let dashpots = restricted(&dashpots.entries);
-        let positions =
-            mass.iter().chain(&stiffness).chain(&dashpots).map(|(row, column, _)| (*row, *column));
-        let pattern = Arc::new(SparsityPattern::from_positions(unknowns.len(), positions));
-        let values = |entries| MatrixPolynomial::on_pattern(&pattern, &[entries]).evaluate(0.0);
-        let structural = structural.map_or_else(Vec::new, values);
-        let tabled = tabled.into_iter().map(|(table, stiffness)| {
-            let gain = TabledGain { table, reference_hz: 0.0 };
-            (gain, values(restricted(&stiffness.entries)))
-        });
-        let tabled = tabled.collect();
-        let [mass, body, stiffness, dashpots] = [mass, body, stiffness, dashpots].map(values);
-        let proportional =
-            |(m, k): (&f64, &f64)| damping.mass_coefficient * m + damping.stiffness_coefficient * k;
-        let pairs = mass.iter().zip(&body).map(proportional);
-        Self {
-            pattern,
-            damping: pairs.zip(&dashpots).map(|(c, own)| c + own).collect(),
-            mass,
-            stiffness,
-            structural,
-            tabled,
-            proportional: is_proportional.then_some(damping),
-            is_symmetric: true,
-            unknowns,
-            followers: Vec::new(),
-        }
+        let held = mesh.held_dofs().filter(|_| is_clamped);
+        let basis = Elimination::holding(mesh.dof_count(), held);
+        let none = ContactDofs::default();
+        let tangent = SlidingTangent::assemble(&body, &[], basis, &none, &options);
+        Self::tied(&tangent.expect("bodies without contact are held once"))
     }
 
     /// Small motions around steady sliding at a friction coefficient.

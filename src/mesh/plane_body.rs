@@ -36,39 +36,20 @@ pub(super) fn used_nodes(file: &FileMesh) -> Result<Vec<Option<u32>>, BodyError>
 /// Nodes and elements, counter-clockwise, without boundaries.
 pub(super) fn plane_body(file: &FileMesh, scale: f64) -> Result<Mesh, BodyError> {
     let index_of = used_nodes(file)?;
-    let count = index_of.iter().flatten().count();
-    let mut mesh = Mesh {
-        nodes: vec![[0.0; 3]; count],
-        frames: NodalFrames::global(2, count),
-        element_starts: vec![0],
-        labels: vec![0; count],
-        ..Mesh::default()
-    };
     let depth = file.points[file.elements[0].nodes[0] as usize][2];
     let size = file.points.iter().fold(0.0_f64, |m, p| m.max(p[0].abs()).max(p[1].abs()));
     check_size(file, size, scale)?;
     refuse_doubled_elements(file)?;
-    for (node, (&[x, y, z], index)) in file.points.iter().zip(&index_of).enumerate() {
-        let Some(index) = *index else { continue };
-        if (z - depth).abs() > 1e-9 * size {
-            return Err(BodyError::Body(format!(
-                "node {} lies at z = {z}, others at {depth}: the body must be plane, in the x-y plane",
-                file.labels[node]
-            )));
-        }
-        mesh.nodes[index as usize] = [scale * x, scale * y, 0.0];
-        mesh.labels[index as usize] = file.labels[node];
+    let mut used = (0..index_of.len()).filter(|&node| index_of[node].is_some());
+    let is_off = |&node: &usize| (file.points[node][2] - depth).abs() > 1e-9 * size;
+    if let Some(node) = used.find(is_off) {
+        return Err(BodyError::Body(format!(
+            "node {} lies at z = {}, others at {depth}: the body must be plane, in the x-y plane",
+            file.labels[node], file.points[node][2]
+        )));
     }
-    let names: BTreeSet<&str> = file.elements.iter().map(|e| &*e.region).collect();
-    let names: Vec<&str> = names.into_iter().collect();
-    if names.len() > usize::from(u16::MAX) {
-        return Err(BodyError::Body(format!("{} physical surfaces are too many", names.len())));
-    }
-    mesh.regions = names.iter().map(|name| (*name).to_owned()).collect();
     let is_reversed = reversed_surfaces(file)?;
-    for (e, element) in file.elements.iter().enumerate() {
-        let mut nodes: Vec<u32> =
-            element.nodes.iter().filter_map(|&node| index_of[node as usize]).collect();
+    let mut mesh = file_elements(file, (2, scale), &index_of, |element, nodes| {
         if is_reversed.contains(&element.entity) {
             let corners = element.kind.corner_count();
             nodes[..corners].reverse();
@@ -78,15 +59,52 @@ pub(super) fn plane_body(file: &FileMesh, scale: f64) -> Result<Mesh, BodyError>
                 nodes[corners..].rotate_left(1);
             }
         }
+    })?;
+    mesh.nodes.iter_mut().for_each(|point| point[2] = 0.0);
+    mesh.check_elements(|e| file.elements[e].label)?;
+    Ok(mesh)
+}
+
+/// Nodes, elements and regions of a file, without boundaries; `turn` may put the nodes of an element in another order.
+pub(super) fn file_elements(
+    file: &FileMesh,
+    (dimension, scale): (usize, f64),
+    index_of: &[Option<u32>],
+    turn: impl Fn(&FileElement, &mut [u32]),
+) -> Result<Mesh, BodyError> {
+    let count = index_of.iter().flatten().count();
+    let names: BTreeSet<&str> = file.elements.iter().map(|e| &*e.region).collect();
+    let names: Vec<&str> = names.into_iter().collect();
+    if names.len() > usize::from(u16::MAX) {
+        let what = ["surfaces", "volumes"][dimension - 2];
+        return Err(BodyError::Body(format!("{} physical {what} are too many", names.len())));
+    }
+    let mut mesh = Mesh {
+        dimension,
+        nodes: vec![[0.0; 3]; count],
+        frames: NodalFrames::global(dimension, count),
+        element_starts: vec![0],
+        labels: vec![0; count],
+        regions: names.iter().map(|name| (*name).to_owned()).collect(),
+        ..Mesh::default()
+    };
+    for (node, (point, index)) in file.points.iter().zip(index_of).enumerate() {
+        let Some(index) = *index else { continue };
+        mesh.nodes[index as usize] = point.map(|coordinate| scale * coordinate);
+        mesh.labels[index as usize] = file.labels[node];
+    }
+    for (e, element) in file.elements.iter().enumerate() {
+        let nodes = element.nodes.iter().filter_map(|&node| index_of[node as usize]);
+        let mut nodes: Vec<u32> = nodes.collect();
+        turn(element, &mut nodes);
         mesh.elements.extend(nodes);
         mesh.element_starts.push(mesh.elements.len() as u32);
         mesh.element_kinds.push(element.kind);
         mesh.congruent_to.push(e as u32);
-        let region =
-            names.binary_search(&&*element.region).expect("the names are those of all elements");
+        let region = names.binary_search(&&*element.region);
+        let region = region.expect("regions are those of the elements");
         mesh.element_regions.push(region as u16);
     }
-    mesh.check_elements(|e| file.elements[e].label)?;
     Ok(mesh)
 }
 

@@ -4,7 +4,7 @@ use super::body::known_instead;
 use super::coincidence::refuse_doubled_elements;
 use super::error::{BodyError, refuse_far};
 use super::faces::{FaceKey, face_key};
-use super::plane_body::used_nodes;
+use super::plane_body::{file_elements, used_nodes};
 use super::{Boundary, BoundaryCondition, BoundaryFace, Mesh, NodalFrames};
 use frictionsim_formats::{FileMesh, SurfaceFace};
 use nalgebra::{Matrix3, Vector3};
@@ -210,42 +210,8 @@ pub(super) fn solid_elements(
     scale: f64,
     index_of: &[Option<u32>],
 ) -> Result<Mesh, BodyError> {
-    let count = index_of.iter().flatten().count();
     refuse_doubled_elements(file)?;
-    let names: BTreeSet<&str> = file.elements.iter().map(|e| &*e.region).collect();
-    let names: Vec<&str> = names.into_iter().collect();
-    if names.len() > usize::from(u16::MAX) {
-        return Err(BodyError::Body(format!(
-            "{} physical volumes are more than can be told apart",
-            names.len()
-        )));
-    }
-    let mut mesh = Mesh {
-        dimension: 3,
-        nodes: vec![[0.0; 3]; count],
-        frames: NodalFrames::global(3, count),
-        element_starts: vec![0],
-        labels: vec![0; count],
-        regions: names.iter().map(|name| (*name).to_owned()).collect(),
-        ..Mesh::default()
-    };
-    for (node, (point, index)) in file.points.iter().zip(index_of).enumerate() {
-        let Some(index) = *index else { continue };
-        mesh.nodes[index as usize] = point.map(|coordinate| scale * coordinate);
-        mesh.labels[index as usize] = file.labels[node];
-    }
-    for (e, element) in file.elements.iter().enumerate() {
-        let nodes = element.nodes.iter();
-        let nodes = nodes
-            .map(|&node| index_of[node as usize].expect("nodes of elements are among those used"));
-        mesh.elements.extend(nodes);
-        mesh.element_starts.push(mesh.elements.len() as u32);
-        mesh.element_kinds.push(element.kind);
-        mesh.congruent_to.push(e as u32);
-        let region = names.binary_search(&&*element.region);
-        let region = region.expect("regions are those of the elements");
-        mesh.element_regions.push(region as u16);
-    }
+    let mesh = file_elements(file, (3, scale), index_of, |_, _| {})?;
     mesh.check_elements(|e| file.elements[e].label)?;
     Ok(mesh)
 }

@@ -2,10 +2,10 @@
 
 use super::PrestressError;
 use super::cholesky::CholeskySolver;
-use super::complementarity::{PressedRange, range};
-use super::pressed_state::{ContactState, LEAST_RANGE, PressedBodies, Pressing, form};
+use super::joined_points::JoinedPoints;
+use super::pressed_state::{ContactState, LEAST_RANGE, PressedBodies, Pressing};
 use crate::contact::{Point, Row};
-use crate::fem::{DofMap, Triplets};
+use crate::fem::Triplets;
 use crate::linalg::{DenseLu, Mat};
 
 /// Contact points whose responses are computed together.
@@ -31,13 +31,9 @@ const NODES: usize = 7;
 /// ```
 ///
 /// One solution for each point serves both: `B` has the rows of `t` and the columns of `K*^-1 n`, since `K*` is symmetric.
-pub struct CondensedContact<'a> {
-    pressing: &'a Pressing<'a>,
-    unknowns: DofMap,
+pub(super) struct CondensedContact<'a> {
+    points: JoinedPoints<'a>,
     solver: CholeskySolver,
-    /// Rows `n` and `drag t` over the unknowns.
-    normals: Vec<Row>,
-    drags: Vec<Row>,
     /// `A` and `B`.
     normal_response: Mat<f64>,
     drag_response: Mat<f64>,
@@ -53,33 +49,16 @@ impl<'a> CondensedContact<'a> {
     /// # Errors
     /// [`PrestressError::Singular`] where a body is held by nothing, not even by contact.
     pub fn new(pressing: &'a Pressing<'a>) -> Result<Self, PrestressError> {
-        let elimination = &pressing.elimination;
-        let unknowns = elimination.unknowns();
-        let [normals, drags] = pressing.rows(&unknowns);
-
-        // K* over the unknowns.
-        let mut regular = elimination.congruent(pressing.stiffness);
-        let springs = spring_stiffnesses(pressing.points, &regular);
-        for (row, spring) in normals.iter().zip(&springs) {
-            for &(i, along) in row {
-                for &(j, across) in row {
-                    let [i, j] = [unknowns.dofs[i], unknowns.dofs[j]];
-                    regular.push(i, j, along * spring * across);
-                }
-            }
-        }
-        let solver = CholeskySolver::new(&regular, &unknowns)?;
-        let count = normals.len();
+        let points = JoinedPoints::new(pressing);
+        let springs = spring_stiffnesses(pressing.points, &points.stiffness);
+        let count = springs.len();
         let mut condensed = Self {
-            pressing,
-            solver,
+            solver: points.factorize(&springs)?,
+            points,
             normal_response: Mat::zeros(count, count),
             drag_response: Mat::zeros(count, count),
             unpressed: Vec::new(),
-            normals,
-            drags,
             springs,
-            unknowns,
         };
         condensed.respond();
         Ok(condensed)
@@ -87,12 +66,13 @@ impl<'a> CondensedContact<'a> {
 
     /// `A`, `B` and `c_0`, a block of unit forces at a time.
     fn respond(&mut self) {
-        let count = self.normals.len();
+        let JoinedPoints { normals, drags, unknowns, .. } = &self.points;
+        let count = normals.len();
         for first in (0..count).step_by(BLOCK) {
             let width = BLOCK.min(count - first);
-            let mut block = Mat::<f64>::zeros(self.unknowns.len(), width);
+            let mut block = Mat::<f64>::zeros(unknowns.len(), width);
             for j in 0..width {
-                for &(dof, along) in &self.normals[first + j] {
+                for &(dof, along) in &normals[first + j] {
                     block[(dof, j)] += along;
                 }
             }
@@ -102,34 +82,24 @@ impl<'a> CondensedContact<'a> {
             };
             for j in 0..width {
                 for i in 0..count {
-                    self.normal_response[(i, first + j)] = response(&self.normals[i], j);
+                    self.normal_response[(i, first + j)] = response(&normals[i], j);
                     // K* is symmetric: the response of n_j to t_i is that of t_i to n_j.
-                    self.drag_response[(first + j, i)] = response(&self.drags[i], j);
+                    self.drag_response[(first + j, i)] = response(&drags[i], j);
                 }
             }
         }
-        let load = self.pressing.restricted_load(&self.unknowns);
-        let resting = self.solver.solve(load);
-        self.unpressed = self.normals.iter().map(|row| form(row, &resting)).collect();
+        self.unpressed = self.points.separations(&self.solver.solve(self.points.load()));
     }
 
     /// `1 / k_i`, m/N.
     fn compliance(&self, i: usize) -> f64 {
-        self.pressing.stiffnesses[i].map_or(0.0, f64::recip)
-    }
-
-    /// States at every one of `friction_coefficients`.
-    ///
-    /// # Errors
-    /// [`PrestressError::NoState`] at the first friction coefficient without one; [`PrestressError::GapEverywhere`].
-    pub fn range(mut self, friction_coefficients: &[f64]) -> Result<PressedRange, PrestressError> {
-        range(&mut self, friction_coefficients)
+        self.points.pressing.stiffnesses[i].map_or(0.0, f64::recip)
     }
 }
 
 impl PressedBodies for CondensedContact<'_> {
     fn pressing(&self) -> &Pressing<'_> {
-        self.pressing
+        self.points.pressing
     }
 
     fn stiffness_at(&self, point: usize) -> f64 {
@@ -145,7 +115,7 @@ impl PressedBodies for CondensedContact<'_> {
         friction_coefficient: f64,
         is_pressed: &[bool],
     ) -> Result<ContactState, PrestressError> {
-        let (count, pushed) = (is_pressed.len(), &self.pressing.pushed);
+        let (count, pushed) = (is_pressed.len(), &self.points.pressing.pushed);
         // Unknown: the normal force of a pressed point, the separation of an open one; columns scaled to be alike.
         let scale: Vec<f64> = (0..count).map(|i| self.normal_response[(i, i)]).collect();
         let (springs, a, b) = (&self.springs, &self.normal_response, &self.drag_response);
@@ -184,18 +154,7 @@ impl PressedBodies for CondensedContact<'_> {
     }
 
     fn whole_displacement(&self, friction_coefficient: f64, state: &ContactState) -> Vec<f64> {
-        let elimination = &self.pressing.elimination;
-        let mut right = self.pressing.restricted_load(&self.unknowns);
-        for (i, &force) in state.normal_forces.iter().enumerate() {
-            let pressed = force + self.springs[i] * state.separations[i];
-            for &(dof, along) in &self.normals[i] {
-                right[dof] += pressed * along;
-            }
-            for &(dof, along) in &self.drags[i] {
-                right[dof] += friction_coefficient * force * along;
-            }
-        }
-        elimination.displacement(&self.unknowns.expand(&self.solver.solve(right)))
+        self.points.displacement((&self.solver, &self.springs), friction_coefficient, state)
     }
 }
 

@@ -1,7 +1,7 @@
 //! The pressed equilibrium of a body whose sectors are alike, from one of them.
 
 use super::PrestressError;
-use super::complementarity::PressedRange;
+use super::complementarity::{PressedRange, range};
 use super::condensed::CondensedContact;
 use super::elimination::Elimination;
 use super::penalty::PenaltyContact;
@@ -36,7 +36,8 @@ impl Pressing<'_> {
     /// same in each, and so is its state, in frames that turn with it.
     ///
     /// # Errors
-    /// [`PrestressError::MixedContacts`]; no state of sliding, as in [`CondensedContact::range`].
+    /// [`PrestressError::MixedContacts`]; [`PrestressError::NoState`] at the first friction coefficient without one;
+    /// [`PrestressError::GapEverywhere`]; [`PrestressError::Singular`] where a body is held by nothing, not even by contact.
     pub fn states(
         &self,
         mesh: &Mesh,
@@ -64,9 +65,9 @@ impl Pressing<'_> {
     /// Points on springs leave the matrices sparse; rigid ones need the bodies' response to each.
     fn states_of_all(&self, friction_coefficients: &[f64]) -> Result<PressedRange, PrestressError> {
         match PenaltyContact::new(self)? {
-            Some(bodies) => bodies.range(friction_coefficients),
+            Some(mut bodies) => range(&mut bodies, friction_coefficients),
             None if self.laws.iter().any(Option::is_some) => Err(PrestressError::MixedContacts),
-            None => CondensedContact::new(self)?.range(friction_coefficients),
+            None => range(&mut CondensedContact::new(self)?, friction_coefficients),
         }
     }
 }

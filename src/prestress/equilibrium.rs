@@ -81,8 +81,9 @@ impl SteadySliding {
         let points = interface.points(contact);
 
         let basis = Elimination::holding(mesh.dof_count(), mesh.held_dofs());
-        let state =
-            FullSliding::new(stiffness, basis, &points)?.state(contact.interference, None)?;
+        let none = vec![0.0; mesh.dof_count()];
+        let full = FullSliding::new(stiffness, basis, &points)?;
+        let state = full.state(&none, contact.interference, None)?;
         check_pressed(&interface, &points, &state.normal_forces[0])?;
         Ok(Self::of(state, interface, contact))
     }

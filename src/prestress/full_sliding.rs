@@ -43,13 +43,14 @@ impl<'a> FullSliding<'a> {
         Ok(Self { points, basis, separations, stiffness, unknowns, solver })
     }
 
-    /// The state in which every point is pushed in by `interference`, `u(mu) = u_0 + mu u_1`; with a contact that stiffens with
-    /// pressure, if there is a `law`: `N_i = w_i p(delta - u_n)`.
+    /// The state under a load on all dofs in which every point is pushed in by `interference`, `u(mu) = u_0 + mu u_1`; without a
+    /// load with a contact that stiffens with pressure, if there is a `law`: `N_i = w_i p(delta - u_n)`.
     ///
     /// # Errors
     /// [`PrestressError::Singular`].
     pub fn state(
         &self,
+        load: &[f64],
         interference: f64,
         law: Option<NormalLaw>,
     ) -> Result<PressedState, PrestressError> {
@@ -58,8 +59,9 @@ impl<'a> FullSliding<'a> {
             None => vec![0.0; self.points.len()],
         };
         let distances: Vec<f64> = approaches.iter().map(|g| interference - g).collect();
-        let pressed = self.pressed_by(&distances);
-        let normal_forces = self.normal_forces(&pressed);
+        let load = self.basis.transposed_forces(load);
+        let pressed = self.pressed_by(&distances, &load);
+        let normal_forces = self.normal_forces(&pressed, &load);
 
         // Friction shears it.
         let mut traction = vec![0.0; pressed.len()];
@@ -82,37 +84,38 @@ impl<'a> FullSliding<'a> {
         })
     }
 
-    /// Response to a load on all dofs with the separations held.
-    fn solve(&self, load: &[f64]) -> Vec<f64> {
+    /// Response to a load with the separations held.
+    pub fn solve(&self, load: &[f64]) -> Vec<f64> {
         self.unknowns.expand(&self.solver.solve(self.unknowns.restrict(load)))
     }
 
-    fn pressed_by(&self, distances: &[f64]) -> Vec<f64> {
-        let total = self.unknowns.unknown_of.len();
+    /// Response to a load with these separations.
+    fn pressed_by(&self, distances: &[f64], load: &[f64]) -> Vec<f64> {
+        let total = load.len();
         let mut prescribed = vec![0.0; total];
-        for (&dof, distance) in self.separations.iter().zip(distances) {
-            prescribed[dof] = *distance;
-        }
+        let both = || self.separations.iter().zip(distances);
+        both().for_each(|(&dof, distance)| prescribed[dof] = *distance);
         let force = self.stiffness.multiply(total, &prescribed);
-        let mut pressed = self.solve(&force.iter().map(|f| -f).collect::<Vec<_>>());
-        for (&dof, distance) in self.separations.iter().zip(distances) {
-            pressed[dof] = *distance;
-        }
+        let left: Vec<f64> = load.iter().zip(force).map(|(load, force)| load - force).collect();
+        let mut pressed = self.solve(&left);
+        both().for_each(|(&dof, distance)| pressed[dof] = *distance);
         pressed
     }
 
-    fn normal_forces(&self, pressed: &[f64]) -> Vec<f64> {
+    /// What holds the separations beside the load.
+    fn normal_forces(&self, pressed: &[f64], load: &[f64]) -> Vec<f64> {
         let force = self.stiffness.multiply(pressed.len(), pressed);
-        self.separations.iter().map(|&dof| force[dof]).collect()
+        self.separations.iter().map(|&dof| force[dof] - load[dof]).collect()
     }
 
     /// Normal forces of unit distances, column by column.
     fn responses(&self) -> DMatrix<f64> {
         let count = self.points.len();
+        let none = vec![0.0; self.unknowns.unknown_of.len()];
         let columns = (0..count).map(|j| {
             let mut unit = vec![0.0; count];
             unit[j] = 1.0;
-            DVector::from_vec(self.normal_forces(&self.pressed_by(&unit)))
+            DVector::from_vec(self.normal_forces(&self.pressed_by(&unit, &none), &none))
         });
         DMatrix::from_columns(&columns.collect::<Vec<_>>())
     }

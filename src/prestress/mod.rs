@@ -3,7 +3,7 @@
 //! [`SteadySliding`] is the base state: the counterface pushed in by `delta`, every pressed contact node
 //! slipping, the others open. [`SlidingTangent`] holds the matrices of small motions around it,
 //! `M(mu) q'' + C(mu) q' + K_t(mu) q = 0`, as polynomials in the friction coefficient.
-//! Both stand on contact points with rows: [`CondensedContact`] finds the base state by complementarity, [`Elimination`] takes held
+//! Both stand on contact points with rows: [`Pressing`] finds the base state by complementarity, [`Elimination`] takes held
 //! dofs, ties and rigid contact out, and [`SlidingTangent::assemble`] puts the matrices together. [`Assembly`] is solid bodies
 //! that are tied and slide on each other.
 //! [`WaveTangent`] is the same of a body of equal sectors from one of them, harmonic by harmonic: of a plane annulus around
@@ -21,6 +21,7 @@ mod error;
 mod friction_polynomial;
 mod frozen;
 mod full_sliding;
+mod joined_points;
 mod joint;
 mod options;
 mod penalty;
@@ -42,7 +43,6 @@ mod wave_terms;
 
 pub use assembly::{Assembly, Joined};
 pub use complementarity::PressedRange;
-pub use condensed::CondensedContact;
 pub use cyclic::CyclicTangent;
 pub use elimination::{Elimination, RigidFriction};
 pub use equilibrium::{SlidingRange, SteadySliding};

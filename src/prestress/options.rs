@@ -27,3 +27,16 @@ pub struct TangentOptions {
     /// Penalty or rigid contact, and dashpots.
     pub contact: ContactStiffness,
 }
+
+impl TangentOptions {
+    /// Those of bodies without contact and stress, `C = alpha_R M + beta_R K`.
+    pub fn of_free(mass: MassKind, damping: RayleighDamping) -> Self {
+        Self {
+            mass,
+            geometric_stiffness: false,
+            damping,
+            damping_model: DampingModel::WholeTangent,
+            contact: ContactStiffness::default(),
+        }
+    }
+}

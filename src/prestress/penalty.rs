@@ -2,10 +2,8 @@
 
 use super::PrestressError;
 use super::cholesky::CholeskySolver;
-use super::complementarity::{PressedRange, range};
-use super::pressed_state::{ContactState, PressedBodies, Pressing, SHORT_RANGE, form, widened};
-use crate::contact::Row;
-use crate::fem::{DofMap, Triplets};
+use super::joined_points::JoinedPoints;
+use super::pressed_state::{ContactState, PressedBodies, Pressing, SHORT_RANGE, widened};
 use crate::linalg::gmres;
 
 /// Stiffness of an open point beside a pressed one in the matrix that is factorized: bodies may be held by contact alone.
@@ -48,15 +46,10 @@ const NODES: [usize; 2] = [6, 8];
 /// there and the push with which that passes through it: Newton's iteration on the approach as a function of the force, which
 /// is concave, so that no step runs away.
 pub(super) struct PenaltyContact<'a> {
-    pressing: &'a Pressing<'a>,
-    unknowns: DofMap,
-    /// `K` over the unknowns, numbered by dof.
-    stiffness: Triplets,
+    points: JoinedPoints<'a>,
     /// `k_i`, N/m, and `p_i`, m: of the tangent where contact stiffens.
     springs: Vec<f64>,
     pushed: Vec<f64>,
-    normals: Vec<Row>,
-    drags: Vec<Row>,
     /// `P`, the points pressed in it, and `r_i k_i` in it, N/m.
     solver: CholeskySolver,
     factorized: Vec<bool>,
@@ -77,33 +70,17 @@ impl<'a> PenaltyContact<'a> {
         let Some(springs) = springs else {
             return Ok(None);
         };
-        let unknowns = pressing.elimination.unknowns();
-        let [normals, drags] = pressing.rows(&unknowns);
-        let stiffness = pressing.elimination.congruent(pressing.stiffness);
-        let all = vec![true; springs.len()];
-        let solver = factorize(&stiffness, &unknowns, &normals, &springs)?;
+        let points = JoinedPoints::new(pressing);
         Ok(Some(Self {
             last: vec![0.0; springs.len()],
             pushed: pressing.pushed.clone(),
             held: springs.clone(),
-            pressing,
-            unknowns,
-            stiffness,
+            solver: points.factorize(&springs)?,
+            factorized: vec![true; springs.len()],
+            points,
             springs,
-            normals,
-            drags,
-            solver,
-            factorized: all,
             is_slow: false,
         }))
-    }
-
-    /// States at every one of `friction_coefficients`.
-    ///
-    /// # Errors
-    /// [`PrestressError::NoState`] at the first friction coefficient without one; [`PrestressError::GapEverywhere`].
-    pub fn range(mut self, friction_coefficients: &[f64]) -> Result<PressedRange, PrestressError> {
-        range(&mut self, friction_coefficients)
     }
 
     /// Factorizes `P` of other pressed points where they differ too much from those in it, or the last solution took long.
@@ -116,28 +93,11 @@ impl<'a> PenaltyContact<'a> {
             .map(|(&is_pressed, spring)| if is_pressed { *spring } else { OPEN_SHARE * spring })
             .collect();
         if is_far || self.is_slow && held != self.held {
-            self.solver = factorize(&self.stiffness, &self.unknowns, &self.normals, &held)?;
+            self.solver = self.points.factorize(&held)?;
             self.factorized = is_pressed.to_vec();
             self.held = held;
         }
         Ok(())
-    }
-
-    /// `P^-1` times `right_side` and forces `along` the normals and drags of the points.
-    fn respond(&self, mut right_side: Vec<f64>, along: &[[f64; 2]]) -> Vec<f64> {
-        for (i, forces) in along.iter().enumerate() {
-            for (row, force) in [&self.normals[i], &self.drags[i]].into_iter().zip(forces) {
-                if *force != 0.0 {
-                    row.iter().for_each(|&(dof, a)| right_side[dof] += force * a);
-                }
-            }
-        }
-        self.solver.solve(right_side)
-    }
-
-    fn separations(&self, displacement: &[f64]) -> Vec<f64> {
-        let rows = self.normals.iter();
-        rows.map(|row| form(row, displacement)).collect()
     }
 
     /// Separations and normal forces on the springs as they are.
@@ -155,8 +115,8 @@ impl<'a> PenaltyContact<'a> {
             let push = pressed(i) * springs[i] * pushed[i];
             [push, friction_coefficient * push]
         });
-        let load = self.pressing.restricted_load(&self.unknowns);
-        let given = self.separations(&self.respond(load, &along.collect::<Vec<_>>()));
+        let points = &self.points;
+        let given = points.separations(&points.respond(&self.solver, points.load(), along));
 
         // The separations with what `P` has not.
         let apply = |c: &[f64]| -> Vec<f64> {
@@ -164,9 +124,8 @@ impl<'a> PenaltyContact<'a> {
                 let force = pressed(i) * springs[i] * c[i];
                 [force - self.held[i] * c[i], friction_coefficient * force]
             });
-            let none = vec![0.0; self.unknowns.len()];
-            let moved = self.respond(none, &along.collect::<Vec<_>>());
-            let response = self.separations(&moved);
+            let none = vec![0.0; points.unknowns.len()];
+            let response = points.separations(&points.respond(&self.solver, none, along));
             c.iter().zip(response).map(|(c, r)| c + r).collect()
         };
         let mut separations = self.last.clone();
@@ -183,14 +142,14 @@ impl<'a> PenaltyContact<'a> {
 
     /// Springs and pushes of the tangents at some forces; whether any contact stiffens.
     fn follow_laws(&mut self, normal_forces: &[f64]) -> bool {
-        let mut stiffens = false;
-        for (i, (law, point)) in self.pressing.laws.iter().zip(self.pressing.points).enumerate() {
+        let (pressing, mut stiffens) = (self.points.pressing, false);
+        for (i, (law, point)) in pressing.laws.iter().zip(pressing.points).enumerate() {
             if let Some(law) = law {
                 stiffens = true;
                 let force = normal_forces[i].max(0.0);
                 let approach = law.approach(force / point.weight);
                 self.springs[i] = point.weight * law.stiffness(approach);
-                self.pushed[i] = self.pressing.pushed[i] - approach + force / self.springs[i];
+                self.pushed[i] = pressing.pushed[i] - approach + force / self.springs[i];
             }
         }
         stiffens
@@ -199,7 +158,7 @@ impl<'a> PenaltyContact<'a> {
 
 impl PressedBodies for PenaltyContact<'_> {
     fn pressing(&self) -> &Pressing<'_> {
-        self.pressing
+        self.points.pressing
     }
 
     fn stiffness_at(&self, point: usize) -> f64 {
@@ -239,34 +198,6 @@ impl PressedBodies for PenaltyContact<'_> {
     }
 
     fn whole_displacement(&self, friction_coefficient: f64, state: &ContactState) -> Vec<f64> {
-        let along: Vec<[f64; 2]> = (0..self.springs.len())
-            .map(|i| {
-                let force = state.normal_forces[i];
-                let held = self.held[i] * state.separations[i];
-                [force + held, friction_coefficient * force]
-            })
-            .collect();
-        let load = self.pressing.restricted_load(&self.unknowns);
-        let y = self.unknowns.expand(&self.respond(load, &along));
-        self.pressing.elimination.displacement(&y)
+        self.points.displacement((&self.solver, &self.held), friction_coefficient, state)
     }
-}
-
-/// Factorizes `P` with some springs at the points.
-fn factorize(
-    stiffness: &Triplets,
-    unknowns: &DofMap,
-    normals: &[Row],
-    springs: &[f64],
-) -> Result<CholeskySolver, PrestressError> {
-    let mut held = stiffness.clone();
-    for (row, spring) in normals.iter().zip(springs) {
-        for &(j, along) in row {
-            for &(k, across) in row {
-                let [j, k] = [unknowns.dofs[j], unknowns.dofs[k]];
-                held.push(j, k, along * spring * across);
-            }
-        }
-    }
-    CholeskySolver::new(&held, unknowns)
 }

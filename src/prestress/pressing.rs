@@ -1,12 +1,13 @@
 //! Pressed equilibrium of a body of revolution in steady sliding: rigid contact ring by ring, or springs over the face.
 
-use super::{PrestressError, pressure_load};
-use crate::contact::{NormalLaw, SlidingContact};
-use crate::fem::fold::{MirrorParity, SectorMatrix, WaveDofs};
-use crate::fem::sector::Sectored;
+use super::elimination::Elimination;
+use super::full_sliding::FullSliding;
+use super::{PressedState, PrestressError, pressure_load};
+use crate::contact::{NormalLaw, Point, SlidingContact, SteadyFriction};
+use crate::fem::Triplets;
+use crate::fem::fold::SectorMatrix;
 use crate::fem::solid::{FaceTerm, face_matrix};
-use crate::linalg::banded::{BandedFactor, BandedMatrix};
-use crate::mesh::{FaceElement, SolidSector};
+use crate::mesh::{ContactRing, FaceElement, SolidSector};
 
 /// Choices of what is pressed that are tried before the search is given up.
 const SETS: usize = 200;
@@ -78,9 +79,13 @@ pub(super) fn pressed_span(
     }
 }
 
-/// The body pressed without friction.
+/// Friction of steady sliding at a radius.
+type Friction<'a> = &'a dyn Fn(f64) -> SteadyFriction;
+
+/// The body pressed without friction, and what each unit of it shears.
 pub(super) struct Pressing {
     pub displacement: Vec<f64>,
+    pub sheared: Vec<f64>,
     pub normal_forces: Vec<(usize, f64)>,
     pub is_pressed: Vec<bool>,
     pub pressures: Vec<f64>,
@@ -88,11 +93,7 @@ pub(super) struct Pressing {
 }
 
 /// `delta - u_n` at each ring, the mean over its nodes, m.
-pub(super) fn approaches(
-    sector: &SolidSector,
-    interference: f64,
-    displacement: &[f64],
-) -> Vec<f64> {
+fn approaches(sector: &SolidSector, interference: f64, displacement: &[f64]) -> Vec<f64> {
     let face = sector.specification.contact.face();
     let mean = |nodes: &[usize]| {
         let normals = nodes.iter().map(|node| displacement[3 * node + face.normal_component()]);
@@ -105,28 +106,30 @@ pub(super) fn approaches(
 /// Signorini's conditions ring by ring: the set of pressed ones.
 pub(super) fn press_rigidly(
     sector: &SolidSector,
-    system: &System,
+    stiffness: &Triplets,
     contact: &SlidingContact,
+    friction: Friction<'_>,
 ) -> Result<Pressing, PrestressError> {
-    let face = sector.specification.contact.face();
-    let (inward, component) = (face.inward_sign(), face.normal_component());
-    let load = pressure_load(sector);
-    let rings = &sector.rings;
+    let (load, rings) = (pressure_load(sector), &sector.rings);
     let mut is_pressed = vec![true; rings.len()];
     for _ in 0..SETS {
-        let mut prescribed = vec![None; system.dofs];
-        for (ring, _) in rings.iter().zip(&is_pressed).filter(|(_, p)| **p) {
-            for node in &ring.nodes {
-                prescribed[3 * node + component] = Some(inward * contact.interference);
-            }
-        }
-        let displacement = system.solve(&load, &prescribed)?;
-        let reaction = system.reaction(&displacement, &load);
-        let force = |node: &usize| inward * reaction[3 * node + component];
-        let ring_forces = rings.iter().map(|ring| ring.nodes.iter().map(force).sum());
-        let ring_forces: Vec<f64> = ring_forces.collect();
+        let pressed = rings.iter().zip(&is_pressed).filter(|(_, pressed)| **pressed);
+        let nodes = pressed.flat_map(|(ring, _)| ring.nodes.iter().copied());
+        let nodes: Vec<usize> = nodes.collect();
+        let points: Vec<Point> = nodes.iter().map(|&n| point(sector, n, friction)).collect();
+        let full = FullSliding::new(stiffness, held(sector), &points)?;
+        let PressedState { displacements, normal_forces, .. } =
+            full.state(&load, contact.interference, None)?;
+
+        // The conditions of all rings.
+        let mut forces = normal_forces[0].iter();
+        let force = |(ring, is_pressed): (&ContactRing, &bool)| match is_pressed {
+            true => forces.by_ref().take(ring.nodes.len()).sum(),
+            false => 0.0,
+        };
+        let ring_forces: Vec<f64> = rings.iter().zip(&is_pressed).map(force).collect();
         let scale = ring_forces.iter().fold(0.0_f64, |m, f| m.max(f.abs()));
-        let approaches = approaches(sector, contact.interference, &displacement);
+        let approaches = approaches(sector, contact.interference, &displacements[0]);
         let next: Vec<bool> = (0..rings.len())
             .map(|k| match is_pressed[k] {
                 true => ring_forces[k] > 1e-12 * scale,
@@ -137,15 +140,12 @@ pub(super) fn press_rigidly(
             is_pressed = next;
             continue;
         }
-        let pressed = rings.iter().zip(&is_pressed).filter(|(_, p)| **p);
-        let nodes = pressed.flat_map(|(ring, _)| &ring.nodes);
-        let pressures = rings.iter().zip(&ring_forces).zip(&is_pressed);
+        let [displacement, sheared] = displacements.try_into().expect("two powers of friction");
         return Ok(Pressing {
-            normal_forces: nodes.map(|node| (*node, force(node))).collect(),
-            pressures: pressures
-                .map(|((ring, force), pressed)| if *pressed { force / ring.area } else { 0.0 })
-                .collect(),
+            normal_forces: nodes.into_iter().zip(normal_forces[0].iter().copied()).collect(),
+            pressures: rings.iter().zip(&ring_forces).map(|(ring, f)| f / ring.area).collect(),
             displacement,
+            sheared,
             is_pressed,
             approaches,
         });
@@ -153,14 +153,31 @@ pub(super) fn press_rigidly(
     Err(PrestressError::NoState { friction_coefficient: contact.friction_coefficient })
 }
 
+/// A node of the face as a contact point.
+fn point(sector: &SolidSector, node: usize, friction: Friction<'_>) -> Point {
+    let face = sector.specification.contact.face();
+    Point {
+        normal: vec![(3 * node + face.normal_component(), face.inward_sign())],
+        slip: vec![(3 * node + 1, 1.0)],
+        friction: friction(sector.nodes[node].radius),
+        ..Point::default()
+    }
+}
+
+/// What holds the body without its contact.
+fn held(sector: &SolidSector) -> Elimination {
+    let dofs = 3 * sector.node_count();
+    Elimination::holding(dofs, (0..dofs).filter(|&dof| sector.is_held(dof)))
+}
+
 /// Springs that push and do not pull, `K u + int k (u_n - delta + g) n dA = f + int s g n dA` over the points of the face where
 /// they are pressed, `s g = p(g)`: Newton's method on the approach `g` of the rings, so that the tangent of the eigenvalue analysis
 /// is the derivative of this state.
 pub(super) fn press_on_springs(
     sector: &SolidSector,
-    terms: &[&SectorMatrix],
-    contact: &SlidingContact,
-    law: NormalLaw,
+    stiffness: &Triplets,
+    (contact, law): (&SlidingContact, NormalLaw),
+    friction: Friction<'_>,
 ) -> Result<Pressing, PrestressError> {
     let face = sector.specification.contact.face();
     let (inward, component) = (face.inward_sign(), face.normal_component());
@@ -172,14 +189,15 @@ pub(super) fn press_on_springs(
     for _ in 0..SETS {
         // The tangent at the approaches found last, and what it pushes with.
         let springs = Springs { sector, law, approaches: &values };
-        let tangent = springs.tangent();
-        let spring = System::new(sector, &[&tangent]);
-        let own = springs.push();
-        let system = System::new(sector, &[terms, &[&tangent]].concat());
-        let known = spring.stiffness.multiply(&distance(sector, &pushed, &field(sector, &values)));
+        let (tangent, own) = (springs.tangent(), springs.push());
+        let mut pressed = stiffness.clone();
+        pressed.entries.extend_from_slice(&tangent.entries);
+        let body = FullSliding::new(&pressed, held(sector), &[])?;
+        let known = distance(sector, &pushed, &field(sector, &values));
+        let known = tangent.multiply(own.len(), &known);
         let loads = load.iter().zip(&own).zip(&known);
         let loads: Vec<f64> = loads.map(|((a, b), c)| a + b + c).collect();
-        let displacement = system.solve(&loads, &vec![None; system.dofs])?;
+        let displacement = body.solve(&loads);
 
         // The approaches of the forces there.
         let found = approaches(sector, contact.interference, &displacement);
@@ -194,12 +212,23 @@ pub(super) fn press_on_springs(
         }
         let left = distance(sector, &pushed, &displacement);
         let left = distance(sector, &left, &field(sector, &values));
-        let forces = own.iter().zip(spring.stiffness.multiply(&left));
+        let forces = own.iter().zip(tangent.multiply(own.len(), &left));
         let forces: Vec<f64> = forces.map(|(own, more)| own + more).collect();
         let nodes = sector.rings.iter().flat_map(|ring| &ring.nodes);
         let nodes = nodes.map(|&node| (node, inward * forces[3 * node + component]));
+        let normal_forces: Vec<_> = nodes.filter(|(_, force)| *force != 0.0).collect();
+
+        // Friction shears the body alone, whatever presses it.
+        let mut basis = held(sector);
+        let across = (0..own.len()).filter(|dof| dof % 3 != 1);
+        across.for_each(|dof| basis.drop_unknown(dof));
+        let mut drag = vec![0.0; own.len()];
+        for (node, force) in &normal_forces {
+            drag[3 * node + 1] = friction(sector.nodes[*node].radius).drag * force;
+        }
         return Ok(Pressing {
-            normal_forces: nodes.filter(|(_, force)| *force != 0.0).collect(),
+            sheared: FullSliding::new(stiffness, basis, &[])?.solve(&drag),
+            normal_forces,
             is_pressed: found.iter().map(|approach| *approach > 0.0).collect(),
             pressures: found.iter().map(|g| law.pressure(g.max(0.0))).collect(),
             approaches: found,
@@ -210,55 +239,41 @@ pub(super) fn press_on_springs(
 }
 
 /// The springs of the face where the rings' approaches are positive.
-pub(super) struct Springs<'a> {
-    pub sector: &'a SolidSector,
-    pub law: NormalLaw,
-    pub approaches: &'a [f64],
+struct Springs<'a> {
+    sector: &'a SolidSector,
+    law: NormalLaw,
+    approaches: &'a [f64],
 }
 
 impl Springs<'_> {
     /// `int k(g) n n^T dA`, N/m.
-    pub fn tangent(&self) -> SectorMatrix {
+    fn tangent(&self) -> Triplets {
         self.matrix(&|approach| self.law.stiffness(approach))
     }
 
     /// `int s g n dA`, N, with the secant `s(g)`, whose force at the approaches is that of the pressure.
     fn push(&self) -> Vec<f64> {
         let secant = self.matrix(&|approach| self.law.secant(approach));
-        let system = System::new(self.sector, &[&secant]);
-        system.stiffness.multiply(&field(self.sector, self.approaches))
+        let pushed = field(self.sector, self.approaches);
+        secant.multiply(pushed.len(), &pushed)
     }
 
     /// A normal term with a weight that follows the approach.
-    fn matrix(&self, weight: &dyn Fn(f64) -> f64) -> SectorMatrix {
-        let at = |element: &FaceElement, _: f64, along: f64| weight(self.approach(element, along));
-        let faces = self.sector.contact_elements();
-        face_matrix(self.sector, &faces, &self.term(&at, &|element| self.span(element)))
-    }
-
-    /// A normal term on some part of each element.
-    pub fn term<'a>(
-        &self,
-        weight: &'a dyn Fn(&FaceElement, f64, f64) -> f64,
-        span: &'a dyn Fn(&FaceElement) -> [f64; 2],
-    ) -> FaceTerm<'a> {
-        let component = self.sector.specification.contact.face().normal_component();
-        FaceTerm { row: component, column: component, weight, span, is_nodal: true }
-    }
-
-    /// The approach at a point of an element, zero where it is open, m.
-    pub fn approach(&self, element: &FaceElement, along: f64) -> f64 {
-        along_element(self.sector, self.approaches, element, along).max(0.0)
-    }
-
-    /// See [`pressed_span`].
-    pub fn span(&self, element: &FaceElement) -> [f64; 2] {
-        pressed_span(self.sector, self.approaches, element)
+    fn matrix(&self, weight: &dyn Fn(f64) -> f64) -> Triplets {
+        let Self { sector, approaches, .. } = *self;
+        let component = sector.specification.contact.face().normal_component();
+        let weight = |element: &FaceElement, _: f64, along: f64| {
+            weight(along_element(sector, approaches, element, along).max(0.0))
+        };
+        let span = |element: &FaceElement| pressed_span(sector, approaches, element);
+        let (row, column) = (component, component);
+        let term = FaceTerm { row, column, weight: &weight, span: &span, is_nodal: true };
+        SectorMatrix::alike_in_all(&[&face_matrix(sector, &sector.contact_elements(), &term)])
     }
 }
 
 /// A normal displacement of the face, towards the body, that is the same all over each ring.
-pub(super) fn field(sector: &SolidSector, values: &[f64]) -> Vec<f64> {
+fn field(sector: &SolidSector, values: &[f64]) -> Vec<f64> {
     let face = sector.specification.contact.face();
     let mut field = vec![0.0; 3 * sector.node_count()];
     for (ring, value) in sector.rings.iter().zip(values) {
@@ -270,77 +285,10 @@ pub(super) fn field(sector: &SolidSector, values: &[f64]) -> Vec<f64> {
 }
 
 /// What is left to `pushed` along the normal.
-pub(super) fn distance(sector: &SolidSector, pushed: &[f64], displacement: &[f64]) -> Vec<f64> {
+fn distance(sector: &SolidSector, pushed: &[f64], displacement: &[f64]) -> Vec<f64> {
     let component = sector.specification.contact.face().normal_component();
     let pairs = pushed.iter().zip(displacement).enumerate();
     pairs
         .map(|(dof, (pushed, u))| (pushed - u) * f64::from(u8::from(dof % 3 == component)))
         .collect()
-}
-
-/// Harmonic zero of the supported body.
-pub(super) struct System {
-    pub dofs: usize,
-    is_held: Vec<bool>,
-    pub stiffness: BandedMatrix,
-}
-
-impl System {
-    pub fn new(sector: &SolidSector, terms: &[&SectorMatrix]) -> Self {
-        let dofs = 3 * sector.node_count();
-        let WaveDofs { half_bandwidth, sectors, .. } = sector.wave_dofs();
-        let all = WaveDofs::new(dofs, |_| false, half_bandwidth, sectors);
-        let stiffness = all.fold(0, MirrorParity::Even, terms);
-        Self { dofs, is_held: (0..dofs).map(|dof| sector.is_held(dof)).collect(), stiffness }
-    }
-
-    /// Displacement under a load with some dofs prescribed and without tangential motion.
-    pub fn solve(
-        &self,
-        load: &[f64],
-        prescribed: &[Option<f64>],
-    ) -> Result<Vec<f64>, PrestressError> {
-        self.part(load, prescribed, |component| component != 1)
-    }
-
-    /// Tangential displacement under a tangential load.
-    pub fn torsion(
-        &self,
-        load: &[f64],
-        prescribed: &[Option<f64>],
-    ) -> Result<Vec<f64>, PrestressError> {
-        self.part(load, prescribed, |component| component == 1)
-    }
-
-    fn part(
-        &self,
-        load: &[f64],
-        prescribed: &[Option<f64>],
-        is_in: impl Fn(usize) -> bool,
-    ) -> Result<Vec<f64>, PrestressError> {
-        let mut displacement: Vec<f64> =
-            prescribed.iter().map(|value| value.unwrap_or(0.0)).collect();
-        let unknowns: Vec<usize> = (0..self.dofs)
-            .filter(|&dof| is_in(dof % 3) && !self.is_held[dof] && prescribed[dof].is_none())
-            .collect();
-        let force = self.stiffness.multiply(&displacement);
-        let mut right: Vec<f64> = unknowns.iter().map(|&dof| load[dof] - force[dof]).collect();
-        let reduced = self.stiffness.restricted_to(&unknowns);
-        let none = BandedMatrix::zeros(reduced.dimension(), reduced.half_bandwidth());
-        let factor = BandedFactor::new(&reduced, &none, 0.0);
-        if factor.negative_count() > 0 || !factor.is_regular() {
-            return Err(PrestressError::Singular);
-        }
-        factor.solve(&mut right);
-        for (&dof, value) in unknowns.iter().zip(right) {
-            displacement[dof] = value;
-        }
-        Ok(displacement)
-    }
-
-    /// Force that holds a displacement beside the load, N.
-    fn reaction(&self, displacement: &[f64], load: &[f64]) -> Vec<f64> {
-        let force = self.stiffness.multiply(displacement);
-        force.iter().zip(load).map(|(f, l)| f - l).collect()
-    }
 }

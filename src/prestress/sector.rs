@@ -5,15 +5,13 @@ use super::elimination::Elimination;
 use super::full_sliding::{FullSliding, check_pressed};
 use super::pressed_state::PressedState;
 use crate::contact::{NormalLaw, Point, Row, SlidingContact, SteadyFriction};
-use crate::fem::Triplets;
-use crate::fem::fold::{MirrorParity, SectorMatrix};
-use crate::fem::sector::Sectored;
+use crate::fem::fold::SectorMatrix;
 use crate::mesh::SectorMesh;
 
 /// The state of steady sliding of an annulus, the same in every sector.
 ///
 /// It is [`super::SteadySliding`] for the annulus: harmonic zero of the stiffness, whose radial and tangential
-/// parts do not mix. Per metre of thickness; vectors hold `(u_r, u_theta)` of each free sector node.
+/// parts do not mix. Per metre of thickness; vectors hold `(u_r, u_theta)` of each sector node.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SectorSliding {
     /// Displacement, normal forces and springs of the contact nodes of the sector.
@@ -40,15 +38,11 @@ impl SectorSliding {
         let surface_speed = sector.specification.inner_radius * contact.rotation_speed;
         let friction = contact.steady_friction(sliding_direction, surface_speed);
         let points = points(sector, friction);
-        let band = sector.wave_dofs().fold(0, MirrorParity::Even, &[elastic]);
-        let entries = (0..band.dimension()).flat_map(|row| {
-            let band = &band;
-            band.columns(row).map(move |column| (row, column, band.get(row, column)))
-        });
-        let stiffness = Triplets { entries: entries.filter(|entry| entry.2 != 0.0).collect() };
-        let basis = Elimination::holding(2 * sector.free_node_count(), []);
-        let state =
-            FullSliding::new(&stiffness, basis, &points)?.state(contact.interference, law)?;
+        let stiffness = SectorMatrix::alike_in_all(&[elastic]);
+        let (free, dofs) = (2 * sector.free_node_count(), 2 * sector.node_count());
+        let basis = Elimination::holding(dofs, free..dofs);
+        let full = FullSliding::new(&stiffness, basis, &points)?;
+        let state = full.state(&vec![0.0; dofs], contact.interference, law)?;
         let step = 180.0 / sector.sector_count() as f64;
         let place = |i: usize| {
             let node = sector.contact_start + i;

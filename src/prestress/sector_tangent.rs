@@ -72,10 +72,8 @@ impl Edge<'_> {
             let drags = self.slip(node).map(|(dof, along)| (dof, self.base.friction.drag * along));
             (2 * node, drags.collect())
         });
-        let place = |node: usize| {
-            let both = std::iter::once(node).chain(self.sector.opposite(node));
-            both.flat_map(|node| [2 * node, 2 * node + 1]).collect()
-        };
+        let both = |node: usize| std::iter::once(node).chain(self.sector.opposite(node));
+        let place = |node| both(node).flat_map(|node| [2 * node, 2 * node + 1]).collect();
         let pairs = nodes.clone().filter_map(|n| Some([2 * n, 2 * self.sector.opposite(n)?]));
         WaveContact {
             normal: 0,
@@ -83,7 +81,7 @@ impl Edge<'_> {
             is_pressed: vec![true; nodes.len()],
             pairs: pairs.collect(),
             rigid: rigid.collect(),
-            pressed_nodes: nodes.collect(),
+            pressed_nodes: nodes.flat_map(both).collect(),
         }
     }
 

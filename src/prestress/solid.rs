@@ -1,6 +1,6 @@
 //! Steady sliding of a body of revolution in three dimensions, from one sector.
 
-use super::pressing::{System, along_element, press_on_springs, press_rigidly, pressed_span};
+use super::pressing::{along_element, press_on_springs, press_rigidly, pressed_span};
 use super::{PrestressError, supports};
 use crate::contact::{NormalLaw, SlidingContact, SteadyFriction};
 use crate::fem::fold::SectorMatrix;
@@ -55,10 +55,14 @@ impl SolidSliding {
         law: Option<NormalLaw>,
     ) -> Result<Self, PrestressError> {
         let [springs, _] = supports(sector);
-        let system = System::new(sector, &[elastic, &springs]);
+        let stiffness = SectorMatrix::alike_in_all(&[elastic, &springs]);
+        let sliding_direction = contact.sliding_direction();
+        let friction = |radius: f64| {
+            contact.steady_friction(sliding_direction, contact.rotation_speed.abs() * radius)
+        };
         let pressing = match law {
-            None => press_rigidly(sector, &system, contact)?,
-            Some(law) => press_on_springs(sector, &[elastic, &springs], contact, law)?,
+            None => press_rigidly(sector, &stiffness, contact, &friction)?,
+            Some(law) => press_on_springs(sector, &stiffness, (contact, law), &friction)?,
         };
         if !pressing.is_pressed.contains(&true) {
             let distances = pressing.approaches.iter().map(|approach| -approach);
@@ -68,15 +72,8 @@ impl SolidSliding {
                 interference: contact.interference,
             });
         }
-        let sliding_direction = contact.sliding_direction();
-        let mut drag = vec![0.0; system.dofs];
-        for (node, force) in &pressing.normal_forces {
-            let speed = contact.rotation_speed.abs() * sector.nodes[*node].radius;
-            let friction = contact.steady_friction(sliding_direction, speed);
-            drag[3 * node + 1] = friction.drag * force;
-        }
         Ok(Self {
-            sheared_displacement: system.torsion(&drag, &vec![None; system.dofs])?,
+            sheared_displacement: pressing.sheared,
             pressed_displacement: pressing.displacement,
             normal_forces: pressing.normal_forces,
             is_pressed: pressing.is_pressed,

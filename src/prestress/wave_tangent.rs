@@ -4,7 +4,6 @@ mod losses;
 
 use super::wave_terms::WaveTerms;
 use super::{DampingModel, FrictionPolynomial, HarmonicTangent, TangentOptions, WaveSector};
-use crate::contact::ContactStiffness;
 use crate::fem::fold::{MirrorParity, SectorMatrix, WaveDofs};
 use crate::fem::{DofMap, MassKind, MaterialField, RayleighDamping};
 use crate::linalg::banded::BandedMatrix;
@@ -76,13 +75,7 @@ impl WaveTangent {
         mass: MassKind,
         damping: RayleighDamping,
     ) -> Self {
-        let options = TangentOptions {
-            mass,
-            geometric_stiffness: false,
-            damping,
-            damping_model: DampingModel::WholeTangent,
-            contact: ContactStiffness::default(),
-        };
+        let options = TangentOptions::of_free(mass, damping);
         let terms = WaveTerms::of(sector, material, (mass, damping));
         Self::new(sector, (terms, WaveContact::default()), &options, 1.0)
     }

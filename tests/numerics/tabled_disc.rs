@@ -1,6 +1,7 @@
 //! The built-in disc and its shaft with moduli over frequency, by case.
 
 use crate::prelude::*;
+use crate::structural_damping::largest_error;
 
 /// A lining whose modulus and losses rise over the modes of a disc.
 const LINING: &str = "\
@@ -12,6 +13,10 @@ frequency_hz,young_modulus,loss_factor
 ";
 
 fn disc_of(material: &str, sections: &str) -> Case {
+    disc_with(material, sections, &[])
+}
+
+fn disc_with(material: &str, sections: &str, set: &[&str]) -> Case {
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("lining.csv"), LINING).unwrap();
     let flat = "frequency_hz,young_modulus,loss_factor\n0,3e9,0.1\n50000,3e9,0.1\n";
@@ -23,7 +28,7 @@ fn disc_of(material: &str, sections: &str) -> Case {
 [cea]\nmax_frequency_hz = 12000.0\n\
      friction_coefficients = {{ from = 0.0, to = 0.6, count = 7 }}\ngeometric_stiffness = false\n"
     );
-    case_of(folder.path().join("disc.toml"), &text, AS_IT_IS)
+    case_of(folder.path().join("disc.toml"), &text, set)
 }
 
 const GRID: &str = "[mesh]\ncircumferential_elements = 24\nradial_elements = 4\n";
@@ -69,5 +74,54 @@ fn a_flat_table_of_a_shaft_is_its_material() {
     assert_eq!(constant.len(), tabled.len());
     for (a, b) in constant.iter().zip(&tabled) {
         assert!((a - b).norm() < 1e-8 * a.norm(), "{a} {b}");
+    }
+}
+
+/// Independent: losses of disc, shaft, springs of the contact and support, and a modulus over frequency, harmonic by harmonic and
+/// on the whole mesh.
+#[test]
+fn losses_of_an_annulus_by_harmonics_are_those_of_its_whole_mesh() {
+    let lossy = "young_modulus = 2.5e9\nloss_factor = 0.02";
+    let shaft = GRID.replace("radial", "shaft_radial_elements = 2\nradial");
+    let shaft = format!(
+        "shaft_inner_radius = 0.006\n{shaft}[materials.shaft]\nyoung_modulus = 7e10\nloss_factor = 0.05\n\
+         poisson_ratio = 0.3\ndensity = 2700.0\n"
+    );
+    let support = "[boundaries.outer]\ncondition = \"support\"\nnormal_stiffness = 1e12\n\
+         tangential_stiffness = 1e12\nloss_factor = 0.1\n";
+    let springs = ["contact.normal_stiffness=1e13", "contact.loss_factor=0.1"];
+    for (name, material, sections, sets) in [
+        ("disc", lossy, GRID.to_owned(), &[][..]),
+        ("shaft", lossy, shaft, &[][..]),
+        ("springs", "young_modulus = 2.5e9", format!("{GRID}{support}"), &springs[..]),
+        ("table", "table = \"lining.csv\"", GRID.to_owned(), &[][..]),
+    ] {
+        let [waves, whole] = ["cyclic", "sparse"].map(|method| {
+            let own = format!("cea.method={method}");
+            let set = [sets, &["cea.geometric_stiffness=true", &own]].concat();
+            let case = disc_with(material, &sections, &set);
+            modes_and_onsets(&case).unwrap()
+        });
+        for (a, b) in waves.points.iter().zip(&whole.points) {
+            let [a, b] = [a, b].map(|point| {
+                let eigenvalues = point.modes.iter().map(|mode| mode.eigenvalue);
+                eigenvalues.collect::<Vec<c64>>()
+            });
+            let error = largest_error(&a, &b).max(largest_error(&b, &a));
+            println!("{name}: {error:e} of {} modes", a.len());
+            assert!(a.len() == b.len() && error < 1e-9, "{name}: {error:e}");
+        }
+        let directions = |point: &frictionsim::cea::FrictionPoint| {
+            point.modes.iter().any(|mode| mode.direction == 1)
+        };
+        assert!(waves.points.iter().skip(1).all(directions), "{name}");
+        let onsets = [&waves, &whole].map(|found| {
+            let own = found.intervals.iter().filter(|own| !own.unstable_from_start);
+            own.map(|own| own.critical_friction).collect::<Vec<f64>>()
+        });
+        assert_eq!(onsets[0].len(), onsets[1].len(), "{name}: {onsets:?}");
+        for (a, b) in onsets[0].iter().zip(&onsets[1]) {
+            assert!((a - b).abs() < 1e-7, "{name}: {a} {b}");
+        }
     }
 }

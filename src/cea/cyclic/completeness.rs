@@ -22,6 +22,7 @@ const SLOWEST: f64 = 0.02;
 const EDGE_POINTS: usize = 8;
 
 /// What is known about the harmonics that were not followed.
+#[derive(Default)]
 pub(super) struct Verdict {
     /// Proven empty for every friction coefficient of the range.
     pub proven: Vec<usize>,

@@ -1,7 +1,7 @@
 //! Proof that a harmonic holds no eigenvalue in a region, for a whole range of friction at once.
 
 use super::vectors::ZERO;
-use crate::linalg::banded::{BandedHermitian, BandedLdl, BandedMatrix};
+use crate::linalg::banded::{BandedFactor, BandedHermitian, BandedMatrix};
 use crate::linalg::c64;
 use crate::prestress::HarmonicTangent;
 
@@ -62,7 +62,7 @@ struct TestSpace<'a> {
 
 impl<'a> TestSpace<'a> {
     fn new(tangent: &'a HarmonicTangent, tangential: &'a [usize], center: f64) -> Option<Self> {
-        let rest = BandedLdl::new(&tangent.stiffness[0], &tangent.mass[0], center);
+        let rest = BandedFactor::new(&tangent.stiffness[0], &tangent.mass[0], center);
         if rest.negative_count() > 0 {
             return None;
         }

@@ -1,26 +1,40 @@
-//! The eigenvalues of a rotationally symmetric annulus, harmonic by harmonic.
+//! The eigenvalues of a body of equal sectors, harmonic by harmonic: of a plane annulus, and of a body of revolution in three
+//! dimensions.
 //!
-//! In steady sliding all sectors of a uniform annulus are alike. So each circumferential harmonic
-//! `n` is a small banded problem of its own (see [`crate::prestress::WaveTangent`]). Without
-//! friction the problems are real and symmetric, and inertia counts their modes: none is missed.
-//! Then each mode is followed continuously over the friction coefficient by two-sided Rayleigh
-//! quotient iteration.
+//! In steady sliding all sectors are alike. So each circumferential harmonic `n` is a problem of its own (see
+//! [`crate::prestress::WaveTangent`]). Without friction the problems are real and symmetric, and inertia counts their modes:
+//! none is missed. Then each mode is followed continuously over the friction coefficient by two-sided Rayleigh quotient
+//! iteration.
+//!
+//! A harmonic of the plane annulus has a narrow band and is followed as it stands (`proven`). One in three dimensions has some
+//! thousand unknowns, too many to factorize for every mode at every friction coefficient, while friction acts on the few nodes
+//! of the contact. So it is first reduced to its modes at rest and to what forces and motions of the contact cause (`reduced`).
+//! Structural damping goes that way in the plane, too: its eigenvalues are those of the small space, refined over all unknowns.
+//! Where friction damps the motion across the sliding strongly, all eigenvalues of the small space are counted at every friction
+//! coefficient (`damped`).
 
+mod across;
 mod branch;
 mod collision;
 mod completeness;
+mod damped;
 mod definite;
 mod follow;
 mod modes;
+mod modes_below;
 mod path;
 mod paths;
+mod pencil;
 mod problem;
-mod rest;
+mod proven;
+mod reduced;
+mod reduction;
+mod reduction_error;
+mod refined;
 mod sensitivity;
-mod solid;
 mod sweep;
 mod vectors;
 
+pub use proven::onsets;
 pub use sensitivity::{Beside, WavePair, wave_pairs, wave_responses};
-pub use solid::{SolidModel, solid_sweep, solid_sweep_with_waves};
-pub use sweep::{Coverage, Overdamped, WaveSweep, onsets, sweep, sweep_with_waves};
+pub use sweep::{Coverage, Overdamped, SolidModel, WaveSweep, solid_sweep, sweep, wave_sweep};

@@ -3,42 +3,33 @@
 use super::branch::{direction_of, eigenvalue_of, waves_of};
 use super::path::{Path, Waves};
 use super::paths::HarmonicPaths;
-use super::problem::HarmonicProblem;
-use crate::cea::{ComplexMode, FrictionPoint, ModeLimit, ModeWave, SweepRequest, keeping_ties};
+use super::sweep::Wanted;
+use crate::cea::{ComplexMode, FrictionPoint, ModeLimit, ModeWave, keeping_ties};
 use crate::linalg::c64;
 use crate::prestress::WaveTangent;
 use std::f64::consts::{PI, TAU};
 
-/// Displacement of all nodes of a wave of a harmonic from its unknowns.
-pub(super) type Expand<'a> = dyn Fn(usize, Waves, &[c64]) -> Vec<c64> + Sync + 'a;
-
-/// All unknowns of a harmonic from those that it is solved in.
-pub(super) type Unknowns<'a> = dyn Fn(usize, &[c64]) -> Vec<c64> + Sync + 'a;
-
-/// What turns paths into modes.
-pub(super) struct ShapeProducer<'a> {
-    /// Sense of the friction force.
-    pub sliding_direction: f64,
-    /// Displacement of all nodes of a wave of a harmonic.
-    pub expand: &'a Expand<'a>,
-    /// Friction coefficients at which the waves of one sector are wanted.
-    pub waves_at: &'a [f64],
-    /// All unknowns of a harmonic from those that it is solved in.
-    pub unknowns: &'a Unknowns<'a>,
+/// The modes wanted at every friction value that is asked for.
+pub(super) fn points(
+    tangent: &WaveTangent,
+    followed: &[HarmonicPaths],
+    wanted: &Wanted<'_>,
+) -> Vec<FrictionPoint> {
+    let frictions = wanted.request.friction_coefficients.iter();
+    frictions.map(|&friction| point(tangent, followed, friction, wanted)).collect()
 }
 
-/// The modes wanted at one friction value.
-pub(super) fn point(
-    producer: &ShapeProducer<'_>,
+fn point(
+    tangent: &WaveTangent,
     followed: &[HarmonicPaths],
     friction: f64,
-    request: &SweepRequest<'_>,
+    wanted: &Wanted<'_>,
 ) -> FrictionPoint {
     let mut modes = Vec::new();
     for paths in followed {
         for path in &paths.paths {
             for &waves in waves_of(path.waves) {
-                modes.extend(mode(producer, &paths.problem, path, waves, friction, request));
+                modes.extend(mode(tangent, (paths, path), waves, friction, wanted));
             }
         }
     }
@@ -47,7 +38,7 @@ pub(super) fn point(
         let by_frequency = a.eigenvalue.im.total_cmp(&b.eigenvalue.im);
         by_frequency.then_with(|| key(a).cmp(&key(b)))
     });
-    if let ModeLimit::Lowest(count) = request.limit {
+    if let ModeLimit::Lowest(count) = wanted.request.limit {
         modes.truncate(keeping_ties(modes.iter().map(|mode| mode.eigenvalue.im), count));
     }
     FrictionPoint { friction_coefficient: friction, modes, above: Vec::new() }
@@ -55,13 +46,14 @@ pub(super) fn point(
 
 /// One wave of a path at one friction value, if it oscillates below the limit.
 fn mode(
-    producer: &ShapeProducer<'_>,
-    problem: &HarmonicProblem,
-    path: &Path,
+    tangent: &WaveTangent,
+    (paths, path): (&HarmonicPaths, &Path),
     waves: Waves,
     friction: f64,
-    request: &SweepRequest<'_>,
+    Wanted { request, waves_at, .. }: &Wanted<'_>,
 ) -> Option<ComplexMode> {
+    let problem = &paths.problem;
+    let harmonic = problem.tangent.harmonic;
     let found = path.points.binary_search_by(|p| p.parameter.total_cmp(&friction)).ok()?;
     let pair = &path.points[found];
     let (eigenvalue, _) = eigenvalue_of(problem, waves, pair.theta);
@@ -73,23 +65,23 @@ fn mode(
     if eigenvalue.im <= 0.0 || problem.is_ending(pair.theta) {
         return None;
     }
-    let direction = direction_of(problem, waves, producer.sliding_direction);
+    let direction = direction_of(problem, waves, tangent.sliding_direction);
     let wants_shape = request.shapes_at.contains(&friction);
-    let wants_wave = producer.waves_at.contains(&friction);
+    let wants_wave = waves_at.contains(&friction);
     Some(ComplexMode {
         eigenvalue,
-        harmonic: problem.tangent.harmonic,
+        harmonic,
         branch: path.branch,
         direction: if friction == 0.0 { 0 } else { direction },
         residual: pair.residual,
         uncertainty: pair.uncertainty,
         contact_share: pair.contact_share,
-        axial_share: Some(pair.axial_share).filter(|share| !share.is_nan()),
-        shape: wants_shape.then(|| (producer.expand)(problem.tangent.harmonic, waves, &pair.x)),
+        axial_share: Some(pair.axial_share).filter(|_| tangent.components == 3),
+        shape: wants_shape.then(|| expand(tangent, harmonic, waves, &paths.unknowns(&pair.x))),
         left: None,
         nodal_diameters: None,
         wave: wants_wave.then(|| ModeWave {
-            unknowns: (producer.unknowns)(problem.tangent.harmonic, &pair.x),
+            unknowns: paths.unknowns(&pair.x),
             is_backward: waves == Waves::Backward,
         }),
     })
@@ -97,7 +89,7 @@ fn mode(
 
 /// Displacement of all nodes in nodal frames, `U e^{i n theta}`, of `U = (u_r, -i u_theta, ...)` over the nodes of a sector:
 /// largest nodal `|u|` one and real in its largest component.
-pub(super) fn expand(tangent: &WaveTangent, harmonic: usize, waves: Waves, x: &[c64]) -> Vec<c64> {
+fn expand(tangent: &WaveTangent, harmonic: usize, waves: Waves, x: &[c64]) -> Vec<c64> {
     let is_backward = waves == Waves::Backward;
     let (components, sectors) = (tangent.components, tangent.sector_count());
     let mut wave = tangent.displacement(x);

@@ -1,10 +1,11 @@
 //! All branches of one harmonic, followed together over the friction coefficient.
 
+use super::collision;
 use super::follow::{Follower, StepControl};
 use super::path::{Eigenpair, Path, Waves};
 use super::problem::{HarmonicProblem, Matrices};
-use super::vectors::dot;
-use super::{collision, rest};
+use super::reduction::Reduction;
+use super::vectors::{dot, normalize};
 use crate::cea::CeaError;
 use crate::linalg::c64;
 use std::rc::Rc;
@@ -14,9 +15,16 @@ pub(super) struct HarmonicPaths {
     pub problem: HarmonicProblem,
     pub paths: Vec<Path>,
     pub factorizations: usize,
+    /// The small space of their vectors; `None` where they are over all unknowns.
+    pub space: Option<Reduction>,
 }
 
 impl HarmonicPaths {
+    /// A vector of a path over all unknowns.
+    pub fn unknowns(&self, x: &[c64]) -> Vec<c64> {
+        self.space.as_ref().map_or_else(|| x.to_vec(), |space| space.expand(x))
+    }
+
     /// Whether every path oscillates up to the largest friction coefficient.
     pub fn are_whole(&self) -> bool {
         let ends = self.paths.iter().filter_map(|path| path.points.last());
@@ -24,29 +32,7 @@ impl HarmonicPaths {
     }
 }
 
-/// Follows every branch with `kappa < limit` at rest through the rising friction values `grid`.
-///
-/// Points of `kept` keep their vectors.
-pub(super) fn follow_harmonic(
-    problem: HarmonicProblem,
-    limit: f64,
-    grid: &[f64],
-    kept: &[f64],
-) -> Result<HarmonicPaths, CeaError> {
-    let (mass, stiffness) = problem.at_rest();
-    let pairs = rest::eigenpairs_below(mass, stiffness, limit);
-    let count = rest::count_below(mass, stiffness, limit);
-    if pairs.len() != count {
-        return Err(CeaError::Incomplete {
-            harmonic: problem.tangent.harmonic,
-            counted: count,
-            found: pairs.len(),
-        });
-    }
-    follow_pairs(problem, &pairs, grid, kept)
-}
-
-/// Follows the branches with these `(kappa, x)` at rest.
+/// Follows the branches with these `(kappa, x)` at rest through the rising friction values `grid`; points of `kept` keep their vectors.
 pub(super) fn follow_pairs(
     problem: HarmonicProblem,
     pairs: &[(f64, Vec<f64>)],
@@ -57,7 +43,7 @@ pub(super) fn follow_pairs(
     let paths = follow_all(&mut follower, pairs, grid, kept, StepControl::NORMAL)
         .or_else(|_| follow_all(&mut follower, pairs, grid, kept, StepControl::FINE))?;
     let factorizations = follower.factorizations;
-    Ok(HarmonicPaths { paths, problem, factorizations })
+    Ok(HarmonicPaths { paths, problem, factorizations, space: None })
 }
 
 fn follow_all(
@@ -157,7 +143,8 @@ pub(super) fn start(
     shape: &[f64],
 ) -> Option<Vec<Path>> {
     let problem = follower.problem;
-    let x: Vec<c64> = shape.iter().map(|v| c64::new(*v, 0.0)).collect();
+    let mut x: Vec<c64> = shape.iter().map(|v| c64::new(*v, 0.0)).collect();
+    normalize(&mut x);
     let path = |waves: Waves, point: Eigenpair| Path {
         branch,
         rest: Some(c64::new(kappa, 0.0)),

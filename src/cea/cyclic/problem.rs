@@ -6,8 +6,7 @@ use crate::cea::counted::STANDSTILL;
 use crate::fem::own_frequency_step;
 use crate::linalg::banded::{BandedLu, BandedMatrix};
 use crate::linalg::{Mat, c64};
-use crate::prestress::{FrictionPolynomial, HarmonicTangent, LossGain, evaluate};
-use std::borrow::Cow;
+use crate::prestress::{FrictionPolynomial, HarmonicTangent, MovingHarmonic, evaluate};
 
 pub(super) const I: c64 = c64::new(0.0, 1.0);
 
@@ -28,40 +27,20 @@ pub(super) struct HarmonicProblem {
 /// The matrices at one friction value and their derivatives with respect to it, as bands of values.
 #[derive(Clone)]
 pub(super) struct Matrices {
-    mass: Vec<c64>,
-    stiffness: Vec<c64>,
-    damping: Option<Vec<c64>>,
-    mass_rate: Option<Vec<c64>>,
-    stiffness_rate: Option<Vec<c64>>,
-    damping_rate: Option<Vec<c64>>,
-    losses: Vec<Loss>,
+    now: MovingHarmonic,
+    /// Of `M`, `C`, `K`, and of each loss.
+    rates: [Option<Vec<c64>>; 3],
+    loss_rates: Vec<Option<Vec<c64>>>,
     /// Largest row sums of `M`, `C`, `K`.
     norms: [f64; 3],
 }
 
-/// Stiffness that is multiplied by what the eigenvalue says.
-#[derive(Clone)]
-struct Loss {
-    gain: LossGain,
-    values: Vec<c64>,
-    rate: Option<Vec<c64>>,
-}
-
 impl Matrices {
-    /// `K` that an eigenvalue sees, losses included.
-    fn stiffness_at(&self, theta: c64) -> Cow<'_, [c64]> {
-        let mut sum = Cow::Borrowed(&self.stiffness[..]);
-        for loss in &self.losses {
-            let factor = loss.gain.at(theta);
-            sum.to_mut().iter_mut().zip(&loss.values).for_each(|(sum, own)| *sum += factor * own);
-        }
-        sum
-    }
-
     /// The same with the stiffness of one place, whatever the eigenvalue.
     pub fn frozen(&self, theta: c64) -> Self {
-        let stiffness = self.stiffness_at(theta).into_owned();
-        Self { stiffness, losses: Vec::new(), ..self.clone() }
+        let stiffness = self.now.stiffness_at(theta).into_owned();
+        let now = MovingHarmonic { stiffness, losses: Vec::new(), ..self.now.clone() };
+        Self { now, loss_rates: Vec::new(), ..self.clone() }
     }
 }
 
@@ -79,48 +58,24 @@ impl HarmonicProblem {
         self.tangent.damping.is_none()
     }
 
-    /// `M` and `K` without friction, real symmetric.
-    pub fn at_rest(&self) -> (&BandedMatrix, &BandedMatrix) {
-        (&self.tangent.mass[0], &self.tangent.stiffness[0])
-    }
-
     /// Matrices at friction coefficient `mu`.
     pub fn at(&self, mu: f64) -> Matrices {
-        let z = c64::new(0.0, mu);
-        let mass = evaluate(&self.tangent.mass, z);
-        let stiffness = evaluate(&self.tangent.stiffness, z);
-        let mut damping = self.tangent.damping.as_ref().map(|c| evaluate(c, z));
-        let mut damping_rate = self.tangent.damping.as_ref().and_then(|c| rate(c, z));
-        if let (Some(dashpots), Some(damping)) = (&self.tangent.friction_dashpots, &mut damping) {
-            let rate = damping_rate.get_or_insert_with(|| vec![ZERO; damping.len()]);
-            // `mu P(i mu)`: a term of power p is one of degree p + 1 in mu.
-            let mut power = c64::new(1.0, 0.0);
-            for (p, dashpots) in dashpots.iter().enumerate() {
-                let (share, slope) = (power * mu, power * (p + 1) as f64);
-                let values = dashpots.values();
-                for ((c, rate), value) in damping.iter_mut().zip(rate.iter_mut()).zip(values) {
-                    *c += share * *value;
-                    *rate += slope * *value;
-                }
-                power *= z;
+        let (z, own) = (c64::new(0.0, mu), &self.tangent);
+        let now = own.at(mu);
+        let mut damping_rate = own.damping.as_ref().and_then(|c| rate(c, z));
+        if let Some(dashpots) = &own.friction_dashpots {
+            // Of `mu P`: `P + mu P'`.
+            let sum = damping_rate.get_or_insert_with(|| vec![ZERO; now.damping.len()]);
+            add(sum, &evaluate(dashpots, z));
+            for (sum, slope) in sum.iter_mut().zip(rate(dashpots, z).iter().flatten()) {
+                *sum += slope * mu;
             }
         }
-        let losses = self.tangent.losses.iter().map(|(gain, own)| Loss {
-            gain: gain.clone(),
-            values: evaluate(own, z),
-            rate: rate(own, z),
-        });
-        let losses = losses.collect();
-        let norms = self.norms(&mass, damping.as_deref(), &stiffness);
         Matrices {
-            mass,
-            stiffness,
-            damping,
-            mass_rate: rate(&self.tangent.mass, z),
-            stiffness_rate: rate(&self.tangent.stiffness, z),
-            damping_rate,
-            losses,
-            norms,
+            rates: [rate(&own.mass, z), damping_rate, rate(&own.stiffness, z)],
+            loss_rates: own.losses.iter().map(|(_, own)| rate(own, z)).collect(),
+            norms: self.norms(&now),
+            now,
         }
     }
 
@@ -133,29 +88,31 @@ impl HarmonicProblem {
     /// with respect to `damped`.
     pub fn at_damping(&self, damped: f64) -> Matrices {
         let mut matrices = self.at(0.0);
-        matrices.mass_rate = None;
-        matrices.stiffness_rate = None;
-        matrices.damping_rate.clone_from(&matrices.damping);
-        if let Some(damping) = &mut matrices.damping {
-            damping.iter_mut().for_each(|value| *value *= damped);
-        }
-        for loss in &mut matrices.losses {
-            loss.rate = Some(loss.values.clone());
-            loss.values.iter_mut().for_each(|value| *value *= damped);
+        let scale = |own: &mut [c64]| own.iter_mut().for_each(|value| *value *= damped);
+        matrices.rates = [None, Some(matrices.now.damping.clone()), None];
+        scale(&mut matrices.now.damping);
+        for ((_, own), rate) in matrices.now.losses.iter_mut().zip(&mut matrices.loss_rates) {
+            *rate = Some(own.clone());
+            scale(own);
         }
         matrices
     }
 
-    fn norms(&self, mass: &[c64], damping: Option<&[c64]>, stiffness: &[c64]) -> [f64; 3] {
+    fn norms(&self, now: &MovingHarmonic) -> [f64; 3] {
         let norm = |values: &[c64]| {
             let rows = values.chunks_exact(2 * self.half_bandwidth + 1);
             let sums = rows.map(|row| row.iter().map(|v| v.re.abs() + v.im.abs()).sum::<f64>());
             sums.fold(0.0, f64::max)
         };
-        let (m, k) = (norm(mass), norm(stiffness));
+        let (m, k) = (norm(&now.mass), norm(&now.stiffness));
         let proportional = self.tangent.rayleigh.mass_coefficient.abs() * m
             + self.tangent.rayleigh.stiffness_coefficient.abs() * k;
-        [m, damping.map_or(proportional, norm), k]
+        [m, if self.is_proportional() { proportional } else { norm(&now.damping) }, k]
+    }
+
+    /// `C` where `kappa` does not stand for it.
+    fn damping<'a>(&self, at: &'a Matrices) -> Option<&'a [c64]> {
+        (!self.is_proportional()).then_some(&at.now.damping[..])
     }
 
     /// `(a, b)` and their derivatives at `theta`.
@@ -171,8 +128,8 @@ impl HarmonicProblem {
     pub fn assemble(&self, at: &Matrices, theta: c64, values: &mut Vec<c64>) {
         let [a, b, _, _] = self.factors(theta);
         values.clear();
-        values.extend(at.stiffness_at(theta).iter().zip(&at.mass).map(|(k, m)| k + a * m));
-        if let Some(damping) = &at.damping {
+        values.extend(at.now.stiffness_at(theta).iter().zip(&at.now.mass).map(|(k, m)| k + a * m));
+        if let Some(damping) = self.damping(at) {
             for (value, c) in values.iter_mut().zip(damping) {
                 *value += b * c;
             }
@@ -182,8 +139,8 @@ impl HarmonicProblem {
     /// `T'(theta) x` or its adjoint.
     pub fn apply_slope(&self, at: &Matrices, theta: c64, x: &[c64], adjoint: bool) -> Vec<c64> {
         let [_, _, a, b] = self.factors(theta);
-        let mut result = self.multiply(&at.mass, a, x, adjoint);
-        if let Some(damping) = &at.damping {
+        let mut result = self.multiply(&at.now.mass, a, x, adjoint);
+        if let Some(damping) = self.damping(at) {
             add(&mut result, &self.multiply(damping, b, x, adjoint));
         }
         result
@@ -194,8 +151,8 @@ impl HarmonicProblem {
     pub fn rayleigh_quotient(&self, at: &Matrices, theta: c64, x: &[c64], y: &[c64]) -> (c64, c64) {
         let one = c64::new(1.0, 0.0);
         let form = |values: &[c64]| dot(y, &self.multiply(values, one, x, false));
-        let (m, k) = (form(&at.mass), form(&at.stiffness_at(theta)));
-        let Some(damping) = &at.damping else {
+        let (m, k) = (form(&at.now.mass), form(&at.now.stiffness_at(theta)));
+        let Some(damping) = self.damping(at) else {
             return (k / m, -m);
         };
         let c = form(damping);
@@ -218,7 +175,7 @@ impl HarmonicProblem {
         [x, y]: [&[c64]; 2],
         (step, slope): (c64, c64),
     ) -> Option<c64> {
-        let tabled = at.losses.iter().map(|own| (own.gain.slope(theta), &own.values));
+        let tabled = at.now.losses.iter().map(|(gain, own)| (gain.slope(theta), own));
         let tabled = tabled.filter(|(rate, _)| *rate != ZERO);
         let own = tabled.map(|(rate, values)| dot(y, &self.multiply(values, rate, x, false)));
         let own = own.reduce(|sum, own| sum + own)?;
@@ -229,10 +186,10 @@ impl HarmonicProblem {
     pub fn rate_of(&self, at: &Matrices, theta: c64, x: &[c64], y: &[c64], slope: c64) -> c64 {
         let [a, b, _, _] = self.factors(theta);
         let one = c64::new(1.0, 0.0);
-        let terms = [(a, &at.mass_rate), (b, &at.damping_rate), (one, &at.stiffness_rate)];
-        let losses = at.losses.iter().map(|loss| (loss.gain.at(theta), &loss.rate));
+        let terms = [a, b, one].into_iter().zip(&at.rates);
+        let gains = at.now.losses.iter().map(|(gain, _)| gain.at(theta));
+        let losses = gains.zip(&at.loss_rates);
         let change: c64 = terms
-            .into_iter()
             .chain(losses)
             .filter_map(|(factor, values)| values.as_ref().map(|v| (factor, v)))
             .map(|(factor, values)| dot(y, &self.multiply(values, factor, x, false)))
@@ -244,9 +201,9 @@ impl HarmonicProblem {
     /// `T(theta) x`.
     pub fn apply(&self, at: &Matrices, theta: c64, x: &[c64]) -> Vec<c64> {
         let [a, b, _, _] = self.factors(theta);
-        let mut force = self.multiply(&at.stiffness_at(theta), c64::new(1.0, 0.0), x, false);
-        add(&mut force, &self.multiply(&at.mass, a, x, false));
-        if let Some(damping) = &at.damping {
+        let mut force = self.multiply(&at.now.stiffness_at(theta), c64::new(1.0, 0.0), x, false);
+        add(&mut force, &self.multiply(&at.now.mass, a, x, false));
+        if let Some(damping) = self.damping(at) {
             add(&mut force, &self.multiply(damping, b, x, false));
         }
         force
@@ -288,7 +245,7 @@ impl HarmonicProblem {
     /// Largest row sum of `C`; in three dimensions each column counts as much as the vector has of it: the motion across the sliding
     /// is small where its dashpot is strong.
     fn damping_norm(&self, at: &Matrices, x: &[c64]) -> f64 {
-        let Some(damping) = at.damping.as_ref().filter(|_| self.is_reduced()) else {
+        let Some(damping) = self.damping(at).filter(|_| self.is_reduced()) else {
             return at.norms[1];
         };
         let h = self.half_bandwidth;
@@ -319,8 +276,8 @@ impl HarmonicProblem {
                 false => ZERO,
             })
         };
-        let none = vec![ZERO; at.mass.len()];
-        [full(&at.mass), full(at.damping.as_deref().unwrap_or(&none)), full(&at.stiffness)]
+        let none = vec![ZERO; at.now.mass.len()];
+        [full(&at.now.mass), full(self.damping(at).unwrap_or(&none)), full(&at.now.stiffness)]
     }
 
     /// Kinetic energy of the contact edge's nodes over the whole, see [`crate::cea::ComplexMode`].

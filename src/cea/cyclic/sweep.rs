@@ -1,20 +1,19 @@
 //! A sweep over the friction coefficient.
 
 use super::branch::branches_of;
-use super::completeness::{self, Verdict};
-use super::modes::{ShapeProducer, expand, point};
-use super::paths::{HarmonicPaths, follow_harmonic};
-use super::problem::HarmonicProblem;
-use super::rest;
-use crate::cea::{
-    CeaError, ComplexMode, FrictionPoint, FrictionSweep, ModeBranch, ModeLimit, SweepRequest,
-};
+use super::completeness::Verdict;
+use super::paths::HarmonicPaths;
+use super::{proven, reduced};
+use crate::cea::{CeaError, ComplexMode, FrictionPoint, FrictionSweep, ModeBranch, SweepRequest};
 use crate::contact::SlidingContact;
-use crate::fem::MaterialField;
-use crate::mesh::{AnnulusSpecification, SectorMesh};
+use crate::fem::{ElasticMaterial, MaterialField};
+use crate::mesh::{AnnulusSpecification, SectorMesh, SolidSector, SolidSpecification};
 use crate::prestress::{TangentOptions, WaveTangent};
 use rayon::prelude::*;
 use std::f64::consts::TAU;
+
+/// Branches are followed from this much above the highest frequency wanted: friction may carry a mode down into the range.
+pub(super) const MARGIN: f64 = 1.2;
 
 /// Which harmonics were solved, and why no other can matter.
 #[derive(Clone, Debug, PartialEq)]
@@ -34,6 +33,8 @@ pub struct Coverage {
     pub margin_hz: f64,
     /// LU factorizations done.
     pub factorizations: usize,
+    /// Whether modes were counted with friction, too; else at rest alone.
+    pub is_verified: bool,
 }
 
 /// Motions that decay without oscillating, at one friction coefficient.
@@ -68,16 +69,31 @@ pub struct WaveSweep {
     pub tangent: WaveTangent,
 }
 
-/// Branches are followed from this much above the highest frequency wanted: friction may carry a mode
-/// down into the range. Raised by the same factor where that turns out to be too little.
-const MARGIN: f64 = 1.2;
+/// Everything that an analysis of a body of revolution is made from.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SolidModel<M = ElasticMaterial> {
+    /// The body and its mesh.
+    pub specification: SolidSpecification,
+    /// The material of each of its regions.
+    pub material: M,
+    /// Choices of the linearisation.
+    pub options: TangentOptions,
+    /// The rotor.
+    pub contact: SlidingContact,
+}
 
-/// How often the margin is raised.
-const MARGIN_ATTEMPTS: usize = 4;
+impl<M: MaterialField> SolidModel<M> {
+    /// The linearisation of one of its sectors.
+    ///
+    /// # Errors
+    /// A sector that cannot be built; no sliding equilibrium.
+    pub fn tangent(&self) -> Result<WaveTangent, CeaError> {
+        let sector = SolidSector::generate(&self.specification)?;
+        Ok(WaveTangent::of_revolution(&sector, &self.material, &self.options, &self.contact)?)
+    }
+}
 
-/// Eigenvalues of steady sliding over a range of friction coefficients.
-///
-/// Every branch is followed from `mu = 0` to the largest friction coefficient given.
+/// Eigenvalues of steady sliding of a plane annulus over a range of friction coefficients.
 ///
 /// # Errors
 /// [`CeaError`] where there is no sliding equilibrium, or a branch cannot be followed.
@@ -88,150 +104,102 @@ pub fn sweep(
     contact: &SlidingContact,
     request: &SweepRequest<'_>,
 ) -> Result<WaveSweep, CeaError> {
-    sweep_with_waves(specification, material, options, contact, (request, &[]))
-}
-
-/// [`sweep`] that keeps the waves of one sector at some of the friction coefficients.
-pub fn sweep_with_waves(
-    specification: &AnnulusSpecification,
-    material: &dyn MaterialField,
-    options: &TangentOptions,
-    contact: &SlidingContact,
-    (request, waves_at): (&SweepRequest<'_>, &[f64]),
-) -> Result<WaveSweep, CeaError> {
-    let grid = request.rising_grid()?;
-    request.limit.check()?;
     let sector = SectorMesh::generate(specification)?;
-    let tangent = WaveTangent::of_annulus(&sector, material, options, contact)?;
-    let mut margin = MARGIN;
-    let mut failure = None;
-    for _ in 0..MARGIN_ATTEMPTS {
-        match solve(&tangent, (request, waves_at), &grid, margin, None) {
-            Ok(found) => {
-                let checks = checks(&grid);
-                let verdict = completeness::verify(&tangent, &found.followed, found.limit, &checks);
-                let Some(harmonic) = verdict.missed else {
-                    return Ok(finish(tangent, found, verdict));
-                };
-                failure = Some(CeaError::Unproven { harmonic, margin });
-            }
-            // The branch that it meets may lie above the margin.
-            Err(error @ CeaError::LostHarmonic { .. }) => failure = Some(error),
-            Err(error) => return Err(error),
-        }
-        margin *= MARGIN;
-    }
-    Err(failure.unwrap_or(CeaError::NoFriction))
+    wave_sweep(WaveTangent::of_annulus(&sector, material, options, contact)?, request, &[])
 }
 
-/// [`sweep`] over some harmonics, without a proof that no mode is missed: for the many
-/// samples of a model for some of which [`sweep`] has said which harmonics hold modes.
-pub fn onsets(
-    specification: &AnnulusSpecification,
-    material: &dyn MaterialField,
-    options: &TangentOptions,
-    contact: &SlidingContact,
+/// [`sweep`] of a body of revolution in three dimensions.
+///
+/// # Errors
+/// As [`sweep`].
+pub fn solid_sweep<M: MaterialField>(
+    model: &SolidModel<M>,
     request: &SweepRequest<'_>,
-    harmonics: &[usize],
-) -> Result<FrictionSweep, CeaError> {
-    let grid = request.rising_grid()?;
-    request.limit.check()?;
-    let sector = SectorMesh::generate(specification)?;
-    let tangent = WaveTangent::of_annulus(&sector, material, options, contact)?;
-    let found = solve(&tangent, (request, &[]), &grid, MARGIN, Some(harmonics))?;
-    let unproven = Verdict { proven: Vec::new(), counted: Vec::new(), missed: None };
-    Ok(finish(tangent, found, unproven).sweep)
+) -> Result<WaveSweep, CeaError> {
+    wave_sweep(model.tangent()?, request, &[])
 }
 
-/// Friction values, out of a rising grid, at which modes are counted: the quarters of the range.
-fn checks(grid: &[f64]) -> Vec<f64> {
-    let last = grid.len() - 1;
-    let mut places: Vec<usize> = (1..=4).map(|quarter| last * quarter / 4).collect();
-    places.dedup();
-    places.into_iter().map(|place| grid[place]).collect()
+/// Eigenvalues of small motions over a range of friction coefficients, with the waves of one sector at those of `waves_at`.
+///
+/// Every branch is followed from `mu = 0` to the largest friction coefficient given. Without friction the modes are complete by
+/// inertia counts; of a plane body of viscous damping it is proven, too, that friction brings no others.
+///
+/// # Errors
+/// [`CeaError`] where a branch cannot be followed.
+pub fn wave_sweep(
+    tangent: WaveTangent,
+    request: &SweepRequest<'_>,
+    waves_at: &[f64],
+) -> Result<WaveSweep, CeaError> {
+    let wanted = Wanted { request, waves_at, grid: &request.rising_grid()? };
+    request.limit.check()?;
+    match proven::applies(&tangent) {
+        true => proven::solve(tangent, &wanted),
+        false => reduced::solve(tangent, &wanted),
+    }
+}
+
+/// What is asked for.
+pub(super) struct Wanted<'a> {
+    pub request: &'a SweepRequest<'a>,
+    /// Friction coefficients at which the waves of one sector are kept.
+    pub waves_at: &'a [f64],
+    /// All friction coefficients, rising.
+    pub grid: &'a [f64],
+}
+
+impl Wanted<'_> {
+    /// Friction coefficients at which vectors are kept.
+    pub fn kept(&self) -> Vec<f64> {
+        [self.request.shapes_at, self.waves_at].concat()
+    }
 }
 
 /// Followed branches and the modes selected from them.
-struct Found {
-    followed: Vec<HarmonicPaths>,
-    points: Vec<FrictionPoint>,
+pub(super) struct Found {
+    pub followed: Vec<HarmonicPaths>,
+    pub points: Vec<FrictionPoint>,
     /// Frequency up to which the selection must be complete, rad/s.
-    limit: f64,
+    pub limit: f64,
     /// Frequency up to which branches were followed from rest, rad/s.
-    margin: f64,
+    pub margin: f64,
+    pub reduction_error: f64,
+    pub overdamped: Vec<Overdamped>,
 }
 
-fn solve(
-    tangent: &WaveTangent,
-    (request, waves_at): (&SweepRequest<'_>, &[f64]),
-    grid: &[f64],
-    margin: f64,
-    harmonics: Option<&[usize]>,
-) -> Result<Found, CeaError> {
-    let (kappa, candidates) = match (harmonics, request.limit) {
-        (Some(harmonics), ModeLimit::MaxFrequency(value)) => {
-            ((TAU * value).powi(2), harmonics.to_vec())
+impl Found {
+    /// The sweep of what was found, with what is known about the other harmonics.
+    pub fn sweep(self, tangent: WaveTangent, verdict: Verdict, is_verified: bool) -> WaveSweep {
+        let Self { followed, points, limit, margin, reduction_error, overdamped } = self;
+        let coverage = Coverage {
+            largest_harmonic: tangent.largest_harmonic(),
+            followed: followed.iter().map(|paths| paths.problem.tangent.harmonic).collect(),
+            proven_empty: verdict.proven,
+            counted_empty: verdict.counted,
+            limit_hz: limit / TAU,
+            margin_hz: margin / TAU,
+            factorizations: followed.iter().map(|paths| paths.factorizations).sum(),
+            is_verified,
+        };
+        let (sweep, branches) = together(points, &followed, tangent.sliding_direction);
+        let dofs = match tangent.components {
+            2 => tangent.unknowns().len(),
+            _ => tangent.dof_count(),
+        };
+        WaveSweep {
+            sweep,
+            branches,
+            coverage,
+            dofs: dofs * tangent.sector_count(),
+            reduction_error,
+            overdamped,
+            tangent,
         }
-        _ => select(tangent, request.limit, margin)?,
-    };
-    let limit = kappa * margin * margin;
-    let kept = [request.shapes_at, waves_at].concat();
-    let followed: Result<Vec<HarmonicPaths>, CeaError> = candidates
-        .into_par_iter()
-        .map(|n| {
-            let problem = HarmonicProblem::new(tangent.harmonic(n), tangent.is_standing(n));
-            follow_harmonic(problem, limit, grid, &kept)
-        })
-        .collect();
-    let mut followed = followed?;
-    followed.retain(|paths| !paths.paths.is_empty());
-    let producer = ShapeProducer {
-        sliding_direction: tangent.sliding_direction,
-        expand: &|n, waves, x| expand(tangent, n, waves, x),
-        waves_at,
-        unknowns: &|_, x| x.to_vec(),
-    };
-    let frictions = request.friction_coefficients.iter();
-    let points: Vec<FrictionPoint> =
-        frictions.map(|&friction| point(&producer, &followed, friction, request)).collect();
-    let highest = points.iter().filter_map(|point| point.modes.last());
-    let highest = highest.fold(0.0_f64, |top, mode| top.max(mode.eigenvalue.im));
-    Ok(Found {
-        limit: match request.limit {
-            ModeLimit::Lowest(_) => highest,
-            ModeLimit::MaxFrequency(value) => TAU * value,
-        },
-        followed,
-        points,
-        margin: limit.sqrt(),
-    })
-}
-
-fn finish(tangent: WaveTangent, found: Found, verdict: Verdict) -> WaveSweep {
-    let Found { followed, points, limit, margin } = found;
-    let coverage = Coverage {
-        largest_harmonic: tangent.largest_harmonic(),
-        followed: followed.iter().map(|paths| paths.problem.tangent.harmonic).collect(),
-        proven_empty: verdict.proven,
-        counted_empty: verdict.counted,
-        limit_hz: limit / TAU,
-        margin_hz: margin / TAU,
-        factorizations: followed.iter().map(|paths| paths.factorizations).sum(),
-    };
-    let (sweep, branches) = together(points, &followed, tangent.sliding_direction);
-    WaveSweep {
-        sweep,
-        branches,
-        coverage,
-        dofs: tangent.unknowns().len() * tangent.sector_count(),
-        reduction_error: 0.0,
-        overdamped: Vec::new(),
-        tangent,
     }
 }
 
 /// A sweep of its points and the paths that they are of, and the branches that have one of the modes.
-pub(super) fn together(
+fn together(
     points: Vec<FrictionPoint>,
     followed: &[HarmonicPaths],
     sliding_direction: f64,
@@ -253,75 +221,4 @@ pub(super) fn together(
         ..FrictionSweep::default()
     };
     (sweep, branches)
-}
-
-/// Harmonics that have a mode with `kappa < limit` without friction: all are looked at.
-fn harmonics_below(tangent: &WaveTangent, limit: f64) -> Vec<usize> {
-    (0..=tangent.largest_harmonic())
-        .into_par_iter()
-        .filter(|&n| {
-            let [mass, stiffness] = tangent.at_rest(n);
-            rest::count_below(&mass, &stiffness, limit) > 0
-        })
-        .collect()
-}
-
-/// `kappa` at rest up to which the modes wanted lie, and the harmonics with modes below the margin
-/// above it (possibly a few without).
-fn select(
-    tangent: &WaveTangent,
-    limit: ModeLimit,
-    margin: f64,
-) -> Result<(f64, Vec<usize>), CeaError> {
-    match limit {
-        ModeLimit::MaxFrequency(value) => {
-            let kappa = (TAU * value).powi(2);
-            Ok((kappa, harmonics_below(tangent, kappa * margin * margin)))
-        }
-        ModeLimit::Lowest(asked) => select_lowest(tangent, asked, margin),
-    }
-}
-
-fn select_lowest(
-    tangent: &WaveTangent,
-    asked: usize,
-    margin: f64,
-) -> Result<(f64, Vec<usize>), CeaError> {
-    let waves = |n: usize| if tangent.is_standing(n) { 1 } else { 2 };
-    let all = 0..=tangent.largest_harmonic();
-    let total = all.map(|n| waves(n) * tangent.unknowns().len()).sum();
-    if asked > total {
-        return Err(CeaError::TooManyModes { asked, total });
-    }
-    // A few low harmonics that have enough modes bound the limit from above.
-    let few: Vec<_> =
-        (0..=tangent.largest_harmonic().min(7)).map(|n| (n, tangent.at_rest(n))).collect();
-    let enough = few.iter().map(|(n, _)| waves(*n) * tangent.unknowns().len()).sum::<usize>();
-    let enough = enough.min(asked);
-    let mut bound = 1e6;
-    let count = |bound: f64| -> usize {
-        let counts = few
-            .iter()
-            .map(|(n, [mass, stiffness])| waves(*n) * rest::count_below(mass, stiffness, bound));
-        counts.sum()
-    };
-    while count(bound) < enough {
-        bound *= 1.5;
-    }
-    loop {
-        let candidates = harmonics_below(tangent, bound * margin * margin);
-        let mut found: Vec<f64> = candidates
-            .par_iter()
-            .flat_map_iter(|&n| {
-                let [mass, stiffness] = tangent.at_rest(n);
-                let pairs = rest::eigenpairs_below(&mass, &stiffness, bound);
-                pairs.into_iter().flat_map(move |(kappa, _)| vec![kappa; waves(n)])
-            })
-            .collect();
-        if found.len() >= asked {
-            found.sort_by(f64::total_cmp);
-            return Ok((found[asked - 1] * (1.0 + 1e-9), candidates));
-        }
-        bound *= 1.5;
-    }
 }

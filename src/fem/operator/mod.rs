@@ -132,3 +132,21 @@ pub fn scatter(operator: &dyn StiffnessOperator, vector: &[f64]) -> AlignedVecto
     }
     field
 }
+
+/// Refuses the entries `[before, here, after]` of a stencil that are not their own mirror images, even or odd.
+fn check_mirrored(entries: impl Iterator<Item = ([f64; 3], bool)>) -> Result<(), OperatorError> {
+    let (mut largest, mut worst) = (0.0_f64, 0.0_f64);
+    for ([before, here, after], is_odd) in entries {
+        let parity = if is_odd { -1.0 } else { 1.0 };
+        worst = worst.max((after - parity * before).abs());
+        if is_odd {
+            worst = worst.max(here.abs());
+        }
+        largest = largest.max(here.abs());
+    }
+    // Assembly order leaves a few units of round-off; anything more is no sector.
+    match worst / largest {
+        relative if relative > 1e-11 => Err(OperatorError::NotCyclic { relative }),
+        _ => Ok(()),
+    }
+}

@@ -1,7 +1,9 @@
 //! `M^-1 K` of a body of revolution in three dimensions, one stencil for each node of a sector.
 
 use super::kernel::solid::{SheetCoupling, SheetLayout, solid_advance, solid_multiply};
-use super::{MotionFields, OperatorError, SimdLevel, StepCoefficients, StiffnessOperator};
+use super::{
+    MotionFields, OperatorError, SimdLevel, StepCoefficients, StiffnessOperator, check_mirrored,
+};
 use crate::fem::fold::SectorMatrix;
 use crate::fem::{MassKind, MaterialField, sector};
 use crate::mesh::SolidSector;
@@ -43,11 +45,13 @@ impl SolidStencil {
         let node_masses = nodal_masses(sector, material)?;
         let elastic = sector::stiffness(sector, material);
         let blocks = sector_blocks(sector, &[&elastic, springs]);
-        let relative = asymmetry(&blocks);
-        // Assembly order leaves a few units of round-off; anything more is no sector.
-        if relative > 1e-11 {
-            return Err(OperatorError::NotCyclic { relative });
-        }
+        let entries = blocks.iter().flat_map(BTreeMap::values).flat_map(|own| {
+            let of = move |k: usize| {
+                ([0, 1, 2].map(|l| own[l][k / 3][k % 3]), (k / 3 == 1) != (k % 3 == 1))
+            };
+            (0..9).map(of)
+        });
+        check_mirrored(entries)?;
         let row = |(node, neighbours): (usize, &BTreeMap<usize, Blocks>)| {
             let scale = [0, 1, 2].map(|c| match sector.is_held(3 * node + c) {
                 true => 0.0,
@@ -100,25 +104,6 @@ fn sector_blocks(sector: &SolidSector, terms: &[&SectorMatrix]) -> Vec<BTreeMap<
         block[(2 + ahead) as usize / 2][row % 3][column % 3] += value;
     }
     blocks
-}
-
-/// Largest deviation from mirror symmetry, relative to the largest entry.
-fn asymmetry(blocks: &[BTreeMap<usize, Blocks>]) -> f64 {
-    let (mut largest, mut worst) = (0.0_f64, 0.0_f64);
-    for [before, here, after] in blocks.iter().flat_map(BTreeMap::values) {
-        for c in 0..3 {
-            for d in 0..3 {
-                let is_odd = (c == 1) != (d == 1);
-                let parity = if is_odd { -1.0 } else { 1.0 };
-                worst = worst.max((after[c][d] - parity * before[c][d]).abs());
-                if is_odd {
-                    worst = worst.max(here[c][d].abs());
-                }
-                largest = largest.max(here[c][d].abs());
-            }
-        }
-    }
-    worst / largest
 }
 
 /// A neighbour's part of a stencil; rows are multiplied by `scale`.

@@ -42,7 +42,7 @@ use super::StudyError;
 use crate::case::{Case, Cea, Diagnostic, ModeSelection};
 use crate::cea::sparse::FrictionlessModes;
 use crate::cea::{CeaError, FrictionSweep, SweepRequest, SweepWatch, Unwatched};
-use crate::linalg::banded::BandedLdl;
+use crate::linalg::banded::BandedFactor;
 use crate::linalg::{LdlAnalysis, SparseLdl};
 use crate::results::cea::{BaseField, CeaReport, Reading, SensitivityReport};
 use rayon::prelude::*;
@@ -117,7 +117,7 @@ pub fn preflight(case: &Case, cea: &Cea) -> Result<(), StudyError> {
     if let Some(waves) = model.wave_tangent(case)? {
         let has_modes = |n: usize| {
             let [mass, stiffness] = waves.at_rest(n);
-            BandedLdl::new(&stiffness, &mass, kappa).negative_count() > 0
+            BandedFactor::new(&stiffness, &mass, kappa).negative_count() > 0
         };
         if (0..=waves.largest_harmonic()).into_par_iter().any(has_modes) {
             return Ok(());

@@ -9,7 +9,7 @@ use crate::case::{
 use crate::cea::cyclic::{self, Coverage, Overdamped, SolidModel, WaveSweep};
 use crate::cea::{CeaError, FrictionSweep, ModeBranch, ModeLimit, SweepRequest};
 use crate::fem::TabledMaterial;
-use crate::mesh::{SectorMesh, SolidSector};
+use crate::mesh::SectorMesh;
 use crate::prestress::{SlidingTangent, TangentOptions, WaveTangent};
 use crate::study::tangent_options;
 
@@ -34,7 +34,6 @@ impl Solver {
     /// A method that the body does not have; a counterface at rest, on which the body sticks.
     pub fn of(case: &Case, method: CeaMethod) -> Result<Self, CaseErrors> {
         refuse_rest(case)?;
-        let is_lossy = case.has_structural_damping();
         match (&case.body, method) {
             (Body::Imported(_) | Body::Assembly(_), CeaMethod::Cyclic)
                 if !case.body.is_of_sectors() =>
@@ -44,7 +43,6 @@ impl Solver {
                     "the mesh file has the whole body";
                     "give a mesh of one sector with mesh.sectors, or use \"auto\" or \"sparse\""))
             }
-            (Body::Annulus(_), CeaMethod::Cyclic) if is_lossy => Err(no_cyclic_losses(case)),
             (Body::Annulus(_), CeaMethod::Sparse) => Ok(Self::WholeMesh),
             (_, _) => Ok(Self::by_symmetry(case)),
         }
@@ -55,8 +53,12 @@ impl Solver {
     /// # Errors
     /// As [`Self::of`]; counts of modes where the argument principle does not apply.
     pub fn of_analysis(case: &Case, cea: &Cea) -> Result<Self, CaseErrors> {
-        let solver = Self::of(case, cea.method)?;
+        let mut solver = Self::of(case, cea.method)?;
         if cea.count_modes {
+            // With structural damping the modes of a whole mesh can be counted, those of harmonics at rest alone.
+            if cea.method == CeaMethod::Auto && is_lossy_annulus(case, &solver) {
+                solver = Self::WholeMesh;
+            }
             refuse_uncountable(case, &solver)?;
         }
         Ok(solver)
@@ -65,25 +67,12 @@ impl Solver {
     /// The solver that uses all the symmetry of the body of a case.
     pub fn by_symmetry(case: &Case) -> Self {
         match &case.body {
-            Body::Annulus(_) if case.has_structural_damping() => Self::WholeMesh,
             Body::Annulus(annulus) => Self::Sectors(annulus.clone()),
             Body::Revolution(revolution) => Self::SolidSectors(revolution.clone()),
             Body::Imported(_) => Self::WholeMesh,
             Body::Assembly(_) => Self::Assembly,
         }
     }
-}
-
-/// Why a plane annulus with structural damping is not solved harmonic by harmonic.
-fn no_cyclic_losses(case: &Case) -> CaseErrors {
-    case.loss_error(
-        "cea.method = \"cyclic\" of a plane annulus takes the waves +n and -n from one real \
-         problem, whose roots come in conjugate pairs. With structural damping K (1 + i eta) they \
-         do not"
-            .to_owned(),
-        "not harmonic by harmonic",
-        "use cea.method = \"sparse\" or \"auto\", or [damping]",
-    )
 }
 
 /// Refuses a counterface at rest: a contact that sticks has no modes of sliding.
@@ -101,6 +90,10 @@ fn refuse_rest(case: &Case) -> Result<(), CaseErrors> {
         "give a speed, however small; its sign is the sense of the sliding"))
 }
 
+fn is_lossy_annulus(case: &Case, solver: &Solver) -> bool {
+    matches!(solver, Solver::Sectors(_)) && case.has_structural_damping()
+}
+
 /// Refuses to count modes where the argument principle does not apply.
 fn refuse_uncountable(case: &Case, solver: &Solver) -> Result<(), CaseErrors> {
     let mut tables = (0..case.body.region_count()).filter_map(|r| case.materials().table(r));
@@ -112,6 +105,10 @@ fn refuse_uncountable(case: &Case, solver: &Solver) -> Result<(), CaseErrors> {
         (_, Some(table)) => (
             format!("{} is a table over frequency, and no analytic function of the eigenvalue", table.key()),
             "leave it out, or give the material one modulus",
+        ),
+        _ if is_lossy_annulus(case, solver) => (
+            "the harmonics of a body with structural damping are counted at rest (by inertia) and followed from there".to_owned(),
+            "leave it out, or take the whole mesh: cea.method = \"sparse\"",
         ),
         _ => return Ok(()),
     };
@@ -258,21 +255,13 @@ impl Model {
         progress: &Progress<'_>,
     ) -> Result<Spectrum, CeaError> {
         match self {
-            Self::Sectors(annulus, options) => {
-                let (grid, materials) = (&annulus.specification, &annulus.materials);
-                let sliding = &case.contact.sliding;
-                let request = (request, waves_at);
-                let found = cyclic::sweep_with_waves(grid, materials, options, sliding, request)?;
-                Ok(spectrum_of_waves(found, Vec::new()))
-            }
-            Self::SolidSectors(model) => {
-                let found = cyclic::solid_sweep_with_waves(model, request, waves_at)?;
+            Self::Sectors(..) | Self::SolidSectors(_) => {
+                let tangent = self.wave_tangent(case)?.expect("a body of sectors has waves");
+                let found = cyclic::wave_sweep(tangent, request, waves_at)?;
                 // With losses every eigenvalue is solved over all unknowns.
-                let notes = match found.tangent.is_lossy() {
-                    true => Vec::new(),
-                    false => vec![reduction_note(&found, request)],
-                };
-                Ok(spectrum_of_waves(found, notes))
+                let is_reduced = !found.coverage.is_verified && !found.tangent.is_lossy();
+                let notes = is_reduced.then(|| reduction_note(&found, request));
+                Ok(spectrum_of_waves(found, notes.into_iter().collect()))
             }
             Self::Whole(whole) => {
                 let found = whole.sweep(case, request, progress)?;
@@ -365,11 +354,7 @@ impl Model {
                 let (materials, sliding) = (&annulus.materials, &case.contact.sliding);
                 Some(WaveTangent::of_annulus(&sector, materials, options, sliding)?)
             }
-            Self::SolidSectors(model) => {
-                let SolidModel { specification, material, options, contact } = &**model;
-                let sector = SolidSector::generate(specification)?;
-                Some(WaveTangent::of_revolution(&sector, material, options, contact)?)
-            }
+            Self::SolidSectors(model) => Some(model.tangent()?),
             Self::Whole(_) | Self::Assembly(_) => None,
         })
     }
@@ -382,12 +367,7 @@ impl Model {
         case: &Case,
         request: &SweepRequest<'_>,
     ) -> Option<FrictionSweep> {
-        let Self::Sectors(annulus, options) = self else {
-            return None;
-        };
-        let (grid, materials) = (&annulus.specification, &annulus.materials);
-        let sliding = &case.contact.sliding;
-        cyclic::onsets(grid, materials, options, sliding, request, harmonics).ok()
+        cyclic::onsets(self.wave_tangent(case).ok()??, request, harmonics).ok().flatten()
     }
 }
 

@@ -1,7 +1,6 @@
 //! What is said beside the results of an eigenvalue analysis.
 
 use super::SlidingModel;
-use super::model::Model;
 use super::sliding::SteadyState;
 use crate::case::{Body, Case, Cea};
 use crate::cea::cyclic::{Coverage, Overdamped};
@@ -288,9 +287,9 @@ pub(super) fn friction_note(case: &Case, model: &SlidingModel) -> Option<String>
 }
 
 /// Which harmonics were solved, and why no other can hold a mode of the range.
-pub(super) fn coverage_note(model: &Model, coverage: &Coverage) -> String {
-    match model {
-        Model::SolidSectors(_) => format!(
+pub(super) fn coverage_note(coverage: &Coverage) -> String {
+    match coverage.is_verified {
+        false => format!(
             "harmonics {} hold modes at rest (by inertia counts, up to {} of {}) and were followed \
             from {:.0} Hz downwards",
             ranges(&coverage.followed),
@@ -298,7 +297,7 @@ pub(super) fn coverage_note(model: &Model, coverage: &Coverage) -> String {
             coverage.largest_harmonic,
             coverage.margin_hz,
         ),
-        Model::Sectors(..) | Model::Whole(_) | Model::Assembly(_) => proof_note(coverage),
+        true => proof_note(coverage),
     }
 }
 

@@ -11,6 +11,7 @@ use super::solid::SolidBody;
 use super::{Progress, SlidingModel, Solution, StudyError, no_modes};
 use crate::case::{Case, Cea, CeaMethod};
 use crate::cea::{CeaError, SweepRequest, Unwatched};
+use crate::prestress::PrestressError;
 use crate::results::cea::SensitivityReport;
 
 /// Solves the case's eigenproblems with its method; `progress` hears of every friction value solved.
@@ -71,8 +72,7 @@ fn solve_with(
         false => (None, None),
     };
 
-    let mut notes: Vec<String> =
-        found.coverage.iter().map(|c| coverage_note(&model.model, c)).collect();
+    let mut notes: Vec<String> = found.coverage.iter().map(coverage_note).collect();
     notes.extend(count_notes(cea, &found.sweep, found.coverage.is_some()));
     notes.extend(instead);
     notes.extend(found.notes);
@@ -161,7 +161,14 @@ fn whole_mesh_instead(
     model: &SlidingModel,
     error: &CeaError,
 ) -> Result<Option<Model>, CeaError> {
-    let is_lost = matches!(error, CeaError::LostHarmonic { .. } | CeaError::Unproven { .. });
+    let is_lost = matches!(
+        error,
+        CeaError::LostHarmonic { .. }
+            | CeaError::Unproven { .. }
+            | CeaError::Unrefined { .. }
+            | CeaError::Incomplete { .. }
+            | CeaError::Prestress(PrestressError::Singular)
+    );
     match &model.model {
         Model::Sectors(_, options) if is_lost && cea.method == CeaMethod::Auto => {
             let frictions = cea.solved_friction_coefficients();

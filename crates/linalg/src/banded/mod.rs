@@ -11,7 +11,7 @@ pub use batch::{BandedBatch, LANES, Lanes, Quality};
 pub use compact::CompactRows;
 pub use definite::BandedFactor;
 pub use lu::BandedLu;
-pub use symmetric::{BandedHermitian, BandedLdl};
+pub use symmetric::BandedHermitian;
 
 use faer::c64;
 

@@ -1,8 +1,8 @@
 //! Estimated error of the reduction of a harmonic.
 
+use super::pencil::Pencil;
 use super::reduction::Reduction;
-use super::rest::Pencil;
-use crate::cea::cyclic::vectors::dot;
+use super::vectors::dot;
 use crate::linalg::c64;
 use crate::prestress::HarmonicTangent;
 

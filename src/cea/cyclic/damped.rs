@@ -4,13 +4,13 @@
 //! lead from one end of the range to the other. So all eigenvalues of the reduced problem are
 //! computed at every friction coefficient; branches are what leads from one to the next.
 
+use super::follow::{Follower, StepControl};
+use super::path::{Eigenpair, Path, Waves};
+use super::paths::{HarmonicPaths, describe, start};
+use super::problem::{HarmonicProblem, Matrices};
+use super::sweep::Overdamped;
+use super::vectors::dot;
 use crate::cea::CeaError;
-use crate::cea::cyclic::follow::{Follower, StepControl};
-use crate::cea::cyclic::path::{Eigenpair, Path, Waves};
-use crate::cea::cyclic::paths::{HarmonicPaths, describe, start};
-use crate::cea::cyclic::problem::{HarmonicProblem, Matrices};
-use crate::cea::cyclic::sweep::Overdamped;
-use crate::cea::cyclic::vectors::dot;
 use crate::linalg::dense_eigen::complex_eigenvalues;
 use crate::linalg::{ComplexDenseLu, Mat, c64};
 use std::f64::consts::TAU;
@@ -69,7 +69,7 @@ pub(super) fn follow_damped(
     }
     let factorizations = course.follower.factorizations;
     let paths = course.paths.into_iter().map(|tracked| tracked.path).collect();
-    let followed = HarmonicPaths { paths, problem, factorizations };
+    let followed = HarmonicPaths { paths, problem, factorizations, space: None };
     Ok((followed, overdamped))
 }
 

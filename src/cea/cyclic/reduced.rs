@@ -1,43 +1,23 @@
-//! A sweep over the friction coefficient in three dimensions.
+//! Harmonics reduced to small spaces first: a body of revolution in three dimensions, and every one with structural damping.
 
 use super::across::Across;
+use super::completeness::Verdict;
 use super::damped::{Range, follow_damped};
-use super::error::{ReducedPair, reduction_error};
+use super::modes::points;
 use super::modes_below::{AtRest, bound, modes_below, wanted};
+use super::paths::{HarmonicPaths, follow_pairs};
+use super::pencil::Pencil;
+use super::problem::HarmonicProblem;
 use super::reduction::Reduction;
+use super::reduction_error::{ReducedPair, reduction_error};
 use super::refined::{of_all_unknowns, refined};
-use super::rest::Pencil;
-use crate::cea::cyclic::Coverage;
-use crate::cea::cyclic::modes::{ShapeProducer, expand, point};
-use crate::cea::cyclic::path::Waves;
-use crate::cea::cyclic::paths::{HarmonicPaths, follow_pairs};
-use crate::cea::cyclic::problem::HarmonicProblem;
-use crate::cea::cyclic::sweep::{Overdamped, WaveSweep, together};
-use crate::cea::{CeaError, FrictionPoint, SweepRequest};
-use crate::contact::SlidingContact;
-use crate::fem::{ElasticMaterial, MaterialField, ModulusTable};
+use super::sweep::{Found, MARGIN, Overdamped, Wanted, WaveSweep};
+use crate::cea::{CeaError, FrictionPoint};
+use crate::fem::ModulusTable;
 use crate::linalg::banded::BandedMatrix;
-use crate::linalg::c64;
-use crate::mesh::{SolidSector, SolidSpecification};
-use crate::prestress::{HarmonicTangent, TangentOptions, WaveTangent};
+use crate::prestress::{HarmonicTangent, WaveTangent};
 use rayon::prelude::*;
 use std::f64::consts::TAU;
-
-/// Everything that an analysis of a body of revolution is made from.
-#[derive(Clone, Debug, PartialEq)]
-pub struct SolidModel<M = ElasticMaterial> {
-    /// The body and its mesh.
-    pub specification: SolidSpecification,
-    /// The material of each of its regions.
-    pub material: M,
-    /// Choices of the linearisation.
-    pub options: TangentOptions,
-    /// The rotor.
-    pub contact: SlidingContact,
-}
-
-/// Branches are followed from this much above the highest frequency wanted.
-const MARGIN: f64 = 1.2;
 
 /// Modes at rest up to this much above the followed ones span the reduced space.
 const SPAN: f64 = 1.4;
@@ -54,108 +34,53 @@ struct Reduced {
     pencil: Pencil,
 }
 
-/// What one harmonic has come to.
-struct Solved {
-    paths: HarmonicPaths,
-    /// The space of its vectors; `None` where they are over all unknowns.
-    reduction: Option<Reduction>,
-    error: f64,
-    overdamped: Vec<Overdamped>,
-}
+/// What one harmonic has come to: its branches, the largest error of its reduction, and what does not oscillate.
+type Solved = (HarmonicPaths, f64, Vec<Overdamped>);
 
-/// Eigenvalues of steady sliding of a body of revolution over a range of friction coefficients.
-///
-/// Every branch is followed from `mu = 0` to the largest friction coefficient given. Without friction the modes are complete by
-/// inertia counts.
-///
-/// # Errors
-/// [`CeaError`] where there is no sliding equilibrium, or a branch cannot be followed.
-pub fn solid_sweep<M: MaterialField>(
-    model: &SolidModel<M>,
-    request: &SweepRequest<'_>,
-) -> Result<WaveSweep, CeaError> {
-    solid_sweep_with_waves(model, request, &[])
-}
-
-/// [`solid_sweep`] that keeps the waves of one sector at some of the friction coefficients.
-pub fn solid_sweep_with_waves<M: MaterialField>(
-    model: &SolidModel<M>,
-    request: &SweepRequest<'_>,
-    waves_at: &[f64],
-) -> Result<WaveSweep, CeaError> {
-    let grid = request.rising_grid()?;
-    request.limit.check()?;
-    let sector = SolidSector::generate(&model.specification)?;
-    let mut tangent =
-        WaveTangent::of_revolution(&sector, &model.material, &model.options, &model.contact)?;
+/// The sweep of a body, for `|lambda|` up to a margin above what is wanted.
+pub(super) fn solve(mut tangent: WaveTangent, asked: &Wanted<'_>) -> Result<WaveSweep, CeaError> {
+    let (limit, grid) = (asked.request.limit, asked.grid);
     let is_tabled = tangent.tables().next().is_some();
     let (bound, known) = match is_tabled {
-        true => {
-            (bound(&tangent.referred_to(ModulusTable::stiffest_hz), request.limit)?.0, Vec::new())
-        }
-        false => bound(&tangent, request.limit)?,
+        true => (bound(&tangent.referred_to(ModulusTable::stiffest_hz), limit)?.0, Vec::new()),
+        false => bound(&tangent, limit)?,
     };
     // As many modes lie below a frequency as with the moduli of that frequency, as long as these rise less than its square.
     let highest = bound.sqrt() * MARGIN / TAU;
     tangent = tangent.referred_to(|_| highest);
-    let (mut found, empty) = modes_below(&tangent, bound * (MARGIN * SPAN).powi(2), known)?;
+    let (mut found, counted) = modes_below(&tangent, bound * (MARGIN * SPAN).powi(2), known)?;
     let wanted = match is_tabled {
         true => bound,
-        false => wanted(&tangent, &found, request.limit, bound)?,
+        false => wanted(&tangent, &found, limit, bound)?,
     };
     let margin = wanted * MARGIN * MARGIN;
     found.retain(|found| found.modes.iter().any(|mode| mode.0 < margin));
-    let reduced = reduce(&tangent, found, &grid, margin);
-    let kept = [request.shapes_at, waves_at].concat();
-    let solved: Result<Vec<Solved>, CeaError> = reduced
+
+    // Each harmonic by itself.
+    let kept = asked.kept();
+    let solved: Result<Vec<Solved>, CeaError> = reduce(&tangent, found, grid, margin)
         .into_par_iter()
-        .map(|found| follow(&tangent, found, &kept, (&grid, wanted)))
+        .map(|found| follow(&tangent, found, &kept, (grid, wanted)))
         .collect();
-    let (mut followed, mut reductions, mut overdamped) = (Vec::new(), Vec::new(), Vec::new());
-    let mut error = 0.0_f64;
-    for solved in solved? {
-        followed.push(solved.paths);
-        reductions.push(solved.reduction);
-        error = error.max(solved.error);
-        overdamped.extend(solved.overdamped);
+    let (mut followed, mut overdamped, mut error) = (Vec::new(), Vec::new(), 0.0_f64);
+    for (paths, own_error, slow) in solved? {
+        followed.push(paths);
+        overdamped.extend(slow);
+        error = error.max(own_error);
     }
-    let direction = tangent.sliding_direction;
-    let unknowns = |n: usize, x: &[c64]| {
-        let mut all = followed.iter().zip(&reductions);
-        let own = all.find(|(paths, _)| paths.problem.tangent.harmonic == n);
-        let own = own.and_then(|(_, reduction)| reduction.as_ref());
-        own.map_or_else(|| x.to_vec(), |reduction| reduction.expand(x))
-    };
-    let expand = |n: usize, waves: Waves, x: &[c64]| expand(&tangent, n, waves, &unknowns(n, x));
-    let producer = ShapeProducer {
-        sliding_direction: direction,
-        expand: &expand,
-        waves_at,
-        unknowns: &unknowns,
-    };
-    let frictions = request.friction_coefficients.iter();
-    let points: Vec<FrictionPoint> =
-        frictions.map(|&friction| point(&producer, &followed, friction, request)).collect();
-    check_tables(&tangent, &points)?;
-    let (sweep, branches) = together(points, &followed, direction);
-    let coverage = Coverage {
-        largest_harmonic: tangent.largest_harmonic(),
-        followed: followed.iter().map(|paths| paths.problem.tangent.harmonic).collect(),
-        proven_empty: Vec::new(),
-        counted_empty: empty,
-        limit_hz: wanted.sqrt() / TAU,
-        margin_hz: margin.sqrt() / TAU,
-        factorizations: followed.iter().map(|paths| paths.factorizations).sum(),
-    };
-    Ok(WaveSweep {
-        sweep,
-        coverage,
-        dofs: tangent.dof_count() * tangent.sector_count(),
+    let found = Found {
+        points: points(&tangent, &followed, asked),
+        followed,
+        limit: wanted.sqrt(),
+        margin: margin.sqrt(),
         reduction_error: error,
-        branches,
-        overdamped: overdamped_at(&grid, &overdamped),
-        tangent,
-    })
+        overdamped: match tangent.components {
+            2 => Vec::new(),
+            _ => overdamped_at(grid, &overdamped),
+        },
+    };
+    check_tables(&tangent, &found.points)?;
+    Ok(found.sweep(tangent, Verdict { counted, ..Verdict::default() }, false))
 }
 
 /// The branches of one harmonic with `|lambda|^2` up to a margin above `wanted`.
@@ -192,15 +117,10 @@ fn follow(
     if tangent.is_lossy() {
         let problem = of_all_unknowns(found.harmonic, &axial, tangent.is_standing(n));
         let paths = refined(paths, problem, (kept, margin.sqrt()))?;
-        return Ok(Solved { paths, reduction: None, error: 0.0, overdamped });
+        return Ok((paths, 0.0, overdamped));
     }
-    let whole = (&found.reduction, &found.harmonic, &found.pencil);
-    Ok(Solved {
-        error: largest_error(&paths, whole, wanted),
-        reduction: Some(found.reduction),
-        paths,
-        overdamped,
-    })
+    let error = largest_error(&paths, (&found.reduction, &found.harmonic, &found.pencil), wanted);
+    Ok((HarmonicPaths { space: Some(found.reduction), ..paths }, error, overdamped))
 }
 
 /// Refuses modes whose stiffness follows from a table that does not reach them.

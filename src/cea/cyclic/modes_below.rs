@@ -1,6 +1,6 @@
 //! The harmonics with modes at rest in a range of frequency, complete by inertia counts.
 
-use super::rest::{Modes, Pencil};
+use super::pencil::{Modes, Pencil};
 use crate::cea::{CeaError, ModeLimit};
 use crate::prestress::{PrestressError, WaveTangent};
 use rayon::prelude::*;
@@ -33,17 +33,24 @@ pub(super) fn bound(
         ModeLimit::MaxFrequency(value) => return Ok(((TAU * value).powi(2), Vec::new())),
         ModeLimit::Lowest(asked) => asked,
     };
-    let few = tangent.largest_harmonic().min(BATCH - 1);
-    let pencils: Result<Vec<Pencil>, CeaError> =
-        (0..=few).into_par_iter().map(|n| pencil(tangent, n)).collect();
-    let pencils = pencils?;
-    let count = asked.div_ceil(2 * few.max(1)) + 1;
-    let found: Vec<Vec<f64>> = pencils
-        .par_iter()
-        .enumerate()
-        .map(|(n, pencil)| of_all_waves(tangent, n, &pencil.lowest(count)))
-        .collect();
-    Ok((just_above(asked, found.concat())?, pencils))
+    let (mut pencils, mut few) = (Vec::new(), tangent.largest_harmonic().min(BATCH - 1));
+    loop {
+        let more: Result<Vec<Pencil>, CeaError> =
+            (pencils.len()..=few).into_par_iter().map(|n| pencil(tangent, n)).collect();
+        pencils.extend(more?);
+        let count = asked.div_ceil(2 * few.max(1)) + 1;
+        let found: Vec<Vec<f64>> = pencils
+            .par_iter()
+            .enumerate()
+            .map(|(n, pencil)| of_all_waves(tangent, n, &pencil.lowest(count)))
+            .collect();
+        // Of few unknowns many harmonics are needed.
+        match just_above(asked, found.concat()) {
+            Ok(bound) => return Ok((bound, pencils)),
+            Err(error) if few == tangent.largest_harmonic() => return Err(error),
+            Err(_) => few = (2 * few).min(tangent.largest_harmonic()),
+        }
+    }
 }
 
 /// `kappa` at rest up to which the modes wanted lie.
@@ -75,6 +82,25 @@ fn just_above(asked: usize, mut kappas: Vec<f64>) -> Result<f64, CeaError> {
     highest.ok_or(CeaError::TooManyModes { asked, total })
 }
 
+/// The modes below `kappa` of harmonic `n` at rest; `None` where it has none.
+pub(super) fn at_rest(
+    tangent: &WaveTangent,
+    (n, known): (usize, Option<Pencil>),
+    kappa: f64,
+) -> Result<Option<AtRest>, CeaError> {
+    let pencil = known.map_or_else(|| pencil(tangent, n), Ok)?;
+    let counted = pencil.count_below(kappa);
+    if counted == 0 {
+        return Ok(None);
+    }
+    let modes = pencil.lowest(counted);
+    let found = modes.iter().filter(|mode| mode.0 < kappa).count();
+    match found == counted {
+        true => Ok(Some(AtRest { harmonic: n, pencil, modes })),
+        false => Err(CeaError::Incomplete { harmonic: n, counted, found }),
+    }
+}
+
 /// The harmonics that have modes below `kappa` at rest with these modes, and those counted empty; `known` are the first.
 pub(super) fn modes_below(
     tangent: &WaveTangent,
@@ -82,20 +108,8 @@ pub(super) fn modes_below(
     known: Vec<Pencil>,
 ) -> Result<(Vec<AtRest>, Vec<usize>), CeaError> {
     let largest = tangent.largest_harmonic();
-    let solve = |(n, known): (usize, Option<Pencil>)| -> Result<Option<AtRest>, CeaError> {
-        let pencil = known.map_or_else(|| pencil(tangent, n), Ok)?;
-        let counted = pencil.count_below(kappa);
-        if counted == 0 {
-            return Ok(None);
-        }
-        let modes = pencil.lowest(counted);
-        let found = modes.iter().filter(|mode| mode.0 < kappa).count();
-        if found != counted {
-            return Err(CeaError::Incomplete { harmonic: n, counted, found });
-        }
-        Ok(Some(AtRest { harmonic: n, pencil, modes }))
-    };
-    let (mut all, mut empty, mut known) = (Vec::new(), Vec::new(), known.into_iter());
+    let mut known: Vec<Option<Pencil>> = known.into_iter().map(Some).collect();
+    let (mut all, mut empty) = (Vec::new(), Vec::new());
     let (mut n, mut in_a_row, mut step) = (0, 0, 1);
     while n <= largest {
         // Several harmonics side by side.
@@ -103,9 +117,10 @@ pub(super) fn modes_below(
             .map(|k| n + k)
             .filter(|n| *n <= largest)
             .collect();
-        let with_known: Vec<_> = batch.iter().map(|&n| (n, known.next())).collect();
+        let own = batch.iter().map(|&n| (n, known.get_mut(n).and_then(Option::take)));
+        let with_known: Vec<_> = own.collect();
         let found: Result<Vec<Option<AtRest>>, CeaError> =
-            with_known.into_par_iter().map(solve).collect();
+            with_known.into_par_iter().map(|own| at_rest(tangent, own, kappa)).collect();
         for (&n, found) in batch.iter().zip(found?) {
             in_a_row = if found.is_some() { 0 } else { in_a_row + 1 };
             if found.is_none() {

@@ -2,11 +2,11 @@
 //!
 //! Losses of one part excite what the small space lacks: its eigenvalues are good guesses, no more.
 
+use super::follow::Follower;
+use super::path::Eigenpair;
+use super::paths::{HarmonicPaths, are_distinct, describe};
+use super::problem::HarmonicProblem;
 use crate::cea::CeaError;
-use crate::cea::cyclic::follow::Follower;
-use crate::cea::cyclic::path::Eigenpair;
-use crate::cea::cyclic::paths::{HarmonicPaths, are_distinct, describe};
-use crate::cea::cyclic::problem::HarmonicProblem;
 use crate::linalg::banded::BandedMatrix;
 use crate::linalg::c64;
 use crate::prestress::HarmonicTangent;

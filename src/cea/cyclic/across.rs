@@ -1,6 +1,6 @@
 //! The dashpots of friction across the sliding, which grow without bound as the sliding slows down.
 
-use super::rest::{Modes, Pencil};
+use super::pencil::{Modes, Pencil};
 use crate::linalg::banded::BandedMatrix;
 use crate::linalg::dense::dot;
 use crate::prestress::{FrictionPolynomial, HarmonicTangent};

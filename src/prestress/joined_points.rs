@@ -1,0 +1,91 @@
+//! Bodies over their unknowns, with springs at their contact points.
+
+use super::PrestressError;
+use super::cholesky::CholeskySolver;
+use super::pressed_state::{ContactState, Pressing, form};
+use crate::contact::Row;
+use crate::fem::{DofMap, Triplets};
+
+/// Bodies and the rows of their contact points over the unknowns. Bodies may be held by contact alone: what is factorized has
+/// springs at the points,
+///
+/// ```text
+/// P = K + sum_i r_i n_i n_i^T,   P u = f + sum_i (N_i + r_i c_i) n_i + mu N_i drag_i t_i,   c_i = n_i . u
+/// ```
+pub(super) struct JoinedPoints<'a> {
+    pub pressing: &'a Pressing<'a>,
+    pub unknowns: DofMap,
+    /// `K` over the unknowns, numbered by dof.
+    pub stiffness: Triplets,
+    /// Rows `n` and `drag t`.
+    pub normals: Vec<Row>,
+    pub drags: Vec<Row>,
+}
+
+impl<'a> JoinedPoints<'a> {
+    pub fn new(pressing: &'a Pressing<'a>) -> Self {
+        let unknowns = pressing.elimination.unknowns();
+        let [normals, drags] = pressing.rows(&unknowns);
+        let stiffness = pressing.elimination.congruent(pressing.stiffness);
+        Self { pressing, unknowns, stiffness, normals, drags }
+    }
+
+    /// Factorizes `P` with springs `r_i`, N/m.
+    ///
+    /// # Errors
+    /// [`PrestressError::Singular`] where a body is held by nothing, not even by contact.
+    pub fn factorize(&self, springs: &[f64]) -> Result<CholeskySolver, PrestressError> {
+        let mut held = self.stiffness.clone();
+        for (row, spring) in self.normals.iter().zip(springs) {
+            for &(j, along) in row {
+                for &(k, across) in row {
+                    let [j, k] = [self.unknowns.dofs[j], self.unknowns.dofs[k]];
+                    held.push(j, k, along * spring * across);
+                }
+            }
+        }
+        CholeskySolver::new(&held, &self.unknowns)
+    }
+
+    /// The load over the unknowns.
+    pub fn load(&self) -> Vec<f64> {
+        self.pressing.restricted_load(&self.unknowns)
+    }
+
+    /// `P^-1` times `right_side` and forces along the normals and drags of the points.
+    pub fn respond(
+        &self,
+        solver: &CholeskySolver,
+        mut right_side: Vec<f64>,
+        along: impl Iterator<Item = [f64; 2]>,
+    ) -> Vec<f64> {
+        for (i, forces) in along.enumerate() {
+            for (row, force) in [&self.normals[i], &self.drags[i]].into_iter().zip(forces) {
+                if force != 0.0 {
+                    row.iter().for_each(|&(dof, a)| right_side[dof] += force * a);
+                }
+            }
+        }
+        solver.solve(right_side)
+    }
+
+    /// `c_i` of a displacement.
+    pub fn separations(&self, displacement: &[f64]) -> Vec<f64> {
+        self.normals.iter().map(|row| form(row, displacement)).collect()
+    }
+
+    /// Displacement of every dof from the state of the points, with `P` of these springs.
+    pub fn displacement(
+        &self,
+        (solver, springs): (&CholeskySolver, &[f64]),
+        friction_coefficient: f64,
+        state: &ContactState,
+    ) -> Vec<f64> {
+        let along = springs.iter().enumerate().map(|(i, spring)| {
+            let force = state.normal_forces[i];
+            [force + spring * state.separations[i], friction_coefficient * force]
+        });
+        let y = self.unknowns.expand(&self.respond(solver, self.load(), along));
+        self.pressing.elimination.displacement(&y)
+    }
+}
