@@ -73,21 +73,6 @@ impl Axis {
         Self::new("friction coefficient *μ*", "–")
     }
 
-    /// The same for values that the unit shown is a multiple of: 1e-3 for kHz from Hz.
-    pub fn times(self, factor: f64) -> Self {
-        Self { factor: Some(factor), ..self }
-    }
-
-    /// The same with the unit's prefix chosen by the data.
-    pub fn prefixed(self) -> Self {
-        Self { factor: None, ..self }
-    }
-
-    /// The same with a scale.
-    pub fn scaled(self, scale: Scale) -> Self {
-        Self { scale, ..self }
-    }
-
     /// The same, logarithmic.
     pub fn logarithmic(self) -> Self {
         self.scaled(Scale::Logarithmic)
@@ -101,21 +86,6 @@ impl Axis {
     /// The same without room at the ends.
     pub fn tight(self) -> Self {
         self.room(0.0)
-    }
-
-    /// The same with room at the ends, as a fraction of the range.
-    pub fn room(self, fraction: f64) -> Self {
-        Self { ends: Ends::Room(fraction), ..self }
-    }
-
-    /// The same between two values, in the unit of the data.
-    pub fn between(self, low: f64, high: f64) -> Self {
-        Self { ends: Ends::At(low, high), ..self }
-    }
-
-    /// The same with zero in the middle.
-    pub fn symmetric(self) -> Self {
-        Self { ends: Ends::Symmetric, ..self }
     }
 
     /// The same, long enough for one more value.
@@ -183,6 +153,21 @@ impl Axis {
     pub(super) fn is_logarithmic(&self) -> bool {
         self.scale == Scale::Logarithmic
     }
+}
+
+changed! { Axis:
+    /// The same for values that the unit shown is a multiple of: 1e-3 for kHz from Hz.
+    times(factor: f64) => { factor: Some(factor) }
+    /// The same with the unit's prefix chosen by the data.
+    prefixed() => { factor: None }
+    /// The same with a scale.
+    scaled(scale: Scale) => { scale }
+    /// The same with room at the ends, as a fraction of the range.
+    room(fraction: f64) => { ends: Ends::Room(fraction) }
+    /// The same between two values, in the unit of the data.
+    between(low: f64, high: f64) => { ends: Ends::At(low, high) }
+    /// The same with zero in the middle.
+    symmetric() => { ends: Ends::Symmetric }
 }
 
 fn titled(quantity: &str, unit: &str) -> String {

@@ -36,11 +36,6 @@ impl Figure {
         Self { name: name.into(), caption: caption.into(), grid, motion: None, steps: None }
     }
 
-    /// The same under another name.
-    pub fn named(self, name: impl Into<String>) -> Self {
-        Self { name: name.into(), ..self }
-    }
-
     /// The same for one column of a page.
     pub fn narrow(mut self) -> Self {
         self.grid.width_mm = ONE_COLUMN;
@@ -107,16 +102,6 @@ impl Figure {
         self
     }
 
-    /// The same with a body that moves, where the figure is read with scripts.
-    pub fn motion(self, motion: Motion) -> Self {
-        Self { motion: Some(motion), ..self }
-    }
-
-    /// The same with points of the first panel that move with a parameter, where the figure is read with scripts.
-    pub fn steps(self, steps: Steps) -> Self {
-        Self { steps: Some(steps), ..self }
-    }
-
     /// The same without the samples of long curves that no drawing shows; a signal to listen to keeps all.
     #[must_use]
     pub fn thinned(mut self) -> Self {
@@ -172,6 +157,15 @@ impl Figure {
         let parts: String = self.grid.panels().enumerate().filter_map(describe).collect();
         Ok(svg.finish(title, &format!("{}{parts}", self.caption)))
     }
+}
+
+changed! { Figure:
+    /// The same under another name.
+    named(name: impl Into<String>) => { name: name.into() }
+    /// The same with a body that moves, where the figure is read with scripts.
+    motion(motion: Motion) => { motion: Some(motion) }
+    /// The same with points of the first panel that move with a parameter, where the figure is read with scripts.
+    steps(steps: Steps) => { steps: Some(steps) }
 }
 
 #[cfg(test)]

@@ -40,17 +40,19 @@ impl Fill {
         Self { is_range: true, ..Self::between(xs, ys, ys, colour) }
     }
 
-    /// The same, transparent: 0 is invisible.
-    pub fn opacity(self, opacity: f64) -> Self {
-        Self { opacity, ..self }
-    }
-
     /// Leaves out what no drawing shows of a long area.
     pub(super) fn thin(&mut self, fraction_of: &dyn Fn(f64) -> f64) {
         let (xs, ys): (Vec<f64>, Vec<f64>) = self.points.iter().map(|p| (p[0], p[1])).unzip();
         let kept = lasting(&xs, &ys, fraction_of).into_iter();
         self.points = kept.map(|at| self.points[at]).collect();
     }
+}
+
+changed! { Fill:
+    /// The same with an entry in the legend.
+    name(name: impl Into<String>) => { name: Some(name.into()) }
+    /// The same, transparent: 0 is invisible.
+    opacity(opacity: f64) => { opacity }
 }
 
 impl Layer for Fill {

@@ -99,18 +99,3 @@ macro_rules! drawn {
 }
 
 drawn!(Bars, Field, Fill, Heat, Label, Line, Points, Rule, Shapes, Surface);
-
-/// Gives layers a name.
-macro_rules! named {
-    ($($layer:ty),+) => {$(
-        impl $layer {
-            /// The same with an entry in the legend.
-            pub fn name(mut self, name: impl Into<String>) -> Self {
-                self.name = Some(name.into());
-                self
-            }
-        }
-    )+};
-}
-
-named!(Fill, Line, Points, Rule);

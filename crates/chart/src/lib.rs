@@ -15,6 +15,9 @@
 //! what is there to be seen, empty and non-finite data are dealt with here, once. Sizes are journal column widths,
 //! equal data give equal bytes, text stays text. Nothing here computes physics or touches a file.
 
+#[macro_use]
+mod changed;
+
 mod axis;
 mod colour;
 mod colour_bar;

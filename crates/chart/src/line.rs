@@ -41,19 +41,9 @@ impl Line {
         Self { xs, ys, stroke, marker: None, arrows: 0, name: None, label: None, is_whole: false }
     }
 
-    /// The same with a stroke.
-    pub fn stroke(self, stroke: Stroke) -> Self {
-        Self { stroke, ..self }
-    }
-
     /// The same, full, in a colour and with a width in points.
     pub fn solid(self, colour: impl Into<Colour>, width: f64) -> Self {
         self.stroke(Stroke::solid(colour, width))
-    }
-
-    /// The same with a marker of this radius (points) at every point.
-    pub fn marked(self, marker: Marker, radius: f64) -> Self {
-        Self { marker: Some((marker, radius)), ..self }
     }
 
     /// The same as the `index`-th of several series, with its colour and dashes.
@@ -61,21 +51,6 @@ impl Line {
         let (colour, _, dash) = look(index);
         self.stroke = Stroke { colour: colour.into(), ..self.stroke }.dashes(dash);
         self
-    }
-
-    /// The same with so many arrow heads along it.
-    pub fn arrows(self, arrows: usize) -> Self {
-        Self { arrows, ..self }
-    }
-
-    /// The same with a name for those who take the numbers, which the legend does not show.
-    pub fn label(self, label: impl Into<String>) -> Self {
-        Self { label: Some(label.into()), ..self }
-    }
-
-    /// The same, with every sample kept for those who take the numbers: a signal to listen to.
-    pub fn whole(self) -> Self {
-        Self { is_whole: true, ..self }
     }
 
     /// The unbroken pieces as they are drawn.
@@ -103,6 +78,21 @@ impl Line {
     fn points(&self) -> impl Iterator<Item = (f64, f64)> + '_ {
         self.xs.iter().copied().zip(self.ys.iter().copied())
     }
+}
+
+changed! { Line:
+    /// The same with an entry in the legend.
+    name(name: impl Into<String>) => { name: Some(name.into()) }
+    /// The same with a stroke.
+    stroke(stroke: Stroke) => { stroke }
+    /// The same with a marker of this radius (points) at every point.
+    marked(marker: Marker, radius: f64) => { marker: Some((marker, radius)) }
+    /// The same with so many arrow heads along it.
+    arrows(arrows: usize) => { arrows }
+    /// The same with a name for those who take the numbers, which the legend does not show.
+    label(label: impl Into<String>) => { label: Some(label.into()) }
+    /// The same, with every sample kept for those who take the numbers: a signal to listen to.
+    whole() => { is_whole: true }
 }
 
 impl Layer for Line {
@@ -227,31 +217,23 @@ impl Points {
             key: None,
         }
     }
+}
 
+changed! { Points:
+    /// The same with an entry in the legend.
+    name(name: impl Into<String>) => { name: Some(name.into()) }
     /// The same with a line in place of the marker in the legend.
-    pub fn keyed(self, stroke: Stroke) -> Self {
-        Self { key: Some(stroke), ..self }
-    }
-
+    keyed(stroke: Stroke) => { key: Some(stroke) }
     /// The same with a name for those who take the numbers, which the legend does not show.
-    pub fn label(self, label: impl Into<String>) -> Self {
-        Self { label: Some(label.into()), ..self }
-    }
-
+    label(label: impl Into<String>) => { label: Some(label.into()) }
     /// The same with what each point is, in plain text, for readers who point at it.
-    pub fn tips(self, tips: Vec<String>) -> Self {
-        Self { tips, ..self }
-    }
-
+    tips(tips: Vec<String>) => { tips }
     /// The same with a marker of this radius, points, and colour.
-    pub fn marker(self, marker: Marker, radius: f64, colour: impl Into<Colour>) -> Self {
-        Self { marker, radius, colour: colour.into(), ..self }
+    marker(marker: Marker, radius: f64, colour: impl Into<Colour>) => {
+        marker, radius, colour: colour.into()
     }
-
     /// The same, each point standing for the row of a table with this number.
-    pub fn rows(self, rows: Vec<usize>) -> Self {
-        Self { rows, ..self }
-    }
+    rows(rows: Vec<usize>) => { rows }
 }
 
 impl Layer for Points {

@@ -36,26 +36,19 @@ impl Rule {
     pub fn vertical(value: f64) -> Self {
         Self::new(value, false)
     }
+}
 
+changed! { Rule:
+    /// The same with an entry in the legend.
+    name(name: impl Into<String>) => { name: Some(name.into()) }
     /// The same with a stroke.
-    pub fn stroke(self, stroke: Stroke) -> Self {
-        Self { stroke, ..self }
-    }
-
+    stroke(stroke: Stroke) => { stroke }
     /// The same, and the axis reaches it.
-    pub fn stretching(self) -> Self {
-        Self { stretches: true, ..self }
-    }
-
+    stretching() => { stretches: true }
     /// The same with a text along it inside the frame.
-    pub fn beside(self, text: impl Into<String>) -> Self {
-        Self { beside: Some(text.into()), ..self }
-    }
-
+    beside(text: impl Into<String>) => { beside: Some(text.into()) }
     /// The same with a text beyond the frame, at the right or above.
-    pub fn at_rim(self, text: impl Into<String>) -> Self {
-        Self { rim: Some(text.into()), ..self }
-    }
+    at_rim(text: impl Into<String>) => { rim: Some(text.into()) }
 }
 
 impl Layer for Rule {
@@ -134,16 +127,6 @@ impl Label {
         self.moved(0.0, -4.0)
     }
 
-    /// The same, moved from the point, points right and down.
-    pub fn moved(self, right: f64, down: f64) -> Self {
-        Self { offset: (right, down), ..self }
-    }
-
-    /// The same in a style.
-    pub fn style(self, style: TextStyle) -> Self {
-        Self { style, ..self }
-    }
-
     /// The baseline point, moved as little as keeps the text off the frame; a text that starts at its point and passes
     /// the right end stands on the other side of it.
     fn inside(&self, frame: &Frame, (x, y): (f64, f64)) -> (f64, f64) {
@@ -165,6 +148,13 @@ impl Label {
         };
         (within(x, lowest, highest), within(y, top, bottom))
     }
+}
+
+changed! { Label:
+    /// The same, moved from the point, points right and down.
+    moved(right: f64, down: f64) => { offset: (right, down) }
+    /// The same in a style.
+    style(style: TextStyle) => { style }
 }
 
 impl Layer for Label {

@@ -59,11 +59,6 @@ impl Panel {
         Self { is_plane: true, is_bare: true, ..panel }
     }
 
-    /// The same with equal units on both axes, which must have given ends.
-    pub fn equal(self) -> Self {
-        Self { is_plane: true, ..self }
-    }
-
     /// The same with one more layer over those it has.
     pub fn layer(mut self, layer: impl Into<Drawn>) -> Self {
         self.layers.push(layer.into());
@@ -75,11 +70,6 @@ impl Panel {
         layers.into_iter().fold(self, Self::layer)
     }
 
-    /// The same with a caption above its left corner.
-    pub fn caption(self, caption: impl Into<String>) -> Self {
-        Self { caption: caption.into(), ..self }
-    }
-
     /// The same with a line of heading above its middle.
     pub fn heading(self, line: impl Into<String>) -> Self {
         self.heading_in(INK, line)
@@ -89,31 +79,6 @@ impl Panel {
     pub fn heading_in(mut self, colour: impl Into<Colour>, line: impl Into<String>) -> Self {
         self.headings.push((line.into(), colour.into()));
         self
-    }
-
-    /// The same with a height of the data area, points; of a plane, the largest.
-    pub fn height(self, height: f64) -> Self {
-        Self { height, ..self }
-    }
-
-    /// The same without grid lines.
-    pub fn plain(self) -> Self {
-        Self { has_grid: false, ..self }
-    }
-
-    /// The same with a legend of its own above it.
-    pub fn legend(self) -> Self {
-        Self { has_legend: true, ..self }
-    }
-
-    /// The same with the scale of its colours at a side.
-    pub fn colour_bar(self, side: Side) -> Self {
-        Self { bar: Some(side), ..self }
-    }
-
-    /// The same beside so many rows of other panels.
-    pub fn beside(self, rows: usize) -> Self {
-        Self { span: rows.max(1), ..self }
     }
 
     pub(super) fn is_whole(&self) -> bool {
@@ -343,4 +308,21 @@ impl Panel {
         let count = (frame.area.width / (1.4 * sample + 8.0)) as usize;
         frame.x.ticks(count.clamp(1, 9))
     }
+}
+
+changed! { Panel:
+    /// The same with equal units on both axes, which must have given ends.
+    equal() => { is_plane: true }
+    /// The same with a caption above its left corner.
+    caption(caption: impl Into<String>) => { caption: caption.into() }
+    /// The same with a height of the data area, points; of a plane, the largest.
+    height(height: f64) => { height }
+    /// The same without grid lines.
+    plain() => { has_grid: false }
+    /// The same with a legend of its own above it.
+    legend() => { has_legend: true }
+    /// The same with the scale of its colours at a side.
+    colour_bar(side: Side) => { bar: Some(side) }
+    /// The same beside so many rows of other panels.
+    beside(rows: usize) => { span: rows.max(1) }
 }

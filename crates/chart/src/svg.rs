@@ -81,19 +81,9 @@ impl Stroke {
         Self::solid(colour, width).dashes(&[1.0, 1.6])
     }
 
-    /// The same line with at most four dashes and gaps.
-    pub fn dashes(self, pattern: &[f64]) -> Self {
-        Self { dash: std::array::from_fn(|at| pattern.get(at).copied().unwrap_or(0.0)), ..self }
-    }
-
     /// Whether it is no full line.
     pub fn is_dashed(&self) -> bool {
         self.dash[0] > 0.0
-    }
-
-    /// The same line with another opacity.
-    pub fn with_opacity(self, opacity: f64) -> Self {
-        Self { opacity, ..self }
     }
 
     fn write(&self, out: &mut String) {
@@ -108,6 +98,15 @@ impl Stroke {
             let _ = write!(out, r#" stroke-opacity="{}""#, number(self.opacity));
         }
     }
+}
+
+changed! { Stroke:
+    /// The same line with at most four dashes and gaps.
+    dashes(pattern: &[f64]) => {
+        dash: std::array::from_fn(|at| pattern.get(at).copied().unwrap_or(0.0))
+    }
+    /// The same line with another opacity.
+    with_opacity(opacity: f64) => { opacity }
 }
 
 /// A coordinate with at most two decimals and no trailing zeros.

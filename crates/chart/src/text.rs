@@ -54,31 +54,19 @@ impl TextStyle {
         let (anchor, colour) = (Anchor::Start, INK.into());
         Self { size, anchor, rotation: 0.0, colour, bold: false, halo: false }
     }
+}
 
+changed! { TextStyle:
     /// The same with another anchor.
-    pub fn anchored(self, anchor: Anchor) -> Self {
-        Self { anchor, ..self }
-    }
-
+    anchored(anchor: Anchor) => { anchor }
     /// The same, rotated (degrees clockwise).
-    pub fn rotated(self, rotation: f64) -> Self {
-        Self { rotation, ..self }
-    }
-
+    rotated(rotation: f64) => { rotation }
     /// The same in another colour.
-    pub fn coloured(self, colour: impl Into<Colour>) -> Self {
-        Self { colour: colour.into(), ..self }
-    }
-
+    coloured(colour: impl Into<Colour>) => { colour: colour.into() }
     /// The same in bold.
-    pub fn bold(self) -> Self {
-        Self { bold: true, ..self }
-    }
-
+    bold() => { bold: true }
     /// The same with a white outline.
-    pub fn with_halo(self) -> Self {
-        Self { halo: true, ..self }
-    }
+    with_halo() => { halo: true }
 }
 
 /// A stretch of text in one style.

@@ -30,27 +30,24 @@ pub(super) struct CollectedElement {
 }
 
 impl CollectedElement {
+    /// Its faces with their nodes.
+    fn faces(&self) -> impl Iterator<Item = SurfaceFace> + '_ {
+        let faces = self.kind.faces().iter();
+        faces.map(|(kind, locals)| (*kind, locals.iter().map(|&l| self.nodes[l]).collect()))
+    }
+
     /// The face whose corners are the given local nodes, in any order.
     pub fn face_of(&self, corners: &[usize]) -> Option<SurfaceFace> {
-        let faces = self.kind.faces().iter();
-        let mut faces = faces.filter(|(kind, locals)| {
-            let own = &locals[..kind.corner_count()];
-            own.len() == corners.len() && corners.iter().all(|corner| own.contains(corner))
-        });
-        let (kind, locals) = faces.next()?;
-        Some((*kind, locals.iter().map(|&l| self.nodes[l]).collect()))
+        let mut locals = self.kind.faces().iter().map(|(kind, own)| &own[..kind.corner_count()]);
+        let is_it = |own: &[usize]| corners.iter().all(|corner| own.contains(corner));
+        let at = locals.position(|own| own.len() == corners.len() && is_it(own))?;
+        self.faces().nth(at)
     }
 
     /// The face on which all the given nodes are corners.
     pub fn face_with(&self, corners: &[u32]) -> Option<SurfaceFace> {
-        let faces = self.kind.faces().iter();
-        let mut faces = faces.filter(|(kind, locals)| {
-            let own = &locals[..kind.corner_count()];
-            let is_corner = |node: &u32| own.iter().any(|&local| self.nodes[local] == *node);
-            corners.iter().all(is_corner)
-        });
-        let (kind, locals) = faces.next()?;
-        Some((*kind, locals.iter().map(|&l| self.nodes[l]).collect()))
+        let has = |face: &SurfaceFace, node| face.1[..face.0.corner_count()].contains(node);
+        self.faces().find(|face| corners.iter().all(|node| has(face, node)))
     }
 }
 
@@ -71,30 +68,13 @@ impl Collection {
     /// Faces that belong to one of the elements `among` alone: all elements where it is empty.
     pub fn free_faces(&self, among: &[usize]) -> Vec<SurfaceFace> {
         let mut faces: HashMap<Vec<u32>, (usize, SurfaceFace)> = HashMap::new();
-        let mut order = 0;
-        for element in &self.elements {
-            for (kind, locals) in element.kind.faces() {
-                let nodes = locals.iter().map(|&local| element.nodes[local]).collect();
-                let face = (*kind, nodes);
-                match faces.entry(key(&face)) {
-                    std::collections::hash_map::Entry::Occupied(mut known) => {
-                        known.get_mut().0 = usize::MAX;
-                    }
-                    std::collections::hash_map::Entry::Vacant(place) => {
-                        place.insert((order, face));
-                    }
-                }
-                order += 1;
-            }
+        let all = self.elements.iter().flat_map(CollectedElement::faces);
+        for (order, face) in all.enumerate() {
+            let known = faces.entry(key(&face)).and_modify(|known| known.0 = usize::MAX);
+            known.or_insert((order, face));
         }
-        let mut own: BTreeSet<Vec<u32>> = BTreeSet::new();
-        for &element in among {
-            let element = &self.elements[element];
-            for (kind, locals) in element.kind.faces() {
-                let nodes = locals.iter().map(|&local| element.nodes[local]).collect();
-                own.insert(key(&(*kind, nodes)));
-            }
-        }
+        let own = among.iter().flat_map(|&element| self.elements[element].faces());
+        let own: BTreeSet<Vec<u32>> = own.map(|face| key(&face)).collect();
         let mut free: Vec<(usize, SurfaceFace)> = faces
             .into_iter()
             .filter(|(key, (order, _))| {

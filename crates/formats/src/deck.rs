@@ -90,6 +90,18 @@ impl<'a> Deck<'a> {
     }
 }
 
+/// The error of a file at a place: `fault!(deck, place; "what is wrong with {}, and what to do", name)`; where a cursor
+/// stands `fault!(cursor; ...)`.
+macro_rules! fault {
+    ($cursor:expr; $($message:tt)+) => { $cursor.error(format!($($message)+)) };
+    ($deck:expr, $place:expr; $($message:tt)+) => { $deck.error($place, format!($($message)+)) };
+}
+
+/// Returns such an error.
+macro_rules! refuse {
+    ($($fault:tt)+) => { return Err(fault!($($fault)+)) };
+}
+
 /// An error of a file that holds more than is read.
 pub(super) fn too_much(refusal: &Refusal) -> MeshFileError {
     MeshFileError { place: "the whole file".to_owned(), message: refusal.to_string() }

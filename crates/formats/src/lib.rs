@@ -4,9 +4,11 @@
 //! [`ElementKind`], and named curves, surfaces and sets of nodes. What the file says of materials,
 //! conditions and contacts is its [`ModelData`].
 
+#[macro_use]
+mod deck;
+
 mod abaqus;
 mod collection;
-mod deck;
 mod element;
 mod file_mesh;
 mod format;

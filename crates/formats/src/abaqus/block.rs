@@ -67,8 +67,8 @@ fn line_numbers(
     let parsed = fields(line).map(|field| match field {
         "" => Ok(0.0),
         field => real(field).ok_or_else(|| {
-            let message = format!("a number of *{keyword} expected, found {}", quoted(field));
-            deck.error(place, message)
+            fault!(deck, place;
+            "a number of *{keyword} expected, found {}", quoted(field))
         }),
     });
     parsed.collect()
@@ -106,8 +106,7 @@ pub(super) fn blocks<'a>(deck: &Deck<'a>) -> Result<Vec<Block<'a>>, MeshFileErro
         let Some(head) = line.trim().strip_prefix('*') else {
             let Some(block) = blocks.last_mut() else {
                 let found = quoted(line);
-                let message = format!("a keyword such as *NODE expected, found {found}");
-                return Err(deck.error(place, message));
+                refuse!(deck, place; "a keyword such as *NODE expected, found {found}");
             };
             block.data.push((place, line));
             continue;

@@ -81,7 +81,7 @@ impl Reader<'_, '_> {
         let mut nodes = BTreeSet::new();
         for &(scope, block) in blocks.iter().filter(|(_, b)| b.keyword == "TRANSFORM") {
             let name = block.required(self.deck, "NSET")?;
-            let Some(set) = self.node_sets.get(&self.key(scope, name)) else {
+            let Some(set) = self.nodes.sets.get(&self.key(scope, name)) else {
                 return Err(self.unknown(block.place, "node set", name));
             };
             nodes.extend(set.items.iter().copied());
@@ -106,19 +106,16 @@ impl Reader<'_, '_> {
                         entry.get(i).filter(|f| !f.is_empty()).map(|f| f.parse::<usize>())
                     };
                     let (Some(Ok(first)), last) = (number(1), number(2)) else {
-                        let message = format!(
+                        refuse!(self.deck, place;
                             "a direction 1 to 6 or a word such as ENCASTRE expected, found {}",
-                            quoted(what)
-                        );
-                        return Err(self.deck.error(place, message));
+                            quoted(what));
                     };
                     let last = match last {
                         None => first,
                         Some(Ok(last)) => last,
                         Some(Err(_)) => {
-                            let message =
-                                format!("a last direction expected, found {}", quoted(entry[2]));
-                            return Err(self.deck.error(place, message));
+                            refuse!(self.deck, place;
+                                "a last direction expected, found {}", quoted(entry[2]));
                         }
                     };
                     let value = entry.get(3).and_then(|value| real(value)).unwrap_or(0.0);
@@ -147,18 +144,19 @@ impl Reader<'_, '_> {
         axes: [bool; 3],
     ) -> Result<(usize, String), MeshFileError> {
         let key = self.key(scope, target);
-        if self.node_sets.contains_key(&key) {
+        if self.nodes.sets.contains_key(&key) {
             return Ok(key);
         }
         let (there, name) = self.resolved(scope, target);
         if name.parse::<usize>().is_err() {
             return Err(self.unknown(place, "node set", target));
         }
-        let nodes = self.node_entry(there, place, name)?.unwrap_or_default();
+        let nodes = self.entry(&self.nodes, there, place, name)?.unwrap_or_default();
         let letters = ["_1", "_2", "_3"].into_iter().zip(axes);
         let letters: String = letters.filter(|(_, is_held)| *is_held).map(|l| l.0).collect();
         let single = format!("{SINGLE_NODES}{letters}");
-        self.add_node_set(0, &single, nodes, false);
+        let named = self.named(0, &single);
+        self.nodes.add(named, nodes, false);
         Ok((0, single.to_uppercase()))
     }
 
@@ -168,7 +166,7 @@ impl Reader<'_, '_> {
         let used: BTreeSet<u32> =
             self.collection.elements.iter().flat_map(|e| e.nodes.iter().copied()).collect();
         for (key, (mut axes, place)) in held {
-            let Some(set) = self.node_sets.get(&key).cloned() else {
+            let Some(set) = self.nodes.sets.get(&key).cloned() else {
                 continue;
             };
             if in_plane {
@@ -234,8 +232,8 @@ impl Reader<'_, '_> {
                 continue;
             }
             let value = entry.get(2).and_then(|value| real(value)).ok_or_else(|| {
-                let message = format!("*{keyword}: a pressure expected, found {}", quoted(line));
-                self.deck.error(place, message)
+                fault!(self.deck, place;
+                "*{keyword}: a pressure expected, found {}", quoted(line))
             })?;
             let surface = match is_surface {
                 true => self
@@ -256,10 +254,10 @@ impl Reader<'_, '_> {
         set: &str,
         side: &str,
     ) -> Result<String, MeshFileError> {
-        let elements = self.element_entry(scope, place, set)?;
+        let elements = self.entry(&self.elements, scope, place, set)?;
         let elements = elements.ok_or_else(|| self.unknown(place, "element set", set))?;
         let (there, name) = self.resolved(scope, set);
-        let full = match self.element_sets.get(&self.key(scope, set)) {
+        let full = match self.elements.sets.get(&self.key(scope, set)) {
             Some(known) => format!("{}_{side}", known.name),
             None => format!("{}_{side}", self.scopes[there].full_name(&format!("element_{name}"))),
         };
@@ -280,10 +278,10 @@ impl Reader<'_, '_> {
             let target = entry.next().unwrap_or_default();
             let numbers: Option<Vec<f64>> = entry.map(real).collect();
             let Some(&[speed, a, b, c, d, e, f]) = numbers.as_deref() else {
-                let message = "a speed and two points of the axis (3 + 3 numbers) expected";
-                return Err(self.deck.error(place, message));
+                refuse!(self.deck, place;
+                    "a speed and two points of the axis (3 + 3 numbers) expected");
             };
-            let nodes = self.node_entry(scope, place, target)?;
+            let nodes = self.entry(&self.nodes, scope, place, target)?;
             let nodes = nodes.ok_or_else(|| self.unknown(place, "node set", target))?;
             let nodes: BTreeSet<u32> = nodes.into_iter().collect();
             let elements = self.collection.elements.iter();
@@ -326,14 +324,14 @@ impl Reader<'_, '_> {
         let target = entry.next().unwrap_or_default();
         let numbers: Option<Vec<f64>> = entry.skip(1).map(real).collect();
         let Some(&[square, a, b, c, d, e, f]) = numbers.as_deref() else {
-            let message = "CENTRIF: the square of a speed, a point of the axis and its direction (1 + 3 + 3 numbers) expected";
-            return Err(self.deck.error(place, message));
+            refuse!(self.deck, place;
+                "CENTRIF: the square of a speed, a point of the axis and its direction (1 + 3 + 3 \
+                 numbers) expected");
         };
         if square < 0.0 {
-            let message = "CENTRIF: the square of a speed is not negative";
-            return Err(self.deck.error(place, message));
+            refuse!(self.deck, place; "CENTRIF: the square of a speed is not negative");
         }
-        let elements = self.element_entry(scope, place, target)?;
+        let elements = self.entry(&self.elements, scope, place, target)?;
         let elements = elements.ok_or_else(|| self.unknown(place, "element set", target))?;
         let mut is_inside = vec![false; self.collection.elements.len()];
         elements.into_iter().for_each(|e| is_inside[e] = true);

@@ -22,7 +22,7 @@ impl Reader<'_, '_> {
         let used: BTreeSet<u32> = elements.flat_map(|e| e.nodes.iter().copied()).collect();
         let is_held = |reader: &Self, node: u32, axis: usize| {
             let mut sets = held.iter().filter(|(_, (axes, _))| axes[axis]);
-            sets.any(|(key, _)| reader.node_sets[key].items.contains(&node))
+            sets.any(|(key, _)| reader.nodes.sets[key].items.contains(&node))
         };
         let mut referred = BTreeSet::new();
         for &(scope, block) in blocks.iter().filter(|(_, b)| b.keyword == "EQUATION") {
@@ -30,8 +30,8 @@ impl Reader<'_, '_> {
                 // Sets of as many nodes stand for as many equations; a single node is part of each.
                 let count = terms.iter().map(|term| term.0.len()).max().unwrap_or(0);
                 if terms.iter().any(|term| ![1, count].contains(&term.0.len())) {
-                    let message = "*EQUATION: node sets of one equation have as many nodes each";
-                    return Err(self.deck.error(place, message));
+                    refuse!(self.deck, place;
+                        "*EQUATION: node sets of one equation have as many nodes each");
                 }
                 for i in 0..count {
                     let all = terms.iter().map(|(nodes, axis, factor)| {
@@ -42,12 +42,10 @@ impl Reader<'_, '_> {
                     for (node, axis, _) in beside {
                         if !is_held(self, node, axis) {
                             let label = self.collection.labels[node as usize];
-                            let message = format!(
-                                "*EQUATION: node {label} belongs to no element, and nothing holds it along {}: a node that moves \
-                                 others freely is not supported",
-                                ["x", "y", "z"][axis]
-                            );
-                            return Err(self.deck.error(place, message));
+                            refuse!(self.deck, place;
+                                "*EQUATION: node {label} belongs to no element, and nothing holds \
+                                 it along {}: a node that moves others freely is not supported",
+                                ["x", "y", "z"][axis]);
                         }
                         referred.insert(node);
                     }
@@ -76,15 +74,14 @@ impl Reader<'_, '_> {
             let count = line.trim().trim_end_matches(',').parse::<usize>().ok();
             let count = count.filter(|count| (1..=1_000_000).contains(count));
             let count = count.ok_or_else(|| {
-                let message = "*EQUATION: the number of terms expected";
-                self.deck.error(place, message)
+                fault!(self.deck, place;
+                "*EQUATION: the number of terms expected")
             })?;
             let mut terms: Vec<Term> = Vec::new();
             while terms.len() < count {
                 let Some(&(place, line)) = lines.next() else {
-                    let message =
-                        format!("*EQUATION: {count} terms expected, found {}", terms.len());
-                    return Err(self.deck.error(place, message));
+                    refuse!(self.deck, place;
+                        "*EQUATION: {count} terms expected, found {}", terms.len());
                 };
                 let entry: Vec<&str> = fields(line).collect();
                 for term in entry.chunks(3) {
@@ -103,9 +100,8 @@ impl Reader<'_, '_> {
         term: &[&str],
     ) -> Result<Term, MeshFileError> {
         let wrong = || {
-            let message =
-                "*EQUATION: a node or node set, a direction 1 to 3 and a coefficient expected";
-            self.deck.error(place, message)
+            fault!(self.deck, place;
+            "*EQUATION: a node or node set, a direction 1 to 3 and a coefficient expected")
         };
         let &[target, axis, factor] = term else {
             return Err(wrong());
@@ -114,7 +110,7 @@ impl Reader<'_, '_> {
         let (Some(axis), Some(factor)) = (axis, real(factor)) else {
             return Err(wrong());
         };
-        let nodes = self.node_entry(scope, place, target)?;
+        let nodes = self.entry(&self.nodes, scope, place, target)?;
         let nodes = nodes.ok_or_else(|| self.unknown(place, "node set", target))?;
         Ok((nodes, axis - 1, factor))
     }

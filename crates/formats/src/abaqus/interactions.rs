@@ -93,9 +93,8 @@ impl Reader<'_, '_> {
         for &(place, line) in &block.data {
             let names: Vec<&str> = fields(line).filter(|name| !name.is_empty()).collect();
             let &[first, second, ..] = names.as_slice() else {
-                let message =
-                    format!("*{}: two surfaces expected, found {}", block.keyword, quoted(line));
-                return Err(self.deck.error(place, message));
+                refuse!(self.deck, place;
+                    "*{}: two surfaces expected, found {}", block.keyword, quoted(line));
             };
             let found = [first, second].map(|name| self.surface_name(scope, name));
             match found {
@@ -126,7 +125,7 @@ impl Reader<'_, '_> {
         if let Some(found) = self.surfaces.get(&key) {
             return Some(found.clone());
         }
-        let set = self.node_sets.get(&key)?;
+        let set = self.nodes.sets.get(&key)?;
         let items = set.items.clone();
         let known = self.collection.node_sets.entry(set.name.clone());
         known.or_insert(items);
@@ -153,8 +152,8 @@ impl Reader<'_, '_> {
                 keyword @ ("FRICTION" | "SURFACE BEHAVIOR") => {
                     let known = current.as_ref().and_then(|name| found.get(name)).cloned();
                     let (Some(known), Some(name)) = (known, current.clone()) else {
-                        let message = format!("*{keyword} stands behind no *SURFACE INTERACTION");
-                        return Err(self.deck.error(block.place, message));
+                        refuse!(self.deck, block.place;
+                            "*{keyword} stands behind no *SURFACE INTERACTION");
                     };
                     let changed = match keyword {
                         "FRICTION" => self.friction(block, known)?,
@@ -186,8 +185,7 @@ impl Reader<'_, '_> {
         if block.has("EXPONENTIAL DECAY") {
             // mu = mu_k + (mu_s - mu_k) exp(-d v)
             let &[high, low, decay, ..] = numbers.as_slice() else {
-                let message = "*FRICTION, EXPONENTIAL DECAY needs three numbers";
-                return Err(self.deck.error(block.place, message));
+                refuse!(self.deck, block.place; "*FRICTION, EXPONENTIAL DECAY needs three numbers");
             };
             interaction.friction = Some(low);
             let falls = low > 0.0 && decay > 0.0 && high > low;

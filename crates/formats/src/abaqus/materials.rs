@@ -28,7 +28,7 @@ impl Reader<'_, '_> {
         let mut is_sectioned = vec![false; self.collection.elements.len()];
         for &(scope, block) in blocks.iter().filter(|(_, b)| b.keyword == "SOLID SECTION") {
             let name = block.required(self.deck, "ELSET")?;
-            let Some(set) = self.element_sets.get(&self.key(scope, name)).cloned() else {
+            let Some(set) = self.elements.sets.get(&self.key(scope, name)).cloned() else {
                 return Err(self.unknown(block.place, "element set", name));
             };
             let region: Arc<str> = set.name.as_str().into();
@@ -36,10 +36,8 @@ impl Reader<'_, '_> {
                 let known = &mut self.collection.elements[element];
                 if std::mem::replace(&mut is_sectioned[element], true) {
                     let label = known.label;
-                    let message = format!(
-                        "element {label} has two sections, the second by element set {name}"
-                    );
-                    return Err(self.deck.error(block.place, message));
+                    refuse!(self.deck, block.place;
+                        "element {label} has two sections, the second by element set {name}");
                 }
                 known.region = Some(Arc::clone(&region));
             }
@@ -61,7 +59,7 @@ impl Reader<'_, '_> {
                 },
             };
             // Without an orientation the axes are the global ones, which an instance does not turn.
-            if set.items.is_empty() && !self.skipped.is_empty() {
+            if set.items.is_empty() && !self.elements.skipped.is_empty() {
                 let keyword = format!("*SOLID SECTION of {name}");
                 self.lose_part(&keyword, block.place, "its elements are not read");
             }
@@ -111,8 +109,7 @@ impl Reader<'_, '_> {
                     structural: None,
                 };
                 if definitions.insert(name.to_uppercase(), definition).is_some() {
-                    let message = format!("material {name} is defined twice");
-                    return Err(self.deck.error(block.place, message));
+                    refuse!(self.deck, block.place; "material {name} is defined twice");
                 }
                 current = Some(name.to_uppercase());
                 continue;
@@ -122,8 +119,7 @@ impl Reader<'_, '_> {
             }
             let known = current.as_ref().and_then(|name| definitions.get_mut(name));
             let Some(definition) = known else {
-                let message = format!("*{keyword} stands behind no *MATERIAL");
-                return Err(self.deck.error(block.place, message));
+                refuse!(self.deck, block.place; "*{keyword} stands behind no *MATERIAL");
             };
             match keyword {
                 "ELASTIC" => {
@@ -249,19 +245,16 @@ fn elastic(
             };
             let name = &definition.name;
             let constants = engineering_constants(stiffness).ok_or_else(|| {
-                let message = format!(
-                    "*ELASTIC, TYPE={kind} of material {name} is no stiffness: it is singular"
-                );
-                deck.error(block.place, message)
+                fault!(deck, block.place;
+                "*ELASTIC, TYPE={kind} of material {name} is no stiffness: it is singular")
             })?;
             (constants, 2)
         }
         _ => {
             let name = &definition.name;
-            let message = format!(
-                "*ELASTIC, TYPE={kind} of material {name} is not supported: give ENGINEERING CONSTANTS"
-            );
-            return Err(deck.error(block.place, message));
+            refuse!(deck, block.place;
+                "*ELASTIC, TYPE={kind} of material {name} is not supported: give ENGINEERING \
+                 CONSTANTS");
         }
     };
     definition.elasticity = Some(elasticity);
@@ -294,14 +287,12 @@ fn damping(
             "BETA" => &mut definition.beta,
             "STRUCTURAL" => &mut definition.structural,
             _ => {
-                let message =
-                    format!("*DAMPING, {name} is not supported: ALPHA, BETA and STRUCTURAL are");
-                return Err(deck.error(block.place, message));
+                refuse!(deck, block.place;
+                    "*DAMPING, {name} is not supported: ALPHA, BETA and STRUCTURAL are");
             }
         };
         if number.is_none() {
-            let message = format!("*DAMPING, {name}= needs a number");
-            return Err(deck.error(block.place, message));
+            refuse!(deck, block.place; "*DAMPING, {name}= needs a number");
         }
         *slot = number;
     }

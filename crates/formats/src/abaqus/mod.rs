@@ -33,7 +33,7 @@ use std::hash::Hash;
 type Placed<'b, 'a> = [(usize, &'b Block<'a>)];
 
 /// A set under the name with which it was defined.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 struct Set<T> {
     name: String,
     /// Each member once, in the order in which they come first.
@@ -50,6 +50,34 @@ impl<T: Copy + Eq + Hash> Set<T> {
     }
 }
 
+/// Key of a name: its scope, and its capitals.
+type Key = (usize, String);
+
+/// Nodes or elements by scope and number, and their sets.
+struct Numbered<T> {
+    /// What one of them is called.
+    what: &'static str,
+    known: HashMap<(usize, usize), T>,
+    /// Those of types that are not used.
+    skipped: HashSet<(usize, usize)>,
+    sets: BTreeMap<Key, Set<T>>,
+}
+
+impl<T: Copy + Eq + Hash> Numbered<T> {
+    fn new(what: &'static str) -> Self {
+        let (known, skipped, sets) = (HashMap::new(), HashSet::new(), BTreeMap::new());
+        Self { what, known, skipped, sets }
+    }
+
+    /// Adds members to a set under its key and its full name.
+    fn add(&mut self, (key, name): (Key, String), items: Vec<T>, is_internal: bool) {
+        let new = || Set { name, items: Vec::new(), is_internal: false, known: HashSet::new() };
+        let set = self.sets.entry(key).or_insert_with(new);
+        set.add(items);
+        set.is_internal |= is_internal;
+    }
+}
+
 /// What is read so far. Names are keyed by scope and capitals.
 struct Reader<'d, 'a> {
     deck: &'d Deck<'a>,
@@ -57,14 +85,10 @@ struct Reader<'d, 'a> {
     scopes: Vec<Scope>,
     collection: Collection,
     model: ModelData,
-    nodes: HashMap<(usize, usize), u32>,
-    elements: HashMap<(usize, usize), usize>,
-    /// Elements of types that are not used.
-    skipped: HashSet<(usize, usize)>,
-    node_sets: BTreeMap<(usize, String), Set<u32>>,
-    element_sets: BTreeMap<(usize, String), Set<usize>>,
+    nodes: Numbered<u32>,
+    elements: Numbered<usize>,
     /// Names of surfaces among those of the collection.
-    surfaces: BTreeMap<(usize, String), String>,
+    surfaces: BTreeMap<Key, String>,
 }
 
 /// Keywords that make nodes or elements which are not written out.
@@ -125,11 +149,8 @@ pub(super) fn read(bytes: &[u8]) -> Result<FileMesh, MeshFileError> {
         scopes,
         collection: Collection::default(),
         model: ModelData::default(),
-        nodes: HashMap::new(),
-        elements: HashMap::new(),
-        skipped: HashSet::new(),
-        node_sets: BTreeMap::new(),
-        element_sets: BTreeMap::new(),
+        nodes: Numbered::new("node"),
+        elements: Numbered::new("element"),
         surfaces: BTreeMap::new(),
     };
     for (name, place) in unused_parts {
@@ -145,10 +166,8 @@ pub(super) fn read(bytes: &[u8]) -> Result<FileMesh, MeshFileError> {
     reader.read_interactions(&blocks)?;
     reader.read_conditions(&blocks)?;
     if reader.collection.elements.is_empty() {
-        return Err(deck.error(
-            deck.end(),
-            "the file has no solid or plane elements (*ELEMENT, TYPE=C3D10, C3D8, CPE4, ...)",
-        ));
+        refuse!(deck, deck.end();
+            "the file has no solid or plane elements (*ELEMENT, TYPE=C3D10, C3D8, CPE4, ...)");
     }
     reader.keep_node_sets();
     Ok(reader.collection.finish(reader.model))
@@ -171,14 +190,12 @@ impl Reader<'_, '_> {
         for (_, block) in blocks {
             let keyword = block.keyword.as_str();
             if GENERATORS.contains(&keyword) {
-                let message = format!(
-                    "*{keyword} is not supported: have the program write the mesh out with every node and element"
-                );
-                return Err(self.deck.error(block.place, message));
+                refuse!(self.deck, block.place;
+                    "*{keyword} is not supported: have the program write the mesh out with every \
+                     node and element");
             }
             if keyword == "INCLUDE" {
-                let message = "*INCLUDE needs INPUT= and a file beside this one".to_owned();
-                return Err(self.deck.error(block.place, message));
+                refuse!(self.deck, block.place; "*INCLUDE needs INPUT= and a file beside this one");
             }
             let expands = || blocks.iter().any(|(_, other)| other.keyword == "EXPANSION");
             let is_part = match keyword {
@@ -218,9 +235,16 @@ impl Reader<'_, '_> {
     }
 
     /// The key of a name seen from a scope.
-    fn key(&self, scope: usize, name: &str) -> (usize, String) {
+    fn key(&self, scope: usize, name: &str) -> Key {
         let (scope, name) = self.resolved(scope, name.trim().trim_matches('"'));
         (scope, name.to_uppercase())
+    }
+
+    /// The key of a name and the name in full.
+    fn named(&self, scope: usize, name: &str) -> (Key, String) {
+        let key = self.key(scope, name);
+        let full = self.scopes[key.0].full_name(name);
+        (key, full)
     }
 
     /// The scope of a block of sets: that of the parameter `INSTANCE`, or its own.
@@ -231,8 +255,8 @@ impl Reader<'_, '_> {
         let is_meant = |scope: &Scope| scope.name.eq_ignore_ascii_case(name);
         let found = self.scopes.iter().position(is_meant).filter(|&scope| scope > 0);
         found.ok_or_else(|| {
-            let message = format!("*{}: no instance is called \"{name}\"", block.keyword);
-            self.deck.error(block.place, message)
+            fault!(self.deck, block.place;
+            "*{}: no instance is called \"{name}\"", block.keyword)
         })
     }
 
@@ -240,7 +264,7 @@ impl Reader<'_, '_> {
     fn unknown(&self, place: Place, what: &str, name: &str) -> MeshFileError {
         let shown: String = name.chars().take(80).collect();
         let own = shown.rsplit('.').next().unwrap_or_default().to_uppercase();
-        let has_elements = what == "node set" && self.element_sets.keys().any(|key| key.1 == own);
+        let has_elements = what == "node set" && self.elements.sets.keys().any(|key| key.1 == own);
         let remedy = match has_elements {
             true => "; an element set is: *NSET, NSET=NAME, ELSET=ITS NAME gives its nodes a name",
             false => "",

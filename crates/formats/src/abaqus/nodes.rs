@@ -2,7 +2,7 @@
 
 use super::block::{Block, fields};
 use super::element::{ElementType, element_type};
-use super::{Placed, Reader, Set};
+use super::{Placed, Reader};
 use crate::ElementKind;
 use crate::collection::CollectedElement;
 use crate::deck::{Place, quoted, real};
@@ -18,8 +18,8 @@ impl Reader<'_, '_> {
     fn label(&self, place: Place, field: &str, what: &str) -> Result<usize, MeshFileError> {
         let number = field.trim().parse::<usize>().ok();
         number.filter(|&number| number > 0).ok_or_else(|| {
-            let message = format!("{what} expected, found {}", quoted(field));
-            self.deck.error(place, message)
+            fault!(self.deck, place;
+            "{what} expected, found {}", quoted(field))
         })
     }
 
@@ -31,9 +31,9 @@ impl Reader<'_, '_> {
             for (_, block) in blocks.iter().filter(|(s, b)| *s == scope && b.keyword == "NODE") {
                 if block.parameter("SYSTEM").is_some_and(|system| !system.eq_ignore_ascii_case("R"))
                 {
-                    let message =
-                        "*NODE, SYSTEM= other than R is not supported: write Cartesian coordinates";
-                    return Err(self.deck.error(block.place, message));
+                    refuse!(self.deck, block.place;
+                        "*NODE, SYSTEM= other than R is not supported: write Cartesian \
+                         coordinates");
                 }
                 let first = self.collection.points.len();
                 for &(place, line) in &block.data {
@@ -43,7 +43,8 @@ impl Reader<'_, '_> {
                 if let Some(name) = block.parameter("NSET") {
                     let items = (first..self.collection.points.len()).map(|node| node as u32);
                     let set = items.collect();
-                    self.add_node_set(scope, name, set, false);
+                    let named = self.named(scope, name);
+                    self.nodes.add(named, set, false);
                 }
             }
             if largest > 0 && offset > 0 && scope > 0 {
@@ -73,21 +74,20 @@ impl Reader<'_, '_> {
             *coordinate = match field {
                 "" => 0.0,
                 _ => real(field).ok_or_else(|| {
-                    let message = format!("a coordinate expected, found {}", quoted(field));
-                    self.deck.error(place, message)
+                    fault!(self.deck, place;
+                    "a coordinate expected, found {}", quoted(field))
                 })?,
             };
         }
         let point = self.scopes[scope].place(point);
         let next = self.collection.points.len() as u32;
-        if let Some(&known) = self.nodes.get(&(scope, label)) {
+        if let Some(&known) = self.nodes.known.get(&(scope, label)) {
             if self.collection.points[known as usize] != point {
-                let message = format!("node {label} is given twice, at different places");
-                return Err(self.deck.error(place, message));
+                refuse!(self.deck, place; "node {label} is given twice, at different places");
             }
             return Ok(label);
         }
-        self.nodes.insert((scope, label), next);
+        self.nodes.known.insert((scope, label), next);
         self.collection.points.push(point);
         self.collection.labels.push(label.saturating_add(offset));
         Ok(label)
@@ -108,13 +108,10 @@ impl Reader<'_, '_> {
                 if known.is_none()
                     && ["C3D", "CPE", "CPS"].iter().any(|solid| name.starts_with(solid))
                 {
-                    let message = format!(
+                    refuse!(self.deck, block.place;
                         "elements of type {name} are not supported. Known are {} (C3D4, C3D10, \
                          C3D8, C3D20, C3D6, C3D15, C3D5, C3D13), and CPE and CPS with 3, 4, 6 or 8 \
-                         nodes",
-                        ElementKind::SOLID_SHAPES
-                    );
-                    return Err(self.deck.error(block.place, message));
+                         nodes", ElementKind::SOLID_SHAPES);
                 }
                 let found = match known.filter(|known| Some(known.kind.dimension()) == dimension) {
                     Some(known) => self.element_block(scope, block, &known, offset)?,
@@ -143,14 +140,15 @@ impl Reader<'_, '_> {
             }
             let label = fields(line).next().unwrap_or_default();
             let label = self.label(place, label, "an element number")?;
-            self.skipped.insert((scope, label));
+            self.elements.skipped.insert((scope, label));
             largest = largest.max(label);
             let keyword = format!("*ELEMENT, TYPE={name}");
             let reason = "elements other than solids (of plane bodies CPE and CPS) are not used";
             self.leave_out(&keyword, place, reason);
         }
         if let Some(name) = block.parameter("ELSET") {
-            self.add_element_set(scope, name, Vec::new(), false);
+            let named = self.named(scope, name);
+            self.elements.add(named, Vec::new(), false);
         }
         Ok(largest)
     }
@@ -170,9 +168,8 @@ impl Reader<'_, '_> {
         }
         if let Some(is_strain) = known.is_plane_strain {
             if self.model.is_plane_strain.is_some_and(|other| other != is_strain) {
-                let message =
-                    "elements of plane strain (CPE) and of plane stress (CPS) in one file";
-                return Err(self.deck.error(block.place, message));
+                refuse!(self.deck, block.place;
+                    "elements of plane strain (CPE) and of plane stress (CPS) in one file");
             }
             self.model.is_plane_strain = Some(is_strain);
         }
@@ -204,13 +201,9 @@ impl Reader<'_, '_> {
                 numbers.push(self.label(place, field, "the number of an element or node")?);
             }
             if numbers.len() > count {
-                let message = format!(
+                refuse!(self.deck, start;
                     "element {} has {} nodes, {name} has {}",
-                    numbers[0],
-                    numbers.len() - 1,
-                    count - 1
-                );
-                return Err(self.deck.error(start, message));
+                    numbers[0], numbers.len() - 1, count - 1);
             }
             if numbers.len() == count {
                 largest = largest.max(numbers[0]);
@@ -219,13 +212,13 @@ impl Reader<'_, '_> {
             }
         }
         if let Some(label) = numbers.first() {
-            let message =
-                format!("element {label} has too few nodes for {name}, which has {}", count - 1);
-            return Err(self.deck.error(start, message));
+            refuse!(self.deck, start;
+                "element {label} has too few nodes for {name}, which has {}", count - 1);
         }
         if let Some(name) = block.parameter("ELSET") {
             let items = (first..self.collection.elements.len()).collect();
-            self.add_element_set(scope, name, items, false);
+            let named = self.named(scope, name);
+            self.elements.add(named, items, false);
         }
         Ok(largest)
     }
@@ -240,17 +233,15 @@ impl Reader<'_, '_> {
         let label = numbers[0];
         let mut nodes = Vec::with_capacity(numbers.len() - 1);
         for node in &numbers[1..] {
-            let Some(&index) = self.nodes.get(&(scope, *node)) else {
-                let message =
-                    format!("element {label} names node {node}, which the file does not have");
-                return Err(self.deck.error(place, message));
+            let Some(&index) = self.nodes.known.get(&(scope, *node)) else {
+                refuse!(self.deck, place;
+                    "element {label} names node {node}, which the file does not have");
             };
             nodes.push(index);
         }
         let next = self.collection.elements.len();
-        if self.elements.insert((scope, label), next).is_some() {
-            let message = format!("element {label} is given twice");
-            return Err(self.deck.error(place, message));
+        if self.elements.known.insert((scope, label), next).is_some() {
+            refuse!(self.deck, place; "element {label} is given twice");
         }
         self.collection.elements.push(CollectedElement {
             label: label.saturating_add(offset),
@@ -259,37 +250,5 @@ impl Reader<'_, '_> {
             region: region.cloned(),
         });
         Ok(())
-    }
-
-    pub(super) fn add_node_set(
-        &mut self,
-        scope: usize,
-        name: &str,
-        items: Vec<u32>,
-        internal: bool,
-    ) {
-        let key = self.key(scope, name);
-        let set = self
-            .node_sets
-            .entry(key.clone())
-            .or_insert_with(|| Set { name: self.scopes[key.0].full_name(name), ..Set::default() });
-        set.add(items);
-        set.is_internal |= internal;
-    }
-
-    pub(super) fn add_element_set(
-        &mut self,
-        scope: usize,
-        name: &str,
-        items: Vec<usize>,
-        internal: bool,
-    ) {
-        let key = self.key(scope, name);
-        let set = self
-            .element_sets
-            .entry(key.clone())
-            .or_insert_with(|| Set { name: self.scopes[key.0].full_name(name), ..Set::default() });
-        set.add(items);
-        set.is_internal |= internal;
     }
 }

@@ -62,8 +62,7 @@ pub(super) fn layout<'b, 'a>(
             "PART" => {
                 let name = block.required(deck, "NAME")?.to_uppercase();
                 if parts.contains_key(&name) {
-                    let message = format!("part {} is defined twice", quoted(&name));
-                    return Err(deck.error(block.place, message));
+                    refuse!(deck, block.place; "part {} is defined twice", quoted(&name));
                 }
                 parts.insert(name.clone(), (block.place, false, Vec::new()));
                 part = Some((name, block.place));
@@ -73,14 +72,12 @@ pub(super) fn layout<'b, 'a>(
                 let name = block.required(deck, "PART")?;
                 let found = parts.get_mut(&name.to_uppercase());
                 let Some((_, is_used, own)) = found else {
-                    let message = format!("*INSTANCE: no part is called {}", quoted(name));
-                    return Err(deck.error(block.place, message));
+                    refuse!(deck, block.place; "*INSTANCE: no part is called {}", quoted(name));
                 };
                 *is_used = true;
                 let scope = layout.scopes.len();
                 if scope > MOST_INSTANCES {
-                    let message = format!("more than {MOST_INSTANCES} instances");
-                    return Err(deck.error(block.place, message));
+                    refuse!(deck, block.place; "more than {MOST_INSTANCES} instances");
                 }
                 layout.blocks.extend(own.iter().map(|&block| (scope, block)));
                 layout.scopes.push(placed(deck, block)?);
@@ -100,8 +97,7 @@ pub(super) fn layout<'b, 'a>(
         }
     }
     if let Some((name, place)) = part {
-        let message = format!("*END PART of part {} is missing", quoted(&name));
-        return Err(deck.error(place, message));
+        refuse!(deck, place; "*END PART of part {} is missing", quoted(&name));
     }
     let unused = parts.into_iter().filter(|(_, part)| !part.1);
     layout.unused_parts = unused.map(|(name, part)| (name, part.0)).collect();
@@ -116,12 +112,9 @@ fn placed(deck: &Deck<'_>, block: &Block<'_>) -> Result<Scope, MeshFileError> {
         let row: Option<Vec<f64>> = fields(line).map(real).collect();
         let is_right = |row: &Vec<f64>| row.len() == if rows.is_empty() { 3 } else { 7 };
         let Some(row) = row.filter(is_right) else {
-            let message = format!(
-                "*INSTANCE {name}: a translation of 3 numbers, then a rotation of 7 (two points of the axis, an angle in \
-                 degrees) expected, found {}",
-                quoted(line)
-            );
-            return Err(deck.error(place, message));
+            refuse!(deck, place;
+                "*INSTANCE {name}: a translation of 3 numbers, then a rotation of 7 (two points of \
+                 the axis, an angle in degrees) expected, found {}", quoted(line));
         };
         rows.push(row);
     }
@@ -131,8 +124,8 @@ fn placed(deck: &Deck<'_>, block: &Block<'_>) -> Result<Scope, MeshFileError> {
         Some(r) => {
             let (from, to) = (Vector3::new(r[0], r[1], r[2]), Vector3::new(r[3], r[4], r[5]));
             let Some(axis) = Unit::try_new(to - from, 0.0) else {
-                let message = format!("*INSTANCE {name}: the axis of its rotation is a point");
-                return Err(deck.error(block.data[1].0, message));
+                refuse!(deck, block.data[1].0;
+                    "*INSTANCE {name}: the axis of its rotation is a point");
             };
             Some((from, Rotation3::from_axis_angle(&axis, r[6].to_radians())))
         }

@@ -1,13 +1,17 @@
 //! `*NSET` and `*ELSET`.
 
 use super::block::{Block, fields};
-use super::{Placed, Reader};
+use super::{Numbered, Placed, Reader};
 use crate::deck::{Place, quoted};
 use crate::file_mesh::MeshFileError;
+use frictionsim_bounds::Budget;
 use std::collections::{BTreeSet, HashMap};
 
 /// A set that is named before it is defined.
 type Missing = Option<(Place, String)>;
+
+/// The members of a set, or what it names before that is defined.
+type Members<T> = Result<Vec<T>, (Place, String)>;
 
 impl Reader<'_, '_> {
     /// Reads all sets; one may name sets that are defined after it.
@@ -24,11 +28,7 @@ impl Reader<'_, '_> {
             let mut later = Vec::new();
             let mut missing = None;
             for &(scope, block) in &open {
-                let found = match block.keyword.as_str() {
-                    "NSET" => self.node_set(scope, block)?,
-                    _ => self.element_set(scope, block)?,
-                };
-                if let Some((place, name)) = found {
+                if let Some((place, name)) = self.set(scope, block)? {
                     let is_node_set = block.keyword == "NSET" && !block.has("ELSET");
                     missing.get_or_insert((place, name, is_node_set));
                     later.push((scope, block));
@@ -43,102 +43,86 @@ impl Reader<'_, '_> {
         Ok(())
     }
 
-    /// Members of a set, listed twice or not, count against what may be read.
-    fn take_members(&mut self, place: Place, count: usize) -> Result<(), MeshFileError> {
-        let taken = self.budget.take_members(count);
-        taken.map_err(|refusal| self.deck.error(place, refusal.to_string()))
-    }
-
-    fn node_set(&mut self, scope: usize, block: &Block<'_>) -> Result<Missing, MeshFileError> {
-        let name = block.required(self.deck, "NSET")?;
+    /// Reads a set; what it names before that is defined, if so.
+    fn set(&mut self, scope: usize, block: &Block<'_>) -> Result<Missing, MeshFileError> {
+        let name = block.required(self.deck, &block.keyword)?;
         let inside = self.scope_of(scope, block)?;
-        let mut items = Vec::new();
-        if let Some(set) = block.parameter("ELSET") {
-            let Some(elements) = self.element_sets.get(&self.key(inside, set)) else {
-                return Ok(Some((block.place, set.to_owned())));
-            };
-            let elements = elements.items.iter();
-            let nodes = elements.flat_map(|&e| &self.collection.elements[e].nodes);
-            items.extend(nodes.copied().collect::<BTreeSet<u32>>());
-        } else if block.has("GENERATE") {
-            items = self.generated(inside, block, &self.nodes)?;
-        } else {
-            for (place, field) in entries(block) {
-                match self.node_entry(inside, place, field)? {
-                    Some(found) => {
-                        self.take_members(place, found.len())?;
-                        items.extend(found);
-                    }
-                    None => return Ok(Some((place, field.to_owned()))),
-                }
-            }
-        }
-        self.add_node_set(scope, name, items, block.has("INTERNAL"));
-        Ok(None)
+        let (named, is_internal) = (self.named(scope, name), block.has("INTERNAL"));
+        let mut budget = self.budget.clone();
+        let found = match block.keyword.as_str() {
+            "NSET" => self
+                .nodes_of(inside, block, &mut budget)?
+                .map(|items| self.nodes.add(named, items, is_internal)),
+            _ => self
+                .members(&self.elements, inside, block, &mut budget)?
+                .map(|items| self.elements.add(named, items, is_internal)),
+        };
+        self.budget = budget;
+        Ok(found.err())
     }
 
-    /// Nodes that an entry means, a number or the name of a set; none where no set of the name is known.
-    pub(super) fn node_entry(
+    /// The members of a node set: its own, or the nodes of an element set.
+    fn nodes_of(
         &self,
         scope: usize,
-        place: Place,
-        field: &str,
-    ) -> Result<Option<Vec<u32>>, MeshFileError> {
-        let (there, name) = self.resolved(scope, field);
-        if let Ok(label) = name.parse::<usize>() {
-            return match self.nodes.get(&(there, label)) {
-                Some(&node) => Ok(Some(vec![node])),
-                None => {
-                    let message = format!("no node has the number {}", quoted(field));
-                    Err(self.deck.error(place, message))
-                }
-            };
-        }
-        let set = self.node_sets.get(&self.key(scope, field));
-        Ok(set.map(|set| set.items.clone()))
+        block: &Block<'_>,
+        budget: &mut Budget,
+    ) -> Result<Members<u32>, MeshFileError> {
+        let Some(set) = block.parameter("ELSET") else {
+            return self.members(&self.nodes, scope, block, budget);
+        };
+        let Some(elements) = self.elements.sets.get(&self.key(scope, set)) else {
+            return Ok(Err((block.place, set.to_owned())));
+        };
+        let nodes = elements.items.iter().flat_map(|&e| &self.collection.elements[e].nodes);
+        let nodes: BTreeSet<u32> = nodes.copied().collect();
+        Ok(Ok(nodes.into_iter().collect()))
     }
 
-    fn element_set(&mut self, scope: usize, block: &Block<'_>) -> Result<Missing, MeshFileError> {
-        let name = block.required(self.deck, "ELSET")?;
-        let inside = self.scope_of(scope, block)?;
-        let mut items = Vec::new();
+    /// The members of a set; listed twice or not they count against what may be read.
+    fn members<T: Copy>(
+        &self,
+        all: &Numbered<T>,
+        scope: usize,
+        block: &Block<'_>,
+        budget: &mut Budget,
+    ) -> Result<Members<T>, MeshFileError> {
         if block.has("GENERATE") {
-            items = self.generated(inside, block, &self.elements)?;
-        } else {
-            for (place, field) in entries(block) {
-                match self.element_entry(inside, place, field)? {
-                    Some(found) => {
-                        self.take_members(place, found.len())?;
-                        items.extend(found);
-                    }
-                    None => return Ok(Some((place, field.to_owned()))),
-                }
-            }
+            return self.generated(scope, block, &all.known).map(Ok);
         }
-        self.add_element_set(scope, name, items, block.has("INTERNAL"));
-        Ok(None)
+        let mut items = Vec::new();
+        for (place, field) in entries(block) {
+            let Some(found) = self.entry(all, scope, place, field)? else {
+                return Ok(Err((place, field.to_owned())));
+            };
+            let taken = budget.take_members(found.len());
+            taken.map_err(|refusal| self.deck.error(place, refusal.to_string()))?;
+            items.extend(found);
+        }
+        Ok(Ok(items))
     }
 
-    /// Elements that an entry means, those that are not used left out; none where no set of the name is known.
-    pub(super) fn element_entry(
+    /// What an entry means, a number or the name of a set, those that are not used left out; none where no set of the
+    /// name is known.
+    pub(super) fn entry<T: Copy>(
         &self,
+        all: &Numbered<T>,
         scope: usize,
         place: Place,
         field: &str,
-    ) -> Result<Option<Vec<usize>>, MeshFileError> {
+    ) -> Result<Option<Vec<T>>, MeshFileError> {
         let (there, name) = self.resolved(scope, field);
-        if let Ok(label) = name.parse::<usize>() {
-            return match self.elements.get(&(there, label)) {
-                Some(&element) => Ok(Some(vec![element])),
-                None if self.skipped.contains(&(there, label)) => Ok(Some(Vec::new())),
-                None => {
-                    let message = format!("no element has the number {}", quoted(field));
-                    Err(self.deck.error(place, message))
-                }
-            };
+        let Ok(label) = name.parse::<usize>() else {
+            let set = all.sets.get(&self.key(scope, field));
+            return Ok(set.map(|set| set.items.clone()));
+        };
+        match all.known.get(&(there, label)) {
+            Some(&item) => Ok(Some(vec![item])),
+            None if all.skipped.contains(&(there, label)) => Ok(Some(Vec::new())),
+            None => {
+                refuse!(self.deck, place; "no {} has the number {}", all.what, quoted(field))
+            }
         }
-        let set = self.element_sets.get(&self.key(scope, field));
-        Ok(set.map(|set| set.items.clone()))
     }
 
     /// Items with the numbers first, first + step, ... up to last of each line; numbers without an item are passed over.
@@ -158,9 +142,8 @@ impl Reader<'_, '_> {
             };
             if step == 0 || first > last {
                 let found = quoted(line);
-                let message =
-                    format!("first, last and step of a generated set expected, found {found}");
-                return Err(self.deck.error(place, message));
+                refuse!(self.deck, place;
+                    "first, last and step of a generated set expected, found {found}");
             }
             // No more work than there are items, whatever the numbers say.
             if (last - first) / step < known.len() {

@@ -18,9 +18,8 @@ impl Reader<'_, '_> {
             match kind.as_str() {
                 "ELEMENT" => {
                     if block.has("COMBINE") || block.has("CROP") {
-                        let message =
-                            "*SURFACE with COMBINE or CROP is not supported: list its faces";
-                        return Err(self.deck.error(block.place, message));
+                        refuse!(self.deck, block.place;
+                            "*SURFACE with COMBINE or CROP is not supported: list its faces");
                     }
                     let faces = self.element_faces(scope, block)?;
                     if faces.is_empty() {
@@ -51,7 +50,7 @@ impl Reader<'_, '_> {
         let mut nodes = Vec::new();
         for &(place, line) in &block.data {
             let field = fields(line).next().unwrap_or_default();
-            let found = self.node_entry(scope, place, field)?;
+            let found = self.entry(&self.nodes, scope, place, field)?;
             nodes.extend(found.ok_or_else(|| self.unknown(place, "node set", field))?);
         }
         Ok(nodes)
@@ -70,7 +69,7 @@ impl Reader<'_, '_> {
             let elements = match set {
                 "" => (0..self.collection.elements.len()).collect(),
                 _ => {
-                    let found = self.element_entry(scope, place, set)?;
+                    let found = self.entry(&self.elements, scope, place, set)?;
                     found.ok_or_else(|| self.unknown(place, "element set", set))?
                 }
             };
@@ -99,20 +98,15 @@ impl Reader<'_, '_> {
         let number = side.strip_prefix(['S', 'P']).and_then(|n| n.parse().ok());
         let corners = number.and_then(|number| face_corners(element.kind, number));
         corners.and_then(|corners| element.face_of(corners)).ok_or_else(|| {
-            let message = format!(
-                "element {} ({}) has no face {}",
-                element.label,
-                element.kind.name(),
-                quoted(side)
-            );
-            self.deck.error(place, message)
+            fault!(self.deck, place;
+            "element {} ({}) has no face {}", element.label, element.kind.name(), quoted(side))
         })
     }
 
     /// Keeps sets of nodes that the user named as boundaries, where no surface has their name.
     pub(super) fn keep_node_sets(&mut self) {
         let total = self.collection.points.len();
-        for set in self.node_sets.values() {
+        for set in self.nodes.sets.values() {
             let is_kept = !set.is_internal && !set.items.is_empty() && set.items.len() < total;
             if is_kept && !self.collection.surfaces.contains_key(&set.name) {
                 let kept = self.collection.node_sets.entry(set.name.clone());

@@ -50,9 +50,9 @@ impl<'a> Cursor<'a> {
     pub fn count(&mut self, what: &str, smallest: usize) -> Result<usize, MeshFileError> {
         let count = self.size(what)?;
         if count > self.remaining() / smallest.max(1) {
-            return Err(self.error(format!(
-                "{count} {what} are announced, which the rest of the file cannot hold: the file is truncated or damaged"
-            )));
+            refuse!(self;
+                "{count} {what} are announced, which the rest of the file cannot hold: the file is \
+                 truncated or damaged");
         }
         Ok(count)
     }
@@ -85,9 +85,7 @@ impl<'a> Cursor<'a> {
         let found =
             self.bytes[self.at..].windows(end.len()).position(|window| window == end.as_bytes());
         let Some(offset) = found else {
-            return Err(
-                self.error(format!("section ${name} has no $End{name}: the file is truncated"))
-            );
+            refuse!(self; "section ${name} has no $End{name}: the file is truncated");
         };
         self.line += self.bytes[self.at..self.at + offset].iter().filter(|&&b| b == b'\n').count();
         self.at += offset;
@@ -100,14 +98,14 @@ impl<'a> Cursor<'a> {
         let expected = format!("$End{name}");
         loop {
             let Some(line) = self.text_line() else {
-                return Err(self.error(format!("{expected} is missing: the file is truncated")));
+                refuse!(self; "{expected} is missing: the file is truncated");
             };
             if line == expected {
                 return Ok(());
             }
             if !line.is_empty() {
                 let shown: String = line.chars().take(40).collect();
-                return Err(self.error(format!("{expected} expected, found {shown:?}")));
+                refuse!(self; "{expected} expected, found {shown:?}");
             }
         }
     }
@@ -121,12 +119,10 @@ impl<'a> Cursor<'a> {
         let length = rest.iter().position(u8::is_ascii_whitespace).unwrap_or(rest.len());
         let word = std::str::from_utf8(&rest[..length]).ok().filter(|word| !word.is_empty());
         let Some(word) = word else {
-            return Err(self.error(format!("{what} expected: the file is truncated or damaged")));
+            refuse!(self; "{what} expected: the file is truncated or damaged");
         };
         if word.starts_with('$') {
-            return Err(
-                self.error(format!("{what} expected, found {word}: the section is too short"))
-            );
+            refuse!(self; "{what} expected, found {word}: the section is too short");
         }
         self.at += length;
         Ok(word)
@@ -143,7 +139,7 @@ impl<'a> Cursor<'a> {
     fn raw<const N: usize>(&mut self, what: &str) -> Result<[u8; N], MeshFileError> {
         let found = self.bytes.get(self.at..self.at + N).and_then(|b| b.try_into().ok());
         let Some(mut bytes): Option<[u8; N]> = found else {
-            return Err(self.error(format!("{what} expected: the file is truncated")));
+            refuse!(self; "{what} expected: the file is truncated");
         };
         self.at += N;
         if self.is_swapped {
@@ -186,7 +182,7 @@ impl<'a> Cursor<'a> {
         let value =
             if self.is_binary { f64::from_le_bytes(self.raw(what)?) } else { self.parsed(what)? };
         if !value.is_finite() {
-            return Err(self.error(format!("{what} {value} is not finite")));
+            refuse!(self; "{what} {value} is not finite");
         }
         Ok(value)
     }

@@ -30,9 +30,9 @@ impl FileMesh {
         let is_binary = match words[..] {
             ["2.2" | "2" | "4.1", kind @ ("0" | "1"), "8"] => kind == "1",
             [number, ..] if !["2.2", "2", "4.1"].contains(&number) => {
-                return Err(cursor.error(format!(
-                    "MSH version {number} is not supported: save the mesh as version 4.1 or 2.2 (Mesh.MshFileVersion)"
-                )));
+                refuse!(cursor;
+                    "MSH version {number} is not supported: save the mesh as version 4.1 or 2.2 \
+                     (Mesh.MshFileVersion)");
             }
             _ => return Err(cursor.error("format line expected, such as \"4.1 0 8\"")),
         };
@@ -42,9 +42,7 @@ impl FileMesh {
                 1 => false,
                 0x0100_0000 => true,
                 _ => {
-                    return Err(
-                        cursor.error("the number 1, which gives the byte order, was expected")
-                    );
+                    refuse!(cursor; "the number 1, which gives the byte order, was expected");
                 }
             };
         }
@@ -68,14 +66,13 @@ impl FileMesh {
             cursor.end(&section)?;
         }
         if reader.file.points.is_empty() {
-            return Err(cursor.error("the file has no $Nodes"));
+            refuse!(cursor; "the file has no $Nodes");
         }
         let file = reader.finished();
         if file.elements.is_empty() {
-            return Err(cursor.error(
-                "the file has no triangles or quadrilaterals: mesh the surfaces (gmsh -2), and put them in a physical \
-                 group if the file has any",
-            ));
+            refuse!(cursor;
+                "the file has no triangles or quadrilaterals: mesh the surfaces (gmsh -2), and put \
+                 them in a physical group if the file has any");
         }
         Ok(file)
     }
@@ -173,15 +170,12 @@ impl Reader {
             let (dimension, tag) = (number(), number());
             let name = parts.next().map(|name| name.trim().trim_matches('"').to_owned());
             let (Some(dimension), Some(tag), Some(name)) = (dimension, tag, name) else {
-                return Err(
-                    cursor.error("dimension, tag and \"name\" of a physical group expected")
-                );
+                refuse!(cursor; "dimension, tag and \"name\" of a physical group expected");
             };
             if name.len() > LONGEST_NAME {
-                return Err(cursor.error(format!(
+                refuse!(cursor;
                     "the name of a physical group has {} bytes, more than {LONGEST_NAME}",
-                    name.len()
-                )));
+                    name.len());
             }
             self.names.insert((dimension, tag), name.into());
         }
@@ -197,7 +191,7 @@ impl Reader {
     ) -> Result<(), MeshFileError> {
         let index = self.file.points.len() as u32;
         if self.index_of.insert(label, index).is_some() {
-            return Err(cursor.error(format!("node {label} is given twice")));
+            refuse!(cursor; "node {label} is given twice");
         }
         self.file.labels.push(label);
         self.file.points.push(point);
@@ -230,9 +224,7 @@ impl Reader {
         let mut nodes = Vec::with_capacity(labels.len());
         for node in labels {
             let Some(&index) = self.index_of.get(node) else {
-                return Err(cursor.error(format!(
-                    "element {label} names node {node}, which the file does not have"
-                )));
+                refuse!(cursor; "element {label} names node {node}, which the file does not have");
             };
             self.file.is_used[index as usize] = true;
             nodes.push(index);

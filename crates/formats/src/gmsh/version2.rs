@@ -30,9 +30,7 @@ impl Reader {
                 (kind, 1, cursor.int("number of tags")?, Some(label))
             };
             if group < 1 || group > (count - read) as i64 || !(0..=64).contains(&tags) {
-                return Err(cursor.error(format!(
-                    "a group of {group} elements with {tags} tags is not valid here"
-                )));
+                refuse!(cursor; "a group of {group} elements with {tags} tags is not valid here");
             }
             for _ in 0..group {
                 let label = match label {

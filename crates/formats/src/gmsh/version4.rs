@@ -20,9 +20,7 @@ impl Reader {
                 }
                 let groups = cursor.count("physical tags", 2)?;
                 if groups > MOST_GROUPS {
-                    return Err(
-                        cursor.error(format!("an entity in {groups} physical groups is not valid"))
-                    );
+                    refuse!(cursor; "an entity in {groups} physical groups is not valid");
                 }
                 let groups: Result<Vec<i64>, _> =
                     (0..groups).map(|_| cursor.int("physical tag")).collect();

@@ -38,13 +38,9 @@ impl<'a> Card<'a> {
         match self.field(number) {
             "" => Ok(None),
             field => field.parse().map(Some).map_err(|_| {
-                let message = format!(
-                    "{}: a whole number expected in field {}, found {}",
-                    self.name,
-                    number + 2,
-                    quoted(field)
-                );
-                deck.error(self.place, message)
+                fault!(deck, self.place;
+                "{}: a whole number expected in field {}, found {}",
+                self.name, number + 2, quoted(field))
             }),
         }
     }
@@ -54,9 +50,8 @@ impl<'a> Card<'a> {
         let value = self.optional_int(deck, field)?;
         let value = value.and_then(|value| usize::try_from(value).ok());
         value.filter(|&value| value > 0).ok_or_else(|| {
-            let message =
-                format!("{}: a number above 0 expected in field {}", self.name, field + 2);
-            deck.error(self.place, message)
+            fault!(deck, self.place;
+            "{}: a number above 0 expected in field {}", self.name, field + 2)
         })
     }
 
@@ -71,13 +66,8 @@ impl<'a> Card<'a> {
             return Ok(None);
         }
         short_real(field).map(Some).ok_or_else(|| {
-            let message = format!(
-                "{}: a number expected in field {}, found {}",
-                self.name,
-                number + 2,
-                quoted(field)
-            );
-            deck.error(self.place, message)
+            fault!(deck, self.place;
+            "{}: a number expected in field {}, found {}", self.name, number + 2, quoted(field))
         })
     }
 
@@ -144,9 +134,7 @@ pub(super) fn cards<'a>(deck: &Deck<'a>) -> Result<(Vec<Card<'a>>, Control), Mes
         }
         let line = line.split('$').next().unwrap_or_default().trim_end();
         if line.contains('\t') {
-            return Err(
-                deck.error(place, "a tab stop: replace tabs by blanks or write free fields")
-            );
+            refuse!(deck, place; "a tab stop: replace tabs by blanks or write free fields");
         }
         if line.is_empty() {
             continue;
@@ -159,15 +147,14 @@ pub(super) fn cards<'a>(deck: &Deck<'a>) -> Result<(Vec<Card<'a>>, Control), Mes
         fields.resize(if is_large { 4 } else { 8 }, "");
         if head.is_empty() || head.starts_with(['+', '*']) {
             let Some(card) = cards.last_mut() else {
-                return Err(deck.error(place, "this line continues no card"));
+                refuse!(deck, place; "this line continues no card");
             };
             card.fields.extend(fields);
             continue;
         }
         let name = head.trim_end_matches('*').to_uppercase();
         if !name.starts_with(|c: char| c.is_ascii_alphabetic()) {
-            let message = format!("the name of a card expected, found {}", quoted(head));
-            return Err(deck.error(place, message));
+            refuse!(deck, place; "the name of a card expected, found {}", quoted(head));
         }
         cards.push(Card { name, fields, place });
     }

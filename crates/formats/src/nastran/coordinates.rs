@@ -98,8 +98,7 @@ impl<'d, 'a> Coordinates<'d, 'a> {
                     Definition::Points(usize::try_from(reference).unwrap_or(0), points)
                 };
                 if definitions.insert(number, (kind, definition, card.place)).is_some() {
-                    let message = format!("coordinate system {number} is defined twice");
-                    return Err(deck.error(card.place, message));
+                    refuse!(deck, card.place; "coordinate system {number} is defined twice");
                 }
             }
         }
@@ -129,8 +128,8 @@ impl<'d, 'a> Coordinates<'d, 'a> {
                     points.iter().find(|point| point.0 != 0 && !self.known.contains_key(&point.0));
                 if let Some(&(other, _, there)) = missing {
                     if !is_open.insert(other) {
-                        let message = format!("coordinate system {other} is defined by itself");
-                        return Err(self.deck.error(defined, message));
+                        refuse!(self.deck, defined;
+                            "coordinate system {other} is defined by itself");
                     }
                     open.push((other, there));
                     continue;
@@ -155,8 +154,7 @@ impl<'d, 'a> Coordinates<'d, 'a> {
         place: Place,
     ) -> Result<(Place, [Given; 3]), MeshFileError> {
         let Some(&(_, definition, defined)) = self.definitions.get(&number) else {
-            let message = format!("no coordinate system has the number {number}");
-            return Err(self.deck.error(place, message));
+            refuse!(self.deck, place; "no coordinate system has the number {number}");
         };
         let points = match definition {
             Definition::Points(reference, given) => given.map(|own| (reference, own, defined)),
@@ -164,10 +162,9 @@ impl<'d, 'a> Coordinates<'d, 'a> {
                 let mut points = [(0, [0.0; 3], defined); 3];
                 for (point, node) in points.iter_mut().zip(nodes) {
                     *point = *self.grids.get(&node).ok_or_else(|| {
-                        let message = format!(
-                            "coordinate system {number} names node {node}, which the file does not have"
-                        );
-                        self.deck.error(defined, message)
+                        fault!(self.deck, defined;
+                        "coordinate system {number} names node {node}, which the file does not \
+                         have")
                     })?;
                 }
                 points
@@ -183,8 +180,8 @@ impl<'d, 'a> Coordinates<'d, 'a> {
         let third = (on_axis - origin).try_normalize(0.0);
         let second = third.and_then(|z| z.cross(&(in_plane - origin)).try_normalize(0.0));
         let (Some(z), Some(y)) = (third, second) else {
-            let message = format!("the three points of coordinate system {number} lie on one line");
-            return Err(self.deck.error(defined, message));
+            refuse!(self.deck, defined;
+                "the three points of coordinate system {number} lie on one line");
         };
         Ok(System { kind, origin, axes: Matrix3::from_columns(&[y.cross(&z), y, z]) })
     }

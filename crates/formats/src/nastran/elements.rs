@@ -14,7 +14,7 @@ impl Reader<'_, '_> {
     pub(super) fn read_elements(&mut self) -> Result<(), MeshFileError> {
         for card in self.cards {
             if let Some((name, reason)) = REFUSED.iter().find(|refused| refused.0 == card.name) {
-                return Err(self.deck.error(card.place, format!("{name}: {reason}")));
+                refuse!(self.deck, card.place; "{name}: {reason}");
             }
             let of_order = |is_quadratic: bool| {
                 let mut kinds = ElementKind::ALL.into_iter();
@@ -46,24 +46,20 @@ impl Reader<'_, '_> {
         for place in 0..kind.node_count() {
             let node = card.optional_int(deck, 2 + place)?.unwrap_or(0);
             let Some(node) = usize::try_from(node).ok().filter(|&node| node > 0) else {
-                let message = format!(
-                    "{} {label} lacks node {}: give every node of the element, or its corners alone",
-                    card.name,
-                    place + 1
-                );
-                return Err(deck.error(card.place, message));
+                refuse!(deck, card.place;
+                    "{} {label} lacks node {}: give every node of the element, or its corners \
+                     alone", card.name, place + 1);
             };
             listed.push(self.node(node, &format!("{} {label}", card.name), card.place)?);
         }
         let beyond = fields.iter().skip(kind.node_count()).any(|field| !field.is_empty());
         if beyond {
-            let message =
-                format!("{} {label} has more than {} nodes", card.name, kind.node_count());
-            return Err(deck.error(card.place, message));
+            refuse!(deck, card.place;
+                "{} {label} has more than {} nodes", card.name, kind.node_count());
         }
         let index = self.collection.elements.len();
         if self.elements.insert(label, index).is_some() {
-            return Err(deck.error(card.place, format!("element {label} is given twice")));
+            refuse!(deck, card.place; "element {label} is given twice");
         }
         let region = self.region(property.unsigned_abs() as usize);
         self.collection.elements.push(CollectedElement {
@@ -137,8 +133,8 @@ impl Reader<'_, '_> {
                 }
                 let face = self.collection.elements[element].face_with(&nodes);
                 let face = face.ok_or_else(|| {
-                    let message = format!("{name}: its nodes are on no face of the element");
-                    deck.error(card.place, message)
+                    fault!(deck, card.place;
+                    "{name}: its nodes are on no face of the element")
                 })?;
                 self.collection.surfaces.entry(name.clone()).or_default().push(face);
             }
@@ -149,11 +145,8 @@ impl Reader<'_, '_> {
     /// The place of a solid element by its number.
     pub(super) fn solid(&self, label: usize, card: &Card<'_>) -> Result<usize, MeshFileError> {
         self.elements.get(&label).copied().ok_or_else(|| {
-            let message = format!(
-                "{} names element {label}, which is no solid element of the file",
-                card.name
-            );
-            self.deck.error(card.place, message)
+            fault!(self.deck, card.place;
+            "{} names element {label}, which is no solid element of the file", card.name)
         })
     }
 }

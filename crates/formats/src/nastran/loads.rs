@@ -36,9 +36,9 @@ impl Reader<'_, '_> {
                     let is_one = combined != "LOAD"
                         || factor(1)? == Some(1.0) && factor(field)? == Some(1.0);
                     if !is_one {
-                        let message =
-                            "LOAD: only factors of 1 are supported: write the pressures themselves";
-                        return Err(self.deck.error(card.place, message));
+                        refuse!(self.deck, card.place;
+                            "LOAD: only factors of 1 are supported: write the pressures \
+                             themselves");
                     }
                     active.insert(card.number(self.deck, field + step - 1)?);
                 }
@@ -83,9 +83,8 @@ impl Reader<'_, '_> {
         let text = card.field(field);
         let is_right = |c: char| ('0'..='6').contains(&c);
         if text.is_empty() || !text.chars().all(is_right) {
-            let message =
-                format!("{}: directions 1 to 6 expected, found {}", card.name, quoted(text));
-            return Err(self.deck.error(card.place, message));
+            refuse!(self.deck, card.place;
+                "{}: directions 1 to 6 expected, found {}", card.name, quoted(text));
         }
         Ok(text.chars().filter(|c| ('1'..='3').contains(c)).collect())
     }
@@ -223,9 +222,8 @@ impl Reader<'_, '_> {
             _ => None,
         };
         found.ok_or_else(|| {
-            let message =
-                format!("PLOAD4: G1 and G3 (G4) name no face of element {}", element.label);
-            self.deck.error(card.place, message)
+            fault!(self.deck, card.place;
+            "PLOAD4: G1 and G3 (G4) name no face of element {}", element.label)
         })
     }
 }

@@ -72,9 +72,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<FileMesh, MeshFileError> {
     reader.read_nodes()?;
     reader.read_elements()?;
     if reader.collection.elements.is_empty() {
-        return Err(
-            deck.error(deck.end(), "the file has no solid elements (CTETRA, CHEXA, CPENTA)")
-        );
+        refuse!(deck, deck.end(); "the file has no solid elements (CTETRA, CHEXA, CPENTA)");
     }
     reader.read_properties()?;
     reader.read_skins()?;
@@ -143,8 +141,7 @@ impl<'d, 'a> Reader<'d, 'a> {
             let system = usize::try_from(system).unwrap_or(0);
             let known = self.coordinates.grids.insert(label, (system, point, card.place));
             if known.is_some_and(|known| known.1 != point || known.0 != system) {
-                let message = format!("node {label} is given twice, at different places");
-                return Err(deck.error(card.place, message));
+                refuse!(deck, card.place; "node {label} is given twice, at different places");
             }
             let is_turned = card.optional_int(deck, 5)?.or(turned).is_some_and(|cd| cd != 0);
             let held = card.optional_int(deck, 6)?.or(held).filter(|&held| held > 0);
@@ -175,8 +172,8 @@ impl<'d, 'a> Reader<'d, 'a> {
     /// The place of a node by its number; `owner` names it.
     fn node(&self, label: usize, owner: &str, place: Place) -> Result<u32, MeshFileError> {
         self.nodes.get(&label).copied().ok_or_else(|| {
-            let message = format!("{owner} names node {label}, which the file does not have");
-            self.deck.error(place, message)
+            fault!(self.deck, place;
+            "{owner} names node {label}, which the file does not have")
         })
     }
 }

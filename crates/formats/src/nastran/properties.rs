@@ -42,10 +42,9 @@ impl Reader<'_, '_> {
                 matches!(card.name.as_str(), "MAT1" | "MAT9") && card.field(0).parse() == Ok(number)
             };
             let Some(material) = self.cards.iter().find(is_meant) else {
-                let message = format!(
-                    "PSOLID {property} names material {number}, which is no MAT1 or MAT9 of the file"
-                );
-                return Err(deck.error(card.place, message));
+                refuse!(deck, card.place;
+                    "PSOLID {property} names material {number}, which is no MAT1 or MAT9 of the \
+                     file");
             };
             let material = match material.name.as_str() {
                 "MAT1" => self.isotropic(material, region)?,
@@ -69,8 +68,7 @@ impl Reader<'_, '_> {
             (Some(e), Some(g), None) if g != 0.0 => (e, e / (2.0 * g) - 1.0),
             (None, Some(g), Some(nu)) => (2.0 * g * (1.0 + nu), nu),
             _ => {
-                let message = format!("MAT1 {}: two of E, G and NU are needed", card.field(0));
-                return Err(deck.error(card.place, message));
+                refuse!(deck, card.place; "MAT1 {}: two of E, G and NU are needed", card.field(0));
             }
         };
         let elasticity = FileElasticity::Isotropic { young_modulus, poisson_ratio };

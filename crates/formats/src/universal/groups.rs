@@ -49,11 +49,8 @@ impl Reader<'_, '_> {
         let mut is_region = false;
         for &(kind, number) in &group.items {
             let missing = |what: &str| {
-                let message = format!(
-                    "group {} names {what} {number}, which the file does not have",
-                    group.name
-                );
-                self.deck.error(group.place, message)
+                fault!(self.deck, group.place;
+                "group {} names {what} {number}, which the file does not have", group.name)
             };
             match kind {
                 NODE => nodes.push(*self.nodes.get(&number).ok_or_else(|| missing("node"))?),

@@ -72,8 +72,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<FileMesh, MeshFileError> {
     reader.datasets()?;
     let has_solids = reader.collection.dimension() == 3;
     if reader.collection.elements.is_empty() {
-        let message = "the file has no solid or plane elements (dataset 2412)";
-        return Err(deck.error(deck.end(), message));
+        refuse!(deck, deck.end(); "the file has no solid or plane elements (dataset 2412)");
     }
     if has_solids {
         reader.shells_to_skins();
@@ -97,10 +96,8 @@ impl<'a> Reader<'_, 'a> {
         match self.line() {
             Some((_, line)) if line.trim() == "-1" => Ok(None),
             Some(line) => Ok(Some(line)),
-            None => {
-                let message = "the file ends inside a dataset: it is truncated (-1 expected)";
-                Err(self.deck.error(self.deck.end(), message))
-            }
+            None => Err(fault!(self.deck, self.deck.end();
+                "the file ends inside a dataset: it is truncated (-1 expected)")),
         }
     }
 
@@ -110,8 +107,8 @@ impl<'a> Reader<'_, 'a> {
             let number = word.parse::<i64>().ok();
             // Colours and tags may be negative; they are not used.
             number.map(|n| usize::try_from(n).unwrap_or(0)).ok_or_else(|| {
-                let message = format!("whole numbers expected, found {}", quoted(word));
-                self.deck.error(place, message)
+                fault!(self.deck, place;
+                "whole numbers expected, found {}", quoted(word))
             })
         });
         numbers.collect()
@@ -128,9 +125,8 @@ impl<'a> Reader<'_, 'a> {
                 continue;
             }
             if line.trim() != "-1" {
-                let message =
-                    format!("-1, which begins a dataset, expected, found {}", quoted(line));
-                return Err(self.deck.error(place, message));
+                refuse!(self.deck, place;
+                    "-1, which begins a dataset, expected, found {}", quoted(line));
             }
             let Some((place, number)) = self.line() else {
                 break;
@@ -174,11 +170,11 @@ impl<'a> Reader<'_, 'a> {
 
     fn node(&mut self, place: Place, label: usize, point: &[f64]) -> Result<(), MeshFileError> {
         let Some(&point) = point.first_chunk::<3>() else {
-            return Err(self.deck.error(place, format!("node {label} needs three coordinates")));
+            refuse!(self.deck, place; "node {label} needs three coordinates");
         };
         let next = self.collection.points.len() as u32;
         if self.nodes.insert(label, next).is_some() {
-            return Err(self.deck.error(place, format!("node {label} is given twice")));
+            refuse!(self.deck, place; "node {label} is given twice");
         }
         self.collection.points.push(point);
         self.collection.labels.push(label);
@@ -188,8 +184,8 @@ impl<'a> Reader<'_, 'a> {
     fn coordinates(&self, place: Place, words: &[&str]) -> Result<Vec<f64>, MeshFileError> {
         let parsed = words.iter().map(|word| {
             real(word).ok_or_else(|| {
-                let message = format!("a coordinate expected, found {}", quoted(word));
-                self.deck.error(place, message)
+                fault!(self.deck, place;
+                "a coordinate expected, found {}", quoted(word))
             })
         });
         parsed.collect()
@@ -225,8 +221,7 @@ impl<'a> Reader<'_, 'a> {
             let (Some(&label), Some(&descriptor), Some(&count)) =
                 (numbers.first(), numbers.get(1), numbers.get(5))
             else {
-                let message = "six numbers of an element expected";
-                return Err(self.deck.error(head.0, message));
+                refuse!(self.deck, head.0; "six numbers of an element expected");
             };
             // Beams have a line for their orientation and ends.
             if (11..=32).contains(&descriptor) {
@@ -245,10 +240,8 @@ impl<'a> Reader<'_, 'a> {
                 for node in numbers {
                     let known = self.nodes.get(&node).copied();
                     nodes.push(known.ok_or_else(|| {
-                        let message = format!(
-                            "element {label} names node {node}, which the file does not have"
-                        );
-                        self.deck.error(line.0, message)
+                        fault!(self.deck, line.0;
+                        "element {label} names node {node}, which the file does not have")
                     })?);
                 }
             }
@@ -263,51 +256,45 @@ impl<'a> Reader<'_, 'a> {
         (label, descriptor): (usize, usize),
         nodes: &[u32],
     ) -> Result<(), MeshFileError> {
-        let entity = match ElementKind::listed(|formats| {
-            formats.universal.names.contains(&descriptor)
-        }) {
-            Some(kind) => {
-                if nodes.len() != kind.node_count() {
-                    let message = format!(
+        let entity =
+            match ElementKind::listed(|formats| formats.universal.names.contains(&descriptor)) {
+                Some(kind) => {
+                    if nodes.len() != kind.node_count() {
+                        refuse!(self.deck, place;
                         "element {label} has {} nodes, its kind {descriptor} ({}) has {}",
-                        nodes.len(),
-                        kind.name(),
-                        kind.node_count()
-                    );
-                    return Err(self.deck.error(place, message));
+                        nodes.len(), kind.name(), kind.node_count());
+                    }
+                    self.collection.elements.push(CollectedElement {
+                        label,
+                        kind,
+                        nodes: kind.formats().universal.arranged(nodes),
+                        region: None,
+                    });
+                    Entity::Element(self.collection.elements.len() - 1)
                 }
-                self.collection.elements.push(CollectedElement {
-                    label,
-                    kind,
-                    nodes: kind.formats().universal.arranged(nodes),
-                    region: None,
-                });
-                Entity::Element(self.collection.elements.len() - 1)
-            }
-            None if (11..=32).contains(&descriptor) && nodes.len() >= 2 => {
-                let mut all = nodes.to_vec();
-                all.sort_unstable();
-                Entity::Skin(all)
-            }
-            None if (101..121).contains(&descriptor) => {
-                let message = format!(
-                    "element {label} is of kind {descriptor}, which is not supported: tetrahedra, bricks and wedges are"
-                );
-                return Err(self.deck.error(place, message));
-            }
-            None => {
-                let deck = self.deck;
-                let keyword = format!("elements of kind {descriptor}");
-                let reason = "no solid or plane elements";
-                match JOINTS.contains(&descriptor) {
-                    true => self.model.lose_part(&keyword, || deck.name(place), reason),
-                    false => self.model.leave_out(&keyword, || deck.name(place), reason),
+                None if (11..=32).contains(&descriptor) && nodes.len() >= 2 => {
+                    let mut all = nodes.to_vec();
+                    all.sort_unstable();
+                    Entity::Skin(all)
                 }
-                Entity::Skin(Vec::new())
-            }
-        };
+                None if (101..121).contains(&descriptor) => {
+                    refuse!(self.deck, place;
+                    "element {label} is of kind {descriptor}, which is not supported: tetrahedra, \
+                     bricks and wedges are");
+                }
+                None => {
+                    let deck = self.deck;
+                    let keyword = format!("elements of kind {descriptor}");
+                    let reason = "no solid or plane elements";
+                    match JOINTS.contains(&descriptor) {
+                        true => self.model.lose_part(&keyword, || deck.name(place), reason),
+                        false => self.model.leave_out(&keyword, || deck.name(place), reason),
+                    }
+                    Entity::Skin(Vec::new())
+                }
+            };
         if self.entities.insert(label, entity).is_some() {
-            return Err(self.deck.error(place, format!("element {label} is given twice")));
+            refuse!(self.deck, place; "element {label} is given twice");
         }
         Ok(())
     }
