@@ -91,7 +91,8 @@ fn a_wave_that_the_transient_does_not_confirm_is_said_to_be_none() {
     let folder = folder();
     let coarse =
         ["mesh.circumferential_elements=36 ; mesh.radial_elements=8 ; cycle.harmonics=[2] ; \
-         cycle.stability=none ; cycle.continuation.count=2"];
+         cycle.stability=none ; cycle.continuation.count=2 ; \
+         cycle.continuation.from=600 ; cycle.continuation.to=620"];
     let run = waves("cycle", &folder.path().join("cycle"), &coarse).args(&["--json"]);
     let summary = run.end().warns(&["NOT CONFIRMED", "refine the mesh"]).value();
     assert_eq!(summary["cycles"][0]["confirmation"]["agrees"], false);
@@ -107,7 +108,8 @@ fn a_study_of_limit_cycles_has_the_same_table_for_any_threads() {
     let table = |threads: &str| {
         let [stability, frictions] = sized(["none", "[0.3,0.4]"], ["branch", "[0.2,0.3,0.4]"]);
         let set = [
-            "cycle.continuation.count=3".to_owned(),
+            "cycle.continuation.count=3 ; cycle.continuation.from=300".to_owned(),
+            format!("cycle.continuation.to={}", sized(1000, 6000)),
             format!("cycle.stability={stability}"),
             format!("sweep.\"contact.friction_coefficient\"={frictions}"),
         ];
@@ -148,11 +150,12 @@ fn an_interrupted_search_says_what_is_kept_and_can_be_started_again() {
     waves("cycle", &out, &COARSE).set(&short).args(&["--force"]).done();
 }
 
-/// The shipped block at a friction coefficient at which one mode grows.
-fn block(out: &Path, set: &[&str]) -> Run {
+/// The shipped block, coarse, at a friction coefficient at which one mode grows.
+fn block(folder: &Path, set: &[&str]) -> Run {
+    let mesh = coarse_block(folder);
     let grows = ["contact.friction_coefficient=0.7", "cycle.frames=2"];
-    let run = Run::of("cycle", shipped("sliding-block.toml")).args(&["--json"]).out(out);
-    run.set(&grows).set(set)
+    let run = Run::of("cycle", shipped("sliding-block.toml")).args(&["--json"]);
+    run.out(folder.join("run")).set(&[mesh]).set(&grows).set(set)
 }
 
 #[test]
@@ -186,8 +189,8 @@ fn a_body_without_symmetry_has_its_cycle_in_tables_without_a_harmonic_of_a_circu
 fn the_cycle_of_a_whole_mesh_has_the_same_bytes_for_any_threads() {
     let folder = folder();
     let table = |threads: &str| {
-        let run = block(&folder.path().join(threads), &["cycle.confirmation_periods=0"]);
-        let answer = run.args(&["--threads", threads]).done();
+        let run = block(folder.path(), &["cycle.confirmation_periods=0"]);
+        let answer = run.args(&["--threads", threads, "--force"]).done();
         ["cycle-mode7.csv", "contact-mode7.npz", "stability-mode7.csv"]
             .map(|name| answer.bytes(name))
     };
@@ -198,12 +201,11 @@ fn the_cycle_of_a_whole_mesh_has_the_same_bytes_for_any_threads() {
 fn a_body_without_symmetry_says_what_it_does_not_use_and_where_nothing_grows() {
     let folder = folder();
     let set = ["cycle.harmonics=[1]", "contact.friction_coefficient=0.5"];
-    let answer = block(&folder.path().join("stable"), &set).done();
+    let answer = block(folder.path(), &set).done();
     let summary = answer.warns(&["cycle.harmonics is not used"]).value();
     assert_eq!(summary["steady_sliding_stable"], true);
     assert!(summary["least_stable"]["growth_rate_per_s"].as_f64().unwrap() < 0.0);
-    block(&folder.path().join("rest"), &["contact.speed=0"])
-        .refused(&["contact.speed", "sticks at rest"]);
+    block(folder.path(), &["contact.speed=0"]).refused(&["contact.speed", "sticks at rest"]);
 }
 
 /// A square of one element on a moving plane, whose friction falls with speed: from 1.28 to 2.15 m/s it squeals beside stable sliding.

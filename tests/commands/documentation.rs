@@ -94,7 +94,7 @@ fn commands(block: &Block) -> Vec<String> {
 }
 
 /// Runs the commands of a page one after the other in a folder with the shipped cases, those of a block that begins with
-/// `# dry run` with `--dry-run`. Every line of a block of printed text is part of what a command before it has printed.
+/// `# dry run` with `--dry-run`. Figures of modes are drawn where the page draws them again. Every line of a block of printed text is part of what a command before it has printed.
 fn run_page(name: &str) {
     let (_, text) = pages().into_iter().find(|(page, _)| page == name).unwrap();
     let folder = tempfile::tempdir().unwrap();
@@ -116,8 +116,10 @@ fn run_page(name: &str) {
                 let dry: &[&str] = if is_dry { &["--dry-run"] } else { &[] };
                 let shipped = line.starts_with("frictionsim init --all");
                 let force: &[&str] = if shipped { &["--force"] } else { &[] };
+                let is_plain = line.starts_with("frictionsim cea ") && !text.contains("plot ");
+                let plain: &[&str] = if is_plain { &["--no-figures"] } else { &[] };
                 let given: Vec<&str> = line.split(' ').skip(1).collect();
-                let ran = program().args(given).args(dry).args(force).output().unwrap();
+                let ran = program().args(given).args(dry).args(plain).args(force).output().unwrap();
                 let said = String::from_utf8_lossy(&ran.stderr).into_owned();
                 assert!(ran.status.success(), "{name}: {line}\n{said}");
                 printed.push_str(&String::from_utf8_lossy(&ran.stdout));

@@ -127,7 +127,9 @@ fn what_the_data_cannot_tell_apart_is_named() {
 #[test]
 fn a_line_that_no_mode_can_be_is_named() {
     let table = "frequency_hz,harmonic,unstable\n7660,1,1\n9900,2,1\n10500,1,1\n9000,0,1\n";
-    let answer = fitted("fit-table-1.toml", table, &COARSE_DISC).code(1);
+    let one = ["fit={ starts = 1, parameters = { \"material.young_modulus\" = [1.5e9, 3e9] } }"];
+    let set = [COARSE_DISC.as_slice(), &one].concat();
+    let answer = fitted("fit-table-1.toml", table, &set).code(1);
     answer.warns(&["line 5", "n = 0, unstable"]);
 }
 

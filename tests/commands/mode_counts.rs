@@ -5,6 +5,8 @@ use crate::prelude::*;
 fn counted(case: &str, sets: &[&str], code: i32) -> (Answer, tempfile::TempDir) {
     let folder = folder();
     let run = Run::of("cea", shipped(case)).out(folder.path().join("run"));
+    let block = case == "sliding-block.toml";
+    let run = run.set(block.then(|| coarse_block(folder.path())).as_slice());
     (run.set(&["cea.count_modes=true"]).set(sets).end().code(code), folder)
 }
 

@@ -90,7 +90,9 @@ macro_rules! drawn_again {
         #[test]
         fn $name() {
             let folder = folder();
-            let answer = run(&folder, $command, $case, &$set).done();
+            let block = $case == "sliding-block.toml";
+            let mesh = block.then(|| coarse_block(folder.path()));
+            let answer = run(&folder, $command, $case, &$set).set(mesh.as_slice()).done();
             check_redrawn(&folder, $expected);
             has(&answer.text(concat!("figures/", $figure, ".svg")), $words);
         }

@@ -145,7 +145,9 @@ fn a_branch_that_goes_on_after_an_interruption_is_the_same_bit_by_bit() {
 #[test]
 fn a_branch_without_a_fold_says_so() {
     // A block under constant friction, above its onset.
+    let folder = tempfile::tempdir().unwrap();
     let overrides = [
+        &coarse_block(folder.path()),
         "contact.friction_coefficient=0.66",
         "cycle={ confirmation_periods = 0, stability = \"none\", continuation = { key = \"contact.friction_coefficient\", from = \
          0.6, to = 0.66, count = 3 } }",

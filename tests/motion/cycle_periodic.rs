@@ -12,7 +12,9 @@ use crate::oscillator::{EventDriven, oscillator};
 
 /// The block at a friction coefficient at which one mode grows.
 fn block(overrides: &[&str]) -> Case {
-    let own = ["contact.friction_coefficient=0.7", "cycle={ confirmation_periods = 20 }"];
+    let folder = tempfile::tempdir().unwrap();
+    let mesh = coarse_block(folder.path());
+    let own = [&mesh, "contact.friction_coefficient=0.7 ; cycle={ confirmation_periods = 20 }"];
     shipped_case("sliding-block.toml", &[&own, overrides].concat())
 }
 
@@ -53,9 +55,10 @@ pub fn hold_to_transient(case: &Case) -> PeriodicResult {
 }
 
 /// A transient that grows from noise.
-const FROM_NOISE: [&str; 1] =
-    ["transient.duration=0.012 ; transient.initial=\"steady-sliding\" ; \
-     transient.perturbation.noise=1e-2"];
+const FROM_NOISE: [&str; 1] = [
+    "transient.duration=0.012 ; transient.time_step=4e-7 ; transient.initial=\"steady-sliding\" ; \
+     transient.perturbation.noise=1e-2",
+];
 
 #[test]
 fn the_cycle_of_a_block_is_that_of_its_transient() {

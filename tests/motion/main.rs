@@ -4,6 +4,8 @@
 mod bricks;
 #[path = "../common/cases.rs"]
 mod cases;
+#[path = "../common/coarse_block.rs"]
+mod coarse_block;
 #[path = "../common/disc.rs"]
 mod disc;
 #[path = "../common/mesh_text.rs"]

@@ -2,6 +2,7 @@
 
 pub use crate::bricks::{Block, brick, file_of};
 pub use crate::cases::{case_of, shipped_case};
+pub use crate::coarse_block::coarse_block;
 pub use crate::disc::{
     DAMPING, POLYCARBONATE, RIGID, TANGENT, annulus, contact, elastic, grows_as, linearized,
     recorded, sliding_at, springs, stiffening, sweep_request, transient_settings,

@@ -264,7 +264,7 @@ fn frf_sliding(bench: &Bench, twin: Option<&Bench>) -> Cell {
 /// knows no mode that does.
 fn cycle(bench: &Bench, _: Option<&Bench>) -> Cell {
     // The wave of the lowest onset may be none on a mesh as coarse as this one: others are.
-    let lowest = "cycle={harmonics=[1],onsets=\"lowest\"}";
+    let lowest = "cycle={harmonics=[2],onsets=\"lowest\"}";
     let answer = match bench.run("cycle", &[lowest]) {
         Answer::Refused(reason) if reason.starts_with("no limit cycle found") => {
             bench.run("cycle", &["cycle={harmonics=[1]}"])

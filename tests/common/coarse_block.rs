@@ -1,0 +1,15 @@
+//! The shipped block on fewer elements, for what does not ask for its mesh.
+
+use crate::mesh_text::{even, quadrilaterals};
+use crate::tier::sized;
+use std::path::Path;
+
+/// Changes of `sliding-block.toml` that give it a mesh of 8 x 12 elements in `folder`; none in the long tier.
+pub fn coarse_block(folder: &Path) -> String {
+    let path = folder.join("block.msh");
+    let names = ["face", "back", "block"];
+    let mesh = quadrilaterals(&even(0.04, 8), &even(0.06, 12), names, |x, y| [x, y]);
+    std::fs::write(&path, mesh).unwrap();
+    let coarse = format!("mesh.file=\"{}\" ; mesh.scale=1", path.display());
+    sized(coarse, "mesh.scale=0.001".to_owned())
+}
