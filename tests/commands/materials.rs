@@ -1,7 +1,7 @@
 //! Materials as a user meets them: results beside theory, keys that name one number of a list, refusals.
 
 use crate::bodies::grid::{Grid, Shape, msh};
-use frictionsim::case::{Case, CeaMethod};
+use frictionsim::case::{Case, Cea, CeaMethod};
 use frictionsim::contact::SlidingContact;
 use frictionsim::fem::sector;
 use frictionsim::mesh::SectorMesh;
@@ -101,10 +101,15 @@ fn structural_damping_has_its_meaning_or_is_refused() {
     let (region, chain) = chains.chains().next().unwrap();
     assert_eq!((region, chain.band_hz), (0, [120.0, 12000.0]));
     assert!(chain.largest_error < 0.15, "{}", chain.largest_error);
-    // Sectors take both waves of a harmonic from one real problem; the whole mesh is solved instead.
-    let cyclic = Solver::of(&case, CeaMethod::Cyclic).err().unwrap();
-    assert!(cyclic.to_string().contains("conjugate pairs"), "{cyclic}");
-    assert!(matches!(Solver::of(&case, CeaMethod::Auto), Ok(Solver::WholeMesh)));
+    // Harmonics are counted at rest: modes with friction are counted on the whole mesh.
+    for method in [CeaMethod::Auto, CeaMethod::Cyclic] {
+        assert!(matches!(Solver::of(&case, method), Ok(Solver::Sectors(_))));
+        let cea = Cea { count_modes: true, method, ..case.require_cea().unwrap().clone() };
+        match Solver::of_analysis(&case, &cea) {
+            Ok(solver) => assert_eq!((solver, method), (Solver::WholeMesh, CeaMethod::Auto)),
+            Err(errors) => assert!(errors.to_string().contains("counted at rest"), "{errors}"),
+        }
+    }
     let beyond = read(&["material.loss_factor=1.5"]).unwrap_err();
     assert!(beyond.contains("material.loss_factor = 1.5"), "{beyond}");
 }

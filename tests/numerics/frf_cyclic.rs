@@ -79,6 +79,33 @@ fn harmonics_of_a_free_and_a_clamped_body_sum_to_the_response_of_the_whole_mesh(
     }
 }
 
+/// Consistency check: dashpots act on the response whether springs too weak to matter stand beside them or not.
+#[test]
+fn a_support_of_dashpots_alone_damps_the_response() {
+    let specification = &meshes()[0];
+    let response = |[spring, dashpot]: [f64; 2]| {
+        let mut mesh = AnnulusMesh::generate(specification).unwrap().mesh;
+        let mut edges = mesh.boundaries.iter_mut();
+        let edge = edges.find(|own| own.condition == BoundaryCondition::Free).unwrap();
+        edge.condition = BoundaryCondition::Support(ElasticSupport {
+            normal_stiffness: spring,
+            tangential_stiffness: spring,
+            normal_damping: dashpot,
+            tangential_damping: dashpot,
+            ..ElasticSupport::default()
+        });
+        let system = FrfSystem::body(&mesh, &POLYCARBONATE, MassKind::Consistent, DAMPING, true);
+        let [force, seen] = terminals(specification, false)[1];
+        let [force, seen] = [force, seen].map(|own| system.unknown(own, "node").unwrap());
+        direct_response(&system, force, seen, &FREQUENCIES).unwrap().receptance
+    };
+    let [alone, beside, none] = [[0.0, 1e4], [1e-3, 1e4], [1e-3, 0.0]].map(response);
+    for ((alone, beside), none) in alone.iter().zip(&beside).zip(&none) {
+        assert!((alone - beside).norm() < 1e-9 * beside.norm(), "{alone} {beside}");
+        assert!((alone - none).norm() > 1e-4 * none.norm(), "{alone} {none}");
+    }
+}
+
 #[test]
 fn harmonics_in_sliding_contact_sum_to_the_response_of_the_whole_mesh() {
     for specification in &meshes() {

@@ -5,10 +5,10 @@
 //! computed at every friction coefficient; branches are what leads from one to the next.
 
 use super::follow::{Follower, StepControl};
+use super::found::Overdamped;
 use super::path::{Eigenpair, Path, Waves};
 use super::paths::{HarmonicPaths, describe, start};
 use super::problem::{HarmonicProblem, Matrices};
-use super::sweep::Overdamped;
 use super::vectors::dot;
 use crate::cea::CeaError;
 use crate::linalg::dense_eigen::complex_eigenvalues;

@@ -7,11 +7,10 @@
 //! iteration.
 //!
 //! A harmonic of the plane annulus has a narrow band and is followed as it stands (`proven`). One in three dimensions has some
-//! thousand unknowns, too many to factorize for every mode at every friction coefficient, while friction acts on the few nodes
-//! of the contact. So it is first reduced to its modes at rest and to what forces and motions of the contact cause (`reduced`).
-//! Structural damping goes that way in the plane, too: its eigenvalues are those of the small space, refined over all unknowns.
-//! Where friction damps the motion across the sliding strongly, all eigenvalues of the small space are counted at every friction
-//! coefficient (`damped`).
+//! thousand unknowns, too many to factorize for every mode and friction coefficient. Friction acts on the few nodes of the
+//! contact. So the harmonic is first reduced to its modes at rest and to what the contact causes (`reduced`). Structural damping
+//! goes that way in the plane, too: eigenvalues of the small space are refined over all unknowns. Where friction damps the motion
+//! across the sliding strongly, all eigenvalues of the small space are counted (`damped`).
 
 mod across;
 mod branch;
@@ -20,6 +19,7 @@ mod completeness;
 mod damped;
 mod definite;
 mod follow;
+mod found;
 mod modes;
 mod modes_below;
 mod path;
@@ -35,6 +35,7 @@ mod sensitivity;
 mod sweep;
 mod vectors;
 
+pub use found::{Coverage, Overdamped, WaveSweep};
 pub use proven::onsets;
 pub use sensitivity::{Beside, WavePair, wave_pairs, wave_responses};
-pub use sweep::{Coverage, Overdamped, SolidModel, WaveSweep, solid_sweep, sweep, wave_sweep};
+pub use sweep::{SolidModel, solid_sweep, sweep, wave_sweep};

@@ -1,9 +1,9 @@
 //! The modes at one friction value, from the followed branches.
 
 use super::branch::{direction_of, eigenvalue_of, waves_of};
+use super::found::Wanted;
 use super::path::{Path, Waves};
 use super::paths::HarmonicPaths;
-use super::sweep::Wanted;
 use crate::cea::{ComplexMode, FrictionPoint, ModeLimit, ModeWave, keeping_ties};
 use crate::linalg::c64;
 use crate::prestress::WaveTangent;

@@ -1,11 +1,11 @@
 //! Harmonics followed as they stand, with a proof that no mode is missed: a plane annulus with viscous damping.
 
 use super::completeness::{self, Verdict};
+use super::found::{Found, MARGIN, Wanted, WaveSweep};
 use super::modes::points;
 use super::modes_below::{self, AtRest, at_rest, modes_below};
 use super::paths::{HarmonicPaths, follow_pairs};
 use super::problem::HarmonicProblem;
-use super::sweep::{Found, MARGIN, Wanted, WaveSweep};
 use crate::cea::{CeaError, FrictionSweep, ModeLimit, SweepRequest};
 use crate::prestress::WaveTangent;
 use rayon::prelude::*;

@@ -3,6 +3,7 @@
 use super::across::Across;
 use super::completeness::Verdict;
 use super::damped::{Range, follow_damped};
+use super::found::{Found, MARGIN, Overdamped, Wanted, WaveSweep};
 use super::modes::points;
 use super::modes_below::{AtRest, bound, modes_below, wanted};
 use super::paths::{HarmonicPaths, follow_pairs};
@@ -11,7 +12,6 @@ use super::problem::HarmonicProblem;
 use super::reduction::Reduction;
 use super::reduction_error::{ReducedPair, reduction_error};
 use super::refined::{of_all_unknowns, refined};
-use super::sweep::{Found, MARGIN, Overdamped, Wanted, WaveSweep};
 use crate::cea::{CeaError, FrictionPoint};
 use crate::fem::ModulusTable;
 use crate::linalg::banded::BandedMatrix;
