@@ -11,6 +11,7 @@ use super::paths::{HarmonicPaths, describe, start};
 use super::problem::{HarmonicProblem, Matrices};
 use super::vectors::dot;
 use crate::cea::CeaError;
+use crate::cea::sparse::NEARLY_CRITICAL;
 use crate::linalg::dense_eigen::complex_eigenvalues;
 use crate::linalg::{ComplexDenseLu, Mat, c64};
 use std::f64::consts::TAU;
@@ -138,10 +139,23 @@ impl Course<'_> {
             .collect();
         // Those near the bound come last, so that no other's number depends on them.
         missing.sort_by(|a, b| a.norm().total_cmp(&b.norm()));
+        let mut creeping = Vec::new();
         for value in missing {
-            self.add(value, [before, friction], &was_open, &shared)?;
+            let found = self.found(value, friction, &shared);
+            match found {
+                Some(found) => self.add(value, found, before, &was_open),
+                None if -value.re > NEARLY_CRITICAL * value.norm() => creeping.push(value),
+                None => {
+                    return Err(CeaError::Unrefined {
+                        harmonic: self.problem.tangent.harmonic,
+                        friction,
+                        frequency_hz: value.im.abs() / TAU,
+                    });
+                }
+            }
         }
-        Ok(self.overdamped(friction, &all))
+        let slow = all.iter().filter(|value| self.is_overdamped(value));
+        Ok(self.overdamped(friction, slow.chain(&creeping)))
     }
 
     /// Eigenvalues with the stiffness of their own frequencies: those that branches have come to, and what others with the
@@ -187,28 +201,19 @@ impl Course<'_> {
         }
     }
 
-    /// A branch from an eigenvalue that none has come to, followed back as far as it goes: to a branch that was lost on the way,
-    /// else to a beginning of its own.
-    fn add(
-        &mut self,
-        value: c64,
-        [before, friction]: [f64; 2],
-        was_open: &[usize],
-        shared: &Rc<Matrices>,
-    ) -> Result<(), CeaError> {
-        let problem = self.problem;
-        let found = [1.0, 1.0 + 1e-7].into_iter().find_map(|shift| {
+    /// The eigenvalue with its vectors; nothing where two meet, or creep against dashpots hides them.
+    fn found(&mut self, value: c64, friction: f64, shared: &Matrices) -> Option<Eigenpair> {
+        [1.0, 1.0 + 1e-7].into_iter().find_map(|shift| {
             let found = self.follower.find(shared, friction, value * shift)?;
             let is_it = (found.theta - value).norm() <= SAME * value.norm();
             is_it.then_some(found)
-        });
-        let Some(found) = found else {
-            return Err(CeaError::Unrefined {
-                harmonic: problem.tangent.harmonic,
-                friction,
-                frequency_hz: value.im.abs() / TAU,
-            });
-        };
+        })
+    }
+
+    /// A branch from an eigenvalue that none has come to, followed back as far as it goes: to a branch that was lost on the way,
+    /// else to a beginning of its own.
+    fn add(&mut self, value: c64, found: Eigenpair, before: f64, was_open: &[usize]) {
+        let (problem, friction) = (self.problem, found.parameter);
         let mut back = vec![found];
         let mut matrices = |value: f64| Rc::new(problem.at(value));
         let control = shortened([before, friction]);
@@ -237,7 +242,6 @@ impl Course<'_> {
                 self.paths.push(Tracked::new(path));
             }
         }
-        Ok(())
     }
 
     /// Whether a motion that no branch has come to decays without oscillating, or creeps.
@@ -245,11 +249,10 @@ impl Course<'_> {
         self.problem.is_ending(*value) || value.norm() < CREEP * self.largest
     }
 
-    /// The motions that do not oscillate.
-    fn overdamped(&self, friction: f64, all: &[c64]) -> Overdamped {
-        let slow =
-            all.iter().filter(|value| value.norm() <= self.largest && self.is_overdamped(value));
-        let rates: Vec<f64> = slow.map(|value| -value.re).collect();
+    /// The `slow` motions up to the bound.
+    fn overdamped<'a>(&self, friction: f64, slow: impl Iterator<Item = &'a c64>) -> Overdamped {
+        let rates: Vec<f64> =
+            slow.filter(|value| value.norm() <= self.largest).map(|value| -value.re).collect();
         Overdamped {
             friction_coefficient: friction,
             count: rates.len(),

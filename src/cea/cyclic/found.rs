@@ -38,7 +38,8 @@ pub struct Coverage {
 pub struct Overdamped {
     /// Friction coefficient `mu`.
     pub friction_coefficient: f64,
-    /// Number of motions: real eigenvalues, those with a frequency below a tenth of their size, and creep of the contact.
+    /// Number of motions: real eigenvalues, those with a frequency below a tenth of their size, creep of the contact, and
+    /// those beyond half of critical damping whose vectors it hides.
     pub count: usize,
     /// Their slowest and fastest decay, 1/s.
     pub decay: [f64; 2],
