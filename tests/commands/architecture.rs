@@ -37,13 +37,13 @@ fn rust_files(folder: &Path, files: &mut Vec<PathBuf>) {
 /// after a merge that conflicts here, the failure names the numbers to write.
 const BUDGETS: &[(&str, usize)] = &[
     ("crates/bounds", 196),
-    ("crates/chart", 4_904),
+    ("crates/chart", 4_905),
     ("crates/described", 104),
     ("crates/formats", 6_719),
     ("crates/linalg", 4_120),
     ("crates/signal", 6_581),
-    ("src/app", 5_306),
-    ("src/case", 11_913),
+    ("src/app", 5_281),
+    ("src/case", 11_878),
     ("src/cea", 11_008),
     ("src/contact", 2_879),
     ("src/cycle", 8_303),
@@ -55,7 +55,7 @@ const BUDGETS: &[(&str, usize)] = &[
     ("src/mesh", 4_644),
     ("src/output", 815),
     ("src/prestress", 5_535),
-    ("src/results", 20_344),
+    ("src/results", 20_327),
     ("src/study", 12_498),
     ("src/transient", 5_023),
 ];
