@@ -110,7 +110,7 @@ fn long<S: DeserializeOwned, T>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use serde_json::{Map, json};
+    use serde_json::{Map, Value, json};
 
     fn record(point: usize, radius: f64, analysis: &str, summary: Value) -> PointRecord {
         PointRecord {
