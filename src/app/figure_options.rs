@@ -1,8 +1,9 @@
 //! Options of every command that draws figures.
 
+use super::choice::{Choice, one_of};
 use crate::chart::WIDEST;
 use crate::results::{DOTS_PER_INCH, DrawingOptions, Format};
-use clap::{Args, ValueEnum};
+use clap::Args;
 
 /// Resolution, width and formats of the figures.
 #[derive(Args, Clone, Debug)]
@@ -16,48 +17,35 @@ pub struct FigureOptions {
     /// Formats of the figures
     #[arg(
         long,
-        value_enum,
+        value_parser = one_of(&FORMATS),
         value_name = "FORMAT",
         value_delimiter = ',',
         default_value = "svg,png,pdf"
     )]
-    format: Vec<FormatChoice>,
+    format: Vec<Format>,
 }
 
-/// A format of figures.
-#[derive(ValueEnum, Clone, Copy, Debug)]
-#[value(rename_all = "lower")]
-enum FormatChoice {
-    /// Lines, text as text
-    Svg,
-    /// Pixels
-    Png,
-    /// Lines, text as outlines
-    Pdf,
-}
+/// Formats of figures, each with its word.
+const FORMATS: [Choice<Format>; 3] = [
+    ("svg", Format::Svg, "Lines, text as text"),
+    ("png", Format::Png, "Pixels"),
+    ("pdf", Format::Pdf, "Lines, text as outlines"),
+];
 
 impl Default for FigureOptions {
     fn default() -> Self {
-        Self {
-            dpi: DOTS_PER_INCH,
-            width: None,
-            format: vec![FormatChoice::Svg, FormatChoice::Png, FormatChoice::Pdf],
-        }
+        let format = FORMATS.map(|choice| choice.1).into();
+        Self { dpi: DOTS_PER_INCH, width: None, format }
     }
 }
 
 impl FigureOptions {
     /// What the drawing needs to know.
     pub fn drawing(&self) -> DrawingOptions {
-        let chosen = |choice: &FormatChoice| match choice {
-            FormatChoice::Svg => Format::Svg,
-            FormatChoice::Png => Format::Png,
-            FormatChoice::Pdf => Format::Pdf,
-        };
         DrawingOptions {
             dots_per_inch: self.dpi,
             width_mm: self.width,
-            formats: self.format.iter().map(chosen).collect(),
+            formats: self.format.clone(),
         }
     }
 }

@@ -1,6 +1,7 @@
 //! `frictionsim identify`: Rayleigh coefficients from a measured frequency response.
 
 use super::Failure;
+use super::choice::{Choice, one_of};
 use super::measurement::{Measurement, SideFile};
 use super::options::OutputOptions;
 use super::profile::{Profile, Run};
@@ -9,7 +10,7 @@ use crate::results::identification::{
 };
 use crate::signal::reader::{ResponseOptions, read_response, write_response};
 use crate::signal::{FrequencyResponse, IdentificationOptions, ResponseQuantity, identify};
-use clap::{Args, ValueEnum, ValueHint};
+use clap::{Args, ValueHint};
 use std::path::PathBuf;
 
 /// Find damping from a measured frequency response
@@ -23,8 +24,8 @@ pub struct Arguments {
     #[arg(value_name = "FRF.csv", value_hint = ValueHint::FilePath)]
     response: PathBuf,
     /// Quantity in the table, if its header does not name it [default: accelerance]
-    #[arg(long, value_enum, value_name = "QUANTITY")]
-    quantity: Option<Quantity>,
+    #[arg(long, value_parser = one_of(&QUANTITIES), value_name = "QUANTITY")]
+    quantity: Option<ResponseQuantity>,
     /// Column names, if the header is missing or misread: f, f_khz, omega, re, im, mag, db, phase, phase_rad,
     /// coherence, - to skip
     #[arg(long, value_name = "NAMES", value_delimiter = ',', allow_hyphen_values = true)]
@@ -45,26 +46,12 @@ pub struct Arguments {
     output: OutputOptions,
 }
 
-/// Quantities as options.
-#[derive(ValueEnum, Clone, Copy, Debug, PartialEq, Eq)]
-enum Quantity {
-    /// Acceleration over force
-    Accelerance,
-    /// Velocity over force
-    Mobility,
-    /// Displacement over force
-    Receptance,
-}
-
-impl From<Quantity> for ResponseQuantity {
-    fn from(quantity: Quantity) -> Self {
-        match quantity {
-            Quantity::Accelerance => ResponseQuantity::Accelerance,
-            Quantity::Mobility => ResponseQuantity::Mobility,
-            Quantity::Receptance => ResponseQuantity::Receptance,
-        }
-    }
-}
+/// Quantities, each with its word.
+const QUANTITIES: [Choice<ResponseQuantity>; 3] = [
+    ("accelerance", ResponseQuantity::Accelerance, "Acceleration over force"),
+    ("mobility", ResponseQuantity::Mobility, "Velocity over force"),
+    ("receptance", ResponseQuantity::Receptance, "Displacement over force"),
+];
 
 impl Run for Arguments {
     const PROFILE: Profile = Profile {
@@ -87,7 +74,7 @@ impl Run for Arguments {
         let measurement =
             Measurement::start("identify", &self.response, &self.output, choices(self))?;
         let reading = ResponseOptions {
-            quantity: self.quantity.map(ResponseQuantity::from),
+            quantity: self.quantity,
             columns: self.columns.clone(),
             channels: self.channel.clone(),
         };
@@ -138,8 +125,7 @@ fn identification_options(arguments: &Arguments) -> Result<IdentificationOptions
 /// Options that change the result.
 fn choices(arguments: &Arguments) -> Vec<String> {
     let number = |name: &str, value: Option<f64>| value.map(|v| format!("{name}={v}"));
-    let quantity =
-        arguments.quantity.map(|q| format!("quantity={}", ResponseQuantity::from(q).name()));
+    let quantity = arguments.quantity.map(|quantity| format!("quantity={}", quantity.name()));
     let mut out: Vec<String> =
         [quantity, number("from", arguments.from), number("to", arguments.to)]
             .into_iter()

@@ -3,6 +3,7 @@
 mod basin;
 pub mod cea;
 pub mod check;
+mod choice;
 mod collect;
 mod columns;
 mod compare;
@@ -40,9 +41,11 @@ pub mod transient;
 mod uncertainty;
 
 pub use failure::Failure;
-pub use options::{OutputOptions, RunOptions, SimdChoice};
+pub use options::{OutputOptions, RunOptions};
 pub use session::Session;
 
+use choice::one_of;
+use options::SIMD_LEVELS;
 use profile::{Profile, Run};
 
 use clap::{Arg, ArgAction, CommandFactory, FromArgMatches, Parser, Subcommand};
@@ -182,7 +185,7 @@ fn with_common_options(command: clap::Command) -> clap::Command {
         Arg::new("simd")
             .long("simd")
             .value_name("LEVEL")
-            .value_parser(clap::builder::EnumValueParser::<SimdChoice>::new())
+            .value_parser(one_of(&SIMD_LEVELS))
             .help("SIMD level of the kernels"),
         count("quiet", 'q').help("No progress bar and no information messages"),
         count("verbose", 'v').conflicts_with("quiet").help("Full tables and progress messages"),

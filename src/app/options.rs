@@ -1,5 +1,6 @@
 //! Options that subcommands share, and the folder that results go to by default.
 
+use super::choice::{Choice, one_of};
 use super::figure_options::FigureOptions;
 use super::limits::STANDARD_INPUT;
 use super::{Failure, terminal};
@@ -11,7 +12,7 @@ use crate::results::{
     DrawingError, DrawingOptions, Finding, Manifest, OutputFolder, Replace, declared, is_result,
     read_manifest, write_page, write_summary, write_tables,
 };
-use clap::{ArgAction, Args, ValueEnum, ValueHint};
+use clap::{ArgAction, Args, ValueHint};
 use serde::Serialize;
 use serde_json::{Value, json};
 use std::path::{Component, Path, PathBuf};
@@ -29,8 +30,8 @@ pub struct RunOptions {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     pub threads: Option<u16>,
     /// SIMD level of the kernels
-    #[arg(long, value_enum, value_name = "LEVEL", default_value = "auto")]
-    pub simd: SimdChoice,
+    #[arg(long, value_parser = one_of(&SIMD_LEVELS), value_name = "LEVEL", default_value = "auto")]
+    pub simd: SimdOption,
     /// Where results go and what is said of them.
     #[command(flatten)]
     pub output: OutputOptions,
@@ -291,32 +292,16 @@ fn difference(ours: &Manifest, found: &Manifest) -> Option<String> {
 /// Longest end of a folder's name that is made from overrides.
 const LONGEST_NAME: usize = 100;
 
-/// SIMD level asked for.
-#[derive(ValueEnum, Clone, Copy, Debug, PartialEq, Eq)]
-#[value(rename_all = "lower")]
-pub enum SimdChoice {
-    /// The widest that the machine has
-    Auto,
-    /// No vector instructions
-    Scalar,
-    /// AVX2 with FMA
-    Avx2,
-    /// AVX-512
-    Avx512,
-}
+/// A SIMD level, or the widest that the machine has.
+pub type SimdOption = Option<SimdLevel>;
 
-impl SimdChoice {
-    /// The level that a run uses and records; `None` if this machine does not have it.
-    pub fn resolve(self) -> Option<SimdLevel> {
-        let wanted = match self {
-            Self::Auto => return Some(SimdLevel::detect()),
-            Self::Scalar => SimdLevel::Scalar,
-            Self::Avx2 => SimdLevel::Avx2,
-            Self::Avx512 => SimdLevel::Avx512,
-        };
-        wanted.available().ok()
-    }
-}
+/// SIMD levels that may be asked for, each with its word.
+pub const SIMD_LEVELS: [Choice<SimdOption>; 4] = [
+    ("auto", None, "The widest that the machine has"),
+    ("scalar", Some(SimdLevel::Scalar), "No vector instructions"),
+    ("avx2", Some(SimdLevel::Avx2), "AVX2 with FMA"),
+    ("avx512", Some(SimdLevel::Avx512), "AVX-512"),
+];
 
 #[cfg(test)]
 mod tests {

@@ -45,12 +45,8 @@ impl Session {
         for warning in case.warnings.iter().chain(&ignored) {
             tracing::warn!("{warning}");
         }
-        let simd = options.simd.resolve().ok_or_else(|| {
-            Failure::usage(format!(
-                "--simd {:?} is not available on this machine: use --simd auto",
-                options.simd
-            ))
-        })?;
+        let simd = options.simd.map_or_else(|| Ok(SimdLevel::detect()), SimdLevel::available);
+        let simd = simd.map_err(Failure::usage)?;
         let manifest = Manifest {
             case_file: options.case.display().to_string(),
             case_text: case.raw.text.clone(),

@@ -12,52 +12,44 @@ fn is_hidden(c: char) -> bool {
         || matches!(c, '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}' | '\u{fff9}'..='\u{fffb}')
 }
 
-/// `text` with every control character and every mark of the writing direction escaped, as `\u{1b}`.
-pub fn shown(text: &str) -> Cow<'_, str> {
+/// `text` with such characters written by `write`.
+fn rewritten(text: &str, write: impl Fn(&mut String, char)) -> Cow<'_, str> {
     if !text.chars().any(is_hidden) {
         return Cow::Borrowed(text);
     }
     let mut out = String::with_capacity(text.len() + 16);
     for c in text.chars() {
-        if is_hidden(c) { out.extend(c.escape_default()) } else { out.push(c) }
+        if is_hidden(c) { write(&mut out, c) } else { out.push(c) }
     }
     Cow::Owned(out)
+}
+
+/// `text` with every control character and every mark of the writing direction escaped, as `\u{1b}`.
+pub fn shown(text: &str) -> Cow<'_, str> {
+    rewritten(text, |out, c| out.extend(c.escape_default()))
 }
 
 /// JSON text with such characters as escapes of JSON, `\u009b`: they can only stand within its strings.
 pub fn shown_json(text: &str) -> Cow<'_, str> {
-    if !text.chars().any(is_hidden) {
-        return Cow::Borrowed(text);
-    }
-    let mut out = String::with_capacity(text.len() + 16);
-    for c in text.chars() {
-        if !is_hidden(c) {
-            out.push(c);
-            continue;
-        }
-        let mut units = [0; 2];
-        for unit in c.encode_utf16(&mut units) {
+    rewritten(text, |out, c| {
+        for unit in c.encode_utf16(&mut [0; 2]) {
             // Writing to a string cannot fail.
             let _ = write!(out, "\\u{unit:04x}");
         }
-    }
-    Cow::Owned(out)
+    })
 }
 
 /// `text` with such characters replaced by others of the same length in bytes: places in it stay places.
 pub(super) fn shown_in_place(text: &str) -> Cow<'_, str> {
-    if !text.chars().any(is_hidden) {
-        return Cow::Borrowed(text);
-    }
-    let replaced = text.chars().map(|c| match (is_hidden(c), c.len_utf8()) {
-        (false, _) => c,
-        (true, 1) => '?',
-        (true, 2) => '\u{b7}',
-        (true, 3) => '\u{fffd}',
-        // A replacement of four bytes, for completeness: no such character is hidden today.
-        (true, _) => '\u{1f6ab}',
-    });
-    Cow::Owned(replaced.collect())
+    rewritten(text, |out, c| {
+        out.push(match c.len_utf8() {
+            1 => '?',
+            2 => '\u{b7}',
+            3 => '\u{fffd}',
+            // A replacement of four bytes, for completeness: no such character is hidden today.
+            _ => '\u{1f6ab}',
+        });
+    })
 }
 
 /// The first `most` of `all`, and how many more there are: `a, b and 3 more`.

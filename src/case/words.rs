@@ -19,47 +19,14 @@ pub(super) fn words<T: Choice>() -> Vec<&'static str> {
     T::WORDS.iter().map(|pair| pair.0).collect()
 }
 
-/// Finds the words of the choices that keys take, by the names of their types.
-macro_rules! words_by_name {
-    ($($choice:ident),+ $(,)?) => {
-        /// The words of the choice of a type, by its name.
-        pub(super) fn words_named(name: &str) -> Option<fn() -> Vec<&'static str>> {
-            Some(match name {
-                $(stringify!($choice) => words::<$choice>,)+
-                _ => return None,
-            })
-        }
-    };
-}
+/// Choices by the names of their types, each with its words.
+type Named = &'static [(&'static str, fn() -> Vec<&'static str>)];
 
-words_by_name!(
-    ElementKind,
-    UnitsWord,
-    FilePart,
-    ConditionWord,
-    HeldAxis,
-    AxesWord,
-    PlaneFormulation,
-    CounterfaceWord,
-    NormalLawWord,
-    BaseContact,
-    BaseChoice,
-    RotationFrame,
-    CeaMethod,
-    MassKind,
-    ModificationKind,
-    InitialState,
-    OperatorChoice,
-    Combination,
-    Analysis,
-    OnsetChoice,
-    StabilityChoice,
-    Spacing,
-    FrfBoundary,
-    Direction,
-    ResponseQuantity,
-    FrfMethod,
-);
+/// The words of the choice of a type, by its name.
+pub(super) fn words_named(name: &str) -> Option<fn() -> Vec<&'static str>> {
+    let mut all = [OWN, OTHERS, NAMED].into_iter().flatten();
+    all.find(|pair| pair.0 == name).map(|pair| pair.1)
+}
 
 /// The words of a choice with what they stand for.
 pub(super) fn words_of<T: Choice>() -> impl Iterator<Item = (&'static str, T)> {
@@ -112,7 +79,9 @@ macro_rules! words {
         impl Choice for $name {
             const WORDS: &'static [(&'static str, Self)] = &[$(($word, Self::$variant)),+];
         }
-    )+};
+    )+
+        const OWN: Named = &[$((stringify!($name), words::<$name>)),+];
+    };
 }
 
 words! {
@@ -238,11 +207,13 @@ words! {
 
 /// States the words of each choice.
 macro_rules! choices {
-    ($($choice:ty { $($word:literal = $value:expr),+ $(,)? })+) => {$(
+    ($($choice:ident { $($word:literal = $value:expr),+ $(,)? })+) => {$(
         impl Choice for $choice {
             const WORDS: &'static [(&'static str, Self)] = &[$(($word, $value)),+];
         }
-    )+};
+    )+
+        const OTHERS: Named = &[$((stringify!($choice), words::<$choice>)),+];
+    };
 }
 
 choices! {
@@ -265,7 +236,9 @@ macro_rules! named {
         impl Choice for $choice {
             const WORDS: &'static [(&'static str, Self)] = &[$(($value.name(), $value)),+];
         }
-    )+};
+    )+
+        const NAMED: Named = &[$((stringify!($choice), words::<$choice>)),+];
+    };
 }
 
 named! {

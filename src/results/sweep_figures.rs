@@ -7,13 +7,12 @@ use super::cycle::{FamilyRecord, NamedFamily, draw_branches};
 use super::drawing::{Declaration, declared};
 use super::parameter::{parameter_axis, parameter_name};
 use super::sweep::{
-    PointRecord, TWO_FREQUENCY, UNSETTLED, critical_friction, operating_matrix, printed,
+    PointRecord, TWO_FREQUENCY, UNSETTLED, critical_friction, listed, operating_matrix, printed,
 };
 use crate::chart::{
     Axis, ChartError, Figure, Fill, INK, Line, Marker, Panel, Points, Rule, Scale, Stroke, literal,
     look, plain,
 };
-use serde::Deserialize;
 use serde_json::{Map, Value};
 
 const SPEED: &str = "contact.rotation_speed_rpm";
@@ -301,13 +300,8 @@ fn cycle_families(records: &[PointRecord]) -> Vec<(String, FamilyRecord)> {
     let mut families = Vec::new();
     for record in records {
         let summary = record.summaries.get("cycle");
-        let curves = summary.and_then(|summary| summary.get("curves")?.as_array());
-        for curve in curves.into_iter().flatten() {
-            // A record of another version has no curves that this one knows.
-            if let Ok(family) = FamilyRecord::deserialize(curve) {
-                families.push((format!(", {}", swept_label(&record.swept)), family));
-            }
-        }
+        let curves = listed(summary.and_then(|summary| summary.get("curves"))).into_iter();
+        families.extend(curves.map(|own| (format!(", {}", swept_label(&record.swept)), own)));
     }
     families
 }

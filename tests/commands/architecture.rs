@@ -37,7 +37,7 @@ fn rust_files(folder: &Path, files: &mut Vec<PathBuf>) {
 /// after a merge that conflicts here, the failure names the numbers to write.
 const BUDGETS: &[(&str, usize)] = &[
     ("crates/bounds", 196),
-    ("crates/chart", 4_904),
+    ("crates/chart", 4_905),
     ("crates/described", 104),
     ("crates/formats", 6_719),
     ("crates/linalg", 4_019),

@@ -1,6 +1,7 @@
 //! Parts that are given in any order, one method each.
 
-/// Declares methods that give the same value with some of its fields changed: `name(argument: Type) => { field: value }`.
+/// Declares methods that give the same value with some of its fields changed:
+/// `name(argument: Type) => { field: value }`.
 macro_rules! changed {
     ($of:ty: $(
         $(#[$doc:meta])*

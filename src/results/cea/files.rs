@@ -1,9 +1,11 @@
 //! `eigenvalues.csv`, `stability.csv`, `summary.json`, mode shapes.
 
 use super::base::write_base;
+use super::solid::size;
 use super::summary::summary;
 use super::tables::{eigenvalues, stability};
 use super::{CeaReport, ComplexMode};
+use crate::linalg::c64;
 use crate::output::rounded;
 use crate::results::finding::write_table;
 use crate::results::folder::{FolderError, OutputFolder};
@@ -133,17 +135,17 @@ fn encode_shape(
 
 fn shape_fields(report: &CeaReport<'_>, mode: &ComplexMode) -> [Field; 3] {
     let shape = mode.shape.as_deref().unwrap_or_default();
-    if let Some(solid) = report.solid {
-        return solid.shape_fields(shape);
-    }
-    let part = |of: fn(&crate::linalg::c64) -> f64| shape.iter().map(of).collect::<Vec<f64>>();
-    let amplitude = shape
-        .chunks_exact(report.mesh.dimension)
-        .map(|u| u.iter().map(|value| value.norm_sqr()).sum::<f64>().sqrt())
-        .collect();
+    let part = |name: &str, of: fn(&c64) -> f64| {
+        let values: Vec<f64> = shape.iter().map(of).collect();
+        match report.solid {
+            Some(solid) => solid.vectors(name, &values),
+            None => Field::vectors(name, report.mesh, &values),
+        }
+    };
+    let dimension = report.solid.map_or(report.mesh.dimension, |_| 3);
     [
-        Field::vectors("displacement_real", report.mesh, &part(|value| value.re)),
-        Field::vectors("displacement_imaginary", report.mesh, &part(|value| value.im)),
-        Field::scalars("amplitude", amplitude),
+        part("displacement_real", |value| value.re),
+        part("displacement_imaginary", |value| value.im),
+        Field::scalars("amplitude", shape.chunks_exact(dimension).map(size).collect()),
     ]
 }

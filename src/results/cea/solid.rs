@@ -60,17 +60,6 @@ impl SolidReport {
         solid_vectors(name, &self.sector, nodal)
     }
 
-    /// The fields of a mode shape.
-    pub(super) fn shape_fields(&self, shape: &[c64]) -> [Field; 3] {
-        let part = |of: fn(&c64) -> f64| shape.iter().map(of).collect::<Vec<f64>>();
-        let sizes = shape.chunks_exact(3).map(size);
-        [
-            self.vectors("displacement_real", &part(|v| v.re)),
-            self.vectors("displacement_imaginary", &part(|v| v.im)),
-            Field::scalars("amplitude", sizes.collect()),
-        ]
-    }
-
     /// Writes `prestress.csv`, one row for each ring of contact nodes, and `prestress.vtu`.
     pub(super) fn write_base(
         &self,
@@ -155,7 +144,8 @@ impl SolidReport {
     }
 }
 
-fn size(u: &[c64]) -> f64 {
+/// Amplitude of the displacement of a node.
+pub(super) fn size(u: &[c64]) -> f64 {
     u.iter().map(|v| v.norm_sqr()).sum::<f64>().sqrt()
 }
 

@@ -1,7 +1,6 @@
 //! Critical friction over the swept key of a study of eigenvalue analyses.
 
-use super::PointRecord;
-use super::matrix::listed;
+use super::record::{PointRecord, listed};
 use crate::chart::{Axis, ChartError, Figure, Fill, Label, Line, Panel, Scale, look};
 use crate::results::cea::{CriticalFriction, arrow};
 use crate::results::charts::palette::STABLE;

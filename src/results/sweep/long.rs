@@ -1,12 +1,11 @@
 //! Long tables of a sweep: one row for each onset, mode or limit cycle of each point, named by what it is.
 
-use super::PointRecord;
+use super::record::{PointRecord, listed};
 use super::table::cell;
 use crate::output::{Column, Table, columns};
 use crate::results::cea::{BRANCH, DIRECTION, HARMONIC, ModeSummary, ONSETS, UnstableMode};
 use crate::results::cycle::{BranchRecord, FamilyRecord};
 use serde::de::DeserializeOwned;
-use serde_json::Value;
 
 columns! {
     /// A mode that grows.
@@ -97,8 +96,7 @@ fn long<S: DeserializeOwned, T>(
     let mut rows: Vec<(&PointRecord, T)> = Vec::new();
     for record in records {
         let found = record.summaries.get(analysis).and_then(|summary| summary.get(list));
-        let entries = found.and_then(Value::as_array).into_iter().flatten();
-        let own = entries.filter_map(|entry| S::deserialize(entry).ok()).flat_map(&rows_of);
+        let own = listed(found).into_iter().flat_map(&rows_of);
         rows.extend(own.map(|row| (record, row)));
     }
     let swept = keys.iter().fold(Table::new(file, ""), |table, key| {
@@ -112,7 +110,7 @@ fn long<S: DeserializeOwned, T>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use serde_json::{Map, json};
+    use serde_json::{Map, Value, json};
 
     fn record(point: usize, radius: f64, analysis: &str, summary: Value) -> PointRecord {
         PointRecord {

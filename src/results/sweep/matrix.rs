@@ -1,11 +1,10 @@
 //! The operating matrix of a study of eigenvalue analyses: which modes grow under which conditions.
 
-use super::PointRecord;
 use super::long::UNSTABLE;
+use super::record::{PointRecord, listed};
 use super::swept::{of_points, swept_text};
 use crate::output::{Table, fixed};
 use crate::results::cea::{UnstableCount, UnstableMode};
-use serde::Deserialize;
 use serde_json::{Map, Value};
 use std::collections::BTreeSet;
 
@@ -108,10 +107,4 @@ impl<'a> OperatingMatrix<'a> {
         let points = shown.iter().map(|own| (own.0.point, own.0.swept));
         of_points(caption, keys, points).columns(UNSTABLE, shown.iter().map(|own| own.1))
     }
-}
-
-/// The entries of a list that read as `T`; a record of another version has none.
-pub(super) fn listed<T: for<'de> Deserialize<'de>>(list: Option<&Value>) -> Vec<T> {
-    let items = list.and_then(Value::as_array).into_iter().flatten();
-    items.filter_map(|item| T::deserialize(item).ok()).collect()
 }

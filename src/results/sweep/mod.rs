@@ -23,5 +23,6 @@ pub use table::write_points;
 
 pub(super) use critical::critical_friction;
 pub(super) use matrix_figure::operating_matrix;
+pub(super) use record::listed;
 pub(super) use report::{TWO_FREQUENCY, UNSETTLED};
 pub(super) use swept::printed;

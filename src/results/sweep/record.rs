@@ -72,3 +72,9 @@ fn take(value: &mut Value, path: &str, taken: &mut Map<String, Value>) {
         _ => {}
     }
 }
+
+/// The entries of a list that read as `T`; a record of another version has none.
+pub(in crate::results) fn listed<T: for<'de> Deserialize<'de>>(list: Option<&Value>) -> Vec<T> {
+    let items = list.and_then(Value::as_array).into_iter().flatten();
+    items.filter_map(|item| T::deserialize(item).ok()).collect()
+}

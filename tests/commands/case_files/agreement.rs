@@ -62,7 +62,7 @@ fn is_refused<T>(outcome: Result<T, StudyError>) -> bool {
 
 #[test]
 fn check_refuses_what_a_run_refuses_and_nothing_else() {
-    let simd = frictionsim::app::SimdChoice::Auto.resolve().unwrap();
+    let simd = frictionsim::fem::operator::SimdLevel::detect();
     let manifest = Manifest { simd: simd.to_string(), ..Manifest::new("transient") };
     let mut counts = [0, 0];
     for seed in 1..=160 {
