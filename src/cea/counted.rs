@@ -7,6 +7,9 @@ use std::f64::consts::TAU;
 /// critical damping have real eigenvalues only where nothing couples two of them.
 pub(super) const STANDSTILL: f64 = 0.1;
 
+/// Damping factor from which on a mode is near critical damping: it may cease to oscillate at the next friction coefficient.
+pub(super) const NEARLY_CRITICAL: f64 = 0.5;
+
 /// Whether an eigenvalue has a positive imaginary part and is that of a motion that oscillates or grows.
 pub(super) fn is_vibration(value: c64) -> bool {
     value.im > 0.0 && (value.re > 0.0 || value.im > STANDSTILL * value.norm())

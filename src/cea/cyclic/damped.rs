@@ -11,7 +11,7 @@ use super::paths::{HarmonicPaths, describe, start};
 use super::problem::{HarmonicProblem, Matrices};
 use super::vectors::dot;
 use crate::cea::CeaError;
-use crate::cea::sparse::NEARLY_CRITICAL;
+use crate::cea::counted::NEARLY_CRITICAL;
 use crate::linalg::dense_eigen::complex_eigenvalues;
 use crate::linalg::{ComplexDenseLu, Mat, c64};
 use std::f64::consts::TAU;

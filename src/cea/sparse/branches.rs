@@ -4,7 +4,8 @@ use super::edge::ContactEdge;
 use super::mode::ReducedMode;
 use super::point::SolvedPoint;
 use super::reduced::ReducedModel;
-use super::{MULTIPLE, NEARLY_CRITICAL, SAME_EIGENVALUE};
+use super::{MULTIPLE, SAME_EIGENVALUE};
+use crate::cea::counted::NEARLY_CRITICAL;
 use crate::linalg::{ComplexDenseLu, LinalgError};
 use crate::linalg::{Mat, c64};
 

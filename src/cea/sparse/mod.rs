@@ -69,8 +69,6 @@ const GUARD_MODES: usize = 5;
 const LOSSY_GUARD: usize = 3;
 /// Modes beyond those to which a branch may be matched.
 const TRACKING_MARGIN: usize = 6;
-/// Damping factor from which on a mode is near critical damping: it may cease to oscillate at the next friction coefficient.
-pub(super) const NEARLY_CRITICAL: f64 = 0.5;
 /// Relative distance of eigenvalues up to which they are one multiple eigenvalue, whose vectors are any basis of one space; farther apart
 /// each has a vector of its own.
 const MULTIPLE: f64 = 1e-7;

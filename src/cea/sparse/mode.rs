@@ -1,6 +1,6 @@
 //! A mode in coordinates of the common basis.
 
-use super::NEARLY_CRITICAL;
+use crate::cea::counted::NEARLY_CRITICAL;
 use crate::linalg::c64;
 
 /// Damping factor from which on a motion may as well be one of those that do not oscillate.
