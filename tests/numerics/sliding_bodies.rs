@@ -287,40 +287,6 @@ fn a_mode_that_grows_before_it_nearly_meets_another_has_its_own_onset() {
     }
 }
 
-/// Independent check: growth beside an onset by Newton's method on the exported matrices. A block on a soft base that turns at 0.6 rpm:
-/// three modes within 2e-5 of each other, which friction across slow sliding tells apart by its first ten-thousandth. The branch was
-/// lost there, and its onset, a percent of the step, only known to lie beyond.
-#[test]
-fn slow_modes_that_nearly_meet_are_followed_one_by_one() {
-    let folder = tempfile::tempdir().unwrap();
-    let size = [0.04727399528696332, 0.030888723660441892, 0.012762249719538345];
-    let part = brick("part", [0.05, -0.5 * size[1], size[2] - 2.12274655e-9], size, [3, 2, 2]);
-    let wider = [1.2 * size[0], 1.2 * size[1], size[2]];
-    let base = brick("base", [0.05 - 0.1 * size[0], -0.6 * size[1], 0.0], wider, [2, 2, 2]);
-    fs::write(folder.path().join("part.msh"), file_of(&[part, base], |point| point)).unwrap();
-    let text = "[mesh]\nfile = \"part.msh\"\n[material]\nyoung_modulus = 3.955857522e9\n\
-                poisson_ratio = 0.45\ndensity = 7850.0\n[damping]\n\
-                stiffness_coefficient = 1e-7\n[boundaries.part_z1]\ncondition = \"support\"\n\
-                normal_stiffness = 1.052760894e7\ntangential_stiffness = 2.43307943e6\n\
-                normal_damping = 10912.62438614301\n[materials.base]\n\
-                young_modulus = 1.7810965881e8\npoisson_ratio = 0.3\ndensity = 2700.0\n\
-                [boundaries.base_z0]\ncondition = \"clamped\"\n[motion.base]\n\
-                axis = [0.0, 0.0, 1.0]\nrotation_speed_rpm = 0.59176462898555\n[contacts.one]\n\
-                surface = \"part_z0\"\ncounter = \"base_z1\"\nfriction_coefficient = 0.42\n\
-                normal_stiffness = 1.8381351984e10\n[cea]\nmodes = 6\n\
-                friction_coefficients = [0.0, 0.42]\ngeometric_stiffness = false\n";
-    let case = case_of(folder.path().join("part.toml"), text, AS_IT_IS);
-    let found = modes_and_onsets(&case).unwrap();
-    let onset = found.intervals.iter().find(|own| own.frequency_hz < 25.0).expect("one grows");
-    assert!(onset.is_located() && (onset.critical_friction - 1.0354e-3).abs() < 1e-6, "{onset:?}");
-    for step in [-1e-7, 1e-7] {
-        let problem = sums(&matrices(&case, Some(onset.critical_friction + step)).unwrap());
-        let mode = polished(&problem, c64::new(0.0, TAU * onset.frequency_hz));
-        assert!((mode.im / TAU - onset.frequency_hz).abs() < 1e-4, "{mode} {onset:?}");
-        assert_eq!(mode.re > 0.0, step > 0.0, "{mode} {onset:?}");
-    }
-}
-
 /// A plane block of four contact nodes, three of which have lifted: the eighth mode comes from above the limit in frequency as friction rises.
 /// The dense decomposition has it at 148.3 kHz.
 #[test]

@@ -17,11 +17,6 @@ const SAME: f64 = 0.1;
 const ABOVE_RANGE: f64 = 0.01;
 /// Bisections of an interval, one within the other, before modes are matched by their extrapolated eigenvalue.
 const MAX_BISECTIONS: usize = 10;
-/// Bisections when a single mode is followed all the way: where two modes nearly meet they must be told apart on the way past.
-pub const BISECTIONS_OF_ONE: i32 = 20;
-/// Bisections when it is followed instead of all, and how many are.
-pub const FEW_BISECTIONS: i32 = 3;
-const MOST_FOLLOWED: usize = 10;
 /// Bisections of an interval in all; a branch that these do not follow is lost.
 const MOST_BETWEEN: usize = 250;
 /// Relative error of the predicted eigenvalue of a mode that is the same beyond doubt.
@@ -266,9 +261,9 @@ fn match_modes(
     (depth, solved): (usize, &mut usize),
 ) -> Result<Vec<Link>, LinalgError> {
     let middle = 0.5 * (from.0 + to.0);
-    let mut links = clear_links(from, to, &overlaps(from, to, model));
+    let overlaps = overlaps(from, to, model);
+    let mut links = clear_links(from, to, &overlaps);
     let step = to.0 - from.0;
-    link_by_following(from, to, needed, model, &mut links);
     let mut needed_links = links.iter().zip(from.1).take(needed);
     let is_clear = needed_links.all(|(link, mode)| link.is_some() || may_vanish(mode, step));
     if !is_clear && depth < MAX_BISECTIONS && *solved < MOST_BETWEEN {
@@ -288,45 +283,15 @@ fn match_modes(
     Ok(pairs.map(|(link, mode)| link.ok_or_else(|| last_seen(mode))).collect())
 }
 
-/// Links by following single modes in the whole basis, where they are few and it is hardly wider than the span in which all modes
-/// between would be decomposed: much cheaper than that.
-fn link_by_following(
-    from: ModesAt<'_>,
-    to: ModesAt<'_>,
-    needed: usize,
-    model: &ReducedModel,
-    links: &mut [Option<usize>],
-) {
-    let step = to.0 - from.0;
-    let is_open = |i: &usize| links[*i].is_none() && !may_vanish(&from.1[*i], step);
-    let open: Vec<usize> = (0..needed.min(links.len())).filter(is_open).collect();
-    if open.len() > MOST_FOLLOWED || model.dimension() > 2 * model.widest_sample() {
-        return;
-    }
-    // Where one is lost all are needed between.
-    for i in open {
-        let mode = followed(model, (from.0, &from.1[i]), to.0, FEW_BISECTIONS);
-        let link = mode.and_then(|mode| {
-            let own = (to.0, std::slice::from_ref(&mode));
-            clear_links(own, to, &overlaps(own, to, model))[0]
-        });
-        match link.filter(|_| !links.contains(&link)) {
-            Some(link) => links[i] = Some(link),
-            None => return,
-        }
-    }
-}
-
-/// The mode at `to`, on either side, that continues one, in steps over which it is the same beyond doubt, down to those of some `bisections`;
-/// nothing where it is lost.
+/// The mode at `to`, on either side, that continues one, in steps over which it is the same beyond doubt; nothing where it is lost.
 pub fn followed(
     model: &ReducedModel,
     (from, mode): (f64, &ReducedMode),
     to: f64,
-    bisections: i32,
 ) -> Option<ReducedMode> {
     let (mut at, mut own, mut step) = (from, mode.clone(), to - from);
-    let shortest = step.abs() * 0.5_f64.powi(bisections);
+    // Where two modes nearly meet they must be told apart on the way past.
+    let shortest = step.abs() * 0.25_f64.powi(MAX_BISECTIONS as i32);
     while at != to {
         let mu = if (to - at).abs() <= step.abs() { to } else { at + step };
         let guess = own.eigenvalue + own.derivative * (mu - at);
@@ -335,8 +300,7 @@ pub fn followed(
             let mut ends = [(at, std::slice::from_ref(&own)), (mu, std::slice::from_ref(next))];
             ends.sort_by(|a, b| a.0.total_cmp(&b.0));
             let [low, high] = ends;
-            let overlaps = overlaps(low, high, model);
-            (overlaps[(0, 0)] - 1.0).abs() < SAME && clear_links(low, high, &overlaps)[0].is_some()
+            clear_links(low, high, &overlaps(low, high, model))[0].is_some()
         };
         match next.filter(continues) {
             Some(next) => (at, own, step) = (mu, next, 2.0 * step),

@@ -1,7 +1,7 @@
 //! The projected problem as a solver of single branches, for the search of their onsets.
 
 use super::RESIDUAL_BOUND;
-use super::branches::{BISECTIONS_OF_ONE, FEW_BISECTIONS, TrackedBranch, followed};
+use super::branches::{TrackedBranch, followed};
 use super::mode::ReducedMode;
 use super::point::{PointSolver, SolvedPoint};
 use super::reduced::ReducedModel;
@@ -122,7 +122,7 @@ impl OnsetFinder<'_> {
             for step in 1..=STEPS_BACK {
                 let mu = start + (place - start) * (step as f64 / STEPS_BACK as f64);
                 let State { mu: from, mode } = &states[0];
-                let Some(mode) = followed(self.model, (*from, mode), mu, BISECTIONS_OF_ONE) else {
+                let Some(mode) = followed(self.model, (*from, mode), mu) else {
                     return Ok(None);
                 };
                 states.insert(0, State { mu, mode });
@@ -153,22 +153,18 @@ impl OnsetFinder<'_> {
 const SAME: f64 = 0.8;
 
 impl OnsetFinder<'_> {
-    /// The branch at `guess` by an iteration from the nearer end, where what it finds overlaps with both, or continues that
-    /// one beyond doubt.
+    /// The branch at `guess` by an iteration from the nearer end, where what it finds overlaps with both.
     fn continued(&self, from: &State, to: &State, guess: BranchPoint) -> Option<ReducedMode> {
         let mu = guess.friction_coefficient;
         let ends = [from, to];
-        let nearer = ends[usize::from((to.mu - mu).abs() < (mu - from.mu).abs())];
-        let start = ReducedMode { eigenvalue: guess.eigenvalue, ..nearer.mode.clone() };
-        let is_of_both = |mode: &ReducedMode| {
-            let (at, own) = (self.model.at(mu), std::slice::from_ref(mode));
-            let others = ends.map(|end| end.mode.clone());
-            let [forward, backward] = [at.overlaps(own, &others), at.overlaps(&others, own)];
-            let is_same = |j| (forward[(0, j)] * backward[(j, 0)]).norm() > SAME;
-            [0, 1].into_iter().all(is_same)
-        };
-        let mode = self.model.mode_near(mu, &start).filter(is_of_both);
-        mode.or_else(|| followed(self.model, (nearer.mu, &nearer.mode), mu, FEW_BISECTIONS))
+        let nearer = usize::from((to.mu - mu).abs() < (mu - from.mu).abs());
+        let start = ReducedMode { eigenvalue: guess.eigenvalue, ..ends[nearer].mode.clone() };
+        let mode = self.model.mode_near(mu, &start)?;
+        let (at, own) = (self.model.at(mu), std::slice::from_ref(&mode));
+        let others = ends.map(|end| end.mode.clone());
+        let [forward, backward] = [at.overlaps(own, &others), at.overlaps(&others, own)];
+        let is_same = |j| (forward[(0, j)] * backward[(j, 0)]).norm() > SAME;
+        [0, 1].into_iter().all(is_same).then_some(mode)
     }
 }
 

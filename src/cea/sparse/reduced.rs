@@ -284,11 +284,6 @@ impl ReducedModel {
         own.map(|(_, coordinates)| coordinates.ncols())
     }
 
-    /// Number of columns that span the modes of the sample with most of them.
-    pub fn widest_sample(&self) -> usize {
-        self.samples.iter().map(|(_, own)| own.ncols()).max().unwrap_or(0)
-    }
-
     /// Forgets the modes held at `mu`.
     pub fn drop_sample(&mut self, mu: f64) {
         self.samples.retain(|sample| sample.0 != mu);
