@@ -107,7 +107,7 @@ fn refuse_uncountable(case: &Case, solver: &Solver) -> Result<(), CaseErrors> {
             "leave it out, or give the material one modulus",
         ),
         _ if is_lossy_annulus(case, solver) => (
-            "harmonics with structural damping are counted at rest (by inertia) and followed from there"
+            "harmonics with structural damping are counted at rest (by inertia), then followed"
                 .to_owned(),
             "leave it out, or take the whole mesh: cea.method = \"sparse\"",
         ),

@@ -189,9 +189,9 @@ fn a_ring_on_a_penalty_contact_has_the_eigenvalues_of_a_dense_solution_when_it_t
 #[test]
 fn creep_without_vectors_of_its_own_leaves_the_other_modes() {
     let folder = folder();
-    let set = "contact.rotation_speed_rpm=1.0 ; mesh.element=quad4 ; mesh.circumferential_elements=24 ; \
-               mesh.radial_elements=3 ; cea.friction_coefficients=[0.0, 0.4, 0.8] ; cea.shapes_at=[] ; \
-               cea.max_frequency_hz=9700.0";
+    let set = "contact.rotation_speed_rpm=1.0 ; mesh.element=quad4 ; mesh.radial_elements=3 ; \
+               mesh.circumferential_elements=24 ; cea.friction_coefficients=[0.0, 0.4, 0.8] ; \
+               cea.shapes_at=[] ; cea.max_frequency_hz=9700.0";
     let onsets = ["cyclic", "sparse"].map(|method| {
         let method = format!("cea.method={method}");
         let run = Run::of("cea", shipped("disc-three-dimensions.toml")).set(&[set, &method]);
