@@ -21,6 +21,7 @@ use crate::linalg::{
 };
 use crate::linalg::{LuAnalysis, Mat, Scale, c64};
 use crate::prestress::SlidingTangent;
+use samples::MOST_DENSE;
 use std::borrow::Cow;
 
 /// Part of a block of corrections, relative to its longest: a longer one is a direction that the basis takes up, a shorter one is
@@ -40,6 +41,9 @@ const CHEBYSHEV_POINTS: usize = 5;
 const SAMPLE_RESIDUAL: f64 = 1e-8;
 /// Unknowns up to which a dense decomposition is as cheap as that iteration.
 const DENSE_UP_TO: usize = 150;
+/// Unknowns for each mode asked for up to which a small problem is solved as it is: the modes at two friction coefficients, real and
+/// imaginary parts, span it all.
+const ALL_OF_FEW: usize = 4;
 /// Start vectors of an iteration from the modes without friction: modes may come in pairs of equal eigenvalue, and factors are read once
 /// for both.
 const START_WIDTH: usize = 2;
@@ -77,6 +81,8 @@ pub struct BasisBuilder<'a> {
     /// Whether the basis is made of the modes at a few friction coefficients, each from an iteration of its own; else it grows
     /// by residuals.
     is_sampling: bool,
+    /// Whether it holds every motion: the modes asked for are so many that those at one friction coefficient span nearly all.
+    holds_all: bool,
     /// Friction coefficients whose modes the basis holds as such.
     sampled: Vec<f64>,
     watch: &'a dyn SweepWatch,
@@ -104,6 +110,12 @@ impl<'a> BasisBuilder<'a> {
         let (first, others) = modes.split_at_col(rigid);
         model.extend(first.to_owned(), 1e-8);
         model.extend(others.to_owned(), 1e-8);
+        let unknowns = model.unknowns();
+        let has_many = ALL_OF_FEW * modes.ncols() >= unknowns && unknowns <= MOST_DENSE;
+        let holds_all = has_many && tangent.tabled.is_empty();
+        if holds_all {
+            model.extend(Mat::identity(unknowns, unknowns), SAME_SPACE);
+        }
         Self {
             tangent,
             linearization,
@@ -114,6 +126,7 @@ impl<'a> BasisBuilder<'a> {
             count: modes.ncols() - rigid,
             rigid,
             is_sampling: matches!(linearization, Linearization::Companion { .. }),
+            holds_all,
             sampled: Vec::new(),
             watch,
             steps: 0,
@@ -122,7 +135,17 @@ impl<'a> BasisBuilder<'a> {
 
     /// Whether the basis is made of modes at friction coefficients of their own.
     pub(super) fn is_sampling(&self) -> bool {
-        self.is_sampling
+        self.is_sampling && !self.holds_all
+    }
+
+    /// Whether it holds every motion: nothing can be added, and points need no samples.
+    pub(super) fn holds_all(&self) -> bool {
+        self.holds_all
+    }
+
+    /// Goes over to samples: in a space so wide round-off was more than modes may have.
+    pub(super) fn hold_fewer(&mut self) {
+        self.holds_all = false;
     }
 
     /// Steps so far: the state of the basis is known by their number.

@@ -153,20 +153,12 @@ impl PointSolver<'_> {
         leaves_out: bool,
     ) -> Result<SolvedPoint, LinalgError> {
         let mut modes = model.solve_with_coarse_lefts(mu, self.count + TRACKING_MARGIN)?;
-        let frequencies = |modes: &[ReducedMode]| -> Vec<f64> {
-            modes.iter().map(|mode| mode.eigenvalue.im).collect()
-        };
         if leaves_out {
             let checks = self.check(model, mu, &modes);
             let mut converged = checks.iter().map(|check| check.residual <= RESIDUAL_BOUND);
             modes.retain(|mode| converged.next() == Some(true) || !mode.is_nearly_critical());
         }
-        let wanted = match self.limit {
-            ModeLimit::Lowest(count) => keeping_ties(frequencies(&modes).into_iter(), count),
-            ModeLimit::MaxFrequency(hz) => {
-                modes.iter().take_while(|m| m.eigenvalue.im < TAU * hz).count()
-            }
-        };
+        let wanted = self.wanted(&modes);
         let range_end = match self.limit {
             ModeLimit::Lowest(_) => modes[..wanted].last().map_or(0.0, |m| m.eigenvalue.im),
             ModeLimit::MaxFrequency(hz) => TAU * hz,
@@ -182,6 +174,15 @@ impl PointSolver<'_> {
             solved_in: model.sample_width(mu),
             has_coarse_lefts: true,
         })
+    }
+
+    /// How many of `modes`, by rising frequency, are wanted.
+    pub fn wanted(&self, modes: &[ReducedMode]) -> usize {
+        let frequencies = modes.iter().map(|mode| mode.eigenvalue.im);
+        match self.limit {
+            ModeLimit::Lowest(count) => keeping_ties(frequencies, count),
+            ModeLimit::MaxFrequency(hz) => frequencies.take_while(|own| *own < TAU * hz).count(),
+        }
     }
 
     /// Residuals and edge displacements of `modes` in the full matrices at `mu`.

@@ -116,6 +116,11 @@ impl ReducedModel {
         }
     }
 
+    /// Number of unknowns.
+    pub fn unknowns(&self) -> usize {
+        self.basis.columns().nrows()
+    }
+
     /// Number of columns of the basis.
     pub fn dimension(&self) -> usize {
         self.basis.count()

@@ -54,35 +54,34 @@ pub fn sweep(
     watch: &dyn SweepWatch,
 ) -> Result<FrictionSweep, CeaError> {
     let tangent = referred(tangent, request.limit)?;
-    sweep_holding(&tangent, request, request.limit, watch)
+    sweep_holding(&tangent, request, (request.limit, GUARD_MODES), watch)
 }
 
-/// [`sweep`] from the modes within `limit` without friction, those wanted there at least.
+/// [`sweep`] from the modes within `limit` without friction, those wanted there at least; where it does not do with them, from `more`,
+/// and from twice as many more each time.
 fn sweep_holding(
     tangent: &SlidingTangent,
     request: &SweepRequest<'_>,
-    limit: ModeLimit,
+    (limit, more): (ModeLimit, usize),
     watch: &dyn SweepWatch,
 ) -> Result<FrictionSweep, CeaError> {
     let mut sweep = SparseSweep::prepare(tangent, &SweepRequest { limit, ..*request }, watch)?;
     sweep.limit = request.limit;
     sweep.cover()?;
     sweep.solve()?;
-    let branches = sweep.track()?;
-    // Friction brings modes from above a limit in frequency: there may be more where all that are held lie below. What grows without
-    // oscillating takes the places of modes.
-    let (held, all) = (sweep.builder.count, tangent.unknowns.len() - sweep.builder.rigid);
-    let mut wanted = sweep.points.iter().map(|point| point.wanted);
-    let is_short = match request.limit {
-        ModeLimit::MaxFrequency(_) => wanted.any(|own| own >= held),
-        ModeLimit::Lowest(count) => {
-            wanted.any(|own| own < count) && sweep.divergence(&branches)?.is_some()
-        }
-    };
+    // What grows without oscillating takes the places of modes.
+    let (mut is_short, mut branches) = (sweep.lacks_modes(), Vec::new());
+    if !is_short {
+        branches = sweep.track()?;
+        let is_below = |count| sweep.points.iter().any(|point: &SolvedPoint| point.wanted < count);
+        is_short = matches!(request.limit, ModeLimit::Lowest(count) if is_below(count))
+            && sweep.divergence(&branches)?.is_some();
+    }
+    let (held, all) = (sweep.builder.count, sweep.elastic());
     if held < all && is_short {
         let watch = PartWatch { whole: watch, prefix: format!("of-{held}-"), is_heard: true };
-        let more = ModeLimit::Lowest((held + GUARD_MODES).min(all));
-        return sweep_holding(tangent, request, more, &watch);
+        let limit = ModeLimit::Lowest((held + more).min(all));
+        return sweep_holding(tangent, request, (limit, 2 * more), &watch);
     }
     let (branches, counts) = sweep.count(request, branches)?;
     let found = sweep.finish(request, &branches)?;
@@ -183,6 +182,9 @@ impl<'a> SparseSweep<'a> {
 
     /// Grows the basis over the whole range of friction coefficients.
     pub fn cover(&mut self) -> Result<(), CeaError> {
+        if self.builder.holds_all() {
+            return Ok(());
+        }
         if self.builder.is_sampling() {
             let first = self.first_asked();
             // Over a short range the modes at its middle are corrected to those at its ends.
@@ -228,6 +230,15 @@ impl<'a> SparseSweep<'a> {
         if self.points.is_empty() {
             self.leaves_out = vec![false; all.len()];
             self.points = self.solve_points(&all)?;
+            if self.builder.holds_all() && self.lacks_modes() {
+                self.builder.count = self.most_wanted()?;
+                self.points = self.solve_points(&all)?;
+            }
+            if self.builder.holds_all() && self.misses_any() {
+                self.builder.hold_fewer();
+                self.cover()?;
+                self.points = self.solve_points(&all)?;
+            }
         } else {
             let is_stale = |k: &usize| {
                 let own = self.builder.model.sample_width(self.grid[*k]);
@@ -250,6 +261,29 @@ impl<'a> SparseSweep<'a> {
         self.labels =
             label_first(&mut self.points[0], &self.builder.model, &self.edge, self.builder.count)?;
         Ok(())
+    }
+
+    /// Motions of the body that are not rigid.
+    fn elastic(&self) -> usize {
+        self.tangent.unknowns.len() - self.builder.rigid
+    }
+
+    /// Whether friction brings modes from above a limit in frequency: there may be more where all that are held lie below.
+    fn lacks_modes(&self) -> bool {
+        let held = self.builder.count;
+        let is_full = self.points.iter().any(|point| point.wanted >= held);
+        matches!(self.limit, ModeLimit::MaxFrequency(_)) && is_full && held < self.elastic()
+    }
+
+    /// Number of modes to hold of a basis of all motions.
+    fn most_wanted(&self) -> Result<usize, LinalgError> {
+        let (all, solver) = (self.elastic(), self.point_solver());
+        let wanted = self.grid.iter().map(|&mu| {
+            let modes = self.builder.model.solve_right(mu, all)?;
+            Ok(solver.wanted(&modes))
+        });
+        let most = wanted.collect::<Result<Vec<_>, _>>()?.into_iter().max();
+        Ok((most.unwrap_or(0) + GUARD_MODES).min(all))
     }
 
     fn solve_anew(&mut self, indices: &[usize]) -> Result<(), LinalgError> {
@@ -279,7 +313,8 @@ impl<'a> SparseSweep<'a> {
     fn solve_point(&self, k: usize) -> Result<SolvedPoint, LinalgError> {
         let (mu, leaves_out) = (self.grid[k], self.leaves_out[k]);
         let stage = if leaves_out { "-left-out" } else { "" };
-        let name = format!("value-{:04}-{mu:?}{stage}", self.builder.steps());
+        let (steps, held) = (self.builder.steps(), self.builder.count);
+        let name = format!("value-{steps:04}-of-{held}-{mu:?}{stage}");
         let kept = self.watch.recall(&name);
         if let Some(mut point) = kept.and_then(|kept| SolvedPoint::from_columns(mu, &kept)) {
             point.solved_in = self.builder.model.sample_width(mu);
@@ -340,7 +375,7 @@ impl<'a> SparseSweep<'a> {
                 lost.map(|end| (end.after, end.between)).collect();
             open.sort_by_key(|(k, _)| *k);
             open.dedup_by_key(|(k, _)| *k);
-            if open.is_empty() {
+            if open.is_empty() || self.builder.holds_all() {
                 return Ok(branches);
             }
             for (k, [seen_at, lost_at]) in open {

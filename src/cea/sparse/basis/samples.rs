@@ -21,7 +21,7 @@ const BESIDE: f64 = 1e-3;
 const HISTORY: usize = 3;
 /// Unknowns up to which a problem, of twice that size, is decomposed: where its modes are lossy or do not converge. That takes a
 /// second or two for each friction value.
-const MOST_DENSE: usize = 300;
+pub(super) const MOST_DENSE: usize = 300;
 /// Samples between two friction values, at places where branches were lost, after which more of them are no help.
 const MOST_BETWEEN: usize = 8;
 impl BasisBuilder<'_> {
@@ -191,6 +191,9 @@ impl BasisBuilder<'_> {
     /// # Errors
     /// If the analysis of the matrices fails.
     pub fn shift(&mut self, mu: f64, modes: &[ReducedMode]) -> Result<bool, CeaError> {
+        if self.holds_all() {
+            return Ok(false);
+        }
         let vectors = self.step(mu, |builder| builder.shifted_corrections(mu, modes))?;
         let has_grown = self.model.extend(vectors.clone(), SAME_SPACE).ncols() > 0;
         if self.sampled.contains(&mu) {

@@ -123,6 +123,11 @@ impl SparseSweep<'_> {
         if self.builder.is_lossy() { LOSSY_GOAL } else { self.linearization.force_residual_goal() }
     }
 
+    /// Whether modes could still be improved anywhere.
+    pub(super) fn misses_any(&self) -> bool {
+        !self.missing_points().is_empty()
+    }
+
     /// Points whose modes could still be improved.
     fn missing_points(&self) -> Vec<usize> {
         let first = match self.linearization {
@@ -166,6 +171,7 @@ mod tests {
     use crate::linalg::dense_eigen::real_eigenvalues;
     use crate::linalg::{DenseLu, Mat, MatrixPolynomial, c64};
     use crate::prestress::SlidingTangent;
+    use std::f64::consts::TAU;
     use std::sync::Arc;
 
     /// The string with dashpots `mu dashpot` on every third mass, as friction across slow sliding is.
@@ -199,13 +205,16 @@ mod tests {
     }
 
     /// Independent check: dashpots that grow with friction to beyond critical damping. What is listed is in the spectrum of a dense
-    /// decomposition, and of that nothing is missing that is damped by less than half the critical.
+    /// decomposition, and of that nothing is missing that is damped by less than half the critical. Of few modes, and of so many that
+    /// all motions are held: friction brings others from above the limit.
     #[test]
     fn strongly_damped_motions_neither_hide_modes_nor_count_as_modes() {
         let frictions = [0.0, 0.05, 0.1, 0.15, 0.2, 0.3, 0.4, 0.5, 0.6];
-        for dashpot in [0.1, 0.5, 2.0] {
+        let limits = [ModeLimit::Lowest(8), ModeLimit::MaxFrequency(0.8 / TAU)];
+        for (dashpot, limit) in [0.1, 0.5, 2.0].into_iter().flat_map(|own| limits.map(|l| (own, l)))
+        {
             let tangent = slowly_sliding(dashpot);
-            let request = SweepRequest::new(&frictions, ModeLimit::Lowest(8));
+            let request = SweepRequest::new(&frictions, limit);
             let found = sweep(&tangent, &request, &|_| {}).unwrap();
             for point in &found.points {
                 let exact = dense(&tangent, point.friction_coefficient);
@@ -214,7 +223,10 @@ mod tests {
                     all.iter().any(|other| (other - own).norm() < 1e-8 * own.norm())
                 };
                 assert!(listed.iter().all(|own| holds(&exact, own)), "{listed:?}");
-                let top = listed.iter().fold(0.0_f64, |top, own| top.max(own.im));
+                let top = match limit {
+                    ModeLimit::Lowest(_) => listed.iter().fold(0.0_f64, |top, own| top.max(own.im)),
+                    ModeLimit::MaxFrequency(hz) => TAU * hz,
+                };
                 let lightly_damped =
                     exact.iter().filter(|own| own.im < top && -own.re < 0.5 * own.norm());
                 for own in lightly_damped {
