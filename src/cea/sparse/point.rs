@@ -8,7 +8,7 @@ use super::left::{OpenPair, correct_lefts};
 use super::linearization::Linearization;
 use super::mode::ReducedMode;
 use super::packed::{PackedModes, PackedVector, joined, side_by_side};
-use super::reduced::ReducedModel;
+use super::reduced::{ReducedModel, inside};
 use super::structure::StructureMatrices;
 use super::{GROUP_WIDTH, RESIDUAL_BOUND, TRACKING_MARGIN};
 use crate::cea::{ModeLimit, ModeVectors, keeping_ties};
@@ -118,11 +118,7 @@ impl SolvedPoint {
         self.has_coarse_lefts = true;
         for mode in &mut self.modes {
             for vector in [&mut mode.right, &mut mode.left] {
-                let along = |j: usize| -> c64 {
-                    let pairs = vector.iter().zip(columns.col(j).iter());
-                    pairs.map(|(v, c)| *v * *c).sum()
-                };
-                *vector = (0..columns.ncols()).map(along).collect();
+                *vector = inside(columns, vector);
             }
         }
     }

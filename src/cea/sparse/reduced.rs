@@ -15,9 +15,12 @@ use crate::linalg::{ComplexDenseLu, FrictionWeights, LinalgError, MatrixPolynomi
 use crate::linalg::{Mat, MatRef, Scale, c64};
 use crate::prestress::{SlidingTangent, TabledGain};
 use rayon::prelude::*;
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// Samples near a friction coefficient whose modes make up the space for its own.
 const NEIGHBOURS: usize = 4;
+/// Samples whose modes, together, come near left vectors. Of more the basis is wide, and a mode beside one costs the cube of that.
+const SURROUNDING: usize = 6;
 
 /// Columns continued by zeros to `rows` entries.
 fn lengthened(columns: &Mat<f64>, rows: usize) -> Mat<f64> {
@@ -36,6 +39,15 @@ fn spanned<'a>(
         columns = join_columns(columns.as_ref(), new.as_ref());
     }
     columns
+}
+
+/// Coordinates of a vector in the space of orthonormal `columns`.
+pub(super) fn inside(columns: &Mat<f64>, vector: &[c64]) -> Vec<c64> {
+    let along = |j: usize| -> c64 {
+        let pairs = vector.iter().zip(column(columns.as_ref(), j));
+        pairs.map(|(v, c)| *v * *c).sum()
+    };
+    (0..columns.ncols()).map(along).collect()
 }
 
 /// `columns` times complex coordinates; nothing of no coordinates.
@@ -70,6 +82,17 @@ pub struct ReducedModel {
     tabled: Vec<TabledTerms>,
     /// Friction coefficients whose modes the basis holds as such, and the coordinates that span them.
     samples: Vec<(f64, Mat<f64>)>,
+    /// Coordinates of corrections between samples, and where they were made.
+    corrections: Vec<(f64, Mat<f64>)>,
+    /// The problem in parts of the basis, each with the samples and corrections that span it.
+    parts: Mutex<Vec<(Vec<usize>, Arc<BasisPart>)>>,
+}
+
+/// The projected problem in a part of the basis.
+struct BasisPart {
+    /// Orthonormal coordinates in the basis.
+    columns: Mat<f64>,
+    model: ReducedModel,
 }
 
 /// The stiffness of a part that depends on frequency, by power of `mu`, and `V^T K_p V` for each.
@@ -113,6 +136,8 @@ impl ReducedModel {
             weights: tangent.stiffness.weights(),
             tabled,
             samples: Vec::new(),
+            corrections: Vec::new(),
+            parts: Mutex::default(),
         }
     }
 
@@ -241,24 +266,35 @@ impl ReducedModel {
         if mu == 0.0 || !self.samples.iter().any(|sample| sample.0 == mu) {
             return;
         }
-        let m = self.dimension();
         let values: Vec<c64> = modes.iter().map(|mode| mode.eigenvalue).collect();
         // The iteration would turn the vectors of one multiple eigenvalue into one.
         let is_single = |lambda: c64| {
             let near = |other: &&c64| (**other - lambda).norm() <= MULTIPLE * lambda.norm();
             values.iter().filter(near).count() == 1
         };
+        let part = self.surroundings(mu);
+        let within = part.as_ref().map(|part| part.model.at(mu));
+        let at = within.as_ref().unwrap_or(at);
+        let m = at.mass.nrows();
         let single = modes.par_iter_mut().filter(|m| is_single(m.eigenvalue));
         single.for_each(|mode| {
             let lambda = mode.eigenvalue;
             let slope =
                 Mat::from_fn(m, m, |i, j| lambda * (2.0 * at.mass[(i, j)]) + at.damping[(i, j)]);
-            let coarse = Mat::from_fn(m, 1, |i, _| mode.left.get(i).copied().unwrap_or_default());
+            let coarse = match &part {
+                Some(part) => inside(&part.columns, &mode.left),
+                None => mode.left.clone(),
+            };
+            let coarse = Mat::from_fn(m, 1, |i, _| coarse.get(i).copied().unwrap_or_default());
             let mut left = slope.transpose() * &coarse;
             ComplexDenseLu::factorize(at.pencil(lambda)).solve_transpose_in_place(left.as_mut());
             let length = left.norm_l2();
             if length.is_finite() && length > 0.0 {
-                mode.left = left.col(0).iter().map(|v| v / length).collect();
+                let left: Vec<c64> = left.col(0).iter().map(|v| v / length).collect();
+                mode.left = match &part {
+                    Some(part) => combined(&part.columns, &left),
+                    None => left,
+                };
             }
         });
     }
@@ -299,6 +335,7 @@ impl ReducedModel {
     pub fn restrict(&mut self, known: usize) -> Mat<f64> {
         let m = self.dimension();
         let columns = spanned(Mat::identity(m, known), self.samples.iter());
+        self.corrections.clear();
         for (_, held) in &mut self.samples {
             *held = transpose_product(columns.as_ref(), lengthened(held, m).as_ref());
         }
@@ -314,6 +351,72 @@ impl ReducedModel {
                 *held = join_columns(known.as_ref(), coordinates.as_ref());
             }
             None => self.samples.push((mu, coordinates)),
+        }
+    }
+
+    /// Adds the corrections `vectors` of modes at `mu` to what is held there.
+    pub fn hold_correction(&mut self, mu: f64, vectors: &Mat<f64>) {
+        let coordinates = transpose_product(self.basis.columns(), vectors.as_ref());
+        self.corrections.push((mu, coordinates));
+    }
+
+    /// The problem in the span of the modes at the samples about `mu` and of the corrections there; nothing where the basis holds
+    /// little more.
+    fn surroundings(&self, mu: f64) -> Option<Arc<BasisPart>> {
+        if self.samples.len() <= SURROUNDING {
+            return None;
+        }
+        let distance = |own: &(f64, Mat<f64>)| (own.0 - mu).abs();
+        let mut nearest: Vec<usize> = (0..self.samples.len()).collect();
+        nearest.sort_by(|&a, &b| distance(&self.samples[a]).total_cmp(&distance(&self.samples[b])));
+        nearest.truncate(SURROUNDING);
+        nearest.sort_unstable();
+        let [low, high] = [f64::min, f64::max]
+            .map(|end| nearest.iter().map(|&i| self.samples[i].0).reduce(end).unwrap_or(mu));
+        let corrections = self.corrections.iter().filter(|own| (low..=high).contains(&own.0));
+        let corrections: Vec<&(f64, Mat<f64>)> = corrections.collect();
+
+        // As long as the basis is the same, so is the part.
+        let key = [&nearest[..], &[corrections.len(), self.dimension()]].concat();
+        let mut parts = self.parts.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some((_, known)) = parts.iter().find(|(own, _)| *own == key) {
+            return Some(Arc::clone(known));
+        }
+        let samples = nearest.iter().map(|&i| &self.samples[i]);
+        let columns = spanned(Mat::zeros(self.dimension(), 0), samples.chain(corrections));
+        if 2 * columns.ncols() > self.dimension() {
+            return None;
+        }
+        parts.retain(|(own, _)| own.last() == key.last());
+        let part = Arc::new(BasisPart { model: self.within(&columns), columns });
+        parts.push((key, Arc::clone(&part)));
+        Some(part)
+    }
+
+    /// The projected problem alone, in the space of orthonormal `columns` of coordinates.
+    fn within(&self, columns: &Mat<f64>) -> Self {
+        let within = |all: &Vec<Mat<f64>>| -> Vec<Mat<f64>> {
+            let small = all.iter().map(|small| {
+                let image = product(small.as_ref(), columns.as_ref());
+                transpose_product(columns.as_ref(), image.as_ref())
+            });
+            small.collect()
+        };
+        let tabled = self.tabled.iter().map(|part| TabledTerms {
+            gain: part.gain.clone(),
+            terms: Vec::new(),
+            projected: within(&part.projected),
+        });
+        Self {
+            linearization: self.linearization,
+            terms: Default::default(),
+            weights: self.weights,
+            basis: GrowingColumns::new(0),
+            projected: self.projected.each_ref().map(within),
+            tabled: tabled.collect(),
+            samples: Vec::new(),
+            corrections: Vec::new(),
+            parts: Mutex::default(),
         }
     }
 
@@ -353,6 +456,12 @@ impl ReducedModel {
     /// The mode at `mu` near `guess`, by two-sided Rayleigh quotient iteration from its eigenvalue and vectors; nothing
     /// where that does not settle.
     pub fn mode_near(&self, mu: f64, guess: &ReducedMode) -> Option<ReducedMode> {
+        if let Some(part) = self.surroundings(mu) {
+            let [right, left] = [&guess.right, &guess.left].map(|own| inside(&part.columns, own));
+            let found = part.model.mode_near(mu, &ReducedMode { right, left, ..guess.clone() })?;
+            let [right, left] = [&found.right, &found.left].map(|own| combined(&part.columns, own));
+            return Some(ReducedMode { right, left, ..found });
+        }
         let at = self.at(mu);
         let mut modes = [at.mode_near(guess)?];
         modes[0].inverse_value = self.linearization.inverse_value(modes[0].eigenvalue);

@@ -196,8 +196,9 @@ impl BasisBuilder<'_> {
         }
         let vectors = self.step(mu, |builder| builder.shifted_corrections(mu, modes))?;
         let has_grown = self.model.extend(vectors.clone(), SAME_SPACE).ncols() > 0;
-        if self.sampled.contains(&mu) {
-            self.model.hold_sample(mu, &vectors);
+        match self.sampled.contains(&mu) {
+            true => self.model.hold_sample(mu, &vectors),
+            false => self.model.hold_correction(mu, &vectors),
         }
         Ok(has_grown)
     }
