@@ -116,7 +116,7 @@ impl DiscModel {
     /// changes the winner more than once, one of the changes is found.
     ///
     /// # Errors
-    /// [`CycleError::Stepping`] where a transient cannot start, [`CycleError::StableSliding`] where neither wave grows.
+    /// [`CycleError::Stepping`] where a transient cannot start, [`CycleError::NotFound`] where neither wave grows.
     pub fn basin(
         &self,
         point: &OperatingPoint,
@@ -148,8 +148,14 @@ impl DiscModel {
         let onsets = self.onsets(friction, limit)?;
         let own = onsets.iter().filter(|onset| request.harmonics.contains(&onset.harmonic));
         let slowest = own.map(|onset| onset.frequency).reduce(f64::min);
-        let slowest =
-            slowest.ok_or(CycleError::StableSliding { harmonics: request.harmonics, friction })?;
+        let slowest = slowest.ok_or_else(|| {
+            let [one, other] = request.harmonics;
+            CycleError::NotFound(format!(
+                "steady sliding is stable against waves of {one} and {other} nodal diameters at \
+                 contact.friction_coefficient = {friction}: neither can win. Raise it, or name \
+                 others in basin.harmonics"
+            ))
+        })?;
         Ok(TAU / slowest)
     }
 }

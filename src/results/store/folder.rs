@@ -302,7 +302,11 @@ fn refuse_links(path: &Path) -> Result<(), FolderError> {
         entry.file_type().is_ok_and(|kind| kind.is_symlink()) && entry.path().is_dir()
     });
     match links.next() {
-        Some(link) => Err(FolderError::Linked(link.path())),
+        Some(link) => Err(FolderError::unusable(
+            &link.path(),
+            "is a link to another folder, whose files would be replaced: \
+             remove the link, or choose another folder with --out",
+        )),
         None => Ok(()),
     }
 }
@@ -399,12 +403,14 @@ pub(crate) fn check_owner(
     if is_allowed {
         return Ok(is_same || replace == Replace::Continued);
     }
-    let mut described = format!("frictionsim {} {}", found.command, found.case_file);
-    for text in &found.overrides {
-        described.push_str(" --set ");
-        described.push_str(text);
-    }
-    Err(FolderError::OtherCase { path: path.to_owned(), found: described })
+    let overrides: String = found.overrides.iter().map(|text| format!(" --set {text}")).collect();
+    Err(FolderError::OtherCase(format!(
+        "{} holds the results of another case (frictionsim {} {}{overrides}): choose another \
+         folder with --out, or replace it with --force",
+        path.display(),
+        found.command,
+        found.case_file
+    )))
 }
 
 pub(crate) fn refuse_foreign(path: &Path) -> Result<(), FolderError> {
@@ -412,8 +418,7 @@ pub(crate) fn refuse_foreign(path: &Path) -> Result<(), FolderError> {
         let reason = format!(
             "its {MANIFEST} is damaged: choose another folder with --out, or start over with --force"
         );
-        let path = path.to_owned();
-        return Err(FolderError::NotResults { path, reason });
+        return Err(FolderError::no_results(path, reason));
     }
     let entries = fs::read_dir(path).map_err(|e| FolderError::io("read folder", path, e))?;
     let mut names: Vec<String> = entries
@@ -423,7 +428,13 @@ pub(crate) fn refuse_foreign(path: &Path) -> Result<(), FolderError> {
         .collect();
     names.sort();
     match names.into_iter().next() {
-        Some(found) => Err(FolderError::Foreign { path: path.to_owned(), found }),
+        Some(found) => {
+            let reason = format!(
+                "holds files that this program did not write (for example {found}). Choose another \
+                 folder with --out, or write there all the same with --force"
+            );
+            Err(FolderError::unusable(path, reason))
+        }
         None => Ok(()),
     }
 }

@@ -117,8 +117,8 @@ impl SweepFolder {
     /// is missing.
     ///
     /// # Errors
-    /// [`FolderError::OtherCase`] and [`FolderError::Foreign`] unless `start` is [`Start::Over`];
-    /// [`FolderError::Started`] if some of `points` are finished and `start` is [`Start::Fresh`];
+    /// [`FolderError::OtherCase`] and [`FolderError::Unusable`] unless `start` is [`Start::Over`];
+    /// [`FolderError::Unusable`] if some of `points` are finished and `start` is [`Start::Fresh`];
     /// [`FolderError::Busy`] if another command writes there; those of the file system.
     pub fn open(
         path: &Path,
@@ -155,14 +155,16 @@ impl SweepFolder {
     /// Opens the folder of a sweep that has been started, and gives its manifest.
     ///
     /// # Errors
-    /// [`FolderError::NotASweep`]; [`FolderError::Busy`]; those of the file system.
+    /// [`FolderError::Unusable`]; [`FolderError::Busy`]; those of the file system.
     pub fn find(path: &Path) -> Result<(Self, Manifest), FolderError> {
         Self::find_of(path, "sweep")
     }
 
     /// As [`Self::find`] for another command that shares its folder with others of its kind.
     pub fn find_of(path: &Path, command: &str) -> Result<(Self, Manifest), FolderError> {
-        let not_a_sweep = |reason: String| FolderError::NotASweep { path: path.to_owned(), reason };
+        let not_a_sweep = |reason: String| {
+            FolderError::unusable(path, format!("is not the results folder of a sweep: {reason}"))
+        };
         if !path.join(MANIFEST).is_file() {
             return Err(not_a_sweep(format!("it has no {MANIFEST}")));
         }
@@ -292,7 +294,14 @@ impl SweepFolder {
         }
         match found {
             0 => Ok(()),
-            _ => Err(FolderError::Started { path: self.path.clone(), found, asked: points.len() }),
+            _ => {
+                let asked = points.len();
+                let reason = format!(
+                    "already holds {found} of the {asked} points asked for: go on with --resume, \
+                     start over with --force, or choose another folder with --out"
+                );
+                Err(FolderError::unusable(&self.path, reason))
+            }
         }
     }
 }
