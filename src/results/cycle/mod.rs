@@ -36,7 +36,7 @@ pub use waves::{Absence, CycleResult, Finding, known};
 
 use crate::contact::{ContactInterface, SlidingContact};
 use crate::cycle::periodic::MotionHarmonic;
-use crate::cycle::{CriticalValue, Onset};
+use crate::cycle::{CriticalValue, Onset, PhasePoint};
 use crate::results::drawing::DrawingError;
 use crate::results::extent::Extent;
 use crate::results::finding::{write_page, write_table, write_tables};
@@ -46,7 +46,6 @@ use crate::results::summary::{CriticalSummary, write_summary};
 use crate::results::{DrawingOptions, ShownBody};
 use branch::BranchRow;
 use motions::ContactNode;
-use record::HistoryRow;
 use serde_json::Value;
 
 /// Everything a search for limit cycles reports.
@@ -115,7 +114,7 @@ struct Told {
     /// Part of their names.
     tag: String,
     is_wave: bool,
-    history: Vec<HistoryRow>,
+    history: Vec<PhasePoint>,
     nodes: Vec<ContactNode>,
     archive: Option<Vec<u8>>,
     harmonics: Vec<(usize, f64, MotionHarmonic)>,
