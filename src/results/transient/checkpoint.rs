@@ -53,15 +53,6 @@ impl Record for Recorder {
     }
 }
 
-/// What a checkpoint is written from, without a copy.
-#[derive(Serialize)]
-struct Borrowed<'a> {
-    case_hash: &'a str,
-    simd: &'a str,
-    state: &'a TransientState,
-    record: Option<&'a Recorder>,
-}
-
 /// Writes a checkpoint; the one before stays until this one is complete. Without a record it goes with that of the
 /// folder.
 pub fn write_checkpoint(
@@ -70,7 +61,8 @@ pub fn write_checkpoint(
     state: &TransientState,
     record: Option<&Recorder>,
 ) -> Result<(), FolderError> {
-    let contents = Borrowed { case_hash, simd: &folder.manifest().simd, state, record };
+    // These are the bytes of a [`Checkpoint`], without a copy.
+    let contents = (case_hash, &folder.manifest().simd, state, record);
     folder.write(CHECKPOINT, |out| {
         let payload = postcard::to_stdvec(&contents).map_err(io::Error::other)?;
         framed::write(out, MAGIC, VERSION, &payload)
