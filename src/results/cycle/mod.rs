@@ -20,7 +20,6 @@ pub use branch::{
     WaveBranch,
 };
 pub use branches::{NamedFamily, draw_branches};
-pub use fields::CycleFrame;
 pub use figures::CycleFigures;
 pub use motions::{FoundCycle, PeriodicResult};
 pub use record::MotionRecord;

@@ -8,9 +8,9 @@ use super::motions::mean_powers;
 use super::record::MotionRecord;
 use super::summary::{CycleMotion, CycleName, OnsetSummary, SoughtCycle, WaveOfCycle};
 use super::verdicts::{ConfirmationSummary, KnownStability, Perturbation, StabilitySummary};
-use super::{CycleFrame, CycleReport, Told, WaveSearch};
+use super::{CycleReport, Told, WaveSearch};
 use crate::chart::extremes;
-use crate::cycle::periodic::velocity_level;
+use crate::cycle::periodic::{MotionFrame, velocity_level};
 use crate::cycle::{
     Confirmation, CycleBranch, CycleStability, Family, FloquetExponent, LimitCycle, Onset,
     StabilityChange, Verdict,
@@ -45,7 +45,7 @@ pub struct CycleResult {
     /// The cycle at the case's own operating point, or why there is none.
     pub cycle: Result<LimitCycle, Absence>,
     /// The whole field at times over one period, from zero on; empty where there is no cycle.
-    pub frames: Vec<CycleFrame>,
+    pub frames: Vec<MotionFrame>,
     /// Root mean square of the velocity of that cycle over the mass that moves, m/s.
     pub velocity: Option<f64>,
     /// Points along the phase.
