@@ -4,9 +4,9 @@ use super::figure_options::FigureOptions;
 use super::profile::{Profile, Run};
 use super::recorded_case::recorded_case;
 use super::session::start_threads;
-use super::sweep::{Finished, SweepPlan, drawing, gather};
+use super::sweep::{SweepPlan, drawing, finished, gather};
 use super::{Failure, terminal};
-use crate::results::sweep::{SweepFolder, document};
+use crate::results::sweep::{SweepFolder, SweepReport, document};
 use clap::{ArgAction, Args, ValueHint};
 use std::path::PathBuf;
 use std::time::Instant;
@@ -46,8 +46,8 @@ impl Run for Arguments {
         let (folder, manifest) = SweepFolder::find(&self.folder)?;
         let case = recorded_case(&self.folder, &manifest)?;
         let plan = SweepPlan::new(&case)?;
-        let finished = Finished::of(&case, &plan, &folder)?;
-        let report = finished.report(None, start.elapsed().as_secs_f64());
+        let found = finished(&case, &plan, &folder)?;
+        let report = SweepReport { wall_s: start.elapsed().as_secs_f64(), ..found };
         let drawing = (!self.no_figures).then(|| drawing(&case, &plan, &self.figures.drawing()));
         let summary = gather(&folder, &report, &manifest, drawing.as_ref())?;
         if self.json {

@@ -67,7 +67,7 @@ impl Run for Arguments {
 pub fn redraw(path: &Path, manifest: &Manifest, options: &DrawingOptions) -> Result<(), Failure> {
     if !path.join(Page::FILE).exists() {
         let reason = format!("it has no {}: run it again, with figures", Page::FILE);
-        return Err(FolderError::NotResults { path: path.to_owned(), reason }.into());
+        return Err(FolderError::no_results(path, reason).into());
     }
     let page: Page = read_record(path)?;
     if let command @ ("sweep" | "uncertainty") = manifest.command.as_str() {

@@ -263,9 +263,7 @@ fn analyse(
     let fail = |error: SignalError| {
         let message = format!("channel {}: {error}", channel.name);
         match error {
-            SignalError::Resolution { .. } | SignalError::NotPositive { .. } => {
-                Failure::usage(message)
-            }
+            SignalError::Asked(_) => Failure::usage(message),
             _ => Failure::run(message),
         }
     };

@@ -67,8 +67,8 @@ impl Run for Arguments {
         progress.finish();
         let ran = outcome?;
 
-        let finished = Finished::of(&session.case, &plan, &folder)?;
-        let report = finished.report(Some(ran), session.wall_seconds());
+        let found = finished(&session.case, &plan, &folder)?;
+        let report = SweepReport { ran: Some(ran), wall_s: session.wall_seconds(), ..found };
         let summary = if report.missing().is_empty() {
             let options = output.drawing();
             let drawing = options.map(|options| drawing(&session.case, &plan, &options));
@@ -97,57 +97,37 @@ fn point_memory(session: &Session, plan: &SweepPlan<'_>) -> f64 {
     cost.mesh_memory_bytes + cea.max(transient)
 }
 
-/// The finished points of a study, in their order.
-pub struct Finished<'a> {
+/// What there is to report of the finished points of a folder; who asks adds how many it ran, and its time.
+pub fn finished<'a>(
     case: &'a Case,
-    keys: Vec<String>,
-    analyses: Vec<&'static str>,
-    count: usize,
-    records: Vec<PointRecord>,
-    core_s: f64,
-}
-
-impl<'a> Finished<'a> {
-    /// Those of a folder.
-    pub fn of(case: &'a Case, plan: &SweepPlan<'_>, folder: &SweepFolder) -> Result<Self, Failure> {
-        let mut records = Vec::new();
-        for point in 1..=plan.count() {
-            match folder.read(point)? {
-                Found::Point(record) => records.push(*record),
-                Found::Damaged(reason) => {
-                    let path = folder.point_path(point);
-                    tracing::warn!(
-                        "{} is damaged ({reason}): the point counts as missing; --resume runs it again",
-                        path.display()
-                    );
-                }
-                Found::Nothing => {}
+    plan: &SweepPlan<'_>,
+    folder: &SweepFolder,
+) -> Result<SweepReport<'a>, Failure> {
+    let mut records = Vec::new();
+    for point in 1..=plan.count() {
+        match folder.read(point)? {
+            Found::Point(record) => records.push(*record),
+            Found::Damaged(reason) => {
+                let path = folder.point_path(point);
+                tracing::warn!(
+                    "{} is damaged ({reason}): the point counts as missing; --resume runs it again",
+                    path.display()
+                );
             }
-        }
-        Ok(Self {
-            case,
-            keys: plan.keys(),
-            analyses: plan.analysis_names(),
-            count: plan.count(),
-            core_s: records.iter().map(|record| folder.read_clock(record.point).core_s).sum(),
-            records,
-        })
-    }
-
-    /// What there is to report of them; `ran` is how many this process ran.
-    pub fn report(&self, ran: Option<usize>, wall_s: f64) -> SweepReport<'_> {
-        SweepReport {
-            title: &self.case.title,
-            friction_coefficient: self.case.contact.sliding.friction_coefficient,
-            keys: &self.keys,
-            analyses: &self.analyses,
-            count: self.count,
-            records: &self.records,
-            core_s: self.core_s,
-            ran,
-            wall_s,
+            Found::Nothing => {}
         }
     }
+    Ok(SweepReport {
+        title: &case.title,
+        friction_coefficient: case.contact.sliding.friction_coefficient,
+        keys: plan.keys(),
+        analyses: plan.analysis_names(),
+        count: plan.count(),
+        core_s: records.iter().map(|record| folder.read_clock(record.point).core_s).sum(),
+        records,
+        ran: None,
+        wall_s: 0.0,
+    })
 }
 
 /// What the figures of a study need besides its points: the modes of the case at its own friction, if
@@ -181,8 +161,8 @@ pub fn gather(
     if let Some(drawing) = drawing {
         draw(folder, report, manifest, drawing)?;
     }
-    folder.write("points.csv", |out| write_points(out, report.keys, report.records))?;
-    for table in long_tables(report.keys, report.analyses, report.records) {
+    folder.write("points.csv", |out| write_points(out, &report.keys, &report.records))?;
+    for table in long_tables(&report.keys, &report.analyses, &report.records) {
         folder.write(&table.file, |out| table.write_csv(out))?;
     }
     let summary = summary_object(report, manifest)?;

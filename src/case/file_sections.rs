@@ -112,13 +112,8 @@ fn contact_keys(contact: &FileContact, units: UnitsWord) -> Vec<(&'static str, R
 /// What a plane body cannot take by itself: it has one contact, `[contact]`, and no ties.
 fn refuse_in_plane(model: &ModelData, left_out: &mut Vec<LeftOut>) {
     let mut refuse = |what: &str, name: &str, place: &str, reason: &str| {
-        left_out.push(LeftOut {
-            keyword: format!("{what} {name}"),
-            place: place.to_owned(),
-            count: 1,
-            reason: reason.to_owned(),
-            is_part: what == "tie",
-        });
+        let own = LeftOut::once(format!("{what} {name}"), place.to_owned(), reason);
+        left_out.push(LeftOut { is_part: what == "tie", ..own });
     };
     for tie in &model.ties {
         let reason = "plane bodies have no ties: let the parts share their nodes";
@@ -160,19 +155,13 @@ fn material_section(
                     list(vec![numbers(first), numbers(second)])
                 }
                 MaterialAxes::Cylindrical([from, to]) => {
-                    left_out.push(LeftOut {
-                        keyword: format!(
-                            "axis of the cylindrical orientation of {}",
-                            material.region
-                        ),
-                        place: material.place.clone(),
-                        count: 1,
-                        reason: format!(
-                            "axes are about the motion's axis here, there through \
-                        {from:?} and {to:?}: check it"
-                        ),
-                        is_part: false,
-                    });
+                    let what =
+                        format!("axis of the cylindrical orientation of {}", material.region);
+                    let reason = format!(
+                        "axes are about the motion's axis here, there through {from:?} and {to:?}: \
+                         check it"
+                    );
+                    left_out.push(LeftOut::once(what, material.place.clone(), reason));
                     text("cylindrical")
                 }
             };
@@ -190,13 +179,11 @@ fn material_section(
     for (key, value) in plain.into_iter().filter_map(|(key, value)| Some((key, value?))) {
         match keys::find(&format!("materials.*.{key}")) {
             Some(_) => keys.push((key, RawValue::Float(value))),
-            None => left_out.push(LeftOut {
-                keyword: format!("{key} of material {}", material.name),
-                place: material.place.clone(),
-                count: 1,
-                reason: "no material has it here".to_owned(),
-                is_part: false,
-            }),
+            None => {
+                let what = format!("{key} of material {}", material.name);
+                let reason = "no material has it here";
+                left_out.push(LeftOut::once(what, material.place.clone(), reason));
+            }
         }
     }
     FileSection {

@@ -1,7 +1,7 @@
 //! The case exactly as its TOML says it: a tree of values that know where they were written.
 
 use super::diagnostic::{CaseErrors, Diagnostic, Location, Source};
-use super::value::{RawItem, RawTable, RawValue, convert_table, quote};
+use super::value::{RawItem, RawTable, RawValue, convert_table, quote, table_of};
 use super::{keys, overrides};
 use crate::mesh::{FileMesh, MeshFileError};
 use sha2::{Digest, Sha256};
@@ -169,15 +169,13 @@ impl RawCase {
     pub fn table_files(&self) -> Vec<(String, String)> {
         let mut found = Vec::new();
         for (group, key) in [("materials", "table"), ("contacts", "gap")] {
-            let Some(RawValue::Table(sections)) = self.find(group).map(|item| &item.value) else {
+            let Some(sections) = table_of(&self.root, group) else {
                 continue;
             };
-            for (name, entry) in sections {
-                if let RawValue::Table(own) = &entry.item.value
-                    && let Some(RawValue::String(file)) = own.get(key).map(|own| &own.item.value)
-                {
-                    found.push((TableBytes::kept_as(key, name), file.clone()));
-                }
+            for name in sections.keys() {
+                let own = table_of(sections, name).and_then(|own| own.get(key));
+                let file = own.and_then(|own| own.item.value.text());
+                found.extend(file.map(|file| (TableBytes::kept_as(key, name), file.to_owned())));
             }
         }
         found

@@ -2,7 +2,7 @@
 
 use super::diagnostic::{CaseErrors, Diagnostic, Location};
 use super::refusal;
-use super::value::RawValue;
+use super::value::table_of;
 use super::{Annulus, Body, Case, Cea, Convergence, Frf, Sweep};
 
 impl Case {
@@ -121,12 +121,8 @@ impl Case {
     /// An error at the first loss factor of the case.
     pub fn loss_error(&self, message: String, label: &str, help: &str) -> CaseErrors {
         let keys = |section: &str| -> Vec<String> {
-            let names = match self.raw.find(section).map(|item| &item.value) {
-                Some(RawValue::Table(sections)) => sections.keys().cloned().collect(),
-                _ => Vec::new(),
-            };
-            let own = names.iter();
-            own.map(|name| format!("{section}.{name}.loss_factor")).collect()
+            let names = table_of(&self.raw.root, section).into_iter().flatten();
+            names.map(|(name, _)| format!("{section}.{name}.loss_factor")).collect()
         };
         let shared = ["material.loss_factor", "contact.loss_factor"].map(str::to_owned);
         let own = ["materials", "boundaries", "contacts"].map(keys);

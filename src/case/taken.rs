@@ -41,14 +41,11 @@ pub struct Taken {
 /// The case with all that it takes from its mesh file, and what that is.
 pub(super) fn effective(raw: &mut RawCase) -> (RawTable, Taken) {
     let table = raw.root.clone();
-    let text = |key: &str| match raw.find(key).map(|item| &item.value) {
-        Some(RawValue::String(text)) => Some(text.clone()),
-        _ => None,
-    };
-    let Some(name) = text("mesh.file") else {
+    let text = |key: &str| raw.find(key)?.value.text();
+    let Some(name) = text("mesh.file").map(str::to_owned) else {
         return (table, Taken::default());
     };
-    let units = text("mesh.units").and_then(|word| word_of(&word));
+    let units = text("mesh.units").and_then(word_of);
     // A file that cannot be read is told where the body is made of it.
     let unread = Taken { is_unread: true, ..Taken::default() };
     let Ok(bytes) = imported::mesh_bytes(raw, &name) else {
@@ -74,13 +71,8 @@ pub(super) fn effective(raw: &mut RawCase) -> (RawTable, Taken) {
             if !is_named {
                 continue;
             }
-            taken.left_out.push(LeftOut {
-                keyword: format!("{} {}", section.path.0, section.path.1),
-                place: section.place,
-                count: 1,
-                reason: "mesh.take leaves it out".to_owned(),
-                is_part: false,
-            });
+            let keyword = format!("{} {}", section.path.0, section.path.1);
+            taken.left_out.push(LeftOut::once(keyword, section.place, "mesh.take leaves it out"));
         } else if let Some(section) = merge(&mut merged, section, &at) {
             taken.sections.push(section);
         }
@@ -93,11 +85,7 @@ pub(super) fn effective(raw: &mut RawCase) -> (RawTable, Taken) {
 /// The texts of a key: one, or a list.
 fn texts(raw: &RawCase, key: &str) -> Vec<String> {
     let items = raw.find(key).map_or(&[][..], RawItem::listed);
-    let text = |item: &RawItem| match &item.value {
-        RawValue::String(text) => Some(text.clone()),
-        _ => None,
-    };
-    items.iter().filter_map(text).collect()
+    items.iter().filter_map(|item| item.value.text().map(str::to_owned)).collect()
 }
 
 /// Which parts of the file the case takes: `mesh.take`, or all.
@@ -105,11 +93,7 @@ fn parts_taken(raw: &RawCase) -> Vec<FilePart> {
     let Some(item) = raw.find("mesh.take") else {
         return words_of::<FilePart>().map(|pair| pair.1).collect();
     };
-    let word = |item: &RawItem| match &item.value {
-        RawValue::String(word) => word_of(word),
-        _ => None,
-    };
-    item.listed().iter().filter_map(word).collect()
+    item.listed().iter().filter_map(|item| word_of(item.value.text()?)).collect()
 }
 
 fn word_of<T: super::words::Choice>(word: &str) -> Option<T> {
@@ -131,10 +115,7 @@ fn part_of(section: &FileSection) -> FilePart {
 fn merge(root: &mut RawTable, mut section: FileSection, at: &Location) -> Option<FileSection> {
     let (group, name) = (section.path.0, section.path.1.as_str());
     if let Some(of_group) = table_of(root, group) {
-        let own = match group {
-            "material" => Some(of_group),
-            _ => table_of(of_group, name),
-        };
+        let own = if group == "material" { Some(of_group) } else { table_of(of_group, name) };
         if group == "contacts" || group == "ties" {
             let is_known = |entry: &RawEntry| has_sides(entry, &section);
             if own.is_none() && of_group.values().any(is_known) {

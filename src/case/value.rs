@@ -84,6 +84,14 @@ impl RawValue {
         errors.is_empty().then_some(value)
     }
 
+    /// The text that it is.
+    pub(super) fn text(&self) -> Option<&str> {
+        match self {
+            Self::String(text) => Some(text),
+            _ => None,
+        }
+    }
+
     /// The number that it is, integers included.
     pub(super) fn number(&self) -> Option<f64> {
         match self {

@@ -7,10 +7,12 @@ use crate::contact::ContactStatus;
 use crate::fem::operator::{SimdLevel, StiffnessOperator, largest_frequency};
 use crate::linalg::interruption;
 use crate::mesh::AnnulusMesh;
+use crate::output::Described;
 use crate::transient::{
     CentralDifference, InitialState, OperatorChoice, Perturbation, SAFETY, StandingWave, TimeStep,
     TransientModel, TransientSettings, stable_step_limit,
 };
+use serde::Serialize;
 use std::f64::consts::TAU;
 
 /// Velocity of the larger seed, in units of what saturates a wave, the slip speed or the interference times its frequency: a
@@ -44,18 +46,18 @@ pub struct BasinRequest {
 }
 
 /// One transient from steady sliding, both waves seeded.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Described, Serialize)]
 pub struct BasinRun {
-    /// Velocity of the second seed over that of the first.
+    /// Seed of the second wave over that of the first.
     pub seed_ratio: f64,
-    /// Amplitude of the second wave over that of the first when the first node sticks or opens; `None` if none does.
+    /// Ratio of their amplitudes when the first node sticks or opens.
     pub saturation_ratio: Option<f64>,
-    /// The harmonic that wins.
+    /// The wave that wins.
     pub winner: usize,
-    /// Whether the other one has gone, or the two have come to a constant ratio.
+    /// Whether that is settled.
     pub is_settled: bool,
-    /// Length of the run, s.
-    pub duration: f64,
+    /// Simulated time, s.
+    pub duration_s: f64,
 }
 
 /// The boundary between the basins of two waves.
@@ -116,7 +118,7 @@ impl DiscModel {
     /// changes the winner more than once, one of the changes is found.
     ///
     /// # Errors
-    /// [`CycleError::Stepping`] where a transient cannot start, [`CycleError::StableSliding`] where neither wave grows.
+    /// [`CycleError::Stepping`] where a transient cannot start, [`CycleError::NotFound`] where neither wave grows.
     pub fn basin(
         &self,
         point: &OperatingPoint,
@@ -148,8 +150,14 @@ impl DiscModel {
         let onsets = self.onsets(friction, limit)?;
         let own = onsets.iter().filter(|onset| request.harmonics.contains(&onset.harmonic));
         let slowest = own.map(|onset| onset.frequency).reduce(f64::min);
-        let slowest =
-            slowest.ok_or(CycleError::StableSliding { harmonics: request.harmonics, friction })?;
+        let slowest = slowest.ok_or_else(|| {
+            let [one, other] = request.harmonics;
+            CycleError::NotFound(format!(
+                "steady sliding is stable against waves of {one} and {other} nodal diameters at \
+                 contact.friction_coefficient = {friction}: neither can win. Raise it, or name \
+                 others in basin.harmonics"
+            ))
+        })?;
         Ok(TAU / slowest)
     }
 }
@@ -198,7 +206,7 @@ impl Contest<'_> {
             saturation_ratio,
             winner: self.request.harmonics[usize::from(share > 1.0)],
             is_settled: agreeing >= AGREEING_WINDOWS,
-            duration: run.steps_done() as f64 * run.plan().time_step,
+            duration_s: run.steps_done() as f64 * run.plan().time_step,
         })
     }
 

@@ -13,23 +13,6 @@ pub enum CycleError {
     /// The mesh cannot be built.
     #[error(transparent)]
     Mesh(#[from] MeshError),
-    /// The cylinder must turn, counter-clockwise.
-    #[error(
-        "contact.rotation_speed_rpm = {rpm} must be positive: limit cycles live on a turning cylinder (the mirror \
-         image of a case turns the other way)"
-    )]
-    RotationSpeed {
-        /// Given speed, 1/min.
-        rpm: f64,
-    },
-    /// A value that must be positive is not.
-    #[error("{key} = {value} must be a positive finite number")]
-    NotPositive {
-        /// Case key.
-        key: &'static str,
-        /// Given value.
-        value: f64,
-    },
     /// A harmonic that the mesh cannot carry.
     #[error(
         "cycle.harmonics holds {harmonic}: a mesh of {sectors} sectors carries waves of 1 to {limit} nodal diameters"
@@ -63,9 +46,6 @@ pub enum CycleError {
         /// Which limit cycle.
         family: Family,
     },
-    /// The eigenvalue analysis that finds the onsets failed.
-    #[error("onsets of limit cycles: {0}")]
-    Spectrum(String),
     /// The branch ends before the point asked for.
     #[error(
         "{family}: the branch of limit cycles does not reach {key} = {value:.6}: it ends at {reached:.6} \
@@ -83,41 +63,9 @@ pub enum CycleError {
         /// Why it ends.
         reason: String,
     },
-    /// What was found is no motion of the disc.
-    #[error(
-        "{family}: the wave on {sectors} elements around is no motion of the disc: it opens inside \
-         the cylinder or draws energy from normal contact. Refine the mesh \
-         (mesh.circumferential_elements and radial_elements), or try another cycle.phases"
-    )]
-    Unphysical {
-        /// Which limit cycle.
-        family: Family,
-        /// Sectors of the mesh.
-        sectors: usize,
-    },
-    /// The leading exponents do not converge.
-    #[error(
-        "the stability of this limit cycle cannot be told: no exponent has converged after {dimension} periods; let a \
-         transient tell (transient.initial = \"limit-cycle\")"
-    )]
-    Stability {
-        /// Periods spent.
-        dimension: usize,
-    },
-    /// Neither of two waves grows.
-    #[error(
-        "steady sliding is stable against waves of {} and {} nodal diameters at \
-         contact.friction_coefficient = {friction}: neither can win. Raise it, or name others in \
-         basin.harmonics",
-        harmonics[0],
-        harmonics[1]
-    )]
-    StableSliding {
-        /// The two.
-        harmonics: [usize; 2],
-        /// Friction coefficient.
-        friction: f64,
-    },
+    /// There is none at the operating point, or nothing to be told of it: why, and the remedy.
+    #[error("{0}")]
+    NotFound(String),
     /// The mesh's time stepping cannot take the cycle.
     #[error(transparent)]
     Stepping(#[from] TransientError),

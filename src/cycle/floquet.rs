@@ -37,7 +37,7 @@ impl LeadingExponents {
     /// thousandth of `omega`, the residual and a hundredth of the rate make the uncertainty of each.
     ///
     /// # Errors
-    /// [`CycleError::Stability`] where the leading multipliers do not converge.
+    /// [`CycleError::NotFound`] where the leading multipliers do not converge.
     pub fn of(period: &Period<'_>, known: Option<&[f64]>) -> Result<Self, CycleError> {
         let mut start = unit(unknown_start(period));
         if let Some(known) = known.filter(|known| known.len() == start.len()) {
@@ -53,7 +53,12 @@ impl LeadingExponents {
             is_shift: &|own| own.value.ln().norm() < reach * TAU && own.along > least,
         };
         let found = search.run(&start, period.shift(), |direction| period.map(direction));
-        let found = found.map_err(|dimension| CycleError::Stability { dimension })?;
+        let found = found.map_err(|dimension| {
+            CycleError::NotFound(format!(
+                "the stability of this limit cycle cannot be told: no exponent has converged after \
+                 {dimension} periods; let a transient tell (transient.initial = \"limit-cycle\")"
+            ))
+        })?;
         let neutral = found.shift.map(|shift| shift.ln() / period.duration);
         let mut modes = vec![0.0; period.dimension()];
         let mut exponents = Vec::new();

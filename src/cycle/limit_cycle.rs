@@ -41,18 +41,20 @@ impl CyclePowers {
     }
 }
 
-/// Contact and motion of the edge at one phase.
+/// Contact and motion of a point of the contact at one phase; all points of the edge of a wave go through the same.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PhasePoint {
     /// `xi`, rad.
     pub phase: f64,
+    /// Time from phase zero on, s.
+    pub time: f64,
     /// Contact status.
     pub status: ContactStatus,
     /// Contact pressure, Pa.
     pub pressure: f64,
     /// Contact shear, Pa, positive along the rotation.
     pub shear: f64,
-    /// `u_r, u_theta`, m.
+    /// `u_r, u_theta`, m; on other bodies than discs along the normal and along the counterface.
     pub displacement: [f64; 2],
     /// `v_r, v_theta`, m/s.
     pub velocity: [f64; 2],
@@ -162,9 +164,11 @@ impl EdgeMotion {
             )
         });
         let length = wave.body.tributary_length;
-        (0..wave.points())
-            .map(|i| PhasePoint {
-                phase: TAU * i as f64 / wave.points() as f64,
+        let phases = (0..wave.points()).map(|i| TAU * i as f64 / wave.points() as f64);
+        (phases.enumerate())
+            .map(|(i, phase)| PhasePoint {
+                phase,
+                time: phase / state.frequency,
                 status: state.contact[i].status(),
                 pressure: state.normal[i] / length,
                 shear: state.tangential[i] / length,

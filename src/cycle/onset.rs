@@ -52,7 +52,7 @@ impl DiscModel {
     /// geometric stiffness. Nothing is sought on a grid of frequencies.
     ///
     /// # Errors
-    /// [`CycleError::Spectrum`] where the eigenvalue analysis fails.
+    /// [`CycleError::NotFound`] where the eigenvalue analysis fails.
     pub fn onsets(
         &self,
         highest_friction: f64,
@@ -70,7 +70,7 @@ impl DiscModel {
         let request = SweepRequest::new(&frictions, limit);
         let (specification, material) = (&self.specification, &self.material);
         let found = cyclic::sweep(specification, material, &options, &contact, &request)
-            .map_err(|error| CycleError::Spectrum(error.to_string()))?;
+            .map_err(|error| CycleError::NotFound(format!("onsets of limit cycles: {error}")))?;
         let travelling = found.sweep.intervals.iter().filter(|i| i.direction != 0);
         Ok(travelling
             .map(|interval| Onset {

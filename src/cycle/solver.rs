@@ -178,7 +178,7 @@ impl CycleSolver {
     /// The limit cycle at `point` from the one of a neighbouring point that differs in `parameter`.
     ///
     /// # Errors
-    /// [`CycleError::NotReached`] if the branch ends before, [`CycleError::Unphysical`] if it leaves the motions of the
+    /// [`CycleError::NotReached`] if the branch ends before, [`CycleError::NotFound`] if it leaves the motions of the
     /// disc.
     pub fn continue_to(
         &self,
@@ -205,7 +205,11 @@ impl CycleSolver {
     ) -> CycleError {
         let (family, sectors) = (self.family, self.body.sector_count);
         match end {
-            BranchEnd::Unphysical => CycleError::Unphysical { family, sectors },
+            BranchEnd::Unphysical => CycleError::NotFound(format!(
+                "{family}: the wave on {sectors} elements around is no motion of the disc: it \
+                 opens inside the cylinder or draws energy from normal contact. Refine the mesh \
+                 (mesh.circumferential_elements and radial_elements), or try another cycle.phases"
+            )),
             _ => CycleError::NotReached {
                 family,
                 key: parameter.key(),
@@ -364,14 +368,19 @@ fn check_mesh(specification: &AnnulusSpecification, harmonic: usize) -> Result<(
 fn check(point: &OperatingPoint) -> Result<(), CycleError> {
     let contact = &point.contact;
     if !(contact.rotation_speed > 0.0 && contact.rotation_speed.is_finite()) {
-        return Err(CycleError::RotationSpeed { rpm: contact.rotation_speed * 60.0 / TAU });
+        return Err(CycleError::NotFound(format!(
+            "contact.rotation_speed_rpm = {} must be positive: limit cycles live on a turning \
+             cylinder (the mirror image of a case turns the other way)",
+            contact.rotation_speed * 60.0 / TAU
+        )));
     }
     for (key, value) in [
         ("contact.interference", contact.interference),
         ("contact.friction_coefficient", contact.friction_coefficient),
     ] {
         if !(value > 0.0 && value.is_finite()) {
-            return Err(CycleError::NotPositive { key, value });
+            let message = format!("{key} = {value} must be a positive finite number");
+            return Err(CycleError::NotFound(message));
         }
     }
     Ok(())

@@ -44,7 +44,7 @@ impl MeshStepping<'_> {
     /// `neighbour` is a cycle nearby, whose modes are a start.
     ///
     /// # Errors
-    /// [`CycleError::Stepping`] if the transient cannot start, [`CycleError::Stability`] if the exponents do not converge.
+    /// [`CycleError::Stepping`] if the transient cannot start, [`CycleError::NotFound`] if the exponents do not converge.
     pub fn settle(
         &self,
         cycle: &LimitCycle,

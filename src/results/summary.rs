@@ -133,12 +133,11 @@ pub fn write_summary(
 /// The summary of a results folder.
 ///
 /// # Errors
-/// [`FolderError::NotResults`] if there is none, as after a run that was killed, if it is damaged, or if it is of
+/// [`FolderError::Unusable`] if there is none, as after a run that was killed, if it is damaged, or if it is of
 /// another command; those of the file system.
 pub fn read_summary<T: DeserializeOwned>(path: &Path) -> Result<T, FolderError> {
     let bytes = read_own(path, SUMMARY)?;
-    serde_json::from_slice(&bytes).map_err(|error| FolderError::NotResults {
-        path: path.to_owned(),
-        reason: format!("its {SUMMARY} is damaged ({error})"),
-    })
+    let damaged =
+        |error| FolderError::no_results(path, format!("its {SUMMARY} is damaged ({error})"));
+    serde_json::from_slice(&bytes).map_err(damaged)
 }

@@ -45,16 +45,9 @@ pub enum StudyError {
     /// A fit that cannot be made.
     #[error(transparent)]
     Fit(#[from] FitError),
-    /// The first sample of a design cannot be solved.
-    #[error("{key} = {value}: {error}")]
-    Design {
-        /// Case key of the design parameter.
-        key: String,
-        /// Its value.
-        value: f64,
-        /// Why not.
-        error: String,
-    },
+    /// The first sample of a design, `key = value`, cannot be solved: why not.
+    #[error("{0}")]
+    Design(String),
     /// There is no frequency response.
     #[error(transparent)]
     Response(#[from] FrfError),

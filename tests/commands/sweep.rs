@@ -5,7 +5,7 @@ use crate::prelude::*;
 use crate::program::Row;
 use frictionsim::app::Failure;
 use frictionsim::app::sweep::{
-    Finished, PointRunner, Shard, SweepPlan, SweepProgress, SweepRun, gather,
+    PointRunner, Shard, SweepPlan, SweepProgress, SweepRun, finished, gather,
 };
 use frictionsim::results::FolderError;
 use frictionsim::results::sweep::{Start, SweepFolder};
@@ -104,8 +104,7 @@ fn sweep(
 
 fn write_table(case: &Case, folder: &SweepFolder) {
     let plan = SweepPlan::new(case).unwrap();
-    let finished = Finished::of(case, &plan, folder).unwrap();
-    let report = finished.report(None, 0.0);
+    let report = finished(case, &plan, folder).unwrap();
     gather(folder, &report, &manifest(case), None).unwrap();
 }
 

@@ -14,71 +14,10 @@ pub struct MarketMatrix {
     pub entries: Vec<(usize, usize, f64)>,
 }
 
-/// Text that is no real matrix in the Matrix Market format.
+/// Text that is no real matrix in the Matrix Market format: the line, and what is wrong there.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
-pub enum MatrixMarketError {
-    /// The first line.
-    #[error(
-        "line 1 is no Matrix Market banner of a real matrix: \"{found}\"; expected \"%%MatrixMarket matrix coordinate real general\" \
-         (or array, integer, symmetric, skew-symmetric)"
-    )]
-    Banner {
-        /// The line.
-        found: String,
-    },
-    /// A line that does not hold the numbers it should.
-    #[error("line {line}: \"{found}\" should be {expected}")]
-    Line {
-        /// Counted from 1.
-        line: usize,
-        /// The line.
-        found: String,
-        /// What it should be.
-        expected: &'static str,
-    },
-    /// A number that is not finite.
-    #[error("line {line}: {found} is not finite")]
-    NotFinite {
-        /// Counted from 1.
-        line: usize,
-        /// The number.
-        found: String,
-    },
-    /// An entry outside the matrix.
-    #[error("line {line}: entry ({row}, {column}) lies outside a matrix of {rows} x {columns}")]
-    Outside {
-        /// Counted from 1.
-        line: usize,
-        /// Counted from 1.
-        row: usize,
-        /// Counted from 1.
-        column: usize,
-        /// Rows of the matrix.
-        rows: usize,
-        /// Columns of the matrix.
-        columns: usize,
-    },
-    /// More rows or columns than may be read.
-    #[error("line {line}: a matrix of {rows} x {columns} is larger than {most} x {most}")]
-    TooLarge {
-        /// Counted from 1.
-        line: usize,
-        /// Rows of the matrix.
-        rows: usize,
-        /// Columns of the matrix.
-        columns: usize,
-        /// Rows and columns at most.
-        most: usize,
-    },
-    /// Too few or too many entries.
-    #[error("the size line promises {promised} entries, the file has {found}")]
-    Count {
-        /// Entries promised.
-        promised: usize,
-        /// Entries found.
-        found: usize,
-    },
-}
+#[error("{0}")]
+pub struct MatrixMarketError(String);
 
 /// Which triangle stands for which.
 #[derive(Clone, Copy, PartialEq)]
@@ -114,7 +53,9 @@ impl MarketMatrix {
         };
         let (rows, columns) = (whole[0], whole[1]);
         if rows.max(columns) > most {
-            return Err(MatrixMarketError::TooLarge { line: at, rows, columns, most });
+            return Err(MatrixMarketError(format!(
+                "line {at}: a matrix of {rows} x {columns} is larger than {most} x {most}"
+            )));
         }
         let mut matrix = Self { rows, columns, entries: Vec::new() };
         match is_coordinate {
@@ -142,18 +83,15 @@ impl MarketMatrix {
             };
             let value = finite(line, value)?;
             if row == 0 || column == 0 || row > self.rows || column > self.columns {
-                return Err(MatrixMarketError::Outside {
-                    line,
-                    row,
-                    column,
-                    rows: self.rows,
-                    columns: self.columns,
-                });
+                return Err(MatrixMarketError(format!(
+                    "line {line}: entry ({row}, {column}) lies outside a matrix of {} x {}",
+                    self.rows, self.columns
+                )));
             }
             self.add((row - 1, column - 1), value, symmetry);
             found += 1;
         }
-        if found == promised { Ok(()) } else { Err(MatrixMarketError::Count { promised, found }) }
+        if found == promised { Ok(()) } else { Err(wrong_count(promised, found)) }
     }
 
     /// Column by column; of a symmetric matrix the lower triangle alone.
@@ -183,7 +121,7 @@ impl MarketMatrix {
         let promised = (0..columns).map(|column| rows.saturating_sub(first(column))).sum();
         match found == promised && places.next().is_none() {
             true => Ok(()),
-            false => Err(MatrixMarketError::Count { promised, found }),
+            false => Err(wrong_count(promised, found)),
         }
     }
 
@@ -240,7 +178,14 @@ impl MarketMatrix {
 fn read_banner(banner: &str) -> Result<(bool, Symmetry), MatrixMarketError> {
     let words: Vec<String> = banner.split_whitespace().map(str::to_lowercase).collect();
     let words: Vec<&str> = words.iter().map(String::as_str).collect();
-    let wrong = || MatrixMarketError::Banner { found: banner.chars().take(80).collect() };
+    let wrong = || {
+        let found: String = banner.chars().take(80).collect();
+        MatrixMarketError(format!(
+            "line 1 is no Matrix Market banner of a real matrix: \"{found}\"; expected \
+             \"%%MatrixMarket matrix coordinate real general\" (or array, integer, symmetric, \
+             skew-symmetric)"
+        ))
+    };
     let ["%%matrixmarket", "matrix", format, field, symmetry] = words[..] else {
         return Err(wrong());
     };
@@ -266,13 +211,19 @@ fn whole_numbers(text: &str) -> Option<Vec<usize>> {
 }
 
 fn wrong_line(line: usize, found: &str, expected: &'static str) -> MatrixMarketError {
-    MatrixMarketError::Line { line, found: found.chars().take(80).collect(), expected }
+    let found: String = found.chars().take(80).collect();
+    MatrixMarketError(format!("line {line}: \"{found}\" should be {expected}"))
+}
+
+fn wrong_count(promised: usize, found: usize) -> MatrixMarketError {
+    let text = format!("the size line promises {promised} entries, the file has {found}");
+    MatrixMarketError(text)
 }
 
 fn finite(line: usize, word: &str) -> Result<f64, MatrixMarketError> {
     match word.parse::<f64>() {
         Ok(value) if value.is_finite() => Ok(value),
-        Ok(_) => Err(MatrixMarketError::NotFinite { line, found: word.to_owned() }),
+        Ok(_) => Err(MatrixMarketError(format!("line {line}: {word} is not finite"))),
         Err(_) => Err(wrong_line(line, word, "a number")),
     }
 }

@@ -202,6 +202,11 @@ impl ModelData {
 }
 
 impl LeftOut {
+    /// What stands once in the file and is no part of the structure.
+    pub fn once(keyword: String, place: String, reason: impl Into<String>) -> Self {
+        Self { keyword, place, count: 1, reason: reason.into(), is_part: false }
+    }
+
     /// The keyword or card alone, as `mesh.drop` names it.
     pub fn card(&self) -> &str {
         let ends = [" of ", " with ", " without "].into_iter();

@@ -48,7 +48,7 @@ impl SpectralResolution {
     /// Blocks for a resolution asked for, or of at most 2 s.
     ///
     /// # Errors
-    /// [`SignalError::Resolution`] for one that the signal is too short or too coarsely sampled for.
+    /// [`SignalError::Asked`] for one that the signal is too short or too coarsely sampled for.
     pub fn of(
         count: usize,
         sampling_rate: f64,
@@ -60,11 +60,12 @@ impl SpectralResolution {
                 super::error::check_positive("resolution", asked, " (Hz): change --resolution")?;
                 let block = (lobe * sampling_rate / asked).round();
                 if !(block <= count as f64 && block >= 16.0) {
-                    return Err(SignalError::Resolution {
-                        asked_hz: asked,
-                        finest_hz: lobe * sampling_rate / count as f64,
-                        coarsest_hz: lobe * sampling_rate / 16.0,
-                    });
+                    let [finest, coarsest] =
+                        [count as f64, 16.0].map(|block| lobe * sampling_rate / block);
+                    return Err(SignalError::Asked(format!(
+                        "a resolution of {asked} Hz is out of reach: this record gives {finest} \
+                         to {coarsest} Hz; change --resolution, or the interval"
+                    )));
                 }
                 block as usize
             }

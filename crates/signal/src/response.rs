@@ -1,6 +1,6 @@
 //! Frequency response functions.
 
-use super::error::{SignalError, check_finite};
+use super::error::{SignalError, check_finite, too_short};
 use faer::c64;
 use std::f64::consts::TAU;
 
@@ -80,22 +80,23 @@ impl FrequencyResponse {
         has_phase: bool,
     ) -> Result<Self, SignalError> {
         if frequencies_hz.len() != values.len() {
-            return Err(SignalError::Length { left: frequencies_hz.len(), right: values.len() });
+            let (left, right) = (frequencies_hz.len(), values.len());
+            let message = format!("{left} frequencies but {right} response values");
+            return Err(SignalError::Unfit(message));
         }
         if values.len() < 8 {
-            return Err(SignalError::TooShort {
-                what: "the frequency response",
-                count: values.len(),
-                needed: 8,
-                remedy: "measure more frequency lines",
-            });
+            let remedy = "measure more frequency lines";
+            return Err(too_short("the frequency response", values.len(), 8, remedy));
         }
         check_finite("frequency", &frequencies_hz)?;
         let parts: Vec<f64> = values.iter().map(|z| z.re + z.im).collect();
         check_finite("response value", &parts)?;
         for (i, f) in frequencies_hz.iter().enumerate() {
             if *f < 0.0 || (i > 0 && *f <= frequencies_hz[i - 1]) {
-                return Err(SignalError::NotRising { index: i + 1, value: *f });
+                return Err(SignalError::Unfit(format!(
+                    "frequency number {} ({f} Hz) is not above the one before it: sort the table",
+                    i + 1
+                )));
             }
         }
         Ok(Self {
@@ -188,7 +189,7 @@ impl FrequencyResponse {
     /// time derivatives. A line at 0 Hz, which cannot be integrated, is left out.
     ///
     /// # Errors
-    /// [`SignalError::TooShort`] if fewer than 8 lines remain.
+    /// [`SignalError::Unfit`] if fewer than 8 lines remain.
     pub fn converted(&self, quantity: ResponseQuantity) -> Result<Self, SignalError> {
         let power = quantity.derivatives() - self.quantity.derivatives();
         let skip = usize::from(power < 0 && self.frequencies_hz[0] == 0.0);
@@ -211,7 +212,7 @@ impl FrequencyResponse {
     /// The lines between two frequencies, both included, Hz.
     ///
     /// # Errors
-    /// [`SignalError::TooShort`] if fewer than 8 lines remain.
+    /// [`SignalError::Unfit`] if fewer than 8 lines remain.
     pub fn within(&self, low_hz: f64, high_hz: f64) -> Result<Self, SignalError> {
         let first = self.frequencies_hz.partition_point(|f| *f < low_hz);
         let last = self.frequencies_hz.partition_point(|f| *f <= high_hz).max(first);

@@ -1,7 +1,7 @@
 //! Short-time amplitude spectra.
 
 use super::Window;
-use super::error::{SignalError, check_positive};
+use super::error::{SignalError, check_positive, too_short};
 use super::spectrum::{BlockTransform, check_signal};
 
 /// How a [`spectrogram`] cuts the signal.
@@ -63,12 +63,8 @@ pub fn spectrogram(
     check_signal(samples, sampling_rate, 4)?;
     let block = (options.window_length * sampling_rate).round() as usize;
     if block < 4 {
-        return Err(SignalError::TooShort {
-            what: "the spectrogram window",
-            count: block,
-            needed: 4,
-            remedy: "lengthen the window or sample faster",
-        });
+        let remedy = "lengthen the window or sample faster";
+        return Err(too_short("the spectrogram window", block, 4, remedy));
     }
     check_signal(samples, sampling_rate, block)?;
     // Windows, and how many of them make a row.

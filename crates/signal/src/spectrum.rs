@@ -1,7 +1,7 @@
 //! One-sided amplitude spectrum of a real signal, of one block or averaged over many.
 
 use super::Window;
-use super::error::{SignalError, check_finite, check_positive};
+use super::error::{SignalError, check_finite, check_positive, too_short};
 use faer::c64;
 use realfft::RealFftPlanner;
 
@@ -135,12 +135,8 @@ pub(super) fn check_signal(
     check_positive("sampling rate", sampling_rate, ": give it with --rate")?;
     check_finite("sample", samples)?;
     if samples.len() < needed {
-        return Err(SignalError::TooShort {
-            what: "the signal",
-            count: samples.len(),
-            needed,
-            remedy: "give a longer record or a shorter window",
-        });
+        let remedy = "give a longer record or a shorter window";
+        return Err(too_short("the signal", samples.len(), needed, remedy));
     }
     Ok(())
 }

@@ -127,7 +127,7 @@ impl<'m, 'a> ModeContest<'m, 'a> {
             saturation_ratio: saturation,
             winner: self.rivals()[usize::from(share > limit)],
             is_settled: agreeing >= AGREEING_WINDOWS,
-            duration: periods as f64 * self.period,
+            duration_s: periods as f64 * self.period,
         }
     }
 

@@ -324,7 +324,7 @@ impl<'b, 'a> Corrector<'b, 'a> {
         periods: usize,
     ) -> Result<f64, PeriodicError> {
         if !image.is_finite() {
-            return Err(PeriodicError::Unbounded { periods });
+            return Err(PeriodicError::unbounded(periods));
         }
         if image.counts.stick + image.counts.slip == 0 {
             return Err(PeriodicError::Separated);
@@ -357,7 +357,7 @@ impl<'b, 'a> Corrector<'b, 'a> {
 
 fn accepted(best: Option<Point>, periods: usize) -> Result<Point, PeriodicError> {
     let Some(mut point) = best else {
-        return Err(PeriodicError::Unbounded { periods });
+        return Err(PeriodicError::unbounded(periods));
     };
     let residual = point.found.residual;
     point.found.residual = point.found.image.relative_residual();

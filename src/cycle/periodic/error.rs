@@ -35,55 +35,23 @@ pub enum PeriodicError {
         /// Frequency there, Hz.
         frequency_hz: f64,
     },
-    /// The motion has two frequencies.
-    #[error(
-        "the motion does not repeat itself: a transient from this mode vibrates at two \
-         frequencies, {:.2} and {:.2} Hz, without a common period. `transient` follows it \
-         (end_state two-frequency). From another operating point cycle.continuation tells where a \
-         cycle gives way to it",
-        frequencies_hz[0], frequencies_hz[1]
-    )]
-    TwoFrequencies {
-        /// Both, the stronger first, Hz.
-        frequencies_hz: [f64; 2],
-    },
-    /// The numbers grow out of all bounds.
-    #[error(
-        "the motion grows out of all bounds within {periods} periods: nothing in the contact limits it"
-    )]
-    Unbounded {
-        /// Periods spent.
-        periods: usize,
-    },
-    /// The branch that was followed does not reach the operating point.
-    #[error(
-        "steady sliding is stable at {key} = {value} and has no limit cycle beside it. Those of \
-         this mode live from {:.4} to {:.4} within the range of cycle.continuation",
-        range[0], range[1]
-    )]
-    NotHere {
-        /// The parameter.
-        key: &'static str,
-        /// The case's own value, in units of the key.
-        value: f64,
-        /// Where cycles were found.
-        range: [f64; 2],
-    },
-    /// The leading multipliers do not converge.
-    #[error(
-        "the stability of this limit cycle cannot be told: no multiplier has converged after {dimension} periods; let a \
-         transient tell (cycle.confirmation_periods)"
-    )]
-    Multipliers {
-        /// Periods spent.
-        dimension: usize,
-    },
+    /// There is none to be found, or nothing to be told of it: why, and the remedy.
+    #[error("{0}")]
+    NotFound(String),
     /// The time loop cannot take the body.
     #[error(transparent)]
     Stepping(#[from] TransientError),
 }
 
 impl PeriodicError {
+    /// The numbers grow out of all bounds.
+    pub(super) fn unbounded(periods: usize) -> Self {
+        Self::NotFound(format!(
+            "the motion grows out of all bounds within {periods} periods: nothing in the contact \
+             limits it"
+        ))
+    }
+
     /// A motion of such a period that still misses its start.
     pub(super) fn not_converged(periods: usize, residual: f64, period: f64) -> Self {
         Self::NotConverged { periods, residual, frequency_hz: 1.0 / period }

@@ -51,8 +51,8 @@ pub struct MotionFrame {
     pub time: f64,
     /// Displacement (m) and velocity (m/s) over all dofs in nodal frames.
     pub fields: [Vec<f64>; 2],
-    /// Contact.
-    pub contact: ContactInstant,
+    /// Contact, where the motion was stepped in time.
+    pub contact: Option<ContactInstant>,
 }
 
 /// A periodic motion of a body and its contact. For each metre of thickness, of a body in three dimensions for the whole.
@@ -161,7 +161,7 @@ impl PeriodicMotion {
                 self.frames.push(MotionFrame {
                     time,
                     fields: [displacement, velocity],
-                    contact: instant(map, time, &before),
+                    contact: Some(instant(map, time, &before)),
                 });
             }
             if is_one_of(step, steps, request.instants) {

@@ -66,7 +66,7 @@ impl FloquetMultipliers {
     /// Arnoldi's process on differences of the period map at a periodic motion, until the leading multipliers have converged.
     ///
     /// # Errors
-    /// [`PeriodicError::Multipliers`] where they do not.
+    /// [`PeriodicError::NotFound`] where they do not.
     pub fn of(map: &mut PeriodMap<'_>, state: &PeriodicState) -> Result<Self, PeriodicError> {
         let (first, image) = (map.periods(), map.image(state));
         let length = PERTURBATION * image.vibration;
@@ -90,7 +90,12 @@ impl FloquetMultipliers {
             is_shift: &|own| (own.value - 1.0).norm() < reach && own.along > least,
         };
         let found = search.run(&unit(start), image.rate.clone(), &mut apply);
-        let found = found.map_err(|dimension| PeriodicError::Multipliers { dimension })?;
+        let found = found.map_err(|dimension| {
+            PeriodicError::NotFound(format!(
+                "the stability of this limit cycle cannot be told: no multiplier has converged \
+                 after {dimension} periods; let a transient tell (cycle.confirmation_periods)"
+            ))
+        })?;
         // What nodes that change their status at another step leave of linearity.
         let first_listed = &found.listed[0];
         let along = unit(found.vector(first_listed).iter().map(|value| value.re).collect());

@@ -198,7 +198,7 @@ impl Search {
         let periods = self.spent;
         let first = *self.first.get_or_insert(image.vibration);
         if !image.is_finite() || image.vibration > UNBOUNDED * first {
-            return Err(PeriodicError::Unbounded { periods });
+            return Err(PeriodicError::unbounded(periods));
         }
         self.largest = self.largest.max(image.vibration);
         if image.vibration < DEAD * self.largest {
@@ -262,7 +262,7 @@ impl Search {
     fn finish(self) -> Result<Found, PeriodicError> {
         let periods = self.spent;
         let Some(best) = self.best else {
-            return Err(PeriodicError::Unbounded { periods });
+            return Err(PeriodicError::unbounded(periods));
         };
         Ok(Found { periods, ..best })
     }

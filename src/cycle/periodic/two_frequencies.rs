@@ -24,9 +24,12 @@ pub fn transient_from(
     let motion = map.motion();
     let lines = strongest_node(&samples).and_then(|series| frequencies(&series, rate));
     match lines {
-        Some((first, Some(second))) => {
-            Err(PeriodicError::TwoFrequencies { frequencies_hz: [first, second] })
-        }
+        Some((first, Some(second))) => Err(PeriodicError::NotFound(format!(
+            "the motion does not repeat itself: a transient from this mode vibrates at two \
+             frequencies, {first:.2} and {second:.2} Hz, without a common period. `transient` \
+             follows it (end_state two-frequency). From another operating point \
+             cycle.continuation tells where a cycle gives way to it"
+        ))),
         Some((first, None)) => Ok(Some(PeriodicState { motion, period: first.recip() })),
         None => Ok(None),
     }

@@ -1,12 +1,13 @@
 //! The figure of a search for the boundary between two basins.
 
-use super::{BasinSummary, RunSummary};
+use super::BasinSummary;
 use crate::chart::{Axis, ChartError, Figure, INK, Marker, Panel, Points, Rule, SERIES, Stroke};
+use crate::cycle::BasinRun;
 
 /// The winner of each transient over the ratio of the amplitudes at the first stick or opening.
 pub(super) fn search(summary: &BasinSummary) -> Result<Figure, ChartError> {
     let [first, second] = summary.harmonics;
-    let place = |run: &RunSummary| {
+    let place = |run: &BasinRun| {
         let at = if run.winner == first { 0.0 } else { 1.0 };
         Some((run.saturation_ratio?, at))
     };

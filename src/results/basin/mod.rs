@@ -42,36 +42,9 @@ pub struct BasinSummary {
     /// Transients spent.
     pub transients: usize,
     /// Every transient, in the order of the search.
-    pub runs: Vec<RunSummary>,
+    pub runs: Vec<BasinRun>,
     /// What it was made from.
     pub manifest: Manifest,
-}
-
-/// One transient.
-#[derive(Clone, Copy, Debug, Described, Serialize)]
-pub struct RunSummary {
-    /// Seed of the second wave over that of the first.
-    pub seed_ratio: f64,
-    /// Ratio of their amplitudes when the first node sticks or opens.
-    pub saturation_ratio: Option<f64>,
-    /// The wave that wins.
-    pub winner: usize,
-    /// Whether that is settled.
-    pub is_settled: bool,
-    /// Simulated time, s.
-    pub duration_s: f64,
-}
-
-impl From<&BasinRun> for RunSummary {
-    fn from(run: &BasinRun) -> Self {
-        Self {
-            seed_ratio: run.seed_ratio,
-            saturation_ratio: run.saturation_ratio,
-            winner: run.winner,
-            is_settled: run.is_settled,
-            duration_s: run.duration,
-        }
-    }
 }
 
 impl BasinSummary {
@@ -99,7 +72,7 @@ impl BasinSummary {
             winner: alone,
             boundary: Bounds { low: found.low, high: found.high },
             transients: found.runs.len(),
-            runs: found.runs.iter().map(RunSummary::from).collect(),
+            runs: found.runs.clone(),
             manifest: manifest.clone(),
         }
     }
@@ -189,7 +162,7 @@ impl BasinSummary {
 
 columns! {
     /// A transient.
-    pub(super) RUNS: run as RunSummary;
+    pub(super) RUNS: run as BasinRun;
     seed_ratio: "seed of the second rival over that of the first, or the kick"
         = run.seed_ratio, Always "ratio of the seeds" Significant(5);
     saturation_ratio: "ratio of their amplitudes when the first node sticks or opens"

@@ -1,22 +1,10 @@
 //! Whole fields of limit cycles, for ParaView.
 
 use super::{CycleReport, Search};
-use crate::cycle::periodic::ContactInstant;
+use crate::cycle::periodic::MotionFrame;
 use crate::results::folder::{FolderError, OutputFolder};
 use crate::results::pvd::{PvdEntry, write_pvd};
 use crate::results::vtu::{Field, write_vtu};
-
-/// The whole field of a limit cycle at one time.
-#[derive(Clone, Debug, PartialEq)]
-pub struct CycleFrame {
-    /// Time, s.
-    pub time: f64,
-    /// Displacement (m) and velocity (m/s) over all dofs.
-    pub fields: [Vec<f64>; 2],
-}
-
-/// Fields at one time: displacement and velocity, and the contact of a motion of the whole mesh.
-type Frame<'a> = (f64, &'a [Vec<f64>; 2], Option<&'a ContactInstant>);
 
 /// Writes each frame as a VTU file, `cycles.pvd` over the waves at time zero and, where there are several frames,
 /// `cycle-TAG.pvd` over the time; of a motion of two waves likewise `two-waves-nN-nM.vtu`, over one period of the
@@ -31,8 +19,7 @@ pub(super) fn write_fields(
             for (place, result) in search.results.iter().enumerate() {
                 let group = format!("limit cycle of {} nodal diameters", result.family.harmonic);
                 let stem = format!("cycle-{}", result.family.tag());
-                let frames = result.frames.iter().map(CycleFrame::alone);
-                let entries = report.write_frames(folder, (&stem, &group), frames)?;
+                let entries = report.write_frames(folder, (&stem, &group), &result.frames)?;
                 if let Some(first) = entries.first() {
                     waves.push(PvdEntry { time: (place + 1) as f64, ..first.clone() });
                 }
@@ -42,8 +29,7 @@ pub(super) fn write_fields(
                 let group = format!("waves of {first} and {second} nodal diameters together");
                 let stem = format!("two-waves-n{first}-n{second}");
                 if let Ok(found) = &own.outcome {
-                    let frames = found.frames.iter().map(CycleFrame::alone);
-                    report.write_frames(folder, (&stem, &group), frames)?;
+                    report.write_frames(folder, (&stem, &group), &found.frames)?;
                 }
             }
             if !waves.is_empty() {
@@ -57,41 +43,33 @@ pub(super) fn write_fields(
                 };
                 let group = format!("limit cycle of {:.2} Hz", found.motion.frequency_hz);
                 let stem = format!("cycle-{}", result.tag());
-                let frames = found.motion.frames.iter();
-                let frames = frames.map(|own| (own.time, &own.fields, Some(&own.contact)));
-                report.write_frames(folder, (&stem, &group), frames)?;
+                report.write_frames(folder, (&stem, &group), &found.motion.frames)?;
             }
         }
     }
     Ok(())
 }
 
-impl CycleFrame {
-    fn alone(&self) -> Frame<'_> {
-        (self.time, &self.fields, None)
-    }
-}
-
 impl CycleReport<'_> {
     /// Writes the frames of one motion of the `group`, whose files begin with `stem`, and of several a list over the
     /// time.
-    fn write_frames<'f>(
+    fn write_frames(
         &self,
         folder: &OutputFolder,
         (stem, group): (&str, &str),
-        frames: impl Iterator<Item = Frame<'f>>,
+        frames: &[MotionFrame],
     ) -> Result<Vec<PvdEntry>, FolderError> {
         let mut entries = Vec::new();
-        for (i, frame) in frames.enumerate() {
+        for (i, frame) in frames.iter().enumerate() {
             let name = match i {
                 0 => format!("{stem}.vtu"),
                 _ => format!("{stem}-{i:03}.vtu"),
             };
             folder.write(&name, |out| {
-                let whole = [Field::number("time_s", frame.0)];
-                write_vtu(out, &self.body.encoded()?, &whole, &self.frame_fields(&frame), &[])
+                let whole = [Field::number("time_s", frame.time)];
+                write_vtu(out, &self.body.encoded()?, &whole, &self.frame_fields(frame), &[])
             })?;
-            entries.push(PvdEntry { time: frame.0, group: group.to_owned(), file: name });
+            entries.push(PvdEntry { time: frame.time, group: group.to_owned(), file: name });
         }
         if entries.len() > 1 {
             folder.write(&format!("{stem}.pvd"), |out| write_pvd(out, &entries))?;
@@ -100,12 +78,13 @@ impl CycleReport<'_> {
     }
 
     /// The fields of one frame: motion of all nodes; status, pressure and shear of those of the contact.
-    fn frame_fields(&self, (_, [displacement, velocity], contact): &Frame<'_>) -> Vec<Field> {
+    fn frame_fields(&self, frame: &MotionFrame) -> Vec<Field> {
+        let [displacement, velocity] = &frame.fields;
         let mut fields = vec![
             self.body.vectors("displacement_m", displacement),
             self.body.vectors("velocity_m_per_s", velocity),
         ];
-        if let (Some(contact), Search::Motions(search)) = (contact, &self.search) {
+        if let (Some(contact), Search::Motions(search)) = (&frame.contact, &self.search) {
             let count = displacement.len() / if self.body.is_solid() { 3 } else { 2 };
             let nodes = &search.interface.nodes;
             fields.extend([

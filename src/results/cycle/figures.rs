@@ -1,12 +1,13 @@
 //! The figures of limit cycles, from their record.
 
-use super::record::{HistoryRow, MotionRecord};
+use super::record::MotionRecord;
 use super::{CycleReport, PeriodicResult, Search};
 use crate::chart::{
     Axis, ChartError, Figure, INK, Line, MUTED, Marker, Motion, MotionKind, MotionState, Panel,
     Rule, SERIES, Stroke, plain,
 };
 use crate::contact::ContactStatus;
+use crate::cycle::PhasePoint;
 use crate::fem::MaterialField;
 use crate::results::charts::palette::{status_ground, status_of_code};
 use crate::results::charts::{
@@ -101,7 +102,7 @@ impl<'a> CycleFigures<'a> {
         if motion.diameters > 0 {
             return Err(ChartError::empty("statuses over a period"));
         }
-        let times = motion.over_time(|row| row.time_s);
+        let times = motion.over_time(|row| row.time);
         let codes = self.shown(&motion.status);
         let map = status_map(
             &times,
@@ -199,7 +200,7 @@ impl<'a> CycleFigures<'a> {
     fn history(&self, motion: &MotionRecord) -> Figure {
         let repeated = Repeated::new(motion);
         let [normal, along] = directions(motion);
-        let line = |of: fn(&HistoryRow) -> f64, colour| {
+        let line = |of: fn(&PhasePoint) -> f64, colour| {
             Line::through(repeated.curve(&motion.over_time(of))).solid(colour, 1.1)
         };
         let displacement = |direction: &str, of, caption: &str| {
@@ -211,7 +212,7 @@ impl<'a> CycleFigures<'a> {
             .then(|| Rule::horizontal(motion.counterface_speed).stretching().name("counterface"));
         let limit = |sign: f64| {
             let friction = sign * motion.friction_coefficient.unwrap_or(f64::NAN);
-            let limit = motion.over_time(|row| friction * row.pressure_pa);
+            let limit = motion.over_time(|row| friction * row.pressure);
             Line::through(repeated.curve(&limit)).stroke(Stroke::dashed(MUTED, 0.9))
         };
         let law = [limit(1.0).name("Coulomb limit ±*μp*"), limit(-1.0)].into_iter();
@@ -243,8 +244,8 @@ impl<'a> CycleFigures<'a> {
                 repeated
                     .panel(traction, 90.0, "tractions")
                     .layers(law)
-                    .layer(line(|row| row.pressure_pa, INK).name("pressure *p*"))
-                    .layer(line(|row| row.shear_pa, SERIES[1]).name("friction traction *τ*")),
+                    .layer(line(|row| row.pressure, INK).name("pressure *p*"))
+                    .layer(line(|row| row.shear, SERIES[1]).name("friction traction *τ*")),
             )
     }
 
@@ -253,7 +254,7 @@ impl<'a> CycleFigures<'a> {
         let [normal, along] = directions(motion);
         let statuses = motion.node_statuses();
         let status: Vec<ContactStatus> = statuses.iter().chain(statuses.first()).copied().collect();
-        type Of = fn(&HistoryRow) -> f64;
+        type Of = fn(&PhasePoint) -> f64;
         let loop_of = |caption: &str, x: (String, Of), y: (String, &str, Of)| {
             let (xs, ys) = (motion.over_time(x.1), motion.over_time(y.2));
             let points = || xs.iter().copied().zip(ys.iter().copied());

@@ -20,7 +20,6 @@ pub use branch::{
     WaveBranch,
 };
 pub use branches::{NamedFamily, draw_branches};
-pub use fields::CycleFrame;
 pub use figures::CycleFigures;
 pub use motions::{FoundCycle, PeriodicResult};
 pub use record::MotionRecord;
@@ -36,7 +35,7 @@ pub use waves::{Absence, CycleResult, Finding, known};
 
 use crate::contact::{ContactInterface, SlidingContact};
 use crate::cycle::periodic::MotionHarmonic;
-use crate::cycle::{CriticalValue, Onset};
+use crate::cycle::{CriticalValue, Onset, PhasePoint};
 use crate::results::drawing::DrawingError;
 use crate::results::extent::Extent;
 use crate::results::finding::{write_page, write_table, write_tables};
@@ -46,7 +45,6 @@ use crate::results::summary::{CriticalSummary, write_summary};
 use crate::results::{DrawingOptions, ShownBody};
 use branch::BranchRow;
 use motions::ContactNode;
-use record::HistoryRow;
 use serde_json::Value;
 
 /// Everything a search for limit cycles reports.
@@ -115,7 +113,7 @@ struct Told {
     /// Part of their names.
     tag: String,
     is_wave: bool,
-    history: Vec<HistoryRow>,
+    history: Vec<PhasePoint>,
     nodes: Vec<ContactNode>,
     archive: Option<Vec<u8>>,
     harmonics: Vec<(usize, f64, MotionHarmonic)>,

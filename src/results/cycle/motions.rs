@@ -4,7 +4,7 @@ use super::branch::{
     BranchRecord, BranchRow, BranchSummary, FamilyRecord, MotionBranch, StabilityChangeSummary,
     SteppedRow,
 };
-use super::record::{HistoryRow, MotionRecord};
+use super::record::MotionRecord;
 use super::summary::{
     CycleMotion, CycleName, ModeOfCycle, ModeSummary, SoughtCycle, SoundSummary, SteppedMotion,
 };
@@ -16,7 +16,7 @@ use crate::cycle::periodic::{
     BranchMotion, ContactInstant, FloquetMultiplier, FloquetMultipliers, PeriodicBranch,
     PeriodicMotion, REMAINDER, Sound,
 };
-use crate::cycle::{Confirmation, CyclePowers, Verdict};
+use crate::cycle::{Confirmation, CyclePowers, PhasePoint, Verdict};
 use crate::results::npz::NpzArchive;
 use crate::results::summary::{MeanPowers, StatusFractions, present};
 use std::f64::consts::TAU;
@@ -319,14 +319,14 @@ impl PeriodicResult {
 }
 
 /// Contact and motion over the period of the contact node that moves most.
-fn history(motion: &PeriodicMotion) -> Vec<HistoryRow> {
+fn history(motion: &PeriodicMotion) -> Vec<PhasePoint> {
     let node = motion.node;
-    let row = |at: &ContactInstant| HistoryRow {
-        phase_rad: TAU * at.time * motion.frequency_hz,
-        time_s: at.time,
-        status: at.status[node] as u8,
-        pressure_pa: at.pressure[node],
-        shear_pa: at.shear[node],
+    let row = |at: &ContactInstant| PhasePoint {
+        phase: TAU * at.time * motion.frequency_hz,
+        time: at.time,
+        status: at.status[node],
+        pressure: at.pressure[node],
+        shear: at.shear[node],
         displacement: at.displacement[node],
         velocity: at.velocity[node],
     };

@@ -1,6 +1,7 @@
 //! What the figures of a limit cycle show.
 
 use crate::contact::ContactStatus;
+use crate::cycle::PhasePoint;
 use crate::results::charts::palette::status_of_code;
 
 /// One limit cycle.
@@ -15,7 +16,7 @@ pub struct MotionRecord {
     /// Frequency, Hz.
     pub frequency_hz: f64,
     /// Contact and motion over the period: of the contact node that moves most, of a wave of any.
-    pub history: Vec<HistoryRow>,
+    pub history: Vec<PhasePoint>,
     /// Statuses of all contact nodes, instant by instant, of a wave along the phase: 0 open, 1 stick, 2 slip.
     pub status: Vec<u8>,
     /// Contact node that moves most, among those of the edge.
@@ -33,25 +34,6 @@ pub struct MotionRecord {
     pub displacement_field: Vec<f64>,
     /// Velocity, m/s.
     pub velocity_field: Vec<f64>,
-}
-
-/// A contact node at one instant.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct HistoryRow {
-    /// Phase, rad.
-    pub phase_rad: f64,
-    /// Time, s.
-    pub time_s: f64,
-    /// Status: 0 open, 1 stick, 2 slip.
-    pub status: u8,
-    /// Contact pressure, Pa.
-    pub pressure_pa: f64,
-    /// Contact shear, Pa.
-    pub shear_pa: f64,
-    /// Displacement along the normal and along the counterface, m.
-    pub displacement: [f64; 2],
-    /// Velocity, m/s.
-    pub velocity: [f64; 2],
 }
 
 impl MotionRecord {
@@ -74,11 +56,11 @@ impl MotionRecord {
 
     /// Status of the node of the history, over time.
     pub(super) fn node_statuses(&self) -> Vec<ContactStatus> {
-        self.history.iter().map(|row| status_of_code(row.status)).collect()
+        self.history.iter().map(|row| row.status).collect()
     }
 
     /// One quantity of the history.
-    pub(super) fn over_time(&self, of: impl Fn(&HistoryRow) -> f64) -> Vec<f64> {
+    pub(super) fn over_time(&self, of: impl Fn(&PhasePoint) -> f64) -> Vec<f64> {
         self.history.iter().map(of).collect()
     }
 

@@ -3,13 +3,12 @@
 use super::Told;
 use super::branch::{ALONG, BRANCH};
 use super::motions::ContactNode;
-use super::record::HistoryRow;
 use super::summary::{CycleMotion, CycleSummary, SoughtCycle};
 use super::two_waves::TwoWaveSummary;
 use super::verdicts::Perturbation;
+use crate::cycle::PhasePoint;
 use crate::cycle::periodic::MotionHarmonic;
 use crate::output::{Document, Section, Table, columns, fixed};
-use crate::results::charts::palette::status_of_code;
 use crate::results::summary::{MeanPowers, StatusFractions};
 
 columns! {
@@ -109,17 +108,17 @@ columns! {
 
 columns! {
     /// A contact node at one instant.
-    pub(in crate::results) HISTORY: row as HistoryRow;
-    phase_rad: "phase" = row.phase_rad;
-    time_s: "time" = row.time_s;
-    status: "stick, slip or open" = status_of_code(row.status).name();
-    pressure_pa: "contact pressure" = row.pressure_pa;
-    shear_pa: "contact shear" = row.shear_pa;
+    pub(in crate::results) HISTORY: row as PhasePoint;
+    phase_rad: "phase" = row.phase;
+    time_s: "time" = row.time;
+    status: "stick, slip or open" = row.status.name();
+    pressure_pa: "contact pressure" = row.pressure;
+    shear_pa: "contact shear" = row.shear;
 }
 
 columns! {
     /// Its motion on the disc of a wave.
-    pub(in crate::results) WAVE_PATH: row as HistoryRow;
+    pub(in crate::results) WAVE_PATH: row as PhasePoint;
     u_r_m: "radial displacement" = row.displacement[0];
     u_theta_m: "tangential displacement" = row.displacement[1];
     v_r_m_per_s: "radial velocity" = row.velocity[0];
@@ -128,7 +127,7 @@ columns! {
 
 columns! {
     /// Its motion on any other body.
-    pub(in crate::results) PATH: row as HistoryRow;
+    pub(in crate::results) PATH: row as PhasePoint;
     u_n_m: "displacement along the normal" = row.displacement[0];
     u_t_m: "displacement along the counterface" = row.displacement[1];
     v_n_m_per_s: "velocity along the normal" = row.velocity[0];

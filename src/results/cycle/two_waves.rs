@@ -1,7 +1,7 @@
 //! Motions of two frequencies: words, table, summary, curves.
 
-use super::fields::CycleFrame;
 use crate::chart::{INK, Line, Stroke};
+use crate::cycle::periodic::MotionFrame;
 use crate::cycle::{BranchEnd, Measured, TwoWaveBranch, TwoWaveMotion};
 use crate::output::{Described, Table, columns, significant};
 use serde::Serialize;
@@ -30,7 +30,7 @@ pub struct FoundTwoWaves {
     /// Its branch over the case's parameter.
     pub branch: Option<TwoWaveBranch>,
     /// The whole field over one period of the first wave; the second is elsewhere by then.
-    pub frames: Vec<CycleFrame>,
+    pub frames: Vec<MotionFrame>,
 }
 
 /// A motion of two frequencies in the summary.

@@ -5,12 +5,12 @@ use super::branch::{
     WaveBranch,
 };
 use super::motions::mean_powers;
-use super::record::{HistoryRow, MotionRecord};
+use super::record::MotionRecord;
 use super::summary::{CycleMotion, CycleName, OnsetSummary, SoughtCycle, WaveOfCycle};
 use super::verdicts::{ConfirmationSummary, KnownStability, Perturbation, StabilitySummary};
-use super::{CycleFrame, CycleReport, Told, WaveSearch};
+use super::{CycleReport, Told, WaveSearch};
 use crate::chart::extremes;
-use crate::cycle::periodic::velocity_level;
+use crate::cycle::periodic::{MotionFrame, velocity_level};
 use crate::cycle::{
     Confirmation, CycleBranch, CycleStability, Family, FloquetExponent, LimitCycle, Onset,
     StabilityChange, Verdict,
@@ -45,7 +45,7 @@ pub struct CycleResult {
     /// The cycle at the case's own operating point, or why there is none.
     pub cycle: Result<LimitCycle, Absence>,
     /// The whole field at times over one period, from zero on; empty where there is no cycle.
-    pub frames: Vec<CycleFrame>,
+    pub frames: Vec<MotionFrame>,
     /// Root mean square of the velocity of that cycle over the mass that moves, m/s.
     pub velocity: Option<f64>,
     /// Points along the phase.
@@ -267,7 +267,7 @@ impl CycleResult {
         Told {
             tag: self.family.tag(),
             is_wave: true,
-            history: self.cycle.as_ref().map_or_else(|_| Vec::new(), history),
+            history: self.cycle.as_ref().map_or_else(|_| Vec::new(), |cycle| cycle.points.clone()),
             nodes: Vec::new(),
             archive: None,
             harmonics: Vec::new(),
@@ -288,7 +288,7 @@ impl CycleResult {
             diameters: self.family.harmonic,
             mode: 0,
             frequency_hz: cycle.frequency_hz(),
-            history: history(cycle),
+            history: points.clone(),
             status: points.iter().map(|point| point.status as u8).collect(),
             node: 0,
             counterface_speed: search.contact.rotation_speed * search.inner_radius,
@@ -303,20 +303,6 @@ impl CycleResult {
             velocity_field,
         })
     }
-}
-
-/// Contact and motion of the edge along the phase, which is also the history of the contact node at angle zero.
-fn history(cycle: &LimitCycle) -> Vec<HistoryRow> {
-    let row = |point: &crate::cycle::PhasePoint| HistoryRow {
-        phase_rad: point.phase,
-        time_s: point.phase / cycle.state.frequency,
-        status: point.status as u8,
-        pressure_pa: point.pressure,
-        shear_pa: point.shear,
-        displacement: point.displacement,
-        velocity: point.velocity,
-    };
-    cycle.points.iter().map(row).collect()
 }
 
 impl KnownStability {

@@ -63,7 +63,10 @@ impl OutputFolder {
             fs::create_dir_all(path).map_err(|e| FolderError::io("create folder", path, e))
         };
         create(path)?;
-        let lock = lock(path)?;
+        let (lock, company) = try_lock(&path.join(LOCK))?;
+        if company == Company::Others {
+            return Err(FolderError::Busy(path.to_owned()));
+        }
         let destination = path;
         let staging = path.join(STAGING);
         let is_staged = replaces_others(path, manifest, replace)?;
@@ -78,7 +81,7 @@ impl OutputFolder {
         let journal_path = path.join(JOURNAL);
         let contents = read_contents(path)?;
         if contents.is_some() || journal_path.exists() {
-            remove_temporaries(path);
+            remove_remnants(path, is_temporary);
         }
         if let Some(contents) = contents {
             let is_sealed = contents.is_sealed;
@@ -302,7 +305,11 @@ fn refuse_links(path: &Path) -> Result<(), FolderError> {
         entry.file_type().is_ok_and(|kind| kind.is_symlink()) && entry.path().is_dir()
     });
     match links.next() {
-        Some(link) => Err(FolderError::Linked(link.path())),
+        Some(link) => Err(FolderError::unusable(
+            &link.path(),
+            "is a link to another folder, whose files would be replaced: \
+             remove the link, or choose another folder with --out",
+        )),
         None => Ok(()),
     }
 }
@@ -319,16 +326,29 @@ pub(crate) fn open_lock(path: &Path) -> Result<File, FolderError> {
     options.open(path).map_err(|e| FolderError::io("open", path, e))
 }
 
-fn lock(path: &Path) -> Result<File, FolderError> {
-    let lock_path = path.join(LOCK);
-    let file = open_lock(&lock_path)?;
-    match file.try_lock() {
-        Ok(()) => Ok(file),
-        Err(TryLockError::WouldBlock) => Err(FolderError::Busy(path.to_owned())),
-        // A file system without locks: go on as if there were no other process.
-        Err(TryLockError::Error(error)) if error.kind() == io::ErrorKind::Unsupported => Ok(file),
-        Err(TryLockError::Error(error)) => Err(FolderError::io("lock", &lock_path, error)),
-    }
+/// Who else works in a folder.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Company {
+    /// No other process.
+    None,
+    /// Others, of the same sweep.
+    Others,
+    /// The file system has no locks to tell by: the folder is taken as if there were none.
+    Unknown,
+}
+
+/// Takes a lock for this process alone, if no other holds it.
+pub(crate) fn try_lock(path: &Path) -> Result<(File, Company), FolderError> {
+    let file = open_lock(path)?;
+    let company = match file.try_lock() {
+        Ok(()) => Company::None,
+        Err(TryLockError::WouldBlock) => Company::Others,
+        Err(TryLockError::Error(error)) if error.kind() == io::ErrorKind::Unsupported => {
+            Company::Unknown
+        }
+        Err(TryLockError::Error(error)) => return Err(FolderError::io("lock", path, error)),
+    };
+    Ok((file, company))
 }
 
 /// Whether a run of this case and command has been built in a folder.
@@ -361,15 +381,15 @@ fn replaces_others(
     }
 }
 
-/// Removes half-written files of a killed run; this process holds the lock, so nobody writes them.
-fn remove_temporaries(path: &Path) {
+/// Removes what a killed run left, such as half-written files; this process holds the lock, so nobody uses them.
+pub(crate) fn remove_remnants(path: &Path, is_remnant: fn(&str) -> bool) {
     for entry in fs::read_dir(path).into_iter().flatten().flatten() {
         let Ok(kind) = entry.file_type() else {
             continue;
         };
         if kind.is_dir() {
-            remove_temporaries(&entry.path());
-        } else if is_temporary(&entry.file_name().to_string_lossy()) {
+            remove_remnants(&entry.path(), is_remnant);
+        } else if is_remnant(&entry.file_name().to_string_lossy()) {
             let _ = fs::remove_file(entry.path());
         }
     }
@@ -399,12 +419,14 @@ pub(crate) fn check_owner(
     if is_allowed {
         return Ok(is_same || replace == Replace::Continued);
     }
-    let mut described = format!("frictionsim {} {}", found.command, found.case_file);
-    for text in &found.overrides {
-        described.push_str(" --set ");
-        described.push_str(text);
-    }
-    Err(FolderError::OtherCase { path: path.to_owned(), found: described })
+    let overrides: String = found.overrides.iter().map(|text| format!(" --set {text}")).collect();
+    Err(FolderError::OtherCase(format!(
+        "{} holds the results of another case (frictionsim {} {}{overrides}): choose another \
+         folder with --out, or replace it with --force",
+        path.display(),
+        found.command,
+        found.case_file
+    )))
 }
 
 pub(crate) fn refuse_foreign(path: &Path) -> Result<(), FolderError> {
@@ -412,8 +434,7 @@ pub(crate) fn refuse_foreign(path: &Path) -> Result<(), FolderError> {
         let reason = format!(
             "its {MANIFEST} is damaged: choose another folder with --out, or start over with --force"
         );
-        let path = path.to_owned();
-        return Err(FolderError::NotResults { path, reason });
+        return Err(FolderError::no_results(path, reason));
     }
     let entries = fs::read_dir(path).map_err(|e| FolderError::io("read folder", path, e))?;
     let mut names: Vec<String> = entries
@@ -423,7 +444,13 @@ pub(crate) fn refuse_foreign(path: &Path) -> Result<(), FolderError> {
         .collect();
     names.sort();
     match names.into_iter().next() {
-        Some(found) => Err(FolderError::Foreign { path: path.to_owned(), found }),
+        Some(found) => {
+            let reason = format!(
+                "holds files that this program did not write (for example {found}). Choose another \
+                 folder with --out, or write there all the same with --force"
+            );
+            Err(FolderError::unusable(path, reason))
+        }
         None => Ok(()),
     }
 }

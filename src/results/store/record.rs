@@ -42,10 +42,10 @@ pub fn write_record<T: Record>(folder: &OutputFolder, record: &T) -> Result<(), 
 /// Reads the record of a folder.
 ///
 /// # Errors
-/// [`FolderError::NotResults`] if it is missing, damaged or of another version; those of the file
+/// [`FolderError::Unusable`] if it is missing, damaged or of another version; those of the file
 /// system.
 pub fn read_record<T: Record>(folder: &Path) -> Result<T, FolderError> {
-    let unusable = |reason: String| FolderError::NotResults { path: folder.to_owned(), reason };
+    let unusable = |reason: String| FolderError::no_results(folder, reason);
     let bytes = read_existing(&folder.join(T::FILE))?;
     let bytes = bytes.ok_or_else(|| unusable(format!("it has no {}: run it again", T::FILE)))?;
     let record = framed::read(&bytes, T::MAGIC, T::VERSION).and_then(|payload| {

@@ -110,35 +110,32 @@ fn contents_of(bytes: &[u8]) -> Result<Contents, Defect> {
     Ok(Contents { is_sealed, ..contents })
 }
 
-fn lacks(path: &Path, reason: String) -> FolderError {
-    let path = path.to_owned();
-    FolderError::NotResults { path, reason }
-}
-
 /// The manifest of a results folder.
 ///
 /// # Errors
-/// [`FolderError::NotResults`] if there is none or it is damaged; those of the file system.
+/// [`FolderError::Unusable`] if there is none or it is damaged; those of the file system.
 pub fn read_manifest(path: &Path) -> Result<Manifest, FolderError> {
     Ok(whole_contents(path)?.manifest)
 }
 
 fn whole_contents(path: &Path) -> Result<Contents, FolderError> {
     let bytes = read_existing(&path.join(MANIFEST))?;
-    let bytes = bytes.ok_or_else(|| lacks(path, format!("it has no {MANIFEST}")))?;
+    let bytes =
+        bytes.ok_or_else(|| FolderError::no_results(path, format!("it has no {MANIFEST}")))?;
     contents_of(&bytes).map_err(|defect| {
         let reason = match defect {
             Defect::Damage(reason) => reason,
             Defect::Version(found) => format!("format {found}"),
         };
-        lacks(path, format!("its {MANIFEST} is damaged ({reason})"))
+        FolderError::no_results(path, format!("its {MANIFEST} is damaged ({reason})"))
     })
 }
 
 /// The bytes of a file of a finished run, as they were written.
 pub(crate) fn read_own(path: &Path, name: &str) -> Result<Vec<u8>, FolderError> {
     let contents = whole_contents(path)?;
-    let did_not_end = || lacks(path, format!("it has no {name}: the run did not end"));
+    let did_not_end =
+        || FolderError::no_results(path, format!("it has no {name}: the run did not end"));
     // A run that was killed may have replaced the file already.
     let journal = read_text(&path.join(JOURNAL), RESULT).unwrap_or_default();
     if contents.is_sealed && journal.lines().any(|written| written == name) {
@@ -148,7 +145,7 @@ pub(crate) fn read_own(path: &Path, name: &str) -> Result<Vec<u8>, FolderError> 
     let is_sealed = contents.is_sealed;
     match contents.into_files().remove(name).flatten() {
         Some(wanted) if wanted == crc32fast::hash(&bytes) => Ok(bytes),
-        Some(_) => Err(lacks(
+        Some(_) => Err(FolderError::no_results(
             path,
             format!("its {name} is damaged (its checksum does not fit its contents): run it again"),
         )),

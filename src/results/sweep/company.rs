@@ -1,22 +1,11 @@
 //! Locks of a folder that several processes share.
 
-use super::super::folder::{FolderError, LOCK, open_lock};
+use super::super::folder::{Company, FolderError, LOCK, open_lock, try_lock};
 use std::fs::{File, TryLockError};
 use std::io;
 use std::path::Path;
 
 const DOOR: &str = ".door";
-
-/// Who else works in a folder.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Company {
-    /// No other process.
-    None,
-    /// Others, of the same sweep.
-    Others,
-    /// The file system has no locks to tell by.
-    Unknown,
-}
 
 /// Holds the folder's lock shared, after `enter` has run: under the exclusive lock if no other
 /// process is there.
@@ -34,26 +23,21 @@ pub fn share(
         _ => {}
     }
     let lock_path = path.join(LOCK);
-    let file = open_lock(&lock_path)?;
-    let refusal = |error| match error {
-        TryLockError::WouldBlock => FolderError::Busy(path.to_owned()),
-        TryLockError::Error(error) => FolderError::io("lock", &lock_path, error),
+    let (file, company) = try_lock(&lock_path)?;
+    let share = || {
+        file.try_lock_shared().map_err(|error| match error {
+            TryLockError::WouldBlock => FolderError::Busy(path.to_owned()),
+            TryLockError::Error(error) => FolderError::io("lock", &lock_path, error),
+        })
     };
-    match file.try_lock() {
-        Ok(()) => {
-            enter(Company::None)?;
-            // Not every system turns one kind of lock into the other.
-            file.unlock().map_err(|error| refusal(TryLockError::Error(error)))?;
-            file.try_lock_shared().map_err(refusal)?;
-        }
-        Err(TryLockError::WouldBlock) => {
-            file.try_lock_shared().map_err(refusal)?;
-            enter(Company::Others)?;
-        }
-        Err(TryLockError::Error(error)) if error.kind() == io::ErrorKind::Unsupported => {
-            enter(Company::Unknown)?;
-        }
-        Err(error) => return Err(refusal(error)),
+    if company == Company::Others {
+        share()?;
+    }
+    enter(company)?;
+    if company == Company::None {
+        // Not every system turns one kind of lock into the other.
+        file.unlock().map_err(|error| FolderError::io("lock", &lock_path, error))?;
+        share()?;
     }
     Ok(file)
 }

@@ -25,7 +25,7 @@ pub fn draw(
     drawing: &SweepDrawing,
 ) -> Result<(), DrawingError> {
     let frictions = (report.friction_coefficient, drawing.highest_friction);
-    let figures = draw_sweep(report.records, frictions, &drawing.references)?;
+    let figures = draw_sweep(&report.records, frictions, &drawing.references)?;
     let page = Page::new(document(report, true), figures, manifest);
     folder.write_page(&page, &drawing.options)
 }

@@ -2,20 +2,20 @@
 
 use super::super::drawing::{DrawingError, DrawingOptions, Page};
 use super::super::folder::{
-    FolderError, OutputFolder, Replace, check_owner, open_lock, refuse_foreign, remove_files,
-    write_contents,
+    Company, FolderError, OutputFolder, Replace, check_owner, refuse_foreign, remove_files,
+    remove_remnants, try_lock, write_contents,
 };
 use super::super::framed::write_sealed;
 use super::super::manifest::Manifest;
 use super::super::record::{Record, record_bytes};
 use super::super::reopening::{Contents, MANIFEST, own_value, read_contents, read_existing};
 use super::super::whole_file::{is_temporary, write_whole};
-use super::company::{Company, share};
+use super::company::share;
 use super::{PointClock, PointRecord};
 use frictionsim_bounds::{RESULT, read_file};
 use serde_json::Value;
 use std::collections::BTreeMap;
-use std::fs::{self, File, TryLockError};
+use std::fs::{self, File};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
@@ -117,8 +117,8 @@ impl SweepFolder {
     /// is missing.
     ///
     /// # Errors
-    /// [`FolderError::OtherCase`] and [`FolderError::Foreign`] unless `start` is [`Start::Over`];
-    /// [`FolderError::Started`] if some of `points` are finished and `start` is [`Start::Fresh`];
+    /// [`FolderError::OtherCase`] and [`FolderError::Unusable`] unless `start` is [`Start::Over`];
+    /// [`FolderError::Unusable`] if some of `points` are finished and `start` is [`Start::Fresh`];
     /// [`FolderError::Busy`] if another command writes there; those of the file system.
     pub fn open(
         path: &Path,
@@ -136,8 +136,7 @@ impl SweepFolder {
             fs::create_dir_all(&points_path)
                 .map_err(|e| FolderError::io("create folder", &points_path, e))?;
             if company == Company::None {
-                clear_remnants(path);
-                clear_remnants(&points_path);
+                remove_remnants(path, |name| is_temporary(name) || name.starts_with(CLAIM));
             }
             if start == Start::Over {
                 remove_points(path, points, company)?;
@@ -155,14 +154,16 @@ impl SweepFolder {
     /// Opens the folder of a sweep that has been started, and gives its manifest.
     ///
     /// # Errors
-    /// [`FolderError::NotASweep`]; [`FolderError::Busy`]; those of the file system.
+    /// [`FolderError::Unusable`]; [`FolderError::Busy`]; those of the file system.
     pub fn find(path: &Path) -> Result<(Self, Manifest), FolderError> {
         Self::find_of(path, "sweep")
     }
 
     /// As [`Self::find`] for another command that shares its folder with others of its kind.
     pub fn find_of(path: &Path, command: &str) -> Result<(Self, Manifest), FolderError> {
-        let not_a_sweep = |reason: String| FolderError::NotASweep { path: path.to_owned(), reason };
+        let not_a_sweep = |reason: String| {
+            FolderError::unusable(path, format!("is not the results folder of a sweep: {reason}"))
+        };
         if !path.join(MANIFEST).is_file() {
             return Err(not_a_sweep(format!("it has no {MANIFEST}")));
         }
@@ -222,14 +223,8 @@ impl SweepFolder {
     /// A claimed point may have been finished a moment ago: look before running it.
     pub fn claim(&self, point: usize) -> Result<Option<Claim>, FolderError> {
         let path = self.path.join(POINTS).join(format!("{CLAIM}{point:06}"));
-        let file = open_lock(&path)?;
-        match file.try_lock() {
-            Ok(()) => {}
-            Err(TryLockError::WouldBlock) => return Ok(None),
-            Err(TryLockError::Error(error)) if error.kind() == io::ErrorKind::Unsupported => {}
-            Err(TryLockError::Error(error)) => return Err(FolderError::io("lock", &path, error)),
-        }
-        Ok(Some(Claim { path, _lock: file }))
+        let (file, company) = try_lock(&path)?;
+        Ok((company != Company::Others).then(|| Claim { path, _lock: file }))
     }
 
     /// Claims a point for this process; `None` where it is finished or another one has it.
@@ -292,7 +287,14 @@ impl SweepFolder {
         }
         match found {
             0 => Ok(()),
-            _ => Err(FolderError::Started { path: self.path.clone(), found, asked: points.len() }),
+            _ => {
+                let asked = points.len();
+                let reason = format!(
+                    "already holds {found} of the {asked} points asked for: go on with --resume, \
+                     start over with --force, or choose another folder with --out"
+                );
+                Err(FolderError::unusable(&self.path, reason))
+            }
         }
     }
 }
@@ -354,18 +356,4 @@ fn remove_points(path: &Path, points: &[usize], company: Company) -> Result<(), 
         .chain(over_all())
         .collect();
     remove_files(path, names.iter())
-}
-
-/// Removes what killed processes left: files half written under temporary names, and claims.
-fn clear_remnants(folder: &Path) {
-    let Ok(entries) = fs::read_dir(folder) else {
-        return;
-    };
-    for entry in entries.flatten() {
-        let name = entry.file_name();
-        let name = name.to_string_lossy();
-        if is_temporary(&name) || name.starts_with(CLAIM) {
-            let _ = fs::remove_file(entry.path());
-        }
-    }
 }

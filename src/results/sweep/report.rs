@@ -79,13 +79,13 @@ pub struct SweepReport<'a> {
     /// Friction coefficient where it is not swept.
     pub friction_coefficient: f64,
     /// Swept keys.
-    pub keys: &'a [String],
+    pub keys: Vec<String>,
     /// Names of the analyses at each point.
-    pub analyses: &'a [&'static str],
+    pub analyses: Vec<&'static str>,
     /// Number of points of the whole sweep.
     pub count: usize,
     /// Finished points in their order.
-    pub records: &'a [PointRecord],
+    pub records: Vec<PointRecord>,
     /// Time that they kept cores busy, s.
     pub core_s: f64,
     /// Points that this process ran, or none if it only collects.
@@ -230,7 +230,7 @@ impl SweepSummary {
         Self {
             command: manifest.command.clone(),
             title: report.title.to_owned(),
-            swept: report.keys.to_vec(),
+            swept: report.keys.clone(),
             analyses: report.analyses.iter().map(|&name| name.to_owned()).collect(),
             points: report.count,
             finished: report.records.len(),
@@ -248,7 +248,7 @@ impl SweepSummary {
 
 /// Tables and sentences of a sweep: what failed, what is missing, what a person wants first of every point.
 pub fn document(report: &SweepReport<'_>, is_page: bool) -> Document {
-    let matrix = OperatingMatrix::of(report.records);
+    let matrix = OperatingMatrix::of(&report.records);
     let errors = report.errors();
     let errors =
         errors.iter().map(|(error, points)| format!("failed: {}: {error}", number_ranges(points)));
@@ -264,7 +264,7 @@ pub fn document(report: &SweepReport<'_>, is_page: bool) -> Document {
         .text(missing)
         .facts(ranges(report))
         .facts(rate);
-    let modes = Some(matrix.table(report.keys)).filter(|_| is_page);
+    let modes = Some(matrix.table(&report.keys)).filter(|_| is_page);
     let points =
         Some(points_table(report)).filter(|_| is_page || report.records.len() <= MOST_ROWS);
     Document::new(report.title, "Study")
@@ -298,9 +298,9 @@ fn ranges(report: &SweepReport<'_>) -> Vec<(String, String)> {
 
 /// What a person wants first of every point; `points.csv` has all.
 fn points_table(report: &SweepReport<'_>) -> Table {
-    let records = report.records;
+    let records = &report.records;
     let points = records.iter().map(|record| (record.point, &record.swept));
-    let table = of_points("Finished points (every quantity: points.csv)", report.keys, points);
+    let table = of_points("Finished points (every quantity: points.csv)", &report.keys, points);
     table.columns(FIRST, records).columns(ENDS, records).shown_column(
         "outcome",
         records.iter().map(|record| record.error.as_ref().map(|_| "failed")),
@@ -351,10 +351,10 @@ mod tests {
         let report = SweepReport {
             title: "",
             friction_coefficient: 0.3,
-            keys: &[],
-            analyses: &[],
+            keys: Vec::new(),
+            analyses: Vec::new(),
             count: 5,
-            records: &[record(2), record(3), record(5)],
+            records: vec![record(2), record(3), record(5)],
             core_s: 6.0,
             ran: None,
             wall_s: 0.0,

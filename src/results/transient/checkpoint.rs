@@ -24,53 +24,9 @@ pub enum CheckpointError {
         .0.display()
     )]
     Missing(PathBuf),
-    /// Cut short or changed.
-    #[error(
-        "{} is damaged ({reason}): it is left as it is; run without --resume to start over",
-        path.display()
-    )]
-    Damaged {
-        /// The file.
-        path: PathBuf,
-        /// What does not fit.
-        reason: String,
-    },
-    /// Of a format that this version does not read.
-    #[error(
-        "{} has format {found}, this version reads format {VERSION}: resume with the version that wrote it, \
-         or run without --resume to start over",
-        path.display()
-    )]
-    Version {
-        /// The file.
-        path: PathBuf,
-        /// Its format.
-        found: u32,
-    },
-    /// Of another case, or of kernels that round differently.
-    #[error(
-        "{} belongs to another run: its {what} is {found}, here it is {expected}; \
-         run without --resume to start over",
-        path.display()
-    )]
-    Foreign {
-        /// The file.
-        path: PathBuf,
-        /// What differs.
-        what: &'static str,
-        /// In the file.
-        found: String,
-        /// Here.
-        expected: String,
-    },
-    /// It cannot be read.
-    #[error("cannot read {}: {source}", path.display())]
-    Io {
-        /// The file.
-        path: PathBuf,
-        /// Why.
-        source: io::Error,
-    },
+    /// It cannot be read, is damaged, or belongs to another run or version: the file, why, and the remedy.
+    #[error("{0}")]
+    Unusable(String),
 }
 
 /// Everything that a run needs to go on to the same bytes as one that was never stopped.
@@ -97,15 +53,6 @@ impl Record for Recorder {
     }
 }
 
-/// What a checkpoint is written from, without a copy.
-#[derive(Serialize)]
-struct Borrowed<'a> {
-    case_hash: &'a str,
-    simd: &'a str,
-    state: &'a TransientState,
-    record: Option<&'a Recorder>,
-}
-
 /// Writes a checkpoint; the one before stays until this one is complete. Without a record it goes with that of the
 /// folder.
 pub fn write_checkpoint(
@@ -114,7 +61,8 @@ pub fn write_checkpoint(
     state: &TransientState,
     record: Option<&Recorder>,
 ) -> Result<(), FolderError> {
-    let contents = Borrowed { case_hash, simd: &folder.manifest().simd, state, record };
+    // These are the bytes of a [`Checkpoint`], without a copy.
+    let contents = (case_hash, &folder.manifest().simd, state, record);
     folder.write(CHECKPOINT, |out| {
         let payload = postcard::to_stdvec(&contents).map_err(io::Error::other)?;
         framed::write(out, MAGIC, VERSION, &payload)
@@ -131,27 +79,37 @@ pub fn read_checkpoint(
     simd: &str,
 ) -> Result<Checkpoint, CheckpointError> {
     let path = folder.join(CHECKPOINT);
+    let file = path.display();
+    let unusable = |why: String| Err(CheckpointError::Unusable(format!("{file} {why}")));
+    let again = "run without --resume to start over";
     let bytes = match read_file(&path, RESULT) {
         Ok(bytes) => bytes,
         Err(source) if source.kind() == io::ErrorKind::NotFound => {
             return Err(CheckpointError::Missing(path));
         }
-        Err(source) => return Err(CheckpointError::Io { path, source }),
+        Err(error) => {
+            return Err(CheckpointError::Unusable(format!("cannot read {file}: {error}")));
+        }
     };
-    let checkpoint = decode(&bytes).map_err(|defect| match defect {
-        Defect::Version(found) => CheckpointError::Version { path: path.clone(), found },
-        Defect::Damage(reason) => CheckpointError::Damaged { path: path.clone(), reason },
-    })?;
+    let checkpoint = match decode(&bytes) {
+        Ok(checkpoint) => checkpoint,
+        Err(Defect::Version(found)) => {
+            return unusable(format!(
+                "has format {found}, this version reads format {VERSION}: resume with the version \
+                 that wrote it, or {again}"
+            ));
+        }
+        Err(Defect::Damage(reason)) => {
+            return unusable(format!("is damaged ({reason}): it is left as it is; {again}"));
+        }
+    };
     for (what, found, expected) in
         [("case hash", &checkpoint.case_hash, case_hash), ("SIMD level", &checkpoint.simd, simd)]
     {
         if found != expected {
-            return Err(CheckpointError::Foreign {
-                path,
-                what,
-                found: found.clone(),
-                expected: expected.to_owned(),
-            });
+            return unusable(format!(
+                "belongs to another run: its {what} is {found}, here it is {expected}; {again}"
+            ));
         }
     }
     Ok(checkpoint)

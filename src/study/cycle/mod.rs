@@ -24,6 +24,7 @@ pub use periodic::{PeriodicStudy, boundary_of_modes};
 
 use super::{StudyError, extent_of};
 use crate::case::{Case, Cycle, StabilityChoice};
+use crate::cycle::periodic::MotionFrame;
 use crate::cycle::{
     CriticalValue, CycleError, CycleSolver, CycleStability, Family, LimitCycle, MeshStepping,
     Onset, OperatingPoint, Parameter,
@@ -33,8 +34,7 @@ use crate::fem::operator::SimdLevel;
 use crate::mesh::AnnulusMesh;
 use crate::results::ShownBody;
 use crate::results::cycle::{
-    Absence, CycleFrame, CycleReport, CycleResult, Search, SoughtCycle, TwoWaveResult, WaveSearch,
-    known,
+    Absence, CycleReport, CycleResult, Search, SoughtCycle, TwoWaveResult, WaveSearch, known,
 };
 use along::{along, changes};
 use families::{Sought, continuation, critical_value, next_onset, solvers};
@@ -295,7 +295,7 @@ fn settle(stepping: &MeshStepping<'_>, cycle: &mut LimitCycle) -> Result<CycleSt
 }
 
 /// The whole field, given for a time, at `count` times over one period (s).
-fn frames(field: impl Fn(f64) -> [Vec<f64>; 2], period: f64, count: usize) -> Vec<CycleFrame> {
+fn frames(field: impl Fn(f64) -> [Vec<f64>; 2], period: f64, count: usize) -> Vec<MotionFrame> {
     let times = (0..count).map(|i| period * i as f64 / count as f64);
-    times.map(|time| CycleFrame { time, fields: field(time) }).collect()
+    times.map(|time| MotionFrame { time, fields: field(time), contact: None }).collect()
 }

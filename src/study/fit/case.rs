@@ -99,18 +99,21 @@ const FREQUENCIES_HZ: [f64; 2] = [1e-3, 1e9];
 pub fn refuse_too_few(case: &Case, lines: &[MeasuredMode]) -> Result<(), StudyError> {
     let wanted = case.require_fit()?;
     if lines.len() > MOST_LINES {
-        let (lines, most) = (lines.len(), MOST_LINES);
-        return Err(FitError::TooManyLines { lines, most }.into());
+        let lines = lines.len();
+        return Err(FitError::Table(format!(
+            "the table has {lines} lines, at most {MOST_LINES} modes can be fitted: give the modes \
+             alone, not a frequency response"
+        ))
+        .into());
     }
     let [least, most] = FREQUENCIES_HZ;
     let is_outside = |line: &&MeasuredMode| !(least..=most).contains(&line.frequency_hz);
     if let Some(line) = lines.iter().find(is_outside) {
-        return Err(FitError::Frequency {
-            line: line.line,
-            frequency_hz: line.frequency_hz,
-            least,
-            most,
-        }
+        return Err(FitError::Table(format!(
+            "line {} of the table: {:e} Hz is no frequency of a mode, which lies between {least:e} \
+             and {most:e} Hz",
+            line.line, line.frequency_hz
+        ))
         .into());
     }
     let data = lines.iter().map(|line| 1 + usize::from(line.real_hz.is_some())).sum();
@@ -118,7 +121,7 @@ pub fn refuse_too_few(case: &Case, lines: &[MeasuredMode]) -> Result<(), StudyEr
     if data >= parameters {
         return Ok(());
     }
-    let message = FitError::TooFewData { parameters, data }.to_string();
+    let message = FitError::too_few_data(parameters, data).to_string();
     let label = format!("{data} numbers are measured");
     let errors = case.error_at("fit.parameters", message, label, None);
     Err(errors.into())

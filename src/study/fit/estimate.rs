@@ -62,11 +62,16 @@ pub struct Fitted {
 pub fn fit(problem: &FitProblem<'_>) -> Result<Fitted, FitError> {
     let (data, count) = (problem.data_count(), problem.parameters.len());
     if data < count {
-        return Err(FitError::TooFewData { parameters: count, data });
+        return Err(FitError::too_few_data(count, data));
     }
     let mut squares = Squares { problem, weights: weights(problem) };
     let points = starting_points(problem);
-    let failed = |reason| FitError::NoModel { points: points.len(), reason };
+    let failed = |reason| {
+        let points = points.len();
+        FitError::Model(format!(
+            "the model has no modes to compare at any of {points} points within the bounds: {reason}"
+        ))
+    };
     let looked: Vec<Result<Trial, String>> =
         points.par_iter().map(|places| squares.trial(places, false)).collect();
     let (mut starts, mut reason) = (Vec::new(), String::new());
@@ -243,12 +248,11 @@ fn refuse_unmatched(problem: &FitProblem<'_>, best: &Trial) -> Result<(), FitErr
         wanted += if line.is_unstable { ", unstable" } else { "" };
         let nearest = mode
             .map_or("none is left".to_owned(), |mode| format!("{} comes nearest", described(mode)));
-        return Err(FitError::Unmatched {
-            line: line.line,
-            frequency_hz: line.frequency_hz,
-            wanted,
-            nearest,
-        });
+        return Err(FitError::Model(format!(
+            "line {} of the table ({} Hz{wanted}) is matched by no mode within the bounds: \
+             {nearest}. Widen the bounds of fit.parameters, or take the line out",
+            line.line, line.frequency_hz
+        )));
     }
     Ok(())
 }

@@ -128,9 +128,17 @@ pub struct FitProblem<'a> {
 }
 
 impl FitError {
+    /// More parameters than data.
+    fn too_few_data(parameters: usize, data: usize) -> Self {
+        Self::Model(format!(
+            "{parameters} parameters cannot be fitted to {data} measured numbers. Fit fewer, or \
+             measure more (a real part or a damping factor counts as much as a frequency)"
+        ))
+    }
+
     /// Whether the table is to blame rather than the run.
     pub fn is_usage(&self) -> bool {
-        matches!(self, Self::TooManyLines { .. } | Self::Frequency { .. } | Self::Shape { .. })
+        matches!(self, Self::Table(_))
     }
 }
 
@@ -146,81 +154,12 @@ impl FitProblem<'_> {
 /// A fit that cannot be made.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum FitError {
-    /// More parameters than data.
-    #[error(
-        "{parameters} parameters cannot be fitted to {data} measured numbers. Fit fewer, or \
-         measure more (a real part or a damping factor counts as much as a frequency)"
-    )]
-    TooFewData {
-        /// Parameters.
-        parameters: usize,
-        /// Numbers measured.
-        data: usize,
-    },
-    /// More lines than modes that anybody measures.
-    #[error(
-        "the table has {lines} lines, at most {most} modes can be fitted: give the modes alone, \
-        not a frequency response"
-    )]
-    TooManyLines {
-        /// Lines.
-        lines: usize,
-        /// The limit.
-        most: usize,
-    },
-    /// A frequency that no mode has.
-    #[error(
-        "line {line} of the table: {frequency_hz:e} Hz is no frequency of a mode, which lies \
-        between {least:e} and {most:e} Hz"
-    )]
-    Frequency {
-        /// Its line.
-        line: usize,
-        /// What it says, Hz.
-        frequency_hz: f64,
-        /// Lower end, Hz.
-        least: f64,
-        /// Upper end, Hz.
-        most: f64,
-    },
-    /// A shape that belongs to no line.
-    #[error(
-        "shape {name} belongs to no line of the table: {reason}; give its frequency, within \
-        {within} % of that of its line"
-    )]
-    Shape {
-        /// Its name.
-        name: String,
-        /// Why.
-        reason: String,
-        /// How near its frequency must be, per cent.
-        within: f64,
-    },
-    /// The model fails at every point looked at.
-    #[error(
-        "the model has no modes to compare at any of {points} points within the bounds: {reason}"
-    )]
-    NoModel {
-        /// Points.
-        points: usize,
-        /// Why it fails at the last of them.
-        reason: String,
-    },
-    /// A line that the best fit leaves alone.
-    #[error(
-        "line {line} of the table ({frequency_hz} Hz{wanted}) is matched by no mode within the \
-         bounds: {nearest}. Widen the bounds of fit.parameters, or take the line out"
-    )]
-    Unmatched {
-        /// Its line.
-        line: usize,
-        /// Its frequency, Hz.
-        frequency_hz: f64,
-        /// What it asks for besides.
-        wanted: String,
-        /// What comes nearest.
-        nearest: String,
-    },
+    /// The table of measured modes, or that of their shapes, is to blame: what is wrong, and the remedy.
+    #[error("{0}")]
+    Table(String),
+    /// The model, its bounds or the number of its parameters are: what is wrong, and the remedy.
+    #[error("{0}")]
+    Model(String),
     /// The data do not change along a direction of the parameters.
     #[error(
         "the data cannot tell these parameters apart: no measured number changes with {0} \

@@ -23,10 +23,13 @@ pub struct MeasuredShapes<'a> {
 impl MeasuredShapes<'_> {
     /// The shape of each line: each shape goes to the line whose frequency is nearest, the nearest pairs first.
     pub(super) fn of_lines(&self, lines: &[MeasuredMode]) -> Result<Vec<Option<usize>>, FitError> {
-        let refuse = |shape: &MeasuredShape, reason: String| FitError::Shape {
-            name: shape.name.clone(),
-            reason,
-            within: 100.0 * WITHIN,
+        let refuse = |shape: &MeasuredShape, reason: String| {
+            FitError::Table(format!(
+                "shape {} belongs to no line of the table: {reason}; give its frequency, within \
+                 {} % of that of its line",
+                shape.name,
+                100.0 * WITHIN
+            ))
         };
         let mut pairs: Vec<(f64, usize, usize)> = Vec::new();
         for (index, shape) in self.shapes.iter().enumerate() {

@@ -120,8 +120,7 @@ fn probability(
     let designed = design.case(case, value)?;
     let (leading, followed) = sampler.sample(&designed, 0, None);
     if let Some(error) = leading.error {
-        let key = design.key.clone();
-        return Err(StudyError::Design { key, value, error });
+        return Err(StudyError::Design(format!("{} = {value}: {error}", design.key)));
     }
     let harmonics = sampler.harmonics(&followed);
     let outcomes: Vec<Option<bool>> = (0..samples)

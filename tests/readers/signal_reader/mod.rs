@@ -5,9 +5,7 @@ mod formats;
 mod measured;
 mod mutation;
 
-use frictionsim::signal::reader::{
-    ReadError, ReadProblem, ResponseOptions, SignalFile, SignalOptions,
-};
+use frictionsim::signal::reader::{ReadError, ResponseOptions, SignalFile, SignalOptions};
 use frictionsim::signal::{FrequencyResponse, ResponseQuantity};
 use std::f64::consts::TAU;
 
@@ -198,7 +196,7 @@ fn signals_are_read_with_time_column_or_rate() {
     let stated = format!("# Sampling rate: 51.2 kHz\n{bare}");
     assert_eq!(read_signal(stated.as_bytes(), "x", None).unwrap().sampling_rate, 51_200.0);
     let error = read_signal(bare.as_bytes(), "x", None).unwrap_err();
-    assert_eq!(error.problem, ReadProblem::NoRate);
+    assert!(error.problem.starts_with("no time column and no sampling rate"), "{error}");
 }
 
 #[test]
@@ -215,5 +213,5 @@ fn gaps_and_disorder_in_time_are_refused_at_their_line() {
     assert!(error.to_string().starts_with("s.csv:22:1: time 0.003 s does not follow"), "{error}");
     let good: String = (0..40).map(row).collect();
     let error = read_signal(format!("t,x\n{good}").as_bytes(), "s.csv", Some(500.0)).unwrap_err();
-    assert!(matches!(error.problem, ReadProblem::RateContradiction { .. }));
+    assert!(error.problem.contains("the option 500 Hz"), "{error}");
 }

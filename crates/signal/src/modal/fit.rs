@@ -3,6 +3,7 @@
 use super::basis::{ModalModel, Pole};
 use super::least_squares::{Fitted, Problem};
 use super::{Estimate, NoiseModel};
+use crate::error::too_short;
 use crate::statistics::{NORMAL_95, median};
 use crate::{FrequencyResponse, SignalError};
 use faer::{Mat, c64};
@@ -75,7 +76,7 @@ impl ModalFit {
 /// the residual then tells.
 ///
 /// # Errors
-/// [`SignalError::NoResonance`] without starts; [`SignalError::TooShort`] for fewer lines than
+/// [`SignalError::NoResonance`] without starts; [`SignalError::Unfit`] for fewer lines than
 /// unknowns; [`SignalError::Fit`] if the normal equations are singular.
 pub fn fit_modes(
     responses: &[FrequencyResponse],
@@ -96,12 +97,9 @@ pub fn fit_modes(
     let moduli: Vec<Vec<f64>> = parts.iter().map(|r| r.magnitudes()).collect();
     let mut problem = Problem::new(&parts, &noise, &moduli);
     if problem.data_count() <= needed {
-        return Err(SignalError::TooShort {
-            what: "the frequency response",
-            count: parts.iter().map(|r| r.values().len()).sum(),
-            needed,
-            remedy: "more lines than unknowns are needed; measure finer or restrict the range",
-        });
+        let count = parts.iter().map(|r| r.values().len()).sum();
+        let remedy = "more lines than unknowns are needed; measure finer or restrict the range";
+        return Err(too_short("the frequency response", count, needed, remedy));
     }
     let mut fitted = problem.fit(starts, REMAINDER)?;
     fitted = extended(&problem, fitted, starts.len(), &parts)?;

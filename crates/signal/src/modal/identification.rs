@@ -149,11 +149,11 @@ fn half_power_rayleigh(modes: &[IdentifiedMode]) -> Option<RayleighFit> {
 fn refuse_coarse(resolution_hz: f64, bands: &[HalfPowerBand]) -> Result<(), SignalError> {
     let coarse = |b: &HalfPowerBand| matches!(b.note, Some(ResonanceNote::TooCoarse(_)));
     match bands.first() {
-        Some(first) if bands.iter().all(coarse) => Err(SignalError::Unresolved {
-            resolution_hz,
-            frequency_hz: first.frequency_hz,
-            needed: LINES_NEEDED,
-        }),
+        Some(first) if bands.iter().all(coarse) => Err(SignalError::Unresolved(format!(
+            "the frequency resolution of {resolution_hz} Hz is too coarse: the half-power band of \
+             the resonance at {} Hz holds fewer than {LINES_NEEDED} lines. Measure longer, or zoom",
+            first.frequency_hz
+        ))),
         _ => Ok(()),
     }
 }

@@ -48,7 +48,7 @@ pub struct RayleighFit {
 ///
 /// # Errors
 /// [`SignalError::TooFewModes`] for fewer than 2 modes, or fewer than 3 without covariance;
-/// [`SignalError::NotPositive`] for a frequency not positive; [`SignalError::Fit`] for a covariance
+/// [`SignalError::Asked`] for a frequency not positive; [`SignalError::Fit`] for a covariance
 /// that is singular or modes at one frequency.
 pub fn fit_rayleigh(
     samples: &[DampingSample],

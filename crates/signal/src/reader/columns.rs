@@ -1,6 +1,6 @@
 //! The columns of a table that make a frequency response.
 
-use super::error::{ReadError, ReadProblem};
+use super::error::ReadError;
 use super::table::Table;
 use super::units::{level_reference, words};
 
@@ -101,10 +101,7 @@ pub(super) fn layouts(
         let named = (0..table.names.len()).filter(|k| *k != frequency);
         named.filter(|k| part(&table.names[*k]) == wanted).collect()
     };
-    let missing = |wanted, remedy| {
-        let problem = ReadProblem::MissingColumn { wanted, columns: table.described(), remedy };
-        Err(ReadError::whole(source, problem))
-    };
+    let missing = |wanted, remedy| Err(table.missing(source, wanted, remedy));
     let (real, imaginary) = (columns(Part::Real), columns(Part::Imaginary));
     if whole.is_empty() && real.len() > imaginary.len() {
         return missing("imaginary part", "name it `imaginary`, or give magnitude and phase");
@@ -224,15 +221,14 @@ fn unnamed_layout(table: &Table, source: &str) -> Result<Layout, ReadError> {
             Ok(Layout::Complex(1, 2))
         }
         1 => {
-            let problem = ReadProblem::MissingColumn {
-                wanted: "response",
-                columns: table.described(),
-                remedy: "frequency and response must stand side by side",
-            };
-            Err(ReadError::whole(source, problem))
+            let remedy = "frequency and response must stand side by side";
+            Err(table.missing(source, "response", remedy))
         }
         count => {
-            let problem = ReadProblem::Unnamed { count, example: "f,re,im" };
+            let problem = format!(
+                "{count} columns without names could mean several things; add a first line such \
+                 as `f,re,im`, or give the names: --columns f,re,im"
+            );
             Err(table.error(source, 0, 0, problem))
         }
     }

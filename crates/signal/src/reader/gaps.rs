@@ -1,7 +1,7 @@
 //! Tables of the gap over a measured surface.
 
 use super::error::ReadError;
-use super::named_columns::{Wanted, missing};
+use super::named_columns::Wanted;
 use super::table::read_table;
 
 const COLUMNS: [Wanted; 4] =
@@ -21,8 +21,7 @@ pub fn read_gaps(bytes: &[u8], source: &str) -> Result<Vec<([f64; 3], f64)>, Rea
         words.any(|word| OTHER_UNITS.contains(&word))
     };
     if table.names.iter().any(is_other) {
-        let remedy = "give x, y, z and gap in m";
-        return Err(missing(&table, source, "m", remedy));
+        return Err(table.missing(source, "m", "give x, y, z and gap in m"));
     }
     let places = table.places(&COLUMNS, source, HEADER)?;
     let rows = (0..table.rows()).map(|row| {

@@ -1,6 +1,6 @@
 //! Tables with a head of names, cells of which may be empty.
 
-use super::error::{ReadError, ReadProblem};
+use super::error::{EMPTY, ReadError, not_a_number};
 use super::separator::{Separator, character, fields};
 use super::text::{comment, lines};
 
@@ -19,14 +19,13 @@ impl<'a> Row<'a> {
     }
 
     /// An error at a cell.
-    pub fn error(&self, cell: &str, problem: ReadProblem) -> ReadError {
+    pub fn error(&self, cell: &str, problem: impl Into<String>) -> ReadError {
         ReadError::at(self.source, self.line, character(self.text, cell), problem)
     }
 
     /// That the row has no number in a column that needs one.
     pub fn missing(&self, name: &str) -> ReadError {
-        let problem = ReadProblem::NotANumber { field: String::new(), name: format!("`{name}`") };
-        ReadError::at(self.source, self.line, 1, problem)
+        ReadError::at(self.source, self.line, 1, not_a_number("", &format!("`{name}`")))
     }
 }
 
@@ -41,7 +40,7 @@ pub(super) fn headed<'a>(
     let blank = |c: char| c.is_whitespace() || ";,".contains(c);
     let is_content = move |line: &str| !line.trim_matches(blank).is_empty();
     let mut rows = lines(text).filter(move |(_, line)| is_content(line) && comment(line).is_none());
-    let (_, head) = rows.next().ok_or_else(|| ReadError::whole(source, ReadProblem::Empty))?;
+    let (_, head) = rows.next().ok_or_else(|| ReadError::whole(source, EMPTY))?;
     let separator = match head {
         _ if head.contains(';') => Separator::Semicolon,
         _ if head.trim().contains('\t') => Separator::Tab,

@@ -3,7 +3,7 @@
 //! Source: The MathWorks, "MAT-file format", version 5.
 
 use super::column::Column;
-use super::error::{ReadError, ReadProblem};
+use super::error::{ReadError, column_count};
 use super::table::Table;
 use flate2::read::ZlibDecoder;
 use std::io::Read;
@@ -49,11 +49,7 @@ pub(super) fn read_table(
     source: &str,
     columns: &[String],
 ) -> Result<Table, ReadError> {
-    let damaged = |reason: &str| {
-        let format = "MATLAB file";
-        let reason = reason.to_string();
-        ReadError::whole(source, ReadProblem::Damaged { format, reason })
-    };
+    let damaged = |reason: &str| ReadError::damaged(source, "MATLAB file", reason);
     let is_big = bytes.get(126..128) == Some(b"MI");
     let mut content = Content::default();
     let mut elements = Elements { rest: bytes.get(128..).unwrap_or_default(), is_big };
@@ -88,8 +84,8 @@ pub(super) fn read_table(
         return Ok(table);
     }
     if columns.len() != table.columns.len() {
-        let (given, found) = (columns.len(), table.columns.len());
-        return Err(ReadError::whole(source, ReadProblem::ColumnCount { given, found }));
+        let problem = column_count(columns.len(), table.columns.len());
+        return Err(ReadError::whole(source, problem));
     }
     Ok(Table::of_columns(columns.to_vec(), table.columns, table.remarks))
 }

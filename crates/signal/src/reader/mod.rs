@@ -32,7 +32,7 @@ mod units;
 mod wav;
 
 pub use contents::{Channel, NamedResponse, ResponseFile, SignalFile};
-pub use error::{ReadError, ReadProblem};
+pub use error::ReadError;
 pub use gaps::read_gaps;
 pub use modes::{MeasuredMode, read_modes};
 pub use moduli::{ModulusRow, read_moduli};
@@ -85,16 +85,16 @@ impl Format {
 }
 
 /// Positions of names or 1-based numbers among names.
-fn positions(wanted: &[String], names: &[&str]) -> Result<Vec<usize>, ReadProblem> {
+fn positions(wanted: &[String], names: &[&str], source: &str) -> Result<Vec<usize>, ReadError> {
     let position = |wanted: &String| {
         let number = wanted.parse::<usize>().ok().and_then(|n| n.checked_sub(1));
         names
             .iter()
             .position(|name| *name == wanted.as_str())
             .or_else(|| number.filter(|n| *n < names.len()))
-            .ok_or_else(|| ReadProblem::NoChannel {
-                wanted: wanted.clone(),
-                found: text::first_of(names),
+            .ok_or_else(|| {
+                let found = text::first_of(names);
+                ReadError::whole(source, format!("--channel {wanted}: the file has {found}"))
             })
     };
     wanted.iter().map(position).collect()

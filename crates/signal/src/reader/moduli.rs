@@ -1,11 +1,11 @@
 //! Tables of modulus and loss factor over frequency.
 
 use super::error::ReadError;
-use super::named_columns::missing;
+use super::named_columns::Wanted;
 use super::table::read_table;
 
 /// The columns and what their names begin with.
-const COLUMNS: [(&str, &[&str]); 3] = [
+const COLUMNS: [Wanted; 3] = [
     ("frequency_hz", &["frequency", "f_hz", "f"]),
     ("young_modulus", &["young", "modulus", "e"]),
     ("loss_factor", &["loss", "eta", "tan"]),
@@ -41,7 +41,7 @@ pub fn read_moduli(bytes: &[u8], source: &str) -> Result<Vec<ModulusRow>, ReadEr
     let is_other = |name: &String| OTHER_UNITS.iter().any(|unit| name.contains(unit));
     if table.names.iter().any(is_other) {
         let remedy = "give frequencies in Hz and moduli in Pa";
-        return Err(missing(&table, source, "Hz and Pa", remedy));
+        return Err(table.missing(source, "Hz and Pa", remedy));
     }
     let places = table.places(&COLUMNS, source, HEADER)?;
     let rows = (0..table.rows()).map(|row| {

@@ -1,6 +1,6 @@
 //! Columns of a table that is known by their names.
 
-use super::error::{ReadError, ReadProblem};
+use super::error::{ReadError, missing_column};
 use super::table::Table;
 
 /// What a column is called here, and what its name may begin with; a single letter is the whole name.
@@ -18,7 +18,7 @@ impl Table {
         if self.names.is_empty() {
             return match self.columns.len() == N {
                 true => Ok(places),
-                false => Err(missing(self, source, "as many columns as there are names", header)),
+                false => Err(self.missing(source, "as many columns as there are names", header)),
             };
         }
         for (place, (wanted, begins)) in places.iter_mut().zip(wanted) {
@@ -30,19 +30,13 @@ impl Table {
                 begins.iter().any(short)
             };
             let found = self.names.iter().position(is_it);
-            *place = found.ok_or_else(|| missing(self, source, wanted, header))?;
+            *place = found.ok_or_else(|| self.missing(source, wanted, header))?;
         }
         Ok(places)
     }
-}
 
-/// A table without a column.
-pub(super) fn missing(
-    table: &Table,
-    source: &str,
-    wanted: &'static str,
-    remedy: &'static str,
-) -> ReadError {
-    let problem = ReadProblem::MissingColumn { wanted, columns: table.described(), remedy };
-    ReadError::whole(source, problem)
+    /// That it lacks a column.
+    pub(super) fn missing(&self, source: &str, wanted: &str, remedy: &str) -> ReadError {
+        ReadError::whole(source, missing_column(wanted, &self.described(), remedy))
+    }
 }

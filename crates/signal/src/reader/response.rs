@@ -3,7 +3,7 @@
 use super::super::{FrequencyResponse, ResponseQuantity};
 use super::columns::{Layout, Part, layouts, part};
 use super::contents::{NamedResponse, ResponseFile};
-use super::error::{ReadError, ReadProblem};
+use super::error::ReadError;
 use super::table::{Table, read_table};
 use super::text::first_of;
 use super::units::{hertz, words};
@@ -49,11 +49,9 @@ pub fn read_response(
         }
         Format::Wave => {
             let found = "a WAV file, which holds time signals: give it to `frictionsim signal`";
-            return Err(ReadError::whole(source, ReadProblem::Format(found)));
+            return Err(ReadError::foreign(source, found));
         }
-        Format::Foreign(found) => {
-            return Err(ReadError::whole(source, ReadProblem::Format(found)));
-        }
+        Format::Foreign(found) => return Err(ReadError::foreign(source, found)),
         Format::Text => from_table(&read_table(bytes, source, &options.columns)?, source, options)?,
     };
     file.select(&options.channels, source)?;
@@ -68,8 +66,7 @@ impl ResponseFile {
             return Ok(());
         }
         let names: Vec<&str> = self.responses.iter().map(|r| r.name.as_str()).collect();
-        let kept = super::positions(wanted, &names)
-            .map_err(|problem| ReadError::whole(source, problem))?;
+        let kept = super::positions(wanted, &names, source)?;
         let kept = kept.into_iter().map(|k| self.responses[k].clone());
         self.responses = kept.collect();
         Ok(())
@@ -128,8 +125,7 @@ fn from_table(
             let moduli: Vec<f64> = values.iter().map(|z| z.re).collect();
             FrequencyResponse::from_magnitudes(frequencies.clone(), &moduli, quantity)
         };
-        let mut response =
-            response.map_err(|e| ReadError::whole(source, ReadProblem::Signal(e)))?;
+        let mut response = response.map_err(|error| ReadError::signal(source, &error))?;
         // One coherence for each response, or one for all.
         if let Some(column) = coherences.get(k).or(coherences.first()) {
             let all = &table.columns[*column].real;
@@ -146,15 +142,11 @@ fn frequency_column(table: &Table, source: &str) -> Result<(usize, f64, bool), R
     if table.names.is_empty() {
         return Ok((0, 1.0, false));
     }
-    let missing = ReadProblem::MissingColumn {
-        wanted: "frequency",
-        columns: table.described(),
-        remedy: "name it `frequency_hz`, or name all columns: --columns f,re,im",
-    };
+    let remedy = "name it `frequency_hz`, or name all columns: --columns f,re,im";
     (0..table.names.len())
         .filter(|&k| part(&table.names[k]) == Part::Other && table.columns[k].imaginary.is_none())
         .find_map(|k| hertz(&table.names[k]).map(|(factor, stated)| (k, factor, stated)))
-        .ok_or_else(|| ReadError::whole(source, missing))
+        .ok_or_else(|| table.missing(source, "frequency", remedy))
 }
 
 /// Frequencies that look like kHz, or like rad/s, under a name without a unit.
@@ -188,7 +180,10 @@ fn values(table: &Table, layout: Layout, source: &str) -> Result<Vec<c64>, ReadE
                     None => value,
                 };
                 if modulus < 0.0 {
-                    let problem = ReadProblem::NegativeMagnitude(value);
+                    let problem = format!(
+                        "magnitude {value} is negative; if it is in decibels, say so in the header \
+                         (magnitude_db)"
+                    );
                     return Err(table.error(source, i, magnitude, problem));
                 }
                 let angle = phase.map_or(0.0, |(k, factor)| real(k)[i] * factor);
@@ -209,7 +204,7 @@ fn ordered(
 ) -> Result<Vec<(f64, usize)>, ReadError> {
     let raw = &table.columns[column].real;
     if let Some(i) = raw.iter().position(|f| *f < 0.0) {
-        let problem = ReadProblem::NegativeFrequency(raw[i]);
+        let problem = format!("frequency {} is negative; export the one-sided response", raw[i]);
         return Err(table.error(source, i, column, problem));
     }
     let numbered = raw.iter().enumerate();
@@ -224,10 +219,11 @@ fn ordered(
         match kept.last() {
             Some(last) if last.0 == row.0 => {
                 if values.iter().any(|v| v[last.1] != v[row.1]) {
-                    let problem = ReadProblem::DuplicateFrequency {
-                        value: row.0,
-                        first_line: table.line(last.1),
-                    };
+                    let (value, first) = (row.0, table.line(last.1));
+                    let problem = format!(
+                        "frequency {value} Hz is already in line {first} with another value; keep \
+                         one of the rows"
+                    );
                     return Err(table.error(source, row.1, column, problem));
                 }
                 dropped += 1;

@@ -2,7 +2,7 @@
 //!
 //! Source of the datasets: SDRC, "Universal file datasets", numbers 15, 55, 2411.
 
-use super::error::{ReadError, ReadProblem};
+use super::error::{EMPTY, ReadError, missing_column, not_a_number, not_finite};
 use super::field::{Value, parse};
 use super::headed::{Row, headed};
 use super::text::{decode, first_of, shortened};
@@ -42,8 +42,8 @@ pub fn read_shapes(bytes: &[u8], source: &str) -> Result<Vec<MeasuredShape>, Rea
         all.fold(0.0, |sum, u| sum + u.norm_sqr()) > 0.0
     };
     match shapes.iter().find(|shape| !has_motion(shape)) {
-        Some(_) => Err(ReadError::whole(source, ReadProblem::NoNumbers)),
-        None if shapes.is_empty() => Err(ReadError::whole(source, ReadProblem::Empty)),
+        Some(_) => Err(ReadError::no_numbers(source)),
+        None if shapes.is_empty() => Err(ReadError::whole(source, EMPTY)),
         None => Ok(shapes),
     }
 }
@@ -81,13 +81,11 @@ impl Columns {
         };
         let has_motion = columns.motion.iter().any(|parts| parts[0].is_some());
         if columns.places[0].is_none() || columns.places[1].is_none() || !has_motion {
-            let problem = ReadProblem::MissingColumn {
-                wanted: "points and displacements",
-                columns: first_of(names),
-                remedy: "the first line names the columns: x, y, z in metres, and of ux, uy, uz \
-                    those measured. Complex ones are 0.1+0.2j, or two columns ux_re, ux_im. \
-                    Several shapes have mode and frequency_hz",
-            };
+            let remedy = "the first line names the columns: x, y, z in metres, and of ux, uy, uz \
+                those measured. Complex ones are 0.1+0.2j, or two columns ux_re, ux_im. Several \
+                shapes have mode and frequency_hz";
+            let wanted = "points and displacements";
+            let problem = missing_column(wanted, &first_of(names), remedy);
             return Err(ReadError::whole(source, problem));
         }
         Ok(columns)
@@ -136,18 +134,18 @@ impl Row<'_> {
             return Ok(None);
         };
         let (field, name) = (shortened(cell), format!("`{name}`"));
-        let refuse = |problem| Err(self.error(cell, problem));
+        let refuse = |problem: String| Err(self.error(cell, problem));
         let value = match parse(cell) {
             Some(Value::Real(value)) => c64::new(value, 0.0),
             Some(Value::Complex(re, im)) => c64::new(re, im),
-            _ => return refuse(ReadProblem::NotANumber { field, name }),
+            _ => return refuse(not_a_number(&field, &name)),
         };
         if value.re.is_nan() {
             return Ok(None);
         }
         match value.norm() < LARGEST_DISPLACEMENT {
             true => Ok(Some(value)),
-            false => refuse(ReadProblem::NotFinite { field, name }),
+            false => refuse(not_finite(&field, &name)),
         }
     }
 
@@ -180,10 +178,7 @@ fn universal(bytes: &[u8], source: &str) -> Result<Vec<MeasuredShape>, ReadError
         let length = length.take_while(|line| line.trim() != "-1").count();
         let body = &all[first.min(all.len())..][..length];
         let damaged = |(line, reason): (usize, &str)| {
-            let problem = ReadProblem::Damaged {
-                format: "universal file",
-                reason: format!("dataset {number}: {reason}"),
-            };
+            let problem = format!("universal file: dataset {number}: {reason}");
             ReadError::at(source, first + line + 1, 1, problem)
         };
         match number {
@@ -198,14 +193,10 @@ fn universal(bytes: &[u8], source: &str) -> Result<Vec<MeasuredShape>, ReadError
         let (mut points, mut motion) = (Vec::new(), Vec::new());
         for (node, values) in rows {
             let Some(point) = nodes.get(&node) else {
-                let problem = ReadProblem::Damaged {
-                    format: "universal file",
-                    reason: format!(
-                        "shape {} moves node {node}, which no dataset 15 or 2411 places",
-                        k + 1
-                    ),
-                };
-                return Err(ReadError::whole(source, problem));
+                let shape = k + 1;
+                let reason =
+                    format!("shape {shape} moves node {node}, which no dataset 15 or 2411 places");
+                return Err(ReadError::damaged(source, "universal file", reason));
             };
             points.push(*point);
             motion.push(values);

@@ -1,7 +1,7 @@
 //! Lines of text to named columns of numbers.
 
 use super::column::Column;
-use super::error::{ReadError, ReadProblem};
+use super::error::{EMPTY, ReadError, column_count, not_finite, unreadable};
 use super::field::{Value, number, parse, time_stamp};
 use super::separator::{Line, Separator, character, fields, numeric_fields, separator_of};
 use super::text::{comment, decode, first_of, lines, shortened};
@@ -46,13 +46,7 @@ impl Table {
     }
 
     /// An error at a field.
-    pub fn error(
-        &self,
-        source: &str,
-        row: usize,
-        column: usize,
-        problem: ReadProblem,
-    ) -> ReadError {
+    pub fn error(&self, source: &str, row: usize, column: usize, problem: String) -> ReadError {
         let Some(line) = self.lines.get(row) else {
             return ReadError::whole(source, problem);
         };
@@ -94,7 +88,7 @@ pub(super) fn read_table(
         }
     }
     if content.is_empty() {
-        return Err(ReadError::whole(source, ReadProblem::Empty));
+        return Err(ReadError::whole(source, EMPTY));
     }
     if remarks.contains("post26") {
         return post26_listing(&content, remarks, columns, source);
@@ -150,7 +144,7 @@ fn post26_listing(
     };
     let data: Vec<Line> = content.iter().filter(|line| is_data(line)).copied().collect();
     let Some(first) = data.first() else {
-        return Err(ReadError::whole(source, ReadProblem::NoNumbers));
+        return Err(ReadError::no_numbers(source));
     };
     let count = first.1.split_whitespace().count();
     let head = content.iter().take_while(|line| line.0 < first.0);
@@ -202,11 +196,11 @@ fn blame_first_number(content: &[Line], source: &str) -> ReadError {
         let mut spoils = fields(text, separator).enumerate();
         let spoils = spoils.find(|(_, f)| parse(f).is_none());
         if let Some((k, field)) = spoils.filter(|_| numeric * 2 >= all && all > 1) {
-            let problem = ReadProblem::unreadable(field, (k + 1).to_string());
+            let problem = unreadable(field, &(k + 1).to_string());
             return ReadError::at(source, *line, character(text, field), problem);
         }
     }
-    ReadError::whole(source, ReadProblem::NoNumbers)
+    ReadError::no_numbers(source)
 }
 
 /// Parses every row.
@@ -234,28 +228,31 @@ fn numbers(
             let Some(column) = columns.get_mut(k) else {
                 // The surplus is to blame where it begins, however much there is.
                 let found = fields(text, separator).count();
-                return fail(field, ReadProblem::FieldCount { found, expected });
+                return fail(field, field_count(found, expected));
             };
             // Plain numbers come first: they are nearly all.
             let value = match number(field) {
                 Some(value) => Value::Real(value),
                 None => match parse(field) {
                     Some(value) => value,
-                    None => return fail(field, ReadProblem::unreadable(field, name(k))),
+                    None => return fail(field, unreadable(field, &name(k))),
                 },
             };
             if !column.push(value, &mut first_day) {
-                let (field_text, name) = (shortened(field), name(k));
-                let problem = ReadProblem::NotFinite { field: field_text, name };
-                return fail(field, problem);
+                return fail(field, not_finite(&shortened(field), &name(k)));
             }
         }
         if found != expected {
             let last = fields(text, separator).last().unwrap_or("");
-            return fail(last, ReadProblem::FieldCount { found, expected });
+            return fail(last, field_count(found, expected));
         }
     }
     Ok(joined_time_stamps(columns, data, separator))
+}
+
+/// A row has another number of fields than the first.
+fn field_count(found: usize, expected: usize) -> String {
+    format!("{found} fields where the rows before have {expected}; complete or remove the row")
 }
 
 /// A date in one column and the time of day in the next are one time.
@@ -286,7 +283,11 @@ fn refuse_decimal_comma_separators(
 ) -> Result<(), ReadError> {
     let named = head.last().map_or(0, |(_, header)| fields(header, separator).count());
     if separator == Separator::Comma && named > 1 && found > named {
-        let problem = ReadProblem::AmbiguousComma { found, expected: named };
+        let problem = format!(
+            "{found} fields separated by commas where the header names {named}: the comma seems to \
+             be both separator and decimal sign. Export with decimal points or separate by \
+             semicolons"
+        );
         return Err(ReadError::at(source, first.0, 1, problem));
     }
     Ok(())
@@ -302,8 +303,7 @@ fn titles(
 ) -> Result<Vec<String>, ReadError> {
     if !given.is_empty() {
         if given.len() != count {
-            let problem = ReadProblem::ColumnCount { given: given.len(), found: count };
-            return Err(ReadError::whole(source, problem));
+            return Err(ReadError::whole(source, column_count(given.len(), count)));
         }
         return Ok(given.to_vec());
     }

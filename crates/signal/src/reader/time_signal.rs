@@ -1,8 +1,7 @@
 //! Time signals.
 
-use super::super::SignalError;
 use super::contents::{Channel, SignalFile};
-use super::error::{ReadError, ReadProblem};
+use super::error::{NO_RATE, ReadError};
 use super::table::{Table, read_table};
 use super::units::{sampling_rate, seconds};
 use super::{Format, mat, uff, wav};
@@ -40,9 +39,9 @@ pub fn read_signal(
     source: &str,
     options: &SignalOptions,
 ) -> Result<SignalFile, ReadError> {
-    let whole = |problem| ReadError::whole(source, problem);
     if let Some(value) = options.rate.filter(|rate| !(*rate > 0.0 && rate.is_finite())) {
-        return Err(whole(ReadProblem::Rate(value)));
+        let problem = format!("sampling rate {value} Hz must be positive and finite");
+        return Err(ReadError::whole(source, problem));
     }
     let mut file = match Format::of(bytes) {
         Format::Universal => uff::read_signals(bytes, source)?,
@@ -50,7 +49,7 @@ pub fn read_signal(
         Format::Matlab => {
             from_table(&mat::read_table(bytes, source, &options.columns)?, source, options)?
         }
-        Format::Foreign(found) => return Err(whole(ReadProblem::Format(found))),
+        Format::Foreign(found) => return Err(ReadError::foreign(source, found)),
         Format::Text => from_table(&read_table(bytes, source, &options.columns)?, source, options)?,
     };
     // A file that states its rate is overruled aloud.
@@ -62,19 +61,19 @@ pub fn read_signal(
     }
     if !options.channels.is_empty() {
         let names: Vec<&str> = file.channels.iter().map(|c| c.name.as_str()).collect();
-        let kept = super::positions(&options.channels, &names).map_err(whole)?;
+        let kept = super::positions(&options.channels, &names, source)?;
         file.channels = kept.into_iter().map(|k| file.channels[k].clone()).collect();
     }
     let count = file.channels.first().map_or(0, |c| c.samples.len());
     if count < FEWEST {
-        return Err(whole(too_short(count)));
+        return Err(too_short(source, count));
     }
     Ok(file)
 }
 
-fn too_short(count: usize) -> ReadProblem {
+fn too_short(source: &str, count: usize) -> ReadError {
     let (what, remedy) = ("the signal", "give a longer record");
-    ReadProblem::Signal(SignalError::TooShort { what, count, needed: FEWEST, remedy })
+    ReadError::signal(source, &crate::error::too_short(what, count, FEWEST, remedy))
 }
 
 fn from_table(
@@ -82,10 +81,9 @@ fn from_table(
     source: &str,
     options: &SignalOptions,
 ) -> Result<SignalFile, ReadError> {
-    let whole = |problem| ReadError::whole(source, problem);
     let time = time_column(table);
     if table.rows() < FEWEST {
-        return Err(whole(too_short(table.rows())));
+        return Err(too_short(source, table.rows()));
     }
     let mut notes = Vec::new();
     let (rate, start) = match time {
@@ -99,7 +97,7 @@ fn from_table(
         }
         None => {
             let stated = sampling_rate(&table.remarks).or(options.rate);
-            (stated.ok_or_else(|| whole(ReadProblem::NoRate))?, 0.0)
+            (stated.ok_or_else(|| ReadError::whole(source, NO_RATE))?, 0.0)
         }
     };
     let is_skipped = |k: usize| {
@@ -117,11 +115,8 @@ fn from_table(
         })
         .collect();
     if channels.is_empty() {
-        return Err(whole(ReadProblem::MissingColumn {
-            wanted: "signal",
-            columns: table.described(),
-            remedy: "only times were found; export the samples too",
-        }));
+        let remedy = "only times were found; export the samples too";
+        return Err(table.missing(source, "signal", remedy));
     }
     if table.columns.iter().any(|column| column.imaginary.is_some()) {
         notes.push("complex numbers: the real part is used".to_string());
@@ -155,11 +150,18 @@ fn regular_step(table: &Table, column: usize, factor: f64, source: &str) -> Resu
     let falls = t.windows(2).any(|w| w[1] < w[0]);
     let stands = t.windows(2).any(|w| w[1] == w[0]);
     if stands && !falls && step > 0.0 {
-        let problem = ReadProblem::RoundedTime { step: rounding(&t), rate: 1.0 / step };
+        let (step, rate) = (rounding(&t), 1.0 / step);
+        let problem = format!(
+            "the time column is rounded to {step} s, which hides the sampling rate (about \
+             {rate:.1} Hz); give it with --rate HZ"
+        );
         return Err(ReadError::whole(source, problem));
     }
     if let Some(i) = (1..t.len()).find(|&i| t[i] <= t[i - 1]) {
-        let problem = ReadProblem::TimeOrder { value: t[i], previous: t[i - 1] };
+        let (value, previous) = (t[i], t[i - 1]);
+        let problem = format!(
+            "time {value} s does not follow the {previous} s before it; sort the rows by time"
+        );
         return Err(table.error(source, i, column, problem));
     }
     let off = |i: usize| (t[i] - t[0] - i as f64 * step).abs() > JITTER * step;
@@ -171,7 +173,11 @@ fn regular_step(table: &Table, column: usize, factor: f64, source: &str) -> Resu
             .find(|&i| (t[i] - t[i - 1] - usual).abs() > 0.5 * usual)
             .or_else(|| (1..t.len()).find(|&i| off(i)))
             .unwrap_or(1);
-        let problem = ReadProblem::TimeGap { value: t[i], step: usual };
+        let problem = format!(
+            "time {} s is not on the grid of {usual} s that the other rows have. Resample to \
+             equal steps, or cut the record at the gap",
+            t[i]
+        );
         return Err(table.error(source, i, column, problem));
     }
     Ok(step)
@@ -207,7 +213,8 @@ fn agreed_rate(
         return Ok(option);
     }
     if (option / found - 1.0).abs() > 1e-2 || !found.is_finite() {
-        let problem = ReadProblem::RateContradiction { column: found, option };
+        let problem =
+            format!("the time column says {found} Hz, the option {option} Hz; leave --rate out");
         return Err(ReadError::whole(source, problem));
     }
     // Within 1 % the column knows better, if it is regular.

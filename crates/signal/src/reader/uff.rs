@@ -3,9 +3,10 @@
 //! Source: SDRC, "Universal file datasets", number 58, and the University of Cincinnati's description of the
 //! binary form.
 
+use super::super::error::not_finite;
 use super::super::{FrequencyResponse, ResponseQuantity};
 use super::contents::{Channel, NamedResponse, ResponseFile, SignalFile};
-use super::error::{ReadError, ReadProblem};
+use super::error::{NO_RATE, ReadError};
 use super::text::first_of;
 use faer::c64;
 use std::collections::BTreeSet;
@@ -78,11 +79,8 @@ fn functions(bytes: &[u8], source: &str) -> Result<Vec<Function>, ReadError> {
         let words: Vec<String> = header.split_whitespace().map(str::to_lowercase).collect();
         let number = found.len() + 1;
         let damaged = |reason: &str| {
-            let problem = ReadProblem::Damaged {
-                format: "universal file",
-                reason: format!("dataset 58 number {number}: {reason}"),
-            };
-            ReadError::whole(source, problem)
+            let reason = format!("dataset 58 number {number}: {reason}");
+            ReadError::damaged(source, "universal file", reason)
         };
         match words.first().map(String::as_str) {
             Some("58") => found.push(function(&mut lines, None).map_err(damaged)?),
@@ -258,7 +256,7 @@ pub(super) fn read_responses(
             _ => 1.0,
         };
         let values: Vec<c64> = f.values.iter().map(|z| z * scale).collect();
-        let signal = |e| ReadError::whole(source, ReadProblem::Signal(e));
+        let signal = |error| ReadError::signal(source, &error);
         let mut response = if f.is_complex {
             FrequencyResponse::new(f.abscissae.clone(), values, taken)
         } else {
@@ -296,7 +294,7 @@ pub(super) fn read_signals(bytes: &[u8], source: &str) -> Result<SignalFile, Rea
         _ => 0.0,
     };
     if !(step > 0.0 && step.is_finite() && (1.0 / step).is_finite()) {
-        return Err(ReadError::whole(source, ReadProblem::NoRate));
+        return Err(ReadError::whole(source, NO_RATE));
     }
     let (fit, others): (Vec<&Function>, Vec<&Function>) = signals
         .iter()
@@ -308,12 +306,8 @@ pub(super) fn read_signals(bytes: &[u8], source: &str) -> Result<SignalFile, Rea
     }
     for f in &fit {
         if let Some(i) = f.values.iter().position(|z| !z.re.is_finite()) {
-            let error = super::super::SignalError::NotFinite {
-                what: "sample",
-                index: i + 1,
-                value: f.values[i].re,
-            };
-            return Err(ReadError::whole(source, ReadProblem::Signal(error)));
+            let error = not_finite("sample", i, f.values[i].re);
+            return Err(ReadError::signal(source, &error));
         }
     }
     let channel = |f: &&Function| Channel {
@@ -331,9 +325,6 @@ pub(super) fn read_signals(bytes: &[u8], source: &str) -> Result<SignalFile, Rea
 fn without(source: &str, wanted: &str, all: &[Function]) -> ReadError {
     let kinds: BTreeSet<u32> = all.iter().map(|f| f.kind).collect();
     let kinds = first_of(kinds.iter().map(ToString::to_string));
-    let problem = ReadProblem::Damaged {
-        format: "universal file",
-        reason: format!("no {wanted} in it (function types: {kinds})"),
-    };
-    ReadError::whole(source, problem)
+    let reason = format!("no {wanted} in it (function types: {kinds})");
+    ReadError::damaged(source, "universal file", reason)
 }

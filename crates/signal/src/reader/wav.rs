@@ -1,8 +1,9 @@
 //! WAV files: sound in, and a signal made audible.
 
 use super::super::SignalError;
+use super::super::error::{not_finite, not_positive};
 use super::contents::{Channel, SignalFile};
-use super::error::{ReadError, ReadProblem};
+use super::error::ReadError;
 use hound::{SampleFormat, WavReader, WavSpec, WavWriter};
 use std::io::Cursor;
 
@@ -13,10 +14,7 @@ const PEAK: f64 = 0.89;
 
 /// Reads all channels of a WAV file of integers or floating-point numbers; full scale reads 1.
 pub(super) fn read_wav(bytes: &[u8], source: &str) -> Result<SignalFile, ReadError> {
-    let damaged = |reason: String| {
-        let format = "WAV";
-        ReadError::whole(source, ReadProblem::Damaged { format, reason })
-    };
+    let damaged = |reason: String| ReadError::damaged(source, "WAV", reason);
     let mut reader = WavReader::new(Cursor::new(bytes))
         .map_err(|error| damaged(format!("{error}; PCM and floating-point files are supported")))?;
     let spec = reader.spec();
@@ -41,12 +39,8 @@ pub(super) fn read_wav(bytes: &[u8], source: &str) -> Result<SignalFile, ReadErr
         notes.push(format!("the file ends early: {rows} samples of each channel are read"));
     }
     if let Some(position) = values.iter().position(|v| !v.is_finite()) {
-        let error = SignalError::NotFinite {
-            what: "sample",
-            index: position / count + 1,
-            value: values[position],
-        };
-        return Err(ReadError::whole(source, ReadProblem::Signal(error)));
+        let error = not_finite("sample", position / count, values[position]);
+        return Err(ReadError::signal(source, &error));
     }
     let channels = (0..count.min(values.len())).map(|k| Channel {
         name: format!("channel {}", k + 1),
@@ -73,14 +67,11 @@ pub fn slowdown(sampling_rate: f64) -> u32 {
 /// 1 dB, `slower` times slower than they were recorded: 9.4 kHz sounds as 0.94 kHz at 10.
 ///
 /// # Errors
-/// [`SignalError::NotPositive`] for a rate of less than 1 Hz after slowing down; [`SignalError::Fit`] never.
+/// [`SignalError::Asked`] for a rate of less than 1 Hz after slowing down; [`SignalError::Fit`] never.
 pub fn write_wav(file: &SignalFile, slower: u32) -> Result<Vec<u8>, SignalError> {
     let rate = (file.sampling_rate / f64::from(slower.max(1))).round();
-    let refused = |value| SignalError::NotPositive {
-        what: "sampling rate of the WAV file",
-        value,
-        remedy: " between 1 Hz and 4 GHz",
-    };
+    let what = "sampling rate of the WAV file";
+    let refused = |value| not_positive(what, value, " between 1 Hz and 4 GHz");
     if !(1.0..f64::from(u32::MAX)).contains(&rate) || file.channels.len() > usize::from(u16::MAX) {
         return Err(refused(rate));
     }
