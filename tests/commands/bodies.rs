@@ -110,7 +110,7 @@ impl Bench {
     /// Draws the figures of a results folder.
     pub fn redraw(&self, folder: &Path) -> Result<(), String> {
         let mut program = Command::new(env!("CARGO_BIN_EXE_frictionsim"));
-        let run = program.arg("plot").arg(folder).arg("-qq").output().unwrap();
+        let run = program.arg("plot").arg(folder).args(["-qq", "--format=svg"]).output().unwrap();
         let errors = String::from_utf8_lossy(&run.stderr).into_owned();
         run.status.success().then_some(()).ok_or(errors)
     }

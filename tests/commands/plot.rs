@@ -4,6 +4,9 @@
 
 use crate::prelude::*;
 
+/// Few dots are drawn soon; the picture of a mesh has the usual ones.
+const FEW_DOTS: [&str; 2] = ["--dpi", "50"];
+
 fn run(folder: &TempDir, command: &str, case: &str, set: &[&str]) -> Run {
     Run::new(&[command, &shipped(case), "--quiet"]).within(folder).out("out").set(set)
 }
@@ -51,15 +54,15 @@ fn check_redrawn(folder: &TempDir, expected: &str) {
         assert!(rows.into_iter().all(|row| columns == 0 || row.matches("<td").count() == columns));
     }
 
-    let answer = plot(folder, &["--threads", "1"]).done().says(&["figures in"]);
+    let answer = plot(folder, &FEW_DOTS).args(&["--threads", "1"]).done().says(&["figures in"]);
     assert_eq!(answer.stderr, "");
     assert_same(&first, &files(&out));
     fs::remove_dir_all(out.join("figures")).unwrap();
     fs::remove_file(out.join("report.html")).unwrap();
-    plot(folder, &[]).done();
+    plot(folder, &FEW_DOTS).done();
     assert_same(&first, &files(&out));
 
-    plot(folder, &["--dpi", "50"]).done();
+    plot(folder, &["--dpi", "25"]).done();
     for (name, bytes) in files(&out) {
         let is_smaller = bytes.len() < first[&name].len();
         assert_eq!(is_smaller, name.ends_with(".png"), "{name}");
@@ -92,7 +95,7 @@ macro_rules! drawn_again {
             let folder = folder();
             let block = $case == "sliding-block.toml";
             let mesh = block.then(|| coarse_block(folder.path()));
-            let answer = run(&folder, $command, $case, &$set).set(mesh.as_slice()).done();
+            let answer = run(&folder, $command, $case, &$set).set(mesh.as_slice()).args(&FEW_DOTS).done();
             check_redrawn(&folder, $expected);
             has(&answer.text(concat!("figures/", $figure, ".svg")), $words);
         }
@@ -156,14 +159,15 @@ fn response_and_identification_are_drawn_again_to_the_same_bytes() {
     let folder = folder();
     let set = ["mesh.circumferential_elements=60 ; mesh.radial_elements=12 ; frf.force_node=13 ; \
          frf.response_node=13 ; frf.frequencies_hz={from=4.0,to=10000.0,count=2500}"];
-    run(&folder, "frf", "hammer-test.toml", &set).done();
+    run(&folder, "frf", "hammer-test.toml", &set).args(&FEW_DOTS).done();
     check_redrawn(&folder, "response");
     let table = folder.path().join("response.csv");
     fs::rename(folder.path().join("out/frf.csv"), &table).unwrap();
     // The tables are not needed.
-    plot(&folder, &[]).done();
+    plot(&folder, &FEW_DOTS).done();
     fs::remove_dir_all(folder.path().join("out")).unwrap();
-    Run::new(&["identify", "response.csv", "--quiet"]).within(&folder).out("out").done();
+    let identify = Run::new(&["identify", "response.csv", "--quiet"]).within(&folder).out("out");
+    identify.args(&FEW_DOTS).done();
     check_redrawn(&folder, "identification");
 }
 
@@ -178,7 +182,7 @@ fn signal_figures_are_drawn_again_to_the_same_bytes() {
     }
     fs::write(folder.path().join("signal.csv"), text).unwrap();
     let words = ["signal", "signal.csv", "--quiet", "--channel", "right", "--window", "0.002"];
-    Run::new(&words).within(&folder).out("out").done();
+    Run::new(&words).within(&folder).args(&FEW_DOTS).out("out").done();
     check_redrawn(&folder, "signal-1 spectrum-1");
 }
 
@@ -186,7 +190,7 @@ fn signal_figures_are_drawn_again_to_the_same_bytes() {
 fn a_run_without_figures_keeps_none_to_draw() {
     let folder = folder();
     let out = folder.path().join("out");
-    run(&folder, "transient", "polycarbonate-610rpm.toml", &SHORT).done();
+    run(&folder, "transient", "polycarbonate-610rpm.toml", &SHORT).args(&FEW_DOTS).done();
     assert!(out.join("figures/overview-200.png").exists());
     // Figures belong to the run: without them it starts from a clean folder.
     run(&folder, "transient", "polycarbonate-610rpm.toml", &SHORT).args(&["--no-figures"]).done();

@@ -3,6 +3,7 @@
 //! Consistency checks: they look at the drawing, not at the physics.
 
 use crate::figures::{check, check_texts, is_finite, texts};
+use crate::tier::sized;
 use frictionsim::chart::{
     Axis, Bars, Cell, ChartError, ColourMap, Drawing, Field, Figure, Fill, Heat, Label, Line,
     Marker, Mesh, Panel, Points, Rule, SERIES, Shapes, Side,
@@ -93,7 +94,7 @@ fn figure(xs: &[f64], ys: &[f64], zs: &[f64], axes: (u8, u8), value: f64) -> Fig
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 200, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: sized(40, 200), failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
     fn figures_of_any_data_draw_or_say_that_there_is_nothing(
