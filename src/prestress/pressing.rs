@@ -2,11 +2,11 @@
 
 use super::elimination::Elimination;
 use super::full_sliding::FullSliding;
-use super::{PressedState, PrestressError, pressure_load};
+use super::{PressedState, PrestressError, SolidSliding};
 use crate::contact::{NormalLaw, Point, SlidingContact, SteadyFriction};
 use crate::fem::Triplets;
 use crate::fem::fold::SectorMatrix;
-use crate::fem::solid::{FaceTerm, face_matrix};
+use crate::fem::solid::{FaceTerm, face_matrix, pressure_load};
 use crate::mesh::{ContactRing, FaceElement, SolidSector};
 
 /// Choices of what is pressed that are tried before the search is given up.
@@ -80,16 +80,8 @@ pub(super) fn pressed_span(
 }
 
 /// Friction of steady sliding at a radius.
-type Friction<'a> = &'a dyn Fn(f64) -> SteadyFriction;
-
-/// The body pressed without friction, and what each unit of it shears.
-pub(super) struct Pressing {
-    pub displacement: Vec<f64>,
-    pub sheared: Vec<f64>,
-    pub normal_forces: Vec<(usize, f64)>,
-    pub is_pressed: Vec<bool>,
-    pub pressures: Vec<f64>,
-    pub approaches: Vec<f64>,
+pub(super) fn friction(contact: &SlidingContact, radius: f64) -> SteadyFriction {
+    contact.steady_friction(contact.sliding_direction(), contact.rotation_speed.abs() * radius)
 }
 
 /// `delta - u_n` at each ring, the mean over its nodes, m.
@@ -108,15 +100,14 @@ pub(super) fn press_rigidly(
     sector: &SolidSector,
     stiffness: &Triplets,
     contact: &SlidingContact,
-    friction: Friction<'_>,
-) -> Result<Pressing, PrestressError> {
+) -> Result<SolidSliding, PrestressError> {
     let (load, rings) = (pressure_load(sector), &sector.rings);
     let mut is_pressed = vec![true; rings.len()];
     for _ in 0..SETS {
         let pressed = rings.iter().zip(&is_pressed).filter(|(_, pressed)| **pressed);
         let nodes = pressed.flat_map(|(ring, _)| ring.nodes.iter().copied());
         let nodes: Vec<usize> = nodes.collect();
-        let points: Vec<Point> = nodes.iter().map(|&n| point(sector, n, friction)).collect();
+        let points: Vec<Point> = nodes.iter().map(|&n| point(sector, n, contact)).collect();
         let full = FullSliding::new(stiffness, held(sector), &points)?;
         let PressedState { displacements, normal_forces, .. } =
             full.state(&load, contact.interference, None)?;
@@ -140,12 +131,16 @@ pub(super) fn press_rigidly(
             is_pressed = next;
             continue;
         }
-        let [displacement, sheared] = displacements.try_into().expect("two powers of friction");
-        return Ok(Pressing {
+        let [pressed_displacement, sheared_displacement] =
+            displacements.try_into().expect("two powers of friction");
+        return Ok(SolidSliding {
+            law: None,
+            sliding_direction: contact.sliding_direction(),
+            contact: *contact,
             normal_forces: nodes.into_iter().zip(normal_forces[0].iter().copied()).collect(),
             pressures: rings.iter().zip(&ring_forces).map(|(ring, f)| f / ring.area).collect(),
-            displacement,
-            sheared,
+            pressed_displacement,
+            sheared_displacement,
             is_pressed,
             approaches,
         });
@@ -154,12 +149,12 @@ pub(super) fn press_rigidly(
 }
 
 /// A node of the face as a contact point.
-fn point(sector: &SolidSector, node: usize, friction: Friction<'_>) -> Point {
+fn point(sector: &SolidSector, node: usize, contact: &SlidingContact) -> Point {
     let face = sector.specification.contact.face();
     Point {
         normal: vec![(3 * node + face.normal_component(), face.inward_sign())],
         slip: vec![(3 * node + 1, 1.0)],
-        friction: friction(sector.nodes[node].radius),
+        friction: friction(contact, sector.nodes[node].radius),
         ..Point::default()
     }
 }
@@ -177,8 +172,7 @@ pub(super) fn press_on_springs(
     sector: &SolidSector,
     stiffness: &Triplets,
     (contact, law): (&SlidingContact, NormalLaw),
-    friction: Friction<'_>,
-) -> Result<Pressing, PrestressError> {
+) -> Result<SolidSliding, PrestressError> {
     let face = sector.specification.contact.face();
     let (inward, component) = (face.inward_sign(), face.normal_component());
     let load = pressure_load(sector);
@@ -224,15 +218,18 @@ pub(super) fn press_on_springs(
         across.for_each(|dof| basis.drop_unknown(dof));
         let mut drag = vec![0.0; own.len()];
         for (node, force) in &normal_forces {
-            drag[3 * node + 1] = friction(sector.nodes[*node].radius).drag * force;
+            drag[3 * node + 1] = friction(contact, sector.nodes[*node].radius).drag * force;
         }
-        return Ok(Pressing {
-            sheared: FullSliding::new(stiffness, basis, &[])?.solve(&drag),
+        return Ok(SolidSliding {
+            law: Some(law),
+            sliding_direction: contact.sliding_direction(),
+            contact: *contact,
+            sheared_displacement: FullSliding::new(stiffness, basis, &[])?.solve(&drag),
             normal_forces,
             is_pressed: found.iter().map(|approach| *approach > 0.0).collect(),
             pressures: found.iter().map(|g| law.pressure(g.max(0.0))).collect(),
             approaches: found,
-            displacement,
+            pressed_displacement: displacement,
         });
     }
     Err(PrestressError::NoState { friction_coefficient: contact.friction_coefficient })

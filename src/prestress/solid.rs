@@ -1,9 +1,10 @@
 //! Steady sliding of a body of revolution in three dimensions, from one sector.
 
-use super::pressing::{along_element, press_on_springs, press_rigidly, pressed_span};
-use super::{PrestressError, supports};
+use super::PrestressError;
+use super::pressing::{along_element, friction, press_on_springs, press_rigidly, pressed_span};
 use crate::contact::{NormalLaw, SlidingContact, SteadyFriction};
 use crate::fem::fold::SectorMatrix;
+use crate::fem::sector::supports;
 use crate::fem::solid::whole_element;
 use crate::mesh::{FaceElement, SolidSector};
 
@@ -56,32 +57,18 @@ impl SolidSliding {
     ) -> Result<Self, PrestressError> {
         let [springs, _] = supports(sector);
         let stiffness = SectorMatrix::alike_in_all(&[elastic, &springs]);
-        let sliding_direction = contact.sliding_direction();
-        let friction = |radius: f64| {
-            contact.steady_friction(sliding_direction, contact.rotation_speed.abs() * radius)
+        let state = match law {
+            None => press_rigidly(sector, &stiffness, contact)?,
+            Some(law) => press_on_springs(sector, &stiffness, (contact, law))?,
         };
-        let pressing = match law {
-            None => press_rigidly(sector, &stiffness, contact, &friction)?,
-            Some(law) => press_on_springs(sector, &stiffness, (contact, law), &friction)?,
-        };
-        if !pressing.is_pressed.contains(&true) {
-            let distances = pressing.approaches.iter().map(|approach| -approach);
-            return Err(PrestressError::GapEverywhere {
-                total: sector.rings.len() * sector.sector_count(),
-                distance: distances.fold(f64::INFINITY, f64::min),
-                interference: contact.interference,
-            });
+        if state.is_pressed.contains(&true) {
+            return Ok(state);
         }
-        Ok(Self {
-            sheared_displacement: pressing.sheared,
-            pressed_displacement: pressing.displacement,
-            normal_forces: pressing.normal_forces,
-            is_pressed: pressing.is_pressed,
-            pressures: pressing.pressures,
-            approaches: pressing.approaches,
-            law,
-            sliding_direction,
-            contact: *contact,
+        let distances = state.approaches.iter().map(|approach| -approach);
+        Err(PrestressError::GapEverywhere {
+            total: sector.rings.len() * sector.sector_count(),
+            distance: distances.fold(f64::INFINITY, f64::min),
+            interference: contact.interference,
         })
     }
 
@@ -93,8 +80,7 @@ impl SolidSliding {
 
     /// Slip speed `V = |Omega| r`, m/s, and friction of steady sliding at a radius.
     pub fn friction(&self, radius: f64) -> (f64, SteadyFriction) {
-        let speed = self.contact.rotation_speed.abs() * radius;
-        (speed, self.contact.steady_friction(self.sliding_direction, speed))
+        (self.contact.rotation_speed.abs() * radius, friction(&self.contact, radius))
     }
 
     /// Friction torque of the whole body at a friction coefficient, N m.

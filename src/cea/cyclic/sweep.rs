@@ -4,33 +4,9 @@ use super::found::{Wanted, WaveSweep};
 use super::{proven, reduced};
 use crate::cea::{CeaError, SweepRequest};
 use crate::contact::SlidingContact;
-use crate::fem::{ElasticMaterial, MaterialField};
-use crate::mesh::{AnnulusSpecification, SectorMesh, SolidSector, SolidSpecification};
+use crate::fem::MaterialField;
+use crate::mesh::{AnnulusSpecification, SectorMesh};
 use crate::prestress::{TangentOptions, WaveTangent};
-
-/// Everything that an analysis of a body of revolution is made from.
-#[derive(Clone, Debug, PartialEq)]
-pub struct SolidModel<M = ElasticMaterial> {
-    /// The body and its mesh.
-    pub specification: SolidSpecification,
-    /// The material of each of its regions.
-    pub material: M,
-    /// Choices of the linearisation.
-    pub options: TangentOptions,
-    /// The rotor.
-    pub contact: SlidingContact,
-}
-
-impl<M: MaterialField> SolidModel<M> {
-    /// The linearisation of one of its sectors.
-    ///
-    /// # Errors
-    /// A sector that cannot be built; no sliding equilibrium.
-    pub fn tangent(&self) -> Result<WaveTangent, CeaError> {
-        let sector = SolidSector::generate(&self.specification)?;
-        Ok(WaveTangent::of_revolution(&sector, &self.material, &self.options, &self.contact)?)
-    }
-}
 
 /// Eigenvalues of steady sliding of a plane annulus over a range of friction coefficients.
 ///
@@ -45,17 +21,6 @@ pub fn sweep(
 ) -> Result<WaveSweep, CeaError> {
     let sector = SectorMesh::generate(specification)?;
     wave_sweep(WaveTangent::of_annulus(&sector, material, options, contact)?, request, &[])
-}
-
-/// [`sweep`] of a body of revolution in three dimensions.
-///
-/// # Errors
-/// As [`sweep`].
-pub fn solid_sweep<M: MaterialField>(
-    model: &SolidModel<M>,
-    request: &SweepRequest<'_>,
-) -> Result<WaveSweep, CeaError> {
-    wave_sweep(model.tangent()?, request, &[])
 }
 
 /// Eigenvalues of small motions over a range of friction coefficients, with the waves of one sector at those of `waves_at`.

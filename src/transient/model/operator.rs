@@ -5,7 +5,8 @@ use crate::fem::lumped_masses;
 use crate::fem::operator::{
     OperatorError, SectorStencil, SimdLevel, SparseOperator, StiffnessOperator,
 };
-use crate::prestress::{Assembly, supports};
+use crate::fem::sector::supports;
+use crate::prestress::Assembly;
 use crate::transient::{OperatorChoice, TransientError};
 use std::collections::BTreeMap;
 
