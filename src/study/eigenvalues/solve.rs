@@ -183,11 +183,13 @@ fn on_whole_mesh<'a>(
     let Ok(case) = case.on_whole_mesh() else {
         return Err(error.into());
     };
-    let whole = Cea { method: CeaMethod::Sparse, ..cea.clone() };
+    let (mut case, whole) = (case.into_owned(), Cea { method: CeaMethod::Sparse, ..cea.clone() });
+    // Nor waves around it.
+    case.cea = case.cea.map(|own| Cea { method: CeaMethod::Sparse, ..own });
     let model = SlidingModel::new(&case, &whole)?;
     let mut solution = solve_with(&case, &whole, &model, how)?;
     solution.notes.insert(0, instead_note(&error));
-    Ok(Solved { case, model, solution })
+    Ok(Solved { case: Cow::Owned(case), model, solution })
 }
 
 /// Whether the harmonics of a body could not be followed.
@@ -200,4 +202,40 @@ fn is_lost(error: &CeaError) -> bool {
             | CeaError::Incomplete { .. }
             | CeaError::Prestress(PrestressError::Singular)
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Harmonics that cannot be followed leave a body of revolution its whole mesh.
+    #[test]
+    fn the_whole_mesh_is_solved_where_a_branch_of_a_harmonic_is_lost() {
+        let bytes = std::fs::read("cases/disc-three-dimensions.toml").unwrap();
+        let sets = [
+            "mesh.circumferential_elements=12",
+            "mesh.radial_elements=3",
+            "mesh.axial_elements=1",
+            "mesh.element=\"quad4\"",
+            "cea.friction_coefficients=[0.0, 0.3]",
+            "cea.max_frequency_hz=12000",
+        ];
+        let case = Case::parse("disc", &bytes, &sets.map(str::to_owned)).unwrap();
+        let cea = case.require_cea().unwrap();
+        let waves = solved(&case, cea, None).unwrap();
+        let error = CeaError::LostHarmonic { harmonic: 3, friction: 0.3 };
+        let whole = on_whole_mesh(&case, cea, error, (false, &Unwatched)).unwrap();
+        assert_eq!((waves.solution.method, whole.solution.method), ("cyclic", "sparse"));
+        let note = "a branch of harmonic 3 could not be followed up to friction 0.3: \
+                    the whole mesh was solved instead";
+        assert!(whole.solution.notes[0].starts_with(note), "{:?}", whole.solution.notes);
+        let points = waves.solution.sweep.points.iter().zip(&whole.solution.sweep.points);
+        for (waves, whole) in points {
+            assert_eq!(waves.modes.len(), whole.modes.len());
+            for (wave, mode) in waves.modes.iter().zip(&whole.modes) {
+                let error = (wave.frequency_hz() - mode.frequency_hz()).abs();
+                assert!(error < 1e-6 * mode.frequency_hz(), "{error}");
+            }
+        }
+    }
 }
