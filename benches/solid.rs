@@ -13,7 +13,6 @@ mod model;
 use crate::bricks::{Block, file_of};
 use crate::fma_peak::fma_peak;
 use crate::{Ignore, is_measured};
-use frictionsim::cea::cyclic::{SolidModel, solid_sweep};
 use frictionsim::cea::{ModeLimit, SweepRequest};
 use frictionsim::fem::operator::{
     AlignedVector, MotionFields, SimdLevel, SparseOperator, StepCoefficients, StiffnessOperator,
@@ -169,12 +168,12 @@ fn step(divisions: [usize; 3], level: SimdLevel, (batches, peak): (usize, f64)) 
 
 /// Time of 30 modes with prestress at 21 friction coefficients from 0 to 1, s.
 fn eigenvalues(divisions: [usize; 3]) -> f64 {
-    let mut model: SolidModel = model::disc(ElementKind::Quad4, divisions);
+    let mut model: model::SolidModel = model::disc(ElementKind::Quad4, divisions);
     model.options.geometric_stiffness = true;
     let frictions: Vec<f64> = (0..21).map(|i| f64::from(i) / 20.0).collect();
     let request = SweepRequest::new(&frictions, ModeLimit::Lowest(30));
     let clock = Instant::now();
-    let found = solid_sweep(&model, &request).expect("the disc can be solved");
+    let found = model::solid_sweep(&model, &request).expect("the disc can be solved");
     assert!(found.sweep.points.iter().all(|point| point.modes.len() >= 30));
     clock.elapsed().as_secs_f64()
 }

@@ -4,7 +4,7 @@ use super::profile::{Profile, Run};
 use super::{Failure, RunOptions, Session, superelement, terminal};
 use crate::cea::{SweepProgress, SweepStage};
 use crate::results::cea::{KeptSteps, View, document, draw, write, write_universal};
-use crate::study::eigenvalues::{self, SlidingModel, Solver, refuse_no_modes};
+use crate::study::eigenvalues::{self, Solved, Solver, refuse_no_modes};
 use clap::Args;
 use indicatif::ProgressBar;
 
@@ -85,8 +85,8 @@ fn run_on_mesh(arguments: &Arguments) -> Result<(), Failure> {
         _ => terminal::NOTHING_KEPT,
     });
 
-    let model = SlidingModel::new(case, cea)?;
-    let solution = eigenvalues::solve(case, cea, &model, &steps)?;
+    let Solved { case, model, solution } = eigenvalues::solved(case, cea, Some(&steps))?;
+    let case = &*case;
     refuse_no_modes(case, cea, &solution.sweep)?;
 
     bar.finish_and_clear();

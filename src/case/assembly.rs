@@ -14,7 +14,7 @@ use super::suggestion;
 use super::tables::TableFiles;
 use super::value::quote;
 use crate::contact::{
-    ContactStiffness, Counterpart, Motion, RigidCounterface, RigidMotion, SlidingContact,
+    ContactStiffness, Counterpart, Motion, PointKind, RigidCounterface, RigidMotion, SlidingContact,
 };
 use crate::fem::{MaterialField, PlaneFormulation, RotationFrame, TabledMaterial};
 use crate::mesh::{BodyError, CyclicSymmetry, Mesh};
@@ -59,8 +59,8 @@ impl AssemblyBody {
         &'a self,
         materials: &'a dyn MaterialField,
     ) -> Result<Assembly<'a>, PrestressError> {
-        let (mesh, ties, contacts) = (&self.mesh, &self.ties, &self.contacts);
-        Assembly::at_nodes(mesh, materials, ties, contacts, &self.motions, self.base)
+        let (surfaces, at_nodes) = ((&self.ties[..], &self.contacts[..]), Some(PointKind::Nodes));
+        Assembly::with_points(&self.mesh, materials, surfaces, (&self.motions, self.base), at_nodes)
     }
 }
 

@@ -12,9 +12,7 @@ use super::{Case, Revolution};
 use crate::contact::{Counterpart, SlidingContact};
 use crate::fem::{assemble_stiffness, sector};
 use crate::mesh::{SectorMesh, SolidSector};
-use crate::prestress::{
-    PrestressError, SectorSliding, SolidSliding, SteadySliding, supported_stiffness,
-};
+use crate::prestress::{PrestressError, SectorSliding, SolidSliding, SteadySliding};
 
 /// Factor of the steps up to an interference that presses enough.
 const STEP: f64 = 4.0;
@@ -156,8 +154,8 @@ impl Case {
         let pressed = match &self.body {
             Body::Annulus(annulus) => {
                 let mesh = SectorMesh::generate(&annulus.specification).map_err(in_words)?;
-                let stiffness = supported_stiffness(&mesh, &annulus.materials);
-                let base = SectorSliding::solve(&mesh, &stiffness, &contact, law);
+                let elastic = sector::stiffness(&mesh, &annulus.materials);
+                let base = SectorSliding::solve(&mesh, &elastic, &contact, law);
                 let whole = self.thickness * mesh.sector_count() as f64;
                 base.map(|base| vec![whole * base.state.normal_forces[0].iter().sum::<f64>()])
             }

@@ -37,7 +37,7 @@ pub struct SweepRequest<'a> {
     pub shapes_at: &'a [f64],
     /// Those of them at which left vectors are wanted too; at critical friction where there are any.
     pub lefts_at: &'a [f64],
-    /// Whether the modes of a whole mesh are counted by the argument principle, too.
+    /// Whether modes are counted by the argument principle under friction, too.
     pub count_modes: bool,
     /// Whether it goes on from a sweep that ends at its first friction coefficient: branches begin there, not without friction, and
     /// their names are for the caller to give.

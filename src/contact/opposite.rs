@@ -1,6 +1,6 @@
 //! Coupling of a contact edge to the edge of another body, whose mesh need not match.
 
-use crate::mesh::{Counterface, Mesh};
+use crate::mesh::{Counterface, FaceKind, Mesh};
 use std::collections::BTreeMap;
 
 /// Part that a dof of the opposite body has in what a contact node meets.
@@ -123,17 +123,9 @@ impl Edge {
     /// Shape functions and their derivatives by the arc at a share `0..1` of the way from the first to the second end.
     fn shapes(&self, share: f64) -> Vec<(usize, f64, f64)> {
         let (s, slope) = (2.0 * share - 1.0, 2.0 / self.extent);
-        let of: &[(f64, f64)] = if self.nodes.len() == 3 {
-            &[
-                (0.5 * s * (s - 1.0), s - 0.5),
-                (0.5 * s * (s + 1.0), s + 0.5),
-                (1.0 - s * s, -2.0 * s),
-            ]
-        } else {
-            &[(0.5 * (1.0 - s), -0.5), (0.5 * (1.0 + s), 0.5)]
-        };
-        let nodes = self.nodes.iter().zip(of);
-        nodes.map(|(&node, &(value, rate))| (node, value, rate * slope)).collect()
+        let kind = if self.nodes.len() == 3 { FaceKind::Line3 } else { FaceKind::Line2 };
+        let nodes = self.nodes.iter().zip(kind.shape_functions([s, 0.0]));
+        nodes.map(|(&node, (value, rates))| (node, value, rates[0] * slope)).collect()
     }
 
     /// The part of this edge that has `other` before it, as shares of the way: `None` where they do not meet.

@@ -145,7 +145,9 @@ pub fn assemble_geometric_stiffness(
     material: &dyn MaterialField,
     base: &[f64],
 ) -> Triplets {
-    geometric_stiffness_of(mesh, material, base, &|_| true)
+    sum_of_elements(mesh, &|_| true, |e| {
+        element::geometric_stiffness(mesh, e, material.of(mesh.region(e)), base)
+    })
 }
 
 /// What the displacements `base` (all dofs, nodal frames, m) add to the elastic stiffness of the elements, N/m: beside
@@ -155,12 +157,9 @@ pub fn assemble_displacement_stiffness(
     material: &dyn MaterialField,
     base: &[f64],
 ) -> Triplets {
-    let mut sum = ElementSum::new(mesh, &|_| true);
-    for e in 0..mesh.element_count() {
-        let matrix = element::displacement_stiffness(mesh, e, material.of(mesh.region(e)), base);
-        sum.add(e, &matrix);
-    }
-    sum.finish()
+    sum_of_elements(mesh, &|_| true, |e| {
+        element::displacement_stiffness(mesh, e, material.of(mesh.region(e)), base)
+    })
 }
 
 /// [`assemble_geometric_stiffness`] of the elements of one region alone.
@@ -170,20 +169,18 @@ pub fn assemble_region_geometric_stiffness(
     base: &[f64],
     region: usize,
 ) -> Triplets {
-    geometric_stiffness_of(mesh, material, base, &|e| mesh.region(e) == region)
+    sum_of_elements(mesh, &|e| mesh.region(e) == region, |e| {
+        element::geometric_stiffness(mesh, e, material.of(region), base)
+    })
 }
 
-fn geometric_stiffness_of(
+fn sum_of_elements(
     mesh: &Mesh,
-    material: &dyn MaterialField,
-    base: &[f64],
     keep: &dyn Fn(usize) -> bool,
+    compute: impl Fn(usize) -> DMatrix<f64>,
 ) -> Triplets {
     let mut sum = ElementSum::new(mesh, keep);
-    for e in (0..mesh.element_count()).filter(|&e| keep(e)) {
-        let matrix = element::geometric_stiffness(mesh, e, material.of(mesh.region(e)), base);
-        sum.add(e, &matrix);
-    }
+    (0..mesh.element_count()).filter(|&e| keep(e)).for_each(|e| sum.add(e, &compute(e)));
     sum.finish()
 }
 

@@ -74,11 +74,6 @@ impl ElementGeometry {
         }
     }
 
-    /// An element with nodes at `points` and with their frames.
-    pub fn of_nodes(kind: ElementKind, points: Vec<[f64; 3]>, frames: Vec<Matrix3<f64>>) -> Self {
-        Self { kind, points, frames }
-    }
-
     /// Number of nodes.
     pub fn node_count(&self) -> usize {
         self.points.len()

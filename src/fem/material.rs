@@ -199,12 +199,6 @@ impl ElasticMaterial {
         [lambda, e / (2.0 * (1.0 + nu))]
     }
 
-    /// Lamé constants `[lambda, G]` of the solid, Pa.
-    pub fn solid_lame_constants(&self) -> [f64; 2] {
-        let solid = Self { formulation: PlaneFormulation::ThreeDimensional, ..*self };
-        solid.lame_constants()
-    }
-
     /// Elasticity matrix `D` in `sigma = D epsilon` at a place, Pa, over `(xx, yy, zz, xy, yz, zx)` with engineering shear
     /// strains `2 epsilon_xy, ...`; what a plane formulation says of the third direction is in it, so that strains of a plane
     /// body, which have none, give its stresses in the plane.

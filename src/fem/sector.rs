@@ -4,63 +4,49 @@
 
 use super::element::ElementGeometry;
 use super::fold::{SectorMatrix, WaveDofs};
+use super::solid::{FaceTerm, face_matrix, whole_element};
 use super::{ElasticMaterial, MassKind, MaterialField, RayleighDamping};
-use crate::mesh::{SectorMesh, SolidSector};
-use nalgebra::{DMatrix, DVector, Matrix3};
+use crate::mesh::{BoundaryCondition, Mesh, NodalSupport, SectorMesh, SolidFace, SolidSector};
+use nalgebra::{DMatrix, DVector};
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
-/// One sector of a body of equal sectors, element by element.
+/// One sector of a body of equal sectors.
 pub trait Sectored {
-    /// Components of a displacement.
-    const COMPONENTS: usize;
+    /// Its elements, with the nodes of the sector and of the next one, in equal order.
+    fn strip(&self) -> &Mesh;
 
-    /// Elements of the sector.
-    fn element_count(&self) -> usize;
-
-    /// Regions with a material each.
-    fn region_count(&self) -> usize;
-
-    /// Region of an element.
-    fn region(&self, element: usize) -> usize;
-
-    /// The first element of the region that has the same matrices in the frames of its nodes.
-    fn alike(&self, element: usize) -> usize {
-        element
-    }
-
-    /// Sector nodes of an element with their angles in halves of a sector.
-    fn places(&self, element: usize) -> Vec<(usize, usize)>;
-
-    /// Geometry of an element, in the frames of its nodes.
-    fn geometry(&self, element: usize) -> ElementGeometry;
+    /// Sector node of a node of the strip, and its angle in halves of a sector.
+    fn place(&self, node: usize) -> (usize, usize);
 
     /// The dofs that nothing holds.
     fn wave_dofs(&self) -> WaveDofs;
+
+    /// Each supported boundary.
+    fn supports(&self) -> Vec<SectorSupport>;
+
+    /// The same with nothing that holds it.
+    fn unheld(&self) -> Self;
+}
+
+/// A supported boundary of a sector.
+#[derive(Clone, Debug)]
+pub struct SectorSupport {
+    /// Its name.
+    pub name: String,
+    /// Springs and dashpots: N/m and N s/m, in the plane Pa and Pa s.
+    pub terms: [SectorMatrix; 2],
+    /// Structural damping of the springs.
+    pub loss_factor: f64,
 }
 
 impl Sectored for SectorMesh {
-    const COMPONENTS: usize = 2;
-
-    fn element_count(&self) -> usize {
-        self.strip.element_count()
+    fn strip(&self) -> &Mesh {
+        &self.strip
     }
 
-    fn region_count(&self) -> usize {
-        self.strip.regions.len().max(1)
-    }
-
-    fn region(&self, element: usize) -> usize {
-        self.strip.region(element)
-    }
-
-    fn places(&self, element: usize) -> Vec<(usize, usize)> {
-        let nodes = self.strip.element_nodes(element).iter().map(|&node| node as usize);
-        nodes.map(|node| (self.sector_node_of[node], self.half_steps[node])).collect()
-    }
-
-    fn geometry(&self, element: usize) -> ElementGeometry {
-        ElementGeometry::new(&self.strip, element)
+    fn place(&self, node: usize) -> (usize, usize) {
+        (self.sector_node_of[node], self.half_steps[node])
     }
 
     fn wave_dofs(&self) -> WaveDofs {
@@ -71,42 +57,54 @@ impl Sectored for SectorMesh {
         let (dofs, sectors) = (2 * self.node_count(), self.sector_count());
         WaveDofs::new(dofs, |dof| dof >= free, of_one_body + pair, sectors)
     }
+
+    fn supports(&self) -> Vec<SectorSupport> {
+        let boundaries = &self.strip.boundaries;
+        let of = |own: usize| {
+            let BoundaryCondition::Support(support) = boundaries[own].condition else {
+                return None;
+            };
+            // The sector with this support alone.
+            let mut alone = self.strip.clone();
+            for (other, boundary) in alone.boundaries.iter_mut().enumerate() {
+                if other != own {
+                    boundary.condition = BoundaryCondition::Free;
+                }
+            }
+            let nodal = alone.nodal_supports();
+            let sum = |part: fn(&NodalSupport) -> [[f64; 2]; 2]| {
+                let own = nodal.iter().map(|support| {
+                    let matrix = part(support);
+                    let node = [(self.sector_node_of[support.node], 0)];
+                    (node, DMatrix::from_fn(2, 2, |row, column| matrix[row][column]))
+                });
+                SectorMatrix::sum(2, own)
+            };
+            let terms = [sum(|support| support.stiffness), sum(|support| support.damping)];
+            let name = boundaries[own].name.clone();
+            Some(SectorSupport { name, terms, loss_factor: support.loss_factor })
+        };
+        (0..boundaries.len()).filter_map(of).collect()
+    }
+
+    fn unheld(&self) -> Self {
+        let mut free = Self { clamped_count: 0, ..self.clone() };
+        free.specification.outer = BoundaryCondition::Free;
+        for boundary in &mut free.strip.boundaries {
+            boundary.condition = BoundaryCondition::Free;
+        }
+        free
+    }
 }
 
 impl Sectored for SolidSector {
-    const COMPONENTS: usize = 3;
-
-    fn element_count(&self) -> usize {
-        self.elements.len()
+    fn strip(&self) -> &Mesh {
+        &self.strip
     }
 
-    fn region_count(&self) -> usize {
-        1 + self.specification.parts.len()
-    }
-
-    fn region(&self, element: usize) -> usize {
-        self.region(element)
-    }
-
-    /// Layers of one material are alike.
-    fn alike(&self, element: usize) -> usize {
-        let mut layers = (element % self.divisions()[0]..element).step_by(self.divisions()[0]);
-        layers.find(|own| self.region(*own) == self.region(element)).unwrap_or(element)
-    }
-
-    fn places(&self, element: usize) -> Vec<(usize, usize)> {
-        self.elements[element].clone()
-    }
-
-    fn geometry(&self, element: usize) -> ElementGeometry {
-        let (mut points, mut frames) = (Vec::new(), Vec::new());
-        for &(node, half) in &self.elements[element] {
-            let place = &self.nodes[node];
-            let (sin, cos) = (self.half_angle() * half as f64).sin_cos();
-            points.push([place.radius * cos, place.radius * sin, place.height]);
-            frames.push(Matrix3::new(cos, -sin, 0.0, sin, cos, 0.0, 0.0, 0.0, 1.0));
-        }
-        ElementGeometry::of_nodes(self.element_kind(), points, frames)
+    fn place(&self, node: usize) -> (usize, usize) {
+        let (sector, node) = (node / self.node_count(), node % self.node_count());
+        (node, 2 * sector + self.nodes[node].half_step)
     }
 
     fn wave_dofs(&self) -> WaveDofs {
@@ -114,6 +112,36 @@ impl Sectored for SolidSector {
         let (dofs, sectors) = (3 * self.node_count(), self.sector_count());
         WaveDofs::new(dofs, |dof| self.is_held(dof), half_bandwidth, sectors)
     }
+
+    fn supports(&self) -> Vec<SectorSupport> {
+        supported_faces(self)
+    }
+
+    fn unheld(&self) -> Self {
+        let mut free = self.clone();
+        free.specification.conditions = [BoundaryCondition::Free; 4];
+        free
+    }
+}
+
+/// Regions of a sector, with a material each.
+pub fn region_count<S: Sectored>(sector: &S) -> usize {
+    sector.strip().regions.len().max(1)
+}
+
+/// Sector nodes of an element with their angles in halves of a sector.
+fn places<S: Sectored>(sector: &S, element: usize) -> Vec<(usize, usize)> {
+    let nodes = sector.strip().element_nodes(element).iter();
+    nodes.map(|&node| sector.place(node as usize)).collect()
+}
+
+/// Springs and dashpots of all supports of a sector together.
+pub fn supports<S: Sectored>(sector: &S) -> [SectorMatrix; 2] {
+    let all = sector.supports();
+    [0, 1].map(|part| {
+        let own = all.iter().map(|own| &own.terms[part]);
+        own.fold(SectorMatrix::default(), |sum, own| sum.plus(own))
+    })
 }
 
 /// Sums the element matrices `compute(e, material)` (nodal frames) of the elements of a region, or of all.
@@ -124,14 +152,16 @@ fn assemble<S: Sectored>(
     compute: impl Fn(&ElementGeometry, &ElasticMaterial) -> DMatrix<f64>,
 ) -> SectorMatrix {
     let mut known: BTreeMap<usize, Rc<DMatrix<f64>>> = BTreeMap::new();
+    let strip = sector.strip();
     let mut matrix_of = |e: usize| {
-        let own = sector.alike(e);
-        let new = || Rc::new(compute(&sector.geometry(own), material.of(sector.region(own))));
+        let own = strip.congruent_to[e] as usize;
+        let geometry = || ElementGeometry::new(strip, own);
+        let new = || Rc::new(compute(&geometry(), material.of(strip.region(own))));
         Rc::clone(known.entry(own).or_insert_with(new))
     };
-    let is_own = |e: &usize| region.is_none_or(|region| sector.region(*e) == region);
-    let elements = (0..sector.element_count()).filter(is_own);
-    SectorMatrix::sum(S::COMPONENTS, elements.map(|e| (sector.places(e), matrix_of(e))))
+    let is_own = |e: &usize| region.is_none_or(|region| strip.region(*e) == region);
+    let elements = (0..strip.element_count()).filter(is_own);
+    SectorMatrix::sum(strip.dimension, elements.map(|e| (places(sector, e), matrix_of(e))))
 }
 
 /// Elastic stiffness `K_e` of one sector without its supports, or of one of its regions: N/m, in the plane Pa.
@@ -159,7 +189,7 @@ pub fn mass_of<S: Sectored>(
         MassKind::Consistent => geometry.consistent_mass(own),
         MassKind::Lumped => {
             let masses = geometry.lumped_mass(own).into_iter();
-            let each = masses.flat_map(|mass| [mass; 3].into_iter().take(S::COMPONENTS));
+            let each = masses.flat_map(|mass| [mass; 3].into_iter().take(geometry.dimension()));
             DMatrix::from_diagonal(&DVector::from_vec(each.collect()))
         }
     })
@@ -178,7 +208,7 @@ pub fn extra_damping<S: Sectored>(
     kind: MassKind,
     common: RayleighDamping,
 ) -> SectorMatrix {
-    let regions = 0..sector.region_count();
+    let regions = 0..region_count(sector);
     let own = regions.filter_map(|r| Some((r, material.own_damping(r)?)).filter(|o| o.1 != common));
     let terms = own.flat_map(|(region, own)| {
         let alpha = own.mass_coefficient - common.mass_coefficient;
@@ -200,18 +230,64 @@ pub fn geometric_stiffness<S: Sectored>(
     region: usize,
     displacement: &[f64],
 ) -> SectorMatrix {
-    let mut known: BTreeMap<usize, Option<DMatrix<f64>>> = BTreeMap::new();
-    let own = material.of(region);
-    let elements = (0..sector.element_count()).filter(|e| sector.region(*e) == region);
+    let mut known: BTreeMap<u32, Option<DMatrix<f64>>> = BTreeMap::new();
+    let (own, strip) = (material.of(region), sector.strip());
+    let elements = (0..strip.element_count()).filter(|e| strip.region(*e) == region);
     let matrices = elements.map(|e| {
-        let (nodes, alike) = (sector.places(e), sector.alike(e));
-        let dofs = nodes.iter().flat_map(|(node, _)| (0..S::COMPONENTS).map(move |c| (node, c)));
-        let values = dofs.map(|(node, c)| displacement[S::COMPONENTS * node + c]);
-        let values = DVector::from_iterator(S::COMPONENTS * nodes.len(), values);
-        let recovered = known.entry(alike).or_insert_with(|| sector.geometry(alike).recovered(own));
+        let (nodes, geometry) = (places(sector, e), ElementGeometry::new(strip, e));
+        let dofs = nodes.iter().flat_map(|(node, _)| (0..strip.dimension).map(move |c| (node, c)));
+        let values = dofs.map(|(node, c)| displacement[strip.dimension * node + c]);
+        let values = DVector::from_iterator(strip.dimension * nodes.len(), values);
+        let alike = strip.congruent_to[e];
+        let recovered = || ElementGeometry::new(strip, alike as usize).recovered(own);
+        let recovered = known.entry(alike).or_insert_with(recovered);
         let internal = recovered.as_ref().map(|recovered| recovered * &values);
-        let geometry = sector.geometry(e);
         (nodes, geometry.geometric_stiffness(own, values.as_slice(), internal.as_ref()))
     });
-    SectorMatrix::sum(S::COMPONENTS, matrices)
+    SectorMatrix::sum(strip.dimension, matrices)
+}
+
+/// Each supported face.
+fn supported_faces(sector: &SolidSector) -> Vec<SectorSupport> {
+    let mut all = Vec::new();
+    for (face, condition) in SolidFace::ALL.into_iter().zip(&sector.specification.conditions) {
+        let BoundaryCondition::Support(support) = condition else {
+            continue;
+        };
+        let elements = sector.face_elements(face);
+        let (normal, across) = (face.normal_component(), face.across_component());
+        // Across, a face is tangential like around; a cylinder has its own word for it.
+        let is_cylinder = normal == 0;
+        let axial =
+            if is_cylinder { support.axial_stiffness } else { support.tangential_stiffness };
+        let axial_damping = if is_cylinder { 0.0 } else { support.tangential_damping };
+        let values = [
+            [
+                (normal, support.normal_stiffness),
+                (1, support.tangential_stiffness),
+                (across, axial),
+            ],
+            [
+                (normal, support.normal_damping),
+                (1, support.tangential_damping),
+                (across, axial_damping),
+            ],
+        ];
+        let mut terms = [SectorMatrix::default(), SectorMatrix::default()];
+        for (sum, values) in terms.iter_mut().zip(values) {
+            for (component, value) in values.into_iter().filter(|(_, value)| *value != 0.0) {
+                let term = FaceTerm {
+                    row: component,
+                    column: component,
+                    weight: &|_, _, _| value,
+                    span: &whole_element,
+                    is_nodal: false,
+                };
+                *sum = sum.plus(&face_matrix(sector, &elements, &term));
+            }
+        }
+        let name = face.name().to_owned();
+        all.push(SectorSupport { name, terms, loss_factor: support.loss_factor });
+    }
+    all
 }

@@ -1,7 +1,7 @@
 //! Terms on the faces of a body of revolution in three dimensions: contact, supports, pressure.
 
 use super::fold::SectorMatrix;
-use crate::mesh::{FaceElement, SolidSector, face_quadrature};
+use crate::mesh::{BoundaryCondition, FaceElement, SolidFace, SolidSector, face_quadrature};
 use nalgebra::DMatrix;
 
 /// A term `∫ w d_row (d_column . u) dA` on a face: a force along one direction for each unit of motion along another.
@@ -103,6 +103,19 @@ pub fn face_load(sector: &SolidSector, faces: &[FaceElement], component: usize) 
                     load[3 * node + c] += area * value * part;
                 }
             }
+        }
+    }
+    load
+}
+
+/// Forces of the pressures on the faces, the same in every sector, N.
+pub fn pressure_load(sector: &SolidSector) -> Vec<f64> {
+    let mut load = vec![0.0; 3 * sector.node_count()];
+    for (face, condition) in SolidFace::ALL.into_iter().zip(&sector.specification.conditions) {
+        if let BoundaryCondition::Pressure(pressure) = condition {
+            let unit = face_load(sector, &sector.face_elements(face), face.normal_component());
+            let factor = pressure * face.inward_sign();
+            load.iter_mut().zip(unit).for_each(|(sum, value)| *sum += factor * value);
         }
     }
     load

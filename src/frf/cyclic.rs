@@ -54,7 +54,7 @@ pub fn cyclic_response(
     let response = system.place(response, "response_node")?;
     let mut receptance = vec![c64::new(0.0, 0.0); frequencies_hz.len()];
     let mut backward_error = 0.0_f64;
-    let all: Vec<usize> = (0..=system.sector_count() / 2).collect();
+    let all: Vec<usize> = (0..=system.tangent.largest_harmonic()).collect();
     for numbers in all.chunks(system.harmonics_at_once(HARMONICS_AT_ONCE, ENTRIES_AT_ONCE)) {
         let waves: Vec<Wave> =
             numbers.par_iter().map(|&n| Wave::new(system, n, force, response)).collect();
@@ -65,7 +65,7 @@ pub fn cyclic_response(
             .collect::<Result<_, _>>()?;
         backward_error = errors.into_iter().fold(backward_error, f64::max);
     }
-    let share = 1.0 / system.sector_count() as f64;
+    let share = 1.0 / system.dofs.sectors as f64;
     receptance.iter_mut().for_each(|h| *h *= share);
     Ok(CyclicResponse { receptance, backward_error })
 }
@@ -88,7 +88,7 @@ struct Wave {
 impl Wave {
     fn new(system: &CyclicSystem, n: usize, force: Place, response: Place) -> Self {
         let (bands, proportional) = system.harmonic(n);
-        let sectors = system.sector_count();
+        let sectors = system.dofs.sectors;
         // Modulo a full turn, so that high harmonics lose no digits.
         let steps = response.half_steps + 2 * sectors - force.half_steps;
         let turns = (n * steps) % (2 * sectors);
@@ -108,7 +108,7 @@ impl Wave {
             all.all(|band| band.iter().all(|value| value.im == 0.0))
         };
         Self {
-            is_standing: n == 0 || 2 * n == sectors,
+            is_standing: system.tangent.is_standing(n),
             is_real,
             force: force.unknown,
             response: response.unknown,
@@ -128,7 +128,7 @@ struct Lines<'a> {
 
 impl<'a> Lines<'a> {
     fn new(system: &CyclicSystem, frequencies_hz: &'a [f64]) -> Self {
-        Self { frequencies_hz, dimension: system.harmonic_dimension(), batch: None }
+        Self { frequencies_hz, dimension: system.dofs.count, batch: None }
     }
 
     /// Adds the waves' shares of the response; returns the largest backward error.

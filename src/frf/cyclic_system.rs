@@ -2,16 +2,17 @@
 
 use super::{Direction, FrfError, Terminal};
 use crate::fem::fold::WaveDofs;
+use crate::fem::sector::Sectored;
 use crate::fem::{MassKind, MaterialField, RayleighDamping};
-use crate::prestress::{MovingHarmonic, WaveSector, WaveTangent};
+use crate::prestress::{MovingHarmonic, WaveTangent};
 
 /// [`super::FrfSystem`] of an annulus or of a body of revolution, as the matrices of its circumferential harmonics.
 #[derive(Clone, Debug)]
 pub struct CyclicSystem {
-    tangent: WaveTangent,
+    pub(super) tangent: WaveTangent,
     friction_coefficient: f64,
     /// Dofs of the sector that can be excited and observed.
-    dofs: WaveDofs,
+    pub(super) dofs: WaveDofs,
 }
 
 /// Where a terminal lies.
@@ -26,7 +27,7 @@ pub(super) struct Place {
 impl CyclicSystem {
     /// The body without contact and prestress, held by its supports or all of it free, `C = alpha_R M + beta_R K` and the dashpots of
     /// its supports.
-    pub fn body<S: WaveSector>(
+    pub fn body<S: Sectored>(
         sector: &S,
         material: &dyn MaterialField,
         mass: MassKind,
@@ -51,7 +52,7 @@ impl CyclicSystem {
 
     /// Number of unknowns of the annulus.
     pub fn dimension(&self) -> usize {
-        self.dofs.count * self.sector_count()
+        self.dofs.count * self.dofs.sectors
     }
 
     /// Checks that a terminal can move; `key` is the case key of its node.
@@ -60,15 +61,6 @@ impl CyclicSystem {
     /// [`FrfError::NoNode`], or [`FrfError::Constrained`] where the boundary holds it.
     pub fn check(&self, terminal: Terminal, key: &'static str) -> Result<(), FrfError> {
         self.place(terminal, key).map(|_| ())
-    }
-
-    /// Number of unknowns of one harmonic.
-    pub(super) fn harmonic_dimension(&self) -> usize {
-        self.dofs.count
-    }
-
-    pub(super) fn sector_count(&self) -> usize {
-        self.dofs.sectors
     }
 
     /// How many harmonics are held at a time: at most `count`, and few where their bands have many entries.
@@ -83,7 +75,7 @@ impl CyclicSystem {
     /// [`FrfError::NoNode`], or [`FrfError::Constrained`] where the boundary holds it.
     pub(super) fn place(&self, terminal: Terminal, key: &'static str) -> Result<Place, FrfError> {
         let per_sector = self.tangent.nodes.len();
-        let count = per_sector * self.sector_count();
+        let count = per_sector * self.dofs.sectors;
         let node = terminal.node + 1;
         if node > count {
             return Err(FrfError::NoNode { key, node, count });

@@ -1,7 +1,7 @@
 //! Krylov spaces in which many lines are solved at once.
 
 use crate::linalg::{ComplexDenseLu, Mat, c64};
-use std::ops::Mul;
+use std::ops::{Mul, SubAssign};
 
 /// Relative residual of the projected systems at which the space is large enough.
 const RESIDUAL: f64 = 1e-15;
@@ -9,15 +9,15 @@ const RESIDUAL: f64 = 1e-15;
 const STRIDE: usize = 6;
 
 /// Real or complex entries of vectors.
-pub(super) trait Entry: Copy + Into<c64> + Mul<f64, Output = Self> {
+pub(super) trait Entry:
+    Copy + Into<c64> + Mul<f64, Output = Self> + Mul<Output = Self> + SubAssign
+{
     /// Most vectors of a space: about what complex factorizations of all its lines cost.
     const MOST_VECTORS: usize;
     /// `a^H b`.
     fn dot(a: &[Self], b: &[Self]) -> Self;
-    /// `a -= factor b`.
-    fn subtract(a: &mut [Self], factor: Self, b: &[Self]);
-    /// `sum += factor b`.
-    fn add(sum: &mut [c64], factor: c64, b: &[Self]);
+    /// It times a factor.
+    fn times(self, factor: c64) -> c64;
 }
 
 impl Entry for f64 {
@@ -37,16 +37,8 @@ impl Entry for f64 {
         sums.iter().sum::<f64>() + rest
     }
 
-    fn subtract(a: &mut [f64], factor: f64, b: &[f64]) {
-        for (a, b) in a.iter_mut().zip(b) {
-            *a -= factor * b;
-        }
-    }
-
-    fn add(sum: &mut [c64], factor: c64, b: &[f64]) {
-        for (sum, b) in sum.iter_mut().zip(b) {
-            *sum += factor * *b;
-        }
+    fn times(self, factor: c64) -> c64 {
+        factor * self
     }
 }
 
@@ -68,16 +60,8 @@ impl Entry for c64 {
         c64::new(re.iter().sum(), im.iter().sum()) + rest
     }
 
-    fn subtract(a: &mut [c64], factor: c64, b: &[c64]) {
-        for (a, b) in a.iter_mut().zip(b) {
-            *a -= factor * b;
-        }
-    }
-
-    fn add(sum: &mut [c64], factor: c64, b: &[c64]) {
-        for (sum, b) in sum.iter_mut().zip(b) {
-            *sum += factor * b;
-        }
+    fn times(self, factor: c64) -> c64 {
+        factor * self
     }
 }
 
@@ -121,7 +105,7 @@ impl<T: Entry> KrylovSpace<T> {
     pub fn combined(&self, coordinates: &[c64], count: usize) -> Vec<c64> {
         let mut sum = vec![c64::new(0.0, 0.0); count];
         for (coordinate, vector) in coordinates.iter().zip(&self.vectors) {
-            T::add(&mut sum, *coordinate, vector);
+            sum.iter_mut().zip(vector).for_each(|(sum, b)| *sum += b.times(*coordinate));
         }
         sum
     }
@@ -135,7 +119,7 @@ impl<T: Entry> KrylovSpace<T> {
             for (coefficient, vector) in coefficients.iter_mut().zip(&self.vectors) {
                 let product = T::dot(vector, &image);
                 *coefficient += product.into();
-                T::subtract(&mut image, product, vector);
+                image.iter_mut().zip(vector).for_each(|(a, b)| *a -= product * *b);
             }
         }
         let left = norm(&image);

@@ -1,7 +1,7 @@
 //! Curves of element edges: their order and the lengths that belong to their nodes.
 
-use super::Mesh;
 use super::error::BodyError;
+use super::{FaceKind, Mesh};
 use frictionsim_formats::CurveEdge;
 use std::collections::BTreeMap;
 
@@ -138,22 +138,14 @@ impl EdgeWeights {
         const FAR: f64 = 0.774_596_669_241_483_4;
         for &(p, q, middle) in &curve.edges {
             let nodes: Vec<u32> = [p, q].into_iter().chain(middle).collect();
+            let kind = if middle.is_some() { FaceKind::Line3 } else { FaceKind::Line2 };
             for (s, weight) in [(-FAR, 5.0 / 9.0), (0.0, 8.0 / 9.0), (FAR, 5.0 / 9.0)] {
-                // Shape functions along the edge and their slopes at -1 <= s <= 1.
-                let shapes: Vec<(f64, f64)> = if middle.is_some() {
-                    vec![
-                        (0.5 * s * (s - 1.0), s - 0.5),
-                        (0.5 * s * (s + 1.0), s + 0.5),
-                        (1.0 - s * s, -2.0 * s),
-                    ]
-                } else {
-                    vec![(0.5 * (1.0 - s), -0.5), (0.5 * (1.0 + s), 0.5)]
-                };
+                let shapes = kind.shape_functions([s, 0.0]);
                 let mut tangent = [0.0; 2];
                 for (&node, shape) in nodes.iter().zip(&shapes) {
                     let [x, y] = mesh.plane_node(node as usize);
-                    tangent[0] += shape.1 * x;
-                    tangent[1] += shape.1 * y;
+                    tangent[0] += shape.1[0] * x;
+                    tangent[1] += shape.1[0] * y;
                 }
                 for (node, shape) in nodes.iter().zip(&shapes) {
                     let i = place[node];

@@ -5,7 +5,7 @@ use nalgebra::Matrix3;
 /// Local frame of each node.
 #[derive(Clone, Debug, PartialEq)]
 pub enum NodalFrames {
-    /// Of a plane body: angle by which `(e_1, e_2)` is turned counter-clockwise from the global axes, rad.
+    /// Of a plane body, or one of revolution: angle by which `(e_1, e_2)` is turned about z, rad.
     Plane(Vec<f64>),
     /// Of a solid body: unit vectors `e_1, e_2, e_3` as columns.
     Solid(Vec<Matrix3<f64>>),

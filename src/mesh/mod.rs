@@ -45,11 +45,12 @@ pub use repetition::repeated_file;
 pub use sector::SectorMesh;
 pub use solid::{
     ContactRing, FaceElement, SheetNode, SolidContact, SolidFace, SolidPart, SolidSector,
-    SolidSpecification, face_quadrature, face_shapes,
+    SolidSpecification, face_quadrature,
 };
 pub use specification::{AnnulusSpecification, MeshError, ShaftSpecification};
 
 use nalgebra::Matrix3;
+use std::collections::BTreeMap;
 
 /// Nodes, elements, regions and named boundaries of a body of two or three dimensions, or of several bodies.
 ///
@@ -239,30 +240,27 @@ impl Mesh {
 
     /// The body of each node, counted from the first: nodes that elements connect.
     pub fn bodies(&self) -> Vec<usize> {
-        // The lowest node that each is known to be connected with.
-        let mut lowest: Vec<usize> = (0..self.node_count()).collect();
-        let mut is_settled = false;
-        while !is_settled {
-            is_settled = true;
-            for element in 0..self.element_count() {
-                let nodes = self.element_nodes(element);
-                let least = nodes.iter().map(|&n| lowest[n as usize]).min();
-                for &node in nodes {
-                    let here = &mut lowest[node as usize];
-                    if least.is_some_and(|least| least < *here) {
-                        *here = least.unwrap_or(*here);
-                        is_settled = false;
-                    }
-                }
+        fn find(root: &mut [usize], mut node: usize) -> usize {
+            while root[node] != node {
+                root[node] = root[root[node]];
+                node = root[node];
             }
-            for node in 0..lowest.len() {
-                lowest[node] = lowest[lowest[node]];
+            node
+        }
+        let mut root: Vec<usize> = (0..self.node_count()).collect();
+        for element in 0..self.element_count() {
+            let nodes = self.element_nodes(element);
+            let first = find(&mut root, nodes[0] as usize);
+            for &node in nodes {
+                let other = find(&mut root, node as usize);
+                root[other] = first;
             }
         }
-        let mut firsts: Vec<usize> = lowest.clone();
-        firsts.sort_unstable();
-        firsts.dedup();
-        let number = |first| firsts.partition_point(|other| other < first);
-        lowest.iter().map(number).collect()
+        let mut numbers = BTreeMap::new();
+        let number = |node| {
+            let next = numbers.len();
+            *numbers.entry(find(&mut root, node)).or_insert(next)
+        };
+        (0..self.node_count()).map(number).collect()
     }
 }

@@ -166,7 +166,7 @@ impl Mesh {
     /// # Errors
     /// [`BodyError::Body`] names the part.
     pub fn check_held(&self) -> Result<(), BodyError> {
-        let part = self.connected_parts();
+        let part = self.bodies();
         let parts = part.iter().max().map_or(0, |&last| last + 1);
         let size = self.nodes.iter().fold(0.0_f64, |m, p| m.max(p[0].abs()).max(p[1].abs()));
         let mut held = vec![Matrix3::<f64>::zeros(); parts];
@@ -241,32 +241,5 @@ impl Mesh {
             }
         }
         Ok(())
-    }
-
-    /// For each node the number of its connected part.
-    fn connected_parts(&self) -> Vec<usize> {
-        let mut root: Vec<usize> = (0..self.node_count()).collect();
-        fn find(root: &mut [usize], mut node: usize) -> usize {
-            while root[node] != node {
-                root[node] = root[root[node]];
-                node = root[node];
-            }
-            node
-        }
-        for element in 0..self.element_count() {
-            let nodes = self.element_nodes(element);
-            let first = find(&mut root, nodes[0] as usize);
-            for &node in nodes {
-                let other = find(&mut root, node as usize);
-                root[other] = first;
-            }
-        }
-        let mut numbers = std::collections::BTreeMap::new();
-        (0..self.node_count())
-            .map(|node| {
-                let next = numbers.len();
-                *numbers.entry(find(&mut root, node)).or_insert(next)
-            })
-            .collect()
     }
 }

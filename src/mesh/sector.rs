@@ -84,16 +84,6 @@ impl SectorMesh {
         shaft.map(|_| contact_node - self.contact_count)
     }
 
-    /// The same sector with nothing that holds its outer edge.
-    pub fn with_free_outer_edge(mut self) -> Self {
-        self.clamped_count = 0;
-        self.specification.outer = BoundaryCondition::Free;
-        for boundary in &mut self.strip.boundaries {
-            boundary.condition = BoundaryCondition::Free;
-        }
-        self
-    }
-
     /// Nodes of one sector, clamped ones included.
     pub fn node_count(&self) -> usize {
         self.numbering.len()

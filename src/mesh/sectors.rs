@@ -173,20 +173,19 @@ fn boundaries(
         edges.push(("bore", &rays[0], false, shaft.bore));
     }
     let edges = edges.into_iter().map(|(name, ray, is_outer, condition)| {
-        let (nodes, tributary_lengths) = edge(spec, ray, is_outer, built).into_iter().unzip();
+        let (nodes, tributary_lengths): (Vec<u32>, Vec<f64>) =
+            edge(spec, ray, is_outer, built).into_iter().unzip();
         let turn = if is_outer { 0.0 } else { PI };
-        let mut boundary = Boundary {
+        let angles = nodes.iter().map(|&node| frame_angles[node as usize] + turn);
+        Boundary {
             name: name.to_owned(),
-            nodes,
             faces: Vec::new(),
-            tributary_lengths,
-            normal_angles: Vec::new(),
+            normal_angles: angles.collect(),
             is_closed: built == spec.circumferential_elements,
+            nodes,
+            tributary_lengths,
             condition,
-        };
-        let angles = boundary.nodes.iter();
-        boundary.normal_angles = angles.map(|&node| frame_angles[node as usize] + turn).collect();
-        boundary
+        }
     });
     edges.collect()
 }

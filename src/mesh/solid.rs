@@ -11,7 +11,7 @@ mod faces;
 mod specification;
 mod whole;
 
-pub use faces::{FaceElement, face_quadrature, face_shapes};
+pub use faces::{FaceElement, face_quadrature};
 pub use specification::{SolidContact, SolidFace, SolidPart, SolidSpecification};
 
 /// A node of one sector's sheets.
@@ -54,6 +54,8 @@ pub struct SolidSector {
     pub radii: Vec<f64>,
     /// Sector nodes of each element with their angle in halves of a sector, 0 to 2; radial index fastest.
     pub elements: Vec<Vec<(usize, usize)>>,
+    /// The elements; nodes of sectors 0 and 1 in turn, their frames along radius, tangent and axis.
+    pub strip: Mesh,
     /// The contact, by rising radius or height.
     pub rings: Vec<ContactRing>,
 }
@@ -75,10 +77,27 @@ impl SolidSector {
             nodes,
             radii,
             elements,
+            strip: Mesh::default(),
             rings: Vec::new(),
         };
+        sector.strip = sector.polar_strip();
         sector.rings = sector.contact_rings();
         Ok(sector)
+    }
+
+    fn polar_strip(&self) -> Mesh {
+        let mut strip = self.part(1);
+        let per_sector = self.node_count();
+        let angle = |node: usize| self.angle(node % per_sector, node / per_sector);
+        strip.frames = NodalFrames::Plane((0..strip.node_count()).map(angle).collect());
+        // Layers of one material are alike.
+        let radial = self.divisions()[0];
+        for element in 0..strip.element_count() {
+            let mut layers = (element % radial..element).step_by(radial);
+            let alike = layers.find(|own| strip.region(*own) == strip.region(element));
+            strip.congruent_to[element] = alike.unwrap_or(element) as u32;
+        }
+        strip
     }
 
     /// The plane section across the axis, clamped outside: corner nodes at the sector's radii.
@@ -212,20 +231,13 @@ impl SolidSector {
 
     fn contact_rings(&self) -> Vec<ContactRing> {
         let face = self.specification.contact.face();
-        let is_touched = |radius: f64| match self.specification.contact {
-            SolidContact::Inner => true,
-            SolidContact::Ring { inner_radius, outer_radius } => {
-                let slack = 1e-9 * self.specification.annulus.outer_radius;
-                radius >= inner_radius - slack && radius <= outer_radius + slack
-            }
-        };
         let areas = self.contact_areas();
         let along = face.across_component() / 2;
         let mut rings: Vec<(usize, ContactRing)> = Vec::new();
         for (k, node) in self.nodes.iter().enumerate() {
             // Nodes that something else holds along the normal take no part.
             let is_held = self.is_held(3 * k + face.normal_component());
-            if is_held || !self.is_on(k, face) || !is_touched(node.radius) {
+            if is_held || !self.is_on(k, face) || !self.specification.touches(node.radius) {
                 continue;
             }
             let place = node.place[along];
@@ -269,6 +281,17 @@ impl SolidSpecification {
     pub fn region_names(&self) -> Vec<String> {
         let parts = self.parts.iter().map(|part| part.name.clone());
         std::iter::once("disc".to_owned()).chain(parts).collect()
+    }
+
+    /// Whether the rotor touches the face of contact at a radius.
+    pub(super) fn touches(&self, radius: f64) -> bool {
+        match self.contact {
+            SolidContact::Inner => true,
+            SolidContact::Ring { inner_radius, outer_radius } => {
+                let slack = 1e-9 * self.annulus.outer_radius;
+                (inner_radius - slack..=outer_radius + slack).contains(&radius)
+            }
+        }
     }
 
     /// The grid of its section across the axis, clamped outside, wherever the body itself is held.

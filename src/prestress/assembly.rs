@@ -64,33 +64,20 @@ impl<'a> Assembly<'a> {
         motions: &[Motion],
         base: BaseChoice,
     ) -> Result<Self, PrestressError> {
-        let kind = |contact: &SlidingSurfaces| match contact.stiffness.normal_stiffness {
-            Some(_) => PointKind::Segments,
-            None => PointKind::Nodes,
-        };
-        Self::with_points(mesh, materials, (ties, contacts), (motions, base), &kind)
+        Self::with_points(mesh, materials, (ties, contacts), (motions, base), None)
     }
 
-    /// The same with all contact points at nodes, as a time step needs them: a point for each node of the finer surface, so
-    /// that the forces of points that stick are told apart.
-    pub fn at_nodes(
-        mesh: &'a Mesh,
-        materials: &'a dyn MaterialField,
-        ties: &[TiedSurfaces],
-        contacts: &[SlidingSurfaces],
-        motions: &[Motion],
-        base: BaseChoice,
-    ) -> Result<Self, PrestressError> {
-        let kind = |_: &SlidingSurfaces| PointKind::Nodes;
-        Self::with_points(mesh, materials, (ties, contacts), (motions, base), &kind)
-    }
-
-    fn with_points(
+    /// The same with all contact points of one kind. A time step needs them at nodes of the finer
+    /// surface, so that the forces of points that stick are told apart.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn with_points(
         mesh: &'a Mesh,
         materials: &'a dyn MaterialField,
         (ties, contacts): (&[TiedSurfaces], &[SlidingSurfaces]),
         (motions, base): (&[Motion], BaseChoice),
-        kind: &dyn Fn(&SlidingSurfaces) -> PointKind,
+        kind: Option<PointKind>,
     ) -> Result<Self, PrestressError> {
         let mut basis = Elimination::holding(mesh.dof_count(), mesh.held_dofs());
         for tie in ties {
@@ -112,7 +99,11 @@ impl<'a> Assembly<'a> {
             .iter()
             .map(|contact| {
                 let sides = (&mesh.boundaries[contact.surface], &contact.counter);
-                let (friction, kind) = (contact.friction, kind(contact));
+                let own = match contact.stiffness.normal_stiffness {
+                    Some(_) => PointKind::Segments,
+                    None => PointKind::Nodes,
+                };
+                let (friction, kind) = (contact.friction, kind.unwrap_or(own));
                 let measured = contact.topography.as_deref();
                 let surface = ContactSurface::of(mesh, sides, motions, friction, (kind, measured));
                 let surface = surface.map_err(|error| match contact.is_short_form() {

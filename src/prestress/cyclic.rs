@@ -4,7 +4,6 @@ use super::{SlidingTangent, TabledStiffness};
 use crate::fem::DofMap;
 use crate::linalg::{MatrixPolynomial, SparsityPattern, c64};
 use crate::mesh::CyclicSymmetry;
-use std::collections::BTreeSet;
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
@@ -90,7 +89,7 @@ impl<'a> CyclicTangent<'a> {
 
     /// Refuses matrices that differ from sector to sector.
     fn check_alike(&self) -> Result<(), String> {
-        let (size, whole) = (self.size(), self.whole);
+        let (size, total, whole) = (self.size(), self.at.len(), self.whole);
         let pattern = whole.stiffness.pattern();
         let mut named = vec![
             ("mass", &whole.mass),
@@ -100,44 +99,29 @@ impl<'a> CyclicTangent<'a> {
         named.extend(whole.structural.iter().map(|own| ("structural damping", own)));
         let tabled = whole.tabled.iter().map(|own| &own.stiffness);
         named.extend(tabled.map(|own| ("stiffness of a part with a table", own)));
-        for j in 1..self.count {
-            // Where the entries of sector 0 are in this one.
-            let copies = self.entries.iter().map(|entry| {
-                let column = (entry.sector + j) % self.count * size + entry.column;
-                pattern.position(self.at[j * size + entry.row], self.at[column])
-            });
-            let copies: Vec<Option<usize>> = copies.collect();
-            // Entries that sector 0 does not have must be round-off.
-            let known: BTreeSet<usize> = copies.iter().flatten().copied().collect();
-            let rows = (0..size)
-                .flat_map(|row| pattern.row(self.at[j * size + row]).map(move |own| (row, own.0)));
-            let others: Vec<_> = rows.filter(|(_, position)| !known.contains(position)).collect();
-            for (what, matrix) in named.iter().filter(|(_, matrix)| is_filled(matrix)) {
-                // Powers of mu that almost cancel are held to the others.
-                let mut largest = vec![0.0_f64; size];
-                for values in matrix.coefficients() {
-                    for entry in &self.entries {
-                        let row = &mut largest[entry.row];
-                        *row = row.max(values[entry.position].abs());
-                    }
-                }
-                let differs = matrix.coefficients().iter().any(|values| {
-                    let mut copied = self.entries.iter().zip(&copies);
-                    let is_beyond = |&(row, position): &(usize, usize)| {
-                        values[position].abs() > ALIKE * largest[row]
+        for (what, matrix) in named {
+            let pairs = matrix.coefficients().iter().map(|values| {
+                turned_pair(size, total, |x| {
+                    let mut own = vec![0.0; total];
+                    self.at.iter().zip(x).for_each(|(&unknown, value)| own[unknown] = *value);
+                    let row = |&unknown: &usize| {
+                        pattern.row(unknown).map(|(k, column)| values[k] * own[column]).sum()
                     };
-                    others.iter().any(is_beyond)
-                        || copied.any(|(entry, copy)| {
-                            let copy = copy.map_or(0.0, |position| values[position]);
-                            (copy - values[entry.position]).abs() > ALIKE * largest[entry.row]
-                        })
-                });
-                if differs {
-                    return Err(format!(
-                        "the {what} of sector {} differs from that of the first",
-                        j + 1
-                    ));
-                }
+                    self.at.iter().map(row).collect()
+                })
+            });
+            // Powers of mu that almost cancel are held to the others.
+            let pairs: Vec<[Vec<f64>; 2]> = pairs.collect();
+            let mut largest = vec![0.0_f64; size];
+            for (k, value) in pairs.iter().flat_map(|pair| pair[0].iter().enumerate()) {
+                largest[k % size] = largest[k % size].max(value.abs());
+            }
+            let differs = |[a, b]: &[Vec<f64>; 2]| {
+                (0..total).find(|&k| (a[k] - b[k]).abs() > ALIKE * largest[k % size])
+            };
+            if let Some(k) = pairs.iter().find_map(differs) {
+                let sector = k / size + 1;
+                return Err(format!("the {what} of sector {sector} differs from that before it"));
             }
         }
         Ok(())
@@ -252,7 +236,17 @@ impl<'a> CyclicTangent<'a> {
     }
 }
 
-fn is_filled(matrix: &MatrixPolynomial) -> bool {
-    let mut values = matrix.coefficients().iter().flatten();
-    values.any(|value| *value != 0.0)
+/// What a matrix over `total` places, `size` a sector, makes of a vector, turned by one sector, and
+/// what it makes of the vector turned: alike where the matrix is the same in all sectors.
+pub(super) fn turned_pair(
+    size: usize,
+    total: usize,
+    multiply: impl Fn(&[f64]) -> Vec<f64>,
+) -> [Vec<f64>; 2] {
+    // Any vector that has no symmetry of its own.
+    let own: Vec<f64> = (0..total).map(|k| (1.0 + k as f64).sqrt().fract() - 0.5).collect();
+    let turned = |values: &[f64]| -> Vec<f64> {
+        (0..total).map(|k| values[(k + total - size) % total]).collect()
+    };
+    [turned(&multiply(&own)), multiply(&turned(&own))]
 }

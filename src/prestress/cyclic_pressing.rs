@@ -3,6 +3,7 @@
 use super::PrestressError;
 use super::complementarity::{PressedRange, range};
 use super::condensed::CondensedContact;
+use super::cyclic::turned_pair;
 use super::elimination::Elimination;
 use super::penalty::PenaltyContact;
 use super::pressed_state::{PressedState, Pressing};
@@ -230,13 +231,7 @@ fn seen_from(sector: usize, row: &Row, size: usize, count: usize) -> SectorRow {
 
 /// Whether a matrix takes a vector that is turned by one sector to what it makes of the vector, turned.
 fn turns_with_body(matrix: &Triplets, size: usize, total: usize) -> bool {
-    // Any vector that has no symmetry of its own.
-    let own: Vec<f64> = (0..total).map(|dof| (1.0 + dof as f64).sqrt().fract() - 0.5).collect();
-    let turned = |values: &[f64]| -> Vec<f64> {
-        (0..total).map(|dof| values[(dof + total - size) % total]).collect()
-    };
-    let first = turned(&matrix.multiply(total, &own));
-    let second = matrix.multiply(total, &turned(&own));
+    let [first, second] = turned_pair(size, total, |x| matrix.multiply(total, x));
     let largest = first.iter().fold(0.0_f64, |m, value| m.max(value.abs()));
     let mut pairs = first.iter().zip(&second);
     pairs.all(|(a, b)| (a - b).abs() <= ALIKE * largest)

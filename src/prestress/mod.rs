@@ -37,7 +37,6 @@ mod tabled;
 mod tangent;
 mod wave_harmonic;
 mod wave_parts;
-mod wave_sector;
 mod wave_tangent;
 mod wave_terms;
 
@@ -56,5 +55,4 @@ pub use tabled::{LossGain, TabledGain, TabledStiffness};
 pub use tangent::{BodyTerms, ContactDofs, ContactPart, SlidingTangent};
 pub use wave_harmonic::{FrictionPolynomial, HarmonicTangent, MovingHarmonic, evaluate};
 pub use wave_parts::{HarmonicParts, PartForms};
-pub use wave_sector::{SectorSupport, WaveSector, pressure_load, supported_stiffness, supports};
 pub use wave_tangent::WaveTangent;

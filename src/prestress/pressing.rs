@@ -2,11 +2,13 @@
 
 use super::elimination::Elimination;
 use super::full_sliding::FullSliding;
-use super::{PressedState, PrestressError, pressure_load};
-use crate::contact::{NormalLaw, Point, SlidingContact, SteadyFriction};
+use super::solid::{SolidSliding, along_element, friction, pressed_span};
+use super::{PressedState, PrestressError};
+use crate::contact::{NormalLaw, Point, SlidingContact};
 use crate::fem::Triplets;
 use crate::fem::fold::SectorMatrix;
-use crate::fem::solid::{FaceTerm, face_matrix};
+use crate::fem::sector::supports;
+use crate::fem::solid::{FaceTerm, face_matrix, pressure_load};
 use crate::mesh::{ContactRing, FaceElement, SolidSector};
 
 /// Choices of what is pressed that are tried before the search is given up.
@@ -18,78 +20,35 @@ const LEAST_APPROACH: f64 = 1e-9;
 /// Change of `delta - u_n` relative to the largest at which springs are settled: Newton's method, whose next change is its square.
 const SETTLED: f64 = 1e-10;
 
-/// The values of the rings at the beginning, in the middle (of a quadratic element) and at the end of an element of the face.
-fn of_element(sector: &SolidSector, values: &[f64], element: &FaceElement) -> [f64; 3] {
-    let at = |node: usize| {
-        let mut rings = sector.rings.iter().zip(values);
-        let own = rings.find(|(ring, _)| ring.nodes.contains(&node));
-        own.map_or(0.0, |(_, value)| *value)
-    };
-    let [from, to] = [0, 2].map(|corner| at(element.nodes[corner].0));
-    match sector.is_quadratic() {
-        true => [from, at(element.nodes[5].0), to],
-        false => [from, 0.5 * (from + to), to],
-    }
-}
-
-/// What the rings have, along an element of the face from -1 to 1.
-pub(super) fn along_element(
-    sector: &SolidSector,
-    values: &[f64],
-    element: &FaceElement,
-    along: f64,
-) -> f64 {
-    let [from, middle, to] = of_element(sector, values, element);
-    let linear = 0.5 * ((1.0 - along) * from + (1.0 + along) * to);
-    if !sector.is_quadratic() {
-        return linear;
-    }
-    linear + (1.0 - along * along) * (middle - 0.5 * (from + to))
-}
-
-/// The part of an element along which the values of the rings are positive: between the roots of the parabola through them; of a
-/// linear element the ends that have positive values.
-pub(super) fn pressed_span(
-    sector: &SolidSector,
-    values: &[f64],
-    element: &FaceElement,
-) -> [f64; 2] {
-    let [from, middle, to] = of_element(sector, values, element);
-    let ends = [(-1.0, from), (1.0, to)].map(|(end, value)| if value > 0.0 { end } else { 0.0 });
-    if !sector.is_quadratic() || (from > 0.0 && to > 0.0) {
-        return ends;
-    }
-    // c + b s + a s^2
-    let (a, b, c) = (0.5 * (from + to) - middle, 0.5 * (to - from), middle);
-    let discriminant = b * b - 4.0 * a * c;
-    if discriminant <= 0.0 {
-        return [0.0; 2];
-    }
-    let q = -0.5 * (b + discriminant.sqrt().copysign(b));
-    let roots = [q / a, c / q];
-    let within = |root: &&f64| root.abs() <= 1.0;
-    match (from > 0.0, to > 0.0) {
-        (true, _) => [-1.0, *roots.iter().find(within).unwrap_or(&-1.0)],
-        (_, true) => [*roots.iter().find(within).unwrap_or(&1.0), 1.0],
-        // Pressed in the middle alone.
-        _ if roots.iter().filter(within).count() == 2 => {
-            [roots[0].min(roots[1]), roots[0].max(roots[1])]
+impl SolidSliding {
+    /// Solves the equilibrium with the elastic stiffness of one sector, to which supports and face pressures are added, with springs
+    /// of a `law` between face and rotor, where there are some.
+    ///
+    /// # Errors
+    /// [`PrestressError::Singular`] where nothing holds the body, [`PrestressError::GapEverywhere`] where no ring is pressed,
+    /// [`PrestressError::NoState`] where no set of pressed rings is found.
+    pub fn solve(
+        sector: &SolidSector,
+        elastic: &SectorMatrix,
+        contact: &SlidingContact,
+        law: Option<NormalLaw>,
+    ) -> Result<Self, PrestressError> {
+        let [springs, _] = supports(sector);
+        let stiffness = SectorMatrix::alike_in_all(&[elastic, &springs]);
+        let state = match law {
+            None => press_rigidly(sector, &stiffness, contact)?,
+            Some(law) => press_on_springs(sector, &stiffness, (contact, law))?,
+        };
+        if state.is_pressed.contains(&true) {
+            return Ok(state);
         }
-        _ => [0.0; 2],
+        let distances = state.approaches.iter().map(|approach| -approach);
+        Err(PrestressError::GapEverywhere {
+            total: sector.rings.len() * sector.sector_count(),
+            distance: distances.fold(f64::INFINITY, f64::min),
+            interference: contact.interference,
+        })
     }
-}
-
-/// Friction of steady sliding at a radius.
-type Friction<'a> = &'a dyn Fn(f64) -> SteadyFriction;
-
-/// The body pressed without friction, and what each unit of it shears.
-pub(super) struct Pressing {
-    pub displacement: Vec<f64>,
-    pub sheared: Vec<f64>,
-    pub normal_forces: Vec<(usize, f64)>,
-    pub is_pressed: Vec<bool>,
-    pub pressures: Vec<f64>,
-    pub approaches: Vec<f64>,
 }
 
 /// `delta - u_n` at each ring, the mean over its nodes, m.
@@ -104,19 +63,18 @@ fn approaches(sector: &SolidSector, interference: f64, displacement: &[f64]) -> 
 }
 
 /// Signorini's conditions ring by ring: the set of pressed ones.
-pub(super) fn press_rigidly(
+fn press_rigidly(
     sector: &SolidSector,
     stiffness: &Triplets,
     contact: &SlidingContact,
-    friction: Friction<'_>,
-) -> Result<Pressing, PrestressError> {
+) -> Result<SolidSliding, PrestressError> {
     let (load, rings) = (pressure_load(sector), &sector.rings);
     let mut is_pressed = vec![true; rings.len()];
     for _ in 0..SETS {
         let pressed = rings.iter().zip(&is_pressed).filter(|(_, pressed)| **pressed);
         let nodes = pressed.flat_map(|(ring, _)| ring.nodes.iter().copied());
         let nodes: Vec<usize> = nodes.collect();
-        let points: Vec<Point> = nodes.iter().map(|&n| point(sector, n, friction)).collect();
+        let points: Vec<Point> = nodes.iter().map(|&n| point(sector, n, contact)).collect();
         let full = FullSliding::new(stiffness, held(sector), &points)?;
         let PressedState { displacements, normal_forces, .. } =
             full.state(&load, contact.interference, None)?;
@@ -140,12 +98,16 @@ pub(super) fn press_rigidly(
             is_pressed = next;
             continue;
         }
-        let [displacement, sheared] = displacements.try_into().expect("two powers of friction");
-        return Ok(Pressing {
+        let [pressed_displacement, sheared_displacement] =
+            displacements.try_into().expect("two powers of friction");
+        return Ok(SolidSliding {
+            law: None,
+            sliding_direction: contact.sliding_direction(),
+            contact: *contact,
             normal_forces: nodes.into_iter().zip(normal_forces[0].iter().copied()).collect(),
             pressures: rings.iter().zip(&ring_forces).map(|(ring, f)| f / ring.area).collect(),
-            displacement,
-            sheared,
+            pressed_displacement,
+            sheared_displacement,
             is_pressed,
             approaches,
         });
@@ -154,12 +116,12 @@ pub(super) fn press_rigidly(
 }
 
 /// A node of the face as a contact point.
-fn point(sector: &SolidSector, node: usize, friction: Friction<'_>) -> Point {
+fn point(sector: &SolidSector, node: usize, contact: &SlidingContact) -> Point {
     let face = sector.specification.contact.face();
     Point {
         normal: vec![(3 * node + face.normal_component(), face.inward_sign())],
         slip: vec![(3 * node + 1, 1.0)],
-        friction: friction(sector.nodes[node].radius),
+        friction: friction(contact, sector.nodes[node].radius),
         ..Point::default()
     }
 }
@@ -173,12 +135,11 @@ fn held(sector: &SolidSector) -> Elimination {
 /// Springs that push and do not pull, `K u + int k (u_n - delta + g) n dA = f + int s g n dA` over the points of the face where
 /// they are pressed, `s g = p(g)`: Newton's method on the approach `g` of the rings, so that the tangent of the eigenvalue analysis
 /// is the derivative of this state.
-pub(super) fn press_on_springs(
+fn press_on_springs(
     sector: &SolidSector,
     stiffness: &Triplets,
     (contact, law): (&SlidingContact, NormalLaw),
-    friction: Friction<'_>,
-) -> Result<Pressing, PrestressError> {
+) -> Result<SolidSliding, PrestressError> {
     let face = sector.specification.contact.face();
     let (inward, component) = (face.inward_sign(), face.normal_component());
     let load = pressure_load(sector);
@@ -224,15 +185,18 @@ pub(super) fn press_on_springs(
         across.for_each(|dof| basis.drop_unknown(dof));
         let mut drag = vec![0.0; own.len()];
         for (node, force) in &normal_forces {
-            drag[3 * node + 1] = friction(sector.nodes[*node].radius).drag * force;
+            drag[3 * node + 1] = friction(contact, sector.nodes[*node].radius).drag * force;
         }
-        return Ok(Pressing {
-            sheared: FullSliding::new(stiffness, basis, &[])?.solve(&drag),
+        return Ok(SolidSliding {
+            law: Some(law),
+            sliding_direction: contact.sliding_direction(),
+            contact: *contact,
+            sheared_displacement: FullSliding::new(stiffness, basis, &[])?.solve(&drag),
             normal_forces,
             is_pressed: found.iter().map(|approach| *approach > 0.0).collect(),
             pressures: found.iter().map(|g| law.pressure(g.max(0.0))).collect(),
             approaches: found,
-            displacement,
+            pressed_displacement: displacement,
         });
     }
     Err(PrestressError::NoState { friction_coefficient: contact.friction_coefficient })

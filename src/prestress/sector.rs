@@ -6,6 +6,7 @@ use super::full_sliding::{FullSliding, check_pressed};
 use super::pressed_state::PressedState;
 use crate::contact::{NormalLaw, Point, Row, SlidingContact, SteadyFriction};
 use crate::fem::fold::SectorMatrix;
+use crate::fem::sector::supports;
 use crate::mesh::SectorMesh;
 
 /// The state of steady sliding of an annulus, the same in every sector.
@@ -23,7 +24,8 @@ pub struct SectorSliding {
 }
 
 impl SectorSliding {
-    /// Solves the equilibrium with the elastic stiffness of one sector, on contact that stiffens with pressure, if there is a `law`.
+    /// Solves the equilibrium with the elastic stiffness of one sector, to which it adds supports,
+    /// on contact that stiffens with pressure, if there is a `law`.
     ///
     /// # Errors
     /// [`PrestressError::Separation`] where a node would open, [`PrestressError::Singular`] for a
@@ -38,7 +40,8 @@ impl SectorSliding {
         let surface_speed = sector.specification.inner_radius * contact.rotation_speed;
         let friction = contact.steady_friction(sliding_direction, surface_speed);
         let points = points(sector, friction);
-        let stiffness = SectorMatrix::alike_in_all(&[elastic]);
+        let [springs, _] = supports(sector);
+        let stiffness = SectorMatrix::alike_in_all(&[elastic, &springs]);
         let (free, dofs) = (2 * sector.free_node_count(), 2 * sector.node_count());
         let basis = Elimination::holding(dofs, free..dofs);
         let full = FullSliding::new(&stiffness, basis, &points)?;

@@ -3,7 +3,7 @@
 use super::solid_contact::ContactTerms;
 use super::wave_tangent::WaveContact;
 use super::wave_terms::WaveTerms;
-use super::{PrestressError, SectorSliding, TangentOptions, WaveTangent, supports};
+use super::{PrestressError, SectorSliding, TangentOptions, WaveTangent};
 use crate::contact::SlidingContact;
 use crate::fem::MaterialField;
 use crate::fem::fold::SectorMatrix;
@@ -25,10 +25,7 @@ impl WaveTangent {
         contact: &SlidingContact,
     ) -> Result<Self, PrestressError> {
         let mut terms = WaveTerms::of(sector, material, (options.mass, options.damping));
-        // The state that all parts have together.
-        let [springs, _] = supports(sector);
-        let supported = terms.elastic().plus(&springs);
-        let base = SectorSliding::solve(sector, &supported, contact, options.contact.law)?;
+        let base = SectorSliding::solve(sector, &terms.elastic(), contact, options.contact.law)?;
         let edge = Edge { sector, base: &base };
         if options.geometric_stiffness {
             let displacements = [0, 1].map(|power| &base.state.displacements[power][..]);

@@ -1,9 +1,6 @@
 //! Steady sliding of a body of revolution in three dimensions, from one sector.
 
-use super::pressing::{along_element, press_on_springs, press_rigidly, pressed_span};
-use super::{PrestressError, supports};
 use crate::contact::{NormalLaw, SlidingContact, SteadyFriction};
-use crate::fem::fold::SectorMatrix;
 use crate::fem::solid::whole_element;
 use crate::mesh::{FaceElement, SolidSector};
 
@@ -42,49 +39,6 @@ pub struct SolidSliding {
 }
 
 impl SolidSliding {
-    /// Solves the equilibrium with the elastic stiffness of one sector, to which supports and face pressures are added, with springs
-    /// of a `law` between face and rotor, where there are some.
-    ///
-    /// # Errors
-    /// [`PrestressError::Singular`] where nothing holds the body, [`PrestressError::GapEverywhere`] where no ring is pressed,
-    /// [`PrestressError::NoState`] where no set of pressed rings is found.
-    pub fn solve(
-        sector: &SolidSector,
-        elastic: &SectorMatrix,
-        contact: &SlidingContact,
-        law: Option<NormalLaw>,
-    ) -> Result<Self, PrestressError> {
-        let [springs, _] = supports(sector);
-        let stiffness = SectorMatrix::alike_in_all(&[elastic, &springs]);
-        let sliding_direction = contact.sliding_direction();
-        let friction = |radius: f64| {
-            contact.steady_friction(sliding_direction, contact.rotation_speed.abs() * radius)
-        };
-        let pressing = match law {
-            None => press_rigidly(sector, &stiffness, contact, &friction)?,
-            Some(law) => press_on_springs(sector, &stiffness, (contact, law), &friction)?,
-        };
-        if !pressing.is_pressed.contains(&true) {
-            let distances = pressing.approaches.iter().map(|approach| -approach);
-            return Err(PrestressError::GapEverywhere {
-                total: sector.rings.len() * sector.sector_count(),
-                distance: distances.fold(f64::INFINITY, f64::min),
-                interference: contact.interference,
-            });
-        }
-        Ok(Self {
-            sheared_displacement: pressing.sheared,
-            pressed_displacement: pressing.displacement,
-            normal_forces: pressing.normal_forces,
-            is_pressed: pressing.is_pressed,
-            pressures: pressing.pressures,
-            approaches: pressing.approaches,
-            law,
-            sliding_direction,
-            contact: *contact,
-        })
-    }
-
     /// Displacement at a friction coefficient, m.
     pub fn displacement(&self, friction_coefficient: f64) -> Vec<f64> {
         let both = self.pressed_displacement.iter().zip(&self.sheared_displacement);
@@ -93,8 +47,7 @@ impl SolidSliding {
 
     /// Slip speed `V = |Omega| r`, m/s, and friction of steady sliding at a radius.
     pub fn friction(&self, radius: f64) -> (f64, SteadyFriction) {
-        let speed = self.contact.rotation_speed.abs() * radius;
-        (speed, self.contact.steady_friction(self.sliding_direction, speed))
+        (self.contact.rotation_speed.abs() * radius, friction(&self.contact, radius))
     }
 
     /// Friction torque of the whole body at a friction coefficient, N m.
@@ -131,4 +84,70 @@ impl SolidSliding {
             Some(_) => pressed_span(sector, &self.approaches, element),
         }
     }
+}
+
+/// The values of the rings at the beginning, in the middle (of a quadratic element) and at the end of an element of the face.
+fn of_element(sector: &SolidSector, values: &[f64], element: &FaceElement) -> [f64; 3] {
+    let at = |node: usize| {
+        let mut rings = sector.rings.iter().zip(values);
+        let own = rings.find(|(ring, _)| ring.nodes.contains(&node));
+        own.map_or(0.0, |(_, value)| *value)
+    };
+    let [from, to] = [0, 2].map(|corner| at(element.nodes[corner].0));
+    match sector.is_quadratic() {
+        true => [from, at(element.nodes[5].0), to],
+        false => [from, 0.5 * (from + to), to],
+    }
+}
+
+/// What the rings have, along an element of the face from -1 to 1.
+pub(super) fn along_element(
+    sector: &SolidSector,
+    values: &[f64],
+    element: &FaceElement,
+    along: f64,
+) -> f64 {
+    let [from, middle, to] = of_element(sector, values, element);
+    let linear = 0.5 * ((1.0 - along) * from + (1.0 + along) * to);
+    if !sector.is_quadratic() {
+        return linear;
+    }
+    linear + (1.0 - along * along) * (middle - 0.5 * (from + to))
+}
+
+/// The part of an element along which the values of the rings are positive: between the roots of the parabola through them; of a
+/// linear element the ends that have positive values.
+pub(super) fn pressed_span(
+    sector: &SolidSector,
+    values: &[f64],
+    element: &FaceElement,
+) -> [f64; 2] {
+    let [from, middle, to] = of_element(sector, values, element);
+    let ends = [(-1.0, from), (1.0, to)].map(|(end, value)| if value > 0.0 { end } else { 0.0 });
+    if !sector.is_quadratic() || (from > 0.0 && to > 0.0) {
+        return ends;
+    }
+    // c + b s + a s^2
+    let (a, b, c) = (0.5 * (from + to) - middle, 0.5 * (to - from), middle);
+    let discriminant = b * b - 4.0 * a * c;
+    if discriminant <= 0.0 {
+        return [0.0; 2];
+    }
+    let q = -0.5 * (b + discriminant.sqrt().copysign(b));
+    let roots = [q / a, c / q];
+    let within = |root: &&f64| root.abs() <= 1.0;
+    match (from > 0.0, to > 0.0) {
+        (true, _) => [-1.0, *roots.iter().find(within).unwrap_or(&-1.0)],
+        (_, true) => [*roots.iter().find(within).unwrap_or(&1.0), 1.0],
+        // Pressed in the middle alone.
+        _ if roots.iter().filter(within).count() == 2 => {
+            [roots[0].min(roots[1]), roots[0].max(roots[1])]
+        }
+        _ => [0.0; 2],
+    }
+}
+
+/// Friction of steady sliding at a radius.
+pub(super) fn friction(contact: &SlidingContact, radius: f64) -> SteadyFriction {
+    contact.steady_friction(contact.sliding_direction(), contact.rotation_speed.abs() * radius)
 }

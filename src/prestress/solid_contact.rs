@@ -1,7 +1,6 @@
 //! Contact terms in the tangent of a body of revolution.
 
-use super::SolidSliding;
-use super::pressing::along_element;
+use super::solid::{SolidSliding, along_element};
 use crate::contact::ContactStiffness;
 use crate::fem::fold::SectorMatrix;
 use crate::fem::solid::{FaceTerm, face_matrix};

@@ -10,9 +10,10 @@
 //! is that of the whole tangent. Everything is of one sector, in the unknowns of the harmonic.
 
 use super::wave_terms::RegionTerms;
-use super::{DampingModel, SectorSupport, WaveTangent};
+use super::{DampingModel, WaveTangent};
 use crate::fem::RayleighDamping;
 use crate::fem::fold::{MirrorParity, SectorMatrix};
+use crate::fem::sector::SectorSupport;
 use crate::linalg::banded::CompactRows;
 use crate::linalg::c64;
 

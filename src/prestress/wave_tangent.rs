@@ -3,8 +3,9 @@
 mod losses;
 
 use super::wave_terms::WaveTerms;
-use super::{DampingModel, FrictionPolynomial, HarmonicTangent, TangentOptions, WaveSector};
+use super::{DampingModel, FrictionPolynomial, HarmonicTangent, TangentOptions};
 use crate::fem::fold::{MirrorParity, SectorMatrix, WaveDofs};
+use crate::fem::sector::Sectored;
 use crate::fem::{DofMap, MassKind, MaterialField, RayleighDamping};
 use crate::linalg::banded::BandedMatrix;
 use crate::linalg::c64;
@@ -69,7 +70,7 @@ pub(super) struct WaveContact {
 
 impl WaveTangent {
     /// A body without contact and prestress, `C = alpha_R M + beta_R K` and the dashpots of its supports.
-    pub fn of_free<S: WaveSector>(
+    pub fn of_free<S: Sectored>(
         sector: &S,
         material: &dyn MaterialField,
         mass: MassKind,
@@ -80,7 +81,7 @@ impl WaveTangent {
         Self::new(sector, (terms, WaveContact::default()), &options, 1.0)
     }
 
-    pub(super) fn new<S: WaveSector>(
+    pub(super) fn new<S: Sectored>(
         sector: &S,
         (terms, mut contact): (WaveTerms, WaveContact),
         options: &TangentOptions,
@@ -105,8 +106,8 @@ impl WaveTangent {
             moving: unknowns.dofs.iter().filter_map(|&dof| place(dof)).collect(),
             options: *options,
             unknowns,
-            components: S::COMPONENTS,
-            nodes: sector.nodes(),
+            components: sector.strip().dimension,
+            nodes: (0..sector.strip().node_count() / 2).map(|node| sector.place(node)).collect(),
             dofs,
             terms,
             contact,

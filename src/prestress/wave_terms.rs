@@ -1,9 +1,10 @@
 //! The matrices of one sector that the tangent of its waves is made of.
 
 use super::solid_contact::ContactTerms;
-use super::{LossGain, SectorSupport, TabledGain, WaveSector};
+use super::{LossGain, TabledGain};
 use crate::fem::fold::SectorMatrix;
-use crate::fem::{MassKind, MaterialField, RayleighDamping, sector};
+use crate::fem::sector::{self, SectorSupport, Sectored};
+use crate::fem::{MassKind, MaterialField, RayleighDamping};
 use crate::linalg::c64;
 use std::sync::Arc;
 
@@ -48,7 +49,7 @@ impl RegionTerms {
 
 impl WaveTerms {
     /// Regions without stress and supports of a sector.
-    pub fn of<S: WaveSector>(
+    pub fn of<S: Sectored>(
         sector: &S,
         material: &dyn MaterialField,
         (kind, damping): (MassKind, RayleighDamping),
@@ -65,7 +66,7 @@ impl WaveTerms {
             }),
         };
         Self {
-            regions: (0..sector.region_count()).map(region).collect(),
+            regions: (0..sector::region_count(sector)).map(region).collect(),
             supports: sector.supports(),
             extra_damping: sector::extra_damping(sector, material, kind, damping),
             ..Self::default()
@@ -79,7 +80,7 @@ impl WaveTerms {
     }
 
     /// Takes up the stress of the displacements without friction and for each unit of it.
-    pub fn take_stress<S: WaveSector>(
+    pub fn take_stress<S: Sectored>(
         &mut self,
         sector: &S,
         material: &dyn MaterialField,

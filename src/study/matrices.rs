@@ -155,7 +155,7 @@ impl<'a> SlidingBody<'a> {
                     points: points.collect(),
                 })
             }
-            Model::Sectors(..) | Model::SolidSectors(_) => {
+            Model::Waves(_) => {
                 unreachable!("the solver was chosen for a whole mesh")
             }
         }

@@ -15,7 +15,7 @@ use super::eigenvalues::AssemblyModel;
 use super::{StudyError, tangent_options};
 use crate::case::{AssemblyBody, Body, Case, CaseErrors, Frf, FrfMethod, refusal};
 use crate::contact::SlidingContact;
-use crate::fem::{MaterialField, assemble_stiffness};
+use crate::fem::{MaterialField, assemble_stiffness, sector::Sectored};
 use crate::frf::{
     Axis, CyclicSystem, FrfBoundary, FrfError, FrfSystem, Port, ReductionSettings, cyclic_response,
     direct_response_with, reduced_response,
@@ -23,8 +23,7 @@ use crate::frf::{
 use crate::linalg::{GaussianNoise, c64};
 use crate::mesh::{BoundaryCondition, Mesh, SectorMesh, SolidSector};
 use crate::prestress::{
-    BaseChoice, PrestressError, SlidingTangent, SteadySliding, TangentOptions, WaveSector,
-    WaveTangent,
+    BaseChoice, PrestressError, SlidingTangent, SteadySliding, TangentOptions, WaveTangent,
 };
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -249,7 +248,7 @@ fn cyclic(case: &Case, frf: &Frf) -> Result<System, StudyError> {
 }
 
 /// The harmonics of a body of equal sectors, linearised by `slide` where it slides.
-fn sectors<S: WaveSector>(
+fn sectors<S: Sectored>(
     case: &Case,
     frf: &Frf,
     sector: &S,

@@ -2,7 +2,7 @@
 //! holds.
 
 use super::cycle::{CycleStudy, PeriodicStudy, refuse_nothing};
-use super::eigenvalues::{self, SlidingModel};
+use super::eigenvalues::{self, Solved};
 use super::transient::TransientStudy;
 use super::{StudyError, basin};
 use crate::case::{Analysis, Case};
@@ -35,12 +35,11 @@ pub fn summarize(
 fn cea(case: &Case, manifest: &Manifest) -> Result<Value, StudyError> {
     let start = Instant::now();
     let cea = case.require_cea()?.of_tables();
-    let model = SlidingModel::new(case, &cea)?;
-    let solution = eigenvalues::solve_modes(case, &cea, &model)?;
-    eigenvalues::refuse_no_modes(case, &cea, &solution.sweep)?;
-    let field = model.base_field(case);
+    let Solved { case, model, solution } = eigenvalues::solved(case, &cea, None)?;
+    eigenvalues::refuse_no_modes(&case, &cea, &solution.sweep)?;
+    let field = model.base_field(&case);
     let wall_s = start.elapsed().as_secs_f64();
-    let report = eigenvalues::report(case, &cea, &model, &solution, &field, wall_s);
+    let report = eigenvalues::report(&case, &cea, &model, &solution, &field, wall_s);
     Ok(object(&results::cea::summary(&report, manifest))?)
 }
 

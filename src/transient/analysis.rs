@@ -257,7 +257,7 @@ impl LastFifth {
                     axial: record
                         .axial_rows
                         .get(probe)
-                        .map(|rows| axial_motion(&rows[range.clone()])),
+                        .map(|rows| motion(rows[range.clone()].iter().map(|row| [row[0], row[2]]))),
                     ..ProbeMotion::of(&rows[range.clone()])
                 })
                 .collect(),
@@ -282,31 +282,25 @@ fn significant(record: &Recorder, range: Range<usize>) -> Vec<(usize, f64)> {
 
 impl ProbeMotion {
     fn of(rows: &[[f64; 6]]) -> Self {
-        let both = |of: &dyn Fn(usize) -> f64| [of(0), of(1)];
-        let column = |c: usize| rows.iter().map(move |row| row[c]);
-        let largest = |c: usize| column(c).fold(f64::NEG_INFINITY, f64::max);
-        let smallest = |c: usize| column(c).fold(f64::INFINITY, f64::min);
-        let mean_square = |c: usize| column(c).map(|v| v * v).sum::<f64>() / rows.len() as f64;
-        Self {
-            displacement_amplitude: both(&|c| 0.5 * (largest(c) - smallest(c))),
-            acceleration_rms: both(&|c| mean_square(4 + c).sqrt()),
-            acceleration_peak: both(&|c| column(4 + c).fold(0.0, |m, v| m.max(v.abs()))),
-            axial: None,
-        }
+        let both = [0, 1].map(|c| motion(rows.iter().map(|row| [row[c], row[4 + c]])));
+        let [displacement_amplitude, acceleration_rms, acceleration_peak] =
+            [0, 1, 2].map(|k| both.map(|own| own[k]));
+        Self { displacement_amplitude, acceleration_rms, acceleration_peak, axial: None }
     }
 }
 
-/// Half the range of `u_z` (m), root mean square and largest magnitude of `a_z` (m/s2).
-fn axial_motion(rows: &[[f64; 4]]) -> [f64; 3] {
+/// Of samples `[u, a]` half the range of displacements (m), root mean square and largest magnitude
+/// of accelerations (m/s2).
+fn motion(samples: impl ExactSizeIterator<Item = [f64; 2]>) -> [f64; 3] {
+    let count = samples.len() as f64;
     let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
     let (mut square, mut peak) = (0.0, 0.0_f64);
-    for [u, _, a, _] in rows {
-        (low, high) = (low.min(*u), high.max(*u));
+    for [u, a] in samples {
+        (low, high) = (low.min(u), high.max(u));
         square += a * a;
         peak = peak.max(a.abs());
     }
-    let rms = (square / rows.len() as f64).sqrt();
-    [0.5 * (high - low), rms, peak]
+    [0.5 * (high - low), (square / count).sqrt(), peak]
 }
 
 fn growth(record: &Recorder, stage: Range<usize>, harmonic: usize) -> Option<Growth> {

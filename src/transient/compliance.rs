@@ -33,8 +33,8 @@ pub(super) struct CompliantContact {
     stiffness: Vec<f64>,
     /// `c w`, Pa s.
     damping: Vec<f64>,
-    /// `N_0 / (k w)`, m.
-    compression: Vec<f64>,
+    /// What the interface gives way under the base state's force at each node, `N_0 / (k w)`, m.
+    pub compression: Vec<f64>,
     /// Contact that stiffens with pressure, and the nodes' shares of it; in place of `stiffness`.
     law: Option<(NormalLaw, Vec<f64>)>,
     /// Power of each node's dashpot in the last step, W/m.
@@ -88,11 +88,6 @@ impl CompliantContact {
             law: contact.law.map(|law| (law, weights.to_vec())),
             dissipation: vec![0.0; weights.len()],
         })
-    }
-
-    /// What the interface gives way under the base state's force at node `i`, m.
-    pub fn compression(&self, i: usize) -> f64 {
-        self.compression[i]
     }
 
     /// Energy of node `i` at the mean compression `p`, J/m.

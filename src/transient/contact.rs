@@ -37,7 +37,7 @@ use std::ops::Range;
 /// multipliers are in closed form. Rows between bodies share dofs, and the points are solved one after the other until no
 /// force changes: Gauss-Seidel over the mobilities `J M^-1 J^T`, from no forces, so that a step depends on nothing but the
 /// fields. Velocities in the powers are those along the rows, of one body over the other.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct LagrangeContact {
     /// Rows of slip of each point: 1 in the plane, 2 in space.
     tangents: usize,

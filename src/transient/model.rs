@@ -11,13 +11,14 @@ use super::{Perturbation, StepPlan, TransientError, TransientSettings};
 use crate::contact::{ContactInterface, ContactStiffness, SlidingContact};
 use crate::fem::fold::SectorMatrix;
 use crate::fem::operator::{StiffnessOperator, largest_frequency_of};
-use crate::fem::sector::{Sectored, extra_damping};
+use crate::fem::sector::{extra_damping, region_count, supports};
+use crate::fem::solid::pressure_load;
 use crate::fem::{
     MassKind, MaterialField, RayleighDamping, Triplets, assemble_extra_damping, assemble_pressures,
     assemble_supports,
 };
 use crate::mesh::{AnnulusMesh, BoundaryCondition, Mesh, SolidFace, SolidSector};
-use crate::prestress::{Assembly, pressure_load, supports};
+use crate::prestress::Assembly;
 use nalgebra::Vector3;
 
 /// Bodies of a mesh or of revolution.
@@ -197,7 +198,7 @@ impl<'a> TransientModel<'a> {
         };
         let Some(mesh) = self.mesh() else {
             let SteppedBody::Revolution(sector) = self.body else { return bound };
-            let regions = 0..sector.region_count();
+            let regions = 0..region_count(sector);
             regions.for_each(|r| cover(self.material.own_damping(r).unwrap_or(self.damping)));
             bound.mass_coefficient += rates.iter().copied().fold(0.0, f64::max);
             return bound;

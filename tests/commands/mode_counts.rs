@@ -31,13 +31,40 @@ fn counts_are_printed_and_summed_up() {
 
 #[test]
 fn what_cannot_be_counted_is_refused() {
-    let refused = counted("disc-three-dimensions.toml", &[], 2).0;
-    refused.warns(&["cea.count_modes = true", "body of revolution", "leave it out"]);
     counted("brake-lining.toml", &[], 2).0.warns(&["is a table over frequency"]);
     let coarse = ["mesh.circumferential_elements=24", "mesh.radial_elements=4"];
     let (answer, _folder) = counted("polycarbonate-disc.toml", &coarse, 0);
-    assert!(answer.said().contains("the harmonics of an annulus are always counted"));
+    assert!(answer.said().contains("harmonics are counted at quarters"));
     assert!(answer.summary()["mode_counts"].is_null());
+}
+
+/// Harmonics with losses, and those of a body of revolution.
+#[test]
+fn harmonics_hold_as_many_modes_as_the_whole_mesh() {
+    let plane = ["mesh.radial_elements=4", "material.loss_factor=0.02"];
+    let solid = ["mesh.radial_elements=3", "mesh.axial_elements=1"];
+    for (case, sets) in [("polycarbonate-disc.toml", plane), ("disc-three-dimensions.toml", solid)]
+    {
+        let common = [
+            "mesh.circumferential_elements=12",
+            "mesh.element=\"quad4\"",
+            "cea.friction_coefficients=[0.0, 0.3]",
+            "cea.max_frequency_hz=12000",
+        ];
+        let sets = [&common[..], &sets].concat();
+        let (waves, _waves) = counted(case, &sets, 0);
+        let waves = waves.says(&["harmonics are counted at quarters", "harmonics 0 to 6"]);
+        let (whole, _whole) = counted(case, &[&sets[..], &["cea.method=\"sparse\""]].concat(), 0);
+        let summary = whole.summary();
+        let counts = summary["mode_counts"].as_array().unwrap();
+        assert_eq!(counts.len(), 2, "{counts:?}");
+        for count in counts {
+            let friction = count["friction_coefficient"].as_f64().unwrap();
+            let rows = waves.rows("eigenvalues.csv").into_iter();
+            let listed = rows.filter(|row| row.numbers(["friction_coefficient"]) == [friction]);
+            assert_eq!(count["counted"], listed.count(), "{case} {count}");
+        }
+    }
 }
 
 /// A disc without damping on a soft contact: every branch that friction feeds grows, by a part of a thousand million. With little damping

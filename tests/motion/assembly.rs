@@ -4,7 +4,7 @@ use crate::prelude::*;
 use frictionsim::cea::ComplexMode;
 use frictionsim::cea::sparse::sweep;
 use frictionsim::contact::{
-    Counterpart, Motion, PairFriction, RigidCounterface, RigidMotion, RigidShape,
+    Counterpart, Motion, PairFriction, PointKind, RigidCounterface, RigidMotion, RigidShape,
 };
 use frictionsim::fem::{
     MaterialField, MaxwellChain, ModulusTable, RegionMaterial, RelaxedMaterials, TabledMaterial,
@@ -109,7 +109,8 @@ fn between<'a>(
         counter: boundary(mesh, "plate_z0"),
     };
     let solved = BaseChoice::Solved;
-    Assembly::at_nodes(mesh, materials, &[tie], &[contact], motions, solved).unwrap()
+    let (surfaces, at_nodes) = ((&[tie][..], &[contact][..]), Some(PointKind::Nodes));
+    Assembly::with_points(mesh, materials, surfaces, (motions, solved), at_nodes).unwrap()
 }
 
 fn model<'a>(assembly: &'a Assembly<'a>) -> TransientModel<'a> {

@@ -4,6 +4,7 @@ use crate::prelude::*;
 use crate::solid_elements::Pencil;
 use frictionsim::fem::element::ElementGeometry;
 use frictionsim::fem::{MaterialAxes, Orthotropy};
+use frictionsim::mesh::NodalFrames;
 use nalgebra::{Matrix3, Rotation3, Vector3};
 
 /// A lining: soft across its plane.
@@ -244,8 +245,15 @@ fn isotropic_constants_given_as_orthotropic_have_the_isotropic_stiffness() {
                         let radius = if i < corners { 1.0 } else { (0.5 * turn).cos() };
                         [radius * cos, 1.2 * radius * sin + 0.1 * radius * cos, 0.0]
                     };
-                    let frames = vec![Matrix3::identity(); nodes];
-                    ElementGeometry::of_nodes(kind, (0..nodes).map(around).collect(), frames)
+                    let mesh = Mesh {
+                        nodes: (0..nodes).map(around).collect(),
+                        frames: NodalFrames::global(2, nodes),
+                        element_kinds: vec![kind],
+                        element_starts: vec![0, nodes as u32],
+                        elements: (0..nodes as u32).collect(),
+                        ..Mesh::default()
+                    };
+                    ElementGeometry::new(&mesh, 0)
                 }
                 _ => {
                     let file = block(kind, [1; 3], |[x, y, z]| [x + 0.2 * y, y, 0.8 * z - 0.1 * x]);

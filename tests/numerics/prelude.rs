@@ -12,12 +12,13 @@ pub use crate::mesh_text::{even, mesh_text, quadrilaterals};
 pub use crate::msh::{CYLINDER, FORMS, plane_body, write_msh};
 pub use crate::program::{Answer, Run, folder, has, shipped};
 pub use crate::shaft::model::AnnulusMaterials;
+pub use crate::solids::model::{SolidModel, solid_sweep};
 pub use crate::table_1::TABLE_1;
 pub use crate::tier::sized;
 pub use crate::triangles::body;
 pub use faer::{Mat, c64};
 pub use frictionsim::case::Case;
-pub use frictionsim::cea::cyclic::{SolidModel, WaveSweep, solid_sweep};
+pub use frictionsim::cea::cyclic::WaveSweep;
 pub use frictionsim::cea::sparse::sweep;
 pub use frictionsim::cea::{
     ComplexMode, FrictionSweep, ModeLimit, SweepRequest, UnstableInterval, cyclic, sparse,

@@ -1,9 +1,8 @@
 //! Proofs that no mode of the range is missing.
 
 use super::definite::{self, Region};
-use super::path::Waves;
 use super::paths::HarmonicPaths;
-use super::problem::{HarmonicProblem, Matrices};
+use super::problem::{HarmonicProblem, I, Matrices};
 use crate::linalg::banded::BandedLu;
 use crate::linalg::c64;
 use crate::prestress::WaveTangent;
@@ -14,9 +13,9 @@ use std::f64::consts::{FRAC_PI_3, PI, TAU};
 /// (rad/s).
 pub(super) const WIDEST_GROWTH: f64 = 0.2;
 
-/// Modes slower than this share of the limit are not searched for where damping is not proportional:
-/// near the real axis overdamped motions live.
-const SLOWEST: f64 = 0.02;
+/// Share of the limit below which no modes are searched for where damping is not proportional:
+/// there motions within [`WIDEST_GROWTH`] need not oscillate, see `STANDSTILL`.
+const SLOWEST: f64 = 0.0202;
 
 /// Points on the edge of the range at which phases are taken before halving starts.
 const EDGE_POINTS: usize = 8;
@@ -32,15 +31,24 @@ pub(super) struct Verdict {
     pub missed: Option<usize>,
 }
 
+/// Friction values, out of a rising grid, at which modes are counted: the quarters of the range.
+fn quarters(grid: &[f64]) -> Vec<f64> {
+    let last = grid.len() - 1;
+    let mut places: Vec<usize> = (1..=4).map(|quarter| last * quarter / 4).collect();
+    places.dedup();
+    places.into_iter().map(|place| grid[place]).collect()
+}
+
 /// Looks for modes below `limit` (rad/s) that no path stands for: in the followed harmonics by counting at
-/// the friction values `checks` (points of every path), in all others by proof, or by counting where the
+/// the quarters of the friction values of `grid`, in all others by proof, or by counting where the
 /// proof does not reach.
 pub(super) fn verify(
     tangent: &WaveTangent,
     followed: &[HarmonicPaths],
     limit: f64,
-    checks: &[f64],
+    grid: &[f64],
 ) -> Verdict {
+    let checks = quarters(grid);
     let region = region(tangent, limit);
     let friction = checks.iter().copied().fold(0.0, f64::max);
     let is_followed = |n: &usize| followed.iter().any(|paths| paths.problem.tangent.harmonic == *n);
@@ -61,8 +69,13 @@ pub(super) fn verify(
     let gaps: Vec<usize> = followed
         .par_iter()
         .filter(|paths| {
+            // A small space has not the determinant of the harmonic.
+            let n = paths.problem.tangent.harmonic;
+            let whole = || HarmonicProblem::new(tangent.harmonic(n), tangent.is_standing(n));
+            let whole = paths.space.as_ref().map(|_| whole());
+            let problem = whole.as_ref().unwrap_or(&paths.problem);
             let is_complete =
-                |&mu: &f64| missed(&paths.problem, Some(paths), limit, region, mu) == Some(0);
+                |&mu: &f64| missed(problem, Some(paths), limit, region, mu) == Some(0);
             !checks.iter().all(is_complete)
         })
         .map(|paths| paths.problem.tangent.harmonic)
@@ -109,7 +122,8 @@ fn rectangle(low: f64, high: f64, half_width: f64, count: usize) -> Vec<c64> {
 /// where the phase cannot be followed.
 ///
 /// The determinant divided by that at rest and by the factors of the known eigenvalues has neither zeros
-/// nor poles left inside unless one was missed, so its phase changes little along the edge.
+/// nor poles left inside unless one was missed, so its phase changes little along the edge. The
+/// lower half of the plane has the conjugates of the wave `-n`; losses are analytic in each.
 fn missed(
     problem: &HarmonicProblem,
     paths: Option<&HarmonicPaths>,
@@ -127,39 +141,30 @@ fn missed(
         lu: problem.workspace(),
         values: Vec::new(),
     };
-    let edge = if problem.is_proportional() {
+    if problem.is_proportional() {
         // Turned by a right angle: the rectangle's "height" is Re(kappa).
         let edge = rectangle(-1e-3 * region.real, region.real, region.imaginary, EDGE_POINTS);
-        edge.into_iter().map(|p| c64::new(p.im, -p.re)).collect()
-    } else {
-        rectangle(SLOWEST * limit, limit, WIDEST_GROWTH * limit, 2 * EDGE_POINTS)
-    };
-    search.winding(&edge)
+        return search.winding(edge.into_iter().map(|p| c64::new(p.im, -p.re)).collect());
+    }
+    let upper = rectangle(SLOWEST * limit, limit, WIDEST_GROWTH * limit, 2 * EDGE_POINTS);
+    let lower = upper.iter().map(|point| -point).collect();
+    let ahead = search.winding(upper)?;
+    if problem.is_standing { Some(ahead) } else { Some(ahead + search.winding(lower)?) }
 }
 
 /// Known eigenvalues of the problem's `theta` at rest (undamped) and at `mu`.
 fn known(paths: &HarmonicPaths, mu: f64) -> (Vec<c64>, Vec<c64>) {
     let problem = &paths.problem;
-    let (mut at_rest, mut now) = (Vec::new(), Vec::new());
-    for path in &paths.paths {
-        let rest = path.rest.expect("branches of the plane annulus start at rest");
-        let point = path.points.iter().find(|p| p.parameter == mu);
-        let theta = point.map(|p| p.theta);
-        if problem.is_proportional() {
-            at_rest.push(rest);
-            now.extend(theta);
-            continue;
+    let at_rest = paths.at_rest.iter();
+    let at_rest = match problem.is_proportional() {
+        true => at_rest.map(|&kappa| c64::new(kappa, 0.0)).collect(),
+        false => {
+            at_rest.flat_map(|kappa| [1.0, -1.0].map(|s| I * s * kappa.max(0.0).sqrt())).collect()
         }
-        let undamped = c64::new(0.0, rest.re.max(0.0).sqrt());
-        if path.waves != Waves::Backward {
-            at_rest.extend([undamped, -undamped]);
-        }
-        now.extend(theta);
-        if problem.is_standing {
-            now.extend(theta.map(|t| t.conj()));
-        }
-    }
-    (at_rest, now)
+    };
+    let points = paths.paths.iter().flat_map(|path| &path.points);
+    let now = points.filter(|point| point.parameter == mu).map(|point| point.theta);
+    (at_rest, now.collect())
 }
 
 struct Search<'a> {
@@ -185,7 +190,7 @@ impl Search<'_> {
         phase + self.known_at_rest.iter().map(|k| (theta - k).arg()).sum::<f64>()
     }
 
-    fn winding(&mut self, edge: &[c64]) -> Option<i64> {
+    fn winding(&mut self, edge: Vec<c64>) -> Option<i64> {
         let phases: Vec<f64> = edge.iter().map(|&theta| self.phase(theta)).collect();
         let mut total = 0.0;
         for i in 0..edge.len() {

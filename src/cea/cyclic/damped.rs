@@ -70,7 +70,8 @@ pub(super) fn follow_damped(
     }
     let factorizations = course.follower.factorizations;
     let paths = course.paths.into_iter().map(|tracked| tracked.path).collect();
-    let followed = HarmonicPaths { paths, problem, factorizations, space: None };
+    let at_rest = pairs.iter().map(|pair| pair.0).collect();
+    let followed = HarmonicPaths { paths, at_rest, problem, factorizations, space: None };
     Ok((followed, overdamped))
 }
 
@@ -234,7 +235,6 @@ impl Course<'_> {
             None => {
                 let path = Path {
                     branch: self.next_branch,
-                    rest: None,
                     waves: if value.im > 0.0 { Waves::Forward } else { Waves::Backward },
                     points: back,
                 };

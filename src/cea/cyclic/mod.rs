@@ -38,4 +38,4 @@ mod vectors;
 pub use found::{Coverage, Overdamped, WaveSweep};
 pub use proven::onsets;
 pub use sensitivity::{Beside, WavePair, wave_pairs, wave_responses};
-pub use sweep::{SolidModel, solid_sweep, sweep, wave_sweep};
+pub use sweep::{sweep, wave_sweep};

@@ -38,8 +38,6 @@ pub(super) enum Waves {
 pub(super) struct Path {
     /// Rank among the harmonic's modes without friction; those that do not reach back there are numbered from 1000 on.
     pub branch: usize,
-    /// `kappa` without friction and damping; `None` of a branch that does not reach back there.
-    pub rest: Option<c64>,
     pub waves: Waves,
     /// Accepted points, rising; vectors are dropped but for the last and those kept on purpose.
     pub points: Vec<Eigenpair>,

@@ -14,6 +14,8 @@ use std::rc::Rc;
 pub(super) struct HarmonicPaths {
     pub problem: HarmonicProblem,
     pub paths: Vec<Path>,
+    /// `kappa` of the modes without friction and damping that they start from.
+    pub at_rest: Vec<f64>,
     pub factorizations: usize,
     /// The small space of their vectors; `None` where they are over all unknowns.
     pub space: Option<Reduction>,
@@ -43,7 +45,8 @@ pub(super) fn follow_pairs(
     let paths = follow_all(&mut follower, pairs, grid, kept, StepControl::NORMAL)
         .or_else(|_| follow_all(&mut follower, pairs, grid, kept, StepControl::FINE))?;
     let factorizations = follower.factorizations;
-    Ok(HarmonicPaths { paths, problem, factorizations, space: None })
+    let at_rest = pairs.iter().map(|pair| pair.0).collect();
+    Ok(HarmonicPaths { paths, at_rest, problem, factorizations, space: None })
 }
 
 fn follow_all(
@@ -145,12 +148,7 @@ pub(super) fn start(
     let problem = follower.problem;
     let mut x: Vec<c64> = shape.iter().map(|v| c64::new(*v, 0.0)).collect();
     normalize(&mut x);
-    let path = |waves: Waves, point: Eigenpair| Path {
-        branch,
-        rest: Some(c64::new(kappa, 0.0)),
-        waves,
-        points: vec![point],
-    };
+    let path = |waves: Waves, point: Eigenpair| Path { branch, waves, points: vec![point] };
     if problem.is_proportional() {
         let waves = if problem.is_standing { Waves::Forward } else { Waves::Both };
         let point = follower.at_rest(at_rest, c64::new(kappa, 0.0), x);

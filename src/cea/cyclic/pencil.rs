@@ -1,9 +1,8 @@
 //! Modes of one harmonic without friction.
 
-use crate::linalg::Mat;
 use crate::linalg::banded::{BandedFactor, BandedMatrix, CompactRows};
-use crate::linalg::dense::{dot, random_columns};
-use crate::linalg::dense_eigen::symmetric_eigen;
+use crate::linalg::dense::column;
+use crate::linalg::{LanczosPairs, LanczosSettings, Mat, MatRef, SymmetricPencil, block_lanczos};
 
 /// The pencil of one harmonic at rest over the unknowns that may move, and its stiffness factorized.
 pub(super) struct Pencil {
@@ -23,6 +22,9 @@ const SHIFTS: i32 = 10;
 
 /// Largest residual of a mode relative to its eigenvalue.
 const SETTLED: f64 = 1e-11;
+
+/// Restarts of its iteration at most.
+const RESTARTS: usize = 30;
 
 impl Pencil {
     /// `None` where no shift below all eigenvalues is found.
@@ -58,81 +60,32 @@ impl Pencil {
         BandedFactor::new(stiffness, mass, kappa).negative_count()
     }
 
-    /// The `count` modes of lowest frequency, by the Lanczos method on `(K - shift M)^-1 M` with full reorthogonalization; fewer
-    /// where it does not settle.
+    /// The `count` modes of lowest frequency; fewer where the iteration does not settle.
     pub fn lowest(&self, count: usize) -> Modes {
-        let dimension = self.bands[0].dimension();
-        let count = count.min(dimension);
-        let longest = (6 * count + 60).min(dimension);
-        let start = random_columns(dimension, 1, 7);
-        let mut next: Vec<f64> = (0..dimension).map(|i| start[(i, 0)]).collect();
-        self.factor.solve(&mut next);
-        let (mut basis, mut momenta): (Vec<Vec<f64>>, Vec<Vec<f64>>) = (Vec::new(), Vec::new());
-        let (mut diagonal, mut off) = (Vec::new(), Vec::new());
-        let mut check = count + 6;
-        while basis.len() < longest {
-            let momentum = self.mass.multiply(&next);
-            let norm = dot(&next, &momentum).sqrt();
-            if !(norm > 0.0 && norm.is_finite()) {
-                break;
-            }
-            off.push(norm);
-            basis.push(next.iter().map(|v| v / norm).collect());
-            momenta.push(momentum.iter().map(|v| v / norm).collect());
-            let j = basis.len() - 1;
-            next.clone_from(&momenta[j]);
-            self.factor.solve(&mut next);
-            diagonal.push(dot(&next, &momenta[j]));
-            for _ in 0..2 {
-                for (q, p) in basis.iter().zip(&momenta) {
-                    let part = dot(p, &next);
-                    next.iter_mut().zip(q).for_each(|(v, q)| *v -= part * q);
-                }
-            }
-            if basis.len() >= check || basis.len() == longest {
-                let remainder = dot(&next, &self.mass.multiply(&next)).sqrt();
-                if let Some(modes) = self.ritz(&basis, &diagonal, &off, remainder, count) {
-                    return modes;
-                }
-                check += 1 + count / 3;
-            }
-        }
-        self.ritz(&basis, &diagonal, &off, 0.0, count).unwrap_or_default()
+        let settings =
+            LanczosSettings { count, tolerance: SETTLED, block: 1, max_restarts: RESTARTS };
+        let pairs = block_lanczos(self, None, &settings);
+        let settled = pairs.ok().filter(|pairs| pairs.converged == pairs.values.len());
+        let modes = |pairs: LanczosPairs| {
+            let mode = |(j, theta): (usize, &f64)| {
+                (self.shift + theta.recip(), column(pairs.vectors.as_ref(), j).to_vec())
+            };
+            pairs.values.iter().enumerate().map(mode).collect()
+        };
+        settled.map_or_else(Vec::new, modes)
+    }
+}
+
+impl SymmetricPencil for Pencil {
+    fn dimension(&self) -> usize {
+        self.bands[0].dimension()
     }
 
-    /// Ritz pairs of the tridiagonal matrix; `None` unless the first `count` have settled.
-    fn ritz(
-        &self,
-        basis: &[Vec<f64>],
-        diagonal: &[f64],
-        off: &[f64],
-        remainder: f64,
-        count: usize,
-    ) -> Option<Modes> {
-        let size = diagonal.len();
-        let mut matrix = Mat::<f64>::zeros(size, size);
-        for i in 0..size {
-            matrix[(i, i)] = diagonal[i];
-            if i > 0 {
-                matrix[(i, i - 1)] = off[i];
-                matrix[(i - 1, i)] = off[i];
-            }
-        }
-        let (values, vectors) = symmetric_eigen(&matrix);
-        let wanted: Vec<usize> = (0..size).rev().take(count).collect();
-        let is_settled =
-            |&k: &usize| remainder * vectors[(size - 1, k)].abs() <= SETTLED * values[k].abs();
-        if wanted.len() < count || !wanted.iter().all(is_settled) {
-            return None;
-        }
-        let mode = |k: usize| {
-            let mut x = vec![0.0; basis[0].len()];
-            for (j, q) in basis.iter().enumerate() {
-                let share = vectors[(j, k)];
-                x.iter_mut().zip(q).for_each(|(v, q)| *v += share * q);
-            }
-            (self.shift + 1.0 / values[k], x)
-        };
-        Some(wanted.into_iter().map(mode).collect())
+    fn mass_times(&self, x: MatRef<'_, f64>) -> Mat<f64> {
+        self.mass.multiply_columns(&x.to_owned())
+    }
+
+    fn solve_in_place(&self, x: &mut Mat<f64>) {
+        (0..x.ncols()).for_each(|j| self.factor.solve(x.col_as_slice_mut(j)));
     }
 }

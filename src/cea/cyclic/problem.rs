@@ -4,7 +4,7 @@ use super::path::Eigenpair;
 use super::vectors::{ZERO, add, dot, largest, product};
 use crate::cea::counted::STANDSTILL;
 use crate::fem::own_frequency_step;
-use crate::linalg::banded::{BandedLu, BandedMatrix};
+use crate::linalg::banded::{BandedLu, BandedMatrix, multiply_band};
 use crate::linalg::{Mat, c64};
 use crate::prestress::{FrictionPolynomial, HarmonicTangent, MovingHarmonic, evaluate};
 
@@ -351,23 +351,16 @@ impl HarmonicProblem {
 
     /// `factor A x` or `factor A^H x` of a band of values.
     fn multiply(&self, values: &[c64], factor: c64, x: &[c64], adjoint: bool) -> Vec<c64> {
-        let (n, h) = (self.dimension, self.half_bandwidth);
-        let mut result = vec![ZERO; n];
-        for (row, band) in values.chunks_exact(2 * h + 1).enumerate() {
-            let first = row.saturating_sub(h);
-            let last = (row + h + 1).min(n);
-            let band = &band[first + h - row..last + h - row];
-            if adjoint {
-                for (value, sum) in band.iter().zip(&mut result[first..last]) {
-                    *sum += value.conj() * x[row];
-                }
-            } else if self.is_reduced() {
-                result[row] = product(band, &x[first..last]);
-            } else {
-                let sum: c64 = band.iter().zip(&x[first..last]).map(|(v, x)| v * x).sum();
-                result[row] = sum;
-            }
-        }
+        let h = self.half_bandwidth;
+        let row = |(row, band): (usize, &[c64])| {
+            let (first, last) = (row.saturating_sub(h), (row + h + 1).min(self.dimension));
+            product(&band[first + h - row..last + h - row], &x[first..last])
+        };
+        // Long rows lose fewer digits in several sums.
+        let mut result: Vec<c64> = match self.is_reduced() && !adjoint {
+            true => values.chunks_exact(2 * h + 1).enumerate().map(row).collect(),
+            false => multiply_band(values, h, x, adjoint),
+        };
         let factor = if adjoint { factor.conj() } else { factor };
         result.iter_mut().for_each(|value| *value *= factor);
         result

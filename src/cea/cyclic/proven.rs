@@ -26,8 +26,8 @@ pub(super) fn solve(tangent: WaveTangent, wanted: &Wanted<'_>) -> Result<WaveSwe
     for _ in 0..MARGIN_ATTEMPTS {
         match follow(&tangent, wanted, margin, None) {
             Ok(found) => {
-                let checks = checks(wanted.grid);
-                let verdict = completeness::verify(&tangent, &found.followed, found.limit, &checks);
+                let verdict =
+                    completeness::verify(&tangent, &found.followed, found.limit, wanted.grid);
                 let Some(harmonic) = verdict.missed else {
                     return Ok(found.sweep(tangent, verdict, true));
                 };
@@ -61,15 +61,7 @@ pub fn onsets(
     Ok(Some(found.sweep(tangent, Verdict::default(), false).sweep))
 }
 
-/// Friction values, out of a rising grid, at which modes are counted: the quarters of the range.
-fn checks(grid: &[f64]) -> Vec<f64> {
-    let last = grid.len() - 1;
-    let mut places: Vec<usize> = (1..=4).map(|quarter| last * quarter / 4).collect();
-    places.dedup();
-    places.into_iter().map(|place| grid[place]).collect()
-}
-
-fn follow(
+pub(super) fn follow(
     tangent: &WaveTangent,
     wanted: &Wanted<'_>,
     margin: f64,

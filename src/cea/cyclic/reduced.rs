@@ -1,7 +1,7 @@
 //! Harmonics reduced to small spaces first: a body of revolution in three dimensions, and every one with structural damping.
 
 use super::across::Across;
-use super::completeness::Verdict;
+use super::completeness::{self, Verdict};
 use super::damped::{Range, follow_damped};
 use super::found::{Found, MARGIN, Overdamped, Wanted, WaveSweep};
 use super::modes::points;
@@ -39,28 +39,46 @@ type Solved = (HarmonicPaths, f64, Vec<Overdamped>);
 
 /// The sweep of a body, for `|lambda|` up to a margin above what is wanted.
 pub(super) fn solve(mut tangent: WaveTangent, asked: &Wanted<'_>) -> Result<WaveSweep, CeaError> {
+    let (found, counted) = follow_all(&mut tangent, asked)?;
+    // What depends on frequency by a table is no analytic function of the eigenvalue.
+    let is_verified = asked.request.count_modes && tangent.tables().next().is_none();
+    let verdict = match is_verified {
+        true => completeness::verify(&tangent, &found.followed, found.limit, asked.grid),
+        false => Verdict { counted, ..Verdict::default() },
+    };
+    match verdict.missed {
+        Some(harmonic) => Err(CeaError::Unproven { harmonic, margin: MARGIN }),
+        None => Ok(found.sweep(tangent, verdict, is_verified)),
+    }
+}
+
+/// The branches of all harmonics, and those harmonics that are counted empty at rest.
+pub(super) fn follow_all(
+    tangent: &mut WaveTangent,
+    asked: &Wanted<'_>,
+) -> Result<(Found, Vec<usize>), CeaError> {
     let (limit, grid) = (asked.request.limit, asked.grid);
     let is_tabled = tangent.tables().next().is_some();
     let (bound, known) = match is_tabled {
         true => (bound(&tangent.referred_to(ModulusTable::stiffest_hz), limit)?.0, Vec::new()),
-        false => bound(&tangent, limit)?,
+        false => bound(tangent, limit)?,
     };
     // As many modes lie below a frequency as with the moduli of that frequency, as long as these rise less than its square.
     let highest = bound.sqrt() * MARGIN / TAU;
-    tangent = tangent.referred_to(|_| highest);
-    let (mut found, counted) = modes_below(&tangent, bound * (MARGIN * SPAN).powi(2), known)?;
+    *tangent = tangent.referred_to(|_| highest);
+    let (mut found, counted) = modes_below(tangent, bound * (MARGIN * SPAN).powi(2), known)?;
     let wanted = match is_tabled {
         true => bound,
-        false => wanted(&tangent, &found, limit, bound)?,
+        false => wanted(tangent, &found, limit, bound)?,
     };
     let margin = wanted * MARGIN * MARGIN;
     found.retain(|found| found.modes.iter().any(|mode| mode.0 < margin));
 
     // Each harmonic by itself.
     let kept = asked.kept();
-    let solved: Result<Vec<Solved>, CeaError> = reduce(&tangent, found, grid, margin)
+    let solved: Result<Vec<Solved>, CeaError> = reduce(tangent, found, grid, margin)
         .into_par_iter()
-        .map(|found| follow(&tangent, found, &kept, (grid, wanted)))
+        .map(|found| follow(tangent, found, &kept, (grid, wanted)))
         .collect();
     let (mut followed, mut overdamped, mut error) = (Vec::new(), Vec::new(), 0.0_f64);
     for (paths, own_error, slow) in solved? {
@@ -69,7 +87,7 @@ pub(super) fn solve(mut tangent: WaveTangent, asked: &Wanted<'_>) -> Result<Wave
         error = error.max(own_error);
     }
     let found = Found {
-        points: points(&tangent, &followed, asked),
+        points: points(tangent, &followed, asked),
         followed,
         limit: wanted.sqrt(),
         margin: margin.sqrt(),
@@ -79,8 +97,8 @@ pub(super) fn solve(mut tangent: WaveTangent, asked: &Wanted<'_>) -> Result<Wave
             _ => overdamped_at(grid, &overdamped),
         },
     };
-    check_tables(&tangent, &found.points)?;
-    Ok(found.sweep(tangent, Verdict { counted, ..Verdict::default() }, false))
+    check_tables(tangent, &found.points)?;
+    Ok((found, counted))
 }
 
 /// The branches of one harmonic with `|lambda|^2` up to a margin above `wanted`.
@@ -184,27 +202,20 @@ fn reduce(tangent: &WaveTangent, found: Vec<AtRest>, grid: &[f64], margin: f64) 
         let lossy: Vec<&BandedMatrix> = lossy.chain(damped).collect();
         let loads = (&touched[..], &lossy[..]);
         let (pencil, across) = (found.pencil, Across::new(&harmonic, &sideways));
-        if !across.are_strong(&found.modes, friction) {
-            let modes = (found.modes, Vec::new());
-            return Reduced {
-                number: found.harmonic,
-                reduction: Reduction::new(&pencil, columns, loads, modes),
-                is_damped: false,
-                harmonic,
-                across,
-                pencil,
-            };
-        }
-        let held = across.held_modes(&pencil, margin * SPAN * SPAN);
+        let is_damped = across.are_strong(&found.modes, friction);
+        let held = match is_damped {
+            true => across.held_modes(&pencil, margin * SPAN * SPAN),
+            false => Vec::new(),
+        };
         let reduction = Reduction::new(&pencil, columns, loads, (found.modes, held));
-        let answering = across.added_to(&pencil, friction * margin.sqrt());
+        let answering = is_damped.then(|| across.added_to(&pencil, friction * margin.sqrt()));
         Reduced {
             number: found.harmonic,
-            reduction: reduction.turned(&across),
-            is_damped: true,
+            reduction: if is_damped { reduction.turned(&across) } else { reduction },
+            is_damped,
             harmonic,
             across,
-            pencil: answering.unwrap_or(pencil),
+            pencil: answering.flatten().unwrap_or(pencil),
         }
     };
     found.into_par_iter().map(solve).collect()

@@ -32,38 +32,61 @@ pub(super) struct RowStencil {
     pub tr1: [f64; 3],
 }
 
-/// Where the rows of a cyclic field lie.
+/// Where the lines of a field lie: one around for each component of each node of a sector.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct RowLayout {
-    /// Nodes along the circumference.
+pub(super) struct LineLayout {
+    /// Components of a displacement.
+    pub components: usize,
+    /// Sectors.
     pub count: usize,
-    /// Values from one component of a row to the next, a multiple of 8, at least `count + 2`: room for
-    /// the copy of node 0 behind node `count - 1`, and for the next block's copy of its last node.
-    pub stride: usize,
-    /// Rows that move; the clamped row follows them.
-    pub rows: usize,
+    /// Values from one line to the next, a multiple of 8, at least `count + 2`: room for the copy
+    /// of sector 0 behind the last one, and for the next line's copy of its last sector.
+    stride: usize,
+    /// Nodes that have lines.
+    nodes: usize,
 }
 
-impl RowLayout {
-    pub(super) fn new(count: usize, rows: usize) -> Self {
-        Self { count, stride: (count + 2).next_multiple_of(LANES), rows }
+impl LineLayout {
+    pub(super) fn new(components: usize, count: usize, nodes: usize) -> Self {
+        Self { components, count, stride: (count + 2).next_multiple_of(LANES), nodes }
     }
 
-    /// First value of component `component` of row `row`. One cache line and one row of zeros come before
-    /// row 0, so that every row has an inner neighbour.
+    /// First value of a component's line; a cache line comes before the first.
     #[inline(always)]
-    pub(super) fn start(&self, row: usize, component: usize) -> usize {
-        self.line(row + 1, component)
+    pub(super) fn line(&self, node: usize, component: usize) -> usize {
+        LANES + (self.components * node + component) * self.stride
     }
 
-    /// First value of component `component` of line `line`: 0 is the row of zeros, `row + 1` row `row`.
+    /// All lines of a node.
     #[inline(always)]
-    pub(super) fn line(&self, line: usize, component: usize) -> usize {
-        LANES + (2 * line + component) * self.stride
+    fn lines(&self, node: usize) -> Range<usize> {
+        self.line(node, 0)..self.line(node + 1, 0)
+    }
+
+    /// The lines of `field` at a node.
+    #[inline(always)]
+    fn lines_of<'a, const D: usize>(
+        &self,
+        node: usize,
+        field: &'a mut [f64],
+    ) -> [&'a mut [f64]; D] {
+        let mut lines = field[self.lines(node)].chunks_exact_mut(self.stride);
+        std::array::from_fn(|_| lines.next().expect("a node has a line for each component"))
+    }
+
+    /// Writes the copies across the seam of a node's lines, and zeros into the rest of the padding.
+    #[inline(always)]
+    fn close_seams(&self, node: usize, x: &mut [f64]) {
+        for component in 0..self.components {
+            let start = self.line(node, component);
+            x[start - 1] = x[start + self.count - 1];
+            x[start + self.count] = x[start];
+            x[start + self.count + 1..start + self.stride - 1].fill(0.0);
+        }
     }
 
     pub(super) fn field_length(&self) -> usize {
-        self.start(self.rows + 1, 0) + LANES
+        self.line(self.nodes, 0) + LANES
     }
 }
 
@@ -140,21 +163,10 @@ fn move_places<const FUSED: bool>(
     );
 }
 
-/// Writes the copies of the nodes across the seam of one row, and zeros into the rest of its padding.
-#[inline(always)]
-fn close_seam(layout: &RowLayout, row: usize, x: &mut [f64]) {
-    for component in 0..2 {
-        let start = layout.start(row, component);
-        x[start - 1] = x[start + layout.count - 1];
-        x[start + layout.count] = x[start];
-        x[start + layout.count + 1..start + layout.stride - 1].fill(0.0);
-    }
-}
-
 /// `y = stencil x` on one row, handed to `store(j, y_r, y_t)`.
 #[inline(always)]
 fn apply_row<const FUSED: bool>(
-    layout: &RowLayout,
+    layout: &LineLayout,
     stencil: &RowStencil,
     row: usize,
     x: &[f64],
@@ -162,7 +174,7 @@ fn apply_row<const FUSED: bool>(
 ) {
     let width = layout.stride;
     let line = |offset: usize, component: usize| {
-        let start = layout.start(row, component) + 2 * offset * width - 2 * width;
+        let start = layout.line(row, component) + 2 * offset * width - 2 * width;
         &x[start - 1..start + width + 1]
     };
     let radial = [line(0, 0), line(1, 0), line(2, 0)];
@@ -185,78 +197,49 @@ fn apply_row<const FUSED: bool>(
     }
 }
 
-/// The row of `field` at `row`, one slice for each component.
-#[inline(always)]
-fn row_of<'a>(
-    layout: &RowLayout,
-    row: usize,
-    field: &'a mut [f64],
-) -> (&'a mut [f64], &'a mut [f64]) {
-    let start = layout.start(row, 0);
-    field[start..start + 2 * layout.stride].split_at_mut(layout.stride)
-}
-
-/// `z <- M^-1 K v`, `q <- q + dt z` on one row.
-#[inline(always)]
-fn accumulate_row<const FUSED: bool>(
-    layout: &RowLayout,
-    stencil: &RowStencil,
-    row: usize,
-    velocity: &[f64],
-    time_step: f64,
-    (z_r, z_t): (&mut [f64], &mut [f64]),
-    (q_r, q_t): (&mut [f64], &mut [f64]),
-) {
-    apply_row::<FUSED>(layout, stencil, row, velocity, |j, y_r, y_t| {
-        z_r[j] = y_r;
-        z_t[j] = y_t;
-        q_r[j] = multiply_add::<FUSED>(time_step, y_r, q_r[j]);
-        q_t[j] = multiply_add::<FUSED>(time_step, y_t, q_t[j]);
-    });
-}
-
 /// The whole step in one sweep: row `i` moves, then row `i - 1`, whose neighbours have all moved, gets its
-/// new accelerations, while both are in the first-level cache.
+/// new accelerations, while both are in the first-level cache. Rows of zeros enclose them.
 #[inline(always)]
-fn cyclic_advance_body<const FUSED: bool>(
-    layout: &RowLayout,
+fn radial_advance_body<const FUSED: bool>(
+    layout: &LineLayout,
     stencils: &[RowStencil],
     masses: &[f64],
     fields: &mut MotionFields,
     coefficients: &StepCoefficients,
 ) -> f64 {
     let mut sums = [0.0; SUMS];
-    for row in 0..=layout.rows {
-        if row < layout.rows {
-            let range = layout.start(row, 0)..layout.start(row + 1, 0);
-            move_places::<FUSED>(range, masses, fields, coefficients, &mut sums);
-            close_seam(layout, row, &mut fields.velocity);
+    let time_step = coefficients.time_step;
+    for row in 1..=stencils.len() + 1 {
+        if row <= stencils.len() {
+            move_places::<FUSED>(layout.lines(row), masses, fields, coefficients, &mut sums);
+            layout.close_seams(row, &mut fields.velocity);
         }
-        if row > 0 {
-            accumulate_row::<FUSED>(
-                layout,
-                &stencils[row - 1],
-                row - 1,
-                &fields.velocity,
-                coefficients.time_step,
-                row_of(layout, row - 1, &mut fields.elastic_rate),
-                row_of(layout, row - 1, &mut fields.elastic),
-            );
+        if row > 1 {
+            // z <- M^-1 K v, q <- q + dt z.
+            let (row, stencil) = (row - 1, &stencils[row - 2]);
+            let [z_r, z_t] = layout.lines_of(row, &mut fields.elastic_rate);
+            let [q_r, q_t] = layout.lines_of(row, &mut fields.elastic);
+            apply_row::<FUSED>(layout, stencil, row, &fields.velocity, |j, y_r, y_t| {
+                z_r[j] = y_r;
+                z_t[j] = y_t;
+                q_r[j] = multiply_add::<FUSED>(time_step, y_r, q_r[j]);
+                q_t[j] = multiply_add::<FUSED>(time_step, y_t, q_t[j]);
+            });
         }
     }
     add_up(&sums)
 }
 
 #[inline(always)]
-fn cyclic_multiply_body<const FUSED: bool>(
-    layout: &RowLayout,
+fn radial_multiply_body<const FUSED: bool>(
+    layout: &LineLayout,
     stencils: &[RowStencil],
     x: &mut [f64],
     y: &mut [f64],
 ) {
-    (0..layout.rows).for_each(|row| close_seam(layout, row, x));
-    for (row, stencil) in stencils.iter().enumerate() {
-        let (y_r, y_t) = row_of(layout, row, y);
+    (1..=stencils.len()).for_each(|row| layout.close_seams(row, x));
+    for (row, stencil) in (1..).zip(stencils) {
+        let [y_r, y_t] = layout.lines_of(row, y);
         apply_row::<FUSED>(layout, stencil, row, x, |j, r, t| {
             y_r[j] = r;
             y_t[j] = t;
@@ -313,8 +296,8 @@ pub(super) use dispatched;
 
 pub(super) mod solid;
 
-dispatched!(cyclic_advance, cyclic_advance_body, (
-    layout: &RowLayout, stencils: &[RowStencil], masses: &[f64], fields: &mut MotionFields,
+dispatched!(radial_advance, radial_advance_body, (
+    layout: &LineLayout, stencils: &[RowStencil], masses: &[f64], fields: &mut MotionFields,
     coefficients: &StepCoefficients) -> f64);
-dispatched!(cyclic_multiply, cyclic_multiply_body, (
-    layout: &RowLayout, stencils: &[RowStencil], x: &mut [f64], y: &mut [f64]) -> ());
+dispatched!(radial_multiply, radial_multiply_body, (
+    layout: &LineLayout, stencils: &[RowStencil], x: &mut [f64], y: &mut [f64]) -> ());

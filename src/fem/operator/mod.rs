@@ -1,12 +1,11 @@
 //! The stiffness operator of an explicit time step: `M^-1 K` with a lumped mass, applied without a
 //! factorization.
 //!
-//! Three implementations stand behind one trait. [`SparseOperator`] is for any mesh.
-//! [`CyclicStencil`] is for a uniform annulus, whose sectors share one stencil in polar frames.
-//! [`SolidStencil`] is for a body of revolution in three dimensions.
+//! Two implementations stand behind one trait: [`SparseOperator`] for any mesh, [`SectorStencil`]
+//! for bodies of equal sectors, a uniform annulus, and a body of revolution in three dimensions.
 
+mod annulus;
 mod block_rows;
-mod cyclic;
 mod field;
 mod kernel;
 mod largest_frequency;
@@ -14,13 +13,13 @@ mod node_order;
 mod simd;
 mod solid;
 mod sparse;
+mod stencil;
 
-pub use cyclic::CyclicStencil;
 pub use field::{AlignedVector, MotionFields};
 pub use largest_frequency::{largest_frequency, largest_frequency_of};
 pub use simd::{SimdError, SimdLevel};
-pub use solid::SolidStencil;
 pub use sparse::SparseOperator;
+pub use stencil::SectorStencil;
 
 /// Coefficients of one explicit step.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -131,22 +130,4 @@ pub fn scatter(operator: &dyn StiffnessOperator, vector: &[f64]) -> AlignedVecto
         field[operator.position(dof)] = value;
     }
     field
-}
-
-/// Refuses the entries `[before, here, after]` of a stencil that are not their own mirror images, even or odd.
-fn check_mirrored(entries: impl Iterator<Item = ([f64; 3], bool)>) -> Result<(), OperatorError> {
-    let (mut largest, mut worst) = (0.0_f64, 0.0_f64);
-    for ([before, here, after], is_odd) in entries {
-        let parity = if is_odd { -1.0 } else { 1.0 };
-        worst = worst.max((after - parity * before).abs());
-        if is_odd {
-            worst = worst.max(here.abs());
-        }
-        largest = largest.max(here.abs());
-    }
-    // Assembly order leaves a few units of round-off; anything more is no sector.
-    match worst / largest {
-        relative if relative > 1e-11 => Err(OperatorError::NotCyclic { relative }),
-        _ => Ok(()),
-    }
 }

@@ -1,37 +1,25 @@
 //! `M^-1 K` of a body of revolution in three dimensions, one stencil for each node of a sector.
 
-use super::kernel::solid::{SheetCoupling, SheetLayout, solid_advance, solid_multiply};
-use super::{
-    MotionFields, OperatorError, SimdLevel, StepCoefficients, StiffnessOperator, check_mirrored,
-};
+use super::kernel::{LineLayout, solid::SheetCoupling};
+use super::stencil::{StencilRows, check_mirrored};
+use super::{OperatorError, SectorStencil, SimdLevel};
 use crate::fem::fold::SectorMatrix;
 use crate::fem::{MassKind, MaterialField, sector};
 use crate::mesh::SolidSector;
 use std::collections::BTreeMap;
 
-/// `M^-1 K` of bricks of 8 nodes, without a matrix.
-///
-/// In cylindrical frames every sector has the same element matrices, so a node couples to its at most 27 neighbours in its own
-/// sector and the two beside it through 3 x 3 blocks that depend on the node of the sector alone. Fields hold one line along the
-/// circumference for each of these nodes and each component `(u_r, u_theta, u_z)`. Dof `3 (s n + k) + c` is component `c` of node
-/// `k` of sector `s`, `n` nodes to a sector. The mass is lumped by row sums.
-#[derive(Clone, Debug)]
-pub struct SolidStencil {
-    layout: SheetLayout,
-    rows: Vec<Vec<SheetCoupling>>,
-    masses: Vec<f64>,
-    simd: SimdLevel,
-}
-
 /// `[l][c][d]`: from component `d` of a node in sector `s + l - 1` to component `c` of one in sector `s`.
 type Blocks = [[[f64; 3]; 3]; 3];
 
-impl SolidStencil {
-    /// Assembles the stencil from the elastic stiffness of a sector and the springs of its supports.
+impl SectorStencil {
+    /// Assembles the stencil of bricks of 8 nodes from the elastic stiffness of a sector and the
+    /// springs of its supports, with the mass lumped by row sums.
+    ///
+    /// A node couples to its at most 27 neighbours through 3 x 3 blocks.
     ///
     /// # Errors
     /// [`OperatorError`] for bricks of 20 nodes, for sectors that are not mirror-symmetric, for a node without mass.
-    pub fn assemble(
+    pub fn of_revolution(
         sector: &SolidSector,
         material: &dyn MaterialField,
         springs: &SectorMatrix,
@@ -40,8 +28,7 @@ impl SolidStencil {
         if sector.is_quadratic() {
             return Err(OperatorError::NotBrick8);
         }
-        let layout =
-            SheetLayout::new(sector.sector_count(), sector.node_count(), sector.node_bandwidth());
+        let layout = LineLayout::new(3, sector.sector_count(), sector.node_count());
         let node_masses = nodal_masses(sector, material)?;
         let elastic = sector::stiffness(sector, material);
         let blocks = sector_blocks(sector, &[&elastic, springs]);
@@ -63,19 +50,19 @@ impl SolidStencil {
                 .map(|(&other, blocks)| coupling(blocks, scale, layout.line(other, 0)))
                 .collect()
         };
-        let mut masses = vec![0.0; layout.field_length()];
-        for (node, mass) in node_masses.iter().enumerate() {
-            for component in (0..3).filter(|c| !sector.is_held(3 * node + c)) {
-                let start = layout.line(node, component);
-                masses[start..start + layout.count].fill(*mass);
-            }
-        }
-        Ok(Self {
-            rows: blocks.iter().enumerate().map(row).collect(),
+        let rows = blocks.iter().enumerate().map(row).collect();
+        let mut own = Self {
+            masses: vec![0.0; layout.field_length()],
+            rows: StencilRows::Sheet(rows, sector.node_bandwidth()),
+            first: 0,
+            per_sector: sector.node_count(),
             layout,
-            masses,
             simd: simd.min(SimdLevel::detect()),
-        })
+        };
+        for (node, mass) in node_masses.iter().enumerate() {
+            own.fill_masses(node, (0..3).filter(|c| !sector.is_held(3 * node + c)), *mass);
+        }
+        Ok(own)
     }
 }
 
@@ -115,41 +102,5 @@ fn coupling([before, here, after]: &Blocks, scale: [f64; 3], start: usize) -> Sh
         here: EVEN.map(|(c, d)| scale[c] * here[c][d]),
         beside: EVEN.map(|(c, d)| scale[c] * 0.5 * (after[c][d] + before[c][d])),
         odd: ODD.map(|(c, d)| scale[c] * 0.5 * (after[c][d] - before[c][d])),
-    }
-}
-
-impl StiffnessOperator for SolidStencil {
-    fn name(&self) -> &'static str {
-        "cyclic"
-    }
-
-    fn simd(&self) -> SimdLevel {
-        self.simd
-    }
-
-    fn dof_count(&self) -> usize {
-        3 * self.layout.nodes * self.layout.count
-    }
-
-    fn field_length(&self) -> usize {
-        self.masses.len()
-    }
-
-    fn position(&self, dof: usize) -> usize {
-        let (node, component) = (dof / 3, dof % 3);
-        let line = self.layout.line(node % self.layout.nodes, component);
-        line + node / self.layout.nodes
-    }
-
-    fn masses(&self) -> &[f64] {
-        &self.masses
-    }
-
-    fn multiply(&self, x: &mut [f64], y: &mut [f64]) {
-        solid_multiply(self.simd, &self.layout, &self.rows, x, y);
-    }
-
-    fn advance(&self, fields: &mut MotionFields, coefficients: &StepCoefficients) -> f64 {
-        solid_advance(self.simd, &self.layout, &self.rows, &self.masses, fields, coefficients)
     }
 }

@@ -1,11 +1,7 @@
 //! Elements of the faces of a body of revolution.
 
-use super::super::FaceKind;
-use super::{SolidContact, SolidFace, SolidSector};
-
-/// Parent coordinates of the nodes of a face element: across the sector, then along the face.
-const PLACES: [[isize; 2]; 8] =
-    [[-1, -1], [1, -1], [1, 1], [-1, 1], [0, -1], [1, 0], [0, 1], [-1, 0]];
+use super::super::{ElementKind, FaceKind};
+use super::{SolidFace, SolidSector};
 
 /// One element's part of a face, in sector 0.
 #[derive(Clone, Debug, PartialEq)]
@@ -18,29 +14,13 @@ pub struct FaceElement {
 
 /// Gauss points `(place, weight)` of a face element: 2 x 2, or 3 x 3 for 8 nodes.
 pub fn face_quadrature(is_quadratic: bool) -> impl Iterator<Item = ([f64; 2], f64)> {
-    let kind = if is_quadratic { FaceKind::Quad8 } else { FaceKind::Quad4 };
-    let points = kind.quadrature().into_iter();
+    let points = kind(is_quadratic).quadrature().into_iter();
     points.map(|([x, y, _], weight)| ([x, y], weight))
 }
 
-/// Shape functions of a face element, bilinear or serendipity.
-pub fn face_shapes(is_quadratic: bool, [x, y]: [f64; 2]) -> Vec<f64> {
-    let count = if is_quadratic { 8 } else { 4 };
-    let places = PLACES[..count].iter();
-    places
-        .map(|&[a, b]| {
-            let (p, q) = (a as f64, b as f64);
-            let factor = |sign: f64, at: f64| {
-                if sign == 0.0 { 1.0 - at * at } else { 1.0 + sign * at }
-            };
-            let product = factor(p, x) * factor(q, y);
-            match (is_quadratic, a == 0 || b == 0) {
-                (false, _) => 0.25 * product,
-                (true, true) => 0.5 * product,
-                (true, false) => 0.25 * product * (p * x + q * y - 1.0),
-            }
-        })
-        .collect()
+/// Kind of the elements of a face; parent axes lead across the sector, then along the face.
+fn kind(is_quadratic: bool) -> FaceKind {
+    if is_quadratic { FaceKind::Quad8 } else { FaceKind::Quad4 }
 }
 
 impl FaceElement {
@@ -54,7 +34,8 @@ impl FaceElement {
         let [from, to] = [0, 2].map(|corner| &sector.nodes[self.nodes[corner].0]);
         let half = 0.5 * (to.radius - from.radius).hypot(to.height - from.height);
         let measure = weight * half * self.radius_at(sector, at) * sector.half_angle();
-        (face_shapes(sector.is_quadratic(), at), measure)
+        let shapes = kind(sector.is_quadratic()).shape_functions(at).into_iter();
+        (shapes.map(|shape| shape.0).collect(), measure)
     }
 
     /// Radius at a point of the parent element, m.
@@ -69,7 +50,10 @@ impl SolidSector {
     pub fn face_elements(&self, face: SolidFace) -> Vec<FaceElement> {
         let [nr, nz] = self.divisions();
         let count = if face.normal_component() == 0 { nz } else { nr };
-        let places = &PLACES[..if self.is_quadratic() { 8 } else { 4 }];
+        let places = match self.is_quadratic() {
+            true => ElementKind::Quad8.node_places(),
+            false => ElementKind::Quad4.node_places(),
+        };
         let find = |place: [usize; 2], half: usize| {
             let is_here =
                 |node: &super::SheetNode| node.place == place && node.half_step == half % 2;
@@ -77,9 +61,9 @@ impl SolidSector {
         };
         (0..count)
             .map(|k| {
-                let node = |&[a, b]: &[isize; 2]| {
-                    let along = (2 * k + 1).wrapping_add_signed(b);
-                    let half = 1usize.wrapping_add_signed(a);
+                let node = |&[a, b, _]: &[f64; 3]| {
+                    let along = (2 * k + 1).wrapping_add_signed(b as isize);
+                    let half = 1usize.wrapping_add_signed(a as isize);
                     let place = match face {
                         SolidFace::Inner => [0, along],
                         SolidFace::Outer => [2 * nr, along],
@@ -95,15 +79,11 @@ impl SolidSector {
 
     /// The elements of the face that the rotor touches.
     pub fn contact_elements(&self) -> Vec<FaceElement> {
-        let contact = self.specification.contact;
-        let mut elements = self.face_elements(contact.face());
-        if let SolidContact::Ring { inner_radius, outer_radius } = contact {
-            let slack = 1e-9 * self.specification.annulus.outer_radius;
-            elements.retain(|element| {
-                let [from, to] = [0, 2].map(|corner| self.nodes[element.nodes[corner].0].radius);
-                from >= inner_radius - slack && to <= outer_radius + slack
-            });
-        }
+        let mut elements = self.face_elements(self.specification.contact.face());
+        elements.retain(|element| {
+            let mut ends = [0, 2].map(|corner| element.nodes[corner].0).into_iter();
+            ends.all(|node| self.specification.touches(self.nodes[node].radius))
+        });
         elements
     }
 }

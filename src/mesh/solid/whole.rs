@@ -41,15 +41,9 @@ impl SolidSector {
         let nodes: Vec<usize> =
             face.nodes.iter().map(|&node| node as usize % self.node_count()).collect();
         let lies_on = |own: SolidFace| nodes.iter().all(|&node| self.is_on(node, own));
-        let under_ring = match self.specification.contact {
-            SolidContact::Inner => false,
-            SolidContact::Ring { inner_radius, outer_radius } => {
-                let slack = 1e-9 * self.specification.annulus.outer_radius;
-                let within = inner_radius - slack..=outer_radius + slack;
-                let mut radii = nodes.iter().map(|&node| self.nodes[node].radius);
-                lies_on(SolidFace::Top) && radii.all(|radius| within.contains(&radius))
-            }
-        };
+        let under_ring = self.specification.contact != SolidContact::Inner
+            && lies_on(SolidFace::Top)
+            && nodes.iter().all(|&node| self.specification.touches(self.nodes[node].radius));
         let own = SolidFace::ALL.into_iter().filter(|own| lies_on(*own));
         let names: Vec<&'static str> = own.map(SolidFace::name).collect();
         names.into_iter().chain(under_ring.then(|| self.contact_surface()))

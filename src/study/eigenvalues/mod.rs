@@ -31,7 +31,7 @@ pub(super) use sensitivity::rates::rates_of_waves;
 pub use sensitivity::{BodySensitivities, body_sensitivities};
 pub use sliding::{SlidingModel, SteadyState};
 pub use solid::SolidBody;
-pub use solve::{solve, solve_modes};
+pub use solve::{Solved, solve, solve_modes, solved};
 pub(super) use spectrum::analysis;
 pub use spectrum::{
     OnsetSearch, modes_at_own_friction, modes_below, modes_with_waves_below, unstable_intervals,

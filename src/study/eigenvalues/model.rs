@@ -6,20 +6,17 @@ use super::{Progress, StudyError};
 use crate::case::{
     Annulus, Body, Case, CaseErrors, Cea, CeaMethod, ModeSelection, Revolution, refusal,
 };
-use crate::cea::cyclic::{self, Coverage, Overdamped, SolidModel, WaveSweep};
+use crate::cea::cyclic::{self, Coverage, Overdamped, WaveSweep};
 use crate::cea::{CeaError, FrictionSweep, ModeBranch, ModeLimit, SweepRequest};
-use crate::fem::TabledMaterial;
-use crate::mesh::SectorMesh;
+use crate::mesh::{SectorMesh, SolidSector};
 use crate::prestress::{SlidingTangent, TangentOptions, WaveTangent};
 use crate::study::tangent_options;
 
 /// The eigenvalue solver that a body gets.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Solver {
-    /// The harmonics of a plane annulus.
-    Sectors(Annulus),
-    /// The harmonics of a body of revolution in three dimensions.
-    SolidSectors(Revolution),
+    /// The harmonics of a body of equal sectors: a plane annulus, or a body of revolution.
+    Waves,
     /// The whole mesh of a plane body.
     WholeMesh,
     /// The whole mesh of solid bodies.
@@ -53,22 +50,21 @@ impl Solver {
     /// # Errors
     /// As [`Self::of`]; counts of modes where the argument principle does not apply.
     pub fn of_analysis(case: &Case, cea: &Cea) -> Result<Self, CaseErrors> {
-        let mut solver = Self::of(case, cea.method)?;
-        if cea.count_modes {
-            // With structural damping the modes of a whole mesh can be counted, those of harmonics at rest alone.
-            if cea.method == CeaMethod::Auto && is_lossy_annulus(case, &solver) {
-                solver = Self::WholeMesh;
-            }
-            refuse_uncountable(case, &solver)?;
+        let solver = Self::of(case, cea.method)?;
+        let mut tables = (0..case.body.region_count()).filter_map(|r| case.materials().table(r));
+        match tables.next() {
+            Some(table) if cea.count_modes => Err(refusal!(case, "cea.count_modes",
+                "cea.count_modes = true: {} is a table over frequency, and no analytic function \
+                 of the eigenvalue", table.key();
+                "modes cannot be counted"; "leave it out, or give the material one modulus")),
+            _ => Ok(solver),
         }
-        Ok(solver)
     }
 
     /// The solver that uses all the symmetry of the body of a case.
     pub fn by_symmetry(case: &Case) -> Self {
         match &case.body {
-            Body::Annulus(annulus) => Self::Sectors(annulus.clone()),
-            Body::Revolution(revolution) => Self::SolidSectors(revolution.clone()),
+            Body::Annulus(_) | Body::Revolution(_) => Self::Waves,
             Body::Imported(_) => Self::WholeMesh,
             Body::Assembly(_) => Self::Assembly,
         }
@@ -90,39 +86,10 @@ fn refuse_rest(case: &Case) -> Result<(), CaseErrors> {
         "give a speed, however small; its sign is the sense of the sliding"))
 }
 
-fn is_lossy_annulus(case: &Case, solver: &Solver) -> bool {
-    matches!(solver, Solver::Sectors(_)) && case.has_structural_damping()
-}
-
-/// Refuses to count modes where the argument principle does not apply.
-fn refuse_uncountable(case: &Case, solver: &Solver) -> Result<(), CaseErrors> {
-    let mut tables = (0..case.body.region_count()).filter_map(|r| case.materials().table(r));
-    let (why, help) = match (solver, tables.next()) {
-        (Solver::SolidSectors(_), _) => (
-            "the harmonics of a body of revolution are counted at rest (by inertia) and followed from there".to_owned(),
-            "leave it out, or take the whole mesh: cea.method = \"sparse\"",
-        ),
-        (_, Some(table)) => (
-            format!("{} is a table over frequency, and no analytic function of the eigenvalue", table.key()),
-            "leave it out, or give the material one modulus",
-        ),
-        _ if is_lossy_annulus(case, solver) => (
-            "harmonics with structural damping are counted at rest (by inertia), then followed"
-                .to_owned(),
-            "leave it out, or take the whole mesh: cea.method = \"sparse\"",
-        ),
-        _ => return Ok(()),
-    };
-    Err(refusal!(case, "cea.count_modes", "cea.count_modes = true: {why}";
-        "modes cannot be counted"; "{help}"))
-}
-
 /// A model whose spectrum can be asked for.
 pub enum Model {
-    /// The harmonics of a plane annulus.
-    Sectors(Box<Annulus>, TangentOptions),
-    /// The harmonics of a body of revolution in three dimensions.
-    SolidSectors(Box<SolidModel<Vec<TabledMaterial>>>),
+    /// The harmonics of a body of equal sectors.
+    Waves(TangentOptions),
     /// The whole mesh of a plane body.
     Whole(Box<WholeMesh>),
     /// The whole mesh of solid bodies.
@@ -208,17 +175,8 @@ impl Model {
         options: TangentOptions,
         frictions: &[f64],
     ) -> Result<Self, CeaError> {
-        let sliding = &case.contact.sliding;
         Ok(match solver {
-            Solver::Sectors(annulus) => Self::Sectors(Box::new(annulus), options),
-            Solver::SolidSectors(Revolution { specification, materials }) => {
-                Self::SolidSectors(Box::new(SolidModel {
-                    specification: *specification,
-                    material: materials,
-                    options,
-                    contact: *sliding,
-                }))
-            }
+            Solver::Waves => Self::Waves(options),
             Solver::WholeMesh => Self::Whole(Box::new(WholeMesh::solve(case, options, frictions)?)),
             Solver::Assembly => {
                 let body = case.body.assembly();
@@ -231,7 +189,7 @@ impl Model {
     /// Name of the solver.
     pub fn method(&self) -> &'static str {
         match self {
-            Self::Sectors(..) | Self::SolidSectors(_) => "cyclic",
+            Self::Waves(_) => "cyclic",
             Self::Whole(_) | Self::Assembly(_) => "sparse",
         }
     }
@@ -256,11 +214,10 @@ impl Model {
         progress: &Progress<'_>,
     ) -> Result<Spectrum, CeaError> {
         match self {
-            Self::Sectors(..) | Self::SolidSectors(_) => {
+            Self::Waves(_) => {
                 let tangent = self.wave_tangent(case)?.expect("a body of sectors has waves");
                 let found = cyclic::wave_sweep(tangent, request, waves_at)?;
-                // With losses every eigenvalue is solved over all unknowns.
-                let is_reduced = !found.coverage.is_verified && !found.tangent.is_lossy();
+                let is_reduced = found.reduction_error > 0.0;
                 let notes = is_reduced.then(|| reduction_note(&found, request));
                 Ok(spectrum_of_waves(found, notes.into_iter().collect()))
             }
@@ -298,7 +255,7 @@ impl Model {
                     options,
                 })))
             }
-            Self::Sectors(..) | Self::SolidSectors(_) => None,
+            Self::Waves(_) => None,
         }
     }
 
@@ -307,7 +264,7 @@ impl Model {
         match self {
             Self::Whole(whole) => whole.range.states.len(),
             Self::Assembly(assembly) => assembly.range.states.len(),
-            Self::Sectors(..) | Self::SolidSectors(_) => 0,
+            Self::Waves(_) => 0,
         }
     }
 
@@ -316,7 +273,7 @@ impl Model {
         match self {
             Self::Whole(whole) => &whole.range.state_of,
             Self::Assembly(assembly) => &assembly.range.state_of,
-            Self::Sectors(..) | Self::SolidSectors(_) => &[],
+            Self::Waves(_) => &[],
         }
     }
 
@@ -325,7 +282,7 @@ impl Model {
         match self {
             Self::Whole(whole) => &whole.range.states[state].is_pressed,
             Self::Assembly(assembly) => &assembly.range.states[state].is_pressed,
-            Self::Sectors(..) | Self::SolidSectors(_) => &[],
+            Self::Waves(_) => &[],
         }
     }
 
@@ -340,7 +297,7 @@ impl Model {
         match self {
             Self::Whole(whole) => Ok(whole.tangent(case, &whole.range.states[state])),
             Self::Assembly(assembly) => assembly.tangent(state),
-            Self::Sectors(..) | Self::SolidSectors(_) => panic!("no whole mesh"),
+            Self::Waves(_) => panic!("no whole mesh"),
         }
     }
 
@@ -349,14 +306,19 @@ impl Model {
     /// # Errors
     /// A sector that cannot be built; no state of steady sliding.
     pub fn wave_tangent(&self, case: &Case) -> Result<Option<WaveTangent>, CeaError> {
-        Ok(match self {
-            Self::Sectors(annulus, options) => {
-                let sector = SectorMesh::generate(&annulus.specification)?;
-                let (materials, sliding) = (&annulus.materials, &case.contact.sliding);
+        let (Self::Waves(options), sliding) = (self, &case.contact.sliding) else {
+            return Ok(None);
+        };
+        Ok(match &case.body {
+            Body::Annulus(Annulus { specification, materials }) => {
+                let sector = SectorMesh::generate(specification)?;
                 Some(WaveTangent::of_annulus(&sector, materials, options, sliding)?)
             }
-            Self::SolidSectors(model) => Some(model.tangent()?),
-            Self::Whole(_) | Self::Assembly(_) => None,
+            Body::Revolution(Revolution { specification, materials }) => {
+                let sector = SolidSector::generate(specification)?;
+                Some(WaveTangent::of_revolution(&sector, materials, options, sliding)?)
+            }
+            Body::Imported(_) | Body::Assembly(_) => None,
         })
     }
 

@@ -11,7 +11,8 @@ use std::f64::consts::TAU;
 pub(super) fn count_notes(cea: &Cea, sweep: &FrictionSweep, is_by_harmonics: bool) -> Vec<String> {
     if cea.count_modes && is_by_harmonics {
         return vec![
-            "cea.count_modes: the harmonics of an annulus are always counted, as said above"
+            "cea.count_modes: harmonics are counted at quarters of the friction range, as said \
+             above"
                 .to_owned(),
         ];
     }

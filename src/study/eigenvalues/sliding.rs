@@ -4,10 +4,10 @@ use super::StudyError;
 use super::assembly::base_state;
 use super::model::Model;
 use super::solid::SolidBody;
-use crate::case::{AssemblyBody, Case, Cea, refusal};
-use crate::fem::nodal_stress;
+use crate::case::{Annulus, AssemblyBody, Body, Case, Cea, Revolution, refusal};
+use crate::fem::{nodal_stress, sector};
 use crate::mesh::{AnnulusMesh, Mesh, SectorMesh};
-use crate::prestress::{BaseChoice, SectorSliding, SteadySliding, supported_stiffness};
+use crate::prestress::{BaseChoice, SectorSliding, SteadySliding, TangentOptions};
 use crate::results::cea::{AssemblyReport, BaseField, BaseState};
 use crate::study::extent_of;
 use std::sync::Arc;
@@ -35,6 +35,31 @@ pub struct SlidingModel {
     pub state: SteadyState,
 }
 
+/// The mesh and the base state of a body of equal sectors, from one of them.
+fn sliding_sector(
+    case: &Case,
+    options: &TangentOptions,
+) -> Result<(Arc<Mesh>, SteadyState), StudyError> {
+    let sliding = &case.contact.sliding;
+    Ok(match &case.body {
+        Body::Annulus(Annulus { specification, materials }) => {
+            let mesh = AnnulusMesh::generate(specification)?;
+            let sector = SectorMesh::generate(specification)?;
+            let stiffness = sector::stiffness(&sector, materials);
+            let base = SectorSliding::solve(&sector, &stiffness, sliding, options.contact.law)?;
+            let base = SteadySliding::from_sector(&mesh, &sector, &base, sliding);
+            (Arc::new(mesh.mesh), SteadyState::Plane(Box::new(base)))
+        }
+        Body::Revolution(Revolution { specification, .. }) => {
+            let solid = SolidBody::new(case, specification)?;
+            let mut mesh = AnnulusMesh::generate(&specification.plane())?.mesh;
+            mesh.regions = specification.region_names();
+            (Arc::new(mesh), SteadyState::Solid(Box::new(solid)))
+        }
+        Body::Imported(_) | Body::Assembly(_) => unreachable!("a body of equal sectors has waves"),
+    })
+}
+
 impl SlidingModel {
     /// Builds the model of a case up to its base states.
     ///
@@ -43,14 +68,7 @@ impl SlidingModel {
     /// symmetry which is not there.
     pub fn new(case: &Case, cea: &Cea) -> Result<Self, StudyError> {
         let model = Model::new(case, cea)?;
-        let sliding = &case.contact.sliding;
         let (mesh, state) = match &model {
-            Model::SolidSectors(revolution) => {
-                let solid = SolidBody::new(case, &revolution.specification)?;
-                let mut mesh = AnnulusMesh::generate(&revolution.specification.plane())?.mesh;
-                mesh.regions = revolution.specification.region_names();
-                (Arc::new(mesh), SteadyState::Solid(Box::new(solid)))
-            }
             Model::Assembly(assembly) => {
                 let report = assembly.report(case);
                 let mesh = Arc::clone(&assembly.body.mesh);
@@ -60,16 +78,7 @@ impl SlidingModel {
                 let state = SteadyState::Plane(Box::new(whole.base().clone()));
                 (Arc::clone(&whole.mesh), state)
             }
-            Model::Sectors(annulus, options) => {
-                let mesh = AnnulusMesh::generate(&annulus.specification)?;
-                let sector = SectorMesh::generate(&annulus.specification)?;
-                let materials = &annulus.materials;
-                let stiffness = supported_stiffness(&sector, materials);
-                let law = options.contact.law;
-                let base = SectorSliding::solve(&sector, &stiffness, sliding, law)?;
-                let base = SteadySliding::from_sector(&mesh, &sector, &base, sliding);
-                (Arc::new(mesh.mesh), SteadyState::Plane(Box::new(base)))
-            }
+            Model::Waves(options) => sliding_sector(case, options)?,
         };
         let model = Self { mesh, model, state };
         model.refuse_no_pressure(case)?;
@@ -120,7 +129,7 @@ impl SlidingModel {
         match &self.model {
             Model::Whole(whole) => &whole.range.changes,
             Model::Assembly(assembly) => &assembly.range.changes,
-            Model::Sectors(..) | Model::SolidSectors(_) => &[],
+            Model::Waves(_) => &[],
         }
     }
 

@@ -1,6 +1,6 @@
 //! Solution of the eigenvalue analysis of a case, and the notes on its results.
 
-use super::model::{Model, Solver, Spectrum, mode_limit};
+use super::model::{Model, Spectrum, mode_limit};
 use super::notes::{
     MISSING_SHOWN, count_notes, coverage_note, damping_note, ended_notes, friction_note,
     instead_note, overdamped_note, table_notes, uncertainty_note, weak_note,
@@ -13,6 +13,7 @@ use crate::case::{Case, Cea, CeaMethod};
 use crate::cea::{CeaError, SweepRequest, Unwatched};
 use crate::prestress::PrestressError;
 use crate::results::cea::SensitivityReport;
+use std::borrow::Cow;
 
 /// Solves the case's eigenproblems with its method; `progress` hears of every friction value solved.
 pub fn solve(
@@ -40,30 +41,19 @@ fn solve_with(
     let frictions = cea.solved_friction_coefficients();
     let waves_at: &[f64] = if with_reading { &frictions } else { &[] };
     let modes = case.cost().cea.map_or(0, |cost| cost.modes) as f64;
-    let solve = |of: &Model| {
-        let (mut shown, mut lefts_at) = (cea.shapes_at.clone(), Vec::new());
-        if with_reading {
-            shown.extend(shapes_needed(case, of, &frictions, modes));
-            lefts_at = lefts_needed(case, cea.mass, &shown, modes);
-        }
-        let request = SweepRequest {
-            shapes_at: &shown,
-            lefts_at: &lefts_at,
-            count_modes: cea.count_modes && with_reading,
-            ..SweepRequest::new(&frictions, mode_limit(cea))
-        };
-        of.spectrum_with_waves(case, (&request, waves_at), progress)
+    let (mut shown, mut lefts_at) = (cea.shapes_at.clone(), Vec::new());
+    if with_reading {
+        shown.extend(shapes_needed(case, &model.model, &frictions, modes));
+        lefts_at = lefts_needed(case, cea.mass, &shown, modes);
+    }
+    let request = SweepRequest {
+        shapes_at: &shown,
+        lefts_at: &lefts_at,
+        count_modes: cea.count_modes && with_reading,
+        ..SweepRequest::new(&frictions, mode_limit(cea))
     };
-    let solved = solve(&model.model);
-    let (mut found, method, instead) = match solved {
-        Ok(found) => (found, model.model.method(), None),
-        Err(error) => {
-            let whole = whole_mesh_instead(case, cea, model, &error)?;
-            let whole = whole.ok_or_else(|| at_key(case, &error))?;
-            let found = solve(&whole)?;
-            (found, whole.method(), Some(instead_note(&error)))
-        }
-    };
+    let found = model.model.spectrum_with_waves(case, (&request, waves_at), progress);
+    let mut found = found.map_err(|error| at_key(case, &error))?;
     // Those of waves cost next to nothing.
     let is_asked = cea.sensitivities.unwrap_or(found.waves.is_some());
     let is_asked = is_asked && with_reading && frictions.iter().any(|&mu| mu >= friction);
@@ -74,7 +64,6 @@ fn solve_with(
 
     let mut notes: Vec<String> = found.coverage.iter().map(coverage_note).collect();
     notes.extend(count_notes(cea, &found.sweep, found.coverage.is_some()));
-    notes.extend(instead);
     notes.extend(found.notes);
     notes.extend(overdamped_note(case, model, &found.overdamped));
     notes.extend(model.solid().and_then(SolidBody::note));
@@ -99,7 +88,7 @@ fn solve_with(
     Ok(Solution {
         reading,
         dofs: found.dofs,
-        method: if found.is_by_diameters { "cyclic" } else { method },
+        method: if found.is_by_diameters { "cyclic" } else { model.model.method() },
         sensitivities,
         notes,
         sweep: found.sweep,
@@ -154,26 +143,99 @@ pub(super) fn at_key(case: &Case, error: &CeaError) -> StudyError {
     }
 }
 
-/// The whole mesh of a plane annulus, where `auto` chose its harmonics and a branch of them could not be followed.
-fn whole_mesh_instead(
-    case: &Case,
+/// A case as it was solved.
+pub struct Solved<'a> {
+    /// It, on its whole mesh where its harmonics could not be followed.
+    pub case: Cow<'a, Case>,
+    /// What was solved.
+    pub model: SlidingModel,
+    /// What came of it.
+    pub solution: Solution,
+}
+
+/// [`SlidingModel::new`] and [`solve`], or [`solve_modes`] without a `progress`. Where `auto` chose
+/// the harmonics of a body and a branch of them cannot be followed, its whole mesh is solved.
+///
+/// # Errors
+/// Those of both.
+pub fn solved<'a>(
+    case: &'a Case,
     cea: &Cea,
-    model: &SlidingModel,
-    error: &CeaError,
-) -> Result<Option<Model>, CeaError> {
-    let is_lost = matches!(
+    progress: Option<&Progress<'_>>,
+) -> Result<Solved<'a>, StudyError> {
+    let how = (progress.is_some(), progress.unwrap_or(&Unwatched));
+    let model = SlidingModel::new(case, cea)?;
+    let has_whole = cea.method == CeaMethod::Auto && matches!(model.model, Model::Waves(_));
+    let error = match solve_with(case, cea, &model, how) {
+        Err(StudyError::Eigenvalues(error)) if has_whole && is_lost(&error) => error,
+        other => return Ok(Solved { case: Cow::Borrowed(case), solution: other?, model }),
+    };
+    on_whole_mesh(case, cea, error, how)
+}
+
+/// The case's whole mesh solved, after its harmonics ended in `error`.
+fn on_whole_mesh<'a>(
+    case: &'a Case,
+    cea: &Cea,
+    error: CeaError,
+    how: (bool, &Progress<'_>),
+) -> Result<Solved<'a>, StudyError> {
+    let Ok(case) = case.on_whole_mesh() else {
+        return Err(error.into());
+    };
+    let (mut case, whole) = (case.into_owned(), Cea { method: CeaMethod::Sparse, ..cea.clone() });
+    // Nor waves around it.
+    case.cea = case.cea.map(|own| Cea { method: CeaMethod::Sparse, ..own });
+    let model = SlidingModel::new(&case, &whole)?;
+    let mut solution = solve_with(&case, &whole, &model, how)?;
+    solution.notes.insert(0, instead_note(&error));
+    Ok(Solved { case: Cow::Owned(case), model, solution })
+}
+
+/// Whether the harmonics of a body could not be followed.
+fn is_lost(error: &CeaError) -> bool {
+    matches!(
         error,
         CeaError::LostHarmonic { .. }
             | CeaError::Unproven { .. }
             | CeaError::Unrefined { .. }
             | CeaError::Incomplete { .. }
             | CeaError::Prestress(PrestressError::Singular)
-    );
-    match &model.model {
-        Model::Sectors(_, options) if is_lost && cea.method == CeaMethod::Auto => {
-            let frictions = cea.solved_friction_coefficients();
-            Model::with_solver(case, Solver::WholeMesh, *options, &frictions).map(Some)
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Harmonics that cannot be followed leave a body of revolution its whole mesh.
+    #[test]
+    fn the_whole_mesh_is_solved_where_a_branch_of_a_harmonic_is_lost() {
+        let bytes = std::fs::read("cases/disc-three-dimensions.toml").unwrap();
+        let sets = [
+            "mesh.circumferential_elements=12",
+            "mesh.radial_elements=3",
+            "mesh.axial_elements=1",
+            "mesh.element=\"quad4\"",
+            "cea.friction_coefficients=[0.0, 0.3]",
+            "cea.max_frequency_hz=12000",
+        ];
+        let case = Case::parse("disc", &bytes, &sets.map(str::to_owned)).unwrap();
+        let cea = case.require_cea().unwrap();
+        let waves = solved(&case, cea, None).unwrap();
+        let error = CeaError::LostHarmonic { harmonic: 3, friction: 0.3 };
+        let whole = on_whole_mesh(&case, cea, error, (false, &Unwatched)).unwrap();
+        assert_eq!((waves.solution.method, whole.solution.method), ("cyclic", "sparse"));
+        let note = "a branch of harmonic 3 could not be followed up to friction 0.3: \
+                    the whole mesh was solved instead";
+        assert!(whole.solution.notes[0].starts_with(note), "{:?}", whole.solution.notes);
+        let points = waves.solution.sweep.points.iter().zip(&whole.solution.sweep.points);
+        for (waves, whole) in points {
+            assert_eq!(waves.modes.len(), whole.modes.len());
+            for (wave, mode) in waves.modes.iter().zip(&whole.modes) {
+                let error = (wave.frequency_hz() - mode.frequency_hz()).abs();
+                assert!(error < 1e-6 * mode.frequency_hz(), "{error}");
+            }
         }
-        _ => Ok(None),
     }
 }

@@ -121,7 +121,7 @@ pub fn unstable_intervals(
     let found = model.spectrum(case, &request, &Unwatched)?;
     super::refuse_no_modes(case, &cea, &found.sweep)?;
     let followed = match (&model, found.coverage) {
-        (Model::Sectors(..), Some(coverage)) => coverage.followed,
+        (Model::Waves(_), Some(coverage)) if case.body.dimension() == 2 => coverage.followed,
         _ => Vec::new(),
     };
     Ok(OnsetSearch {

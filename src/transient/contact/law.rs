@@ -20,7 +20,7 @@ impl TouchingSurfaces {
     /// How far the counterface is pushed in at point `place` of these, less its gap, m; a compliant contact gives way by
     /// its compression in the base state.
     pub(super) fn pushed(&self, place: usize, point: &ContactPoint, share: f64) -> f64 {
-        let compression = self.springs.as_ref().map_or(0.0, |law| law.compression(place));
+        let compression = self.springs.as_ref().map_or(0.0, |law| law.compression[place]);
         (self.interference + compression) * share - point.gap
     }
 

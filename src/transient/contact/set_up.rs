@@ -29,7 +29,7 @@ impl LagrangeContact {
         parts: Vec<ContactPart>,
         bound: &dyn Fn(&Row) -> Row,
     ) -> Self {
-        let mut contact = Self::empty(tangents);
+        let mut contact = Self { tangents, ..Self::default() };
         let mut touched = BTreeMap::new();
         for part in parts {
             let first = contact.points.len();
@@ -66,28 +66,6 @@ impl LagrangeContact {
             });
         }
         contact.finish()
-    }
-
-    fn empty(tangents: usize) -> Self {
-        Self {
-            tangents,
-            is_single: false,
-            is_coupled: false,
-            dofs: Vec::new(),
-            ends: Vec::new(),
-            entries: Vec::new(),
-            points: Vec::new(),
-            surfaces: Vec::new(),
-            nodes: Vec::new(),
-            velocities: Vec::new(),
-            turns: Vec::new(),
-            normal_force: Vec::new(),
-            tangential_force: Vec::new(),
-            across_force: Vec::new(),
-            status: Vec::new(),
-            ambiguous: 0,
-            unconverged_steps: 0,
-        }
     }
 
     /// A row over the dofs that move by themselves and have mass, and over its first one whatever that is.

@@ -3,9 +3,10 @@
 use super::{SteppedBody, TransientModel};
 use crate::fem::lumped_masses;
 use crate::fem::operator::{
-    CyclicStencil, OperatorError, SimdLevel, SolidStencil, SparseOperator, StiffnessOperator,
+    OperatorError, SectorStencil, SimdLevel, SparseOperator, StiffnessOperator,
 };
-use crate::prestress::{Assembly, supports};
+use crate::fem::sector::supports;
+use crate::prestress::Assembly;
 use crate::transient::{OperatorChoice, TransientError};
 use std::collections::BTreeMap;
 
@@ -30,7 +31,7 @@ impl TransientModel<'_> {
                     return Ok(Box::new(SparseOperator::assemble(mesh, self.material, simd)?));
                 }
                 let annulus = annulus.ok_or(OperatorError::NoSymmetry)?;
-                Ok(Box::new(CyclicStencil::assemble(annulus, self.material, simd)?))
+                Ok(Box::new(SectorStencil::of_annulus(annulus, self.material, simd)?))
             }
             (SteppedBody::Revolution(_), OperatorChoice::Sparse) => {
                 Err(OperatorError::NotPlane.into())
@@ -38,7 +39,7 @@ impl TransientModel<'_> {
             (SteppedBody::Revolution(sector), _) => {
                 let [springs, _] = supports(sector);
                 let material = self.material;
-                Ok(Box::new(SolidStencil::assemble(sector, material, &springs, simd)?))
+                Ok(Box::new(SectorStencil::of_revolution(sector, material, &springs, simd)?))
             }
             (SteppedBody::Assembly { .. }, OperatorChoice::Cyclic) => {
                 Err(OperatorError::NoSymmetry.into())

@@ -4,7 +4,7 @@ use crate::prelude::*;
 use crate::transient::model::{Watch, disc, largest, largest_difference, model, settings};
 use frictionsim::fem::DofMap;
 use frictionsim::fem::operator::{
-    AlignedVector, CyclicStencil, MotionFields, SparseOperator, StepCoefficients,
+    AlignedVector, MotionFields, SectorStencil, SparseOperator, StepCoefficients,
     StiffnessOperator, gather, largest_frequency, scatter,
 };
 
@@ -35,7 +35,7 @@ fn both_operators_equal_the_assembled_matrix_on_any_mesh() {
         free.dofs.iter().for_each(|&dof| expected[dof] = force[dof] / masses[dof / 2]);
         for level in LEVELS.into_iter().filter(|level| level.available().is_ok()) {
             let operators: [Box<dyn StiffnessOperator>; 2] = [
-                Box::new(CyclicStencil::assemble(&annulus, &material, level).unwrap()),
+                Box::new(SectorStencil::of_annulus(&annulus, &material, level).unwrap()),
                 Box::new(SparseOperator::assemble(&annulus.mesh, &material, level).unwrap()),
             ];
             for operator in operators {

@@ -5,11 +5,7 @@ use crate::solids::model::{disc, modes};
 use frictionsim::cea::cyclic::sweep;
 use frictionsim::fem::revolved_stress;
 
-fn plane(
-    model: &frictionsim::cea::cyclic::SolidModel,
-    formulation: PlaneFormulation,
-    limit_hz: f64,
-) -> Vec<ComplexMode> {
+fn plane(model: &SolidModel, formulation: PlaneFormulation, limit_hz: f64) -> Vec<ComplexMode> {
     let request = sweep_request(&[0.3], ModeLimit::MaxFrequency(limit_hz));
     let mut material = model.material;
     material.formulation = formulation;

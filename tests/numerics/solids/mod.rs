@@ -4,7 +4,7 @@ mod disc;
 mod elements;
 mod frf_command;
 mod limits;
-mod model;
+pub mod model;
 mod parts;
 mod plane_transient;
 mod poles;

@@ -1,15 +1,36 @@
 //! The polycarbonate disc in three dimensions.
 
 use crate::disc::{TANGENT, elastic, sliding_at, sweep_request};
-use frictionsim::cea::cyclic::SolidModel;
-use frictionsim::cea::{ComplexMode, ModeLimit, cyclic::solid_sweep};
-use frictionsim::fem::{PlaneFormulation, RayleighDamping};
+use frictionsim::cea::cyclic::{WaveSweep, wave_sweep};
+use frictionsim::cea::{CeaError, ComplexMode, ModeLimit, SweepRequest};
+use frictionsim::contact::SlidingContact;
+use frictionsim::fem::{ElasticMaterial, MaterialField, PlaneFormulation, RayleighDamping};
 use frictionsim::mesh::{
     BoundaryCondition, ElementKind, SolidContact, SolidSector, SolidSpecification,
 };
-use frictionsim::prestress::TangentOptions;
+use frictionsim::prestress::{TangentOptions, WaveTangent};
 use frictionsim::transient::{SteppedBody, TransientModel};
 use std::f64::consts::TAU;
+
+/// A body of revolution with all that its analysis is made from.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SolidModel<M = ElasticMaterial> {
+    pub specification: SolidSpecification,
+    pub material: M,
+    pub options: TangentOptions,
+    pub contact: SlidingContact,
+}
+
+/// Its eigenvalues over friction.
+pub fn solid_sweep<M: MaterialField>(
+    model: &SolidModel<M>,
+    request: &SweepRequest<'_>,
+) -> Result<WaveSweep, CeaError> {
+    let sector = SolidSector::generate(&model.specification)?;
+    let SolidModel { material, options, contact, .. } = model;
+    let tangent = WaveTangent::of_revolution(&sector, material, options, contact)?;
+    wave_sweep(tangent, request, &[])
+}
 
 /// Clamped outside, pressed inside by 25 um, 610 rpm, friction 0.3, without geometric stiffness.
 pub fn disc(element: ElementKind, [around, radial, axial]: [usize; 3]) -> SolidModel {

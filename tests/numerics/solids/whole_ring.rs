@@ -158,7 +158,7 @@ fn operated(sector: &SolidSector, model: &SolidModel) -> [Mat<f64>; 2] {
 /// Consistent `M` and `K` of bricks of 20 nodes in global coordinates, turned into nodal frames at the end.
 fn assembled(sector: &SolidSector, model: &SolidModel) -> [Mat<f64>; 2] {
     assert_eq!(model.options.mass, MassKind::Consistent);
-    let [lambda, shear] = model.material.solid_lame_constants();
+    let [lambda, shear] = model.material.lame_constants();
     let nodes = sector.node_count() * sector.sector_count();
     let mut result = [0, 1].map(|_| Mat::<f64>::zeros(3 * nodes, 3 * nodes));
     for s in 0..sector.sector_count() {

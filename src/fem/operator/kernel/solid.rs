@@ -1,6 +1,6 @@
 //! Inner loops of a body of revolution in three dimensions.
 
-use super::{LANES, SUMS, add_up, move_places, multiply_add};
+use super::{LineLayout, SUMS, add_up, move_places, multiply_add};
 use crate::fem::operator::{MotionFields, SimdLevel, StepCoefficients};
 
 /// What one sheet node does to another of its own sector and of the two beside it, already divided by the mass.
@@ -24,57 +24,8 @@ pub(in crate::fem::operator) struct SheetCoupling {
     pub odd: [f64; 4],
 }
 
-/// Where the lines of a solid's field lie: three for each sheet node, around the circumference, in the order of the sheet.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in crate::fem::operator) struct SheetLayout {
-    /// Sectors.
-    pub count: usize,
-    /// Values from one line to the next, a multiple of 8, with room for the copies across the seam.
-    pub stride: usize,
-    /// Sheet nodes.
-    pub nodes: usize,
-    /// Largest distance of two nodes of an element in their numbering.
-    pub reach: usize,
-}
-
-impl SheetLayout {
-    pub(in crate::fem::operator) fn new(count: usize, nodes: usize, reach: usize) -> Self {
-        Self { count, stride: (count + 2).next_multiple_of(LANES), nodes, reach }
-    }
-
-    /// First value of a component's line.
-    #[inline(always)]
-    pub(in crate::fem::operator) fn line(&self, node: usize, component: usize) -> usize {
-        LANES + (3 * node + component) * self.stride
-    }
-
-    pub(in crate::fem::operator) fn field_length(&self) -> usize {
-        self.line(self.nodes, 0) + LANES
-    }
-}
-
 /// Couplings of each sheet node; none for one that is held altogether.
 pub(in crate::fem::operator) type SheetRows = [Vec<SheetCoupling>];
-
-/// Writes the copies of the nodes across the seam of one sheet node's lines, and zeros into the rest of their padding.
-#[inline(always)]
-fn close_seams(layout: &SheetLayout, node: usize, x: &mut [f64]) {
-    for component in 0..3 {
-        let start = layout.line(node, component);
-        x[start - 1] = x[start + layout.count - 1];
-        x[start + layout.count] = x[start];
-        x[start + layout.count + 1..start + layout.stride - 1].fill(0.0);
-    }
-}
-
-/// The lines of `field` at one sheet node.
-#[inline(always)]
-fn lines_of<'a>(layout: &SheetLayout, node: usize, field: &'a mut [f64]) -> [&'a mut [f64]; 3] {
-    let (start, width) = (layout.line(node, 0), layout.stride);
-    let (radial, others) = field[start..start + 3 * width].split_at_mut(width);
-    let (tangential, axial) = others.split_at_mut(width);
-    [radial, tangential, axial]
-}
 
 /// Adds what one neighbour does to the lines `y`.
 #[inline(always)]
@@ -124,44 +75,41 @@ fn couple<const FUSED: bool>(
 /// `y = M^-1 K x` at one sheet node.
 #[inline(always)]
 fn apply_node<const FUSED: bool>(
-    layout: &SheetLayout,
+    layout: &LineLayout,
     couplings: &[SheetCoupling],
     node: usize,
     x: &[f64],
     y: &mut [f64],
 ) {
-    let lines = layout.line(node, 0)..layout.line(node + 1, 0);
-    y[lines].fill(0.0);
+    y[layout.lines(node)].fill(0.0);
     for coupling in couplings {
-        couple::<FUSED>(coupling, layout.stride, x, lines_of(layout, node, y));
+        couple::<FUSED>(coupling, layout.stride, x, layout.lines_of(node, y));
     }
 }
 
 /// The whole step in one sweep over the sheet: node `k` moves, then node `k - reach`, whose neighbours have all moved, gets its
 /// new accelerations, while both are in the cache.
 #[inline(always)]
-fn solid_advance_body<const FUSED: bool>(
-    layout: &SheetLayout,
-    rows: &SheetRows,
+fn sheet_advance_body<const FUSED: bool>(
+    layout: &LineLayout,
+    (rows, reach): (&SheetRows, usize),
     masses: &[f64],
     fields: &mut MotionFields,
     coefficients: &StepCoefficients,
 ) -> f64 {
     let mut sums = [0.0; SUMS];
-    for step in 0..layout.nodes + layout.reach {
-        if step < layout.nodes {
-            let range = layout.line(step, 0)..layout.line(step + 1, 0);
-            move_places::<FUSED>(range, masses, fields, coefficients, &mut sums);
-            close_seams(layout, step, &mut fields.velocity);
+    for step in 0..rows.len() + reach {
+        if step < rows.len() {
+            move_places::<FUSED>(layout.lines(step), masses, fields, coefficients, &mut sums);
+            layout.close_seams(step, &mut fields.velocity);
         }
-        let Some(node) = step.checked_sub(layout.reach) else {
+        let Some(node) = step.checked_sub(reach) else {
             continue;
         };
         let (velocity, rate) = (&fields.velocity, &mut fields.elastic_rate);
         apply_node::<FUSED>(layout, &rows[node], node, velocity, rate);
-        let range = layout.line(node, 0)..layout.line(node + 1, 0);
-        let rates = fields.elastic_rate[range.clone()].iter();
-        for (q, z) in fields.elastic[range].iter_mut().zip(rates) {
+        let rates = fields.elastic_rate[layout.lines(node)].iter();
+        for (q, z) in fields.elastic[layout.lines(node)].iter_mut().zip(rates) {
             *q = multiply_add::<FUSED>(coefficients.time_step, *z, *q);
         }
     }
@@ -169,20 +117,20 @@ fn solid_advance_body<const FUSED: bool>(
 }
 
 #[inline(always)]
-fn solid_multiply_body<const FUSED: bool>(
-    layout: &SheetLayout,
+fn sheet_multiply_body<const FUSED: bool>(
+    layout: &LineLayout,
     rows: &SheetRows,
     x: &mut [f64],
     y: &mut [f64],
 ) {
-    (0..layout.nodes).for_each(|node| close_seams(layout, node, x));
+    (0..rows.len()).for_each(|node| layout.close_seams(node, x));
     for (node, couplings) in rows.iter().enumerate() {
         apply_node::<FUSED>(layout, couplings, node, x, y);
     }
 }
 
-dispatched!(solid_advance, solid_advance_body, (
-    layout: &SheetLayout, rows: &SheetRows, masses: &[f64], fields: &mut MotionFields,
+dispatched!(sheet_advance, sheet_advance_body, (
+    layout: &LineLayout, rows: (&SheetRows, usize), masses: &[f64], fields: &mut MotionFields,
     coefficients: &StepCoefficients) -> f64);
-dispatched!(solid_multiply, solid_multiply_body, (
-    layout: &SheetLayout, rows: &SheetRows, x: &mut [f64], y: &mut [f64]) -> ());
+dispatched!(sheet_multiply, sheet_multiply_body, (
+    layout: &LineLayout, rows: &SheetRows, x: &mut [f64], y: &mut [f64]) -> ());

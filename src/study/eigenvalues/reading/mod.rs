@@ -39,7 +39,7 @@ pub(super) fn shapes_needed(case: &Case, model: &Model, frictions: &[f64], modes
     let dofs = case.body.dimension() as f64 * case.body.node_count() as f64;
     let own = case.contact.sliding.friction_coefficient;
     match model {
-        Model::Sectors(..) | Model::SolidSectors(_) => Vec::new(),
+        Model::Waves(_) => Vec::new(),
         _ if 16.0 * dofs * modes * frictions.len() as f64 <= MOST_SHAPES => frictions.to_vec(),
         _ => {
             let lowest = frictions.first().copied();

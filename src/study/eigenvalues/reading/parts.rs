@@ -82,8 +82,8 @@ impl<'a> Parts<'a> {
     pub fn new(case: &'a Case, model: &'a SlidingModel) -> Option<Self> {
         let mesh = &*model.mesh;
         let (options, contacts) = match &model.model {
-            Model::SolidSectors(_) => return None,
-            Model::Sectors(_, options) => (options, Vec::new()),
+            Model::Waves(_) if case.body.dimension() == 3 => return None,
+            Model::Waves(options) => (options, Vec::new()),
             Model::Whole(whole) => (&whole.options, Vec::new()),
             Model::Assembly(assembly) => {
                 let pairs = assembly.body.contacts.iter();

@@ -1,41 +1,25 @@
 //! `M^-1 K` of a uniform annulus as one stencil for each radius.
 
-use super::kernel::{self, RowLayout, RowStencil};
+use super::kernel::{LineLayout, RowStencil};
 use super::sparse::free_masses;
-use super::{
-    MotionFields, OperatorError, SimdLevel, StepCoefficients, StiffnessOperator, check_mirrored,
-};
+use super::stencil::{StencilRows, check_mirrored};
+use super::{OperatorError, SectorStencil, SimdLevel};
 use crate::fem::{MaterialField, assemble_stiffness, assemble_supports};
 use crate::mesh::{AnnulusMesh, BoundaryCondition};
-
-/// `M^-1 K` of a four-node annulus mesh, without a matrix.
-///
-/// In polar frames every sector has the same element matrices, so node `(i, j)` couples to its 3 x 3
-/// neighbourhood through 2 x 2 blocks that depend on the radial index `i` alone; the mirror symmetry of a
-/// sector makes the diagonal entries even and the others odd in `j`, which leaves 18 numbers for each radius.
-/// Fields hold one line along the circumference for each radius and component.
-#[derive(Clone, Debug)]
-pub struct CyclicStencil {
-    layout: RowLayout,
-    /// Nodes of a sector, clamped ones included.
-    per_sector: usize,
-    /// Whether the first of them is clamped: the bore of a shaft, which takes the place of the row of zeros.
-    is_bore_clamped: bool,
-    stencils: Vec<RowStencil>,
-    masses: Vec<f64>,
-    simd: SimdLevel,
-}
 
 /// `blocks[i][k][l][c][d]`: from component `d` of node `(i + k - 1, j + l - 1)` to component `c` of `(i, j)`.
 type Blocks = Vec<[[[[f64; 2]; 2]; 3]; 3]>;
 
-impl CyclicStencil {
+impl SectorStencil {
     /// Assembles the stencil of `annulus` with what holds its edges; the rows of a shaft come before its own, and no
     /// coefficient connects them.
     ///
+    /// Node `(i, j)` couples to its 3 x 3 neighbourhood through 2 x 2 blocks that depend on the
+    /// radial index `i` alone: 18 numbers for each radius.
+    ///
     /// # Errors
     /// [`OperatorError`] if the elements are not four-node quadrilaterals or the sectors not mirror-symmetric.
-    pub fn assemble(
+    pub fn of_annulus(
         annulus: &AnnulusMesh,
         material: &dyn MaterialField,
         simd: SimdLevel,
@@ -56,26 +40,21 @@ impl CyclicStencil {
         let bore = specification.shaft.map(|shaft| shaft.bore);
         let is_bore_clamped = bore == Some(BoundaryCondition::Clamped);
         let nodes = usize::from(is_bore_clamped)..per_sector - usize::from(is_clamped);
-        let layout = RowLayout::new(annulus.sector_count(), nodes.len());
-        let stencils = nodes
-            .clone()
-            .map(|i| row_stencil(&blocks[i], node_masses[i], i + 1 < nodes.end))
-            .collect();
-        let mut masses = vec![0.0; layout.field_length()];
-        for (row, &mass) in node_masses[nodes].iter().enumerate() {
-            for component in 0..2 {
-                let start = layout.start(row, component);
-                masses[start..start + layout.count].fill(mass);
-            }
-        }
-        Ok(Self {
+        // A row of zeros on either side, of which a clamped bore takes the place of the first.
+        let layout = LineLayout::new(2, annulus.sector_count(), nodes.len() + 2);
+        let stencil = |i: usize| row_stencil(&blocks[i], node_masses[i], i + 1 < nodes.end);
+        let mut own = Self {
+            masses: vec![0.0; layout.field_length()],
+            rows: StencilRows::Radial(nodes.clone().map(stencil).collect()),
+            first: usize::from(!is_bore_clamped),
             layout,
             per_sector,
-            is_bore_clamped,
-            stencils,
-            masses,
             simd: simd.min(SimdLevel::detect()),
-        })
+        };
+        for (line, &mass) in (1..).zip(&node_masses[nodes]) {
+            own.fill_masses(line, 0..2, mass);
+        }
+        Ok(own)
     }
 }
 
@@ -113,47 +92,4 @@ fn row_stencil(blocks: &[[[[f64; 2]; 2]; 3]; 3], mass: f64, has_outer: bool) -> 
         stencil.tr1[k] = odd(1, 0);
     }
     stencil
-}
-
-impl StiffnessOperator for CyclicStencil {
-    fn name(&self) -> &'static str {
-        "cyclic"
-    }
-
-    fn simd(&self) -> SimdLevel {
-        self.simd
-    }
-
-    fn dof_count(&self) -> usize {
-        2 * self.per_sector * self.layout.count
-    }
-
-    fn field_length(&self) -> usize {
-        self.masses.len()
-    }
-
-    fn position(&self, dof: usize) -> usize {
-        let (node, component) = (dof / 2, dof % 2);
-        let line = node % self.per_sector + usize::from(!self.is_bore_clamped);
-        self.layout.line(line, component) + node / self.per_sector
-    }
-
-    fn masses(&self) -> &[f64] {
-        &self.masses
-    }
-
-    fn multiply(&self, x: &mut [f64], y: &mut [f64]) {
-        kernel::cyclic_multiply(self.simd, &self.layout, &self.stencils, x, y);
-    }
-
-    fn advance(&self, fields: &mut MotionFields, coefficients: &StepCoefficients) -> f64 {
-        kernel::cyclic_advance(
-            self.simd,
-            &self.layout,
-            &self.stencils,
-            &self.masses,
-            fields,
-            coefficients,
-        )
-    }
 }

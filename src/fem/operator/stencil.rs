@@ -1,0 +1,120 @@
+//! The operator of bodies of equal sectors: one stencil for each node of a sector.
+
+use super::kernel::{self, LineLayout, RowStencil, solid::SheetCoupling};
+use super::{MotionFields, OperatorError, SimdLevel, StepCoefficients, StiffnessOperator};
+
+/// `M^-1 K` of a body of equal sectors, without a matrix.
+///
+/// In frames that turn with the sectors all have the same element matrices. A node couples to its
+/// neighbours in its own sector and the two beside it through blocks that depend on the node of the
+/// sector alone, even or odd where that is its own mirror image. Fields hold one line around for
+/// each node of a sector and each component. Dof `d (s n + k) + c` is component `c` of node `k` of
+/// sector `s`, `n` nodes to a sector.
+#[derive(Clone, Debug)]
+pub struct SectorStencil {
+    pub(super) layout: LineLayout,
+    /// Nodes of a sector, held ones included.
+    pub(super) per_sector: usize,
+    /// Line of the first of them.
+    pub(super) first: usize,
+    pub(super) rows: StencilRows,
+    pub(super) masses: Vec<f64>,
+    pub(super) simd: SimdLevel,
+}
+
+/// The coefficients, those of a node divided by its mass.
+#[derive(Clone, Debug)]
+pub(super) enum StencilRows {
+    /// Of four-node elements along a radius: node by node from the inside out.
+    Radial(Vec<RowStencil>),
+    /// Of bricks: what the neighbours of each node do, and how far apart they are numbered.
+    Sheet(Vec<Vec<SheetCoupling>>, usize),
+}
+
+impl SectorStencil {
+    /// Masses of the lines of a node, one for each component that moves.
+    pub(super) fn fill_masses(
+        &mut self,
+        line: usize,
+        components: impl Iterator<Item = usize>,
+        mass: f64,
+    ) {
+        for component in components {
+            let start = self.layout.line(line, component);
+            self.masses[start..start + self.layout.count].fill(mass);
+        }
+    }
+}
+
+impl StiffnessOperator for SectorStencil {
+    fn name(&self) -> &'static str {
+        "cyclic"
+    }
+
+    fn simd(&self) -> SimdLevel {
+        self.simd
+    }
+
+    fn dof_count(&self) -> usize {
+        self.layout.components * self.per_sector * self.layout.count
+    }
+
+    fn field_length(&self) -> usize {
+        self.masses.len()
+    }
+
+    fn position(&self, dof: usize) -> usize {
+        let (node, component) = (dof / self.layout.components, dof % self.layout.components);
+        let line = self.layout.line(node % self.per_sector + self.first, component);
+        line + node / self.per_sector
+    }
+
+    fn masses(&self) -> &[f64] {
+        &self.masses
+    }
+
+    fn multiply(&self, x: &mut [f64], y: &mut [f64]) {
+        let (simd, layout) = (self.simd, &self.layout);
+        match &self.rows {
+            StencilRows::Radial(rows) => kernel::radial_multiply(simd, layout, rows, x, y),
+            StencilRows::Sheet(rows, _) => kernel::solid::sheet_multiply(simd, layout, rows, x, y),
+        }
+    }
+
+    fn advance(&self, fields: &mut MotionFields, coefficients: &StepCoefficients) -> f64 {
+        let (simd, layout, masses) = (self.simd, &self.layout, &self.masses);
+        match &self.rows {
+            StencilRows::Radial(rows) => {
+                kernel::radial_advance(simd, layout, rows, masses, fields, coefficients)
+            }
+            StencilRows::Sheet(rows, reach) => kernel::solid::sheet_advance(
+                simd,
+                layout,
+                (rows, *reach),
+                masses,
+                fields,
+                coefficients,
+            ),
+        }
+    }
+}
+
+/// Refuses entries `[before, here, after]` that are not their own mirror images, even or odd.
+pub(super) fn check_mirrored(
+    entries: impl Iterator<Item = ([f64; 3], bool)>,
+) -> Result<(), OperatorError> {
+    let (mut largest, mut worst) = (0.0_f64, 0.0_f64);
+    for ([before, here, after], is_odd) in entries {
+        let parity = if is_odd { -1.0 } else { 1.0 };
+        worst = worst.max((after - parity * before).abs());
+        if is_odd {
+            worst = worst.max(here.abs());
+        }
+        largest = largest.max(here.abs());
+    }
+    // Assembly order leaves a few units of round-off; anything more is no sector.
+    match worst / largest {
+        relative if relative > 1e-11 => Err(OperatorError::NotCyclic { relative }),
+        _ => Ok(()),
+    }
+}
