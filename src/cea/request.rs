@@ -15,7 +15,9 @@ pub enum ModeLimit {
 impl ModeLimit {
     /// Refuses a limit that selects no mode by itself.
     pub(super) fn check(self) -> Result<(), CeaError> {
-        let not_positive = |key, value| Err(CeaError::Limit { key, value });
+        let not_positive = |key: &str, value: f64| {
+            Err(CeaError::Asked(format!("cea.{key} = {value} must be a positive number")))
+        };
         match self {
             Self::MaxFrequency(value) if !(value > 0.0 && value.is_finite()) => {
                 not_positive("max_frequency_hz", value)
@@ -61,10 +63,12 @@ impl<'a> SweepRequest<'a> {
     pub(super) fn rising_grid(&self) -> Result<Vec<f64>, CeaError> {
         let values = self.friction_coefficients;
         if values.is_empty() {
-            return Err(CeaError::NoFriction);
+            return Err(CeaError::no_friction());
         }
         if let Some(&value) = values.iter().find(|v| !(v.is_finite() && **v >= 0.0)) {
-            return Err(CeaError::Friction { value });
+            return Err(CeaError::Asked(format!(
+                "cea.friction_coefficients: {value} is not a finite number of at least 0"
+            )));
         }
         // -0.0 and 0.0 are one value.
         let mut grid: Vec<f64> = values.iter().map(|value| value + 0.0).collect();

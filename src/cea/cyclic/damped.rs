@@ -14,7 +14,6 @@ use crate::cea::CeaError;
 use crate::cea::counted::NEARLY_CRITICAL;
 use crate::linalg::dense_eigen::complex_eigenvalues;
 use crate::linalg::{ComplexDenseLu, Mat, c64};
-use std::f64::consts::TAU;
 use std::rc::Rc;
 
 /// Distance of two eigenvalues relative to them up to which they are the same, found in two ways.
@@ -147,11 +146,8 @@ impl Course<'_> {
                 Some(found) => self.add(value, found, before, &was_open),
                 None if -value.re > NEARLY_CRITICAL * value.norm() => creeping.push(value),
                 None => {
-                    return Err(CeaError::Unrefined {
-                        harmonic: self.problem.tangent.harmonic,
-                        friction,
-                        frequency_hz: value.im.abs() / TAU,
-                    });
+                    let harmonic = self.problem.tangent.harmonic;
+                    return Err(CeaError::unrefined(harmonic, friction, value));
                 }
             }
         }

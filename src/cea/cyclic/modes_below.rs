@@ -79,7 +79,7 @@ fn just_above(asked: usize, mut kappas: Vec<f64>) -> Result<f64, CeaError> {
     kappas.sort_by(f64::total_cmp);
     let total = kappas.len();
     let highest = kappas.get(asked - 1).map(|kappa| kappa * (1.0 + 1e-9));
-    highest.ok_or(CeaError::TooManyModes { asked, total })
+    highest.ok_or_else(|| CeaError::too_many_modes(asked, total))
 }
 
 /// The modes below `kappa` of harmonic `n` at rest; `None` where it has none.
@@ -97,7 +97,10 @@ pub(super) fn at_rest(
     let found = modes.iter().filter(|mode| mode.0 < kappa).count();
     match found == counted {
         true => Ok(Some(AtRest { harmonic: n, pencil, modes })),
-        false => Err(CeaError::Incomplete { harmonic: n, counted, found }),
+        false => Err(CeaError::Harmonic(format!(
+            "harmonic {n} has {counted} modes below the limit by inertia but {found} were found; \
+             use cea.method = \"sparse\""
+        ))),
     }
 }
 

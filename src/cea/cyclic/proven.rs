@@ -39,7 +39,7 @@ pub(super) fn solve(tangent: WaveTangent, wanted: &Wanted<'_>) -> Result<WaveSwe
         }
         margin *= MARGIN;
     }
-    Err(failure.unwrap_or(CeaError::NoFriction))
+    Err(failure.unwrap_or_else(CeaError::no_friction))
 }
 
 /// A sweep over some harmonics, without a proof that no mode is missed: for the many samples of a model for some of which a

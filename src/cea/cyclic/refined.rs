@@ -10,7 +10,6 @@ use crate::cea::CeaError;
 use crate::linalg::banded::BandedMatrix;
 use crate::linalg::c64;
 use crate::prestress::HarmonicTangent;
-use std::f64::consts::TAU;
 
 /// Largest distance of an eigenvalue from its guess, relative to it: beyond, it is another's.
 const NEAR: f64 = 1e-2;
@@ -44,10 +43,8 @@ pub(super) fn refined(
     (kept, largest): (&[f64], f64),
 ) -> Result<HarmonicPaths, CeaError> {
     let mut follower = Follower::new(&problem);
-    let lost = |guess: &Eigenpair| CeaError::Unrefined {
-        harmonic: problem.tangent.harmonic,
-        friction: guess.parameter,
-        frequency_hz: guess.theta.im.abs() / TAU,
+    let lost = |guess: &Eigenpair| {
+        CeaError::unrefined(problem.tangent.harmonic, guess.parameter, guess.theta)
     };
     // Losses have no meaning for a motion that does not oscillate or creeps; fast ones are not listed.
     let matters = |theta: c64| {

@@ -81,8 +81,8 @@ pub struct BasisBuilder<'a> {
     /// Whether the basis is made of the modes at a few friction coefficients, each from an iteration of its own; else it grows
     /// by residuals.
     is_sampling: bool,
-    /// Whether it holds every motion: the modes asked for are so many that those at one friction coefficient span nearly all.
-    holds_all: bool,
+    /// Whether it holds every motion, as those asked for are many: nothing can be added, and points need no samples.
+    pub holds_all: bool,
     /// Friction coefficients whose modes the basis holds as such.
     sampled: Vec<f64>,
     watch: &'a dyn SweepWatch,
@@ -110,7 +110,7 @@ impl<'a> BasisBuilder<'a> {
         let (first, others) = modes.split_at_col(rigid);
         model.extend(first.to_owned(), 1e-8);
         model.extend(others.to_owned(), 1e-8);
-        let unknowns = model.unknowns();
+        let unknowns = tangent.stiffness.dimension();
         let has_many = ALL_OF_FEW * modes.ncols() >= unknowns && unknowns <= MOST_DENSE;
         let holds_all = has_many && tangent.tabled.is_empty();
         if holds_all {
@@ -136,16 +136,6 @@ impl<'a> BasisBuilder<'a> {
     /// Whether the basis is made of modes at friction coefficients of their own.
     pub(super) fn is_sampling(&self) -> bool {
         self.is_sampling && !self.holds_all
-    }
-
-    /// Whether it holds every motion: nothing can be added, and points need no samples.
-    pub(super) fn holds_all(&self) -> bool {
-        self.holds_all
-    }
-
-    /// Goes over to samples: in a space so wide round-off was more than modes may have.
-    pub(super) fn hold_fewer(&mut self) {
-        self.holds_all = false;
     }
 
     /// Steps so far: the state of the basis is known by their number.

@@ -48,10 +48,10 @@ impl<'a> ModeCounter<'a> {
     /// Orders the elimination.
     ///
     /// # Errors
-    /// [`CeaError::Uncountable`] where stiffness depends on frequency: a table is no analytic function of `lambda`.
+    /// Where stiffness depends on frequency: a table is no analytic function of `lambda`.
     pub fn new(tangent: &'a SlidingTangent) -> Result<Self, CeaError> {
         if let Some(part) = tangent.tabled.first() {
-            return Err(CeaError::Uncountable { key: part.gain.table.key().to_owned() });
+            return Err(CeaError::uncountable(part.gain.table.key()));
         }
         Ok(Self { tangent, analysis: LuAnalysis::new(tangent.stiffness.pattern())? })
     }
@@ -67,7 +67,7 @@ impl<'a> ModeCounter<'a> {
     /// Eigenvalues of `region` at friction `mu` that are none of the `known`, of which those outside only smooth the way.
     ///
     /// # Errors
-    /// [`CeaError::Uncounted`] where one lies on the edge.
+    /// Where one lies on the edge.
     pub fn count(
         &self,
         mu: f64,
@@ -173,10 +173,12 @@ impl Edge<'_> {
             for piece in &rough {
                 let [from, middle, to] = piece.map(|sample| sample.at);
                 if pieces > MOST_PIECES || (to - from).norm() < SHORTEST * self.step(middle) {
-                    return Err(CeaError::Uncounted {
-                        frequency_hz: middle.im / TAU,
-                        growth_rate: middle.re,
-                    });
+                    let (frequency_hz, growth_rate) = (middle.im / TAU, middle.re);
+                    return Err(CeaError::Failed(format!(
+                        "not counted: an eigenvalue lies at or near {frequency_hz:.1} Hz with a \
+                         growth rate of about {growth_rate:.1} 1/s, on the edge of the count. Move \
+                         cea.max_frequency_hz or cea.modes"
+                    )));
                 }
             }
             let quarters = rough.iter().flat_map(|piece| {

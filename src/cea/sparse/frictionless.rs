@@ -59,7 +59,7 @@ impl FrictionlessModes {
     /// the modes of soft mounts and those of the parts, each to its own accuracy. A sum of rounding errors tells rigid motions.
     ///
     /// # Errors
-    /// [`CeaError::NoModes`], [`CeaError::TooManyModes`]; [`CeaError::CountMismatch`] if the inertia of `K - sigma M` in that gap
+    /// [`CeaError::NoModes`]; more modes asked for than there are; if the inertia of `K - sigma M` in that gap
     /// counts another number.
     pub fn compute(tangent: &SlidingTangent, limit: ModeLimit) -> Result<Self, CeaError> {
         Self::found_by(tangent, &Inertia::new(tangent)?, limit)
@@ -111,7 +111,7 @@ impl FrictionlessModes {
             let rigid = found.rigid;
             let wanted = match limit {
                 ModeLimit::Lowest(asked) if asked > unknowns - rigid => {
-                    return Err(CeaError::TooManyModes { asked, total: unknowns - rigid });
+                    return Err(CeaError::too_many_modes(asked, unknowns - rigid));
                 }
                 ModeLimit::Lowest(count) => (count + found.unheld).min(unknowns - rigid),
                 ModeLimit::MaxFrequency(_) => below.saturating_sub(rigid),
@@ -134,11 +134,11 @@ impl FrictionlessModes {
                 let middle = 0.5 * (frequencies[kept - 1] + frequencies[kept]);
                 let counted = inertia.count_below(middle)?;
                 if counted != kept + rigid && recounts == MAX_RECOUNTS {
-                    return Err(CeaError::CountMismatch {
-                        found: kept + rigid,
-                        counted,
-                        frequency_hz: middle / TAU,
-                    });
+                    let (found, frequency_hz) = (kept + rigid, middle / TAU);
+                    return Err(CeaError::Failed(format!(
+                        "without friction the solver found {found} modes below {frequency_hz:.1} \
+                         Hz, the inertia of the stiffness counts {counted}"
+                    )));
                 }
                 if counted != kept + rigid {
                     recounts += 1;

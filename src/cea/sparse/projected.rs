@@ -27,13 +27,16 @@ pub struct ProjectedMatrices {
     pub tabled: Vec<(TabledGain, Mat<f64>)>,
 }
 
+/// `P^T A P` of a small matrix `A` and orthonormal columns `P`.
+pub(super) fn projected(small: &Mat<f64>, columns: &Mat<f64>) -> Mat<f64> {
+    let image = product(small.as_ref(), columns.as_ref());
+    transpose_product(columns.as_ref(), image.as_ref())
+}
+
 impl ProjectedMatrices {
     /// The matrices projected once more, on orthonormal `columns` of coordinates.
     pub fn within(&self, columns: &Mat<f64>) -> Self {
-        let within = |p: &Mat<f64>| {
-            let image = product(p.as_ref(), columns.as_ref());
-            transpose_product(columns.as_ref(), image.as_ref())
-        };
+        let within = |p: &Mat<f64>| projected(p, columns);
         let [stiffness, damping, mass] = [&self.stiffness, &self.damping, &self.mass].map(within);
         Self {
             stiffness,

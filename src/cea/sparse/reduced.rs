@@ -4,7 +4,7 @@ mod dense;
 
 use super::linearization::Linearization;
 use super::mode::ReducedMode;
-use super::projected::{ProjectedMatrices, horner, weighted};
+use super::projected::{ProjectedMatrices, horner, projected, weighted};
 use super::term::Term;
 use super::{MULTIPLE, SAME_SPACE};
 use crate::linalg::dense::{
@@ -141,11 +141,6 @@ impl ReducedModel {
         }
     }
 
-    /// Number of unknowns.
-    pub fn unknowns(&self) -> usize {
-        self.basis.columns().nrows()
-    }
-
     /// Number of columns of the basis.
     pub fn dimension(&self) -> usize {
         self.basis.count()
@@ -183,8 +178,7 @@ impl ReducedModel {
             term.compress(columns);
         }
         for small in all_projected {
-            let image = product(small.as_ref(), columns.as_ref());
-            *small = transpose_product(columns.as_ref(), image.as_ref());
+            *small = projected(small, columns);
         }
         self.basis.combine(columns.as_ref());
     }
@@ -281,20 +275,16 @@ impl ReducedModel {
             let lambda = mode.eigenvalue;
             let slope =
                 Mat::from_fn(m, m, |i, j| lambda * (2.0 * at.mass[(i, j)]) + at.damping[(i, j)]);
-            let coarse = match &part {
-                Some(part) => inside(&part.columns, &mode.left),
-                None => mode.left.clone(),
-            };
+            let coarse = part.as_ref().map(|part| inside(&part.columns, &mode.left));
+            let coarse = coarse.as_ref().unwrap_or(&mode.left);
             let coarse = Mat::from_fn(m, 1, |i, _| coarse.get(i).copied().unwrap_or_default());
             let mut left = slope.transpose() * &coarse;
             ComplexDenseLu::factorize(at.pencil(lambda)).solve_transpose_in_place(left.as_mut());
             let length = left.norm_l2();
             if length.is_finite() && length > 0.0 {
                 let left: Vec<c64> = left.col(0).iter().map(|v| v / length).collect();
-                mode.left = match &part {
-                    Some(part) => combined(&part.columns, &left),
-                    None => left,
-                };
+                let whole = part.as_ref().map(|part| combined(&part.columns, &left));
+                mode.left = whole.unwrap_or(left);
             }
         });
     }
@@ -363,7 +353,7 @@ impl ReducedModel {
     /// The problem in the span of the modes at the samples about `mu` and of the corrections there; nothing where the basis holds
     /// little more.
     fn surroundings(&self, mu: f64) -> Option<Arc<BasisPart>> {
-        if self.samples.len() <= SURROUNDING {
+        if self.samples.len() < 2 * SURROUNDING {
             return None;
         }
         let distance = |own: &(f64, Mat<f64>)| (own.0 - mu).abs();
@@ -384,9 +374,6 @@ impl ReducedModel {
         }
         let samples = nearest.iter().map(|&i| &self.samples[i]);
         let columns = spanned(Mat::zeros(self.dimension(), 0), samples.chain(corrections));
-        if 2 * columns.ncols() > self.dimension() {
-            return None;
-        }
         parts.retain(|(own, _)| own.last() == key.last());
         let part = Arc::new(BasisPart { model: self.within(&columns), columns });
         parts.push((key, Arc::clone(&part)));
@@ -396,11 +383,7 @@ impl ReducedModel {
     /// The projected problem alone, in the space of orthonormal `columns` of coordinates.
     fn within(&self, columns: &Mat<f64>) -> Self {
         let within = |all: &Vec<Mat<f64>>| -> Vec<Mat<f64>> {
-            let small = all.iter().map(|small| {
-                let image = product(small.as_ref(), columns.as_ref());
-                transpose_product(columns.as_ref(), image.as_ref())
-            });
-            small.collect()
+            all.iter().map(|small| projected(small, columns)).collect()
         };
         let tabled = self.tabled.iter().map(|part| TabledTerms {
             gain: part.gain.clone(),

@@ -182,7 +182,7 @@ impl<'a> SparseSweep<'a> {
 
     /// Grows the basis over the whole range of friction coefficients.
     pub fn cover(&mut self) -> Result<(), CeaError> {
-        if self.builder.holds_all() {
+        if self.builder.holds_all {
             return Ok(());
         }
         if self.builder.is_sampling() {
@@ -230,12 +230,13 @@ impl<'a> SparseSweep<'a> {
         if self.points.is_empty() {
             self.leaves_out = vec![false; all.len()];
             self.points = self.solve_points(&all)?;
-            if self.builder.holds_all() && self.lacks_modes() {
+            if self.builder.holds_all && self.lacks_modes() {
                 self.builder.count = self.most_wanted()?;
                 self.points = self.solve_points(&all)?;
             }
-            if self.builder.holds_all() && self.misses_any() {
-                self.builder.hold_fewer();
+            // In a space so wide round-off may be more than modes may have.
+            if self.builder.holds_all && !self.missing_points().is_empty() {
+                self.builder.holds_all = false;
                 self.cover()?;
                 self.points = self.solve_points(&all)?;
             }
@@ -346,12 +347,14 @@ impl<'a> SparseSweep<'a> {
                 }
                 let is_unsettled = !(check.residual <= RESIDUAL_BOUND);
                 if let Some(part) = self.tangent.tabled.first().filter(|_| is_unsettled) {
-                    return Err(CeaError::Unsettled {
-                        key: part.gain.table.key().to_owned(),
-                        friction_coefficient: point.friction_coefficient,
-                        frequency_hz,
-                        residual: check.residual,
-                    });
+                    let (mu, residual) = (point.friction_coefficient, check.residual);
+                    let key = part.gain.table.key();
+                    return Err(CeaError::Failed(format!(
+                        "at friction coefficient {mu} the mode at about {frequency_hz:.1} Hz does \
+                         not settle at a frequency of its own (relative residual {residual:.1e}). The \
+                         modulus of {key} changes too fast there: give its table more rows \
+                         or smooth it"
+                    )));
                 }
             }
         }
@@ -375,7 +378,7 @@ impl<'a> SparseSweep<'a> {
                 lost.map(|end| (end.after, end.between)).collect();
             open.sort_by_key(|(k, _)| *k);
             open.dedup_by_key(|(k, _)| *k);
-            if open.is_empty() || self.builder.holds_all() {
+            if open.is_empty() || self.builder.holds_all {
                 return Ok(branches);
             }
             for (k, [seen_at, lost_at]) in open {

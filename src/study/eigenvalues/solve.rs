@@ -198,8 +198,7 @@ fn is_lost(error: &CeaError) -> bool {
         error,
         CeaError::LostHarmonic { .. }
             | CeaError::Unproven { .. }
-            | CeaError::Unrefined { .. }
-            | CeaError::Incomplete { .. }
+            | CeaError::Harmonic(_)
             | CeaError::Prestress(PrestressError::Singular)
     )
 }

@@ -191,7 +191,7 @@ impl BasisBuilder<'_> {
     /// # Errors
     /// If the analysis of the matrices fails.
     pub fn shift(&mut self, mu: f64, modes: &[ReducedMode]) -> Result<bool, CeaError> {
-        if self.holds_all() {
+        if self.holds_all {
             return Ok(false);
         }
         let vectors = self.step(mu, |builder| builder.shifted_corrections(mu, modes))?;

@@ -22,7 +22,7 @@ impl SparseSweep<'_> {
     /// iteration searches for them, and `branches` are followed anew. Nothing where no counts are asked for.
     ///
     /// # Errors
-    /// [`CeaError::Uncountable`]; those of the search.
+    /// Stiffness that depends on frequency; those of the search.
     pub fn count(
         &mut self,
         request: &SweepRequest<'_>,

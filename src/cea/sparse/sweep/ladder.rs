@@ -123,13 +123,8 @@ impl SparseSweep<'_> {
         if self.builder.is_lossy() { LOSSY_GOAL } else { self.linearization.force_residual_goal() }
     }
 
-    /// Whether modes could still be improved anywhere.
-    pub(super) fn misses_any(&self) -> bool {
-        !self.missing_points().is_empty()
-    }
-
     /// Points whose modes could still be improved.
-    fn missing_points(&self) -> Vec<usize> {
+    pub(super) fn missing_points(&self) -> Vec<usize> {
         let first = match self.linearization {
             Linearization::Reduced(..) => 0,
             Linearization::Companion { .. } => self.first_asked(),
