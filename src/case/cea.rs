@@ -114,7 +114,8 @@ pub(super) fn mode_selection(section: &Section<'_>, unknowns: u128) -> ModeSelec
     if let Some(modes) = modes.filter(|modes| *modes as u128 > unknowns && unknowns > 0) {
         refuse!(section, "modes",
             "cea.modes = {modes} is more than the {unknowns} unknowns of the mesh";
-            "at most {unknowns}");
+            "at most {unknowns}";
+            "ask for fewer, or refine the mesh");
     }
     match (limit, modes) {
         (Some(limit), None) => ModeSelection::BelowHz(limit),

@@ -106,14 +106,6 @@ impl CeaError {
         ))
     }
 
-    /// Modes to be counted of matrices that are no analytic functions of the eigenvalue, by the `key` of a table.
-    pub(crate) fn uncountable(key: &str) -> Self {
-        Self::Failed(format!(
-            "cea.count_modes needs matrices that are analytic in the eigenvalue: {key} is a table \
-             over frequency"
-        ))
-    }
-
     /// A `table` that a mode lies beyond.
     pub(super) fn beyond_table(
         table: &ModulusTable,

@@ -91,7 +91,8 @@ impl Problem<'_> {
         if !(x.is_all_finite() && y.is_all_finite()) {
             return Err(CeaError::Failed(format!(
                 "the mass, damping and stiffness matrices of {n} unknowns are singular together: \
-                 some motion has neither mass nor stiffness. Remove unknowns that depend on each other"
+                 some motion has neither mass nor stiffness. Remove unknowns that depend on each \
+                 other"
             )));
         }
         // Of `sigma / (lambda - sigma)`, with `sigma^2 M` and `sigma C` in place of `M` and `C`.

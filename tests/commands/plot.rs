@@ -95,7 +95,8 @@ macro_rules! drawn_again {
             let folder = folder();
             let block = $case == "sliding-block.toml";
             let mesh = block.then(|| coarse_block(folder.path()));
-            let answer = run(&folder, $command, $case, &$set).set(mesh.as_slice()).args(&FEW_DOTS).done();
+            let plotted = run(&folder, $command, $case, &$set).set(mesh.as_slice());
+            let answer = plotted.args(&FEW_DOTS).done();
             check_redrawn(&folder, $expected);
             has(&answer.text(concat!("figures/", $figure, ".svg")), $words);
         }

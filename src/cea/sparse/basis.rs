@@ -68,7 +68,7 @@ pub struct BasisBuilder<'a> {
     tangent: &'a SlidingTangent,
     linearization: Linearization,
     /// Factors of `K(0) - sigma M(0)`.
-    factors: StiffnessFactors,
+    pub(super) factors: StiffnessFactors,
     /// What takes the place of `K` in factors, see [`Linearization::centred_stiffness`].
     stiffness: Cow<'a, MatrixPolynomial>,
     analysis: SharedAnalysis,
@@ -86,16 +86,11 @@ pub struct BasisBuilder<'a> {
     /// Friction coefficients whose modes the basis holds as such.
     sampled: Vec<f64>,
     watch: &'a dyn SweepWatch,
-    /// Steps that the watch was offered.
-    steps: usize,
+    /// Steps that the watch was offered: the state of the basis is known by their number.
+    pub(super) steps: usize,
 }
 
 impl<'a> BasisBuilder<'a> {
-    /// The projected problem, and the factors of the stiffness without friction.
-    pub fn model_and_factors(&self) -> (&ReducedModel, &StiffnessFactors) {
-        (&self.model, &self.factors)
-    }
-
     /// Starts from frictionless motions, one column each, `rigid` ones before the modes, and the factors of `K(0)` or, better,
     /// `K(0) - sigma M(0)`.
     pub fn new(
@@ -136,11 +131,6 @@ impl<'a> BasisBuilder<'a> {
     /// Whether the basis is made of modes at friction coefficients of their own.
     pub(super) fn is_sampling(&self) -> bool {
         self.is_sampling && !self.holds_all
-    }
-
-    /// Steps so far: the state of the basis is known by their number.
-    pub(super) fn steps(&self) -> usize {
-        self.steps
     }
 
     /// The columns of the next step at `mu`: those that an earlier run of the same sweep found, else those that `find` does.
@@ -229,7 +219,8 @@ impl<'a> BasisBuilder<'a> {
         let mut new = self.model.extend(corrections, VECTOR_TOLERANCE * longest);
         let has_added = new.ncols() > 0;
         let steps = STEPS_PER_DECADE * (longest / CONVERGED).log10();
-        let inertia = self.highest_kappa(&modes);
+        // `|kappa|`, or `|lambda|^2`, of the highest of the modes.
+        let inertia = modes.iter().map(|own| own.eigenvalue.norm_sqr()).fold(0.0, f64::max);
         // A negative number is none.
         for _ in 0..steps as usize {
             if new.ncols() == 0 {
@@ -246,12 +237,6 @@ impl<'a> BasisBuilder<'a> {
             new = self.model.extend(image, KRYLOV_TOLERANCE);
         }
         Ok(has_added.then_some(longest))
-    }
-
-    /// `|kappa|`, or `|lambda|^2`, of the highest of the modes to be held.
-    fn highest_kappa(&self, modes: &[ReducedMode]) -> f64 {
-        let moduli = modes.iter().map(|mode| mode.eigenvalue.norm_sqr());
-        moduli.fold(0.0, f64::max)
     }
 
     /// `(K(0) - sigma M(0))^-1 r` of those of the modes' packed vectors that have not converged.

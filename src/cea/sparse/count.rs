@@ -51,7 +51,11 @@ impl<'a> ModeCounter<'a> {
     /// Where stiffness depends on frequency: a table is no analytic function of `lambda`.
     pub fn new(tangent: &'a SlidingTangent) -> Result<Self, CeaError> {
         if let Some(part) = tangent.tabled.first() {
-            return Err(CeaError::uncountable(part.gain.table.key()));
+            return Err(CeaError::Failed(format!(
+                "cea.count_modes needs matrices that are analytic in the eigenvalue: {} is a table \
+                 over frequency",
+                part.gain.table.key()
+            )));
         }
         Ok(Self { tangent, analysis: LuAnalysis::new(tangent.stiffness.pattern())? })
     }

@@ -64,13 +64,8 @@ impl SolvedPoint {
             .fold((0.0, 0.0), |(r, f), check| (check.residual.max(r), check.force_residual.max(f)))
     }
 
-    /// Whether a wanted mode could still be improved: its residual force, relative to the inertia force, is above `goal`,
-    /// or its residual above the bound of converged pairs.
-    pub fn misses_goal(&self, goal: f64) -> bool {
-        self.open_modes(goal).next().is_some()
-    }
-
-    /// The wanted modes that miss it.
+    /// The wanted modes that could still be improved: their residual force, relative to the inertia force, is above `goal`, or their
+    /// residual above the bound of converged pairs.
     pub fn open_modes(&self, goal: f64) -> impl Iterator<Item = &ReducedMode> {
         let pairs = self.modes.iter().zip(&self.checks).take(self.wanted);
         let open = pairs.filter(move |(_, check)| {

@@ -1,6 +1,7 @@
 //! The matrices of small motions projected on one basis that serves every friction coefficient.
 
 mod dense;
+mod parts;
 
 use super::linearization::Linearization;
 use super::mode::ReducedMode;
@@ -14,13 +15,12 @@ use crate::linalg::gram::complement;
 use crate::linalg::{ComplexDenseLu, FrictionWeights, LinalgError, MatrixPolynomial};
 use crate::linalg::{Mat, MatRef, Scale, c64};
 use crate::prestress::{SlidingTangent, TabledGain};
+use parts::BasisParts;
+pub(super) use parts::inside;
 use rayon::prelude::*;
-use std::sync::{Arc, Mutex, PoisonError};
 
 /// Samples near a friction coefficient whose modes make up the space for its own.
 const NEIGHBOURS: usize = 4;
-/// Samples whose modes, together, come near left vectors. Of more the basis is wide, and a mode beside one costs the cube of that.
-const SURROUNDING: usize = 6;
 
 /// Columns continued by zeros to `rows` entries.
 fn lengthened(columns: &Mat<f64>, rows: usize) -> Mat<f64> {
@@ -39,15 +39,6 @@ fn spanned<'a>(
         columns = join_columns(columns.as_ref(), new.as_ref());
     }
     columns
-}
-
-/// Coordinates of a vector in the space of orthonormal `columns`.
-pub(super) fn inside(columns: &Mat<f64>, vector: &[c64]) -> Vec<c64> {
-    let along = |j: usize| -> c64 {
-        let pairs = vector.iter().zip(column(columns.as_ref(), j));
-        pairs.map(|(v, c)| *v * *c).sum()
-    };
-    (0..columns.ncols()).map(along).collect()
 }
 
 /// `columns` times complex coordinates; nothing of no coordinates.
@@ -81,18 +72,10 @@ pub struct ReducedModel {
     /// Coefficients of the stiffness of each part that depends on frequency.
     tabled: Vec<TabledTerms>,
     /// Friction coefficients whose modes the basis holds as such, and the coordinates that span them.
-    samples: Vec<(f64, Mat<f64>)>,
+    pub(super) samples: Vec<(f64, Mat<f64>)>,
     /// Coordinates of corrections between samples, and where they were made.
     corrections: Vec<(f64, Mat<f64>)>,
-    /// The problem in parts of the basis, each with the samples and corrections that span it.
-    parts: Mutex<Vec<(Vec<usize>, Arc<BasisPart>)>>,
-}
-
-/// The projected problem in a part of the basis.
-struct BasisPart {
-    /// Orthonormal coordinates in the basis.
-    columns: Mat<f64>,
-    model: ReducedModel,
+    parts: BasisParts,
 }
 
 /// The stiffness of a part that depends on frequency, by power of `mu`, and `V^T K_p V` for each.
@@ -137,7 +120,7 @@ impl ReducedModel {
             tabled,
             samples: Vec::new(),
             corrections: Vec::new(),
-            parts: Mutex::default(),
+            parts: BasisParts::default(),
         }
     }
 
@@ -162,6 +145,7 @@ impl ReducedModel {
             }
         }
         self.basis.append(new.as_ref());
+        self.parts = BasisParts::default();
         new
     }
 
@@ -181,6 +165,7 @@ impl ReducedModel {
             *small = projected(small, columns);
         }
         self.basis.combine(columns.as_ref());
+        self.parts = BasisParts::default();
     }
 
     /// The projected matrices at `mu`.
@@ -304,11 +289,6 @@ impl ReducedModel {
         self.hold_coordinates(mu, transpose_product(self.basis.columns(), vectors.as_ref()));
     }
 
-    /// Whether it holds the modes at some friction coefficients as such.
-    pub fn has_samples(&self) -> bool {
-        !self.samples.is_empty()
-    }
-
     /// Number of columns that span the modes held at `mu`, if there are any.
     pub fn sample_width(&self, mu: f64) -> Option<usize> {
         let own = self.samples.iter().find(|sample| sample.0 == mu);
@@ -318,6 +298,7 @@ impl ReducedModel {
     /// Forgets the modes held at `mu`.
     pub fn drop_sample(&mut self, mu: f64) {
         self.samples.retain(|sample| sample.0 != mu);
+        self.parts = BasisParts::default();
     }
 
     /// Restricts the basis to its `known` first vectors and the modes held; the coordinates of the new basis in the old one, one column
@@ -335,6 +316,7 @@ impl ReducedModel {
 
     /// [`Self::hold_sample`] of vectors given by their coordinates in the basis.
     pub fn hold_coordinates(&mut self, mu: f64, coordinates: Mat<f64>) {
+        self.parts = BasisParts::default();
         match self.samples.iter_mut().find(|sample| sample.0 == mu) {
             Some((_, held)) => {
                 let known = lengthened(held, coordinates.nrows());
@@ -348,59 +330,7 @@ impl ReducedModel {
     pub fn hold_correction(&mut self, mu: f64, vectors: &Mat<f64>) {
         let coordinates = transpose_product(self.basis.columns(), vectors.as_ref());
         self.corrections.push((mu, coordinates));
-    }
-
-    /// The problem in the span of the modes at the samples about `mu` and of the corrections there; nothing where the basis holds
-    /// little more.
-    fn surroundings(&self, mu: f64) -> Option<Arc<BasisPart>> {
-        if self.samples.len() < 2 * SURROUNDING {
-            return None;
-        }
-        let distance = |own: &(f64, Mat<f64>)| (own.0 - mu).abs();
-        let mut nearest: Vec<usize> = (0..self.samples.len()).collect();
-        nearest.sort_by(|&a, &b| distance(&self.samples[a]).total_cmp(&distance(&self.samples[b])));
-        nearest.truncate(SURROUNDING);
-        nearest.sort_unstable();
-        let [low, high] = [f64::min, f64::max]
-            .map(|end| nearest.iter().map(|&i| self.samples[i].0).reduce(end).unwrap_or(mu));
-        let corrections = self.corrections.iter().filter(|own| (low..=high).contains(&own.0));
-        let corrections: Vec<&(f64, Mat<f64>)> = corrections.collect();
-
-        // As long as the basis is the same, so is the part.
-        let key = [&nearest[..], &[corrections.len(), self.dimension()]].concat();
-        let mut parts = self.parts.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some((_, known)) = parts.iter().find(|(own, _)| *own == key) {
-            return Some(Arc::clone(known));
-        }
-        let samples = nearest.iter().map(|&i| &self.samples[i]);
-        let columns = spanned(Mat::zeros(self.dimension(), 0), samples.chain(corrections));
-        parts.retain(|(own, _)| own.last() == key.last());
-        let part = Arc::new(BasisPart { model: self.within(&columns), columns });
-        parts.push((key, Arc::clone(&part)));
-        Some(part)
-    }
-
-    /// The projected problem alone, in the space of orthonormal `columns` of coordinates.
-    fn within(&self, columns: &Mat<f64>) -> Self {
-        let within = |all: &Vec<Mat<f64>>| -> Vec<Mat<f64>> {
-            all.iter().map(|small| projected(small, columns)).collect()
-        };
-        let tabled = self.tabled.iter().map(|part| TabledTerms {
-            gain: part.gain.clone(),
-            terms: Vec::new(),
-            projected: within(&part.projected),
-        });
-        Self {
-            linearization: self.linearization,
-            terms: Default::default(),
-            weights: self.weights,
-            basis: GrowingColumns::new(0),
-            projected: self.projected.each_ref().map(within),
-            tabled: tabled.collect(),
-            samples: Vec::new(),
-            corrections: Vec::new(),
-            parts: Mutex::default(),
-        }
+        self.parts = BasisParts::default();
     }
 
     /// Orthonormal coordinates of the span of the `count` samples nearest to `mu`, or of the one there; nothing without

@@ -2,6 +2,7 @@
 
 mod counts;
 mod divergence;
+mod held;
 mod ladder;
 mod results;
 
@@ -69,20 +70,18 @@ fn sweep_holding(
     sweep.limit = request.limit;
     sweep.cover()?;
     sweep.solve()?;
-    // What grows without oscillating takes the places of modes.
-    let (mut is_short, mut branches) = (sweep.lacks_modes(), Vec::new());
-    if !is_short {
-        branches = sweep.track()?;
-        let is_below = |count| sweep.points.iter().any(|point: &SolvedPoint| point.wanted < count);
-        is_short = matches!(request.limit, ModeLimit::Lowest(count) if is_below(count))
-            && sweep.divergence(&branches)?.is_some();
+    let mut branches = None;
+    if !sweep.lacks_modes() {
+        let tracked = sweep.track()?;
+        let is_complete = !sweep.lacks_modes() && !sweep.lacks_places(&tracked)?;
+        branches = is_complete.then_some(tracked);
     }
-    let (held, all) = (sweep.builder.count, sweep.elastic());
-    if held < all && is_short {
+    let Some(branches) = branches else {
+        let held = sweep.builder.count;
         let watch = PartWatch { whole: watch, prefix: format!("of-{held}-"), is_heard: true };
-        let limit = ModeLimit::Lowest((held + more).min(all));
+        let limit = ModeLimit::Lowest((held + more).min(sweep.elastic()));
         return sweep_holding(tangent, request, (limit, 2 * more), &watch);
-    }
+    };
     let (branches, counts) = sweep.count(request, branches)?;
     let found = sweep.finish(request, &branches)?;
     Ok(FrictionSweep { counts, ..found })
@@ -264,29 +263,6 @@ impl<'a> SparseSweep<'a> {
         Ok(())
     }
 
-    /// Motions of the body that are not rigid.
-    fn elastic(&self) -> usize {
-        self.tangent.unknowns.len() - self.builder.rigid
-    }
-
-    /// Whether friction brings modes from above a limit in frequency: there may be more where all that are held lie below.
-    fn lacks_modes(&self) -> bool {
-        let held = self.builder.count;
-        let is_full = self.points.iter().any(|point| point.wanted >= held);
-        matches!(self.limit, ModeLimit::MaxFrequency(_)) && is_full && held < self.elastic()
-    }
-
-    /// Number of modes to hold of a basis of all motions.
-    fn most_wanted(&self) -> Result<usize, LinalgError> {
-        let (all, solver) = (self.elastic(), self.point_solver());
-        let wanted = self.grid.iter().map(|&mu| {
-            let modes = self.builder.model.solve_right(mu, all)?;
-            Ok(solver.wanted(&modes))
-        });
-        let most = wanted.collect::<Result<Vec<_>, _>>()?.into_iter().max();
-        Ok((most.unwrap_or(0) + GUARD_MODES).min(all))
-    }
-
     fn solve_anew(&mut self, indices: &[usize]) -> Result<(), LinalgError> {
         for (k, point) in indices.iter().zip(self.solve_points(indices)?) {
             self.points[*k] = point;
@@ -314,7 +290,7 @@ impl<'a> SparseSweep<'a> {
     fn solve_point(&self, k: usize) -> Result<SolvedPoint, LinalgError> {
         let (mu, leaves_out) = (self.grid[k], self.leaves_out[k]);
         let stage = if leaves_out { "-left-out" } else { "" };
-        let (steps, held) = (self.builder.steps(), self.builder.count);
+        let (steps, held) = (self.builder.steps, self.builder.count);
         let name = format!("value-{steps:04}-of-{held}-{mu:?}{stage}");
         let kept = self.watch.recall(&name);
         if let Some(mut point) = kept.and_then(|kept| SolvedPoint::from_columns(mu, &kept)) {
@@ -351,8 +327,8 @@ impl<'a> SparseSweep<'a> {
                     let key = part.gain.table.key();
                     return Err(CeaError::Failed(format!(
                         "at friction coefficient {mu} the mode at about {frequency_hz:.1} Hz does \
-                         not settle at a frequency of its own (relative residual {residual:.1e}). The \
-                         modulus of {key} changes too fast there: give its table more rows \
+                         not settle at a frequency of its own (relative residual {residual:.1e}). \
+                         The modulus of {key} changes too fast there: give its table more rows \
                          or smooth it"
                     )));
                 }

@@ -2,18 +2,18 @@
 
 pub(crate) use super::error::FolderError;
 use super::framed::write_sealed;
+use super::lock::{Company, LOCK, remove_remnants, try_lock};
 use super::manifest::Manifest;
 use super::reopening::{Contents, JOURNAL, MANIFEST, read_contents, read_manifest};
 use super::whole_file::{is_temporary, write_whole};
 use crate::results::drawing::{FIGURES, REPORT};
 use frictionsim_bounds::{RESULT, read_file, read_text};
 use std::collections::BTreeMap;
-use std::fs::{self, File, OpenOptions, TryLockError};
+use std::fs::{self, File, OpenOptions};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-pub(crate) const LOCK: &str = ".lock";
 /// The mesh file of a case among its results.
 pub const MESH: &str = "mesh.msh";
 /// Folder in which results are built that replace others.
@@ -319,38 +319,6 @@ fn is_inside(name: &str) -> bool {
     Path::new(name).components().all(|part| matches!(part, std::path::Component::Normal(_)))
 }
 
-/// Opens the file of a lock, which has nothing in it.
-pub(crate) fn open_lock(path: &Path) -> Result<File, FolderError> {
-    let mut options = OpenOptions::new();
-    options.create(true).truncate(false).write(true);
-    options.open(path).map_err(|e| FolderError::io("open", path, e))
-}
-
-/// Who else works in a folder.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Company {
-    /// No other process.
-    None,
-    /// Others, of the same sweep.
-    Others,
-    /// The file system has no locks to tell by: the folder is taken as if there were none.
-    Unknown,
-}
-
-/// Takes a lock for this process alone, if no other holds it.
-pub(crate) fn try_lock(path: &Path) -> Result<(File, Company), FolderError> {
-    let file = open_lock(path)?;
-    let company = match file.try_lock() {
-        Ok(()) => Company::None,
-        Err(TryLockError::WouldBlock) => Company::Others,
-        Err(TryLockError::Error(error)) if error.kind() == io::ErrorKind::Unsupported => {
-            Company::Unknown
-        }
-        Err(TryLockError::Error(error)) => return Err(FolderError::io("lock", path, error)),
-    };
-    Ok((file, company))
-}
-
 /// Whether a run of this case and command has been built in a folder.
 fn is_owned(path: &Path, manifest: &Manifest) -> Result<bool, FolderError> {
     let found = read_contents(path)?.map(|contents| contents.manifest);
@@ -378,20 +346,6 @@ fn replaces_others(
     match replaces {
         Err(_) if is_owned(&path.join(STAGING), manifest)? => Ok(true),
         decided => decided,
-    }
-}
-
-/// Removes what a killed run left, such as half-written files; this process holds the lock, so nobody uses them.
-pub(crate) fn remove_remnants(path: &Path, is_remnant: fn(&str) -> bool) {
-    for entry in fs::read_dir(path).into_iter().flatten().flatten() {
-        let Ok(kind) = entry.file_type() else {
-            continue;
-        };
-        if kind.is_dir() {
-            remove_remnants(&entry.path(), is_remnant);
-        } else if is_remnant(&entry.file_name().to_string_lossy()) {
-            let _ = fs::remove_file(entry.path());
-        }
     }
 }
 

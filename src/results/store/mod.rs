@@ -3,6 +3,7 @@
 mod error;
 pub(crate) mod folder;
 pub(crate) mod framed;
+pub(crate) mod lock;
 pub(crate) mod manifest;
 pub(crate) mod record;
 pub(crate) mod reopening;

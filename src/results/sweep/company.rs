@@ -1,6 +1,7 @@
 //! Locks of a folder that several processes share.
 
-use super::super::folder::{Company, FolderError, LOCK, open_lock, try_lock};
+use super::super::folder::FolderError;
+use super::super::store::lock::{Company, LOCK, open_lock, try_lock};
 use std::fs::{File, TryLockError};
 use std::io;
 use std::path::Path;

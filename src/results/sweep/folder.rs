@@ -2,13 +2,13 @@
 
 use super::super::drawing::{DrawingError, DrawingOptions, Page};
 use super::super::folder::{
-    Company, FolderError, OutputFolder, Replace, check_owner, refuse_foreign, remove_files,
-    remove_remnants, try_lock, write_contents,
+    FolderError, OutputFolder, Replace, check_owner, refuse_foreign, remove_files, write_contents,
 };
 use super::super::framed::write_sealed;
 use super::super::manifest::Manifest;
 use super::super::record::{Record, record_bytes};
 use super::super::reopening::{Contents, MANIFEST, own_value, read_contents, read_existing};
+use super::super::store::lock::{Company, remove_remnants, try_lock};
 use super::super::whole_file::{is_temporary, write_whole};
 use super::company::share;
 use super::{PointClock, PointRecord};

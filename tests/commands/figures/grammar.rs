@@ -94,7 +94,11 @@ fn figure(xs: &[f64], ys: &[f64], zs: &[f64], axes: (u8, u8), value: f64) -> Fig
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: sized(40, 200), failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig {
+        cases: sized(40, 200),
+        failure_persistence: None,
+        ..ProptestConfig::default()
+    })]
 
     #[test]
     fn figures_of_any_data_draw_or_say_that_there_is_nothing(

@@ -94,17 +94,12 @@ impl BasisBuilder<'_> {
                 let leading = self.leading_count().min(known);
                 let has_grown = self.sample(mu, self.leading_count(), Some(leading))?;
                 // The iteration leaves structural damping and tables out: its vectors are a start.
-                if self.is_lossy() {
+                if self.tangent.is_lossy() {
                     self.refine_lossy(mu, known)?;
                 }
                 Ok(has_grown)
             }
         }
-    }
-
-    /// Whether damping is not viscous alone.
-    pub fn is_lossy(&self) -> bool {
-        self.tangent.is_lossy()
     }
 
     /// Whether the full problem may be decomposed.
@@ -144,7 +139,7 @@ impl BasisBuilder<'_> {
     /// Drops what repairs of lossy modes, each of many rounds, added to the basis beyond the modes that it holds; the coordinates of the
     /// new basis in the old one.
     pub fn restrict(&mut self) -> Option<Mat<f64>> {
-        let may_restrict = self.is_lossy() && self.model.has_samples();
+        let may_restrict = self.tangent.is_lossy() && !self.model.samples.is_empty();
         may_restrict.then(|| self.model.restrict(self.leading_count().min(self.model.dimension())))
     }
 

@@ -120,7 +120,7 @@ impl SparseSweep<'_> {
 
     /// Residual force, relative to the inertia force, above which a point is improved.
     fn goal(&self) -> f64 {
-        if self.builder.is_lossy() { LOSSY_GOAL } else { self.linearization.force_residual_goal() }
+        if self.tangent.is_lossy() { LOSSY_GOAL } else { self.linearization.force_residual_goal() }
     }
 
     /// Points whose modes could still be improved.
@@ -131,7 +131,7 @@ impl SparseSweep<'_> {
         };
         let goal = self.goal();
         let all = first..self.grid.len();
-        all.filter(|&k| self.points[k].misses_goal(goal)).collect()
+        all.filter(|&k| self.points[k].open_modes(goal).next().is_some()).collect()
     }
 
     /// Solves points after a remedy, and lets their modes stand for the samples there.

@@ -1,0 +1,54 @@
+//! The lock of a folder, and what a process that lost it left.
+
+use super::error::FolderError;
+use std::fs::{self, File, OpenOptions, TryLockError};
+use std::io;
+use std::path::Path;
+
+pub(crate) const LOCK: &str = ".lock";
+
+/// Opens the file of a lock, which has nothing in it.
+pub(crate) fn open_lock(path: &Path) -> Result<File, FolderError> {
+    let mut options = OpenOptions::new();
+    options.create(true).truncate(false).write(true);
+    options.open(path).map_err(|e| FolderError::io("open", path, e))
+}
+
+/// Who else works in a folder.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Company {
+    /// No other process.
+    None,
+    /// Others, of the same sweep.
+    Others,
+    /// The file system has no locks to tell by: the folder is taken as if there were none.
+    Unknown,
+}
+
+/// Takes a lock for this process alone, if no other holds it.
+pub(crate) fn try_lock(path: &Path) -> Result<(File, Company), FolderError> {
+    let file = open_lock(path)?;
+    let company = match file.try_lock() {
+        Ok(()) => Company::None,
+        Err(TryLockError::WouldBlock) => Company::Others,
+        Err(TryLockError::Error(error)) if error.kind() == io::ErrorKind::Unsupported => {
+            Company::Unknown
+        }
+        Err(TryLockError::Error(error)) => return Err(FolderError::io("lock", path, error)),
+    };
+    Ok((file, company))
+}
+
+/// Removes what a killed run left, such as half-written files; this process holds the lock, so nobody uses them.
+pub(crate) fn remove_remnants(path: &Path, is_remnant: fn(&str) -> bool) {
+    for entry in fs::read_dir(path).into_iter().flatten().flatten() {
+        let Ok(kind) = entry.file_type() else {
+            continue;
+        };
+        if kind.is_dir() {
+            remove_remnants(&entry.path(), is_remnant);
+        } else if is_remnant(&entry.file_name().to_string_lossy()) {
+            let _ = fs::remove_file(entry.path());
+        }
+    }
+}
