@@ -13,6 +13,7 @@ mod quadratic;
 mod request;
 pub mod sparse;
 mod spectrum;
+mod vectors;
 mod watch;
 
 pub use branch::{BranchPoint, ModeBranch};

@@ -7,7 +7,7 @@
 use super::follow::Follower;
 use super::path::{Eigenpair, Path};
 use super::problem::Matrices;
-use super::vectors::{dot, normalize};
+use crate::cea::vectors::{dot, normalize};
 use crate::linalg::c64;
 
 /// Two branches closer than this, relative, may be about to meet.

@@ -1,6 +1,6 @@
 //! Proof that a harmonic holds no eigenvalue in a region, for a whole range of friction at once.
 
-use super::vectors::ZERO;
+use crate::cea::vectors::ZERO;
 use crate::linalg::banded::{BandedFactor, BandedHermitian, BandedMatrix};
 use crate::linalg::c64;
 use crate::prestress::HarmonicTangent;
@@ -144,7 +144,7 @@ impl<'a> TestSpace<'a> {
             for j in 0..=i {
                 let (ti, tj) = (self.tangential[i], self.tangential[j]);
                 let mut value = 0.5 * (rows[i][tj] + rows[j][ti].conj());
-                value -= super::vectors::dot(&solved[i], &solved[j]);
+                value -= crate::cea::vectors::dot(&solved[i], &solved[j]);
                 let known = lower[i].iter().zip(&lower[j]).take(j);
                 value -= known.map(|(a, b)| a * b.conj()).sum::<c64>();
                 if i == j {

@@ -2,7 +2,7 @@
 
 use super::path::Eigenpair;
 use super::problem::{HarmonicProblem, Matrices};
-use super::vectors::{dot, normalize};
+use crate::cea::vectors::{dot, normalize};
 use crate::linalg::banded::BandedLu;
 use crate::linalg::c64;
 use std::rc::Rc;

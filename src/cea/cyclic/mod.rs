@@ -33,7 +33,6 @@ mod reduction_error;
 mod refined;
 mod sensitivity;
 mod sweep;
-mod vectors;
 
 pub use found::{Coverage, Overdamped, WaveSweep};
 pub use proven::onsets;

@@ -5,8 +5,8 @@ use super::follow::{Follower, StepControl};
 use super::path::{Eigenpair, Path, Waves};
 use super::problem::{HarmonicProblem, Matrices};
 use super::reduction::Reduction;
-use super::vectors::{dot, normalize};
 use crate::cea::CeaError;
+use crate::cea::vectors::{dot, normalize};
 use crate::linalg::c64;
 use std::rc::Rc;
 

@@ -1,8 +1,8 @@
 //! The eigenproblem of one harmonic as a function of one scalar `theta`.
 
 use super::path::Eigenpair;
-use super::vectors::{ZERO, add, dot, largest, product};
 use crate::cea::counted::STANDSTILL;
+use crate::cea::vectors::{ZERO, add, dot, largest, product};
 use crate::fem::own_frequency_step;
 use crate::linalg::banded::{BandedLu, BandedMatrix, multiply_band};
 use crate::linalg::{Mat, c64};

@@ -2,7 +2,7 @@
 
 use super::pencil::Pencil;
 use super::reduction::Reduction;
-use super::vectors::dot;
+use crate::cea::vectors::dot;
 use crate::linalg::c64;
 use crate::prestress::HarmonicTangent;
 

@@ -4,7 +4,7 @@ use super::branch::{path_theta, point_of};
 use super::follow::Follower;
 use super::path::Waves;
 use super::problem::HarmonicProblem;
-use super::vectors::{ZERO, dot};
+use crate::cea::vectors::{ZERO, dot};
 use crate::cea::{BranchPoint, ModeBranch};
 use crate::fem::own_frequency_step;
 use crate::linalg::c64;

@@ -19,7 +19,7 @@ use crate::linalg::dense::{
 use crate::linalg::{
     BlockOperator, KrylovSchurSettings, LinalgError, MatrixPolynomial, krylov_schur,
 };
-use crate::linalg::{LuAnalysis, Mat, Scale, c64};
+use crate::linalg::{Mat, Scale, c64};
 use crate::prestress::SlidingTangent;
 use samples::MOST_DENSE;
 use std::borrow::Cow;
@@ -71,7 +71,7 @@ pub struct BasisBuilder<'a> {
     pub(super) factors: StiffnessFactors,
     /// What takes the place of `K` in factors, see [`Linearization::centred_stiffness`].
     stiffness: Cow<'a, MatrixPolynomial>,
-    analysis: SharedAnalysis,
+    pub(super) analysis: SharedAnalysis,
     /// The projected problem so far.
     pub model: ReducedModel,
     /// Modes to be held at every friction coefficient.
@@ -279,11 +279,6 @@ impl<'a> BasisBuilder<'a> {
         Ok(has_grown)
     }
 
-    /// The order of elimination of all matrices of the body.
-    pub fn analysis(&self) -> Result<&LuAnalysis, LinalgError> {
-        self.analysis.of(self.stiffness.pattern())
-    }
-
     /// The vectors of [`Self::sample`]: of the quadratic problem real and imaginary part of each mode, of the reduced one each.
     fn dominant_vectors(
         &self,
@@ -296,7 +291,10 @@ impl<'a> BasisBuilder<'a> {
             0.0 if self.linearization.is_symmetric(self.tangent) => {
                 StiffnessFactors::frictionless(&self.stiffness)?
             }
-            _ => StiffnessFactors::general(&self.stiffness, self.analysis()?, mu)?,
+            _ => {
+                let analysis = self.analysis.of(self.stiffness.pattern())?;
+                StiffnessFactors::general(&self.stiffness, analysis, mu)?
+            }
         };
         let operator = ShiftInverted::new(&matrices, &factors);
 

@@ -313,8 +313,7 @@ pub fn followed(
 
 /// `|w_i^T N x'_j| |w'_j^T N x_i|`, see [`track`].
 fn overlaps(from: ModesAt<'_>, to: ModesAt<'_>, model: &ReducedModel) -> Mat<f64> {
-    let at = model.at(0.5 * (from.0 + to.0));
-    let [forward, backward] = [at.overlaps(from.1, to.1), at.overlaps(to.1, from.1)];
+    let [forward, backward] = model.overlaps_at(0.5 * (from.0 + to.0), from.1, to.1);
     Mat::from_fn(from.1.len(), to.1.len(), |i, j| (forward[(i, j)] * backward[(j, i)]).norm())
 }
 

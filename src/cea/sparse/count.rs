@@ -1,7 +1,8 @@
 //! Eigenvalues in a part of the upper half plane, counted by the argument principle.
 
+use super::full_problem::{FullProblem, SharedAnalysis};
 use crate::cea::{CeaError, CountedRegion};
-use crate::linalg::{LinalgError, LuAnalysis, c64};
+use crate::linalg::{LinalgError, c64};
 use crate::prestress::SlidingTangent;
 use rayon::prelude::*;
 use std::f64::consts::{PI, TAU};
@@ -41,11 +42,11 @@ pub struct Winding {
 /// section 4.5.2.
 pub struct ModeCounter<'a> {
     tangent: &'a SlidingTangent,
-    analysis: LuAnalysis,
+    analysis: SharedAnalysis,
 }
 
 impl<'a> ModeCounter<'a> {
-    /// Orders the elimination.
+    /// A counter.
     ///
     /// # Errors
     /// Where stiffness depends on frequency: a table is no analytic function of `lambda`.
@@ -57,7 +58,7 @@ impl<'a> ModeCounter<'a> {
                 part.gain.table.key()
             )));
         }
-        Ok(Self { tangent, analysis: LuAnalysis::new(tangent.stiffness.pattern())? })
+        Ok(Self { tangent, analysis: SharedAnalysis::default() })
     }
 
     /// `ln det T(lambda; mu)`, up to multiples of `2 pi i`.
@@ -65,7 +66,7 @@ impl<'a> ModeCounter<'a> {
     /// # Errors
     /// At an eigenvalue.
     pub fn ln_determinant(&self, mu: f64, lambda: c64) -> Result<c64, LinalgError> {
-        self.reduced(mu, &[]).ln_at(lambda)
+        FullProblem::at(self.tangent, mu).sharing(&self.analysis).ln_determinant(lambda)
     }
 
     /// Eigenvalues of `region` at friction `mu` that are none of the `known`, of which those outside only smooth the way.
@@ -78,7 +79,8 @@ impl<'a> ModeCounter<'a> {
         known: &[c64],
         region: &CountedRegion,
     ) -> Result<Winding, CeaError> {
-        let problem = self.reduced(mu, known);
+        let problem = FullProblem::at(self.tangent, mu).sharing(&self.analysis);
+        let problem = Reduced { problem, known };
         let mut edge =
             Edge { problem: &problem, scale: TAU * region.frequencies_hz[1], determinants: 0 };
         let [winding, moment] = edge.integrate(&corners(region))?.map(|sum| {
@@ -92,20 +94,6 @@ impl<'a> ModeCounter<'a> {
             determinants: edge.determinants,
         })
     }
-
-    fn reduced<'b>(&'b self, mu: f64, known: &'b [c64]) -> Reduced<'b> {
-        let tangent = self.tangent;
-        let losses = tangent.structural.as_ref().map(|own| own.evaluate(mu));
-        let loss = |at: usize| losses.as_ref().map_or(0.0, |own| own[at]);
-        let stiffness = tangent.stiffness.evaluate(mu).into_iter().enumerate();
-        Reduced {
-            analysis: &self.analysis,
-            stiffness: stiffness.map(|(at, k)| c64::new(k, loss(at))).collect(),
-            damping: tangent.damping.evaluate(mu),
-            mass: tangent.mass.evaluate(mu),
-            known,
-        }
-    }
 }
 
 /// Corners of a region, counter-clockwise.
@@ -117,22 +105,15 @@ fn corners(region: &CountedRegion) -> [c64; 4] {
 
 /// `det T` at one friction coefficient without the factors of the known eigenvalues.
 struct Reduced<'a> {
-    analysis: &'a LuAnalysis,
-    stiffness: Vec<c64>,
-    damping: Vec<f64>,
-    mass: Vec<f64>,
+    problem: FullProblem<'a>,
     known: &'a [c64],
 }
 
 impl Reduced<'_> {
     fn ln_at(&self, lambda: c64) -> Result<c64, LinalgError> {
-        let others = self.damping.iter().zip(&self.mass);
-        let values = self.stiffness.iter().zip(others);
-        let values: Vec<c64> = values.map(|(k, (c, m))| k + lambda * (lambda * *m + *c)).collect();
         let known = self.known.iter();
         let factors = known.map(|own| (lambda - own).ln() + (lambda - own.conj()).ln());
-        let whole = self.analysis.ln_determinant(&values)?;
-        Ok(factors.fold(whole, |sum, factor| sum - factor))
+        Ok(self.problem.ln_determinant(lambda)? - factors.sum::<c64>())
     }
 }
 

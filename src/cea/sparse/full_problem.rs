@@ -1,7 +1,9 @@
 //! The full problem at one friction coefficient, with complex factors of its own.
 
-use crate::linalg::{ComplexSparseLu, LinalgError, LuAnalysis, Mat, MatRef, SparsityPattern, c64};
-use crate::prestress::{SlidingTangent, TabledGain};
+use crate::linalg::{
+    ComplexSparseLu, LinalgError, LuAnalysis, Mat, MatRef, MatrixPolynomial, SparsityPattern, c64,
+};
+use crate::prestress::SlidingTangent;
 use std::sync::{Arc, OnceLock};
 
 /// Order of elimination of all matrices of one tangent, made for the first factors.
@@ -15,36 +17,41 @@ impl SharedAnalysis {
     }
 }
 
-/// `T(lambda) = lambda^2 M + lambda C + K + i H + sum_p g_p K_p` at one friction coefficient, `g_p` at the frequency of `lambda`.
+/// What a matrix of `T(lambda)` is multiplied by.
+pub type Factor<'a> = Arc<dyn Fn(c64) -> c64 + Send + Sync + 'a>;
+
+/// `T(lambda) = K + lambda C + lambda^2 M + i H + sum_p g_p K_p` at one friction coefficient, `g_p` at the frequency of `lambda`.
 pub struct FullProblem<'a> {
     pattern: &'a Arc<SparsityPattern>,
     analysis: SharedAnalysis,
-    /// Nonzero values of `K`, `C` and `M`.
-    values: [Vec<f64>; 3],
-    /// Those of `H`; empty without structural damping.
-    structural: Vec<f64>,
-    /// Those of parts whose stiffness depends on frequency.
-    tabled: Vec<(&'a TabledGain, Vec<f64>)>,
+    /// Nonzero values of the matrices, in this order, with their factors.
+    terms: Vec<(Factor<'a>, Vec<f64>)>,
 }
 
 impl<'a> FullProblem<'a> {
     /// The problem of `tangent` at friction coefficient `mu`.
     pub fn at(tangent: &'a SlidingTangent, mu: f64) -> Self {
-        Self::analysed(tangent, mu, SharedAnalysis::default())
+        Self::of(tangent, |matrix| matrix.evaluate(mu))
     }
 
-    /// [`Self::at`] with an analysis that serves other friction coefficients too.
-    pub fn analysed(tangent: &'a SlidingTangent, mu: f64, analysis: SharedAnalysis) -> Self {
-        let all = [&tangent.stiffness, &tangent.damping, &tangent.mass];
-        let structural = tangent.structural.as_ref();
-        let tabled = tangent.tabled.iter();
-        Self {
-            pattern: tangent.stiffness.pattern(),
-            analysis,
-            values: all.map(|p| p.evaluate(mu)),
-            structural: structural.map_or_else(Vec::new, |p| p.evaluate(mu)),
-            tabled: tabled.map(|part| (&part.gain, part.stiffness.evaluate(mu))).collect(),
-        }
+    /// The same with an analysis that serves other friction coefficients too.
+    pub fn sharing(self, analysis: &SharedAnalysis) -> Self {
+        Self { analysis: analysis.clone(), ..self }
+    }
+
+    /// That of the values that are taken of each matrix: its derivatives by friction, too.
+    pub fn of(tangent: &'a SlidingTangent, values: impl Fn(&MatrixPolynomial) -> Vec<f64>) -> Self {
+        let mut terms: Vec<(Factor<'a>, Vec<f64>)> = vec![
+            (Arc::new(|_| c64::new(1.0, 0.0)), values(&tangent.stiffness)),
+            (Arc::new(|lambda| lambda), values(&tangent.damping)),
+            (Arc::new(|lambda| lambda * lambda), values(&tangent.mass)),
+        ];
+        let lost: Factor<'a> = Arc::new(|_| c64::new(0.0, 1.0));
+        terms.extend(tangent.structural.iter().map(|own| (Arc::clone(&lost), values(own))));
+        terms.extend(tangent.tabled.iter().map(|part| -> (Factor<'a>, Vec<f64>) {
+            (Arc::new(|lambda| part.gain.at(lambda)), values(&part.stiffness))
+        }));
+        Self { pattern: tangent.stiffness.pattern(), analysis: SharedAnalysis::default(), terms }
     }
 
     /// Number of unknowns.
@@ -54,14 +61,10 @@ impl<'a> FullProblem<'a> {
 
     /// Nonzero values of `T(lambda)`.
     fn pencil(&self, lambda: c64) -> Vec<c64> {
-        let [stiffness, damping, mass] = &self.values;
-        let terms = stiffness.iter().zip(damping).zip(mass);
-        let pencil = terms.map(|((k, c), m)| lambda * (lambda * *m + *c) + *k);
-        let mut pencil: Vec<c64> = pencil.collect();
-        let lost = (c64::new(0.0, 1.0), &self.structural);
-        let tabled = self.tabled.iter().map(|(gain, own)| (gain.at(lambda), own));
-        for (factor, own) in tabled.chain([lost]) {
-            pencil.iter_mut().zip(own).for_each(|(value, own)| *value += factor * *own);
+        let mut pencil = vec![c64::new(0.0, 0.0); self.pattern.nonzero_count()];
+        for (factor, values) in &self.terms {
+            let factor = factor(lambda);
+            pencil.iter_mut().zip(values).for_each(|(sum, value)| *sum += factor * *value);
         }
         pencil
     }
@@ -71,12 +74,25 @@ impl<'a> FullProblem<'a> {
         ComplexSparseLu::factorize(self.analysis.of(self.pattern)?, self.pencil(lambda))
     }
 
+    /// `ln det T(lambda)`, up to multiples of `2 pi i`; an error at an eigenvalue.
+    pub fn ln_determinant(&self, lambda: c64) -> Result<c64, LinalgError> {
+        self.analysis.of(self.pattern)?.ln_determinant(&self.pencil(lambda))
+    }
+
+    /// `P^T w` of each matrix, with its factor.
+    pub fn transposed_images(&self, w: MatRef<'_, f64>) -> Vec<(Factor<'a>, Mat<f64>)> {
+        let [elastic, damped, inert] = [0, 1, 2].map(|i| &self.terms[i].1[..]);
+        let viscous = self.pattern.multiply_transpose_each([elastic, damped, inert], w);
+        let others = self.terms[3..].iter();
+        let others = others.map(|(_, values)| self.pattern.multiply_transpose(values, w));
+        let factors = self.terms.iter().map(|(factor, _)| Arc::clone(factor));
+        factors.zip(viscous.into_iter().chain(others)).collect()
+    }
+
     /// `T(lambda)^T w` of each of `values` with its two columns of `w`, real and imaginary part.
     pub fn transposed_times(&self, values: &[c64], w: MatRef<'_, f64>) -> Mat<f64> {
-        let times = |matrix: &[f64]| self.pattern.multiply_transpose(matrix, w);
-        let matrices = self.values.each_ref().map(Vec::as_slice);
-        let [mut sum, damped, inert] = self.pattern.multiply_transpose_each(matrices, w);
-        let mut add = |factor: &dyn Fn(c64) -> c64, image: Mat<f64>| {
+        let mut sum = Mat::zeros(w.nrows(), w.ncols());
+        for (factor, image) in self.transposed_images(w) {
             for (k, own) in values.iter().enumerate() {
                 let factor = factor(*own);
                 for i in 0..image.nrows() {
@@ -85,25 +101,25 @@ impl<'a> FullProblem<'a> {
                     sum[(i, 2 * k + 1)] += value.im;
                 }
             }
-        };
-        add(&|lambda| lambda, damped);
-        add(&|lambda| lambda * lambda, inert);
-        if !self.structural.is_empty() {
-            add(&|_| c64::new(0.0, 1.0), times(&self.structural));
-        }
-        for (gain, own) in &self.tabled {
-            add(&|lambda| gain.at(lambda), times(own));
         }
         sum
     }
 
+    /// `w^T T(lambda) x`.
+    pub fn form(&self, lambda: c64, w: &[c64], x: &[c64]) -> c64 {
+        let forms = self.terms.iter();
+        forms.map(|(factor, values)| factor(lambda) * form(self.pattern, values, w, x)).sum()
+    }
+
     /// `w^T (2 lambda M + C) x`.
     pub fn slope(&self, lambda: c64, w: &[c64], x: &[c64]) -> c64 {
-        let [_, damping, mass] = &self.values;
-        let along = |j: usize| -> c64 {
-            let nonzeros = self.pattern.column(j);
-            nonzeros.map(|(at, i)| w[i] * (2.0 * lambda * mass[at] + damping[at])).sum()
-        };
-        (0..self.dimension()).map(|j| along(j) * x[j]).sum()
+        let [damped, inert] = [1, 2].map(|i| form(self.pattern, &self.terms[i].1, w, x));
+        2.0 * lambda * inert + damped
     }
+}
+
+/// `w^T P x` of a matrix with these nonzero `values`.
+pub fn form(pattern: &SparsityPattern, values: &[f64], w: &[c64], x: &[c64]) -> c64 {
+    let along = |j: usize| -> c64 { pattern.column(j).map(|(at, i)| w[i] * values[at]).sum() };
+    (0..pattern.dimension()).map(|j| along(j) * x[j]).sum()
 }

@@ -22,6 +22,12 @@ pub struct ReducedMode {
 }
 
 impl ReducedMode {
+    /// The same with other coordinates of its vectors.
+    pub fn map(&self, change: impl Fn(&[c64]) -> Vec<c64>) -> Self {
+        let [right, left] = [&self.right, &self.left].map(|own| change(own));
+        Self { right, left, ..*self }
+    }
+
     /// `-Re(lambda) / |lambda|`; 1 is critical.
     pub fn damping_factor(&self) -> f64 {
         -self.eigenvalue.re / self.eigenvalue.norm()

@@ -6,11 +6,12 @@ use super::mode::ReducedMode;
 use super::point::{PointSolver, SolvedPoint};
 use super::reduced::ReducedModel;
 use crate::cea::onset::{BranchSolver, Instability, instabilities};
+use crate::cea::vectors::length;
 use crate::cea::{BranchPoint, UnstableInterval};
 use crate::linalg::LinalgError;
 
-/// Steps between two points in which a branch is led back: a crossing lies between two of them.
-const STEPS_BACK: usize = 4;
+/// Steps over the whole range, at least, in which a branch is led back: a crossing lies between two of them.
+const STEPS_BACK: usize = 8;
 
 /// A mode and its friction coefficient.
 #[derive(Clone, Debug)]
@@ -116,11 +117,12 @@ impl OnsetFinder<'_> {
     /// nothing where it cannot be followed so far.
     fn led_back(&mut self, last: &State) -> Result<Option<Instability<State>>, LinalgError> {
         let mut states = vec![last.clone()];
+        let steps = STEPS_BACK.div_ceil(self.points.len());
         let points = self.points.iter().rev().map(|point| point.friction_coefficient);
         for place in points.filter(|mu| (self.lowest..last.mu).contains(mu)) {
             let start = states[0].mu;
-            for step in 1..=STEPS_BACK {
-                let mu = start + (place - start) * (step as f64 / STEPS_BACK as f64);
+            for step in 1..=steps {
+                let mu = start + (place - start) * (step as f64 / steps as f64);
                 let State { mu: from, mode } = &states[0];
                 let Some(mode) = followed(self.model, (*from, mode), mu) else {
                     return Ok(None);
@@ -160,9 +162,9 @@ impl OnsetFinder<'_> {
         let nearer = usize::from((to.mu - mu).abs() < (mu - from.mu).abs());
         let start = ReducedMode { eigenvalue: guess.eigenvalue, ..ends[nearer].mode.clone() };
         let mode = self.model.mode_near(mu, &start)?;
-        let (at, own) = (self.model.at(mu), std::slice::from_ref(&mode));
         let others = ends.map(|end| end.mode.clone());
-        let [forward, backward] = [at.overlaps(own, &others), at.overlaps(&others, own)];
+        let own = std::slice::from_ref(&mode);
+        let [forward, backward] = self.model.overlaps_at(mu, own, &others);
         let is_same = |j| (forward[(0, j)] * backward[(j, 0)]).norm() > SAME;
         [0, 1].into_iter().all(is_same).then_some(mode)
     }
@@ -195,14 +197,12 @@ impl BranchSolver for OnsetFinder<'_> {
         if let Some(mode) = self.continued(from, to, guess) {
             return Ok(Some(State { mu, mode }));
         }
-        let mut modes = self.model.solve(mu, self.points[0].modes.len())?;
-        let at = self.model.at(mu);
+        let mut modes = self.model.solve_between(mu, self.points[0].modes.len())?;
         let ends = [from, to].map(|end| end.mode.clone());
-        let overlaps = at.overlaps(&ends, &modes);
+        let [overlaps, _] = self.model.overlaps_at(mu, &ends, &modes);
         let overlap = |end: usize, j: usize| {
             // Left vectors of ends near an exceptional point are long.
-            let length: f64 = ends[end].left.iter().map(|v| v.norm_sqr()).sum::<f64>().sqrt();
-            overlaps[(end, j)].norm() / length
+            overlaps[(end, j)].norm() / length(&ends[end].left)
         };
         // Near an exceptional point slopes are infinite, and the cubic is no guess: the straight line is.
         let t = ((mu - from.mu) / (to.mu - from.mu)).clamp(0.0, 1.0);

@@ -2,9 +2,9 @@
 
 use super::SAME_EIGENVALUE;
 use super::mode::ReducedMode;
-use super::packed::inner;
 use super::projected::ProjectedMatrices;
-use crate::linalg::{LinalgError, c64};
+use crate::cea::vectors::{dot, length};
+use crate::linalg::LinalgError;
 use rayon::prelude::*;
 use std::f64::consts::TAU;
 
@@ -84,7 +84,6 @@ fn is_same(one: &ReducedMode, other: &ReducedMode) -> bool {
     if distance > SAME_EIGENVALUE * one.eigenvalue.norm() {
         return false;
     }
-    let length = |v: &[c64]| v.iter().map(|v| v.norm_sqr()).sum::<f64>().sqrt();
-    inner(&one.right, &other.right).norm()
+    dot(&one.right, &other.right).norm()
         > (1.0 - PARALLEL) * length(&one.right) * length(&other.right)
 }

@@ -1,6 +1,7 @@
 //! Complex vectors of modes in real matrices, for real arithmetic.
 
 use super::mode::ReducedMode;
+use crate::cea::vectors::length;
 use crate::linalg::dense::{column, dot, product, transpose_product};
 use crate::linalg::{Mat, c64};
 
@@ -34,11 +35,6 @@ pub fn side_by_side<V: AsRef<[c64]>>(rows: usize, vectors: &[V]) -> Mat<f64> {
 pub fn joined(columns: &Mat<f64>, k: usize) -> Vec<c64> {
     let [re, im] = [2 * k, 2 * k + 1].map(|j| column(columns.as_ref(), j).iter());
     re.zip(im).map(|(&re, &im)| c64::new(re, im)).collect()
-}
-
-/// `a^H b`.
-pub fn inner(a: &[c64], b: &[c64]) -> c64 {
-    a.iter().zip(b).map(|(a, b)| a.conj() * b).sum()
 }
 
 /// Where a vector is among packed columns.
@@ -95,7 +91,7 @@ impl PackedModes {
                 continue;
             }
             let vector = &mode.right;
-            let length = vector.iter().map(|v| v.norm_sqr()).sum::<f64>().sqrt();
+            let length = length(vector);
             places.push((entries.len(), false));
             let is_complex = vector.iter().any(|v| v.im != 0.0);
             entries.push(PackedEntry { inverse_value: s, column: columns.len(), is_complex });

@@ -1,7 +1,7 @@
 //! Right and left vectors of modes in the full problem, and what small changes of the matrices do to their eigenvalues.
 
-use super::full_problem::FullProblem;
-use super::packed::inner;
+use super::full_problem::{FullProblem, form};
+use crate::cea::vectors::dot;
 use crate::fem::own_frequency_step;
 use crate::linalg::dense::random_columns;
 use crate::linalg::{ComplexSparseLu, Mat, SparsityPattern, c64};
@@ -36,7 +36,8 @@ pub struct ModePair {
 impl ModePair {
     /// `d lambda = - w^T (lambda^2 dM + lambda dC + dK) x` for changes `[dK, dC, dM]` given by their nonzero values.
     pub fn response(&self, pattern: &SparsityPattern, changes: [&[f64]; 3]) -> c64 {
-        let [stiffness, damping, mass] = changes.map(|values| self.form(pattern, values));
+        let [stiffness, damping, mass] =
+            changes.map(|values| form(pattern, values, &self.left, &self.right));
         let lambda = self.eigenvalue;
         self.followed(-(lambda * (lambda * mass + damping) + stiffness))
     }
@@ -56,20 +57,12 @@ impl ModePair {
         changes: [&[f64]; 3],
         structural: &[f64],
     ) -> c64 {
-        let lost = match structural {
-            [] => c64::new(0.0, 0.0),
-            values => self.form(pattern, values),
-        };
-        self.response(pattern, changes) + self.followed(c64::new(0.0, -1.0) * lost)
-    }
-
-    /// `w^T P x`.
-    fn form(&self, pattern: &SparsityPattern, values: &[f64]) -> c64 {
-        let along = |j: usize| -> c64 {
-            let nonzeros = pattern.column(j);
-            nonzeros.map(|(at, i)| self.left[i] * values[at]).sum()
-        };
-        (0..pattern.dimension()).map(|j| along(j) * self.right[j]).sum()
+        let viscous = self.response(pattern, changes);
+        if structural.is_empty() {
+            return viscous;
+        }
+        let lost = form(pattern, structural, &self.left, &self.right);
+        viscous + self.followed(c64::new(0.0, -1.0) * lost)
     }
 }
 
@@ -78,17 +71,10 @@ impl ModePair {
 ///
 /// Each is found by inverse iteration: one factorization of `T(lambda)` serves the right vector and, transposed, the left one.
 pub fn mode_pairs(tangent: &SlidingTangent, mu: f64, targets: &[c64]) -> Vec<Option<ModePair>> {
-    // Nonzero values of the derivatives of K, C, M, and of parts whose stiffness depends on frequency with theirs.
-    let pattern = tangent.stiffness.pattern();
-    let all = [&tangent.stiffness, &tangent.damping, &tangent.mass];
-    let rates = all.map(|p| p.derivative(mu));
-    let structural = tangent.structural.as_ref();
-    let structural_rate = structural.map_or_else(Vec::new, |p| p.derivative(mu));
-    let tabled = tangent.tabled.iter();
-    let tabled =
-        tabled.map(|part| (&part.gain, part.stiffness.evaluate(mu), part.stiffness.derivative(mu)));
-    let tabled: Vec<_> = tabled.collect();
     let problem = FullProblem::at(tangent, mu);
+    let rate = FullProblem::of(tangent, |matrix| matrix.derivative(mu));
+    let tabled = tangent.tabled.iter();
+    let tabled: Vec<_> = tabled.map(|part| (&part.gain, part.stiffness.evaluate(mu))).collect();
     let pair = |target: &c64| {
         let [right, mut left] = inverse_iterations(&problem, *target)?;
         let scale = problem.slope(*target, &left, &right);
@@ -101,26 +87,17 @@ pub fn mode_pairs(tangent: &SlidingTangent, mu: f64, targets: &[c64]) -> Vec<Opt
             left,
             own_slope: c64::new(0.0, 0.0),
         };
-        let rates = rates.each_ref().map(Vec::as_slice);
+        let (w, x, pattern) = (&pair.left, &pair.right, tangent.stiffness.pattern());
         let own = tabled.iter();
-        pair.own_slope = own.map(|(gain, k, _)| gain.slope(*target) * pair.form(pattern, k)).sum();
-        let own = tabled.iter();
-        let own = own.map(|(gain, _, rate)| gain.at(*target) * pair.form(pattern, rate));
-        let own: c64 = own.sum();
-        pair.derivative =
-            pair.lossy_response(pattern, rates, &structural_rate) - pair.followed(own);
+        pair.own_slope = own.map(|(gain, k)| gain.slope(*target) * form(pattern, k, w, x)).sum();
+        pair.derivative = pair.followed(-rate.form(*target, &pair.left, &pair.right));
         Some(pair)
     };
     targets.par_iter().map(pair).collect()
 }
 
-/// Factors of `T` so near an eigenvalue that each step of an inverse iteration gains many digits.
-pub(super) fn factors_beside(problem: &FullProblem<'_>, target: c64) -> Option<ComplexSparseLu> {
-    OFFSETS.iter().find_map(|own| problem.factors(target * (1.0 + own)).ok())
-}
-
 /// Columns, of unit length, from a start after [`STEPS`] of inverse iteration on `T(lambda)` or, for left vectors, its transpose.
-pub(super) fn iterated(factors: &ComplexSparseLu, mut x: Mat<c64>, is_left: bool) -> Mat<c64> {
+fn iterated(factors: &ComplexSparseLu, mut x: Mat<c64>, is_left: bool) -> Mat<c64> {
     for _ in 0..STEPS {
         match is_left {
             true => factors.solve_transpose_in_place(x.as_mut()),
@@ -139,7 +116,8 @@ fn inverse_iterations(problem: &FullProblem<'_>, target: c64) -> Option<[Vec<c64
     let unknowns = problem.dimension();
     let start = random_columns(unknowns, 2.min(unknowns), 7);
     let start = Mat::from_fn(unknowns, start.ncols(), |i, j| c64::new(start[(i, j)], 0.0));
-    let factors = factors_beside(problem, target)?;
+    let mut beside = OFFSETS.iter().map(|own| target * (1.0 + own));
+    let factors = beside.find_map(|lambda| problem.factors(lambda).ok())?;
     let right = single(&iterated(&factors, start.clone(), false))?;
     Some([right, single(&iterated(&factors, start, true))?])
 }
@@ -147,7 +125,7 @@ fn inverse_iterations(problem: &FullProblem<'_>, target: c64) -> Option<[Vec<c64
 /// The first of two columns of unit length, if the other one is a multiple of it.
 fn single(x: &Mat<c64>) -> Option<Vec<c64>> {
     let [own, other] = [0, x.ncols() - 1].map(|j| x.col(j).iter().copied().collect::<Vec<c64>>());
-    let overlap = inner(&own, &other);
+    let overlap = dot(&own, &other);
     let rest: f64 = own.iter().zip(&other).map(|(a, b)| (b - a * overlap).norm_sqr()).sum();
     // No number at all is no vector either.
     (rest.sqrt() <= ALIKE).then_some(own)

@@ -2,7 +2,7 @@
 
 mod kept;
 
-use super::StiffnessFactors;
+use super::basis::BasisBuilder;
 use super::edge::ContactEdge;
 use super::left::{OpenPair, correct_lefts};
 use super::linearization::Linearization;
@@ -11,6 +11,7 @@ use super::packed::{PackedModes, PackedVector, joined, side_by_side};
 use super::reduced::{ReducedModel, inside};
 use super::structure::StructureMatrices;
 use super::{GROUP_WIDTH, RESIDUAL_BOUND, TRACKING_MARGIN};
+use crate::cea::vectors::length;
 use crate::cea::{ModeLimit, ModeVectors, keeping_ties};
 use crate::linalg::{LinalgError, Mat, c64};
 use crate::prestress::SlidingTangent;
@@ -231,27 +232,29 @@ impl PointSolver<'_> {
     }
 
     /// Right and, `with_lefts`, left vectors of `modes` at `mu` over all nodal dofs, see [`ModeVectors`]; left ones are corrected by
-    /// `factors`, of the stiffness without friction.
+    /// the stiffness and the modes without friction.
     pub fn vectors(
         &self,
-        (model, factors): (&ReducedModel, &StiffnessFactors),
+        basis: &BasisBuilder<'_>,
         (mu, with_lefts): (f64, bool),
         modes: &[ReducedMode],
     ) -> Vec<ModeVectors> {
+        let model = &basis.model;
         let rights = self.expanded(model, modes, |mode| &mode.right);
         let lefts = match with_lefts {
             true => self.expanded(model, modes, |mode| &mode.left),
             false => vec![Vec::new(); modes.len()],
         };
-        let pairs = modes.iter().zip(rights.into_iter().zip(lefts));
-        let pairs = pairs.map(|(mode, (right, left))| OpenPair {
+        let own = |((mode, right), left): ((&ReducedMode, _), _)| OpenPair {
             eigenvalue: mode.eigenvalue,
             right,
             left,
-        });
-        let mut pairs: Vec<OpenPair> = pairs.collect();
+        };
+        let mut pairs: Vec<OpenPair> = modes.iter().zip(rights).zip(lefts).map(own).collect();
         if with_lefts {
-            correct_lefts(self.tangent, factors, mu, &mut pairs);
+            let leading = basis.leading_count().min(model.dimension());
+            let leading = model.expand(Mat::identity(leading, leading).as_ref());
+            correct_lefts(self.tangent, (&basis.factors, leading), mu, &mut pairs);
         }
         let pairs = modes.iter().zip(pairs);
         pairs
@@ -282,10 +285,6 @@ impl PointSolver<'_> {
         });
         groups.collect()
     }
-}
-
-fn length(vector: &[c64]) -> f64 {
-    vector.iter().map(|v| v.norm_sqr()).sum::<f64>().sqrt()
 }
 
 /// Scales a nodal vector so that its largest entry is 1; what it was divided by.

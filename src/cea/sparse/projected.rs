@@ -8,10 +8,15 @@ use crate::linalg::{ComplexDenseLu, Mat, Scale, c64};
 use crate::prestress::TabledGain;
 use std::f64::consts::TAU;
 
-/// Rayleigh quotients after which a mode counts as not found; three or four do.
-const QUOTIENT_STEPS: usize = 8;
-/// Relative change of the eigenvalue that ends the iteration: its error is about the cube of that.
+/// Rayleigh quotients after which a mode counts as not found; ten or fewer do, or three or four by factors at each.
+const QUOTIENT_STEPS: usize = 24;
+/// Relative change of the eigenvalue that ends the iteration by factors at it: the error left is about the cube of that.
 const QUOTIENT_TOLERANCE: f64 = 1e-8;
+/// Change of the vectors, of length 1, that ends the iteration by factors from before; source: A. Neumaier, SIAM J. Numer. Anal. 22 (1985),
+/// residual inverse iteration.
+const VECTOR_TOLERANCE: f64 = 1e-10;
+/// Part of the last change above which factors are made anew: they cost as much as all steps by those from before.
+const STALE: f64 = 0.2;
 
 /// `K`, `C` and `M` (or their derivatives) projected, at one friction coefficient.
 pub struct ProjectedMatrices {
@@ -50,17 +55,11 @@ impl ProjectedMatrices {
     /// `T(lambda) = lambda^2 M + lambda C + K + i H + sum_p g_p K_p`, `Im lambda > 0`, the last at the frequency of `lambda`.
     pub fn pencil(&self, lambda: c64) -> Mat<c64> {
         let m = self.mass.nrows();
-        let mut pencil = Mat::from_fn(m, m, |i, j| {
-            let lost = self.structural.as_ref().map_or(0.0, |h| h[(i, j)]);
-            lambda * (lambda * self.mass[(i, j)] + self.damping[(i, j)])
-                + c64::new(self.stiffness[(i, j)], lost)
-        });
-        for (gain, stiffness) in &self.tabled {
-            let factor = gain.at(lambda);
+        let mut pencil = Mat::zeros(m, m);
+        for (factor, p) in self.terms(lambda) {
             for j in 0..m {
-                let entries = pencil.col_mut(j).iter_mut();
-                let entries = entries.zip(stiffness.col(j).iter());
-                entries.for_each(|(t, k)| *t += factor * *k);
+                let entries = pencil.col_mut(j).iter_mut().zip(column(p.as_ref(), j));
+                entries.for_each(|(t, p): (&mut c64, _)| *t += factor * *p);
             }
         }
         pencil
@@ -95,22 +94,35 @@ impl ProjectedMatrices {
     pub fn mode_near(&self, guess: &ReducedMode) -> Option<ReducedMode> {
         let m = self.mass.nrows();
         let mut mode = guess.clone();
-        // Where stiffness follows the frequency the vectors gain fewer digits in a step.
-        let steps = QUOTIENT_STEPS * if self.tabled.is_empty() { 1 } else { 3 };
-        for _ in 0..steps {
+        let (mut factors, mut before) = (None, f64::INFINITY);
+        for _ in 0..QUOTIENT_STEPS {
             let lambda = mode.eigenvalue;
-            let slope = Mat::from_fn(m, m, |i, j| {
-                lambda * (2.0 * self.mass[(i, j)]) + self.damping[(i, j)]
+            // By factors at the eigenvalue what the slope makes of the vectors; by those from before what these leave is taken away.
+            let is_reused = factors.is_some();
+            let lu = factors.get_or_insert_with(|| ComplexDenseLu::factorize(self.pencil(lambda)));
+            let terms = match is_reused {
+                true => self.terms(lambda),
+                false => vec![(2.0 * lambda, &self.mass), (c64::new(1.0, 0.0), &self.damping)],
+            };
+            let mut moved = 0.0_f64;
+            let [right, left] = [(&mode.right, false), (&mode.left, true)].map(|(own, is_left)| {
+                let own = Mat::from_fn(m, 1, |i, _| own.get(i).copied().unwrap_or_default());
+                let mut new = times(&terms, &own, is_left);
+                match is_left {
+                    true => lu.solve_transpose_in_place(new.as_mut()),
+                    false => lu.solve_in_place(new.as_mut()),
+                }
+                if is_reused {
+                    // Along the vector a change is none.
+                    let along = (own.adjoint() * &new)[(0, 0)] / own.squared_norm_l2();
+                    new -= Mat::from_fn(m, 1, |i, _| along * own[(i, 0)]);
+                    moved = moved.max(new.norm_l2() / own.norm_l2());
+                    new = own - new;
+                }
+                let length = new.norm_l2();
+                new.col(0).iter().map(|v| v / length).collect()
             });
-            let lu = ComplexDenseLu::factorize(self.pencil(lambda));
-            let column =
-                |v: &[c64]| Mat::from_fn(m, 1, |i, _| v.get(i).copied().unwrap_or_default());
-            let mut right = &slope * column(&mode.right);
-            let mut left = slope.transpose() * column(&mode.left);
-            lu.solve_in_place(right.as_mut());
-            lu.solve_transpose_in_place(left.as_mut());
-            let unit = |v: Mat<c64>| v.col(0).iter().map(|own| own / v.norm_l2()).collect();
-            (mode.right, mode.left) = (unit(right), unit(left));
+            (mode.right, mode.left) = (right, left);
 
             // What the eigenvalue is too large by, to first order.
             let own = std::slice::from_ref(&mode);
@@ -121,29 +133,39 @@ impl ProjectedMatrices {
             if !(step.norm() < guess.eigenvalue.norm()) {
                 return None;
             }
-            if step.norm() <= QUOTIENT_TOLERANCE * mode.eigenvalue.norm() {
+            let is_settled = match is_reused {
+                true => moved <= VECTOR_TOLERANCE,
+                false => step.norm() <= QUOTIENT_TOLERANCE * mode.eigenvalue.norm(),
+            };
+            if is_settled {
                 return Some(mode);
+            }
+            if is_reused {
+                factors = factors.filter(|_| moved <= STALE * before);
+                before = moved;
             }
         }
         None
     }
 
+    /// The matrices of which `T(lambda)` is the sum, with their factors.
+    fn terms(&self, lambda: c64) -> Vec<(c64, &Mat<f64>)> {
+        let (one, lost) = (c64::new(1.0, 0.0), c64::new(0.0, 1.0));
+        let mut terms =
+            vec![(lambda * lambda, &self.mass), (lambda, &self.damping), (one, &self.stiffness)];
+        terms.extend(self.structural.iter().map(|h| (lost, h)));
+        terms.extend(self.tabled.iter().map(|(gain, k)| (gain.at(lambda), k)));
+        terms
+    }
+
     /// `w_i^T T(lambda_j) x_j`, or with the derivatives by friction `w_i^T T'(lambda_j) x_j`.
     pub fn pencil_forms(&self, lefts: &[ReducedMode], rights: &[ReducedMode]) -> Mat<c64> {
-        let one = |_: c64| c64::new(1.0, 0.0);
+        let terms: Vec<_> = rights.iter().map(|mode| self.terms(mode.eigenvalue)).collect();
         let mut sum = Mat::zeros(lefts.len(), rights.len());
-        let mut add = |p: &Mat<f64>, factor: &dyn Fn(c64) -> c64| {
-            let own = forms(lefts, p, rights);
-            for (j, mode) in rights.iter().enumerate() {
-                let factor = factor(mode.eigenvalue);
-                (0..lefts.len()).for_each(|i| sum[(i, j)] += factor * own[(i, j)]);
-            }
-        };
-        add(&self.mass, &|lambda| lambda * lambda);
-        add(&self.damping, &|lambda| lambda);
-        add(&self.stiffness, &one);
-        self.structural.iter().for_each(|h| add(h, &|_| c64::new(0.0, 1.0)));
-        self.tabled.iter().for_each(|(gain, k)| add(k, &|lambda| gain.at(lambda)));
+        for k in 0..terms.first().map_or(0, Vec::len) {
+            let own = forms(lefts, terms[0][k].1, rights);
+            sum += Mat::from_fn(own.nrows(), own.ncols(), |i, j| terms[j][k].0 * own[(i, j)]);
+        }
         sum
     }
 
@@ -166,6 +188,20 @@ impl ProjectedMatrices {
             false => own_frequency_step(change, parts.sum::<c64>() / slope),
         }
     }
+}
+
+/// `sum f P x` of matrices with factors, or `sum f P^T x` of a left vector.
+fn times(terms: &[(c64, &Mat<f64>)], x: &Mat<c64>, is_left: bool) -> Mat<c64> {
+    let parts = Mat::from_fn(x.nrows(), 2, |i, j| if j == 0 { x[(i, 0)].re } else { x[(i, 0)].im });
+    let mut sum = Mat::zeros(x.nrows(), 1);
+    for (factor, p) in terms {
+        let image = match is_left {
+            true => transpose_product(p.as_ref(), parts.as_ref()),
+            false => product(p.as_ref(), parts.as_ref()),
+        };
+        sum += Mat::from_fn(x.nrows(), 1, |i, _| factor * c64::new(image[(i, 0)], image[(i, 1)]));
+    }
+    sum
 }
 
 /// `sum_p weight(p) P_p`.

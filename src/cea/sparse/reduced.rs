@@ -8,11 +8,12 @@ use super::mode::ReducedMode;
 use super::projected::{ProjectedMatrices, horner, projected, weighted};
 use super::term::Term;
 use super::{MULTIPLE, SAME_SPACE};
+use crate::cea::vectors::length;
 use crate::linalg::dense::{
     GrowingColumns, column, join_columns, orthonormal_complement, product, transpose_product,
 };
 use crate::linalg::gram::complement;
-use crate::linalg::{ComplexDenseLu, FrictionWeights, LinalgError, MatrixPolynomial};
+use crate::linalg::{FrictionWeights, LinalgError, MatrixPolynomial};
 use crate::linalg::{Mat, MatRef, Scale, c64};
 use crate::prestress::{SlidingTangent, TabledGain};
 use parts::BasisParts;
@@ -145,7 +146,6 @@ impl ReducedModel {
             }
         }
         self.basis.append(new.as_ref());
-        self.parts = BasisParts::default();
         new
     }
 
@@ -202,15 +202,8 @@ impl ReducedModel {
         ProjectedMatrices { stiffness, damping, mass, structural, tabled: tabled.collect() }
     }
 
-    /// The `count` modes of largest `|s|` that oscillate, by rising frequency; overdamped ones are left
-    /// out.
-    pub fn solve(&self, mu: f64, count: usize) -> Result<Vec<ReducedMode>, LinalgError> {
-        let mut modes = self.solve_with_coarse_lefts(mu, count)?;
-        self.refine_lefts(&mut modes, mu);
-        Ok(modes)
-    }
-
-    /// [`Self::solve`] with left vectors, and so derivatives, as the samples about `mu` hold them.
+    /// The `count` modes of largest `|s|` that oscillate, by rising frequency; overdamped ones are left out. Left vectors, and so
+    /// derivatives, are those that the samples about `mu` hold.
     pub fn solve_with_coarse_lefts(
         &self,
         mu: f64,
@@ -222,27 +215,12 @@ impl ReducedModel {
         Ok(modes)
     }
 
-    /// Left vectors and derivatives of [`Self::solve`] for modes of [`Self::solve_with_coarse_lefts`].
-    pub fn refine_lefts(&self, modes: &mut [ReducedMode], mu: f64) {
-        if self.samples.iter().any(|sample| sample.0 == mu) {
-            let at = self.at(mu);
-            self.widen_left(modes, &at, mu);
-            self.complete(modes, &at, mu);
-        }
-    }
-
-    /// [`Self::solve`] for eigenvalues and right vectors only: left ones stay empty, derivatives zero.
-    pub fn solve_right(&self, mu: f64, count: usize) -> Result<Vec<ReducedMode>, LinalgError> {
-        let at = self.at(mu);
-        self.solve_in(self.span_of_nearest(mu, NEIGHBOURS), &at, count, false)
-    }
-
-    /// Replaces the left vectors of `modes` in the span of a sample by those in the whole basis.
+    /// Replaces left vectors of modes in the span of a sample, and derivatives, by those in the whole basis.
     ///
     /// A sample holds right vectors only. With friction left ones are others, which that span hardly holds: overlaps
     /// and derivatives would be wrong. Right vectors at several friction coefficients together come close to them.
-    fn widen_left(&self, modes: &mut [ReducedMode], at: &ProjectedMatrices, mu: f64) {
-        if mu == 0.0 || !self.samples.iter().any(|sample| sample.0 == mu) {
+    pub fn refine_lefts(&self, modes: &mut [ReducedMode], mu: f64) {
+        if mu == 0.0 || self.sample_width(mu).is_none() {
             return;
         }
         let values: Vec<c64> = modes.iter().map(|mode| mode.eigenvalue).collect();
@@ -251,35 +229,27 @@ impl ReducedModel {
             let near = |other: &&c64| (**other - lambda).norm() <= MULTIPLE * lambda.norm();
             values.iter().filter(near).count() == 1
         };
-        let part = self.surroundings(mu);
-        let within = part.as_ref().map(|part| part.model.at(mu));
-        let at = within.as_ref().unwrap_or(at);
-        let m = at.mass.nrows();
-        let single = modes.par_iter_mut().filter(|m| is_single(m.eigenvalue));
+        let single = modes.par_iter_mut().filter(|mode| is_single(mode.eigenvalue));
         single.for_each(|mode| {
-            let lambda = mode.eigenvalue;
-            let slope =
-                Mat::from_fn(m, m, |i, j| lambda * (2.0 * at.mass[(i, j)]) + at.damping[(i, j)]);
-            let coarse = part.as_ref().map(|part| inside(&part.columns, &mode.left));
-            let coarse = coarse.as_ref().unwrap_or(&mode.left);
-            let coarse = Mat::from_fn(m, 1, |i, _| coarse.get(i).copied().unwrap_or_default());
-            let mut left = slope.transpose() * &coarse;
-            ComplexDenseLu::factorize(at.pencil(lambda)).solve_transpose_in_place(left.as_mut());
-            let length = left.norm_l2();
-            if length.is_finite() && length > 0.0 {
-                let left: Vec<c64> = left.col(0).iter().map(|v| v / length).collect();
-                let whole = part.as_ref().map(|part| combined(&part.columns, &left));
-                mode.left = whole.unwrap_or(left);
+            if let Some(found) = self.mode_near(mu, mode) {
+                mode.left = found.left;
             }
         });
+        self.complete(modes, &self.at(mu), mu);
     }
 
-    /// [`Self::solve`] for matching modes between solved points: in the span of the two nearest samples.
+    /// [`Self::solve_with_coarse_lefts`] for eigenvalues and right vectors only: left ones stay empty, derivatives zero.
+    pub fn solve_right(&self, mu: f64, count: usize) -> Result<Vec<ReducedMode>, LinalgError> {
+        let at = self.at(mu);
+        self.solve_in(self.span_of_nearest(mu, NEIGHBOURS), &at, count, false)
+    }
+
+    /// The same for matching modes between solved points, with left vectors of the whole basis: in the span of the two nearest samples.
     pub fn solve_between(&self, mu: f64, count: usize) -> Result<Vec<ReducedMode>, LinalgError> {
         let at = self.at(mu);
         let mut modes = self.solve_in(self.span_of_nearest(mu, 2), &at, count, true)?;
-        self.widen_left(&mut modes, &at, mu);
         self.complete(&mut modes, &at, mu);
+        self.refine_lefts(&mut modes, mu);
         Ok(modes)
     }
 
@@ -298,7 +268,7 @@ impl ReducedModel {
     /// Forgets the modes held at `mu`.
     pub fn drop_sample(&mut self, mu: f64) {
         self.samples.retain(|sample| sample.0 != mu);
-        self.parts = BasisParts::default();
+        self.parts.change_at(mu);
     }
 
     /// Restricts the basis to its `known` first vectors and the modes held; the coordinates of the new basis in the old one, one column
@@ -316,7 +286,7 @@ impl ReducedModel {
 
     /// [`Self::hold_sample`] of vectors given by their coordinates in the basis.
     pub fn hold_coordinates(&mut self, mu: f64, coordinates: Mat<f64>) {
-        self.parts = BasisParts::default();
+        self.parts.change_at(mu);
         match self.samples.iter_mut().find(|sample| sample.0 == mu) {
             Some((_, held)) => {
                 let known = lengthened(held, coordinates.nrows());
@@ -330,7 +300,7 @@ impl ReducedModel {
     pub fn hold_correction(&mut self, mu: f64, vectors: &Mat<f64>) {
         let coordinates = transpose_product(self.basis.columns(), vectors.as_ref());
         self.corrections.push((mu, coordinates));
-        self.parts = BasisParts::default();
+        self.parts.change_at(mu);
     }
 
     /// Orthonormal coordinates of the span of the `count` samples nearest to `mu`, or of the one there; nothing without
@@ -370,10 +340,9 @@ impl ReducedModel {
     /// where that does not settle.
     pub fn mode_near(&self, mu: f64, guess: &ReducedMode) -> Option<ReducedMode> {
         if let Some(part) = self.surroundings(mu) {
-            let [right, left] = [&guess.right, &guess.left].map(|own| inside(&part.columns, own));
-            let found = part.model.mode_near(mu, &ReducedMode { right, left, ..guess.clone() })?;
-            let [right, left] = [&found.right, &found.left].map(|own| combined(&part.columns, own));
-            return Some(ReducedMode { right, left, ..found });
+            let guess = guess.map(|own| inside(&part.columns, own));
+            let found = part.model.mode_near(mu, &guess)?;
+            return Some(found.map(|own| combined(&part.columns, own)));
         }
         let at = self.at(mu);
         let mut modes = [at.mode_near(guess)?];
@@ -388,7 +357,7 @@ impl ReducedModel {
     /// ([`own_frequency_step`]).
     pub(super) fn complete(&self, modes: &mut [ReducedMode], at: &ProjectedMatrices, mu: f64) {
         for mode in modes.iter_mut() {
-            let length = mode.right.iter().map(|v| v.norm_sqr()).sum::<f64>().sqrt();
+            let length = length(&mode.right);
             mode.right.iter_mut().for_each(|v| *v /= length);
         }
         let changes = self.derivative_at(mu).pencil_forms(modes, modes);

@@ -57,39 +57,30 @@ impl<'a> StructureMatrices<'a> {
         x: MatRef<'_, f64>,
     ) -> (Mat<f64>, Mat<f64>) {
         let [stiffness, damping, mass] = &self.values;
-        match self.linearization {
-            Linearization::Reduced(..) => {
-                let [mut residual, inert] = self.pattern.multiply_sorted([stiffness, mass], x);
-                for entry in entries {
-                    let kappa = self.linearization.value(entry.inverse_value);
-                    add_complex_multiple(&mut residual, -kappa, &inert, entry);
-                }
-                (residual, inert)
+        let add = |sum: &mut Mat<f64>, image: &Mat<f64>, factor: &dyn Fn(c64) -> c64| {
+            for entry in entries {
+                let value = self.linearization.value(entry.inverse_value);
+                add_complex_multiple(sum, factor(value), image, entry);
             }
-            Linearization::Companion { .. } => {
-                let all = [&stiffness[..], damping, mass];
-                let [mut residual, damped, inert] = self.pattern.multiply_sorted(all, x);
-                for entry in entries {
-                    let lambda = self.linearization.value(entry.inverse_value);
-                    add_complex_multiple(&mut residual, lambda * lambda, &inert, entry);
-                    add_complex_multiple(&mut residual, lambda, &damped, entry);
-                }
-                if let Some(structural) = &self.structural {
-                    let [lost] = self.pattern.multiply_sorted([structural], x);
-                    for entry in entries {
-                        add_complex_multiple(&mut residual, c64::new(0.0, 1.0), &lost, entry);
-                    }
-                }
-                for (part, values) in &self.tabled {
-                    let [image] = self.pattern.multiply_sorted([values], x);
-                    for entry in entries {
-                        let lambda = self.linearization.value(entry.inverse_value);
-                        add_complex_multiple(&mut residual, part.gain.at(lambda), &image, entry);
-                    }
-                }
-                (residual, inert)
-            }
+        };
+        if let Linearization::Reduced(..) = self.linearization {
+            let [mut residual, inert] = self.pattern.multiply_sorted([stiffness, mass], x);
+            add(&mut residual, &inert, &|kappa| -kappa);
+            return (residual, inert);
         }
+        let all = [&stiffness[..], damping, mass];
+        let [mut residual, damped, inert] = self.pattern.multiply_sorted(all, x);
+        add(&mut residual, &inert, &|lambda| lambda * lambda);
+        add(&mut residual, &damped, &|lambda| lambda);
+        if let Some(structural) = &self.structural {
+            let [lost] = self.pattern.multiply_sorted([structural], x);
+            add(&mut residual, &lost, &|_| c64::new(0.0, 1.0));
+        }
+        for (part, values) in &self.tabled {
+            let [image] = self.pattern.multiply_sorted([values], x);
+            add(&mut residual, &image, &|lambda| part.gain.at(lambda));
+        }
+        (residual, inert)
     }
 
     /// `T(lambda) x` over what [`Self::residuals_and_momenta`] returns: `T(lambda) = (1 + beta lambda) (K - kappa M)`.

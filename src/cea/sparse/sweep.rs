@@ -415,14 +415,16 @@ mod tests {
             modes.factors,
             &Unwatched,
         );
-        let before = builder.model.solve(0.2, 5).unwrap();
+        let before = builder.model.solve_with_coarse_lefts(0.2, 5).unwrap();
         builder.search(0.2, 2).unwrap();
-        let after = builder.model.solve(0.2, 5).unwrap();
+        let after = builder.model.solve_with_coarse_lefts(0.2, 5).unwrap();
         let factors = StiffnessFactors::frictionless(&tangent.stiffness).unwrap();
         let mut complete =
             BasisBuilder::new(&tangent, linearization, (&modes.vectors, 0), factors, &Unwatched);
         complete.cover(&[0.2]).unwrap();
-        for (found, exact) in after.iter().zip(complete.model.solve(0.2, 5).unwrap()) {
+        for (found, exact) in
+            after.iter().zip(complete.model.solve_with_coarse_lefts(0.2, 5).unwrap())
+        {
             assert!((found.eigenvalue - exact.eigenvalue).norm() < 1e-9 * exact.eigenvalue.norm());
         }
         assert!(

@@ -46,7 +46,7 @@ impl BasisBuilder<'_> {
     }
 
     /// Leading vectors of the basis that are motions without friction: rigid ones and modes.
-    pub(super) fn leading_count(&self) -> usize {
+    pub fn leading_count(&self) -> usize {
         self.rigid + self.count
     }
 
@@ -200,7 +200,7 @@ impl BasisBuilder<'_> {
 
     /// The corrections of [`Self::shift`], two real columns each. Neighbours in frequency share factors.
     fn shifted_corrections(&self, mu: f64, modes: &[ReducedMode]) -> Result<Mat<f64>, LinalgError> {
-        let problem = FullProblem::analysed(self.tangent, mu, self.analysis.clone());
+        let problem = FullProblem::at(self.tangent, mu).sharing(&self.analysis);
         let unknowns = problem.dimension();
         // Residuals in the full matrices.
         let matrices = StructureMatrices::at(self.tangent, self.linearization, mu);

@@ -1,23 +1,14 @@
 //! All modes of the projected problem by dense decompositions.
 
 use super::ReducedModel;
-use crate::cea::sparse::SEARCH_WIDTH;
 use crate::cea::sparse::linearization::Linearization;
 use crate::cea::sparse::mode::ReducedMode;
 use crate::cea::sparse::own_frequency;
 use crate::cea::sparse::projected::ProjectedMatrices;
-use crate::linalg::dense::{product, random_columns};
-use crate::linalg::dense_eigen::{RealEigen, complex_eigen, real_eigen, real_eigenvalues};
-use crate::linalg::{BlockOperator, KrylovSchurSettings, krylov_schur};
+use crate::linalg::dense_eigen::{complex_eigen, real_eigen, real_eigenvalues};
 use crate::linalg::{ComplexDenseLu, DenseLu, LinalgError, MatrixPolynomial};
 use crate::linalg::{Mat, MatRef, Scale, c64};
 use crate::prestress::SlidingTangent;
-
-/// How many times as many rows as eigenvalues are wanted a matrix has from which on an iteration is cheaper than the whole
-/// decomposition.
-const FEW_OF_MANY: usize = 5;
-/// Residual of that iteration, relative to the eigenvalue.
-const FEW_TOLERANCE: f64 = 1e-13;
 
 impl ReducedModel {
     /// The modes of projected matrices, without derivatives and scale.
@@ -50,11 +41,7 @@ impl ReducedModel {
             Linearization::Companion { .. } => 2 * count,
         };
         let operator = self.shift_inverted(at, &lu);
-        let few = (!with_left).then(|| few_eigenvalues(&operator, leading)).flatten();
-        let eigen = match few {
-            Some(eigen) => eigen,
-            None => real_eigen(operator.as_ref(), with_left, leading)?,
-        };
+        let eigen = real_eigen(operator.as_ref(), with_left, leading)?;
         // The upper half of a left vector of the operator is K^T times that of the problem.
         let m = at.stiffness.nrows();
         let mut left = eigen.left;
@@ -232,38 +219,6 @@ impl ReducedModel {
             }
         }
     }
-}
-
-/// A dense matrix as an operator.
-struct DenseOperator<'a>(&'a Mat<f64>);
-
-impl BlockOperator for DenseOperator<'_> {
-    fn dimension(&self) -> usize {
-        self.0.nrows()
-    }
-
-    fn apply(&self, x: MatRef<'_, f64>) -> Mat<f64> {
-        product(self.0.as_ref(), x)
-    }
-}
-
-/// The `leading` eigenvalues of largest modulus of a matrix much larger than that, with right vectors, by an iteration: nothing where
-/// the matrix is not so large, or the iteration does not converge.
-fn few_eigenvalues(matrix: &Mat<f64>, leading: usize) -> Option<RealEigen> {
-    if matrix.nrows() < FEW_OF_MANY * leading {
-        return None;
-    }
-    let settings = KrylovSchurSettings {
-        wanted: leading,
-        tie: 1.0,
-        tolerance: FEW_TOLERANCE,
-        max_applications: 20 * leading,
-        dense_up_to: 0,
-    };
-    let start = random_columns(matrix.nrows(), SEARCH_WIDTH, 0x5eed);
-    let found = krylov_schur(&DenseOperator(matrix), start, &|_| true, &settings).ok()?;
-    let is_converged = found.residuals.iter().all(|residual| *residual <= FEW_TOLERANCE);
-    is_converged.then_some(RealEigen { values: found.values, right: found.vectors, left: None })
 }
 
 /// The first `rows` entries of column `i` of packed vectors, as a complex vector, conjugated if asked.

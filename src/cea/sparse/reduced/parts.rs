@@ -4,13 +4,14 @@
 //! of the modes at the samples about them, and of the corrections there.
 
 use super::{ReducedModel, spanned};
+use crate::cea::sparse::mode::ReducedMode;
 use crate::cea::sparse::projected::projected;
 use crate::linalg::dense::{GrowingColumns, column};
 use crate::linalg::{Mat, c64};
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// Samples whose modes, together, come near left vectors.
-const SURROUNDING: usize = 6;
+const SURROUNDING: usize = 4;
 
 /// The projected problem in a part of the basis.
 pub(super) struct BasisPart {
@@ -19,8 +20,17 @@ pub(super) struct BasisPart {
     pub model: ReducedModel,
 }
 
-/// The parts made since the basis and its samples last changed, each with the places of its samples.
-pub(super) type BasisParts = Mutex<Vec<(Vec<usize>, Arc<BasisPart>)>>;
+/// Parts, each with the friction coefficients of its samples, rising. Wherever the basis grows its columns stay what they are.
+#[derive(Default)]
+pub(super) struct BasisParts(Mutex<Vec<(Vec<f64>, Arc<BasisPart>)>>);
+
+impl BasisParts {
+    /// Drops what holds anything at `mu`.
+    pub fn change_at(&mut self, mu: f64) {
+        let known = self.0.get_mut().unwrap_or_else(PoisonError::into_inner);
+        known.retain(|(places, _)| !(places[0]..=places[places.len() - 1]).contains(&mu));
+    }
+}
 
 /// Coordinates of a vector in the space of orthonormal `columns`.
 pub fn inside(columns: &Mat<f64>, vector: &[c64]) -> Vec<c64> {
@@ -38,23 +48,41 @@ impl ReducedModel {
         if self.samples.len() < 2 * SURROUNDING || !self.tabled.is_empty() {
             return None;
         }
-        let place = |i: &usize| self.samples[*i].0;
-        let mut nearest: Vec<usize> = (0..self.samples.len()).collect();
-        nearest.sort_by(|a, b| (place(a) - mu).abs().total_cmp(&(place(b) - mu).abs()));
+        let mut nearest: Vec<&(f64, Mat<f64>)> = self.samples.iter().collect();
+        nearest.sort_by(|a, b| (a.0 - mu).abs().total_cmp(&(b.0 - mu).abs()));
         nearest.truncate(SURROUNDING);
-        nearest.sort_by(|a, b| place(a).total_cmp(&place(b)));
-        let mut parts = self.parts.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some((_, known)) = parts.iter().find(|(own, _)| *own == nearest) {
+        nearest.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let places: Vec<f64> = nearest.iter().map(|sample| sample.0).collect();
+        let mut parts = self.parts.0.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some((_, known)) = parts.iter().find(|(own, _)| *own == places) {
             return Some(Arc::clone(known));
         }
 
-        let range = place(&nearest[0])..=place(&nearest[SURROUNDING - 1]);
+        let range = places[0]..=places[SURROUNDING - 1];
         let corrections = self.corrections.iter().filter(|own| range.contains(&own.0));
-        let samples = nearest.iter().map(|&i| &self.samples[i]);
-        let columns = spanned(Mat::zeros(self.dimension(), 0), samples.chain(corrections));
+        let samples = nearest.into_iter().chain(corrections);
+        let columns = spanned(Mat::zeros(self.dimension(), 0), samples);
         let part = Arc::new(BasisPart { model: self.within(&columns), columns });
-        parts.push((nearest, Arc::clone(&part)));
+        parts.push((places, Arc::clone(&part)));
         Some(part)
+    }
+
+    /// Overlaps ([`ProjectedMatrices::overlaps`]) of some modes with `others` in the matrices at `mu`, and those of the others with them.
+    pub fn overlaps_at(
+        &self,
+        mu: f64,
+        modes: &[ReducedMode],
+        others: &[ReducedMode],
+    ) -> [Mat<c64>; 2] {
+        let Some(part) = self.surroundings(mu) else {
+            let at = self.at(mu);
+            return [at.overlaps(modes, others), at.overlaps(others, modes)];
+        };
+        let at = part.model.at(mu);
+        let [modes, others] = [modes, others].map(|all| -> Vec<ReducedMode> {
+            all.iter().map(|mode| mode.map(|own| inside(&part.columns, own))).collect()
+        });
+        [at.overlaps(&modes, &others), at.overlaps(&others, &modes)]
     }
 
     /// The projected problem alone, in the space of orthonormal `columns` of coordinates.
@@ -101,7 +129,7 @@ mod tests {
         }
         let (model, mu) = (&mut builder.model, 0.294);
         assert!(model.surroundings(mu).unwrap().columns.ncols() < model.dimension());
-        for guess in model.solve(mu, 6).unwrap() {
+        for guess in model.solve_with_coarse_lefts(mu, 6).unwrap() {
             let part = model.mode_near(mu, &guess).unwrap().eigenvalue;
             let all = model.at(mu).mode_near(&guess).unwrap().eigenvalue;
             assert!((part - all).norm() < 1e-9 * all.norm(), "{part} {all}");

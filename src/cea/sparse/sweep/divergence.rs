@@ -91,9 +91,8 @@ impl SparseSweep<'_> {
 
     /// `ln det K(mu)`; minus infinity where there are no factors.
     fn ln_static(&self, mu: f64) -> Result<c64, CeaError> {
-        let stiffness = self.tangent.stiffness.evaluate(mu);
-        let entries: Vec<c64> = stiffness.into_iter().map(|k| c64::new(k, 0.0)).collect();
-        let found = self.builder.analysis()?.ln_determinant(&entries);
+        let analysis = self.builder.analysis.of(self.tangent.stiffness.pattern())?;
+        let found = analysis.ln_determinant(&self.tangent.stiffness.evaluate(mu));
         Ok(found.unwrap_or(c64::new(f64::NEG_INFINITY, 0.0)))
     }
 

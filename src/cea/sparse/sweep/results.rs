@@ -38,10 +38,8 @@ impl SparseSweep<'_> {
         });
         let vectors = |own: &FoundInterval| {
             let State { mu, mode } = own.onset().filter(|_| !request.lefts_at.is_empty())?;
-            let solver = self.point_solver();
-            let basis = (&self.builder.model, &self.builder.factors);
-            let found = solver.vectors(basis, (*mu, true), std::slice::from_ref(mode));
-            found.into_iter().next()
+            let own = std::slice::from_ref(mode);
+            self.point_solver().vectors(&self.builder, (*mu, true), own).pop()
         };
         let found = found.iter().map(|own| (own.interval.clone(), vectors(own)));
         let found = found.chain(self.divergence(branches)?.map(|own| (own, None)));
@@ -158,11 +156,7 @@ impl SparseSweep<'_> {
         let wanted = &point.modes[..point.wanted];
         let (solver, mu) = (self.point_solver(), point.friction_coefficient);
         let vectors = match with_shapes {
-            true => solver.vectors(
-                (&self.builder.model, &self.builder.factors),
-                (mu, with_lefts),
-                wanted,
-            ),
+            true => solver.vectors(&self.builder, (mu, with_lefts), wanted),
             false => Vec::new(),
         };
         let mut vectors = vectors.into_iter();

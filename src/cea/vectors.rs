@@ -35,9 +35,14 @@ pub(super) fn largest(x: &[c64]) -> f64 {
     x.iter().fold(0.0, |m, v| v.norm().max(m))
 }
 
+/// Euclidean length.
+pub(super) fn length(x: &[c64]) -> f64 {
+    x.iter().map(|v| v.norm_sqr()).sum::<f64>().sqrt()
+}
+
 /// Scales to unit Euclidean length; returns the length before.
 pub(super) fn normalize(x: &mut [c64]) -> f64 {
-    let norm = x.iter().map(|v| v.norm_sqr()).sum::<f64>().sqrt();
+    let norm = length(x);
     x.iter_mut().for_each(|v| *v *= 1.0 / norm);
     norm
 }
