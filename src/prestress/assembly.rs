@@ -206,8 +206,7 @@ impl<'a> Assembly<'a> {
             pairs.for_each(|(load, own)| *load += own);
         }
         if points.is_empty() {
-            let count = friction_coefficients.len();
-            return self.without_contact(&stiffness, &load, count);
+            return self.without_contact(&stiffness, &load, friction_coefficients.len());
         }
         let stiffnesses = self.joined.contacts.iter().flat_map(|(contact, surface)| {
             let normal = contact.stiffness.normal_stiffness;

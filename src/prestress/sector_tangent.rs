@@ -27,13 +27,11 @@ impl WaveTangent {
         let base = SectorSliding::solve(sector, &terms.elastic(), contact, options.contact.law)?;
         let edge = Edge { sector, base: &base };
         if options.geometric_stiffness {
-            let displacements = [0, 1].map(|power| &base.state.displacements[power][..]);
-            terms.take_stress(sector, material, displacements);
+            terms.take_stress(sector, material, [0, 1].map(|p| &base.state.displacements[p][..]));
             terms.turning = edge.turning();
         }
         terms.contact = edge.terms(options);
-        let parts = (terms, edge.dofs(options));
-        Ok(Self::new(sector, parts, options, base.sliding_direction))
+        Ok(Self::new(sector, (terms, edge.dofs(options)), options, base.sliding_direction))
     }
 }
 
