@@ -261,8 +261,7 @@ impl RigidCounterface {
 fn mean_normals(mesh: &Mesh, surface: &Boundary) -> Vec<(Vector3<f64>, Vector3<f64>)> {
     let of_face = |face: &BoundaryFace| {
         let corners = &face.nodes[..face.kind.corner_count()];
-        let points = corners.iter().map(|&node| Vector3::from(mesh.nodes[node as usize]));
-        (points.sum::<Vector3<f64>>() / corners.len() as f64, mesh.area_vector(face))
+        (mesh.middle(corners), mesh.area_vector(face))
     };
     surface.faces.iter().map(of_face).collect()
 }

@@ -57,21 +57,13 @@ struct Sums {
 /// each of its corners' displacements.
 pub fn mortar_nodes(mesh: &Mesh, surface: &Boundary, pair: &SurfacePair) -> Vec<MortarNode> {
     let mut sums: BTreeMap<u32, Sums> = BTreeMap::new();
-    let mut corners_of: BTreeMap<u32, [u32; 2]> = BTreeMap::new();
     let mut by_face: BTreeMap<usize, Vec<&SegmentPoint>> = BTreeMap::new();
     for point in &pair.points {
         by_face.entry(point.face).or_default().push(point);
     }
+    let corners_of = corners_of_middles(by_face.keys().map(|&f| &surface.faces[f]));
     for (f, points) in by_face {
-        let face = &surface.faces[f];
-        add_face(face, &points, &mut sums);
-        if face.kind.is_quadratic() {
-            let count = face.kind.corner_count();
-            for edge in 0..count {
-                let ends = [face.nodes[edge], face.nodes[(edge + 1) % count]];
-                corners_of.insert(face.nodes[count + edge], ends);
-            }
-        }
+        add_face(&surface.faces[f], &points, &mut sums);
     }
     let mut middles_of: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
     for (&middle, ends) in &corners_of {
@@ -120,6 +112,18 @@ pub fn mortar_nodes(mesh: &Mesh, surface: &Boundary, pair: &SurfacePair) -> Vec<
             }
         })
         .collect()
+}
+
+/// Corners at the ends of each edge that has a node at its middle, by this node.
+fn corners_of_middles<'a>(
+    faces: impl Iterator<Item = &'a BoundaryFace>,
+) -> BTreeMap<u32, [u32; 2]> {
+    let of_face = |face: &'a BoundaryFace| {
+        let count = face.kind.corner_count();
+        let middles = face.nodes[count..].iter().enumerate();
+        middles.map(move |(i, &middle)| (middle, [face.nodes[i], face.nodes[(i + 1) % count]]))
+    };
+    faces.flat_map(of_face).collect()
 }
 
 /// Adds the integrals of one face.

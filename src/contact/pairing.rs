@@ -159,22 +159,23 @@ impl ContactSurface {
                 found.add_nodes(mesh, nodes, friction, sliding);
             }
         }
-        let name = || surface.name.clone();
         if counter.is_none() {
             found.drop_held(mesh);
         }
-        if found.points.is_empty() {
-            return Err(PairError::AllHeld(name()));
-        }
-        if found.points.iter().any(|point| point.speed > 0.0) {
-            return Ok(found);
-        }
-        Err(match counter {
-            None => PairError::AtRest(name()),
-            Some(counter) => {
-                PairError::NoSliding { surface: name(), counter: counter.name.clone() }
+        found.sliding(surface, counter)
+    }
+
+    /// Refuses points that are all held, or at rest.
+    fn sliding(self, surface: &Boundary, counter: Option<&Boundary>) -> Result<Self, PairError> {
+        let name = surface.name.clone();
+        match (counter, self.points.iter().any(|point| point.speed > 0.0)) {
+            (_, true) => Ok(self),
+            _ if self.points.is_empty() => Err(PairError::AllHeld(name)),
+            (None, _) => Err(PairError::AtRest(name)),
+            (Some(counter), _) => {
+                Err(PairError::NoSliding { surface: name, counter: counter.name.clone() })
             }
-        })
+        }
     }
 
     /// A point for each quadrature point of the segments.

@@ -6,7 +6,7 @@ use super::{
     ContactInterface, ContactSurface, Counterpart, OppositeShare, Point, PressedPoints, Row,
 };
 use crate::fem::Triplets;
-use crate::mesh::{Boundary, Mesh};
+use crate::mesh::Mesh;
 use nalgebra::Vector3;
 use std::collections::BTreeMap;
 
@@ -110,7 +110,7 @@ impl ContactSurface {
     /// not slide have no directions to turn.
     pub fn turnings(&self, mesh: &Mesh, counterpart: &Counterpart) -> Vec<Turning> {
         let counter = counterpart.surface().map(|place| &mesh.boundaries[place]);
-        let normals = counter.map_or_else(BTreeMap::new, |own| nodal_normals(mesh, own));
+        let normals = counter.map_or_else(BTreeMap::new, |own| mesh.nodal_normals(&own.faces));
         let sites = self.sites.iter().zip(&self.points).zip(&self.shares).zip(&self.slopes);
         let turnings = sites.map(|(((site, point), shares), slopes)| {
             if point.speed == 0.0 {
@@ -126,7 +126,9 @@ impl ContactSurface {
             let turn = |a: Vector3<f64>, b: Vector3<f64>| match counterpart.rigid() {
                 Some(rigid) => rigid.curvature(site.position, n, [a, b]),
                 None => {
-                    let parts = slopes.iter().map(|(node, g)| g.dot(&b) * normals[node].dot(&a));
+                    let parts = slopes
+                        .iter()
+                        .map(|(node, g)| g.dot(&b) * Vector3::from(normals[node]).dot(&a));
                     parts.sum()
                 }
             };
@@ -143,15 +145,4 @@ impl ContactSurface {
         });
         turnings.collect()
     }
-}
-
-/// Mean outward normal of the faces at each node of a boundary.
-fn nodal_normals(mesh: &Mesh, boundary: &Boundary) -> BTreeMap<u32, Vector3<f64>> {
-    let mut sums: BTreeMap<u32, Vector3<f64>> = BTreeMap::new();
-    for face in &boundary.faces {
-        let area = mesh.area_vector(face);
-        face.nodes.iter().for_each(|&node| *sums.entry(node).or_default() += area);
-    }
-    sums.values_mut().for_each(|sum| *sum = sum.normalize());
-    sums
 }

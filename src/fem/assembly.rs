@@ -138,14 +138,16 @@ fn masses_of(mesh: &Mesh, material: &dyn MaterialField, keep: &dyn Fn(usize) -> 
     masses
 }
 
-/// Global geometric stiffness of the stress that `base` (all dofs, nodal frames, m) causes, N/m for
-/// each metre of thickness.
+/// Global geometric stiffness of the stress that `base` (all dofs, nodal frames, m) causes, of all elements or those of one
+/// region, N/m for each metre of thickness.
 pub fn assemble_geometric_stiffness(
     mesh: &Mesh,
     material: &dyn MaterialField,
     base: &[f64],
+    region: Option<usize>,
 ) -> Triplets {
-    sum_of_elements(mesh, &|_| true, |e| {
+    let is_own = |e: usize| region.is_none_or(|region| mesh.region(e) == region);
+    sum_of_elements(mesh, &is_own, |e| {
         element::geometric_stiffness(mesh, e, material.of(mesh.region(e)), base)
     })
 }
@@ -159,18 +161,6 @@ pub fn assemble_displacement_stiffness(
 ) -> Triplets {
     sum_of_elements(mesh, &|_| true, |e| {
         element::displacement_stiffness(mesh, e, material.of(mesh.region(e)), base)
-    })
-}
-
-/// [`assemble_geometric_stiffness`] of the elements of one region alone.
-pub fn assemble_region_geometric_stiffness(
-    mesh: &Mesh,
-    material: &dyn MaterialField,
-    base: &[f64],
-    region: usize,
-) -> Triplets {
-    sum_of_elements(mesh, &|e| mesh.region(e) == region, |e| {
-        element::geometric_stiffness(mesh, e, material.of(region), base)
     })
 }
 
@@ -332,7 +322,8 @@ pub fn assemble_losses(mesh: &Mesh, material: &dyn MaterialField) -> Option<Trip
     })
 }
 
-fn assemble_congruent(
+/// Sums the element matrices of those that are kept, each kind of them computed once.
+pub(super) fn assemble_congruent(
     mesh: &Mesh,
     keep: &dyn Fn(usize) -> bool,
     compute: impl Fn(usize) -> DMatrix<f64>,

@@ -208,7 +208,7 @@ impl ElementGeometry {
 
     /// Element stiffness `K_e = ∫ B^T D B dV` in nodal frames, N/m, in the plane for each metre of thickness; the incompatible
     /// modes of bricks with 8 nodes condensed.
-    pub fn stiffness(&self, material: &ElasticMaterial) -> Condensed {
+    pub fn stiffness(&self, material: &ElasticMaterial) -> DMatrix<f64> {
         self.condensed(self.upper_stiffness(material, None, 0))
     }
 
@@ -225,22 +225,22 @@ impl ElementGeometry {
         let internal = self.internal_amplitudes(material, values);
         let gradients = self.displacement_gradients(&points, values, internal.as_ref());
         let deformed = self.upper_stiffness(material, Some(&gradients), 0);
-        self.condensed(deformed).stiffness - self.stiffness(material).stiffness
+        self.condensed(deformed) - self.stiffness(material)
     }
 
     /// A stiffness, of which the upper triangle is given, without the amplitudes of incompatible modes.
-    fn condensed(&self, mut upper: DMatrix<f64>) -> Condensed {
+    fn condensed(&self, mut upper: DMatrix<f64>) -> DMatrix<f64> {
         let (nodal, internal) = (self.nodal_count(), self.internal_count());
-        let recovered = self.recovered_of(&upper);
-        if let Some(recovered) = &recovered {
+        if let Some(recovered) = self.recovered_of(&upper) {
             let coupling = upper.view((0, nodal), (nodal, internal));
             upper = upper.view((0, 0), (nodal, nodal)) + coupling * recovered;
         }
         mirror_upper_triangle(&mut upper);
-        Condensed { stiffness: upper, recovered }
+        upper
     }
 
-    /// See [`Condensed::recovered`].
+    /// What the amplitudes of the incompatible modes are for each nodal displacement, `alpha = R u`, `R = -K_ii^-1 K_iu`; `None` for
+    /// an element without.
     pub fn recovered(&self, material: &ElasticMaterial) -> Option<DMatrix<f64>> {
         self.has_incompatible_modes()
             .then(|| self.upper_stiffness(material, None, self.nodal_count()))
@@ -312,15 +312,6 @@ impl ElementGeometry {
     }
 }
 
-/// An element's stiffness over its nodes, or its derivative.
-pub struct Condensed {
-    /// Over the dofs of its nodes.
-    pub stiffness: DMatrix<f64>,
-    /// What the amplitudes of the incompatible modes are for each nodal displacement, `alpha = R u`, `R = -K_ii^-1 K_iu`;
-    /// `None` for elements without.
-    pub recovered: Option<DMatrix<f64>>,
-}
-
 /// `D epsilon` over some components.
 fn stress_in(components: &[usize], law: &[Voigt; 6], strain: &Voigt) -> Voigt {
     let mut stress = [0.0; 6];
@@ -361,8 +352,7 @@ pub fn nodal_values(mesh: &Mesh, element: usize, all: &[f64]) -> Vec<f64> {
 
 /// Element stiffness of a mesh, see [`ElementGeometry::stiffness`].
 pub fn stiffness(mesh: &Mesh, element: usize, material: &ElasticMaterial) -> DMatrix<f64> {
-    let geometry = ElementGeometry::new(mesh, element);
-    geometry.stiffness(material).stiffness
+    ElementGeometry::new(mesh, element).stiffness(material)
 }
 
 /// Element geometric stiffness of the stress that `base` (all dofs, nodal frames, m) causes, see

@@ -7,8 +7,6 @@
 
 use super::{DofMap, Triplets};
 use crate::linalg::banded::BandedMatrix;
-use nalgebra::DMatrix;
-use std::borrow::Borrow;
 use std::f64::consts::PI;
 
 /// What a mirror along a radius does to a matrix.
@@ -49,27 +47,7 @@ struct Entry {
 }
 
 impl SectorMatrix {
-    /// The sum of element matrices in nodal frames, `components` rows a node; each node is a sector node with its angle in
-    /// halves of a sector.
-    pub fn sum<N: AsRef<[(usize, usize)]>, M: Borrow<DMatrix<f64>>>(
-        components: usize,
-        elements: impl IntoIterator<Item = (N, M)>,
-    ) -> Self {
-        let mut terms = Triplets::default();
-        for (nodes, matrix) in elements {
-            let (nodes, matrix): (_, &DMatrix<f64>) = (nodes.as_ref(), matrix.borrow());
-            let place = |k: usize| (nodes[k / components], k % components);
-            for (k, &value) in matrix.iter().enumerate().filter(|(_, value)| **value != 0.0) {
-                let ((node, here), c) = place(k % matrix.nrows());
-                let ((other, there), d) = place(k / matrix.nrows());
-                let column = STEPS * (components * other + d) + REACH + there - here;
-                terms.push(components * node + c, column, value);
-            }
-        }
-        Self::merged(components, terms)
-    }
-
-    /// From entries `(row, column, halves of a sector from the row's node to the column's, value)`.
+    /// From entries `(row, column, halves of a sector from the row's node to the column's, value)`, which add up.
     pub fn of_entries(
         components: usize,
         entries: impl IntoIterator<Item = (usize, usize, isize, f64)>,

@@ -26,10 +26,9 @@ mod triplets;
 pub use assembly::{
     MassKind, assemble_displacement_stiffness, assemble_extra_damping,
     assemble_geometric_stiffness, assemble_losses, assemble_mass, assemble_patch_damping,
-    assemble_point_masses, assemble_pressures, assemble_region,
-    assemble_region_geometric_stiffness, assemble_stiffness, assemble_structural_damping,
-    assemble_support_losses, assemble_supports, assemble_tabled, element_mass, element_matrices,
-    lumped_masses,
+    assemble_point_masses, assemble_pressures, assemble_region, assemble_stiffness,
+    assemble_structural_damping, assemble_support_losses, assemble_supports, assemble_tabled,
+    element_mass, element_matrices, lumped_masses,
 };
 pub use discretization::DiscretizationError;
 pub use dof_map::DofMap;

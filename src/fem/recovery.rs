@@ -40,39 +40,7 @@ struct RecoveredNode {
 impl Recovery {
     /// The weights of every node; in each of the regions that meet there, or in that of its first element alone.
     pub fn new(mesh: &Mesh, degree: Degree, in_each_region: bool) -> Self {
-        let around = elements_around(mesh);
-        let mut on_edge = vec![false; mesh.node_count()];
-        for node in mesh.outer_faces().into_iter().flat_map(|face| face.nodes) {
-            on_edge[node as usize] = true;
-        }
-        let patch_of = |node: usize, region: usize| -> Vec<u32> {
-            let in_region = |e: &u32| mesh.region(*e as usize) == region;
-            let own = around[node].iter().copied();
-            let own: Vec<u32> = own.filter(in_region).collect();
-            let is_between = own.len() < around[node].len();
-            // A mid-side node has two elements at most: their neighbours complete its patch too.
-            if !on_edge[node] && !is_between && own.len() >= 3 {
-                return own;
-            }
-            let corners = own.iter().flat_map(|&e| mesh.element_nodes(e as usize));
-            let neighbours = corners.flat_map(|&n| around[n as usize].iter().copied());
-            let mut patch: Vec<u32> = neighbours.filter(in_region).collect();
-            patch.sort_unstable();
-            patch.dedup();
-            patch
-        };
-        let patches: Vec<Vec<(usize, Vec<u32>)>> = (0..mesh.node_count())
-            .map(|node| {
-                let mut regions: Vec<usize> = Vec::new();
-                for &e in &around[node] {
-                    let region = mesh.region(e as usize);
-                    if !regions.contains(&region) && (in_each_region || regions.is_empty()) {
-                        regions.push(region);
-                    }
-                }
-                regions.into_iter().map(|region| (region, patch_of(node, region))).collect()
-            })
-            .collect();
+        let patches = patches(mesh, in_each_region);
         // Bricks of patches in one layer have samples off their middle.
         let middles = Samples::of(mesh, &vec![None; mesh.element_count()]);
         let is_brick = |e: u32| mesh.element_kind(e as usize) == ElementKind::Hex8;
@@ -161,6 +129,43 @@ impl Samples {
         let elements = patch.iter().map(|&e| e as usize);
         elements.flat_map(|e| &self.positions[self.first[e]..self.first[e + 1]]).copied().collect()
     }
+}
+
+/// The patches of each node: a region that meets there, and its elements whose samples tell the value.
+fn patches(mesh: &Mesh, in_each_region: bool) -> Vec<Vec<(usize, Vec<u32>)>> {
+    let around = elements_around(mesh);
+    let mut on_edge = vec![false; mesh.node_count()];
+    for node in mesh.outer_faces().into_iter().flat_map(|face| face.nodes) {
+        on_edge[node as usize] = true;
+    }
+    let patch_of = |node: usize, region: usize| -> Vec<u32> {
+        let in_region = |e: &u32| mesh.region(*e as usize) == region;
+        let own = around[node].iter().copied();
+        let own: Vec<u32> = own.filter(in_region).collect();
+        let is_between = own.len() < around[node].len();
+        // A mid-side node has two elements at most: their neighbours complete its patch too.
+        if !on_edge[node] && !is_between && own.len() >= 3 {
+            return own;
+        }
+        let corners = own.iter().flat_map(|&e| mesh.element_nodes(e as usize));
+        let neighbours = corners.flat_map(|&n| around[n as usize].iter().copied());
+        let mut patch: Vec<u32> = neighbours.filter(in_region).collect();
+        patch.sort_unstable();
+        patch.dedup();
+        patch
+    };
+    (0..mesh.node_count())
+        .map(|node| {
+            let mut regions: Vec<usize> = Vec::new();
+            for &e in &around[node] {
+                let region = mesh.region(e as usize);
+                if !regions.contains(&region) && (in_each_region || regions.is_empty()) {
+                    regions.push(region);
+                }
+            }
+            regions.into_iter().map(|region| (region, patch_of(node, region))).collect()
+        })
+        .collect()
 }
 
 fn elements_around(mesh: &Mesh) -> Vec<Vec<u32>> {

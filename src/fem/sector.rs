@@ -1,15 +1,17 @@
 //! Matrices of one sector of a body of equal sectors, in the plane and in space: stiffness, mass, geometric stiffness.
+//! They are those of the strip of its elements, as of any mesh, whose nodes are images of the sector's.
 //!
 //! Dofs are `d k + c`, component `c` (radial, tangential, axial) of sector node `k`; for their order see [`SectorMesh`].
 
-use super::element::ElementGeometry;
+use super::assembly::assemble_congruent;
 use super::fold::{SectorMatrix, WaveDofs};
 use super::solid::{FaceTerm, face_matrix, whole_element};
-use super::{ElasticMaterial, MassKind, MaterialField, RayleighDamping};
-use crate::mesh::{BoundaryCondition, Mesh, NodalSupport, SectorMesh, SolidFace, SolidSector};
-use nalgebra::{DMatrix, DVector};
-use std::collections::BTreeMap;
-use std::rc::Rc;
+use super::{
+    MassKind, MaterialField, RayleighDamping, Triplets, assemble_extra_damping,
+    assemble_geometric_stiffness, assemble_supports, element, element_mass,
+};
+use crate::mesh::{BoundaryCondition, Mesh, SectorMesh, SolidFace, SolidSector};
+use nalgebra::DMatrix;
 
 /// One sector of a body of equal sectors.
 pub trait Sectored {
@@ -71,16 +73,7 @@ impl Sectored for SectorMesh {
                     boundary.condition = BoundaryCondition::Free;
                 }
             }
-            let nodal = alone.nodal_supports();
-            let sum = |part: fn(&NodalSupport) -> [[f64; 2]; 2]| {
-                let own = nodal.iter().map(|support| {
-                    let matrix = part(support);
-                    let node = [(self.sector_node_of[support.node], 0)];
-                    (node, DMatrix::from_fn(2, 2, |row, column| matrix[row][column]))
-                });
-                SectorMatrix::sum(2, own)
-            };
-            let terms = [sum(|support| support.stiffness), sum(|support| support.damping)];
+            let terms = assemble_supports(&alone).map(|own| folded(self, &own));
             let name = boundaries[own].name.clone();
             Some(SectorSupport { name, terms, loss_factor: support.loss_factor })
         };
@@ -129,10 +122,18 @@ pub fn region_count<S: Sectored>(sector: &S) -> usize {
     sector.strip().regions.len().max(1)
 }
 
-/// Sector nodes of an element with their angles in halves of a sector.
-fn places<S: Sectored>(sector: &S, element: usize) -> Vec<(usize, usize)> {
-    let nodes = sector.strip().element_nodes(element).iter();
-    nodes.map(|&node| sector.place(node as usize)).collect()
+/// What a matrix of the strip is over the dofs of the sector, whose images its nodes are.
+fn folded<S: Sectored>(sector: &S, matrix: &Triplets) -> SectorMatrix {
+    let components = sector.strip().dimension;
+    let place = |dof: usize| {
+        let (node, half) = sector.place(dof / components);
+        (components * node + dof % components, half as isize)
+    };
+    let entries = matrix.entries.iter().map(|&(row, column, value)| {
+        let ((row, here), (column, there)) = (place(row), place(column));
+        (row, column, there - here, value)
+    });
+    SectorMatrix::of_entries(components, entries)
 }
 
 /// Springs and dashpots of all supports of a sector together.
@@ -144,24 +145,15 @@ pub fn supports<S: Sectored>(sector: &S) -> [SectorMatrix; 2] {
     })
 }
 
-/// Sums the element matrices `compute(e, material)` (nodal frames) of the elements of a region, or of all.
+/// Sums element matrices of a region, or of all.
 fn assemble<S: Sectored>(
     sector: &S,
-    material: &dyn MaterialField,
     region: Option<usize>,
-    compute: impl Fn(&ElementGeometry, &ElasticMaterial) -> DMatrix<f64>,
+    compute: impl Fn(&Mesh, usize) -> DMatrix<f64>,
 ) -> SectorMatrix {
-    let mut known: BTreeMap<usize, Rc<DMatrix<f64>>> = BTreeMap::new();
     let strip = sector.strip();
-    let mut matrix_of = |e: usize| {
-        let own = strip.congruent_to[e] as usize;
-        let geometry = || ElementGeometry::new(strip, own);
-        let new = || Rc::new(compute(&geometry(), material.of(strip.region(own))));
-        Rc::clone(known.entry(own).or_insert_with(new))
-    };
-    let is_own = |e: &usize| region.is_none_or(|region| strip.region(*e) == region);
-    let elements = (0..strip.element_count()).filter(is_own);
-    SectorMatrix::sum(strip.dimension, elements.map(|e| (places(sector, e), matrix_of(e))))
+    let is_own = |e: usize| region.is_none_or(|region| strip.region(e) == region);
+    folded(sector, &assemble_congruent(strip, &is_own, |e| compute(strip, e)))
 }
 
 /// Elastic stiffness `K_e` of one sector without its supports, or of one of its regions: N/m, in the plane Pa.
@@ -170,7 +162,7 @@ pub fn stiffness_of<S: Sectored>(
     material: &dyn MaterialField,
     region: Option<usize>,
 ) -> SectorMatrix {
-    assemble(sector, material, region, |geometry, own| geometry.stiffness(own).stiffness)
+    assemble(sector, region, |strip, e| element::stiffness(strip, e, material.of(strip.region(e))))
 }
 
 /// [`stiffness_of`] all regions.
@@ -185,14 +177,7 @@ pub fn mass_of<S: Sectored>(
     kind: MassKind,
     region: Option<usize>,
 ) -> SectorMatrix {
-    assemble(sector, material, region, |geometry, own| match kind {
-        MassKind::Consistent => geometry.consistent_mass(own),
-        MassKind::Lumped => {
-            let masses = geometry.lumped_mass(own).into_iter();
-            let each = masses.flat_map(|mass| [mass; 3].into_iter().take(geometry.dimension()));
-            DMatrix::from_diagonal(&DVector::from_vec(each.collect()))
-        }
-    })
+    assemble(sector, region, |strip, e| element_mass(strip, material, kind, e))
 }
 
 /// [`mass_of`] all regions.
@@ -208,16 +193,8 @@ pub fn extra_damping<S: Sectored>(
     kind: MassKind,
     common: RayleighDamping,
 ) -> SectorMatrix {
-    let regions = 0..region_count(sector);
-    let own = regions.filter_map(|r| Some((r, material.own_damping(r)?)).filter(|o| o.1 != common));
-    let terms = own.flat_map(|(region, own)| {
-        let alpha = own.mass_coefficient - common.mass_coefficient;
-        let beta = own.stiffness_coefficient - common.stiffness_coefficient;
-        let mass = mass_of(sector, material, kind, Some(region));
-        let stiffness = stiffness_of(sector, material, Some(region));
-        [mass.scaled(alpha), stiffness.scaled(beta)]
-    });
-    terms.fold(SectorMatrix::default(), |sum, own| sum.plus(&own))
+    let own = assemble_extra_damping(sector.strip(), material, kind, common);
+    folded(sector, &own.unwrap_or_default())
 }
 
 /// Geometric stiffness `∫ (grad N_I . sigma . grad N_J) I dV` of a region for the stress that a displacement, the same in every
@@ -230,21 +207,11 @@ pub fn geometric_stiffness<S: Sectored>(
     region: usize,
     displacement: &[f64],
 ) -> SectorMatrix {
-    let mut known: BTreeMap<u32, Option<DMatrix<f64>>> = BTreeMap::new();
-    let (own, strip) = (material.of(region), sector.strip());
-    let elements = (0..strip.element_count()).filter(|e| strip.region(*e) == region);
-    let matrices = elements.map(|e| {
-        let (nodes, geometry) = (places(sector, e), ElementGeometry::new(strip, e));
-        let dofs = nodes.iter().flat_map(|(node, _)| (0..strip.dimension).map(move |c| (node, c)));
-        let values = dofs.map(|(node, c)| displacement[strip.dimension * node + c]);
-        let values = DVector::from_iterator(strip.dimension * nodes.len(), values);
-        let alike = strip.congruent_to[e];
-        let recovered = || ElementGeometry::new(strip, alike as usize).recovered(own);
-        let recovered = known.entry(alike).or_insert_with(recovered);
-        let internal = recovered.as_ref().map(|recovered| recovered * &values);
-        (nodes, geometry.geometric_stiffness(own, values.as_slice(), internal.as_ref()))
-    });
-    SectorMatrix::sum(strip.dimension, matrices)
+    let strip = sector.strip();
+    let nodes = (0..strip.node_count()).map(|node| strip.dimension * sector.place(node).0);
+    let base = nodes.flat_map(|dof| &displacement[dof..dof + strip.dimension]).copied();
+    let base: Vec<f64> = base.collect();
+    folded(sector, &assemble_geometric_stiffness(strip, material, &base, Some(region)))
 }
 
 /// Each supported face.

@@ -81,7 +81,15 @@ pub fn face_matrix(
         }
         matrix
     };
-    SectorMatrix::sum(3, faces.iter().map(|face| (&face.nodes, matrix_of(face))))
+    let entries = faces.iter().flat_map(|face| {
+        let (matrix, place) = (matrix_of(face), |k: usize| (face.nodes[k / 3], k % 3));
+        (0..matrix.len()).map(move |k| {
+            let [((node, here), c), ((other, there), d)] =
+                [k % matrix.nrows(), k / matrix.nrows()].map(place);
+            (3 * node + c, 3 * other + d, there as isize - here as isize, matrix[k])
+        })
+    });
+    SectorMatrix::of_entries(3, entries)
 }
 
 /// Components in the nodes' frames of a unit vector along `component` at a point, times `values` of the nodes.

@@ -193,9 +193,10 @@ impl<'a> Lines<'a> {
             if quality[lane].backward_error <= BACKWARD_ERROR_BOUND {
                 largest = largest.max(quality[lane].backward_error);
             } else {
-                let solved = Pivoted::solve(&batch.system(lane), bands.half_bandwidth, wave.force);
-                (result[lane], growth) = (solved.solution[wave.response], solved.growth);
-                largest = largest.max(solved.backward_error);
+                let (solution, error, own) =
+                    pivoted(&batch.system(lane), bands.half_bandwidth, wave.force);
+                (result[lane], growth) = (solution[wave.response], own);
+                largest = largest.max(error);
             }
             if growth.is_nan() || growth >= GROWTH_BOUND {
                 return Err(self.singular(lane_frequency(lane), growth));
@@ -218,31 +219,23 @@ impl<'a> Lines<'a> {
     }
 }
 
-/// A solution with pivoting.
-struct Pivoted {
-    solution: Vec<c64>,
-    backward_error: f64,
-    growth: f64,
-}
-
-impl Pivoted {
-    fn solve(band: &[c64], h: usize, force: usize) -> Self {
-        let dimension = band.len() / (2 * h + 1);
-        let mut lu = BandedLu::new(dimension, h);
-        lu.factorize(band);
-        let mut solution = vec![c64::new(0.0, 0.0); dimension];
-        solution[force] = c64::new(1.0, 0.0);
-        lu.solve(&mut solution);
-        let (mut residual, mut norm) = (0.0_f64, 0.0_f64);
-        for (i, row) in band.chunks_exact(2 * h + 1).enumerate() {
-            let columns = i.saturating_sub(h)..(i + h + 1).min(dimension);
-            let unit = if i == force { 1.0 } else { 0.0 };
-            let image: c64 = columns.map(|j| row[j + h - i] * solution[j]).sum();
-            residual = residual.max((image - unit).norm());
-            norm = norm.max(row.iter().map(|value| value.norm()).sum());
-        }
-        let largest = solution.iter().fold(0.0, |m: f64, x| m.max(x.norm()));
-        let growth = norm * largest;
-        Self { solution, backward_error: residual / growth, growth }
+/// A solution with pivoting, its backward error, and `|A| |x| / |b|`.
+fn pivoted(band: &[c64], h: usize, force: usize) -> (Vec<c64>, f64, f64) {
+    let dimension = band.len() / (2 * h + 1);
+    let mut lu = BandedLu::new(dimension, h);
+    lu.factorize(band);
+    let mut solution = vec![c64::new(0.0, 0.0); dimension];
+    solution[force] = c64::new(1.0, 0.0);
+    lu.solve(&mut solution);
+    let (mut residual, mut norm) = (0.0_f64, 0.0_f64);
+    for (i, row) in band.chunks_exact(2 * h + 1).enumerate() {
+        let columns = i.saturating_sub(h)..(i + h + 1).min(dimension);
+        let unit = if i == force { 1.0 } else { 0.0 };
+        let image: c64 = columns.map(|j| row[j + h - i] * solution[j]).sum();
+        residual = residual.max((image - unit).norm());
+        norm = norm.max(row.iter().map(|value| value.norm()).sum());
     }
+    let largest = solution.iter().fold(0.0, |m: f64, x| m.max(x.norm()));
+    let growth = norm * largest;
+    (solution, residual / growth, growth)
 }

@@ -1,5 +1,6 @@
 //! Krylov spaces in which many lines are solved at once.
 
+use crate::linalg::dense::dot;
 use crate::linalg::{ComplexDenseLu, Mat, c64};
 use std::ops::{Mul, SubAssign};
 
@@ -24,17 +25,7 @@ impl Entry for f64 {
     const MOST_VECTORS: usize = 72;
 
     fn dot(a: &[f64], b: &[f64]) -> f64 {
-        // Eight partial sums, so that additions need not wait for each other.
-        let mut sums = [0.0; 8];
-        let (a_blocks, b_blocks) = (a.chunks_exact(8), b.chunks_exact(8));
-        let tail = a_blocks.remainder().iter().zip(b_blocks.remainder());
-        let rest: f64 = tail.map(|(x, y)| x * y).sum();
-        for (x, y) in a_blocks.zip(b_blocks) {
-            for lane in 0..8 {
-                sums[lane] += x[lane] * y[lane];
-            }
-        }
-        sums.iter().sum::<f64>() + rest
+        dot(a, b)
     }
 
     fn times(self, factor: c64) -> c64 {
@@ -46,7 +37,7 @@ impl Entry for c64 {
     const MOST_VECTORS: usize = 42;
 
     fn dot(a: &[c64], b: &[c64]) -> c64 {
-        // Real and imaginary parts of four products each, summed apart for the same reason.
+        // Real and imaginary parts of four products each, summed apart: additions need not wait for each other.
         let (mut re, mut im) = ([0.0; 4], [0.0; 4]);
         let (a_blocks, b_blocks) = (a.chunks_exact(4), b.chunks_exact(4));
         let tail = a_blocks.remainder().iter().zip(b_blocks.remainder());

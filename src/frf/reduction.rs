@@ -30,7 +30,7 @@ impl Default for ReductionSettings {
 }
 
 /// A response of a reduced model and its error.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct ReducedResponse {
     /// Receptance for each frequency, m/N for each metre of thickness.
     pub receptance: Vec<c64>,
@@ -67,12 +67,7 @@ pub fn reduced_response(
     check_frequencies(frequencies_hz)?;
     let (low, high) = range(frequencies_hz);
     if frequencies_hz.is_empty() {
-        return Ok(ReducedResponse {
-            receptance: Vec::new(),
-            largest_error: 0.0,
-            checked_hz: Vec::new(),
-            vectors: 0,
-        });
+        return Ok(ReducedResponse::default());
     }
     let analysis = LuAnalysis::new(system.pattern())
         .map_err(|source| FrfError::Factorization { frequency_hz: low, source })?;
@@ -117,9 +112,8 @@ pub fn reduced_response(
                 vectors: basis.ncols(),
             });
         }
-        let shift = worst.0;
-        shifts.push(shift);
-        basis = extended(system, &analysis, basis, force, response, shift)?;
+        shifts.push(worst.0);
+        basis = extended(system, &analysis, basis, force, response, worst.0)?;
     }
 }
 

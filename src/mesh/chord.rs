@@ -60,8 +60,7 @@ impl Mesh {
         let mut facing = 0.0;
         for face in faces {
             let (area, corners) = (self.area_vector(face), &face.nodes[..face.kind.corner_count()]);
-            let middle = corners.iter().map(|&node| at(node)).sum::<Vector3<f64>>();
-            facing += area.dot(&normal((middle / corners.len() as f64).into()));
+            facing += area.dot(&normal(self.middle(corners).into()));
             for &corner in corners {
                 *outward.entry(corner).or_insert_with(Vector3::zeros) += area;
             }
@@ -84,6 +83,12 @@ impl Mesh {
             }
         }
         chords
+    }
+
+    /// Mean of some nodes, m.
+    pub(crate) fn middle(&self, nodes: &[u32]) -> Vector3<f64> {
+        let points = nodes.iter().map(|&node| Vector3::from(self.nodes[node as usize]));
+        points.sum::<Vector3<f64>>() / nodes.len() as f64
     }
 
     /// Outward normal of the polygon of a face's corners times its area; of a line times its length.

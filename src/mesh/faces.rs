@@ -1,6 +1,6 @@
 //! Faces on the surface of a body, edges on the rim of a plane one.
 
-use super::{BoundaryFace, FaceKind, Mesh};
+use super::{BoundaryFace, ElementKind, Mesh};
 use frictionsim_formats::CurveEdge;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -109,12 +109,14 @@ impl Mesh {
         faces.iter().map(area).sum()
     }
 
-    /// Unit normal out of the body at each node of a surface: the mean of its faces there, by area. Nodes ascend.
+    /// Unit normal out of a solid body at each node of a surface: the mean of its faces there, by area. Nodes ascend.
     pub fn nodal_normals(&self, faces: &[BoundaryFace]) -> BTreeMap<u32, [f64; 3]> {
         let mut sums: BTreeMap<u32, [f64; 3]> = BTreeMap::new();
         for face in faces {
             let points = self.face_points(face);
-            for (&node, &place) in face.nodes.iter().zip(&node_places(face.kind)) {
+            let alike = ElementKind::ALL.into_iter().find(|own| own.as_face() == Some(face.kind));
+            let places = alike.map_or(Vec::new(), ElementKind::node_places);
+            for (&node, place) in face.nodes.iter().zip(places) {
                 let area = face.kind.at(&points, (place, 1.0)).area;
                 let sum = sums.entry(node).or_default();
                 (0..3).for_each(|axis| sum[axis] += area[axis]);
@@ -126,20 +128,4 @@ impl Mesh {
         }
         sums
     }
-}
-
-/// Parent coordinates of the nodes of a face.
-fn node_places(kind: FaceKind) -> Vec<[f64; 3]> {
-    let corners: &[[f64; 3]] = match kind.corner_count() {
-        2 => &[[-1.0, 0.0, 0.0], [1.0, 0.0, 0.0]],
-        3 => &[[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
-        _ => &[[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [1.0, 1.0, 0.0], [-1.0, 1.0, 0.0]],
-    };
-    let middles = kind.node_count() - corners.len();
-    let middle = |edge: usize| {
-        let (p, q) = (corners[edge], corners[(edge + 1) % corners.len()]);
-        std::array::from_fn(|axis| 0.5 * (p[axis] + q[axis]))
-    };
-    let corners_then_middles = corners.iter().copied().chain((0..middles).map(middle));
-    corners_then_middles.collect()
 }

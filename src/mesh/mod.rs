@@ -23,6 +23,7 @@ mod solid;
 mod solid_body;
 mod solid_refinement;
 mod specification;
+mod splitting;
 
 pub use annulus::AnnulusMesh;
 pub use body::{BodySpecification, CounterfaceSpecification};

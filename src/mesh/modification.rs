@@ -2,7 +2,7 @@
 
 use super::Mesh;
 use frictionsim_formats::{FileElement, FileMesh};
-use nalgebra::Matrix3;
+use nalgebra::{Matrix3, Vector3};
 
 /// A point mass, and a spring and a dashpot to the ground, at a node.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -38,13 +38,14 @@ impl Mesh {
     /// Mean of an element's corners, m.
     pub fn element_middle(&self, element: usize) -> [f64; 3] {
         let corners = self.element_kind(element).corner_count();
-        let nodes = self.element_nodes(element)[..corners].iter();
-        middle(nodes.map(|&node| self.nodes[node as usize]))
+        self.middle(&self.element_nodes(element)[..corners]).into()
     }
 
     /// The elements whose middle lies within a distance of a point.
     pub fn elements_within(&self, center: [f64; 3], radius: f64) -> Vec<u32> {
-        let is_near = |e: &usize| distance(self.element_middle(*e), center) <= radius;
+        let center = Vector3::from(center);
+        let is_near =
+            |e: &usize| (Vector3::from(self.element_middle(*e)) - center).norm() <= radius;
         let near = (0..self.element_count()).filter(is_near);
         near.map(|e| e as u32).collect()
     }
@@ -76,15 +77,4 @@ impl Mesh {
             ..FileMesh::default()
         }
     }
-}
-
-/// Mean of some points.
-fn middle(points: impl ExactSizeIterator<Item = [f64; 3]>) -> [f64; 3] {
-    let count = points.len() as f64;
-    let sum = points.fold([0.0; 3], |sum, p| [0, 1, 2].map(|k| sum[k] + p[k]));
-    sum.map(|x| x / count)
-}
-
-fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
-    (0..3).map(|k| (a[k] - b[k]).powi(2)).sum::<f64>().sqrt()
 }

@@ -24,20 +24,15 @@ impl Mesh {
     /// Jacobian determinant of an element at a parent point, m2 or m3.
     fn jacobian(&self, element: usize, at: [f64; 3]) -> f64 {
         let shapes = self.element_kind(element).shape_functions(at);
-        let mut rows = [[0.0; 3]; 3];
+        let mut jacobian = Matrix3::zeros();
         if self.dimension == 2 {
-            rows[2][2] = 1.0;
+            jacobian[(2, 2)] = 1.0;
         }
-        for ((_, slopes), &node) in shapes.iter().zip(self.element_nodes(element)) {
-            let point = self.nodes[node as usize];
-            for (row, slope) in rows.iter_mut().zip(slopes) {
-                (0..3).for_each(|axis| row[axis] += slope * point[axis]);
-            }
+        for ((_, slopes), &node) in shapes.into_iter().zip(self.element_nodes(element)) {
+            let point = Vector3::from(self.nodes[node as usize]);
+            jacobian += Vector3::from(slopes) * point.transpose();
         }
-        let [a, b, c] = rows;
-        let cross =
-            [b[1] * c[2] - b[2] * c[1], b[2] * c[0] - b[0] * c[2], b[0] * c[1] - b[1] * c[0]];
-        a[0] * cross[0] + a[1] * cross[1] + a[2] * cross[2]
+        jacobian.determinant()
     }
 
     /// Smallest over largest Jacobian determinant of an element.
@@ -215,31 +210,33 @@ impl Mesh {
             let eigen = SymmetricEigen::new(held);
             let (low, high) = (eigen.eigenvalues.min(), eigen.eigenvalues.max());
             if !(low > 1e-9 * high && high > 0.0) {
-                let node = part.iter().position(|&p| p == k);
-                let node = node.expect("every part has a node");
-                let [x, y] = self.plane_node(node);
-                let mut names: Vec<&str> =
-                    self.boundaries.iter().map(|b| b.name.as_str()).collect();
-                names.remove(self.contact);
-                let unmerged = match self.unmerged_nodes() {
-                    Some(found) if parts > 1 => {
-                        format!(
-                            "; {found}: merge the parts (Coherence Mesh; in Gmsh) if they are one body"
-                        )
-                    }
-                    _ => String::new(),
-                };
-                return Err(BodyError::Body(format!(
-                    "nothing holds {} (with node {} at {x:.4e}, {y:.4e} m): it can move as a rigid \
-                     body, for sliding friction holds nothing. Give one of its boundaries ({}) \
-                     condition = \"clamped\" under [boundaries.NAME], or springs under \
-                     [modifications.NAME]{unmerged}",
-                    if parts > 1 { "a part of the body that touches no other" } else { "the body" },
-                    self.labels.get(node).copied().unwrap_or(node + 1),
-                    names.join(", ")
-                )));
+                return Err(self.not_held(&part, k));
             }
         }
         Ok(())
+    }
+
+    /// What to do about the part `k` that nothing holds, of the `part` of each node.
+    fn not_held(&self, part: &[usize], k: usize) -> BodyError {
+        let is_one = part.iter().all(|&p| p == k);
+        let node = part.iter().position(|&p| p == k).expect("every part has a node");
+        let [x, y] = self.plane_node(node);
+        let mut names: Vec<&str> = self.boundaries.iter().map(|b| b.name.as_str()).collect();
+        names.remove(self.contact);
+        let unmerged = match self.unmerged_nodes() {
+            Some(found) if !is_one => {
+                format!("; {found}: merge the parts (Coherence Mesh; in Gmsh) if they are one body")
+            }
+            _ => String::new(),
+        };
+        BodyError::Body(format!(
+            "nothing holds {} (with node {} at {x:.4e}, {y:.4e} m): it can move as a rigid \
+             body, for sliding friction holds nothing. Give one of its boundaries ({}) \
+             condition = \"clamped\" under [boundaries.NAME], or springs under \
+             [modifications.NAME]{unmerged}",
+            if is_one { "the body" } else { "a part of the body that touches no other" },
+            self.node_label(node),
+            names.join(", ")
+        ))
     }
 }

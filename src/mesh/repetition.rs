@@ -275,18 +275,11 @@ fn away(sector: &Mesh, p: u32, q: u32) -> f64 {
     (p - q).norm()
 }
 
-fn middle(sector: &Mesh, nodes: &[u32]) -> Vector3<f64> {
-    let sum = nodes
-        .iter()
-        .fold(Vector3::zeros(), |sum, &node| sum + Vector3::from(sector.nodes[node as usize]));
-    sum / nodes.len() as f64
-}
-
 /// A point a little outside a face, by a hundredth of its size.
 fn beyond(sector: &Mesh, face: &BoundaryFace) -> [f64; 3] {
     let corners = &face.nodes[..face.kind.corner_count()];
     let size = away(sector, corners[0], corners[1]);
-    (middle(sector, corners) + outward(sector, face) * (0.01 * size)).into()
+    (sector.middle(corners) + outward(sector, face) * (0.01 * size)).into()
 }
 
 /// Unit vector out of the body at a face, away from its element's middle where the face is bent.
@@ -306,7 +299,7 @@ impl Inside {
     fn of(sector: &Mesh) -> Self {
         let sphere = |element: usize| {
             let nodes = sector.element_nodes(element);
-            let center = middle(sector, nodes);
+            let center = sector.middle(nodes);
             let reach = |&node: &u32| (Vector3::from(sector.nodes[node as usize]) - center).norm();
             (center, nodes.iter().map(reach).fold(0.0, f64::max))
         };
@@ -323,7 +316,7 @@ impl Inside {
             let mut faces = faces.map(|face| sector.element_face(element, face));
             faces.all(|face| {
                 let corners = &face.nodes[..face.kind.corner_count()];
-                (point - middle(sector, corners)).dot(&outward(sector, &face)) < 0.0
+                (point - sector.middle(corners)).dot(&outward(sector, &face)) < 0.0
             })
         })
     }

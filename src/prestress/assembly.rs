@@ -191,10 +191,8 @@ impl<'a> Assembly<'a> {
             return Ok(PressedRange::of_one(
                 PressedState {
                     displacements: vec![vec![0.0; self.mesh.dof_count()]],
-                    normal_forces: Vec::new(),
-                    stiffnesses: Vec::new(),
                     is_pressed: vec![true; points.len()],
-                    frozen_below: 0.0,
+                    ..PressedState::default()
                 },
                 friction_coefficients.len(),
             ));
@@ -208,8 +206,7 @@ impl<'a> Assembly<'a> {
             pairs.for_each(|(load, own)| *load += own);
         }
         if points.is_empty() {
-            let count = friction_coefficients.len();
-            return self.without_contact(&stiffness, &load, count);
+            return self.without_contact(&stiffness, &load, friction_coefficients.len());
         }
         let stiffnesses = self.joined.contacts.iter().flat_map(|(contact, surface)| {
             let normal = contact.stiffness.normal_stiffness;
@@ -277,16 +274,8 @@ impl<'a> Assembly<'a> {
             let right = unknowns.restrict(&basis.transposed_forces(load));
             basis.displacement(&unknowns.expand(&solver.solve(right)))
         };
-        Ok(PressedRange::of_one(
-            PressedState {
-                displacements: vec![displacement],
-                normal_forces: Vec::new(),
-                stiffnesses: Vec::new(),
-                is_pressed: Vec::new(),
-                frozen_below: 0.0,
-            },
-            count,
-        ))
+        let displacements = vec![displacement];
+        Ok(PressedRange::of_one(PressedState { displacements, ..PressedState::default() }, count))
     }
 
     /// Stiffness and gyroscopic matrix of regions that turn with the inertia of their rotation.
@@ -359,7 +348,8 @@ impl<'a> Assembly<'a> {
     fn geometric(&self, state: &PressedState) -> Option<Vec<Triplets>> {
         let own = self.stressing(state)?;
         let powers = own.displacements.iter();
-        let powers = powers.map(|own| assemble_geometric_stiffness(self.mesh, self.materials, own));
+        let powers =
+            powers.map(|own| assemble_geometric_stiffness(self.mesh, self.materials, own, None));
         Some(frozen_terms(powers.collect(), state.frozen_below))
     }
 }

@@ -95,13 +95,13 @@ pub(super) fn range(
     }
 
     // Each state is followed from one change to the next; between the end of the set before and the beginning of its own, others hold.
-    let lowest_of = |state: usize| {
+    let asked_of = |state: usize| -> Vec<f64> {
         let with_state = state_of.iter().zip(friction_coefficients);
-        let own = with_state.filter_map(|(own, friction)| (*own == state).then_some(*friction));
-        own.fold(f64::INFINITY, f64::min)
+        with_state.filter_map(|(own, friction)| (*own == state).then_some(*friction)).collect()
     };
+    let lowest = |asked: &[f64]| asked.iter().copied().fold(f64::INFINITY, f64::min);
     let begins = changes.iter().enumerate().map(|(k, &change)| {
-        let begin = end_between(bodies, &sets[k + 1], [lowest_of(k + 1), change])?;
+        let begin = end_between(bodies, &sets[k + 1], [lowest(&asked_of(k + 1)), change])?;
         Ok(begin.max(change))
     });
     let begins = begins.collect::<Result<Vec<f64>, PrestressError>>()?;
@@ -109,18 +109,15 @@ pub(super) fn range(
     let (first, last) = (end(order.first()), end(order.last()));
     let mut left_out = 0.0_f64;
     let states = sets.into_iter().enumerate().map(|(k, set)| {
-        let with_state = state_of.iter().zip(friction_coefficients);
-        let asked = with_state.filter_map(|(own, friction)| (*own == k).then_some(*friction));
-        let asked: Vec<f64> = asked.collect();
+        let asked = asked_of(k);
         let lower = k.checked_sub(1).map_or(first, |before| changes[before]);
         let upper = changes.get(k).copied().unwrap_or(last);
         let own_range = |bodies: &mut _, set: &[bool]| {
             let begin = match k.checked_sub(1) {
                 Some(before) => begins[before],
                 None => {
-                    let lowest = asked.iter().copied().fold(upper, f64::min);
                     let least = lower.min(upper - LEAST_RANGE).max(0.0);
-                    end_between(bodies, set, [lowest, least])?
+                    end_between(bodies, set, [lowest(&asked).min(upper), least])?
                 }
             };
             Ok([begin.min(upper - SHORTEST_RANGE), upper])

@@ -31,6 +31,8 @@ pub struct CyclicTangent<'a> {
     count: usize,
     /// Unknown of the whole body: place `i` of sector `j` at `j * size + i`.
     at: Vec<usize>,
+    /// Sector and place of each unknown.
+    place_of: Vec<[usize; 2]>,
     /// Entries in the rows of sector 0.
     entries: Vec<Entry>,
 }
@@ -82,7 +84,8 @@ impl<'a> CyclicTangent<'a> {
             let [sector, column] = place_of[column];
             Entry { row, column, sector, position }
         });
-        let own = Self { entries: entries.collect(), whole, count, at };
+        let entries = entries.collect();
+        let own = Self { entries, whole, count, at, place_of };
         own.check_alike()?;
         Ok(own)
     }
@@ -182,15 +185,11 @@ impl<'a> CyclicTangent<'a> {
             let coefficients: Vec<Vec<(usize, usize, f64)>> = coefficients.collect();
             MatrixPolynomial::on_pattern(&pattern, &coefficients).frozen_below(matrix.origin())
         };
-        let in_sector: Vec<Option<usize>> = {
-            let mut place = vec![None; self.at.len()];
-            (0..size).for_each(|i| place[self.at[i]] = Some(i));
-            place
-        };
         let touched = |unknowns: &[usize]| -> Vec<usize> {
-            let own: Vec<usize> = unknowns.iter().filter_map(|&u| in_sector[u]).collect();
-            let second = own.iter().filter(|_| is_paired).map(|i| size + i);
-            own.iter().copied().chain(second).collect()
+            let places = unknowns.iter().map(|&unknown| self.place_of[unknown]);
+            let own = places.filter(|[sector, _]| *sector == 0).map(|[_, place]| place);
+            let second = own.clone().filter(|_| is_paired).map(|place| size + place);
+            own.chain(second).collect()
         };
         let tabled = whole.tabled.iter().map(|own| TabledStiffness {
             gain: own.gain.clone(),

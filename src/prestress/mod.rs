@@ -31,7 +31,6 @@ mod rotation;
 mod sector;
 mod sector_tangent;
 mod solid;
-mod solid_contact;
 mod solid_tangent;
 mod tabled;
 mod tangent;

@@ -105,7 +105,7 @@ pub(super) struct ContactState {
 
 /// The bodies under one set of pressed points, as polynomials in `mu - a`, `mu` the friction coefficient and `a` where they begin,
 /// [`Self::frozen_below`].
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct PressedState {
     /// Displacement of all dofs by power of `mu - a`, m.
     pub displacements: Vec<Vec<f64>>,

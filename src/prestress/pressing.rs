@@ -178,20 +178,11 @@ fn press_on_springs(
         let nodes = sector.rings.iter().flat_map(|ring| &ring.nodes);
         let nodes = nodes.map(|&node| (node, inward * forces[3 * node + component]));
         let normal_forces: Vec<_> = nodes.filter(|(_, force)| *force != 0.0).collect();
-
-        // Friction shears the body alone, whatever presses it.
-        let mut basis = held(sector);
-        let across = (0..own.len()).filter(|dof| dof % 3 != 1);
-        across.for_each(|dof| basis.drop_unknown(dof));
-        let mut drag = vec![0.0; own.len()];
-        for (node, force) in &normal_forces {
-            drag[3 * node + 1] = friction(contact, sector.nodes[*node].radius).drag * force;
-        }
         return Ok(SolidSliding {
             law: Some(law),
             sliding_direction: contact.sliding_direction(),
             contact: *contact,
-            sheared_displacement: FullSliding::new(stiffness, basis, &[])?.solve(&drag),
+            sheared_displacement: sheared(sector, stiffness, contact, &normal_forces)?,
             normal_forces,
             is_pressed: found.iter().map(|approach| *approach > 0.0).collect(),
             pressures: found.iter().map(|g| law.pressure(g.max(0.0))).collect(),
@@ -200,6 +191,22 @@ fn press_on_springs(
         });
     }
     Err(PrestressError::NoState { friction_coefficient: contact.friction_coefficient })
+}
+
+/// What friction does for each unit of its coefficient: it shears the body alone, whatever presses it.
+fn sheared(
+    sector: &SolidSector,
+    stiffness: &Triplets,
+    contact: &SlidingContact,
+    normal_forces: &[(usize, f64)],
+) -> Result<Vec<f64>, PrestressError> {
+    let (mut basis, dofs) = (held(sector), 3 * sector.node_count());
+    (0..dofs).filter(|dof| dof % 3 != 1).for_each(|dof| basis.drop_unknown(dof));
+    let mut drag = vec![0.0; dofs];
+    for (node, force) in normal_forces {
+        drag[3 * node + 1] = friction(contact, sector.nodes[*node].radius).drag * force;
+    }
+    Ok(FullSliding::new(stiffness, basis, &[])?.solve(&drag))
 }
 
 /// The springs of the face where the rings' approaches are positive.

@@ -64,7 +64,7 @@ impl Rotation {
         let solver = CholeskySolver::new(&grounded(held(), (mesh, materials), basis), &unknowns)?;
         let load = unknowns.restrict(&basis.transposed_forces(&terms.centrifugal));
         let displacement = basis.displacement(&unknowns.expand(&solver.solve(load)));
-        let stressed = assemble_geometric_stiffness(mesh, materials, &displacement);
+        let stressed = assemble_geometric_stiffness(mesh, materials, &displacement, None);
         let deformed = assemble_displacement_stiffness(mesh, materials, &displacement);
         terms.transport.entries.extend(stressed.entries);
         terms.transport.entries.extend(deformed.entries);

@@ -21,6 +21,8 @@ pub struct SectorSliding {
     pub sliding_direction: f64,
     /// Friction at the sliding speed for each unit of friction coefficient and normal force.
     pub friction: SteadyFriction,
+    /// The contact nodes of the sector as contact points.
+    pub points: Vec<Point>,
 }
 
 impl SectorSliding {
@@ -52,7 +54,7 @@ impl SectorSliding {
             (sector.numbering[node] + 1, step * sector.half_step(node) as f64)
         };
         check_pressed(&points, (&state.normal_forces[0], sector.sector_count()), place)?;
-        Ok(Self { state, sliding_direction, friction })
+        Ok(Self { state, sliding_direction, friction, points })
     }
 }
 

@@ -1,12 +1,11 @@
 //! The terms of a plane annulus in steady sliding.
 
-use super::solid_contact::ContactTerms;
 use super::wave_tangent::WaveContact;
-use super::wave_terms::WaveTerms;
+use super::wave_terms::{ContactTerms, WaveTerms};
 use super::{PrestressError, SectorSliding, TangentOptions, WaveTangent};
-use crate::contact::SlidingContact;
-use crate::fem::MaterialField;
+use crate::contact::{Point, SlidingContact, linearized};
 use crate::fem::fold::SectorMatrix;
+use crate::fem::{MaterialField, Triplets};
 use crate::mesh::SectorMesh;
 use std::f64::consts::PI;
 
@@ -28,13 +27,11 @@ impl WaveTangent {
         let base = SectorSliding::solve(sector, &terms.elastic(), contact, options.contact.law)?;
         let edge = Edge { sector, base: &base };
         if options.geometric_stiffness {
-            let displacements = [0, 1].map(|power| &base.state.displacements[power][..]);
-            terms.take_stress(sector, material, displacements);
+            terms.take_stress(sector, material, [0, 1].map(|p| &base.state.displacements[p][..]));
             terms.turning = edge.turning();
         }
         terms.contact = edge.terms(options);
-        let parts = (terms, edge.dofs(options));
-        Ok(Self::new(sector, parts, options, base.sliding_direction))
+        Ok(Self::new(sector, (terms, edge.dofs(options)), options, base.sliding_direction))
     }
 }
 
@@ -45,29 +42,13 @@ struct Edge<'a> {
 }
 
 impl Edge<'_> {
-    /// Stiffness `k_n w` of each contact node; `None` for rigid contact.
-    fn normal_stiffness(&self, options: &TangentOptions) -> Option<Vec<f64>> {
-        let penalty = options.contact.normal_stiffness.map(|k| self.over_lengths(k));
-        self.base.state.stiffnesses.first().cloned().or(penalty)
-    }
-
-    /// A value per length at each contact node.
-    fn over_lengths(&self, value: f64) -> Vec<f64> {
-        self.sector.tributary_lengths().iter().map(|w| value * w).collect()
-    }
-
-    /// Slip at a contact node as `(dof, coefficient)`.
-    fn slip(&self, node: usize) -> impl Iterator<Item = (usize, f64)> + use<> {
-        let opposite = self.sector.opposite(node);
-        std::iter::once((2 * node + 1, 1.0)).chain(opposite.map(|node| (2 * node + 1, -1.0)))
-    }
-
     fn dofs(&self, options: &TangentOptions) -> WaveContact {
         let nodes = self.sector.contact_nodes();
-        let is_rigid = self.normal_stiffness(options).is_none();
-        let rigid = nodes.clone().filter(|_| is_rigid).map(|node| {
-            let drags = self.slip(node).map(|(dof, along)| (dof, self.base.friction.drag * along));
-            (2 * node, drags.collect())
+        let has_springs = !self.base.state.stiffnesses.is_empty();
+        let is_rigid = options.contact.normal_stiffness.is_none() && !has_springs;
+        let rigid = self.base.points.iter().filter(|_| is_rigid).map(|point| {
+            let drag = |&(dof, along): &(usize, f64)| (dof, point.friction.drag * along);
+            (point.normal[0].0, point.slip.iter().map(drag).collect())
         });
         let both = |node: usize| std::iter::once(node).chain(self.sector.opposite(node));
         let place = |node| both(node).flat_map(|node| [2 * node, 2 * node + 1]).collect();
@@ -82,38 +63,23 @@ impl Edge<'_> {
         }
     }
 
-    /// The contact over the distances across it.
+    /// The contact over the distances across it: of a pair that of the annulus's node stands for its separation.
     fn terms(&self, options: &TangentOptions) -> ContactTerms {
-        let contact = options.contact;
-        let nodes = || self.sector.contact_nodes();
-        let along_slip = |values: &[f64]| {
-            let own = nodes().zip(values).flat_map(|(node, &value)| {
-                let rows = self.slip(node);
-                rows.flat_map(move |(row, a)| {
-                    self.slip(node).map(move |(column, b)| (row, column, 0, a * value * b))
-                })
-            });
-            SectorMatrix::of_entries(2, own)
+        let over_distance =
+            |point: &Point| Point { normal: point.normal[..1].to_vec(), ..point.clone() };
+        let points: Vec<Point> = self.base.points.iter().map(over_distance).collect();
+        let found = linearized(&points, &self.base.state.points_from(0), &options.contact);
+        // What acts from one component to the other is odd.
+        let part = |terms: &[Triplets], power: usize, is_odd: bool| {
+            let own = terms.get(power).into_iter().flat_map(|own| &own.entries);
+            let own = own.filter(|(row, column, _)| (row % 2 != column % 2) == is_odd);
+            SectorMatrix::of_entries(2, own.map(|&(row, column, value)| (row, column, 0, value)))
         };
-        // What acts along the normal is dragged along by friction.
-        let normal_and_drag = |values: &[f64]| {
-            let normal = nodes().zip(values).map(|(node, value)| (2 * node, 2 * node, 0, *value));
-            let dragged = nodes().zip(values).flat_map(|(node, value)| {
-                let value = self.base.friction.drag * value;
-                self.slip(node).map(move |(row, along)| (row, 2 * node, 0, along * value))
-            });
-            [SectorMatrix::of_entries(2, normal), SectorMatrix::of_entries(2, dragged)]
-        };
-        let [normal, drag] = normal_and_drag(&self.over_lengths(contact.normal_damping));
-        let tangential = along_slip(&self.over_lengths(contact.tangential_damping));
-        let slope = self.base.friction.slope;
-        let falling: Vec<f64> =
-            self.base.state.normal_forces[0].iter().map(|n| slope * n).collect();
-        let penalty = self.normal_stiffness(options);
+        let both = |terms: &[Triplets]| [part(terms, 0, false), part(terms, 1, true)];
         ContactTerms {
-            penalty: penalty.map_or_else(Default::default, |values| normal_and_drag(&values)),
-            dashpots: [normal.plus(&tangential), drag],
-            friction_dashpots: along_slip(&falling),
+            penalty: both(&found.stiffness),
+            dashpots: both(&found.dashpots),
+            friction_dashpots: part(&found.dashpots, 1, false),
         }
     }
 

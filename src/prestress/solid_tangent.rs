@@ -1,13 +1,14 @@
 //! The terms of a body of revolution in three dimensions in steady sliding.
 
-use super::solid_contact::contact_terms;
+use super::solid::along_element;
 use super::wave_tangent::WaveContact;
-use super::wave_terms::WaveTerms;
+use super::wave_terms::{ContactTerms, WaveTerms};
 use super::{PrestressError, SolidSliding, TangentOptions, WaveTangent};
-use crate::contact::SlidingContact;
+use crate::contact::{ContactStiffness, SlidingContact};
 use crate::fem::MaterialField;
 use crate::fem::fold::SectorMatrix;
-use crate::mesh::SolidSector;
+use crate::fem::solid::{FaceTerm, face_matrix};
+use crate::mesh::{FaceElement, SolidSector};
 
 impl WaveTangent {
     /// Finds the steady sliding state of a body of revolution and linearises around it.
@@ -71,4 +72,69 @@ fn turning_forces(sector: &SolidSector, base: &SolidSliding) -> [SectorMatrix; 2
     let turning = turning.map(|(dof, force, _)| (dof + 1, dof + 1, 0, -force));
     let dragging = forces.map(|(dof, force, drag)| (dof, dof + 1, 0, drag * force));
     [SectorMatrix::of_entries(3, turning), SectorMatrix::of_entries(3, dragging)]
+}
+
+/// A weight from the element, the radius (m) and the place along the element.
+type Weight<'a> = &'a dyn Fn(&FaceElement, f64, f64) -> f64;
+
+/// The matrices of the contact of a state.
+fn contact_terms(
+    base: &SolidSliding,
+    sector: &SolidSector,
+    contact: &ContactStiffness,
+) -> ContactTerms {
+    let face = sector.specification.contact.face();
+    let (normal, side) = (face.normal_component(), face.across_component());
+    let faces = sector.contact_elements();
+    let span = |element: &FaceElement| base.pressed_span(sector, element);
+    let term = |row, column, is_nodal, weight: Weight<'_>| {
+        let term = FaceTerm { row, column, weight, span: &span, is_nodal };
+        face_matrix(sector, &faces, &term)
+    };
+    let pressure = |element: &FaceElement, at| base.pressure_along(sector, element, at);
+    let pressed = |row, column, weight: Weight<'_>| {
+        term(row, column, true, &|element, r, at| match pressure(element, at) > 0.0 {
+            true => weight(element, r, at),
+            false => 0.0,
+        })
+    };
+
+    // What acts along the normal is dragged along by friction.
+    let drag = |r: f64| face.inward_sign() * base.friction(r).1.drag;
+    let normal_and_drag = |weight: Weight<'_>| {
+        let dragged = |element: &FaceElement, r: f64, at: f64| weight(element, r, at) * drag(r);
+        [pressed(normal, normal, weight), pressed(1, normal, &dragged)]
+    };
+    let mut dashpots: [SectorMatrix; 2] = match contact.normal_damping {
+        0.0 => Default::default(),
+        damping => normal_and_drag(&|_, _, _| damping),
+    };
+    let tangential = contact.tangential_damping;
+    if tangential != 0.0 {
+        for component in [1, side] {
+            dashpots[0] = dashpots[0].plus(&pressed(component, component, &|_, _, _| tangential));
+        }
+    }
+
+    // Coulomb's law as a vector, and its slope over the speed.
+    let mut friction_dashpots = term(side, side, false, &|element, r, at| {
+        let (speed, friction) = base.friction(r);
+        pressure(element, at) * friction.drag * base.sliding_direction / speed
+    });
+    if base.contact.decay.is_some() {
+        let slope = |r: f64| base.friction(r).1.slope;
+        let along = term(1, 1, false, &|element, r, at| pressure(element, at) * slope(r));
+        friction_dashpots = friction_dashpots.plus(&along);
+    }
+    ContactTerms {
+        penalty: match (base.law, contact.normal_stiffness) {
+            (Some(law), _) => normal_and_drag(&|element, _, at| {
+                law.stiffness(along_element(sector, &base.approaches, element, at).max(0.0))
+            }),
+            (None, Some(own)) => normal_and_drag(&|_, _, _| own),
+            (None, None) => Default::default(),
+        },
+        dashpots,
+        friction_dashpots,
+    }
 }

@@ -190,8 +190,9 @@ impl SlidingTangent {
         base: &SteadySliding,
         options: &TangentOptions,
     ) -> Self {
-        let stressed =
-            |displacement: &Vec<f64>| assemble_geometric_stiffness(mesh, material, displacement);
+        let stressed = |displacement: &Vec<f64>| {
+            assemble_geometric_stiffness(mesh, material, displacement, None)
+        };
         let geometric =
             options.geometric_stiffness.then(|| base.displacements.iter().map(stressed).collect());
         let body = BodyTerms {

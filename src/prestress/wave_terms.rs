@@ -1,6 +1,5 @@
 //! The matrices of one sector that the tangent of its waves is made of.
 
-use super::solid_contact::ContactTerms;
 use super::{LossGain, TabledGain};
 use crate::fem::fold::SectorMatrix;
 use crate::fem::sector::{self, SectorSupport, Sectored};
@@ -19,6 +18,17 @@ pub(super) struct WaveTerms {
     pub extra_damping: SectorMatrix,
     /// Over the distances across the contact where that joins two bodies.
     pub contact: ContactTerms,
+}
+
+/// Matrices of the contact.
+#[derive(Clone, Debug, Default)]
+pub(super) struct ContactTerms {
+    /// Penalty stiffness at rest and its friction; empty for rigid contact.
+    pub penalty: [SectorMatrix; 2],
+    /// Contact dashpots at rest and their friction.
+    pub dashpots: [SectorMatrix; 2],
+    /// `p_0 / V` across the sliding, and `p_0 mu'(V) / mu` along it where friction falls with the speed.
+    pub friction_dashpots: SectorMatrix,
 }
 
 /// Matrices of one region.

@@ -11,20 +11,17 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-use super::eigenvalues::AssemblyModel;
+use super::eigenvalues::{AssemblyModel, Model};
 use super::{StudyError, tangent_options};
 use crate::case::{AssemblyBody, Body, Case, CaseErrors, Frf, FrfMethod, refusal};
-use crate::contact::SlidingContact;
-use crate::fem::{MaterialField, assemble_stiffness, sector::Sectored};
+use crate::fem::{assemble_stiffness, sector::Sectored};
 use crate::frf::{
     Axis, CyclicSystem, FrfBoundary, FrfError, FrfSystem, Port, ReductionSettings, cyclic_response,
     direct_response_with, reduced_response,
 };
 use crate::linalg::{GaussianNoise, c64};
 use crate::mesh::{BoundaryCondition, Mesh, SectorMesh, SolidSector};
-use crate::prestress::{
-    BaseChoice, PrestressError, SlidingTangent, SteadySliding, TangentOptions, WaveTangent,
-};
+use crate::prestress::{BaseChoice, SlidingTangent, SteadySliding};
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
@@ -222,22 +219,21 @@ fn refuse_beyond_tables(case: &Case, frf: &Frf) -> Result<(), CaseErrors> {
 
 /// The harmonics of an annulus, or of a body of revolution in three dimensions.
 fn cyclic(case: &Case, frf: &Frf) -> Result<System, StudyError> {
-    if frf.boundary == FrfBoundary::Sliding {
-        refuse_rest(case)?;
-    }
-    let system = match &case.body {
-        Body::Annulus(body) => {
-            let sector = SectorMesh::generate(&body.specification)?;
-            sectors(case, frf, &sector, WaveTangent::of_annulus)?
-        }
-        Body::Revolution(body) => {
-            let sector = SolidSector::generate(&body.specification)?;
-            sectors(case, frf, &sector, WaveTangent::of_revolution)?
-        }
-        Body::Imported(_) | Body::Assembly(_) => {
+    let system = match (&case.body, frf.boundary) {
+        (Body::Imported(_) | Body::Assembly(_), _) => {
             return Err(StudyError::Case(refusal!(case, "frf.method",
                 "frf.method = \"cyclic\" needs the symmetry of the built-in annulus";
                 "an imported mesh has no sectors"; "use \"auto\", \"direct\" or \"reduced\"")));
+        }
+        (_, FrfBoundary::Sliding) => {
+            refuse_rest(case)?;
+            let waves = Model::Waves(tangent_options(case, frf.mass)).wave_tangent(case)?;
+            let waves = waves.expect("a body of equal sectors has waves");
+            CyclicSystem::sliding(&waves, case.contact.sliding.friction_coefficient)
+        }
+        (Body::Annulus(body), _) => apart(case, frf, &SectorMesh::generate(&body.specification)?),
+        (Body::Revolution(body), _) => {
+            apart(case, frf, &SolidSector::generate(&body.specification)?)
         }
     };
     for (terminal, key) in [(frf.force, "force_node"), (frf.response, "response_node")] {
@@ -247,25 +243,10 @@ fn cyclic(case: &Case, frf: &Frf) -> Result<System, StudyError> {
     Ok(System::Cyclic(Box::new(system)))
 }
 
-/// The harmonics of a body of equal sectors, linearised by `slide` where it slides.
-fn sectors<S: Sectored>(
-    case: &Case,
-    frf: &Frf,
-    sector: &S,
-    slide: impl Fn(
-        &S,
-        &dyn MaterialField,
-        &TangentOptions,
-        &SlidingContact,
-    ) -> Result<WaveTangent, PrestressError>,
-) -> Result<CyclicSystem, StudyError> {
-    let (materials, contact) = (case.materials(), &case.contact.sliding);
-    if frf.boundary == FrfBoundary::Sliding {
-        let tangent = slide(sector, materials, &tangent_options(case, frf.mass), contact)?;
-        return Ok(CyclicSystem::sliding(&tangent, contact.friction_coefficient));
-    }
+/// The harmonics of a body of equal sectors that touches nothing.
+fn apart<S: Sectored>(case: &Case, frf: &Frf, sector: &S) -> CyclicSystem {
     let is_held = frf.boundary == FrfBoundary::Clamped;
-    Ok(CyclicSystem::body(sector, materials, frf.mass, case.damping.rayleigh, is_held))
+    CyclicSystem::body(sector, case.materials(), frf.mass, case.damping.rayleigh, is_held)
 }
 
 /// Matrices of the whole mesh as it is held, and the ports of force and response.

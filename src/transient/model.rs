@@ -11,7 +11,7 @@ use super::{Perturbation, StepPlan, TransientError, TransientSettings};
 use crate::contact::{ContactInterface, ContactStiffness, SlidingContact};
 use crate::fem::fold::SectorMatrix;
 use crate::fem::operator::{StiffnessOperator, largest_frequency_of};
-use crate::fem::sector::{extra_damping, region_count, supports};
+use crate::fem::sector::{extra_damping, supports};
 use crate::fem::solid::pressure_load;
 use crate::fem::{
     MassKind, MaterialField, RayleighDamping, Triplets, assemble_extra_damping, assemble_pressures,
@@ -196,12 +196,10 @@ impl<'a> TransientModel<'a> {
             bound.stiffness_coefficient =
                 bound.stiffness_coefficient.max(own.stiffness_coefficient);
         };
-        let Some(mesh) = self.mesh() else {
-            let SteppedBody::Revolution(sector) = self.body else { return bound };
-            let regions = 0..region_count(sector);
-            regions.for_each(|r| cover(self.material.own_damping(r).unwrap_or(self.damping)));
-            bound.mass_coefficient += rates.iter().copied().fold(0.0, f64::max);
-            return bound;
+        let mesh = match self.body {
+            SteppedBody::Plane { mesh, .. } => mesh,
+            SteppedBody::Revolution(sector) => &sector.strip,
+            SteppedBody::Assembly { assembly, .. } => assembly.mesh(),
         };
         let first_dof = |e: usize| mesh.dimension * mesh.element_nodes(e)[0] as usize;
         for e in (0..mesh.element_count()).filter(|&e| is_part(first_dof(e))) {

@@ -392,7 +392,7 @@ fn geometric_stiffness_of_rigid_rotations_is_the_work_of_the_stress() {
     for kind in SOLIDS {
         let mesh = Mesh::from_solids(&distorted(kind, 0.0), 1.0, &[]).unwrap();
         let base = sample(&mesh, |p| gradient * p);
-        let matrix = assemble_geometric_stiffness(&mesh, &STEEL, &base);
+        let matrix = assemble_geometric_stiffness(&mesh, &STEEL, &base, None);
         let volume = mesh.region_measures()[0];
         for (k, motion) in rigid_motions(&mesh).iter().enumerate() {
             let force = matrix.multiply(mesh.dof_count(), motion);

@@ -59,6 +59,7 @@ fn follow_all(
     let problem = follower.problem;
     let lost =
         |friction: f64| CeaError::LostHarmonic { harmonic: problem.tangent.harmonic, friction };
+    let has_ended = |path: &Path| path.points.last().is_some_and(|p| problem.is_ending(p.theta));
     let at_rest = Rc::new(problem.at(0.0));
     let mut paths = Vec::new();
     for (branch, (kappa, shape)) in (1..).zip(pairs) {
@@ -73,10 +74,6 @@ fn follow_all(
         };
         let reached: Vec<usize> = paths.iter().map(|path| path.points.len()).collect();
         for index in 0..paths.len() {
-            let has_ended = |path: &Path| {
-                let last = path.points.last();
-                last.is_some_and(|last| problem.is_ending(last.theta))
-            };
             if has_ended(&paths[index]) {
                 continue;
             }

@@ -1,9 +1,9 @@
 //! One point of a branch: a periodic motion and the value of the parameter at which it lives, found together.
 
-use super::error::PeriodicError;
 use super::map::{PeriodImage, PeriodMap, PeriodicState};
 use super::search::{ACCEPTED, Found};
 use super::secants::{Change, SecantSpace};
+use crate::cycle::CycleError;
 use crate::cycle::vector::{add, difference, norm};
 use crate::transient::TransientError;
 
@@ -201,13 +201,13 @@ impl<'b, 'a> Corrector<'b, 'a> {
         near: &Point,
         guess: Guess,
         goal: &Goal,
-    ) -> Result<Point, PeriodicError> {
+    ) -> Result<Point, CycleError> {
         let found = self.search(near, guess.clone(), goal);
-        let is_good = |found: &Result<Point, PeriodicError>| {
+        let is_good = |found: &Result<Point, CycleError>| {
             let residual = found.as_ref().map(|point| point.found.residual);
             residual.is_ok_and(|residual| residual < GOOD)
         };
-        if is_good(&found) || matches!(found, Err(PeriodicError::Stepping(_))) {
+        if is_good(&found) || matches!(found, Err(CycleError::Stepping(_))) {
             return found;
         }
         // What the last points have taught may be of another status of the nodes: once more without it.
@@ -220,12 +220,7 @@ impl<'b, 'a> Corrector<'b, 'a> {
         }
     }
 
-    fn search(
-        &mut self,
-        near: &Point,
-        mut guess: Guess,
-        goal: &Goal,
-    ) -> Result<Point, PeriodicError> {
+    fn search(&mut self, near: &Point, mut guess: Guess, goal: &Goal) -> Result<Point, CycleError> {
         self.weight = near.found.image.vibration;
         self.secants.aim(goal.weights().map(|by| self.weight * by));
         let first = self.map.periods();
@@ -317,25 +312,20 @@ impl<'b, 'a> Corrector<'b, 'a> {
     }
 
     /// The relative residual of a motion that may lie on the branch of `near`.
-    fn judged(
-        &self,
-        near: &Point,
-        image: &PeriodImage,
-        periods: usize,
-    ) -> Result<f64, PeriodicError> {
+    fn judged(&self, near: &Point, image: &PeriodImage, periods: usize) -> Result<f64, CycleError> {
         if !image.is_finite() {
-            return Err(PeriodicError::unbounded(periods));
+            return Err(CycleError::unbounded(periods));
         }
         if image.counts.stick + image.counts.slip == 0 {
-            return Err(PeriodicError::Separated);
+            return Err(CycleError::Separated);
         }
         if image.amplitude < 1e-3 * near.found.image.amplitude {
-            return Err(PeriodicError::Died { periods });
+            return Err(CycleError::Died { periods });
         }
         let residual = image.relative_residual();
         if residual > ASTRAY {
             let period = near.found.state.period;
-            return Err(PeriodicError::not_converged(periods, residual, period));
+            return Err(CycleError::not_converged(periods, residual, period));
         }
         Ok(residual)
     }
@@ -355,9 +345,9 @@ impl<'b, 'a> Corrector<'b, 'a> {
     }
 }
 
-fn accepted(best: Option<Point>, periods: usize) -> Result<Point, PeriodicError> {
+fn accepted(best: Option<Point>, periods: usize) -> Result<Point, CycleError> {
     let Some(mut point) = best else {
-        return Err(PeriodicError::unbounded(periods));
+        return Err(CycleError::unbounded(periods));
     };
     let residual = point.found.residual;
     point.found.residual = point.found.image.relative_residual();
@@ -365,5 +355,5 @@ fn accepted(best: Option<Point>, periods: usize) -> Result<Point, PeriodicError>
     if residual <= ACCEPTED {
         return Ok(point);
     }
-    Err(PeriodicError::not_converged(periods, residual, point.found.state.period))
+    Err(CycleError::not_converged(periods, residual, point.found.state.period))
 }

@@ -1,7 +1,7 @@
 //! The way along a branch: tangents, steps, values asked for, folds, ends.
 
 use super::corrector::{Corrector, Goal, Guess, POINT_COLUMNS, Place, Point, TOLERANCE};
-use super::error::PeriodicError;
+use crate::cycle::CycleError;
 use crate::cycle::continuation::{BranchEnd, Values, Way};
 use crate::transient::TransientError;
 
@@ -75,8 +75,8 @@ impl Way for Follower<'_, '_, '_> {
         let here = self.here().clone();
         match self.corrector.correct(&here, guess, &goal) {
             Ok(next) if self.suits(&next, reach) => self.accept(next, reach),
-            Err(PeriodicError::Stepping(error)) => Err(error),
-            Err(PeriodicError::Separated) => Ok(Some(BranchEnd::Separated)),
+            Err(CycleError::Stepping(error)) => Err(error),
+            Err(CycleError::Separated) => Ok(Some(BranchEnd::Separated)),
             other => {
                 self.length = 0.5 * reach;
                 if self.length >= STEPS[1] || self.turn()? {
@@ -84,7 +84,7 @@ impl Way for Follower<'_, '_, '_> {
                 }
                 let is_small = self.place()[1] < 5.0 * BORN * self.largest;
                 Ok(Some(match other {
-                    Err(PeriodicError::Died { .. }) => BranchEnd::Birth,
+                    Err(CycleError::Died { .. }) => BranchEnd::Birth,
                     _ if is_small => BranchEnd::Birth,
                     _ => BranchEnd::Lost,
                 }))

@@ -1,10 +1,10 @@
 //! The cycle that a growing mode leads to, by one start after the other.
 
-use super::error::PeriodicError;
 use super::map::{PeriodMap, PeriodicState};
 use super::search::{Found, find, find_settled};
 use super::start::{GrowingMode, balanced_start};
 use super::two_frequencies::transient_from;
+use crate::cycle::CycleError;
 use crate::cycle::vector::{add, difference};
 use std::f64::consts::TAU;
 
@@ -28,13 +28,13 @@ const REPEATED: f64 = 0.1;
 ///
 /// # Errors
 /// As [`find`]; a transient of two frequencies.
-pub fn find_from(map: &mut PeriodMap<'_>, mode: &GrowingMode<'_>) -> Result<Found, PeriodicError> {
+pub fn find_from(map: &mut PeriodMap<'_>, mode: &GrowingMode<'_>) -> Result<Found, CycleError> {
     let start = balanced_start(map, mode);
     let steps = map.steps();
     let mut found = find(map, start.clone());
     let retries: &[f64] = match &found {
-        Err(PeriodicError::Died { .. }) => &LARGER,
-        Err(PeriodicError::Separated) => &[SMALLER],
+        Err(CycleError::Died { .. }) => &LARGER,
+        Err(CycleError::Separated) => &[SMALLER],
         _ => &[],
     };
     for factor in retries {
@@ -44,7 +44,7 @@ pub fn find_from(map: &mut PeriodMap<'_>, mode: &GrowingMode<'_>) -> Result<Foun
             break;
         }
     }
-    if let Err(PeriodicError::NotConverged { .. }) = found {
+    if let Err(CycleError::NotConverged { .. }) = found {
         map.step_in(steps);
         if let Some(end) = transient_from(map, &start)? {
             found = find(map, end);

@@ -30,7 +30,6 @@ mod branch;
 mod confirmation;
 mod contest;
 mod corrector;
-mod error;
 mod folds;
 mod follower;
 mod ladder;
@@ -47,7 +46,6 @@ mod two_frequencies;
 pub use branch::{BranchMotion, BranchRequest, PeriodicBranch};
 pub use contest::ModeContest;
 pub use corrector::Point;
-pub use error::PeriodicError;
 pub use ladder::{ASTRAY, find_from};
 pub use map::{PeriodImage, PeriodMap, PeriodicState};
 pub use motion::{

@@ -1,7 +1,7 @@
 //! Floquet multipliers of a periodic motion.
 
-use super::error::PeriodicError;
 use super::map::{PeriodMap, PeriodicState};
+use crate::cycle::CycleError;
 use crate::cycle::Verdict;
 use crate::cycle::arnoldi::{LeadingMultipliers, MultiplierSearch, Ritz, unit};
 use crate::cycle::vector::{difference, norm};
@@ -66,8 +66,8 @@ impl FloquetMultipliers {
     /// Arnoldi's process on differences of the period map at a periodic motion, until the leading multipliers have converged.
     ///
     /// # Errors
-    /// [`PeriodicError::NotFound`] where they do not.
-    pub fn of(map: &mut PeriodMap<'_>, state: &PeriodicState) -> Result<Self, PeriodicError> {
+    /// [`CycleError::NotFound`] where they do not.
+    pub fn of(map: &mut PeriodMap<'_>, state: &PeriodicState) -> Result<Self, CycleError> {
         let (first, image) = (map.periods(), map.image(state));
         let length = PERTURBATION * image.vibration;
         let mut apply = |direction: &[f64]| {
@@ -91,7 +91,7 @@ impl FloquetMultipliers {
         };
         let found = search.run(&unit(start), image.rate.clone(), &mut apply);
         let found = found.map_err(|dimension| {
-            PeriodicError::NotFound(format!(
+            CycleError::NotFound(format!(
                 "the stability of this limit cycle cannot be told: no multiplier has converged \
                  after {dimension} periods; let a transient tell (cycle.confirmation_periods)"
             ))

@@ -1,8 +1,8 @@
 //! The search for a periodic motion.
 
-use super::error::PeriodicError;
 use super::map::{PeriodImage, PeriodMap, PeriodicState};
 use super::secants::{Change, SecantSpace};
+use crate::cycle::CycleError;
 use crate::cycle::vector::{add, difference, norm};
 
 /// Residual, relative to the amplitude of the vibration, at which a motion repeats itself.
@@ -56,8 +56,8 @@ impl Found {
         self.residual <= ACCEPTED
     }
 
-    fn not_converged(&self) -> PeriodicError {
-        PeriodicError::not_converged(self.periods, self.residual, self.state.period)
+    fn not_converged(&self) -> CycleError {
+        CycleError::not_converged(self.periods, self.residual, self.state.period)
     }
 
     /// What it is found again from, with the steps of its period: the motion, and its numbers.
@@ -87,11 +87,11 @@ impl Found {
 ///
 /// # Errors
 /// A motion that dies, leaves its counterface, grows without bound or does not repeat itself.
-pub fn find(map: &mut PeriodMap<'_>, start: PeriodicState) -> Result<Found, PeriodicError> {
+pub fn find(map: &mut PeriodMap<'_>, start: PeriodicState) -> Result<Found, CycleError> {
     let (first, steps) = (map.periods(), map.steps());
     let result = match attempt(map, start.clone(), PLAIN) {
         Ok(found) if found.is_accepted() => Ok(found),
-        Ok(_) | Err(PeriodicError::NotConverged { .. }) => attempt(map, start, [LONG; 2]),
+        Ok(_) | Err(CycleError::NotConverged { .. }) => attempt(map, start, [LONG; 2]),
         other => other,
     };
     let mut best = counted(result, map.periods() - first)?;
@@ -110,17 +110,17 @@ pub fn find(map: &mut PeriodMap<'_>, start: PeriodicState) -> Result<Found, Peri
 }
 
 /// A periodic motion near a state that may be far from it: what a transient of so many plain periods leads to.
-pub fn find_settled(map: &mut PeriodMap<'_>, start: PeriodicState) -> Result<Found, PeriodicError> {
+pub fn find_settled(map: &mut PeriodMap<'_>, start: PeriodicState) -> Result<Found, CycleError> {
     let found = attempt(map, start, [LONG; 2])?;
     if found.is_accepted() { Ok(found) } else { Err(found.not_converged()) }
 }
 
 /// A result with the periods of the whole search.
-fn counted(result: Result<Found, PeriodicError>, periods: usize) -> Result<Found, PeriodicError> {
+fn counted(result: Result<Found, CycleError>, periods: usize) -> Result<Found, CycleError> {
     match result {
         Ok(found) => Ok(Found { periods, ..found }),
-        Err(PeriodicError::NotConverged { residual, frequency_hz, .. }) => {
-            Err(PeriodicError::NotConverged { periods, residual, frequency_hz })
+        Err(CycleError::NotConverged { residual, frequency_hz, .. }) => {
+            Err(CycleError::NotConverged { periods, residual, frequency_hz })
         }
         Err(error) => Err(error),
     }
@@ -131,7 +131,7 @@ fn attempt(
     map: &mut PeriodMap<'_>,
     start: PeriodicState,
     [least, most]: [usize; 2],
-) -> Result<Found, PeriodicError> {
+) -> Result<Found, CycleError> {
     let first = map.periods();
     let mut search = Search {
         spent: 0,
@@ -194,23 +194,23 @@ impl Search {
     }
 
     /// Keeps the image if it is the best, and refuses motions that lead nowhere.
-    fn judge(&mut self, image: &PeriodImage) -> Result<(), PeriodicError> {
+    fn judge(&mut self, image: &PeriodImage) -> Result<(), CycleError> {
         let periods = self.spent;
         let first = *self.first.get_or_insert(image.vibration);
         if !image.is_finite() || image.vibration > UNBOUNDED * first {
-            return Err(PeriodicError::unbounded(periods));
+            return Err(CycleError::unbounded(periods));
         }
         self.largest = self.largest.max(image.vibration);
         if image.vibration < DEAD * self.largest {
-            return Err(PeriodicError::Died { periods });
+            return Err(CycleError::Died { periods });
         }
         if image.counts.stick + image.counts.slip == 0 {
-            return Err(PeriodicError::Separated);
+            return Err(CycleError::Separated);
         }
         let residual = image.relative_residual();
         let period = self.state.period;
         if !(WIDEST.recip()..=WIDEST).contains(&(period / self.first_period)) {
-            return Err(PeriodicError::not_converged(periods, residual, period));
+            return Err(CycleError::not_converged(periods, residual, period));
         }
         if residual < 0.5 * self.improved.1 {
             self.improved = (self.spent, residual);
@@ -259,10 +259,10 @@ impl Search {
         self.state.period += share * period;
     }
 
-    fn finish(self) -> Result<Found, PeriodicError> {
+    fn finish(self) -> Result<Found, CycleError> {
         let periods = self.spent;
         let Some(best) = self.best else {
-            return Err(PeriodicError::unbounded(periods));
+            return Err(CycleError::unbounded(periods));
         };
         Ok(Found { periods, ..best })
     }

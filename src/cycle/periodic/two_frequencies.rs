@@ -1,7 +1,7 @@
 //! Where a transient leads whose motion does not repeat itself at first: to one frequency or to two.
 
-use super::error::PeriodicError;
 use super::map::{PeriodMap, PeriodicState};
+use crate::cycle::CycleError;
 use crate::cycle::field::slips;
 use crate::linalg::{c64, interruption};
 use crate::signal::{RotatingLine, rotating_lines};
@@ -19,12 +19,12 @@ const SAMPLES: usize = 16;
 pub fn transient_from(
     map: &mut PeriodMap<'_>,
     start: &PeriodicState,
-) -> Result<Option<PeriodicState>, PeriodicError> {
+) -> Result<Option<PeriodicState>, CycleError> {
     let (samples, rate) = sampled(map, start);
     let motion = map.motion();
     let lines = strongest_node(&samples).and_then(|series| frequencies(&series, rate));
     match lines {
-        Some((first, Some(second))) => Err(PeriodicError::NotFound(format!(
+        Some((first, Some(second))) => Err(CycleError::NotFound(format!(
             "the motion does not repeat itself: a transient from this mode vibrates at two \
              frequencies, {first:.2} and {second:.2} Hz, without a common period. `transient` \
              follows it (end_state two-frequency). From another operating point \

@@ -13,9 +13,9 @@ use crate::case::{Case, Cycle, OnsetChoice, StabilityChoice, TimeStep};
 use crate::cea::{ComplexMode, PartWatch, SweepWatch};
 use crate::cycle::periodic::{
     BranchRequest, FloquetMultipliers, Found, MotionRequest, PeriodMap, PeriodicBranch,
-    PeriodicError, PeriodicMotion, Point, REMAINDER, Sound, find_from,
+    PeriodicMotion, Point, REMAINDER, Sound, find_from,
 };
-use crate::cycle::{Confirmation, CriticalValue, Parameter};
+use crate::cycle::{Confirmation, CriticalValue, CycleError, Parameter};
 use crate::fem::operator::{SimdLevel, StiffnessOperator};
 use crate::results::cycle::{
     CycleReport, FoundCycle, ModeSummary, MotionSearch, PeriodicResult, Search,
@@ -232,7 +232,7 @@ impl<'a> PeriodicStudy<'a> {
         place: usize,
         frames: usize,
         watch: &dyn SweepWatch,
-    ) -> Result<FoundCycle, PeriodicError> {
+    ) -> Result<FoundCycle, CycleError> {
         let mode = &self.steady.modes[place];
         let mut map = self.map(self.body_at_start(), operator, mode)?;
         // From the growing mode to the motion that repeats itself, and along the parameter.
@@ -285,8 +285,8 @@ impl<'a> PeriodicStudy<'a> {
         operator: &'b dyn StiffnessOperator,
         mode: &ComplexMode,
         branch: Option<&mut PeriodicBranch>,
-    ) -> Result<(PeriodMap<'b>, Found), PeriodicError> {
-        let branch = branch.ok_or(PeriodicError::Died { periods: 0 })?;
+    ) -> Result<(PeriodMap<'b>, Found), CycleError> {
+        let branch = branch.ok_or(CycleError::Died { periods: 0 })?;
         let kept = std::mem::take(&mut branch.kept);
         let largest = kept
             .into_iter()
@@ -295,7 +295,7 @@ impl<'a> PeriodicStudy<'a> {
             let parameter = branch.parameter;
             let value = |value: f64| parameter.in_key_units(value);
             let [least, most] = branch.range().unwrap_or([f64::NAN; 2]).map(value);
-            return Err(PeriodicError::NotFound(format!(
+            return Err(CycleError::NotFound(format!(
                 "steady sliding is stable at {} = {} and has no limit cycle beside it. Those of \
                  this mode live from {least:.4} to {most:.4} within the range of \
                  cycle.continuation",

@@ -72,7 +72,7 @@ fn forces_of_a_rotation(mesh: &Mesh, contact: SlidingSurfaces, motions: &[Motion
     });
     let whole = whole - elastic;
     let displacement = range.states[0].displacement(friction);
-    let stress = assemble_geometric_stiffness(mesh, &STEEL, &displacement);
+    let stress = assemble_geometric_stiffness(mesh, &STEEL, &displacement, None);
     let alone = stress.multiply(mesh.dof_count(), &rotation);
     largest(&|unknown| whole[(unknown, 0)])
         / largest(&|unknown| alone[tangent.unknowns.dofs[unknown]])

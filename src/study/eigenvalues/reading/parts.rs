@@ -3,8 +3,8 @@
 use super::shapes::Shapes;
 use crate::case::Case;
 use crate::fem::{
-    ModulusTable, Triplets, assemble_patch_damping, assemble_point_masses, assemble_region,
-    assemble_region_geometric_stiffness, assemble_supports,
+    ModulusTable, Triplets, assemble_geometric_stiffness, assemble_patch_damping,
+    assemble_point_masses, assemble_region, assemble_supports,
 };
 use crate::linalg::{Mat, MatRef, MatrixPolynomial, c64};
 use crate::mesh::{BoundaryCondition, Mesh};
@@ -163,7 +163,7 @@ impl<'a> Parts<'a> {
         let geometric = known.entry((state, region)).or_insert_with(|| {
             let materials = self.case.materials();
             let terms = displacements.iter().map(|displacement| {
-                assemble_region_geometric_stiffness(self.mesh, materials, displacement, region)
+                assemble_geometric_stiffness(self.mesh, materials, displacement, Some(region))
                     .entries
             });
             let terms: Vec<_> = terms.collect();
