@@ -16,6 +16,7 @@ use super::matrices::{self, MatricesSummary};
 use super::mesh::{MeshStatistics, MeshSummary};
 use super::response::ResponseSummary;
 use super::signal::{self, SignalSummary};
+use super::summary::{Foot, Head};
 use super::sweep::{self, SweepSummary};
 use super::transient::{self, TransientSummary};
 use super::uncertainty::{self, UncertaintySummary};
@@ -190,7 +191,8 @@ fn rates() -> Vec<Entry> {
 
 fn summary<T: crate::output::Described>(command: &'static str) -> FileReference {
     let entry = |key: Key| Entry { key: key.path, meaning: key.meaning.to_owned() };
-    let entries = keys_of::<T>().into_iter().map(entry).collect();
+    let keys = [keys_of::<Head>(), keys_of::<T>(), keys_of::<Foot>()].concat();
+    let entries = keys.into_iter().map(entry).collect();
     FileReference { command, file: "summary.json", entries }
 }
 

@@ -1,9 +1,10 @@
 //! Typed summaries: the struct that `summary.json` is.
 //!
-//! Its fields are the keys in their order. A value that may be absent is an `Option` and null in JSON: JSON has neither
+//! Its fields are the keys in their order, between a head and a foot that all have. A value that may be absent is an `Option` and null in JSON: JSON has neither
 //! NaN nor infinity.
 
 use super::folder::{FolderError, OutputFolder};
+use super::manifest::Manifest;
 use super::reopening::{SUMMARY, read_own};
 use crate::cycle::CriticalValue;
 use crate::output::Described;
@@ -96,11 +97,54 @@ pub fn present(value: f64) -> Option<f64> {
     value.is_finite().then_some(value + 0.0)
 }
 
-/// The JSON object of a summary, in which no zero has a sign.
-pub fn object(summary: &impl Serialize) -> serde_json::Result<Value> {
-    let mut object = serde_json::to_value(summary)?;
+/// What every summary begins with.
+#[derive(Described, Serialize)]
+pub(super) struct Head {
+    /// The command.
+    command: String,
+    /// Title of the case, of a command that runs one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    title: Option<String>,
+}
+
+/// What every summary ends with.
+#[derive(Described)]
+pub(super) struct Foot {
+    /// What it was made from.
+    #[expect(dead_code, reason = "its description is that of the key")]
+    manifest: Manifest,
+}
+
+/// The JSON object of what a command has found: its name and the title of its case before it. No zero has a sign.
+pub fn object(
+    command: &str,
+    title: Option<&str>,
+    found: &impl Serialize,
+) -> serde_json::Result<Value> {
+    #[derive(Serialize)]
+    struct Whole<'a, S> {
+        #[serde(flatten)]
+        head: Head,
+        #[serde(flatten)]
+        found: &'a S,
+    }
+    let head = Head { command: command.to_owned(), title: title.map(str::to_owned) };
+    let mut object = serde_json::to_value(Whole { head, found })?;
     drop_signs_of_zeros(&mut object);
     Ok(object)
+}
+
+/// The same with what it was made from: what `summary.json` holds.
+pub fn summary_of(
+    manifest: &Manifest,
+    title: Option<&str>,
+    found: &impl Serialize,
+) -> serde_json::Result<Value> {
+    let mut whole = object(&manifest.command, title, found)?;
+    if let Some(entries) = whole.as_object_mut() {
+        entries.insert("manifest".to_owned(), serde_json::to_value(manifest)?);
+    }
+    Ok(whole)
 }
 
 fn drop_signs_of_zeros(value: &mut Value) {
@@ -114,15 +158,16 @@ fn drop_signs_of_zeros(value: &mut Value) {
     }
 }
 
-/// Writes `summary.json` and gives the object that it holds.
+/// Writes `summary.json` of what was found and gives the object that it holds.
 pub fn write_summary(
     folder: &OutputFolder,
-    summary: &impl Serialize,
+    title: Option<&str>,
+    found: &impl Serialize,
 ) -> Result<Value, FolderError> {
     let failed = |error: serde_json::Error| {
         FolderError::io("write", &folder.path().join(SUMMARY), error.into())
     };
-    let object = object(summary).map_err(failed)?;
+    let object = summary_of(folder.manifest(), title, found).map_err(failed)?;
     folder.write(SUMMARY, |out| {
         serde_json::to_writer_pretty(&mut *out, &object)?;
         out.write_all(b"\n")

@@ -45,6 +45,5 @@ pub fn summary(case: &Case, manifest: &Manifest) -> Result<BasinSummary, StudyEr
     let start = Instant::now();
     let (rivals, found) = contest(case, SimdLevel::choose(&manifest.simd)?)?;
     let wall_s = start.elapsed().as_secs_f64();
-    let title = &case.title;
-    Ok(BasinSummary::new(title, rivals, &found, wall_s, manifest))
+    Ok(BasinSummary::new(rivals, &found, wall_s))
 }

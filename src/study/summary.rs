@@ -11,6 +11,7 @@ use crate::fem::operator::SimdLevel;
 use crate::results::cycle::{CycleReport, CycleSummary};
 use crate::results::transient::TransientReport;
 use crate::results::{self, Manifest, object};
+use serde::Serialize;
 use serde_json::Value;
 use std::time::Instant;
 
@@ -24,15 +25,20 @@ pub fn summarize(
     manifest: &Manifest,
 ) -> Result<Value, StudyError> {
     match analysis {
-        Analysis::Cea => cea(case, manifest),
+        Analysis::Cea => cea(case),
         Analysis::Transient => transient(case, manifest),
-        Analysis::Basin => Ok(serde_json::to_value(basin::summary(case, manifest)?)?),
+        Analysis::Basin => told(case, "basin", &basin::summary(case, manifest)?),
         Analysis::Cycle => cycle(case, manifest, refuse_nothing),
     }
 }
 
+/// What an analysis has found, without what it was made from.
+fn told(case: &Case, command: &str, found: &impl Serialize) -> Result<Value, StudyError> {
+    Ok(object(command, Some(&case.title), found)?)
+}
+
 /// Mode shapes are not computed.
-fn cea(case: &Case, manifest: &Manifest) -> Result<Value, StudyError> {
+fn cea(case: &Case) -> Result<Value, StudyError> {
     let start = Instant::now();
     let cea = case.require_cea()?.of_tables();
     let Solved { case, model, solution } = eigenvalues::solved(case, &cea, None)?;
@@ -40,7 +46,7 @@ fn cea(case: &Case, manifest: &Manifest) -> Result<Value, StudyError> {
     let field = model.base_field(&case);
     let wall_s = start.elapsed().as_secs_f64();
     let report = eigenvalues::report(&case, &cea, &model, &solution, &field, wall_s);
-    Ok(object(&results::cea::summary(&report, manifest))?)
+    told(&case, "cea", &results::cea::summary(&report))
 }
 
 fn transient(case: &Case, manifest: &Manifest) -> Result<Value, StudyError> {
@@ -54,7 +60,7 @@ fn transient(case: &Case, manifest: &Manifest) -> Result<Value, StudyError> {
         wall_s: start.elapsed().as_secs_f64(),
         ..study.report(&solved.record, &solved.analysis, solved.plan, solved.operator)
     };
-    Ok(object(&results::transient::summary(&report, manifest))?)
+    told(case, "transient", &results::transient::summary(&report))
 }
 
 /// The limit cycles with their branches as `curves`, of which the command itself writes tables; `judge` may refuse what
@@ -70,7 +76,7 @@ pub(super) fn cycle(
     let told = |report: &CycleReport<'_>| -> Result<Value, StudyError> {
         judge(report)?;
         let curves = Some(report.curves());
-        Ok(object(&CycleSummary { curves, ..report.summary(manifest) })?)
+        told(case, "cycle", &CycleSummary { curves, ..report.summary() })
     };
     if case.has_rotating_waves() {
         let study = CycleStudy::new(case, simd)?;

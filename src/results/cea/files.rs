@@ -37,7 +37,7 @@ pub fn write(folder: &OutputFolder, report: &CeaReport<'_>) -> Result<Value, Fol
         (None, None) => write_base(folder, report.mesh, (&report.base, report.field))?,
     }
     write_shapes(folder, report)?;
-    write_summary(folder, &summary(report, folder.manifest()))
+    write_summary(folder, Some(report.title), &summary(report))
 }
 
 /// Writes the shapes that the modes carry: one VTU each with the real and the imaginary part of the

@@ -3,7 +3,6 @@
 use super::{BaseState, CeaReport};
 use crate::cea::{ComplexMode, FrictionPoint, ModeCount, UnstableInterval};
 use crate::output::Described;
-use crate::results::manifest::Manifest;
 use crate::results::summary::present;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
@@ -11,10 +10,6 @@ use std::f64::consts::TAU;
 /// `summary.json` of `frictionsim cea`.
 #[derive(Clone, Debug, PartialEq, Described, Serialize)]
 pub struct CeaSummary {
-    /// `cea`.
-    pub command: String,
-    /// Title of the case.
-    pub title: String,
     /// Unknowns of the eigenproblem.
     pub dofs: usize,
     /// `cyclic` or `sparse`.
@@ -41,8 +36,6 @@ pub struct CeaSummary {
     pub base_state: BaseState,
     /// What the solver has to say.
     pub notes: Vec<String>,
-    /// What it was made from.
-    pub manifest: Manifest,
     /// Fraction of the contact nodes that are open, where some may be.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub contact_open_fraction: Option<f64>,
@@ -266,7 +259,7 @@ pub(super) fn onsets(report: &CeaReport<'_>) -> Vec<CriticalFriction> {
 }
 
 /// The summary of an analysis.
-pub fn summary(report: &CeaReport<'_>, manifest: &Manifest) -> CeaSummary {
+pub fn summary(report: &CeaReport<'_>) -> CeaSummary {
     let of_point = |point: &FrictionPoint| UnstableCount {
         friction_coefficient: point.friction_coefficient,
         modes: point.modes.len(),
@@ -284,8 +277,6 @@ pub fn summary(report: &CeaReport<'_>, manifest: &Manifest) -> CeaSummary {
     let may_open = !report.has_harmonics || report.solid.is_some();
     let nodes = (base.slipping + base.sticking + base.open).max(1);
     CeaSummary {
-        command: "cea".to_owned(),
-        title: report.title.to_owned(),
         dofs: report.dofs,
         method: report.method.to_owned(),
         selection: report.selection.clone(),
@@ -299,7 +290,6 @@ pub fn summary(report: &CeaReport<'_>, manifest: &Manifest) -> CeaSummary {
         unstable_modes: UnstableMode::all(report),
         base_state: base,
         notes: report.notes.clone(),
-        manifest: manifest.clone(),
         contact_open_fraction: may_open.then(|| base.open as f64 / nodes as f64),
         mode_counts: report.sweep.counts.iter().map(CountSummary::of).collect(),
     }

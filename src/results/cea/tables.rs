@@ -239,7 +239,8 @@ pub fn document(report: &CeaReport<'_>, view: View) -> Document {
         View::Short => Section::new("Eigenvalues").tables(own_modes(report)),
         View::Whole => unstable_modes(report),
     };
-    Document::new(report.title, "Complex eigenvalues")
+    Document::new("Complex eigenvalues")
+        .titled(report.title)
         .section(results)
         .section(Section::new("Stability of steady sliding").figures([""]))
         .section(decisive(report, view))

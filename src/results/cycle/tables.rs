@@ -302,7 +302,7 @@ impl CycleSummary {
             };
         let names = ["status", "contact", "history", "orbit", "harmonics", "velocity", "shear"];
         let pairs = self.two_waves.iter().filter_map(TwoWaveSummary::ends_text);
-        Document::new(&self.title, "Limit cycles")
+        Document::new("Limit cycles")
             .section(results)
             .section(
                 Section::new("Limit cycles")

@@ -87,7 +87,7 @@ impl Finding for FitSummary {
             let later = row.iter().filter(move |(b, _)| a < *b);
             later.map(move |(b, value)| format!("Correlation of {a} and {b}: {value:+.3}."))
         });
-        Document::new(&self.title, "Fit to measured modes")
+        Document::new("Fit to measured modes")
             .section(
                 Section::new("Fitted parameters")
                     .text(std::iter::once(fitted).chain(pairs))

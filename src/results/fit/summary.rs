@@ -1,7 +1,6 @@
 //! `summary.json` of a fit.
 
 use crate::output::{Described, rounded};
-use crate::results::Manifest;
 use crate::results::cea::travels;
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -13,10 +12,6 @@ pub const BLOCK: &str = "fitted.toml";
 /// `summary.json` of a fit.
 #[derive(Clone, Debug, Described, Serialize)]
 pub struct FitSummary {
-    /// Its command.
-    pub command: String,
-    /// Title of the case.
-    pub title: String,
     /// Wall time, s.
     pub wall_s: f64,
     /// The table of measured modes.
@@ -45,8 +40,6 @@ pub struct FitSummary {
     pub modes_of_case: Vec<ModeSummary>,
     /// What is to be said.
     pub notes: Vec<String>,
-    /// What it was made from.
-    pub manifest: Manifest,
 }
 
 /// One fitted parameter.

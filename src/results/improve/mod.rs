@@ -4,7 +4,7 @@ mod figures;
 mod files;
 mod tables;
 
-use super::{Extent, Manifest};
+use super::Extent;
 use crate::output::Described;
 use serde::Serialize;
 
@@ -35,10 +35,6 @@ pub struct TargetFields {
 /// `summary.json` of `improve`.
 #[derive(Clone, Debug, Described, Serialize)]
 pub struct ImproveSummary {
-    /// Its command.
-    pub command: String,
-    /// Title of the case.
-    pub title: String,
     /// Wall time, s.
     pub wall_s: f64,
     /// Unknowns of the eigenproblem.
@@ -57,8 +53,6 @@ pub struct ImproveSummary {
     pub candidates: Vec<Candidate>,
     /// What there is to say.
     pub notes: Vec<String>,
-    /// What it was made from.
-    pub manifest: Manifest,
 }
 
 /// A mode that is to be silenced.

@@ -58,7 +58,7 @@ columns! {
 
 /// Tables and sentences.
 pub fn document(summary: &ImproveSummary) -> Document {
-    Document::new(&summary.title, "Modifications")
+    Document::new("Modifications")
         .section(Section::new("Results").facts(facts(summary)).text([summary.answer()]))
         .section(Section::new("Candidates").tables([candidates(summary)]))
         .notes(&summary.notes)

@@ -5,7 +5,6 @@ use crate::output::{Table, columns};
 use crate::results::cea::BRANCH;
 use crate::results::finding::write_table;
 use crate::results::folder::{FolderError, OutputFolder};
-use crate::results::manifest::Manifest;
 use crate::results::summary::write_summary;
 use serde::Serialize;
 use serde_json::Value;
@@ -29,10 +28,6 @@ pub struct FreeSpectrum {
 /// `summary.json` of `frictionsim cea` of a superelement.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct FreeSpectrumSummary {
-    /// `cea`.
-    pub command: String,
-    /// Title of the case.
-    pub title: String,
     /// Name of the superelement.
     pub superelement: String,
     /// Number of unknowns.
@@ -49,8 +44,6 @@ pub struct FreeSpectrumSummary {
     pub overdamped: usize,
     /// Largest residual of a mode listed.
     pub max_residual: f64,
-    /// What it was made from.
-    pub manifest: Manifest,
 }
 
 /// Place of a mode by frequency, from 0, and the mode.
@@ -86,9 +79,8 @@ impl FreeSpectrum {
         write_table(folder, &self.table())?;
         write_summary(
             folder,
+            Some(&self.title),
             &FreeSpectrumSummary {
-                command: "cea".to_owned(),
-                title: self.title.clone(),
                 superelement: self.name.clone(),
                 dofs: self.dofs,
                 method: "dense".to_owned(),
@@ -97,7 +89,6 @@ impl FreeSpectrum {
                 unstable: self.unstable(),
                 overdamped: self.overdamped,
                 max_residual: self.modes.iter().map(|mode| mode.residual).fold(0.0, f64::max),
-                manifest: folder.manifest().clone(),
             },
         )
     }

@@ -3,7 +3,6 @@
 use super::TransientReport;
 use crate::output::Described;
 use crate::results::extent::Extent;
-use crate::results::manifest::Manifest;
 use crate::results::summary::{MeanPowers, StatusFractions, present};
 use crate::transient::{Drift, EndState, Growth, Perturbation, TransientAnalysis, Vibration};
 use serde::Serialize;
@@ -12,10 +11,6 @@ use std::collections::BTreeMap;
 /// `summary.json` of `frictionsim transient`.
 #[derive(Clone, Debug, PartialEq, Described, Serialize)]
 pub struct TransientSummary {
-    /// `transient`.
-    pub command: String,
-    /// Title of the case.
-    pub title: String,
     /// Whether the run reached its end, or stopped because it had settled.
     pub finished: bool,
     /// Steps done.
@@ -93,8 +88,6 @@ pub struct TransientSummary {
     pub contact_interval_s: f64,
     /// What to know before its numbers are used.
     pub notes: Vec<String>,
-    /// What it was made from.
-    pub manifest: Manifest,
 }
 
 /// The velocity that was added.
@@ -200,7 +193,7 @@ pub struct MotionSummary {
 }
 
 /// The summary of a run.
-pub fn summary(report: &TransientReport<'_>, manifest: &Manifest) -> TransientSummary {
+pub fn summary(report: &TransientReport<'_>) -> TransientSummary {
     let (plan, analysis) = (&report.plan, report.run.analysis);
     let (end, settling) = (&analysis.last_fifth, &analysis.settling);
     let body = end.material_damping * report.run.thickness;
@@ -210,8 +203,6 @@ pub fn summary(report: &TransientReport<'_>, manifest: &Manifest) -> TransientSu
         _ => None,
     };
     TransientSummary {
-        command: "transient".to_owned(),
-        title: report.title.to_owned(),
         finished: report.is_finished,
         steps: report.steps,
         time_step_s: plan.time_step,
@@ -250,7 +241,6 @@ pub fn summary(report: &TransientReport<'_>, manifest: &Manifest) -> TransientSu
         probes: probes(report),
         contact_interval_s: report.run.record.frame_stride as f64 * plan.sample_interval,
         notes: report.notes.clone(),
-        manifest: manifest.clone(),
     }
 }
 

@@ -4,6 +4,7 @@ use super::figures::{indices, robust, uncertainty};
 use super::summary::{DesignCurve, FamilySummary, Index, UncertaintySummary};
 use super::{Onset, Sample};
 use crate::output::{Document, Format, Section, Table, columns};
+use crate::results::Manifest;
 use crate::results::cea::{BRANCH, DIRECTION};
 use crate::results::drawing::{Declaration, DrawingError, DrawingOptions, Page, declared};
 use crate::results::sweep::SweepFolder;
@@ -98,6 +99,8 @@ pub fn samples_table(keys: &[String], samples: &[Sample], largest_friction: f64)
 pub fn draw_report(
     folder: &SweepFolder,
     summary: &UncertaintySummary,
+    document: Document,
+    manifest: &Manifest,
     options: &DrawingOptions,
 ) -> Result<(), DrawingError> {
     let mut declarations: Vec<Declaration<'_>> = vec![Box::new(|| Ok(uncertainty(summary)))];
@@ -107,7 +110,7 @@ pub fn draw_report(
     if let Some(designs) = &summary.robust {
         declarations.push(Box::new(|| Ok(robust(designs))));
     }
-    let page = Page::new(document(summary), declared(declarations)?, &summary.manifest);
+    let page = Page::new(document, declared(declarations)?, manifest);
     folder.write_page(&page, options)
 }
 
@@ -138,7 +141,7 @@ pub fn document(summary: &UncertaintySummary) -> Document {
             .tables([Table::new("", caption).columns(DESIGNS, &robust.curves)])
             .text(cheapest);
     }
-    Document::new(&summary.title, "Probability of squeal")
+    Document::new("Probability of squeal")
         .section(results)
         .section(Section::new("Probability of squeal").figures([""]))
         .notes(&summary.notes)

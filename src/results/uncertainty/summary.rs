@@ -1,7 +1,6 @@
 //! `summary.json` of an uncertainty analysis.
 
 use crate::output::Described;
-use crate::results::Manifest;
 use crate::results::cea::arrow;
 use crate::signal::Estimate;
 use serde::{Deserialize, Serialize};
@@ -10,10 +9,6 @@ use std::collections::BTreeMap;
 /// `summary.json` of an uncertainty analysis.
 #[derive(Clone, Debug, Described, Serialize)]
 pub struct UncertaintySummary {
-    /// Its command.
-    pub command: String,
-    /// Title of the case.
-    pub title: String,
     /// Wall time of this run, s.
     pub wall_s: f64,
     /// Samples.
@@ -43,8 +38,6 @@ pub struct UncertaintySummary {
     pub robust: Option<RobustSummary>,
     /// What is to be said.
     pub notes: Vec<String>,
-    /// What it was made from.
-    pub manifest: Manifest,
 }
 
 /// Distribution of the lowest critical friction; absent where that lies beyond the range.
