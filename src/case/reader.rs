@@ -33,7 +33,7 @@ impl<'a> Findings<'a> {
     /// Nothing found so far in a case.
     pub fn of(root: &'a RawTable) -> Self {
         let scope = suggestion::Scope::of(root);
-        let (errors, warnings, absent) = Default::default();
+        let (errors, warnings, absent) = std::default::Default::default();
         Self { scope, errors, warnings, absent }
     }
 

@@ -2,8 +2,8 @@
 
 use super::basin::{BasinSummary, RUNS};
 use super::cea::{
-    AXIAL, BRANCHES, CONTRIBUTIONS, COUPLINGS, CeaSummary, FEED, MODES, NAMES, NODES, ONSET_ERRORS,
-    ONSETS, PLACES, PLANE, POINTS, RINGS, ROWS, STATUS, TRACTIONS,
+    AXIAL, CONTRIBUTIONS, COUPLINGS, CeaSummary, EIGENVALUES, FEED, MODES, NAMES, NODES, ONSETS,
+    OWN_MODES, PLACES, PLANE, POINTS, RINGS, ROWS, STATUS, TRACTIONS, UNSTABLE,
 };
 use super::compare::ComparisonSummary;
 use super::convergence::{self, ConvergenceSummary};
@@ -16,7 +16,7 @@ use super::matrices::{self, MatricesSummary};
 use super::mesh::{MeshStatistics, MeshSummary};
 use super::response::ResponseSummary;
 use super::signal::{self, SignalSummary};
-use super::summary::{Foot, Head};
+use super::summary::{Foot, Head, STATUS as FRACTIONS};
 use super::sweep::{self, SweepSummary};
 use super::transient::{self, TransientSummary};
 use super::uncertainty::{self, UncertaintySummary};
@@ -78,28 +78,28 @@ pub fn reference() -> Vec<FileReference> {
         file!("basin", "basin.csv"; RUNS),
         summary::<BasinSummary>("basin"),
         file!("cea", "eigenvalues.csv"; PLACES, MODES, AXIAL),
-        file!("cea", "stability.csv"; ONSETS, ONSET_ERRORS),
+        file!("cea", "stability.csv"; ONSETS),
         file!("cea", "prestress.csv"; NODES, RINGS, &POINTS[..1], TRACTIONS, STATUS, PLANE,
             &POINTS[3..]),
-        file!("cea", "sensitivities.csv"; ROWS, rates()),
-        file!("cea", "contributions.csv"; NAMES, BRANCHES, CONTRIBUTIONS),
-        file!("cea", "coupling.csv"; NAMES, COUPLINGS),
+        file!("cea", "sensitivities.csv"; ROWS, EIGENVALUES, rates()),
+        file!("cea", "contributions.csv"; NAMES, CONTRIBUTIONS),
+        file!("cea", "coupling.csv"; &NAMES[..4], COUPLINGS),
         file!("cea", "feed.csv"; &NAMES[..3], FEED),
         summary::<CeaSummary>("cea"),
         summary::<ComparisonSummary>("compare"),
         file!("convergence", "convergence.csv"; convergence::ROWS),
         summary::<ConvergenceSummary>("convergence"),
-        file!("cycle", "cycle.csv"; cycle::NAMES, cycle::MOTION, cycle::STATUS, cycle::POWERS,
+        file!("cycle", "cycle.csv"; cycle::NAMES, cycle::MOTION, FRACTIONS, cycle::POWERS,
             cycle::BALANCE, cycle::KNOWN, cycle::ERRORS),
         file!("cycle", "cycle-N.csv"; cycle::HISTORY, cycle::WAVE_PATH, cycle::PATH),
         file!("cycle", "contact-N.csv"; cycle::CONTACT_NODES),
         file!("cycle", "harmonics-N.csv"; cycle::HARMONICS),
         file!("cycle", "stability-N.csv"; parameter(), cycle::EXPONENTS),
-        file!("cycle", "branch-N.csv"; parameter(), cycle::BRANCH, cycle::STATUS, cycle::POWERS,
+        file!("cycle", "branch-N.csv"; parameter(), cycle::BRANCH, FRACTIONS, cycle::POWERS,
             cycle::ALONG),
         file!("cycle", "two-waves-N.csv"; parameter(), cycle::TWO_WAVES),
         summary::<CycleSummary>("cycle"),
-        file!("fit", "fit.csv"; fit::MEASURED, entries("model_", fit::MODES), fit::DIFFERENCES),
+        file!("fit", "fit.csv"; &fit::LINES[..4], entries("model_", fit::MODES), &fit::LINES[4..]),
         file!("fit", "modes.csv"; fit::MODES, fit::GROWS),
         summary::<FitSummary>("fit"),
         file!("frf", "frf.csv";
@@ -113,8 +113,8 @@ pub fn reference() -> Vec<FileReference> {
         file!("identify", "fit.csv"; identification::FITTED),
         summary::<IdentificationSummary>("identify"),
         file!("improve", "candidates.csv"; improve::CANDIDATES, improve::EFFECTS,
-            entries("predicted_", improve::STATES), entries("confirmed_", improve::STATES),
-            entries("confirmed_", improve::BESIDE), improve::VERDICTS),
+            entries("predicted_", &improve::STATES[..2]), entries("confirmed_", improve::STATES),
+            improve::VERDICTS),
         summary::<ImproveSummary>("improve"),
         file!("mac", "mac.csv"; mac::ROWS),
         summary::<MacSummary>("mac"),
@@ -126,9 +126,9 @@ pub fn reference() -> Vec<FileReference> {
         file!("signal", "spectrum-N.csv"; signal::SPECTRUM),
         summary::<SignalSummary>("signal"),
         file!("sweep", "points.csv"; swept(), one("KEY.KEY", "numbers of the summaries"), points()),
-        file!("sweep", "stability.csv"; swept(), ONSETS, points()),
-        file!("sweep", "unstable_modes.csv"; swept(), sweep::UNSTABLE, points()),
-        file!("sweep", "modes.csv"; swept(), sweep::OWN_MODES, points()),
+        file!("sweep", "stability.csv"; swept(), &ONSETS[..9], points()),
+        file!("sweep", "unstable_modes.csv"; swept(), UNSTABLE, points()),
+        file!("sweep", "modes.csv"; swept(), &OWN_MODES[..7], points()),
         file!("sweep", "branches.csv"; swept(), sweep::BRANCHES, points()),
         summary::<SweepSummary>("sweep"),
         file!("transient", "probe-N.csv"; one("time_s", "time"),

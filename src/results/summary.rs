@@ -1,8 +1,9 @@
 //! Typed summaries: the struct that `summary.json` is.
 //!
-//! Its fields are the keys in their order, between a head and a foot that all have. A value that may be absent is an `Option` and null in JSON: JSON has neither
-//! NaN nor infinity.
+//! Its fields are the keys in their order, between a head and a foot that all have. A value that may be absent is an
+//! `Option` and null in JSON: JSON has neither NaN nor infinity.
 
+use super::finding::finding;
 use super::folder::{FolderError, OutputFolder};
 use super::manifest::Manifest;
 use super::reopening::{SUMMARY, read_own};
@@ -23,6 +24,16 @@ pub struct CriticalSummary {
     pub value: f64,
 }
 
+finding! {
+    /// Fractions of the contact nodes, averaged over the interval that a summary is of.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Described, Serialize)]
+    StatusFractions, STATUS {
+        stick: Option<f64> = "fraction of the contact that sticks", Always "stick" Percent(1);
+        slip: Option<f64> = "fraction that slips", Always "slip" Percent(1);
+        open: Option<f64> = "fraction that is open", Always "open" Percent(1);
+    }
+}
+
 impl StatusFractions {
     /// Of `[stick, slip, open]`.
     pub fn of(fractions: [f64; 3]) -> Self {
@@ -35,17 +46,6 @@ impl From<CriticalValue> for CriticalSummary {
     fn from(own: CriticalValue) -> Self {
         Self { key: own.parameter.key().to_owned(), value: own.parameter.in_key_units(own.value) }
     }
-}
-
-/// Fractions of the contact nodes, averaged over the interval that a summary is of.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Described, Serialize)]
-pub struct StatusFractions {
-    /// Sticking.
-    pub stick: Option<f64>,
-    /// Slipping.
-    pub slip: Option<f64>,
-    /// Open.
-    pub open: Option<f64>,
 }
 
 /// Mean powers of a whole disc, W; equations (9) to (12).

@@ -29,17 +29,18 @@ pub use kept::KeptSteps;
 pub use locus::NamedDamping;
 pub use mode_name::ModeName;
 pub(crate) use mode_name::travels;
-pub(super) use mode_name::{BRANCH, BRANCHES, DIRECTION, HARMONIC, NAMES, arrow};
+pub(super) use mode_name::{BRANCH, DIRECTION, HARMONIC, NAMES, arrow};
 pub(super) use reading::{CONTRIBUTIONS, COUPLINGS};
 pub use reading::{Contribution, Coupling, MeshError, Reading, Source};
-pub(super) use sensitivity::ROWS;
+pub(super) use sensitivity::{EIGENVALUES, ROWS};
 pub use sensitivity::{OnsetRates, SensitivityReport, SensitivityRow};
 pub(super) use solid::RINGS;
 pub use solid::SolidReport;
 pub use summary::{
     CeaSummary, CriticalFriction, ModeSummary, UnstableCount, UnstableMode, summary,
 };
-pub(super) use tables::{AXIAL, MODES, ONSET_ERRORS, ONSETS, PLACES};
+pub(super) use summary::{ONSETS, OWN_MODES, UNSTABLE};
+pub(super) use tables::{AXIAL, MODES, PLACES};
 pub use tables::{View, document};
 
 use crate::cea::{ComplexMode, FrictionPoint, FrictionSweep};

@@ -26,7 +26,7 @@ pub use record::MotionRecord;
 pub use summary::*;
 pub(super) use tables::{
     BALANCE, CONTACT_NODES, ERRORS, EXPONENTS, HARMONICS, HISTORY, KNOWN, MOTION, NAMES, PATH,
-    POWERS, STATUS, WAVE_PATH,
+    POWERS, WAVE_PATH,
 };
 pub(super) use two_waves::TWO_WAVES;
 pub use two_waves::{FoundTwoWaves, TwoWaveResult, TwoWaveSummary};

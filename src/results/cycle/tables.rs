@@ -9,7 +9,7 @@ use super::verdicts::Perturbation;
 use crate::cycle::PhasePoint;
 use crate::cycle::periodic::MotionHarmonic;
 use crate::output::{Document, Section, Table, columns, fixed};
-use crate::results::summary::{MeanPowers, StatusFractions};
+use crate::results::summary::{MeanPowers, STATUS, StatusFractions};
 
 columns! {
     /// What leads to a cycle.
@@ -28,14 +28,6 @@ columns! {
     main_frequency_hz: "frequency" = cycle.main_frequency_hz, Always "main frequency" Fixed(2);
     amplitude_m: "amplitude along the counterface"
         = cycle.amplitude_m, Always "amplitude" Scientific(3);
-}
-
-columns! {
-    /// What its contact does.
-    pub(in crate::results) STATUS: status as StatusFractions;
-    stick: "fraction of the contact that sticks" = status.stick, Always "stick" Percent(1);
-    slip: "fraction that slips" = status.slip, Always "slip" Percent(1);
-    open: "fraction that is open" = status.open, Always "open" Percent(1);
 }
 
 columns! {
