@@ -15,7 +15,7 @@ use crate::case::{Analysis, Case};
 use crate::results::sweep::{Found, PointRecord, SweepDrawing, SweepFolder, SweepReport};
 use crate::results::sweep::{SweepSummary, document, draw, long_tables, write_points};
 use crate::results::{DrawingOptions, Manifest, summary_of};
-use crate::study::{analysis_name, summarize};
+use crate::study::summarize;
 use clap::Args;
 use serde_json::{Map, Value};
 
@@ -185,7 +185,7 @@ fn run_point(
             cycle::check_memory(case)?;
         }
         let summary = summarize(case, analysis, manifest)?;
-        summaries.insert(analysis_name(analysis).to_owned(), summary);
+        summaries.insert(analysis.word().to_owned(), summary);
     }
     Ok(summaries)
 }
