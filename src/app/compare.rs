@@ -8,7 +8,7 @@ use crate::results::compare::{
     ComparedRun, ComparisonSummary, document, file, overlaid, print, shared,
 };
 use crate::results::{
-    Manifest, Page, Record, read_manifest, read_record, read_summary, write_table,
+    Head, Manifest, Page, Record, read_manifest, read_record, read_summary, write_table,
 };
 use clap::{Args, ValueHint};
 use std::path::{Path, PathBuf};
@@ -72,7 +72,7 @@ impl Run for Arguments {
         let folder = output.open_folder(&manifest, false)?;
         write_table(&folder, &file(&runs, &quantities))?;
         let text = print(&runs, &quantities);
-        let told = Told { text, ..Told::of(None, document(&runs, &quantities)) };
+        let told = Told { text, ..Told::of(Head::default(), document(&runs, &quantities)) };
         let summary = ComparisonSummary {
             runs: runs.iter().map(|run| run.name.clone()).collect(),
             quantities,

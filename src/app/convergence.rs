@@ -38,10 +38,10 @@ impl Run for Arguments {
         let bar = terminal::progress(session.options.output.is_quiet(), count, "levels");
         let series = solve(case, &levels, &session.manifest, &|| bar.inc(1));
         bar.finish_and_clear();
-        let summary = ConvergenceSummary { series: series?, wall_s: session.wall_seconds() };
+        let summary = ConvergenceSummary { series: series? };
         let output = &session.options.output;
         let text = summary.told(output.verbose > 0).titled(&case.title).to_text();
-        let told = Told { text, ..Told::of(Some(&case.title), summary.document()) };
+        let told = Told { text, ..Told::of(session.head(), summary.document()) };
         output.finish_result(folder, told, &summary, || declared(summary.figures()))
     }
 }

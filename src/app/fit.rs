@@ -68,7 +68,6 @@ impl Run for Arguments {
         let fitted = fit_case_with_shapes(case, &lines, shapes)?;
         let mut found = summarize(case, &lines, &fitted)?;
         found.measurement = input_name(&self.modes);
-        found.wall_s = session.wall_seconds();
         for note in &found.notes {
             tracing::warn!("{note}");
         }

@@ -57,7 +57,6 @@ impl Run for Arguments {
             backward_error: computed.backward_error,
             quantity: frf.quantity.name().to_owned(),
             noise: frf.noise,
-            wall_s: session.wall_seconds(),
         };
         let response = FrequencyResponse::new(frf.frequencies_hz.clone(), values, frf.quantity);
         // A few lines are numbers, but no curve.

@@ -92,7 +92,6 @@ impl Run for Arguments {
             &file.responses,
             &found,
             file.notes.clone(),
-            measurement.wall_seconds(),
         );
         write_fits(&folder, &file.responses, &found.fit)?;
         let block = summary.damping_block();
@@ -102,7 +101,12 @@ impl Run for Arguments {
             copy.write(text.as_bytes())?;
         }
         let figures = || Ok(vec![identification(&responses[0], &found)]);
-        self.output.finish_result(folder, Told::of(None, document(&summary)), &summary, figures)
+        self.output.finish_result(
+            folder,
+            Told::of(measurement.head(), document(&summary)),
+            &summary,
+            figures,
+        )
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::profile::{Profile, Run};
 use super::{Failure, RunOptions, Session};
-use crate::results::improve::{ImproveSummary, document, figures, write};
+use crate::results::improve::{document, figures, write};
 use crate::study::improve::improve;
 use clap::Args;
 
@@ -38,7 +38,7 @@ impl Run for Arguments {
         session.case.require_cea()?;
         let folder = session.begin()?;
         let found = improve(&session.case)?;
-        let summary = ImproveSummary { wall_s: session.wall_seconds(), ..found.summary };
+        let summary = found.summary;
         write(&folder, &summary, &found.mesh, &found.fields)?;
         let figures = || figures(&summary, &found.mesh, &found.fields);
         session.finish_result(folder, document(&summary), &summary, figures)

@@ -49,7 +49,7 @@ impl Run for Arguments {
         session.case.require_cea()?;
         let folder = session.begin()?;
         let found = assurance(&session.case, &shapes, self.scale)?;
-        let summary = MacSummary { wall_s: session.wall_seconds(), measurement: source, ..found };
+        let summary = MacSummary { measurement: source, ..found };
         session.finish_finding(folder, &summary)
     }
 }

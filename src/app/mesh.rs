@@ -79,12 +79,7 @@ fn finish<S: Measured>(
     (mesh, notes): (S, Vec<String>),
     figures: impl FnOnce() -> Result<Vec<Figure>, ChartError>,
 ) -> Result<(), Failure> {
-    let summary = MeshSummary {
-        wall_s: session.wall_seconds(),
-        mesh,
-        notes,
-        not_used: session.case.taken.not_used(),
-    };
+    let summary = MeshSummary { mesh, notes, not_used: session.case.taken.not_used() };
     session.finish_result(folder, summary.document(), &summary, figures)
 }
 

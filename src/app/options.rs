@@ -9,7 +9,7 @@ use crate::chart::{ChartError, Figure};
 use crate::fem::operator::SimdLevel;
 use crate::output::Document;
 use crate::results::{
-    DrawingError, DrawingOptions, Manifest, OutputFolder, Replace, is_result, read_manifest,
+    DrawingError, DrawingOptions, Head, Manifest, OutputFolder, Replace, is_result, read_manifest,
     write_page, write_summary, write_tables,
 };
 use clap::{ArgAction, Args, ValueHint};
@@ -90,8 +90,8 @@ pub struct OutputOptions {
 
 /// What is said of a result.
 pub struct Told<'a> {
-    /// Title of its case, of a command that runs one.
-    pub title: Option<&'a str>,
+    /// At the head of its summary.
+    pub head: Head<'a>,
     /// On its page.
     pub document: Document,
     /// On the terminal.
@@ -100,9 +100,9 @@ pub struct Told<'a> {
 
 impl<'a> Told<'a> {
     /// One document for both.
-    pub fn of(title: Option<&'a str>, document: Document) -> Self {
-        let document = document.titled(title.unwrap_or_default());
-        Self { title, text: document.to_text(), document }
+    pub fn of(head: Head<'a>, document: Document) -> Self {
+        let document = document.titled(head.title.unwrap_or_default());
+        Self { head, text: document.to_text(), document }
     }
 }
 
@@ -211,7 +211,7 @@ impl OutputOptions {
             let figures = figures().map_err(DrawingError::from)?;
             write_page(&folder, told.document, figures, &options)?;
         }
-        let object = write_summary(&folder, told.title, summary)?;
+        let object = write_summary(&folder, told.head, summary)?;
         self.finish(folder, &told.text, &object)
     }
 

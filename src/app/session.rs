@@ -8,7 +8,7 @@ use crate::case::{Case, RawCase};
 use crate::chart::{ChartError, Figure};
 use crate::fem::operator::SimdLevel;
 use crate::output::Document;
-use crate::results::{Finding, FolderError, MESH, Manifest, OutputFolder, declared};
+use crate::results::{Finding, FolderError, Head, MESH, Manifest, OutputFolder, declared};
 use crate::study::refuse_memory;
 use frictionsim_bounds::CASE;
 use serde::Serialize;
@@ -107,8 +107,7 @@ impl Session {
         summary: &impl Serialize,
         figures: impl FnOnce() -> Result<Vec<Figure>, ChartError>,
     ) -> Result<(), Failure> {
-        let told = Told::of(Some(&self.case.title), document);
-        self.options.output.finish_result(folder, told, summary, figures)
+        self.options.output.finish_result(folder, Told::of(self.head(), document), summary, figures)
     }
 
     /// The same for a finding.
@@ -119,6 +118,11 @@ impl Session {
     ) -> Result<(), Failure> {
         let figures = || declared(finding.figures());
         self.finish_result(folder, finding.document(), finding, figures)
+    }
+
+    /// What its summary begins with.
+    pub fn head(&self) -> Head<'_> {
+        Head::of(&self.case.title, self.wall_seconds())
     }
 
     /// Wall time since the start, s.

@@ -145,11 +145,10 @@ impl Run for Arguments {
             mode_tolerance: SignalSummary::MODE_TOLERANCE,
             channels,
             notes: file.notes.clone(),
-            wall_s: measurement.wall_seconds(),
         };
         write_spectra(&folder, &spectra)?;
         let aside = write_copies(self, &copies, &file)?;
-        let mut told = Told::of(None, document(&summary));
+        let mut told = Told::of(measurement.head(), document(&summary));
         told.text += &aside;
         self.output.finish_result(folder, told, &summary, || {
             let unstable = modes.iter().filter(|mode| mode.unstable);

@@ -14,7 +14,7 @@ use super::{Failure, RunOptions, Session, cycle, terminal};
 use crate::case::{Analysis, Case};
 use crate::results::sweep::{Found, PointRecord, SweepDrawing, SweepFolder, SweepReport};
 use crate::results::sweep::{SweepSummary, document, draw, long_tables, write_points};
-use crate::results::{DrawingOptions, Manifest, summary_of};
+use crate::results::{DrawingOptions, Head, Manifest, summary_of};
 use crate::study::summarize;
 use clap::Args;
 use serde_json::{Map, Value};
@@ -147,7 +147,8 @@ pub fn drawing(case: &Case, plan: &SweepPlan<'_>, options: &DrawingOptions) -> S
 
 /// The summary of a sweep as the object that is printed and written.
 fn summary_object(report: &SweepReport<'_>, manifest: &Manifest) -> Result<Value, Failure> {
-    summary_of(manifest, Some(report.title), &SweepSummary::of(report)).map_err(Failure::run)
+    let head = Head::of(report.title, report.wall_s);
+    summary_of(manifest, head, &SweepSummary::of(report)).map_err(Failure::run)
 }
 
 /// Writes the table, the summary and, if asked, the figures of the finished points, and returns the

@@ -93,13 +93,12 @@ impl Run for Arguments {
             let (designs, bound) = (&self.robust, self.bound);
             summary.robust = Some(curves(&case, &sampler, designs, bound)?);
         }
-        summary.wall_s = session.wall_seconds();
         for note in &summary.notes {
             tracing::warn!("{note}");
         }
-        let (manifest, title) = (&session.manifest, &case.title);
-        let object = summary_of(manifest, Some(title), &summary).map_err(Failure::run)?;
-        let document = document(&summary).titled(title);
+        let manifest = &session.manifest;
+        let object = summary_of(manifest, session.head(), &summary).map_err(Failure::run)?;
+        let document = document(&summary).titled(&case.title);
         let text = document.to_text();
         if missing == 0 {
             let largest = summary.largest_friction;

@@ -12,15 +12,16 @@ use super::fit::{self, FitSummary};
 use super::identification::{self, IdentificationSummary};
 use super::improve::{self, ImproveSummary};
 use super::mac::{self, MacSummary};
+use super::manifest::Manifest;
 use super::matrices::{self, MatricesSummary};
 use super::mesh::{MeshStatistics, MeshSummary};
 use super::response::ResponseSummary;
 use super::signal::{self, SignalSummary};
-use super::summary::{Foot, Head, STATUS as FRACTIONS};
+use super::summary::STATUS as FRACTIONS;
 use super::sweep::{self, SweepSummary};
 use super::transient::{self, TransientSummary};
 use super::uncertainty::{self, UncertaintySummary};
-use crate::output::{Column, Entry, Key, entries, keys_of, unit_of};
+use crate::output::{Column, Entry, Key, describe_field, entries, keys_of, unit_of};
 use std::fmt::Write as _;
 
 /// What one file of a command holds.
@@ -190,10 +191,26 @@ fn rates() -> Vec<Entry> {
 }
 
 fn summary<T: crate::output::Described>(command: &'static str) -> FileReference {
-    let entry = |key: Key| Entry { key: key.path, meaning: key.meaning.to_owned() };
-    let keys = [keys_of::<Head>(), keys_of::<T>(), keys_of::<Foot>()].concat();
-    let entries = keys.into_iter().map(entry).collect();
+    let entry = |key: Key| Entry { key: key.path, meaning: plain(key.meaning) };
+    let mut keys = keys_of::<T>();
+    describe_field::<Manifest>("", "manifest", "what it was made from", false, &mut keys);
+    let head = pairs(&[
+        ("command", "the command"),
+        ("title", "title of the case, of a command that runs one"),
+        ("wall_s", "wall time, of a command that takes some"),
+    ]);
+    let entries = head.into_iter().chain(keys.into_iter().map(entry)).collect();
     FileReference { command, file: "summary.json", entries }
+}
+
+/// The comment of a field as columns have their meaning: without its first capital and its full stop.
+fn plain(comment: &str) -> String {
+    let mut letters = comment.trim_end_matches('.').chars();
+    let first = letters.next().into_iter();
+    match letters.clone().next() {
+        Some(second) if second.is_uppercase() => first.chain(letters).collect(),
+        _ => first.flat_map(char::to_lowercase).chain(letters).collect(),
+    }
 }
 
 /// The guide's tables.

@@ -32,8 +32,6 @@ pub struct ResponseSummary {
     pub quantity: String,
     /// Relative standard deviation of the noise added.
     pub noise: f64,
-    /// Wall time, s.
-    pub wall_s: f64,
 }
 
 /// Name of the table of a response in its folder; `frictionsim identify` reads it.

@@ -97,39 +97,35 @@ pub fn present(value: f64) -> Option<f64> {
     value.is_finite().then_some(value + 0.0)
 }
 
-/// What every summary begins with.
-#[derive(Described, Serialize)]
-pub(super) struct Head {
-    /// The command.
-    command: String,
+/// What every summary begins with behind its command.
+#[derive(Clone, Copy, Debug, Default, Serialize)]
+pub struct Head<'a> {
     /// Title of the case, of a command that runs one.
     #[serde(skip_serializing_if = "Option::is_none")]
-    title: Option<String>,
+    pub title: Option<&'a str>,
+    /// Wall time, s, of a command that takes some.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub wall_s: Option<f64>,
 }
 
-/// What every summary ends with.
-#[derive(Described)]
-pub(super) struct Foot {
-    /// What it was made from.
-    #[expect(dead_code, reason = "its description is that of the key")]
-    manifest: Manifest,
+impl<'a> Head<'a> {
+    /// Of a case that took so long, s.
+    pub fn of(title: &'a str, wall_s: f64) -> Self {
+        Self { title: Some(title), wall_s: Some(wall_s) }
+    }
 }
 
-/// The JSON object of what a command has found: its name and the title of its case before it. No zero has a sign.
-pub fn object(
-    command: &str,
-    title: Option<&str>,
-    found: &impl Serialize,
-) -> serde_json::Result<Value> {
+/// The JSON object of what a command has found, behind its name and its head. No zero has a sign.
+pub fn object(command: &str, head: Head<'_>, found: &impl Serialize) -> serde_json::Result<Value> {
     #[derive(Serialize)]
     struct Whole<'a, S> {
+        command: &'a str,
         #[serde(flatten)]
-        head: Head,
+        head: Head<'a>,
         #[serde(flatten)]
         found: &'a S,
     }
-    let head = Head { command: command.to_owned(), title: title.map(str::to_owned) };
-    let mut object = serde_json::to_value(Whole { head, found })?;
+    let mut object = serde_json::to_value(Whole { command, head, found })?;
     drop_signs_of_zeros(&mut object);
     Ok(object)
 }
@@ -137,10 +133,10 @@ pub fn object(
 /// The same with what it was made from: what `summary.json` holds.
 pub fn summary_of(
     manifest: &Manifest,
-    title: Option<&str>,
+    head: Head<'_>,
     found: &impl Serialize,
 ) -> serde_json::Result<Value> {
-    let mut whole = object(&manifest.command, title, found)?;
+    let mut whole = object(&manifest.command, head, found)?;
     if let Some(entries) = whole.as_object_mut() {
         entries.insert("manifest".to_owned(), serde_json::to_value(manifest)?);
     }
@@ -161,13 +157,13 @@ fn drop_signs_of_zeros(value: &mut Value) {
 /// Writes `summary.json` of what was found and gives the object that it holds.
 pub fn write_summary(
     folder: &OutputFolder,
-    title: Option<&str>,
+    head: Head<'_>,
     found: &impl Serialize,
 ) -> Result<Value, FolderError> {
     let failed = |error: serde_json::Error| {
         FolderError::io("write", &folder.path().join(SUMMARY), error.into())
     };
-    let object = summary_of(folder.manifest(), title, found).map_err(failed)?;
+    let object = summary_of(folder.manifest(), head, found).map_err(failed)?;
     folder.write(SUMMARY, |out| {
         serde_json::to_writer_pretty(&mut *out, &object)?;
         out.write_all(b"\n")

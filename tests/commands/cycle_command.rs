@@ -296,7 +296,6 @@ fn motions_of_two_frequencies_are_told_with_their_numbers() {
         error: None,
     };
     let summary = CycleSummary {
-        wall_s: 1.0,
         steady_sliding_stable: false,
         origin: Origin::Waves(WavesSought { lowest_onset: None }),
         critical_value: None,

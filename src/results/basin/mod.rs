@@ -24,8 +24,6 @@ pub enum Rivals {
 /// `summary.json` of a basin.
 #[derive(Clone, Debug, Described, Serialize)]
 pub struct BasinSummary {
-    /// Wall time, s.
-    pub wall_s: f64,
     /// The two waves, nodal diameters; of a body without symmetry the numbers of the two modes, 0 for steady sliding.
     pub harmonics: [usize; 2],
     /// Whether these are numbers of modes.
@@ -43,7 +41,7 @@ pub struct BasinSummary {
 
 impl BasinSummary {
     /// The summary of a boundary.
-    pub fn new(rivals: Rivals, found: &BasinBoundary, wall_s: f64) -> Self {
+    pub fn new(rivals: Rivals, found: &BasinBoundary) -> Self {
         let winners = found.runs.iter().map(|run| run.winner);
         let first = found.runs.first().map(|run| run.winner);
         let alone = first.filter(|first| winners.clone().all(|winner| winner == *first));
@@ -52,7 +50,6 @@ impl BasinSummary {
             Rivals::Modes(modes) => (modes, true),
         };
         Self {
-            wall_s,
             harmonics,
             of_modes,
             winner: alone,

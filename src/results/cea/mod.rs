@@ -45,6 +45,7 @@ pub use tables::{View, document};
 
 use crate::cea::{ComplexMode, FrictionPoint, FrictionSweep};
 use crate::mesh::Mesh;
+use crate::results::ShownBody;
 use branches::Branch;
 use std::collections::BTreeMap;
 
@@ -88,6 +89,11 @@ pub struct CeaReport<'a> {
 }
 
 impl CeaReport<'_> {
+    /// The body as results show it.
+    fn body(&self) -> ShownBody<'_> {
+        ShownBody { mesh: self.mesh, sector: self.solid.map(|solid| &solid.sector) }
+    }
+
     /// The modes at the solved friction value nearest to the case's own.
     fn own_point(&self) -> Option<&FrictionPoint> {
         let own = self.base.friction_coefficient;

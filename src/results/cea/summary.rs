@@ -17,8 +17,6 @@ pub struct CeaSummary {
     pub method: String,
     /// What was asked for, in words.
     pub selection: String,
-    /// Wall time, s.
-    pub wall_s: Option<f64>,
     /// Most modes at one friction value.
     pub modes: usize,
     /// Friction values of the tables.
@@ -274,7 +272,6 @@ pub fn summary(report: &CeaReport<'_>) -> CeaSummary {
         dofs: report.dofs,
         method: report.method.to_owned(),
         selection: report.selection.clone(),
-        wall_s: present(report.wall_s),
         modes: report.mode_counts().1,
         friction_values: report.friction_coefficients.len(),
         unstable_counts: report.tabulated().map(of_point).collect(),

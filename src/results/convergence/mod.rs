@@ -120,8 +120,6 @@ pub struct Series {
 pub struct ConvergenceSummary {
     /// What was studied.
     pub series: Vec<Series>,
-    /// Wall time, s.
-    pub wall_s: f64,
 }
 
 /// A quantity on a level of a series.

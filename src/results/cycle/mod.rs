@@ -40,7 +40,7 @@ use crate::results::drawing::DrawingError;
 use crate::results::extent::Extent;
 use crate::results::finding::{write_page, write_table, write_tables};
 use crate::results::folder::{FolderError, OutputFolder};
-use crate::results::summary::{CriticalSummary, write_summary};
+use crate::results::summary::{CriticalSummary, Head, write_summary};
 use crate::results::{DrawingOptions, ShownBody};
 use branch::BranchRow;
 use motions::ContactNode;
@@ -174,7 +174,6 @@ impl CycleReport<'_> {
             }
         };
         CycleSummary {
-            wall_s: self.wall_s,
             steady_sliding_stable: self.is_stable(),
             origin,
             critical_value: self.critical.map(CriticalSummary::from),
@@ -212,7 +211,7 @@ impl CycleReport<'_> {
         }
         let summary = self.summary();
         write_tables(folder, &summary.document())?;
-        let object = write_summary(folder, Some(self.title), &summary)?;
+        let object = write_summary(folder, Head::of(self.title, self.wall_s), &summary)?;
         Ok((summary, object))
     }
 }

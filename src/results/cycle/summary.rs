@@ -14,8 +14,6 @@ use std::fmt;
 /// `summary.json` of `frictionsim cycle`.
 #[derive(Clone, Debug, PartialEq, Described, Serialize)]
 pub struct CycleSummary {
-    /// Wall time, s.
-    pub wall_s: f64,
     /// Whether nothing looked at grows.
     pub steady_sliding_stable: bool,
     /// Where the search has started.

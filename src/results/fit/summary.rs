@@ -13,8 +13,6 @@ pub const BLOCK: &str = "fitted.toml";
 /// `summary.json` of a fit.
 #[derive(Clone, Debug, Described, Serialize)]
 pub struct FitSummary {
-    /// Wall time, s.
-    pub wall_s: f64,
     /// The table of measured modes.
     pub measurement: String,
     /// Friction coefficient at which modes are computed.

@@ -36,8 +36,6 @@ pub struct IdentificationSummary {
     pub fit: FitSummary,
     /// Decisions of the reader.
     pub notes: Vec<String>,
-    /// Wall time, s.
-    pub wall_s: f64,
 }
 
 /// One response and its noise.
@@ -118,7 +116,6 @@ impl IdentificationSummary {
         responses: &[NamedResponse],
         found: &Identification,
         notes: Vec<String>,
-        wall_s: f64,
     ) -> Self {
         let (fit, first) = (&found.fit, &responses[0].response);
         let described = responses.iter().zip(&fit.noise).map(|(named, noise)| {
@@ -156,7 +153,6 @@ impl IdentificationSummary {
                 residual_correlation: fit.correlation,
             },
             notes,
-            wall_s,
         }
     }
 

@@ -36,8 +36,6 @@ pub struct TargetFields {
 /// `summary.json` of `improve`.
 #[derive(Clone, Debug, Described, Serialize)]
 pub struct ImproveSummary {
-    /// Wall time, s.
-    pub wall_s: f64,
     /// Unknowns of the eigenproblem.
     pub dofs: usize,
     /// The friction coefficient at which modes are to be silenced.

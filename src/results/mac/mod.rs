@@ -11,8 +11,6 @@ use std::f64::consts::TAU;
 /// `summary.json` of `mac`.
 #[derive(Clone, Debug, Described, Serialize)]
 pub struct MacSummary {
-    /// Wall time, s.
-    pub wall_s: f64,
     /// The measured shapes.
     pub measurement: String,
     /// The friction coefficient of the modes.

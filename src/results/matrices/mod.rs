@@ -6,7 +6,7 @@ pub use spectrum::{FreeSpectrum, FreeSpectrumSummary};
 
 use super::folder::{FolderError, OutputFolder};
 use super::npz::NpzArchive;
-use super::summary::object;
+use super::summary::{Head, object};
 use crate::linalg::MarketMatrix;
 use crate::output::rows::write_rows;
 use crate::output::{Described, Key, columns, significant};
@@ -169,8 +169,6 @@ pub struct MatrixEntry {
 /// `summary.json` of `frictionsim matrices`.
 #[derive(Clone, Debug, PartialEq, Described, Serialize)]
 pub struct MatricesSummary {
-    /// Wall time, s.
-    pub wall_s: f64,
     /// Number of unknowns.
     pub dofs: usize,
     /// What the matrices are put together to.
@@ -234,7 +232,7 @@ impl MatrixRole {
 
 impl MatricesSummary {
     /// The summary of an exported system.
-    pub fn new(system: &ExportedSystem, wall_s: f64) -> Self {
+    pub fn new(system: &ExportedSystem) -> Self {
         let entry = |own: &ExportedMatrix| MatrixEntry {
             name: own.name.clone(),
             role: own.role,
@@ -249,7 +247,6 @@ impl MatricesSummary {
         let is_lossy = system.matrices.iter().any(ExportedMatrix::is_structural);
         let equation = if is_lossy { LOSSY } else { LOSSLESS };
         Self {
-            wall_s,
             dofs: system.unknowns.len(),
             equation: match system.is_at_one_friction {
                 true => format!("{equation} at mu = friction_coefficient"),
@@ -274,7 +271,7 @@ impl MatricesSummary {
 pub fn write_matrices(
     folder: &OutputFolder,
     system: &ExportedSystem,
-    title: &str,
+    head: Head<'_>,
     summary: &MatricesSummary,
 ) -> Result<(), FolderError> {
     for own in &system.matrices {
@@ -297,7 +294,7 @@ pub fn write_matrices(
     let contact = system.contact.iter().cloned().enumerate();
     folder.write(CONTACT, |out| write_rows(out, points, contact))?;
     folder.write(DESCRIPTION, |out| {
-        let mut description = object("", Some(title), summary)?;
+        let mut description = object("", head, summary)?;
         if let Some(fields) = description.as_object_mut() {
             for key in ["wall_s", "command"] {
                 fields.remove(key);

@@ -5,7 +5,7 @@ use crate::output::{Table, columns};
 use crate::results::cea::BRANCH;
 use crate::results::finding::write_table;
 use crate::results::folder::{FolderError, OutputFolder};
-use crate::results::summary::write_summary;
+use crate::results::summary::{Head, write_summary};
 use serde::Serialize;
 use serde_json::Value;
 use std::f64::consts::TAU;
@@ -34,8 +34,6 @@ pub struct FreeSpectrumSummary {
     pub dofs: usize,
     /// `dense`.
     pub method: String,
-    /// Wall time, s.
-    pub wall_s: f64,
     /// Number of modes listed.
     pub modes: usize,
     /// Number of them that grow.
@@ -79,12 +77,11 @@ impl FreeSpectrum {
         write_table(folder, &self.table())?;
         write_summary(
             folder,
-            Some(&self.title),
+            Head::of(&self.title, wall_s),
             &FreeSpectrumSummary {
                 superelement: self.name.clone(),
                 dofs: self.dofs,
                 method: "dense".to_owned(),
-                wall_s,
                 modes: self.modes.len(),
                 unstable: self.unstable(),
                 overdamped: self.overdamped,

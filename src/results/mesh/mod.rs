@@ -20,8 +20,6 @@ use serde::Serialize;
 /// `summary.json` of `frictionsim mesh`, with the statistics of the kind of body.
 #[derive(Clone, Debug, PartialEq, Described, Serialize)]
 pub struct MeshSummary<S> {
-    /// Wall time, s.
-    pub wall_s: f64,
     /// Size and quality.
     pub mesh: S,
     /// How the mesh file of solid bodies was read, and what was taken from it.

@@ -25,8 +25,6 @@ pub struct SignalSummary {
     pub channels: Vec<ChannelSummary>,
     /// Decisions of the reader.
     pub notes: Vec<String>,
-    /// Wall time, s.
-    pub wall_s: f64,
 }
 
 /// What was found in one channel.

@@ -191,8 +191,6 @@ pub struct SweepSummary {
     pub failed: Vec<FailedPoint>,
     /// Numbers of those that are not finished.
     pub missing: Vec<usize>,
-    /// Wall time of this process, s.
-    pub wall_s: f64,
     /// Time that the points kept cores busy, s.
     pub core_s: f64,
     /// Points done in an hour of one core.
@@ -228,7 +226,6 @@ impl SweepSummary {
             ran: report.ran,
             failed: failed.collect(),
             missing: report.missing(),
-            wall_s: report.wall_s,
             core_s: report.core_s,
             points_per_core_hour: report.points_per_core_hour(),
             notes: report.notes(),

@@ -10,7 +10,7 @@ use crate::results::folder::{FolderError, OutputFolder};
 use crate::results::npz::NpzArchive;
 use crate::results::pvd::{PvdEntry, write_pvd};
 use crate::results::record::write_record;
-use crate::results::summary::write_summary;
+use crate::results::summary::{Head, write_summary};
 use crate::results::vtu::{Field, write_vtu};
 use crate::transient::{Recorder, SampleRow, Snapshot};
 use serde_json::Value;
@@ -45,7 +45,7 @@ pub fn write(
     write_snapshots(folder, report)?;
     write_record(folder, report.run.record)?;
     let summary = summary(report);
-    let object = write_summary(folder, Some(report.title), &summary)?;
+    let object = write_summary(folder, Head::of(report.title, report.wall_s), &summary)?;
     Ok((summary, object))
 }
 

@@ -29,8 +29,6 @@ pub struct TransientSummary {
     pub initial: String,
     /// Velocity that was added.
     pub perturbation: PerturbationSummary,
-    /// Wall time, s.
-    pub wall_s: f64,
     /// Elements times steps for each second of stepping.
     pub element_steps_per_s: f64,
     /// Largest energy balance residual.
@@ -212,7 +210,6 @@ pub fn summary(report: &TransientReport<'_>) -> TransientSummary {
         operator: report.operator.to_owned(),
         initial: report.initial.to_owned(),
         perturbation: PerturbationSummary::of(report.perturbation),
-        wall_s: report.wall_s,
         element_steps_per_s: report.element_steps_per_second(),
         max_balance_residual: analysis.largest_residual,
         settled: settling.is_settled(),

@@ -9,8 +9,6 @@ use std::collections::BTreeMap;
 /// `summary.json` of an uncertainty analysis.
 #[derive(Clone, Debug, Described, Serialize)]
 pub struct UncertaintySummary {
-    /// Wall time of this run, s.
-    pub wall_s: f64,
     /// Samples.
     pub samples: usize,
     /// Samples that could not be solved; nothing below counts them.

@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 /// Share of its frequency within which an unmeasured mode is said to lie beside a line.
 const BESIDE: f64 = 0.05;
 
-/// The summary of a fit, without its source and time.
+/// The summary of a fit, without its source.
 pub fn of(case: &Case, wanted: &Fit, fitted: &Fitted, before: &[ComplexMode]) -> FitSummary {
     let keys: Vec<&String> = wanted.parameters.iter().map(|p| &p.parameter.key).collect();
     let by_key = |values: &[f64]| -> BTreeMap<String, f64> {
@@ -20,7 +20,6 @@ pub fn of(case: &Case, wanted: &Fit, fitted: &Fitted, before: &[ComplexMode]) ->
     let worst = residuals.iter().map(|line| line.difference_percent.abs());
     let [starts, searches, arrived] = fitted.searches;
     FitSummary {
-        wall_s: 0.0,
         measurement: String::new(),
         friction_coefficient: case.contact.sliding.friction_coefficient,
         parameters: parameters

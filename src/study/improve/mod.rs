@@ -44,7 +44,7 @@ use trial::{Search, Target, Trial};
 
 /// What `improve` finds.
 pub struct Improvement {
-    /// What there is to say of it, without time.
+    /// What there is to say of it.
     pub summary: ImproveSummary,
     /// The mesh of the fields.
     pub mesh: Arc<Mesh>,
@@ -120,7 +120,6 @@ pub fn improve(case: &Case) -> Result<Improvement, StudyError> {
         ));
     }
     let summary = ImproveSummary {
-        wall_s: 0.0,
         dofs: base.tangent.unknowns.len(),
         friction_coefficient: base.friction,
         base: state(base.outlook, base.onset),

@@ -125,7 +125,6 @@ pub fn summarize(case: &Case, samples: &[Sample]) -> UncertaintySummary {
     let families = families(&solved, largest_friction);
     notes.extend(beyond_note(&families));
     UncertaintySummary {
-        wall_s: 0.0,
         samples: samples.len(),
         failed,
         index_samples,
