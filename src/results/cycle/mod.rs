@@ -25,8 +25,8 @@ pub use motions::{FoundCycle, PeriodicResult};
 pub use record::MotionRecord;
 pub use summary::*;
 pub(super) use tables::{
-    BALANCE, CONTACT_NODES, ERRORS, EXPONENTS, HARMONICS, HISTORY, KNOWN, MOTION, NAMES, PATH,
-    POWERS, WAVE_PATH,
+    BALANCE, CONTACT_NODES, ERRORS, HARMONICS, HISTORY, KNOWN, MOTION, NAMES, PATH, POWERS,
+    WAVE_PATH,
 };
 pub(super) use two_waves::TWO_WAVES;
 pub use two_waves::{FoundTwoWaves, TwoWaveResult, TwoWaveSummary};

@@ -5,7 +5,7 @@ use super::branch::{ALONG, BRANCH};
 use super::motions::ContactNode;
 use super::summary::{CycleMotion, CycleSummary, SoughtCycle};
 use super::two_waves::TwoWaveSummary;
-use super::verdicts::Perturbation;
+use super::verdicts::EXPONENTS;
 use crate::cycle::PhasePoint;
 use crate::cycle::periodic::MotionHarmonic;
 use crate::output::{Document, Section, Table, columns, fixed};
@@ -154,21 +154,6 @@ columns! {
         = row.2.amplitude[0];
     amplitude_t_m: "amplitude along the counterface" = row.2.amplitude[1];
     remainder: "share of the vibration that the harmonics up to this one leave" = row.2.remainder;
-}
-
-columns! {
-    /// A small perturbation.
-    pub(in crate::results) EXPONENTS: own as Perturbation;
-    class: "class of the harmonics that it holds, of a wave" = own.class;
-    growth_rate_per_s: "growth rate" = own.growth_rate_per_s;
-    wave_frequency_rad_per_s: "frequency in the frame of the wave" = own.wave_frequency_rad_per_s;
-    harmonic: "circumferential harmonic at which it moves the edge most, of a wave" = own.harmonic;
-    frequency_hz: "frequency in the fixed frame, of a wave" = own.frequency_hz;
-    beat_hz: "distance of its frequency from the nearest harmonic, of motions of the whole mesh"
-        = own.beat_hz;
-    modulus: "modulus of its multiplier, of motions of the whole mesh" = own.modulus;
-    argument_rad: "argument of its multiplier, of motions of the whole mesh" = own.argument_rad;
-    uncertainty_per_s: "uncertainty of the growth rate" = own.uncertainty_per_s;
 }
 
 impl Told {
