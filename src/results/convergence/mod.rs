@@ -43,7 +43,7 @@ pub struct Quantity {
     pub verdict: String,
     /// Observed order.
     pub order: Option<f64>,
-    /// Richardson-extrapolated value.
+    /// Value extrapolated after Richardson.
     pub extrapolated: Option<f64>,
     /// Values less that one.
     pub errors: Option<Vec<Option<f64>>>,

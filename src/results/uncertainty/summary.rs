@@ -26,7 +26,7 @@ pub struct UncertaintySummary {
     pub critical_friction: CriticalFriction,
     /// The modes that turn unstable in some sample, the most probable first.
     pub families: Vec<FamilySummary>,
-    /// Sobol's indices of the lowest critical friction by key.
+    /// Indices of the lowest critical friction after Sobol, by key.
     pub sobol: BTreeMap<String, Index>,
     /// The parameter with the largest total index.
     pub decisive: Option<String>,
