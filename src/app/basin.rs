@@ -30,6 +30,6 @@ impl Run for Arguments {
         session.case.require_basin()?;
         let folder = session.begin()?;
         let summary = summary(&session.case, &session.manifest)?;
-        session.options.output.finish_finding(folder, &summary)
+        session.finish_finding(folder, &summary)
     }
 }

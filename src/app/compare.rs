@@ -1,6 +1,6 @@
 //! `frictionsim compare`: runs side by side.
 
-use super::options::OutputOptions;
+use super::options::{OutputOptions, Told};
 use super::profile::{Profile, Run};
 use super::{Failure, terminal};
 use crate::case::hash_of;
@@ -8,7 +8,7 @@ use crate::results::compare::{
     ComparedRun, ComparisonSummary, document, file, overlaid, print, shared,
 };
 use crate::results::{
-    Manifest, Page, Record, read_manifest, read_record, read_summary, write_table,
+    Head, Manifest, Page, Record, read_manifest, read_record, read_summary, write_table,
 };
 use clap::{Args, ValueHint};
 use std::path::{Path, PathBuf};
@@ -71,14 +71,13 @@ impl Run for Arguments {
         };
         let folder = output.open_folder(&manifest, false)?;
         write_table(&folder, &file(&runs, &quantities))?;
-        let (text, document) = (print(&runs, &quantities), document(&runs, &quantities));
+        let text = print(&runs, &quantities);
+        let told = Told { text, ..Told::of(Head::default(), document(&runs, &quantities)) };
         let summary = ComparisonSummary {
-            command: "compare".into(),
             runs: runs.iter().map(|run| run.name.clone()).collect(),
             quantities,
-            manifest,
         };
-        output.finish_result(folder, &text, document, &summary, || overlaid(&runs))
+        output.finish_result(folder, told, &summary, || overlaid(&runs))
     }
 }
 

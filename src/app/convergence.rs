@@ -1,5 +1,6 @@
 //! `frictionsim convergence`: a case on several meshes and with several time steps.
 
+use super::options::Told;
 use super::profile::{Profile, Run};
 use super::{Failure, RunOptions, Session, terminal};
 use crate::results::convergence::ConvergenceSummary;
@@ -37,16 +38,10 @@ impl Run for Arguments {
         let bar = terminal::progress(session.options.output.is_quiet(), count, "levels");
         let series = solve(case, &levels, &session.manifest, &|| bar.inc(1));
         bar.finish_and_clear();
-        let summary = ConvergenceSummary {
-            command: "convergence".to_owned(),
-            title: case.title.clone(),
-            series: series?,
-            wall_s: session.wall_seconds(),
-            manifest: folder.manifest().clone(),
-        };
+        let summary = ConvergenceSummary { series: series? };
         let output = &session.options.output;
-        let text = summary.told(output.verbose > 0).to_text();
-        let figures = || declared(summary.figures());
-        output.finish_result(folder, &text, summary.document(), &summary, figures)
+        let text = summary.told(output.verbose > 0).titled(&case.title).to_text();
+        let told = Told { text, ..Told::of(session.head(), summary.document()) };
+        output.finish_result(folder, told, &summary, || declared(summary.figures()))
     }
 }

@@ -139,7 +139,7 @@ fn written(
         let data = CycleFigures::new(report, surfaces, session.case.materials());
         summary.draw(folder, &data, &drawing)?;
     }
-    Ok((summary.document().to_text(), object))
+    Ok((summary.document().titled(report.title).to_text(), object))
 }
 
 /// Refuses phases whose dense matrices do not fit the machine's memory.

@@ -68,13 +68,11 @@ impl Run for Arguments {
         let fitted = fit_case_with_shapes(case, &lines, shapes)?;
         let mut found = summarize(case, &lines, &fitted)?;
         found.measurement = input_name(&self.modes);
-        found.wall_s = session.wall_seconds();
-        found.manifest = folder.manifest().clone();
         for note in &found.notes {
             tracing::warn!("{note}");
         }
         folder.write(BLOCK, |out| out.write_all(found.block().as_bytes()))?;
-        session.options.output.finish_finding(folder, &found)
+        session.finish_finding(folder, &found)
     }
 }
 

@@ -48,8 +48,6 @@ impl Run for Arguments {
             write_universal_response(&folder, frf.quantity, &frf.frequencies_hz, &values)?;
         }
         let summary = ResponseSummary {
-            command: "frf".to_owned(),
-            title: case.title.clone(),
             description: described(case, frf, &computed),
             dofs: computed.dofs,
             lines: frf.frequencies_hz.len(),
@@ -59,15 +57,11 @@ impl Run for Arguments {
             backward_error: computed.backward_error,
             quantity: frf.quantity.name().to_owned(),
             noise: frf.noise,
-            wall_s: session.wall_seconds(),
-            manifest: session.manifest.clone(),
         };
-        let document = summary.document();
-        let text = document.to_text();
         let response = FrequencyResponse::new(frf.frequencies_hz.clone(), values, frf.quantity);
         // A few lines are numbers, but no curve.
         let figures = || Ok(response.iter().map(response_figure).collect());
-        session.options.output.finish_result(folder, &text, document, &summary, figures)
+        session.finish_result(folder, summary.document(), &summary, figures)
     }
 }
 

@@ -3,7 +3,7 @@
 use super::Failure;
 use super::choice::{Choice, one_of};
 use super::measurement::{Measurement, SideFile};
-use super::options::OutputOptions;
+use super::options::{OutputOptions, Told};
 use super::profile::{Profile, Run};
 use crate::results::identification::{
     DAMPING_BLOCK, IdentificationSummary, document, identification, write_fits,
@@ -92,8 +92,6 @@ impl Run for Arguments {
             &file.responses,
             &found,
             file.notes.clone(),
-            measurement.wall_seconds(),
-            folder.manifest().clone(),
         );
         write_fits(&folder, &file.responses, &found.fit)?;
         let block = summary.damping_block();
@@ -102,10 +100,13 @@ impl Run for Arguments {
             let text: String = file.responses.iter().map(write_response).collect();
             copy.write(text.as_bytes())?;
         }
-        let document = document(&summary);
-        let text = document.to_text();
         let figures = || Ok(vec![identification(&responses[0], &found)]);
-        self.output.finish_result(folder, &text, document, &summary, figures)
+        self.output.finish_result(
+            folder,
+            Told::of(measurement.head(), document(&summary)),
+            &summary,
+            figures,
+        )
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::profile::{Profile, Run};
 use super::{Failure, RunOptions, Session};
-use crate::results::improve::{ImproveSummary, document, figures, write};
+use crate::results::improve::{document, figures, write};
 use crate::study::improve::improve;
 use clap::Args;
 
@@ -38,12 +38,9 @@ impl Run for Arguments {
         session.case.require_cea()?;
         let folder = session.begin()?;
         let found = improve(&session.case)?;
-        let (wall_s, manifest) = (session.wall_seconds(), session.manifest.clone());
-        let summary = ImproveSummary { wall_s, manifest, ..found.summary };
+        let summary = found.summary;
         write(&folder, &summary, &found.mesh, &found.fields)?;
-        let document = document(&summary);
-        let text = document.to_text();
         let figures = || figures(&summary, &found.mesh, &found.fields);
-        session.options.output.finish_result(folder, &text, document, &summary, figures)
+        session.finish_result(folder, document(&summary), &summary, figures)
     }
 }

@@ -49,12 +49,7 @@ impl Run for Arguments {
         session.case.require_cea()?;
         let folder = session.begin()?;
         let found = assurance(&session.case, &shapes, self.scale)?;
-        let summary = MacSummary {
-            wall_s: session.wall_seconds(),
-            measurement: source,
-            manifest: folder.manifest().clone(),
-            ..found
-        };
-        session.options.output.finish_finding(folder, &summary)
+        let summary = MacSummary { measurement: source, ..found };
+        session.finish_finding(folder, &summary)
     }
 }

@@ -64,14 +64,13 @@ impl Run for Arguments {
             Some(_) => system.at_one_friction(),
             None => system,
         };
-        let wall_s = session.wall_seconds();
-        let summary = MatricesSummary::new(&system, &case.title, wall_s, &session.manifest);
-        write_matrices(&folder, &system, &summary)?;
+        let (summary, head) = (MatricesSummary::new(&system), session.head());
+        write_matrices(&folder, &system, head, &summary)?;
         if case.output.universal {
             let mesh = WholeMesh::of(&*case.body.mesh().map_err(Failure::run)?);
             folder.write_bulk("mesh.unv", |out| mesh.write_universal(out))?;
         }
-        let object = write_summary(&folder, &summary)?;
+        let object = write_summary(&folder, head, &summary)?;
         session.options.output.finish(folder, &print(&summary), &object)
     }
 }

@@ -4,7 +4,7 @@ use super::limits::{input_name, read_input};
 use super::options::OutputOptions;
 use super::{Failure, terminal};
 use crate::case::hash_of;
-use crate::results::{Manifest, OutputFolder};
+use crate::results::{Head, Manifest, OutputFolder};
 use crate::signal::reader::ReadError;
 use frictionsim_bounds::MEASUREMENT;
 use std::io::Write as _;
@@ -62,9 +62,9 @@ impl Measurement {
         self.options.open_folder(&self.manifest, false)
     }
 
-    /// Wall time since the start, s.
-    pub fn wall_seconds(&self) -> f64 {
-        self.start.elapsed().as_secs_f64()
+    /// What its summary begins with: the wall time since the start.
+    pub fn head(&self) -> Head<'static> {
+        Head { title: None, wall_s: Some(self.start.elapsed().as_secs_f64()) }
     }
 }
 

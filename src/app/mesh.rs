@@ -79,18 +79,8 @@ fn finish<S: Measured>(
     (mesh, notes): (S, Vec<String>),
     figures: impl FnOnce() -> Result<Vec<Figure>, ChartError>,
 ) -> Result<(), Failure> {
-    let summary = MeshSummary {
-        command: "mesh".to_owned(),
-        title: session.case.title.clone(),
-        wall_s: session.wall_seconds(),
-        mesh,
-        notes,
-        not_used: session.case.taken.not_used(),
-        manifest: session.manifest.clone(),
-    };
-    let document = summary.document();
-    let text = document.to_text();
-    session.options.output.finish_result(folder, &text, document, &summary, figures)
+    let summary = MeshSummary { mesh, notes, not_used: session.case.taken.not_used() };
+    session.finish_result(folder, summary.document(), &summary, figures)
 }
 
 /// Boundaries that slide or are glued, in a word.

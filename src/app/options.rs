@@ -9,8 +9,8 @@ use crate::chart::{ChartError, Figure};
 use crate::fem::operator::SimdLevel;
 use crate::output::Document;
 use crate::results::{
-    DrawingError, DrawingOptions, Finding, Manifest, OutputFolder, Replace, declared, is_result,
-    read_manifest, write_page, write_summary, write_tables,
+    DrawingError, DrawingOptions, Head, Manifest, OutputFolder, Replace, is_result, read_manifest,
+    write_page, write_summary, write_tables,
 };
 use clap::{ArgAction, Args, ValueHint};
 use serde::Serialize;
@@ -86,6 +86,24 @@ pub struct OutputOptions {
     /// Full tables and progress messages
     #[arg(long, short, action = ArgAction::Count, conflicts_with = "quiet")]
     pub verbose: u8,
+}
+
+/// What is said of a result.
+pub struct Told<'a> {
+    /// At the head of its summary.
+    pub head: Head<'a>,
+    /// On its page.
+    pub document: Document,
+    /// On the terminal.
+    pub text: String,
+}
+
+impl<'a> Told<'a> {
+    /// One document for both.
+    pub fn of(head: Head<'a>, document: Document) -> Self {
+        let document = document.titled(head.title.unwrap_or_default());
+        Self { head, text: document.to_text(), document }
+    }
 }
 
 impl OutputOptions {
@@ -180,33 +198,21 @@ impl OutputOptions {
         self.print(table, summary, &path)
     }
 
-    /// Writes the tables, the figures, the page and the summary of a result, completes the folder and prints `text`.
+    /// Writes the tables, the figures, the page and the summary of a result, completes the folder and prints.
     pub fn finish_result(
         &self,
         folder: OutputFolder,
-        text: &str,
-        document: Document,
+        told: Told<'_>,
         summary: &impl Serialize,
         figures: impl FnOnce() -> Result<Vec<Figure>, ChartError>,
     ) -> Result<(), Failure> {
-        write_tables(&folder, &document)?;
+        write_tables(&folder, &told.document)?;
         if let Some(options) = self.drawing() {
             let figures = figures().map_err(DrawingError::from)?;
-            write_page(&folder, document, figures, &options)?;
+            write_page(&folder, told.document, figures, &options)?;
         }
-        let object = write_summary(&folder, summary)?;
-        self.finish(folder, text, &object)
-    }
-
-    /// As [`Self::finish_result`] for a finding.
-    pub fn finish_finding(
-        &self,
-        folder: OutputFolder,
-        finding: &impl Finding,
-    ) -> Result<(), Failure> {
-        let document = finding.document();
-        let text = document.to_text();
-        self.finish_result(folder, &text, document, finding, || declared(finding.figures()))
+        let object = write_summary(&folder, told.head, summary)?;
+        self.finish(folder, &told.text, &object)
     }
 
     /// Says what a run would do; the end of a dry run.

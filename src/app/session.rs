@@ -1,13 +1,17 @@
 //! Steps of every run before and after its analysis: read the case, take the output folder, report the results.
 
 use super::limits::{input_name, read_input};
+use super::options::Told;
 use super::terminal;
 use super::{Failure, RunOptions, embedded};
 use crate::case::{Case, RawCase};
+use crate::chart::{ChartError, Figure};
 use crate::fem::operator::SimdLevel;
-use crate::results::{FolderError, MESH, Manifest, OutputFolder};
+use crate::output::Document;
+use crate::results::{Finding, FolderError, Head, MESH, Manifest, OutputFolder, declared};
 use crate::study::refuse_memory;
 use frictionsim_bounds::CASE;
+use serde::Serialize;
 use std::path::Path;
 use std::time::Instant;
 
@@ -93,6 +97,32 @@ impl Session {
     pub fn keep_mesh(&self, folder: OutputFolder) -> Result<OutputFolder, Failure> {
         self.keep_inputs(|name, bytes| folder.write(name, |out| out.write_all(bytes)))?;
         Ok(folder)
+    }
+
+    /// As [`OutputOptions::finish_result`](super::options::OutputOptions::finish_result), under the title of the case.
+    pub fn finish_result(
+        &self,
+        folder: OutputFolder,
+        document: Document,
+        summary: &impl Serialize,
+        figures: impl FnOnce() -> Result<Vec<Figure>, ChartError>,
+    ) -> Result<(), Failure> {
+        self.options.output.finish_result(folder, Told::of(self.head(), document), summary, figures)
+    }
+
+    /// The same for a finding.
+    pub fn finish_finding(
+        &self,
+        folder: OutputFolder,
+        finding: &impl Finding,
+    ) -> Result<(), Failure> {
+        let figures = || declared(finding.figures());
+        self.finish_result(folder, finding.document(), finding, figures)
+    }
+
+    /// What its summary begins with.
+    pub fn head(&self) -> Head<'_> {
+        Head::of(&self.case.title, self.wall_seconds())
     }
 
     /// Wall time since the start, s.

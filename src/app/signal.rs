@@ -1,7 +1,7 @@
 //! `frictionsim signal`: what vibrates in a measured or computed time signal.
 
 use super::measurement::{Measurement, SideFile};
-use super::options::OutputOptions;
+use super::options::{OutputOptions, Told};
 use super::profile::{Profile, Run};
 use super::session::read_case;
 use super::{Failure, terminal};
@@ -138,7 +138,6 @@ impl Run for Arguments {
         let folder = measurement.open_folder()?;
         let friction = |case: &Case| case.contact.sliding.friction_coefficient;
         let summary = SignalSummary {
-            command: "signal".into(),
             source: measurement.source.clone(),
             sampling_rate_hz: file.sampling_rate,
             samples: file.channels[0].samples.len(),
@@ -146,14 +145,12 @@ impl Run for Arguments {
             mode_tolerance: SignalSummary::MODE_TOLERANCE,
             channels,
             notes: file.notes.clone(),
-            wall_s: measurement.wall_seconds(),
-            manifest: folder.manifest().clone(),
         };
         write_spectra(&folder, &spectra)?;
         let aside = write_copies(self, &copies, &file)?;
-        let document = document(&summary);
-        let text = document.to_text() + &aside;
-        self.output.finish_result(folder, &text, document, &summary, || {
+        let mut told = Told::of(measurement.head(), document(&summary));
+        told.text += &aside;
+        self.output.finish_result(folder, told, &summary, || {
             let unstable = modes.iter().filter(|mode| mode.unstable);
             let line = |mode: &ModeSummary| ModeLine {
                 frequency_hz: mode.frequency_hz,

@@ -14,8 +14,8 @@ use super::{Failure, RunOptions, Session, cycle, terminal};
 use crate::case::{Analysis, Case};
 use crate::results::sweep::{Found, PointRecord, SweepDrawing, SweepFolder, SweepReport};
 use crate::results::sweep::{SweepSummary, document, draw, long_tables, write_points};
-use crate::results::{DrawingOptions, Manifest};
-use crate::study::{analysis_name, summarize};
+use crate::results::{DrawingOptions, Head, Manifest, summary_of};
+use crate::study::summarize;
 use clap::Args;
 use serde_json::{Map, Value};
 
@@ -147,7 +147,8 @@ pub fn drawing(case: &Case, plan: &SweepPlan<'_>, options: &DrawingOptions) -> S
 
 /// The summary of a sweep as the object that is printed and written.
 fn summary_object(report: &SweepReport<'_>, manifest: &Manifest) -> Result<Value, Failure> {
-    serde_json::to_value(SweepSummary::of(report, manifest)).map_err(Failure::run)
+    let head = Head::of(report.title, report.wall_s);
+    summary_of(manifest, head, &SweepSummary::of(report)).map_err(Failure::run)
 }
 
 /// Writes the table, the summary and, if asked, the figures of the finished points, and returns the
@@ -170,8 +171,7 @@ pub fn gather(
     Ok(summary)
 }
 
-/// Runs the analyses of one point and gives the summary of each by its name, without the manifest:
-/// the sweep's folder has it once.
+/// Runs the analyses of one point and gives the summary of each by its name.
 ///
 /// # Errors
 /// Those of the first analysis that fails.
@@ -185,11 +185,8 @@ fn run_point(
         if analysis == Analysis::Cycle {
             cycle::check_memory(case)?;
         }
-        let mut summary = summarize(case, analysis, manifest)?;
-        if let Value::Object(entries) = &mut summary {
-            entries.shift_remove("manifest");
-        }
-        summaries.insert(analysis_name(analysis).to_owned(), summary);
+        let summary = summarize(case, analysis, manifest)?;
+        summaries.insert(analysis.word().to_owned(), summary);
     }
     Ok(summaries)
 }

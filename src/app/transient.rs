@@ -13,7 +13,7 @@ use crate::linalg::interruption;
 use crate::results::transient::{
     CHECKPOINT, Checkpoint, PredictedGrowth, TransientReport, document, write, write_checkpoint,
 };
-use crate::results::{OutputFolder, object, read_record};
+use crate::results::{OutputFolder, read_record};
 use crate::study::transient::TransientStudy;
 use crate::transient::{CentralDifference, Recorder, RunEnd};
 use clap::Args;
@@ -114,7 +114,7 @@ impl Run for Arguments {
         if goes_on {
             write_checkpoint(&folder, &case_hash, &state, Some(record))?;
         }
-        let summary = write(&folder, &report)?;
+        let (summary, object) = write(&folder, &report)?;
         write_checkpoint(&folder, &case_hash, &state, None)?;
         if !stepped.is_finished {
             return Err(stopped(folder, &loop_));
@@ -124,9 +124,8 @@ impl Run for Arguments {
             figures::draw_run(&folder, &study, &report, &summary, &drawing)?;
         }
         let state = analysis.settling.state;
-        let table = document(&summary, state, PredictedGrowth::default()).to_text();
-        let object = object(&summary).map_err(Failure::run)?;
-        output.finish(folder, &table, &object)
+        let document = document(&summary, state, PredictedGrowth::default());
+        output.finish(folder, &document.titled(report.title).to_text(), &object)
     }
 }
 

@@ -5,10 +5,8 @@ use super::share::ShareOptions;
 use super::{Failure, RunOptions, Session, terminal};
 use crate::case::{Case, find_key};
 use crate::results::sweep::{Found, PointClock, PointRecord, SweepFolder};
-use crate::results::uncertainty::{
-    Sample, UncertaintySummary, document, draw_report, samples_table,
-};
-use crate::results::{Manifest, object};
+use crate::results::uncertainty::{Sample, document, draw_report, samples_table};
+use crate::results::{Manifest, summary_of};
 use crate::study::uncertainty::{BLOCK, Design, Sampler, curves, summarize};
 use clap::Args;
 use serde_json::{Map, Value};
@@ -86,8 +84,7 @@ impl Run for Arguments {
         let (samples, missing) = finished(&folder, count)?;
         let samples: Vec<Sample> =
             samples.into_iter().filter(|sample| sample.number <= uncertainty.samples).collect();
-        let mut summary =
-            UncertaintySummary { manifest: session.manifest.clone(), ..summarize(&case, &samples) };
+        let mut summary = summarize(&case, &samples);
         if missing > 0 {
             summary.notes.push(format!(
             "{missing} of {count} blocks of samples are missing: run it again with --resume once all shards have ended"
@@ -96,11 +93,13 @@ impl Run for Arguments {
             let (designs, bound) = (&self.robust, self.bound);
             summary.robust = Some(curves(&case, &sampler, designs, bound)?);
         }
-        summary.wall_s = session.wall_seconds();
         for note in &summary.notes {
             tracing::warn!("{note}");
         }
-        let object = object(&summary).map_err(Failure::run)?;
+        let manifest = &session.manifest;
+        let object = summary_of(manifest, session.head(), &summary).map_err(Failure::run)?;
+        let document = document(&summary).titled(&case.title);
+        let text = document.to_text();
         if missing == 0 {
             let largest = summary.largest_friction;
             let table = samples_table(&sampler.keys(), &samples, largest);
@@ -112,10 +111,10 @@ impl Run for Arguments {
             }
             folder.write_summary(&object)?;
             if let Some(drawing) = output.drawing() {
-                draw_report(&folder, &summary, &drawing)?;
+                draw_report(&folder, &summary, document, manifest, &drawing)?;
             }
         }
-        output.print(&document(&summary).to_text(), &object, folder.path())
+        output.print(&text, &object, folder.path())
     }
 }
 

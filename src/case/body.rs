@@ -45,34 +45,22 @@ pub enum Body {
 impl Body {
     /// The plane annulus, if it is one.
     pub fn annulus(&self) -> Option<&Annulus> {
-        match self {
-            Self::Annulus(annulus) => Some(annulus),
-            Self::Revolution(_) | Self::Imported(_) | Self::Assembly(_) => None,
-        }
+        if let Self::Annulus(own) = self { Some(own) } else { None }
     }
 
     /// The body of revolution in three dimensions, if it is one.
     pub fn revolution(&self) -> Option<&Revolution> {
-        match self {
-            Self::Revolution(revolution) => Some(revolution),
-            Self::Annulus(_) | Self::Imported(_) | Self::Assembly(_) => None,
-        }
+        if let Self::Revolution(own) = self { Some(own) } else { None }
     }
 
     /// The body from a mesh file, if it is one.
     pub fn imported(&self) -> Option<&ImportedBody> {
-        match self {
-            Self::Imported(imported) => Some(imported),
-            Self::Annulus(_) | Self::Revolution(_) | Self::Assembly(_) => None,
-        }
+        if let Self::Imported(own) = self { Some(own) } else { None }
     }
 
     /// The solid bodies from a mesh file, if it is some.
     pub fn assembly(&self) -> Option<&AssemblyBody> {
-        match self {
-            Self::Assembly(assembly) => Some(assembly),
-            Self::Annulus(_) | Self::Revolution(_) | Self::Imported(_) => None,
-        }
+        if let Self::Assembly(own) = self { Some(own) } else { None }
     }
 
     /// Radii and element counts across the axis, of a generated body.
@@ -260,11 +248,10 @@ impl Body {
 
     /// Whether the springs of a support have structural damping.
     pub(super) fn has_lossy_supports(&self) -> bool {
-        let loss_factor = |own: &BoundaryCondition| match own {
-            BoundaryCondition::Support(support) => support.loss_factor,
-            _ => 0.0,
+        let is_lossy = |own: &BoundaryCondition| match own {
+            BoundaryCondition::Support(support) => support.loss_factor != 0.0,
+            _ => false,
         };
-        let is_lossy = |own: &BoundaryCondition| loss_factor(own) != 0.0;
         match self {
             Self::Annulus(annulus) => {
                 let (outer, shaft) = (&annulus.specification.outer, annulus.specification.shaft);

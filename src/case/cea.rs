@@ -120,21 +120,16 @@ pub(super) fn mode_selection(section: &Section<'_>, unknowns: u128) -> ModeSelec
     match (limit, modes) {
         (Some(limit), None) => ModeSelection::BelowHz(limit),
         (None, Some(modes)) => ModeSelection::Lowest(modes),
-        // An override replaces what the file says in the other way.
-        (Some(_), Some(modes))
-            if section.is_overridden("modes") && !section.is_overridden("max_frequency_hz") =>
-        {
-            ModeSelection::Lowest(modes)
-        }
-        (Some(limit), Some(_))
-            if section.is_overridden("max_frequency_hz") && !section.is_overridden("modes") =>
-        {
-            ModeSelection::BelowHz(limit)
-        }
-        (Some(limit), Some(_)) => {
-            refuse!(section, "modes", "cea.modes and cea.max_frequency_hz exclude each other";
-                "give one of the two"; "keep one of the two");
-            ModeSelection::BelowHz(limit)
+        (Some(limit), Some(modes)) => {
+            // An override replaces what the file says in the other way.
+            let keys = ["modes", "max_frequency_hz"];
+            let [is_count, is_limit] = keys.map(|key| section.is_overridden(key));
+            if is_count == is_limit {
+                refuse!(section, "modes", "cea.modes and cea.max_frequency_hz exclude each other";
+                    "give one of the two"; "keep one of the two");
+            }
+            let is_counted = is_count && !is_limit;
+            if is_counted { ModeSelection::Lowest(modes) } else { ModeSelection::BelowHz(limit) }
         }
         (None, None) => {
             refuse!(section, "max_frequency_hz", "cea.max_frequency_hz (or cea.modes) is missing";

@@ -273,12 +273,7 @@ fn analyses(
     is_linear: bool,
     [has_cea, has_transient, has_cycle]: [bool; 3],
 ) -> Vec<Analysis> {
-    let words = [
-        ("cea", Analysis::Cea),
-        ("transient", Analysis::Transient),
-        ("cycle", Analysis::Cycle),
-        ("basin", Analysis::Basin),
-    ];
+    let all = [Analysis::Cea, Analysis::Transient, Analysis::Cycle, Analysis::Basin];
     let named = section.choices("analyses");
     let is_there = |analysis: Analysis| match analysis {
         Analysis::Cea => has_cea,
@@ -288,8 +283,7 @@ fn analyses(
         Analysis::Basin => false,
     };
     if named.is_empty() {
-        let all = words.iter().map(|word| word.1);
-        let all: Vec<Analysis> = all.filter(|analysis| is_there(*analysis)).collect();
+        let all: Vec<Analysis> = all.into_iter().filter(|own| is_there(*own)).collect();
         if all.is_empty() && !section.has("analyses") {
             refuse!(section, "analyses",
                 "[convergence] has nothing to study: the case has neither [cea] nor a [transient] \
@@ -298,14 +292,13 @@ fn analyses(
         }
         return all;
     }
-    for (word, analysis) in words {
+    for analysis in all {
         if named.contains(&analysis) && !is_there(analysis) {
             refuse!(section, "analyses",
-                "convergence.analyses names \"{word}\", which this case cannot run";
+                "convergence.analyses names \"{}\", which this case cannot run", analysis.word();
                 "an analysis needs its own section; a transient also needs quad4 elements, a cycle \
                  quad4 elements and the built-in annulus");
         }
     }
-    let once = words.iter().map(|w| w.1);
-    once.filter(|analysis| named.contains(analysis)).collect()
+    all.into_iter().filter(|analysis| named.contains(analysis)).collect()
 }

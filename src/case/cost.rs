@@ -243,13 +243,7 @@ impl Case {
 
     /// The analyses that a study of these runs: those named, else all that the case has.
     fn studied(&self, named: &[Analysis]) -> Vec<Analysis> {
-        let has = [
-            (Analysis::Transient, self.transient.is_some()),
-            (Analysis::Cea, self.cea.is_some()),
-            (Analysis::Cycle, self.cycle.is_some()),
-            (Analysis::Basin, self.basin.is_some()),
-        ];
-        let here = has.into_iter().filter(|pair| pair.1).map(|pair| pair.0);
+        let here = Analysis::all().filter(|analysis| self.has(*analysis));
         here.filter(|analysis| named.is_empty() || named.contains(analysis)).collect()
     }
 }

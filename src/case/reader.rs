@@ -25,13 +25,16 @@ pub(super) struct Findings<'a> {
     pub scope: suggestion::Scope<'a>,
     errors: RefCell<Vec<Diagnostic>>,
     warnings: RefCell<Vec<Diagnostic>>,
+    /// Keys and sections that are not there, each with an error about that.
+    absent: RefCell<Vec<(String, String)>>,
 }
 
 impl<'a> Findings<'a> {
     /// Nothing found so far in a case.
     pub fn of(root: &'a RawTable) -> Self {
         let scope = suggestion::Scope::of(root);
-        Self { scope, errors: RefCell::default(), warnings: RefCell::default() }
+        let (errors, warnings, absent) = std::default::Default::default();
+        Self { scope, errors, warnings, absent }
     }
 
     fn push(
@@ -43,6 +46,15 @@ impl<'a> Findings<'a> {
     ) {
         let error = Diagnostic::error(message, label, at, help);
         self.errors.borrow_mut().push(error);
+    }
+
+    /// Takes back what was said of a key or section that is not there: it is, by another name.
+    fn take_back(&self, name: &str) {
+        let absent = self.absent.borrow();
+        let is_of_it = |own: &Diagnostic| {
+            absent.iter().any(|(absent, message)| absent == name && *message == own.message)
+        };
+        self.errors.borrow_mut().retain(|own| !is_of_it(own));
     }
 
     /// All errors and all warnings, each in the order found.
@@ -143,7 +155,11 @@ impl<'a> Section<'a> {
         label: impl Into<String>,
         help: impl Remedy,
     ) {
-        let help = help.remedy().or_else(|| suggestion::usage(&self.name(key)));
+        let (name, message) = (self.name(key), message.into());
+        let help = help.remedy().or_else(|| suggestion::usage(&name));
+        if !self.has(key) {
+            self.findings.absent.borrow_mut().push((name, message.clone()));
+        }
         self.findings.push(message, label, self.place(key), help);
     }
 
@@ -211,12 +227,8 @@ impl<'a> Section<'a> {
     pub fn missing(&self, key: &str) {
         // A missing section is reported once, where it is opened.
         if self.is_given() {
-            self.findings.push(
-                format!("missing key `{}`", self.name(key)),
-                format!("`{key}` is required in this section"),
-                self.at.clone(),
-                suggestion::usage(&self.name(key)),
-            );
+            let message = format!("missing key `{}`", self.name(key));
+            self.reject(key, message, format!("`{key}` is required in this section"), None);
         }
     }
 
@@ -238,10 +250,10 @@ impl<'a> Section<'a> {
                     ),
                 }
             }
-            None if required => self.findings.push(
+            None if required => self.reject(
+                key,
                 format!("missing section [{}]", section.path),
                 "the case ends without it",
-                self.at.clone(),
                 match key {
                     "contact" => "a plane body needs it; `frictionsim init` writes a complete case",
                     _ => "`frictionsim init` writes a complete case to start from",
@@ -263,21 +275,21 @@ impl<'a> Section<'a> {
             false => format!("not a key of [{}]", self.path),
         };
         for (key, entry) in unknown.by_ref().take(MOST_UNKNOWN) {
-            self.findings.push(
-                format!("unknown key `{}`", cut(self.name(key))),
-                place.clone(),
-                entry.key_at.clone(),
-                match self.declarations {
-                    Some(own) => {
-                        let parts: Vec<&str> = own.iter().map(|part| part.name).collect();
-                        suggestion::suggest_part(key, &parts)
-                    }
-                    None => {
-                        let word = (key.as_str(), &entry.item.value);
-                        self.findings.scope.suggest(&self.path, word, &names)
-                    }
-                },
-            );
+            let help = match self.declarations {
+                Some(own) => {
+                    let parts: Vec<&str> = own.iter().map(|part| part.name).collect();
+                    suggestion::suggest_part(key, &parts)
+                }
+                None => {
+                    let word = (key.as_str(), &entry.item.value);
+                    self.findings.scope.suggest(&self.path, word, &names)
+                }
+            };
+            if let Some(meant) = suggestion::meant_here(&help) {
+                self.findings.take_back(&self.name(meant));
+            }
+            let message = format!("unknown key `{}`", cut(self.name(key)));
+            self.findings.push(message, place.clone(), entry.key_at.clone(), help);
         }
         if let Some((_, first)) = unknown.next() {
             let count = 1 + unknown.count();

@@ -3,9 +3,19 @@
 use super::diagnostic::{CaseErrors, Diagnostic, Location};
 use super::refusal;
 use super::value::table_of;
-use super::{Annulus, Body, Case, Cea, Convergence, Frf, Sweep};
+use super::{Analysis, Annulus, Body, Case, Cea, Convergence, Frf, Sweep};
 
 impl Case {
+    /// Whether it has the section of an analysis.
+    pub fn has(&self, analysis: Analysis) -> bool {
+        match analysis {
+            Analysis::Transient => self.transient.is_some(),
+            Analysis::Cea => self.cea.is_some(),
+            Analysis::Cycle => self.cycle.is_some(),
+            Analysis::Basin => self.basin.is_some(),
+        }
+    }
+
     /// The complex eigenvalue analysis.
     ///
     /// # Errors

@@ -209,6 +209,12 @@ impl<'a> Scope<'a> {
     }
 }
 
+/// The key of the same section that a hint says is meant.
+pub(super) fn meant_here(hint: &str) -> Option<&str> {
+    let (key, rest) = hint.strip_prefix("did you mean `")?.split_once('`')?;
+    (!rest.starts_with(" of [")).then_some(key)
+}
+
 /// Keys of earlier versions, and what stands in their place.
 const GONE: &[(&str, &str)] = &[
     ("cea.map", "a sweep of cea draws it: give the key and its values in [sweep]"),

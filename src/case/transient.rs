@@ -302,7 +302,11 @@ pub(super) fn output(
             let message = format!("output.snapshots: {further} later times are left out, too");
             section.warn("snapshots", message, "after the end", None);
         }
-        contradictions(&section, transient, sample_interval);
+        if sample_interval > duration {
+            refuse!(section, "sample_interval" =>
+                "= {sample_interval:?} s is above transient.duration = {duration:?} s";
+                "a run has two samples at least");
+        }
     }
     let contact_interval = section.optional_number("contact_interval");
     if let Some(interval) = contact_interval.filter(|interval| *interval < sample_interval) {
@@ -339,14 +343,4 @@ fn probes(section: &Section<'_>, nodes: &Nodes<'_>) -> (Vec<usize>, Vec<PlacedNo
         placed.extend(place);
     }
     (probes, placed)
-}
-
-/// Times that do not fit into the run.
-fn contradictions(output: &Section<'_>, transient: &Transient, sample_interval: f64) {
-    let duration = transient.duration;
-    if sample_interval > duration {
-        refuse!(output, "sample_interval" =>
-            "= {sample_interval:?} s is above transient.duration = {duration:?} s";
-            "a run has two samples at least");
-    }
 }

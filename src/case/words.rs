@@ -38,17 +38,22 @@ pub(super) fn word_of<T: Choice + PartialEq>(choice: T) -> &'static str {
     T::WORDS.iter().find(|pair| pair.1 == choice).map_or("", |pair| pair.0)
 }
 
-impl ModificationKind {
-    /// Its word.
-    pub fn word(self) -> &'static str {
-        word_of(self)
-    }
+/// Lets others name and list choices.
+macro_rules! listed {
+    ($($name:ident),+) => {$(impl $name {
+        /// Its word.
+        pub fn word(self) -> &'static str {
+            word_of(self)
+        }
 
-    /// All of them.
-    pub fn all() -> impl Iterator<Item = Self> {
-        Self::WORDS.iter().map(|pair| pair.1)
-    }
+        /// All of them.
+        pub fn all() -> impl Iterator<Item = Self> {
+            Self::WORDS.iter().map(|pair| pair.1)
+        }
+    })+};
 }
+
+listed!(ModificationKind, Analysis);
 
 impl UnitsWord {
     /// Power of ten that takes a length or a speed to SI units.

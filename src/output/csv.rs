@@ -22,7 +22,6 @@ fn tamed(cell: &[u8]) -> Cow<'_, [u8]> {
 /// Writes a table row by row: a header of column names, then records.
 pub struct Table<W: Write> {
     writer: csv::Writer<W>,
-    columns: usize,
 }
 
 impl<W: Write> Table<W> {
@@ -30,7 +29,7 @@ impl<W: Write> Table<W> {
     pub fn new(out: W, columns: &[&str]) -> io::Result<Self> {
         let mut writer = csv::Writer::from_writer(out);
         writer.write_record(columns.iter().map(|name| tamed(name.as_bytes())))?;
-        Ok(Self { writer, columns: columns.len() })
+        Ok(Self { writer })
     }
 
     /// Writes one row of cells.
@@ -46,12 +45,6 @@ impl<W: Write> Table<W> {
             self.writer.write_field(tamed(cell.as_ref()))?;
         }
         Ok(self.writer.write_record(None::<&[u8]>)?)
-    }
-
-    /// Writes one row of numbers.
-    pub fn numbers(&mut self, values: &[f64]) -> io::Result<()> {
-        debug_assert_eq!(values.len(), self.columns);
-        self.row(values.iter().map(|value| format_number(*value)))
     }
 
     /// Ends the table.

@@ -77,10 +77,15 @@ pub struct Document {
 }
 
 impl Document {
-    /// A document; without a title of its own it has another.
-    pub fn new(title: &str, otherwise: &str) -> Self {
-        let title = if title.is_empty() { otherwise } else { title };
-        Self { title: title.to_owned(), ..Self::default() }
+    /// An empty document under what it is of.
+    pub fn new(title: impl Into<String>) -> Self {
+        Self { title: title.into(), ..Self::default() }
+    }
+
+    /// The same under the title of a case, where that has one.
+    #[must_use]
+    pub fn titled(self, title: &str) -> Self {
+        if title.is_empty() { self } else { Self { title: title.to_owned(), ..self } }
     }
 
     /// The same with a further part.

@@ -253,28 +253,28 @@ impl Table {
     /// The same with one column that people see where it has something, and files do not have.
     #[must_use]
     pub fn shown_column<C: Into<Cell>>(
-        mut self,
+        self,
         label: &str,
         cells: impl IntoIterator<Item = C>,
     ) -> Self {
         let look = Some((Shown::IfAny, label.to_owned(), Format::Plain));
-        self.heads.push(Head { key: String::new(), look });
-        for (at, cell) in cells.into_iter().enumerate() {
-            self.row(at).push(cell.into());
-        }
-        self
+        self.one(Head { key: String::new(), look }, cells)
     }
 
     /// The same with one column that the case decides.
     #[must_use]
     pub fn column<C: Into<Cell>>(
-        mut self,
+        self,
         key: &str,
         look: Option<(&str, Format)>,
         cells: impl IntoIterator<Item = C>,
     ) -> Self {
         let look = look.map(|(label, format)| (Shown::Always, label.to_owned(), format));
-        self.heads.push(Head { key: key.to_owned(), look });
+        self.one(Head { key: key.to_owned(), look }, cells)
+    }
+
+    fn one<C: Into<Cell>>(mut self, head: Head, cells: impl IntoIterator<Item = C>) -> Self {
+        self.heads.push(head);
         for (at, cell) in cells.into_iter().enumerate() {
             self.row(at).push(cell.into());
         }

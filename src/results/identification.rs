@@ -99,7 +99,7 @@ pub fn document(summary: &IdentificationSummary) -> Document {
         .is_none()
         .then(|| "Half-power alone: fewer than three modes without doubt.".to_owned());
     let modes = summary.modes.iter().enumerate().map(|(k, mode)| (k + 1, mode.clone()));
-    Document::new("", "Identified damping")
+    Document::new("Identified damping")
         .section(
             Section::new("Rayleigh coefficients")
                 .tables([Table::new("", "Rayleigh coefficients with their 95 % intervals")

@@ -47,6 +47,6 @@ pub use store::{
     FolderError, MESH, Manifest, OutputFolder, Record, Replace, is_result, read_manifest,
     read_record, record_bytes,
 };
-pub use summary::{object, read_summary, write_summary};
+pub use summary::{Head, object, read_summary, summary_of, write_summary};
 pub use vtu::{EncodedMesh, Field, cartesian_vectors, write_vtu};
 pub use whole_mesh::WholeMesh;

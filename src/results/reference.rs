@@ -2,8 +2,8 @@
 
 use super::basin::{BasinSummary, RUNS};
 use super::cea::{
-    AXIAL, BRANCHES, CONTRIBUTIONS, COUPLINGS, CeaSummary, FEED, MODES, NAMES, NODES, ONSET_ERRORS,
-    ONSETS, PLACES, PLANE, POINTS, RINGS, ROWS, STATUS, TRACTIONS,
+    AXIAL, CONTRIBUTIONS, COUPLINGS, CeaSummary, EIGENVALUES, FEED, MODES, NAMES, NODES, ONSETS,
+    OWN_MODES, PLACES, PLANE, POINTS, RINGS, ROWS, STATUS, TRACTIONS, UNSTABLE,
 };
 use super::compare::ComparisonSummary;
 use super::convergence::{self, ConvergenceSummary};
@@ -12,14 +12,16 @@ use super::fit::{self, FitSummary};
 use super::identification::{self, IdentificationSummary};
 use super::improve::{self, ImproveSummary};
 use super::mac::{self, MacSummary};
+use super::manifest::Manifest;
 use super::matrices::{self, MatricesSummary};
 use super::mesh::{MeshStatistics, MeshSummary};
 use super::response::ResponseSummary;
 use super::signal::{self, SignalSummary};
+use super::summary::STATUS as FRACTIONS;
 use super::sweep::{self, SweepSummary};
 use super::transient::{self, TransientSummary};
 use super::uncertainty::{self, UncertaintySummary};
-use crate::output::{Column, Entry, Key, entries, keys_of, unit_of};
+use crate::output::{Column, Entry, Key, describe_field, entries, keys_of, unit_of};
 use std::fmt::Write as _;
 
 /// What one file of a command holds.
@@ -77,28 +79,28 @@ pub fn reference() -> Vec<FileReference> {
         file!("basin", "basin.csv"; RUNS),
         summary::<BasinSummary>("basin"),
         file!("cea", "eigenvalues.csv"; PLACES, MODES, AXIAL),
-        file!("cea", "stability.csv"; ONSETS, ONSET_ERRORS),
+        file!("cea", "stability.csv"; ONSETS),
         file!("cea", "prestress.csv"; NODES, RINGS, &POINTS[..1], TRACTIONS, STATUS, PLANE,
             &POINTS[3..]),
-        file!("cea", "sensitivities.csv"; ROWS, rates()),
-        file!("cea", "contributions.csv"; NAMES, BRANCHES, CONTRIBUTIONS),
-        file!("cea", "coupling.csv"; NAMES, COUPLINGS),
+        file!("cea", "sensitivities.csv"; ROWS, EIGENVALUES, rates()),
+        file!("cea", "contributions.csv"; NAMES, CONTRIBUTIONS),
+        file!("cea", "coupling.csv"; &NAMES[..4], COUPLINGS),
         file!("cea", "feed.csv"; &NAMES[..3], FEED),
         summary::<CeaSummary>("cea"),
         summary::<ComparisonSummary>("compare"),
         file!("convergence", "convergence.csv"; convergence::ROWS),
         summary::<ConvergenceSummary>("convergence"),
-        file!("cycle", "cycle.csv"; cycle::NAMES, cycle::MOTION, cycle::STATUS, cycle::POWERS,
+        file!("cycle", "cycle.csv"; cycle::NAMES, cycle::MOTION, FRACTIONS, cycle::POWERS,
             cycle::BALANCE, cycle::KNOWN, cycle::ERRORS),
         file!("cycle", "cycle-N.csv"; cycle::HISTORY, cycle::WAVE_PATH, cycle::PATH),
         file!("cycle", "contact-N.csv"; cycle::CONTACT_NODES),
         file!("cycle", "harmonics-N.csv"; cycle::HARMONICS),
         file!("cycle", "stability-N.csv"; parameter(), cycle::EXPONENTS),
-        file!("cycle", "branch-N.csv"; parameter(), cycle::BRANCH, cycle::STATUS, cycle::POWERS,
+        file!("cycle", "branch-N.csv"; parameter(), cycle::BRANCH, FRACTIONS, cycle::POWERS,
             cycle::ALONG),
         file!("cycle", "two-waves-N.csv"; parameter(), cycle::TWO_WAVES),
         summary::<CycleSummary>("cycle"),
-        file!("fit", "fit.csv"; fit::MEASURED, entries("model_", fit::MODES), fit::DIFFERENCES),
+        file!("fit", "fit.csv"; &fit::LINES[..4], entries("model_", fit::MODES), &fit::LINES[4..]),
         file!("fit", "modes.csv"; fit::MODES, fit::GROWS),
         summary::<FitSummary>("fit"),
         file!("frf", "frf.csv";
@@ -112,8 +114,8 @@ pub fn reference() -> Vec<FileReference> {
         file!("identify", "fit.csv"; identification::FITTED),
         summary::<IdentificationSummary>("identify"),
         file!("improve", "candidates.csv"; improve::CANDIDATES, improve::EFFECTS,
-            entries("predicted_", improve::STATES), entries("confirmed_", improve::STATES),
-            entries("confirmed_", improve::BESIDE), improve::VERDICTS),
+            entries("predicted_", &improve::STATES[..2]), entries("confirmed_", improve::STATES),
+            improve::VERDICTS),
         summary::<ImproveSummary>("improve"),
         file!("mac", "mac.csv"; mac::ROWS),
         summary::<MacSummary>("mac"),
@@ -125,9 +127,9 @@ pub fn reference() -> Vec<FileReference> {
         file!("signal", "spectrum-N.csv"; signal::SPECTRUM),
         summary::<SignalSummary>("signal"),
         file!("sweep", "points.csv"; swept(), one("KEY.KEY", "numbers of the summaries"), points()),
-        file!("sweep", "stability.csv"; swept(), ONSETS, points()),
-        file!("sweep", "unstable_modes.csv"; swept(), sweep::UNSTABLE, points()),
-        file!("sweep", "modes.csv"; swept(), sweep::OWN_MODES, points()),
+        file!("sweep", "stability.csv"; swept(), &ONSETS[..9], points()),
+        file!("sweep", "unstable_modes.csv"; swept(), UNSTABLE, points()),
+        file!("sweep", "modes.csv"; swept(), &OWN_MODES[..7], points()),
         file!("sweep", "branches.csv"; swept(), sweep::BRANCHES, points()),
         summary::<SweepSummary>("sweep"),
         file!("transient", "probe-N.csv"; one("time_s", "time"),
@@ -189,9 +191,26 @@ fn rates() -> Vec<Entry> {
 }
 
 fn summary<T: crate::output::Described>(command: &'static str) -> FileReference {
-    let entry = |key: Key| Entry { key: key.path, meaning: key.meaning.to_owned() };
-    let entries = keys_of::<T>().into_iter().map(entry).collect();
+    let entry = |key: Key| Entry { key: key.path, meaning: plain(key.meaning) };
+    let mut keys = keys_of::<T>();
+    describe_field::<Manifest>("", "manifest", "what it was made from", false, &mut keys);
+    let head = pairs(&[
+        ("command", "the command"),
+        ("title", "title of the case, of a command that runs one"),
+        ("wall_s", "wall time, of a command that takes some"),
+    ]);
+    let entries = head.into_iter().chain(keys.into_iter().map(entry)).collect();
     FileReference { command, file: "summary.json", entries }
+}
+
+/// The comment of a field as columns have their meaning: without its first capital and its full stop.
+fn plain(comment: &str) -> String {
+    let mut letters = comment.trim_end_matches('.').chars();
+    let first = letters.next().into_iter();
+    match letters.clone().next() {
+        Some(second) if second.is_uppercase() => first.chain(letters).collect(),
+        _ => first.flat_map(char::to_lowercase).chain(letters).collect(),
+    }
 }
 
 /// The guide's tables.

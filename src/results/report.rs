@@ -87,7 +87,7 @@ mod tests {
             case_text: "[mesh]\nelement = \"quad4\" # <&>\n".into(),
             ..Manifest::new("cea")
         };
-        let document = Document::new("Disc & <cylinder>", "").section(section);
+        let document = Document::new("Disc & <cylinder>").section(section);
         Report::of(document, vec![figure.clone(), figure], &manifest)
     }
 

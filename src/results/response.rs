@@ -1,6 +1,5 @@
 //! Table, figure and report of a computed frequency response.
 
-use super::Manifest;
 use super::finding::write_table;
 use super::folder::{FolderError, OutputFolder};
 use super::identification::unit_of;
@@ -15,10 +14,6 @@ use std::io;
 /// `summary.json` of `frictionsim frf`.
 #[derive(Clone, Debug, PartialEq, Described, Serialize)]
 pub struct ResponseSummary {
-    /// `frf`.
-    pub command: String,
-    /// Title of the case.
-    pub title: String,
     /// What was computed, in a sentence.
     pub description: String,
     /// Unknowns.
@@ -37,10 +32,6 @@ pub struct ResponseSummary {
     pub quantity: String,
     /// Relative standard deviation of the noise added.
     pub noise: f64,
-    /// Wall time, s.
-    pub wall_s: f64,
-    /// What it was made from.
-    pub manifest: Manifest,
 }
 
 /// Name of the table of a response in its folder; `frictionsim identify` reads it.
@@ -82,7 +73,7 @@ impl ResponseSummary {
         let section = Section::new("Frequency response")
             .text([self.description.clone()])
             .figures(["response"]);
-        Document::new(&self.title, "Frequency response").section(section)
+        Document::new("Frequency response").section(section)
     }
 }
 

@@ -1,6 +1,7 @@
 //! A body as results show it.
 
 use super::vtu::{EncodedMesh, Field, solid_vectors};
+use super::whole_mesh::WholeMesh;
 use crate::mesh::{Mesh, SolidFace, SolidSector};
 use std::io;
 
@@ -35,9 +36,14 @@ impl ShownBody<'_> {
         [place.radius * cosine, place.radius * sine, place.height]
     }
 
-    /// Its nodes and elements for ParaView.
+    /// Its nodes and elements.
+    pub fn whole(&self) -> WholeMesh {
+        self.sector.map_or_else(|| WholeMesh::of(self.mesh), WholeMesh::of_revolution)
+    }
+
+    /// The same for ParaView.
     pub fn encoded(&self) -> io::Result<EncodedMesh> {
-        self.sector.map_or_else(|| EncodedMesh::new(self.mesh), EncodedMesh::solid)
+        EncodedMesh::of(&self.whole())
     }
 
     /// Vectors at all nodes, given in their frames, along x, y and z.

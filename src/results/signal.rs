@@ -89,7 +89,7 @@ pub fn document(summary: &SignalSummary) -> Document {
         significant(summary.sampling_rate_hz, 9),
         fixed(summary.samples as f64 / summary.sampling_rate_hz, 4)
     );
-    Document::new("", "Lines of a signal")
+    Document::new("Lines of a signal")
         .section(
             Section::new("Signal")
                 .text(std::iter::once(sampled).chain(summary.channels.iter().flat_map(said)))

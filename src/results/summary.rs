@@ -1,9 +1,11 @@
 //! Typed summaries: the struct that `summary.json` is.
 //!
-//! Its fields are the keys in their order. A value that may be absent is an `Option` and null in JSON: JSON has neither
-//! NaN nor infinity.
+//! Its fields are the keys in their order, between a head and a foot that all have. A value that may be absent is an
+//! `Option` and null in JSON: JSON has neither NaN nor infinity.
 
+use super::finding::finding;
 use super::folder::{FolderError, OutputFolder};
+use super::manifest::Manifest;
 use super::reopening::{SUMMARY, read_own};
 use crate::cycle::CriticalValue;
 use crate::output::Described;
@@ -22,6 +24,16 @@ pub struct CriticalSummary {
     pub value: f64,
 }
 
+finding! {
+    /// Fractions of the contact nodes, averaged over the interval that a summary is of.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Described, Serialize)]
+    StatusFractions, STATUS {
+        stick: Option<f64> = "fraction of the contact that sticks", Always "stick" Percent(1);
+        slip: Option<f64> = "fraction that slips", Always "slip" Percent(1);
+        open: Option<f64> = "fraction that is open", Always "open" Percent(1);
+    }
+}
+
 impl StatusFractions {
     /// Of `[stick, slip, open]`.
     pub fn of(fractions: [f64; 3]) -> Self {
@@ -34,17 +46,6 @@ impl From<CriticalValue> for CriticalSummary {
     fn from(own: CriticalValue) -> Self {
         Self { key: own.parameter.key().to_owned(), value: own.parameter.in_key_units(own.value) }
     }
-}
-
-/// Fractions of the contact nodes, averaged over the interval that a summary is of.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Described, Serialize)]
-pub struct StatusFractions {
-    /// Sticking.
-    pub stick: Option<f64>,
-    /// Slipping.
-    pub slip: Option<f64>,
-    /// Open.
-    pub open: Option<f64>,
 }
 
 /// Mean powers of a whole disc, W; equations (9) to (12).
@@ -96,11 +97,50 @@ pub fn present(value: f64) -> Option<f64> {
     value.is_finite().then_some(value + 0.0)
 }
 
-/// The JSON object of a summary, in which no zero has a sign.
-pub fn object(summary: &impl Serialize) -> serde_json::Result<Value> {
-    let mut object = serde_json::to_value(summary)?;
+/// What every summary begins with behind its command.
+#[derive(Clone, Copy, Debug, Default, Serialize)]
+pub struct Head<'a> {
+    /// Title of the case, of a command that runs one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub title: Option<&'a str>,
+    /// Wall time, s, of a command that takes some.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub wall_s: Option<f64>,
+}
+
+impl<'a> Head<'a> {
+    /// Of a case that took so long, s.
+    pub fn of(title: &'a str, wall_s: f64) -> Self {
+        Self { title: Some(title), wall_s: Some(wall_s) }
+    }
+}
+
+/// The JSON object of what a command has found, behind its name and its head. No zero has a sign.
+pub fn object(command: &str, head: Head<'_>, found: &impl Serialize) -> serde_json::Result<Value> {
+    #[derive(Serialize)]
+    struct Whole<'a, S> {
+        command: &'a str,
+        #[serde(flatten)]
+        head: Head<'a>,
+        #[serde(flatten)]
+        found: &'a S,
+    }
+    let mut object = serde_json::to_value(Whole { command, head, found })?;
     drop_signs_of_zeros(&mut object);
     Ok(object)
+}
+
+/// The same with what it was made from: what `summary.json` holds.
+pub fn summary_of(
+    manifest: &Manifest,
+    head: Head<'_>,
+    found: &impl Serialize,
+) -> serde_json::Result<Value> {
+    let mut whole = object(&manifest.command, head, found)?;
+    if let Some(entries) = whole.as_object_mut() {
+        entries.insert("manifest".to_owned(), serde_json::to_value(manifest)?);
+    }
+    Ok(whole)
 }
 
 fn drop_signs_of_zeros(value: &mut Value) {
@@ -114,15 +154,16 @@ fn drop_signs_of_zeros(value: &mut Value) {
     }
 }
 
-/// Writes `summary.json` and gives the object that it holds.
+/// Writes `summary.json` of what was found and gives the object that it holds.
 pub fn write_summary(
     folder: &OutputFolder,
-    summary: &impl Serialize,
+    head: Head<'_>,
+    found: &impl Serialize,
 ) -> Result<Value, FolderError> {
     let failed = |error: serde_json::Error| {
         FolderError::io("write", &folder.path().join(SUMMARY), error.into())
     };
-    let object = object(summary).map_err(failed)?;
+    let object = summary_of(folder.manifest(), head, found).map_err(failed)?;
     folder.write(SUMMARY, |out| {
         serde_json::to_writer_pretty(&mut *out, &object)?;
         out.write_all(b"\n")

@@ -18,7 +18,6 @@ use crate::cycle::BasinBoundary;
 use crate::fem::operator::SimdLevel;
 use crate::results::Manifest;
 use crate::results::basin::{BasinSummary, Rivals};
-use std::time::Instant;
 
 /// Bisects for the amplitude ratio at saturation that decides between the two rivals of `[basin]`.
 ///
@@ -42,9 +41,6 @@ fn contest(case: &Case, simd: SimdLevel) -> Result<(Rivals, BasinBoundary), Stud
 
 /// As [`boundary`], in the words of its results.
 pub fn summary(case: &Case, manifest: &Manifest) -> Result<BasinSummary, StudyError> {
-    let start = Instant::now();
     let (rivals, found) = contest(case, SimdLevel::choose(&manifest.simd)?)?;
-    let wall_s = start.elapsed().as_secs_f64();
-    let title = &case.title;
-    Ok(BasinSummary::new(title, rivals, &found, wall_s, manifest))
+    Ok(BasinSummary::new(rivals, &found))
 }

@@ -6,7 +6,6 @@ use super::fit::least_cost;
 use crate::case::{Body, Case, Cea, refusal};
 use crate::linalg::c64;
 use crate::mesh::Mesh;
-use crate::results::Manifest;
 use crate::results::mac::{MacMode, MacPair, MacShape, MacSummary};
 use crate::signal::reader::MeasuredShape;
 use nalgebra::Vector3;
@@ -26,8 +25,8 @@ const UNITS: [(f64, &str); 4] =
 ///
 /// of every measured shape `y` with every mode `phi` at the case's friction coefficient, over the measured points, each
 /// at its nearest node, and directions; each shape is paired with one mode so that the sum is largest. `scale` is the
-/// factor on the coordinates of the file. Points off the body are left out, and said. The source of the shapes, the
-/// time and the manifest are left open.
+/// factor on the coordinates of the file. Points off the body are left out, and said. The source of the shapes is
+/// left open.
 ///
 /// Source: R. J. Allemang, The modal assurance criterion: twenty years of use and abuse, Sound and Vibration 37 (2003).
 ///
@@ -69,9 +68,6 @@ pub fn assurance(
         notes.extend(placed.note(shape, case.body.size()));
     }
     Ok(MacSummary {
-        command: "mac".to_owned(),
-        title: case.title.clone(),
-        wall_s: 0.0,
         measurement: String::new(),
         friction_coefficient: friction,
         pairs: paired(&matrix),
@@ -98,7 +94,6 @@ pub fn assurance(
             .collect(),
         mac: matrix,
         notes,
-        manifest: Manifest::new("mac"),
     })
 }
 

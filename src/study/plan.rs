@@ -57,28 +57,20 @@ impl<'a> SweepPlan<'a> {
         let first = plan.point_case(1);
         let first = first.as_ref().unwrap_or(case);
         plan.analyses = match plan.sweep.analyses.as_slice() {
-            [] => [
-                first.transient.as_ref().map(|_| Analysis::Transient),
-                first.cea.as_ref().map(|_| Analysis::Cea),
-                first.cycle.as_ref().map(|_| Analysis::Cycle),
-                first.basin.as_ref().map(|_| Analysis::Basin),
-            ]
-            .into_iter()
-            .flatten()
-            .collect(),
+            [] => Analysis::all().filter(|analysis| first.has(*analysis)).collect(),
             given => given.to_vec(),
         };
-        let wants = |analysis| plan.analyses.contains(&analysis);
-        if first.cea.is_none() && wants(Analysis::Cea) {
+        let lacks = |analysis| plan.analyses.contains(&analysis) && !first.has(analysis);
+        if lacks(Analysis::Cea) {
             first.require_cea()?;
         }
-        if first.basin.is_none() && wants(Analysis::Basin) {
+        if lacks(Analysis::Basin) {
             first.require_basin()?;
         }
-        if first.cycle.is_none() && wants(Analysis::Cycle) {
+        if lacks(Analysis::Cycle) {
             first.require_cycle()?;
         }
-        if first.transient.is_none() && (wants(Analysis::Transient) || plan.analyses.is_empty()) {
+        if lacks(Analysis::Transient) || plan.analyses.is_empty() {
             first.require_transient()?;
         }
         Ok(plan)
@@ -97,7 +89,7 @@ impl<'a> SweepPlan<'a> {
 
     /// Names of the analyses.
     pub fn analysis_names(&self) -> Vec<&'static str> {
-        self.analyses.iter().copied().map(analysis_name).collect()
+        self.analyses.iter().map(|analysis| analysis.word()).collect()
     }
 
     /// Numbers of the points of a shard, ascending from 1.
@@ -122,16 +114,6 @@ impl<'a> SweepPlan<'a> {
         let mut raw = self.case.raw.with_overrides(&overrides).map_err(one_line)?;
         raw.root.remove("sweep");
         Case::read(raw).map_err(one_line)
-    }
-}
-
-/// Name of an analysis: that of its section and of its subcommand.
-pub fn analysis_name(analysis: Analysis) -> &'static str {
-    match analysis {
-        Analysis::Cea => "cea",
-        Analysis::Transient => "transient",
-        Analysis::Cycle => "cycle",
-        Analysis::Basin => "basin",
     }
 }
 

@@ -10,7 +10,8 @@ use crate::cea::Unwatched;
 use crate::fem::operator::SimdLevel;
 use crate::results::cycle::{CycleReport, CycleSummary};
 use crate::results::transient::TransientReport;
-use crate::results::{self, Manifest, object};
+use crate::results::{self, Head, Manifest, object};
+use serde::Serialize;
 use serde_json::Value;
 use std::time::Instant;
 
@@ -24,15 +25,24 @@ pub fn summarize(
     manifest: &Manifest,
 ) -> Result<Value, StudyError> {
     match analysis {
-        Analysis::Cea => cea(case, manifest),
+        Analysis::Cea => cea(case),
         Analysis::Transient => transient(case, manifest),
-        Analysis::Basin => Ok(serde_json::to_value(basin::summary(case, manifest)?)?),
+        Analysis::Basin => {
+            let start = Instant::now();
+            let found = basin::summary(case, manifest)?;
+            told("basin", Head::of(&case.title, start.elapsed().as_secs_f64()), &found)
+        }
         Analysis::Cycle => cycle(case, manifest, refuse_nothing),
     }
 }
 
+/// What an analysis has found, without what it was made from.
+fn told(command: &str, head: Head<'_>, found: &impl Serialize) -> Result<Value, StudyError> {
+    Ok(object(command, head, found)?)
+}
+
 /// Mode shapes are not computed.
-fn cea(case: &Case, manifest: &Manifest) -> Result<Value, StudyError> {
+fn cea(case: &Case) -> Result<Value, StudyError> {
     let start = Instant::now();
     let cea = case.require_cea()?.of_tables();
     let Solved { case, model, solution } = eigenvalues::solved(case, &cea, None)?;
@@ -40,7 +50,7 @@ fn cea(case: &Case, manifest: &Manifest) -> Result<Value, StudyError> {
     let field = model.base_field(&case);
     let wall_s = start.elapsed().as_secs_f64();
     let report = eigenvalues::report(&case, &cea, &model, &solution, &field, wall_s);
-    Ok(object(&results::cea::summary(&report, manifest))?)
+    told("cea", Head::of(report.title, wall_s), &results::cea::summary(&report))
 }
 
 fn transient(case: &Case, manifest: &Manifest) -> Result<Value, StudyError> {
@@ -54,7 +64,8 @@ fn transient(case: &Case, manifest: &Manifest) -> Result<Value, StudyError> {
         wall_s: start.elapsed().as_secs_f64(),
         ..study.report(&solved.record, &solved.analysis, solved.plan, solved.operator)
     };
-    Ok(object(&results::transient::summary(&report, manifest))?)
+    let head = Head::of(report.title, report.wall_s);
+    told("transient", head, &results::transient::summary(&report))
 }
 
 /// The limit cycles with their branches as `curves`, of which the command itself writes tables; `judge` may refuse what
@@ -70,7 +81,8 @@ pub(super) fn cycle(
     let told = |report: &CycleReport<'_>| -> Result<Value, StudyError> {
         judge(report)?;
         let curves = Some(report.curves());
-        Ok(object(&CycleSummary { curves, ..report.summary(manifest) })?)
+        let head = Head::of(report.title, report.wall_s);
+        told("cycle", head, &CycleSummary { curves, ..report.summary() })
     };
     if case.has_rotating_waves() {
         let study = CycleStudy::new(case, simd)?;

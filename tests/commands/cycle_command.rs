@@ -296,9 +296,6 @@ fn motions_of_two_frequencies_are_told_with_their_numbers() {
         error: None,
     };
     let summary = CycleSummary {
-        command: "cycle".to_owned(),
-        title: "Two waves".to_owned(),
-        wall_s: 1.0,
         steady_sliding_stable: false,
         origin: Origin::Waves(WavesSought { lowest_onset: None }),
         critical_value: None,
@@ -306,7 +303,6 @@ fn motions_of_two_frequencies_are_told_with_their_numbers() {
         cycles: Vec::new(),
         two_waves: vec![pair],
         notes: Vec::new(),
-        manifest: Manifest::new("cycle"),
         curves: None,
     };
     // The page and the terminal show one document.

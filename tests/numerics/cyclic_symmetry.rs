@@ -286,7 +286,7 @@ fn every_table_of_a_body_of_sectors_has_its_nodal_diameters_and_samples_have_its
     let field = model.base_field(&case);
     let report = eigenvalues::report(&case, &cea, &model, &solution, &field, 0.0);
     let manifest = Manifest::new("cea");
-    let told = cea::summary(&report, &manifest);
+    let told = cea::summary(&report);
     let own = |modes: &[ComplexMode]| modes.iter().map(|m| m.nodal_diameters).collect::<Vec<_>>();
     let listed = told.modes_at_friction.unwrap();
     let listed: Vec<_> = listed.iter().map(|mode| mode.harmonic).collect();

@@ -30,5 +30,5 @@ pub(super) fn draw_run(
         peripheral_speed: study.shown_speed(),
         stage: linear_stage(study.case),
     };
-    Ok(draw(folder, &run, summary, options)?)
+    Ok(draw(folder, &run, report.title, summary, options)?)
 }

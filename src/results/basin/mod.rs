@@ -3,9 +3,9 @@
 mod figures;
 mod map;
 
+use super::Finding;
 use super::drawing::Declaration;
 use super::summary::Bounds;
-use super::{Finding, Manifest};
 use crate::cycle::{BasinBoundary, BasinRun};
 use crate::output::{Described, Document, Section, Table, columns, significant};
 use serde::Serialize;
@@ -24,12 +24,6 @@ pub enum Rivals {
 /// `summary.json` of a basin.
 #[derive(Clone, Debug, Described, Serialize)]
 pub struct BasinSummary {
-    /// Its command.
-    pub command: String,
-    /// Title of the case.
-    pub title: String,
-    /// Wall time, s.
-    pub wall_s: f64,
     /// The two waves, nodal diameters; of a body without symmetry the numbers of the two modes, 0 for steady sliding.
     pub harmonics: [usize; 2],
     /// Whether these are numbers of modes.
@@ -43,19 +37,11 @@ pub struct BasinSummary {
     pub transients: usize,
     /// Every transient, in the order of the search.
     pub runs: Vec<BasinRun>,
-    /// What it was made from.
-    pub manifest: Manifest,
 }
 
 impl BasinSummary {
     /// The summary of a boundary.
-    pub fn new(
-        title: &str,
-        rivals: Rivals,
-        found: &BasinBoundary,
-        wall_s: f64,
-        manifest: &Manifest,
-    ) -> Self {
+    pub fn new(rivals: Rivals, found: &BasinBoundary) -> Self {
         let winners = found.runs.iter().map(|run| run.winner);
         let first = found.runs.first().map(|run| run.winner);
         let alone = first.filter(|first| winners.clone().all(|winner| winner == *first));
@@ -64,16 +50,12 @@ impl BasinSummary {
             Rivals::Modes(modes) => (modes, true),
         };
         Self {
-            command: "basin".to_owned(),
-            title: title.to_owned(),
-            wall_s,
             harmonics,
             of_modes,
             winner: alone,
             boundary: Bounds { low: found.low, high: found.high },
             transients: found.runs.len(),
             runs: found.runs.clone(),
-            manifest: manifest.clone(),
         }
     }
 
@@ -181,7 +163,7 @@ impl Finding for BasinSummary {
         let runs = Table::new("basin.csv", "Transients in the order of the search")
             .columns(RUNS, &self.runs)
             .shown_column("winner", self.runs.iter().map(|run| self.name(run.winner)));
-        Document::new(&self.title, "Basins")
+        Document::new("Basins")
             .section(Section::new("Results").text([self.answer()]).text(open).facts(self.facts()))
             .section(Section::new("Search").tables([runs]).figures(["basin"]))
     }

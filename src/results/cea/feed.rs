@@ -79,23 +79,16 @@ impl Feed {
             folder,
             &Table::new("feed.csv", "").columns(&NAMES[..3], names).columns(FEED, &rows),
         )?;
-        let count = match report.solid {
-            Some(solid) => solid.sector.sector_count() * solid.sector.node_count(),
-            None => report.mesh.node_count(),
-        };
+        let whole = report.body().whole();
         let fields = self.modes.iter().map(|own| {
             let name = format!("mode_{}_growth_rate_per_s_m2", own.mode.mode);
-            let mut values = self.around_nodes(count, own);
+            let mut values = self.around_nodes(whole.labels.len(), own);
             values.iter_mut().filter(|v| v.is_nan()).for_each(|v| *v = 0.0);
             Field::scalars(&name, values)
         });
         let fields: Vec<Field> = fields.collect();
         folder.write_bulk("feed.vtu", |out| {
-            let mesh = match report.solid {
-                Some(solid) => EncodedMesh::solid(&solid.sector)?,
-                None => EncodedMesh::new(report.mesh)?,
-            };
-            write_vtu(out, &mesh, &[], &fields, &[])
+            write_vtu(out, &EncodedMesh::of(&whole)?, &[], &fields, &[])
         })
     }
 

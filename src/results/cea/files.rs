@@ -10,9 +10,8 @@ use crate::output::rounded;
 use crate::results::finding::write_table;
 use crate::results::folder::{FolderError, OutputFolder};
 use crate::results::pvd::{PvdEntry, write_pvd};
-use crate::results::summary::write_summary;
+use crate::results::summary::{Head, write_summary};
 use crate::results::vtu::{EncodedMesh, Field, write_vtu};
-use crate::results::whole_mesh::WholeMesh;
 use rayon::prelude::*;
 use serde_json::Value;
 use std::io;
@@ -37,7 +36,7 @@ pub fn write(folder: &OutputFolder, report: &CeaReport<'_>) -> Result<Value, Fol
         (None, None) => write_base(folder, report.mesh, (&report.base, report.field))?,
     }
     write_shapes(folder, report)?;
-    write_summary(folder, &summary(report, folder.manifest()))
+    write_summary(folder, Head::of(report.title, report.wall_s), &summary(report))
 }
 
 /// Writes the shapes that the modes carry: one VTU each with the real and the imaginary part of the
@@ -47,7 +46,7 @@ fn write_shapes(folder: &OutputFolder, report: &CeaReport<'_>) -> Result<(), Fol
     if shaped.is_empty() {
         return Ok(());
     }
-    let mesh = EncodedMesh::of(&whole_mesh(report));
+    let mesh = report.body().encoded();
     let mut entries = Vec::new();
     // Compression takes the time: a batch of files side by side, written in order.
     for batch in shaped.chunks(rayon::current_num_threads().max(1)) {
@@ -77,13 +76,6 @@ fn shaped<'a>(report: &CeaReport<'a>) -> Vec<(f64, usize, &'a ComplexMode)> {
     numbered.filter(|(_, _, mode)| mode.shape.is_some()).collect()
 }
 
-fn whole_mesh(report: &CeaReport<'_>) -> WholeMesh {
-    match report.solid {
-        Some(solid) => WholeMesh::of_revolution(&solid.sector),
-        None => WholeMesh::of(report.mesh),
-    }
-}
-
 /// Name of the universal file of the mode shapes.
 pub const UNIVERSAL_MODES: &str = "modes.unv";
 
@@ -92,7 +84,7 @@ pub const UNIVERSAL_MODES: &str = "modes.unv";
 /// # Errors
 /// Those of the folder; an element that universal files do not have.
 pub fn write_universal(folder: &OutputFolder, report: &CeaReport<'_>) -> Result<(), FolderError> {
-    let mesh = whole_mesh(report);
+    let mesh = report.body().whole();
     folder.write_bulk(UNIVERSAL_MODES, |out| {
         mesh.write_universal(out)?;
         for (k, (friction, number, mode)) in shaped(report).into_iter().enumerate() {
@@ -135,14 +127,11 @@ fn encode_shape(
 
 fn shape_fields(report: &CeaReport<'_>, mode: &ComplexMode) -> [Field; 3] {
     let shape = mode.shape.as_deref().unwrap_or_default();
+    let body = report.body();
     let part = |name: &str, of: fn(&c64) -> f64| {
-        let values: Vec<f64> = shape.iter().map(of).collect();
-        match report.solid {
-            Some(solid) => solid.vectors(name, &values),
-            None => Field::vectors(name, report.mesh, &values),
-        }
+        body.vectors(name, &shape.iter().map(of).collect::<Vec<f64>>())
     };
-    let dimension = report.solid.map_or(report.mesh.dimension, |_| 3);
+    let dimension = if body.is_solid() { 3 } else { 2 };
     [
         part("displacement_real", |value| value.re),
         part("displacement_imaginary", |value| value.im),

@@ -29,21 +29,23 @@ pub use kept::KeptSteps;
 pub use locus::NamedDamping;
 pub use mode_name::ModeName;
 pub(crate) use mode_name::travels;
-pub(super) use mode_name::{BRANCH, BRANCHES, DIRECTION, HARMONIC, NAMES, arrow};
+pub(super) use mode_name::{BRANCH, DIRECTION, HARMONIC, NAMES, arrow};
 pub(super) use reading::{CONTRIBUTIONS, COUPLINGS};
 pub use reading::{Contribution, Coupling, MeshError, Reading, Source};
-pub(super) use sensitivity::ROWS;
+pub(super) use sensitivity::{EIGENVALUES, ROWS};
 pub use sensitivity::{OnsetRates, SensitivityReport, SensitivityRow};
 pub(super) use solid::RINGS;
 pub use solid::SolidReport;
 pub use summary::{
     CeaSummary, CriticalFriction, ModeSummary, UnstableCount, UnstableMode, summary,
 };
-pub(super) use tables::{AXIAL, MODES, ONSET_ERRORS, ONSETS, PLACES};
+pub(super) use summary::{ONSETS, OWN_MODES, UNSTABLE};
+pub(super) use tables::{AXIAL, MODES, PLACES};
 pub use tables::{View, document};
 
 use crate::cea::{ComplexMode, FrictionPoint, FrictionSweep};
 use crate::mesh::Mesh;
+use crate::results::ShownBody;
 use branches::Branch;
 use std::collections::BTreeMap;
 
@@ -87,6 +89,11 @@ pub struct CeaReport<'a> {
 }
 
 impl CeaReport<'_> {
+    /// The body as results show it.
+    fn body(&self) -> ShownBody<'_> {
+        ShownBody { mesh: self.mesh, sector: self.solid.map(|solid| &solid.sector) }
+    }
+
     /// The modes at the solved friction value nearest to the case's own.
     fn own_point(&self) -> Option<&FrictionPoint> {
         let own = self.base.friction_coefficient;

@@ -1,7 +1,7 @@
 //! Where the growth of each mode comes from, and which modes couple: `contributions.csv` and `coupling.csv`.
 
 use super::branches::Branch;
-use super::mode_name::{BRANCHES, ModeName, NAMES};
+use super::mode_name::{ModeName, NAMES};
 use super::{CeaReport, Feed};
 use crate::chart::{Axis, ChartError, Figure, INK, Line, Panel, Rule, Stroke, literal};
 use crate::output::{Table, columns, fixed};
@@ -123,7 +123,6 @@ impl Reading {
         let rows = &self.contributions;
         Table::new("contributions.csv", "")
             .columns(NAMES, rows.iter().map(|row| row.mode))
-            .columns(BRANCHES, rows.iter().map(|row| row.mode))
             .columns(CONTRIBUTIONS, rows)
     }
 
@@ -131,7 +130,7 @@ impl Reading {
     pub(super) fn couplings(&self) -> Table {
         let rows = &self.couplings;
         Table::new("coupling.csv", "")
-            .columns(NAMES, rows.iter().map(|row| row.mode))
+            .columns(&NAMES[..4], rows.iter().map(|row| row.mode))
             .columns(COUPLINGS, rows)
     }
 

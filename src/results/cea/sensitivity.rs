@@ -1,8 +1,9 @@
 //! `sensitivities.csv`: which parameter decides whether a mode grows.
 
-use super::{BRANCH, DIRECTION, HARMONIC, travels};
+use super::travels;
 use crate::linalg::c64;
 use crate::output::{Format, Table, columns, fixed};
+use crate::results::finding::finding;
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
 
@@ -17,23 +18,29 @@ pub struct SensitivityReport {
     pub rows: Vec<SensitivityRow>,
 }
 
-/// Derivatives of one eigenvalue.
-#[derive(Clone, Debug, PartialEq)]
-pub struct SensitivityRow {
-    /// Where the derivatives are taken.
-    pub friction_coefficient: f64,
-    /// Nodal diameters, where modes have them.
-    pub harmonic: Option<usize>,
-    /// Branch.
-    pub branch: usize,
-    /// Direction of travel, of a body that has harmonics.
-    pub direction: Option<i8>,
-    /// Eigenvalue, rad/s.
-    pub eigenvalue: c64,
-    /// `d lambda / d parameter`, in the order of the parameters; `None` of one that the branch does not have.
-    pub derivatives: Vec<Option<c64>>,
-    /// Where the branch turns unstable first.
-    pub onset: Option<OnsetRates>,
+finding! {
+    /// Derivatives of one eigenvalue.
+    #[derive(Clone, Debug, PartialEq)]
+    SensitivityRow, ROWS {
+        friction_coefficient: f64 = "friction coefficient";
+        harmonic: Option<usize> = "number of nodal diameters; none without symmetry";
+        branch: usize = "rank within the harmonic, else among all, from 1";
+        direction: Option<i8>
+            = "1 travels with the rotor, -1 against it, 0 stands; none without symmetry";
+        /// Eigenvalue, rad/s.
+        eigenvalue: c64;
+        /// `d lambda / d parameter`, in the order of the parameters; `None` of one that the branch does not have.
+        derivatives: Vec<Option<c64>>;
+        /// Where the branch turns unstable first.
+        onset: Option<OnsetRates>;
+    }
+}
+
+columns! {
+    /// The eigenvalue of a branch; derivatives follow, two for each parameter.
+    pub(in crate::results) EIGENVALUES: row as SensitivityRow;
+    growth_rate_per_s: "growth rate of the mode" = row.eigenvalue.re;
+    frequency_hz: "its frequency" = row.eigenvalue.im / TAU;
 }
 
 /// How the critical friction coefficient of a branch moves.
@@ -43,17 +50,6 @@ pub struct OnsetRates {
     pub critical_friction: f64,
     /// `d mu_c / d parameter`, in the order of the parameters; nothing by the friction coefficient itself.
     pub derivatives: Vec<Option<f64>>,
-}
-
-columns! {
-    /// A branch; derivatives follow, two for each parameter.
-    pub(in crate::results) ROWS: row as SensitivityRow;
-    friction_coefficient: "friction coefficient" = row.friction_coefficient;
-    harmonic: HARMONIC = row.harmonic;
-    branch: BRANCH = row.branch;
-    direction: DIRECTION = row.direction;
-    growth_rate_per_s: "growth rate of the mode" = row.eigenvalue.re;
-    frequency_hz: "its frequency" = row.eigenvalue.im / TAU;
 }
 
 impl SensitivityReport {
@@ -76,7 +72,8 @@ impl SensitivityReport {
     /// coefficient of the branch with its derivatives.
     pub(super) fn table(&self) -> Table {
         let rows = || self.rows.iter();
-        let mut table = Table::new("sensitivities.csv", "").columns(ROWS, rows());
+        let mut table =
+            Table::new("sensitivities.csv", "").columns(ROWS, rows()).columns(EIGENVALUES, rows());
         for (at, name) in self.parameters.iter().enumerate() {
             let part = |of: fn(c64) -> f64| rows().map(move |row| row.derivatives[at].map(of));
             table = table.column(&format!("growth_rate_per_{name}"), None, part(|d| d.re)).column(

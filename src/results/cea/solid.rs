@@ -55,11 +55,6 @@ impl SolidReport {
         sector.repeat(self.sector.sector_count())
     }
 
-    /// A vector of each node from its nodal frame `(r, theta, z)`, as Cartesian `(x, y, z)`.
-    pub(super) fn vectors(&self, name: &str, nodal: &[f64]) -> Field {
-        solid_vectors(name, &self.sector, nodal)
-    }
-
     /// Writes `prestress.csv`, one row for each ring of contact nodes, and `prestress.vtu`.
     pub(super) fn write_base(
         &self,
@@ -73,7 +68,8 @@ impl SolidReport {
             .columns(STATUS, self.base.is_pressed.iter().copied());
         write_table(folder, &table)?;
         let displacement = self.base.displacement(self.friction_coefficient);
-        let mut fields = vec![self.vectors("displacement_m", &self.repeated(&displacement))];
+        let displacement = self.repeated(&displacement);
+        let mut fields = vec![solid_vectors("displacement_m", &self.sector, &displacement)];
         let stress = self.stress.repeat(self.sector.sector_count());
         fields.extend(Field::solid_stresses(&stress, "rtz"));
         fields.extend(self.contact_fields());

@@ -3,7 +3,7 @@
 use super::{BaseState, CeaReport};
 use crate::cea::{ComplexMode, FrictionPoint, ModeCount, UnstableInterval};
 use crate::output::Described;
-use crate::results::manifest::Manifest;
+use crate::results::finding::finding;
 use crate::results::summary::present;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
@@ -11,18 +11,12 @@ use std::f64::consts::TAU;
 /// `summary.json` of `frictionsim cea`.
 #[derive(Clone, Debug, PartialEq, Described, Serialize)]
 pub struct CeaSummary {
-    /// `cea`.
-    pub command: String,
-    /// Title of the case.
-    pub title: String,
     /// Unknowns of the eigenproblem.
     pub dofs: usize,
     /// `cyclic` or `sparse`.
     pub method: String,
     /// What was asked for, in words.
     pub selection: String,
-    /// Wall time, s.
-    pub wall_s: Option<f64>,
     /// Most modes at one friction value.
     pub modes: usize,
     /// Friction values of the tables.
@@ -41,8 +35,6 @@ pub struct CeaSummary {
     pub base_state: BaseState,
     /// What the solver has to say.
     pub notes: Vec<String>,
-    /// What it was made from.
-    pub manifest: Manifest,
     /// Fraction of the contact nodes that are open, where some may be.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub contact_open_fraction: Option<f64>,
@@ -104,31 +96,33 @@ pub struct UnstableCount {
     pub unstable: usize,
 }
 
-/// Where a branch turns unstable, and where it is stable again.
-#[derive(Clone, Copy, Debug, PartialEq, Described, Serialize, Deserialize)]
-pub struct CriticalFriction {
-    /// Nodal diameters; none on a body without symmetry.
-    pub harmonic: Option<usize>,
-    /// Branch, or rank.
-    pub branch: usize,
-    /// +1 with the rotor, 0 standing, -1 against it; none on a body without harmonics.
-    pub direction: Option<i8>,
-    /// Critical friction coefficient.
-    pub critical_friction: Option<f64>,
-    /// Frequency there, Hz.
-    pub frequency_hz: Option<f64>,
-    /// Friction coefficient from which on it is stable again.
-    pub restabilized_friction: Option<f64>,
-    /// Frequency there, Hz.
-    pub restabilized_frequency_hz: Option<f64>,
-    /// Whether it is unstable at the lowest friction value already.
-    pub unstable_from_start: bool,
-    /// Where it could not be followed to its onset: that lies between this friction value and `critical_friction`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub lost_after: Option<f64>,
-    /// What the mesh makes of it: estimate of the critical friction less that on an ever finer mesh.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub mesh_error: Option<f64>,
+finding! {
+    /// Where a branch turns unstable, and where it is stable again.
+    #[derive(Clone, Copy, Debug, PartialEq, Described, Serialize, Deserialize)]
+    CriticalFriction, ONSETS {
+        harmonic: Option<usize> = "number of nodal diameters; none without symmetry",
+            IfAny "n" Count;
+        branch: usize = "0 of a motion that grows without oscillating; rank within the harmonic, \
+            else among all, from 1", Always "branch" Count;
+        direction: Option<i8>
+            = "1 travels with the rotor, -1 against it, 0 stands; none without symmetry";
+        critical_friction: Option<f64> = "friction coefficient above which the branch is unstable",
+            Always "unstable above" Fixed(6);
+        frequency_hz: Option<f64> = "frequency there", Always "frequency" Fixed(2);
+        restabilized_friction: Option<f64> = "friction coefficient above which it is stable again",
+            IfAny "stable again above" Fixed(6);
+        restabilized_frequency_hz: Option<f64> = "frequency there",
+            IfAny "frequency there" Fixed(2);
+        unstable_from_start: bool
+            = "whether it is unstable at the lowest friction solved already";
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        lost_after: Option<f64> = "friction coefficient between which and critical_friction it \
+            turns unstable, where it was lost";
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        mesh_error: Option<f64>
+            = "estimate of the critical friction less that on an ever finer mesh",
+            IfAny "error of the mesh" Scientific(1);
+    }
 }
 
 impl CriticalFriction {
@@ -148,29 +142,24 @@ impl CriticalFriction {
     }
 }
 
-/// A mode.
-#[derive(Clone, Copy, Debug, PartialEq, Described, Serialize, Deserialize)]
-pub struct ModeSummary {
-    /// Nodal diameters; none on a body without symmetry.
-    pub harmonic: Option<usize>,
-    /// Branch, or rank.
-    pub branch: usize,
-    /// +1 with the rotor, 0 standing, -1 against it; none on a body without harmonics.
-    pub direction: Option<i8>,
-    /// `Re lambda / 2 pi`, Hz.
-    pub real_hz: f64,
-    /// `Im lambda / 2 pi`, Hz.
-    pub frequency_hz: f64,
-    /// Whether it grows.
-    pub unstable: bool,
-    /// Share of the kinetic energy at the contact edge.
-    pub contact_share: Option<f64>,
-    /// Share of the kinetic energy along the axis, of a body in three dimensions.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub axial_share: Option<f64>,
-    /// What the mesh makes of the frequency: estimate of it less that on an ever finer mesh, Hz.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub mesh_error: Option<f64>,
+finding! {
+    /// A mode at the friction coefficient of the case.
+    #[derive(Clone, Copy, Debug, PartialEq, Described, Serialize, Deserialize)]
+    ModeSummary, OWN_MODES {
+        harmonic: Option<usize> = "number of nodal diameters; none without symmetry";
+        branch: usize = "rank within the harmonic, else among all, from 1";
+        direction: Option<i8>
+            = "1 travels with the rotor, -1 against it, 0 stands; none without symmetry";
+        real_hz: f64 = "real part of the eigenvalue over 2 pi";
+        frequency_hz: f64 = "imaginary part over 2 pi";
+        unstable: bool = "whether it grows";
+        contact_share: Option<f64> = "share of the kinetic energy at the contact";
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        axial_share: Option<f64>
+            = "share of the kinetic energy along the axis, of a body in three dimensions";
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        mesh_error: Option<f64> = "estimate of the frequency less that on an ever finer mesh, Hz";
+    }
 }
 
 impl ModeSummary {
@@ -189,27 +178,23 @@ impl ModeSummary {
     }
 }
 
-/// A mode that grows, where it was found, and from when it does.
-#[derive(Clone, Copy, Debug, PartialEq, Described, Serialize, Deserialize)]
-pub struct UnstableMode {
-    /// Friction coefficient.
-    pub friction_coefficient: f64,
-    /// Number by frequency among all modes at that friction, from 1.
-    pub mode: usize,
-    /// Nodal diameters; none on a body without symmetry.
-    pub harmonic: Option<usize>,
-    /// Branch, or rank.
-    pub branch: usize,
-    /// +1 with the rotor, 0 standing, -1 against it; none on a body without harmonics.
-    pub direction: Option<i8>,
-    /// `Im lambda / 2 pi`, Hz.
-    pub frequency_hz: f64,
-    /// `Re lambda`, 1/s.
-    pub growth_rate_per_s: f64,
-    /// `-Re lambda / |lambda|`, below 0.
-    pub damping_factor: f64,
-    /// Friction at which its branch turned unstable last; none where it is unstable at the lowest value solved already.
-    pub critical_friction: Option<f64>,
+finding! {
+    /// A mode that grows, where it was found, and from when it does.
+    #[derive(Clone, Copy, Debug, PartialEq, Described, Serialize, Deserialize)]
+    UnstableMode, UNSTABLE {
+        friction_coefficient: f64 = "friction coefficient", Always "friction" Plain;
+        mode: usize = "number by frequency at that friction, from 1", Always "mode" Count;
+        harmonic: Option<usize> = "number of nodal diameters; none without symmetry",
+            IfAny "n" Count;
+        branch: usize = "rank within the harmonic, else among all, from 1";
+        direction: Option<i8>
+            = "1 travels with the rotor, -1 against it, 0 stands; none without symmetry";
+        frequency_hz: f64 = "frequency", Always "frequency" Fixed(2);
+        growth_rate_per_s: f64 = "growth rate", Always "growth rate" Fixed(2);
+        damping_factor: f64 = "damping factor, below 0";
+        critical_friction: Option<f64> = "friction at which its branch turned unstable last",
+            IfAny "critical friction" Fixed(6);
+    }
 }
 
 impl UnstableMode {
@@ -266,7 +251,7 @@ pub(super) fn onsets(report: &CeaReport<'_>) -> Vec<CriticalFriction> {
 }
 
 /// The summary of an analysis.
-pub fn summary(report: &CeaReport<'_>, manifest: &Manifest) -> CeaSummary {
+pub fn summary(report: &CeaReport<'_>) -> CeaSummary {
     let of_point = |point: &FrictionPoint| UnstableCount {
         friction_coefficient: point.friction_coefficient,
         modes: point.modes.len(),
@@ -284,12 +269,9 @@ pub fn summary(report: &CeaReport<'_>, manifest: &Manifest) -> CeaSummary {
     let may_open = !report.has_harmonics || report.solid.is_some();
     let nodes = (base.slipping + base.sticking + base.open).max(1);
     CeaSummary {
-        command: "cea".to_owned(),
-        title: report.title.to_owned(),
         dofs: report.dofs,
         method: report.method.to_owned(),
         selection: report.selection.clone(),
-        wall_s: present(report.wall_s),
         modes: report.mode_counts().1,
         friction_values: report.friction_coefficients.len(),
         unstable_counts: report.tabulated().map(of_point).collect(),
@@ -299,7 +281,6 @@ pub fn summary(report: &CeaReport<'_>, manifest: &Manifest) -> CeaSummary {
         unstable_modes: UnstableMode::all(report),
         base_state: base,
         notes: report.notes.clone(),
-        manifest: manifest.clone(),
         contact_open_fraction: may_open.then(|| base.open as f64 / nodes as f64),
         mode_counts: report.sweep.counts.iter().map(CountSummary::of).collect(),
     }

@@ -1,7 +1,7 @@
 //! Tables and sentences of an eigenvalue analysis.
 
 use super::coupling::sentences;
-use super::summary::{CriticalFriction, ModeSummary, friction_values, onsets};
+use super::summary::{CriticalFriction, ModeSummary, ONSETS, friction_values, onsets};
 use super::{BRANCH, CeaReport, DIRECTION, HARMONIC, MeshError, direction_name};
 use crate::cea::{ComplexMode, FrictionPoint};
 use crate::output::{Document, Section, Table, columns, fixed};
@@ -94,35 +94,6 @@ columns! {
 }
 
 columns! {
-    /// A branch that turns unstable.
-    pub(in crate::results) ONSETS: onset as CriticalFriction;
-    harmonic: HARMONIC = onset.harmonic, IfAny "n" Count;
-    branch: "0 of a motion that grows without oscillating; rank within the harmonic, else among \
-        all, from 1"
-        = onset.branch, Always "branch" Count;
-    direction: DIRECTION = onset.direction;
-    critical_friction: "friction coefficient above which the branch is unstable"
-        = onset.critical_friction, Always "unstable above" Fixed(6);
-    frequency_hz: "frequency there" = onset.frequency_hz, Always "frequency" Fixed(2);
-    restabilized_friction: "friction coefficient above which it is stable again"
-        = onset.restabilized_friction, IfAny "stable again above" Fixed(6);
-    restabilized_frequency_hz: "frequency there"
-        = onset.restabilized_frequency_hz, IfAny "frequency there" Fixed(2);
-    unstable_from_start: "whether it is unstable at the lowest friction solved already"
-        = onset.unstable_from_start;
-    lost_after: "friction coefficient between which and critical_friction it turns unstable, where \
-    it was lost"
-        = onset.lost_after;
-}
-
-columns! {
-    /// What the mesh makes of an onset.
-    pub(in crate::results) ONSET_ERRORS: onset as CriticalFriction;
-    mesh_error: "estimate of the critical friction less that on an ever finer mesh"
-        = onset.mesh_error, IfAny "error of the mesh" Scientific(1);
-}
-
-columns! {
     /// An onset in words.
     ONSET_WORDS: onset as CriticalFriction;
     travels = onset.direction.map(direction_name), IfAny "travels" Plain;
@@ -166,7 +137,6 @@ pub(super) fn stability(report: &CeaReport<'_>) -> Table {
     let rows = onsets(report);
     let table = Table::new("stability.csv", "Critical friction of each branch that turns unstable")
         .columns(ONSETS, &rows)
-        .columns(ONSET_ERRORS, &rows)
         .shown_only(ONSET_WORDS, &rows);
     if report.has_harmonics { table } else { table.shown_column("mode", number) }
 }
@@ -239,7 +209,8 @@ pub fn document(report: &CeaReport<'_>, view: View) -> Document {
         View::Short => Section::new("Eigenvalues").tables(own_modes(report)),
         View::Whole => unstable_modes(report),
     };
-    Document::new(report.title, "Complex eigenvalues")
+    Document::new("Complex eigenvalues")
+        .titled(report.title)
         .section(results)
         .section(Section::new("Stability of steady sliding").figures([""]))
         .section(decisive(report, view))

@@ -33,14 +33,10 @@ pub struct SharedQuantity {
 /// `summary.json` of `frictionsim compare`.
 #[derive(Clone, Debug, PartialEq, Described, Serialize)]
 pub struct ComparisonSummary {
-    /// `compare`.
-    pub command: String,
     /// The runs.
     pub runs: Vec<String>,
     /// Numbers that all of them have.
     pub quantities: Vec<SharedQuantity>,
-    /// What it was made from.
-    pub manifest: Manifest,
 }
 
 /// Keys that say what an entry of a list is of.
@@ -289,7 +285,7 @@ pub fn document(runs: &[ComparedRun], quantities: &[SharedQuantity]) -> Document
         table_of(("", "Numbers that differ"), runs, &differing),
         table_of(("", "Numbers that are equal"), runs, &equal),
     ]);
-    Document::new(&format!("Comparison of {}", names.join(", ")), "")
+    Document::new(format!("Comparison of {}", names.join(", ")))
         .section(results)
         .section(Section::new("Figures over each other").figures([""]))
         .section(every)

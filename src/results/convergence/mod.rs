@@ -6,7 +6,7 @@ mod figures;
 pub use estimate::{Verdict, estimate};
 
 use super::drawing::Declaration;
-use super::{Finding, Manifest, summary::present};
+use super::{Finding, summary::present};
 use crate::output::{Described, Document, Format, Section, Table, columns};
 use serde::Serialize;
 
@@ -43,7 +43,7 @@ pub struct Quantity {
     pub verdict: String,
     /// Observed order.
     pub order: Option<f64>,
-    /// Richardson-extrapolated value.
+    /// Value extrapolated after Richardson.
     pub extrapolated: Option<f64>,
     /// Values less that one.
     pub errors: Option<Vec<Option<f64>>>,
@@ -118,16 +118,8 @@ pub struct Series {
 /// `summary.json` of `frictionsim convergence`.
 #[derive(Clone, Debug, PartialEq, Described, Serialize)]
 pub struct ConvergenceSummary {
-    /// `convergence`.
-    pub command: String,
-    /// Title of the case.
-    pub title: String,
     /// What was studied.
     pub series: Vec<Series>,
-    /// Wall time, s.
-    pub wall_s: f64,
-    /// What it was made from.
-    pub manifest: Manifest,
 }
 
 /// A quantity on a level of a series.
@@ -226,7 +218,7 @@ impl ConvergenceSummary {
     /// All quantities of every series, or those that matter.
     pub fn told(&self, is_whole: bool) -> Document {
         let figure = Section::new("Convergence").figures(["convergence"]);
-        let document = Document::new(&self.title, "Convergence").section(figure);
+        let document = Document::new("Convergence").section(figure);
         let series = self.series.iter().map(|own| own.section(is_whole));
         let rows = self.series.iter().flat_map(Series::rows);
         series

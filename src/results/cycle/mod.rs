@@ -25,8 +25,8 @@ pub use motions::{FoundCycle, PeriodicResult};
 pub use record::MotionRecord;
 pub use summary::*;
 pub(super) use tables::{
-    BALANCE, CONTACT_NODES, ERRORS, EXPONENTS, HARMONICS, HISTORY, KNOWN, MOTION, NAMES, PATH,
-    POWERS, STATUS, WAVE_PATH,
+    BALANCE, CONTACT_NODES, ERRORS, HARMONICS, HISTORY, KNOWN, MOTION, NAMES, PATH, POWERS,
+    WAVE_PATH,
 };
 pub(super) use two_waves::TWO_WAVES;
 pub use two_waves::{FoundTwoWaves, TwoWaveResult, TwoWaveSummary};
@@ -40,8 +40,7 @@ use crate::results::drawing::DrawingError;
 use crate::results::extent::Extent;
 use crate::results::finding::{write_page, write_table, write_tables};
 use crate::results::folder::{FolderError, OutputFolder};
-use crate::results::manifest::Manifest;
-use crate::results::summary::{CriticalSummary, write_summary};
+use crate::results::summary::{CriticalSummary, Head, write_summary};
 use crate::results::{DrawingOptions, ShownBody};
 use branch::BranchRow;
 use motions::ContactNode;
@@ -162,7 +161,7 @@ impl CycleReport<'_> {
     }
 
     /// The summary.
-    pub fn summary(&self, manifest: &Manifest) -> CycleSummary {
+    pub fn summary(&self) -> CycleSummary {
         let (origin, two_waves) = match &self.search {
             Search::Waves(search) => {
                 let lowest_onset = search.lowest_onset.as_ref().map(OnsetSummary::from);
@@ -175,9 +174,6 @@ impl CycleReport<'_> {
             }
         };
         CycleSummary {
-            command: "cycle".to_owned(),
-            title: self.title.to_owned(),
-            wall_s: self.wall_s,
             steady_sliding_stable: self.is_stable(),
             origin,
             critical_value: self.critical.map(CriticalSummary::from),
@@ -185,7 +181,6 @@ impl CycleReport<'_> {
             cycles: self.cycles(),
             two_waves,
             notes: self.notes(),
-            manifest: manifest.clone(),
             curves: None,
         }
     }
@@ -214,9 +209,9 @@ impl CycleReport<'_> {
             let mut pairs = search.two_waves.iter().filter_map(|own| own.table(self.thickness));
             pairs.try_for_each(|table| write_table(folder, &table))?;
         }
-        let summary = self.summary(folder.manifest());
+        let summary = self.summary();
         write_tables(folder, &summary.document())?;
-        let object = write_summary(folder, &summary)?;
+        let object = write_summary(folder, Head::of(self.title, self.wall_s), &summary)?;
         Ok((summary, object))
     }
 }
@@ -238,6 +233,6 @@ impl CycleSummary {
         };
         let mut figures = figures::draw_cycles(data)?;
         figures.extend(draw_branches(&families, two_waves)?);
-        write_page(folder, self.document(), figures, options)
+        write_page(folder, self.document().titled(data.report.title), figures, options)
     }
 }

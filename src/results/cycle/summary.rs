@@ -6,7 +6,6 @@ use super::verdicts::{ConfirmationRun, ConfirmationSummary, KnownStability, Stab
 use crate::cycle::{Family, Onset};
 use crate::output::Described;
 use crate::results::extent::Extent;
-use crate::results::manifest::Manifest;
 use crate::results::summary::{CriticalSummary, MeanPowers, StatusFractions};
 use serde::Serialize;
 use std::f64::consts::TAU;
@@ -15,12 +14,6 @@ use std::fmt;
 /// `summary.json` of `frictionsim cycle`.
 #[derive(Clone, Debug, PartialEq, Described, Serialize)]
 pub struct CycleSummary {
-    /// `cycle`.
-    pub command: String,
-    /// Title of the case.
-    pub title: String,
-    /// Wall time, s.
-    pub wall_s: f64,
     /// Whether nothing looked at grows.
     pub steady_sliding_stable: bool,
     /// Where the search has started.
@@ -39,8 +32,6 @@ pub struct CycleSummary {
     pub two_waves: Vec<TwoWaveSummary>,
     /// What there is to say.
     pub notes: Vec<String>,
-    /// What it was made from.
-    pub manifest: Manifest,
     /// The branches, where no tables hold them: at a point of a study.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub curves: Option<Vec<FamilyRecord>>,

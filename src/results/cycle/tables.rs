@@ -5,11 +5,11 @@ use super::branch::{ALONG, BRANCH};
 use super::motions::ContactNode;
 use super::summary::{CycleMotion, CycleSummary, SoughtCycle};
 use super::two_waves::TwoWaveSummary;
-use super::verdicts::Perturbation;
+use super::verdicts::EXPONENTS;
 use crate::cycle::PhasePoint;
 use crate::cycle::periodic::MotionHarmonic;
 use crate::output::{Document, Section, Table, columns, fixed};
-use crate::results::summary::{MeanPowers, StatusFractions};
+use crate::results::summary::{MeanPowers, STATUS, StatusFractions};
 
 columns! {
     /// What leads to a cycle.
@@ -28,14 +28,6 @@ columns! {
     main_frequency_hz: "frequency" = cycle.main_frequency_hz, Always "main frequency" Fixed(2);
     amplitude_m: "amplitude along the counterface"
         = cycle.amplitude_m, Always "amplitude" Scientific(3);
-}
-
-columns! {
-    /// What its contact does.
-    pub(in crate::results) STATUS: status as StatusFractions;
-    stick: "fraction of the contact that sticks" = status.stick, Always "stick" Percent(1);
-    slip: "fraction that slips" = status.slip, Always "slip" Percent(1);
-    open: "fraction that is open" = status.open, Always "open" Percent(1);
 }
 
 columns! {
@@ -164,21 +156,6 @@ columns! {
     remainder: "share of the vibration that the harmonics up to this one leave" = row.2.remainder;
 }
 
-columns! {
-    /// A small perturbation.
-    pub(in crate::results) EXPONENTS: own as Perturbation;
-    class: "class of the harmonics that it holds, of a wave" = own.class;
-    growth_rate_per_s: "growth rate" = own.growth_rate_per_s;
-    wave_frequency_rad_per_s: "frequency in the frame of the wave" = own.wave_frequency_rad_per_s;
-    harmonic: "circumferential harmonic at which it moves the edge most, of a wave" = own.harmonic;
-    frequency_hz: "frequency in the fixed frame, of a wave" = own.frequency_hz;
-    beat_hz: "distance of its frequency from the nearest harmonic, of motions of the whole mesh"
-        = own.beat_hz;
-    modulus: "modulus of its multiplier, of motions of the whole mesh" = own.modulus;
-    argument_rad: "argument of its multiplier, of motions of the whole mesh" = own.argument_rad;
-    uncertainty_per_s: "uncertainty of the growth rate" = own.uncertainty_per_s;
-}
-
 impl Told {
     /// Its tables.
     pub(super) fn tables(&self, is_solid: bool) -> Vec<Table> {
@@ -302,7 +279,7 @@ impl CycleSummary {
             };
         let names = ["status", "contact", "history", "orbit", "harmonics", "velocity", "shear"];
         let pairs = self.two_waves.iter().filter_map(TwoWaveSummary::ends_text);
-        Document::new(&self.title, "Limit cycles")
+        Document::new("Limit cycles")
             .section(results)
             .section(
                 Section::new("Limit cycles")

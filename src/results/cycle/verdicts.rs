@@ -2,6 +2,7 @@
 
 use crate::cycle::Confirmation;
 use crate::output::Described;
+use crate::results::finding::finding;
 use crate::results::summary::{StatusFractions, present};
 use serde::Serialize;
 
@@ -92,35 +93,30 @@ pub struct KnownStability {
     pub shift: Option<f64>,
 }
 
-/// A small perturbation of a cycle: an exponent of a wave, a multiplier of a motion that was stepped in time.
-#[derive(Clone, Debug, Default, PartialEq, Described, Serialize)]
-pub struct Perturbation {
-    /// Growth rate, 1/s.
-    pub growth_rate_per_s: f64,
-    /// Class of the harmonics that it holds: those that differ from plus or minus it by a multiple of the wave's.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub class: Option<usize>,
-    /// Frequency in the frame of the wave, rad/s.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub wave_frequency_rad_per_s: Option<f64>,
-    /// Circumferential harmonic at which it moves the contact edge most.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub harmonic: Option<usize>,
-    /// Frequency in the fixed frame, Hz.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub frequency_hz: Option<f64>,
-    /// Distance of its frequency from the nearest harmonic of the cycle, Hz.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub beat_hz: Option<f64>,
-    /// Modulus of the multiplier.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub modulus: Option<f64>,
-    /// Argument of the multiplier, rad.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub argument_rad: Option<f64>,
-    /// What it leads to where it grows.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub leads_to: Option<String>,
-    /// Uncertainty of the growth rate, 1/s.
-    pub uncertainty_per_s: Option<f64>,
+finding! {
+    /// A small perturbation of a cycle: an exponent of a wave, a multiplier of a motion that was stepped in time.
+    #[derive(Clone, Debug, Default, PartialEq, Described, Serialize)]
+    Perturbation, EXPONENTS {
+        #[serde(skip_serializing_if = "Option::is_none")]
+        class: Option<usize> = "class of the harmonics that it holds, of a wave";
+        growth_rate_per_s: f64 = "growth rate";
+        #[serde(skip_serializing_if = "Option::is_none")]
+        wave_frequency_rad_per_s: Option<f64> = "frequency in the frame of the wave";
+        #[serde(skip_serializing_if = "Option::is_none")]
+        harmonic: Option<usize>
+            = "circumferential harmonic at which it moves the edge most, of a wave";
+        #[serde(skip_serializing_if = "Option::is_none")]
+        frequency_hz: Option<f64> = "frequency in the fixed frame, of a wave";
+        #[serde(skip_serializing_if = "Option::is_none")]
+        beat_hz: Option<f64>
+            = "distance of its frequency from the nearest harmonic, of motions of the whole mesh";
+        #[serde(skip_serializing_if = "Option::is_none")]
+        modulus: Option<f64> = "modulus of its multiplier, of motions of the whole mesh";
+        #[serde(skip_serializing_if = "Option::is_none")]
+        argument_rad: Option<f64> = "argument of its multiplier, of motions of the whole mesh";
+        /// What it leads to where it grows.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        leads_to: Option<String>;
+        uncertainty_per_s: Option<f64> = "uncertainty of the growth rate";
+    }
 }

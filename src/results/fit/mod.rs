@@ -4,47 +4,16 @@ mod figures;
 mod summary;
 
 pub use summary::{BLOCK, FitSummary, FittedParameter, LineSummary, ModeSummary, SearchSummary};
+pub(super) use summary::{LINES, MODES};
 
 use super::Finding;
-use super::cea::{BRANCH, DIRECTION, HARMONIC};
 use super::drawing::Declaration;
 use crate::output::{Document, Section, Table, columns};
-
-columns! {
-    /// A measured line.
-    pub(super) MEASURED: line as LineSummary;
-    line: "line of the table of measurements" = line.line;
-    frequency_hz: "measured frequency" = line.frequency_hz, Always "measured" Fixed(2);
-    real_hz: "measured real part of the eigenvalue over 2 pi"
-        = line.real_hz, IfAny "real part" Fixed(2);
-    harmonic: "measured number of nodal diameters" = line.harmonic;
-}
-
-columns! {
-    /// A mode of the model.
-    pub(super) MODES: mode as ModeSummary;
-    harmonic: HARMONIC = mode.harmonic, IfAny "n" Count;
-    branch: BRANCH = mode.branch, Always "branch" Count;
-    direction: DIRECTION = mode.direction;
-    frequency_hz: "frequency of the mode" = mode.frequency_hz, Always "frequency" Fixed(2);
-    real_hz: "real part of the eigenvalue over 2 pi" = mode.real_hz, Always "real part" Fixed(2);
-}
 
 columns! {
     /// Whether a mode grows.
     pub(super) GROWS: mode as ModeSummary;
     unstable: "whether the mode grows" = mode.is_unstable();
-}
-
-columns! {
-    /// How far a line and its mode are apart.
-    pub(super) DIFFERENCES: line as LineSummary;
-    difference_hz: "frequency of the model less measured" = line.difference_hz;
-    difference_percent: "the same over the measured one"
-        = line.difference_percent, Always "difference" Signed(3);
-    real_difference_hz: "real part of the model less measured" = line.real_difference_hz;
-    mac: "modal assurance criterion of measured shape and mode; where shapes were measured"
-        = line.mac, IfAny "MAC" Fixed(3);
 }
 
 columns! {
@@ -65,9 +34,9 @@ impl Finding for FitSummary {
         let parameters = Table::new("", "Parameters with their 95 % intervals")
             .columns(PARAMETERS, self.parameters.clone());
         let residuals = Table::new("fit.csv", "Measured lines and their modes")
-            .columns(MEASURED, lines())
+            .columns(&LINES[..4], lines())
             .group("model_", "model ", MODES, lines().map(|line| Some(&line.mode)))
-            .columns(DIFFERENCES, lines())
+            .columns(&LINES[4..], lines())
             .without_empty("mac");
         let modes = Table::new("modes.csv", "Modes of the fitted model")
             .columns(MODES, &self.modes)
@@ -87,7 +56,7 @@ impl Finding for FitSummary {
             let later = row.iter().filter(move |(b, _)| a < *b);
             later.map(move |(b, value)| format!("Correlation of {a} and {b}: {value:+.3}."))
         });
-        Document::new(&self.title, "Fit to measured modes")
+        Document::new("Fit to measured modes")
             .section(
                 Section::new("Fitted parameters")
                     .text(std::iter::once(fitted).chain(pairs))

@@ -1,8 +1,8 @@
 //! `summary.json` of a fit.
 
 use crate::output::{Described, rounded};
-use crate::results::Manifest;
 use crate::results::cea::travels;
+use crate::results::finding::finding;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -13,12 +13,6 @@ pub const BLOCK: &str = "fitted.toml";
 /// `summary.json` of a fit.
 #[derive(Clone, Debug, Described, Serialize)]
 pub struct FitSummary {
-    /// Its command.
-    pub command: String,
-    /// Title of the case.
-    pub title: String,
-    /// Wall time, s.
-    pub wall_s: f64,
     /// The table of measured modes.
     pub measurement: String,
     /// Friction coefficient at which modes are computed.
@@ -45,8 +39,6 @@ pub struct FitSummary {
     pub modes_of_case: Vec<ModeSummary>,
     /// What is to be said.
     pub notes: Vec<String>,
-    /// What it was made from.
-    pub manifest: Manifest,
 }
 
 /// One fitted parameter.
@@ -68,19 +60,17 @@ pub struct FittedParameter {
     pub unit: String,
 }
 
-/// One mode of the model.
-#[derive(Clone, Debug, PartialEq, Described, Serialize)]
-pub struct ModeSummary {
-    /// Nodal diameters, where the body has the symmetry.
-    pub harmonic: Option<usize>,
-    /// Rank within the harmonic.
-    pub branch: usize,
-    /// +1 with the rotor, -1 against it, 0 standing.
-    pub direction: i8,
-    /// Frequency, Hz.
-    pub frequency_hz: f64,
-    /// Real part, Hz.
-    pub real_hz: f64,
+finding! {
+    /// One mode of the model.
+    #[derive(Clone, Debug, PartialEq, Described, Serialize)]
+    ModeSummary, MODES {
+        harmonic: Option<usize> = "number of nodal diameters; none without symmetry",
+            IfAny "n" Count;
+        branch: usize = "rank within the harmonic, else among all, from 1", Always "branch" Count;
+        direction: i8 = "1 travels with the rotor, -1 against it, 0 stands; none without symmetry";
+        frequency_hz: f64 = "frequency of the mode", Always "frequency" Fixed(2);
+        real_hz: f64 = "real part of the eigenvalue over 2 pi", Always "real part" Fixed(2);
+    }
 }
 
 impl ModeSummary {
@@ -98,30 +88,26 @@ impl ModeSummary {
     }
 }
 
-/// One measured line and its mode.
-#[derive(Clone, Debug, Described, Serialize)]
-pub struct LineSummary {
-    /// Line of the table.
-    pub line: usize,
-    /// Measured frequency, Hz.
-    pub frequency_hz: f64,
-    /// Measured real part, Hz.
-    pub real_hz: Option<f64>,
-    /// Harmonic, where it was measured.
-    pub harmonic: Option<usize>,
-    /// Whether it was heard.
-    pub unstable: bool,
-    /// Its mode.
-    pub mode: ModeSummary,
-    /// Computed less measured frequency, Hz.
-    pub difference_hz: f64,
-    /// The same, per cent.
-    pub difference_percent: f64,
-    /// Computed less measured real part, Hz.
-    pub real_difference_hz: Option<f64>,
-    /// Modal assurance criterion of the measured shape and the mode, where a shape was measured.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub mac: Option<f64>,
+finding! {
+    /// One measured line and its mode.
+    #[derive(Clone, Debug, Described, Serialize)]
+    LineSummary, LINES {
+        line: usize = "line of the table of measurements";
+        frequency_hz: f64 = "measured frequency", Always "measured" Fixed(2);
+        real_hz: Option<f64> = "measured real part of the eigenvalue over 2 pi",
+            IfAny "real part" Fixed(2);
+        harmonic: Option<usize> = "measured number of nodal diameters";
+        /// Whether it was heard.
+        unstable: bool;
+        /// Its mode.
+        mode: ModeSummary;
+        difference_hz: f64 = "frequency of the model less measured";
+        difference_percent: f64 = "the same over the measured one", Always "difference" Signed(3);
+        real_difference_hz: Option<f64> = "real part of the model less measured";
+        #[serde(skip_serializing_if = "Option::is_none")]
+        mac: Option<f64> = "modal assurance criterion of measured shape and mode; where shapes were measured",
+            IfAny "MAC" Fixed(3);
+    }
 }
 
 /// How a minimum was found.

@@ -1,7 +1,6 @@
 //! Summary of `identify`, as it is written, printed and reported.
 
 use crate::output::{Described, rounded};
-use crate::results::Manifest;
 use crate::signal::reader::NamedResponse;
 use crate::signal::{
     Estimate, HalfPowerBand, Identification, IdentifiedMode, RayleighFit, ResonanceNote,
@@ -11,8 +10,6 @@ use serde::Serialize;
 /// Rayleigh coefficients of measured responses.
 #[derive(Clone, Debug, PartialEq, Described, Serialize)]
 pub struct IdentificationSummary {
-    /// `identify`.
-    pub command: String,
     /// Name of the table of the responses.
     pub source: String,
     /// Quantity of the first response.
@@ -39,10 +36,6 @@ pub struct IdentificationSummary {
     pub fit: FitSummary,
     /// Decisions of the reader.
     pub notes: Vec<String>,
-    /// Wall time, s.
-    pub wall_s: f64,
-    /// What it was made from.
-    pub manifest: Manifest,
 }
 
 /// One response and its noise.
@@ -123,8 +116,6 @@ impl IdentificationSummary {
         responses: &[NamedResponse],
         found: &Identification,
         notes: Vec<String>,
-        wall_s: f64,
-        manifest: Manifest,
     ) -> Self {
         let (fit, first) = (&found.fit, &responses[0].response);
         let described = responses.iter().zip(&fit.noise).map(|(named, noise)| {
@@ -143,7 +134,6 @@ impl IdentificationSummary {
             stiffness_coefficient: fit.stiffness_coefficient,
         };
         Self {
-            command: "identify".into(),
             source: source.to_owned(),
             quantity: first.quantity().name().to_owned(),
             has_phase: first.has_phase(),
@@ -163,8 +153,6 @@ impl IdentificationSummary {
                 residual_correlation: fit.correlation,
             },
             notes,
-            wall_s,
-            manifest,
         }
     }
 

@@ -4,14 +4,15 @@ mod figures;
 mod files;
 mod tables;
 
-use super::{Extent, Manifest};
+use super::Extent;
+use super::finding::finding;
 use crate::output::Described;
 use serde::Serialize;
 
 pub use figures::figures;
 pub use files::write;
 pub use tables::document;
-pub(super) use tables::{BESIDE, CANDIDATES, EFFECTS, STATES, VERDICTS};
+pub(super) use tables::{CANDIDATES, EFFECTS, VERDICTS};
 
 /// Fields over the mesh of one target.
 #[derive(Clone, Debug, PartialEq)]
@@ -35,12 +36,6 @@ pub struct TargetFields {
 /// `summary.json` of `improve`.
 #[derive(Clone, Debug, Described, Serialize)]
 pub struct ImproveSummary {
-    /// Its command.
-    pub command: String,
-    /// Title of the case.
-    pub title: String,
-    /// Wall time, s.
-    pub wall_s: f64,
     /// Unknowns of the eigenproblem.
     pub dofs: usize,
     /// The friction coefficient at which modes are to be silenced.
@@ -57,8 +52,6 @@ pub struct ImproveSummary {
     pub candidates: Vec<Candidate>,
     /// What there is to say.
     pub notes: Vec<String>,
-    /// What it was made from.
-    pub manifest: Manifest,
 }
 
 /// A mode that is to be silenced.
@@ -72,21 +65,23 @@ pub struct TargetMode {
     pub growth_rate_per_s: f64,
 }
 
-/// What the modes of the window of frequencies come to.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Described, Serialize)]
-pub struct State {
-    /// Growth rate of the mode that grows fastest there, 1/s.
-    pub growth_rate_per_s: Option<f64>,
-    /// Its frequency, Hz.
-    pub frequency_hz: Option<f64>,
-    /// The lowest critical friction coefficient there; null where none is below that of the case.
-    pub critical_friction: Option<f64>,
-    /// Unstable modes there.
-    pub unstable: usize,
-    /// Unstable modes at other frequencies.
-    pub unstable_beside: usize,
-    /// Frequency of the one of them that grows fastest, Hz.
-    pub beside_hz: Option<f64>,
+finding! {
+    /// What the modes of the window of frequencies come to.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Described, Serialize)]
+    State, STATES {
+        growth_rate_per_s: Option<f64> = "growth rate of the fastest mode of the window",
+            Always "growth" Significant(4);
+        /// Its frequency, Hz.
+        frequency_hz: Option<f64>;
+        critical_friction: Option<f64>
+            = "lowest critical friction of the window; empty where none is below the case's own",
+            Always "critical friction" Fixed(4);
+        /// Unstable modes there.
+        unstable: usize;
+        unstable_beside: usize = "unstable modes at other frequencies";
+        /// Frequency of the one of them that grows fastest, Hz.
+        beside_hz: Option<f64>;
+    }
 }
 
 /// Sizes of the modifications.

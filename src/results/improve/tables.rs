@@ -1,6 +1,6 @@
 //! Tables and sentences of `improve`.
 
-use super::{Candidate, ImproveSummary, State, critical};
+use super::{Candidate, ImproveSummary, STATES, critical};
 use crate::output::{Document, Section, Table, columns, significant};
 
 columns! {
@@ -34,22 +34,6 @@ columns! {
 }
 
 columns! {
-    /// A predicted or confirmed state.
-    pub(in crate::results) STATES: state as State;
-    growth_rate_per_s: "growth rate of the fastest mode of the window"
-        = state.growth_rate_per_s, Always "growth" Significant(4);
-    critical_friction: "lowest critical friction of the window; empty where none is below the case's own"
-        = state.critical_friction,
-        Always "critical friction" Fixed(4);
-}
-
-columns! {
-    /// What a run says of the other frequencies.
-    pub(in crate::results) BESIDE: state as State;
-    unstable_beside: "unstable modes at other frequencies" = state.unstable_beside;
-}
-
-columns! {
     /// What a run comes to, and how to make it.
     pub(in crate::results) VERDICTS: own as Candidate;
     verdict: "what the run with it comes to" = own.verdict.clone(), Always "verdict" Plain;
@@ -58,7 +42,7 @@ columns! {
 
 /// Tables and sentences.
 pub fn document(summary: &ImproveSummary) -> Document {
-    Document::new(&summary.title, "Modifications")
+    Document::new("Modifications")
         .section(Section::new("Results").facts(facts(summary)).text([summary.answer()]))
         .section(Section::new("Candidates").tables([candidates(summary)]))
         .notes(&summary.notes)
@@ -74,9 +58,8 @@ fn candidates(summary: &ImproveSummary) -> Table {
     .columns(CANDIDATES, all())
     .shown_only(PLACE, all())
     .columns(EFFECTS, all())
-    .group("predicted_", "predicted ", STATES, all().iter().map(|own| Some(own.predicted)))
+    .group("predicted_", "predicted ", &STATES[..2], all().iter().map(|own| Some(own.predicted)))
     .group("confirmed_", "confirmed ", STATES, all().iter().map(|own| own.confirmed))
-    .group("confirmed_", "confirmed ", BESIDE, all().iter().map(|own| own.confirmed))
     .columns(VERDICTS, all())
 }
 

@@ -2,8 +2,8 @@
 
 mod figures;
 
+use super::Finding;
 use super::drawing::Declaration;
-use super::{Finding, Manifest};
 use crate::output::{Described, Document, Section, Table, columns};
 use serde::Serialize;
 use std::f64::consts::TAU;
@@ -11,12 +11,6 @@ use std::f64::consts::TAU;
 /// `summary.json` of `mac`.
 #[derive(Clone, Debug, Described, Serialize)]
 pub struct MacSummary {
-    /// Its command.
-    pub command: String,
-    /// Title of the case.
-    pub title: String,
-    /// Wall time, s.
-    pub wall_s: f64,
     /// The measured shapes.
     pub measurement: String,
     /// The friction coefficient of the modes.
@@ -31,8 +25,6 @@ pub struct MacSummary {
     pub pairs: Vec<MacPair>,
     /// What there is to say.
     pub notes: Vec<String>,
-    /// What it was made from.
-    pub manifest: Manifest,
 }
 
 /// A measured shape.
@@ -132,7 +124,7 @@ impl Finding for MacSummary {
             ])
             .text([self.answer()])
             .tables([table.columns(ROWS, &pairs).columns(BESIDE, &pairs)]);
-        Document::new(&self.title, "Modal assurance")
+        Document::new("Modal assurance")
             .section(results)
             .section(Section::new("Modal assurance").figures(["mac"]))
             .file(Table::new("mac.csv", "Each shape and each mode").columns(ROWS, all))

@@ -5,9 +5,8 @@ mod spectrum;
 pub use spectrum::{FreeSpectrum, FreeSpectrumSummary};
 
 use super::folder::{FolderError, OutputFolder};
-use super::manifest::Manifest;
 use super::npz::NpzArchive;
-use super::summary::object;
+use super::summary::{Head, object};
 use crate::linalg::MarketMatrix;
 use crate::output::rows::write_rows;
 use crate::output::{Described, Key, columns, significant};
@@ -170,12 +169,6 @@ pub struct MatrixEntry {
 /// `summary.json` of `frictionsim matrices`.
 #[derive(Clone, Debug, PartialEq, Described, Serialize)]
 pub struct MatricesSummary {
-    /// `matrices`.
-    pub command: String,
-    /// Title of the case.
-    pub title: String,
-    /// Wall time, s.
-    pub wall_s: f64,
     /// Number of unknowns.
     pub dofs: usize,
     /// What the matrices are put together to.
@@ -194,8 +187,6 @@ pub struct MatricesSummary {
     pub unknowns: Option<String>,
     /// Table of the contact points; none of matrices at one friction coefficient.
     pub contact: Option<String>,
-    /// What it was made from.
-    pub manifest: Manifest,
 }
 
 impl MatrixRole {
@@ -241,7 +232,7 @@ impl MatrixRole {
 
 impl MatricesSummary {
     /// The summary of an exported system.
-    pub fn new(system: &ExportedSystem, title: &str, wall_s: f64, manifest: &Manifest) -> Self {
+    pub fn new(system: &ExportedSystem) -> Self {
         let entry = |own: &ExportedMatrix| MatrixEntry {
             name: own.name.clone(),
             role: own.role,
@@ -256,9 +247,6 @@ impl MatricesSummary {
         let is_lossy = system.matrices.iter().any(ExportedMatrix::is_structural);
         let equation = if is_lossy { LOSSY } else { LOSSLESS };
         Self {
-            command: "matrices".to_owned(),
-            title: title.to_owned(),
-            wall_s,
             dofs: system.unknowns.len(),
             equation: match system.is_at_one_friction {
                 true => format!("{equation} at mu = friction_coefficient"),
@@ -274,7 +262,6 @@ impl MatricesSummary {
             matrices: system.matrices.iter().map(entry).collect(),
             unknowns: beside(UNKNOWNS),
             contact: beside(CONTACT),
-            manifest: manifest.clone(),
         }
     }
 }
@@ -284,6 +271,7 @@ impl MatricesSummary {
 pub fn write_matrices(
     folder: &OutputFolder,
     system: &ExportedSystem,
+    head: Head<'_>,
     summary: &MatricesSummary,
 ) -> Result<(), FolderError> {
     for own in &system.matrices {
@@ -306,9 +294,9 @@ pub fn write_matrices(
     let contact = system.contact.iter().cloned().enumerate();
     folder.write(CONTACT, |out| write_rows(out, points, contact))?;
     folder.write(DESCRIPTION, |out| {
-        let mut description = object(summary)?;
+        let mut description = object("", head, summary)?;
         if let Some(fields) = description.as_object_mut() {
-            for key in ["wall_s", "manifest", "command"] {
+            for key in ["wall_s", "command"] {
                 fields.remove(key);
             }
         }

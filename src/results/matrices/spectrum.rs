@@ -5,8 +5,7 @@ use crate::output::{Table, columns};
 use crate::results::cea::BRANCH;
 use crate::results::finding::write_table;
 use crate::results::folder::{FolderError, OutputFolder};
-use crate::results::manifest::Manifest;
-use crate::results::summary::write_summary;
+use crate::results::summary::{Head, write_summary};
 use serde::Serialize;
 use serde_json::Value;
 use std::f64::consts::TAU;
@@ -29,18 +28,12 @@ pub struct FreeSpectrum {
 /// `summary.json` of `frictionsim cea` of a superelement.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct FreeSpectrumSummary {
-    /// `cea`.
-    pub command: String,
-    /// Title of the case.
-    pub title: String,
     /// Name of the superelement.
     pub superelement: String,
     /// Number of unknowns.
     pub dofs: usize,
     /// `dense`.
     pub method: String,
-    /// Wall time, s.
-    pub wall_s: f64,
     /// Number of modes listed.
     pub modes: usize,
     /// Number of them that grow.
@@ -49,8 +42,6 @@ pub struct FreeSpectrumSummary {
     pub overdamped: usize,
     /// Largest residual of a mode listed.
     pub max_residual: f64,
-    /// What it was made from.
-    pub manifest: Manifest,
 }
 
 /// Place of a mode by frequency, from 0, and the mode.
@@ -86,18 +77,15 @@ impl FreeSpectrum {
         write_table(folder, &self.table())?;
         write_summary(
             folder,
+            Head::of(&self.title, wall_s),
             &FreeSpectrumSummary {
-                command: "cea".to_owned(),
-                title: self.title.clone(),
                 superelement: self.name.clone(),
                 dofs: self.dofs,
                 method: "dense".to_owned(),
-                wall_s,
                 modes: self.modes.len(),
                 unstable: self.unstable(),
                 overdamped: self.overdamped,
                 max_residual: self.modes.iter().map(|mode| mode.residual).fold(0.0, f64::max),
-                manifest: folder.manifest().clone(),
             },
         )
     }

@@ -11,7 +11,6 @@ pub use solid::{SolidBoundary, SolidMeshStatistics, SolidRegion};
 pub use solid_figure::figure as solid_figure;
 
 use super::folder::{FolderError, OutputFolder};
-use super::manifest::Manifest;
 use super::vtu::{EncodedMesh, Field, write_vtu};
 use crate::chart::literal;
 use crate::mesh::{BoundaryCondition, Mesh, MeshQuality};
@@ -21,12 +20,6 @@ use serde::Serialize;
 /// `summary.json` of `frictionsim mesh`, with the statistics of the kind of body.
 #[derive(Clone, Debug, PartialEq, Described, Serialize)]
 pub struct MeshSummary<S> {
-    /// `mesh`.
-    pub command: String,
-    /// Title of the case.
-    pub title: String,
-    /// Wall time, s.
-    pub wall_s: f64,
     /// Size and quality.
     pub mesh: S,
     /// How the mesh file of solid bodies was read, and what was taken from it.
@@ -35,8 +28,6 @@ pub struct MeshSummary<S> {
     /// What of the mesh file is not used: keyword, place, count, reason.
     #[serde(default = "Vec::new", skip_serializing_if = "Vec::is_empty")]
     pub not_used: Vec<String>,
-    /// What it was made from.
-    pub manifest: Manifest,
 }
 
 /// Statistics of a mesh of any kind.
@@ -54,7 +45,7 @@ impl<S: Measured> MeshSummary<S> {
     pub fn document(&self) -> Document {
         let results = Section::new("Results").facts(numbers(self.mesh.size(), self.mesh.shape()));
         let not_used = self.not_used.iter().map(|line| format!("not used: {line}"));
-        Document::new(&self.title, "Mesh")
+        Document::new("Mesh")
             .section(self.mesh.section(results).text(not_used))
             .section(Section::new("Mesh").figures(["mesh"]))
     }

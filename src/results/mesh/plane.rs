@@ -2,27 +2,11 @@
 
 use super::{ElementShapes, Measured, MeshSize, condition_name};
 use crate::mesh::{AnnulusMesh, Mesh, SolidContact, SolidSector};
-use crate::output::{Described, Format, Section, Table, columns};
+use crate::output::{Described, Format, Section, Table};
+use crate::results::finding::finding;
 use crate::results::folder::{FolderError, OutputFolder};
 use crate::results::vtu::{EncodedMesh, Field, write_vtu};
 use serde::Serialize;
-
-columns! {
-    /// A region.
-    REGIONS: own as RegionStatistics;
-    name = own.name.clone(), Always "region" Plain;
-    elements = own.elements, Always "elements" Count;
-    area_m2 = own.area_m2, Always "area" Scientific(6);
-}
-
-columns! {
-    /// A boundary.
-    BOUNDARIES: own as BoundaryStatistics;
-    name = own.name.clone(), Always "boundary" Plain;
-    nodes = own.nodes, Always "nodes" Count;
-    length_m = own.length_m, Always "length" Scientific(6);
-    condition = own.condition.clone(), Always "condition" Plain;
-}
 
 /// Size and quality of a mesh.
 #[derive(Clone, Debug, PartialEq, Described, Serialize)]
@@ -61,28 +45,25 @@ pub struct MeshStatistics {
     pub boundaries: Vec<BoundaryStatistics>,
 }
 
-/// One region of a mesh.
-#[derive(Clone, Debug, PartialEq, Described, Serialize)]
-pub struct RegionStatistics {
-    /// Its name.
-    pub name: String,
-    /// Its elements.
-    pub elements: usize,
-    /// Its area, m2.
-    pub area_m2: f64,
+finding! {
+    /// One region of a mesh.
+    #[derive(Clone, Debug, PartialEq, Described, Serialize)]
+    RegionStatistics, REGIONS {
+        name: String = "its name", Always "region" Plain;
+        elements: usize = "its elements", Always "elements" Count;
+        area_m2: f64 = "its area", Always "area" Scientific(6);
+    }
 }
 
-/// One boundary of a mesh.
-#[derive(Clone, Debug, PartialEq, Described, Serialize)]
-pub struct BoundaryStatistics {
-    /// Its name.
-    pub name: String,
-    /// Its nodes.
-    pub nodes: usize,
-    /// Its length, m.
-    pub length_m: f64,
-    /// What holds it, in a word.
-    pub condition: String,
+finding! {
+    /// One boundary of a mesh.
+    #[derive(Clone, Debug, PartialEq, Described, Serialize)]
+    BoundaryStatistics, BOUNDARIES {
+        name: String = "its name", Always "boundary" Plain;
+        nodes: usize = "its nodes", Always "nodes" Count;
+        length_m: f64 = "its length", Always "length" Scientific(6);
+        condition: String = "what holds it, in a word", Always "condition" Plain;
+    }
 }
 
 impl Measured for MeshStatistics {

@@ -2,7 +2,8 @@
 
 use super::{ElementShapes, Measured, MeshSize, condition_name};
 use crate::mesh::Mesh;
-use crate::output::{Described, Section, Table, columns};
+use crate::output::{Described, Section, Table};
+use crate::results::finding::finding;
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -35,51 +36,28 @@ pub struct SolidMeshStatistics {
     pub boundaries: Vec<SolidBoundary>,
 }
 
-/// One region of solid bodies.
-#[derive(Clone, Debug, PartialEq, Described, Serialize)]
-pub struct SolidRegion {
-    /// Its name.
-    pub name: String,
-    /// Its elements.
-    pub elements: usize,
-    /// Its volume, m3.
-    pub volume_m3: f64,
-    /// Its mass, kg.
-    pub mass_kg: f64,
+finding! {
+    /// One region of solid bodies.
+    #[derive(Clone, Debug, PartialEq, Described, Serialize)]
+    SolidRegion, REGIONS {
+        name: String = "its name", Always "region" Plain;
+        elements: usize = "its elements", Always "elements" Count;
+        volume_m3: f64 = "its volume", Always "volume" Scientific(6);
+        mass_kg: f64 = "its mass", Always "mass" Fixed(6);
+    }
 }
 
-/// One named surface of solid bodies.
-#[derive(Clone, Debug, PartialEq, Described, Serialize)]
-pub struct SolidBoundary {
-    /// Its name.
-    pub name: String,
-    /// Its nodes.
-    pub nodes: usize,
-    /// Its faces.
-    pub faces: usize,
-    /// Their area, m2.
-    pub area_m2: f64,
-    /// What holds or loads it, or what it slides on, in a word.
-    pub condition: String,
-}
-
-columns! {
-    /// A region.
-    REGIONS: own as SolidRegion;
-    name = own.name.clone(), Always "region" Plain;
-    elements = own.elements, Always "elements" Count;
-    volume_m3 = own.volume_m3, Always "volume" Scientific(6);
-    mass_kg = own.mass_kg, Always "mass" Fixed(6);
-}
-
-columns! {
-    /// A boundary.
-    BOUNDARIES: own as SolidBoundary;
-    name = own.name.clone(), Always "boundary" Plain;
-    nodes = own.nodes, Always "nodes" Count;
-    faces = own.faces, Always "faces" Count;
-    area_m2 = own.area_m2, Always "area" Scientific(6);
-    condition = own.condition.clone(), Always "condition" Plain;
+finding! {
+    /// One named surface of solid bodies.
+    #[derive(Clone, Debug, PartialEq, Described, Serialize)]
+    SolidBoundary, BOUNDARIES {
+        name: String = "its name", Always "boundary" Plain;
+        nodes: usize = "its nodes", Always "nodes" Count;
+        faces: usize = "its faces", Always "faces" Count;
+        area_m2: f64 = "their area", Always "area" Scientific(6);
+        condition: String = "what holds or loads it, or what it slides on, in a word",
+            Always "condition" Plain;
+    }
 }
 
 impl Measured for SolidMeshStatistics {

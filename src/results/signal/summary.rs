@@ -2,7 +2,6 @@
 
 use crate::cea::ComplexMode;
 use crate::output::Described;
-use crate::results::Manifest;
 use crate::signal::{Estimate, ExponentialStage, NoGrowth, SpectralLine, SpectralResolution};
 use serde::Serialize;
 
@@ -12,8 +11,6 @@ const MODE_TOLERANCE: f64 = 0.03;
 /// What was found in a record.
 #[derive(Clone, Debug, PartialEq, Described, Serialize)]
 pub struct SignalSummary {
-    /// `signal`.
-    pub command: String,
     /// Name of the table.
     pub source: String,
     /// Sampling rate, Hz.
@@ -28,10 +25,6 @@ pub struct SignalSummary {
     pub channels: Vec<ChannelSummary>,
     /// Decisions of the reader.
     pub notes: Vec<String>,
-    /// Wall time, s.
-    pub wall_s: f64,
-    /// What it was made from.
-    pub manifest: Manifest,
 }
 
 /// What was found in one channel.

@@ -3,37 +3,9 @@
 use super::record::{PointRecord, listed};
 use super::table::cell;
 use crate::output::{Column, Table, columns};
-use crate::results::cea::{BRANCH, DIRECTION, HARMONIC, ModeSummary, ONSETS, UnstableMode};
+use crate::results::cea::{ONSETS, OWN_MODES, UNSTABLE};
 use crate::results::cycle::{BranchRecord, FamilyRecord};
 use serde::de::DeserializeOwned;
-
-columns! {
-    /// A mode that grows.
-    pub(in crate::results) UNSTABLE: mode as UnstableMode;
-    friction_coefficient: "friction coefficient"
-        = mode.friction_coefficient, Always "friction" Plain;
-    mode: "number by frequency at that friction, from 1" = mode.mode, Always "mode" Count;
-    harmonic: HARMONIC = mode.harmonic, IfAny "n" Count;
-    branch: BRANCH = mode.branch;
-    direction: DIRECTION = mode.direction;
-    frequency_hz: "frequency" = mode.frequency_hz, Always "frequency" Fixed(2);
-    growth_rate_per_s: "growth rate" = mode.growth_rate_per_s, Always "growth rate" Fixed(2);
-    damping_factor: "damping factor, below 0" = mode.damping_factor;
-    critical_friction: "friction at which its branch turned unstable last"
-        = mode.critical_friction, IfAny "critical friction" Fixed(6);
-}
-
-columns! {
-    /// A mode at the friction coefficient of the case.
-    pub(in crate::results) OWN_MODES: mode as ModeSummary;
-    harmonic: HARMONIC = mode.harmonic;
-    branch: BRANCH = mode.branch;
-    direction: DIRECTION = mode.direction;
-    real_hz: "real part of the eigenvalue over 2 pi" = mode.real_hz;
-    frequency_hz: "imaginary part over 2 pi" = mode.frequency_hz;
-    unstable: "whether it grows" = mode.unstable;
-    contact_share: "share of the kinetic energy at the contact" = mode.contact_share;
-}
 
 /// A cycle of a branch: its family, and its place along the branch.
 type BranchPoint = (FamilyRecord, usize);
@@ -67,11 +39,11 @@ pub fn long_tables(keys: &[String], analyses: &[&str], records: &[PointRecord]) 
     let mut tables = Vec::new();
     if analyses.contains(&"cea") {
         let of = ("stability.csv", "cea", "critical_frictions");
-        tables.push(long(of, keys, records, ONSETS, |own| vec![own]));
+        tables.push(long(of, keys, records, &ONSETS[..9], |own| vec![own]));
         let of = ("unstable_modes.csv", "cea", "unstable_modes");
         tables.push(long(of, keys, records, UNSTABLE, |own| vec![own]));
         let of = ("modes.csv", "cea", "modes_at_friction");
-        tables.push(long(of, keys, records, OWN_MODES, |own| vec![own]));
+        tables.push(long(of, keys, records, &OWN_MODES[..7], |own| vec![own]));
     }
     if analyses.contains(&"cycle") {
         let points = |family: FamilyRecord| -> Vec<BranchPoint> {

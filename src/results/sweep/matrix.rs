@@ -1,10 +1,9 @@
 //! The operating matrix of a study of eigenvalue analyses: which modes grow under which conditions.
 
-use super::long::UNSTABLE;
 use super::record::{PointRecord, listed};
 use super::swept::{of_points, swept_text};
 use crate::output::{Table, fixed};
-use crate::results::cea::{UnstableCount, UnstableMode};
+use crate::results::cea::{UNSTABLE, UnstableCount, UnstableMode};
 use serde_json::{Map, Value};
 use std::collections::BTreeSet;
 

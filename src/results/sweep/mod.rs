@@ -14,8 +14,8 @@ mod table;
 
 pub use figures::{SweepDrawing, draw};
 pub use folder::{Claim, Found, Start, SweepFolder};
+pub(super) use long::BRANCHES;
 pub use long::long_tables;
-pub(super) use long::{BRANCHES, OWN_MODES, UNSTABLE};
 pub use record::{PointClock, PointRecord};
 pub use report::{FailedPoint, SweepReport, SweepSummary, document};
 pub use swept::swept_text;

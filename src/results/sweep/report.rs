@@ -1,6 +1,5 @@
 //! Summary and document of a sweep.
 
-use super::super::Manifest;
 use super::PointRecord;
 use super::matrix::OperatingMatrix;
 use super::swept::{heads, of_points};
@@ -178,10 +177,6 @@ impl SweepReport<'_> {
 /// `summary.json` of `frictionsim sweep`.
 #[derive(Clone, Debug, PartialEq, Described, Serialize)]
 pub struct SweepSummary {
-    /// `sweep`.
-    pub command: String,
-    /// Title of the case.
-    pub title: String,
     /// Swept keys.
     pub swept: Vec<String>,
     /// Analyses at each point.
@@ -196,16 +191,12 @@ pub struct SweepSummary {
     pub failed: Vec<FailedPoint>,
     /// Numbers of those that are not finished.
     pub missing: Vec<usize>,
-    /// Wall time of this process, s.
-    pub wall_s: f64,
     /// Time that the points kept cores busy, s.
     pub core_s: f64,
     /// Points done in an hour of one core.
     pub points_per_core_hour: Option<f64>,
     /// What to know before points are compared.
     pub notes: Vec<String>,
-    /// What it was made from.
-    pub manifest: Manifest,
 }
 
 /// A point that failed, and why.
@@ -221,15 +212,13 @@ pub struct FailedPoint {
 
 impl SweepSummary {
     /// The summary of a report.
-    pub fn of(report: &SweepReport<'_>, manifest: &Manifest) -> Self {
+    pub fn of(report: &SweepReport<'_>) -> Self {
         let failed = report.failed().map(|record| FailedPoint {
             point: record.point,
             swept: record.swept.clone(),
             error: record.error.clone(),
         });
         Self {
-            command: manifest.command.clone(),
-            title: report.title.to_owned(),
             swept: report.keys.clone(),
             analyses: report.analyses.iter().map(|&name| name.to_owned()).collect(),
             points: report.count,
@@ -237,11 +226,9 @@ impl SweepSummary {
             ran: report.ran,
             failed: failed.collect(),
             missing: report.missing(),
-            wall_s: report.wall_s,
             core_s: report.core_s,
             points_per_core_hour: report.points_per_core_hour(),
             notes: report.notes(),
-            manifest: manifest.clone(),
         }
     }
 }
@@ -267,7 +254,8 @@ pub fn document(report: &SweepReport<'_>, is_page: bool) -> Document {
     let modes = Some(matrix.table(&report.keys)).filter(|_| is_page);
     let points =
         Some(points_table(report)).filter(|_| is_page || report.records.len() <= MOST_ROWS);
-    Document::new(report.title, "Study")
+    Document::new("Study")
+        .titled(report.title)
         .section(results)
         .section(Section::new("Study").figures([""]))
         .section(Section::new("Points").tables(modes).tables(points))

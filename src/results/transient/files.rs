@@ -10,16 +10,17 @@ use crate::results::folder::{FolderError, OutputFolder};
 use crate::results::npz::NpzArchive;
 use crate::results::pvd::{PvdEntry, write_pvd};
 use crate::results::record::write_record;
-use crate::results::summary::write_summary;
+use crate::results::summary::{Head, write_summary};
 use crate::results::vtu::{Field, write_vtu};
 use crate::transient::{Recorder, SampleRow, Snapshot};
+use serde_json::Value;
 use std::io::{self, Write};
 
-/// Writes all files of the transient and returns the summary.
+/// Writes all files of the transient and gives the summary, as it is and as an object.
 pub fn write(
     folder: &OutputFolder,
     report: &TransientReport<'_>,
-) -> Result<TransientSummary, FolderError> {
+) -> Result<(TransientSummary, Value), FolderError> {
     let raw = |index: usize| Some(report.run.record.raw_accelerations.as_ref()?[index].as_slice());
     for (index, rows) in report.run.record.probe_rows.iter().enumerate() {
         let probe = report.run.probe_label(index);
@@ -43,9 +44,9 @@ pub fn write(
     folder.write("contact.npz", |out| out.write_all(&encode_contact(report.run.record)?))?;
     write_snapshots(folder, report)?;
     write_record(folder, report.run.record)?;
-    let summary = summary(report, folder.manifest());
-    write_summary(folder, &summary)?;
-    Ok(summary)
+    let summary = summary(report);
+    let object = write_summary(folder, Head::of(report.title, report.wall_s), &summary)?;
+    Ok((summary, object))
 }
 
 /// What is recorded of one probe, sample by sample.

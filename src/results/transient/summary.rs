@@ -3,7 +3,6 @@
 use super::TransientReport;
 use crate::output::Described;
 use crate::results::extent::Extent;
-use crate::results::manifest::Manifest;
 use crate::results::summary::{MeanPowers, StatusFractions, present};
 use crate::transient::{Drift, EndState, Growth, Perturbation, TransientAnalysis, Vibration};
 use serde::Serialize;
@@ -12,10 +11,6 @@ use std::collections::BTreeMap;
 /// `summary.json` of `frictionsim transient`.
 #[derive(Clone, Debug, PartialEq, Described, Serialize)]
 pub struct TransientSummary {
-    /// `transient`.
-    pub command: String,
-    /// Title of the case.
-    pub title: String,
     /// Whether the run reached its end, or stopped because it had settled.
     pub finished: bool,
     /// Steps done.
@@ -34,8 +29,6 @@ pub struct TransientSummary {
     pub initial: String,
     /// Velocity that was added.
     pub perturbation: PerturbationSummary,
-    /// Wall time, s.
-    pub wall_s: f64,
     /// Elements times steps for each second of stepping.
     pub element_steps_per_s: f64,
     /// Largest energy balance residual.
@@ -93,8 +86,6 @@ pub struct TransientSummary {
     pub contact_interval_s: f64,
     /// What to know before its numbers are used.
     pub notes: Vec<String>,
-    /// What it was made from.
-    pub manifest: Manifest,
 }
 
 /// The velocity that was added.
@@ -200,7 +191,7 @@ pub struct MotionSummary {
 }
 
 /// The summary of a run.
-pub fn summary(report: &TransientReport<'_>, manifest: &Manifest) -> TransientSummary {
+pub fn summary(report: &TransientReport<'_>) -> TransientSummary {
     let (plan, analysis) = (&report.plan, report.run.analysis);
     let (end, settling) = (&analysis.last_fifth, &analysis.settling);
     let body = end.material_damping * report.run.thickness;
@@ -210,8 +201,6 @@ pub fn summary(report: &TransientReport<'_>, manifest: &Manifest) -> TransientSu
         _ => None,
     };
     TransientSummary {
-        command: "transient".to_owned(),
-        title: report.title.to_owned(),
         finished: report.is_finished,
         steps: report.steps,
         time_step_s: plan.time_step,
@@ -221,7 +210,6 @@ pub fn summary(report: &TransientReport<'_>, manifest: &Manifest) -> TransientSu
         operator: report.operator.to_owned(),
         initial: report.initial.to_owned(),
         perturbation: PerturbationSummary::of(report.perturbation),
-        wall_s: report.wall_s,
         element_steps_per_s: report.element_steps_per_second(),
         max_balance_residual: analysis.largest_residual,
         settled: settling.is_settled(),
@@ -250,7 +238,6 @@ pub fn summary(report: &TransientReport<'_>, manifest: &Manifest) -> TransientSu
         probes: probes(report),
         contact_interval_s: report.run.record.frame_stride as f64 * plan.sample_interval,
         notes: report.notes.clone(),
-        manifest: manifest.clone(),
     }
 }
 

@@ -54,13 +54,14 @@ pub struct PredictedGrowth<'a> {
 pub fn draw(
     folder: &OutputFolder,
     run: &RunFigures<'_>,
+    title: &str,
     summary: &TransientSummary,
     options: &DrawingOptions,
 ) -> Result<(), DrawingError> {
     let state = run.run.analysis.settling.state;
     let mode = run.growing_mode().map(|(_, rate)| rate);
     let predicted = PredictedGrowth { harmonics: &run.stage.growth_rates, mode };
-    let document = document(summary, state, predicted);
+    let document = document(summary, state, predicted).titled(title);
     write_page(folder, document, draw_run(run)?, options)
 }
 
@@ -82,7 +83,7 @@ pub fn document(
         capitalized(&ending(summary, state))
     );
     let extent = summary.extent.note().map(|note| format!("{note}."));
-    Document::new(&summary.title, "Transient")
+    Document::new("Transient")
         .section(Section::new("Results").text([end]).text(extent).facts(facts(summary)))
         .section(
             Section::new("Course of the run")

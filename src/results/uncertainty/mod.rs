@@ -4,33 +4,31 @@ mod figures;
 mod report;
 mod summary;
 
-pub(super) use report::{ERRORS, ONSETS, SAMPLES};
+pub(super) use report::{ERRORS, SAMPLES};
 pub use report::{document, draw_report, samples_table};
 pub use summary::{
     CriticalFriction, DesignCurve, FamilySummary, Index, RobustSummary, UncertaintySummary,
 };
 
+use super::finding::finding;
 use serde::{Deserialize, Serialize};
 
-/// A branch that turns unstable in a sample.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Onset {
-    /// Circumferential harmonic, of a body that has them.
-    pub harmonic: Option<usize>,
-    /// Branch within the harmonic, else among all.
-    pub branch: usize,
-    /// +1 with the rotor, -1 against it, 0 standing.
-    pub direction: i8,
-    /// Friction coefficient from which on it is unstable.
-    pub critical_friction: f64,
-    /// Friction coefficient from which on it is stable again.
-    pub restabilized: Option<f64>,
-    /// Frequency at the onset, Hz.
-    pub frequency_hz: f64,
-    /// Whether it is unstable at the lowest friction already, or was lost below its onset: that is lower then; absent
-    /// in points of earlier versions.
-    #[serde(default)]
-    pub unstable_from_start: bool,
+finding! {
+    /// A branch that turns unstable in a sample.
+    #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+    Onset, ONSETS {
+        critical_friction: f64 = "lowest critical friction of the sample";
+        harmonic: Option<usize> = "nodal diameters of its mode; none without symmetry";
+        branch: usize = "rank within the harmonic, else among all, from 1";
+        direction: i8 = "1 travels with the rotor, -1 against it, 0 stands; none without symmetry";
+        frequency_hz: f64 = "frequency at the onset";
+        /// Friction coefficient from which on it is stable again.
+        restabilized: Option<f64>;
+        /// Absent in points of earlier versions.
+        #[serde(default)]
+        unstable_from_start: bool = "whether it is unstable at the lowest friction already, or \
+            was lost below its onset";
+    }
 }
 
 impl Onset {

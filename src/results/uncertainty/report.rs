@@ -2,9 +2,9 @@
 
 use super::figures::{indices, robust, uncertainty};
 use super::summary::{DesignCurve, FamilySummary, Index, UncertaintySummary};
-use super::{Onset, Sample};
+use super::{ONSETS, Sample};
 use crate::output::{Document, Format, Section, Table, columns};
-use crate::results::cea::{BRANCH, DIRECTION};
+use crate::results::Manifest;
 use crate::results::drawing::{Declaration, DrawingError, DrawingOptions, Page, declared};
 use crate::results::sweep::SweepFolder;
 
@@ -14,19 +14,6 @@ columns! {
     own_friction_coefficient: "friction coefficient of the sample" = sample.friction_coefficient;
     unstable: "whether some mode is unstable there; empty where the sample could not be solved"
         = sample.error.is_none().then(|| sample.is_unstable(sample.friction_coefficient));
-}
-
-columns! {
-    /// The lowest onset of a sample.
-    pub(in crate::results) ONSETS: onset as Onset;
-    critical_friction: "lowest critical friction of the sample" = onset.critical_friction;
-    harmonic: "nodal diameters of its mode; none without symmetry" = onset.harmonic;
-    branch: BRANCH = onset.branch;
-    direction: DIRECTION = onset.direction;
-    frequency_hz: "frequency at the onset" = onset.frequency_hz;
-    unstable_from_start: "whether it is unstable at the lowest friction already, or was lost below \
-    its onset"
-        = onset.unstable_from_start;
 }
 
 columns! {
@@ -98,6 +85,8 @@ pub fn samples_table(keys: &[String], samples: &[Sample], largest_friction: f64)
 pub fn draw_report(
     folder: &SweepFolder,
     summary: &UncertaintySummary,
+    document: Document,
+    manifest: &Manifest,
     options: &DrawingOptions,
 ) -> Result<(), DrawingError> {
     let mut declarations: Vec<Declaration<'_>> = vec![Box::new(|| Ok(uncertainty(summary)))];
@@ -107,7 +96,7 @@ pub fn draw_report(
     if let Some(designs) = &summary.robust {
         declarations.push(Box::new(|| Ok(robust(designs))));
     }
-    let page = Page::new(document(summary), declared(declarations)?, &summary.manifest);
+    let page = Page::new(document, declared(declarations)?, manifest);
     folder.write_page(&page, options)
 }
 
@@ -138,7 +127,7 @@ pub fn document(summary: &UncertaintySummary) -> Document {
             .tables([Table::new("", caption).columns(DESIGNS, &robust.curves)])
             .text(cheapest);
     }
-    Document::new(&summary.title, "Probability of squeal")
+    Document::new("Probability of squeal")
         .section(results)
         .section(Section::new("Probability of squeal").figures([""]))
         .notes(&summary.notes)

@@ -1,7 +1,6 @@
 //! `summary.json` of an uncertainty analysis.
 
 use crate::output::Described;
-use crate::results::Manifest;
 use crate::results::cea::arrow;
 use crate::signal::Estimate;
 use serde::{Deserialize, Serialize};
@@ -10,12 +9,6 @@ use std::collections::BTreeMap;
 /// `summary.json` of an uncertainty analysis.
 #[derive(Clone, Debug, Described, Serialize)]
 pub struct UncertaintySummary {
-    /// Its command.
-    pub command: String,
-    /// Title of the case.
-    pub title: String,
-    /// Wall time of this run, s.
-    pub wall_s: f64,
     /// Samples.
     pub samples: usize,
     /// Samples that could not be solved; nothing below counts them.
@@ -33,7 +26,7 @@ pub struct UncertaintySummary {
     pub critical_friction: CriticalFriction,
     /// The modes that turn unstable in some sample, the most probable first.
     pub families: Vec<FamilySummary>,
-    /// Sobol's indices of the lowest critical friction by key.
+    /// Indices of the lowest critical friction after Sobol, by key.
     pub sobol: BTreeMap<String, Index>,
     /// The parameter with the largest total index.
     pub decisive: Option<String>,
@@ -43,8 +36,6 @@ pub struct UncertaintySummary {
     pub robust: Option<RobustSummary>,
     /// What is to be said.
     pub notes: Vec<String>,
-    /// What it was made from.
-    pub manifest: Manifest,
 }
 
 /// Distribution of the lowest critical friction; absent where that lies beyond the range.

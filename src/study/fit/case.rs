@@ -70,7 +70,7 @@ pub fn fit_case_with_shapes(
     Ok(fit(&problem)?)
 }
 
-/// The summary of a fit, without its source, time and manifest.
+/// The summary of a fit, without its source.
 ///
 /// # Errors
 /// A case without `[fit]`.

@@ -3,14 +3,13 @@
 use super::{Estimate, Fitted, LineFit, ModelMode, Side};
 use crate::case::{Case, Fit, find_key};
 use crate::cea::ComplexMode;
-use crate::results::Manifest;
 use crate::results::fit::{FitSummary, FittedParameter, LineSummary, ModeSummary, SearchSummary};
 use std::collections::BTreeMap;
 
 /// Share of its frequency within which an unmeasured mode is said to lie beside a line.
 const BESIDE: f64 = 0.05;
 
-/// The summary of a fit, without its source, time and manifest.
+/// The summary of a fit, without its source.
 pub fn of(case: &Case, wanted: &Fit, fitted: &Fitted, before: &[ComplexMode]) -> FitSummary {
     let keys: Vec<&String> = wanted.parameters.iter().map(|p| &p.parameter.key).collect();
     let by_key = |values: &[f64]| -> BTreeMap<String, f64> {
@@ -21,9 +20,6 @@ pub fn of(case: &Case, wanted: &Fit, fitted: &Fitted, before: &[ComplexMode]) ->
     let worst = residuals.iter().map(|line| line.difference_percent.abs());
     let [starts, searches, arrived] = fitted.searches;
     FitSummary {
-        command: "fit".to_owned(),
-        title: case.title.clone(),
-        wall_s: 0.0,
         measurement: String::new(),
         friction_coefficient: case.contact.sliding.friction_coefficient,
         parameters: parameters
@@ -52,7 +48,6 @@ pub fn of(case: &Case, wanted: &Fit, fitted: &Fitted, before: &[ComplexMode]) ->
             })
             .collect(),
         notes: notes(case, wanted, fitted),
-        manifest: Manifest::new("fit"),
     }
 }
 

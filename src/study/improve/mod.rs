@@ -29,7 +29,6 @@ use crate::cea::CeaError;
 use crate::fem::lumped_masses;
 use crate::mesh::Mesh;
 use crate::output::rounded;
-use crate::results::Manifest;
 use crate::results::improve::{Candidate, ImproveSummary, Sizes, State, TargetFields};
 pub(super) use base::refuse_bodies;
 use base::{Base, Outlook, state, target_modes};
@@ -45,7 +44,7 @@ use trial::{Search, Target, Trial};
 
 /// What `improve` finds.
 pub struct Improvement {
-    /// What there is to say of it, without time and manifest.
+    /// What there is to say of it.
     pub summary: ImproveSummary,
     /// The mesh of the fields.
     pub mesh: Arc<Mesh>,
@@ -121,9 +120,6 @@ pub fn improve(case: &Case) -> Result<Improvement, StudyError> {
         ));
     }
     let summary = ImproveSummary {
-        command: "improve".to_owned(),
-        title: case.title.clone(),
-        wall_s: 0.0,
         dofs: base.tangent.unknowns.len(),
         friction_coefficient: base.friction,
         base: state(base.outlook, base.onset),
@@ -132,7 +128,6 @@ pub fn improve(case: &Case) -> Result<Improvement, StudyError> {
         extent: extent_of(case),
         candidates,
         notes,
-        manifest: Manifest::new("improve"),
     };
     let fields = shown::fields(&search);
     Ok(Improvement { summary, mesh: Arc::clone(&base.mesh), fields })

@@ -2,7 +2,6 @@
 
 use super::largest_friction;
 use crate::case::Case;
-use crate::results::Manifest;
 use crate::results::uncertainty::{
     CriticalFriction, FamilySummary, Index, Sample, UncertaintySummary,
 };
@@ -126,9 +125,6 @@ pub fn summarize(case: &Case, samples: &[Sample]) -> UncertaintySummary {
     let families = families(&solved, largest_friction);
     notes.extend(beyond_note(&families));
     UncertaintySummary {
-        command: "uncertainty".to_owned(),
-        title: case.title.clone(),
-        wall_s: 0.0,
         samples: samples.len(),
         failed,
         index_samples,
@@ -145,7 +141,6 @@ pub fn summarize(case: &Case, samples: &[Sample]) -> UncertaintySummary {
         probability_over_friction: over.collect(),
         robust: None,
         notes,
-        manifest: Manifest::new("uncertainty"),
     }
 }
 

@@ -6,6 +6,7 @@ use super::error::{EMPTY, ReadError, missing_column, not_a_number, not_finite};
 use super::field::{Value, parse};
 use super::headed::{Row, headed};
 use super::text::{decode, first_of, shortened};
+use super::uff::numbers;
 use faer::c64;
 use frictionsim_bounds::{LARGEST_COORDINATE, LARGEST_DISPLACEMENT};
 use std::collections::BTreeMap;
@@ -204,13 +205,6 @@ fn universal(bytes: &[u8], source: &str) -> Result<Vec<MeasuredShape>, ReadError
         Ok(MeasuredShape { name, frequency_hz, points, motion })
     });
     shapes.collect()
-}
-
-/// Numbers of a line, with Fortran's exponents.
-fn numbers(line: &str) -> Vec<f64> {
-    let words = line.split_whitespace();
-    let read = words.map(|word| word.replace(['D', 'd'], "e").parse().ok());
-    read.map_while(|value| value).collect()
 }
 
 /// Nodes of a dataset, whose coordinates stand on the last of so many lines, at its end.

@@ -167,7 +167,7 @@ fn function(lines: &mut Lines, binary: Option<(usize, bool)>) -> Result<Function
 }
 
 /// Numbers of a record, also where a sign is all that separates them.
-fn numbers(line: &str) -> Vec<f64> {
+pub(super) fn numbers(line: &str) -> Vec<f64> {
     let mut spread = String::with_capacity(line.len() + 8);
     let mut before = ' ';
     for c in line.chars() {
