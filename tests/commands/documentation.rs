@@ -135,34 +135,34 @@ fn run_page(name: &str) {
     }
 }
 
-#[test]
-fn the_readme_shows_what_its_commands_print() {
-    run_page("README.md");
-}
+/// A test for each page with commands: it shows what they print.
+macro_rules! pages_with_commands {
+    ($($test:ident: $name:literal,)*) => {
+        $(#[test]
+        fn $test() {
+            run_page($name);
+        })*
 
-#[test]
-fn the_page_for_a_start_shows_what_its_commands_print() {
-    run_page("start.md");
-}
-
-#[test]
-fn the_page_for_an_own_part_shows_what_its_commands_print() {
-    run_page("part.md");
-}
-
-#[test]
-fn the_page_for_a_brake_shows_what_its_commands_print() {
-    run_page("brake.md");
-}
-
-#[test]
-fn the_pages_of_reference_show_what_their_commands_print() {
-    let told = ["README.md", "CONTRIBUTING.md", "start.md", "part.md", "brake.md"];
-    for (name, _) in pages() {
-        if !told.contains(&&*name) {
-            run_page(&name);
+        #[test]
+        fn every_page_with_commands_is_run() {
+            let runs = |block: &Block| block.language == "sh" && !commands(block).is_empty();
+            let found = pages().into_iter().filter(|(_, text)| parts(text).0.iter().any(runs));
+            assert_eq!(found.map(|(name, _)| name).collect::<Vec<_>>(), [$($name),*]);
         }
-    }
+    };
+}
+
+pages_with_commands! {
+    the_readme_shows_what_its_commands_print: "README.md",
+    the_page_of_analyses_shows_what_its_commands_print: "analyses.md",
+    the_page_of_bodies_shows_what_its_commands_print: "bodies.md",
+    the_page_for_a_brake_shows_what_its_commands_print: "brake.md",
+    the_page_of_contact_shows_what_its_commands_print: "contact.md",
+    the_page_of_matrices_shows_what_its_commands_print: "matrices.md",
+    the_page_of_measurements_shows_what_its_commands_print: "measurement.md",
+    the_page_for_an_own_part_shows_what_its_commands_print: "part.md",
+    the_page_of_results_shows_what_its_commands_print: "results.md",
+    the_page_for_a_start_shows_what_its_commands_print: "start.md",
 }
 
 #[test]
