@@ -67,7 +67,7 @@ impl ReducedModel {
         Some(part)
     }
 
-    /// Overlaps ([`ProjectedMatrices::overlaps`]) of some modes with `others` in the matrices at `mu`, and those of the others with them.
+    /// Overlaps of some modes with `others` in the matrices at `mu`, and those of the others with them.
     pub fn overlaps_at(
         &self,
         mu: f64,
