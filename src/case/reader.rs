@@ -2,6 +2,7 @@
 //! instead of stopping at one.
 
 mod choices;
+mod findings;
 mod lists;
 mod places;
 
@@ -9,6 +10,7 @@ use super::diagnostic::{Diagnostic, Location, Remedy};
 use super::key::{Bound, CaseKey, Default, Kind};
 use super::value::{RawEntry, RawItem, RawTable, RawValue, cut};
 use super::{keys, suggestion};
+pub(super) use findings::Findings;
 pub(super) use places::NodePlace;
 use std::cell::RefCell;
 use std::collections::BTreeSet;
@@ -18,50 +20,6 @@ const MOST_UNKNOWN: usize = 10;
 
 /// Largest whole number that a key takes: products of two are safe in 64 bits.
 const LARGEST_COUNT: usize = u32::MAX as usize;
-
-/// Errors and warnings found so far, and what the case may have.
-#[derive(Debug)]
-pub(super) struct Findings<'a> {
-    pub scope: suggestion::Scope<'a>,
-    errors: RefCell<Vec<Diagnostic>>,
-    warnings: RefCell<Vec<Diagnostic>>,
-    /// Keys and sections that are not there, each with an error about that.
-    absent: RefCell<Vec<(String, String)>>,
-}
-
-impl<'a> Findings<'a> {
-    /// Nothing found so far in a case.
-    pub fn of(root: &'a RawTable) -> Self {
-        let scope = suggestion::Scope::of(root);
-        let (errors, warnings, absent) = std::default::Default::default();
-        Self { scope, errors, warnings, absent }
-    }
-
-    fn push(
-        &self,
-        message: impl Into<String>,
-        label: impl Into<String>,
-        at: Location,
-        help: impl Remedy,
-    ) {
-        let error = Diagnostic::error(message, label, at, help);
-        self.errors.borrow_mut().push(error);
-    }
-
-    /// Takes back what was said of a key or section that is not there: it is, by another name.
-    fn take_back(&self, name: &str) {
-        let absent = self.absent.borrow();
-        let is_of_it = |own: &Diagnostic| {
-            absent.iter().any(|(absent, message)| absent == name && *message == own.message)
-        };
-        self.errors.borrow_mut().retain(|own| !is_of_it(own));
-    }
-
-    /// All errors and all warnings, each in the order found.
-    pub fn into_parts(self) -> (Vec<Diagnostic>, Vec<Diagnostic>) {
-        (self.errors.into_inner(), self.warnings.into_inner())
-    }
-}
 
 /// One section of the case. Getters record what is wrong and then return a harmless value (NaN or
 /// zero), which later comparisons must not mistake for input: they ask in the form that NaN fails.

@@ -105,8 +105,8 @@ finding! {
         difference_percent: f64 = "the same over the measured one", Always "difference" Signed(3);
         real_difference_hz: Option<f64> = "real part of the model less measured";
         #[serde(skip_serializing_if = "Option::is_none")]
-        mac: Option<f64> = "modal assurance criterion of measured shape and mode; where shapes were measured",
-            IfAny "MAC" Fixed(3);
+        mac: Option<f64> = "modal assurance criterion of measured shape and mode; where shapes \
+            were measured", IfAny "MAC" Fixed(3);
     }
 }
 
