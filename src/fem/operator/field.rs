@@ -35,12 +35,14 @@ impl Clone for AlignedVector {
 impl Deref for AlignedVector {
     type Target = [f64];
 
+    #[inline]
     fn deref(&self) -> &[f64] {
         &self.storage[self.start..self.start + self.length]
     }
 }
 
 impl DerefMut for AlignedVector {
+    #[inline]
     fn deref_mut(&mut self) -> &mut [f64] {
         &mut self.storage[self.start..self.start + self.length]
     }

@@ -74,6 +74,19 @@ impl LineLayout {
         std::array::from_fn(|_| lines.next().expect("a node has a line for each component"))
     }
 
+    /// A component's lines at the radii before, at and behind a node, in the plane, with the copies across the
+    /// seam. No closure: those may be left uninlined, and nothing is vectorized then.
+    #[inline(always)]
+    fn around<'a>(&self, node: usize, component: usize, field: &'a [f64]) -> [&'a [f64]; 3] {
+        let (start, step) = (self.line(node, component) - 1, 2 * self.stride);
+        let length = self.stride + 2;
+        [
+            &field[start - step..][..length],
+            &field[start..][..length],
+            &field[start + step..][..length],
+        ]
+    }
+
     /// Writes the copies across the seam of a node's lines, and zeros into the rest of the padding.
     #[inline(always)]
     fn close_seams(&self, node: usize, x: &mut [f64]) {
@@ -95,34 +108,8 @@ pub(super) fn multiply_add<const FUSED: bool>(a: f64, b: f64, c: f64) -> f64 {
     if FUSED { a.mul_add(b, c) } else { a * b + c }
 }
 
-/// Velocity and displacement update; adds the power of damping at each place to `sums` at that place.
-#[inline(always)]
-fn move_nodes<const FUSED: bool>(
-    masses: &[f64],
-    displacement: &mut [f64],
-    velocity: &mut [f64],
-    elastic: &[f64],
-    elastic_rate: &[f64],
-    coefficients: &StepCoefficients,
-    sums: &mut [f64],
-) {
-    let StepCoefficients { time_step, mass_coefficient, stiffness_coefficient } = *coefficients;
-    let count = masses.len();
-    let (displacement, velocity) = (&mut displacement[..count], &mut velocity[..count]);
-    let (elastic, elastic_rate) = (&elastic[..count], &elastic_rate[..count]);
-    let sums = &mut sums[..count];
-    for k in 0..count {
-        let (v, z) = (velocity[k], elastic_rate[k]);
-        let damping = multiply_add::<FUSED>(mass_coefficient, v, stiffness_coefficient * z);
-        let moved = multiply_add::<FUSED>(-time_step, elastic[k] + damping, v);
-        let mean = 0.5 * (v + moved);
-        sums[k] = multiply_add::<FUSED>(masses[k] * damping, mean, sums[k]);
-        velocity[k] = moved;
-        displacement[k] = multiply_add::<FUSED>(time_step, moved, displacement[k]);
-    }
-}
-
-/// Moves a range of places, given as its masses, `[u, v]` and `[q, z]`, in pieces of at most [`SUMS`].
+/// Velocity and displacement of a range of places, given as its masses, `[u, v]` and `[q, z]`, in pieces of at
+/// most [`SUMS`]; adds the power of damping at each place of a piece to `sums` at that place.
 #[inline(always)]
 pub(super) fn move_range<const FUSED: bool>(
     masses: &[f64],
@@ -131,17 +118,22 @@ pub(super) fn move_range<const FUSED: bool>(
     coefficients: &StepCoefficients,
     sums: &mut [f64; SUMS],
 ) {
+    let StepCoefficients { time_step, mass_coefficient, stiffness_coefficient } = *coefficients;
     for start in (0..masses.len()).step_by(SUMS) {
-        let piece = start..masses.len().min(start + SUMS);
-        move_nodes::<FUSED>(
-            &masses[piece.clone()],
-            &mut displacement[piece.clone()],
-            &mut velocity[piece.clone()],
-            &elastic[piece.clone()],
-            &elastic_rate[piece],
-            coefficients,
-            sums,
-        );
+        let count = SUMS.min(masses.len() - start);
+        let (masses, sums) = (&masses[start..][..count], &mut sums[..count]);
+        let displacement = &mut displacement[start..][..count];
+        let velocity = &mut velocity[start..][..count];
+        let (elastic, rate) = (&elastic[start..][..count], &elastic_rate[start..][..count]);
+        for k in 0..count {
+            let (v, z) = (velocity[k], rate[k]);
+            let damping = multiply_add::<FUSED>(mass_coefficient, v, stiffness_coefficient * z);
+            let moved = multiply_add::<FUSED>(-time_step, elastic[k] + damping, v);
+            let mean = 0.5 * (v + moved);
+            sums[k] = multiply_add::<FUSED>(masses[k] * damping, mean, sums[k]);
+            velocity[k] = moved;
+            displacement[k] = multiply_add::<FUSED>(time_step, moved, displacement[k]);
+        }
     }
 }
 
@@ -173,12 +165,7 @@ fn apply_row<const FUSED: bool>(
     mut store: impl FnMut(usize, f64, f64),
 ) {
     let width = layout.stride;
-    let line = |offset: usize, component: usize| {
-        let start = layout.line(row, component) + 2 * offset * width - 2 * width;
-        &x[start - 1..start + width + 1]
-    };
-    let radial = [line(0, 0), line(1, 0), line(2, 0)];
-    let tangential = [line(0, 1), line(1, 1), line(2, 1)];
+    let [radial, tangential] = [layout.around(row, 0, x), layout.around(row, 1, x)];
     let stencil = *stencil;
     for j in 0..width {
         let (mut y_r, mut y_t) = (0.0, 0.0);
