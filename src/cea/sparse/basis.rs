@@ -78,8 +78,8 @@ pub struct BasisBuilder<'a> {
     pub count: usize,
     /// Rigid motions, which the basis holds before the modes.
     pub rigid: usize,
-    /// Whether the basis is made of the modes at a few friction coefficients, each from an iteration of its own; else it grows
-    /// by residuals.
+    /// Whether the basis is made of the modes at a few friction coefficients, each from an iteration of its own. Else, where damping is
+    /// proportional and the contact alike all around, it grows by residuals: friction couples few modes, and a block holds all values.
     is_sampling: bool,
     /// Whether it holds every motion, as those asked for are many: nothing can be added, and points need no samples.
     pub holds_all: bool,
@@ -105,6 +105,7 @@ impl<'a> BasisBuilder<'a> {
         let (first, others) = modes.split_at_col(rigid);
         model.extend(first.to_owned(), 1e-8);
         model.extend(others.to_owned(), 1e-8);
+        let has_symmetry = !tangent.contact_angles.is_empty();
         let unknowns = tangent.stiffness.dimension();
         let has_many = ALL_OF_FEW * modes.ncols() >= unknowns && unknowns <= MOST_DENSE;
         let holds_all = has_many && tangent.tabled.is_empty();
@@ -120,7 +121,7 @@ impl<'a> BasisBuilder<'a> {
             model,
             count: modes.ncols() - rigid,
             rigid,
-            is_sampling: matches!(linearization, Linearization::Companion { .. }),
+            is_sampling: !(matches!(linearization, Linearization::Reduced(..)) && has_symmetry),
             holds_all,
             sampled: Vec::new(),
             watch,
@@ -167,7 +168,9 @@ impl<'a> BasisBuilder<'a> {
     pub fn cover(&mut self, values: &[f64]) -> Result<(), CeaError> {
         if self.is_sampling {
             for mu in [values[values.len() - 1], values[0], values[values.len() / 2]] {
-                self.improve_at(mu)?;
+                if !self.sampled.contains(&mu) {
+                    self.improve_at(mu)?;
+                }
             }
             return Ok(());
         }

@@ -26,8 +26,6 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Friction values at which the basis is refined, at least, over a range.
 const MIN_SAMPLES: usize = 6;
-/// Friction values up to which each of a body without symmetry has an iteration of its own, where damping is proportional.
-const FEW_VALUES: usize = 6;
 /// Range of friction coefficients over which modes hardly change.
 const SHORT_RANGE: f64 = 0.05;
 /// Change of a critical friction coefficient below which its mode needs no more corrections.
@@ -190,15 +188,10 @@ impl<'a> SparseSweep<'a> {
             if self.is_continued && self.grid[self.grid.len() - 1] - self.lowest < SHORT_RANGE {
                 return self.builder.improve_at(self.grid[self.grid.len() / 2]).map(|_| ());
             }
-            if self.lowest > 0.0 {
+            if self.lowest > 0.0 || matches!(self.linearization, Linearization::Reduced(..)) {
                 self.builder.begin_at_rest()?;
             }
             return self.builder.cover(&self.grid[first..]);
-        }
-        // A basis for all friction values is wide where the body has no symmetry: few values are cheaper each by itself.
-        let has_symmetry = !self.tangent.contact_angles.is_empty();
-        if self.grid.len() <= FEW_VALUES && !has_symmetry {
-            return self.builder.cover_each(&self.grid);
         }
         let (lowest, highest) = (self.lowest, self.grid[self.grid.len() - 1]);
         let mut samples = self.grid.clone();

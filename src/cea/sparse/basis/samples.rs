@@ -25,17 +25,6 @@ pub(super) const MOST_DENSE: usize = 300;
 /// Samples between two friction values, at places where branches were lost, after which more of them are no help.
 const MOST_BETWEEN: usize = 8;
 impl BasisBuilder<'_> {
-    /// Takes up the modes at each of few `values` (friction coefficients, ascending) of proportional damping: without friction
-    /// they are known.
-    pub fn cover_each(&mut self, values: &[f64]) -> Result<(), CeaError> {
-        self.is_sampling = true;
-        self.hold_frictionless();
-        for mu in values.iter().filter(|mu| **mu > 0.0) {
-            self.improve_at(*mu)?;
-        }
-        Ok(())
-    }
-
     /// Takes up the modes without friction, where branches begin: where stiffness depends on frequency, each at its own.
     pub fn begin_at_rest(&mut self) -> Result<(), CeaError> {
         match self.tangent.tabled.is_empty() {

@@ -1,6 +1,6 @@
 //! Counts of the modes of a sweep, and the search for those that are missing.
 
-use super::{FEW_VALUES, SparseSweep};
+use super::SparseSweep;
 use crate::cea::sparse::branches::TrackedBranch;
 use crate::cea::sparse::count::{ModeCounter, Winding};
 use crate::cea::sparse::point::SolvedPoint;
@@ -11,6 +11,8 @@ use std::f64::consts::TAU;
 
 /// How much farther the sides of the region are put where an eigenvalue lies on its edge.
 const FARTHER: [f64; 3] = [1.0, 1.37, 0.83];
+/// Friction values up to which modes are counted at each.
+const FEW_VALUES: usize = 6;
 /// Relative distance of the upper end of a region from the nearest known frequency.
 const CLEARANCE: f64 = 1e-6;
 /// How often the upper end is lowered where an eigenvalue above the lowest modes is counted.
