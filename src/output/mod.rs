@@ -17,4 +17,4 @@ pub use described::{Described, Key, describe_field, keys_of};
 pub use document::{Document, Section};
 pub use number::{Format, fixed, rounded, significant, unit_of};
 pub(crate) use table::columns;
-pub use table::{Cell, Column, Entry, Head, Look, Shown, Table, entries};
+pub use table::{Cell, Column, Entry, Head, Look, Shown, Table, entries, parted};

@@ -146,6 +146,33 @@ macro_rules! columns {
 }
 pub(crate) use columns;
 
+/// The columns before the one of this name, and those from it on: two tables of one row share a part of its columns.
+/// Of a constant the parts are constants too, and a name that no column has does not compile.
+///
+/// # Panics
+/// Where no column has that name.
+pub const fn parted<T>(
+    columns: &'static [Column<T>],
+    name: &str,
+) -> (&'static [Column<T>], &'static [Column<T>]) {
+    let mut at = 0;
+    while at < columns.len() {
+        if is_same(columns[at].key.as_bytes(), name.as_bytes()) {
+            return columns.split_at(at);
+        }
+        at += 1;
+    }
+    panic!("no column has this name")
+}
+
+const fn is_same(a: &[u8], b: &[u8]) -> bool {
+    match (a, b) {
+        ([], []) => true,
+        ([a, rest @ ..], [b, others @ ..]) => *a == *b && is_same(rest, others),
+        _ => false,
+    }
+}
+
 /// A column in the reference: of a file, with what it means.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Entry {

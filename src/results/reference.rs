@@ -2,8 +2,9 @@
 
 use super::basin::{BasinSummary, RUNS};
 use super::cea::{
-    AXIAL, CONTRIBUTIONS, COUPLINGS, CeaSummary, EIGENVALUES, FEED, MODES, NAMES, NODES, ONSETS,
-    OWN_MODES, PLACES, PLANE, POINTS, RINGS, ROWS, STATUS, TRACTIONS, UNSTABLE,
+    AXIAL, CONTRIBUTIONS, COUPLINGS, CeaSummary, EIGENVALUES, FEED, MODES, NAMES, NODES, NUMBERS,
+    ONSETS, PLACES, PLANE, POINTS, RINGS, ROWS, SHORT_NAMES, STATUS, SWEPT_MODES, SWEPT_ONSETS,
+    TRACTIONS, UNSTABLE,
 };
 use super::compare::ComparisonSummary;
 use super::convergence::{self, ConvergenceSummary};
@@ -21,7 +22,7 @@ use super::summary::STATUS as FRACTIONS;
 use super::sweep::{self, SweepSummary};
 use super::transient::{self, TransientSummary};
 use super::uncertainty::{self, UncertaintySummary};
-use crate::output::{Column, Entry, Key, describe_field, entries, keys_of, unit_of};
+use crate::output::{Column, Entry, Key, describe_field, entries, keys_of, parted, unit_of};
 use std::fmt::Write as _;
 
 /// What one file of a command holds.
@@ -80,12 +81,12 @@ pub fn reference() -> Vec<FileReference> {
         summary::<BasinSummary>("basin"),
         file!("cea", "eigenvalues.csv"; PLACES, MODES, AXIAL),
         file!("cea", "stability.csv"; ONSETS),
-        file!("cea", "prestress.csv"; NODES, RINGS, &POINTS[..1], TRACTIONS, STATUS, PLANE,
-            &POINTS[3..]),
+        file!("cea", "prestress.csv"; NODES, RINGS, parted(POINTS, "x_m").0, TRACTIONS, STATUS, PLANE,
+            parted(POINTS, "z_m").1),
         file!("cea", "sensitivities.csv"; ROWS, EIGENVALUES, rates()),
         file!("cea", "contributions.csv"; NAMES, CONTRIBUTIONS),
-        file!("cea", "coupling.csv"; &NAMES[..4], COUPLINGS),
-        file!("cea", "feed.csv"; &NAMES[..3], FEED),
+        file!("cea", "coupling.csv"; SHORT_NAMES, COUPLINGS),
+        file!("cea", "feed.csv"; NUMBERS, FEED),
         summary::<CeaSummary>("cea"),
         summary::<ComparisonSummary>("compare"),
         file!("convergence", "convergence.csv"; convergence::ROWS),
@@ -100,7 +101,7 @@ pub fn reference() -> Vec<FileReference> {
             cycle::ALONG),
         file!("cycle", "two-waves-N.csv"; parameter(), cycle::TWO_WAVES),
         summary::<CycleSummary>("cycle"),
-        file!("fit", "fit.csv"; &fit::LINES[..4], entries("model_", fit::MODES), &fit::LINES[4..]),
+        file!("fit", "fit.csv"; fit::MEASURED, entries("model_", fit::MODES), fit::DIFFERENCES),
         file!("fit", "modes.csv"; fit::MODES, fit::GROWS),
         summary::<FitSummary>("fit"),
         file!("frf", "frf.csv";
@@ -114,7 +115,7 @@ pub fn reference() -> Vec<FileReference> {
         file!("identify", "fit.csv"; identification::FITTED),
         summary::<IdentificationSummary>("identify"),
         file!("improve", "candidates.csv"; improve::CANDIDATES, improve::EFFECTS,
-            entries("predicted_", &improve::STATES[..2]), entries("confirmed_", improve::STATES),
+            entries("predicted_", improve::PREDICTED), entries("confirmed_", improve::STATES),
             improve::VERDICTS),
         summary::<ImproveSummary>("improve"),
         file!("mac", "mac.csv"; mac::ROWS),
@@ -127,9 +128,9 @@ pub fn reference() -> Vec<FileReference> {
         file!("signal", "spectrum-N.csv"; signal::SPECTRUM),
         summary::<SignalSummary>("signal"),
         file!("sweep", "points.csv"; swept(), one("KEY.KEY", "numbers of the summaries"), points()),
-        file!("sweep", "stability.csv"; swept(), &ONSETS[..9], points()),
+        file!("sweep", "stability.csv"; swept(), SWEPT_ONSETS, points()),
         file!("sweep", "unstable_modes.csv"; swept(), UNSTABLE, points()),
-        file!("sweep", "modes.csv"; swept(), &OWN_MODES[..7], points()),
+        file!("sweep", "modes.csv"; swept(), SWEPT_MODES, points()),
         file!("sweep", "branches.csv"; swept(), sweep::BRANCHES, points()),
         summary::<SweepSummary>("sweep"),
         file!("transient", "probe-N.csv"; one("time_s", "time"),

@@ -76,13 +76,13 @@ impl EndState {
 }
 
 /// Differences between the largest and the smallest value over the blocks of a stretch of a run.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, crate::output::Described, serde::Serialize)]
 pub struct Drift {
-    /// Of any harmonic's vibration, relative to the largest vibration (without one: to the mean twist, which counts too).
+    /// Of the amplitude of any harmonic, relative to the largest.
     pub amplitude: f64,
-    /// Of the frequency of the main vibration, relative.
+    /// Of the main frequency, relative.
     pub frequency: f64,
-    /// Of the fraction of contact nodes in any status.
+    /// Of the fraction of nodes in any status.
     pub status: f64,
 }
 

@@ -31,17 +31,9 @@ pub(super) struct CollectedElement {
 
 impl CollectedElement {
     /// Its faces with their nodes.
-    fn faces(&self) -> impl Iterator<Item = SurfaceFace> + '_ {
+    pub fn faces(&self) -> impl Iterator<Item = SurfaceFace> + '_ {
         let faces = self.kind.faces().iter();
         faces.map(|(kind, locals)| (*kind, locals.iter().map(|&l| self.nodes[l]).collect()))
-    }
-
-    /// The face whose corners are the given local nodes, in any order.
-    pub fn face_of(&self, corners: &[usize]) -> Option<SurfaceFace> {
-        let mut locals = self.kind.faces().iter().map(|(kind, own)| &own[..kind.corner_count()]);
-        let is_it = |own: &[usize]| corners.iter().all(|corner| own.contains(corner));
-        let at = locals.position(|own| own.len() == corners.len() && is_it(own))?;
-        self.faces().nth(at)
     }
 
     /// The face on which all the given nodes are corners.

@@ -91,13 +91,14 @@ impl ElementKind {
     /// follows from it by the right-hand rule, in the plane a quarter turn behind the direction of the edge.
     #[inline]
     pub fn faces(self) -> &'static [(FaceKind, &'static [usize])] {
-        self.row().faces
+        self.own_faces()
     }
 
     /// The face of a solid element that has the shape of this plane element; none for a solid element.
     #[inline]
     pub fn as_face(self) -> Option<FaceKind> {
-        self.row().as_face
+        let row = self.row();
+        (row.dimension == 2).then(|| FaceKind::of(row.corners.len(), row.is_quadratic))
     }
 
     /// Shape functions at a point of the parent element, in the order of the nodes; coordinates and slopes that the kind does

@@ -1,7 +1,7 @@
 //! Where on the contact surfaces friction feeds the unstable modes: `feed.csv`, `feed.vtu` and a figure.
 
 use super::CeaReport;
-use super::mode_name::{ModeName, NAMES};
+use super::mode_name::{ModeName, NUMBERS};
 use crate::chart::{Axis, ChartError, ColourMap, Figure, INK, Line, Panel, Rule, Stroke, literal};
 use crate::mesh::{Counterface, Mesh, SolidFace};
 use crate::output::{Table, columns, fixed};
@@ -75,10 +75,8 @@ impl Feed {
         });
         let rows: Vec<FeedRow> = rows.collect();
         let names = rows.iter().map(|row| row.mode);
-        write_table(
-            folder,
-            &Table::new("feed.csv", "").columns(&NAMES[..3], names).columns(FEED, &rows),
-        )?;
+        let table = Table::new("feed.csv", "").columns(NUMBERS, names).columns(FEED, &rows);
+        write_table(folder, &table)?;
         let whole = report.body().whole();
         let fields = self.modes.iter().map(|own| {
             let name = format!("mode_{}_growth_rate_per_s_m2", own.mode.mode);

@@ -163,10 +163,7 @@ fn with_notes(figure: Figure, report: &CeaReport<'_>, hidden: usize) -> Figure {
 
 /// A mode in words: its name, friction, stability.
 fn tip(report: &CeaReport<'_>, friction: f64, mode: &ComplexMode) -> String {
-    let name = match report.has_harmonics {
-        true => format!("n = {}, branch {}, {}", mode.harmonic, mode.branch, way(mode.direction)),
-        false => format!("branch {}", mode.branch),
-    };
+    let name = wave(report, mode).unwrap_or_else(|| format!("branch {}", mode.branch));
     let rate = TAU * mode.real_hz();
     let verb = if mode.is_unstable() { "grows" } else { "decays" };
     format!(
@@ -176,23 +173,20 @@ fn tip(report: &CeaReport<'_>, friction: f64, mode: &ComplexMode) -> String {
     )
 }
 
-/// How a wave travels, in words.
-fn way(direction: i8) -> String {
-    match direction {
+/// A wave and how it travels, in words; none on a body without harmonics.
+fn wave(report: &CeaReport<'_>, mode: &ComplexMode) -> Option<String> {
+    let way = match mode.direction {
         0 => "standing".to_owned(),
         direction => format!("{} the rotor", direction_name(direction)),
-    }
+    };
+    let name = || format!("n = {}, branch {}, {way}", mode.harmonic, mode.branch);
+    report.has_harmonics.then(name)
 }
 
 /// The eigenvalues at each friction value, for a reader who moves it.
 fn steps(report: &CeaReport<'_>) -> Steps {
     let mark = |mode: &ComplexMode| {
-        let branch = match report.has_harmonics {
-            true => {
-                format!("n = {}, branch {}, {}, ", mode.harmonic, mode.branch, way(mode.direction))
-            }
-            false => String::new(),
-        };
+        let branch = wave(report, mode).map_or(String::new(), |wave| wave + ", ");
         let (frequency, rate) = (mode.frequency_hz(), TAU * mode.real_hz());
         Mark {
             place: (mode.real_hz(), frequency),

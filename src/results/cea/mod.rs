@@ -28,8 +28,8 @@ pub use files::{write, write_universal};
 pub use kept::KeptSteps;
 pub use locus::NamedDamping;
 pub use mode_name::ModeName;
-pub(crate) use mode_name::travels;
-pub(super) use mode_name::{BRANCH, DIRECTION, HARMONIC, NAMES, arrow};
+pub(crate) use mode_name::mode_name;
+pub(super) use mode_name::{BRANCH, DIRECTION, HARMONIC, NAMES, NUMBERS, SHORT_NAMES, arrow};
 pub(super) use reading::{CONTRIBUTIONS, COUPLINGS};
 pub use reading::{Contribution, Coupling, MeshError, Reading, Source};
 pub(super) use sensitivity::{EIGENVALUES, ROWS};
@@ -39,7 +39,7 @@ pub use solid::SolidReport;
 pub use summary::{
     CeaSummary, CriticalFriction, ModeSummary, UnstableCount, UnstableMode, summary,
 };
-pub(super) use summary::{ONSETS, OWN_MODES, UNSTABLE};
+pub(super) use summary::{ONSETS, SWEPT_MODES, SWEPT_ONSETS, UNSTABLE};
 pub(super) use tables::{AXIAL, MODES, PLACES};
 pub use tables::{View, document};
 
@@ -114,7 +114,7 @@ impl CeaReport<'_> {
     /// that its mode has at the case's own friction, after its nodal diameters on a body of one sector.
     fn branch_name(&self, branch: Branch, numbers: &BTreeMap<Branch, usize>) -> String {
         match (self.has_harmonics, numbers.get(&branch)) {
-            (true, _) => format!("n = {}, branch {}{}", branch.0, branch.1, travels(branch.2)),
+            (true, _) => mode_name(Some(branch.0), branch.1, branch.2),
             (false, Some(number)) => {
                 let own = self.own_point().map(|point| &point.modes[number - 1]);
                 match own.and_then(|mode| mode.nodal_diameters) {

@@ -1,5 +1,6 @@
 //! The name of a mode in tables of what is read from it.
 
+use crate::output::{Column, parted};
 use crate::results::finding::finding;
 
 finding! {
@@ -16,6 +17,11 @@ finding! {
     }
 }
 
+/// What is said of a mode beside others of its friction value: its frequency, and no direction.
+pub(in crate::results) const SHORT_NAMES: &[Column<ModeName>] = parted(NAMES, "branch").0;
+/// The friction value, number and frequency.
+pub(in crate::results) const NUMBERS: &[Column<ModeName>] = parted(NAMES, "harmonic").0;
+
 /// What the columns say that tell modes apart, in every table.
 pub(in crate::results) const HARMONIC: &str = "number of nodal diameters; none without symmetry";
 /// The same of branches.
@@ -24,8 +30,16 @@ pub(in crate::results) const BRANCH: &str = "rank within the harmonic, else amon
 pub(in crate::results) const DIRECTION: &str =
     "1 travels with the rotor, -1 against it, 0 stands; none without symmetry";
 
+/// A mode in words: nodal diameters, rank among them and travel; without symmetry its number.
+pub(crate) fn mode_name(harmonic: Option<usize>, branch: usize, direction: i8) -> String {
+    match harmonic {
+        Some(n) => format!("n = {n}, branch {branch}{}", travels(direction)),
+        None => format!("mode {branch}"),
+    }
+}
+
 /// How a wave travels, behind its name; nothing of one that stands.
-pub(crate) fn travels(direction: i8) -> &'static str {
+pub(super) fn travels(direction: i8) -> &'static str {
     match direction {
         1.. => ", with the rotor",
         0 => "",

@@ -1,7 +1,7 @@
 //! Where the growth of each mode comes from, and which modes couple: `contributions.csv` and `coupling.csv`.
 
 use super::branches::Branch;
-use super::mode_name::{ModeName, NAMES};
+use super::mode_name::{ModeName, NAMES, SHORT_NAMES};
 use super::{CeaReport, Feed};
 use crate::chart::{Axis, ChartError, Figure, INK, Line, Panel, Rule, Stroke, literal};
 use crate::output::{Table, columns, fixed};
@@ -130,7 +130,7 @@ impl Reading {
     pub(super) fn couplings(&self) -> Table {
         let rows = &self.couplings;
         Table::new("coupling.csv", "")
-            .columns(&NAMES[..4], rows.iter().map(|row| row.mode))
+            .columns(SHORT_NAMES, rows.iter().map(|row| row.mode))
             .columns(COUPLINGS, rows)
     }
 

@@ -1,6 +1,6 @@
 //! `sensitivities.csv`: which parameter decides whether a mode grows.
 
-use super::travels;
+use super::mode_name::travels;
 use crate::linalg::c64;
 use crate::output::{Format, Table, columns, fixed};
 use crate::results::finding::finding;

@@ -224,8 +224,7 @@ impl<'a> Picture<'a> {
         let amplitude = |u: &[f64; 3]| u.iter().map(|v| v * v).sum::<f64>().sqrt();
         let moved: Vec<[f64; 3]> =
             self.points.iter().map(|&(node, j, _)| displacement(node, j)).collect();
-        let largest =
-            shape.chunks_exact(3).map(|u| u.iter().map(|v| v.re * v.re).sum::<f64>().sqrt());
+        let largest = shape.chunks_exact(3).map(|u| amplitude(&[0, 1, 2].map(|c| u[c].re)));
         let largest = largest.fold(f64::MIN_POSITIVE, f64::max);
         let factor = DEFLECTION * outer / largest;
         let place = |&(node, j, is_section): &(usize, usize, bool), u: [f64; 3]| {

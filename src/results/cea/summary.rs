@@ -2,7 +2,7 @@
 
 use super::{BaseState, CeaReport};
 use crate::cea::{ComplexMode, FrictionPoint, ModeCount, UnstableInterval};
-use crate::output::Described;
+use crate::output::{Column, Described, parted};
 use crate::results::finding::finding;
 use crate::results::summary::present;
 use serde::{Deserialize, Serialize};
@@ -125,6 +125,10 @@ finding! {
     }
 }
 
+/// Those that a sweep lists too.
+pub(in crate::results) const SWEPT_ONSETS: &[Column<CriticalFriction>] =
+    parted(ONSETS, "mesh_error").0;
+
 impl CriticalFriction {
     fn of(interval: &UnstableInterval, mesh_error: Option<f64>, has_harmonics: bool) -> Self {
         Self {
@@ -161,6 +165,10 @@ finding! {
         mesh_error: Option<f64> = "estimate of the frequency less that on an ever finer mesh, Hz";
     }
 }
+
+/// Those that a sweep lists too.
+pub(in crate::results) const SWEPT_MODES: &[Column<ModeSummary>] =
+    parted(OWN_MODES, "axial_share").0;
 
 impl ModeSummary {
     pub(super) fn of(mode: &ComplexMode, mesh_error: Option<f64>, has_harmonics: bool) -> Self {

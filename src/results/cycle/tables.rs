@@ -8,7 +8,7 @@ use super::two_waves::TwoWaveSummary;
 use super::verdicts::EXPONENTS;
 use crate::cycle::PhasePoint;
 use crate::cycle::periodic::MotionHarmonic;
-use crate::output::{Document, Section, Table, columns, fixed};
+use crate::output::{Document, Section, Table, columns, fixed, parted};
 use crate::results::summary::{MeanPowers, STATUS, StatusFractions};
 
 columns! {
@@ -167,10 +167,10 @@ impl Told {
             tables.push(table.columns(path, &self.history));
         }
         if !self.nodes.is_empty() {
-            let (plane, rest) = (&CONTACT_NODES[..3], &CONTACT_NODES[4..]);
+            let (plane, solid) = const { parted(CONTACT_NODES, "z_m") };
+            let rest = if is_solid { solid } else { const { parted(CONTACT_NODES, "stick").1 } };
             let table = Table::new(name("contact"), "").columns(plane, &self.nodes);
-            let height = if is_solid { &CONTACT_NODES[3..4] } else { &[] };
-            tables.push(table.columns(height, &self.nodes).columns(rest, &self.nodes));
+            tables.push(table.columns(rest, &self.nodes));
         }
         if !self.harmonics.is_empty() {
             tables.push(Table::new(name("harmonics"), "").columns(HARMONICS, &self.harmonics));

@@ -4,7 +4,7 @@ mod figures;
 mod summary;
 
 pub use summary::{BLOCK, FitSummary, FittedParameter, LineSummary, ModeSummary, SearchSummary};
-pub(super) use summary::{LINES, MODES};
+pub(super) use summary::{DIFFERENCES, MEASURED, MODES};
 
 use super::Finding;
 use super::drawing::Declaration;
@@ -34,9 +34,9 @@ impl Finding for FitSummary {
         let parameters = Table::new("", "Parameters with their 95 % intervals")
             .columns(PARAMETERS, self.parameters.clone());
         let residuals = Table::new("fit.csv", "Measured lines and their modes")
-            .columns(&LINES[..4], lines())
+            .columns(MEASURED, lines())
             .group("model_", "model ", MODES, lines().map(|line| Some(&line.mode)))
-            .columns(&LINES[4..], lines())
+            .columns(DIFFERENCES, lines())
             .without_empty("mac");
         let modes = Table::new("modes.csv", "Modes of the fitted model")
             .columns(MODES, &self.modes)

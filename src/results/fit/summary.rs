@@ -1,7 +1,7 @@
 //! `summary.json` of a fit.
 
-use crate::output::{Described, rounded};
-use crate::results::cea::travels;
+use crate::output::{Column, Described, parted, rounded};
+use crate::results::cea::mode_name;
 use crate::results::finding::finding;
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -81,10 +81,7 @@ impl ModeSummary {
 
     /// Harmonic and branch in words.
     pub fn name(&self) -> String {
-        match self.harmonic {
-            Some(n) => format!("n = {n}, branch {}{}", self.branch, travels(self.direction)),
-            None => format!("mode {}", self.branch),
-        }
+        mode_name(self.harmonic, self.branch, self.direction)
     }
 }
 
@@ -109,6 +106,11 @@ finding! {
             were measured", IfAny "MAC" Fixed(3);
     }
 }
+
+/// What was measured of a line.
+pub(in crate::results) const MEASURED: &[Column<LineSummary>] = parted(LINES, "difference_hz").0;
+/// How far its mode is from it.
+pub(in crate::results) const DIFFERENCES: &[Column<LineSummary>] = parted(LINES, "difference_hz").1;
 
 /// How a minimum was found.
 #[derive(Clone, Copy, Debug, Described, Serialize)]

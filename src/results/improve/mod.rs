@@ -6,7 +6,7 @@ mod tables;
 
 use super::Extent;
 use super::finding::finding;
-use crate::output::Described;
+use crate::output::{Column, Described, parted};
 use serde::Serialize;
 
 pub use figures::figures;
@@ -83,6 +83,9 @@ finding! {
         beside_hz: Option<f64>;
     }
 }
+
+/// Those that a prediction has too.
+pub(super) const PREDICTED: &[Column<State>] = parted(STATES, "unstable_beside").0;
 
 /// Sizes of the modifications.
 #[derive(Clone, Copy, Debug, Described, Serialize)]

@@ -1,6 +1,6 @@
 //! Tables and sentences of `improve`.
 
-use super::{Candidate, ImproveSummary, STATES, critical};
+use super::{Candidate, ImproveSummary, PREDICTED, STATES, critical};
 use crate::output::{Document, Section, Table, columns, significant};
 
 columns! {
@@ -58,7 +58,7 @@ fn candidates(summary: &ImproveSummary) -> Table {
     .columns(CANDIDATES, all())
     .shown_only(PLACE, all())
     .columns(EFFECTS, all())
-    .group("predicted_", "predicted ", &STATES[..2], all().iter().map(|own| Some(own.predicted)))
+    .group("predicted_", "predicted ", PREDICTED, all().iter().map(|own| Some(own.predicted)))
     .group("confirmed_", "confirmed ", STATES, all().iter().map(|own| own.confirmed))
     .columns(VERDICTS, all())
 }

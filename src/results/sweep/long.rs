@@ -3,7 +3,7 @@
 use super::record::{PointRecord, listed};
 use super::table::cell;
 use crate::output::{Column, Table, columns};
-use crate::results::cea::{ONSETS, OWN_MODES, UNSTABLE};
+use crate::results::cea::{SWEPT_MODES, SWEPT_ONSETS, UNSTABLE};
 use crate::results::cycle::{BranchRecord, FamilyRecord};
 use serde::de::DeserializeOwned;
 
@@ -39,11 +39,11 @@ pub fn long_tables(keys: &[String], analyses: &[&str], records: &[PointRecord]) 
     let mut tables = Vec::new();
     if analyses.contains(&"cea") {
         let of = ("stability.csv", "cea", "critical_frictions");
-        tables.push(long(of, keys, records, &ONSETS[..9], |own| vec![own]));
+        tables.push(long(of, keys, records, SWEPT_ONSETS, |own| vec![own]));
         let of = ("unstable_modes.csv", "cea", "unstable_modes");
         tables.push(long(of, keys, records, UNSTABLE, |own| vec![own]));
         let of = ("modes.csv", "cea", "modes_at_friction");
-        tables.push(long(of, keys, records, &OWN_MODES[..7], |own| vec![own]));
+        tables.push(long(of, keys, records, SWEPT_MODES, |own| vec![own]));
     }
     if analyses.contains(&"cycle") {
         let points = |family: FamilyRecord| -> Vec<BranchPoint> {

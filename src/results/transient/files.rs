@@ -2,9 +2,9 @@
 
 use super::{TransientReport, TransientSummary, summary};
 use crate::fem::{nodal_stress, revolved_stress, solid_stress};
-use crate::output::columns;
 use crate::output::csv::{Table, format_number};
 use crate::output::rows::write_rows;
+use crate::output::{columns, parted};
 use crate::results::charts::palette::status_of_code;
 use crate::results::folder::{FolderError, OutputFolder};
 use crate::results::npz::NpzArchive;
@@ -155,7 +155,11 @@ fn write_energy(out: &mut dyn Write, report: &TransientReport<'_>) -> io::Result
         ]
     });
     let has_springs = report.run.record.has_contact_springs();
-    write_rows(out, if has_springs { ENERGY } else { &ENERGY[..10] }, rows)
+    write_rows(
+        out,
+        if has_springs { ENERGY } else { const { parted(ENERGY, "contact_j").0 } },
+        rows,
+    )
 }
 
 /// Time and `[stick, slip, open]` of a sample.

@@ -48,7 +48,7 @@ pub struct TransientSummary {
     /// Why it is unsettled.
     pub unsettled_because: Option<String>,
     /// Drift over the last fifth.
-    pub drift: Option<DriftSummary>,
+    pub drift: Option<Drift>,
     /// Main frequency over the last fifth, Hz; absent where nothing vibrates.
     pub main_frequency_hz: Option<f64>,
     /// Harmonic of that vibration.
@@ -123,17 +123,6 @@ impl OneOrEach {
             _ => Self::Each(values),
         }
     }
-}
-
-/// Differences between the largest and the smallest block mean over the last fifth.
-#[derive(Clone, Copy, Debug, PartialEq, Described, Serialize)]
-pub struct DriftSummary {
-    /// Of the amplitude of any harmonic, relative to the largest.
-    pub amplitude: f64,
-    /// Of the main frequency, relative.
-    pub frequency: f64,
-    /// Of the fraction of nodes in any status.
-    pub status: f64,
 }
 
 /// Growth of one harmonic, with 95 % intervals.
@@ -218,7 +207,7 @@ pub fn summary(report: &TransientReport<'_>) -> TransientSummary {
         frequencies_hz: two.map(|two| two.frequencies_hz),
         envelope_ratio: two.and_then(|two| present(two.envelope_ratio)),
         unsettled_because: settling.reason.map(|reason| reason.to_string()),
-        drift: settling.drift.map(DriftSummary::from),
+        drift: settling.drift,
         main_frequency_hz: end.main_frequency_hz,
         main_harmonic: end.main_harmonic,
         main_amplitude_m: end.main_amplitude,
@@ -304,12 +293,6 @@ impl MotionSummary {
             acceleration_rms_m_per_s2: rms,
             acceleration_peak_m_per_s2: peak,
         }
-    }
-}
-
-impl From<Drift> for DriftSummary {
-    fn from(drift: Drift) -> Self {
-        Self { amplitude: drift.amplitude, frequency: drift.frequency, status: drift.status }
     }
 }
 

@@ -190,23 +190,17 @@ fn facts(summary: &TransientSummary) -> Vec<(String, String)> {
     };
     let unit = summary.extent.unit("W");
     let watts = |name: &str, value: Option<f64>| entry(name, value, Format::Fixed(2), &unit);
-    let share = |name: &str, value: Option<f64>| {
-        Some((name.to_owned(), format!("{} %", fixed(100.0 * value?, 2))))
-    };
+    let hertz = |name: &str, value: Option<f64>| entry(name, value, Format::Fixed(2), "Hz");
+    let share = |name: &str, value: Option<f64>| entry(name, value, Format::Percent(2), "%");
     let settled = match (summary.settled, summary.settled_from_s) {
         (true, Some(time)) => format!("from {} ms on", fixed(1e3 * time, 3)),
         (true, None) => "yes".to_owned(),
         (false, _) => "no".to_owned(),
     };
     let rows = [
-        entry("main frequency", summary.main_frequency_hz, Format::Fixed(2), "Hz"),
+        hertz("main frequency", summary.main_frequency_hz),
         summary.main_harmonic.map(|n| ("nodal diameters".to_owned(), n.to_string())),
-        entry(
-            "second frequency",
-            summary.frequencies_hz.map(|both| both[1]),
-            Format::Fixed(2),
-            "Hz",
-        ),
+        hertz("second frequency", summary.frequencies_hz.map(|both| both[1])),
         entry("largest over smallest envelope", summary.envelope_ratio, Format::Fixed(2), ""),
         Some(("settled".to_owned(), settled)),
         share("contact nodes that stick", status.stick),

@@ -4,7 +4,7 @@ use crate::case::Case;
 use crate::cea::{ComplexMode, FrictionSweep, UnstableInterval};
 use crate::cycle::Family;
 use crate::linalg::c64;
-use crate::results::cea::travels;
+use crate::results::cea::mode_name;
 use crate::results::convergence::Quantity;
 use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
@@ -24,10 +24,7 @@ fn interval_key(interval: &UnstableInterval) -> ModeKey {
 }
 
 fn name_of((harmonic, branch, direction): ModeKey, has_harmonics: bool) -> String {
-    if !has_harmonics {
-        return format!("mode {branch}");
-    }
-    format!("n = {harmonic}, branch {branch}{}", travels(direction))
+    mode_name(has_harmonics.then_some(harmonic), branch, direction)
 }
 
 /// The modes at a friction coefficient; none where it was not solved.

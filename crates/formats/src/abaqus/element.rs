@@ -1,4 +1,4 @@
-//! Element types of an input file, and the labels of their faces.
+//! Element types of an input file.
 
 use crate::ElementKind;
 
@@ -25,10 +25,4 @@ pub(super) fn element_type(name: &str) -> Option<ElementType> {
         let mut own = types.filter(|(names, _)| names.contains(&&name[3..]));
         own.next().map(|&(_, difference)| ElementType { kind, is_plane_strain, difference })
     })
-}
-
-/// Corners of face `S<number>` of an element, counted from 1; none where it has no such face.
-pub(super) fn face_corners(kind: ElementKind, number: usize) -> Option<&'static [usize]> {
-    let faces = kind.formats().abaqus_faces;
-    faces.get(number.checked_sub(1)?).copied()
 }

@@ -1,7 +1,6 @@
 //! `*SURFACE`, and node sets as boundaries.
 
 use super::block::{Block, fields};
-use super::element::face_corners;
 use super::{Placed, Reader};
 use crate::SurfaceFace;
 use crate::deck::{Place, quoted};
@@ -95,9 +94,9 @@ impl Reader<'_, '_> {
         place: Place,
     ) -> Result<SurfaceFace, MeshFileError> {
         let element = &self.collection.elements[element];
-        let number = side.strip_prefix(['S', 'P']).and_then(|n| n.parse().ok());
-        let corners = number.and_then(|number| face_corners(element.kind, number));
-        corners.and_then(|corners| element.face_of(corners)).ok_or_else(|| {
+        let number = side.strip_prefix(['S', 'P']).and_then(|n| n.parse::<usize>().ok());
+        let face = number.and_then(|number| element.faces().nth(number.checked_sub(1)?));
+        face.ok_or_else(|| {
             fault!(self.deck, place;
             "element {} ({}) has no face {}", element.label, element.kind.name(), quoted(side))
         })

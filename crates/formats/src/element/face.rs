@@ -36,6 +36,18 @@ pub struct FacePoint {
 const TRIANGLE_EDGES: [[usize; 2]; 3] = [[0, 1], [1, 2], [2, 0]];
 
 impl FaceKind {
+    /// The face with so many corners, 2 to 4.
+    pub(super) fn of(corners: usize, is_quadratic: bool) -> Self {
+        match (corners, is_quadratic) {
+            (2, false) => Self::Line2,
+            (2, true) => Self::Line3,
+            (3, false) => Self::Tri3,
+            (3, true) => Self::Tri6,
+            (_, false) => Self::Quad4,
+            (_, true) => Self::Quad8,
+        }
+    }
+
     /// Corners of one face, ends of a line.
     #[inline]
     pub fn corner_count(self) -> usize {

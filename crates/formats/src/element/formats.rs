@@ -32,8 +32,6 @@ pub(crate) struct Formats {
     /// Element types of Abaqus and CalculiX behind `C3D`, or `CPE` and `CPS` in the plane, with what differs here from what
     /// the name asks for, empty for nothing.
     pub abaqus: &'static [(&'static [&'static str], &'static str)],
-    /// Corners of the faces `S1`, `S2` and so on of Abaqus.
-    pub abaqus_faces: &'static [&'static [usize]],
 }
 
 const FULL: &str = "fully integrated here";
@@ -51,7 +49,6 @@ pub(super) const TRI3: Formats = Formats {
     universal: listed(&[41, 51, 91]),
     nastran: listed(&[]),
     abaqus: &[(&["3", "3H"], "")],
-    abaqus_faces: &[&[0, 1], &[1, 2], &[2, 0]],
 };
 pub(super) const TRI6: Formats = Formats {
     vtk: 22,
@@ -66,7 +63,6 @@ pub(super) const QUAD4: Formats = Formats {
     universal: listed(&[44, 54, 94]),
     nastran: listed(&[]),
     abaqus: &[(&["4"], ""), (&["4R", "4I", "4H", "4RH", "4IH"], FULL)],
-    abaqus_faces: &[&[0, 1], &[1, 2], &[2, 3], &[3, 0]],
 };
 pub(super) const QUAD8: Formats = Formats {
     vtk: 23,
@@ -81,7 +77,6 @@ pub(super) const TET4: Formats = Formats {
     universal: listed(&[111]),
     nastran: listed(&["CTETRA"]),
     abaqus: &[(&["4"], ""), (&["4H"], DISPLACEMENTS)],
-    abaqus_faces: &[&[0, 1, 2], &[0, 3, 1], &[1, 3, 2], &[2, 3, 0]],
 };
 pub(super) const TET10: Formats = Formats {
     vtk: 24,
@@ -96,14 +91,6 @@ pub(super) const HEX8: Formats = Formats {
     universal: listed(&[115]),
     nastran: listed(&["CHEXA"]),
     abaqus: &[(&["8", "8R", "8H", "8RH"], BRICK), (&["8I", "8IH"], "")],
-    abaqus_faces: &[
-        &[0, 1, 2, 3],
-        &[4, 7, 6, 5],
-        &[0, 4, 5, 1],
-        &[1, 5, 6, 2],
-        &[2, 6, 7, 3],
-        &[3, 7, 4, 0],
-    ],
 };
 pub(super) const HEX20: Formats = Formats {
     vtk: 25,
@@ -130,7 +117,6 @@ pub(super) const WEDGE6: Formats = Formats {
     universal: listed(&[112]),
     nastran: listed(&["CPENTA"]),
     abaqus: &[(&["6"], ""), (&["6R", "6H"], FULL)],
-    abaqus_faces: &[&[0, 1, 2], &[3, 5, 4], &[0, 3, 4, 1], &[1, 4, 5, 2], &[2, 5, 3, 0]],
 };
 pub(super) const WEDGE15: Formats = Formats {
     vtk: 26,
@@ -152,7 +138,6 @@ pub(super) const PYRAMID5: Formats = Formats {
     universal: listed(&[]),
     nastran: listed(&["CPYRAM", "CPYRA"]),
     abaqus: &[(&["5"], ""), (&["5H"], DISPLACEMENTS)],
-    abaqus_faces: &[&[0, 1, 2, 3], &[0, 4, 1], &[1, 4, 2], &[2, 4, 3], &[3, 4, 0]],
 };
 pub(super) const PYRAMID13: Formats = Formats {
     vtk: 27,

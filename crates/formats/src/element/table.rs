@@ -4,39 +4,64 @@ use super::face::FaceKind;
 use super::formats::{self, Formats};
 use super::rule::{self, GAUSS, QuadraturePoint};
 use super::shapes::{self, Shape};
+use std::sync::LazyLock;
 
-/// Kind of an element.
-///
-/// Nodes are the corners, then, for quadratic kinds, one mid-side node for each edge in the order of [`Self::edges`]. Corners
-/// of plane elements run counter-clockwise; those of solid elements are numbered as in VTK.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum ElementKind {
-    /// Three-node linear triangle, `0 <= xi, eta` and `xi + eta <= 1`.
-    Tri3,
-    /// Six-node quadratic triangle.
-    Tri6,
-    /// Four-node bilinear quadrilateral, `-1 <= xi, eta <= 1`.
-    Quad4,
-    /// Eight-node serendipity quadrilateral.
-    Quad8,
-    /// Four-node linear tetrahedron, `0 <= xi, eta, zeta` and `xi + eta + zeta <= 1`.
-    Tet4,
-    /// Ten-node quadratic tetrahedron.
-    Tet10,
-    /// Eight-node trilinear brick, `-1 <= xi, eta, zeta <= 1`; its stiffness has incompatible modes.
-    Hex8,
-    /// Twenty-node serendipity brick.
-    Hex20,
-    /// The same with 2 x 2 x 2 Gauss points for stiffness and mass: softer in bending on coarse meshes.
-    Hex20R,
-    /// Six-node linear wedge: a triangle in `(xi, eta)` times `-1 <= zeta <= 1`.
-    Wedge6,
-    /// Fifteen-node serendipity wedge.
-    Wedge15,
-    /// Five-node linear pyramid on the square `-1 <= xi, eta <= 1`, its apex at `zeta = 1`.
-    Pyramid5,
-    /// Thirteen-node quadratic pyramid.
-    Pyramid13,
+/// Declares the kinds, each with its row of the table.
+macro_rules! kinds {
+    ($(#[$meta:meta])* $name:ident { $($(#[$own:meta])* $kind:ident => $row:ident,)+ }) => {
+        $(#[$meta])*
+        pub enum $name {
+            $($(#[$own])* $kind,)+
+        }
+
+        impl $name {
+            /// Every kind there is.
+            pub const ALL: [Self; [$(stringify!($kind)),+].len()] = [$(Self::$kind),+];
+
+            #[inline]
+            pub(super) fn row(self) -> &'static Row {
+                match self {
+                    $(Self::$kind => &$row,)+
+                }
+            }
+        }
+    };
+}
+
+kinds! {
+    /// Kind of an element.
+    ///
+    /// Nodes are the corners, then, for quadratic kinds, one mid-side node for each edge in the order of [`Self::edges`]. Corners
+    /// of plane elements run counter-clockwise; those of solid elements are numbered as in VTK.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+    ElementKind {
+        /// Three-node linear triangle, `0 <= xi, eta` and `xi + eta <= 1`.
+        Tri3 => TRI3,
+        /// Six-node quadratic triangle.
+        Tri6 => TRI6,
+        /// Four-node bilinear quadrilateral, `-1 <= xi, eta <= 1`.
+        Quad4 => QUAD4,
+        /// Eight-node serendipity quadrilateral.
+        Quad8 => QUAD8,
+        /// Four-node linear tetrahedron, `0 <= xi, eta, zeta` and `xi + eta + zeta <= 1`.
+        Tet4 => TET4,
+        /// Ten-node quadratic tetrahedron.
+        Tet10 => TET10,
+        /// Eight-node trilinear brick, `-1 <= xi, eta, zeta <= 1`; its stiffness has incompatible modes.
+        Hex8 => HEX8,
+        /// Twenty-node serendipity brick.
+        Hex20 => HEX20,
+        /// The same with 2 x 2 x 2 Gauss points for stiffness and mass: softer in bending on coarse meshes.
+        Hex20R => HEX20R,
+        /// Six-node linear wedge: a triangle in `(xi, eta)` times `-1 <= zeta <= 1`.
+        Wedge6 => WEDGE6,
+        /// Fifteen-node serendipity wedge.
+        Wedge15 => WEDGE15,
+        /// Five-node linear pyramid on the square `-1 <= xi, eta <= 1`, its apex at `zeta = 1`.
+        Pyramid5 => PYRAMID5,
+        /// Thirteen-node quadratic pyramid.
+        Pyramid13 => PYRAMID13,
+    }
 }
 
 /// One row of the table of kinds.
@@ -47,18 +72,43 @@ pub(super) struct Row {
     pub is_quadratic: bool,
     /// Corners at the ends of each edge; mid-side nodes follow the corners in this order.
     pub edges: &'static [[usize; 2]],
-    /// Faces of the element with their nodes, the normal pointing outwards by the right-hand rule; edges in the plane.
-    pub faces: &'static [(FaceKind, &'static [usize])],
+    /// Corners of the faces, the normal pointing outwards by the right-hand rule; edges in the plane. In the order in
+    /// which Abaqus numbers them, `S1` first.
+    pub faces: &'static [&'static [usize]],
     pub shapes: fn([f64; 3]) -> Vec<Shape>,
     pub quadrature: fn() -> Vec<QuadraturePoint>,
     /// Rule of the stiffness where it is not that of the mass.
     pub stiffness_quadrature: Option<fn() -> Vec<QuadraturePoint>>,
     pub superconvergent: fn() -> Vec<[f64; 3]>,
-    /// The face of a solid element that has the shape of this plane element.
-    pub as_face: Option<FaceKind>,
     pub name: &'static str,
     /// Its numbers, names and orders in the formats of mesh files.
     pub formats: &'static Formats,
+}
+
+/// A face and its nodes.
+pub(super) type Face = (FaceKind, &'static [usize]);
+
+/// Faces of every kind of [`ElementKind::ALL`].
+static FACES: LazyLock<Vec<Vec<Face>>> =
+    LazyLock::new(|| ElementKind::ALL.iter().map(|kind| kind.row().faces()).collect());
+
+impl Row {
+    /// Its faces: corners, then the mid-side nodes of the edges between them.
+    fn faces(&self) -> Vec<Face> {
+        let middle = |ends: [usize; 2]| {
+            let edge = self.edges.iter().position(|edge| ends.iter().all(|end| edge.contains(end)));
+            self.corners.len() + edge.expect("the side of a face is an edge")
+        };
+        let face = |corners: &&[usize]| {
+            let kind = FaceKind::of(corners.len(), self.is_quadratic);
+            let next = corners.iter().cycle().skip(1);
+            let sides = corners.iter().zip(next).map(|(&start, &end)| middle([start, end]));
+            let middles = sides.take(kind.node_count() - corners.len());
+            let nodes: Vec<usize> = corners.iter().copied().chain(middles).collect();
+            (kind, &*nodes.leak())
+        };
+        self.faces.iter().map(face).collect()
+    }
 }
 
 const THIRD: f64 = 1.0 / 3.0;
@@ -92,26 +142,19 @@ const TRI3: Row = Row {
     corners: &shapes::TRIANGLE,
     is_quadratic: false,
     edges: &TRIANGLE_EDGES,
-    faces: &[(FaceKind::Line2, &[0, 1]), (FaceKind::Line2, &[1, 2]), (FaceKind::Line2, &[2, 0])],
+    faces: &[&[0, 1], &[1, 2], &[2, 0]],
     shapes: |[xi, eta, _]| shapes::triangle(xi, eta).to_vec(),
     quadrature: rule::triangle_three,
     stiffness_quadrature: None,
     superconvergent: || vec![[THIRD, THIRD, 0.0]],
-    as_face: Some(FaceKind::Tri3),
     name: "tri3",
 };
 const TRI6: Row = Row {
     formats: &formats::TRI6,
     is_quadratic: true,
-    faces: &[
-        (FaceKind::Line3, &[0, 1, 3]),
-        (FaceKind::Line3, &[1, 2, 4]),
-        (FaceKind::Line3, &[2, 0, 5]),
-    ],
     shapes: |[xi, eta, _]| shapes::quadratic_simplex(&shapes::triangle(xi, eta), &TRIANGLE_EDGES),
     quadrature: rule::triangle_six,
     superconvergent: || vec![[0.5, 0.0, 0.0], [0.5, 0.5, 0.0], [0.0, 0.5, 0.0]],
-    as_face: Some(FaceKind::Tri6),
     name: "tri6",
     ..TRI3
 };
@@ -121,34 +164,21 @@ const QUAD4: Row = Row {
     corners: &shapes::SQUARE,
     is_quadratic: false,
     edges: &SQUARE_EDGES,
-    faces: &[
-        (FaceKind::Line2, &[0, 1]),
-        (FaceKind::Line2, &[1, 2]),
-        (FaceKind::Line2, &[2, 3]),
-        (FaceKind::Line2, &[3, 0]),
-    ],
+    faces: &[&[0, 1], &[1, 2], &[2, 3], &[3, 0]],
     shapes: |[xi, eta, _]| shapes::bilinear(xi, eta),
     quadrature: || rule::square(&rule::TWO),
     stiffness_quadrature: None,
     superconvergent: || vec![[0.0; 3]],
-    as_face: Some(FaceKind::Quad4),
     name: "quad4",
 };
 const QUAD8: Row = Row {
     formats: &formats::QUAD8,
     is_quadratic: true,
-    faces: &[
-        (FaceKind::Line3, &[0, 1, 4]),
-        (FaceKind::Line3, &[1, 2, 5]),
-        (FaceKind::Line3, &[2, 3, 6]),
-        (FaceKind::Line3, &[3, 0, 7]),
-    ],
     shapes: |[xi, eta, _]| shapes::serendipity(xi, eta),
     quadrature: || rule::square(&rule::THREE),
     superconvergent: || {
         vec![[-GAUSS, -GAUSS, 0.0], [GAUSS, -GAUSS, 0.0], [GAUSS, GAUSS, 0.0], [-GAUSS, GAUSS, 0.0]]
     },
-    as_face: Some(FaceKind::Quad8),
     name: "quad8",
     ..QUAD4
 };
@@ -158,28 +188,16 @@ const TET4: Row = Row {
     corners: &shapes::TETRAHEDRON,
     is_quadratic: false,
     edges: &TETRAHEDRON_EDGES,
-    faces: &[
-        (FaceKind::Tri3, &[0, 2, 1]),
-        (FaceKind::Tri3, &[0, 1, 3]),
-        (FaceKind::Tri3, &[1, 2, 3]),
-        (FaceKind::Tri3, &[0, 3, 2]),
-    ],
+    faces: &[&[0, 2, 1], &[0, 1, 3], &[1, 2, 3], &[0, 3, 2]],
     shapes: |at| shapes::tetrahedron(at).to_vec(),
     quadrature: rule::tetrahedron_four,
     stiffness_quadrature: Some(rule::tetrahedron_one),
     superconvergent: || vec![[0.25; 3]],
-    as_face: None,
     name: "tet4",
 };
 const TET10: Row = Row {
     formats: &formats::TET10,
     is_quadratic: true,
-    faces: &[
-        (FaceKind::Tri6, &[0, 2, 1, 6, 5, 4]),
-        (FaceKind::Tri6, &[0, 1, 3, 4, 8, 7]),
-        (FaceKind::Tri6, &[1, 2, 3, 5, 9, 8]),
-        (FaceKind::Tri6, &[0, 3, 2, 7, 9, 6]),
-    ],
     shapes: |at| shapes::quadratic_simplex(&shapes::tetrahedron(at), &TETRAHEDRON_EDGES),
     quadrature: rule::tetrahedron_fourteen,
     stiffness_quadrature: Some(rule::tetrahedron_four),
@@ -194,31 +212,22 @@ const HEX8: Row = Row {
     is_quadratic: false,
     edges: &BRICK_EDGES,
     faces: &[
-        (FaceKind::Quad4, &[0, 3, 2, 1]),
-        (FaceKind::Quad4, &[4, 5, 6, 7]),
-        (FaceKind::Quad4, &[0, 1, 5, 4]),
-        (FaceKind::Quad4, &[1, 2, 6, 5]),
-        (FaceKind::Quad4, &[2, 3, 7, 6]),
-        (FaceKind::Quad4, &[3, 0, 4, 7]),
+        &[0, 3, 2, 1],
+        &[4, 5, 6, 7],
+        &[0, 1, 5, 4],
+        &[1, 2, 6, 5],
+        &[2, 3, 7, 6],
+        &[3, 0, 4, 7],
     ],
     shapes: |at| shapes::brick(false, at),
     quadrature: || rule::cube(&rule::TWO),
     stiffness_quadrature: None,
     superconvergent: || vec![[0.0; 3]],
-    as_face: None,
     name: "hex8",
 };
 const HEX20: Row = Row {
     formats: &formats::HEX20,
     is_quadratic: true,
-    faces: &[
-        (FaceKind::Quad8, &[0, 3, 2, 1, 11, 10, 9, 8]),
-        (FaceKind::Quad8, &[4, 5, 6, 7, 12, 13, 14, 15]),
-        (FaceKind::Quad8, &[0, 1, 5, 4, 8, 17, 12, 16]),
-        (FaceKind::Quad8, &[1, 2, 6, 5, 9, 18, 13, 17]),
-        (FaceKind::Quad8, &[2, 3, 7, 6, 10, 19, 14, 18]),
-        (FaceKind::Quad8, &[3, 0, 4, 7, 11, 16, 15, 19]),
-    ],
     shapes: |at| shapes::brick(true, at),
     quadrature: || rule::cube(&rule::THREE),
     superconvergent: || rule::places(rule::cube(&rule::TWO)),
@@ -237,30 +246,16 @@ const WEDGE6: Row = Row {
     corners: &shapes::WEDGE,
     is_quadratic: false,
     edges: &WEDGE_EDGES,
-    faces: &[
-        (FaceKind::Tri3, &[0, 2, 1]),
-        (FaceKind::Tri3, &[3, 4, 5]),
-        (FaceKind::Quad4, &[0, 1, 4, 3]),
-        (FaceKind::Quad4, &[1, 2, 5, 4]),
-        (FaceKind::Quad4, &[2, 0, 3, 5]),
-    ],
+    faces: &[&[0, 2, 1], &[3, 4, 5], &[0, 1, 4, 3], &[1, 2, 5, 4], &[2, 0, 3, 5]],
     shapes: shapes::wedge,
     quadrature: || rule::wedge(&rule::triangle_three(), &rule::TWO),
     stiffness_quadrature: None,
     superconvergent: || vec![[THIRD, THIRD, 0.0]],
-    as_face: None,
     name: "wedge6",
 };
 const WEDGE15: Row = Row {
     formats: &formats::WEDGE15,
     is_quadratic: true,
-    faces: &[
-        (FaceKind::Tri6, &[0, 2, 1, 8, 7, 6]),
-        (FaceKind::Tri6, &[3, 4, 5, 9, 10, 11]),
-        (FaceKind::Quad8, &[0, 1, 4, 3, 6, 13, 9, 12]),
-        (FaceKind::Quad8, &[1, 2, 5, 4, 7, 14, 10, 13]),
-        (FaceKind::Quad8, &[2, 0, 3, 5, 8, 12, 11, 14]),
-    ],
     shapes: shapes::quadratic_wedge,
     quadrature: || rule::wedge(&rule::triangle_six(), &rule::THREE),
     superconvergent: || {
@@ -276,30 +271,16 @@ const PYRAMID5: Row = Row {
     corners: &shapes::PYRAMID,
     is_quadratic: false,
     edges: &PYRAMID_EDGES,
-    faces: &[
-        (FaceKind::Quad4, &[0, 3, 2, 1]),
-        (FaceKind::Tri3, &[0, 1, 4]),
-        (FaceKind::Tri3, &[1, 2, 4]),
-        (FaceKind::Tri3, &[2, 3, 4]),
-        (FaceKind::Tri3, &[3, 0, 4]),
-    ],
+    faces: &[&[0, 3, 2, 1], &[0, 1, 4], &[1, 2, 4], &[2, 3, 4], &[3, 0, 4]],
     shapes: shapes::pyramid,
     quadrature: || rule::pyramid(&rule::TWO, &rule::TWO_TO_APEX),
     stiffness_quadrature: None,
     superconvergent: || vec![[0.0, 0.0, 0.25]],
-    as_face: None,
     name: "pyramid5",
 };
 const PYRAMID13: Row = Row {
     formats: &formats::PYRAMID13,
     is_quadratic: true,
-    faces: &[
-        (FaceKind::Quad8, &[0, 3, 2, 1, 8, 7, 6, 5]),
-        (FaceKind::Tri6, &[0, 1, 4, 5, 10, 9]),
-        (FaceKind::Tri6, &[1, 2, 4, 6, 11, 10]),
-        (FaceKind::Tri6, &[2, 3, 4, 7, 12, 11]),
-        (FaceKind::Tri6, &[3, 0, 4, 8, 9, 12]),
-    ],
     shapes: shapes::quadratic_pyramid,
     quadrature: || rule::pyramid(&rule::THREE, &rule::THREE_TO_APEX),
     superconvergent: || rule::places(rule::pyramid(&rule::TWO, &rule::TWO_TO_APEX)),
@@ -308,40 +289,8 @@ const PYRAMID13: Row = Row {
 };
 
 impl ElementKind {
-    /// Every kind there is.
-    pub const ALL: [Self; 13] = [
-        Self::Tri3,
-        Self::Tri6,
-        Self::Quad4,
-        Self::Quad8,
-        Self::Tet4,
-        Self::Tet10,
-        Self::Hex8,
-        Self::Hex20,
-        Self::Hex20R,
-        Self::Wedge6,
-        Self::Wedge15,
-        Self::Pyramid5,
-        Self::Pyramid13,
-    ];
-
-    #[inline]
-    pub(super) fn row(self) -> &'static Row {
-        match self {
-            Self::Tri3 => &TRI3,
-            Self::Tri6 => &TRI6,
-            Self::Quad4 => &QUAD4,
-            Self::Quad8 => &QUAD8,
-            Self::Tet4 => &TET4,
-            Self::Tet10 => &TET10,
-            Self::Hex8 => &HEX8,
-            Self::Hex20 => &HEX20,
-            Self::Hex20R => &HEX20R,
-            Self::Wedge6 => &WEDGE6,
-            Self::Wedge15 => &WEDGE15,
-            Self::Pyramid5 => &PYRAMID5,
-            Self::Pyramid13 => &PYRAMID13,
-        }
+    pub(super) fn own_faces(self) -> &'static [Face] {
+        &FACES[self as usize]
     }
 
     /// Its numbers, names and orders in the formats of mesh files.
