@@ -4,11 +4,12 @@
 
 use crate::prelude::*;
 use std::process::{Child, Command, Stdio};
+use std::sync::OnceLock;
 
 const PROGRAM: &str = env!("CARGO_BIN_EXE_frictionsim");
 
-/// A coarse disc: thirty transients of some ten milliseconds each.
-const STUDY: &str = "[transient]\nduration = 0.02
+/// A coarse disc: thirty transients of some five milliseconds each.
+const STUDY: &str = "[transient]\nduration = 0.01
 [transient.perturbation]\nharmonics = [1, 2]\nvelocity = 1e-3
 [output]\nsample_interval = 4e-6
 [sweep]\n\"contact.friction_coefficient\" = [0.2, 0.3, 0.4]\n\
@@ -28,13 +29,21 @@ impl Study {
     }
 
     fn sweep(&self, folder: &str, options: &[&str]) -> Run {
-        let words = ["sweep", "study.toml", "--quiet", "--threads", "2"];
-        Run::new(&words).args(options).within(&self.root).out(folder)
+        let run = Run::of("sweep", "study.toml").args(&["--quiet", "--threads", "2"]);
+        run.args(options).within(&self.root).out(folder)
     }
 
     fn start(&self, folder: &str, options: &[&str]) -> Child {
         let mut command = self.sweep(folder, options).program();
         command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap()
+    }
+
+    /// Holds a folder to the table and the points of a sweep that nothing happened to.
+    #[track_caller]
+    fn is_whole(&self, folder: &str) {
+        let (_, expected, expected_points) = whole();
+        assert!(table(&self.folder(folder)) == *expected, "{folder}");
+        assert!(points(&self.folder(folder)) == *expected_points, "{folder}");
     }
 
     /// Another program in the folder of the study.
@@ -75,6 +84,17 @@ fn table(folder: &Path) -> String {
     std::fs::read_to_string(folder.join("points.csv")).unwrap()
 }
 
+/// Time, table and points of a sweep that nothing happens to, run once.
+fn whole() -> &'static (Duration, String, BTreeMap<String, String>) {
+    static WHOLE: OnceLock<(Duration, String, BTreeMap<String, String>)> = OnceLock::new();
+    WHOLE.get_or_init(|| {
+        let (study, clock) = (Study::new(), Instant::now());
+        study.sweep("whole", &[]).done();
+        let folder = study.folder("whole");
+        (clock.elapsed(), table(&folder), points(&folder))
+    })
+}
+
 /// Numbers from 0 to 1 that look random and are the same every time.
 fn next_random(state: &mut u64) -> f64 {
     *state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
@@ -84,11 +104,7 @@ fn next_random(state: &mut u64) -> f64 {
 #[test]
 fn killed_sweeps_resume_to_identical_results() {
     let study = Study::new();
-    let clock = Instant::now();
-    study.sweep("whole", &[]).done();
-    let whole_time = clock.elapsed();
-    let (expected, expected_points) =
-        (table(&study.folder("whole")), points(&study.folder("whole")));
+    let (whole_time, expected, expected_points) = whole();
     assert_eq!(expected_points.len(), 30);
     assert!(!expected.contains("failed"));
 
@@ -111,8 +127,7 @@ fn killed_sweeps_resume_to_identical_results() {
             assert!(left.len() >= finished, "a finished point was lost");
             finished = left.len();
         }
-        assert_eq!(table(&folder), expected, "after {kills} kills");
-        assert_eq!(points(&folder), expected_points);
+        study.is_whole(&name);
         round += 1;
     }
 }
@@ -120,21 +135,18 @@ fn killed_sweeps_resume_to_identical_results() {
 #[test]
 fn processes_side_by_side_share_the_points_of_one_folder() {
     let study = Study::new();
-    study.sweep("alone", &[]).done();
     let mut children: Vec<Child> = (0..3).map(|_| study.start("shared", &["--resume"])).collect();
     for child in &mut children {
         assert!(child.wait().unwrap().success());
     }
     let summary = study.sweep("shared", &["--resume", "--json"]).done().value();
     assert_eq!(summary["ran"], 0);
-    assert_eq!(table(&study.folder("shared")), table(&study.folder("alone")));
-    assert_eq!(points(&study.folder("shared")), points(&study.folder("alone")));
+    study.is_whole("shared");
 }
 
 #[test]
 fn shards_collect_to_the_table_of_the_whole_sweep() {
     let study = Study::new();
-    study.sweep("whole", &[]).done();
     study.sweep("shards", &["--shard", "2/3"]).done();
     let collect = || Run::new(&["collect", "shards"]).within(&study.root).end();
     study.sweep("shards", &["--shard", "1/3"]).done();
@@ -142,13 +154,12 @@ fn shards_collect_to_the_table_of_the_whole_sweep() {
     assert_eq!(table(&study.folder("shards")).lines().count(), 21);
     study.sweep("shards", &["--shard", "3/3"]).done();
     collect().code(0);
-    assert_eq!(table(&study.folder("shards")), table(&study.folder("whole")));
+    study.is_whole("shards");
 }
 
 #[test]
 fn a_full_disk_is_named_and_leaves_earlier_points_whole() {
     let study = Study::new();
-    study.sweep("whole", &[]).done();
     study.sweep("full", &["--shard", "1/2"]).done();
     let before = points(&study.folder("full"));
     // No file above 512 bytes, which no point fits into; the signal that comes with the limit is
@@ -161,7 +172,7 @@ fn a_full_disk_is_named_and_leaves_earlier_points_whole() {
     has(&errors, &["no room left", "point-"]);
     assert_eq!(points(&study.folder("full")), before);
     study.sweep("full", &["--resume"]).done();
-    assert_eq!(table(&study.folder("full")), table(&study.folder("whole")));
+    study.is_whole("full");
 }
 
 #[test]

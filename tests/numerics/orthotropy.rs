@@ -140,25 +140,28 @@ fn free_modes_of_an_orthotropic_cube_are_those_of_a_ritz_series() {
     for (long, short) in series.iter().zip(&shorter).skip(6).take(10) {
         assert!((short / long - 1.0).abs() < 2e-4, "{short} {long}");
     }
-    let cube = |place: &dyn Fn([f64; 3]) -> [f64; 3]| {
-        let file = block(ElementKind::Hex20, [6; 3], |p| place(p.map(|x| SIDE * x)));
+    let cube = |cells: usize, place: &dyn Fn([f64; 3]) -> [f64; 3]| {
+        let file = block(ElementKind::Hex20, [cells; 3], |p| place(p.map(|x| SIDE * x)));
         Mesh::from_solids(&file, 1.0, &[]).unwrap()
     };
-    let turned = cube(&|p| (turn * Vector3::from(p)).into());
-    let found = Pencil::of_material(&turned, &solid(lining(axes))).frequencies(12);
+    let turned = |cells: usize| {
+        let mesh = cube(cells, &|p| (turn * Vector3::from(p)).into());
+        Pencil::of_material(&mesh, &solid(lining(axes))).frequencies(12)
+    };
+    let found = turned(6);
     for (rank, (found, series)) in found.iter().zip(&series).enumerate().skip(6) {
         println!("{found:.3} {series:.3} {:.1e}", found / series - 1.0);
         // Of fourth order in the elements for each wavelength.
         let tolerance = if rank < 9 { 1e-3 } else { 3e-3 };
         assert!((found / series - 1.0).abs() < tolerance, "{found} {series}");
     }
-    // Turning body and axes together changes nothing.
-    let plain = Pencil::of_material(&cube(&|p| p), &solid(straight)).frequencies(12);
-    for (a, b) in found.iter().zip(&plain).skip(6) {
+    // Turning body and axes together changes nothing, whatever the mesh.
+    let plain = Pencil::of_material(&cube(3, &|p| p), &solid(straight)).frequencies(12);
+    for (a, b) in turned(3).iter().zip(&plain).skip(6) {
         assert!((a / b - 1.0).abs() < 1e-9, "{a} {b}");
     }
     // Turning the axes alone does.
-    let wrong = Pencil::of_material(&cube(&|p| p), &solid(lining(axes))).frequencies(8);
+    let wrong = Pencil::of_material(&cube(3, &|p| p), &solid(lining(axes))).frequencies(8);
     let mut pairs = wrong.iter().zip(&plain).skip(6);
     assert!(pairs.any(|(a, b)| (a / b - 1.0).abs() > 1e-3));
 }

@@ -92,6 +92,10 @@ fn agree(a: &[[f64; 2]], b: &[[f64; 2]], tolerance: f64) -> Cell {
     verdict(worst <= tolerance, || format!("spectra differ by {worst:e}"))
 }
 
+/// The spectrum at friction 0.3 alone, which does not depend on the other values; the second of few modes.
+const ALONE: &str = "cea.friction_coefficients=[0.3]";
+const FEW: [&str; 2] = [ALONE, "cea.modes=2"];
+
 fn lowest_onset(summary: &Value) -> Option<f64> {
     let onsets = summary["critical_frictions"].as_array()?.iter();
     let onsets = onsets.filter_map(|onset| onset["critical_friction"].as_f64());
@@ -130,7 +134,7 @@ fn cea(bench: &Bench, twin: Option<&Bench>) -> Cell {
 
 fn by_method(bench: &Bench, method: &str) -> Cell {
     let method = format!("cea.method=\"{method}\"");
-    let (_, own) = done!(bench.run("cea", &[&method]));
+    let (_, own) = done!(bench.run("cea", &[&method, ALONE]));
     let (_, other) = needed!(bench.run("cea", &[]));
     agree(&spectrum(&own), &spectrum(&other), 1e-8)
 }
@@ -140,7 +144,7 @@ const SMALL_CHANGE: f64 = 1e-6;
 
 /// The derivative by Young's modulus is the difference of two analyses.
 fn sensitivities(bench: &Bench, _: Option<&Bench>) -> Cell {
-    let (_, folder) = done!(bench.run("cea", &["cea.sensitivities=true"]));
+    let (_, folder) = done!(bench.run("cea", &["cea.sensitivities=true", ALONE]));
     if !folder.join("sensitivities.csv").exists() {
         return Cell::Refused("not computed for this body yet".to_owned());
     }
@@ -162,7 +166,7 @@ fn sensitivities(bench: &Bench, _: Option<&Bench>) -> Cell {
         None => ("density", 1700.0, slopes_by("density").expect("a density")),
     };
     let step = SMALL_CHANGE * value;
-    let at = |value: f64| bench.run("cea", &[&format!("material.{name}={value:?}")]);
+    let at = |value: f64| bench.run("cea", &[&format!("material.{name}={value:?}"), ALONE]);
     let ((_, low), (_, high)) = (needed!(at(value - step)), needed!(at(value + step)));
     let (low, high) = (spectrum(&low), spectrum(&high));
     // Both waves of a pair have nearly one frequency: the growth rate tells them apart.
@@ -351,8 +355,8 @@ fn is_boundary(summary: &Value) -> bool {
 /// A point of the sweep is the analysis alone.
 fn sweep(bench: &Bench, _: Option<&Bench>) -> Cell {
     let sweep = "sweep={\"damping.stiffness_coefficient\"=[3e-7,4.5e-7],analyses=[\"cea\"]}";
-    let (_, folder) = done!(bench.run("sweep", &[sweep]));
-    let (alone, _) = needed!(bench.run("cea", &[]));
+    let (_, folder) = done!(bench.run("sweep", &[&[sweep], &FEW[..]].concat()));
+    let (alone, _) = needed!(bench.run("cea", &FEW));
     let modes = column(&folder, "points.csv", "modes");
     let residual = column(&folder, "points.csv", "largest_residual");
     let own = [alone["modes"].as_f64().unwrap(), alone["largest_residual"].as_f64().unwrap()];
@@ -397,9 +401,8 @@ fn uncertainty(bench: &Bench, _: Option<&Bench>) -> Cell {
 /// The frequencies of the coarsest mesh are those of the analysis.
 fn convergence(bench: &Bench, _: Option<&Bench>) -> Cell {
     let factors = "convergence={factors=[1,2,4],analyses=[\"cea\"]}";
-    let overrides = [factors, "cea.modes=2", "cea.friction_coefficients=[0.3]"];
-    let (_, folder) = done!(bench.run("convergence", &overrides));
-    let (_, alone) = needed!(bench.run("cea", &overrides[1..]));
+    let (_, folder) = done!(bench.run("convergence", &[&[factors], &FEW[..]].concat()));
+    let (_, alone) = needed!(bench.run("cea", &FEW));
     let values = column(&folder, "convergence.csv", "value");
     let lowest = spectrum(&alone)[0][0];
     let found = values.iter().any(|value| is_close(*value, lowest, 1e-9));
@@ -407,7 +410,8 @@ fn convergence(bench: &Bench, _: Option<&Bench>) -> Cell {
 }
 
 fn plot(bench: &Bench, _: Option<&Bench>) -> Cell {
-    let (_, folder) = needed!(bench.run_drawn("cea", &["cea.friction_coefficients=[0.0,0.3]"]));
+    let (_, folder) =
+        needed!(bench.run_drawn("cea", &["cea.friction_coefficients=[0.0,0.3]", "cea.modes=2"]));
     match bench.redraw(&folder) {
         Ok(()) => {
             verdict(folder.join("locus.svg").exists() || folder.join("figures").exists(), || {
@@ -419,7 +423,7 @@ fn plot(bench: &Bench, _: Option<&Bench>) -> Cell {
 }
 
 fn compare(bench: &Bench, _: Option<&Bench>) -> Cell {
-    let runs = [bench.run("cea", &[]), bench.run_with("cea", &[], &[])];
+    let runs = [bench.run("cea", &FEW), bench.run_with("cea", &FEW, &[])];
     let [Answer::Done(_, a), Answer::Done(_, b)] = runs else {
         return Cell::Wrong("cea is refused".to_owned());
     };
