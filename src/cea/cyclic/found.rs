@@ -33,7 +33,7 @@ pub struct Coverage {
     pub is_verified: bool,
 }
 
-/// Motions that decay without oscillating, at one friction coefficient.
+/// Motions that hardly oscillate as they decay, at one friction coefficient.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Overdamped {
     /// Friction coefficient `mu`.

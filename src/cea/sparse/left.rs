@@ -3,20 +3,17 @@
 use super::StiffnessFactors;
 use super::full_problem::{Factor, FullProblem};
 use super::packed::{joined, side_by_side};
+use super::{BESIDE, MOST_STEPS};
 use crate::cea::vectors::{dot, length};
 use crate::linalg::dense::{product, transpose_product};
 use crate::linalg::{ComplexDenseLu, Mat, c64};
 use crate::prestress::SlidingTangent;
 use rayon::prelude::*;
 
-/// Corrections of a left vector, at most: ten or fewer do.
-const CORRECTIONS: usize = 24;
 /// Energy of a correction, relative to that of the vector, below which no more are made.
 const NEGLIGIBLE: f64 = 1e-8;
 /// Modes that are corrected together.
 const PAIRS_AT_A_TIME: usize = 8;
-/// Distance from an eigenvalue, relative to it, of the problem among the modes: regular there, and nearly the same for all others.
-const BESIDE: f64 = 1e-3;
 
 /// A mode over the unknowns.
 pub struct OpenPair {
@@ -149,7 +146,7 @@ fn correct_group(
     let mut lefts = mapped(starts.map(|(image, own)| [own.to_vec(), image]).collect());
     let energy = |[_, residual, correction]: &Mapped| dot(correction, residual).re.abs();
     let mut directions: Vec<Vec<Mapped>> = vec![Vec::new(); pairs.len()];
-    for _ in 0..CORRECTIONS {
+    for _ in 0..MOST_STEPS {
         open.retain(|&k| energy(&lefts[k]) > NEGLIGIBLE * goals[k]);
         if open.is_empty() {
             break;

@@ -80,6 +80,12 @@ const CONVERGED: f64 = 1e-11;
 /// What a vector of unit length has beyond a space: more makes the space wider, less is round-off. A part as short as this along the
 /// stiffest waves of a mesh moves the slowest modes, a thousandth as fast, by a relative 1e-9.
 const SAME_SPACE: f64 = 1e-13;
+/// Distance of factors from an eigenvalue, relative to it: regular there, far above its error and far below its distance from others.
+const BESIDE: f64 = 1e-3;
+/// Steps of an iteration for one mode after which it counts as not found: ten or fewer do, or three or four by factors at each.
+const MOST_STEPS: usize = 24;
+/// Samples near a friction coefficient whose modes, together, come near its own and their left vectors.
+const NEIGHBOURS: usize = 4;
 /// Start vectors of an iteration that relies on no known modes: as many as equal eigenvalues may come together.
 const SEARCH_WIDTH: usize = 4;
 /// Vectors over the unknowns that are expanded, multiplied and solved for together.

@@ -1,5 +1,6 @@
 //! The projected matrices at one friction coefficient, and single modes of them.
 
+use super::MOST_STEPS;
 use super::mode::ReducedMode;
 use super::packed::forms;
 use crate::fem::own_frequency_step;
@@ -8,8 +9,6 @@ use crate::linalg::{ComplexDenseLu, Mat, Scale, c64};
 use crate::prestress::TabledGain;
 use std::f64::consts::TAU;
 
-/// Rayleigh quotients after which a mode counts as not found; ten or fewer do, or three or four by factors at each.
-const QUOTIENT_STEPS: usize = 24;
 /// Relative change of the eigenvalue that ends the iteration by factors at it: the error left is about the cube of that.
 const QUOTIENT_TOLERANCE: f64 = 1e-8;
 /// Change of the vectors, of length 1, that ends the iteration by factors from before; source: A. Neumaier, SIAM J. Numer. Anal. 22 (1985),
@@ -95,7 +94,7 @@ impl ProjectedMatrices {
         let m = self.mass.nrows();
         let mut mode = guess.clone();
         let (mut factors, mut before) = (None, f64::INFINITY);
-        for _ in 0..QUOTIENT_STEPS {
+        for _ in 0..MOST_STEPS {
             let lambda = mode.eigenvalue;
             // By factors at the eigenvalue what the slope makes of the vectors; by those from before what these leave is taken away.
             let is_reused = factors.is_some();

@@ -3,6 +3,7 @@
 mod dense;
 mod parts;
 
+use super::NEIGHBOURS;
 use super::linearization::Linearization;
 use super::mode::ReducedMode;
 use super::projected::{ProjectedMatrices, horner, projected, weighted};
@@ -19,9 +20,6 @@ use crate::prestress::{SlidingTangent, TabledGain};
 use parts::BasisParts;
 pub(super) use parts::inside;
 use rayon::prelude::*;
-
-/// Samples near a friction coefficient whose modes make up the space for its own.
-const NEIGHBOURS: usize = 4;
 
 /// Columns continued by zeros to `rows` entries.
 fn lengthened(columns: &Mat<f64>, rows: usize) -> Mat<f64> {

@@ -251,8 +251,8 @@ pub(super) fn overdamped_note(
     let [slowest, fastest] = most.decay;
     let friction = most.friction_coefficient;
     Some(format!(
-        "at friction {friction} {} motions (each wave of a pair counted) decay without \
-         oscillating, at {slowest:.3e} to {fastest:.3e} 1/s, and are not listed. Friction across \
+        "at friction {friction} {} motions (each wave of a pair counted) hardly oscillate. They \
+         decay at {slowest:.3e} to {fastest:.3e} 1/s, and are not listed. Friction across \
          the sliding overdamps them: it is a dashpot of mu p / V = {:.3e} Pa s/m at the mean \
          pressure and radius. It grows as contact.rotation_speed_rpm = {} falls, and holds that \
          motion in the limit",

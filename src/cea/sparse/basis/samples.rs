@@ -9,14 +9,12 @@ use crate::cea::sparse::linearization::Linearization;
 use crate::cea::sparse::mode::ReducedMode;
 use crate::cea::sparse::packed::{PackedModes, side_by_side};
 use crate::cea::sparse::structure::StructureMatrices;
-use crate::cea::sparse::{GROUP_WIDTH, SAME_SPACE, TRACKING_MARGIN};
+use crate::cea::sparse::{BESIDE, GROUP_WIDTH, SAME_SPACE, TRACKING_MARGIN};
 use crate::linalg::{LinalgError, Mat, c64};
 use rayon::prelude::*;
 
 /// Complex factors of one round of corrections: more of them cost more than the rounds that they save.
 const MOST_SHIFTS: usize = 6;
-/// Distance of such factors from an eigenvalue, relative to it: far above its error, far below its distance from other modes.
-const BESIDE: f64 = 1e-3;
 /// Refinements of lossy modes whose corrections are kept beside the modes: with none of them convergence is slow and uneven.
 const HISTORY: usize = 3;
 /// Unknowns up to which a problem, of twice that size, is decomposed: where its modes are lossy or do not converge. That takes a

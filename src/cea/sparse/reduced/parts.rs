@@ -4,14 +4,12 @@
 //! of the modes at the samples about them, and of the corrections there.
 
 use super::{ReducedModel, spanned};
+use crate::cea::sparse::NEIGHBOURS;
 use crate::cea::sparse::mode::ReducedMode;
 use crate::cea::sparse::projected::projected;
 use crate::linalg::dense::{GrowingColumns, column};
 use crate::linalg::{Mat, c64};
 use std::sync::{Arc, Mutex, PoisonError};
-
-/// Samples whose modes, together, come near left vectors.
-const SURROUNDING: usize = 4;
 
 /// The projected problem in a part of the basis.
 pub(super) struct BasisPart {
@@ -45,12 +43,12 @@ impl ReducedModel {
     /// The problem in the span of the modes at the samples nearest to `mu` and of the corrections among these: of a wide
     /// basis of matrices that do not depend on frequency.
     pub(super) fn surroundings(&self, mu: f64) -> Option<Arc<BasisPart>> {
-        if self.samples.len() < 2 * SURROUNDING || !self.tabled.is_empty() {
+        if self.samples.len() < 2 * NEIGHBOURS || !self.tabled.is_empty() {
             return None;
         }
         let mut nearest: Vec<&(f64, Mat<f64>)> = self.samples.iter().collect();
         nearest.sort_by(|a, b| (a.0 - mu).abs().total_cmp(&(b.0 - mu).abs()));
-        nearest.truncate(SURROUNDING);
+        nearest.truncate(NEIGHBOURS);
         nearest.sort_by(|a, b| a.0.total_cmp(&b.0));
         let places: Vec<f64> = nearest.iter().map(|sample| sample.0).collect();
         let mut parts = self.parts.0.lock().unwrap_or_else(PoisonError::into_inner);
@@ -58,7 +56,7 @@ impl ReducedModel {
             return Some(Arc::clone(known));
         }
 
-        let range = places[0]..=places[SURROUNDING - 1];
+        let range = places[0]..=places[NEIGHBOURS - 1];
         let corrections = self.corrections.iter().filter(|own| range.contains(&own.0));
         let samples = nearest.into_iter().chain(corrections);
         let columns = spanned(Mat::zeros(self.dimension(), 0), samples);
