@@ -107,7 +107,6 @@ pub(super) const HEX20: Formats = Formats {
         order: &[0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 16, 17, 18, 19, 12, 13, 14, 15],
     },
     abaqus: &[(&["20"], ""), (&["20H"], FULL)],
-    ..HEX8
 };
 pub(super) const HEX20R: Formats =
     Formats { abaqus: &[(&["20R"], ""), (&["20RH"], DISPLACEMENTS)], ..HEX20 };
@@ -130,7 +129,6 @@ pub(super) const WEDGE15: Formats = Formats {
         order: &[0, 1, 2, 3, 4, 5, 6, 7, 8, 12, 13, 14, 9, 10, 11],
     },
     abaqus: &[(&["15"], ""), (&["15H"], FULL)],
-    ..WEDGE6
 };
 pub(super) const PYRAMID5: Formats = Formats {
     vtk: 14,
