@@ -19,38 +19,24 @@ fn tamed(cell: &[u8]) -> Cow<'_, [u8]> {
     if is_formula { [b"'", cell].concat().into() } else { cell.into() }
 }
 
-/// Writes a table row by row: a header of column names, then records.
-pub struct Table<W: Write> {
-    writer: csv::Writer<W>,
-}
-
-impl<W: Write> Table<W> {
-    /// Starts a table with its column names.
-    pub fn new(out: W, columns: &[&str]) -> io::Result<Self> {
-        let mut writer = csv::Writer::from_writer(out);
-        writer.write_record(columns.iter().map(|name| tamed(name.as_bytes())))?;
-        Ok(Self { writer })
-    }
-
-    /// Writes one row of cells.
-    ///
-    /// # Errors
-    /// Those of the writer; a row of another length than the header.
-    pub fn row<I, S>(&mut self, cells: I) -> io::Result<()>
-    where
-        I: IntoIterator<Item = S>,
-        S: AsRef<[u8]>,
-    {
-        for cell in cells {
-            self.writer.write_field(tamed(cell.as_ref()))?;
+/// Writes a table: a header of column names, then a record for each row.
+///
+/// # Errors
+/// Those of `out`; a row of another length than the header.
+pub fn write<R: IntoIterator<Item: AsRef<[u8]>>>(
+    out: impl Write,
+    names: &[&str],
+    rows: impl IntoIterator<Item = R>,
+) -> io::Result<()> {
+    let mut writer = csv::Writer::from_writer(out);
+    writer.write_record(names.iter().map(|name| tamed(name.as_bytes())))?;
+    for row in rows {
+        for cell in row {
+            writer.write_field(tamed(cell.as_ref()))?;
         }
-        Ok(self.writer.write_record(None::<&[u8]>)?)
+        writer.write_record(None::<&[u8]>)?;
     }
-
-    /// Ends the table.
-    pub fn finish(mut self) -> io::Result<()> {
-        self.writer.flush()
-    }
+    writer.flush()
 }
 
 #[cfg(test)]
@@ -70,17 +56,14 @@ mod tests {
     #[test]
     fn no_cell_is_a_formula_and_every_number_stays_one() {
         let mut out = Vec::new();
-        let mut table = Table::new(&mut out, &["=cmd|' /C calc'!A0", "b"]).unwrap();
-        table.row(["@SUM(1)", "-1.5"]).unwrap();
-        table.row(["-cmd", "+.5"]).unwrap();
-        table.finish().unwrap();
+        let rows = [["@SUM(1)", "-1.5"], ["-cmd", "+.5"]];
+        write(&mut out, &["=cmd|' /C calc'!A0", "b"], rows).unwrap();
         let text = String::from_utf8(out).unwrap();
         assert_eq!(text, "'=cmd|' /C calc'!A0,b\n'@SUM(1),-1.5\n'-cmd,+.5\n");
     }
 
     #[test]
     fn a_row_of_the_wrong_length_is_an_error() {
-        let mut table = Table::new(Vec::new(), &["a", "b"]).unwrap();
-        assert!(table.row(["1"]).is_err());
+        assert!(write(Vec::new(), &["a", "b"], [["1"]]).is_err());
     }
 }

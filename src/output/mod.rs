@@ -8,7 +8,6 @@ pub mod csv;
 mod described;
 mod document;
 mod number;
-pub mod rows;
 mod table;
 
 pub use frictionsim_described::Described;
@@ -17,4 +16,4 @@ pub use described::{Described, Key, describe_field, keys_of};
 pub use document::{Document, Section};
 pub use number::{Format, fixed, rounded, significant, unit_of};
 pub(crate) use table::columns;
-pub use table::{Cell, Column, Entry, Head, Look, Shown, Table, entries, parted};
+pub use table::{Cell, Column, Entry, Head, Look, Shown, Table, entries, parted, write_rows};

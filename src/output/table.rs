@@ -156,13 +156,10 @@ pub const fn parted<T>(
     name: &str,
 ) -> (&'static [Column<T>], &'static [Column<T>]) {
     let mut at = 0;
-    while at < columns.len() {
-        if is_same(columns[at].key.as_bytes(), name.as_bytes()) {
-            return columns.split_at(at);
-        }
+    while !is_same(columns[at].key.as_bytes(), name.as_bytes()) {
         at += 1;
     }
-    panic!("no column has this name")
+    columns.split_at(at)
 }
 
 const fn is_same(a: &[u8], b: &[u8]) -> bool {
@@ -171,6 +168,17 @@ const fn is_same(a: &[u8], b: &[u8]) -> bool {
         ([a, rest @ ..], [b, others @ ..]) => *a == *b && is_same(rest, others),
         _ => false,
     }
+}
+
+/// Writes a table of declared columns as its rows are made.
+pub fn write_rows<T>(
+    out: impl io::Write,
+    columns: &[Column<T>],
+    rows: impl IntoIterator<Item = T>,
+) -> io::Result<()> {
+    let names: Vec<&str> = columns.iter().map(|column| column.key).collect();
+    let cells = |row: T| columns.iter().map(move |column| (column.cell)(&row).csv());
+    csv::write(out, &names, rows.into_iter().map(cells))
 }
 
 /// A column in the reference: of a file, with what it means.
@@ -342,11 +350,7 @@ impl Table {
         let written = self.heads.iter().enumerate().filter(|(_, head)| !head.key.is_empty());
         let (places, names): (Vec<usize>, Vec<&str>) =
             written.map(|(at, head)| (at, head.key.as_str())).unzip();
-        let mut table = csv::Table::new(out, &names)?;
-        for row in &self.rows {
-            table.row(places.iter().map(|&at| row[at].csv()))?;
-        }
-        table.finish()
+        csv::write(out, &names, self.rows.iter().map(|row| places.iter().map(|&at| row[at].csv())))
     }
 
     /// Labels with units, and the cells of each row, of the columns that people see; no row where they see none.

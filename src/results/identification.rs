@@ -11,7 +11,7 @@ pub use summary::{
 
 use super::{FolderError, OutputFolder};
 use crate::linalg::c64;
-use crate::output::rows::write_rows;
+use crate::output::write_rows;
 use crate::output::{Document, Section, Table, columns};
 use crate::signal::reader::NamedResponse;
 use crate::signal::{Estimate, ModalFit};

@@ -34,7 +34,7 @@ mod whole_mesh;
 
 use store::{folder, framed, manifest, record, reopening, whole_file};
 
-pub use crate::output::csv::{Table, format_number};
+pub use crate::output::csv::format_number;
 pub use drawing::{
     DOTS_PER_INCH, DrawingError, DrawingOptions, Format, Page, ResultFile, declared,
 };

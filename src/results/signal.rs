@@ -11,7 +11,7 @@ pub use summary::{
 
 use super::cea::{BRANCH, DIRECTION};
 use super::{FolderError, OutputFolder};
-use crate::output::rows::write_rows;
+use crate::output::write_rows;
 use crate::output::{Document, Section, Table, columns, fixed, significant};
 use crate::signal::AmplitudeSpectrum;
 

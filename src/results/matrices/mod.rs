@@ -8,7 +8,7 @@ use super::folder::{FolderError, OutputFolder};
 use super::npz::NpzArchive;
 use super::summary::{Head, object};
 use crate::linalg::MarketMatrix;
-use crate::output::rows::write_rows;
+use crate::output::write_rows;
 use crate::output::{Described, Key, columns, significant};
 use serde::Serialize;
 use std::fmt::Write as _;

@@ -1,7 +1,8 @@
 //! `points.csv`: one row for each finished point.
 
-use super::super::{Table, format_number};
+use super::super::format_number;
 use super::PointRecord;
+use crate::output::csv;
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::io::{self, Write};
@@ -56,8 +57,7 @@ pub fn write_points(
 
     let header: Vec<&str> =
         keys.iter().chain(&names).map(String::as_str).chain(["point", "error"]).collect();
-    let mut table = Table::new(out, &header)?;
-    for (record, row) in records.iter().zip(&rows) {
+    let cells = |(record, row): (&PointRecord, &Vec<(String, String)>)| {
         let cells: BTreeMap<&str, &str> = row.iter().map(|(n, v)| (n.as_str(), &v[..])).collect();
         let swept = keys.iter().map(|key| {
             let value = record.swept.get(key);
@@ -66,9 +66,9 @@ pub fn write_points(
         let scalars =
             names.iter().map(|name| cells.get(name.as_str()).copied().unwrap_or("").to_owned());
         let error = record.error.clone().unwrap_or_default();
-        table.row(swept.chain(scalars).chain([record.point.to_string(), error]))?;
-    }
-    table.finish()
+        swept.chain(scalars).chain([record.point.to_string(), error]).collect::<Vec<_>>()
+    };
+    csv::write(out, &header, records.iter().zip(&rows).map(cells))
 }
 
 /// Names and cells of a record's scalars in the order of its summaries.

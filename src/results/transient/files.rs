@@ -2,9 +2,8 @@
 
 use super::{TransientReport, TransientSummary, summary};
 use crate::fem::{nodal_stress, revolved_stress, solid_stress};
-use crate::output::csv::{Table, format_number};
-use crate::output::rows::write_rows;
-use crate::output::{columns, parted};
+use crate::output::csv::{self, format_number};
+use crate::output::{columns, parted, write_rows};
 use crate::results::charts::palette::status_of_code;
 use crate::results::folder::{FolderError, OutputFolder};
 use crate::results::npz::NpzArchive;
@@ -97,8 +96,7 @@ fn write_probe(
         columns.extend(["u_x_m", "u_y_m", "v_x_m_per_s", "v_y_m_per_s"]);
         columns.extend(["a_x_m_per_s2", "a_y_m_per_s2"]);
     }
-    let mut table = Table::new(out, &columns)?;
-    for (index, (sample, row)) in samples.iter().zip(rows).enumerate() {
+    let cells = |(index, (sample, row)): (usize, (&SampleRow, &[f64; 6]))| {
         let step = raw.map(|raw| raw[index]);
         let mean = std::iter::once(sample.time).chain(*row);
         let axial = axial.map(|rows| rows[index]);
@@ -111,9 +109,9 @@ fn write_probe(
             [0, 2, 4].map(along)
         });
         let numbers = numbers.chain(cartesian.into_iter().flatten().flatten());
-        table.row(numbers.map(format_number))?;
-    }
-    table.finish()
+        numbers.map(format_number).collect::<Vec<_>>()
+    };
+    csv::write(out, &columns, samples.iter().zip(rows).enumerate().map(cells))
 }
 
 /// Energies (J) and powers (W) of a sample, in the order of the table.
@@ -186,8 +184,7 @@ fn write_harmonics(out: &mut dyn Write, record: &Recorder) -> io::Result<()> {
         harmonics.iter().flat_map(|n| [format!("n{n}_real_m"), format!("n{n}_imaginary_m")]);
     let columns: Vec<String> = std::iter::once("time_s".to_owned()).chain(parts).collect();
     let names: Vec<&str> = columns.iter().map(String::as_str).collect();
-    let mut table = Table::new(out, &names)?;
-    for (sample, row) in record.rows.iter().enumerate() {
+    let cells = |(sample, row): (usize, &SampleRow)| {
         let parts = harmonics.iter().flat_map(|&n| {
             let parts = record.amplitude(sample, n).into_iter().flatten();
             parts.map(move |part| match n < row.harmonics.len() {
@@ -196,9 +193,9 @@ fn write_harmonics(out: &mut dyn Write, record: &Recorder) -> io::Result<()> {
                 false => format!("{:?}", part as f32 + 0.0),
             })
         });
-        table.row(std::iter::once(format_number(row.time)).chain(parts))?;
-    }
-    table.finish()
+        std::iter::once(format_number(row.time)).chain(parts).collect::<Vec<_>>()
+    };
+    csv::write(out, &names, record.rows.iter().enumerate().map(cells))
 }
 
 /// `contact.npz`, the contact edge over time, node by node: the arrays `time_s (F)`, `angle_rad (N)`, `status (F, N)`,
