@@ -132,12 +132,14 @@ pub(super) fn sections(
     }
     let first = contacts.first();
     let rigid = first.and_then(|contact| contact.surfaces.counter.rigid());
+    let speed = rigid.map(|rigid| rigid.motion.speed());
     let common = Contact {
         sliding: SlidingContact {
             friction_coefficient: first.map_or(0.0, |contact| contact.friction_coefficient),
             decay: first.and_then(|contact| contact.surfaces.friction.decay),
             interference: rigid.map_or(0.0, |rigid| rigid.interference),
-            rotation_speed: rigid.map(|rigid| rigid.motion.speed()).unwrap_or_else(|| {
+            // Where the counterface is at rest, the body slides under it.
+            rotation_speed: speed.filter(|speed| *speed != 0.0).unwrap_or_else(|| {
                 let first = motions.first();
                 first.map_or(0.0, |motion| motion.1.rotation_speed)
             }),
@@ -149,7 +151,7 @@ pub(super) fn sections(
     (parts, common)
 }
 
-fn motion(section: &Section<'_>) -> Motion {
+pub(super) fn motion(section: &Section<'_>) -> Motion {
     if !section.has("axis") {
         section.missing("axis");
     }
@@ -278,8 +280,7 @@ impl AssemblyBody {
 
     /// A point of the axis of what turns first, and its direction; none where nothing turns.
     pub fn axis(&self) -> Option<[[f64; 3]; 2]> {
-        let own = self.motions.first();
-        let own = own.map(|motion| [motion.center, motion.axis]);
+        let own = self.motions.first().map(|motion| [motion.center, motion.axis]);
         own.or_else(|| {
             let rigid = self.rigid_counterface()?;
             let turns = matches!(rigid.motion, RigidMotion::Turning(_));
@@ -307,12 +308,10 @@ impl Case {
             && body.rigid_counterface().is_none()
         {
             let turning = body.motions.first().and_then(|motion| motion.regions.first());
-            return turning.map_or_else(
-                || "motion".to_owned(),
-                |&region| {
-                    format!("motion.{}.rotation_speed_rpm", quote(&body.mesh.regions[region]))
-                },
-            );
+            let key = |&region: &usize| {
+                format!("motion.{}.rotation_speed_rpm", quote(&body.mesh.regions[region]))
+            };
+            return turning.map_or_else(|| "motion".to_owned(), key);
         }
         let straight = self.contact_key("speed");
         match self.number(&straight) {

@@ -3,7 +3,7 @@
 use super::assembly::AssemblyBody;
 use super::imported::ImportedBody;
 use crate::contact::RigidMotion;
-use crate::fem::{MaterialField, TabledMaterial};
+use crate::fem::TabledMaterial;
 use crate::mesh::{
     AnnulusMesh, AnnulusSpecification, BoundaryCondition, Counterface, Mesh, MeshError,
     SolidContact, SolidSpecification,
@@ -167,29 +167,19 @@ impl Body {
 
     /// Whether its counterface moves along a straight line.
     pub fn slides_straight(&self) -> bool {
-        match self {
-            Self::Annulus(_) | Self::Revolution(_) => false,
-            Self::Imported(imported) => {
-                matches!(imported.mesh.counterface, Counterface::Plane { .. })
-            }
-            Self::Assembly(assembly) => {
-                let rigid = assembly.rigid_counterface();
-                rigid.is_some_and(|rigid| matches!(rigid.motion, RigidMotion::Sliding(_)))
-            }
-        }
+        let plane = self.imported().map(|own| &own.mesh.counterface);
+        let rigid = self.assembly().and_then(AssemblyBody::rigid_counterface);
+        matches!(plane, Some(Counterface::Plane { .. }))
+            || matches!(rigid.map(|own| own.motion), Some(RigidMotion::Sliding(_)))
     }
 
     /// The length that curvatures of the contact are compared with, m: the radius of a cylinder that turns in the body,
     /// else half the body's largest extent.
     pub fn contact_length(&self) -> f64 {
-        match self {
-            Self::Annulus(annulus) => annulus.specification.inner_radius,
-            Self::Revolution(revolution) => revolution.specification.annulus.inner_radius,
-            Self::Imported(imported) => match imported.mesh.counterface {
-                Counterface::Cylinder { radius, is_inside: true, .. } => radius,
-                _ => imported.mesh.size(),
-            },
-            Self::Assembly(assembly) => assembly.mesh.size(),
+        match (self.grid(), self.imported().map(|own| &own.mesh.counterface)) {
+            (Some(grid), _) => grid.inner_radius,
+            (_, Some(Counterface::Cylinder { radius, is_inside: true, .. })) => *radius,
+            _ => self.size(),
         }
     }
 
@@ -227,7 +217,7 @@ impl Body {
     }
 
     /// The material of each region of the mesh.
-    pub fn materials(&self) -> &dyn MaterialField {
+    pub fn materials(&self) -> &Vec<TabledMaterial> {
         match self {
             Self::Annulus(annulus) => &annulus.materials,
             Self::Revolution(revolution) => &revolution.materials,
@@ -238,12 +228,9 @@ impl Body {
 
     /// Whether a material or the springs of a support have structural damping.
     pub(super) fn has_structural_damping(&self) -> bool {
-        let mut regions = 0..self.region_count();
-        let is_lossy_material = |region: usize| {
-            let materials = self.materials();
-            materials.of(region).loss_factor != 0.0 || materials.table(region).is_some()
-        };
-        self.has_lossy_supports() || regions.any(is_lossy_material)
+        let is_lossy =
+            |own: &TabledMaterial| own.table.is_some() || own.own.elastic.loss_factor != 0.0;
+        self.has_lossy_supports() || self.materials().iter().any(is_lossy)
     }
 
     /// Whether the springs of a support have structural damping.
@@ -257,25 +244,16 @@ impl Body {
                 let (outer, shaft) = (&annulus.specification.outer, annulus.specification.shaft);
                 is_lossy(outer) || shaft.is_some_and(|shaft| is_lossy(&shaft.bore))
             }
-            Self::Revolution(revolution) => {
-                let mut conditions = revolution.specification.conditions.iter();
-                conditions.any(is_lossy)
-            }
+            Self::Revolution(own) => own.specification.conditions.iter().any(is_lossy),
             Self::Imported(_) | Self::Assembly(_) => self.whole_mesh().is_some_and(|mesh| {
-                let mut boundaries = mesh.boundaries.iter();
-                boundaries.any(|boundary| is_lossy(&boundary.condition))
+                mesh.boundaries.iter().any(|boundary| is_lossy(&boundary.condition))
             }),
         }
     }
 
     /// Number of materials.
     pub fn region_count(&self) -> usize {
-        match self {
-            Self::Annulus(annulus) => annulus.materials.len(),
-            Self::Revolution(revolution) => revolution.materials.len(),
-            Self::Imported(imported) => imported.materials.len(),
-            Self::Assembly(assembly) => assembly.materials.len(),
-        }
+        self.materials().len()
     }
 
     /// Number of a node, counted from 0, as the user knows it: that of the mesh file, or counted from 1.
@@ -295,10 +273,7 @@ pub(super) fn solid_node_count(solid: &SolidSpecification) -> u128 {
     let annulus = &solid.annulus;
     let (radial, layers) = (annulus.radial_elements as u128, solid.axial_elements as u128);
     let corners = (radial + 1).saturating_mul(layers + 1);
-    let per_sector = if annulus.element.is_quadratic() {
-        2 * corners + radial * (layers + 1) + (radial + 1) * layers
-    } else {
-        corners
-    };
+    let between = corners + radial * (layers + 1) + (radial + 1) * layers;
+    let per_sector = corners + if annulus.element.is_quadratic() { between } else { 0 };
     per_sector.saturating_mul(annulus.circumferential_elements as u128)
 }

@@ -128,7 +128,8 @@ pub(super) fn contact(
         }
         None => section.number("rotation_speed_rpm") * TAU / 60.0,
     };
-    if is_solid && rotation_speed == 0.0 && section.has("rotation_speed_rpm") {
+    let is_at_rest = rotation_speed == 0.0 && !root.has("motion");
+    if is_solid && is_at_rest && section.has("rotation_speed_rpm") {
         refuse!(section, "rotation_speed_rpm",
             "contact.rotation_speed_rpm = 0: a counterface at rest has no steady sliding. Friction \
              then holds a three-dimensional body across the sliding as an infinite dashpot (mu p / \

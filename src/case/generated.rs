@@ -1,5 +1,6 @@
 //! Bodies that the case's own numbers make: `[geometry]` and the element counts of `[mesh]`.
 
+use super::assembly;
 use super::attachments;
 use super::body::{Annulus, Body, Revolution, node_count};
 use super::boundaries::{self, NamedCondition};
@@ -13,7 +14,8 @@ use super::shaft;
 use super::solid;
 use super::tables::TableFiles;
 use super::whole_revolution::whole_revolution;
-use crate::fem::{ElasticMaterial, TabledMaterial};
+use crate::contact::Motion;
+use crate::fem::{ElasticMaterial, RotationFrame, TabledMaterial};
 use crate::mesh::{AnnulusSpecification, BoundaryCondition, SolidSpecification};
 
 /// The generated body with what its modifications take away or move, and its contact. Closes both sections.
@@ -39,13 +41,14 @@ pub(super) fn generated(
     }
     geometry.close();
     mesh.close();
-    let (contact, place) = contact(root, Some((&annulus, is_solid)), is_pressed);
+    let (mut contact, place) = contact(root, Some((&annulus, is_solid)), is_pressed);
+    let motion = motion(root, is_solid);
+    let turning = motion.as_ref().map_or(0.0, |own| own.spin_vector().z);
     let body = match axial {
-        None => Some(Annulus {
-            specification: annulus,
-            materials: std::iter::once(common.clone()).chain(shaft).collect(),
-        })
-        .and_then(|annulus| plane_annulus(root, annulus, changes)),
+        None => {
+            let materials = std::iter::once(common.clone()).chain(shaft).collect();
+            plane_annulus(root, Annulus { specification: annulus, materials }, changes)
+        }
         Some(axial_elements) => {
             let conditions = solid::conditions(root, conditions, place.solid);
             annulus.outer = conditions[1];
@@ -68,18 +71,40 @@ pub(super) fn generated(
             }
             let specification = Box::new(specification);
             let revolution = Revolution { specification, materials };
-            revolution_body(root, revolution, &contact, changes)
+            revolution_body(root, revolution, (&contact, motion), changes)
         }
     };
+    // Friction knows the relative speed.
+    contact.sliding.rotation_speed -= turning;
     (body, contact)
 }
 
-/// A body of revolution, as a whole mesh where modifications break its symmetry, where its losses have a chain of
-/// dashpots in time, and where that is asked for.
+/// `[motion.disc]`: how the whole body turns about its own axis. In the plane it is held, and what is inside turns.
+fn motion(root: &Section<'_>, is_solid: bool) -> Option<Motion> {
+    let motions = root.each("motion", assembly::motion);
+    let section = root.section("motion", false);
+    for (name, own) in &motions {
+        if !is_solid {
+            refuse!(root, "motion", "the built-in plane annulus has no [motion.*]: it is held, and \
+                 its cylinder or shaft turns"; "a plane annulus is held";
+                "a disc that turns needs material.formulation = \"three-dimensional\"");
+        } else if name != "disc" || [own.axis, own.center].iter().any(|v| v[..2] != [0.0; 2]) {
+            refuse!(section, name => "is no motion of a body of revolution, which turns as a whole";
+                "not about its axis"; "give [motion.disc] with axis = [0.0, 0.0, 1.0] alone");
+        } else if own.inertia == Some(RotationFrame::Rest) {
+            refuse!(section, name => "counts its inertia at rest, but its damping in its own frame";
+                "two frames"; "give frame = \"turning\": waves stand n Omega beside those at rest");
+        }
+    }
+    motions.into_iter().next().map(|own| own.1)
+}
+
+/// A body of revolution, as a whole mesh where it turns, where modifications break its symmetry, where its losses have
+/// a chain of dashpots in time, and where that is asked for.
 fn revolution_body(
     root: &Section<'_>,
     revolution: Revolution,
-    contact: &Contact,
+    (contact, motion): (&Contact, Option<Motion>),
     changes: &[Modification],
 ) -> Option<Body> {
     let cea = root.section("cea", false);
@@ -87,16 +112,16 @@ fn revolution_body(
         || root.section("transient", false).is_text("operator", "sparse");
     let body = Body::Revolution(revolution.clone());
     let is_lossy = body.has_structural_damping() || contact.stiffness.loss_factor > 0.0;
-    if changes.is_empty() && !is_asked_for && !(is_lossy && root.has("transient")) {
+    let is_chained = is_lossy && root.has("transient");
+    if changes.is_empty() && motion.is_none() && !is_asked_for && !is_chained {
         return Some(body);
     }
-    let found = whole_revolution(&revolution, contact, changes);
     let reject = |(key, why): modifications::Misfit| {
-        let section = key.split('.').next().unwrap_or_default().to_owned();
-        let message = format!("{key}: {why}");
-        root.reject(&section, message, "does not fit the whole mesh", None);
+        let section = key.split('.').next().unwrap_or_default();
+        root.reject(section, format!("{key}: {why}"), "does not fit the whole mesh", None);
     };
-    found.map_err(reject).ok().map(Body::Assembly)
+    let whole = whole_revolution(&revolution, contact, (motion, changes)).map_err(reject);
+    whole.ok().map(Body::Assembly)
 }
 
 /// A plane annulus, as a whole mesh where modifications break its symmetry.
@@ -109,8 +134,7 @@ fn plane_annulus(root: &Section<'_>, annulus: Annulus, changes: &[Modification])
         let message = format!("{key}: {why}");
         root.reject("modifications", message, "does not fit the disc", None);
     };
-    let body = attachments::reshaped_annulus(&annulus, changes);
-    body.map_err(reject).ok().map(Body::Imported)
+    attachments::reshaped_annulus(&annulus, changes).map_err(reject).ok().map(Body::Imported)
 }
 
 /// The specification of the annulus, and the material of its shaft where it has one.

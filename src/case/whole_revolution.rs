@@ -6,7 +6,9 @@ use super::body::{Body, Revolution};
 use super::contact::Contact;
 use super::modifications::{Misfit, Modification, reshaped};
 use super::{Case, CaseErrors};
-use crate::contact::{Counterpart, PairFriction, RigidCounterface, RigidMotion, RigidShape};
+use crate::contact::{
+    Counterpart, Motion, PairFriction, RigidCounterface, RigidMotion, RigidShape,
+};
 use crate::mesh::{BoundaryCondition, Mesh, SolidContact, SolidFace, SolidSector};
 use crate::prestress::{BaseChoice, SlidingSurfaces};
 use std::borrow::Cow;
@@ -21,7 +23,7 @@ impl Case {
         let Body::Revolution(revolution) = &self.body else {
             return Ok(Cow::Borrowed(self));
         };
-        let body = whole_revolution(revolution, &self.contact, &[]);
+        let body = whole_revolution(revolution, &self.contact, (None, &[]));
         let body = body.map_err(|(key, why)| {
             let label = "does not fit the whole mesh";
             self.error_at(&key, format!("{key}: {why}"), label, None::<String>)
@@ -30,11 +32,11 @@ impl Case {
     }
 }
 
-/// The whole mesh of a body of revolution on its rigid cylinder, or under its rigid ring.
+/// The whole mesh of a body of revolution on its rigid cylinder, or under its rigid ring. It turns as one.
 pub(super) fn whole_revolution(
     revolution: &Revolution,
     contact: &Contact,
-    modifications: &[Modification],
+    (motion, modifications): (Option<Motion>, &[Modification]),
 ) -> Result<AssemblyBody, Misfit> {
     let specification = &revolution.specification;
     let stiffness = &contact.stiffness;
@@ -44,8 +46,7 @@ pub(super) fn whole_revolution(
         return Err(("contact.base_state".to_owned(), why.to_owned()));
     }
     let of_mesh = |error: String| ("mesh".to_owned(), error);
-    let sector = SolidSector::generate(specification);
-    let sector = sector.map_err(|error| of_mesh(error.to_string()))?;
+    let sector = SolidSector::generate(specification).map_err(|e| of_mesh(e.to_string()))?;
     let conditions = SolidFace::ALL.into_iter().zip(specification.conditions);
     let conditions = conditions.filter(|(_, condition)| *condition != BoundaryCondition::Free);
     let conditions: Vec<_> = conditions
@@ -65,6 +66,7 @@ pub(super) fn whole_revolution(
         let why = "nothing is left of the surface of the contact";
         ("modifications".to_owned(), why.to_owned())
     })?;
+    let regions = (0..mesh.regions.len()).collect();
     // Regions are in the order of their names.
     let names = specification.region_names();
     let materials = mesh.regions.iter().map(|name| {
@@ -75,7 +77,7 @@ pub(super) fn whole_revolution(
         materials: materials.collect(),
         ties: Vec::new(),
         contacts: vec![sliding_surfaces(specification.contact, surface, contact)],
-        motions: Vec::new(),
+        motions: motion.map(|own| Motion { regions, ..own }).into_iter().collect(),
         base: BaseChoice::Solved,
         mesh: Arc::new(mesh),
     })

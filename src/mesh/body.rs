@@ -70,25 +70,8 @@ impl Mesh {
         }
         refuse_far(file, specification.scale)?;
         let mut mesh = plane_body(file, specification.scale)?;
-        let index_of = used_nodes(file)?;
-        let outline: BTreeMap<(u32, u32), (u32, u32, Option<u32>)> = mesh
-            .outline_edges()
-            .into_iter()
-            .map(|edge| ((edge.0.min(edge.1), edge.0.max(edge.1)), edge))
-            .collect();
+        let curves = rim_curves(file, &mesh)?;
         let labels: Vec<usize> = mesh.labels.clone();
-        let mut curves: BTreeMap<&str, Curve> = BTreeMap::new();
-        for (name, edges) in &file.curves {
-            // Curves that are not the rim of the body bound nothing; they matter only if they are asked for.
-            let rim = edges.iter().map(|&(p, q, _)| {
-                let ends = [p, q].map(|node| index_of[node as usize]);
-                let [p, q] = [ends[0]?, ends[1]?];
-                outline.get(&(p.min(q), p.max(q))).copied()
-            });
-            if let Some(edges) = rim.collect::<Option<BTreeSet<_>>>() {
-                curves.insert(name, Curve::chain(edges.into_iter().collect()));
-            }
-        }
         let find = |name: &str, part: BodyPart| match curves.get(name) {
             Some(curve) => Ok(curve),
             None => Err(no_curve(file, name, part)),
@@ -101,18 +84,12 @@ impl Mesh {
         let counterface = mesh.counterface;
         let angles = mesh.plane_nodes().into_iter().map(|point| counterface.normal_angle(point));
         mesh.frames = NodalFrames::Plane(angles.collect());
-        let mut edge = contact_boundary(&mesh, contact, &specification.contact)?;
+        let mut edge = contact_boundary(&mut mesh, contact, &specification.contact)?;
         edge.order_along(&mesh);
-        let mut boundaries = vec![edge];
+        let (mut boundaries, free) = (vec![edge], BoundaryCondition::Free);
         for (name, condition) in &specification.conditions {
             if *name == specification.contact {
-                if *condition != BoundaryCondition::Free {
-                    let message = format!(
-                        "boundaries.{name} is the contact curve (contact.boundary): it can have no condition of its own"
-                    );
-                    let part = BodyPart::Boundary(name.clone());
-                    return Err(BodyError::Request { part, message });
-                }
+                refuse_condition(name, *condition, "the contact curve (contact.boundary)")?;
                 continue;
             }
             let curve = find(name, BodyPart::Boundary(name.clone()))?;
@@ -122,15 +99,10 @@ impl Mesh {
             let curve = find(name, BodyPart::Opposite)?;
             Curve::check_apart([contact, curve], [&specification.contact, name], &labels)?;
             let place = boundaries.iter().position(|boundary| boundary.name == *name);
-            if place.is_some_and(|b| boundaries[b].condition != BoundaryCondition::Free) {
-                let message = format!(
-                    "boundaries.{name} is the contact curve of the other body (contact.counter_boundary): it can have no \
-                     condition of its own"
-                );
-                let part = BodyPart::Boundary(name.clone());
-                return Err(BodyError::Request { part, message });
+            if let Some(own) = place.map(|place| boundaries[place].condition) {
+                let what = "the contact curve of the other body (contact.counter_boundary)";
+                refuse_condition(name, own, what)?;
             }
-            let free = BoundaryCondition::Free;
             mesh.opposite = Some(place.unwrap_or(boundaries.len()));
             if place.is_none() {
                 boundaries.push(held_boundary(&mut mesh, curve, name, free, &contact.nodes));
@@ -138,7 +110,6 @@ impl Mesh {
         }
         for (&name, curve) in &curves {
             if !boundaries.iter().any(|boundary| boundary.name == name) {
-                let free = BoundaryCondition::Free;
                 boundaries.push(held_boundary(&mut mesh, curve, name, free, &contact.nodes));
             }
         }
@@ -146,6 +117,32 @@ impl Mesh {
         mesh.take_symmetry(file.symmetry, specification.scale);
         Ok(mesh)
     }
+}
+
+/// The curves of a file that are the rim of its body: others bound nothing, and matter only if they are asked for.
+fn rim_curves<'f>(file: &'f FileMesh, mesh: &Mesh) -> Result<BTreeMap<&'f str, Curve>, BodyError> {
+    let index_of = used_nodes(file)?;
+    let ends = |p: u32, q: u32| (p.min(q), p.max(q));
+    let outline = mesh.outline_edges().into_iter().map(|edge| (ends(edge.0, edge.1), edge));
+    let outline: BTreeMap<_, _> = outline.collect();
+    let chains = file.curves.iter().filter_map(|(name, edges)| {
+        let rim = edges.iter().map(|&(p, q, _)| {
+            let [p, q] = [p, q].map(|node| index_of[node as usize]);
+            outline.get(&ends(p?, q?)).copied()
+        });
+        let edges: BTreeSet<_> = rim.collect::<Option<_>>()?;
+        Some((name.as_str(), Curve::chain(edges.into_iter().collect())))
+    });
+    Ok(chains.collect())
+}
+
+/// Refuses a condition on a curve that is in contact.
+fn refuse_condition(name: &str, own: BoundaryCondition, what: &str) -> Result<(), BodyError> {
+    if own == BoundaryCondition::Free {
+        return Ok(());
+    }
+    let message = format!("boundaries.{name} is {what}: it can have no condition of its own");
+    Err(BodyError::Request { part: BodyPart::Boundary(name.to_owned()), message })
 }
 
 fn no_curve(file: &FileMesh, name: &str, part: BodyPart) -> BodyError {
@@ -210,11 +207,10 @@ fn check_along(
         part: BodyPart::Direction,
         message: format!(
             "contact.direction = [{x}, {y}] makes {:.0} degrees with the contact curve \"{}\": the \
-             plane would slide into the body. The direction must lie along the face, here [{}, {}]",
+             plane would slide into the body. The direction must lie along the face, here \
+             [{along_x}, {along_y}]",
             off.clamp(0.0, 1.0).asin().to_degrees(),
             specification.contact,
-            along_x,
-            along_y,
         ),
     })
 }
@@ -263,26 +259,19 @@ fn counterface(
                 return Err(BodyError::Request { part, message });
             }
             // Inside where the body's outward normals point towards the axis.
-            let inward: f64 = contact
-                .edges
-                .iter()
-                .map(|&(p, q, _)| {
-                    let [p, q] = [p, q].map(|node| mesh.plane_node(node as usize));
-                    let middle = [0.5 * (p[0] + q[0]) - center[0], 0.5 * (p[1] + q[1]) - center[1]];
-                    middle[0] * (p[1] - q[1]) + middle[1] * (q[0] - p[0])
-                })
-                .sum();
-            Ok(Counterface::Cylinder {
-                center,
-                radius: radius.unwrap_or(mean),
-                is_inside: inward > 0.0,
-            })
+            let edges = contact.edges.iter().map(|&(p, q, _)| {
+                let [p, q] = [p, q].map(|node| mesh.plane_node(node as usize));
+                let middle = [0.5 * (p[0] + q[0]) - center[0], 0.5 * (p[1] + q[1]) - center[1]];
+                middle[0] * (p[1] - q[1]) + middle[1] * (q[0] - p[0])
+            });
+            let (radius, is_inside) = (radius.unwrap_or(mean), edges.sum::<f64>() > 0.0);
+            Ok(Counterface::Cylinder { center, radius, is_inside })
         }
     }
 }
 
 /// The contact edge with its weights along the counterface's normal.
-fn contact_boundary(mesh: &Mesh, curve: &Curve, name: &str) -> Result<Boundary, BodyError> {
+fn contact_boundary(mesh: &mut Mesh, curve: &Curve, name: &str) -> Result<Boundary, BodyError> {
     let weights = EdgeWeights::of(mesh, curve);
     let mut lengths = Vec::new();
     for (&node, vector) in curve.nodes.iter().zip(&weights.normals) {
@@ -305,15 +294,8 @@ fn contact_boundary(mesh: &Mesh, curve: &Curve, name: &str) -> Result<Boundary, 
         }
         lengths.push(length);
     }
-    Ok(Boundary {
-        name: name.to_owned(),
-        nodes: curve.nodes.clone(),
-        faces: mesh.edge_faces(&curve.edges),
-        tributary_lengths: lengths,
-        normal_angles: weights.normal_angles(),
-        is_closed: curve.is_closed,
-        condition: BoundaryCondition::Free,
-    })
+    let free = held_boundary(mesh, curve, name, BoundaryCondition::Free, &[]);
+    Ok(Boundary { tributary_lengths: lengths, ..free })
 }
 
 /// A boundary with its condition; a guide or a fixed direction turns the frames of its nodes, but for those of the contact.

@@ -6,7 +6,7 @@ use super::faces::{FaceKey, face_key};
 use super::plane_body::{plane_body, used_nodes};
 use super::solid_body::solid_elements;
 use super::{BoundaryFace, CyclicSymmetry, Mesh};
-use frictionsim_formats::{CurveEdge, FileElement, FileMesh};
+use frictionsim_formats::{FileElement, FileMesh};
 use nalgebra::Vector3;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -33,11 +33,10 @@ fn misfit(message: String) -> BodyError {
 pub fn repeated_file(file: &FileMesh, symmetry: &CyclicSymmetry) -> Result<FileMesh, BodyError> {
     let count = symmetry.count;
     let index_of = used_nodes(file)?;
-    if index_of.len().saturating_mul(count) > MOST_NODES {
-        return Err(misfit(format!(
-            "{count} sectors of {} nodes have more than {MOST_NODES}",
-            index_of.len()
-        )));
+    let nodes = index_of.len();
+    if nodes.saturating_mul(count) > MOST_NODES {
+        let message = format!("{count} sectors of {nodes} nodes have more than {MOST_NODES}");
+        return Err(misfit(message));
     }
     let sector = match file.dimension {
         3 => solid_elements(file, 1.0, &index_of)?,
@@ -46,82 +45,105 @@ pub fn repeated_file(file: &FileMesh, symmetry: &CyclicSymmetry) -> Result<FileM
     let cut = Cut::of(&sector, symmetry)?;
     cut.check_faces(&sector, symmetry)?;
 
-    // Nodes of the second cut face are those of the first of the next sector.
-    let own: Vec<usize> = (0..sector.node_count())
-        .filter(|node| !cut.first_of.contains_key(&(*node as u32)))
-        .collect();
-    let mut place = vec![0; sector.node_count()];
-    own.iter().enumerate().for_each(|(rank, &node)| place[node] = rank);
-    let moved = |node: u32, j: usize| -> u32 {
-        let (node, j) = match cut.first_of.get(&node) {
-            Some(&first) => (first, (j + 1) % count),
-            None => (node, j),
-        };
-        (j * own.len() + place[node as usize]) as u32
-    };
-    let of_file = |node: &u32, j: usize| {
-        let known = index_of[*node as usize].expect("every node has an element");
-        moved(known, j)
-    };
+    let copies = Copies::of(&sector, &cut, (&index_of, count));
     let largest = |labels: &mut dyn Iterator<Item = usize>| labels.max().unwrap_or(0);
     let stride = |largest: usize| 10_usize.saturating_pow(largest.max(1).ilog10() + 1);
     let node_stride = stride(largest(&mut sector.labels.iter().copied()));
     let element_stride = stride(largest(&mut file.elements.iter().map(|e| e.label)));
 
+    // Nodes, elements and equations sector by sector.
     let (mut points, mut labels, mut elements) = (Vec::new(), Vec::new(), Vec::new());
     let mut equations = Vec::new();
     for j in 0..count {
         let turn = symmetry.turn(j);
-        for &node in &own {
+        for &node in &copies.own {
             points.push(symmetry.turned(&turn, sector.nodes[node]));
             labels.push(sector.labels[node] + j * node_stride);
         }
         elements.extend(file.elements.iter().map(|element| FileElement {
             label: element.label + j * element_stride,
-            nodes: element.nodes.iter().map(|node| of_file(node, j)).collect(),
+            nodes: element.nodes.iter().map(|&node| copies.node(node, j)).collect(),
             ..element.clone()
         }));
         // Axes of equations turn with their sector.
         equations.extend(file.equations.iter().map(|equation| {
             let terms = equation.iter().flat_map(|&(node, axis, factor)| {
-                let node = of_file(&node, j);
+                let node = copies.node(node, j);
                 (0..3).map(move |k| (node, k, factor * turn[(k, axis)]))
             });
             terms.filter(|term| term.2 != 0.0).collect()
         }));
     }
-    let curves = file.curves.iter().map(|(name, edges)| {
-        let copies = (0..count).flat_map(|j| {
-            let node = move |node: u32| of_file(&node, j);
-            edges.iter().map(move |&(p, q, middle)| (node(p), node(q), middle.map(node)))
-        });
-        (name.clone(), copies.collect::<Vec<CurveEdge>>())
+
+    // What has a name has the copies of all sectors; nodes of two of them are in a set once.
+    let curves =
+        copies.named(&file.curves, |&(p, q, middle), node| (node(p), node(q), middle.map(node)));
+    let surfaces = copies.named(&file.surfaces, |(kind, nodes), node| {
+        (*kind, nodes.iter().map(|&own| node(own)).collect())
     });
-    let surfaces = file.surfaces.iter().map(|(name, faces)| {
-        let copies = (0..count).flat_map(|j| {
-            let face = move |nodes: &Vec<u32>| nodes.iter().map(|n| of_file(n, j)).collect();
-            faces.iter().map(move |(kind, nodes)| (*kind, face(nodes)))
-        });
-        (name.clone(), copies.collect::<Vec<_>>())
-    });
-    let node_sets = file.node_sets.iter().map(|(name, nodes)| {
-        let copies = (0..count).flat_map(|j| nodes.iter().map(move |node| of_file(node, j)));
-        let copies: BTreeSet<u32> = copies.collect();
-        (name.clone(), copies.into_iter().collect::<Vec<u32>>())
-    });
+    let mut node_sets = copies.named(&file.node_sets, |&own, node| node(own));
+    for nodes in node_sets.values_mut() {
+        nodes.sort_unstable();
+        nodes.dedup();
+    }
     Ok(FileMesh {
-        curves: curves.collect(),
-        surfaces: surfaces.collect(),
-        node_sets: node_sets.collect(),
         is_used: vec![true; points.len()],
         dimension: file.dimension,
         model: file.model.clone(),
         symmetry: Some(*symmetry),
+        curves,
+        surfaces,
+        node_sets,
         points,
         labels,
         elements,
         equations,
     })
+}
+
+/// Where the nodes of a file stand in the whole body.
+struct Copies<'a> {
+    cut: &'a Cut,
+    index_of: &'a [Option<u32>],
+    count: usize,
+    /// Nodes of a sector that are no others' of the next one, and the place of each among them.
+    own: Vec<usize>,
+    place: Vec<usize>,
+}
+
+impl<'a> Copies<'a> {
+    fn of(sector: &Mesh, cut: &'a Cut, (index_of, count): (&'a [Option<u32>], usize)) -> Self {
+        let is_own = |node: &usize| !cut.first_of.contains_key(&(*node as u32));
+        let own: Vec<usize> = (0..sector.node_count()).filter(is_own).collect();
+        let mut place = vec![0; sector.node_count()];
+        own.iter().enumerate().for_each(|(rank, &node)| place[node] = rank);
+        Self { cut, index_of, count, own, place }
+    }
+
+    /// Number of a node of the file in a sector: those of the second cut face are of the first of the next.
+    fn node(&self, node: u32, sector: usize) -> u32 {
+        let node = self.index_of[node as usize].expect("every node has an element");
+        let (node, sector) = match self.cut.first_of.get(&node) {
+            Some(&first) => (first, (sector + 1) % self.count),
+            None => (node, sector),
+        };
+        (sector * self.own.len() + self.place[node as usize]) as u32
+    }
+
+    /// What has a name, in all sectors.
+    fn named<T, U>(
+        &self,
+        named: &BTreeMap<String, Vec<T>>,
+        of: impl Fn(&T, &dyn Fn(u32) -> u32) -> U,
+    ) -> BTreeMap<String, Vec<U>> {
+        let in_sector = |own: &T, j: usize| of(own, &|node| self.node(node, j));
+        let all = named.iter().map(|(name, own)| {
+            let sectors = 0..self.count;
+            let copies = sectors.flat_map(|j| own.iter().map(move |own| (own, j)));
+            (name.clone(), copies.map(|(own, j)| in_sector(own, j)).collect())
+        });
+        all.collect()
+    }
 }
 
 /// The two cut faces of a sector.
@@ -216,24 +238,21 @@ impl Cut {
             symmetry.extent_degrees(&sector.nodes)
         );
         if is_overlapping {
-            return Err(misfit(format!(
-                "the sector overlaps {reach}: does the number of sectors fit it?"
-            )));
+            let what = "the sector overlaps";
+            return Err(misfit(format!("{what} {reach}: does the number of sectors fit it?")));
         }
         let others = self.faces_in_copy(sector, symmetry, &is_cut);
         match others.first() {
             Some(face) => {
                 let labels = face.nodes.iter().take(NAMED);
                 let labels = labels.map(|&node| sector.node_label(node as usize).to_string());
+                let [faces, meet] =
+                    if others.len() == 1 { ["face", "meets"] } else { ["faces", "meet"] };
                 Err(misfit(format!(
-                    "{} of the sector {} its copy turned by {degrees:.6} degrees with other nodes \
-                     (the first has the nodes {}). Mesh both cut faces alike (Periodic Curve or \
+                    "{} {faces} of the sector {meet} its copy turned by {degrees:.6} degrees with \
+                     other nodes (the first has the nodes {}). Mesh both cut faces alike (Periodic Curve or \
                      Periodic Surface in Gmsh)",
-                    match others.len() {
-                        1 => "1 face".to_owned(),
-                        count => format!("{count} faces"),
-                    },
-                    if others.len() == 1 { "meets" } else { "meet" },
+                    others.len(),
                     labels.collect::<Vec<_>>().join(", ")
                 )))
             }

@@ -9,7 +9,7 @@ use super::rotation::{Rotation, grounded};
 use super::tangent::{BodyTerms, ContactDofs, ContactPart, SlidingTangent, frozen_terms};
 use super::{PrestressError, TangentOptions};
 use crate::contact::{
-    ContactSurface, Motion, PairError, PointKind, SurfacePair, Turning, mortar_nodes,
+    ContactSurface, Motion, PairError, Point, PointKind, SurfacePair, Turning, mortar_nodes,
 };
 use crate::fem::{
     MaterialField, Triplets, assemble_geometric_stiffness, assemble_pressures, assemble_stiffness,
@@ -181,12 +181,13 @@ impl<'a> Assembly<'a> {
     /// # Errors
     /// [`PrestressError::GapEverywhere`], [`PrestressError::NoState`], [`PrestressError::Singular`].
     pub fn range(&self, friction_coefficients: &[f64]) -> Result<PressedRange, PrestressError> {
-        let points: Vec<_> = self
-            .joined
-            .contacts
-            .iter()
-            .flat_map(|(_, surface)| surface.points.iter().cloned())
-            .collect();
+        // The points of all contacts in turn, each with its contact.
+        let contacts = self.contacts();
+        let of_points = || {
+            let all = contacts.iter();
+            all.flat_map(|(own, surface)| surface.points.iter().map(move |point| (own, point)))
+        };
+        let points: Vec<Point> = of_points().map(|(_, point)| point.clone()).collect();
         if self.joined.base == BaseChoice::Closed {
             return Ok(PressedRange::of_one(
                 PressedState {
@@ -208,41 +209,24 @@ impl<'a> Assembly<'a> {
         if points.is_empty() {
             return self.without_contact(&stiffness, &load, friction_coefficients.len());
         }
-        let stiffnesses = self.joined.contacts.iter().flat_map(|(contact, surface)| {
-            let normal = contact.stiffness.normal_stiffness;
-            let points = surface.points.iter();
-            points.map(move |point| normal.map(|k| k * point.weight))
+        let springs = of_points().map(|(own, point)| {
+            let normal = own.stiffness.normal_stiffness;
+            normal.map(|k| k * point.weight)
         });
-        let laws = self.joined.contacts.iter().flat_map(|(contact, surface)| {
-            let points = surface.points.iter();
-            points.map(|_| contact.law)
-        });
+        let pushed = of_points().map(|(own, point)| own.counter.interference() - point.gap);
+        let named = contacts.iter();
+        let named = named.map(|(own, of)| (format!("contacts.{}", own.name), of.points.len()));
         let pressing = Pressing {
-            laws: laws.collect(),
+            laws: of_points().map(|(own, _)| own.law).collect(),
             stiffness: &stiffness,
             load,
             elimination: self.joined.basis.clone(),
-            contacts: self
-                .joined
-                .contacts
-                .iter()
-                .map(|(own, surface)| (format!("contacts.{}", own.name), surface.points.len()))
-                .collect(),
-            pushed: self.pushed().collect(),
-            stiffnesses: stiffnesses.collect(),
+            contacts: named.collect(),
+            pushed: pushed.collect(),
+            stiffnesses: springs.collect(),
             points: &points,
         };
         pressing.states(self.mesh, friction_coefficients)
-    }
-
-    /// How far the counterpart of each contact point is pushed beyond its gap, m.
-    fn pushed(&self) -> impl Iterator<Item = f64> + '_ {
-        let contacts = self.joined.contacts.iter();
-        contacts.flat_map(|(contact, surface)| {
-            let interference = contact.counter.interference();
-            let points = surface.points.iter();
-            points.map(move |point| interference - point.gap)
-        })
     }
 
     /// Bodies that are tied at most, under their loads.

@@ -235,45 +235,16 @@ impl SlidingTangent {
         options: &TangentOptions,
     ) -> Result<Self, PrestressError> {
         // Separations as unknowns; those of rigid contact vanish, and their forces follow the slip.
-        let mut friction = Vec::new();
-        for part in contacts.iter().filter(|part| part.has_own_dofs) {
-            let is_rigid = part.stiffness.normal_stiffness.is_none();
-            let own = &part.state.is_pressed[part.state.first..];
-            for (point, &is_pressed) in part.points.iter().zip(own) {
-                let pivot = basis.require(&point.normal, "contact")?;
-                if is_rigid && is_pressed {
-                    basis.drop_unknown(pivot);
-                    let drag = point.friction.drag;
-                    let slip = point.slip.iter().map(|&(dof, along)| (dof, drag * along));
-                    friction.push(RigidFriction { lift: point.lift.clone(), slip: slip.collect() });
-                }
-            }
-        }
+        let friction = hold_rigid(contacts, &mut basis)?;
         let unknowns = basis.unknowns();
-        let frozen = contacts.iter().map(|part| part.state.frozen_below);
-        let frozen = frozen.fold(0.0, f64::max);
+        let frozen = contacts.iter().map(|part| part.state.frozen_below).fold(0.0, f64::max);
         let weights = FrictionWeights::frozen_below(frozen);
         let projected = |terms: &[Triplets]| -> ProjectedPolynomial {
             basis.project(terms, &unknowns, (&friction, weights))
         };
 
         // What beta_R multiplies: body, prestress, contact; all of the stiffness where it stands on no springs.
-        let mut stiffness = vec![body.elastic.clone()];
-        let mut dashpots = vec![Triplets::default()];
-        let mut losses: Vec<Triplets> = body.structural.iter().cloned().collect();
-        if let Some(geometric) = &body.geometric {
-            add_powers(&mut stiffness, geometric);
-        }
-        for part in contacts {
-            let terms = linearized(part.points, &part.state, &part.stiffness);
-            add_powers(&mut stiffness, &terms.stiffness);
-            add_powers(&mut dashpots, &terms.dashpots);
-            add_powers(&mut losses, &terms.structural);
-            if body.geometric.is_some() {
-                add_powers(&mut stiffness, &turned(part.points, part.turnings, &part.state));
-            }
-        }
-        stiffness.iter_mut().chain(&mut dashpots).for_each(Triplets::merge);
+        let [stiffness, mut dashpots, losses] = tangent_terms(body, contacts);
         let mass = projected(std::slice::from_ref(&body.mass));
         let mut stiffness = projected(&stiffness);
         let is_unsupported = body.supports[0].entries.is_empty() && body.rotation.is_none();
@@ -283,27 +254,24 @@ impl SlidingTangent {
             DampingModel::BodyOnly => Some(projected(std::slice::from_ref(&body.elastic))),
         };
 
-        // What it does not: supports, dashpots, regions with damping of their own, rotation.
-        let [springs, support_dashpots] = &body.supports;
-        let has_supports = !springs.entries.is_empty() || !support_dashpots.entries.is_empty();
-        let [turning, gyroscopic] =
-            body.rotation.as_ref().map_or([None; 2], |own| own.each_ref().map(Some));
-        for own in [Some(springs), turning].into_iter().flatten() {
-            for (power, entries) in projected(std::slice::from_ref(own)).into_iter().enumerate() {
+        // What it does not: supports, rotation, regions with damping of their own.
+        let has_supports = body.supports.iter().any(|own| !own.entries.is_empty());
+        for [springs, own] in std::iter::once(&body.supports).chain(&body.rotation) {
+            for (power, entries) in projected(std::slice::from_ref(springs)).into_iter().enumerate()
+            {
                 stiffness.resize(stiffness.len().max(power + 1), Vec::new());
                 stiffness[power].extend(entries);
             }
-        }
-        for own in
-            [Some(support_dashpots), body.extra_damping.as_ref(), gyroscopic].into_iter().flatten()
-        {
             add_powers(&mut dashpots, std::slice::from_ref(own));
         }
+        add_powers(&mut dashpots, body.extra_damping.as_slice());
         let has_dashpots = dashpots.iter().any(|terms| !terms.entries.is_empty());
 
         // One pattern for all; C = alpha_R M + beta_R K (2) and the rest.
         let dashpots = projected(&dashpots);
-        let pattern = shared_pattern(unknowns.len(), [&mass, &stiffness, &dashpots]);
+        let entries = [&mass, &stiffness, &dashpots].into_iter().flatten().flatten();
+        let positions = entries.map(|&(row, column, _)| (row, column));
+        let pattern = Arc::new(SparsityPattern::from_positions(unknowns.len(), positions));
         let on_pattern = |terms: &ProjectedPolynomial| {
             MatrixPolynomial::on_pattern(&pattern, terms).frozen_below(frozen)
         };
@@ -353,6 +321,47 @@ impl SlidingTangent {
     }
 }
 
+/// Takes separations for unknowns and drops those of rigid contact; the friction of its forces.
+fn hold_rigid(
+    contacts: &[ContactPart<'_>],
+    basis: &mut Elimination,
+) -> Result<Vec<RigidFriction>, PrestressError> {
+    let mut friction = Vec::new();
+    for part in contacts.iter().filter(|part| part.has_own_dofs) {
+        let is_rigid = part.stiffness.normal_stiffness.is_none();
+        let own = &part.state.is_pressed[part.state.first..];
+        for (point, &is_pressed) in part.points.iter().zip(own) {
+            let pivot = basis.require(&point.normal, "contact")?;
+            if is_rigid && is_pressed {
+                basis.drop_unknown(pivot);
+                let drag = point.friction.drag;
+                let slip = point.slip.iter().map(|&(dof, along)| (dof, drag * along)).collect();
+                friction.push(RigidFriction { lift: point.lift.clone(), slip });
+            }
+        }
+    }
+    Ok(friction)
+}
+
+/// Stiffness, dashpots and structural damping of body and contacts by power of friction, over all dofs.
+fn tangent_terms(body: &BodyTerms, contacts: &[ContactPart<'_>]) -> [Vec<Triplets>; 3] {
+    let mut stiffness = vec![body.elastic.clone()];
+    let mut dashpots = vec![Triplets::default()];
+    let mut losses: Vec<Triplets> = body.structural.iter().cloned().collect();
+    add_powers(&mut stiffness, body.geometric.as_deref().unwrap_or_default());
+    for part in contacts {
+        let terms = linearized(part.points, &part.state, &part.stiffness);
+        add_powers(&mut stiffness, &terms.stiffness);
+        add_powers(&mut dashpots, &terms.dashpots);
+        add_powers(&mut losses, &terms.structural);
+        if body.geometric.is_some() {
+            add_powers(&mut stiffness, &turned(part.points, part.turnings, &part.state));
+        }
+    }
+    stiffness.iter_mut().chain(&mut dashpots).for_each(Triplets::merge);
+    [stiffness, dashpots, losses]
+}
+
 /// Adds the coefficients of one polynomial to those of another.
 fn add_powers(sum: &mut Vec<Triplets>, terms: &[Triplets]) {
     if sum.len() < terms.len() {
@@ -369,13 +378,6 @@ pub(super) fn frozen_terms(mut powers: Vec<Triplets>, frozen_below: f64) -> Vec<
         powers.insert(1, Triplets::default());
     }
     powers
-}
-
-/// One pattern that holds all of the given matrices.
-fn shared_pattern(dimension: usize, matrices: [&ProjectedPolynomial; 3]) -> Arc<SparsityPattern> {
-    let entries = matrices.into_iter().flatten().flatten();
-    let positions = entries.map(|&(row, column, _)| (row, column));
-    Arc::new(SparsityPattern::from_positions(dimension, positions))
 }
 
 #[cfg(test)]

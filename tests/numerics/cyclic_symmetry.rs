@@ -333,3 +333,91 @@ fn a_contact_without_pressure_is_refused() {
     let refused = SlidingModel::new(&case, case.cea.as_ref().unwrap()).err().unwrap();
     assert!(refused.to_string().contains("nothing presses the contact"), "{refused}");
 }
+
+/// A disc under a ring on the whole of its top face, clamped at its bore; `more` adds the motions and the mesh.
+fn disc_under_a_ring(rpm: f64, more: &str) -> String {
+    format!(
+        "[material]\nyoung_modulus = 2.1e11\npoisson_ratio = 0.3\ndensity = 7850.0\n\
+         formulation = \"three-dimensional\"\n\
+         [damping]\nmass_coefficient = 20.0\nstiffness_coefficient = 1.5e-7\n\
+         [contact]\nfriction_coefficient = 0.4\ninterference = 1e-6\nrotation_speed_rpm = {rpm:?}\n\
+         normal_stiffness = 1e11\n{more}\
+         [cea]\nmodes = 10\nfriction_coefficients = [0.0, 0.4]\ngeometric_stiffness = false\n"
+    )
+}
+
+/// A built-in disc of 20 bricks around with what `motion` says of it.
+fn built_in(name: &str, rpm: f64, motion: &str, method: &str) -> Result<Solution, CaseErrors> {
+    let more = format!(
+        "base_state = \"compliant\"\nboundary = \"top\"\n[geometry]\ninner_radius = 0.05\nouter_radius = 0.15\n\
+         thickness = 0.01\n[mesh]\ncircumferential_elements = 20\nradial_elements = 3\naxial_elements = 1\n\
+         [boundaries.inner]\ncondition = \"clamped\"\n[boundaries.outer]\ncondition = \"free\"\n{motion}"
+    );
+    let text = disc_under_a_ring(rpm, &more);
+    read(name, b"", &text, method).map(|_| solved(name, b"", &text, method))
+}
+
+/// Equal eigenvalues: each has one of the other list beside it.
+fn assert_equal(a: &Solution, b: &Solution, tolerance: f64) {
+    for (a, b) in a.sweep.points.iter().zip(&b.sweep.points) {
+        assert_eq!(a.modes.len(), b.modes.len());
+        for mode in &b.modes {
+            let apart = a.modes.iter().map(|own| (own.eigenvalue - mode.eigenvalue).norm());
+            let nearest = apart.fold(f64::INFINITY, f64::min) / mode.eigenvalue.norm();
+            assert!(nearest < tolerance, "{mode:?} {nearest:e}");
+        }
+    }
+}
+
+/// Friction knows the relative speed alone: a disc that turns under a ring at rest is one at rest under a ring that turns the other
+/// way. The first goes by nodal diameters, the second by its whole mesh at once.
+#[test]
+fn a_disc_that_turns_under_a_ring_at_rest_is_one_under_a_ring_that_turns() {
+    let motion = "[motion.disc]\naxis = [0.0, 0.0, 1.0]\nrotation_speed_rpm = -300.0\n";
+    let turning = built_in("disc-turns", 0.0, motion, "auto").unwrap_or_else(|e| panic!("{e}"));
+    let at_rest = built_in("ring-turns", 300.0, "", "sparse").unwrap_or_else(|e| panic!("{e}"));
+    assert_equal(&turning, &at_rest, 1e-9);
+}
+
+/// The same disc as a mesh file of one sector: rotation, friction and damping together.
+#[test]
+fn a_built_in_disc_that_turns_is_the_one_of_a_mesh_of_its_sector() {
+    let motion = "[motion.disc]\naxis = [0.0, 0.0, 1.0]\nrotation_speed_rpm = 6000.0\nrotation_terms = true\n\
+        frame = \"turning\"\n";
+    let own = built_in("built-in", 300.0, motion, "auto").unwrap_or_else(|e| panic!("{e}"));
+    let still = built_in("built-in-still", 300.0, "", "auto").unwrap_or_else(|e| panic!("{e}"));
+    let block = brick("disc", [0.05, 0.0, 0.0], [0.1, TAU / 20.0, 0.01], [3, 1, 1]);
+    let mesh = file_of(&[block], |[r, t, z]| [r * t.cos(), r * t.sin(), z]);
+    let more = format!(
+        "boundary = \"disc_z1\"\ncounterface = \"plane\"\n[mesh]\nfile = \"sector.msh\"\nsectors = 20\n\
+         [boundaries.disc_x0]\ncondition = \"clamped\"\n{motion}"
+    );
+    let of_file = solved("of-file", &mesh, &disc_under_a_ring(300.0, &more), "cyclic");
+    assert_equal(&own, &of_file, 1e-9);
+    let [turning, still] = [&own, &still].map(|own| own.sweep.points[0].modes[0].frequency_hz());
+    assert!((turning / still - 1.0).abs() > 1e-4, "rotation matters: {turning} {still}");
+}
+
+#[test]
+fn a_body_of_revolution_turns_as_a_whole_about_its_axis_in_its_own_frame() {
+    let refused =
+        |motion: &str| built_in("refused", 300.0, motion, "auto").err().unwrap().to_string();
+    let about = |name: &str, axis: &str| {
+        refused(&format!("[motion.{name}]\naxis = {axis}\nrotation_speed_rpm = 60.0\n"))
+    };
+    let other = about("lining", "[0.0, 0.0, 1.0]");
+    assert!(other.contains("motion.lining is no motion"), "{other}");
+    let tilted = about("disc", "[0.0, 1.0, 1.0]");
+    assert!(tilted.contains("motion.disc is no motion"), "{tilted}");
+    let at_rest = refused(
+        "[motion.disc]\naxis = [0.0, 0.0, 1.0]\nrotation_speed_rpm = 60.0\nrotation_terms = true\n",
+    );
+    assert!(at_rest.contains("frame = \"turning\""), "{at_rest}");
+    let plane = disc_sector(3, [4, 4], 0.0);
+    let text = "[geometry]\ninner_radius = 0.05\nouter_radius = 0.15\n[mesh]\ncircumferential_elements = 20\n\
+        radial_elements = 3\n[material]\nyoung_modulus = 2.5e9\npoisson_ratio = 0.38\ndensity = 1228.0\n\
+        [contact]\nfriction_coefficient = 0.4\ninterference = 25e-6\nrotation_speed_rpm = 610.0\n\
+        [motion.disc]\naxis = [0.0, 0.0, 1.0]\nrotation_speed_rpm = 60.0\n[cea]\nmodes = 4\n";
+    let plane = read("plane-motion", &plane, text, "auto").unwrap_err().to_string();
+    assert!(plane.contains("plane annulus has no [motion.*]"), "{plane}");
+}
