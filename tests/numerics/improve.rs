@@ -27,10 +27,11 @@ impl Body {
         modes.map(|mode| mode.eigenvalue).min_by(|a, b| away(a).total_cmp(&away(b))).unwrap()
     }
 
-    /// `d growth / d p` at `p = 0` by the second-order difference over `0`, `h`, `2 h`; `keys` make a value of `p`.
+    /// `d growth / d p` at `p = 0`, where the eigenvalue is the given one, by the second-order difference over `0`, `h`, `2 h`; `keys`
+    /// make a value of `p`.
     fn difference(&self, eigenvalue: c64, step: f64, keys: &dyn Fn(f64) -> Vec<String>) -> f64 {
-        let [at, one, two] = [0.0, step, 2.0 * step].map(|p| self.nearest(&keys(p), eigenvalue).re);
-        (4.0 * one - two - 3.0 * at) / (2.0 * step)
+        let [one, two] = [step, 2.0 * step].map(|p| self.nearest(&keys(p), eigenvalue).re);
+        (4.0 * one - two - 3.0 * eigenvalue.re) / (2.0 * step)
     }
 
     /// Holds the fields of the fastest mode to differences at some nodes, and in the region `patch`; steps are of mass, kg,
@@ -41,7 +42,8 @@ impl Body {
         let fastest =
             fastest.max_by(|a, b| a.1.growth_rate_per_s.total_cmp(&b.1.growth_rate_per_s));
         let (k, mode) = fastest.unwrap();
-        let eigenvalue = c64::new(mode.growth_rate_per_s, TAU * mode.frequency_hz);
+        let own = c64::new(mode.growth_rate_per_s, TAU * mode.frequency_hz);
+        let eigenvalue = self.nearest(&[], own);
         let (mesh, fields) = (&*found.mesh, &found.fields[k]);
         for &node in nodes {
             let label = mesh.node_label(node);
