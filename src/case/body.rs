@@ -235,10 +235,7 @@ impl Body {
 
     /// Whether the springs of a support have structural damping.
     pub(super) fn has_lossy_supports(&self) -> bool {
-        let is_lossy = |own: &BoundaryCondition| match own {
-            BoundaryCondition::Support(support) => support.loss_factor != 0.0,
-            _ => false,
-        };
+        let is_lossy = |own: &BoundaryCondition| matches!(own, BoundaryCondition::Support(own) if own.loss_factor != 0.0);
         match self {
             Self::Annulus(annulus) => {
                 let (outer, shaft) = (&annulus.specification.outer, annulus.specification.shaft);
