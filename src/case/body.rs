@@ -228,14 +228,16 @@ impl Body {
 
     /// Whether a material or the springs of a support have structural damping.
     pub(super) fn has_structural_damping(&self) -> bool {
-        let is_lossy =
-            |own: &TabledMaterial| own.table.is_some() || own.own.elastic.loss_factor != 0.0;
+        let is_lossy = |m: &TabledMaterial| m.table.is_some() || m.own.elastic.loss_factor != 0.0;
         self.has_lossy_supports() || self.materials().iter().any(is_lossy)
     }
 
     /// Whether the springs of a support have structural damping.
     pub(super) fn has_lossy_supports(&self) -> bool {
-        let is_lossy = |own: &BoundaryCondition| matches!(own, BoundaryCondition::Support(own) if own.loss_factor != 0.0);
+        let is_lossy = |own: &BoundaryCondition| match own {
+            BoundaryCondition::Support(own) => own.loss_factor != 0.0,
+            _ => false,
+        };
         match self {
             Self::Annulus(annulus) => {
                 let (outer, shaft) = (&annulus.specification.outer, annulus.specification.shaft);

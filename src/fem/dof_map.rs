@@ -1,6 +1,7 @@
 //! The unknowns of a problem among the degrees of freedom of a mesh.
 
 use crate::mesh::Mesh;
+use std::collections::BTreeSet;
 
 /// Which dofs are unknowns of a problem and where each stands among them.
 #[derive(Clone, Debug, PartialEq)]
@@ -12,6 +13,13 @@ pub struct DofMap {
 }
 
 impl DofMap {
+    /// The unknowns among some dofs, each once, in their order.
+    pub fn among(&self, dofs: &[usize]) -> Vec<usize> {
+        let mut seen = BTreeSet::new();
+        let free = dofs.iter().filter_map(|&dof| self.unknown_of[dof]);
+        free.filter(|&unknown| seen.insert(unknown)).collect()
+    }
+
     /// All dofs but the given ones, of `total`.
     pub fn excluding(total: usize, prescribed: impl IntoIterator<Item = usize>) -> Self {
         let mut free = vec![true; total];

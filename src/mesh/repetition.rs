@@ -46,10 +46,8 @@ pub fn repeated_file(file: &FileMesh, symmetry: &CyclicSymmetry) -> Result<FileM
     cut.check_faces(&sector, symmetry)?;
 
     let copies = Copies::of(&sector, &cut, (&index_of, count));
-    let largest = |labels: &mut dyn Iterator<Item = usize>| labels.max().unwrap_or(0);
-    let stride = |largest: usize| 10_usize.saturating_pow(largest.max(1).ilog10() + 1);
-    let node_stride = stride(largest(&mut sector.labels.iter().copied()));
-    let element_stride = stride(largest(&mut file.elements.iter().map(|e| e.label)));
+    let node_stride = stride(sector.labels.iter().copied().max());
+    let element_stride = stride(file.elements.iter().map(|e| e.label).max());
 
     // Nodes, elements and equations sector by sector.
     let (mut points, mut labels, mut elements) = (Vec::new(), Vec::new(), Vec::new());
@@ -82,10 +80,8 @@ pub fn repeated_file(file: &FileMesh, symmetry: &CyclicSymmetry) -> Result<FileM
         (*kind, nodes.iter().map(|&own| node(own)).collect())
     });
     let mut node_sets = copies.named(&file.node_sets, |&own, node| node(own));
-    for nodes in node_sets.values_mut() {
-        nodes.sort_unstable();
-        nodes.dedup();
-    }
+    node_sets.values_mut().for_each(|nodes| nodes.sort_unstable());
+    node_sets.values_mut().for_each(Vec::dedup);
     Ok(FileMesh {
         is_used: vec![true; points.len()],
         dimension: file.dimension,
@@ -99,6 +95,11 @@ pub fn repeated_file(file: &FileMesh, symmetry: &CyclicSymmetry) -> Result<FileM
         elements,
         equations,
     })
+}
+
+/// What labels rise by from sector to sector: the power of ten above the largest.
+fn stride(largest: Option<usize>) -> usize {
+    10_usize.saturating_pow(largest.unwrap_or(0).max(1).ilog10() + 1)
 }
 
 /// Where the nodes of a file stand in the whole body.
@@ -138,8 +139,7 @@ impl<'a> Copies<'a> {
     ) -> BTreeMap<String, Vec<U>> {
         let in_sector = |own: &T, j: usize| of(own, &|node| self.node(node, j));
         let all = named.iter().map(|(name, own)| {
-            let sectors = 0..self.count;
-            let copies = sectors.flat_map(|j| own.iter().map(move |own| (own, j)));
+            let copies = (0..self.count).flat_map(|j| own.iter().map(move |own| (own, j)));
             (name.clone(), copies.map(|(own, j)| in_sector(own, j)).collect())
         });
         all.collect()

@@ -11,7 +11,6 @@ use crate::fem::{
 };
 use crate::linalg::{FrictionWeights, MatrixPolynomial, SparsityPattern, c64};
 use crate::mesh::Mesh;
-use std::collections::BTreeSet;
 use std::sync::Arc;
 
 /// Mass, damping and stiffness of small motions around steady sliding, polynomials in `mu`.
@@ -238,33 +237,15 @@ impl SlidingTangent {
         let friction = hold_rigid(contacts, &mut basis)?;
         let unknowns = basis.unknowns();
         let frozen = contacts.iter().map(|part| part.state.frozen_below).fold(0.0, f64::max);
-        let weights = FrictionWeights::frozen_below(frozen);
         let projected = |terms: &[Triplets]| -> ProjectedPolynomial {
-            basis.project(terms, &unknowns, (&friction, weights))
+            basis.project(terms, &unknowns, (&friction, FrictionWeights::frozen_below(frozen)))
         };
 
-        // What beta_R multiplies: body, prestress, contact; all of the stiffness where it stands on no springs.
-        let [stiffness, mut dashpots, losses] = tangent_terms(body, contacts);
+        // The terms; what beta_R does not multiply are supports, rotation, regions with damping of their own.
+        let [stiffness, dashpots, losses] = tangent_terms(body, contacts);
         let mass = projected(std::slice::from_ref(&body.mass));
-        let mut stiffness = projected(&stiffness);
-        let is_unsupported = body.supports[0].entries.is_empty() && body.rotation.is_none();
-        let damped = match options.damping_model {
-            DampingModel::WholeTangent if is_unsupported => None,
-            DampingModel::WholeTangent => Some(stiffness.clone()),
-            DampingModel::BodyOnly => Some(projected(std::slice::from_ref(&body.elastic))),
-        };
-
-        // What it does not: supports, rotation, regions with damping of their own.
+        let (stiffness, damped) = with_springs(&stiffness, body, options, &projected);
         let has_supports = body.supports.iter().any(|own| !own.entries.is_empty());
-        for [springs, own] in std::iter::once(&body.supports).chain(&body.rotation) {
-            for (power, entries) in projected(std::slice::from_ref(springs)).into_iter().enumerate()
-            {
-                stiffness.resize(stiffness.len().max(power + 1), Vec::new());
-                stiffness[power].extend(entries);
-            }
-            add_powers(&mut dashpots, std::slice::from_ref(own));
-        }
-        add_powers(&mut dashpots, body.extra_damping.as_slice());
         let has_dashpots = dashpots.iter().any(|terms| !terms.entries.is_empty());
 
         // One pattern for all; C = alpha_R M + beta_R K (2) and the rest.
@@ -276,42 +257,30 @@ impl SlidingTangent {
             MatrixPolynomial::on_pattern(&pattern, terms).frozen_below(frozen)
         };
         let (mass, stiffness) = (on_pattern(&mass), on_pattern(&stiffness));
-        let rayleigh = options.damping;
         let damped = damped.map(|own| on_pattern(&own));
-        let mut damping = MatrixPolynomial::combination(
-            rayleigh.mass_coefficient,
-            &mass,
-            rayleigh.stiffness_coefficient,
-            damped.as_ref().unwrap_or(&stiffness),
-        );
-        if has_dashpots {
-            damping = MatrixPolynomial::combination(1.0, &damping, 1.0, &on_pattern(&dashpots));
-        }
+        let damped = [&mass, damped.as_ref().unwrap_or(&stiffness)];
+        let dashpots = has_dashpots.then(|| on_pattern(&dashpots));
+        let damping = damping_matrix(options.damping, damped, dashpots);
         // Its entries are those of the stiffness.
         let structural = (!losses.is_empty()).then(|| on_pattern(&projected(&losses)));
         let tabled = body.tabled.iter().map(|(table, stiffness)| TabledStiffness {
             gain: TabledGain { table: Arc::clone(table), reference_hz: 0.0 },
             stiffness: on_pattern(&projected(std::slice::from_ref(stiffness))),
         });
-        let tabled: Vec<TabledStiffness> = tabled.collect();
-        let is_viscous = structural.is_none() && tabled.is_empty();
+        let is_viscous = structural.is_none() && body.tabled.is_empty();
         let is_whole = options.damping_model == DampingModel::WholeTangent && !has_supports;
-        let touched = |dofs: &[usize]| -> Vec<usize> {
-            let mut seen = BTreeSet::new();
-            let free = dofs.iter().filter_map(|&dof| unknowns.unknown_of[dof]);
-            free.filter(|&unknown| seen.insert(unknown)).collect()
-        };
+        let is_proportional = is_whole && !has_dashpots && is_viscous;
         Ok(Self {
             mass,
             damping,
             stiffness,
-            proportional: (is_whole && !has_dashpots && is_viscous).then_some(rayleigh),
+            proportional: is_proportional.then_some(options.damping),
             structural,
-            tabled,
+            tabled: tabled.collect(),
             is_gyroscopic: body.rotation.is_some(),
-            contact_tangential: touched(&dofs.tangential),
-            contact_normal: touched(&dofs.normal),
-            contact_opposite: touched(&dofs.opposite),
+            contact_tangential: unknowns.among(&dofs.tangential),
+            contact_normal: unknowns.among(&dofs.normal),
+            contact_opposite: unknowns.among(&dofs.opposite),
             distances: basis.combinations().map(|(dof, row)| (dof, row.clone())).collect(),
             contact_angles: dofs.angles.clone(),
             sliding_direction: dofs.sliding_direction,
@@ -319,6 +288,43 @@ impl SlidingTangent {
             unknowns,
         })
     }
+}
+
+/// `C = alpha_R M + beta_R K` of mass and stiffness, and the dashpots.
+fn damping_matrix(
+    rayleigh: RayleighDamping,
+    [mass, stiffness]: [&MatrixPolynomial; 2],
+    dashpots: Option<MatrixPolynomial>,
+) -> MatrixPolynomial {
+    let (alpha, beta) = (rayleigh.mass_coefficient, rayleigh.stiffness_coefficient);
+    let own = MatrixPolynomial::combination(alpha, mass, beta, stiffness);
+    match dashpots {
+        Some(dashpots) => MatrixPolynomial::combination(1.0, &own, 1.0, &dashpots),
+        None => own,
+    }
+}
+
+/// The stiffness over the unknowns, with the springs of supports and of the rotation, and what `beta_R` multiplies where that is not all
+/// of it: body, prestress and contact, or the body alone.
+fn with_springs(
+    stiffness: &[Triplets],
+    body: &BodyTerms,
+    options: &TangentOptions,
+    projected: &dyn Fn(&[Triplets]) -> ProjectedPolynomial,
+) -> (ProjectedPolynomial, Option<ProjectedPolynomial>) {
+    let mut stiffness = projected(stiffness);
+    let is_unsupported = body.supports[0].entries.is_empty() && body.rotation.is_none();
+    let damped = match options.damping_model {
+        DampingModel::WholeTangent if is_unsupported => None,
+        DampingModel::WholeTangent => Some(stiffness.clone()),
+        DampingModel::BodyOnly => Some(projected(std::slice::from_ref(&body.elastic))),
+    };
+    for [springs, _] in std::iter::once(&body.supports).chain(&body.rotation) {
+        let held = projected(std::slice::from_ref(springs));
+        stiffness.resize(stiffness.len().max(held.len()), Vec::new());
+        stiffness.iter_mut().zip(held).for_each(|(sum, entries)| sum.extend(entries));
+    }
+    (stiffness, damped)
 }
 
 /// Takes separations for unknowns and drops those of rigid contact; the friction of its forces.
@@ -359,6 +365,10 @@ fn tangent_terms(body: &BodyTerms, contacts: &[ContactPart<'_>]) -> [Vec<Triplet
         }
     }
     stiffness.iter_mut().chain(&mut dashpots).for_each(Triplets::merge);
+    for [_, own] in std::iter::once(&body.supports).chain(&body.rotation) {
+        add_powers(&mut dashpots, std::slice::from_ref(own));
+    }
+    add_powers(&mut dashpots, body.extra_damping.as_slice());
     [stiffness, dashpots, losses]
 }
 

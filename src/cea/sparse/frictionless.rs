@@ -95,15 +95,13 @@ impl FrictionlessModes {
         let unknowns = tangent.stiffness.dimension();
         // Motions below the limit, rigid ones among them; those that a turning frame alone holds count twice.
         // One mode above a limit in frequency tells that none below it is missing under friction.
-        let (below, guard) = match limit {
-            ModeLimit::Lowest(count) => (count, 0),
-            ModeLimit::MaxFrequency(hz) => (inertia.bound_below(tangent, TAU * hz)?, 1),
+        let (below, guard, mut shift) = match limit {
+            ModeLimit::Lowest(count) => (count, 0, FIRST_SHIFT * inertia.largest_ratio()),
+            ModeLimit::MaxFrequency(hz) => {
+                (inertia.bound_below(tangent, TAU * hz)?, 1, SHIFT * (TAU * hz).powi(2))
+            }
         };
         let beyond = if tangent.is_lossy() { LOSSY_GUARD } else { guard };
-        let mut shift = match limit {
-            ModeLimit::Lowest(_) => FIRST_SHIFT * inertia.largest_ratio(),
-            ModeLimit::MaxFrequency(limit_hz) => SHIFT * (TAU * limit_hz).powi(2),
-        };
         let (mut extra, mut recounts) = (0, 0);
         loop {
             let request = (below.max(1) + beyond + GUARD_MODES + extra).min(unknowns);
@@ -133,14 +131,10 @@ impl FrictionlessModes {
                 kept = widest_gap(&frequencies, (wanted + beyond).min(elastic - 1));
                 let middle = 0.5 * (frequencies[kept - 1] + frequencies[kept]);
                 let counted = inertia.count_below(middle)?;
-                if counted != kept + rigid && recounts == MAX_RECOUNTS {
-                    let (found, frequency_hz) = (kept + rigid, middle / TAU);
-                    return Err(CeaError::Failed(format!(
-                        "without friction the solver found {found} modes below {frequency_hz:.1} \
-                         Hz, the inertia of the stiffness counts {counted}"
-                    )));
-                }
                 if counted != kept + rigid {
+                    if recounts == MAX_RECOUNTS {
+                        return Err(contradicted(kept + rigid, middle, counted));
+                    }
                     recounts += 1;
                     extra += counted.abs_diff(kept + rigid) + BLOCK;
                     continue;
@@ -157,6 +151,15 @@ impl FrictionlessModes {
             });
         }
     }
+}
+
+/// The inertia contradicts what was found below a frequency (rad/s).
+fn contradicted(found: usize, below: f64, counted: usize) -> CeaError {
+    CeaError::Failed(format!(
+        "without friction the solver found {found} modes below {:.1} Hz, the inertia of the \
+         stiffness counts {counted}",
+        below / TAU
+    ))
 }
 
 /// The lowest motions of a pencil.

@@ -212,27 +212,7 @@ fn expanded(
 
 /// One sweep of those of all numbers of nodal diameters, its branches ranked by their frequency where they begin.
 fn merged(mut parts: Vec<FrictionSweep>, limit: ModeLimit) -> FrictionSweep {
-    let mut all: Vec<(f64, f64, usize, usize)> = Vec::new();
-    for (part, point) in
-        parts.iter().enumerate().flat_map(|(i, p)| p.points.iter().map(move |q| (i, q)))
-    {
-        let mu = point.friction_coefficient;
-        all.extend(point.modes.iter().map(|mode| (mu, mode.eigenvalue.im, part, mode.branch)));
-    }
-    all.sort_by(|a, b| (a.0.total_cmp(&b.0)).then(a.1.total_cmp(&b.1)));
-    let mut rank_of: BTreeMap<(usize, usize), usize> = BTreeMap::new();
-    for (.., part, branch) in all {
-        let next = rank_of.len() + 1;
-        rank_of.entry((part, branch)).or_insert(next);
-    }
-    for (part, sweep) in parts.iter_mut().enumerate() {
-        for point in &mut sweep.points {
-            let all = point.modes.iter_mut().chain(&mut point.above);
-            all.for_each(|mode| {
-                mode.branch = rank_of.get(&(part, mode.branch)).copied().unwrap_or_default();
-            });
-        }
-    }
+    let rank_of = ranked(&mut parts);
 
     // All modes at each friction coefficient, as many as are wanted.
     let count = parts.first().map_or(0, |part| part.points.len());
@@ -278,6 +258,32 @@ fn merged(mut parts: Vec<FrictionSweep>, limit: ModeLimit) -> FrictionSweep {
     }
     let joined = FrictionSweep::joined(points, found, ended);
     FrictionSweep { counts, unconverged, beyond, rigid_motions, ..joined }
+}
+
+/// Ranks the branches of all `parts` by their frequency where they begin: the rank of each part's branch.
+fn ranked(parts: &mut [FrictionSweep]) -> BTreeMap<(usize, usize), usize> {
+    let mut all: Vec<(f64, f64, usize, usize)> = Vec::new();
+    for (part, point) in
+        parts.iter().enumerate().flat_map(|(i, p)| p.points.iter().map(move |q| (i, q)))
+    {
+        let mu = point.friction_coefficient;
+        all.extend(point.modes.iter().map(|mode| (mu, mode.eigenvalue.im, part, mode.branch)));
+    }
+    all.sort_by(|a, b| (a.0.total_cmp(&b.0)).then(a.1.total_cmp(&b.1)));
+    let mut rank_of: BTreeMap<(usize, usize), usize> = BTreeMap::new();
+    for (.., part, branch) in all {
+        let next = rank_of.len() + 1;
+        rank_of.entry((part, branch)).or_insert(next);
+    }
+    for (part, sweep) in parts.iter_mut().enumerate() {
+        for point in &mut sweep.points {
+            let all = point.modes.iter_mut().chain(&mut point.above);
+            all.for_each(|mode| {
+                mode.branch = rank_of.get(&(part, mode.branch)).copied().unwrap_or_default();
+            });
+        }
+    }
+    rank_of
 }
 
 /// One count of those of all numbers of diameters at each friction coefficient that all of them counted at, over the frequencies that
