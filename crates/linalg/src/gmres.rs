@@ -16,7 +16,8 @@ pub fn gmres(
 ) -> (usize, f64) {
     let norm = |v: &[f64]| dot(v, v).sqrt();
     let size = norm(right_side);
-    let (mut products, mut last) = (0, f64::INFINITY);
+    let mut products = 0;
+    let mut last = f64::INFINITY;
     loop {
         // The true residual, not that of the recurrence, decides.
         let image = apply(x);
@@ -43,7 +44,8 @@ pub fn gmres(
                 for (known, share) in basis.iter().zip(&mut column) {
                     let along = dot(known, &direction);
                     *share += along;
-                    add_multiple(&mut direction, -along, known);
+                    let pairs = direction.iter_mut().zip(known);
+                    pairs.for_each(|(d, q)| *d -= along * q);
                 }
             }
             let length = norm(&direction);
@@ -65,17 +67,20 @@ pub fn gmres(
             direction.iter_mut().for_each(|d| *d /= length);
             basis.push(direction);
         }
-        // The shares of the directions, by back substitution.
-        for (k, column) in triangle.iter().enumerate().rev() {
-            let share = reduced[k] / column[k];
-            add_multiple(&mut reduced[..k], -share, column);
-            add_multiple(x, share, &basis[k]);
+        // Back substitution.
+        let count = triangle.len();
+        let mut shares = reduced[..count].to_vec();
+        for k in (0..count).rev() {
+            shares[k] /= triangle[k][k];
+            for i in 0..k {
+                shares[i] -= triangle[k][i] * shares[k];
+            }
+        }
+        for (direction, share) in basis.iter().zip(&shares) {
+            let pairs = x.iter_mut().zip(direction);
+            pairs.for_each(|(value, d)| *value += share * d);
         }
     }
-}
-
-fn add_multiple(sum: &mut [f64], factor: f64, of: &[f64]) {
-    sum.iter_mut().zip(of).for_each(|(sum, own)| *sum += factor * own);
 }
 
 #[cfg(test)]

@@ -168,9 +168,7 @@ impl<'a> BasisBuilder<'a> {
     pub fn cover(&mut self, values: &[f64]) -> Result<(), CeaError> {
         if self.is_sampling {
             for mu in [values[values.len() - 1], values[0], values[values.len() / 2]] {
-                if !self.sampled.contains(&mu) {
-                    self.improve_at(mu)?;
-                }
+                self.improve_at(mu)?;
             }
             return Ok(());
         }
