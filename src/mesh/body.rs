@@ -207,7 +207,7 @@ fn check_along(
         part: BodyPart::Direction,
         message: format!(
             "contact.direction = [{x}, {y}] makes {:.0} degrees with the contact curve \"{}\": the \
-             plane would slide into the body. It must lie along the face, here [{along_x}, {along_y}]",
+             plane would slide into the body. It must lie along the face: [{along_x}, {along_y}]",
             off.clamp(0.0, 1.0).asin().to_degrees(),
             specification.contact,
         ),
