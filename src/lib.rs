@@ -70,28 +70,15 @@
 //!
 //! # Floors
 //!
-//! [`chart`], [`formats`], [`linalg`] and [`signal`] are crates of their own in `crates/`, which name nothing of this one. Each module here
-//! names only those below it: [`linalg`], [`mesh`]; [`fem`]; [`contact`]; [`prestress`]; [`cea`], [`transient`], [`frf`], [`cycle`];
-//! [`case`], [`results`]; [`study`]; [`app`]. [`output`] stands beside the lowest: it knows tables and nothing of friction.
+//! [`chart`], [`formats`], [`linalg`], [`output`] and [`signal`] are crates of their own in `crates/`, which name nothing of this one:
+//! [`output`] knows tables and nothing of friction. So is the physics, from [`mesh`] to [`cycle`], in `crates/physics`.
+//! Each module names only those below it: [`linalg`], [`mesh`]; [`fem`]; [`contact`]; [`prestress`]; [`cea`], [`transient`], [`frf`],
+//! [`cycle`]; [`case`], [`results`]; [`study`]; [`app`].
 
 pub mod case;
-pub mod cea;
-pub mod contact;
-pub mod cycle;
-pub mod fem;
-pub mod frf;
 pub mod guide;
-/// Sparse, banded and dense linear algebra: a crate of its own, with the matrices of files.
-pub mod linalg {
-    pub use frictionsim_formats::{MarketMatrix, MatrixMarketError};
-    pub use frictionsim_linalg::*;
-}
-pub mod mesh;
-pub mod output;
-pub mod prestress;
 pub mod results;
 pub mod study;
-pub mod transient;
 
 pub mod app;
 
@@ -99,5 +86,11 @@ pub mod app;
 pub use frictionsim_chart as chart;
 #[doc(inline)]
 pub use frictionsim_formats as formats;
+#[doc(inline)]
+pub use frictionsim_output as output;
+#[doc(inline)]
+pub use frictionsim_physics::{
+    cea, contact, cycle, fem, frf, linalg, mesh, order, parallel, prestress, transient,
+};
 #[doc(inline)]
 pub use frictionsim_signal as signal;

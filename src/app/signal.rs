@@ -22,7 +22,6 @@ use crate::signal::{
 };
 use crate::study::{modes_at_own_friction, tangent_options};
 use clap::{Args, ValueHint};
-use rayon::prelude::*;
 use std::path::PathBuf;
 
 /// Lines reported for each channel.
@@ -112,15 +111,12 @@ impl Run for Arguments {
         check_drawing(self, &file)?;
         let bar =
             terminal::progress(self.output.is_quiet(), file.channels.len() as u64, "channels");
-        let analysed = file
-            .channels
-            .par_iter()
-            .map(|channel| {
+        let analysed =
+            crate::parallel::map::<_, _, Result<Vec<_>, Failure>>(&file.channels, |channel| {
                 let found = analyse(self, &file, channel);
                 bar.inc(1);
                 found
-            })
-            .collect::<Result<Vec<_>, Failure>>()?;
+            })?;
         bar.finish_and_clear();
         let (mut channels, spectra): (Vec<ChannelSummary>, Vec<AmplitudeSpectrum>) =
             analysed.into_iter().unzip();

@@ -6,7 +6,6 @@ use super::record::Record;
 use super::report::{NamedFigure, Report};
 use crate::chart::{ChartError, Drawing, Figure};
 use crate::output::Document;
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 /// Resolution of the PNG files unless asked otherwise, dots per inch.
@@ -58,7 +57,7 @@ pub type Declaration<'a> = Box<dyn Fn() -> Result<Figure, ChartError> + Sync + S
 /// # Errors
 /// That of a figure that cannot be declared although there is something to draw.
 pub fn declared(declarations: Vec<Declaration<'_>>) -> Result<Vec<Figure>, ChartError> {
-    let all: Vec<_> = declarations.into_par_iter().map(|declare| declare()).collect();
+    let all: Vec<_> = crate::parallel::map(declarations, |declare| declare());
     let is_kept = |own: &Result<Figure, ChartError>| match own {
         Ok(figure) => figure.has_data(),
         Err(error) => !matches!(error, ChartError::Empty(_)),
@@ -123,7 +122,7 @@ impl Page {
             let figure = NamedFigure { name, caption, svg, data: figure.data() };
             Ok((files_of(&figure, options)?, figure))
         };
-        let drawn: Result<Vec<_>, ChartError> = self.figures.par_iter().map(drawn).collect();
+        let drawn: Result<Vec<_>, ChartError> = crate::parallel::map(&self.figures, drawn);
         let (files, figures): (Vec<Vec<ResultFile>>, Vec<NamedFigure>) = drawn?.into_iter().unzip();
         let bytes = Report::of(self.document.clone(), figures, &self.manifest).to_html().into();
         let report = ResultFile { name: REPORT.to_owned(), bytes };

@@ -4,7 +4,7 @@ use super::drawing::{Declaration, DrawingError, DrawingOptions, Page};
 use super::record::write_record;
 use super::{FolderError, OutputFolder};
 use crate::chart::Figure;
-use crate::output::{Described, Document, Key, Table, describe_field};
+use crate::output::{Document, Table};
 use serde::Serialize;
 
 /// A summary that says everything: it is `summary.json`, and the tables, the page and the figures are made from it.
@@ -56,16 +56,4 @@ pub fn write_page(
     let page = Page::new(document, figures, folder.manifest());
     write_record(folder, &page)?;
     page.draw(folder, options)
-}
-
-impl Described for crate::signal::Estimate {
-    fn describe(path: &str, keys: &mut Vec<Key>) {
-        for (name, meaning) in [
-            ("value", "the value"),
-            ("low", "lower end of its 95 % interval"),
-            ("high", "upper end"),
-        ] {
-            describe_field::<f64>(path, name, meaning, false, keys);
-        }
-    }
 }

@@ -132,7 +132,7 @@ fn maxima(magnitude: &[f64]) -> Vec<usize> {
     };
     let mut found: Vec<(f64, usize)> =
         peaks.filter(is_high).map(|i| (rise(i), i)).filter(|(rise, _)| *rise > least).collect();
-    found.sort_by(|a, b| b.0.total_cmp(&a.0));
+    crate::order::sort_by_number(&mut found, |a| -a.0);
     found.truncate(MOST_MAXIMA);
     found.into_iter().map(|(_, place)| place).collect()
 }

@@ -116,7 +116,7 @@ impl Study {
             }
         }
         for series in &mut series {
-            series.cycles.sort_by(|a, b| a.value.total_cmp(&b.value));
+            crate::order::sort_by_number(&mut series.cycles, |a| a.value);
         }
         series.sort_by(|a, b| a.name.cmp(&b.name));
         series.retain(|series| series.cycles.len() > 1);

@@ -18,7 +18,7 @@ pub fn free_spectrum(system: &FreeSystem) -> Result<FreeSpectrum, StudyError> {
     let total = all.len();
     let mut modes: Vec<_> = all.into_iter().filter(|mode| mode.eigenvalue.im > 0.0).collect();
     let overdamped = total - modes.len();
-    modes.sort_by(|a, b| a.eigenvalue.im.total_cmp(&b.eigenvalue.im));
+    crate::order::sort_by_number(&mut modes, |a| a.eigenvalue.im);
     match system.modes {
         ModeSelection::Lowest(count) => modes.truncate(count),
         ModeSelection::BelowHz(limit) => modes.retain(|mode| mode.eigenvalue.im <= TAU * limit),

@@ -6,7 +6,7 @@ use std::iter::Peekable;
 
 type Tokens = Peekable<proc_macro::token_stream::IntoIter>;
 
-/// Implements `crate::output::Described`. An untagged enum has the keys of its variants, another one is a value without keys.
+/// Implements `frictionsim_output::Described`. An untagged enum has the keys of its variants, another one is a value without keys.
 #[proc_macro_derive(Described)]
 pub fn derive_described(item: TokenStream) -> TokenStream {
     let is_untagged = item.to_string().contains("untagged");
@@ -33,12 +33,12 @@ pub fn derive_described(item: TokenStream) -> TokenStream {
     }
     let bound = match generics.as_str() {
         "" => String::new(),
-        own => format!("<{own}: crate::output::Described>"),
+        own => format!("<{own}: ::frictionsim_output::Described>"),
     };
     let own = if generics.is_empty() { String::new() } else { format!("<{generics}>") };
     let code = format!(
-        "impl{bound} crate::output::Described for {name}{own} {{
-            fn describe(path: &str, keys: &mut Vec<crate::output::Key>) {{ let _ = (path, &keys); {calls} }}
+        "impl{bound} ::frictionsim_output::Described for {name}{own} {{
+            fn describe(path: &str, keys: &mut Vec<::frictionsim_output::Key>) {{ let _ = (path, &keys); {calls} }}
         }}"
     );
     code.parse().unwrap_or_default()
@@ -51,7 +51,7 @@ fn describe_variant(token: &TokenTree, calls: &mut String) {
     match group.delimiter() {
         Delimiter::Brace => describe_fields(own, calls),
         Delimiter::Parenthesis => {
-            *calls += &format!("<{own} as crate::output::Described>::describe(path, keys);");
+            *calls += &format!("<{own} as ::frictionsim_output::Described>::describe(path, keys);");
         }
         _ => {}
     }
@@ -99,6 +99,6 @@ fn describe_field(tokens: &mut Tokens, calls: &mut String) {
     let meaning = docs.join(", ");
     let _ = writeln!(
         calls,
-        "crate::output::describe_field::<{of_type}>(path, \"{name}\", concat!({meaning}), {is_flat}, keys);"
+        "::frictionsim_output::describe_field::<{of_type}>(path, \"{name}\", concat!({meaning}), {is_flat}, keys);"
     );
 }

@@ -126,7 +126,7 @@ impl BaseField {
                 // The angle of round-off below zero is zero.
                 *angle = if TAU - turned < 1e-9 { 0.0 } else { turned };
             }
-            places.sort_by(|a, b| a.1.total_cmp(&b.1));
+            crate::order::sort_by_number(&mut places, |a| a.1);
             return places;
         }
         for i in 1..places.len() {

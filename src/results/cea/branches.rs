@@ -52,7 +52,7 @@ pub(super) fn interval_rows(sweep: &FrictionSweep) -> Vec<(Branch, Vec<&Unstable
         rows.entry(branch_of(interval)).or_default().push(interval);
     }
     let mut rows: Vec<_> = rows.into_iter().collect();
-    rows.sort_by(|a, b| a.1[0].frequency_hz.total_cmp(&b.1[0].frequency_hz));
+    crate::order::sort_by_number(&mut rows, |a| a.1[0].frequency_hz);
     rows
 }
 

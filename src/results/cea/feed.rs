@@ -114,7 +114,7 @@ impl Feed {
             mode.map_or(0.0, |mode| mode.growth_rate())
         };
         let mut modes: Vec<&ModeFeed> = self.modes.iter().collect();
-        modes.sort_by(|a, b| growth(b).total_cmp(&growth(a)));
+        crate::order::sort_by_number(&mut modes, |a| -growth(a));
         modes
     }
 
@@ -153,7 +153,7 @@ impl Feed {
             }
         };
         let mut order: Vec<usize> = (0..self.places.len()).collect();
-        order.sort_by(|&a, &b| along(&self.places[a]).total_cmp(&along(&self.places[b])));
+        crate::order::sort_by_number(&mut order, |&a| along(&self.places[a]));
         let across = |name: &str| Axis::new(name, "mm").times(1e3).tight();
         let x = match (face, &report.mesh.counterface) {
             (Some(SolidFace::Inner | SolidFace::Outer), _) => across("height *z*"),

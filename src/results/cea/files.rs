@@ -12,7 +12,6 @@ use crate::results::folder::{FolderError, OutputFolder};
 use crate::results::pvd::{PvdEntry, write_pvd};
 use crate::results::summary::{Head, write_summary};
 use crate::results::vtu::{EncodedMesh, Field, write_vtu};
-use rayon::prelude::*;
 use serde_json::Value;
 use std::io;
 
@@ -50,10 +49,10 @@ fn write_shapes(folder: &OutputFolder, report: &CeaReport<'_>) -> Result<(), Fol
     let mut entries = Vec::new();
     // Compression takes the time: a batch of files side by side, written in order.
     for batch in shaped.chunks(rayon::current_num_threads().max(1)) {
-        let encoded: Vec<io::Result<Vec<u8>>> = batch
-            .par_iter()
-            .map(|(friction, _, mode)| encode_shape(report, &mesh, *friction, mode))
-            .collect();
+        let encoded: Vec<io::Result<Vec<u8>>> =
+            crate::parallel::map(batch, |(friction, _, mode)| {
+                encode_shape(report, &mesh, *friction, mode)
+            });
         for ((friction, number, mode), bytes) in batch.iter().zip(encoded) {
             let name = format!("modes/mu-{friction}-mode-{number:03}.vtu");
             folder.write_bulk(&name, |out| out.write_all(&bytes?))?;

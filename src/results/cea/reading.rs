@@ -144,7 +144,7 @@ impl Reading {
                 unstable.push(coupling);
             }
         }
-        unstable.sort_by(|a, b| b.growth_rate.total_cmp(&a.growth_rate));
+        crate::order::sort_by_number(&mut unstable, |a| -a.growth_rate);
         let modes = unstable.iter().take(most);
         modes.map(|first| self.sentence(first)).collect()
     }
@@ -284,7 +284,7 @@ impl Reading {
                 None => fastest.push((branch, rate)),
             }
         }
-        fastest.sort_by(|a, b| b.1.total_cmp(&a.1));
+        crate::order::sort_by_number(&mut fastest, |a| -a.1);
         fastest.into_iter().map(|(branch, _)| branch).collect()
     }
 }

@@ -63,7 +63,7 @@ impl SensitivityReport {
                 Some((name.as_str(), (*derivative)? * (0.01 * value)))
             })
             .collect();
-        changes.sort_by(|a, b| b.1.re.abs().total_cmp(&a.1.re.abs()));
+        crate::order::sort_by_number(&mut changes, |a| -a.1.re.abs());
         changes
     }
 
@@ -99,7 +99,7 @@ impl SensitivityReport {
     /// first.
     pub(super) fn tables(&self, most: usize) -> Vec<Table> {
         let mut rows: Vec<&SensitivityRow> = self.rows.iter().collect();
-        rows.sort_by(|a, b| b.eigenvalue.re.total_cmp(&a.eigenvalue.re));
+        crate::order::sort_by_number(&mut rows, |a| -a.eigenvalue.re);
         rows.into_iter().take(most).map(|row| self.changes(row)).collect()
     }
 

@@ -211,7 +211,7 @@ fn differing(quantities: &[SharedQuantity]) -> Vec<&SharedQuantity> {
         .filter(|shared| found.iter().all(|known| known.path != shared.path))
         .filter(differs)
         .collect();
-    others.sort_by(|a, b| size(b).total_cmp(&size(a)));
+    crate::order::sort_by_number(&mut others, |a| -size(a));
     found.extend(others);
     found
 }

@@ -24,7 +24,7 @@ pub fn figures(
         rate.map(|mode| mode.growth_rate_per_s).fold(0.0, f64::max)
     };
     let mut order: Vec<&TargetFields> = fields.iter().collect();
-    order.sort_by(|a, b| growth(b).total_cmp(&growth(a)));
+    crate::order::sort_by_number(&mut order, |a| -growth(a));
     let declare = |own: &'_ TargetFields| -> Declaration<'_> {
         let own = own.clone();
         Box::new(move || target_figure(summary, mesh, &own))

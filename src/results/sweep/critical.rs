@@ -31,7 +31,7 @@ pub fn critical_friction(records: &[PointRecord], highest: f64) -> Result<Figure
         Some((record.swept.get(key)?.as_f64()?, listed::<CriticalFriction>(onsets)))
     };
     let mut points: Vec<_> = records.iter().filter_map(point).collect();
-    points.sort_by(|a, b| a.0.total_cmp(&b.0));
+    crate::order::sort_by_number(&mut points, |a| a.0);
     points.dedup_by(|a, b| a.0 == b.0);
     if points.len() < 2 {
         return Err(nothing());

@@ -72,7 +72,7 @@ fn shown_friction(summary: &UncertaintySummary) -> f64 {
 pub fn indices(summary: &UncertaintySummary) -> Figure {
     // The largest above.
     let mut rows: Vec<_> = summary.sobol.iter().collect();
-    rows.sort_by(|a, b| a.1.total.total_cmp(&b.1.total));
+    crate::order::sort_by_number(&mut rows, |a| a.1.total);
     let place = |k: usize| k as f64;
     let bars = |of: fn(&Index) -> f64, shift: f64, colour: &str| {
         let bar = |(k, row): (usize, &(&String, &Index))| {

@@ -111,7 +111,7 @@ pub fn document(summary: &UncertaintySummary) -> Document {
     if !summary.sobol.is_empty() {
         let mut rows: Vec<(String, Index)> =
             summary.sobol.iter().map(|(key, index)| (key.clone(), *index)).collect();
-        rows.sort_by(|a, b| b.1.total.total_cmp(&a.1.total));
+        crate::order::sort_by_number(&mut rows, |a| -a.1.total);
         let caption = "Sobol's indices of the lowest critical friction: which parameter decides it";
         results = results.tables([Table::new("", caption).columns(INDICES, rows)]);
     }

@@ -26,7 +26,6 @@ use crate::fem::operator::SimdLevel;
 use crate::mesh::AnnulusSpecification;
 use crate::results::Manifest;
 use crate::results::convergence::{Quantity, Refinement, Series};
-use rayon::prelude::*;
 use serde_json::Value;
 use std::time::Instant;
 
@@ -117,11 +116,8 @@ fn solve_levels(
     });
     // Finest meshes and shortest steps stand last in each study.
     let jobs: Vec<(Analysis, &Case)> = jobs.collect();
-    let solved: Vec<Result<Timed, StudyError>> = jobs
-        .par_iter()
-        .with_max_len(1)
-        .rev()
-        .map(|(analysis, case)| {
+    let solved: Vec<Result<Timed, StudyError>> =
+        crate::parallel::map(jobs.iter().rev(), |(analysis, case)| {
             let start = Instant::now();
             let outcome = match analysis {
                 Analysis::Cea => Outcome::Cea(eigenvalues::modes_and_onsets(case)?),
@@ -133,8 +129,7 @@ fn solve_levels(
             };
             done();
             Ok((outcome, start.elapsed().as_secs_f64()))
-        })
-        .collect();
+        });
     // The first level that failed speaks, whichever thread was first.
     let mut solved = solved.into_iter().rev();
     studies.iter().map(|study| solved.by_ref().take(study.cases.len()).collect()).collect()

@@ -120,7 +120,7 @@ fn name_by_rank(sweeps: &mut [FrictionSweep], friction: f64) {
         }
         // Likest pairs first, each mode once.
         pairs.retain(|pair| pair.0 > SAME_MODE);
-        pairs.sort_by(|a, b| b.0.total_cmp(&a.0));
+        crate::order::sort_by_number(&mut pairs, |a| -a.0);
         let mut taken = BTreeSet::new();
         for (_, here, there) in pairs {
             let rank = finer.as_ref().map_or(0, |finer| finer[there].1);

@@ -1,7 +1,6 @@
 //! Stability along a branch of limit cycles.
 
 use crate::cycle::{LimitCycle, MeshStepping, Parameter, StabilityChange, SteppedCycle, differing};
-use rayon::prelude::*;
 
 /// Cycles whose exponents are found one after the other, each from its neighbour's; the groups run in parallel.
 const GROUP: usize = 8;
@@ -17,9 +16,8 @@ pub fn along(
         let drift = a.state.frequency / b.state.frequency - 1.0;
         a.state.contact == b.state.contact && drift.abs() < 1e-9
     };
-    let settled: Vec<Vec<Result<SteppedCycle, String>>> = cycles
-        .par_chunks(GROUP)
-        .map(|group| {
+    let settled: Vec<Vec<Result<SteppedCycle, String>>> =
+        crate::parallel::map(cycles.chunks(GROUP), |group| {
             let mut done: Vec<Result<SteppedCycle, String>> = Vec::new();
             let mut before: Option<(&LimitCycle, SteppedCycle)> = None;
             for cycle in group {
@@ -37,8 +35,7 @@ pub fn along(
                 done.push(found);
             }
             done
-        })
-        .collect();
+        });
     settled.into_iter().flatten().collect()
 }
 
@@ -50,10 +47,10 @@ pub fn changes(
 ) -> Vec<StabilityChange> {
     let known = settled.iter().flatten();
     let pairs = differing(known.map(|own| (own.stability.verdict().is_stable(), own)));
-    let found = pairs.par_iter().map(|&[first, second]| {
+    let found: Vec<_> = crate::parallel::map(pairs, |[first, second]| {
         let (stable, unstable) =
             if first.stability.is_stable() { (first, second) } else { (second, first) };
         stepping.stability_change(parameter, stable, unstable).ok()
     });
-    found.collect::<Vec<_>>().into_iter().flatten().collect()
+    found.into_iter().flatten().collect()
 }

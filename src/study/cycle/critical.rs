@@ -15,7 +15,7 @@ pub(super) fn candidates(values: &[f64], here: f64) -> Vec<f64> {
     let last = values.len() - 1;
     let by_distance = |places: &mut dyn Iterator<Item = usize>| {
         let mut own: Vec<f64> = places.map(|place| values[place]).collect();
-        own.sort_by(|a, b| (a - here).abs().total_cmp(&(b - here).abs()));
+        crate::order::sort_by_number(&mut own, |a| (a - here).abs());
         own.dedup();
         own
     };

@@ -38,7 +38,6 @@ use crate::results::cycle::{
 };
 use along::{along, changes};
 use families::{Sought, continuation, critical_value, next_onset, solvers};
-use rayon::prelude::*;
 use std::time::Instant;
 
 /// What a case asks for: cycles of which harmonics, where, and followed over what.
@@ -78,7 +77,7 @@ impl<'a> CycleStudy<'a> {
                 along.and_then(|(parameter, values)| critical_value(case, *parameter, values));
             onsets = solvers.iter().flatten().map(|s| *s.onset()).collect();
             onsets.extend(next_onset(case, friction));
-            onsets.sort_by(|a, b| a.friction_coefficient.total_cmp(&b.friction_coefficient));
+            crate::order::sort_by_number(&mut onsets, |a| a.friction_coefficient);
         }
         Ok(Self {
             case,
@@ -100,16 +99,14 @@ impl<'a> CycleStudy<'a> {
 
     /// The cycles, with the whole field at so many times over one period; `done` hears of every family.
     pub fn run(&self, frames: usize, done: &(dyn Fn() + Sync)) -> Vec<CycleResult> {
-        let solvers = self.solvers.par_iter();
-        let solve = |solver: &Sought| {
+        crate::parallel::map(&self.solvers, |solver| {
             let result = match solver {
                 Ok(solver) => self.solve(solver, frames),
                 Err((family, error)) => self.absent(*family, error),
             };
             done();
             result
-        };
-        solvers.map(solve).collect()
+        })
     }
 
     /// Root mean square over the mass that moves of a velocity field: of a rotating wave it is the same at every time.

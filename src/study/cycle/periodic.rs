@@ -22,7 +22,6 @@ use crate::results::cycle::{
 };
 use crate::transient::{OperatorChoice, TransientError, TransientModel};
 pub use basin::boundary_of_modes;
-use rayon::prelude::*;
 use std::time::Instant;
 
 use faces::faces_in_air;
@@ -210,7 +209,7 @@ impl<'a> PeriodicStudy<'a> {
             done(&result);
             result
         };
-        let mut results: Vec<PeriodicResult> = self.sought.par_iter().map(solve).collect();
+        let mut results: Vec<PeriodicResult> = crate::parallel::map(&self.sought, solve);
         name_repeated(&mut results);
         Ok(results)
     }

@@ -45,7 +45,6 @@ use crate::cea::{CeaError, FrictionSweep, SweepRequest, SweepWatch, Unwatched};
 use crate::linalg::banded::BandedFactor;
 use crate::linalg::{LdlAnalysis, SparseLdl};
 use crate::results::cea::{BaseField, CeaReport, Reading, SensitivityReport};
-use rayon::prelude::*;
 use solve::at_key;
 use std::f64::consts::TAU;
 
@@ -119,7 +118,7 @@ pub fn preflight(case: &Case, cea: &Cea) -> Result<(), StudyError> {
             let [mass, stiffness] = waves.at_rest(n);
             BandedFactor::new(&stiffness, &mass, kappa).negative_count() > 0
         };
-        if (0..=waves.largest_harmonic()).into_par_iter().any(has_modes) {
+        if (0..=waves.largest_harmonic()).any(has_modes) {
             return Ok(());
         }
         // Friction may bring a mode below the limit. There is little to follow.

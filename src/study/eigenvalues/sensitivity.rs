@@ -11,7 +11,6 @@ use crate::cea::sparse::{ModePair, mode_pairs};
 use crate::cea::{ComplexMode, FrictionSweep, ModeBranch, UnstableInterval};
 use crate::linalg::c64;
 use crate::results::cea::{OnsetRates, SensitivityReport, SensitivityRow};
-use rayon::prelude::*;
 use std::f64::consts::TAU;
 
 /// Sensitivities of a body.
@@ -95,10 +94,9 @@ pub fn body_sensitivities(
 
     // One parameter after the other.
     let parameters = parameters(case);
-    let rates: Vec<Rates> = parameters
-        .par_iter()
-        .map(|(key, value)| rates_of(case, cea, &pairs, (key, *value)))
-        .collect();
+    let rates: Vec<Rates> = crate::parallel::map(&parameters, |(key, value)| {
+        rates_of(case, cea, &pairs, (key, *value))
+    });
     let lost = targets.iter().zip(&found).filter(|(_, pair)| pair.is_none());
     let mut missing: Vec<String> = lost.map(|(target, _)| lost_note(target)).collect();
     missing.extend(rates.iter().filter_map(|(_, reason)| reason.clone()));

@@ -6,7 +6,6 @@ use super::matching::{Weights, differences};
 use super::{FitError, FitProblem, MeasuredMode, ModelMode};
 use crate::signal::student_95;
 use crate::study::sobol::ScrambledSobol;
-use rayon::prelude::*;
 
 /// Starting points from which the search goes on.
 const DESCENTS: usize = 4;
@@ -74,7 +73,7 @@ pub fn fit(problem: &FitProblem<'_>) -> Result<Fitted, FitError> {
         ))
     };
     let looked: Vec<Result<Trial, String>> =
-        points.par_iter().map(|places| squares.trial(places, false)).collect();
+        crate::parallel::map(&points, |places| squares.trial(places, false));
     let (mut starts, mut reason) = (Vec::new(), String::new());
     for trial in looked {
         match trial {
@@ -82,10 +81,10 @@ pub fn fit(problem: &FitProblem<'_>) -> Result<Fitted, FitError> {
             Err(error) => reason = error,
         }
     }
-    starts.sort_by(|a, b| a.chi_square.total_cmp(&b.chi_square));
+    crate::order::sort_by_number(&mut starts, |a| a.chi_square);
     starts.truncate(DESCENTS);
     let found: Vec<Result<Trial, String>> =
-        starts.into_par_iter().map(|start| squares.descend(start)).collect();
+        crate::parallel::map(starts, |start| squares.descend(start));
     let (mut minima, mut searched) = (Vec::new(), 0);
     for trial in found {
         searched += 1;
@@ -94,7 +93,7 @@ pub fn fit(problem: &FitProblem<'_>) -> Result<Fitted, FitError> {
             Err(error) => reason = error,
         }
     }
-    minima.sort_by(|a, b| a.chi_square.total_cmp(&b.chi_square));
+    crate::order::sort_by_number(&mut minima, |a| a.chi_square);
     let Some(first) = minima.first() else {
         return Err(failed(reason));
     };

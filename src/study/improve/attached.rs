@@ -62,7 +62,7 @@ impl<'a> NearModes<'a> {
             distances.fold(f64::INFINITY, f64::min)
         };
         let mut modes: Vec<&PairedMode> = base.modes.iter().collect();
-        modes.sort_by(|a, b| away(a).total_cmp(&away(b)));
+        crate::order::sort_by_number(&mut modes, |a| away(a));
         modes.truncate(MOST_MODES);
         let frequencies = || modes.iter().map(|mode| mode.eigenvalue().im);
         let lowest = frequencies().fold(f64::INFINITY, f64::min);
@@ -192,7 +192,7 @@ impl Attached {
         let mut found = real_eigenvalues(companion.as_ref())?;
         let [low, high] = self.range;
         found.retain(|value| value.im > 0.0 && (low..=high).contains(&value.im));
-        found.sort_by(|a, b| a.im.total_cmp(&b.im));
+        crate::order::sort_by_number(&mut found, |a| a.im);
         Ok(found)
     }
 }

@@ -14,7 +14,6 @@ use crate::fem::{element::geometric_stiffness, element_matrices};
 use crate::linalg::c64;
 use crate::prestress::DampingModel;
 use nalgebra::{DMatrix, Matrix3};
-use rayon::prelude::*;
 
 /// `w_a x_b` at a node over the global axes.
 pub(super) type Product = [[c64; 3]; 3];
@@ -40,18 +39,16 @@ impl Derivatives {
 
     fn of(base: &Base<'_>, mode: &PairedMode) -> Self {
         let nodes = 0..base.mesh.node_count();
-        let elements = (0..base.mesh.element_count()).into_par_iter();
-        let each: Vec<[c64; 2]> = elements
-            .map(|element| {
-                let [mass, damping, stiffness] = element_terms(base, element);
-                let dofs = element_dofs(base, element);
-                let [m, c, k] = [&mass, &damping, &stiffness].map(|p| form(mode, &dofs, p));
-                let [_, elastic] = matrices(base, element);
-                let lambda = mode.eigenvalue();
-                let taken = lambda * (lambda * m + c) + k;
-                [taken, -lambda * form(mode, &dofs, &elastic)]
-            })
-            .collect();
+        let elements = 0..base.mesh.element_count();
+        let each: Vec<[c64; 2]> = crate::parallel::map(elements, |element| {
+            let [mass, damping, stiffness] = element_terms(base, element);
+            let dofs = element_dofs(base, element);
+            let [m, c, k] = [&mass, &damping, &stiffness].map(|p| form(mode, &dofs, p));
+            let [_, elastic] = matrices(base, element);
+            let lambda = mode.eigenvalue();
+            let taken = lambda * (lambda * m + c) + k;
+            [taken, -lambda * form(mode, &dofs, &elastic)]
+        });
         Self {
             eigenvalue: mode.eigenvalue(),
             nodes: nodes.map(|node| product(base, mode, node)).collect(),

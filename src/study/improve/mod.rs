@@ -37,7 +37,6 @@ use fields::{Derivatives, element_dofs, element_terms, matrices};
 use modal::{Change, ModalModel};
 use nalgebra::DMatrix;
 use places::Places;
-use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 use trial::{Search, Target, Trial};
@@ -106,7 +105,7 @@ pub fn improve(case: &Case) -> Result<Improvement, StudyError> {
     order.truncate(case.improve.confirm);
     order.sort_unstable();
     let run = |&i: &usize| (i, run_again(&base, &keys_of(&search, &listed[i].1.trial)));
-    let confirmed: Vec<_> = order.par_iter().map(run).collect();
+    let confirmed: Vec<_> = crate::parallel::map(&order, run);
     let candidates = listed.iter().enumerate().map(|(i, (_, own))| {
         let outcome = confirmed.iter().find(|(place, _)| *place == i);
         candidate(&search, i + 1, own, outcome.map(|(_, outcome)| outcome))
@@ -165,30 +164,29 @@ fn predictions(
         trials = shortlist(search, modal, trials, SHORTLISTED * count)?;
     }
     let changes: Vec<Result<(Change, Trial), String>> =
-        trials.into_par_iter().map(|trial| Ok((change(search, modal, &trial)?, trial))).collect();
+        crate::parallel::map(trials, |trial| Ok((change(search, modal, &trial)?, trial)));
     for reason in changes.iter().filter_map(|own| own.as_ref().err()) {
         notes.push(format!("{}: {reason}", kind.word()));
     }
     let changes: Vec<(Change, Trial)> = changes.into_iter().flatten().collect();
 
     // By the growth of all modes together first; onsets only of those that are listed.
-    let outlooks = changes.par_iter().map(|(own, _)| modal.outlook(Some(own)));
-    let outlooks: Vec<Outlook> = outlooks.collect::<Result<_, _>>().map_err(CeaError::from)?;
+    let outlooks: Result<Vec<Outlook>, _> =
+        crate::parallel::map(&changes, |(own, _)| modal.outlook(Some(own)));
+    let outlooks = outlooks.map_err(CeaError::from)?;
     let mut order: Vec<usize> = (0..changes.len()).collect();
     let growth = |i: usize| outlooks[i].worst.map_or(f64::NEG_INFINITY, |mode| mode.re);
-    order.sort_by(|&a, &b| growth(a).total_cmp(&growth(b)));
+    crate::order::sort_by_number(&mut order, |&a| growth(a));
     let before = search.base.outlook.worst.map_or(f64::INFINITY, |mode| mode.re);
     order.retain(|&i| growth(i) < before);
     order.truncate(count);
 
-    let predicted: Result<Vec<Predicted>, crate::linalg::LinalgError> = order
-        .par_iter()
-        .map(|&i| {
+    let predicted: Result<Vec<Predicted>, crate::linalg::LinalgError> =
+        crate::parallel::map(&order, |&i| {
             let onset = modal.corrected_onset(&changes[i].0, search.base.onset)?;
             let onset = onset.filter(|mu| *mu < search.base.friction);
             Ok(Predicted { trial: changes[i].1.clone(), state: state(outlooks[i], onset) })
-        })
-        .collect();
+        });
     Ok(predicted.map_err(CeaError::from)?)
 }
 
@@ -251,9 +249,9 @@ fn shortlist(
         let outlook = modal.outlook(Some(&modal.local(&dofs, [&m, &c, &k])))?;
         Ok((outlook.worst.map_or(f64::NEG_INFINITY, |mode| mode.re), trial))
     };
-    let ranked: Result<Vec<(f64, Trial)>, _> = trials.into_par_iter().map(growth).collect();
+    let ranked: Result<Vec<(f64, Trial)>, _> = crate::parallel::map(trials, growth);
     let mut ranked = ranked.map_err(CeaError::from)?;
-    ranked.sort_by(|a, b| a.0.total_cmp(&b.0));
+    crate::order::sort_by_number(&mut ranked, |a| a.0);
     ranked.truncate(count);
     Ok(ranked.into_iter().map(|(_, trial)| trial).collect())
 }

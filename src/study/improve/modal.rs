@@ -288,7 +288,7 @@ impl<'a> ModalModel<'a> {
         };
         found.retain(|value| !(low..=high).contains(&value.im));
         found.extend(attached.spectrum(mu, false)?);
-        found.sort_by(|a, b| a.im.total_cmp(&b.im));
+        crate::order::sort_by_number(&mut found, |a| a.im);
         Ok(found)
     }
 
@@ -325,7 +325,7 @@ impl<'a> ModalModel<'a> {
         ComplexDenseLu::factorize(left).solve_in_place(operator.as_mut());
         let mut found = complex_eigenvalues(operator.as_ref())?;
         found.retain(|value| value.im > 0.0);
-        found.sort_by(|a, b| a.im.total_cmp(&b.im));
+        crate::order::sort_by_number(&mut found, |a| a.im);
         Ok(found)
     }
 

@@ -51,7 +51,7 @@ impl Places {
         let open: Vec<bool> = (0..mesh.element_count()).map(is_open).collect();
         let middles: Vec<[f64; 3]> = (0..open.len()).map(|e| mesh.element_middle(e)).collect();
         let mut along: Vec<usize> = (0..open.len()).collect();
-        along.sort_by(|&a, &b| middles[a][0].total_cmp(&middles[b][0]));
+        crate::order::sort_by_number(&mut along, |&a| middles[a][0]);
         let patch = |e: usize| -> Vec<u32> {
             let from = along.partition_point(|&other| middles[other][0] < middles[e][0] - radius);
             let beside = along[from..].iter();

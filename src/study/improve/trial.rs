@@ -7,7 +7,6 @@ use crate::case::ModificationKind;
 use crate::linalg::c64;
 use crate::results::improve::Sizes;
 use nalgebra::{Matrix3, SymmetricEigen, Vector3};
-use rayon::prelude::*;
 
 /// Places of each kind that are kept for a closer look, for each one that is listed.
 const KEPT: usize = 6;
@@ -103,7 +102,7 @@ impl Search<'_> {
             };
             Trial { kind, target: Target::Node(node, direction), first_order: Some(first_order) }
         };
-        self.places.nodes.par_iter().map(trial).collect()
+        crate::parallel::map(&self.places.nodes, trial)
     }
 
     fn in_patches(&self, kind: ModificationKind) -> Vec<Trial> {
@@ -122,7 +121,7 @@ impl Search<'_> {
                 target: Target::Patch(*element, patch.clone()),
             }
         };
-        self.places.patches.par_iter().map(trial).collect()
+        crate::parallel::map(&self.places.patches, trial)
     }
 
     /// Half and whole ways along the axes; a disc whose sectors are alike has no preferred one.

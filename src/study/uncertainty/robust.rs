@@ -4,7 +4,6 @@ use super::{Sampler, wilson};
 use crate::case::Case;
 use crate::results::uncertainty::{DesignCurve, Onset, RobustSummary};
 use crate::study::StudyError;
-use rayon::prelude::*;
 use std::str::FromStr;
 
 /// Samples at each design, at most.
@@ -123,14 +122,11 @@ fn probability(
         return Err(StudyError::Design(format!("{} = {value}: {error}", design.key)));
     }
     let harmonics = sampler.harmonics(&followed);
-    let outcomes: Vec<Option<bool>> = (0..samples)
-        .into_par_iter()
-        .map(|index| {
-            let (sample, _) = sampler.sample(&designed, index, harmonics.as_deref());
-            let is_unstable = sample.is_unstable(sample.friction_coefficient);
-            sample.error.is_none().then_some(is_unstable)
-        })
-        .collect();
+    let outcomes: Vec<Option<bool>> = crate::parallel::map(0..samples, |index| {
+        let (sample, _) = sampler.sample(&designed, index, harmonics.as_deref());
+        let is_unstable = sample.is_unstable(sample.friction_coefficient);
+        sample.error.is_none().then_some(is_unstable)
+    });
     let solved = outcomes.iter().flatten().count();
     let hits = outcomes.iter().flatten().filter(|hit| **hit).count();
     let p = wilson(hits, solved);

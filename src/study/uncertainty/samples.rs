@@ -6,7 +6,6 @@ use crate::cea::UnstableInterval;
 use crate::results::uncertainty::{Onset, Sample};
 use crate::study::eigenvalues::{OnsetSearch, Solver};
 use crate::study::{StudyError, eigenvalues, one_line};
-use rayon::prelude::*;
 
 /// Samples of one block, the first of which proves which harmonics hold modes.
 pub const BLOCK: usize = 64;
@@ -124,10 +123,10 @@ impl<'a> Sampler<'a> {
         let last = (first + BLOCK).min(self.uncertainty.samples);
         let (leading, followed) = self.sample(self.case, first, None);
         let harmonics = self.harmonics(&followed);
-        let others = (first + 1..last).into_par_iter();
-        let others = others.map(|index| self.sample(self.case, index, harmonics.as_deref()).0);
+        let sample = |index| self.sample(self.case, index, harmonics.as_deref()).0;
+        let others: Vec<Sample> = crate::parallel::map(first + 1..last, sample);
         let mut samples = vec![leading];
-        samples.extend(others.collect::<Vec<_>>());
+        samples.extend(others);
         self.mix(&mut samples);
         samples
     }
@@ -146,7 +145,8 @@ impl<'a> Sampler<'a> {
             let lowest = within.fold(f64::INFINITY, f64::min);
             Ok::<_, String>((lowest <= most).then_some(lowest))
         };
-        samples.par_iter_mut().filter(|sample| sample.error.is_none()).for_each(|sample| {
+        let solved = samples.iter_mut().filter(|sample| sample.error.is_none());
+        crate::parallel::map::<_, _, ()>(solved, |sample| {
             let points = self.plan.mixed(sample.number - 1);
             // A sample whose points cannot all be solved is none that the indices rest on.
             sample.mixed = points.iter().map(lowest).collect::<Result<_, _>>().unwrap_or_default();

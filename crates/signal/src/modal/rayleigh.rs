@@ -3,17 +3,19 @@
 use crate::SignalError;
 use crate::statistics::{NORMAL_95, student_95};
 use faer::Mat;
+use frictionsim_output::Described;
 use nalgebra::{DMatrix, DVector};
+use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 
 /// A value with its 95 % confidence interval.
-#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Described, Serialize, Deserialize)]
 pub struct Estimate {
-    /// Best value.
+    /// the value
     pub value: f64,
-    /// Lower end of the interval.
+    /// lower end of its 95 % interval
     pub low: f64,
-    /// Upper end of the interval.
+    /// upper end
     pub high: f64,
 }
 
@@ -94,11 +96,9 @@ pub fn fit_rayleigh(
     let factor = known.max(if m > 2 { student_95(degrees) * scatter } else { 0.0 });
     let estimate = |k: usize, unit: f64| {
         let error = factor * spread[(k, k)].max(0.0).sqrt();
-        Estimate {
-            value: x[k] * unit,
-            low: (x[k] - error).max(0.0) * unit,
-            high: (x[k] + error) * unit,
-        }
+        let own = [x[k], (x[k] - error).max(0.0), x[k] + error];
+        let [value, low, high] = own.map(|own| own * unit);
+        Estimate { value, low, high }
     };
     Ok(RayleighFit {
         mass_coefficient: estimate(0, reference),

@@ -117,7 +117,7 @@ impl Steady {
         let modes = &self.modes;
         let growing = (0..modes.len()).filter(|&i| modes[i].is_unstable());
         let mut growing: Vec<usize> = growing.collect();
-        growing.sort_by(|&a, &b| modes[b].growth_rate().total_cmp(&modes[a].growth_rate()));
+        crate::order::sort_by_number(&mut growing, |&a| -modes[a].growth_rate());
         growing
     }
 

@@ -120,7 +120,7 @@ impl<'a> Shapes<'a> {
                 });
             }
             shares.retain(|row| row.share >= LEAST_SHARE);
-            shares.sort_by(|a, b| b.share.total_cmp(&a.share));
+            crate::order::sort_by_number(&mut shares, |a| -a.share);
             all.extend(shares);
         }
         all

@@ -206,7 +206,7 @@ impl Waving<'_> {
             }
         });
         let mut shares: Vec<Coupling> = shares.filter(|row| row.share >= LEAST_SHARE).collect();
-        shares.sort_by(|a, b| b.share.total_cmp(&a.share));
+        crate::order::sort_by_number(&mut shares, |a| -a.share);
         shares
     }
 }

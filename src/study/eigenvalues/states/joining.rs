@@ -218,7 +218,7 @@ fn relabel(before: &Part, after: &mut Part) {
             }
         }
     }
-    pairs.sort_by(|a, b| a.0.total_cmp(&b.0));
+    crate::order::sort_by_number(&mut pairs, |a| a.0);
     let mut is_taken = [vec![false; old.len()], vec![false; new.len()]];
     let mut name_at = BTreeMap::new();
     for (_, i, j) in pairs {

@@ -1,0 +1,137 @@
+//! The harmonics with modes at rest in a range of frequency, complete by inertia counts.
+
+use super::pencil::{Modes, Pencil};
+use crate::cea::{CeaError, ModeLimit};
+use crate::prestress::{PrestressError, WaveTangent};
+use std::f64::consts::TAU;
+
+/// Harmonics without a mode in a row after which only some of the higher ones are counted: short waves around are stiff.
+const EMPTY: usize = 3;
+
+/// Harmonics solved side by side.
+const BATCH: usize = 4;
+
+/// Modes of one harmonic without friction.
+pub(super) struct AtRest {
+    pub harmonic: usize,
+    pub pencil: Pencil,
+    pub modes: Modes,
+}
+
+fn pencil(tangent: &WaveTangent, n: usize) -> Result<Pencil, CeaError> {
+    let [mass, stiffness] = tangent.at_rest(n);
+    Pencil::new(mass, stiffness).ok_or(CeaError::Prestress(PrestressError::Singular))
+}
+
+/// A bound of `kappa` at rest of the modes wanted, from above, and the lowest harmonics as far as they were needed for it.
+pub(super) fn bound(
+    tangent: &WaveTangent,
+    limit: ModeLimit,
+) -> Result<(f64, Vec<Pencil>), CeaError> {
+    let asked = match limit {
+        ModeLimit::MaxFrequency(value) => return Ok(((TAU * value).powi(2), Vec::new())),
+        ModeLimit::Lowest(asked) => asked,
+    };
+    let (mut pencils, mut few) = (Vec::new(), tangent.largest_harmonic().min(BATCH - 1));
+    loop {
+        let more: Result<Vec<Pencil>, CeaError> =
+            crate::parallel::map(pencils.len()..=few, |n| pencil(tangent, n));
+        pencils.extend(more?);
+        let count = asked.div_ceil(2 * few.max(1)) + 1;
+        let found: Vec<Vec<f64>> =
+            crate::parallel::map(pencils.iter().enumerate(), |(n, pencil)| {
+                of_all_waves(tangent, n, &pencil.lowest(count))
+            });
+        // Of few unknowns many harmonics are needed.
+        match just_above(asked, found.concat()) {
+            Ok(bound) => return Ok((bound, pencils)),
+            Err(error) if few == tangent.largest_harmonic() => return Err(error),
+            Err(_) => few = (2 * few).min(tangent.largest_harmonic()),
+        }
+    }
+}
+
+/// `kappa` at rest up to which the modes wanted lie.
+pub(super) fn wanted(
+    tangent: &WaveTangent,
+    found: &[AtRest],
+    limit: ModeLimit,
+    bound: f64,
+) -> Result<f64, CeaError> {
+    let ModeLimit::Lowest(asked) = limit else {
+        return Ok(bound);
+    };
+    let all = found.iter().flat_map(|found| of_all_waves(tangent, found.harmonic, &found.modes));
+    just_above(asked, all.collect())
+}
+
+/// `kappa` of the modes of harmonic `n`, of each wave once.
+fn of_all_waves(tangent: &WaveTangent, n: usize, modes: &Modes) -> Vec<f64> {
+    let waves = if tangent.is_standing(n) { 1 } else { 2 };
+    let kappas = modes.iter().flat_map(|mode| vec![mode.0; waves]);
+    kappas.collect()
+}
+
+/// A little more than the lowest `kappa` but `asked - 1`.
+fn just_above(asked: usize, mut kappas: Vec<f64>) -> Result<f64, CeaError> {
+    kappas.sort_by(f64::total_cmp);
+    let total = kappas.len();
+    let highest = kappas.get(asked - 1).map(|kappa| kappa * (1.0 + 1e-9));
+    highest.ok_or_else(|| CeaError::too_many_modes(asked, total))
+}
+
+/// The modes below `kappa` of harmonic `n` at rest; `None` where it has none.
+pub(super) fn at_rest(
+    tangent: &WaveTangent,
+    (n, known): (usize, Option<Pencil>),
+    kappa: f64,
+) -> Result<Option<AtRest>, CeaError> {
+    let pencil = known.map_or_else(|| pencil(tangent, n), Ok)?;
+    let counted = pencil.count_below(kappa);
+    if counted == 0 {
+        return Ok(None);
+    }
+    let modes = pencil.lowest(counted);
+    let found = modes.iter().filter(|mode| mode.0 < kappa).count();
+    match found == counted {
+        true => Ok(Some(AtRest { harmonic: n, pencil, modes })),
+        false => Err(CeaError::Harmonic(format!(
+            "harmonic {n} has {counted} modes below the limit by inertia but {found} were found; \
+             use cea.method = \"sparse\""
+        ))),
+    }
+}
+
+/// The harmonics that have modes below `kappa` at rest with these modes, and those counted empty; `known` are the first.
+pub(super) fn modes_below(
+    tangent: &WaveTangent,
+    kappa: f64,
+    known: Vec<Pencil>,
+) -> Result<(Vec<AtRest>, Vec<usize>), CeaError> {
+    let largest = tangent.largest_harmonic();
+    let mut known: Vec<Option<Pencil>> = known.into_iter().map(Some).collect();
+    let (mut all, mut empty) = (Vec::new(), Vec::new());
+    let (mut n, mut in_a_row, mut step) = (0, 0, 1);
+    while n <= largest {
+        // Several harmonics side by side.
+        let batch: Vec<usize> = (0..if step == 1 { BATCH } else { 1 })
+            .map(|k| n + k)
+            .filter(|n| *n <= largest)
+            .collect();
+        let own = batch.iter().map(|&n| (n, known.get_mut(n).and_then(Option::take)));
+        let with_known: Vec<_> = own.collect();
+        let found: Result<Vec<Option<AtRest>>, CeaError> =
+            crate::parallel::map(with_known, |own| at_rest(tangent, own, kappa));
+        for (&n, found) in batch.iter().zip(found?) {
+            in_a_row = if found.is_some() { 0 } else { in_a_row + 1 };
+            if found.is_none() {
+                empty.push(n);
+            }
+            all.extend(found);
+        }
+        n = batch[batch.len() - 1];
+        step = if in_a_row >= EMPTY { 1 + n / 2 } else { 1 };
+        n = if n < largest { (n + step).min(largest) } else { n + 1 };
+    }
+    Ok((all, empty))
+}

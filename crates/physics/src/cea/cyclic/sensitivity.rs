@@ -1,0 +1,169 @@
+//! Right and left vectors of waves, and what small changes of the model do to their eigenvalues.
+
+use super::branch::{path_theta, point_of};
+use super::follow::Follower;
+use super::path::Waves;
+use super::problem::HarmonicProblem;
+use crate::cea::vectors::{ZERO, dot};
+use crate::cea::{BranchPoint, ModeBranch};
+use crate::fem::own_frequency_step;
+use crate::linalg::c64;
+use crate::prestress::{HarmonicTangent, MovingHarmonic, WaveTangent};
+use std::collections::BTreeMap;
+
+/// Distance relative to an eigenvalue from that of its branch above which it is another's: small spaces leave out far less.
+const LOST: f64 = 1e-3;
+
+/// The eigenpair of a branch at one friction coefficient, over the unknowns of its whole harmonic.
+#[derive(Clone, Debug)]
+pub struct WavePair {
+    /// Circumferential harmonic.
+    pub harmonic: usize,
+    /// Branch within the harmonic.
+    pub branch: usize,
+    /// Direction of travel of the branch.
+    pub direction: i8,
+    /// Friction coefficient.
+    pub friction_coefficient: f64,
+    /// Eigenvalue `lambda`, rad/s.
+    pub eigenvalue: c64,
+    /// `d lambda / d mu`, rad/s.
+    pub derivative: c64,
+    /// Whether the branch is the wave `-n`: the complex conjugate of a root of the wave `+n`'s problem with `Im < 0`.
+    is_backward: bool,
+    /// The root of the wave `+n`.
+    root: c64,
+    right: Vec<c64>,
+    left: Vec<c64>,
+    /// `y^H (2 lambda M + C) x`.
+    slope: c64,
+    /// `y^H (dK / d omega) x` of stiffness that depends on frequency, over that.
+    own_slope: c64,
+}
+
+/// The eigenpairs of branches, each at a friction coefficient: `None` where the branch does not oscillate there, and where
+/// Rayleigh quotient iteration does not find its eigenvalue again.
+pub fn wave_pairs(tangent: &WaveTangent, wanted: &[(&ModeBranch, f64)]) -> Vec<Option<WavePair>> {
+    let numbers = wanted.iter().map(|(branch, _)| (branch.harmonic, ()));
+    let numbers: BTreeMap<usize, ()> = numbers.collect();
+    let problem = |n| (n, HarmonicProblem::new(tangent.harmonic(n), tangent.is_standing(n)));
+    let harmonics: BTreeMap<usize, HarmonicProblem> =
+        crate::parallel::map(numbers, |(n, ())| problem(n));
+    let direction = tangent.sliding_direction;
+    let pair = |&(branch, friction): &(&ModeBranch, f64)| {
+        let is_backward = f64::from(branch.direction) * direction > 0.0;
+        pair_of(&harmonics[&branch.harmonic], (branch, friction), is_backward)
+    };
+    crate::parallel::map(wanted, pair)
+}
+
+/// A model with a parameter beside its value, as a term of a difference quotient.
+pub struct Beside {
+    /// Weight in the quotient.
+    pub weight: f64,
+    /// Its linearisation.
+    pub tangent: WaveTangent,
+    /// What its friction coefficient has more than that of the eigenpairs.
+    pub friction_shift: f64,
+}
+
+/// `d lambda / d p` of each pair from models with the parameter `p` beside its value,
+///
+/// ```text
+/// d lambda = - y^H (lambda^2 dM + lambda dC + dK) x / y^H (2 lambda M + C) x
+/// ```
+///
+/// with left and right vectors of one harmonic, so that waves `n` and `-n` that coincide at `mu = 0` do no harm. The base state
+/// follows. `None` where the unknowns change with the parameter.
+pub fn wave_responses(pairs: &[&WavePair], quotient: &[Beside]) -> Option<Vec<c64>> {
+    let mut order: Vec<usize> = (0..pairs.len()).collect();
+    let place = |i: usize| (pairs[i].harmonic, pairs[i].friction_coefficient.to_bits());
+    order.sort_by_key(|&i| place(i));
+    let mut responses = vec![ZERO; pairs.len()];
+    for of_harmonic in order.chunk_by(|a, b| pairs[*a].harmonic == pairs[*b].harmonic) {
+        let n = pairs[of_harmonic[0]].harmonic;
+        let sides: Vec<HarmonicTangent> =
+            quotient.iter().map(|own| own.tangent.harmonic(n)).collect();
+        for alike in of_harmonic.chunk_by(|a, b| place(*a) == place(*b)) {
+            let friction = pairs[alike[0]].friction_coefficient;
+            let terms = quotient.iter().zip(&sides);
+            let terms =
+                terms.map(|(own, side)| (own.weight, side.at(friction + own.friction_shift)));
+            let change = MovingHarmonic::combined(&terms.collect::<Vec<_>>())?;
+            for &i in alike {
+                responses[i] = pairs[i].response(&change)?;
+            }
+        }
+    }
+    Some(responses)
+}
+
+impl WavePair {
+    /// Change of the eigenvalue where the matrices change; `None` of matrices of other unknowns.
+    fn response(&self, change: &MovingHarmonic) -> Option<c64> {
+        let h = change.half_bandwidth;
+        if change.mass.len() != self.right.len() * (2 * h + 1) {
+            return None;
+        }
+        let form = |band: &[c64]| form(band, h, &self.left, &self.right);
+        let [mass, damping, stiffness] =
+            [&change.mass[..], &change.damping, &change.stiffness_at(self.root)].map(form);
+        let changed = self.root * (self.root * mass + damping) + stiffness;
+        let mut step = -changed / self.slope;
+        if self.own_slope != ZERO {
+            step = own_frequency_step(step, self.own_slope);
+        }
+        Some(of_wave(step, self.is_backward))
+    }
+}
+
+/// What belongs to a branch of what belongs to the wave `+n`, and the other way round.
+fn of_wave(value: c64, is_backward: bool) -> c64 {
+    if is_backward { value.conj() } else { value }
+}
+
+/// `y^H A x` of a band; changes are zero in most of it.
+fn form(band: &[c64], h: usize, y: &[c64], x: &[c64]) -> c64 {
+    let rows = band.chunks_exact(2 * h + 1).enumerate().zip(y);
+    let images = rows.map(|((row, band), y)| {
+        let entries = band.iter().enumerate().filter(|(_, value)| **value != ZERO);
+        y.conj() * entries.map(|(k, value)| value * x[row + k - h]).sum::<c64>()
+    });
+    images.sum()
+}
+
+/// The pair of a branch, by two-sided Rayleigh quotient iteration from its eigenvalue.
+fn pair_of(
+    problem: &HarmonicProblem,
+    (branch, friction): (&ModeBranch, f64),
+    is_backward: bool,
+) -> Option<WavePair> {
+    let start = branch.interpolate(friction)?;
+    let guess = path_theta(problem, is_backward, start);
+    let found = Follower::new(problem).find(&problem.at(friction), friction, guess)?;
+    let waves = if is_backward { Waves::Backward } else { Waves::Forward };
+    let BranchPoint { eigenvalue, rate, .. } = point_of(problem, waves, &found);
+    // Not so of what is not a number.
+    let is_it = (eigenvalue - start).norm() <= LOST * start.norm();
+    let (root, right, left) = (of_wave(eigenvalue, is_backward), found.x, found.y);
+    let at = problem.tangent.at(friction);
+    let slope = dot(&left, &at.apply_slope(root, &right, false));
+    let own = at.losses.iter().map(|(gain, band)| (gain.slope(root), band));
+    let own = own.filter(|(rate, _)| *rate != ZERO);
+    let own = own.map(|(rate, band)| rate * form(band, at.half_bandwidth, &left, &right));
+    let own_slope = own.fold(ZERO, |sum, own| sum + own) / slope;
+    is_it.then_some(WavePair {
+        harmonic: branch.harmonic,
+        branch: branch.branch,
+        direction: branch.direction,
+        friction_coefficient: friction,
+        eigenvalue,
+        derivative: rate,
+        is_backward,
+        root,
+        right,
+        left,
+        slope,
+        own_slope,
+    })
+}

@@ -1,0 +1,276 @@
+//! A basis of the modes at a few friction coefficients, each from an iteration of its own.
+
+use super::{
+    BasisBuilder, CHANGE_PLACES, LOSSY_ROUNDS, VECTOR_TOLERANCE, scale_to_unit_length, turn_to_real,
+};
+use crate::cea::CeaError;
+use crate::cea::sparse::full_problem::FullProblem;
+use crate::cea::sparse::linearization::Linearization;
+use crate::cea::sparse::mode::ReducedMode;
+use crate::cea::sparse::packed::{PackedModes, side_by_side};
+use crate::cea::sparse::structure::StructureMatrices;
+use crate::cea::sparse::{BESIDE, GROUP_WIDTH, SAME_SPACE, TRACKING_MARGIN};
+use crate::linalg::{LinalgError, Mat, c64};
+
+/// Complex factors of one round of corrections: more of them cost more than the rounds that they save.
+const MOST_SHIFTS: usize = 6;
+/// Refinements of lossy modes whose corrections are kept beside the modes: with none of them convergence is slow and uneven.
+const HISTORY: usize = 3;
+/// Unknowns up to which a problem, of twice that size, is decomposed: where its modes are lossy or do not converge. That takes a
+/// second or two for each friction value.
+pub(super) const MOST_DENSE: usize = 300;
+/// Samples between two friction values, at places where branches were lost, after which more of them are no help.
+const MOST_BETWEEN: usize = 8;
+impl BasisBuilder<'_> {
+    /// Takes up the modes without friction, where branches begin: where stiffness depends on frequency, each at its own.
+    pub fn begin_at_rest(&mut self) -> Result<(), CeaError> {
+        match self.tangent.tabled.is_empty() {
+            true => self.hold_frictionless(),
+            false => self.improve_at(0.0).map(|_| ())?,
+        }
+        Ok(())
+    }
+
+    /// Leading vectors of the basis that are motions without friction: rigid ones and modes.
+    pub fn leading_count(&self) -> usize {
+        self.rigid + self.count
+    }
+
+    /// Begins the sample at `mu`, anew, with the rigid motions: in a span without them, what corrections have of them looks like modes.
+    /// Modes of a decomposition are not corrected.
+    fn begin_sample(&mut self, mu: f64) {
+        self.model.drop_sample(mu);
+        self.sampled.retain(|held| *held != mu);
+        self.sampled.push(mu);
+        if self.rigid > 0 && !self.may_decompose() {
+            self.model.hold_coordinates(mu, Mat::identity(self.model.dimension(), self.rigid));
+        }
+    }
+
+    /// Branches begin without friction: the modes there, without damping too, are near enough, or those of proportional damping.
+    fn hold_frictionless(&mut self) {
+        let modes = Mat::identity(self.model.dimension(), self.leading_count());
+        self.model.hold_coordinates(0.0, modes);
+        if let Linearization::Reduced(..) = self.linearization {
+            self.sampled.push(0.0);
+        }
+    }
+
+    /// Makes the basis hold the modes at `mu` better; whether it grew.
+    ///
+    /// # Errors
+    /// If `K(mu)` is singular, or an iteration or a dense decomposition fails.
+    pub fn improve_at(&mut self, mu: f64) -> Result<bool, CeaError> {
+        match self.linearization {
+            _ if !self.is_sampling => Ok(self.refine_at(mu)?.is_some()),
+            // A decomposition leaves nothing to correct.
+            _ if self.sampled.contains(&mu) && self.may_decompose() => Ok(false),
+            _ if self.sampled.contains(&mu) => self.refine_sample(mu),
+            Linearization::Reduced(..) => {
+                self.begin_sample(mu);
+                self.sample(mu, self.leading_count(), None)
+            }
+            Linearization::Companion { .. } => {
+                self.begin_sample(mu);
+                if self.may_decompose() {
+                    return self.sample_densely(mu);
+                }
+                // From combinations of the modes without friction, which the basis holds first.
+                let known = self.model.dimension();
+                let leading = self.leading_count().min(known);
+                let has_grown = self.sample(mu, self.leading_count(), Some(leading))?;
+                // The iteration leaves structural damping and tables out: its vectors are a start.
+                if self.tangent.is_lossy() {
+                    self.refine_lossy(mu, known)?;
+                }
+                Ok(has_grown)
+            }
+        }
+    }
+
+    /// Whether the full problem may be decomposed.
+    pub fn is_small(&self) -> bool {
+        self.tangent.stiffness.dimension() <= MOST_DENSE
+    }
+
+    /// Whether all modes of a lossy problem may come from one decomposition of its matrices.
+    fn may_decompose(&self) -> bool {
+        self.is_small() && self.tangent.structural.is_some() && self.tangent.tabled.is_empty()
+    }
+
+    /// Lets all motions of the body stand for the sample at `mu`.
+    pub fn hold_all(&mut self, mu: f64) -> Result<(), LinalgError> {
+        let unknowns = self.tangent.stiffness.dimension();
+        let all = self.step(mu, |_| Ok::<_, LinalgError>(Mat::identity(unknowns, unknowns)))?;
+        self.model.extend(all.clone(), SAME_SPACE);
+        self.begin_sample(mu);
+        self.model.hold_sample(mu, &all);
+        Ok(())
+    }
+
+    /// Takes up the modes at `mu` from a dense decomposition of the full matrices; whether the basis grew.
+    fn sample_densely(&mut self, mu: f64) -> Result<bool, CeaError> {
+        let unknowns = self.tangent.stiffness.dimension();
+        let vectors = self.step(mu, |builder| {
+            let count = builder.count + TRACKING_MARGIN;
+            let modes = builder.model.solve_unreduced(builder.tangent, mu, count)?;
+            let vectors: Vec<Vec<c64>> = modes.into_iter().map(|mode| mode.right).collect();
+            Ok::<_, LinalgError>(real_columns(unknowns, &vectors))
+        })?;
+        let has_grown = self.model.extend(vectors.clone(), SAME_SPACE).ncols() > 0;
+        self.model.hold_sample(mu, &vectors);
+        Ok(has_grown)
+    }
+
+    /// Drops what repairs of lossy modes, each of many rounds, added to the basis beyond the modes that it holds; the coordinates of the
+    /// new basis in the old one.
+    pub fn restrict(&mut self) -> Option<Mat<f64>> {
+        let may_restrict = self.tangent.is_lossy() && !self.model.samples.is_empty();
+        may_restrict.then(|| self.model.restrict(self.leading_count().min(self.model.dimension())))
+    }
+
+    /// Refines the sample at `mu` round after round and keeps of what was added to the `known` first vectors of the basis only the modes.
+    fn refine_lossy(&mut self, mu: f64, known: usize) -> Result<(), CeaError> {
+        for round in 0..LOSSY_ROUNDS {
+            if round % HISTORY == 0 {
+                let modes = self.model.solve_right(mu, self.count)?;
+                self.hold_solved(mu, &modes);
+            }
+            if !self.refine_sample(mu)? {
+                break;
+            }
+        }
+        let modes = self.model.solve_right(mu, self.count)?;
+        self.hold_solved(mu, &modes);
+        self.model.restrict(known);
+        Ok(())
+    }
+
+    /// Corrects `modes` that the basis holds nearly at `mu`, from the second time on those that it holds now, or takes up those of a
+    /// decomposition; whether there was anything to correct.
+    pub fn correct_at(&mut self, mu: f64, modes: &[ReducedMode]) -> Result<bool, CeaError> {
+        if self.may_decompose() {
+            return self.improve_at(mu);
+        }
+        self.take_up(mu, modes);
+        self.refine_sample(mu)
+    }
+
+    /// Lets `modes` stand for a sample at `mu`, if there is none and the basis is made of samples.
+    pub fn take_up(&mut self, mu: f64, modes: &[ReducedMode]) {
+        if self.is_sampling && !self.sampled.contains(&mu) {
+            self.begin_sample(mu);
+            self.model.hold_coordinates(mu, self.leading(modes));
+        }
+    }
+
+    /// Corrects `modes`, nearly those at `mu`, by the full problem there, `t = T(sigma)^-1 T(lambda) x`; whether the basis grew.
+    ///
+    /// What `x` has of another mode, with the eigenvalue `nu`, a correction takes away down to `|sigma - lambda| / |sigma - nu|`: factors
+    /// that hold friction, damping, losses and tables, and lie beside the mode, leave a hundredth or less.
+    ///
+    /// # Errors
+    /// If the analysis of the matrices fails.
+    pub fn shift(&mut self, mu: f64, modes: &[ReducedMode]) -> Result<bool, CeaError> {
+        if self.holds_all {
+            return Ok(false);
+        }
+        let vectors = self.step(mu, |builder| builder.shifted_corrections(mu, modes))?;
+        let has_grown = self.model.extend(vectors.clone(), SAME_SPACE).ncols() > 0;
+        match self.sampled.contains(&mu) {
+            true => self.model.hold_sample(mu, &vectors),
+            false => self.model.hold_correction(mu, &vectors),
+        }
+        Ok(has_grown)
+    }
+
+    /// The corrections of [`Self::shift`], two real columns each. Neighbours in frequency share factors.
+    fn shifted_corrections(&self, mu: f64, modes: &[ReducedMode]) -> Result<Mat<f64>, LinalgError> {
+        let problem = FullProblem::at(self.tangent, mu).sharing(&self.analysis);
+        let unknowns = problem.dimension();
+        // Residuals in the full matrices.
+        let matrices = StructureMatrices::at(self.tangent, self.linearization, mu);
+        let packed = PackedModes::of(modes, self.model.dimension());
+        let mut open: Vec<(c64, Vec<c64>)> = Vec::with_capacity(modes.len());
+        for group in packed.groups(GROUP_WIDTH) {
+            let x = self.model.expand(packed.coordinates.get(.., group.columns.clone()));
+            let (residuals, _) = matrices.residuals_and_momenta(&group.entries, x.as_ref());
+            open.extend(group.modes.iter().map(|&j| {
+                let own = packed.vector(j, &group, &residuals);
+                (modes[j].eigenvalue, (0..unknowns).map(|i| own.at(i)).collect())
+            }));
+        }
+        crate::order::sort_by_number(&mut open, |a| a.0.im);
+
+        // Factors beside the middle one of each group; where an eigenvalue lies just there, another round has others.
+        let share = open.len().div_ceil(MOST_SHIFTS).max(1);
+        let solved: Vec<Option<_>> = crate::parallel::map(open.chunks(share), |own| {
+            let (middle, _) = own[own.len() / 2];
+            let factors = problem.factors(middle * (1.0 + BESIDE)).ok()?;
+            let mut x = Mat::from_fn(unknowns, own.len(), |i, j| own[j].1[i]);
+            factors.solve_in_place(x.as_mut());
+            Some((0..own.len()).map(|j| x.col(j).iter().copied().collect()).collect())
+        });
+        let solved: Vec<Vec<Vec<c64>>> = solved.into_iter().flatten().collect();
+        Ok(real_columns(unknowns, &solved.concat()))
+    }
+
+    /// Lets the `modes` found in the sample at `mu`, if there is one, stand for it: corrections made it wider than they need.
+    pub fn hold_solved(&mut self, mu: f64, modes: &[ReducedMode]) {
+        if self.sampled.contains(&mu) && modes.len() >= self.count {
+            self.begin_sample(mu);
+            self.model.hold_coordinates(mu, self.leading(modes));
+        }
+    }
+
+    /// Coordinates of the modes to be held, real and imaginary parts.
+    fn leading(&self, modes: &[ReducedMode]) -> Mat<f64> {
+        // Motions near critical damping, which may be none, take no places.
+        let mut far = (0..modes.len()).filter(|&j| !modes[j].is_nearly_critical());
+        let held = far.nth(self.count - 1).map_or(modes.len(), |j| {
+            let end = CHANGE_PLACES * modes[j].eigenvalue.im;
+            modes.partition_point(|mode| mode.eigenvalue.im < end)
+        });
+        PackedModes::of(&modes[..held], self.model.dimension()).coordinates
+    }
+
+    /// Where `mu` lies among the friction coefficients whose modes the basis holds: an odd number at one, an even one between.
+    pub fn gap(&self, mu: f64) -> usize {
+        let below = self.sampled.iter().filter(|&&held| held < mu).count();
+        2 * below + usize::from(self.sampled.contains(&mu))
+    }
+
+    /// Adds the corrections of the modes at a sampled `mu` to the basis and to the sample; whether there were any.
+    fn refine_sample(&mut self, mu: f64) -> Result<bool, CeaError> {
+        let mut corrections = self.step(mu, |builder| {
+            let modes = builder.model.solve_right(mu, builder.count)?;
+            Ok::<_, LinalgError>(builder.corrections(&modes, mu))
+        })?;
+        scale_to_unit_length(&mut corrections);
+        let has_any = corrections.ncols() > 0;
+        if has_any {
+            self.model.extend(corrections.clone(), VECTOR_TOLERANCE);
+            self.model.hold_sample(mu, &corrections);
+        }
+        Ok(has_any)
+    }
+
+    /// Makes the tracking of branches over `from..to` surer: takes up the modes at an end or, after those, at the `place` between where a
+    /// branch was lost; whether anything was left to do.
+    pub fn improve_between(&mut self, from: f64, to: f64, place: f64) -> Result<bool, CeaError> {
+        let is_between = |mu: &&f64| (from..to).contains(*mu);
+        let has_many = self.sampled.iter().filter(is_between).count() > MOST_BETWEEN;
+        let mut values = [from, to, place].into_iter();
+        match values.find(|mu| !self.sampled.contains(mu)) {
+            Some(mu) if !has_many => self.improve_at(mu).map(|_| true),
+            _ => Ok(false),
+        }
+    }
+}
+
+/// Complex vectors as real and imaginary parts in neighbouring columns, as real as can be.
+fn real_columns(rows: usize, vectors: &[Vec<c64>]) -> Mat<f64> {
+    let mut columns = side_by_side(rows, vectors);
+    turn_to_real(&mut columns);
+    columns
+}

@@ -1,0 +1,378 @@
+//! Continuation of mode branches over the friction coefficient.
+
+use super::edge::ContactEdge;
+use super::mode::ReducedMode;
+use super::point::SolvedPoint;
+use super::reduced::ReducedModel;
+use super::{MULTIPLE, SAME_EIGENVALUE};
+use crate::cea::counted::NEARLY_CRITICAL;
+use crate::linalg::{ComplexDenseLu, LinalgError};
+use crate::linalg::{Mat, c64};
+
+/// Distance of an overlap from 1 within which two modes at neighbouring friction coefficients may be one.
+const ALIKE: f64 = 0.5;
+/// Distance within which they are one beyond doubt.
+const SAME: f64 = 0.1;
+/// Part of the end of a range by which a mode is above it beyond doubt.
+const ABOVE_RANGE: f64 = 0.01;
+/// Bisections of an interval, one within the other, before modes are matched by their extrapolated eigenvalue.
+const MAX_BISECTIONS: usize = 10;
+/// Bisections of an interval in all; a branch that these do not follow is lost.
+const MOST_BETWEEN: usize = 250;
+/// Relative error of the predicted eigenvalue of a mode that is the same beyond doubt.
+const PREDICTED: f64 = 1e-3;
+
+/// Name of a branch.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct BranchLabel {
+    /// Circumferential harmonic.
+    pub harmonic: usize,
+    /// Rank by frequency within the harmonic at the first point, without friction unless the sweep is continued, 1 = lowest.
+    pub branch: usize,
+}
+
+/// One branch over all points of a sweep.
+#[derive(Clone, Debug)]
+pub struct TrackedBranch {
+    /// Its name.
+    pub label: BranchLabel,
+    /// Its index among the modes of each point; `None` before it entered the range.
+    pub modes: Vec<Option<usize>>,
+    /// Where a branch of wanted modes ends.
+    pub end: Option<BranchEnd>,
+}
+
+/// Where a branch ends, and why.
+#[derive(Clone, Debug)]
+pub struct BranchEnd {
+    /// Index of the last point where it was seen.
+    pub after: usize,
+    /// Whether damping of friction takes it beyond the critical one; else it could not be told from others at the next point.
+    pub is_damped: bool,
+    /// The mode where it was last seen, between that point and the next ...
+    pub mode: ReducedMode,
+    /// ... the friction coefficient there, and the next one, where it is none of the modes.
+    pub between: [f64; 2],
+    /// Friction coefficient at which the mode ceases to oscillate as steady sliding loses its static stability.
+    pub diverges_at: Option<f64>,
+}
+
+impl BranchEnd {
+    /// Whether the mode could not be told from others.
+    pub fn is_lost(&self) -> bool {
+        !self.is_damped && self.diverges_at.is_none()
+    }
+}
+
+/// A mode where its branch was last seen.
+#[derive(Clone, Debug)]
+struct LastSeen {
+    mode: ReducedMode,
+    /// The friction coefficient there, and the next one, where it is none of the modes.
+    between: [f64; 2],
+}
+
+/// Whether a mode may cease to oscillate within a step of friction, as friction across slow sliding, a dashpot of `mu p / V`, damps it.
+fn may_vanish(mode: &ReducedMode, step: f64) -> bool {
+    let decay = -(mode.eigenvalue.re + mode.derivative.re * step);
+    decay > NEARLY_CRITICAL * mode.eigenvalue.norm()
+}
+
+/// Whether a mode lies above what is wanted at the next friction coefficient, by more than it may be wrong there: of the lowest ones
+/// others may have come from below.
+fn leaves_range(mode: &ReducedMode, step: f64, range_end: f64) -> bool {
+    let (frequency, change) = (mode.eigenvalue.im, mode.derivative.im * step);
+    frequency.min(frequency + change) > range_end * (1.0 + ABOVE_RANGE) + change.abs()
+}
+
+/// Names the first `count` modes of the first point and rotates degenerate ones so that they are the limits of the modes with more
+/// friction.
+pub fn label_first(
+    point: &mut SolvedPoint,
+    model: &ReducedModel,
+    edge: &ContactEdge,
+    count: usize,
+) -> Result<Vec<BranchLabel>, LinalgError> {
+    let checks = point.checks.iter().take(count);
+    let harmonics: Vec<usize> = checks.map(|own| edge.harmonic(&own.edge, own.peak)).collect();
+    let others = |i: usize| harmonics[..i].iter().copied();
+    let labels = (0..harmonics.len()).map(|i| label(edge, harmonics[i], others(i))).collect();
+    split_degenerate(point, model, count)?;
+    Ok(labels)
+}
+
+/// The next name of a harmonic, of which branches with the harmonics of `others` may have some.
+fn label(edge: &ContactEdge, harmonic: usize, others: impl Iterator<Item = usize>) -> BranchLabel {
+    let below = others.filter(|&other| other == harmonic).count();
+    let branch = if edge.is_paired(harmonic) { below / 2 } else { below };
+    BranchLabel { harmonic, branch: branch + 1 }
+}
+
+/// First-order perturbation theory within each cluster of equal eigenvalues.
+///
+/// With biorthonormal vectors, `dlambda/dmu` are the eigenvalues of `-W^T T'(lambda) X`, and its
+/// eigenvectors are the combinations that continue into more friction.
+fn split_degenerate(
+    SolvedPoint { friction_coefficient: mu, modes, .. }: &mut SolvedPoint,
+    model: &ReducedModel,
+    count: usize,
+) -> Result<(), LinalgError> {
+    let (at, rate) = (model.at(*mu), model.derivative_at(*mu));
+    let mut first = 0;
+    while first < count.min(modes.len()) {
+        let lambda = modes[first].eigenvalue;
+        let size = modes[first..]
+            .iter()
+            .take_while(|m| (m.eigenvalue - lambda).norm() < MULTIPLE * lambda.norm())
+            .count();
+        if size > 1 {
+            let cluster = &mut modes[first..first + size];
+            let gram = ComplexDenseLu::factorize(at.overlaps(cluster, cluster));
+            let mut operator = -rate.pencil_forms(cluster, cluster);
+            gram.solve_in_place(operator.as_mut());
+            rotate(cluster, &operator, &gram)?;
+            // What each mode's own frequency does to it is a matter of single modes.
+            if !at.tabled.is_empty() {
+                model.complete(cluster, &at, *mu);
+            }
+        }
+        first += size.max(1);
+    }
+    Ok(())
+}
+
+/// Replaces the vectors of a cluster by the eigenvectors of `operator`, biorthonormal ones.
+fn rotate(
+    cluster: &mut [ReducedMode],
+    operator: &Mat<c64>,
+    gram: &ComplexDenseLu,
+) -> Result<(), LinalgError> {
+    let size = cluster.len();
+    let eigen = operator.eigen().map_err(|_| LinalgError::DenseEigen { dimension: size })?;
+    let (values, vectors) = (eigen.S().column_vector(), eigen.U());
+    let mut order: Vec<usize> = (0..size).collect();
+    crate::order::sort_by_number(&mut order, |&i| values[i].re);
+    let vectors = Mat::from_fn(size, size, |i, j| vectors[(i, order[j])]);
+    // Left vectors: P^-1 G^-1 W^T, so that W'^T (2 lambda M + C) X P is the identity.
+    let mut left = Mat::<c64>::identity(size, size);
+    gram.solve_in_place(left.as_mut());
+    ComplexDenseLu::factorize(vectors.clone()).solve_in_place(left.as_mut());
+    let combine = |old: &[Vec<c64>], factor: &dyn Fn(usize) -> c64| -> Vec<c64> {
+        (0..old[0].len()).map(|row| (0..size).map(|i| factor(i) * old[i][row]).sum()).collect()
+    };
+    let rights: Vec<Vec<c64>> = cluster.iter().map(|m| m.right.clone()).collect();
+    let lefts: Vec<Vec<c64>> = cluster.iter().map(|m| m.left.clone()).collect();
+    for (j, mode) in cluster.iter_mut().enumerate() {
+        mode.right = combine(&rights, &|i| vectors[(i, j)]);
+        mode.left = combine(&lefts, &|i| left[(j, i)]);
+        mode.derivative = values[order[j]];
+    }
+    Ok(())
+}
+
+/// Continues all branches over `points` (ascending friction coefficients).
+///
+/// Neighbouring points are matched by the overlap
+/// `|w_i^T N x'_j| |w'_j^T N x_i|`, `N = (lambda_i + lambda'_j) M + C`, which is 1 for one mode and 0 for
+/// different modes of one problem, and by `lambda' - lambda = (dlambda/dmu + dlambda'/dmu) dmu / 2`.
+/// Where this is not clear the interval is bisected.
+///
+/// A wanted mode that no branch reaches has come from above the range, or from motions that did not oscillate: it starts a branch. A mode
+/// whose damping nears the critical one may cease to oscillate: its branch ends, as do those that are lost.
+///
+/// # Errors
+/// If a dense decomposition fails.
+pub fn track(
+    points: &[SolvedPoint],
+    model: &ReducedModel,
+    edge: &ContactEdge,
+    labels: &[BranchLabel],
+) -> Result<Vec<TrackedBranch>, LinalgError> {
+    let mut branches: Vec<TrackedBranch> = labels
+        .iter()
+        .enumerate()
+        .map(|(i, &label)| TrackedBranch { label, modes: vec![Some(i)], end: None })
+        .collect();
+    for k in 1..points.len() {
+        let (before, after) = (&points[k - 1], &points[k]);
+        let step = after.friction_coefficient - before.friction_coefficient;
+        let stays = |mode: &ReducedMode| !leaves_range(mode, step, after.range_end);
+        let last_to_stay = before.modes[..before.wanted].iter().rposition(stays);
+        let needed = last_to_stay.map_or(0, |i| i + 1);
+        let links = match_modes(
+            (before.friction_coefficient, &before.modes),
+            (after.friction_coefficient, &after.modes),
+            needed,
+            model,
+            (0, &mut 0),
+        )?;
+        for branch in &mut branches {
+            let last = branch.modes[k - 1];
+            let next = last.and_then(|i| links[i].as_ref().ok().copied());
+            if let Some(i) = last
+                && let Err(seen) = &links[i]
+                && i < needed
+                && stays(&before.modes[i])
+                && let rest = after.friction_coefficient - seen.between[0]
+                && !leaves_range(&seen.mode, rest, after.range_end)
+            {
+                let LastSeen { mode, between } = seen.clone();
+                let is_damped = may_vanish(&before.modes[i], step);
+                let end = BranchEnd { after: k - 1, is_damped, mode, between, diverges_at: None };
+                branch.end = Some(end);
+            }
+            branch.modes.push(next);
+        }
+        adopt_newcomers(&mut branches, after, edge, k);
+    }
+    Ok(branches)
+}
+
+/// Starts a branch for every wanted mode of point `k` that has none.
+fn adopt_newcomers(
+    branches: &mut Vec<TrackedBranch>,
+    point: &SolvedPoint,
+    edge: &ContactEdge,
+    k: usize,
+) {
+    for i in 0..point.wanted {
+        if branches.iter().any(|b| b.modes[k] == Some(i)) {
+            continue;
+        }
+        let check = &point.checks[i];
+        let harmonic = edge.harmonic(&check.edge, check.peak);
+        let label = label(edge, harmonic, branches.iter().map(|b| b.label.harmonic));
+        let modes = [vec![None; k], vec![Some(i)]].concat();
+        branches.push(TrackedBranch { label, modes, end: None });
+    }
+}
+
+type ModesAt<'a> = (f64, &'a [ReducedMode]);
+/// The mode that continues another one, or where that was last seen.
+type Link = Result<usize, LastSeen>;
+
+/// For each mode of `from` the mode of `to` that continues it. The first `needed` modes must be matched
+/// beyond doubt, or the interval is halved.
+fn match_modes(
+    from: ModesAt<'_>,
+    to: ModesAt<'_>,
+    needed: usize,
+    model: &ReducedModel,
+    (depth, solved): (usize, &mut usize),
+) -> Result<Vec<Link>, LinalgError> {
+    let middle = 0.5 * (from.0 + to.0);
+    let overlaps = overlaps(from, to, model);
+    let mut links = clear_links(from, to, &overlaps);
+    let step = to.0 - from.0;
+    let mut needed_links = links.iter().zip(from.1).take(needed);
+    let is_clear = needed_links.all(|(link, mode)| link.is_some() || may_vanish(mode, step));
+    if !is_clear && depth < MAX_BISECTIONS && *solved < MOST_BETWEEN {
+        *solved += 1;
+        let modes = model.solve_between(middle, from.1.len().max(to.1.len()))?;
+        let first = match_modes(from, (middle, &modes), needed, model, (depth + 1, solved))?;
+        let reached = first.iter().take(needed).flatten().max().map_or(0, |&i| i + 1);
+        let second = match_modes((middle, &modes), to, reached, model, (depth + 1, solved))?;
+        return Ok(first.into_iter().map(|link| link.and_then(|i| second[i].clone())).collect());
+    }
+    // Only over a step so short is the nearest eigenvalue the same branch; one that is lost is told.
+    if !is_clear && depth == MAX_BISECTIONS {
+        link_by_extrapolation(from, to, needed, &mut links);
+    }
+    let last_seen = |mode: &ReducedMode| LastSeen { mode: mode.clone(), between: [from.0, to.0] };
+    let pairs = links.into_iter().zip(from.1);
+    Ok(pairs.map(|(link, mode)| link.ok_or_else(|| last_seen(mode))).collect())
+}
+
+/// The mode at `to`, on either side, that continues one, in steps over which it is the same beyond doubt; nothing where it is lost.
+pub fn followed(
+    model: &ReducedModel,
+    (from, mode): (f64, &ReducedMode),
+    to: f64,
+) -> Option<ReducedMode> {
+    let (mut at, mut own, mut step) = (from, mode.clone(), to - from);
+    // Where two modes nearly meet they must be told apart on the way past.
+    let shortest = step.abs() * 0.25_f64.powi(MAX_BISECTIONS as i32);
+    while at != to {
+        let mu = if (to - at).abs() <= step.abs() { to } else { at + step };
+        let guess = own.eigenvalue + own.derivative * (mu - at);
+        let next = model.mode_near(mu, &ReducedMode { eigenvalue: guess, ..own.clone() });
+        let continues = |next: &ReducedMode| {
+            let mut ends = [(at, std::slice::from_ref(&own)), (mu, std::slice::from_ref(next))];
+            crate::order::sort_by_number(&mut ends, |a| a.0);
+            let [low, high] = ends;
+            clear_links(low, high, &overlaps(low, high, model))[0].is_some()
+        };
+        match next.filter(continues) {
+            Some(next) => (at, own, step) = (mu, next, 2.0 * step),
+            None if step.abs() <= shortest => return None,
+            None => step *= 0.5,
+        }
+    }
+    Some(own)
+}
+
+/// `|w_i^T N x'_j| |w'_j^T N x_i|`, see [`track`].
+fn overlaps(from: ModesAt<'_>, to: ModesAt<'_>, model: &ReducedModel) -> Mat<f64> {
+    let [forward, backward] = model.overlaps_at(0.5 * (from.0 + to.0), from.1, to.1);
+    Mat::from_fn(from.1.len(), to.1.len(), |i, j| (forward[(i, j)] * backward[(j, i)]).norm())
+}
+
+/// Links whose overlap is large and whose eigenvalues agree with their derivatives.
+fn clear_links(from: ModesAt<'_>, to: ModesAt<'_>, overlaps: &Mat<f64>) -> Vec<Option<usize>> {
+    let step = to.0 - from.0;
+    let mut links = vec![None; from.1.len()];
+    let mut taken = vec![false; to.1.len()];
+    for (i, link) in links.iter_mut().enumerate() {
+        let a = &from.1[i];
+        let distance = |j: usize| (overlaps[(i, j)] - 1.0).abs();
+        let best = (0..to.1.len()).min_by(|&j, &k| distance(j).total_cmp(&distance(k)));
+        let Some(j) = best.filter(|&j| distance(j) < ALIKE && !taken[j]) else {
+            continue;
+        };
+        let b = &to.1[j];
+        let predicted = a.eigenvalue + (a.derivative + b.derivative) * (0.5 * step);
+        let reach = 0.5 * (a.derivative.norm() + b.derivative.norm()) * step;
+        let error = (b.eigenvalue - predicted).norm();
+        let accuracy = if distance(j) < SAME { PREDICTED } else { SAME_EIGENVALUE };
+        if error <= 0.5 * reach + accuracy * a.eigenvalue.norm() {
+            *link = Some(j);
+            taken[j] = true;
+        }
+    }
+    // A multiple eigenvalue that friction does not move: each vector continues all, and their derivatives are worth nothing where it is
+    // defective. One branch is as good as the other.
+    for (i, link) in links.iter_mut().enumerate().filter(|(_, link)| link.is_none()) {
+        let own = from.1[i].eigenvalue;
+        let is_equal =
+            |b: &ReducedMode| (b.eigenvalue - own).norm() <= SAME_EIGENVALUE * own.norm();
+        let is_multiple = from.1.iter().filter(|b| is_equal(b)).nth(1).is_some();
+        let free = (0..to.1.len()).find(|&j| !taken[j] && is_equal(&to.1[j]));
+        if let Some(j) = free.filter(|_| is_multiple) {
+            *link = Some(j);
+            taken[j] = true;
+        }
+    }
+    links
+}
+
+/// Last resort, where branches meet in an exceptional point: the nearest free eigenvalue.
+fn link_by_extrapolation(
+    from: ModesAt<'_>,
+    to: ModesAt<'_>,
+    needed: usize,
+    links: &mut [Option<usize>],
+) {
+    let step = to.0 - from.0;
+    for i in 0..needed.min(links.len()) {
+        let a = &from.1[i];
+        if links[i].is_some() || may_vanish(a, step) {
+            continue;
+        }
+        let distance = |j: usize| (to.1[j].eigenvalue - a.eigenvalue).norm();
+        let free = (0..to.1.len()).filter(|j| !links.contains(&Some(*j)));
+        let nearest = free.min_by(|&j, &k| distance(j).total_cmp(&distance(k)));
+        // Near an exceptional point eigenvalues move like the square root of the step.
+        let reach = (step.abs().sqrt() + 1e-3) * a.eigenvalue.norm();
+        links[i] = nearest.filter(|&j| distance(j) < reach);
+    }
+}

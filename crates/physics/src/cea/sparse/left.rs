@@ -1,0 +1,225 @@
+//! Left vectors that a basis of right ones does not hold.
+
+use super::StiffnessFactors;
+use super::full_problem::{Factor, FullProblem};
+use super::packed::{joined, side_by_side};
+use super::{BESIDE, MOST_STEPS};
+use crate::cea::vectors::{dot, length};
+use crate::linalg::dense::{product, transpose_product};
+use crate::linalg::{ComplexDenseLu, Mat, c64};
+use crate::prestress::SlidingTangent;
+
+/// Energy of a correction, relative to that of the vector, below which no more are made.
+const NEGLIGIBLE: f64 = 1e-8;
+/// Modes that are corrected together.
+const PAIRS_AT_A_TIME: usize = 8;
+
+/// A mode over the unknowns.
+pub struct OpenPair {
+    /// Eigenvalue, rad/s.
+    pub eigenvalue: c64,
+    /// Right vector `x`.
+    pub right: Vec<c64>,
+    /// Left vector `w`.
+    pub left: Vec<c64>,
+}
+
+impl OpenPair {
+    /// About twice the elastic energy of the left vector: `w^T (2 lambda M + C) x` is 1.
+    fn left_energy(&self) -> f64 {
+        let square: f64 = self.left.iter().map(|v| v.norm_sqr()).sum();
+        let product: c64 = self.left.iter().zip(&self.right).map(|(w, x)| w * x).sum();
+        0.5 * self.eigenvalue.norm() * square / product.norm()
+    }
+}
+
+/// Corrects left vectors by the stiffness without friction, `P`, and the modes without friction, `Z`: the least `P^-1 T(lambda)^T w` over
+///
+/// ```text
+/// w = w_0 + span { t_0, t_1, .. },    t_k = p + Z E^-1 Z^T (r - T(lambda)^T p),    p = P^-1 r,    r = T(lambda)^T w_k
+/// E = Z^T T(lambda')^T Z,             lambda' beside lambda
+/// ```
+///
+/// until the energy of what a further correction would be is negligible; scales them to `w^T (2 lambda M + C) x = 1`. Right vectors at
+/// several friction coefficients span what is global in a left one; what is missing is near the contact, where the normal force works on
+/// its slip, and follows the load as in statics. What that stirs up of the modes, which `P` weighs otherwise than `T`, `E` takes out.
+///
+/// Source: S. C. Eisenstat, H. C. Elman and M. H. Schultz, SIAM J. Numer. Anal. 20 (1983), the generalized conjugate residual method;
+/// R. A. Nicolaides, SIAM J. Numer. Anal. 24 (1987), deflation.
+pub fn correct_lefts(
+    tangent: &SlidingTangent,
+    (factors, modes): (&StiffnessFactors, Mat<f64>),
+    mu: f64,
+    pairs: &mut [OpenPair],
+) {
+    let problem = FullProblem::at(tangent, mu);
+    let modes = AmongModes::of(&problem, modes);
+    crate::parallel::map(pairs.chunks_mut(PAIRS_AT_A_TIME), |group| {
+        correct_group(&problem, (factors, &modes), group);
+        for OpenPair { eigenvalue, right, left } in group {
+            let scale = problem.slope(*eigenvalue, left, right);
+            left.iter_mut().for_each(|w| *w /= scale);
+        }
+    })
+}
+
+/// The problem among some motions `Z`: `P^T Z` and `Z^T P^T Z` of the matrices of which `T(lambda) = sum f(lambda) P`.
+struct AmongModes<'a> {
+    modes: Mat<f64>,
+    terms: Vec<(Factor<'a>, Mat<f64>, Mat<f64>)>,
+}
+
+impl<'a> AmongModes<'a> {
+    fn of(problem: &FullProblem<'a>, modes: Mat<f64>) -> Self {
+        let images = problem.transposed_images(modes.as_ref()).into_iter();
+        let terms = images.map(|(factor, image)| {
+            let small = transpose_product(modes.as_ref(), image.as_ref());
+            (factor, image, small)
+        });
+        Self { terms: terms.collect(), modes }
+    }
+
+    /// Factors of `Z^T T(lambda)^T Z`.
+    fn factors(&self, lambda: c64) -> ComplexDenseLu {
+        let size = self.modes.ncols();
+        let mut sum = Mat::zeros(size, size);
+        for (factor, _, small) in &self.terms {
+            let factor = factor(lambda);
+            sum += Mat::from_fn(size, size, |i, j| factor * small[(i, j)]);
+        }
+        ComplexDenseLu::factorize(sum)
+    }
+
+    /// Adds to a vector what leaves nothing along `Z` of the residual `r`, and its image to that of the vector, `[w, T(lambda)^T w]`.
+    fn complete(
+        &self,
+        lambda: c64,
+        factors: &ComplexDenseLu,
+        residual: &[c64],
+        [vector, image]: [&mut [c64]; 2],
+    ) {
+        let open: Vec<c64> = residual.iter().zip(&*image).map(|(r, own)| r - own).collect();
+        let open = side_by_side(open.len(), &[open]);
+        let along = joined(&transpose_product(self.modes.as_ref(), open.as_ref()), 0);
+        let mut shares = Mat::from_fn(along.len(), 1, |i, _| along[i]);
+        factors.solve_in_place(shares.as_mut());
+        let shares: Vec<c64> = shares.col(0).iter().copied().collect();
+        let shares = side_by_side(shares.len(), &[shares]);
+        let add = |to: &mut [c64], factor: c64, columns: &Mat<f64>| {
+            let own = joined(&product(columns.as_ref(), shares.as_ref()), 0);
+            to.iter_mut().zip(own).for_each(|(to, own)| *to += factor * own);
+        };
+        add(vector, c64::new(1.0, 0.0), &self.modes);
+        self.terms.iter().for_each(|(factor, columns, _)| add(image, factor(lambda), columns));
+    }
+}
+
+/// A left vector, or a correction of one, and what the problem makes of it: `w`, `T(lambda)^T w` and `P^-1 T(lambda)^T w`.
+type Mapped = [Vec<c64>; 3];
+
+/// Corrects some modes together.
+fn correct_group(
+    problem: &FullProblem<'_>,
+    (factors, modes): (&StiffnessFactors, &AmongModes<'_>),
+    pairs: &mut [OpenPair],
+) {
+    let eigenvalues: Vec<c64> = pairs.iter().map(|pair| pair.eigenvalue).collect();
+    let images = |of: &[usize], vectors: &[&[c64]]| -> Vec<Vec<c64>> {
+        let values: Vec<c64> = of.iter().map(|&k| eigenvalues[k]).collect();
+        let w = side_by_side(problem.dimension(), vectors);
+        let images = problem.transposed_times(&values, w.as_ref());
+        (0..of.len()).map(|k| joined(&images, k)).collect()
+    };
+    let mapped = |vectors: Vec<[Vec<c64>; 2]>| -> Vec<Mapped> {
+        let images: Vec<&[c64]> = vectors.iter().map(|[_, image]| &image[..]).collect();
+        let mut solved = side_by_side(problem.dimension(), &images);
+        factors.solve_in_place(&mut solved);
+        let all = vectors.into_iter().enumerate();
+        all.map(|(k, [vector, image])| [vector, image, joined(&solved, k)]).collect()
+    };
+    let among: Vec<ComplexDenseLu> =
+        eigenvalues.iter().map(|lambda| modes.factors(lambda * (1.0 + BESIDE))).collect();
+    let goals: Vec<f64> = pairs.iter().map(OpenPair::left_energy).collect();
+    let mut open: Vec<usize> = (0..pairs.len()).collect();
+    let starts: Vec<&[c64]> = pairs.iter().map(|pair| &pair.left[..]).collect();
+    let starts = images(&open, &starts).into_iter().zip(starts);
+    let mut lefts = mapped(starts.map(|(image, own)| [own.to_vec(), image]).collect());
+    let energy = |[_, residual, correction]: &Mapped| dot(correction, residual).re.abs();
+    let mut directions: Vec<Vec<Mapped>> = vec![Vec::new(); pairs.len()];
+    for _ in 0..MOST_STEPS {
+        open.retain(|&k| energy(&lefts[k]) > NEGLIGIBLE * goals[k]);
+        if open.is_empty() {
+            break;
+        }
+        // Static corrections, and what these stir up of the modes.
+        let statics: Vec<&[c64]> = open.iter().map(|&k| &lefts[k][2][..]).collect();
+        let corrections = images(&open, &statics).into_iter().zip(statics).zip(&open);
+        let corrections = corrections.map(|((mut image, own), &k)| {
+            let mut own = own.to_vec();
+            let [_, residual, _] = &lefts[k];
+            modes.complete(eigenvalues[k], &among[k], residual, [&mut own, &mut image]);
+            [own, image]
+        });
+        // The least residual over all directions so far.
+        for (&k, mut own) in open.iter().zip(mapped(corrections.collect())) {
+            for other in &directions[k] {
+                let share = dot(&other[2], &own[2]);
+                subtract(&mut own, share, other);
+            }
+            let length = length(&own[2]);
+            own.iter_mut().flatten().for_each(|v| *v /= length);
+            let share = dot(&own[2], &lefts[k][2]);
+            subtract(&mut lefts[k], share, &own);
+            directions[k].push(own);
+        }
+    }
+    for (pair, [left, ..]) in pairs.iter_mut().zip(lefts) {
+        if left.iter().all(|v| v.is_finite()) {
+            pair.left = left;
+        }
+    }
+}
+
+/// `from -= share other`.
+fn subtract(from: &mut Mapped, share: c64, other: &Mapped) {
+    for (own, other) in from.iter_mut().zip(other) {
+        own.iter_mut().zip(other).for_each(|(v, o)| *v -= share * o);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cea::sparse::fixtures::string_on_belt;
+    use crate::cea::sparse::{FrictionlessModes, ModePair, mode_pairs, sweep};
+    use crate::cea::{ModeLimit, SweepRequest, Unwatched};
+
+    /// Independent check: inverse iteration in the full problem. The factors have their shift amid the modes, so that plain corrections of
+    /// those below it grow, and the start, the right vectors, is far off.
+    #[test]
+    fn corrections_from_right_vectors_lead_to_left_ones_without_factors_for_each() {
+        let (tangent, mu) = (string_on_belt(60, 0.4, false), [0.3]);
+        let rest = FrictionlessModes::compute(&tangent, ModeLimit::Lowest(12)).unwrap();
+        let request = SweepRequest::new(&mu, ModeLimit::Lowest(12));
+        let found = sweep(&tangent, &request, &Unwatched).unwrap();
+        let values: Vec<c64> = found.points[0].modes.iter().map(|mode| mode.eigenvalue).collect();
+        let exact: Vec<ModePair> =
+            mode_pairs(&tangent, mu[0], &values).into_iter().flatten().collect();
+        assert_eq!(exact.len(), values.len());
+        let open = |own: &ModePair| OpenPair {
+            eigenvalue: own.eigenvalue,
+            right: own.right.clone(),
+            left: own.right.clone(),
+        };
+        let mut pairs: Vec<OpenPair> = exact.iter().map(open).collect();
+        let problem = FullProblem::at(&tangent, mu[0]);
+        let modes = AmongModes::of(&problem, rest.vectors);
+        let groups = pairs.chunks_mut(PAIRS_AT_A_TIME);
+        groups.for_each(|group| correct_group(&problem, (&rest.factors, &modes), group));
+        for (own, other) in pairs.iter().zip(&exact) {
+            let [w, exact] = [&own.left, &other.left].map(|w| w.as_slice());
+            let cosine = dot(w, exact).norm() / (length(w) * length(exact));
+            assert!(1.0 - cosine * cosine < 1e-6, "{}: {}", own.eigenvalue, 1.0 - cosine * cosine);
+        }
+    }
+}

@@ -1,0 +1,88 @@
+//! Modes of projected matrices whose stiffness depends on frequency, each at its own frequency.
+
+use super::SAME_EIGENVALUE;
+use super::mode::ReducedMode;
+use super::projected::ProjectedMatrices;
+use crate::cea::vectors::{dot, length};
+use crate::linalg::LinalgError;
+use std::f64::consts::TAU;
+
+/// What the overlap of two right vectors lacks to 1 where they are one.
+const PARALLEL: f64 = 1e-4;
+/// Solutions at one frequency after which a mode counts as one that does not settle.
+const MAX_PASSES: usize = 40;
+/// Passes with whole steps; half ones follow.
+const WHOLE_PASSES: usize = 12;
+/// Relative change of the frequency from which on the Rayleigh quotient iteration finishes.
+const NEAR: f64 = 1e-4;
+
+/// The modes, by rising frequency, without derivatives and scale: as many as `frozen` gives at one frequency in Hz.
+///
+/// The `i`-th mode of the problem frozen at `f`, in the order of frequencies `f_i(f)`, has a fixed point `f_i(f) = f`, one for each
+/// `i` as long as stiffness rises less than with the square of the frequency: as many modes lie below `f` as the frozen problem has
+/// below `f`. Each is sought from its vectors at `start_hz` by Rayleigh quotients on the nonlinear problem; where that ends at a
+/// mode found already, or not at all, by that fixed point. A mode that does not settle is given as it is: its residual tells.
+pub(super) fn solve(
+    at: &ProjectedMatrices,
+    frozen: &(dyn Fn(f64) -> Result<Vec<ReducedMode>, LinalgError> + Sync),
+    start_hz: f64,
+) -> Result<Vec<ReducedMode>, LinalgError> {
+    let start = frozen(start_hz)?;
+    let mut found: Vec<Option<ReducedMode>> =
+        crate::parallel::map(&start, |mode| at.mode_near(mode));
+    for i in 1..found.len() {
+        let (before, own) = found.split_at_mut(i);
+        let is_known =
+            |mode: &ReducedMode| before.iter().flatten().any(|other| is_same(mode, other));
+        if own[0].as_ref().is_some_and(|mode| mode.eigenvalue.im <= 0.0 || is_known(mode)) {
+            own[0] = None;
+        }
+    }
+    for i in 0..found.len() {
+        if found[i].is_none() {
+            let others: Vec<&ReducedMode> = found.iter().flatten().collect();
+            found[i] = Some(fixed_point(at, frozen, (i, &start[i]), &others)?);
+        }
+    }
+    let mut modes: Vec<ReducedMode> = found.into_iter().flatten().collect();
+    crate::order::sort_by_number(&mut modes, |p| p.eigenvalue.im);
+    Ok(modes)
+}
+
+/// The mode of one place in the order of frequencies.
+fn fixed_point(
+    at: &ProjectedMatrices,
+    frozen: &(dyn Fn(f64) -> Result<Vec<ReducedMode>, LinalgError> + Sync),
+    (place, start): (usize, &ReducedMode),
+    others: &[&ReducedMode],
+) -> Result<ReducedMode, LinalgError> {
+    let mut mode = start.clone();
+    let mut frequency_hz = mode.eigenvalue.im / TAU;
+    for pass in 0..MAX_PASSES {
+        let mut all = frozen(frequency_hz)?;
+        if place >= all.len() {
+            break;
+        }
+        mode = all.swap_remove(place);
+        let next = mode.eigenvalue.im / TAU;
+        if (next - frequency_hz).abs() <= NEAR * next {
+            let fine = at.mode_near(&mode);
+            let is_new = |fine: &ReducedMode| !others.iter().any(|other| is_same(fine, other));
+            if let Some(fine) = fine.filter(is_new) {
+                return Ok(fine);
+            }
+        }
+        frequency_hz = if pass < WHOLE_PASSES { next } else { 0.5 * (next + frequency_hz) };
+    }
+    Ok(mode)
+}
+
+/// Whether two modes have one eigenvalue and one right vector.
+fn is_same(one: &ReducedMode, other: &ReducedMode) -> bool {
+    let distance = (one.eigenvalue - other.eigenvalue).norm();
+    if distance > SAME_EIGENVALUE * one.eigenvalue.norm() {
+        return false;
+    }
+    dot(&one.right, &other.right).norm()
+        > (1.0 - PARALLEL) * length(&one.right) * length(&other.right)
+}

@@ -1,0 +1,131 @@
+//! Right and left vectors of modes in the full problem, and what small changes of the matrices do to their eigenvalues.
+
+use super::full_problem::{FullProblem, form};
+use crate::cea::vectors::dot;
+use crate::fem::own_frequency_step;
+use crate::linalg::dense::random_columns;
+use crate::linalg::{ComplexSparseLu, Mat, SparsityPattern, c64};
+use crate::prestress::SlidingTangent;
+
+/// Distances of the shift from an eigenvalue, relative to it, one tried after the other: far enough for regular factors, near enough for
+/// iterations that gain as many digits.
+const OFFSETS: [f64; 2] = [1e-7, 1e-6];
+/// Steps of inverse iteration.
+const STEPS: usize = 4;
+/// What the vectors from two starts may differ by, of length 1, where an eigenvalue is single.
+const ALIKE: f64 = 1e-5;
+
+/// An eigenvalue with its vectors over the unknowns of a tangent.
+#[derive(Clone, Debug)]
+pub struct ModePair {
+    /// Friction coefficient.
+    pub friction_coefficient: f64,
+    /// Eigenvalue `lambda`, rad/s.
+    pub eigenvalue: c64,
+    /// `d lambda / d mu`, rad/s, the base state following.
+    pub derivative: c64,
+    /// Right vector `x`.
+    pub right: Vec<c64>,
+    /// Left vector `w`, scaled to `w^T (2 lambda M + C) x = 1` (no conjugation).
+    pub left: Vec<c64>,
+    /// `w^T (dK/d omega) x` of stiffness that depends on frequency, at that of the eigenvalue.
+    own_slope: c64,
+}
+
+impl ModePair {
+    /// `d lambda = - w^T (lambda^2 dM + lambda dC + dK) x` for changes `[dK, dC, dM]` given by their nonzero values.
+    pub fn response(&self, pattern: &SparsityPattern, changes: [&[f64]; 3]) -> c64 {
+        let [stiffness, damping, mass] =
+            changes.map(|values| form(pattern, values, &self.left, &self.right));
+        let lambda = self.eigenvalue;
+        self.followed(-(lambda * (lambda * mass + damping) + stiffness))
+    }
+
+    /// The change of the eigenvalue where it would be `change` at fixed stiffness: with tables the stiffness follows it.
+    fn followed(&self, change: c64) -> c64 {
+        match self.own_slope == c64::new(0.0, 0.0) {
+            true => change,
+            false => own_frequency_step(change, self.own_slope),
+        }
+    }
+
+    /// [`Self::response`] with a change `dH` of the structural damping, which adds `- i w^T dH x`; an empty one is none.
+    pub fn lossy_response(
+        &self,
+        pattern: &SparsityPattern,
+        changes: [&[f64]; 3],
+        structural: &[f64],
+    ) -> c64 {
+        let viscous = self.response(pattern, changes);
+        if structural.is_empty() {
+            return viscous;
+        }
+        let lost = form(pattern, structural, &self.left, &self.right);
+        viscous + self.followed(c64::new(0.0, -1.0) * lost)
+    }
+}
+
+/// The modes at the friction coefficient `mu` whose eigenvalues are `targets` (rad/s, `Im > 0`), found in the full problem:
+/// `None` where there is none, or where it is multiple and no single vector belongs to it.
+///
+/// Each is found by inverse iteration: one factorization of `T(lambda)` serves the right vector and, transposed, the left one.
+pub fn mode_pairs(tangent: &SlidingTangent, mu: f64, targets: &[c64]) -> Vec<Option<ModePair>> {
+    let problem = FullProblem::at(tangent, mu);
+    let rate = FullProblem::of(tangent, |matrix| matrix.derivative(mu));
+    let tabled = tangent.tabled.iter();
+    let tabled: Vec<_> = tabled.map(|part| (&part.gain, part.stiffness.evaluate(mu))).collect();
+    let pair = |target: &c64| {
+        let [right, mut left] = inverse_iterations(&problem, *target)?;
+        let scale = problem.slope(*target, &left, &right);
+        left.iter_mut().for_each(|v| *v /= scale);
+        let mut pair = ModePair {
+            friction_coefficient: mu,
+            eigenvalue: *target,
+            derivative: c64::new(0.0, 0.0),
+            right,
+            left,
+            own_slope: c64::new(0.0, 0.0),
+        };
+        let (w, x, pattern) = (&pair.left, &pair.right, tangent.stiffness.pattern());
+        let own = tabled.iter();
+        pair.own_slope = own.map(|(gain, k)| gain.slope(*target) * form(pattern, k, w, x)).sum();
+        pair.derivative = pair.followed(-rate.form(*target, &pair.left, &pair.right));
+        Some(pair)
+    };
+    crate::parallel::map(targets, pair)
+}
+
+/// Columns, of unit length, from a start after [`STEPS`] of inverse iteration on `T(lambda)` or, for left vectors, its transpose.
+fn iterated(factors: &ComplexSparseLu, mut x: Mat<c64>, is_left: bool) -> Mat<c64> {
+    for _ in 0..STEPS {
+        match is_left {
+            true => factors.solve_transpose_in_place(x.as_mut()),
+            false => factors.solve_in_place(x.as_mut()),
+        }
+        for j in 0..x.ncols() {
+            let length = x.col(j).norm_l2();
+            x.col_mut(j).iter_mut().for_each(|v| *v /= length);
+        }
+    }
+    x
+}
+
+/// Right and left vector, of unit length, of the single eigenvalue at `target`.
+fn inverse_iterations(problem: &FullProblem<'_>, target: c64) -> Option<[Vec<c64>; 2]> {
+    let unknowns = problem.dimension();
+    let start = random_columns(unknowns, 2.min(unknowns), 7);
+    let start = Mat::from_fn(unknowns, start.ncols(), |i, j| c64::new(start[(i, j)], 0.0));
+    let mut beside = OFFSETS.iter().map(|own| target * (1.0 + own));
+    let factors = beside.find_map(|lambda| problem.factors(lambda).ok())?;
+    let right = single(&iterated(&factors, start.clone(), false))?;
+    Some([right, single(&iterated(&factors, start, true))?])
+}
+
+/// The first of two columns of unit length, if the other one is a multiple of it.
+fn single(x: &Mat<c64>) -> Option<Vec<c64>> {
+    let [own, other] = [0, x.ncols() - 1].map(|j| x.col(j).iter().copied().collect::<Vec<c64>>());
+    let overlap = dot(&own, &other);
+    let rest: f64 = own.iter().zip(&other).map(|(a, b)| (b - a * overlap).norm_sqr()).sum();
+    // No number at all is no vector either.
+    (rest.sqrt() <= ALIKE).then_some(own)
+}

@@ -1,0 +1,374 @@
+//! The matrices of small motions projected on one basis that serves every friction coefficient.
+
+mod dense;
+mod parts;
+
+use super::NEIGHBOURS;
+use super::linearization::Linearization;
+use super::mode::ReducedMode;
+use super::projected::{ProjectedMatrices, horner, projected, weighted};
+use super::term::Term;
+use super::{MULTIPLE, SAME_SPACE};
+use crate::cea::vectors::length;
+use crate::linalg::dense::{
+    GrowingColumns, column, join_columns, orthonormal_complement, product, transpose_product,
+};
+use crate::linalg::gram::complement;
+use crate::linalg::{FrictionWeights, LinalgError, MatrixPolynomial};
+use crate::linalg::{Mat, MatRef, Scale, c64};
+use crate::prestress::{SlidingTangent, TabledGain};
+use parts::BasisParts;
+pub(super) use parts::inside;
+
+/// Columns continued by zeros to `rows` entries.
+fn lengthened(columns: &Mat<f64>, rows: usize) -> Mat<f64> {
+    let known = columns.nrows();
+    Mat::from_fn(rows, columns.ncols(), |i, j| if i < known { columns[(i, j)] } else { 0.0 })
+}
+
+/// Orthonormal `columns` continued by what the coordinates of some samples have beyond them.
+fn spanned<'a>(
+    mut columns: Mat<f64>,
+    samples: impl Iterator<Item = &'a (f64, Mat<f64>)>,
+) -> Mat<f64> {
+    for (_, coordinates) in samples {
+        let own = lengthened(coordinates, columns.nrows());
+        let new = orthonormal_complement(columns.as_ref(), own, SAME_SPACE);
+        columns = join_columns(columns.as_ref(), new.as_ref());
+    }
+    columns
+}
+
+/// `columns` times complex coordinates; nothing of no coordinates.
+fn combined(columns: &Mat<f64>, coordinates: &[c64]) -> Vec<c64> {
+    let mut sum =
+        vec![c64::new(0.0, 0.0); if coordinates.is_empty() { 0 } else { columns.nrows() }];
+    for (j, factor) in coordinates.iter().enumerate() {
+        for (s, v) in sum.iter_mut().zip(column(columns.as_ref(), j)) {
+            *s += factor * *v;
+        }
+    }
+    sum
+}
+
+/// `V^T (lambda^2 M(mu) + lambda C(mu) + K(mu)) V` with an orthonormal `V` that holds the wanted right vectors
+/// of all friction coefficients. Left vectors are those of the projected problem: they serve overlaps and derivatives.
+///
+/// Coordinates stay valid when the basis grows, with zeros for the columns added since; not so when it
+/// is compressed.
+pub struct ReducedModel {
+    linearization: Linearization,
+    /// Coefficients of `P = K, C, M, H` by power of `mu`.
+    terms: [Vec<Term>; 4],
+    /// What they weigh.
+    weights: FrictionWeights,
+    /// `V`, `unknowns x m`.
+    basis: GrowingColumns,
+    /// `V^T P_p V` of `P = K, C, M, H` for each power of `mu`; `C` only where it is not proportional, `H` where there is
+    /// structural damping.
+    projected: [Vec<Mat<f64>>; 4],
+    /// Coefficients of the stiffness of each part that depends on frequency.
+    tabled: Vec<TabledTerms>,
+    /// Friction coefficients whose modes the basis holds as such, and the coordinates that span them.
+    pub(super) samples: Vec<(f64, Mat<f64>)>,
+    /// Coordinates of corrections between samples, and where they were made.
+    corrections: Vec<(f64, Mat<f64>)>,
+    parts: BasisParts,
+}
+
+/// The stiffness of a part that depends on frequency, by power of `mu`, and `V^T K_p V` for each.
+struct TabledTerms {
+    gain: TabledGain,
+    terms: Vec<Term>,
+    projected: Vec<Mat<f64>>,
+}
+
+impl ReducedModel {
+    /// A model without columns.
+    pub fn empty(tangent: &SlidingTangent, linearization: Linearization) -> Self {
+        // Without friction all are symmetric but for gyroscopic damping.
+        let terms = |p: &MatrixPolynomial, is_symmetric: bool| -> Vec<Term> {
+            let powers = 0..p.coefficients().len();
+            let term = |power: usize| Term::new(p, power, is_symmetric && power == 0);
+            powers.map(term).collect()
+        };
+        let damping = match linearization {
+            Linearization::Reduced(..) => Vec::new(),
+            Linearization::Companion { .. } => terms(&tangent.damping, !tangent.is_gyroscopic),
+        };
+        let structural = tangent.structural.as_ref();
+        let structural = structural.map_or_else(Vec::new, |p| terms(p, true));
+        let tabled = tangent.tabled.iter().map(|part| {
+            let terms = terms(&part.stiffness, true);
+            TabledTerms {
+                gain: part.gain.clone(),
+                projected: vec![Mat::zeros(0, 0); terms.len()],
+                terms,
+            }
+        });
+        let tabled = tabled.collect();
+        let terms =
+            [terms(&tangent.stiffness, true), damping, terms(&tangent.mass, true), structural];
+        Self {
+            linearization,
+            basis: GrowingColumns::new(tangent.stiffness.dimension()),
+            projected: terms.each_ref().map(|t| vec![Mat::zeros(0, 0); t.len()]),
+            terms,
+            weights: tangent.stiffness.weights(),
+            tabled,
+            samples: Vec::new(),
+            corrections: Vec::new(),
+            parts: BasisParts::default(),
+        }
+    }
+
+    /// Number of columns of the basis.
+    pub fn dimension(&self) -> usize {
+        self.basis.count()
+    }
+
+    /// Adds what `columns` hold beyond the basis, down to the length `drop_below` and to a millionth of their own;
+    /// returns the new columns of the basis.
+    pub fn extend(&mut self, columns: Mat<f64>, drop_below: f64) -> Mat<f64> {
+        let new = complement(self.basis.columns(), columns, drop_below);
+        if new.ncols() == 0 {
+            return new;
+        }
+        let basis = self.basis.columns();
+        let tabled = self.tabled.iter_mut();
+        let tabled = tabled.map(|part| (&mut part.projected, &mut part.terms));
+        for (projected, terms) in self.projected.iter_mut().zip(&mut self.terms).chain(tabled) {
+            for (small, term) in projected.iter_mut().zip(terms) {
+                *small = term.grow(small, basis, &new);
+            }
+        }
+        self.basis.append(new.as_ref());
+        new
+    }
+
+    /// Restricts the basis to the span of the orthonormal `columns` of coordinates.
+    pub fn compress(&mut self, columns: &Mat<f64>) {
+        let (mut all_terms, mut all_projected) = (Vec::new(), Vec::new());
+        all_terms.extend(self.terms.iter_mut().flatten());
+        all_projected.extend(self.projected.iter_mut().flatten());
+        for part in &mut self.tabled {
+            all_terms.extend(&mut part.terms);
+            all_projected.extend(&mut part.projected);
+        }
+        for term in all_terms {
+            term.compress(columns);
+        }
+        for small in all_projected {
+            *small = projected(small, columns);
+        }
+        self.basis.combine(columns.as_ref());
+        self.parts = BasisParts::default();
+    }
+
+    /// The projected matrices at `mu`.
+    pub fn at(&self, mu: f64) -> ProjectedMatrices {
+        let weights = self.weights;
+        self.combine(|coefficients| match weights.are_powers() {
+            true => horner(coefficients, mu, |_| 1.0, 0),
+            false => weighted(coefficients, |place| weights.at(place, mu)),
+        })
+    }
+
+    /// Their derivatives by `mu`.
+    pub fn derivative_at(&self, mu: f64) -> ProjectedMatrices {
+        let weights = self.weights;
+        self.combine(|coefficients| match weights.are_powers() {
+            true => horner(coefficients, mu, |power| power as f64, 1),
+            false => weighted(coefficients, |place| weights.slope(place, mu)),
+        })
+    }
+
+    fn combine(&self, evaluate: impl Fn(&[Mat<f64>]) -> Mat<f64>) -> ProjectedMatrices {
+        let [stiffness, damping, mass, structural] = &self.projected;
+        let structural = (!structural.is_empty()).then(|| evaluate(structural));
+        let (stiffness, mass) = (evaluate(stiffness), evaluate(mass));
+        let damping = match self.linearization {
+            Linearization::Reduced(coefficients, _) => {
+                Scale(coefficients.mass_coefficient) * &mass
+                    + Scale(coefficients.stiffness_coefficient) * &stiffness
+            }
+            Linearization::Companion { .. } => evaluate(damping),
+        };
+        let tabled = self.tabled.iter();
+        let tabled = tabled.map(|part| (part.gain.clone(), evaluate(&part.projected)));
+        ProjectedMatrices { stiffness, damping, mass, structural, tabled: tabled.collect() }
+    }
+
+    /// The `count` modes of largest `|s|` that oscillate, by rising frequency; overdamped ones are left out. Left vectors, and so
+    /// derivatives, are those that the samples about `mu` hold.
+    pub fn solve_with_coarse_lefts(
+        &self,
+        mu: f64,
+        count: usize,
+    ) -> Result<Vec<ReducedMode>, LinalgError> {
+        let at = self.at(mu);
+        let mut modes = self.solve_in(self.span_of_nearest(mu, NEIGHBOURS), &at, count, true)?;
+        self.complete(&mut modes, &at, mu);
+        Ok(modes)
+    }
+
+    /// Replaces left vectors of modes in the span of a sample, and derivatives, by those in the whole basis.
+    ///
+    /// A sample holds right vectors only. With friction left ones are others, which that span hardly holds: overlaps
+    /// and derivatives would be wrong. Right vectors at several friction coefficients together come close to them.
+    pub fn refine_lefts(&self, modes: &mut [ReducedMode], mu: f64) {
+        if mu == 0.0 || self.sample_width(mu).is_none() {
+            return;
+        }
+        let values: Vec<c64> = modes.iter().map(|mode| mode.eigenvalue).collect();
+        // The iteration would turn the vectors of one multiple eigenvalue into one.
+        let is_single = |lambda: c64| {
+            let near = |other: &&c64| (**other - lambda).norm() <= MULTIPLE * lambda.norm();
+            values.iter().filter(near).count() == 1
+        };
+        let single = modes.iter_mut().filter(|mode| is_single(mode.eigenvalue));
+        crate::parallel::map::<_, _, ()>(single, |mode| {
+            if let Some(found) = self.mode_near(mu, mode) {
+                mode.left = found.left;
+            }
+        });
+        self.complete(modes, &self.at(mu), mu);
+    }
+
+    /// [`Self::solve_with_coarse_lefts`] for eigenvalues and right vectors only: left ones stay empty, derivatives zero.
+    pub fn solve_right(&self, mu: f64, count: usize) -> Result<Vec<ReducedMode>, LinalgError> {
+        let at = self.at(mu);
+        self.solve_in(self.span_of_nearest(mu, NEIGHBOURS), &at, count, false)
+    }
+
+    /// The same for matching modes between solved points, with left vectors of the whole basis: in the span of the two nearest samples.
+    pub fn solve_between(&self, mu: f64, count: usize) -> Result<Vec<ReducedMode>, LinalgError> {
+        let at = self.at(mu);
+        let mut modes = self.solve_in(self.span_of_nearest(mu, 2), &at, count, true)?;
+        self.complete(&mut modes, &at, mu);
+        self.refine_lefts(&mut modes, mu);
+        Ok(modes)
+    }
+
+    /// Takes note that `vectors` are the modes at `mu`: the problem there is then solved in their span, and nearby in
+    /// that of the nearest ones. Vectors at the same `mu` add to those held.
+    pub fn hold_sample(&mut self, mu: f64, vectors: &Mat<f64>) {
+        self.hold_coordinates(mu, transpose_product(self.basis.columns(), vectors.as_ref()));
+    }
+
+    /// Number of columns that span the modes held at `mu`, if there are any.
+    pub fn sample_width(&self, mu: f64) -> Option<usize> {
+        let own = self.samples.iter().find(|sample| sample.0 == mu);
+        own.map(|(_, coordinates)| coordinates.ncols())
+    }
+
+    /// Forgets the modes held at `mu`.
+    pub fn drop_sample(&mut self, mu: f64) {
+        self.samples.retain(|sample| sample.0 != mu);
+        self.parts.change_at(mu);
+    }
+
+    /// Restricts the basis to its `known` first vectors and the modes held; the coordinates of the new basis in the old one, one column
+    /// each.
+    pub fn restrict(&mut self, known: usize) -> Mat<f64> {
+        let m = self.dimension();
+        let columns = spanned(Mat::identity(m, known), self.samples.iter());
+        self.corrections.clear();
+        for (_, held) in &mut self.samples {
+            *held = transpose_product(columns.as_ref(), lengthened(held, m).as_ref());
+        }
+        self.compress(&columns);
+        columns
+    }
+
+    /// [`Self::hold_sample`] of vectors given by their coordinates in the basis.
+    pub fn hold_coordinates(&mut self, mu: f64, coordinates: Mat<f64>) {
+        self.parts.change_at(mu);
+        match self.samples.iter_mut().find(|sample| sample.0 == mu) {
+            Some((_, held)) => {
+                let known = lengthened(held, coordinates.nrows());
+                *held = join_columns(known.as_ref(), coordinates.as_ref());
+            }
+            None => self.samples.push((mu, coordinates)),
+        }
+    }
+
+    /// Adds the corrections `vectors` of modes at `mu` to what is held there.
+    pub fn hold_correction(&mut self, mu: f64, vectors: &Mat<f64>) {
+        let coordinates = transpose_product(self.basis.columns(), vectors.as_ref());
+        self.corrections.push((mu, coordinates));
+        self.parts.change_at(mu);
+    }
+
+    /// Orthonormal coordinates of the span of the `count` samples nearest to `mu`, or of the one there; nothing without
+    /// samples.
+    fn span_of_nearest(&self, mu: f64, count: usize) -> Option<Mat<f64>> {
+        let mut nearest: Vec<&(f64, Mat<f64>)> = self.samples.iter().collect();
+        crate::order::sort_by_number(&mut nearest, |a| (a.0 - mu).abs());
+        let is_sampled = nearest.first()?.0 == mu;
+        if is_sampled {
+            nearest.retain(|sample| sample.0 == mu)
+        } else {
+            nearest.truncate(count)
+        }
+        Some(spanned(Mat::zeros(self.dimension(), 0), nearest.into_iter()))
+    }
+
+    /// The modes within a space of coordinates, or in the whole basis, without derivatives and scale.
+    fn solve_in(
+        &self,
+        space: Option<Mat<f64>>,
+        at: &ProjectedMatrices,
+        count: usize,
+        with_left: bool,
+    ) -> Result<Vec<ReducedMode>, LinalgError> {
+        let Some(columns) = space else {
+            return self.solve_projected(at, count, with_left);
+        };
+        let mut modes = self.solve_projected(&at.within(&columns), count, with_left)?;
+        for mode in &mut modes {
+            mode.right = combined(&columns, &mode.right);
+            mode.left = combined(&columns, &mode.left);
+        }
+        Ok(modes)
+    }
+
+    /// The mode at `mu` near `guess`, by two-sided Rayleigh quotient iteration from its eigenvalue and vectors; nothing
+    /// where that does not settle.
+    pub fn mode_near(&self, mu: f64, guess: &ReducedMode) -> Option<ReducedMode> {
+        if let Some(part) = self.surroundings(mu) {
+            let guess = guess.map(|own| inside(&part.columns, own));
+            let found = part.model.mode_near(mu, &guess)?;
+            return Some(found.map(|own| combined(&part.columns, own)));
+        }
+        let at = self.at(mu);
+        let mut modes = [at.mode_near(guess)?];
+        modes[0].inverse_value = self.linearization.inverse_value(modes[0].eigenvalue);
+        self.complete(&mut modes, &at, mu);
+        let [mode] = modes;
+        (mode.eigenvalue.im > 0.0).then_some(mode)
+    }
+
+    /// Normalizes vectors and computes `dlambda/dmu = -w^T T'(lambda) x` with
+    /// `w^T (2 lambda M + C) x = 1`; where stiffness depends on frequency, the mode's own follows
+    /// ([`own_frequency_step`]).
+    pub(super) fn complete(&self, modes: &mut [ReducedMode], at: &ProjectedMatrices, mu: f64) {
+        for mode in modes.iter_mut() {
+            let length = length(&mode.right);
+            mode.right.iter_mut().for_each(|v| *v /= length);
+        }
+        let changes = self.derivative_at(mu).pencil_forms(modes, modes);
+        let slopes = at.overlaps(modes, modes);
+        for (j, mode) in modes.iter_mut().enumerate() {
+            let (change, slope) = (changes[(j, j)], slopes[(j, j)]);
+            mode.derivative = at.followed(mode, -change / slope, slope);
+            mode.left.iter_mut().for_each(|v| *v /= slope);
+        }
+    }
+
+    /// `V` times coordinates (of this or an earlier basis).
+    pub fn expand(&self, coordinates: MatRef<'_, f64>) -> Mat<f64> {
+        let known = self.basis.columns().get(.., ..coordinates.nrows());
+        product(known, coordinates)
+    }
+}

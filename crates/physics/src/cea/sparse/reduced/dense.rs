@@ -1,0 +1,244 @@
+//! All modes of the projected problem by dense decompositions.
+
+use super::ReducedModel;
+use crate::cea::sparse::linearization::Linearization;
+use crate::cea::sparse::mode::ReducedMode;
+use crate::cea::sparse::own_frequency;
+use crate::cea::sparse::projected::ProjectedMatrices;
+use crate::linalg::dense_eigen::{complex_eigen, real_eigen, real_eigenvalues};
+use crate::linalg::{ComplexDenseLu, DenseLu, LinalgError, MatrixPolynomial};
+use crate::linalg::{Mat, MatRef, Scale, c64};
+use crate::prestress::SlidingTangent;
+
+impl ReducedModel {
+    /// The modes of projected matrices, without derivatives and scale.
+    pub(super) fn solve_projected(
+        &self,
+        at: &ProjectedMatrices,
+        count: usize,
+        with_left: bool,
+    ) -> Result<Vec<ReducedMode>, LinalgError> {
+        if let Some((gain, _)) = at.tabled.first() {
+            let start_hz = gain.reference_hz;
+            let frozen = |frequency_hz: f64| {
+                let at = at.frozen(frequency_hz);
+                self.solve_lossy(&at, count, true)
+            };
+            let mut modes = own_frequency::solve(at, &frozen, start_hz)?;
+            for mode in &mut modes {
+                mode.inverse_value = self.linearization.inverse_value(mode.eigenvalue);
+            }
+            return Ok(modes);
+        }
+        if at.structural.is_some() {
+            return self.solve_lossy(at, count, with_left);
+        }
+        let centred = self.centred(at);
+        let at = centred.as_ref().unwrap_or(at);
+        let lu = DenseLu::factorize(at.stiffness.clone());
+        let leading = match self.linearization {
+            Linearization::Reduced(..) => count,
+            Linearization::Companion { .. } => 2 * count,
+        };
+        let operator = self.shift_inverted(at, &lu);
+        let eigen = real_eigen(operator.as_ref(), with_left, leading)?;
+        // The upper half of a left vector of the operator is K^T times that of the problem.
+        let m = at.stiffness.nrows();
+        let mut left = eigen.left;
+        if let Some(left) = &mut left {
+            lu.solve_transpose_in_place(left.as_mut().split_at_row_mut(m).0);
+        }
+
+        let mut order: Vec<usize> = (0..eigen.values.len()).collect();
+        crate::order::sort_by_number(&mut order, |&i| -eigen.values[i].norm());
+        let mut modes: Vec<ReducedMode> = order
+            .into_iter()
+            .filter_map(|i| {
+                Some(ReducedMode {
+                    eigenvalue: self.linearization.eigenvalue(eigen.values[i])?,
+                    inverse_value: eigen.values[i],
+                    derivative: c64::new(0.0, 0.0),
+                    right: unpack(&eigen.values, eigen.right.as_ref(), m, i, false),
+                    left: left.as_ref().map_or_else(Vec::new, |left| {
+                        unpack(&eigen.values, left.as_ref(), m, i, true)
+                    }),
+                })
+            })
+            .take(count)
+            .collect();
+        crate::order::sort_by_number(&mut modes, |p| p.eigenvalue.im);
+        Ok(modes)
+    }
+
+    /// The `count` lowest modes at `mu` of the full matrices of `tangent`, with structural damping, as [`Self::solve_right`] gives those in
+    /// the basis; vectors are over the unknowns.
+    pub fn solve_unreduced(
+        &self,
+        tangent: &SlidingTangent,
+        mu: f64,
+        count: usize,
+    ) -> Result<Vec<ReducedMode>, LinalgError> {
+        let n = tangent.stiffness.dimension();
+        let full = |p: &MatrixPolynomial| {
+            let identity = Mat::identity(n, n);
+            p.pattern().multiply(&p.evaluate(mu), identity.as_ref())
+        };
+        let at = ProjectedMatrices {
+            stiffness: full(&tangent.stiffness),
+            damping: full(&tangent.damping),
+            mass: full(&tangent.mass),
+            structural: tangent.structural.as_ref().map(full),
+            tabled: Vec::new(),
+        };
+        self.solve_lossy(&at, count, false)
+    }
+
+    /// [`Self::solve_projected`] with structural damping `H`: the eigenvalues `1 / nu` of the complex operator
+    ///
+    /// ```text
+    /// [ -omega (K + i H)^-1 C   -omega^2 (K + i H)^-1 M ]
+    /// [  I                       0                      ],    lambda = omega nu, Im nu > 0;
+    /// ```
+    ///
+    /// those with `Im nu < 0` are no motions: at negative frequencies the force is `-i H`.
+    ///
+    /// With `H` motions beyond critical damping have an imaginary part too: they are left out, and those near it do not count.
+    fn solve_lossy(
+        &self,
+        at: &ProjectedMatrices,
+        count: usize,
+        with_left: bool,
+    ) -> Result<Vec<ReducedMode>, LinalgError> {
+        let centred = self.centred(at);
+        let at = centred.as_ref().unwrap_or(at);
+        let (Linearization::Companion { frequency_scale: omega, .. }, Some(structural)) =
+            (self.linearization, &at.structural)
+        else {
+            return Ok(Vec::new());
+        };
+        // The operator.
+        let m = at.stiffness.nrows();
+        let complex = |p: &Mat<f64>, factor: f64| {
+            Mat::from_fn(m, m, |i, j| c64::new(factor * p[(i, j)], 0.0))
+        };
+        let lu = ComplexDenseLu::factorize(Mat::from_fn(m, m, |i, j| {
+            c64::new(at.stiffness[(i, j)], structural[(i, j)])
+        }));
+        let (mut damped, mut inert) =
+            (complex(&at.damping, -omega), complex(&at.mass, -omega * omega));
+        lu.solve_in_place(damped.as_mut());
+        lu.solve_in_place(inert.as_mut());
+        let operator = Mat::from_fn(2 * m, 2 * m, |i, j| match (i < m, j < m) {
+            (true, true) => damped[(i, j)],
+            (true, false) => inert[(i, j - m)],
+            (false, _) => c64::new(f64::from(u8::from(i - m == j)), 0.0),
+        });
+        let (values, right, left) = complex_eigen(operator.as_ref(), with_left)?;
+        // The upper half of a left vector y^H of the operator is (K + i H)^T times that of the problem.
+        let left = left.map(|left| {
+            let mut upper = Mat::from_fn(m, left.ncols(), |i, j| left[(i, j)].conj());
+            lu.solve_transpose_in_place(upper.as_mut());
+            upper
+        });
+        let mut order: Vec<usize> = (0..values.len()).collect();
+        crate::order::sort_by_number(&mut order, |&i| -values[i].norm());
+        let mode = |i: usize| {
+            let column = |vectors: &Mat<c64>| (0..m).map(|row| vectors[(row, i)]).collect();
+            Some(ReducedMode {
+                eigenvalue: self.linearization.eigenvalue(values[i])?,
+                inverse_value: values[i],
+                derivative: c64::new(0.0, 0.0),
+                right: column(&right),
+                left: left.as_ref().map_or_else(Vec::new, column),
+            })
+        };
+        let oscillating = order.into_iter().filter_map(mode);
+        let oscillating = oscillating.filter(|mode| !mode.hardly_oscillates());
+        let mut far_from_critical = 0;
+        let mut modes: Vec<ReducedMode> = oscillating
+            .take_while(|mode| {
+                let is_wanted = far_from_critical < count;
+                far_from_critical += usize::from(!mode.is_nearly_critical());
+                is_wanted
+            })
+            .collect();
+        crate::order::sort_by_number(&mut modes, |p| p.eigenvalue.im);
+        Ok(modes)
+    }
+
+    /// The matrices about the centre of the linearisation, where it is not zero: `K + c C + c^2 M`, or `K + c^2 M`, and `C + 2 c M`.
+    fn centred(&self, at: &ProjectedMatrices) -> Option<ProjectedMatrices> {
+        let shift = self.linearization.centre().shift;
+        if shift == 0.0 {
+            return None;
+        }
+        let inert = &at.stiffness + Scale(shift * shift) * &at.mass;
+        let (stiffness, damping) = match self.linearization {
+            Linearization::Reduced(..) => (inert, at.damping.clone()),
+            Linearization::Companion { .. } => {
+                (inert + Scale(shift) * &at.damping, &at.damping + Scale(2.0 * shift) * &at.mass)
+            }
+        };
+        let structural = at.structural.clone();
+        Some(ProjectedMatrices {
+            stiffness,
+            damping,
+            mass: at.mass.clone(),
+            structural,
+            tabled: Vec::new(),
+        })
+    }
+
+    /// How many motions grow without oscillating at `mu`: positive real eigenvalues.
+    pub fn static_growth(&self, mu: f64) -> Result<usize, LinalgError> {
+        let at = self.at(mu);
+        let centred = self.centred(&at);
+        let at = centred.as_ref().unwrap_or(&at);
+        let operator = self.shift_inverted(at, &DenseLu::factorize(at.stiffness.clone()));
+        let values = real_eigenvalues(operator.as_ref())?.into_iter();
+        let values = values.filter(|s| s.im == 0.0).map(|s| self.linearization.value(s).re);
+        let sign = if let Linearization::Reduced(..) = self.linearization { -1.0 } else { 1.0 };
+        Ok(values.filter(|value| sign * value > 0.0).count())
+    }
+
+    /// The dense shift-inverted operator of the linearisation.
+    fn shift_inverted(&self, at: &ProjectedMatrices, lu: &DenseLu) -> Mat<f64> {
+        let mut inertia = at.mass.clone();
+        lu.solve_in_place(inertia.as_mut());
+        match self.linearization {
+            Linearization::Reduced(..) => inertia,
+            Linearization::Companion { frequency_scale: omega, .. } => {
+                let m = at.stiffness.nrows();
+                let mut damped = at.damping.clone();
+                lu.solve_in_place(damped.as_mut());
+                Mat::from_fn(2 * m, 2 * m, |i, j| match (i < m, j < m) {
+                    (true, true) => -omega * damped[(i, j)],
+                    (true, false) => -omega * omega * inertia[(i, j - m)],
+                    (false, _) => f64::from(i - m == j),
+                })
+            }
+        }
+    }
+}
+
+/// The first `rows` entries of column `i` of packed vectors, as a complex vector, conjugated if asked.
+fn unpack(
+    values: &[c64],
+    vectors: MatRef<'_, f64>,
+    rows: usize,
+    i: usize,
+    conjugated: bool,
+) -> Vec<c64> {
+    let (re, im, sign) = match values[i].im {
+        im if im > 0.0 => (i, Some(i + 1), 1.0),
+        im if im < 0.0 => (i - 1, Some(i), -1.0),
+        _ => (i, None, 0.0),
+    };
+    let sign = if conjugated { -sign } else { sign };
+    (0..rows)
+        .map(|row| {
+            let imaginary = im.map_or(0.0, |k| sign * vectors[(row, k)]);
+            c64::new(vectors[(row, re)], imaginary)
+        })
+        .collect()
+}

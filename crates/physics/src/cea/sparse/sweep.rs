@@ -1,0 +1,423 @@
+//! The stages of a sweep.
+
+mod counts;
+mod divergence;
+mod held;
+mod ladder;
+mod results;
+
+use super::basis::BasisBuilder;
+use super::branches::{BranchLabel, TrackedBranch, label_first, track};
+use super::edge::ContactEdge;
+use super::frictionless::FrictionlessModes;
+use super::linearization::Linearization;
+use super::point::{PointSolver, SolvedPoint};
+use super::{GUARD_MODES, RESIDUAL_BOUND, TRACKING_MARGIN};
+use crate::cea::{
+    CeaError, FrictionSweep, ModeLimit, PartWatch, SweepProgress, SweepRequest, SweepStage,
+    SweepWatch, UnconvergedMode,
+};
+use crate::linalg::LinalgError;
+use crate::prestress::SlidingTangent;
+use std::borrow::Cow;
+use std::f64::consts::TAU;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// Friction values at which the basis is refined, at least, over a range.
+const MIN_SAMPLES: usize = 6;
+/// Range of friction coefficients over which modes hardly change.
+const SHORT_RANGE: f64 = 0.05;
+/// Change of a critical friction coefficient below which its mode needs no more corrections.
+const SETTLED: f64 = 1e-10;
+/// Highest modes that stiffness which depends on frequency is referred to, one after the other.
+const MAX_REFERENCES: usize = 4;
+/// Relative change of their frequency that is none.
+const REFERENCE_SETTLED: f64 = 0.02;
+
+/// Complex modes of `tangent` at every friction coefficient of `request`, and where their branches turn unstable.
+///
+/// Oscillating modes of lowest natural frequency only: overdamped motions, and modes whose eigenvalue is
+/// far from the origin because of damping alone, are not searched. Friction values are solved in parallel
+/// on the current rayon pool; the result is the same, bit for bit, for any number of threads, and whether `watch` kept a part of
+/// it from an earlier run or not.
+///
+/// Points come in the order given; repeated values are computed once.
+///
+/// # Errors
+/// [`CeaError`]: a bad request, a mode count that the inertia contradicts, a pair above the residual
+/// bound, a lost branch.
+pub fn sweep(
+    tangent: &SlidingTangent,
+    request: &SweepRequest<'_>,
+    watch: &dyn SweepWatch,
+) -> Result<FrictionSweep, CeaError> {
+    let tangent = referred(tangent, request.limit)?;
+    sweep_holding(&tangent, request, (request.limit, GUARD_MODES), watch)
+}
+
+/// [`sweep`] from the modes within `limit` without friction, those wanted there at least; where it does not do with them, from `more`,
+/// and from twice as many more each time.
+fn sweep_holding(
+    tangent: &SlidingTangent,
+    request: &SweepRequest<'_>,
+    (limit, more): (ModeLimit, usize),
+    watch: &dyn SweepWatch,
+) -> Result<FrictionSweep, CeaError> {
+    let mut sweep = SparseSweep::prepare(tangent, &SweepRequest { limit, ..*request }, watch)?;
+    sweep.limit = request.limit;
+    sweep.cover()?;
+    sweep.solve()?;
+    let mut branches = None;
+    if !sweep.lacks_modes() {
+        let tracked = sweep.track()?;
+        let is_complete = !sweep.lacks_modes() && !sweep.lacks_places(&tracked)?;
+        branches = is_complete.then_some(tracked);
+    }
+    let Some(branches) = branches else {
+        let held = sweep.builder.count;
+        let watch = PartWatch { whole: watch, prefix: format!("of-{held}-"), is_heard: true };
+        let limit = ModeLimit::Lowest((held + more).min(sweep.elastic()));
+        return sweep_holding(tangent, request, (limit, 2 * more), &watch);
+    };
+    let (branches, counts) = sweep.count(request, branches)?;
+    let found = sweep.finish(request, &branches)?;
+    Ok(FrictionSweep { counts, ..found })
+}
+
+/// The tangent with its stiffness as it is at about the highest frequency wanted, where it depends on frequency: below that, as many
+/// modes lie there as the problem frozen at it has.
+fn referred(
+    tangent: &SlidingTangent,
+    limit: ModeLimit,
+) -> Result<Cow<'_, SlidingTangent>, CeaError> {
+    if tangent.tabled.is_empty() {
+        return Ok(Cow::Borrowed(tangent));
+    }
+    limit.check()?;
+    match limit {
+        ModeLimit::MaxFrequency(limit_hz) => Ok(Cow::Owned(tangent.referred_to(limit_hz))),
+        ModeLimit::Lowest(count) => {
+            let (mut referred, mut highest_hz) = (tangent.clone(), 0.0);
+            for _ in 0..MAX_REFERENCES {
+                let modes = FrictionlessModes::compute(&referred, limit)?;
+                let place = count.min(modes.frequencies.len()) - 1;
+                let found_hz = modes.frequencies[place] / TAU;
+                referred = tangent.referred_to(found_hz);
+                if (found_hz - highest_hz).abs() <= REFERENCE_SETTLED * found_hz {
+                    break;
+                }
+                highest_hz = found_hz;
+            }
+            Ok(Cow::Owned(referred))
+        }
+    }
+}
+
+/// The stages of [`sweep`], in order.
+pub struct SparseSweep<'a> {
+    tangent: &'a SlidingTangent,
+    linearization: Linearization,
+    limit: ModeLimit,
+    edge: ContactEdge,
+    builder: BasisBuilder<'a>,
+    /// Friction coefficients, ascending, 0 first unless the sweep is continued.
+    grid: Vec<f64>,
+    /// Smallest friction coefficient asked for.
+    lowest: f64,
+    /// Whether branches begin at the first friction coefficient asked for.
+    is_continued: bool,
+    points: Vec<SolvedPoint>,
+    /// Points where motions near critical damping that do not converge are left out.
+    leaves_out: Vec<bool>,
+    /// The modes that no iteration made converge, which are not listed.
+    unconverged: Vec<UnconvergedMode>,
+    labels: Vec<BranchLabel>,
+    watch: &'a dyn SweepWatch,
+}
+
+impl<'a> SparseSweep<'a> {
+    /// Computes the frictionless modes, where the sweep starts.
+    pub fn prepare(
+        tangent: &'a SlidingTangent,
+        request: &SweepRequest<'_>,
+        watch: &'a dyn SweepWatch,
+    ) -> Result<Self, CeaError> {
+        let mut grid = request.rising_grid()?;
+        request.limit.check()?;
+        let lowest = grid[0];
+        let modes = FrictionlessModes::compute_watched(tangent, request.limit, watch)?;
+        // What structural damping leaves of rigid motions is recognised by following them from rest.
+        let is_continued = request.is_continued && !(tangent.is_lossy() && modes.rigid > 0);
+        if lowest > 0.0 && !is_continued {
+            grid.insert(0, 0.0);
+        }
+        let highest = modes.frequencies.last().copied().unwrap_or(1.0);
+        let linearization = Linearization::of(tangent, highest, modes.centre);
+        Ok(Self {
+            tangent,
+            linearization,
+            limit: request.limit,
+            edge: ContactEdge::of(tangent),
+            builder: BasisBuilder::new(
+                tangent,
+                linearization,
+                (&modes.vectors, modes.rigid),
+                modes.factors,
+                watch,
+            ),
+            grid,
+            lowest,
+            is_continued,
+            points: Vec::new(),
+            leaves_out: Vec::new(),
+            unconverged: Vec::new(),
+            labels: Vec::new(),
+            watch,
+        })
+    }
+
+    /// Grows the basis over the whole range of friction coefficients.
+    pub fn cover(&mut self) -> Result<(), CeaError> {
+        if self.builder.holds_all {
+            return Ok(());
+        }
+        if self.builder.is_sampling() {
+            let first = self.first_asked();
+            // Over a short range the modes at its middle are corrected to those at its ends.
+            if self.is_continued && self.grid[self.grid.len() - 1] - self.lowest < SHORT_RANGE {
+                return self.builder.improve_at(self.grid[self.grid.len() / 2]).map(|_| ());
+            }
+            if self.lowest > 0.0 || matches!(self.linearization, Linearization::Reduced(..)) {
+                self.builder.begin_at_rest()?;
+            }
+            return self.builder.cover(&self.grid[first..]);
+        }
+        let (lowest, highest) = (self.lowest, self.grid[self.grid.len() - 1]);
+        let mut samples = self.grid.clone();
+        // Branches are followed between the friction values asked for, too.
+        if highest > lowest {
+            let steps = (0..=MIN_SAMPLES).map(|i| i as f64 / MIN_SAMPLES as f64);
+            samples.extend(steps.map(|t| lowest + t * (highest - lowest)));
+            samples.sort_by(f64::total_cmp);
+            samples.dedup_by(|b, a| *b - *a < 0.4 * (highest - lowest) / MIN_SAMPLES as f64);
+            samples.pop();
+            samples.push(highest);
+        }
+        // The undamped modes are those of the frictionless problem where damping is proportional.
+        if matches!(self.linearization, Linearization::Reduced(..)) && samples.len() > 1 {
+            samples.retain(|mu| *mu > 0.0);
+        }
+        self.builder.cover(&samples)
+    }
+
+    /// Index of the first friction value asked for; before it there is only 0, where branches begin.
+    fn first_asked(&self) -> usize {
+        self.grid.partition_point(|&mu| mu < self.lowest)
+    }
+
+    /// Solves all points that are not solved in the same space already, and grows the basis where a mode misses its residual.
+    pub fn solve(&mut self) -> Result<(), CeaError> {
+        let all: Vec<usize> = (0..self.grid.len()).collect();
+        if self.points.is_empty() {
+            self.leaves_out = vec![false; all.len()];
+            self.points = self.solve_points(&all)?;
+            if self.builder.holds_all && self.lacks_modes() {
+                self.builder.count = self.most_wanted()?;
+                self.points = self.solve_points(&all)?;
+            }
+            // In a space so wide round-off may be more than modes may have.
+            if self.builder.holds_all && !self.missing_points().is_empty() {
+                self.builder.holds_all = false;
+                self.cover()?;
+                self.points = self.solve_points(&all)?;
+            }
+        } else {
+            let is_stale = |k: &usize| {
+                let own = self.builder.model.sample_width(self.grid[*k]);
+                own.is_none() || own != self.points[*k].solved_in
+            };
+            let stale: Vec<usize> = all.iter().copied().filter(is_stale).collect();
+            self.solve_anew(&stale)?;
+        }
+        self.climb_all()?;
+        self.check_tables()?;
+        let first = self.first_asked();
+        self.unconverged.clear();
+        for point in &mut self.points[first..] {
+            let mu = point.friction_coefficient;
+            let dropped = point.drop_unconverged();
+            self.unconverged.extend(dropped.into_iter().map(|own| UnconvergedMode::of(mu, own)));
+        }
+        let model = &self.builder.model;
+        crate::parallel::map::<_, _, ()>(&mut self.points, |point| point.refine_lefts(model));
+        self.labels =
+            label_first(&mut self.points[0], &self.builder.model, &self.edge, self.builder.count)?;
+        Ok(())
+    }
+
+    fn solve_anew(&mut self, indices: &[usize]) -> Result<(), LinalgError> {
+        for (k, point) in indices.iter().zip(self.solve_points(indices)?) {
+            self.points[*k] = point;
+        }
+        Ok(())
+    }
+
+    fn solve_points(&self, indices: &[usize]) -> Result<Vec<SolvedPoint>, LinalgError> {
+        let solved = AtomicUsize::new(0);
+        crate::parallel::map(indices, |&k| {
+            let point = self.solve_point(k);
+            self.watch.reached(SweepProgress {
+                stage: SweepStage::Values,
+                solved: solved.fetch_add(1, Ordering::Relaxed) + 1,
+                total: indices.len(),
+            });
+            point
+        })
+    }
+
+    /// Point `k` in the basis as it is, or what an earlier run of the same sweep found there.
+    fn solve_point(&self, k: usize) -> Result<SolvedPoint, LinalgError> {
+        let (mu, leaves_out) = (self.grid[k], self.leaves_out[k]);
+        let stage = if leaves_out { "-left-out" } else { "" };
+        let (steps, held) = (self.builder.steps, self.builder.count);
+        let name = format!("value-{steps:04}-of-{held}-{mu:?}{stage}");
+        let kept = self.watch.recall(&name);
+        if let Some(mut point) = kept.and_then(|kept| SolvedPoint::from_columns(mu, &kept)) {
+            point.solved_in = self.builder.model.sample_width(mu);
+            return Ok(point);
+        }
+        let point = self.point_solver().solve(&self.builder.model, mu, leaves_out)?;
+        self.watch.keep(&name, &point.to_columns());
+        Ok(point)
+    }
+
+    fn point_solver(&self) -> PointSolver<'_> {
+        PointSolver {
+            tangent: self.tangent,
+            linearization: self.linearization,
+            edge: &self.edge,
+            limit: self.limit,
+            count: self.builder.count,
+        }
+    }
+
+    /// Refuses modes whose stiffness follows from a table that does not reach them, or that changes too fast for them.
+    fn check_tables(&self) -> Result<(), CeaError> {
+        for point in &self.points[self.first_asked()..] {
+            for (mode, check) in point.modes.iter().zip(&point.checks).take(point.wanted) {
+                let frequency_hz = mode.eigenvalue.im / TAU;
+                if let Some(table) = self.tangent.table_without(frequency_hz) {
+                    let mu = point.friction_coefficient;
+                    return Err(CeaError::beyond_table(table, mu, frequency_hz));
+                }
+                let is_unsettled = !(check.residual <= RESIDUAL_BOUND);
+                if let Some(part) = self.tangent.tabled.first().filter(|_| is_unsettled) {
+                    let (mu, residual) = (point.friction_coefficient, check.residual);
+                    let key = part.gain.table.key();
+                    return Err(CeaError::Failed(format!(
+                        "at friction coefficient {mu} the mode at about {frequency_hz:.1} Hz does \
+                         not settle at a frequency of its own (relative residual {residual:.1e}). \
+                         The modulus of {key} changes too fast there: give its table more rows \
+                         or smooth it"
+                    )));
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Continues all branches from the first point. Where one is lost the basis takes up, of the quadratic problem, modes at
+    /// more friction coefficients about that place; in the end an independent iteration searches for it. A branch that stays lost
+    /// ends there, and a note says so.
+    pub fn track(&mut self) -> Result<Vec<TrackedBranch>, CeaError> {
+        let mut searched = Vec::new();
+        loop {
+            let (model, edge) = (&self.builder.model, &self.edge);
+            let mut branches = track(&self.points, model, edge, &self.labels)?;
+            for end in branches.iter_mut().filter_map(|branch| branch.end.as_mut()) {
+                end.diverges_at = self.diverges_at(end)?;
+            }
+            let ends = branches.iter().filter_map(|branch| branch.end.as_ref());
+            let lost = ends.filter(|end| end.is_lost() && !searched.contains(&end.after));
+            let mut open: Vec<(usize, [f64; 2])> =
+                lost.map(|end| (end.after, end.between)).collect();
+            open.sort_by_key(|(k, _)| *k);
+            open.dedup_by_key(|(k, _)| *k);
+            if open.is_empty() || self.builder.holds_all {
+                return Ok(branches);
+            }
+            for (k, [seen_at, lost_at]) in open {
+                let (from, to) = (self.grid[k], self.grid[k + 1]);
+                let (is_sampling, place) = (self.builder.is_sampling(), 0.5 * (seen_at + lost_at));
+                if !(is_sampling && self.builder.improve_between(from, to, place)?) {
+                    searched.push(k);
+                    self.builder.search(to, TRACKING_MARGIN)?;
+                }
+            }
+            self.solve()?;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cea::Unwatched;
+    use crate::cea::sparse::StiffnessFactors;
+    use crate::cea::sparse::fixtures::string_on_belt;
+    use crate::cea::sparse::linearization::Centre;
+
+    /// Consistency check: a mode taken away from one point is missed by the tracking and found again, with proportional
+    /// and with general damping.
+    #[test]
+    fn deliberately_lost_mode_is_found_again() {
+        for is_proportional in [true, false] {
+            let tangent = string_on_belt(60, 0.4, is_proportional);
+            let request = SweepRequest::new(&[0.0, 0.1, 0.2, 0.3], ModeLimit::Lowest(6));
+            let mut sweep = SparseSweep::prepare(&tangent, &request, &Unwatched).unwrap();
+            sweep.cover().unwrap();
+            sweep.solve().unwrap();
+            let complete = sweep.points[2].modes.len();
+            let lost = sweep.points[2].modes.remove(3);
+            sweep.points[2].checks.remove(3);
+            sweep.points[2].wanted -= 1;
+            let branches = sweep.track().unwrap();
+            assert!(sweep.points[2].modes.len() >= complete);
+            let found = sweep.points[2].modes[3].eigenvalue;
+            assert!((found - lost.eigenvalue).norm() < 1e-9 * found.norm());
+            let is_whole = |b: &TrackedBranch| b.modes.iter().all(Option::is_some);
+            assert!(branches.iter().take(6).all(is_whole));
+        }
+    }
+
+    /// Consistency check: modes withheld from the basis are found by the independent search.
+    #[test]
+    fn search_finds_modes_that_the_basis_never_held() {
+        let tangent = string_on_belt(60, 0.4, true);
+        let modes = FrictionlessModes::compute(&tangent, ModeLimit::Lowest(6)).unwrap();
+        let linearization = Linearization::of(&tangent, 1.0, Centre::default());
+        let without_second = crate::linalg::dense::pick_columns(&modes.vectors, &[0, 2, 3, 4, 5]);
+        let mut builder = BasisBuilder::new(
+            &tangent,
+            linearization,
+            (&without_second, 0),
+            modes.factors,
+            &Unwatched,
+        );
+        let before = builder.model.solve_with_coarse_lefts(0.2, 5).unwrap();
+        builder.search(0.2, 2).unwrap();
+        let after = builder.model.solve_with_coarse_lefts(0.2, 5).unwrap();
+        let factors = StiffnessFactors::frictionless(&tangent.stiffness).unwrap();
+        let mut complete =
+            BasisBuilder::new(&tangent, linearization, (&modes.vectors, 0), factors, &Unwatched);
+        complete.cover(&[0.2]).unwrap();
+        for (found, exact) in
+            after.iter().zip(complete.model.solve_with_coarse_lefts(0.2, 5).unwrap())
+        {
+            assert!((found.eigenvalue - exact.eigenvalue).norm() < 1e-9 * exact.eigenvalue.norm());
+        }
+        assert!(
+            (before[1].eigenvalue - after[1].eigenvalue).norm() > 0.1 * after[1].eigenvalue.norm()
+        );
+    }
+}

@@ -1,0 +1,234 @@
+//! The ladder of remedies for modes that have not converged.
+
+use super::SparseSweep;
+use crate::cea::CeaError;
+use crate::cea::sparse::RESIDUAL_BOUND;
+use crate::cea::sparse::linearization::Linearization;
+use crate::cea::sparse::mode::ReducedMode;
+
+/// Residual force, relative to the inertia force, up to which modes are corrected rather than computed anew.
+const CORRECTABLE: f64 = 1e-4;
+/// Part of the error of a point that a remedy may leave: with more the next one takes over.
+const LITTLE: f64 = 0.3;
+/// Rounds of one remedy at one point or crossing: with more of them it would not converge either.
+pub(super) const MOST_ROUNDS: usize = 8;
+/// Residual force, relative to the inertia force, above which a point with other than viscous damping is improved: its basis, made of right
+/// vectors alone, is too poor in left ones for errors of eigenvalues to be of second order.
+const LOSSY_GOAL: f64 = 1e-9;
+
+/// Remedies, one after the other.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Rung {
+    /// Corrections by the factors without friction, which all points share, or an iteration at a point that has none yet.
+    AtRest,
+    /// Corrections by factors of the full problem beside the modes.
+    Shifted,
+    /// The same without the strongly damped motions that did not converge: combinations of what the basis does not hold take no places.
+    Without,
+    /// All motions of a small body: its full problem, decomposed.
+    Whole,
+    /// Nothing more: what is open is said.
+    Spent,
+}
+
+/// How far one point has come.
+#[derive(Clone, Copy, Debug)]
+struct Ladder {
+    rung: Rung,
+    /// Rounds on this rung, and the error before the last one.
+    rounds: usize,
+    error: f64,
+}
+
+impl Ladder {
+    /// The remedy for what is left, the `error`: another one where the last did little. What is converged is only corrected, as long as
+    /// that helps: round-off does not become less. The whole problem is one of a body that `is_small`.
+    fn climb(&mut self, error: f64, is_converged: bool, is_small: bool) -> Rung {
+        let does_little = error > LITTLE * self.error || self.rounds == MOST_ROUNDS;
+        (self.error, self.rounds) = (error, self.rounds + 1);
+        if does_little {
+            self.rung = match self.rung {
+                _ if is_converged => Rung::Spent,
+                Rung::AtRest => Rung::Shifted,
+                Rung::Shifted => Rung::Without,
+                Rung::Without if is_small => Rung::Whole,
+                Rung::Without | Rung::Whole | Rung::Spent => Rung::Spent,
+            };
+            // A rung begins with a round of its own.
+            (self.error, self.rounds) = (f64::INFINITY, 0);
+        }
+        self.rung
+    }
+}
+
+impl SparseSweep<'_> {
+    /// Grows the basis until the modes at all points converge, or nothing helps.
+    pub(super) fn climb_all(&mut self) -> Result<(), CeaError> {
+        let first = Ladder { rung: Rung::AtRest, rounds: 0, error: f64::INFINITY };
+        let (mut ladders, is_small) = (vec![first; self.grid.len()], self.builder.is_small());
+        loop {
+            let mut missing = self.missing_points();
+            missing.retain(|&k| ladders[k].rung != Rung::Spent);
+            if missing.is_empty() {
+                return Ok(());
+            }
+            // The worst point between two that the basis holds: the others there gain from what it gets.
+            let gaps: Vec<usize> = self.grid.iter().map(|&mu| self.builder.gap(mu)).collect();
+            let mut treated: Vec<usize> = Vec::new();
+            for k in self.by_error(&missing) {
+                if !treated.contains(&gaps[k]) {
+                    treated.push(gaps[k]);
+                    let (residual, error) = self.points[k].worst();
+                    let rung = ladders[k].climb(error, residual <= RESIDUAL_BOUND, is_small);
+                    let is_alone =
+                        missing.iter().filter(|&&other| gaps[other] == gaps[k]).count() == 1;
+                    self.treat(k, rung, is_alone)?;
+                }
+            }
+            self.solve_treated(&missing)?;
+        }
+    }
+
+    /// One remedy at point `k`, `is_alone` where no other open point would gain from modes computed anew there.
+    fn treat(&mut self, k: usize, rung: Rung, is_alone: bool) -> Result<(), CeaError> {
+        let (mu, point) = (self.grid[k], &self.points[k]);
+        match rung {
+            Rung::AtRest
+                if is_alone && point.worst().1 <= CORRECTABLE && self.builder.is_sampling() =>
+            {
+                self.builder.correct_at(mu, &point.modes)?;
+            }
+            Rung::AtRest => {
+                self.builder.improve_at(mu)?;
+            }
+            Rung::Shifted | Rung::Without => {
+                self.leaves_out[k] = rung == Rung::Without;
+                let may_be_none =
+                    |mode: &ReducedMode| self.leaves_out[k] && mode.is_nearly_critical();
+                let open = point.open_modes(self.goal()).filter(|mode| !may_be_none(mode));
+                let open: Vec<ReducedMode> = open.cloned().collect();
+                self.builder.take_up(mu, &point.modes);
+                if !open.is_empty() {
+                    self.builder.shift(mu, &open)?;
+                }
+            }
+            Rung::Whole => self.builder.hold_all(mu)?,
+            Rung::Spent => {}
+        }
+        Ok(())
+    }
+
+    /// Residual force, relative to the inertia force, above which a point is improved.
+    fn goal(&self) -> f64 {
+        if self.tangent.is_lossy() { LOSSY_GOAL } else { self.linearization.force_residual_goal() }
+    }
+
+    /// Points whose modes could still be improved.
+    pub(super) fn missing_points(&self) -> Vec<usize> {
+        let first = match self.linearization {
+            Linearization::Reduced(..) => 0,
+            Linearization::Companion { .. } => self.first_asked(),
+        };
+        let goal = self.goal();
+        let all = first..self.grid.len();
+        all.filter(|&k| self.points[k].open_modes(goal).next().is_some()).collect()
+    }
+
+    /// Solves points after a remedy, and lets their modes stand for the samples there.
+    fn solve_treated(&mut self, indices: &[usize]) -> Result<(), CeaError> {
+        self.solve_anew(indices)?;
+        for &k in indices {
+            let (mu, point) = (self.grid[k], &mut self.points[k]);
+            self.builder.hold_solved(mu, &point.modes);
+            point.solved_in = self.builder.model.sample_width(mu);
+        }
+        // All points are solved in spans of modes held.
+        if let Some(columns) = self.builder.restrict() {
+            self.points.iter_mut().for_each(|p| p.restrict(&columns));
+        }
+        Ok(())
+    }
+
+    /// `points` by falling error.
+    fn by_error(&self, points: &[usize]) -> Vec<usize> {
+        let error = |k: usize| self.points[k].worst().1;
+        let mut order = points.to_vec();
+        crate::order::sort_by_number(&mut order, |&a| -error(a));
+        order
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::cea::sparse::fixtures::string_on_belt;
+    use crate::cea::sparse::sweep;
+    use crate::cea::{ModeLimit, SweepRequest};
+    use crate::linalg::dense_eigen::real_eigenvalues;
+    use crate::linalg::{DenseLu, Mat, MatrixPolynomial, c64};
+    use crate::prestress::SlidingTangent;
+    use std::f64::consts::TAU;
+    use std::sync::Arc;
+
+    /// The string with dashpots `mu dashpot` on every third mass, as friction across slow sliding is.
+    fn slowly_sliding(dashpot: f64) -> SlidingTangent {
+        let mut tangent = string_on_belt(60, 0.4, false);
+        let pattern = Arc::clone(tangent.stiffness.pattern());
+        let dashpots = (0..20).map(|i| (3 * i, 3 * i, dashpot)).collect();
+        let added = MatrixPolynomial::on_pattern(&pattern, &[Vec::new(), dashpots]);
+        tangent.damping = MatrixPolynomial::combination(1.0, &tangent.damping, 1.0, &added);
+        tangent
+    }
+
+    /// All eigenvalues that oscillate, of the linearized problem.
+    fn dense(tangent: &SlidingTangent, mu: f64) -> Vec<c64> {
+        let pattern = tangent.stiffness.pattern();
+        let n = pattern.dimension();
+        let full = |polynomial: &MatrixPolynomial| {
+            pattern.multiply(&polynomial.evaluate(mu), Mat::identity(n, n).as_ref())
+        };
+        let [mut stiffness, mut damping] = [&tangent.stiffness, &tangent.damping].map(full);
+        let lu = DenseLu::factorize(full(&tangent.mass));
+        lu.solve_in_place(stiffness.as_mut());
+        lu.solve_in_place(damping.as_mut());
+        let companion = Mat::from_fn(2 * n, 2 * n, |i, j| match (i < n, j < n) {
+            (true, _) => f64::from(u8::from(j == i + n)),
+            (false, true) => -stiffness[(i - n, j)],
+            (false, false) => -damping[(i - n, j - n)],
+        });
+        let all = real_eigenvalues(companion.as_ref()).unwrap();
+        all.into_iter().filter(|own| own.im > 1e-9).collect()
+    }
+
+    /// Independent check: dashpots that grow with friction to beyond critical damping. What is listed is in the spectrum of a dense
+    /// decomposition, and of that nothing is missing that is damped by less than half the critical. Of few modes, and of so many that
+    /// all motions are held: friction brings others from above the limit.
+    #[test]
+    fn strongly_damped_motions_neither_hide_modes_nor_count_as_modes() {
+        let frictions = [0.0, 0.05, 0.1, 0.15, 0.2, 0.3, 0.4, 0.5, 0.6];
+        let limits = [ModeLimit::Lowest(8), ModeLimit::MaxFrequency(0.8 / TAU)];
+        for (dashpot, limit) in [0.1, 0.5, 2.0].into_iter().flat_map(|own| limits.map(|l| (own, l)))
+        {
+            let tangent = slowly_sliding(dashpot);
+            let request = SweepRequest::new(&frictions, limit);
+            let found = sweep(&tangent, &request, &|_| {}).unwrap();
+            for point in &found.points {
+                let exact = dense(&tangent, point.friction_coefficient);
+                let listed: Vec<c64> = point.modes.iter().map(|mode| mode.eigenvalue).collect();
+                let holds = |all: &[c64], own: &c64| {
+                    all.iter().any(|other| (other - own).norm() < 1e-8 * own.norm())
+                };
+                assert!(listed.iter().all(|own| holds(&exact, own)), "{listed:?}");
+                let top = match limit {
+                    ModeLimit::Lowest(_) => listed.iter().fold(0.0_f64, |top, own| top.max(own.im)),
+                    ModeLimit::MaxFrequency(hz) => TAU * hz,
+                };
+                let lightly_damped =
+                    exact.iter().filter(|own| own.im < top && -own.re < 0.5 * own.norm());
+                for own in lightly_damped {
+                    let mu = point.friction_coefficient;
+                    assert!(holds(&listed, own), "{dashpot} {mu}: {own} not in {listed:?}");
+                }
+            }
+        }
+    }
+}

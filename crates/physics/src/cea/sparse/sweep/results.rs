@@ -1,0 +1,206 @@
+//! What a sweep found: points, unstable intervals, shapes.
+
+use super::ladder::MOST_ROUNDS;
+use super::{SETTLED, SparseSweep};
+use crate::cea::sparse::RESIDUAL_BOUND;
+use crate::cea::sparse::branches::{BranchLabel, TrackedBranch};
+use crate::cea::sparse::onset::{FoundInterval, OnsetFinder, State};
+use crate::cea::{BeyondMode, CeaError, ComplexMode, FrictionPoint, FrictionSweep, SweepRequest};
+use crate::cea::{EndedMode, UnconvergedMode};
+use crate::linalg::c64;
+use std::f64::consts::TAU;
+
+impl SparseSweep<'_> {
+    /// The result, with shapes and critical friction coefficients.
+    pub fn finish(
+        &mut self,
+        request: &SweepRequest<'_>,
+        branches: &[TrackedBranch],
+    ) -> Result<FrictionSweep, CeaError> {
+        let frictions = request.friction_coefficients.iter();
+        let points: Vec<FrictionPoint> = frictions
+            .map(|&mu| {
+                let k = self.grid.partition_point(|&g| g < mu);
+                let wanted = [request.shapes_at, request.lefts_at].map(|at| at.contains(&mu));
+                self.friction_point(k, wanted, branches)
+            })
+            .collect();
+        let mut found = self.intervals(branches)?;
+        // What grows from the start on, but no more than rounded matrices leave open wherever it was asked for, is not told.
+        found.retain(|own| {
+            let own = &own.interval;
+            let is_own =
+                |mode: &&ComplexMode| (mode.harmonic, mode.branch) == (own.harmonic, own.branch);
+            let mut modes = points.iter().flat_map(|point| &point.modes).filter(is_own).peekable();
+            let is_told = modes.peek().is_none() || modes.any(ComplexMode::is_unstable);
+            is_told || own.is_located() || own.restabilized.is_some()
+        });
+        let vectors = |own: &FoundInterval| {
+            let State { mu, mode } = own.onset().filter(|_| !request.lefts_at.is_empty())?;
+            let own = std::slice::from_ref(mode);
+            self.point_solver().vectors(&self.builder, (*mu, true), own).pop()
+        };
+        let found = found.iter().map(|own| (own.interval.clone(), vectors(own)));
+        let found = found.chain(self.divergence(branches)?.map(|own| (own, None)));
+        Ok(FrictionSweep {
+            unconverged: self.unconverged.clone(),
+            beyond: self.beyond(),
+            rigid_motions: self.builder.rigid,
+            ..FrictionSweep::joined(points, found.collect(), self.ended(branches))
+        })
+    }
+
+    /// The mode that grows fastest of those that were computed beyond the wanted ones.
+    fn beyond(&self) -> Option<BeyondMode> {
+        let found = self.points[self.first_asked()..].iter().flat_map(|point| {
+            let beyond = point.modes.iter().zip(&point.checks).skip(point.wanted);
+            let growing = beyond.filter(|(mode, check)| {
+                let round_off = check.uncertainty * mode.eigenvalue.norm();
+                check.residual <= RESIDUAL_BOUND && mode.eigenvalue.re > round_off
+            });
+            let friction = point.friction_coefficient;
+            growing.map(move |(mode, _)| BeyondMode::of(friction, mode.eigenvalue))
+        });
+        BeyondMode::fastest(found)
+    }
+
+    /// The modes whose branches end.
+    fn ended(&self, branches: &[TrackedBranch]) -> Vec<EndedMode> {
+        let ended = branches.iter().filter_map(|branch| {
+            let end = branch.end.as_ref().filter(|end| end.diverges_at.is_none())?;
+            let point = &self.points[end.after];
+            let last = branch.modes[end.after]?;
+            let next = &self.points[end.after + 1];
+            Some(EndedMode {
+                frequency_hz: point.modes[last].eigenvalue.im / TAU,
+                friction_coefficient: point.friction_coefficient,
+                lost_before: (!end.is_damped).then_some(next.friction_coefficient),
+            })
+        });
+        ended.collect()
+    }
+
+    /// Unstable intervals of all branches. The basis holds the modes of a few friction coefficients only, or of all that were asked for:
+    /// the modes at crossings are corrected by the full problem there until these settle.
+    fn intervals(&mut self, branches: &[TrackedBranch]) -> Result<Vec<FoundInterval>, CeaError> {
+        let all = || (0..branches.len()).collect::<Vec<usize>>();
+        let mut found: Vec<Vec<FoundInterval>> = branches.iter().map(|_| Vec::new()).collect();
+        let mut before: Vec<Vec<f64>> = vec![Vec::new(); branches.len()];
+        let mut sought = all();
+        for round in 0.. {
+            for (&i, own) in sought.iter().zip(self.find_intervals(branches, &sought)?) {
+                found[i] = own;
+            }
+            // Crossings that moved since the last round, all in the first one.
+            let mut open: Vec<&State> = Vec::new();
+            let mut moved: Vec<usize> = Vec::new();
+            for &i in sought.iter().filter(|_| self.builder.is_sampling()) {
+                let own: Vec<&State> = found[i].iter().flat_map(FoundInterval::crossings).collect();
+                let places: Vec<f64> = own.iter().map(|state| state.mu).collect();
+                let before = std::mem::replace(&mut before[i], places);
+                let is_same = round > 0 && before.len() == own.len();
+                let moving = own.into_iter().enumerate().filter(|(k, state)| {
+                    !is_same || (state.mu - before[*k]).abs() > SETTLED.max(state.doubt())
+                });
+                let known = open.len();
+                open.extend(moving.map(|(_, state)| state));
+                if open.len() > known {
+                    moved.push(i);
+                }
+            }
+            // Then those whose residual is too large: what that basis says about other branches is worth no more.
+            let missed = || found.iter().flatten().filter_map(FoundInterval::missed);
+            if open.is_empty() {
+                open.extend(missed());
+                moved = all();
+            }
+            if round == MOST_ROUNDS {
+                open.clear();
+            }
+            let mut has_grown = false;
+            for State { mu, mode } in open {
+                has_grown |= self.builder.shift(*mu, std::slice::from_ref(mode))?;
+            }
+            if !has_grown {
+                let open = missed().map(|s| UnconvergedMode::of(s.mu, s.mode.eigenvalue.im));
+                self.unconverged.extend(open);
+                return Ok(found.into_iter().flatten().collect());
+            }
+            sought = moved;
+        }
+        unreachable!("rounds end")
+    }
+
+    /// The intervals of each of the branches `sought` in the basis as it is.
+    fn find_intervals(
+        &self,
+        branches: &[TrackedBranch],
+        sought: &[usize],
+    ) -> Result<Vec<Vec<FoundInterval>>, CeaError> {
+        let (solver, model, points) = (&self.point_solver(), &self.builder.model, &self.points);
+        let of_branch = |&i: &usize| {
+            OnsetFinder { solver, model, points, lowest: self.lowest }.intervals(&branches[i])
+        };
+        let found: Result<Vec<_>, _> = crate::parallel::map(sought, of_branch);
+        Ok(found?)
+    }
+
+    fn friction_point(
+        &self,
+        k: usize,
+        [with_shapes, with_lefts]: [bool; 2],
+        branches: &[TrackedBranch],
+    ) -> FrictionPoint {
+        let point = &self.points[k];
+        let wanted = &point.modes[..point.wanted];
+        let (solver, mu) = (self.point_solver(), point.friction_coefficient);
+        let vectors = match with_shapes {
+            true => solver.vectors(&self.builder, (mu, with_lefts), wanted),
+            false => Vec::new(),
+        };
+        let mut vectors = vectors.into_iter();
+        let modes = point.modes.iter().zip(&point.checks).enumerate().map(|(i, (mode, check))| {
+            let branch = branches.iter().find(|b| b.modes[k] == Some(i));
+            let nameless = usize::from(i < point.wanted);
+            let label = branch.map_or_else(
+                || BranchLabel {
+                    harmonic: self.edge.harmonic(&check.edge, check.peak),
+                    branch: nameless,
+                },
+                |b| b.label,
+            );
+            // Without friction any combination of a degenerate pair is a mode: it has no direction.
+            let direction = match point.friction_coefficient {
+                0.0 => 0,
+                _ => self.edge.direction(&check.edge, label.harmonic),
+            };
+            // A body that turns without damping neither grows nor decays but by round-off.
+            let is_round_off = self.tangent.is_gyroscopic
+                && mode.eigenvalue.re.abs() <= check.uncertainty * mode.eigenvalue.norm();
+            let own = vectors.next();
+            let (shape, left) = own.map(|own| (own.right, own.left)).unzip();
+            let left = left.filter(|_| with_lefts);
+            ComplexMode {
+                eigenvalue: match is_round_off {
+                    true => c64::new(0.0, mode.eigenvalue.im),
+                    false => mode.eigenvalue,
+                },
+                harmonic: label.harmonic,
+                branch: label.branch,
+                direction,
+                nodal_diameters: None,
+                residual: check.residual,
+                uncertainty: check.uncertainty,
+                contact_share: check.contact_share,
+                axial_share: None,
+                shape,
+                left,
+                wave: None,
+            }
+        });
+        let mut modes: Vec<ComplexMode> = modes.collect();
+        let mut above = modes.split_off(point.wanted);
+        above.retain(|mode| mode.residual <= RESIDUAL_BOUND);
+        FrictionPoint { friction_coefficient: point.friction_coefficient, modes, above }
+    }
+}

@@ -1,0 +1,76 @@
+//! Sparse solution of the whole mesh at each frequency.
+
+use super::factors::{Analyses, factorized};
+use super::neighbours::solve_together;
+use super::system::check_frequencies;
+use super::{FrfError, FrfSystem, Port};
+use crate::linalg::c64;
+
+/// Lines that share one real factorization ...
+const LINES_AT_ONCE: usize = 8;
+/// ... and one complex factorization, which costs several times as much.
+const GENERAL_LINES_AT_ONCE: usize = 16;
+
+/// A response computed line by line.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DirectResponse {
+    /// Receptance `u / f` for each frequency, m/N for each metre of thickness.
+    pub receptance: Vec<c64>,
+}
+
+/// Receptance between two ports, unknowns mostly: `h = e_response^T (K + i omega C - omega^2 M)^{-1} e_force`.
+///
+/// Neighbouring lines share one sparse factorization, real with proportional damping and complex with
+/// any other, and each is solved from it in a Krylov space until its own backward error is that of
+/// round-off (`1e-14`); a line that does not get there has a sparse complex LU factorization of its
+/// own, with one step of refinement. Frequencies in parallel, the result
+/// independent of the number of threads. For a body of thickness `b` divide by `b`.
+///
+/// # Errors
+/// [`FrfError::Frequency`]; [`FrfError::Factorization`] where an undamped system is at resonance.
+pub fn direct_response(
+    system: &FrfSystem,
+    force: impl Into<Port>,
+    response: impl Into<Port>,
+    frequencies_hz: &[f64],
+) -> Result<DirectResponse, FrfError> {
+    direct_response_with(system, &force.into(), &response.into(), frequencies_hz, &|_| {})
+}
+
+/// As [`direct_response`]; `done` hears how many lines are solved, a few at a time, from any thread.
+pub fn direct_response_with(
+    system: &FrfSystem,
+    force: &Port,
+    response: &Port,
+    frequencies_hz: &[f64],
+    done: &(dyn Fn(usize) + Sync),
+) -> Result<DirectResponse, FrfError> {
+    check_frequencies(frequencies_hz)?;
+    let first = frequencies_hz.first().copied().unwrap_or(0.0);
+    let fail = |source| FrfError::Factorization { frequency_hz: first, source };
+    let analyses = Analyses::of(system).map_err(fail)?;
+    let at_once = match system.proportional() {
+        Some(_) => LINES_AT_ONCE,
+        None => GENERAL_LINES_AT_ONCE,
+    };
+    let receptance =
+        crate::parallel::map::<_, _, Result<Vec<_>, _>>(frequencies_hz.chunks(at_once), |lines| {
+            // A stiffness of each line's own leaves nothing to share.
+            let shared = match system.has_tables() {
+                true => vec![None; lines.len()],
+                false => solve_together(system, &analyses, force, response, lines),
+            };
+            let solved = lines
+                .iter()
+                .zip(shared)
+                .map(|(f, known)| match known {
+                    Some(value) => Ok(value),
+                    None => factorized(system, &analyses.lu, force, response, *f),
+                })
+                .collect::<Result<Vec<c64>, FrfError>>();
+            done(lines.len());
+            solved
+        })?
+        .concat();
+    Ok(DirectResponse { receptance })
+}

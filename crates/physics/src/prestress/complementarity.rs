@@ -1,0 +1,230 @@
+//! The contact state by complementarity: which points are pressed, over a range of friction coefficients.
+
+use super::PrestressError;
+use super::pressed_state::{
+    ContactState, LEAST_RANGE, PressedBodies, PressedState, polynomial_state,
+};
+use std::ops::Range;
+
+/// Sets of pressed points that are tried at one friction coefficient before the state is called missing.
+const MAX_SETS: usize = 200;
+
+/// Width to which a friction coefficient is located at which contact points open or close.
+const CHANGE_WIDTH: f64 = 1e-9;
+
+/// Smallest range of friction coefficients over which a polynomial follows one set of points.
+const SHORTEST_RANGE: f64 = 1e-3;
+
+/// Share of the largest force up to which a violated condition is round-off.
+const ROUND_OFF: f64 = 1e-12;
+
+/// States over a range of friction coefficients.
+#[derive(Clone, Debug)]
+pub struct PressedRange<S = PressedState> {
+    /// One state for each set of pressed points, in order of the friction coefficient.
+    pub states: Vec<S>,
+    /// Which state each friction coefficient has.
+    pub state_of: Vec<usize>,
+    /// Friction coefficients up to which each state but the last holds.
+    pub changes: Vec<f64>,
+    /// Friction coefficients from which each state but the first holds: above the change before it where other sets of pressed points hold
+    /// between, none of them at a friction coefficient that was asked for.
+    pub begins: Vec<f64>,
+    /// Share of the largest contact force that the polynomials of the states leave out at most, estimated.
+    pub left_out: f64,
+}
+
+impl<S> PressedRange<S> {
+    /// One state that holds at `count` friction coefficients.
+    pub(super) fn of_one(state: S, count: usize) -> Self {
+        Self {
+            states: vec![state],
+            state_of: vec![0; count],
+            changes: Vec::new(),
+            begins: Vec::new(),
+            left_out: 0.0,
+        }
+    }
+
+    /// The same states in another form.
+    pub(super) fn map<T>(self, form: impl FnMut(S) -> T) -> PressedRange<T> {
+        PressedRange {
+            states: self.states.into_iter().map(form).collect(),
+            state_of: self.state_of,
+            changes: self.changes,
+            begins: self.begins,
+            left_out: self.left_out,
+        }
+    }
+
+    /// Friction coefficients between the state `before` and the next one at which neither is known to hold; empty where one gives way to
+    /// the other.
+    pub fn unknown_between(&self, before: usize) -> Range<f64> {
+        let (end, begin) = (self.changes[before], self.begins[before]);
+        let is_empty = begin - end <= 4.0 * CHANGE_WIDTH;
+        end..if is_empty { end } else { begin }
+    }
+}
+
+/// States at every one of `friction_coefficients`: rising values, each starting from the set of the last.
+pub(super) fn range(
+    bodies: &mut impl PressedBodies,
+    friction_coefficients: &[f64],
+) -> Result<PressedRange, PrestressError> {
+    let mut order: Vec<usize> = (0..friction_coefficients.len()).collect();
+    crate::order::sort_by_number(&mut order, |&a| friction_coefficients[a]);
+    let mut sets: Vec<Vec<bool>> = Vec::new();
+    let mut state_of = vec![0; friction_coefficients.len()];
+    let mut changes = Vec::new();
+    let mut start = vec![true; bodies.pressing().points.len()];
+    for (rank, &i) in order.iter().enumerate() {
+        let friction = friction_coefficients[i];
+        let set = pressed_points(bodies, friction, &start)?;
+        if !set.contains(&true) {
+            return Err(bodies.pressing().gap_everywhere());
+        }
+        if sets.last().is_none_or(|last| *last != set) {
+            if rank > 0 {
+                let before = friction_coefficients[order[rank - 1]];
+                changes.push(end_between(bodies, &start, [before, friction])?);
+            }
+            sets.push(set.clone());
+        }
+        state_of[i] = sets.len() - 1;
+        start = set;
+    }
+
+    // Each state is followed from one change to the next; between the end of the set before and the beginning of its own, others hold.
+    let asked_of = |state: usize| -> Vec<f64> {
+        let with_state = state_of.iter().zip(friction_coefficients);
+        with_state.filter_map(|(own, friction)| (*own == state).then_some(*friction)).collect()
+    };
+    let lowest = |asked: &[f64]| asked.iter().copied().fold(f64::INFINITY, f64::min);
+    let begins = changes.iter().enumerate().map(|(k, &change)| {
+        let begin = end_between(bodies, &sets[k + 1], [lowest(&asked_of(k + 1)), change])?;
+        Ok(begin.max(change))
+    });
+    let begins = begins.collect::<Result<Vec<f64>, PrestressError>>()?;
+    let end = |rank: Option<&usize>| rank.map_or(0.0, |&i| friction_coefficients[i]);
+    let (first, last) = (end(order.first()), end(order.last()));
+    let mut left_out = 0.0_f64;
+    let states = sets.into_iter().enumerate().map(|(k, set)| {
+        let asked = asked_of(k);
+        let lower = k.checked_sub(1).map_or(first, |before| changes[before]);
+        let upper = changes.get(k).copied().unwrap_or(last);
+        let own_range = |bodies: &mut _, set: &[bool]| {
+            let begin = match k.checked_sub(1) {
+                Some(before) => begins[before],
+                None => {
+                    let least = lower.min(upper - LEAST_RANGE).max(0.0);
+                    end_between(bodies, set, [lowest(&asked).min(upper), least])?
+                }
+            };
+            Ok([begin.min(upper - SHORTEST_RANGE), upper])
+        };
+        let (state, own) = polynomial_state(bodies, set, ([lower, upper], &own_range), &asked)?;
+        left_out = left_out.max(own);
+        Ok(state)
+    });
+    let states = states.collect::<Result<Vec<_>, PrestressError>>()?;
+    Ok(PressedRange { states, state_of, changes, begins, left_out })
+}
+
+/// The pressed points at one friction coefficient, by the primal-dual active set (a semismooth Newton iteration on
+/// the complementarity) from `start`; where that runs in circles, one point at a time.
+fn pressed_points(
+    bodies: &mut impl PressedBodies,
+    friction_coefficient: f64,
+    start: &[bool],
+) -> Result<Vec<bool>, PrestressError> {
+    let mut set = start.to_vec();
+    let mut seen: Vec<Vec<bool>> = Vec::new();
+    let mut was_circling = false;
+    for _ in 0..MAX_SETS {
+        let state = bodies.state_of(friction_coefficient, &set)?;
+        if state.separations.iter().any(|c| !c.is_finite()) {
+            break;
+        }
+        let excesses = excesses(bodies, &state, &set);
+        let bound = bound(&state);
+        let wrong = excesses.iter().enumerate().filter(|(_, e)| **e > bound);
+        let Some((worst, _)) = wrong.clone().max_by(|a, b| a.1.total_cmp(b.1)) else {
+            return Ok(set);
+        };
+        let is_circling = seen.contains(&set);
+        if is_circling && !was_circling {
+            // Without friction the points of a contact that nothing presses pull as much as they push.
+            let all = bodies.state_of(0.0, &vec![true; set.len()])?;
+            if let Some(error) = bodies.pressing().unpressed(&all.normal_forces) {
+                return Err(error);
+            }
+        }
+        was_circling |= is_circling;
+        seen.push(set.clone());
+        if is_circling {
+            set[worst] = !set[worst];
+        } else {
+            wrong.for_each(|(i, _)| set[i] = !set[i]);
+        }
+    }
+    Err(PrestressError::NoState { friction_coefficient })
+}
+
+/// How far each point violates its condition, N: the pull on a pressed one, the force of the point's own stiffness over
+/// the penetration of an open one; negative where the condition holds.
+fn excesses(bodies: &impl PressedBodies, state: &ContactState, is_pressed: &[bool]) -> Vec<f64> {
+    let pushed = &bodies.pressing().pushed;
+    let excess = |i: usize| match is_pressed[i] {
+        true => -state.normal_forces[i],
+        false => (pushed[i] - state.separations[i]) * bodies.stiffness_at(i),
+    };
+    (0..is_pressed.len()).map(excess).collect()
+}
+
+/// What may be round-off: it must not flip a point that just touches.
+fn bound(state: &ContactState) -> f64 {
+    let sizes = state.normal_forces.iter().map(|force| force.abs());
+    ROUND_OFF * sizes.fold(0.0_f64, f64::max)
+}
+
+/// The friction coefficient up to which the set at `inside` holds on the way to `outside`, which may be smaller: the root of the largest
+/// violation, by regula falsi in the Illinois form (Dowell and Jarratt 1971) with a bisection at every third step, as the violation has
+/// kinks; `outside` where it holds all the way.
+fn end_between(
+    bodies: &mut impl PressedBodies,
+    set: &[bool],
+    [mut inside, mut outside]: [f64; 2],
+) -> Result<f64, PrestressError> {
+    let mut violation = |friction: f64| -> Result<f64, PrestressError> {
+        let state = bodies.state_of(friction, set)?;
+        let excesses = excesses(bodies, &state, set);
+        let largest = excesses.into_iter().fold(f64::NEG_INFINITY, f64::max);
+        Ok(largest - bound(&state))
+    };
+    let (mut at_inside, mut at_outside) = (violation(inside)?, violation(outside)?);
+    if at_outside <= 0.0 {
+        return Ok(outside);
+    }
+    let mut was_inside = None;
+    for step in 1.. {
+        if (outside - inside).abs() <= CHANGE_WIDTH {
+            break;
+        }
+        let secant = (inside * at_outside - outside * at_inside) / (at_outside - at_inside);
+        let is_between = (secant - inside) * (secant - outside) < 0.0;
+        let middle = if is_between && step % 3 != 0 { secant } else { 0.5 * (inside + outside) };
+        let at_middle = violation(middle)?;
+        let holds = at_middle <= 0.0;
+        // An end that stays twice counts half.
+        let stays = if was_inside == Some(holds) { 0.5 } else { 1.0 };
+        if holds {
+            (inside, at_inside) = (middle, at_middle);
+            at_outside *= stays;
+        } else {
+            (outside, at_outside) = (middle, at_middle);
+            at_inside *= stays;
+        }
+        was_inside = Some(holds);
+    }
+    Ok(0.5 * (inside + outside))
+}
