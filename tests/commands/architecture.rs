@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 
 /// Modules by floor, lowest first.
 const FLOORS: [&[&str]; 10] = [
-    &["mesh"],
+    &["mesh", "order", "parallel"],
     &["fem"],
     &["contact"],
     &["prestress"],
