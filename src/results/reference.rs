@@ -22,7 +22,9 @@ use super::summary::STATUS as FRACTIONS;
 use super::sweep::{self, SweepSummary};
 use super::transient::{self, TransientSummary};
 use super::uncertainty::{self, UncertaintySummary};
-use crate::output::{Column, Entry, Key, describe_field, entries, keys_of, parted, unit_of};
+use crate::output::{
+    Column, Described, Entry, Key, describe_field, entries, keys_of, parted, unit_of,
+};
 use std::fmt::Write as _;
 
 /// What one file of a command holds.
@@ -194,7 +196,8 @@ fn rates() -> Vec<Entry> {
 fn summary<T: crate::output::Described>(command: &'static str) -> FileReference {
     let entry = |key: Key| Entry { key: key.path, meaning: plain(key.meaning) };
     let mut keys = keys_of::<T>();
-    describe_field::<Manifest>("", "manifest", "what it was made from", false, &mut keys);
+    let meaning = "what it was made from";
+    describe_field(Manifest::describe, "", ("manifest", meaning, false), &mut keys);
     let head = pairs(&[
         ("command", "the command"),
         ("title", "title of the case, of a command that runs one"),

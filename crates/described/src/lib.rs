@@ -99,6 +99,7 @@ fn describe_field(tokens: &mut Tokens, calls: &mut String) {
     let meaning = docs.join(", ");
     let _ = writeln!(
         calls,
-        "::frictionsim_output::describe_field::<{of_type}>(path, \"{name}\", concat!({meaning}), {is_flat}, keys);"
+        "::frictionsim_output::describe_field(<{of_type} as ::frictionsim_output::Described>::describe, path,
+            (\"{name}\", concat!({meaning}), {is_flat}), keys);"
     );
 }

@@ -26,22 +26,21 @@ pub fn keys_of<T: Described>() -> Vec<Key> {
     keys
 }
 
-/// Adds a field and what is in it; the keys of a flat one stand beside it.
-pub fn describe_field<T: Described>(
+/// Adds a field and, by the `describe` of its type, what is in it; the keys of a flat one stand beside it.
+pub fn describe_field(
+    describe: fn(&str, &mut Vec<Key>),
     path: &str,
-    name: &str,
-    meaning: &'static str,
-    is_flat: bool,
+    (name, meaning, is_flat): (&str, &'static str, bool),
     keys: &mut Vec<Key>,
 ) {
     if is_flat {
-        return T::describe(path, keys);
+        return describe(path, keys);
     }
     let path = if path.is_empty() { name.to_owned() } else { format!("{path}.{name}") };
     // What several variants have is told once.
     if keys.iter().all(|key| key.path != path) {
         keys.push(Key { path: path.clone(), meaning: meaning.trim() });
-        T::describe(&path, keys);
+        describe(&path, keys);
     }
 }
 

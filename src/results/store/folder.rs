@@ -5,7 +5,7 @@ use super::framed::write_sealed;
 use super::lock::{Company, LOCK, remove_remnants, try_lock};
 use super::manifest::Manifest;
 use super::reopening::{Contents, JOURNAL, MANIFEST, read_contents, read_manifest};
-use super::whole_file::{is_temporary, write_whole};
+use super::whole_file::{Fill, is_temporary, write_whole};
 use crate::results::drawing::{FIGURES, REPORT};
 use frictionsim_bounds::{RESULT, read_file, read_text};
 use std::collections::BTreeMap;
@@ -173,7 +173,7 @@ impl OutputFolder {
         name: &str,
         fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
     ) -> Result<(), FolderError> {
-        self.write_as(name, true, fill)
+        self.write_as(name, true, Box::new(fill))
     }
 
     /// Writes one file whole or not at all, but leaves it to the system when it reaches the disk: for
@@ -183,7 +183,7 @@ impl OutputFolder {
         name: &str,
         fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
     ) -> Result<(), FolderError> {
-        self.write_as(name, false, fill)
+        self.write_as(name, false, Box::new(fill))
     }
 
     /// Checksums of the files written so far, by name.
@@ -191,12 +191,7 @@ impl OutputFolder {
         self.written.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    fn write_as(
-        &self,
-        name: &str,
-        is_durable: bool,
-        fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
-    ) -> Result<(), FolderError> {
+    fn write_as(&self, name: &str, is_durable: bool, fill: Fill<'_>) -> Result<(), FolderError> {
         let path = self.path.join(name);
         let failed = |error| FolderError::io("write", &path, error);
         if self.written().insert(name.to_owned(), None).is_none() {
@@ -276,7 +271,7 @@ impl OutputFolder {
 
 pub(crate) fn write_contents(folder: &Path, contents: &Contents) -> Result<(), FolderError> {
     let path = folder.join(MANIFEST);
-    let written = write_whole(&path, true, |out| write_sealed(out, contents));
+    let written = write_whole(&path, true, Box::new(|out| write_sealed(out, contents)));
     written.map(drop).map_err(|e| FolderError::io("write", &path, e))
 }
 

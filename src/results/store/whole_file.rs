@@ -35,13 +35,12 @@ impl<W: Write> Write for Summing<W> {
     }
 }
 
+/// Writes what a file holds.
+pub(crate) type Fill<'a> = Box<dyn FnOnce(&mut dyn Write) -> io::Result<()> + 'a>;
+
 /// Writes a file under a temporary name in the same folder and renames it, flushed to the disk before
 /// that if it is to be durable; gives the checksum of its bytes.
-pub(crate) fn write_whole(
-    path: &Path,
-    is_durable: bool,
-    fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
-) -> io::Result<u32> {
+pub(crate) fn write_whole(path: &Path, is_durable: bool, fill: Fill<'_>) -> io::Result<u32> {
     let parent = path.parent().unwrap_or(Path::new("."));
     fs::create_dir_all(parent)?;
     let mut builder = tempfile::Builder::new();

@@ -263,7 +263,9 @@ impl SweepFolder {
         fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
     ) -> Result<(), FolderError> {
         let path = self.path.join(name);
-        write_whole(&path, true, fill).map(drop).map_err(|e| FolderError::io("write", &path, e))
+        write_whole(&path, true, Box::new(fill))
+            .map(drop)
+            .map_err(|e| FolderError::io("write", &path, e))
     }
 
     /// Writes a page, its figures, and both as data.
