@@ -4,7 +4,7 @@
 
 use faer::c64;
 use frictionsim::cea::{ComplexMode, ModeLimit, SweepRequest, sparse};
-use frictionsim::contact::{ContactStiffness, NormalLaw, SlidingContact};
+use frictionsim::contact::{ContactStiffness, FrictionDecay, NormalLaw, SlidingContact};
 use frictionsim::fem::operator::SimdLevel;
 use frictionsim::fem::{
     ElasticMaterial, MassKind, MaterialField, PlaneFormulation, RayleighDamping, assemble_stiffness,
@@ -54,6 +54,14 @@ pub fn ring(
         element,
         outer: BoundaryCondition::Clamped,
         shaft: None,
+    }
+}
+
+/// The cylinder with friction that falls over speeds of the order of its own, 1.31 m/s at 610 rpm.
+pub fn falling(rotation_speed_rpm: f64) -> SlidingContact {
+    SlidingContact {
+        decay: Some(FrictionDecay { static_ratio: 1.5, decay_speed: 0.8 }),
+        ..contact(rotation_speed_rpm)
     }
 }
 

@@ -40,15 +40,6 @@ pub fn eigenvalues(sweep: &FrictionSweep, point: usize) -> Vec<c64> {
     modes.map(|mode| mode.eigenvalue).collect()
 }
 
-/// Largest relative distance of an expected eigenvalue from the nearest one found.
-pub fn largest_error(found: &[c64], expected: &[c64]) -> f64 {
-    let error = |a: &c64| {
-        let distances = found.iter().map(|b| (a - b).norm() / a.norm());
-        distances.fold(f64::INFINITY, f64::min)
-    };
-    expected.iter().map(error).fold(0.0, f64::max)
-}
-
 pub fn dense(polynomial: &MatrixPolynomial, mu: f64) -> Mat<f64> {
     let size = polynomial.dimension();
     let identity = Mat::<f64>::identity(size, size);

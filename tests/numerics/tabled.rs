@@ -1,7 +1,7 @@
 //! Modulus and loss factor over frequency: every mode at its own frequency, against dense matrices frozen there.
 
 use crate::prelude::*;
-use crate::structural_damping::{dense_eigenvalues, eigenvalues, largest_error, solved};
+use crate::structural_damping::{dense_eigenvalues, eigenvalues, solved};
 use frictionsim::cea::CeaError;
 use frictionsim::cea::sparse::mode_pairs;
 use frictionsim::fem::{ModulusTable, TabledMaterial};

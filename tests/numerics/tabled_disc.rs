@@ -1,7 +1,6 @@
 //! The built-in disc and its shaft with moduli over frequency, by case.
 
 use crate::prelude::*;
-use crate::structural_damping::largest_error;
 
 /// A lining whose modulus and losses rise over the modes of a disc.
 const LINING: &str = "\
