@@ -100,16 +100,6 @@ fn assembled(folder: &Path, friction: f64) -> [Mat<f64>; 4] {
     sums
 }
 
-#[test]
-fn exported_matrices_solved_densely_have_the_eigenvalues_of_the_analysis() {
-    let folder = folder();
-    block(&folder);
-    for contact in [&[][..], &["contact.normal_stiffness=1e13", "contact.normal_damping=1e4"]] {
-        solved(&folder, contact);
-        assert!(listed_modes_found(&folder, 0.3) >= 6);
-    }
-}
-
 /// Eigenvalues of `lambda^2 M + lambda C + K + i H` by the companion matrix, frequencies scaled to about one.
 pub fn lossy_eigenvalues([mass, damping, stiffness, losses]: [&Mat<f64>; 4]) -> Vec<c64> {
     let size = mass.nrows();
@@ -132,17 +122,20 @@ pub fn lossy_eigenvalues([mass, damping, stiffness, losses]: [&Mat<f64>; 4]) -> 
     found.into_iter().map(|own| own * scale).collect()
 }
 
-/// Structural damping of the block and of the springs of its support, in a matrix of its own.
+/// Rigid contact, springs with dashpots, and losses of the block and of springs, which have a matrix of their own.
 #[test]
-fn exported_structural_damping_has_the_eigenvalues_of_the_analysis() {
+fn exported_matrices_solved_densely_have_the_eigenvalues_of_the_analysis() {
     let folder = folder();
     block(&folder);
-    let lossy =
-        ["material.loss_factor=0.03", "contact.normal_stiffness=1e13", "contact.loss_factor=0.1"];
-    solved(&folder, &lossy);
-    let [.., losses] = assembled(&folder.path().join("matrices"), 0.3);
-    assert!(losses.norm_max() > 0.0);
-    assert!(listed_modes_found(&folder, 0.3) >= 6);
+    let springs = "contact.normal_stiffness=1e13";
+    let dashpots = [springs, "contact.normal_damping=1e4"];
+    let lossy = ["material.loss_factor=0.03", springs, "contact.loss_factor=0.1"];
+    for (contact, has_losses) in [(&[][..], false), (&dashpots, false), (&lossy, true)] {
+        solved(&folder, contact);
+        let [.., losses] = assembled(&folder.path().join("matrices"), 0.3);
+        assert_eq!(losses.norm_max() > 0.0, has_losses, "{contact:?}");
+        assert!(listed_modes_found(&folder, 0.3) >= 6, "{contact:?}");
+    }
 }
 
 /// How many modes `cea` lists at a friction coefficient, all of them among the dense ones of the exported matrices.
