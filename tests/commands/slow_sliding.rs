@@ -9,7 +9,7 @@ fn spectrum(frictions: &str) -> (Vec<[f64; 2]>, String) {
     let folder = folder();
     let set = [
         "boundaries.Outer_Piston.pressure=1.5e6 ; boundaries.Inner_Piston.pressure=1.5e6 ; \
-         motion.Disc_Disc_iron.rotation_speed_rpm=3 ; cea.max_frequency_hz=3100",
+         motion.Disc_Disc_iron.rotation_speed_rpm=3 ; cea.max_frequency_hz=3000",
         &format!("cea.friction_coefficients={frictions}"),
     ];
     let run = Run::of("cea", shipped("operating-matrix.toml")).args(&["--unset", "sweep"]);
