@@ -143,13 +143,6 @@ fn a_pipe_gets_no_progress_and_no_colours() {
 }
 
 #[test]
-fn no_figures_leaves_the_picture_out() {
-    let folder = folder();
-    let answer = on_disc(&folder, "mesh", &["--no-figures"]).out("here").done();
-    assert!(!answer.path("figures").exists() && answer.path("mesh.vtu").exists());
-}
-
-#[test]
 fn a_named_folder_of_another_case_is_refused_unless_forced() {
     let folder = folder();
     let mesh = |more: &[&str]| on_disc(&folder, "mesh", more).out("here");

@@ -4,8 +4,9 @@ pub use crate::bricks::{Block, brick, file_of};
 pub use crate::cases::{case_of, shipped_case};
 pub use crate::coarse_block::coarse_block;
 pub use crate::disc::{
-    DAMPING, POLYCARBONATE, RIGID, TANGENT, annulus, compliant, contact, elastic, falling,
-    grows_as, recorded, sliding_at, springs, stiffening, sweep_request, transient_settings,
+    DAMPING, POLYCARBONATE, RIGID, TANGENT, annulus, compliant, contact, elastic, falling, goes_on,
+    grows_as, modulus_table, recorded, sliding_at, springs, stiffening, sweep_request,
+    transient_settings,
 };
 pub use crate::kept::Kept;
 pub use crate::mesh_text::{even, quadrilaterals};

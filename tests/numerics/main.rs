@@ -8,6 +8,8 @@ mod bricks;
 mod cases;
 #[path = "../common/disc.rs"]
 mod disc;
+#[path = "../common/draws.rs"]
+mod draws;
 #[path = "../common/kept.rs"]
 mod kept;
 #[path = "../common/mesh_text.rs"]

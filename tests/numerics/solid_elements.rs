@@ -18,12 +18,8 @@ fn skewed([x, y, z]: [f64; 3]) -> [f64; 3] {
 
 /// Numbers spread over -0.5 to 0.5, always the same.
 fn draws() -> impl FnMut() -> f64 {
-    let mut state = 2_u64;
-    move || {
-        state =
-            state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (state >> 40) as f64 / (1_u64 << 24) as f64 - 0.5
-    }
+    let mut draw = crate::draws::draws(2);
+    move || draw() - 0.5
 }
 
 /// The skewed block with inner nodes out of place; edges stay straight unless `bend` moves the middles of inner edges too.

@@ -2,6 +2,10 @@
 
 use crate::prelude::*;
 
+pub fn eigenvalues_of(modes: &[ComplexMode]) -> Vec<c64> {
+    modes.iter().map(|mode| mode.eigenvalue).collect()
+}
+
 /// Largest relative distance of an expected eigenvalue from the nearest one found.
 pub fn largest_error(found: &[c64], expected: &[c64]) -> f64 {
     let error = |a: &c64| {
