@@ -12,7 +12,6 @@ use crate::prelude::*;
 use kinds::{Kind, kinds};
 use std::cell::RefCell;
 use std::collections::HashMap;
-use std::process::Command;
 
 #[derive(Clone)]
 pub enum Answer {
@@ -84,35 +83,26 @@ impl Bench {
     fn answer(&self, command: &str, inputs: &[&Path], overrides: &[&str], figures: &str) -> Answer {
         let out =
             tempfile::Builder::new().prefix("run").tempdir_in(self.folder.path()).unwrap().keep();
-        let mut program = Command::new(env!("CARGO_BIN_EXE_frictionsim"));
-        program.arg(command).args(inputs).arg("--json");
+        let mut run = Run::new(&[command, "--json"]).args(inputs).set(overrides);
         if command != "check" {
-            program.args(["-qq", figures, "--force", "--out"]).arg(&out);
+            run = run.args(&["-qq", figures, "--force"]).out(&out);
         }
-        for setting in overrides {
-            program.args(["--set", setting]);
-        }
-        let run = program.output().unwrap();
-        let errors = String::from_utf8_lossy(&run.stderr);
-        if !run.status.success() {
-            let line = errors.lines().find(|line| line.starts_with("error"));
+        let run = run.end();
+        if run.code != Some(0) {
+            let line = run.stderr.lines().find(|line| line.starts_with("error"));
             let line =
-                line.unwrap_or_else(|| panic!("{command} failed without a reason: {errors}"));
+                line.unwrap_or_else(|| panic!("{command} failed without a reason: {}", run.stderr));
             return Answer::Refused(line.trim_start_matches("error: ").to_owned());
         }
-        let summary = serde_json::from_slice(&run.stdout)
-            .unwrap_or_else(|error| panic!("{command}: {error}: {errors}"));
-        Answer::Done(summary, out)
+        Answer::Done(run.value(), out)
     }
 }
 
 impl Bench {
     /// Draws the figures of a results folder.
     pub fn redraw(&self, folder: &Path) -> Result<(), String> {
-        let mut program = Command::new(env!("CARGO_BIN_EXE_frictionsim"));
-        let run = program.arg("plot").arg(folder).args(["-qq", "--format=svg"]).output().unwrap();
-        let errors = String::from_utf8_lossy(&run.stderr).into_owned();
-        run.status.success().then_some(()).ok_or(errors)
+        let run = Run::new(&["plot", "-qq", "--format=svg"]).args(&[folder]).end();
+        (run.code == Some(0)).then_some(()).ok_or(run.stderr)
     }
 }
 

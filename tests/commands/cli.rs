@@ -54,36 +54,6 @@ fn check_reports_the_cost_as_numbers() {
 }
 
 #[test]
-fn the_shipped_disc_turns_unstable_where_the_continuum_does() {
-    let summary = run(&folder(), &["cea", &disc(), "--json", "--no-figures"]).done().value();
-    // Onset of the exact continuum model; the mesh and the prestress move it by less than 0.003.
-    for (harmonic, branch, onset) in [(1, 2, 0.1224), (2, 1, 0.1382), (1, 1, 0.2121)] {
-        let critical = summary["critical_frictions"].as_array().unwrap();
-        let is_it = |row: &&Value| row["harmonic"] == harmonic && row["branch"] == branch;
-        let row = critical.iter().find(is_it).unwrap();
-        let found = row["critical_friction"].as_f64().unwrap();
-        assert!((found - onset).abs() < 0.003, "{harmonic} {branch} {found}");
-        assert_eq!(row["direction"], -1, "the unstable wave travels against the rotor");
-    }
-    assert!(summary["largest_residual"].as_f64().unwrap() < 1e-9);
-    let at = summary["unstable_counts"].as_array().unwrap();
-    let row = at.iter().find(|row| row["friction_coefficient"] == 0.3).unwrap();
-    assert_eq!((&row["modes"], &row["unstable"]), (&28.into(), &3.into()));
-}
-
-#[test]
-fn an_eigenvalue_sweep_has_the_same_bytes_for_any_thread_count() {
-    let folder = folder();
-    let tables = ["1", "2"].map(|threads| {
-        let run = on_disc(&folder, "cea", &["--no-figures", "--threads", threads]);
-        let answer = run.out(threads).done();
-        ["eigenvalues.csv", "stability.csv", "prestress.csv", "modes.pvd"]
-            .map(|name| answer.bytes(name))
-    });
-    assert_eq!(tables[0], tables[1]);
-}
-
-#[test]
 fn a_sweep_has_the_values_asked_for_and_that_of_the_case() {
     for at in ["", " ; cea.shapes_at=[0.1]"] {
         let asked = format!("cea.friction_coefficients=[0.1, 0.2]{at}");
@@ -170,13 +140,6 @@ fn json_is_the_summary_alone_with_its_manifest() {
 fn a_pipe_gets_no_progress_and_no_colours() {
     let answer = on_disc(&folder(), "mesh", &[]).done();
     assert!(answer.stderr.is_empty() && !answer.stdout.contains('\u{1b}'), "{}", answer.stderr);
-}
-
-#[test]
-fn no_figures_leaves_the_picture_out() {
-    let folder = folder();
-    let answer = on_disc(&folder, "mesh", &["--no-figures"]).out("here").done();
-    assert!(!answer.path("figures").exists() && answer.path("mesh.vtu").exists());
 }
 
 #[test]

@@ -3,73 +3,7 @@
 use crate::prelude::*;
 use std::fmt::Write as _;
 
-/// A block of 4 x 4 mm on a plane, its mesh cut along the middle from `crack` on, clamped at the top.
-struct Block {
-    points: Vec<[f64; 2]>,
-    quads: Vec<[usize; 4]>,
-    edges: Vec<(usize, [usize; 2])>,
-}
-
-const SIDE: usize = 4;
-
-impl Block {
-    /// Columns `crack..=SIDE` of the middle row of nodes are doubled.
-    fn new(crack: usize) -> Self {
-        let node = |i: usize, j: usize| 1 + i + j * (SIDE + 1);
-        let mut points: Vec<[f64; 2]> = (0..=SIDE)
-            .flat_map(|j| (0..=SIDE).map(move |i| [1e-3 * i as f64, 1e-3 * j as f64]))
-            .collect();
-        let middle = SIDE / 2;
-        let mut upper: Vec<usize> = (0..=SIDE).map(|i| node(i, middle)).collect();
-        for i in crack..=SIDE {
-            points.push(points[node(i, middle) - 1]);
-            upper[i] = points.len();
-        }
-        let corner = |i: usize, j: usize, is_above: bool| match j == middle && is_above {
-            true => upper[i],
-            false => node(i, j),
-        };
-        let mut quads = Vec::new();
-        for j in 0..SIDE {
-            let above = j >= middle;
-            for i in 0..SIDE {
-                let (low, high) = (j, j + 1);
-                quads.push([
-                    corner(i, low, above),
-                    corner(i + 1, low, above),
-                    corner(i + 1, high, above),
-                    corner(i, high, above),
-                ]);
-            }
-        }
-        let edges = (0..SIDE).flat_map(|i| {
-            let top = [node(i + 1, SIDE), node(i, SIDE)];
-            [(1, [node(i, 0), node(i + 1, 0)]), (2, top)]
-        });
-        Self { edges: edges.collect(), points, quads }
-    }
-
-    fn text(&self, region: &str) -> String {
-        let mut out = format!(
-            "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n3\n1 1 \"contact\"\n1 2 \"top\"\n2 3 \"{region}\"\n\
-             $EndPhysicalNames\n$Nodes\n{}\n",
-            self.points.len()
-        );
-        for (i, [x, y]) in self.points.iter().enumerate() {
-            writeln!(out, "{} {x} {y} 0", i + 1).unwrap();
-        }
-        let count = self.edges.len() + self.quads.len();
-        writeln!(out, "$EndNodes\n$Elements\n{count}").unwrap();
-        for (i, (tag, [p, q])) in self.edges.iter().enumerate() {
-            writeln!(out, "{} 1 2 {tag} {tag} {p} {q}", i + 1).unwrap();
-        }
-        for (i, [a, b, c, d]) in self.quads.iter().enumerate() {
-            writeln!(out, "{} 3 2 3 3 {a} {b} {c} {d}", i + 1 + self.edges.len()).unwrap();
-        }
-        out + "$EndElements\n"
-    }
-}
-
+/// A block of 4 x 4 mm on a plane, clamped at the top.
 const CASE: &str = include_str!("refused/block.toml");
 const MESH: &str = include_str!("refused/block.msh");
 
@@ -85,66 +19,79 @@ fn on_block(mesh: &str, case: &str) -> Answer {
     run(&block_in(mesh, case), &["check", "block.toml"]).end()
 }
 
-#[test]
-fn nodes_that_coincide_without_being_joined_are_counted_and_located() {
-    let whole = Block::new(SIDE + 1).text("block");
-    assert_eq!(whole, MESH);
-    on_block(&whole, CASE).code(0).says(&["!another one lies"]);
-    // Columns 1 to 4 are doubled; 4 edges on either side of the crack are free, and 4 + 4 of the two vertical sides.
-    on_block(&Block::new(1).text("block"), CASE)
-        .code(0)
-        .says(&["4 nodes lie where another one lies ; 12 and 26 at (0.001000, 0.002000) m ; \
-         16 free edges are in no physical curve"]);
+/// The mesh with other lines, each old one there once.
+fn edited(lines: &[(&str, &str)]) -> String {
+    lines.iter().fold(MESH.to_owned(), |mesh, (old, new)| {
+        assert_eq!(mesh.matches(old).count(), 1, "{old}");
+        mesh.replace(old, new)
+    })
 }
 
 #[test]
-fn bodies_that_part_are_told_from_those_that_were_not_merged() {
-    on_block(&Block::new(0).text("block"), CASE).code(2).warns(&[
-        "a part of the body that touches no other ; 5 nodes lie where another one lies ; \
-         merge the parts",
-    ]);
-}
-
-#[test]
-fn elements_given_twice_are_refused_with_their_numbers_and_place() {
-    let mut block = Block::new(SIDE + 1);
-    let [a, b, c, d] = block.quads[5];
+fn a_mesh_that_is_not_whole_is_said_with_numbers_and_places() {
+    // Columns 1 to 4 of the middle row of nodes are doubled, or all five.
+    let twins = "26 0.001 0.002 0\n27 0.002 0.002 0\n28 0.003 0.002 0\n29 0.004 0.002 0\n";
+    let cut = |count: &str, left: &str, last: &str| {
+        edited(&[
+            ("$Nodes\n25\n", &format!("$Nodes\n{count}\n")),
+            ("$EndNodes", &format!("{twins}{last}$EndNodes")),
+            ("11 12 17 16", &format!("{left} 26 17 16")),
+            ("12 13 18 17", "26 27 18 17"),
+            ("13 14 19 18", "27 28 19 18"),
+            ("14 15 20 19", "28 29 20 19"),
+        ])
+    };
     // The same element from another corner on.
-    block.quads.push([c, d, a, b]);
-    let said = "1 element is given twice (elements 14 and 25 at";
-    on_block(&block.text("block"), CASE).code(2).warns(&[said]);
-}
-
-#[test]
-fn an_element_with_a_small_jacobian_is_said_with_its_place() {
-    let mut block = Block::new(SIDE + 1);
-    // The inner node of the lower left element, all but on its diagonal.
-    block.points[6] = [0.51e-3, 0.51e-3];
-    on_block(&block.text("block"), CASE).code(0).says(&["that of nodes 1, 2, 7, 6 at (0.000"]);
-}
-
-#[test]
-fn a_node_beyond_all_lengths_is_refused() {
-    let far = MESH.replace("\n25 0.004 0.004 0\n", "\n25 1e300 0.004 0\n");
-    assert_ne!(far, MESH);
-    on_block(&far, CASE).code(2).warns(&["node 25 lies at [1e300"]);
-}
-
-#[test]
-fn meshes_of_other_programs_are_told_by_their_content_whatever_their_name() {
-    for (text, said) in [
-        ("*Heading\n test\n*Node\n1, 0., 0.\n", "no solid or plane elements (*ELEMENT"),
-        ("$ comment\nBEGIN BULK\nGRID,1,,0.,0.,0.\n", "no solid elements (CTETRA"),
-        ("    -1\n  2411\n", "it is truncated (-1 expected)"),
-        ("$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n", "meshio leaves such files"),
+    let again = ("$EndElements", "25 3 2 3 3 13 12 7 8\n$EndElements");
+    for (mesh, code, said) in [
+        (MESH.to_owned(), 0, "!another one lies"),
+        // 4 edges on either side of the crack are free, and 4 + 4 of the two vertical sides.
+        (
+            cut("29", "11", ""),
+            0,
+            "4 nodes lie where another one lies ; 12 and 26 at (0.001000, 0.002000) m ; \
+             16 free edges are in no physical curve",
+        ),
+        (
+            cut("30", "30", "30 0 0.002 0\n"),
+            2,
+            "a part of the body that touches no other ; 5 nodes lie where another one lies ; \
+             merge the parts",
+        ),
+        (
+            edited(&[("$Elements\n24\n", "$Elements\n25\n"), again]),
+            2,
+            "1 element is given twice (elements 14 and 25 at",
+        ),
+        // The inner node of the lower left element, all but on its diagonal.
+        (
+            edited(&[("\n7 0.001 0.001 0\n", "\n7 0.00051 0.00051 0\n")]),
+            0,
+            "that of nodes 1, 2, 7, 6 at (0.000",
+        ),
+        (edited(&[("\n25 0.004 ", "\n25 1e300 ")]), 2, "node 25 lies at [1e300"),
+        // Meshes of other programs, told by their content whatever their name.
+        (
+            "*Heading\n test\n*Node\n1, 0., 0.\n".to_owned(),
+            2,
+            "no solid or plane elements (*ELEMENT",
+        ),
+        ("$ comment\nBEGIN BULK\nGRID,1,,0.,0.,0.\n".to_owned(), 2, "no solid elements (CTETRA"),
+        ("    -1\n  2411\n".to_owned(), 2, "it is truncated (-1 expected)"),
+        (
+            "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n".to_owned(),
+            2,
+            "meshio leaves such files",
+        ),
     ] {
-        on_block(text, CASE).code(2).warns(&[said]);
+        let answer = on_block(&mesh, CASE).code(code);
+        has(if code == 0 { &answer.stdout } else { &answer.stderr }, &[said]);
     }
 }
 
 #[test]
 fn long_names_and_many_unknown_keys_are_bounded_in_time_and_in_what_is_said() {
-    let mesh = Block::new(SIDE + 1).text(&"b".repeat(1 << 20));
+    let mesh = edited(&[("\"block\"", &format!("\"{}\"", "b".repeat(1 << 20)))]);
     on_block(&mesh, CASE).code(2).warns(&["the name of a physical group has 1048576 bytes"]);
 
     let mut case = CASE.to_owned();

@@ -19,13 +19,8 @@ fn measured() -> Vec<Motion> {
     let cea = case.require_cea().unwrap();
     let model = SlidingModel::new(&case, cea).unwrap();
     let solution = solve_modes(&case, cea, &model).unwrap();
-    // A linear congruential generator, between -1 and 1.
-    let mut state = 12345_u64;
-    let mut noise = || {
-        state =
-            state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-    };
+    let mut draw = crate::draws::draws(12345);
+    let mut noise = || 2.0 * draw() - 1.0;
     let modes = solution.sweep.points[0].modes.iter().rev();
     let shapes = modes.enumerate().map(|(k, mode)| {
         let turn = c64::new(0.0, 1.1 + k as f64).exp() * 1e-3;

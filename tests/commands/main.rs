@@ -10,6 +10,8 @@ mod coarse_block;
 mod coarse_disc;
 #[path = "../common/disc.rs"]
 mod disc;
+#[path = "../common/draws.rs"]
+mod draws;
 #[path = "../common/mesh_text.rs"]
 mod mesh_text;
 #[path = "../common/msh.rs"]

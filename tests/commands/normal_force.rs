@@ -103,13 +103,3 @@ fn a_block_is_pushed_in_by_its_force_over_its_stiffness() {
     let found = case.contact.sliding.interference;
     assert!((found / exact - 1.0).abs() < 1e-9, "{found:e} {exact:e}");
 }
-
-#[test]
-fn a_force_beside_another_that_presses_is_refused() {
-    let folder = folder();
-    let both = ring("[material]") + "interference = 2e-5\nnormal_force = 100.0\n";
-    let said = read(folder.path(), &both).unwrap_err();
-    assert!(said.contains("contact.normal_force beside contact.interference"), "{said}");
-    let neither = read(folder.path(), &ring("[material]")).unwrap_err();
-    assert!(neither.contains("missing key `contact.interference`"), "{neither}");
-}

@@ -288,23 +288,6 @@ fn open(path: &Path, hash: &str, replace: Replace) -> Result<OutputFolder, Folde
     OutputFolder::open(path, &manifest(hash), replace)
 }
 
-#[test]
-fn a_folder_of_another_case_is_refused_until_forced() {
-    let folder = tempfile::tempdir().unwrap();
-    let first = open(folder.path(), "a", Replace::SameCase).unwrap();
-    first.write("modes/old.csv", |out| out.write_all(b"1")).unwrap();
-    first.finish().unwrap();
-    let refused = open(folder.path(), "b", Replace::SameCase).unwrap_err();
-    assert!(matches!(refused, FolderError::OtherCase { .. }), "{refused}");
-    assert!(refused.to_string().contains("--force"));
-    assert!(folder.path().join("modes/old.csv").exists());
-    // Finished results stay until the new run has its own.
-    let forced = open(folder.path(), "b", Replace::Anything).unwrap();
-    assert!(folder.path().join("modes/old.csv").exists());
-    forced.finish().unwrap();
-    assert!(!folder.path().join("modes/old.csv").exists());
-}
-
 #[cfg(unix)]
 #[test]
 fn files_beyond_a_linked_subfolder_stay_as_they_are() {
@@ -386,26 +369,6 @@ fn a_run_interrupted_before_its_first_file_leaves_its_folder_to_any_case() {
     // One that has written a result keeps its folder.
     let refused = open(folder.path(), "d", Replace::SameCase).unwrap_err();
     assert!(matches!(refused, FolderError::OtherCase { .. }));
-}
-
-#[test]
-fn a_folder_has_one_writer_at_a_time() {
-    let folder = tempfile::tempdir().unwrap();
-    let first = open(folder.path(), "a", Replace::SameCase).unwrap();
-    let second = open(folder.path(), "a", Replace::Anything).unwrap_err();
-    assert!(matches!(second, FolderError::Busy(_)), "{second}");
-    drop(first);
-    assert!(open(folder.path(), "a", Replace::SameCase).is_ok());
-}
-
-#[test]
-fn files_of_unknown_origin_are_not_mixed_with_results() {
-    let folder = tempfile::tempdir().unwrap();
-    fs::write(folder.path().join("thesis.tex"), "x").unwrap();
-    let refused = open(folder.path(), "a", Replace::SameCase).unwrap_err();
-    assert!(refused.to_string().contains("thesis.tex"), "{refused}");
-    open(folder.path(), "a", Replace::Anything).unwrap().finish().unwrap();
-    assert!(folder.path().join("thesis.tex").exists());
 }
 
 #[test]

@@ -1,7 +1,6 @@
 //! Three-dimensional bodies on a rigid counterface: from a mesh file, and generated ones on their whole mesh.
 
 use crate::prelude::*;
-use crate::program::rows;
 
 /// The built-in disc, coarse, as the harmonics solve it.
 const DISC: &str = "[geometry]\ninner_radius = 0.0205\nouter_radius = 0.0905\nthickness = 0.009
@@ -32,11 +31,27 @@ fn run(folder: &Path, command: &str, case: &str, out: &str, sets: &[&str]) -> An
     if command == "check" { run.end() } else { run.args(&["--force"]).out(out).end() }
 }
 
-fn modes(folder: &Path, out: &str) -> Vec<[f64; 3]> {
-    let rows = rows(&folder.join(out).join("eigenvalues.csv")).into_iter();
+fn modes(answer: &Answer) -> Vec<[f64; 3]> {
+    let rows = answer.rows("eigenvalues.csv").into_iter();
     let columns = ["friction_coefficient", "frequency_hz", "growth_rate_per_s"];
     rows.map(|row| row.numbers(columns)).collect()
 }
+
+/// What a command leaves of the disc harmonic by harmonic, and on its whole mesh, as the key says.
+fn by_both<T>(
+    folder: &Path,
+    [command, key]: [&str; 2],
+    sets: &[&str],
+    read: impl Fn(Answer) -> T,
+) -> [T; 2] {
+    ["auto", "sparse"].map(|method| {
+        let own = format!("{key}=\"{method}\"");
+        let sets = [sets, &[&own]].concat();
+        read(run(folder, command, DISC, &format!("{command}-{method}"), &sets).code(0))
+    })
+}
+
+const CEA: [&str; 2] = ["cea", "cea.method"];
 
 /// Largest distance of a mode from the nearest of the others at the same friction, relative.
 fn distance(a: &[[f64; 3]], b: &[[f64; 3]]) -> f64 {
@@ -53,17 +68,12 @@ fn distance(a: &[[f64; 3]], b: &[[f64; 3]]) -> f64 {
 #[test]
 fn the_whole_mesh_of_a_body_of_revolution_has_the_spectrum_of_its_harmonics() {
     let folder = folder();
-    let ring = DISC.replace(
-        "rotation_speed_rpm",
-        "boundary = \"top\"\nring_inner_radius = 0.04\nring_outer_radius = 0.07\nrotation_speed_rpm",
-    );
-    let ring = format!("{ring}\n[boundaries.bottom]\ncondition = \"guide\"\n");
-    for case in [DISC, &ring] {
-        for (out, method) in [("cyclic", "auto"), ("whole", "sparse")] {
-            let set = format!("cea.method=\"{method}\"");
-            run(folder.path(), "cea", case, out, &[&set]).code(0);
-        }
-        let [cyclic, whole] = ["cyclic", "whole"].map(|out| modes(folder.path(), out));
+    let ring = [
+        "contact.boundary=\"top\" ; contact.ring_inner_radius=0.04 ; contact.ring_outer_radius=0.07",
+        "boundaries.bottom={condition=\"guide\"}",
+    ];
+    for sets in [&[][..], &ring] {
+        let [cyclic, whole] = by_both(folder.path(), CEA, sets, |answer| modes(&answer));
         let at_rest = |all: &[[f64; 3]]| -> Vec<[f64; 3]> {
             all.iter().filter(|mode| mode[0] == 0.0).copied().collect()
         };
@@ -72,8 +82,6 @@ fn the_whole_mesh_of_a_body_of_revolution_has_the_spectrum_of_its_harmonics() {
         println!("{still:e} without friction, {sliding:e} with");
         assert!(still < 1e-10, "{still:e}");
         assert!(sliding < 1e-7, "{sliding:e}");
-        fs::remove_dir_all(folder.path().join("cyclic")).unwrap();
-        fs::remove_dir_all(folder.path().join("whole")).unwrap();
     }
 }
 
@@ -84,30 +92,15 @@ const RING: [&str; 2] = [
     "mesh.axial_elements=2",
 ];
 
-/// Independent, as above: parts of several materials are those of the whole mesh, in modes and in steps.
+/// Independent, as above: parts of several materials are those of the whole mesh in steps: energies and losses of every one, from a
+/// press that reaches both materials.
 #[test]
 fn several_materials_of_a_body_of_revolution_are_those_of_its_whole_mesh() {
-    let folder = folder();
-    for (out, method) in [("waves", "auto"), ("whole", "sparse")] {
-        let method = format!("cea.method=\"{method}\"");
-        run(folder.path(), "cea", DISC, out, &[RING[0], RING[1], &method]).code(0);
-    }
-    let [waves, whole] = ["waves", "whole"].map(|out| modes(folder.path(), out));
-    let error = distance(&whole, &waves).max(distance(&waves, &whole));
-    println!("{error:e}");
-    assert!(error < 1e-7, "{error:e}");
-    let listed = rows(&folder.path().join("waves").join("eigenvalues.csv"));
-    assert!(listed.iter().any(|row| row["direction"] == "1"), "solved on the whole mesh");
-
-    // Energies and losses of every step, from a press that reaches both materials.
-    let steps = "transient={duration=3e-4,expansion_time=1e-4}";
-    let motions = ["auto", "sparse"].map(|operator| {
-        let out = format!("steps-{operator}");
-        let operator = format!("transient.operator=\"{operator}\"");
-        let sets = [RING[0], RING[1], steps, &operator];
-        run(folder.path(), "transient", DISC, &out, &sets).code(0);
-        let energies = rows(&folder.path().join(out).join("energy.csv")).into_iter();
+    let sets = [RING[0], RING[1], "transient={duration=3e-4,expansion_time=1e-4}"];
+    let keys = ["transient", "transient.operator"];
+    let motions = by_both(folder().path(), keys, &sets, |answer| {
         let columns = ["kinetic_j", "strain_j", "material_damping_w"];
+        let energies = answer.rows("energy.csv").into_iter();
         energies.map(|row| row.numbers(columns)).collect::<Vec<[f64; 3]>>()
     });
     assert_eq!(motions[0].len(), motions[1].len());
@@ -134,22 +127,19 @@ fn losses_of_a_body_of_revolution_are_those_of_its_whole_mesh() {
     for (name, sets) in [
         ("disc", vec!["material.loss_factor=0.02"]),
         ("ring", vec![&lossy_ring, RING[1], "material.loss_factor=0.05"]),
+        ("parts", RING.to_vec()),
         ("rubber", vec![&rubber_ring, RING[1]]),
     ] {
         let further = [
             "cea.friction_coefficients=[0.0, 0.3, 0.6] ; cea.modes=16",
             "contact.rotation_speed_rpm=1e12",
         ];
-        let [waves, whole] = ["auto", "sparse"].map(|method| {
-            let out = format!("{name}-{method}");
-            let method = format!("cea.method=\"{method}\"");
-            let sets = [&sets[..], &further, &[&method]].concat();
-            let answer = run(folder.path(), "cea", DISC, &out, &sets).code(0);
-            let onsets = rows(&folder.path().join(&out).join("stability.csv"));
+        let [waves, whole] = by_both(folder.path(), CEA, &[&sets[..], &further].concat(), |own| {
+            let onsets = own.rows("stability.csv");
             let onsets = onsets.iter().map(|row| row.number("critical_friction"));
-            (modes(folder.path(), &out), onsets.collect::<Vec<f64>>(), answer.summary())
+            (modes(&own), onsets.collect::<Vec<f64>>(), own)
         });
-        assert_eq!(waves.2["method"], "cyclic");
+        assert_eq!(waves.2.summary()["method"], "cyclic");
         assert_eq!(waves.0.len(), whole.0.len());
         let error = distance(&whole.0, &waves.0).max(distance(&waves.0, &whole.0));
         println!("{name}: {error:e}, {:?} {:?}", waves.1, whole.1);
@@ -158,7 +148,7 @@ fn losses_of_a_body_of_revolution_are_those_of_its_whole_mesh() {
         for (a, b) in waves.1.iter().zip(&whole.1) {
             assert!((a - b).abs() < 1e-8, "{a} {b}");
         }
-        let listed = rows(&folder.path().join(format!("{name}-auto")).join("eigenvalues.csv"));
+        let listed = waves.2.rows("eigenvalues.csv");
         assert!(listed.iter().any(|row| row["direction"] == "1" && row["harmonic"] == "3"));
     }
 }
@@ -167,20 +157,18 @@ fn losses_of_a_body_of_revolution_are_those_of_its_whole_mesh() {
 /// `lambda^2`, friction or not, where nothing else damps.
 #[test]
 fn one_loss_factor_of_body_and_springs_turns_every_eigenvalue() {
-    let folder = folder();
     let held = "condition=\"support\",normal_stiffness=1e12,tangential_stiffness=1e12,axial_stiffness=1e12";
     let springs = [
         "contact.normal_stiffness=1e12 ; contact.base_state=\"compliant\"",
         "damping.mass_coefficient=0 ; damping.stiffness_coefficient=0",
     ];
-    for (out, losses) in [("plain", ""), ("lossy", ",loss_factor=0.1")] {
-        let held = format!("boundaries.outer={{{held}{losses}}}");
-        let lossy = "material.loss_factor=0.1 ; contact.loss_factor=0.1";
-        let sets = [springs[0], springs[1], &held, if losses.is_empty() { "" } else { lossy }];
-        let sets: Vec<&str> = sets.into_iter().filter(|set| !set.is_empty()).collect();
-        run(folder.path(), "cea", DISC, out, &sets).code(0);
-    }
-    let [mut plain, lossy] = ["plain", "lossy"].map(|out| modes(folder.path(), out));
+    let lossy = "material.loss_factor=0.1 ; contact.loss_factor=0.1";
+    let spectrum = |own: &str, further: &[&str]| {
+        let held = format!("boundaries.outer={{{held}{own}}}");
+        let sets = [&springs[..], &[&held], further].concat();
+        modes(&run(folder().path(), "cea", DISC, "out", &sets).code(0))
+    };
+    let (mut plain, lossy) = (spectrum("", &[]), spectrum(",loss_factor=0.1", &[lossy]));
     for mode in &mut plain {
         let square = c64::new(mode[2], TAU * mode[1]).powi(2) * c64::new(1.0, 0.1);
         let root = square.sqrt();
@@ -195,17 +183,14 @@ fn one_loss_factor_of_body_and_springs_turns_every_eigenvalue() {
 /// Independent: a response harmonic by harmonic, with losses, and that of the whole mesh.
 #[test]
 fn the_response_of_a_lossy_body_of_revolution_is_that_of_its_whole_mesh() {
-    let folder = folder();
     let place = "{x=0.0,y=0.0671666666666667}";
     let frf = format!(
         "frf={{force_node={place},response_node={place},force_direction=\"axial\",\
          response_direction=\"axial\",frequencies_hz=[600.0,1200.0,2400.0],boundary=\"clamped\"}}"
     );
-    let [waves, whole] = ["auto", "sparse"].map(|method| {
-        let set = format!("cea.method=\"{method}\"");
-        let sets = [&frf, "material.loss_factor=0.05", &set];
-        run(folder.path(), "frf", DISC, method, &sets).code(0);
-        let lines = rows(&folder.path().join(method).join("frf.csv")).into_iter();
+    let sets = [&frf, "material.loss_factor=0.05"];
+    let [waves, whole] = by_both(folder().path(), ["frf", "cea.method"], &sets, |answer| {
+        let lines = answer.rows("frf.csv").into_iter();
         let columns = ["accelerance_real", "accelerance_imaginary"];
         let lines = lines.map(|row| row.numbers(columns)).map(|[re, im]| c64::new(re, im));
         lines.collect::<Vec<c64>>()
@@ -223,36 +208,30 @@ fn a_generated_body_of_revolution_takes_what_breaks_its_symmetry() {
     let mass =
         format!("{DISC}\n[modifications.weight]\nat = {{ x = 0.0905, y = 0.0 }}\nmass = 0.01\n");
     let free = "boundaries.outer={condition=\"support\",normal_stiffness=1e10,tangential_stiffness=1e10,axial_stiffness=1e10}";
-    run(folder.path(), "cea", DISC, "plain", &[free, "cea.method=\"sparse\""]).code(0);
-    run(folder.path(), "cea", &mass, "mass", &[free]).code(0);
-    let [plain, loaded] = ["plain", "mass"].map(|out| modes(folder.path(), out));
+    let cea = |case, sets: &[&str]| modes(&run(folder.path(), "cea", case, "cea", sets).code(0));
+    let (plain, loaded) = (cea(DISC, &[free, "cea.method=\"sparse\""]), cea(&mass, &[free]));
     assert!(loaded[0][1] < plain[0][1] * (1.0 - 1e-4), "{loaded:?} {plain:?}");
     // Without damping of its own, losses of 1 % damp a mode that contact does not by half as much.
     let lossy = [
         "material.loss_factor=0.01 ; damping.mass_coefficient=0 ; damping.stiffness_coefficient=0",
     ];
-    run(folder.path(), "cea", DISC, "lossy", &lossy).code(0);
-    for mode in modes(folder.path(), "lossy").iter().filter(|mode| mode[0] == 0.0) {
+    for mode in cea(DISC, &lossy).iter().filter(|mode| mode[0] == 0.0) {
         let damping = -mode[2] / (TAU * mode[1]);
         assert!((damping - 0.005).abs() < 1e-5, "{mode:?}");
     }
-    for (out, sets) in [("auto", &[][..]), ("sparse", &["cea.method=\"sparse\""][..])] {
-        run(folder.path(), "matrices", DISC, out, sets).code(0);
-    }
-    let [auto, sparse] =
-        ["auto", "sparse"].map(|out| fs::read(folder.path().join(out).join("K.mtx")).unwrap());
+    let matrices = ["matrices", "cea.method"];
+    let [auto, sparse] = by_both(folder.path(), matrices, &[], |answer| answer.bytes("K.mtx"));
     assert!(auto == sparse, "the matrices are those of the whole mesh");
     // What is predicted for one body, whichever way it was asked for.
-    let [auto, sparse] = ["auto", "sparse"].map(|method| {
-        let sets = [
-            "contact.friction_coefficient=0.6 ; cea.friction_coefficients=[0.0, 0.6]",
-            "improve.modifications=[\"mass\"] ; improve.confirm=0 ; improve.mass=0.01",
-            &format!("cea.method=\"{method}\""),
-        ];
-        let answer = run(folder.path(), "improve", DISC, method, &sets).code(0);
+    let sets = [
+        "contact.friction_coefficient=0.6 ; cea.friction_coefficients=[0.0, 0.6]",
+        "improve.modifications=[\"mass\"] ; improve.confirm=0 ; improve.mass=0.01",
+    ];
+    let [auto, sparse] = by_both(folder.path(), ["improve", "cea.method"], &sets, |answer| {
         let notes = answer.summary()["notes"].to_string();
-        assert_eq!(notes.contains("on its whole mesh"), method == "auto", "{notes}");
-        rows(&folder.path().join(method).join("candidates.csv"))
+        let is_auto = answer.out.ends_with("improve-auto");
+        assert_eq!(notes.contains("on its whole mesh"), is_auto, "{notes}");
+        answer.rows("candidates.csv")
     });
     assert_eq!(auto.len(), sparse.len());
     for (a, b) in auto.iter().zip(&sparse) {

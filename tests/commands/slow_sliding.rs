@@ -9,7 +9,7 @@ fn spectrum(frictions: &str) -> (Vec<[f64; 2]>, String) {
     let folder = folder();
     let set = [
         "boundaries.Outer_Piston.pressure=1.5e6 ; boundaries.Inner_Piston.pressure=1.5e6 ; \
-         motion.Disc_Disc_iron.rotation_speed_rpm=3 ; cea.max_frequency_hz=3100",
+         motion.Disc_Disc_iron.rotation_speed_rpm=3 ; cea.max_frequency_hz=3000",
         &format!("cea.friction_coefficients={frictions}"),
     ];
     let run = Run::of("cea", shipped("operating-matrix.toml")).args(&["--unset", "sweep"]);
@@ -30,7 +30,7 @@ fn modes_that_slow_sliding_overdamps_end_their_branches_and_are_said() {
     for part in ["near critical damping", "2972 Hz from friction 0 on", "mu p / V"] {
         assert!(said.contains(part), "{part:?} is not in\n{said}");
     }
-    let (fine, _) = spectrum("[0.0, 0.02, 0.16, 0.32]");
+    let (fine, _) = spectrum("[0.0, 0.16, 0.32]");
     assert_eq!(coarse.len(), fine.len());
     assert!(coarse.len() >= 5);
     for (a, b) in coarse.iter().zip(&fine) {

@@ -95,12 +95,6 @@ fn whole() -> &'static (Duration, String, BTreeMap<String, String>) {
     })
 }
 
-/// Numbers from 0 to 1 that look random and are the same every time.
-fn next_random(state: &mut u64) -> f64 {
-    *state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-    (*state >> 11) as f64 / (1_u64 << 53) as f64
-}
-
 #[test]
 fn killed_sweeps_resume_to_identical_results() {
     let study = Study::new();
@@ -108,14 +102,14 @@ fn killed_sweeps_resume_to_identical_results() {
     assert_eq!(expected_points.len(), 30);
     assert!(!expected.contains("failed"));
 
-    let (mut seed, mut kills, mut round) = (2, 0, 0);
+    let (mut draw, mut kills, mut round) = (crate::draws::draws(2), 0, 0);
     while kills < sized(4, 40) {
         let name = format!("killed-{round}");
         let folder = study.folder(&name);
         let mut finished = 0;
         loop {
             let mut child = study.start(&name, &["--resume"]);
-            std::thread::sleep(whole_time.mul_f64(0.6 * next_random(&mut seed)));
+            std::thread::sleep(whole_time.mul_f64(0.6 * draw()));
             if let Some(status) = child.try_wait().unwrap() {
                 assert!(status.success());
                 break;

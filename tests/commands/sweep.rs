@@ -275,20 +275,6 @@ fn sweeps_and_other_commands_keep_out_of_each_others_folder() {
     assert!(SweepFolder::find(folder.path()).is_err());
 }
 
-#[test]
-fn keys_zip_value_by_value() {
-    let case = study(
-        "\n[sweep]\ncombine = \"zip\"\n\"contact.friction_coefficient\" = [0.2, 0.3]\n\
-         \"mesh.element\" = [\"quad4\", \"quad8\"]\n",
-    );
-    let plan = SweepPlan::new(&case).unwrap();
-    assert_eq!(plan.count(), 2);
-    assert_eq!(
-        Value::Object(plan.swept(2)),
-        json!({ "contact.friction_coefficient": 0.3, "mesh.element": "quad8" })
-    );
-}
-
 /// Frictions, directions of rotation and moduli of a coarse disc: reversed rotation mirrors the disc, so that each condition has the
 /// modes of its mirror image.
 #[test]

@@ -4,10 +4,11 @@
 
 use faer::c64;
 use frictionsim::cea::{ComplexMode, ModeLimit, SweepRequest, sparse};
-use frictionsim::contact::{ContactStiffness, NormalLaw, SlidingContact};
+use frictionsim::contact::{ContactStiffness, FrictionDecay, NormalLaw, SlidingContact};
 use frictionsim::fem::operator::SimdLevel;
 use frictionsim::fem::{
-    ElasticMaterial, MassKind, MaterialField, PlaneFormulation, RayleighDamping, assemble_stiffness,
+    ElasticMaterial, MassKind, MaterialField, MaxwellChain, ModulusTable, PlaneFormulation,
+    RayleighDamping, assemble_stiffness,
 };
 use frictionsim::mesh::{
     AnnulusSpecification, BoundaryCondition, ElasticSupport, ElementKind, Mesh, ShaftSpecification,
@@ -15,7 +16,7 @@ use frictionsim::mesh::{
 use frictionsim::prestress::{DampingModel, SlidingTangent, SteadySliding, TangentOptions};
 use frictionsim::transient::{
     CentralDifference, InitialState, OperatorChoice, Perturbation, Recorder, RecorderSettings,
-    TimeStep, TransientAnalysis, TransientModel, TransientSettings,
+    TimeStep, TransientAnalysis, TransientModel, TransientSettings, TransientState,
 };
 use std::f64::consts::{PI, TAU};
 
@@ -54,6 +55,14 @@ pub fn ring(
         element,
         outer: BoundaryCondition::Clamped,
         shaft: None,
+    }
+}
+
+/// The cylinder with friction that falls over speeds of the order of its own, 1.31 m/s at 610 rpm.
+pub fn falling(rotation_speed_rpm: f64) -> SlidingContact {
+    SlidingContact {
+        decay: Some(FrictionDecay { static_ratio: 1.5, decay_speed: 0.8 }),
+        ..contact(rotation_speed_rpm)
     }
 }
 
@@ -172,6 +181,35 @@ pub fn recorded(
     let mut record = Recorder::new(&run, &RecorderSettings::default()).unwrap();
     run.run(&mut record).unwrap();
     (record, run.largest_residual())
+}
+
+/// Moduli and loss factors of a chain over a band, as a table has them.
+pub fn modulus_table(chain: &MaxwellChain, modulus: f64, band: [f64; 2]) -> ModulusTable {
+    let rows = (0..=400).map(|i| {
+        let frequency = band[0] * (band[1] / band[0]).powf(f64::from(i) / 400.0);
+        let ratio = chain.ratio(frequency);
+        [frequency, modulus * ratio.re, ratio.im / ratio.re]
+    });
+    ModulusTable::new("materials.lossy.table", "chain.csv", rows.collect())
+}
+
+/// Holds a run in two parts to the bits of one in one; gives the state between these.
+pub fn goes_on(
+    model: TransientModel<'_>,
+    choice: OperatorChoice,
+    [first, whole]: [&TransientSettings; 2],
+) -> TransientState {
+    let operator = model.operator(choice, SimdLevel::detect()).unwrap();
+    let ran = |mut run: CentralDifference<'_>| {
+        let mut record = Recorder::new(&run, &RecorderSettings::default()).unwrap();
+        run.run(&mut record).unwrap();
+        run.state()
+    };
+    let start = |settings| CentralDifference::start(model, operator.as_ref(), settings).unwrap();
+    let half = ran(start(first));
+    let resumed = CentralDifference::resume(model, operator.as_ref(), whole, &half).unwrap();
+    assert_eq!(ran(resumed), ran(start(whole)));
+    half
 }
 
 /// Holds the linear stage of a harmonic to the eigenvalue of a mode: its rate to 1 %, its frequency to a tolerance.

@@ -13,12 +13,7 @@ pub fn triangles(specification: &AnnulusSpecification, is_quadratic: bool) -> Me
     let (inner, outer) = (specification.inner_radius, specification.outer_radius);
     let step = (outer - inner) / specification.radial_elements as f64;
     let mut mesh = quads.mesh;
-    let mut state = 12345_u64;
-    let mut draw = move || {
-        state =
-            state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (state >> 40) as f64 / (1_u64 << 24) as f64
-    };
+    let mut draw = crate::draws::draws(12345);
     for [x, y, _] in &mut mesh.nodes {
         let radius = x.hypot(*y);
         if radius > inner * 1.000_01 && radius < outer * 0.999_99 {

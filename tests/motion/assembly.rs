@@ -7,7 +7,7 @@ use frictionsim::contact::{
     Counterpart, Motion, PairFriction, PointKind, RigidCounterface, RigidMotion, RigidShape,
 };
 use frictionsim::fem::{
-    MaterialField, MaxwellChain, ModulusTable, RegionMaterial, RelaxedMaterials, TabledMaterial,
+    MaterialField, MaxwellChain, RegionMaterial, RelaxedMaterials, TabledMaterial,
 };
 use frictionsim::linalg::c64;
 use frictionsim::mesh::{FileMesh, Mesh};
@@ -247,19 +247,8 @@ fn heavy_dashpots_of_a_support_bound_the_step() {
 
 /// Runs an assembly in one and in two parts; the state between these.
 fn goes_on_to_the_same_bits(assembly: &Assembly<'_>, initial: InitialState) -> TransientState {
-    let body = model(assembly);
-    let operator = body.operator(OperatorChoice::Auto, SimdLevel::Scalar).unwrap();
     let [first, whole] = [2e-4, 4e-4].map(|end| settings(initial, end, 0.05));
-    let ran = |mut run: CentralDifference<'_>| {
-        let mut record = Recorder::new(&run, &RecorderSettings::default()).unwrap();
-        run.run(&mut record).unwrap();
-        run.state()
-    };
-    let start = |settings| CentralDifference::start(body, operator.as_ref(), settings);
-    let half = ran(start(&first).unwrap());
-    let resumed = CentralDifference::resume(body, operator.as_ref(), &whole, &half);
-    assert_eq!(ran(resumed.unwrap()), ran(start(&whole).unwrap()));
-    half
+    goes_on(model(assembly), OperatorChoice::Auto, [&first, &whole])
 }
 
 /// Consistency: a run that goes on from a saved state is the same, bit by bit, as one that never stopped.
@@ -315,13 +304,7 @@ fn losing(mesh: &Mesh) -> (RelaxedMaterials, Vec<TabledMaterial>) {
     let chain = || MaxwellChain::fit(&|_| c64::new(1.0, 0.01), BAND);
     let count = mesh.regions.len();
     let in_time = RelaxedMaterials::of(&STEEL, count, |region| (Some(region) == upper).then(chain));
-    let chain = chain();
-    let rows = (0..=400).map(|i| {
-        let frequency = BAND[0] * (BAND[1] / BAND[0]).powf(f64::from(i) / 400.0);
-        let ratio = chain.ratio(frequency);
-        [frequency, STEEL.young_modulus * ratio.re, ratio.im / ratio.re]
-    });
-    let table = ModulusTable::new("materials.upper.table", "chain.csv", rows.collect());
+    let table = modulus_table(&chain(), STEEL.young_modulus, BAND);
     let own = |young_modulus| RegionMaterial {
         elastic: ElasticMaterial { young_modulus, ..STEEL },
         damping: None,

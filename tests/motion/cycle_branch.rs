@@ -103,41 +103,15 @@ fn cycles_beside_stable_sliding_are_found_from_where_a_mode_grows() {
     assert!(reason.contains("no limit cycle beside it"), "{reason}");
 }
 
-/// Keeps steps in memory, up to a number of them.
-#[derive(Default)]
-struct Memory {
-    steps: Mutex<BTreeMap<String, Vec<Vec<f64>>>>,
-    most: usize,
-    kept: Mutex<usize>,
-}
-
-impl SweepWatch for Memory {
-    fn reached(&self, _progress: SweepProgress) {}
-
-    fn recall(&self, name: &str) -> Option<Vec<Vec<f64>>> {
-        self.steps.lock().unwrap().get(name).cloned()
-    }
-
-    fn keep(&self, name: &str, columns: &[Vec<f64>]) {
-        let mut kept = self.kept.lock().unwrap();
-        *kept += 1;
-        if *kept <= self.most {
-            let mut steps = self.steps.lock().unwrap();
-            steps.insert(name.to_owned(), columns.to_vec());
-        }
-    }
-}
-
 #[test]
 fn a_branch_that_goes_on_after_an_interruption_is_the_same_bit_by_bit() {
     let case = over_speed(tempfile::tempdir().unwrap().path(), "branch", 0.8, &[]);
-    let whole = searched(&case, &Unwatched);
+    let kept = Kept::default();
+    let whole = searched(&case, &kept);
+    assert!(kept.count() > 4);
     // As an interruption leaves it after two and four steps.
-    for most in [2, 4] {
-        let memory = Memory { most, ..Memory::default() };
-        searched(&case, &memory);
-        assert_eq!(memory.steps.lock().unwrap().len().min(2), 2);
-        let again = searched(&case, &memory);
+    for count in [2, 4] {
+        let again = searched(&case, &kept.after(count));
         assert_eq!(format!("{again:?}"), format!("{whole:?}"));
     }
 }

@@ -67,36 +67,6 @@ fn the_cycle_of_a_ring_on_a_layer_is_that_of_its_transient() {
     assert!(cycle.confirmation.as_ref().unwrap().agrees_with(&cycle.motion));
 }
 
-/// Keeps every step of a search, and gives back those of an earlier one.
-#[derive(Default)]
-pub struct Kept {
-    /// What an earlier search has left.
-    pub earlier: BTreeMap<String, Vec<Vec<f64>>>,
-    /// Every step kept, in its order.
-    pub steps: Mutex<Vec<(String, Vec<Vec<f64>>)>>,
-}
-
-impl Kept {
-    /// What a search leaves that stops after so many of its steps.
-    pub fn after(self, count: usize) -> Self {
-        let steps = self.steps.into_inner().unwrap();
-        Self { earlier: steps.into_iter().take(count).collect(), ..Self::default() }
-    }
-}
-
-impl SweepWatch for Kept {
-    fn reached(&self, _progress: SweepProgress) {}
-
-    fn recall(&self, name: &str) -> Option<Vec<Vec<f64>>> {
-        self.earlier.get(name).cloned()
-    }
-
-    fn keep(&self, name: &str, columns: &[Vec<f64>]) {
-        let step = (name.to_owned(), columns.to_vec());
-        self.steps.lock().unwrap().push(step);
-    }
-}
-
 /// Consistency: what was kept when it stopped, and the rest anew, is the same, bit by bit.
 #[test]
 fn a_branch_of_solid_bodies_goes_on_after_an_interruption_bit_by_bit() {
@@ -113,7 +83,7 @@ fn a_branch_of_solid_bodies_goes_on_after_an_interruption_bit_by_bit() {
     };
     let first = Kept::default();
     let whole = run(&first);
-    let steps = first.steps.lock().unwrap().len();
+    let steps = first.count();
     assert!(steps > 2, "{steps}");
     let resumed = run(&first.after(steps - 1));
     assert_eq!(whole.len(), resumed.len());

@@ -1,7 +1,6 @@
 //! Motions of two frequencies: balance on both phases against a transient of the mesh, energy, and birth where the cycle loses
 //! its stability.
 
-use crate::cycle_solids::Kept;
 use crate::prelude::*;
 
 const FRICTION: f64 = 0.2;
@@ -67,7 +66,7 @@ fn two_waves_are_born_where_the_cycle_loses_its_stability() {
     let kept = Kept::default();
     let branch = run(&kept);
     // What an interrupted search has kept, and the rest anew, is the same bit by bit.
-    let count = kept.steps.lock().unwrap().len();
+    let count = kept.count();
     let resumed = run(&kept.after(3 * count / 4));
     assert!(count > 6 && format!("{resumed:?}") == format!("{branch:?}"));
     assert_eq!(branch.ends, [BranchEnd::Birth, BranchEnd::Range]);

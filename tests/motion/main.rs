@@ -8,6 +8,8 @@ mod cases;
 mod coarse_block;
 #[path = "../common/disc.rs"]
 mod disc;
+#[path = "../common/kept.rs"]
+mod kept;
 #[path = "../common/mesh_text.rs"]
 mod mesh_text;
 #[path = "../common/tier.rs"]

@@ -6,9 +6,8 @@ use frictionsim::contact::ContactInterface;
 /// A square of one element on a moving plane, its far side held: two contact nodes that stick and slip under friction that
 /// falls with speed.
 pub fn oscillator(folder: &std::path::Path, overrides: &[&str]) -> Case {
-    let mesh = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n3\n1 1 \"face\"\n1 2 \"back\"\n2 3 \"body\"\n\
-        $EndPhysicalNames\n$Nodes\n4\n1 0 0 0\n2 0.01 0 0\n3 0.01 0.01 0\n4 0 0.01 0\n$EndNodes\n$Elements\n3\n\
-        1 1 2 1 1 1 2\n2 1 2 2 2 3 4\n3 3 2 3 1 1 2 3 4\n$EndElements\n";
+    let edge = even(0.01, 1);
+    let mesh = quadrilaterals(&edge, &edge, ["face", "back", "body"], |x, y| [x, y]);
     let text = "[mesh]\nfile = \"square.msh\"\n[boundaries.back]\ncondition = \"clamped\"
 [material]\nyoung_modulus = 2.5e9\npoisson_ratio = 0.38\ndensity = 1228.0\nformulation = \"plane-strain\"
 [damping]\nmass_coefficient = 40.0\nstiffness_coefficient = 2e-7

@@ -4,13 +4,15 @@ pub use crate::bricks::{Block, brick, file_of};
 pub use crate::cases::{case_of, shipped_case};
 pub use crate::coarse_block::coarse_block;
 pub use crate::disc::{
-    DAMPING, POLYCARBONATE, RIGID, TANGENT, annulus, contact, elastic, grows_as, linearized,
-    recorded, sliding_at, springs, stiffening, sweep_request, transient_settings,
+    DAMPING, POLYCARBONATE, RIGID, TANGENT, annulus, compliant, contact, elastic, falling, goes_on,
+    grows_as, modulus_table, recorded, sliding_at, springs, stiffening, sweep_request,
+    transient_settings,
 };
+pub use crate::kept::Kept;
 pub use crate::mesh_text::{even, quadrilaterals};
 pub use crate::tier::sized;
 pub use frictionsim::case::Case;
-pub use frictionsim::cea::{ModeLimit, SweepProgress, SweepWatch, Unwatched};
+pub use frictionsim::cea::{ModeLimit, SweepWatch, Unwatched};
 pub use frictionsim::contact::{
     ContactStatus, ContactStiffness, FrictionDecay, NormalLaw, SlidingContact,
 };
@@ -30,8 +32,6 @@ pub use frictionsim::transient::{
     RecorderSettings, RunEnd, Sample, SteppedBody, TimeStep, TransientAnalysis, TransientError,
     TransientModel, TransientSettings, TransientState,
 };
-pub use std::collections::BTreeMap;
 pub use std::f64::consts::TAU;
 pub use std::ops::ControlFlow;
 pub use std::path::Path;
-pub use std::sync::Mutex;

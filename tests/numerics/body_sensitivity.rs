@@ -85,7 +85,7 @@ impl Body {
 }
 
 /// The eigenvalue of a spectrum at a friction coefficient that is nearest to one.
-fn nearest((friction, sweep): &(f64, FrictionSweep), eigenvalue: c64) -> c64 {
+pub fn nearest((friction, sweep): &(f64, FrictionSweep), eigenvalue: c64) -> c64 {
     let points = sweep.points.iter();
     let point = points.filter(|point| point.friction_coefficient == *friction);
     let all = point.flat_map(|point| &point.modes).map(|mode| mode.eigenvalue);

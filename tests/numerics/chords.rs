@@ -1,5 +1,6 @@
 //! Quadratic elements with straight edges on round counterfaces (independent: curved edges, linear elements, exact distances).
 
+use crate::assemblies::on_rigid;
 use crate::prelude::*;
 use frictionsim::contact::{RigidCounterface, RigidMotion, RigidShape, SurfacePair};
 
@@ -47,15 +48,7 @@ fn solid(file: &FileMesh) -> Mesh {
 /// Largest pressure of a cup on the ball, and the force between them.
 fn pressed(file: &FileMesh, interference: f64) -> [f64; 2] {
     let mesh = solid(file);
-    let contact = SlidingSurfaces {
-        name: "ball".to_owned(),
-        surface: mesh.boundaries.iter().position(|boundary| boundary.name == "z0").unwrap(),
-        counter: Counterpart::Rigid(ball(interference)),
-        friction: PairFriction { ratio: 1.0, decay: None },
-        stiffness: ContactStiffness { normal_stiffness: Some(1e13), ..RIGID },
-        law: None,
-        topography: None,
-    };
+    let contact = on_rigid(&mesh, "z0", ball(interference), Some(1e13));
     let assembly = Assembly::new(&mesh, &RUBBER, &[], &[contact], &[], BaseChoice::Solved).unwrap();
     let range = assembly.range(&[0.0]).unwrap();
     let forces = range.states[0].normal_forces(0.0);

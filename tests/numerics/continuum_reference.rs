@@ -1,9 +1,9 @@
-//! The continuum reference against independent knowledge: Bessel functions, printed exact
-//! frequencies, rigid rotation, and the published Table 1 (Brunetti, Massi, Saulot, Renouf,
+//! The continuum reference against independent knowledge: Bessel functions,
+//! rigid rotation, and the published Table 1 (Brunetti, Massi, Saulot, Renouf,
 //! D'Ambrogio, "System dynamic instabilities induced by sliding contact").
 
 use crate::continuum;
-use crate::continuum::bessel::{determinant, of_complex_argument, of_real_argument, root_near};
+use crate::continuum::bessel::{determinant, of_real_argument, root_near};
 use crate::continuum::{Annulus, Contact, Eigenvalue, Rayleigh};
 use crate::prelude::*;
 
@@ -48,29 +48,6 @@ fn undamped_hz(annulus: &Annulus, harmonic: usize, contact: &Contact) -> Vec<f64
 }
 
 #[test]
-fn undamped_frictionless_frequencies_match_the_exact_values() {
-    // Exact values to the digits printed (0.01 Hz).
-    let rigid: [&[f64]; 5] = [
-        &[5856.38, 11089.51, 14908.62, 16675.32],
-        &[7633.26, 10537.77, 16499.34],
-        &[9864.21, 11782.67, 17202.02],
-        &[11252.31, 14775.30],
-        &[12910.40, 17442.12],
-    ];
-    let free: [&[f64]; 3] = [&[5856.38, 9628.83], &[6835.50, 8595.10], &[7643.47]];
-    let check = |contact: Contact, expected: &[&[f64]]| {
-        for (harmonic, values) in expected.iter().enumerate() {
-            let computed = undamped_hz(&DISC, harmonic, &contact);
-            for (value, exact) in computed.iter().zip(*values) {
-                assert!((value - exact).abs() <= 0.00501, "n = {harmonic}: {value} {exact}");
-            }
-        }
-    };
-    check(Contact::rigid(0.0), &rigid);
-    check(Contact::penalty(0.0, 0.0), &free);
-}
-
-#[test]
 fn frictionless_frequencies_are_roots_of_the_bessel_determinant() {
     // The determinant changes sign within 1e-10 of every spectral frequency: far above the 1e-13
     // of round-off, far below any discretisation error of the finite elements.
@@ -89,21 +66,6 @@ fn frictionless_frequencies_are_roots_of_the_bessel_determinant() {
                     });
                     assert!(below * above < 0.0, "n = {harmonic}, {hz} Hz: no root");
                 }
-            }
-        }
-    }
-}
-
-#[test]
-fn the_bessel_series_agrees_with_the_library_on_the_real_axis() {
-    for order in 0..=7 {
-        for z in [0.8, 2.5, 6.0, 11.0] {
-            let series = of_complex_argument(order, c64::new(z, 0.0));
-            let library = of_real_argument(order, c64::new(z, 0.0));
-            for (value, exact) in series.iter().zip(&library) {
-                // e^11 = 6e4 times round-off, relative to a function of order 1 or larger.
-                let tolerance = 1e-10 * exact.norm().max(1.0);
-                assert!((value - exact).norm() < tolerance, "n = {order}, z = {z}");
             }
         }
     }
@@ -161,23 +123,13 @@ fn the_published_table_is_reproduced() {
         let bound = if row == 19 || row == 20 { 10.0 } else { 5.2 };
         assert!(relative.abs() < 1.8e-3, "mode {}: {relative}", row + 1);
         assert!(difference.abs() < bound, "mode {}: {difference}", row + 1);
+        // Mode 26 lies on the stability boundary at mu = 0.3: its sign means nothing.
+        let is_unstable = [3, 5, 7].contains(&(row + 1));
+        assert!(row == 25 || (mode.lambda.re > 0.0) == is_unstable, "mode {}", row + 1);
     }
     let rms = (squares / TABLE_1.len() as f64).sqrt();
     println!("rms {:.4} %", 100.0 * rms);
     assert!(rms < 5.8e-4, "{rms}");
-}
-
-#[test]
-fn only_the_published_unstable_modes_are_unstable() {
-    // Mode 26 (index 25) lies on the stability boundary at mu = 0.3: its sign means nothing.
-    let contact = Contact::penalty(0.3, NORMAL_STIFFNESS);
-    let unstable: Vec<usize> = table_1_reference(&FITTED, &contact)
-        .iter()
-        .enumerate()
-        .filter(|(row, mode)| *row != 25 && mode.lambda.re > 0.0)
-        .map(|(row, _)| row + 1)
-        .collect();
-    assert_eq!(unstable, [3, 5, 7]);
 }
 
 #[test]
@@ -217,25 +169,6 @@ fn steady_sliding_gives_the_known_pressure_and_torque() {
     // 141 kW/m at 600 rpm.
     let power = state.torque * 600.0 / 60.0 * TAU;
     assert!((power - 141e3).abs() < 500.0, "{power}");
-}
-
-#[test]
-fn steady_state_balances_and_meets_its_edges() {
-    let state = DISC.prestress(25e-6, 0.3);
-    let [radial, tangential] = state.displacement(DISC.inner_radius);
-    assert!((radial / 25e-6 - 1.0).abs() < 1e-14 && tangential > 0.0);
-    let outer = state.displacement(DISC.outer_radius);
-    assert!(outer.iter().all(|u| u.abs() < 1e-19));
-    let at_contact = state.stress(DISC.inner_radius);
-    assert!((at_contact.radial / -state.pressure - 1.0).abs() < 1e-14);
-    assert!((at_contact.shear / -state.shear - 1.0).abs() < 1e-14);
-    // r sigma_rr' + sigma_rr - sigma_tt = 0 and r sigma_rt' + 2 sigma_rt = 0 by central
-    // differences, whose own error is (h / r)^2.
-    let (r, h) = (0.04, 1e-6);
-    let [below, here, above] = [r - h, r, r + h].map(|r| state.stress(r));
-    let radial = r * (above.radial - below.radial) / (2.0 * h) + here.radial - here.circumferential;
-    let shear = r * (above.shear - below.shear) / (2.0 * h) + 2.0 * here.shear;
-    assert!(radial.abs() < 1e-7 * state.pressure && shear.abs() < 1e-7 * state.pressure);
 }
 
 #[test]
@@ -291,20 +224,5 @@ fn a_rigid_rotation_leaves_the_prestressed_inner_edge_in_balance() {
         // Round-off of entries of size degree^2 G against p a = 6e4.
         let bound = 1e-6 * pressure * DISC.inner_radius;
         assert!(residual.norm() < bound, "row {row}: {residual}");
-    }
-}
-
-#[test]
-fn prestress_moves_the_critical_frictions_little() {
-    // p / G = 0.3 %: the prestress may move critical frictions by that order, not more. The
-    // stiffnesses k_n and friction are untouched by it.
-    let without = Contact::penalty(0.0, NORMAL_STIFFNESS);
-    let with = Contact { prestress_interference: Some(25e-6), ..without };
-    for (harmonic, branch) in [(1, 2), (2, 1), (1, 1)] {
-        let [x, y] = [without, with].map(|contact| {
-            FITTED.critical_friction(harmonic, branch, &contact, RAYLEIGH, 1.0).unwrap_or(f64::NAN)
-        });
-        println!("n = {harmonic}, branch {branch}: {x:.6} {y:.6}");
-        assert!((x - y).abs() < 0.003, "{x} {y}");
     }
 }

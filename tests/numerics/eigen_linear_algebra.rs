@@ -1,11 +1,8 @@
-//! Sparse factorizations and the Krylov-Schur iteration against dense decompositions and against
-//! faer's own iteration (independent checks).
+//! Sparse factorizations and the Krylov-Schur iteration against dense decompositions (independent
+//! checks).
 
 use crate::prelude::*;
-use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
-use faer::matrix_free::LinOp;
-use faer::matrix_free::eigen::{PartialEigenParams, partial_eigen, partial_eigen_scratch};
-use faer::{MatMut, MatRef, Par};
+use faer::{MatMut, MatRef};
 use frictionsim::linalg::banded::{BandedMatrix, CompactRows};
 use frictionsim::linalg::dense::{GrowingColumns, column, product};
 use frictionsim::linalg::dense_eigen::real_eigen;
@@ -50,25 +47,6 @@ impl BlockOperator for Inverse {
         let mut y = x.to_owned();
         self.0.solve_in_place(y.as_mut());
         y
-    }
-}
-
-impl LinOp<f64> for Inverse {
-    fn nrows(&self) -> usize {
-        self.0.dimension()
-    }
-    fn ncols(&self) -> usize {
-        self.0.dimension()
-    }
-    fn apply_scratch(&self, _: usize, _: Par) -> StackReq {
-        StackReq::EMPTY
-    }
-    fn apply(&self, mut out: MatMut<'_, f64>, x: MatRef<'_, f64>, _: Par, _: &mut MemStack) {
-        out.copy_from(x);
-        self.0.solve_in_place(out);
-    }
-    fn conj_apply(&self, out: MatMut<'_, f64>, x: MatRef<'_, f64>, par: Par, stack: &mut MemStack) {
-        LinOp::apply(self, out, x, par, stack);
     }
 }
 
@@ -196,32 +174,6 @@ fn krylov_schur_finds_the_same_pairs_as_a_dense_decomposition() {
                 assert!((images[(i, j)] * theta.re - pairs.vectors[(i, j)]).abs() < 1e-10);
             }
         }
-    }
-}
-
-#[test]
-fn krylov_schur_agrees_with_the_iteration_of_faer() {
-    let p = grid_operator(40, 0.02);
-    let n = p.dimension();
-    let pairs = largest(&p, 12);
-    let factors = inverse_of(&p);
-    // Beyond 74 basis vectors this oracle itself goes wrong.
-    let parameters = PartialEigenParams { max_dim: 60, ..Default::default() };
-    let scratch = partial_eigen_scratch(&factors, 12, Par::Seq, parameters);
-    let (mut vectors, mut values) = (Mat::<c64>::zeros(n, 12), vec![c64::new(0.0, 0.0); 12]);
-    let start = random_columns(n, 1, 99);
-    partial_eigen(
-        vectors.as_mut(),
-        &mut values,
-        &factors,
-        start.col(0),
-        1e-12,
-        Par::Seq,
-        MemStack::new(&mut MemBuffer::new(scratch)),
-        parameters,
-    );
-    for (a, b) in pairs.values.iter().zip(&values) {
-        assert!((a.norm() - b.norm()).abs() < 1e-9 * b.norm(), "{a} {b}");
     }
 }
 

@@ -1,7 +1,7 @@
 //! Derivatives of growth rates by modifications of a body against differences of whole analyses run again with that
 //! modification, small (independent check: the difference of two spectra knows nothing of vectors).
 
-use crate::body_sensitivity::Body;
+use crate::body_sensitivity::{Body, nearest};
 use crate::prelude::*;
 use frictionsim::results::improve::TargetFields;
 use frictionsim::study::improve::{Improvement, improve};
@@ -20,11 +20,7 @@ impl Body {
         let case = self.case(set);
         let friction = case.contact.sliding.friction_coefficient;
         let sweep = modes_and_onsets(&case).unwrap_or_else(|e| panic!("{set:?}: {e}"));
-        let points = sweep.points.iter();
-        let own = points.filter(|point| point.friction_coefficient == friction);
-        let modes = own.flat_map(|point| &point.modes);
-        let away = |value: &c64| (value - eigenvalue).norm();
-        modes.map(|mode| mode.eigenvalue).min_by(|a, b| away(a).total_cmp(&away(b))).unwrap()
+        nearest(&(friction, sweep), eigenvalue)
     }
 
     /// `d growth / d p` at `p = 0`, where the eigenvalue is the given one, by the second-order difference over `0`, `h`, `2 h`; `keys`

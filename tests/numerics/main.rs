@@ -8,6 +8,10 @@ mod bricks;
 mod cases;
 #[path = "../common/disc.rs"]
 mod disc;
+#[path = "../common/draws.rs"]
+mod draws;
+#[path = "../common/kept.rs"]
+mod kept;
 #[path = "../common/mesh_text.rs"]
 mod mesh_text;
 #[path = "../common/msh.rs"]
@@ -55,6 +59,7 @@ mod sliding_bodies;
 mod solid_elements;
 mod solid_refinement;
 mod solids;
+mod spectra;
 mod structural_damping;
 mod supported_bodies;
 mod tabled;

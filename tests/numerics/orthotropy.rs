@@ -1,5 +1,6 @@
 //! Orthotropic materials against closed forms, a Rayleigh-Ritz series and the isotropic material.
 
+use crate::continuum::radial::gauss_legendre;
 use crate::prelude::*;
 use crate::solid_elements::Pencil;
 use frictionsim::fem::element::ElementGeometry;
@@ -39,26 +40,12 @@ fn legendre(degree: usize, x: f64) -> Vec<[f64; 2]> {
     found
 }
 
-/// Points and weights of Gauss's rule on -1 to 1, by Newton's method on the polynomial.
-fn gauss(count: usize) -> Vec<[f64; 2]> {
-    let root = |k: usize| {
-        let mut x = (PI * (k as f64 + 0.75) / (count as f64 + 0.5)).cos();
-        for _ in 0..50 {
-            let [value, slope] = legendre(count, x)[count];
-            x -= value / slope;
-        }
-        let slope = legendre(count, x)[count][1];
-        [x, 2.0 / ((1.0 - x * x) * slope * slope)]
-    };
-    (0..count).map(root).collect()
-}
-
 /// Frequencies of a free box with edges along the material's axes, Hz, by Ritz's method on products of Legendre polynomials
 /// up to a total degree (Demarest 1971): the stiffness `int c_ikjl phi_a,k phi_b,l dV` from the nine constants.
 fn ritz(orthotropy: &Orthotropy, density: f64, size: [f64; 3], degree: usize) -> Vec<f64> {
     // int P_m^(p) P_n^(q) dx over -1 to 1 for derivatives p, q.
     let mut line = vec![[[0.0; 2]; 2]; (degree + 1) * (degree + 1)];
-    for [x, weight] in gauss(degree + 2) {
+    for (x, weight) in gauss_legendre(degree + 2) {
         let values = legendre(degree, x);
         for (at, sums) in line.iter_mut().enumerate() {
             let (m, n) = (at / (degree + 1), at % (degree + 1));

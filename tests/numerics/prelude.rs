@@ -4,15 +4,16 @@ pub use crate::block::{SOLIDS, block};
 pub use crate::bricks::{Block, brick, file_of};
 pub use crate::cases::{AS_IT_IS, case_of, kept, read_case, shipped_case};
 pub use crate::disc::{
-    DAMPING, POLYCARBONATE, RIGID, TANGENT, annulus, compliant, contact, elastic, grows_as,
-    linearized, modes_at, on_shaft, recorded, ring, sliding_at, springs, stiffening, sweep_request,
-    transient_settings,
+    DAMPING, POLYCARBONATE, RIGID, TANGENT, annulus, compliant, contact, elastic, falling, goes_on,
+    grows_as, linearized, modes_at, modulus_table, on_shaft, recorded, ring, sliding_at, springs,
+    stiffening, sweep_request, transient_settings,
 };
 pub use crate::mesh_text::{even, mesh_text, quadrilaterals};
 pub use crate::msh::{CYLINDER, FORMS, plane_body, write_msh};
 pub use crate::program::{Answer, Run, folder, has, shipped};
 pub use crate::shaft::model::AnnulusMaterials;
 pub use crate::solids::model::{SolidModel, solid_sweep};
+pub use crate::spectra::{assert_same, eigenvalues_of, largest_error};
 pub use crate::table_1::TABLE_1;
 pub use crate::tier::sized;
 pub use crate::triangles::body;

@@ -1,7 +1,7 @@
 //! Maxwell chains in time: growth against the eigenvalue, energy to round-off, restart to the bit.
 
 use crate::prelude::*;
-use frictionsim::fem::{MaxwellChain, ModulusTable, RelaxedMaterials, TabledMaterial};
+use frictionsim::fem::{MaxwellChain, RelaxedMaterials, TabledMaterial};
 
 const BAND: [f64; 2] = [300.0, 30_000.0];
 const HARMONIC: usize = 2;
@@ -35,14 +35,7 @@ fn settings(duration: f64, at: f64) -> TransientSettings {
 
 /// The largest growth rate of the body (1/s), its modulus a table that the chain fills, lumped as the time loop has it.
 fn eigenvalue() -> f64 {
-    let chain = chain();
-    let rows = (0..=400).map(|i| {
-        let frequency = BAND[0] * (BAND[1] / BAND[0]).powf(f64::from(i) / 400.0);
-        let ratio = chain.ratio(frequency);
-        let modulus = POLYCARBONATE.young_modulus * ratio.re;
-        [frequency, modulus, ratio.im / ratio.re]
-    });
-    let table = ModulusTable::new("materials.disc.table", "chain.csv", rows.collect());
+    let table = modulus_table(&chain(), POLYCARBONATE.young_modulus, BAND);
     let own = RegionMaterial {
         elastic: ElasticMaterial { young_modulus: table.static_modulus(), ..POLYCARBONATE },
         damping: None,
@@ -85,49 +78,14 @@ fn a_kick_keeps_the_balance_and_a_run_goes_on_to_the_same_bits() {
     let (disc, materials) = (disc(), relaxed());
     let undamped = RayleighDamping::default();
     let model = TransientModel::of_annulus(&disc, &materials, undamped, sliding());
-    let operator = model.operator(OperatorChoice::Auto, SimdLevel::detect()).unwrap();
-    let settings = TransientSettings {
+    // Stopped after the kick and gone on with.
+    let [first, whole] = [5e-4, 1e-3].map(|duration| TransientSettings {
         perturbation: Perturbation { time: 2e-4, ..Perturbation::of(&[HARMONIC], 1e-2) },
-        ..settings(1e-3, 0.0)
-    };
-    let start = || CentralDifference::start(model, operator.as_ref(), &settings).unwrap();
-    let mut whole = start();
-    let mut record = Recorder::new(&whole, &RecorderSettings::default()).unwrap();
-    whole.run(&mut record).unwrap();
-    println!("balance {:e}", whole.largest_residual());
-    assert!(whole.largest_residual() < 1e-10);
-    assert!(whole.state().relaxation.iter().flatten().any(|z| *z != 0.0));
-
-    // Steps alone, stopped after the kick and gone on with.
-    let steps = whole.plan().total_steps();
-    let mut first = start();
-    let mut state = None;
-    let mut record = Recorder::new(&first, &RecorderSettings::default()).unwrap();
-    let mut stop = |sample: &frictionsim::transient::Sample<'_>| {
-        if state.is_none() && sample.time > 5e-4 {
-            state = Some(sample.state());
-        }
-        frictionsim::transient::Observer::observe(&mut record, sample)
-    };
-    struct Watch<'w>(
-        &'w mut dyn FnMut(&frictionsim::transient::Sample<'_>) -> std::ops::ControlFlow<()>,
-    );
-    impl frictionsim::transient::Observer for Watch<'_> {
-        fn observe(
-            &mut self,
-            sample: &frictionsim::transient::Sample<'_>,
-        ) -> std::ops::ControlFlow<()> {
-            (self.0)(sample)
-        }
-    }
-    first.run(&mut Watch(&mut stop)).unwrap();
-    let state = state.unwrap();
-    let mut second =
-        CentralDifference::resume(model, operator.as_ref(), &settings, &state).unwrap();
-    while second.steps_done() < steps {
-        second.advance();
-    }
-    let (one, other) = (second.state(), whole.state());
-    assert!(one.displacement == other.displacement && one.velocity == other.velocity);
-    assert!(one.relaxation == other.relaxation);
+        ..settings(duration, 0.0)
+    });
+    let (_, residual) = recorded(model, OperatorChoice::Auto, &whole);
+    println!("balance {residual:e}");
+    assert!(residual < 1e-10);
+    let half = goes_on(model, OperatorChoice::Auto, [&first, &whole]);
+    assert!(half.relaxation.iter().flatten().any(|z| *z != 0.0));
 }

@@ -71,9 +71,14 @@ fn sliders() -> impl Strategy<Value = Slider> {
     )
 }
 
-fn part(slider: &Slider) -> Case {
-    // Tests run side by side, so each case has a folder of its own.
+/// A case of the mesh `part.msh`; tests run side by side, so each has a folder of its own.
+fn of_file(mesh: &[u8], text: &str) -> Case {
     let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("part.msh"), mesh).unwrap();
+    case_of(folder.path().join("part.toml"), text, AS_IT_IS)
+}
+
+fn part(slider: &Slider) -> Case {
     let (mesh, direction, formulation) = if slider.is_plane {
         let [xs, ys] = [0, 1].map(|axis| even(slider.size[axis], slider.counts[axis]));
         let mesh = quadrilaterals(&xs, &ys, ["part_z0", "part_z1", "part"], |x, y| [x, y]);
@@ -82,7 +87,6 @@ fn part(slider: &Slider) -> Case {
         let block = brick("part", [0.0; 3], slider.size, slider.counts);
         (file_of(&[block], |point| point), "[1.0, 0.0, 0.0]", "")
     };
-    fs::write(folder.path().join("part.msh"), mesh).unwrap();
     let [normal, tangential, dashpot] = slider.support;
     // Pushed in by a millionth of its height: strains are small however soft the block is.
     let height = slider.size[if slider.is_plane { 1 } else { 2 }];
@@ -107,7 +111,7 @@ fn part(slider: &Slider) -> Case {
     if let Some(stiffness) = slider.contact_stiffness {
         writeln!(text, "normal_stiffness = {stiffness:e}").unwrap();
     }
-    case_of(folder.path().join("part.toml"), &text, AS_IT_IS)
+    of_file(&mesh, &text)
 }
 
 /// Mass, damping, stiffness and structural damping of an export at one friction coefficient.
@@ -238,17 +242,15 @@ fn slow_motions_close_together_keep_their_digits_beside_fast_modes() {
 /// decomposition must end where it meets them, and each is listed.
 #[test]
 fn equal_eigenvalues_that_friction_does_not_move_are_all_listed() {
-    let folder = tempfile::tempdir().unwrap();
     let size = [0.07207033928546175, 0.005263329653561904, 0.0062918081827297535];
     let block = brick("part", [0.0; 3], size, [3, 2, 5]);
-    fs::write(folder.path().join("part.msh"), file_of(&[block], |point| point)).unwrap();
     let text = "[mesh]\nfile = \"part.msh\"\n[material]\nyoung_modulus = 1.720164e8\npoisson_ratio = 0.0\n\
                 density = 7850.0\n[boundaries.part_z1]\ncondition = \"support\"\nnormal_stiffness = 8757.597\n\
                 tangential_stiffness = 454.318\n[contact]\nboundary = \"part_z0\"\ncounterface = \"plane\"\n\
                 direction = [1.0, 0.0, 0.0]\nspeed = 5.134476e-3\nfriction_coefficient = 0.58\n\
                 interference = 6.291808e-9\nnormal_stiffness = 2.698371e11\n\
                 [cea]\nfriction_coefficients = [0.0, 0.397, 0.58]\ngeometric_stiffness = false\nmodes = 27\n";
-    let case = case_of(folder.path().join("part.toml"), text, AS_IT_IS);
+    let case = of_file(&file_of(&[block], |point| point), text);
     let found = modes_and_onsets(&case).unwrap();
     assert!(found.ended.iter().all(|end| end.lost_before.is_none()), "{:?}", found.ended);
     for point in found.points {
@@ -263,9 +265,7 @@ fn equal_eigenvalues_that_friction_does_not_move_are_all_listed() {
 /// nearly meet: the branch went on as the other one there, and that was its onset.
 #[test]
 fn a_mode_that_grows_before_it_nearly_meets_another_has_its_own_onset() {
-    let folder = tempfile::tempdir().unwrap();
     let block = brick("part", [0.0; 3], [0.027372827842916517; 3], [3, 3, 2]);
-    fs::write(folder.path().join("part.msh"), file_of(&[block], |point| point)).unwrap();
     let text = "[mesh]\nfile = \"part.msh\"\n[material]\nyoung_modulus = 5.630217e11\n\
                 poisson_ratio = 0.45\n\
                 density = 7850.0\n[boundaries.part_z1]\ncondition = \"support\"\n\
@@ -275,7 +275,7 @@ fn a_mode_that_grows_before_it_nearly_meets_another_has_its_own_onset() {
                 counterface = \"plane\"\ndirection = [1.0, 0.0, 0.0]\nspeed = 4.582433e-3\n\
                 friction_coefficient = 0.06\ninterference = 1.483458e-8\n\
                 [cea]\nfriction_coefficients = [0.016327, 0.06]\nmax_frequency_hz = 275000.0\n";
-    let case = case_of(folder.path().join("part.toml"), text, AS_IT_IS);
+    let case = of_file(&file_of(&[block], |point| point), text);
     let found = modes_and_onsets(&case).unwrap();
     let mut located = found.intervals.iter().filter(|own| own.is_located());
     let onset = located.next().expect("one crosses");
@@ -291,10 +291,8 @@ fn a_mode_that_grows_before_it_nearly_meets_another_has_its_own_onset() {
 /// The dense decomposition has it at 148.3 kHz.
 #[test]
 fn modes_that_friction_brings_below_a_limit_in_frequency_are_listed() {
-    let folder = tempfile::tempdir().unwrap();
     let [xs, ys] = [0.020107041919607042, 0.021423467543813624].map(|edge| even(edge, 3));
     let mesh = quadrilaterals(&xs, &ys, ["part_z0", "part_z1", "part"], |x, y| [x, y]);
-    fs::write(folder.path().join("part.msh"), mesh).unwrap();
     let text = "[mesh]\nfile = \"part.msh\"\n[material]\nyoung_modulus = 1.762983925e11\n\
                 poisson_ratio = 0.3\n\
                 density = 7850.0\nformulation = \"plane-strain\"\n[boundaries.part_z1]\n\
@@ -307,7 +305,7 @@ fn modes_that_friction_brings_below_a_limit_in_frequency_are_listed() {
                 [cea]\nfriction_coefficients = [0.56, 0.617907591291667]\n\
                 geometric_stiffness = false\n\
                 max_frequency_hz = 155859.15\n";
-    let case = case_of(folder.path().join("part.toml"), text, AS_IT_IS);
+    let case = of_file(&mesh, text);
     let found = modes_and_onsets(&case).unwrap();
     for point in &found.points {
         let problem = sums(&matrices(&case, Some(point.friction_coefficient)).unwrap());

@@ -1,7 +1,6 @@
 //! The built-in disc and its shaft with moduli over frequency, by case.
 
 use crate::prelude::*;
-use crate::structural_damping::largest_error;
 
 /// A lining whose modulus and losses rise over the modes of a disc.
 const LINING: &str = "\
@@ -103,10 +102,7 @@ fn losses_of_an_annulus_by_harmonics_are_those_of_its_whole_mesh() {
             modes_and_onsets(&case).unwrap()
         });
         for (a, b) in waves.points.iter().zip(&whole.points) {
-            let [a, b] = [a, b].map(|point| {
-                let eigenvalues = point.modes.iter().map(|mode| mode.eigenvalue);
-                eigenvalues.collect::<Vec<c64>>()
-            });
+            let [a, b] = [a, b].map(|point| eigenvalues_of(&point.modes));
             let error = largest_error(&a, &b).max(largest_error(&b, &a));
             println!("{name}: {error:e} of {} modes", a.len());
             assert!(a.len() == b.len() && error < 1e-9, "{name}: {error:e}");

@@ -31,8 +31,3 @@ pub fn is_of(pair: &WavePair) -> impl Fn(&&ModeBranch) -> bool {
     let name = (pair.harmonic, pair.branch, pair.direction);
     move |branch| (branch.harmonic, branch.branch, branch.direction) == name
 }
-
-/// The central difference of a function, of fourth order, so that the step may stay far above round-off.
-pub fn difference(step: f64, at: &dyn Fn(f64) -> c64) -> c64 {
-    ((at(step) - at(-step)) * 8.0 - (at(2.0 * step) - at(-2.0 * step))) / (12.0 * step)
-}

@@ -130,8 +130,8 @@ pub fn kinds() -> Vec<Kind> {
         )
     };
     let coarse = [[2, 2, 1], [3, 2, 1], [2, 2, 1]];
-    let [slides, stiffens] =
-        sized([[[1, 2, 1], [2, 2, 1], [1, 2, 1]]; 2], [[[3, 2, 1], [4, 3, 1], [3, 3, 1]], coarse]);
+    let small = [[[1, 2, 1], [2, 2, 1], [1, 2, 1]], [[1, 1, 1], [2, 1, 1], [1, 1, 1]]];
+    let [slides, stiffens] = sized(small, [[[3, 2, 1], [4, 3, 1], [3, 3, 1]], coarse]);
     let (slides, slides_mesh) = solids("normal_stiffness = 1e12", "1e12", slides);
     // Its own friction lies above the onset at 0.2, which coarser meshes do not have.
     let (squeals, squeals_mesh) = solids("normal_stiffness = 1e11", "1e10", coarse);

@@ -277,40 +277,6 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(512))]
 
     #[test]
-    fn no_bytes_make_the_parser_panic(bytes in proptest::collection::vec(any::<u8>(), 0..200)) {
-        if let Err(errors) = Case::parse("x", &bytes, &[]) {
-            prop_assert!(!errors.to_string().is_empty());
-        }
-    }
-
-    #[test]
-    fn no_damage_to_a_valid_case_makes_it_panic(
-        which in 0..3usize,
-        start in 0.0..1.0f64,
-        length in 0..12usize,
-        insert in "\\PC{0,6}|[=\\[\\]{}\"'.,#\n0-9e-]{0,6}",
-    ) {
-        let mut bytes = [DISC, RUN, STUDY][which].as_bytes().to_vec();
-        let at = (start * bytes.len() as f64) as usize;
-        let end = (at + length).min(bytes.len());
-        bytes.splice(at..end, insert.bytes());
-        if let Err(errors) = Case::parse("x", &bytes, &[]) {
-            prop_assert!(!errors.render(true).is_empty());
-        }
-    }
-
-    #[test]
-    fn no_override_makes_the_parser_panic(
-        key in "[a-z_.\"']{0,12}|contact|cea\\.friction_coefficients|sweep\\.x|output\\.probes",
-        value in "\\PC{0,12}|[=\\[\\]{}\"'.,#\n0-9e-]{0,12}|-?[0-9]{1,22}|nan|inf",
-    ) {
-        let overrides = [format!("{key}={value}"), value];
-        if let Err(errors) = Case::parse("x", DISC.as_bytes(), &overrides) {
-            prop_assert!(!errors.to_string().is_empty());
-        }
-    }
-
-    #[test]
     fn any_number_for_any_key_is_read_or_refused(
         which in 0..KEYS.len(),
         value in prop_oneof![

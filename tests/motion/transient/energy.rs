@@ -1,26 +1,48 @@
 //! The energy balance.
 
 use crate::prelude::*;
-use crate::transient::model::{Watch, disc, model, settings};
+use crate::transient::model::{LAWS, Watch, disc, model, on_contact, settings};
+use frictionsim::transient::SampleRow;
 
-/// Theory: the discrete energy identity is exact, whatever contact and damping do.
+/// Theory: the discrete energy identity is exact, whatever contact, its springs and dashpots, its laws and damping do.
 #[test]
 fn every_joule_is_accounted_for_through_stick_slip_and_separation() {
+    use OperatorChoice::{Cyclic, Sparse};
     let annulus = disc(45, 9);
-    for choice in [OperatorChoice::Cyclic, OperatorChoice::Sparse] {
-        let model = model(&annulus, 610.0);
-        let mut settings = settings(6e-3, &[1, 2]);
+    let damped = ContactStiffness { tangential_damping: 1e4, ..RIGID };
+    let springs = compliant(2e12, [1e5, 1e4]);
+    let [[first, first_damped], [second, second_damped]] =
+        LAWS.map(stiffening).map(|law| [law, ContactStiffness { normal_damping: 1e5, ..law }]);
+    for (contact, stiffness, choice) in [
+        (contact(610.0), RIGID, Cyclic),
+        (contact(610.0), RIGID, Sparse),
+        (falling(610.0), RIGID, Cyclic),
+        (contact(610.0), damped, Cyclic),
+        (contact(610.0), springs, Cyclic),
+        (falling(610.0), springs, Cyclic),
+        (contact(610.0), first, Cyclic),
+        (contact(610.0), first_damped, Cyclic),
+        (contact(610.0), second, Cyclic),
+        (contact(610.0), second_damped, Cyclic),
+    ] {
+        let mut settings = settings(6e-3, &[]);
         settings.perturbation = Perturbation::of(&[1, 2], 2.0);
-        let (record, _) = recorded(model, choice, &settings);
+        let (record, _) = recorded(on_contact(&annulus, contact, stiffness), choice, &settings);
         for row in &record.rows {
             // Ten thousand steps of round-off 1e-16.
-            assert!(row.balance_residual < 1e-12, "{} s: {:e}", row.time, row.balance_residual);
+            let left = row.balance_residual;
+            assert!(left < 1e-12, "{contact:?} {stiffness:?}, {} s: {left:e}", row.time);
             let powers = &row.powers;
             let parts = powers.stick + powers.slide + powers.contact_dissipated;
             assert!((powers.external - parts).abs() <= 1e-10 * powers.external.abs().max(1.0));
         }
-        let dissipated: f64 = record.rows.iter().map(|row| row.material_damping).sum();
-        assert!(dissipated > 0.0);
+        let sum = |of: fn(&SampleRow) -> f64| record.rows.iter().map(of).sum::<f64>();
+        assert!(sum(|row| row.material_damping) > 0.0);
+        assert!(sum(|row| row.counts.open as f64) > 0.0);
+        let has_springs = stiffness.normal_stiffness.is_some();
+        assert_eq!(sum(|row| row.contact_energy) > 0.0, has_springs);
+        let has_dashpots = stiffness.tangential_damping.max(stiffness.normal_damping) > 0.0;
+        assert_eq!(sum(|row| row.powers.damping) > 0.0, has_dashpots);
     }
 }
 

@@ -1,77 +1,43 @@
 //! The linear stage against the complex eigenvalues of the same model.
 
 use crate::prelude::*;
-use crate::transient::model::{disc, model, settings};
-use faer::linalg::solvers::Solve;
-use faer::{Mat, c64};
-use frictionsim::linalg::MatrixPolynomial;
-use frictionsim::prestress::SlidingTangent;
+use crate::transient::model::{LAWS, disc, on_contact, settings};
+use frictionsim::cea::cyclic::sweep;
+use frictionsim::linalg::c64;
 
-/// The matrix that acts on `U exp(i n theta_j)`, from the rows of one sector.
-fn harmonic(
-    polynomial: &MatrixPolynomial,
-    tangent: &SlidingTangent,
-    annulus: &AnnulusMesh,
-    n: usize,
-) -> Mat<c64> {
-    let (per_sector, sectors) = (annulus.sector_node_count(), annulus.sector_count());
-    // Unknowns of one sector, numbered by their dof within it.
-    let local: Vec<usize> = tangent
-        .unknowns
-        .dofs
-        .iter()
-        .copied()
-        .filter(|dof| dof / 2 / per_sector == 1)
-        .map(|dof| dof - 2 * per_sector)
-        .collect();
-    let place = |dof: usize| {
-        let sector = dof / 2 / per_sector;
-        let within = local.binary_search(&(dof - 2 * per_sector * sector)).unwrap();
-        (sector, within)
-    };
-    let values = polynomial.evaluate(0.3);
-    let pattern = polynomial.pattern();
-    let mut matrix = Mat::<c64>::zeros(local.len(), local.len());
-    for column in 0..pattern.dimension() {
-        let range = pattern.column_pointers()[column]..pattern.column_pointers()[column + 1];
-        let (column_sector, j) = place(tangent.unknowns.dofs[column]);
-        for k in range {
-            let (row_sector, i) = place(tangent.unknowns.dofs[pattern.row_indices()[k]]);
-            if row_sector == 1 {
-                let angle = TAU * n as f64 * (column_sector as f64 - 1.0) / sectors as f64;
-                matrix[(i, j)] += values[k] * c64::new(angle.cos(), angle.sin());
-            }
-        }
-    }
-    matrix
+/// Eigenvalue of a harmonic with the largest real part as the time loop has it: lumped mass, no geometric stiffness.
+fn least_stable(contact: &SlidingContact, stiffness: ContactStiffness, harmonic: usize) -> c64 {
+    let options = TangentOptions { mass: MassKind::Lumped, contact: stiffness, ..TANGENT };
+    let at = [contact.friction_coefficient];
+    let request = sweep_request(&at, ModeLimit::Lowest(40));
+    let specification = disc(60, 12).specification;
+    let found = sweep(&specification, &POLYCARBONATE, &options, contact, &request).unwrap();
+    let modes = found.sweep.points[0].modes.iter();
+    let own = modes.filter(|mode| mode.harmonic == harmonic).map(|mode| mode.eigenvalue);
+    own.max_by(|a, b| a.re.total_cmp(&b.re)).unwrap()
 }
 
-/// Eigenvalue with the largest real part for harmonic `n`, rigid contact, lumped mass, no geometric stiffness.
-fn least_stable(model: &TransientModel<'_>, n: usize) -> c64 {
-    let SteppedBody::Plane { mesh, annulus: Some(annulus) } = model.body else {
-        panic!("an annulus");
-    };
-    let options = TangentOptions { mass: MassKind::Lumped, damping: model.damping, ..TANGENT };
-    let tangent = linearized(mesh, model.material, &model.contact, &options);
-    let mass = harmonic(&tangent.mass, &tangent, annulus, n);
-    let stiffness = harmonic(&tangent.stiffness, &tangent, annulus, n);
-    let reduced = mass.partial_piv_lu().solve(&stiffness);
-    let (alpha, beta) = (model.damping.mass_coefficient, model.damping.stiffness_coefficient);
-    let roots = reduced.eigenvalues().unwrap().into_iter().flat_map(|kappa| {
-        // lambda^2 + (alpha + beta kappa) lambda + kappa = 0
-        let half = (kappa * beta + alpha) * 0.5;
-        let root = (half * half - kappa).sqrt();
-        [root - half, -root - half]
-    });
-    roots.max_by(|a, b| a.re.total_cmp(&b.re)).unwrap()
-}
-
-/// Cross-method: the strongest check that the two halves of the program agree.
+/// Cross-method: the strongest check that the two halves of the program agree, on rigid contact, springs with dashpots, and
+/// contact that stiffens, at whose pressure the tangent is taken; under constant friction, and under friction that falls, at a
+/// speed where it does and at one that leaves little of its fall.
 #[test]
 fn seeded_harmonics_grow_as_the_complex_eigenvalues_predict() {
     let annulus = disc(60, 12);
-    let model = model(&annulus, 610.0);
-    for n in [1, 2, 3] {
+    let little = |rpm| SlidingContact { friction_coefficient: 0.1, ..falling(rpm) };
+    let springs = compliant(5e11, [1e5, 1e4]);
+    for (n, contact, stiffness) in [
+        (1, contact(610.0), RIGID),
+        (2, contact(610.0), RIGID),
+        (3, contact(610.0), RIGID),
+        (2, little(100.0), RIGID),
+        (2, little(1800.0), RIGID),
+        (2, contact(610.0), springs),
+        (2, falling(610.0), springs),
+        (2, contact(610.0), stiffening(LAWS[0])),
+        (2, contact(610.0), stiffening(LAWS[1])),
+    ] {
+        let stepped = stiffness.damped_by(DAMPING.stiffness_coefficient);
+        let model = on_contact(&annulus, contact, stepped);
         let mut settings = settings(0.012, &[n]);
         settings.initial = InitialState::SteadySliding;
         // Small enough to stay linear over the whole run.
@@ -79,8 +45,21 @@ fn seeded_harmonics_grow_as_the_complex_eigenvalues_predict() {
         let (record, _) = recorded(model, OperatorChoice::Auto, &settings);
         let analysis = TransientAnalysis::of(&record, &[n]);
         assert_eq!(analysis.first_nonlinearity, None);
-        grows_as(&record, n, least_stable(&model, n), 1e-3);
-        // The unstable member of a pair travels against the rotor.
-        assert_eq!(analysis.growth[0].direction(), -1);
+        let exact = least_stable(&contact, stiffness, n);
+        println!("{contact:?} {stiffness:?}");
+        grows_as(&record, n, exact, 1e-3);
+        if exact.re > 0.0 {
+            // The unstable member of a pair travels against the rotor.
+            assert_eq!(analysis.growth[0].direction(), -1);
+        }
+        if contact.friction_coefficient == 0.1 {
+            // The fall of friction alone feeds the wave.
+            assert_eq!(exact.re > 0.0, contact.rotation_speed < 20.0);
+            let constant = SlidingContact { decay: None, ..contact };
+            assert!(least_stable(&constant, stiffness, n).re < 0.0);
+        }
+        if stiffness == springs {
+            assert!((least_stable(&contact, RIGID, n).re / exact.re - 1.0).abs() > 0.1);
+        }
     }
 }

@@ -4,7 +4,6 @@ mod contact;
 mod energy;
 mod linear_stage;
 mod model;
-mod normal_law;
 mod operators;
 mod restart;
 mod seeds;

@@ -11,6 +11,22 @@ pub fn model(annulus: &AnnulusMesh, rotation_speed_rpm: f64) -> TransientModel<'
     TransientModel::of_annulus(annulus, &POLYCARBONATE, DAMPING, contact(rotation_speed_rpm))
 }
 
+/// The same under another contact.
+pub fn on_contact<'a>(
+    annulus: &'a AnnulusMesh,
+    contact: SlidingContact,
+    stiffness: ContactStiffness,
+) -> TransientModel<'a> {
+    let rigid = TransientModel::of_annulus(annulus, &POLYCARBONATE, DAMPING, contact);
+    TransientModel { stiffness, ..rigid }
+}
+
+/// Contact that stiffens with pressure.
+pub const LAWS: [NormalLaw; 2] = [
+    NormalLaw::Exponential { reference_pressure: 2e5, height: 2e-6 },
+    NormalLaw::Cubic { stiffness: 5e11, cubic_stiffness: 2e23 },
+];
+
 pub fn settings(duration: f64, harmonics: &[usize]) -> TransientSettings {
     transient_settings(duration, 4e-6, 1e-4, InitialState::Rest, Perturbation::of(harmonics, 1e-3))
 }

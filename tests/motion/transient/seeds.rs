@@ -5,12 +5,7 @@ use crate::transient::model::{Watch, disc, model, settings};
 use frictionsim::transient::StandingWave;
 
 fn record(annulus: &AnnulusMesh, settings: &TransientSettings) -> Recorder {
-    let model = model(annulus, 610.0);
-    let operator = model.operator(OperatorChoice::Auto, SimdLevel::detect()).unwrap();
-    let mut run = CentralDifference::start(model, operator.as_ref(), settings).unwrap();
-    let mut record = Recorder::new(&run, &RecorderSettings::default()).unwrap();
-    assert_eq!(run.run(&mut record).unwrap(), RunEnd::Finished);
-    record
+    recorded(model(annulus, 610.0), OperatorChoice::Auto, settings).0
 }
 
 /// Tangential velocity of the contact edge, harmonic by harmonic.

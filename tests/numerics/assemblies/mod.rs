@@ -11,7 +11,7 @@ mod topography;
 use crate::bricks::file_of_order;
 use crate::prelude::*;
 use crate::structural_damping::dense;
-use frictionsim::contact::PairError;
+use frictionsim::contact::{PairError, RigidCounterface};
 
 const STEEL: ElasticMaterial = elastic(2e11, 0.3, 7850.0, PlaneFormulation::ThreeDimensional);
 
@@ -33,10 +33,30 @@ fn boundary(mesh: &Mesh, name: &str) -> usize {
 
 /// The lower side of `upper` slides on the upper side of `lower`.
 fn sliding(mesh: &Mesh, normal_stiffness: Option<f64>) -> SlidingSurfaces {
+    let counter = Counterpart::Surface(boundary(mesh, "lower_z1"));
+    contact_of(mesh, "upper_z0", counter, normal_stiffness)
+}
+
+/// A surface on a rigid counterface.
+pub fn on_rigid(
+    mesh: &Mesh,
+    surface: &str,
+    rigid: RigidCounterface,
+    normal_stiffness: Option<f64>,
+) -> SlidingSurfaces {
+    contact_of(mesh, surface, Counterpart::Rigid(rigid), normal_stiffness)
+}
+
+fn contact_of(
+    mesh: &Mesh,
+    surface: &str,
+    counter: Counterpart,
+    normal_stiffness: Option<f64>,
+) -> SlidingSurfaces {
     SlidingSurfaces {
         name: "pad".to_owned(),
-        surface: boundary(mesh, "upper_z0"),
-        counter: Counterpart::Surface(boundary(mesh, "lower_z1")),
+        surface: boundary(mesh, surface),
+        counter,
         friction: PairFriction { ratio: 1.0, decay: None },
         stiffness: ContactStiffness { normal_stiffness, ..RIGID },
         law: None,

@@ -1,7 +1,7 @@
 //! The stress of the base state in small motions of solid bodies: geometric stiffness, and contact forces that turn.
 
 use super::rigid_counterface::plane;
-use super::{OPTIONS, STEEL, boundary, mesh_of, sliding, stacked, turning};
+use super::{OPTIONS, STEEL, mesh_of, on_rigid, sliding, stacked, turning};
 use crate::bricks::file_of_order;
 use crate::prelude::*;
 use frictionsim::contact::{RigidCounterface, RigidMotion, RigidShape};
@@ -9,7 +9,6 @@ use frictionsim::fem::assemble_geometric_stiffness;
 use frictionsim::prestress::RigidFriction;
 use nalgebra::Vector3;
 use std::collections::BTreeSet;
-use std::f64::consts::{PI, TAU};
 
 const STRESSED: TangentOptions = TangentOptions { geometric_stiffness: true, ..OPTIONS };
 
@@ -139,15 +138,7 @@ fn a_rotation_about_a_rigid_counterface_costs_no_force() {
         let motion = RigidMotion::Turning(10.0);
         let rigid = RigidCounterface { shape, interference: 2e-4, ..plane(motion, center) };
         for normal_stiffness in [None, Some(1e14)] {
-            let contact = SlidingSurfaces {
-                name: "pad".to_owned(),
-                surface: boundary(&mesh, "upper_z0"),
-                counter: Counterpart::Rigid(rigid),
-                friction: PairFriction { ratio: 1.0, decay: None },
-                stiffness: ContactStiffness { normal_stiffness, ..RIGID },
-                law: None,
-                topography: None,
-            };
+            let contact = on_rigid(&mesh, "upper_z0", rigid, normal_stiffness);
             let left = forces_of_a_rotation(&mesh, contact, &[]);
             println!("{shape:?} {normal_stiffness:?}: {left:e}");
             assert!(left < 1e-8, "{shape:?} {normal_stiffness:?}: {left:e}");

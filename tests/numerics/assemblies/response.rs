@@ -3,9 +3,10 @@
 use super::rotation::{ring, turning as spinning};
 use super::{OPTIONS, PRESSED, STEEL, mesh_of, sliding, stacked, tie, turning};
 use crate::prelude::*;
+use crate::structural_damping::dense;
+use faer::linalg::solvers::Solve;
 use frictionsim::fem::RotationFrame;
 use frictionsim::frf::Axis;
-use nalgebra::DVector;
 
 const DAMPED: TangentOptions = TangentOptions {
     damping: RayleighDamping { mass_coefficient: 30.0, stiffness_coefficient: 2e-8 },
@@ -156,25 +157,17 @@ fn a_turning_ring_responds_like_the_dense_system_of_its_matrices() {
 /// All unknowns under a force of 1 N on one of them, by LU of the whole real system.
 fn dense_response(tangent: &SlidingTangent, omega: f64, force: usize) -> Vec<c64> {
     let n = tangent.mass.dimension();
-    let dense = |p: &MatrixPolynomial| {
-        let (mut dense, values) = (DMatrix::zeros(n, n), p.evaluate(0.0));
-        for column in 0..n {
-            for (k, row) in p.pattern().column(column) {
-                dense[(row, column)] += values[k];
-            }
+    let [mass, damping, stiffness] =
+        [&tangent.mass, &tangent.damping, &tangent.stiffness].map(|p| dense(p, 0.0));
+    let whole = Mat::from_fn(2 * n, 2 * n, |i, j| {
+        let at = (i % n, j % n);
+        match (i < n, j < n) {
+            (true, false) => -omega * damping[at],
+            (false, true) => omega * damping[at],
+            _ => stiffness[at] - omega * omega * mass[at],
         }
-        dense
-    };
-    let real = dense(&tangent.stiffness) - dense(&tangent.mass) * (omega * omega);
-    let imaginary = dense(&tangent.damping) * omega;
-    let mut whole = DMatrix::zeros(2 * n, 2 * n);
-    for (row, column, block) in
-        [(0, 0, &real), (n, n, &real), (0, n, &-&imaginary), (n, 0, &imaginary)]
-    {
-        whole.view_mut((row, column), (n, n)).copy_from(block);
-    }
-    let mut load = DVector::zeros(2 * n);
-    load[force] = 1.0;
-    let x = whole.lu().solve(&load).unwrap();
-    (0..n).map(|k| c64::new(x[k], x[n + k])).collect()
+    });
+    let load = Mat::from_fn(2 * n, 1, |i, _| f64::from(u8::from(i == force)));
+    let x = whole.partial_piv_lu().solve(&load);
+    (0..n).map(|k| c64::new(x[(k, 0)], x[(n + k, 0)])).collect()
 }

@@ -1,6 +1,6 @@
 //! Solid bodies on a rigid counterface: a block that is held at every node is one, and the program has another route for it.
 
-use super::{STEEL, boundary, eigenvalues, largest_difference, mesh_of, sliding, stacked, turning};
+use super::{STEEL, eigenvalues, largest_difference, mesh_of, on_rigid, sliding, stacked, turning};
 use crate::prelude::*;
 use frictionsim::contact::{PairError, RigidCounterface, RigidMotion, RigidShape, Topography};
 
@@ -105,16 +105,7 @@ fn a_shaft_presses_a_bush_evenly_whatever_its_axis() {
             motion: RigidMotion::Turning(-3.0),
             interference: 1e-6,
         };
-        let contact = SlidingSurfaces {
-            name: "shaft".to_owned(),
-            surface: boundary(&mesh, "bush_x0"),
-            counter: Counterpart::Rigid(rigid),
-            friction: PairFriction { ratio: 1.0, decay: None },
-            stiffness: ContactStiffness::default(),
-            law: None,
-            topography: None,
-        };
-        let assembly = assembled(&mesh, contact, &[]);
+        let assembly = assembled(&mesh, on_rigid(&mesh, "bush_x0", rigid, None), &[]);
         let (_, surface) = &assembly.contacts()[0];
         for (point, site) in surface.points.iter().zip(&surface.sites) {
             assert!((point.speed / (3.0 * radius) - 1.0).abs() < 1e-9);

@@ -9,12 +9,7 @@ const SLOPE: f64 = 1e-3;
 
 /// Scattered places over the contact, always the same.
 fn places(count: usize) -> Vec<[f64; 3]> {
-    let mut state = 7_u64;
-    let mut draw = || {
-        state =
-            state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (state >> 40) as f64 / (1_u64 << 24) as f64
-    };
+    let mut draw = crate::draws::draws(7);
     (0..count).map(|_| [0.05 * draw(), 0.04 * draw(), 0.02]).collect()
 }
 

@@ -103,10 +103,7 @@ fn worst_difference(
             let modes: Vec<c64> = modes.map(|mode| mode.eigenvalue).filter(is_wanted).collect();
             let copies = if mu == 0.0 && !is_standing { 2 } else { 1 };
             assert_eq!(modes.len(), copies * dense.len(), "{n} at {mu}: {modes:?} {dense:?}");
-            for lambda in &modes {
-                let nearest = dense.iter().map(|d| (d - lambda).norm()).fold(f64::MAX, f64::min);
-                worst = worst.max(nearest / lambda.norm());
-            }
+            worst = worst.max(largest_error(&dense, &modes));
         }
     }
     worst

@@ -2,7 +2,7 @@
 
 use crate::cea_cyclic::model::paper_options;
 use crate::prelude::*;
-use crate::waves::{STEP, difference, is_of, pairs, rates};
+use crate::waves::{STEP, is_of, pairs, rates};
 use frictionsim::cea::cyclic::{WavePair, sweep};
 
 const FRICTION: f64 = 0.35;
@@ -27,10 +27,20 @@ fn tangent(model: &CyclicModel) -> WaveTangent {
     WaveTangent::of_annulus(&sector, material, options, contact).unwrap()
 }
 
-/// One eigenvalue of a changed model, by following its branch.
-fn eigenvalue_of(model: &CyclicModel, like: &WavePair, friction: f64) -> c64 {
-    let found = swept(model, &[friction], 17600.0);
-    found.branches.iter().find(is_of(like)).unwrap().interpolate(friction).unwrap()
+/// Differences of changed models by following each branch, of fourth order, so that the step may stay far above round-off; `at` has
+/// model and friction so much further.
+fn differences(pairs: &[WavePair], step: f64, at: &dyn Fn(f64) -> (CyclicModel, f64)) -> Vec<c64> {
+    let sides = [-2.0, -1.0, 1.0, 2.0].map(|steps| {
+        let (model, friction) = at(steps * step);
+        (swept(&model, &[friction], 17600.0).branches, friction)
+    });
+    let difference = |pair: &WavePair| {
+        let [a, b, c, d] = sides.each_ref().map(|(branches, friction)| {
+            branches.iter().find(is_of(pair)).unwrap().interpolate(*friction).unwrap()
+        });
+        ((c - b) * 8.0 - (d - a)) / (12.0 * step)
+    };
+    pairs.iter().map(difference).collect()
 }
 
 /// Name, value, step relative to it for differences of analyses, and what a share of the value more is.
@@ -47,16 +57,16 @@ fn compare(model: &CyclicModel, checks: &[Check<'_>], tolerance: f64) -> usize {
             changed
         };
         let rates = rates(&pairs, STEP * value, &|offset| tangent(&moved(offset / value)));
-        for (pair, rate) in pairs.iter().zip(rates) {
-            let numeric = difference(*step, &|share| eigenvalue_of(&moved(share), pair, FRICTION));
+        let numeric = differences(&pairs, *step, &|share| (moved(share), FRICTION));
+        for ((pair, rate), numeric) in pairs.iter().zip(rates).zip(numeric) {
             // Relative to the change over the parameter's own size, and to |lambda| where that is tiny.
             let error = (rate * *value - numeric).norm();
             let size = numeric.norm() + 1e-3 * pair.eigenvalue.norm();
             assert!(error < tolerance * size, "{name} {pair:?} {numeric} {:e}", error / size);
         }
     }
-    for pair in &pairs {
-        let numeric = difference(1e-3, &|more| eigenvalue_of(model, pair, FRICTION + more));
+    let numeric = differences(&pairs, 1e-3, &|more| (*model, FRICTION + more));
+    for (pair, numeric) in pairs.iter().zip(numeric) {
         assert!((numeric - pair.derivative).norm() < 1e-9 * pair.eigenvalue.norm());
     }
     pairs.len()
@@ -121,20 +131,42 @@ fn sensitivities_of_stiffening_contact_equal_finite_differences() {
             cubic_stiffness: cubic_stiffness * (1.0 + second),
         },
     };
-    let of = |law: NormalLaw| stiffening(law);
     for (law, element) in laws.into_iter().zip([ElementKind::Quad8, ElementKind::Quad4]) {
         let mut contact = contact(610.0);
         contact.interference = 3e-4;
         let mut options = paper_options();
-        options.contact = of(law);
+        options.contact = stiffening(law);
         let specification = annulus(element, 24, 6);
         let model = CyclicModel { specification, material: POLYCARBONATE.into(), options, contact };
         // Shares of the values.
         let checks: [Check<'_>; 4] = [
-            ("first number", 1.0, 1e-3, &|m, x| m.options.contact = of(moved(law, [x, 0.0]))),
-            ("second number", 1.0, 1e-3, &|m, x| m.options.contact = of(moved(law, [0.0, x]))),
+            ("first number", 1.0, 1e-3, &|m, x| {
+                m.options.contact = stiffening(moved(law, [x, 0.0]));
+            }),
+            ("second number", 1.0, 1e-3, &|m, x| {
+                m.options.contact = stiffening(moved(law, [0.0, x]));
+            }),
             ("E", 1.0, 1e-3, &|m, x| m.material.annulus.young_modulus *= 1.0 + x),
             ("nu", 1.0, 1e-3, &|m, x| m.material.annulus.poisson_ratio *= 1.0 + x),
+        ];
+        assert!(compare(&model, &checks, 1e-6) > 5);
+    }
+}
+
+/// Independent check: the same of friction that falls with speed, and of the pressure that it acts under.
+#[test]
+fn sensitivities_to_a_falling_law_equal_finite_differences() {
+    for normal_stiffness in [None, Some(7.4e12)] {
+        let mut options = paper_options();
+        options.contact.normal_stiffness = normal_stiffness;
+        let contact = SlidingContact { interference: 3e-4, ..falling(300.0) };
+        let specification = annulus(ElementKind::Quad4, 24, 6);
+        let model = CyclicModel { specification, material: POLYCARBONATE.into(), options, contact };
+        let checks: [Check<'_>; 4] = [
+            ("q", 1.0, 1e-3, &|m, x| m.contact.decay.as_mut().unwrap().static_ratio += x),
+            ("v_c", 1.0, 1e-3, &|m, x| m.contact.decay.as_mut().unwrap().decay_speed += x),
+            ("E", 1.0, 1e-3, &|m, x| m.material.annulus.young_modulus += 2e9 * x),
+            ("nu", 1.0, 1e-3, &|m, x| m.material.annulus.poisson_ratio += x),
         ];
         assert!(compare(&model, &checks, 1e-6) > 5);
     }

@@ -11,7 +11,7 @@
 
 pub mod bessel;
 pub mod prestress;
-mod radial;
+pub mod radial;
 
 use faer::prelude::*;
 use faer::{Mat, c64};

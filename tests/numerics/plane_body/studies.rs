@@ -5,9 +5,7 @@
 
 use crate::prelude::*;
 use frictionsim::results::uncertainty::document;
-use frictionsim::study::eigenvalues::modes_at_own_friction;
 use frictionsim::study::fit::{MeasuredMode, fit_case, refuse_too_few};
-use frictionsim::study::tangent_options;
 use frictionsim::study::uncertainty::{Sampler, summarize};
 
 const MODEL: &str = "[material]\nyoung_modulus = 2.5e9\npoisson_ratio = 0.3805\ndensity = 1228.0\n\
@@ -108,39 +106,6 @@ fn uncertainty_finds_the_lowest_critical_friction_of_an_imported_body() {
         let text = document(&summary).to_text();
         assert!(!text.contains("n ="), "{text}");
     }
-}
-
-#[test]
-fn imported_disc_has_the_critical_friction_of_the_generated_one() {
-    let folder = folder();
-    let lowest = |mesh: &str| {
-        let case = case(&folder, mesh, &[]);
-        let samples = Sampler::new(&case).unwrap().block(1);
-        let lowest = samples.iter().map(|sample| {
-            let onset = sample.lowest(0.5).expect("an onset");
-            [onset.critical_friction, onset.frequency_hz]
-        });
-        lowest.collect::<Vec<_>>()
-    };
-    assert_same(&lowest("disc.msh"), &lowest(""), 1e-6);
-}
-
-/// The modes of the body at a density are fitted back to it.
-#[test]
-fn a_fit_of_an_imported_body_is_of_that_body() {
-    let folder = folder();
-    let truth = case(&folder, "oval.msh", &["material.density=1500"]);
-    let options = tangent_options(&truth, frictionsim::fem::MassKind::Consistent);
-    let limit = frictionsim::cea::ModeLimit::Lowest(3);
-    let modes = modes_at_own_friction(&truth, &options, limit).unwrap();
-    let lines: Vec<MeasuredMode> = modes
-        .iter()
-        .enumerate()
-        .map(|(index, mode)| line(index + 2, mode.frequency_hz()))
-        .collect();
-    let fitted = fit_case(&case(&folder, "oval.msh", &[]), &lines).unwrap();
-    let found = fitted.parameters[0].value;
-    assert!((found / 1500.0 - 1.0).abs() < 1e-6, "{found}");
 }
 
 #[test]

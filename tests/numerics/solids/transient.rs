@@ -203,22 +203,9 @@ fn a_compliant_ring_with_dashpots_on_supports_of_its_own_keeps_the_balance() {
 fn a_resumed_run_has_the_bits_of_one_that_was_never_stopped() {
     let model = ringed([24, 4, 2]);
     let sector = SolidSector::generate(&model.specification).unwrap();
-    let body = body(&model, &sector);
-    let operator = operator(&body);
     let whole = seeded(2, 1.0, 4e-4);
     let half = TransientSettings { duration: 2e-4, ..whole.clone() };
-    let mut one = CentralDifference::start(body, operator.as_ref(), &whole).unwrap();
-    let mut record = Recorder::new(&one, &RecorderSettings::default()).unwrap();
-    one.run(&mut record).unwrap();
-    let mut first = CentralDifference::start(body, operator.as_ref(), &half).unwrap();
-    let mut earlier = Recorder::new(&first, &RecorderSettings::default()).unwrap();
-    first.run(&mut earlier).unwrap();
-    let mut second =
-        CentralDifference::resume(body, operator.as_ref(), &whole, &first.state()).unwrap();
-    let mut later = earlier.resume(&second, &RecorderSettings::default()).unwrap();
-    second.run(&mut later).unwrap();
-    assert_eq!(one.state(), second.state());
-    assert_eq!(record.rows, later.rows);
+    goes_on(body(&model, &sector), OperatorChoice::Auto, [&half, &whole]);
 }
 
 #[test]

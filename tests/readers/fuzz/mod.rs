@@ -5,7 +5,7 @@
 //! its seed and leaves the input in `target/tmp`.
 
 mod meshes;
-mod mutation;
+pub mod mutation;
 mod readers;
 mod results;
 
@@ -23,7 +23,7 @@ fn variable(name: &str, default: u64) -> u64 {
 }
 
 /// Tries inputs until the time is over: `make` builds one from a seed, `try_one` must neither panic nor take long.
-fn hold<T: AsRef<[u8]>>(
+pub fn hold<T: AsRef<[u8]>>(
     target: &str,
     make: impl Fn(&mut mutation::Random) -> T,
     try_one: impl Fn(&[u8]),

@@ -1,0 +1,41 @@
+//! What a search or a sweep keeps of itself, to go on with after an interruption.
+
+#![allow(dead_code, reason = "each binary uses a part")]
+
+use frictionsim::cea::{SweepProgress, SweepWatch};
+use std::collections::BTreeMap;
+use std::sync::Mutex;
+
+/// Keeps every step of a search, and gives back those of an earlier one.
+#[derive(Default)]
+pub struct Kept {
+    /// What an earlier search has left.
+    pub earlier: BTreeMap<String, Vec<Vec<f64>>>,
+    /// Every step kept, in its order.
+    pub steps: Mutex<Vec<(String, Vec<Vec<f64>>)>>,
+}
+
+impl Kept {
+    /// What a search leaves that stops after so many of its steps.
+    pub fn after(&self, count: usize) -> Self {
+        let steps = self.steps.lock().unwrap();
+        Self { earlier: steps.iter().take(count).cloned().collect(), ..Self::default() }
+    }
+
+    pub fn count(&self) -> usize {
+        self.steps.lock().unwrap().len()
+    }
+}
+
+impl SweepWatch for Kept {
+    fn reached(&self, _progress: SweepProgress) {}
+
+    fn recall(&self, name: &str) -> Option<Vec<Vec<f64>>> {
+        self.earlier.get(name).cloned()
+    }
+
+    fn keep(&self, name: &str, columns: &[Vec<f64>]) {
+        let step = (name.to_owned(), columns.to_vec());
+        self.steps.lock().unwrap().push(step);
+    }
+}

@@ -1,0 +1,42 @@
+//! Spectra beside each other.
+
+use crate::prelude::*;
+
+pub fn eigenvalues_of(modes: &[ComplexMode]) -> Vec<c64> {
+    modes.iter().map(|mode| mode.eigenvalue).collect()
+}
+
+/// Largest relative distance of an expected eigenvalue from the nearest one found.
+pub fn largest_error(found: &[c64], expected: &[c64]) -> f64 {
+    let error = |a: &c64| {
+        let distances = found.iter().map(|b| (a - b).norm() / a.norm());
+        distances.fold(f64::INFINITY, f64::min)
+    };
+    expected.iter().map(error).fold(0.0, f64::max)
+}
+
+/// Holds two sweeps to as many modes, each of the harmonic, branch, direction and eigenvalue of one of the other, and to the same
+/// onsets: to a tolerance relative to the eigenvalue, and to one of friction.
+pub fn assert_same(
+    ours: &FrictionSweep,
+    theirs: &FrictionSweep,
+    [modes, onsets]: [f64; 2],
+    what: &str,
+) {
+    for (ours, theirs) in ours.points.iter().zip(&theirs.points) {
+        assert_eq!(ours.modes.len(), theirs.modes.len(), "{what}");
+        let name = |mode: &ComplexMode| (mode.harmonic, mode.branch, mode.direction);
+        for mode in &ours.modes {
+            let same = theirs.modes.iter().filter(|other| name(other) == name(mode));
+            let same: Vec<c64> = same.map(|other| other.eigenvalue).collect();
+            let error = largest_error(&same, &[mode.eigenvalue]);
+            assert!(error < modes, "{what}: {mode:?} {error:e}");
+        }
+    }
+    assert_eq!(ours.intervals.len(), theirs.intervals.len(), "{what}");
+    for (ours, theirs) in ours.intervals.iter().zip(&theirs.intervals) {
+        assert_eq!((ours.harmonic, ours.direction), (theirs.harmonic, theirs.direction));
+        let apart = (ours.critical_friction - theirs.critical_friction).abs();
+        assert!(apart < onsets, "{what}: {ours:?} {theirs:?}");
+    }
+}
