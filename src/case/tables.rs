@@ -35,8 +35,7 @@ impl<'a> TableFiles<'a> {
     }
 
     fn bytes(&mut self, file: &str) -> Result<Arc<[u8]>, String> {
-        let known = self.read.iter().chain(&self.raw.tables);
-        let mut known = known.filter(|table| table.file == file);
+        let mut known = self.read.iter().chain(&self.raw.tables).filter(|table| table.file == file);
         let bytes = match known.next() {
             Some(table) => Arc::clone(&table.bytes),
             None => {

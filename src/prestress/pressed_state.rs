@@ -305,8 +305,7 @@ impl Polynomials {
 }
 
 fn largest(values: &[Vec<f64>]) -> f64 {
-    let all = values.iter().flatten();
-    all.fold(0.0_f64, |m, v| m.max(v.abs()))
+    values.iter().flatten().fold(0.0_f64, |m, v| m.max(v.abs()))
 }
 
 /// The largest of the last two coefficients of the Chebyshev series through `values` at Chebyshev points,
