@@ -108,8 +108,7 @@ pub struct CaseErrors {
 impl CaseErrors {
     /// The message of each error.
     pub fn messages(&self) -> Vec<String> {
-        let all = self.diagnostics.iter();
-        all.map(|error| error.message.clone()).collect()
+        self.diagnostics.iter().map(|error| error.message.clone()).collect()
     }
 
     /// All of them in one line.

@@ -180,7 +180,7 @@ impl Case {
         let mut common = model::material(&root, &mut tables);
         let model::Model { body, thickness, mesh, contact } =
             model::model(&root, &raw, &mut common, &mut tables);
-        let (material, tables) = (common.own.elastic, tables.into_read());
+        let (material, tables) = (common.own.elastic, tables.read);
         let damping = model::damping(&root);
         let cea = cea::cea(&root, body.as_ref(), contact.sliding.friction_coefficient);
         let transient = transient::transient(&root, body.as_ref(), &contact.sliding);

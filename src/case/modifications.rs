@@ -36,8 +36,7 @@ pub(super) type Misfit = (String, String);
 /// Reads every section.
 pub(super) fn sections(root: &Section<'_>) -> Vec<Modification> {
     let read = root.each("modifications", modification);
-    let named = read.into_iter();
-    named.map(|(name, own)| Modification { name, ..own }).collect()
+    read.into_iter().map(|(name, own)| Modification { name, ..own }).collect()
 }
 
 /// One section, without its name.

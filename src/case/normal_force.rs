@@ -10,7 +10,7 @@ use super::diagnostic::CaseErrors;
 use super::refusal;
 use super::{Case, Revolution};
 use crate::contact::{Counterpart, SlidingContact};
-use crate::fem::{assemble_stiffness, sector};
+use crate::fem::{MassKind, assemble_stiffness, sector};
 use crate::mesh::{SectorMesh, SolidSector};
 use crate::prestress::{PrestressError, SectorSliding, SolidSliding, SteadySliding};
 
@@ -144,6 +144,14 @@ fn set_interference(case: &mut Case, contact: usize, interference: f64) {
 }
 
 impl Case {
+    /// Mass of the analysis by harmonics, else that of a time step: contact of bricks follows it.
+    pub fn mass(&self) -> MassKind {
+        let own = self.cea.as_ref().map(|own| own.mass);
+        let own = own.or(self.frf.as_ref().map(|own| own.mass));
+        let is_stepped = self.transient.is_some();
+        own.unwrap_or(if is_stepped { MassKind::Lumped } else { MassKind::Consistent })
+    }
+
     /// Normal force of each contact without friction, N: the sum of its forces along its normals, none across a gap.
     ///
     /// # Errors
@@ -163,7 +171,7 @@ impl Case {
                 let mesh = SolidSector::generate(specification).map_err(in_words)?;
                 let elastic = sector::stiffness(&mesh, materials);
                 let law = self.contact.stiffness.base_law();
-                let base = SolidSliding::solve(&mesh, &elastic, &contact, law);
+                let base = SolidSliding::solve(&mesh, &elastic, &contact, law, self.mass());
                 let whole = mesh.sector_count() as f64;
                 let sum =
                     |base: SolidSliding| base.normal_forces.iter().map(|own| own.1).sum::<f64>();
@@ -176,8 +184,7 @@ impl Case {
             }
             Body::Assembly(body) => body.assembled().and_then(|assembly| {
                 let range = assembly.range(&[0.0])?;
-                let forces = range.states[range.state_of[0]].normal_forces(0.0);
-                let mut rest = forces.into_iter();
+                let mut rest = range.states[range.state_of[0]].normal_forces(0.0).into_iter();
                 let contacts = assembly.contacts().iter().map(|(_, surface)| surface.points.len());
                 Ok(contacts.map(|count| rest.by_ref().take(count).sum()).collect())
             }),

@@ -117,8 +117,7 @@ impl RawCase {
     ) -> Result<Self, CaseErrors> {
         for text in overrides {
             self.overrides.push(text.clone());
-            let source = self.overrides.len();
-            overrides::lay(&mut self.root, text, source, &mut diagnostics);
+            overrides::lay(&mut self.root, text, self.overrides.len(), &mut diagnostics);
         }
         if diagnostics.is_empty() { Ok(self) } else { Err(self.errors(diagnostics)) }
     }

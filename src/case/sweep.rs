@@ -71,8 +71,7 @@ impl Sweep {
             })
             .collect();
         places.reverse();
-        let chosen = self.keys.iter().zip(places);
-        chosen.flat_map(|(key, at)| key.overrides(&key.values[at])).collect()
+        self.keys.iter().zip(places).flat_map(|(key, at)| key.overrides(&key.values[at])).collect()
     }
 }
 

@@ -20,7 +20,7 @@ const FALL: f64 = 0.05;
 /// The tables of a case: known already, or files beside it.
 pub(super) struct TableFiles<'a> {
     raw: &'a RawCase,
-    read: Vec<TableBytes>,
+    pub(super) read: Vec<TableBytes>,
 }
 
 impl<'a> TableFiles<'a> {
@@ -29,14 +29,8 @@ impl<'a> TableFiles<'a> {
         Self { raw, read: Vec::new() }
     }
 
-    /// What was read.
-    pub(super) fn into_read(self) -> Vec<TableBytes> {
-        self.read
-    }
-
     fn bytes(&mut self, file: &str) -> Result<Arc<[u8]>, String> {
-        let known = self.read.iter().chain(&self.raw.tables);
-        let mut known = known.filter(|table| table.file == file);
+        let mut known = self.read.iter().chain(&self.raw.tables).filter(|table| table.file == file);
         let bytes = match known.next() {
             Some(table) => Arc::clone(&table.bytes),
             None => {

@@ -90,6 +90,5 @@ pub(super) fn cycle(
         return told(&study.report(results, Vec::new(), wall()));
     }
     let study = PeriodicStudy::new(case, simd)?;
-    let results = study.run(0, &Unwatched, &|_| {})?;
-    told(&study.report(results, wall()))
+    told(&study.report(study.run(0, &Unwatched, &|_| {})?, wall()))
 }

@@ -341,14 +341,19 @@ fn disc_under_a_ring(rpm: f64, more: &str) -> String {
     )
 }
 
-/// A built-in disc of 20 bricks around with what `motion` says of it.
-fn built_in(name: &str, rpm: f64, motion: &str, method: &str) -> Result<Solution, CaseErrors> {
-    let more = format!(
+/// A built-in disc of bricks with what `more` says of its contact, mesh and boundaries.
+fn disc_of_bricks([around, radial]: [usize; 2], more: &str) -> String {
+    format!(
         "base_state = \"compliant\"\nboundary = \"top\"\n[geometry]\ninner_radius = 0.05\nouter_radius = 0.15\n\
-         thickness = 0.01\n[mesh]\ncircumferential_elements = 20\nradial_elements = 3\naxial_elements = 1\n\
-         [boundaries.inner]\ncondition = \"clamped\"\n[boundaries.outer]\ncondition = \"free\"\n{motion}"
-    );
-    let text = disc_under_a_ring(rpm, &more);
+         thickness = 0.01\n[boundaries.inner]\ncondition = \"clamped\"\n[boundaries.outer]\n\
+         condition = \"free\"\n[mesh]\ncircumferential_elements = {around}\n\
+         radial_elements = {radial}\naxial_elements = 1\n{more}"
+    )
+}
+
+/// One of 20 bricks around with what `motion` says of it.
+fn built_in(name: &str, rpm: f64, motion: &str, method: &str) -> Result<Solution, CaseErrors> {
+    let text = disc_under_a_ring(rpm, &disc_of_bricks([20, 3], motion));
     read(name, b"", &text, method).map(|_| solved(name, b"", &text, method))
 }
 
@@ -411,4 +416,38 @@ fn a_body_of_revolution_turns_as_a_whole_about_its_axis_in_its_own_frame() {
         [motion.disc]\naxis = [0.0, 0.0, 1.0]\nrotation_speed_rpm = 60.0\n[cea]\nmodes = 4\n";
     let plane = read("plane-motion", &plane, text, "auto").unwrap_err().to_string();
     assert!(plane.contains("plane annulus has no [motion.*]"), "{plane}");
+}
+
+/// Cross-method: a disc whose face is pressed all over has the spectrum of its whole mesh. Linear
+/// bricks have the same contact, on the face that their nodes span.
+#[test]
+fn a_disc_of_linear_bricks_has_the_contact_of_its_whole_mesh() {
+    let guided = "[boundaries.bottom]\ncondition = \"guide\"\n";
+    let text = disc_under_a_ring(300.0, &disc_of_bricks([20, 3], guided));
+    let of = |method: &str| solved(&format!("guided-{method}"), b"", &text, method);
+    assert_equal(&of("cyclic"), &of("sparse"), 1e-6);
+}
+
+/// Cross-method: where the disc bends away from the ring, waves end the pressed part within an
+/// element, the whole mesh at points of it. They are as near each other as the mesh is fine.
+#[test]
+fn a_disc_that_bends_away_from_its_ring_is_the_same_by_waves_and_as_a_whole() {
+    for (divisions, tolerance) in [([20, 3], 0.02), ([40, 6], 0.01)] {
+        let text = disc_under_a_ring(300.0, &disc_of_bricks(divisions, ""));
+        let of = |method: &str| solved(&format!("bent-{method}"), b"", &text, method).sweep;
+        let [waves, whole] = ["cyclic", "sparse"].map(of);
+        let frequencies = |sweep: &FrictionSweep| {
+            let modes = sweep.points[1].modes.iter();
+            modes.map(ComplexMode::frequency_hz).collect::<Vec<_>>()
+        };
+        for (own, other) in frequencies(&waves).iter().zip(frequencies(&whole)) {
+            assert!((own / other - 1.0).abs() < tolerance, "{own} {other}");
+        }
+        let critical = |sweep: &FrictionSweep| {
+            let all = sweep.intervals.iter().map(|own| own.critical_friction);
+            all.fold(f64::INFINITY, f64::min)
+        };
+        let [own, other] = [critical(&waves), critical(&whole)];
+        assert!((own / other - 1.0).abs() < tolerance, "{own} {other}");
+    }
 }

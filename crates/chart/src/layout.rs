@@ -233,7 +233,7 @@ impl<'a> Layout<'a> {
             cell.draw_head(svg, self.has_letters().then(|| letter(index)));
         }
         let y = self.draw_foot(svg);
-        svg.set_height(y + RIM);
+        svg.height = y + RIM;
     }
 
     /// Draws the scale of colours and the remarks, side by side where there is room, and gives the lower end.

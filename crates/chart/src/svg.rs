@@ -143,7 +143,7 @@ pub fn escape(text: &str) -> String {
 #[derive(Clone, Debug)]
 pub struct Svg {
     width: f64,
-    height: f64,
+    pub(crate) height: f64,
     prefix: String,
     definitions: String,
     body: String,
@@ -162,11 +162,6 @@ impl Svg {
     /// Its width, points.
     pub fn width(&self) -> f64 {
         self.width
-    }
-
-    /// Sets the height once the contents are known.
-    pub fn set_height(&mut self, height: f64) {
-        self.height = height;
     }
 
     fn id(&mut self) -> String {

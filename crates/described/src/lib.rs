@@ -96,10 +96,10 @@ fn describe_field(tokens: &mut Tokens, calls: &mut String) {
         }
         of_type.extend([token]);
     }
-    let meaning = docs.join(", ");
     let _ = writeln!(
         calls,
         "::frictionsim_output::describe_field(<{of_type} as ::frictionsim_output::Described>::describe, path,
-            (\"{name}\", concat!({meaning}), {is_flat}), keys);"
+            (\"{name}\", concat!({}), {is_flat}), keys);",
+        docs.join(", ")
     );
 }

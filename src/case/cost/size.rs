@@ -113,8 +113,7 @@ fn element_frequency(mesh: &Mesh, element: usize, speed: f64) -> f64 {
 fn solid_frequency(mesh: &Mesh, element: usize, speed: f64) -> f64 {
     let (kind, nodes) = (mesh.element_kind(element), mesh.element_nodes(element));
     let place = |corner: usize| nalgebra::Vector3::from(mesh.nodes[nodes[corner] as usize]);
-    let edges = kind.edges().iter();
-    let lengths = edges.map(|&[a, b]| (place(a) - place(b)).norm());
+    let lengths = kind.edges().iter().map(|&[a, b]| (place(a) - place(b)).norm());
     let shortest = lengths.fold(f64::INFINITY, f64::min);
     let finer = if kind.is_quadratic() { QUADRATIC } else { 1.0 };
     2.0 * finer * speed * 3.0_f64.sqrt() / shortest

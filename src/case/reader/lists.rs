@@ -89,8 +89,7 @@ impl<'a> Section<'a> {
             return Some(self.range(key, table, item, bound));
         }
         if self.is_some_text(key) {
-            let wanted = "must be a list of numbers or a range { from, to, count }";
-            self.reject_at(item, key, wanted);
+            self.reject_at(item, key, "must be a list of numbers or a range { from, to, count }");
             return Some(Vec::new());
         }
         let values = item.listed().iter();

@@ -33,12 +33,8 @@ impl<'a> MovingBody<'a> {
         }
     }
 
-    /// The surface of solid bodies with the edges of all their elements.
-    pub fn with_elements(mesh: &'a Mesh) -> Self {
-        Self::of_surface(mesh, true)
-    }
-
-    fn of_surface(mesh: &'a Mesh, has_all_edges: bool) -> Self {
+    /// The surface of solid bodies, with the edges of all their elements or those of their shape.
+    pub fn of_surface(mesh: &'a Mesh, has_all_edges: bool) -> Self {
         let faces = mesh.outer_faces();
         let ring = |face: &BoundaryFace| face.nodes[..face.kind.corner_count()].to_vec();
         let rings = faces.iter().map(ring).collect();

@@ -56,11 +56,6 @@ pub fn status_keys() -> Vec<(Key, String)> {
     STATUSES.iter().map(key).collect()
 }
 
-/// Colour of areas in a status.
-pub fn area_colour(status: ContactStatus) -> &'static str {
-    entry(status).0
-}
-
 /// Colour of lines in a status: open contact is darker than its areas.
 pub fn line_colour(status: ContactStatus) -> &'static str {
     entry(status).2
@@ -93,7 +88,7 @@ pub fn status_ring(radius: f64, first_angle: f64, status: &[ContactStatus]) -> S
         let outline: Vec<_> = arc(0.6 * radius)
             .chain(arc(0.94 * radius).collect::<Vec<_>>().into_iter().rev())
             .collect();
-        pieces.push((outline, area_colour(run[0])));
+        pieces.push((outline, entry(run[0]).0));
         start += run.len();
     }
     // One path for each colour.

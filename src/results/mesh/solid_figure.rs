@@ -48,7 +48,7 @@ pub fn figure(mesh: &Mesh, title: &str, roles: &BTreeMap<usize, &'static str>) -
         let surface = view.parts(condition, legend.clone());
         panel(surface, format!("boundaries, {from}"))
     });
-    let body = MovingBody::with_elements(mesh);
+    let body = MovingBody::of_surface(mesh, true);
     let colours =
         [("regions", body.parts(region, &regions)), ("boundaries", body.parts(condition, &legend))];
     let states =

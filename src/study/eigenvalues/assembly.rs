@@ -95,8 +95,7 @@ impl AssemblyModel {
 
     /// The tangent of one of the states.
     pub(super) fn tangent(&self, state: usize) -> Result<SlidingTangent, CeaError> {
-        let assembly = self.assembly();
-        Ok(assembly.tangent(&self.range.states[state], &self.options)?)
+        Ok(self.assembly().tangent(&self.range.states[state], &self.options)?)
     }
 
     /// The base state point by point at the case's own friction coefficient.

@@ -11,8 +11,7 @@ pub fn dampings(case: &Case, model: &SlidingModel) -> Vec<NamedDamping> {
     let count = regions.len().max(1);
     let mut found: Vec<(Vec<usize>, _)> = Vec::new();
     for region in 0..count {
-        let own = materials.own_damping(region);
-        let damping = own.unwrap_or(case.damping.rayleigh);
+        let damping = materials.own_damping(region).unwrap_or(case.damping.rayleigh);
         match found.iter_mut().find(|(_, known)| *known == damping) {
             Some((regions, _)) => regions.push(region),
             None => found.push((vec![region], damping)),

@@ -356,6 +356,5 @@ pub fn mode_limit(cea: &Cea) -> ModeLimit {
 
 /// The modes of the case's own eigenvalue analysis, else so many of the lowest.
 pub fn asked_modes(case: &Case, otherwise: usize) -> ModeLimit {
-    let own = case.cea.as_ref().map(mode_limit);
-    own.unwrap_or(ModeLimit::Lowest(otherwise))
+    case.cea.as_ref().map(mode_limit).unwrap_or(ModeLimit::Lowest(otherwise))
 }

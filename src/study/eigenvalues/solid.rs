@@ -24,7 +24,7 @@ impl SolidBody {
         let sector = SolidSector::generate(specification)?;
         let elastic = sector::stiffness(&sector, case.materials());
         let law = case.contact.stiffness.base_law();
-        let base = SolidSliding::solve(&sector, &elastic, &case.contact.sliding, law)?;
+        let base = SolidSliding::solve(&sector, &elastic, &case.contact.sliding, law, case.mass())?;
         let friction_coefficient = case.contact.sliding.friction_coefficient;
         let displacement = base.displacement(friction_coefficient);
         let stress = revolved_stress(&sector, case.materials(), &displacement);

@@ -31,13 +31,8 @@ pub(super) struct Derivatives {
 }
 
 impl Derivatives {
-    /// Of each target of a base.
-    pub fn of_targets(base: &Base<'_>) -> Vec<Self> {
-        let targets = base.targets();
-        targets.into_iter().map(|mode| Self::of(base, mode)).collect()
-    }
-
-    fn of(base: &Base<'_>, mode: &PairedMode) -> Self {
+    /// Of a target of a base.
+    pub fn of(base: &Base<'_>, mode: &PairedMode) -> Self {
         let nodes = 0..base.mesh.node_count();
         let elements = 0..base.mesh.element_count();
         let each: Vec<[c64; 2]> = crate::parallel::map(elements, |element| {

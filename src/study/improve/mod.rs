@@ -75,7 +75,8 @@ pub fn improve(case: &Case) -> Result<Improvement, StudyError> {
         _ => 1.0,
     };
     let sizes = sizes(&base, thickness);
-    let derivatives = Derivatives::of_targets(&base);
+    let targets = base.targets().into_iter();
+    let derivatives: Vec<_> = targets.map(|mode| Derivatives::of(&base, mode)).collect();
     let search = Search {
         places: Places::of(&base, sizes.patch_radius_m)?,
         derivatives: &derivatives,

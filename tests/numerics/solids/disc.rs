@@ -41,7 +41,8 @@ fn mean_pressure_of_the_thick_disc_is_that_of_an_independent_solution() {
     let model = disc(ElementKind::Quad8, [36, 12, 2]);
     let sector = SolidSector::generate(&model.specification).unwrap();
     let elastic = sector::stiffness(&sector, &model.material);
-    let base = SolidSliding::solve(&sector, &elastic, &model.contact, None).unwrap();
+    let base =
+        SolidSliding::solve(&sector, &elastic, &model.contact, None, model.options.mass).unwrap();
     assert!((base.mean_pressure(&sector) / 2.599e6 - 1.0).abs() < 1e-3);
 }
 

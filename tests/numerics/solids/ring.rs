@@ -15,7 +15,7 @@ fn base(model: &SolidModel) -> Result<(SolidSector, SolidSliding), PrestressErro
     let sector = SolidSector::generate(&model.specification).unwrap();
     let elastic = sector::stiffness(&sector, &model.material);
     let law = model.options.contact.base_law();
-    let base = SolidSliding::solve(&sector, &elastic, &model.contact, law)?;
+    let base = SolidSliding::solve(&sector, &elastic, &model.contact, law, model.options.mass)?;
     Ok((sector, base))
 }
 
@@ -30,6 +30,22 @@ fn layer(element: ElementKind) -> SolidModel {
         BoundaryCondition::Clamped,
     ];
     model
+}
+
+/// Theory: soft springs all have the pressure `k delta`, those on a clamped edge too.
+#[test]
+fn soft_springs_press_on_a_clamped_edge_too() {
+    for element in [ElementKind::Quad4, ElementKind::Quad8] {
+        let mut model = layer(element);
+        model.specification.conditions[0] = BoundaryCondition::Clamped;
+        compliant(&mut model, 1e9);
+        let (_, base) = base(&model).unwrap();
+        let force: f64 = base.normal_forces.iter().map(|(_, force)| force).sum();
+        let area = TAU / 48.0 * (0.0905_f64.powi(2) - 0.0205_f64.powi(2));
+        let chord = (TAU / 24.0).powi(2) / 6.0;
+        let tolerance = 4e-3 + if element == ElementKind::Quad4 { chord } else { 0.0 };
+        assert!((force / (1e9 * 5e-6 * area) - 1.0).abs() < tolerance, "{force}");
+    }
 }
 
 /// Independent check: a squeezed layer is in uniaxial strain, alone and in series with springs or with contact that stiffens. That gives

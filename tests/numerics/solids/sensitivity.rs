@@ -257,3 +257,44 @@ fn sensitivities_follow_the_end_of_what_is_pressed() {
         compare(&model, &format!("partly open, {law:?}, {element:?}"));
     }
 }
+
+/// On springs that carry the base state the interference changes pressures, hardly a frequency: the
+/// derivative is the same for another step, and for a modulus that differs in its last digits.
+#[test]
+fn a_derivative_by_the_interference_is_that_of_the_pressure_not_of_round_off() {
+    let mut model = disc(ElementKind::Quad8, [24, 8, 2]);
+    let specification = &mut model.specification;
+    specification.annulus.inner_radius = 0.045;
+    specification.annulus.outer_radius = 0.12;
+    specification.thickness = 0.008;
+    specification.contact = SolidContact::Ring { inner_radius: 0.075, outer_radius: 0.11 };
+    specification.conditions = [BoundaryCondition::Free; 4];
+    specification.conditions[0] = BoundaryCondition::Clamped;
+    model.options.geometric_stiffness = true;
+    model.options.contact = ContactStiffness {
+        normal_stiffness: Some(1e11),
+        is_base_compliant: true,
+        ..ContactStiffness::default()
+    };
+    let own_rates = |modulus: f64, step: f64| -> Vec<f64> {
+        let mut model = model.clone();
+        model.material = elastic(modulus, 0.3, 7850.0, PlaneFormulation::ThreeDimensional);
+        model.contact.interference = 1e-5;
+        let request = sweep_request(&[0.0, 0.4], ModeLimit::MaxFrequency(3e3));
+        let found = solid_sweep(&model, &request).unwrap();
+        let all = pairs(&tangent(&model), &found.branches, FRICTION);
+        let changed = |offset: f64| {
+            let mut changed = model.clone();
+            changed.contact.interference += offset;
+            tangent(&changed)
+        };
+        rates(&all, step * 1e-5, &changed).iter().map(|rate| rate.im).collect()
+    };
+    let own = own_rates(2.1e11, STEP);
+    let largest = own.iter().fold(0.0_f64, |m, rate| m.max(rate.abs()));
+    for other in [own_rates(2.1e11, 2.0 * STEP), own_rates(2.1e11 * (1.0 + 1e-14), STEP)] {
+        let errors = own.iter().zip(&other).map(|(a, b)| (a - b).abs() / largest);
+        let worst = errors.fold(0.0, f64::max);
+        assert!(own.len() == other.len() && worst < 1e-6, "{worst:e} {own:?} {other:?}");
+    }
+}

@@ -102,7 +102,8 @@ fn a_wave_under_a_ring_that_opens_in_part_grows_at_the_rate_of_the_eigenvalue_an
     let sector = SolidSector::generate(&model.specification).unwrap();
     let elastic = sector::stiffness(&sector, &model.material);
     let law = model.options.contact.base_law();
-    let base = SolidSliding::solve(&sector, &elastic, &model.contact, law).unwrap();
+    let base =
+        SolidSliding::solve(&sector, &elastic, &model.contact, law, model.options.mass).unwrap();
     assert!(base.is_pressed.contains(&true) && base.is_pressed.contains(&false));
     grows_as_predicted(&model, 3, 4e3, 0.03);
 }

@@ -42,7 +42,8 @@ impl WholeRing {
         let mut ring = Self::new(model, false);
         let sector = ring.sector.clone();
         let elastic = frictionsim::fem::sector::stiffness(&sector, &model.material);
-        let base = SolidSliding::solve(&sector, &elastic, &model.contact, None).unwrap();
+        let base = SolidSliding::solve(&sector, &elastic, &model.contact, None, model.options.mass)
+            .unwrap();
         let face = sector.specification.contact.face();
         let (normal, across) = (face.normal_component(), face.across_component());
         // T = mu N along +e_theta for a rotor that turns counter-clockwise.

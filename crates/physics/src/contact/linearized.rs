@@ -106,8 +106,7 @@ pub fn linearized(
 
 /// Sums the entries of terms that have become many.
 pub(super) fn merge_many(terms: &mut [Triplets]) {
-    let many = terms.iter_mut();
-    many.filter(|term| term.entries.len() > MANY_ENTRIES).for_each(Triplets::merge);
+    terms.iter_mut().filter(|term| term.entries.len() > MANY_ENTRIES).for_each(Triplets::merge);
 }
 
 /// The term of what the power `p` of a state multiplies: `mu^p`, or `(mu - a)^p` from the coefficient `a` on below which it is frozen.
@@ -127,8 +126,7 @@ fn add_normal_law(
     point: &Point,
     coefficient: f64,
 ) {
-    let own = power(terms, alone(p, frozen));
-    add_product(own, coefficient, &point.normal, &point.normal);
+    add_product(power(terms, alone(p, frozen)), coefficient, &point.normal, &point.normal);
     for (term, factor) in following(p, frozen) {
         let follow = point.friction.drag * factor * coefficient;
         add_product(power(terms, term), follow, &point.slip, &point.normal);

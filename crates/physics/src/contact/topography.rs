@@ -64,8 +64,7 @@ impl Topography {
             && self.points.len() > IN_CELL * last.points.len()
             && grids.len() < MOST_GRIDS
         {
-            let size = 0.5 * last.size;
-            grids.push(Cells::of(&self.points, size));
+            grids.push(Cells::of(&self.points, 0.5 * last.size));
         }
         grids.reverse();
         grids

@@ -54,8 +54,7 @@ pub fn turned(points: &[Point], turnings: &[Turning], state: &PressedPoints<'_>)
             normal.iter().for_each(|&(i, j, value)| pressed.push(i, j, force * value));
             for (term, factor) in following(p, frozen) {
                 let (sheared, factor) = (power(&mut terms, term), factor * force);
-                let own = friction.iter();
-                own.for_each(|&(i, j, value)| sheared.push(i, j, factor * value));
+                friction.iter().for_each(|&(i, j, value)| sheared.push(i, j, factor * value));
             }
         }
     }

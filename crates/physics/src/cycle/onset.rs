@@ -163,7 +163,7 @@ pub fn largest_linear_wave(
     // Normal force for a tangential displacement of unit amplitude and phase zero.
     let response = edge[(1, 0)] + onset.friction_coefficient * edge[(1, 1)];
     let force = 1.0 / response;
-    let velocity = onset.frequency * wave.contact_order(1);
+    let velocity = onset.frequency * wave.contact_orders(1)[0];
     let turn = |i: usize| c64::from_polar(1.0, TAU * i as f64 / points as f64 + origin);
     let surface_speed = point.contact.rotation_speed * wave.body.radius;
     let mut limit = (f64::INFINITY, Event::Lift(0));

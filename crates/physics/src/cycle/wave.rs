@@ -98,11 +98,6 @@ impl<'a> Wave<'a> {
         self.orders(k)[0]
     }
 
-    /// `b / omega` of harmonic `k` of one wave.
-    pub fn contact_order(&self, k: usize) -> c64 {
-        self.contact_orders(k)[0]
-    }
-
     /// `i s` of harmonic `k`, 1/s.
     pub fn rate(&self, k: usize, frequencies: [f64; 2]) -> c64 {
         let orders = self.orders(k);

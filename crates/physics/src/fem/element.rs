@@ -118,8 +118,7 @@ impl ElementGeometry {
 
     /// Every point of the full quadrature rule.
     pub fn integration_points(&self) -> Vec<IntegrationPoint> {
-        let points = self.kind.quadrature().into_iter();
-        points.map(|point| self.at(point)).collect()
+        self.kind.quadrature().into_iter().map(|point| self.at(point)).collect()
     }
 
     /// Every point of the rule of the stiffness; elements with curved edges take the full rule, which keeps constant strains.

@@ -121,7 +121,7 @@ impl SectorMatrix {
 }
 
 /// The dofs of a sector that can move, and the shape of the matrices of waves over them.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct WaveDofs {
     /// Unknown of each dof of the sector, `None` for those that are held.
     pub unknown_of: Vec<Option<usize>>,

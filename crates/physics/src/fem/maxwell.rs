@@ -113,10 +113,8 @@ fn response(omega: f64, time: f64) -> c64 {
 
 /// Frequencies from one end of a band to the other, so many for each decade.
 fn spread([low, high]: [f64; 2], per_decade: f64) -> Vec<f64> {
-    let decades = (high / low).log10();
-    let steps = (decades * per_decade).ceil().max(1.0);
-    let count = steps as usize;
-    (0..=count).map(|i| low * (high / low).powf(i as f64 / steps)).collect()
+    let steps = ((high / low).log10() * per_decade).ceil().max(1.0);
+    (0..=steps as usize).map(|i| low * (high / low).powf(i as f64 / steps)).collect()
 }
 
 /// `x >= 0` with the least `|A x - b|`.

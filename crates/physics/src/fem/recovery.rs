@@ -91,8 +91,7 @@ impl Recovery {
 
     /// The regions that meet at a node, each with its weights.
     pub fn at(&self, node: usize) -> impl Iterator<Item = (usize, &[(usize, f64)])> {
-        let all = self.nodes[node].iter();
-        all.map(|own| (own.region, own.weights.as_slice()))
+        self.nodes[node].iter().map(|own| (own.region, own.weights.as_slice()))
     }
 }
 
@@ -118,8 +117,7 @@ impl Samples {
                 }));
             }
             let own = all.places[all.positions.len()..].iter();
-            let own = own.map(|place| geometry.position(&geometry.at((*place, 1.0))));
-            all.positions.extend(own);
+            all.positions.extend(own.map(|place| geometry.position(&geometry.at((*place, 1.0)))));
             all.first.push(all.positions.len());
         }
         all

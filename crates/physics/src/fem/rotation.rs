@@ -99,8 +99,7 @@ fn add_element(mesh: &Mesh, element: usize, density: f64, spin: &Spin, terms: &m
                 sum[1] += weight * point.values[i] * slopes[j];
                 sum[2] += weight * slopes[i] * slopes[j];
             }
-            let frame = mesh.frame(nodes[i] as usize);
-            let pull = frame.transpose() * spin.velocity.cross(&velocity);
+            let pull = mesh.frame(nodes[i] as usize).transpose() * spin.velocity.cross(&velocity);
             for axis in 0..3 {
                 let force = weight * point.values[i] * pull[axis];
                 terms.centrifugal[3 * nodes[i] as usize + axis] -= force;

@@ -5,7 +5,7 @@
 
 use super::assembly::assemble_congruent;
 use super::fold::{SectorMatrix, WaveDofs};
-use super::solid::{FaceTerm, face_matrix, whole_element};
+use super::solid::{FaceRule, FaceTerm, face_matrix, whole_element};
 use super::{
     MassKind, MaterialField, RayleighDamping, Triplets, assemble_extra_damping,
     assemble_geometric_stiffness, assemble_supports, element, element_mass,
@@ -216,45 +216,31 @@ pub fn geometric_stiffness<S: Sectored>(
 
 /// Each supported face.
 fn supported_faces(sector: &SolidSector) -> Vec<SectorSupport> {
-    let mut all = Vec::new();
-    for (face, condition) in SolidFace::ALL.into_iter().zip(&sector.specification.conditions) {
-        let BoundaryCondition::Support(support) = condition else {
-            continue;
+    let conditions = SolidFace::ALL.into_iter().zip(&sector.specification.conditions);
+    let supported = conditions.filter_map(|(face, condition)| {
+        let BoundaryCondition::Support(own) = condition else {
+            return None;
         };
         let elements = sector.face_elements(face);
-        let (normal, across) = (face.normal_component(), face.across_component());
         // Across, a face is tangential like around; a cylinder has its own word for it.
-        let is_cylinder = normal == 0;
-        let axial =
-            if is_cylinder { support.axial_stiffness } else { support.tangential_stiffness };
-        let axial_damping = if is_cylinder { 0.0 } else { support.tangential_damping };
-        let values = [
-            [
-                (normal, support.normal_stiffness),
-                (1, support.tangential_stiffness),
-                (across, axial),
-            ],
-            [
-                (normal, support.normal_damping),
-                (1, support.tangential_damping),
-                (across, axial_damping),
-            ],
-        ];
-        let mut terms = [SectorMatrix::default(), SectorMatrix::default()];
-        for (sum, values) in terms.iter_mut().zip(values) {
-            for (component, value) in values.into_iter().filter(|(_, value)| *value != 0.0) {
-                let term = FaceTerm {
-                    row: component,
-                    column: component,
-                    weight: &|_, _, _| value,
-                    span: &whole_element,
-                    is_nodal: false,
-                };
-                *sum = sum.plus(&face_matrix(sector, &elements, &term));
-            }
-        }
+        let [axial, axial_damping] = match face.normal_component() {
+            0 => [own.axial_stiffness, 0.0],
+            _ => [own.tangential_stiffness, own.tangential_damping],
+        };
+        let rows = [face.normal_component(), 1, face.across_component()];
+        let springs = [own.normal_stiffness, own.tangential_stiffness, axial];
+        let dashpots = [own.normal_damping, own.tangential_damping, axial_damping];
+        let terms = [springs, dashpots].map(|values| {
+            let along = rows.into_iter().zip(values).filter(|(_, value)| *value != 0.0);
+            let matrices = along.map(|(row, value)| {
+                let (weight, rule) = (&|_: &_, _, _| value, FaceRule::Lumped);
+                let term = FaceTerm { row, column: row, weight, span: &whole_element, rule };
+                face_matrix(sector, &elements, &term)
+            });
+            matrices.fold(SectorMatrix::default(), |sum, own| sum.plus(&own))
+        });
         let name = face.name().to_owned();
-        all.push(SectorSupport { name, terms, loss_factor: support.loss_factor });
-    }
-    all
+        Some(SectorSupport { name, terms, loss_factor: own.loss_factor })
+    });
+    supported.collect()
 }

@@ -12,11 +12,21 @@ pub struct FaceTerm<'a> {
     pub column: usize,
     /// `w`, per unit of area, from the radius (m) and the place along the element, -1 to 1.
     pub weight: &'a dyn Fn(&FaceElement, f64, f64) -> f64,
-    /// The part of an element that it acts on, from -1 to 1 along it; of a linear element the nodes at those of its ends that
-    /// belong to it.
+    /// The part of an element that it acts on, from -1 to 1; of a lumped one the ends in it.
     pub span: &'a dyn Fn(&FaceElement) -> [f64; 2],
-    /// Whether the weight of a linear element is taken at its nodes; else at its Gauss points.
-    pub is_nodal: bool,
+    /// How a linear element takes it.
+    pub rule: FaceRule,
+}
+
+/// How a linear element takes a term. Quadratic ones integrate it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FaceRule {
+    /// Consistent, over the plane face that its nodes span: what the whole mesh has.
+    Integrated,
+    /// Lumped at the nodes, with the weight of the Gauss points.
+    Lumped,
+    /// Lumped at the nodes, with the weight there: what a time step has.
+    Nodal,
 }
 
 /// All of an element.
@@ -34,13 +44,13 @@ fn turned(component: usize, ahead: f64) -> [f64; 3] {
     }
 }
 
-/// Angle of each node ahead of a point of a face element, rad.
-fn angles_ahead(sector: &SolidSector, face: &FaceElement, at: [f64; 2]) -> Vec<f64> {
-    let ahead = |(_, half): &(usize, usize)| sector.half_angle() * (*half as f64 - 1.0 - at[0]);
+/// Angle of each node ahead of a point at an angle from the middle of a face element, rad.
+fn angles_ahead(sector: &SolidSector, face: &FaceElement, angle: f64) -> Vec<f64> {
+    let ahead = |(_, half): &(usize, usize)| sector.half_angle() * (*half as f64 - 1.0) - angle;
     face.nodes.iter().map(ahead).collect()
 }
 
-/// The matrix of a term over some elements of a face: consistent for quadratic elements, lumped at the nodes for linear ones.
+/// The matrix of a term over some elements of a face: linear ones by the term's rule.
 pub fn face_matrix(
     sector: &SolidSector,
     faces: &[FaceElement],
@@ -50,28 +60,33 @@ pub fn face_matrix(
         let size = 3 * face.nodes.len();
         let mut matrix = DMatrix::zeros(size, size);
         let span = (term.span)(face);
-        let (middle, half) = match sector.is_quadratic() {
+        let is_integrated = sector.is_quadratic() || term.rule == FaceRule::Integrated;
+        let (middle, half) = match is_integrated {
             true => (0.5 * (span[0] + span[1]), 0.5 * (span[1] - span[0])),
             false => (0.0, 1.0),
         };
         for ([x, y], share) in face_quadrature(sector.is_quadratic()) {
             let point = ([x, middle + half * y], half * share);
             let (values, area) = face.values_at(sector, point);
-            let radius = face.radius_at(sector, point.0);
-            let weight = |along: f64| area * (term.weight)(face, radius, along);
-            if !sector.is_quadratic() {
+            let on_arc = [1.0, face.radius_at(sector, point.0), sector.half_angle() * point.0[0]];
+            let is_flat = is_integrated && !sector.is_quadratic();
+            let [share, radius, angle] =
+                if is_flat { face.on_chord(sector, point.0) } else { on_arc };
+            let weight = |along: f64| area * share * (term.weight)(face, radius, along);
+            if !is_integrated {
                 for (a, value) in values.iter().enumerate() {
                     // Corners 0 and 1 lie at the beginning of the element.
                     let end = [-1.0, 1.0][a / 2];
                     if span[a / 2].abs() == 1.0 {
-                        let weight = weight(if term.is_nodal { end } else { point.0[1] });
+                        let is_nodal = term.rule == FaceRule::Nodal;
+                        let weight = weight(if is_nodal { end } else { point.0[1] });
                         matrix[(3 * a + term.row, 3 * a + term.column)] += weight * value;
                     }
                 }
                 continue;
             }
             let weight = weight(point.0[1]);
-            let ahead = angles_ahead(sector, face, point.0);
+            let ahead = angles_ahead(sector, face, angle);
             let [rows, columns] = [term.row, term.column].map(|c| along(&values, &ahead, c));
             for (j, column) in columns.iter().enumerate() {
                 for (i, row) in rows.iter().enumerate() {
@@ -104,7 +119,7 @@ pub fn face_load(sector: &SolidSector, faces: &[FaceElement], component: usize) 
     for face in faces {
         for point in face_quadrature(sector.is_quadratic()) {
             let (values, area) = face.values_at(sector, point);
-            let ahead = angles_ahead(sector, face, point.0);
+            let ahead = angles_ahead(sector, face, sector.half_angle() * point.0[0]);
             for (((node, _), value), angle) in face.nodes.iter().zip(values).zip(ahead) {
                 let angle = if sector.is_quadratic() { angle } else { 0.0 };
                 for (c, part) in turned(component, angle).into_iter().enumerate() {

@@ -72,8 +72,7 @@ pub fn nodal_stress(
     material: &dyn MaterialField,
     displacement: &[f64],
 ) -> Vec<NodalStress> {
-    let recovered = recovered_stress(mesh, material, displacement);
-    let nodes = recovered.into_iter().enumerate();
+    let nodes = recovered_stress(mesh, material, displacement).into_iter().enumerate();
     nodes
         .map(|(node, found)| match found {
             Some((stress, region)) => {

@@ -144,8 +144,7 @@ impl Mesh {
             let there = &of[*q as usize];
             of[*p as usize].iter().any(|b| there.contains(b))
         };
-        let edges = self.outline_edges();
-        Some(edges.iter().filter(|edge| !is_named(edge)).count())
+        Some(self.outline_edges().iter().filter(|edge| !is_named(edge)).count())
     }
 
     /// Nodes that coincide without being joined, but for those of two named boundaries that lie on each other: surfaces
@@ -156,12 +155,10 @@ impl Mesh {
             let [p, q] = [p, q].map(|node| &of[node as usize]);
             p.iter().any(|b| !q.contains(b)) && q.iter().any(|b| !p.contains(b))
         };
-        let distance = COINCIDENT * self.quality().smallest_edge;
-        let mut pairs = coincident_nodes(&self.nodes, distance);
+        let mut pairs = coincident_nodes(&self.nodes, COINCIDENT * self.quality().smallest_edge);
         pairs.retain(|&(p, q)| !is_meant(p, q));
         let first = pairs.iter().take(NAMED).map(|&(p, q)| {
-            let labels = [p, q].map(|node| self.node_label(node as usize));
-            (labels, self.nodes[p as usize])
+            ([p, q].map(|node| self.node_label(node as usize)), self.nodes[p as usize])
         });
         (!pairs.is_empty()).then(|| UnmergedNodes {
             count: pairs.len(),

@@ -74,8 +74,7 @@ impl Mesh {
             .into_iter()
             .map(|face| ((face.nodes[0], face.nodes[1]), face))
             .collect();
-        let edges = edges.iter();
-        edges.filter_map(|&(start, end, _)| outer.get(&(start, end)).cloned()).collect()
+        edges.iter().filter_map(|&(start, end, _)| outer.get(&(start, end)).cloned()).collect()
     }
 
     /// Gives every boundary the outline edges whose nodes are all its own.

@@ -209,8 +209,7 @@ impl Mesh {
     /// Index of the node that lies nearest to a point, and its distance, m; the first of several.
     pub fn nearest_node(&self, point: [f64; 2]) -> Option<(usize, f64)> {
         let distance = |p: &[f64; 3]| (p[0] - point[0]).hypot(p[1] - point[1]);
-        let nodes = self.nodes.iter().map(distance).enumerate();
-        nodes.min_by(|a, b| a.1.total_cmp(&b.1))
+        self.nodes.iter().map(distance).enumerate().min_by(|a, b| a.1.total_cmp(&b.1))
     }
 
     /// Number of a node as the user knows it: that of the mesh file, or its index from 1.
@@ -235,8 +234,7 @@ impl Mesh {
     /// Corner points of a plane element's outline with mid-side nodes between them where it has any.
     pub fn element_outline(&self, element: usize) -> Vec<u32> {
         let nodes = self.element_nodes(element);
-        let around = self.element_kind(element).outline().into_iter();
-        around.map(|local| nodes[local]).collect()
+        self.element_kind(element).outline().into_iter().map(|local| nodes[local]).collect()
     }
 
     /// The body of each node, counted from the first: nodes that elements connect.

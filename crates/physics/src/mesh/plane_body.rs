@@ -102,8 +102,7 @@ pub(super) fn file_elements(
         mesh.element_kinds.push(element.kind);
         mesh.congruent_to.push(e as u32);
         let region = names.binary_search(&&*element.region);
-        let region = region.expect("regions are those of the elements");
-        mesh.element_regions.push(region as u16);
+        mesh.element_regions.push(region.expect("regions are those of the elements") as u16);
     }
     Ok(mesh)
 }

@@ -284,8 +284,7 @@ impl Cut {
             let mut turned = turns.iter().map(|turn| symmetry.turned(turn, beyond));
             turned.any(|point| inside.has(sector, point))
         };
-        let beside = self.outer.iter().filter(is_beside);
-        beside.filter(is_in_copy).collect()
+        self.outer.iter().filter(is_beside).filter(is_in_copy).collect()
     }
 }
 

@@ -74,13 +74,11 @@ impl Rim {
         // At the end of an arc one neighbour alone lies on it: a step that is on the arc itself.
         let kind = self.kind(p, q)?;
         let from_before = self.beyond(q, p, kind).and_then(|before| {
-            let own = turn_of(points, before, p, q);
-            alike(own, self.two_sided(points, before, p)?)
+            alike(turn_of(points, before, p, q), self.two_sided(points, before, p)?)
         });
         let from_after = || {
             let after = self.beyond(p, q, kind)?;
-            let own = turn_of(points, p, q, after);
-            alike(own, self.two_sided(points, q, after)?)
+            alike(turn_of(points, p, q, after), self.two_sided(points, q, after)?)
         };
         from_before.or_else(from_after)
     }

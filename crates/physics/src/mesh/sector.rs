@@ -80,8 +80,7 @@ impl SectorMesh {
 
     /// The shaft's node at the place of a contact node; `None` on a rigid cylinder.
     pub fn opposite(&self, contact_node: usize) -> Option<usize> {
-        let shaft = self.specification.shaft;
-        shaft.map(|_| contact_node - self.contact_count)
+        self.specification.shaft.map(|_| contact_node - self.contact_count)
     }
 
     /// Nodes of one sector, clamped ones included.
@@ -119,8 +118,7 @@ fn outward_numbering(ray: &Ray) -> Vec<usize> {
     (ray.start..middle)
         .enumerate()
         .flat_map(|(i, corner)| {
-            let beside = (i % 2 == 0).then_some(middle + i / 2);
-            std::iter::once(corner).chain(beside)
+            std::iter::once(corner).chain((i % 2 == 0).then_some(middle + i / 2))
         })
         .collect()
 }

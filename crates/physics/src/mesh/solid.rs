@@ -261,6 +261,11 @@ impl SolidSector {
         rings.into_iter().map(|(_, ring)| ring).collect()
     }
 
+    /// Area of the contact in one sector, m2.
+    pub fn contact_area(&self) -> f64 {
+        self.contact_areas().iter().sum()
+    }
+
     /// Integral of each node's shape function over the contact, m2.
     fn contact_areas(&self) -> Vec<f64> {
         let mut areas = vec![0.0; self.node_count()];

@@ -48,8 +48,7 @@ impl Mesh {
                 })
                 .collect();
             if let Some(found) = found {
-                let boundary = mesh.surface(name, found.into_values().collect());
-                mesh.boundaries.push(boundary);
+                mesh.boundaries.push(mesh.surface(name, found.into_values().collect()));
             }
         }
         mesh.add_node_sets(file, &index_of, &outer);
@@ -72,8 +71,7 @@ impl Mesh {
         let place = |&(node, axis, factor): &(u32, usize, f64)| {
             index_of[node as usize].map(|node| (node, axis, factor))
         };
-        let equations = file.equations.iter();
-        let equations = equations.map(|own| own.iter().filter_map(place).collect());
+        let equations = file.equations.iter().map(|own| own.iter().filter_map(place).collect());
         mesh.equations = equations.collect();
         mesh.turn_frames_to_guides();
         mesh.take_symmetry(file.symmetry, scale);

@@ -40,8 +40,7 @@ impl Mesh {
             for part in splitting.split(kind, own, |_, _| None) {
                 let number = fine.element_kinds.len() as u32;
                 for key in &named {
-                    let faces = children.entry(*key).or_default();
-                    faces.extend(faces_of(&part, number, key));
+                    children.entry(*key).or_default().extend(faces_of(&part, number, key));
                 }
                 fine.elements.extend(part.nodes.iter().map(|(node, _)| node));
                 fine.element_starts.push(fine.elements.len() as u32);

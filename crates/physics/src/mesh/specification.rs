@@ -128,8 +128,7 @@ impl AnnulusSpecification {
 
     /// Elements of one sector.
     pub fn elements_per_sector(&self) -> usize {
-        let shaft = self.shaft.map_or(0, |shaft| shaft.radial_elements);
-        self.radial_elements.saturating_add(shaft)
+        self.radial_elements.saturating_add(self.shaft.map_or(0, |shaft| shaft.radial_elements))
     }
 }
 

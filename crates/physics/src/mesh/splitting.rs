@@ -152,8 +152,7 @@ fn parts_of(kind: ElementKind) -> Vec<Vec<[f64; 3]>> {
                 let flat = |level: usize| {
                     amid.map(|(p, q)| {
                         let middle = between(p, q);
-                        let height = 0.5 * (corners[level][2] + corners[layer][2]);
-                        [middle[0], middle[1], height]
+                        [middle[0], middle[1], 0.5 * (corners[level][2] + corners[layer][2])]
                     })
                 };
                 parts.push([flat(0), flat(3)].concat());

@@ -203,16 +203,13 @@ impl<'a> Assembly<'a> {
         let none = || vec![0.0; self.mesh.dof_count()];
         let mut load = assemble_pressures(self.mesh).unwrap_or_else(none);
         if let Some(rotation) = &self.joined.rotation {
-            let pairs = load.iter_mut().zip(&rotation.centrifugal);
-            pairs.for_each(|(load, own)| *load += own);
+            load.iter_mut().zip(&rotation.centrifugal).for_each(|(load, own)| *load += own);
         }
         if points.is_empty() {
             return self.without_contact(&stiffness, &load, friction_coefficients.len());
         }
-        let springs = of_points().map(|(own, point)| {
-            let normal = own.stiffness.normal_stiffness;
-            normal.map(|k| k * point.weight)
-        });
+        let springs = of_points()
+            .map(|(own, point)| own.stiffness.normal_stiffness.map(|k| k * point.weight));
         let pushed = of_points().map(|(own, point)| own.counter.interference() - point.gap);
         let named = contacts.iter();
         let named = named.map(|(own, of)| (format!("contacts.{}", own.name), of.points.len()));

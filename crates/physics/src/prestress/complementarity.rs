@@ -197,8 +197,7 @@ fn end_between(
 ) -> Result<f64, PrestressError> {
     let mut violation = |friction: f64| -> Result<f64, PrestressError> {
         let state = bodies.state_of(friction, set)?;
-        let excesses = excesses(bodies, &state, set);
-        let largest = excesses.into_iter().fold(f64::NEG_INFINITY, f64::max);
+        let largest = excesses(bodies, &state, set).into_iter().fold(f64::NEG_INFINITY, f64::max);
         Ok(largest - bound(&state))
     };
     let (mut at_inside, mut at_outside) = (violation(inside)?, violation(outside)?);

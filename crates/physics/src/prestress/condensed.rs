@@ -165,6 +165,5 @@ fn spring_stiffnesses(points: &[Point], stiffness: &Triplets) -> Vec<f64> {
         diagonal.fold((0.0, 0_usize), |(sum, count), entry| (sum + entry.2.abs(), count + 1));
     let whole: f64 = points.iter().map(|point| point.weight).sum();
     let total = sum / count.max(1) as f64;
-    let share = |point: &Point| total * point.weight / whole;
-    points.iter().map(share).collect()
+    points.iter().map(|point: &Point| total * point.weight / whole).collect()
 }

@@ -167,11 +167,9 @@ impl<'a> CyclicTangent<'a> {
                 (size + row, column, -sin),
                 (size + row, size + column, cos),
             ];
-            let kept = if is_paired { 4 } else { 1 };
-            all.into_iter().take(kept)
+            all.into_iter().take(if is_paired { 4 } else { 1 })
         };
-        let positions = self.entries.iter().flat_map(blocks);
-        let positions = positions.map(|(row, column, _)| (row, column));
+        let positions = self.entries.iter().flat_map(blocks).map(|(row, column, _)| (row, column));
         let dimension = if is_paired { 2 * size } else { size };
         let pattern = Arc::new(SparsityPattern::from_positions(dimension, positions));
         let of_waves = |matrix: &MatrixPolynomial| {

@@ -59,8 +59,7 @@ impl Pressing<'_> {
             stiffnesses: of_first(&self.stiffnesses),
             laws: sector.first.iter().map(|&i| self.laws[i]).collect(),
         };
-        let range = own.states_of_all(friction_coefficients)?;
-        Ok(sector.of_all(range))
+        Ok(sector.of_all(own.states_of_all(friction_coefficients)?))
     }
 
     /// Points on springs leave the matrices sparse; rigid ones need the bodies' response to each.
@@ -115,8 +114,7 @@ impl SectorPressing {
                 ..point.clone()
             }
         });
-        let entries = whole.stiffness.entries.iter();
-        let entries = entries.filter(|(row, ..)| *row < size);
+        let entries = whole.stiffness.entries.iter().filter(|(row, ..)| *row < size);
         let entries = entries.map(|&(row, column, value)| (row, column % size, value));
         Some(Self {
             stiffness: Triplets { entries: entries.collect() },

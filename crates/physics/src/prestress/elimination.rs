@@ -53,8 +53,7 @@ impl Elimination {
     /// Makes `row . u` an entry of `y`, and returns which: that of the row's first dof that is free and not small in it.
     /// `None` where the row has no free dof left: what it measures is held or follows from forms taken before.
     pub fn take(&mut self, row: &Row) -> Option<usize> {
-        let row_in_y = self.transposed(row);
-        let own: BTreeMap<usize, f64> = row_in_y.iter().copied().collect();
+        let own: BTreeMap<usize, f64> = self.transposed(row).iter().copied().collect();
         let is_free = |dof: usize| !self.is_dropped[dof] && !self.combined.contains_key(&dof);
         let free = || own.iter().filter(|(dof, _)| is_free(**dof));
         let largest = free().fold(0.0_f64, |m, (_, value)| m.max(value.abs()));

@@ -84,9 +84,13 @@ impl<'a> FullSliding<'a> {
         })
     }
 
-    /// Response to a load with the separations held.
+    /// Response to a load with the separations held, refined once: slender bodies need it.
     pub fn solve(&self, load: &[f64]) -> Vec<f64> {
-        self.unknowns.expand(&self.solver.solve(self.unknowns.restrict(load)))
+        let respond =
+            |load: &[f64]| self.unknowns.expand(&self.solver.solve(self.unknowns.restrict(load)));
+        let first = respond(load);
+        let more = respond(&self.stiffness.residual(load, &first));
+        first.iter().zip(more).map(|(first, more)| first + more).collect()
     }
 
     /// Response to a load with these separations.
@@ -139,16 +143,14 @@ impl<'a> FullSliding<'a> {
             });
             let mut matrix = DMatrix::from_fn(count, count, |i, j| response[(i, j)] * softness(j));
             (0..count).for_each(|i| matrix[(i, i)] += 1.0);
-            let found = matrix.lu().solve(&(&response * pushed));
-            let found = found.ok_or(PrestressError::Singular)?;
+            let found = matrix.lu().solve(&(&response * pushed)).ok_or(PrestressError::Singular)?;
             let moved = (&found - &forces).amax();
             forces = found;
             if moved <= 4.0 * f64::EPSILON * forces.amax() {
                 break;
             }
         }
-        let forces = forces.iter().zip(&lengths);
-        Ok(forces.map(|(force, w)| law.approach(force.max(0.0) / w)).collect())
+        Ok(forces.iter().zip(&lengths).map(|(force, w)| law.approach(force.max(0.0) / w)).collect())
     }
 }
 
@@ -158,8 +160,7 @@ pub(super) fn check_pressed(
     (forces, copies): (&[f64], usize),
     place: impl Fn(usize) -> (usize, f64),
 ) -> Result<(), PrestressError> {
-    let is_open = |i: &usize| !(forces[*i] > 0.0);
-    let open: Vec<usize> = (0..forces.len()).filter(is_open).collect();
+    let open: Vec<usize> = (0..forces.len()).filter(|i: &usize| !(forces[*i] > 0.0)).collect();
     let Some(&first) = open.first() else {
         return Ok(());
     };

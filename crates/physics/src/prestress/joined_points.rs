@@ -49,7 +49,8 @@ impl<'a> JoinedPoints<'a> {
 
     /// The load over the unknowns.
     pub fn load(&self) -> Vec<f64> {
-        self.pressing.restricted_load(&self.unknowns)
+        let Pressing { elimination, load, .. } = self.pressing;
+        self.unknowns.restrict(&elimination.transposed_forces(load))
     }
 
     /// `P^-1` times `right_side` and forces along the normals and drags of the points.

@@ -85,8 +85,7 @@ impl<'a> PenaltyContact<'a> {
 
     /// Factorizes `P` of other pressed points where they differ too much from those in it, or the last solution took long.
     fn follow(&mut self, is_pressed: &[bool]) -> Result<(), PrestressError> {
-        let pairs = is_pressed.iter().zip(&self.factorized);
-        let changed = pairs.filter(|(a, b)| a != b).count();
+        let changed = is_pressed.iter().zip(&self.factorized).filter(|(a, b)| a != b).count();
         let is_far = changed as f64 > MOST_CHANGED * is_pressed.len() as f64;
         let shares = is_pressed.iter().zip(&self.springs);
         let held: Vec<f64> = shares
@@ -166,8 +165,7 @@ impl PressedBodies for PenaltyContact<'_> {
     }
 
     fn usual_points(&self, [lower, upper]: [f64; 2]) -> ([f64; 2], usize) {
-        let count = NODES[usize::from(upper - lower > SHORT_RANGE)];
-        (widened([lower, upper]), count)
+        (widened([lower, upper]), NODES[usize::from(upper - lower > SHORT_RANGE)])
     }
 
     fn state_of(

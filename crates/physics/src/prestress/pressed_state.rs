@@ -66,11 +66,6 @@ impl Pressing<'_> {
         [normals.collect(), drags.collect()]
     }
 
-    /// Load over the unknowns.
-    pub(super) fn restricted_load(&self, unknowns: &DofMap) -> Vec<f64> {
-        unknowns.restrict(&self.elimination.transposed_forces(&self.load))
-    }
-
     /// The contact whose forces on all its points are in balance by themselves, so that nothing presses it.
     pub(super) fn unpressed(&self, forces: &[f64]) -> Option<PrestressError> {
         let all: f64 = forces.iter().map(|force| force.abs()).sum();
@@ -305,8 +300,7 @@ impl Polynomials {
 }
 
 fn largest(values: &[Vec<f64>]) -> f64 {
-    let all = values.iter().flatten();
-    all.fold(0.0_f64, |m, v| m.max(v.abs()))
+    values.iter().flatten().fold(0.0_f64, |m, v| m.max(v.abs()))
 }
 
 /// The largest of the last two coefficients of the Chebyshev series through `values` at Chebyshev points,

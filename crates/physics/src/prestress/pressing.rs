@@ -2,13 +2,13 @@
 
 use super::elimination::Elimination;
 use super::full_sliding::FullSliding;
-use super::solid::{SolidSliding, along_element, friction, pressed_span};
+use super::solid::{OverRings, SolidSliding, friction};
 use super::{PressedState, PrestressError};
 use crate::contact::{NormalLaw, Point, SlidingContact};
-use crate::fem::Triplets;
 use crate::fem::fold::SectorMatrix;
 use crate::fem::sector::supports;
-use crate::fem::solid::{FaceTerm, face_matrix, pressure_load};
+use crate::fem::solid::{FaceRule, FaceTerm, face_matrix, pressure_load};
+use crate::fem::{MassKind, Triplets};
 use crate::mesh::{ContactRing, FaceElement, SolidSector};
 
 /// Choices of what is pressed that are tried before the search is given up.
@@ -22,7 +22,8 @@ const SETTLED: f64 = 1e-10;
 
 impl SolidSliding {
     /// Solves the equilibrium with the elastic stiffness of one sector, to which supports and face pressures are added, with springs
-    /// of a `law` between face and rotor, where there are some.
+    /// of a `law` between face and rotor, where there are some: integrated over the face, at
+    /// the nodes of linear elements with lumped mass, as in a time step.
     ///
     /// # Errors
     /// [`PrestressError::Singular`] where nothing holds the body, [`PrestressError::GapEverywhere`] where no ring is pressed,
@@ -32,12 +33,18 @@ impl SolidSliding {
         elastic: &SectorMatrix,
         contact: &SlidingContact,
         law: Option<NormalLaw>,
+        mass: MassKind,
     ) -> Result<Self, PrestressError> {
+        let is_integrated = law.is_some() && mass == MassKind::Consistent;
+        let rule = match sector.is_quadratic() || is_integrated {
+            true => FaceRule::Integrated,
+            false => FaceRule::Nodal,
+        };
         let [springs, _] = supports(sector);
         let stiffness = SectorMatrix::alike_in_all(&[elastic, &springs]);
         let state = match law {
-            None => press_rigidly(sector, &stiffness, contact)?,
-            Some(law) => press_on_springs(sector, &stiffness, (contact, law))?,
+            None => press_rigidly(sector, &stiffness, (contact, rule))?,
+            Some(law) => press_on_springs(sector, &stiffness, (contact, law, rule))?,
         };
         if state.is_pressed.contains(&true) {
             return Ok(state);
@@ -58,15 +65,14 @@ fn approaches(sector: &SolidSector, interference: f64, displacement: &[f64]) -> 
         let normals = nodes.iter().map(|node| displacement[3 * node + face.normal_component()]);
         face.inward_sign() * normals.sum::<f64>() / nodes.len() as f64
     };
-    let rings = sector.rings.iter();
-    rings.map(|ring| interference - mean(&ring.nodes)).collect()
+    sector.rings.iter().map(|ring| interference - mean(&ring.nodes)).collect()
 }
 
 /// Signorini's conditions ring by ring: the set of pressed ones.
 fn press_rigidly(
     sector: &SolidSector,
     stiffness: &Triplets,
-    contact: &SlidingContact,
+    (contact, rule): (&SlidingContact, FaceRule),
 ) -> Result<SolidSliding, PrestressError> {
     let (load, rings) = (pressure_load(sector), &sector.rings);
     let mut is_pressed = vec![true; rings.len()];
@@ -75,7 +81,7 @@ fn press_rigidly(
         let nodes = pressed.flat_map(|(ring, _)| ring.nodes.iter().copied());
         let nodes: Vec<usize> = nodes.collect();
         let points: Vec<Point> = nodes.iter().map(|&n| point(sector, n, contact)).collect();
-        let full = FullSliding::new(stiffness, held(sector), &points)?;
+        let full = FullSliding::new(stiffness, without_contact(sector), &points)?;
         let PressedState { displacements, normal_forces, .. } =
             full.state(&load, contact.interference, None)?;
 
@@ -102,6 +108,7 @@ fn press_rigidly(
             displacements.try_into().expect("two powers of friction");
         return Ok(SolidSliding {
             law: None,
+            rule,
             sliding_direction: contact.sliding_direction(),
             contact: *contact,
             normal_forces: nodes.into_iter().zip(normal_forces[0].iter().copied()).collect(),
@@ -127,7 +134,7 @@ fn point(sector: &SolidSector, node: usize, contact: &SlidingContact) -> Point {
 }
 
 /// What holds the body without its contact.
-fn held(sector: &SolidSector) -> Elimination {
+fn without_contact(sector: &SolidSector) -> Elimination {
     let dofs = 3 * sector.node_count();
     Elimination::holding(dofs, (0..dofs).filter(|&dof| sector.is_held(dof)))
 }
@@ -138,23 +145,24 @@ fn held(sector: &SolidSector) -> Elimination {
 fn press_on_springs(
     sector: &SolidSector,
     stiffness: &Triplets,
-    (contact, law): (&SlidingContact, NormalLaw),
+    (contact, law, rule): (&SlidingContact, NormalLaw, FaceRule),
 ) -> Result<SolidSliding, PrestressError> {
     let face = sector.specification.contact.face();
     let (inward, component) = (face.inward_sign(), face.normal_component());
     let load = pressure_load(sector);
     let rings = sector.rings.len();
-    let pushed = field(sector, &vec![contact.interference; rings]);
-    let start = contact.interference.max(LEAST_APPROACH);
-    let mut values = vec![start.min(law.soft_approach()); rings];
+    let of_rings = |values: &[f64]| field(&OverRings::approaches(sector, values, (contact, rule)));
+    let pushed = of_rings(&vec![contact.interference; rings]);
+    let mut values = vec![contact.interference.max(LEAST_APPROACH).min(law.soft_approach()); rings];
     for _ in 0..SETS {
         // The tangent at the approaches found last, and what it pushes with.
-        let springs = Springs { sector, law, approaches: &values };
+        let springs =
+            Springs { law, approaches: OverRings::approaches(sector, &values, (contact, rule)) };
         let (tangent, own) = (springs.tangent(), springs.push());
         let mut pressed = stiffness.clone();
         pressed.entries.extend_from_slice(&tangent.entries);
-        let body = FullSliding::new(&pressed, held(sector), &[])?;
-        let known = distance(sector, &pushed, &field(sector, &values));
+        let body = FullSliding::new(&pressed, without_contact(sector), &[])?;
+        let known = distance(sector, &pushed, &of_rings(&values));
         let known = tangent.multiply(own.len(), &known);
         let loads = load.iter().zip(&own).zip(&known);
         let loads: Vec<f64> = loads.map(|((a, b), c)| a + b + c).collect();
@@ -172,14 +180,18 @@ fn press_on_springs(
             continue;
         }
         let left = distance(sector, &pushed, &displacement);
-        let left = distance(sector, &left, &field(sector, &values));
+        let left = distance(sector, &left, &of_rings(&values));
         let forces = own.iter().zip(tangent.multiply(own.len(), &left));
         let forces: Vec<f64> = forces.map(|(own, more)| own + more).collect();
-        let nodes = sector.rings.iter().flat_map(|ring| &ring.nodes);
-        let nodes = nodes.map(|&node| (node, inward * forces[3 * node + component]));
+        // Those of the rings, then those that something else holds along the normal.
+        let of_rings: Vec<usize> = sector.rings.iter().flat_map(|own| own.nodes.clone()).collect();
+        let held = (0..sector.node_count()).filter(|node| !of_rings.contains(node));
+        let nodes = of_rings.iter().copied().chain(held);
+        let nodes = nodes.map(|node| (node, inward * forces[3 * node + component]));
         let normal_forces: Vec<_> = nodes.filter(|(_, force)| *force != 0.0).collect();
         return Ok(SolidSliding {
             law: Some(law),
+            rule,
             sliding_direction: contact.sliding_direction(),
             contact: *contact,
             sheared_displacement: sheared(sector, stiffness, contact, &normal_forces)?,
@@ -200,7 +212,7 @@ fn sheared(
     contact: &SlidingContact,
     normal_forces: &[(usize, f64)],
 ) -> Result<Vec<f64>, PrestressError> {
-    let (mut basis, dofs) = (held(sector), 3 * sector.node_count());
+    let (mut basis, dofs) = (without_contact(sector), 3 * sector.node_count());
     (0..dofs).filter(|dof| dof % 3 != 1).for_each(|dof| basis.drop_unknown(dof));
     let mut drag = vec![0.0; dofs];
     for (node, force) in normal_forces {
@@ -211,9 +223,8 @@ fn sheared(
 
 /// The springs of the face where the rings' approaches are positive.
 struct Springs<'a> {
-    sector: &'a SolidSector,
     law: NormalLaw,
-    approaches: &'a [f64],
+    approaches: OverRings<'a>,
 }
 
 impl Springs<'_> {
@@ -225,31 +236,36 @@ impl Springs<'_> {
     /// `int s g n dA`, N, with the secant `s(g)`, whose force at the approaches is that of the pressure.
     fn push(&self) -> Vec<f64> {
         let secant = self.matrix(&|approach| self.law.secant(approach));
-        let pushed = field(self.sector, self.approaches);
+        let pushed = field(&self.approaches);
         secant.multiply(pushed.len(), &pushed)
     }
 
     /// A normal term with a weight that follows the approach.
     fn matrix(&self, weight: &dyn Fn(f64) -> f64) -> Triplets {
-        let Self { sector, approaches, .. } = *self;
+        let OverRings { sector, rule, .. } = self.approaches;
         let component = sector.specification.contact.face().normal_component();
         let weight = |element: &FaceElement, _: f64, along: f64| {
-            weight(along_element(sector, approaches, element, along).max(0.0))
+            weight(self.approaches.along(element, along).max(0.0))
         };
-        let span = |element: &FaceElement| pressed_span(sector, approaches, element);
+        let span = |element: &FaceElement| self.approaches.pressed_span(element);
         let (row, column) = (component, component);
-        let term = FaceTerm { row, column, weight: &weight, span: &span, is_nodal: true };
+        let term = FaceTerm { row, column, weight: &weight, span: &span, rule };
         SectorMatrix::alike_in_all(&[&face_matrix(sector, &sector.contact_elements(), &term)])
     }
 }
 
 /// A normal displacement of the face, towards the body, that is the same all over each ring.
-fn field(sector: &SolidSector, values: &[f64]) -> Vec<f64> {
+fn field(over: &OverRings<'_>) -> Vec<f64> {
+    let OverRings { sector, values, held, .. } = *over;
     let face = sector.specification.contact.face();
+    let normal = |node: usize| 3 * node + face.normal_component();
     let mut field = vec![0.0; 3 * sector.node_count()];
+    for node in (0..sector.node_count()).filter(|&node| sector.is_on(node, face)) {
+        field[normal(node)] = face.inward_sign() * held;
+    }
     for (ring, value) in sector.rings.iter().zip(values) {
-        for node in &ring.nodes {
-            field[3 * node + face.normal_component()] = face.inward_sign() * value;
+        for &node in &ring.nodes {
+            field[normal(node)] = face.inward_sign() * value;
         }
     }
     field

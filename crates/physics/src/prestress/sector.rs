@@ -45,8 +45,7 @@ impl SectorSliding {
         let [springs, _] = supports(sector);
         let stiffness = SectorMatrix::alike_in_all(&[elastic, &springs]);
         let (free, dofs) = (2 * sector.free_node_count(), 2 * sector.node_count());
-        let basis = Elimination::holding(dofs, free..dofs);
-        let full = FullSliding::new(&stiffness, basis, &points)?;
+        let full = FullSliding::new(&stiffness, Elimination::holding(dofs, free..dofs), &points)?;
         let state = full.state(&vec![0.0; dofs], contact.interference, law)?;
         let step = 180.0 / sector.sector_count() as f64;
         let place = |i: usize| {

@@ -133,7 +133,6 @@ impl Edge<'_> {
             1 => vec![(0, 0, 2, share)],
             _ => vec![(0, 0, 2, -share), (0, 1, 1, 4.0 * share), (1, 0, 1, 2.0 * share)],
         };
-        let both = differences.into_iter();
-        both.flat_map(|(i, j, k, d)| [(i, j, k, d), (i, j, -k, -d)]).collect()
+        differences.into_iter().flat_map(|(i, j, k, d)| [(i, j, k, d), (i, j, -k, -d)]).collect()
     }
 }

@@ -1,7 +1,7 @@
 //! Steady sliding of a body of revolution in three dimensions, from one sector.
 
 use crate::contact::{NormalLaw, SlidingContact, SteadyFriction};
-use crate::fem::solid::whole_element;
+use crate::fem::solid::{FaceRule, whole_element};
 use crate::mesh::{FaceElement, SolidSector};
 
 /// The state of steady sliding of a body of revolution, the same in every sector.
@@ -14,7 +14,7 @@ use crate::mesh::{FaceElement, SolidSector};
 /// components: pressure and pressed rings do not depend on `mu`, and `u(mu) = u_0 + mu u_1`. The contact is rigid here whatever
 /// stiffness the eigenvalue analysis gives it, unless that is asked to carry the base state too or stiffens with pressure
 /// ([`ContactStiffness::base_law`](crate::contact::ContactStiffness::base_law)): then `p = p(delta - u_n)` of its law all over the
-/// face where that is positive, at the nodes of linear elements. Vectors hold `(u_r, u_theta, u_z)` of each sector node.
+/// face where that is positive, at the nodes of linear elements with lumped mass. Vectors hold `(u_r, u_theta, u_z)` of each sector node.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SolidSliding {
     /// Displacement without friction `u_0`, m.
@@ -32,6 +32,8 @@ pub struct SolidSliding {
     pub approaches: Vec<f64>,
     /// The springs that carry the base state; `None` is rigid contact.
     pub law: Option<NormalLaw>,
+    /// How linear elements of the face take contact along the normal.
+    pub rule: FaceRule,
     /// Sense of the friction force `s`, +1 or -1.
     pub sliding_direction: f64,
     /// The rotor.
@@ -62,88 +64,103 @@ impl SolidSliding {
     /// Normal force of the whole contact over its area, Pa.
     pub fn mean_pressure(&self, sector: &SolidSector) -> f64 {
         let force: f64 = self.normal_forces.iter().map(|(_, force)| force).sum();
-        force / sector.rings.iter().map(|ring| ring.area).sum::<f64>()
+        force / sector.contact_area()
     }
 
     /// Pressure along the contact by the places of the rings, for the elements of the face: through the two rings at the ends of an
     /// element, and the one at its middle where there is one.
     pub fn pressure_along(&self, sector: &SolidSector, element: &FaceElement, along: f64) -> f64 {
         match self.law {
-            Some(law) if sector.is_quadratic() => {
-                law.pressure(along_element(sector, &self.approaches, element, along).max(0.0))
+            Some(law) if self.rule == FaceRule::Integrated => {
+                law.pressure(self.approach_along(sector, element, along))
             }
-            _ => along_element(sector, &self.pressures, element, along).max(0.0),
+            _ => self.pressures_over(sector).along(element, along).max(0.0),
         }
+    }
+
+    /// `delta - u_n` along an element of the face where it is pressed, m; else zero.
+    pub fn approach_along(&self, sector: &SolidSector, element: &FaceElement, along: f64) -> f64 {
+        self.approaches_over(sector).along(element, along).max(0.0)
     }
 
     /// The part of an element of the face that is pressed, see [`span`](crate::fem::solid::FaceTerm::span). Of quadratic elements in rigid contact it is all.
     pub fn pressed_span(&self, sector: &SolidSector, element: &FaceElement) -> [f64; 2] {
         match self.law {
-            None if sector.is_quadratic() => whole_element(element),
-            None => pressed_span(sector, &self.pressures, element),
-            Some(_) => pressed_span(sector, &self.approaches, element),
+            None if self.rule == FaceRule::Integrated => whole_element(element),
+            None => self.pressures_over(sector).pressed_span(element),
+            Some(_) => self.approaches_over(sector).pressed_span(element),
         }
     }
-}
 
-/// The values of the rings at the beginning, in the middle (of a quadratic element) and at the end of an element of the face.
-fn of_element(sector: &SolidSector, values: &[f64], element: &FaceElement) -> [f64; 3] {
-    let at = |node: usize| {
-        let mut rings = sector.rings.iter().zip(values);
-        let own = rings.find(|(ring, _)| ring.nodes.contains(&node));
-        own.map_or(0.0, |(_, value)| *value)
-    };
-    let [from, to] = [0, 2].map(|corner| at(element.nodes[corner].0));
-    match sector.is_quadratic() {
-        true => [from, at(element.nodes[5].0), to],
-        false => [from, 0.5 * (from + to), to],
+    fn pressures_over<'a>(&'a self, sector: &'a SolidSector) -> OverRings<'a> {
+        OverRings { sector, values: &self.pressures, held: 0.0, rule: self.rule }
+    }
+
+    fn approaches_over<'a>(&'a self, sector: &'a SolidSector) -> OverRings<'a> {
+        OverRings::approaches(sector, &self.approaches, (&self.contact, self.rule))
     }
 }
 
-/// What the rings have, along an element of the face from -1 to 1.
-pub(super) fn along_element(
-    sector: &SolidSector,
-    values: &[f64],
-    element: &FaceElement,
-    along: f64,
-) -> f64 {
-    let [from, middle, to] = of_element(sector, values, element);
-    let linear = 0.5 * ((1.0 - along) * from + (1.0 + along) * to);
-    if !sector.is_quadratic() {
-        return linear;
-    }
-    linear + (1.0 - along * along) * (middle - 0.5 * (from + to))
+/// What the rings of the contact have.
+pub(super) struct OverRings<'a> {
+    pub sector: &'a SolidSector,
+    pub values: &'a [f64],
+    /// What nodes have that are held along the normal, and belong to no ring.
+    pub held: f64,
+    pub rule: FaceRule,
 }
 
-/// The part of an element along which the values of the rings are positive: between the roots of the parabola through them; of a
-/// linear element the ends that have positive values.
-pub(super) fn pressed_span(
-    sector: &SolidSector,
-    values: &[f64],
-    element: &FaceElement,
-) -> [f64; 2] {
-    let [from, middle, to] = of_element(sector, values, element);
-    let ends = [(-1.0, from), (1.0, to)].map(|(end, value)| if value > 0.0 { end } else { 0.0 });
-    if !sector.is_quadratic() || (from > 0.0 && to > 0.0) {
-        return ends;
+impl<'a> OverRings<'a> {
+    /// `delta - u_n`, all of `delta` at nodes that are held. Lumped contact leaves these out.
+    pub fn approaches(
+        sector: &'a SolidSector,
+        values: &'a [f64],
+        (contact, rule): (&SlidingContact, FaceRule),
+    ) -> Self {
+        let held = if rule == FaceRule::Integrated { contact.interference } else { 0.0 };
+        Self { sector, values, held, rule }
     }
-    // c + b s + a s^2
-    let (a, b, c) = (0.5 * (from + to) - middle, 0.5 * (to - from), middle);
-    let discriminant = b * b - 4.0 * a * c;
-    if discriminant <= 0.0 {
-        return [0.0; 2];
-    }
-    let q = -0.5 * (b + discriminant.sqrt().copysign(b));
-    let roots = [q / a, c / q];
-    let within = |root: &&f64| root.abs() <= 1.0;
-    match (from > 0.0, to > 0.0) {
-        (true, _) => [-1.0, *roots.iter().find(within).unwrap_or(&-1.0)],
-        (_, true) => [*roots.iter().find(within).unwrap_or(&1.0), 1.0],
-        // Pressed in the middle alone.
-        _ if roots.iter().filter(within).count() == 2 => {
-            [roots[0].min(roots[1]), roots[0].max(roots[1])]
+
+    /// The values at the beginning, in the middle and at the end of an element of the face.
+    fn of_element(&self, element: &FaceElement) -> [f64; 3] {
+        let at = |node: usize| {
+            let mut rings = self.sector.rings.iter().zip(self.values);
+            let own = rings.find(|(ring, _)| ring.nodes.contains(&node));
+            own.map_or(self.held, |(_, value)| *value)
+        };
+        let [from, to] = [0, 2].map(|corner| at(element.nodes[corner].0));
+        match self.sector.is_quadratic() {
+            true => [from, at(element.nodes[5].0), to],
+            false => [from, 0.5 * (from + to), to],
         }
-        _ => [0.0; 2],
+    }
+
+    /// The value at a place from -1 to 1 along an element of the face.
+    pub fn along(&self, element: &FaceElement, along: f64) -> f64 {
+        let [from, middle, to] = self.of_element(element);
+        let linear = 0.5 * ((1.0 - along) * from + (1.0 + along) * to);
+        if !self.sector.is_quadratic() {
+            return linear;
+        }
+        linear + (1.0 - along * along) * (middle - 0.5 * (from + to))
+    }
+
+    /// The part of an element along which values are positive, between the roots of the parabola
+    /// through them; of a lumped element the ends that have such values.
+    pub fn pressed_span(&self, element: &FaceElement) -> [f64; 2] {
+        let [from, middle, to] = self.of_element(element);
+        if self.rule != FaceRule::Integrated {
+            return [(-1.0, from), (1.0, to)].map(|(at, own)| if own > 0.0 { at } else { 0.0 });
+        }
+        // Between the ends and what roots of c + b s + a s^2 are within.
+        let (a, b, c) = (0.5 * (from + to) - middle, 0.5 * (to - from), middle);
+        let q = -0.5 * (b + (b * b - 4.0 * a * c).sqrt().copysign(b));
+        let mut places = vec![-1.0, q / a, c / q, 1.0];
+        places.retain(|place: &f64| place.abs() <= 1.0);
+        places.sort_by(f64::total_cmp);
+        let is_pressed = |part: &&[f64]| self.along(element, 0.5 * (part[0] + part[1])) > 0.0;
+        let parts: Vec<&[f64]> = places.windows(2).filter(is_pressed).collect();
+        parts.first().zip(parts.last()).map_or([0.0; 2], |(first, last)| [first[0], last[1]])
     }
 }
 

@@ -1,13 +1,12 @@
 //! The terms of a body of revolution in three dimensions in steady sliding.
 
-use super::solid::along_element;
 use super::wave_tangent::WaveContact;
 use super::wave_terms::{ContactTerms, WaveTerms};
 use super::{PrestressError, SolidSliding, TangentOptions, WaveTangent};
 use crate::contact::{ContactStiffness, SlidingContact};
 use crate::fem::MaterialField;
 use crate::fem::fold::SectorMatrix;
-use crate::fem::solid::{FaceTerm, face_matrix};
+use crate::fem::solid::{FaceRule, FaceTerm, face_matrix};
 use crate::mesh::{FaceElement, SolidSector};
 
 impl WaveTangent {
@@ -25,8 +24,8 @@ impl WaveTangent {
             return Err(PrestressError::AtRest);
         }
         let mut terms = WaveTerms::of(sector, material, (options.mass, options.damping));
-        let base =
-            SolidSliding::solve(sector, &terms.elastic(), contact, options.contact.base_law())?;
+        let law = options.contact.base_law();
+        let base = SolidSliding::solve(sector, &terms.elastic(), contact, law, options.mass)?;
         if options.geometric_stiffness {
             let displacements = [&base.pressed_displacement[..], &base.sheared_displacement];
             terms.take_stress(sector, material, displacements);
@@ -45,8 +44,7 @@ fn rings(sector: &SolidSector, base: &SolidSliding, options: &TangentOptions) ->
     let is_rigid = options.contact.normal_stiffness.is_none();
     let rigid = pressed.clone().filter(|_| is_rigid).map(|node| {
         let drag = base.friction(sector.nodes[node].radius).1.drag;
-        let driven = vec![(3 * node + 1, face.inward_sign() * drag)];
-        (3 * node + face.normal_component(), driven)
+        (3 * node + face.normal_component(), vec![(3 * node + 1, face.inward_sign() * drag)])
     });
     let places = sector.rings.iter();
     let dofs = |nodes: &Vec<usize>| nodes.iter().flat_map(|&node| 3 * node..3 * node + 3).collect();
@@ -87,13 +85,13 @@ fn contact_terms(
     let (normal, side) = (face.normal_component(), face.across_component());
     let faces = sector.contact_elements();
     let span = |element: &FaceElement| base.pressed_span(sector, element);
-    let term = |row, column, is_nodal, weight: Weight<'_>| {
-        let term = FaceTerm { row, column, weight, span: &span, is_nodal };
+    let term = |row, column, rule, weight: Weight<'_>| {
+        let term = FaceTerm { row, column, weight, span: &span, rule };
         face_matrix(sector, &faces, &term)
     };
     let pressure = |element: &FaceElement, at| base.pressure_along(sector, element, at);
     let pressed = |row, column, weight: Weight<'_>| {
-        term(row, column, true, &|element, r, at| match pressure(element, at) > 0.0 {
+        term(row, column, base.rule, &|element, r, at| match pressure(element, at) > 0.0 {
             true => weight(element, r, at),
             false => 0.0,
         })
@@ -117,19 +115,21 @@ fn contact_terms(
     }
 
     // Coulomb's law as a vector, and its slope over the speed.
-    let mut friction_dashpots = term(side, side, false, &|element, r, at| {
+    // Traction of lumped contact is that along the elements.
+    let rule = if base.rule == FaceRule::Nodal { FaceRule::Lumped } else { base.rule };
+    let mut friction_dashpots = term(side, side, rule, &|element, r, at| {
         let (speed, friction) = base.friction(r);
         pressure(element, at) * friction.drag * base.sliding_direction / speed
     });
     if base.contact.decay.is_some() {
         let slope = |r: f64| base.friction(r).1.slope;
-        let along = term(1, 1, false, &|element, r, at| pressure(element, at) * slope(r));
+        let along = term(1, 1, rule, &|element, r, at| pressure(element, at) * slope(r));
         friction_dashpots = friction_dashpots.plus(&along);
     }
     ContactTerms {
         penalty: match (base.law, contact.normal_stiffness) {
             (Some(law), _) => normal_and_drag(&|element, _, at| {
-                law.stiffness(along_element(sector, &base.approaches, element, at).max(0.0))
+                law.stiffness(base.approach_along(sector, element, at))
             }),
             (None, Some(own)) => normal_and_drag(&|_, _, _| own),
             (None, None) => Default::default(),

@@ -12,7 +12,7 @@ use std::sync::Arc;
 /// ```
 ///
 /// comes to it at the frequency `f`; `E_s` is the modulus of the base state, with which `K_p` is assembled.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct TabledGain {
     /// Modulus and loss factor over frequency.
     pub table: Arc<ModulusTable>,

@@ -80,8 +80,7 @@ impl HarmonicTangent {
             }
         };
         if let Some(dashpots) = &self.friction_dashpots {
-            let added = evaluate(dashpots, z);
-            damping.iter_mut().zip(added).for_each(|(sum, c)| *sum += c * mu);
+            damping.iter_mut().zip(evaluate(dashpots, z)).for_each(|(sum, c)| *sum += c * mu);
         }
         let half_bandwidth = self.mass[0].half_bandwidth();
         let losses = self.losses.iter().map(|(gain, own)| (gain.clone(), evaluate(own, z)));

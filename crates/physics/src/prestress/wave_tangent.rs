@@ -52,7 +52,7 @@ pub struct WaveTangent {
 }
 
 /// The contact of one sector, by its dofs.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct WaveContact {
     /// Component along the normal.
     pub normal: usize,
@@ -113,6 +113,24 @@ impl WaveTangent {
             contact,
             sliding_direction,
         }
+    }
+
+    /// `sum_k w_k T_k` of tangents that differ in matrices alone, for weights whose sum is zero:
+    /// what all have alike leaves no round-off. `None` where the tangents differ in more.
+    pub fn quotient(terms: &[(f64, &Self)]) -> Option<Self> {
+        let first = terms.first()?.1;
+        let is_like = |own: &Self| {
+            let [a, b] = [own.options, first.options];
+            (a.damping, a.damping_model) == (b.damping, b.damping_model)
+                && a.contact.loss_factor == b.contact.loss_factor
+                && own.sliding_direction == first.sliding_direction
+                && own.contact == first.contact
+                && own.dofs == first.dofs
+        };
+        let alike = terms.iter().all(|(_, own)| is_like(own));
+        let terms: Vec<_> = terms.iter().map(|(weight, own)| (*weight, &own.terms)).collect();
+        let terms = WaveTerms::quotient(&terms).filter(|_| alike)?;
+        Some(Self { terms, ..first.clone() })
     }
 
     /// Unknowns of a harmonic among the dofs of a sector.
@@ -204,8 +222,7 @@ impl WaveTangent {
 
     /// Along the sliding, and in space across it.
     fn tangential_components(&self) -> impl Iterator<Item = usize> + use<> {
-        let across = (self.components == 3).then_some(2 - self.contact.normal);
-        [1].into_iter().chain(across)
+        [1].into_iter().chain((self.components == 3).then_some(2 - self.contact.normal))
     }
 
     fn ascending(&self, dofs: impl Iterator<Item = usize>) -> Vec<usize> {

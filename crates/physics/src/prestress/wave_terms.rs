@@ -100,4 +100,44 @@ impl WaveTerms {
             own.stress = states.map(|u| sector::geometric_stiffness(sector, material, region, u));
         }
     }
+
+    /// [`super::WaveTangent::quotient`] of every matrix.
+    pub fn quotient(terms: &[(f64, &Self)]) -> Option<Self> {
+        let mut sum = terms.first()?.1.clone();
+        let parts = |own: &Self| (own.regions.len(), own.supports.len());
+        let is_like = |own: &Self| {
+            let mut regions = own.regions.iter().zip(&sum.regions);
+            let mut supports = own.supports.iter().zip(&sum.supports);
+            parts(own) == parts(&sum)
+                && regions.all(|(a, b)| {
+                    (a.damping, a.loss_factor, &a.table) == (b.damping, b.loss_factor, &b.table)
+                })
+                && supports.all(|(a, b)| a.loss_factor == b.loss_factor)
+        };
+        if !terms.iter().all(|(_, own)| is_like(own)) {
+            return None;
+        }
+        let mut all: Vec<(f64, Self)> = terms.iter().map(|(w, own)| (*w, (*own).clone())).collect();
+        let sides = all.iter_mut().map(|(weight, own)| (*weight, own.matrices().into_iter()));
+        let mut sides: Vec<_> = sides.collect();
+        for matrix in sum.matrices() {
+            let first = matrix.scaled(-1.0);
+            let beside = sides.iter_mut().filter_map(|(weight, own)| Some((*weight, own.next()?)));
+            let changes = beside.map(|(weight, own)| own.plus(&first).scaled(weight));
+            *matrix = changes.fold(SectorMatrix::default(), |sum, own| sum.plus(&own));
+        }
+        Some(sum)
+    }
+
+    fn matrices(&mut self) -> Vec<&mut SectorMatrix> {
+        let regions = self.regions.iter_mut().flat_map(|own| {
+            let [pressed, sheared] = &mut own.stress;
+            [&mut own.mass, &mut own.elastic, pressed, sheared]
+        });
+        let supports = self.supports.iter_mut().flat_map(|own| &mut own.terms);
+        let ContactTerms { penalty, dashpots, friction_dashpots } = &mut self.contact;
+        let contact = penalty.iter_mut().chain(dashpots).chain([friction_dashpots]);
+        let others = self.turning.iter_mut().chain([&mut self.extra_damping]);
+        regions.chain(supports).chain(contact).chain(others).collect()
+    }
 }

@@ -54,7 +54,9 @@ pub fn half_power(response: &FrequencyResponse) -> Result<Vec<HalfPowerBand>, Si
     let mobility = response.converted(ResponseQuantity::Mobility)?;
     let f = mobility.frequencies_hz();
     let offset = response.values().len() - f.len();
-    let tops = resonances(&mobility, &response.magnitudes()[offset..], &noise_of(response));
+    // Of the quantity that was measured, in which noise is most likely uniform.
+    let noise = NoiseModel::from_differences(response.values(), response.has_phase());
+    let tops = resonances(&mobility, &response.magnitudes()[offset..], &noise);
     if tops.is_empty() {
         return Err(SignalError::NoResonance { low_hz: f[0], high_hz: f[f.len() - 1] });
     }
@@ -73,11 +75,6 @@ pub fn half_power(response: &FrequencyResponse) -> Result<Vec<HalfPowerBand>, Si
         .collect();
     mark_overlaps(&mut bands);
     Ok(bands)
-}
-
-/// Noise in the quantity that was measured, where it is most likely uniform.
-fn noise_of(response: &FrequencyResponse) -> NoiseModel {
-    NoiseModel::from_differences(response.values(), response.has_phase())
 }
 
 /// Positions of the maxima of the mobility that stand out of the noise of the `measured` moduli.

@@ -163,8 +163,7 @@ pub(super) fn rates_of(case: &Case, cea: &Cea, pairs: &Pairs, (key, value): (&st
     let moved = |offset: f64| -> Result<Case, String> {
         let set = [format!("{key}={:?}", value + offset)];
         let said = |messages: Vec<String>| messages.join("; ");
-        let raw = case.raw.with_overrides(&set);
-        let raw = raw.map_err(|errors| said(errors.messages()))?;
+        let raw = case.raw.with_overrides(&set).map_err(|errors| said(errors.messages()))?;
         Case::read(raw).map_err(|errors| said(errors.messages()))
     };
     let step = step_of(key, value);
@@ -238,11 +237,14 @@ fn is_like(one: &SlidingTangent, other: &SlidingTangent) -> bool {
 fn responses(place: &Place, k: usize, terms: &[(f64, Linearized)]) -> Vec<Option<c64>> {
     let changes_at = |target: c64| {
         let frequency_hz = target.im / TAU;
-        let mut changes: [Vec<f64>; 4] = Default::default();
-        for (weight, side) in terms {
-            for (change, values) in changes.iter_mut().zip(side.values(k, frequency_hz)) {
-                change.resize(values.len(), 0.0);
-                change.iter_mut().zip(values).for_each(|(sum, value)| *sum += weight * value);
+        // Weights sum up to zero: what all have alike leaves no round-off.
+        let first = terms[0].1.values(k, frequency_hz);
+        let mut changes = first.each_ref().map(|values| vec![0.0; values.len()]);
+        for (weight, side) in &terms[1..] {
+            let sides = side.values(k, frequency_hz).into_iter().zip(&first);
+            for (change, (values, first)) in changes.iter_mut().zip(sides) {
+                let differences = values.iter().zip(first).map(|(value, first)| value - first);
+                change.iter_mut().zip(differences).for_each(|(sum, own)| *sum += weight * own);
             }
         }
         changes

@@ -111,8 +111,7 @@ impl BranchSolver for WaveSolver<'_> {
         guess: BranchPoint,
     ) -> Result<Option<BranchPoint>, Infallible> {
         let (problem, friction) = (self.problem, guess.friction_coefficient);
-        let is_backward = self.waves == Waves::Backward;
-        let theta = path_theta(problem, is_backward, guess.eigenvalue);
+        let theta = path_theta(problem, self.waves == Waves::Backward, guess.eigenvalue);
         let found = self.follower.find(&problem.at(friction), friction, theta);
         Ok(found.map(|found| point_of(problem, self.waves, &found)))
     }

@@ -30,10 +30,8 @@ pub(super) fn pass(
     let Some(stuck) = paths[index].points.last().cloned() else {
         return false;
     };
-    let distance = |path: &Path| {
-        let last = path.points.last();
-        last.map_or(f64::INFINITY, |p| (p.theta - stuck.theta).norm())
-    };
+    let distance =
+        |path: &Path| path.points.last().map_or(f64::INFINITY, |p| (p.theta - stuck.theta).norm());
     let others = (0..paths.len()).filter(|&other| other != index);
     let Some(partner) = others.min_by(|&a, &b| distance(&paths[a]).total_cmp(&distance(&paths[b])))
     else {

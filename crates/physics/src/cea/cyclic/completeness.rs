@@ -125,7 +125,7 @@ fn missed(
     let (known_at_rest, known) = paths.map_or((Vec::new(), Vec::new()), |paths| known(paths, mu));
     let mut search = Search {
         problem,
-        at_rest: problem.undamped_at_rest(),
+        at_rest: problem.at_damping(0.0),
         now: problem.at(mu),
         known_at_rest,
         known,

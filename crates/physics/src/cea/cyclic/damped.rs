@@ -213,8 +213,7 @@ impl Course<'_> {
         let (problem, friction) = (self.problem, found.parameter);
         let mut back = vec![found];
         let mut matrices = |value: f64| Rc::new(problem.at(value));
-        let control = shortened([before, friction]);
-        self.follower.walk(&mut back, before, control, &mut matrices);
+        self.follower.walk(&mut back, before, shortened([before, friction]), &mut matrices);
         back.reverse();
         let joined = was_open.iter().copied().find(|&index| {
             let tracked = &self.paths[index];

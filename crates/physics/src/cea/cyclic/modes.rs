@@ -35,8 +35,7 @@ fn point(
     }
     let key = |mode: &ComplexMode| (mode.harmonic, mode.branch, mode.direction);
     modes.sort_by(|a, b| {
-        let by_frequency = a.eigenvalue.im.total_cmp(&b.eigenvalue.im);
-        by_frequency.then_with(|| key(a).cmp(&key(b)))
+        a.eigenvalue.im.total_cmp(&b.eigenvalue.im).then_with(|| key(a).cmp(&key(b)))
     });
     if let ModeLimit::Lowest(count) = wanted.request.limit {
         modes.truncate(keeping_ties(modes.iter().map(|mode| mode.eigenvalue.im), count));

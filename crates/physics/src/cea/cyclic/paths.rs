@@ -63,8 +63,7 @@ fn follow_all(
     let at_rest = Rc::new(problem.at(0.0));
     let mut paths = Vec::new();
     for (branch, (kappa, shape)) in (1..).zip(pairs) {
-        let started = start(follower, &at_rest, branch, *kappa, shape);
-        paths.extend(started.ok_or_else(|| lost(0.0))?);
+        paths.extend(start(follower, &at_rest, branch, *kappa, shape).ok_or_else(|| lost(0.0))?);
     }
     for &friction in grid {
         // Most branches reach the grid value in one step and share its matrices.
@@ -118,8 +117,7 @@ pub(super) fn describe(
     points: &mut [Eigenpair],
     kept: &[f64],
 ) {
-    let reached = points.len() - 1;
-    let (earlier, last) = points.split_at_mut(reached);
+    let (earlier, last) = points.split_at_mut(points.len() - 1);
     for point in last {
         point.contact_share = problem.contact_share(&point.x);
         point.axial_share = problem.axial_share(&point.x);

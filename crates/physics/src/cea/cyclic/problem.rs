@@ -79,11 +79,6 @@ impl HarmonicProblem {
         }
     }
 
-    /// Matrices without friction and damping.
-    pub fn undamped_at_rest(&self) -> Matrices {
-        self.at_damping(0.0)
-    }
-
     /// Matrices without friction and with the share `damped` of the damping; the derivative is that
     /// with respect to `damped`.
     pub fn at_damping(&self, damped: f64) -> Matrices {
@@ -178,8 +173,7 @@ impl HarmonicProblem {
         let tabled = at.now.losses.iter().map(|(gain, own)| (gain.slope(theta), own));
         let tabled = tabled.filter(|(rate, _)| *rate != ZERO);
         let own = tabled.map(|(rate, values)| dot(y, &self.multiply(values, rate, x, false)));
-        let own = own.reduce(|sum, own| sum + own)?;
-        Some(own_frequency_step(step, own / slope))
+        Some(own_frequency_step(step, own.reduce(|sum, own| sum + own)? / slope))
     }
 
     /// `d theta / d parameter = -y^H (dT) x / y^H T' x`.
@@ -298,16 +292,14 @@ impl HarmonicProblem {
 
     /// Kinetic energy of axial motion over the whole; not a number in the plane.
     pub fn axial_share(&self, x: &[c64]) -> f64 {
-        let shares = self.tangent.shares.as_ref();
-        shares.map_or(f64::NAN, |[_, axial]| self.share(axial, x))
+        self.tangent.shares.as_ref().map_or(f64::NAN, |[_, axial]| self.share(axial, x))
     }
 
     /// `Re(x^H F x) / x^H M x`.
     fn share(&self, form: &BandedMatrix, x: &[c64]) -> f64 {
         let value = |matrix: &BandedMatrix, part: fn(&c64) -> f64| {
             let x: Vec<f64> = x.iter().map(part).collect();
-            let image = matrix.multiply(&x);
-            x.iter().zip(image).map(|(a, b)| a * b).sum::<f64>()
+            x.iter().zip(matrix.multiply(&x)).map(|(a, b)| a * b).sum::<f64>()
         };
         let both = |matrix: &BandedMatrix| value(matrix, |v| v.re) + value(matrix, |v| v.im);
         both(form) / both(&self.tangent.mass[0])

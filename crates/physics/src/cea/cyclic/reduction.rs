@@ -96,8 +96,7 @@ impl Reduction {
 
     /// The same space with a basis in which the dashpots across the sliding are diagonal, the strongest first.
     pub fn turned(self, across: &Across) -> Self {
-        let images = self.images(&across.dashpots);
-        let form = transpose_product(self.basis.as_ref(), images.as_ref());
+        let form = transpose_product(self.basis.as_ref(), self.images(&across.dashpots).as_ref());
         let (values, vectors) = symmetric_eigen(&form);
         let size = values.len();
         let turn = Mat::from_fn(size, size, |i, j| vectors[(i, size - 1 - j)]);

@@ -80,16 +80,26 @@ pub fn wave_responses(pairs: &[&WavePair], quotient: &[Beside]) -> Option<Vec<c6
     let place = |i: usize| (pairs[i].harmonic, pairs[i].friction_coefficient.to_bits());
     order.sort_by_key(|&i| place(i));
     let mut responses = vec![ZERO; pairs.len()];
+    // Where matrices alone change, the quotient of each of their terms; else that of the sums.
+    let is_shifted = quotient.iter().any(|own| own.friction_shift != 0.0);
+    let terms: Vec<_> = quotient.iter().map(|own| (own.weight, &own.tangent)).collect();
+    let change = WaveTangent::quotient(&terms).filter(|_| !is_shifted);
     for of_harmonic in order.chunk_by(|a, b| pairs[*a].harmonic == pairs[*b].harmonic) {
         let n = pairs[of_harmonic[0]].harmonic;
-        let sides: Vec<HarmonicTangent> =
-            quotient.iter().map(|own| own.tangent.harmonic(n)).collect();
+        let whole = change.as_ref().map(|own| own.harmonic(n));
+        let sides: Vec<HarmonicTangent> = match whole {
+            Some(_) => Vec::new(),
+            None => quotient.iter().map(|own| own.tangent.harmonic(n)).collect(),
+        };
         for alike in of_harmonic.chunk_by(|a, b| place(*a) == place(*b)) {
             let friction = pairs[alike[0]].friction_coefficient;
             let terms = quotient.iter().zip(&sides);
             let terms =
                 terms.map(|(own, side)| (own.weight, side.at(friction + own.friction_shift)));
-            let change = MovingHarmonic::combined(&terms.collect::<Vec<_>>())?;
+            let change = match &whole {
+                Some(own) => own.at(friction),
+                None => MovingHarmonic::combined(&terms.collect::<Vec<_>>())?,
+            };
             for &i in alike {
                 responses[i] = pairs[i].response(&change)?;
             }

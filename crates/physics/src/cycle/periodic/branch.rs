@@ -198,7 +198,7 @@ impl BranchRequest<'_, '_> {
                 let motions = group.iter().enumerate().map(|(i, point)| {
                     (self.tune)(&mut map, point.value)?;
                     map.step_in(point.steps);
-                    let motion = PeriodicMotion::in_brief(&mut map, &point.found);
+                    let motion = PeriodicMotion::brief(&mut map, &point.found).0;
                     let stability = self.with_stability.then(|| match known.get(i) {
                         Some(known) => known.clone(),
                         None => {

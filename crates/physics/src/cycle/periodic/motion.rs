@@ -105,13 +105,9 @@ impl PeriodicMotion {
         motion
     }
 
-    /// The same without histories, fields and shares of single nodes.
-    pub fn in_brief(map: &mut PeriodMap<'_>, found: &Found) -> Self {
-        Self::brief(map, found).0
-    }
-
-    /// The motion, and the step at which the contact node that moves most is farthest ahead.
-    fn brief(map: &mut PeriodMap<'_>, found: &Found) -> (Self, usize) {
+    /// The motion without histories, fields and shares of single nodes, and the step at which the contact node that moves most is
+    /// farthest ahead.
+    pub fn brief(map: &mut PeriodMap<'_>, found: &Found) -> (Self, usize) {
         let (samples, touches) = contact_displacements(map, &found.state);
         let (node, amplitude) = widest(&samples, &touches);
         let ahead = samples.iter().map(|sample| sample[node][1]).enumerate();

@@ -24,8 +24,7 @@ impl ElementGeometry {
         let at_point = |point: &IntegrationPoint| {
             // All weights of the 2 x 2 x 2 rule are one.
             let scale = determinant / point.measure;
-            let slope = |k: usize| inverse.column(k) * (-2.0 * point.place[k] * scale);
-            (0..3).map(slope).collect()
+            (0..3).map(|k: usize| inverse.column(k) * (-2.0 * point.place[k] * scale)).collect()
         };
         points.iter().map(at_point).collect()
     }
@@ -138,8 +137,7 @@ impl ElementGeometry {
 
     /// Elasticity `D` at a point, Pa, over the rows of [`Self::strain_operator`].
     pub fn elasticity(&self, material: &ElasticMaterial, point: &IntegrationPoint) -> DMatrix<f64> {
-        let material = self.solid_aware(material);
-        let law = material.elasticity_at(self.position(point));
+        let law = self.solid_aware(material).elasticity_at(self.position(point));
         let components = self.components();
         let count = components.len();
         DMatrix::from_fn(count, count, |row, column| law[components[row]][components[column]])

@@ -92,8 +92,7 @@ impl<const D: usize> SparseOperator<D> {
         placed_masses.resize((D * nodes).next_multiple_of(8), 0.0);
         let place = |dof: u32| places[dof as usize / D] + dof % D as u32;
         let followers = followers.into_iter().map(|(dof, shares)| {
-            let shares = shares.into_iter();
-            (place(dof), shares.map(|(dof, share)| (place(dof), share)).collect())
+            (place(dof), shares.into_iter().map(|(dof, share)| (place(dof), share)).collect())
         });
         Ok(Self {
             followers: followers.collect(),
@@ -156,8 +155,7 @@ fn node_blocks<const D: usize>(
 /// Nodes that each node is coupled to, itself left out.
 fn neighbours<const D: usize>(blocks: &[Vec<NodeBlock<D>>]) -> Vec<Vec<u32>> {
     let row = |(node, row): (usize, &Vec<NodeBlock<D>>)| {
-        let columns = row.iter().map(|block| block.0);
-        columns.filter(|&column| column as usize != node).collect()
+        row.iter().map(|block| block.0).filter(|&column| column as usize != node).collect()
     };
     blocks.iter().enumerate().map(row).collect()
 }

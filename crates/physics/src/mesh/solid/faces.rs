@@ -14,8 +14,7 @@ pub struct FaceElement {
 
 /// Gauss points `(place, weight)` of a face element: 2 x 2, or 3 x 3 for 8 nodes.
 pub fn face_quadrature(is_quadratic: bool) -> impl Iterator<Item = ([f64; 2], f64)> {
-    let points = kind(is_quadratic).quadrature().into_iter();
-    points.map(|([x, y, _], weight)| ([x, y], weight))
+    kind(is_quadratic).quadrature().into_iter().map(|([x, y, _], weight)| ([x, y], weight))
 }
 
 /// Kind of the elements of a face; parent axes lead across the sector, then along the face.
@@ -36,6 +35,17 @@ impl FaceElement {
         let measure = weight * half * self.radius_at(sector, at) * sector.half_angle();
         let shapes = kind(sector.is_quadratic()).shape_functions(at).into_iter();
         (shapes.map(|shape| shape.0).collect(), measure)
+    }
+
+    /// A point of the plane face that the nodes of a linear element span: its area over that of the
+    /// arc, its radius, m, and its angle from the middle of the sector.
+    pub fn on_chord(&self, sector: &SolidSector, at: [f64; 2]) -> [f64; 3] {
+        let [from, to] = [0, 2].map(|corner| &sector.nodes[self.nodes[corner].0]);
+        let (half, [along, up]) =
+            (sector.half_angle(), [to.radius - from.radius, to.height - from.height]);
+        let area = half.sin() / half * (along * half.cos()).hypot(up) / along.hypot(up);
+        let angle = (at[0] * half.tan()).atan();
+        [area, self.radius_at(sector, at) * half.cos() / angle.cos(), angle]
     }
 
     /// Radius at a point of the parent element, m.

@@ -13,8 +13,7 @@ impl SolidSector {
         let faces = mesh.outer_faces();
         for face in &faces {
             for name in self.surfaces_of(face) {
-                let own = surfaces.entry(name.to_owned()).or_default();
-                own.push((face.kind, face.nodes.clone()));
+                surfaces.entry(name.to_owned()).or_default().push((face.kind, face.nodes.clone()));
             }
         }
         FileMesh {

@@ -48,8 +48,7 @@ impl WaveTangent {
         let structural = lost.iter().any(|own| own.values().iter().any(|value| *value != 0.0));
         let structural = structural.then(|| (LossGain(None), self.project(lost.into())));
         let tabled = regions.iter().filter_map(|own| {
-            let gain = LossGain(Some(own.table.clone()?));
-            Some((gain, self.project(vec![even(&own.elastic)])))
+            Some((LossGain(Some(own.table.clone()?)), self.project(vec![even(&own.elastic)])))
         });
         structural.into_iter().chain(tabled).collect()
     }

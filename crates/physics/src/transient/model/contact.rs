@@ -5,7 +5,7 @@ use crate::contact::{
     ContactInterface, ContactStiffness, ContactSurface, CoulombFriction, Point, Row,
 };
 use crate::fem::operator::StiffnessOperator;
-use crate::fem::{assemble_stiffness, sector};
+use crate::fem::{MassKind, assemble_stiffness, sector};
 use crate::mesh::{Counterface, Mesh, SolidSector};
 use crate::prestress::{
     Assembly, PressedRange, PressedState, PrestressError, SolidSliding, SteadySliding,
@@ -84,14 +84,14 @@ impl TransientModel<'_> {
 
     fn sliding_face(&self, sector: &SolidSector) -> Result<SolidSliding, PrestressError> {
         let elastic = sector::stiffness(sector, self.material);
-        SolidSliding::solve(sector, &elastic, &self.contact, self.stiffness.base_law())
+        let law = self.stiffness.base_law();
+        SolidSliding::solve(sector, &elastic, &self.contact, law, MassKind::Lumped)
     }
 
     fn sliding_pairs(&self, assembly: &Assembly<'_>) -> Result<PressedState, PrestressError> {
         let friction_coefficient = self.contact.friction_coefficient;
         let PressedRange { states, state_of, .. } = assembly.range(&[friction_coefficient])?;
-        let place = state_of.first().copied();
-        let state = place.and_then(|at| states.into_iter().nth(at));
+        let state = state_of.first().copied().and_then(|at| states.into_iter().nth(at));
         state.ok_or(PrestressError::NoState { friction_coefficient })
     }
 
