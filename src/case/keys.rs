@@ -111,11 +111,6 @@ pub fn find(name: &str) -> Option<&'static CaseKey> {
     })
 }
 
-/// Whether a dotted name is that of a key or of a section.
-pub(super) fn is_key_or_section(name: &str) -> bool {
-    find(name).is_some() || is_section(name)
-}
-
 /// Whether a dotted name is that of a section, or the beginning of one's; `*` stands for any one
 /// name.
 pub(super) fn is_section(name: &str) -> bool {

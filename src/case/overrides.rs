@@ -90,7 +90,7 @@ fn remove(
     }
     let taken = table.and_then(|table| table.remove(parts[parts.len() - 1]));
     let name = parts.join(".");
-    if taken.is_none() && !keys::is_key_or_section(&name) {
+    if taken.is_none() && keys::find(&name).is_none() && !keys::is_section(&name) {
         diagnostics.push(Diagnostic::error(
             format!("unknown key `{name}`"),
             "nothing to remove",

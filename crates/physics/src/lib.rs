@@ -19,7 +19,5 @@ pub mod parallel;
 pub mod prestress;
 pub mod transient;
 
-#[doc(inline)]
-pub use frictionsim_output as output;
-#[doc(inline)]
-pub use frictionsim_signal as signal;
+use frictionsim_output as output;
+use frictionsim_signal as signal;

@@ -1,22 +1,12 @@
 //! Order by a number.
 
-/// Sorts by a number of each item, smallest first; equal ones keep their order, and NaN is the largest.
+/// Sorts by a number of each item, smallest first; equal ones keep their order. `-0` is below `0`, NaN above all.
 ///
-/// One sort serves every kind of item: what the standard library compiles for each is 2,600 instructions of the compiler's.
-pub fn sort_by_number<T>(items: &mut [T], number: impl FnMut(&T) -> f64) {
-    let mut order: Vec<(f64, usize)> = items.iter().map(number).zip(0..).collect();
-    sort_places(&mut order);
-    // An item that was exchanged already stands where its own place was taken from.
-    for place in 0..order.len() {
-        let mut from = order[place].1;
-        while from < place {
-            from = order[from].1;
-        }
-        order[place].1 = from;
-        items.swap(place, from);
-    }
-}
-
-fn sort_places(order: &mut [(f64, usize)]) {
-    order.sort_by(|a, b| a.0.total_cmp(&b.0));
+/// By integers in the order of the numbers, so that one sort serves every kind of item.
+pub fn sort_by_number<T>(items: &mut [T], mut number: impl FnMut(&T) -> f64) {
+    items.sort_by_cached_key(|item| {
+        let bits = number(item).to_bits() as i64;
+        // Of negative numbers the larger have the smaller bits behind the sign.
+        bits ^ (((bits >> 63) as u64) >> 1) as i64
+    });
 }

@@ -1,7 +1,9 @@
 //! Work side by side.
 
 use rayon::prelude::*;
-use std::sync::{Mutex, PoisonError};
+use std::sync::Mutex;
+
+const UNBROKEN: &str = "a panic of the work ends the loop first";
 
 /// What `work` makes of each item, side by side on the threads there are, listed in the order of the items.
 ///
@@ -10,15 +12,13 @@ pub fn map<I: Send, T: Send, L: FromIterator<T>>(
     items: impl IntoIterator<Item = I>,
     work: impl Fn(I) -> T + Sync,
 ) -> L {
-    let slot = |item| Mutex::new((Some(item), None));
-    let slots: Vec<Mutex<(Option<I>, Option<T>)>> = items.into_iter().map(slot).collect();
+    let slot = |item| (Mutex::new(Some(item)), Mutex::new(None));
+    let slots: Vec<(Mutex<Option<I>>, Mutex<Option<T>>)> = items.into_iter().map(slot).collect();
     at_each_place(slots.len(), &|place| {
-        let mut slot = slots[place].lock().unwrap_or_else(PoisonError::into_inner);
-        slot.1 = slot.0.take().map(&work);
+        let (item, done) = &slots[place];
+        *done.lock().expect(UNBROKEN) = item.lock().expect(UNBROKEN).take().map(&work);
     });
-    let done =
-        |slot: Mutex<(_, Option<T>)>| slot.into_inner().unwrap_or_else(PoisonError::into_inner).1;
-    slots.into_iter().filter_map(done).collect()
+    slots.into_iter().filter_map(|(_, done)| done.into_inner().expect(UNBROKEN)).collect()
 }
 
 fn at_each_place(count: usize, work: &(dyn Fn(usize) + Sync)) {

@@ -183,10 +183,8 @@ fn press_on_springs(
         let left = distance(sector, &left, &of_rings(&values));
         let forces = own.iter().zip(tangent.multiply(own.len(), &left));
         let forces: Vec<f64> = forces.map(|(own, more)| own + more).collect();
-        // Those of the rings, then those that something else holds along the normal.
-        let of_rings: Vec<usize> = sector.rings.iter().flat_map(|own| own.nodes.clone()).collect();
-        let held = (0..sector.node_count()).filter(|node| !of_rings.contains(node));
-        let nodes = of_rings.iter().copied().chain(held);
+        // Those of nodes that something else holds along the normal, too.
+        let nodes = 0..sector.node_count();
         let nodes = nodes.map(|node| (node, inward * forces[3 * node + component]));
         let normal_forces: Vec<_> = nodes.filter(|(_, force)| *force != 0.0).collect();
         return Ok(SolidSliding {

@@ -115,22 +115,17 @@ impl WaveTangent {
         }
     }
 
-    /// `sum_k w_k T_k` of tangents that differ in matrices alone, for weights whose sum is zero:
-    /// what all have alike leaves no round-off. `None` where the tangents differ in more.
-    pub fn quotient(terms: &[(f64, &Self)]) -> Option<Self> {
-        let first = terms.first()?.1;
-        let is_like = |own: &Self| {
-            let [a, b] = [own.options, first.options];
-            (a.damping, a.damping_model) == (b.damping, b.damping_model)
-                && a.contact.loss_factor == b.contact.loss_factor
-                && own.sliding_direction == first.sliding_direction
-                && own.contact == first.contact
-                && own.dofs == first.dofs
+    /// `T - T'` of tangents that differ in matrices alone, before these are summed up: what both have alike leaves no round-off
+    /// in a difference quotient. `None` where they differ in more.
+    pub fn less(&self, other: &Self) -> Option<Self> {
+        let factors = |own: &Self| {
+            let TangentOptions { damping, damping_model, contact, .. } = own.options;
+            (damping, damping_model, contact.loss_factor, own.sliding_direction)
         };
-        let alike = terms.iter().all(|(_, own)| is_like(own));
-        let terms: Vec<_> = terms.iter().map(|(weight, own)| (*weight, &own.terms)).collect();
-        let terms = WaveTerms::quotient(&terms).filter(|_| alike)?;
-        Some(Self { terms, ..first.clone() })
+        let is_alike = factors(self) == factors(other)
+            && (&self.contact, &self.dofs) == (&other.contact, &other.dofs);
+        let terms = self.terms.less(&other.terms).filter(|_| is_alike)?;
+        Some(Self { terms, ..self.clone() })
     }
 
     /// Unknowns of a harmonic among the dofs of a sector.

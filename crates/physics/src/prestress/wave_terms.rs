@@ -101,32 +101,20 @@ impl WaveTerms {
         }
     }
 
-    /// [`super::WaveTangent::quotient`] of every matrix.
-    pub fn quotient(terms: &[(f64, &Self)]) -> Option<Self> {
-        let mut sum = terms.first()?.1.clone();
-        let parts = |own: &Self| (own.regions.len(), own.supports.len());
-        let is_like = |own: &Self| {
-            let mut regions = own.regions.iter().zip(&sum.regions);
-            let mut supports = own.supports.iter().zip(&sum.supports);
-            parts(own) == parts(&sum)
-                && regions.all(|(a, b)| {
-                    (a.damping, a.loss_factor, &a.table) == (b.damping, b.loss_factor, &b.table)
-                })
-                && supports.all(|(a, b)| a.loss_factor == b.loss_factor)
+    /// [`super::WaveTangent::less`] of every matrix.
+    pub fn less(&self, other: &Self) -> Option<Self> {
+        let factors = |own: &Self| {
+            let regions = own.regions.iter();
+            let regions = regions.map(|own| (own.damping, own.loss_factor, own.table.clone()));
+            let supports = own.supports.iter().map(|own| own.loss_factor);
+            (regions.collect::<Vec<_>>(), supports.collect::<Vec<_>>())
         };
-        if !terms.iter().all(|(_, own)| is_like(own)) {
-            return None;
+        let (mut own, mut other) = (self.clone(), other.clone());
+        let is_alike = factors(&own) == factors(&other);
+        for (own, other) in own.matrices().into_iter().zip(other.matrices()) {
+            *own = own.plus(&other.scaled(-1.0));
         }
-        let mut all: Vec<(f64, Self)> = terms.iter().map(|(w, own)| (*w, (*own).clone())).collect();
-        let sides = all.iter_mut().map(|(weight, own)| (*weight, own.matrices().into_iter()));
-        let mut sides: Vec<_> = sides.collect();
-        for matrix in sum.matrices() {
-            let first = matrix.scaled(-1.0);
-            let beside = sides.iter_mut().filter_map(|(weight, own)| Some((*weight, own.next()?)));
-            let changes = beside.map(|(weight, own)| own.plus(&first).scaled(weight));
-            *matrix = changes.fold(SectorMatrix::default(), |sum, own| sum.plus(&own));
-        }
-        Some(sum)
+        is_alike.then_some(own)
     }
 
     fn matrices(&mut self) -> Vec<&mut SectorMatrix> {

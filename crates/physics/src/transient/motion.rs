@@ -2,8 +2,8 @@
 
 use super::Recorder;
 use super::vibration::{rms, series};
+use crate::linalg::c64;
 use crate::signal::{RotatingLine, rotating_lines};
-use rustfft::num_complex::Complex64;
 use std::ops::Range;
 
 /// A line weaker than this share of the strongest makes no motion of two frequencies.
@@ -102,8 +102,8 @@ fn envelope_ratio(record: &Recorder, range: &Range<usize>, frequency: f64) -> f6
         .map(|sample| {
             let parts = record.followed_harmonics().map(|n| {
                 let amplitude = record.amplitude(sample, n).unwrap_or_default();
-                let turned = Complex64::from_polar(1.0, n as f64 * angle);
-                (Complex64::new(amplitude[0], amplitude[1]) * turned).re
+                let turned = c64::from_polar(1.0, n as f64 * angle);
+                (c64::new(amplitude[0], amplitude[1]) * turned).re
             });
             parts.sum()
         })

@@ -4,8 +4,8 @@ use super::StatusCounts;
 use super::motion::TwoFrequencies;
 use super::recorder::{Recorder, SampleRow};
 use super::vibration::{dies_out, last_fifth, main_vibration, quarters, rms, series};
+use crate::linalg::c64;
 use crate::signal::round_off_floor;
-use rustfft::num_complex::Complex64;
 use std::f64::consts::TAU;
 use std::fmt;
 use std::ops::Range;
@@ -174,7 +174,7 @@ struct Block {
     /// Root mean square of each followed harmonic about its mean, m.
     amplitudes: Vec<f64>,
     /// The main vibration, demodulated by its frequency.
-    demodulated: Complex64,
+    demodulated: c64,
     /// Mean twist, m.
     twist: f64,
     /// Fractions of contact nodes.
@@ -335,14 +335,14 @@ impl Block {
         let mut counts = StatusCounts::default();
         rows.iter().for_each(|row| counts += row.counts);
         let of = |n: usize| series(record, range.clone(), n).unwrap_or_default();
-        let demodulated = main.map_or(Complex64::default(), |(harmonic, frequency)| {
+        let demodulated = main.map_or(c64::default(), |(harmonic, frequency)| {
             let turn = TAU * frequency * record.sample_interval;
             let values = of(harmonic).into_iter().zip(range.clone());
             values
                 .map(|(value, k)| {
                     let x = (k - range.start) as f64 + 0.5;
                     let hann = (0.5 * TAU * x / range.len() as f64).sin().powi(2);
-                    value * Complex64::from_polar(hann, -turn * k as f64)
+                    value * c64::from_polar(hann, -turn * k as f64)
                 })
                 .sum()
         });
@@ -365,7 +365,7 @@ struct Extremes {
     twist: [f64; 2],
     frequency: [f64; 2],
     status: [[f64; 2]; 3],
-    later: Option<Complex64>,
+    later: Option<c64>,
 }
 
 impl Extremes {

@@ -1,8 +1,8 @@
 //! Vibrations of the harmonics that a record follows.
 
 use super::Recorder;
+use crate::linalg::c64;
 use crate::signal::strongest_vibration;
-use rustfft::num_complex::Complex64;
 use std::ops::Range;
 
 /// Fewest samples that a vibration is read from.
@@ -42,27 +42,23 @@ pub(super) fn amplitudes(
     record: &Recorder,
     range: Range<usize>,
     harmonic: usize,
-) -> Option<Vec<Complex64>> {
+) -> Option<Vec<c64>> {
     let parts = range.map(|sample| record.amplitude(sample, harmonic));
-    parts.map(|parts| parts.map(|[re, im]| Complex64::new(re, im))).collect()
+    parts.map(|parts| parts.map(|[re, im]| c64::new(re, im))).collect()
 }
 
 /// A followed harmonic about its mean, m.
-pub(super) fn series(
-    record: &Recorder,
-    range: Range<usize>,
-    harmonic: usize,
-) -> Option<Vec<Complex64>> {
+pub(super) fn series(record: &Recorder, range: Range<usize>, harmonic: usize) -> Option<Vec<c64>> {
     let count = range.len() as f64;
     let mut series = amplitudes(record, range, harmonic)?;
-    let mean = series.iter().sum::<Complex64>() / count;
+    let mean = series.iter().sum::<c64>() / count;
     series.iter_mut().for_each(|value| *value -= mean);
     Some(series)
 }
 
 /// Root mean square of a series.
-pub(super) fn rms(series: &[Complex64]) -> f64 {
-    let sum: f64 = series.iter().map(Complex64::norm_sqr).sum();
+pub(super) fn rms(series: &[c64]) -> f64 {
+    let sum: f64 = series.iter().map(c64::norm_sqr).sum();
     (sum / series.len().max(1) as f64).sqrt()
 }
 

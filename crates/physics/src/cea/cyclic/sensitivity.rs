@@ -80,15 +80,16 @@ pub fn wave_responses(pairs: &[&WavePair], quotient: &[Beside]) -> Option<Vec<c6
     let place = |i: usize| (pairs[i].harmonic, pairs[i].friction_coefficient.to_bits());
     order.sort_by_key(|&i| place(i));
     let mut responses = vec![ZERO; pairs.len()];
-    // Where matrices alone change, the quotient of each of their terms; else that of the sums.
-    let is_shifted = quotient.iter().any(|own| own.friction_shift != 0.0);
-    let terms: Vec<_> = quotient.iter().map(|own| (own.weight, &own.tangent)).collect();
-    let change = WaveTangent::quotient(&terms).filter(|_| !is_shifted);
+    // The weights sum up to zero: where matrices alone change, those of the first model are taken out.
+    let less = quotient.iter().map(|own| match own.friction_shift == 0.0 {
+        true => own.tangent.less(&quotient[0].tangent),
+        false => None,
+    });
+    let less: Option<Vec<WaveTangent>> = less.collect();
     for of_harmonic in order.chunk_by(|a, b| pairs[*a].harmonic == pairs[*b].harmonic) {
         let n = pairs[of_harmonic[0]].harmonic;
-        let whole = change.as_ref().map(|own| own.harmonic(n));
-        let sides: Vec<HarmonicTangent> = match whole {
-            Some(_) => Vec::new(),
+        let sides: Vec<HarmonicTangent> = match &less {
+            Some(own) => own.iter().map(|own| own.harmonic(n)).collect(),
             None => quotient.iter().map(|own| own.tangent.harmonic(n)).collect(),
         };
         for alike in of_harmonic.chunk_by(|a, b| place(*a) == place(*b)) {
@@ -96,10 +97,7 @@ pub fn wave_responses(pairs: &[&WavePair], quotient: &[Beside]) -> Option<Vec<c6
             let terms = quotient.iter().zip(&sides);
             let terms =
                 terms.map(|(own, side)| (own.weight, side.at(friction + own.friction_shift)));
-            let change = match &whole {
-                Some(own) => own.at(friction),
-                None => MovingHarmonic::combined(&terms.collect::<Vec<_>>())?,
-            };
+            let change = MovingHarmonic::combined(&terms.collect::<Vec<_>>())?;
             for &i in alike {
                 responses[i] = pairs[i].response(&change)?;
             }

@@ -1,7 +1,7 @@
 //! Harmonics in time of the motion of contact nodes.
 
+use crate::linalg::c64;
 use crate::signal::forward_transform;
-use rustfft::num_complex::Complex64;
 
 /// One harmonic of the motion of the contact nodes.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -21,7 +21,7 @@ pub fn harmonics(samples: &[Vec<[f64; 2]>]) -> Vec<MotionHarmonic> {
     for node in 0..nodes {
         for component in 0..2 {
             let values = samples.iter().map(|sample| sample[node][component]);
-            let mut values: Vec<Complex64> = values.map(|u| Complex64::new(u, 0.0)).collect();
+            let mut values: Vec<c64> = values.map(|u| c64::new(u, 0.0)).collect();
             transform.process(&mut values);
             for (square, value) in squares.iter_mut().zip(&values) {
                 square[component] += value.norm_sqr();
