@@ -60,7 +60,7 @@ impl<'a> FullSliding<'a> {
         };
         let distances: Vec<f64> = approaches.iter().map(|g| interference - g).collect();
         let load = self.basis.transposed_forces(load);
-        let pressed = self.pressed_by(&distances, &load);
+        let pressed = self.pressed_by(&distances, &load, Self::refined);
         let normal_forces = self.normal_forces(&pressed, &load);
 
         // Friction shears it.
@@ -70,7 +70,7 @@ impl<'a> FullSliding<'a> {
                 traction[dof] += point.friction.drag * along * force;
             }
         }
-        let sheared = self.solve(&self.basis.transposed_forces(&traction));
+        let sheared = self.refined(&self.basis.transposed_forces(&traction));
         let springs = law.map(|law| {
             let pairs = approaches.iter().zip(self.points);
             pairs.map(|(&g, point)| point.weight * law.stiffness(g)).collect()
@@ -84,24 +84,32 @@ impl<'a> FullSliding<'a> {
         })
     }
 
-    /// Response to a load with the separations held, refined once: slender bodies need it.
+    /// Response to a load with the separations held.
     pub fn solve(&self, load: &[f64]) -> Vec<f64> {
-        let respond =
-            |load: &[f64]| self.unknowns.expand(&self.solver.solve(self.unknowns.restrict(load)));
-        let first = respond(load);
-        let more = respond(&self.stiffness.residual(load, &first));
+        self.unknowns.expand(&self.solver.solve(self.unknowns.restrict(load)))
+    }
+
+    /// The same with the load that round-off leaves solved for, too: slender bodies multiply it.
+    pub fn refined(&self, load: &[f64]) -> Vec<f64> {
+        let first = self.solve(load);
+        let more = self.solve(&self.stiffness.residual(load, &first));
         first.iter().zip(more).map(|(first, more)| first + more).collect()
     }
 
     /// Response to a load with these separations.
-    fn pressed_by(&self, distances: &[f64], load: &[f64]) -> Vec<f64> {
+    fn pressed_by(
+        &self,
+        distances: &[f64],
+        load: &[f64],
+        solve: fn(&Self, &[f64]) -> Vec<f64>,
+    ) -> Vec<f64> {
         let total = load.len();
         let mut prescribed = vec![0.0; total];
         let both = || self.separations.iter().zip(distances);
         both().for_each(|(&dof, distance)| prescribed[dof] = *distance);
         let force = self.stiffness.multiply(total, &prescribed);
         let left: Vec<f64> = load.iter().zip(force).map(|(load, force)| load - force).collect();
-        let mut pressed = self.solve(&left);
+        let mut pressed = solve(self, &left);
         both().for_each(|(&dof, distance)| pressed[dof] = *distance);
         pressed
     }
@@ -119,7 +127,9 @@ impl<'a> FullSliding<'a> {
         let columns = (0..count).map(|j| {
             let mut unit = vec![0.0; count];
             unit[j] = 1.0;
-            DVector::from_vec(self.normal_forces(&self.pressed_by(&unit, &none), &none))
+            DVector::from_vec(
+                self.normal_forces(&self.pressed_by(&unit, &none, Self::solve), &none),
+            )
         });
         DMatrix::from_columns(&columns.collect::<Vec<_>>())
     }

@@ -179,6 +179,8 @@ fn press_on_springs(
             values = next;
             continue;
         }
+        let displacement = body.refined(&loads);
+        let found = approaches(sector, contact.interference, &displacement);
         let left = distance(sector, &pushed, &displacement);
         let left = distance(sector, &left, &of_rings(&values));
         let forces = own.iter().zip(tangent.multiply(own.len(), &left));
@@ -216,7 +218,7 @@ fn sheared(
     for (node, force) in normal_forces {
         drag[3 * node + 1] = friction(contact, sector.nodes[*node].radius).drag * force;
     }
-    Ok(FullSliding::new(stiffness, basis, &[])?.solve(&drag))
+    Ok(FullSliding::new(stiffness, basis, &[])?.refined(&drag))
 }
 
 /// The springs of the face where the rings' approaches are positive.

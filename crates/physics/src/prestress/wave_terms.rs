@@ -112,7 +112,10 @@ impl WaveTerms {
         let (mut own, mut other) = (self.clone(), other.clone());
         let is_alike = factors(&own) == factors(&other);
         for (own, other) in own.matrices().into_iter().zip(other.matrices()) {
-            *own = own.plus(&other.scaled(-1.0));
+            *own = match *own == *other {
+                true => SectorMatrix::default(),
+                false => own.plus(&other.scaled(-1.0)),
+            };
         }
         is_alike.then_some(own)
     }
