@@ -174,15 +174,15 @@ impl<'a> Process<'a> {
             columns.col_mut(j).iter_mut().for_each(|v| *v /= lengths[j]);
         }
         // Twice is enough for orthogonality to round-off.
+        let mut momenta = Mat::zeros(0, 0);
         for pass in 0..2 {
             let along = transpose_product(self.momenta.as_ref(), columns.as_ref());
             add_product(columns.as_mut(), -1.0, self.basis.as_ref(), along.as_ref());
-            let momenta = self.pencil.mass_times(columns.as_ref());
-            columns = orthonormalized(columns, momenta, if pass == 0 { DEPENDENT } else { 0.0 });
+            momenta = self.pencil.mass_times(columns.as_ref());
+            let shortest = if pass == 0 { DEPENDENT } else { 0.0 };
+            [columns, momenta] = orthonormalized(columns, momenta, shortest);
         }
         let kept = columns.ncols().min(room);
-        columns.truncate(columns.nrows(), kept);
-        let momenta = self.pencil.mass_times(columns.as_ref());
         let first = self.basis.ncols();
         let n = columns.nrows();
         self.basis.resize_with(n, first + kept, |i, j| columns[(i, j - first)]);
@@ -243,9 +243,9 @@ impl<'a> Process<'a> {
     }
 }
 
-/// Orthonormal columns in the inner product of `M` from `w` and `M w`, by modified Gram-Schmidt, longest remainder first; remainders
-/// shorter than `shortest` of their column are left out.
-fn orthonormalized(mut w: Mat<f64>, mut momenta: Mat<f64>, shortest: f64) -> Mat<f64> {
+/// Orthonormal columns in the inner product of `M` and their images, from `w` and `M w`, by modified Gram-Schmidt, longest remainder
+/// first; remainders shorter than `shortest` of their column are left out.
+fn orthonormalized(mut w: Mat<f64>, mut momenta: Mat<f64>, shortest: f64) -> [Mat<f64>; 2] {
     let length = |w: &Mat<f64>, momenta: &Mat<f64>, j: usize| {
         dot(column(w.as_ref(), j), column(momenta.as_ref(), j)).max(0.0).sqrt()
     };
@@ -274,7 +274,7 @@ fn orthonormalized(mut w: Mat<f64>, mut momenta: Mat<f64>, shortest: f64) -> Mat
         }
         kept.push(own);
     }
-    pick_columns(&w, &kept)
+    [w, momenta].map(|columns| pick_columns(&columns, &kept))
 }
 
 #[cfg(test)]

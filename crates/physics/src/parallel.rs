@@ -12,8 +12,8 @@ pub fn map<I: Send, T: Send, L: FromIterator<T>>(
     items: impl IntoIterator<Item = I>,
     work: impl Fn(I) -> T + Sync,
 ) -> L {
-    let slot = |item| (Mutex::new(Some(item)), Mutex::new(None));
-    let slots: Vec<(Mutex<Option<I>>, Mutex<Option<T>>)> = items.into_iter().map(slot).collect();
+    let slot = |item| (Mutex::new(Some(item)), Mutex::new(None::<T>));
+    let slots: Vec<_> = items.into_iter().map(slot).collect();
     at_each_place(slots.len(), &|place| {
         let (item, done) = &slots[place];
         *done.lock().expect(UNBROKEN) = item.lock().expect(UNBROKEN).take().map(&work);

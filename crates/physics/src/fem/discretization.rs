@@ -11,8 +11,8 @@ use nalgebra::DMatrix;
 /// element are made once for all of them.
 const PAIRS_AT_A_TIME: usize = 16;
 const VALUES_AT_A_TIME: usize = 8_000_000;
-/// Real columns of a pair: real and imaginary part of both.
-const COLUMNS: usize = 4;
+/// Real rows of a pair: real and imaginary part of both.
+const PARTS: usize = 4;
 
 /// Estimate of the elastic energy that the errors of two finite-element solutions have in common, by patch recovery of their strains
 /// (Zienkiewicz and Zhu 1992; goal-oriented as in Oden and Prudhomme 2001),
@@ -42,25 +42,25 @@ impl<'a> DiscretizationError<'a> {
 
     /// `a(e_w, e_x)` of each pair `[w, x]` over all dofs (m), region by region, J without conjugation.
     pub fn forms(&self, pairs: &[[&[c64]; 2]]) -> Vec<Vec<c64>> {
-        let values = self.recovery.first_sample.last().unwrap_or(&0) * self.components() * COLUMNS;
+        let values = self.recovery.first_sample.last().unwrap_or(&0) * self.components() * PARTS;
         let groups = pairs.chunks(PAIRS_AT_A_TIME.max(VALUES_AT_A_TIME / values.max(1)));
         groups.flat_map(|group| self.forms_of(group)).collect()
     }
 
     fn forms_of(&self, pairs: &[[&[c64]; 2]]) -> Vec<Vec<c64>> {
-        let elements: Vec<usize> = (0..self.mesh.element_count()).collect();
-        // Strains at the samples of the recovery, a row each component, element by element.
-        let sampled: Vec<DMatrix<f64>> = crate::parallel::map(&elements, |&e| {
+        let columns = interleaved(pairs);
+        // Strains at the samples of the recovery, element by element.
+        let elements = 0..self.mesh.element_count();
+        let sampled: Vec<Vec<DMatrix<f64>>> = crate::parallel::map(elements.clone(), |e| {
             let geometry = ElementGeometry::new(self.mesh, e);
             let places = self.recovery.places(e).iter();
-            let points: Vec<IntegrationPoint> =
-                places.map(|place| geometry.at((*place, 1.0))).collect();
-            geometry.strain_operator(self.material(e), &points) * self.nodal(e, pairs)
+            let points: Vec<_> = places.map(|place| geometry.at((*place, 1.0))).collect();
+            self.strains((e, &geometry), &points, &columns)
         });
-        let recovered = self.recovered(&sampled);
+        let recovered = self.recovered(&sampled.concat(), columns.nrows());
         // The error of each element's strain at the points of its stiffness, and its energy.
         let energies: Vec<Vec<c64>> =
-            crate::parallel::map(&elements, |&e| self.element_energies(e, pairs, &recovered));
+            crate::parallel::map(elements, |e| self.element_energies(e, &columns, &recovered));
         let regions = self.mesh.regions.len().max(1);
         let mut forms = vec![vec![c64::new(0.0, 0.0); regions]; pairs.len()];
         for (e, energy) in energies.iter().enumerate() {
@@ -71,57 +71,61 @@ impl<'a> DiscretizationError<'a> {
         forms
     }
 
+    /// Strains of an element at each of some points, a column each component.
+    fn strains(
+        &self,
+        (e, geometry): (usize, &ElementGeometry),
+        points: &[IntegrationPoint],
+        columns: &DMatrix<f64>,
+    ) -> Vec<DMatrix<f64>> {
+        let (d, count) = (self.mesh.dimension, self.components());
+        let nodes = self.mesh.element_nodes(e).iter().map(|&node| d * node as usize);
+        let dofs: Vec<usize> = nodes.flat_map(|first| first..first + d).collect();
+        let operator = geometry.strain_operator(self.material(e), points);
+        let all = columns.select_columns(&dofs) * operator.transpose();
+        (0..points.len()).map(|k| all.columns(count * k, count).into_owned()).collect()
+    }
+
     /// The recovered strain of every node, in each region that meets there.
-    fn recovered(&self, sampled: &[DMatrix<f64>]) -> Vec<Vec<(usize, DMatrix<f64>)>> {
-        let first = &self.recovery.first_sample;
-        let elements = 0..self.mesh.element_count();
-        let element_of: Vec<usize> =
-            elements.flat_map(|e| std::iter::repeat_n(e, first[e + 1] - first[e])).collect();
-        let (rows, width) = (self.components(), sampled.first().map_or(0, DMatrix::ncols));
-        let at_node = |node: usize| {
-            let regions = self.recovery.at(node);
-            let of_region = |(region, weights): (usize, &[(usize, f64)])| {
-                let mut sum = DMatrix::zeros(rows, width);
-                for &(sample, weight) in weights {
-                    let e = element_of[sample];
-                    let own = sampled[e].rows(rows * (sample - first[e]), rows);
-                    sum.zip_apply(&own, |sum, value| *sum += weight * value);
-                }
-                (region, sum)
-            };
-            regions.map(of_region).collect()
+    fn recovered(&self, sampled: &[DMatrix<f64>], width: usize) -> Vec<Vec<(usize, DMatrix<f64>)>> {
+        let of_region = |(region, weights): (usize, &[(usize, f64)])| {
+            let mut sum = DMatrix::zeros(width, self.components());
+            for &(sample, weight) in weights {
+                add_multiple(&mut sum, weight, &sampled[sample]);
+            }
+            (region, sum)
         };
-        crate::parallel::map(0..self.mesh.node_count(), at_node)
+        let nodes = 0..self.mesh.node_count();
+        crate::parallel::map(nodes, |node| self.recovery.at(node).map(of_region).collect())
     }
 
     /// `int (R eps(w) - eps(w))^T D (R eps(x) - eps(x)) dV` over an element, of each pair.
     fn element_energies(
         &self,
         e: usize,
-        pairs: &[[&[c64]; 2]],
+        columns: &DMatrix<f64>,
         recovered: &[Vec<(usize, DMatrix<f64>)>],
     ) -> Vec<c64> {
         let geometry = ElementGeometry::new(self.mesh, e);
         let (points, region) = (geometry.stiffness_points(), self.mesh.region(e));
-        let own = geometry.strain_operator(self.material(e), &points) * self.nodal(e, pairs);
+        let own = self.strains((e, &geometry), &points, columns);
         let nodes = self.mesh.element_nodes(e).iter().map(|&node| {
             let at_node = recovered[node as usize].iter();
             at_node.filter(|(own, _)| *own == region).map(|(_, strain)| strain)
         });
         let nodes: Vec<&DMatrix<f64>> = nodes.flatten().collect();
-        let rows = self.components();
-        let mut energies = vec![c64::new(0.0, 0.0); pairs.len()];
-        for (k, point) in points.iter().enumerate() {
-            let mut error = -own.rows(rows * k, rows);
+        let mut energies = vec![c64::new(0.0, 0.0); columns.nrows() / PARTS];
+        for (point, own) in points.iter().zip(own) {
+            let mut error = -own;
             for (&value, nodal) in point.values.iter().zip(&nodes) {
-                error.zip_apply(*nodal, |sum, recovered| *sum += value * recovered);
+                add_multiple(&mut error, value, nodal);
             }
-            let stress = geometry.elasticity(self.material(e), point) * &error * point.measure;
-            let work = |a: usize, b: usize| error.column(a).dot(&stress.column(b));
-            for (pair, energy) in energies.iter_mut().enumerate() {
-                let [w, x] = [COLUMNS * pair, COLUMNS * pair + 2];
-                let re = work(w, x) - work(w + 1, x + 1);
-                *energy += c64::new(re, work(w, x + 1) + work(w + 1, x));
+            let stress = &error * geometry.elasticity(self.material(e), point) * point.measure;
+            for (error, stress) in error.column_iter().zip(stress.column_iter()) {
+                let of_pairs = error.as_slice().chunks(PARTS).zip(stress.as_slice().chunks(PARTS));
+                for (energy, (w, x)) in energies.iter_mut().zip(of_pairs) {
+                    *energy += c64::new(w[0], w[1]) * c64::new(x[2], x[3]);
+                }
             }
         }
         energies
@@ -135,18 +139,19 @@ impl<'a> DiscretizationError<'a> {
     fn material(&self, element: usize) -> &ElasticMaterial {
         self.materials.of(self.mesh.region(element))
     }
+}
 
-    /// The values of an element's nodes, four columns a pair.
-    fn nodal(&self, element: usize, pairs: &[[&[c64]; 2]]) -> DMatrix<f64> {
-        let d = self.mesh.dimension;
-        let nodes = self.mesh.element_nodes(element);
-        DMatrix::from_fn(d * nodes.len(), COLUMNS * pairs.len(), |row, column| {
-            let dof = d * nodes[row / d] as usize + row % d;
-            let value = pairs[column / COLUMNS][column % COLUMNS / 2][dof];
-            match column % 2 {
-                0 => value.re,
-                _ => value.im,
-            }
-        })
-    }
+/// Real and imaginary parts of all pairs, four rows each, a column for each dof.
+fn interleaved(pairs: &[[&[c64]; 2]]) -> DMatrix<f64> {
+    let dofs = pairs.first().map_or(0, |[w, _]| w.len());
+    let parts = |dof: usize| {
+        let both = pairs.iter().flatten().map(move |own| own[dof]);
+        both.flat_map(|value| [value.re, value.im])
+    };
+    DMatrix::from_iterator(PARTS * pairs.len(), dofs, (0..dofs).flat_map(parts))
+}
+
+/// `sum += factor other`, entry by entry.
+fn add_multiple(sum: &mut DMatrix<f64>, factor: f64, other: &DMatrix<f64>) {
+    sum.iter_mut().zip(other).for_each(|(sum, other)| *sum += factor * other);
 }

@@ -200,7 +200,8 @@ impl SymmetricPencil for ShiftedPencil<'_> {
     }
 
     fn mass_times(&self, x: MatRef<'_, f64>) -> Mat<f64> {
-        self.mass.pattern().multiply(&self.values, x)
+        // Symmetric: the transpose needs no nonzeros sorted by rows.
+        self.mass.pattern().multiply_transpose(&self.values, x)
     }
 
     fn solve_in_place(&self, x: &mut Mat<f64>) {
