@@ -52,7 +52,7 @@ fn in_sections(rows: impl IntoIterator<Item = Shared>) -> Vec<CaseKey> {
         .flat_map(|(sections, key)| sections.split(", ").map(move |section| key.within(section)));
     let mut all: Vec<CaseKey> = pairs.collect();
     let order: Vec<&str> = all.iter().map(CaseKey::section).collect();
-    all.sort_by_key(|key| order.iter().position(|section| *section == key.section()));
+    all.sort_by_cached_key(|key| order.iter().position(|section| *section == key.section()));
     all
 }
 
