@@ -49,15 +49,15 @@ impl<'a> DiscretizationError<'a> {
 
     fn forms_of(&self, pairs: &[[&[c64]; 2]]) -> Vec<Vec<c64>> {
         let columns = interleaved(pairs);
-        // Strains at the samples of the recovery, element by element.
+        // Strains at the samples of the recovery, a column each component, element by element.
         let elements = 0..self.mesh.element_count();
-        let sampled: Vec<Vec<DMatrix<f64>>> = crate::parallel::map(elements.clone(), |e| {
+        let sampled: Vec<DMatrix<f64>> = crate::parallel::map(elements.clone(), |e| {
             let geometry = ElementGeometry::new(self.mesh, e);
             let places = self.recovery.places(e).iter();
             let points: Vec<_> = places.map(|place| geometry.at((*place, 1.0))).collect();
             self.strains((e, &geometry), &points, &columns)
         });
-        let recovered = self.recovered(&sampled.concat(), columns.nrows());
+        let recovered = self.recovered(&sampled);
         // The error of each element's strain at the points of its stiffness, and its energy.
         let energies: Vec<Vec<c64>> =
             crate::parallel::map(elements, |e| self.element_energies(e, &columns, &recovered));
@@ -71,27 +71,32 @@ impl<'a> DiscretizationError<'a> {
         forms
     }
 
-    /// Strains of an element at each of some points, a column each component.
+    /// Strains of an element at some points: a column each component, point by point.
     fn strains(
         &self,
         (e, geometry): (usize, &ElementGeometry),
         points: &[IntegrationPoint],
         columns: &DMatrix<f64>,
-    ) -> Vec<DMatrix<f64>> {
-        let (d, count) = (self.mesh.dimension, self.components());
+    ) -> DMatrix<f64> {
+        let d = self.mesh.dimension;
         let nodes = self.mesh.element_nodes(e).iter().map(|&node| d * node as usize);
         let dofs: Vec<usize> = nodes.flat_map(|first| first..first + d).collect();
         let operator = geometry.strain_operator(self.material(e), points);
-        let all = columns.select_columns(&dofs) * operator.transpose();
-        (0..points.len()).map(|k| all.columns(count * k, count).into_owned()).collect()
+        columns.select_columns(&dofs) * operator.transpose()
     }
 
     /// The recovered strain of every node, in each region that meets there.
-    fn recovered(&self, sampled: &[DMatrix<f64>], width: usize) -> Vec<Vec<(usize, DMatrix<f64>)>> {
+    fn recovered(&self, sampled: &[DMatrix<f64>]) -> Vec<Vec<(usize, DMatrix<f64>)>> {
+        let first = &self.recovery.first_sample;
+        let elements = 0..self.mesh.element_count();
+        let element_of: Vec<usize> =
+            elements.flat_map(|e| std::iter::repeat_n(e, first[e + 1] - first[e])).collect();
+        let (count, width) = (self.components(), sampled.first().map_or(0, DMatrix::nrows));
         let of_region = |(region, weights): (usize, &[(usize, f64)])| {
-            let mut sum = DMatrix::zeros(width, self.components());
+            let mut sum = DMatrix::zeros(width, count);
             for &(sample, weight) in weights {
-                add_multiple(&mut sum, weight, &sampled[sample]);
+                let e = element_of[sample];
+                add_multiple(&mut sum, weight, at_point(&sampled[e], sample - first[e], count));
             }
             (region, sum)
         };
@@ -114,11 +119,13 @@ impl<'a> DiscretizationError<'a> {
             at_node.filter(|(own, _)| *own == region).map(|(_, strain)| strain)
         });
         let nodes: Vec<&DMatrix<f64>> = nodes.flatten().collect();
-        let mut energies = vec![c64::new(0.0, 0.0); columns.nrows() / PARTS];
-        for (point, own) in points.iter().zip(own) {
-            let mut error = -own;
+        let (count, width) = (self.components(), columns.nrows());
+        let mut energies = vec![c64::new(0.0, 0.0); width / PARTS];
+        for (k, point) in points.iter().enumerate() {
+            let mut error = DMatrix::zeros(width, count);
+            add_multiple(&mut error, -1.0, at_point(&own, k, count));
             for (&value, nodal) in point.values.iter().zip(&nodes) {
-                add_multiple(&mut error, value, nodal);
+                add_multiple(&mut error, value, nodal.as_slice());
             }
             let stress = &error * geometry.elasticity(self.material(e), point) * point.measure;
             for (error, stress) in error.column_iter().zip(stress.column_iter()) {
@@ -151,7 +158,13 @@ fn interleaved(pairs: &[[&[c64]; 2]]) -> DMatrix<f64> {
     DMatrix::from_iterator(PARTS * pairs.len(), dofs, (0..dofs).flat_map(parts))
 }
 
+/// The columns of one of several points with `count` components each.
+fn at_point(strains: &DMatrix<f64>, point: usize, count: usize) -> &[f64] {
+    let length = count * strains.nrows();
+    &strains.as_slice()[length * point..length * (point + 1)]
+}
+
 /// `sum += factor other`, entry by entry.
-fn add_multiple(sum: &mut DMatrix<f64>, factor: f64, other: &DMatrix<f64>) {
-    sum.iter_mut().zip(other).for_each(|(sum, other)| *sum += factor * other);
+fn add_multiple(sum: &mut DMatrix<f64>, factor: f64, other: &[f64]) {
+    sum.as_mut_slice().iter_mut().zip(other).for_each(|(sum, other)| *sum += factor * other);
 }

@@ -10,7 +10,7 @@ use super::open_residuals::OpenResiduals;
 use super::packed::PackedModes;
 use super::reduced::ReducedModel;
 use super::structure::{ShiftInverted, StructureMatrices};
-use super::{CONVERGED, GROUP_WIDTH, MOST_STEPS, SAME_SPACE, SEARCH_WIDTH};
+use super::{CONVERGED, GROUP_WIDTH, SAME_SPACE, SEARCH_WIDTH};
 use crate::cea::{CeaError, SweepProgress, SweepStage, SweepWatch};
 use crate::linalg::dense::{
     column, column_mut, column_norms, columns_of, dot, from_columns, join_columns, join_rows,
@@ -52,6 +52,8 @@ const START_WIDTH: usize = 2;
 const CHANGE_PLACES: f64 = 1.01;
 /// Refinements of the modes at one friction coefficient for structural damping, each of which wins about the loss factor.
 const LOSSY_ROUNDS: usize = 6;
+/// Refinements of one basis before the preconditioner is considered unfit.
+const MAX_ROUNDS: usize = 40;
 
 /// Block Davidson iteration over friction coefficients.
 ///
@@ -170,7 +172,7 @@ impl<'a> BasisBuilder<'a> {
             }
             return Ok(());
         }
-        for &mu in spread(values).iter().cycle().take(MOST_STEPS) {
+        for &mu in spread(values).iter().cycle().take(MAX_ROUNDS) {
             // The last corrections need no other look: points are checked.
             let is_done = |longest: f64| longest <= CONVERGED;
             if self.refine_at(mu)?.is_none_or(is_done) {

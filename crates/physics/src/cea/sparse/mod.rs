@@ -82,10 +82,8 @@ const CONVERGED: f64 = 1e-11;
 const SAME_SPACE: f64 = 1e-13;
 /// Distance of factors from an eigenvalue, relative to it: regular there, far above its error and far below its distance from others.
 const BESIDE: f64 = 1e-3;
-/// Steps of an iteration after which it counts as one that does not converge: ten or fewer do.
-const MOST_STEPS: usize = 40;
-/// Attempts of one remedy after which it will not help: one or two do.
-const MOST_ATTEMPTS: usize = 8;
+/// Steps of an iteration for one mode after which it counts as not found: ten or fewer do, or three or four by factors at each.
+const MOST_STEPS: usize = 24;
 /// Samples near a friction coefficient whose modes, together, come near its own and their left vectors.
 const NEIGHBOURS: usize = 4;
 /// Start vectors of an iteration that relies on no known modes: as many as equal eigenvalues may come together.

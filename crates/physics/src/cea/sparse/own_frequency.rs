@@ -1,14 +1,16 @@
 //! Modes of projected matrices whose stiffness depends on frequency, each at its own frequency.
 
+use super::SAME_EIGENVALUE;
 use super::mode::ReducedMode;
 use super::projected::ProjectedMatrices;
-use super::{MOST_STEPS, SAME_EIGENVALUE};
 use crate::cea::vectors::{dot, length};
 use crate::linalg::LinalgError;
 use std::f64::consts::TAU;
 
 /// What the overlap of two right vectors lacks to 1 where they are one.
 const PARALLEL: f64 = 1e-4;
+/// Solutions at one frequency after which a mode counts as one that does not settle.
+const MAX_PASSES: usize = 40;
 /// Passes with whole steps; half ones follow.
 const WHOLE_PASSES: usize = 12;
 /// Relative change of the frequency from which on the Rayleigh quotient iteration finishes.
@@ -56,7 +58,7 @@ fn fixed_point(
 ) -> Result<ReducedMode, LinalgError> {
     let mut mode = start.clone();
     let mut frequency_hz = mode.eigenvalue.im / TAU;
-    for pass in 0..MOST_STEPS {
+    for pass in 0..MAX_PASSES {
         let mut all = frozen(frequency_hz)?;
         if place >= all.len() {
             break;

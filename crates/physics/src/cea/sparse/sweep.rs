@@ -12,7 +12,7 @@ use super::edge::ContactEdge;
 use super::frictionless::FrictionlessModes;
 use super::linearization::Linearization;
 use super::point::{PointSolver, SolvedPoint};
-use super::{GUARD_MODES, MOST_ATTEMPTS, RESIDUAL_BOUND, TRACKING_MARGIN};
+use super::{GUARD_MODES, RESIDUAL_BOUND, TRACKING_MARGIN};
 use crate::cea::{
     CeaError, FrictionSweep, ModeLimit, PartWatch, SweepProgress, SweepRequest, SweepStage,
     SweepWatch, UnconvergedMode,
@@ -29,7 +29,9 @@ const MIN_SAMPLES: usize = 6;
 const SHORT_RANGE: f64 = 0.05;
 /// Change of a critical friction coefficient below which its mode needs no more corrections.
 const SETTLED: f64 = 1e-10;
-/// Relative change of the highest frequency, which stiffness that depends on frequency is referred to, that is none.
+/// Highest modes that stiffness which depends on frequency is referred to, one after the other.
+const MAX_REFERENCES: usize = 4;
+/// Relative change of their frequency that is none.
 const REFERENCE_SETTLED: f64 = 0.02;
 
 /// Complex modes of `tangent` at every friction coefficient of `request`, and where their branches turn unstable.
@@ -96,7 +98,7 @@ fn referred(
         ModeLimit::MaxFrequency(limit_hz) => Ok(Cow::Owned(tangent.referred_to(limit_hz))),
         ModeLimit::Lowest(count) => {
             let (mut referred, mut highest_hz) = (tangent.clone(), 0.0);
-            for _ in 0..MOST_ATTEMPTS {
+            for _ in 0..MAX_REFERENCES {
                 let modes = FrictionlessModes::compute(&referred, limit)?;
                 let place = count.min(modes.frequencies.len()) - 1;
                 let found_hz = modes.frequencies[place] / TAU;

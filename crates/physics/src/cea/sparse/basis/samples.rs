@@ -9,7 +9,7 @@ use crate::cea::sparse::linearization::Linearization;
 use crate::cea::sparse::mode::ReducedMode;
 use crate::cea::sparse::packed::{PackedModes, side_by_side};
 use crate::cea::sparse::structure::StructureMatrices;
-use crate::cea::sparse::{BESIDE, GROUP_WIDTH, MOST_ATTEMPTS, SAME_SPACE, TRACKING_MARGIN};
+use crate::cea::sparse::{BESIDE, GROUP_WIDTH, SAME_SPACE, TRACKING_MARGIN};
 use crate::linalg::{LinalgError, Mat, c64};
 
 /// Complex factors of one round of corrections: more of them cost more than the rounds that they save.
@@ -19,7 +19,8 @@ const HISTORY: usize = 3;
 /// Unknowns up to which a problem, of twice that size, is decomposed: where its modes are lossy or do not converge. That takes a
 /// second or two for each friction value.
 pub(super) const MOST_DENSE: usize = 300;
-
+/// Samples between two friction values, at places where branches were lost, after which more of them are no help.
+const MOST_BETWEEN: usize = 8;
 impl BasisBuilder<'_> {
     /// Takes up the modes without friction, where branches begin: where stiffness depends on frequency, each at its own.
     pub fn begin_at_rest(&mut self) -> Result<(), CeaError> {
@@ -258,7 +259,7 @@ impl BasisBuilder<'_> {
     /// branch was lost; whether anything was left to do.
     pub fn improve_between(&mut self, from: f64, to: f64, place: f64) -> Result<bool, CeaError> {
         let is_between = |mu: &&f64| (from..to).contains(*mu);
-        let has_many = self.sampled.iter().filter(is_between).count() > MOST_ATTEMPTS;
+        let has_many = self.sampled.iter().filter(is_between).count() > MOST_BETWEEN;
         let mut values = [from, to, place].into_iter();
         match values.find(|mu| !self.sampled.contains(mu)) {
             Some(mu) if !has_many => self.improve_at(mu).map(|_| true),
