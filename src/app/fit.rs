@@ -9,7 +9,7 @@ use crate::signal::reader::{MeasuredShape, read_modes, read_shapes};
 use crate::study::fit::{MeasuredShapes, fit_case_with_shapes, refuse_too_few, summarize};
 use clap::{Args, ValueHint};
 use frictionsim_bounds::MEASUREMENT;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Find parameters of a case from measured modes or squeal frequencies
 ///
@@ -59,7 +59,9 @@ impl Run for Arguments {
         let lines = read_modes(&bytes, &input_name(&self.modes))?;
         // Results belong to case and table.
         session.manifest.case_hash = hash_of([session.manifest.case_hash.as_bytes(), &bytes]);
-        let shapes = read_measured(self, &mut session)?;
+        let shapes = self.shapes.as_ref();
+        let shapes = shapes.map(|path| measured_shapes(path, self.scale, &mut session));
+        let shapes = shapes.transpose()?;
         let shapes = shapes.as_deref().map(|shapes| MeasuredShapes { shapes, scale: self.scale });
         refuse_too_few(&session.case, &lines)?;
         let folder = session.begin()?;
@@ -76,26 +78,17 @@ impl Run for Arguments {
     }
 }
 
-/// The measured shapes, if there are some; results belong to them and their scale too.
-fn read_measured(
-    arguments: &Arguments,
+/// Measured shapes; results belong to them and their scale too.
+pub(super) fn measured_shapes(
+    path: &Path,
+    scale: f64,
     session: &mut Session,
-) -> Result<Option<Vec<MeasuredShape>>, Failure> {
-    let Some(path) = &arguments.shapes else {
-        return Ok(None);
-    };
-    scale_of_shapes(arguments.scale)?;
-    let bytes = read_input(path, MEASUREMENT)?;
-    let identity = format!("{} {:?}", session.manifest.case_hash, arguments.scale);
-    session.manifest.case_hash = hash_of([identity.as_bytes(), &bytes]);
-    Ok(Some(read_shapes(&bytes, &input_name(path))?))
-}
-
-/// Refuses a factor that takes no coordinates to metres.
-pub(super) fn scale_of_shapes(scale: f64) -> Result<(), Failure> {
-    if scale > 0.0 && scale.is_finite() {
-        return Ok(());
+) -> Result<Vec<MeasuredShape>, Failure> {
+    if !(scale > 0.0 && scale.is_finite()) {
+        return Err(Failure::usage(format!("--scale {scale} must be positive and finite")));
     }
-    let message = format!("--scale {scale} must be positive and finite");
-    Err(Failure::usage(message))
+    let bytes = read_input(path, MEASUREMENT)?;
+    let identity = format!("{} {scale:?}", session.manifest.case_hash);
+    session.manifest.case_hash = hash_of([identity.as_bytes(), &bytes]);
+    Ok(read_shapes(&bytes, &input_name(path))?)
 }

@@ -1,7 +1,9 @@
 //! Limits of the system and of this program on files: how large they may become, how much of one is read.
 
 use super::Failure;
+use crate::case::nearest;
 use frictionsim_bounds::{Budget, Limits, Refusal};
+use std::collections::BTreeSet;
 use std::fs::File;
 use std::io;
 use std::path::Path;
@@ -36,15 +38,30 @@ pub fn read_input(path: &Path, limits: Limits) -> Result<Vec<u8>, Failure> {
             let most = most >> 20;
             Failure::usage(format!("{name} is larger than {most} MiB, the limit for such files"))
         }
-        other => Failure::usage(format!("cannot read {name}: {other}")),
+        _ if path.is_dir() => Failure::usage(format!("cannot read {name}: it is a folder")),
+        other => {
+            let near = near_file(path).filter(|_| !path.exists());
+            let near = near.map_or(String::new(), |near| format!("; did you mean {near}?"));
+            Failure::usage(format!("cannot read {name}: {other}{near}"))
+        }
     })
+}
+
+/// The file beside a path whose name is nearest to its own, if one is near enough to be meant.
+fn near_file(path: &Path) -> Option<String> {
+    let folder = path.parent().filter(|folder| *folder != Path::new(""));
+    let files = std::fs::read_dir(folder.unwrap_or(Path::new("."))).ok()?;
+    let names = files.filter_map(|file| file.ok()?.file_name().into_string().ok());
+    // The same one of two that are as near, whatever their order in the folder.
+    let names: BTreeSet<String> = names.collect();
+    let near = nearest(path.file_name()?.to_str()?, names.iter().map(String::as_str))?;
+    Some(path.with_file_name(near).display().to_string())
 }
 
 /// What an input is called in messages.
 pub fn input_name(path: &Path) -> String {
-    if path == Path::new(STANDARD_INPUT) {
-        "standard input".to_owned()
-    } else {
-        path.display().to_string()
+    match path == Path::new(STANDARD_INPUT) {
+        true => "standard input".to_owned(),
+        false => path.display().to_string(),
     }
 }

@@ -1,14 +1,12 @@
 //! `frictionsim mac`: modal assurance of measured shapes.
 
-use super::limits::{input_name, read_input};
+use super::fit::measured_shapes;
+use super::limits::input_name;
 use super::profile::{Profile, Run};
 use super::{Failure, RunOptions, Session};
-use crate::case::hash_of;
 use crate::results::mac::MacSummary;
-use crate::signal::reader::read_shapes;
 use crate::study::mac::assurance;
 use clap::{Args, ValueHint};
-use frictionsim_bounds::MEASUREMENT;
 use std::path::PathBuf;
 
 /// Compare measured shapes with the modes of a case
@@ -38,18 +36,12 @@ impl Run for Arguments {
     };
 
     fn run(&self) -> Result<(), Failure> {
-        super::fit::scale_of_shapes(self.scale)?;
         let mut session = Session::start("mac", &self.options)?;
-        let bytes = read_input(&self.shapes, MEASUREMENT)?;
-        let source = input_name(&self.shapes);
-        let shapes = read_shapes(&bytes, &source)?;
-        // Results belong to case, shapes and scale.
-        let identity = format!("{} {:?}", session.manifest.case_hash, self.scale);
-        session.manifest.case_hash = hash_of([identity.as_bytes(), &bytes]);
+        let shapes = measured_shapes(&self.shapes, self.scale, &mut session)?;
         session.case.require_cea()?;
         let folder = session.begin()?;
         let found = assurance(&session.case, &shapes, self.scale)?;
-        let summary = MacSummary { measurement: source, ..found };
+        let summary = MacSummary { measurement: input_name(&self.shapes), ..found };
         session.finish_finding(folder, &summary)
     }
 }

@@ -84,6 +84,7 @@ pub use range::{Spacing, range_values};
 pub use raw::{MeshBytes, RawCase, TableBytes, hash_of};
 pub use shown::{first_of, shown, shown_json};
 pub use starting::case_from;
+pub(crate) use suggestion::nearest;
 pub use superelements::{FreeSystem, Superelement};
 pub use sweep::{Sweep, SweptKey};
 pub use taken::Taken;

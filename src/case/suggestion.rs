@@ -66,10 +66,7 @@ pub(super) fn usage(name: &str) -> Option<String> {
 }
 
 /// The candidate nearest to `word`, if it is near enough to be a slip of the keyboard.
-pub(super) fn nearest<'a>(
-    word: &str,
-    candidates: impl Iterator<Item = &'a str>,
-) -> Option<&'a str> {
+pub fn nearest<'a>(word: &str, candidates: impl Iterator<Item = &'a str>) -> Option<&'a str> {
     candidates
         // The distance is at least the difference of the lengths, and takes their product to find.
         .filter(|candidate| {

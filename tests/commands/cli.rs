@@ -102,6 +102,15 @@ fn check_tells_scripts_what_is_wrong() {
 }
 
 #[test]
+fn a_file_that_is_not_there_is_answered_with_the_one_that_is_meant() {
+    let folder = folder();
+    damaged(&folder);
+    run(&folder, &["cea", "bda.toml"]).refused(&["cannot read bda.toml", "did you mean bad.toml?"]);
+    let answer = run(&folder, &["cea", "another.toml"]).refused(&["cannot read another.toml"]);
+    assert!(!answer.stderr.contains("did you mean"));
+}
+
+#[test]
 fn check_goes_on_after_a_bad_case() {
     let folder = folder();
     let answer = run(&folder, &["check", damaged(&folder), &disc()])

@@ -60,7 +60,7 @@ impl<'a> FullSliding<'a> {
         };
         let distances: Vec<f64> = approaches.iter().map(|g| interference - g).collect();
         let load = self.basis.transposed_forces(load);
-        let pressed = self.pressed_by(&distances, &load, Self::refined);
+        let pressed = self.refined(&load, self.pressed_by(&distances, &load));
         let normal_forces = self.normal_forces(&pressed, &load);
 
         // Friction shears it.
@@ -70,7 +70,8 @@ impl<'a> FullSliding<'a> {
                 traction[dof] += point.friction.drag * along * force;
             }
         }
-        let sheared = self.refined(&self.basis.transposed_forces(&traction));
+        let traction = self.basis.transposed_forces(&traction);
+        let sheared = self.refined(&traction, self.solve(&traction));
         let springs = law.map(|law| {
             let pairs = approaches.iter().zip(self.points);
             pairs.map(|(&g, point)| point.weight * law.stiffness(g)).collect()
@@ -89,27 +90,21 @@ impl<'a> FullSliding<'a> {
         self.unknowns.expand(&self.solver.solve(self.unknowns.restrict(load)))
     }
 
-    /// The same with the load that round-off leaves solved for, too: slender bodies multiply it.
-    pub fn refined(&self, load: &[f64]) -> Vec<f64> {
-        let first = self.solve(load);
+    /// A response to a load with the load that round-off left solved for, too: slender bodies multiply it.
+    pub fn refined(&self, load: &[f64], first: Vec<f64>) -> Vec<f64> {
         let more = self.solve(&self.stiffness.residual(load, &first));
         first.iter().zip(more).map(|(first, more)| first + more).collect()
     }
 
     /// Response to a load with these separations.
-    fn pressed_by(
-        &self,
-        distances: &[f64],
-        load: &[f64],
-        solve: fn(&Self, &[f64]) -> Vec<f64>,
-    ) -> Vec<f64> {
+    fn pressed_by(&self, distances: &[f64], load: &[f64]) -> Vec<f64> {
         let total = load.len();
         let mut prescribed = vec![0.0; total];
         let both = || self.separations.iter().zip(distances);
         both().for_each(|(&dof, distance)| prescribed[dof] = *distance);
         let force = self.stiffness.multiply(total, &prescribed);
         let left: Vec<f64> = load.iter().zip(force).map(|(load, force)| load - force).collect();
-        let mut pressed = solve(self, &left);
+        let mut pressed = self.solve(&left);
         both().for_each(|(&dof, distance)| pressed[dof] = *distance);
         pressed
     }
@@ -127,9 +122,7 @@ impl<'a> FullSliding<'a> {
         let columns = (0..count).map(|j| {
             let mut unit = vec![0.0; count];
             unit[j] = 1.0;
-            DVector::from_vec(
-                self.normal_forces(&self.pressed_by(&unit, &none, Self::solve), &none),
-            )
+            DVector::from_vec(self.normal_forces(&self.pressed_by(&unit, &none), &none))
         });
         DMatrix::from_columns(&columns.collect::<Vec<_>>())
     }

@@ -179,7 +179,8 @@ fn press_on_springs(
             values = next;
             continue;
         }
-        let displacement = body.refined(&loads);
+        // Settled: to round-off, as derivatives take differences of such states.
+        let displacement = body.refined(&loads, displacement);
         let found = approaches(sector, contact.interference, &displacement);
         let left = distance(sector, &pushed, &displacement);
         let left = distance(sector, &left, &of_rings(&values));
@@ -218,7 +219,8 @@ fn sheared(
     for (node, force) in normal_forces {
         drag[3 * node + 1] = friction(contact, sector.nodes[*node].radius).drag * force;
     }
-    Ok(FullSliding::new(stiffness, basis, &[])?.refined(&drag))
+    let body = FullSliding::new(stiffness, basis, &[])?;
+    Ok(body.refined(&drag, body.solve(&drag)))
 }
 
 /// The springs of the face where the rings' approaches are positive.
