@@ -108,6 +108,7 @@ fn a_file_that_is_not_there_is_answered_with_the_one_that_is_meant() {
     run(&folder, &["cea", "bda.toml"]).refused(&["cannot read bda.toml", "did you mean bad.toml?"]);
     let answer = run(&folder, &["cea", "another.toml"]).refused(&["cannot read another.toml"]);
     assert!(!answer.stderr.contains("did you mean"));
+    run(&folder, &["mesh", "."]).refused(&["cannot read .: it is a folder"]);
 }
 
 #[test]
