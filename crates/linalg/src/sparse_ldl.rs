@@ -46,6 +46,11 @@ impl LdlAnalysis {
         })?;
         Ok(Self { pattern: Arc::clone(pattern), symbolic: Arc::new(symbolic) })
     }
+
+    /// Entries of the factors.
+    pub fn entry_count(&self) -> usize {
+        self.symbolic.len_val()
+    }
 }
 
 /// Factors of a symmetric matrix, definite or not.

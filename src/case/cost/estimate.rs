@@ -9,9 +9,11 @@ use crate::case::{
 use crate::cycle::BasinRequest;
 use crate::fem::ElasticMaterial;
 use crate::frf::FrfBoundary;
-use crate::mesh::SolidSpecification;
+use crate::linalg::{LdlAnalysis, SparsityPattern};
+use crate::mesh::{Mesh, SolidSpecification};
 use crate::transient::{OperatorChoice, stable_step_limit};
 use std::f64::consts::TAU;
+use std::sync::Arc;
 
 /// Operations for each eigenvalue of a harmonic: iterations, residual, its branch over friction.
 const HARMONIC_PAIR: f64 = 5e5;
@@ -25,11 +27,11 @@ const SOLID_BYTES: f64 = 600.0;
 /// Memory of a whole plane mesh, bytes: at all, and for each unknown and vector of its basis.
 const SPARSE_BYTES: [f64; 2] = [1e8, 100.0];
 
-/// Factors of `n` unknowns of solid bodies, measured from 1e3 to 2e4: bytes for each of `n^(4/3)`, and for each unknown
-/// and mode.
-const FACTOR_BYTES: [f64; 2] = [3.6e3, 240.0];
-/// Their operations at each friction value, for each of `n^2`.
-const FACTORS: f64 = 120.0;
+/// Memory of solid bodies, measured from 1e3 to 1.2e5 unknowns: bytes for each entry of the factors, which are complex and general
+/// at times, and for each unknown and mode.
+const FACTOR_BYTES: [f64; 2] = [70.0, 1000.0];
+/// Operations at each friction value for `e` entries of their factors, for each of `e^(3/2)`.
+const FACTORS: f64 = 0.2;
 
 /// Phases of a limit cycle where the mesh decides.
 const LIKELY_PHASES: usize = 169;
@@ -108,10 +110,11 @@ impl Case {
             }
             _ => {
                 let (vectors, values) = (unknowns * modes as f64, friction_values as f64);
-                let (bytes, factors) = match self.body {
-                    Body::Assembly(_) => {
-                        let bytes = FACTOR_BYTES[0] * unknowns.powf(4.0 / 3.0);
-                        (bytes + FACTOR_BYTES[1] * vectors, FACTORS * values * unknowns.powi(2))
+                let (bytes, factors) = match &self.body {
+                    Body::Assembly(own) => {
+                        let entries = factor_entries(&own.mesh);
+                        let bytes = FACTOR_BYTES[0] * entries + FACTOR_BYTES[1] * vectors;
+                        (bytes, FACTORS * values * entries.powf(1.5))
                     }
                     _ => {
                         let bytes = SPARSE_BYTES[1] * (2.0 * vectors + 40.0 * unknowns);
@@ -191,18 +194,19 @@ impl Case {
         let sectors = self.body.sector_count();
         let sectors = sectors.filter(|_| self.responds_by_harmonics(frf));
         let fill = sparse_fill(dofs);
-        let (bytes, each) = match (frf.method, sectors) {
+        let (bytes, each) = match (frf.method, sectors, self.body.assembly()) {
             // One block band of a sector for each harmonic.
-            (FrfMethod::Auto | FrfMethod::Cyclic, Some(sectors)) => {
+            (FrfMethod::Auto | FrfMethod::Cyclic, Some(sectors), _) => {
                 (100.0 * dofs / sectors.max(1) as f64, 20.0 * dofs)
             }
-            (FrfMethod::Reduced, _) => (24.0 * fill, 1e4),
-            // In three dimensions the factor fills as n^(4/3) and takes n^2 operations; eight lines share one.
-            (_, _) if self.body.assembly().is_some() => {
-                (24.0 * 6.0 * dofs.powf(4.0 / 3.0), 0.5 * dofs * dofs)
+            (FrfMethod::Reduced, ..) => (24.0 * fill, 1e4),
+            // In three dimensions eight lines share one factor.
+            (_, _, Some(own)) => {
+                let entries = factor_entries(&own.mesh);
+                (FACTOR_BYTES[0] * entries, FACTORS / 8.0 * entries.powf(1.5))
             }
             // A complex factorization takes some operations for each entry and its rows.
-            (FrfMethod::Auto | FrfMethod::Cyclic | FrfMethod::Direct, _) => {
+            (FrfMethod::Auto | FrfMethod::Cyclic | FrfMethod::Direct, ..) => {
                 (24.0 * fill, 35.0 * fill)
             }
         };
@@ -312,6 +316,16 @@ fn solid_modes(assembly: &AssemblyBody, omega: f64) -> f64 {
         inside + weyl(material, omega, area, Some(volume / area))
     });
     each.sum()
+}
+
+/// Entries of the factors of solid bodies: three unknowns at each node, coupled to those of the nodes of its elements.
+fn factor_entries(mesh: &Mesh) -> f64 {
+    let pairs = (0..mesh.element_count()).flat_map(|element| {
+        let nodes = mesh.element_nodes(element);
+        nodes.iter().flat_map(|&i| nodes.iter().map(move |&j| (i as usize, j as usize)))
+    });
+    let pattern = Arc::new(SparsityPattern::from_positions(mesh.nodes.len(), pairs));
+    LdlAnalysis::new(&pattern).map_or(f64::INFINITY, |own| 9.0 * own.entry_count() as f64)
 }
 
 /// Entries of the factor of a plane mesh under a minimum-degree ordering, measured: about

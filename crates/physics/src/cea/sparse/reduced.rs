@@ -207,7 +207,8 @@ impl ReducedModel {
         count: usize,
     ) -> Result<Vec<ReducedMode>, LinalgError> {
         let at = self.at(mu);
-        let mut modes = self.solve_in(self.span_of_nearest(mu, NEIGHBOURS), &at, count, true)?;
+        let mut modes =
+            self.solve_in(self.span_of_nearest(mu, self.neighbours()), &at, count, true)?;
         self.complete(&mut modes, &at, mu);
         Ok(modes)
     }
@@ -238,7 +239,7 @@ impl ReducedModel {
     /// [`Self::solve_with_coarse_lefts`] for eigenvalues and right vectors only: left ones stay empty, derivatives zero.
     pub fn solve_right(&self, mu: f64, count: usize) -> Result<Vec<ReducedMode>, LinalgError> {
         let at = self.at(mu);
-        self.solve_in(self.span_of_nearest(mu, NEIGHBOURS), &at, count, false)
+        self.solve_in(self.span_of_nearest(mu, self.neighbours()), &at, count, false)
     }
 
     /// The same for matching modes between solved points, with left vectors of the whole basis: in the span of the two nearest samples.
@@ -298,6 +299,14 @@ impl ReducedModel {
         let coordinates = transpose_product(self.basis.columns(), vectors.as_ref());
         self.corrections.push((mu, coordinates));
         self.parts.change_at(mu);
+    }
+
+    /// Samples about a friction coefficient whose modes together come near its own. Of a large body they are more: a wider dense
+    /// problem costs less than another sample.
+    fn neighbours(&self) -> usize {
+        let widths = self.samples.iter().map(|(_, coordinates)| coordinates.ncols());
+        let widest = widths.max().unwrap_or(1).max(1);
+        (self.basis.columns().nrows().isqrt() / widest).max(NEIGHBOURS)
     }
 
     /// Orthonormal coordinates of the span of the `count` samples nearest to `mu`, or of the one there; nothing without

@@ -4,13 +4,16 @@ use super::{
     BasisBuilder, CHANGE_PLACES, LOSSY_ROUNDS, VECTOR_TOLERANCE, scale_to_unit_length, turn_to_real,
 };
 use crate::cea::CeaError;
+use crate::cea::sparse::factors::StiffnessFactors;
 use crate::cea::sparse::full_problem::FullProblem;
 use crate::cea::sparse::linearization::Linearization;
 use crate::cea::sparse::mode::ReducedMode;
 use crate::cea::sparse::packed::{PackedModes, side_by_side};
 use crate::cea::sparse::structure::StructureMatrices;
 use crate::cea::sparse::{BESIDE, GROUP_WIDTH, SAME_SPACE, TRACKING_MARGIN};
-use crate::linalg::{LinalgError, Mat, c64};
+use crate::linalg::dense::join_columns;
+use crate::linalg::{LinalgError, Mat, MatrixPolynomial, c64};
+use crate::prestress::SlidingTangent;
 
 /// Complex factors of one round of corrections: more of them cost more than the rounds that they save.
 const MOST_SHIFTS: usize = 6;
@@ -205,14 +208,28 @@ impl BasisBuilder<'_> {
         // Factors beside the middle one of each group; where an eigenvalue lies just there, another round has others.
         let share = open.len().div_ceil(MOST_SHIFTS).max(1);
         let solved: Vec<Option<_>> = crate::parallel::map(open.chunks(share), |own| {
-            let (middle, _) = own[own.len() / 2];
-            let factors = problem.factors(middle * (1.0 + BESIDE)).ok()?;
+            let beside = own[own.len() / 2].0 * (1.0 + BESIDE);
             let mut x = Mat::from_fn(unknowns, own.len(), |i, j| own[j].1[i]);
-            factors.solve_in_place(x.as_mut());
-            Some((0..own.len()).map(|j| x.col(j).iter().copied().collect()).collect())
+            if let Some(shift) = self.linearization.real_value(beside) {
+                let mut parts = parts_of(&x);
+                self.factors_about(shift, mu).ok()?.solve_in_place(&mut parts);
+                return Some(parts);
+            }
+            problem.factors(beside).ok()?.solve_in_place(x.as_mut());
+            Some(parts_of(&x))
         });
-        let solved: Vec<Vec<Vec<c64>>> = solved.into_iter().flatten().collect();
-        Ok(real_columns(unknowns, &solved.concat()))
+        let none = Mat::zeros(unknowns, 0);
+        let mut columns =
+            solved.iter().flatten().fold(none, |all, own| join_columns(all.as_ref(), own.as_ref()));
+        turn_to_real(&mut columns);
+        Ok(columns)
+    }
+
+    /// Real factors of `K - kappa M` at `mu`.
+    fn factors_about(&self, kappa: f64, mu: f64) -> Result<StiffnessFactors, LinalgError> {
+        let SlidingTangent { stiffness, mass, .. } = self.tangent;
+        let shifted = MatrixPolynomial::combination(1.0, stiffness, -kappa, mass);
+        StiffnessFactors::general(&shifted, self.analysis.of(shifted.pattern())?, mu)
     }
 
     /// Lets the `modes` found in the sample at `mu`, if there is one, stand for it: corrections made it wider than they need.
@@ -266,6 +283,12 @@ impl BasisBuilder<'_> {
             _ => Ok(false),
         }
     }
+}
+
+/// Real and imaginary parts of complex columns in neighbouring ones.
+fn parts_of(x: &Mat<c64>) -> Mat<f64> {
+    let part = |j: usize, own: c64| if j.is_multiple_of(2) { own.re } else { own.im };
+    Mat::from_fn(x.nrows(), 2 * x.ncols(), |i, j| part(j, x[(i, j / 2)]))
 }
 
 /// Complex vectors as real and imaginary parts in neighbouring columns, as real as can be.
