@@ -81,8 +81,8 @@ fn run_on_mesh(arguments: &Arguments) -> Result<(), Failure> {
     let heard = |progress| show(&bar, progress);
     let steps = KeptSteps::new(&folder, arguments.resume, &heard)?;
     terminal::catch_signals(match solver {
-        Solver::WholeMesh | Solver::Assembly => KEPT,
-        _ => terminal::NOTHING_KEPT,
+        Solver::WholeMesh => KEPT,
+        Solver::Waves => terminal::NOTHING_KEPT,
     });
 
     let Solved { case, model, solution } = eigenvalues::solved(case, cea, Some(&steps))?;

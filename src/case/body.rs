@@ -3,7 +3,7 @@
 use super::assembly::AssemblyBody;
 use super::imported::ImportedBody;
 use crate::contact::RigidMotion;
-use crate::fem::TabledMaterial;
+use crate::fem::{ModulusTable, TabledMaterial};
 use crate::mesh::{
     AnnulusMesh, AnnulusSpecification, BoundaryCondition, Counterface, Mesh, MeshError,
     SolidContact, SolidSpecification,
@@ -224,6 +224,11 @@ impl Body {
             Self::Imported(imported) => &imported.materials,
             Self::Assembly(assembly) => &assembly.materials,
         }
+    }
+
+    /// The tables over frequency that moduli follow, region by region.
+    pub fn tables(&self) -> impl Iterator<Item = &ModulusTable> {
+        self.materials().iter().filter_map(|material| material.table.as_deref())
     }
 
     /// Whether a material or the springs of a support have structural damping.

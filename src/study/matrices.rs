@@ -1,11 +1,10 @@
 //! The matrices that the eigenvalue analysis of a case solves, over the friction coefficient.
 
 use super::StudyError;
-use super::eigenvalues::{Model, Solver};
+use super::eigenvalues::{BasePoint, Sliding, Solver, WholeMesh};
 use super::tangent_options;
 use crate::case::{Case, CeaMethod};
-use crate::cea::CeaError;
-use crate::contact::{Point, Row};
+use crate::contact::Row;
 use crate::linalg::{MarketMatrix, MatrixPolynomial};
 use crate::mesh::Mesh;
 use crate::prestress::SlidingTangent;
@@ -28,8 +27,7 @@ pub fn matrices(case: &Case, friction: Option<f64>) -> Result<ExportedSystem, St
         case.contact.sliding.friction_coefficient = friction;
     }
     let case = &case;
-    let mut regions = 0..case.body.region_count();
-    if regions.any(|region| case.materials().table(region).is_some()) {
+    if case.body.tables().next().is_some() {
         let refusal = case.loss_error(
             "the files hold one problem, and a modulus over frequency is another one at each frequency"
                 .to_owned(),
@@ -39,22 +37,16 @@ pub fn matrices(case: &Case, friction: Option<f64>) -> Result<ExportedSystem, St
         return Err(StudyError::Case(refusal));
     }
     // The whole mesh, whatever the case's own method; what no method solves is refused.
-    let solver = match Solver::of(case, CeaMethod::Auto)? {
-        Solver::Assembly => Solver::Assembly,
-        _ => Solver::WholeMesh,
-    };
-    let options = tangent_options(case, cea.mass);
-    let model = Model::with_solver(case, solver, options, &frictions)?;
-    let body = SlidingBody::of(case, &model)?;
+    Solver::of(case, CeaMethod::Auto)?;
+    let body = WholeMesh::solve(case, tangent_options(case, cea.mass), &frictions)?;
+    let tangent = &body.own_tangent(case)?;
     let friction = case.contact.sliding.friction_coefficient;
     let largest = frictions.iter().copied().fold(friction, f64::max);
     let smallest = frictions.iter().copied().fold(friction, f64::min);
     // The polynomials are those of one set of pressed points, which changes at `changes`.
-    let below = body.changes.iter().copied();
-    let below = below.filter(|change| *change <= friction);
-    let above = body.changes.iter().copied();
-    let above = above.filter(|change| *change > friction);
-    let tangent = &body.tangent;
+    let changes = || body.range.changes.iter().copied();
+    let below = changes().filter(|change| *change <= friction);
+    let above = changes().filter(|change| *change > friction);
     let mut system = ExportedSystem {
         dimension: body.mesh.dimension,
         friction_coefficient: friction,
@@ -63,7 +55,7 @@ pub fn matrices(case: &Case, friction: Option<f64>) -> Result<ExportedSystem, St
             .proportional
             .map(|rayleigh| [rayleigh.mass_coefficient, rayleigh.stiffness_coefficient]),
         matrices: Vec::new(),
-        unknowns: unknowns(body.mesh, tangent),
+        unknowns: unknowns(&body.mesh, tangent),
         contact: Vec::new(),
         is_at_one_friction: false,
     };
@@ -81,86 +73,12 @@ pub fn matrices(case: &Case, friction: Option<f64>) -> Result<ExportedSystem, St
             matrices.extend(powers(name, polynomial, friction, role));
         }
     }
-    contact_rows(&body, &mut system);
+    contact_rows(&body, (case, tangent), &mut system);
     Ok(system)
 }
 
 /// Name, matrix by powers of friction, and what the matrix of a power is.
 type Part<'a> = (&'static str, Option<&'a MatrixPolynomial>, fn(usize) -> MatrixRole);
-
-/// A body or an assembly that slides, at the case's own friction coefficient.
-struct SlidingBody<'a> {
-    mesh: &'a Mesh,
-    tangent: SlidingTangent,
-    /// Friction coefficients at which contact points open or close.
-    changes: &'a [f64],
-    points: Vec<SlidingPoint<'a>>,
-}
-
-/// A contact point and its state.
-struct SlidingPoint<'a> {
-    point: &'a Point,
-    exported: ExportedContactPoint,
-}
-
-impl<'a> SlidingBody<'a> {
-    fn of(case: &Case, model: &'a Model) -> Result<Self, StudyError> {
-        let friction = case.contact.sliding.friction_coefficient;
-        match model {
-            Model::Assembly(own) => {
-                let forces = own.base().normal_forces(friction);
-                let contacts = own.joined.contacts().iter();
-                let all = contacts.flat_map(|(contact, surface)| {
-                    let points = surface.points.iter().zip(&surface.sites);
-                    points.map(move |(point, site)| (contact, point, *site))
-                });
-                let points = all.enumerate().map(|(i, (contact, point, site))| SlidingPoint {
-                    point,
-                    exported: ExportedContactPoint {
-                        node: None,
-                        contact: Some(contact.name.clone()),
-                        place: site.position,
-                        is_pressed: own.base().is_pressed[i],
-                        weight: point.weight,
-                        normal_force: forces.get(i).copied().unwrap_or(0.0),
-                    },
-                });
-                Ok(Self {
-                    mesh: &own.body.mesh,
-                    tangent: own.own_tangent().map_err(CeaError::from)?,
-                    changes: &own.range.changes,
-                    points: points.collect(),
-                })
-            }
-            Model::Whole(own) => {
-                let base = own.base();
-                let forces = base.normal_forces(friction);
-                let nodes = base.interface.nodes.iter().map(|&node| node as usize);
-                let points = nodes.zip(&base.points).enumerate();
-                let points = points.map(|(i, (node, point))| SlidingPoint {
-                    point,
-                    exported: ExportedContactPoint {
-                        node: Some(own.mesh.node_label(node)),
-                        contact: None,
-                        place: own.mesh.nodes[node],
-                        is_pressed: base.is_pressed[i],
-                        weight: point.weight,
-                        normal_force: forces[i],
-                    },
-                });
-                Ok(Self {
-                    mesh: &own.mesh,
-                    tangent: own.tangent(case, base),
-                    changes: &own.range.changes,
-                    points: points.collect(),
-                })
-            }
-            Model::Waves(_) => {
-                unreachable!("the solver was chosen for a whole mesh")
-            }
-        }
-    }
-}
 
 /// The coefficients of a polynomial about a friction coefficient that are not zero, and always its value there.
 fn powers<'a>(
@@ -210,9 +128,13 @@ fn unknowns(mesh: &Mesh, tangent: &SlidingTangent) -> Vec<ExportedUnknown> {
 
 /// The contact points and their motion along the normal and along the sliding. In rigid contact the normal motion of a
 /// pressed point is no unknown: its row is empty.
-fn contact_rows(body: &SlidingBody<'_>, system: &mut ExportedSystem) {
+fn contact_rows(
+    body: &WholeMesh,
+    (case, tangent): (&Case, &SlidingTangent),
+    system: &mut ExportedSystem,
+) {
     let combined: BTreeMap<usize, &Row> = {
-        let distances = body.tangent.distances.iter();
+        let distances = tangent.distances.iter();
         distances.map(|(dof, row)| (*dof, row)).collect()
     };
     // A row over all dofs as one over the unknowns, without what cancels.
@@ -224,7 +146,7 @@ fn contact_rows(body: &SlidingBody<'_>, system: &mut ExportedSystem) {
             let parts = combined.get(&dof).map_or(&own[..], |row| row.as_slice());
             for &(part, share) in parts {
                 largest = largest.max((value * share).abs());
-                if let Some(unknown) = body.tangent.unknowns.unknown_of[part] {
+                if let Some(unknown) = tangent.unknowns.unknown_of[part] {
                     *sum.entry(unknown).or_default() += value * share;
                 }
             }
@@ -233,13 +155,14 @@ fn contact_rows(body: &SlidingBody<'_>, system: &mut ExportedSystem) {
         kept.filter(|entry| entry.1.abs() > 1e-14 * largest).collect()
     };
     let (mut normal, mut slip) = (Vec::new(), Vec::new());
-    for (i, own) in body.points.iter().enumerate() {
+    let points = body.contact_points(case);
+    for (i, own) in points.iter().enumerate() {
         let rows = [(&own.point.normal, &mut normal), (&own.point.slip, &mut slip)];
         for (row, entries) in rows {
             let row = over_unknowns(row).into_iter();
             entries.extend(row.map(|(unknown, share)| (i, unknown, share)));
         }
-        system.contact.push(own.exported.clone());
+        system.contact.push(exported(body, own));
     }
     for (name, role, entries) in [
         ("contact_normal", MatrixRole::ContactNormal, normal),
@@ -248,11 +171,21 @@ fn contact_rows(body: &SlidingBody<'_>, system: &mut ExportedSystem) {
         system.matrices.push(ExportedMatrix {
             name: name.to_owned(),
             role,
-            matrix: MarketMatrix {
-                rows: body.points.len(),
-                columns: system.unknowns.len(),
-                entries,
-            },
+            matrix: MarketMatrix { rows: points.len(), columns: system.unknowns.len(), entries },
         });
+    }
+}
+
+/// A contact point: of a plane edge with its node, of solid bodies with its contact.
+fn exported(body: &WholeMesh, own: &BasePoint) -> ExportedContactPoint {
+    let is_node = matches!(body.sliding, Sliding::Edge(_));
+    let node = own.place.shares.first().filter(|_| is_node);
+    ExportedContactPoint {
+        node: node.map(|(node, _)| body.mesh.node_label(*node as usize)),
+        contact: (!is_node).then(|| own.place.contact.clone()),
+        place: own.place.position,
+        is_pressed: own.is_pressed,
+        weight: own.point.weight,
+        normal_force: own.forces.first().map_or(0.0, |force| force[0]),
     }
 }

@@ -88,8 +88,7 @@ pub fn preflight(case: &Case, available: f64) -> Result<Preflight, StudyError> {
     {
         Solver::of_analysis(case, cea)?;
         // Harmonics are solved at once, and all methods find the same modes.
-        let is_whole = matches!(Solver::by_symmetry(case), Solver::WholeMesh | Solver::Assembly);
-        if !is_whole || is_solved {
+        if Solver::by_symmetry(case) == Solver::Waves || is_solved {
             let auto = Cea { method: CeaMethod::Auto, ..cea.clone() };
             found.tolerate("cea", eigenvalues::preflight(case, &auto))?;
         }

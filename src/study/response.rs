@@ -11,17 +11,17 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-use super::eigenvalues::{AssemblyModel, Model};
+use super::eigenvalues::{WholeMesh, wave_tangent};
 use super::{StudyError, tangent_options};
 use crate::case::{AssemblyBody, Body, Case, CaseErrors, Frf, FrfMethod, refusal};
-use crate::fem::{assemble_stiffness, sector::Sectored};
+use crate::fem::sector::Sectored;
 use crate::frf::{
     Axis, CyclicSystem, FrfBoundary, FrfError, FrfSystem, Port, ReductionSettings, cyclic_response,
     direct_response_with, reduced_response,
 };
 use crate::linalg::{GaussianNoise, c64};
 use crate::mesh::{BoundaryCondition, Mesh, SectorMesh, SolidSector};
-use crate::prestress::{BaseChoice, SlidingTangent, SteadySliding};
+use crate::prestress::BaseChoice;
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
@@ -201,10 +201,7 @@ impl Response {
 
 /// Refuses lines that a table of moduli does not hold.
 fn refuse_beyond_tables(case: &Case, frf: &Frf) -> Result<(), CaseErrors> {
-    for region in 0..case.body.region_count() {
-        let Some(table) = case.materials().table(region) else {
-            continue;
-        };
+    for table in case.body.tables() {
         let mut lines = frf.frequencies_hz.iter();
         if let Some(line) = lines.find(|line| !table.covers(**line)) {
             let ([low, high], key, file) = (table.range_hz(), table.key(), table.file());
@@ -227,7 +224,7 @@ fn cyclic(case: &Case, frf: &Frf) -> Result<System, StudyError> {
         }
         (_, FrfBoundary::Sliding) => {
             refuse_rest(case)?;
-            let waves = Model::Waves(tangent_options(case, frf.mass)).wave_tangent(case)?;
+            let waves = wave_tangent(case, &tangent_options(case, frf.mass))?;
             let waves = waves.expect("a body of equal sectors has waves");
             CyclicSystem::sliding(&waves, case.contact.sliding.friction_coefficient)
         }
@@ -261,20 +258,9 @@ fn whole(case: &Case, frf: &Frf, reduction: Reduction) -> Result<System, StudyEr
             "a body of revolution is solved harmonic by harmonic";
             "use \"auto\" or \"cyclic\", or take the whole mesh: cea.method = \"sparse\"")));
     }
-    if frf.boundary == FrfBoundary::Sliding {
-        refuse_rest(case)?;
-    }
-    let (system, mesh, axis) = match &case.body {
-        Body::Assembly(body) => {
-            let axis = body.axis();
-            let axis = axis.map(|[center, direction]| Axis { center, direction });
-            (assembly(case, frf, body)?, Arc::clone(&body.mesh), axis)
-        }
-        Body::Annulus(_) | Body::Imported(_) | Body::Revolution(_) => {
-            let mesh = case.mesh()?;
-            (plane(case, frf, &mesh)?, mesh, None)
-        }
-    };
+    let (system, mesh) = held(case, frf)?;
+    let axis = case.body.assembly().and_then(AssemblyBody::axis);
+    let axis = axis.map(|[center, direction]| Axis { center, direction });
     let port = |terminal, key| {
         let found = system.port(&mesh, axis, terminal, key);
         found.map_err(|error| at_node(case, &error))
@@ -284,31 +270,20 @@ fn whole(case: &Case, frf: &Frf, reduction: Reduction) -> Result<System, StudyEr
     Ok(System::Whole { system: Box::new(system), ports: Box::new([force, response]), reduction })
 }
 
-/// A plane body as it is held.
-fn plane(case: &Case, frf: &Frf, mesh: &Mesh) -> Result<FrfSystem, StudyError> {
-    if frf.boundary != FrfBoundary::Sliding {
-        let is_clamped = frf.boundary == FrfBoundary::Clamped;
-        let (materials, rayleigh) = (case.materials(), case.damping.rayleigh);
-        return Ok(FrfSystem::body(mesh, materials, frf.mass, rayleigh, is_clamped));
-    }
-    let stiffness = assemble_stiffness(mesh, case.materials());
-    let options = tangent_options(case, frf.mass);
-    let law = options.contact.law;
-    let base = SteadySliding::solve_with(mesh, &stiffness, &case.contact.sliding, law)?;
-    let tangent = SlidingTangent::linearize(mesh, case.materials(), &stiffness, &base, &options);
-    Ok(FrfSystem::sliding(&tangent, case.contact.sliding.friction_coefficient))
-}
-
-/// An assembly as it is held: sliding, or its bodies as they are tied, without their contacts.
-fn assembly(case: &Case, frf: &Frf, body: &AssemblyBody) -> Result<FrfSystem, StudyError> {
+/// A body as it is held, with its mesh: sliding, or its parts as they are tied, without their contacts.
+fn held(case: &Case, frf: &Frf) -> Result<(FrfSystem, Arc<Mesh>), StudyError> {
     let options = tangent_options(case, frf.mass);
     if frf.boundary == FrfBoundary::Sliding {
-        let model = AssemblyModel::solve(case, body, options, &[])?;
-        return Ok(FrfSystem::sliding(
-            &model.own_tangent()?,
-            case.contact.sliding.friction_coefficient,
-        ));
+        refuse_rest(case)?;
+        let whole = WholeMesh::solve(case, options, &[])?;
+        let friction = case.contact.sliding.friction_coefficient;
+        return Ok((FrfSystem::sliding(&whole.own_tangent(case)?, friction), whole.mesh));
     }
+    let Body::Assembly(body) = &case.body else {
+        let (mesh, is_clamped) = (case.mesh()?, frf.boundary == FrfBoundary::Clamped);
+        let (materials, rayleigh) = (case.materials(), case.damping.rayleigh);
+        return Ok((FrfSystem::body(&mesh, materials, frf.mass, rayleigh, is_clamped), mesh));
+    };
     // Without contact there is no base state to find, and nothing may hold the bodies.
     let mut apart = AssemblyBody { contacts: Vec::new(), base: BaseChoice::Closed, ..body.clone() };
     if frf.boundary == FrfBoundary::Free {
@@ -317,8 +292,10 @@ fn assembly(case: &Case, frf: &Frf, body: &AssemblyBody) -> Result<FrfSystem, St
             boundary.condition = BoundaryCondition::Free;
         }
     }
-    let model = AssemblyModel::solve(case, &apart, options, &[])?;
-    Ok(FrfSystem::tied(&model.own_tangent()?))
+    let mut tied = case.clone();
+    tied.body = Body::Assembly(apart);
+    let whole = WholeMesh::solve(&tied, options, &[])?;
+    Ok((FrfSystem::tied(&whole.own_tangent(&tied)?), Arc::clone(&body.mesh)))
 }
 
 /// A counterface at rest sticks: there is no steady sliding to respond around.

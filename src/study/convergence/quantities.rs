@@ -27,13 +27,6 @@ fn name_of((harmonic, branch, direction): ModeKey, has_harmonics: bool) -> Strin
     mode_name(has_harmonics.then_some(harmonic), branch, direction)
 }
 
-/// The modes at a friction coefficient; none where it was not solved.
-fn modes_at(sweep: &FrictionSweep, friction: f64) -> &[ComplexMode] {
-    let mut points = sweep.points.iter();
-    let point = points.find(|point| point.friction_coefficient == friction);
-    point.map_or(&[][..], |point| &point.modes)
-}
-
 /// Frequency and real part of every mode at the case's friction coefficient, and every first onset,
 /// that all levels have; notes name those that some level lacks.
 pub fn of_sweeps(
@@ -51,7 +44,7 @@ pub fn of_sweeps(
             &named
         }
     };
-    let modes: Vec<&[ComplexMode]> = sweeps.iter().map(|sweep| modes_at(sweep, friction)).collect();
+    let modes: Vec<&[ComplexMode]> = sweeps.iter().map(|sweep| sweep.modes_at(friction)).collect();
     let finest = modes.last().copied().unwrap_or_default();
     let everywhere: Vec<Vec<&ComplexMode>> = finest
         .iter()
@@ -100,7 +93,7 @@ const FOREIGN: usize = 1 << 20;
 fn name_by_rank(sweeps: &mut [FrictionSweep], friction: f64) {
     type Shapes = Vec<(Vec<c64>, usize)>;
     let own = |sweep: &FrictionSweep| -> Shapes {
-        let modes = modes_at(sweep, friction).iter();
+        let modes = sweep.modes_at(friction).iter();
         modes.map(|mode| (mode.shape.clone().unwrap_or_default(), mode.branch)).collect()
     };
     let mut finer: Option<Shapes> = None;

@@ -12,7 +12,6 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-mod assembly;
 mod dampings;
 mod model;
 mod notes;
@@ -23,20 +22,20 @@ mod solid;
 mod solve;
 mod spectrum;
 mod states;
+mod whole;
 
-pub use assembly::AssemblyModel;
 pub use dampings::dampings;
-pub use model::{Model, Solver, Spectrum, Waves, asked_modes, mode_limit};
+pub use model::{Model, Solver, Spectrum, Waves, asked_modes, mode_limit, wave_tangent};
 pub(super) use sensitivity::rates::rates_of_waves;
 pub use sensitivity::{BodySensitivities, body_sensitivities};
 pub use sliding::{SlidingModel, SteadyState};
-pub use solid::SolidBody;
 pub use solve::{Solved, solve, solve_modes, solved};
 pub(super) use spectrum::analysis;
 pub use spectrum::{
     OnsetSearch, modes_at_own_friction, modes_below, modes_with_waves_below, unstable_intervals,
 };
-pub use states::WholeMesh;
+pub(in crate::study) use whole::BasePoint;
+pub use whole::{Sliding, WholeMesh};
 
 use super::StudyError;
 use crate::case::{Case, Cea, Diagnostic, ModeSelection};
@@ -100,9 +99,7 @@ const MOST_TABLED: usize = 3_000;
 /// As [`SlidingModel::new`] and [`refuse_no_modes`].
 pub fn preflight(case: &Case, cea: &Cea) -> Result<(), StudyError> {
     let SlidingModel { model, mesh, .. } = SlidingModel::new(case, cea)?;
-    let mut regions = 0..case.body.region_count();
-    let is_tabled = regions.any(|region| case.materials().table(region).is_some());
-    if is_tabled && mesh.dof_count() <= MOST_TABLED {
+    if case.body.tables().next().is_some() && mesh.dof_count() <= MOST_TABLED {
         // Tables hold the frequencies of all modes, or not.
         let one =
             Cea { friction_coefficients: vec![cea.friction_coefficients[0]], ..cea.of_tables() };
@@ -113,20 +110,26 @@ pub fn preflight(case: &Case, cea: &Cea) -> Result<(), StudyError> {
         return Ok(());
     };
     let kappa = (TAU * limit_hz).powi(2);
-    if let Some(waves) = model.wave_tangent(case)? {
-        let has_modes = |n: usize| {
-            let [mass, stiffness] = waves.at_rest(n);
-            BandedFactor::new(&stiffness, &mass, kappa).negative_count() > 0
-        };
-        if (0..=waves.largest_harmonic()).any(has_modes) {
-            return Ok(());
+    let tangent = match &model {
+        Model::Whole(whole) => {
+            let first = &whole.range.states[whole.range.state_of[0]];
+            whole.tangent(case, first)?.referred_to(limit_hz)
         }
-        // Friction may bring a mode below the limit. There is little to follow.
-        let frictions = cea.solved_friction_coefficients();
-        let request = SweepRequest::new(&frictions, mode_limit(cea));
-        return refuse_no_modes(case, cea, &model.spectrum(case, &request, &Unwatched)?.sweep);
-    }
-    let tangent = model.tangent(case, model.state_of()[0])?.referred_to(limit_hz);
+        Model::Waves(options) => {
+            let waves = wave_tangent(case, options)?.expect("a body of sectors has waves");
+            let has_modes = |n: usize| {
+                let [mass, stiffness] = waves.at_rest(n);
+                BandedFactor::new(&stiffness, &mass, kappa).negative_count() > 0
+            };
+            if (0..=waves.largest_harmonic()).any(has_modes) {
+                return Ok(());
+            }
+            // Friction may bring a mode below the limit. There is little to follow.
+            let frictions = cea.solved_friction_coefficients();
+            let request = SweepRequest::new(&frictions, mode_limit(cea));
+            return refuse_no_modes(case, cea, &model.spectrum(case, &request, &Unwatched)?.sweep);
+        }
+    };
     let [stiffness, mass] = [&tangent.stiffness, &tangent.mass].map(|own| own.evaluate(0.0));
     let shifted: Vec<f64> = stiffness.iter().zip(&mass).map(|(k, m)| k - kappa * m).collect();
     let analysis = LdlAnalysis::new(tangent.stiffness.pattern()).map_err(CeaError::from)?;
@@ -184,7 +187,7 @@ pub fn report<'a>(
         contact_changes: model.contact_changes(),
         base: model.base_state(case),
         field,
-        solid: model.solid().map(|body| &body.report),
+        solid: model.solid(),
         assembly: model.assembly(),
         sensitivities: solution.sensitivities.as_ref(),
         reading: solution.reading.as_ref(),

@@ -1,7 +1,6 @@
 //! Models of the eigenvalue solvers, and the choice of the solver for a body.
 
-use super::assembly::{self, AssemblyModel};
-use super::states::{StatesSweep, WholeMesh};
+use super::whole::WholeMesh;
 use super::{Progress, StudyError};
 use crate::case::{
     Annulus, Body, Case, CaseErrors, Cea, CeaMethod, ModeSelection, Revolution, refusal,
@@ -9,7 +8,7 @@ use crate::case::{
 use crate::cea::cyclic::{self, Coverage, Overdamped, WaveSweep};
 use crate::cea::{CeaError, FrictionSweep, ModeBranch, ModeLimit, SweepRequest};
 use crate::mesh::{SectorMesh, SolidSector};
-use crate::prestress::{SlidingTangent, TangentOptions, WaveTangent};
+use crate::prestress::{TangentOptions, WaveTangent};
 use crate::study::tangent_options;
 
 /// The eigenvalue solver that a body gets.
@@ -17,10 +16,8 @@ use crate::study::tangent_options;
 pub enum Solver {
     /// The harmonics of a body of equal sectors: a plane annulus, or a body of revolution.
     Waves,
-    /// The whole mesh of a plane body.
+    /// The whole mesh of a plane body, or of solid bodies.
     WholeMesh,
-    /// The whole mesh of solid bodies.
-    Assembly,
 }
 
 impl Solver {
@@ -51,8 +48,7 @@ impl Solver {
     /// As [`Self::of`]; counts of modes where the argument principle does not apply.
     pub fn of_analysis(case: &Case, cea: &Cea) -> Result<Self, CaseErrors> {
         let solver = Self::of(case, cea.method)?;
-        let mut tables = (0..case.body.region_count()).filter_map(|r| case.materials().table(r));
-        match tables.next() {
+        match case.body.tables().next() {
             Some(table) if cea.count_modes => Err(refusal!(case, "cea.count_modes",
                 "cea.count_modes = true: {} is a table over frequency, and no analytic function \
                  of the eigenvalue", table.key();
@@ -65,8 +61,7 @@ impl Solver {
     pub fn by_symmetry(case: &Case) -> Self {
         match &case.body {
             Body::Annulus(_) | Body::Revolution(_) => Self::Waves,
-            Body::Imported(_) => Self::WholeMesh,
-            Body::Assembly(_) => Self::Assembly,
+            Body::Imported(_) | Body::Assembly(_) => Self::WholeMesh,
         }
     }
 }
@@ -90,10 +85,8 @@ fn refuse_rest(case: &Case) -> Result<(), CaseErrors> {
 pub enum Model {
     /// The harmonics of a body of equal sectors.
     Waves(TangentOptions),
-    /// The whole mesh of a plane body.
+    /// The whole mesh of a plane body, or of solid bodies.
     Whole(Box<WholeMesh>),
-    /// The whole mesh of solid bodies.
-    Assembly(Box<AssemblyModel>),
 }
 
 /// The branches of a body that is solved harmonic by harmonic, and what their waves belong to.
@@ -105,6 +98,7 @@ pub struct Waves {
 }
 
 /// The spectrum of a model over friction coefficients.
+#[derive(Default)]
 pub struct Spectrum {
     /// Modes at each of them, and where branches turn unstable.
     pub sweep: FrictionSweep,
@@ -120,37 +114,6 @@ pub struct Spectrum {
     pub waves: Option<Waves>,
     /// Whether a body made of one sector was solved by waves around it.
     pub is_by_diameters: bool,
-}
-
-/// The spectrum of a body that was swept over its base states, with notes of its own.
-fn spectrum_of(found: StatesSweep, mut notes: Vec<String>) -> Spectrum {
-    let why = found.asymmetry.map(|why| {
-        format!("the whole mesh was solved, not waves around it one number of nodal diameters after the other: {why}")
-    });
-    notes.extend(why);
-    notes.extend(found.notes);
-    Spectrum {
-        dofs: found.dofs,
-        notes,
-        coverage: None,
-        overdamped: Vec::new(),
-        sweep: found.sweep,
-        waves: None,
-        is_by_diameters: found.is_by_diameters,
-    }
-}
-
-/// The spectrum of a body that was solved harmonic by harmonic.
-fn spectrum_of_waves(found: WaveSweep, notes: Vec<String>) -> Spectrum {
-    Spectrum {
-        dofs: found.dofs,
-        notes,
-        coverage: Some(found.coverage),
-        overdamped: found.overdamped,
-        sweep: found.sweep,
-        waves: Some(Waves { tangent: found.tangent, branches: found.branches }),
-        is_by_diameters: false,
-    }
 }
 
 impl Model {
@@ -178,11 +141,6 @@ impl Model {
         Ok(match solver {
             Solver::Waves => Self::Waves(options),
             Solver::WholeMesh => Self::Whole(Box::new(WholeMesh::solve(case, options, frictions)?)),
-            Solver::Assembly => {
-                let body = case.body.assembly();
-                let body = body.expect("the solver of an assembly is given to one alone");
-                Self::Assembly(Box::new(AssemblyModel::solve(case, body, options, frictions)?))
-            }
         })
     }
 
@@ -190,7 +148,7 @@ impl Model {
     pub fn method(&self) -> &'static str {
         match self {
             Self::Waves(_) => "cyclic",
-            Self::Whole(_) | Self::Assembly(_) => "sparse",
+            Self::Whole(_) => "sparse",
         }
     }
 
@@ -214,124 +172,46 @@ impl Model {
         progress: &Progress<'_>,
     ) -> Result<Spectrum, CeaError> {
         match self {
-            Self::Waves(_) => {
-                let tangent = self.wave_tangent(case)?.expect("a body of sectors has waves");
+            Self::Waves(options) => {
+                let tangent = wave_tangent(case, options)?.expect("a body of sectors has waves");
                 let found = cyclic::wave_sweep(tangent, request, waves_at)?;
                 let is_reduced = found.reduction_error > 0.0;
                 let notes = is_reduced.then(|| reduction_note(&found, request));
-                Ok(spectrum_of_waves(found, notes.into_iter().collect()))
+                Ok(Spectrum {
+                    sweep: found.sweep,
+                    dofs: found.dofs,
+                    notes: notes.into_iter().collect(),
+                    coverage: Some(found.coverage),
+                    overdamped: found.overdamped,
+                    waves: Some(Waves { tangent: found.tangent, branches: found.branches }),
+                    is_by_diameters: false,
+                })
             }
-            Self::Whole(whole) => {
-                let found = whole.sweep(case, request, progress)?;
-                Ok(spectrum_of(found, Vec::new()))
-            }
-            Self::Assembly(model) => {
-                let found = model.sweep(request, progress)?;
-                Ok(spectrum_of(found, assembly::notes(model)))
-            }
+            Self::Whole(whole) => whole.sweep(case, request, progress),
         }
     }
+}
 
-    /// The model of a case with the base states of this one, of a body solved on its whole mesh: for a case that
-    /// differs in nothing that these depend on.
-    pub(super) fn with_its_states(&self, case: &Case, options: TangentOptions) -> Option<Self> {
-        match self {
-            Self::Whole(whole) => Some(Self::Whole(Box::new(WholeMesh {
-                // Its boundaries have supports.
-                mesh: case.mesh().ok()?,
-                range: whole.range.clone(),
-                symmetry: whole.symmetry,
-                options,
-            }))),
-            // A centrifugal load depends on the density.
-            Self::Assembly(assembly) if assembly.body.rotors().next().is_some() => None,
-            Self::Assembly(assembly) => {
-                let body = case.body.assembly()?;
-                Some(Self::Assembly(Box::new(AssemblyModel {
-                    joined: body.assembled().ok()?.joined(),
-                    body: body.clone(),
-                    range: assembly.range.clone(),
-                    symmetry: assembly.symmetry,
-                    options,
-                })))
-            }
-            Self::Waves(_) => None,
+/// The linearisation of a body that is solved harmonic by harmonic; `None` of one that has no sectors.
+///
+/// # Errors
+/// A sector that cannot be built; no state of steady sliding.
+pub fn wave_tangent(
+    case: &Case,
+    options: &TangentOptions,
+) -> Result<Option<WaveTangent>, CeaError> {
+    let sliding = &case.contact.sliding;
+    Ok(match &case.body {
+        Body::Annulus(Annulus { specification, materials }) => {
+            let sector = SectorMesh::generate(specification)?;
+            Some(WaveTangent::of_annulus(&sector, materials, options, sliding)?)
         }
-    }
-
-    /// How many base states there are over the whole mesh; none of a body solved harmonic by harmonic.
-    pub(super) fn state_count(&self) -> usize {
-        match self {
-            Self::Whole(whole) => whole.range.states.len(),
-            Self::Assembly(assembly) => assembly.range.states.len(),
-            Self::Waves(_) => 0,
+        Body::Revolution(Revolution { specification, materials }) => {
+            let sector = SolidSector::generate(specification)?;
+            Some(WaveTangent::of_revolution(&sector, materials, options, sliding)?)
         }
-    }
-
-    /// Which of them belongs to each friction coefficient that the model was made for.
-    pub(in crate::study) fn state_of(&self) -> &[usize] {
-        match self {
-            Self::Whole(whole) => &whole.range.state_of,
-            Self::Assembly(assembly) => &assembly.range.state_of,
-            Self::Waves(_) => &[],
-        }
-    }
-
-    /// Which contact points are pressed in one of them.
-    pub(super) fn pressed(&self, state: usize) -> &[bool] {
-        match self {
-            Self::Whole(whole) => &whole.range.states[state].is_pressed,
-            Self::Assembly(assembly) => &assembly.range.states[state].is_pressed,
-            Self::Waves(_) => &[],
-        }
-    }
-
-    /// The tangent of one of them.
-    /// # Panics
-    /// Of a body solved harmonic by harmonic, which has none.
-    pub(in crate::study) fn tangent(
-        &self,
-        case: &Case,
-        state: usize,
-    ) -> Result<SlidingTangent, CeaError> {
-        match self {
-            Self::Whole(whole) => Ok(whole.tangent(case, &whole.range.states[state])),
-            Self::Assembly(assembly) => assembly.tangent(state),
-            Self::Waves(_) => panic!("no whole mesh"),
-        }
-    }
-
-    /// The linearisation of a body solved harmonic by harmonic; `None` of one solved on its whole mesh.
-    ///
-    /// # Errors
-    /// A sector that cannot be built; no state of steady sliding.
-    pub fn wave_tangent(&self, case: &Case) -> Result<Option<WaveTangent>, CeaError> {
-        let (Self::Waves(options), sliding) = (self, &case.contact.sliding) else {
-            return Ok(None);
-        };
-        Ok(match &case.body {
-            Body::Annulus(Annulus { specification, materials }) => {
-                let sector = SectorMesh::generate(specification)?;
-                Some(WaveTangent::of_annulus(&sector, materials, options, sliding)?)
-            }
-            Body::Revolution(Revolution { specification, materials }) => {
-                let sector = SolidSector::generate(specification)?;
-                Some(WaveTangent::of_revolution(&sector, materials, options, sliding)?)
-            }
-            Body::Imported(_) | Body::Assembly(_) => None,
-        })
-    }
-
-    /// The spectrum of some harmonics of a plane annulus, without a proof that none is missed; `None` for another body,
-    /// and where a branch meets one that only the whole spectrum has.
-    pub fn sweep_in(
-        &self,
-        harmonics: &[usize],
-        case: &Case,
-        request: &SweepRequest<'_>,
-    ) -> Option<FrictionSweep> {
-        cyclic::onsets(self.wave_tangent(case).ok()??, request, harmonics).ok().flatten()
-    }
+        Body::Imported(_) | Body::Assembly(_) => None,
+    })
 }
 
 /// What the reduction of the harmonics leaves out.

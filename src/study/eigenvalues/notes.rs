@@ -2,6 +2,7 @@
 
 use super::SlidingModel;
 use super::sliding::SteadyState;
+use super::solid::{dashpot_across, mean_friction};
 use crate::case::{Body, Case, Cea};
 use crate::cea::cyclic::{Coverage, Overdamped};
 use crate::cea::{BeyondMode, CeaError, FrictionSweep, ModeCount, UnstableInterval};
@@ -48,11 +49,10 @@ fn count_note(count: &ModeCount) -> String {
 
 /// Things of one kind that a note lists.
 pub(super) const MISSING_SHOWN: usize = 4;
+
 /// What the tables of moduli give to which part of the analysis.
 pub(super) fn table_notes(case: &Case) -> Vec<String> {
-    let regions = 0..case.body.region_count();
-    let tables = regions.filter_map(|region| case.materials().table(region));
-    let notes = tables.map(|table| {
+    let notes = case.body.tables().map(|table| {
         let [low, high] = table.range_hz();
         format!(
             "{} = \"{}\": each mode is solved at its own frequency (Im / 2 pi), {low} to {high} \
@@ -257,7 +257,7 @@ pub(super) fn overdamped_note(
          pressure and radius. It grows as contact.rotation_speed_rpm = {} falls, and holds that \
          motion in the limit",
         most.count,
-        solid.dashpot_across(friction),
+        dashpot_across(solid, friction),
         case.number("contact.rotation_speed_rpm")
             .unwrap_or(case.contact.sliding.rotation_speed * 60.0 / TAU),
     ))
@@ -268,7 +268,7 @@ pub(super) fn friction_note(case: &Case, model: &SlidingModel) -> Option<String>
     case.contact.sliding.decay?;
     let friction = case.contact.sliding.friction_coefficient;
     let (law, pressure) = match &model.state {
-        SteadyState::Solid(solid) => solid.mean_friction(),
+        SteadyState::Solid(solid) => mean_friction(solid),
         // Each contact has its own.
         SteadyState::Assembly(_) => return None,
         SteadyState::Plane(base) => {

@@ -1,14 +1,14 @@
 //! Steady sliding, reported beside the modes of an eigenvalue analysis.
 
 use super::StudyError;
-use super::assembly::base_state;
 use super::model::Model;
-use super::solid::SolidBody;
+use super::solid;
+use super::whole::Sliding;
 use crate::case::{Annulus, AssemblyBody, Body, Case, Cea, Revolution, refusal};
 use crate::fem::{nodal_stress, sector};
 use crate::mesh::{AnnulusMesh, Mesh, SectorMesh};
 use crate::prestress::{BaseChoice, SectorSliding, SteadySliding, TangentOptions};
-use crate::results::cea::{AssemblyReport, BaseField, BaseState};
+use crate::results::cea::{AssemblyReport, BaseField, BaseState, SolidReport};
 use crate::study::extent_of;
 use std::sync::Arc;
 
@@ -20,7 +20,7 @@ pub enum SteadyState {
     /// Of a plane body.
     Plane(Box<SteadySliding>),
     /// Of a body of revolution in three dimensions.
-    Solid(Box<SolidBody>),
+    Solid(Box<SolidReport>),
     /// Of solid bodies that slide on each other.
     Assembly(AssemblyReport),
 }
@@ -51,7 +51,7 @@ fn sliding_sector(
             (Arc::new(mesh.mesh), SteadyState::Plane(Box::new(base)))
         }
         Body::Revolution(Revolution { specification, .. }) => {
-            let solid = SolidBody::new(case, specification)?;
+            let solid = solid::solved(case, specification)?;
             let mut mesh = AnnulusMesh::generate(&specification.plane())?.mesh;
             mesh.regions = specification.region_names();
             (Arc::new(mesh), SteadyState::Solid(Box::new(solid)))
@@ -69,13 +69,11 @@ impl SlidingModel {
     pub fn new(case: &Case, cea: &Cea) -> Result<Self, StudyError> {
         let model = Model::new(case, cea)?;
         let (mesh, state) = match &model {
-            Model::Assembly(assembly) => {
-                let report = assembly.report(case);
-                let mesh = Arc::clone(&assembly.body.mesh);
-                (mesh, SteadyState::Assembly(report))
-            }
             Model::Whole(whole) => {
-                let state = SteadyState::Plane(Box::new(whole.base().clone()));
+                let state = match &whole.sliding {
+                    Sliding::Edge(base) => SteadyState::Plane(base.clone()),
+                    Sliding::Bodies(joined) => SteadyState::Assembly(whole.report(case, joined)),
+                };
                 (Arc::clone(&whole.mesh), state)
             }
             Model::Waves(options) => sliding_sector(case, options)?,
@@ -109,7 +107,7 @@ impl SlidingModel {
     }
 
     /// The body in three dimensions and its base state, if it is one.
-    pub fn solid(&self) -> Option<&SolidBody> {
+    pub fn solid(&self) -> Option<&SolidReport> {
         match &self.state {
             SteadyState::Solid(solid) => Some(solid),
             SteadyState::Plane(_) | SteadyState::Assembly(_) => None,
@@ -128,38 +126,40 @@ impl SlidingModel {
     pub fn contact_changes(&self) -> &[f64] {
         match &self.model {
             Model::Whole(whole) => &whole.range.changes,
-            Model::Assembly(assembly) => &assembly.range.changes,
             Model::Waves(_) => &[],
         }
     }
 
     /// What the report says of the base state, scaled to the case's thickness.
     pub fn base_state(&self, case: &Case) -> BaseState {
-        let base = match &self.state {
-            SteadyState::Solid(solid) => return solid.base_state(case),
-            SteadyState::Assembly(report) => return base_state(case, report),
-            SteadyState::Plane(base) => base,
-        };
         let friction = case.contact.sliding.friction_coefficient;
-        let pressures = base.pressures(friction);
-        let smallest = pressures.iter().copied().fold(f64::INFINITY, f64::min);
-        let largest = pressures.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        let traction = base.friction.drag * friction;
-        let torque = case.thickness * base.torque(friction);
-        let shear = [traction * smallest, traction * largest];
-        let open = base.is_pressed.iter().filter(|is_pressed| !**is_pressed).count();
-        let is_straight = case.body.slides_straight();
-        BaseState {
-            friction_coefficient: friction,
-            slipping: pressures.len() - open,
-            sticking: 0,
-            open,
-            pressure_pa: [smallest, largest],
-            shear_pa: [shear[0].min(shear[1]), shear[0].max(shear[1])],
-            torque_n_m: (!is_straight).then_some(torque),
-            drag_n: is_straight.then_some(torque),
-            power_w: torque * case.contact.sliding.rotation_speed,
-            extent: extent_of(case),
+        let speed = case.contact.sliding.rotation_speed;
+        match &self.state {
+            SteadyState::Solid(solid) => {
+                let torque = solid.base.torque(&solid.sector, friction);
+                let tractions =
+                    [range(solid.base.pressures.iter().copied()), range(solid.shears())];
+                base_state(case, solid::node_counts(solid), tractions, [torque, torque * speed])
+            }
+            SteadyState::Assembly(report) => {
+                let points = || report.points.iter();
+                let closed = points().filter(|point| point.is_closed).count();
+                let power: f64 = points().map(|point| point.shear * point.area * point.speed).sum();
+                let drive = if speed == 0.0 { 0.0 } else { power / speed };
+                let tractions =
+                    [range(points().map(|own| own.pressure)), range(points().map(|own| own.shear))];
+                let counts = [closed, report.points.len() - closed];
+                base_state(case, counts, tractions, [drive, power])
+            }
+            SteadyState::Plane(base) => {
+                let pressures = range(base.pressures(friction));
+                let traction = base.friction.drag * friction;
+                let shears = range(pressures.map(|pressure| traction * pressure));
+                let torque = case.thickness * base.torque(friction);
+                let open = base.is_pressed.iter().filter(|is_pressed| !**is_pressed).count();
+                let counts = [base.is_pressed.len() - open, open];
+                base_state(case, counts, [pressures, shears], [torque, torque * speed])
+            }
         }
     }
 
@@ -182,4 +182,33 @@ impl SlidingModel {
             displacement,
         }
     }
+}
+
+/// The base state with so many contact nodes that slip and that are open, the range of pressure and of shear, and torque
+/// or drag with its power.
+fn base_state(
+    case: &Case,
+    [slipping, open]: [usize; 2],
+    [pressure_pa, shear_pa]: [[f64; 2]; 2],
+    [drive, power_w]: [f64; 2],
+) -> BaseState {
+    let is_straight = case.body.slides_straight();
+    BaseState {
+        friction_coefficient: case.contact.sliding.friction_coefficient,
+        slipping,
+        sticking: 0,
+        open,
+        pressure_pa,
+        shear_pa,
+        torque_n_m: (!is_straight).then_some(drive),
+        drag_n: is_straight.then_some(drive),
+        power_w,
+        extent: extent_of(case),
+    }
+}
+
+/// The smallest and the largest of some numbers.
+fn range(values: impl IntoIterator<Item = f64>) -> [f64; 2] {
+    let all = values.into_iter();
+    all.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], v| [low.min(v), high.max(v)])
 }

@@ -7,7 +7,7 @@ use super::notes::{
 };
 use super::reading::{lefts_needed, read, shapes_needed};
 use super::sensitivity::body_sensitivities;
-use super::solid::SolidBody;
+use super::solid;
 use super::{Progress, SlidingModel, Solution, StudyError, no_modes};
 use crate::case::{Case, Cea, CeaMethod};
 use crate::cea::{CeaError, SweepRequest, Unwatched};
@@ -66,7 +66,7 @@ fn solve_with(
     notes.extend(count_notes(cea, &found.sweep, found.coverage.is_some()));
     notes.extend(found.notes);
     notes.extend(overdamped_note(case, model, &found.overdamped));
-    notes.extend(model.solid().and_then(SolidBody::note));
+    notes.extend(model.solid().and_then(solid::note));
     notes.extend(table_notes(case));
     notes.extend(rate_note);
     notes.extend(uncertainty_note(case, &found.sweep));

@@ -1,8 +1,9 @@
 //! The spectrum of a case for those who study it: no files, no base fields, no shapes.
 
 use super::StudyError;
-use super::model::{Model, Solver, Waves, mode_limit};
+use super::model::{Model, Solver, Waves, mode_limit, wave_tangent};
 use crate::case::{Case, Cea, CeaMethod, ModeSelection};
+use crate::cea::cyclic;
 use crate::cea::{
     CeaError, ComplexMode, FrictionSweep, ModeLimit, SweepRequest, UnstableInterval, Unwatched,
 };
@@ -50,8 +51,7 @@ pub fn modes_with_waves_below(
         ..SweepRequest::new(&cea.friction_coefficients, mode_limit(&cea))
     };
     let found = model.spectrum(case, &request, &Unwatched)?;
-    let point = found.sweep.points.into_iter().next();
-    Ok((point.map_or_else(Vec::new, |point| point.modes), found.waves))
+    Ok((found.sweep.into_first_modes(), found.waves))
 }
 
 /// The modes of a case at its own friction coefficient, by frequency; no shapes. With all the symmetry that the body
@@ -68,9 +68,7 @@ pub fn modes_at_own_friction(
     let request = SweepRequest::new(&frictions, limit);
     let solver = Solver::by_symmetry(case);
     let model = Model::with_solver(case, solver, *options, &frictions)?;
-    let found = model.spectrum(case, &request, &Unwatched)?;
-    let point = found.sweep.points.into_iter().next();
-    Ok(point.map_or_else(Vec::new, |point| point.modes))
+    Ok(model.spectrum(case, &request, &Unwatched)?.sweep.into_first_modes())
 }
 
 /// The onsets of a case.
@@ -99,7 +97,7 @@ pub fn unstable_intervals(
     let cea = Cea { modes: own.modes, ..analysis(case, frictions, f64::INFINITY) };
     let solver = Solver::of(case, cea.method)?;
     let mut frictions = frictions.to_vec();
-    if matches!(solver, Solver::WholeMesh | Solver::Assembly) {
+    if solver == Solver::WholeMesh {
         // Harmonics are followed from no friction on; the branches of a whole mesh over the values that it is given.
         frictions.push(0.0);
         frictions.extend(&own.friction_coefficients);
@@ -109,8 +107,9 @@ pub fn unstable_intervals(
     let request = SweepRequest::new(&frictions, mode_limit(&cea));
     let options = tangent_options(case, cea.mass);
     let model = Model::with_solver(case, solver, options, &frictions)?;
-    if let Some(harmonics) = harmonics
-        && let Some(found) = model.sweep_in(harmonics, case, &request)
+    if let (Some(harmonics), Model::Waves(options)) = (harmonics, &model)
+        && let Ok(Some(tangent)) = wave_tangent(case, options)
+        && let Ok(Some(found)) = cyclic::onsets(tangent, &request, harmonics)
     {
         return Ok(OnsetSearch {
             followed: Vec::new(),

@@ -1,20 +1,17 @@
 //! The parameters that a case asks to be fitted.
 
-use super::free_part::{free_part, rates, shaped_modes};
+use super::free_part::{STEP, free_part, rates};
 use super::{
     BoundedParameter, FitError, FitProblem, Fitted, MeasuredMode, MeasuredShapes, ModelMode, fit,
     summary,
 };
-use crate::case::{Case, Cea, Fit, FitParameter, ModelParameter, Spacing};
+use crate::case::{Case, Cea, Fit, FitParameter, Spacing};
 use crate::cea::cyclic::{WavePair, wave_pairs};
 use crate::cea::{ComplexMode, ModeBranch};
 use crate::linalg::c64;
 use crate::results::fit::FitSummary;
 use crate::study::eigenvalues::{Solver, Waves, analysis, rates_of_waves};
 use crate::study::{StudyError, eigenvalues};
-
-/// Step of a parameter for the differences of the matrices, relative to its value.
-const STEP: f64 = 1e-4;
 
 /// Modes are computed up to this much above the highest line.
 const MARGIN: f64 = 1.15;
@@ -142,7 +139,8 @@ fn own_values(case: &Case, wanted: &Fit) -> Option<Vec<f64>> {
     own.collect()
 }
 
-/// The modes of the case with its parameters at some values.
+/// The modes of the case with its parameters at some values, with their derivatives by each parameter and their
+/// likeness to the measured shapes.
 fn modes(
     case: &Case,
     (wanted, shapes): (&Fit, Option<MeasuredShapes<'_>>),
@@ -151,42 +149,29 @@ fn modes(
     with_rates: bool,
 ) -> Result<Vec<ModelMode>, String> {
     let parameters = wanted.parameters.iter().map(|parameter| &parameter.parameter);
-    let case = case.with_parameters(parameters.clone().zip(values.iter().copied()))?;
-    if with_rates && free_part(&case).is_some() {
-        let values = parameters.zip(values.iter().copied());
-        return modes_of_free_part(&case, shapes, values, limit_hz);
-    }
+    let parameters = parameters.zip(values.iter().copied());
+    let case = case.with_parameters(parameters.clone())?;
+    let is_free = with_rates && free_part(&case).is_some();
     let own = [case.contact.sliding.friction_coefficient];
-    let shapes_at = &own[..usize::from(shapes.is_some())];
+    let shapes_at = &own[..usize::from(is_free || shapes.is_some())];
     let solved = eigenvalues::modes_with_waves_below(&case, limit_hz, shapes_at);
     let (modes, waves) = solved.map_err(|error| error.line())?;
     let assurances = assurances(&case, shapes, &modes)?;
-    let by_parameter = match waves.filter(|_| with_rates) {
-        Some(waves) => {
-            let cea = analysis(&case, &own, limit_hz);
-            wave_rates((&case, &cea), &modes, &waves, (wanted, values))
-        }
-        None => vec![vec![None; modes.len()]; wanted.parameters.len()],
+    let cea = analysis(&case, &own, limit_hz);
+    let by_parameter = match waves {
+        _ if is_free => rates(&case, cea.mass, &modes, parameters),
+        Some(waves) if with_rates => wave_rates((&case, &cea), &modes, &waves, (wanted, values)),
+        _ => vec![vec![None; modes.len()]; wanted.parameters.len()],
     };
-    Ok(model_modes(&modes, case.has_sectors(), &by_parameter, assurances))
-}
-
-/// Modes with their derivatives by each parameter and their likeness to the measured shapes.
-fn model_modes(
-    modes: &[ComplexMode],
-    has_harmonics: bool,
-    by_parameter: &[Vec<Option<c64>>],
-    assurances: Vec<Vec<f64>>,
-) -> Vec<ModelMode> {
     let of = |(i, (mode, assurances)): (usize, (&ComplexMode, Vec<f64>))| ModelMode {
         eigenvalue: mode.eigenvalue,
-        harmonic: has_harmonics.then_some(mode.harmonic),
+        harmonic: case.has_sectors().then_some(mode.harmonic),
         branch: mode.branch,
         direction: mode.direction,
         rates: by_parameter.iter().map(|rates| rates[i]).collect(),
         assurances,
     };
-    modes.iter().zip(assurances).enumerate().map(of).collect()
+    Ok(modes.iter().zip(assurances).enumerate().map(of).collect())
 }
 
 /// Derivatives of modes of a body solved harmonic by harmonic by each parameter, with the keys that follow it; `None`
@@ -233,18 +218,4 @@ fn assurances(
         Some(shapes) => shapes.assurances(case, modes).map_err(|error| error.line()),
         None => Ok(vec![Vec::new(); modes.len()]),
     }
-}
-
-/// The modes of a part that nothing holds, damps or touches, with all derivatives.
-fn modes_of_free_part<'p>(
-    case: &Case,
-    shapes: Option<MeasuredShapes<'_>>,
-    parameters: impl Iterator<Item = (&'p ModelParameter, f64)>,
-    limit_hz: f64,
-) -> Result<Vec<ModelMode>, String> {
-    let cea = analysis(case, &[case.contact.sliding.friction_coefficient], limit_hz);
-    let modes = shaped_modes(case, &cea).map_err(|error| error.line())?;
-    let by_parameter = rates(case, &cea, &modes, parameters);
-    let assurances = assurances(case, shapes, &modes)?;
-    Ok(model_modes(&modes, false, &by_parameter, assurances))
 }

@@ -1,15 +1,12 @@
 //! Derivatives of the free modes of undamped parts.
 
-use crate::case::{AssemblyBody, Case, Cea, ModelParameter};
-use crate::cea::{ComplexMode, SweepRequest, Unwatched};
-use crate::fem::{Triplets, assemble_mass, assemble_stiffness};
+use crate::case::{AssemblyBody, Case, ModelParameter};
+use crate::cea::ComplexMode;
+use crate::fem::{MassKind, Triplets, assemble_mass, assemble_stiffness};
 use crate::linalg::c64;
-use crate::study::StudyError;
-use crate::study::eigenvalues::{Model, Solver, mode_limit};
-use crate::study::tangent_options;
 
 /// Step of a parameter for the differences of the matrices, relative to its value.
-const STEP: f64 = 1e-4;
+pub(super) const STEP: f64 = 1e-4;
 
 /// The body of a case, where it is a part that nothing holds, damps or touches.
 pub(super) fn free_part(case: &Case) -> Option<&AssemblyBody> {
@@ -24,18 +21,6 @@ pub(super) fn free_part(case: &Case) -> Option<&AssemblyBody> {
     is_free.then_some(body)
 }
 
-/// The modes of such a case, with their shapes.
-pub(super) fn shaped_modes(case: &Case, cea: &Cea) -> Result<Vec<ComplexMode>, StudyError> {
-    let frictions = cea.friction_coefficients.as_slice();
-    let options = tangent_options(case, cea.mass);
-    let model = Model::with_solver(case, Solver::Assembly, options, frictions)?;
-    let request =
-        SweepRequest { shapes_at: frictions, ..SweepRequest::new(frictions, mode_limit(cea)) };
-    let found = model.spectrum(case, &request, &Unwatched)?;
-    let point = found.sweep.points.into_iter().next();
-    Ok(point.map_or_else(Vec::new, |point| point.modes))
-}
-
 /// Derivatives of the eigenvalues of modes with shapes by each parameter,
 ///
 /// ```text
@@ -46,7 +31,7 @@ pub(super) fn shaped_modes(case: &Case, cea: &Cea) -> Result<Vec<ComplexMode>, S
 /// `None` where it cannot be.
 pub(super) fn rates<'p>(
     case: &Case,
-    cea: &Cea,
+    kind: MassKind,
     modes: &[ComplexMode],
     parameters: impl Iterator<Item = (&'p ModelParameter, f64)>,
 ) -> Vec<Vec<Option<c64>>> {
@@ -63,7 +48,7 @@ pub(super) fn rates<'p>(
     let matrices = |case: &Case| -> Option<[Triplets; 2]> {
         let body = case.body.assembly()?;
         let (mesh, materials) = (&body.mesh, &body.materials);
-        Some([assemble_mass(mesh, materials, cea.mass), assemble_stiffness(mesh, materials)])
+        Some([assemble_mass(mesh, materials, kind), assemble_stiffness(mesh, materials)])
     };
     let own = matrices(case);
     let by_parameter = parameters.map(|(parameter, value)| {

@@ -8,7 +8,7 @@ use crate::linalg::c64;
 use crate::mesh::Mesh;
 use crate::prestress::{SlidingTangent, TangentOptions};
 use crate::results::improve::{State, TargetMode};
-use crate::study::eigenvalues::{Model, Solver, mode_limit};
+use crate::study::eigenvalues::{WholeMesh, mode_limit};
 use crate::study::tangent_options;
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -107,17 +107,12 @@ pub(super) fn friction_steps(case: &Case) -> Vec<f64> {
 }
 
 /// The model and the spectrum of a case over its whole mesh.
-pub(super) fn spectrum_of(case: &Case, cea: &Cea) -> Result<(Model, FrictionSweep), StudyError> {
-    let solver = match &case.body {
-        Body::Assembly(_) => Solver::Assembly,
-        _ => Solver::WholeMesh,
-    };
+pub(super) fn spectrum_of(case: &Case, cea: &Cea) -> Result<(WholeMesh, FrictionSweep), CeaError> {
     let frictions = friction_steps(case);
-    let options = tangent_options(case, cea.mass);
-    let model = Model::with_solver(case, solver, options, &frictions)?;
+    let whole = WholeMesh::solve(case, tangent_options(case, cea.mass), &frictions)?;
     let request = SweepRequest::new(&frictions, mode_limit(cea));
-    let sweep = model.spectrum(case, &request, &Unwatched)?.sweep;
-    Ok((model, sweep))
+    let sweep = whole.sweep(case, &request, &Unwatched)?.sweep;
+    Ok((whole, sweep))
 }
 
 /// The lowest critical friction coefficient of a mode in a window.
@@ -136,19 +131,16 @@ impl<'a> Base<'a> {
         refuse_bodies(case)?;
         let friction = case.contact.sliding.friction_coefficient;
         let window = Window(case.improve.frequencies_hz);
-        let (model, sweep) = spectrum_of(case, cea)?;
-        let point = sweep.points.iter();
-        let own = point.filter(|point| point.friction_coefficient == friction);
-        let targets: Vec<c64> =
-            own.flat_map(|point| &point.modes).map(|mode| mode.eigenvalue).collect();
+        let (whole, sweep) = spectrum_of(case, cea)?;
+        let own = sweep.modes_at(friction).iter();
+        let targets: Vec<c64> = own.map(|mode| mode.eigenvalue).collect();
         let outlook = window.outlook(targets.iter().copied());
         if outlook.unstable == 0 {
             return Err(nothing_grows(case, outlook, window).into());
         }
 
         // Left and right vectors of all listed modes.
-        let state = model.state_of().last().copied().unwrap_or(0);
-        let tangent = model.tangent(case, state)?;
+        let tangent = whole.own_tangent(case)?;
         let pairs = mode_pairs(&tangent, friction, &targets);
         let multiple = pairs.iter().filter(|pair| pair.is_none()).count();
         let modes = pairs.into_iter().flatten().map(|pair| PairedMode {
@@ -157,22 +149,16 @@ impl<'a> Base<'a> {
             pair,
         });
         let modes: Vec<PairedMode> = modes.collect();
-        let displacement = match &model {
-            Model::Whole(whole) => Some(whole.base().displacement(friction)),
-            Model::Assembly(own) => {
-                own.assembly().stressing(own.base()).map(|state| state.displacement(friction))
-            }
-            _ => None,
-        };
+        let stressing = whole.stressing(case, whole.state());
         Ok(Self {
-            mesh: case.mesh().map_err(CeaError::from)?,
+            displacement: stressing.map(|state| state.displacement(friction)),
+            mesh: case.mesh()?,
             options: tangent_options(case, cea.mass),
             onset: lowest_onset(&sweep, window),
             case,
             cea,
             tangent,
             friction,
-            displacement,
             window,
             listed: targets,
             modes,

@@ -6,7 +6,7 @@ use crate::case::{Case, ModificationKind};
 use crate::output::rounded;
 use crate::prestress::SlidingTangent;
 use crate::results::improve::State;
-use crate::study::eigenvalues::Model;
+use crate::study::eigenvalues::WholeMesh;
 use nalgebra::{Matrix3, Vector3};
 
 /// Name of the section that makes a candidate.
@@ -70,12 +70,8 @@ fn changed(base: &Base<'_>, keys: &[String]) -> Result<Case, String> {
 /// The tangent of the case with some keys, at its own friction coefficient.
 pub(super) fn tangent_of(base: &Base<'_>, keys: &[String]) -> Result<SlidingTangent, String> {
     let case = changed(base, keys)?;
-    let options = base.options;
-    let solver = crate::study::eigenvalues::Solver::WholeMesh;
-    let model = Model::with_solver(&case, solver, options, &[base.friction]);
-    let model = model.map_err(|error| error.to_string())?;
-    let state = model.state_of().last().copied().unwrap_or(0);
-    let tangent = model.tangent(&case, state);
+    let whole = WholeMesh::solve(&case, base.options, &[base.friction]);
+    let tangent = whole.and_then(|whole| whole.own_tangent(&case));
     tangent.map_err(|error| error.to_string())
 }
 
@@ -83,10 +79,8 @@ pub(super) fn tangent_of(base: &Base<'_>, keys: &[String]) -> Result<SlidingTang
 pub(super) fn run_again(base: &Base<'_>, keys: &[String]) -> Result<State, String> {
     let case = changed(base, keys)?;
     let cea = case.require_cea().map_err(|errors| errors.line())?;
-    let (_, sweep) = spectrum_of(&case, cea).map_err(|error| error.line())?;
-    let point = sweep.points.iter();
-    let own = point.filter(|point| point.friction_coefficient == base.friction);
-    let modes = own.flat_map(|point| &point.modes);
+    let (_, sweep) = spectrum_of(&case, cea).map_err(|error| error.to_string())?;
+    let modes = sweep.modes_at(base.friction).iter();
     let outlook = base.window.outlook(modes.map(|mode| mode.eigenvalue));
     Ok(state(outlook, lowest_onset(&sweep, base.window)))
 }

@@ -212,6 +212,18 @@ impl FrictionSweep {
         let (intervals, crossings) = found.into_iter().unzip();
         Self { points, intervals, crossings, ended, ..Self::default() }
     }
+
+    /// The modes at a friction coefficient; none where it was not solved.
+    pub fn modes_at(&self, friction_coefficient: f64) -> &[ComplexMode] {
+        let mut points = self.points.iter();
+        let point = points.find(|point| point.friction_coefficient == friction_coefficient);
+        point.map_or(&[][..], |point| &point.modes)
+    }
+
+    /// The modes at the first friction coefficient.
+    pub fn into_first_modes(self) -> Vec<ComplexMode> {
+        self.points.into_iter().next().map_or_else(Vec::new, |point| point.modes)
+    }
 }
 
 /// A mode that no iteration made converge.

@@ -47,7 +47,7 @@ impl<S> PressedRange<S> {
     }
 
     /// The same states in another form.
-    pub(super) fn map<T>(self, form: impl FnMut(S) -> T) -> PressedRange<T> {
+    pub fn map<T>(self, form: impl FnMut(S) -> T) -> PressedRange<T> {
         PressedRange {
             states: self.states.into_iter().map(form).collect(),
             state_of: self.state_of,

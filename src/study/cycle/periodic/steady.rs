@@ -41,13 +41,11 @@ impl Steady {
             return Self::of_assembly(assembly, &options_in_time(case), &request);
         }
         let (model, sweep) = sweep_in_time(case, &own, &own)?;
-        let point = sweep.points.into_iter().next();
-        let modes = point.map_or_else(Vec::new, |point| point.modes);
         let base = match &model {
-            Model::Whole(whole) => whole.base().displacement(own[0]),
+            Model::Whole(whole) => whole.state().displacement(own[0]),
             _ => stepped.body(case).sliding_displacement().map_err(StudyError::Transient)?,
         };
-        Ok(Self { base, modes })
+        Ok(Self { base, modes: sweep.into_first_modes() })
     }
 
     /// That of solid bodies, with their contact points at nodes as the transient has them.
@@ -61,11 +59,7 @@ impl Steady {
         let state = &range.states[range.state_of[0]];
         let tangent = assembly.tangent(state, options).map_err(CeaError::from)?;
         let found = sparse::sweep(&tangent, request, &Unwatched)?;
-        let point = found.points.into_iter().next();
-        Ok(Self {
-            base: state.displacement(frictions[0]),
-            modes: point.map_or_else(Vec::new, |point| point.modes),
-        })
+        Ok(Self { base: state.displacement(frictions[0]), modes: found.into_first_modes() })
     }
 
     /// That of a case with a parameter at another value, SI.

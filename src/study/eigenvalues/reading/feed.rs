@@ -15,28 +15,13 @@ use super::parts::Parts;
 use super::shapes::Shapes;
 use crate::case::Case;
 use crate::cea::FrictionPoint;
-use crate::contact::{ContactStiffness, Point, PressedPoints, Turning, linearized, turned};
+use crate::contact::{PressedPoints, linearized, turned};
 use crate::fem::Triplets;
 use crate::linalg::c64;
-use crate::mesh::Mesh;
-use crate::prestress::SteadySliding;
-use crate::results::cea::{Feed, FeedPlace, ModeFeed};
-use crate::study::eigenvalues::assembly::AssemblyModel;
+use crate::results::cea::{Feed, ModeFeed};
 use crate::study::eigenvalues::model::Model;
-use crate::study::eigenvalues::sliding::{SlidingModel, SteadyState};
-
-/// A contact point in the base state at the case's own friction coefficient.
-struct Pressed {
-    place: FeedPlace,
-    point: Point,
-    /// How it turns; nothing where no stress acts on small motions.
-    turning: Vec<Turning>,
-    is_pressed: bool,
-    /// Normal force, none of a state that is free of stress, and stiffness where contact stiffens.
-    forces: Vec<Vec<f64>>,
-    springs: Vec<Vec<f64>>,
-    stiffness: ContactStiffness,
-}
+use crate::study::eigenvalues::sliding::SlidingModel;
+use crate::study::eigenvalues::whole::BasePoint;
 
 /// Stiffness and dashpots of one point over all dofs at a friction coefficient.
 type PointTerms = [Vec<(usize, usize, f64)>; 2];
@@ -54,11 +39,10 @@ pub(super) fn feed(
     if shapes.modes.is_empty() {
         return None;
     }
-    let pressed = match (&model.model, &model.state) {
-        (Model::Assembly(assembly), _) => of_assembly(assembly, friction),
-        (_, SteadyState::Plane(base)) => of_edge(case, parts, base),
-        _ => return None,
+    let Model::Whole(whole) = &model.model else {
+        return None;
     };
+    let pressed = whole.contact_points(case);
 
     // Forces of the bodies at every dof, those of the contact's own terms beside them.
     let mut sums = Sums::new(shapes.modes.len(), Some(parts.mesh.dof_count()));
@@ -95,7 +79,7 @@ pub(super) fn feed(
 }
 
 /// `Im(conj(n.phi + mu drag t.phi) dN)` of a rigid point that is pressed; 0 of others.
-fn held(own: &Pressed, friction: f64, phi: &[c64], forces: &[c64]) -> f64 {
+fn held(own: &BasePoint, friction: f64, phi: &[c64], forces: &[c64]) -> f64 {
     if own.stiffness.normal_stiffness.is_some() || !own.is_pressed {
         return 0.0;
     }
@@ -120,7 +104,7 @@ fn form(terms: &PointTerms, factors: [c64; 2], phi: &[c64]) -> c64 {
 }
 
 /// What one point adds to the stiffness and to the dashpots.
-fn terms(own: &Pressed, friction: f64) -> PointTerms {
+fn terms(own: &BasePoint, friction: f64) -> PointTerms {
     let state = PressedPoints {
         first: 0,
         is_pressed: &[own.is_pressed],
@@ -141,80 +125,4 @@ fn terms(own: &Pressed, friction: f64) -> PointTerms {
     let mut stiffness = at(&found.stiffness);
     stiffness.extend(at(&turned(point, &own.turning, &state)));
     [stiffness, at(&found.dashpots)]
-}
-
-/// The nodes of a plane contact edge.
-fn of_edge(case: &Case, parts: &Parts<'_>, base: &SteadySliding) -> Vec<Pressed> {
-    let friction = case.contact.sliding.friction_coefficient;
-    let (forces, springs) = (base.normal_forces(friction), base.springs(friction));
-    let places = edge_places(case, parts.mesh, &parts.contacts[0].0, base);
-    let turnings = base.interface.turnings();
-    let turns = parts.options.geometric_stiffness;
-    let points = base.points.iter().zip(places).enumerate();
-    points
-        .map(|(i, (point, place))| Pressed {
-            place,
-            point: point.clone(),
-            turning: turnings[i..].iter().take(usize::from(turns)).cloned().collect(),
-            is_pressed: base.is_pressed[i],
-            forces: value_of(&forces, i),
-            springs: value_of(&springs, i),
-            stiffness: parts.options.contact,
-        })
-        .collect()
-}
-
-/// The value of a point as a power of friction, where there are any.
-fn value_of(values: &[f64], point: usize) -> Vec<Vec<f64>> {
-    values.get(point).map(|value| vec![*value]).into_iter().collect()
-}
-
-/// The places of the nodes of a plane contact edge, in the order of its points.
-pub(super) fn edge_places(
-    case: &Case,
-    mesh: &Mesh,
-    contact: &str,
-    base: &SteadySliding,
-) -> Vec<FeedPlace> {
-    let points = base.points.iter().enumerate();
-    points
-        .map(|(i, point)| {
-            let node = base.interface.normal_dof(i) / mesh.dimension;
-            FeedPlace {
-                contact: contact.to_owned(),
-                position: mesh.nodes[node],
-                area: point.weight * case.thickness,
-                shares: vec![(node as u32, 1.0)],
-            }
-        })
-        .collect()
-}
-
-/// The points of all contacts of solid bodies.
-fn of_assembly(model: &AssemblyModel, friction: f64) -> Vec<Pressed> {
-    let (assembly, state) = (model.assembly(), model.base());
-    let (forces, springs) = (state.normal_forces(friction), state.springs(friction));
-    let mut found = Vec::new();
-    let none = || vec![Vec::new(); assembly.contacts().len()];
-    let turnings = if model.is_stressed() { assembly.turnings() } else { none() };
-    for ((contact, surface), turnings) in assembly.contacts().iter().zip(&turnings) {
-        for (place, point) in surface.points.iter().enumerate() {
-            let i = found.len();
-            found.push(Pressed {
-                place: FeedPlace {
-                    contact: contact.name.clone(),
-                    position: surface.sites[place].position,
-                    area: point.weight,
-                    shares: surface.shares[place].clone(),
-                },
-                point: point.clone(),
-                turning: turnings.get(place).cloned().into_iter().collect(),
-                is_pressed: state.is_pressed[i],
-                forces: value_of(&forces, i),
-                springs: value_of(&springs, i),
-                stiffness: contact.stiffness,
-            });
-        }
-    }
-    found
 }

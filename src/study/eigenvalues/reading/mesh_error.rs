@@ -28,8 +28,7 @@ const MOST_MODES: f64 = 256.0;
 /// Whether it is made: not with a mass that is lumped, whose own error it would leave out, nor with a modulus that
 /// follows a table.
 fn is_made(case: &Case, mass: MassKind) -> bool {
-    let mut regions = 0..case.body.region_count();
-    mass == MassKind::Consistent && regions.all(|region| case.materials().table(region).is_none())
+    mass == MassKind::Consistent && case.body.tables().next().is_none()
 }
 
 /// Those of the friction values `shown` with their shapes at which it is made, and so left vectors are needed, of about

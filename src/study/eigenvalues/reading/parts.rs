@@ -8,9 +8,10 @@ use crate::fem::{
 };
 use crate::linalg::{Mat, MatRef, MatrixPolynomial, c64};
 use crate::mesh::{BoundaryCondition, Mesh};
-use crate::prestress::{DampingModel, TangentOptions};
+use crate::prestress::{Assembly, DampingModel, PressedState, TangentOptions};
 use crate::study::eigenvalues::model::Model;
 use crate::study::eigenvalues::sliding::{SlidingModel, SteadyState};
+use crate::study::eigenvalues::whole::CONTACT;
 use std::borrow::Cow;
 use std::cell::RefCell;
 use std::collections::BTreeMap;
@@ -81,19 +82,16 @@ pub(super) struct Parts<'a> {
 impl<'a> Parts<'a> {
     pub fn new(case: &'a Case, model: &'a SlidingModel) -> Option<Self> {
         let mesh = &*model.mesh;
-        let (options, contacts) = match &model.model {
+        let (options, assembly) = match &model.model {
             Model::Waves(_) if case.body.dimension() == 3 => return None,
-            Model::Waves(options) => (options, Vec::new()),
-            Model::Whole(whole) => (&whole.options, Vec::new()),
-            Model::Assembly(assembly) => {
-                let pairs = assembly.body.contacts.iter();
-                let pairs = pairs.map(|own| {
-                    let surfaces = std::iter::once(own.surface).chain(own.counter.surface());
-                    (own.name.clone(), surfaces.collect())
-                });
-                (&assembly.options, contact_dofs(mesh, &pairs.collect::<Vec<_>>()))
-            }
+            Model::Waves(options) => (options, None),
+            Model::Whole(whole) => (&whole.options, whole.assembly(case)),
         };
+        let pairs = assembly.iter().flat_map(Assembly::contacts).map(|(own, _)| {
+            let surfaces = std::iter::once(own.surface).chain(own.counter.surface());
+            (own.name.clone(), surfaces.collect())
+        });
+        let contacts = contact_dofs(mesh, &pairs.collect::<Vec<_>>());
         let materials = case.materials();
         let count = mesh.dof_count();
         let regions = mesh.regions.iter().enumerate().map(|(region, name)| {
@@ -116,13 +114,9 @@ impl<'a> Parts<'a> {
             let patches = assemble_patch_damping(mesh, materials, options.mass);
             supports.push(modifications(mesh, patches));
         }
-        let rotation = match &model.model {
-            Model::Assembly(own) if own.body.rotors().next().is_some() => {
-                let terms = own.assembly().rotation_terms().cloned();
-                terms.map(|[transport, gyroscopic]| Pair::new(count, [gyroscopic, transport]))
-            }
-            _ => None,
-        };
+        let rotation = assembly.as_ref().and_then(|own| own.rotation_terms().cloned());
+        let rotation =
+            rotation.map(|[transport, gyroscopic]| Pair::new(count, [gyroscopic, transport]));
         Some(Self {
             case,
             mesh,
@@ -132,7 +126,7 @@ impl<'a> Parts<'a> {
             attached: has_masses.then(|| Pair::new(count, [masses, Triplets::default()])),
             rotation,
             contacts: match contacts.is_empty() {
-                true => vec![("contact".to_owned(), Vec::new())],
+                true => vec![(CONTACT.to_owned(), Vec::new())],
                 false => contacts,
             },
             geometric: RefCell::default(),
@@ -157,19 +151,19 @@ impl<'a> Parts<'a> {
         region: usize,
     ) -> Option<Mat<f64>> {
         let base = base_state(self.case, model, shapes.friction);
-        let (state, displacements, origin) = base.filter(|_| self.options.geometric_stiffness)?;
+        let (place, state) = base.filter(|_| self.options.geometric_stiffness)?;
         // Linear in the displacement: assembled once for each state and power of the friction beyond its origin.
         let mut known = self.geometric.borrow_mut();
-        let geometric = known.entry((state, region)).or_insert_with(|| {
+        let geometric = known.entry((place, region)).or_insert_with(|| {
             let materials = self.case.materials();
-            let terms = displacements.iter().map(|displacement| {
+            let terms = state.displacements.iter().map(|displacement| {
                 assemble_geometric_stiffness(self.mesh, materials, displacement, Some(region))
                     .entries
             });
             let terms: Vec<_> = terms.collect();
             MatrixPolynomial::from_triplets(self.mesh.dof_count(), &terms)
         });
-        let values = geometric.evaluate((shapes.friction - origin).max(0.0));
+        let values = geometric.evaluate((shapes.friction - state.frozen_below).max(0.0));
         Some(geometric.pattern().multiply(&values, shapes.columns.as_ref()))
     }
 
@@ -215,11 +209,13 @@ fn contact_dofs(mesh: &Mesh, contacts: &[(String, Vec<usize>)]) -> Vec<(String, 
     names.zip(dofs).collect()
 }
 
-/// Number of a base state, its displacements by power of the friction beyond an origin, and that origin.
-type Stressing<'m> = (usize, Cow<'m, [Vec<f64>]>, f64);
-
-/// The base state at a friction coefficient, as far as its stress is not in the terms of the rotation.
-fn base_state<'m>(case: &Case, model: &'m SlidingModel, friction: f64) -> Option<Stressing<'m>> {
+/// Number of the base state at a friction coefficient, and the state as far as its stress is not in the terms of the
+/// rotation.
+fn base_state<'m>(
+    case: &Case,
+    model: &'m SlidingModel,
+    friction: f64,
+) -> Option<(usize, Cow<'m, PressedState>)> {
     let place = || {
         let solved = case.cea.as_ref()?.solved_friction_coefficients();
         solved.iter().position(|&mu| mu == friction)
@@ -227,18 +223,9 @@ fn base_state<'m>(case: &Case, model: &'m SlidingModel, friction: f64) -> Option
     match (&model.model, &model.state) {
         (Model::Whole(whole), _) => {
             let state = whole.range.state_of[place()?];
-            let own = &whole.range.states[state];
-            Some((state, Cow::Borrowed(&own.displacements), own.frozen_below))
+            Some((state, whole.stressing(case, &whole.range.states[state])?))
         }
-        (Model::Assembly(assembly), _) => {
-            let state = assembly.range.state_of[place()?];
-            let own = &assembly.range.states[state];
-            let own = assembly.assembly().stressing(own)?;
-            Some((state, Cow::Owned(own.displacements), own.frozen_below))
-        }
-        (_, SteadyState::Plane(base)) => {
-            Some((0, Cow::Borrowed(&base.displacements), base.frozen_below))
-        }
+        (_, SteadyState::Plane(base)) => Some((0, Cow::Borrowed(&base.state))),
         (_, SteadyState::Solid(_) | SteadyState::Assembly(_)) => None,
     }
 }

@@ -1,7 +1,6 @@
 //! The same of a body solved harmonic by harmonic, from the matrices of one sector: every sector has an equal share.
 
 use super::budget::{Row, Sums, write};
-use super::feed::edge_places;
 use super::shapes::LEAST_SHARE;
 use crate::case::Case;
 use crate::cea::{ComplexMode, FrictionPoint, FrictionSweep, ModeWave};
@@ -12,6 +11,7 @@ use crate::results::cea::{
     Contribution, Coupling, Feed, FeedPlace, ModeFeed, ModeName, Reading, Source,
 };
 use crate::study::eigenvalues::sliding::{SlidingModel, SteadyState};
+use crate::study::eigenvalues::whole::{CONTACT, edge_places};
 use std::collections::BTreeMap;
 
 /// A body taken apart, and its harmonics as far as they were needed.
@@ -142,12 +142,12 @@ impl<'t> Apart<'t> {
         // Each place with the contact node, or ring, of the sector that it repeats.
         let places: Vec<(usize, FeedPlace)> = match &model.state {
             SteadyState::Plane(base) => {
-                let all = edge_places(case, &model.mesh, CONTACT, base).into_iter();
+                let all = edge_places(case, &model.mesh, base).into_iter();
                 let per_sector = self.contact_count()?;
                 all.enumerate().map(|(i, place)| (i % per_sector, place)).collect()
             }
             SteadyState::Solid(solid) => {
-                ring_places(&solid.report.sector).into_iter().enumerate().collect()
+                ring_places(&solid.sector).into_iter().enumerate().collect()
             }
             SteadyState::Assembly(_) => return None,
         };
@@ -184,9 +184,6 @@ impl<'t> Apart<'t> {
         Some(parts.contact_count())
     }
 }
-
-/// Name of the only contact.
-const CONTACT: &str = "contact";
 
 impl Waving<'_> {
     /// The modes of the lowest friction value in this one, the largest share first. Waves of different harmonics, and

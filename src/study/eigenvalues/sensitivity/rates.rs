@@ -7,7 +7,8 @@ use crate::cea::cyclic::{Beside, WavePair, wave_responses};
 use crate::cea::sparse::ModePair;
 use crate::linalg::c64;
 use crate::prestress::SlidingTangent;
-use crate::study::eigenvalues::model::{Model, Solver};
+use crate::study::eigenvalues::model::wave_tangent;
+use crate::study::eigenvalues::whole::WholeMesh;
 use crate::study::tangent_options;
 use std::f64::consts::TAU;
 
@@ -32,7 +33,7 @@ const INERT: [&str; 6] = [
 
 /// A model with the tangents of its base states, and the friction coefficients of the places.
 pub(super) struct Linearized {
-    model: Model,
+    model: WholeMesh,
     tangents: Vec<SlidingTangent>,
     frictions: Vec<f64>,
 }
@@ -60,33 +61,24 @@ impl Linearized {
         case: &Case,
         cea: &Cea,
         frictions: &[f64],
-        like: Option<&Model>,
+        like: Option<&WholeMesh>,
     ) -> Result<Self, CeaError> {
         let options = tangent_options(case, cea.mass);
         let known = like.and_then(|like| like.with_its_states(case, options));
-        let model = match known {
-            Some(model) => model,
-            None => {
-                let solver = match case.body.assembly() {
-                    Some(_) => Solver::Assembly,
-                    None => Solver::WholeMesh,
-                };
-                Model::with_solver(case, solver, options, frictions)?
-            }
-        };
-        let states = 0..model.state_count();
-        let tangents: Result<_, CeaError> = states.map(|k| model.tangent(case, k)).collect();
+        let model = known.map_or_else(|| WholeMesh::solve(case, options, frictions), Ok)?;
+        let states = model.range.states.iter();
+        let tangents: Result<_, CeaError> = states.map(|own| model.tangent(case, own)).collect();
         Ok(Self { tangents: tangents?, model, frictions: frictions.to_vec() })
     }
 
     /// The tangent at a place.
     pub(super) fn tangent(&self, place: usize) -> &SlidingTangent {
-        &self.tangents[self.model.state_of()[place]]
+        &self.tangents[self.model.range.state_of[place]]
     }
 
     /// Which contact points are pressed there.
     fn pressed(&self, place: usize) -> &[bool] {
-        self.model.pressed(self.model.state_of()[place])
+        &self.model.range.states[self.model.range.state_of[place]].is_pressed
     }
 
     /// Nonzero values of `K`, `C`, `M` and the structural damping `H` there, empty without, at a frequency in Hz where
@@ -137,9 +129,7 @@ pub(in crate::study) fn rates_of_waves(
     let friction = case.contact.sliding.friction_coefficient;
     let beside = |offset: f64| {
         let moved = moved(offset)?;
-        let options = tangent_options(&moved, cea.mass);
-        let model = Model::with_solver(&moved, Solver::by_symmetry(&moved), options, &[]);
-        let tangent = model.and_then(|model| model.wave_tangent(&moved));
+        let tangent = wave_tangent(&moved, &tangent_options(&moved, cea.mass));
         let tangent = tangent.map_err(|error| error.to_string())?;
         let tangent = tangent.ok_or_else(|| "the body loses its symmetry with it".to_owned())?;
         if tangent.pressed() != pressed {
