@@ -7,6 +7,7 @@ use crate::case::{Case, CeaMethod};
 use crate::contact::Row;
 use crate::linalg::{MarketMatrix, MatrixPolynomial};
 use crate::mesh::Mesh;
+use crate::order::range;
 use crate::prestress::SlidingTangent;
 use crate::results::matrices::{
     ExportedContactPoint, ExportedMatrix, ExportedSystem, ExportedUnknown, MatrixRole,
@@ -41,8 +42,7 @@ pub fn matrices(case: &Case, friction: Option<f64>) -> Result<ExportedSystem, St
     let body = WholeMesh::solve(case, tangent_options(case, cea.mass), &frictions)?;
     let tangent = &body.own_tangent(case)?;
     let friction = case.contact.sliding.friction_coefficient;
-    let largest = frictions.iter().copied().fold(friction, f64::max);
-    let smallest = frictions.iter().copied().fold(friction, f64::min);
+    let [smallest, largest] = range(frictions.iter().copied().chain([friction]));
     // The polynomials are those of one set of pressed points, which changes at `changes`.
     let changes = || body.range.changes.iter().copied();
     let below = changes().filter(|change| *change <= friction);

@@ -104,24 +104,14 @@ fn name_by_rank(sweeps: &mut [FrictionSweep], friction: f64) {
         match &finer {
             None => rank_of.extend(modes.iter().enumerate().map(|(i, mode)| (mode.1, i + 1))),
             Some(finer) => {
-                for (here, (x, _)) in modes.iter().enumerate() {
-                    for (there, (y, _)) in finer.iter().enumerate() {
-                        pairs.push((likeness(x, y), here, there));
-                    }
+                for (x, branch) in &modes {
+                    pairs.extend(finer.iter().map(|(y, rank)| (-likeness(x, y), *branch, *rank)));
                 }
             }
         }
         // Likest pairs first, each mode once.
-        pairs.retain(|pair| pair.0 > SAME_MODE);
-        crate::order::sort_by_number(&mut pairs, |a| -a.0);
-        let mut taken = BTreeSet::new();
-        for (_, here, there) in pairs {
-            let rank = finer.as_ref().map_or(0, |finer| finer[there].1);
-            let branch = modes[here].1;
-            if !rank_of.contains_key(&branch) && taken.insert(rank) {
-                rank_of.insert(branch, rank);
-            }
-        }
+        pairs.retain(|pair| pair.0 < -SAME_MODE);
+        rank_of.extend(crate::order::each_once(pairs));
         let rename = |branch: &mut usize| {
             *branch = rank_of.get(branch).map_or(FOREIGN + *branch, |rank| *rank);
         };
@@ -152,13 +142,12 @@ fn onsets(sizes: &[f64], sweeps: &[FrictionSweep], has_harmonics: bool) -> Vec<Q
     let Some(finest) = sweeps.last() else {
         return quantities;
     };
-    let mut seen: Vec<ModeKey> = Vec::new();
+    let mut seen: BTreeSet<ModeKey> = BTreeSet::new();
     for interval in finest.intervals.iter().filter(|i| i.is_located()) {
         let key = interval_key(interval);
-        if seen.contains(&key) {
+        if !seen.insert(key) {
             continue;
         }
-        seen.push(key);
         let values: Option<Vec<f64>> = sweeps
             .iter()
             .map(|sweep| {
@@ -228,9 +217,7 @@ pub fn by_family(summaries: &[Value]) -> Vec<(Family, Vec<Value>)> {
         Some(Family { harmonic: part("harmonic")?, onset: part("onset")? })
     };
     let all = summaries.iter().flat_map(|summary| listed(summary, "cycles"));
-    let mut families: Vec<Family> = all.filter_map(family).collect();
-    families.sort_unstable();
-    families.dedup();
+    let families: BTreeSet<Family> = all.filter_map(family).collect();
     let of = |wanted: Family| {
         let own = |summary: &Value| {
             let mut cycles = listed(summary, "cycles");
@@ -244,9 +231,7 @@ pub fn by_family(summaries: &[Value]) -> Vec<(Family, Vec<Value>)> {
 /// Growth rate of each harmonic that some run has one of.
 fn growth_rates(sizes: &[f64], summaries: &[Value]) -> Vec<Quantity> {
     let all = summaries.iter().flat_map(|summary| listed(summary, "growth"));
-    let mut harmonics: Vec<u64> = all.filter_map(|growth| growth["harmonic"].as_u64()).collect();
-    harmonics.sort_unstable();
-    harmonics.dedup();
+    let harmonics: BTreeSet<u64> = all.filter_map(|growth| growth["harmonic"].as_u64()).collect();
     let of = |harmonic: u64| {
         let rate = |summary: &Value| {
             let own = listed(summary, "growth").find(|growth| growth["harmonic"] == harmonic);

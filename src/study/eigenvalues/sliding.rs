@@ -7,6 +7,7 @@ use super::whole::Sliding;
 use crate::case::{Annulus, AssemblyBody, Body, Case, Cea, Revolution, refusal};
 use crate::fem::{nodal_stress, sector};
 use crate::mesh::{AnnulusMesh, Mesh, SectorMesh};
+use crate::order::range;
 use crate::prestress::{BaseChoice, SectorSliding, SteadySliding, TangentOptions};
 use crate::results::cea::{AssemblyReport, BaseField, BaseState, SolidReport};
 use crate::study::extent_of;
@@ -108,18 +109,12 @@ impl SlidingModel {
 
     /// The body in three dimensions and its base state, if it is one.
     pub fn solid(&self) -> Option<&SolidReport> {
-        match &self.state {
-            SteadyState::Solid(solid) => Some(solid),
-            SteadyState::Plane(_) | SteadyState::Assembly(_) => None,
-        }
+        if let SteadyState::Solid(own) = &self.state { Some(own) } else { None }
     }
 
     /// The base state of solid bodies that slide on each other, if they are some.
     pub fn assembly(&self) -> Option<&AssemblyReport> {
-        match &self.state {
-            SteadyState::Assembly(report) => Some(report),
-            SteadyState::Plane(_) | SteadyState::Solid(_) => None,
-        }
+        if let SteadyState::Assembly(own) = &self.state { Some(own) } else { None }
     }
 
     /// Friction coefficients at which contact nodes open or close, rising.
@@ -205,10 +200,4 @@ fn base_state(
         power_w,
         extent: extent_of(case),
     }
-}
-
-/// The smallest and the largest of some numbers.
-fn range(values: impl IntoIterator<Item = f64>) -> [f64; 2] {
-    let all = values.into_iter();
-    all.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], v| [low.min(v), high.max(v)])
 }

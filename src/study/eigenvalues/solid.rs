@@ -5,6 +5,7 @@ use crate::case::Case;
 use crate::contact::SteadyFriction;
 use crate::fem::{revolved_stress, sector};
 use crate::mesh::{ContactRing, SolidSector, SolidSpecification};
+use crate::order::range;
 use crate::prestress::SolidSliding;
 use crate::results::cea::SolidReport;
 
@@ -76,11 +77,13 @@ pub(super) fn note(solid: &SolidReport) -> Option<String> {
             place(only),
             only.area * sector.sector_count() as f64,
         )),
-        _ => Some(format!(
-            "{open} of {} rings of contact nodes are open; the others lie between {word} {:.6} and {:.6} m",
-            sector.rings.len(),
-            pressed.iter().map(place).fold(f64::INFINITY, f64::min),
-            pressed.iter().map(place).fold(f64::NEG_INFINITY, f64::max),
-        )),
+        _ => {
+            let [low, high] = range(pressed.iter().map(place));
+            Some(format!(
+                "{open} of {} rings of contact nodes are open; the others lie between {word} \
+                 {low:.6} and {high:.6} m",
+                sector.rings.len(),
+            ))
+        }
     }
 }

@@ -83,10 +83,7 @@ impl TransientStudy<'_> {
     fn large_motion(&self, record: &Recorder) -> Option<String> {
         let mesh = &self.stepped.mesh;
         let extent = |axis: usize| {
-            let places = mesh.nodes.iter().map(|node| node[axis]);
-            let [low, high] = places.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| {
-                [low.min(x), high.max(x)]
-            });
+            let [low, high] = crate::order::range(mesh.nodes.iter().map(|node| node[axis]));
             high - low
         };
         let size = extent(0).hypot(extent(1));

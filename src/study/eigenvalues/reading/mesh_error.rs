@@ -34,8 +34,7 @@ fn is_made(case: &Case, mass: MassKind) -> bool {
 /// Those of the friction values `shown` with their shapes at which it is made, and so left vectors are needed, of about
 /// so many `modes` each.
 pub fn lefts_needed(case: &Case, mass: MassKind, shown: &[f64], modes: f64) -> Vec<f64> {
-    let least = shown.iter().copied().fold(f64::INFINITY, f64::min);
-    let most = shown.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let [least, most] = crate::order::range(shown.iter().copied());
     let own = case.contact.sliding.friction_coefficient;
     let is_wanted =
         |mu: &f64| modes * shown.len() as f64 <= MOST_MODES || [least, most, own].contains(mu);

@@ -218,17 +218,10 @@ fn relabel(before: &Part, after: &mut Part) {
             }
         }
     }
-    crate::order::sort_by_number(&mut pairs, |a| a.0);
-    let mut is_taken = [vec![false; old.len()], vec![false; new.len()]];
-    let mut name_at = BTreeMap::new();
-    for (_, i, j) in pairs {
-        if !is_taken[0][i] && !is_taken[1][j] {
-            (is_taken[0][i], is_taken[1][j]) = (true, true);
-            if old[i].branch > 0 && new[j].branch > 0 {
-                name_at.insert(name(new[j]), name(old[i]));
-            }
-        }
-    }
+    let paired = crate::order::each_once(pairs).into_iter();
+    let paired = paired.filter(|&(i, j)| old[i].branch > 0 && new[j].branch > 0);
+    let mut name_at: BTreeMap<Name, Name> =
+        paired.map(|(i, j)| (name(new[j]), name(old[i]))).collect();
     // Others have new numbers.
     let known = before.sweep.points.iter().flat_map(FrictionPoint::known).map(|mode| mode.branch);
     let mut next = known.max().map_or(1, |branch| branch + 1);
