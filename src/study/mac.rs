@@ -4,12 +4,12 @@ use super::StudyError;
 use super::eigenvalues::{SlidingModel, solve_modes};
 use super::fit::least_cost;
 use crate::case::{Body, Case, Cea, refusal};
+use crate::cea::ComplexMode;
 use crate::linalg::c64;
 use crate::mesh::Mesh;
 use crate::results::mac::{MacMode, MacPair, MacShape, MacSummary};
 use crate::signal::reader::MeasuredShape;
 use nalgebra::Vector3;
-use std::f64::consts::TAU;
 
 /// Distance from the nearest node, as a share of half the body's size, beyond which a point lies off the body.
 const FAR: f64 = 0.05;
@@ -61,9 +61,7 @@ pub fn assurance(
         .collect();
 
     // The matrix and the pairs.
-    let values = modes.iter().map(|mode| mode.shape.as_deref().unwrap_or_default());
-    let values: Vec<&[c64]> = values.collect();
-    let matrix = criteria(&model.mesh, &values, shapes, &placed);
+    let matrix = criteria(&model.mesh, &modes, shapes, &placed);
     for (shape, placed) in shapes.iter().zip(&placed) {
         notes.extend(placed.note(shape, case.body.size()));
     }
@@ -87,8 +85,8 @@ pub fn assurance(
             .enumerate()
             .map(|(index, mode)| MacMode {
                 mode: index + 1,
-                frequency_hz: mode.eigenvalue.im / TAU,
-                real_hz: mode.eigenvalue.re / TAU,
+                frequency_hz: mode.frequency_hz(),
+                real_hz: mode.real_hz(),
                 harmonic: mode.diameters(case.has_sectors()),
             })
             .collect(),
@@ -130,13 +128,13 @@ pub(in crate::study) fn placed(
 /// The criterion of every shape with every mode, `[shape][mode]`.
 pub(in crate::study) fn criteria(
     mesh: &Mesh,
-    modes: &[&[c64]],
+    modes: &[&ComplexMode],
     shapes: &[MeasuredShape],
     placed: &[Placed],
 ) -> Vec<Vec<f64>> {
     let row = |(shape, placed): (&MeasuredShape, &Placed)| -> Vec<f64> {
-        let each = modes.iter();
-        each.map(|phi| criterion(mesh, phi, shape, placed)).collect()
+        let shapes = modes.iter().map(|mode| mode.shape.as_deref().unwrap_or_default());
+        shapes.map(|phi| criterion(mesh, phi, shape, placed)).collect()
     };
     shapes.iter().zip(placed).map(row).collect()
 }

@@ -10,6 +10,7 @@ use crate::cycle::{
 };
 use crate::study::StudyError;
 use crate::study::eigenvalues::asked_modes;
+use std::collections::BTreeSet;
 
 /// The solver of a family, or why it has none.
 pub type Sought = Result<CycleSolver, (Family, CycleError)>;
@@ -108,12 +109,10 @@ pub fn mode_limit(case: &Case) -> ModeLimit {
 /// birth.
 pub fn solvers(case: &Case, cycle: &Cycle, onsets: &[Onset]) -> Result<Vec<Sought>, StudyError> {
     let (model, limit) = (disc_model(case)?, mode_limit(case));
-    let mut harmonics: Vec<usize> = match &cycle.harmonics {
-        Some(harmonics) => harmonics.clone(),
+    let harmonics: BTreeSet<usize> = match &cycle.harmonics {
+        Some(harmonics) => harmonics.iter().copied().collect(),
         None => onsets.iter().map(|onset| onset.harmonic).collect(),
     };
-    harmonics.sort_unstable();
-    harmonics.dedup();
     let mut solvers = Vec::new();
     for harmonic in harmonics {
         let own = onsets.iter().filter(|onset| onset.harmonic == harmonic);

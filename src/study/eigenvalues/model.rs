@@ -112,8 +112,8 @@ pub struct Spectrum {
     pub overdamped: Vec<Overdamped>,
     /// The branches with what they belong to; none of a body solved on its whole mesh.
     pub waves: Option<Waves>,
-    /// Whether a body made of one sector was solved by waves around it.
-    pub is_by_diameters: bool,
+    /// Name of the solver: `cyclic`, of a body made of one sector too that was solved by waves around it, or `sparse`.
+    pub method: &'static str,
 }
 
 impl Model {
@@ -142,14 +142,6 @@ impl Model {
             Solver::Waves => Self::Waves(options),
             Solver::WholeMesh => Self::Whole(Box::new(WholeMesh::solve(case, options, frictions)?)),
         })
-    }
-
-    /// Name of the solver.
-    pub fn method(&self) -> &'static str {
-        match self {
-            Self::Waves(_) => "cyclic",
-            Self::Whole(_) => "sparse",
-        }
     }
 
     /// The spectrum at the friction coefficients that the model was made for; `progress` hears of every one that is
@@ -184,7 +176,7 @@ impl Model {
                     coverage: Some(found.coverage),
                     overdamped: found.overdamped,
                     waves: Some(Waves { tangent: found.tangent, branches: found.branches }),
-                    is_by_diameters: false,
+                    method: "cyclic",
                 })
             }
             Self::Whole(whole) => whole.sweep(case, request, progress),

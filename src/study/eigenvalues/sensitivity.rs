@@ -76,14 +76,12 @@ pub fn body_sensitivities(
         Some(waves) => waves_at(&waves.branches, friction),
         None => modes_at(sweep, friction, case.has_sectors()),
     };
-    let own = modes.iter().map(|mode| Target { friction, eigenvalue: mode.eigenvalue });
-    let onsets = modes.iter().filter_map(|mode| mode.onset);
-    let targets: Vec<Target> = own.chain(onsets).collect();
+    let own = modes.iter().map(|m| (Target { friction, eigenvalue: m.eigenvalue }, m.of));
+    let onsets = modes.iter().filter_map(|mode| Some((mode.onset?, mode.of)));
+    let (targets, branches): (Vec<Target>, Vec<_>) = own.chain(onsets).unzip();
     let pairs = match waves {
         Some(waves) => {
-            let own = modes.iter().filter_map(|mode| mode.of);
-            let with_onset = modes.iter().filter(|mode| mode.onset.is_some());
-            let all = own.chain(with_onset.filter_map(|mode| mode.of)).zip(&targets);
+            let all = branches.into_iter().flatten().zip(&targets);
             let wanted: Vec<_> = all.map(|(branch, target)| (branch, target.friction)).collect();
             let pressed = waves.tangent.pressed().to_vec();
             Pairs::Waves(wave_pairs(&waves.tangent, &wanted), pressed)
@@ -187,8 +185,7 @@ fn waves_at(branches: &[ModeBranch], friction: f64) -> Vec<Listed<'_>> {
 
 /// The modes of a sweep over a whole mesh at a friction coefficient.
 fn modes_at(sweep: &FrictionSweep, friction: f64, has_harmonics: bool) -> Vec<Listed<'_>> {
-    let points = sweep.points.iter().filter(|point| point.friction_coefficient == friction);
-    let listed = points.flat_map(|point| &point.modes).map(|mode: &ComplexMode| {
+    let listed = sweep.modes_at(friction).iter().map(|mode: &ComplexMode| {
         let own = |interval: &&UnstableInterval| {
             (interval.harmonic, interval.branch) == (mode.harmonic, mode.branch)
         };

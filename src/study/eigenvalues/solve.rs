@@ -88,7 +88,7 @@ fn solve_with(
     Ok(Solution {
         reading,
         dofs: found.dofs,
-        method: if found.is_by_diameters { "cyclic" } else { model.model.method() },
+        method: found.method,
         sensitivities,
         notes,
         sweep: found.sweep,
@@ -103,9 +103,7 @@ fn body_rates(
 ) -> (Option<SensitivityReport>, Option<String>) {
     let friction = case.contact.sliding.friction_coefficient;
     let (sweep, waves) = (&found.sweep, found.waves.as_ref());
-    let mut points = sweep.points.iter();
-    if waves.is_none() && !points.any(|p| p.friction_coefficient == friction && !p.modes.is_empty())
-    {
+    if waves.is_none() && sweep.modes_at(friction).is_empty() {
         let note = format!(
             "no sensitivities: there are no modes at contact.friction_coefficient = {friction}; name it in \
              cea.friction_coefficients"
@@ -124,10 +122,7 @@ fn body_rates(
             (Some(found.report), has_gaps.then_some(note))
         }
         // The spectrum is there all the same.
-        Err(error) => {
-            let why = error.messages().join("; ");
-            (None, Some(format!("no sensitivities: {why}")))
-        }
+        Err(error) => (None, Some(format!("no sensitivities: {}", error.line()))),
     }
 }
 

@@ -10,6 +10,7 @@ use crate::cea::{
 use crate::fem::MassKind;
 use crate::prestress::TangentOptions;
 use crate::study::tangent_options;
+use std::collections::BTreeSet;
 
 /// What `[cea]` says of a case, or its defaults, for these friction coefficients and modes up to a frequency.
 pub(in crate::study) fn analysis(case: &Case, frictions: &[f64], limit_hz: f64) -> Cea {
@@ -133,8 +134,5 @@ pub fn unstable_intervals(
 fn branches_within(sweep: &FrictionSweep) -> Vec<(usize, usize)> {
     let modes = sweep.points.iter().flat_map(|point| &point.modes);
     let name = |mode: &ComplexMode| (mode.nodal_diameters.unwrap_or(mode.harmonic), mode.branch);
-    let mut found: Vec<(usize, usize)> = modes.map(name).collect();
-    found.sort_unstable();
-    found.dedup();
-    found
+    modes.map(name).collect::<BTreeSet<_>>().into_iter().collect()
 }

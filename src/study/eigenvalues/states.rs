@@ -63,7 +63,7 @@ impl WholeMesh {
             label(&mut parts);
             let open: Vec<f64> = undecided(&parts).map(|own| place_in(&own, round)).collect();
             if open.is_empty() || round >= MOST_ROUNDS || unsolved {
-                let is_by_diameters = self.symmetry.is_some() && common.asymmetry.is_none();
+                let is_by_waves = self.symmetry.is_some() && common.asymmetry.is_none();
                 let mut all = case.body.assembly().map_or_else(Vec::new, notes);
                 all.extend(common.asymmetry.map(|why| {
                     format!(
@@ -76,7 +76,7 @@ impl WholeMesh {
                     sweep: joined(parts, request.friction_coefficients),
                     dofs: common.dofs,
                     notes: all,
-                    is_by_diameters,
+                    method: if is_by_waves { "cyclic" } else { "sparse" },
                     ..Spectrum::default()
                 });
             }

@@ -194,16 +194,13 @@ fn wave_rates(
     let mut found = wave_pairs(&waves.tangent, &all).into_iter();
     let pairs: Vec<Option<WavePair>> =
         branches.iter().map(|branch| branch.and_then(|_| found.next()?)).collect();
-    let there: Vec<&WavePair> = pairs.iter().flatten().collect();
     let by_parameter = wanted.parameters.iter().zip(values).map(|(parameter, &value)| {
         // From zero the range says what is little.
         let scale = if value == 0.0 { parameter.to - parameter.from } else { value.abs() };
         let moved = |offset: f64| case.with_parameters([(&parameter.parameter, value + offset)]);
-        let own = (&there[..], waves.tangent.pressed());
+        let own = (&pairs[..], waves.tangent.pressed());
         let rates = rates_of_waves((case, cea), own, STEP * scale, &moved);
-        let mut rates = rates.ok().map(Vec::into_iter);
-        let of = |pair: &Option<WavePair>| pair.as_ref().and_then(|_| rates.as_mut()?.next());
-        pairs.iter().map(of).collect()
+        rates.unwrap_or_else(|_| vec![None; pairs.len()])
     });
     by_parameter.collect()
 }

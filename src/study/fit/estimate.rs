@@ -74,26 +74,13 @@ pub fn fit(problem: &FitProblem<'_>) -> Result<Fitted, FitError> {
     };
     let looked: Vec<Result<Trial, String>> =
         crate::parallel::map(&points, |places| squares.trial(places, false));
-    let (mut starts, mut reason) = (Vec::new(), String::new());
-    for trial in looked {
-        match trial {
-            Ok(trial) => starts.push(trial),
-            Err(error) => reason = error,
-        }
-    }
-    crate::order::sort_by_number(&mut starts, |a| a.chi_square);
+    let mut reason = String::new();
+    let mut starts = by_squares(looked, &mut reason);
     starts.truncate(DESCENTS);
+    let searched = starts.len();
     let found: Vec<Result<Trial, String>> =
         crate::parallel::map(starts, |start| squares.descend(start));
-    let (mut minima, mut searched) = (Vec::new(), 0);
-    for trial in found {
-        searched += 1;
-        match trial {
-            Ok(trial) => minima.push(trial),
-            Err(error) => reason = error,
-        }
-    }
-    crate::order::sort_by_number(&mut minima, |a| a.chi_square);
+    let minima = by_squares(found, &mut reason);
     let Some(first) = minima.first() else {
         return Err(failed(reason));
     };
@@ -111,6 +98,19 @@ pub fn fit(problem: &FitProblem<'_>) -> Result<Fitted, FitError> {
         modes: best.modes,
         searches: [points.len(), searched, here],
     })
+}
+
+/// The trials that the model has modes for, the best first; the reason of the last that has none.
+fn by_squares(trials: Vec<Result<Trial, String>>, reason: &mut String) -> Vec<Trial> {
+    let mut solved = Vec::new();
+    for trial in trials {
+        match trial {
+            Ok(trial) => solved.push(trial),
+            Err(error) => *reason = error,
+        }
+    }
+    crate::order::sort_by_number(&mut solved, |a| a.chi_square);
+    solved
 }
 
 /// The case's own values where they lie within the bounds, then points that fill the bounds evenly.
@@ -224,11 +224,7 @@ fn other_minima(problem: &FitProblem<'_>, minima: &[Trial]) -> Vec<Vec<f64>> {
             kept.push(trial);
         }
     }
-    let values = |trial: &&Trial| {
-        let pairs = problem.parameters.iter().zip(&trial.places);
-        pairs.map(|(parameter, place)| parameter.value(*place)).collect()
-    };
-    kept[1..].iter().map(values).collect()
+    kept[1..].iter().map(|trial| problem.values(&trial.places)).collect()
 }
 
 fn refuse_unmatched(problem: &FitProblem<'_>, best: &Trial) -> Result<(), FitError> {

@@ -8,15 +8,6 @@ use nalgebra::DMatrix;
 /// Least ratio of singular values of what the data see.
 const BLIND: f64 = 1e-6;
 
-/// A bound.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Side {
-    /// The lower.
-    From,
-    /// The upper.
-    To,
-}
-
 /// One parameter.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Estimate {
@@ -25,7 +16,7 @@ pub struct Estimate {
     /// 95 % interval; `None` where the value lies on a bound, or no data are left to tell the scatter.
     pub interval: Option<[f64; 2]>,
     /// The bound that it lies on.
-    pub at_bound: Option<Side>,
+    pub at_bound: Option<f64>,
 }
 
 type Estimates = (Vec<Estimate>, Vec<Vec<f64>>);
@@ -37,13 +28,9 @@ pub fn estimates(
     most_degrees: f64,
 ) -> Result<Result<Estimates, FitError>, String> {
     let (problem, parameters) = (squares.problem, squares.problem.parameters);
-    let side = |place: f64| match place {
-        0.0 => Some(Side::From),
-        1.0 => Some(Side::To),
-        _ => None,
-    };
+    let is_on_bound = |place: f64| place == 0.0 || place == 1.0;
     let free: Vec<usize> =
-        (0..parameters.len()).filter(|&k| side(best.places[k]).is_none()).collect();
+        (0..parameters.len()).filter(|&k| !is_on_bound(best.places[k])).collect();
     let jacobian = squares.jacobian(best)?.select_columns(&free);
     if let Some(direction) = blind_direction(&jacobian, parameters, &free, best) {
         return Ok(Err(FitError::Blind(direction)));
@@ -63,7 +50,7 @@ pub fn estimates(
         .map(|(parameter, &place)| Estimate {
             value: parameter.value(place),
             interval: None,
-            at_bound: side(place),
+            at_bound: is_on_bound(place).then(|| parameter.value(place)),
         })
         .collect();
     let mut correlations = vec![vec![0.0; parameters.len()]; parameters.len()];

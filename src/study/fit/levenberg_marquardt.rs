@@ -33,13 +33,8 @@ pub(super) struct Squares<'a> {
 }
 
 impl Squares<'_> {
-    fn values(&self, places: &[f64]) -> Vec<f64> {
-        let pairs = self.problem.parameters.iter().zip(places);
-        pairs.map(|(parameter, place)| parameter.value(*place)).collect()
-    }
-
     pub fn trial(&self, places: &[f64], with_rates: bool) -> Result<Trial, String> {
-        let modes = (self.problem.model)(&self.values(places), with_rates)?;
+        let modes = (self.problem.model)(&self.problem.values(places), with_rates)?;
         let (matched, chi_square) = assign(self.problem.lines, &self.weights, &modes);
         Ok(Trial { places: places.to_vec(), modes, matched, chi_square })
     }
@@ -108,7 +103,7 @@ impl Squares<'_> {
         let at = |offset: f64| {
             let mut places = trial.places.clone();
             places[column] = (places[column] + offset).clamp(0.0, 1.0);
-            let modes = (self.problem.model)(&self.values(&places), false)?;
+            let modes = (self.problem.model)(&self.problem.values(&places), false)?;
             Ok::<_, String>((modes, places[column]))
         };
         let ((low, from), (high, to)) = (at(-DIFFERENCE)?, at(DIFFERENCE)?);

@@ -25,7 +25,7 @@ mod summary;
 pub use crate::signal::reader::MeasuredMode;
 pub use case::{fit_case, fit_case_with_shapes, refuse_too_few, summarize};
 pub use estimate::{Fitted, LineFit, fit};
-pub use interval::{Estimate, Side};
+pub use interval::Estimate;
 pub(in crate::study) use matching::least_cost;
 pub use shapes::MeasuredShapes;
 
@@ -143,6 +143,12 @@ impl FitError {
 }
 
 impl FitProblem<'_> {
+    /// Values of the parameters at their places.
+    fn values(&self, places: &[f64]) -> Vec<f64> {
+        let pairs = self.parameters.iter().zip(places);
+        pairs.map(|(parameter, place)| parameter.value(*place)).collect()
+    }
+
     /// Real numbers measured.
     pub fn data_count(&self) -> usize {
         let of = |line: &MeasuredMode| 1 + usize::from(line.real_hz.is_some());

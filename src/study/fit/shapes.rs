@@ -3,7 +3,6 @@
 use super::{FitError, MeasuredMode};
 use crate::case::Case;
 use crate::cea::ComplexMode;
-use crate::linalg::c64;
 use crate::signal::reader::MeasuredShape;
 use crate::study::StudyError;
 use crate::study::mac::{criteria, placed, refuse_revolution};
@@ -41,19 +40,14 @@ impl MeasuredShapes<'_> {
             let near = all.filter(|(_, line)| away(line) <= WITHIN);
             pairs.extend(near.map(|(place, line)| (away(line), index, place)));
         }
-        pairs.sort_by(|a, b| a.0.total_cmp(&b.0).then((a.1, a.2).cmp(&(b.1, b.2))));
         let mut shape_of = vec![None; lines.len()];
-        let mut is_used = vec![false; self.shapes.len()];
-        for (_, shape, line) in pairs {
-            if shape_of[line].is_none() && !is_used[shape] {
-                shape_of[line] = Some(shape);
-                is_used[shape] = true;
-            }
+        for (shape, line) in crate::order::each_once(pairs) {
+            shape_of[line] = Some(shape);
         }
-        match is_used.iter().position(|used| !used) {
+        let mut shapes = self.shapes.iter().enumerate();
+        match shapes.find(|(index, _)| !shape_of.contains(&Some(*index))) {
             None => Ok(shape_of),
-            Some(lost) => {
-                let shape = &self.shapes[lost];
+            Some((_, shape)) => {
                 let frequency = shape.frequency_hz.unwrap_or(f64::NAN);
                 Err(refuse(shape, format!("no line near {frequency} Hz is without one")))
             }
@@ -63,7 +57,7 @@ impl MeasuredShapes<'_> {
     /// Refuses a body without a whole mesh, and points off it.
     pub(super) fn check(&self, case: &Case) -> Result<(), StudyError> {
         refuse_revolution(case)?;
-        let mesh = case.mesh().map_err(crate::cea::CeaError::from)?;
+        let mesh = case.mesh()?;
         placed(case, &mesh, self.shapes, self.scale)?;
         Ok(())
     }
@@ -74,11 +68,9 @@ impl MeasuredShapes<'_> {
         case: &Case,
         modes: &[ComplexMode],
     ) -> Result<Vec<Vec<f64>>, StudyError> {
-        let mesh = case.mesh().map_err(crate::cea::CeaError::from)?;
+        let mesh = case.mesh()?;
         let placed = placed(case, &mesh, self.shapes, self.scale)?;
-        let values: Vec<&[c64]> =
-            modes.iter().map(|mode| mode.shape.as_deref().unwrap_or_default()).collect();
-        let matrix = criteria(&mesh, &values, self.shapes, &placed);
+        let matrix = criteria(&mesh, &Vec::from_iter(modes), self.shapes, &placed);
         let of = |mode: usize| matrix.iter().map(|row| row[mode]).collect();
         Ok((0..modes.len()).map(of).collect())
     }

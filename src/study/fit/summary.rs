@@ -1,6 +1,6 @@
 //! A fit in the words of its results.
 
-use super::{Estimate, Fitted, LineFit, ModelMode, Side};
+use super::{Estimate, Fitted, LineFit, ModelMode};
 use crate::case::{Case, Fit, find_key};
 use crate::cea::ComplexMode;
 use crate::results::fit::{FitSummary, FittedParameter, LineSummary, ModeSummary, SearchSummary};
@@ -59,10 +59,7 @@ fn parameter(wanted: &crate::case::FitParameter, estimate: &Estimate) -> FittedP
         low: estimate.interval.map(|[low, _]| low),
         high: estimate.interval.map(|[_, high]| high),
         bounds: [wanted.from, wanted.to],
-        at_bound: estimate.at_bound.map(|side| match side {
-            Side::From => wanted.from,
-            Side::To => wanted.to,
-        }),
+        at_bound: estimate.at_bound,
         also: wanted.parameter.also.clone(),
         unit: declared.map_or(String::new(), |known| known.unit.to_owned()),
     }

@@ -115,17 +115,17 @@ fn quotient<T>(
     Ok(vec![(2.0 / side, near), (-0.5 / side, far), (-1.5 / side, own)])
 }
 
-/// Derivatives of eigenpairs of waves at the friction coefficient of a case by a parameter from its `value` on; `moved`
-/// is the case with it elsewhere.
+/// Derivatives of those eigenpairs of waves that there are, at the friction coefficient of a case by a parameter from its
+/// `value` on; `moved` is the case with it elsewhere.
 ///
 /// # Errors
 /// Why there are none.
 pub(in crate::study) fn rates_of_waves(
     (case, cea): (&Case, &Cea),
-    (pairs, pressed): (&[&WavePair], &[bool]),
+    (pairs, pressed): (&[Option<WavePair>], &[bool]),
     step: f64,
     moved: &dyn Fn(f64) -> Result<Case, String>,
-) -> Result<Vec<c64>, String> {
+) -> Result<Vec<Option<c64>>, String> {
     let friction = case.contact.sliding.friction_coefficient;
     let beside = |offset: f64| {
         let moved = moved(offset)?;
@@ -145,29 +145,24 @@ pub(in crate::study) fn rates_of_waves(
         terms.into_iter().map(move |(weight, own)| Beside { weight: share * weight, ..own })
     });
     let terms: Vec<Beside> = near.chain(far).collect();
-    wave_responses(pairs, &terms).ok_or_else(|| "the unknowns change with it".to_owned())
+    let there: Vec<&WavePair> = pairs.iter().flatten().collect();
+    let found = wave_responses(&there, &terms);
+    let mut found = found.ok_or_else(|| "the unknowns change with it".to_owned())?.into_iter();
+    Ok(pairs.iter().map(|pair| pair.as_ref().and_then(|_| found.next())).collect())
 }
 
 /// Derivatives by one key.
 pub(super) fn rates_of(case: &Case, cea: &Cea, pairs: &Pairs, (key, value): (&str, f64)) -> Rates {
     let moved = |offset: f64| -> Result<Case, String> {
         let set = [format!("{key}={:?}", value + offset)];
-        let said = |messages: Vec<String>| messages.join("; ");
-        let raw = case.raw.with_overrides(&set).map_err(|errors| said(errors.messages()))?;
-        Case::read(raw).map_err(|errors| said(errors.messages()))
+        let raw = case.raw.with_overrides(&set).map_err(|errors| errors.line())?;
+        Case::read(raw).map_err(|errors| errors.line())
     };
     let step = step_of(key, value);
     let (rates, reason) = match pairs {
         Pairs::Waves(all, pressed) => {
-            let there: Vec<&WavePair> = all.iter().flatten().collect();
-            match rates_of_waves((case, cea), (&there, pressed), step, &moved) {
-                Ok(found) => {
-                    let mut found = found.into_iter();
-                    (
-                        all.iter().map(|pair| pair.as_ref().and_then(|_| found.next())).collect(),
-                        None,
-                    )
-                }
+            match rates_of_waves((case, cea), (all, pressed), step, &moved) {
+                Ok(found) => (found, None),
                 Err(reason) => (vec![None; all.len()], Some(reason)),
             }
         }
@@ -216,7 +211,7 @@ fn whole_rates(base: &Linearized, places: &[Place], terms: &[(f64, Linearized)])
 }
 
 /// Whether two tangents have the same unknowns and nonzeros.
-fn is_like(one: &SlidingTangent, other: &SlidingTangent) -> bool {
+pub(in crate::study) fn is_like(one: &SlidingTangent, other: &SlidingTangent) -> bool {
     let [a, b] = [one, other].map(|tangent| tangent.stiffness.pattern());
     one.unknowns.dofs == other.unknowns.dofs
         && a.column_pointers() == b.column_pointers()
