@@ -26,7 +26,7 @@ mod whole;
 
 pub use dampings::dampings;
 pub use model::{Model, Solver, Spectrum, Waves, asked_modes, mode_limit, wave_tangent};
-pub(super) use sensitivity::rates::rates_of_waves;
+pub(super) use sensitivity::rates::{is_like, rates_of_waves};
 pub use sensitivity::{BodySensitivities, body_sensitivities};
 pub use sliding::{SlidingModel, SteadyState};
 pub use solve::{Solved, solve, solve_modes, solved};

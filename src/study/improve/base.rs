@@ -1,7 +1,7 @@
 //! What there is to improve: the unstable modes of a case with their left and right vectors.
 
 use super::super::StudyError;
-use crate::case::{Body, Case, CaseErrors, Cea, refusal};
+use crate::case::{Case, CaseErrors, Cea, refusal};
 use crate::cea::sparse::{ModePair, mode_pairs};
 use crate::cea::{CeaError, FrictionSweep, SweepRequest, Unwatched};
 use crate::linalg::c64;
@@ -33,19 +33,6 @@ impl PairedMode {
     }
 }
 
-/// Growth of the modes of a window of frequencies, and what grows beside them.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Outlook {
-    /// Eigenvalue of the mode that grows fastest, or decays slowest, in the window.
-    pub worst: Option<c64>,
-    /// Unstable modes in the window.
-    pub unstable: usize,
-    /// Unstable modes beside it.
-    pub beside: usize,
-    /// The fastest of those.
-    pub worst_beside: Option<c64>,
-}
-
 /// The frequencies of the modes that are to be silenced, Hz.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Window(pub [f64; 2]);
@@ -57,22 +44,26 @@ impl Window {
         (self.0[0]..=self.0[1]).contains(&frequency)
     }
 
-    /// What some modes come to.
-    pub fn outlook(&self, modes: impl IntoIterator<Item = c64>) -> Outlook {
+    /// What some modes come to; their critical friction is left open.
+    pub fn outlook(&self, modes: impl IntoIterator<Item = c64>) -> State {
         let (own, others): (Vec<c64>, Vec<c64>) =
             modes.into_iter().partition(|mode| self.holds(*mode));
-        let fastest = |modes: &[c64]| {
-            let modes = modes.iter().copied();
-            modes.max_by(|a, b| a.re.total_cmp(&b.re))
-        };
         let count = |modes: &[c64]| modes.iter().filter(|mode| mode.re > 0.0).count();
-        Outlook {
-            worst: fastest(&own),
+        let (worst, beside) = (fastest(&own), fastest(&others).filter(|mode| mode.re > 0.0));
+        State {
+            growth_rate_per_s: worst.map(|mode| mode.re),
+            frequency_hz: worst.map(|mode| mode.im / TAU),
+            critical_friction: None,
             unstable: count(&own),
-            beside: count(&others),
-            worst_beside: fastest(&others),
+            unstable_beside: count(&others),
+            beside_hz: beside.map(|mode| mode.im / TAU),
         }
     }
+}
+
+/// The mode that grows fastest, or decays slowest.
+fn fastest<'m>(modes: impl IntoIterator<Item = &'m c64>) -> Option<c64> {
+    modes.into_iter().copied().max_by(|a, b| a.re.total_cmp(&b.re))
 }
 
 /// The model of a case over its whole mesh, at its own friction coefficient.
@@ -92,9 +83,8 @@ pub(super) struct Base<'a> {
     pub listed: Vec<c64>,
     /// Those of them that have vectors.
     pub modes: Vec<PairedMode>,
-    pub outlook: Outlook,
-    /// The lowest critical friction coefficient of a mode in the window.
-    pub onset: Option<f64>,
+    /// What they come to, with the lowest critical friction coefficient of a mode in the window.
+    pub state: State,
     /// Modes that coincide with another one.
     pub multiple: usize,
 }
@@ -136,7 +126,7 @@ impl<'a> Base<'a> {
         let targets: Vec<c64> = own.map(|mode| mode.eigenvalue).collect();
         let outlook = window.outlook(targets.iter().copied());
         if outlook.unstable == 0 {
-            return Err(nothing_grows(case, outlook, window).into());
+            return Err(nothing_grows(case, outlook.unstable_beside, window).into());
         }
 
         // Left and right vectors of all listed modes.
@@ -154,7 +144,7 @@ impl<'a> Base<'a> {
             displacement: stressing.map(|state| state.displacement(friction)),
             mesh: case.mesh()?,
             options: tangent_options(case, cea.mass),
-            onset: lowest_onset(&sweep, window),
+            state: State { critical_friction: lowest_onset(&sweep, window), ..outlook },
             case,
             cea,
             tangent,
@@ -162,9 +152,14 @@ impl<'a> Base<'a> {
             window,
             listed: targets,
             modes,
-            outlook,
             multiple,
         })
+    }
+
+    /// Angular frequency of the mode of the window that grows fastest, rad/s.
+    pub fn worst_frequency(&self) -> Option<f64> {
+        let own = self.listed.iter().filter(|mode| self.window.holds(**mode));
+        fastest(own).map(|mode| mode.im)
     }
 
     /// The modes that are to be silenced.
@@ -173,19 +168,6 @@ impl<'a> Base<'a> {
         let grows =
             |mode: &&PairedMode| self.window.holds(mode.eigenvalue()) && mode.eigenvalue().re > 0.0;
         modes.filter(grows).collect()
-    }
-}
-
-/// The state of an outlook.
-pub(super) fn state(outlook: Outlook, onset: Option<f64>) -> State {
-    let beside = outlook.worst_beside.filter(|mode| mode.re > 0.0);
-    State {
-        growth_rate_per_s: outlook.worst.map(|mode| mode.re),
-        frequency_hz: outlook.worst.map(|mode| mode.im / TAU),
-        critical_friction: onset,
-        unstable: outlook.unstable,
-        unstable_beside: outlook.beside,
-        beside_hz: beside.map(|mode| mode.im / TAU),
     }
 }
 
@@ -208,10 +190,6 @@ pub(super) fn target_modes(base: &Base<'_>) -> Vec<TargetMode> {
 
 /// Bodies whose changes break the symmetry that they are solved by, and damping without linear derivatives.
 pub(in crate::study) fn refuse_bodies(case: &Case) -> Result<(), CaseErrors> {
-    let refuse = |key: &str, message: &str, label: &str, help: &str| {
-        let help = Some(help.to_owned());
-        Err(case.error_at(key, message.to_owned(), label.to_owned(), help))
-    };
     if case.has_structural_damping() {
         return Err(case.loss_error(
             "improve takes derivatives of conjugate pairs of modes, which structural damping K (1 \
@@ -222,20 +200,19 @@ pub(in crate::study) fn refuse_bodies(case: &Case) -> Result<(), CaseErrors> {
             at the frequency of the mode",
         ));
     }
-    match &case.body {
-        Body::Annulus(annulus) if annulus.specification.shaft.is_some() => refuse(
-            "geometry.shaft_inner_radius",
-            "improve adds to, or takes from, one place of a body, which breaks the symmetry that \
-            disc and shaft are solved by",
-            "a deformable shaft",
-            "give both bodies as a mesh file (mesh.file)",
-        ),
+    match case.body.annulus() {
+        Some(annulus) if annulus.specification.shaft.is_some() => {
+            Err(refusal!(case, "geometry.shaft_inner_radius",
+                "improve adds to, or takes from, one place of a body, which breaks the symmetry that \
+                 disc and shaft are solved by";
+                "a deformable shaft"; "give both bodies as a mesh file (mesh.file)"))
+        }
         _ => Ok(()),
     }
 }
 
 /// No mode of the window grows.
-fn nothing_grows(case: &Case, outlook: Outlook, window: Window) -> CaseErrors {
+fn nothing_grows(case: &Case, beside: usize, window: Window) -> CaseErrors {
     let friction = case.contact.sliding.friction_coefficient;
     let [low, high] = window.0;
     let place = match (low > 0.0, high.is_finite()) {
@@ -244,7 +221,7 @@ fn nothing_grows(case: &Case, outlook: Outlook, window: Window) -> CaseErrors {
         (false, true) => format!("below {high} Hz"),
         (true, true) => format!("from {low} to {high} Hz"),
     };
-    let beside = match outlook.beside {
+    let beside = match beside {
         0 => String::new(),
         count => format!("; {count} beside these frequencies do"),
     };

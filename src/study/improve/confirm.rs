@@ -1,6 +1,6 @@
 //! Candidates as cases of their own: their keys, their runs, what these come to.
 
-use super::base::{Base, lowest_onset, spectrum_of, state};
+use super::base::{Base, lowest_onset, spectrum_of};
 use super::trial::{Search, Target, Trial};
 use crate::case::{Case, ModificationKind};
 use crate::output::rounded;
@@ -81,8 +81,10 @@ pub(super) fn run_again(base: &Base<'_>, keys: &[String]) -> Result<State, Strin
     let cea = case.require_cea().map_err(|errors| errors.line())?;
     let (_, sweep) = spectrum_of(&case, cea).map_err(|error| error.to_string())?;
     let modes = sweep.modes_at(base.friction).iter();
-    let outlook = base.window.outlook(modes.map(|mode| mode.eigenvalue));
-    Ok(state(outlook, lowest_onset(&sweep, base.window)))
+    Ok(State {
+        critical_friction: lowest_onset(&sweep, base.window),
+        ..base.window.outlook(modes.map(|mode| mode.eigenvalue))
+    })
 }
 
 /// What a run comes to against the case as it is.

@@ -31,7 +31,7 @@ use crate::mesh::Mesh;
 use crate::output::rounded;
 use crate::results::improve::{Candidate, ImproveSummary, Sizes, State, TargetFields};
 pub(super) use base::refuse_bodies;
-use base::{Base, Outlook, state, target_modes};
+use base::{Base, target_modes};
 use confirm::{keys_of, run_again, verdict};
 use fields::{Derivatives, element_dofs, element_terms, matrices};
 use modal::{Change, ModalModel};
@@ -122,7 +122,7 @@ pub fn improve(case: &Case) -> Result<Improvement, StudyError> {
     let summary = ImproveSummary {
         dofs: base.tangent.unknowns.len(),
         friction_coefficient: base.friction,
-        base: state(base.outlook, base.onset),
+        base: base.state,
         modes: target_modes(&base),
         sizes,
         extent: extent_of(case),
@@ -137,7 +137,7 @@ pub fn improve(case: &Case) -> Result<Improvement, StudyError> {
 /// its targets.
 fn sizes(base: &Base<'_>, thickness: f64) -> Sizes {
     let asked = &base.case.improve;
-    let worst = base.outlook.worst.map_or(1.0, |mode| mode.im);
+    let worst = base.worst_frequency().unwrap_or(1.0);
     let masses = lumped_masses(&base.mesh, base.case.materials());
     let own = |asked: Option<f64>, usual: f64| asked.unwrap_or(rounded(usual, 4));
     let mass = own(asked.mass, 0.01 * thickness * masses.iter().sum::<f64>());
@@ -172,21 +172,23 @@ fn predictions(
     let changes: Vec<(Change, Trial)> = changes.into_iter().flatten().collect();
 
     // By the growth of all modes together first; onsets only of those that are listed.
-    let outlooks: Result<Vec<Outlook>, _> =
+    let outlooks: Result<Vec<State>, _> =
         crate::parallel::map(&changes, |(own, _)| modal.outlook(Some(own)));
     let outlooks = outlooks.map_err(CeaError::from)?;
     let mut order: Vec<usize> = (0..changes.len()).collect();
-    let growth = |i: usize| outlooks[i].worst.map_or(f64::NEG_INFINITY, |mode| mode.re);
+    let growth = |i: usize| outlooks[i].growth_rate_per_s.unwrap_or(f64::NEG_INFINITY);
     crate::order::sort_by_number(&mut order, |&a| growth(a));
-    let before = search.base.outlook.worst.map_or(f64::INFINITY, |mode| mode.re);
+    let base = &search.base.state;
+    let before = base.growth_rate_per_s.unwrap_or(f64::INFINITY);
     order.retain(|&i| growth(i) < before);
     order.truncate(count);
 
     let predicted: Result<Vec<Predicted>, crate::linalg::LinalgError> =
         crate::parallel::map(&order, |&i| {
-            let onset = modal.corrected_onset(&changes[i].0, search.base.onset)?;
-            let onset = onset.filter(|mu| *mu < search.base.friction);
-            Ok(Predicted { trial: changes[i].1.clone(), state: state(outlooks[i], onset) })
+            let onset = modal.corrected_onset(&changes[i].0, base.critical_friction)?;
+            let critical_friction = onset.filter(|mu| *mu < search.base.friction);
+            let state = State { critical_friction, ..outlooks[i] };
+            Ok(Predicted { trial: changes[i].1.clone(), state })
         });
     Ok(predicted.map_err(CeaError::from)?)
 }
@@ -248,7 +250,7 @@ fn shortlist(
         let (dofs, own) = patch_matrices(search.base, elements, trial.kind, 0.0);
         let [m, c, k] = own.map(|matrix| -matrix);
         let outlook = modal.outlook(Some(&modal.local(&dofs, [&m, &c, &k])))?;
-        Ok((outlook.worst.map_or(f64::NEG_INFINITY, |mode| mode.re), trial))
+        Ok((outlook.growth_rate_per_s.unwrap_or(f64::NEG_INFINITY), trial))
     };
     let ranked: Result<Vec<(f64, Trial)>, _> = crate::parallel::map(trials, growth);
     let mut ranked = ranked.map_err(CeaError::from)?;
@@ -329,7 +331,6 @@ fn candidate(
         Target::Node(node, direction) => (Some(search.base.mesh.node_label(*node)), *direction),
         _ => (None, None),
     };
-    let base = state(search.base.outlook, search.base.onset);
     Candidate {
         rank,
         kind: trial.kind.word().to_owned(),
@@ -342,7 +343,7 @@ fn candidate(
         confirmed: outcome.and_then(|outcome| outcome.as_ref().ok()).copied(),
         verdict: match outcome {
             None => "not run again".to_owned(),
-            Some(Ok(state)) => verdict(&base, state),
+            Some(Ok(state)) => verdict(&search.base.state, state),
             Some(Err(reason)) => format!("struck off: {reason}"),
         },
         keys: keys_of(search, trial),

@@ -19,7 +19,7 @@
 mod onset;
 
 use super::attached::{Attached, NearModes};
-use super::base::{Base, Outlook, PairedMode};
+use super::base::{Base, PairedMode};
 use crate::cea::sparse::FullProblem;
 use crate::linalg::dense::transpose_product;
 use crate::linalg::dense_eigen::complex_eigenvalues;
@@ -27,6 +27,8 @@ use crate::linalg::{
     ComplexDenseLu, ComplexSparseLu, LinalgError, Mat, MatrixPolynomial, SparsityPattern, c64,
 };
 use crate::prestress::SlidingTangent;
+use crate::results::improve::State;
+use crate::study::eigenvalues::is_like;
 use nalgebra::DMatrix;
 
 /// Where the compliance of the other modes is taken, in units of the lowest and the highest frequency of the targets.
@@ -244,14 +246,10 @@ impl<'a> ModalModel<'a> {
     /// The change to the tangent of another body with the same unknowns; `None` where they are others.
     pub fn to(&self, other: &SlidingTangent) -> Option<Change> {
         let own = &self.base.tangent;
-        let patterns = [own, other].map(|tangent| tangent.stiffness.pattern());
-        let is_like = own.unknowns.dofs == other.unknowns.dofs
-            && own.stiffness.weights() == other.stiffness.weights()
-            && patterns[0].column_pointers() == patterns[1].column_pointers()
-            && patterns[0].row_indices() == patterns[1].row_indices();
-        if !is_like {
+        if !is_like(own, other) || own.stiffness.weights() != other.stiffness.weights() {
             return None;
         }
+        let pattern = own.stiffness.pattern();
         let pairs = [
             (&own.mass, &other.mass),
             (&own.damping, &other.damping),
@@ -265,12 +263,12 @@ impl<'a> ModalModel<'a> {
                     let values = p.coefficients().get(power);
                     values.map_or(0.0, |values| values[k])
                 };
-                let count = patterns[0].nonzero_count();
+                let count = pattern.nonzero_count();
                 let difference = (0..count).map(|k| part(b, k) - part(a, k));
                 difference.collect::<Vec<f64>>()
             });
             let [m, c, k] = &differences;
-            self.projected([m, c, k].map(|values| Some((&**patterns[0], values.as_slice()))))
+            self.projected([m, c, k].map(|values| Some((&**pattern, values.as_slice()))))
         });
         Some(Change { projected: by_power.collect(), attached: None })
     }
@@ -330,7 +328,7 @@ impl<'a> ModalModel<'a> {
     }
 
     /// What the modes come to after a change, at the friction coefficient of the base.
-    pub fn outlook(&self, change: Option<&Change>) -> Result<Outlook, LinalgError> {
+    pub fn outlook(&self, change: Option<&Change>) -> Result<State, LinalgError> {
         let modes = self.spectrum(self.base.friction, change)?;
         Ok(self.base.window.outlook(modes))
     }
