@@ -13,12 +13,10 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-mod plan;
 mod robust;
 mod samples;
 mod summary;
 
-pub use plan::SamplePlan;
 pub use robust::{Design, curves};
 pub use samples::{BLOCK, Sampler, largest_friction};
 pub use summary::{indices, indices_with_intervals, summarize, wilson};

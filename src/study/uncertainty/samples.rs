@@ -1,11 +1,11 @@
 //! Onsets of samples, block by block.
 
-use super::SamplePlan;
 use crate::case::{Case, Uncertainty};
 use crate::cea::UnstableInterval;
 use crate::results::uncertainty::{Onset, Sample};
 use crate::study::eigenvalues::{OnsetSearch, Solver};
-use crate::study::{StudyError, eigenvalues, one_line};
+use crate::study::{ScrambledSobol, StudyError, eigenvalues, one_line};
+use std::collections::BTreeSet;
 
 /// Samples of one block, the first of which proves which harmonics hold modes.
 pub const BLOCK: usize = 64;
@@ -14,10 +14,13 @@ pub const BLOCK: usize = 64;
 const FURTHER_HARMONICS: usize = 3;
 
 /// Solves samples.
+///
+/// Point `i` of a scrambled Sobol sequence in twice as many dimensions as there are uncertain parameters makes two
+/// samples: `A_i` of its first half, which is the sample proper, and `B_i` of its second, which only the indices need.
 pub struct Sampler<'a> {
     case: &'a Case,
     uncertainty: &'a Uncertainty,
-    plan: SamplePlan<'a>,
+    sequence: ScrambledSobol,
 }
 
 /// Friction coefficient up to which onsets are sought.
@@ -35,9 +38,10 @@ impl<'a> Sampler<'a> {
     /// does not have, a contact at rest.
     pub fn new(case: &'a Case) -> Result<Self, StudyError> {
         let uncertainty = case.require_uncertainty()?;
-        let sampler = Self { case, uncertainty, plan: SamplePlan::new(uncertainty) };
         Solver::of(case, case.require_cea()?.method)?;
-        Ok(sampler)
+        let dimensions = 2 * uncertainty.parameters.len();
+        let sequence = ScrambledSobol::new(dimensions, uncertainty.seed);
+        Ok(Self { case, uncertainty, sequence })
     }
 
     /// Keys of the uncertain parameters.
@@ -46,10 +50,30 @@ impl<'a> Sampler<'a> {
         parameters.map(|parameter| parameter.parameter.key.clone()).collect()
     }
 
-    /// The case of a point, after further overrides.
-    fn case_at(&self, case: &Case, values: &[f64]) -> Result<Case, String> {
-        let parameters = self.uncertainty.parameters.iter().map(|p| &p.parameter);
-        case.with_parameters(parameters.zip(values.iter().copied()))
+    /// Values of `A_i` and of `B_i`.
+    fn halves(&self, index: usize) -> [Vec<f64>; 2] {
+        let point = self.sequence.point(index as u32);
+        let (a, b) = point.split_at(self.uncertainty.parameters.len());
+        [a, b].map(|part| {
+            let pairs = self.uncertainty.parameters.iter().zip(part);
+            pairs.map(|(parameter, p)| parameter.value(*p)).collect()
+        })
+    }
+
+    /// The further points that the indices need of a sample: `B_i`, then `A_i` with the value of one parameter from
+    /// `B_i`, parameter by parameter; none beyond the samples that they rest on.
+    fn mixed(&self, index: usize) -> Vec<Vec<f64>> {
+        if index >= self.uncertainty.index_samples {
+            return Vec::new();
+        }
+        let [a, b] = self.halves(index);
+        let with = |k: usize| {
+            let mut values = a.clone();
+            values[k] = b[k];
+            values
+        };
+        let mixed: Vec<Vec<f64>> = (0..a.len()).map(with).collect();
+        std::iter::once(b).chain(mixed).collect()
     }
 
     /// Friction coefficient and onsets at a point, and the search that found them.
@@ -59,7 +83,8 @@ impl<'a> Sampler<'a> {
         values: &[f64],
         harmonics: Option<&[usize]>,
     ) -> Result<(f64, Vec<Onset>, OnsetSearch), String> {
-        let case = self.case_at(case, values)?;
+        let parameters = self.uncertainty.parameters.iter().map(|p| &p.parameter);
+        let case = case.with_parameters(parameters.zip(values.iter().copied()))?;
         let own = case.contact.sliding.friction_coefficient;
         let mut frictions = vec![own, largest_friction(self.case)];
         frictions.sort_by(f64::total_cmp);
@@ -86,7 +111,7 @@ impl<'a> Sampler<'a> {
         index: usize,
         harmonics: Option<&[usize]>,
     ) -> (Sample, Vec<usize>) {
-        let values = self.plan.values(index);
+        let [values, _] = self.halves(index);
         let mut sample = Sample {
             number: index + 1,
             values: values.clone(),
@@ -134,9 +159,8 @@ impl<'a> Sampler<'a> {
     /// Solves the further points of the indices, in the harmonics in which some sample of the block has an onset.
     fn mix(&self, samples: &mut [Sample]) {
         let onsets = samples.iter().flat_map(|sample| &sample.onsets);
-        let mut harmonics: Vec<usize> = onsets.filter_map(|onset| onset.harmonic).collect();
-        harmonics.sort_unstable();
-        harmonics.dedup();
+        let harmonics: BTreeSet<usize> = onsets.filter_map(|onset| onset.harmonic).collect();
+        let harmonics = Vec::from_iter(harmonics);
         let harmonics = (!harmonics.is_empty()).then_some(harmonics);
         let most = largest_friction(self.case);
         let lowest = |values: &Vec<f64>| {
@@ -147,7 +171,7 @@ impl<'a> Sampler<'a> {
         };
         let solved = samples.iter_mut().filter(|sample| sample.error.is_none());
         crate::parallel::map::<_, _, ()>(solved, |sample| {
-            let points = self.plan.mixed(sample.number - 1);
+            let points = self.mixed(sample.number - 1);
             // A sample whose points cannot all be solved is none that the indices rest on.
             sample.mixed = points.iter().map(lowest).collect::<Result<_, _>>().unwrap_or_default();
         });

@@ -3,7 +3,7 @@
 use super::largest_friction;
 use crate::case::Case;
 use crate::results::uncertainty::{
-    CriticalFriction, FamilySummary, Index, Sample, UncertaintySummary,
+    CriticalFriction, FamilySummary, Index, Onset, Sample, UncertaintySummary,
 };
 use crate::signal::{Estimate, student_95};
 use std::collections::BTreeMap;
@@ -215,9 +215,10 @@ fn beyond_note(families: &[FamilySummary]) -> Option<String> {
 
 /// Modes followed across samples by harmonic, rank and direction.
 fn families(solved: &[&Sample], most: f64) -> Vec<FamilySummary> {
+    let name_of = |onset: &Onset| (onset.harmonic, onset.branch, onset.direction);
     let mut names: Vec<(Option<usize>, usize, i8)> = Vec::new();
     for onset in solved.iter().flat_map(|sample| &sample.onsets) {
-        let name = (onset.harmonic, onset.branch, onset.direction);
+        let name = name_of(onset);
         if onset.critical_friction <= most && !names.contains(&name) {
             names.push(name);
         }
@@ -225,18 +226,15 @@ fn families(solved: &[&Sample], most: f64) -> Vec<FamilySummary> {
     let count = solved.len().max(1) as f64;
     let mut found: Vec<FamilySummary> = names
         .into_iter()
-        .map(|(harmonic, branch, direction)| {
-            let own = |sample: &&&Sample, friction: f64| {
-                sample.onsets.iter().any(|onset| {
-                    (onset.harmonic, onset.branch, onset.direction) == (harmonic, branch, direction)
-                        && onset.holds(friction)
-                })
+        .map(|name| {
+            let (harmonic, branch, direction) = name;
+            let is_hit = |sample: &&&Sample| {
+                let mut onsets = sample.onsets.iter().filter(|onset| name_of(onset) == name);
+                onsets.any(|onset| onset.holds(sample.friction_coefficient))
             };
-            let hits = solved.iter().filter(|s| own(s, s.friction_coefficient)).count();
+            let hits = solved.iter().filter(is_hit).count();
             let first = |sample: &&Sample| {
-                let mut onsets = sample.onsets.iter().filter(|onset| {
-                    (onset.harmonic, onset.branch, onset.direction) == (harmonic, branch, direction)
-                });
+                let mut onsets = sample.onsets.iter().filter(|onset| name_of(onset) == name);
                 let first = onsets.next().filter(|onset| onset.critical_friction <= most);
                 first.map_or((f64::INFINITY, f64::NAN), |o| (o.critical_friction, o.frequency_hz))
             };
