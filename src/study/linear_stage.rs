@@ -1,16 +1,13 @@
 //! The modes that a transient has in its linear stage.
 
 use super::eigenvalues::{asked_modes, modes_at_own_friction};
-use super::tangent_options;
+use super::tangent::{MODES_IN_TIME, options_in_time};
 use crate::case::Case;
 use crate::cea::{CeaError, ComplexMode};
-use crate::fem::MassKind;
 use crate::prestress::DampingModel;
 use crate::results::charts::ModeLine;
 use crate::results::transient::LinearStage;
-
-/// Modes looked at where the case has no `[cea]`.
-const MODES: usize = 30;
+use std::collections::BTreeMap;
 
 /// Nodes of an imported mesh beyond which its modes would take longer than a figure is worth.
 const MOST_NODES: usize = 30_000;
@@ -37,16 +34,12 @@ pub fn linear_stage(case: &Case) -> Result<LinearStage, LinearStageError> {
     }
     let modes = modes(case)?;
     let unstable = || modes.iter().enumerate().filter(|(_, m)| m.is_unstable());
-    let mut growth_rates: Vec<(usize, f64)> = Vec::new();
+    let mut growth_rates: BTreeMap<usize, f64> = BTreeMap::new();
     // A body without symmetry has no harmonics that its waves belong to.
     for (_, mode) in unstable().filter(|_| case.has_sectors()) {
-        let rate = mode.growth_rate();
-        match growth_rates.iter_mut().find(|(n, _)| *n == mode.harmonic) {
-            Some((_, known)) => *known = known.max(rate),
-            None => growth_rates.push((mode.harmonic, rate)),
-        }
+        let largest = growth_rates.entry(mode.harmonic).or_insert(f64::NEG_INFINITY);
+        *largest = largest.max(mode.growth_rate());
     }
-    growth_rates.sort_by_key(|&(harmonic, _)| harmonic);
     Ok(LinearStage {
         references: unstable()
             .map(|(index, mode)| ModeLine {
@@ -57,17 +50,16 @@ pub fn linear_stage(case: &Case) -> Result<LinearStage, LinearStageError> {
                 },
             })
             .collect(),
-        growth_rates,
+        growth_rates: growth_rates.into_iter().collect(),
         mode_rates: unstable().map(|(_, mode)| (mode.frequency_hz(), mode.growth_rate())).collect(),
     })
 }
 
 fn modes(case: &Case) -> Result<Vec<ComplexMode>, CeaError> {
-    let mut options = tangent_options(case, MassKind::Lumped);
-    options.geometric_stiffness = false;
+    let mut options = options_in_time(case);
     if case.contact.stiffness.normal_stiffness.is_none() {
         // On a rigid contact they are one and the same.
         options.damping_model = DampingModel::WholeTangent;
     }
-    modes_at_own_friction(case, &options, asked_modes(case, MODES))
+    modes_at_own_friction(case, &options, asked_modes(case, MODES_IN_TIME))
 }

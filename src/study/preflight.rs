@@ -8,7 +8,6 @@ use super::{StudyError, eigenvalues};
 use crate::case::{Body, Case, CaseErrors, Cea, CeaMethod, Cost, Diagnostic, Location, StudyCost};
 use crate::fem::operator::SimdLevel;
 use crate::mesh::SolidSector;
-use crate::transient::StepPlan;
 
 /// Nodes up to which matrices are set up to find out.
 const MOST_NODES: u128 = 200_000;
@@ -74,7 +73,8 @@ pub fn preflight(case: &Case, available: f64) -> Result<Preflight, StudyError> {
         improve::refuse_bodies(case)?;
     }
     if is_small && commands.contains(&"transient") {
-        let plan = found.tolerate("transient", transient_plan(case))?;
+        let plan = TransientStudy::new(case, SimdLevel::detect());
+        let plan = found.tolerate("transient", plan.and_then(|study| study.preflight()))?;
         if let (Some(run), Some(plan)) = (&mut found.cost.transient, plan) {
             let steps = plan.total_steps() as f64;
             run.run.operations *= steps / run.steps;
@@ -149,13 +149,4 @@ pub fn refuse_memory(
     available: f64,
 ) -> Result<(), CaseErrors> {
     if bytes > available { Err(case.memory_error(command, bytes, available)) } else { Ok(()) }
-}
-
-/// The plan of the run. The steady sliding of any body but a plane annulus takes longer than a check is worth.
-fn transient_plan(case: &Case) -> Result<StepPlan, StudyError> {
-    let study = TransientStudy::new(case, SimdLevel::detect())?;
-    match case.body.annulus() {
-        Some(_) => study.preflight(),
-        None => study.preflight_from_rest(),
-    }
 }

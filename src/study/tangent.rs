@@ -18,3 +18,11 @@ pub fn tangent_options(case: &Case, mass: MassKind) -> TangentOptions {
         contact: case.contact.stiffness,
     }
 }
+
+/// Modes of lowest frequency that are looked at as the transient has them where the case has no `[cea]`.
+pub(super) const MODES_IN_TIME: usize = 30;
+
+/// What the transient has: lumped mass, no geometric stiffness.
+pub(super) fn options_in_time(case: &Case) -> TangentOptions {
+    TangentOptions { geometric_stiffness: false, ..tangent_options(case, MassKind::Lumped) }
+}

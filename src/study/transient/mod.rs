@@ -100,8 +100,7 @@ impl<'a> TransientStudy<'a> {
     /// # Errors
     /// [`StudyError::Case`] at `transient.operator` for one that cannot represent the mesh.
     pub fn operator(&self) -> Result<Box<dyn StiffnessOperator>, StudyError> {
-        let operator = self.body().operator(self.transient.operator, self.simd);
-        operator.map_err(|error| self.error(error))
+        self.told(self.body().operator(self.transient.operator, self.simd))
     }
 
     /// Time step and samples of the run.
@@ -109,7 +108,7 @@ impl<'a> TransientStudy<'a> {
     /// # Errors
     /// [`StudyError::Case`] for times that do not fit together.
     pub fn plan(&self, operator: &dyn StiffnessOperator) -> Result<StepPlan, StudyError> {
-        self.body().plan(operator, &self.settings).map_err(|error| self.error(error))
+        self.told(self.body().plan(operator, &self.settings))
     }
 
     /// The run in its initial state.
@@ -130,7 +129,7 @@ impl<'a> TransientStudy<'a> {
             }
             _ => CentralDifference::start(self.body(), operator, &self.settings),
         };
-        started.map_err(|error| self.error(error))
+        self.told(started)
     }
 
     /// The run where a saved state left it.
@@ -142,8 +141,7 @@ impl<'a> TransientStudy<'a> {
         operator: &'b dyn StiffnessOperator,
         state: &TransientState,
     ) -> Result<CentralDifference<'b>, StudyError> {
-        CentralDifference::resume(self.body(), operator, &self.settings, state)
-            .map_err(|error| self.error(error))
+        self.told(CentralDifference::resume(self.body(), operator, &self.settings, state))
     }
 
     /// What keeps of a run that starts what the case asks for.
@@ -151,8 +149,7 @@ impl<'a> TransientStudy<'a> {
     /// # Errors
     /// [`StudyError::Case`] for probes that are no nodes, snapshots outside the run.
     pub fn recorder(&self, run: &CentralDifference<'_>) -> Result<Recorder, StudyError> {
-        let recorder = Recorder::new(run, &self.recorder_settings());
-        recorder.map_err(|error| self.error(error))
+        self.told(Recorder::new(run, &self.recorder_settings()))
     }
 
     /// A record that goes on with its run.
@@ -164,8 +161,7 @@ impl<'a> TransientStudy<'a> {
         run: &CentralDifference<'_>,
         record: Recorder,
     ) -> Result<Recorder, StudyError> {
-        let record = record.resume(run, &self.recorder_settings());
-        record.map_err(|error| self.error(error))
+        self.told(record.resume(run, &self.recorder_settings()))
     }
 
     /// Reads a record.
@@ -194,10 +190,10 @@ impl<'a> TransientStudy<'a> {
             stop_when_settled: self.transient.stop_when_settled,
             ..RecorderSettings::default()
         };
-        let mut record = Recorder::new(&run, &settings).map_err(|error| self.error(error))?;
+        let mut record = self.told(Recorder::new(&run, &settings))?;
         let clock = Instant::now();
         // On a thread of the pool: a step hands parts of itself to the others.
-        rayon::scope(|_| run.run(&mut record)).map_err(|error| self.error(error))?;
+        self.told(rayon::scope(|_| run.run(&mut record)))?;
         interruption::check();
         let stepping_s = clock.elapsed().as_secs_f64();
         Ok(SolvedTransient {
@@ -211,29 +207,21 @@ impl<'a> TransientStudy<'a> {
     }
 
     /// Sets the run up to its first step: finds out whether it can start, and gives its time step. A limit cycle that
-    /// it would start on is not looked for.
+    /// it would start on is not looked for, nor the steady sliding of any body but a plane annulus, which takes longer
+    /// than a check is worth.
     ///
     /// # Errors
     /// As [`Self::start`] and [`Self::recorder`].
     pub fn preflight(&self) -> Result<StepPlan, StudyError> {
         let operator = self.operator()?;
-        if matches!(self.settings.initial, InitialState::LimitCycle { .. }) {
-            return self.plan(operator.as_ref());
-        }
-        let fresh = self.start(operator.as_ref())?;
-        self.recorder(&fresh)?;
-        Ok(*fresh.plan())
-    }
-
-    /// [`Self::preflight`] without the base state that the run starts from.
-    ///
-    /// # Errors
-    /// As [`Self::preflight`], without those of steady sliding.
-    pub fn preflight_from_rest(&self) -> Result<StepPlan, StudyError> {
-        let settings = TransientSettings { initial: InitialState::Rest, ..self.settings.clone() };
-        let operator = self.operator()?;
+        let initial = match (self.case.body.annulus(), self.settings.initial) {
+            (None, _) => InitialState::Rest,
+            (Some(_), InitialState::LimitCycle { .. }) => return self.plan(operator.as_ref()),
+            (Some(_), own) => own,
+        };
+        let settings = TransientSettings { initial, ..self.settings.clone() };
         let started = CentralDifference::start(self.body(), operator.as_ref(), &settings);
-        let fresh = started.map_err(|error| self.error(error))?;
+        let fresh = self.told(started)?;
         self.recorder(&fresh)?;
         Ok(*fresh.plan())
     }
@@ -278,6 +266,10 @@ impl<'a> TransientStudy<'a> {
     /// An error of the time loop, at its key of the case where it has one.
     pub fn error(&self, error: TransientError) -> StudyError {
         settings::study_error(self.case, error)
+    }
+
+    fn told<T>(&self, outcome: Result<T, TransientError>) -> Result<T, StudyError> {
+        outcome.map_err(|error| self.error(error))
     }
 
     /// Speed of the counterface where figures show the contact, m/s: of several rings of nodes at the middle one.

@@ -5,14 +5,12 @@ use crate::case::{Body, Case};
 use crate::cea::{CeaError, ComplexMode, FrictionSweep, SweepRequest, Unwatched, sparse};
 use crate::cycle::Parameter;
 use crate::cycle::periodic::GrowingMode;
-use crate::fem::MassKind;
 use crate::prestress::{Assembly, TangentOptions};
+use crate::study::StudyError;
 use crate::study::eigenvalues::{Model, Solver, asked_modes};
+use crate::study::tangent::{MODES_IN_TIME, options_in_time};
 use crate::study::transient::SteppedMesh;
-use crate::study::{StudyError, tangent_options};
 
-/// Modes of lowest frequency that are looked at where the case has no `[cea]`.
-const MODES: usize = 30;
 /// Largest friction coefficient at which a loss of stability is looked for where no range of a parameter is given.
 const LARGEST_FRICTION: f64 = 2.0;
 /// Ratio of one friction coefficient looked at to the one before.
@@ -36,7 +34,7 @@ impl Steady {
         if let Some(assembly) = &stepped.assembly {
             let request = SweepRequest {
                 shapes_at: &own,
-                ..SweepRequest::new(&own, asked_modes(case, MODES))
+                ..SweepRequest::new(&own, asked_modes(case, MODES_IN_TIME))
             };
             return Self::of_assembly(assembly, &options_in_time(case), &request);
         }
@@ -134,11 +132,6 @@ impl Steady {
     }
 }
 
-/// What the transient has: lumped mass, no geometric stiffness.
-fn options_in_time(case: &Case) -> TangentOptions {
-    TangentOptions { geometric_stiffness: false, ..tangent_options(case, MassKind::Lumped) }
-}
-
 /// The modes of a case over friction as the transient has them, with their shapes at some of the values.
 fn sweep_in_time(
     case: &Case,
@@ -149,8 +142,10 @@ fn sweep_in_time(
         Body::Revolution(_) => Solver::by_symmetry(case),
         _ => Solver::WholeMesh,
     };
-    let request =
-        SweepRequest { shapes_at, ..SweepRequest::new(frictions, asked_modes(case, MODES)) };
+    let request = SweepRequest {
+        shapes_at,
+        ..SweepRequest::new(frictions, asked_modes(case, MODES_IN_TIME))
+    };
     let model = Model::with_solver(case, solver, options_in_time(case), frictions)?;
     let found = model.spectrum(case, &request, &Unwatched)?;
     Ok((model, found.sweep))
