@@ -233,9 +233,7 @@ fn base_state<'m>(
 /// Dashpots and springs of the modifications, with the damping of their patches.
 fn modifications(mesh: &Mesh, patches: Triplets) -> (String, Pair, f64) {
     let mut own = mesh.clone();
-    for boundary in &mut own.boundaries {
-        boundary.condition = BoundaryCondition::Free;
-    }
+    own.boundaries.iter_mut().for_each(|own| own.condition = BoundaryCondition::Free);
     let [springs, mut dashpots] = assemble_supports(&own);
     dashpots.entries.extend(patches.entries);
     let pair = Pair::new(mesh.dof_count(), [dashpots, springs]);
@@ -244,11 +242,10 @@ fn modifications(mesh: &Mesh, patches: Triplets) -> (String, Pair, f64) {
 
 /// Dashpots and springs of each supported boundary, with its loss factor.
 fn supports(mesh: &Mesh) -> Vec<(String, Pair, f64)> {
-    let supported = |boundary: usize| {
-        let condition = &mesh.boundaries[boundary].condition;
-        matches!(condition, BoundaryCondition::Support(_))
-    };
     let of = |boundary: usize| {
+        let BoundaryCondition::Support(support) = &mesh.boundaries[boundary].condition else {
+            return None;
+        };
         // The mesh with this support alone.
         let mut own = mesh.clone();
         own.attachments.clear();
@@ -259,11 +256,7 @@ fn supports(mesh: &Mesh) -> Vec<(String, Pair, f64)> {
         }
         let [springs, dashpots] = assemble_supports(&own);
         let pair = Pair::new(mesh.dof_count(), [dashpots, springs]);
-        let eta = match mesh.boundaries[boundary].condition {
-            BoundaryCondition::Support(support) => support.loss_factor,
-            _ => 0.0,
-        };
-        (mesh.boundaries[boundary].name.clone(), pair, eta)
+        Some((mesh.boundaries[boundary].name.clone(), pair, support.loss_factor))
     };
-    (0..mesh.boundaries.len()).filter(|&b| supported(b)).map(of).collect()
+    (0..mesh.boundaries.len()).filter_map(of).collect()
 }

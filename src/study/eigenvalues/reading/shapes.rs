@@ -5,7 +5,30 @@ use crate::linalg::{Mat, c64};
 use crate::results::cea::{Coupling, ModeName};
 
 /// Share below which a mode of the lowest friction value is left out of the couplings.
-pub(super) const LEAST_SHARE: f64 = 0.01;
+const LEAST_SHARE: f64 = 0.01;
+
+/// The name of a mode with its number at a friction coefficient.
+pub(super) fn name_of(
+    friction_coefficient: f64,
+    (number, mode): (usize, &ComplexMode),
+    has_harmonics: bool,
+) -> ModeName {
+    ModeName {
+        friction_coefficient,
+        mode: number,
+        frequency_hz: mode.frequency_hz(),
+        harmonic: mode.diameters(has_harmonics),
+        branch: mode.branch,
+        direction: has_harmonics.then_some(mode.direction),
+    }
+}
+
+/// The shares that count, the largest first.
+pub(super) fn strongest(mut shares: Vec<Coupling>) -> Vec<Coupling> {
+    shares.retain(|row| row.share >= LEAST_SHARE);
+    crate::order::sort_by_number(&mut shares, |a| -a.share);
+    shares
+}
 
 /// The shapes of one friction value, real and imaginary part of each in two columns.
 pub(super) struct Shapes<'a> {
@@ -40,14 +63,7 @@ impl<'a> Shapes<'a> {
     }
 
     pub fn name(&self, number: usize, mode: &ComplexMode) -> ModeName {
-        ModeName {
-            friction_coefficient: self.friction,
-            mode: number,
-            frequency_hz: mode.frequency_hz(),
-            harmonic: mode.diameters(self.has_harmonics),
-            branch: mode.branch,
-            direction: self.has_harmonics.then_some(mode.direction),
-        }
+        name_of(self.friction, (number, mode), self.has_harmonics)
     }
 
     /// `phi^H A phi` of each mode, from the product of a symmetric `A` with the columns.
@@ -119,9 +135,7 @@ impl<'a> Shapes<'a> {
                     share: (re * re + im * im) / (own[i] * of_references[j]),
                 });
             }
-            shares.retain(|row| row.share >= LEAST_SHARE);
-            crate::order::sort_by_number(&mut shares, |a| -a.share);
-            all.extend(shares);
+            all.extend(strongest(shares));
         }
         all
     }

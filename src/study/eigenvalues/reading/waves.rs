@@ -1,7 +1,7 @@
 //! The same of a body solved harmonic by harmonic, from the matrices of one sector: every sector has an equal share.
 
 use super::budget::{Row, Sums, write};
-use super::shapes::LEAST_SHARE;
+use super::shapes::{name_of, strongest};
 use crate::case::Case;
 use crate::cea::{ComplexMode, FrictionPoint, FrictionSweep, ModeWave};
 use crate::linalg::c64;
@@ -12,7 +12,7 @@ use crate::results::cea::{
 };
 use crate::study::eigenvalues::sliding::{SlidingModel, SteadyState};
 use crate::study::eigenvalues::whole::{CONTACT, edge_places};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// A body taken apart, and its harmonics as far as they were needed.
 struct Apart<'a> {
@@ -63,12 +63,10 @@ pub(super) fn read(
 impl<'t> Apart<'t> {
     fn new(model: &SlidingModel, tangent: &'t WaveTangent, sweep: &FrictionSweep) -> Self {
         let modes = sweep.points.iter().flat_map(|point| &point.modes);
-        let mut numbers: Vec<usize> =
+        let numbers: BTreeSet<usize> =
             modes.filter(|mode| mode.wave.is_some()).map(|mode| mode.harmonic).collect();
-        numbers.sort_unstable();
-        numbers.dedup();
         let supports = tangent.support_names().map(str::to_owned).collect();
-        let harmonics = numbers.iter().map(|&n| (n, tangent.parts(n))).collect();
+        let harmonics = numbers.into_iter().map(|n| (n, tangent.parts(n))).collect();
         Self { regions: model.mesh.regions.clone(), supports, harmonics }
     }
 
@@ -78,14 +76,7 @@ impl<'t> Apart<'t> {
             let wave = mode.wave.as_ref()?;
             let momentum = self.harmonics[&mode.harmonic].momentum(&wave.unknowns);
             Some(Waving {
-                name: ModeName {
-                    friction_coefficient: point.friction_coefficient,
-                    mode: index + 1,
-                    frequency_hz: mode.frequency_hz(),
-                    harmonic: Some(mode.harmonic),
-                    branch: mode.branch,
-                    direction: Some(mode.direction),
-                },
+                name: name_of(point.friction_coefficient, (index + 1, mode), true),
                 mass: product(&wave.unknowns, &momentum).re,
                 mode,
                 wave,
@@ -107,23 +98,21 @@ impl<'t> Apart<'t> {
             strain: vec![strain(&regions) + strain(&supports)],
             balance: None,
         };
-        let row = |(name, forms): (&String, &PartForms), source| Row {
+        let row = |name: &String, source, forms: [f64; 3]| Row {
             name: name.clone(),
             source,
-            forms: vec![[
-                match source {
-                    Source::Part => forms.mass,
-                    _ => f64::NAN,
-                },
-                forms.stiffness,
-                forms.damping,
-            ]],
+            forms: vec![forms],
         };
-        let mut rows: Vec<Row> = Vec::new();
-        let all = self.regions.iter().zip(&regions);
-        rows.extend(all.map(|own| row(own, Source::Part)));
-        let all = self.supports.iter().zip(&supports);
-        rows.extend(all.map(|own| row(own, Source::Support)));
+        let parts = self
+            .regions
+            .iter()
+            .zip(&regions)
+            .map(|(name, own)| row(name, Source::Part, [own.mass, own.stiffness, own.damping]));
+        let held =
+            self.supports.iter().zip(&supports).map(|(name, own)| {
+                row(name, Source::Support, [f64::NAN, own.stiffness, own.damping])
+            });
+        let rows: Vec<Row> = parts.chain(held).collect();
         let contact = |fed: f64| vec![(CONTACT.to_owned(), fed)];
         write((own.name, own.mode, 0), (&rows, &sums), &contact, out);
     }
@@ -202,9 +191,7 @@ impl Waving<'_> {
                 share: overlap / (self.mass * other.mass),
             }
         });
-        let mut shares: Vec<Coupling> = shares.filter(|row| row.share >= LEAST_SHARE).collect();
-        crate::order::sort_by_number(&mut shares, |a| -a.share);
-        shares
+        strongest(shares.collect())
     }
 }
 
