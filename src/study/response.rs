@@ -57,7 +57,7 @@ enum Reduction {
 }
 
 /// A computed response and how it came about.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Response {
     /// Frequencies, Hz.
     pub frequencies_hz: Vec<f64>,
@@ -119,21 +119,16 @@ impl<'a> FrequencyStudy<'a> {
         let (frf, lines) = (self.frf, &self.frf.frequencies_hz);
         let mut found = Response {
             frequencies_hz: lines.clone(),
-            dofs: 0,
-            method: "cyclic",
-            largest_error: None,
-            vectors: None,
-            backward_error: None,
-            solved: Vec::new(),
             thickness: match self.case.body.dimension() {
                 3 => 1.0,
                 _ => self.case.thickness,
             },
+            ..Response::default()
         };
         match &self.system {
             System::Cyclic(system) => {
                 let solved = cyclic_response(system, frf.force, frf.response, lines)?;
-                found.dofs = system.dimension();
+                (found.method, found.dofs) = ("cyclic", system.dimension());
                 found.backward_error = Some(solved.backward_error);
                 found.solved = solved.receptance;
             }
@@ -144,19 +139,21 @@ impl<'a> FrequencyStudy<'a> {
                     reduced_response(system, force.clone(), response.clone(), lines, &settings)
                 });
                 found.dofs = system.dimension();
-                match reduced {
+                let reduced = match reduced {
                     // A reduction that misses its tolerance is no answer; each line for itself is.
-                    None => found.solve_directly(system, ports, done)?,
                     Some(Err(FrfError::NotReduced { .. })) if *reduction == Reduction::Tried => {
-                        found.solve_directly(system, ports, done)?;
+                        None
                     }
-                    Some(solved) => {
-                        let solved = solved?;
-                        found.method = "reduced";
-                        found.largest_error = Some(solved.largest_error);
-                        found.vectors = Some(solved.vectors);
-                        found.solved = solved.receptance;
-                    }
+                    other => other.transpose()?,
+                };
+                if let Some(solved) = reduced {
+                    found.method = "reduced";
+                    found.largest_error = Some(solved.largest_error);
+                    found.vectors = Some(solved.vectors);
+                    found.solved = solved.receptance;
+                } else {
+                    let solved = direct_response_with(system, force, response, lines, done)?;
+                    (found.method, found.solved) = ("direct", solved.receptance);
                 }
             }
         }
@@ -165,20 +162,6 @@ impl<'a> FrequencyStudy<'a> {
 }
 
 impl Response {
-    /// Solves line by line.
-    fn solve_directly(
-        &mut self,
-        system: &FrfSystem,
-        ports: &[Port; 2],
-        done: &Progress<'_>,
-    ) -> Result<(), FrfError> {
-        let [force, response] = ports;
-        let lines = &self.frequencies_hz;
-        self.solved = direct_response_with(system, force, response, lines, done)?.receptance;
-        self.method = "direct";
-        Ok(())
-    }
-
     /// Displacement for each unit of force at each frequency, of the body's true thickness, m/N.
     pub fn receptance(&self) -> Vec<c64> {
         self.solved.iter().map(|h| h / self.thickness).collect()
