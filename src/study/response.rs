@@ -41,19 +41,9 @@ pub struct FrequencyStudy<'a> {
 enum System {
     /// Harmonic by harmonic.
     Cyclic(Box<CyclicSystem>),
-    /// The whole mesh, with the ports of force and response.
-    Whole { system: Box<FrfSystem>, ports: Box<[Port; 2]>, reduction: Reduction },
-}
-
-/// Whether a whole mesh is projected on a small space.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Reduction {
-    /// Every line is solved.
-    No,
-    /// Where it reaches its tolerance; every line is solved elsewhere.
-    Tried,
-    /// Or an error.
-    Asked,
+    /// The whole mesh, with the ports of force and response: every line is solved (`direct`), or the mesh is projected on
+    /// a small space where that reaches its tolerance (`auto`) or fails (`reduced`).
+    Whole { system: Box<FrfSystem>, ports: Box<[Port; 2]>, method: FrfMethod },
 }
 
 /// A computed response and how it came about.
@@ -100,13 +90,15 @@ impl<'a> FrequencyStudy<'a> {
             }
             FrfMethod::Auto if case.responds_by_harmonics(frf) => cyclic(case, frf)?,
             FrfMethod::Cyclic if case.has_sectors() && !case.responds_by_harmonics(frf) => {
-                return Err(disc_and_shaft_apart(case).into());
+                // Without contact a disc and its shaft are two bodies.
+                return Err(StudyError::Case(refusal!(case, "frf.method",
+                    "frf.method = \"cyclic\" takes one body, and without contact disc and shaft are \
+                     two";
+                    "disc and shaft do not touch here"; "use \"auto\", \"direct\" or \"reduced\"")));
             }
             FrfMethod::Cyclic => cyclic(case, frf)?,
-            FrfMethod::Auto if is_lossy => whole(case, frf, Reduction::No)?,
-            FrfMethod::Auto => whole(case, frf, Reduction::Tried)?,
-            FrfMethod::Reduced => whole(case, frf, Reduction::Asked)?,
-            FrfMethod::Direct => whole(case, frf, Reduction::No)?,
+            FrfMethod::Auto if is_lossy => whole(case, frf, FrfMethod::Direct)?,
+            method => whole(case, frf, method)?,
         };
         Ok(Self { case, frf, system })
     }
@@ -132,18 +124,16 @@ impl<'a> FrequencyStudy<'a> {
                 found.backward_error = Some(solved.backward_error);
                 found.solved = solved.receptance;
             }
-            System::Whole { system, ports, reduction } => {
+            System::Whole { system, ports, method } => {
                 let [force, response] = &**ports;
                 let settings = ReductionSettings::default();
-                let reduced = (*reduction != Reduction::No).then(|| {
+                let reduced = (*method != FrfMethod::Direct).then(|| {
                     reduced_response(system, force.clone(), response.clone(), lines, &settings)
                 });
                 found.dofs = system.dimension();
                 let reduced = match reduced {
                     // A reduction that misses its tolerance is no answer; each line for itself is.
-                    Some(Err(FrfError::NotReduced { .. })) if *reduction == Reduction::Tried => {
-                        None
-                    }
+                    Some(Err(FrfError::NotReduced { .. })) if *method == FrfMethod::Auto => None,
                     other => other.transpose()?,
                 };
                 if let Some(solved) = reduced {
@@ -230,12 +220,9 @@ fn apart<S: Sectored>(case: &Case, frf: &Frf, sector: &S) -> CyclicSystem {
 }
 
 /// Matrices of the whole mesh as it is held, and the ports of force and response.
-fn whole(case: &Case, frf: &Frf, reduction: Reduction) -> Result<System, StudyError> {
+fn whole(case: &Case, frf: &Frf, method: FrfMethod) -> Result<System, StudyError> {
     if case.body.revolution().is_some() {
-        let name = match reduction {
-            Reduction::No => "direct",
-            Reduction::Tried | Reduction::Asked => "reduced",
-        };
+        let name = if method == FrfMethod::Direct { "direct" } else { "reduced" };
         return Err(StudyError::Case(refusal!(case, "frf.method",
             "frf.method = \"{name}\" is for bodies that are solved on their whole mesh";
             "a body of revolution is solved harmonic by harmonic";
@@ -250,7 +237,7 @@ fn whole(case: &Case, frf: &Frf, reduction: Reduction) -> Result<System, StudyEr
     };
     let force = port(frf.force, "force_node")?;
     let response = port(frf.response, "response_node")?;
-    Ok(System::Whole { system: Box::new(system), ports: Box::new([force, response]), reduction })
+    Ok(System::Whole { system: Box::new(system), ports: Box::new([force, response]), method })
 }
 
 /// A body as it is held, with its mesh: sliding, or its parts as they are tied, without their contacts.
@@ -290,13 +277,6 @@ fn refuse_rest(case: &Case) -> Result<(), CaseErrors> {
         "frf.boundary = \"sliding\" at rest: the contact sticks, and there is no steady sliding to \
          respond around";
         "the speed is 0"; "give a speed, however small, or use \"clamped\" or \"free\""))
-}
-
-/// Without contact a disc and its shaft are two bodies, which the harmonic solver does not take.
-fn disc_and_shaft_apart(case: &Case) -> CaseErrors {
-    refusal!(case, "frf.method",
-        "frf.method = \"cyclic\" takes one body, and without contact disc and shaft are two";
-        "disc and shaft do not touch here"; "use \"auto\", \"direct\" or \"reduced\"")
 }
 
 /// What is wrong with a node, at its key.
