@@ -55,6 +55,7 @@ pub fn fit_case_with_shapes(
         modes(case, (wanted, shapes), values, limit_hz, with_rates)
     };
     let parameters: Vec<BoundedParameter> = wanted.parameters.iter().map(bounded).collect();
+    let own = wanted.parameters.iter().map(|parameter| case.number(&parameter.parameter.key));
     let problem = FitProblem {
         model: &model,
         parameters: &parameters,
@@ -62,7 +63,7 @@ pub fn fit_case_with_shapes(
         shape_of,
         shape_weight: wanted.shape_weight,
         starts: wanted.starts,
-        own: own_values(case, wanted),
+        own: own.collect(),
     };
     Ok(fit(&problem)?)
 }
@@ -133,12 +134,6 @@ fn bounded(parameter: &FitParameter) -> BoundedParameter {
     }
 }
 
-/// The values that the case itself gives the parameters, where it gives them all.
-fn own_values(case: &Case, wanted: &Fit) -> Option<Vec<f64>> {
-    let own = wanted.parameters.iter().map(|parameter| case.number(&parameter.parameter.key));
-    own.collect()
-}
-
 /// The modes of the case with its parameters at some values, with their derivatives by each parameter and their
 /// likeness to the measured shapes.
 fn modes(
@@ -156,7 +151,10 @@ fn modes(
     let shapes_at = &own[..usize::from(is_free || shapes.is_some())];
     let solved = eigenvalues::modes_with_waves_below(&case, limit_hz, shapes_at);
     let (modes, waves) = solved.map_err(|error| error.line())?;
-    let assurances = assurances(&case, shapes, &modes)?;
+    let assurances = match shapes {
+        Some(shapes) => shapes.assurances(&case, &modes).map_err(|error| error.line())?,
+        None => vec![Vec::new(); modes.len()],
+    };
     let cea = analysis(&case, &own, limit_hz);
     let by_parameter = match waves {
         _ if is_free => rates(&case, cea.mass, &modes, parameters),
@@ -164,12 +162,9 @@ fn modes(
         _ => vec![vec![None; modes.len()]; wanted.parameters.len()],
     };
     let of = |(i, (mode, assurances)): (usize, (&ComplexMode, Vec<f64>))| ModelMode {
-        eigenvalue: mode.eigenvalue,
-        harmonic: case.has_sectors().then_some(mode.harmonic),
-        branch: mode.branch,
-        direction: mode.direction,
         rates: by_parameter.iter().map(|rates| rates[i]).collect(),
         assurances,
+        ..ModelMode::of(mode, case.has_sectors())
     };
     Ok(modes.iter().zip(assurances).enumerate().map(of).collect())
 }
@@ -203,16 +198,4 @@ fn wave_rates(
         rates.unwrap_or_else(|_| vec![None; pairs.len()])
     });
     by_parameter.collect()
-}
-
-/// Modal assurance of the measured shapes with each mode; nothing without any.
-fn assurances(
-    case: &Case,
-    shapes: Option<MeasuredShapes<'_>>,
-    modes: &[ComplexMode],
-) -> Result<Vec<Vec<f64>>, String> {
-    match shapes {
-        Some(shapes) => shapes.assurances(case, modes).map_err(|error| error.line()),
-        None => Ok(vec![Vec::new(); modes.len()]),
-    }
 }

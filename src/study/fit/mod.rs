@@ -29,6 +29,7 @@ pub use interval::Estimate;
 pub(in crate::study) use matching::least_cost;
 pub use shapes::MeasuredShapes;
 
+use crate::cea::ComplexMode;
 use crate::linalg::c64;
 use std::f64::consts::TAU;
 
@@ -50,6 +51,18 @@ pub struct ModelMode {
 }
 
 impl ModelMode {
+    /// A mode, without derivatives and shapes.
+    fn of(mode: &ComplexMode, has_harmonics: bool) -> Self {
+        Self {
+            eigenvalue: mode.eigenvalue,
+            harmonic: has_harmonics.then_some(mode.harmonic),
+            branch: mode.branch,
+            direction: mode.direction,
+            rates: Vec::new(),
+            assurances: Vec::new(),
+        }
+    }
+
     /// `Im(lambda) / 2 pi`, Hz.
     pub fn frequency_hz(&self) -> f64 {
         self.eigenvalue.im / TAU

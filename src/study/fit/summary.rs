@@ -39,13 +39,7 @@ pub fn of(case: &Case, wanted: &Fit, fitted: &Fitted, before: &[ComplexMode]) ->
         modes: fitted.modes.iter().map(model_mode).collect(),
         modes_of_case: before
             .iter()
-            .map(|mode| ModeSummary {
-                harmonic: case.has_sectors().then_some(mode.harmonic),
-                branch: mode.branch,
-                direction: mode.direction,
-                frequency_hz: mode.frequency_hz(),
-                real_hz: mode.real_hz(),
-            })
+            .map(|mode| model_mode(&ModelMode::of(mode, case.has_sectors())))
             .collect(),
         notes: notes(case, wanted, fitted),
     }
