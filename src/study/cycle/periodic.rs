@@ -200,7 +200,7 @@ impl<'a> PeriodicStudy<'a> {
             let start = Instant::now();
             let outcome = self.solve(operator.as_ref(), place, frames, watch);
             let result = PeriodicResult {
-                mode: self.mode(place),
+                mode: sought(&self.steady, place),
                 outcome: outcome.map_err(|error| error.to_string()),
                 same_as: None,
                 start: self.named_start(),
@@ -212,10 +212,6 @@ impl<'a> PeriodicStudy<'a> {
         let mut results: Vec<PeriodicResult> = crate::parallel::map(&self.sought, solve);
         name_repeated(&mut results);
         Ok(results)
-    }
-
-    fn mode(&self, place: usize) -> ModeSummary {
-        sought(&self.steady, place)
     }
 
     /// The parameter and its value, in units of its key, at which the search starts where that is not the case's own.

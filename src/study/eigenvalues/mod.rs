@@ -40,7 +40,7 @@ pub use whole::{Sliding, WholeMesh};
 use super::StudyError;
 use crate::case::{Case, Cea, Diagnostic, ModeSelection};
 use crate::cea::sparse::FrictionlessModes;
-use crate::cea::{CeaError, FrictionSweep, SweepRequest, SweepWatch, Unwatched};
+use crate::cea::{CeaError, FrictionSweep, SweepRequest, SweepWatch};
 use crate::linalg::banded::BandedFactor;
 use crate::linalg::{LdlAnalysis, SparseLdl};
 use crate::results::cea::{BaseField, CeaReport, Reading, SensitivityReport};
@@ -80,7 +80,7 @@ pub fn modes_and_onsets(case: &Case) -> Result<FrictionSweep, StudyError> {
     let shapes_at: &[f64] = if case.body.has_sectors() { &[] } else { &cea.shapes_at };
     let request = SweepRequest { shapes_at, ..SweepRequest::new(&frictions, mode_limit(&cea)) };
     let model = Model::new(case, &cea)?;
-    let sweep = model.spectrum(case, &request, &Unwatched)?.sweep;
+    let sweep = model.spectrum(case, &request)?.sweep;
     refuse_no_modes(case, &cea, &sweep)?;
     Ok(sweep)
 }
@@ -127,7 +127,7 @@ pub fn preflight(case: &Case, cea: &Cea) -> Result<(), StudyError> {
             // Friction may bring a mode below the limit. There is little to follow.
             let frictions = cea.solved_friction_coefficients();
             let request = SweepRequest::new(&frictions, mode_limit(cea));
-            return refuse_no_modes(case, cea, &model.spectrum(case, &request, &Unwatched)?.sweep);
+            return refuse_no_modes(case, cea, &model.spectrum(case, &request)?.sweep);
         }
     };
     let [stiffness, mass] = [&tangent.stiffness, &tangent.mass].map(|own| own.evaluate(0.0));

@@ -6,7 +6,7 @@ use crate::case::{
     Annulus, Body, Case, CaseErrors, Cea, CeaMethod, ModeSelection, Revolution, refusal,
 };
 use crate::cea::cyclic::{self, Coverage, Overdamped, WaveSweep};
-use crate::cea::{CeaError, FrictionSweep, ModeBranch, ModeLimit, SweepRequest};
+use crate::cea::{CeaError, FrictionSweep, ModeBranch, ModeLimit, SweepRequest, Unwatched};
 use crate::mesh::{SectorMesh, SolidSector};
 use crate::prestress::{TangentOptions, WaveTangent};
 use crate::study::tangent_options;
@@ -144,19 +144,13 @@ impl Model {
         })
     }
 
-    /// The spectrum at the friction coefficients that the model was made for; `progress` hears of every one that is
-    /// solved.
-    pub fn spectrum(
-        &self,
-        case: &Case,
-        request: &SweepRequest<'_>,
-        progress: &Progress<'_>,
-    ) -> Result<Spectrum, CeaError> {
-        self.spectrum_with_waves(case, (request, &[]), progress)
+    /// The spectrum at the friction coefficients that the model was made for.
+    pub fn spectrum(&self, case: &Case, request: &SweepRequest<'_>) -> Result<Spectrum, CeaError> {
+        self.spectrum_with_waves(case, (request, &[]), &Unwatched)
     }
 
     /// [`Self::spectrum`] that keeps the waves of one sector at some of the friction coefficients, where there are
-    /// sectors.
+    /// sectors; `progress` hears of every friction coefficient that is solved.
     pub fn spectrum_with_waves(
         &self,
         case: &Case,

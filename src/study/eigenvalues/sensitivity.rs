@@ -90,8 +90,9 @@ pub fn body_sensitivities(
     };
     let found = pairs.each();
 
-    // One parameter after the other.
-    let parameters = parameters(case);
+    // One parameter after the other, coefficients of damping of zero among them.
+    let mut parameters = case.model_numbers();
+    parameters.retain(|(key, value)| *value != 0.0 || step_of(key, 0.0) > 0.0);
     let rates: Vec<Rates> = crate::parallel::map(&parameters, |(key, value)| {
         rates_of(case, cea, &pairs, (key, *value))
     });
@@ -138,13 +139,6 @@ pub fn body_sensitivities(
         },
         missing,
     })
-}
-
-/// The parameters of a case with their values; coefficients of damping of zero among them.
-fn parameters(case: &Case) -> Vec<(String, f64)> {
-    let mut all = case.model_numbers();
-    all.retain(|(key, value)| *value != 0.0 || step_of(key, 0.0) > 0.0);
-    all
 }
 
 /// A mode at the case's own friction coefficient.

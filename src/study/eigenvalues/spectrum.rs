@@ -4,9 +4,7 @@ use super::StudyError;
 use super::model::{Model, Solver, Waves, mode_limit, wave_tangent};
 use crate::case::{Case, Cea, CeaMethod, ModeSelection};
 use crate::cea::cyclic;
-use crate::cea::{
-    CeaError, ComplexMode, FrictionSweep, ModeLimit, SweepRequest, UnstableInterval, Unwatched,
-};
+use crate::cea::{CeaError, ComplexMode, FrictionSweep, ModeLimit, SweepRequest, UnstableInterval};
 use crate::fem::MassKind;
 use crate::prestress::TangentOptions;
 use crate::study::tangent_options;
@@ -51,7 +49,7 @@ pub fn modes_with_waves_below(
         shapes_at,
         ..SweepRequest::new(&cea.friction_coefficients, mode_limit(&cea))
     };
-    let found = model.spectrum(case, &request, &Unwatched)?;
+    let found = model.spectrum(case, &request)?;
     Ok((found.sweep.into_first_modes(), found.waves))
 }
 
@@ -69,7 +67,7 @@ pub fn modes_at_own_friction(
     let request = SweepRequest::new(&frictions, limit);
     let solver = Solver::by_symmetry(case);
     let model = Model::with_solver(case, solver, *options, &frictions)?;
-    Ok(model.spectrum(case, &request, &Unwatched)?.sweep.into_first_modes())
+    Ok(model.spectrum(case, &request)?.sweep.into_first_modes())
 }
 
 /// The onsets of a case.
@@ -118,7 +116,7 @@ pub fn unstable_intervals(
             intervals: found.intervals,
         });
     }
-    let found = model.spectrum(case, &request, &Unwatched)?;
+    let found = model.spectrum(case, &request)?;
     super::refuse_no_modes(case, &cea, &found.sweep)?;
     let followed = match (&model, found.coverage) {
         (Model::Waves(_), Some(coverage)) if case.body.dimension() == 2 => coverage.followed,

@@ -191,30 +191,27 @@ fn contact_notes(range: &PressedRange, parts: &[Part]) -> Vec<String> {
             false => format!("{:.6} to {:.6} (several)", unknown.start, unknown.end),
         }
     });
-    let places: Vec<String> = places.collect();
-    let opening = (!places.is_empty()).then(|| {
+    let listed = |all: Vec<String>, by: &str| (!all.is_empty()).then(|| all.join(by));
+    let opening = listed(places.collect(), ", ").map(|places| {
         format!(
-            "contact points open or close at friction coefficients {}: the tangent changes \
-             there, and branches are matched across by their eigenvalues",
-            places.join(", ")
+            "contact points open or close at friction coefficients {places}: the tangent changes \
+             there, and branches are matched across by their eigenvalues"
         )
     });
-    let jumps: Vec<String> = jumps(parts).map(|mu| format!("{mu:.6}")).collect();
-    let jump = (!jumps.is_empty()).then(|| {
+    let jumps = jumps(parts).map(|mu| format!("{mu:.6}"));
+    let jump = listed(jumps.collect(), ", ").map(|places| {
         format!(
-            "at friction {} the growth of a mode jumps across zero as contact points open or close",
-            jumps.join(", ")
+            "at friction {places} the growth of a mode jumps across zero as contact points open or \
+             close"
         )
     });
-    let undecided: Vec<String> = undecided(parts)
-        .map(|own| format!("{:.6} and {:.6}", own.gap.start, own.gap.end))
-        .collect();
-    let unknown = (!undecided.is_empty()).then(|| {
+    let gaps = undecided(parts).map(|own| own.gap);
+    let gaps = gaps.map(|gap| format!("{:.6} and {:.6}", gap.start, gap.end));
+    let unknown = listed(gaps.collect(), ", between ").map(|gaps| {
         format!(
-            "a mode changes its stability between friction {}, where contact points open or close \
-             and the states between could not be solved. Its critical friction is only known to \
-             lie there",
-            undecided.join(", between ")
+            "a mode changes its stability between friction {gaps}, where contact points open or \
+             close and the states between could not be solved. Its critical friction is only \
+             known to lie there"
         )
     });
     let coarse = (range.left_out > COARSE).then(|| {

@@ -89,16 +89,10 @@ pub(super) struct Base<'a> {
     pub multiple: usize,
 }
 
-/// Friction coefficients from 0 to that of a case.
-pub(super) fn friction_steps(case: &Case) -> Vec<f64> {
-    let own = case.contact.sliding.friction_coefficient;
-    let step = |i: usize| own * i as f64 / STEPS as f64;
-    (0..=STEPS).map(step).collect()
-}
-
-/// The model and the spectrum of a case over its whole mesh.
+/// The model and the spectrum of a case over its whole mesh, from friction 0 to that of the case.
 pub(super) fn spectrum_of(case: &Case, cea: &Cea) -> Result<(WholeMesh, FrictionSweep), CeaError> {
-    let frictions = friction_steps(case);
+    let own = case.contact.sliding.friction_coefficient;
+    let frictions: Vec<f64> = (0..=STEPS).map(|i| own * i as f64 / STEPS as f64).collect();
     let whole = WholeMesh::solve(case, tangent_options(case, cea.mass), &frictions)?;
     let request = SweepRequest::new(&frictions, mode_limit(cea));
     let sweep = whole.sweep(case, &request, &Unwatched)?.sweep;

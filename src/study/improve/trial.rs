@@ -53,10 +53,8 @@ impl Search<'_> {
         };
         let before = self.growth(&|_| c64::ZERO);
         found.retain(|trial| trial.first_order.is_some_and(|growth| growth < before));
-        found.sort_by(|a, b| {
-            let [a, b] = [a, b].map(|own| own.first_order.unwrap_or(f64::INFINITY));
-            a.total_cmp(&b)
-        });
+        let growth = |own: &Trial| own.first_order.unwrap_or(f64::INFINITY);
+        crate::order::sort_by_number(&mut found, growth);
         self.apart(found, KEPT * self.base.case.improve.candidates)
     }
 

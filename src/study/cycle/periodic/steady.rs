@@ -147,6 +147,6 @@ fn sweep_in_time(
         ..SweepRequest::new(frictions, asked_modes(case, MODES_IN_TIME))
     };
     let model = Model::with_solver(case, solver, options_in_time(case), frictions)?;
-    let found = model.spectrum(case, &request, &Unwatched)?;
+    let found = model.spectrum(case, &request)?;
     Ok((model, found.sweep))
 }

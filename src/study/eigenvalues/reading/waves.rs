@@ -132,7 +132,8 @@ impl<'t> Apart<'t> {
         let places: Vec<(usize, FeedPlace)> = match &model.state {
             SteadyState::Plane(base) => {
                 let all = edge_places(case, &model.mesh, base).into_iter();
-                let per_sector = self.contact_count()?;
+                let (_, parts) = self.harmonics.first_key_value()?;
+                let per_sector = parts.contact_count();
                 all.enumerate().map(|(i, place)| (i % per_sector, place)).collect()
             }
             SteadyState::Solid(solid) => {
@@ -165,12 +166,6 @@ impl<'t> Apart<'t> {
             modes: modes.collect(),
             places: places.into_iter().map(|(_, place)| place).collect(),
         })
-    }
-
-    /// Contact nodes, or rings, of one sector.
-    fn contact_count(&self) -> Option<usize> {
-        let (_, parts) = self.harmonics.first_key_value()?;
-        Some(parts.contact_count())
     }
 }
 
