@@ -10,8 +10,8 @@ use crate::cea::{ComplexMode, ModeLimit};
 use crate::fem::MassKind;
 use crate::results::charts::ModeLine;
 use crate::results::signal::{
-    ChannelSummary, ModeSummary, SignalDrawing, SignalSummary, document, draw as draw_figures,
-    write_spectra,
+    ChannelSummary, MODE_TOLERANCE, ModeSummary, SignalDrawing, SignalSummary, document,
+    draw as draw_figures, write_spectra,
 };
 use crate::signal::reader::{
     Channel, SignalFile, SignalOptions, read_signal, slowdown, write_signal, write_wav,
@@ -138,7 +138,7 @@ impl Run for Arguments {
             sampling_rate_hz: file.sampling_rate,
             samples: file.channels[0].samples.len(),
             friction_coefficient: case.as_ref().map(friction),
-            mode_tolerance: SignalSummary::MODE_TOLERANCE,
+            mode_tolerance: MODE_TOLERANCE,
             channels,
             notes: file.notes.clone(),
         };

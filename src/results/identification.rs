@@ -11,8 +11,7 @@ pub use summary::{
 
 use super::{FolderError, OutputFolder};
 use crate::linalg::c64;
-use crate::output::write_rows;
-use crate::output::{Document, Section, Table, columns};
+use crate::output::{Document, Section, Table, columns, write_rows};
 use crate::signal::reader::NamedResponse;
 use crate::signal::{Estimate, ModalFit};
 

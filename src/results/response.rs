@@ -150,28 +150,17 @@ pub fn response_figure(response: &FrequencyResponse) -> Figure {
     };
     let size = Line::new(frequencies, &magnitude).solid(SERIES[0], 0.8);
     let places = maxima(&magnitude);
-    let tip = |&i: &usize| format!("maximum at {:.1} Hz", frequencies[i]);
-    let tips = places.iter().map(tip).collect();
+    let tips = places.iter().map(|&i| format!("maximum at {:.1} Hz", frequencies[i])).collect();
     let peaks = Points::new(places.iter().map(|&i| (frequencies[i], magnitude[i])));
-    let peaks = peaks.marker(Marker::Disc, 1.6, INK).tips(tips);
-    Figure::new(
-        "response",
-        "Frequency response of the model: magnitude (a), with the maxima that stand out of the noise, and phase (b).",
-    )
-    .shared_x()
-    .panel(
-        over(
-            Axis::new("|*H*|", unit_of(response.quantity())).logarithmic(),
-            150.0,
-            size,
-        )
-        .layer(peaks.name("maximum")),
-    )
-    .panel(over(
-        Axis::new("phase", "°").between(-limit, limit).ticks(quarters),
-        72.0,
-        phase,
-    ))
+    let peaks = peaks.marker(Marker::Disc, 1.6, INK).tips(tips).name("maximum");
+    let modulus = Axis::new("|*H*|", unit_of(response.quantity())).logarithmic();
+    let degrees = Axis::new("phase", "°").between(-limit, limit).ticks(quarters);
+    let caption = "Frequency response of the model: magnitude (a), with the maxima that stand out \
+                   of the noise, and phase (b).";
+    Figure::new("response", caption)
+        .shared_x()
+        .panel(over(modulus, 150.0, size).layer(peaks))
+        .panel(over(degrees, 72.0, phase))
 }
 
 #[cfg(test)]

@@ -5,14 +5,13 @@ mod summary;
 
 pub use figures::{SignalDrawing, draw};
 pub use summary::{
-    ChannelSummary, GrowthSummary, ModeSummary, NearestMode, PeakSummary, SignalSummary,
-    Superharmonic,
+    ChannelSummary, GrowthSummary, MODE_TOLERANCE, ModeSummary, NearestMode, PeakSummary,
+    SignalSummary, Superharmonic,
 };
 
 use super::cea::{BRANCH, DIRECTION};
 use super::{FolderError, OutputFolder};
-use crate::output::write_rows;
-use crate::output::{Document, Section, Table, columns, fixed, significant};
+use crate::output::{Document, Section, Table, columns, fixed, significant, write_rows};
 use crate::signal::AmplitudeSpectrum;
 
 /// A peak of a channel, numbered from 1, and what it is.

@@ -60,38 +60,36 @@ pub fn basin_map(records: &[PointRecord]) -> Result<Figure, ChartError> {
     let values = series.iter().flat_map(|(_, all)| all).map(|b| b.value);
     let axis = parameter_axis(key).scaled(Scale::for_values(values, 10.0));
     let ratio = Axis::new("amplitude ratio at saturation", "").logarithmic();
+    let only = [
+        format!("*n* = {one} wins up to here, the largest ratio tried"),
+        format!("*n* = {two} wins down to here, the smallest ratio tried"),
+    ];
     let mut panel = Panel::new(axis, ratio).height(180.0);
     for (index, (name, boundaries)) in series.iter().enumerate() {
         let colour = look(index).0;
-        let middle = |b: &Boundary| Some((b.value, (b.low? * b.high?).sqrt()));
-        panel = panel.layer(
-            Line::through(boundaries.iter().filter_map(middle)).nth(index).name(name.clone()),
-        );
-        for b in boundaries {
-            let ends = [b.low, b.high].map(|end| end.map(|end| (b.value, end)));
-            panel = panel.layer(Line::through(ends.into_iter().flatten()).solid(colour, 3.0));
-        }
-        let only = |marker: Marker, text: String, of: &dyn Fn(&Boundary) -> Option<f64>| {
-            let points = boundaries.iter().filter_map(|b| Some((b.value, of(b)?)));
-            let points = Points::new(points).marker(marker, 2.6, colour);
+        let all = || boundaries.iter();
+        let middle = all().filter_map(|b| Some((b.value, (b.low? * b.high?).sqrt())));
+        let bars = all().map(|b| {
+            let ends = [b.low, b.high].into_iter().flatten();
+            Line::through(ends.map(|end| (b.value, end))).solid(colour, 3.0)
+        });
+        let low =
+            Points::new(all().filter(|b| b.high.is_none()).filter_map(|b| Some((b.value, b.low?))));
+        let high =
+            Points::new(all().filter(|b| b.low.is_none()).filter_map(|b| Some((b.value, b.high?))));
+        let one_sided = [low, high].into_iter().zip(&only).zip(Marker::ALL);
+        let one_sided = one_sided.map(|((points, text), marker)| {
+            let points = points.marker(marker, 2.6, colour);
             if index == 0 { points.name(text) } else { points }
-        };
+        });
         panel = panel
-            .layer(only(
-                Marker::ALL[0],
-                format!("*n* = {one} wins up to here, the largest ratio tried"),
-                &|b| b.low.filter(|_| b.high.is_none()),
-            ))
-            .layer(only(
-                Marker::ALL[1],
-                format!("*n* = {two} wins down to here, the smallest ratio tried"),
-                &|b| b.high.filter(|_| b.low.is_none()),
-            ));
+            .layer(Line::through(middle).nth(index).name(name.clone()))
+            .layers(bars)
+            .layers(one_sided);
     }
     let caption = format!(
         "Amplitude of *n* = {two} over that of *n* = {one} at the first stick or opening, above \
-        which *n* = {two} wins; bars: the \
-         bounds found."
+         which *n* = {two} wins; bars: the bounds found."
     );
     Ok(Figure::new("basins", caption).panel(panel))
 }

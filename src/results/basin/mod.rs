@@ -85,46 +85,51 @@ impl BasinSummary {
 
     /// What was found, in a sentence.
     fn answer(&self) -> String {
-        let [first, second] = self.harmonics;
-        if self.is_kick() {
-            let name = self.name(second);
-            if self.runs.iter().any(|run| !run.is_settled) {
-                return format!(
-                    "no answer: not every transient from a kick along {name} has come to its end (raise basin.periods)"
-                );
-            }
-            return match (self.winner, self.boundary.low, self.boundary.high) {
-                (Some(0), Some(low), _) => format!(
-                    "steady sliding comes back from every kick along {name} looked at, up to \
-                    {low:.3} of the one that makes a contact \
-                     node stick"
-                ),
-                (None, Some(low), Some(high)) if low > high => format!(
-                    "steady sliding comes back from a kick along {name} of {low:.3} but not of \
-                     {high:.3} of the one that makes a contact node stick. No single boundary lies \
-                     between: narrow basin.seed_ratio_from and basin.seed_ratio_to"
-                ),
-                (None, Some(low), Some(high)) => format!(
-                    "a kick along {name} tips steady sliding into a limit cycle from {low:.3} to \
-                    {high:.3} of the one that makes a \
-                     contact node stick"
-                ),
-                _ => format!(
-                    "every kick along {name} looked at tips steady sliding into a limit cycle"
-                ),
-            };
-        }
+        let [first, _] = self.harmonics;
         let [one, other] = self.harmonics.map(|rival| self.name(rival));
-        match (self.winner, self.boundary.low, self.boundary.high) {
+        let Bounds { low, high } = self.boundary;
+        if self.is_kick() {
+            return self.answer_to_kick(&other);
+        }
+        match (self.winner, low, high) {
             (Some(winner), Some(ratio), _) | (Some(winner), None, Some(ratio)) => format!(
                 "{} wins at every ratio looked at, {} {ratio:.3} of {other} over {one} at saturation",
                 self.name(winner),
                 if winner == first { "up to" } else { "down to" }
             ),
             (None, Some(low), Some(high)) => format!(
-                "{other} wins where its amplitude at saturation is more than {low:.3} to {high:.3} of that of {one}"
+                "{other} wins where its amplitude at saturation is more than {low:.3} to \
+                 {high:.3} of that of {one}"
             ),
             _ => "some runs never saturate: no boundary can be named".to_owned(),
+        }
+    }
+
+    /// The same where steady sliding is kicked along a mode.
+    fn answer_to_kick(&self, name: &str) -> String {
+        if self.runs.iter().any(|run| !run.is_settled) {
+            return format!(
+                "no answer: not every transient from a kick along {name} has come to its end \
+                 (raise basin.periods)"
+            );
+        }
+        match (self.winner, self.boundary.low, self.boundary.high) {
+            (Some(0), Some(low), _) => format!(
+                "steady sliding comes back from every kick along {name} looked at, up to {low:.3} \
+                 of the one that makes a contact node stick"
+            ),
+            (None, Some(low), Some(high)) if low > high => format!(
+                "steady sliding comes back from a kick along {name} of {low:.3} but not of \
+                 {high:.3} of the one that makes a contact node stick. No single boundary lies \
+                 between: narrow basin.seed_ratio_from and basin.seed_ratio_to"
+            ),
+            (None, Some(low), Some(high)) => format!(
+                "a kick along {name} tips steady sliding into a limit cycle from {low:.3} to \
+                 {high:.3} of the one that makes a contact node stick"
+            ),
+            _ => {
+                format!("every kick along {name} looked at tips steady sliding into a limit cycle")
+            }
         }
     }
 

@@ -6,72 +6,48 @@ use crate::results::charts::palette::{STABLE, UNSTABLE};
 
 /// Growth rates of the modes over their frequency, before and after, with the measured lines; differences line by line.
 pub fn fit(summary: &FitSummary) -> Figure {
+    let lines = || summary.residuals.iter();
     let points = |modes: &[ModeSummary], unstable: bool| {
         let own = modes.iter().filter(|mode| mode.is_unstable() == unstable);
-        let own: Vec<(f64, f64)> = own.map(|mode| (mode.frequency_hz, mode.real_hz)).collect();
-        Points::new(own)
+        Points::new(own.map(|mode| (mode.frequency_hz, mode.real_hz)))
     };
-    let heard = summary.residuals.iter().filter(|line| line.real_hz.is_none());
+    let heard = lines().filter(|line| line.real_hz.is_none());
     let rules = heard.map(|line| {
-        Rule::vertical(line.frequency_hz)
-            .stroke(Stroke::dashed(INK, 0.8))
-            .name("measured frequency")
+        let rule = Rule::vertical(line.frequency_hz).stroke(Stroke::dashed(INK, 0.8));
+        rule.name("measured frequency")
     });
-    let complex = summary.residuals.iter();
-    let complex: Vec<(f64, f64)> =
-        complex.filter_map(|line| Some((line.frequency_hz, line.real_hz?))).collect();
-    let highest = summary.residuals.iter().map(|line| line.frequency_hz);
-    let highest = 1.1 * highest.fold(0.0_f64, f64::max);
-    let lowest = summary.residuals.iter().map(|line| line.frequency_hz);
-    let lowest = 0.8 * lowest.fold(highest, f64::min);
-    let frequency = || Axis::kilohertz().between(lowest, highest);
-    let plane = Panel::new(frequency(), Axis::new("growth Re *λ*/2π", "Hz"))
-        .height(160.0)
-        .layer(Rule::horizontal(0.0).stroke(Stroke::solid(INK, 0.6)))
+    let complex = Points::new(lines().filter_map(|line| Some((line.frequency_hz, line.real_hz?))));
+    let highest = 1.1 * lines().map(|line| line.frequency_hz).fold(0.0_f64, f64::max);
+    let lowest = 0.8 * lines().map(|line| line.frequency_hz).fold(highest, f64::min);
+    let over_frequency = |y: Axis, height: f64| {
+        let zero = Rule::horizontal(0.0).stroke(Stroke::solid(INK, 0.6));
+        Panel::new(Axis::kilohertz().between(lowest, highest), y).height(height).layer(zero)
+    };
+    let as_written = points(&summary.modes_of_case, true).marker(Marker::Triangle, 1.7, MUTED);
+    let stable = points(&summary.modes, false).marker(Marker::Disc, 1.5, STABLE);
+    let unstable = points(&summary.modes, true).marker(Marker::Disc, 2.0, UNSTABLE);
+    let plane = over_frequency(Axis::new("growth Re *λ*/2π", "Hz"), 160.0)
         .layers(rules)
-        .layer(Points::new(complex).marker(Marker::Square, 2.6, INK).name("measured"))
-        .layer(
-            points(&summary.modes_of_case, true)
-                .marker(Marker::Triangle, 1.7, MUTED)
-                .name("case as written, unstable"),
-        )
-        .layer(
-            points(&summary.modes, false).marker(Marker::Disc, 1.5, STABLE).name("fitted, stable"),
-        )
-        .layer(
-            points(&summary.modes, true)
-                .marker(Marker::Disc, 2.0, UNSTABLE)
-                .name("fitted, unstable"),
-        );
-    let frequencies =
-        summary.residuals.iter().map(|line| (line.frequency_hz, line.difference_percent));
-    let reals = summary.residuals.iter().filter_map(|line| {
+        .layer(complex.marker(Marker::Square, 2.6, INK).name("measured"))
+        .layer(as_written.name("case as written, unstable"))
+        .layer(stable.name("fitted, stable"))
+        .layer(unstable.name("fitted, unstable"));
+    let frequencies = Points::new(lines().map(|line| (line.frequency_hz, line.difference_percent)));
+    let frequencies = frequencies.marker(Marker::Disc, 1.8, STABLE);
+    let reals = Points::new(lines().filter_map(|line| {
         Some((line.frequency_hz, 100.0 * line.real_difference_hz? / line.frequency_hz))
-    });
-    let differences =
-        Panel::new(frequency(), Axis::new("model – measured", "% of *f*").symmetric())
-            .height(80.0)
-            .layer(Rule::horizontal(0.0).stroke(Stroke::solid(INK, 0.6)))
-            .layer(
-                Points::new(frequencies.collect::<Vec<_>>())
-                    .marker(Marker::Disc, 1.8, STABLE)
-                    .name("difference of frequency"),
-            )
-            .layer(
-                Points::new(reals.collect::<Vec<_>>())
-                    .marker(Marker::Diamond, 1.6, UNSTABLE)
-                    .name("difference of real part"),
-            );
-    let measured = match summary.residuals.iter().any(|line| line.real_hz.is_some()) {
+    }));
+    let reals = reals.marker(Marker::Diamond, 1.6, UNSTABLE);
+    let differences = over_frequency(Axis::new("model – measured", "% of *f*").symmetric(), 80.0)
+        .layer(frequencies.name("difference of frequency"))
+        .layer(reals.name("difference of real part"));
+    let measured = match lines().any(|line| line.real_hz.is_some()) {
         true => "measured eigenvalues",
         false => "measured frequencies",
     };
-    Figure::new(
-        "fit",
-        format!(
-            "Modes of the fitted model and {measured}: growth rate over frequency (a), differences line by line (b)."
-        ),
-    )
-    .panel(plane)
-    .panel(differences)
+    let caption = format!(
+        "Modes of the fitted model and {measured}: growth rate over frequency (a), differences \
+         line by line (b)."
+    );
+    Figure::new("fit", caption).panel(plane).panel(differences)
 }

@@ -194,18 +194,18 @@ impl ModeSummary {
 /// What a user should know of a mode, or nothing.
 fn flag(mode: &IdentifiedMode) -> Option<String> {
     let note = mode.half_power.and_then(|b| b.note);
-    match (mode.fitted.overlaps_hz, note) {
-        (Some(other), _) => Some(format!("close: overlaps the mode at {other:.1} Hz")),
+    Some(match (mode.fitted.overlaps_hz, note) {
+        (Some(other), _) => format!("close: overlaps the mode at {other:.1} Hz"),
         (None, Some(ResonanceNote::Overlaps(other))) => {
-            Some(format!("close: half-power band reaches that at {other:.1} Hz"))
+            format!("close: half-power band reaches that at {other:.1} Hz")
         }
         (None, Some(ResonanceNote::TooCoarse(lines))) => {
-            Some(format!("coarse: {lines} lines in the half-power band"))
+            format!("coarse: {lines} lines in the half-power band")
         }
-        (None, Some(ResonanceNote::OneSided)) => Some("no half-power point on one side".to_owned()),
-        (None, None) if mode.half_power.is_none() => Some("no peak: found by the fit".to_owned()),
-        (None, None) => None,
-    }
+        (None, Some(ResonanceNote::OneSided)) => "no half-power point on one side".to_owned(),
+        (None, None) if mode.half_power.is_none() => "no peak: found by the fit".to_owned(),
+        (None, None) => return None,
+    })
 }
 
 /// Value and interval to the digits that the interval justifies, as TOML floats.

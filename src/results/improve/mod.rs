@@ -155,22 +155,19 @@ impl ImproveSummary {
     pub fn answer(&self) -> String {
         let friction = self.friction_coefficient;
         let base = critical(self.base.critical_friction, friction);
-        let best = self.candidates.iter().find(|own| own.verdict == "silenced");
-        let best = best.or_else(|| self.candidates.iter().find(|own| own.verdict == "confirmed"));
+        let of_verdict = |verdict: &str| self.candidates.iter().find(|own| own.verdict == verdict);
+        let change = |own: &Candidate, state: Option<State>| {
+            let critical = critical(state.and_then(|state| state.critical_friction), friction);
+            format!("{} ({}): critical friction {base} -> {critical}", own.kind, own.place())
+        };
+        let best = of_verdict("silenced").or_else(|| of_verdict("confirmed"));
         match (best, self.candidates.first()) {
-            (Some(own), _) => format!(
-                "{} ({}): critical friction {base} -> {}, run again and {}",
-                own.kind,
-                own.place(),
-                critical(own.confirmed.and_then(|state| state.critical_friction), friction),
-                own.verdict,
-            ),
-            (None, Some(own)) if own.confirmed.is_none() => format!(
-                "{} ({}): critical friction {base} -> {} as predicted; none was run again",
-                own.kind,
-                own.place(),
-                critical(own.predicted.critical_friction, friction),
-            ),
+            (Some(own), _) => {
+                format!("{}, run again and {}", change(own, own.confirmed), own.verdict)
+            }
+            (None, Some(own)) if own.confirmed.is_none() => {
+                format!("{} as predicted; none was run again", change(own, Some(own.predicted)))
+            }
             (None, Some(_)) => "none of the candidates that were run again holds".to_owned(),
             (None, None) => "no modification of these sizes helps".to_owned(),
         }

@@ -6,7 +6,7 @@ use crate::signal::{Estimate, ExponentialStage, NoGrowth, SpectralLine, Spectral
 use serde::Serialize;
 
 /// Largest distance of a line from a mode that it is said to belong to, relative to the line.
-const MODE_TOLERANCE: f64 = 0.03;
+pub const MODE_TOLERANCE: f64 = 0.03;
 
 /// What was found in a record.
 #[derive(Clone, Debug, PartialEq, Described, Serialize)]
@@ -297,9 +297,4 @@ impl ChannelSummary {
             (None, None) => String::new(),
         }
     }
-}
-
-impl SignalSummary {
-    /// The tolerance that [`ChannelSummary::name_modes`] uses.
-    pub const MODE_TOLERANCE: f64 = MODE_TOLERANCE;
 }

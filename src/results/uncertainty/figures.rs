@@ -25,22 +25,16 @@ pub fn uncertainty(summary: &UncertaintySummary) -> Figure {
         })
     };
     let (value, interval) = probability(&summary.probability_over_friction);
-    let distribution = Panel::new(friction(), share("turned unstable below *μ*"))
-        .height(150.0)
-        .layers(own())
-        .layers(families)
-        .legend();
-    let probability = Panel::new(friction(), share("probability of squeal"))
-        .height(150.0)
+    let panel = |name: &str| Panel::new(friction(), share(name)).height(150.0).legend();
+    let distribution = panel("turned unstable below *μ*").layers(own()).layers(families);
+    let probability = panel("probability of squeal")
         .layer(interval)
         .layers(own())
-        .layer(value.name("some mode unstable"))
-        .legend();
+        .layer(value.name("some mode unstable"));
     Figure::new(
         "uncertainty",
         "Distribution of the critical friction of each family of modes (a), probability of squeal \
-        over the friction coefficient \
-         (b).",
+         over the friction coefficient (b).",
     )
     .columns(2)
     .panel(distribution)
@@ -125,24 +119,18 @@ pub fn robust(summary: &RobustSummary) -> Figure {
         .layer(interval)
         .layer(value.marked(Marker::Disc, 1.5))
         .layer(Rule::horizontal(summary.bound).stroke(Stroke::dashed(INK, 0.8)).name("bound"));
-        let panel = match curve.own {
-            Some(own) => panel.layer(
-                Rule::vertical(own).stroke(Stroke::dotted(INK, 0.8)).name("case as written"),
-            ),
-            None => panel,
-        };
-        match curve.reaches_bound_at {
-            Some(value) => {
-                panel.layer(Label::new((value, summary.bound), "reached").moved(3.0, -4.0))
-            }
-            None => panel,
-        }
+        let own = curve.own.map(|own| {
+            Rule::vertical(own).stroke(Stroke::dotted(INK, 0.8)).name("case as written")
+        });
+        let reached = curve
+            .reaches_bound_at
+            .map(|value| Label::new((value, summary.bound), "reached").moved(3.0, -4.0));
+        panel.layers(own).layers(reached)
     };
     Figure::new(
         "robust",
         "Probability of squeal at the friction coefficient of the case over each design parameter, \
-        the uncertain parameters \
-         scattering as stated.",
+         the uncertain parameters scattering as stated.",
     )
     .columns(summary.curves.len().min(2))
     .panels(summary.curves.iter().map(panel))

@@ -1,9 +1,8 @@
 //! Results of `mac`: modal assurance of measured shapes.
 
-mod figures;
-
 use super::Finding;
 use super::drawing::Declaration;
+use crate::chart::{Axis, ChartError, ColourMap, Figure, Heat, INK, Marker, Panel, Points, Side};
 use crate::output::{Described, Document, Section, Table, columns};
 use serde::Serialize;
 use std::f64::consts::TAU;
@@ -132,6 +131,32 @@ impl Finding for MacSummary {
     }
 
     fn figures(&self) -> Vec<Declaration<'_>> {
-        vec![Box::new(|| figures::matrix(self))]
+        vec![Box::new(|| matrix(self))]
     }
+}
+
+/// The criterion over modes and shapes, pairs marked.
+fn matrix(summary: &MacSummary) -> Result<Figure, ChartError> {
+    let (shapes, modes) = (summary.shapes.len(), summary.modes.len());
+    let span = |count: usize| ((0.5, count as f64 + 0.5), count);
+    let axis = Axis::new("modal assurance criterion", "").between(0.0, 1.0);
+    let heat =
+        Heat::of_values(span(modes), span(shapes), (axis, ColourMap::Viridis), |mode, shape| {
+            summary.mac[shape][mode]
+        });
+    let places = summary.pairs.iter().map(|pair| (pair.mode as f64, pair.shape as f64));
+    let numbers = |name: &str, count: usize| {
+        let (from, to) = span(count).0;
+        Axis::new(name, "").between(from, to)
+    };
+    let panel = Panel::new(numbers("mode of the model", modes), numbers("measured shape", shapes))
+        .height(150.0)
+        .layer(heat)
+        .layer(Points::new(places).marker(Marker::Circle, 2.6, INK))
+        .colour_bar(Side::Right);
+    Ok(Figure::new(
+        "mac",
+        "Modal assurance criterion of each measured shape with each mode; circles are the pairs.",
+    )
+    .panel(panel))
 }
