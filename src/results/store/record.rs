@@ -39,6 +39,16 @@ pub fn write_record<T: Record>(folder: &OutputFolder, record: &T) -> Result<(), 
     folder.write_bulk(T::FILE, |out| out.write_all(&record_bytes(record)?))
 }
 
+/// The record that the bytes of its file hold.
+pub fn decoded<T: Record>(bytes: &[u8]) -> Result<T, Defect> {
+    let payload = framed::read(bytes, T::MAGIC, T::VERSION)?;
+    let record: T = postcard::from_bytes(payload).map_err(|e| Defect::Damage(e.to_string()))?;
+    match record.inconsistency() {
+        None => Ok(record),
+        Some(what) => Err(Defect::Damage(what.to_owned())),
+    }
+}
+
 /// Reads the record of a folder.
 ///
 /// # Errors
@@ -48,14 +58,7 @@ pub fn read_record<T: Record>(folder: &Path) -> Result<T, FolderError> {
     let unusable = |reason: String| FolderError::no_results(folder, reason);
     let bytes = read_existing(&folder.join(T::FILE))?;
     let bytes = bytes.ok_or_else(|| unusable(format!("it has no {}: run it again", T::FILE)))?;
-    let record = framed::read(&bytes, T::MAGIC, T::VERSION).and_then(|payload| {
-        let record: T = postcard::from_bytes(payload).map_err(|e| Defect::Damage(e.to_string()))?;
-        match record.inconsistency() {
-            None => Ok(record),
-            Some(what) => Err(Defect::Damage(what.to_owned())),
-        }
-    });
-    record.map_err(|defect| {
+    decoded(&bytes).map_err(|defect| {
         let (file, wanted) = (T::FILE, T::VERSION);
         unusable(match defect {
             Defect::Version(found) => format!(

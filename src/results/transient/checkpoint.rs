@@ -2,7 +2,7 @@
 
 use crate::results::folder::{FolderError, OutputFolder};
 use crate::results::framed::{self, Defect};
-use crate::results::record::Record;
+use crate::results::record::{Record, decoded};
 use crate::transient::{Recorder, TransientState};
 use frictionsim_bounds::{RESULT, read_file};
 use serde::{Deserialize, Serialize};
@@ -11,9 +11,6 @@ use std::path::{Path, PathBuf};
 
 /// Name of the checkpoint in its folder.
 pub const CHECKPOINT: &str = "checkpoint.bin";
-
-const MAGIC: [u8; 8] = *b"FRICSIMC";
-const VERSION: u32 = 5;
 
 /// A checkpoint that cannot be used.
 #[derive(Debug, thiserror::Error)]
@@ -42,6 +39,16 @@ pub struct Checkpoint {
     pub record: Option<Recorder>,
 }
 
+impl Record for Checkpoint {
+    const FILE: &str = CHECKPOINT;
+    const MAGIC: [u8; 8] = *b"FRICSIMC";
+    const VERSION: u32 = 5;
+
+    fn inconsistency(&self) -> Option<&'static str> {
+        self.record.as_ref().and_then(Record::inconsistency)
+    }
+}
+
 /// What a longer run goes on from.
 impl Record for Recorder {
     const FILE: &str = "record.bin";
@@ -65,7 +72,7 @@ pub fn write_checkpoint(
     let contents = (case_hash, &folder.manifest().simd, state, record);
     folder.write(CHECKPOINT, |out| {
         let payload = postcard::to_stdvec(&contents).map_err(io::Error::other)?;
-        framed::write(out, MAGIC, VERSION, &payload)
+        framed::write(out, Checkpoint::MAGIC, Checkpoint::VERSION, &payload)
     })
 }
 
@@ -80,49 +87,32 @@ pub fn read_checkpoint(
 ) -> Result<Checkpoint, CheckpointError> {
     let path = folder.join(CHECKPOINT);
     let file = path.display();
-    let unusable = |why: String| Err(CheckpointError::Unusable(format!("{file} {why}")));
+    let unusable = |why: String| CheckpointError::Unusable(format!("{file} {why}"));
     let again = "run without --resume to start over";
-    let bytes = match read_file(&path, RESULT) {
-        Ok(bytes) => bytes,
-        Err(source) if source.kind() == io::ErrorKind::NotFound => {
-            return Err(CheckpointError::Missing(path));
-        }
-        Err(error) => {
-            return Err(CheckpointError::Unusable(format!("cannot read {file}: {error}")));
-        }
-    };
-    let checkpoint = match decode(&bytes) {
-        Ok(checkpoint) => checkpoint,
-        Err(Defect::Version(found)) => {
-            return unusable(format!(
-                "has format {found}, this version reads format {VERSION}: resume with the version \
-                 that wrote it, or {again}"
-            ));
-        }
-        Err(Defect::Damage(reason)) => {
-            return unusable(format!("is damaged ({reason}): it is left as it is; {again}"));
-        }
-    };
+    let bytes = read_file(&path, RESULT).map_err(|error| match error.kind() {
+        io::ErrorKind::NotFound => CheckpointError::Missing(path.clone()),
+        _ => CheckpointError::Unusable(format!("cannot read {file}: {error}")),
+    })?;
+    let checkpoint: Checkpoint = decoded(&bytes).map_err(|defect| {
+        unusable(match defect {
+            Defect::Version(found) => format!(
+                "has format {found}, this version reads format {}: resume with the version that \
+                 wrote it, or {again}",
+                Checkpoint::VERSION
+            ),
+            Defect::Damage(reason) => {
+                format!("is damaged ({reason}): it is left as it is; {again}")
+            }
+        })
+    })?;
     for (what, found, expected) in
         [("case hash", &checkpoint.case_hash, case_hash), ("SIMD level", &checkpoint.simd, simd)]
     {
         if found != expected {
-            return unusable(format!(
+            return Err(unusable(format!(
                 "belongs to another run: its {what} is {found}, here it is {expected}; {again}"
-            ));
+            )));
         }
     }
     Ok(checkpoint)
-}
-
-fn decode(bytes: &[u8]) -> Result<Checkpoint, Defect> {
-    let payload = framed::read(bytes, MAGIC, VERSION)?;
-    let checkpoint: Checkpoint =
-        postcard::from_bytes(payload).map_err(|error| Defect::Damage(error.to_string()))?;
-    match &checkpoint.record {
-        Some(record) if !record.is_consistent() => {
-            Err(Defect::Damage("its samples, probes and frames do not fit together".to_owned()))
-        }
-        _ => Ok(checkpoint),
-    }
 }
