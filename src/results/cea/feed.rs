@@ -190,12 +190,10 @@ impl Feed {
             surfaces.iter().map(move |(contact, boundary)| {
                 let axis = Axis::new("feed", "1/(s cm²)").times(1e-4).between(-largest, largest);
                 let view = SolidView::of_boundary(mesh, *boundary);
-                let surface = view.surface(values.clone(), (&[], 0.0), axis, ColourMap::Diverging);
-                Panel::plane(surface.window(0.05))
+                view.panel(values.clone(), axis, ColourMap::Diverging, 0.05)
                     .height(140.0)
                     .caption(literal(contact))
                     .heading(name(own))
-                    .layer(surface)
                     .colour_bar(crate::chart::Side::Right)
             })
         });

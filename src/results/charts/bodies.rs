@@ -15,16 +15,14 @@ pub fn contact_surfaces(
 ) -> Figure {
     let panels = surfaces.iter().enumerate().map(|(k, (name, boundary))| {
         let view = SolidView::of_boundary(mesh, *boundary);
-        let surface = view.surface(values.to_vec(), (&[], 0.0), axis(), ColourMap::Viridis);
-        let panel = Panel::plane(surface.window(0.05)).height(150.0);
         let arrows = arrows.get(k).map(|ends| {
             let line = Line::through(ends.map(|end| view.at(end)));
             line.solid("black", 1.2).arrows(1)
         });
-        panel.caption(literal(name)).layer(surface).layers(arrows)
+        let panel = view.panel(values.to_vec(), axis(), ColourMap::Viridis, 0.05);
+        panel.caption(literal(name)).layers(arrows)
     });
-    let panels: Vec<Panel> = panels.collect();
-    let columns = panels.len().clamp(1, 3);
+    let columns = surfaces.len().clamp(1, 3);
     let figure = Figure::new(name, caption).columns(columns).panels(panels);
     figure.colour_foot(axis(), ColourMap::Viridis)
 }
@@ -44,10 +42,8 @@ pub fn speeds_of_bodies<'a>(
         let speeds = velocity.chunks_exact(3);
         let speeds = speeds.map(|v| v[0].hypot(v[1]).hypot(v[2])).collect();
         let axis = Axis::new("velocity |*v*|", "m/s");
-        let surface = view.surface(speeds, (&[], 0.0), axis, ColourMap::Viridis);
-        let panel = Panel::plane(surface.window(0.04)).height(150.0);
-        let panel = panel.heading(heading).layer(surface);
-        panel.colour_bar(Side::Below)
+        let panel = view.panel(speeds, axis, ColourMap::Viridis, 0.04);
+        panel.heading(heading).colour_bar(Side::Below)
     });
     let panels: Vec<Panel> = panels.collect();
     if panels.is_empty() {

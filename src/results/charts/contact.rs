@@ -3,7 +3,7 @@
 use super::Disc;
 use super::bodies::{speeds_of_bodies, speeds_on_top};
 use super::palette::{
-    OPEN, SLIP, STICK, centred, line_colour, status_ground, status_keys, status_ring,
+    OPEN, SLIP, STICK, centred, line_colour, status_ground, status_keys, status_ring, status_runs,
 };
 use crate::chart::{
     Axis, ChartError, ColourMap, Figure, Heat, INK, Label, Line, Palette, Panel, Rule, SERIES, Side,
@@ -64,29 +64,6 @@ pub enum ContactVelocity<'a> {
     Slip(&'a [f64]),
 }
 
-impl ContactVelocity<'_> {
-    fn values(&self) -> &[f64] {
-        match self {
-            Self::Absolute(values, _) | Self::Slip(values) => values,
-        }
-    }
-
-    fn name(&self, absolute: &str) -> String {
-        match self {
-            Self::Absolute(..) => absolute.to_owned(),
-            Self::Slip(_) => "slip velocity".to_owned(),
-        }
-    }
-
-    /// The line at which a node sticks.
-    fn sticking(&self, counterface: &str) -> Rule {
-        match self {
-            Self::Absolute(_, speed) => Rule::horizontal(*speed).stretching().name(counterface),
-            Self::Slip(_) => Rule::horizontal(0.0).name("stick"),
-        }
-    }
-}
-
 /// The contact at one instant.
 pub struct ContactInstant<'a> {
     /// Name of its figure.
@@ -145,15 +122,24 @@ fn contact_panels(
     own: &ContactInstant<'_>,
     names: (&str, &str),
 ) -> [Panel; 2] {
-    let ([pressure, shear], velocity) = (own.tractions, &own.velocity);
+    let [pressure, shear] = own.tractions;
+    // At the rule a node sticks.
+    let (velocity, name, rule) = match own.velocity {
+        ContactVelocity::Absolute(values, speed) => {
+            (values, names.1, Rule::horizontal(speed).stretching().name(names.0))
+        }
+        ContactVelocity::Slip(values) => {
+            (values, "slip velocity", Rule::horizontal(0.0).name("stick"))
+        }
+    };
     let traction = Axis::new("traction", "Pa").prefixed().including(0.0).room(0.08);
     [
         panel(traction)
             .layer(line(pressure).solid(INK, 1.1).name("pressure *p*"))
             .layer(line(shear).solid(SERIES[1], 1.1).name("friction traction *τ*")),
         panel(Axis::new("velocity", "m/s").including(0.0))
-            .layer(velocity.sticking(names.0))
-            .layer(line(velocity.values()).solid(SERIES[0], 1.1).name(velocity.name(names.1))),
+            .layer(rule)
+            .layer(line(velocity).solid(SERIES[0], 1.1).name(name)),
     ]
 }
 
@@ -256,43 +242,39 @@ fn field_figure(
     if frames.is_empty() {
         return Err(ChartError::empty(name));
     }
-    let is_single = frames.len() == 1;
-    let columns = match frames.len() {
-        5 | 6 => 3,
-        count => count.clamp(1, 4),
-    };
+    let count = frames.len();
     let (radius, first_angle) = disc.contact_place();
     // Beside an edge that is no whole hole there is no place for a ring.
-    let has_status = disc.mesh().has_round_contact() && frames.iter().any(|f| !f.2.is_empty());
+    let has_place = disc.mesh().has_round_contact();
+    let has_status = has_place && frames.iter().any(|frame| !frame.2.is_empty());
     let panels = frames.into_iter().map(|(heading, values, status)| {
         let panel = disc.panel(0.01).heading(heading).layer(disc.field(values, axis.clone(), map));
-        let ring =
-            (has_status && !status.is_empty()).then(|| status_ring(radius, first_angle, &status));
+        let has_ring = has_place && !status.is_empty();
+        let ring = has_ring.then(|| status_ring(radius, first_angle, &status));
         panel.layers(ring).colour_bar(Side::Below)
     });
+    let columns = if matches!(count, 5 | 6) { 3 } else { count.clamp(1, 4) };
     let figure = Figure::new(name, caption).columns(columns).panels(panels);
-    let figure = if is_single { figure.narrow() } else { figure };
+    let figure = if count == 1 { figure.narrow() } else { figure };
     Ok(if has_status { figure.note("ring inside the hole: contact status") } else { figure })
 }
 
 /// A closed or open curve coloured by the status of the samples it starts from; slip, over which a node runs back and
 /// forth, is wide.
 pub fn status_curves(points: &[(f64, f64)], status: &[ContactStatus]) -> Vec<Line> {
-    let mut lines = Vec::new();
-    for wanted in [ContactStatus::Slip, ContactStatus::Stick, ContactStatus::Open] {
+    let statuses = [ContactStatus::Slip, ContactStatus::Stick, ContactStatus::Open];
+    let line = |wanted: ContactStatus| {
         let mut pieces: Vec<(f64, f64)> = Vec::new();
-        let mut start = 0;
-        for run in status.chunk_by(|a, b| a == b) {
-            let end = (start + run.len() + 1).min(points.len());
-            if run[0] == wanted && start < end {
-                // One sample further, so that pieces join; a gap keeps pieces apart.
+        for (own, start, end) in status_runs(status) {
+            // One sample further, so that pieces join; a gap keeps pieces apart.
+            let end = (end + 1).min(points.len());
+            if own == wanted && start < end {
                 pieces.extend(&points[start..end]);
                 pieces.push((f64::NAN, f64::NAN));
             }
-            start += run.len();
         }
         let width = if wanted == ContactStatus::Slip { 1.8 } else { 0.8 };
-        lines.push(Line::through(pieces).solid(line_colour(wanted), width).name(wanted.name()));
-    }
-    lines
+        Line::through(pieces).solid(line_colour(wanted), width).name(wanted.name())
+    };
+    statuses.map(line).into()
 }

@@ -31,9 +31,14 @@ const DEPTH: f64 = 80.0;
 /// to its own maximum.
 const SILENCE: f64 = 1e-10;
 
+/// First and last of rising times; 0 and 1 where there is none.
+pub fn ends(times: &[f64]) -> (f64, f64) {
+    extremes([times.first(), times.last()].into_iter().flatten().copied())
+}
+
 /// The time axis of a run up to the round number just above its last sample, if only a sample is missing.
 pub fn run_axis(times: &[f64]) -> Axis {
-    let (low, high) = extremes([times.first(), times.last()].into_iter().flatten().copied());
+    let (low, high) = ends(times);
     let unit = 10f64.powf(high.abs().max(1e-300).log10().floor() - 1.0);
     let round = (high / unit).round() * unit;
     let is_near = round > high && round - high < 1e-3 * high;
@@ -112,17 +117,14 @@ pub fn spectrogram_panels(
             .layers(rules)
             .colour_bar(Side::Right)
     };
-    let amplitude = (Axis::new("amplitude / max", "–").between(0.0, 1.0), ColourMap::Inferno);
-    let level = (Axis::new("level", "dB").between(-DEPTH, 0.0), ColourMap::Inferno);
+    let heat = |axis: Axis, value: &dyn Fn(usize, usize) -> f64| {
+        Heat::of_values((x, columns), (y, lines), (axis, ColourMap::Inferno), value)
+    };
+    let amplitude = heat(Axis::new("amplitude / max", "–").between(0.0, 1.0), &relative);
+    let level = heat(Axis::new("level", "dB").between(-DEPTH, 0.0), &decibels);
     vec![
-        panel(
-            "spectrogram, each window relative to its own maximum",
-            Heat::of_values((x, columns), (y, lines), amplitude, relative),
-        ),
-        panel(
-            "spectrogram, relative to the maximum of the whole signal",
-            Heat::of_values((x, columns), (y, lines), level, decibels),
-        ),
+        panel("spectrogram, each window relative to its own maximum", amplitude),
+        panel("spectrogram, relative to the maximum of the whole signal", level),
     ]
 }
 

@@ -14,7 +14,7 @@ pub use contact::{
     status_curves, status_map, velocity_figure,
 };
 pub use course::{
-    ModeLine, Stage, run_axis, signal_panel, spectrogram_panels, spectrum_panel, with_stages,
+    ModeLine, Stage, ends, run_axis, signal_panel, spectrogram_panels, spectrum_panel, with_stages,
 };
 pub use disc::Disc;
 pub use motion::MovingBody;

@@ -29,16 +29,16 @@ pub const NORMAL_POWER: &str = "#cc79a7";
 
 /// The states in the order of every legend, each with name, colour of areas, tint of grounds under curves, colour of
 /// lines.
-pub const STATUSES: [(ContactStatus, &str, &str, &str, &str); 3] = [
+pub static STATUSES: [Entry; 3] = [
     (ContactStatus::Stick, "stick", STICK, "#cce3f0", STICK),
     (ContactStatus::Slip, "slip", SLIP, "#faeccc", SLIP),
     (ContactStatus::Open, "open", OPEN, "#f2f2f2", "#8c8c8c"),
 ];
 
-fn entry(status: ContactStatus) -> (&'static str, &'static str, &'static str) {
-    let of = |s: &&(ContactStatus, _, _, _, _)| s.0 == status;
-    let found = STATUSES.iter().find(of);
-    found.map_or((OPEN, OPEN, OPEN), |s| (s.2, s.3, s.4))
+type Entry = (ContactStatus, &'static str, &'static str, &'static str, &'static str);
+
+fn entry(status: ContactStatus) -> &'static Entry {
+    STATUSES.iter().find(|entry| entry.0 == status).unwrap_or(&STATUSES[2])
 }
 
 /// The status of a code: 0 open, 1 stick, 2 slip.
@@ -58,45 +58,46 @@ pub fn status_keys() -> Vec<(Key, String)> {
 
 /// Colour of lines in a status: open contact is darker than its areas.
 pub fn line_colour(status: ContactStatus) -> &'static str {
-    entry(status).2
+    entry(status).4
+}
+
+/// Where a status begins and ends, run by run.
+pub fn status_runs(
+    status: &[ContactStatus],
+) -> impl Iterator<Item = (ContactStatus, usize, usize)> {
+    let mut end = 0;
+    status.chunk_by(|a, b| a == b).map(move |run| {
+        let start = end;
+        end += run.len();
+        (run[0], start, end)
+    })
 }
 
 /// The ground of a panel coloured by status: sample `i` from abscissa `edge(i)` to `edge(i + 1)`; named in the legend.
 pub fn status_ground(status: &[ContactStatus], edge: impl Fn(usize) -> f64) -> Shapes {
-    let (mut bands, mut start) = (Vec::new(), 0);
-    for run in status.chunk_by(|a, b| a == b) {
-        let end = start + run.len();
-        bands.push((edge(start), edge(end), entry(run[0]).1));
-        start = end;
-    }
-    named(Shapes::bands(bands), status, |s| s.3)
+    let band = |(own, start, end)| (edge(start), edge(end), entry(own).3);
+    named(Shapes::bands(status_runs(status).map(band).collect()), status, |s| s.3)
 }
 
 /// The ring of statuses around a hole of this radius (m), inside it; nodes evenly spaced from the angle of the first.
 pub fn status_ring(radius: f64, first_angle: f64, status: &[ContactStatus]) -> Shapes {
     let step = std::f64::consts::TAU / status.len().max(1) as f64;
-    let (mut pieces, mut start) = (Vec::new(), 0);
-    for run in status.chunk_by(|a, b| a == b) {
+    let piece = |(own, start, end): (ContactStatus, usize, usize)| {
         let from = first_angle + (start as f64 - 0.5) * step;
-        let to = from + run.len() as f64 * step;
+        let to = from + (end - start) as f64 * step;
         let count = ((to - from) / 0.05).ceil().max(1.0);
-        let arc = |radius: f64| {
-            let steps = 0..=count as usize;
-            let angles = steps.map(move |i| from + (to - from) * i as f64 / count);
-            angles.map(move |angle| (radius * angle.cos(), radius * angle.sin()))
+        let arc = |radius: f64| -> Vec<(f64, f64)> {
+            let angles = (0..=count as usize).map(|i| from + (to - from) * i as f64 / count);
+            angles.map(|angle| (radius * angle.cos(), radius * angle.sin())).collect()
         };
-        let outline: Vec<_> = arc(0.6 * radius)
-            .chain(arc(0.94 * radius).collect::<Vec<_>>().into_iter().rev())
-            .collect();
-        pieces.push((outline, entry(run[0]).0));
-        start += run.len();
-    }
+        let back = arc(0.94 * radius).into_iter().rev();
+        (arc(0.6 * radius).into_iter().chain(back).collect::<Vec<_>>(), entry(own).2)
+    };
+    let mut pieces: Vec<_> = status_runs(status).map(piece).collect();
     // One path for each colour.
     pieces.sort_by_key(|piece| piece.1);
     named(Shapes::polygons(pieces), status, |s| s.2)
 }
-
-type Entry = (ContactStatus, &'static str, &'static str, &'static str, &'static str);
 
 fn named(shapes: Shapes, status: &[ContactStatus], colour: fn(&Entry) -> &'static str) -> Shapes {
     let present = STATUSES.iter().filter(|entry| status.contains(&entry.0));

@@ -1,6 +1,6 @@
 //! Solid bodies of a mesh file as pictures: their outer surface from one point of view.
 
-use crate::chart::{Axis, ColourMap, Surface, SurfaceMesh};
+use crate::chart::{Axis, ColourMap, Panel, Surface, SurfaceMesh, extremes};
 use crate::mesh::{BoundaryFace, Mesh};
 use nalgebra::Vector3;
 use std::collections::BTreeMap;
@@ -100,6 +100,12 @@ impl<'a> SolidView<'a> {
         Surface::of_parts(Arc::new(shown), positions, part_of, parts)
     }
 
+    /// A picture of values at the nodes (NaN: none) on the bodies as they are, with `room` around it.
+    pub fn panel(&self, values: Vec<f64>, axis: Axis, map: ColourMap, room: f64) -> Panel {
+        let surface = self.surface(values, (&[], 0.0), axis, map);
+        Panel::plane(surface.window(room)).height(150.0).layer(surface)
+    }
+
     /// Edges of faces between corners: where faces meet at an angle, between regions, at the rim of open surfaces; or
     /// all.
     pub(super) fn corner_edges(mesh: &Mesh, faces: &[BoundaryFace], all: bool) -> Vec<[u32; 2]> {
@@ -116,11 +122,8 @@ impl<'a> SolidView<'a> {
     /// Largest extent of the bodies along an axis, m.
     pub fn size(&self) -> f64 {
         let along = |axis: usize| {
-            let places = self.mesh.nodes.iter().map(|place| place[axis]);
-            let ends = places.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
-                (low.min(x), high.max(x))
-            });
-            ends.1 - ends.0
+            let (low, high) = extremes(self.mesh.nodes.iter().map(|place| place[axis]));
+            high - low
         };
         (0..3).map(along).fold(f64::MIN_POSITIVE, f64::max)
     }
@@ -140,11 +143,9 @@ fn triangles(face: &BoundaryFace) -> Vec<[u32; 3]> {
 
 /// Edges drawn, in steps between their nodes.
 fn edges(mesh: &Mesh, faces: &[BoundaryFace], all: bool) -> Vec<[u32; 2]> {
-    let steps = edge_paths(mesh, faces, all).into_iter().flat_map(|path| {
-        let steps: Vec<[u32; 2]> = path.windows(2).map(|step| [step[0], step[1]]).collect();
-        steps
-    });
-    steps.collect()
+    let paths = edge_paths(mesh, faces, all);
+    let steps = paths.iter().flat_map(|path| path.windows(2));
+    steps.map(|step| [step[0], step[1]]).collect()
 }
 
 /// Nodes along each edge between faces that meet at an angle, between regions, and at the rim of open surfaces; or

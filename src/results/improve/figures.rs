@@ -1,9 +1,7 @@
 //! `figures/improve-mode-N`: where each kind of modification feeds or damps a mode, with the candidates.
 
-use super::{ImproveSummary, TargetFields};
-use crate::chart::{
-    Axis, ChartError, ColourMap, Figure, INK, Marker, Panel, Points, Side, significant,
-};
+use super::{ImproveSummary, Sizes, TargetFields};
+use crate::chart::{Axis, ChartError, ColourMap, Figure, INK, Marker, Points, Side, significant};
 use crate::mesh::Mesh;
 use crate::results::charts::{Disc, SolidView};
 use crate::results::drawing::{Declaration, declared};
@@ -25,11 +23,11 @@ pub fn figures(
     };
     let mut order: Vec<&TargetFields> = fields.iter().collect();
     crate::order::sort_by_number(&mut order, |a| -growth(a));
-    let declare = |own: &'_ TargetFields| -> Declaration<'_> {
-        let own = own.clone();
-        Box::new(move || target_figure(summary, mesh, &own))
-    };
-    declared(order.into_iter().take(MOST).map(declare).collect())
+    let mut figures: Vec<Declaration<'_>> = Vec::new();
+    for own in order.into_iter().take(MOST) {
+        figures.push(Box::new(move || target_figure(summary, mesh, own)));
+    }
+    declared(figures)
 }
 
 /// The derivatives of one growth rate over the body, a panel for each kind of modification.
@@ -38,56 +36,44 @@ fn target_figure(
     mesh: &Mesh,
     own: &TargetFields,
 ) -> Result<Figure, ChartError> {
-    let sizes = &summary.sizes;
+    let Sizes { mass_kg, stiffness_n_per_m, damping_n_s_per_m, patch_radius_m: radius, .. } =
+        summary.sizes;
     let unit = |unit: &str| summary.extent.unit(unit);
-    let radius = sizes.patch_radius_m;
     let patch = match mesh.dimension {
         2 => PI * radius.powi(2),
         _ => 4.0 / 3.0 * PI * radius.powi(3),
     };
+    let damped = patch * summary.sizes.patch_damping_s;
     let text =
         |what: &str, size: f64, unit: &str| format!("{what}, {} {unit}", significant(size, 3));
+    let mass = text("mass", mass_kg, &unit("kg"));
+    let spring = text("spring to the ground", stiffness_n_per_m, &unit("N/m"));
+    let dashpot = text("dashpot to the ground", damping_n_s_per_m, &unit("N s/m"));
     let (removal, damping) = (nodal(mesh, &own.removal), nodal(mesh, &own.damping));
     let panels = [
-        ("mass", text("mass", sizes.mass_kg, &unit("kg")), sizes.mass_kg, &own.mass),
-        (
-            "spring",
-            text("spring to the ground", sizes.stiffness_n_per_m, &unit("N/m")),
-            sizes.stiffness_n_per_m,
-            &own.spring,
-        ),
-        (
-            "dashpot",
-            text("dashpot to the ground", sizes.damping_n_s_per_m, &unit("N s/m")),
-            sizes.damping_n_s_per_m,
-            &own.dashpot,
-        ),
+        ("mass", mass, mass_kg, &own.mass),
+        ("spring", spring, stiffness_n_per_m, &own.spring),
+        ("dashpot", dashpot, damping_n_s_per_m, &own.dashpot),
         ("removal", text("removal within", radius, "m"), patch, &removal),
-        (
-            "damping",
-            text("damping layer within", radius, "m"),
-            patch * sizes.patch_damping_s,
-            &damping,
-        ),
+        ("damping", text("damping layer within", radius, "m"), damped, &damping),
     ];
     let panels = panels.map(|(kind, caption, size, values)| {
         let axis = Axis::new("change of growth, first order", "1/s").symmetric();
         let values: Vec<f64> = values.iter().map(|value| size * value).collect();
-        let values = values.as_slice();
-        let panel = match mesh.dimension {
-            2 => plane_panel(mesh, values, axis),
-            _ => solid_panel(mesh, values, axis),
-        };
         let candidates = summary.candidates.iter().filter(|own| own.kind == kind);
         let places: Vec<(f64, f64)> =
             candidates.map(|own| (own.position_m[0], own.position_m[1])).collect();
-        let panel = panel.caption(caption).height(150.0).colour_bar(Side::Right);
-        match mesh.dimension {
-            2 if !places.is_empty() => {
-                panel.layer(Points::new(places).marker(Marker::Circle, 3.0, INK))
+        let panel = match mesh.dimension {
+            2 => {
+                let disc = Disc::new(mesh);
+                let field = disc.field(values, axis, ColourMap::Diverging);
+                let circles = (!places.is_empty())
+                    .then(|| Points::new(places).marker(Marker::Circle, 3.0, INK));
+                disc.panel(0.03).layer(field).layers(circles)
             }
-            _ => panel,
-        }
+            _ => SolidView::new(mesh).panel(values, axis, ColourMap::Diverging, 0.04),
+        };
+        panel.caption(caption).height(150.0).colour_bar(Side::Right)
     });
     let caption = format!(
         "Change of the growth rate of mode {} ({:.1} Hz) at friction {} by a modification at each \
@@ -96,17 +82,6 @@ fn target_figure(
     );
     let name = format!("improve-mode-{}", own.mode);
     Ok(Figure::new(name, caption).columns(2).panels(panels))
-}
-
-fn plane_panel(mesh: &Mesh, values: &[f64], axis: Axis) -> Panel {
-    let disc = Disc::new(mesh);
-    disc.panel(0.03).layer(disc.field(values.to_vec(), axis, ColourMap::Diverging))
-}
-
-fn solid_panel(mesh: &Mesh, values: &[f64], axis: Axis) -> Panel {
-    let view = SolidView::new(mesh);
-    let surface = view.surface(values.to_vec(), (&[], 0.0), axis, ColourMap::Diverging);
-    Panel::plane(surface.window(0.04)).layer(surface)
 }
 
 /// Means at the nodes of values in the elements around them.
