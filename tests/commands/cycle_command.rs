@@ -2,7 +2,7 @@
 
 use crate::bodies::grid::{Grid, msh};
 use crate::prelude::*;
-use frictionsim::results::cycle::{CycleSummary, Origin, TwoWaveSummary, WavesSought};
+use frictionsim::results::cycle::{CycleSummary, Origin, TwoWaveSummary};
 use std::process::Command;
 
 fn waves(command: &str, out: &Path, set: &[&str]) -> Run {
@@ -297,7 +297,7 @@ fn motions_of_two_frequencies_are_told_with_their_numbers() {
     };
     let summary = CycleSummary {
         steady_sliding_stable: false,
-        origin: Origin::Waves(WavesSought { lowest_onset: None }),
+        origin: Origin::Waves { lowest_onset: None },
         critical_value: None,
         extent: Extent::WholeBody,
         cycles: Vec::new(),

@@ -1,5 +1,6 @@
 //! Branches of limit cycles over a parameter: their rows, what is kept of them for figures, and what is said of them.
 
+use super::summary::{CycleName, OnsetSummary, SoughtCycle};
 use crate::cycle::{Family, Verdict};
 use crate::output::{Described, columns};
 use crate::results::extent::Extent;
@@ -23,6 +24,18 @@ pub(in crate::results) struct BranchRow {
     pub growth_rate: Option<f64>,
     pub verdict: Option<Verdict>,
     pub stepped: Option<SteppedRow>,
+}
+
+/// The cycles of a branch.
+pub(super) struct BranchRows {
+    /// Key of the parameter.
+    pub key: &'static str,
+    /// The case's own value, in its units.
+    pub own_value: f64,
+    /// Amplitude (m) and velocity of the kick (m/s) of the unstable cycle between stable sliding and the case's own.
+    pub threshold: Option<[f64; 2]>,
+    /// In its order.
+    pub rows: Vec<BranchRow>,
 }
 
 /// What else there is to a motion that was stepped in time.
@@ -120,6 +133,22 @@ pub struct BranchRecord {
 }
 
 impl FamilyRecord {
+    /// Of a cycle that was sought and the rows of its branch.
+    pub(super) fn of(own: SoughtCycle, rows: Option<BranchRows>, extent: Extent) -> Self {
+        let onset = |own: &OnsetSummary| [own.critical_friction, own.frequency_hz];
+        let (harmonic, onset, mode, onsets) = match &own.name {
+            CycleName::Wave(own) => {
+                (own.harmonic, own.onset, None, own.onsets.iter().map(onset).collect())
+            }
+            CycleName::Mode(own) => (0, 0, Some(own.mode.mode), Vec::new()),
+        };
+        let cycle =
+            own.cycle.map(|own| [own.main_frequency_hz, own.amplitude_m.unwrap_or(f64::NAN)]);
+        let branch = own.branch.zip(rows);
+        let branch = branch.map(|(summary, rows)| BranchRecord::of(summary, &rows, extent));
+        Self { harmonic, onset, mode, onsets, cycle, branch }
+    }
+
     /// Which limit cycles.
     pub fn family(&self) -> Family {
         Family { harmonic: self.harmonic, onset: self.onset }
@@ -128,12 +157,8 @@ impl FamilyRecord {
 
 impl BranchRecord {
     /// The columns of a branch, of which this is said.
-    pub(super) fn of(
-        summary: BranchSummary,
-        own_value: f64,
-        extent: Extent,
-        rows: &[BranchRow],
-    ) -> Self {
+    fn of(summary: BranchSummary, branch: &BranchRows, extent: Extent) -> Self {
+        let BranchRows { own_value, threshold, rows, .. } = branch;
         let motions = summary.motions.unwrap_or_default();
         let column = |of: &dyn Fn(&BranchRow) -> f64| -> Vec<f64> { rows.iter().map(of).collect() };
         let power =
@@ -144,11 +169,8 @@ impl BranchRecord {
         };
         Self {
             key: summary.key,
-            own_value,
-            folds: summary.folds,
-            sliding_onsets: motions.onsets,
-            coexistence: motions.coexistence,
             values: column(&|row| row.value),
+            own_value: *own_value,
             frequency_hz: column(&|row| row.main_frequency_hz),
             amplitude: column(&|row| row.amplitude_m),
             status: [0, 1, 2].map(|i| column(&|row| row.fractions[i])),
@@ -159,11 +181,14 @@ impl BranchRecord {
                 share(|powers| powers.material_damping),
                 share(|powers| powers.normal_contact),
             ],
+            extent,
             stable: rows.iter().map(|row| row.verdict?.is_stable()).collect(),
             growth_rate: rows.iter().map(|row| row.growth_rate).collect(),
+            folds: summary.folds,
+            sliding_onsets: motions.onsets,
+            coexistence: motions.coexistence,
+            threshold: *threshold,
             external,
-            extent,
-            ..Self::default()
         }
     }
 }

@@ -89,46 +89,24 @@ type Column = fn(&BranchRecord) -> &Vec<f64>;
 /// Main frequency, amplitude and power of the limit cycles over the parameter, one curve for each family.
 fn frequencies(curves: &[Curve<'_>], two_waves: &[TwoWaveResult]) -> Result<Figure, ChartError> {
     let (x, scale) = axis_of(curves);
-    let amplitude = Axis::new("amplitude along the contact", "m").prefixed();
-    let amplitude = if scale == Scale::Logarithmic {
-        amplitude.logarithmic()
-    } else {
-        amplitude.including(0.0)
-    };
-    let onsets = curves.iter().filter_map(|curve| {
-        let [critical, frequency] = *curve.family.onsets.get(curve.family.onset.checked_sub(1)?)?;
-        let text = format!(
-            "{:.2} kHz, *n* = {} at *μ* = {critical:.3}",
-            frequency * 1e-3,
-            curve.family.harmonic
-        );
-        Some((frequency, text))
-    });
-    let mut onsets: Vec<(f64, String)> = onsets.collect();
-    onsets.dedup();
-    let rules = onsets.into_iter().map(|(frequency, text)| {
-        let rule = Rule::horizontal(frequency).stretching().stroke(Stroke::dotted(MUTED, 0.8));
-        rule.at_rim(text).name("onset of the instability, linear theory")
-    });
-    let sliding = curves.iter().flat_map(|curve| &curve.branch.sliding_onsets);
-    let sliding: Vec<Rule> = sliding
-        .map(|&onset| {
-            let rule = Rule::vertical(onset).stretching().stroke(Stroke::dotted(MUTED, 0.9));
-            rule.name("onset: steady sliding loses its stability")
-        })
-        .collect();
     let extent = curves.first().map_or_else(Extent::default, |curve| curve.branch.extent);
+    let frequency = Axis::new("main frequency *f*", "kHz").times(1e-3);
+    let amplitude = Axis::new("amplitude along the contact", "m").prefixed();
+    let amplitude = match scale {
+        Scale::Logarithmic => amplitude.logarithmic(),
+        Scale::Linear => amplitude.including(0.0),
+    };
+    let power = Axis::new("power of the counterface", &extent.unit("W")).prefixed();
+    let sliding = curves.iter().flat_map(|curve| &curve.branch.sliding_onsets).map(|&onset| {
+        let rule = Rule::vertical(onset).stretching().stroke(Stroke::dotted(MUTED, 0.9));
+        rule.name("onset: steady sliding loses its stability")
+    });
     let panel =
         |y: Axis, height: f64| Panel::new(x.clone(), y).height(height).layers(sliding.clone());
-    let frequency = Axis::new("main frequency *f*", "kHz").times(1e-3);
     let quantities: [(Panel, Column, Option<usize>); 3] = [
-        (panel(frequency, 150.0).layers(rules), |b| &b.frequency_hz, Some(0)),
+        (panel(frequency, 150.0).layers(onset_rules(curves)), |b| &b.frequency_hz, Some(0)),
         (panel(amplitude, 92.0), |b| &b.amplitude, Some(1)),
-        (
-            panel(Axis::new("power of the counterface", &extent.unit("W")).prefixed(), 76.0),
-            |b| &b.external,
-            None,
-        ),
+        (panel(power, 76.0), |b| &b.external, None),
     ];
     let panels = quantities.into_iter().map(|(panel, quantity, own)| {
         let of_both = own.map(|own| OF_BOTH[own]);
@@ -137,45 +115,55 @@ fn frequencies(curves: &[Curve<'_>], two_waves: &[TwoWaveResult]) -> Result<Figu
         curves.iter().enumerate().fold(panel, |panel, (index, curve)| {
             let (branch, colour) = (curve.branch, SERIES[index % SERIES.len()]);
             let ys = quantity(branch);
-            let marked = curve.family.cycle.zip(own);
-            let marked = marked.map(|(cycle, own)| (branch.own_value, cycle[own]));
-            let threshold = branch.threshold.filter(|_| own == Some(1));
             let folds = Points::new(branch.fold_points(ys)).marker(Marker::Diamond, 1.9, colour);
+            let at_own = |value: f64, marker: Marker, name: String| {
+                Points::new([(branch.own_value, value)]).marker(marker, 2.2, colour).name(name)
+            };
+            let cycle = curve.family.cycle.zip(own);
+            let cycle = cycle.map(|(cycle, own)| {
+                at_own(cycle[own], Marker::Circle, "the case's own cycle".to_owned())
+            });
+            let threshold = branch.threshold.filter(|_| own == Some(1));
+            let threshold = threshold.map(|[amplitude, velocity]| {
+                let name = format!("a kick of more than {velocity:.3e} m/s tips sliding");
+                at_own(amplitude, Marker::Square, name)
+            });
             panel
                 .layers(branch.lines(ys, colour))
-                .layer(named_curve(curve, ys, colour))
+                .layer(Line::new(&branch.values, ys).solid(colour, 0.3).name(curve.name()))
                 .layer(folds.name("fold"))
-                .layers(marked.map(|own| {
-                    Points::new([own])
-                        .marker(Marker::Circle, 2.2, colour)
-                        .name("the case's own cycle")
-                }))
-                .layers(threshold.map(|[amplitude, velocity]| {
-                    Points::new([(branch.own_value, amplitude)])
-                        .marker(Marker::Square, 2.2, colour)
-                        .name(format!("a kick of more than {velocity:.3e} m/s tips sliding"))
-                }))
+                .layers(cycle)
+                .layers(threshold)
         })
     });
     let both = curves.iter().flat_map(|curve| &curve.branch.coexistence);
-    let both: String = both
-        .map(|&[from, to]| {
-            let [from, to] = [from, to].map(|value| significant(value, 4));
-            format!(" Stable sliding and a limit cycle coexist from {from} to {to}.")
-        })
-        .collect();
+    let both = both.map(|ends| {
+        let [from, to] = ends.map(|value| significant(value, 4));
+        format!(" Stable sliding and a limit cycle coexist from {from} to {to}.")
+    });
     let caption = format!(
         "Main frequency (a), amplitude (b) and power of the counterface (c) of the limit cycles \
-         along their branches. Dotted: where linear theory has them begin. Diamonds: folds.{both}"
+         along their branches. Dotted: where linear theory has them begin. Diamonds: folds.{}",
+        both.collect::<String>()
     );
     let figure = Figure::new("branch-frequencies", caption).shared_x().panels(panels);
     Ok(with_strokes(figure, curves))
 }
 
-/// The branch as a thin line that carries its legend entry.
-fn named_curve(curve: &Curve<'_>, ys: &[f64], colour: &'static str) -> Line {
-    let points = curve.branch.values.iter().copied().zip(ys.iter().copied());
-    Line::through(points).solid(colour, 0.3).name(curve.name())
+/// The frequencies at which linear theory has waves begin.
+fn onset_rules(curves: &[Curve<'_>]) -> impl Iterator<Item = Rule> {
+    let onsets = curves.iter().filter_map(|curve| {
+        let family = curve.family;
+        let [critical, frequency] = *family.onsets.get(family.onset.checked_sub(1)?)?;
+        let (kilohertz, n) = (frequency * 1e-3, family.harmonic);
+        Some((frequency, format!("{kilohertz:.2} kHz, *n* = {n} at *μ* = {critical:.3}")))
+    });
+    let mut onsets: Vec<(f64, String)> = onsets.collect();
+    onsets.dedup();
+    onsets.into_iter().map(|(frequency, text)| {
+        let rule = Rule::horizontal(frequency).stretching().stroke(Stroke::dotted(MUTED, 0.8));
+        rule.at_rim(text).name("onset of the instability, linear theory")
+    })
 }
 
 /// Statuses and power shares of the limit cycles over the parameter, one column for each family.
@@ -183,23 +171,25 @@ fn shares(curves: &[Curve<'_>]) -> Result<Figure, ChartError> {
     let (x, _) = axis_of(curves);
     let percent = |name: &str| Axis::new(name, "%").times(100.0);
     let statuses = STATUSES.map(|(_, name, _, _, colour)| (name, colour));
-    let panel = |curve: &Curve<'_>,
-                 y: Axis,
-                 series: &[Vec<f64>],
-                 named: &[(&'static str, &'static str)]| {
-        let folds = curve.branch.fold_places();
-        let folds = folds.0.iter().chain(&folds.1).map(|place| Rule::vertical(place.value));
-        let panel = Panel::new(x.clone(), y).height(104.0);
-        let panel = panel.layers(
-            folds
-                .map(|rule| rule.stroke(Stroke::dotted(MUTED, 0.7)).name("fold"))
-                .collect::<Vec<_>>(),
-        );
-        series.iter().zip(named).fold(panel, |panel, (values, &(name, colour))| {
-            let points = curve.branch.values.iter().copied().zip(values.iter().copied());
-            let named = Line::through(points).solid(colour, 0.4).name(name);
-            panel.layer(named).layers(curve.branch.lines(values, colour))
-        })
+    let panel =
+        |curve: &Curve<'_>, y: Axis, series: &[Vec<f64>], named: &[(&str, &'static str)]| {
+            let (turns, narrow) = curve.branch.fold_places();
+            let folds = turns.iter().chain(&narrow).map(|place| {
+                Rule::vertical(place.value).stroke(Stroke::dotted(MUTED, 0.7)).name("fold")
+            });
+            let panel = Panel::new(x.clone(), y).height(104.0).layers(folds);
+            series.iter().zip(named).fold(panel, |panel, (values, &(name, colour))| {
+                let named = Line::new(&curve.branch.values, values).solid(colour, 0.4).name(name);
+                panel.layer(named).layers(curve.branch.lines(values, colour))
+            })
+        };
+    let status = |curve: &Curve<'_>| {
+        let axis = percent("contact nodes").between(0.0, 1.0);
+        panel(curve, axis, &curve.branch.status, &statuses).heading(curve.name())
+    };
+    let power = |curve: &Curve<'_>| {
+        let axis = percent("share of external power").including(0.0).including(1.0);
+        panel(curve, axis, &curve.branch.shares, &POWERS)
     };
     let mut figure = Figure::new(
         "branch-shares",
@@ -210,23 +200,6 @@ fn shares(curves: &[Curve<'_>]) -> Result<Figure, ChartError> {
     for row in curves.chunks(3) {
         let fill = |figure: Figure| {
             (row.len()..curves.len().min(3)).fold(figure, |figure, _| figure.panel_or_gap(None))
-        };
-        let status = |curve: &Curve<'_>| {
-            panel(
-                curve,
-                percent("contact nodes").between(0.0, 1.0),
-                &curve.branch.status,
-                &statuses,
-            )
-            .heading(curve.name())
-        };
-        let power = |curve: &Curve<'_>| {
-            panel(
-                curve,
-                percent("share of external power").including(0.0).including(1.0),
-                &curve.branch.shares,
-                &POWERS,
-            )
         };
         figure = fill(figure.panels(row.iter().map(status)));
         figure = fill(figure.panels(row.iter().map(power)));

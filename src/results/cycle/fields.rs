@@ -1,5 +1,6 @@
 //! Whole fields of limit cycles, for ParaView.
 
+use super::motions::encode_contact;
 use super::{CycleReport, Search};
 use crate::cycle::periodic::MotionFrame;
 use crate::results::folder::{FolderError, OutputFolder};
@@ -8,7 +9,7 @@ use crate::results::vtu::{Field, write_vtu};
 
 /// Writes each frame as a VTU file, `cycles.pvd` over the waves at time zero and, where there are several frames,
 /// `cycle-TAG.pvd` over the time; of a motion of two waves likewise `two-waves-nN-nM.vtu`, over one period of the
-/// first.
+/// first. Of a motion of the whole mesh its contact comes with them, `contact-TAG.npz`.
 pub(super) fn write_fields(
     folder: &OutputFolder,
     report: &CycleReport<'_>,
@@ -16,13 +17,11 @@ pub(super) fn write_fields(
     match &report.search {
         Search::Waves(search) => {
             let mut waves = Vec::new();
-            for (place, result) in search.results.iter().enumerate() {
-                let group = format!("limit cycle of {} nodal diameters", result.family.harmonic);
-                let stem = format!("cycle-{}", result.family.tag());
-                let entries = report.write_frames(folder, (&stem, &group), &result.frames)?;
-                if let Some(first) = entries.first() {
-                    waves.push(PvdEntry { time: (place + 1) as f64, ..first.clone() });
-                }
+            for (place, own) in search.results.iter().enumerate() {
+                let group = format!("limit cycle of {} nodal diameters", own.family.harmonic);
+                let stem = format!("cycle-{}", own.family.tag());
+                let first = report.write_frames(folder, (&stem, &group), &own.frames)?;
+                waves.extend(first.map(|own| PvdEntry { time: (place + 1) as f64, ..own }));
             }
             for own in &search.two_waves {
                 let [first, second] = own.harmonics;
@@ -41,9 +40,12 @@ pub(super) fn write_fields(
                 let Some(found) = result.own() else {
                     continue;
                 };
-                let group = format!("limit cycle of {:.2} Hz", found.motion.frequency_hz);
-                let stem = format!("cycle-{}", result.tag());
-                report.write_frames(folder, (&stem, &group), &found.motion.frames)?;
+                let (motion, tag) = (&found.motion, result.tag());
+                folder.write_bulk(&format!("contact-{tag}.npz"), |out| {
+                    out.write_all(&encode_contact(&search.interface, motion)?)
+                })?;
+                let group = format!("limit cycle of {:.2} Hz", motion.frequency_hz);
+                report.write_frames(folder, (&format!("cycle-{tag}"), &group), &motion.frames)?;
             }
         }
     }
@@ -52,13 +54,13 @@ pub(super) fn write_fields(
 
 impl CycleReport<'_> {
     /// Writes the frames of one motion of the `group`, whose files begin with `stem`, and of several a list over the
-    /// time.
+    /// time; gives the first.
     fn write_frames(
         &self,
         folder: &OutputFolder,
         (stem, group): (&str, &str),
         frames: &[MotionFrame],
-    ) -> Result<Vec<PvdEntry>, FolderError> {
+    ) -> Result<Option<PvdEntry>, FolderError> {
         let mut entries = Vec::new();
         for (i, frame) in frames.iter().enumerate() {
             let name = match i {
@@ -74,7 +76,7 @@ impl CycleReport<'_> {
         if entries.len() > 1 {
             folder.write(&format!("{stem}.pvd"), |out| write_pvd(out, &entries))?;
         }
-        Ok(entries)
+        Ok(entries.into_iter().next())
     }
 
     /// The fields of one frame: motion of all nodes; status, pressure and shear of those of the contact.

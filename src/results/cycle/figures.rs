@@ -1,7 +1,7 @@
 //! The figures of limit cycles, from their record.
 
 use super::record::MotionRecord;
-use super::{CycleReport, PeriodicResult, Search};
+use super::{CycleReport, Search};
 use crate::chart::{
     Axis, ChartError, Figure, INK, Line, MUTED, Marker, Motion, MotionKind, MotionState, Panel,
     Rule, SERIES, Stroke, plain,
@@ -61,14 +61,8 @@ impl<'a> CycleFigures<'a> {
         surfaces: Vec<(String, usize)>,
         materials: &'a dyn MaterialField,
     ) -> Self {
-        let cycles = match &report.search {
-            Search::Waves(search) => {
-                search.results.iter().filter_map(|own| own.motion_record(search)).collect()
-            }
-            Search::Motions(search) => {
-                search.results.iter().filter_map(PeriodicResult::motion_record).collect()
-            }
-        };
+        let mut cycles = report.records();
+        cycles.retain(|own| !own.fields[0].is_empty());
         Self { report, cycles, surfaces, materials }
     }
 
@@ -99,24 +93,20 @@ impl<'a> CycleFigures<'a> {
 
     /// The status of all contact nodes over one period; that of a wave is its history.
     fn status(&self, motion: &MotionRecord) -> Result<Figure, ChartError> {
-        if motion.diameters > 0 {
+        if motion.is_wave() {
             return Err(ChartError::empty("statuses over a period"));
         }
         let times = motion.over_time(|row| row.time);
         let codes = self.shown(&motion.status);
-        let map = status_map(
-            &times,
-            codes.len() / times.len(),
-            &codes,
-            (times[0], times[times.len() - 1]),
-        );
+        let range = (times[0], times[times.len() - 1]);
+        let map = status_map(&times, codes.len() / times.len(), &codes, range);
         let (map, _) = map.ok_or_else(|| ChartError::empty("statuses over a period"))?;
         let caption = format!(
             "Contact status of every contact node over one period of the limit cycle of {}.",
             motion.whose()
         );
-        let panel =
-            Panel::new(Axis::time(), self.places()).plain().height(120.0).layer(map).legend();
+        let panel = Panel::new(Axis::time(), self.places()).plain().height(120.0);
+        let panel = panel.layer(map).legend();
         Ok(Figure::new(format!("status-{}", motion.tag), caption).panel(panel))
     }
 
@@ -131,13 +121,9 @@ impl<'a> CycleFigures<'a> {
         let around = |values: &[f64]| self.shown(&values.repeat(n));
         let [pressure, shear, velocity] = motion.edge.each_ref().map(|own| around(own));
         let speed = if body.mesh.opposite.is_some() { f64::NAN } else { self.shown_speed(motion) };
-        let (turns, wave) = match motion.diameters {
-            0 => (String::new(), ""),
-            n => (
-                format!("; the pattern turns against the rotor at 1/{n} of the frequency"),
-                ", wave ↻",
-            ),
-        };
+        let turns = format!("; the pattern turns against the rotor at 1/{n} of the frequency");
+        let (turns, wave) =
+            if motion.is_wave() { (turns, ", wave ↻") } else { (String::new(), "") };
         let first = match &self.report.search {
             Search::Waves(_) => None,
             Search::Motions(search) => search.interface.angles.first().copied(),
@@ -217,36 +203,26 @@ impl<'a> CycleFigures<'a> {
         };
         let law = [limit(1.0).name("Coulomb limit ±*μp*"), limit(-1.0)].into_iter();
         let law = law.filter(|_| motion.friction_coefficient.is_some());
-        let caption = format!(
-            "Two periods of {} in the limit cycle of {}.",
-            self.node(motion),
-            motion.whose()
-        );
-        let traction = Axis::new("traction", "Pa").prefixed();
+        let velocity = repeated
+            .panel(Axis::new("*v*", "m/s"), 78.0, "velocity")
+            .layers(counterface)
+            .layer(line(|row| row.velocity[0], SERIES[2]).name(format!("normal *v*_{{{normal}}}")))
+            .layer(
+                line(|row| row.velocity[1], SERIES[0]).name(format!("tangential *v*_{{{along}}}")),
+            );
+        let tractions = repeated
+            .panel(Axis::new("traction", "Pa").prefixed(), 90.0, "tractions")
+            .layers(law)
+            .layer(line(|row| row.pressure, INK).name("pressure *p*"))
+            .layer(line(|row| row.shear, SERIES[1]).name("friction traction *τ*"));
+        let (node, whose) = (self.node(motion), motion.whose());
+        let caption = format!("Two periods of {node} in the limit cycle of {whose}.");
         Figure::new(format!("history-{}", motion.tag), caption)
             .shared_x()
             .panel(displacement(along, |row| row.displacement[1], "displacement along the contact"))
             .panel(displacement(normal, |row| row.displacement[0], "normal displacement"))
-            .panel(
-                repeated
-                    .panel(Axis::new("*v*", "m/s"), 78.0, "velocity")
-                    .layers(counterface)
-                    .layer(
-                        line(|row| row.velocity[0], SERIES[2])
-                            .name(format!("normal *v*_{{{normal}}}")),
-                    )
-                    .layer(
-                        line(|row| row.velocity[1], SERIES[0])
-                            .name(format!("tangential *v*_{{{along}}}")),
-                    ),
-            )
-            .panel(
-                repeated
-                    .panel(traction, 90.0, "tractions")
-                    .layers(law)
-                    .layer(line(|row| row.pressure, INK).name("pressure *p*"))
-                    .layer(line(|row| row.shear, SERIES[1]).name("friction traction *τ*")),
-            )
+            .panel(velocity)
+            .panel(tractions)
     }
 
     /// The closed curves of the node: velocity over displacement, along the contact and normal, and its path.
@@ -304,7 +280,7 @@ impl<'a> CycleFigures<'a> {
             name: plain(&wave.heading()),
             frequency_hz: wave.frequency_hz,
             kind: MotionKind::Turning {
-                displacement: body.wave(&wave.displacement_field),
+                displacement: body.wave(&wave.fields[0]),
                 turn: -wave.counterface_speed.signum() * TAU / wave.diameters as f64,
                 status: self.around(wave),
             },
@@ -315,23 +291,23 @@ impl<'a> CycleFigures<'a> {
     fn velocity(&self) -> Result<Figure, ChartError> {
         let fields = self.shown_cycles().map(|motion| {
             let status = self.around(motion).into_iter().map(status_of_code);
-            (motion.heading(), &motion.velocity_field[..], status.collect())
+            (motion.heading(), &motion.fields[1][..], status.collect())
         });
         let figure = velocity_figure(&self.report.body, (WHEN, 0.0), fields)?;
-        let is_wave = self.cycles.iter().any(|own| own.diameters > 0);
+        let is_wave = self.cycles.iter().any(|own| own.is_wave());
         Ok(if is_wave { figure.motion(self.turning()) } else { figure })
     }
 
     fn shear_stress(&self) -> Result<Figure, ChartError> {
         let cycles = self.shown_cycles();
-        let fields = cycles.map(|motion| (motion.heading(), &motion.displacement_field[..]));
+        let fields = cycles.map(|motion| (motion.heading(), &motion.fields[0][..]));
         shear_stress_figure(&self.report.body, self.materials, WHEN, fields)
     }
 }
 
 /// Names of the directions normal to the contact and along it: radius and angle of the disc of a wave.
 fn directions(motion: &MotionRecord) -> [&'static str; 2] {
-    if motion.diameters > 0 { ["r", "θ"] } else { ["n", "t"] }
+    if motion.is_wave() { ["r", "θ"] } else { ["n", "t"] }
 }
 
 /// A few periods of the node of the history.
@@ -374,10 +350,11 @@ impl Repeated {
 
 /// Amplitudes of the harmonics in time of a motion of the whole mesh.
 fn harmonics(motion: &MotionRecord) -> Result<Figure, ChartError> {
-    let [normal, along] = &motion.harmonics;
-    if along.is_empty() {
+    if motion.harmonics.is_empty() {
         return Err(ChartError::empty("harmonics in time"));
     }
+    let amplitudes = |c: usize| motion.harmonics.iter().map(|own| own.amplitude[c]).collect();
+    let [normal, along]: [Vec<f64>; 2] = [0, 1].map(amplitudes);
     let caption = format!(
         "Harmonics of the motion of the contact nodes in the limit cycle of {}: root mean square over the nodes.",
         motion.whose()
@@ -391,10 +368,10 @@ fn harmonics(motion: &MotionRecord) -> Result<Figure, ChartError> {
     };
     let amplitude = Axis::new("amplitude", "m").logarithmic();
     let panel = Panel::new(Axis::kilohertz(), amplitude).height(110.0);
-    let panel = panel.layer(line(along, SERIES[0], "along the contact"));
+    let panel = panel.layer(line(&along, SERIES[0], "along the contact"));
     // Rigid contact that stays closed leaves round-off along the normal.
     let largest = |values: &[f64]| values.iter().copied().fold(0.0, f64::max);
-    let has_normal = largest(normal) > ROUND_OFF * largest(along);
-    let normal = has_normal.then(|| line(normal, SERIES[2], "normal"));
+    let has_normal = largest(&normal) > ROUND_OFF * largest(&along);
+    let normal = has_normal.then(|| line(&normal, SERIES[2], "normal"));
     Ok(Figure::new(format!("harmonics-{}", motion.tag), caption).panel(panel.layers(normal)))
 }

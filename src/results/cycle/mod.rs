@@ -22,7 +22,6 @@ pub use branch::{
 pub use branches::{NamedFamily, draw_branches};
 pub use figures::CycleFigures;
 pub use motions::{FoundCycle, PeriodicResult};
-pub use record::MotionRecord;
 pub use summary::*;
 pub(super) use tables::{
     BALANCE, CONTACT_NODES, ERRORS, HARMONICS, HISTORY, KNOWN, MOTION, NAMES, PATH, POWERS,
@@ -34,16 +33,14 @@ pub use verdicts::*;
 pub use waves::{Absence, CycleResult, Finding, known};
 
 use crate::contact::{ContactInterface, SlidingContact};
-use crate::cycle::periodic::MotionHarmonic;
-use crate::cycle::{CriticalValue, Onset, PhasePoint};
+use crate::cycle::{CriticalValue, Onset};
 use crate::results::drawing::DrawingError;
 use crate::results::extent::Extent;
 use crate::results::finding::{write_page, write_table, write_tables};
 use crate::results::folder::{FolderError, OutputFolder};
 use crate::results::summary::{CriticalSummary, Head, write_summary};
 use crate::results::{DrawingOptions, ShownBody};
-use branch::BranchRow;
-use motions::ContactNode;
+use record::MotionRecord;
 use serde_json::Value;
 
 /// Everything a search for limit cycles reports.
@@ -107,48 +104,50 @@ pub struct MotionSearch {
     pub results: Vec<PeriodicResult>,
 }
 
-/// What the tables of a cycle are made from.
-struct Told {
-    /// Part of their names.
-    tag: String,
-    is_wave: bool,
-    history: Vec<PhasePoint>,
-    nodes: Vec<ContactNode>,
-    archive: Option<Vec<u8>>,
-    harmonics: Vec<(usize, f64, MotionHarmonic)>,
-    /// Whether there is a table of exponents, if of none.
-    has_exponents: bool,
-    /// Key of the parameter of the branch.
-    key: Option<&'static str>,
-    /// Exponents, those of waves with the value of that parameter.
-    exponents: Vec<(Option<f64>, Perturbation)>,
-    branch: Option<Vec<BranchRow>>,
-}
-
 impl CycleReport<'_> {
-    /// Every cycle that was sought.
-    pub fn cycles(&self) -> Vec<SoughtCycle> {
+    /// What is said of each wave or of each mode that was sought from.
+    fn each<T>(
+        &self,
+        of_wave: impl Fn(&CycleResult, &WaveSearch) -> T,
+        of_mode: impl Fn(&PeriodicResult, &MotionSearch) -> T,
+    ) -> Vec<T> {
         match &self.search {
             Search::Waves(search) => {
-                search.results.iter().map(|result| result.sought(self, search)).collect()
+                search.results.iter().map(|own| of_wave(own, search)).collect()
             }
             Search::Motions(search) => {
-                search.results.iter().map(|result| result.sought(self, search)).collect()
+                search.results.iter().map(|own| of_mode(own, search)).collect()
             }
         }
     }
 
+    /// Every cycle that was sought.
+    pub fn cycles(&self) -> Vec<SoughtCycle> {
+        self.each(|own, search| own.sought(self, search), |own, search| own.sought(self, search))
+    }
+
     /// The branches, for a study that writes no tables of them.
     pub fn curves(&self) -> Vec<FamilyRecord> {
+        let thickness = self.thickness;
+        let branches =
+            self.each(|own, _| own.branch_rows(thickness), |own, _| own.branch_rows(thickness));
+        let cycles = self.cycles().into_iter().zip(branches);
+        let families = cycles.map(|(own, rows)| FamilyRecord::of(own, rows, self.extent));
+        families.filter(|own| own.mode.is_none() || own.branch.is_some()).collect()
+    }
+
+    /// What the tables and figures show of each cycle.
+    fn records(&self) -> Vec<MotionRecord> {
+        let records = self
+            .each(|own, search| own.record(self, search), |own, search| own.record(self, search));
+        records.into_iter().flatten().collect()
+    }
+
+    /// The motions of two waves that were sought.
+    fn two_waves(&self) -> &[TwoWaveResult] {
         match &self.search {
-            Search::Waves(search) => {
-                let all = search.results.iter();
-                all.map(|own| own.family_record(self, search.inner_radius)).collect()
-            }
-            Search::Motions(search) => {
-                let all = search.results.iter();
-                all.filter_map(|own| own.family_record(self)).collect()
-            }
+            Search::Waves(search) => &search.two_waves,
+            Search::Motions(_) => &[],
         }
     }
 
@@ -162,24 +161,23 @@ impl CycleReport<'_> {
 
     /// The summary.
     pub fn summary(&self) -> CycleSummary {
-        let (origin, two_waves) = match &self.search {
+        let origin = match &self.search {
             Search::Waves(search) => {
                 let lowest_onset = search.lowest_onset.as_ref().map(OnsetSummary::from);
-                let pairs = search.two_waves.iter().map(|own| own.summary(self.thickness));
-                (Origin::Waves(WavesSought { lowest_onset }), pairs.collect())
+                Origin::Waves { lowest_onset }
             }
             Search::Motions(search) => {
-                let MotionSearch { modes, least_stable, .. } = *search;
-                (Origin::Modes(ModesSought { modes, least_stable }), Vec::new())
+                Origin::Modes { modes: search.modes, least_stable: search.least_stable }
             }
         };
+        let two_waves = self.two_waves().iter().map(|own| own.summary(self.thickness));
         CycleSummary {
             steady_sliding_stable: self.is_stable(),
             origin,
             critical_value: self.critical.map(CriticalSummary::from),
             extent: self.extent,
             cycles: self.cycles(),
-            two_waves,
+            two_waves: two_waves.collect(),
             notes: self.notes(),
             curves: None,
         }
@@ -187,28 +185,11 @@ impl CycleReport<'_> {
 
     /// Writes all files and gives the summary, as it is and as an object.
     pub fn write(&self, folder: &OutputFolder) -> Result<(CycleSummary, Value), FolderError> {
-        let told: std::io::Result<Vec<Told>> = match &self.search {
-            Search::Waves(search) => search.results.iter().map(|own| Ok(own.told(self))).collect(),
-            Search::Motions(search) => {
-                let all = search.results.iter();
-                all.filter_map(|own| own.told(self, search).transpose()).collect()
-            }
-        };
-        let told = told.map_err(|error| FolderError::io("write", folder.path(), error))?;
-        for own in &told {
-            own.tables(self.body.is_solid())
-                .iter()
-                .try_for_each(|table| write_table(folder, table))?;
-            if let Some(archive) = &own.archive {
-                let name = format!("contact-{}.npz", own.tag);
-                folder.write_bulk(&name, |out| out.write_all(archive))?;
-            }
-        }
+        let records = self.records();
+        let tables = records.iter().flat_map(|own| own.tables(self.body.is_solid()));
+        let pairs = self.two_waves().iter().filter_map(|own| own.table(self.thickness));
+        tables.chain(pairs).try_for_each(|table| write_table(folder, &table))?;
         fields::write_fields(folder, self)?;
-        if let Search::Waves(search) = &self.search {
-            let mut pairs = search.two_waves.iter().filter_map(|own| own.table(self.thickness));
-            pairs.try_for_each(|table| write_table(folder, &table))?;
-        }
         let summary = self.summary();
         write_tables(folder, &summary.document())?;
         let object = write_summary(folder, Head::of(self.title, self.wall_s), &summary)?;
@@ -227,12 +208,8 @@ impl CycleSummary {
         let families = data.report.curves();
         let families: Vec<NamedFamily<'_>> =
             families.iter().map(|own| (String::new(), own)).collect();
-        let two_waves = match &data.report.search {
-            Search::Waves(search) => &search.two_waves[..],
-            Search::Motions(_) => &[],
-        };
         let mut figures = figures::draw_cycles(data)?;
-        figures.extend(draw_branches(&families, two_waves)?);
+        figures.extend(draw_branches(&families, data.report.two_waves())?);
         write_page(folder, self.document().titled(data.report.title), figures, options)
     }
 }

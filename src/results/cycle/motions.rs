@@ -1,15 +1,15 @@
 //! Motions of the whole mesh as limit cycles.
 
 use super::branch::{
-    BranchRecord, BranchRow, BranchSummary, FamilyRecord, MotionBranch, StabilityChangeSummary,
-    SteppedRow,
+    BranchRow, BranchRows, BranchSummary, MotionBranch, StabilityChangeSummary, SteppedRow,
 };
-use super::record::MotionRecord;
+use super::record::{ContactNode, MotionRecord};
 use super::summary::{
     CycleMotion, CycleName, ModeOfCycle, ModeSummary, SoughtCycle, SoundSummary, SteppedMotion,
 };
 use super::verdicts::{ConfirmationSummary, KnownStability, Perturbation, StabilitySummary};
-use super::{CycleReport, MotionSearch, Told};
+use super::waves::known;
+use super::{CycleReport, MotionSearch};
 use crate::chart::extremes;
 use crate::contact::ContactInterface;
 use crate::cycle::periodic::{
@@ -52,17 +52,6 @@ pub struct PeriodicResult {
     pub start: Option<(&'static str, f64)>,
     /// Wall time, s.
     pub wall_s: f64,
-}
-
-/// A contact node over the period.
-pub(in crate::results) struct ContactNode {
-    pub node: usize,
-    pub place: [f64; 3],
-    pub shares: [f64; 3],
-    pub mean_pressure: f64,
-    pub mean_shear: f64,
-    /// Half the range of the displacement along the normal and along the counterface, m.
-    pub amplitude: [f64; 2],
 }
 
 impl MotionSearch {
@@ -162,21 +151,21 @@ fn branch_summary(branch: &PeriodicBranch) -> BranchSummary {
 }
 
 fn branch_row(branch: &PeriodicBranch, own: &BranchMotion, thickness: f64) -> BranchRow {
-    let known = own.stability.as_ref().and_then(|found| found.as_ref().ok());
+    let motion = &own.motion;
     BranchRow {
         value: branch.parameter.in_key_units(own.value),
         harmonic: None,
-        main_frequency_hz: own.motion.frequency_hz,
-        fractions: own.motion.fractions,
-        powers: mean_powers(&own.motion.powers, thickness),
-        amplitude_m: own.motion.amplitude,
-        balance_residual: own.motion.powers.scaled(thickness).balance_residual(),
+        main_frequency_hz: motion.frequency_hz,
+        fractions: motion.fractions,
+        powers: mean_powers(&motion.powers, thickness),
+        amplitude_m: motion.amplitude,
+        balance_residual: motion.powers.scaled(thickness).balance_residual(),
         growth_rate: own.growth_rate(),
-        verdict: known.map(FloquetMultipliers::verdict),
+        verdict: known(&own.stability).map(FloquetMultipliers::verdict),
         stepped: Some(SteppedRow {
-            velocity_level_db: own.motion.velocity_level(),
-            residual: own.motion.residual,
-            periods: own.motion.periods,
+            velocity_level_db: motion.velocity_level(),
+            residual: motion.residual,
+            periods: motion.periods,
             fold: own.is_fold,
         }),
     }
@@ -228,74 +217,34 @@ impl PeriodicResult {
         })
     }
 
-    fn branch_rows(&self, thickness: f64) -> Option<(&PeriodicBranch, Vec<BranchRow>)> {
+    /// The rows of its branch.
+    pub(super) fn branch_rows(&self, thickness: f64) -> Option<BranchRows> {
         let branch = self.own()?.branch.as_ref()?;
         let rows = branch.motions.iter().map(|own| branch_row(branch, own, thickness));
-        Some((branch, rows.collect()))
-    }
-
-    /// What the figures of branches show of it.
-    pub(super) fn family_record(&self, report: &CycleReport<'_>) -> Option<FamilyRecord> {
-        let (branch, rows) = self.branch_rows(report.thickness)?;
-        let motion = &self.own()?.motion;
-        let own_value = branch.parameter.in_key_units(branch.own);
-        Some(FamilyRecord {
-            harmonic: 0,
-            onset: 0,
-            mode: Some(self.mode.mode),
-            onsets: Vec::new(),
-            cycle: Some([motion.frequency_hz, motion.amplitude]),
-            branch: Some(BranchRecord {
-                threshold: branch.threshold().map(|own| [own.amplitude, own.kick_velocity()]),
-                ..BranchRecord::of(branch_summary(branch), own_value, report.extent, &rows)
-            }),
+        Some(BranchRows {
+            key: branch.parameter.key(),
+            own_value: branch.parameter.in_key_units(branch.own),
+            threshold: branch.threshold().map(|own| [own.amplitude, own.kick_velocity()]),
+            rows: rows.collect(),
         })
     }
 
-    /// The tables of its cycle and branch.
-    pub(super) fn told(
+    /// What the tables and figures show of its cycle and branch.
+    pub(super) fn record(
         &self,
         report: &CycleReport<'_>,
         search: &MotionSearch,
-    ) -> io::Result<Option<Told>> {
-        let Some(found) = self.own() else {
-            return Ok(None);
-        };
-        let motion = &found.motion;
-        let known = found.stability.as_ref().and_then(|found| found.as_ref().ok());
-        let multipliers = known.into_iter().flat_map(|found| &found.multipliers);
-        let nodes = (0..search.interface.len()).map(|place| {
-            let (node, body) = (search.interface.nodes[place] as usize, &report.body);
-            contact_node(motion, place, (body.mesh.node_label(node), body.position(node)))
-        });
-        let harmonics = motion.harmonics.iter().take(found.harmonic_count).enumerate();
-        Ok(Some(Told {
-            tag: self.tag(),
-            is_wave: false,
-            history: history(motion),
-            nodes: nodes.collect(),
-            archive: Some(encode_contact(&search.interface, motion)?),
-            harmonics: harmonics
-                .map(|(k, own)| (k + 1, (k + 1) as f64 * motion.frequency_hz, *own))
-                .collect(),
-            has_exponents: known.is_some(),
-            key: found.branch.as_ref().map(|branch| branch.parameter.key()),
-            exponents: multipliers.map(|own| (None, perturbation(own))).collect(),
-            branch: self.branch_rows(report.thickness).map(|(_, rows)| rows),
-        }))
-    }
-
-    /// What the figures show of its cycle.
-    pub(super) fn motion_record(&self) -> Option<MotionRecord> {
+    ) -> Option<MotionRecord> {
         let found = self.own()?;
         let motion = &found.motion;
         let first = motion.instants.first()?;
-        let told = &motion.harmonics[..found.harmonic_count];
-        let [displacement_field, velocity_field] = match motion.frames.first() {
-            Some(frame) => frame.fields.clone(),
-            None => [Vec::new(), Vec::new()],
-        };
+        let nodes = search.interface.nodes.iter().enumerate().map(|(place, &node)| {
+            let (node, body) = (node as usize, &report.body);
+            contact_node(motion, place, (body.mesh.node_label(node), body.position(node)))
+        });
         let codes = motion.instants.iter().flat_map(|at| &at.status);
+        let exponents = known(&found.stability)
+            .map(|found| found.multipliers.iter().map(|own| (None, perturbation(own))).collect());
         Some(MotionRecord {
             tag: self.tag(),
             diameters: 0,
@@ -311,9 +260,11 @@ impl PeriodicResult {
                 first.shear.clone(),
                 first.velocity.iter().map(|v| v[1]).collect(),
             ],
-            harmonics: [0, 1].map(|c| told.iter().map(|own| own.amplitude[c]).collect()),
-            displacement_field,
-            velocity_field,
+            nodes: nodes.collect(),
+            harmonics: motion.harmonics.iter().take(found.harmonic_count).copied().collect(),
+            fields: motion.frames.first().map_or_else(Default::default, |own| own.fields.clone()),
+            exponents,
+            branch: self.branch_rows(report.thickness),
         })
     }
 }
@@ -356,7 +307,10 @@ fn contact_node(motion: &PeriodicMotion, i: usize, node: (usize, [f64; 3])) -> C
 /// The arrays `time_s (F)`, `angle_rad (N)`, `status (F, N)`, `pressure_pa (F, N)`, `shear_pa (F, N)`, `u_n_m (F, N)`
 /// and `u_t_m (F, N)` for `F` instants and `N` contact nodes, with the codes of `status`, as in the `contact.npz` of a
 /// transient.
-fn encode_contact(interface: &ContactInterface, motion: &PeriodicMotion) -> io::Result<Vec<u8>> {
+pub(super) fn encode_contact(
+    interface: &ContactInterface,
+    motion: &PeriodicMotion,
+) -> io::Result<Vec<u8>> {
     let instants = &motion.instants;
     let shape = [instants.len(), interface.len()];
     let mut archive = NpzArchive::default();

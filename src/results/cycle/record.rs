@@ -1,12 +1,14 @@
-//! What the figures of a limit cycle show.
+//! What the tables and figures of a limit cycle show.
 
+use super::branch::BranchRows;
+use super::verdicts::Perturbation;
 use crate::contact::ContactStatus;
 use crate::cycle::PhasePoint;
+use crate::cycle::periodic::MotionHarmonic;
 use crate::results::charts::palette::status_of_code;
 
 /// One limit cycle.
-#[derive(Clone, Debug, PartialEq)]
-pub struct MotionRecord {
+pub(super) struct MotionRecord {
     /// Part of a file name: `n2` or `mode15`.
     pub tag: String,
     /// Nodal diameters of a wave; 0 of a motion of the whole mesh.
@@ -28,15 +30,36 @@ pub struct MotionRecord {
     /// Pressure (Pa), shear (Pa) and velocity along the counterface (m/s) of all contact nodes at time zero, of a wave
     /// along the phase.
     pub edge: [Vec<f64>; 3],
-    /// Amplitudes of the harmonics along the normal and along the counterface, m; none of a wave.
-    pub harmonics: [Vec<f64>; 2],
-    /// Displacement of every dof in nodal frames at time zero, m.
-    pub displacement_field: Vec<f64>,
-    /// Velocity, m/s.
-    pub velocity_field: Vec<f64>,
+    /// The contact nodes over the period; none of a wave.
+    pub nodes: Vec<ContactNode>,
+    /// The harmonics in time in which it is told; none of a wave.
+    pub harmonics: Vec<MotionHarmonic>,
+    /// Displacement (m) and velocity (m/s) of every dof in nodal frames at time zero, where they are known.
+    pub fields: [Vec<f64>; 2],
+    /// Its exponents or multipliers, where they are known; those of waves with the value of the parameter of the
+    /// branch.
+    pub exponents: Option<Vec<(Option<f64>, Perturbation)>>,
+    /// The cycles of its branch.
+    pub branch: Option<BranchRows>,
+}
+
+/// A contact node over the period.
+pub(in crate::results) struct ContactNode {
+    pub node: usize,
+    pub place: [f64; 3],
+    pub shares: [f64; 3],
+    pub mean_pressure: f64,
+    pub mean_shear: f64,
+    /// Half the range of the displacement along the normal and along the counterface, m.
+    pub amplitude: [f64; 2],
 }
 
 impl MotionRecord {
+    /// Whether it is a wave of a disc.
+    pub(super) fn is_wave(&self) -> bool {
+        self.diameters > 0
+    }
+
     /// Whose it is: `2 nodal diameters`, or its frequency.
     pub(super) fn whose(&self) -> String {
         match self.diameters {

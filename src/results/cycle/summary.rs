@@ -41,26 +41,18 @@ pub struct CycleSummary {
 #[derive(Clone, Debug, PartialEq, Described, Serialize)]
 #[serde(untagged)]
 pub enum Origin {
-    /// From modes of the whole body.
-    Modes(ModesSought),
+    /// From modes of steady sliding of a body without rotating waves.
+    Modes {
+        /// Modes of steady sliding looked at.
+        modes: usize,
+        /// The mode that grows fastest or decays slowest.
+        least_stable: Option<ModeSummary>,
+    },
     /// From waves of a disc.
-    Waves(WavesSought),
-}
-
-/// Modes of steady sliding of a body without rotating waves.
-#[derive(Clone, Debug, PartialEq, Described, Serialize)]
-pub struct ModesSought {
-    /// Modes of steady sliding looked at.
-    pub modes: usize,
-    /// The mode that grows fastest or decays slowest.
-    pub least_stable: Option<ModeSummary>,
-}
-
-/// Waves of a disc.
-#[derive(Clone, Debug, PartialEq, Described, Serialize)]
-pub struct WavesSought {
-    /// The lowest onset of all.
-    pub lowest_onset: Option<OnsetSummary>,
+    Waves {
+        /// The lowest onset of all.
+        lowest_onset: Option<OnsetSummary>,
+    },
 }
 
 /// Where a wave starts to grow.

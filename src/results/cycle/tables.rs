@@ -1,8 +1,7 @@
 //! Columns of limit cycles, and the document of a search.
 
-use super::Told;
-use super::branch::{ALONG, BRANCH};
-use super::motions::ContactNode;
+use super::branch::{ALONG, BRANCH, BranchRows};
+use super::record::{ContactNode, MotionRecord};
 use super::summary::{CycleMotion, CycleSummary, SoughtCycle};
 use super::two_waves::TwoWaveSummary;
 use super::verdicts::EXPONENTS;
@@ -156,59 +155,61 @@ columns! {
     remainder: "share of the vibration that the harmonics up to this one leave" = row.2.remainder;
 }
 
-impl Told {
+impl MotionRecord {
     /// Its tables.
     pub(super) fn tables(&self, is_solid: bool) -> Vec<Table> {
-        let name = |what: &str| format!("{what}-{}.csv", self.tag);
+        let table = |what: &str| Table::new(format!("{what}-{}.csv", self.tag), "");
+        let key = self.branch.as_ref().map(|branch| branch.key);
         let mut tables = Vec::new();
         if !self.history.is_empty() {
-            let table = Table::new(name("cycle"), "").columns(HISTORY, &self.history);
-            let path = if self.is_wave { WAVE_PATH } else { PATH };
+            let path = if self.is_wave() { WAVE_PATH } else { PATH };
+            let table = table("cycle").columns(HISTORY, &self.history);
             tables.push(table.columns(path, &self.history));
         }
         if !self.nodes.is_empty() {
             let (plane, solid) = const { parted(CONTACT_NODES, "z_m") };
             let rest = if is_solid { solid } else { const { parted(CONTACT_NODES, "stick").1 } };
-            let table = Table::new(name("contact"), "").columns(plane, &self.nodes);
+            let table = table("contact").columns(plane, &self.nodes);
             tables.push(table.columns(rest, &self.nodes));
         }
         if !self.harmonics.is_empty() {
-            tables.push(Table::new(name("harmonics"), "").columns(HARMONICS, &self.harmonics));
+            let numbered = self.harmonics.iter().zip(1..);
+            let rows = numbered.map(|(own, k)| (k, k as f64 * self.frequency_hz, *own));
+            tables.push(table("harmonics").columns(HARMONICS, rows));
         }
-        if self.has_exponents {
-            let exponents = self.exponents.iter().map(|own| &own.1);
-            let mut table = Table::new(name("stability"), "");
-            if self.is_wave {
-                let values = self.exponents.iter().map(|own| own.0);
-                table = table.column(self.key.unwrap_or("point"), None, values);
+        if let Some(exponents) = &self.exponents {
+            let mut table = table("stability");
+            if self.is_wave() {
+                let values = exponents.iter().map(|own| own.0);
+                table = table.column(key.unwrap_or("point"), None, values);
             }
-            let of_kind = |column: &&str| match self.is_wave {
-                true => ["beat_hz", "modulus", "argument_rad"].contains(column),
-                false => {
-                    let waves = ["class", "wave_frequency_rad_per_s", "harmonic", "frequency_hz"];
-                    waves.contains(column)
-                }
+            let others: &[&str] = match self.is_wave() {
+                true => &["beat_hz", "modulus", "argument_rad"],
+                false => &["class", "wave_frequency_rad_per_s", "harmonic", "frequency_hz"],
             };
-            let others = EXPONENTS.iter().map(|column| column.key).filter(of_kind);
-            let table = table.columns(EXPONENTS, exponents);
-            tables.push(others.fold(table, Table::without_empty));
+            let table = table.columns(EXPONENTS, exponents.iter().map(|own| &own.1));
+            tables.push(without_empty(table, others));
         }
-        if let (Some(rows), Some(key)) = (&self.branch, self.key) {
-            let values = rows.iter().map(|row| row.value);
-            let table = Table::new(name("branch"), "").column(key, None, values);
-            let others = match self.is_wave {
-                true => &["velocity_level_db", "stability", "residual", "periods", "fold"][..],
+        if let Some(BranchRows { key, rows, .. }) = &self.branch {
+            let others: &[&str] = match self.is_wave() {
+                true => &["velocity_level_db", "stability", "residual", "periods", "fold"],
                 false => &["harmonic"],
             };
-            let table = table
+            let table = table("branch")
+                .column(key, None, rows.iter().map(|row| row.value))
                 .columns(BRANCH, rows)
                 .columns(STATUS, rows.iter().map(|row| StatusFractions::of(row.fractions)))
                 .columns(POWERS, rows.iter().map(|row| row.powers))
                 .columns(ALONG, rows);
-            tables.push(others.iter().fold(table, |table, key| table.without_empty(key)));
+            tables.push(without_empty(table, others));
         }
         tables
     }
+}
+
+/// A table without those of these columns in which no row has anything.
+fn without_empty(table: Table, keys: &[&str]) -> Table {
+    keys.iter().fold(table, |table, key| table.without_empty(key))
 }
 
 impl SoughtCycle {
@@ -238,45 +239,43 @@ impl SoughtCycle {
 }
 
 /// A table with what each cycle is; nothing where there is none.
-fn with_motions(table: Table, cycles: &[&SoughtCycle]) -> Table {
-    let cycles = || cycles.iter().map(|own| own.cycle.as_ref());
-    table.group("", "", MOTION, cycles()).group(
-        "",
-        "",
-        STATUS,
-        cycles().map(|own| Some(own?.status)),
-    )
+fn with_motions(table: Table, cycles: &[Option<&CycleMotion>]) -> Table {
+    let status = cycles.iter().map(|own| Some((*own)?.status));
+    table.group("", "", MOTION, cycles.iter().copied()).group("", "", STATUS, status)
 }
 
 /// A table with where the power of each cycle goes.
-fn with_powers(table: Table, cycles: &[&SoughtCycle]) -> Table {
-    let cycles = || cycles.iter().map(|own| own.cycle.as_ref());
-    let table = table.group("", "", POWERS, cycles().map(|own| Some(own?.power_w)));
-    table.group("", "", BALANCE, cycles())
+fn with_powers(table: Table, cycles: &[Option<&CycleMotion>]) -> Table {
+    let powers = cycles.iter().map(|own| Some((*own)?.power_w));
+    table.group("", "", POWERS, powers).group("", "", BALANCE, cycles.iter().copied())
 }
 
 impl CycleSummary {
     /// Tables and sentences of a search.
     pub fn document(&self) -> Document {
         let cycles = &self.cycles;
-        let found: Vec<&SoughtCycle> = cycles.iter().filter(|own| own.cycle.is_some()).collect();
-        let all: Vec<&SoughtCycle> = cycles.iter().collect();
+        let all: Vec<Option<&CycleMotion>> = cycles.iter().map(|own| own.cycle.as_ref()).collect();
         let motions = Table::new("", "Limit cycles at the case's own operating point")
             .columns(NAMES, cycles)
             .columns(BESIDE, cycles);
         let motions = with_motions(motions, &all).columns(KNOWN, cycles).columns(SAID, cycles);
-        let powers = Table::new("", "Their powers").columns(NAMES, found.iter().copied());
+        let powers = Table::new("", "Their powers")
+            .columns(NAMES, cycles.iter().filter(|own| own.cycle.is_some()));
+        let found: Vec<Option<&CycleMotion>> =
+            all.iter().copied().filter(Option::is_some).collect();
         let powers = with_powers(powers, &found);
         let file = Table::new("cycle.csv", "").columns(NAMES, cycles);
         let file = with_powers(with_motions(file, &all), &all);
         let file = file.columns(KNOWN, cycles).columns(ERRORS, cycles);
-        let results =
-            match self.steady_sliding_stable && found.is_empty() {
-                true => Section::new("Results"),
-                false => Section::new("Results")
-                    .facts(cycles.iter().map(SoughtCycle::fact))
-                    .tables([motions, powers, TwoWaveSummary::shown(&self.two_waves)]),
-            };
+        let results = Section::new("Results");
+        let results = match self.steady_sliding_stable && found.is_empty() {
+            true => results,
+            false => results.facts(cycles.iter().map(SoughtCycle::fact)).tables([
+                motions,
+                powers,
+                TwoWaveSummary::shown(&self.two_waves),
+            ]),
+        };
         let names = ["status", "contact", "history", "orbit", "harmonics", "velocity", "shear"];
         let pairs = self.two_waves.iter().filter_map(TwoWaveSummary::ends_text);
         Document::new("Limit cycles")

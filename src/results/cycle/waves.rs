@@ -1,14 +1,13 @@
 //! Rotating waves of a disc as limit cycles.
 
 use super::branch::{
-    BranchRecord, BranchRow, BranchSummary, FamilyRecord, ModeOfChange, StabilityChangeSummary,
-    WaveBranch,
+    BranchRow, BranchRows, BranchSummary, ModeOfChange, StabilityChangeSummary, WaveBranch,
 };
 use super::motions::mean_powers;
 use super::record::MotionRecord;
 use super::summary::{CycleMotion, CycleName, OnsetSummary, SoughtCycle, WaveOfCycle};
 use super::verdicts::{ConfirmationSummary, KnownStability, Perturbation, StabilitySummary};
-use super::{CycleReport, Told, WaveSearch};
+use super::{CycleReport, WaveSearch};
 use crate::chart::extremes;
 use crate::cycle::periodic::{MotionFrame, velocity_level};
 use crate::cycle::{
@@ -31,7 +30,7 @@ pub struct Absence {
 pub type Finding = Option<Result<CycleStability, String>>;
 
 /// Its analysis, where there is one.
-pub fn known(finding: &Finding) -> Option<&CycleStability> {
+pub fn known<T>(finding: &Option<Result<T, String>>) -> Option<&T> {
     finding.as_ref().and_then(|finding| finding.as_ref().ok())
 }
 
@@ -159,15 +158,13 @@ impl CycleResult {
 
     /// What a transient that started on the cycle says, where there are both.
     fn confirmed(&self, thickness: f64) -> Option<ConfirmationSummary> {
-        let confirmation = self.confirmation.as_ref()?;
-        let (cycle, found) = match (&self.cycle, confirmation) {
-            (Ok(cycle), Ok(found)) => (cycle, found),
-            (_, Err(error)) => {
-                return Some(ConfirmationSummary::Failed { agrees: false, error: error.clone() });
+        Some(match self.confirmation.as_ref()? {
+            Ok(found) => {
+                let agrees = found.agrees(self.cycle.as_ref().ok()?);
+                ConfirmationSummary::ran(found, agrees, thickness)
             }
-            (Err(_), Ok(_)) => return None,
-        };
-        Some(ConfirmationSummary::ran(found, found.agrees(cycle), thickness))
+            Err(error) => ConfirmationSummary::Failed { agrees: false, error: error.clone() },
+        })
     }
 
     fn branch(&self, branch: &CycleBranch, inner_radius: f64) -> BranchSummary {
@@ -200,15 +197,12 @@ impl CycleResult {
 
     /// The exponents of the cycle at the case's own operating point, then along the branch, each with the value of its
     /// parameter.
-    fn exponents(&self) -> Vec<(Option<f64>, Perturbation)> {
-        let mut findings: Vec<(f64, &Finding)> = Vec::new();
-        match (&self.branch, &self.cycle) {
-            (Some(branch), Ok(own)) => {
-                findings.push((value(branch, own), &self.stability));
-                let along = branch.cycles.iter().map(|cycle| value(branch, cycle));
-                findings.extend(along.zip(&self.branch_stability));
-            }
-            _ => findings.push((0.0, &self.stability)),
+    fn exponents(&self, own: &LimitCycle) -> Vec<(Option<f64>, Perturbation)> {
+        let mut findings = vec![(0.0, &self.stability)];
+        if let Some(branch) = &self.branch {
+            findings[0].0 = value(branch, own);
+            let along = branch.cycles.iter().map(|cycle| value(branch, cycle));
+            findings.extend(along.zip(&self.branch_stability));
         }
         let rows = findings.into_iter().flat_map(|(at, finding)| {
             let exponents = known(finding).into_iter().flat_map(|found| &found.exponents);
@@ -218,8 +212,8 @@ impl CycleResult {
     }
 
     /// The rows of its branch.
-    fn branch_rows(&self, thickness: f64) -> Option<(&CycleBranch, Vec<BranchRow>)> {
-        let branch = self.branch.as_ref()?;
+    pub(super) fn branch_rows(&self, thickness: f64) -> Option<BranchRows> {
+        let (branch, own) = (self.branch.as_ref()?, self.cycle.as_ref().ok()?);
         let rows = branch.cycles.iter().enumerate().map(|(at, cycle)| {
             let found = self.branch_stability.get(at).and_then(known);
             BranchRow {
@@ -235,53 +229,21 @@ impl CycleResult {
                 stepped: None,
             }
         });
-        Some((branch, rows.collect()))
+        Some(BranchRows {
+            key: branch.parameter.key(),
+            own_value: value(branch, own),
+            threshold: None,
+            rows: rows.collect(),
+        })
     }
 
-    /// What the figures of branches show of it.
-    pub(super) fn family_record(
+    /// What the tables and figures show of its cycle and branch.
+    pub(super) fn record(
         &self,
         report: &CycleReport<'_>,
-        inner_radius: f64,
-    ) -> FamilyRecord {
-        let own = self.cycle.as_ref().ok();
-        let rows = self.branch_rows(report.thickness).zip(own);
-        FamilyRecord {
-            harmonic: self.family.harmonic,
-            onset: self.family.onset,
-            mode: None,
-            onsets: (self.onsets.iter())
-                .map(|onset| [onset.friction_coefficient, onset.frequency / TAU])
-                .collect(),
-            cycle: own.map(|cycle| [cycle.frequency_hz(), amplitude(cycle)]),
-            branch: rows.map(|((branch, rows), own)| {
-                let summary = self.branch(branch, inner_radius);
-                BranchRecord::of(summary, value(branch, own), report.extent, &rows)
-            }),
-        }
-    }
-
-    /// The tables of its cycle and branch.
-    pub(super) fn told(&self, report: &CycleReport<'_>) -> Told {
-        let rows = self.branch_rows(report.thickness);
-        Told {
-            tag: self.family.tag(),
-            is_wave: true,
-            history: self.cycle.as_ref().map_or_else(|_| Vec::new(), |cycle| cycle.points.clone()),
-            nodes: Vec::new(),
-            archive: None,
-            harmonics: Vec::new(),
-            has_exponents: self.stability.is_some(),
-            key: self.branch.as_ref().map(|branch| branch.parameter.key()),
-            exponents: self.exponents(),
-            branch: rows.map(|(_, rows)| rows),
-        }
-    }
-
-    /// What the figures show of its cycle.
-    pub(super) fn motion_record(&self, search: &WaveSearch) -> Option<MotionRecord> {
+        search: &WaveSearch,
+    ) -> Option<MotionRecord> {
         let cycle = self.cycle.as_ref().ok()?;
-        let [displacement_field, velocity_field] = self.frames.first()?.fields.clone();
         let points = &cycle.points;
         Some(MotionRecord {
             tag: self.family.tag(),
@@ -298,9 +260,11 @@ impl CycleResult {
                 points.iter().map(|point| point.shear).collect(),
                 points.iter().map(|point| point.velocity[1]).collect(),
             ],
-            harmonics: [Vec::new(), Vec::new()],
-            displacement_field,
-            velocity_field,
+            nodes: Vec::new(),
+            harmonics: Vec::new(),
+            fields: self.frames.first().map_or_else(Default::default, |own| own.fields.clone()),
+            exponents: self.stability.is_some().then(|| self.exponents(cycle)),
+            branch: self.branch_rows(report.thickness),
         })
     }
 }

@@ -9,8 +9,8 @@ use crate::output::significant;
 use std::f64::consts::TAU;
 
 /// Values in words, with five digits.
-fn listed(values: impl IntoIterator<Item = f64>) -> Vec<String> {
-    values.into_iter().map(|value| significant(value, 5)).collect()
+fn listed(values: &[f64]) -> Vec<String> {
+    values.iter().map(|&value| significant(value, 5)).collect()
 }
 
 impl CycleReport<'_> {
@@ -112,8 +112,10 @@ impl CycleReport<'_> {
         };
         let cycles = self.cycles();
         let doubted = cycles.iter().filter(|own| own.agrees() == Some(false) && !own.leaves());
-        let said = doubted.filter_map(SoughtCycle::confirmation_sentence);
-        coarse.into_iter().chain(said.map(|text| format!("{text}; {remedy}"))).collect()
+        let said = doubted.filter_map(|own| {
+            Some(format!("{}: {}; {remedy}", own.name, own.confirmation_sentence()?))
+        });
+        coarse.into_iter().chain(said).collect()
     }
 }
 
@@ -132,16 +134,15 @@ impl SoughtCycle {
             self.confirmation_sentence(),
             self.stability_sentence(),
         ];
-        own.into_iter().flatten().collect()
+        own.into_iter().flatten().map(|text| format!("{}: {text}", self.name)).collect()
     }
 
     fn motion_sentence(&self) -> Option<String> {
         let cycle = self.cycle.as_ref()?;
         let own = cycle.stepped.as_ref()?;
         Some(format!(
-            "{}: repeats itself to {:.1e} after {} periods of {} steps, energy balance {:.1e}. {} \
+            "repeats itself to {:.1e} after {} periods of {} steps, energy balance {:.1e}. {} \
              harmonics leave {:.1e} of the motion of the contact, whose amplitude is {:.3e} m",
-            self.name,
             own.residual,
             own.periods,
             own.steps,
@@ -159,9 +160,8 @@ impl SoughtCycle {
         let side = if off > 0.0 { "above" } else { "below" };
         (off.abs() > ASTRAY).then(|| {
             format!(
-                "{}: the frequency of this cycle is {:.1} % {side} that of the mode: what grows \
-                from it may end in the motion of another",
-                self.name,
+                "the frequency of this cycle is {:.1} % {side} that of the mode: what grows from \
+                 it may end in the motion of another",
                 100.0 * off.abs(),
             )
         })
@@ -170,29 +170,26 @@ impl SoughtCycle {
     fn sound_sentence(&self) -> Option<String> {
         let sound = self.cycle.as_ref()?.stepped.as_ref()?.sound.as_ref()?;
         Some(format!(
-            "{}: sound power {:.1} dB over 1e-12 W, an estimate by the Rayleigh integral over \
-             {:.4} m2 of flat faces. Each is in an infinite rigid baffle, and harmonics count up \
-             to 20 kHz",
-            self.name, sound.level_db, sound.area_m2,
+            "sound power {:.1} dB over 1e-12 W, an estimate by the Rayleigh integral over {:.4} \
+             m2 of flat faces. Each is in an infinite rigid baffle, and harmonics count up to 20 \
+             kHz",
+            sound.level_db, sound.area_m2,
         ))
     }
 
     /// What a transient says of the cycle; nothing where none was asked for.
-    pub(super) fn confirmation_sentence(&self) -> Option<String> {
+    fn confirmation_sentence(&self) -> Option<String> {
         let run = match self.confirmation.as_ref()? {
             ConfirmationSummary::Ran(run) => run,
             ConfirmationSummary::Failed { error, .. } => {
-                return Some(format!(
-                    "{}: no transient can start on the cycle: {error}",
-                    self.name
-                ));
+                return Some(format!("no transient can start on the cycle: {error}"));
             }
         };
         let verdict = match (run.agrees, self.leaves()) {
             (true, false) => "a transient stays on it".to_owned(),
             (true, true) => format!(
                 "a transient is still on it, in a time in which the leading perturbation makes \
-                {:.1} e-folds: too few to tell",
+                 {:.1} e-folds: too few to tell",
                 run.e_folds
             ),
             (false, true) => "a transient leaves it, as its leading perturbation says".to_owned(),
@@ -201,8 +198,8 @@ impl SoughtCycle {
         let [stick, slip, open] =
             [run.status.stick, run.status.slip, run.status.open].map(|own| own.unwrap_or(0.0));
         Some(format!(
-            "{}: {verdict}: after {} periods {:.2} Hz, stick {stick:.3}, slip {slip:.3}, open {open:.3}, power {:.2}",
-            self.name,
+            "{verdict}: after {} periods {:.2} Hz, stick {stick:.3}, slip {slip:.3}, open \
+             {open:.3}, power {:.2}",
             run.periods,
             run.main_frequency_hz.unwrap_or(0.0),
             run.power_w.external.unwrap_or(0.0),
@@ -213,10 +210,10 @@ impl SoughtCycle {
     fn stability_sentence(&self) -> Option<String> {
         let known = match self.stability.as_ref()? {
             StabilitySummary::Known(known) => known,
-            StabilitySummary::Failed { error } => return Some(format!("{}: {error}", self.name)),
+            StabilitySummary::Failed { error } => return Some(error.clone()),
         };
         let Some(leading) = &known.leading else {
-            return Some(format!("{}: stable; every perturbation decays fast", self.name));
+            return Some("stable; every perturbation decays fast".to_owned());
         };
         let verdict = match known.verdict.as_str() {
             "unstable" => "UNSTABLE",
@@ -229,8 +226,7 @@ impl SoughtCycle {
         };
         let leads = leading.leads_to.as_ref().map_or_else(String::new, |kind| format!(" ({kind})"));
         Some(format!(
-            "{}: {verdict}; the leading perturbation, {what}, {} at {:.0} +- {:.0} 1/s{leads}",
-            self.name,
+            "{verdict}; the leading perturbation, {what}, {} at {:.0} +- {:.0} 1/s{leads}",
             if leading.growth_rate_per_s > 0.0 { "grows" } else { "decays" },
             leading.growth_rate_per_s.abs(),
             leading.uncertainty_per_s.unwrap_or(f64::NAN),
@@ -272,10 +268,11 @@ impl BranchSummary {
             true => String::new(),
             false => format!("; {what} {}", values.join(", ")),
         };
-        let folds = match self.folds.len() {
+        let folds = listed(&self.folds);
+        let folds = match folds.len() {
             0 => "; no fold".to_owned(),
-            1 => said("a fold at", listed(self.folds.iter().copied())),
-            many => said(&format!("{many} folds at"), listed(self.folds.iter().copied())),
+            1 => said("a fold at", folds),
+            many => said(&format!("{many} folds at"), folds),
         };
         let saturation = self.waves.as_ref().and_then(|waves| waves.saturation_speed_rpm);
         let saturation = saturation.map(|speed| format!("; no point sticks above {speed:.1} rpm"));
@@ -287,9 +284,9 @@ impl BranchSummary {
             }
         });
         let motions = self.motions.as_ref();
-        let onsets = motions.map_or(Vec::new(), |own| listed(own.onsets.iter().copied()));
-        let both = motions.into_iter().flat_map(|own| &own.coexistence).map(|&[from, to]| {
-            let [from, to] = [from, to].map(|value| significant(value, 5));
+        let onsets = motions.map_or(Vec::new(), |own| listed(&own.onsets));
+        let both = motions.into_iter().flat_map(|own| &own.coexistence).map(|ends| {
+            let [from, to] = ends.map(|value| significant(value, 5));
             format!("; stable sliding and a limit cycle coexist from {} = {from} to {to}", self.key)
         });
         [
