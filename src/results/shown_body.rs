@@ -54,10 +54,11 @@ impl ShownBody<'_> {
         }
     }
 
-    /// Whether figures over the angle show a node of the contact: of several rings of nodes the middle one.
-    pub fn is_shown(&self, place: usize) -> bool {
+    /// The values at one instant of those nodes of the contact that figures over the angle show: of several rings of
+    /// nodes the middle one.
+    pub fn shown<T: Copy>(&self, values: &[T]) -> Vec<T> {
         let rings = self.sector.map_or(1, |sector| sector.rings.len());
-        place % rings == rings / 2
+        values.iter().skip(rings / 2).step_by(rings).copied().collect()
     }
 
     /// What the contact slides on, in legends.

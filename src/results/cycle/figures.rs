@@ -74,11 +74,10 @@ impl<'a> CycleFigures<'a> {
         }
     }
 
-    /// The values of the contact nodes that the figures over the angle show.
+    /// The values of the contact nodes that the figures over the angle show, instant by instant.
     fn shown<T: Copy>(&self, values: &[T]) -> Vec<T> {
-        let count = self.nodes().len().max(1);
-        let places = (0..values.len()).filter(|&i| self.report.body.is_shown(i % count));
-        places.map(|i| values[i]).collect()
+        let instants = values.chunks(self.nodes().len().max(1));
+        instants.flat_map(|own| self.report.body.shown(own)).collect()
     }
 
     /// Where the shown contact nodes are.

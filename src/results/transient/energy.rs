@@ -6,8 +6,8 @@ use crate::chart::{
     prefixed, significant,
 };
 use crate::results::charts::palette::{
-    CONTACT_DISSIPATION, EXTERNAL_POWER, MATERIAL_DISSIPATION, NORMAL_POWER, OPEN, SLIDE_POWER,
-    SLIP, STICK, STICK_POWER,
+    CONTACT_DISSIPATION, EXTERNAL_POWER, MATERIAL_DISSIPATION, NORMAL_POWER, SLIDE_POWER, STATUSES,
+    STICK_POWER,
 };
 use crate::results::charts::run_axis;
 use crate::results::extent::Extent;
@@ -22,6 +22,12 @@ struct Course {
     mean: Vec<f64>,
     colour: &'static str,
     name: &'static str,
+}
+
+impl Course {
+    fn line(&self, times: &[f64], width: f64) -> Line {
+        Line::new(times, &self.mean).solid(self.colour, width).name(self.name)
+    }
 }
 
 /// Mean over a window centred on each sample; within half a window of an end there is none, as half a window would
@@ -42,7 +48,8 @@ fn moving_average(values: &[f64], window: usize) -> Vec<f64> {
 /// Acceleration, status, external power and its parts, power balance of the body, the external power as the sum of what
 /// contact and material dissipate, stored energy, balance residual, as figure 12 of the paper has them.
 pub(super) fn energy(run: &RunFigures<'_>) -> Figure {
-    let (rows, times, thickness) = (&run.run.record.rows, run.times(), run.run.thickness);
+    let (rows, times) = (&run.run.record.rows, run.times());
+    let (thickness, extent) = (run.run.thickness, run.run.extent);
     let step = (extremes(times.iter().copied()).1 - times.first().copied().unwrap_or(0.0))
         / times.len().max(2) as f64;
     let window = (AVERAGING_TIME / step.max(1e-300))
@@ -70,56 +77,32 @@ pub(super) fn energy(run: &RunFigures<'_>) -> Figure {
     let probes = run.run.record.probes.len();
     let inside = (0..probes).find(|&probe| !run.is_on_contact(probe)).or((probes > 0).then_some(0));
     let acceleration = inside.map(|probe| {
-        let panel =
-            Panel::new(run_axis(&times), Axis::new("*a*_{θ}", "m/s²").symmetric()).height(50.0);
+        let line = Line::new(&times, &run.acceleration(probe)).solid(SERIES[0], 0.45).whole();
         let caption = format!("tangential acceleration, node {}", run.run.probe_label(probe));
-        panel
-            .caption(caption)
-            .layer(Line::new(&times, &run.acceleration(probe)).solid(SERIES[0], 0.45).whole())
+        panel(&times, Axis::new("*a*_{θ}", "m/s²").symmetric(), 50.0, caption).layer(line)
     });
     let dissipated: Vec<f64> =
         contact.mean.iter().zip(&material.mean).map(|(a, b)| a + b).collect();
-    let sum = Panel::new(
-        run_axis(&times),
-        power_axis(&[&external, &contact, &material], run.run.extent).0,
-    )
-    .height(72.0)
-    .caption("external power and what is dissipated")
-    .legend()
-    .layer(
-        Fill::from(0.0, &times, &contact.mean, CONTACT_DISSIPATION)
-            .opacity(0.45)
-            .name(contact.name),
-    )
-    .layer(
-        Fill::between(&times, &contact.mean, &dissipated, MATERIAL_DISSIPATION)
-            .opacity(0.45)
-            .name(material.name),
-    )
-    .layer(Line::new(&times, &external.mean).solid(EXTERNAL_POWER, 1.1).name(external.name));
-    let balance = powers(
-        (&times, run.run.extent),
-        "power balance of the body",
-        72.0,
-        &[&normal, &material, &received],
-    );
-    let balance = balance.layer(
-        Fill::between(&times, &received.mean, &material.mean, SERIES[5])
-            .opacity(0.5)
-            .name("stored"),
-    );
-    let stored = [&total, &strain, &kinetic].into_iter().fold(
-        Panel::new(
-            run_axis(&times),
-            Axis::new("energy", &run.run.extent.unit("J")).prefixed().including(0.0),
-        )
-        .height(56.0)
-        .caption("stored energy")
-        .legend(),
-        |panel, course| {
-            panel.layer(Line::new(&times, &course.mean).solid(course.colour, 1.0).name(course.name))
-        },
-    );
+    let zero = vec![0.0; times.len()];
+    let area = |low: &[f64], high: &[f64], course: &Course| {
+        Fill::between(&times, low, high, course.colour).opacity(0.45).name(course.name)
+    };
+    let axis = power_axis(&[&external, &contact, &material], extent).0;
+    let sum = panel(&times, axis, 72.0, "external power and what is dissipated")
+        .legend()
+        .layer(area(&zero, &contact.mean, &contact))
+        .layer(area(&contact.mean, &dissipated, &material))
+        .layer(external.line(&times, 1.1));
+    let powers = |caption: &str, height: f64, courses: &[&Course]| {
+        powers((&times, extent), caption, height, courses)
+    };
+    let kept = Fill::between(&times, &received.mean, &material.mean, SERIES[5]);
+    let balance = powers("power balance of the body", 72.0, &[&normal, &material, &received])
+        .layer(kept.opacity(0.5).name("stored"));
+    let axis = Axis::new("energy", &extent.unit("J")).prefixed().including(0.0);
+    let stored = panel(&times, axis, 56.0, "stored energy")
+        .legend()
+        .layers([&total, &strain, &kinetic].map(|course| course.line(&times, 1.0)));
     Figure::new(
         "energy",
         "Energy flows: acceleration, contact status, external power and its parts, and the power \
@@ -129,12 +112,7 @@ pub(super) fn energy(run: &RunFigures<'_>) -> Figure {
     .shared_x()
     .panels(acceleration)
     .panel(status(rows, &times))
-    .panel(powers(
-        (&times, run.run.extent),
-        "external power and its parts",
-        88.0,
-        &[&contact, &slide, &stick, &external],
-    ))
+    .panel(powers("external power and its parts", 88.0, &[&contact, &slide, &stick, &external]))
     .panel(balance)
     .panel(sum)
     .panel(stored)
@@ -145,22 +123,23 @@ pub(super) fn energy(run: &RunFigures<'_>) -> Figure {
     ))
 }
 
+/// A panel over the time of the run.
+fn panel(times: &[f64], y: Axis, height: f64, caption: impl Into<String>) -> Panel {
+    Panel::new(run_axis(times), y).height(height).caption(caption)
+}
+
 /// Fractions of contact nodes as stacked areas, stick below, then slip, then open.
 fn status(rows: &[SampleRow], times: &[f64]) -> Panel {
-    let fraction = |which: usize| -> Vec<f64> {
-        rows.iter().map(|row| row.counts.fractions()[which]).collect()
-    };
-    let (stick, slip, open) = (fraction(0), fraction(1), fraction(2));
-    let slip: Vec<f64> = stick.iter().zip(&slip).map(|(a, b)| a + b).collect();
-    let all: Vec<f64> = slip.iter().zip(&open).map(|(a, b)| a + b).collect();
-    Panel::new(run_axis(times), Axis::new("nodes", "%").times(100.0).between(0.0, 1.0))
-        .plain()
-        .height(50.0)
-        .caption("contact status")
-        .legend()
-        .layer(Fill::from(0.0, times, &stick, STICK).name("stick"))
-        .layer(Fill::between(times, &stick, &slip, SLIP).name("slip"))
-        .layer(Fill::between(times, &slip, &all, OPEN).name("open"))
+    let axis = Axis::new("nodes", "%").times(100.0).between(0.0, 1.0);
+    let mut below = vec![0.0; rows.len()];
+    let areas = STATUSES.iter().enumerate().map(|(which, &(_, name, colour, ..))| {
+        let own = rows.iter().map(|row| row.counts.fractions()[which]);
+        let above: Vec<f64> = below.iter().zip(own).map(|(below, own)| below + own).collect();
+        let area = Fill::between(times, &below, &above, colour).name(name);
+        below = above;
+        area
+    });
+    panel(times, axis, 50.0, "contact status").plain().legend().layers(areas)
 }
 
 /// An axis that holds several powers, but for their shortest peaks, and zero: the impact of the expansion lasts a few
@@ -191,35 +170,29 @@ fn powers(
     courses: &[&Course],
 ) -> Panel {
     let (axis, top) = power_axis(courses, extent);
-    let panel = Panel::new(run_axis(times), axis).height(height).caption(caption).legend();
-    let panel = courses.iter().fold(panel, |panel, course| {
-        panel.layer(Fill::range_of(times, &course.values, course.colour).opacity(0.22))
-    });
-    let panel = courses.iter().fold(
-        panel.layer(Rule::horizontal(0.0).stroke(Stroke::solid(INK, 0.5))),
-        |panel, course| {
-            panel.layer(Line::new(times, &course.mean).solid(course.colour, 1.1).name(course.name))
-        },
-    );
+    let band = |own: &&Course| Fill::range_of(times, &own.values, own.colour).opacity(0.22);
     let values = courses.iter().flat_map(|course| course.values.iter().copied().zip(times));
     let peak = values.max_by(|a, b| a.0.total_cmp(&b.0)).filter(|peak| peak.0 > top);
-    panel.layers(peak.map(|(peak, &time)| {
+    let peak = peak.map(|(peak, &time)| {
         let (factor, unit) = prefixed(peak, &extent.unit("W"));
         let label =
             format!("▲ largest sample {} {unit}, beyond the axis", significant(peak * factor, 3));
-        Label::new((time, top), label)
-            .moved(3.0, 8.0)
-            .style(TextStyle::new(6.25).coloured(MUTED).with_halo())
-    }))
+        let style = TextStyle::new(6.25).coloured(MUTED).with_halo();
+        Label::new((time, top), label).moved(3.0, 8.0).style(style)
+    });
+    panel(times, axis, height, caption)
+        .legend()
+        .layers(courses.iter().map(band))
+        .layer(Rule::horizontal(0.0).stroke(Stroke::solid(INK, 0.5)))
+        .layers(courses.iter().map(|course| course.line(times, 1.1)))
+        .layers(peak)
 }
 
 fn residual(rows: &[SampleRow], times: &[f64]) -> Panel {
     let size: Vec<f64> = rows.iter().map(|row| row.balance_residual.abs().max(1e-18)).collect();
     let largest = extremes(size.iter().copied()).1;
     let caption = format!("residual of the energy balance, at most {}", significant(largest, 2));
-    Panel::new(run_axis(times), Axis::new("residual", "–").decades(6.0).room(0.1))
-        .height(44.0)
-        .caption(caption)
+    panel(times, Axis::new("residual", "–").decades(6.0).room(0.1), 44.0, caption)
         .layer(Line::new(times, &size).solid(INK, 0.5))
 }
 

@@ -65,11 +65,11 @@ impl RunFigures<'_> {
 
     /// Phase plot of an internal node, and path of a contact node coloured by status over the last fifth.
     fn trajectories(&self) -> Result<Figure, ChartError> {
-        let is_inner =
-            |sector: &SolidSector| sector.specification.contact.face() == SolidFace::Inner;
-        if self.run.body.is_assembly()
-            || self.run.body.sector.is_some_and(|sector| !is_inner(sector))
-        {
+        let body = &self.run.body;
+        let has_edge = body
+            .sector
+            .is_none_or(|sector| sector.specification.contact.face() == SolidFace::Inner);
+        if body.is_assembly() || !has_edge {
             return Err(ChartError::empty("paths of nodes of an edge"));
         }
         let probes = 0..self.run.record.probes.len();
@@ -83,30 +83,26 @@ impl RunFigures<'_> {
         };
         let (phase, path) = (pair(inside, 1, 3), pair(edge, 1, 0));
         let start = path.len() - path.len().div_ceil(5);
-        let approach = |points: &[(f64, f64)]| {
-            Line::through(points[..start].iter().copied()).solid("#d0d0d0", 0.3).name("before")
-        };
-        let status = self.traced_status(edge, start);
         let metres = |name: &str| Axis::new(name, "m").prefixed();
-        let phase_panel = Panel::new(
-            metres("tangential *u*_{θ}"),
-            Axis::new("velocity *v*_{θ}", "m/s").prefixed(),
-        )
-        .height(172.0)
-        .caption(format!("node {}, tangential", self.run.probe_label(inside)))
-        .layer(approach(&phase))
-        .layer(Line::through(phase[start..].iter().copied()).solid(SERIES[1], 0.8).name(
-            match self.run.analysis.settling.state {
-                EndState::LimitCycle => "limit cycle",
-                EndState::TwoFrequency(_) => "two frequencies",
-                _ => "last fifth of the run",
-            },
-        ));
-        let path_panel = Panel::new(metres("tangential *u*_{θ}"), metres("radial *u*_{r}"))
-            .height(172.0)
-            .caption(format!("contact node {}", self.run.probe_label(edge)))
-            .layer(approach(&path))
-            .layers(status_curves(&path[start..], &status));
+        let panel = |y: Axis, caption: String, points: &[(f64, f64)]| {
+            let before = Line::through(points[..start].iter().copied()).solid("#d0d0d0", 0.3);
+            Panel::new(metres("tangential *u*_{θ}"), y)
+                .height(172.0)
+                .caption(caption)
+                .layer(before.name("before"))
+        };
+        let end = match self.run.analysis.settling.state {
+            EndState::LimitCycle => "limit cycle",
+            EndState::TwoFrequency(_) => "two frequencies",
+            _ => "last fifth of the run",
+        };
+        let last = Line::through(phase[start..].iter().copied()).solid(SERIES[1], 0.8).name(end);
+        let velocity = Axis::new("velocity *v*_{θ}", "m/s").prefixed();
+        let caption = format!("node {}, tangential", self.run.probe_label(inside));
+        let phase_panel = panel(velocity, caption, &phase).layer(last);
+        let caption = format!("contact node {}", self.run.probe_label(edge));
+        let path_panel = panel(metres("radial *u*_{r}"), caption, &path)
+            .layers(status_curves(&path[start..], &self.traced_status(edge, start)));
         let caption = "Phase plot of an internal node (a) and path of a contact node (b), whose \
         last fifth is coloured by contact status.";
         Ok(Figure::new("trajectories", caption).columns(2).panel(phase_panel).panel(path_panel))
@@ -159,18 +155,16 @@ impl RunFigures<'_> {
         let snapshot = snapshot.filter(|_| !body.is_assembly());
         let snapshot = snapshot.ok_or_else(|| ChartError::empty("contact at the snapshots"))?;
         let frame = &snapshot.contact;
-        let places: Vec<usize> = (0..frame.status.len()).filter(|&i| body.is_shown(i)).collect();
-        let wide =
-            |values: &[f32]| -> Vec<f64> { places.iter().map(|&i| f64::from(values[i])).collect() };
-        let velocity = self.contact_velocity(snapshot);
-        let velocity: Vec<f64> = places.iter().map(|&i| velocity[i]).collect();
-        let codes: Vec<u8> = places.iter().map(|&i| frame.status[i]).collect();
+        let wide = |values: &[f32]| -> Vec<f64> {
+            body.shown(values).into_iter().map(f64::from).collect()
+        };
+        let velocity = body.shown(&self.contact_velocity(snapshot));
         let shown = ContactInstant {
             name: "contact".to_owned(),
             subject: ["Contact at the last snapshot".to_owned(), String::new()],
             instant: format!("*t* = {:.3} ms", snapshot.time * 1e3),
             first_angle: self.run.record.contact_angles.first().copied().unwrap_or(0.0),
-            status: &statuses(&codes),
+            status: &statuses(&body.shown(&frame.status)),
             tractions: [&wide(&frame.pressure), &wide(frame.shear())],
             velocity: match body.mesh.opposite {
                 Some(_) => ContactVelocity::Slip(&velocity),

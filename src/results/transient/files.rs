@@ -20,29 +20,27 @@ pub fn write(
     folder: &OutputFolder,
     report: &TransientReport<'_>,
 ) -> Result<(TransientSummary, Value), FolderError> {
-    let raw = |index: usize| Some(report.run.record.raw_accelerations.as_ref()?[index].as_slice());
-    for (index, rows) in report.run.record.probe_rows.iter().enumerate() {
-        let probe = report.run.probe_label(index);
-        folder.write(&format!("probe-{probe}.csv"), |out| {
-            let axial = report.run.record.axial_rows.get(index).map(Vec::as_slice);
-            let probe = ProbeRows {
-                rows,
-                axial,
-                raw: raw(index),
-                is_cartesian: report.run.body.is_assembly(),
-                turn: report.turn_of_probe(index),
-            };
-            write_probe(out, &report.run.record.rows, &probe)
-        })?;
+    let record = report.run.record;
+    let raw = record.raw_accelerations.as_ref();
+    for (index, rows) in record.probe_rows.iter().enumerate() {
+        let probe = ProbeRows {
+            rows,
+            axial: record.axial_rows.get(index).map(Vec::as_slice),
+            raw: raw.map(|raw| raw[index].as_slice()),
+            is_cartesian: report.run.body.is_assembly(),
+            turn: report.turn_of_probe(index),
+        };
+        let name = format!("probe-{}.csv", report.run.probe_label(index));
+        folder.write(&name, |out| write_probe(out, &record.rows, &probe))?;
     }
     folder.write("energy.csv", |out| write_energy(out, report))?;
-    folder.write("contact.csv", |out| write_contact(out, &report.run.record.rows))?;
+    folder.write("contact.csv", |out| write_contact(out, &record.rows))?;
     if report.run.has_harmonics {
-        folder.write("harmonics.csv", |out| write_harmonics(out, report.run.record))?;
+        folder.write("harmonics.csv", |out| write_harmonics(out, record))?;
     }
-    folder.write("contact.npz", |out| out.write_all(&encode_contact(report.run.record)?))?;
+    folder.write("contact.npz", |out| out.write_all(&encode_contact(record)?))?;
     write_snapshots(folder, report)?;
-    write_record(folder, report.run.record)?;
+    write_record(folder, record)?;
     let summary = summary(report);
     let object = write_summary(folder, Head::of(report.title, report.wall_s), &summary)?;
     Ok((summary, object))
@@ -70,46 +68,41 @@ fn write_probe(
     probe: &ProbeRows<'_>,
 ) -> io::Result<()> {
     let ProbeRows { rows, axial, raw, turn, is_cartesian } = *probe;
-    let mut columns = vec!["time_s"];
-    columns.extend(match is_cartesian {
-        true => ["u_x_m", "u_y_m", "v_x_m_per_s", "v_y_m_per_s", "a_x_m_per_s2", "a_y_m_per_s2"],
-        false => [
-            "u_r_m",
-            "u_theta_m",
-            "v_r_m_per_s",
-            "v_theta_m_per_s",
-            "a_r_m_per_s2",
-            "a_theta_m_per_s2",
-        ],
-    });
+    let motions = |axes: &[&str]| -> Vec<String> {
+        let kinds = [("u", "m"), ("v", "m_per_s"), ("a", "m_per_s2")].iter();
+        kinds
+            .flat_map(|(kind, unit)| axes.iter().map(move |axis| format!("{kind}_{axis}_{unit}")))
+            .collect()
+    };
+    let axes = if is_cartesian { ["x", "y"] } else { ["r", "theta"] };
+    let mut columns = vec!["time_s".to_owned()];
+    columns.extend(motions(&axes));
     if axial.is_some() {
-        columns.extend(["u_z_m", "v_z_m_per_s", "a_z_m_per_s2"]);
+        columns.extend(motions(&["z"]));
     }
     if raw.is_some() {
-        columns.extend(match is_cartesian {
-            true => ["a_x_step_m_per_s2", "a_y_step_m_per_s2"],
-            false => ["a_r_step_m_per_s2", "a_theta_step_m_per_s2"],
-        });
-        columns.extend(axial.map(|_| "a_z_step_m_per_s2"));
+        let axes = axes.into_iter().chain(axial.map(|_| "z"));
+        columns.extend(axes.map(|axis| format!("a_{axis}_step_m_per_s2")));
     }
     if turn.is_some() {
-        columns.extend(["u_x_m", "u_y_m", "v_x_m_per_s", "v_y_m_per_s"]);
-        columns.extend(["a_x_m_per_s2", "a_y_m_per_s2"]);
+        columns.extend(motions(&["x", "y"]));
     }
+    let columns: Vec<&str> = columns.iter().map(String::as_str).collect();
     let cells = |(index, (sample, row)): (usize, (&SampleRow, &[f64; 6]))| {
-        let step = raw.map(|raw| raw[index]);
-        let mean = std::iter::once(sample.time).chain(*row);
+        let mut numbers = vec![sample.time];
+        numbers.extend(row);
         let axial = axial.map(|rows| rows[index]);
-        let mean = mean.chain(axial.into_iter().flat_map(|row| [row[0], row[1], row[2]]));
-        let axial = axial.filter(|_| raw.is_some()).map(|row| row[3]);
-        let numbers = mean.chain(step.into_iter().flatten()).chain(axial);
-        let cartesian = turn.map(|(sin, cos)| {
+        numbers.extend(axial.iter().flat_map(|row| &row[..3]));
+        if let Some(raw) = raw {
+            numbers.extend(raw[index]);
+            numbers.extend(axial.map(|row| row[3]));
+        }
+        if let Some((sin, cos)) = turn {
             let along =
                 |k: usize| [cos * row[k] - sin * row[k + 1], sin * row[k] + cos * row[k + 1]];
-            [0, 2, 4].map(along)
-        });
-        let numbers = numbers.chain(cartesian.into_iter().flatten().flatten());
-        numbers.map(format_number).collect::<Vec<_>>()
+            numbers.extend([0, 2, 4].map(along).as_flattened());
+        }
+        numbers.into_iter().map(format_number).collect::<Vec<_>>()
     };
     csv::write(out, &columns, samples.iter().zip(rows).enumerate().map(cells))
 }
@@ -135,29 +128,26 @@ columns! {
 }
 
 fn write_energy(out: &mut dyn Write, report: &TransientReport<'_>) -> io::Result<()> {
-    let rows = report.run.record.rows.iter().map(|row| {
-        let powers = row.powers.scaled(report.run.thickness);
+    let (record, thickness) = (report.run.record, report.run.thickness);
+    let rows = record.rows.iter().map(|row| {
+        let powers = row.powers.scaled(thickness);
         [
             row.time,
-            report.run.thickness * row.kinetic_energy,
-            report.run.thickness * row.strain_energy,
+            thickness * row.kinetic_energy,
+            thickness * row.strain_energy,
             powers.external,
             powers.stick,
             powers.slide,
             powers.contact_dissipated,
-            report.run.thickness * row.material_damping,
+            thickness * row.material_damping,
             powers.normal,
             row.balance_residual,
-            report.run.thickness * row.contact_energy,
+            thickness * row.contact_energy,
             powers.damping,
         ]
     });
-    let has_springs = report.run.record.has_contact_springs();
-    write_rows(
-        out,
-        if has_springs { ENERGY } else { const { parted(ENERGY, "contact_j").0 } },
-        rows,
-    )
+    let all = record.has_contact_springs();
+    write_rows(out, if all { ENERGY } else { const { parted(ENERGY, "contact_j").0 } }, rows)
 }
 
 /// Time and `[stick, slip, open]` of a sample.
@@ -211,12 +201,9 @@ fn encode_contact(record: &Recorder) -> io::Result<Vec<u8>> {
     let shape = [frames.len(), record.contact_angles.len()];
     archive.array("time_s", &shape[..1], frames.iter().map(|f| f.time))?;
     archive.array("angle_rad", &shape[1..], record.contact_angles.iter().copied())?;
-    let status = frames.iter().flat_map(|f| f.status.iter().copied());
-    archive.array("status", &shape, status)?;
-    let pressure = frames.iter().flat_map(|f| f.pressure.iter().copied());
-    archive.array("pressure_pa", &shape, pressure)?;
-    let shear = frames.iter().flat_map(|f| f.shear().iter().copied());
-    archive.array("shear_pa", &shape, shear)?;
+    archive.array("status", &shape, frames.iter().flat_map(|f| f.status.iter().copied()))?;
+    archive.array("pressure_pa", &shape, frames.iter().flat_map(|f| f.pressure.iter().copied()))?;
+    archive.array("shear_pa", &shape, frames.iter().flat_map(|f| f.shear().iter().copied()))?;
     if frames.iter().any(|frame| !frame.shear_across().is_empty()) {
         let across = frames.iter().flat_map(|f| f.shear_across().iter().copied());
         archive.array("shear_across_pa", &shape, across)?;
@@ -233,25 +220,18 @@ fn write_snapshots(folder: &OutputFolder, report: &TransientReport<'_>) -> Resul
     if snapshots.is_empty() {
         return Ok(());
     }
-    let mut encoded = None;
+    let mesh = report.run.body.encoded();
+    let mesh = mesh.map_err(|error| FolderError::io("write", folder.path(), error))?;
     let mut entries = Vec::new();
     for (index, snapshot) in snapshots.iter().enumerate() {
-        let name = format!("snapshots/snapshot-{:03}.vtu", index + 1);
+        let file = format!("snapshots/snapshot-{:03}.vtu", index + 1);
         let fields = snapshot_fields(report, snapshot);
         let whole = [
             Field::number("time_s", snapshot.time),
             Field::number("friction_coefficient", report.friction_coefficient),
         ];
-        folder.write(&name, |out| {
-            if encoded.is_none() {
-                encoded = Some(report.run.body.encoded()?);
-            }
-            match &encoded {
-                Some(mesh) => write_vtu(out, mesh, &whole, &fields, &[]),
-                None => Ok(()),
-            }
-        })?;
-        entries.push(PvdEntry { time: snapshot.time, group: String::new(), file: name });
+        folder.write(&file, |out| write_vtu(out, &mesh, &whole, &fields, &[]))?;
+        entries.push(PvdEntry { time: snapshot.time, group: String::new(), file });
     }
     folder.write("snapshots.pvd", |out| write_pvd(out, &entries))
 }
@@ -265,35 +245,36 @@ fn snapshot_fields(report: &TransientReport<'_>, snapshot: &Snapshot) -> Vec<Fie
         body.vectors("displacement_m", displacement),
         body.vectors("velocity_m_per_s", &snapshot.velocity),
     ];
-    let count = match (body.sector, mesh.dimension) {
+    let material = report.run.material;
+    match (body.sector, mesh.dimension) {
         (Some(sector), _) => {
-            let stress = revolved_stress(sector, report.run.material, displacement);
+            let stress = revolved_stress(sector, material, displacement);
             fields.extend(Field::solid_stresses(&stress, "rtz"));
-            displacement.len() / 3
         }
         (None, 3) => {
-            let stress = solid_stress(mesh, report.run.material, displacement);
+            let stress = solid_stress(mesh, material, displacement);
             fields.extend(Field::solid_stresses(&stress, "xyz"));
-            mesh.node_count()
         }
         _ => {
-            let stress = nodal_stress(mesh, report.run.material, displacement);
+            let stress = nodal_stress(mesh, material, displacement);
             fields.extend(Field::stresses(&stress));
             fields.extend(Field::cartesian_stresses(mesh, &stress));
-            mesh.node_count()
         }
-    };
-    // In three dimensions friction may act across the sliding too.
+    }
+    let count = displacement.len() / if body.is_solid() { 3 } else { 2 };
     let (edge, contact) = (&report.contact_nodes, &snapshot.contact);
-    let on_edge = |name: &str, values: &[f64]| Field::on_edge(name, count, edge, values);
-    let wide = |values: &[f32]| values.iter().copied().map(f64::from).collect::<Vec<f64>>();
+    let on_edge = |name: &str, values: &[f32]| {
+        let values: Vec<f64> = values.iter().copied().map(f64::from).collect();
+        Field::on_edge(name, count, edge, &values)
+    };
     let codes = contact.status.iter().map(|&code| status_of_code(code));
     fields.push(Field::status(count, edge, codes));
-    fields.push(on_edge("pressure_pa", &wide(&contact.pressure)));
-    fields.push(on_edge("shear_pa", &wide(contact.shear())));
+    fields.push(on_edge("pressure_pa", &contact.pressure));
+    fields.push(on_edge("shear_pa", contact.shear()));
+    // In three dimensions friction may act across the sliding too.
     if !contact.shear_across().is_empty() {
-        fields.push(on_edge("shear_across_pa", &wide(contact.shear_across())));
+        fields.push(on_edge("shear_across_pa", contact.shear_across()));
     }
-    fields.push(on_edge("gap_m", &snapshot.gap));
+    fields.push(Field::on_edge("gap_m", count, edge, &snapshot.gap));
     fields
 }

@@ -6,8 +6,8 @@ use crate::chart::{
     Axis, Figure, INK, Line, MUTED, Panel, Rule, SERIES, Stroke, extremes, look, significant,
 };
 use crate::results::charts::{
-    Stage, place_axis, run_axis, signal_panel, spectrogram_panels, spectrum_panel, status_map,
-    with_stages,
+    Stage, ends, place_axis, run_axis, signal_panel, spectrogram_panels, spectrum_panel,
+    status_map, with_stages,
 };
 use crate::signal::{SpectrogramOptions, Window, amplitude_spectrum, spectrogram};
 use std::collections::BTreeMap;
@@ -35,7 +35,7 @@ impl RunFigures<'_> {
     pub(super) fn overview(&self, probe: usize) -> Figure {
         let (node, times, signal) =
             (self.run.probe_label(probe), self.times(), self.acceleration(probe));
-        let (start, end) = extremes([times.first(), times.last()].into_iter().flatten().copied());
+        let (start, end) = ends(&times);
         let periods =
             self.run.analysis.last_fifth.main_frequency_hz.map(|frequency| 4.0 / frequency);
         let enlarged =
@@ -59,8 +59,8 @@ impl RunFigures<'_> {
         let detail = enlarged.map(|(from, to)| {
             let first = times.partition_point(|&t| t < from);
             let axis = Axis::time().between(from, to);
-            signal_panel(axis, &times[first..], &signal[first..], unit, 0.9)
-                .caption("end of the run")
+            let panel = signal_panel(axis, &times[first..], &signal[first..], unit, 0.9);
+            panel.caption("end of the run")
         });
         let usual = SpectrogramOptions::default();
         // A window holds a few periods of the vibration, however slow it is.
@@ -80,54 +80,40 @@ impl RunFigures<'_> {
         let mut figure = Figure::new(format!("overview-{node}"), caption)
             .weighted(&[3.0, 1.0])
             .shared_x()
-            .shared_y();
-        figure = figure.panel(whole).panel_or_gap(detail);
+            .shared_y()
+            .panel(whole)
+            .panel_or_gap(detail);
         if !stages.is_empty() {
             figure = figure.note(meaning(&stages));
         }
         for panel in spectrograms {
             figure = figure.panel(panel).panel_or_gap(None);
         }
-        match self.status_panel(axis, (start, end), "contact status".into()) {
-            Some(whole) => {
-                let detail = enlarged.and_then(|(from, to)| {
-                    self.status_panel(
-                        Axis::time().between(from, to),
-                        (from, to),
-                        "end of the run".into(),
-                    )
-                });
-                figure.panel(whole).panel_or_gap(detail)
-            }
-            None => figure,
-        }
+        let Some(whole) = self.status_panel(axis, (start, end), "contact status") else {
+            return figure;
+        };
+        let detail = enlarged.and_then(|(from, to)| {
+            self.status_panel(Axis::time().between(from, to), (from, to), "end of the run")
+        });
+        figure.panel(whole).panel_or_gap(detail)
     }
 
     /// The status of all contact nodes over time; a map of some instants says so.
-    fn status_panel(&self, time: Axis, range: (f64, f64), caption: String) -> Option<Panel> {
-        if self.run.body.is_assembly() {
+    fn status_panel(&self, time: Axis, range: (f64, f64), caption: &str) -> Option<Panel> {
+        let (body, record) = (&self.run.body, self.run.record);
+        if body.is_assembly() {
             // Nodes of surfaces have no order along an edge.
             return None;
         }
-        let frames = &self.run.record.frames;
-        let times: Vec<f64> = frames.iter().map(|frame| frame.time).collect();
-        let places: Vec<usize> = (0..self.run.record.contact_angles.len())
-            .filter(|&i| self.run.body.is_shown(i))
-            .collect();
-        let codes: Vec<u8> = frames
-            .iter()
-            .flat_map(|frame| places.iter().map(|&place| frame.status[place]))
-            .collect();
-        let (map, apart) = status_map(&times, places.len(), &codes, range)?;
+        let times: Vec<f64> = record.frames.iter().map(|frame| frame.time).collect();
+        let codes = record.frames.iter().flat_map(|frame| body.shown(&frame.status));
+        let codes: Vec<u8> = codes.collect();
+        let nodes = codes.len() / times.len().max(1);
+        let (map, apart) = status_map(&times, nodes, &codes, range)?;
         let apart = apart.map(|s| format!(" at instants {} ms apart", significant(s * 1e3, 3)));
-        let caption = caption + &apart.unwrap_or_default();
-        Some(
-            Panel::new(time, place_axis(self.run.body.mesh.has_round_contact()))
-                .plain()
-                .height(92.0)
-                .caption(caption)
-                .layer(map),
-        )
+        let panel = Panel::new(time, place_axis(body.mesh.has_round_contact())).plain();
+        let caption = format!("{caption}{}", apart.unwrap_or_default());
+        Some(panel.height(92.0).caption(caption).layer(map))
     }
 
     /// Spectra of both components over the last fifth of the run.
@@ -155,25 +141,18 @@ impl RunFigures<'_> {
             .panel(panel.caption(format!("accelerations of node {node}")))
     }
 
-    /// Growth of the contact edge's vibration, all of it, beside the rate of the mode at its frequency; the whole run
-    /// where there is no linear stage.
-    fn growth_of_edge(&self) -> Figure {
-        let (record, times) = (self.run.record, self.times());
-        let (start, last) = extremes([times.first(), times.last()].into_iter().flatten().copied());
-        let has_stage = self.run.analysis.growth.iter().any(|own| own.stage.is_ok());
-        let linear_end = self.run.analysis.first_nonlinearity.filter(|_| has_stage);
-        let stage = linear_end.unwrap_or(last);
-        // About the mean over the linear stage, which is steady sliding, or over the end of the run.
-        let count = times.len();
-        let linear = match has_stage {
-            true => 0..times.partition_point(|&t| t <= stage).max(1),
-            false => count - count.div_ceil(5)..count,
+    /// Growth of the contact edge's vibration, all of it, beside the rate of the mode at its frequency; about the mean
+    /// over the linear stage, which is steady sliding, or over the end of the run where there is none.
+    fn growth_of_edge(&self, times: &[f64], stage: Option<f64>, window: (f64, f64)) -> Vec<Line> {
+        let (record, count) = (self.run.record, times.len());
+        let linear = match stage {
+            Some(stage) => 0..times.partition_point(|&t| t <= stage).max(1),
+            None => count - count.div_ceil(5)..count,
         };
-        let mut squares = vec![0.0; times.len()];
+        let mut squares = vec![0.0; count];
         for n in record.followed_harmonics() {
-            let parts: Vec<[f64; 2]> = (0..times.len())
-                .map(|sample| record.amplitude(sample, n).unwrap_or_default())
-                .collect();
+            let parts: Vec<[f64; 2]> =
+                (0..count).map(|sample| record.amplitude(sample, n).unwrap_or_default()).collect();
             for c in 0..2 {
                 let own = &parts[linear.clone()];
                 let mean = own.iter().map(|p| p[c]).sum::<f64>() / own.len() as f64;
@@ -183,79 +162,73 @@ impl RunFigures<'_> {
             }
         }
         let sizes: Vec<f64> = squares.into_iter().map(f64::sqrt).collect();
-        let edge = Line::new(&times, &sizes).solid(SERIES[0], 0.8).name("contact edge");
-        // What the start leaves behind has died out by a third of the stage.
-        let window = (0.35 * stage, 0.95 * stage);
+        let edge = Line::new(times, &sizes).solid(SERIES[0], 0.8).name("contact edge");
         let rate = self.growing_mode().and_then(|(frequency, rate)| {
             let of = format!("{} kHz", significant(frequency * 1e-3, 4));
-            predicted((&times, &sizes), window, rate, &of)
+            predicted((times, &sizes), window, rate, &of)
         });
-        let end = linear_end.map_or(last, |end| last.min(start + SHOWN_STAGES * (end - start)));
-        let amplitude =
-            Axis::new("vibration of the contact edge", "m").decades(GROWTH_DECADES).room(0.02);
-        let panel = Panel::new(Axis::time().between(start, end), amplitude)
-            .height(190.0)
-            .layer(edge)
-            .layers(rate)
-            .layers(linear_end.map(nonlinear));
-        let caption = match has_stage {
-            true => {
-                "Growth of the tangential vibration of the contact edge, with the rate of the \
-                 eigenvalue analysis."
-            }
-            false => {
-                "Vibration of the contact edge about its final mean; there is no linear stage."
-            }
-        };
-        Figure::new("growth", caption).panel(panel)
+        std::iter::once(edge).chain(rate).collect()
     }
 
     /// Growth of the harmonics of the contact edge, beside the rates of the eigenvalue analysis.
-    pub(super) fn growth(&self) -> Figure {
-        if !self.run.has_harmonics {
-            return self.growth_of_edge();
-        }
-        let (rows, times) = (&self.run.record.rows, self.times());
+    fn growth_of_harmonics(&self, times: &[f64], window: (f64, f64)) -> Vec<Line> {
+        let record = self.run.record;
         let amplitude = |n: usize| -> Vec<f64> {
-            let parts = (0..rows.len()).map(|sample| self.run.record.amplitude(sample, n));
+            let parts = (0..times.len()).map(|sample| record.amplitude(sample, n));
             parts.map(|parts| parts.map_or(f64::NAN, |[a, b]| a.hypot(b))).collect()
         };
-        let amplitudes: BTreeMap<usize, Vec<f64>> =
-            self.run.record.followed_harmonics().map(|n| (n, amplitude(n))).collect();
-        let largest = extremes(amplitudes.values().flatten().copied()).1;
-        let (start, last) = extremes([times.first(), times.last()].into_iter().flatten().copied());
-        let linear_end = self.run.analysis.first_nonlinearity;
-        let end = linear_end.map_or(last, |end| last.min(start + SHOWN_STAGES * (end - start)));
-        let is_shown = |n: usize| {
-            amplitudes
-                .get(&n)
-                .is_some_and(|own| extremes(own.iter().copied()).1 > SMALL_HARMONIC * largest)
-        };
-        let shown = amplitudes.iter().filter(|(n, _)| is_shown(**n));
-        let lines = shown.map(|(&n, own)| {
+        let mut shown: BTreeMap<usize, Vec<f64>> =
+            record.followed_harmonics().map(|n| (n, amplitude(n))).collect();
+        let largest = extremes(shown.values().flatten().copied()).1;
+        shown.retain(|_, own| extremes(own.iter().copied()).1 > SMALL_HARMONIC * largest);
+        let lines = shown.iter().map(|(&n, own)| {
             let stroke = Stroke::solid(look(n).0, 0.8).dashes(look(n).2);
-            Line::new(&times, own).stroke(stroke).name(format!("*n* = {n}"))
+            Line::new(times, own).stroke(stroke).name(format!("*n* = {n}"))
         });
-        // What the start leaves behind has died out by a third of the stage.
+        let rates = self.stage.growth_rates.iter().filter_map(|&(n, rate)| {
+            predicted((times, shown.get(&n)?), window, rate, &format!("*n* = {n}"))
+        });
+        lines.chain(rates).collect()
+    }
+
+    /// Growth of the vibration of the contact edge over the linear stage; the whole run where there is none.
+    pub(super) fn growth(&self) -> Figure {
+        let (times, has_harmonics) = (self.times(), self.run.has_harmonics);
+        let (start, last) = ends(&times);
+        let has_stage =
+            has_harmonics || self.run.analysis.growth.iter().any(|own| own.stage.is_ok());
+        let linear_end = self.run.analysis.first_nonlinearity.filter(|_| has_stage);
+        let end = linear_end.map_or(last, |end| last.min(start + SHOWN_STAGES * (end - start)));
         let stage = linear_end.unwrap_or(last);
+        // What the start leaves behind has died out by a third of the stage.
         let window = (0.35 * stage, 0.95 * stage);
-        let rates = self.stage.growth_rates.iter().filter(|(n, _)| is_shown(*n));
-        let rates = rates.filter_map(|&(n, rate)| {
-            predicted((&times, &amplitudes[&n]), window, rate, &format!("*n* = {n}"))
-        });
-        let amplitude = Axis::new("amplitude of *u*_{θ}", "m").decades(GROWTH_DECADES).room(0.02);
+        let (quantity, lines) = match has_harmonics {
+            true => ("amplitude of *u*_{θ}", self.growth_of_harmonics(&times, window)),
+            false => {
+                let lines = self.growth_of_edge(&times, has_stage.then_some(stage), window);
+                ("vibration of the contact edge", lines)
+            }
+        };
+        let caption = match (has_harmonics, has_stage) {
+            (true, _) => {
+                "Growth of the harmonics of the tangential displacement of the contact edge, with \
+                 the rates of the eigenvalue analysis."
+            }
+            (false, true) => {
+                "Growth of the tangential vibration of the contact edge, with the rate of the \
+                 eigenvalue analysis."
+            }
+            (false, false) => {
+                "Vibration of the contact edge about its final mean; there is no linear stage."
+            }
+        };
+        let amplitude = Axis::new(quantity, "m").decades(GROWTH_DECADES).room(0.02);
         let panel = Panel::new(Axis::time().between(start, end), amplitude)
             .height(190.0)
             .layers(lines)
-            .layers(rates)
             .layers(linear_end.map(nonlinear));
-        let figure = Figure::new(
-            "growth",
-            "Growth of the harmonics of the tangential displacement of the contact edge, with the \
-            rates of the eigenvalue analysis.",
-        )
-        .panel(panel);
-        match end < last {
+        let figure = Figure::new("growth", caption).panel(panel);
+        match has_harmonics && end < last {
             true => figure.note(format!("the run goes on to {} ms", significant(last * 1e3, 3))),
             false => figure,
         }

@@ -189,6 +189,7 @@ pub fn summary(report: &TransientReport<'_>) -> TransientSummary {
         EndState::TwoFrequency(two) => Some(two),
         _ => None,
     };
+    let significant = end.significant.iter().map(|(n, size)| (format!("n{n}"), *size));
     TransientSummary {
         finished: report.is_finished,
         steps: report.steps,
@@ -220,7 +221,7 @@ pub fn summary(report: &TransientReport<'_>) -> TransientSummary {
         ambiguous_friction: report.run.record.ambiguous_share(),
         unconverged_steps: Some(report.run.record.unconverged_steps).filter(|steps| *steps > 0),
         harmonics: if report.run.has_harmonics { end.harmonics.to_vec() } else { Vec::new() },
-        significant_harmonics_m: by_harmonic(end.significant.iter().copied()),
+        significant_harmonics_m: significant.collect(),
         growth: analysis.growth.iter().filter_map(growth).collect(),
         no_growth: no_growth(analysis),
         first_nonlinearity_s: analysis.first_nonlinearity,
@@ -228,10 +229,6 @@ pub fn summary(report: &TransientReport<'_>) -> TransientSummary {
         contact_interval_s: report.run.record.frame_stride as f64 * plan.sample_interval,
         notes: report.notes.clone(),
     }
-}
-
-fn by_harmonic<T>(entries: impl Iterator<Item = (usize, T)>) -> BTreeMap<String, T> {
-    entries.map(|(n, entry)| (format!("n{n}"), entry)).collect()
 }
 
 fn growth(growth: &Growth) -> Option<GrowthSummary> {

@@ -78,10 +78,8 @@ pub fn document(
         EndState::AtRest | EndState::Separated => "Rest",
         EndState::Unsettled => "End of the run, not settled",
     };
-    let end = format!(
-        "{}. The numbers are means over the last fifth of the run.",
-        capitalized(&ending(summary, state))
-    );
+    let end = ending(summary, state);
+    let end = format!("{end}. The numbers are means over the last fifth of the run.");
     let extent = summary.extent.note().map(|note| format!("{note}."));
     Document::new("Transient")
         .section(Section::new("Results").text([end]).text(extent).facts(facts(summary)))
@@ -96,17 +94,9 @@ pub fn document(
         .notes(&summary.notes)
 }
 
-fn capitalized(sentence: &str) -> String {
-    let mut letters = sentence.chars();
-    match letters.next() {
-        Some(first) => first.to_uppercase().chain(letters).collect(),
-        None => String::new(),
-    }
-}
-
 /// Where the run has come to, as a sentence.
 fn ending(summary: &TransientSummary, state: EndState) -> String {
-    let end = format!("the run ends {}", state.phrase());
+    let end = format!("The run ends {}", state.phrase());
     let end = match (summary.frequencies_hz, summary.envelope_ratio) {
         (Some([first, second]), Some(ratio)) => format!(
             "{end}: {} and {} Hz, its envelope swings by a factor of {}",
