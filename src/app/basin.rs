@@ -1,7 +1,6 @@
 //! `frictionsim basin`: which of two motions wins.
 
-use super::profile::{Profile, Run};
-use super::{Failure, RunOptions, Session};
+use super::{Failure, Run, RunOptions, Session};
 use crate::study::basin::summary;
 use clap::Args;
 
@@ -17,14 +16,6 @@ pub struct Arguments {
 }
 
 impl Run for Arguments {
-    const PROFILE: Profile = Profile {
-        files: &[("basin.csv", "one row for each transient of the search")],
-        examples: &[(
-            "frictionsim basin disc.toml",
-            "which of two waves wins, by the ratio of their amplitudes at saturation",
-        )],
-    };
-
     fn run(&self) -> Result<(), Failure> {
         let session = Session::start("basin", &self.options)?;
         session.case.require_basin()?;

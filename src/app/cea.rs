@@ -1,12 +1,19 @@
-//! `frictionsim cea`: complex eigenvalues of steady sliding over the friction coefficient.
+//! `frictionsim cea`: complex eigenvalues of steady sliding over the friction coefficient, or of a superelement that
+//! stands free.
 
-use super::profile::{Profile, Run};
-use super::{Failure, RunOptions, Session, superelement, terminal};
+use super::limits::STANDARD_INPUT;
+use super::{Failure, Run, RunOptions, Session, input_name, read_input, start_threads, terminal};
+use crate::case::{FreeSystem, RawCase};
 use crate::cea::{SweepProgress, SweepStage};
+use crate::results::Manifest;
 use crate::results::cea::{KeptSteps, View, document, draw, write, write_universal};
 use crate::study::eigenvalues::{self, Solved, Solver, refuse_no_modes};
+use crate::study::superelement::free_spectrum;
 use clap::Args;
+use frictionsim_bounds::CASE;
 use indicatif::ProgressBar;
+use std::path::Path;
+use std::time::Instant;
 
 /// Which modes turn unstable, at which friction and why
 ///
@@ -26,34 +33,10 @@ pub struct Arguments {
 const KEPT: &str = "friction values that are done are kept: the same command with --resume goes on";
 
 impl Run for Arguments {
-    const PROFILE: Profile = Profile {
-        files: &[
-            ("eigenvalues.csv", "one row for each mode and friction value"),
-            ("stability.csv", "one row for each crossing into instability"),
-            ("sensitivities.csv", "derivatives of eigenvalues and onsets by parameters"),
-            (
-                "contributions.csv, coupling.csv",
-                "what each part, support and contact adds to growth; which modes couple",
-            ),
-            ("feed.csv, feed.vtu", "where on the contact surfaces unstable modes are fed"),
-            ("prestress.csv, prestress.vtu", "steady sliding, node by node"),
-            ("modes.pvd, modes/*.vtu", "mode shapes, real and imaginary part"),
-            ("modes.unv", "mesh and mode shapes as a universal file (output.universal)"),
-        ],
-        examples: &[
-            ("frictionsim cea disc.toml", "critical friction of every branch"),
-            (
-                "frictionsim cea disc.toml --set contact.interference=30e-6 --json | jq .critical_frictions",
-                "for scripts",
-            ),
-        ],
-    };
-
     fn run(&self) -> Result<(), Failure> {
         let options = &self.options;
-        if let Some(system) = superelement::described(&options.case, &options.changes.overrides())?
-        {
-            return superelement::run(options, &system);
+        if let Some(system) = described_system(&options.case, &options.changes.overrides())? {
+            return run_free(options, &system);
         }
         run_on_mesh(self)
     }
@@ -103,4 +86,39 @@ fn run_on_mesh(arguments: &Arguments) -> Result<(), Failure> {
     steps.discard()?;
     let view = if session.options.output.verbose > 0 { View::Whole } else { View::Short };
     session.options.output.finish(folder, &document(&report, view).to_text(), &summary)
+}
+
+/// The superelement that a case describes, where it describes no body. Its files are relative to the case, so it cannot
+/// come from standard input.
+///
+/// # Errors
+/// A case that cannot be read; matrices that are none.
+pub fn described_system(case: &Path, overrides: &[String]) -> Result<Option<FreeSystem>, Failure> {
+    if case == Path::new(STANDARD_INPUT) {
+        return Ok(None);
+    }
+    let bytes = read_input(case, CASE)?;
+    let raw = RawCase::parse(&input_name(case), &bytes, overrides)?;
+    if FreeSystem::is_described_by(&raw) { Ok(Some(FreeSystem::read(raw)?)) } else { Ok(None) }
+}
+
+/// Solves it and writes the eigenvalues.
+///
+/// # Errors
+/// Matrices that are singular together, an output folder that cannot be written.
+fn run_free(options: &RunOptions, system: &FreeSystem) -> Result<(), Failure> {
+    let start = Instant::now();
+    terminal::start_log(options.output.quiet, options.output.verbose);
+    let manifest = Manifest {
+        case_file: options.case.display().to_string(),
+        case_text: system.raw.text.clone(),
+        case_hash: system.hash.clone(),
+        overrides: system.raw.overrides.clone(),
+        threads: start_threads(options.threads),
+        ..Manifest::new("cea")
+    };
+    let folder = options.output.open_folder(&manifest, false)?;
+    let spectrum = free_spectrum(system)?;
+    let summary = spectrum.write(&folder, start.elapsed().as_secs_f64())?;
+    options.output.finish(folder, &spectrum.print(), &summary)
 }

@@ -1,9 +1,9 @@
 //! `frictionsim check`: is the case valid, and what would it cost?
 
+use super::cea::described_system;
 use super::options::CaseChanges;
-use super::profile::{Profile, Run};
 use super::session::{gibibytes, machine_memory, read_case};
-use super::{Failure, superelement, terminal};
+use super::{Failure, Run, terminal};
 use crate::case::{Case, Convergence, Cost, FreeSystem, RunCost, StudyCost};
 use crate::study::{Preflight, preflight};
 use clap::{Args, ValueHint};
@@ -28,25 +28,16 @@ pub struct Arguments {
 }
 
 impl Run for Arguments {
-    const PROFILE: Profile = Profile {
-        files: &[],
-        examples: &[("frictionsim check *.toml", "are these cases valid, and what do they cost?")],
-    };
-
     fn run(&self) -> Result<(), Failure> {
         let mut reports = Vec::new();
         let mut text = String::new();
         let mut bad = 0;
         for path in &self.cases {
             let name = path.display().to_string();
-            match check(path, self) {
-                Ok(Checked::Bodies(case, found)) => {
-                    text.push_str(&describe(&name, &case, &found));
-                    reports.push(object(&name, &case, &found));
-                }
-                Ok(Checked::Superelement(system)) => {
-                    text.push_str(&describe_superelement(&name, &system));
-                    reports.push(superelement_object(&name, &system));
+            match check(path, &name, &self.changes) {
+                Ok((described, report)) => {
+                    text.push_str(&described);
+                    reports.push(report);
                 }
                 Err(failure) => {
                     bad += 1;
@@ -76,7 +67,7 @@ impl Run for Arguments {
 /// # Errors
 /// Those of the case.
 pub fn examine(path: &Path, overrides: &[String]) -> Result<Value, Failure> {
-    if let Some(system) = superelement::described(path, overrides)? {
+    if let Some(system) = described_system(path, overrides)? {
         return Ok(superelement_object(&path.display().to_string(), &system));
     }
     let case = read_case(path, overrides)?;
@@ -84,16 +75,11 @@ pub fn examine(path: &Path, overrides: &[String]) -> Result<Value, Failure> {
     Ok(object(&path.display().to_string(), &case, &found))
 }
 
-/// A case that is valid.
-enum Checked {
-    Bodies(Box<Case>, Preflight),
-    Superelement(FreeSystem),
-}
-
-fn check(path: &Path, arguments: &Arguments) -> Result<Checked, Failure> {
-    let overrides = arguments.changes.overrides();
-    if let Some(system) = superelement::described(path, &overrides)? {
-        return Ok(Checked::Superelement(system));
+/// What is said of a case that is valid, for people and as an object.
+fn check(path: &Path, name: &str, changes: &CaseChanges) -> Result<(String, Value), Failure> {
+    let overrides = changes.overrides();
+    if let Some(system) = described_system(path, &overrides)? {
+        return Ok((describe_superelement(name, &system), superelement_object(name, &system)));
     }
     let case = read_case(path, &overrides)?;
     let found = preflight(&case, machine_memory());
@@ -104,25 +90,24 @@ fn check(path: &Path, arguments: &Arguments) -> Result<Checked, Failure> {
         }
     }
     let found = found?;
-    if arguments.changes.deny_warnings {
+    if changes.deny_warnings {
         case.deny_warnings(&found.warnings)?;
     }
-    Ok(Checked::Bodies(Box::new(case), found))
+    Ok((describe(name, &case, &found), object(name, &case, &found)))
+}
+
+/// The first line on a valid case.
+fn valid(name: &str, title: &str) -> String {
+    match title {
+        "" => format!("{name}: valid\n"),
+        _ => format!("{name}: valid ({title})\n"),
+    }
 }
 
 fn describe_superelement(name: &str, system: &FreeSystem) -> String {
     let own = &system.superelement;
-    let mut out = format!("{name}: valid");
-    if !system.title.is_empty() {
-        let _ = write!(out, " ({})", system.title);
-    }
-    let _ = writeln!(
-        out,
-        "\n  superelement {}: {}",
-        own.name,
-        plural(own.mass.rows, "unknown", "unknowns")
-    );
-    out
+    let unknowns = plural(own.mass.rows, "unknown", "unknowns");
+    valid(name, &system.title) + &format!("  superelement {}: {unknowns}\n", own.name)
 }
 
 fn superelement_object(name: &str, system: &FreeSystem) -> Value {
@@ -137,14 +122,11 @@ fn superelement_object(name: &str, system: &FreeSystem) -> Value {
 }
 
 fn describe(name: &str, case: &Case, found: &Preflight) -> String {
-    let mut out = format!("{name}: valid");
-    if !case.title.is_empty() {
-        let _ = write!(out, " ({})", case.title);
-    }
+    let mut out = valid(name, &case.title);
     let Cost { nodes, elements, dofs, .. } = found.cost;
     let _ = writeln!(
         out,
-        "\n  mesh: {nodes} nodes, {elements} elements, {dofs} unknowns, about {}",
+        "  mesh: {nodes} nodes, {elements} elements, {dofs} unknowns, about {}",
         size(found.cost.mesh_memory_bytes)
     );
     let lines = lines(case, found);

@@ -1,14 +1,14 @@
 //! `frictionsim collect`: the table over the points that a sweep has finished so far.
 
-use super::figure_options::FigureOptions;
-use super::profile::{Profile, Run};
-use super::recorded_case::recorded_case;
-use super::session::start_threads;
+use super::options::FigureOptions;
 use super::sweep::{SweepPlan, drawing, finished, gather};
-use super::{Failure, terminal};
+use super::{Failure, OutputOptions, Run, start_threads, terminal};
+use crate::case::{Case, MeshBytes, RawCase, RawValue, TableBytes};
 use crate::results::sweep::{SweepFolder, SweepReport, document};
+use crate::results::{MESH, Manifest};
 use clap::{ArgAction, Args, ValueHint};
-use std::path::PathBuf;
+use frictionsim_bounds::{RESULT, read_file};
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 /// Gather the points of a sweep that several processes share
@@ -34,11 +34,6 @@ pub struct Arguments {
 }
 
 impl Run for Arguments {
-    const PROFILE: Profile = Profile {
-        files: &[("points.csv", "one row for each finished point")],
-        examples: &[("frictionsim collect study", "gather what the shards have finished")],
-    };
-
     fn run(&self) -> Result<(), Failure> {
         let start = Instant::now();
         terminal::start_log(self.quiet, 0);
@@ -50,12 +45,8 @@ impl Run for Arguments {
         let report = SweepReport { wall_s: start.elapsed().as_secs_f64(), ..found };
         let drawing = (!self.no_figures).then(|| drawing(&case, &plan, &self.figures.drawing()));
         let summary = gather(&folder, &report, &manifest, drawing.as_ref())?;
-        if self.json {
-            terminal::print_json(&summary)?;
-        } else if self.quiet < 2 {
-            let path = folder.path().display();
-            terminal::print(&format!("{}results in {path}\n", document(&report, false).to_text()))?;
-        }
+        let output = OutputOptions { json: self.json, quiet: self.quiet, ..Default::default() };
+        output.print(&document(&report, false).to_text(), &summary, folder.path())?;
         match report.missing().len() {
             0 => Ok(()),
             missing => Err(Failure::run(format!(
@@ -64,4 +55,22 @@ impl Run for Arguments {
             ))),
         }
     }
+}
+
+/// The case that the manifest of a folder records, overrides included, with the mesh file that the folder holds.
+fn recorded_case(folder: &Path, manifest: &Manifest) -> Result<Case, Failure> {
+    let text = manifest.case_text.as_bytes();
+    let mut raw = RawCase::parse(&manifest.case_file, text, &manifest.overrides)?;
+    let file = raw.find("mesh.file").map(|item| &item.value);
+    if let (Some(RawValue::String(file)), Ok(bytes)) = (file, read_file(&folder.join(MESH), RESULT))
+    {
+        raw.mesh = Some(MeshBytes::new(file.clone(), bytes));
+    }
+    for (name, file) in raw.table_files() {
+        if let Ok(bytes) = read_file(&folder.join(&name), RESULT) {
+            let bytes = bytes.into();
+            raw.tables.push(TableBytes { file, bytes });
+        }
+    }
+    Ok(Case::from_raw(raw)?)
 }

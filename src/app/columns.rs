@@ -1,7 +1,6 @@
 //! `frictionsim columns`: the columns of tables and the keys of `summary.json`.
 
-use super::profile::{Profile, Run};
-use super::{Failure, terminal};
+use super::{Failure, Run, terminal};
 use crate::output::unit_of;
 use crate::results::reference::{markdown, reference};
 use clap::Args;
@@ -22,8 +21,6 @@ pub struct Arguments {
 }
 
 impl Run for Arguments {
-    const PROFILE: Profile = Profile::NONE;
-
     fn run(&self) -> Result<(), Failure> {
         if self.markdown {
             return terminal::print(&markdown());

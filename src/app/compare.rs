@@ -1,8 +1,6 @@
 //! `frictionsim compare`: runs side by side.
 
-use super::options::{OutputOptions, Told};
-use super::profile::{Profile, Run};
-use super::{Failure, terminal};
+use super::{Failure, OutputOptions, Run, Told, terminal};
 use crate::case::hash_of;
 use crate::results::compare::{
     ComparedRun, ComparisonSummary, document, file, overlaid, print, shared,
@@ -27,11 +25,6 @@ pub struct Arguments {
 }
 
 impl Run for Arguments {
-    const PROFILE: Profile = Profile {
-        files: &[("compare.csv", "every shared number, with differences")],
-        examples: &[("frictionsim compare a/cea b/cea", "two runs side by side")],
-    };
-
     fn run(&self) -> Result<(), Failure> {
         terminal::start_log(self.output.quiet, self.output.verbose);
         let names = names_of(&self.folders);

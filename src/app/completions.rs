@@ -1,7 +1,6 @@
 //! `frictionsim completions`: a shell's completion script.
 
-use super::profile::{Profile, Run};
-use super::{CommandLine, Failure, terminal};
+use super::{CommandLine, Failure, Run, terminal};
 use clap::{Args, CommandFactory};
 use clap_complete::Shell;
 
@@ -13,8 +12,6 @@ pub struct Arguments {
 }
 
 impl Run for Arguments {
-    const PROFILE: Profile = Profile::NONE;
-
     fn run(&self) -> Result<(), Failure> {
         let mut script = Vec::new();
         let mut command = CommandLine::command();

@@ -1,8 +1,6 @@
 //! `frictionsim convergence`: a case on several meshes and with several time steps.
 
-use super::options::Told;
-use super::profile::{Profile, Run};
-use super::{Failure, RunOptions, Session, terminal};
+use super::{Failure, Run, RunOptions, Session, Told, terminal};
 use crate::results::convergence::ConvergenceSummary;
 use crate::results::{Finding, declared};
 use crate::study::convergence::{levels, solve};
@@ -20,14 +18,6 @@ pub struct Arguments {
 }
 
 impl Run for Arguments {
-    const PROFILE: Profile = Profile {
-        files: &[("convergence.csv", "one row for each quantity on each level")],
-        examples: &[(
-            "frictionsim convergence disc.toml",
-            "observed orders and extrapolated values",
-        )],
-    };
-
     fn run(&self) -> Result<(), Failure> {
         let session = Session::start("convergence", &self.options)?;
         let case = &session.case;

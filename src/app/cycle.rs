@@ -1,8 +1,7 @@
 //! `frictionsim cycle`: limit cycles found directly, and followed over a parameter.
 
-use super::profile::{Profile, Run};
 use super::session::{available_memory, gibibytes};
-use super::{Failure, RunOptions, Session, terminal};
+use super::{Failure, Run, RunOptions, Session, terminal};
 use crate::case::{Case, refusal};
 use crate::results::OutputFolder;
 use crate::results::cea::KeptSteps;
@@ -36,30 +35,6 @@ const KEPT: &str = "cycles and points of branches that are done are kept (done-m
     that is done). The same command with --resume goes on";
 
 impl Run for Arguments {
-    const PROFILE: Profile = Profile {
-        files: &[
-            ("cycle-nN.csv", "contact and motion of the edge along the phase"),
-            ("branch-nN.csv", "one row for each cycle of a branch"),
-            ("stability-nN.csv", "exponents of perturbations"),
-            (
-                "two-waves-nN-nM.csv, .vtu",
-                "one row for each motion of two frequencies; its field over one period of the first wave",
-            ),
-            ("cycles.pvd, cycle-nN.vtu", "fields over one period"),
-            (
-                "cycle-modeK.csv, contact-modeK.csv, .npz, harmonics-modeK.csv",
-                "of a body without symmetry: the contact over one period, its nodes, harmonics in time",
-            ),
-        ],
-        examples: &[
-            ("frictionsim cycle disc.toml", "the limit cycles of a case, without time stepping"),
-            (
-                "frictionsim cycle block.toml --resume",
-                "go on where a search on any other body was interrupted",
-            ),
-        ],
-    };
-
     fn run(&self) -> Result<(), Failure> {
         let session = Session::start("cycle", &self.options)?;
         let case = &session.case;

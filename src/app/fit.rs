@@ -1,8 +1,6 @@
 //! `frictionsim fit`: parameters of a case from measured modes.
 
-use super::limits::{input_name, read_input};
-use super::profile::{Profile, Run};
-use super::{Failure, RunOptions, Session};
+use super::{Failure, Run, RunOptions, Session, input_name, read_input};
 use crate::case::hash_of;
 use crate::results::fit::BLOCK;
 use crate::signal::reader::{MeasuredShape, read_modes, read_shapes};
@@ -34,24 +32,6 @@ pub struct Arguments {
 }
 
 impl Run for Arguments {
-    const PROFILE: Profile = Profile {
-        files: &[
-            ("fit.csv", "each measured line with its mode and their difference"),
-            ("modes.csv", "every mode of the fitted model"),
-            ("fitted.toml", "sections with the fitted values to paste into a case"),
-        ],
-        examples: &[
-            (
-                "frictionsim fit bench.toml squeal.csv",
-                "which support explains the frequencies heard?",
-            ),
-            (
-                "frictionsim fit bench.toml modes.csv --shapes shapes.unv --scale 0.001",
-                "the same where shapes tell close modes apart",
-            ),
-        ],
-    };
-
     fn run(&self) -> Result<(), Failure> {
         let mut session = Session::start("fit", &self.options)?;
         session.case.require_fit()?;

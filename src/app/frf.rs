@@ -1,7 +1,6 @@
 //! `frictionsim frf`: frequency response of the model between two nodes.
 
-use super::profile::{Profile, Run};
-use super::{Failure, RunOptions, Session, terminal};
+use super::{Failure, Run, RunOptions, Session, terminal};
 use crate::case::{Case, Frf};
 use crate::frf::Terminal;
 use crate::results::{ResponseSummary, response_figure, write_response, write_universal_response};
@@ -20,17 +19,6 @@ pub struct Arguments {
 }
 
 impl Run for Arguments {
-    const PROFILE: Profile = Profile {
-        files: &[
-            ("frf.csv", "frequency, real and imaginary part"),
-            ("frf.unv", "the response as a universal file (output.universal)"),
-        ],
-        examples: &[(
-            "frictionsim frf hammer-test.toml",
-            "response of the model between two nodes",
-        )],
-    };
-
     fn run(&self) -> Result<(), Failure> {
         let session = Session::start("frf", &self.options)?;
         let case = &session.case;
@@ -69,7 +57,7 @@ impl Run for Arguments {
 fn described(case: &Case, frf: &Frf, computed: &Response) -> String {
     let place = |t: Terminal| {
         let direction = t.direction.name();
-        format!("node {} {direction}", case.node_label(t.node))
+        format!("node {} {direction}", case.body.node_label(t.node))
     };
     let error = match (computed.largest_error, computed.vectors, computed.backward_error) {
         (Some(error), Some(vectors), _) => {

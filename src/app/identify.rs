@@ -1,10 +1,8 @@
 //! `frictionsim identify`: Rayleigh coefficients from a measured frequency response.
 
-use super::Failure;
-use super::choice::{Choice, one_of};
-use super::measurement::{Measurement, SideFile};
-use super::options::{OutputOptions, Told};
-use super::profile::{Profile, Run};
+use super::measurement::{Measurement, SideFile, chosen};
+use super::options::Choice;
+use super::{Failure, OutputOptions, Run, Told, one_of};
 use crate::results::identification::{
     DAMPING_BLOCK, IdentificationSummary, document, identification, write_fits,
 };
@@ -54,23 +52,10 @@ const QUANTITIES: [Choice<ResponseQuantity>; 3] = [
 ];
 
 impl Run for Arguments {
-    const PROFILE: Profile = Profile {
-        files: &[
-            ("modes.csv, fit.csv", "frequencies and damping factors, and the fit through them"),
-            ("damping.toml", "a [damping] block to paste into a case"),
-        ],
-        examples: &[(
-            "frictionsim identify FRF.csv --json",
-            "Rayleigh coefficients with intervals",
-        )],
-    };
-
     fn run(&self) -> Result<(), Failure> {
         let options = identification_options(self)?;
-        let uff = self.uff.as_deref();
-        let copy = uff
-            .map(|path| SideFile::prepare("--uff", path, &self.response, self.output.force))
-            .transpose()?;
+        let (uff, force) = (self.uff.as_deref(), self.output.force);
+        let copy = SideFile::prepare("--uff", uff, &self.response, force)?;
         let measurement =
             Measurement::start("identify", &self.response, &self.output, choices(self))?;
         let reading = ResponseOptions {
@@ -125,14 +110,10 @@ fn identification_options(arguments: &Arguments) -> Result<IdentificationOptions
 
 /// Options that change the result.
 fn choices(arguments: &Arguments) -> Vec<String> {
-    let number = |name: &str, value: Option<f64>| value.map(|v| format!("{name}={v}"));
-    let quantity = arguments.quantity.map(|quantity| format!("quantity={}", quantity.name()));
-    let mut out: Vec<String> =
-        [quantity, number("from", arguments.from), number("to", arguments.to)]
-            .into_iter()
-            .flatten()
-            .collect();
-    out.extend(arguments.columns.iter().map(|c| format!("columns={c}")));
-    out.extend(arguments.channel.iter().map(|c| format!("channel={c}")));
-    out
+    chosen("quantity", arguments.quantity.map(|quantity| quantity.name()))
+        .chain(chosen("from", arguments.from))
+        .chain(chosen("to", arguments.to))
+        .chain(chosen("columns", &arguments.columns))
+        .chain(chosen("channel", &arguments.channel))
+        .collect()
 }

@@ -1,7 +1,6 @@
 //! `frictionsim improve`: where a modification silences unstable modes.
 
-use super::profile::{Profile, Run};
-use super::{Failure, RunOptions, Session};
+use super::{Failure, Run, RunOptions, Session};
 use crate::results::improve::{document, figures, write};
 use crate::study::improve::improve;
 use clap::Args;
@@ -18,21 +17,6 @@ pub struct Arguments {
 }
 
 impl Run for Arguments {
-    const PROFILE: Profile = Profile {
-        files: &[
-            ("candidates.csv", "one row for each modification, the best first"),
-            ("improve.vtu", "derivatives of growth by a modification at each place"),
-            ("improved.toml", "the keys that make the best one"),
-        ],
-        examples: &[
-            ("frictionsim improve disc.toml", "what raises the critical friction most"),
-            (
-                "frictionsim improve disc.toml --set improve.modifications=mass --set improve.mass=0.005",
-                "where five grams do",
-            ),
-        ],
-    };
-
     fn run(&self) -> Result<(), Failure> {
         let session = Session::start("improve", &self.options)?;
         session.case.require_cea()?;

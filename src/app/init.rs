@@ -1,8 +1,7 @@
 //! `frictionsim init`: a commented case to start from.
 
-use super::profile::{Profile, Run};
 use super::shipped::{ShippedCase, ShippedFile, all_cases, all_files};
-use super::{Failure, terminal};
+use super::{Failure, Run, terminal};
 use crate::case::{case_from, reference};
 use clap::{Args, ValueHint};
 use std::fmt::Write as _;
@@ -52,38 +51,22 @@ pub struct Arguments {
 }
 
 impl Run for Arguments {
-    const PROFILE: Profile = Profile {
-        files: &[
-            ("TEMPLATE.toml", "the commented case"),
-            ("meshes/*, *.csv", "the mesh or table that it needs, if any"),
-        ],
-        examples: &[
-            ("frictionsim init transient", "write transient.toml"),
-            ("frictionsim init mesh -o part.toml", "a part of your own: part.toml and its mesh"),
-            (
-                "frictionsim init --from brake.inp",
-                "brake.toml with the materials, ties, contacts and conditions of brake.inp",
-            ),
-            ("frictionsim init --all", "every shipped case, in the folder cases"),
-        ],
-    };
-
     fn run(&self) -> Result<(), Failure> {
         if self.list {
             return terminal::print(&list());
         }
         if self.all {
-            return write_all(self);
+            let folder = self.out.clone().unwrap_or_else(|| PathBuf::from("cases"));
+            let files: Vec<_> = missing(&folder, all_files()).collect();
+            return write_files(&files, self.force);
         }
         if let Some(mesh) = &self.from {
             return start_from(mesh, self);
         }
         let name = self.template.as_str();
         let case = if name == REFERENCE { None } else { Some(find(name)?) };
-        let path = match &self.out {
-            Some(path) => path.clone(),
-            None => PathBuf::from(format!("{name}.toml")),
-        };
+        let own = self.out.clone();
+        let path = own.unwrap_or_else(|| PathBuf::from(format!("{name}.toml")));
         let is_stdout = path == Path::new("-");
         let shown = match path.file_name() {
             Some(name) if !is_stdout => name.to_string_lossy().into_owned(),
@@ -116,14 +99,6 @@ fn list() -> String {
     lines.chain([line(REFERENCE, "", all)]).collect()
 }
 
-/// Writes the folder of the shipped cases.
-fn write_all(arguments: &Arguments) -> Result<(), Failure> {
-    let folder = arguments.out.clone();
-    let folder = folder.unwrap_or_else(|| PathBuf::from("cases"));
-    let files: Vec<_> = missing(&folder, all_files()).collect();
-    write_files(&files, arguments.force)
-}
-
 /// Shipped files that a folder does not hold as they would be written.
 fn missing<'a>(
     folder: &'a Path,
@@ -151,10 +126,7 @@ fn write_files(files: &[(PathBuf, &[u8])], force: bool) -> Result<(), Failure> {
 
 /// Writes the case that a mesh file suggests, beside it unless told otherwise.
 fn start_from(mesh: &Path, arguments: &Arguments) -> Result<(), Failure> {
-    let path = match &arguments.out {
-        Some(path) => path.clone(),
-        None => mesh.with_extension("toml"),
-    };
+    let path = arguments.out.clone().unwrap_or_else(|| mesh.with_extension("toml"));
     let is_stdout = path == Path::new("-");
     // The case names the mesh as seen from its own folder.
     let folder = path.parent().unwrap_or(Path::new(""));
@@ -173,8 +145,7 @@ fn start_from(mesh: &Path, arguments: &Arguments) -> Result<(), Failure> {
     if is_stdout {
         return terminal::print(&text);
     }
-    write(&path, text.as_bytes(), arguments.force)?;
-    terminal::print(&format!("{}\n", path.display()))
+    write_files(&[(path, text.as_bytes())], arguments.force)
 }
 
 /// The shipped case of a name or short name.

@@ -1,7 +1,6 @@
 //! `frictionsim keys`: every key of a case file.
 
-use super::profile::{Profile, Run};
-use super::{Failure, terminal};
+use super::{Failure, Run, terminal};
 use crate::case::{CaseKey, KEYS, reference};
 use clap::Args;
 use serde_json::{Value, json};
@@ -24,8 +23,6 @@ pub struct Arguments {
 }
 
 impl Run for Arguments {
-    const PROFILE: Profile = Profile::NONE;
-
     fn run(&self) -> Result<(), Failure> {
         if self.schema {
             return terminal::print_json(&reference::schema());

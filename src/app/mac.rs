@@ -1,9 +1,7 @@
 //! `frictionsim mac`: modal assurance of measured shapes.
 
 use super::fit::measured_shapes;
-use super::limits::input_name;
-use super::profile::{Profile, Run};
-use super::{Failure, RunOptions, Session};
+use super::{Failure, Run, RunOptions, Session, input_name};
 use crate::results::mac::MacSummary;
 use crate::study::mac::assurance;
 use clap::{Args, ValueHint};
@@ -27,14 +25,6 @@ pub struct Arguments {
 }
 
 impl Run for Arguments {
-    const PROFILE: Profile = Profile {
-        files: &[("mac.csv", "one row for each shape and mode")],
-        examples: &[(
-            "frictionsim mac disc.toml shapes.unv --scale 0.001",
-            "which mode of the model is which measured one?",
-        )],
-    };
-
     fn run(&self) -> Result<(), Failure> {
         let mut session = Session::start("mac", &self.options)?;
         let shapes = measured_shapes(&self.shapes, self.scale, &mut session)?;

@@ -1,8 +1,7 @@
 //! `frictionsim man`: manual pages.
 
-use super::profile::{Profile, Run};
-use super::{Failure, command_line, profile, terminal};
-use crate::case::{CaseKey, KEYS};
+use super::{Failure, Run, command_line, terminal};
+use crate::case::{KEYS, reference};
 use clap::{Args, ValueHint};
 use clap_mangen::Man;
 use std::fmt::Write as _;
@@ -29,6 +28,23 @@ const EVERYWHERE: [(&str, &str); 4] = [
     ("figures.bin", "what the figures show, for plot and compare"),
 ];
 
+/// Files and examples of each command.
+const MANUAL: &str = include_str!("manual.txt");
+
+/// What `manual.txt` tells of a command: the files that it writes, and its examples, each with what it is for.
+fn told(command: &str) -> [Vec<(&'static str, &'static str)>; 2] {
+    let heading = format!("[{command}]");
+    let own = MANUAL.lines().skip_while(|line| *line != heading).skip(1);
+    let (mut files, mut examples) = (Vec::new(), Vec::new());
+    for (name, meaning) in own.map_while(|line| line.rsplit_once(" | ")) {
+        match name.strip_prefix("$ ") {
+            Some(line) => examples.push((line, meaning)),
+            None => files.push((name, meaning)),
+        }
+    }
+    [files, examples]
+}
+
 const EXIT_STATUS: [(&str, &str); 4] = [
     ("0", "done"),
     ("1", "the run failed"),
@@ -37,8 +53,6 @@ const EXIT_STATUS: [(&str, &str); 4] = [
 ];
 
 impl Run for Arguments {
-    const PROFILE: Profile = Profile::NONE;
-
     fn run(&self) -> Result<(), Failure> {
         let mut command = command_line();
         // Builds the names of the subcommands: `frictionsim-cea`.
@@ -82,15 +96,12 @@ fn page(command: &clap::Command) -> io::Result<Vec<u8>> {
         man.render_subcommands_section(&mut out)?;
     }
     let mut text = String::new();
-    if let Some(profile) =
-        profile(command.get_name()).filter(|profile| !profile.examples.is_empty())
-    {
-        let writes_folder = command.get_arguments().any(|arg| arg.get_id() == "no_figures");
-        let everywhere: &[_] = if writes_folder { &EVERYWHERE } else { &[] };
-        let files: Vec<_> = profile.files.iter().chain(everywhere).copied().collect();
-        section(&mut text, "FILES", &files);
-        section(&mut text, "EXAMPLES", profile.examples);
+    let [mut files, examples] = told(command.get_name());
+    if command.get_arguments().any(|arg| arg.get_id() == "no_figures") {
+        files.extend(EVERYWHERE);
     }
+    section(&mut text, "FILES", &files);
+    section(&mut text, "EXAMPLES", &examples);
     section(&mut text, "EXIT STATUS", &EXIT_STATUS);
     if command.get_subcommands().next().is_some() || runs_a_case(command) {
         text.push_str(".SH \"SEE ALSO\"\n");
@@ -112,15 +123,12 @@ fn case_page() -> String {
     let version = env!("CARGO_PKG_VERSION");
     let mut out = format!(".TH frictionsim-case 5 \"\" \"frictionsim {version}\"\n.SH NAME\n");
     out.push_str("frictionsim\\-case \\- keys of a case file, in TOML and SI units\n");
-    let mut sections: Vec<&str> = KEYS.iter().map(CaseKey::section).collect();
-    sections.dedup();
-    for name in sections {
+    for name in reference::sections() {
         let keys = KEYS.iter().filter(|key| key.section() == name);
         let entries: Vec<(String, String)> = keys
             .map(|key| {
                 let term = format!("{} ({} {})", key.short(), key.values(), key.unit);
-                let default = key.default_text();
-                let default = match default {
+                let default = match key.default_text() {
                     "required" => "Required.".to_owned(),
                     other => format!("Default {other}."),
                 };
@@ -155,20 +163,24 @@ fn escaped(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::app::PROFILES;
 
     #[test]
     fn every_command_that_runs_has_files_and_examples_in_its_page() {
         let mut command = command_line();
         command.build();
         for sub in command.get_subcommands() {
-            let is_told = profile(sub.get_name()).is_some_and(|told| !told.examples.is_empty());
+            let is_told = !told(sub.get_name())[1].is_empty();
             let needs = sub.get_arguments().any(|arg| arg.get_id() == "no_figures");
             assert!(is_told || !needs, "{}", sub.get_name());
         }
-        for (name, profile) in PROFILES {
+        for line in MANUAL.lines().filter(|line| !line.is_empty() && !line.starts_with('#')) {
+            let Some(name) = line.strip_prefix('[') else {
+                assert!(line.contains(" | "), "{line} tells nothing");
+                continue;
+            };
+            let name = name.trim_end_matches(']');
             assert!(command.find_subcommand(name).is_some(), "{name} is no command");
-            for (line, _) in profile.examples {
+            for (line, _) in &told(name)[1] {
                 let line = line.split(" | ").next().unwrap_or(line);
                 let words = line.split(' ').collect::<Vec<&str>>();
                 let parsed = command.clone().try_get_matches_from(words);

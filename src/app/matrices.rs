@@ -1,7 +1,6 @@
 //! `frictionsim matrices`: the matrices of a case, for other programs.
 
-use super::profile::{Profile, Run};
-use super::{Failure, RunOptions, Session};
+use super::{Failure, Run, RunOptions, Session};
 use crate::results::matrices::{MatricesSummary, print, write_matrices};
 use crate::results::{WholeMesh, write_summary};
 use crate::study::matrices::matrices;
@@ -31,30 +30,6 @@ fn friction_coefficient(text: &str) -> Result<f64, String> {
 }
 
 impl Run for Arguments {
-    const PROFILE: Profile = Profile {
-        files: &[
-            ("matrices.json", "what multiplies what, and the files of each matrix"),
-            (
-                "M.mtx, M.npz",
-                "mass at the case's friction mu_0; C, K alike; K_mu1: what mu - mu_0 multiplies",
-            ),
-            (
-                "contact_slip.mtx",
-                "motion of the contact points along the sliding; contact_normal: along the normal",
-            ),
-            ("unknowns.csv", "node, direction and place of each unknown"),
-            ("mesh.unv", "the mesh as a universal file (output.universal)"),
-            ("contact.csv", "node, status, length and normal force of each contact point"),
-        ],
-        examples: &[
-            ("frictionsim matrices block.toml", "solve the same problem with another program"),
-            (
-                "frictionsim matrices block.toml --friction 0.5",
-                "M, C and K at one friction coefficient",
-            ),
-        ],
-    };
-
     fn run(&self) -> Result<(), Failure> {
         let session = Session::start("matrices", &self.options)?;
         let case = &*session.case.on_whole_mesh()?;

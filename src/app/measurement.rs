@@ -1,12 +1,11 @@
 //! Options, input and output folder that the commands on measured tables share.
 
-use super::limits::{input_name, read_input};
-use super::options::OutputOptions;
-use super::{Failure, terminal};
+use super::{Failure, OutputOptions, input_name, read_input, terminal};
 use crate::case::hash_of;
 use crate::results::{Head, Manifest, OutputFolder};
 use crate::signal::reader::ReadError;
 use frictionsim_bounds::MEASUREMENT;
+use std::fmt::Display;
 use std::io::Write as _;
 use std::path::Path;
 use std::time::Instant;
@@ -55,9 +54,6 @@ impl Measurement {
     }
 
     /// Takes the output folder; it belongs to one table and one set of options.
-    ///
-    /// # Errors
-    /// Those of [`OutputOptions::open_folder`].
     pub fn open_folder(&self) -> Result<OutputFolder, Failure> {
         self.options.open_folder(&self.manifest, false)
     }
@@ -68,6 +64,14 @@ impl Measurement {
     }
 }
 
+/// An option that changes the result, with each of its values.
+pub fn chosen<T: Display>(
+    name: &'static str,
+    values: impl IntoIterator<Item = T>,
+) -> impl Iterator<Item = String> {
+    values.into_iter().map(move |value| format!("{name}={value}"))
+}
+
 /// A file that a command writes outside the output folder.
 pub struct SideFile<'a> {
     path: &'a Path,
@@ -75,17 +79,20 @@ pub struct SideFile<'a> {
 }
 
 impl<'a> SideFile<'a> {
-    /// Asks before any work whether the file may be written: nothing is replaced without `--force`, the measurement
+    /// Asks before any work whether the file, if one is named, may be written: nothing is replaced without `--force`, the measurement
     /// itself never.
     ///
     /// # Errors
     /// [`Failure::Usage`] naming `option`.
     pub fn prepare(
         option: &str,
-        path: &'a Path,
+        path: Option<&'a Path>,
         measurement: &Path,
         force: bool,
-    ) -> Result<Self, Failure> {
+    ) -> Result<Option<Self>, Failure> {
+        let Some(path) = path else {
+            return Ok(None);
+        };
         let shown = path.display();
         let same = |a: &Path, b: &Path| Some(a.canonicalize().ok()? == b.canonicalize().ok()?);
         if same(path, measurement) == Some(true) {
@@ -98,7 +105,7 @@ impl<'a> SideFile<'a> {
                 "{option} {shown}: the file exists; name another one, or replace it with --force"
             )));
         }
-        Ok(Self { path, force })
+        Ok(Some(Self { path, force }))
     }
 
     /// Writes the file, whole or not at all.

@@ -1,7 +1,6 @@
 //! `frictionsim mesh`: the mesh alone.
 
-use super::profile::{Profile, Run};
-use super::{Failure, RunOptions, Session};
+use super::{Failure, Run, RunOptions, Session};
 use crate::case::{AssemblyBody, Case, ModeSelection};
 use crate::chart::{ChartError, Figure};
 use crate::mesh::{AnnulusMesh, SolidSector};
@@ -21,11 +20,6 @@ pub struct Arguments {
 }
 
 impl Run for Arguments {
-    const PROFILE: Profile = Profile {
-        files: &[("mesh.vtu", "nodes, elements, node numbers, edges")],
-        examples: &[("frictionsim mesh disc.toml", "look at a mesh before a run")],
-    };
-
     fn run(&self) -> Result<(), Failure> {
         let session = Session::start("mesh", &self.options)?;
         let case = &session.case;

@@ -3,7 +3,6 @@
 mod basin;
 pub mod cea;
 pub mod check;
-mod choice;
 mod collect;
 mod columns;
 mod compare;
@@ -12,7 +11,6 @@ mod convergence;
 pub mod cycle;
 pub mod embedded;
 mod failure;
-mod figure_options;
 mod fit;
 mod frf;
 mod identify;
@@ -28,13 +26,10 @@ mod measurement;
 mod mesh;
 mod options;
 pub mod plot;
-mod profile;
-mod recorded_case;
 mod session;
 mod share;
 pub mod shipped;
 mod signal;
-mod superelement;
 pub mod sweep;
 pub mod terminal;
 pub mod transient;
@@ -44,9 +39,9 @@ pub use failure::Failure;
 pub use options::{OutputOptions, RunOptions};
 pub use session::Session;
 
-use choice::one_of;
-use options::SIMD_LEVELS;
-use profile::{Profile, Run};
+use limits::{input_name, read_input};
+use options::{SIMD_LEVELS, Told, one_of};
+use session::start_threads;
 
 use clap::{Arg, ArgAction, CommandFactory, FromArgMatches, Parser, Subcommand};
 use std::ffi::OsString;
@@ -65,6 +60,15 @@ pub struct CommandLine {
     command: Command,
 }
 
+/// A subcommand, by the arguments that it takes.
+trait Run {
+    /// Runs it.
+    ///
+    /// # Errors
+    /// What it is asked for in vain: arguments, a case or a folder (exit code 2); a run that fails (1).
+    fn run(&self) -> Result<(), Failure>;
+}
+
 /// The table of commands, each with the file that holds it.
 macro_rules! commands {
     ($($name:ident: $module:ident,)*) => {
@@ -80,11 +84,6 @@ macro_rules! commands {
                 }
             }
         }
-
-        /// What the commands say of themselves, by their names.
-        const PROFILES: &[(&str, Profile)] = &[
-            $((stringify!($module), <$module::Arguments as Run>::PROFILE),)*
-        ];
     };
 }
 
@@ -113,12 +112,6 @@ commands! {
     Uncertainty: uncertainty,
     Completions: completions,
     Man: man,
-}
-
-/// The profile of a command.
-fn profile(command: &str) -> Option<&'static Profile> {
-    let found = PROFILES.iter().find(|(name, _)| *name == command);
-    found.map(|(_, profile)| profile)
 }
 
 /// Commands by what they are for, in the order of the help; all others are under "Help".
@@ -248,7 +241,7 @@ pub fn run_arguments(given: Vec<OsString>) -> u8 {
         let of_command = found.subcommand().map(|(_, own)| own);
         let threads = of_command.and_then(|own| own.try_get_one::<u16>("threads").ok().flatten());
         if threads.is_some() {
-            session::start_threads(threads.copied());
+            start_threads(threads.copied());
         }
         CommandLine::from_arg_matches(&found)
     });

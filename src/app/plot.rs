@@ -1,9 +1,7 @@
 //! `frictionsim plot`: the figures of a results folder once more.
 
-use super::figure_options::FigureOptions;
-use super::profile::{Profile, Run};
-use super::session::start_threads;
-use super::{Failure, terminal};
+use super::options::FigureOptions;
+use super::{Failure, Run, start_threads, terminal};
 use crate::results::sweep::SweepFolder;
 use crate::results::{
     DrawingOptions, FolderError, Manifest, OutputFolder, Page, Record, read_manifest, read_record,
@@ -33,11 +31,6 @@ pub struct Arguments {
 }
 
 impl Run for Arguments {
-    const PROFILE: Profile = Profile {
-        files: &[("figures/*.svg, figures/*.png", "the figures, drawn again")],
-        examples: &[("frictionsim plot results/disc/cea --dpi 300", "for print")],
-    };
-
     fn run(&self) -> Result<(), Failure> {
         terminal::start_log(self.quiet, 0);
         start_threads(self.threads);

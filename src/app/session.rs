@@ -1,9 +1,6 @@
 //! Steps of every run before and after its analysis: read the case, take the output folder, report the results.
 
-use super::limits::{input_name, read_input};
-use super::options::Told;
-use super::terminal;
-use super::{Failure, RunOptions, embedded};
+use super::{Failure, RunOptions, Told, embedded, input_name, read_input, terminal};
 use crate::case::{Case, RawCase};
 use crate::chart::{ChartError, Figure};
 use crate::fem::operator::SimdLevel;

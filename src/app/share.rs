@@ -1,6 +1,6 @@
 //! Options of the commands whose work is dealt out: parts of it, and a folder that is gone on with.
 
-use super::{Failure, OutputOptions, Session};
+use super::{Failure, Session};
 use crate::results::OutputFolder;
 use crate::results::sweep::{Start, SweepFolder};
 use crate::study::Shard;
@@ -30,10 +30,10 @@ impl ShareOptions {
     pub fn open(
         &self,
         session: &Session,
-        output: &OutputOptions,
         count: usize,
         pieces: &[usize],
     ) -> Result<SweepFolder, Failure> {
+        let output = &session.options.output;
         let start = match (self.resume, output.force) {
             (_, true) => Start::Over,
             (true, false) => Start::Resume,

@@ -1,10 +1,8 @@
 //! `frictionsim signal`: what vibrates in a measured or computed time signal.
 
-use super::measurement::{Measurement, SideFile};
-use super::options::{OutputOptions, Told};
-use super::profile::{Profile, Run};
+use super::measurement::{Measurement, SideFile, chosen};
 use super::session::read_case;
-use super::{Failure, terminal};
+use super::{Failure, OutputOptions, Run, Told, terminal};
 use crate::case::{Case, Cea};
 use crate::cea::{ComplexMode, ModeLimit};
 use crate::fem::MassKind;
@@ -83,20 +81,11 @@ pub struct Arguments {
 }
 
 impl Run for Arguments {
-    const PROFILE: Profile = Profile {
-        files: &[
-            ("peaks.csv", "main peaks of each channel"),
-            ("spectrum-N.csv", "spectrum of each channel"),
-        ],
-        examples: &[("frictionsim signal microphone.csv --case disc.toml", "which mode squeals")],
-    };
-
     fn run(&self) -> Result<(), Failure> {
-        let copies = prepare_copies(self)?;
-        let case = match &self.case {
-            Some(path) => Some(read_case(path, &self.set)?),
-            None => None,
-        };
+        let (signal, force) = (&self.signal, self.output.force);
+        let wav = SideFile::prepare("--wav", self.wav.as_deref(), signal, force)?;
+        let uff = SideFile::prepare("--uff", self.uff.as_deref(), signal, force)?;
+        let case = self.case.as_ref().map(|path| read_case(path, &self.set)).transpose()?;
         let measurement =
             Measurement::start("signal", &self.signal, &self.output, choices(self, case.as_ref()))?;
         let reading = SignalOptions {
@@ -143,7 +132,7 @@ impl Run for Arguments {
             notes: file.notes.clone(),
         };
         write_spectra(&folder, &spectra)?;
-        let aside = write_copies(self, &copies, &file)?;
+        let aside = write_copies(self, [wav, uff], &file)?;
         let mut told = Told::of(measurement.head(), document(&summary));
         told.text += &aside;
         self.output.finish_result(folder, told, &summary, || {
@@ -195,20 +184,10 @@ fn check_drawing(arguments: &Arguments, file: &SignalFile) -> Result<(), Failure
     Ok(())
 }
 
-/// The sound and the universal file that are asked for.
-fn prepare_copies(arguments: &Arguments) -> Result<[Option<SideFile<'_>>; 2], Failure> {
-    let (signal, force) = (&arguments.signal, arguments.output.force);
-    let wav = arguments.wav.as_deref();
-    let wav = wav.map(|path| SideFile::prepare("--wav", path, signal, force));
-    let uff = arguments.uff.as_deref();
-    let uff = uff.map(|path| SideFile::prepare("--uff", path, signal, force));
-    Ok([wav.transpose()?, uff.transpose()?])
-}
-
 /// Writes the channels as sound and as universal file, where asked for; what was written, in words.
 fn write_copies(
     arguments: &Arguments,
-    [wav, uff]: &[Option<SideFile<'_>>; 2],
+    [wav, uff]: [Option<SideFile<'_>>; 2],
     file: &SignalFile,
 ) -> Result<String, Failure> {
     let mut text = String::new();
@@ -285,18 +264,12 @@ fn modes_below(case: &Case, frequency_hz: f64) -> Result<Vec<ComplexMode>, Failu
 
 /// Options that change the result.
 fn choices(arguments: &Arguments, case: Option<&Case>) -> Vec<String> {
-    let number = |name: &str, value: Option<f64>| value.map(|v| format!("{name}={v}"));
-    let mut out: Vec<String> = [
-        number("rate", arguments.rate),
-        number("from", arguments.from),
-        number("to", arguments.to),
-        number("resolution", arguments.resolution),
-        case.map(|c| format!("case={}", c.raw.hash())),
-    ]
-    .into_iter()
-    .flatten()
-    .collect();
-    out.extend(arguments.channel.iter().map(|c| format!("channel={c}")));
-    out.extend(arguments.columns.iter().map(|c| format!("columns={c}")));
-    out
+    chosen("rate", arguments.rate)
+        .chain(chosen("from", arguments.from))
+        .chain(chosen("to", arguments.to))
+        .chain(chosen("resolution", arguments.resolution))
+        .chain(chosen("case", case.map(|case| case.raw.hash())))
+        .chain(chosen("channel", &arguments.channel))
+        .chain(chosen("columns", &arguments.columns))
+        .collect()
 }

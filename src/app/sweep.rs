@@ -1,16 +1,13 @@
 //! `frictionsim sweep`: an analysis at every point of a parameter study.
 
-mod progress;
 mod workers;
 
 pub use crate::study::{Shard, SweepPlan};
-pub use progress::SweepProgress;
-pub use workers::{PointRunner, SweepRun};
+pub use workers::{PointRunner, SweepProgress, SweepRun};
 
-use super::profile::{Profile, Run};
 use super::share::ShareOptions;
 use super::transient::linear_stage;
-use super::{Failure, RunOptions, Session, cycle, terminal};
+use super::{Failure, Run, RunOptions, Session, cycle, terminal};
 use crate::case::{Analysis, Case};
 use crate::results::sweep::{Found, PointRecord, SweepDrawing, SweepFolder, SweepReport};
 use crate::results::sweep::{SweepSummary, document, draw, long_tables, write_points};
@@ -32,19 +29,6 @@ pub struct Arguments {
 }
 
 impl Run for Arguments {
-    const PROFILE: Profile = Profile {
-        files: &[
-            ("points.csv", "one row for each point"),
-            ("points/point-NNNNNN.json", "what came out of a point; the same bytes whoever ran it"),
-            ("points/clock-NNNNNN.json", "how long that took"),
-        ],
-        examples: &[
-            ("frictionsim sweep study.toml", "all points on all cores"),
-            ("frictionsim sweep study.toml --out study --shard 2/8", "one of eight processes"),
-            ("frictionsim sweep study.toml --resume", "go on after Ctrl-C"),
-        ],
-    };
-
     fn run(&self) -> Result<(), Failure> {
         let session = Session::start("sweep", &self.options)?;
         let plan = SweepPlan::new(&session.case)?;
@@ -52,7 +36,7 @@ impl Run for Arguments {
         session.check_memory(threads.min(plan.count()) as f64 * point_memory(&session, &plan))?;
         let points = self.share.pieces(plan.count());
         let output = &self.options.output;
-        let folder = self.share.open(&session, output, plan.count(), &points)?;
+        let folder = self.share.open(&session, plan.count(), &points)?;
 
         terminal::catch_signals(workers::KEPT);
         let progress = SweepProgress::new(output.is_quiet(), points.len());
@@ -171,10 +155,7 @@ pub fn gather(
     Ok(summary)
 }
 
-/// Runs the analyses of one point and gives the summary of each by its name.
-///
-/// # Errors
-/// Those of the first analysis that fails.
+/// Runs the analyses of one point up to the first that fails, and gives the summary of each by its name.
 fn run_point(
     case: &Case,
     analyses: &[Analysis],

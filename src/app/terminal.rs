@@ -1,8 +1,7 @@
 //! Terminal output: results on stdout, log and progress on stderr.
 
-use super::Failure;
-use super::embedded;
 use super::log::Line;
+use super::{Failure, embedded};
 use crate::case::{find_key, shown, shown_json};
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
@@ -68,48 +67,36 @@ const OTHER_NAMES: &[(&str, &str)] = &[
     ("validate", "check"),
 ];
 
-/// The command that is meant by one that does not exist.
-fn meant_command(error: &clap::Error) -> Option<&'static str> {
-    if error.kind() != ErrorKind::InvalidSubcommand {
-        return None;
-    }
-    let Some(ContextValue::String(given)) = error.get(ContextKind::InvalidSubcommand) else {
-        return None;
+/// What is said of a command of another program, and of an assignment to a case key that no command takes.
+fn meant(error: &clap::Error) -> Option<String> {
+    let given = |context| match error.get(context) {
+        Some(ContextValue::String(given)) => Some(given.as_str()),
+        _ => None,
     };
-    let found = OTHER_NAMES.iter().find(|pair| pair.0 == given);
-    found.map(|pair| pair.1)
-}
-
-/// The assignment to a case key that is meant by an argument that no command takes.
-fn meant_assignment(error: &clap::Error) -> Option<&str> {
-    if error.kind() != ErrorKind::UnknownArgument {
-        return None;
+    match error.kind() {
+        ErrorKind::InvalidSubcommand => {
+            let given = given(ContextKind::InvalidSubcommand)?;
+            let (_, meant) = OTHER_NAMES.iter().find(|pair| pair.0 == given)?;
+            Some(format!("no such command; `frictionsim {meant}` does that"))
+        }
+        ErrorKind::UnknownArgument => {
+            let given = given(ContextKind::InvalidArg)?;
+            find_key(given.split_once('=')?.0)?;
+            let given = shown(given);
+            Some(format!(
+                "unexpected argument '{given}': a key of the case is changed by --set '{given}'"
+            ))
+        }
+        _ => None,
     }
-    let Some(ContextValue::String(given)) = error.get(ContextKind::InvalidArg) else {
-        return None;
-    };
-    let (key, _) = given.split_once('=')?;
-    find_key(key).map(|_| given.as_str())
 }
 
 /// Prints what the command line's parser says (help and version too), and gives the exit code.
 pub fn report_usage(error: &clap::Error) -> u8 {
-    if let Some(meant) = meant_command(error) {
-        let _ = writeln!(
-            io::stderr().lock(),
-            "{} no such command; `frictionsim {meant}` does that\n\nFor more information, try '--help'.",
-            error_word()
-        );
-        return 2;
-    }
-    if let Some(assignment) = meant_assignment(error) {
-        let _ = writeln!(
-            io::stderr().lock(),
-            "{} unexpected argument '{assignment}': a key of the case is changed by --set '{assignment}'\n\n\
-             For more information, try '--help'.",
-            error_word(),
-            assignment = shown(assignment)
-        );
+    if let Some(meant) = meant(error) {
+        let word = error_word();
+        let help = "For more information, try '--help'.";
+        let _ = writeln!(io::stderr().lock(), "{word} {meant}\n\n{help}");
         return 2;
     }
     let plain = error.render().to_string();

@@ -1,20 +1,18 @@
 //! `frictionsim transient`: the disc from first expansion to limit cycle.
 
 mod continuation;
-mod figures;
 mod watch;
 
-pub use figures::linear_stage;
-
-use super::profile::{Profile, Run};
-use super::{Failure, RunOptions, Session};
+use super::{Failure, Run, RunOptions, Session};
+use crate::case::Case;
 use crate::fem::operator::StiffnessOperator;
 use crate::linalg::interruption;
 use crate::results::transient::{
-    CHECKPOINT, Checkpoint, PredictedGrowth, TransientReport, document, write, write_checkpoint,
+    CHECKPOINT, Checkpoint, LinearStage, PredictedGrowth, RecordedRun, RunFigures, TransientReport,
+    document, draw, write, write_checkpoint,
 };
 use crate::results::{OutputFolder, read_record};
-use crate::study::transient::TransientStudy;
+use crate::study::{self, transient::TransientStudy};
 use crate::transient::{CentralDifference, Recorder, RunEnd};
 use clap::Args;
 use std::path::Path;
@@ -60,22 +58,6 @@ fn resume<'b>(
 }
 
 impl Run for Arguments {
-    const PROFILE: Profile = Profile {
-        files: &[
-            ("probe-ID.csv", "motion of each probe over time"),
-            ("energy.csv", "energies and powers, equations (8) to (12)"),
-            ("contact.csv, contact.npz", "contact status: fractions, and node by node"),
-            ("harmonics.csv", "amplitudes of the nodal diameters over time"),
-            ("snapshots.pvd, snapshots/*.vtu", "fields at the times asked for"),
-            ("checkpoint.bin", "state of an interrupted run, for --resume"),
-            ("record.bin", "what a longer run goes on from"),
-        ],
-        examples: &[
-            ("frictionsim transient run.toml", "from first expansion to limit cycle"),
-            ("frictionsim transient run.toml --resume", "go on after Ctrl-C"),
-        ],
-    };
-
     fn run(&self) -> Result<(), Failure> {
         let session = Session::start("transient", &self.options)?;
         let study = TransientStudy::new(&session.case, session.simd)?;
@@ -120,13 +102,26 @@ impl Run for Arguments {
             return Err(stopped(folder, &loop_));
         }
         let output = &self.options.output;
-        if let Some(drawing) = output.drawing() {
-            figures::draw_run(&folder, &study, &report, &summary, &drawing)?;
+        if let Some(options) = output.drawing() {
+            let run = RunFigures {
+                run: RecordedRun { material: study.case.materials(), ..report.run },
+                peripheral_speed: study.shown_speed(),
+                stage: linear_stage(study.case),
+            };
+            draw(&folder, &run, report.title, &summary, &options)?;
         }
         let state = analysis.settling.state;
         let document = document(&summary, state, PredictedGrowth::default());
         output.finish(folder, &document.titled(report.title).to_text(), &object)
     }
+}
+
+/// The modes that the figures mark; where there are none to be had, the log says why.
+pub fn linear_stage(case: &Case) -> LinearStage {
+    study::linear_stage(case).unwrap_or_else(|error| {
+        tracing::warn!("figures without modes of the eigenvalue analysis: {error}");
+        LinearStage::default()
+    })
 }
 
 /// What came of the time loop.
@@ -157,7 +152,7 @@ fn step(
     };
     let is_over = record.has_stopped;
     let is_quiet = session.options.output.is_quiet();
-    let mut watch = Watch::new(record, run.plan(), is_quiet, Some(checkpoints));
+    let mut watch = Watch::new(record, run.plan(), is_quiet, checkpoints);
     watch::catch_signals();
     let clock = Instant::now();
     let end = match is_over {

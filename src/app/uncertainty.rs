@@ -1,8 +1,7 @@
 //! `frictionsim uncertainty`: how likely is squeal, and which parameter decides it.
 
-use super::profile::{Profile, Run};
 use super::share::ShareOptions;
-use super::{Failure, RunOptions, Session, terminal};
+use super::{Failure, Run, RunOptions, Session, terminal};
 use crate::case::{Case, find_key};
 use crate::results::sweep::{Found, PointClock, PointRecord, SweepFolder};
 use crate::results::uncertainty::{Sample, document, draw_report, samples_table};
@@ -36,23 +35,6 @@ pub struct Arguments {
 }
 
 impl Run for Arguments {
-    const PROFILE: Profile = Profile {
-        files: &[
-            ("samples.csv", "one row for each sample"),
-            ("points/point-NNNNNN.json", "a block of samples, for --resume"),
-        ],
-        examples: &[
-            (
-                "frictionsim uncertainty disc.toml",
-                "how likely is squeal, and which parameter decides it?",
-            ),
-            (
-                "frictionsim uncertainty disc.toml --robust damping.mass_coefficient=40:2000 --bound 0.05",
-                "which design is silent with 95 % probability?",
-            ),
-        ],
-    };
-
     fn run(&self) -> Result<(), Failure> {
         let session = Session::start("uncertainty", &self.options)?;
         for design in &self.robust {
@@ -71,7 +53,7 @@ impl Run for Arguments {
         let count = uncertainty.samples.div_ceil(BLOCK);
         let blocks = self.share.pieces(count);
         let output = &self.options.output;
-        let folder = self.share.open(&session, output, count, &blocks)?;
+        let folder = self.share.open(&session, count, &blocks)?;
         terminal::catch_signals("finished samples are kept: go on with --resume");
 
         let asked = blocks.len() * BLOCK;

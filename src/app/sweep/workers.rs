@@ -1,15 +1,17 @@
-//! Runs the points of a sweep on worker threads.
+//! Runs the points of a sweep on worker threads, and tells how far it is.
 
-use super::progress::SweepProgress;
+use crate::app::terminal::progress_in;
 use crate::app::{Failure, embedded};
 use crate::case::Case;
 use crate::results::Manifest;
-use crate::results::sweep::{PointClock, PointRecord, SweepFolder};
+use crate::results::sweep::{PointClock, PointRecord, SweepFolder, swept_text};
 use crate::study::{SweepPlan, one_line};
+use indicatif::ProgressBar;
 use serde_json::{Map, Value};
+use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 
 /// Runs the analyses of one point and gives the summary of each by its name.
@@ -143,4 +145,54 @@ fn thread_core_seconds() -> Option<f64> {
     let text = std::fs::read_to_string("/proc/thread-self/schedstat").ok()?;
     let nanoseconds: f64 = text.split_whitespace().next()?.parse().ok()?;
     Some(1e-9 * nanoseconds)
+}
+
+/// What is told of a sweep while it runs: a bar on a terminal, else a log line for each point.
+pub struct SweepProgress {
+    bar: ProgressBar,
+    in_flight: Mutex<BTreeMap<usize, String>>,
+}
+
+impl SweepProgress {
+    /// Progress over `points` points; with `quiet` only failures are told.
+    pub fn new(quiet: bool, points: usize) -> Self {
+        let template = "sweep {track}{count} points  {elapsed_precise}{left}\n{wide_msg}";
+        Self { bar: progress_in(quiet, points as u64, template), in_flight: Mutex::default() }
+    }
+
+    /// A point that was finished already, or that another process runs.
+    pub fn skip(&self) {
+        self.bar.inc(1);
+    }
+
+    /// A point starts.
+    pub fn begin(&self, point: usize, swept: &Map<String, Value>) {
+        self.change(|in_flight| drop(in_flight.insert(point, swept_text(swept))));
+    }
+
+    /// A point is done.
+    pub fn end(&self, record: &PointRecord, wall_s: f64) {
+        self.change(|in_flight| drop(in_flight.remove(&record.point)));
+        self.bar.inc(1);
+        let (point, swept) = (record.point, swept_text(&record.swept));
+        if let Some(error) = &record.error {
+            self.bar.suspend(|| tracing::warn!("point {point} failed ({swept}): {error}"));
+        } else if self.bar.is_hidden() {
+            tracing::info!("point {point} ({swept}): {wall_s:.1} s");
+        }
+    }
+
+    /// Takes the bar away.
+    pub fn finish(&self) {
+        self.bar.finish_and_clear();
+    }
+
+    fn change(&self, edit: impl FnOnce(&mut BTreeMap<usize, String>)) {
+        // Progress is worth no panic: a poisoned map is shown as it is.
+        let mut in_flight = self.in_flight.lock().unwrap_or_else(PoisonError::into_inner);
+        edit(&mut in_flight);
+        let texts: Vec<String> =
+            in_flight.iter().map(|(point, swept)| format!("{point}: {swept}")).collect();
+        self.bar.set_message(texts.join("  |  "));
+    }
 }

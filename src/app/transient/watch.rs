@@ -27,6 +27,7 @@ pub fn catch_signals() {
 }
 
 /// Where and how often checkpoints are written.
+#[derive(Clone, Copy)]
 pub struct Checkpoints<'a> {
     pub folder: &'a OutputFolder,
     /// Hash that the run is known by.
@@ -38,7 +39,7 @@ pub struct Checkpoints<'a> {
 /// Records, and looks after the run.
 pub struct Watch<'a> {
     record: Recorder,
-    checkpoints: Option<Checkpoints<'a>>,
+    checkpoints: Checkpoints<'a>,
     bar: ProgressBar,
     end_time: f64,
     last_message: Instant,
@@ -51,7 +52,7 @@ impl<'a> Watch<'a> {
         record: Recorder,
         plan: &StepPlan,
         quiet: bool,
-        checkpoints: Option<Checkpoints<'a>>,
+        checkpoints: Checkpoints<'a>,
     ) -> Self {
         let bar = terminal::progress(quiet, plan.samples, "transient");
         let now = Instant::now();
@@ -71,10 +72,7 @@ impl<'a> Watch<'a> {
     /// The record, unless a checkpoint could not be written.
     pub fn finish(self) -> Result<Recorder, Failure> {
         self.bar.finish_and_clear();
-        match self.failure {
-            Some(error) => Err(error.into()),
-            None => Ok(self.record),
-        }
+        self.failure.map_or(Ok(self.record), |error| Err(error.into()))
     }
 
     fn tell(&mut self, sample: &Sample<'_>) {
@@ -94,14 +92,11 @@ impl<'a> Watch<'a> {
     }
 
     fn save(&mut self, sample: &Sample<'_>) -> Result<(), FolderError> {
-        let Some(checkpoints) = &self.checkpoints else {
-            return Ok(());
-        };
-        if self.last_checkpoint.elapsed().as_secs_f64() < checkpoints.interval_s {
+        let Checkpoints { folder, case_hash, interval_s } = self.checkpoints;
+        if self.last_checkpoint.elapsed().as_secs_f64() < interval_s {
             return Ok(());
         }
-        let (folder, record) = (checkpoints.folder, Some(&self.record));
-        write_checkpoint(folder, checkpoints.case_hash, &sample.state(), record)?;
+        write_checkpoint(folder, case_hash, &sample.state(), Some(&self.record))?;
         self.last_checkpoint = Instant::now();
         Ok(())
     }
