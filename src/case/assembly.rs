@@ -1,18 +1,13 @@
 //! Assemblies of solid bodies: `[motion.*]`, `[contacts.*]`, `[ties.*]`.
 
-use super::Case;
 use super::boundaries::NamedCondition;
-use super::contact::{Contact, section_of};
-use super::contacts::{NamedContact, contact, short_form};
+use super::contact::section_of;
+use super::contacts::{NamedContact, contact, short_form, unit};
 use super::imported::{ImportError, whole_body};
 use super::modifications::{Modification, reshaped};
-use super::raw::MeshBytes;
-use super::reader::Section;
-use super::refuse;
-use super::rigid_counterface::unit;
-use super::suggestion;
 use super::tables::TableFiles;
 use super::value::quote;
+use super::{Case, Contact, MeshBytes, Section, refuse, suggestion};
 use crate::contact::{
     ContactStiffness, Counterpart, Motion, PointKind, RigidCounterface, RigidMotion, SlidingContact,
 };
@@ -62,6 +57,40 @@ impl AssemblyBody {
         let (surfaces, at_nodes) = ((&self.ties[..], &self.contacts[..]), Some(PointKind::Nodes));
         Assembly::with_points(&self.mesh, materials, surfaces, (&self.motions, self.base), at_nodes)
     }
+
+    /// Regions whose rotation has its inertia.
+    pub fn rotors(&self) -> impl Iterator<Item = &str> {
+        let turning = self.motions.iter().filter(|motion| motion.inertia.is_some());
+        let regions = turning.flat_map(|motion| &motion.regions);
+        regions.map(|&region| self.mesh.regions[region].as_str())
+    }
+
+    /// Whether motions are those in a frame that turns with the bodies.
+    pub fn turns_with_its_frame(&self) -> bool {
+        let turning = Some(RotationFrame::Turning);
+        self.motions.iter().any(|motion| motion.inertia == turning)
+    }
+
+    /// The rigid counterface of the first contact, if it has one.
+    pub fn rigid_counterface(&self) -> Option<&RigidCounterface> {
+        self.contacts.first()?.counter.rigid()
+    }
+
+    /// A point of the axis of what turns first, and its direction; none where nothing turns.
+    pub fn axis(&self) -> Option<[[f64; 3]; 2]> {
+        let own = self.motions.first().map(|motion| [motion.center, motion.axis]);
+        own.or_else(|| {
+            let rigid = self.rigid_counterface()?;
+            let turns = matches!(rigid.motion, RigidMotion::Turning(_));
+            turns.then_some([rigid.center, rigid.axis])
+        })
+    }
+
+    /// Nodes of the contact surfaces.
+    pub fn contact_node_count(&self) -> usize {
+        let surfaces = self.contacts.iter().map(|contact| contact.surface);
+        surfaces.map(|place| self.mesh.boundaries[place].nodes.len()).sum()
+    }
 }
 
 /// `[motion.*]`, `[contacts.*]` and `[ties.*]` as the case names regions and surfaces.
@@ -82,19 +111,21 @@ impl AssemblyParts {
 
     /// Direction and a point of the axis of what turns, bodies and rigid counterfaces, where all have the same.
     pub(super) fn axis(&self) -> Result<[[f64; 3]; 2], &'static str> {
-        let rigid = self.contacts.iter().filter_map(|contact| contact.surfaces.counter.rigid());
-        let turning = rigid.filter(|rigid| matches!(rigid.motion, RigidMotion::Turning(_)));
-        let motions = self.motions.iter().map(|(_, motion)| [motion.axis, motion.center]);
-        let mut axes = motions.chain(turning.map(|rigid| [rigid.axis, rigid.center]));
+        let mut axes = self.axes();
         let first = axes.next().ok_or("nothing of the case turns")?;
         if axes.any(|other| other != first) { Err("what turns has several") } else { Ok(first) }
     }
 
     /// Whether something turns.
     pub(super) fn turns(&self) -> bool {
-        let mut rigid = self.contacts.iter().filter_map(|contact| contact.surfaces.counter.rigid());
-        !self.motions.is_empty()
-            || rigid.any(|rigid| matches!(rigid.motion, RigidMotion::Turning(_)))
+        self.axes().next().is_some()
+    }
+
+    fn axes(&self) -> impl Iterator<Item = [[f64; 3]; 2]> {
+        let rigid = self.contacts.iter().filter_map(|contact| contact.surfaces.counter.rigid());
+        let turning = rigid.filter(|rigid| matches!(rigid.motion, RigidMotion::Turning(_)));
+        let motions = self.motions.iter().map(|(_, motion)| [motion.axis, motion.center]);
+        motions.chain(turning.map(|rigid| [rigid.axis, rigid.center]))
     }
 }
 
@@ -108,20 +139,13 @@ pub(super) fn sections(
     let ties = root.each("ties", |section| [section.text("surface"), section.text("counter")]);
     let mut bases = Vec::new();
     let contacts = root.each("contacts", |section| contact(section, &mut bases, tables));
-    let mut contacts: Vec<NamedContact> = contacts
-        .into_iter()
-        .map(|(name, contact)| NamedContact {
-            surfaces: SlidingSurfaces { name: name.clone(), ..contact.surfaces },
-            name,
-            ..contact
-        })
-        .collect();
+    let named = |(name, mut contact): (String, NamedContact)| {
+        contact.surfaces.name = name;
+        contact
+    };
+    let mut contacts: Vec<NamedContact> = contacts.into_iter().map(named).collect();
     if root.has("contact") && !root.has("contacts") {
-        let section = root.section("contact", true);
-        let mut own = short_form(&section);
-        own.surfaces.name.clone_from(&own.name);
-        contacts.push(own);
-        section.close();
+        contacts.push(root.section("contact", true).closed(short_form));
     }
     let base = bases.first().copied().unwrap_or_default();
     if bases.iter().any(|other| *other != base) {
@@ -152,9 +176,7 @@ pub(super) fn sections(
 }
 
 pub(super) fn motion(section: &Section<'_>) -> Motion {
-    if !section.has("axis") {
-        section.missing("axis");
-    }
+    section.needs("axis");
     Motion {
         regions: Vec::new(),
         axis: unit(section, "axis"),
@@ -229,7 +251,6 @@ pub(super) fn assemble(
         keys: [own_key, counter_key],
         friction_coefficient,
         mut surfaces,
-        ..
     } in parts.contacts
     {
         surfaces.surface = surface(&own.unwrap_or_default(), &own_key)?;
@@ -257,42 +278,6 @@ fn named(known: &[String], name: &str, key: &str, what: &str) -> Result<usize, I
         );
         ImportError::new(key, message, "names none of its parts")
     })
-}
-
-impl AssemblyBody {
-    /// Regions whose rotation has its inertia.
-    pub fn rotors(&self) -> impl Iterator<Item = &str> {
-        let turning = self.motions.iter().filter(|motion| motion.inertia.is_some());
-        let regions = turning.flat_map(|motion| &motion.regions);
-        regions.map(|&region| self.mesh.regions[region].as_str())
-    }
-
-    /// Whether motions are those in a frame that turns with the bodies.
-    pub fn turns_with_its_frame(&self) -> bool {
-        let turning = Some(RotationFrame::Turning);
-        self.motions.iter().any(|motion| motion.inertia == turning)
-    }
-
-    /// The rigid counterface of the first contact, if it has one.
-    pub fn rigid_counterface(&self) -> Option<&RigidCounterface> {
-        self.contacts.first()?.counter.rigid()
-    }
-
-    /// A point of the axis of what turns first, and its direction; none where nothing turns.
-    pub fn axis(&self) -> Option<[[f64; 3]; 2]> {
-        let own = self.motions.first().map(|motion| [motion.center, motion.axis]);
-        own.or_else(|| {
-            let rigid = self.rigid_counterface()?;
-            let turns = matches!(rigid.motion, RigidMotion::Turning(_));
-            turns.then_some([rigid.center, rigid.axis])
-        })
-    }
-
-    /// Nodes of the contact surfaces.
-    pub fn contact_node_count(&self) -> usize {
-        let surfaces = self.contacts.iter().map(|contact| contact.surface);
-        surfaces.map(|place| self.mesh.boundaries[place].nodes.len()).sum()
-    }
 }
 
 impl Case {

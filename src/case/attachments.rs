@@ -1,11 +1,8 @@
 //! What modifications attach to a body, and the annulus whose symmetry they break.
 
-use super::body::{Annulus, Body};
-use super::imported::ImportedBody;
 use super::modifications::{Misfit, Modification, reshaped};
 use super::node::Nodes;
-use super::reader::Section;
-use super::refuse;
+use super::{Annulus, Body, ImportedBody, Section, refuse};
 use crate::mesh::{
     Attachment, BodyError, BodySpecification, CounterfaceSpecification, DampedPatch, Mesh,
 };

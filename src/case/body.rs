@@ -1,7 +1,6 @@
 //! Kinds of body that a case can have, each with its own data.
 
-use super::assembly::AssemblyBody;
-use super::imported::ImportedBody;
+use super::{AssemblyBody, ImportedBody};
 use crate::contact::RigidMotion;
 use crate::fem::{ModulusTable, TabledMaterial};
 use crate::mesh::{

@@ -1,9 +1,8 @@
 //! `[boundaries.*]`: what holds each boundary.
 
 use super::elastic::loss_factor;
-use super::reader::Section;
-use super::refuse;
 use super::words::{ConditionWord, HeldAxis};
+use super::{Section, refuse};
 use crate::mesh::{BoundaryCondition, ElasticSupport};
 
 /// A boundary of the case with its condition.
@@ -79,6 +78,15 @@ pub(super) fn no_axial_support(root: &Section<'_>, boundaries: &[NamedCondition]
     }
 }
 
+/// Whether a condition holds a body against the friction that turns it.
+pub(super) fn holds_tangentially(condition: &BoundaryCondition) -> bool {
+    match condition {
+        BoundaryCondition::Clamped => true,
+        BoundaryCondition::Support(support) => support.tangential_stiffness > 0.0,
+        _ => false,
+    }
+}
+
 /// The condition of the annulus's outer edge; other names are errors.
 pub(super) fn outer_edge(
     root: &Section<'_>,
@@ -95,16 +103,10 @@ pub(super) fn outer_edge(
                 "the contact is here"; "leave the section out"),
             ("shaft", _) => refuse!(section, name,
                 "boundaries.shaft is the contact edge of the shaft: it can have no condition of \
-                 its own";
-                "the contact is here";
+                 its own"; "the contact is here";
                 "leave the section out; what holds the shaft is boundaries.bore"),
             ("bore", _) if has_shaft => {}
-            ("outer", BoundaryCondition::Clamped) => {}
-            ("outer", BoundaryCondition::Support(support))
-                if support.tangential_stiffness > 0.0 =>
-            {
-                outer = *condition;
-            }
+            ("outer", _) if holds_tangentially(condition) => outer = *condition,
             ("outer", _) => refuse!(section, name,
                 "nothing holds the disc against the friction that turns it";
                 "must hold the edge tangentially";

@@ -1,10 +1,6 @@
 //! `[cea]`: the complex eigenvalue analysis.
 
-use super::Case;
-use super::body::Body;
-use super::reader::Section;
-use super::refuse;
-use super::words::CeaMethod;
+use super::{Body, Case, CeaMethod, Section, refuse};
 use crate::fem::MassKind;
 
 /// Which modes are found.
@@ -72,14 +68,11 @@ impl Case {
 }
 
 pub(super) fn cea(
+    section: &Section<'_>,
     root: &Section<'_>,
     body: Option<&Body>,
     friction_coefficient: f64,
-) -> Option<Cea> {
-    let section = root.section("cea", false);
-    if !section.is_given() {
-        return None;
-    }
+) -> Cea {
     let friction_coefficients =
         section.rising("friction_coefficients").unwrap_or_else(|| vec![friction_coefficient]);
     if friction_coefficients.is_empty() && section.is_empty_list("friction_coefficients") {
@@ -92,8 +85,8 @@ pub(super) fn cea(
         true => section.flag("geometric_stiffness"),
         false => is_stressed_by_default(body, root.section("mesh", false).has("file")),
     };
-    let cea = Cea {
-        modes: mode_selection(&section, unknowns),
+    Cea {
+        modes: mode_selection(section, unknowns),
         method: section.choice("method"),
         mass: section.choice("mass"),
         geometric_stiffness: is_stressed,
@@ -102,9 +95,7 @@ pub(super) fn cea(
         friction_coefficients,
         sensitivities: section.has("sensitivities").then(|| section.flag("sensitivities")),
         count_modes: section.flag("count_modes"),
-    };
-    section.close();
-    Some(cea)
+    }
 }
 
 /// Which modes are wanted of so many unknowns.
@@ -114,8 +105,7 @@ pub(super) fn mode_selection(section: &Section<'_>, unknowns: u128) -> ModeSelec
     if let Some(modes) = modes.filter(|modes| *modes as u128 > unknowns && unknowns > 0) {
         refuse!(section, "modes",
             "cea.modes = {modes} is more than the {unknowns} unknowns of the mesh";
-            "at most {unknowns}";
-            "ask for fewer, or refine the mesh");
+            "at most {unknowns}"; "ask for fewer, or refine the mesh");
     }
     match (limit, modes) {
         (Some(limit), None) => ModeSelection::BelowHz(limit),

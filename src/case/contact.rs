@@ -1,15 +1,10 @@
-//! The section `[contact]`.
+//! The section `[contact]`: what presses, the springs and how they stiffen with pressure, friction.
 
-use super::Case;
 use super::elastic::loss_factor;
-use super::imported::{self, ContactPlace};
-use super::interference::interference;
-use super::normal_law::normal_law;
-use super::reader::Section;
-use super::refuse;
-use super::solid;
+use super::imported::ContactPlace;
 use super::value::quote;
-use super::words::BaseContact;
+use super::words::{BaseContact, NormalLawWord, word_of};
+use super::{Case, Section, imported, refuse, solid};
 use crate::contact::{ContactStiffness, FrictionDecay, NormalLaw, SlidingContact};
 use crate::mesh::AnnulusSpecification;
 use crate::prestress::SlidingSurfaces;
@@ -153,8 +148,8 @@ pub(super) fn contact(
             true => ["needs contact.normal_stiffness", "give it, or leave base_state out"],
             false => ["is for three-dimensional bodies", "plane bodies have a rigid base state"],
         };
-        let message = format!("contact.base_state = \"compliant\" {label}");
-        section.reject("base_state", message, label.to_owned(), Some(help.to_owned()));
+        refuse!(section, "base_state", "contact.base_state = \"compliant\" {label}"; "{label}";
+            "{help}");
     }
     section.close();
     (contact, place)
@@ -206,4 +201,69 @@ pub(super) fn friction_decay(section: &Section<'_>) -> Option<FrictionDecay> {
              decay_speed out");
     }
     decay.filter(|decay| decay.static_ratio > 1.0)
+}
+
+/// Interference that the search begins with, m; any other leads to the same root.
+const START: f64 = 1e-6;
+
+/// The interference of a contact as a section gives it; a stand-in where a force presses, until the body is known.
+pub(super) fn interference(section: &Section<'_>) -> f64 {
+    let force = section.optional_number("normal_force");
+    if force.is_none() {
+        return section.number("interference");
+    }
+    let _ = section.optional_number("interference");
+    if section.has("interference") {
+        let key = section.name("interference");
+        refuse!(section, "normal_force" => "beside {key}"; "one of the two presses";
+            "leave {key} out, or the force");
+    }
+    START
+}
+
+/// The keys of a contact's law of pressure, and which of them each law has.
+const LAW_KEYS: [(&str, &[NormalLawWord]); 4] = [
+    ("normal_stiffness", &[NormalLawWord::Linear, NormalLawWord::Cubic]),
+    ("cubic_stiffness", &[NormalLawWord::Cubic]),
+    ("reference_pressure", &[NormalLawWord::Exponential]),
+    ("height", &[NormalLawWord::Exponential]),
+];
+
+/// How a contact stiffens with pressure, and its stiffness without.
+pub(super) fn normal_law(
+    section: &Section<'_>,
+    stiffness: ContactStiffness,
+) -> (Option<NormalLaw>, ContactStiffness) {
+    let word: NormalLawWord = section.choice("normal_law");
+    for (key, laws) in LAW_KEYS {
+        if !laws.contains(&word) && section.has(key) {
+            refuse!(section, key => "has no effect with normal_law = \"{}\"", word_of(word);
+                "not a number of this law"; "leave it out, or give the law that it belongs to");
+        }
+        if laws.contains(&word) && word != NormalLawWord::Linear {
+            section.needs(key);
+        }
+        if word == NormalLawWord::Cubic && section.is_text(key, "rigid") {
+            refuse!(section, key =>
+                "= \"rigid\" does not stiffen: normal_law = \"cubic\" is k g + c g^3, with k the \
+                 normal stiffness"; "needs a number"; "give k in Pa/m, or leave normal_law out");
+        }
+    }
+    let number = |key: &str| section.optional_number(key);
+    let law = match word {
+        NormalLawWord::Linear => None,
+        NormalLawWord::Cubic => stiffness
+            .normal_stiffness
+            .zip(number("cubic_stiffness"))
+            .map(|(stiffness, cubic_stiffness)| NormalLaw::Cubic { stiffness, cubic_stiffness }),
+        NormalLawWord::Exponential => number("reference_pressure").zip(number("height")).map(
+            |(reference_pressure, height)| NormalLaw::Exponential { reference_pressure, height },
+        ),
+    };
+    // What is asked for but unused is told above.
+    let _ = (number("cubic_stiffness"), number("reference_pressure"), number("height"));
+    let at_rest = law.map(|law| law.stiffness(0.0));
+    let stiffness =
+        ContactStiffness { normal_stiffness: at_rest.or(stiffness.normal_stiffness), ..stiffness };
+    (law, stiffness)
 }

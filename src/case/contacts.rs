@@ -1,18 +1,19 @@
 //! The contacts of solid bodies: `[contacts.NAME]`, and `[contact]` with a rigid counterface.
 
-use super::contact::{contact_stiffness, friction_decay};
-use super::reader::Section;
-use super::refuse;
-use super::rigid_counterface::rigid_counterface;
+use super::contact::{contact_stiffness, friction_decay, interference};
 use super::tables::{TableFiles, topography};
-use super::words::BaseContact;
-use crate::contact::{Counterpart, PairFriction, Topography};
+use super::words::{BaseContact, CounterfaceWord};
+use super::{Section, caution, refuse};
+use crate::contact::{
+    Counterpart, PairFriction, RigidCounterface, RigidMotion, RigidShape, Topography,
+};
 use crate::prestress::{BaseChoice, SlidingSurfaces};
+use nalgebra::Vector3;
+use std::f64::consts::TAU;
 use std::sync::Arc;
 
 /// A contact with the names of its surfaces.
 pub(super) struct NamedContact {
-    pub name: String,
     /// Names of its surface, and of that which it slides on.
     pub sides: [Option<String>; 2],
     /// The keys that have these.
@@ -31,16 +32,17 @@ pub(super) fn short_form(section: &Section<'_>) -> NamedContact {
     if section.has("base_state") && is_rigid_base {
         refuse!(section, "base_state",
             "contact.base_state = \"rigid\": the springs of a contact of solid bodies carry their \
-             base state";
-            "not of a body from a mesh of solid elements"; "leave it out");
+             base state"; "not of a body from a mesh of solid elements"; "leave it out");
     }
     let counterpart = Counterpart::Rigid(rigid_counterface(section));
     NamedContact {
-        name: SlidingSurfaces::SHORT_FORM.to_owned(),
         sides: [Some(section.text("boundary")), None],
         keys: ["contact.boundary".to_owned(), String::new()],
         friction_coefficient: section.number("friction_coefficient"),
-        surfaces: sliding_surfaces(section, counterpart, None),
+        surfaces: SlidingSurfaces {
+            name: SlidingSurfaces::SHORT_FORM.to_owned(),
+            ..sliding_surfaces(section, counterpart, None)
+        },
     }
 }
 
@@ -73,7 +75,6 @@ pub(super) fn contact(
         _ => {}
     }
     NamedContact {
-        name: String::new(),
         sides: [Some(section.text("surface")), counter],
         keys: ["surface", "counter"].map(|key| section.name(key)),
         friction_coefficient: section.number("friction_coefficient"),
@@ -108,4 +109,61 @@ fn sliding_surfaces(
         law: stiffness.law,
         topography,
     }
+}
+
+/// Reads `counterface` with its place, motion and interference.
+pub(super) fn rigid_counterface(section: &Section<'_>) -> RigidCounterface {
+    let word: CounterfaceWord = section.choice("counterface");
+    let radius = section.optional_number("radius");
+    let shape = match word {
+        CounterfaceWord::Plane => RigidShape::Plane,
+        CounterfaceWord::Cylinder => RigidShape::Cylinder(radius),
+        CounterfaceWord::Sphere => RigidShape::Sphere(radius),
+        CounterfaceWord::Body => {
+            refuse!(section, "counterface" => "= \"body\" is for two plane bodies";
+                "the mesh is of solid elements";
+                "name the surfaces that slide on each other under [contacts.NAME], as `surface` \
+                 and `counter`");
+            RigidShape::Plane
+        }
+    };
+    if shape == RigidShape::Plane && radius.is_some() {
+        caution!(section, "radius" => "is not used: the counterface is a plane"; "no effect");
+    }
+    RigidCounterface {
+        shape,
+        center: section.vector("center"),
+        axis: unit(section, "axis"),
+        motion: motion(section),
+        interference: interference(section),
+    }
+}
+
+/// Along a straight line where `speed` or `direction` is given, else about the axis.
+fn motion(section: &Section<'_>) -> RigidMotion {
+    let speed = section.optional_number("speed");
+    if speed.is_none() && !section.has("direction") {
+        return RigidMotion::Turning(section.number("rotation_speed_rpm") * TAU / 60.0);
+    }
+    for key in section.refused("rotation_speed_rpm") {
+        refuse!(section, key,
+            "the counterface turns about its axis or slides along a straight line, not both";
+            "beside `speed` or `direction`";
+            "leave rotation_speed_rpm out, or `speed` and `direction`");
+    }
+    let speed = speed.unwrap_or_else(|| section.number("speed"));
+    if !section.has("direction") {
+        section.no_vector::<3>("direction", "is missing beside `speed`");
+    }
+    RigidMotion::Sliding(unit(section, "direction").map(|x| x * speed))
+}
+
+/// The vector of length one along that of a key.
+pub(super) fn unit(section: &Section<'_>, key: &str) -> [f64; 3] {
+    let direction = Vector3::from(section.vector(key));
+    if direction.norm() == 0.0 {
+        refuse!(section, key => "= [0, 0, 0] points nowhere"; "must not be zero");
+        return [0.0, 0.0, 1.0];
+    }
+    direction.normalize().into()
 }

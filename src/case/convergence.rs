@@ -1,9 +1,7 @@
 //! `[convergence]`: the same case on several meshes and with several time steps.
 
-use super::body::{Body, Revolution, node_count};
-use super::reader::Section;
-use super::words::Analysis;
-use super::{caution, refuse};
+use super::body::node_count;
+use super::{Analysis, Body, Revolution, Section, caution, refuse};
 use crate::mesh::{AnnulusSpecification, BodyError, Mesh, ShaftSpecification, SolidSpecification};
 use std::sync::Arc;
 
@@ -82,9 +80,7 @@ impl super::Case {
         }
         Ok(Self { body, ..self.clone() })
     }
-}
 
-impl super::Case {
     /// The case of a generated body with so many times as many elements in every direction.
     fn with_counts_times(&self, factor: f64) -> Result<Self, super::CaseErrors> {
         let counts = ["circumferential_elements", "radial_elements", "axial_elements"];
@@ -106,11 +102,12 @@ impl super::Case {
 const SPLITS: [f64; 3] = [1.0, 2.0, 4.0];
 
 /// Reads the section of a case that `has` a `[cea]`, a `[transient]` and a `[cycle]`.
-pub(super) fn read(root: &Section<'_>, body: Option<&Body>, has: [bool; 3]) -> Option<Convergence> {
-    let section = root.section("convergence", false);
-    if !section.is_given() {
-        return None;
-    }
+pub(super) fn read(
+    section: &Section<'_>,
+    root: &Section<'_>,
+    body: Option<&Body>,
+    has: [bool; 3],
+) -> Convergence {
     if root.has("modifications") {
         refuse!(root, "modifications",
             "[modifications] are places of one mesh: a finer one would have others";
@@ -123,46 +120,39 @@ pub(super) fn read(root: &Section<'_>, body: Option<&Body>, has: [bool; 3]) -> O
         }
         given => given.unwrap_or_default(),
     };
-    if has_enough(&section, "factors", &factors) && is_ordered(&section, "factors", &factors, 1.0) {
-        match body {
-            Some(Body::Assembly(assembly)) => check_splits(&section, &assembly.mesh, &factors),
-            Some(Body::Imported(imported)) => check_splits(&section, &imported.mesh, &factors),
-            Some(Body::Annulus(annulus)) => {
-                check_meshes(&section, &annulus.specification, None, &factors);
-            }
-            Some(Body::Revolution(Revolution { specification, .. })) => {
-                check_meshes(&section, &specification.annulus, Some(specification), &factors);
-            }
-            None => {}
+    if has_enough(section, "factors", &factors) && is_ordered(section, "factors", &factors, 1.0) {
+        let solid = body.and_then(Body::revolution).map(|own| &*own.specification);
+        match (body.and_then(Body::whole_mesh), body.and_then(Body::grid)) {
+            (Some(mesh), _) => check_splits(section, mesh, &factors),
+            (None, Some(grid)) => check_meshes(section, grid, solid, &factors),
+            (None, None) => {}
         }
     }
     let steps = section.numbers("time_step_factors");
     let time_step_factors = steps.unwrap_or_default();
     if section.has("time_step_factors")
-        && has_enough(&section, "time_step_factors", &time_step_factors)
+        && has_enough(section, "time_step_factors", &time_step_factors)
     {
-        is_ordered(&section, "time_step_factors", &time_step_factors, -1.0);
+        is_ordered(section, "time_step_factors", &time_step_factors, -1.0);
     }
     let is_linear = body.is_none_or(Body::suits_transient);
     // Cycles of a body without symmetry have no name that two meshes share.
     let has_waves = body.is_none_or(|body| body.annulus().is_some());
-    let analyses = analyses(&section, is_linear, [has[0], has[1], has[2] && has_waves]);
+    let analyses = analyses(section, is_linear, [has[0], has[1], has[2] && has_waves]);
     if !time_step_factors.is_empty() && !analyses.contains(&Analysis::Transient) {
         refuse!(section, "time_step_factors", "convergence.time_step_factors needs a [transient]";
             "there is no transient in this case";
             "add a [transient] section of quad4 elements, or leave time_step_factors out");
     }
-    section.close();
-    Some(Convergence { factors, time_step_factors, analyses })
+    Convergence { factors, time_step_factors, analyses }
 }
 
 /// Refuses fewer than three values.
 fn has_enough(section: &Section<'_>, key: &'static str, values: &[f64]) -> bool {
     let is_enough = values.len() >= FEWEST;
     if !is_enough {
-        refuse!(section, key =>
-            "has {} values; observing an order takes {FEWEST} or more", values.len();
-            "at least {FEWEST} values");
+        refuse!(section, key => "has {} values; observing an order takes {FEWEST} or more",
+            values.len(); "at least {FEWEST} values");
     }
     is_enough
 }
@@ -198,8 +188,7 @@ fn check_splits(section: &Section<'_>, mesh: &Mesh, factors: &[f64]) {
     if nodes > limit {
         refuse!(section, "factors",
             "the mesh of convergence.factors = {finest} would have {nodes:.0} nodes, above the \
-             limit of {limit}";
-            "too many elements");
+             limit of {limit}"; "too many elements");
     }
 }
 
@@ -252,16 +241,14 @@ fn check_meshes(
         if (a / r - 1.0).abs() > UNEVEN {
             caution!(section, "factors",
                 "{name}, refines by {a:.3} around and {r:.3} along the radius after rounding: the \
-                 observed order suffers from that";
-                "uneven after rounding");
+                 observed order suffers from that"; "uneven after rounding");
         }
         let layers = solid.map_or(1, |solid| solid.axial_elements) as f64;
         let z = (layers * factor).round() / layers;
         if solid.is_some() && (z / a - 1.0).abs() > UNEVEN {
             caution!(section, "factors",
                 "{name}, refines by {a:.3} around and {z:.3} over the thickness after rounding: \
-                 the observed order suffers from that";
-                "uneven after rounding");
+                 the observed order suffers from that"; "uneven after rounding");
         }
         previous = Some((factor, mesh));
     }

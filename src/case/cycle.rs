@@ -1,13 +1,10 @@
-//! `[cycle]`: limit cycles found directly.
+//! `[cycle]`: limit cycles found directly; `[basin]`: which of two motions wins.
 
-use super::body::Body;
-use super::keys;
-use super::range::{Spacing, range_values};
-use super::reader::Section;
-use super::words::{OnsetChoice, StabilityChoice};
-use super::{Case, CaseErrors};
-use super::{refusal, refuse};
-use crate::cycle::Parameter;
+use super::{
+    Body, Case, CaseErrors, OnsetChoice, Section, Spacing, StabilityChoice, keys, range_values,
+    refusal, refuse,
+};
+use crate::cycle::{BasinRequest, Parameter};
 
 /// Shortest transient that puts a cycle to the test: its last fifth has the four periods that a frequency is read from,
 /// and a wave that is no motion of the disc is gone by then.
@@ -73,8 +70,7 @@ impl Case {
             true => "[cycle]\nharmonics = [1, 2]",
             false => "[cycle]\nonsets = \"all\"",
         };
-        let cycle = self.cycle.as_ref();
-        let cycle = cycle.ok_or_else(|| self.lacks("cycle", "limit cycle", remedy))?;
+        let cycle = self.required(&self.cycle, "cycle", "limit cycle", remedy)?;
         let speed = self.contact.sliding.rotation_speed;
         let is_moving = if self.has_rotating_waves() { speed > 0.0 } else { speed != 0.0 };
         if is_moving {
@@ -96,16 +92,11 @@ impl Case {
 
     /// Refuses a body whose limit cycles cannot be motions of the transient.
     pub(super) fn refuse_what_has_no_cycle(&self) -> Result<(), CaseErrors> {
-        match &self.body {
-            Body::Annulus(_) => self.require_quad4("limit cycles need \"quad4\"")?,
-            Body::Revolution(_) => self.require_quad4(
-                "limit cycles need bricks of 8 nodes, \"quad4\": they are motions of the \
-                transient, which lumps the mass",
-            )?,
-            Body::Imported(_) => {}
-            Body::Assembly(assembly) => self.check_stepped(assembly)?,
-        }
-        Ok(())
+        self.require_steps(
+            "limit cycles need \"quad4\"",
+            "limit cycles need bricks of 8 nodes, \"quad4\": they are motions of the transient, \
+             which lumps the mass",
+        )
     }
 
     /// Whether the limit cycles of the body are rotating waves: on the generated annulus around a rigid shaft, with a
@@ -131,8 +122,7 @@ impl Case {
     }
 }
 
-pub(super) fn cycle(root: &Section<'_>, body: Option<&Body>) -> Option<Cycle> {
-    let section = root.section("cycle", false);
+pub(super) fn cycle(section: &Section<'_>, body: Option<&Body>) -> Cycle {
     let harmonics = section.harmonics(body.and_then(Body::sector_count));
     let onsets = section.choice("onsets");
     let phases = section.optional_count("phases");
@@ -142,8 +132,7 @@ pub(super) fn cycle(root: &Section<'_>, body: Option<&Body>) -> Option<Cycle> {
     if let periods @ 1..CONFIRMATION_PERIODS = confirmation_periods {
         refuse!(section, "confirmation_periods",
             "cycle.confirmation_periods = {periods} is too short to read a frequency from its last \
-             fifth";
-            "0 for none, or {CONFIRMATION_PERIODS} and more");
+             fifth"; "0 for none, or {CONFIRMATION_PERIODS} and more");
     }
     let stability = section.choice("stability");
     let two_frequencies = section.flag("two_frequencies");
@@ -152,25 +141,12 @@ pub(super) fn cycle(root: &Section<'_>, body: Option<&Body>) -> Option<Cycle> {
             "cycle.two_frequencies needs to know which cycles lose their stability";
             "needs cycle.stability"; "cycle.stability = \"point\" or \"branch\"");
     }
-    let inner = section.section("continuation", false);
-    let continuation = inner.is_given().then(|| Continuation {
-        key: inner.parameter("key"),
-        from: inner.number("from"),
-        to: inner.number("to"),
-        count: inner.count("count"),
-        spacing: inner.choice("spacing"),
-    });
-    if let Some(continuation) = &continuation {
-        check_continuation(&inner, continuation);
-    }
+    let continuation = section.read_section("continuation", continuation);
     if stability == StabilityChoice::Branch && continuation.is_none() {
         refuse!(section, "stability", "cycle.stability = \"branch\" needs [cycle.continuation]";
             "needs [cycle.continuation]"; "add that table, or use \"point\"");
     }
-    inner.close();
-    let is_given = section.is_given();
-    section.close();
-    is_given.then_some(Cycle {
+    Cycle {
         harmonics,
         onsets,
         phases,
@@ -180,11 +156,18 @@ pub(super) fn cycle(root: &Section<'_>, body: Option<&Body>) -> Option<Cycle> {
         stability,
         two_frequencies,
         continuation,
-    })
+    }
 }
 
-fn check_continuation(section: &Section<'_>, continuation: &Continuation) {
-    let Continuation { key, from, to, spacing, .. } = continuation;
+fn continuation(section: &Section<'_>) -> Continuation {
+    let continuation = Continuation {
+        key: section.parameter("key"),
+        from: section.number("from"),
+        to: section.number("to"),
+        count: section.count("count"),
+        spacing: section.choice("spacing"),
+    };
+    let Continuation { key, from, to, spacing, .. } = &continuation;
     let is_numeric = keys::find(key).is_some_and(|known| known.is_numeric());
     if is_numeric && Parameter::from_key(key).is_none() {
         let known = Parameter::ALL.map(Parameter::key);
@@ -203,4 +186,37 @@ fn check_continuation(section: &Section<'_>, continuation: &Continuation) {
         refuse!(section, "to", "cycle.continuation.to = {to} equals from";
             "must differ from `from`");
     }
+    continuation
+}
+
+pub(super) fn basin(section: &Section<'_>, body: Option<&Body>) -> BasinRequest {
+    let pair = section.harmonics(body.and_then(Body::sector_count)).unwrap_or_default();
+    let modes = section.counts("modes");
+    let modes: Option<Vec<usize>> =
+        modes.map(|values| values.into_iter().map(|(mode, _)| mode).collect());
+    if let Some(modes) = &modes
+        && !(1..=2).contains(&modes.len())
+    {
+        refuse!(section, "modes",
+            "basin.modes must name two different modes, or one that competes with steady sliding";
+            "one or two of them");
+    }
+    let request = BasinRequest {
+        modes,
+        harmonics: [pair.first(), pair.last()].map(|n| n.copied().unwrap_or(1)),
+        seed_ratios: [section.number("seed_ratio_from"), section.number("seed_ratio_to")],
+        tolerance: section.number("tolerance"),
+        periods: section.count("periods"),
+    };
+    if pair.len() != 2 || pair[0] == pair[1] {
+        refuse!(section, "harmonics", "basin.harmonics must name two different harmonics";
+            "{} of them, two are compared", pair.len());
+    }
+    let [from, to] = request.seed_ratios;
+    if from >= to {
+        refuse!(section, "seed_ratio_from",
+            "basin.seed_ratio_from = {from:?} is not below basin.seed_ratio_to = {to:?}";
+            "below {to:?}");
+    }
+    request
 }

@@ -1,6 +1,7 @@
 //! Diagnostics of a case: what is wrong, where, and the remedy.
 
-use super::shown::{shown, shown_in_place};
+use super::shown;
+use super::shown::shown_in_place;
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 use std::fmt::Write as _;
 use std::ops::Range;

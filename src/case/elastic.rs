@@ -1,8 +1,7 @@
 //! Elastic constants of a material, isotropic or orthotropic, and where its axes lie.
 
-use super::reader::Section;
-use super::refuse;
 use super::words::AxesWord;
+use super::{Section, refuse};
 use crate::fem::{
     ElasticMaterial, MaterialAxes, ModulusTable, Orthotropy, PlaneFormulation, RATIOS,
 };
@@ -28,8 +27,7 @@ pub(super) fn loss_factor(section: &Section<'_>) -> f64 {
     if loss_factor > 1.0 {
         refuse!(section, "loss_factor" =>
             "= {loss_factor} is beyond any material's: at 1 half of the strain energy is lost in a \
-             sixth of a cycle";
-            "at most 1";
+             sixth of a cycle"; "at most 1";
             "steel has about 0.001, cast iron 0.002, a lining 0.01 to 0.1, rubber 0.1 to 1");
     }
     loss_factor
@@ -45,13 +43,10 @@ pub(super) fn elastic(
     let density = section.number("density");
     let loss_factor = loss_factor(section);
     let plain = ElasticMaterial { density, loss_factor, formulation, ..ElasticMaterial::PLAIN };
-    if let Some(table) = table {
-        return tabled(section, plain, table);
-    }
     if section.has("table") {
         // What is wrong with its file is said already.
         let harmless = ModulusTable::new("", "", vec![[0.0, 1.0, 0.0]]);
-        return tabled(section, plain, &harmless);
+        return tabled(section, plain, table.unwrap_or(&harmless));
     }
     if ORTHOTROPIC.iter().any(|key| section.has(key)) {
         for key in ISOTROPIC {
@@ -78,13 +73,7 @@ pub(super) fn elastic(
             "an isotropic material has no axes";
             "give young_moduli, poisson_ratios and shear_moduli, or leave it out");
     }
-    let [young_modulus, poisson_ratio] = ISOTROPIC.map(|key| {
-        let value = section.optional_number(key);
-        value.unwrap_or_else(|| {
-            section.missing(key);
-            f64::NAN
-        })
-    });
+    let [young_modulus, poisson_ratio] = ISOTROPIC.map(|key| section.number(key));
     ElasticMaterial { young_modulus, poisson_ratio, ..plain }
 }
 
@@ -98,9 +87,7 @@ fn tabled(section: &Section<'_>, plain: ElasticMaterial, table: &ModulusTable) -
             "the table gives modulus and loss factor";
             "leave out the one or the other; poisson_ratio and density stand beside a table");
     }
-    if !section.has("poisson_ratio") {
-        section.missing("poisson_ratio");
-    }
+    section.needs("poisson_ratio");
     ElasticMaterial {
         young_modulus: table.static_modulus(),
         poisson_ratio: section.optional_number("poisson_ratio").unwrap_or(0.0),
@@ -112,9 +99,7 @@ fn tabled(section: &Section<'_>, plain: ElasticMaterial, table: &ModulusTable) -
 /// The nine constants, which must give every strain a positive energy, and the axes.
 fn orthotropy(section: &Section<'_>) -> Orthotropy {
     let triple = |key: &str| -> Option<[f64; 3]> {
-        if !section.has(key) {
-            section.missing(key);
-        }
+        section.needs(key);
         let values = section.numbers(key)?;
         let given = section.list_length(key).unwrap_or(1);
         if given != 3 {

@@ -1,9 +1,7 @@
 //! What a mesh file holds beside the mesh, as the sections that a case would have for it, in SI units.
 
-use super::diagnostic::Location;
-use super::keys;
-use super::value::{RawItem, RawValue, quote};
-use super::words::UnitsWord;
+use super::value::quote;
+use super::{Location, RawItem, RawValue, UnitsWord, keys};
 use crate::mesh::{
     FileConditionKind, FileContact, FileElasticity, FileMaterial, FileMesh, LeftOut, MaterialAxes,
     ModelData,

@@ -1,12 +1,8 @@
 //! `[fit]`: which parameters are fitted to measured modes, and where they are sought.
 
 use super::checks::material_key;
-use super::diagnostic::CaseErrors;
-use super::parameters::{ModelParameter, entries, number, only, refuse_twice};
-use super::range::Spacing;
-use super::reader::Section;
-use super::refuse;
-use super::value::{RawEntry, RawValue};
+use super::parameters::{number, only, read_all};
+use super::{CaseErrors, ModelParameter, RawEntry, RawValue, Section, Spacing};
 
 /// A parameter with the bounds between which it is sought.
 #[derive(Clone, Debug, PartialEq)]
@@ -33,22 +29,11 @@ pub struct Fit {
     pub shape_weight: f64,
 }
 
-pub(super) fn fit(root: &Section<'_>) -> Option<Fit> {
-    let section = root.section("fit", false);
+pub(super) fn fit(section: &Section<'_>) -> Fit {
     let starts = section.count("starts");
     let shape_weight = section.number("shape_weight");
-    let given = section.is_given();
-    let inner = section.section("parameters", given);
-    let found: Vec<FitParameter> = entries(&inner)
-        .into_iter()
-        .map(|(parameter, entry)| bounds(&inner, parameter, entry))
-        .collect();
-    refuse_twice(&inner, found.iter().flat_map(|found| found.parameter.keys()));
-    if given && inner.is_given() && inner.remaining().is_empty() {
-        refuse!(section, "parameters", "fit.parameters is empty"; "at least one parameter");
-    }
-    section.close();
-    given.then_some(Fit { parameters: found, starts, shape_weight })
+    let parameters = read_all(section, "parameters", bounds, |own| &own.parameter);
+    Fit { parameters, starts, shape_weight }
 }
 
 /// `[from, to]` or `{ from, to, scale, also }`.
@@ -113,6 +98,6 @@ impl super::Case {
     pub fn require_fit(&self) -> Result<&Fit, CaseErrors> {
         let key = material_key(self, "poisson_ratio");
         let remedy = format!("[fit.parameters]\n{key} = [0.2, 0.45]");
-        self.fit.as_ref().ok_or_else(|| self.lacks("fit", "parameter to fit", &remedy))
+        self.required(&self.fit, "fit", "parameter to fit", &remedy)
     }
 }

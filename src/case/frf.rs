@@ -1,9 +1,7 @@
 //! `[frf]`: a frequency response of the model.
 
 use super::node::Nodes;
-use super::reader::Section;
-use super::words::FrfMethod;
-use super::{caution, refuse};
+use super::{FrfMethod, Section, caution, refuse};
 use crate::fem::MassKind;
 use crate::frf::{Direction, FrfBoundary, Terminal};
 use crate::signal::ResponseQuantity;
@@ -31,18 +29,12 @@ pub struct Frf {
     pub noise_seed: usize,
 }
 
-pub(super) fn read(root: &Section<'_>, nodes: &Nodes<'_>) -> Option<Frf> {
-    let section = root.section("frf", false);
-    if !section.is_given() {
-        return None;
-    }
+pub(super) fn read(section: &Section<'_>, nodes: &Nodes<'_>) -> Frf {
     let named = ["force_node", "response_node"].map(|key| {
         let named = section.node(key)?;
-        nodes.find(&section, key, &named).map(|found| found.0)
+        nodes.find(section, key, &named).map(|found| found.0)
     });
-    if !section.has("force_node") {
-        section.missing("force_node");
-    }
+    section.needs("force_node");
     let force_node = named[0].unwrap_or(0);
     let response_node = named[1].unwrap_or(force_node);
     let mut frequencies_hz = section.numbers("frequencies_hz").unwrap_or_default();
@@ -83,6 +75,5 @@ pub(super) fn read(root: &Section<'_>, nodes: &Nodes<'_>) -> Option<Frf> {
     if section.has("noise_seed") && frf.noise == 0.0 {
         caution!(section, "noise_seed", "frf.noise_seed is not used: frf.noise is 0"; "no noise");
     }
-    section.close();
-    Some(frf)
+    frf
 }

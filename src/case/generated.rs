@@ -1,22 +1,22 @@
-//! Bodies that the case's own numbers make: `[geometry]` and the element counts of `[mesh]`.
+//! Bodies that the case's own numbers make: `[geometry]` and the element counts of `[mesh]`, with a deformable shaft in
+//! the annulus (`[materials.shaft]`, `[boundaries.bore]`).
 
-use super::assembly;
-use super::attachments;
-use super::body::{Annulus, Body, Revolution, node_count};
-use super::boundaries::{self, NamedCondition};
-use super::contact::{Contact, contact};
+use super::body::node_count;
+use super::boundaries::{NamedCondition, holds_tangentially};
+use super::contact::contact;
 use super::elastic::{Surroundings, place_axes};
-use super::imported;
-use super::modifications::{self, Modification};
-use super::reader::Section;
-use super::refuse;
-use super::shaft;
-use super::solid;
+use super::modifications::Modification;
 use super::tables::TableFiles;
 use super::whole_revolution::whole_revolution;
+use super::{
+    Annulus, Body, Case, CaseErrors, Contact, Revolution, Section, assembly, attachments,
+    boundaries, imported, modifications, refusal, refuse, solid,
+};
 use crate::contact::Motion;
 use crate::fem::{ElasticMaterial, RotationFrame, TabledMaterial};
-use crate::mesh::{AnnulusSpecification, BoundaryCondition, SolidSpecification};
+use crate::mesh::{
+    AnnulusSpecification, BoundaryCondition, ShaftSpecification, SolidSpecification,
+};
 
 /// The generated body with what its modifications take away or move, and its contact. Closes both sections.
 pub(super) fn generated(
@@ -153,7 +153,7 @@ fn annulus(
             "must be above {inner_radius}"; "both are radii in metres; are they swapped?");
     }
     let shaft = match is_solid {
-        false => shaft::shaft(root, [geometry, mesh], inner_radius, conditions, material, tables),
+        false => shaft(root, [geometry, mesh], inner_radius, conditions, material, tables),
         true => None,
     };
     for (section, key) in [(geometry, "shaft_inner_radius"), (mesh, "shaft_radial_elements")] {
@@ -194,5 +194,101 @@ fn check_mesh(mesh: &Section<'_>, annulus: &AnnulusSpecification) {
             "mesh.radial_grading = {} makes the largest element {:.1e} times the \
              smallest", annulus.radial_grading, ratio.abs().exp();
             "at most a factor 1e6 over all elements"; "bring mesh.radial_grading nearer to 1");
+    }
+}
+
+/// The shaft, if the case has one, and its material.
+fn shaft(
+    root: &Section<'_>,
+    [geometry, mesh]: [&Section<'_>; 2],
+    contact_radius: f64,
+    boundaries: &[NamedCondition],
+    material: &ElasticMaterial,
+    tables: &mut TableFiles<'_>,
+) -> Option<(ShaftSpecification, TabledMaterial)> {
+    let bore = geometry.optional_number("shaft_inner_radius");
+    let elements = mesh.optional_count("shaft_radial_elements");
+    let found = materials(root, material, bore.is_some(), tables);
+    let Some(bore) = bore else {
+        if elements.is_some() {
+            refuse!(mesh, "shaft_radial_elements",
+                "mesh.shaft_radial_elements is for a deformable shaft, and the case has none";
+                "the cylinder is rigid";
+                "give geometry.shaft_inner_radius and [materials.shaft], or leave it out");
+        }
+        return None;
+    };
+    if bore >= contact_radius {
+        refuse!(geometry, "shaft_inner_radius",
+            "geometry.shaft_inner_radius = {bore} must be below geometry.inner_radius = \
+             {contact_radius}: the shaft reaches from its bore to the contact";
+            "must be below {contact_radius}");
+    }
+    if found.is_none() {
+        refuse!(geometry, "shaft_inner_radius",
+            "the shaft of geometry.shaft_inner_radius has no material"; "needs [materials.shaft]";
+            "add [materials.shaft] with young_modulus, poisson_ratio and density, or leave \
+             shaft_inner_radius out for a rigid cylinder");
+    }
+    let shaft = ShaftSpecification {
+        inner_radius: bore,
+        radial_elements: elements.unwrap_or_else(|| mesh.count("shaft_radial_elements")),
+        bore: bore_condition(root, boundaries),
+    };
+    found.map(|material| (shaft, material))
+}
+
+/// `[materials.shaft]`; the annulus has no other surfaces.
+fn materials(
+    root: &Section<'_>,
+    material: &ElasticMaterial,
+    has_shaft: bool,
+    tables: &mut TableFiles<'_>,
+) -> Option<TabledMaterial> {
+    let all = root.section("materials", false);
+    for (name, _) in all.remaining() {
+        match name {
+            "shaft" if has_shaft => {}
+            "shaft" => refuse!(all, name,
+                "[materials.shaft] is for a deformable shaft, and the case has none";
+                "the annulus has one material";
+                "give geometry.shaft_inner_radius and mesh.shaft_radial_elements, or leave the \
+                 section out"),
+            _ => refuse!(all, name,
+                "[materials.{name}] is for a physical surface of a mesh file (mesh.file)";
+                "the annulus has one material";
+                "describe the disc in [material] and a shaft in [materials.shaft]"),
+        }
+    }
+    let read = imported::materials(root, material, tables);
+    let mut shafts = read.into_iter().filter(|(name, _)| name == "shaft");
+    shafts.next().map(|(_, material)| material)
+}
+
+fn bore_condition(root: &Section<'_>, boundaries: &[NamedCondition]) -> BoundaryCondition {
+    let given = boundaries.iter().find(|(name, _)| name == "bore");
+    match given.map_or(BoundaryCondition::Clamped, |own| own.1) {
+        condition if holds_tangentially(&condition) => condition,
+        _ => {
+            refuse!(root.section("boundaries", false), "bore",
+                "nothing holds the shaft against the friction that turns it";
+                "must hold the bore tangentially";
+                "use condition = \"clamped\", or \"support\" with tangential_stiffness above 0");
+            BoundaryCondition::Clamped
+        }
+    }
+}
+
+impl Case {
+    /// An analysis that a deformable shaft has no part in.
+    pub(super) fn require_rigid_shaft(&self, what: &str) -> Result<(), CaseErrors> {
+        let grid = self.body.grid();
+        if grid.is_none_or(|grid| grid.shaft.is_none()) {
+            return Ok(());
+        }
+        let key = "geometry.shaft_inner_radius";
+        Err(refusal!(self, key,
+            "{what} takes the cylinder as rigid, and {key} gives a deformable shaft";
+            "not with a deformable shaft"; "leave {key} out"))
     }
 }

@@ -2,17 +2,12 @@
 
 use super::boundaries::NamedCondition;
 use super::elastic::elastic;
-use super::inclusion;
 use super::modifications::{Modification, reshaped};
-use super::opposite::{check_meeting, opposite_curve};
-use super::raw::{MeshBytes, RawCase};
-use super::reader::Section;
-use super::shown::first_of;
-use super::suggestion;
 use super::tables::{TableFiles, modulus_table};
 use super::value::quote;
 use super::words::CounterfaceWord;
-use super::{caution, refuse};
+use super::{MeshBytes, RawCase, Section, caution, first_of, inclusion, refuse, suggestion};
+use crate::contact::ContactInterface;
 use crate::fem::{ElasticMaterial, RayleighDamping, RegionMaterial, TabledMaterial};
 use crate::mesh::{
     BodyError, BodyPart, BodySpecification, CounterfaceSpecification, CyclicSymmetry, FileMesh,
@@ -55,20 +50,18 @@ pub(super) fn contact_place(section: &Section<'_>) -> ContactPlace {
     let speed = section.optional_number("speed");
     let word: CounterfaceWord = section.choice("counterface");
     let opposite = opposite_curve(section, word);
+    if word == CounterfaceWord::Sphere {
+        refuse!(section, "counterface",
+            "contact.counterface = \"sphere\" is for a mesh of solid elements";
+            "the body is plane"; "leave it out for a round contact curve; of a straight one \
+             give \"plane\" with `speed`");
+    }
     let (counterface, plane_speed) = match word {
         CounterfaceWord::Body if speed.is_some() => {
             let along = section.has("direction").then_some(direction);
-            let plane = CounterfaceSpecification::Plane { direction: along };
-            (plane, speed)
+            (CounterfaceSpecification::Plane { direction: along }, speed)
         }
-        CounterfaceWord::Sphere => {
-            refuse!(section, "counterface",
-                "contact.counterface = \"sphere\" is for a mesh of solid elements";
-                "the body is plane"; "leave it out for a round contact curve; of a straight one \
-                 give \"plane\" with `speed`");
-            (CounterfaceSpecification::Cylinder { center, radius }, None)
-        }
-        CounterfaceWord::Cylinder | CounterfaceWord::Body => {
+        CounterfaceWord::Cylinder | CounterfaceWord::Sphere | CounterfaceWord::Body => {
             (CounterfaceSpecification::Cylinder { center, radius }, None)
         }
         CounterfaceWord::Plane => {
@@ -87,9 +80,8 @@ pub(super) fn contact_place(section: &Section<'_>) -> ContactPlace {
     let is_plane = plane_speed.is_some();
     let idle = if is_plane { "center radius rotation_speed_rpm" } else { "direction speed" };
     for key in section.refused(idle) {
-        caution!(section, key =>
-            "is not used: the counterface is a {}", if is_plane { "plane" } else { "cylinder" };
-            "no effect");
+        caution!(section, key => "is not used: the counterface is a {}",
+            if is_plane { "plane" } else { "cylinder" }; "no effect");
     }
     ContactPlace { solid: SolidContact::Inner, boundary, counterface, opposite, plane_speed }
 }
@@ -117,10 +109,8 @@ pub(super) fn materials_and<T>(
     beside: impl Fn(&Section<'_>) -> T,
 ) -> Vec<(String, (TabledMaterial, T))> {
     root.each("materials", |section| {
-        let coefficients = [
-            section.optional_number("mass_coefficient"),
-            section.optional_number("stiffness_coefficient"),
-        ];
+        let coefficients = ["mass_coefficient", "stiffness_coefficient"];
+        let coefficients = coefficients.map(|key| section.optional_number(key));
         let table = modulus_table(section, files);
         let elastic = elastic(section, common.formulation, table.as_deref());
         let damping = match coefficients {
@@ -346,4 +336,56 @@ impl ImportedBody {
             source: Arc::new((Arc::new(fine), specification.clone())),
         })
     }
+}
+
+/// `contact.counter_boundary`, which only two bodies have.
+pub(super) fn opposite_curve(section: &Section<'_>, word: CounterfaceWord) -> Option<String> {
+    let key = "counter_boundary";
+    let given = section.optional_text(key);
+    match (word, &given) {
+        (CounterfaceWord::Body, None) => refuse!(section, key,
+            "contact.counterface = \"body\" needs contact.counter_boundary";
+            "the curve of the other body"; "name the physical curve of the other body"),
+        (CounterfaceWord::Cylinder | CounterfaceWord::Plane | CounterfaceWord::Sphere, Some(_)) => {
+            refuse!(section, key, "contact.counter_boundary is for two bodies";
+                "the curve of the other body";
+                "set contact.counterface = \"body\", or leave it out");
+        }
+        _ => return given,
+    }
+    None
+}
+
+/// Two bodies must have their curves before each other, at most as far into each other as the interference.
+pub(super) fn check_meeting(
+    mesh: &Mesh,
+    body: &BodySpecification,
+    interference: f64,
+) -> Result<(), String> {
+    let Some(other) = &body.opposite else {
+        return Ok(());
+    };
+    let interface = ContactInterface::of(mesh);
+    let name = &body.contact;
+    if interface.is_empty() {
+        return Err(format!(
+            "no point of \"{name}\" (contact.boundary) has \"{other}\" (contact.counter_boundary) facing it: check the \
+             curves, and contact.center, speed and direction"
+        ));
+    }
+    let deepest =
+        (0..interface.len()).min_by(|&a, &b| interface.gaps[a].total_cmp(&interface.gaps[b]));
+    let Some(i) = deepest else { return Ok(()) };
+    let size = interface.tributary_lengths[i];
+    let depth = -interface.gaps[i];
+    // A thousandth of an element is what faceted curves differ by.
+    if depth > interference + 1e-3 * size {
+        return Err(format!(
+            "the bodies overlap: node {} of \"{name}\" lies {depth:.3e} m inside the other body, \
+             more than contact.interference = {interference:e} m. Mesh them just touching, and let \
+             contact.interference press them together",
+            mesh.node_label(interface.nodes[i] as usize)
+        ));
+    }
+    Ok(())
 }

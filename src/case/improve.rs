@@ -1,8 +1,6 @@
 //! `[improve]`: which modes are to be silenced, and by what.
 
-use super::reader::Section;
-use super::refuse;
-use super::words::ModificationKind;
+use super::{ModificationKind, Section, refuse};
 
 /// `[improve]`; what is `None` follows from the body and its modes.
 #[derive(Clone, Debug, PartialEq)]
@@ -31,17 +29,15 @@ pub struct Improve {
     pub confirm: usize,
 }
 
-pub(super) fn improve(root: &Section<'_>) -> Improve {
-    let section = root.section("improve", false);
+pub(super) fn improve(section: &Section<'_>) -> Improve {
     let ends = ["min_frequency_hz", "max_frequency_hz"].map(|key| section.optional_number(key));
     let frequencies_hz = [ends[0].unwrap_or(0.0), ends[1].unwrap_or(f64::INFINITY)];
     if frequencies_hz[0] >= frequencies_hz[1] {
         refuse!(section, "min_frequency_hz",
-            "improve.min_frequency_hz = {} is not below improve.max_frequency_hz = \
-             {}", frequencies_hz[0], frequencies_hz[1];
-            "no mode lies between them");
+            "improve.min_frequency_hz = {} is not below improve.max_frequency_hz = {}",
+            frequencies_hz[0], frequencies_hz[1]; "no mode lies between them");
     }
-    let own = Improve {
+    Improve {
         modifications: section.choices("modifications"),
         frequencies_hz,
         mass: section.optional_number("mass"),
@@ -53,7 +49,5 @@ pub(super) fn improve(root: &Section<'_>) -> Improve {
         forbidden: section.texts("forbidden"),
         candidates: section.count("candidates"),
         confirm: section.count("confirm"),
-    };
-    section.close();
-    own
+    }
 }

@@ -1,6 +1,6 @@
 //! Declaration of a case key: kind of value, bound, unit, default, meaning.
 
-use super::value::RawValue;
+use super::RawValue;
 use super::words::words_named;
 
 /// Where a number must lie.
@@ -67,17 +67,6 @@ impl Bound {
             },
         })
     }
-
-    /// As a condition behind the word "number".
-    pub(super) fn condition(self) -> String {
-        match self {
-            Self::Positive => " > 0".to_owned(),
-            Self::NotNegative => " >= 0".to_owned(),
-            Self::Between(low, high) => format!(" between {low} and {high}"),
-            Self::AtLeast(least) => format!(" >= {least}"),
-            Self::Finite => String::new(),
-        }
-    }
 }
 
 /// The kind of value that a key takes.
@@ -111,32 +100,27 @@ pub enum Kind {
     Directions(fn() -> Vec<&'static str>),
     /// The dotted name of a case key whose value is a number.
     Parameter,
-    /// A table whose keys are case keys, in words.
-    Table(&'static str),
+    /// A table whose keys are case keys.
+    Table,
 }
 
 impl Kind {
     /// The kind of a declaration: `number > 0`, `integer >= 1 or list`, `one CeaMethod`.
     fn read(text: &'static str) -> Option<Self> {
         if let Some(least) = text.strip_prefix("integer >= ") {
-            let number = least.trim_end_matches(" or list").parse().ok()?;
-            return Some(if least.ends_with("list") {
-                Self::Counts(number)
-            } else {
-                Self::Count(number)
-            });
+            return match least.strip_suffix(" or list") {
+                Some(least) => least.parse().ok().map(Self::Counts),
+                None => least.parse().ok().map(Self::Count),
+            };
         }
         if let Some(bound) = text.strip_prefix("number") {
-            let bound_of = Bound::of_condition;
-            return Some(
-                match (bound.strip_suffix(", list or range"), bound.split_once(" or \"")) {
-                    (Some(bound), _) => Self::Numbers(bound_of(bound)?),
-                    (_, Some((bound, word))) => {
-                        Self::NumberOr(bound_of(bound)?, word.trim_end_matches('"'))
-                    }
-                    _ => Self::Number(bound_of(bound)?),
-                },
-            );
+            if let Some(bound) = bound.strip_suffix(", list or range") {
+                return Bound::of_condition(bound).map(Self::Numbers);
+            }
+            let Some((bound, word)) = bound.split_once(" or ") else {
+                return Bound::of_condition(bound).map(Self::Number);
+            };
+            return Some(Self::NumberOr(Bound::of_condition(bound)?, word.trim_matches('"')));
         }
         Some(match (text, text.split_once(' ')) {
             ("text", _) => Self::Text,
@@ -145,7 +129,7 @@ impl Kind {
             ("node", _) => Self::Node,
             ("node or list", _) => Self::Nodes,
             ("numeric case key", _) => Self::Parameter,
-            (_, Some(("table", _))) => Self::Table(text),
+            (_, Some(("table", _))) => Self::Table,
             (_, Some(("some", name))) => Self::Choices(words_named(name)?),
             (_, Some(("one", name))) => match name.strip_suffix(" or two vectors") {
                 Some(name) => Self::Directions(words_named(name)?),
@@ -176,7 +160,9 @@ pub enum Default {
 pub struct CaseKey {
     /// Dotted name.
     pub name: &'static str,
-    /// The values it takes.
+    /// The values it takes, as declared.
+    pub(super) declared: &'static str,
+    /// Their kind.
     pub kind: Kind,
     /// Unit of the value; empty for a pure number and for what is no number.
     pub unit: &'static str,
@@ -189,15 +175,13 @@ pub struct CaseKey {
     /// What holds where `cycle` and `basin` seek rotating waves, which do not use it; empty of a key that every command
     /// uses.
     pub of_waves: &'static str,
-    /// First version that knows it.
-    pub since: &'static str,
 }
 
 impl CaseKey {
     /// The key of a declaration, `name | values | unit | default | example`, and of what it is.
     pub(super) fn read(head: &'static str, text: &'static str) -> Option<Self> {
         let fields: Vec<&str> = head.split(" | ").collect();
-        let [name, values, unit, default, example] = fields[..] else {
+        let [name, declared, unit, default, example] = fields[..] else {
             return None;
         };
         let (meaning, of_waves) = text.split_once(" of waves: ").unwrap_or((text, ""));
@@ -207,8 +191,8 @@ impl CaseKey {
             None if default.starts_with("required, or ") => Default::RequiredUnless(default),
             None => Default::Otherwise(default),
         };
-        let (kind, unit) = (Kind::read(values)?, if unit == "-" { "" } else { unit });
-        Some(Self { name, kind, unit, default, example, meaning, of_waves, since: "0.1" })
+        let (kind, unit) = (Kind::read(declared)?, if unit == "-" { "" } else { unit });
+        Some(Self { name, declared, kind, unit, default, example, meaning, of_waves })
     }
 
     /// Whether the value is a single number, as a parameter study or a branch varies it.
@@ -259,21 +243,12 @@ impl CaseKey {
     /// The values it takes, in words.
     pub fn values(&self) -> String {
         match self.kind {
-            Kind::Text => "text".to_owned(),
-            Kind::Texts => "text or list".to_owned(),
-            Kind::Flag => "true or false".to_owned(),
-            Kind::Number(bound) => format!("number{}", bound.condition()),
-            Kind::NumberOr(bound, word) => format!("number{} or \"{word}\"", bound.condition()),
-            Kind::Numbers(bound) => format!("number{}, list or range", bound.condition()),
-            Kind::Count(least) => format!("integer >= {least}"),
-            Kind::Counts(least) => format!("integer >= {least} or list"),
             Kind::Node => "node number, { x, y } or { radius, angle_deg }".to_owned(),
             Kind::Nodes => "node number, { x, y }, { radius, angle_deg } or list".to_owned(),
             Kind::Choice(words) => format!("\"{}\"", words().join("\", \"")),
             Kind::Choices(words) => format!("some of \"{}\"", words().join("\", \"")),
             Kind::Directions(words) => format!("\"{}\" or two vectors", words().join("\", \"")),
-            Kind::Parameter => "numeric case key".to_owned(),
-            Kind::Table(words) => words.to_owned(),
+            _ => self.declared.to_owned(),
         }
     }
 

@@ -1,7 +1,7 @@
 //! Every key a case can have: the one declaration, in `keys.txt`, that readers, messages,
 //! `frictionsim keys`, the JSON schema and the commented template are made from.
 
-use super::key::CaseKey;
+use super::CaseKey;
 use std::borrow::Cow;
 use std::sync::LazyLock;
 

@@ -6,7 +6,6 @@
 
 mod assembly;
 mod attachments;
-mod basin;
 mod body;
 mod boundaries;
 mod cea;
@@ -25,15 +24,12 @@ mod generated;
 mod imported;
 mod improve;
 mod inclusion;
-mod interference;
 mod key;
 mod keys;
 mod model;
 mod modifications;
 mod node;
 mod normal_force;
-mod normal_law;
-mod opposite;
 mod overrides;
 mod parameters;
 mod range;
@@ -42,8 +38,6 @@ mod reader;
 pub mod reference;
 mod relaxed;
 mod requirements;
-mod rigid_counterface;
-mod shaft;
 mod shown;
 mod solid;
 mod starting;
@@ -172,39 +166,38 @@ impl Case {
     /// # Errors
     /// [`CaseErrors`] with every error found.
     pub fn read(mut raw: RawCase) -> Result<Self, CaseErrors> {
-        let end = Location::new(0, raw.text.trim_end().len()..raw.text.trim_end().len());
         let (effective, taken) = taken::effective(&mut raw);
         let findings = Findings::of(&effective);
-        let root = Section::root(&findings, &effective, end);
+        let root = Section::root(&findings, &effective, raw.end());
         let title = title(&raw, root.optional_text("title").unwrap_or_default());
         let mut tables = tables::TableFiles::of(&raw);
         let mut common = model::material(&root, &mut tables);
         let model::Model { body, thickness, mesh, contact } =
             model::model(&root, &raw, &mut common, &mut tables);
         let (material, tables) = (common.own.elastic, tables.read);
-        let damping = model::damping(&root);
-        let cea = cea::cea(&root, body.as_ref(), contact.sliding.friction_coefficient);
-        let transient = transient::transient(&root, body.as_ref(), &contact.sliding);
+        let damping = root.section("damping", false).closed(model::damping);
+        let own_friction = contact.sliding.friction_coefficient;
+        let cea = root.read_section("cea", |own| cea::cea(own, &root, body.as_ref(), own_friction));
+        let transient = root.read_section("transient", |own| {
+            transient::transient(own, body.as_ref(), &contact.sliding)
+        });
         let nodes = node::Nodes { body: body.as_ref() };
-        let output = transient::output(&root, &nodes, transient.as_ref());
+        let output = root.section("output", false);
+        let output = output.closed(|own| transient::output(own, &nodes, transient.as_ref()));
         if transient.is_some() && body.as_ref().is_some_and(|body| !body.suits_transient()) {
-            root.section("mesh", false).warn(
-                "element",
+            caution!(root.section("mesh", false), "element",
                 "mesh.element = \"quad8\" is for the complex eigenvalue analysis only: the \
-                 transient of this case cannot run"
-                    .to_owned(),
-                "no transient",
-                None,
-            );
+                 transient of this case cannot run"; "no transient");
         }
-        let cycle = cycle::cycle(&root, body.as_ref());
-        let basin = basin::basin(&root, body.as_ref());
-        let frf = frf::read(&root, &nodes);
+        let cycle = root.read_section("cycle", |own| cycle::cycle(own, body.as_ref()));
+        let basin = root.read_section("basin", |own| cycle::basin(own, body.as_ref()));
+        let frf = root.read_section("frf", |own| frf::read(own, &nodes));
         let has = [cea.is_some(), transient.is_some(), cycle.is_some()];
-        let convergence = convergence::read(&root, body.as_ref(), has);
-        let fit = fit::fit(&root);
-        let uncertainty = uncertainty::uncertainty(&root);
-        let improve = improve::improve(&root);
+        let convergence = root
+            .read_section("convergence", |own| convergence::read(own, &root, body.as_ref(), has));
+        let fit = root.read_section("fit", fit::fit);
+        let uncertainty = root.read_section("uncertainty", uncertainty::uncertainty);
+        let improve = root.section("improve", false).closed(improve::improve);
         let sweep = sweep::read(&root);
         superelements::refuse_attached(&root);
         root.close();
@@ -298,11 +291,6 @@ impl Case {
     /// Whether the body consists of equal sectors, so that its motions have harmonics.
     pub fn has_sectors(&self) -> bool {
         self.body.has_sectors()
-    }
-
-    /// Number of a node, counted from 0, as the user knows it.
-    pub fn node_label(&self, node: usize) -> usize {
-        self.body.node_label(node)
     }
 
     /// Whether a material, a support or a contact has structural damping.

@@ -1,20 +1,17 @@
 //! The sections that describe the model: geometry, mesh, material, damping, contact.
 
-use super::assembly;
-use super::attachments;
-use super::body::Body;
-use super::boundaries::{self, NamedCondition};
-use super::contact::{Contact, contact};
+use super::boundaries::NamedCondition;
+use super::contact::contact;
 use super::elastic::{Surroundings, elastic, place_axes};
 use super::generated::generated;
-use super::imported::{self, BodyParts, ImportError};
-use super::modifications::{self, Modification};
-use super::raw::{MeshBytes, RawCase};
-use super::reader::Section;
-use super::solid;
+use super::imported::{BodyParts, ImportError};
+use super::modifications::Modification;
 use super::tables::{TableFiles, modulus_table};
-use super::words::{FilePart, UnitsWord};
-use super::{caution, refuse};
+use super::words::FilePart;
+use super::{
+    Body, Contact, MeshBytes, RawCase, Section, UnitsWord, assembly, attachments, boundaries,
+    caution, imported, modifications, refuse, solid,
+};
 use crate::fem::{ElasticMaterial, RayleighDamping, RegionMaterial, TabledMaterial};
 use crate::mesh::{BoundaryCondition, CounterfaceSpecification};
 
@@ -114,18 +111,13 @@ fn unmodified(
             "give a plane formulation, a file with solid elements, or the radii of a body that is \
              generated");
     }
-    let plane = Surroundings::Plane {
-        center: match place.counterface {
-            CounterfaceSpecification::Cylinder { center, .. } => Some(center),
-            CounterfaceSpecification::Plane { .. } => None,
-        },
+    let center = match place.counterface {
+        CounterfaceSpecification::Cylinder { center, .. } => Some(center),
+        CounterfaceSpecification::Plane { .. } => None,
     };
-    let axis = match place.counterface {
-        CounterfaceSpecification::Cylinder { center: [x, y], .. } => {
-            Ok([[0.0, 0.0, 1.0], [x, y, 0.0]])
-        }
-        CounterfaceSpecification::Plane { .. } => Err("the counterface is a plane"),
-    };
+    let plane = Surroundings::Plane { center };
+    let axis = center.map(|[x, y]| [[0.0, 0.0, 1.0], [x, y, 0.0]]);
+    let axis = axis.ok_or("the counterface is a plane");
     let parts = BodyParts {
         scale,
         symmetry: imported::symmetry(&mesh, axis),
@@ -251,15 +243,12 @@ pub(super) fn material(root: &Section<'_>, tables: &mut TableFiles<'_>) -> Table
     TabledMaterial { own: RegionMaterial { elastic, damping: None }, table }
 }
 
-pub(super) fn damping(root: &Section<'_>) -> Damping {
-    let section = root.section("damping", false);
-    let damping = Damping {
+pub(super) fn damping(section: &Section<'_>) -> Damping {
+    Damping {
         rayleigh: RayleighDamping {
             mass_coefficient: section.number("mass_coefficient"),
             stiffness_coefficient: section.number("stiffness_coefficient"),
         },
         include_contact: section.flag("include_contact"),
-    };
-    section.close();
-    damping
+    }
 }

@@ -1,8 +1,7 @@
 //! `[modifications.*]`: what is added to a body, or taken away from it.
 
-use super::diagnostic::Location;
-use super::reader::{NodePlace, Section};
-use super::refuse;
+use super::reader::NodePlace;
+use super::{Location, Section, refuse};
 use crate::mesh::FileMesh;
 use nalgebra::Vector3;
 use std::sync::Arc;
@@ -72,15 +71,9 @@ fn modification(section: &Section<'_>) -> Modification {
 
 /// Refuses keys without effect, and a section without any.
 fn check(section: &Section<'_>, own: &Modification) {
-    let refuse = |key: &str, message: String, help: &str| {
-        let label = "has no effect by itself".to_owned();
-        section.reject(key, message, label, Some(help.to_owned()));
-    };
     let needs = |keys: &[&str], needed: &str, help: &str| {
-        let given = keys.iter().filter(|key| section.has(key));
-        for key in given {
-            let message = format!("{} needs {needed}", section.name(key));
-            refuse(key, message, help);
+        for key in keys.iter().filter(|key| section.has(key)) {
+            refuse!(section, key => "needs {needed}"; "has no effect by itself"; "{help}");
         }
     };
     let places =
@@ -94,8 +87,8 @@ fn check(section: &Section<'_>, own: &Modification) {
         needs(&["center", "radius"], "the other of the two", circles);
     }
     if own.direction.is_some_and(|d| d.iter().all(|x| *x == 0.0)) {
-        let message = format!("{} = 0 points nowhere", section.name("direction"));
-        refuse("direction", message, "give a vector, or leave it out: every direction");
+        refuse!(section, "direction" => "= 0 points nowhere"; "has no effect by itself";
+            "give a vector, or leave it out: every direction");
     }
     let is_inert = own.mass == 0.0
         && own.stiffness == 0.0
@@ -105,12 +98,9 @@ fn check(section: &Section<'_>, own: &Modification) {
         && own.offset.is_none();
     let known = AT_NODES.iter().chain(&IN_ELEMENTS).chain(&["offset"]);
     if is_inert && known.into_iter().all(|key| !section.has(key)) {
-        let message = format!("{} changes nothing", section.name("").trim_end_matches('.'));
-        refuse(
-            "at",
-            message,
-            "give mass, stiffness, damping, remove, a damping coefficient or offset",
-        );
+        refuse!(section, "at", "{} changes nothing", section.name("").trim_end_matches('.');
+            "has no effect by itself";
+            "give mass, stiffness, damping, remove, a damping coefficient or offset");
     }
 }
 

@@ -1,9 +1,8 @@
 //! Nodes of the mesh as a case names them: by number, or by a place whose nearest node is meant.
 
-use super::body::{Body, solid_node_count};
-use super::diagnostic::Location;
-use super::reader::{NodePlace, Section};
-use super::{caution, refuse_at};
+use super::body::solid_node_count;
+use super::reader::NodePlace;
+use super::{Body, Location, Section, caution, refuse_at};
 use crate::mesh::{AnnulusSpecification, Counterface, SectorMesh, SolidSpecification};
 use std::f64::consts::TAU;
 
@@ -98,17 +97,12 @@ fn numbered(
         "probes" => format!("probe {number}"),
         _ => format!("{} = {number}", section.name(key)),
     };
-    let help = match body {
-        Body::Imported(imported) => {
-            return labelled(&imported.mesh.labels, section, &what, number, at);
-        }
-        Body::Assembly(assembly) => {
-            return labelled(&assembly.mesh.labels, section, &what, number, at);
-        }
-        Body::Annulus(_) => {
-            "node ids count radially outwards first: 1 + j (radial_elements + 1) + i"
-        }
-        Body::Revolution(_) => "node ids number one sector first; give nodes by position instead",
+    if let Some(mesh) = body.whole_mesh() {
+        return labelled(&mesh.labels, section, &what, number, at);
+    }
+    let help = match body.revolution() {
+        None => "node ids count radially outwards first: 1 + j (radial_elements + 1) + i",
+        Some(_) => "node ids number one sector first; give nodes by position instead",
     };
     let nodes = body.node_count();
     if number as u128 > nodes && nodes > 0 {

@@ -4,11 +4,8 @@
 //! pieces where contact is rigid. The interference that belongs to a force is the one root of their
 //! difference.
 
-use super::body::Body;
 use super::contact::section_of;
-use super::diagnostic::CaseErrors;
-use super::refusal;
-use super::{Case, Revolution};
+use super::{Body, Case, CaseErrors, Revolution, refusal};
 use crate::contact::{Counterpart, SlidingContact};
 use crate::fem::{MassKind, assemble_stiffness, sector};
 use crate::mesh::{SectorMesh, SolidSector};

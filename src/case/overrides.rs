@@ -1,9 +1,8 @@
 //! `--set KEY=VALUE` and `--unset KEY`: assignments laid over the case, keys taken away.
 
-use super::diagnostic::{Diagnostic, Location, Source};
-use super::keys;
 use super::suggestion::Scope;
-use super::value::{RawEntry, RawItem, RawTable, RawValue, convert, cut};
+use super::value::{convert, cut};
+use super::{Diagnostic, Location, RawEntry, RawItem, RawTable, RawValue, Source, keys};
 use toml::de::{DeTable, DeValue};
 
 /// Path of an override: each key with its place.
@@ -134,7 +133,7 @@ fn parse(
         }
         Err(_) => RawValue::String(value_text.trim().to_owned()),
     };
-    place_within(&value_at, &mut errors);
+    errors.iter_mut().for_each(|error| error.at = value_at.clone());
     diagnostics.append(&mut errors);
     let mut item = RawItem { value, at: value_at.clone() };
     relocate(&mut item, &value_at);
@@ -180,12 +179,6 @@ fn relocate(item: &mut RawItem, at: &Location) {
             }
         }
         _ => {}
-    }
-}
-
-fn place_within(at: &Location, errors: &mut [Diagnostic]) {
-    for error in errors {
-        error.at = at.clone();
     }
 }
 

@@ -1,10 +1,9 @@
 //! Tables whose keys are dotted case keys of the model: what is fitted, what is uncertain.
 
-use super::diagnostic::{CaseErrors, Location};
-use super::key::{Bound, CaseKey, Kind};
-use super::reader::Section;
-use super::value::{RawEntry, RawTable, RawValue};
-use super::{keys, refuse_at};
+use super::{
+    Bound, CaseErrors, CaseKey, Kind, Location, RawEntry, RawTable, RawValue, Section, keys,
+    refuse, refuse_at,
+};
 
 /// Sections that make the model.
 const MODEL: &[&str] = &[
@@ -63,10 +62,27 @@ fn bound_of(section: &Section<'_>, name: &str) -> Result<Bound, String> {
 
 /// The entries of a table of the case by the keys that they name; tables that are no entry are dotted keys written
 /// without quotes.
-pub(super) fn entries<'a>(section: &Section<'a>) -> Vec<(ModelParameter, &'a RawEntry)> {
+fn entries<'a>(section: &Section<'a>) -> Vec<(ModelParameter, &'a RawEntry)> {
     let mut found = Vec::new();
     for (name, entry) in section.remaining() {
         collect(section, name.to_owned(), entry, &mut found);
+    }
+    found
+}
+
+/// What is read of each entry of a table of a section; refuses keys that two of them set, and a table without any.
+pub(super) fn read_all<T>(
+    section: &Section<'_>,
+    key: &str,
+    read: impl Fn(&Section<'_>, ModelParameter, &RawEntry) -> T,
+    parameter_of: impl Fn(&T) -> &ModelParameter,
+) -> Vec<T> {
+    let table = section.section(key, true);
+    let entries = entries(&table).into_iter();
+    let found: Vec<T> = entries.map(|(own, entry)| read(&table, own, entry)).collect();
+    refuse_twice(&table, found.iter().flat_map(|own| parameter_of(own).keys()));
+    if table.is_given() && table.remaining().is_empty() {
+        refuse!(section, key => "is empty"; "at least one parameter");
     }
     found
 }

@@ -1,8 +1,9 @@
 //! The case exactly as its TOML says it: a tree of values that know where they were written.
 
-use super::diagnostic::{CaseErrors, Diagnostic, Location, Source};
-use super::value::{RawItem, RawTable, RawValue, convert_table, quote, table_of};
-use super::{keys, overrides};
+use super::value::{convert_table, quote, table_of, with_point};
+use super::{
+    CaseErrors, Diagnostic, Location, RawItem, RawTable, RawValue, Source, keys, overrides,
+};
 use crate::mesh::{FileMesh, MeshFileError};
 use sha2::{Digest, Sha256};
 use std::collections::HashSet;
@@ -225,6 +226,12 @@ impl RawCase {
         CaseErrors { sources, diagnostics }
     }
 
+    /// Where the case ends.
+    pub(super) fn end(&self) -> Location {
+        let end = self.text.trim_end().len();
+        Location::new(0, end..end)
+    }
+
     /// Where a dotted key is written, else the nearest section around it.
     pub fn place(&self, key: &str) -> Location {
         let key = keys::dotted(key);
@@ -264,10 +271,8 @@ impl RawCase {
 fn readable_text(bytes: &[u8]) -> Result<&str, (Diagnostic, String)> {
     let refuse = |message: &str, at: std::ops::Range<usize>, shown: String| {
         let label = if at.is_empty() { "" } else { "the first invalid byte" };
-        let (message, label) = (message.to_owned(), label.to_owned());
-        let help = Some("save the file as UTF-8 text".to_owned());
-        let error = Diagnostic::error(message, label, Location::new(0, at), help);
-        Err((error, shown))
+        let at = Location::new(0, at);
+        Err((Diagnostic::error(message, label, at, "save the file as UTF-8 text"), shown))
     };
     if bytes.starts_with(&[0xff, 0xfe]) || bytes.starts_with(&[0xfe, 0xff]) {
         return refuse("the case file is UTF-16 text, not UTF-8", 0..0, String::new());
@@ -336,10 +341,8 @@ fn foreign(text: &str) -> Option<&'static str> {
 fn decimal_comma(text: &str, at: usize) -> Option<String> {
     let begin = text.get(..at)?.rfind('\n').map_or(0, |newline| newline + 1);
     let line = text[begin..].lines().next()?;
-    let value = line.split_once('=')?.1.trim();
-    let number = value.replace(',', ".");
-    let is_number = value.matches(',').count() == 1 && number.parse::<f64>().is_ok();
-    is_number.then(|| format!("write the number with a decimal point, not a comma: {number}"))
+    let number = with_point(line.split_once('=')?.1.trim())?;
+    Some(format!("write the number with a decimal point, not a comma: {number}"))
 }
 
 /// SHA-256 of parts one behind the other, in hexadecimal.

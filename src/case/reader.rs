@@ -4,14 +4,14 @@
 mod choices;
 mod findings;
 mod lists;
-mod places;
 
-use super::diagnostic::{Diagnostic, Location, Remedy};
-use super::key::{Bound, CaseKey, Default, Kind};
-use super::value::{RawEntry, RawItem, RawTable, RawValue, cut};
-use super::{keys, suggestion};
+use super::value::{cut, with_point};
+use super::{
+    Bound, CaseKey, Default, Diagnostic, Kind, Location, RawEntry, RawItem, RawTable, RawValue,
+    Remedy, keys, suggestion,
+};
 pub(super) use findings::Findings;
-pub(super) use places::NodePlace;
+pub(super) use lists::NodePlace;
 use std::cell::RefCell;
 use std::collections::BTreeSet;
 
@@ -172,7 +172,9 @@ impl<'a> Section<'a> {
     }
 
     fn reject_at(&self, item: &RawItem, key: &str, bound: &str) {
-        let help = decimal_comma(&item.value).or_else(|| suggestion::usage(&self.name(key)));
+        let point = item.value.text().and_then(with_point);
+        let point = point.map(|point| format!("write the number with a decimal point: {point}"));
+        let help = point.or_else(|| suggestion::usage(&self.name(key)));
         self.findings.push(
             format!("{} = {} {bound}", self.name(key), item.value.shortened()),
             bound.to_owned(),
@@ -187,6 +189,13 @@ impl<'a> Section<'a> {
         if self.is_given() {
             let message = format!("missing key `{}`", self.name(key));
             self.reject(key, message, format!("`{key}` is required in this section"), None);
+        }
+    }
+
+    /// Reports a key that must be there, where it is not.
+    pub fn needs(&self, key: &str) {
+        if !self.has(key) {
+            self.missing(key);
         }
     }
 
@@ -392,20 +401,9 @@ impl<'a> Section<'a> {
 
     /// Text that is given or has a default.
     pub fn text(&self, key: &str) -> String {
-        let text = self.optional_text(key);
-        if text.is_none() && !self.has(key) {
-            self.missing(key);
-        }
-        text.unwrap_or_default()
+        self.optional_text(key).unwrap_or_else(|| {
+            self.needs(key);
+            String::new()
+        })
     }
-}
-
-/// A hint where a string is a number with a decimal comma.
-fn decimal_comma(value: &RawValue) -> Option<String> {
-    let RawValue::String(text) = value else {
-        return None;
-    };
-    let point = text.replace(',', ".");
-    let is_number = text.matches(',').count() == 1 && point.parse::<f64>().is_ok();
-    is_number.then(|| format!("write the number with a decimal point: {point}"))
 }

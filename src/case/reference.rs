@@ -1,8 +1,7 @@
 //! Reference of the case keys, in the forms that people and editors read.
 
-use super::key::{Bound, CaseKey, Default, Kind};
-use super::keys::KEYS;
-use serde_json::{Map, Value, json};
+use super::{Bound, CaseKey, Default, KEYS, Kind};
+use serde_json::{Value, json};
 use std::fmt::Write as _;
 
 /// Sections that every case has.
@@ -99,7 +98,7 @@ pub fn object(key: &CaseKey) -> Value {
         "example": key.example,
         "meaning": key.meaning,
         "of_rotating_waves": Some(key.of_waves).filter(|words| !words.is_empty()),
-        "since": key.since,
+        "since": "0.1",
     })
 }
 
@@ -181,7 +180,7 @@ fn key_schema(key: &CaseKey) -> Value {
                 "type": "array", "minItems": 2, "maxItems": 3, "items": { "type": "number" },
             }},
         ]}),
-        Kind::Table(_) => json!({ "type": "object" }),
+        Kind::Table => json!({ "type": "object" }),
         Kind::Parameter => {
             let numeric = KEYS.iter().filter(|key| key.is_numeric());
             let numeric = numeric.filter(|key| !key.name.contains('*'));
@@ -217,14 +216,13 @@ fn node() -> Value {
 }
 
 fn number(bound: Bound) -> Value {
-    let limits = match bound {
-        Bound::Positive => json!({ "exclusiveMinimum": 0 }),
-        Bound::NotNegative => json!({ "minimum": 0 }),
-        Bound::Between(low, high) => json!({ "exclusiveMinimum": low, "exclusiveMaximum": high }),
-        Bound::AtLeast(least) => json!({ "minimum": least }),
-        Bound::Finite => json!({}),
-    };
-    let mut schema = Map::from_iter([("type".to_owned(), json!("number"))]);
-    schema.extend(limits.as_object().cloned().unwrap_or_default());
-    Value::Object(schema)
+    match bound {
+        Bound::Positive => json!({ "type": "number", "exclusiveMinimum": 0 }),
+        Bound::NotNegative => json!({ "type": "number", "minimum": 0 }),
+        Bound::Between(low, high) => {
+            json!({ "type": "number", "exclusiveMinimum": low, "exclusiveMaximum": high })
+        }
+        Bound::AtLeast(least) => json!({ "type": "number", "minimum": least }),
+        Bound::Finite => json!({ "type": "number" }),
+    }
 }

@@ -1,7 +1,6 @@
 //! What materials with loss factors and tables over frequency are in time.
 
-use super::diagnostic::CaseErrors;
-use super::{Case, ModeSelection};
+use super::{Case, CaseErrors, ModeSelection};
 use crate::fem::{MaterialField, MaxwellChain, RelaxedMaterials};
 use crate::linalg::c64;
 

@@ -1,9 +1,9 @@
 //! Sections that an analysis needs, and bodies and laws that it does not take.
 
-use super::diagnostic::{CaseErrors, Diagnostic, Location};
-use super::refusal;
 use super::value::table_of;
-use super::{Analysis, Annulus, Body, Case, Cea, Convergence, Frf, Sweep};
+use super::{
+    Analysis, Annulus, Body, Case, CaseErrors, Cea, Convergence, Diagnostic, Frf, Sweep, refusal,
+};
 
 impl Case {
     /// Whether it has the section of an analysis.
@@ -22,8 +22,7 @@ impl Case {
     /// A case without `[cea]`, with what to add.
     pub fn require_cea(&self) -> Result<&Cea, CaseErrors> {
         let remedy = "[cea]\nmax_frequency_hz = 17500.0";
-        let cea = self.cea.as_ref();
-        cea.ok_or_else(|| self.lacks("cea", "complex eigenvalue analysis", remedy))
+        self.required(&self.cea, "cea", "complex eigenvalue analysis", remedy)
     }
 
     /// The two waves that compete.
@@ -33,8 +32,7 @@ impl Case {
     pub fn require_basin(&self) -> Result<&crate::cycle::BasinRequest, CaseErrors> {
         self.refuse_losses_in_time("the search for a basin")?;
         self.refuse_what_has_no_cycle()?;
-        let found = self.basin.as_ref();
-        let found = found.ok_or_else(|| self.lacks("basin", "search for a basin", "[basin]"))?;
+        let found = self.required(&self.basin, "basin", "search for a basin", "[basin]")?;
         // Each kind of body has keys of its own.
         let (key, why, remedy) = match self.has_rotating_waves() {
             true => {
@@ -58,8 +56,7 @@ impl Case {
         if self.contact.stiffness.law.is_some() {
             return Err(refusal!(self, "contact.normal_law",
                 "rotating waves are those of rigid contact, whose pressure is another one than on \
-                 a contact that stiffens";
-                "stiffens with pressure";
+                 a contact that stiffens"; "stiffens with pressure";
                 "`cycle` seeks the motions of the whole mesh of such a disc; or leave \
                  contact.normal_law out"));
         }
@@ -73,7 +70,14 @@ impl Case {
              true), or set contact.static_friction_ratio = 1.0"))
     }
 
-    pub(super) fn require_quad4(&self, label: &str) -> Result<(), CaseErrors> {
+    /// A body that the explicit transient can step; `plane` and `solid` say who needs linear elements of it.
+    pub(super) fn require_steps(&self, plane: &str, solid: &str) -> Result<(), CaseErrors> {
+        let label = match &self.body {
+            Body::Annulus(_) => plane,
+            Body::Revolution(_) => solid,
+            Body::Imported(_) => return Ok(()),
+            Body::Assembly(assembly) => return self.check_stepped(assembly),
+        };
         if !self.body.is_quadratic() {
             return Ok(());
         }
@@ -89,7 +93,7 @@ impl Case {
     pub fn require_sweep(&self) -> Result<&Sweep, CaseErrors> {
         let key = self.contact_key("friction_coefficient");
         let remedy = format!("[sweep]\n{key} = [0.2, 0.3, 0.4]");
-        self.sweep.as_ref().ok_or_else(|| self.lacks("sweep", "parameter study", &remedy))
+        self.required(&self.sweep, "sweep", "parameter study", &remedy)
     }
 
     /// The frequency response.
@@ -99,8 +103,7 @@ impl Case {
     pub fn require_frf(&self) -> Result<&Frf, CaseErrors> {
         let remedy =
             "[frf]\nforce_node = 36\nfrequencies_hz = { from = 1.0, to = 10000.0, count = 10000 }";
-        let frf = self.frf.as_ref();
-        frf.ok_or_else(|| self.lacks("frf", "frequency response", remedy))
+        self.required(&self.frf, "frf", "frequency response", remedy)
     }
 
     /// The convergence study.
@@ -108,8 +111,7 @@ impl Case {
     /// # Errors
     /// A case without `[convergence]`, with what to add.
     pub fn require_convergence(&self) -> Result<&Convergence, CaseErrors> {
-        let study = self.convergence.as_ref();
-        study.ok_or_else(|| self.lacks("convergence", "convergence study", "[convergence]"))
+        self.required(&self.convergence, "convergence", "convergence study", "[convergence]")
     }
 
     /// The plane annulus of an analysis that no other body has; `waves` says what needs its sectors, `search` what
@@ -163,13 +165,21 @@ impl Case {
         ))
     }
 
-    pub(super) fn lacks(&self, section: &str, analysis: &str, remedy: &str) -> CaseErrors {
-        let end = self.raw.text.trim_end().len();
-        self.raw.errors(vec![Diagnostic::error(
-            format!("the case has no [{section}] section, so there is no {analysis} to run"),
-            "the case ends here",
-            Location::new(0, end..end),
-            format!("add\n{remedy}"),
-        )])
+    /// What a section says; an error with what to add where there is none.
+    pub(super) fn required<'a, T>(
+        &self,
+        own: &'a Option<T>,
+        section: &str,
+        analysis: &str,
+        remedy: &str,
+    ) -> Result<&'a T, CaseErrors> {
+        own.as_ref().ok_or_else(|| {
+            self.raw.errors(vec![Diagnostic::error(
+                format!("the case has no [{section}] section, so there is no {analysis} to run"),
+                "the case ends here",
+                self.raw.end(),
+                format!("add\n{remedy}"),
+            )])
+        })
     }
 }

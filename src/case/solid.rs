@@ -1,11 +1,8 @@
 //! Bodies of revolution in three dimensions: `material.formulation = "three-dimensional"`.
 
-use super::boundaries::NamedCondition;
-use super::diagnostic::CaseErrors;
-use super::reader::Section;
+use super::boundaries::{NamedCondition, holds_tangentially};
 use super::tables::TableFiles;
-use super::{Case, suggestion};
-use super::{imported, refusal, refuse};
+use super::{Case, CaseErrors, Section, imported, refusal, refuse, suggestion};
 use crate::fem::{ElasticMaterial, PlaneFormulation, TabledMaterial};
 use crate::mesh::{
     AnnulusSpecification, BoundaryCondition, SolidContact, SolidFace, SolidPart, SolidSpecification,
@@ -57,13 +54,11 @@ pub(super) fn contact(section: &Section<'_>, annulus: &AnnulusSpecification) -> 
                 "needs contact.boundary = \"top\""; "set it, or leave {key} out");
         }
         if section.has("boundary") && !section.is_text("boundary", "inner") {
-            section.reject(
-                "boundary",
-                "contact.boundary of a three-dimensional body is \"inner\" or \"top\"",
-                "no such face of contact",
-                suggestion::nearest(&section.text("boundary"), ["inner", "top"].into_iter())
-                    .map(|near| format!("did you mean \"{near}\"?")),
-            );
+            let given = section.text("boundary");
+            let near = suggestion::nearest(&given, ["inner", "top"].into_iter());
+            let message = "contact.boundary of a three-dimensional body is \"inner\" or \"top\"";
+            let help = near.map(|near| format!("did you mean \"{near}\"?"));
+            section.reject("boundary", message, "no such face of contact", help);
         }
         return SolidContact::Inner;
     }
@@ -73,8 +68,7 @@ pub(super) fn contact(section: &Section<'_>, annulus: &AnnulusSpecification) -> 
         if !(value >= low && value <= high) && high > low {
             refuse!(section, key,
                 "contact.{key} = {value} lies outside the face, which reaches from {low} to {high} \
-                 m";
-                "between {low} and {high}";
+                 m"; "between {low} and {high}";
                 "a ring lies between geometry.inner_radius and geometry.outer_radius");
         }
     }
@@ -172,12 +166,7 @@ pub(super) fn conditions(
         }
         conditions[face] = *condition;
     }
-    let holds = |condition: &BoundaryCondition| match condition {
-        BoundaryCondition::Clamped => true,
-        BoundaryCondition::Support(support) => support.tangential_stiffness > 0.0,
-        _ => false,
-    };
-    if !conditions.iter().any(holds) {
+    if !conditions.iter().any(holds_tangentially) {
         refuse!(section, "outer", "nothing holds the body against the friction that turns it";
             "must hold a face tangentially";
             "use condition = \"clamped\" on a face, or \"support\" with tangential_stiffness above \

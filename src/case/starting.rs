@@ -1,11 +1,10 @@
 //! The case to start from that a mesh file suggests: everything that it holds, as sections with their places in the
 //! file.
 
-use super::file_sections::{FileSection, sections};
-use super::inclusion;
+use super::file_sections::sections;
 use super::taken::drop_key;
-use super::value::{RawValue, quote};
-use super::words::UnitsWord;
+use super::value::quote;
+use super::{FileSection, RawValue, UnitsWord, inclusion};
 use crate::mesh::{FileElasticity, FileMesh, LeftOut, SurfaceFace};
 use nalgebra::Vector3;
 use std::fmt::Write as _;
@@ -170,7 +169,10 @@ fn proposed_motion(file: &FileMesh, units: UnitsWord, sections: &[FileSection], 
     let normal = faces.iter().map(|face| area_of(file, face)).sum::<Vector3<f64>>();
     let axis = normal.try_normalize(0.0).unwrap_or_else(Vector3::z);
     // Round-off is no part of a proposal.
-    let rounded = |x: f64| (1e6 * x).round() / 1e6 + 0.0;
+    let rounded = |vector: Vector3<f64>| {
+        let [x, y, z] = [0, 1, 2].map(|i| (1e6 * vector[i]).round() / 1e6 + 0.0);
+        format!("[{x}, {y}, {z}]")
+    };
     let own = file.elements.iter().filter(|element| *element.region == *region);
     let nodes: std::collections::BTreeSet<u32> =
         own.flat_map(|e| e.nodes.iter().copied()).collect();
@@ -181,15 +183,11 @@ fn proposed_motion(file: &FileMesh, units: UnitsWord, sections: &[FileSection], 
         out,
         "\n[motion.{}]    # CHOOSE: the file has none; about the mean normal of {}, through the \
         mean of the region's nodes\n\
-         axis = [{}, {}, {}]\ncenter = [{}, {}, {}]    # m\nrotation_speed_rpm = {SPEED_RPM:?}\n",
+         axis = {}\ncenter = {}    # m\nrotation_speed_rpm = {SPEED_RPM:?}\n",
         quote(&region),
         contact.counter,
-        rounded(axis[0]),
-        rounded(axis[1]),
-        rounded(axis[2]),
-        rounded(center[0]),
-        rounded(center[1]),
-        rounded(center[2]),
+        rounded(axis),
+        rounded(center),
     );
 }
 

@@ -1,8 +1,8 @@
 //! Suggestions for unknown keys: near misses, synonyms, the meaning of a key.
 
-use super::key::CaseKey;
-use super::keys::{KEYS, find};
-use super::value::{RawTable, RawValue, table_of};
+use super::keys::find;
+use super::value::table_of;
+use super::{CaseKey, KEYS, RawTable, RawValue};
 use std::cell::RefCell;
 use std::collections::BTreeSet;
 

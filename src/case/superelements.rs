@@ -1,10 +1,8 @@
 //! `[superelements.*]`: systems that other programs have reduced to matrices.
 
-use super::cea::{ModeSelection, mode_selection};
-use super::diagnostic::{CaseErrors, Location};
-use super::raw::{RawCase, hex};
-use super::reader::{Findings, Section};
-use super::refuse;
+use super::cea::mode_selection;
+use super::raw::hex;
+use super::{CaseErrors, Findings, ModeSelection, RawCase, Section, refuse};
 use crate::linalg::MarketMatrix;
 use frictionsim_bounds::{MATRIX, SUPERELEMENT_UNKNOWNS};
 use sha2::{Digest, Sha256};
@@ -55,8 +53,7 @@ impl FreeSystem {
     /// without entries, a key that means nothing here.
     pub fn read(raw: RawCase) -> Result<Self, CaseErrors> {
         let findings = Findings::of(&raw.root);
-        let end = raw.text.trim_end().len();
-        let root = Section::root(&findings, &raw.root, Location::new(0, end..end));
+        let root = Section::root(&findings, &raw.root, raw.end());
         let title = root.optional_text("title").unwrap_or_default();
         let all = root.section("superelements", true);
         let names: Vec<&str> = all.remaining().into_iter().map(|(name, _)| name).collect();
@@ -97,8 +94,7 @@ pub(super) fn refuse_attached(root: &Section<'_>) {
     }
     refuse!(root, "superelements",
         "superelements are solved free-standing; joining them to a mesh at interface nodes is not \
-         supported";
-        "beside a body";
+         supported"; "beside a body";
         "leave [geometry] and [mesh] out, or solve the superelement in a case of its own");
 }
 
@@ -123,22 +119,15 @@ fn superelement(
     let size = mass.rows;
     for (key, own) in MATRICES.iter().zip([&mass, &damping, &stiffness]) {
         if [own.rows, own.columns] != [size, size] {
-            let message = format!(
-                "{} is {} x {}, {} has {size} rows",
-                section.name(key),
-                own.rows,
-                own.columns,
-                section.name("mass"),
-            );
-            let help = "all matrices of a superelement are square and of one size".to_owned();
-            section.reject(key, message, "another size", Some(help));
+            refuse!(section, key => "is {} x {}, {} has {size} rows", own.rows, own.columns,
+                section.name("mass"); "another size";
+                "all matrices of a superelement are square and of one size");
             return None;
         }
     }
     if size == 0 || size > SUPERELEMENT_UNKNOWNS {
-        let message = format!("{} has {size} unknowns", section.name("mass"));
-        let label = format!("1 to {SUPERELEMENT_UNKNOWNS} unknowns");
-        section.reject("mass", message, label, "reduce the system further");
+        refuse!(section, "mass" => "has {size} unknowns";
+            "1 to {SUPERELEMENT_UNKNOWNS} unknowns"; "reduce the system further");
         return None;
     }
     let own = Superelement { name: name.to_owned(), mass, damping, stiffness };
@@ -156,13 +145,10 @@ fn is_determined(section: &Section<'_>, own: &Superelement) -> bool {
     let Some(unknown) = is_met.iter().position(|met| !met) else {
         return true;
     };
-    let message = format!(
-        "unknown {} of superelement {} has no entry in any of its matrices: nothing holds it and it has no mass",
-        unknown + 1,
-        own.name
-    );
-    let help = "remove its row and column from every matrix".to_owned();
-    section.reject("stiffness", message, "an empty column", Some(help));
+    refuse!(section, "stiffness",
+        "unknown {} of superelement {} has no entry in any of its matrices: nothing holds it and \
+         it has no mass", unknown + 1, own.name;
+        "an empty column"; "remove its row and column from every matrix");
     false
 }
 
@@ -174,24 +160,12 @@ fn matrix(
     digest: &mut Sha256,
 ) -> Option<MarketMatrix> {
     let reject = |what: String, label: &str| {
-        let message = format!("{}: {}: {what}", section.name(key), path.display());
-        let help =
-            "a real matrix in the Matrix Market format, as scipy.io.mmwrite writes it".to_owned();
-        section.reject(key, message, label.to_owned(), Some(help));
+        refuse!(section, key, "{}: {}: {what}", section.name(key), path.display(); "{label}";
+            "a real matrix in the Matrix Market format, as scipy.io.mmwrite writes it");
     };
-    let bytes = match frictionsim_bounds::read(path, MATRIX) {
-        Ok(bytes) => bytes,
-        Err(refusal) => {
-            reject(refusal.to_string(), "not readable");
-            return None;
-        }
-    };
+    let bytes = frictionsim_bounds::read(path, MATRIX);
+    let bytes = bytes.map_err(|refusal| reject(refusal.to_string(), "not readable")).ok()?;
     digest.update(&bytes);
-    match MarketMatrix::read(&String::from_utf8_lossy(&bytes), SUPERELEMENT_UNKNOWNS) {
-        Ok(matrix) => Some(matrix),
-        Err(error) => {
-            reject(error.to_string(), "no such matrix");
-            None
-        }
-    }
+    let matrix = MarketMatrix::read(&String::from_utf8_lossy(&bytes), SUPERELEMENT_UNKNOWNS);
+    matrix.map_err(|error| reject(error.to_string(), "no such matrix")).ok()
 }

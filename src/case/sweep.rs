@@ -1,11 +1,10 @@
 //! `[sweep]`: any case key over several values.
 
-use super::diagnostic::{CaseErrors, Location};
-use super::key::Bound;
-use super::reader::Section;
-use super::value::{RawEntry, RawValue, range_count};
-use super::words::{Analysis, Combination};
-use super::{Case, keys, parameters, refuse_at};
+use super::value::range_count;
+use super::{
+    Analysis, Bound, Case, CaseErrors, Combination, Location, RawEntry, RawValue, Section, keys,
+    parameters, refuse_at,
+};
 
 /// A swept key and its values.
 #[derive(Clone, Debug, PartialEq)]
@@ -99,9 +98,16 @@ pub(super) fn read(root: &Section<'_>) -> Option<Sweep> {
         refuse_at!(section, &section.place(""), "[sweep] sweeps nothing"; "no key with values";
             "add for example `\"contact.friction_coefficient\" = [0.2, 0.3, 0.4]`");
     }
-    let sweep = Sweep { keys, combination, analyses };
-    check_lengths(&section, &sweep);
-    Some(sweep)
+    if combination == Combination::Zip
+        && let Some((first, rest)) = keys.split_first()
+        && let Some(other) = rest.iter().find(|k| k.values.len() != first.values.len())
+    {
+        refuse_at!(section, &other.at, "\"{}\" has {} values but \"{}\" has {}", other.key,
+            other.values.len(), first.key, first.values.len();
+            "zipped keys need equally many values";
+            "give them the same count, or combine = \"grid\"");
+    }
+    Some(Sweep { keys, combination, analyses })
 }
 
 /// Most points of a study, and most values of its keys together.
@@ -215,18 +221,6 @@ fn values(section: &Section<'_>, key: String, entry: &RawEntry) -> SweptKey {
             "at least one value"; "list its values or give a range {{ from, to, count }}");
     }
     SweptKey { key, also, values, at: entry.item.at.clone() }
-}
-
-fn check_lengths(section: &Section<'_>, sweep: &Sweep) {
-    if sweep.combination == Combination::Zip
-        && let Some((first, rest)) = sweep.keys.split_first()
-        && let Some(other) = rest.iter().find(|k| k.values.len() != first.values.len())
-    {
-        refuse_at!(section, &other.at, "\"{}\" has {} values but \"{}\" has {}", other.key,
-            other.values.len(), first.key, first.values.len();
-            "zipped keys need equally many values";
-            "give them the same count, or combine = \"grid\"");
-    }
 }
 
 /// Tries each value of a study on its own, all others as the case has them, so that a bad one is

@@ -1,9 +1,7 @@
 //! Tables beside a case: `materials.*.table`, modulus and loss factor over frequency, and `contacts.*.gap`, a measured
 //! surface.
 
-use super::raw::{RawCase, TableBytes};
-use super::reader::Section;
-use super::refuse;
+use super::{RawCase, Section, TableBytes, caution, refuse};
 use crate::contact::Topography;
 use crate::fem::ModulusTable;
 use crate::signal::reader::{ModulusRow, read_gaps, read_moduli};
@@ -58,32 +56,20 @@ pub(super) fn modulus_table(
 ) -> Option<Arc<ModulusTable>> {
     let file = section.optional_text("table")?;
     let reject = |message: String, label: &str, help: &str| {
-        let (message, label) = (format!("{}: {message}", section.name("table")), label.to_owned());
-        section.reject("table", message, label, Some(help.to_owned()));
+        refuse!(section, "table", "{}: {message}", section.name("table"); "{label}"; "{help}");
     };
     let readable = files.bytes(&file);
     let rows = readable.and_then(|bytes| read_moduli(&bytes, &file).map_err(|e| e.to_string()));
-    let rows = match rows {
-        Ok(rows) => rows,
-        Err(reason) => {
-            reject(
-                reason,
-                "not a table of moduli",
-                "its columns are frequency_hz, young_modulus (Pa) and loss_factor",
-            );
-            return None;
-        }
-    };
+    let columns = "its columns are frequency_hz, young_modulus (Pa) and loss_factor";
+    let rows = rows.map_err(|reason| reject(reason, "not a table of moduli", columns)).ok()?;
     if let Err((line, what, help)) = sound(&rows) {
         reject(format!("{file}:{line}: {what}"), "no material is like that", help);
         return None;
     }
     if let Some((line, what)) = falling(&rows) {
-        let message = format!(
+        caution!(section, "table",
             "{}: {file}:{line}: {what}; the modulus of a passive material rises with the frequency",
-            section.name("table")
-        );
-        section.warn("table", message, "falls with the frequency", None);
+            section.name("table"); "falls with the frequency");
     }
     let rows = rows.iter().map(|row| [row.frequency_hz, row.young_modulus, row.loss_factor]);
     let key = section.name("table");

@@ -6,12 +6,13 @@
 //! and for a motion whose axis it gives. Elastic constants are taken together, and so are the two
 //! coefficients of Rayleigh's damping.
 
-use super::diagnostic::{Diagnostic, Location};
-use super::file_sections::{FileSection, item, sections};
-use super::imported;
-use super::raw::RawCase;
-use super::value::{RawEntry, RawItem, RawTable, RawValue, table_of};
-use super::words::{FilePart, UnitsWord, words_of};
+use super::file_sections::{item, sections};
+use super::value::table_of;
+use super::words::{Choice, FilePart, choice_of};
+use super::{
+    Diagnostic, FileSection, Location, RawCase, RawEntry, RawItem, RawTable, RawValue, UnitsWord,
+    imported,
+};
 use crate::mesh::LeftOut;
 use std::fmt::Write as _;
 
@@ -45,7 +46,7 @@ pub(super) fn effective(raw: &mut RawCase) -> (RawTable, Taken) {
     let Some(name) = text("mesh.file").map(str::to_owned) else {
         return (table, Taken::default());
     };
-    let units = text("mesh.units").and_then(word_of);
+    let units = text("mesh.units").and_then(choice_of);
     // A file that cannot be read is told where the body is made of it.
     let unread = Taken { is_unread: true, ..Taken::default() };
     let Ok(bytes) = imported::mesh_bytes(raw, &name) else {
@@ -91,14 +92,9 @@ fn texts(raw: &RawCase, key: &str) -> Vec<String> {
 /// Which parts of the file the case takes: `mesh.take`, or all.
 fn parts_taken(raw: &RawCase) -> Vec<FilePart> {
     let Some(item) = raw.find("mesh.take") else {
-        return words_of::<FilePart>().map(|pair| pair.1).collect();
+        return FilePart::WORDS.iter().map(|pair| pair.1).collect();
     };
-    item.listed().iter().filter_map(|item| word_of(item.value.text()?)).collect()
-}
-
-fn word_of<T: super::words::Choice>(word: &str) -> Option<T> {
-    let mut known = words_of::<T>();
-    known.find(|pair| pair.0 == word).map(|pair| pair.1)
+    item.listed().iter().filter_map(|item| choice_of(item.value.text()?)).collect()
 }
 
 fn part_of(section: &FileSection) -> FilePart {
@@ -203,21 +199,25 @@ fn is_given(own: &RawTable, section: &str, key: &str) -> bool {
 
 /// What is taken, in one sentence for each group.
 fn summary(taken: &Taken) -> Vec<String> {
-    let mut groups: Vec<(&str, Vec<String>)> = Vec::new();
-    for section in taken.sections.iter().filter(|section| section.path.0 != "material") {
-        let name = match section.path.0 {
-            "materials" => format!("{} ({})", section.path.1, section.name),
-            _ => section.path.1.clone(),
-        };
-        match groups.iter_mut().find(|group| group.0 == section.path.0) {
-            Some(group) => group.1.push(name),
-            None => groups.push((section.path.0, vec![name])),
-        }
-    }
-    let taken_of = |(group, names): (&str, Vec<String>)| {
-        format!("{group} taken from {}: {}", taken.file, names.join(", "))
+    let named = taken.sections.iter().filter(|section| section.path.0 != "material");
+    let named: Vec<&FileSection> = named.collect();
+    let name = |section: &&FileSection| match section.path.0 {
+        "materials" => format!("{} ({})", section.path.1, section.name),
+        _ => section.path.1.clone(),
     };
-    groups.into_iter().map(taken_of).collect()
+    // The sections of a group stand together.
+    let groups = named.chunk_by(|a, b| a.path.0 == b.path.0);
+    let taken_of = |group: &[&FileSection]| {
+        let names: Vec<String> = group.iter().map(name).collect();
+        format!("{} taken from {}: {}", group[0].path.0, taken.file, names.join(", "))
+    };
+    groups.map(taken_of).collect()
+}
+
+/// The first parts of a list.
+fn first_parts(parts: &[impl ToString]) -> String {
+    let named: Vec<String> = parts.iter().take(MOST_NAMED).map(ToString::to_string).collect();
+    named.join("; ")
 }
 
 /// The key that leaves out parts of a file, as a line of a case.
@@ -257,8 +257,7 @@ impl Taken {
         if self.missing_parts.is_empty() {
             return None;
         }
-        let named = self.missing_parts.iter().take(MOST_NAMED).map(ToString::to_string);
-        let mut named = named.collect::<Vec<_>>().join("; ");
+        let mut named = first_parts(&self.missing_parts);
         if let more @ 1.. = self.missing_parts.len().saturating_sub(MOST_NAMED) {
             let _ = write!(named, "; {more} more");
         }
@@ -272,7 +271,7 @@ impl Taken {
             left out in [mesh]: {}",
             drop_key(&self.missing_parts)
         );
-        Some(Diagnostic::error(message, "parts would be missing", at.clone(), Some(help)))
+        Some(Diagnostic::error(message, "parts would be missing", at.clone(), help))
     }
 
     /// A warning that names what of the file is not used; none where all is.
@@ -286,16 +285,13 @@ impl Taken {
         if loud.is_empty() {
             return None;
         }
-        let mut message = format!("{} holds what is not used: ", self.file);
-        let named: Vec<String> = loud.iter().take(MOST_NAMED).map(ToString::to_string).collect();
-        message.push_str(&named.join("; "));
+        let mut message = format!("{} holds what is not used: {}", self.file, first_parts(&loud));
         let more = loud.len().saturating_sub(MOST_NAMED) + quiet.len();
         if more > 0 {
             let _ = write!(message, "; {more} more (`frictionsim mesh` lists them all)");
         }
-        let label = "not all of it is used".to_owned();
-        let help = "put what matters of it into the case".to_owned();
-        Some(Diagnostic::error(message, label, at.clone(), Some(help)))
+        let help = "put what matters of it into the case";
+        Some(Diagnostic::error(message, "not all of it is used", at.clone(), help))
     }
 
     /// Adds to errors about what was taken the line of the file that says it.
@@ -316,9 +312,7 @@ impl Taken {
             }
         }
     }
-}
 
-impl Taken {
     /// The number that the file gives a dotted key of the case.
     pub(super) fn number(&self, key: &str) -> Option<f64> {
         let (path, key) = key.rsplit_once('.')?;

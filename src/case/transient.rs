@@ -1,12 +1,10 @@
 //! `[transient]` and `[output]`: the explicit transient and what it writes.
 
-use super::Case;
-use super::assembly::AssemblyBody;
-use super::body::{Body, Revolution};
-use super::diagnostic::CaseErrors;
-use super::node::{Nodes, PlacedNode};
-use super::reader::Section;
-use super::{caution, refusal, refuse, refuse_at};
+use super::node::Nodes;
+use super::{
+    AssemblyBody, Body, Case, CaseErrors, PlacedNode, Revolution, Section, caution, refusal,
+    refuse, refuse_at,
+};
 use crate::contact::SlidingContact;
 use crate::mesh::{Counterface, SolidContact};
 use crate::prestress::BaseChoice;
@@ -64,20 +62,14 @@ impl Case {
     /// A case without `[transient]`, and one of Quad8 elements, which the transient cannot run.
     pub fn require_transient(&self) -> Result<&Transient, CaseErrors> {
         self.refuse_losses_without_chain()?;
-        match &self.body {
-            Body::Annulus(_) => self.require_quad4("the transient needs \"quad4\"")?,
-            Body::Revolution(_) => self.require_quad4(
-                "the transient needs bricks of 8 nodes, \"quad4\": it lumps the mass",
-            )?,
-            Body::Imported(_) => {}
-            Body::Assembly(assembly) => self.check_stepped(assembly)?,
-        }
+        self.require_steps(
+            "the transient needs \"quad4\"",
+            "the transient needs bricks of 8 nodes, \"quad4\": it lumps the mass",
+        )?;
         // What no section would help against comes first.
         let remedy = "[transient]\nduration = 0.05";
-        let transient = self.transient.as_ref();
-        let transient = transient.ok_or_else(|| self.lacks("transient", "transient", remedy))?;
-        let cycle = matches!(transient.initial, InitialState::LimitCycle { .. });
-        if cycle {
+        let transient = self.required(&self.transient, "transient", "transient", remedy)?;
+        if let InitialState::LimitCycle { .. } = transient.initial {
             self.refuse_losses_in_time("the search for the limit cycle that the run starts on")?;
             self.require_annulus(
                 "limit cycles are rotating waves, which",
@@ -92,15 +84,13 @@ impl Case {
         if assembly.base == BaseChoice::Closed {
             return Err(refusal!(self, "contacts",
                 "contacts with state = \"closed\" are free of stress: without a normal force there \
-                 is no friction to step in time";
-                "steps in time need state = \"solved\"";
+                 is no friction to step in time"; "steps in time need state = \"solved\"";
                 "press the bodies together (condition = \"pressure\"), or leave `state` out"));
         }
         if assembly.motions.iter().any(|motion| motion.inertia.is_some()) {
             return Err(refusal!(self, "motion",
                 "rotation_terms are not stepped in time: the gyroscopic forces of the last half \
-                 step would feed the motion";
-                "with rotation_terms = false";
+                 step would feed the motion"; "with rotation_terms = false";
                 "use `frictionsim cea`, or leave rotation_terms out"));
         }
         Ok(())
@@ -108,14 +98,10 @@ impl Case {
 }
 
 pub(super) fn transient(
-    root: &Section<'_>,
+    section: &Section<'_>,
     body: Option<&Body>,
     sliding: &SlidingContact,
-) -> Option<Transient> {
-    let section = root.section("transient", false);
-    if !section.is_given() {
-        return None;
-    }
+) -> Transient {
     let duration = section.number("duration");
     let time_step = match section.optional_number("time_step") {
         Some(step) => TimeStep::Seconds(step),
@@ -128,31 +114,30 @@ pub(super) fn transient(
             "transient.time_step = {step:?} s is above transient.duration = {duration:?} s";
             "at most {duration:?}");
     }
-    let initial = initial(&section, body);
+    let initial = initial(section, body);
     let expansion_time = section.number("expansion_time");
     if initial == InitialState::Rest && expansion_time > duration {
         let default = if section.has("expansion_time") { "" } else { ", the default," };
         refuse!(section, "expansion_time" =>
             "= {expansion_time:?} s{default} is above transient.duration = {duration:?} s: the \
-             cylinder would never be fully expanded";
-            "at most the duration");
+             cylinder would never be fully expanded"; "at most the duration");
     }
     if initial != InitialState::Rest && section.has("expansion_time") {
         caution!(section, "expansion_time",
             "transient.expansion_time is not used: the run starts with the cylinder fully expanded";
             "only with initial = \"rest\"");
     }
-    let transient = Transient {
+    Transient {
         duration,
         time_step,
         expansion_time,
         initial,
         operator: section.choice("operator"),
         stop_when_settled: section.flag("stop_when_settled"),
-        perturbation: perturbation(&section, body, sliding, duration),
-    };
-    section.close();
-    Some(transient)
+        perturbation: section
+            .section("perturbation", false)
+            .closed(|own| perturbation(own, body, sliding, duration)),
+    }
 }
 
 /// `initial`, with the harmonic that a limit cycle needs.
@@ -179,16 +164,15 @@ fn initial(section: &Section<'_>, body: Option<&Body>) -> InitialState {
 
 /// `[transient.perturbation]`: the velocity that is added to the body's.
 fn perturbation(
-    transient: &Section<'_>,
+    section: &Section<'_>,
     body: Option<&Body>,
     sliding: &SlidingContact,
     duration: f64,
 ) -> Perturbation {
-    let section = transient.section("perturbation", false);
     let harmonics = section.harmonics(body.and_then(Body::sector_count)).unwrap_or_default();
-    let unit = velocity_unit(&section, body.map_or(1.0, |body| slip_speed(body, sliding)));
-    let velocities = one_for_each(&section, "velocity", &harmonics);
-    let phases = one_for_each(&section, "phase_deg", &harmonics);
+    let unit = velocity_unit(section, body.map_or(1.0, |body| slip_speed(body, sliding)));
+    let velocities = one_for_each(section, "velocity", &harmonics);
+    let phases = one_for_each(section, "phase_deg", &harmonics);
     if harmonics.is_empty() && section.has("phase_deg") {
         refuse!(section, "phase_deg" => "is given without harmonics";
             "needs transient.perturbation.harmonics");
@@ -209,7 +193,6 @@ fn perturbation(
         refuse!(section, "at" => "is given, but there is no velocity to add";
             "needs harmonics or noise");
     }
-    section.close();
     let waves = harmonics.iter().zip(velocities.iter().zip(&phases));
     Perturbation {
         waves: waves
@@ -276,12 +259,11 @@ fn one_for_each(section: &Section<'_>, key: &'static str, harmonics: &[usize]) -
 }
 
 pub(super) fn output(
-    root: &Section<'_>,
+    section: &Section<'_>,
     nodes: &Nodes<'_>,
     transient: Option<&Transient>,
 ) -> Output {
-    let section = root.section("output", false);
-    let (probes, placed_probes) = probes(&section, nodes);
+    let (probes, placed_probes) = probes(section, nodes);
     let sample_interval = section.number("sample_interval");
     let mut snapshots = section.rising("snapshots").unwrap_or_default();
     if let Some(transient) = transient {
@@ -292,15 +274,13 @@ pub(super) fn output(
         let duration = transient.duration;
         let further = left_out.len().saturating_sub(MOST_NAMED);
         for time in left_out.iter().take(MOST_NAMED) {
-            let message = format!(
-                "output.snapshots: {time} s lies after the end of the run \
-                 (transient.duration = {duration} s) and is left out"
-            );
-            section.warn("snapshots", message, "after the end", None);
+            caution!(section, "snapshots",
+                "output.snapshots: {time} s lies after the end of the run (transient.duration = \
+                 {duration} s) and is left out"; "after the end");
         }
         if further > 0 {
-            let message = format!("output.snapshots: {further} later times are left out, too");
-            section.warn("snapshots", message, "after the end", None);
+            caution!(section, "snapshots",
+                "output.snapshots: {further} later times are left out, too"; "after the end");
         }
         if sample_interval > duration {
             refuse!(section, "sample_interval" =>
@@ -314,7 +294,7 @@ pub(super) fn output(
             "= {interval:?} s is below output.sample_interval = {sample_interval:?} s";
             "at least the sample interval");
     }
-    let output = Output {
+    Output {
         probes,
         placed_probes,
         sample_interval,
@@ -323,9 +303,7 @@ pub(super) fn output(
         snapshots,
         checkpoint_interval: section.number("checkpoint_interval"),
         universal: section.flag("universal"),
-    };
-    section.close();
-    output
+    }
 }
 
 /// The probes, counted from 1, and those of them that were asked for by their place.

@@ -1,10 +1,7 @@
 //! `[uncertainty]`: parameters that are known but roughly.
 
-use super::diagnostic::CaseErrors;
-use super::parameters::{ModelParameter, entries, number, only, refuse_twice};
-use super::reader::Section;
-use super::value::{RawEntry, RawValue};
-use super::{caution, refuse};
+use super::parameters::{number, only, read_all};
+use super::{CaseErrors, ModelParameter, RawEntry, RawValue, Section, caution, refuse};
 use crate::linalg::Distribution;
 
 /// Share of a distribution beyond what its key can take from which on it is refused.
@@ -47,22 +44,11 @@ pub struct Uncertainty {
     pub parameters: Vec<UncertainParameter>,
 }
 
-pub(super) fn uncertainty(root: &Section<'_>) -> Option<Uncertainty> {
-    let section = root.section("uncertainty", false);
+pub(super) fn uncertainty(section: &Section<'_>) -> Uncertainty {
     let samples = section.count("samples");
     let index_samples = section.optional_count("index_samples");
     let seed = section.count("seed") as u64;
-    let given = section.is_given();
-    let inner = section.section("distributions", given);
-    let found: Vec<UncertainParameter> = entries(&inner)
-        .into_iter()
-        .map(|(parameter, entry)| uncertain(&inner, parameter, entry))
-        .collect();
-    refuse_twice(&inner, found.iter().flat_map(|found| found.parameter.keys()));
-    if given && inner.is_given() && inner.remaining().is_empty() {
-        refuse!(section, "distributions", "uncertainty.distributions is empty";
-            "at least one parameter");
-    }
+    let found = read_all(section, "distributions", uncertain, |own| &own.parameter);
     const MOST: usize = 16;
     if found.len() > MOST {
         refuse!(section, "distributions", "{} parameters are uncertain", found.len();
@@ -78,13 +64,12 @@ pub(super) fn uncertainty(root: &Section<'_>) -> Option<Uncertainty> {
         refuse!(section, "index_samples", "uncertainty.index_samples is above uncertainty.samples";
             "at most {samples}");
     }
-    section.close();
-    given.then_some(Uncertainty {
+    Uncertainty {
         samples,
         index_samples: index_samples.unwrap_or_else(|| samples.div_ceil(4)),
         seed,
         parameters: found,
-    })
+    }
 }
 
 /// `{ normal = [mean, deviation] }`, `{ log_normal = [median, deviation] }` or `{ uniform = [from, to] }`.
@@ -185,8 +170,7 @@ fn uncertain(
     if beyond > 1e-6 {
         caution!(section, key,
             "{:.4} % of {word} = [{a}, {b}] of {key} lies where the key {rule}: samples are drawn \
-             from the rest", 100.0 * beyond;
-            "reaches forbidden values");
+             from the rest", 100.0 * beyond; "reaches forbidden values");
     }
     UncertainParameter { parameter, distribution, range }
 }
@@ -199,7 +183,6 @@ impl super::Case {
     pub fn require_uncertainty(&self) -> Result<&Uncertainty, CaseErrors> {
         let key = self.contact_key("friction_coefficient");
         let remedy = format!("[uncertainty.distributions]\n{key} = {{ log_normal = [0.3, 0.1] }}");
-        let uncertainty = self.uncertainty.as_ref();
-        uncertainty.ok_or_else(|| self.lacks("uncertainty", "uncertain parameter", &remedy))
+        self.required(&self.uncertainty, "uncertainty", "uncertain parameter", &remedy)
     }
 }

@@ -1,6 +1,6 @@
 //! Values of a case as its TOML says them, each with its place.
 
-use super::diagnostic::{Diagnostic, Location};
+use super::{Diagnostic, Location};
 use std::collections::BTreeMap;
 use toml::de::{DeTable, DeValue};
 
@@ -169,6 +169,13 @@ pub(super) fn cut(text: String) -> String {
         Some((end, _)) => format!("{}...", &text[..end]),
         None => text,
     }
+}
+
+/// The number that a text with a decimal comma means, with a point.
+pub(super) fn with_point(text: &str) -> Option<String> {
+    let number = text.replace(',', ".");
+    let is_number = text.matches(',').count() == 1 && number.parse::<f64>().is_ok();
+    is_number.then_some(number)
 }
 
 /// How many values a table stands for as a range.

@@ -1,11 +1,8 @@
 //! A body of revolution in three dimensions on its whole mesh: what it is where something breaks the symmetry that its
 //! harmonics are solved by.
 
-use super::assembly::AssemblyBody;
-use super::body::{Body, Revolution};
-use super::contact::Contact;
 use super::modifications::{Misfit, Modification, reshaped};
-use super::{Case, CaseErrors};
+use super::{AssemblyBody, Body, Case, CaseErrors, Contact, Revolution};
 use crate::contact::{
     Counterpart, Motion, PairFriction, RigidCounterface, RigidMotion, RigidShape,
 };

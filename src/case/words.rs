@@ -1,6 +1,6 @@
 //! The choices that a case names by a word, and their words.
 
-use super::range::Spacing;
+use super::Spacing;
 use crate::fem::{MassKind, PlaneFormulation, RotationFrame};
 use crate::frf::{Direction, FrfBoundary};
 use crate::mesh::ElementKind;
@@ -28,9 +28,9 @@ pub(super) fn words_named(name: &str) -> Option<fn() -> Vec<&'static str>> {
     all.find(|pair| pair.0 == name).map(|pair| pair.1)
 }
 
-/// The words of a choice with what they stand for.
-pub(super) fn words_of<T: Choice>() -> impl Iterator<Item = (&'static str, T)> {
-    T::WORDS.iter().copied()
+/// What a word stands for.
+pub(super) fn choice_of<T: Choice>(word: &str) -> Option<T> {
+    T::WORDS.iter().find(|pair| pair.0 == word).map(|pair| pair.1)
 }
 
 /// The word of a choice.

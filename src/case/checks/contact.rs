@@ -55,8 +55,7 @@ pub(super) fn friction(case: &Case) -> Option<Limit> {
     let (key, value) = largest.filter(|(_, value)| *value > LARGEST_FRICTION)?;
     let said = diagnosis!(case, key,
         "{key} = {value:?} is above {LARGEST_FRICTION}, higher than that of any dry pair of \
-         materials";
-        "above 2"; "a friction coefficient is a ratio, not a percentage");
+         materials"; "above 2"; "a friction coefficient is a ratio, not a percentage");
     Some(Limit { is_possible: value <= STICKING_FRICTION, said })
 }
 
@@ -127,9 +126,8 @@ pub(super) fn overlap(case: &Case) -> Option<Diagnostic> {
         false => String::new(),
     };
     Some(diagnosis!(case, &key,
-        "the surface enters its counterface by {depth:.2e} m{times}, before this is pushed in: \
-         the overlap is loaded as pressure";
-        "less than the mesh's own overlap";
+        "the surface enters its counterface by {depth:.2e} m{times}, before this is pushed in: the \
+         overlap is loaded as pressure"; "less than the mesh's own overlap";
         "correct the radius or the center of the counterface, or mesh the round surface finer; an \
          overlap that is meant belongs into interference"))
 }

@@ -31,8 +31,7 @@ pub(super) fn lengths(case: &Case) -> Option<Diagnostic> {
         "mesh.scale" => format!("the mesh is {value:.4} m wide (mesh.scale),"),
         _ => format!("{key} = {value} m is"),
     };
-    Some(diagnosis!(case, key,
-        "{what} outside the plausible range of {} to {}", metres(least),
+    Some(diagnosis!(case, key, "{what} outside the plausible range of {} to {}", metres(least),
         metres(most); "metres?"; "{help}"))
 }
 

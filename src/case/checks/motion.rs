@@ -21,9 +21,8 @@ pub(super) fn time_step(case: &Case) -> Option<Diagnostic> {
     let (stable, interval) = (case.cost().transient?.stable_step, case.output.sample_interval);
     if step > UNSTABLE * stable {
         return Some(diagnosis!(case, "transient.time_step",
-            "transient.time_step = {step:?} s is far above the stability limit of this mesh, \
-             about {stable:.2e} s";
-            "at most about {stable:.2e}"; "lower it, or use \"auto\""));
+            "transient.time_step = {step:?} s is far above the stability limit of this mesh, about \
+             {stable:.2e} s"; "at most about {stable:.2e}"; "lower it, or use \"auto\""));
     }
     (interval < step).then(|| {
         diagnosis!(case, "output.sample_interval",
@@ -76,8 +75,7 @@ pub(super) fn seeds(case: &Case) -> Option<Limit> {
     (share > LARGEST_SEED).then(|| {
         let said = diagnosis!(case, key,
             "{key}: a seed of {largest:e} m/s is {share:.1e} times the speed of waves in the \
-             material, {speed:.0} m/s: its strains are not small";
-            "metres per second?";
+             material, {speed:.0} m/s: its strains are not small"; "metres per second?";
             "seeds of a linear stage are about 1e-3 m/s, or with relative = true a small share of \
              the slip speed");
         Limit { is_possible: share <= 1.0, said }
@@ -128,8 +126,7 @@ pub(super) fn steep_friction(case: &Case) -> Option<Diagnostic> {
         diagnosis!(case, "contact.decay_speed",
             "contact.decay_speed = {} m/s lets friction fall faster than the contact nodes can \
              follow within a time step of the transient, {step:.2e} s. Nodes may jump between \
-             sticking and slipping", decay.decay_speed;
-            "a steep law";
+             sticking and slipping", decay.decay_speed; "a steep law";
             "use a transient.time_step below about {most:.1e}, or a larger contact.decay_speed")
     })
 }

@@ -139,11 +139,7 @@ impl Case {
         let phases = cycle.phases.unwrap_or(LIKELY_PHASES) as f64;
         let families = cycle.harmonics.as_ref().map_or(2, Vec::len);
         let followed = cycle.continuation.as_ref().map_or(0, |range| range.count);
-        let stable = match cycle.stability {
-            StabilityChoice::None => 0,
-            StabilityChoice::Point => 1,
-            StabilityChoice::Branch => 1 + followed,
-        };
+        let stable = stable_cycles(cycle.stability, followed);
         // Dense factorizations: of the search from birth, and of the exponents.
         let dense = phases.powi(3) * (50.0 + followed as f64 + 80.0 * stable as f64);
         let confirmation = cycle.confirmation_periods as f64 * PERIOD_STEPS;
@@ -161,11 +157,7 @@ impl Case {
         let followed = cycle.continuation.as_ref().map_or(0, |range| range.count);
         let families = LIKELY_GROWING;
         let [search, multipliers] = PERIODS;
-        let analysed = match cycle.stability {
-            StabilityChoice::None => 0,
-            StabilityChoice::Point => 1,
-            StabilityChoice::Branch => 1 + followed,
-        };
+        let analysed = stable_cycles(cycle.stability, followed);
         let periods = search * (1 + followed) as f64
             + multipliers * analysed as f64
             + cycle.confirmation_periods as f64;
@@ -255,6 +247,15 @@ impl Case {
     }
 }
 
+/// How many cycles' stability is worked out, of one and those that follow it along a branch.
+fn stable_cycles(choice: StabilityChoice, followed: usize) -> usize {
+    match choice {
+        StabilityChoice::None => 0,
+        StabilityChoice::Point => 1,
+        StabilityChoice::Branch => 1 + followed,
+    }
+}
+
 /// Memory of the program with some more bytes, and so many operations for each line.
 fn frf_cost_of(lines: usize, bytes: f64, each: f64) -> FrfCost {
     let memory_bytes = PROGRAM_BYTES + bytes + 64.0 * lines as f64;
@@ -338,8 +339,5 @@ fn sparse_fill(dofs: f64) -> f64 {
 /// side, with 20 nodes in four rows.
 fn solid_half_bandwidth(solid: &SolidSpecification) -> f64 {
     let short = solid.annulus.radial_elements.min(solid.axial_elements) as f64;
-    3.0 * match solid.annulus.element.is_quadratic() {
-        false => short + 3.0,
-        true => 4.0 * short + 5.0,
-    }
+    3.0 * if solid.annulus.element.is_quadratic() { 4.0 * short + 5.0 } else { short + 3.0 }
 }

@@ -1,9 +1,8 @@
 //! Words that stand for choices, names of keys.
 
 use super::Section;
-use crate::case::value::{RawItem, RawValue};
-use crate::case::words::{self, Choice};
-use crate::case::{CaseKey, keys, refuse, suggestion};
+use crate::case::words::Choice;
+use crate::case::{CaseKey, RawItem, RawValue, keys, refuse, refuse_at, suggestion, words};
 
 impl Section<'_> {
     /// A list of words out of a few; empty where it is not given.
@@ -34,8 +33,7 @@ impl Section<'_> {
         let given = self.item(key);
         given.and_then(|item| self.read_choice(key, item)).unwrap_or_else(|| {
             let default = self.declared(key).default_text().trim_matches('"');
-            let found = T::WORDS.iter().find(|pair| pair.0 == default);
-            found.map_or(T::WORDS[0].1, |pair| pair.1)
+            words::choice_of(default).unwrap_or(T::WORDS[0].1)
         })
     }
 
@@ -57,20 +55,12 @@ impl Section<'_> {
         let words = words::words::<T>();
         let bound = format!("must be one of \"{}\"", words.join("\", \""));
         if let RawValue::String(text) = &item.value {
-            if let Some(choice) = T::WORDS.iter().find(|choice| choice.0 == text) {
-                return Some(choice.1);
+            if let Some(choice) = words::choice_of(text) {
+                return Some(choice);
             }
             if let Some(near) = suggestion::nearest_word(text, &words) {
-                self.findings.push(
-                    format!(
-                        "{} = {} is not one of its values",
-                        self.name(key),
-                        item.value.shortened()
-                    ),
-                    bound,
-                    item.at.clone(),
-                    format!("did you mean \"{near}\"?"),
-                );
+                refuse_at!(self, &item.at, "{} = {} is not one of its values", self.name(key),
+                    item.value.shortened(); "{bound}"; "did you mean \"{near}\"?");
                 return None;
             }
         }

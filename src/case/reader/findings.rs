@@ -1,7 +1,6 @@
 //! What was found wrong with a case.
 
-use crate::case::diagnostic::{Diagnostic, Location, Remedy};
-use crate::case::{suggestion, value::RawTable};
+use crate::case::{Diagnostic, Location, RawTable, Remedy, suggestion};
 use std::cell::RefCell;
 
 /// Errors and warnings found so far, and what the case may have.
