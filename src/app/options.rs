@@ -216,24 +216,18 @@ impl OutputOptions {
 
     /// Says what a run would do; the end of a dry run.
     pub fn dry_run_at(&self, path: &Path, manifest: &Manifest) -> Failure {
+        let replaces = path.join("manifest.json").exists();
+        let (Manifest { command, case_file, .. }, folder) = (manifest, path.display());
         let said = if self.json {
             terminal::print_json(&json!({
-                "command": manifest.command,
+                "command": command,
                 "dry_run": true,
-                "folder": path.display().to_string(),
-                "replaces": path.join("manifest.json").exists(),
+                "folder": folder.to_string(),
+                "replaces": replaces,
             }))
         } else {
-            let verb = match path.join("manifest.json").exists() {
-                true => "would replace the results in",
-                false => "would write to",
-            };
-            terminal::print(&format!(
-                "{}: valid; {} {verb} {}\n",
-                manifest.case_file,
-                manifest.command,
-                path.display()
-            ))
+            let verb = if replaces { "would replace the results in" } else { "would write to" };
+            terminal::print(&format!("{case_file}: valid; {command} {verb} {folder}\n"))
         };
         said.err().unwrap_or(Failure::DryRun)
     }

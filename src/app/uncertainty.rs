@@ -8,7 +8,7 @@ use crate::results::uncertainty::{Sample, document, draw_report, samples_table};
 use crate::results::{Manifest, summary_of};
 use crate::study::uncertainty::{BLOCK, Design, Sampler, curves, summarize};
 use clap::Args;
-use serde_json::{Map, Value};
+use serde_json::Map;
 use std::time::Instant;
 
 /// Name of the samples in the file of a block.
@@ -105,7 +105,10 @@ fn finished(folder: &SweepFolder, count: usize) -> Result<(Vec<Sample>, usize), 
     let (mut samples, mut missing) = (Vec::new(), 0);
     for block in 1..=count {
         match folder.read(block)? {
-            Found::Point(record) => samples.extend(block_samples(&record).map_err(Failure::run)?),
+            Found::Point(mut record) => {
+                let own = record.summaries.remove(SAMPLES).unwrap_or_default();
+                samples.extend(serde_json::from_value::<Vec<Sample>>(own).map_err(Failure::run)?);
+            }
             Found::Damaged(_) | Found::Nothing => missing += 1,
         }
     }
@@ -136,12 +139,6 @@ fn run_block(
     };
     let clock = PointClock { wall_s: start.elapsed().as_secs_f64(), ..PointClock::default() };
     Ok(folder.write_point(&record, &clock)?)
-}
-
-/// The samples of a finished block.
-fn block_samples(record: &PointRecord) -> serde_json::Result<Vec<Sample>> {
-    let samples: Value = record.summaries.get(SAMPLES).cloned().unwrap_or_default();
-    serde_json::from_value(samples)
 }
 
 /// Refuses what cannot be designed.

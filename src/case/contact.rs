@@ -95,7 +95,12 @@ pub(super) fn contact(
     let (is_annulus, is_solid) = (annulus.is_some(), annulus.is_some_and(|given| given.1));
     match annulus {
         Some((annulus, true)) => place.solid = solid::contact(&section, annulus),
-        _ => solid::refuse_ring(&section),
+        _ => {
+            for key in section.refused("ring_inner_radius ring_outer_radius") {
+                refuse!(section, key => "is for a ring on the top face of a three-dimensional body";
+                    "of other bodies"; "leave it out");
+            }
+        }
     }
     if is_annulus {
         let own = if is_solid { "" } else { "boundary" };

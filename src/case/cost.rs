@@ -240,9 +240,7 @@ impl Case {
         let here = Analysis::all().filter(|analysis| self.has(*analysis));
         here.filter(|analysis| named.is_empty() || named.contains(analysis)).collect()
     }
-}
 
-impl Case {
     /// Memory that a command needs, bytes, and the key that asks for most of it.
     pub fn memory(&self, command: &str) -> (f64, &'static str) {
         let cost = self.cost();

@@ -66,13 +66,14 @@ impl Case {
         self.refuse_losses_in_time("the search for limit cycles")?;
         self.refuse_what_has_no_cycle()?;
         // What no section would help against comes first.
-        let remedy = match self.has_rotating_waves() {
+        let has_waves = self.has_rotating_waves();
+        let remedy = match has_waves {
             true => "[cycle]\nharmonics = [1, 2]",
             false => "[cycle]\nonsets = \"all\"",
         };
         let cycle = self.required(&self.cycle, "cycle", "limit cycle", remedy)?;
         let speed = self.contact.sliding.rotation_speed;
-        let is_moving = if self.has_rotating_waves() { speed > 0.0 } else { speed != 0.0 };
+        let is_moving = if has_waves { speed > 0.0 } else { speed != 0.0 };
         if is_moving {
             return Ok(cycle);
         }

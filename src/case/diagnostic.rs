@@ -222,35 +222,52 @@ macro_rules! refusal {
     ($case:expr, $($said:tt)*) => { $crate::case::said!(error_at, $case, $($said)*) };
 }
 
+/// What is said at a place.
+macro_rules! placed {
+    ($at:expr, $message:literal $(, $part:expr)*;
+     $label:literal $(, $of:expr)* $(; $help:literal $(, $by:expr)*)?) => {
+        $crate::case::Diagnostic::error(
+            format!($message $(, $part)*),
+            format!($label $(, $of)*),
+            $at,
+            $crate::case::said!($($help $(, $by)*)?),
+        )
+    };
+}
+
 /// The same among other errors, or as a warning.
 macro_rules! diagnosis {
-    ($case:expr, $($said:tt)*) => { $crate::case::said!(diagnosis, $case, $($said)*) };
+    ($case:expr, $key:expr, $($said:tt)*) => {
+        $crate::case::placed!($case.raw.place($key), $($said)*)
+    };
 }
 
 /// Refuses a key of a section: `refuse!(section, key, what; label; remedy)`; behind `=>` what is wrong follows the
 /// key's name.
 macro_rules! refuse {
-    ($($said:tt)*) => { $crate::case::at_key!(reject, $($said)*) };
+    ($section:expr, $key:expr => $message:literal $(, $part:expr)*; $($rest:tt)*) => {
+        $crate::case::refuse!($section, $key, "{} {}", $section.name($key),
+            format_args!($message $(, $part)*); $($rest)*)
+    };
+    ($section:expr, $($said:tt)*) => { $crate::case::said!(reject, $section, $($said)*) };
 }
 
 /// Refuses what stands at a place: `refuse_at!(section, place, what; label; remedy)`.
 macro_rules! refuse_at {
-    ($section:expr, $($said:tt)*) => { $crate::case::said!(reject_placed, $section, $($said)*) };
+    ($section:expr, $at:expr, $($said:tt)*) => {
+        $section.findings.push($crate::case::placed!($at.clone(), $($said)*))
+    };
 }
 
 /// As [`refuse!`] what is no error but what the user should hear of.
 macro_rules! caution {
-    ($($said:tt)*) => { $crate::case::at_key!(warn, $($said)*) };
-}
-
-macro_rules! at_key {
-    ($method:ident, $section:expr, $key:expr => $message:literal $(, $part:expr)*; $($rest:tt)*) => {
-        $crate::case::said!($method, $section, $key, "{} {}", $section.name($key),
+    ($section:expr, $key:expr => $message:literal $(, $part:expr)*; $($rest:tt)*) => {
+        $crate::case::caution!($section, $key, "{} {}", $section.name($key),
             format_args!($message $(, $part)*); $($rest)*)
     };
-    ($method:ident, $section:expr, $($said:tt)*) => {
-        $crate::case::said!($method, $section, $($said)*)
+    ($section:expr, $key:expr, $($said:tt)*) => {
+        $section.findings.warn($crate::case::placed!($section.place($key), $($said)*))
     };
 }
-pub(super) use {at_key, caution, diagnosis, refuse, refuse_at};
+pub(super) use {caution, diagnosis, placed, refuse, refuse_at};
 pub(crate) use {refusal, said};

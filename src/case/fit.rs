@@ -2,7 +2,7 @@
 
 use super::checks::material_key;
 use super::parameters::{number, only, read_all};
-use super::{CaseErrors, ModelParameter, RawEntry, RawValue, Section, Spacing};
+use super::{CaseErrors, ModelParameter, RawEntry, RawValue, Section, Spacing, refuse_at};
 
 /// A parameter with the bounds between which it is sought.
 #[derive(Clone, Debug, PartialEq)]
@@ -40,7 +40,7 @@ pub(super) fn fit(section: &Section<'_>) -> Fit {
 fn bounds(section: &Section<'_>, parameter: ModelParameter, entry: &RawEntry) -> FitParameter {
     let key = &parameter.key;
     let reject = |message: String, label: &str, help: &str| {
-        section.reject_placed(&entry.item.at, message, label.to_owned(), help);
+        refuse_at!(section, &entry.item.at, "{message}"; "{label}"; "{help}");
     };
     let help = "bounds are [0.3, 0.45] or { from = 1e10, to = 1e13, scale = \"log\" }";
     let mut scale = Spacing::Linear;

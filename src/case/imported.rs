@@ -6,7 +6,9 @@ use super::modifications::{Modification, reshaped};
 use super::tables::{TableFiles, modulus_table};
 use super::value::quote;
 use super::words::CounterfaceWord;
-use super::{MeshBytes, RawCase, Section, caution, first_of, inclusion, refuse, suggestion};
+use super::{
+    Diagnostic, MeshBytes, RawCase, Section, caution, first_of, inclusion, refuse, suggestion,
+};
 use crate::contact::ContactInterface;
 use crate::fem::{ElasticMaterial, RayleighDamping, RegionMaterial, TabledMaterial};
 use crate::mesh::{
@@ -138,14 +140,13 @@ pub(super) struct BodyParts {
     pub common: Option<TabledMaterial>,
 }
 
-/// The mesh file that `mesh.file` names, relative to the case; read once. An error is a message and a label.
-pub(super) fn mesh_bytes(raw: &RawCase, file: &str) -> Result<MeshBytes, (String, String)> {
+/// The mesh file that `mesh.file` names, relative to the case; read once.
+pub(super) fn mesh_bytes(raw: &RawCase, file: &str) -> Result<MeshBytes, String> {
     if let Some(known) = raw.mesh.as_ref().filter(|known| known.file == file) {
         return Ok(known.clone());
     }
     let folder = Path::new(&raw.name).parent().unwrap_or(Path::new(""));
-    let label = |message| (message, "not readable".to_owned());
-    let bytes = inclusion::mesh_file(&folder.join(file)).map_err(label)?;
+    let bytes = inclusion::mesh_file(&folder.join(file))?;
     Ok(MeshBytes::new(file.to_owned(), bytes))
 }
 
@@ -220,7 +221,8 @@ impl ImportError {
 
     /// Reports it at its key.
     pub(super) fn report(self, raw: &RawCase, mesh: &Section<'_>) {
-        mesh.reject_placed(&raw.place(&self.key), self.message, self.label, self.help);
+        let at = raw.place(&self.key);
+        mesh.findings.push(Diagnostic::error(self.message, self.label, at, self.help));
     }
 
     /// An error of the mesh file `file`, at the key that asked for what the mesh does not have.

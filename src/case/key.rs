@@ -222,14 +222,11 @@ impl CaseKey {
 
     /// Whether this is the entry of a dotted name.
     pub(super) fn is_named(&self, name: &str) -> bool {
-        let mut parts = name.split('.');
-        let all = self.name.split('.');
+        let (own, given) = (self.name.split('.'), name.split('.'));
         self.name == name
-            || (self.name.contains('*')
-                && all
-                    .map(|part| (part, parts.next()))
-                    .all(|(part, given)| given.is_some_and(|given| part == "*" || part == given))
-                && parts.next().is_none())
+            || self.name.contains('*')
+                && own.clone().count() == given.clone().count()
+                && own.zip(given).all(|(own, given)| own == "*" || own == given)
     }
 
     /// What it is, with its unit.

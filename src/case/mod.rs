@@ -61,7 +61,7 @@ pub use convergence::Convergence;
 pub use cost::{CeaCost, Cost, CycleCost, FrfCost, RunCost, StudyCost, TransientCost};
 pub use cycle::{Continuation, Cycle};
 pub use diagnostic::{CaseErrors, Diagnostic, Location, Remedy, Source};
-use diagnostic::{at_key, caution, diagnosis, refuse, refuse_at};
+use diagnostic::{caution, diagnosis, placed, refuse, refuse_at};
 pub(crate) use diagnostic::{refusal, said};
 pub use file_sections::FileSection;
 pub use fit::{Fit, FitParameter};
@@ -185,7 +185,8 @@ impl Case {
         let output = root.section("output", false);
         let output = output.closed(|own| transient::output(own, &nodes, transient.as_ref()));
         if transient.is_some() && body.as_ref().is_some_and(|body| !body.suits_transient()) {
-            caution!(root.section("mesh", false), "element",
+            let mesh = root.section("mesh", false);
+            caution!(mesh, "element",
                 "mesh.element = \"quad8\" is for the complex eigenvalue analysis only: the \
                  transient of this case cannot run"; "no transient");
         }
@@ -309,17 +310,6 @@ impl Case {
         self.body.has_lossy_supports() || self.has_lossy_contacts()
     }
 
-    /// What is wrong at a key, or hardly meant.
-    fn diagnosis(
-        &self,
-        key: &str,
-        message: impl Into<String>,
-        label: impl Into<String>,
-        help: impl Remedy,
-    ) -> Diagnostic {
-        Diagnostic::error(message, label, self.raw.place(key), help)
-    }
-
     /// An error at a dotted key: at its value where the case gives one, else at its section.
     pub fn error_at(
         &self,
@@ -329,7 +319,7 @@ impl Case {
         help: impl Remedy,
     ) -> CaseErrors {
         let help = help.remedy().or_else(|| suggestion::usage(key));
-        self.raw.errors(vec![self.diagnosis(key, message, label, help)])
+        self.raw.errors(vec![Diagnostic::error(message, label, self.raw.place(key), help)])
     }
 }
 

@@ -127,7 +127,7 @@ fn unmodified(
         materials: materials(root, material, &plane, tables),
         common: has_common_constants(root).then(|| common.clone()),
     };
-    let reject = |(message, label): (String, String)| mesh.reject("file", message, label, None);
+    let reject = |message: String| mesh.reject("file", message, "not readable", None);
     let bytes = imported::mesh_bytes(raw, &file).map_err(&reject).ok();
     let body = bytes.as_ref().and_then(|bytes| {
         let body = imported::import(bytes, &parts, changes);
@@ -156,7 +156,7 @@ fn assembly_model(
     parts.symmetry = imported::symmetry(mesh, axis);
     let solids = Surroundings::Solids { axis: parts.axis() };
     let own = materials(root, &mut common.own.elastic, &solids, tables);
-    let reject = |(message, label): (String, String)| mesh.reject("file", message, label, None);
+    let reject = |message: String| mesh.reject("file", message, "not readable", None);
     let bytes = imported::mesh_bytes(raw, file).map_err(&reject).ok();
     let body = bytes.as_ref().and_then(|bytes| {
         let common = has_common_constants(root).then_some(&*common);

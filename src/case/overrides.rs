@@ -2,7 +2,7 @@
 
 use super::suggestion::Scope;
 use super::value::{convert, cut};
-use super::{Diagnostic, Location, RawEntry, RawItem, RawTable, RawValue, Source, keys};
+use super::{Diagnostic, Location, RawEntry, RawItem, RawTable, RawValue, Source, keys, placed};
 use toml::de::{DeTable, DeValue};
 
 /// Path of an override: each key with its place.
@@ -61,12 +61,8 @@ fn path(
     match DeTable::parse(&format!("{}=0", keys::dotted(text))) {
         Ok(table) if table.get_ref().len() == 1 => Some(key_path(table.get_ref(), source)),
         _ => {
-            diagnostics.push(Diagnostic::error(
-                format!("`{text}` is not a key"),
-                "expected a dotted key",
-                Location::new(source, 0..text.len()),
-                Some(help.to_owned()),
-            ));
+            diagnostics.push(placed!(Location::new(source, 0..text.len()),
+                "`{text}` is not a key"; "expected a dotted key"; "{help}"));
             None
         }
     }
@@ -108,12 +104,8 @@ fn parse(
     let help = "an override is KEY=VALUE with a dotted key and a TOML value, \
                 for example --set contact.friction_coefficient=0.4";
     let Some(equals) = assignment(text) else {
-        diagnostics.push(Diagnostic::error(
-            "the override has no `=`",
-            "expected KEY=VALUE",
-            Location::new(source, 0..text.len()),
-            Some(help.to_owned()),
-        ));
+        diagnostics.push(placed!(Location::new(source, 0..text.len()),
+            "the override has no `=`"; "expected KEY=VALUE"; "{help}"));
         return None;
     };
     let path = path(&text[..equals], source, help, diagnostics)?;
@@ -123,12 +115,8 @@ fn parse(
     let value = match DeValue::parse(value_text.trim()) {
         Ok(value) => convert(value.get_ref(), source, value_at.span.clone(), &mut errors),
         Err(error) if value_text.trim_start().starts_with(['[', '{', '"', '\'']) => {
-            errors.push(Diagnostic::error(
-                format!("the value is not TOML: {}", error.message()),
-                String::new(),
-                value_at.clone(),
-                Some(help.to_owned()),
-            ));
+            errors.push(placed!(value_at.clone(), "the value is not TOML: {}", error.message();
+                ""; "{help}"));
             RawValue::Boolean(false)
         }
         Err(_) => RawValue::String(value_text.trim().to_owned()),
@@ -207,12 +195,9 @@ fn insert(
         let count = items.len();
         match items.get_mut(place) {
             Some(slot) => *slot = item,
-            None => diagnostics.push(Diagnostic::error(
-                format!("{key}[{part}] is beyond the {count} numbers of the case's {key}"),
-                "no such place in the list",
-                item.at,
-                format!("places are counted from 1: [1] to [{count}]"),
-            )),
+            None => diagnostics.push(placed!(item.at,
+                "{key}[{part}] is beyond the {count} numbers of the case's {key}";
+                "no such place in the list"; "places are counted from 1: [1] to [{count}]")),
         }
         return;
     }

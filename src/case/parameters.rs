@@ -124,7 +124,7 @@ fn also(section: &Section<'_>, name: &str, entry: &RawEntry) -> Vec<String> {
     let mut keys = Vec::new();
     for item in given.item.listed() {
         let refuse = |message: String, help: &str| {
-            section.reject_placed(&item.at, message, "not a key to tie", help);
+            refuse_at!(section, &item.at, "{message}"; "not a key to tie"; "{help}");
         };
         match &item.value {
             RawValue::String(key) => match bound_of(section, key) {

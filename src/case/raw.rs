@@ -2,7 +2,7 @@
 
 use super::value::{convert_table, quote, table_of, with_point};
 use super::{
-    CaseErrors, Diagnostic, Location, RawItem, RawTable, RawValue, Source, keys, overrides,
+    CaseErrors, Diagnostic, Location, RawItem, RawTable, RawValue, Source, keys, overrides, placed,
 };
 use crate::mesh::{FileMesh, MeshFileError};
 use sha2::{Digest, Sha256};
@@ -295,22 +295,17 @@ fn readable_text(bytes: &[u8]) -> Result<&str, (Diagnostic, String)> {
 fn parse_document(text: &str, source: usize, diagnostics: &mut Vec<Diagnostic>) -> RawTable {
     let (table, errors) = DeTable::parse_recoverable(text);
     if let (false, Some(other)) = (errors.is_empty(), foreign(text)) {
-        diagnostics.push(Diagnostic::error(
-            format!("this is {other}, not a case"),
-            "expected a section such as [geometry], or a key",
-            Location::new(source, 0..text.find('\n').unwrap_or(text.len())),
-            "`frictionsim init` writes a case to start from",
-        ));
+        let first_line = 0..text.find('\n').unwrap_or(text.len());
+        diagnostics.push(placed!(Location::new(source, first_line),
+            "this is {other}, not a case"; "expected a section such as [geometry], or a key";
+            "`frictionsim init` writes a case to start from"));
         return RawTable::new();
     }
     for error in &errors {
         let span = error.span().unwrap_or(0..0);
-        diagnostics.push(Diagnostic::error(
-            error.message().to_owned(),
-            String::new(),
-            Location::new(source, span.clone()),
-            decimal_comma(text, span.start),
-        ));
+        let help = decimal_comma(text, span.start);
+        let at = Location::new(source, span);
+        diagnostics.push(Diagnostic::error(error.message(), "", at, help));
     }
     convert_table(table.get_ref(), source, diagnostics)
 }

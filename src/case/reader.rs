@@ -8,7 +8,7 @@ mod lists;
 use super::value::{cut, with_point};
 use super::{
     Bound, CaseKey, Default, Diagnostic, Kind, Location, RawEntry, RawItem, RawTable, RawValue,
-    Remedy, keys, suggestion,
+    Remedy, keys, refuse_at, suggestion,
 };
 pub(super) use findings::Findings;
 pub(super) use lists::NodePlace;
@@ -118,30 +118,7 @@ impl<'a> Section<'a> {
         if !self.has(key) {
             self.findings.absent.borrow_mut().push((name, message.clone()));
         }
-        self.findings.push(message, label, self.place(key), help);
-    }
-
-    /// Reports an error at a place of its own.
-    pub fn reject_placed(
-        &self,
-        at: &Location,
-        message: impl Into<String>,
-        label: impl Into<String>,
-        help: impl Remedy,
-    ) {
-        self.findings.push(message, label, at.clone(), help);
-    }
-
-    /// Says at a key what is no error but what the user should hear of.
-    pub fn warn(
-        &self,
-        key: &str,
-        message: impl Into<String>,
-        label: impl Into<String>,
-        help: impl Remedy,
-    ) {
-        let warning = Diagnostic::error(message, label, self.place(key), help);
-        self.findings.warnings.borrow_mut().push(warning);
+        self.findings.push(Diagnostic::error(message, label, self.place(key), help));
     }
 
     /// Whether a key is given as an empty list.
@@ -175,12 +152,8 @@ impl<'a> Section<'a> {
         let point = item.value.text().and_then(with_point);
         let point = point.map(|point| format!("write the number with a decimal point: {point}"));
         let help = point.or_else(|| suggestion::usage(&self.name(key)));
-        self.findings.push(
-            format!("{} = {} {bound}", self.name(key), item.value.shortened()),
-            bound.to_owned(),
-            item.at.clone(),
-            help,
-        );
+        let message = format!("{} = {} {bound}", self.name(key), item.value.shortened());
+        self.findings.push(Diagnostic::error(message, bound, item.at.clone(), help));
     }
 
     /// Reports a key that must be there.
@@ -209,12 +182,9 @@ impl<'a> Section<'a> {
                 section.at = entry.key_at.clone();
                 match &entry.item.value {
                     RawValue::Table(table) => section.table = Some(table),
-                    other => self.findings.push(
-                        format!("`{}` is {}, not a section", section.path, other.kind()),
-                        "expected a section",
-                        entry.item.at.clone(),
-                        format!("write its keys below [{}]", section.path),
-                    ),
+                    other => refuse_at!(self, &entry.item.at, "`{}` is {}, not a section",
+                        section.path, other.kind(); "expected a section";
+                        "write its keys below [{}]", section.path),
                 }
             }
             None if required => self.reject(
@@ -256,16 +226,13 @@ impl<'a> Section<'a> {
                 self.findings.take_back(&self.name(meant));
             }
             let message = format!("unknown key `{}`", cut(self.name(key)));
-            self.findings.push(message, place.clone(), entry.key_at.clone(), help);
+            let at = entry.key_at.clone();
+            self.findings.push(Diagnostic::error(message, place.clone(), at, help));
         }
         if let Some((_, first)) = unknown.next() {
             let count = 1 + unknown.count();
-            self.findings.push(
-                format!("{count} more unknown keys, of which this is the first"),
-                place,
-                first.key_at.clone(),
-                None,
-            );
+            refuse_at!(self, &first.key_at,
+                "{count} more unknown keys, of which this is the first"; "{place}");
         }
     }
 

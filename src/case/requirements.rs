@@ -2,7 +2,7 @@
 
 use super::value::table_of;
 use super::{
-    Analysis, Annulus, Body, Case, CaseErrors, Cea, Convergence, Diagnostic, Frf, Sweep, refusal,
+    Analysis, Annulus, Body, Case, CaseErrors, Cea, Convergence, Frf, Sweep, placed, refusal,
 };
 
 impl Case {
@@ -174,12 +174,9 @@ impl Case {
         remedy: &str,
     ) -> Result<&'a T, CaseErrors> {
         own.as_ref().ok_or_else(|| {
-            self.raw.errors(vec![Diagnostic::error(
-                format!("the case has no [{section}] section, so there is no {analysis} to run"),
-                "the case ends here",
-                self.raw.end(),
-                format!("add\n{remedy}"),
-            )])
+            self.raw.errors(vec![placed!(self.raw.end(),
+                "the case has no [{section}] section, so there is no {analysis} to run";
+                "the case ends here"; "add\n{remedy}")])
         })
     }
 }

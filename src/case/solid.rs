@@ -36,14 +36,6 @@ pub(super) fn axial_elements(
     Some(mesh.count("axial_elements"))
 }
 
-/// Refuses the radii of a ring on a plane body.
-pub(super) fn refuse_ring(section: &Section<'_>) {
-    for key in section.refused("ring_inner_radius ring_outer_radius") {
-        refuse!(section, key => "is for a ring on the top face of a three-dimensional body";
-            "of other bodies"; "leave it out");
-    }
-}
-
 /// `contact.boundary` of a three-dimensional body and the radii of a ring.
 pub(super) fn contact(section: &Section<'_>, annulus: &AnnulusSpecification) -> SolidContact {
     let radii = ["ring_inner_radius", "ring_outer_radius"].map(|key| section.optional_number(key));

@@ -74,11 +74,14 @@ pub fn case_from(path: &Path, shown: &str) -> Result<String, String> {
 
 /// The units that the file seems to be in, and why.
 fn units_of(file: &FileMesh) -> (UnitsWord, String) {
+    let judged = |is_mm, by: String| {
+        let units = if is_mm { UnitsWord::MmTS } else { UnitsWord::MKgS };
+        (units, format!("judged by the {by}; check it"))
+    };
     let densities = file.model.materials.iter().filter_map(|material| material.density);
     let lightest = densities.fold(f64::INFINITY, f64::min);
     if lightest.is_finite() {
-        let units = if lightest < TONNES { UnitsWord::MmTS } else { UnitsWord::MKgS };
-        return (units, format!("judged by the density {lightest:e} of a material; check it"));
+        return judged(lightest < TONNES, format!("density {lightest:e} of a material"));
     }
     let moduli =
         file.model.materials.iter().filter_map(|material| match material.elasticity.as_ref()? {
@@ -89,8 +92,7 @@ fn units_of(file: &FileMesh) -> (UnitsWord, String) {
         });
     let stiffest = moduli.fold(0.0, f64::max);
     if stiffest > 0.0 {
-        let units = if stiffest > STIFFEST_MPA { UnitsWord::MKgS } else { UnitsWord::MmTS };
-        return (units, format!("judged by the modulus {stiffest:e} of a material; check it"));
+        return judged(stiffest <= STIFFEST_MPA, format!("modulus {stiffest:e} of a material"));
     }
     let extent = (0..3).map(|axis| {
         let coordinates = || file.points.iter().map(|point| point[axis]);
@@ -98,8 +100,7 @@ fn units_of(file: &FileMesh) -> (UnitsWord, String) {
             - coordinates().fold(f64::INFINITY, f64::min)
     });
     let extent = extent.fold(0.0, f64::max);
-    let units = if extent > MILLIMETRES { UnitsWord::MmTS } else { UnitsWord::MKgS };
-    (units, format!("judged by the extent {extent:.4}; check it"))
+    judged(extent > MILLIMETRES, format!("extent {extent:.4}"))
 }
 
 /// `[material]` of steel where some region has none in the file.

@@ -1,7 +1,7 @@
 //! `[uncertainty]`: parameters that are known but roughly.
 
 use super::parameters::{number, only, read_all};
-use super::{CaseErrors, ModelParameter, RawEntry, RawValue, Section, caution, refuse};
+use super::{CaseErrors, ModelParameter, RawEntry, RawValue, Section, caution, refuse, refuse_at};
 use crate::linalg::Distribution;
 
 /// Share of a distribution beyond what its key can take from which on it is refused.
@@ -56,8 +56,7 @@ pub(super) fn uncertainty(section: &Section<'_>) -> Uncertainty {
     }
     for (key, count) in [("samples", Some(samples)), ("index_samples", index_samples)] {
         if count.is_some_and(|count| count > 1_000_000) {
-            let message = format!("uncertainty.{key} is above a million");
-            section.reject(key, message, "at most 1000000", None);
+            refuse!(section, key, "uncertainty.{key} is above a million"; "at most 1000000");
         }
     }
     if index_samples.is_some_and(|count| count > samples) {
@@ -83,7 +82,7 @@ fn uncertain(
     { log_normal = [median, deviation of the logarithm] } \
                 or { uniform = [from, to] }";
     let reject = |message: String, label: &str, help: &str| {
-        section.reject_placed(&entry.item.at, message, label.to_owned(), help);
+        refuse_at!(section, &entry.item.at, "{message}"; "{label}"; "{help}");
     };
     let words = ["normal", "log_normal", "uniform"];
     let mut given = None;

@@ -1,6 +1,6 @@
 //! Values of a case as its TOML says them, each with its place.
 
-use super::{Diagnostic, Location};
+use super::{Diagnostic, Location, placed};
 use std::collections::BTreeMap;
 use toml::de::{DeTable, DeValue};
 
@@ -229,12 +229,9 @@ pub(super) fn convert(
         DeValue::Integer(integer) => match i64::from_str_radix(integer.as_str(), integer.radix()) {
             Ok(value) => RawValue::Integer(value),
             Err(_) => {
-                errors.push(Diagnostic::error(
-                    format!("the integer {integer} does not fit 64 bits"),
-                    "out of range",
-                    Location::new(source, span),
-                    "write it with a decimal point if it is meant as a number",
-                ));
+                errors.push(placed!(Location::new(source, span),
+                    "the integer {integer} does not fit 64 bits"; "out of range";
+                    "write it with a decimal point if it is meant as a number"));
                 RawValue::Integer(0)
             }
         },

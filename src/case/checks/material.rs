@@ -68,8 +68,8 @@ pub(super) fn density(case: &Case) -> Option<Diagnostic> {
     let is_said = wave_speed(case).is_some() && key == material_key(case, "density");
     (!is_said).then(|| {
         let [least, most] = [DENSITIES.start(), DENSITIES.end()];
-        let message = format!("{key} = {value:?} kg/m3 is outside {least} to {most} kg/m3");
-        case.diagnosis(&key, message, "kg/m3?", "a case is in SI: kg/m3, not g/cm3 or t/mm3")
+        diagnosis!(case, &key, "{key} = {value:?} kg/m3 is outside {least} to {most} kg/m3";
+            "kg/m3?"; "a case is in SI: kg/m3, not g/cm3 or t/mm3")
     })
 }
 

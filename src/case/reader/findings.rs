@@ -1,6 +1,6 @@
 //! What was found wrong with a case.
 
-use crate::case::{Diagnostic, Location, RawTable, Remedy, suggestion};
+use crate::case::{Diagnostic, RawTable, suggestion};
 use std::cell::RefCell;
 
 /// Errors and warnings found so far, and what the case may have.
@@ -8,7 +8,7 @@ use std::cell::RefCell;
 pub(in crate::case) struct Findings<'a> {
     pub scope: suggestion::Scope<'a>,
     errors: RefCell<Vec<Diagnostic>>,
-    pub(super) warnings: RefCell<Vec<Diagnostic>>,
+    warnings: RefCell<Vec<Diagnostic>>,
     /// Keys and sections that are not there, each with an error about that.
     pub(super) absent: RefCell<Vec<(String, String)>>,
 }
@@ -20,15 +20,14 @@ impl<'a> Findings<'a> {
         Self { scope: suggestion::Scope::of(root), errors, warnings, absent }
     }
 
-    pub(super) fn push(
-        &self,
-        message: impl Into<String>,
-        label: impl Into<String>,
-        at: Location,
-        help: impl Remedy,
-    ) {
-        let error = Diagnostic::error(message, label, at, help);
+    /// Takes note of an error.
+    pub fn push(&self, error: Diagnostic) {
         self.errors.borrow_mut().push(error);
+    }
+
+    /// Takes note of what is no error but what the user should hear of.
+    pub fn warn(&self, warning: Diagnostic) {
+        self.warnings.borrow_mut().push(warning);
     }
 
     /// Takes back what was said of a key or section that is not there: it is, by another name.
