@@ -76,26 +76,45 @@ pub struct CoulombFriction {
     pub decay: Option<FrictionDecay>,
 }
 
-/// A contact node whose tangential motion friction is to decide within one time step.
+/// A contact node whose tangential motion friction is to decide within one time step: along a line or, as vectors along the sliding
+/// and across it, over a surface.
 #[derive(Clone, Copy, Debug)]
-pub struct SlippingNode {
-    /// Tangential force that changes its velocity by one within the step, `m / dt`, N s/m2.
+pub struct Slipping<V> {
+    /// Tangential force that changes its velocity by one within the step, `m / dt`, N s/m2 (N s/m of a surface).
     pub inertia: f64,
     /// Slip velocity `V - v_t` that it would reach without friction, m/s.
-    pub free_slip: f64,
+    pub free_slip: V,
     /// Slip velocity half a step ago, m/s.
-    pub slip_before: f64,
+    pub slip_before: V,
 }
+
+/// A node of an edge.
+pub type SlippingNode = Slipping<f64>;
+/// A node of a surface.
+pub type SlippingPoint = Slipping<[f64; 2]>;
 
 /// What friction does to a contact node within one time step.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct NodeFriction {
-    /// Tangential force on the body, N/m.
-    pub force: f64,
+pub struct Friction<V> {
+    /// Tangential force on the body, N/m (N of a surface).
+    pub force: V,
     /// Whether it sticks or slips.
     pub status: ContactStatus,
     /// Whether both would have obeyed the law: friction falls faster than the node's inertia allows.
     pub is_ambiguous: bool,
+}
+
+/// Of a node of an edge.
+pub type NodeFriction = Friction<f64>;
+/// Of a node of a surface.
+pub type PointFriction = Friction<[f64; 2]>;
+
+impl<V> Friction<V> {
+    /// The same with another force.
+    #[inline(always)]
+    pub fn with<W>(self, force: W) -> Friction<W> {
+        Friction { force, status: self.status, is_ambiguous: self.is_ambiguous }
+    }
 }
 
 /// Newton steps of one node at most; from the right of a convex function's root they cannot overshoot.

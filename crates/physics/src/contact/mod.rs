@@ -34,7 +34,8 @@ mod turning;
 pub use counterpart::{Counterpart, RigidCounterface, RigidMotion, RigidShape};
 pub use interface::ContactInterface;
 pub use law::{
-    ContactStatus, CoulombFriction, FrictionDecay, NodeFriction, SlippingNode, SteadyFriction,
+    ContactStatus, CoulombFriction, Friction, FrictionDecay, NodeFriction, PointFriction, Slipping,
+    SlippingNode, SlippingPoint, SteadyFriction,
 };
 pub use linearized::{ContactTerms, PressedPoints, linearized};
 pub use mortar::{MortarNode, mortar_nodes};
@@ -44,7 +45,6 @@ pub use pair_error::PairError;
 pub use pairing::{ContactSite, ContactSurface, Motion, PairFriction, PointKind};
 pub use point::{Point, Row};
 pub use surface::{SegmentPoint, SurfacePair, row_along};
-pub use surface_law::{PointFriction, SlippingPoint};
 pub use topography::Topography;
 pub use turning::{Turning, turned};
 

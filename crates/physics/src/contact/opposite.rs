@@ -18,6 +18,14 @@ pub struct OppositeShare {
     pub tangential_slope: f64,
 }
 
+impl OppositeShare {
+    /// With its parts along the normal and along the tangent, and their derivatives by the arc.
+    fn new(dof: usize, [normal, tangential]: [f64; 2], slopes: [f64; 2]) -> Self {
+        let [normal_slope, tangential_slope] = slopes;
+        Self { dof, normal, tangential, normal_slope, tangential_slope }
+    }
+}
+
 /// What a contact node meets.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Meeting {
@@ -55,32 +63,17 @@ fn pairs(mesh: &Mesh, nodes: &[u32]) -> Vec<Meeting> {
     let per_arc = count as f64 / std::f64::consts::TAU * curvature;
     let pair = |i: usize| {
         let dof = 2 * nodes[i] as usize;
-        let own = OppositeShare {
-            dof,
-            normal: 1.0,
-            tangential_slope: curvature,
-            ..OppositeShare::default()
-        };
-        let across = OppositeShare {
-            dof: dof + 1,
-            tangential: 1.0,
-            normal_slope: -curvature,
-            ..OppositeShare::default()
-        };
+        let own = OppositeShare::new(dof, [1.0, 0.0], [0.0, curvature]);
+        let across = OppositeShare::new(dof + 1, [0.0, 1.0], [-curvature, 0.0]);
         let stencil: &[(usize, f64)] = match (is_quadratic, i % 2) {
             (true, 0) => &[(count - 2, 0.25), (count - 1, -1.0), (1, 1.0), (2, -0.25)],
             _ => &[(count - 1, -0.5), (1, 0.5)],
         };
         let slopes = stencil.iter().flat_map(|&(offset, weight)| {
             let dof = 2 * nodes[(i + offset) % count] as usize;
-            let normal =
-                OppositeShare { dof, normal_slope: weight * per_arc, ..OppositeShare::default() };
-            let tangential = OppositeShare {
-                dof: dof + 1,
-                tangential_slope: weight * per_arc,
-                ..OppositeShare::default()
-            };
-            [normal, tangential]
+            let slope = weight * per_arc;
+            [(dof, [slope, 0.0]), (dof + 1, [0.0, slope])]
+                .map(|(dof, slopes)| OppositeShare::new(dof, [0.0; 2], slopes))
         });
         Meeting {
             shares: [own, across].into_iter().chain(slopes).collect(),
@@ -268,13 +261,8 @@ fn meeting(mesh: &Mesh, node: usize, sums: &Sums, heights: &BTreeMap<u32, f64>) 
         // Axes of the opposite node's frame along the contact node's.
         let (sin, cos) = (mesh.frame_angles()[opposite] - normal).sin_cos();
         for (c, [along, across]) in [[cos, sin], [-sin, cos]].into_iter().enumerate() {
-            meeting.shares.push(OppositeShare {
-                dof: 2 * opposite + c,
-                normal: share * along,
-                tangential: share * across,
-                normal_slope: slope * along,
-                tangential_slope: slope * across,
-            });
+            let [parts, slopes] = [share, slope].map(|own| [own * along, own * across]);
+            meeting.shares.push(OppositeShare::new(2 * opposite + c, parts, slopes));
         }
     }
     meeting

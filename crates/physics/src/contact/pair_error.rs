@@ -8,42 +8,30 @@ pub enum PairError {
     NoFaces(String),
     /// They are too far from each other.
     #[error(
-        "surfaces \"{surface}\" and \"{counter}\" face each other but stand {distance:.3e} m \
+        "surfaces \"{}\" and \"{}\" face each other but stand {distance:.3e} m \
          apart, more than half an element ({reach:.3e} m). Move the bodies together in the mesh, \
-         or name other surfaces"
+         or name other surfaces", names[0], names[1]
     )]
     Apart {
-        /// Own surface.
-        surface: String,
-        /// Counter surface.
-        counter: String,
+        /// Own and counter surface.
+        names: [String; 2],
         /// Smallest distance along the normal, m.
         distance: f64,
         /// Largest that is bridged, m.
         reach: f64,
     },
-    /// The outward normals point the same way.
+    /// The outward normals of own and counter surface point the same way.
     #[error(
-        "surface \"{surface}\" faces away from \"{counter}\": where they lie over each other their outward normals point the \
-         same way. Name the surfaces that touch"
+        "surface \"{}\" faces away from \"{}\": where they lie over each other their outward normals point the \
+         same way. Name the surfaces that touch", .0[0], .0[1]
     )]
-    FacesAway {
-        /// Own surface.
-        surface: String,
-        /// Counter surface.
-        counter: String,
-    },
-    /// Nothing lies over anything.
+    FacesAway([String; 2]),
+    /// Nothing of the own surface lies over anything of the counter surface.
     #[error(
-        "surfaces \"{surface}\" and \"{counter}\" never meet: along its normals no face of the one \
-         lies over a face of the other. Name the surfaces that touch"
+        "surfaces \"{}\" and \"{}\" never meet: along its normals no face of the one \
+         lies over a face of the other. Name the surfaces that touch", .0[0], .0[1]
     )]
-    NeverMeets {
-        /// Own surface.
-        surface: String,
-        /// Counter surface.
-        counter: String,
-    },
+    NeverMeets([String; 2]),
     /// A measured surface has no point near one of the contact's.
     #[error(
         "no measured point of {file} lies within {reach:.3e} m of ({:.6}, {:.6}, {:.6}) m on \
@@ -63,17 +51,12 @@ pub enum PairError {
         /// Distance within which one is needed, m.
         reach: f64,
     },
-    /// The counter surface does not move relative to the surface.
+    /// The counter surface does not move relative to the own one.
     #[error(
-        "nothing slides between surfaces \"{surface}\" and \"{counter}\": the motion given leaves \
-         them at rest to each other. Check the axis, the centre and the regions of [motion]"
+        "nothing slides between surfaces \"{}\" and \"{}\": the motion given leaves \
+         them at rest to each other. Check the axis, the centre and the regions of [motion]", .0[0], .0[1]
     )]
-    NoSliding {
-        /// Own surface.
-        surface: String,
-        /// Counter surface.
-        counter: String,
-    },
+    NoSliding([String; 2]),
     /// A rigid counterface does not move, or along its normal alone.
     #[error(
         "nothing slides over surface \"{0}\": its rigid counterface is at rest, or moves along its normal; check its speed, \

@@ -172,9 +172,7 @@ impl ContactSurface {
             (_, true) => Ok(self),
             _ if self.points.is_empty() => Err(PairError::AllHeld(name)),
             (None, _) => Err(PairError::AtRest(name)),
-            (Some(counter), _) => {
-                Err(PairError::NoSliding { surface: name, counter: counter.name.clone() })
-            }
+            (Some(counter), _) => Err(PairError::NoSliding([name, counter.name.clone()])),
         }
     }
 

@@ -231,12 +231,7 @@ impl SurfacePair {
     }
 
     /// Why no face has a segment with another: what lies over what, however far.
-    fn why_not(
-        &self,
-        [surface, counter]: [String; 2],
-        own: &[Facet<'_>],
-        others: &[Facet<'_>],
-    ) -> PairError {
+    fn why_not(&self, names: [String; 2], own: &[Facet<'_>], others: &[Facet<'_>]) -> PairError {
         let (mut distance, mut is_turned) = (f64::INFINITY, false);
         for facet in own {
             let plane = Plane::of(facet);
@@ -252,12 +247,9 @@ impl SurfacePair {
             }
         }
         if distance.is_finite() {
-            return PairError::Apart { surface, counter, distance, reach: self.reach };
+            return PairError::Apart { names, distance, reach: self.reach };
         }
-        match is_turned {
-            true => PairError::FacesAway { surface, counter },
-            false => PairError::NeverMeets { surface, counter },
-        }
+        if is_turned { PairError::FacesAway(names) } else { PairError::NeverMeets(names) }
     }
 
     fn add_segment(&mut self, (f, facet): (usize, &Facet<'_>), other: &Facet<'_>, plane: &Plane) {

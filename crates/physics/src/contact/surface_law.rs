@@ -1,28 +1,6 @@
 //! Coulomb's law over a surface that a node can slide over in two directions.
 
-use super::{ContactStatus, CoulombFriction, SlippingNode};
-
-/// A contact node of a surface within one time step; vectors are along the sliding and across it.
-#[derive(Clone, Copy, Debug)]
-pub struct SlippingPoint {
-    /// Tangential force that changes its velocity by one within the step, `m / dt`, N s/m.
-    pub inertia: f64,
-    /// Slip velocity that it would reach without friction, m/s.
-    pub free_slip: [f64; 2],
-    /// Slip velocity half a step ago, m/s.
-    pub slip_before: [f64; 2],
-}
-
-/// What friction does to it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PointFriction {
-    /// Force on the body along and across the sliding, N.
-    pub force: [f64; 2],
-    /// Whether it sticks or slips.
-    pub status: ContactStatus,
-    /// Whether both would have obeyed the law.
-    pub is_ambiguous: bool,
-}
+use super::{ContactStatus, CoulombFriction, PointFriction, SlippingNode, SlippingPoint};
 
 impl CoulombFriction {
     /// The tangential force under the normal force `normal`, N: within the disc of radius `mu(0) N` where the node sticks, on the
@@ -50,13 +28,8 @@ impl CoulombFriction {
             };
             let found = self.resolve(&node, normal);
             let turns = inertia * length <= found.force.abs();
-            (!turns && found.status == ContactStatus::Slip && found.force > 0.0).then_some(
-                PointFriction {
-                    force: [found.force * a, found.force * b],
-                    status: found.status,
-                    is_ambiguous: found.is_ambiguous,
-                },
-            )
+            (!turns && found.status == ContactStatus::Slip && found.force > 0.0)
+                .then_some(found.with([found.force * a, found.force * b]))
         };
         let size = free[0].hypot(free[1]);
         let whole = SlippingNode {
@@ -72,11 +45,7 @@ impl CoulombFriction {
             }
         }
         let share = end.force / size.max(f64::MIN_POSITIVE);
-        PointFriction {
-            force: free.map(|w| share * w),
-            status: end.status,
-            is_ambiguous: end.is_ambiguous,
-        }
+        end.with(free.map(|w| share * w))
     }
 }
 

@@ -1,7 +1,7 @@
 //! The laws of normal contact and friction at one point.
 
 use super::{ContactPoint, PointForces, Step, TouchingSurfaces};
-use crate::contact::{ContactStatus, PointFriction, SlippingNode, SlippingPoint};
+use crate::contact::{ContactStatus, SlippingNode, SlippingPoint};
 use crate::transient::compliance::CompressedNode;
 
 /// A point before its forces are known.
@@ -101,11 +101,7 @@ impl TouchingSurfaces {
             let [free_slip, _] = free_slip;
             let node = SlippingNode { inertia: damped, free_slip, slip_before: slip_before[0] };
             let own = self.law.resolve(&node, normal);
-            PointFriction {
-                force: [own.force, 0.0],
-                status: own.status,
-                is_ambiguous: own.is_ambiguous,
-            }
+            own.with([own.force, 0.0])
         } else {
             let node = SlippingPoint { inertia: damped, free_slip, slip_before };
             self.law.resolve_point(&node, normal)
