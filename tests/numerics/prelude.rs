@@ -34,7 +34,8 @@ pub use frictionsim::fem::{
     assemble_mass, assemble_stiffness, sector,
 };
 pub use frictionsim::frf::{
-    CyclicSystem, Direction, FrfError, FrfSystem, Terminal, cyclic_response, direct_response,
+    CyclicSystem, Direction, FrfError, FrfSystem, NodeFault, Terminal, cyclic_response,
+    direct_response,
 };
 pub use frictionsim::linalg::dense::random_columns;
 pub use frictionsim::linalg::{ComplexDenseLu, MatrixPolynomial};

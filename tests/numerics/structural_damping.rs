@@ -136,7 +136,7 @@ fn the_response_with_loss_factors_is_that_of_the_dense_matrix() {
         [&tangent.mass, &tangent.stiffness, tangent.structural.as_ref().unwrap()]
             .map(|p| dense(p, 0.3));
     let n = mass.nrows();
-    for (frequency, found) in lines.iter().zip(found.receptance) {
+    for (frequency, found) in lines.iter().zip(found) {
         let square = (TAU * frequency).powi(2);
         let matrix = Mat::from_fn(n, n, |i, j| {
             c64::new(stiffness[(i, j)] - square * mass[(i, j)], lost[(i, j)])

@@ -177,7 +177,7 @@ fn held_directions_missing_nodes_and_axial_motion_in_the_plane_are_refused_with_
     let system = sliding(&model, 0.3);
     let held = at(&sector, 0, [0, 2], 0, Radial);
     let error = system.check(held, "force_node").unwrap_err();
-    assert!(matches!(error, FrfError::Constrained { direction: "radial", .. }));
+    assert!(matches!(error, FrfError::Node { fault: NodeFault::Constrained("radial"), .. }));
     assert!(system.check(at(&sector, 0, [0, 2], 0, Axial), "force_node").is_ok());
     let clamped = at(&sector, 0, [6, 2], 0, Axial);
     let error = system.check(clamped, "response_node").unwrap_err();
@@ -193,5 +193,5 @@ fn held_directions_missing_nodes_and_axial_motion_in_the_plane_are_refused_with_
     let flat = CyclicSystem::body(&plane, &material, MassKind::Consistent, damping, true);
     let axial = Terminal { node: 0, direction: Axial };
     let error = flat.check(axial, "force_node").unwrap_err();
-    assert!(matches!(error, FrfError::InPlane { node: 1, .. }));
+    assert!(matches!(error, FrfError::Node { node: 1, fault: NodeFault::InPlane, .. }));
 }

@@ -40,7 +40,7 @@ pub struct CyclicResponse {
 /// thickness `b` divide by `b`; a body in three dimensions has its own thickness, and `h` is in m/N.
 ///
 /// # Errors
-/// [`FrfError::NoNode`], [`FrfError::Constrained`], [`FrfError::InPlane`]; [`FrfError::Frequency`];
+/// [`FrfError::Node`], [`FrfError::NoAxes`]; [`FrfError::Frequency`];
 /// [`FrfError::Factorization`] where an undamped system is at resonance.
 pub fn cyclic_response(
     system: &CyclicSystem,

@@ -1,6 +1,6 @@
 //! Harmonics of a body of equal sectors in the state that is excited.
 
-use super::{Direction, FrfError, Terminal};
+use super::{Direction, FrfError, NodeFault, Terminal};
 use crate::fem::fold::WaveDofs;
 use crate::fem::sector::Sectored;
 use crate::fem::{MassKind, MaterialField, RayleighDamping};
@@ -58,7 +58,7 @@ impl CyclicSystem {
     /// Checks that a terminal can move; `key` is the case key of its node.
     ///
     /// # Errors
-    /// [`FrfError::NoNode`], or [`FrfError::Constrained`] where the boundary holds it.
+    /// [`FrfError::Node`], [`FrfError::NoAxes`].
     pub fn check(&self, terminal: Terminal, key: &'static str) -> Result<(), FrfError> {
         self.place(terminal, key).map(|_| ())
     }
@@ -72,25 +72,24 @@ impl CyclicSystem {
     /// Place of a terminal; `key` is the case key of its node.
     ///
     /// # Errors
-    /// [`FrfError::NoNode`], or [`FrfError::Constrained`] where the boundary holds it.
+    /// [`FrfError::Node`], [`FrfError::NoAxes`].
     pub(super) fn place(&self, terminal: Terminal, key: &'static str) -> Result<Place, FrfError> {
         let per_sector = self.tangent.nodes.len();
         let count = per_sector * self.dofs.sectors;
-        let node = terminal.node + 1;
-        if node > count {
-            return Err(FrfError::NoNode { key, node, count });
+        if terminal.node >= count {
+            return Err(terminal.refused(key, NodeFault::Missing(count)));
         }
         let component = terminal.direction.component();
         let component =
             component.ok_or(FrfError::NoAxes { key, direction: terminal.direction.name() })?;
         if component >= self.tangent.components {
-            return Err(FrfError::in_plane(terminal, key));
+            return Err(terminal.refused(key, NodeFault::InPlane));
         }
         let (sector, position) = (terminal.node / per_sector, terminal.node % per_sector);
         let (sector_node, half_step) = self.tangent.nodes[position];
         let unknown = self.dofs.unknown_of[self.tangent.components * sector_node + component];
         Ok(Place {
-            unknown: unknown.ok_or_else(|| FrfError::constrained(terminal, key))?,
+            unknown: unknown.ok_or_else(|| terminal.constrained(key))?,
             half_steps: 2 * sector + half_step,
             is_tangential: terminal.direction == Direction::Tangential,
         })

@@ -11,14 +11,8 @@ const LINES_AT_ONCE: usize = 8;
 /// ... and one complex factorization, which costs several times as much.
 const GENERAL_LINES_AT_ONCE: usize = 16;
 
-/// A response computed line by line.
-#[derive(Clone, Debug, PartialEq)]
-pub struct DirectResponse {
-    /// Receptance `u / f` for each frequency, m/N for each metre of thickness.
-    pub receptance: Vec<c64>,
-}
-
-/// Receptance between two ports, unknowns mostly: `h = e_response^T (K + i omega C - omega^2 M)^{-1} e_force`.
+/// Receptance `u / f` for each frequency, m/N for each metre of thickness, between two ports, unknowns mostly:
+/// `h = e_response^T (K + i omega C - omega^2 M)^{-1} e_force`.
 ///
 /// Neighbouring lines share one sparse factorization, real with proportional damping and complex with
 /// any other, and each is solved from it in a Krylov space until its own backward error is that of
@@ -33,7 +27,7 @@ pub fn direct_response(
     force: impl Into<Port>,
     response: impl Into<Port>,
     frequencies_hz: &[f64],
-) -> Result<DirectResponse, FrfError> {
+) -> Result<Vec<c64>, FrfError> {
     direct_response_with(system, &force.into(), &response.into(), frequencies_hz, &|_| {})
 }
 
@@ -44,21 +38,21 @@ pub fn direct_response_with(
     response: &Port,
     frequencies_hz: &[f64],
     done: &(dyn Fn(usize) + Sync),
-) -> Result<DirectResponse, FrfError> {
+) -> Result<Vec<c64>, FrfError> {
     check_frequencies(frequencies_hz)?;
     let first = frequencies_hz.first().copied().unwrap_or(0.0);
     let fail = |source| FrfError::Factorization { frequency_hz: first, source };
     let analyses = Analyses::of(system).map_err(fail)?;
-    let at_once = match system.proportional() {
+    let at_once = match system.proportional {
         Some(_) => LINES_AT_ONCE,
         None => GENERAL_LINES_AT_ONCE,
     };
-    let receptance =
+    let solved =
         crate::parallel::map::<_, _, Result<Vec<_>, _>>(frequencies_hz.chunks(at_once), |lines| {
             // A stiffness of each line's own leaves nothing to share.
-            let shared = match system.has_tables() {
-                true => vec![None; lines.len()],
-                false => solve_together(system, &analyses, force, response, lines),
+            let shared = match system.tabled.is_empty() {
+                true => solve_together(system, &analyses, force, response, lines),
+                false => vec![None; lines.len()],
             };
             let solved = lines
                 .iter()
@@ -70,7 +64,6 @@ pub fn direct_response_with(
                 .collect::<Result<Vec<c64>, FrfError>>();
             done(lines.len());
             solved
-        })?
-        .concat();
-    Ok(DirectResponse { receptance })
+        });
+    Ok(solved?.concat())
 }

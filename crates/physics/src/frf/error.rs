@@ -6,28 +6,15 @@ use crate::linalg::LinalgError;
 /// A frequency response that cannot be computed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum FrfError {
-    /// The node does not exist.
-    #[error("frf.{key} = {node} does not exist: the mesh has nodes 1 to {count}")]
-    NoNode {
+    /// A node that cannot be excited or observed.
+    #[error("frf.{key} = {node} {fault}")]
+    Node {
         /// Case key.
         key: &'static str,
         /// Node id, from 1.
         node: usize,
-        /// Number of nodes.
-        count: usize,
-    },
-    /// The node cannot move in that direction.
-    #[error(
-        "frf.{key} = {node} cannot move in {direction} direction with this boundary: choose a node \
-         inside the body, or frf.boundary = \"free\""
-    )]
-    Constrained {
-        /// Case key.
-        key: &'static str,
-        /// Node id, from 1.
-        node: usize,
-        /// `radial`, `tangential` or `axial`.
-        direction: &'static str,
+        /// Why not.
+        fault: NodeFault,
     },
     /// An axis of the mesh, on a body that is solved harmonic by harmonic.
     #[error(
@@ -38,39 +25,6 @@ pub enum FrfError {
         key: &'static str,
         /// `x`, `y` or `z`.
         direction: &'static str,
-    },
-    /// Radius and tangent of a node on the axis.
-    #[error(
-        "frf.{key} = {node} lies on the axis, where {direction} has no direction: use \"x\", \"y\" or \"z\", or another node"
-    )]
-    OnAxis {
-        /// Case key.
-        key: &'static str,
-        /// Node id, from 1.
-        node: usize,
-        /// `radial` or `tangential`.
-        direction: &'static str,
-    },
-    /// A force on a node of a surface that follows another one.
-    #[error(
-        "frf.{key} = {node} lies on a surface that is tied to or slides on another, and follows \
-         it. Apply the force to a node beside the surface"
-    )]
-    Follows {
-        /// Case key.
-        key: &'static str,
-        /// Node id, from 1.
-        node: usize,
-    },
-    /// A plane body, along its axis.
-    #[error(
-        "frf.{key} = {node} cannot move in axial direction: the body is plane; use \"radial\" or \"tangential\""
-    )]
-    InPlane {
-        /// Case key.
-        key: &'static str,
-        /// Node id, from 1.
-        node: usize,
     },
     /// A frequency that is not positive.
     #[error("frequency {value} Hz must be positive and finite: check frf.frequencies_hz")]
@@ -101,27 +55,50 @@ pub enum FrfError {
     },
 }
 
+/// Why a node cannot be excited or observed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum NodeFault {
+    /// It does not exist among so many.
+    #[error("does not exist: the mesh has nodes 1 to {0}")]
+    Missing(usize),
+    /// It cannot move in that direction, `radial`, `tangential` or `axial`.
+    #[error(
+        "cannot move in {0} direction with this boundary: choose a node inside the body, or frf.boundary = \"free\""
+    )]
+    Constrained(&'static str),
+    /// It lies on the axis, where `radial` or `tangential` is nothing.
+    #[error(
+        "lies on the axis, where {0} has no direction: use \"x\", \"y\" or \"z\", or another node"
+    )]
+    OnAxis(&'static str),
+    /// A force on a node of a surface that follows another one.
+    #[error(
+        "lies on a surface that is tied to or slides on another, and follows it. Apply the force to a node beside the surface"
+    )]
+    Follows,
+    /// A plane body, along its axis.
+    #[error("cannot move in axial direction: the body is plane; use \"radial\" or \"tangential\"")]
+    InPlane,
+}
+
 impl FrfError {
     /// The case key of the node that cannot be excited or observed.
     pub fn node_key(&self) -> Option<&'static str> {
         match self {
-            Self::NoNode { key, .. }
-            | Self::Constrained { key, .. }
-            | Self::InPlane { key, .. }
-            | Self::NoAxes { key, .. }
-            | Self::OnAxis { key, .. }
-            | Self::Follows { key, .. } => Some(key),
+            Self::Node { key, .. } | Self::NoAxes { key, .. } => Some(key),
             _ => None,
         }
     }
+}
 
-    /// The boundary holds this terminal.
-    pub(super) fn constrained(terminal: Terminal, key: &'static str) -> Self {
-        Self::Constrained { key, node: terminal.node + 1, direction: terminal.direction.name() }
+impl Terminal {
+    /// That it cannot be excited or observed; `key` is the case key of its node.
+    pub(super) fn refused(self, key: &'static str, fault: NodeFault) -> FrfError {
+        FrfError::Node { key, node: self.node + 1, fault }
     }
 
-    /// A plane body has no such terminal.
-    pub(super) fn in_plane(terminal: Terminal, key: &'static str) -> Self {
-        Self::InPlane { key, node: terminal.node + 1 }
+    /// That the boundary holds it.
+    pub(super) fn constrained(self, key: &'static str) -> FrfError {
+        self.refused(key, NodeFault::Constrained(self.direction.name()))
     }
 }

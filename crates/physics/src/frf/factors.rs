@@ -11,10 +11,7 @@ pub(super) struct Analyses {
 
 impl Analyses {
     pub(super) fn of(system: &FrfSystem) -> Result<Self, LinalgError> {
-        Ok(Self {
-            lu: LuAnalysis::new(system.pattern())?,
-            ldl: LdlAnalysis::new(system.pattern())?,
-        })
+        Ok(Self { lu: LuAnalysis::new(&system.pattern)?, ldl: LdlAnalysis::new(&system.pattern)? })
     }
 }
 

@@ -23,8 +23,8 @@ mod terminal;
 
 pub use cyclic::{CyclicResponse, cyclic_response};
 pub use cyclic_system::CyclicSystem;
-pub use direct::{DirectResponse, direct_response, direct_response_with};
-pub use error::FrfError;
+pub use direct::{direct_response, direct_response_with};
+pub use error::{FrfError, NodeFault};
 pub use port::Port;
 pub use reduction::{ReducedResponse, ReductionSettings, reduced_response};
 pub use system::FrfSystem;

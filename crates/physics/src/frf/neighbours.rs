@@ -20,7 +20,7 @@ pub(super) fn solve_together(
     response: &Port,
     lines: &[f64],
 ) -> Vec<Option<c64>> {
-    let solved = match system.proportional() {
+    let solved = match system.proportional {
         Some(rayleigh) => proportional(system, analyses, rayleigh, force, lines),
         None => general(system, analyses, force, lines),
     };
@@ -112,7 +112,7 @@ impl RealFactors {
         // On an undamped resonance there are no factors; beside it they serve as well.
         [1.0, 1.000_7, 0.999_1].iter().find_map(|moved| {
             let values = system.undamped_stiffness(frequency_hz * moved);
-            if system.is_symmetric() {
+            if system.is_symmetric {
                 let ldl = SparseLdl::factorize(&analyses.ldl, &values).ok()?;
                 Some(Self::Symmetric(ldl))
             } else {

@@ -69,7 +69,7 @@ pub fn reduced_response(
     if frequencies_hz.is_empty() {
         return Ok(ReducedResponse::default());
     }
-    let analysis = LuAnalysis::new(system.pattern())
+    let analysis = LuAnalysis::new(&system.pattern)
         .map_err(|source| FrfError::Factorization { frequency_hz: low, source })?;
     let mut shifts: Vec<f64> = (0..settings.shifts.max(1))
         .map(|j| low + (high - low) * (j as f64 + 0.5) / settings.shifts.max(1) as f64)

@@ -1,6 +1,6 @@
 //! Mass, damping and stiffness of the body in the state that is excited.
 
-use super::{Axis, Direction, FrfError, Port, Terminal};
+use super::{Axis, Direction, FrfError, NodeFault, Port, Terminal};
 use crate::contact::Row;
 use crate::fem::{
     DofMap, MassKind, MaterialField, RayleighDamping, assemble_stiffness,
@@ -20,16 +20,19 @@ const NO_SHARE: f64 = 1e-12;
 /// `M`, `C`, `K` over the unknowns, on one sparsity pattern.
 #[derive(Clone, Debug)]
 pub struct FrfSystem {
-    pattern: Arc<SparsityPattern>,
+    /// The pattern of all matrices.
+    pub(super) pattern: Arc<SparsityPattern>,
     mass: Vec<f64>,
     damping: Vec<f64>,
     stiffness: Vec<f64>,
     /// Structural damping `H`; empty without.
     structural: Vec<f64>,
     /// Parts whose stiffness depends on frequency, with its nonzeros.
-    tabled: Vec<(TabledGain, Vec<f64>)>,
-    proportional: Option<RayleighDamping>,
-    is_symmetric: bool,
+    pub(super) tabled: Vec<(TabledGain, Vec<f64>)>,
+    /// Coefficients of `C = alpha_R M + beta_R K`; `None` for any other damping.
+    pub(super) proportional: Option<RayleighDamping>,
+    /// Whether `M` and `K` are known to be symmetric.
+    pub(super) is_symmetric: bool,
     unknowns: DofMap,
     /// Dofs that are combinations of the unknowns, as full dofs.
     followers: Vec<(usize, Row)>,
@@ -101,8 +104,7 @@ impl FrfSystem {
     /// the other surface too, and through friction.
     ///
     /// # Errors
-    /// [`FrfError::NoNode`], [`FrfError::Constrained`] where the boundary holds it, [`FrfError::InPlane`] along the axis of a
-    /// plane body, [`FrfError::OnAxis`], [`FrfError::Follows`].
+    /// [`FrfError::Node`].
     pub fn port(
         &self,
         mesh: &Mesh,
@@ -110,17 +112,15 @@ impl FrfSystem {
         terminal: Terminal,
         key: &'static str,
     ) -> Result<Port, FrfError> {
-        let (count, node) = (mesh.node_count(), terminal.node + 1);
-        if node > count {
-            return Err(FrfError::NoNode { key, node, count });
+        if terminal.node >= mesh.node_count() {
+            return Err(terminal.refused(key, NodeFault::Missing(mesh.node_count())));
         }
         if matches!(terminal.direction, Direction::Axial | Direction::Z) && mesh.dimension == 2 {
-            return Err(FrfError::in_plane(terminal, key));
+            return Err(terminal.refused(key, NodeFault::InPlane));
         }
-        let direction = terminal.direction.name();
-        let on_axis = FrfError::OnAxis { key, node, direction };
+        let on_axis = NodeFault::OnAxis(terminal.direction.name());
         let local = terminal.direction.at(mesh, terminal.node, axis);
-        let local = local.ok_or(on_axis)?;
+        let local = local.ok_or_else(|| terminal.refused(key, on_axis))?;
         let mut shares = Row::new();
         for component in (0..mesh.dimension).filter(|&k| local[k].abs() > NO_SHARE) {
             let (dof, share) = (mesh.dimension * terminal.node + component, local[component]);
@@ -130,9 +130,9 @@ impl FrfSystem {
                 (Some((_, row)), _) if key == "force_node" => match row.as_slice() {
                     [(own, part)] if *own == dof => match self.unknowns.unknown_of[dof] {
                         Some(unknown) => shares.push((unknown, part * share)),
-                        None => return Err(FrfError::constrained(terminal, key)),
+                        None => return Err(terminal.constrained(key)),
                     },
-                    _ => return Err(FrfError::Follows { key, node }),
+                    _ => return Err(terminal.refused(key, NodeFault::Follows)),
                 },
                 (Some((_, row)), _) => {
                     let free = |&(other, part): &(usize, f64)| {
@@ -141,7 +141,7 @@ impl FrfSystem {
                     shares.extend(row.iter().filter_map(free));
                 }
                 (None, Some(unknown)) => shares.push((unknown, share)),
-                (None, None) => return Err(FrfError::constrained(terminal, key)),
+                (None, None) => return Err(terminal.constrained(key)),
             }
         }
         Ok(Port(shares))
@@ -150,37 +150,21 @@ impl FrfSystem {
     /// Unknown of a terminal of a plane body along its nodal frame; `key` is the case key of its node.
     ///
     /// # Errors
-    /// [`FrfError::NoNode`], [`FrfError::Constrained`] where the boundary holds it, [`FrfError::InPlane`] along the axis.
+    /// [`FrfError::Node`].
     pub fn unknown(&self, terminal: Terminal, key: &'static str) -> Result<usize, FrfError> {
         let component = terminal.direction.component().filter(|&k| k < 2);
-        let component = component.ok_or_else(|| FrfError::in_plane(terminal, key))?;
-        let dof = 2 * terminal.node + component;
-        let node = terminal.node + 1;
-        match self.unknowns.unknown_of.get(dof) {
-            None => Err(FrfError::NoNode { key, node, count: self.unknowns.unknown_of.len() / 2 }),
-            Some(None) => Err(FrfError::constrained(terminal, key)),
+        let component = component.ok_or_else(|| terminal.refused(key, NodeFault::InPlane))?;
+        let unknown_of = &self.unknowns.unknown_of;
+        match unknown_of.get(2 * terminal.node + component) {
+            None => Err(terminal.refused(key, NodeFault::Missing(unknown_of.len() / 2))),
+            Some(None) => Err(terminal.constrained(key)),
             Some(Some(unknown)) => Ok(*unknown),
         }
-    }
-
-    /// The pattern of all three matrices.
-    pub(super) fn pattern(&self) -> &Arc<SparsityPattern> {
-        &self.pattern
     }
 
     /// Nonzeros of `M`, `C`, `K`.
     pub(super) fn matrices(&self) -> [&[f64]; 3] {
         [&self.mass, &self.damping, &self.stiffness]
-    }
-
-    /// Coefficients of `C = alpha_R M + beta_R K`; `None` for any other damping.
-    pub(super) fn proportional(&self) -> Option<RayleighDamping> {
-        self.proportional
-    }
-
-    /// Whether `M` and `K` are known to be symmetric.
-    pub(super) fn is_symmetric(&self) -> bool {
-        self.is_symmetric
     }
 
     /// `|e_force - A x|` and `|A| |x|` for `A = K + i H + i omega C - omega^2 M`, in the largest norm.
@@ -225,11 +209,6 @@ impl FrfSystem {
         matrix
     }
 
-    /// Whether its stiffness depends on frequency.
-    pub(super) fn has_tables(&self) -> bool {
-        !self.tabled.is_empty()
-    }
-
     /// `(2 omega M - i C) x + omega M w`.
     pub(super) fn slope(&self, omega: f64, x: &[c64], w: &[c64]) -> Vec<c64> {
         let mut y = vec![c64::new(0.0, 0.0); x.len()];
@@ -254,14 +233,9 @@ impl FrfSystem {
     pub(super) fn multiply(&self, values: &[f64], x: &[f64], is_transposed: bool) -> Vec<f64> {
         let mut y = vec![0.0; x.len()];
         for column in 0..x.len() {
-            let pointers = self.pattern.column_pointers();
-            for position in pointers[column]..pointers[column + 1] {
-                let row = self.pattern.row_indices()[position];
-                if is_transposed {
-                    y[column] += values[position] * x[row];
-                } else {
-                    y[row] += values[position] * x[column];
-                }
+            for (k, row) in self.pattern.column(column) {
+                let [from, to] = if is_transposed { [row, column] } else { [column, row] };
+                y[to] += values[k] * x[from];
             }
         }
         y
