@@ -76,14 +76,14 @@ impl<'a> Watch<'a> {
     }
 
     fn tell(&mut self, sample: &Sample<'_>) {
-        let counts = sample.counts;
+        let counts = sample.row.counts;
         let steps = (counts.stick + counts.slip + counts.open).max(1) as f64;
-        let nodes = sample.status().len() as f64;
+        let nodes = sample.contact().status.len() as f64;
         let share = |count: u64| (nodes * count as f64 / steps).round();
         self.bar.set_position(sample.index + 1);
         self.bar.set_message(format!(
             "{:.3} of {:.3} ms, stick {} slip {} open {}",
-            1e3 * sample.time,
+            1e3 * sample.row.time,
             1e3 * self.end_time,
             share(counts.stick),
             share(counts.slip),

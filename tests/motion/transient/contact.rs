@@ -107,12 +107,12 @@ fn steady_sliding_start_stays_in_equilibrium() {
         let base = base.unwrap();
         let (exact, power) = (base.normal_forces(0.3), base.torque(0.3) * contact.rotation_speed);
         run.run(&mut Watch(|sample: &Sample<'_>| {
-            for (found, exact) in sample.normal_force().iter().zip(&exact) {
+            for (found, exact) in sample.contact().normal_force.iter().zip(&exact) {
                 let error = (found / exact - 1.0).abs();
                 assert!(error < bound, "{contact:?} {stiffness:?}: {found} {exact}");
             }
-            assert_eq!([sample.counts.stick, sample.counts.open], [0, 0]);
-            assert!((sample.powers.external / power - 1.0).abs() < bound);
+            assert_eq!([sample.row.counts.stick, sample.row.counts.open], [0, 0]);
+            assert!((sample.row.powers.external / power - 1.0).abs() < bound);
         }))
         .unwrap();
     }
@@ -152,9 +152,9 @@ fn bar_rebounds_from_a_rigid_wall_as_one_dimensional_theory_says() {
         .for_each(|&node| is_free[node as usize] = false);
     for node in (0..masses.len()).filter(|&node| is_free[node]) {
         state.velocity[2 * node] = -speed;
-        state.initial_energy += 0.5 * masses[node] * speed * speed;
+        state.account.initial += 0.5 * masses[node] * speed * speed;
     }
-    state.largest_energy = state.initial_energy;
+    state.account.largest = state.account.initial;
     let mut run = CentralDifference::resume(model, operator.as_ref(), &settings, &state).unwrap();
     let edge: f64 = annulus.mesh.contact_edge().tributary_lengths.iter().sum();
     let (mut last_contact, mut impulse, mut plateau) = (0.0, 0.0, Vec::new());

@@ -63,7 +63,7 @@ fn free_undamped_vibration_keeps_its_energy_over_a_million_steps() {
     let mut run = CentralDifference::start(model, operator.as_ref(), &settings).unwrap();
     let (mut first, mut worst) = (None, 0.0_f64);
     run.run(&mut Watch(|sample: &Sample<'_>| {
-        let energy = sample.kinetic_energy + sample.strain_energy;
+        let energy = sample.row.kinetic_energy + sample.row.strain_energy;
         let first = *first.get_or_insert(energy);
         worst = worst.max((energy / first - 1.0).abs());
     }))

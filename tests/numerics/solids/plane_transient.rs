@@ -18,12 +18,12 @@ struct Course {
 
 impl Observer for Course {
     fn observe(&mut self, sample: &Sample<'_>) -> ControlFlow<()> {
-        let nodes = sample.status().len();
-        self.status.push(sample.status().to_vec());
+        let nodes = sample.contact().status.len();
+        self.status.push(sample.contact().status.clone());
         let tangential = |i| sample.contact_tangential_displacement(i);
         self.displacement.push((0..nodes).map(tangential).collect());
-        self.force.push(sample.normal_force().iter().sum());
-        self.kinetic.push(sample.kinetic_energy);
+        self.force.push(sample.contact().normal_force.iter().sum());
+        self.kinetic.push(sample.row.kinetic_energy);
         if self.is_solid {
             let axial = sample.displacement().into_iter().skip(2).step_by(3);
             self.largest_axial = axial.fold(self.largest_axial, |m, u| m.max(u.abs()));

@@ -131,9 +131,10 @@ struct Cone {
 
 impl Observer for Cone {
     fn observe(&mut self, sample: &Sample<'_>) -> ControlFlow<()> {
-        let forces = sample.normal_force().iter().zip(sample.tangential_force());
-        let forces = forces.zip(sample.across_force());
-        for (((normal, tangential), across), status) in forces.zip(sample.status()) {
+        let law = sample.contact();
+        let forces = law.normal_force.iter().zip(&law.tangential_force);
+        let forces = forces.zip(&law.across_force);
+        for (((normal, tangential), across), status) in forces.zip(&law.status) {
             let friction = tangential.hypot(*across);
             assert!(*normal >= 0.0 && friction <= 0.3 * normal * (1.0 + 1e-12));
             // A slipping node stands on the rim of the disc.
@@ -143,7 +144,7 @@ impl Observer for Cone {
             assert_eq!(*normal == 0.0, *status == ContactStatus::Open);
             self.seen[*status as usize] = true;
         }
-        self.largest_residual = self.largest_residual.max(sample.balance_residual);
+        self.largest_residual = self.largest_residual.max(sample.row.balance_residual);
         ControlFlow::Continue(())
     }
 }

@@ -6,7 +6,7 @@ use crate::program::{Run, shipped};
 use frictionsim::app::plot::redraw;
 use frictionsim::results::transient::{CHECKPOINT, read_checkpoint, write_checkpoint};
 use frictionsim::results::{DrawingOptions, Format, Manifest, OutputFolder, Replace, read_record};
-use frictionsim::transient::{Recorder, TransientAnalysis, TransientState};
+use frictionsim::transient::{EnergyAccount, Recorder, TransientAnalysis, TransientState};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -106,10 +106,7 @@ fn no_checkpoint_makes_its_reader_panic() {
         elastic: vec![0.0; 4],
         elastic_rate: vec![0.0; 4],
         relaxation: vec![vec![0.0; 2]; 2],
-        initial_energy: 0.0,
-        net_work: 0.0,
-        largest_energy: 0.0,
-        largest_residual: 0.0,
+        account: EnergyAccount::default(),
     };
     let output = OutputFolder::open(folder, &manifest, Replace::Anything).unwrap();
     write_checkpoint(&output, "hash", &state, Some(&record)).unwrap();

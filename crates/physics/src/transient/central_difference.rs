@@ -4,11 +4,13 @@ mod breakdown;
 mod energy;
 mod start;
 
+pub use energy::EnergyAccount;
+
 use super::boundary::BoundaryForces;
 use super::relaxation::Relaxation;
 use super::{
-    ContactPowers, LagrangeContact, Observer, Sample, StatusCounts, StepPlan, TransientError,
-    TransientModel,
+    ContactPowers, LagrangeContact, Observer, Sample, SampleRow, StatusCounts, StepPlan,
+    TransientError, TransientModel,
 };
 use crate::contact::ContactInterface;
 use crate::fem::operator::{
@@ -45,15 +47,12 @@ pub struct TransientState {
     pub elastic_rate: Vec<f64>,
     /// Stretches of Maxwell elements after and before the last half step, m; none without.
     pub relaxation: Vec<Vec<f64>>,
-    /// Energy at the start, J/m.
-    pub initial_energy: f64,
-    /// Net work of contact and damping so far, J/m.
-    pub net_work: f64,
-    /// Largest energy so far, J/m.
-    pub largest_energy: f64,
-    /// Largest balance residual so far.
-    pub largest_residual: f64,
+    /// Its energy balance so far.
+    pub account: EnergyAccount,
 }
+
+/// Contact powers, power of material damping and node statuses, summed over steps.
+type StepSums = (ContactPowers, f64, StatusCounts);
 
 /// A velocity to come.
 struct Kick {
@@ -84,10 +83,13 @@ pub struct CentralDifference<'a> {
     model: TransientModel<'a>,
     operator: &'a dyn StiffnessOperator,
     plan: StepPlan,
-    expansion_time: f64,
+    /// When the cylinder is fully expanded, s.
+    pub(super) expansion_time: f64,
     kick: Option<Kick>,
-    seeded_harmonics: Vec<usize>,
-    seed_time: f64,
+    /// Harmonics that the perturbation names.
+    pub(super) seeded_harmonics: Vec<usize>,
+    /// When it is added, s.
+    pub(super) seed_time: f64,
     coefficients: StepCoefficients,
     fields: MotionFields,
     contact: LagrangeContact,
@@ -95,13 +97,8 @@ pub struct CentralDifference<'a> {
     relaxation: Relaxation,
     interface: ContactInterface,
     next_step: u64,
-    initial_energy: f64,
-    net_work: f64,
-    largest_energy: f64,
-    largest_residual: f64,
-    powers: ContactPowers,
-    damping_power: f64,
-    counts: StatusCounts,
+    account: EnergyAccount,
+    sums: StepSums,
     displacement_before: AlignedVector,
     velocity_before: AlignedVector,
 }
@@ -150,10 +147,10 @@ impl<'a> CentralDifference<'a> {
         let damping = damping + own_damping + relaxed;
         // (12), with the work of the normal forces and of boundary pressures, which the paper leaves out.
         let net = powers.stick + powers.slide + powers.normal + pressure - damping - powers.damping;
-        self.net_work += self.plan.time_step * net;
-        self.powers += powers;
-        self.damping_power += damping;
-        self.counts += counts;
+        self.account.net_work += self.plan.time_step * net;
+        self.sums.0 += powers;
+        self.sums.1 += damping;
+        self.sums.2 += counts;
         self.next_step = step + 1;
         // Round-off of the running sum of dt K v goes.
         if self.next_step.is_multiple_of(REFRESH) {
@@ -178,29 +175,33 @@ impl<'a> CentralDifference<'a> {
         let [kinetic_energy, strain_energy] = self.energies();
         let contact_energy = self.contact_energy();
         let energy = kinetic_energy + strain_energy + contact_energy;
-        self.largest_energy = self.largest_energy.max(energy);
-        let imbalance = (energy - self.initial_energy - self.net_work).abs();
+        let account = &mut self.account;
+        account.largest = account.largest.max(energy);
+        let imbalance = (energy - account.initial - account.net_work).abs();
         // A body at rest has no energy to be relative to.
-        let balance_residual = if imbalance == 0.0 { 0.0 } else { imbalance / self.largest_energy };
+        let balance_residual = if imbalance == 0.0 { 0.0 } else { imbalance / account.largest };
         self.check(energy, balance_residual)?;
-        self.largest_residual = self.largest_residual.max(balance_residual);
+        let account = &mut self.account;
+        account.largest_residual = account.largest_residual.max(balance_residual);
         let step = self.next_step - 1;
         let steps = if step == 0 { 1 } else { self.plan.steps_per_sample };
-        let powers = std::mem::take(&mut self.powers).scaled(1.0 / steps as f64);
-        let material_damping = std::mem::take(&mut self.damping_power) / steps as f64;
-        let counts = std::mem::take(&mut self.counts);
+        let index = step / self.plan.steps_per_sample;
+        let (powers, damping, counts) = self.take_sums();
         let unconverged_steps = std::mem::take(&mut self.contact.unconverged_steps);
         let sample = Sample {
-            index: step / self.plan.steps_per_sample,
-            time: self.plan.sample_time(step / self.plan.steps_per_sample),
-            kinetic_energy,
-            strain_energy,
-            contact_energy,
-            powers,
-            material_damping,
-            counts,
+            index,
+            row: SampleRow {
+                time: self.plan.sample_time(index),
+                kinetic_energy,
+                strain_energy,
+                contact_energy,
+                powers: powers.scaled(1.0 / steps as f64),
+                material_damping: damping / steps as f64,
+                counts,
+                balance_residual,
+                ..SampleRow::default()
+            },
             unconverged_steps,
-            balance_residual,
             run: self,
             displacement_before: &self.displacement_before,
             velocity_before: &self.velocity_before,
@@ -211,11 +212,7 @@ impl<'a> CentralDifference<'a> {
     /// Contact powers, power of material damping and node statuses, summed over the steps since the last sample or the last
     /// call of this.
     pub fn take_sums(&mut self) -> (ContactPowers, f64, StatusCounts) {
-        (
-            std::mem::take(&mut self.powers),
-            std::mem::take(&mut self.damping_power),
-            std::mem::take(&mut self.counts),
-        )
+        std::mem::take(&mut self.sums)
     }
 
     /// The complete state; exact for a restart when taken at a sample.
@@ -228,10 +225,7 @@ impl<'a> CentralDifference<'a> {
             elastic: dofs(&self.fields.elastic),
             elastic_rate: dofs(&self.fields.elastic_rate),
             relaxation: self.relaxation.state(),
-            initial_energy: self.initial_energy,
-            net_work: self.net_work,
-            largest_energy: self.largest_energy,
-            largest_residual: self.largest_residual,
+            account: self.account,
         }
     }
 
@@ -265,21 +259,6 @@ impl<'a> CentralDifference<'a> {
         &self.interface
     }
 
-    /// Harmonics that the perturbation names.
-    pub fn seeded_harmonics(&self) -> &[usize] {
-        &self.seeded_harmonics
-    }
-
-    /// When the perturbation is added, s.
-    pub fn seed_time(&self) -> f64 {
-        self.seed_time
-    }
-
-    /// When the cylinder is fully expanded, s.
-    pub fn expansion_time(&self) -> f64 {
-        self.expansion_time
-    }
-
     /// Steps done.
     pub fn steps_done(&self) -> u64 {
         self.next_step
@@ -287,6 +266,6 @@ impl<'a> CentralDifference<'a> {
 
     /// Largest balance residual so far.
     pub fn largest_residual(&self) -> f64 {
-        self.largest_residual
+        self.account.largest_residual
     }
 }

@@ -23,7 +23,7 @@ mod settling;
 mod vibration;
 
 pub use analysis::{Growth, LastFifth, ProbeMotion, TransientAnalysis};
-pub use central_difference::{CentralDifference, RunEnd, TransientState};
+pub use central_difference::{CentralDifference, EnergyAccount, RunEnd, TransientState};
 pub use contact::{ContactPowers, LagrangeContact, StatusCounts};
 pub use error::{Breakdown, TransientError};
 pub use model::{SteppedBody, TransientModel};

@@ -41,19 +41,19 @@ pub struct RecorderSettings {
 pub struct SampleRow {
     /// `t_n`, s.
     pub time: f64,
-    /// Kinetic energy at `n + 1/2`, J/m.
+    /// Kinetic energy `1/2 v^T M v` at `n + 1/2`, J/m.
     pub kinetic_energy: f64,
-    /// Strain energy at `n + 1/2`, J/m.
+    /// Strain energy `1/2 u_{n+1}^T K u_n`, J/m.
     pub strain_energy: f64,
     /// Energy of the springs of a compliant contact at `n + 1/2`, J/m.
     pub contact_energy: f64,
-    /// Contact powers, means since the last sample, W/m.
+    /// Contact powers, means over the steps since the last sample, W/m.
     pub powers: ContactPowers,
-    /// Power of material damping, mean since the last sample, W/m.
+    /// Power of material damping `v_n^T C v_{n-1/2}`, mean over the steps since the last sample, W/m.
     pub material_damping: f64,
-    /// Node statuses since the last sample.
+    /// Node statuses counted over the steps since the last sample.
     pub counts: StatusCounts,
-    /// Energy that is not accounted for, relative to the largest so far.
+    /// Energy that is not accounted for, `|E_{n+1/2} - E_{-1/2} - work|` relative to the largest so far.
     pub balance_residual: f64,
     /// `2 / sum w * sum_j w_j u_theta(theta_j) exp(-i n theta_j)` along the contact edge for `n = 0..=8` (half of it
     /// for `n = 0`), real and imaginary part, m.
@@ -190,7 +190,7 @@ impl Recorder {
         }
         let stride = settings.contact_interval.unwrap_or(0.0) / plan.sample_interval;
         let higher_harmonics =
-            higher_harmonics(run.model().highest_harmonic(), run.seeded_harmonics());
+            higher_harmonics(run.model().highest_harmonic(), &run.seeded_harmonics);
         let (contact, probes) = (&run.model().contact, settings.probes.len());
         Ok(Self {
             probes: settings.probes.clone(),
@@ -216,8 +216,8 @@ impl Recorder {
             rotation_direction: contact.sliding_direction(),
             surface_speed: interface.surface_speed(contact.rotation_speed),
             interference: contact.interference,
-            seed_time: run.seed_time(),
-            start_up_time: run.seed_time().max(run.expansion_time()),
+            seed_time: run.seed_time,
+            start_up_time: run.seed_time.max(run.expansion_time),
             stop_when_settled: settings.stop_when_settled,
             has_stopped: false,
             unconverged_steps: 0,

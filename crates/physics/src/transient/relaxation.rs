@@ -6,6 +6,10 @@ use crate::fem::{MassKind, MaterialField, Triplets, assemble_region};
 use crate::mesh::Mesh;
 use std::collections::BTreeMap;
 
+/// Places of `z_n` and `z_{n-1}` among the stretches of an element.
+const NOW: usize = 0;
+const BEFORE: usize = 1;
+
 /// The elements of all regions that have a chain ([`crate::fem::MaxwellChain`]).
 ///
 /// Element `j` of a region with the stiffness `K` at rest has a motion `z_j` of its spring and the force `s_j K z_j`:
@@ -46,8 +50,7 @@ struct Element {
     time: f64,
     stiffness: f64,
     /// `z_n` and `z_{n-1}`.
-    stretch: Vec<f64>,
-    stretch_before: Vec<f64>,
+    stretch: [Vec<f64>; 2],
     /// `K` times the older of the two that the last step had.
     image: Vec<f64>,
 }
@@ -69,8 +72,7 @@ impl Relaxation {
             let elements = chain.elements.iter().map(|own| Element {
                 time: own.time,
                 stiffness: own.stiffness,
-                stretch: still.clone(),
-                stretch_before: still.clone(),
+                stretch: [still.clone(), still.clone()],
                 image: still.clone(),
             });
             part.elements = elements.collect();
@@ -82,7 +84,7 @@ impl Relaxation {
     /// Adds the forces of the coming step to the elastic accelerations.
     pub fn apply(&mut self, fields: &mut MotionFields) {
         for part in &mut self.parts {
-            part.look();
+            part.look(NOW);
             for (i, &place) in part.places.iter().enumerate() {
                 part.before[i] = [fields.elastic[place], fields.velocity[place]];
                 let elements = part.elements.iter();
@@ -103,10 +105,10 @@ impl Relaxation {
                 let [kept, gained] = own.factors(time_step);
                 let mut lost = 0.0;
                 for (i, &place) in part.places.iter().enumerate() {
-                    let (now, last) = (own.stretch[i], own.stretch_before[i]);
+                    let (now, last) = (own.stretch[NOW][i], own.stretch[BEFORE][i]);
                     let next = kept * now + gained * fields.velocity[place];
                     lost += own.image[i] * (next + 2.0 * now + last);
-                    (own.stretch[i], own.stretch_before[i]) = (next, now);
+                    (own.stretch[NOW][i], own.stretch[BEFORE][i]) = (next, now);
                 }
                 power += 0.25 * own.stiffness / own.time * lost;
             }
@@ -118,7 +120,7 @@ impl Relaxation {
     pub fn energy(&self) -> f64 {
         let elements = self.parts.iter().flat_map(|part| &part.elements);
         let energy = elements.map(|own| {
-            let pairs = own.image.iter().zip(&own.stretch);
+            let pairs = own.image.iter().zip(&own.stretch[NOW]);
             0.5 * own.stiffness * pairs.map(|(force, z)| force * z).sum::<f64>()
         });
         energy.sum()
@@ -130,19 +132,18 @@ impl Relaxation {
             for own in &mut part.elements {
                 let [kept, gained] = own.factors(time_step);
                 for (i, &place) in part.places.iter().enumerate() {
-                    own.stretch_before[i] =
-                        (own.stretch[i] - gained * fields.velocity[place]) / kept;
+                    own.stretch[BEFORE][i] =
+                        (own.stretch[NOW][i] - gained * fields.velocity[place]) / kept;
                 }
             }
-            part.look_back();
+            part.look(BEFORE);
         }
     }
 
     /// `z_n` and `z_{n-1}` of every element.
     pub fn state(&self) -> Vec<Vec<f64>> {
         let elements = self.parts.iter().flat_map(|part| &part.elements);
-        let both = elements.flat_map(|own| [own.stretch.clone(), own.stretch_before.clone()]);
-        both.collect()
+        elements.flat_map(|own| own.stretch.clone()).collect()
     }
 
     /// Takes up what [`Self::state`] gave.
@@ -159,12 +160,11 @@ impl Relaxation {
         let mut pairs = state.chunks_exact(2);
         for part in &mut self.parts {
             for own in &mut part.elements {
-                if let Some([now, last]) = pairs.next() {
-                    own.stretch.copy_from_slice(now);
-                    own.stretch_before.copy_from_slice(last);
+                if let Some(pair) = pairs.next() {
+                    own.stretch.clone_from_slice(pair);
                 }
             }
-            part.look_back();
+            part.look(BEFORE);
         }
         Ok(())
     }
@@ -206,18 +206,10 @@ impl Part {
         }
     }
 
-    /// `K z_n` of every element.
-    fn look(&mut self) {
+    /// `K z_n` or `K z_{n-1}` of every element.
+    fn look(&mut self, at: usize) {
         for own in &mut self.elements {
-            multiply(&self.ends, &self.entries, &own.stretch, &mut own.image);
-        }
-    }
-
-    /// `K z_{n-1}` of every element.
-    fn look_back(&mut self) {
-        for own in &mut self.elements {
-            let (ends, entries) = (&self.ends, &self.entries);
-            multiply(ends, entries, &own.stretch_before, &mut own.image);
+            multiply(&self.ends, &self.entries, &own.stretch[at], &mut own.image);
         }
     }
 }

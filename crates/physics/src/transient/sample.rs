@@ -1,31 +1,16 @@
 //! State of the time loop as an observer sees it.
 
-use super::{CentralDifference, ContactPowers, StatusCounts, TransientState};
-use crate::contact::ContactStatus;
+use super::{CentralDifference, LagrangeContact, SampleRow, TransientState};
 use std::ops::ControlFlow;
 
 /// The state around one sampled step `n`, for each metre of thickness.
 pub struct Sample<'a> {
     /// Index of the sample, 0 at time zero.
     pub index: u64,
-    /// `t_n`, s.
-    pub time: f64,
-    /// Kinetic energy `1/2 v^T M v` at `n + 1/2`, J/m.
-    pub kinetic_energy: f64,
-    /// Strain energy `1/2 u_{n+1}^T K u_n`, J/m.
-    pub strain_energy: f64,
-    /// Energy of the springs of a compliant contact at `n + 1/2`, J/m.
-    pub contact_energy: f64,
-    /// Contact powers, means over the steps since the last sample, W/m.
-    pub powers: ContactPowers,
-    /// Power of material damping `v_n^T C v_{n-1/2}`, mean over the steps since the last sample, W/m.
-    pub material_damping: f64,
-    /// Node statuses counted over the steps since the last sample.
-    pub counts: StatusCounts,
+    /// Its time, energies, powers and statuses; who keeps it adds the harmonics.
+    pub row: SampleRow,
     /// Steps since the last sample in which the forces between two bodies had not converged.
     pub unconverged_steps: u64,
-    /// `|E_{n+1/2} - E_{-1/2} - work|` relative to the largest energy so far.
-    pub balance_residual: f64,
     pub(super) run: &'a CentralDifference<'a>,
     pub(super) displacement_before: &'a [f64],
     pub(super) velocity_before: &'a [f64],
@@ -75,29 +60,14 @@ impl Sample<'_> {
 
     /// Distance of contact node `i` from the counterface at `n`, m; negative where a compliant contact is compressed.
     pub fn gap(&self, i: usize) -> f64 {
-        let share = self.run.expanded_share(self.time);
+        let share = self.run.expanded_share(self.row.time);
         let contact = self.run.contact();
         contact.gap(i, self.displacement_before, share)
     }
 
-    /// Status of each contact node at `n`.
-    pub fn status(&self) -> &[ContactStatus] {
-        &self.run.contact().status
-    }
-
-    /// Normal force on each contact node at `n`, N/m.
-    pub fn normal_force(&self) -> &[f64] {
-        &self.run.contact().normal_force
-    }
-
-    /// Tangential force on each contact node at `n`, N/m.
-    pub fn tangential_force(&self) -> &[f64] {
-        &self.run.contact().tangential_force
-    }
-
-    /// Friction across the sliding on each contact node at `n`, N; empty for a plane body.
-    pub fn across_force(&self) -> &[f64] {
-        &self.run.contact().across_force
+    /// Forces on the contact nodes and their status at `n`.
+    pub fn contact(&self) -> &LagrangeContact {
+        self.run.contact()
     }
 
     /// The complete state after this sample, from which a run goes on bit by bit.

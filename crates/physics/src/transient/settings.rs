@@ -72,6 +72,25 @@ pub struct TransientSettings {
     pub perturbation: Perturbation,
 }
 
+impl TransientSettings {
+    /// From steady sliding or from given fields, without a perturbation.
+    pub fn sliding(duration: f64, time_step: TimeStep, sample_interval: f64) -> Self {
+        Self {
+            duration,
+            time_step,
+            sample_interval,
+            expansion_time: 0.0,
+            initial: InitialState::SteadySliding,
+            perturbation: Perturbation::default(),
+        }
+    }
+
+    /// Time over which the interference grows, s: all starts but that at rest are fully expanded, a ramp of no length.
+    pub(super) fn ramp_time(&self) -> f64 {
+        if self.initial == InitialState::Rest { self.expansion_time } else { 0.0 }
+    }
+}
+
 /// Largest stable step of central differences whose damping force lags half a step, s.
 ///
 /// ```text
@@ -178,14 +197,10 @@ pub(super) fn check_times(settings: &TransientSettings) -> Result<(), TransientE
             return Err(TransientError::Negative { setting, value });
         }
     }
-    let expansion_time = match settings.initial {
-        InitialState::Rest => settings.expansion_time,
-        InitialState::SteadySliding | InitialState::LimitCycle { .. } => 0.0,
-    };
     let duration = settings.duration;
     for (setting, value, remedy) in [
         ("sample_interval", settings.sample_interval, "a run has two samples at least"),
-        ("expansion_time", expansion_time, "the cylinder would never be fully expanded"),
+        ("expansion_time", settings.ramp_time(), "the cylinder would never be fully expanded"),
         ("perturbation.at", perturbation.time, "the velocity would never be added"),
     ] {
         if value > duration * (1.0 + 1e-9) {

@@ -52,25 +52,24 @@ pub enum EndState {
 impl EndState {
     /// Name in summaries.
     pub fn name(self) -> &'static str {
-        match self {
-            Self::LimitCycle => "limit-cycle",
-            Self::TwoFrequency(_) => "two-frequency",
-            Self::SteadySliding => "steady-sliding",
-            Self::AtRest => "at-rest",
-            Self::Separated => "separated",
-            Self::Unsettled => "unsettled",
-        }
+        self.words()[0]
     }
 
     /// In words, as the end of "the run ends ...".
     pub fn phrase(self) -> &'static str {
+        self.words()[1]
+    }
+
+    fn words(self) -> [&'static str; 2] {
         match self {
-            Self::LimitCycle => "on a limit cycle",
-            Self::TwoFrequency(_) => "in a vibration of two frequencies, which is no limit cycle",
-            Self::SteadySliding => "in steady sliding",
-            Self::AtRest => "at rest",
-            Self::Separated => "out of contact, at rest",
-            Self::Unsettled => "before it has settled",
+            Self::LimitCycle => ["limit-cycle", "on a limit cycle"],
+            Self::TwoFrequency(_) => {
+                ["two-frequency", "in a vibration of two frequencies, which is no limit cycle"]
+            }
+            Self::SteadySliding => ["steady-sliding", "in steady sliding"],
+            Self::AtRest => ["at-rest", "at rest"],
+            Self::Separated => ["separated", "out of contact, at rest"],
+            Self::Unsettled => ["unsettled", "before it has settled"],
         }
     }
 }

@@ -12,7 +12,7 @@ impl CentralDifference<'_> {
     pub(super) fn check(&self, energy: f64, residual: f64) -> Result<(), TransientError> {
         let (symptom, cause) = if !energy.is_finite() || !residual.is_finite() {
             ("the energy is not a number any more".to_owned(), Breakdown::Overflow)
-        } else if energy < -1e-9 * self.largest_energy {
+        } else if energy < -1e-9 * self.account.largest {
             (format!("the energy is negative, {energy:.3e} J/m"), Breakdown::StepTooLong)
         } else if residual > RESIDUAL_LIMIT {
             (

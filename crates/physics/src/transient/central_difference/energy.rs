@@ -2,6 +2,20 @@
 
 use super::CentralDifference;
 use crate::fem::operator::scatter;
+use serde::{Deserialize, Serialize};
+
+/// What the energy balance of a run is made of, J/m.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct EnergyAccount {
+    /// Energy at the start.
+    pub initial: f64,
+    /// Net work of contact and damping so far.
+    pub net_work: f64,
+    /// Largest energy so far.
+    pub largest: f64,
+    /// Largest balance residual so far, relative.
+    pub largest_residual: f64,
+}
 
 impl CentralDifference<'_> {
     /// Kinetic and strain energy (8) at `n + 1/2`, from `K u_{n+1}` and the copy of `u_n`.
@@ -13,6 +27,15 @@ impl CentralDifference<'_> {
         let strain: f64 =
             forces.zip(self.displacement_before.iter()).map(|((q, m), u)| m * q * u).sum();
         [0.5 * kinetic, 0.5 * strain + self.relaxation.energy()]
+    }
+
+    /// The first step is to come: `K u`, `K v` and the energy of the fields as they are.
+    pub(super) fn open_account(&mut self) {
+        let fields = &mut self.fields;
+        self.operator.multiply(&mut fields.displacement, &mut fields.elastic);
+        self.operator.multiply(&mut fields.velocity, &mut fields.elastic_rate);
+        let initial = self.energy_before_step();
+        self.account = EnergyAccount { initial, largest: initial, ..EnergyAccount::default() };
     }
 
     /// `E_{n-1/2}` (8) before step `n`, with `u_{n-1} = u_n - dt v_{n-1/2}`.
@@ -50,6 +73,6 @@ impl CentralDifference<'_> {
         if self.next_step > 0 {
             self.relaxation.rewind(&self.fields, self.plan.time_step);
         }
-        self.net_work += self.energy_before_step() - before;
+        self.account.net_work += self.energy_before_step() - before;
     }
 }

@@ -1,14 +1,11 @@
 //! Start of a run: from rest, from given fields, or from where another one stopped.
 
-use super::{CentralDifference, Kick, TransientState};
+use super::{CentralDifference, EnergyAccount, Kick, StepSums, TransientState};
 use crate::contact::SlidingContact;
 use crate::fem::operator::{
     AlignedVector, MotionFields, StepCoefficients, StiffnessOperator, scatter,
 };
-use crate::transient::{
-    ContactPowers, InitialState, StatusCounts, StepPlan, TransientError, TransientModel,
-    TransientSettings,
-};
+use crate::transient::{InitialState, TransientError, TransientModel, TransientSettings};
 
 impl<'a> CentralDifference<'a> {
     /// A run from its initial state.
@@ -45,24 +42,14 @@ impl<'a> CentralDifference<'a> {
         displacement: &[f64],
         mut velocity: Vec<f64>,
     ) -> Result<Self, TransientError> {
-        let plan = model.plan(operator, settings)?;
-        let expected = operator.dof_count();
-        for found in [displacement.len(), velocity.len()] {
-            if found != expected {
-                return Err(TransientError::ForeignState { found, expected });
-            }
-        }
-        let mut run = Self::new(model, operator, plan, settings)?;
+        let fields = [displacement, &velocity];
+        let mut run = Self::new(model, operator, settings, &fields)?;
         if let Some(kick) = run.kick.take_if(|kick| kick.step == 0) {
             velocity.iter_mut().zip(kick.velocity).for_each(|(v, p)| *v += p);
         }
         run.fields.displacement = scatter(operator, displacement);
         run.fields.velocity = scatter(operator, &velocity);
-        let fields = &mut run.fields;
-        operator.multiply(&mut fields.displacement, &mut fields.elastic);
-        operator.multiply(&mut fields.velocity, &mut fields.elastic_rate);
-        run.initial_energy = run.energy_before_step();
-        run.largest_energy = run.initial_energy;
+        run.open_account();
         Ok(run)
     }
 
@@ -76,29 +63,17 @@ impl<'a> CentralDifference<'a> {
         settings: &TransientSettings,
         state: &TransientState,
     ) -> Result<Self, TransientError> {
-        let plan = model.plan(operator, settings)?;
-        let expected = operator.dof_count();
-        for vector in [&state.displacement, &state.velocity, &state.elastic, &state.elastic_rate] {
-            let found = vector.len();
-            if found != expected {
-                return Err(TransientError::ForeignState { found, expected });
-            }
-        }
-        let mut run = Self::new(model, operator, plan, settings)?;
+        let TransientState { displacement, velocity, elastic, elastic_rate, .. } = state;
+        let fields = [displacement, velocity, elastic, elastic_rate].map(Vec::as_slice);
+        let mut run = Self::new(model, operator, settings, &fields)?;
         // What was added at the start is in the state.
         run.kick.take_if(|kick| kick.step == 0);
-        run.fields = MotionFields {
-            displacement: scatter(operator, &state.displacement),
-            velocity: scatter(operator, &state.velocity),
-            elastic: scatter(operator, &state.elastic),
-            elastic_rate: scatter(operator, &state.elastic_rate),
-        };
+        let [displacement, velocity, elastic, elastic_rate] =
+            fields.map(|field| scatter(operator, field));
+        run.fields = MotionFields { displacement, velocity, elastic, elastic_rate };
         run.relaxation.restore(&state.relaxation)?;
         run.next_step = state.step;
-        run.initial_energy = state.initial_energy;
-        run.net_work = state.net_work;
-        run.largest_energy = state.largest_energy;
-        run.largest_residual = state.largest_residual;
+        run.account = state.account;
         Ok(run)
     }
 
@@ -114,14 +89,8 @@ impl<'a> CentralDifference<'a> {
         self.kick = None;
         self.next_step = 0;
         place(&mut self.fields);
-        let fields = &mut self.fields;
-        self.operator.multiply(&mut fields.displacement, &mut fields.elastic);
-        self.operator.multiply(&mut fields.velocity, &mut fields.elastic_rate);
         self.take_sums();
-        self.initial_energy = self.energy_before_step();
-        self.largest_energy = self.initial_energy;
-        self.net_work = 0.0;
-        self.largest_residual = 0.0;
+        self.open_account();
     }
 
     /// Another contact for the same body: friction law, speed and interference, of an assembly the friction of its first contact,
@@ -139,19 +108,20 @@ impl<'a> CentralDifference<'a> {
         Ok(())
     }
 
+    /// A run at rest that is to start from `fields` over all dofs.
     fn new(
         model: TransientModel<'a>,
         operator: &'a dyn StiffnessOperator,
-        plan: StepPlan,
         settings: &TransientSettings,
+        fields: &[&[f64]],
     ) -> Result<Self, TransientError> {
+        let plan = model.plan(operator, settings)?;
+        let expected = operator.dof_count();
+        if let Some(found) = fields.iter().map(|field| field.len()).find(|&own| own != expected) {
+            return Err(TransientError::ForeignState { found, expected });
+        }
         let (interface, damping) = (model.interface(), model.damping);
         let zeros = || AlignedVector::zeros(operator.field_length());
-        // All others start fully expanded: a ramp of no length.
-        let expansion_time = match settings.initial {
-            InitialState::Rest => settings.expansion_time,
-            InitialState::SteadySliding | InitialState::LimitCycle { .. } => 0.0,
-        };
         let kick = Kick {
             step: (settings.perturbation.time / plan.time_step).round() as u64,
             velocity: model.perturbed(&settings.perturbation)?,
@@ -173,19 +143,14 @@ impl<'a> CentralDifference<'a> {
             relaxation: model.relaxation(operator),
             interface,
             next_step: 0,
-            initial_energy: 0.0,
-            net_work: 0.0,
-            largest_energy: 0.0,
-            largest_residual: 0.0,
-            powers: ContactPowers::default(),
-            damping_power: 0.0,
-            counts: StatusCounts::default(),
+            account: EnergyAccount::default(),
+            sums: StepSums::default(),
             displacement_before: zeros(),
             velocity_before: zeros(),
             model,
             operator,
             plan,
-            expansion_time,
+            expansion_time: settings.ramp_time(),
             kick: Some(kick),
             seeded_harmonics: settings.perturbation.harmonics(),
             seed_time: settings.perturbation.time,

@@ -1,5 +1,6 @@
 //! Sums of contact forces and powers over nodes and steps.
 
+use crate::contact::ContactStatus;
 use serde::{Deserialize, Serialize};
 use std::ops::AddAssign;
 
@@ -71,6 +72,17 @@ impl AddAssign for StatusCounts {
         self.slip += other.slip;
         self.open += other.open;
         self.ambiguous += other.ambiguous;
+    }
+}
+
+/// One more node.
+impl AddAssign<ContactStatus> for StatusCounts {
+    fn add_assign(&mut self, status: ContactStatus) {
+        match status {
+            ContactStatus::Stick => self.stick += 1,
+            ContactStatus::Slip => self.slip += 1,
+            ContactStatus::Open => self.open += 1,
+        }
     }
 }
 

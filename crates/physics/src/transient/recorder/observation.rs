@@ -17,24 +17,15 @@ impl Observer for Recorder {
         let amplitudes = self.harmonics(sample);
         let higher = amplitudes[HARMONIC_COUNT..].iter();
         self.higher_amplitudes.extend(higher.map(|parts| parts.map(|part| part as f32)));
-        self.rows.push(SampleRow {
-            time: sample.time,
-            kinetic_energy: sample.kinetic_energy,
-            strain_energy: sample.strain_energy,
-            contact_energy: sample.contact_energy,
-            powers: sample.powers,
-            material_damping: sample.material_damping,
-            counts: sample.counts,
-            balance_residual: sample.balance_residual,
-            harmonics: std::array::from_fn(|n| amplitudes[n]),
-        });
+        let harmonics = std::array::from_fn(|n| amplitudes[n]);
+        self.rows.push(SampleRow { harmonics, ..sample.row });
         self.unconverged_steps += sample.unconverged_steps;
         self.observe_probes(sample);
         self.observe_contact(sample);
         if self.snapshot_indices.contains(&sample.index) {
             let nodes = 0..self.contact_angles.len();
             self.snapshots.push(Snapshot {
-                time: sample.time,
+                time: sample.row.time,
                 displacement: sample.displacement(),
                 velocity: sample.velocity(),
                 contact: self.frame(sample),
@@ -70,11 +61,12 @@ impl Recorder {
             let pairs = forces.iter().zip(&self.tributary_lengths);
             pairs.map(|(force, length)| (force / length) as f32).collect::<Vec<f32>>()
         };
+        let law = sample.contact();
         ContactFrame {
-            time: sample.time,
-            status: sample.status().iter().map(|&status| status as u8).collect(),
-            pressure: traction(sample.normal_force()),
-            shears: [traction(sample.tangential_force()), traction(sample.across_force())].concat(),
+            time: sample.row.time,
+            status: law.status.iter().map(|&status| status as u8).collect(),
+            pressure: traction(&law.normal_force),
+            shears: [traction(&law.tangential_force), traction(&law.across_force)].concat(),
         }
     }
 
