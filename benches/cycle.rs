@@ -10,7 +10,7 @@ use crate::is_measured;
 use frictionsim::case::Case;
 use frictionsim::cea::Unwatched;
 use frictionsim::contact::SlidingContact;
-use frictionsim::cycle::{CycleSolver, OperatingPoint, Parameter};
+use frictionsim::cycle::{CycleSolver, Family, OperatingPoint, Parameter};
 use frictionsim::fem::operator::SimdLevel;
 use frictionsim::fem::{ElasticMaterial, PlaneFormulation, RayleighDamping};
 use frictionsim::mesh::{AnnulusSpecification, BoundaryCondition, ElementKind};
@@ -52,8 +52,14 @@ pub fn run() {
     };
     println!("n  from birth  +2 %  -20 %  stability  61 speeds  factorizations");
     for harmonic in [1, 2] {
-        let solver = CycleSolver::new(&specification, &material, &point.damping, harmonic, None)
-            .expect("a valid mesh");
+        let solver = CycleSolver::new(
+            &specification,
+            &material,
+            &point.damping,
+            Family::lowest(harmonic),
+            None,
+        )
+        .expect("a valid mesh");
         let start = Instant::now();
         let cycle = solver.find(&point).expect("a limit cycle");
         let birth = start.elapsed();

@@ -143,7 +143,7 @@ impl<'a> FrequencyStudy<'a> {
                     found.solved = solved.receptance;
                 } else {
                     let solved = direct_response_with(system, force, response, lines, done)?;
-                    (found.method, found.solved) = ("direct", solved.receptance);
+                    (found.method, found.solved) = ("direct", solved);
                 }
             }
         }

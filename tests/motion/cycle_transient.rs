@@ -19,7 +19,7 @@ fn coarse() -> AnnulusSpecification {
 }
 
 fn solver(harmonic: usize, disc: &AnnulusSpecification) -> CycleSolver {
-    CycleSolver::new(disc, &POLYCARBONATE, &DAMPING, harmonic, None).unwrap()
+    CycleSolver::new(disc, &POLYCARBONATE, &DAMPING, Family::lowest(harmonic), None).unwrap()
 }
 
 /// The record of a transient that starts on a cycle, its velocity perturbed in one harmonic.

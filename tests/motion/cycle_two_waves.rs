@@ -7,7 +7,7 @@ const FRICTION: f64 = 0.2;
 
 fn solver(elements: [usize; 2]) -> CycleSolver {
     let disc = annulus(ElementKind::Quad4, elements[0], elements[1]);
-    CycleSolver::new(&disc, &POLYCARBONATE, &DAMPING, 1, None).unwrap()
+    CycleSolver::new(&disc, &POLYCARBONATE, &DAMPING, Family::lowest(1), None).unwrap()
 }
 
 fn cycle(solver: &CycleSolver, rpm: f64) -> LimitCycle {

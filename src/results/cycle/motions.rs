@@ -14,7 +14,7 @@ use crate::chart::extremes;
 use crate::contact::ContactInterface;
 use crate::cycle::periodic::{
     BranchMotion, ContactInstant, FloquetMultiplier, FloquetMultipliers, PeriodicBranch,
-    PeriodicMotion, REMAINDER, Sound,
+    PeriodicMotion, REMAINDER, Sound, velocity_level,
 };
 use crate::cycle::{Confirmation, CyclePowers, PhasePoint, Verdict};
 use crate::results::npz::NpzArchive;
@@ -101,7 +101,7 @@ impl FoundCycle {
             power_w: mean_powers(&motion.powers, report.thickness),
             balance_residual: motion.powers.balance_residual(),
             amplitude_m: Some(motion.amplitude),
-            velocity_level_db: Some(motion.velocity_level()),
+            velocity_level_db: Some(velocity_level(motion.velocity)),
             harmonics: told.clone().map(|harmonic| harmonic.amplitude[1]).collect(),
             stepped: Some(SteppedMotion {
                 residual: motion.residual,
@@ -163,7 +163,7 @@ fn branch_row(branch: &PeriodicBranch, own: &BranchMotion, thickness: f64) -> Br
         growth_rate: own.growth_rate(),
         verdict: known(&own.stability).map(FloquetMultipliers::verdict),
         stepped: Some(SteppedRow {
-            velocity_level_db: motion.velocity_level(),
+            velocity_level_db: velocity_level(motion.velocity),
             residual: motion.residual,
             periods: motion.periods,
             fold: own.is_fold,

@@ -75,7 +75,7 @@ impl<'a> CycleStudy<'a> {
             let along = continuation.as_ref();
             critical =
                 along.and_then(|(parameter, values)| critical_value(case, *parameter, values));
-            onsets = solvers.iter().flatten().map(|s| *s.onset()).collect();
+            onsets = solvers.iter().flatten().map(|s| s.onset).collect();
             onsets.extend(next_onset(case, friction));
             crate::order::sort_by_number(&mut onsets, |a| a.friction_coefficient);
         }
@@ -155,7 +155,7 @@ impl<'a> CycleStudy<'a> {
     /// Why a family whose onset is known has no cycle.
     fn absence(&self, solver: &CycleSolver, error: &CycleError) -> Absence {
         let (friction, onset) =
-            (self.point.contact.friction_coefficient, solver.onset().friction_coefficient);
+            (self.point.contact.friction_coefficient, solver.onset.friction_coefficient);
         let is_stable = friction < onset;
         Absence {
             reason: match is_stable {
@@ -215,9 +215,9 @@ impl<'a> CycleStudy<'a> {
         let cycle = found.map_err(|error| self.absence(solver, &error));
         let mut result = CycleResult {
             velocity,
-            phases: solver.grid().points,
+            phases: solver.grid.points,
             frames,
-            ..self.result(solver.family(), cycle)
+            ..self.result(solver.family, cycle)
         };
         // What the mesh's own time stepping makes of it.
         if let Ok(cycle) = &mut result.cycle {

@@ -61,7 +61,7 @@ impl CycleStudy<'_> {
             Ok(FoundTwoWaves {
                 is_confirmed: found.agrees(),
                 confirmation: found.confirmation,
-                sides: found.waves.sides(),
+                sides: found.waves.sides,
                 frames,
                 motion: found.motion,
                 branch,

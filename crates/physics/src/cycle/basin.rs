@@ -9,7 +9,7 @@ use crate::linalg::interruption;
 use crate::mesh::AnnulusMesh;
 use crate::output::Described;
 use crate::transient::{
-    CentralDifference, InitialState, OperatorChoice, Perturbation, SAFETY, StandingWave, TimeStep,
+    CentralDifference, OperatorChoice, Perturbation, SAFETY, StandingWave, TimeStep,
     TransientModel, TransientSettings, stable_step_limit,
 };
 use serde::Serialize;
@@ -219,18 +219,12 @@ impl Contest<'_> {
         let scale = largest / seed_ratio.max(1.0);
         let seeds = [scale, scale * seed_ratio];
         let waves = self.request.harmonics.iter().zip(seeds);
+        let duration = self.request.periods as f64 * self.period;
+        let waves =
+            waves.map(|(&harmonic, velocity)| StandingWave { harmonic, velocity, phase: 0.0 });
         let settings = TransientSettings {
-            duration: self.request.periods as f64 * self.period,
-            time_step: TimeStep::Seconds(self.step),
-            sample_interval: self.step,
-            expansion_time: 0.0,
-            initial: InitialState::SteadySliding,
-            perturbation: Perturbation {
-                waves: waves
-                    .map(|(&harmonic, velocity)| StandingWave { harmonic, velocity, phase: 0.0 })
-                    .collect(),
-                ..Perturbation::default()
-            },
+            perturbation: Perturbation { waves: waves.collect(), ..Perturbation::default() },
+            ..TransientSettings::sliding(duration, TimeStep::Seconds(self.step), self.step)
         };
         Ok(CentralDifference::start(self.model, self.operator, &settings)?)
     }

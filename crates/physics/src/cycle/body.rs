@@ -75,7 +75,8 @@ pub struct WaveBody {
     masses: Vec<f64>,
     /// Springs and dashpots of the outer nodes along `(e_r, e_theta)`; they have no such where they are clamped.
     support: Option<[Matrix2<f64>; 2]>,
-    harmonic: isize,
+    /// Circumferential harmonic `n` of the wave in the phase `n theta + omega t`: negative for a wave with the rotor.
+    pub harmonic: isize,
     /// Number of sectors, each with one contact node.
     pub sector_count: usize,
     /// Nodes on a ray, those that are held with them.
@@ -133,11 +134,6 @@ impl WaveBody {
             tributary_length: mesh.tributary_lengths()[0],
             node_frequency,
         })
-    }
-
-    /// Circumferential harmonic `n` of the wave in the phase `n theta + omega t`: negative for a wave with the rotor.
-    pub fn harmonic(&self) -> isize {
-        self.harmonic
     }
 
     /// Dynamic stiffness of the support of node `i`, where it has one.
@@ -216,9 +212,7 @@ impl WaveBody {
         }
         profile
     }
-}
 
-impl WaveBody {
     /// `u^H (alpha_R M + beta_R K) u` of one sector for the displacement of its nodes at harmonic `k`.
     pub fn damping_form(&self, k: usize, damping: &RayleighDamping, profile: &[[c64; 2]]) -> f64 {
         let blocks = &self.harmonics[k];

@@ -50,8 +50,8 @@ pub struct Branch<'a> {
     heading: Option<Heading>,
     pending: Option<Event>,
     force_scale: f64,
-    /// Sense of the parameter at the start, and at the last step.
-    direction: f64,
+    /// Sense of the parameter at the start, and at the last step: +1 or -1.
+    pub direction: f64,
     /// Dense factorizations so far.
     pub factorizations: usize,
 }
@@ -94,11 +94,6 @@ impl<'a> Branch<'a> {
     /// The parameter's value, SI.
     pub fn value(&self) -> f64 {
         self.parameter.of(&self.state.point)
-    }
-
-    /// Sense in which the parameter moves now: +1 or -1.
-    pub fn direction(&self) -> f64 {
-        self.direction
     }
 
     /// One step: to the next change of contact state, the next of `samples` or the longest step.

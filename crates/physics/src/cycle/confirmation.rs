@@ -93,7 +93,7 @@ impl MeshStepping<'_> {
         let leading = stability.and_then(CycleStability::leading);
         let growth = leading.map(|found| [found.exponent.re, found.uncertainty]);
         let periods = telling_periods(growth, E_FOLDS * cycle.frequency_hz(), periods);
-        let surface_speed = cycle.state.point.contact.rotation_speed * self.solver.body().radius;
+        let surface_speed = cycle.state.point.contact.rotation_speed * self.solver.body.radius;
         let seed = leading.map(|found| (found.harmonic, SEED * surface_speed));
         let (mut run, steps) = self.start(cycle, seed)?;
         let look_every = (steps / LOOKS).max(1);

@@ -1,5 +1,6 @@
 //! The contact edge and the whole field of a mesh of equal sectors, in harmonics around its circumference.
 
+use super::body::DynamicCoefficients;
 use super::limit_cycle::EdgeMotion;
 use super::state::WaveState;
 use super::wave::Wave;
@@ -20,7 +21,8 @@ pub(super) fn field(
     let mut fields = [0, 1].map(|_| vec![0.0; 2 * rays * sectors]);
     for (k, (u, &rate)) in edge.displacement.iter().zip(&edge.rates).enumerate() {
         let share = if k == 0 { 1.0 } else { 2.0 } / wave.points() as f64;
-        let profile = wave.profile(k, rate, &state.point.damping, u.map(|value| value * share));
+        let at = DynamicCoefficients::new(rate, &state.point.damping);
+        let profile = wave.body.profile(k, at, u.map(|value| value * share));
         let around = wave.circumferential(k, harmonics);
         let phase = wave.phase(k, state.frequencies()) * time;
         for sector in 0..sectors {

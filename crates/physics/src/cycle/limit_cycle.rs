@@ -88,13 +88,13 @@ impl LimitCycle {
         let count = wave.points() as f64;
         let mut harmonics = [0.0; HARMONIC_COUNT];
         for (k, spectrum) in edge.displacement.iter().enumerate() {
-            if let Some(place) = harmonics.get_mut(k * wave.body.harmonic().unsigned_abs()) {
+            if let Some(place) = harmonics.get_mut(k * wave.body.harmonic.unsigned_abs()) {
                 let share = if k == 0 { 1.0 } else { 2.0 };
                 *place = share * spectrum[1].norm() / count;
             }
         }
         Self {
-            harmonic: wave.body.harmonic().unsigned_abs(),
+            harmonic: wave.body.harmonic.unsigned_abs(),
             powers: powers(wave, &state, &edge, &points),
             fractions: state.fractions(),
             harmonics,
@@ -217,10 +217,9 @@ fn material_damping(wave: &Wave<'_>, state: &WaveState, edge: &EdgeMotion) -> f6
     pairs
         .skip(1)
         .map(|(k, (&u, &rate))| {
-            let profile = wave.profile(k, rate, &state.point.damping, u);
-            2.0 / (count * count)
-                * wave.body.damping_form(k, &state.point.damping, &profile)
-                * rate.norm_sqr()
+            let damping = &state.point.damping;
+            let profile = wave.body.profile(k, DynamicCoefficients::new(rate, damping), u);
+            2.0 / (count * count) * wave.body.damping_form(k, damping, &profile) * rate.norm_sqr()
         })
         .sum()
 }

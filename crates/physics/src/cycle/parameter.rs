@@ -89,13 +89,8 @@ impl Parameter {
 
     /// Its SI value at an operating point.
     pub fn of(self, point: &OperatingPoint) -> f64 {
-        match self {
-            Self::FrictionCoefficient => point.contact.friction_coefficient,
-            Self::RotationSpeed | Self::Speed => point.contact.rotation_speed,
-            Self::Interference => point.contact.interference,
-            Self::MassDamping => point.damping.mass_coefficient,
-            Self::StiffnessDamping => point.damping.stiffness_coefficient,
-        }
+        let mut own = *point;
+        *self.place(&mut own)
     }
 
     /// Its value in units of the case key, rounded to 14 digits so that 6000 rpm and back is 6000 rpm.
@@ -105,14 +100,17 @@ impl Parameter {
 
     /// Sets its SI value.
     pub fn set(self, point: &mut OperatingPoint, value: f64) {
-        let place = match self {
+        *self.place(point) = value;
+    }
+
+    fn place(self, point: &mut OperatingPoint) -> &mut f64 {
+        match self {
             Self::FrictionCoefficient => &mut point.contact.friction_coefficient,
             Self::RotationSpeed | Self::Speed => &mut point.contact.rotation_speed,
             Self::Interference => &mut point.contact.interference,
             Self::MassDamping => &mut point.damping.mass_coefficient,
             Self::StiffnessDamping => &mut point.damping.stiffness_coefficient,
-        };
-        *place = value;
+        }
     }
 }
 

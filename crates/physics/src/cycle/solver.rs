@@ -39,32 +39,24 @@ const ORIGINS: [f64; 4] = [0.0, 0.5, 0.25, 0.75];
 /// Limit cycles of one family.
 #[derive(Clone, Debug)]
 pub struct CycleSolver {
-    family: Family,
-    onset: Onset,
-    body: WaveBody,
-    grid: PhaseGrid,
+    /// The family that it solves for.
+    pub family: Family,
+    /// Where its cycles are born.
+    pub onset: Onset,
+    /// The body.
+    pub body: WaveBody,
+    /// Its phases.
+    pub grid: PhaseGrid,
     /// The disc; its cycles have a damping of their own.
     pub(super) model: DiscModel,
 }
 
 impl CycleSolver {
-    /// As [`Self::of_family`], for the cycles that are born at the lowest critical friction of `harmonic`.
-    pub fn new(
-        specification: &AnnulusSpecification,
-        material: &ElasticMaterial,
-        damping: &RayleighDamping,
-        harmonic: usize,
-        points: Option<usize>,
-    ) -> Result<Self, CycleError> {
-        let family = Family::lowest(harmonic);
-        Self::of_family(specification, material, damping, family, points)
-    }
-
     /// As [`Self::born_at`], at the onset of `family` among the lowest modes, found for `damping`.
     ///
     /// # Errors
     /// As [`Self::born_at`]; [`CycleError::NoOnset`] where there is no such onset.
-    pub fn of_family(
+    pub fn new(
         specification: &AnnulusSpecification,
         material: &ElasticMaterial,
         damping: &RayleighDamping,
@@ -107,28 +99,8 @@ impl CycleSolver {
         Ok(Self { family, onset: *onset, body: body(grid.points / 2)?, grid, model: *model })
     }
 
-    /// The family that it solves for.
-    pub fn family(&self) -> Family {
-        self.family
-    }
-
-    /// The body.
-    pub fn body(&self) -> &WaveBody {
-        &self.body
-    }
-
-    /// Its phases.
-    pub fn grid(&self) -> PhaseGrid {
-        self.grid
-    }
-
     pub(super) fn wave(&self) -> Wave<'_> {
         Wave::new(&self.body, self.grid.landing_share)
-    }
-
-    /// Where its cycles are born.
-    pub fn onset(&self) -> &Onset {
-        &self.onset
     }
 
     /// The limit cycle at an operating point.
@@ -275,7 +247,7 @@ impl CycleSolver {
     ///
     /// The state of a contact node at angle `theta` is that of phase `n theta + omega t`.
     pub fn field(&self, cycle: &LimitCycle, time: f64) -> [Vec<f64>; 2] {
-        field(&self.wave(), &cycle.state, [self.body.harmonic(), 0], time)
+        field(&self.wave(), &cycle.state, [self.body.harmonic, 0], time)
     }
 
     /// Displacement of a limit cycle at time zero (m) and its velocity half a step earlier (m/s), over all dofs in nodal
@@ -300,8 +272,7 @@ struct Half<'a> {
 
 impl<'a> Half<'a> {
     fn new(branch: Branch<'a>, values: &'a Values, steps: usize) -> Self {
-        let turning =
-            Turning::new(branch.value(), branch.direction().signum(), branch.wave.points());
+        let turning = Turning::new(branch.value(), branch.direction.signum(), branch.wave.points());
         Self { branch, values, cycles: Vec::new(), turning, steps, highest: HIGHEST_FRICTION }
     }
 
@@ -328,7 +299,7 @@ impl<'a> Half<'a> {
                 return Some(BranchEnd::Unphysical);
             }
             self.cycles.push(cycle);
-            if self.values.end_at(value, self.branch.direction() > 0.0) {
+            if self.values.end_at(value, self.branch.direction > 0.0) {
                 return Some(BranchEnd::Range);
             }
         }

@@ -2,6 +2,7 @@
 
 use super::parameter::OperatingPoint;
 use crate::contact::ContactStatus;
+use crate::transient::StatusCounts;
 
 /// Contact state of one point of the wave.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -23,6 +24,16 @@ const POINT_STATES: [PointState; 4] =
 pub(super) const STATE_COLUMNS: usize = 4;
 
 impl PointState {
+    /// That of a point under a tangential force and a limit to it.
+    pub(super) fn of(is_open: bool, shear: f64, limit: f64) -> Self {
+        match () {
+            () if is_open => Self::Open,
+            () if shear > limit => Self::SlipForward,
+            () if shear < -limit => Self::SlipBackward,
+            () => Self::Stick,
+        }
+    }
+
     /// `T / (mu N)` where it is fixed: +1 or -1 in slip, else 0.
     pub fn drag(self) -> f64 {
         match self {
@@ -215,10 +226,8 @@ impl WaveState {
 
     /// Fractions of points that stick, slip, and are open.
     pub fn fractions(&self) -> [f64; 3] {
-        let share = |status: ContactStatus| {
-            let count = self.contact.iter().filter(|state| state.status() == status);
-            count.count() as f64 / self.contact.len() as f64
-        };
-        [ContactStatus::Stick, ContactStatus::Slip, ContactStatus::Open].map(share)
+        let mut counts = StatusCounts::default();
+        self.contact.iter().for_each(|state| counts += state.status());
+        counts.fractions()
     }
 }

@@ -3,6 +3,7 @@
 
 use super::field::start_of;
 use super::limit_cycle::{CyclePowers, LimitCycle};
+use super::state::PointState;
 use super::{CycleError, CycleSolver};
 use crate::contact::ContactStatus;
 use crate::fem::RayleighDamping;
@@ -12,8 +13,8 @@ use crate::fem::operator::{
 use crate::linalg::interruption;
 use crate::mesh::AnnulusMesh;
 use crate::transient::{
-    CentralDifference, InitialState, OperatorChoice, Perturbation, SAFETY, TimeStep,
-    TransientModel, TransientSettings, stable_step_limit,
+    CentralDifference, OperatorChoice, Perturbation, SAFETY, TimeStep, TransientModel,
+    TransientSettings, stable_step_limit,
 };
 use std::f64::consts::TAU;
 
@@ -29,15 +30,6 @@ pub struct MeshStepping<'a> {
     largest_frequency: f64,
 }
 
-/// Contact of one node during one step.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum NodeContact {
-    Open,
-    Stick,
-    /// Slip with `T / N` of this sign.
-    Slip(f64),
-}
-
 /// One period of a transient on a limit cycle, and the linear map that its contact makes of perturbations.
 ///
 /// The statuses of all nodes at all steps are those of the cycle; a perturbation then moves by the explicit step itself,
@@ -51,7 +43,7 @@ pub struct Period<'a> {
     /// Places of the normal and tangential dof of each contact node.
     places: Vec<[usize; 2]>,
     /// Contact of each node, step after step.
-    contact: Vec<NodeContact>,
+    contact: Vec<PointState>,
     /// Places of the moving dofs, with the root of their mass.
     dofs: Vec<(usize, f64)>,
     /// Harmonic of the wave in the phase `n theta + omega t`.
@@ -110,19 +102,11 @@ impl MeshStepping<'_> {
             point.damping,
             point.contact,
         );
-        let settings = TransientSettings {
-            duration,
-            time_step: TimeStep::Seconds(time_step),
-            sample_interval: duration,
-            expansion_time: 0.0,
-            initial: InitialState::LimitCycle {
-                harmonic: cycle.harmonic,
-                onset: self.solver.family().onset,
-            },
-            perturbation: seed.map_or_else(Perturbation::default, |(harmonic, velocity)| {
-                Perturbation::of(&[harmonic], velocity)
-            }),
-        };
+        let mut settings =
+            TransientSettings::sliding(duration, TimeStep::Seconds(time_step), duration);
+        if let Some((harmonic, velocity)) = seed {
+            settings.perturbation = Perturbation::of(&[harmonic], velocity);
+        }
         let [displacement, velocity] = start_of(field, time_step);
         let operator = self.operator.as_ref();
         let run =
@@ -156,7 +140,7 @@ impl MeshStepping<'_> {
             places: (0..law.status.len()).map(|i| law.places(i)).collect(),
             contact: Vec::with_capacity(steps * law.status.len()),
             dofs: moving.map(|k| (k, masses[k].sqrt())).collect(),
-            harmonic: self.solver.body().harmonic(),
+            harmonic: self.solver.body.harmonic,
             duration,
             powers: CyclePowers::default(),
             fractions: [0.0; 3],
@@ -169,9 +153,10 @@ impl MeshStepping<'_> {
             let law = run.contact();
             let nodes = law.status.iter().zip(&law.tangential_force);
             period.contact.extend(nodes.map(|(status, force)| match status {
-                ContactStatus::Open => NodeContact::Open,
-                ContactStatus::Stick => NodeContact::Stick,
-                ContactStatus::Slip => NodeContact::Slip(force.signum()),
+                ContactStatus::Open => PointState::Open,
+                ContactStatus::Stick => PointState::Stick,
+                ContactStatus::Slip if force.is_sign_negative() => PointState::SlipBackward,
+                ContactStatus::Slip => PointState::SlipForward,
             }));
         }
         let (contact, material_damping, counts) = run.take_sums();
@@ -257,7 +242,7 @@ impl Period<'_> {
     }
 
     /// Adds the change of the contact forces to the elastic accelerations of the coming step.
-    fn push(&self, fields: &mut MotionFields, contact: &[NodeContact], before: &mut [[f64; 2]]) {
+    fn push(&self, fields: &mut MotionFields, contact: &[PointState], before: &mut [[f64; 2]]) {
         let StepCoefficients {
             time_step: dt,
             mass_coefficient: alpha,
@@ -267,7 +252,7 @@ impl Period<'_> {
             let [n, t] = self.places[i];
             let [q_n, q_t] = [fields.elastic[n], fields.elastic[t]];
             before[i] = [q_n, q_t];
-            if state == NodeContact::Open {
+            if state == PointState::Open {
                 continue;
             }
             // dN / m so that du_n = 0 after the step.
@@ -276,13 +261,12 @@ impl Period<'_> {
             let normal = -(fields.displacement[n] + dt * trial_n) / (dt * dt);
             let tangential = match state {
                 // dT / m so that dv_t = 0 after the step.
-                NodeContact::Stick => {
+                PointState::Stick => {
                     let v_t = fields.velocity[t];
                     let trial_t = v_t - dt * (q_t + (alpha * v_t + beta * fields.elastic_rate[t]));
                     -trial_t / dt
                 }
-                NodeContact::Slip(sign) => sign * self.friction_coefficient * normal,
-                NodeContact::Open => 0.0,
+                slip => slip.drag() * self.friction_coefficient * normal,
             };
             fields.elastic[n] = q_n - normal;
             fields.elastic[t] = q_t - tangential;
@@ -290,10 +274,10 @@ impl Period<'_> {
     }
 
     /// Takes them out again after the step.
-    fn release(&self, fields: &mut MotionFields, contact: &[NodeContact], before: &[[f64; 2]]) {
+    fn release(&self, fields: &mut MotionFields, contact: &[PointState], before: &[[f64; 2]]) {
         let dt = self.coefficients.time_step;
         for (i, &state) in contact.iter().enumerate() {
-            if state != NodeContact::Open {
+            if state != PointState::Open {
                 for (&place, elastic) in self.places[i].iter().zip(before[i]) {
                     fields.elastic[place] = elastic + dt * fields.elastic_rate[place];
                 }

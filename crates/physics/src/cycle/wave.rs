@@ -173,17 +173,6 @@ impl<'a> Wave<'a> {
         self.transform(&mut spectrum, &self.inverse);
         spectrum.into_iter().map(|value| value.re).collect()
     }
-
-    /// Displacement of every free node outwards at harmonic `k` for that of the edge.
-    pub fn profile(
-        &self,
-        k: usize,
-        rate: c64,
-        damping: &RayleighDamping,
-        edge: [c64; 2],
-    ) -> Vec<[c64; 2]> {
-        self.body.profile(k, DynamicCoefficients::new(rate, damping), edge)
-    }
 }
 
 /// What ties one phase down: the first harmonic along it of the tangential displacement of the edge, turned back by the state's

@@ -2,7 +2,7 @@
 
 use super::map::{PeriodImage, PeriodMap, PeriodicState};
 use super::search::{ACCEPTED, Found};
-use super::secants::{Change, SecantSpace};
+use super::secants::{Change, NEW_ALONG, SecantSpace};
 use crate::cycle::CycleError;
 use crate::cycle::vector::{add, difference, norm};
 use crate::transient::TransientError;
@@ -157,7 +157,8 @@ struct Iterate {
 impl<'b, 'a> Corrector<'b, 'a> {
     /// One that knows nothing yet.
     pub fn new(map: PeriodMap<'a>, tune: Tune<'b, 'a>, scales: Place) -> Self {
-        Self { secants: SecantSpace::along_branch(map.unknowns()), map, tune, scales, weight: 1.0 }
+        let secants = SecantSpace::new(map.unknowns(), NEW_ALONG);
+        Self { map, tune, scales, secants, weight: 1.0 }
     }
 
     /// Forgets what is known of the map.

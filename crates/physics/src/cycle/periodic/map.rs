@@ -5,8 +5,8 @@ use crate::cycle::vector::{add, difference, dot, norm};
 use crate::fem::operator::{StiffnessOperator, scatter};
 use crate::linalg::interruption;
 use crate::transient::{
-    CentralDifference, ContactPowers, InitialState, Perturbation, SAFETY, StatusCounts, TimeStep,
-    TransientError, TransientModel, TransientSettings,
+    CentralDifference, ContactPowers, SAFETY, StatusCounts, TimeStep, TransientError,
+    TransientModel, TransientSettings,
 };
 
 /// Share of the longest step that a period begins with: it may grow by the rest before it takes another number of steps.
@@ -96,14 +96,7 @@ impl<'a> PeriodMap<'a> {
         longest_step: Option<f64>,
     ) -> Result<Self, TransientError> {
         let period = std::f64::consts::TAU / frequency;
-        let settings = TransientSettings {
-            duration: 2.0 * period,
-            time_step: TimeStep::Auto,
-            sample_interval: period,
-            expansion_time: 0.0,
-            initial: InitialState::SteadySliding,
-            perturbation: Perturbation::default(),
-        };
+        let settings = TransientSettings::sliding(2.0 * period, TimeStep::Auto, period);
         let still = vec![0.0; operator.dof_count()];
         let run = CentralDifference::start_from(model, operator, &settings, &still, still.clone())?;
         let masses = operator.masses();

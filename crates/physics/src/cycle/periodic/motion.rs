@@ -6,6 +6,7 @@ use super::spectrum::{MotionHarmonic, harmonics};
 use crate::contact::ContactStatus;
 use crate::cycle::CyclePowers;
 use crate::fem::operator::gather;
+use crate::transient::StatusCounts;
 
 /// Share of the motion that the harmonics in which it is told may leave, where nobody says how many.
 pub const REMAINDER: f64 = 1e-3;
@@ -139,7 +140,7 @@ impl PeriodicMotion {
     fn record(&mut self, map: &mut PeriodMap<'_>, from: &PeriodicState, request: MotionRequest) {
         map.place(from);
         let (steps, nodes) = (map.steps(), map.interface().len());
-        let mut counts = vec![[0_usize; 3]; nodes];
+        let mut counts = vec![StatusCounts::default(); nodes];
         for step in 0..steps {
             let time = step as f64 * from.period / steps as f64;
             let before = contact_motion(map);
@@ -149,7 +150,7 @@ impl PeriodicMotion {
             });
             map.run.advance();
             for (count, status) in counts.iter_mut().zip(&map.run.contact().status) {
-                count[place_of(*status)] += 1;
+                *count += *status;
             }
             if let Some([displacement, earlier]) = fields {
                 let later = gather(map.run.operator(), &map.run.fields().velocity);
@@ -164,14 +165,7 @@ impl PeriodicMotion {
                 self.instants.push(instant(map, time, &before));
             }
         }
-        let share = |count: [usize; 3]| count.map(|count| count as f64 / steps as f64);
-        self.shares = counts.into_iter().map(share).collect();
-    }
-
-    /// Level of [`Self::velocity`] over 5e-8 m/s, dB. The reference is that of airborne sound: a square metre that moves with it
-    /// like a piston much larger than the wave in air radiates 1e-12 W.
-    pub fn velocity_level(&self) -> f64 {
-        velocity_level(self.velocity)
+        self.shares = counts.iter().map(StatusCounts::fractions).collect();
     }
 
     /// How many harmonics leave no more than `remainder` of the vibration.
@@ -194,7 +188,8 @@ impl PeriodicMotion {
     }
 }
 
-/// Level of a velocity (m/s) over [`REFERENCE_VELOCITY`], dB.
+/// Level of a velocity (m/s) over [`REFERENCE_VELOCITY`], dB. The reference is that of airborne sound: a square metre that moves
+/// with it like a piston much larger than the wave in air radiates 1e-12 W.
 pub fn velocity_level(velocity: f64) -> f64 {
     20.0 * (velocity / REFERENCE_VELOCITY).log10()
 }
@@ -204,14 +199,6 @@ fn is_one_of(step: usize, steps: usize, count: usize) -> bool {
     let count = count.min(steps);
     let place = (step * count).div_ceil(steps);
     count > 0 && place * steps / count == step
-}
-
-fn place_of(status: ContactStatus) -> usize {
-    match status {
-        ContactStatus::Stick => 0,
-        ContactStatus::Slip => 1,
-        ContactStatus::Open => 2,
-    }
 }
 
 /// Displacement and velocity of the contact nodes that the time loop is in.

@@ -1,7 +1,7 @@
 //! The search for a periodic motion.
 
 use super::map::{PeriodImage, PeriodMap, PeriodicState};
-use super::secants::{Change, SecantSpace};
+use super::secants::{Change, NEW, SecantSpace};
 use crate::cycle::CycleError;
 use crate::cycle::vector::{add, difference, norm};
 
@@ -136,7 +136,7 @@ fn attempt(
     let mut search = Search {
         spent: 0,
         first_period: start.period,
-        secants: SecantSpace::new(map.unknowns()),
+        secants: SecantSpace::new(map.unknowns(), NEW),
         state: start,
         last: None,
         best: None,

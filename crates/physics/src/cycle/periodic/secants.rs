@@ -4,9 +4,9 @@ use crate::cycle::vector::{add, dot, norm};
 use std::collections::VecDeque;
 
 /// Share of a difference that must lie beyond later ones, lest it says nothing new.
-const NEW: f64 = 1e-6;
-/// The same on a branch.
-const NEW_ALONG: f64 = 0.05;
+pub const NEW: f64 = 1e-6;
+/// The same where differences come from several points of a branch, between which the map bends.
+pub const NEW_ALONG: f64 = 0.05;
 /// Fewest and most differences kept, and numbers that all their motions may have.
 const DEPTHS: [usize; 2] = [24, 100];
 const NUMBERS: usize = 16_000_000;
@@ -55,18 +55,8 @@ pub struct SecantSpace {
 }
 
 impl SecantSpace {
-    /// An empty space for so many unknowns.
-    pub fn new(unknowns: usize) -> Self {
-        Self::with_least(unknowns, NEW)
-    }
-
-    /// One whose differences come from several points of a branch, between which the map bends: those that say little new
-    /// beside later ones are left out.
-    pub fn along_branch(unknowns: usize) -> Self {
-        Self::with_least(unknowns, NEW_ALONG)
-    }
-
-    fn with_least(unknowns: usize, least: f64) -> Self {
+    /// An empty space for so many unknowns; differences of which less than a share `least` is new beside later ones are left out.
+    pub fn new(unknowns: usize, least: f64) -> Self {
         let [fewest, most] = DEPTHS;
         Self {
             depth: (NUMBERS / unknowns.max(1)).clamp(fewest, most),
@@ -214,7 +204,7 @@ mod tests {
             (0..n).map(|i| own(i) + (period - 2.0) * shift[i]).collect()
         };
         let (mut x, mut period) = (vec![0.0; n], 1.9);
-        let mut space = SecantSpace::new(n);
+        let mut space = SecantSpace::new(n, NEW);
         let mut last: Option<(Vec<f64>, f64, Vec<f64>)> = None;
         for _ in 0..n + 4 {
             let r = residual(&x, period);

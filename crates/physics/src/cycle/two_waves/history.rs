@@ -152,7 +152,7 @@ impl History {
         measured: &Measured,
         point: &OperatingPoint,
     ) -> WaveState {
-        let sides = waves.sides();
+        let sides = waves.sides;
         let points = sides[0] * sides[1];
         let (mut sums, mut counts) = ([vec![0.0; points], vec![0.0; points]], vec![0.0; points]);
         for (look, forces) in self.forces.iter().enumerate() {
@@ -181,12 +181,7 @@ impl History {
         let scale = normal.iter().sum::<f64>() / points as f64;
         let contact = normal.iter().zip(&tangential).map(|(normal, shear)| {
             let limit = DRAGGED * point.contact.friction_coefficient * normal;
-            match () {
-                () if *normal < OPEN * scale => PointState::Open,
-                () if *shear > limit => PointState::SlipForward,
-                () if *shear < -limit => PointState::SlipBackward,
-                () => PointState::Stick,
-            }
+            PointState::of(*normal < OPEN * scale, *shear, limit)
         });
         let contact = contact.collect();
         WaveState {

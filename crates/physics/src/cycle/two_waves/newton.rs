@@ -27,7 +27,8 @@ const SHARES: [f64; 4] = [1.0, 0.5, 0.2, 0.05];
 /// Two rotating waves of a disc on a grid of both phases.
 pub struct TwoWaves {
     body: WaveBody,
-    sides: [usize; 2],
+    /// Points along both phases.
+    pub sides: [usize; 2],
     landing_share: f64,
     ratio: f64,
     /// `n_1, n_2`, negative for a wave with the rotor.
@@ -66,11 +67,6 @@ impl TwoWaves {
             sides,
             harmonics,
         })
-    }
-
-    /// Points along both phases.
-    pub fn sides(&self) -> [usize; 2] {
-        self.sides
     }
 
     pub(in super::super) fn wave(&self) -> Wave<'_> {
@@ -158,15 +154,7 @@ impl Iterate {
             let limit = friction * normal;
             sum += (state.normal[i] - normal).powi(2);
             sum += (state.tangential[i] - shear.clamp(-limit, limit)).powi(2);
-            if normal <= 0.0 {
-                PointState::Open
-            } else if shear > limit {
-                PointState::SlipForward
-            } else if shear < -limit {
-                PointState::SlipBackward
-            } else {
-                PointState::Stick
-            }
+            PointState::of(normal <= 0.0, shear, limit)
         });
         let contact = contact.collect();
         let mut iterate = Self { state, contact, missed: 0.0 };

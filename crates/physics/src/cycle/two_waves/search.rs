@@ -84,7 +84,7 @@ impl MeshStepping<'_> {
         side: Option<usize>,
         watch: &dyn SweepWatch,
     ) -> Result<TwoWaveSearch, NoTwoWaves> {
-        let harmonics = [self.solver.body().harmonic(), second];
+        let harmonics = [self.solver.body.harmonic, second];
         let grid = |settled: &Measured| {
             TwoWaves::new(&self.solver.model, harmonics, settled.frequencies, side)
         };
@@ -127,7 +127,7 @@ impl MeshStepping<'_> {
         harmonics: [isize; 2],
     ) -> Result<(Measured, History), NoTwoWaves> {
         let (point, other) = (&cycle.state.point, harmonics[1].unsigned_abs());
-        let surface_speed = point.contact.rotation_speed * self.solver.body().radius;
+        let surface_speed = point.contact.rotation_speed * self.solver.body.radius;
         let (mut run, steps) = self.start(cycle, Some((other, SEED * surface_speed)))?;
         let [window, last] = WINDOWS;
         let (mut before, mut is_constant) = (f64::NAN, false);
