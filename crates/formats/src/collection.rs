@@ -44,8 +44,8 @@ impl CollectedElement {
 }
 
 /// Corners of a face in ascending order.
-fn key(face: &SurfaceFace) -> Vec<u32> {
-    let mut corners = face.1[..face.0.corner_count()].to_vec();
+pub(super) fn corners_of((kind, nodes): &SurfaceFace) -> Vec<u32> {
+    let mut corners = nodes[..kind.corner_count()].to_vec();
     corners.sort_unstable();
     corners
 }
@@ -53,8 +53,12 @@ fn key(face: &SurfaceFace) -> Vec<u32> {
 impl Collection {
     /// 3 where there are solid elements, else 2.
     pub fn dimension(&self) -> usize {
-        let dimensions = self.elements.iter().map(|e| e.kind.dimension());
-        dimensions.max().unwrap_or(2)
+        self.elements.iter().map(|e| e.kind.dimension()).max().unwrap_or(2)
+    }
+
+    /// Nodes of elements.
+    pub fn used_nodes(&self) -> BTreeSet<u32> {
+        self.elements.iter().flat_map(|element| element.nodes.iter().copied()).collect()
     }
 
     /// Faces that belong to one of the elements `among` alone: all elements where it is empty.
@@ -62,11 +66,11 @@ impl Collection {
         let mut faces: HashMap<Vec<u32>, (usize, SurfaceFace)> = HashMap::new();
         let all = self.elements.iter().flat_map(CollectedElement::faces);
         for (order, face) in all.enumerate() {
-            let known = faces.entry(key(&face)).and_modify(|known| known.0 = usize::MAX);
+            let known = faces.entry(corners_of(&face)).and_modify(|known| known.0 = usize::MAX);
             known.or_insert((order, face));
         }
         let own = among.iter().flat_map(|&element| self.elements[element].faces());
-        let own: BTreeSet<Vec<u32>> = own.map(|face| key(&face)).collect();
+        let own: BTreeSet<Vec<u32>> = own.map(|face| corners_of(&face)).collect();
         let mut free: Vec<(usize, SurfaceFace)> = faces
             .into_iter()
             .filter(|(key, (order, _))| {
@@ -85,8 +89,7 @@ impl Collection {
         let mut node_sets = BTreeMap::new();
         for (name, nodes) in std::mem::take(&mut self.node_sets) {
             let set: BTreeSet<u32> = nodes.iter().copied().collect();
-            let faces = outer.iter();
-            let faces = faces.filter(|face| face.1.iter().all(|node| set.contains(node)));
+            let faces = outer.iter().filter(|face| face.1.iter().all(|node| set.contains(node)));
             let faces: Vec<SurfaceFace> = faces.cloned().collect();
             let covered: BTreeSet<u32> = faces.iter().flat_map(|f| f.1.iter().copied()).collect();
             match covered.len() == set.len() && !set.is_empty() {

@@ -1,7 +1,7 @@
 //! Lines of a text file with their places, the files that it includes among them.
 
 use super::file_mesh::MeshFileError;
-use frictionsim_bounds::{Budget, MESH, MESSAGE, Refusal, shortened};
+use frictionsim_bounds::{Budget, MESH, MESSAGE, shortened};
 
 /// What marks the begin and the end of included text, behind the sign of a comment.
 const BEGIN: &str = " >>> included: ";
@@ -40,7 +40,10 @@ impl<'a> Deck<'a> {
         let is_kept = |line: &&str| keeps_empty || !line.trim().is_empty();
         let mut budget = Budget::new(MESH);
         let count = text.lines().filter(is_kept).count();
-        budget.take_members(count).map_err(|refusal| too_much(&refusal))?;
+        budget.take_members(count).map_err(|refusal| MeshFileError {
+            place: "the whole file".to_owned(),
+            message: refusal.to_string(),
+        })?;
         let mut deck = Self { lines: Vec::with_capacity(count), names: vec![""], budget };
         let mut stack = Vec::new();
         let mut place = Place { file: 0, line: 0 };
@@ -100,11 +103,6 @@ macro_rules! fault {
 /// Returns such an error.
 macro_rules! refuse {
     ($($fault:tt)+) => { return Err(fault!($($fault)+)) };
-}
-
-/// An error of a file that holds more than is read.
-pub(super) fn too_much(refusal: &Refusal) -> MeshFileError {
-    MeshFileError { place: "the whole file".to_owned(), message: refusal.to_string() }
 }
 
 /// A number as programs in Fortran write it, `1.0D+3` included; finite.

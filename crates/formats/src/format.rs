@@ -53,8 +53,7 @@ impl MeshFormat {
         if nastran.iter().any(|begin| first.starts_with(begin)) {
             return Self::Nastran;
         }
-        let extension = name.rsplit_once('.').map_or("", |(_, extension)| extension);
-        let extension = extension.to_lowercase();
+        let extension = name.rsplit_once('.').map_or("", |(_, extension)| extension).to_lowercase();
         let known = EXTENSIONS.iter().find(|known| known.0 == extension);
         known.map_or(Self::Gmsh, |known| known.1)
     }

@@ -47,7 +47,8 @@ impl MarketMatrix {
             false => "rows and columns",
         };
         let (at, size) = lines.next().unwrap_or((text.lines().count(), ""));
-        let whole = whole_numbers(size).filter(|n| n.len() == 2 + usize::from(is_coordinate));
+        let whole: Option<Vec<usize>> = size.split_whitespace().map(|n| n.parse().ok()).collect();
+        let whole = whole.filter(|n| n.len() == 2 + usize::from(is_coordinate));
         let Some(whole) = whole else {
             return Err(wrong_line(at, size, expected));
         };
@@ -153,24 +154,16 @@ impl MarketMatrix {
     pub fn compressed_rows(&self) -> (Vec<usize>, Vec<usize>, Vec<f64>) {
         let mut sorted = self.entries.clone();
         sorted.sort_by_key(|&(row, column, _)| (row, column));
-        let (mut pointers, mut columns, mut values) = (vec![0], Vec::new(), Vec::<f64>::new());
-        for row in 0..self.rows {
-            let start = columns.len();
-            let first = sorted.partition_point(|entry| entry.0 < row);
-            for &(_, column, value) in sorted[first..].iter().take_while(|entry| entry.0 == row) {
-                match columns[start..].last() {
-                    Some(&last) if last == column => {
-                        let place = values.len() - 1;
-                        values[place] += value;
-                    }
-                    _ => {
-                        columns.push(column);
-                        values.push(value);
-                    }
-                }
+        sorted.dedup_by(|next, sum| {
+            let is_same = (next.0, next.1) == (sum.0, sum.1);
+            if is_same {
+                sum.2 += next.2;
             }
-            pointers.push(columns.len());
-        }
+            is_same
+        });
+        let first = |row: usize| sorted.partition_point(|entry| entry.0 < row);
+        let pointers = (0..=self.rows).map(first).collect();
+        let (columns, values) = sorted.iter().map(|entry| (entry.1, entry.2)).unzip();
         (pointers, columns, values)
     }
 }
@@ -204,10 +197,6 @@ fn read_banner(banner: &str) -> Result<(bool, Symmetry), MatrixMarketError> {
         "real" | "double" | "integer" => Ok((is_coordinate, symmetry)),
         _ => Err(wrong()),
     }
-}
-
-fn whole_numbers(text: &str) -> Option<Vec<usize>> {
-    text.split_whitespace().map(|word| word.parse().ok()).collect()
 }
 
 fn wrong_line(line: usize, found: &str, expected: &'static str) -> MatrixMarketError {

@@ -4,6 +4,7 @@
 //! Values are in the units of the file, whatever those are.
 
 use frictionsim_bounds::shortened;
+use nalgebra::Matrix3;
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
 
@@ -33,7 +34,7 @@ pub struct ModelData {
 }
 
 /// The material of a region.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct FileMaterial {
     /// The region.
     pub region: String,
@@ -74,6 +75,21 @@ pub enum FileElasticity {
         /// Their directions.
         axes: MaterialAxes,
     },
+}
+
+impl FileElasticity {
+    /// Engineering constants of the stiffness over the normal strains; `None` of a singular one.
+    pub(super) fn of_stiffness(
+        normal: Matrix3<f64>,
+        shear_moduli: [f64; 3],
+        axes: MaterialAxes,
+    ) -> Option<Self> {
+        let compliance = normal.try_inverse()?;
+        let young_moduli = [0, 1, 2].map(|i| 1.0 / compliance[(i, i)]);
+        let ratio = |(i, j)| -compliance[(j, i)] * young_moduli[i];
+        let poisson_ratios = [(0, 1), (0, 2), (1, 2)].map(ratio);
+        Some(Self::Orthotropic { young_moduli, poisson_ratios, shear_moduli, axes })
+    }
 }
 
 /// Directions of the axes of an orthotropic material.
@@ -173,17 +189,14 @@ pub struct LeftOut {
 const LONGEST_KEYWORD: usize = 100;
 
 impl ModelData {
-    /// Notes that something is not used; what is left out for the same reason is counted together.
-    pub(super) fn leave_out(&mut self, keyword: &str, place: impl Fn() -> String, reason: &str) {
-        self.list(keyword, place, reason, false);
-    }
-
-    /// As [`Self::leave_out`], of what would hold, load or join parts.
-    pub(super) fn lose_part(&mut self, keyword: &str, place: impl Fn() -> String, reason: &str) {
-        self.list(keyword, place, reason, true);
-    }
-
-    fn list(&mut self, keyword: &str, place: impl Fn() -> String, reason: &str, is_part: bool) {
+    /// Notes that something is not used, `is_part` of what would hold, load or join parts; what is left out for the same reason is
+    /// counted together.
+    pub(super) fn leave_out(
+        &mut self,
+        keyword: &str,
+        place: impl Fn() -> String,
+        (reason, is_part): (&str, bool),
+    ) {
         let keyword = shortened(keyword, LONGEST_KEYWORD);
         let known = self.listed.entry((keyword.clone(), reason.to_owned()));
         match known {

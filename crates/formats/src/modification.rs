@@ -12,8 +12,8 @@ impl FileMesh {
 
     /// The file without some elements, and without the edges and faces of its curves and surfaces that bounded these alone.
     pub fn without(&self, is_removed: impl Fn(&FileElement) -> bool) -> Self {
-        let kept = self.elements.iter().filter(|element| !is_removed(element));
-        let elements: Vec<FileElement> = kept.cloned().collect();
+        let others = self.elements.iter().filter(|element| !is_removed(element));
+        let elements: Vec<FileElement> = others.cloned().collect();
         let mut elements_of: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
         for (e, element) in elements.iter().enumerate() {
             for &node in &element.nodes {
@@ -25,22 +25,10 @@ impl FileMesh {
             let mut around = around.map(|&e| &elements[e].nodes);
             around.any(|own| nodes.iter().all(|node| own.contains(node)))
         };
-        let curves = self.curves.iter().map(|(name, edges)| {
-            let edges = edges.iter().filter(|edge| has_element(&[edge.0, edge.1]));
-            (name.clone(), edges.copied().collect::<Vec<CurveEdge>>())
-        });
-        let surfaces = self.surfaces.iter().map(|(name, faces)| {
-            let faces = faces.iter().filter(|(_, nodes)| has_element(nodes));
-            (name.clone(), faces.cloned().collect::<Vec<_>>())
-        });
-        let node_sets = self.node_sets.iter().map(|(name, nodes)| {
-            let nodes = nodes.iter().filter(|&node| elements_of.contains_key(node));
-            (name.clone(), nodes.copied().collect::<Vec<u32>>())
-        });
         Self {
-            curves: curves.filter(|(_, edges)| !edges.is_empty()).collect(),
-            surfaces: surfaces.filter(|(_, faces)| !faces.is_empty()).collect(),
-            node_sets: node_sets.filter(|(_, nodes)| !nodes.is_empty()).collect(),
+            curves: kept(&self.curves, |edge| has_element(&[edge.0, edge.1])),
+            surfaces: kept(&self.surfaces, |(_, nodes)| has_element(nodes)),
+            node_sets: kept(&self.node_sets, |node| elements_of.contains_key(node)),
             elements,
             symmetry: None,
             ..self.clone()
@@ -51,8 +39,7 @@ impl FileMesh {
     /// follow in the ratio of their distances from both. `None` where it has no such curve or no other one.
     pub fn with_curve_moved(&self, name: &str, [dx, dy]: [f64; 2]) -> Option<Self> {
         let nodes_of = |edges: &[CurveEdge]| -> BTreeSet<u32> {
-            let ends = edges.iter().flat_map(|edge| [Some(edge.0), Some(edge.1), edge.2]);
-            ends.flatten().collect()
+            edges.iter().flat_map(|edge| [Some(edge.0), Some(edge.1), edge.2]).flatten().collect()
         };
         let moved = nodes_of(self.curves.get(name)?);
         let others = self.curves.iter().filter(|(other, _)| *other != name);
@@ -61,8 +48,7 @@ impl FileMesh {
             return None;
         }
         let nearest = |point: [f64; 3], nodes: &BTreeSet<u32>| {
-            let away = nodes.iter();
-            let away = away.map(|&node| distance(point, self.points[node as usize]));
+            let away = nodes.iter().map(|&node| distance(point, self.points[node as usize]));
             away.fold(f64::INFINITY, f64::min)
         };
         let place = |&point: &[f64; 3]| {
@@ -78,11 +64,22 @@ impl FileMesh {
     }
 }
 
+/// What has a name without some of its items; without its name where none is left.
+fn kept<T: Clone>(
+    named: &BTreeMap<String, Vec<T>>,
+    is_kept: impl Fn(&T) -> bool,
+) -> BTreeMap<String, Vec<T>> {
+    let named = named.iter().map(|(name, items)| {
+        let own: Vec<T> = items.iter().filter(|item| is_kept(item)).cloned().collect();
+        (name.clone(), own)
+    });
+    named.filter(|(_, own)| !own.is_empty()).collect()
+}
+
 /// Mean of some points.
 fn middle(points: impl ExactSizeIterator<Item = [f64; 3]>) -> [f64; 3] {
     let count = points.len() as f64;
-    let sum = points.fold([0.0; 3], |sum, p| [0, 1, 2].map(|k| sum[k] + p[k]));
-    sum.map(|x| x / count)
+    points.fold([0.0; 3], |sum, p| [0, 1, 2].map(|k| sum[k] + p[k])).map(|x| x / count)
 }
 
 fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {

@@ -4,8 +4,8 @@ use crate::deck::{Deck, Place, quoted, real};
 use crate::file_mesh::MeshFileError;
 
 /// A keyword with its parameters and its data.
-#[derive(Debug)]
 pub(super) struct Block<'a> {
+    pub deck: &'a Deck<'a>,
     /// In capitals, single blanks between words.
     pub keyword: String,
     /// Names in capitals; values as written, without quotes, empty where there is none.
@@ -17,8 +17,7 @@ pub(super) struct Block<'a> {
 impl Block<'_> {
     /// The value of a parameter.
     pub fn parameter(&self, name: &str) -> Option<&str> {
-        let found = self.parameters.iter().find(|(known, _)| known == name);
-        found.map(|(_, value)| value.as_str())
+        self.parameters.iter().find(|(known, _)| known == name).map(|(_, value)| value.as_str())
     }
 
     /// Whether a parameter is given.
@@ -31,54 +30,45 @@ impl Block<'_> {
         self.parameter(name).is_some_and(|known| known.eq_ignore_ascii_case(value))
     }
 
+    /// An error at its keyword.
+    pub fn error(&self, message: impl Into<String>) -> MeshFileError {
+        self.deck.error(self.place, message)
+    }
+
     /// The value of a parameter that must be there.
-    pub fn required(&self, deck: &Deck<'_>, name: &str) -> Result<&str, MeshFileError> {
+    pub fn required(&self, name: &str) -> Result<&str, MeshFileError> {
         let found = self.parameter(name).filter(|value| !value.is_empty());
-        found.ok_or_else(|| {
-            let keyword = &self.keyword;
-            deck.error(self.place, format!("*{keyword} needs {name}="))
-        })
+        found.ok_or_else(|| fault!(self; "*{} needs {name}=", self.keyword))
     }
 
     /// The numbers of all data lines; empty fields are 0.
-    pub fn numbers(&self, deck: &Deck<'_>) -> Result<Vec<f64>, MeshFileError> {
-        let mut numbers = Vec::new();
-        for &(place, line) in &self.data {
-            numbers.extend(line_numbers(deck, place, line, &self.keyword)?);
-        }
-        Ok(numbers)
+    pub fn numbers(&self) -> Result<Vec<f64>, MeshFileError> {
+        self.numbers_of(self.data.len())
     }
 
     /// The numbers of the first data line.
-    pub fn first_numbers(&self, deck: &Deck<'_>) -> Result<Vec<f64>, MeshFileError> {
-        match self.data.first() {
-            Some(&(place, line)) => line_numbers(deck, place, line, &self.keyword),
-            None => Ok(Vec::new()),
-        }
+    pub fn first_numbers(&self) -> Result<Vec<f64>, MeshFileError> {
+        self.numbers_of(1)
     }
-}
 
-fn line_numbers(
-    deck: &Deck<'_>,
-    place: Place,
-    line: &str,
-    keyword: &str,
-) -> Result<Vec<f64>, MeshFileError> {
-    let parsed = fields(line).map(|field| match field {
-        "" => Ok(0.0),
-        field => real(field).ok_or_else(|| {
-            fault!(deck, place;
-            "a number of *{keyword} expected, found {}", quoted(field))
-        }),
-    });
-    parsed.collect()
+    fn numbers_of(&self, lines: usize) -> Result<Vec<f64>, MeshFileError> {
+        let lines = self.data.iter().take(lines);
+        let all = lines.flat_map(|&(place, line)| fields(line).map(move |field| (place, field)));
+        let numbers = all.map(|(place, field)| match field {
+            "" => Ok(0.0),
+            field => real(field).ok_or_else(|| {
+                let found = quoted(field);
+                fault!(self.deck, place; "a number of *{} expected, found {found}", self.keyword)
+            }),
+        });
+        numbers.collect()
+    }
 }
 
 /// Fields of a data line; a comma at its end begins none.
 pub(super) fn fields(line: &str) -> impl Iterator<Item = &str> {
     let line = line.trim_end();
-    let line = line.strip_suffix(',').unwrap_or(line);
-    line.split(',').map(str::trim)
+    line.strip_suffix(',').unwrap_or(line).split(',').map(str::trim)
 }
 
 /// A name without its quotes.
@@ -97,7 +87,7 @@ fn parts(line: &str) -> Vec<&str> {
 }
 
 /// All keywords of an input file.
-pub(super) fn blocks<'a>(deck: &Deck<'a>) -> Result<Vec<Block<'a>>, MeshFileError> {
+pub(super) fn blocks<'a>(deck: &'a Deck<'a>) -> Result<Vec<Block<'a>>, MeshFileError> {
     let mut blocks: Vec<Block<'a>> = Vec::new();
     let is_comment = |line: &str| line.starts_with("**");
     let lines = deck.lines.iter();
@@ -118,13 +108,13 @@ pub(super) fn blocks<'a>(deck: &Deck<'a>) -> Result<Vec<Block<'a>>, MeshFileErro
             head.push_str(more.trim());
         }
         let mut words = parts(&head).into_iter();
-        let keyword = words.next().unwrap_or_default();
-        let keyword: Vec<&str> = keyword.split_whitespace().collect();
+        let keyword: Vec<&str> = words.next().unwrap_or_default().split_whitespace().collect();
         let parameters = words.filter(|word| !word.is_empty()).map(|word| {
             let (name, value) = word.split_once('=').unwrap_or((word, ""));
             (name.trim().to_uppercase(), unquoted(value).to_owned())
         });
         blocks.push(Block {
+            deck,
             keyword: keyword.join(" ").to_uppercase(),
             parameters: parameters.collect(),
             data: Vec::new(),

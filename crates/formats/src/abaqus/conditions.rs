@@ -80,7 +80,7 @@ impl Reader<'_, '_> {
     fn transformed(&mut self, blocks: &Placed<'_, '_>) -> Result<BTreeSet<u32>, MeshFileError> {
         let mut nodes = BTreeSet::new();
         for &(scope, block) in blocks.iter().filter(|(_, b)| b.keyword == "TRANSFORM") {
-            let name = block.required(self.deck, "NSET")?;
+            let name = block.required("NSET")?;
             let Some(set) = self.nodes.sets.get(&self.key(scope, name)) else {
                 return Err(self.unknown(block.place, "node set", name));
             };
@@ -110,13 +110,9 @@ impl Reader<'_, '_> {
                             "a direction 1 to 6 or a word such as ENCASTRE expected, found {}",
                             quoted(what));
                     };
-                    let last = match last {
-                        None => first,
-                        Some(Ok(last)) => last,
-                        Some(Err(_)) => {
-                            refuse!(self.deck, place;
-                                "a last direction expected, found {}", quoted(entry[2]));
-                        }
+                    let Ok(last) = last.unwrap_or(Ok(first)) else {
+                        refuse!(self.deck, place;
+                            "a last direction expected, found {}", quoted(entry[2]));
                     };
                     let value = entry.get(3).and_then(|value| real(value)).unwrap_or(0.0);
                     if value != 0.0 && !block.has("FIXED") {
@@ -163,8 +159,7 @@ impl Reader<'_, '_> {
     /// Conditions of the sets that are held; what has no meaning here is left out.
     fn take_held(&mut self, held: Held, transformed: &BTreeSet<u32>, referred: &BTreeSet<u32>) {
         let in_plane = self.collection.dimension() == 2;
-        let used: BTreeSet<u32> =
-            self.collection.elements.iter().flat_map(|e| e.nodes.iter().copied()).collect();
+        let used = self.collection.used_nodes();
         for (key, (mut axes, place)) in held {
             let Some(set) = self.nodes.sets.get(&key).cloned() else {
                 continue;
@@ -232,8 +227,7 @@ impl Reader<'_, '_> {
                 continue;
             }
             let value = entry.get(2).and_then(|value| real(value)).ok_or_else(|| {
-                fault!(self.deck, place;
-                "*{keyword}: a pressure expected, found {}", quoted(line))
+                fault!(self.deck, place; "*{keyword}: a pressure expected, found {}", quoted(line))
             })?;
             let surface = match is_surface {
                 true => self
@@ -287,14 +281,8 @@ impl Reader<'_, '_> {
             let elements = self.collection.elements.iter();
             let is_inside = elements.map(|e| e.nodes.iter().all(|node| nodes.contains(node)));
             let is_inside: Vec<bool> = is_inside.collect();
-            let turning = FileMotion {
-                region: String::new(),
-                axis: [[a, b, c], [d, e, f]],
-                angular_velocity: speed,
-                is_load: false,
-                place: self.deck.name(place),
-            };
-            if !self.turn_regions(&is_inside, &turning) {
+            let axis = [[a, b, c], [d, e, f]];
+            if !self.turn_regions(&is_inside, place, (axis, speed, false)) {
                 let reason = "its nodes are not those of whole regions";
                 self.leave_out("*MOTION, ROTATION", place, reason);
             }
@@ -302,8 +290,14 @@ impl Reader<'_, '_> {
         Ok(())
     }
 
-    /// Gives the motion to the regions whose elements are all among those marked; whether there is one.
-    fn turn_regions(&mut self, is_inside: &[bool], turning: &FileMotion) -> bool {
+    /// Gives a motion, its axis, speed and whether it is a load, to the regions whose elements are all among those marked; whether
+    /// there is one.
+    fn turn_regions(
+        &mut self,
+        is_inside: &[bool],
+        place: Place,
+        (axis, angular_velocity, is_load): ([[f64; 3]; 2], f64, bool),
+    ) -> bool {
         let mut covers: BTreeMap<Option<Arc<str>>, bool> = BTreeMap::new();
         for (element, is_inside) in self.collection.elements.iter().zip(is_inside) {
             *covers.entry(element.region.clone()).or_insert(true) &= is_inside;
@@ -313,7 +307,8 @@ impl Reader<'_, '_> {
         for region in &regions {
             let motions = &mut self.model.motions;
             motions.retain(|motion| *motion.region != **region);
-            motions.push(FileMotion { region: region.to_string(), ..turning.clone() });
+            let (region, place) = (region.to_string(), self.deck.name(place));
+            motions.push(FileMotion { region, axis, angular_velocity, is_load, place });
         }
         !regions.is_empty()
     }
@@ -335,14 +330,8 @@ impl Reader<'_, '_> {
         let elements = elements.ok_or_else(|| self.unknown(place, "element set", target))?;
         let mut is_inside = vec![false; self.collection.elements.len()];
         elements.into_iter().for_each(|e| is_inside[e] = true);
-        let turning = FileMotion {
-            region: String::new(),
-            axis: [[a, b, c], [a + d, b + e, c + f]],
-            angular_velocity: square.sqrt(),
-            is_load: true,
-            place: self.deck.name(place),
-        };
-        if !self.turn_regions(&is_inside, &turning) {
+        let axis = [[a, b, c], [a + d, b + e, c + f]];
+        if !self.turn_regions(&is_inside, place, (axis, square.sqrt(), true)) {
             self.lose_part("*DLOAD, CENTRIF", place, "its elements are not those of whole regions");
         }
         Ok(())

@@ -18,8 +18,7 @@ impl Reader<'_, '_> {
         blocks: &Placed<'_, '_>,
         held: &Held,
     ) -> Result<BTreeSet<u32>, MeshFileError> {
-        let elements = self.collection.elements.iter();
-        let used: BTreeSet<u32> = elements.flat_map(|e| e.nodes.iter().copied()).collect();
+        let used = self.collection.used_nodes();
         let is_held = |reader: &Self, node: u32, axis: usize| {
             let mut sets = held.iter().filter(|(_, (axes, _))| axes[axis]);
             sets.any(|(key, _)| reader.nodes.sets[key].items.contains(&node))
@@ -73,10 +72,9 @@ impl Reader<'_, '_> {
         while let Some(&(place, line)) = lines.next() {
             let count = line.trim().trim_end_matches(',').parse::<usize>().ok();
             let count = count.filter(|count| (1..=1_000_000).contains(count));
-            let count = count.ok_or_else(|| {
-                fault!(self.deck, place;
-                "*EQUATION: the number of terms expected")
-            })?;
+            let count = count.ok_or_else(
+                || fault!(self.deck, place; "*EQUATION: the number of terms expected"),
+            )?;
             let mut terms: Vec<Term> = Vec::new();
             while terms.len() < count {
                 let Some(&(place, line)) = lines.next() else {

@@ -46,7 +46,7 @@ impl Reader<'_, '_> {
         interactions: &BTreeMap<String, Interaction>,
     ) -> Result<(), MeshFileError> {
         for &(scope, block) in blocks.iter().filter(|(_, b)| b.keyword == "CONTACT PAIR") {
-            let name = block.required(self.deck, "INTERACTION")?;
+            let name = block.required("INTERACTION")?;
             let Some(interaction) = interactions.get(&name.to_uppercase()).cloned() else {
                 return Err(self.unknown(block.place, "surface interaction", name));
             };
@@ -127,8 +127,7 @@ impl Reader<'_, '_> {
         }
         let set = self.nodes.sets.get(&key)?;
         let items = set.items.clone();
-        let known = self.collection.node_sets.entry(set.name.clone());
-        known.or_insert(items);
+        self.collection.node_sets.entry(set.name.clone()).or_insert(items);
         Some(set.name.clone())
     }
 
@@ -142,24 +141,22 @@ impl Reader<'_, '_> {
         for &(_, block) in blocks {
             match block.keyword.as_str() {
                 "SURFACE INTERACTION" => {
-                    let name = block.required(self.deck, "NAME")?.to_uppercase();
+                    let name = block.required("NAME")?.to_uppercase();
                     found.entry(name.clone()).or_default();
                     current = Some(name);
                 }
                 "CHANGE FRICTION" => {
-                    current = Some(block.required(self.deck, "INTERACTION")?.to_uppercase());
+                    current = Some(block.required("INTERACTION")?.to_uppercase());
                 }
                 keyword @ ("FRICTION" | "SURFACE BEHAVIOR") => {
-                    let known = current.as_ref().and_then(|name| found.get(name)).cloned();
-                    let (Some(known), Some(name)) = (known, current.clone()) else {
-                        refuse!(self.deck, block.place;
-                            "*{keyword} stands behind no *SURFACE INTERACTION");
+                    let known = current.as_ref().and_then(|name| found.get_mut(name));
+                    let Some(interaction) = known else {
+                        refuse!(block; "*{keyword} stands behind no *SURFACE INTERACTION");
                     };
-                    let changed = match keyword {
-                        "FRICTION" => self.friction(block, known)?,
-                        _ => self.behavior(block, known)?,
-                    };
-                    found.insert(name, changed);
+                    match keyword {
+                        "FRICTION" => self.friction(block, interaction)?,
+                        _ => self.behavior(block, interaction)?,
+                    }
                 }
                 _ => {}
             }
@@ -170,22 +167,22 @@ impl Reader<'_, '_> {
     fn friction(
         &mut self,
         block: &Block<'_>,
-        mut interaction: Interaction,
-    ) -> Result<Interaction, MeshFileError> {
-        let numbers = block.first_numbers(self.deck)?;
+        interaction: &mut Interaction,
+    ) -> Result<(), MeshFileError> {
+        let numbers = block.first_numbers()?;
         let is_other = ["ROUGH", "USER", "ANISOTROPIC"].into_iter().any(|kind| block.has(kind));
         if is_other || block.data.len() > 1 {
             let reason =
                 "Coulomb's friction with one coefficient, or with EXPONENTIAL DECAY, is read";
             self.leave_out("*FRICTION of another kind", block.place, reason);
             if is_other {
-                return Ok(interaction);
+                return Ok(());
             }
         }
         if block.has("EXPONENTIAL DECAY") {
             // mu = mu_k + (mu_s - mu_k) exp(-d v)
             let &[high, low, decay, ..] = numbers.as_slice() else {
-                refuse!(self.deck, block.place; "*FRICTION, EXPONENTIAL DECAY needs three numbers");
+                refuse!(block; "*FRICTION, EXPONENTIAL DECAY needs three numbers");
             };
             interaction.friction = Some(low);
             let falls = low > 0.0 && decay > 0.0 && high > low;
@@ -194,19 +191,17 @@ impl Reader<'_, '_> {
             interaction.friction = Some(numbers.first().copied().unwrap_or(0.0));
             interaction.decay = None;
         }
-        Ok(interaction)
+        Ok(())
     }
 
     fn behavior(
         &mut self,
         block: &Block<'_>,
-        mut interaction: Interaction,
-    ) -> Result<Interaction, MeshFileError> {
+        interaction: &mut Interaction,
+    ) -> Result<(), MeshFileError> {
         let kind = block.parameter("PRESSURE-OVERCLOSURE").unwrap_or("HARD").to_uppercase();
         match kind.as_str() {
-            "LINEAR" => {
-                interaction.normal_stiffness = block.first_numbers(self.deck)?.first().copied()
-            }
+            "LINEAR" => interaction.normal_stiffness = block.first_numbers()?.first().copied(),
             "HARD" => interaction.normal_stiffness = None,
             _ => {
                 let keyword = format!("*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE={kind}");
@@ -214,7 +209,7 @@ impl Reader<'_, '_> {
                 self.leave_out(&keyword, block.place, reason);
             }
         }
-        Ok(interaction)
+        Ok(())
     }
 }
 

@@ -2,23 +2,12 @@
 
 use super::block::{Block, fields};
 use super::{Placed, Reader};
-use crate::deck::Place;
+use crate::deck::real;
 use crate::file_mesh::MeshFileError;
 use crate::model_data::{FileElasticity, FileMaterial, MaterialAxes};
 use nalgebra::{Matrix3, Rotation3, Unit, Vector3};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
-
-/// A material as it is defined, before a region takes it.
-struct Definition {
-    name: String,
-    place: Place,
-    elasticity: Option<FileElasticity>,
-    density: Option<f64>,
-    alpha: Option<f64>,
-    beta: Option<f64>,
-    structural: Option<f64>,
-}
 
 impl Reader<'_, '_> {
     /// Reads materials and sections: each element gets its region, each region its material.
@@ -27,7 +16,7 @@ impl Reader<'_, '_> {
         let orientations = self.orientations(blocks)?;
         let mut is_sectioned = vec![false; self.collection.elements.len()];
         for &(scope, block) in blocks.iter().filter(|(_, b)| b.keyword == "SOLID SECTION") {
-            let name = block.required(self.deck, "ELSET")?;
+            let name = block.required("ELSET")?;
             let Some(set) = self.elements.sets.get(&self.key(scope, name)).cloned() else {
                 return Err(self.unknown(block.place, "element set", name));
             };
@@ -36,7 +25,7 @@ impl Reader<'_, '_> {
                 let known = &mut self.collection.elements[element];
                 if std::mem::replace(&mut is_sectioned[element], true) {
                     let label = known.label;
-                    refuse!(self.deck, block.place;
+                    refuse!(block;
                         "element {label} has two sections, the second by element set {name}");
                 }
                 known.region = Some(Arc::clone(&region));
@@ -48,68 +37,50 @@ impl Reader<'_, '_> {
             let Some(definition) = definitions.get(&material.to_uppercase()) else {
                 return Err(self.unknown(block.place, "material", material));
             };
+            // Without an orientation the axes are the global ones, which an instance does not turn.
             let axes = match block.parameter("ORIENTATION").filter(|name| !name.is_empty()) {
                 None => MaterialAxes::Global,
-                Some(name) => match orientations.get(&self.key(scope, name)) {
-                    Some(&axes) => axes,
-                    None => match orientations.get(&(0, name.to_uppercase())) {
-                        Some(&axes) => axes,
-                        None => return Err(self.unknown(block.place, "orientation", name)),
-                    },
-                },
+                Some(name) => {
+                    let own = orientations.get(&self.key(scope, name));
+                    let found = own.or_else(|| orientations.get(&(0, name.to_uppercase())));
+                    *found.ok_or_else(|| self.unknown(block.place, "orientation", name))?
+                }
             };
-            // Without an orientation the axes are the global ones, which an instance does not turn.
             if set.items.is_empty() && !self.elements.skipped.is_empty() {
                 let keyword = format!("*SOLID SECTION of {name}");
                 self.lose_part(&keyword, block.place, "its elements are not read");
             }
             if !set.items.is_empty() {
-                let material = self.taken(definition, &set.name, axes);
+                let mut material = FileMaterial { region: set.name, ..definition.clone() };
+                if let Some(FileElasticity::Orthotropic { axes: own, .. }) =
+                    &mut material.elasticity
+                {
+                    *own = axes;
+                }
                 self.model.materials.push(material);
             }
         }
         Ok(())
     }
 
-    fn taken(&self, definition: &Definition, region: &str, own: MaterialAxes) -> FileMaterial {
-        let mut elasticity = definition.elasticity.clone();
-        if let Some(FileElasticity::Orthotropic { axes, .. }) = &mut elasticity {
-            *axes = own;
-        }
-        FileMaterial {
-            region: region.to_owned(),
-            name: definition.name.clone(),
-            elasticity,
-            density: definition.density,
-            mass_coefficient: definition.alpha,
-            stiffness_coefficient: definition.beta,
-            loss_factor: definition.structural,
-            place: self.deck.name(definition.place),
-        }
-    }
-
-    /// Materials by name.
+    /// Materials by name, of no region yet.
     fn definitions(
         &mut self,
         blocks: &Placed<'_, '_>,
-    ) -> Result<BTreeMap<String, Definition>, MeshFileError> {
-        let mut definitions: BTreeMap<String, Definition> = BTreeMap::new();
+    ) -> Result<BTreeMap<String, FileMaterial>, MeshFileError> {
+        let mut definitions: BTreeMap<String, FileMaterial> = BTreeMap::new();
         let mut current: Option<String> = None;
         for &(_, block) in blocks {
             let keyword = block.keyword.as_str();
             if keyword == "MATERIAL" {
-                let name = block.required(self.deck, "NAME")?;
-                let definition = Definition {
+                let name = block.required("NAME")?;
+                let definition = FileMaterial {
                     name: name.to_owned(),
-                    place: block.place,
-                    elasticity: None,
-                    density: None,
-                    alpha: None,
-                    beta: None,
-                    structural: None,
+                    place: self.deck.name(block.place),
+                    ..FileMaterial::default()
                 };
                 if definitions.insert(name.to_uppercase(), definition).is_some() {
-                    refuse!(self.deck, block.place; "material {name} is defined twice");
+                    refuse!(block; "material {name} is defined twice");
                 }
                 current = Some(name.to_uppercase());
                 continue;
@@ -119,18 +90,18 @@ impl Reader<'_, '_> {
             }
             let known = current.as_ref().and_then(|name| definitions.get_mut(name));
             let Some(definition) = known else {
-                refuse!(self.deck, block.place; "*{keyword} stands behind no *MATERIAL");
+                refuse!(block; "*{keyword} stands behind no *MATERIAL");
             };
             match keyword {
                 "ELASTIC" => {
-                    let is_table = elastic(self.deck, block, definition)?;
+                    let is_table = elastic(block, definition)?;
                     if is_table {
                         let reason = "the first line is taken, others (temperatures) are not";
                         self.leave_out("*ELASTIC with more than one line", block.place, reason);
                     }
                 }
-                "DENSITY" => definition.density = block.first_numbers(self.deck)?.first().copied(),
-                _ => damping(self.deck, block, definition)?,
+                "DENSITY" => definition.density = block.first_numbers()?.first().copied(),
+                _ => damping(block, definition)?,
             }
         }
         Ok(definitions)
@@ -143,15 +114,13 @@ impl Reader<'_, '_> {
     ) -> Result<BTreeMap<(usize, String), MaterialAxes>, MeshFileError> {
         let mut found = BTreeMap::new();
         for &(scope, block) in blocks.iter().filter(|(_, b)| b.keyword == "ORIENTATION") {
-            let name = block.required(self.deck, "NAME")?;
-            let wrong = |message: &str| {
-                self.deck.error(block.place, format!("*ORIENTATION {name}: {message}"))
-            };
+            let name = block.required("NAME")?;
+            let wrong = |message: &str| fault!(block; "*ORIENTATION {name}: {message}");
             if block.parameter("DEFINITION").is_some_and(|d| !d.eq_ignore_ascii_case("COORDINATES"))
             {
                 return Err(wrong("only DEFINITION=COORDINATES is supported"));
             }
-            let numbers = block.first_numbers(self.deck)?;
+            let numbers = block.first_numbers()?;
             let Some(&[a, b, c, d, e, f]) = numbers.get(..6).and_then(|n| n.first_chunk::<6>())
             else {
                 return Err(wrong("six numbers expected: two points"));
@@ -159,7 +128,7 @@ impl Reader<'_, '_> {
             let [p, q] = [Vector3::new(a, b, c), Vector3::new(d, e, f)];
             let system = block.parameter("SYSTEM").unwrap_or("RECTANGULAR").to_uppercase();
             let extra = match block.data.get(1) {
-                Some(&(_, line)) => fields(line).filter_map(crate::deck::real).collect(),
+                Some(&(_, line)) => fields(line).filter_map(real).collect(),
                 None => Vec::new(),
             };
             let scope_of = &self.scopes[scope];
@@ -208,17 +177,13 @@ fn turned_axes(a: Vector3<f64>, b: Vector3<f64>, extra: &[f64]) -> Option<[Vecto
 }
 
 /// `*ELASTIC`; whether it has lines for other temperatures.
-fn elastic(
-    deck: &crate::deck::Deck<'_>,
-    block: &Block<'_>,
-    definition: &mut Definition,
-) -> Result<bool, MeshFileError> {
+fn elastic(block: &Block<'_>, definition: &mut FileMaterial) -> Result<bool, MeshFileError> {
     let kind = block.parameter("TYPE").unwrap_or("ISOTROPIC").to_uppercase();
-    let numbers = block.numbers(deck)?;
+    let numbers = block.numbers()?;
+    let name = &definition.name;
     let few = |count: usize| {
-        let name = &definition.name;
-        let message = format!("*ELASTIC, TYPE={kind} of material {name} needs {count} numbers");
-        deck.error(block.place, message)
+        let what = format!("*ELASTIC, TYPE={kind} of material {name}");
+        fault!(block; "{what} needs {count} numbers")
     };
     let (elasticity, lines) = match kind.as_str() {
         "ISOTROPIC" | "ISO" => {
@@ -240,19 +205,21 @@ fn elastic(
             (constants, 2)
         }
         "ORTHOTROPIC" | "ORTHO" => {
-            let Some(&stiffness) = numbers.first_chunk::<9>() else {
+            // D1111, D1122, D2222, D1133, D2233, D3333, D1212, D1313, D2323.
+            let &[d11, d12, d22, d13, d23, d33, g12, g13, g23, ..] = numbers.as_slice() else {
                 return Err(few(9));
             };
-            let name = &definition.name;
-            let constants = engineering_constants(stiffness).ok_or_else(|| {
-                fault!(deck, block.place;
+            let normal = Matrix3::new(d11, d12, d13, d12, d22, d23, d13, d23, d33);
+            let constants =
+                FileElasticity::of_stiffness(normal, [g12, g13, g23], MaterialAxes::Global);
+            let constants = constants.ok_or_else(|| {
+                fault!(block;
                 "*ELASTIC, TYPE={kind} of material {name} is no stiffness: it is singular")
             })?;
             (constants, 2)
         }
         _ => {
-            let name = &definition.name;
-            refuse!(deck, block.place;
+            refuse!(block;
                 "*ELASTIC, TYPE={kind} of material {name} is not supported: give ENGINEERING \
                  CONSTANTS");
         }
@@ -261,38 +228,20 @@ fn elastic(
     Ok(block.data.len() > lines)
 }
 
-/// Engineering constants of the stiffness `D1111, D1122, D2222, D1133, D2233, D3333, D1212, D1313, D2323`.
-fn engineering_constants(stiffness: [f64; 9]) -> Option<FileElasticity> {
-    let [d11, d12, d22, d13, d23, d33, g12, g13, g23] = stiffness;
-    let s = Matrix3::new(d11, d12, d13, d12, d22, d23, d13, d23, d33).try_inverse()?;
-    let young_moduli = [0, 1, 2].map(|i| 1.0 / s[(i, i)]);
-    Some(FileElasticity::Orthotropic {
-        young_moduli,
-        poisson_ratios: [(0, 1), (0, 2), (1, 2)].map(|(i, j)| -s[(j, i)] * young_moduli[i]),
-        shear_moduli: [g12, g13, g23],
-        axes: MaterialAxes::Global,
-    })
-}
-
 /// `*DAMPING`, its values parameters.
-fn damping(
-    deck: &crate::deck::Deck<'_>,
-    block: &Block<'_>,
-    definition: &mut Definition,
-) -> Result<(), MeshFileError> {
+fn damping(block: &Block<'_>, definition: &mut FileMaterial) -> Result<(), MeshFileError> {
     for (name, value) in &block.parameters {
-        let number = crate::deck::real(value);
+        let number = real(value);
         let slot = match name.as_str() {
-            "ALPHA" => &mut definition.alpha,
-            "BETA" => &mut definition.beta,
-            "STRUCTURAL" => &mut definition.structural,
+            "ALPHA" => &mut definition.mass_coefficient,
+            "BETA" => &mut definition.stiffness_coefficient,
+            "STRUCTURAL" => &mut definition.loss_factor,
             _ => {
-                refuse!(deck, block.place;
-                    "*DAMPING, {name} is not supported: ALPHA, BETA and STRUCTURAL are");
+                refuse!(block; "*DAMPING, {name} is not supported: ALPHA, BETA and STRUCTURAL are");
             }
         };
         if number.is_none() {
-            refuse!(deck, block.place; "*DAMPING, {name}= needs a number");
+            refuse!(block; "*DAMPING, {name}= needs a number");
         }
         *slot = number;
     }

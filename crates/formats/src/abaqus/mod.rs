@@ -92,16 +92,9 @@ struct Reader<'d, 'a> {
 }
 
 /// Keywords that make nodes or elements which are not written out.
+#[rustfmt::skip]
 const GENERATORS: [&str; 9] = [
-    "NGEN",
-    "NFILL",
-    "NCOPY",
-    "NMAP",
-    "ELGEN",
-    "ELCOPY",
-    "SYSTEM",
-    "SUBMODEL",
-    "SYMMETRIC MODEL GENERATION",
+    "NGEN", "NFILL", "NCOPY", "NMAP", "ELGEN", "ELCOPY", "SYSTEM", "SUBMODEL", "SYMMETRIC MODEL GENERATION",
 ];
 
 /// Keywords that are read.
@@ -175,14 +168,12 @@ pub(super) fn read(bytes: &[u8]) -> Result<FileMesh, MeshFileError> {
 
 impl Reader<'_, '_> {
     fn leave_out(&mut self, keyword: &str, place: Place, reason: &str) {
-        let deck = self.deck;
-        self.model.leave_out(keyword, || deck.name(place), reason);
+        self.model.leave_out(keyword, || self.deck.name(place), (reason, false));
     }
 
     /// Leaves out what would hold, load or join parts.
     fn lose_part(&mut self, keyword: &str, place: Place, reason: &str) {
-        let deck = self.deck;
-        self.model.lose_part(keyword, || deck.name(place), reason);
+        self.model.leave_out(keyword, || self.deck.name(place), (reason, true));
     }
 
     /// Refuses what would change the mesh, and lists the keywords that are not used.
@@ -190,12 +181,12 @@ impl Reader<'_, '_> {
         for (_, block) in blocks {
             let keyword = block.keyword.as_str();
             if GENERATORS.contains(&keyword) {
-                refuse!(self.deck, block.place;
+                refuse!(block;
                     "*{keyword} is not supported: have the program write the mesh out with every \
                      node and element");
             }
             if keyword == "INCLUDE" {
-                refuse!(self.deck, block.place; "*INCLUDE needs INPUT= and a file beside this one");
+                refuse!(block; "*INCLUDE needs INPUT= and a file beside this one");
             }
             let expands = || blocks.iter().any(|(_, other)| other.keyword == "EXPANSION");
             let is_part = match keyword {
@@ -224,14 +215,14 @@ impl Reader<'_, '_> {
 
     /// The scope and the name that a reference means, seen from a scope: `INSTANCE.NAME` or `NAME`.
     fn resolved<'n>(&self, scope: usize, name: &'n str) -> (usize, &'n str) {
-        let Some((instance, rest)) = name.split_once('.') else {
-            return (scope, name);
-        };
-        let is_meant = |scope: &Scope| scope.name.eq_ignore_ascii_case(instance);
-        match self.scopes.iter().position(is_meant) {
-            Some(scope) if scope > 0 => (scope, rest),
-            _ => (scope, name),
-        }
+        let of_instance = |(instance, rest)| Some((self.instance(instance)?, rest));
+        name.split_once('.').and_then(of_instance).unwrap_or((scope, name))
+    }
+
+    /// The scope of an instance.
+    fn instance(&self, name: &str) -> Option<usize> {
+        let is_meant = |scope: &Scope| scope.name.eq_ignore_ascii_case(name);
+        self.scopes.iter().position(is_meant).filter(|&scope| scope > 0)
     }
 
     /// The key of a name seen from a scope.
@@ -252,12 +243,8 @@ impl Reader<'_, '_> {
         let Some(name) = block.parameter("INSTANCE") else {
             return Ok(scope);
         };
-        let is_meant = |scope: &Scope| scope.name.eq_ignore_ascii_case(name);
-        let found = self.scopes.iter().position(is_meant).filter(|&scope| scope > 0);
-        found.ok_or_else(|| {
-            fault!(self.deck, block.place;
-            "*{}: no instance is called \"{name}\"", block.keyword)
-        })
+        self.instance(name)
+            .ok_or_else(|| fault!(block; "*{}: no instance is called \"{name}\"", block.keyword))
     }
 
     /// An error that a name is not defined.

@@ -17,10 +17,9 @@ impl Reader<'_, '_> {
 
     fn label(&self, place: Place, field: &str, what: &str) -> Result<usize, MeshFileError> {
         let number = field.trim().parse::<usize>().ok();
-        number.filter(|&number| number > 0).ok_or_else(|| {
-            fault!(self.deck, place;
-            "{what} expected, found {}", quoted(field))
-        })
+        number
+            .filter(|&number| number > 0)
+            .ok_or_else(|| fault!(self.deck, place; "{what} expected, found {}", quoted(field)))
     }
 
     /// Reads all nodes. Numbers of each instance follow those of the instances before.
@@ -31,7 +30,7 @@ impl Reader<'_, '_> {
             for (_, block) in blocks.iter().filter(|(s, b)| *s == scope && b.keyword == "NODE") {
                 if block.parameter("SYSTEM").is_some_and(|system| !system.eq_ignore_ascii_case("R"))
                 {
-                    refuse!(self.deck, block.place;
+                    refuse!(block;
                         "*NODE, SYSTEM= other than R is not supported: write Cartesian \
                          coordinates");
                 }
@@ -73,10 +72,9 @@ impl Reader<'_, '_> {
         for (coordinate, field) in point.iter_mut().zip(fields) {
             *coordinate = match field {
                 "" => 0.0,
-                _ => real(field).ok_or_else(|| {
-                    fault!(self.deck, place;
-                    "a coordinate expected, found {}", quoted(field))
-                })?,
+                _ => real(field).ok_or_else(
+                    || fault!(self.deck, place; "a coordinate expected, found {}", quoted(field)),
+                )?,
             };
         }
         let point = self.scopes[scope].place(point);
@@ -103,12 +101,12 @@ impl Reader<'_, '_> {
         for scope in self.numbering() {
             let mut largest = 0;
             for (_, block) in blocks.iter().filter(|(s, b)| *s == scope && b.keyword == "ELEMENT") {
-                let name = block.required(self.deck, "TYPE")?.to_uppercase();
+                let name = block.required("TYPE")?.to_uppercase();
                 let known = element_type(&name);
                 if known.is_none()
                     && ["C3D", "CPE", "CPS"].iter().any(|solid| name.starts_with(solid))
                 {
-                    refuse!(self.deck, block.place;
+                    refuse!(block;
                         "elements of type {name} are not supported. Known are {} (C3D4, C3D10, \
                          C3D8, C3D20, C3D6, C3D15, C3D5, C3D13), and CPE and CPS with 3, 4, 6 or 8 \
                          nodes", ElementKind::SOLID_SHAPES);
@@ -168,7 +166,7 @@ impl Reader<'_, '_> {
         }
         if let Some(is_strain) = known.is_plane_strain {
             if self.model.is_plane_strain.is_some_and(|other| other != is_strain) {
-                refuse!(self.deck, block.place;
+                refuse!(block;
                     "elements of plane strain (CPE) and of plane stress (CPS) in one file");
             }
             self.model.is_plane_strain = Some(is_strain);

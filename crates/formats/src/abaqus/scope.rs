@@ -60,27 +60,27 @@ pub(super) fn layout<'b, 'a>(
     for block in blocks {
         match block.keyword.as_str() {
             "PART" => {
-                let name = block.required(deck, "NAME")?.to_uppercase();
+                let name = block.required("NAME")?.to_uppercase();
                 if parts.contains_key(&name) {
-                    refuse!(deck, block.place; "part {} is defined twice", quoted(&name));
+                    refuse!(block; "part {} is defined twice", quoted(&name));
                 }
                 parts.insert(name.clone(), (block.place, false, Vec::new()));
                 part = Some((name, block.place));
             }
             "END PART" => part = None,
             "INSTANCE" => {
-                let name = block.required(deck, "PART")?;
+                let name = block.required("PART")?;
                 let found = parts.get_mut(&name.to_uppercase());
                 let Some((_, is_used, own)) = found else {
-                    refuse!(deck, block.place; "*INSTANCE: no part is called {}", quoted(name));
+                    refuse!(block; "*INSTANCE: no part is called {}", quoted(name));
                 };
                 *is_used = true;
                 let scope = layout.scopes.len();
                 if scope > MOST_INSTANCES {
-                    refuse!(deck, block.place; "more than {MOST_INSTANCES} instances");
+                    refuse!(block; "more than {MOST_INSTANCES} instances");
                 }
                 layout.blocks.extend(own.iter().map(|&block| (scope, block)));
-                layout.scopes.push(placed(deck, block)?);
+                layout.scopes.push(placed(block)?);
                 instance = Some(scope);
             }
             "END INSTANCE" => instance = None,
@@ -105,14 +105,14 @@ pub(super) fn layout<'b, 'a>(
 }
 
 /// The scope of an instance: its data lines say how it is moved, first by a vector, then about the line through two points.
-fn placed(deck: &Deck<'_>, block: &Block<'_>) -> Result<Scope, MeshFileError> {
-    let name = block.required(deck, "NAME")?.to_owned();
+fn placed(block: &Block<'_>) -> Result<Scope, MeshFileError> {
+    let name = block.required("NAME")?.to_owned();
     let mut rows = Vec::new();
     for &(place, line) in &block.data {
         let row: Option<Vec<f64>> = fields(line).map(real).collect();
         let is_right = |row: &Vec<f64>| row.len() == if rows.is_empty() { 3 } else { 7 };
         let Some(row) = row.filter(is_right) else {
-            refuse!(deck, place;
+            refuse!(block.deck, place;
                 "*INSTANCE {name}: a translation of 3 numbers, then a rotation of 7 (two points of \
                  the axis, an angle in degrees) expected, found {}", quoted(line));
         };
@@ -124,7 +124,7 @@ fn placed(deck: &Deck<'_>, block: &Block<'_>) -> Result<Scope, MeshFileError> {
         Some(r) => {
             let (from, to) = (Vector3::new(r[0], r[1], r[2]), Vector3::new(r[3], r[4], r[5]));
             let Some(axis) = Unit::try_new(to - from, 0.0) else {
-                refuse!(deck, block.data[1].0;
+                refuse!(block.deck, block.data[1].0;
                     "*INSTANCE {name}: the axis of its rotation is a point");
             };
             Some((from, Rotation3::from_axis_angle(&axis, r[6].to_radians())))

@@ -45,7 +45,7 @@ impl Reader<'_, '_> {
 
     /// Reads a set; what it names before that is defined, if so.
     fn set(&mut self, scope: usize, block: &Block<'_>) -> Result<Missing, MeshFileError> {
-        let name = block.required(self.deck, &block.keyword)?;
+        let name = block.required(&block.keyword)?;
         let inside = self.scope_of(scope, block)?;
         let (named, is_internal) = (self.named(scope, name), block.has("INTERNAL"));
         let mut budget = self.budget.clone();

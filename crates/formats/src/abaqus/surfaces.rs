@@ -10,14 +10,14 @@ impl Reader<'_, '_> {
     /// Reads all surfaces: faces of elements, and sets of nodes.
     pub(super) fn read_surfaces(&mut self, blocks: &Placed<'_, '_>) -> Result<(), MeshFileError> {
         for &(scope, block) in blocks.iter().filter(|(_, block)| block.keyword == "SURFACE") {
-            let name = block.required(self.deck, "NAME")?.to_owned();
+            let name = block.required("NAME")?.to_owned();
             let key = self.key(scope, &name);
             let full = self.scopes[key.0].full_name(&name);
             let kind = block.parameter("TYPE").unwrap_or("ELEMENT").to_uppercase();
             match kind.as_str() {
                 "ELEMENT" => {
                     if block.has("COMBINE") || block.has("CROP") {
-                        refuse!(self.deck, block.place;
+                        refuse!(block;
                             "*SURFACE with COMBINE or CROP is not supported: list its faces");
                     }
                     let faces = self.element_faces(scope, block)?;

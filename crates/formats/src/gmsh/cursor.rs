@@ -72,8 +72,7 @@ impl<'a> Cursor<'a> {
     /// The next section name, without its `$`; text between sections is passed over.
     pub fn section(&mut self) -> Option<String> {
         loop {
-            let line = self.text_line()?;
-            if let Some(name) = line.strip_prefix('$') {
+            if let Some(name) = self.text_line()?.strip_prefix('$') {
                 return Some(name.to_owned());
             }
         }

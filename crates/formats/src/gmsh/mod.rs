@@ -235,8 +235,7 @@ impl Reader {
                 if let Some(face) = kind.as_face() {
                     for &tag in groups {
                         let name = self.name(dimension, tag).to_string();
-                        let faces = self.surfaces.entry(name).or_default();
-                        faces.push((face, nodes.clone()));
+                        self.surfaces.entry(name).or_default().push((face, nodes.clone()));
                     }
                 }
                 let region = match groups.first() {
@@ -259,13 +258,8 @@ impl Reader {
             (1, _) => {
                 let edge = (nodes[0], nodes[1], nodes.get(2).copied());
                 for &tag in groups {
-                    let name = self.name(dimension, tag);
-                    match self.file.curves.get_mut(&*name) {
-                        Some(edges) => edges.push(edge),
-                        None => {
-                            self.file.curves.insert(name.to_string(), vec![edge]);
-                        }
-                    }
+                    let name = self.name(dimension, tag).to_string();
+                    self.file.curves.entry(name).or_default().push(edge);
                 }
             }
             _ => {}

@@ -5,8 +5,8 @@ use crate::file_mesh::MeshFileError;
 use std::collections::BTreeMap;
 
 /// One card: its name in capitals and its fields behind it, eight for each of its lines.
-#[derive(Debug)]
 pub(super) struct Card<'a> {
+    deck: &'a Deck<'a>,
     pub name: String,
     pub fields: Vec<&'a str>,
     pub place: Place,
@@ -29,51 +29,48 @@ impl<'a> Card<'a> {
         self.fields.get(number).copied().unwrap_or_default()
     }
 
-    /// A whole number; none where the field is empty.
-    pub fn optional_int(
+    /// An error at the card.
+    pub fn error(&self, message: impl Into<String>) -> MeshFileError {
+        self.deck.error(self.place, message)
+    }
+
+    /// What a field is; none where it is empty.
+    fn optional<T>(
         &self,
-        deck: &Deck<'_>,
         number: usize,
-    ) -> Result<Option<i64>, MeshFileError> {
+        what: &str,
+        parsed: impl Fn(&str) -> Option<T>,
+    ) -> Result<Option<T>, MeshFileError> {
         match self.field(number) {
             "" => Ok(None),
-            field => field.parse().map(Some).map_err(|_| {
-                fault!(deck, self.place;
-                "{}: a whole number expected in field {}, found {}",
-                self.name, number + 2, quoted(field))
+            field => parsed(field).map(Some).ok_or_else(|| {
+                let (name, found) = (&self.name, quoted(field));
+                fault!(self; "{name}: {what} expected in field {}, found {found}", number + 2)
             }),
         }
     }
 
+    /// A whole number; none where the field is empty.
+    pub fn optional_int(&self, number: usize) -> Result<Option<i64>, MeshFileError> {
+        self.optional(number, "a whole number", |field| field.parse().ok())
+    }
+
     /// The number of something, above 0.
-    pub fn number(&self, deck: &Deck<'_>, field: usize) -> Result<usize, MeshFileError> {
-        let value = self.optional_int(deck, field)?;
-        let value = value.and_then(|value| usize::try_from(value).ok());
-        value.filter(|&value| value > 0).ok_or_else(|| {
-            fault!(deck, self.place;
-            "{}: a number above 0 expected in field {}", self.name, field + 2)
-        })
+    pub fn number(&self, field: usize) -> Result<usize, MeshFileError> {
+        let value = self.optional_int(field)?.and_then(|value| usize::try_from(value).ok());
+        value.filter(|&value| value > 0).ok_or_else(
+            || fault!(self; "{}: a number above 0 expected in field {}", self.name, field + 2),
+        )
     }
 
     /// A real number; none where the field is empty.
-    pub fn optional_real(
-        &self,
-        deck: &Deck<'_>,
-        number: usize,
-    ) -> Result<Option<f64>, MeshFileError> {
-        let field = self.field(number);
-        if field.is_empty() {
-            return Ok(None);
-        }
-        short_real(field).map(Some).ok_or_else(|| {
-            fault!(deck, self.place;
-            "{}: a number expected in field {}, found {}", self.name, number + 2, quoted(field))
-        })
+    pub fn optional_real(&self, number: usize) -> Result<Option<f64>, MeshFileError> {
+        self.optional(number, "a number", short_real)
     }
 
     /// A real number, 0 where the field is empty.
-    pub fn real(&self, deck: &Deck<'_>, number: usize) -> Result<f64, MeshFileError> {
-        Ok(self.optional_real(deck, number)?.unwrap_or(0.0))
+    pub fn real(&self, number: usize) -> Result<f64, MeshFileError> {
+        Ok(self.optional_real(number)?.unwrap_or(0.0))
     }
 }
 
@@ -117,7 +114,7 @@ fn line_of(line: &str) -> Line<'_> {
 }
 
 /// The cards of a file and its case control.
-pub(super) fn cards<'a>(deck: &Deck<'a>) -> Result<(Vec<Card<'a>>, Control), MeshFileError> {
+pub(super) fn cards<'a>(deck: &'a Deck<'a>) -> Result<(Vec<Card<'a>>, Control), MeshFileError> {
     let is_bulk = |line: &str| {
         let line = line.trim_start();
         line.get(..10).is_some_and(|start| start.eq_ignore_ascii_case("BEGIN BULK"))
@@ -156,7 +153,7 @@ pub(super) fn cards<'a>(deck: &Deck<'a>) -> Result<(Vec<Card<'a>>, Control), Mes
         if !name.starts_with(|c: char| c.is_ascii_alphabetic()) {
             refuse!(deck, place; "the name of a card expected, found {}", quoted(head));
         }
-        cards.push(Card { name, fields, place });
+        cards.push(Card { deck, name, fields, place });
     }
     Ok((cards, control))
 }

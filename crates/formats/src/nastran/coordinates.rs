@@ -83,22 +83,22 @@ impl<'d, 'a> Coordinates<'d, 'a> {
             };
             let starts: &[usize] = if rest.starts_with('1') { &[0, 4] } else { &[0] };
             for &start in starts.iter().filter(|&&start| !card.field(start).is_empty()) {
-                let number = card.number(deck, start)?;
+                let number = card.number(start)?;
                 let definition = if rest.starts_with('1') {
-                    let node = |i: usize| card.number(deck, start + 1 + i);
+                    let node = |i: usize| card.number(start + 1 + i);
                     Definition::Nodes([node(0)?, node(1)?, node(2)?])
                 } else {
-                    let reference = card.optional_int(deck, 1)?.unwrap_or(0);
+                    let reference = card.optional_int(1)?.unwrap_or(0);
                     let mut points = [[0.0; 3]; 3];
                     for (i, point) in points.iter_mut().enumerate() {
                         for (axis, value) in point.iter_mut().enumerate() {
-                            *value = card.real(deck, 2 + 3 * i + axis)?;
+                            *value = card.real(2 + 3 * i + axis)?;
                         }
                     }
                     Definition::Points(usize::try_from(reference).unwrap_or(0), points)
                 };
                 if definitions.insert(number, (kind, definition, card.place)).is_some() {
-                    refuse!(deck, card.place; "coordinate system {number} is defined twice");
+                    refuse!(card; "coordinate system {number} is defined twice");
                 }
             }
         }

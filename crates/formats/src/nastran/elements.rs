@@ -2,9 +2,9 @@
 
 use super::Reader;
 use super::card::Card;
-use crate::collection::CollectedElement;
+use crate::ElementKind;
+use crate::collection::{CollectedElement, corners_of};
 use crate::file_mesh::{MeshFileError, SurfaceFace};
-use crate::{ElementKind, FaceKind};
 use std::collections::{BTreeMap, HashMap};
 
 /// Elements that are no solids and change the body where they are left out: refused, not listed.
@@ -14,7 +14,7 @@ impl Reader<'_, '_> {
     pub(super) fn read_elements(&mut self) -> Result<(), MeshFileError> {
         for card in self.cards {
             if let Some((name, reason)) = REFUSED.iter().find(|refused| refused.0 == card.name) {
-                refuse!(self.deck, card.place; "{name}: {reason}");
+                refuse!(card; "{name}: {reason}");
             }
             let of_order = |is_quadratic: bool| {
                 let mut kinds = ElementKind::ALL.into_iter();
@@ -35,18 +35,17 @@ impl Reader<'_, '_> {
         card: &Card<'_>,
         [linear, quadratic]: [ElementKind; 2],
     ) -> Result<(), MeshFileError> {
-        let deck = self.deck;
-        let label = card.number(deck, 0)?;
-        let property = card.optional_int(deck, 1)?.unwrap_or(label as i64);
+        let label = card.number(0)?;
+        let property = card.optional_int(1)?.unwrap_or(label as i64);
         let fields = &card.fields[2..card.fields.len().max(2)];
         let has_middles =
             fields.iter().skip(linear.node_count()).any(|field| !["", "0"].contains(field));
         let kind = if has_middles { quadratic } else { linear };
         let mut listed = Vec::with_capacity(kind.node_count());
         for place in 0..kind.node_count() {
-            let node = card.optional_int(deck, 2 + place)?.unwrap_or(0);
+            let node = card.optional_int(2 + place)?.unwrap_or(0);
             let Some(node) = usize::try_from(node).ok().filter(|&node| node > 0) else {
-                refuse!(deck, card.place;
+                refuse!(card;
                     "{} {label} lacks node {}: give every node of the element, or its corners \
                      alone", card.name, place + 1);
             };
@@ -54,12 +53,11 @@ impl Reader<'_, '_> {
         }
         let beyond = fields.iter().skip(kind.node_count()).any(|field| !field.is_empty());
         if beyond {
-            refuse!(deck, card.place;
-                "{} {label} has more than {} nodes", card.name, kind.node_count());
+            refuse!(card; "{} {label} has more than {} nodes", card.name, kind.node_count());
         }
         let index = self.collection.elements.len();
         if self.elements.insert(label, index).is_some() {
-            refuse!(deck, card.place; "element {label} is given twice");
+            refuse!(card; "element {label} is given twice");
         }
         let region = self.region(property.unsigned_abs() as usize);
         self.collection.elements.push(CollectedElement {
@@ -87,15 +85,14 @@ impl Reader<'_, '_> {
                 faces.insert(corners_of(&face), face);
             }
         }
-        let deck = self.deck;
         let mut skins: BTreeMap<usize, Vec<SurfaceFace>> = BTreeMap::new();
         for card in self.cards.iter().filter(is_skin) {
-            let label = card.number(deck, 0)?;
-            let property = card.number(deck, 1)?;
+            let label = card.number(0)?;
+            let property = card.number(1)?;
             let count = if card.name.starts_with("CTRIA") { 3 } else { 4 };
             let mut corners = Vec::new();
             for place in 0..count {
-                let node = card.number(deck, 2 + place)?;
+                let node = card.number(2 + place)?;
                 corners.push(self.node(node, &format!("{} {label}", card.name), card.place)?);
             }
             corners.sort_unstable();
@@ -118,24 +115,22 @@ impl Reader<'_, '_> {
 
     /// Faces of solids by three of their nodes.
     fn read_bsurfs(&mut self) -> Result<(), MeshFileError> {
-        let deck = self.deck;
         for card in self.cards_of("BSURFS") {
-            let name = format!("BSURFS_{}", card.number(deck, 0)?);
+            let name = format!("BSURFS_{}", card.number(0)?);
             // Element and three of its nodes in turns, from the fifth field on.
             let entries = card.fields.get(4..).unwrap_or_default().chunks(4);
             for (i, _) in entries.enumerate().filter(|(_, entry)| !entry[0].is_empty()) {
                 let first = 4 + 4 * i;
-                let element = self.solid(card.number(deck, first)?, card)?;
+                let element = self.solid(card.number(first)?, card)?;
                 let mut nodes = [0; 3];
                 for (k, node) in nodes.iter_mut().enumerate() {
-                    let label = card.number(deck, first + 1 + k)?;
+                    let label = card.number(first + 1 + k)?;
                     *node = self.node(label, &name, card.place)?;
                 }
                 let face = self.collection.elements[element].face_with(&nodes);
-                let face = face.ok_or_else(|| {
-                    fault!(deck, card.place;
-                    "{name}: its nodes are on no face of the element")
-                })?;
+                let face = face.ok_or_else(
+                    || fault!(card; "{name}: its nodes are on no face of the element"),
+                )?;
                 self.collection.surfaces.entry(name.clone()).or_default().push(face);
             }
         }
@@ -145,15 +140,8 @@ impl Reader<'_, '_> {
     /// The place of a solid element by its number.
     pub(super) fn solid(&self, label: usize, card: &Card<'_>) -> Result<usize, MeshFileError> {
         self.elements.get(&label).copied().ok_or_else(|| {
-            fault!(self.deck, card.place;
+            fault!(card;
             "{} names element {label}, which is no solid element of the file", card.name)
         })
     }
-}
-
-/// Corners of a face in ascending order.
-fn corners_of((kind, nodes): &(FaceKind, Vec<u32>)) -> Vec<u32> {
-    let mut corners = nodes[..kind.corner_count()].to_vec();
-    corners.sort_unstable();
-    corners
 }

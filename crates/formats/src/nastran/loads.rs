@@ -24,23 +24,23 @@ impl Reader<'_, '_> {
     ) -> Result<Option<BTreeSet<usize>>, MeshFileError> {
         let mut active: BTreeSet<usize> = named.iter().copied().collect();
         for card in self.cards_of(combined) {
-            let own = card.number(self.deck, 0)?;
+            let own = card.number(0)?;
             if active.remove(&own) {
                 // LOAD has a factor before each set, and one before all.
                 let step = if combined == "LOAD" { 2 } else { 1 };
                 for field in (step..card.fields.len()).step_by(step) {
-                    let factor = |field| card.optional_real(self.deck, field);
+                    let factor = |field| card.optional_real(field);
                     if card.field(field + step - 1).is_empty() {
                         continue;
                     }
                     let is_one = combined != "LOAD"
                         || factor(1)? == Some(1.0) && factor(field)? == Some(1.0);
                     if !is_one {
-                        refuse!(self.deck, card.place;
+                        refuse!(card;
                             "LOAD: only factors of 1 are supported: write the pressures \
                              themselves");
                     }
-                    active.insert(card.number(self.deck, field + step - 1)?);
+                    active.insert(card.number(field + step - 1)?);
                 }
             }
         }
@@ -58,14 +58,14 @@ impl Reader<'_, '_> {
             self.nodes_of_spc1(card, &mut held)?;
         }
         for card in self.cards_of("SPC") {
-            let set = card.number(self.deck, 0)?;
+            let set = card.number(0)?;
             for first in [1, 4].into_iter().filter(|&first| !card.field(first).is_empty()) {
-                if card.real(self.deck, first + 2)? != 0.0 {
+                if card.real(first + 2)? != 0.0 {
                     let reason = "only displacements of zero are taken: these directions stay free";
                     self.lose_part("SPC with a displacement", card.place, reason);
                     continue;
                 }
-                let node = card.number(self.deck, first)?;
+                let node = card.number(first)?;
                 let node = self.node(node, "SPC", card.place)?;
                 let directions = self.directions(card, first + 1)?;
                 let entry = held.entry((set, directions)).or_insert((BTreeSet::new(), card.place));
@@ -83,32 +83,30 @@ impl Reader<'_, '_> {
         let text = card.field(field);
         let is_right = |c: char| ('0'..='6').contains(&c);
         if text.is_empty() || !text.chars().all(is_right) {
-            refuse!(self.deck, card.place;
-                "{}: directions 1 to 6 expected, found {}", card.name, quoted(text));
+            refuse!(card; "{}: directions 1 to 6 expected, found {}", card.name, quoted(text));
         }
         Ok(text.chars().filter(|c| ('1'..='3').contains(c)).collect())
     }
 
     fn nodes_of_spc1(&self, card: &Card<'_>, held: &mut Held) -> Result<(), MeshFileError> {
-        let set = card.number(self.deck, 0)?;
+        let set = card.number(0)?;
         let directions = self.directions(card, 1)?;
         let (nodes, _) = held.entry((set, directions)).or_insert((BTreeSet::new(), card.place));
         if card.field(3).eq_ignore_ascii_case("THRU") {
-            let (first, last) = (card.number(self.deck, 2)?, card.number(self.deck, 4)?);
+            let (first, last) = (card.number(2)?, card.number(4)?);
             let inside = self.nodes.iter().filter(|(label, _)| (first..=last).contains(label));
             nodes.extend(inside.map(|(_, &node)| node));
             return Ok(());
         }
         for field in (2..card.fields.len()).filter(|&field| !card.field(field).is_empty()) {
-            let label = card.number(self.deck, field)?;
+            let label = card.number(field)?;
             nodes.insert(self.node(label, "SPC1", card.place)?);
         }
         Ok(())
     }
 
     fn take_held(&mut self, held: Held, active: Option<&BTreeSet<usize>>) {
-        let elements = self.collection.elements.iter();
-        let used: BTreeSet<u32> = elements.flat_map(|e| e.nodes.iter().copied()).collect();
+        let used = self.collection.used_nodes();
         for ((set, directions), (nodes, place)) in held {
             let nodes: Vec<u32> = nodes.into_iter().filter(|node| used.contains(node)).collect();
             let name = format!("SPC_{set}_{directions}");
@@ -150,10 +148,10 @@ impl Reader<'_, '_> {
     pub(super) fn read_pressures(&mut self) -> Result<(), MeshFileError> {
         let mut sets: BTreeMap<usize, Pressed> = BTreeMap::new();
         for card in self.cards_of("PLOAD4") {
-            let set = card.number(self.deck, 0)?;
-            let element = self.solid(card.number(self.deck, 1)?, card)?;
-            let pressure = card.real(self.deck, 2)?;
-            let others = [3, 4, 5].map(|field| card.optional_real(self.deck, field));
+            let set = card.number(0)?;
+            let element = self.solid(card.number(1)?, card)?;
+            let pressure = card.real(2)?;
+            let others = [3, 4, 5].map(|field| card.optional_real(field));
             let mut is_plain =
                 card.fields.get(8..).unwrap_or_default().iter().all(|field| field.is_empty());
             for other in others {
@@ -208,10 +206,10 @@ impl Reader<'_, '_> {
     /// of a pyramid its two corners on the base; of a tetrahedron a corner of the face and the corner that is not on it.
     fn loaded_face(&self, card: &Card<'_>, element: usize) -> Result<SurfaceFace, MeshFileError> {
         let element = &self.collection.elements[element];
-        let first = self.node(card.number(self.deck, 6)?, "PLOAD4", card.place)?;
-        let second = match card.optional_int(self.deck, 7)? {
+        let first = self.node(card.number(6)?, "PLOAD4", card.place)?;
+        let second = match card.optional_int(7)? {
             None => None,
-            Some(_) => Some(self.node(card.number(self.deck, 7)?, "PLOAD4", card.place)?),
+            Some(_) => Some(self.node(card.number(7)?, "PLOAD4", card.place)?),
         };
         let found = match (element.kind.corner_count(), second) {
             (4, Some(apex)) => opposite(element, apex).filter(|_| first != apex),
@@ -221,10 +219,9 @@ impl Reader<'_, '_> {
             (_, Some(second)) => with_diagonal(element, [first, second]),
             _ => None,
         };
-        found.ok_or_else(|| {
-            fault!(self.deck, card.place;
-            "PLOAD4: G1 and G3 (G4) name no face of element {}", element.label)
-        })
+        found.ok_or_else(
+            || fault!(card; "PLOAD4: G1 and G3 (G4) name no face of element {}", element.label),
+        )
     }
 }
 
@@ -255,7 +252,6 @@ fn opposite(element: &CollectedElement, apex: u32) -> Option<SurfaceFace> {
 /// The triangular face of a wedge on which a corner lies.
 fn triangle(element: &CollectedElement, corner: u32) -> Option<SurfaceFace> {
     let nodes = &element.nodes;
-    let ends = [&nodes[..3], &nodes[3..6]];
-    let end = ends.into_iter().find(|end| end.contains(&corner))?;
+    let end = [&nodes[..3], &nodes[3..6]].into_iter().find(|end| end.contains(&corner))?;
     element.face_with(end)
 }

@@ -84,8 +84,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<FileMesh, MeshFileError> {
 /// The file that a line includes.
 pub(super) fn included(line: &str) -> Option<(&str, bool)> {
     let line = line.trim();
-    let start = line.get(..7)?;
-    if !start.eq_ignore_ascii_case("INCLUDE") {
+    if !line.get(..7)?.eq_ignore_ascii_case("INCLUDE") {
         return None;
     }
     let name = line[7..].trim().trim_matches(['\'', '"']);
@@ -99,14 +98,12 @@ impl<'d, 'a> Reader<'d, 'a> {
     }
 
     fn leave_out(&mut self, keyword: &str, place: Place, reason: &str) {
-        let deck = self.deck;
-        self.model.leave_out(keyword, || deck.name(place), reason);
+        self.model.leave_out(keyword, || self.deck.name(place), (reason, false));
     }
 
     /// Leaves out what would hold, load or join parts.
     fn lose_part(&mut self, keyword: &str, place: Place, reason: &str) {
-        let deck = self.deck;
-        self.model.lose_part(keyword, || deck.name(place), reason);
+        self.model.leave_out(keyword, || self.deck.name(place), (reason, true));
     }
 
     fn list_unknown(&mut self) {
@@ -126,25 +123,24 @@ impl<'d, 'a> Reader<'d, 'a> {
 
     /// Nodes in basic coordinates.
     fn read_nodes(&mut self) -> Result<(), MeshFileError> {
-        let deck = self.deck;
         let default = self.cards_of("GRDSET").next();
         let of_default = |field: usize| match default {
-            Some(card) => card.optional_int(deck, field),
+            Some(card) => card.optional_int(field),
             None => Ok(None),
         };
         let [system, turned, held] = [of_default(1)?, of_default(5)?, of_default(6)?];
         let mut held_nodes = Vec::new();
         for card in self.cards_of("GRID") {
-            let label = card.number(deck, 0)?;
-            let system = card.optional_int(deck, 1)?.or(system).unwrap_or(0);
-            let point = [card.real(deck, 2)?, card.real(deck, 3)?, card.real(deck, 4)?];
+            let label = card.number(0)?;
+            let system = card.optional_int(1)?.or(system).unwrap_or(0);
+            let point = [card.real(2)?, card.real(3)?, card.real(4)?];
             let system = usize::try_from(system).unwrap_or(0);
             let known = self.coordinates.grids.insert(label, (system, point, card.place));
             if known.is_some_and(|known| known.1 != point || known.0 != system) {
-                refuse!(deck, card.place; "node {label} is given twice, at different places");
+                refuse!(card; "node {label} is given twice, at different places");
             }
-            let is_turned = card.optional_int(deck, 5)?.or(turned).is_some_and(|cd| cd != 0);
-            let held = card.optional_int(deck, 6)?.or(held).filter(|&held| held > 0);
+            let is_turned = card.optional_int(5)?.or(turned).is_some_and(|cd| cd != 0);
+            let held = card.optional_int(6)?.or(held).filter(|&held| held > 0);
             held_nodes.push((label, is_turned, held, card.place));
         }
         let grids: Vec<_> =
@@ -171,9 +167,8 @@ impl<'d, 'a> Reader<'d, 'a> {
 
     /// The place of a node by its number; `owner` names it.
     fn node(&self, label: usize, owner: &str, place: Place) -> Result<u32, MeshFileError> {
-        self.nodes.get(&label).copied().ok_or_else(|| {
-            fault!(self.deck, place;
-            "{owner} names node {label}, which the file does not have")
-        })
+        self.nodes.get(&label).copied().ok_or_else(
+            || fault!(self.deck, place; "{owner} names node {label}, which the file does not have"),
+        )
     }
 }

@@ -9,16 +9,15 @@ use nalgebra::Matrix3;
 impl Reader<'_, '_> {
     /// Materials of the regions that have elements.
     pub(super) fn read_properties(&mut self) -> Result<(), MeshFileError> {
-        let deck = self.deck;
         for card in self.cards_of("PSOLID") {
-            let property = card.number(deck, 0)?;
-            let number = card.number(deck, 1)?;
+            let property = card.number(0)?;
+            let number = card.number(1)?;
             let region = self.region(property);
             let elements = self.collection.elements.iter();
             if !elements.filter_map(|e| e.region.as_deref()).any(|other| other == region) {
                 continue;
             }
-            let axes = match card.optional_int(deck, 2)?.unwrap_or(0) {
+            let axes = match card.optional_int(2)?.unwrap_or(0) {
                 0 => MaterialAxes::Global,
                 system if system > 0 => {
                     let system = self.coordinates.system(system as usize, card.place)?;
@@ -42,7 +41,7 @@ impl Reader<'_, '_> {
                 matches!(card.name.as_str(), "MAT1" | "MAT9") && card.field(0).parse() == Ok(number)
             };
             let Some(material) = self.cards.iter().find(is_meant) else {
-                refuse!(deck, card.place;
+                refuse!(card;
                     "PSOLID {property} names material {number}, which is no MAT1 or MAT9 of the \
                      file");
             };
@@ -56,19 +55,14 @@ impl Reader<'_, '_> {
     }
 
     fn isotropic(&self, card: &Card<'_>, region: String) -> Result<FileMaterial, MeshFileError> {
-        let deck = self.deck;
-        let [e, g, nu] = [
-            card.optional_real(deck, 1)?,
-            card.optional_real(deck, 2)?,
-            card.optional_real(deck, 3)?,
-        ];
+        let [e, g, nu] = [card.optional_real(1)?, card.optional_real(2)?, card.optional_real(3)?];
         // Two of the three give the third: E = 2 G (1 + nu).
         let (young_modulus, poisson_ratio) = match (e, g, nu) {
             (Some(e), _, Some(nu)) => (e, nu),
             (Some(e), Some(g), None) if g != 0.0 => (e, e / (2.0 * g) - 1.0),
             (None, Some(g), Some(nu)) => (2.0 * g * (1.0 + nu), nu),
             _ => {
-                refuse!(deck, card.place; "MAT1 {}: two of E, G and NU are needed", card.field(0));
+                refuse!(card; "MAT1 {}: two of E, G and NU are needed", card.field(0));
             }
         };
         let elasticity = FileElasticity::Isotropic { young_modulus, poisson_ratio };
@@ -81,18 +75,16 @@ impl Reader<'_, '_> {
         region: String,
         axes: MaterialAxes,
     ) -> Result<FileMaterial, MeshFileError> {
-        let deck = self.deck;
         // The upper triangle by rows, over x, y, z, xy, yz, zx.
         let mut stiffness = [[0.0; 6]; 6];
         let mut field = 1;
         for row in 0..6 {
             for column in row..6 {
-                stiffness[row][column] = card.real(deck, field)?;
+                stiffness[row][column] = card.real(field)?;
                 field += 1;
             }
         }
-        let wrong =
-            |message: &str| deck.error(card.place, format!("MAT9 {}: {message}", card.field(0)));
+        let wrong = |message: &str| fault!(card; "MAT9 {}: {message}", card.field(0));
         let is_coupled = (0..6).any(|row| {
             (row.max(2) + 1..6).any(|column| column > row && stiffness[row][column] != 0.0)
         });
@@ -103,15 +95,9 @@ impl Reader<'_, '_> {
         }
         let [a, b, c] = [stiffness[0], stiffness[1], stiffness[2]];
         let normal = Matrix3::new(a[0], a[1], a[2], a[1], b[1], b[2], a[2], b[2], c[2]);
-        let compliance = normal.try_inverse().ok_or_else(|| wrong("its stiffness is singular"))?;
-        let young_moduli = [0, 1, 2].map(|i| 1.0 / compliance[(i, i)]);
-        let elasticity = FileElasticity::Orthotropic {
-            young_moduli,
-            poisson_ratios: [(0, 1), (0, 2), (1, 2)]
-                .map(|(i, j)| -compliance[(j, i)] * young_moduli[i]),
-            shear_moduli: [stiffness[3][3], stiffness[5][5], stiffness[4][4]],
-            axes,
-        };
+        let shear_moduli = [stiffness[3][3], stiffness[5][5], stiffness[4][4]];
+        let elasticity = FileElasticity::of_stiffness(normal, shear_moduli, axes)
+            .ok_or_else(|| wrong("its stiffness is singular"))?;
         self.material(card, region, elasticity, (22, 30))
     }
 
@@ -123,12 +109,12 @@ impl Reader<'_, '_> {
         elasticity: FileElasticity,
         (density, damping): (usize, usize),
     ) -> Result<FileMaterial, MeshFileError> {
-        let damping = card.optional_real(self.deck, damping)?;
+        let damping = card.optional_real(damping)?;
         Ok(FileMaterial {
             region,
             name: format!("{}_{}", card.name, card.field(0)),
             elasticity: Some(elasticity),
-            density: card.optional_real(self.deck, density)?,
+            density: card.optional_real(density)?,
             mass_coefficient: None,
             stiffness_coefficient: None,
             loss_factor: damping.filter(|&damping| damping != 0.0),

@@ -70,10 +70,9 @@ impl Reader<'_, '_> {
             }
         }
         if lost > 0 {
-            let deck = self.deck;
             let keyword = format!("{lost} entities of group {}", group.name);
             let reason = "no nodes, solid elements or shells on the outside";
-            self.model.leave_out(&keyword, || deck.name(group.place), reason);
+            self.model.leave_out(&keyword, || self.deck.name(group.place), (reason, false));
         }
         if !faces.is_empty() {
             self.collection.surfaces.entry(group.name.clone()).or_default().extend(faces);
@@ -85,8 +84,7 @@ impl Reader<'_, '_> {
 
     /// Outer faces by what names them in the file: the corners of a shell, all nodes of a beam.
     pub(super) fn outer_faces(&self) -> HashMap<Vec<u32>, SurfaceFace> {
-        let faces = self.collection.free_faces(&[]).into_iter();
-        let named = faces.map(|face| {
+        let named = self.collection.free_faces(&[]).into_iter().map(|face| {
             let count = face.0.corner_count();
             let count = if count == 2 { face.1.len() } else { count };
             let mut key = face.1[..count].to_vec();

@@ -106,10 +106,9 @@ impl<'a> Reader<'_, 'a> {
         let numbers = line.split_whitespace().map(|word| {
             let number = word.parse::<i64>().ok();
             // Colours and tags may be negative; they are not used.
-            number.map(|n| usize::try_from(n).unwrap_or(0)).ok_or_else(|| {
-                fault!(self.deck, place;
-                "whole numbers expected, found {}", quoted(word))
-            })
+            number.map(|n| usize::try_from(n).unwrap_or(0)).ok_or_else(
+                || fault!(self.deck, place; "whole numbers expected, found {}", quoted(word)),
+            )
         });
         numbers.collect()
     }
@@ -139,13 +138,10 @@ impl<'a> Reader<'_, 'a> {
                 Ok(number) if GROUPS.contains(&number) => self.groups(number)?,
                 Ok(164) => self.units()?,
                 _ => {
-                    let deck = self.deck;
                     let shown: String = number.chars().take(20).collect();
                     let keyword = format!("dataset {shown}");
-                    match PARTS.contains(&number) {
-                        true => self.model.lose_part(&keyword, || deck.name(place), ""),
-                        false => self.model.leave_out(&keyword, || deck.name(place), ""),
-                    }
+                    let is_part = PARTS.contains(&number);
+                    self.model.leave_out(&keyword, || self.deck.name(place), ("", is_part));
                     while self.inner()?.is_some() {}
                 }
             }
@@ -183,18 +179,16 @@ impl<'a> Reader<'_, 'a> {
 
     fn coordinates(&self, place: Place, words: &[&str]) -> Result<Vec<f64>, MeshFileError> {
         let parsed = words.iter().map(|word| {
-            real(word).ok_or_else(|| {
-                fault!(self.deck, place;
-                "a coordinate expected, found {}", quoted(word))
-            })
+            real(word).ok_or_else(
+                || fault!(self.deck, place; "a coordinate expected, found {}", quoted(word)),
+            )
         });
         parsed.collect()
     }
 
     fn nodes(&mut self) -> Result<(), MeshFileError> {
         while let Some(head) = self.inner()? {
-            let numbers = self.ints(head)?;
-            let label = self.must(numbers.first().copied())?;
+            let label = self.must(self.ints(head)?.first().copied())?;
             let next = self.inner()?;
             let (place, line) = self.must(next)?;
             let words: Vec<&str> = line.split_whitespace().collect();
@@ -283,13 +277,9 @@ impl<'a> Reader<'_, 'a> {
                      bricks and wedges are");
                 }
                 None => {
-                    let deck = self.deck;
                     let keyword = format!("elements of kind {descriptor}");
-                    let reason = "no solid or plane elements";
-                    match JOINTS.contains(&descriptor) {
-                        true => self.model.lose_part(&keyword, || deck.name(place), reason),
-                        false => self.model.leave_out(&keyword, || deck.name(place), reason),
-                    }
+                    let reason = ("no solid or plane elements", JOINTS.contains(&descriptor));
+                    self.model.leave_out(&keyword, || self.deck.name(place), reason);
                     Entity::Skin(Vec::new())
                 }
             };
