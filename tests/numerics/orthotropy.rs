@@ -236,6 +236,7 @@ fn isotropic_constants_given_as_orthotropic_have_the_isotropic_stiffness() {
                         [radius * cos, 1.2 * radius * sin + 0.1 * radius * cos, 0.0]
                     };
                     let mesh = Mesh {
+                        dimension: 2,
                         nodes: (0..nodes).map(around).collect(),
                         frames: NodalFrames::global(2, nodes),
                         element_kinds: vec![kind],

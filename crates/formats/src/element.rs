@@ -8,10 +8,13 @@ mod rule;
 mod shapes;
 mod table;
 
+use nalgebra::{Matrix3, Vector3};
+
 pub use face::{FaceKind, FacePoint};
 pub use rule::QuadraturePoint;
 pub use shapes::Shape;
 pub use table::ElementKind;
+use table::FACES;
 
 impl ElementKind {
     /// Shapes of the solid kinds, as messages name them.
@@ -91,7 +94,7 @@ impl ElementKind {
     /// follows from it by the right-hand rule, in the plane a quarter turn behind the direction of the edge.
     #[inline]
     pub fn faces(self) -> &'static [(FaceKind, &'static [usize])] {
-        self.own_faces()
+        &FACES[self as usize]
     }
 
     /// The face of a solid element that has the shape of this plane element; none for a solid element.
@@ -110,6 +113,24 @@ impl ElementKind {
     #[inline]
     pub fn shape_functions(self, at: [f64; 3]) -> Vec<Shape> {
         (self.row().shapes)(at)
+    }
+
+    /// `dx_j / dxi_i` at a point of the parent element, row `i`, of an element with nodes at `points`; in the plane the third parent
+    /// axis is z.
+    #[inline]
+    pub fn jacobian(
+        self,
+        at: [f64; 3],
+        points: impl IntoIterator<Item = [f64; 3]>,
+    ) -> Matrix3<f64> {
+        let mut jacobian = Matrix3::zeros();
+        if self.dimension() == 2 {
+            jacobian[(2, 2)] = 1.0;
+        }
+        for ((_, slopes), point) in self.shape_functions(at).iter().zip(points) {
+            jacobian += Vector3::from(*slopes) * Vector3::from(point).transpose();
+        }
+        jacobian
     }
 
     /// Quadrature of the mass: full, exact for the mass of an undistorted element: 3 points for Tri3, 6 (degree 4, Dunavant 1985) for Tri6,

@@ -4,7 +4,7 @@ use super::base::target_modes;
 use super::fields::Derivatives;
 use super::trial::{Search, Target, Trial};
 use crate::case::ModificationKind;
-use crate::fem::element::lumped_mass;
+use crate::fem::element::ElementGeometry;
 use crate::results::improve::{TargetFields, TargetMode};
 use nalgebra::{Matrix3, SymmetricEigen};
 
@@ -12,7 +12,7 @@ use nalgebra::{Matrix3, SymmetricEigen};
 fn element_size(search: &Search<'_>, element: usize) -> [f64; 2] {
     let (base, mesh) = (search.base, &search.base.mesh);
     let material = base.case.materials().of(mesh.region(element));
-    let mass: f64 = lumped_mass(mesh, element, material).iter().sum();
+    let mass: f64 = ElementGeometry::new(mesh, element).lumped_mass(material).iter().sum();
     [mass, mass / material.density]
 }
 

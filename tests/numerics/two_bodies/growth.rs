@@ -2,6 +2,7 @@
 
 use crate::prelude::*;
 use crate::two_bodies::model::{contact, modes_of, options, rings};
+use frictionsim::fem::TabledMaterial;
 
 /// Size of the seeded mode, m: a slip speed a thousandth of the sliding, and far above the short waves, which grow faster, out
 /// of round-off.
@@ -13,7 +14,7 @@ fn a_mode_of_two_bodies_whose_meshes_do_not_match_grows_as_its_eigenvalue_says()
     let brass = elastic(1e11, 0.35, 8500.0, PlaneFormulation::PlaneStrain);
     let mesh = rings([40, 48], [3, 9], 0.05);
     for shaft in [POLYCARBONATE, brass] {
-        let region = |elastic| RegionMaterial { elastic, damping: None };
+        let region = |elastic| TabledMaterial::from(RegionMaterial { elastic, damping: None });
         let materials = vec![region(POLYCARBONATE), region(shaft)];
         assert_eq!(mesh.regions, ["disc", "shaft"]);
         let options = options(MassKind::Lumped, false);
@@ -31,7 +32,7 @@ fn a_mode_of_two_bodies_whose_meshes_do_not_match_grows_as_its_eigenvalue_says()
 /// A transient from steady sliding and `Re(shape e^(lambda t))`, with the harmonic of the edge in which it moves most.
 fn run(
     mesh: &frictionsim::mesh::Mesh,
-    materials: &Vec<RegionMaterial>,
+    materials: &Vec<TabledMaterial>,
     eigenvalue: c64,
     shape: &[c64],
 ) -> (Recorder, usize) {

@@ -7,6 +7,7 @@ mod refusals;
 mod sweeps;
 
 use crate::prelude::*;
+use frictionsim::fem::TabledMaterial;
 use frictionsim::mesh::BodyError;
 use model::{Part, contact, file_of, modes, one_material, options, rectangle, rings};
 
@@ -127,7 +128,7 @@ fn a_block_on_a_block_of_another_mesh_is_pressed_alike_everywhere() {
     let mesh = blocks([13, 5]).unwrap();
     // The lower block as stiff as nothing deforms.
     let stiff = ElasticMaterial { young_modulus: 1e9 * material.young_modulus, ..material };
-    let region = |elastic| frictionsim::fem::RegionMaterial { elastic, damping: None };
+    let region = |elastic| TabledMaterial::from(RegionMaterial { elastic, damping: None });
     let materials = vec![region(stiff), region(material)];
     assert_eq!(mesh.regions, ["lower", "upper"]);
     let stiffness = assemble_stiffness(&mesh, &materials);

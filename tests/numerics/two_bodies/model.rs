@@ -117,7 +117,7 @@ pub fn one_material() -> &'static dyn MaterialField {
 pub fn rectangle(corner: [f64; 2], size: [f64; 2], count: [usize; 2]) -> Mesh {
     let [nx, ny] = count;
     let node = |i: usize, j: usize| (i + j * (nx + 1)) as u32;
-    let mut mesh = Mesh::default();
+    let mut mesh = Mesh { dimension: 2, ..Mesh::default() };
     for j in 0..=ny {
         for i in 0..=nx {
             let share = [i as f64 / nx as f64, j as f64 / ny as f64];

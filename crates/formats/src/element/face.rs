@@ -33,8 +33,6 @@ pub struct FacePoint {
     pub area: [f64; 3],
 }
 
-const TRIANGLE_EDGES: [[usize; 2]; 3] = [[0, 1], [1, 2], [2, 0]];
-
 impl FaceKind {
     /// The face with so many corners, 2 to 4.
     pub(super) fn of(corners: usize, is_quadratic: bool) -> Self {
@@ -83,7 +81,9 @@ impl FaceKind {
             Self::Line2 => shapes::line(false, xi),
             Self::Line3 => shapes::line(true, xi),
             Self::Tri3 => shapes::triangle(xi, eta).to_vec(),
-            Self::Tri6 => shapes::quadratic_simplex(&shapes::triangle(xi, eta), &TRIANGLE_EDGES),
+            Self::Tri6 => {
+                shapes::quadratic_simplex(&shapes::triangle(xi, eta), &shapes::TRIANGLE_EDGES)
+            }
             Self::Quad4 => shapes::bilinear(xi, eta),
             Self::Quad8 => shapes::serendipity(xi, eta),
         }

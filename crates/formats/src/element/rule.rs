@@ -29,8 +29,7 @@ pub(super) const THREE_TO_APEX: [(f64, f64); 3] = [
 /// Gauss points of a line.
 #[inline]
 pub(super) fn line(points: &[(f64, f64)]) -> Vec<QuadraturePoint> {
-    let points = points.iter();
-    points.map(|&(x, w)| ([x, 0.0, 0.0], w)).collect()
+    points.iter().map(|&(x, w)| ([x, 0.0, 0.0], w)).collect()
 }
 
 /// Gauss points of a square.
@@ -59,8 +58,7 @@ pub(super) fn cube(points: &[(f64, f64)]) -> Vec<QuadraturePoint> {
 /// A rule of the triangle times one of the line.
 #[inline]
 pub(super) fn wedge(triangle: &[QuadraturePoint], line: &[(f64, f64)]) -> Vec<QuadraturePoint> {
-    let along = line.iter();
-    along
+    line.iter()
         .flat_map(|&(z, v)| triangle.iter().map(move |&([x, y, _], w)| ([x, y, z], w * v)))
         .collect()
 }
@@ -68,8 +66,8 @@ pub(super) fn wedge(triangle: &[QuadraturePoint], line: &[(f64, f64)]) -> Vec<Qu
 /// A rule of the square in each section of a pyramid times one over the distance `c` to the apex, whose weight is `c^2`.
 #[inline]
 pub(super) fn pyramid(section: &[(f64, f64)], to_apex: &[(f64, f64)]) -> Vec<QuadraturePoint> {
-    let heights = to_apex.iter();
-    heights
+    to_apex
+        .iter()
         .flat_map(|&(c, v)| {
             let shrunk = move |([x, y, _], w): QuadraturePoint| ([c * x, c * y, 1.0 - c], w * v);
             square(section).into_iter().map(shrunk)

@@ -10,49 +10,37 @@ pub(super) const SQUARE: [[f64; 3]; 4] =
 /// Corners of the triangle.
 pub(super) const TRIANGLE: [[f64; 3]; 3] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
 
+/// Corners at the ends of its edges.
+pub(super) const TRIANGLE_EDGES: [[usize; 2]; 3] = [[0, 1], [1, 2], [2, 0]];
+
 /// Corners of the tetrahedron.
 pub(super) const TETRAHEDRON: [[f64; 3]; 4] =
     [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
-/// Corners of the wedge.
+/// Corners of the wedge, layer by layer.
+#[rustfmt::skip]
 pub(super) const WEDGE: [[f64; 3]; 6] = [
-    [0.0, 0.0, -1.0],
-    [1.0, 0.0, -1.0],
-    [0.0, 1.0, -1.0],
-    [0.0, 0.0, 1.0],
-    [1.0, 0.0, 1.0],
-    [0.0, 1.0, 1.0],
+    [0.0, 0.0, -1.0], [1.0, 0.0, -1.0], [0.0, 1.0, -1.0],
+    [0.0, 0.0, 1.0], [1.0, 0.0, 1.0], [0.0, 1.0, 1.0],
 ];
 
 /// Corners of the pyramid: its base, then its apex.
 pub(super) const PYRAMID: [[f64; 3]; 5] =
     [[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [1.0, 1.0, 0.0], [-1.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
-/// Corners of the brick.
+/// Corners of the brick, layer by layer.
+#[rustfmt::skip]
 pub(super) const BRICK: [[f64; 3]; 8] = [
-    [-1.0, -1.0, -1.0],
-    [1.0, -1.0, -1.0],
-    [1.0, 1.0, -1.0],
-    [-1.0, 1.0, -1.0],
-    [-1.0, -1.0, 1.0],
-    [1.0, -1.0, 1.0],
-    [1.0, 1.0, 1.0],
-    [-1.0, 1.0, 1.0],
+    [-1.0, -1.0, -1.0], [1.0, -1.0, -1.0], [1.0, 1.0, -1.0], [-1.0, 1.0, -1.0],
+    [-1.0, -1.0, 1.0], [1.0, -1.0, 1.0], [1.0, 1.0, 1.0], [-1.0, 1.0, 1.0],
 ];
 
+/// Middles of its edges in both layers, then between them.
+#[rustfmt::skip]
 const BRICK_MIDDLES: [[f64; 3]; 12] = [
-    [0.0, -1.0, -1.0],
-    [1.0, 0.0, -1.0],
-    [0.0, 1.0, -1.0],
-    [-1.0, 0.0, -1.0],
-    [0.0, -1.0, 1.0],
-    [1.0, 0.0, 1.0],
-    [0.0, 1.0, 1.0],
-    [-1.0, 0.0, 1.0],
-    [-1.0, -1.0, 0.0],
-    [1.0, -1.0, 0.0],
-    [1.0, 1.0, 0.0],
-    [-1.0, 1.0, 0.0],
+    [0.0, -1.0, -1.0], [1.0, 0.0, -1.0], [0.0, 1.0, -1.0], [-1.0, 0.0, -1.0],
+    [0.0, -1.0, 1.0], [1.0, 0.0, 1.0], [0.0, 1.0, 1.0], [-1.0, 0.0, 1.0],
+    [-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [1.0, 1.0, 0.0], [-1.0, 1.0, 0.0],
 ];
 
 /// Linear and quadratic functions of a line, `-1 <= s <= 1`: its ends, then its middle.
@@ -97,8 +85,7 @@ pub(super) fn quadratic_simplex(linear: &[Shape], edges: &[[usize; 2]]) -> Vec<S
         let slope = |axis: usize| 4.0 * (p * dq[axis] + q * dp[axis]);
         (4.0 * p * q, std::array::from_fn(slope))
     };
-    let corners = linear.iter().map(corner);
-    corners.chain(edges.iter().map(middle)).collect()
+    linear.iter().map(corner).chain(edges.iter().map(middle)).collect()
 }
 
 /// Bilinear functions of the square.
@@ -190,7 +177,7 @@ pub(super) fn quadratic_wedge([xi, eta, zeta]: [f64; 3]) -> Vec<Shape> {
     };
     let sides = |sign: f64| {
         let along = 1.0 + sign * zeta;
-        [[0, 1], [1, 2], [2, 0]].map(|[start, end]: [usize; 2]| {
+        TRIANGLE_EDGES.map(|[start, end]| {
             let ((p, dp), (q, dq)) = (area[start], area[end]);
             let slope = |axis: usize| 2.0 * along * (p * dq[axis] + q * dp[axis]);
             (2.0 * p * q * along, [slope(0), slope(1), 2.0 * p * q * sign])

@@ -86,10 +86,10 @@ pub(super) struct Row {
 }
 
 /// A face and its nodes.
-pub(super) type Face = (FaceKind, &'static [usize]);
+type Face = (FaceKind, &'static [usize]);
 
 /// Faces of every kind of [`ElementKind::ALL`].
-static FACES: LazyLock<Vec<Vec<Face>>> =
+pub(super) static FACES: LazyLock<Vec<Vec<Face>>> =
     LazyLock::new(|| ElementKind::ALL.iter().map(|kind| kind.row().faces()).collect());
 
 impl Row {
@@ -113,22 +113,13 @@ impl Row {
 
 const THIRD: f64 = 1.0 / 3.0;
 
-const TRIANGLE_EDGES: [[usize; 2]; 3] = [[0, 1], [1, 2], [2, 0]];
 const SQUARE_EDGES: [[usize; 2]; 4] = [[0, 1], [1, 2], [2, 3], [3, 0]];
 const TETRAHEDRON_EDGES: [[usize; 2]; 6] = [[0, 1], [1, 2], [2, 0], [0, 3], [1, 3], [2, 3]];
+#[rustfmt::skip]
 const BRICK_EDGES: [[usize; 2]; 12] = [
-    [0, 1],
-    [1, 2],
-    [2, 3],
-    [3, 0],
-    [4, 5],
-    [5, 6],
-    [6, 7],
-    [7, 4],
-    [0, 4],
-    [1, 5],
-    [2, 6],
-    [3, 7],
+    [0, 1], [1, 2], [2, 3], [3, 0],
+    [4, 5], [5, 6], [6, 7], [7, 4],
+    [0, 4], [1, 5], [2, 6], [3, 7],
 ];
 const WEDGE_EDGES: [[usize; 2]; 9] =
     [[0, 1], [1, 2], [2, 0], [3, 4], [4, 5], [5, 3], [0, 3], [1, 4], [2, 5]];
@@ -141,7 +132,7 @@ const TRI3: Row = Row {
     dimension: 2,
     corners: &shapes::TRIANGLE,
     is_quadratic: false,
-    edges: &TRIANGLE_EDGES,
+    edges: &shapes::TRIANGLE_EDGES,
     faces: &[&[0, 1], &[1, 2], &[2, 0]],
     shapes: |[xi, eta, _]| shapes::triangle(xi, eta).to_vec(),
     quadrature: rule::triangle_three,
@@ -152,7 +143,9 @@ const TRI3: Row = Row {
 const TRI6: Row = Row {
     formats: &formats::TRI6,
     is_quadratic: true,
-    shapes: |[xi, eta, _]| shapes::quadratic_simplex(&shapes::triangle(xi, eta), &TRIANGLE_EDGES),
+    shapes: |[xi, eta, _]| {
+        shapes::quadratic_simplex(&shapes::triangle(xi, eta), &shapes::TRIANGLE_EDGES)
+    },
     quadrature: rule::triangle_six,
     superconvergent: || vec![[0.5, 0.0, 0.0], [0.5, 0.5, 0.0], [0.0, 0.5, 0.0]],
     name: "tri6",
@@ -289,10 +282,6 @@ const PYRAMID13: Row = Row {
 };
 
 impl ElementKind {
-    pub(super) fn own_faces(self) -> &'static [Face] {
-        &FACES[self as usize]
-    }
-
     /// Its numbers, names and orders in the formats of mesh files.
     pub(crate) fn formats(self) -> &'static Formats {
         self.row().formats

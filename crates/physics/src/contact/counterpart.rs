@@ -259,9 +259,7 @@ impl RigidCounterface {
 
 /// Middle of each face of a surface and its outward normal times its area.
 fn mean_normals(mesh: &Mesh, surface: &Boundary) -> Vec<(Vector3<f64>, Vector3<f64>)> {
-    let of_face = |face: &BoundaryFace| {
-        (mesh.middle(&face.nodes[..face.kind.corner_count()]), mesh.area_vector(face))
-    };
+    let of_face = |face: &BoundaryFace| (mesh.middle(face.corners()), mesh.area_vector(face));
     surface.faces.iter().map(of_face).collect()
 }
 

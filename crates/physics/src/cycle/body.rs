@@ -124,9 +124,7 @@ impl WaveBody {
         Ok(Self {
             harmonics,
             masses: (0..mesh.free_node_count()).map(|i| mass.get(2 * i, 2 * i)).collect(),
-            support: support.map(|s| {
-                [s.stiffness, s.damping].map(|m| Matrix2::from_fn(|row, column| m[row][column]))
-            }),
+            support: support.map(|s| [s.stiffness, s.damping]),
             harmonic,
             sector_count: mesh.sector_count(),
             rays: specification.radial_elements + 1,

@@ -1,6 +1,7 @@
 //! Assembly of element matrices and supports, and the dofs that boundary conditions hold.
 
-use super::{MaterialField, ModulusTable, RayleighDamping, Triplets, element, face};
+use super::element::{self, ElementGeometry};
+use super::{MaterialField, ModulusTable, RayleighDamping, Triplets, face};
 use crate::mesh::{Boundary, BoundaryCondition, ElasticSupport, Mesh};
 use nalgebra::DMatrix;
 use std::sync::Arc;
@@ -19,9 +20,7 @@ pub enum MassKind {
 /// Elements that are rotated copies of one another share one matrix to the last bit, so that a
 /// rotationally symmetric mesh gives an exactly rotationally symmetric operator.
 pub fn assemble_stiffness(mesh: &Mesh, material: &dyn MaterialField) -> Triplets {
-    assemble_congruent(mesh, &|_| true, |e| {
-        element::stiffness(mesh, e, material.of(mesh.region(e)))
-    })
+    assemble_congruent(mesh, &|_| true, |e| element_stiffness(mesh, material, e))
 }
 
 /// Global mass `M` over all dofs, point masses included, kg for each metre of thickness.
@@ -32,20 +31,14 @@ pub fn assemble_mass(mesh: &Mesh, material: &dyn MaterialField, kind: MassKind) 
             mass.entries.extend(assemble_point_masses(mesh).entries);
             mass
         }
-        MassKind::Lumped => diagonal(mesh, lumped_masses(mesh, material)),
+        MassKind::Lumped => diagonal(mesh, lumped_masses(mesh, material).into_iter().enumerate()),
     }
 }
 
 /// Point masses over all dofs, kg, in the plane for each metre of thickness.
 pub fn assemble_point_masses(mesh: &Mesh) -> Triplets {
-    let mut triplets = Triplets::default();
-    for attachment in mesh.attachments.iter().filter(|own| own.mass != 0.0) {
-        for axis in 0..mesh.dimension {
-            let dof = mesh.dimension * attachment.node + axis;
-            triplets.push(dof, dof, attachment.mass);
-        }
-    }
-    triplets
+    let masses = mesh.attachments.iter().filter(|own| own.mass != 0.0);
+    diagonal(mesh, masses.map(|own| (own.node, own.mass)))
 }
 
 /// Consistent mass and stiffness of one element over its dofs, those of [`crate::mesh::Mesh::element_nodes`] in turn.
@@ -55,8 +48,16 @@ pub fn element_matrices(
     kind: MassKind,
     element: usize,
 ) -> [DMatrix<f64>; 2] {
-    let stiffness = element::stiffness(mesh, element, material.of(mesh.region(element)));
-    [element_mass(mesh, material, kind, element), stiffness]
+    [element_mass(mesh, material, kind, element), element_stiffness(mesh, material, element)]
+}
+
+/// Stiffness of one element in nodal frames, N/m, in the plane for each metre of thickness.
+pub fn element_stiffness(
+    mesh: &Mesh,
+    material: &dyn MaterialField,
+    element: usize,
+) -> DMatrix<f64> {
+    ElementGeometry::new(mesh, element).stiffness(material.of(mesh.region(element)))
 }
 
 /// Mass of one element in nodal frames, kg, in the plane for each metre of thickness.
@@ -66,11 +67,12 @@ pub fn element_mass(
     kind: MassKind,
     element: usize,
 ) -> DMatrix<f64> {
+    let geometry = ElementGeometry::new(mesh, element);
     let elastic = material.of(mesh.region(element));
     match kind {
-        MassKind::Consistent => element::consistent_mass(mesh, element, elastic),
+        MassKind::Consistent => geometry.consistent_mass(elastic),
         MassKind::Lumped => {
-            let masses = element::lumped_mass(mesh, element, elastic);
+            let masses = geometry.lumped_mass(elastic);
             let d = mesh.dimension;
             let size = d * masses.len();
             DMatrix::from_fn(size, size, |i, j| if i == j { masses[i / d] } else { 0.0 })
@@ -88,11 +90,11 @@ pub fn assemble_region(
     let is_own = |e: usize| mesh.region(e) == region;
     let mass = match kind {
         MassKind::Consistent => consistent_mass(mesh, material, &is_own),
-        MassKind::Lumped => diagonal(mesh, masses_of(mesh, material, &is_own)),
+        MassKind::Lumped => {
+            diagonal(mesh, masses_of(mesh, material, &is_own).into_iter().enumerate())
+        }
     };
-    let stiffness =
-        assemble_congruent(mesh, &is_own, |e| element::stiffness(mesh, e, material.of(region)));
-    [mass, stiffness]
+    [mass, assemble_congruent(mesh, &is_own, |e| element_stiffness(mesh, material, e))]
 }
 
 fn consistent_mass(
@@ -100,18 +102,14 @@ fn consistent_mass(
     material: &dyn MaterialField,
     keep: &dyn Fn(usize) -> bool,
 ) -> Triplets {
-    assemble_congruent(mesh, keep, |e| {
-        element::consistent_mass(mesh, e, material.of(mesh.region(e)))
-    })
+    assemble_congruent(mesh, keep, |e| element_mass(mesh, material, MassKind::Consistent, e))
 }
 
-fn diagonal(mesh: &Mesh, masses: Vec<f64>) -> Triplets {
-    let mut triplets = Triplets::default();
-    for (node, mass) in masses.into_iter().enumerate() {
-        for axis in 0..mesh.dimension {
-            let dof = mesh.dimension * node + axis;
-            triplets.push(dof, dof, mass);
-        }
+/// Masses of nodes along all axes.
+fn diagonal(mesh: &Mesh, masses: impl Iterator<Item = (usize, f64)>) -> Triplets {
+    let (d, mut triplets) = (mesh.dimension, Triplets::default());
+    for (node, mass) in masses {
+        (d * node..d * (node + 1)).for_each(|dof| triplets.push(dof, dof, mass));
     }
     triplets
 }
@@ -129,8 +127,9 @@ fn masses_of(mesh: &Mesh, material: &dyn MaterialField, keep: &dyn Fn(usize) -> 
     let mut masses = vec![0.0; mesh.node_count()];
     let mut cache: Vec<Option<Vec<f64>>> = vec![None; mesh.element_count()];
     for e in (0..mesh.element_count()).filter(|&e| keep(e)) {
-        let shared = cache[mesh.congruent_to[e] as usize]
-            .get_or_insert_with(|| element::lumped_mass(mesh, e, material.of(mesh.region(e))));
+        let shared = cache[mesh.congruent_to[e] as usize].get_or_insert_with(|| {
+            ElementGeometry::new(mesh, e).lumped_mass(material.of(mesh.region(e)))
+        });
         for (&node, mass) in mesh.element_nodes(e).iter().zip(shared.iter()) {
             masses[node as usize] += mass;
         }
@@ -160,7 +159,9 @@ pub fn assemble_displacement_stiffness(
     base: &[f64],
 ) -> Triplets {
     sum_of_elements(mesh, &|_| true, |e| {
-        element::displacement_stiffness(mesh, e, material.of(mesh.region(e)), base)
+        let values = element::nodal_values(mesh, e, base);
+        let elastic = material.of(mesh.region(e));
+        ElementGeometry::new(mesh, e).displacement_stiffness(elastic, &values)
     })
 }
 
@@ -186,12 +187,7 @@ pub fn assemble_supports(mesh: &Mesh) -> [Triplets; 2] {
     for support in mesh.nodal_supports() {
         let matrices = [support.stiffness, support.damping];
         for (triplets, matrix) in both.iter_mut().zip(matrices) {
-            for (row, column) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
-                let value = matrix[row][column];
-                if value != 0.0 {
-                    triplets.push(2 * support.node + row, 2 * support.node + column, value);
-                }
-            }
+            triplets.push_block([2 * support.node; 2], &matrix);
         }
     }
     both
@@ -263,7 +259,7 @@ pub fn assemble_structural_damping(mesh: &Mesh, material: &dyn MaterialField) ->
     for e in 0..mesh.element_count() {
         let region = mesh.region(e);
         if losses[region] != 0.0 {
-            let matrix = element::stiffness(mesh, e, material.of(region)) * losses[region];
+            let matrix = element_stiffness(mesh, material, e) * losses[region];
             scatter(&mut triplets, mesh, e, &matrix);
         }
     }
@@ -315,8 +311,7 @@ pub fn assemble_tabled(
 /// Structural damping of materials and supports together.
 pub fn assemble_losses(mesh: &Mesh, material: &dyn MaterialField) -> Option<Triplets> {
     let parts = [assemble_structural_damping(mesh, material), assemble_support_losses(mesh)];
-    let parts = parts.into_iter().flatten();
-    parts.reduce(|mut sum, part| {
+    parts.into_iter().flatten().reduce(|mut sum, part| {
         sum.entries.extend(part.entries);
         sum
     })
@@ -384,11 +379,10 @@ impl<'a> ElementSum<'a> {
 }
 
 fn scatter(triplets: &mut Triplets, mesh: &Mesh, element: usize, matrix: &DMatrix<f64>) {
-    let (nodes, d) = (mesh.element_nodes(element), mesh.dimension);
-    let dof = |local: usize| d * nodes[local / d] as usize + local % d;
-    for column in 0..matrix.ncols() {
-        for row in 0..matrix.nrows() {
-            triplets.push(dof(row), dof(column), matrix[(row, column)]);
+    let dofs: Vec<usize> = mesh.element_dofs(element).collect();
+    for (j, &column) in dofs.iter().enumerate() {
+        for (i, &row) in dofs.iter().enumerate() {
+            triplets.push(row, column, matrix[(i, j)]);
         }
     }
 }

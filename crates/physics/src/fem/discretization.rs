@@ -78,9 +78,7 @@ impl<'a> DiscretizationError<'a> {
         points: &[IntegrationPoint],
         columns: &DMatrix<f64>,
     ) -> DMatrix<f64> {
-        let d = self.mesh.dimension;
-        let nodes = self.mesh.element_nodes(e).iter().map(|&node| d * node as usize);
-        let dofs: Vec<usize> = nodes.flat_map(|first| first..first + d).collect();
+        let dofs: Vec<usize> = self.mesh.element_dofs(e).collect();
         let operator = geometry.strain_operator(self.material(e), points);
         columns.select_columns(&dofs) * operator.transpose()
     }
@@ -152,8 +150,7 @@ impl<'a> DiscretizationError<'a> {
 fn interleaved(pairs: &[[&[c64]; 2]]) -> DMatrix<f64> {
     let dofs = pairs.first().map_or(0, |[w, _]| w.len());
     let parts = |dof: usize| {
-        let both = pairs.iter().flatten().map(move |own| own[dof]);
-        both.flat_map(|value| [value.re, value.im])
+        pairs.iter().flatten().map(move |own| own[dof]).flat_map(|value| [value.re, value.im])
     };
     DMatrix::from_iterator(PARTS * pairs.len(), dofs, (0..dofs).flat_map(parts))
 }

@@ -7,8 +7,6 @@
 mod mass;
 mod strain;
 
-pub use mass::{consistent_mass, lumped_mass};
-
 use super::{ElasticMaterial, PlaneFormulation};
 use crate::mesh::{ElementKind, Mesh, QuadraturePoint};
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
@@ -48,16 +46,11 @@ fn inverse(jacobian: &Matrix3<f64>) -> (Matrix3<f64>, f64) {
     let minor = |a: usize, b: usize, c: usize, d: usize| j(a, c) * j(b, d) - j(a, d) * j(b, c);
     let determinant =
         j(0, 0) * minor(1, 2, 1, 2) - j(1, 0) * minor(0, 2, 1, 2) + j(2, 0) * minor(0, 1, 1, 2);
+    #[rustfmt::skip]
     let adjugate = Matrix3::new(
-        minor(1, 2, 1, 2),
-        -minor(0, 2, 1, 2),
-        minor(0, 1, 1, 2),
-        -minor(1, 2, 0, 2),
-        minor(0, 2, 0, 2),
-        -minor(0, 1, 0, 2),
-        minor(1, 2, 0, 1),
-        -minor(0, 2, 0, 1),
-        minor(0, 1, 0, 1),
+        minor(1, 2, 1, 2), -minor(0, 2, 1, 2), minor(0, 1, 1, 2),
+        -minor(1, 2, 0, 2), minor(0, 2, 0, 2), -minor(0, 1, 0, 2),
+        minor(1, 2, 0, 1), -minor(0, 2, 0, 1), minor(0, 1, 0, 1),
     );
     (adjugate / determinant, determinant)
 }
@@ -92,16 +85,9 @@ impl ElementGeometry {
         }
     }
 
-    /// `dx_j / dxi_i` at a point of the parent element, row `i`; in the plane the third parent axis is z.
+    /// [`ElementKind::jacobian`] at a point of the parent element.
     fn jacobian(&self, at: [f64; 3]) -> Matrix3<f64> {
-        let mut jacobian = Matrix3::zeros();
-        if self.dimension() == 2 {
-            jacobian[(2, 2)] = 1.0;
-        }
-        for ((_, slopes), point) in self.kind.shape_functions(at).iter().zip(&self.points) {
-            jacobian += Vector3::from(*slopes) * Vector3::from(*point).transpose();
-        }
-        jacobian
+        self.kind.jacobian(at, self.points.iter().copied())
     }
 
     /// Shape values, gradients and measure at a point of the parent element with its weight.
@@ -342,16 +328,7 @@ fn tensor(s: &Voigt) -> Matrix3<f64> {
 
 /// Values of an element's nodes out of those of all nodes.
 pub fn nodal_values(mesh: &Mesh, element: usize, all: &[f64]) -> Vec<f64> {
-    let d = mesh.dimension;
-    let nodes = mesh.element_nodes(element).iter();
-    nodes
-        .flat_map(|&node| all[d * node as usize..d * (node as usize + 1)].iter().copied())
-        .collect()
-}
-
-/// Element stiffness of a mesh, see [`ElementGeometry::stiffness`].
-pub fn stiffness(mesh: &Mesh, element: usize, material: &ElasticMaterial) -> DMatrix<f64> {
-    ElementGeometry::new(mesh, element).stiffness(material)
+    mesh.element_dofs(element).map(|dof| all[dof]).collect()
 }
 
 /// Element geometric stiffness of the stress that `base` (all dofs, nodal frames, m) causes, see
@@ -366,17 +343,6 @@ pub fn geometric_stiffness(
     let values = nodal_values(mesh, element, base);
     let internal = geometry.internal_amplitudes(material, &values);
     geometry.geometric_stiffness(material, &values, internal.as_ref())
-}
-
-/// What the displacements `base` add to an element's stiffness, see [`ElementGeometry::displacement_stiffness`].
-pub fn displacement_stiffness(
-    mesh: &Mesh,
-    element: usize,
-    material: &ElasticMaterial,
-    base: &[f64],
-) -> DMatrix<f64> {
-    let values = nodal_values(mesh, element, base);
-    ElementGeometry::new(mesh, element).displacement_stiffness(material, &values)
 }
 
 /// Makes a matrix whose upper triangle was filled exactly symmetric.

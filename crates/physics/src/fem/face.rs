@@ -44,11 +44,7 @@ pub(super) fn supports(mesh: &Mesh) -> [Triplets; 2] {
                 for (&(row, row_frame), p) in nodes.iter().zip(&point.values) {
                     for (&(column, column_frame), q) in nodes.iter().zip(&point.values) {
                         let block = row_frame.transpose() * law * column_frame * (area * p * q);
-                        for (i, j) in (0..9).map(|k| (k / 3, k % 3)) {
-                            if block[(i, j)] != 0.0 {
-                                triplets.push(3 * row + i, 3 * column + j, block[(i, j)]);
-                            }
-                        }
+                        triplets.push_block([3 * row, 3 * column], &block);
                     }
                 }
             }
@@ -59,12 +55,7 @@ pub(super) fn supports(mesh: &Mesh) -> [Triplets; 2] {
         let laws = [&attachment.stiffness, &attachment.damping];
         for (triplets, law) in both.iter_mut().zip(laws) {
             let block = mesh.in_frame(attachment.node, law);
-            for (i, j) in (0..9).map(|k| (k / 3, k % 3)) {
-                if block[(i, j)] != 0.0 {
-                    let node = 3 * attachment.node;
-                    triplets.push(node + i, node + j, block[(i, j)]);
-                }
-            }
+            triplets.push_block([3 * attachment.node; 2], &block);
         }
     }
     both

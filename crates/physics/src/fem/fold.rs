@@ -77,10 +77,8 @@ impl SectorMatrix {
 
     /// `(row, column, halves of a sector ahead, value)` of every entry.
     pub fn entries(&self) -> impl Iterator<Item = (usize, usize, isize, f64)> {
-        let rows = self.starts.windows(2).enumerate();
-        rows.flat_map(move |(row, ends)| {
-            let own = self.entries[ends[0]..ends[1]].iter();
-            own.map(move |e| {
+        self.starts.windows(2).enumerate().flat_map(move |(row, ends)| {
+            self.entries[ends[0]..ends[1]].iter().map(move |e| {
                 (row, e.column as usize, e.turn as isize / 4 - REACH as isize, e.value)
             })
         })

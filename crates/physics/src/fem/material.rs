@@ -135,17 +135,6 @@ impl MaterialField for RelaxedMaterials {
 }
 
 /// One for each region.
-impl MaterialField for Vec<RegionMaterial> {
-    fn of(&self, region: usize) -> &ElasticMaterial {
-        &self[region].elastic
-    }
-
-    fn own_damping(&self, region: usize) -> Option<RayleighDamping> {
-        self[region].damping
-    }
-}
-
-/// One for each region.
 impl MaterialField for Vec<TabledMaterial> {
     fn of(&self, region: usize) -> &ElasticMaterial {
         &self[region].own.elastic

@@ -28,7 +28,7 @@ pub use assembly::{
     assemble_geometric_stiffness, assemble_losses, assemble_mass, assemble_patch_damping,
     assemble_point_masses, assemble_pressures, assemble_region, assemble_stiffness,
     assemble_structural_damping, assemble_support_losses, assemble_supports, assemble_tabled,
-    element_mass, element_matrices, lumped_masses,
+    element_mass, element_matrices, element_stiffness, lumped_masses,
 };
 pub use discretization::DiscretizationError;
 pub use dof_map::DofMap;

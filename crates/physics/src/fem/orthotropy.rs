@@ -92,8 +92,7 @@ impl Orthotropy {
     /// The ratio that breaks it, the last of the three where each is possible but not all together.
     pub fn check(&self) -> Result<(), Indefinite> {
         let e = &self.young_moduli;
-        let pairs = [(0, 1), (0, 2), (1, 2)];
-        let scale = pairs.map(|(i, j)| (e[i] / e[j]).sqrt());
+        let scale = [(0, 1), (0, 2), (1, 2)].map(|(i, j)| (e[i] / e[j]).sqrt());
         for (which, (ratio, scale)) in self.poisson_ratios.iter().zip(scale).enumerate() {
             if ratio.abs() >= scale {
                 let bounds = [-scale, scale];

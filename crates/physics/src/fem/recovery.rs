@@ -138,8 +138,7 @@ fn patches(mesh: &Mesh, in_each_region: bool) -> Vec<Vec<(usize, Vec<u32>)>> {
     }
     let patch_of = |node: usize, region: usize| -> Vec<u32> {
         let in_region = |e: &u32| mesh.region(*e as usize) == region;
-        let own = around[node].iter().copied();
-        let own: Vec<u32> = own.filter(in_region).collect();
+        let own: Vec<u32> = around[node].iter().copied().filter(in_region).collect();
         let is_between = own.len() < around[node].len();
         // A mid-side node has two elements at most: their neighbours complete its patch too.
         if !on_edge[node] && !is_between && own.len() >= 3 {

@@ -125,11 +125,6 @@ fn add_element(mesh: &Mesh, element: usize, density: f64, spin: &Spin, terms: &m
 
 /// Adds what one node's displacement does at another, in their frames.
 fn add_block(mesh: &Mesh, [i, j]: [u32; 2], block: &Matrix3<f64>, sum: &mut Triplets) {
-    let block = mesh.frame(i as usize).transpose() * block * mesh.frame(j as usize);
-    for row in 0..3 {
-        for column in (0..3).filter(|&column| block[(row, column)] != 0.0) {
-            let at = [3 * i as usize + row, 3 * j as usize + column];
-            sum.push(at[0], at[1], block[(row, column)]);
-        }
-    }
+    let [i, j] = [i, j].map(|node| node as usize);
+    sum.push_block([3 * i, 3 * j], &(mesh.frame(i).transpose() * block * mesh.frame(j)));
 }

@@ -8,9 +8,9 @@ use super::fold::{SectorMatrix, WaveDofs};
 use super::solid::{FaceRule, FaceTerm, face_matrix, whole_element};
 use super::{
     MassKind, MaterialField, RayleighDamping, Triplets, assemble_extra_damping,
-    assemble_geometric_stiffness, assemble_supports, element, element_mass,
+    assemble_geometric_stiffness, assemble_supports, element_mass, element_stiffness,
 };
-use crate::mesh::{BoundaryCondition, Mesh, SectorMesh, SolidFace, SolidSector};
+use crate::mesh::{Boundary, BoundaryCondition, Mesh, SectorMesh, SolidFace, SolidSector};
 use nalgebra::DMatrix;
 
 /// One sector of a body of equal sectors.
@@ -61,23 +61,16 @@ impl Sectored for SectorMesh {
     }
 
     fn supports(&self) -> Vec<SectorSupport> {
-        let boundaries = &self.strip.boundaries;
-        let of = |own: usize| {
-            let BoundaryCondition::Support(support) = boundaries[own].condition else {
+        let of = |own: &Boundary| {
+            let BoundaryCondition::Support(support) = own.condition else {
                 return None;
             };
             // The sector with this support alone.
-            let mut alone = self.strip.clone();
-            for (other, boundary) in alone.boundaries.iter_mut().enumerate() {
-                if other != own {
-                    boundary.condition = BoundaryCondition::Free;
-                }
-            }
+            let alone = Mesh { boundaries: vec![own.clone()], ..self.strip.clone() };
             let terms = assemble_supports(&alone).map(|own| folded(self, &own));
-            let name = boundaries[own].name.clone();
-            Some(SectorSupport { name, terms, loss_factor: support.loss_factor })
+            Some(SectorSupport { name: own.name.clone(), terms, loss_factor: support.loss_factor })
         };
-        (0..boundaries.len()).filter_map(of).collect()
+        self.strip.boundaries.iter().filter_map(of).collect()
     }
 
     fn unheld(&self) -> Self {
@@ -162,7 +155,7 @@ pub fn stiffness_of<S: Sectored>(
     material: &dyn MaterialField,
     region: Option<usize>,
 ) -> SectorMatrix {
-    assemble(sector, region, |strip, e| element::stiffness(strip, e, material.of(strip.region(e))))
+    assemble(sector, region, |strip, e| element_stiffness(strip, material, e))
 }
 
 /// [`stiffness_of`] all regions.

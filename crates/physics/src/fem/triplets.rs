@@ -1,5 +1,7 @@
 //! Entries of a sparse matrix before they are summed.
 
+use nalgebra::SMatrix;
+
 /// Entries `(row, column, value)` of a sparse matrix; entries at one place add up.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Triplets {
@@ -11,6 +13,17 @@ impl Triplets {
     /// Adds one entry.
     pub fn push(&mut self, row: usize, column: usize, value: f64) {
         self.entries.push((row, column, value));
+    }
+
+    /// Adds the entries of a block that are not zero, row by row; its first one stands at `(row, column)`.
+    pub fn push_block<const N: usize>(
+        &mut self,
+        [row, column]: [usize; 2],
+        block: &SMatrix<f64, N, N>,
+    ) {
+        for (i, j) in (0..N * N).map(|k| (k / N, k % N)).filter(|at| block[*at] != 0.0) {
+            self.push(row + i, column + j, block[(i, j)]);
+        }
     }
 
     /// Sums the entries of one place, in their order; then they are in the order of rows and columns.

@@ -1,7 +1,7 @@
 //! The structured annulus mesh.
 
 use super::Mesh;
-use super::sectors::{build, graded_radii, sector_node_count};
+use super::sectors::build;
 use super::specification::{AnnulusSpecification, MeshError, validate};
 
 /// A structured annulus mesh with its sectors.
@@ -17,8 +17,6 @@ pub struct AnnulusMesh {
     pub mesh: Mesh,
     /// What it was generated from.
     pub specification: AnnulusSpecification,
-    /// Radii of the corner nodes along a ray, `N_r + 1` values, m.
-    pub radii: Vec<f64>,
 }
 
 impl AnnulusMesh {
@@ -29,14 +27,12 @@ impl AnnulusMesh {
     pub fn generate(specification: &AnnulusSpecification) -> Result<Self, MeshError> {
         let spec = *specification;
         validate(&spec)?;
-        let radii = graded_radii(&spec);
-        let mesh = build(&spec, spec.circumferential_elements);
-        Ok(Self { mesh, specification: spec, radii })
+        Ok(Self { mesh: build(&spec, spec.circumferential_elements), specification: spec })
     }
 
     /// Nodes of one sector (one element wide in the circumferential direction).
     pub fn sector_node_count(&self) -> usize {
-        sector_node_count(&self.specification)
+        self.specification.nodes_per_sector() as usize
     }
 
     /// Number of sectors, `N_theta`.
@@ -48,6 +44,7 @@ impl AnnulusMesh {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::mesh::sectors::graded_radii;
     use crate::mesh::{BoundaryCondition, ElementKind};
     use std::f64::consts::TAU;
 
@@ -87,7 +84,7 @@ mod tests {
     #[test]
     fn graded_elements_grow_by_the_given_ratio() {
         let spec = AnnulusSpecification { radial_grading: 1.1, ..paper(ElementKind::Quad4) };
-        let radii = AnnulusMesh::generate(&spec).unwrap().radii;
+        let radii = graded_radii(&spec);
         for triple in radii.windows(3) {
             let ratio = (triple[2] - triple[1]) / (triple[1] - triple[0]);
             assert!((ratio - 1.1).abs() < 1e-10);

@@ -1,6 +1,7 @@
 //! Named boundaries of a body, and what holds them.
 
 use super::{Counterface, FaceKind, Mesh};
+use nalgebra::Matrix2;
 use std::collections::BTreeSet;
 use std::f64::consts::FRAC_PI_2;
 
@@ -48,6 +49,13 @@ pub struct BoundaryFace {
     pub element: u32,
     /// 0-based nodes in the order of [`FaceKind`], the normal pointing out of the body.
     pub nodes: Vec<u32>,
+}
+
+impl BoundaryFace {
+    /// Its corners, ends of an edge.
+    pub fn corners(&self) -> &[u32] {
+        &self.nodes[..self.kind.corner_count()]
+    }
 }
 
 /// A named part of the surface of a body: a curve of edges in the plane, faces of a solid.
@@ -116,8 +124,7 @@ impl Boundary {
         }
         if self.is_closed {
             let angles = self.nodes.iter().map(|&node| turned(place(node)));
-            let first = angles.enumerate().min_by(|a, b| a.1.total_cmp(&b.1));
-            let first = first.map_or(0, |(i, _)| i);
+            let first = angles.enumerate().min_by(|a, b| a.1.total_cmp(&b.1)).map_or(0, |(i, _)| i);
             self.nodes.rotate_left(first);
             self.tributary_lengths.rotate_left(first);
             self.normal_angles.rotate_left(first);
@@ -131,9 +138,9 @@ pub struct NodalSupport {
     /// 0-based node.
     pub node: usize,
     /// Stiffness over `(e_1, e_2)`, N/m for each metre of thickness.
-    pub stiffness: [[f64; 2]; 2],
+    pub stiffness: Matrix2<f64>,
     /// Damping over `(e_1, e_2)`, N s/m for each metre of thickness.
-    pub damping: [[f64; 2]; 2],
+    pub damping: Matrix2<f64>,
 }
 
 impl Mesh {
@@ -154,10 +161,9 @@ impl Mesh {
                 let (sin, cos) = if is_straight { (0.0, 1.0) } else { turn.sin_cos() };
                 let of = |along: f64, across: f64| {
                     let coupling = length * (along - across) * sin * cos;
-                    [
-                        [length * (along * cos * cos + across * sin * sin), coupling],
-                        [coupling, length * (along * sin * sin + across * cos * cos)],
-                    ]
+                    let first = length * (along * cos * cos + across * sin * sin);
+                    let second = length * (along * sin * sin + across * cos * cos);
+                    Matrix2::new(first, coupling, coupling, second)
                 };
                 supports.push(NodalSupport {
                     node,
@@ -169,11 +175,10 @@ impl Mesh {
         // Springs and dashpots at single nodes.
         for attachment in &self.attachments {
             let block = |matrix| {
-                let own = self.in_frame(attachment.node, matrix);
-                [0, 1].map(|i| [0, 1].map(|j| own[(i, j)]))
+                self.in_frame(attachment.node, matrix).fixed_view::<2, 2>(0, 0).into_owned()
             };
             let [stiffness, damping] = [&attachment.stiffness, &attachment.damping].map(block);
-            if stiffness != [[0.0; 2]; 2] || damping != [[0.0; 2]; 2] {
+            if stiffness != Matrix2::zeros() || damping != Matrix2::zeros() {
                 supports.push(NodalSupport { node: attachment.node, stiffness, damping });
             }
         }

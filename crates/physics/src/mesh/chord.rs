@@ -59,7 +59,7 @@ impl Mesh {
         let mut outward: BTreeMap<u32, Vector3<f64>> = BTreeMap::new();
         let mut facing = 0.0;
         for face in faces {
-            let (area, corners) = (self.area_vector(face), &face.nodes[..face.kind.corner_count()]);
+            let (area, corners) = (self.area_vector(face), face.corners());
             facing += area.dot(&normal(self.middle(corners).into()));
             for &corner in corners {
                 *outward.entry(corner).or_insert_with(Vector3::zeros) += area;
@@ -93,7 +93,7 @@ impl Mesh {
 
     /// Outward normal of the polygon of a face's corners times its area; of a line times its length.
     pub(crate) fn area_vector(&self, face: &BoundaryFace) -> Vector3<f64> {
-        let corners = face.nodes[..face.kind.corner_count()].iter();
+        let corners = face.corners().iter();
         let corners: Vec<Vector3<f64>> =
             corners.map(|&node| Vector3::from(self.nodes[node as usize])).collect();
         if let [a, b] = corners[..] {

@@ -58,13 +58,8 @@ impl Counterface {
     /// speed is `Omega` in rad/s, a pure number for a plane.
     pub fn lever(&self) -> f64 {
         match *self {
-            Self::Cylinder { radius, is_inside, .. } => {
-                if is_inside {
-                    radius
-                } else {
-                    -radius
-                }
-            }
+            Self::Cylinder { radius, is_inside: true, .. } => radius,
+            Self::Cylinder { radius, .. } => -radius,
             // The second axis, a quarter turn ahead of the normal, points against the direction.
             Self::Plane { .. } => -1.0,
         }

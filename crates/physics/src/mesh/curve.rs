@@ -135,11 +135,10 @@ impl EdgeWeights {
             lengths: vec![0.0; curve.nodes.len()],
             normals: vec![[0.0; 2]; curve.nodes.len()],
         };
-        const FAR: f64 = 0.774_596_669_241_483_4;
         for &(p, q, middle) in &curve.edges {
             let nodes: Vec<u32> = [p, q].into_iter().chain(middle).collect();
             let kind = if middle.is_some() { FaceKind::Line3 } else { FaceKind::Line2 };
-            for (s, weight) in [(-FAR, 5.0 / 9.0), (0.0, 8.0 / 9.0), (FAR, 5.0 / 9.0)] {
+            for ([s, ..], weight) in FaceKind::Line3.quadrature() {
                 let shapes = kind.shape_functions([s, 0.0]);
                 let mut tangent = [0.0; 2];
                 for (&node, shape) in nodes.iter().zip(&shapes) {

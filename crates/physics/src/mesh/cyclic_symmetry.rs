@@ -7,11 +7,6 @@ use nalgebra::{Matrix3, Vector3};
 const SAME_PLACE: f64 = 1e-10;
 
 impl Mesh {
-    /// Nodes of one sector.
-    pub fn nodes_per_sector(&self, symmetry: &CyclicSymmetry) -> usize {
-        self.node_count() / symmetry.count
-    }
-
     /// Takes up the symmetry of the file that the mesh was made of, lengths multiplied by `scale`: turns the nodal frames of a solid
     /// body with the sectors. Nothing happens to nodes that are not where it says.
     pub(super) fn take_symmetry(&mut self, of_file: Option<CyclicSymmetry>, scale: f64) {
@@ -19,7 +14,7 @@ impl Mesh {
             return;
         };
         symmetry.point = symmetry.point.map(|x| scale * x);
-        let own = self.nodes_per_sector(&symmetry);
+        let own = self.node_count() / symmetry.count;
         let center = Vector3::from(symmetry.point);
         let reach = |point: &[f64; 3]| (Vector3::from(*point) - center).norm();
         let reach = self.nodes.iter().map(reach).fold(0.0, f64::max);

@@ -8,11 +8,18 @@ use std::collections::{BTreeMap, BTreeSet};
 pub(super) type FaceKey = [u32; 4];
 
 /// The key of a face with the given corners.
-pub(super) fn face_key(corners: &[u32]) -> FaceKey {
+pub(super) fn face_key(corners: impl IntoIterator<Item = u32>) -> FaceKey {
     let mut key = [u32::MAX; 4];
-    key[..corners.len()].copy_from_slice(corners);
+    key.iter_mut().zip(corners).for_each(|(place, corner)| *place = corner);
     key.sort_unstable();
     key
+}
+
+impl BoundaryFace {
+    /// What names it.
+    pub(super) fn key(&self) -> FaceKey {
+        face_key(self.corners().iter().copied())
+    }
 }
 
 impl Mesh {
@@ -32,14 +39,9 @@ impl Mesh {
         let mut faces: Vec<(FaceKey, u32, u32)> = (0..self.element_count())
             .flat_map(|element| {
                 let (kind, nodes) = (self.element_kind(element), self.element_nodes(element));
-                let faces = kind.faces().iter().enumerate();
-                faces.map(move |(face, (kind, locals))| {
-                    let mut corners = [0; 4];
-                    let count = kind.corner_count();
-                    for (corner, &local) in corners.iter_mut().zip(&locals[..count]) {
-                        *corner = nodes[local];
-                    }
-                    (face_key(&corners[..count]), element as u32, face as u32)
+                kind.faces().iter().enumerate().map(move |(face, (kind, locals))| {
+                    let corners = locals[..kind.corner_count()].iter().map(|&local| nodes[local]);
+                    (face_key(corners), element as u32, face as u32)
                 })
             })
             .collect();

@@ -11,6 +11,13 @@ pub enum NodalFrames {
     Solid(Vec<Matrix3<f64>>),
 }
 
+/// Of no nodes.
+impl Default for NodalFrames {
+    fn default() -> Self {
+        Self::Plane(Vec::new())
+    }
+}
+
 impl NodalFrames {
     /// Global axes at every node.
     pub fn global(dimension: usize, count: usize) -> Self {

@@ -57,7 +57,7 @@ use std::collections::BTreeMap;
 ///
 /// Each node carries a local frame (see [`NodalFrames`]); all nodal displacement vectors and matrices of this crate are written
 /// in these frames, dof `dimension * node + axis`. On the annulus the frame is the polar one, `(e_r, e_theta)`.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Mesh {
     /// 2 for a plane body, 3 for a solid one: components of a node's displacement.
     pub dimension: usize,
@@ -101,33 +101,6 @@ pub struct Mesh {
     pub symmetry: Option<CyclicSymmetry>,
 }
 
-/// A plane mesh without nodes.
-impl Default for Mesh {
-    fn default() -> Self {
-        Self {
-            dimension: 2,
-            nodes: Vec::new(),
-            frames: NodalFrames::Plane(Vec::new()),
-            element_kinds: Vec::new(),
-            element_starts: Vec::new(),
-            elements: Vec::new(),
-            congruent_to: Vec::new(),
-            regions: Vec::new(),
-            element_regions: Vec::new(),
-            labels: Vec::new(),
-            boundaries: Vec::new(),
-            contact: 0,
-            opposite: None,
-            counterface: Counterface::default(),
-            is_cyclic: false,
-            attachments: Vec::new(),
-            patches: Vec::new(),
-            equations: Vec::new(),
-            symmetry: None,
-        }
-    }
-}
-
 impl Mesh {
     /// Number of nodes.
     pub fn node_count(&self) -> usize {
@@ -166,6 +139,20 @@ impl Mesh {
         }
     }
 
+    /// Adds an element of a region, a rotated copy of `congruent_to`.
+    pub(super) fn push_element(
+        &mut self,
+        kind: ElementKind,
+        nodes: impl IntoIterator<Item = u32>,
+        (region, congruent_to): (usize, u32),
+    ) {
+        self.elements.extend(nodes);
+        self.element_starts.push(self.elements.len() as u32);
+        self.element_kinds.push(kind);
+        self.element_regions.push(region as u16);
+        self.congruent_to.push(congruent_to);
+    }
+
     /// Number of elements.
     pub fn element_count(&self) -> usize {
         self.element_kinds.len()
@@ -185,6 +172,12 @@ impl Mesh {
     pub fn element_nodes(&self, element: usize) -> &[u32] {
         let range = self.element_starts[element]..self.element_starts[element + 1];
         &self.elements[range.start as usize..range.end as usize]
+    }
+
+    /// Dofs of the nodes of element `element` in turn.
+    pub fn element_dofs(&self, element: usize) -> impl Iterator<Item = usize> {
+        let (d, nodes) = (self.dimension, self.element_nodes(element).iter());
+        nodes.flat_map(move |&node| d * node as usize..d * (node as usize + 1))
     }
 
     /// Whether all elements are four-node quadrilaterals.

@@ -46,8 +46,7 @@ impl Mesh {
         let center = Vector3::from(center);
         let is_near =
             |e: &usize| (Vector3::from(self.element_middle(*e)) - center).norm() <= radius;
-        let near = (0..self.element_count()).filter(is_near);
-        near.map(|e| e as u32).collect()
+        (0..self.element_count()).filter(is_near).map(|e| e as u32).collect()
     }
 
     /// A generated plane mesh as a file, its nodes numbered from 1.

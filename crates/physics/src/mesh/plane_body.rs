@@ -97,12 +97,9 @@ pub(super) fn file_elements(
         let nodes = element.nodes.iter().filter_map(|&node| index_of[node as usize]);
         let mut nodes: Vec<u32> = nodes.collect();
         turn(element, &mut nodes);
-        mesh.elements.extend(nodes);
-        mesh.element_starts.push(mesh.elements.len() as u32);
-        mesh.element_kinds.push(element.kind);
-        mesh.congruent_to.push(e as u32);
         let region = names.binary_search(&&*element.region);
-        mesh.element_regions.push(region.expect("regions are those of the elements") as u16);
+        let region = region.expect("regions are those of the elements");
+        mesh.push_element(element.kind, nodes, (region, e as u32));
     }
     Ok(mesh)
 }

@@ -23,16 +23,8 @@ pub struct MeshQuality {
 impl Mesh {
     /// Jacobian determinant of an element at a parent point, m2 or m3.
     fn jacobian(&self, element: usize, at: [f64; 3]) -> f64 {
-        let shapes = self.element_kind(element).shape_functions(at);
-        let mut jacobian = Matrix3::zeros();
-        if self.dimension == 2 {
-            jacobian[(2, 2)] = 1.0;
-        }
-        for ((_, slopes), &node) in shapes.into_iter().zip(self.element_nodes(element)) {
-            let point = Vector3::from(self.nodes[node as usize]);
-            jacobian += Vector3::from(slopes) * point.transpose();
-        }
-        jacobian.determinant()
+        let points = self.element_nodes(element).iter().map(|&node| self.nodes[node as usize]);
+        self.element_kind(element).jacobian(at, points).determinant()
     }
 
     /// Smallest over largest Jacobian determinant of an element.

@@ -161,7 +161,7 @@ impl Cut {
     fn of(sector: &Mesh, symmetry: &CyclicSymmetry) -> Result<Self, BodyError> {
         let outer = sector.outer_faces();
         let shortest = outer.iter().flat_map(|face| {
-            let corners = &face.nodes[..face.kind.corner_count()];
+            let corners = face.corners();
             let pairs = (0..corners.len()).map(|i| [corners[i], corners[(i + 1) % corners.len()]]);
             pairs.map(|[p, q]| away(sector, p, q))
         });
@@ -211,11 +211,8 @@ impl Cut {
     /// Refuses a sector that does not meet its copy, or meets it with other faces.
     fn check_faces(&self, sector: &Mesh, symmetry: &CyclicSymmetry) -> Result<(), BodyError> {
         let degrees = 360.0 / symmetry.count as f64;
-        let key = |nodes: &[u32], face: &BoundaryFace| -> FaceKey {
-            face_key(&nodes[..face.kind.corner_count()])
-        };
         let of_key: BTreeMap<FaceKey, &BoundaryFace> =
-            self.outer.iter().map(|f| (key(&f.nodes, f), f)).collect();
+            self.outer.iter().map(|face| (face.key(), face)).collect();
         let turn = symmetry.turn(1);
         // Faces that the turn brings onto others: cut faces look at each other there.
         let mut is_cut: BTreeSet<FaceKey> = BTreeSet::new();
@@ -225,10 +222,11 @@ impl Cut {
             let Some(partners) = partners.collect::<Option<Vec<u32>>>() else {
                 continue;
             };
-            if let Some(partner) = of_key.get(&key(&partners, face)) {
+            let key = face_key(partners.into_iter().take(face.kind.corner_count()));
+            if let Some(partner) = of_key.get(&key) {
                 let [own, other] = [face, *partner].map(|face| outward(sector, face));
                 is_overlapping |= (turn * own).dot(&other) > 0.0;
-                is_cut.extend([key(&face.nodes, face), key(&partners, face)]);
+                is_cut.extend([face.key(), key]);
             }
         }
         let reach = format!(
@@ -274,8 +272,8 @@ impl Cut {
             face.nodes.iter().any(|node| nodes.contains_key(node))
         };
         let is_beside = |face: &&BoundaryFace| {
-            let key = face_key(&face.nodes[..face.kind.corner_count()]);
-            !is_cut.contains(&key) && (has(face, &self.first_of) || has(face, &self.second_of))
+            !is_cut.contains(&face.key())
+                && (has(face, &self.first_of) || has(face, &self.second_of))
         };
         let inside = Inside::of(sector);
         let turns = [1, symmetry.count - 1].map(|j| symmetry.turn(j));
@@ -295,7 +293,7 @@ fn away(sector: &Mesh, p: u32, q: u32) -> f64 {
 
 /// A point a little outside a face, by a hundredth of its size.
 fn beyond(sector: &Mesh, face: &BoundaryFace) -> [f64; 3] {
-    let corners = &face.nodes[..face.kind.corner_count()];
+    let corners = face.corners();
     let size = away(sector, corners[0], corners[1]);
     (sector.middle(corners) + outward(sector, face) * (0.01 * size)).into()
 }
@@ -333,8 +331,7 @@ impl Inside {
             let faces = 0..sector.element_kind(element).faces().len();
             let mut faces = faces.map(|face| sector.element_face(element, face));
             faces.all(|face| {
-                let corners = &face.nodes[..face.kind.corner_count()];
-                (point - sector.middle(corners)).dot(&outward(sector, &face)) < 0.0
+                (point - sector.middle(face.corners())).dot(&outward(sector, &face)) < 0.0
             })
         })
     }

@@ -46,10 +46,6 @@ pub(super) fn rays(spec: &AnnulusSpecification) -> Vec<Ray> {
     rays
 }
 
-pub(super) fn sector_node_count(spec: &AnnulusSpecification) -> usize {
-    spec.nodes_per_sector() as usize
-}
-
 /// Radii of the corner nodes: element sizes form a geometric sequence of ratio `radial_grading`.
 pub(super) fn graded_radii(spec: &AnnulusSpecification) -> Vec<f64> {
     let count = spec.radial_elements;
@@ -76,7 +72,7 @@ pub(super) fn build(spec: &AnnulusSpecification, built: usize) -> Mesh {
     let sectors = spec.circumferential_elements;
     let rays = rays(spec);
     let node_sectors = if built < sectors { built + 1 } else { sectors };
-    let node_total = node_sectors * sector_node_count(spec);
+    let node_total = node_sectors * spec.nodes_per_sector() as usize;
     let mut nodes = Vec::with_capacity(node_total);
     let mut frame_angles = Vec::with_capacity(node_total);
     let mut push = |radius: f64, angle: f64| {
@@ -114,9 +110,9 @@ pub(super) fn build(spec: &AnnulusSpecification, built: usize) -> Mesh {
 /// Elements and regions, sector by sector from the inside out; each element's representative is in sector 0.
 fn connect(spec: &AnnulusSpecification, rays: &[Ray], built: usize) -> Mesh {
     let sectors = spec.circumferential_elements;
-    let per_sector = sector_node_count(spec);
-    let mut mesh =
-        Mesh { element_starts: vec![0], regions: vec!["disc".to_owned()], ..Mesh::default() };
+    let per_sector = spec.nodes_per_sector() as usize;
+    let regions = vec!["disc".to_owned()];
+    let mut mesh = Mesh { dimension: 2, element_starts: vec![0], regions, ..Mesh::default() };
     if spec.shaft.is_some() {
         mesh.regions.push("shaft".to_owned());
     }
@@ -142,12 +138,10 @@ fn connect(spec: &AnnulusSpecification, rays: &[Ray], built: usize) -> Mesh {
                 } else {
                     vec![here + i, here + i + 1, next + i + 1, next + i]
                 };
-                mesh.elements.extend(ids.into_iter().map(|id| id as u32));
-                mesh.element_starts.push(mesh.elements.len() as u32);
-                mesh.element_kinds.push(spec.element);
-                mesh.congruent_to.push(representative);
                 // The annulus, region 0, is the last body.
-                mesh.element_regions.push(u16::from(body + 1 < rays.len()));
+                let region = usize::from(body + 1 < rays.len());
+                let nodes = ids.into_iter().map(|id| id as u32);
+                mesh.push_element(spec.element, nodes, (region, representative));
                 representative += 1;
             }
         }
@@ -202,7 +196,7 @@ fn edge(spec: &AnnulusSpecification, ray: &Ray, is_outer: bool, built: usize) ->
     let mut nodes = Vec::new();
     let mut push = |node: usize, length: f64| nodes.push((node as u32, length));
     for sector in 0..built {
-        let here = sector * sector_node_count(spec) + ray.start;
+        let here = sector * spec.nodes_per_sector() as usize + ray.start;
         if spec.element.is_quadratic() {
             let corner = here + if is_outer { 2 * count } else { 0 };
             push(corner, 2.0 / 3.0 * radius * sin * (2.0 - cos));

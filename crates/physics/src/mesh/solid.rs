@@ -5,6 +5,7 @@ use super::specification::validate;
 use super::{
     AnnulusMesh, AnnulusSpecification, BoundaryCondition, ElementKind, Mesh, MeshError, NodalFrames,
 };
+use std::collections::{BTreeMap, HashMap};
 use std::f64::consts::{PI, TAU};
 
 mod faces;
@@ -70,13 +71,12 @@ impl SolidSector {
     /// [`MeshError`] names the key whose value makes no mesh.
     pub fn generate(specification: &SolidSpecification) -> Result<Self, MeshError> {
         let radii = specification.corner_radii()?;
-        let (nodes, index) = sheet_nodes(specification, &radii);
-        let elements = elements(specification, &index);
+        let nodes = sheet_nodes(specification, &radii);
         let mut sector = Self {
             specification: specification.clone(),
+            elements: elements(specification, &nodes),
             nodes,
             radii,
-            elements,
             strip: Mesh::default(),
             rings: Vec::new(),
         };
@@ -139,11 +139,8 @@ impl SolidSector {
             for (e, element) in self.elements.iter().enumerate() {
                 let nodes = element.iter();
                 let nodes = nodes.map(|&(k, half)| (sector + half / 2) % sheets * per_sector + k);
-                mesh.elements.extend(nodes.map(|node| node as u32));
-                mesh.congruent_to.push(mesh.element_kinds.len() as u32);
-                mesh.element_starts.push(mesh.elements.len() as u32);
-                mesh.element_kinds.push(self.element_kind());
-                mesh.element_regions.push(self.region(e) as u16);
+                let (nodes, own) = (nodes.map(|node| node as u32), mesh.element_count() as u32);
+                mesh.push_element(self.specification.element_kind(), nodes, (self.region(e), own));
             }
         }
         mesh
@@ -175,11 +172,6 @@ impl SolidSector {
         let mut parts = self.specification.parts.iter();
         let own = parts.position(|p| lies_in(p.radii, radius) && lies_in(p.heights, height));
         own.map_or(0, |part| part + 1)
-    }
-
-    /// Kind of all elements.
-    pub fn element_kind(&self) -> ElementKind {
-        brick_kind(self.is_quadratic())
     }
 
     /// Whether elements have 20 nodes, not 8.
@@ -233,32 +225,20 @@ impl SolidSector {
         let face = self.specification.contact.face();
         let areas = self.contact_areas();
         let along = face.across_component() / 2;
-        let mut rings: Vec<(usize, ContactRing)> = Vec::new();
+        let mut rings: BTreeMap<usize, ContactRing> = BTreeMap::new();
         for (k, node) in self.nodes.iter().enumerate() {
             // Nodes that something else holds along the normal take no part.
             let is_held = self.is_held(3 * k + face.normal_component());
             if is_held || !self.is_on(k, face) || !self.specification.touches(node.radius) {
                 continue;
             }
-            let place = node.place[along];
-            match rings.iter_mut().find(|(known, _)| *known == place) {
-                Some((_, ring)) => {
-                    ring.nodes.push(k);
-                    ring.area += areas[k];
-                }
-                None => rings.push((
-                    place,
-                    ContactRing {
-                        nodes: vec![k],
-                        radius: node.radius,
-                        height: node.height,
-                        area: areas[k],
-                    },
-                )),
-            }
+            let &SheetNode { radius, height, place, .. } = node;
+            let empty = || ContactRing { nodes: Vec::new(), radius, height, area: 0.0 };
+            let ring = rings.entry(place[along]).or_insert_with(empty);
+            ring.nodes.push(k);
+            ring.area += areas[k];
         }
-        rings.sort_by_key(|(place, _)| *place);
-        rings.into_iter().map(|(_, ring)| ring).collect()
+        rings.into_values().collect()
     }
 
     /// Area of the contact in one sector, m2.
@@ -282,6 +262,11 @@ impl SolidSector {
 }
 
 impl SolidSpecification {
+    /// Kind of all elements: bricks of 20 or of 8 nodes.
+    pub fn element_kind(&self) -> ElementKind {
+        if self.annulus.element.is_quadratic() { ElementKind::Hex20 } else { ElementKind::Hex8 }
+    }
+
     /// Names of the regions.
     pub fn region_names(&self) -> Vec<String> {
         let parts = self.parts.iter().map(|part| part.name.clone());
@@ -373,10 +358,8 @@ fn fit(radii: &mut [f64], inner: f64, outer: f64) -> Result<(), MeshError> {
     Ok(())
 }
 
-/// Nodes in the order of the band, and their index by place and half step.
-type SheetIndex = Box<dyn Fn([usize; 2], usize) -> usize>;
-
-fn sheet_nodes(specification: &SolidSpecification, radii: &[f64]) -> (Vec<SheetNode>, SheetIndex) {
+/// Nodes in the order of the band.
+fn sheet_nodes(specification: &SolidSpecification, radii: &[f64]) -> Vec<SheetNode> {
     let (nr, nz) = (specification.annulus.radial_elements, specification.axial_elements);
     let is_quadratic = specification.annulus.element.is_quadratic();
     let radius = |i: usize| match i % 2 {
@@ -398,35 +381,23 @@ fn sheet_nodes(specification: &SolidSpecification, radii: &[f64]) -> (Vec<SheetN
                     _ => false,
                 };
                 if exists {
-                    nodes.push(SheetNode {
-                        radius: radius(i),
-                        height: height(j),
-                        half_step,
-                        place: [i, j],
-                    });
+                    let (radius, height, place) = (radius(i), height(j), [i, j]);
+                    nodes.push(SheetNode { radius, height, half_step, place });
                 }
             }
         }
     }
-    let width = 2 * nz + 1;
-    let mut index = vec![usize::MAX; (2 * nr + 1) * width * 2];
-    for (k, node) in nodes.iter().enumerate() {
-        index[(node.place[0] * width + node.place[1]) * 2 + node.half_step] = k;
-    }
-    (nodes, Box::new(move |[i, j], half| index[(i * width + j) * 2 + half]))
+    nodes
 }
 
-/// Bricks of 20 or of 8 nodes.
-fn brick_kind(is_quadratic: bool) -> ElementKind {
-    if is_quadratic { ElementKind::Hex20 } else { ElementKind::Hex8 }
-}
-
-fn elements(specification: &SolidSpecification, index: &SheetIndex) -> Vec<Vec<(usize, usize)>> {
+fn elements(specification: &SolidSpecification, nodes: &[SheetNode]) -> Vec<Vec<(usize, usize)>> {
+    let places = nodes.iter().map(|node| (node.place, node.half_step));
+    let index: HashMap<_, usize> = places.zip(0..).collect();
     let (nr, nz) = (specification.annulus.radial_elements, specification.axial_elements);
-    let places = brick_kind(specification.annulus.element.is_quadratic()).node_places();
     // Radially, around and axially, in halves of an element.
+    let places = specification.element_kind().node_places().into_iter();
     let places: Vec<[isize; 3]> =
-        places.into_iter().map(|place| place.map(|coordinate| coordinate as isize)).collect();
+        places.map(|place| place.map(|coordinate| coordinate as isize)).collect();
     let mut elements = Vec::with_capacity(nr * nz);
     for j in 0..nz {
         for i in 0..nr {
@@ -434,7 +405,7 @@ fn elements(specification: &SolidSpecification, index: &SheetIndex) -> Vec<Vec<(
                 let place =
                     [(2 * i + 1).wrapping_add_signed(*a), (2 * j + 1).wrapping_add_signed(*c)];
                 let half = 1usize.wrapping_add_signed(*b);
-                (index(place, half % 2), half)
+                (index[&(place, half % 2)], half)
             };
             elements.push(places.iter().map(node).collect());
         }

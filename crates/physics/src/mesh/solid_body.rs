@@ -30,11 +30,8 @@ impl Mesh {
         refuse_far(file, scale)?;
         let index_of = used_nodes(file)?;
         let mut mesh = solid_elements(file, scale, &index_of)?;
-        let outer: BTreeMap<FaceKey, BoundaryFace> = mesh
-            .outer_faces()
-            .into_iter()
-            .map(|face| (face_key(&face.nodes[..face.kind.corner_count()]), face))
-            .collect();
+        let outer: BTreeMap<FaceKey, BoundaryFace> =
+            mesh.outer_faces().into_iter().map(|face| (face.key(), face)).collect();
         // Each named surface with its faces on the outside; those that have some inside are no boundaries.
         for (name, faces) in &file.surfaces {
             let found: Option<BTreeMap<FaceKey, BoundaryFace>> = faces
@@ -43,7 +40,7 @@ impl Mesh {
                     let corners = nodes[..kind.corner_count()].iter();
                     let corners: Option<Vec<u32>> =
                         corners.map(|&node| index_of[node as usize]).collect();
-                    let key = face_key(&corners?);
+                    let key = face_key(corners?);
                     outer.get(&key).map(|face| (key, face.clone()))
                 })
                 .collect();
@@ -94,8 +91,7 @@ impl Mesh {
             }
             let faces = outer.values();
             let own = faces.filter(|face| face.nodes.iter().all(|node| nodes.contains(node)));
-            let surface = self.surface(name, own.cloned().collect());
-            self.boundaries.push(surface.with_nodes(&nodes));
+            self.boundaries.push(self.surface(name, own.cloned().collect()).with_nodes(&nodes));
         }
         self.boundaries.sort_by(|a, b| a.name.cmp(&b.name));
     }

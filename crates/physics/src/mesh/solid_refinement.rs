@@ -19,22 +19,21 @@ impl Mesh {
         let mut splitting = Splitting::of(&self.nodes, 3)?;
         let faces = self.boundaries.iter().flat_map(|b| &b.faces);
         // Faces of named boundaries, and what they are split into.
-        let key = |face: &BoundaryFace| face_key(&face.nodes[..face.kind.corner_count()]);
         let mut children: BTreeMap<FaceKey, Vec<BoundaryFace>> =
-            faces.map(|face| (key(face), Vec::new())).collect();
+            faces.map(|face| (face.key(), Vec::new())).collect();
         let mut fine = Self {
             element_starts: vec![0],
             elements: Vec::new(),
             element_kinds: Vec::new(),
             element_regions: Vec::new(),
+            congruent_to: Vec::new(),
             boundaries: Vec::new(),
             ..self.clone()
         };
         for element in 0..self.element_count() {
             let (kind, own) = (self.element_kind(element), self.element_nodes(element));
             let named = kind.faces().iter().map(|(face, locals)| {
-                let corners = locals[..face.corner_count()].iter().map(|&k| own[k]);
-                face_key(&corners.collect::<Vec<u32>>())
+                face_key(locals[..face.corner_count()].iter().map(|&k| own[k]))
             });
             let named: Vec<FaceKey> = named.filter(|key| children.contains_key(key)).collect();
             for part in splitting.split(kind, own, |_, _| None) {
@@ -42,23 +41,18 @@ impl Mesh {
                 for key in &named {
                     children.entry(*key).or_default().extend(faces_of(&part, number, key));
                 }
-                fine.elements.extend(part.nodes.iter().map(|(node, _)| node));
-                fine.element_starts.push(fine.elements.len() as u32);
-                fine.element_kinds.push(part.kind);
-                fine.element_regions.push(self.element_regions[element]);
+                let nodes = part.nodes.iter().map(|(node, _)| *node);
+                fine.push_element(part.kind, nodes, (self.region(element), number));
             }
         }
         fine.labels = splitting.labels(&self.labels);
         let Splitting { places, points, .. } = splitting;
         fine.nodes = points;
-        fine.congruent_to = (0..fine.element_count() as u32).collect();
         fine.frames = NodalFrames::global(3, fine.node_count());
         fine.check_elements(|element| element + 1)?;
         let split = |boundary: &Boundary| {
-            let faces = boundary.faces.iter().flat_map(|face| {
-                let corners = &face.nodes[..face.kind.corner_count()];
-                children.get(&face_key(corners)).into_iter().flatten()
-            });
+            let faces = boundary.faces.iter();
+            let faces = faces.flat_map(|face| children.get(&face.key()).into_iter().flatten());
             let own: BTreeSet<u32> = boundary.nodes.iter().copied().collect();
             let between = places
                 .iter()

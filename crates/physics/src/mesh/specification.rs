@@ -149,12 +149,7 @@ pub(super) fn validate(spec: &AnnulusSpecification) -> Result<(), MeshError> {
     if spec.element.corner_count() != 4 {
         return Err(MeshError::Triangles);
     }
-    let is_held = match spec.outer {
-        BoundaryCondition::Clamped => true,
-        BoundaryCondition::Support(support) => support.tangential_stiffness > 0.0,
-        _ => false,
-    };
-    if !is_held {
+    if !holds_turning(spec.outer) {
         return Err(MeshError::NotHeld);
     }
     if let Some(shaft) = spec.shaft {
@@ -179,15 +174,17 @@ fn validate_shaft(
         return Err(MeshError::Bore { bore, radius });
     }
     if shaft.radial_elements < 1 {
-        return Err(MeshError::TooFewElements {
-            key: "shaft_radial_elements",
-            count: shaft.radial_elements,
-            minimum: 1,
-        });
+        let (key, count) = ("shaft_radial_elements", shaft.radial_elements);
+        return Err(MeshError::TooFewElements { key, count, minimum: 1 });
     }
-    match shaft.bore {
-        BoundaryCondition::Clamped => Ok(()),
-        BoundaryCondition::Support(support) if support.tangential_stiffness > 0.0 => Ok(()),
-        _ => Err(MeshError::ShaftNotHeld),
+    if holds_turning(shaft.bore) { Ok(()) } else { Err(MeshError::ShaftNotHeld) }
+}
+
+/// Whether an edge keeps a body from turning about its axis.
+fn holds_turning(condition: BoundaryCondition) -> bool {
+    match condition {
+        BoundaryCondition::Clamped => true,
+        BoundaryCondition::Support(support) => support.tangential_stiffness > 0.0,
+        _ => false,
     }
 }

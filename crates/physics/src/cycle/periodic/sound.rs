@@ -77,7 +77,7 @@ impl FlatFace {
         let mut areas: BTreeMap<u32, f64> = BTreeMap::new();
         for face in faces {
             // Corners share the area of each element: midside nodes of quadratic ones move between them.
-            let corners = &face.nodes[..face.kind.corner_count()];
+            let corners = face.corners();
             let share = mesh.face_area(std::slice::from_ref(face)) / corners.len() as f64;
             for &node in corners {
                 *areas.entry(node).or_default() += share;

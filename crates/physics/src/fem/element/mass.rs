@@ -2,7 +2,6 @@
 
 use super::ElementGeometry;
 use crate::fem::ElasticMaterial;
-use crate::mesh::Mesh;
 use nalgebra::DMatrix;
 
 impl ElementGeometry {
@@ -40,14 +39,4 @@ impl ElementGeometry {
         }
         scalar
     }
-}
-
-/// Element consistent mass of a mesh, see [`ElementGeometry::consistent_mass`].
-pub fn consistent_mass(mesh: &Mesh, element: usize, material: &ElasticMaterial) -> DMatrix<f64> {
-    ElementGeometry::new(mesh, element).consistent_mass(material)
-}
-
-/// Element lumped mass of a mesh, see [`ElementGeometry::lumped_mass`].
-pub fn lumped_mass(mesh: &Mesh, element: usize, material: &ElasticMaterial) -> Vec<f64> {
-    ElementGeometry::new(mesh, element).lumped_mass(material)
 }

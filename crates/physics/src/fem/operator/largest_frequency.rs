@@ -87,8 +87,7 @@ fn largest_tridiagonal(diagonal: &[f64], coupling: &[f64]) -> f64 {
         let left = if i > 0 { coupling[i - 1].abs() } else { 0.0 };
         left + coupling.get(i).map_or(0.0, |c| c.abs())
     };
-    let bound = (0..diagonal.len()).map(|i| diagonal[i] + reach(i));
-    let mut high = bound.fold(f64::MIN, f64::max);
+    let mut high = (0..diagonal.len()).map(|i| diagonal[i] + reach(i)).fold(f64::MIN, f64::max);
     let mut low = diagonal.iter().copied().fold(f64::MIN, f64::max);
     while high - low > 1e-15 * high.abs() {
         let middle = 0.5 * (low + high);

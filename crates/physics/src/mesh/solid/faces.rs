@@ -1,6 +1,6 @@
 //! Elements of the faces of a body of revolution.
 
-use super::super::{ElementKind, FaceKind};
+use super::super::FaceKind;
 use super::{SolidFace, SolidSector};
 
 /// One element's part of a face, in sector 0.
@@ -60,10 +60,7 @@ impl SolidSector {
     pub fn face_elements(&self, face: SolidFace) -> Vec<FaceElement> {
         let [nr, nz] = self.divisions();
         let count = if face.normal_component() == 0 { nz } else { nr };
-        let places = match self.is_quadratic() {
-            true => ElementKind::Quad8.node_places(),
-            false => ElementKind::Quad4.node_places(),
-        };
+        let places = self.specification.annulus.element.node_places();
         let find = |place: [usize; 2], half: usize| {
             let is_here =
                 |node: &super::SheetNode| node.place == place && node.half_step == half % 2;
