@@ -143,7 +143,7 @@ impl Case {
         let mut regions = 0..self.body.region_count();
         let table = regions.find_map(|region| self.materials().table(region));
         let key = keys.find(is_lossy);
-        let key = key.or_else(|| table.map(|table| table.key().to_owned()));
+        let key = key.or_else(|| table.map(|table| table.key.clone()));
         let key = key.unwrap_or_else(|| "material.loss_factor".to_owned());
         let message = format!("{key}: {message}");
         self.error_at(&key, message, label.to_owned(), Some(help.to_owned()))

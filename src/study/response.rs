@@ -177,7 +177,7 @@ fn refuse_beyond_tables(case: &Case, frf: &Frf) -> Result<(), CaseErrors> {
     for table in case.body.tables() {
         let mut lines = frf.frequencies_hz.iter();
         if let Some(line) = lines.find(|line| !table.covers(**line)) {
-            let ([low, high], key, file) = (table.range_hz(), table.key(), table.file());
+            let ([low, high], key, file) = (table.range_hz(), &table.key, &table.file);
             return Err(refusal!(case, key,
                 "{key} = \"{file}\" holds {low} to {high} Hz, and frf asks for {line} Hz: a \
                  modulus beyond a table is not guessed";

@@ -117,7 +117,7 @@ fn model<'a>(assembly: &'a Assembly<'a>) -> TransientModel<'a> {
     let axis = [[0.02, -0.2, 0.0], [0.0, 0.0, 1.0]];
     let contact = sliding_at(FRICTION, 0.0, 10.0);
     let body = SteppedBody::Assembly { assembly, axis };
-    TransientModel::new(body, assembly.materials(), DAMPING, contact)
+    TransientModel::new(body, assembly.materials, DAMPING, contact)
 }
 
 fn settings(initial: InitialState, duration: f64, noise: f64) -> TransientSettings {

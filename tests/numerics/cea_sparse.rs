@@ -12,6 +12,7 @@ use frictionsim::cea::sparse::{
     Centre, FrictionlessModes, Linearization, ShiftInverted, StiffnessFactors, StructureMatrices,
 };
 use frictionsim::linalg::{BlockOperator, KrylovSchurSettings, LuAnalysis, krylov_schur};
+use frictionsim::prestress::ContactDofs;
 
 type Entries = Vec<(usize, usize, f64)>;
 
@@ -54,13 +55,9 @@ pub fn bare(
         tabled: Vec::new(),
         proportional,
         unknowns,
-        contact_tangential: Vec::new(),
-        contact_normal: Vec::new(),
-        contact_opposite: Vec::new(),
+        contact: ContactDofs { sliding_direction: 1.0, ..ContactDofs::default() },
         is_gyroscopic: false,
         distances: Vec::new(),
-        contact_angles: Vec::new(),
-        sliding_direction: 1.0,
         friction: Vec::new(),
     }
 }

@@ -51,7 +51,7 @@ impl Solver {
         match case.body.tables().next() {
             Some(table) if cea.count_modes => Err(refusal!(case, "cea.count_modes",
                 "cea.count_modes = true: {} is a table over frequency, and no analytic function \
-                 of the eigenvalue", table.key();
+                 of the eigenvalue", table.key;
                 "modes cannot be counted"; "leave it out, or give the material one modulus")),
             _ => Ok(solver),
         }

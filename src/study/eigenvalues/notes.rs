@@ -58,8 +58,8 @@ pub(super) fn table_notes(case: &Case) -> Vec<String> {
             "{} = \"{}\": each mode is solved at its own frequency (Im / 2 pi), {low} to {high} \
              Hz. The base state, and what damping.stiffness_coefficient multiplies, have the \
              modulus of the lowest one, {:e} Pa",
-            table.key(),
-            table.file(),
+            table.key,
+            table.file,
             table.static_modulus()
         )
     });

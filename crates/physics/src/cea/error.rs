@@ -112,7 +112,7 @@ impl CeaError {
         friction_coefficient: f64,
         frequency_hz: f64,
     ) -> Self {
-        let [key, file] = [table.key(), table.file()].map(str::to_owned);
+        let (key, file) = (table.key.clone(), table.file.clone());
         let range_hz = table.range_hz();
         Self::BeyondTable { key, file, range_hz, friction_coefficient, frequency_hz }
     }

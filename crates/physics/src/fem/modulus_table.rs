@@ -9,9 +9,9 @@ use std::f64::consts::TAU;
 #[derive(Clone, Debug, PartialEq)]
 pub struct ModulusTable {
     /// The key of the case that names its file.
-    key: String,
+    pub key: String,
     /// The file as the case names it.
-    file: String,
+    pub file: String,
     /// Frequency in Hz, modulus in Pa and loss factor of each row, the frequency rising.
     rows: Vec<[f64; 3]>,
 }
@@ -24,16 +24,6 @@ impl ModulusTable {
     pub fn new(key: &str, file: &str, rows: Vec<[f64; 3]>) -> Self {
         assert!(!rows.is_empty(), "a table has rows");
         Self { key: key.to_owned(), file: file.to_owned(), rows }
-    }
-
-    /// The key of the case that names its file.
-    pub fn key(&self) -> &str {
-        &self.key
-    }
-
-    /// The file as the case names it.
-    pub fn file(&self) -> &str {
-        &self.file
     }
 
     /// Its rows.

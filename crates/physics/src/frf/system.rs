@@ -58,7 +58,7 @@ impl FrfSystem {
         let held = mesh.held_dofs().filter(|_| is_clamped);
         let basis = Elimination::holding(mesh.dof_count(), held);
         let none = ContactDofs::default();
-        let tangent = SlidingTangent::assemble(&body, &[], basis, &none, &options);
+        let tangent = SlidingTangent::assemble(&body, &[], basis, none, &options);
         Self::tied(&tangent.expect("bodies without contact are held once"))
     }
 

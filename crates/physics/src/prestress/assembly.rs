@@ -6,14 +6,13 @@ use super::elimination::Elimination;
 use super::joint::{BaseChoice, SlidingSurfaces, TiedSurfaces};
 use super::pressed_state::{PressedState, Pressing};
 use super::rotation::{Rotation, grounded};
-use super::tangent::{BodyTerms, ContactDofs, ContactPart, SlidingTangent, frozen_terms};
+use super::tangent::{BodyTerms, ContactDofs, ContactPart, SlidingTangent, geometric_stiffness};
 use super::{PrestressError, TangentOptions};
 use crate::contact::{
     ContactSurface, Motion, PairError, Point, PointKind, SurfacePair, Turning, mortar_nodes,
 };
 use crate::fem::{
-    MaterialField, Triplets, assemble_geometric_stiffness, assemble_pressures, assemble_stiffness,
-    assemble_supports,
+    MaterialField, Triplets, assemble_pressures, assemble_stiffness, assemble_supports,
 };
 use crate::mesh::Mesh;
 use std::sync::Arc;
@@ -26,29 +25,27 @@ use std::sync::Arc;
 /// rotation ([`crate::fem::RotationTerms`]) with the geometric stiffness of its centrifugal stress.
 #[derive(Debug)]
 pub struct Assembly<'a> {
-    mesh: &'a Mesh,
-    materials: &'a dyn MaterialField,
-    joined: Arc<Joined>,
+    /// The mesh of all bodies.
+    pub mesh: &'a Mesh,
+    /// The materials of its regions.
+    pub materials: &'a dyn MaterialField,
+    /// What is to be kept of it where the bodies are borrowed for a while only.
+    pub joined: Arc<Joined>,
 }
 
 /// What a mesh, its materials and the pairs of its surfaces give: the costly part of an [`Assembly`], made once.
 #[derive(Debug)]
 pub struct Joined {
-    elastic: Triplets,
-    supports: [Triplets; 2],
+    /// Stiffness of the bodies, N/m.
+    pub(crate) elastic: Triplets,
+    /// Springs (N/m) and dashpots (N s/m) of the supports.
+    pub(crate) supports: [Triplets; 2],
     /// Held dofs and ties.
-    basis: Elimination,
+    pub(crate) basis: Elimination,
     /// The contacts with their points.
-    contacts: Vec<(SlidingSurfaces, ContactSurface)>,
+    pub contacts: Vec<(SlidingSurfaces, ContactSurface)>,
     base: BaseChoice,
     rotation: Option<Rotation>,
-}
-
-impl Joined {
-    /// The contacts with their points.
-    pub fn contacts(&self) -> &[(SlidingSurfaces, ContactSurface)] {
-        &self.contacts
-    }
 }
 
 impl<'a> Assembly<'a> {
@@ -131,24 +128,9 @@ impl<'a> Assembly<'a> {
         Self { mesh, materials, joined }
     }
 
-    /// What is to be kept of it where the bodies are borrowed for a while only.
-    pub fn joined(&self) -> Arc<Joined> {
-        Arc::clone(&self.joined)
-    }
-
     /// The contacts with their points.
     pub fn contacts(&self) -> &[(SlidingSurfaces, ContactSurface)] {
-        self.joined.contacts()
-    }
-
-    /// The mesh of all bodies.
-    pub fn mesh(&self) -> &'a Mesh {
-        self.mesh
-    }
-
-    /// The materials of its regions.
-    pub fn materials(&self) -> &'a dyn MaterialField {
-        self.materials
+        &self.joined.contacts
     }
 
     /// Whether nothing holds the bodies: a part by itself, whose rigid motions have no stiffness.
@@ -159,21 +141,6 @@ impl<'a> Assembly<'a> {
             && springs.is_empty()
             && self.joined.contacts.is_empty()
             && self.joined.rotation.is_none()
-    }
-
-    /// Held dofs and ties.
-    pub(crate) fn basis(&self) -> &Elimination {
-        &self.joined.basis
-    }
-
-    /// Stiffness of the bodies, N/m.
-    pub(crate) fn elastic(&self) -> &Triplets {
-        &self.joined.elastic
-    }
-
-    /// Springs (N/m) and dashpots (N s/m) of the supports.
-    pub(crate) fn supports(&self) -> &[Triplets; 2] {
-        &self.joined.supports
     }
 
     /// Base states at every one of `friction_coefficients`, over the points of all contacts in turn.
@@ -275,7 +242,8 @@ impl<'a> Assembly<'a> {
     ) -> Result<SlidingTangent, PrestressError> {
         let joined = &self.joined;
         let (elastic, supports) = (joined.elastic.clone(), joined.supports.clone());
-        let geometric = options.geometric_stiffness.then(|| self.geometric(state)).flatten();
+        let stressing = options.geometric_stiffness.then(|| self.stressing(state)).flatten();
+        let geometric = stressing.map(|own| geometric_stiffness((self.mesh, self.materials), &own));
         let none = || vec![Vec::new(); joined.contacts.len()];
         let turnings = geometric.as_ref().map_or_else(none, |_| self.turnings());
         let body = BodyTerms {
@@ -305,7 +273,7 @@ impl<'a> Assembly<'a> {
             sliding_direction: 1.0,
             ..ContactDofs::default()
         };
-        SlidingTangent::assemble(&body, &parts, joined.basis.clone(), &dofs, options)
+        SlidingTangent::assemble(&body, &parts, joined.basis.clone(), dofs, options)
     }
 
     /// How the points of each contact turn.
@@ -323,15 +291,6 @@ impl<'a> Assembly<'a> {
             pairs.for_each(|(whole, centrifugal)| *whole -= centrifugal);
         }
         Some(own)
-    }
-
-    /// Geometric stiffness of a state by power of friction, N/m, in the terms of one that is frozen; `None` of a state that is free of stress.
-    fn geometric(&self, state: &PressedState) -> Option<Vec<Triplets>> {
-        let own = self.stressing(state)?;
-        let powers = own.displacements.iter();
-        let powers =
-            powers.map(|own| assemble_geometric_stiffness(self.mesh, self.materials, own, None));
-        Some(frozen_terms(powers.collect(), state.frozen_below))
     }
 }
 

@@ -122,9 +122,9 @@ pub(super) fn range(
             };
             Ok([begin.min(upper - SHORTEST_RANGE), upper])
         };
-        let (state, own) = polynomial_state(bodies, set, ([lower, upper], &own_range), &asked)?;
-        left_out = left_out.max(own);
-        Ok(state)
+        let found = polynomial_state(bodies, &set, ([lower, upper], &own_range), &asked)?;
+        left_out = left_out.max(found.left_out);
+        Ok(found.state)
     });
     let states = states.collect::<Result<Vec<_>, PrestressError>>()?;
     Ok(PressedRange { states, state_of, changes, begins, left_out })
@@ -183,8 +183,7 @@ fn excesses(bodies: &impl PressedBodies, state: &ContactState, is_pressed: &[boo
 
 /// What may be round-off: it must not flip a point that just touches.
 fn bound(state: &ContactState) -> f64 {
-    let sizes = state.normal_forces.iter().map(|force| force.abs());
-    ROUND_OFF * sizes.fold(0.0_f64, f64::max)
+    ROUND_OFF * state.normal_forces.iter().map(|force| force.abs()).fold(0.0_f64, f64::max)
 }
 
 /// The friction coefficient up to which the set at `inside` holds on the way to `outside`, which may be smaller: the root of the largest

@@ -1,6 +1,6 @@
 //! Tangents of a body with cyclic symmetry, one for each number of nodal diameters.
 
-use super::{SlidingTangent, TabledStiffness};
+use super::{ContactDofs, SlidingTangent, TabledStiffness};
 use crate::fem::DofMap;
 use crate::linalg::{MatrixPolynomial, SparsityPattern, c64};
 use crate::mesh::CyclicSymmetry;
@@ -202,12 +202,14 @@ impl<'a> CyclicTangent<'a> {
             proportional: whole.proportional,
             is_gyroscopic: whole.is_gyroscopic,
             unknowns: DofMap::excluding(dimension, []),
-            contact_tangential: touched(&whole.contact_tangential),
-            contact_normal: touched(&whole.contact_normal),
-            contact_opposite: touched(&whole.contact_opposite),
+            contact: ContactDofs {
+                tangential: touched(&whole.contact.tangential),
+                normal: touched(&whole.contact.normal),
+                opposite: touched(&whole.contact.opposite),
+                angles: Vec::new(),
+                ..whole.contact
+            },
             distances: Vec::new(),
-            contact_angles: Vec::new(),
-            sliding_direction: whole.sliding_direction,
             friction: Vec::new(),
         }
     }

@@ -137,6 +137,12 @@ impl Elimination {
         sum.into_iter().collect()
     }
 
+    /// `T^T g` over the unknowns.
+    pub(super) fn over(&self, unknowns: &DofMap, row: &Row) -> Row {
+        let all = self.transposed(row).into_iter();
+        all.filter_map(|(dof, a)| Some((unknowns.unknown_of[dof]?, a))).collect()
+    }
+
     /// `T^T f` of forces over all dofs.
     pub fn transposed_forces(&self, forces: &[f64]) -> Vec<f64> {
         let mut result = forces.to_vec();
@@ -192,14 +198,8 @@ impl Elimination {
         unknowns: &DofMap,
         (friction, weights): (&[RigidFriction], FrictionWeights),
     ) -> ProjectedPolynomial {
-        let slips: Vec<Row> = friction
-            .iter()
-            .map(|rigid| {
-                let slip = self.transposed(&rigid.slip).into_iter();
-                let free = slip.filter_map(|(dof, a)| Some((unknowns.unknown_of[dof]?, a)));
-                free.collect()
-            })
-            .collect();
+        let slips = friction.iter().map(|rigid| self.over(unknowns, &rigid.slip));
+        let slips: Vec<Row> = slips.collect();
         let mut lifts: Vec<Row> = vec![Row::new(); self.is_dropped.len()];
         for (i, rigid) in friction.iter().enumerate() {
             for &(dof, value) in &rigid.lift {
@@ -208,10 +208,7 @@ impl Elimination {
         }
         let last = match friction.is_empty() {
             true => full.len() - 1,
-            false => {
-                let reached = weights.times_mu(full.len() - 1);
-                reached.fold(0, |last, (at, _)| last.max(at))
-            }
+            false => weights.times_mu(full.len() - 1).fold(0, |last, (at, _)| last.max(at)),
         };
         let mut projected = vec![Vec::new(); last + 1];
         for (power, terms) in full.iter().enumerate() {

@@ -71,23 +71,6 @@ impl SteadySliding {
         Ok(range.states.into_iter().next_back().expect("one state for each set"))
     }
 
-    /// Full sliding on the annulus, whose normal forces do not depend on friction.
-    fn solve_annulus(
-        mesh: &Mesh,
-        stiffness: &Triplets,
-        contact: &SlidingContact,
-    ) -> Result<Self, PrestressError> {
-        let interface = ContactInterface::of(mesh);
-        let points = interface.points(contact);
-
-        let basis = Elimination::holding(mesh.dof_count(), mesh.held_dofs());
-        let none = vec![0.0; mesh.dof_count()];
-        let full = FullSliding::new(stiffness, basis, &points)?;
-        let state = full.state(&none, contact.interference, None)?;
-        check_pressed(&interface, &points, &state.normal_forces[0])?;
-        Ok(Self::of(state, interface, contact))
-    }
-
     fn of(state: PressedState, interface: ContactInterface, contact: &SlidingContact) -> Self {
         Self {
             state,
@@ -163,17 +146,22 @@ impl SlidingRange {
         let mut supported = stiffness.clone();
         let [springs, _] = assemble_supports(mesh);
         supported.entries.extend(springs.entries);
-        if mesh.is_cyclic && law.is_none() {
-            let state = SteadySliding::solve_annulus(mesh, &supported, contact)?;
-            return Ok(Self::of_one(state, friction_coefficients.len()));
-        }
         let interface = ContactInterface::of(mesh);
         let points = interface.points(contact);
         let total = mesh.dof_count();
+        let elimination = Elimination::holding(total, mesh.held_dofs());
+        let of_states = |state| SteadySliding::of(state, interface.clone(), contact);
+        if mesh.is_cyclic && law.is_none() {
+            // Full sliding on the annulus, whose normal forces do not depend on friction.
+            let full = FullSliding::new(&supported, elimination, &points)?;
+            let state = full.state(&vec![0.0; total], contact.interference, None)?;
+            check_pressed(&interface, &points, &state.normal_forces[0])?;
+            return Ok(Self::of_one(of_states(state), friction_coefficients.len()));
+        }
         let pressing = Pressing {
             stiffness: &supported,
             load: mesh.pressure_forces().unwrap_or_else(|| vec![0.0; total]),
-            elimination: Elimination::holding(total, mesh.held_dofs()),
+            elimination,
             contacts: Vec::new(),
             pushed: points.iter().map(|point| contact.interference - point.gap).collect(),
             stiffnesses: points
@@ -187,7 +175,7 @@ impl SlidingRange {
         if let Some(state) = found.states.iter().find(|_| mesh.is_cyclic) {
             check_pressed(&interface, &points, &state.normal_forces(friction_coefficients[0]))?;
         }
-        Ok(found.map(|state| SteadySliding::of(state, interface.clone(), contact)))
+        Ok(found.map(of_states))
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::PrestressError;
 use super::cholesky::CholeskySolver;
-use super::pressed_state::{ContactState, Pressing, form};
+use super::pressed_state::{ContactState, Pressing};
 use crate::contact::Row;
 use crate::fem::{DofMap, Triplets};
 
@@ -72,7 +72,8 @@ impl<'a> JoinedPoints<'a> {
 
     /// `c_i` of a displacement.
     pub fn separations(&self, displacement: &[f64]) -> Vec<f64> {
-        self.normals.iter().map(|row| form(row, displacement)).collect()
+        let form = |row: &Row| -> f64 { row.iter().map(|&(dof, a)| a * displacement[dof]).sum() };
+        self.normals.iter().map(form).collect()
     }
 
     /// Displacement of every dof from the state of the points, with `P` of these springs.

@@ -53,10 +53,7 @@ pub struct Pressing<'a> {
 impl Pressing<'_> {
     /// Rows `n` and `drag t` of the points over the unknowns.
     pub(super) fn rows(&self, unknowns: &DofMap) -> [Vec<Row>; 2] {
-        let over_unknowns = |row: &Row| -> Row {
-            let all = self.elimination.transposed(row).into_iter();
-            all.filter_map(|(dof, a)| Some((unknowns.unknown_of[dof]?, a))).collect()
-        };
+        let over_unknowns = |row: &Row| self.elimination.over(unknowns, row);
         let points = self.points.iter();
         let normals = points.clone().map(|point| over_unknowns(&point.normal));
         let drags = points.map(|point| {
@@ -181,10 +178,10 @@ pub(super) type OwnRange<'a, B> = dyn Fn(&mut B, &[bool]) -> Result<[f64; 2], Pr
 /// friction coefficients `asked` for included. With it comes the share of the largest force that it leaves out.
 pub(super) fn polynomial_state<B: PressedBodies>(
     bodies: &mut B,
-    is_pressed: Vec<bool>,
+    is_pressed: &[bool],
     (range, own_range): ([f64; 2], &OwnRange<'_, B>),
     asked: &[f64],
-) -> Result<(PressedState, f64), PrestressError> {
+) -> Result<EstimatedState, PrestressError> {
     let (usual, count) = bodies.usual_points(range);
     // The usual points may be continued to friction 0, others may not, and what stiffens neither.
     let begin = |interval: [f64; 2]| range[0].max(interval[0]);
@@ -197,24 +194,25 @@ pub(super) fn polynomial_state<B: PressedBodies>(
         let interval = [lower.max(0.0), upper];
         for count in FEW_NODES {
             let found =
-                Polynomials::through(bodies, &is_pressed, (interval, count), own(interval))?;
+                EstimatedState::through(bodies, is_pressed, (interval, count), own(interval))?;
             if found.left_out <= EXACT {
-                return Ok(found.state(is_pressed));
+                return Ok(found);
             }
         }
     }
-    let mut best = Polynomials::through(bodies, &is_pressed, (usual, count), [0.0, begin(usual)])?;
+    let origins = [0.0, begin(usual)];
+    let mut best = EstimatedState::through(bodies, is_pressed, (usual, count), origins)?;
     if best.left_out > RESOLVED {
         let exact = asked
             .iter()
-            .map(|&friction| bodies.state_of(friction, &is_pressed))
+            .map(|&friction| bodies.state_of(friction, is_pressed))
             .collect::<Result<Vec<ContactState>, _>>()?;
         best.compare(asked, &exact);
         // Beyond the range in which the set holds there may be no state.
-        let within = own_range(bodies, &is_pressed).unwrap_or(range);
+        let within = own_range(bodies, is_pressed).unwrap_or(range);
         let more = MORE_NODES.map(|count| (within, count));
         for points in more.into_iter().chain([(usual, MOST_USUAL)]) {
-            let other = Polynomials::through(bodies, &is_pressed, points, own(points.0));
+            let other = EstimatedState::through(bodies, is_pressed, points, own(points.0));
             let Ok(mut other) = other else {
                 continue;
             };
@@ -227,35 +225,18 @@ pub(super) fn polynomial_state<B: PressedBodies>(
             }
         }
     }
-    Ok(best.state(is_pressed))
+    Ok(best)
 }
 
-/// The states of one set of pressed points in an interval of friction coefficients, by power of `mu - a`.
-struct Polynomials {
-    /// `a`.
-    origin: f64,
-    displacements: Vec<Vec<f64>>,
-    normal_forces: Vec<Vec<f64>>,
-    /// None where no contact stiffens.
-    stiffnesses: Vec<Vec<f64>>,
-    /// Share of the largest force that they leave out, estimated.
-    left_out: f64,
+/// The state of one set of pressed points in an interval of friction coefficients.
+pub(super) struct EstimatedState {
+    pub state: PressedState,
+    /// Share of the largest force that its polynomials leave out, estimated.
+    pub left_out: f64,
 }
 
-impl Polynomials {
-    /// The state of which these are the polynomials, with the share that they leave out.
-    fn state(self, is_pressed: Vec<bool>) -> (PressedState, f64) {
-        let state = PressedState {
-            displacements: self.displacements,
-            normal_forces: self.normal_forces,
-            stiffnesses: self.stiffnesses,
-            is_pressed,
-            frozen_below: self.origin,
-        };
-        (state, self.left_out)
-    }
-
-    /// Those through the states at Chebyshev points of an interval, from the first of two origins, or the second where contact stiffens.
+impl EstimatedState {
+    /// That through the states at Chebyshev points of an interval, from the first of two origins, or the second where contact stiffens.
     fn through(
         bodies: &mut impl PressedBodies,
         is_pressed: &[bool],
@@ -278,19 +259,21 @@ impl Polynomials {
             true => values,
             false => interpolated(&beyond, values, interval[1] - origin),
         };
-        Ok(Self {
-            origin,
+        let state = PressedState {
             displacements: through(displacements),
             normal_forces: through(normal_forces),
             stiffnesses: through(stiffnesses),
-            left_out,
-        })
+            is_pressed: is_pressed.to_vec(),
+            frozen_below: origin,
+        };
+        Ok(Self { state, left_out })
     }
 
-    /// Takes note of what they are wrong by at friction coefficients with known states.
+    /// Takes note of what its forces are wrong by at friction coefficients with known states.
     fn compare(&mut self, frictions: &[f64], exact: &[ContactState]) {
         for (friction, state) in frictions.iter().zip(exact) {
-            let forces = evaluate(&self.normal_forces, friction - self.origin);
+            let beyond = friction - self.state.frozen_below;
+            let forces = evaluate(&self.state.normal_forces, beyond);
             let largest = largest(std::slice::from_ref(&state.normal_forces));
             for (own, exact) in forces.iter().zip(&state.normal_forces) {
                 self.left_out = self.left_out.max((own - exact).abs() / largest);
@@ -333,10 +316,6 @@ fn chebyshev_points(count: usize, [lower, upper]: [f64; 2]) -> Vec<f64> {
         lower + 0.5 * (upper - lower) * (1.0 - turn.cos())
     };
     (0..count).map(point).collect()
-}
-
-pub(super) fn form(row: &Row, x: &[f64]) -> f64 {
-    row.iter().map(|&(dof, a)| a * x[dof]).sum()
 }
 
 #[cfg(test)]
@@ -386,8 +365,8 @@ mod tests {
         for (jam, frozen_below, bound) in cases {
             let bodies = &mut Jamming { jam };
             let own = |_: &mut Jamming, _: &[bool]| Ok(range);
-            let found = polynomial_state(bodies, vec![true], (range, &own), &asked);
-            let (state, left_out) = found.unwrap();
+            let found = polynomial_state(bodies, &[true], (range, &own), &asked);
+            let EstimatedState { state, left_out } = found.unwrap();
             assert!(left_out < bound, "{jam} {left_out:e}");
             assert_eq!(state.frozen_below, frozen_below, "{jam}");
             for friction in asked {

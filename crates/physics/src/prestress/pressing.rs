@@ -78,8 +78,7 @@ fn press_rigidly(
     let mut is_pressed = vec![true; rings.len()];
     for _ in 0..SETS {
         let pressed = rings.iter().zip(&is_pressed).filter(|(_, pressed)| **pressed);
-        let nodes = pressed.flat_map(|(ring, _)| ring.nodes.iter().copied());
-        let nodes: Vec<usize> = nodes.collect();
+        let nodes: Vec<usize> = pressed.flat_map(|(ring, _)| ring.nodes.iter().copied()).collect();
         let points: Vec<Point> = nodes.iter().map(|&n| point(sector, n, contact)).collect();
         let full = FullSliding::new(stiffness, without_contact(sector), &points)?;
         let PressedState { displacements, normal_forces, .. } =
@@ -172,8 +171,7 @@ fn press_on_springs(
         let found = approaches(sector, contact.interference, &displacement);
         let pairs = values.iter().zip(&found);
         let next: Vec<f64> = pairs.map(|(a, b)| law.newton_approach(*a, *b)).collect();
-        let changes = next.iter().zip(&values).map(|(a, b)| (a - b).abs());
-        let change = changes.fold(0.0, f64::max);
+        let change = next.iter().zip(&values).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
         let scale = next.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
         if change > SETTLED * scale {
             values = next;

@@ -48,8 +48,7 @@ impl Rotation {
             return Ok(None);
         }
         let of_region = |region: usize| -> Option<Spin> {
-            let own = motions.iter().find(|m| m.regions.contains(&region));
-            own.and_then(spins)
+            motions.iter().find(|m| m.regions.contains(&region)).and_then(spins)
         };
         check_frames(mesh, &of_region)?;
         for motion in motions {

@@ -2,7 +2,7 @@
 
 use super::elimination::{Elimination, ProjectedPolynomial, RigidFriction};
 use super::tabled::{TabledGain, TabledStiffness};
-use super::{DampingModel, PrestressError, SteadySliding, TangentOptions};
+use super::{DampingModel, PressedState, PrestressError, SteadySliding, TangentOptions};
 use crate::contact::{ContactStiffness, Point, PressedPoints, Row, Turning, linearized, turned};
 use crate::fem::{
     DofMap, MaterialField, ModulusTable, RayleighDamping, Triplets, assemble_extra_damping,
@@ -52,21 +52,11 @@ pub struct SlidingTangent {
     pub is_gyroscopic: bool,
     /// Which full dofs the unknowns are.
     pub unknowns: DofMap,
-    /// Unknown of each contact node's tangential displacement, in the order of the interface.
-    pub contact_tangential: Vec<usize>,
-    /// Unknown of each contact node's normal displacement; empty for rigid contact.
-    pub contact_normal: Vec<usize>,
-    /// Unknowns of the opposite body that the contact touches, two for each contact node of an annulus; none on a rigid
-    /// counterface.
-    pub contact_opposite: Vec<usize>,
+    /// Unknowns that the contact touches, in the order of the interface; no normal ones of rigid contact.
+    pub contact: ContactDofs,
     /// Dofs that are combinations of the unknowns (as full dofs): a contact normal whose unknown is the separation there, a
     /// dof of a tied surface.
     pub distances: Vec<(usize, Row)>,
-    /// Angle of each contact node, rad; empty for a body without rotational symmetry, whose modes have no
-    /// circumferential harmonic.
-    pub contact_angles: Vec<f64>,
-    /// Sense of the friction force `s`.
-    pub sliding_direction: f64,
     /// Friction of rigid contact, point by point.
     pub friction: Vec<RigidFriction>,
 }
@@ -82,8 +72,7 @@ impl SlidingTangent {
         let free = self.unknowns.expand(unknowns);
         let mut full = free.clone();
         for (dof, row) in &self.distances {
-            let parts = row.iter().map(|&(other, share)| free[other] * share);
-            full[*dof] = parts.sum();
+            full[*dof] = row.iter().map(|&(other, share)| free[other] * share).sum();
         }
         full
     }
@@ -165,18 +154,19 @@ pub struct ContactPart<'a> {
     pub has_own_dofs: bool,
 }
 
-/// Unknowns that the contact touches, for the harmonic of a mode and its share there.
+/// Dofs, or unknowns, that the contact touches, for the harmonic of a mode and its share there.
 #[derive(Clone, Debug, Default)]
 pub struct ContactDofs {
-    /// Full dofs along the sliding.
+    /// Along the sliding.
     pub tangential: Vec<usize>,
-    /// Full dofs along the normals.
+    /// Along the normals.
     pub normal: Vec<usize>,
-    /// Those of the opposite body.
+    /// Of the opposite body, two for each contact node of an annulus; none on a rigid counterface.
     pub opposite: Vec<usize>,
-    /// Angle of each contact node, rad; empty without rotational symmetry.
+    /// Angle of each contact node, rad; empty for a body without rotational symmetry, whose modes have no
+    /// circumferential harmonic.
     pub angles: Vec<f64>,
-    /// Sense of the friction force.
+    /// Sense of the friction force `s`.
     pub sliding_direction: f64,
 }
 
@@ -189,13 +179,9 @@ impl SlidingTangent {
         base: &SteadySliding,
         options: &TangentOptions,
     ) -> Self {
-        let stressed = |displacement: &Vec<f64>| {
-            assemble_geometric_stiffness(mesh, material, displacement, None)
-        };
-        let geometric =
-            options.geometric_stiffness.then(|| base.displacements.iter().map(stressed).collect());
+        let geometric = || geometric_stiffness((mesh, material), base);
         let body = BodyTerms {
-            geometric: geometric.map(|terms| frozen_terms(terms, base.frozen_below)),
+            geometric: options.geometric_stiffness.then(geometric),
             ..BodyTerms::of((mesh, material), elastic.clone(), assemble_supports(mesh), options)
         };
         let turnings = base.interface.turnings();
@@ -218,7 +204,7 @@ impl SlidingTangent {
             sliding_direction: base.sliding_direction,
         };
         let basis = Elimination::holding(mesh.dof_count(), mesh.held_dofs());
-        Self::assemble(&body, &[part], basis, &dofs, options)
+        Self::assemble(&body, &[part], basis, dofs, options)
             .expect("each node of a plane contact edge has a free normal displacement")
     }
 
@@ -230,7 +216,7 @@ impl SlidingTangent {
         body: &BodyTerms,
         contacts: &[ContactPart<'_>],
         mut basis: Elimination,
-        dofs: &ContactDofs,
+        dofs: ContactDofs,
         options: &TangentOptions,
     ) -> Result<Self, PrestressError> {
         // Separations as unknowns; those of rigid contact vanish, and their forces follow the slip.
@@ -278,12 +264,13 @@ impl SlidingTangent {
             structural,
             tabled: tabled.collect(),
             is_gyroscopic: body.rotation.is_some(),
-            contact_tangential: unknowns.among(&dofs.tangential),
-            contact_normal: unknowns.among(&dofs.normal),
-            contact_opposite: unknowns.among(&dofs.opposite),
+            contact: ContactDofs {
+                tangential: unknowns.among(&dofs.tangential),
+                normal: unknowns.among(&dofs.normal),
+                opposite: unknowns.among(&dofs.opposite),
+                ..dofs
+            },
             distances: basis.combinations().map(|(dof, row)| (dof, row.clone())).collect(),
-            contact_angles: dofs.angles.clone(),
-            sliding_direction: dofs.sliding_direction,
             friction,
             unknowns,
         })
@@ -382,9 +369,15 @@ fn add_powers(sum: &mut Vec<Triplets>, terms: &[Triplets]) {
     }
 }
 
-/// What a state adds by power of `mu - a`, in the terms of one that is frozen below `a`.
-pub(super) fn frozen_terms(mut powers: Vec<Triplets>, frozen_below: f64) -> Vec<Triplets> {
-    if frozen_below > 0.0 && powers.len() > 1 {
+/// Geometric stiffness of the stress of a state by power of `mu - a`, N/m, in the terms of one that is frozen below `a`.
+pub(super) fn geometric_stiffness(
+    (mesh, material): (&Mesh, &dyn MaterialField),
+    state: &PressedState,
+) -> Vec<Triplets> {
+    let powers = state.displacements.iter();
+    let powers = powers.map(|own| assemble_geometric_stiffness(mesh, material, own, None));
+    let mut powers: Vec<Triplets> = powers.collect();
+    if state.frozen_below > 0.0 && powers.len() > 1 {
         powers.insert(1, Triplets::default());
     }
     powers

@@ -120,8 +120,7 @@ impl HarmonicParts<'_> {
             dashpots.add_product(root, x, &mut forces);
         }
         let work = |unknowns: &Vec<usize>| -> f64 {
-            let each = unknowns.iter().map(|&k| (x[k].conj() * forces[k]).im);
-            each.sum()
+            unknowns.iter().map(|&k| (x[k].conj() * forces[k]).im).sum()
         };
         self.contact.iter().map(work).collect()
     }

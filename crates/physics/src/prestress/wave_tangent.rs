@@ -183,11 +183,6 @@ impl WaveTangent {
         all
     }
 
-    /// Unknowns that belong to contact nodes, those of both bodies, ascending.
-    pub fn contact_unknowns(&self) -> Vec<usize> {
-        self.ascending(self.contact.places.iter().flatten().copied())
-    }
-
     /// Unknowns of motion across the sliding at contact nodes, ascending; none in the plane.
     pub fn sideways_unknowns(&self) -> Vec<usize> {
         let side = self.tangential_components().nth(1);
@@ -259,7 +254,7 @@ impl WaveTangent {
             losses: self.losses(n),
             shares: None,
             rayleigh: self.options.damping,
-            contact: self.contact_unknowns(),
+            contact: self.ascending(self.contact.places.iter().flatten().copied()),
         }
     }
 

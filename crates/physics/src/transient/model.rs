@@ -98,14 +98,14 @@ impl<'a> TransientModel<'a> {
         match self.body {
             SteppedBody::Plane { mesh, .. } => Some(mesh),
             SteppedBody::Revolution(_) => None,
-            SteppedBody::Assembly { assembly, .. } => Some(assembly.mesh()),
+            SteppedBody::Assembly { assembly, .. } => Some(assembly.mesh),
         }
     }
 
     /// A matrix over all dofs without those that are held or follow others.
     fn bound(&self, matrix: Triplets) -> Triplets {
         match self.body {
-            SteppedBody::Assembly { assembly, .. } => assembly.basis().congruent(&matrix),
+            SteppedBody::Assembly { assembly, .. } => assembly.joined.basis.congruent(&matrix),
             _ => matrix,
         }
     }
@@ -117,7 +117,7 @@ impl<'a> TransientModel<'a> {
             SteppedBody::Revolution(sector) => {
                 supports(sector).map(|matrix| everywhere(sector, &matrix))
             }
-            SteppedBody::Assembly { assembly, .. } => assembly.supports().clone(),
+            SteppedBody::Assembly { assembly, .. } => assembly.joined.supports.clone(),
         }
     }
 
@@ -134,7 +134,7 @@ impl<'a> TransientModel<'a> {
             }
             SteppedBody::Assembly { assembly, axis } => {
                 let [center, axis] = axis.map(Vector3::from);
-                let arm = Vector3::from(assembly.mesh().nodes[node]) - center;
+                let arm = Vector3::from(assembly.mesh.nodes[node]) - center;
                 // The axis with the smallest share along the other one gives the zero of the angle.
                 let first = Vector3::ith(axis.iamin(), 1.0);
                 let first = (first - axis * axis.dot(&first)).normalize();
@@ -199,7 +199,7 @@ impl<'a> TransientModel<'a> {
         let mesh = match self.body {
             SteppedBody::Plane { mesh, .. } => mesh,
             SteppedBody::Revolution(sector) => &sector.strip,
-            SteppedBody::Assembly { assembly, .. } => assembly.mesh(),
+            SteppedBody::Assembly { assembly, .. } => assembly.mesh,
         };
         let first_dof = |e: usize| mesh.dimension * mesh.element_nodes(e)[0] as usize;
         for e in (0..mesh.element_count()).filter(|&e| is_part(first_dof(e))) {
@@ -235,8 +235,8 @@ impl<'a> TransientModel<'a> {
             SteppedBody::Revolution(sector) => {
                 Some(pressure_load(sector).repeat(sector.sector_count()))
             }
-            SteppedBody::Assembly { assembly, .. } => assemble_pressures(assembly.mesh())
-                .map(|load| assembly.basis().transposed_forces(&load)),
+            SteppedBody::Assembly { assembly, .. } => assemble_pressures(assembly.mesh)
+                .map(|load| assembly.joined.basis.transposed_forces(&load)),
         };
         BoundaryForces::of(&self.bound(damping), &pressure.unwrap_or_default(), operator)
     }
@@ -290,9 +290,9 @@ impl<'a> TransientModel<'a> {
                 held.for_each(|dof| velocity[dof] = 0.0);
             }
             SteppedBody::Assembly { assembly, .. } => {
-                let unknowns = assembly.basis().unknowns();
+                let unknowns = assembly.joined.basis.unknowns();
                 let free = unknowns.expand(&unknowns.restrict(&velocity));
-                velocity = assembly.basis().displacement(&free);
+                velocity = assembly.joined.basis.displacement(&free);
             }
         }
         Ok(velocity)
@@ -317,7 +317,7 @@ impl<'a> TransientModel<'a> {
                 place.collect()
             }
             SteppedBody::Assembly { assembly, axis } => {
-                let mesh = assembly.mesh();
+                let mesh = assembly.mesh;
                 let along = Vector3::from(axis[1]);
                 let place = (0..mesh.node_count()).map(|node| Place {
                     depth: 0.0,

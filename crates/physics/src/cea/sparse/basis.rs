@@ -105,7 +105,7 @@ impl<'a> BasisBuilder<'a> {
         let (first, others) = modes.split_at_col(rigid);
         model.extend(first.to_owned(), 1e-8);
         model.extend(others.to_owned(), 1e-8);
-        let has_symmetry = !tangent.contact_angles.is_empty();
+        let has_symmetry = !tangent.contact.angles.is_empty();
         let unknowns = tangent.stiffness.dimension();
         let has_many = ALL_OF_FEW * modes.ncols() >= unknowns && unknowns <= MOST_DENSE;
         let holds_all = has_many && tangent.tabled.is_empty();

@@ -54,7 +54,7 @@ impl<'a> ModeCounter<'a> {
             return Err(CeaError::Failed(format!(
                 "cea.count_modes needs matrices that are analytic in the eigenvalue: {} is a table \
                  over frequency",
-                part.gain.table.key()
+                part.gain.table.key
             )));
         }
         Ok(Self { tangent, analysis: SharedAnalysis::default() })

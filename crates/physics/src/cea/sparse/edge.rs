@@ -30,19 +30,15 @@ struct Waves {
 impl ContactEdge {
     /// The contact edge of `tangent`.
     pub fn of(tangent: &SlidingTangent) -> Self {
-        let mut components =
-            vec![tangent.contact_tangential.clone(), tangent.contact_normal.clone()];
-        if !tangent.contact_angles.is_empty() {
+        let contact = &tangent.contact;
+        let mut components = vec![contact.tangential.clone(), contact.normal.clone()];
+        if !contact.angles.is_empty() {
             // Pairs of nodes: normal and tangential in turn.
-            let opposite = |component: usize| tangent.contact_opposite.iter().skip(component);
+            let opposite = |component: usize| contact.opposite.iter().skip(component);
             components.extend([0, 1].map(|c| opposite(c).step_by(2).copied().collect()));
         }
         components.retain(|component: &Vec<usize>| !component.is_empty());
-        Self {
-            components,
-            angles: tangent.contact_angles.clone(),
-            rotor: tangent.sliding_direction,
-        }
+        Self { components, angles: contact.angles.clone(), rotor: contact.sliding_direction }
     }
 
     /// Displacements of the edge nodes, component by component, from a vector over the unknowns.

@@ -2,7 +2,7 @@
 
 use crate::fem::{DofMap, RayleighDamping};
 use crate::linalg::MatrixPolynomial;
-use crate::prestress::SlidingTangent;
+use crate::prestress::{ContactDofs, SlidingTangent};
 
 /// A chain of `count` unit masses and springs whose even masses push the odd ones along by friction.
 pub fn string_on_belt(count: usize, coupling: f64, is_proportional: bool) -> SlidingTangent {
@@ -28,13 +28,9 @@ pub fn string_on_belt(count: usize, coupling: f64, is_proportional: bool) -> Sli
         tabled: Vec::new(),
         proportional: is_proportional.then_some(damping),
         unknowns: DofMap::excluding(count, []),
-        contact_tangential: Vec::new(),
-        contact_normal: Vec::new(),
-        contact_opposite: Vec::new(),
+        contact: ContactDofs { sliding_direction: 1.0, ..ContactDofs::default() },
         is_gyroscopic: false,
         distances: Vec::new(),
-        contact_angles: Vec::new(),
-        sliding_direction: 1.0,
         friction: Vec::new(),
     }
 }

@@ -216,12 +216,9 @@ impl PointSolver<'_> {
         let (pattern, values) = (mass.pattern(), &mass.coefficients()[0]);
         let along = |i: usize, p: c64| x.at(i).re * p.re + x.at(i).im * p.im;
         let (mut edge, mut friction) = (0.0, 0.0);
-        let contact = [
-            &self.tangent.contact_tangential,
-            &self.tangent.contact_normal,
-            &self.tangent.contact_opposite,
-        ];
-        for &i in contact.into_iter().flatten() {
+        let contact = &self.tangent.contact;
+        let touched = [&contact.tangential, &contact.normal, &contact.opposite];
+        for &i in touched.into_iter().flatten() {
             let row = pattern.row(i);
             let own: c64 = row.map(|(position, j)| x.at(j) * values[position]).sum();
             edge += along(i, own);

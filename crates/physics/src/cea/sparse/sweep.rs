@@ -313,7 +313,7 @@ impl<'a> SparseSweep<'a> {
                 let is_unsettled = !(check.residual <= RESIDUAL_BOUND);
                 if let Some(part) = self.tangent.tabled.first().filter(|_| is_unsettled) {
                     let (mu, residual) = (point.friction_coefficient, check.residual);
-                    let key = part.gain.table.key();
+                    let key = &part.gain.table.key;
                     return Err(CeaError::Failed(format!(
                         "at friction coefficient {mu} the mode at about {frequency_hz:.1} Hz does \
                          not settle at a frequency of its own (relative residual {residual:.1e}). \

@@ -121,7 +121,7 @@ impl TransientModel<'_> {
             });
         }
         let bound = |row: &Row| match self.body {
-            SteppedBody::Assembly { assembly, .. } => assembly.basis().transposed(row),
+            SteppedBody::Assembly { assembly, .. } => assembly.joined.basis.transposed(row),
             _ => row.clone(),
         };
         Ok(LagrangeContact::new(operator, self.components() - 1, parts, &bound))

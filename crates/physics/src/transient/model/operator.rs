@@ -53,7 +53,7 @@ impl TransientModel<'_> {
 ///
 /// The mass of a dof that follows others goes to these, by the size of their shares.
 fn assembled(assembly: &Assembly<'_>, simd: SimdLevel) -> Result<SparseOperator<3>, OperatorError> {
-    let (mesh, basis) = (assembly.mesh(), assembly.basis());
+    let (mesh, basis) = (assembly.mesh, &assembly.joined.basis);
     let unknowns = basis.unknowns();
     let moves = |dof: usize| unknowns.unknown_of[dof].is_some();
 
@@ -65,7 +65,7 @@ fn assembled(assembly: &Assembly<'_>, simd: SimdLevel) -> Result<SparseOperator<
     }
 
     // A dof that moves by itself has all its mass.
-    let masses = lumped_masses(mesh, assembly.materials());
+    let masses = lumped_masses(mesh, assembly.materials);
     let mut own = vec![0.0; mesh.dof_count()];
     for (dof, mass) in masses.iter().flat_map(|&mass| [mass; 3]).enumerate() {
         let itself = [(dof as u32, 1.0)];
@@ -79,8 +79,8 @@ fn assembled(assembly: &Assembly<'_>, simd: SimdLevel) -> Result<SparseOperator<
         }
     }
 
-    let mut stiffness = assembly.elastic().clone();
-    let [springs, _] = assembly.supports();
+    let mut stiffness = assembly.joined.elastic.clone();
+    let [springs, _] = &assembly.joined.supports;
     stiffness.entries.extend_from_slice(&springs.entries);
     let followers = followers.into_iter().map(|(dof, shares)| (dof as u32, shares));
     SparseOperator::new(&basis.congruent(&stiffness), own, followers.collect(), simd)
