@@ -1,6 +1,7 @@
 //! Numbers of a mesh file, from text or from bytes.
 
 use super::MeshFileError;
+use crate::deck::quoted;
 use frictionsim_bounds::{MESSAGE, shortened};
 
 /// A position in the bytes of a file, with what it takes to name it.
@@ -103,8 +104,7 @@ impl<'a> Cursor<'a> {
                 return Ok(());
             }
             if !line.is_empty() {
-                let shown: String = line.chars().take(40).collect();
-                refuse!(self; "{expected} expected, found {shown:?}");
+                refuse!(self; "{expected} expected, found {}", quoted(&line));
             }
         }
     }
@@ -129,10 +129,7 @@ impl<'a> Cursor<'a> {
 
     fn parsed<T: std::str::FromStr>(&mut self, what: &str) -> Result<T, MeshFileError> {
         let word = self.word(what)?;
-        word.parse().map_err(|_| {
-            let shown: String = word.chars().take(40).collect();
-            self.error(format!("{what} expected, found {shown:?}"))
-        })
+        word.parse().map_err(|_| fault!(self; "{what} expected, found {}", quoted(word)))
     }
 
     fn raw<const N: usize>(&mut self, what: &str) -> Result<[u8; N], MeshFileError> {

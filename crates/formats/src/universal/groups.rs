@@ -28,9 +28,7 @@ impl Reader<'_, '_> {
                 let entities = numbers.chunks(width).filter(|entity| entity.len() == width);
                 items.extend(entities.map(|entity| (entity[0], entity[1])));
                 if items.len() == before {
-                    return Err(self
-                        .deck
-                        .error(line.0, format!("entities of group {name} expected")));
+                    refuse!(self.deck, line.0; "entities of group {name} expected");
                 }
             }
             self.groups.push(Group { name, items, place: head.0 });

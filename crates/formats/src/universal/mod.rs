@@ -227,9 +227,7 @@ impl<'a> Reader<'_, 'a> {
                 let line = self.must(next)?;
                 let numbers = self.ints(line)?;
                 if numbers.is_empty() {
-                    return Err(self
-                        .deck
-                        .error(line.0, format!("nodes of element {label} expected")));
+                    refuse!(self.deck, line.0; "nodes of element {label} expected");
                 }
                 for node in numbers {
                     let known = self.nodes.get(&node).copied();

@@ -277,18 +277,15 @@ pub fn assemble_support_losses(mesh: &Mesh) -> Option<Triplets> {
     let mut own = mesh.clone();
     own.attachments.clear();
     for boundary in &mut own.boundaries {
-        boundary.condition = match boundary.condition {
-            BoundaryCondition::Support(support) => {
-                let eta = support.loss_factor;
-                BoundaryCondition::Support(ElasticSupport {
-                    normal_stiffness: eta * support.normal_stiffness,
-                    tangential_stiffness: eta * support.tangential_stiffness,
-                    axial_stiffness: eta * support.axial_stiffness,
-                    ..ElasticSupport::default()
-                })
-            }
-            _ => BoundaryCondition::Free,
-        };
+        if let BoundaryCondition::Support(support) = &mut boundary.condition {
+            let eta = support.loss_factor;
+            *support = ElasticSupport {
+                normal_stiffness: eta * support.normal_stiffness,
+                tangential_stiffness: eta * support.tangential_stiffness,
+                axial_stiffness: eta * support.axial_stiffness,
+                ..ElasticSupport::default()
+            };
+        }
     }
     let [losses, _] = assemble_supports(&own);
     Some(losses)

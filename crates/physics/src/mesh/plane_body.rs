@@ -131,17 +131,14 @@ fn reversed_surfaces(file: &FileMesh) -> Result<BTreeSet<i64>, BodyError> {
         let cross = |p: [f64; 3], q: [f64; 3]| p[0] * q[1] - p[1] * q[0];
         0.5 * (0..corners).map(|i| cross(at(i), at(i + 1))).sum::<f64>()
     };
-    let mut balance: BTreeMap<i64, (usize, usize)> = BTreeMap::new();
+    // Elements that run counter-clockwise and clockwise.
+    let mut balance: BTreeMap<i64, [usize; 2]> = BTreeMap::new();
     for element in &file.elements {
         let counts = balance.entry(element.entity).or_default();
-        if area(element) < 0.0 {
-            counts.0 += 1;
-        } else {
-            counts.1 += 1;
-        }
+        counts[usize::from(area(element) < 0.0)] += 1;
     }
     for element in &file.elements {
-        let (clockwise, counter) = balance[&element.entity];
+        let [counter, clockwise] = balance[&element.entity];
         let is_minority = if area(element) < 0.0 { counter > 0 } else { clockwise > counter };
         if is_minority {
             return Err(BodyError::Body(format!(
@@ -153,6 +150,6 @@ fn reversed_surfaces(file: &FileMesh) -> Result<BTreeSet<i64>, BodyError> {
             )));
         }
     }
-    let reversed = balance.into_iter().filter(|(_, (clockwise, counter))| clockwise > counter);
+    let reversed = balance.into_iter().filter(|(_, [counter, clockwise])| clockwise > counter);
     Ok(reversed.map(|(entity, _)| entity).collect())
 }

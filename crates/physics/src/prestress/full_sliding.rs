@@ -33,9 +33,8 @@ impl<'a> FullSliding<'a> {
         mut basis: Elimination,
         points: &'a [Point],
     ) -> Result<Self, PrestressError> {
-        let separations: Result<Vec<usize>, PrestressError> =
-            points.iter().map(|point| basis.require(&point.normal, "contact")).collect();
-        let separations = separations?;
+        let separations = points.iter().map(|point| basis.require(&point.normal, "contact"));
+        let separations = separations.collect::<Result<Vec<usize>, PrestressError>>()?;
         let stiffness = basis.congruent(stiffness);
         separations.iter().for_each(|&dof| basis.drop_unknown(dof));
         let unknowns = basis.unknowns();
