@@ -1,5 +1,6 @@
 //! Dense kernels over faer, sequential and instantiated once for `f64`.
 
+use super::gaussian_noise::splitmix64;
 use faer::linalg::matmul::matmul;
 use faer::prelude::{IntoConst, ReborrowMut};
 use faer::{Accum, ColRef, Mat, MatMut, MatRef, Par};
@@ -201,15 +202,8 @@ pub fn column_norms(a: MatRef<'_, f64>) -> Vec<f64> {
 
 /// Columns of reproducible pseudo-random numbers in (-1, 1).
 pub fn random_columns(rows: usize, columns: usize, seed: u64) -> Mat<f64> {
-    // splitmix64: the sequence depends on the seed alone.
     let mut state = seed;
-    let mut next = || {
-        state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = state;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        (z ^ (z >> 31)) as i64 as f64 / 2f64.powi(63)
-    };
+    let mut next = || splitmix64(&mut state) as i64 as f64 / 2f64.powi(63);
     let mut a = Mat::zeros(rows, columns);
     for j in 0..columns {
         for i in 0..rows {
@@ -217,6 +211,11 @@ pub fn random_columns(rows: usize, columns: usize, seed: u64) -> Mat<f64> {
         }
     }
     a
+}
+
+/// A right side for a trial solve, without a pattern of its own.
+pub(super) fn trial_right_side(count: usize) -> impl Iterator<Item = f64> {
+    (0..count).map(|i| 1.0 + (i as f64 * 0.618_033_988_749_895).fract())
 }
 
 /// What [`orthonormalize`] found: `w = basis * against + q * within`.

@@ -5,6 +5,7 @@ use super::{ComplexDenseLu, LinalgError, interruption};
 use faer::diag::Diag;
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::evd::{ComputeEigenvectors, EvdParams, evd_cplx, evd_real, evd_scratch};
+use faer::traits::ComplexField;
 use faer::{Auto, Mat, MatRef, Par, c64};
 
 /// Residual, relative to the eigenvalue, above which an eigenvector is computed anew.
@@ -42,26 +43,7 @@ pub fn symmetric_eigen(matrix: &Mat<f64>) -> (Vec<f64>, Mat<f64>) {
 /// # Errors
 /// If the QR iteration does not converge, or the matrix is not finite.
 pub fn complex_eigenvalues(matrix: MatRef<'_, c64>) -> Result<Vec<c64>, LinalgError> {
-    interruption::check();
-    let n = matrix.nrows();
-    let failure = LinalgError::DenseEigen { dimension: n };
-    if !matrix.is_all_finite() {
-        return Err(failure);
-    }
-    let mut values = Diag::<c64>::zeros(n);
-    let none = ComputeEigenvectors::No;
-    let scratch = evd_scratch::<c64>(n, none, none, Par::Seq, Default::default());
-    evd_cplx(
-        matrix,
-        values.as_mut(),
-        None,
-        None,
-        Par::Seq,
-        MemStack::new(&mut MemBuffer::new(scratch)),
-        Default::default(),
-    )
-    .map_err(|_| failure)?;
-    Ok(values.column_vector().iter().copied().collect())
+    complex_decomposed(matrix, None, None)
 }
 
 /// Eigenvalues, right vectors and, where they are asked for, left vectors, as columns.
@@ -77,28 +59,50 @@ pub fn complex_eigen(
     with_left: bool,
 ) -> Result<ComplexEigen, LinalgError> {
     let n = matrix.nrows();
-    let failure = LinalgError::DenseEigen { dimension: n };
-    if !matrix.is_all_finite() {
-        return Err(failure);
-    }
-    let mut values = Diag::<c64>::zeros(n);
     let mut right = Mat::<c64>::zeros(n, n);
     let mut left = with_left.then(|| Mat::<c64>::zeros(n, n));
-    let left_mode = if with_left { ComputeEigenvectors::Yes } else { ComputeEigenvectors::No };
-    let yes = ComputeEigenvectors::Yes;
-    let scratch = evd_scratch::<c64>(n, left_mode, yes, Par::Seq, Default::default());
+    let values = complex_decomposed(matrix, left.as_mut(), Some(&mut right))?;
+    Ok((values, right, left))
+}
+
+/// Eigenvalues of a complex square matrix, with the vectors that there is room for.
+fn complex_decomposed(
+    matrix: MatRef<'_, c64>,
+    left: Option<&mut Mat<c64>>,
+    right: Option<&mut Mat<c64>>,
+) -> Result<Vec<c64>, LinalgError> {
+    begin(matrix)?;
+    let n = matrix.nrows();
+    let mut values = Diag::<c64>::zeros(n);
+    let (of_left, of_right) = (wanted(&left), wanted(&right));
+    let scratch = evd_scratch::<c64>(n, of_left, of_right, Par::Seq, Default::default());
     evd_cplx(
         matrix,
         values.as_mut(),
-        left.as_mut().map(|left| left.as_mut()),
-        Some(right.as_mut()),
+        left.map(|left| left.as_mut()),
+        right.map(|right| right.as_mut()),
         Par::Seq,
         MemStack::new(&mut MemBuffer::new(scratch)),
         Default::default(),
     )
-    .map_err(|_| failure)?;
-    let values = values.column_vector().iter().copied().collect();
-    Ok((values, right, left))
+    .map_err(|_| LinalgError::DenseEigen { dimension: n })?;
+    Ok(values.column_vector().iter().copied().collect())
+}
+
+/// Begins a decomposition, unless the matrix is not finite.
+fn begin<T: ComplexField>(matrix: MatRef<'_, T>) -> Result<(), LinalgError> {
+    interruption::check();
+    match matrix.is_all_finite() {
+        true => Ok(()),
+        false => Err(LinalgError::DenseEigen { dimension: matrix.nrows() }),
+    }
+}
+
+fn wanted<T>(room: &Option<T>) -> ComputeEigenvectors {
+    match room {
+        Some(_) => ComputeEigenvectors::Yes,
+        None => ComputeEigenvectors::No,
+    }
 }
 
 /// Eigenvalues of a real square matrix, in no particular order, without vectors.
@@ -115,17 +119,10 @@ fn decomposed(
     left: Option<&mut Mat<f64>>,
     right: Option<&mut Mat<f64>>,
 ) -> Result<Vec<c64>, LinalgError> {
-    interruption::check();
+    begin(matrix)?;
     let n = matrix.nrows();
-    let failure = LinalgError::DenseEigen { dimension: n };
-    if !matrix.is_all_finite() {
-        return Err(failure);
-    }
     let (mut real, mut imaginary) = (Diag::<f64>::zeros(n), Diag::<f64>::zeros(n));
-    let [of_left, of_right] = [left.is_some(), right.is_some()].map(|is_wanted| match is_wanted {
-        true => ComputeEigenvectors::Yes,
-        false => ComputeEigenvectors::No,
-    });
+    let (of_left, of_right) = (wanted(&left), wanted(&right));
     // Aggressive early deflation sorts 2 x 2 blocks without end where eigenvalues are equal (faer 0.24): double shifts alone.
     let mut params: EvdParams = Auto::<f64>::auto();
     params.schur.blocking_threshold = usize::MAX;
@@ -140,7 +137,7 @@ fn decomposed(
         MemStack::new(&mut MemBuffer::new(scratch)),
         params.into(),
     )
-    .map_err(|_| failure)?;
+    .map_err(|_| LinalgError::DenseEigen { dimension: n })?;
     let parts = real.column_vector().iter().zip(imaginary.column_vector().iter());
     Ok(parts.map(|(re, im)| c64::new(*re, *im)).collect())
 }
@@ -204,9 +201,7 @@ fn order_conjugate_pairs(
         if values[i].im < 0.0 {
             values.swap(i, i + 1);
             for vectors in [Some(&mut *right), left.as_deref_mut()].into_iter().flatten() {
-                for row in 0..vectors.nrows() {
-                    vectors[(row, i + 1)] = -vectors[(row, i + 1)];
-                }
+                column_mut(vectors, i + 1).iter_mut().for_each(|v| *v = -*v);
             }
         }
         i += 2;
@@ -288,16 +283,14 @@ fn inverse_iteration(
     for _ in 0..3 {
         let mut vector: Vec<c64> = (0..n).map(|i| x[(i, 0)]).collect();
         project_out(&mut vector, known);
-        let norm = length(&vector);
-        (0..n).for_each(|i| x[(i, 0)] = vector[i] / norm);
+        let vector = normalized(vector);
+        (0..n).for_each(|i| x[(i, 0)] = vector[i]);
         lu.solve_in_place(x.as_mut());
     }
     // The last step is a solution, not a projection: it leaves nothing of other eigenvectors, and within
     // the eigenspace it only scales, so the vector stays independent of the known ones.
-    let mut vector: Vec<c64> = (0..n).map(|i| x[(i, 0)]).collect();
-    let norm = length(&vector);
-    vector.iter_mut().for_each(|v| *v /= norm);
-    vector
+    let vector: Vec<c64> = (0..n).map(|i| x[(i, 0)]).collect();
+    normalized(vector)
 }
 
 fn complex_column(values: &[c64], vectors: &Mat<f64>, j: usize) -> Vec<c64> {
@@ -313,9 +306,7 @@ fn orthonormal(vectors: Vec<Vec<c64>>) -> Vec<Vec<c64>> {
     let mut basis: Vec<Vec<c64>> = Vec::new();
     for mut vector in vectors {
         project_out(&mut vector, &basis);
-        let norm = length(&vector);
-        vector.iter_mut().for_each(|v| *v /= norm);
-        basis.push(vector);
+        basis.push(normalized(vector));
     }
     basis
 }
@@ -325,6 +316,12 @@ fn project_out(vector: &mut [c64], basis: &[Vec<c64>]) {
         let overlap: c64 = direction.iter().zip(vector.iter()).map(|(d, v)| d.conj() * v).sum();
         vector.iter_mut().zip(direction).for_each(|(v, d)| *v -= overlap * d);
     }
+}
+
+fn normalized(mut vector: Vec<c64>) -> Vec<c64> {
+    let norm = length(&vector);
+    vector.iter_mut().for_each(|v| *v /= norm);
+    vector
 }
 
 fn length(vector: &[c64]) -> f64 {

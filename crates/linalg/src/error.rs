@@ -1,6 +1,10 @@
 //! Errors of the linear algebra.
 
+use std::fmt::Debug;
 use thiserror::Error;
+
+/// Backward error of a trial solve, or growth of the entries times the rounding error, above which factors are not trusted.
+pub(super) const BACKWARD_ERROR_BOUND: f64 = 1e-9;
 
 /// Failure of a factorization or of an eigenvalue iteration.
 #[derive(Clone, Debug, PartialEq, Error)]
@@ -49,4 +53,16 @@ pub enum LinalgError {
         /// Operator applications spent, in vectors.
         applications: usize,
     },
+}
+
+impl LinalgError {
+    /// A factorization that could not be carried out, with what it reported.
+    pub(super) fn factorization(dimension: usize, error: impl Debug) -> Self {
+        Self::Factorization { dimension, reason: format!("{error:?}") }
+    }
+
+    /// Factors that are not to be trusted.
+    pub(super) fn singular(dimension: usize, backward_error: f64) -> Self {
+        Self::Singular { dimension, backward_error, bound: BACKWARD_ERROR_BOUND }
+    }
 }

@@ -3,29 +3,35 @@
 use faer::c64;
 use std::f64::consts::TAU;
 
-/// Increment of splitmix64, `2^64` over the golden ratio.
-const INCREMENT: u64 = 0x9e37_79b9_7f4a_7c15;
+/// The next number of the sequence of a state, which depends on the first state alone.
+///
+/// Source: G. L. Steele, D. Lea, C. H. Flood, "Fast splittable pseudorandom number generators",
+/// OOPSLA 2014.
+pub(super) fn splitmix64(state: &mut u64) -> u64 {
+    // The increment is `2^64` over the golden ratio.
+    *state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
+    let mut z = *state;
+    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    z ^ (z >> 31)
+}
 
 /// A stream of Gaussian noise that depends on its seed alone.
 ///
 /// Each value has independent real and imaginary parts with mean 0 and standard deviation 1
 /// (dimensionless): Box and Muller's transform of splitmix64. Streams of different seeds share no
 /// part of any practical length. Not for cryptography.
-///
-/// Source: G. L. Steele, D. Lea, C. H. Flood, "Fast splittable pseudorandom number generators",
-/// OOPSLA 2014.
 #[derive(Clone, Debug)]
 pub struct GaussianNoise(u64);
 
 impl GaussianNoise {
     /// The stream of a seed.
     #[inline]
-    pub fn new(seed: u64) -> Self {
-        // All streams are parts of one sequence, `state + k INCREMENT`. A state that is linear in the
+    pub fn new(mut seed: u64) -> Self {
+        // All streams are parts of one sequence, `state + k increment`. A state that is linear in the
         // seed would let neighbouring seeds run through the same numbers a few places apart; a
         // scrambled one puts each seed at a random place among 2^64.
-        let mut first = Self(seed);
-        Self(first.bits())
+        Self(splitmix64(&mut seed))
     }
 
     /// The next value.
@@ -36,18 +42,9 @@ impl GaussianNoise {
         c64::from_polar(radius, TAU * self.uniform())
     }
 
-    /// The next number of the sequence.
-    fn bits(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(INCREMENT);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
     /// A number in [0, 1).
     fn uniform(&mut self) -> f64 {
-        (self.bits() >> 11) as f64 / (1u64 << 53) as f64
+        (splitmix64(&mut self.0) >> 11) as f64 / (1u64 << 53) as f64
     }
 }
 

@@ -1,12 +1,14 @@
 //! Block Krylov-Schur iteration for the eigenvalues of largest modulus of a real operator.
 
 use super::dense::{
-    GrowingColumns, Orthonormalized, add_product, orthonormalize, product, transpose_product,
+    GrowingColumns, Orthonormalized, add_product, join_columns, join_rows, orthonormalize, product,
+    transpose_product,
 };
 use super::dense_eigen::{RealEigen, real_eigen, real_eigen_above};
 use super::gram::orthonormal_columns;
 use super::{LinalgError, interruption};
 use faer::{Mat, MatRef, c64};
+use std::ops::RangeInclusive;
 
 /// Columns of the basis, for each eigenvalue wanted, at the first look at the projected problem: with fewer nothing has converged.
 const FIRST_LOOK: usize = 2;
@@ -206,38 +208,22 @@ impl<'a> BlockArnoldi<'a> {
     fn expand(&mut self) {
         let image = self.operator.apply(self.next.as_ref());
         self.applications += self.width();
-        let (old, width) = (self.dimension(), self.width());
+        let old = self.dimension();
         self.basis.append(self.next.as_ref());
         let result = orthonormalize_block(self.basis.columns(), image);
-        let mut projection = Mat::zeros(old + width, old + width);
-        for j in 0..old + width {
-            for i in 0..old + width {
-                projection[(i, j)] = match (i < old, j < old) {
-                    (true, true) => self.projection[(i, j)],
-                    (false, true) => self.coupling[(i - old, j)],
-                    (_, false) => result.against[(i, j - old)],
-                };
-            }
-        }
-        let mut coupling = Mat::zeros(result.columns.ncols(), old + width);
-        for j in 0..width {
-            for i in 0..result.columns.ncols() {
-                coupling[(i, old + j)] = result.within[(i, j)];
-            }
-        }
+        let known = join_rows(self.projection.as_ref(), self.coupling.as_ref());
+        self.projection = join_columns(known.as_ref(), result.against.as_ref());
+        let uncoupled = Mat::<f64>::zeros(result.columns.ncols(), old);
+        self.coupling = join_columns(uncoupled.as_ref(), result.within.as_ref());
         self.next = result.columns;
-        self.projection = projection;
-        self.coupling = coupling;
     }
 
     /// `|B y| / |theta|`, `|y| = 1`, of the Ritz pairs `chosen`.
     fn residuals(&self, eigen: &RealEigen, chosen: &[usize]) -> Vec<f64> {
         let overflow = product(self.coupling.as_ref(), eigen.right.as_ref());
         let residual = |&i: &usize| {
-            let (first, last) = pair_columns(&eigen.values, i);
-            let norm = |m: &Mat<f64>| {
-                (first..=last).map(|j| m.col(j).squared_norm_l2()).sum::<f64>().sqrt()
-            };
+            let pair = pair_columns(&eigen.values, i);
+            let norm = |m: &Mat<f64>| length(m, pair.clone());
             norm(&overflow) / (norm(&eigen.right) * eigen.values[i].norm())
         };
         chosen.iter().map(residual).collect()
@@ -291,13 +277,18 @@ fn orthonormalize_block(basis: MatRef<'_, f64>, mut w: Mat<f64>) -> Orthonormali
     }
 }
 
-/// First and last column of the pair (or single vector) that column `i` belongs to.
-fn pair_columns(values: &[c64], i: usize) -> (usize, usize) {
+/// Columns of the pair (or single vector) that column `i` belongs to.
+fn pair_columns(values: &[c64], i: usize) -> RangeInclusive<usize> {
     match values[i].im {
-        im if im > 0.0 => (i, i + 1),
-        im if im < 0.0 => (i - 1, i),
-        _ => (i, i),
+        im if im > 0.0 => i..=i + 1,
+        im if im < 0.0 => i - 1..=i,
+        _ => i..=i,
     }
+}
+
+/// Length of the vector, real or complex, in some columns.
+fn length(m: &Mat<f64>, columns: RangeInclusive<usize>) -> f64 {
+    columns.map(|j| m.col(j).squared_norm_l2()).sum::<f64>().sqrt()
 }
 
 /// The `chosen` pairs with these vectors, real or complex, scaled to unit length.
@@ -310,12 +301,12 @@ fn normalized(
     let values: Vec<c64> = chosen.iter().map(|&i| eigen.values[i]).collect();
     let mut i = 0;
     while i < values.len() {
-        let (first, last) = pair_columns(&values, i);
-        let length = (first..=last).map(|j| vectors.col(j).squared_norm_l2()).sum::<f64>().sqrt();
-        for j in first..=last {
+        let pair = pair_columns(&values, i);
+        let length = length(&vectors, pair.clone());
+        i = pair.end() + 1;
+        for j in pair {
             vectors.col_mut(j).iter_mut().for_each(|v| *v /= length);
         }
-        i = last + 1;
     }
     RealPairs { values, vectors, residuals }
 }

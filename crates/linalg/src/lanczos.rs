@@ -1,8 +1,8 @@
 //! Block Lanczos iteration with thick restarts for symmetric pencils.
 
 use super::dense::{
-    add_product, column, column_mut, column_norms, combine, dot, join_columns, pick_columns,
-    product, random_columns, transpose_product,
+    add_product, column, column_mut, column_norms, combine, dot, join_columns, join_rows,
+    pick_columns, product, random_columns, transpose_product,
 };
 use super::{LinalgError, interruption};
 use faer::diag::Diag;
@@ -160,9 +160,7 @@ impl<'a> Process<'a> {
             let n = self.pencil.dimension();
             self.seed += 1;
             self.append(random_columns(n, self.block, self.seed));
-            let mut longer = Mat::zeros(self.basis.ncols(), total);
-            longer.get_mut(..total, ..).copy_from(self.projected.get(..total, ..));
-            self.projected = longer;
+            self.projected.resize_with(self.basis.ncols(), total, |_, _| 0.0);
         }
     }
 
@@ -233,12 +231,8 @@ impl<'a> Process<'a> {
             let open = columns.get(.., old..total).to_owned();
             *columns = join_columns(head.as_ref(), open.as_ref());
         }
-        let mut projected = Mat::zeros(kept + total - old, kept);
-        for (j, theta) in ritz.values[..kept].iter().enumerate() {
-            projected[(j, j)] = *theta;
-        }
-        projected.get_mut(kept.., ..).copy_from(&coupling);
-        self.projected = projected;
+        let own = Mat::from_fn(kept, kept, |i, j| if i == j { ritz.values[i] } else { 0.0 });
+        self.projected = join_rows(own.as_ref(), coupling.as_ref());
         self.expanded = kept;
     }
 }

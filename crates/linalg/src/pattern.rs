@@ -1,6 +1,12 @@
 //! Positions of the nonzeros of sparse matrices.
 
-use faer::sparse::{SparseColMatRef, SymbolicSparseColMat, SymbolicSparseColMatRef};
+use super::LinalgError;
+use faer::Side;
+use faer::sparse::linalg::SupernodalThreshold;
+use faer::sparse::linalg::cholesky::{
+    CholeskySymbolicParams, SymbolicCholesky, SymmetricOrdering, factorize_symbolic_cholesky,
+};
+use faer::sparse::{SparseColMatRef, SymbolicSparseColMat};
 
 /// Structural positions of the nonzeros of a square sparse matrix, column by column.
 ///
@@ -126,10 +132,19 @@ impl SparsityPattern {
         self.row_indices()[start..end].binary_search(&row).ok().map(|offset| start + offset)
     }
 
-    /// The pattern as faer sees it.
-    #[inline]
-    pub fn symbolic(&self) -> SymbolicSparseColMatRef<'_, usize> {
-        self.symbolic.as_ref()
+    /// Order of elimination (approximate minimum degree) and structure of the Cholesky factors, neighbours of alike structure
+    /// in one block; only the upper triangle counts.
+    ///
+    /// # Errors
+    /// If the analysis runs out of memory or index range.
+    pub(super) fn symbolic_cholesky(&self) -> Result<SymbolicCholesky<usize>, LinalgError> {
+        let parameters = CholeskySymbolicParams {
+            supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
+            ..Default::default()
+        };
+        let (symbolic, order) = (self.symbolic.as_ref(), SymmetricOrdering::Amd);
+        factorize_symbolic_cholesky(symbolic, Side::Upper, order, parameters)
+            .map_err(|error| LinalgError::factorization(self.dimension(), error))
     }
 
     /// A matrix of this pattern with `values`, one for each nonzero.

@@ -22,13 +22,12 @@ impl SparseCholesky {
         entries: impl Iterator<Item = (usize, usize, f64)>,
     ) -> Result<Self, LinalgError> {
         interruption::check();
-        let failure = |reason: String| LinalgError::Factorization { dimension, reason };
         let triplets: Vec<_> =
             entries.map(|(row, column, value)| Triplet::new(row, column, value)).collect();
         let matrix = SparseColMat::try_new_from_triplets(dimension, dimension, &triplets)
-            .map_err(|error| failure(format!("{error:?}")))?;
-        let factor =
-            matrix.sp_cholesky(Side::Lower).map_err(|error| failure(format!("{error:?}")))?;
+            .map_err(|error| LinalgError::factorization(dimension, error))?;
+        let factor = matrix.sp_cholesky(Side::Lower);
+        let factor = factor.map_err(|error| LinalgError::factorization(dimension, error))?;
         Ok(Self { factor })
     }
 

@@ -1,19 +1,14 @@
 //! Sparse symmetric factorization `A = P^T L D L^T P` and the inertia it shows.
 
-use super::dense::column_blocks;
+use super::dense::{column_blocks, trial_right_side};
+use super::error::BACKWARD_ERROR_BOUND;
 use super::{LinalgError, SparsityPattern, interruption};
 use faer::dyn_stack::{MemBuffer, MemStack};
-use faer::sparse::linalg::SupernodalThreshold;
-use faer::sparse::linalg::cholesky::{
-    CholeskySymbolicParams, LdltRef, SymbolicCholesky, SymbolicCholeskyRaw, SymmetricOrdering,
-    factorize_symbolic_cholesky, supernodal,
-};
+use faer::sparse::linalg::cholesky::{LdltRef, SymbolicCholesky, SymbolicCholeskyRaw, supernodal};
 use faer::{Conj, Mat, MatMut, Par, Side};
 use std::mem::{MaybeUninit, take};
 use std::sync::{Arc, Mutex};
 
-/// Backward error of a trial solve above which a factorization (it does not pivot) is not trusted.
-const BACKWARD_ERROR_BOUND: f64 = 1e-9;
 /// Right-hand sides solved together, at most: a single one costs as much as five of many.
 const BLOCK: usize = 32;
 
@@ -30,21 +25,8 @@ impl LdlAnalysis {
     /// # Errors
     /// If the analysis runs out of memory or index range.
     pub fn new(pattern: &Arc<SparsityPattern>) -> Result<Self, LinalgError> {
-        let parameters = CholeskySymbolicParams {
-            supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
-            ..Default::default()
-        };
-        let symbolic = factorize_symbolic_cholesky(
-            pattern.symbolic(),
-            Side::Upper,
-            SymmetricOrdering::Amd,
-            parameters,
-        )
-        .map_err(|error| LinalgError::Factorization {
-            dimension: pattern.dimension(),
-            reason: format!("{error:?}"),
-        })?;
-        Ok(Self { pattern: Arc::clone(pattern), symbolic: Arc::new(symbolic) })
+        let symbolic = Arc::new(pattern.symbolic_cholesky()?);
+        Ok(Self { pattern: Arc::clone(pattern), symbolic })
     }
 
     /// Entries of the factors.
@@ -86,10 +68,7 @@ impl SparseLdl {
                 MemStack::new(&mut MemBuffer::new(scratch)),
                 Default::default(),
             )
-            .map_err(|error| LinalgError::Factorization {
-                dimension: symbolic.nrows(),
-                reason: format!("{error:?}"),
-            })?;
+            .map_err(|error| LinalgError::factorization(symbolic.nrows(), error))?;
         let factored = Self { analysis: analysis.clone(), factors, scratch: Mutex::default() };
         factored.check(values)?;
         Ok(factored)
@@ -138,8 +117,7 @@ impl SparseLdl {
     fn check(&self, values: &[f64]) -> Result<(), LinalgError> {
         let pattern = &self.analysis.pattern;
         let n = pattern.dimension();
-        let right_side: Vec<f64> =
-            (0..n).map(|i| 1.0 + (i as f64 * 0.618_033_988_749_895).fract()).collect();
+        let right_side: Vec<f64> = trial_right_side(n).collect();
         let mut x = Mat::from_fn(n, 1, |i, _| right_side[i]);
         self.solve_in_place(x.as_mut());
         let (mut residual, mut row_sums) = (right_side, vec![0.0; n]);
@@ -160,14 +138,10 @@ impl SparseLdl {
         let largest = |v: &[f64]| v.iter().fold(0.0, |m: f64, r| m.max(r.abs()));
         let backward_error = largest(&residual) / (largest(&row_sums) * x.norm_max());
         let is_finite = residual.iter().all(|r| r.is_finite());
-        if n > 0 && !(is_finite && backward_error <= BACKWARD_ERROR_BOUND) {
-            return Err(LinalgError::Singular {
-                dimension: n,
-                backward_error,
-                bound: BACKWARD_ERROR_BOUND,
-            });
+        match n == 0 || (is_finite && backward_error <= BACKWARD_ERROR_BOUND) {
+            true => Ok(()),
+            false => Err(LinalgError::singular(n, backward_error)),
         }
-        Ok(())
     }
 }
 

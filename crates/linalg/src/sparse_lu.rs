@@ -10,7 +10,8 @@
 //! and the last goes to the front that eliminates the first of its unknowns. Source: I. S. Duff and J. K. Reid, The multifrontal solution
 //! of unsymmetric sets of linear equations, SIAM J. Sci. Stat. Comput. 5 (1984).
 
-use super::dense::column_blocks;
+use super::dense::{column_blocks, trial_right_side};
+use super::error::BACKWARD_ERROR_BOUND;
 use super::{LinalgError, SparsityPattern, interruption};
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::lu::partial_pivoting::factor;
@@ -21,18 +22,13 @@ use faer::linalg::triangular_solve::{
 };
 use faer::perm::permute_rows_in_place;
 use faer::prelude::ReborrowMut;
-use faer::sparse::linalg::SupernodalThreshold;
-use faer::sparse::linalg::cholesky::{
-    CholeskySymbolicParams, SymbolicCholeskyRaw, SymmetricOrdering, factorize_symbolic_cholesky,
-};
+use faer::sparse::linalg::cholesky::SymbolicCholeskyRaw;
 use faer::traits::ComplexField;
 use faer::traits::math_utils::{abs, imag, real};
-use faer::{Accum, Mat, MatMut, MatRef, Par, Side, c64};
+use faer::{Accum, Mat, MatMut, MatRef, Par, c64};
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-/// Backward error of a trial solve, or growth of the entries times the rounding error, above which factors are not trusted.
-const BACKWARD_ERROR_BOUND: f64 = 1e-9;
 /// Right-hand sides solved together: enough to stream the factors once for many of them, few enough
 /// that a block of them stays in cache.
 const BLOCK: usize = 16;
@@ -76,20 +72,7 @@ impl Order {
         let nonzeros = (0..n).flat_map(|j| pattern.column(j).map(move |(_, i)| (i, j)));
         let hull = nonzeros.flat_map(|(i, j)| [(i, j), (j, i)]);
         let hull = SparsityPattern::from_positions(n, hull);
-        let parameters = CholeskySymbolicParams {
-            supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
-            ..Default::default()
-        };
-        let symbolic = factorize_symbolic_cholesky(
-            hull.symbolic(),
-            Side::Upper,
-            SymmetricOrdering::Amd,
-            parameters,
-        )
-        .map_err(|error| LinalgError::Factorization {
-            dimension: n,
-            reason: format!("{error:?}"),
-        })?;
+        let symbolic = hull.symbolic_cholesky()?;
         let places = symbolic.perm().map(|perm| perm.arrays().1.to_vec());
         let SymbolicCholeskyRaw::Supernodal(blocks) = symbolic.raw() else {
             // A diagonal matrix, where nothing is to be eliminated.
@@ -181,13 +164,8 @@ impl LuAnalysis {
         let is_sound = sum.re.is_finite() && sum.im.is_finite();
         match is_sound && backward_error <= BACKWARD_ERROR_BOUND {
             true => Ok(sum),
-            false => Err(self.singular(backward_error)),
+            false => Err(LinalgError::singular(self.pattern.dimension(), backward_error)),
         }
-    }
-
-    fn singular(&self, backward_error: f64) -> LinalgError {
-        let dimension = self.pattern.dimension();
-        LinalgError::Singular { dimension, backward_error, bound: BACKWARD_ERROR_BOUND }
     }
 
     /// Eliminates front by front and hands each one on; how much the entries grow.
@@ -416,9 +394,7 @@ macro_rules! sparse_lu {
             /// The factorization itself reports no numerical singularity: a trial solve does.
             fn check(&self) -> Result<(), LinalgError> {
                 let n = self.analysis.pattern.dimension();
-                let right_side: Vec<$scalar> = (0..n)
-                    .map(|i| <$scalar>::from(1.0 + (i as f64 * 0.618_033_988_749_895).fract()))
-                    .collect();
+                let right_side: Vec<$scalar> = trial_right_side(n).map(<$scalar>::from).collect();
                 let mut x = Mat::from_fn(n, 1, |i, _| right_side[i]);
                 self.solve_in_place(x.as_mut());
                 let largest = x.norm_max();
@@ -426,16 +402,11 @@ macro_rules! sparse_lu {
                 let backward_error = self.residual(&x, &right_side).norm_max() / scale;
                 // A solution this large says that the matrix has no inverse in double precision.
                 let condition = scale / 2.0;
-                if n > 0
-                    && !(backward_error <= BACKWARD_ERROR_BOUND && condition < 1e15)
-                {
-                    return Err(LinalgError::Singular {
-                        dimension: n,
-                        backward_error,
-                        bound: BACKWARD_ERROR_BOUND,
-                    });
+                let is_sound = backward_error <= BACKWARD_ERROR_BOUND && condition < 1e15;
+                match n == 0 || is_sound {
+                    true => Ok(()),
+                    false => Err(LinalgError::singular(n, backward_error)),
                 }
-                Ok(())
             }
 
             /// Largest row sum of absolute values.

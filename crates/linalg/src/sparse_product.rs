@@ -42,21 +42,6 @@ fn lane_sums<const N: usize>(
     sums
 }
 
-/// `sum(index, [x_j, y_j])` at each entry of each pair of columns.
-fn gathered(
-    dimension: usize,
-    [x, y]: [MatRef<'_, f64>; 2],
-    sum: impl Fn(usize, [&[f64]; 2]) -> f64,
-) -> Mat<f64> {
-    let mut image = Mat::zeros(dimension, x.ncols());
-    for j in 0..x.ncols() {
-        let pair = [column(x, j), column(y, j)];
-        let target = column_mut(&mut image, j).iter_mut().enumerate();
-        target.for_each(|(index, value)| *value = sum(index, pair));
-    }
-    image
-}
-
 impl SparsityPattern {
     /// `A x` for each column of `x`, with `A` given by its nonzero `values`.
     #[inline]
@@ -103,15 +88,19 @@ impl SparsityPattern {
     /// `A x + B y` for each pair of columns, with `A` and `B` given by their nonzeros sorted by rows
     /// ([`Self::by_rows`]); for few columns, of which [`Self::multiply`] would interleave empty ones.
     #[inline]
-    pub fn multiply_sum(&self, values: [&[f64]; 2], x: [MatRef<'_, f64>; 2]) -> Mat<f64> {
-        let columns = self.row_columns();
-        gathered(self.dimension(), x, |row, [x, y]| {
-            let places = self.row_range(row);
-            let columns = &columns[places.clone()];
-            let [a, b] = values.map(|values| &values[places.clone()]);
-            let pairs = columns.iter().zip(a.iter().zip(b));
-            pairs.map(|(&j, (a, b))| a * x[j as usize] + b * y[j as usize]).sum()
-        })
+    pub fn multiply_sum(&self, values: [&[f64]; 2], [x, y]: [MatRef<'_, f64>; 2]) -> Mat<f64> {
+        let mut image = Mat::zeros(self.dimension(), x.ncols());
+        for j in 0..x.ncols() {
+            let (x, y) = (column(x, j), column(y, j));
+            for (row, value) in column_mut(&mut image, j).iter_mut().enumerate() {
+                let places = self.row_range(row);
+                let columns = &self.row_columns()[places.clone()];
+                let [a, b] = values.map(|values| &values[places.clone()]);
+                let pairs = columns.iter().zip(a.iter().zip(b));
+                *value = pairs.map(|(&j, (a, b))| a * x[j as usize] + b * y[j as usize]).sum();
+            }
+        }
+        image
     }
 
     /// `A^T x` for each column of `x`, with `A` given by its nonzero `values`.

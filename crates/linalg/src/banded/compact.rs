@@ -3,6 +3,8 @@
 use super::BandedMatrix;
 use crate::dense::{column, column_mut};
 use faer::{Mat, c64};
+use std::iter::Sum;
+use std::ops::Mul;
 
 /// A banded matrix by its nonzero entries, for products where most of the band is empty.
 #[derive(Clone, Debug)]
@@ -30,18 +32,26 @@ impl CompactRows {
         Self { starts, columns, values }
     }
 
+    /// The entries of `A x`, one after the other.
+    #[inline]
+    fn images<T>(&self, x: &[T]) -> impl Iterator<Item = T>
+    where
+        T: Copy + Mul<f64, Output = T> + Sum,
+    {
+        let rows = self.starts.windows(2).map(|ends| ends[0]..ends[1]);
+        rows.map(|row| {
+            let entries = self.columns[row.clone()].iter().zip(&self.values[row]);
+            entries.map(|(&column, value)| x[column] * *value).sum()
+        })
+    }
+
     /// `A x`.
     ///
     /// # Panics
     /// If `x` is shorter than the matrix.
     #[inline]
     pub fn multiply(&self, x: &[f64]) -> Vec<f64> {
-        let rows = self.starts.windows(2).map(|ends| ends[0]..ends[1]);
-        rows.map(|row| {
-            let entries = self.columns[row.clone()].iter().zip(&self.values[row]);
-            entries.map(|(&column, value)| value * x[column]).sum()
-        })
-        .collect()
+        self.images(x).collect()
     }
 
     /// `y^H A x`.
@@ -50,14 +60,7 @@ impl CompactRows {
     /// If a vector is shorter than the matrix.
     #[inline]
     pub fn form(&self, y: &[c64], x: &[c64]) -> c64 {
-        let rows = self.starts.windows(2).map(|ends| ends[0]..ends[1]);
-        rows.zip(y)
-            .map(|(row, y)| {
-                let entries = self.columns[row.clone()].iter().zip(&self.values[row]);
-                let image: c64 = entries.map(|(&column, value)| x[column] * *value).sum();
-                y.conj() * image
-            })
-            .sum()
+        self.images(x).zip(y).map(|(image, y)| y.conj() * image).sum()
     }
 
     /// Adds `factor A x` to a sum.
@@ -66,12 +69,7 @@ impl CompactRows {
     /// If `x` is shorter than the matrix.
     #[inline]
     pub fn add_product(&self, factor: c64, x: &[c64], sum: &mut [c64]) {
-        let rows = self.starts.windows(2).map(|ends| ends[0]..ends[1]);
-        for (row, sum) in rows.zip(sum) {
-            let entries = self.columns[row.clone()].iter().zip(&self.values[row]);
-            let image: c64 = entries.map(|(&column, value)| x[column] * *value).sum();
-            *sum += factor * image;
-        }
+        self.images(x).zip(sum).for_each(|(image, sum)| *sum += factor * image);
     }
 
     /// `A X`.
