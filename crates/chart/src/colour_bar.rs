@@ -79,10 +79,7 @@ impl Colours {
             true => (1, LEVELS, levels.rev().collect()),
             false => (LEVELS, 1, levels.collect()),
         };
-        let image = IndexedImage { width, height, pixels };
-        if let Some(png) = image.encode(&palette) {
-            svg.image(bar, &png, false);
-        }
+        IndexedImage { width, height, pixels }.draw(svg, bar, &palette, false);
         svg.rectangle(bar, "none", Some(&Stroke::solid(INK, 0.5)));
     }
 

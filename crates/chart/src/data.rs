@@ -107,6 +107,19 @@ pub struct Series {
     pub is_whole: bool,
 }
 
+impl Series {
+    /// Points without names or values, of which some may be left out.
+    pub(super) fn new(
+        kind: SeriesKind,
+        colour: Colour,
+        points: impl IntoIterator<Item = (f64, f64)>,
+    ) -> Self {
+        let (xs, ys) = points.into_iter().unzip();
+        let (name, rows, tips) = (String::new(), Vec::new(), Vec::new());
+        Self { name, kind, colour, xs, ys, values: None, rows, tips, is_whole: false }
+    }
+}
+
 /// By what its numbers say: gaps, which are not numbers, equal each other.
 impl PartialEq for Series {
     fn eq(&self, other: &Self) -> bool {

@@ -74,22 +74,17 @@ impl Field {
 
     /// Colours the field: values are interpolated linearly on triangles around the centre of each element.
     fn rasterize(&self, frame: &Frame, palette: &Palette) -> IndexedImage {
-        let size = |points: f64| (points * PIXELS_PER_POINT).round().clamp(1.0, 4000.0) as usize;
-        let (width, height) = (size(frame.area.width), size(frame.area.height));
-        let pixels = vec![palette.transparent(); width * height];
-        let mut image = IndexedImage { width, height, pixels };
+        let mut image = IndexedImage::over(&frame.area, 4000.0, palette);
         let (low, high) = self.colours.range;
         let steepness = self.levels as f64 / (high - low).max(f64::MIN_POSITIVE);
-        let vertex = |node: u32| -> Option<[f64; 3]> {
-            let [x, y] = *self.positions.get(node as usize)?;
-            let value = *self.values.get(node as usize)?;
-            let place =
-                [frame.x.fraction(x) * width as f64, (1.0 - frame.y.fraction(y)) * height as f64];
-            Some([place[0], place[1], (value - low) * steepness])
+        let vertex = |(place, value): (&[f64; 2], &f64)| {
+            let [column, row] = image.place(frame, *place);
+            [column, row, (value - low) * steepness]
         };
+        let vertices: Vec<[f64; 3]> = self.positions.iter().zip(&self.values).map(vertex).collect();
         for cell in &self.mesh.cells {
-            let ring: Option<Vec<[f64; 3]>> = cell.ring.iter().map(|&node| vertex(node)).collect();
-            let Some(ring) = ring else { continue };
+            let ring = cell.ring.iter().map(|&node| vertices.get(node as usize).copied());
+            let Some(ring) = ring.collect::<Option<Vec<[f64; 3]>>>() else { continue };
             let centre = centre(&ring, cell.is_quadratic);
             for (index, &corner) in ring.iter().enumerate() {
                 let next = ring[(index + 1) % ring.len()];
@@ -104,9 +99,6 @@ impl Field {
         places.map(|&[x, y]| frame.at(x, y)).collect()
     }
 }
-
-/// Image pixels for each point of the drawing.
-const PIXELS_PER_POINT: f64 = 3.0;
 
 /// Value of the shape functions at the centre times the nodes: of quadratic elements on four sides -1/4 at corners and
 /// 1/2 at sides, on three -1/9 and 4/9.
@@ -146,9 +138,7 @@ impl Layer for Field {
 
     fn draw(&self, svg: &mut Svg, frame: &Frame) {
         let palette = Palette::of_map(self.colours.map, self.levels);
-        if let Some(png) = self.rasterize(frame, &palette).encode(&palette) {
-            svg.image(&frame.area, &png, false);
-        }
+        self.rasterize(frame, &palette).draw(svg, &frame.area, &palette, false);
         let mut lines = Path::new();
         for line in &self.mesh.lines {
             lines.extend(simplify(&self.curve(line, frame), 0.12));
@@ -173,19 +163,12 @@ impl Layer for Field {
         if self.levels == Palette::COARSE {
             return Vec::new();
         }
+        let values = self.values.iter().map(|&value| ruler.shown(value)).collect();
+        let places = self.positions.iter().map(|&[x, y]| (x, y));
         vec![Series {
-            name: String::new(),
-            kind: SeriesKind::Field,
-            colour: INK.into(),
-            xs: self.positions.iter().map(|place| place[0]).collect(),
-            ys: self.positions.iter().map(|place| place[1]).collect(),
-            values: Some((
-                plain(&ruler.title),
-                self.values.iter().map(|&value| ruler.shown(value)).collect(),
-            )),
-            rows: Vec::new(),
-            tips: Vec::new(),
+            values: Some((plain(&ruler.title), values)),
             is_whole: true,
+            ..Series::new(SeriesKind::Field, INK.into(), places)
         }]
     }
 }

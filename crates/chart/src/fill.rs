@@ -99,16 +99,10 @@ impl Layer for Fill {
             return Vec::new();
         }
         // Of areas stacked on others the height is the quantity.
+        let heights = self.points.iter().map(|[x, one, other]| (*x, other - one));
         vec![Series {
             name: self.name.as_deref().map(plain).unwrap_or_default(),
-            kind: SeriesKind::Line,
-            colour: self.colour,
-            xs: self.points.iter().map(|point| point[0]).collect(),
-            ys: self.points.iter().map(|[_, one, other]| other - one).collect(),
-            values: None,
-            rows: Vec::new(),
-            tips: Vec::new(),
-            is_whole: false,
+            ..Series::new(SeriesKind::Line, self.colour, heights)
         }]
     }
 }

@@ -81,19 +81,28 @@ pub(super) fn draw_grid(svg: &mut Svg, frame: &Frame, [x, y]: &[Vec<Tick>; 2]) {
     }
 }
 
+/// Draws small ticks and those with labels, each as `mark` has it for a value in the unit shown and a length.
+fn draw_ticks(
+    svg: &mut Svg,
+    ruler: &Ruler,
+    ticks: &[Tick],
+    mark: impl Fn(f64, f64) -> [(f64, f64); 2],
+) {
+    let mut marks = Path::new();
+    let minor = ruler.minor_ticks().into_iter().map(|value| mark(value, 0.6 * TICK));
+    let labelled = ticks.iter().map(|tick| mark(tick.value, TICK));
+    minor.chain(labelled).for_each(|ends| marks.extend(ends));
+    svg.path(&marks, &Stroke::solid(INK, 0.6));
+}
+
 /// Most that the title of an axis may shrink to stay beside it.
 const SMALLEST_TITLE: f64 = 0.7;
 
 pub(super) fn draw_x_axis(svg: &mut Svg, frame: &Frame, ticks: &[Tick], labels: bool) {
     let (area, bottom) = (&frame.area, frame.area.bottom());
     let at = |value: f64| area.x + area.width * frame.x.place(value);
-    let minor = frame.x.minor_ticks();
-    let mut marks = Path::new();
-    let lengths = minor.iter().map(|&v| (v, 0.6 * TICK));
-    for (value, length) in lengths.chain(ticks.iter().map(|tick| (tick.value, TICK))) {
-        marks.extend([(at(value), bottom), (at(value), bottom + length)]);
-    }
-    svg.path(&marks, &Stroke::solid(INK, 0.6));
+    let mark = |value: f64, length: f64| [(at(value), bottom), (at(value), bottom + length)];
+    draw_ticks(svg, &frame.x, ticks, mark);
     if !labels {
         return;
     }
@@ -119,13 +128,8 @@ pub(super) fn on_sheet(svg: &Svg, middle: f64, markup: &str, size: f64) -> f64 {
 pub(super) fn draw_y_axis(svg: &mut Svg, frame: &Frame, ticks: &[Tick], title: Option<f64>) {
     let (area, left) = (&frame.area, frame.area.x);
     let at = |value: f64| area.bottom() - area.height * frame.y.place(value);
-    let minor = frame.y.minor_ticks();
-    let mut marks = Path::new();
-    let lengths = minor.iter().map(|&v| (v, 0.6 * TICK));
-    for (value, length) in lengths.chain(ticks.iter().map(|tick| (tick.value, TICK))) {
-        marks.extend([(left, at(value)), (left - length, at(value))]);
-    }
-    svg.path(&marks, &Stroke::solid(INK, 0.6));
+    let mark = |value: f64, length: f64| [(left, at(value)), (left - length, at(value))];
+    draw_ticks(svg, &frame.y, ticks, mark);
     let Some(distance) = title else { return };
     let style = TextStyle::new(LABEL_SIZE).anchored(Anchor::End);
     for tick in ticks {

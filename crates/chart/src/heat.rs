@@ -93,9 +93,7 @@ impl Layer for Heat {
 
     fn draw(&self, svg: &mut Svg, frame: &Frame) {
         let place = frame.rect(self.x, self.y);
-        if let Some(png) = self.image.encode(&self.palette) {
-            svg.image(&place, &png, self.colours.is_none());
-        }
+        self.image.draw(svg, &place, &self.palette, self.colours.is_none());
     }
 
     fn keys(&self) -> Vec<(Key, String)> {

@@ -1,6 +1,8 @@
 //! Small images inside drawings: palettes, and pixels in their colours.
 
 use super::colour::{Colour, ColourMap};
+use super::frame::Frame;
+use super::svg::{Rect, Svg};
 use serde::{Deserialize, Serialize};
 
 /// Colours of an image by index; one index more is transparent.
@@ -62,7 +64,22 @@ pub(super) struct IndexedImage {
     pub pixels: Vec<u8>,
 }
 
+/// Image pixels for each point of the drawing.
+const PIXELS_PER_POINT: f64 = 3.0;
+
 impl IndexedImage {
+    /// A transparent image over an area of a drawing, at most so many pixels wide and high.
+    pub fn over(area: &Rect, most: f64, palette: &Palette) -> Self {
+        let size = |points: f64| (points * PIXELS_PER_POINT).round().clamp(1.0, most) as usize;
+        let (width, height) = (size(area.width), size(area.height));
+        Self { width, height, pixels: vec![palette.transparent(); width * height] }
+    }
+
+    /// Where a point of the data lies in an image over the area of a frame, pixels to the right and downwards.
+    pub fn place(&self, frame: &Frame, [x, y]: [f64; 2]) -> [f64; 2] {
+        [frame.x.fraction(x) * self.width as f64, (1.0 - frame.y.fraction(y)) * self.height as f64]
+    }
+
     /// Calls `see` with the index of every pixel whose centre lies inside or on the edge of a triangle (x, y in
     /// pixels), and the weights `v`, `w` of its second and third corner there. Neighbours share the pixels on their
     /// common edge, so no seam shows.
@@ -95,8 +112,15 @@ impl IndexedImage {
         }
     }
 
+    /// Draws the image stretched over a rectangle; `pixelated` keeps its pixels sharp.
+    pub fn draw(&self, svg: &mut Svg, rect: &Rect, palette: &Palette, pixelated: bool) {
+        if let Some(png) = self.encode(palette) {
+            svg.image(rect, &png, pixelated);
+        }
+    }
+
     /// The image as PNG; `None` for one without pixels.
-    pub fn encode(&self, palette: &Palette) -> Option<Vec<u8>> {
+    fn encode(&self, palette: &Palette) -> Option<Vec<u8>> {
         if self.width * self.height == 0 {
             return None;
         }

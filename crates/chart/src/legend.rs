@@ -9,7 +9,7 @@ use super::text::{self, TextStyle};
 use serde::{Deserialize, Serialize};
 
 /// What stands before the name of a legend entry: any of a line, a data point, a filled patch.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Key {
     pub(super) stroke: Option<Stroke>,
     pub(super) marker: Option<(Marker, Colour)>,
@@ -19,12 +19,12 @@ pub struct Key {
 impl Key {
     /// A line.
     pub fn line(stroke: Stroke) -> Self {
-        Self { stroke: Some(stroke), marker: None, patch: None }
+        Self { stroke: Some(stroke), ..Self::default() }
     }
 
     /// A filled patch; opacity from 0 to 1.
     pub fn patch(colour: impl Into<Colour>, opacity: f64) -> Self {
-        Self { stroke: None, marker: None, patch: Some((colour.into(), opacity)) }
+        Self { patch: Some((colour.into(), opacity)), ..Self::default() }
     }
 
     fn draw(&self, svg: &mut Svg, left: f64, middle: f64) {

@@ -130,29 +130,25 @@ impl Layer for Line {
             // The finest lines still show their colour in a legend.
             stroke: Some(Stroke { width: self.stroke.width.max(0.8), ..self.stroke }),
             marker: self.marker.map(|m| (m.0, self.stroke.colour)),
-            patch: None,
+            ..Key::default()
         };
         self.name.iter().map(|name| (key, name.clone())).collect()
     }
 
     fn series(&self) -> Vec<Series> {
         // A line without width carries the arrows of others.
-        let is_shown = self.stroke.width > 0.0 && !self.xs.is_empty();
-        let series = Series {
-            name: exported_name(self.label.as_ref(), self.name.as_ref()),
-            kind: match self.stroke.is_dashed() {
-                false => SeriesKind::Line,
-                true => SeriesKind::Dashed,
-            },
-            colour: self.stroke.colour,
-            xs: self.xs.clone(),
-            ys: self.ys.clone(),
-            values: None,
-            rows: Vec::new(),
-            tips: Vec::new(),
-            is_whole: self.is_whole,
+        if !(self.stroke.width > 0.0) || self.xs.is_empty() {
+            return Vec::new();
+        }
+        let kind = match self.stroke.is_dashed() {
+            false => SeriesKind::Line,
+            true => SeriesKind::Dashed,
         };
-        is_shown.then_some(series).into_iter().collect()
+        vec![Series {
+            name: exported_name(self.label.as_ref(), self.name.as_ref()),
+            is_whole: self.is_whole,
+            ..Series::new(kind, self.stroke.colour, self.points())
+        }]
     }
 }
 
@@ -251,26 +247,22 @@ impl Layer for Points {
     fn keys(&self) -> Vec<(Key, String)> {
         let key = match self.key {
             Some(stroke) => Key::line(stroke),
-            None => Key { stroke: None, marker: Some((self.marker, self.colour)), patch: None },
+            None => Key { marker: Some((self.marker, self.colour)), ..Key::default() },
         };
         self.name.iter().map(|name| (key, name.clone())).collect()
     }
 
     fn series(&self) -> Vec<Series> {
-        let (xs, ys) = self.points.iter().copied().unzip();
-        let series = Series {
+        // Points too small to see stand in legends only.
+        if !(self.radius > 0.1) || self.points.is_empty() {
+            return Vec::new();
+        }
+        vec![Series {
             name: exported_name(self.label.as_ref(), self.name.as_ref()),
-            kind: SeriesKind::Points,
-            colour: self.colour,
-            xs,
-            ys,
-            values: None,
             rows: self.rows.clone(),
             tips: self.tips.clone(),
             is_whole: true,
-        };
-        // Points too small to see stand in legends only.
-        let is_shown = self.radius > 0.1 && !self.points.is_empty();
-        is_shown.then_some(series).into_iter().collect()
+            ..Series::new(SeriesKind::Points, self.colour, self.points.iter().copied())
+        }]
     }
 }

@@ -36,6 +36,15 @@ impl Rule {
     pub fn vertical(value: f64) -> Self {
         Self::new(value, false)
     }
+
+    /// Where it lies in the drawing, if the axis reaches it.
+    fn place(&self, frame: &Frame) -> Option<f64> {
+        let (ruler, at) = match self.is_horizontal {
+            true => (&frame.y, frame.at_y(self.value)),
+            false => (&frame.x, frame.at_x(self.value)),
+        };
+        ruler.contains(self.value).then_some(at)
+    }
 }
 
 changed! { Rule:
@@ -60,29 +69,20 @@ impl Layer for Rule {
     }
 
     fn draw(&self, svg: &mut Svg, frame: &Frame) {
-        let area = &frame.area;
+        let (area, Some(at)) = (&frame.area, self.place(frame)) else { return };
         let (from, to) = match self.is_horizontal {
-            true if frame.y.contains(self.value) => {
-                let y = frame.at_y(self.value);
-                ((area.x, y), (area.right(), y))
-            }
-            false if frame.x.contains(self.value) => {
-                let x = frame.at_x(self.value);
-                ((x, area.y), (x, area.bottom()))
-            }
-            _ => return,
+            true => ((area.x, at), (area.right(), at)),
+            false => ((at, area.y), (at, area.bottom())),
         };
         svg.line(from, to, &self.stroke);
     }
 
     fn draw_over(&self, svg: &mut Svg, frame: &Frame) {
-        let Some(text) = &self.beside else { return };
-        let style = TextStyle::new(LABEL_SIZE).with_halo();
-        if self.is_horizontal && frame.y.contains(self.value) {
-            svg.text(frame.area.x + 4.0, frame.at_y(self.value) - 2.5, text, &style);
-        } else if !self.is_horizontal && frame.x.contains(self.value) {
-            let (x, y) = (frame.at_x(self.value) - 2.5, frame.area.bottom() - 5.0);
-            svg.text(x, y, text, &style.rotated(-90.0));
+        let (Some(text), Some(at)) = (&self.beside, self.place(frame)) else { return };
+        let (area, style) = (&frame.area, TextStyle::new(LABEL_SIZE).with_halo());
+        match self.is_horizontal {
+            true => svg.text(area.x + 4.0, at - 2.5, text, &style),
+            false => svg.text(at - 2.5, area.bottom() - 5.0, text, &style.rotated(-90.0)),
         }
     }
 

@@ -11,7 +11,6 @@ use super::layer::{Drawn, Side};
 use super::legend::{Key, Legend};
 use super::marks::{RIM_SIZE, draw_rim_labels};
 use super::ruler::{Ruler, Tick, widest};
-use super::scale::extremes;
 use super::svg::{Stroke, Svg};
 use super::text::{self, Anchor, TextStyle, plain};
 use serde::{Deserialize, Serialize};
@@ -101,7 +100,7 @@ impl Panel {
     pub(super) fn ranges(&self) -> [Option<(f64, f64)>; 2] {
         let (given, logarithmic) =
             (self.x.given(), [self.x.is_logarithmic(), self.y.is_logarithmic()]);
-        let mut seen: [Vec<f64>; 2] = [Vec::new(), Vec::new()];
+        let mut seen: [Option<(f64, f64)>; 2] = [None; 2];
         for layer in self.layers.iter().filter(|layer| layer.is_data()) {
             layer.extent(&mut |x, y| {
                 let is_outside = given.is_some_and(|(low, high)| x < low || x > high);
@@ -109,15 +108,13 @@ impl Panel {
                     [x, y].into_iter().zip(&mut seen).zip(logarithmic)
                 {
                     if !is_outside && value.is_finite() && (value > 0.0 || !logarithmic) {
-                        match seen.len() {
-                            0 => *seen = vec![value, value],
-                            _ => *seen = vec![seen[0].min(value), seen[1].max(value)],
-                        }
+                        let (low, high) = seen.unwrap_or((value, value));
+                        *seen = Some((low.min(value), high.max(value)));
                     }
                 }
             });
         }
-        seen.map(|seen| (!seen.is_empty()).then(|| extremes(seen)))
+        seen
     }
 
     /// Its axes over its own data.

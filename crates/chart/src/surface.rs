@@ -19,8 +19,6 @@ const SHADES: usize = 15;
 const NEUTRAL: &str = "#c8c8c8";
 /// Colour of edges.
 const EDGE: &str = "#303030";
-/// Image pixels for each point of the drawing.
-const PIXELS_PER_POINT: f64 = 3.0;
 /// Where the light comes from: over the left shoulder of the viewer.
 const LIGHT: [f64; 3] = [-0.35, 0.5, 0.79];
 
@@ -109,20 +107,14 @@ impl Surface {
 
     /// Fills every triangle in front of what is there, then draws the edges that are not hidden.
     fn rasterize(&self, frame: &Frame, palette: &Palette) -> IndexedImage {
-        let size = |points: f64| (points * PIXELS_PER_POINT).round().clamp(1.0, 2000.0) as usize;
-        let (width, height) = (size(frame.area.width), size(frame.area.height));
-        let mut canvas = Canvas {
-            image: IndexedImage {
-                width,
-                height,
-                pixels: vec![palette.transparent(); width * height],
-            },
-            depth: vec![f64::NEG_INFINITY; width * height],
+        let image = IndexedImage::over(&frame.area, 2000.0, palette);
+        let vertex = |&[x, y, z]: &[f64; 3]| {
+            let [column, row] = image.place(frame, [x, y]);
+            [column, row, z]
         };
-        let place = |node: u32| {
-            let [x, y, z] = self.positions[node as usize];
-            [frame.x.fraction(x) * width as f64, (1.0 - frame.y.fraction(y)) * height as f64, z]
-        };
+        let vertices: Vec<[f64; 3]> = self.positions.iter().map(vertex).collect();
+        let place = |node: u32| vertices[node as usize];
+        let mut canvas = Canvas { depth: vec![f64::NEG_INFINITY; image.pixels.len()], image };
         for (triangle, corners) in self.mesh.triangles.iter().enumerate() {
             let shade = self.shade(corners);
             canvas.fill(corners.map(place), self.levels(triangle, corners), shade);
@@ -232,9 +224,7 @@ impl Layer for Surface {
 
     fn draw(&self, svg: &mut Svg, frame: &Frame) {
         let palette = self.palette();
-        if let Some(png) = self.rasterize(frame, &palette).encode(&palette) {
-            svg.image(&frame.area, &png, false);
-        }
+        self.rasterize(frame, &palette).draw(svg, &frame.area, &palette, false);
     }
 
     fn colours(&self) -> Option<&Colours> {

@@ -171,10 +171,7 @@ impl Svg {
 
     /// A straight line.
     pub fn line(&mut self, from: (f64, f64), to: (f64, f64), stroke: &Stroke) {
-        let mut path = Path::new();
-        path.move_to(from.0, from.1);
-        path.line_to(to.0, to.1);
-        self.path(&path, stroke);
+        self.path(&Path::polyline([from, to], false), stroke);
     }
 
     /// A stroked path.
