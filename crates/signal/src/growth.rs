@@ -128,24 +128,20 @@ pub fn exponential_stage(
         },
     };
     let mut stage = search(samples, sampling_rate, frequency)?;
+    if frequency_hz.is_some() {
+        return Ok(stage);
+    }
+    // The stage may vibrate elsewhere than the limit cycle that dominates the record.
     for _ in 0..2 {
-        if frequency_hz.is_some() {
-            break;
-        }
-        // The stage may vibrate elsewhere than the limit cycle that dominates the record.
         let range = |t: f64| ((t * sampling_rate) as usize).min(samples.len());
         let part = &samples[range(stage.start)..range(stage.end)];
-        let Ok(line) = main_frequency(part, sampling_rate) else {
-            break;
-        };
+        let Ok(line) = main_frequency(part, sampling_rate) else { break };
         if (line.frequency_hz / frequency - 1.0).abs() < 0.02 {
             break;
         }
         frequency = line.frequency_hz;
-        match search(samples, sampling_rate, frequency) {
-            Ok(better) => stage = better,
-            Err(_) => break,
-        }
+        let Ok(better) = search(samples, sampling_rate, frequency) else { break };
+        stage = better;
     }
     Ok(stage)
 }

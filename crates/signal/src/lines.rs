@@ -2,7 +2,7 @@
 
 use super::Window;
 use super::error::SignalError;
-use super::spectrum::{AmplitudeSpectrum, averaged_spectrum, check_signal};
+use super::spectrum::{AmplitudeSpectrum, averaged_spectrum, check_signal, top_of};
 use super::statistics::{mean_power_exceeded, median, normal_exceeded};
 
 /// Weakest line reported, relative to the strongest (-46 dB).
@@ -107,13 +107,10 @@ pub fn spectral_lines(
 /// # Errors
 /// As [`spectral_lines`]; a signal of which no line stands out is an error too.
 pub fn main_frequency(samples: &[f64], sampling_rate: f64) -> Result<SpectralLine, SignalError> {
-    check_signal(samples, sampling_rate, 16)?;
     let resolution = SpectralResolution::of(samples.len(), sampling_rate, None)?;
     let lines = spectral_lines(samples, sampling_rate, resolution, 1)?;
-    lines
-        .into_iter()
-        .next()
-        .ok_or(SignalError::NoResonance { low_hz: 0.0, high_hz: 0.5 * sampling_rate })
+    let none = SignalError::NoResonance { low_hz: 0.0, high_hz: 0.5 * sampling_rate };
+    lines.first().copied().ok_or(none)
 }
 
 /// Maxima of the spectrum that stand out, strongest first.
@@ -174,17 +171,11 @@ impl LocalNoise {
     }
 }
 
-/// Top of the parabola through the logarithms of three bins: the main lobe is nearly Gaussian.
+/// The line whose largest bin is `k`.
 fn located(spectrum: &AmplitudeSpectrum, k: usize) -> SpectralLine {
-    let log = |i: usize| spectrum.amplitudes[i].max(f64::MIN_POSITIVE).ln();
-    let (left, middle, right) = (log(k - 1), log(k), log(k + 1));
-    let bend = left - 2.0 * middle + right;
-    let shift = if bend < 0.0 { (0.5 * (left - right) / bend).clamp(-0.5, 0.5) } else { 0.0 };
-    SpectralLine {
-        frequency_hz: (k as f64 + shift) * spectrum.frequencies_hz[1],
-        amplitude: (middle - 0.25 * (left - right) * shift).exp(),
-        superharmonic_of: None,
-    }
+    let (shift, amplitude) = top_of([k - 1, k, k + 1].map(|i| spectrum.amplitudes[i]));
+    let frequency_hz = (k as f64 + shift) * spectrum.frequencies_hz[1];
+    SpectralLine { frequency_hz, amplitude, superharmonic_of: None }
 }
 
 /// Marks every line that is an integer multiple of a lower one.

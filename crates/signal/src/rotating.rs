@@ -1,6 +1,7 @@
 //! Lines of a complex series, each with the sense in which it turns.
 
 use super::Window;
+use super::spectrum::{signed_bin, top_of};
 use crate::forward_transform;
 use faer::c64;
 
@@ -43,23 +44,15 @@ pub fn rotating_lines(series: &[c64], sampling_rate: f64, weakest: f64) -> Vec<R
         size[(bin as isize + offset).rem_euclid(count as isize) as usize]
     };
     let is_peak = |&bin: &usize| {
-        let lobe = (1..=reach as isize).flat_map(|k| [-k, k]);
-        size[bin] >= weakest && size[bin] > 0.0 && {
-            let mut lobe = lobe.map(|k| around(bin, k));
-            lobe.all(|other| other < size[bin])
-        }
+        let mut lobe = (1..=reach as isize).flat_map(|k| [-k, k]);
+        size[bin] >= weakest && size[bin] > 0.0 && lobe.all(|k| around(bin, k) < size[bin])
     };
     let mut lines: Vec<RotatingLine> = (reach..=count - reach)
         .filter(is_peak)
         .map(|bin| {
-            let [before, at, after] =
-                [-1, 0, 1].map(|k| around(bin, k).max(f64::MIN_POSITIVE).ln());
-            let offset = 0.5 * (before - after) / (before - 2.0 * at + after);
-            let signed = if bin > count / 2 { bin as f64 - count as f64 } else { bin as f64 };
-            RotatingLine {
-                frequency_hz: (signed + offset) * sampling_rate / count as f64,
-                amplitude: (at - 0.25 * (before - after) * offset).exp(),
-            }
+            let (offset, amplitude) = top_of([-1, 0, 1].map(|k| around(bin, k)));
+            let place = signed_bin(bin, count) + offset;
+            RotatingLine { frequency_hz: place * sampling_rate / count as f64, amplitude }
         })
         .collect();
     lines.sort_by(|a, b| b.amplitude.total_cmp(&a.amplitude));

@@ -120,6 +120,20 @@ impl BlockTransform {
     }
 }
 
+/// Offset, bins, and height of the top of the parabola through the logarithms of three amplitudes around a
+/// maximum: the main lobe of a window is nearly Gaussian.
+pub(super) fn top_of(amplitudes: [f64; 3]) -> (f64, f64) {
+    let [left, middle, right] = amplitudes.map(|a| a.max(f64::MIN_POSITIVE).ln());
+    let bend = left - 2.0 * middle + right;
+    let shift = if bend < 0.0 { (0.5 * (left - right) / bend).clamp(-0.5, 0.5) } else { 0.0 };
+    (shift, (middle - 0.25 * (left - right) * shift).exp())
+}
+
+/// Bin of a complex transform of so many values, those of its upper half negative.
+pub(super) fn signed_bin(bin: usize, count: usize) -> f64 {
+    if bin > count / 2 { bin as f64 - count as f64 } else { bin as f64 }
+}
+
 /// The signal less its mean.
 pub(super) fn centred(samples: &[f64]) -> Vec<f64> {
     let mean = samples.iter().sum::<f64>() / samples.len().max(1) as f64;

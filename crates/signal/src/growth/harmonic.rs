@@ -3,6 +3,7 @@
 use super::demodulation::{Demodulated, demodulate};
 use super::{ExponentialStage, LARGEST_DEVIATION, NoGrowth, round_off_floor};
 use crate::forward_transform;
+use crate::spectrum::signed_bin;
 use faer::c64;
 use std::f64::consts::TAU;
 
@@ -106,9 +107,8 @@ fn strongest_line(series: &[c64]) -> (f64, f64) {
     let lines = LOWEST_LINE..count + 1 - LOWEST_LINE;
     let best = lines.max_by(|&a, &b| spectrum[a].norm_sqr().total_cmp(&spectrum[b].norm_sqr()));
     let best = best.unwrap_or(0);
-    let signed = if best > count / 2 { best as f64 - count as f64 } else { best as f64 };
     let amplitude = 2.0 * spectrum[best].norm() / count as f64;
-    (signed / count as f64, amplitude)
+    (signed_bin(best, count) / count as f64, amplitude)
 }
 
 #[cfg(test)]

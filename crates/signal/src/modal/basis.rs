@@ -74,23 +74,13 @@ pub(super) struct Lines {
     reference_hz: f64,
 }
 
-/// A complex column of a real matrix: real parts above, imaginary parts below.
-struct Column<'a> {
-    re: &'a mut [f64],
-    im: &'a mut [f64],
-}
-
-impl Column<'_> {
-    fn set(&mut self, i: usize, value: c64) {
-        self.re[i] = value.re;
-        self.im[i] = value.im;
-    }
-}
-
-fn column(matrix: &mut Mat<f64>, k: usize) -> Column<'_> {
+/// Fills a complex column of a real matrix: real parts above, imaginary parts below.
+pub(super) fn fill(matrix: &mut Mat<f64>, k: usize, values: impl Iterator<Item = c64>) {
     let half = matrix.nrows() / 2;
     let (re, im) = matrix.col_as_slice_mut(k).split_at_mut(half);
-    Column { re, im }
+    for ((re, im), value) in re.iter_mut().zip(im).zip(values) {
+        (*re, *im) = (value.re, value.im);
+    }
 }
 
 impl Lines {
@@ -126,18 +116,16 @@ impl Lines {
     ) {
         for (k, pole) in poles.iter().enumerate() {
             let (u, d) = self.parts(*pole);
-            let mut target = column(matrix, first + 2 * k);
-            for (i, (x, factor)) in self.x.iter().zip(&self.factor).enumerate() {
-                target.set(i, factor * inverse(*x, u, d));
-            }
+            let lines = self.x.iter().zip(&self.factor);
+            let values = lines.map(|(x, factor)| factor * inverse(*x, u, d));
+            fill(matrix, first + 2 * k, values);
             self.fill_times_s(first + 2 * k, matrix);
         }
         let from = first + 2 * poles.len();
         if remainder > 0 {
-            let mut target = column(matrix, from);
-            for (i, (x, factor)) in self.x.iter().zip(&self.factor).enumerate() {
-                target.set(i, factor * c64::new(0.0, *x).powi(LOWEST_POWER));
-            }
+            let lines = self.x.iter().zip(&self.factor);
+            let values = lines.map(|(x, factor)| factor * c64::new(0.0, *x).powi(LOWEST_POWER));
+            fill(matrix, from, values);
         }
         for m in 1..remainder {
             self.fill_times_s(from + m - 1, matrix);
@@ -164,15 +152,13 @@ impl Lines {
     ) {
         for (k, (pole, [a, b])) in poles.iter().zip(&share.numerators).enumerate() {
             let (u, d) = self.parts(*pole);
-            let slope = |i: usize| {
-                let x = self.x[i];
+            let lines = self.x.iter().zip(&self.factor);
+            let by_damping = lines.map(|(&x, factor)| {
                 let inverse = inverse(x, u, d);
-                -(self.factor[i] * c64::new(*a, b * x) * inverse * inverse)
-            };
-            let mut target = column(matrix, 2 * k + 1);
-            for (i, x) in self.x.iter().enumerate() {
-                target.set(i, slope(i) * c64::new(0.0, d * x));
-            }
+                let slope = -(factor * c64::new(*a, b * x) * inverse * inverse);
+                slope * c64::new(0.0, d * x)
+            });
+            fill(matrix, 2 * k + 1, by_damping);
             // The derivative in frequency is slope (2 u^2 + i d x); the slope is recovered from the
             // column above instead of divided for again.
             let half = matrix.nrows() / 2;

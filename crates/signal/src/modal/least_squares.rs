@@ -1,7 +1,7 @@
 //! Weighted nonlinear least squares for the poles and numerators of a modal model.
 
 use super::NoiseModel;
-use super::basis::{Lines, ModalModel, ModalShare, Pole};
+use super::basis::{Lines, ModalModel, ModalShare, Pole, fill};
 use super::normal_equations::{damped_step, gram, inverse};
 use crate::{FrequencyResponse, SignalError};
 use faer::{Mat, c64};
@@ -277,10 +277,7 @@ impl Weighted<'_> {
         let count = self.weights.len();
         let mut matrix = Mat::<f64>::zeros(2 * count, columns + 1);
         self.lines.fill_linear(poles, remainder, 0, &mut matrix);
-        for (i, (z, w)) in data.iter().zip(&self.weights).enumerate() {
-            matrix[(i, columns)] = z.re * w;
-            matrix[(count + i, columns)] = z.im * w;
-        }
+        fill(&mut matrix, columns, data.iter().zip(&self.weights).map(|(z, w)| z * *w));
         let (normal, right) = gram(&matrix);
         let x = damped_step(&normal, &right, 0.0)?;
         Ok(ModalShare {
@@ -302,10 +299,7 @@ impl Weighted<'_> {
         if !self.response.has_phase() {
             turn_to(&values, &mut matrix);
         }
-        for (i, r) in self.weighted_residuals(&values).iter().enumerate() {
-            matrix[(i, columns)] = r.re;
-            matrix[(count + i, columns)] = r.im;
-        }
+        fill(&mut matrix, columns, self.weighted_residuals(&values).into_iter());
         gram(&matrix)
     }
 }
