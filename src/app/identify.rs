@@ -7,7 +7,7 @@ use crate::results::identification::{
     DAMPING_BLOCK, IdentificationSummary, document, identification, write_fits,
 };
 use crate::signal::reader::{ResponseOptions, read_response, write_response};
-use crate::signal::{FrequencyResponse, IdentificationOptions, ResponseQuantity, identify};
+use crate::signal::{FrequencyResponse, ResponseQuantity, identify};
 use clap::{Args, ValueHint};
 use std::path::PathBuf;
 
@@ -53,7 +53,7 @@ const QUANTITIES: [Choice<ResponseQuantity>; 3] = [
 
 impl Run for Arguments {
     fn run(&self) -> Result<(), Failure> {
-        let options = identification_options(self)?;
+        let range = frequency_range(self)?;
         let (uff, force) = (self.uff.as_deref(), self.output.force);
         let copy = SideFile::prepare("--uff", uff, &self.response, force)?;
         let measurement =
@@ -69,7 +69,7 @@ impl Run for Arguments {
         }
         let responses: Vec<FrequencyResponse> =
             file.responses.iter().map(|named| named.response.clone()).collect();
-        let found = identify(&responses, &options)
+        let found = identify(&responses, Some(range))
             .map_err(|error| Failure::run(format!("{}: {error}", measurement.source)))?;
         let folder = measurement.open_folder()?;
         let summary = IdentificationSummary::new(
@@ -96,7 +96,7 @@ impl Run for Arguments {
 }
 
 /// The frequency range, checked.
-fn identification_options(arguments: &Arguments) -> Result<IdentificationOptions, Failure> {
+fn frequency_range(arguments: &Arguments) -> Result<(f64, f64), Failure> {
     let low = arguments.from.unwrap_or(0.0);
     let high = arguments.to.unwrap_or(f64::INFINITY);
     if !(low >= 0.0 && low < high) {
@@ -104,8 +104,7 @@ fn identification_options(arguments: &Arguments) -> Result<IdentificationOptions
             "--from {low} --to {high}: the range must start at 0 Hz or higher and end above its start"
         )));
     }
-    let is_given = arguments.from.is_some() || arguments.to.is_some();
-    Ok(IdentificationOptions { range_hz: is_given.then_some((low, high)) })
+    Ok((low, high))
 }
 
 /// Options that change the result.

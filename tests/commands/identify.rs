@@ -8,8 +8,8 @@ use frictionsim::fem::MassKind;
 use frictionsim::frf::{Direction, FrfSystem, ReductionSettings, Terminal, reduced_response};
 use frictionsim::linalg::GaussianNoise;
 use frictionsim::signal::{
-    Estimate, FrequencyResponse, Identification, IdentificationOptions, ResonanceNote,
-    ResponseQuantity, SignalError, identify,
+    Estimate, FrequencyResponse, Identification, ResonanceNote, ResponseQuantity, SignalError,
+    identify,
 };
 use rayon::prelude::*;
 
@@ -41,7 +41,7 @@ fn free_disc(step_hz: f64) -> (Vec<f64>, Vec<c64>) {
 }
 
 fn poles(response: &FrequencyResponse) -> Result<Identification, SignalError> {
-    identify(std::slice::from_ref(response), &IdentificationOptions::default())
+    identify(std::slice::from_ref(response), None)
 }
 
 fn identified(f: &[f64], h: Vec<c64>) -> Identification {
@@ -170,9 +170,9 @@ fn a_close_pair_under_one_peak_is_found_as_two_and_flagged() {
 #[test]
 fn a_response_without_phase_gives_the_same_damping() {
     let (f, h) = modal_sum(&SEPARATE, 1.0, 5000.0);
-    let moduli: Vec<f64> = noisy(&h, 0.005, 5).iter().map(|z| z.norm()).collect();
+    let moduli = noisy(&h, 0.005, 5).iter().map(|z| c64::new(z.norm(), 0.0)).collect();
     let response =
-        FrequencyResponse::from_magnitudes(f, &moduli, ResponseQuantity::Accelerance).unwrap();
+        FrequencyResponse::measured(f, moduli, ResponseQuantity::Accelerance, false).unwrap();
     let found = poles(&response).unwrap();
     assert_eq!(found.modes.len(), 4);
     for (mode, (frequency, zeta, _)) in found.modes.iter().zip(SEPARATE) {
@@ -210,9 +210,8 @@ fn two_responses_of_one_body_have_common_poles_with_smaller_errors() {
         FrequencyResponse::new(f.clone(), h, ResponseQuantity::Accelerance).unwrap()
     };
     let both = [response(&first, 11), response(&second, 12)];
-    let options = IdentificationOptions::default();
-    let alone = identify(&both[..1], &options).unwrap();
-    let joint = identify(&both, &options).unwrap();
+    let alone = identify(&both[..1], None).unwrap();
+    let joint = identify(&both, None).unwrap();
     assert_eq!(joint.modes.len(), 4);
     for ((a, b), (frequency, zeta, _)) in joint.modes.iter().zip(&alone.modes).zip(SEPARATE) {
         let miss = (a.fitted.damping_factor.value - zeta).abs();

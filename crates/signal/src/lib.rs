@@ -29,9 +29,9 @@ pub use growth::{
 };
 pub use lines::{SpectralLine, SpectralResolution, main_frequency, spectral_lines};
 pub use modal::{
-    DampingSample, Estimate, FittedMode, HalfPowerBand, Identification, IdentificationOptions,
-    IdentifiedMode, ModalFit, ModalModel, ModalShare, NoiseModel, Pole, RayleighFit, ResonanceNote,
-    fit_modes, fit_rayleigh, half_power, identify,
+    DampingSample, Estimate, FittedMode, HalfPowerBand, Identification, IdentifiedMode, ModalFit,
+    ModalModel, ModalShare, NoiseModel, Pole, RayleighFit, ResonanceNote, fit_modes, fit_rayleigh,
+    half_power, identify,
 };
 pub use response::{FrequencyResponse, ResponseQuantity};
 pub use rotating::{RotatingLine, rotating_lines};

@@ -4,7 +4,7 @@ use super::error::{SignalError, check_finite, too_short};
 use faer::c64;
 use std::f64::consts::TAU;
 
-/// What a frequency response relates to a unit force.
+/// What a frequency response relates to a unit force, by its number of time derivatives.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ResponseQuantity {
     /// Displacement, m/N.
@@ -18,11 +18,7 @@ pub enum ResponseQuantity {
 impl ResponseQuantity {
     /// Number of time derivatives of the displacement: receptance times `(i omega)^this`.
     pub fn derivatives(self) -> i32 {
-        match self {
-            ResponseQuantity::Receptance => 0,
-            ResponseQuantity::Mobility => 1,
-            ResponseQuantity::Accelerance => 2,
-        }
+        self as i32
     }
 
     /// Name as written in headers, cases and options.
@@ -57,28 +53,22 @@ impl FrequencyResponse {
         values: Vec<c64>,
         quantity: ResponseQuantity,
     ) -> Result<Self, SignalError> {
-        Self::checked(frequencies_hz, values, quantity, true)
+        Self::measured(frequencies_hz, values, quantity, true)
     }
 
-    /// A response of which only the magnitude was measured.
+    /// A response of which, without a phase, the moduli of the real parts alone count.
     ///
     /// # Errors
     /// As [`FrequencyResponse::new`].
-    pub fn from_magnitudes(
+    pub fn measured(
         frequencies_hz: Vec<f64>,
-        magnitudes: &[f64],
-        quantity: ResponseQuantity,
-    ) -> Result<Self, SignalError> {
-        let values = magnitudes.iter().map(|m| c64::new(m.abs(), 0.0)).collect();
-        Self::checked(frequencies_hz, values, quantity, false)
-    }
-
-    fn checked(
-        frequencies_hz: Vec<f64>,
-        values: Vec<c64>,
+        mut values: Vec<c64>,
         quantity: ResponseQuantity,
         has_phase: bool,
     ) -> Result<Self, SignalError> {
+        if !has_phase {
+            values.iter_mut().for_each(|z| *z = c64::new(z.re.abs(), 0.0));
+        }
         if frequencies_hz.len() != values.len() {
             let (left, right) = (frequencies_hz.len(), values.len());
             let message = format!("{left} frequencies but {right} response values");
@@ -194,18 +184,13 @@ impl FrequencyResponse {
         let power = quantity.derivatives() - self.quantity.derivatives();
         let skip = usize::from(power < 0 && self.frequencies_hz[0] == 0.0);
         let frequencies_hz = self.frequencies_hz[skip..].to_vec();
-        let values = frequencies_hz
-            .iter()
-            .zip(&self.values[skip..])
-            .map(|(f, z)| {
-                if self.has_phase {
-                    z * c64::new(0.0, TAU * f).powi(power)
-                } else {
-                    z * (TAU * f).powi(power)
-                }
-            })
-            .collect();
-        let converted = Self::checked(frequencies_hz, values, quantity, self.has_phase)?;
+        let factor = |f: &f64| match self.has_phase {
+            true => c64::new(0.0, TAU * f).powi(power),
+            false => c64::new((TAU * f).powi(power), 0.0),
+        };
+        let pairs = frequencies_hz.iter().zip(&self.values[skip..]);
+        let values = pairs.map(|(f, z)| z * factor(f)).collect();
+        let converted = Self::measured(frequencies_hz, values, quantity, self.has_phase)?;
         Ok(converted.with_variance_factors(&self.variance_factors[skip..]))
     }
 
@@ -216,7 +201,7 @@ impl FrequencyResponse {
     pub fn within(&self, low_hz: f64, high_hz: f64) -> Result<Self, SignalError> {
         let first = self.frequencies_hz.partition_point(|f| *f < low_hz);
         let last = self.frequencies_hz.partition_point(|f| *f <= high_hz).max(first);
-        let part = Self::checked(
+        let part = Self::measured(
             self.frequencies_hz[first..last].to_vec(),
             self.values[first..last].to_vec(),
             self.quantity,

@@ -10,8 +10,8 @@ use frictionsim::signal::reader::{
     write_signal,
 };
 use frictionsim::signal::{
-    FrequencyResponse, IdentificationOptions, ResponseQuantity, SpectralResolution,
-    SpectrogramOptions, exponential_stage, identify, spectral_lines, spectrogram,
+    FrequencyResponse, ResponseQuantity, SpectralResolution, SpectrogramOptions, exponential_stage,
+    identify, spectral_lines, spectrogram,
 };
 use proptest::prelude::*;
 
@@ -21,7 +21,7 @@ fn analyse(bytes: &[u8]) {
     if let Ok(file) = read {
         let responses: Vec<FrequencyResponse> =
             file.responses.into_iter().map(|named| named.response).collect();
-        if let Ok(found) = identify(&responses, &IdentificationOptions::default()) {
+        if let Ok(found) = identify(&responses, None) {
             assert!(found.rayleigh.mass_coefficient.value.is_finite());
             assert!(found.rayleigh.stiffness_coefficient.value.is_finite());
         }

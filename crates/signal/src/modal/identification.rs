@@ -10,13 +10,6 @@ use faer::Mat;
 /// Largest relative standard error of a damping factor that still enters the Rayleigh fit.
 const LARGEST_RELATIVE_ERROR: f64 = 0.1;
 
-/// What to identify from.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct IdentificationOptions {
-    /// Frequencies to use, Hz; left out: all.
-    pub range_hz: Option<(f64, f64)>,
-}
-
 /// One mode with both estimates of its damping.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct IdentifiedMode {
@@ -45,7 +38,8 @@ pub struct Identification {
     pub fit: ModalFit,
 }
 
-/// Finds the resonances of responses, their damping factors and the Rayleigh coefficients.
+/// Finds the resonances of responses within a range of frequencies, Hz, or of all, their damping factors and the Rayleigh
+/// coefficients.
 ///
 /// [`half_power`] finds the peaks; [`fit_modes`] starts from them; [`fit_rayleigh`] takes the fitted
 /// factors with their covariance, and beside it the half-power factors without. Several responses of one
@@ -57,9 +51,9 @@ pub struct Identification {
 /// [`SignalError`]: no resonance in any response, resolution too coarse for every one of them, too few modes.
 pub fn identify(
     responses: &[FrequencyResponse],
-    options: &IdentificationOptions,
+    range_hz: Option<(f64, f64)>,
 ) -> Result<Identification, SignalError> {
-    let (low, high) = options.range_hz.unwrap_or((0.0, f64::INFINITY));
+    let (low, high) = range_hz.unwrap_or((0.0, f64::INFINITY));
     let cut: Vec<FrequencyResponse> =
         responses.iter().map(|response| response.within(low, high)).collect::<Result<_, _>>()?;
     let bands = peaks(&cut)?;

@@ -39,49 +39,31 @@ impl Layout {
     }
 }
 
+/// Each part with the words that name it and the words that its words may begin with; the first that fits is it. A level is
+/// told before a real part: `dB re 1 m/s2/N` holds the word `re`.
+const PARTS: [(Part, &str, &str); 6] = [
+    (Part::Coherence, "", "coh kohärenz cohérence gamma2 γ²"),
+    (Part::Decibel, "db decibel dezibel décibel", ""),
+    (Part::Imaginary, "im", "imag"),
+    (Part::Real, "re", "real réel reel"),
+    (Part::Degrees, "arg deg °", "phase angle phi winkel"),
+    (
+        Part::Magnitude,
+        "abs h h1 h2 hv frf |h| gain admittance flexibility",
+        "mag ampl modul accelerance inertance mobil recept récept compliance betrag accélérance",
+    ),
+];
+
 /// What a lower-case column name says.
 pub(super) fn part(name: &str) -> Part {
     let words = words(name);
-    let has = |list: &[&str]| words.iter().any(|w| list.contains(w));
-    let begins = |list: &[&str]| words.iter().any(|w| list.iter().any(|l| w.starts_with(l)));
-    // A level is told before a real part: `dB re 1 m/s2/N` holds the word `re`.
-    if begins(&["coh", "kohärenz", "cohérence", "gamma2", "γ²"]) {
-        Part::Coherence
-    } else if has(&["db", "decibel", "dezibel", "décibel"]) {
-        Part::Decibel
-    } else if has(&["im"]) || begins(&["imag"]) {
-        Part::Imaginary
-    } else if has(&["re"]) || begins(&["real", "réel", "reel"]) {
-        Part::Real
-    } else if has(&["arg", "deg", "°"]) || begins(&["phase", "angle", "phi", "winkel"]) {
-        if has(&["rad", "radian", "radians"]) { Part::Radians } else { Part::Degrees }
-    } else if has(&[
-        "abs",
-        "h",
-        "h1",
-        "h2",
-        "hv",
-        "frf",
-        "|h|",
-        "gain",
-        "admittance",
-        "flexibility",
-    ]) || begins(&[
-        "mag",
-        "ampl",
-        "modul",
-        "accelerance",
-        "inertance",
-        "mobil",
-        "recept",
-        "récept",
-        "compliance",
-        "betrag",
-        "accélérance",
-    ]) {
-        Part::Magnitude
-    } else {
-        Part::Other
+    let has = |list: &str| list.split(' ').any(|known| words.contains(&known));
+    let begins =
+        |list: &str| list.split_whitespace().any(|l| words.iter().any(|w| w.starts_with(l)));
+    match PARTS.iter().find(|(_, whole, begin)| has(whole) || begins(begin)) {
+        Some((Part::Degrees, ..)) if has("rad radian radians") => Part::Radians,
+        Some((part, ..)) => *part,
+        None => Part::Other,
     }
 }
 
@@ -139,13 +121,9 @@ fn polar(table: &Table, columns: &dyn Fn(Part) -> Vec<usize>) -> Vec<(usize, Lay
     let numbered = magnitudes.iter().enumerate();
     numbered
         .map(|(i, &magnitude)| {
-            let reference = is_level.then(|| level_reference(&table.names[magnitude]));
-            let layout = Layout::Polar {
-                magnitude,
-                level_reference: reference,
-                phase: phases.get(i).copied(),
-            };
-            (magnitude, layout)
+            let level_reference = is_level.then(|| level_reference(&table.names[magnitude]));
+            let phase = phases.get(i).copied();
+            (magnitude, Layout::Polar { magnitude, level_reference, phase })
         })
         .collect()
 }
@@ -160,21 +138,16 @@ fn named(table: &Table, found: Vec<(usize, Layout)>) -> Vec<(String, Layout)> {
             // What follows `dB` is its reference.
             let level = title.to_ascii_lowercase().find("db");
             let title = &title[..level.unwrap_or(title.len())];
-            let kept: Vec<&str> = title
-                .split(|c: char| {
-                    c.is_whitespace() || matches!(c, '_' | '(' | ')' | '[' | ']' | ',')
-                })
-                .filter(|word| {
-                    let lower = word.to_lowercase();
-                    !word.is_empty()
-                        && !matches!(
-                            part(&lower),
-                            Part::Real | Part::Imaginary | Part::Decibel | Part::Degrees
-                        )
-                        && (!super::units::is_unit(&lower) || lower.parse::<u32>().is_ok())
-                        && !lower.starts_with("mag")
-                })
-                .collect();
+            let between = |c: char| c.is_whitespace() || "_()[],".contains(c);
+            let is_name = |word: &&str| {
+                use Part::{Decibel, Degrees, Imaginary, Real};
+                let lower = word.to_lowercase();
+                !word.is_empty()
+                    && !matches!(part(&lower), Real | Imaginary | Decibel | Degrees)
+                    && (!super::units::is_unit(&lower) || lower.parse::<u32>().is_ok())
+                    && !lower.starts_with("mag")
+            };
+            let kept: Vec<&str> = title.split(between).filter(is_name).collect();
             let name = match (kept.is_empty(), count) {
                 (true, 1) => "response".to_string(),
                 (true, _) => format!("response {}", i + 1),

@@ -11,13 +11,11 @@ pub(super) enum Value {
 
 /// A number, a complex number or a time stamp.
 pub(super) fn parse(field: &str) -> Option<Value> {
-    if let Some(value) = number(field) {
-        return Some(Value::Real(value));
-    }
-    if let Some((re, im)) = complex(field) {
-        return Some(Value::Complex(re, im));
-    }
-    time_stamp(field).map(|(day, seconds)| Value::Time(day, seconds))
+    // Plain numbers come first: they are nearly all.
+    let real = number(field).map(Value::Real);
+    let complex = || complex(field).map(|(re, im)| Value::Complex(re, im));
+    let time = || time_stamp(field).map(|(day, seconds)| Value::Time(day, seconds));
+    real.or_else(complex).or_else(time)
 }
 
 /// A number, with a decimal point or a decimal comma; NaN and infinity included.

@@ -1,34 +1,25 @@
 //! Tables of the gap over a measured surface.
 
 use super::error::ReadError;
-use super::named_columns::Wanted;
-use super::table::read_table;
+use super::named_columns::Kind;
 
-const COLUMNS: [Wanted; 4] =
-    [("x", &["x", "x_m"]), ("y", &["y", "y_m"]), ("z", &["z", "z_m"]), ("gap", &["gap"])];
-const HEADER: &str = "name them in the first line: x, y, z, gap, all in m";
-/// Units that the numbers must not be in.
-const OTHER_UNITS: [&str; 7] = ["mm", "cm", "um", "nm", "inch", "micron", "microns"];
+const GAPS: Kind<4> = Kind {
+    columns: [("x", &["x", "x_m"]), ("y", &["y", "y_m"]), ("z", &["z", "z_m"]), ("gap", &["gap"])],
+    header: "name them in the first line: x, y, z, gap, all in m",
+    units: ("m", "give x, y, z and gap in m"),
+    is_other: |name| {
+        let mut words = name.split(|c: char| !c.is_alphanumeric());
+        words.any(|word| ["mm", "cm", "um", "nm", "inch", "micron", "microns"].contains(&word))
+    },
+};
 
 /// Reads a table of columns `x`, `y`, `z` and `gap`, m; without names, four columns in this order.
 ///
 /// # Errors
 /// [`ReadError`] with the place: no such column, another unit, a cell that is no number.
 pub fn read_gaps(bytes: &[u8], source: &str) -> Result<Vec<([f64; 3], f64)>, ReadError> {
-    let table = read_table(bytes, source, &[])?;
-    let is_other = |name: &String| {
-        let mut words = name.split(|c: char| !c.is_alphanumeric());
-        words.any(|word| OTHER_UNITS.contains(&word))
-    };
-    if table.names.iter().any(is_other) {
-        return Err(table.missing(source, "m", "give x, y, z and gap in m"));
-    }
-    let places = table.places(&COLUMNS, source, HEADER)?;
-    let rows = (0..table.rows()).map(|row| {
-        let [x, y, z, gap] = places.map(|place| table.columns[place].real[row]);
-        ([x, y, z], gap)
-    });
-    Ok(rows.collect())
+    let rows = GAPS.read(bytes, source)?.into_iter();
+    Ok(rows.map(|(_, [x, y, z, gap])| ([x, y, z], gap)).collect())
 }
 
 #[cfg(test)]

@@ -98,10 +98,7 @@ struct Elements<'a> {
 
 impl<'a> Elements<'a> {
     fn next(&mut self) -> Option<(u32, &'a [u8])> {
-        let word = |at: usize| -> Option<u32> {
-            let bytes: [u8; 4] = self.rest.get(at..at + 4)?.try_into().ok()?;
-            Some(if self.is_big { u32::from_be_bytes(bytes) } else { u32::from_le_bytes(bytes) })
-        };
+        let word = |at: usize| Some(whole(self.rest.get(at..at + 4)?, self.is_big) as u32);
         let first = word(0)?;
         // Up to four bytes stand within the tag.
         let (kind, from, length): (u32, usize, usize) = if first >> 16 != 0 {
@@ -129,54 +126,44 @@ impl<'a> Elements<'a> {
 
     /// The characters of the next element.
     fn text(&mut self) -> Option<String> {
-        let characters = self.few_numbers()?;
-        Some(
-            characters
-                .iter()
-                .filter_map(|c| char::from_u32(*c as u32))
-                .filter(|c| *c != '\0')
-                .collect(),
-        )
+        let characters = self.few_numbers()?.into_iter();
+        let characters = characters.filter_map(|c| char::from_u32(c as u32));
+        Some(characters.filter(|c| *c != '\0').collect())
     }
 }
 
-/// Bytes of a number of a numeric type.
-fn bytes_of(kind: u32) -> Option<usize> {
+/// The whole number of at most eight bytes, the highest first or last.
+pub(super) fn whole(bytes: &[u8], is_big: bool) -> u64 {
+    let mut eight = [0; 8];
+    let own = &mut eight[..bytes.len()];
+    own.copy_from_slice(bytes);
+    if is_big {
+        own.reverse();
+    }
+    u64::from_le_bytes(eight)
+}
+
+/// Bytes of a number of a numeric type, and the number that they are, read as a whole one.
+fn numeric_type(kind: u32) -> Option<(usize, fn(u64) -> f64)> {
     Some(match kind {
-        1 | 2 | 16 => 1,
-        3 | 4 | 17 => 2,
-        5 | 6 | 7 | 18 => 4,
-        9 | 12 | 13 => 8,
+        1 => (1, |bits| f64::from(bits as i8)),
+        2 | 16 => (1, |bits| f64::from(bits as u8)),
+        3 => (2, |bits| f64::from(bits as i16)),
+        4 | 17 => (2, |bits| f64::from(bits as u16)),
+        5 => (4, |bits| f64::from(bits as i32)),
+        6 | 18 => (4, |bits| f64::from(bits as u32)),
+        7 => (4, |bits| f64::from(f32::from_bits(bits as u32))),
+        9 => (8, f64::from_bits),
+        12 => (8, |bits| bits as i64 as f64),
+        13 => (8, |bits| bits as f64),
         _ => return None,
     })
 }
 
 /// Numbers of an element of any numeric type.
 fn numbers(kind: u32, data: &[u8], is_big: bool) -> Option<Vec<f64>> {
-    /// Numbers of `N` bytes.
-    fn of<const N: usize>(data: &[u8], is_big: bool, number: fn([u8; N]) -> f64) -> Vec<f64> {
-        let arrays = data.chunks_exact(N).filter_map(|c| <[u8; N]>::try_from(c).ok());
-        let little = arrays.map(|mut bytes| {
-            if is_big {
-                bytes.reverse();
-            }
-            number(bytes)
-        });
-        little.collect()
-    }
-    Some(match kind {
-        1 => of(data, is_big, |b| f64::from(i8::from_le_bytes(b))),
-        2 | 16 => of(data, is_big, |b| f64::from(u8::from_le_bytes(b))),
-        3 => of(data, is_big, |b| f64::from(i16::from_le_bytes(b))),
-        4 | 17 => of(data, is_big, |b| f64::from(u16::from_le_bytes(b))),
-        5 => of(data, is_big, |b| f64::from(i32::from_le_bytes(b))),
-        6 | 18 => of(data, is_big, |b| f64::from(u32::from_le_bytes(b))),
-        7 => of(data, is_big, |b| f64::from(f32::from_le_bytes(b))),
-        9 => of(data, is_big, f64::from_le_bytes),
-        12 => of(data, is_big, |b| i64::from_le_bytes(b) as f64),
-        13 => of(data, is_big, |b| u64::from_le_bytes(b) as f64),
-        _ => return None,
-    })
+    let (width, number) = numeric_type(kind)?;
+    Some(data.chunks_exact(width).map(|bytes| number(whole(bytes, is_big))).collect())
 }
 
 impl Content {
@@ -234,7 +221,7 @@ impl Content {
     /// The numbers of the next element, if there is room for them.
     fn numbers(&mut self, parts: &mut Elements<'_>) -> Option<Vec<f64>> {
         let (kind, data) = parts.next()?;
-        self.values += data.len() / bytes_of(kind)?;
+        self.values += data.len() / numeric_type(kind)?.0;
         self.is_too_large |= self.values > MOST_VALUES;
         if self.is_too_large {
             return None;
@@ -274,28 +261,20 @@ impl Content {
         let arrays = fitting.len();
         let (mut titles, mut columns) = (Vec::new(), Vec::new());
         for array in fitting {
-            if array.real.len() == count {
-                titles.push(array.name);
-                columns.push(Column {
-                    real: array.real,
-                    imaginary: array.imaginary,
-                    is_time: false,
-                });
-                continue;
-            }
             let width = array.real.len() / count;
             for k in 0..width {
                 // A matrix stands column by column; a lying one is turned.
                 let at = |i: usize| {
                     if array.rows == count { k * count + i } else { i * width + k }
                 };
-                let part = |values: &[f64]| (0..count).map(|i| values[at(i)]).collect::<Vec<f64>>();
+                let part = |values: &Vec<f64>| (0..count).map(|i| values[at(i)]).collect();
                 columns.push(Column {
                     real: part(&array.real),
-                    imaginary: array.imaginary.as_ref().map(|values| part(values)),
+                    imaginary: array.imaginary.as_ref().map(part),
                     is_time: false,
                 });
-                titles.push(format!("{} {}", array.name, k + 1));
+                let number = if width > 1 { format!(" {}", k + 1) } else { String::new() };
+                titles.push(format!("{}{number}", array.name));
             }
         }
         let finite =

@@ -42,6 +42,8 @@ pub use time_signal::{SignalOptions, read_signal};
 pub use uff_writing::{ModeData, write_mesh, write_mode, write_response, write_signal};
 pub use wav::{slowdown, write_wav};
 
+use table::{Table, read_table};
+
 /// Kind of a file, from its first bytes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Format {
@@ -82,20 +84,34 @@ impl Format {
             Format::Text
         }
     }
+
+    /// The table that a text or a MATLAB file is; `columns` are names that take the place of the file's own.
+    fn table(self, bytes: &[u8], source: &str, columns: &[String]) -> Result<Table, ReadError> {
+        match self {
+            Format::Foreign(found) => Err(ReadError::foreign(source, found)),
+            Format::Matlab => mat::read_table(bytes, source, columns),
+            _ => read_table(bytes, source, columns),
+        }
+    }
 }
 
-/// Positions of names or 1-based numbers among names.
-fn positions(wanted: &[String], names: &[&str], source: &str) -> Result<Vec<usize>, ReadError> {
-    let position = |wanted: &String| {
+/// Those of `all` that are wanted, by name or 1-based number; all where none is said.
+fn selected<T: Clone>(
+    all: Vec<T>,
+    name: fn(&T) -> &str,
+    wanted: &[String],
+    source: &str,
+) -> Result<Vec<T>, ReadError> {
+    if wanted.is_empty() {
+        return Ok(all);
+    }
+    let one = |wanted: &String| {
         let number = wanted.parse::<usize>().ok().and_then(|n| n.checked_sub(1));
-        names
-            .iter()
-            .position(|name| *name == wanted.as_str())
-            .or_else(|| number.filter(|n| *n < names.len()))
-            .ok_or_else(|| {
-                let found = text::first_of(names);
-                ReadError::whole(source, format!("--channel {wanted}: the file has {found}"))
-            })
+        let named = all.iter().find(|one| name(one) == wanted);
+        named.or_else(|| all.get(number?)).cloned().ok_or_else(|| {
+            let found = text::first_of(all.iter().map(name));
+            ReadError::whole(source, format!("--channel {wanted}: the file has {found}"))
+        })
     };
-    wanted.iter().map(position).collect()
+    wanted.iter().map(one).collect()
 }

@@ -1,20 +1,18 @@
 //! Tables of modulus and loss factor over frequency.
 
 use super::error::ReadError;
-use super::named_columns::Wanted;
-use super::table::read_table;
+use super::named_columns::Kind;
 
-/// The columns and what their names begin with.
-const COLUMNS: [Wanted; 3] = [
-    ("frequency_hz", &["frequency", "f_hz", "f"]),
-    ("young_modulus", &["young", "modulus", "e"]),
-    ("loss_factor", &["loss", "eta", "tan"]),
-];
-
-/// Units that the numbers must not be in.
-const OTHER_UNITS: [&str; 5] = ["khz", "rad", "kpa", "mpa", "gpa"];
-
-const HEADER: &str = "name them in the first line: frequency_hz, young_modulus, loss_factor";
+const MODULI: Kind<3> = Kind {
+    columns: [
+        ("frequency_hz", &["frequency", "f_hz", "f"]),
+        ("young_modulus", &["young", "modulus", "e"]),
+        ("loss_factor", &["loss", "eta", "tan"]),
+    ],
+    header: "name them in the first line: frequency_hz, young_modulus, loss_factor",
+    units: ("Hz and Pa", "give frequencies in Hz and moduli in Pa"),
+    is_other: |name| ["khz", "rad", "kpa", "mpa", "gpa"].iter().any(|unit| name.contains(unit)),
+};
 
 /// A row of a table of moduli.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,19 +35,12 @@ pub struct ModulusRow {
 /// # Errors
 /// [`ReadError`] with the place: no such column, another unit, a cell that is no number.
 pub fn read_moduli(bytes: &[u8], source: &str) -> Result<Vec<ModulusRow>, ReadError> {
-    let table = read_table(bytes, source, &[])?;
-    let is_other = |name: &String| OTHER_UNITS.iter().any(|unit| name.contains(unit));
-    if table.names.iter().any(is_other) {
-        let remedy = "give frequencies in Hz and moduli in Pa";
-        return Err(table.missing(source, "Hz and Pa", remedy));
-    }
-    let places = table.places(&COLUMNS, source, HEADER)?;
-    let rows = (0..table.rows()).map(|row| {
-        let [frequency_hz, young_modulus, loss_factor] =
-            places.map(|place| table.columns[place].real[row]);
-        ModulusRow { line: table.line(row), frequency_hz, young_modulus, loss_factor }
-    });
-    Ok(rows.collect())
+    let rows = MODULI.read(bytes, source)?.into_iter();
+    let row = |(line, numbers): (usize, [f64; 3])| {
+        let [frequency_hz, young_modulus, loss_factor] = numbers;
+        ModulusRow { line, frequency_hz, young_modulus, loss_factor }
+    };
+    Ok(rows.map(row).collect())
 }
 
 #[cfg(test)]

@@ -1,27 +1,45 @@
 //! Columns of a table that is known by their names.
 
 use super::error::{ReadError, missing_column};
-use super::table::Table;
+use super::table::{Table, read_table};
 
 /// What a column is called here, and what its name may begin with; a single letter is the whole name.
 pub(super) type Wanted = (&'static str, &'static [&'static str]);
 
-impl Table {
-    /// Where the wanted columns are; without names, as many columns in their order.
-    pub(super) fn places<const N: usize>(
-        &self,
-        wanted: &[Wanted; N],
-        source: &str,
-        header: &'static str,
-    ) -> Result<[usize; N], ReadError> {
+/// A kind of table that is known by the names of its columns.
+pub(super) struct Kind<const N: usize> {
+    pub columns: [Wanted; N],
+    /// What to write above the numbers.
+    pub header: &'static str,
+    /// The units that the numbers are in, and what to do where they are not.
+    pub units: (&'static str, &'static str),
+    /// Whether a name says another unit.
+    pub is_other: fn(&str) -> bool,
+}
+
+impl<const N: usize> Kind<N> {
+    /// The rows of such a table, each with its line; without names, as many columns in their order.
+    pub fn read(&self, bytes: &[u8], source: &str) -> Result<Vec<(usize, [f64; N])>, ReadError> {
+        let table = read_table(bytes, source, &[])?;
+        if table.names.iter().any(|name| (self.is_other)(name)) {
+            return Err(table.missing(source, self.units.0, self.units.1));
+        }
+        let places = self.places(&table, source)?;
+        let numbers = |row: usize| places.map(|place| table.columns[place].real[row]);
+        Ok((0..table.rows()).map(|row| (table.line(row), numbers(row))).collect())
+    }
+
+    /// Where the columns are.
+    fn places(&self, table: &Table, source: &str) -> Result<[usize; N], ReadError> {
         let mut places = std::array::from_fn(|k| k);
-        if self.names.is_empty() {
-            return match self.columns.len() == N {
+        if table.names.is_empty() {
+            let wanted = "as many columns as there are names";
+            return match table.columns.len() == N {
                 true => Ok(places),
-                false => Err(self.missing(source, "as many columns as there are names", header)),
+                false => Err(table.missing(source, wanted, self.header)),
             };
         }
-        for (place, (wanted, begins)) in places.iter_mut().zip(wanted) {
+        for (place, (wanted, begins)) in places.iter_mut().zip(&self.columns) {
             let is_it = |name: &String| {
                 let short = |begin: &&str| match begin.len() {
                     1 => name == *begin,
@@ -29,12 +47,14 @@ impl Table {
                 };
                 begins.iter().any(short)
             };
-            let found = self.names.iter().position(is_it);
-            *place = found.ok_or_else(|| self.missing(source, wanted, header))?;
+            let found = table.names.iter().position(is_it);
+            *place = found.ok_or_else(|| table.missing(source, wanted, self.header))?;
         }
         Ok(places)
     }
+}
 
+impl Table {
     /// That it lacks a column.
     pub(super) fn missing(&self, source: &str, wanted: &str, remedy: &str) -> ReadError {
         ReadError::whole(source, missing_column(wanted, &self.described(), remedy))

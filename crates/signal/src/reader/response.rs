@@ -4,10 +4,10 @@ use super::super::{FrequencyResponse, ResponseQuantity};
 use super::columns::{Layout, Part, layouts, part};
 use super::contents::{NamedResponse, ResponseFile};
 use super::error::ReadError;
-use super::table::{Table, read_table};
+use super::table::Table;
 use super::text::first_of;
 use super::units::{hertz, words};
-use super::{Format, mat, uff};
+use super::{Format, selected, uff};
 use faer::c64;
 
 /// What the header of a response does not say, or says wrongly.
@@ -43,35 +43,18 @@ pub fn read_response(
 ) -> Result<ResponseFile, ReadError> {
     let mut file = match Format::of(bytes) {
         Format::Universal => uff::read_responses(bytes, source, options.quantity)?,
-        Format::Matlab => {
-            let names = &options.columns;
-            from_table(&mat::read_table(bytes, source, names)?, source, options)?
-        }
         Format::Wave => {
             let found = "a WAV file, which holds time signals: give it to `frictionsim signal`";
             return Err(ReadError::foreign(source, found));
         }
-        Format::Foreign(found) => return Err(ReadError::foreign(source, found)),
-        Format::Text => from_table(&read_table(bytes, source, &options.columns)?, source, options)?,
+        other => from_table(&other.table(bytes, source, &options.columns)?, source, options)?,
     };
-    file.select(&options.channels, source)?;
+    file.responses = selected(file.responses, |one| &one.name, &options.channels, source)?;
     file.conjugate_where_needed();
     Ok(file)
 }
 
 impl ResponseFile {
-    /// Keeps the responses asked for.
-    fn select(&mut self, wanted: &[String], source: &str) -> Result<(), ReadError> {
-        if wanted.is_empty() {
-            return Ok(());
-        }
-        let names: Vec<&str> = self.responses.iter().map(|r| r.name.as_str()).collect();
-        let kept = super::positions(wanted, &names, source)?;
-        let kept = kept.into_iter().map(|k| self.responses[k].clone());
-        self.responses = kept.collect();
-        Ok(())
-    }
-
     /// Turns responses of the convention `exp(-i omega t)` into the other.
     fn conjugate_where_needed(&mut self) {
         let mut turned = Vec::new();
@@ -118,13 +101,10 @@ fn from_table(
     }
     let mut responses = Vec::new();
     for (k, ((name, layout), values)) in layouts.into_iter().zip(values).enumerate() {
-        let values: Vec<c64> = rows.iter().map(|row| values[row.1] * gravity).collect();
-        let response = if layout.has_phase() {
-            FrequencyResponse::new(frequencies.clone(), values, quantity)
-        } else {
-            let moduli: Vec<f64> = values.iter().map(|z| z.re).collect();
-            FrequencyResponse::from_magnitudes(frequencies.clone(), &moduli, quantity)
-        };
+        let values = rows.iter().map(|row| values[row.1] * gravity).collect();
+        let has_phase = layout.has_phase();
+        let response =
+            FrequencyResponse::measured(frequencies.clone(), values, quantity, has_phase);
         let mut response = response.map_err(|error| ReadError::signal(source, &error))?;
         // One coherence for each response, or one for all.
         if let Some(column) = coherences.get(k).or(coherences.first()) {
@@ -264,30 +244,24 @@ fn quantity(
     }
 }
 
+/// Words and units of each quantity; the first one that is found counts.
+const QUANTITIES: [(ResponseQuantity, &str); 3] = [
+    (
+        ResponseQuantity::Accelerance,
+        "accelerance inertance accélérance m/s2/n m/s^2/n m/s²/n g/n m_per_s2_per_n",
+    ),
+    (ResponseQuantity::Mobility, "mobility mobilité m/s/n m/ns m_per_s_per_n admittance"),
+    (ResponseQuantity::Receptance, "receptance réceptance compliance m/n m_per_n flexibility"),
+];
+
 /// Receptance, mobility or accelerance, from names, units and remarks.
 fn stated_quantity(table: &Table) -> Option<ResponseQuantity> {
     let text = format!("{}\n{}", table.names.join(" "), table.remarks);
     let compact: String =
         text.chars().filter(|c| !matches!(c, ' ' | '(' | ')' | '*' | '·' | '[' | ']')).collect();
-    let has = |list: &[&str]| list.iter().any(|w| compact.contains(w));
-    if has(&[
-        "accelerance",
-        "inertance",
-        "accélérance",
-        "m/s2/n",
-        "m/s^2/n",
-        "m/s²/n",
-        "g/n",
-        "m_per_s2_per_n",
-    ]) {
-        Some(ResponseQuantity::Accelerance)
-    } else if has(&["mobility", "mobilité", "m/s/n", "m/ns", "m_per_s_per_n", "admittance"]) {
-        Some(ResponseQuantity::Mobility)
-    } else if has(&["receptance", "réceptance", "compliance", "m/n", "m_per_n", "flexibility"]) {
-        Some(ResponseQuantity::Receptance)
-    } else {
-        None
-    }
+    let has = |list: &str| list.split(' ').any(|word| compact.contains(word));
+    let stated = QUANTITIES.iter().find(|(_, words)| has(words));
+    stated.map(|(quantity, _)| *quantity)
 }
 
 /// Whether the response is in multiples of standard gravity.

@@ -6,7 +6,7 @@ use super::error::{EMPTY, ReadError, missing_column, not_a_number, not_finite};
 use super::field::{Value, parse};
 use super::headed::{Row, headed};
 use super::text::{decode, first_of, shortened};
-use super::uff::numbers;
+use super::uff::{Lines, numbers};
 use faer::c64;
 use frictionsim_bounds::{LARGEST_COORDINATE, LARGEST_DISPLACEMENT};
 use std::collections::BTreeMap;
@@ -163,32 +163,22 @@ impl Row<'_> {
 
 /// The shapes of a universal file.
 fn universal(bytes: &[u8], source: &str) -> Result<Vec<MeasuredShape>, ReadError> {
-    let text = String::from_utf8_lossy(bytes);
-    let all: Vec<&str> = text.lines().collect();
+    let mut lines = Lines::of(bytes);
     let mut nodes: BTreeMap<u64, [f64; 3]> = BTreeMap::new();
     let mut found: Vec<Shape> = Vec::new();
-    let mut at = 0;
-    while at < all.len() {
-        if all[at].trim() != "-1" {
-            at += 1;
-            continue;
-        }
-        let number = all.get(at + 1).map_or("", |line| line.trim());
-        let first = at + 2;
-        let length = all[first.min(all.len())..].iter();
-        let length = length.take_while(|line| line.trim() != "-1").count();
-        let body = &all[first.min(all.len())..][..length];
+    while let Some(words) = lines.dataset() {
+        let (number, first) = (words.join(" "), lines.count);
+        let body = lines.body();
         let damaged = |(line, reason): (usize, &str)| {
             let problem = format!("universal file: dataset {number}: {reason}");
             ReadError::at(source, first + line + 1, 1, problem)
         };
-        match number {
-            "15" => nodes_of(body, 1, &mut nodes).map_err(damaged)?,
-            "2411" | "781" => nodes_of(body, 2, &mut nodes).map_err(damaged)?,
-            "55" => found.push(shape_of(body).map_err(damaged)?),
+        match number.as_str() {
+            "15" => nodes_of(&body, 1, &mut nodes).map_err(damaged)?,
+            "2411" | "781" => nodes_of(&body, 2, &mut nodes).map_err(damaged)?,
+            "55" => found.push(shape_of(&body).map_err(damaged)?),
             _ => {}
         }
-        at = first + length + 1;
     }
     let shapes = found.into_iter().enumerate().map(|(k, (name, frequency_hz, rows))| {
         let (mut points, mut motion) = (Vec::new(), Vec::new());
@@ -208,14 +198,14 @@ fn universal(bytes: &[u8], source: &str) -> Result<Vec<MeasuredShape>, ReadError
 }
 
 /// Nodes of a dataset, whose coordinates stand on the last of so many lines, at its end.
-fn nodes_of<'r>(
-    body: &[&str],
+fn nodes_of(
+    body: &[String],
     lines: usize,
     nodes: &mut BTreeMap<u64, [f64; 3]>,
-) -> Result<(), (usize, &'r str)> {
+) -> Result<(), (usize, &'static str)> {
     for (k, record) in body.chunks(lines).enumerate() {
         let short = (k * lines, "a node ends early");
-        let (head, last) = (numbers(record[0]), numbers(record.last().ok_or(short)?));
+        let (head, last) = (numbers(&record[0]), numbers(record.last().ok_or(short)?));
         let (Some(label), Some(from)) = (head.first(), last.len().checked_sub(3)) else {
             return Err(short);
         };
@@ -235,11 +225,11 @@ fn nodes_of<'r>(
 type Shape = (String, Option<f64>, Vec<(u64, [Option<c64>; 3])>);
 
 /// Dataset 55: five lines of text, the form of the data, the mode, then nodes.
-fn shape_of<'r>(body: &[&str]) -> Result<Shape, (usize, &'r str)> {
+fn shape_of(body: &[String]) -> Result<Shape, (usize, &'static str)> {
     if body.len() < 8 {
         return Err((body.len(), "it ends within its header"));
     }
-    let form = numbers(body[5]);
+    let form = numbers(&body[5]);
     let word = |k: usize| form.get(k).map_or(0, |value| *value as u32);
     let (analysis, characteristic, is_complex) = (word(1), word(2), word(4) == 5);
     if ![2, 3].contains(&characteristic) || ![2, 5].contains(&word(4)) {
@@ -252,7 +242,7 @@ fn shape_of<'r>(body: &[&str]) -> Result<Shape, (usize, &'r str)> {
         0 => [3, 6][usize::from(characteristic == 3)],
         each => each as usize,
     };
-    let (of_mode, values) = (numbers(body[6]), numbers(body[7]));
+    let (of_mode, values) = (numbers(&body[6]), numbers(&body[7]));
     let mode = of_mode.get(3).map_or(1.0, |mode| *mode);
     // Frequency of a real mode, eigenvalue of a complex one.
     let frequency = match analysis {
@@ -263,7 +253,7 @@ fn shape_of<'r>(body: &[&str]) -> Result<Shape, (usize, &'r str)> {
     let count = each * if is_complex { 2 } else { 1 };
     let (mut rows, mut at) = (Vec::new(), 8);
     while at < body.len() {
-        let label = numbers(body[at]);
+        let label = numbers(&body[at]);
         let [label] = label[..] else {
             return Err((at, "the number of a node is expected"));
         };

@@ -2,7 +2,7 @@
 
 use super::column::Column;
 use super::error::{EMPTY, ReadError, column_count, not_finite, unreadable};
-use super::field::{Value, number, parse, time_stamp};
+use super::field::{Value, parse, time_stamp};
 use super::separator::{Line, Separator, character, fields, numeric_fields, separator_of};
 use super::text::{comment, decode, first_of, lines, shortened};
 
@@ -78,8 +78,7 @@ pub(super) fn read_table(
     for (number, line) in lines(&text).filter(|(_, line)| !line.trim().is_empty()) {
         match comment(line) {
             Some(words) => {
-                remarks.push_str(&words.to_lowercase());
-                remarks.push('\n');
+                remarks += &(words.to_lowercase() + "\n");
                 if content.is_empty() {
                     commented_header = Some((number, words));
                 }
@@ -104,8 +103,7 @@ pub(super) fn read_table(
         }
     }
     for (_, line) in head {
-        remarks.push_str(&line.to_lowercase());
-        remarks.push('\n');
+        remarks += &(line.to_lowercase() + "\n");
     }
     // Names are those given, those above the numbers, or those of a comment.
     let separator = separator_of(data);
@@ -119,15 +117,8 @@ pub(super) fn read_table(
     }
     let titles = titles(columns, &above, separator, count, source)?;
     let columns = numbers(data, separator, &titles, source)?;
-    Ok(Table {
-        names: titles.iter().map(|t| t.to_lowercase()).collect(),
-        titles,
-        columns,
-        remarks,
-        lines: data.iter().map(|(line, _)| *line).collect(),
-        separator,
-        text,
-    })
+    let lines = data.iter().map(|(line, _)| *line).collect();
+    Ok(Table { lines, separator, text, ..Table::of_columns(titles, columns, remarks) })
 }
 
 /// A listing of the time-history post-processor of ANSYS: pages that repeat a header of several lines,
@@ -230,13 +221,8 @@ fn numbers(
                 let found = fields(text, separator).count();
                 return fail(field, field_count(found, expected));
             };
-            // Plain numbers come first: they are nearly all.
-            let value = match number(field) {
-                Some(value) => Value::Real(value),
-                None => match parse(field) {
-                    Some(value) => value,
-                    None => return fail(field, unreadable(field, &name(k))),
-                },
+            let Some(value) = parse(field) else {
+                return fail(field, unreadable(field, &name(k)));
             };
             if !column.push(value, &mut first_day) {
                 return fail(field, not_finite(&shortened(field), &name(k)));

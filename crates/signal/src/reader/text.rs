@@ -50,11 +50,7 @@ pub(super) fn comment(line: &str) -> Option<&str> {
 
 /// A field for a message, shortened to what fits.
 pub(super) fn shortened(field: &str) -> String {
-    const MOST: usize = 24;
-    if field.chars().count() <= MOST {
-        return field.to_string();
-    }
-    field.chars().take(MOST).chain("...".chars()).collect()
+    frictionsim_bounds::shortened(field, 24)
 }
 
 /// The first ten of some names, each shortened, and how many more there are.

@@ -2,9 +2,9 @@
 
 use super::contents::{Channel, SignalFile};
 use super::error::{NO_RATE, ReadError};
-use super::table::{Table, read_table};
+use super::table::Table;
 use super::units::{sampling_rate, seconds};
-use super::{Format, mat, uff, wav};
+use super::{Format, selected, uff, wav};
 
 /// Largest deviation of a time from the regular grid, in steps: rounding in the export.
 const JITTER: f64 = 0.3;
@@ -46,11 +46,7 @@ pub fn read_signal(
     let mut file = match Format::of(bytes) {
         Format::Universal => uff::read_signals(bytes, source)?,
         Format::Wave => wav::read_wav(bytes, source)?,
-        Format::Matlab => {
-            from_table(&mat::read_table(bytes, source, &options.columns)?, source, options)?
-        }
-        Format::Foreign(found) => return Err(ReadError::foreign(source, found)),
-        Format::Text => from_table(&read_table(bytes, source, &options.columns)?, source, options)?,
+        other => from_table(&other.table(bytes, source, &options.columns)?, source, options)?,
     };
     // A file that states its rate is overruled aloud.
     if let Some(rate) = options.rate.filter(|rate| *rate != file.sampling_rate) {
@@ -59,11 +55,7 @@ pub fn read_signal(
             .push(format!("the file states {stated} Hz; {rate} Hz, from the option, is used"));
         file.sampling_rate = rate;
     }
-    if !options.channels.is_empty() {
-        let names: Vec<&str> = file.channels.iter().map(|c| c.name.as_str()).collect();
-        let kept = super::positions(&options.channels, &names, source)?;
-        file.channels = kept.into_iter().map(|k| file.channels[k].clone()).collect();
-    }
+    file.channels = selected(file.channels, |one| &one.name, &options.channels, source)?;
     let count = file.channels.first().map_or(0, |c| c.samples.len());
     if count < FEWEST {
         return Err(too_short(source, count));
@@ -88,12 +80,12 @@ fn from_table(
     let mut notes = Vec::new();
     let (rate, start) = match time {
         Some((column, factor)) => {
-            let start = table.columns[column].real[0] * factor;
+            let times: Vec<f64> = table.columns[column].real.iter().map(|t| t * factor).collect();
             let rate = match options.rate {
-                Some(rate) => agreed_rate(table, column, factor, rate, source, &mut notes)?,
-                None => 1.0 / regular_step(table, column, factor, source)?,
+                Some(rate) => agreed_rate(table, column, &times, rate, source, &mut notes)?,
+                None => 1.0 / regular_step(table, column, &times, source)?,
             };
-            (rate, start)
+            (rate, times[0])
         }
         None => {
             let stated = sampling_rate(&table.remarks).or(options.rate);
@@ -137,20 +129,18 @@ fn time_column(table: &Table) -> Option<(usize, f64)> {
     }
     let t = &table.columns[0].real;
     let step = (t[t.len() - 1] - t[0]) / (t.len() - 1) as f64;
-    let mut times = t.iter().enumerate();
-    let regular = times.all(|(i, t_i)| (t_i - t[0] - i as f64 * step).abs() <= JITTER * step);
-    (step > 0.0 && regular).then_some((0, 1.0))
+    let is_near = |i: usize| (t[i] - t[0] - i as f64 * step).abs() <= JITTER * step;
+    (step > 0.0 && (0..t.len()).all(is_near)).then_some((0, 1.0))
 }
 
-/// The step of a regular time column, s.
-fn regular_step(table: &Table, column: usize, factor: f64, source: &str) -> Result<f64, ReadError> {
-    let t: Vec<f64> = table.columns[column].real.iter().map(|t| t * factor).collect();
+/// The step of a regular time column with the times `t`, s.
+fn regular_step(table: &Table, column: usize, t: &[f64], source: &str) -> Result<f64, ReadError> {
     let step = (t[t.len() - 1] - t[0]) / (t.len() - 1) as f64;
     // Times that stand still now and then, and never go back, are rounded.
     let falls = t.windows(2).any(|w| w[1] < w[0]);
     let stands = t.windows(2).any(|w| w[1] == w[0]);
     if stands && !falls && step > 0.0 {
-        let (step, rate) = (rounding(&t), 1.0 / step);
+        let (step, rate) = (rounding(t), 1.0 / step);
         let problem = format!(
             "the time column is rounded to {step} s, which hides the sampling rate (about \
              {rate:.1} Hz); give it with --rate HZ"
@@ -196,19 +186,15 @@ fn rounding(t: &[f64]) -> f64 {
 fn agreed_rate(
     table: &Table,
     column: usize,
-    factor: f64,
+    t: &[f64],
     option: f64,
     source: &str,
     notes: &mut Vec<String>,
 ) -> Result<f64, ReadError> {
-    let t: Vec<f64> = table.columns[column].real.iter().map(|t| t * factor).collect();
     let found = (t.len() - 1) as f64 / (t[t.len() - 1] - t[0]);
-    let rounded = rounding(&t);
-    let fits = t
-        .iter()
-        .enumerate()
-        .all(|(i, t_i)| (t_i - t[0] - i as f64 / option).abs() <= 1.01 * rounded + JITTER / option);
-    if fits {
+    let room = 1.01 * rounding(t) + JITTER / option;
+    let is_near = |i: usize| (t[i] - t[0] - i as f64 / option).abs() <= room;
+    if (0..t.len()).all(is_near) {
         notes.push(format!("the rate of {option} Hz replaces the time column"));
         return Ok(option);
     }
@@ -218,5 +204,5 @@ fn agreed_rate(
         return Err(ReadError::whole(source, problem));
     }
     // Within 1 % the column knows better, if it is regular.
-    Ok(1.0 / regular_step(table, column, factor, source)?)
+    Ok(1.0 / regular_step(table, column, t, source)?)
 }

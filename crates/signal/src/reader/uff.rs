@@ -7,6 +7,7 @@ use super::super::error::not_finite;
 use super::super::{FrequencyResponse, ResponseQuantity};
 use super::contents::{Channel, NamedResponse, ResponseFile, SignalFile};
 use super::error::{NO_RATE, ReadError};
+use super::mat::whole;
 use super::text::first_of;
 use faer::c64;
 use std::collections::BTreeSet;
@@ -17,6 +18,12 @@ pub(super) const FREQUENCY_RESPONSE: u32 = 4;
 const COHERENCE: u32 = 6;
 /// Type of an abscissa in time.
 pub(super) const TIME_AXIS: u32 = 17;
+/// Types of the ordinate of a response to a force, in the order of the quantities.
+pub(super) const ORDINATES: [(u32, ResponseQuantity); 3] = [
+    (8, ResponseQuantity::Receptance),
+    (11, ResponseQuantity::Mobility),
+    (12, ResponseQuantity::Accelerance),
+];
 
 /// One function.
 struct Function {
@@ -34,14 +41,14 @@ struct Function {
 
 /// Whether bytes that begin with `-1` are a universal file: the second line is the number of a dataset.
 pub(super) fn is_universal(bytes: &[u8]) -> bool {
-    let mut lines = Lines { bytes, at: 0 };
+    let mut lines = Lines::of(bytes);
     let first = lines.next();
     let second = lines.next().unwrap_or_default();
     let number = second.split_whitespace().next().unwrap_or_default();
     let number = number.trim_end_matches(['b', 'B']);
     let has_58 = || {
         let mut before = String::new();
-        let mut lines = Lines { bytes, at: 0 };
+        let mut lines = Lines::of(bytes);
         std::iter::from_fn(|| lines.next()).any(|line| {
             let begins = before.trim() == "-1" && line.trim_start().starts_with("58");
             before = line;
@@ -52,16 +59,34 @@ pub(super) fn is_universal(bytes: &[u8]) -> bool {
 }
 
 /// Lines of bytes that may turn binary.
-struct Lines<'a> {
+pub(super) struct Lines<'a> {
     bytes: &'a [u8],
     at: usize,
+    /// Lines read so far.
+    pub count: usize,
 }
 
-impl Lines<'_> {
+impl<'a> Lines<'a> {
+    pub fn of(bytes: &'a [u8]) -> Self {
+        Self { bytes, at: 0, count: 0 }
+    }
+
+    /// Words of the header of the next dataset, lower case.
+    pub fn dataset(&mut self) -> Option<Vec<String>> {
+        while self.next()?.trim() != "-1" {}
+        Some(self.next()?.split_whitespace().map(str::to_lowercase).collect())
+    }
+
+    /// The lines up to the one that closes a dataset.
+    pub fn body(&mut self) -> Vec<String> {
+        std::iter::from_fn(|| self.next()).take_while(|line| line.trim() != "-1").collect()
+    }
+
     fn next(&mut self) -> Option<String> {
         let rest = self.bytes.get(self.at..).filter(|rest| !rest.is_empty())?;
         let end = rest.iter().position(|b| *b == b'\n');
         self.at += end.map_or(rest.len(), |end| end + 1);
+        self.count += 1;
         let line = &rest[..end.unwrap_or(rest.len())];
         Some(line.iter().map(|b| char::from(*b)).filter(|c| *c != '\r').collect())
     }
@@ -69,14 +94,9 @@ impl Lines<'_> {
 
 /// All functions of a file.
 fn functions(bytes: &[u8], source: &str) -> Result<Vec<Function>, ReadError> {
-    let mut lines = Lines { bytes, at: 0 };
+    let mut lines = Lines::of(bytes);
     let mut found = Vec::new();
-    while let Some(line) = lines.next() {
-        if line.trim() != "-1" {
-            continue;
-        }
-        let Some(header) = lines.next() else { break };
-        let words: Vec<String> = header.split_whitespace().map(str::to_lowercase).collect();
+    while let Some(words) = lines.dataset() {
         let number = found.len() + 1;
         let damaged = |reason: &str| {
             let reason = format!("dataset 58 number {number}: {reason}");
@@ -93,8 +113,7 @@ fn functions(bytes: &[u8], source: &str) -> Result<Vec<Function>, ReadError> {
                 let length = word(4).ok_or_else(|| damaged("its length is not stated"))?;
                 found.push(function(&mut lines, Some((length, is_big))).map_err(damaged)?);
             }
-            // Another dataset goes on to its closing line.
-            Some(_) => while lines.next().is_some_and(|line| line.trim() != "-1") {},
+            Some(_) => drop(lines.body()),
             None => {}
         }
     }
@@ -122,21 +141,20 @@ fn function(lines: &mut Lines, binary: Option<(usize, bool)>) -> Result<Function
     }
     let (is_complex, is_double) = (form >= 5, form == 4 || form == 6);
     let (is_even, first, step) = (word(7, 2) == 1.0, word(7, 3), word(7, 4));
+    // Each row has its abscissa, unless these are even, and one or two numbers more.
+    let (lead, parts) = (usize::from(!is_even), 1 + usize::from(is_complex));
     let raw = match binary {
         Some((length, is_big)) => {
-            binary_numbers(lines, length, is_big, is_double, is_complex, is_even)?
+            let widths = [vec![4; lead], vec![if is_double { 8 } else { 4 }; parts]].concat();
+            binary_numbers(lines, length, is_big, &widths)?
         }
-        None => text_numbers(lines),
+        None => lines.body().iter().flat_map(|line| numbers(line)).collect(),
     };
-    let width = usize::from(!is_even) + 1 + usize::from(is_complex);
-    let rows: Vec<&[f64]> = raw.chunks_exact(width).take(count as usize).collect();
+    let rows: Vec<&[f64]> = raw.chunks_exact(lead + parts).take(count as usize).collect();
     if (rows.len() as f64) < count {
         return Err("it has fewer numbers than its seventh record says; export it again");
     }
-    let value = |row: &[f64]| {
-        let at = usize::from(!is_even);
-        c64::new(row[at], if is_complex { row[at + 1] } else { 0.0 })
-    };
+    let value = |row: &[f64]| c64::new(row[lead], row.get(lead + 1).copied().unwrap_or(0.0));
     let abscissa = |(i, row): (usize, &&[f64])| {
         if is_even { first + i as f64 * step } else { row[0] }
     };
@@ -181,46 +199,26 @@ pub(super) fn numbers(line: &str) -> Vec<f64> {
     words.map_while(|word| word.parse().ok()).collect()
 }
 
-/// The numbers up to the closing line.
-fn text_numbers(lines: &mut Lines) -> Vec<f64> {
-    let mut out = Vec::new();
-    while let Some(line) = lines.next() {
-        if line.trim() == "-1" {
-            break;
-        }
-        out.extend(numbers(&line));
-    }
-    out
-}
-
-/// The numbers of a binary dataset: abscissae in single precision, ordinates in single or double.
+/// The numbers of a binary dataset, each of so many bytes in turn: 4 in single precision, 8 in double.
 fn binary_numbers(
     lines: &mut Lines,
     length: usize,
     is_big: bool,
-    is_double: bool,
-    is_complex: bool,
-    is_even: bool,
+    widths: &[usize],
 ) -> Result<Vec<f64>, &'static str> {
     let end = lines.at.checked_add(length).filter(|end| *end <= lines.bytes.len());
     let end = end.ok_or("the file ends within its numbers")?;
     let mut rest = &lines.bytes[lines.at..end];
     lines.at = end;
-    let ordinate = if is_double { 8 } else { 4 };
-    let mut widths = if is_even { vec![] } else { vec![4] };
-    widths.extend(vec![ordinate; 1 + usize::from(is_complex)]);
     let mut out = Vec::with_capacity(length / 4);
     for width in widths.iter().cycle() {
         let Some((head, tail)) = rest.split_at_checked(*width) else {
             break;
         };
-        let mut bytes = head.to_vec();
-        if is_big {
-            bytes.reverse();
-        }
-        out.push(match <[u8; 8]>::try_from(bytes.as_slice()) {
-            Ok(eight) => f64::from_le_bytes(eight),
-            Err(_) => f64::from(f32::from_le_bytes([bytes[0], bytes[1], bytes[2], bytes[3]])),
+        let bits = whole(head, is_big);
+        out.push(match width {
+            8 => f64::from_bits(bits),
+            _ => f64::from(f32::from_bits(bits as u32)),
         });
         rest = tail;
     }
@@ -237,14 +235,10 @@ pub(super) fn read_responses(
     let mut notes = Vec::new();
     let mut responses = Vec::new();
     for f in all.iter().filter(|f| f.kind == FREQUENCY_RESPONSE || (f.kind == 0 && f.is_complex)) {
-        let stated = match f.ordinate {
-            8 => Some(ResponseQuantity::Receptance),
-            11 => Some(ResponseQuantity::Mobility),
-            12 => Some(ResponseQuantity::Accelerance),
-            _ => None,
-        };
-        let taken = quantity.or(stated).unwrap_or(ResponseQuantity::Accelerance);
-        if quantity.or(stated).is_none() {
+        let stated = ORDINATES.iter().find(|(kind, _)| *kind == f.ordinate);
+        let known = quantity.or(stated.map(|(_, quantity)| *quantity));
+        let taken = known.unwrap_or(ResponseQuantity::Accelerance);
+        if known.is_none() {
             notes.push(format!(
                 "{}: the file does not say what it holds: accelerance assumed",
                 f.name
@@ -255,15 +249,10 @@ pub(super) fn read_responses(
             unit if unit.starts_with("mm") => 1e-3,
             _ => 1.0,
         };
-        let values: Vec<c64> = f.values.iter().map(|z| z * scale).collect();
-        let signal = |error| ReadError::signal(source, &error);
-        let mut response = if f.is_complex {
-            FrequencyResponse::new(f.abscissae.clone(), values, taken)
-        } else {
-            let moduli: Vec<f64> = values.iter().map(|z| z.re).collect();
-            FrequencyResponse::from_magnitudes(f.abscissae.clone(), &moduli, taken)
-        }
-        .map_err(signal)?;
+        let values = f.values.iter().map(|z| z * scale).collect();
+        let response =
+            FrequencyResponse::measured(f.abscissae.clone(), values, taken, f.is_complex);
+        let mut response = response.map_err(|error| ReadError::signal(source, &error))?;
         let same = |c: &&Function| {
             c.kind == COHERENCE && c.name == f.name && c.values.len() == f.values.len()
         };

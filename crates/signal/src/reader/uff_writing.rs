@@ -4,8 +4,7 @@
 //! Source: SDRC, "Universal file datasets", by their numbers.
 
 use super::contents::{NamedResponse, SignalFile};
-use super::uff::{FREQUENCY_RESPONSE, TIME, TIME_AXIS};
-use crate::ResponseQuantity;
+use super::uff::{FREQUENCY_RESPONSE, ORDINATES, TIME, TIME_AXIS};
 use faer::c64;
 use std::fmt::Write as _;
 use std::io::{self, Write};
@@ -13,11 +12,7 @@ use std::io::{self, Write};
 /// A frequency response as dataset 58 in text, complex double precision.
 pub fn write_response(named: &NamedResponse) -> String {
     let response = &named.response;
-    let ordinate = match response.quantity() {
-        ResponseQuantity::Receptance => 8,
-        ResponseQuantity::Mobility => 11,
-        ResponseQuantity::Accelerance => 12,
-    };
+    let (ordinate, _) = ORDINATES[response.quantity() as usize];
     let (f, values) = (response.frequencies_hz(), response.values());
     let step = (f[f.len() - 1] - f[0]) / (f.len() - 1) as f64;
     let mut numbered = f.iter().enumerate();
@@ -25,15 +20,13 @@ pub fn write_response(named: &NamedResponse) -> String {
     let axis = if is_even { [f[0], step] } else { [0.0; 2] };
     let form = [6, values.len(), usize::from(is_even)];
     let mut out = header(&named.name, FREQUENCY_RESPONSE, form, axis, [18, ordinate, 13]);
-    let number = |z: &c64| fortran(z.re, 20, 12) + &fortran(z.im, 20, 12);
     if is_even {
         for two in values.chunks(2) {
-            out += &two.iter().map(number).collect::<String>();
-            out.push('\n');
+            out += &(complex_row(two, 20, 12) + "\n");
         }
     } else {
         for (f, z) in f.iter().zip(values) {
-            out += &(fortran(*f, 13, 5) + &number(z) + "\n");
+            out += &(fortran(*f, 13, 5) + &complex_row(&[*z], 20, 12) + "\n");
         }
     }
     out + "    -1\n"
@@ -46,8 +39,7 @@ pub fn write_signal(file: &SignalFile) -> String {
         let axis = [file.start, 1.0 / file.sampling_rate];
         out += &header(&channel.name, TIME, [4, channel.samples.len(), 1], axis, [TIME_AXIS, 0, 0]);
         for four in channel.samples.chunks(4) {
-            let row: String = four.iter().map(|v| fortran(*v, 20, 12)).collect();
-            out += &row;
+            out.extend(four.iter().map(|v| fortran(*v, 20, 12)));
             out.push('\n');
         }
         out += "    -1\n";
@@ -77,11 +69,7 @@ pub fn write_mesh(
         let count = labels.len();
         writeln!(out, "{:>10}{descriptor:>10}{:>10}{:>10}{:>10}{count:>10}", number + 1, 1, 1, 7)?;
         for eight in labels.chunks(8) {
-            writeln!(
-                out,
-                "{}",
-                eight.iter().map(|label| format!("{label:>10}")).collect::<String>()
-            )?;
+            writeln!(out, "{}", whole_row(eight))?;
         }
     }
     writeln!(out, "    -1")
@@ -108,15 +96,10 @@ pub struct ModeData<'a> {
 /// # Errors
 /// Those of the writer.
 pub fn write_mode(out: &mut dyn Write, mode: &ModeData<'_>) -> io::Result<()> {
-    let row = |values: &[c64]| -> String {
-        values.iter().map(|z| fortran(z.re, 13, 5) + &fortran(z.im, 13, 5)).collect()
-    };
-    let whole = |numbers: &[usize]| -> String {
-        numbers.iter().map(|number| format!("{number:>10}")).collect()
-    };
+    let row = |values: &[c64]| complex_row(values, 13, 5);
     writeln!(out, "    -1\n    55\n{}\nNONE\nNONE\nNONE\nNONE", mode.name)?;
     // Structural, complex eigenvalue, three translations, displacement, complex, three values a node.
-    writeln!(out, "{}\n{}", whole(&[1, 3, 2, 8, 5, 3]), whole(&[2, 6, 1, mode.number]))?;
+    writeln!(out, "{}\n{}", whole_row(&[1, 3, 2, 8, 5, 3]), whole_row(&[2, 6, 1, mode.number]))?;
     // The eigenvalue; factors of modal mass and damping are not scaled.
     let one = c64::new(1.0, 0.0);
     writeln!(out, "{}", row(&[mode.eigenvalue, one, one]))?;
@@ -144,6 +127,17 @@ fn header(
         let _ = writeln!(out, "{kind:>10}{:>5}{:>5}{:>5} {:<20} {:<20}", 0, 0, 0, "NONE", "NONE");
     }
     out
+}
+
+/// Whole numbers side by side.
+fn whole_row(numbers: &[usize]) -> String {
+    numbers.iter().map(|number| format!("{number:>10}")).collect()
+}
+
+/// Complex numbers side by side, see [`fortran`].
+fn complex_row(values: &[c64], width: usize, decimals: usize) -> String {
+    let parts = values.iter().flat_map(|z| [z.re, z.im]);
+    parts.map(|part| fortran(part, width, decimals)).collect()
 }
 
 /// A number as Fortran writes it with `Ew.d`.
