@@ -3,15 +3,8 @@
 //! `cargo bench NAME` runs those whose file or function has `NAME` in its name. Without `--bench`, as `cargo test --benches` calls
 //! it, each runs once on a small mesh.
 
-#[allow(dead_code, reason = "benchmarks use a part")]
-#[path = "../tests/common/bricks.rs"]
-mod bricks;
-#[path = "../tests/common/disc.rs"]
-mod disc;
-#[path = "../tests/common/mesh_text.rs"]
-mod mesh_text;
-#[path = "../tests/common/msh.rs"]
-mod msh;
+#[path = "../tests/common/mod.rs"]
+mod common;
 
 mod cea_cyclic;
 mod cea_sparse;
@@ -22,6 +15,7 @@ mod frf;
 mod solid;
 mod transient;
 
+use common::{bricks, disc, mesh_text, msh};
 use frictionsim::transient::{Observer, Sample};
 use std::ops::ControlFlow;
 

@@ -2,11 +2,12 @@
 //!
 //! Where there is no browser all are reported as ignored, with the reason; `.ci/run` installs one.
 
+#[path = "../common/mod.rs"]
+mod common;
 mod driver;
 mod page;
-#[path = "../common/program.rs"]
-mod program;
 
+use common::program;
 use driver::Browser;
 use libtest_mimic::{Arguments, Trial};
 use page::*;

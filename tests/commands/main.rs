@@ -1,27 +1,7 @@
 //! The commands, their case files, figures and results as a user meets them; the structure of the source.
 
-#[path = "../common/bricks.rs"]
-mod bricks;
-#[path = "../common/cases.rs"]
-mod cases;
-#[path = "../common/coarse_block.rs"]
-mod coarse_block;
-#[path = "../common/coarse_disc.rs"]
-mod coarse_disc;
-#[path = "../common/disc.rs"]
-mod disc;
-#[path = "../common/draws.rs"]
-mod draws;
-#[path = "../common/mesh_text.rs"]
-mod mesh_text;
-#[path = "../common/msh.rs"]
-mod msh;
-#[path = "../common/program.rs"]
-mod program;
-#[path = "../common/table_1.rs"]
-mod table_1;
-#[path = "../common/tier.rs"]
-mod tier;
+#[path = "../common/mod.rs"]
+mod common;
 
 mod architecture;
 mod basin;
@@ -60,3 +40,7 @@ mod survival;
 mod sweep;
 mod transient_command;
 mod uncertainty;
+
+use common::{
+    bricks, cases, coarse_block, coarse_disc, disc, draws, mesh_text, program, table_1, tier,
+};

@@ -1,7 +1,5 @@
 //! Cases that are read from a text, under changes of which several stand in one with ` ; ` between.
 
-#![allow(dead_code, reason = "each binary uses a part")]
-
 use frictionsim::case::Case;
 use std::path::{Path, PathBuf};
 

@@ -1,7 +1,7 @@
 //! The shipped block on fewer elements, for what does not ask for its mesh.
 
-use crate::mesh_text::{even, quadrilaterals};
-use crate::tier::sized;
+use super::mesh_text::{even, quadrilaterals};
+use super::tier::sized;
 use std::path::Path;
 
 /// Changes of `sliding-block.toml` that give it a mesh of 8 x 12 elements in `folder`; none in the long tier.

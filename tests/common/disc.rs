@@ -1,7 +1,5 @@
 //! The paper's disc: geometry, material, damping and contact. Poisson's ratio and density are a fit to its Table 1.
 
-#![allow(dead_code, reason = "each binary uses a part")]
-
 use faer::c64;
 use frictionsim::cea::{ComplexMode, ModeLimit, SweepRequest, sparse};
 use frictionsim::contact::{ContactStiffness, FrictionDecay, NormalLaw, SlidingContact};

@@ -1,7 +1,5 @@
 //! What a search or a sweep keeps of itself, to go on with after an interruption.
 
-#![allow(dead_code, reason = "each binary uses a part")]
-
 use frictionsim::cea::{SweepProgress, SweepWatch};
 use std::collections::BTreeMap;
 use std::sync::Mutex;

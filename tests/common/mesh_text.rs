@@ -1,7 +1,5 @@
 //! Mesh files in MSH 2.2 of points and elements that a test makes.
 
-#![allow(dead_code, reason = "each binary uses a part")]
-
 use std::fmt::Write;
 
 /// Type of an element in the file, its group and its nodes, both from 0.

@@ -1,7 +1,5 @@
 //! Meshes written as Gmsh files: what the reader is held to.
 
-#![allow(dead_code, reason = "each binary uses a part")]
-
 use frictionsim::mesh::{BodySpecification, BoundaryCondition, CounterfaceSpecification, Mesh};
 
 /// A plane body of a mesh file in metres.
@@ -93,7 +91,7 @@ pub fn write_msh(
         for count in [0, curves, mesh.regions.len(), 0] {
             out.size(count);
         }
-        for (dimension, count) in [(1, curves), (2, mesh.regions.len())] {
+        for count in [curves, mesh.regions.len()] {
             for tag in 1..=count as i32 {
                 out.int(tag);
                 (0..6).for_each(|_| out.number(0.0));
@@ -101,7 +99,6 @@ pub fn write_msh(
                 out.int(tag);
                 out.size(0);
             }
-            let _ = dimension;
         }
         out.end();
         out.line("$EndEntities");

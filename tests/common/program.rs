@@ -1,7 +1,5 @@
 //! The program as a user starts it: a command, its case and overrides, and what it says and leaves.
 
-#![allow(dead_code, reason = "each binary uses a part")]
-
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::ffi::OsStr;
@@ -44,6 +42,15 @@ pub fn folder_with(files: &[(&str, &[u8])]) -> tempfile::TempDir {
         std::fs::write(folder.path().join(name), bytes).unwrap();
     }
     folder
+}
+
+/// The names in a folder, in their order.
+pub fn names_in(folder: &Path) -> Vec<String> {
+    let entries = std::fs::read_dir(folder).unwrap().map(Result::unwrap);
+    let names = entries.map(|entry| entry.file_name().into_string().unwrap());
+    let mut names: Vec<String> = names.collect();
+    names.sort();
+    names
 }
 
 impl Run {
@@ -205,6 +212,22 @@ impl Answer {
 
     pub fn rows(&self, name: &str) -> Vec<Row> {
         rows(&self.path(name))
+    }
+
+    /// Frequency, Hz, and growth rate, 1/s, of the modes at a friction coefficient.
+    pub fn modes(&self, friction: &str) -> Vec<[f64; 2]> {
+        let rows = self.rows("eigenvalues.csv").into_iter();
+        let own = rows.filter(|row| row["friction_coefficient"] == friction);
+        own.map(|row| row.numbers(["frequency_hz", "growth_rate_per_s"])).collect()
+    }
+
+    /// Holds the run to files that it must have written, their names a space apart.
+    #[track_caller]
+    pub fn wrote(self, names: &str) -> Self {
+        for name in names.split(' ') {
+            assert!(self.path(name).exists(), "{name}");
+        }
+        self
     }
 }
 

@@ -1,6 +1,6 @@
 //! Unstructured triangle meshes of the disc, and the disc as the body of a file.
 
-use crate::msh::{CYLINDER, plane_body};
+use super::msh::{CYLINDER, plane_body};
 use frictionsim::mesh::{
     AnnulusMesh, AnnulusSpecification, BoundaryCondition, ElementKind, FileMesh, Mesh,
 };
@@ -13,7 +13,7 @@ pub fn triangles(specification: &AnnulusSpecification, is_quadratic: bool) -> Me
     let (inner, outer) = (specification.inner_radius, specification.outer_radius);
     let step = (outer - inner) / specification.radial_elements as f64;
     let mut mesh = quads.mesh;
-    let mut draw = crate::draws::draws(12345);
+    let mut draw = super::draws::draws(12345);
     for [x, y, _] in &mut mesh.nodes {
         let radius = x.hypot(*y);
         if radius > inner * 1.000_01 && radius < outer * 0.999_99 {

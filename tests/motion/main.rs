@@ -1,19 +1,7 @@
 //! Transients and limit cycles against theory, each other and themselves.
 
-#[path = "../common/bricks.rs"]
-mod bricks;
-#[path = "../common/cases.rs"]
-mod cases;
-#[path = "../common/coarse_block.rs"]
-mod coarse_block;
-#[path = "../common/disc.rs"]
-mod disc;
-#[path = "../common/kept.rs"]
-mod kept;
-#[path = "../common/mesh_text.rs"]
-mod mesh_text;
-#[path = "../common/tier.rs"]
-mod tier;
+#[path = "../common/mod.rs"]
+mod common;
 
 mod assembly;
 mod cycle;
@@ -28,3 +16,5 @@ mod cycle_two_waves;
 mod oscillator;
 mod prelude;
 mod transient;
+
+use common::{bricks, cases, coarse_block, disc, kept, mesh_text, tier};

@@ -1,29 +1,7 @@
 //! Discretisation, spectra and responses against theory, other methods and themselves.
 
-#[path = "../common/block.rs"]
-mod block;
-#[path = "../common/bricks.rs"]
-mod bricks;
-#[path = "../common/cases.rs"]
-mod cases;
-#[path = "../common/disc.rs"]
-mod disc;
-#[path = "../common/draws.rs"]
-mod draws;
-#[path = "../common/kept.rs"]
-mod kept;
-#[path = "../common/mesh_text.rs"]
-mod mesh_text;
-#[path = "../common/msh.rs"]
-mod msh;
-#[path = "../common/program.rs"]
-mod program;
-#[path = "../common/table_1.rs"]
-mod table_1;
-#[path = "../common/tier.rs"]
-mod tier;
-#[path = "../common/triangles.rs"]
-mod triangles;
+#[path = "../common/mod.rs"]
+mod common;
 
 mod assemblies;
 mod body;
@@ -67,3 +45,7 @@ mod tabled_disc;
 mod two_bodies;
 mod verification;
 mod waves;
+
+use common::{
+    block, bricks, cases, disc, draws, kept, mesh_text, msh, program, table_1, tier, triangles,
+};

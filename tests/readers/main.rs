@@ -1,15 +1,11 @@
 //! Readers of measured data, meshes and results, with right, wrong and mutated input.
 
-#[path = "../common/block.rs"]
-mod block;
-#[path = "../common/msh.rs"]
-mod msh;
-#[path = "../common/program.rs"]
-mod program;
-#[path = "../common/tier.rs"]
-mod tier;
+#[path = "../common/mod.rs"]
+mod common;
 
 mod bounds;
 mod fuzz;
 mod mesh_files;
 mod signal_reader;
+
+use common::{block, msh, program, tier};

@@ -1,0 +1,18 @@
+//! Builders of bodies and cases, readers of results and the start of commands.
+
+#![allow(dead_code, reason = "each binary uses a part")]
+
+pub mod block;
+pub mod bricks;
+pub mod cases;
+pub mod coarse_block;
+pub mod coarse_disc;
+pub mod disc;
+pub mod draws;
+pub mod kept;
+pub mod mesh_text;
+pub mod msh;
+pub mod program;
+pub mod table_1;
+pub mod tier;
+pub mod triangles;
