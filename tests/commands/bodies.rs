@@ -13,13 +13,8 @@ use kinds::{Kind, kinds};
 use std::cell::RefCell;
 use std::collections::HashMap;
 
-#[derive(Clone)]
-pub enum Answer {
-    /// The summary, and the folder of the results.
-    Done(serde_json::Value, PathBuf),
-    /// The first line of the error.
-    Refused(String),
-}
+/// The summary, and the folder of the results; or the first line of the error.
+pub type Answer = Result<(Value, PathBuf), String>;
 
 /// What a cell of the table says; a wrong answer fails the test with its message.
 #[derive(Debug, PartialEq)]
@@ -28,6 +23,9 @@ pub enum Cell {
     Refused(String),
     Wrong(String),
 }
+
+/// What stops a check before it is right.
+pub type Verdict = Result<(), Cell>;
 
 /// A body's case file in a folder of its own, with the answers of the runs so far.
 pub struct Bench {
@@ -66,21 +64,17 @@ impl Bench {
     /// Runs `command` under `overrides`, with `inputs` behind the case.
     pub fn run_with(&self, command: &str, overrides: &[&str], inputs: &[&Path]) -> Answer {
         let case = self.folder.path().join("case.toml");
-        self.run_on(command, &[&[case.as_path()], inputs].concat(), overrides)
+        self.run_on(command, &[&[case.as_path()], inputs].concat(), overrides, "--no-figures")
     }
 
-    /// Runs `command` on `inputs` alone.
-    pub fn run_on(&self, command: &str, inputs: &[&Path], overrides: &[&str]) -> Answer {
-        self.answer(command, inputs, overrides, "--no-figures")
-    }
-
-    /// Runs `command` under `overrides` and draws its figures.
-    pub fn run_drawn(&self, command: &str, overrides: &[&str]) -> Answer {
-        let case = self.folder.path().join("case.toml");
-        self.answer(command, &[case.as_path()], overrides, "--format=svg")
-    }
-
-    fn answer(&self, command: &str, inputs: &[&Path], overrides: &[&str], figures: &str) -> Answer {
+    /// Runs `command` on `inputs` alone; `figures` is the option that tells what is drawn.
+    pub fn run_on(
+        &self,
+        command: &str,
+        inputs: &[&Path],
+        overrides: &[&str],
+        figures: &str,
+    ) -> Answer {
         let out =
             tempfile::Builder::new().prefix("run").tempdir_in(self.folder.path()).unwrap().keep();
         let mut run = Run::new(&[command, "--json"]).args(inputs).set(overrides);
@@ -92,13 +86,16 @@ impl Bench {
             let line = run.stderr.lines().find(|line| line.starts_with("error"));
             let line =
                 line.unwrap_or_else(|| panic!("{command} failed without a reason: {}", run.stderr));
-            return Answer::Refused(line.trim_start_matches("error: ").to_owned());
+            return Err(line.trim_start_matches("error: ").to_owned());
         }
-        Answer::Done(run.value(), out)
+        Ok((run.value(), out))
     }
-}
 
-impl Bench {
+    /// Runs `command` under `overrides` and draws its figures.
+    pub fn run_drawn(&self, command: &str, overrides: &[&str]) -> Answer {
+        self.run_on(command, &[&self.folder.path().join("case.toml")], overrides, "--format=svg")
+    }
+
     /// Draws the figures of a results folder.
     pub fn redraw(&self, folder: &Path) -> Result<(), String> {
         let run = Run::new(&["plot", "-qq", "--format=svg"]).args(&[folder]).end();
@@ -137,7 +134,7 @@ fn check_body(name: &str) {
     let (bench, twin) = (Bench::new(of(name)), of(name).twin.map(|twin| Bench::new(of(twin))));
     let mut wrong = String::new();
     for ((analysis, check), (_, row)) in checks::ALL.iter().zip(&table) {
-        let found = check(&bench, twin.as_ref());
+        let found = check(&bench, twin.as_ref()).err().unwrap_or(Cell::Right);
         if found != row[column] {
             wrong += &format!("{analysis}: {found:?}, in tests/README.md {:?}\n", row[column]);
         }

@@ -74,22 +74,11 @@ fn cea_prints_the_table_and_draws_its_figures() {
          stable up to",
     ]);
     assert_eq!(answer.stderr, "");
-    for name in [
-        "eigenvalues.csv",
-        "stability.csv",
-        "summary.json",
-        "manifest.json",
-        "modes.pvd",
-        "modes/mu-0.3-mode-001.vtu",
-        "prestress.csv",
-        "prestress.vtu",
-        "figures/locus.svg",
-        "figures/pairs.png",
-        "figures/prestress.png",
-        "figures/modes-mu-0.3.png",
-    ] {
-        assert!(answer.path(name).exists(), "{name}");
-    }
+    answer.wrote(
+        "eigenvalues.csv stability.csv summary.json manifest.json modes.pvd modes/mu-0.3-mode-001.vtu \
+         prestress.csv prestress.vtu figures/locus.svg figures/pairs.png figures/prestress.png \
+         figures/modes-mu-0.3.png",
+    );
 }
 
 #[test]
@@ -194,8 +183,7 @@ fn no_run_replaces_the_results_of_another_one_in_silence() {
 
 #[test]
 fn an_output_folder_that_cannot_be_made_fails_the_run_with_its_path() {
-    let folder = folder();
-    fs::write(folder.path().join("file"), "x").unwrap();
+    let folder = folder_with(&[("file", "x".as_bytes())]);
     let answer = on_disc(&folder, "mesh", &[]).out("file/below").end().code(1);
     assert_eq!(answer.stderr.matches("os error").count(), 1, "{}", answer.stderr);
     answer.warns(&["cannot create folder file/below"]);

@@ -3,24 +3,26 @@
 use crate::prelude::*;
 use frictionsim::results::reference::{markdown, reference};
 
-/// The guide's page of columns is what the declarations say; `FRICTIONSIM_WRITE_TABLE=1` writes it.
+/// Holds a page of the guide to what the declarations say; `FRICTIONSIM_WRITE_TABLE=1` writes it.
+pub fn guide_has(name: &str, table: &str) {
+    let path = format!("{}/src/guide/{name}.md", env!("CARGO_MANIFEST_DIR"));
+    let text = fs::read_to_string(&path).unwrap();
+    let [start, end] =
+        [format!("<!-- {name}: generated -->\n"), format!("\n<!-- end of the {name} -->")];
+    let (head, rest) = text.split_once(&start).unwrap();
+    let (stored, tail) = rest.split_once(&end).unwrap();
+    let table = table.trim_end();
+    if std::env::var_os("FRICTIONSIM_WRITE_TABLE").is_some() {
+        fs::write(path, format!("{head}{start}{table}{end}{tail}")).unwrap();
+    } else {
+        let same = stored == table;
+        assert!(same, "src/guide/{name}.md is not what `frictionsim {name} --markdown` prints");
+    }
+}
+
 #[test]
 fn the_guide_documents_every_column_as_it_is_declared() {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/src/guide/columns.md");
-    let text = fs::read_to_string(path).unwrap();
-    let (head, rest) = text.split_once("<!-- columns: generated -->\n").unwrap();
-    let (stored, tail) = rest.split_once("<!-- end of the columns -->").unwrap();
-    let table = markdown();
-    if std::env::var_os("FRICTIONSIM_WRITE_TABLE").is_some() {
-        let written =
-            format!("{head}<!-- columns: generated -->\n{table}<!-- end of the columns -->{tail}");
-        fs::write(path, written).unwrap();
-    } else {
-        assert!(
-            stored == table,
-            "src/guide/columns.md is not what `frictionsim columns --markdown` prints"
-        );
-    }
+    guide_has("columns", &markdown());
 }
 
 /// Paths of all keys, `[]` for each entry of a list.

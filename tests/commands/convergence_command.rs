@@ -4,11 +4,9 @@
 use crate::prelude::*;
 
 /// A coarse disc; every test adds its analyses.
-const DISC: &str = "[geometry]\ninner_radius = 0.0205\nouter_radius = 0.0905
-[mesh]\ncircumferential_elements = 36\nradial_elements = 8\nelement = \"quad4\"
-[material]\nyoung_modulus = 2.5e9\npoisson_ratio = 0.3805\ndensity = 1228.0
-[damping]\nmass_coefficient = 40.0\nstiffness_coefficient = 4.5e-7
-[contact]\nfriction_coefficient = 0.3\ninterference = 25e-6\nrotation_speed_rpm = 610.0\n";
+fn disc(sections: &str) -> String {
+    disc_of([36, 8], sections)
+}
 
 const CEA: &str = "[cea]\nmax_frequency_hz = 9000.0\nfriction_coefficients = [0.0, 0.5]\n";
 
@@ -36,7 +34,7 @@ fn eigenvalues_converge_with_twice_the_degree_of_the_elements() {
     for (factors, set, wanted, bound) in
         [("[1, 2, 4]", &[][..], 2.0, 0.2), ("[1, 1.5, 2.25]", &coarse, 4.0, 0.5)]
     {
-        let text = format!("{DISC}{CEA}[convergence]\nfactors = {factors}\n");
+        let text = disc(&format!("{CEA}[convergence]\nfactors = {factors}\n"));
         let summary = summary(folder().path(), &text, set);
         let all = quantities(&summary["series"][0]);
         let is_of = |q: &&Value, name: &str| q["name"].as_str().unwrap().starts_with(name);
@@ -53,7 +51,7 @@ fn eigenvalues_converge_with_twice_the_degree_of_the_elements() {
 #[test]
 fn richardson_of_coarse_meshes_comes_nearer_to_a_fine_one_than_the_finest_of_them() {
     let folder = folder();
-    let text = format!("{DISC}{CEA}[convergence]\nfactors = [1, 1.5, 2.25]\n");
+    let text = disc(&format!("{CEA}[convergence]\nfactors = [1, 1.5, 2.25]\n"));
     let coarse = summary(folder.path(), &text, &[]);
     let text = text.replace("[1, 1.5, 2.25]", "[4, 6, 8]");
     let fine = summary(folder.path(), &text, &[]);
@@ -75,25 +73,22 @@ fn richardson_of_coarse_meshes_comes_nearer_to_a_fine_one_than_the_finest_of_the
 #[test]
 fn a_transient_is_tabled_over_mesh_and_time_step_with_figures_and_report() {
     let folder = folder();
-    let text = format!(
-        "{DISC}{CEA}{TRANSIENT}[convergence]\nfactors = [0.5, 0.75, 1]\n\
-         time_step_factors = [1, 0.5, 0.25]\n"
-    );
-    let answer = study(folder.path(), &text)
-        .done()
+    let text = disc(&format!(
+        "{CEA}{TRANSIENT}[convergence]\nfactors = [0.5, 0.75, 1]\ntime_step_factors = [1, 0.5, 0.25]\n"
+    ));
+    let files =
+        "convergence.csv summary.json report.html figures/convergence.svg figures/convergence.pdf";
+    let answer = study(folder.path(), &text).done().wrote(files);
+    let answer = answer
         .says(&["cea over the mesh ; transient over the mesh ; transient over the time step"]);
     let printed = &answer.stdout;
     // What decides is printed, the other modes are in the table.
     let left = printed.lines().find(|line| line.contains("--verbose"));
     assert!(left.is_some_and(|line| line.contains("do not grow")), "{printed}");
     assert!(printed.lines().count() < 60, "{printed}");
-    let figures = ["figures/convergence.svg", "figures/convergence.pdf"];
-    for name in ["convergence.csv", "summary.json", "report.html"].iter().chain(&figures) {
-        assert!(answer.path(name).exists(), "{name}");
-    }
     let summary = answer.summary();
     let [cea, mesh, step] = [0, 1, 2].map(|k| &summary["series"][k]);
-    assert_eq!(cea["levels"], serde_json::json!(["18 x 4", "27 x 6", "36 x 8"]));
+    assert_eq!(cea["levels"], json!(["18 x 4", "27 x 6", "36 x 8"]));
     let steps: Vec<f64> = serde_json::from_value(step["sizes"].clone()).unwrap();
     // A quarter of a step that divides the sample interval divides it too.
     assert!((steps[0] / steps[2] - 4.0).abs() < 1e-12, "{steps:?}");
@@ -109,7 +104,7 @@ fn a_transient_is_tabled_over_mesh_and_time_step_with_figures_and_report() {
 #[test]
 fn limit_cycles_are_compared_harmonic_by_harmonic_and_doubtful_levels_are_named() {
     let folder = folder();
-    let text = format!("{DISC}[cycle]\nharmonics = [1, 2]\n[convergence]\nfactors = [2, 2.5, 3]\n");
+    let text = disc("[cycle]\nharmonics = [1, 2]\n[convergence]\nfactors = [2, 2.5, 3]\n");
     let found = summary(folder.path(), &text, &[]);
     let series = found["series"].as_array().unwrap();
     let names: Vec<&str> = series.iter().map(|s| s["analysis"].as_str().unwrap()).collect();
@@ -133,17 +128,15 @@ fn limit_cycles_are_compared_harmonic_by_harmonic_and_doubtful_levels_are_named(
 /// into their bore.
 #[test]
 fn a_body_of_revolution_on_its_whole_mesh_stays_round_when_it_is_refined() {
-    use frictionsim::case::Case;
-    let text = DISC.replace(
+    let sections = "[cea]\nmethod = \"sparse\"\nmodes = 4\n[convergence]\nfactors = [1, 2, 4]\n";
+    let text = disc(sections).replace(
         "[material]\n",
         "axial_elements = 1\n[material]\nformulation = \"three-dimensional\"\n",
-    ) + "[cea]\nmethod = \"sparse\"\nmodes = 4\n[convergence]\nfactors = [1, 2, 4]\n";
+    );
     let read = |counts: [usize; 3]| {
         let names = ["circumferential", "radial", "axial"];
         let set = names.iter().zip(counts).map(|(n, count)| format!("mesh.{n}_elements={count}"));
-        let thickness = "geometry.thickness=0.009".to_owned();
-        let overrides: Vec<String> = set.chain([thickness]).collect();
-        Case::parse("disc.toml", text.as_bytes(), &overrides).unwrap()
+        case_of("disc.toml", &text, &set.collect::<Vec<_>>())
     };
     assert_eq!(read([12, 2, 1]).refined(2.0).unwrap().body, read([24, 4, 2]).body);
 }

@@ -11,6 +11,23 @@ mod parameter_study;
 #[path = "../../examples/studies.rs"]
 mod studies;
 
+macro_rules! examples_run {
+    ($($test:ident: $example:ident,)*) => {
+        $(#[test]
+        fn $test() {
+            $example::main().unwrap();
+        })*
+    };
+}
+
+examples_run! {
+    modes_of_an_annulus_are_those_of_the_continuum: annulus_modes,
+    friction_sweep_finds_the_wave_that_turns_unstable_first: friction_sweep,
+    a_parameter_study_finds_friction_to_decide: parameter_study,
+    limit_cycle_closes_its_energy_balance: limit_cycle,
+    studies_of_shipped_cases_take_a_handful_of_calls: studies,
+}
+
 /// `examples/gallery` draws one picture of each case, and `cases/README.md` shows it.
 #[test]
 fn the_gallery_has_a_picture_of_every_shipped_case() {
@@ -23,29 +40,4 @@ fn the_gallery_has_a_picture_of_every_shipped_case() {
         assert!(readme.contains(&format!("(../{picture})")), "{picture}");
         assert!(script.contains(&format!("\ndraw {} ", case.name())), "{picture}");
     }
-}
-
-#[test]
-fn modes_of_an_annulus_are_those_of_the_continuum() {
-    annulus_modes::main().unwrap();
-}
-
-#[test]
-fn friction_sweep_finds_the_wave_that_turns_unstable_first() {
-    friction_sweep::main().unwrap();
-}
-
-#[test]
-fn a_parameter_study_finds_friction_to_decide() {
-    parameter_study::main().unwrap();
-}
-
-#[test]
-fn limit_cycle_closes_its_energy_balance() {
-    limit_cycle::main().unwrap();
-}
-
-#[test]
-fn studies_of_shipped_cases_take_a_handful_of_calls() {
-    studies::main().unwrap();
 }

@@ -55,6 +55,10 @@ fn one_support_stiffness_explains_the_four_frequencies_heard() {
     assert!(heard.clone().all(|row| row["mode"]["real_hz"].as_f64().unwrap() > 0.0));
 }
 
+fn line(line: usize, frequency_hz: f64, real_hz: Option<f64>) -> MeasuredMode {
+    MeasuredMode { line, frequency_hz, real_hz, harmonic: None, sigma_hz: None, is_unstable: false }
+}
+
 /// In how many of `seeds` noisy spectra of a case the interval of each fitted parameter holds the value of the case.
 fn coverage(case: &Case, limit_hz: f64, noise: [f64; 2], seeds: u64) -> Vec<usize> {
     let modes = modes_below(case, limit_hz).unwrap();
@@ -65,14 +69,9 @@ fn coverage(case: &Case, limit_hz: f64, noise: [f64; 2], seeds: u64) -> Vec<usiz
         let mut stream = GaussianNoise::new(seed);
         let lines = modes.iter().enumerate().map(|(k, mode)| {
             let error = stream.draw();
-            MeasuredMode {
-                line: k + 1,
-                frequency_hz: mode.frequency_hz() * (1.0 + noise[0] * error.re),
-                real_hz: Some(mode.real_hz() + noise[1] * mode.frequency_hz() * error.im),
-                harmonic: None,
-                sigma_hz: None,
-                is_unstable: false,
-            }
+            let frequency_hz = mode.frequency_hz() * (1.0 + noise[0] * error.re);
+            let real_hz = mode.real_hz() + noise[1] * mode.frequency_hz() * error.im;
+            line(k + 1, frequency_hz, Some(real_hz))
         });
         let fitted = fit_case(case, &lines.collect::<Vec<_>>()).unwrap();
         for ((hit, estimate), truth) in hits.iter_mut().zip(&fitted.parameters).zip(&truth) {
@@ -157,18 +156,8 @@ fn shapes_tell_modes_apart_that_cross() {
         });
         Ok(modes.collect())
     };
-    let lines: Vec<MeasuredMode> = frequencies(truth)
-        .into_iter()
-        .enumerate()
-        .map(|(k, frequency_hz)| MeasuredMode {
-            line: k + 2,
-            frequency_hz,
-            real_hz: None,
-            harmonic: None,
-            sigma_hz: None,
-            is_unstable: false,
-        })
-        .collect();
+    let lines = frequencies(truth).into_iter().enumerate();
+    let lines: Vec<_> = lines.map(|(k, frequency_hz)| line(k + 2, frequency_hz, None)).collect();
     let parameters =
         [BoundedParameter { name: "p".to_owned(), from: 0.8, to: 1.6, is_logarithmic: false }];
     let with = |shape_of: [Option<usize>; 2]| {

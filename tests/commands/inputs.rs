@@ -189,13 +189,7 @@ fn nothing_from_a_file_or_an_option_acts_on_the_terminal() {
 #[test]
 fn results_outlive_a_forced_run_that_fails_and_are_replaced_by_one_that_ends() {
     let folder = block_in(MESH, CASE);
-    let listing = || {
-        let entries = fs::read_dir(folder.path().join("out")).unwrap();
-        let mut names: Vec<_> =
-            entries.map(|e| e.unwrap().file_name().into_string().unwrap()).collect();
-        names.sort();
-        names
-    };
+    let listing = || names_in(&folder.path().join("out"));
     let onto = |command: &str, more: &[&str]| {
         Run::of(command, "block.toml").within(&folder).out("out").args(&["-q"]).args(more)
     };
@@ -297,7 +291,6 @@ fn a_small_file_that_inflates_to_a_huge_one_is_refused() {
 
 #[test]
 fn a_run_that_was_interrupted_while_it_replaces_others_goes_on_where_it_was() {
-    use frictionsim::results::{Manifest, OutputFolder, Replace};
     let manifest =
         |command: &str| Manifest { case_hash: command.to_owned(), ..Manifest::new(command) };
     let folder = folder();

@@ -7,15 +7,16 @@ use frictionsim::results::WholeMesh;
 use frictionsim::signal::reader::{ResponseOptions, read_response, read_shapes};
 use frictionsim::study::eigenvalues::{SlidingModel, solve_modes};
 use std::fmt::Write;
+use std::sync::LazyLock;
 
 const CEA: &str = "[cea]\nmodes = 8";
 
 /// Points and motions of some nodes in each mode, x, y, ux, uy.
 type Motion = Vec<([f64; 2], [c64; 2])>;
 
-/// Shapes of the case, the last mode first, each turned by a phase of its own, with 3 % of noise.
-fn measured() -> Vec<Motion> {
-    let case = Case::parse("case.toml", coarse_disc(CEA).as_bytes(), &[]).unwrap();
+/// Frequencies and shapes of the case, the last mode first, each turned by a phase of its own, with 3 % of noise; solved once.
+static MEASURED: LazyLock<Vec<(f64, Motion)>> = LazyLock::new(|| {
+    let case = case_of("case.toml", &coarse_disc(CEA), AS_IT_IS);
     let cea = case.require_cea().unwrap();
     let model = SlidingModel::new(&case, cea).unwrap();
     let solution = solve_modes(&case, cea, &model).unwrap();
@@ -35,9 +36,13 @@ fn measured() -> Vec<Motion> {
             });
             (model.mesh.plane_node(node), global)
         });
-        motion.collect()
+        (mode.frequency_hz(), motion.collect())
     });
     shapes.collect()
+});
+
+fn measured() -> Vec<Motion> {
+    MEASURED.iter().map(|(_, shape)| shape.clone()).collect()
 }
 
 fn table(shapes: &[Motion], scale: f64) -> String {
@@ -54,18 +59,11 @@ fn table(shapes: &[Motion], scale: f64) -> String {
 
 /// Datasets 15 and 55.
 fn universal(shapes: &[Motion]) -> String {
+    let row = |values: &[f64]| -> String { values.iter().map(|x| format!("{x:>13.5e}")).collect() };
     let mut text = "    -1\n    15\n".to_owned();
     for (n, ([x, y], _)) in shapes[0].iter().enumerate() {
-        writeln!(
-            text,
-            "{:>10}{:>10}{:>10}{:>10}{x:>13.5e}{y:>13.5e}{:>13.5e}",
-            n + 1,
-            0,
-            0,
-            11,
-            0.0
-        )
-        .unwrap();
+        let place = row(&[*x, *y, 0.0]);
+        writeln!(text, "{:>10}{:>10}{:>10}{:>10}{place}", n + 1, 0, 0, 11).unwrap();
     }
     text += "    -1\n";
     for (k, shape) in shapes.iter().enumerate() {
@@ -74,13 +72,8 @@ fn universal(shapes: &[Motion]) -> String {
         writeln!(text, "         2         6         1{:>10}", k + 1).unwrap();
         writeln!(text, "  1.0E+00  {:.5e} 0.0 0.0 0.0 0.0", 6283.0 * (k + 1) as f64).unwrap();
         for (n, (_, [u, v])) in shape.iter().enumerate() {
-            writeln!(text, "{:>10}", n + 1).unwrap();
-            writeln!(
-                text,
-                "{:>13.5e}{:>13.5e}{:>13.5e}{:>13.5e}{:>13.5e}{:>13.5e}",
-                u.re, u.im, v.re, v.im, 0.0, 0.0
-            )
-            .unwrap();
+            let parts = row(&[u.re, u.im, v.re, v.im, 0.0, 0.0]);
+            writeln!(text, "{:>10}\n{parts}", n + 1).unwrap();
         }
         text += "    -1\n";
     }
@@ -132,12 +125,9 @@ fn shapes_and_responses_written_as_universal_files_are_read_back() {
         assert!(pair["mac"].as_f64().unwrap() > 1.0 - 1e-9, "{pair}");
     }
     // The mesh beside the shapes.
-    let file = FileMesh::read_as(
-        "modes.unv",
-        &std::fs::read(folder.path().join("cea/modes.unv")).unwrap(),
-    )
-    .unwrap();
-    let case = Case::parse("case.toml", case.as_bytes(), &[]).unwrap();
+    let bytes = fs::read(folder.path().join("cea/modes.unv")).unwrap();
+    let file = FileMesh::read_as("modes.unv", &bytes).unwrap();
+    let case = case_of("case.toml", &case, AS_IT_IS);
     let mesh = case.body.mesh().unwrap();
     assert_eq!(file.points.len(), mesh.node_count());
     let whole = WholeMesh::of(&mesh);
@@ -227,13 +217,7 @@ fn fit_with(folder: &Path, shapes: &str, set: &[&str]) -> Run {
 #[test]
 fn measured_shapes_are_data_of_a_fit() {
     let folder = folder();
-    let case = Case::parse("case.toml", coarse_disc(CEA).as_bytes(), &[]).unwrap();
-    let model = SlidingModel::new(&case, case.require_cea().unwrap()).unwrap();
-    let solution = solve_modes(&case, case.require_cea().unwrap(), &model).unwrap();
-    let frequencies: Vec<f64> = {
-        let modes = solution.sweep.points[0].modes.iter().rev();
-        modes.map(|mode| mode.frequency_hz()).collect()
-    };
+    let frequencies: Vec<f64> = MEASURED.iter().map(|(frequency, _)| *frequency).collect();
     let named = |scale: f64| {
         let mut text = table(&measured(), scale);
         for (k, frequency) in frequencies.iter().enumerate() {

@@ -1,6 +1,7 @@
 //! Materials as a user meets them: results beside theory, keys that name one number of a list, refusals.
 
 use crate::bodies::grid::{Grid, Shape, msh};
+use crate::program::has;
 use frictionsim::case::{Case, Cea, CeaMethod};
 use frictionsim::contact::SlidingContact;
 use frictionsim::fem::sector;
@@ -44,8 +45,6 @@ fn one_number_of_a_list_is_set_by_its_place_counted_from_one() {
         assert_eq!(orthotropy.young_moduli, [2e9, 4e9, 1.5e9]);
         assert_eq!(case.number(key), Some(4e9));
     }
-    let beyond = read(&["material.young_moduli[4]=4e9"]).unwrap_err();
-    assert!(beyond.contains("beyond the 3 numbers"), "{beyond}");
     let study = "fit.parameters={\"material.shear_moduli[1]\"=[1e9, 2e9]}";
     let fit = read(&[study]).unwrap().fit.unwrap();
     assert_eq!(fit.parameters[0].parameter.key, "material.shear_moduli[1]");
@@ -68,9 +67,7 @@ fn structural_damping_has_its_meaning_or_is_refused() {
     let run = "transient={ duration=1e-4, expansion_time=5e-5 }";
     let case = read(&["material.loss_factor=0.1", "mesh.element=\"quad4\"", run]).unwrap();
     let message = case.require_transient().unwrap_err().to_string();
-    for part in ["material.loss_factor", "cea.max_frequency_hz", "stiffness_coefficient"] {
-        assert!(message.contains(part), "{message}");
-    }
+    has(&message, &["material.loss_factor ; cea.max_frequency_hz ; stiffness_coefficient"]);
     // With a band to keep it over, a chain stands for it, whose error is known.
     let band =
         ["material.loss_factor=0.1", "mesh.element=\"quad4\"", run, "cea.max_frequency_hz=12000.0"];
@@ -84,8 +81,6 @@ fn structural_damping_has_its_meaning_or_is_refused() {
         let cea = Cea { count_modes: true, method, ..case.require_cea().unwrap().clone() };
         assert_eq!(Solver::of_analysis(&case, &cea).unwrap(), Solver::Waves);
     }
-    let beyond = read(&["material.loss_factor=1.5"]).unwrap_err();
-    assert!(beyond.contains("material.loss_factor = 1.5"), "{beyond}");
 }
 
 /// A ring whose layers are two regions, each with a section of its own.
@@ -119,7 +114,5 @@ fn a_common_material_is_asked_for_only_where_a_region_has_none() {
     let (text, rest) = TWO_REGIONS.split_once("[materials.rim]").unwrap();
     let (_, rest) = rest.split_once("[boundaries").unwrap();
     let bare = read(&format!("{text}[boundaries{rest}")).unwrap_err().to_string();
-    for part in ["ring.msh: the region \"rim\" has no material", "[materials.rim]", "[material]"] {
-        assert!(bare.contains(part), "{part:?} is not in\n{bare}");
-    }
+    has(&bare, &["ring.msh: the region \"rim\" has no material ; [materials.rim] ; [material]"]);
 }

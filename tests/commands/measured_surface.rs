@@ -68,22 +68,20 @@ fn measured_surfaces_that_cannot_be_meant_are_refused_with_the_remedy() {
         assert_ne!(answer.code, Some(0));
     };
     refused(&[GAP], &["cannot read the table", "wear.csv"]);
-    write(table("x,y,z,gap_um", |_, _| 1.0));
-    refused(&[GAP], &["give x, y, z and gap in m"]);
-    write(table("x,y,z", |_, _| 1.0));
-    refused(&[GAP], &["contacts.Outer_Friction_face.gap"]);
-    // In millimetres, without saying so.
+    // The last is in millimetres, without saying so.
     let millimetres = table("x,y,z,gap", |_, _| 1e-6).replace("0.006", "6");
-    write(millimetres);
-    refused(
-        &[GAP],
-        &["no measured point of wear.csv", "in metres, in the coordinates of the mesh"],
-    );
+    for (text, said) in [
+        (table("x,y,z,gap_um", |_, _| 1.0), "give x, y, z and gap in m"),
+        (table("x,y,z", |_, _| 1.0), "contacts.Outer_Friction_face.gap"),
+        (millimetres, "no measured point of wear.csv ; in metres, in the coordinates of the mesh"),
+    ] {
+        write(text);
+        refused(&[GAP], &[said]);
+    }
     write(table("x,y,z,gap", |_, _| 1e-6));
-    let closed = [
-        GAP,
-        "contacts.Outer_Friction_face.state=closed",
-        "contacts.Inner_Friction_face.state=closed",
-    ];
-    refused(&closed, &["closed and free of stress", "leave one of the two out"]);
+    let closed = ["Outer", "Inner"].map(|pad| format!("contacts.{pad}_Friction_face.state=closed"));
+    refused(
+        &[GAP, &closed[0], &closed[1]],
+        &["closed and free of stress", "leave one of the two out"],
+    );
 }

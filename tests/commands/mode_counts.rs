@@ -1,6 +1,8 @@
 //! `cea.count_modes` as a user meets it.
 
+use crate::mesh_text::{Listed, mesh_text};
 use crate::prelude::*;
+use std::collections::BTreeSet;
 
 fn counted(case: &str, sets: &[&str], code: i32) -> (Answer, tempfile::TempDir) {
     let folder = folder();
@@ -91,38 +93,32 @@ fn branches_that_hardly_grow_are_told_from_squeal() {
     assert!(damped.contains("0 unstable") && !damped.contains("hardly grow"), "{damped}");
 }
 
-/// A mesh of Gmsh: squares of 6 mm, an upright of 3 x 7 on the end of a foot of 10 x 2, whose lower edge is `sole` and whose upper end `top`.
-fn jaw() -> String {
-    let at = |i: usize, j: usize| 100 * j + i + 1;
+/// Squares of 6 mm, an upright of 3 x 7 on the end of a foot of 10 x 2, whose lower edge is `sole` and whose upper end `top`.
+fn jaw() -> Vec<u8> {
+    let at = |i: usize, j: usize| 100 * j + i;
     let squares = (0..10).flat_map(|i| (0..7).map(move |j| (i, j)));
     let squares: Vec<(usize, usize)> = squares.filter(|&(i, j)| i < 3 || j < 2).collect();
     let corners =
-        |&(i, j): &(usize, usize)| [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
-    let nodes: std::collections::BTreeSet<usize> = squares.iter().flat_map(corners).collect();
-    let node = |n: &usize| format!("{n} {} {} 0\n", 6 * ((n - 1) % 100), 6 * ((n - 1) / 100));
-    let lines = (0..10).map(|i| (1, at(i, 0), at(i + 1, 0)));
-    let lines = lines.chain((0..3).map(|i| (2, at(i, 7), at(i + 1, 7))));
-    let lines = lines.map(|(tag, a, b)| format!("1 2 {tag} {tag} {a} {b}\n"));
-    let faces =
-        squares.iter().map(corners).map(|[a, b, c, d]| format!("3 2 3 3 {a} {b} {c} {d}\n"));
-    let elements: Vec<String> = lines.chain(faces).collect();
-    let numbered = elements.iter().enumerate().map(|(e, element)| format!("{} {element}", e + 1));
-    format!(
-        "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n3\n1 1 \"sole\"\n1 2 \"top\"\n\
-        2 3 \"jaw\"\n\
-         $EndPhysicalNames\n$Nodes\n{}\n{}$EndNodes\n$Elements\n{}\n{}$EndElements\n",
-        nodes.len(),
-        nodes.iter().map(node).collect::<String>(),
-        elements.len(),
-        numbered.collect::<String>(),
-    )
+        |&(i, j): &(usize, usize)| vec![at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
+    let places: BTreeSet<usize> = squares.iter().flat_map(corners).collect();
+    let places: Vec<usize> = places.into_iter().collect();
+    let point = |at: &usize| [6.0 * (at % 100) as f64, 6.0 * (at / 100) as f64, 0.0];
+    let points: Vec<[f64; 3]> = places.iter().map(point).collect();
+    let sole = (0..10).map(|i| (1, 0, vec![at(i, 0), at(i + 1, 0)]));
+    let top = (0..3).map(|i| (1, 1, vec![at(i, 7), at(i + 1, 7)]));
+    let faces = squares.iter().map(|square| (3, 2, corners(square)));
+    let number = |place: usize| places.binary_search(&place).unwrap();
+    let elements: Vec<Listed> = (sole.chain(top).chain(faces))
+        .map(|(kind, group, nodes)| (kind, group, nodes.into_iter().map(number).collect()))
+        .collect();
+    mesh_text(&points, &[(1, "sole"), (1, "top"), (2, "jaw")], &elements)
 }
 
 /// Near jamming the forces of a jaw that stands on its last contact node rise steeply, and the terms of its matrices cancel each other.
 /// Modes keep what rounding leaves of them: those of the friction value alone, to the share by which forces are known.
 #[test]
 fn modes_near_jamming_are_listed_as_far_as_rounding_lets_them() {
-    let folder = folder_with(&[("jaw.msh", jaw().as_bytes())]);
+    let folder = folder_with(&[("jaw.msh", &jaw())]);
     let case = "[mesh]\nfile = \"jaw.msh\"\nunits = \"mm-t-s\"\n\
         [material]\nyoung_modulus = 2.1e11\npoisson_ratio = 0.3\ndensity = 7850.0\n\
         [boundaries.top]\ncondition = \"support\"\nnormal_stiffness = 1e12\n\
@@ -133,9 +129,7 @@ fn modes_near_jamming_are_listed_as_far_as_rounding_lets_them() {
     let frequencies = |values: &str| -> Vec<f64> {
         let run = Run::of_text("cea", folder.path(), case).out(folder.path().join(values));
         let run = run.set(&[format!("cea.friction_coefficients=[{values}]")]);
-        let rows = run.end().code(0).rows("eigenvalues.csv").into_iter();
-        let rows = rows.map(|row| row.numbers(["friction_coefficient", "frequency_hz"]));
-        rows.filter(|[friction, _]| *friction == 0.33).map(|[_, frequency]| frequency).collect()
+        run.end().code(0).modes("0.33").into_iter().map(|[frequency, _]| frequency).collect()
     };
     let (alone, beside) = (frequencies("0.33"), frequencies("0.2, 0.33"));
     assert_eq!(beside.len(), alone.len());

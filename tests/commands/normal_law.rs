@@ -11,16 +11,12 @@ fn run(command: &str, case: &Path, out: &Path, set: &[&str]) -> Answer {
 
 #[test]
 fn plane_and_solid_discs_and_basins_take_a_law() {
-    let read = |text: &str, set: &[&str]| {
-        let set: Vec<String> = set.iter().map(|&text| text.to_owned()).collect();
-        Case::parse("disc.toml", text.as_bytes(), &set).unwrap()
-    };
-    read(DISC, &[]);
+    case_of("disc.toml", DISC, AS_IT_IS);
     let solid = DISC
         .replace("plane-strain", "three-dimensional")
         .replace("[mesh]", "thickness = 0.009\n[mesh]\naxial_elements = 2");
-    read(&solid, &[]);
-    let basin = read(DISC, &["basin={}", "cycle={}"]);
+    case_of("disc.toml", &solid, AS_IT_IS);
+    let basin = case_of("disc.toml", DISC, &["basin={}", "cycle={}"]);
     assert!(!basin.has_rotating_waves());
     assert!(basin.require_basin().is_ok());
 }

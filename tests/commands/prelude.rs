@@ -3,8 +3,8 @@
 pub use crate::bricks::{Block, brick, file_of};
 pub use crate::cases::{AS_IT_IS, case_of, read_case, shipped_case};
 pub use crate::coarse_block::coarse_block;
-pub use crate::coarse_disc::coarse_disc;
-pub use crate::program::{Answer, Run, folder, folder_with, has, shipped};
+pub use crate::coarse_disc::{coarse_disc, disc_of};
+pub use crate::program::{Answer, Run, folder, folder_with, has, names_in, shipped};
 pub use crate::tier::sized;
 pub use faer::c64;
 pub use frictionsim::case::{Case, KEYS};

@@ -120,8 +120,7 @@ const RUBBER: &str = "frequency_hz,young_modulus,loss_factor\n\
 /// harmonic. The part makes top and bottom differ.
 #[test]
 fn losses_of_a_body_of_revolution_are_those_of_its_whole_mesh() {
-    let folder = folder();
-    fs::write(folder.path().join("rubber.csv"), RUBBER).unwrap();
+    let folder = folder_with(&[("rubber.csv", RUBBER.as_bytes())]);
     let lossy_ring = RING[0].replace("young", "loss_factor=0.2,young");
     let rubber_ring = RING[0].replace("young_modulus=2e11", "table=\"rubber.csv\"");
     for (name, sets) in [

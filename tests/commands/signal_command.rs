@@ -2,11 +2,9 @@
 
 use crate::prelude::*;
 
-const CASE: &str = "[geometry]\ninner_radius = 0.0205\nouter_radius = 0.0905
-[mesh]\ncircumferential_elements = 90\nradial_elements = 18
-[material]\nyoung_modulus = 2.5e9\npoisson_ratio = 0.3805\ndensity = 1228.0
-[damping]\nmass_coefficient = 40.0\nstiffness_coefficient = 4.5e-7
-[contact]\nfriction_coefficient = 0.3\ninterference = 25e-6\nrotation_speed_rpm = 610.0\n";
+fn disc() -> String {
+    disc_of([90, 18], "")
+}
 
 /// Grows at 600 1/s and 9.87 kHz into a limit cycle at 9.44 kHz with superharmonics; sampled each 2 us.
 fn squeal() -> String {
@@ -28,19 +26,17 @@ fn squeal() -> String {
 
 #[test]
 fn a_squeal_is_named_by_its_mode_with_superharmonics_and_growth_rate() {
-    let folder = folder_with(&[("probe.csv", squeal().as_bytes()), ("disc.toml", CASE.as_bytes())]);
+    let folder =
+        folder_with(&[("probe.csv", squeal().as_bytes()), ("disc.toml", disc().as_bytes())]);
     let words = ["signal", "probe.csv", "--case", "disc.toml", "--json", "--quiet"];
     let summary = Run::new(&words).within(&folder).done().value();
     let channel = &summary["channels"][0];
     let main = channel["main_frequency_hz"].as_f64().unwrap();
     // 0.1 %: what the comparison of limit cycles asks for.
     assert!((main / 9440.0 - 1.0).abs() < 1e-3, "{main}");
-    let orders: Vec<u64> = channel["peaks"]
-        .as_array()
-        .unwrap()
-        .iter()
-        .filter_map(|p| p["superharmonic"]["order"].as_u64())
-        .collect();
+    let peaks = channel["peaks"].as_array().unwrap().iter();
+    let orders = peaks.filter_map(|p| p["superharmonic"]["order"].as_u64());
+    let orders: Vec<u64> = orders.collect();
     assert_eq!(orders, [2, 3]);
     let rate = channel["growth"]["rate_per_s"]["value"].as_f64().unwrap();
     assert!((rate / 600.0 - 1.0).abs() < 0.02, "{rate}");
@@ -58,7 +54,7 @@ fn a_steady_tone_beside_no_unstable_mode_is_given_none_and_can_be_heard() {
     let rows: String =
         (0..20_000).map(|k| format!("{:.7},{:.9}\n", f64::from(k) / 2.5e5, tone(k))).collect();
     let table = format!("time_s,x\n{rows}");
-    let folder = folder_with(&[("tone.csv", table.as_bytes()), ("disc.toml", CASE.as_bytes())]);
+    let folder = folder_with(&[("tone.csv", table.as_bytes()), ("disc.toml", disc().as_bytes())]);
     let run = |more: &[&str]| {
         Run::of("signal", "tone.csv").within(&folder).args(&["--case", "disc.toml"]).args(more)
     };

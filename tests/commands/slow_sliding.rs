@@ -14,22 +14,18 @@ fn spectrum(frictions: &str) -> (Vec<[f64; 2]>, String) {
     ];
     let run = Run::of("cea", shipped("operating-matrix.toml")).args(&["--unset", "sweep"]);
     let answer = run.out(folder.path()).set(&set).done();
-    let rows = answer.rows("eigenvalues.csv").into_iter();
-    let own = rows.filter(|row| row["friction_coefficient"] == "0.32");
-    let modes = own.map(|row| row.numbers(["frequency_hz", "growth_rate_per_s"]));
+    let modes = answer.modes("0.32");
     // How the input file was read is for `check` to say.
     let said = answer.said();
     assert!(!said.contains("are numbered from") && !said.contains("taken from"), "{said}");
-    (modes.collect(), said)
+    (modes, said)
 }
 
 /// Consistency check: the modes at one friction value do not depend on the values before it, through which branches end.
 #[test]
 fn modes_that_slow_sliding_overdamps_end_their_branches_and_are_said() {
     let (coarse, said) = spectrum("[0.0, 0.32]");
-    for part in ["near critical damping", "2972 Hz from friction 0 on", "mu p / V"] {
-        assert!(said.contains(part), "{part:?} is not in\n{said}");
-    }
+    has(&said, &["near critical damping ; 2972 Hz from friction 0 on ; mu p / V"]);
     let (fine, _) = spectrum("[0.0, 0.16, 0.32]");
     assert_eq!(coarse.len(), fine.len());
     assert!(coarse.len() >= 5);
@@ -69,10 +65,9 @@ fn bodies_that_creep_on_cylinders_and_balls_have_every_mode_of_a_dense_decomposi
     for (counterface, rpm) in
         [("sphere", "5000.0"), ("sphere", "10.0"), ("sphere", "0.1"), ("cylinder", "1.0")]
     {
-        let folder = folder();
         let block = Block { name: "part", origin: [0.0; 3], size: [1.0; 3], counts: [3, 3, 1] };
         let mesh = file_of(&[block], |at| bent(counterface, at));
-        std::fs::write(folder.path().join("part.msh"), mesh).unwrap();
+        let folder = folder_with(&[("part.msh", &mesh)]);
         let text = format!(
             "[mesh]\nfile = \"part.msh\"\n[boundaries.part_z1]\ncondition = \"clamped\"
 [material]\nyoung_modulus = 2.5e9\npoisson_ratio = 0.38\ndensity = 1228.0
@@ -82,10 +77,7 @@ interference = 2e-5\nrotation_speed_rpm = {rpm}\n[cea]\nfriction_coefficients = 
         );
         let run = |command| Run::of_text(command, folder.path(), &text).out(command);
         let answer = run("cea").done().says(&["mu p / V", "!not converged"]);
-        let rows = answer.rows("eigenvalues.csv").into_iter();
-        let own = rows.filter(|row| row["friction_coefficient"] == "0.3");
-        let own = own.map(|row| row.numbers(["frequency_hz", "growth_rate_per_s"]));
-        let own: Vec<[f64; 2]> = own.collect();
+        let own = answer.modes("0.3");
         assert_eq!(own.len(), 6, "{}", answer.said());
         let matrices = run("matrices").args(&["--friction", "0.3"]).done().out;
         let all = dense(&matrices);

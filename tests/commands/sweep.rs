@@ -282,8 +282,7 @@ fn the_operating_matrix_lists_every_unstable_mode_and_reversed_rotation_mirrors_
     let sections = "[cea]\nmodes = 8\nfriction_coefficients = [0.1, 0.3]\n[sweep]\nanalyses = [\"cea\"]\n\
         \"contact.rotation_speed_rpm\" = [-610.0, 610.0]\n\
         \"material.young_modulus\" = [2.5e9, 5e9]\n";
-    let folder = folder();
-    std::fs::write(folder.path().join("case.toml"), coarse_disc(sections)).unwrap();
+    let folder = folder_with(&[("case.toml", coarse_disc(sections).as_bytes())]);
     let run = Run::new(&["sweep", "case.toml"]).within(&folder).out("out");
     let answer = run.done().says(&["of 8 operating conditions (4 points)"]);
 
@@ -317,10 +316,7 @@ fn the_operating_matrix_lists_every_unstable_mode_and_reversed_rotation_mirrors_
     }
 
     // The figure has a panel for each direction, the report its table.
-    let html = answer.text("report.html");
-    for text in ["unstable_modes.csv", "forward, speed", "reverse, speed"] {
-        assert!(html.contains(text), "{text}");
-    }
+    has(&answer.text("report.html"), &["unstable_modes.csv", "forward, speed", "reverse, speed"]);
     assert!(answer.path("figures/operating-matrix.png").exists());
 }
 
@@ -346,8 +342,7 @@ fn keys_of_one_short_name_have_heads_of_their_own() {
         tangential_stiffness = 1e12\n[cea]\nmodes = 8\nfriction_coefficients = [0.3]\n\
         [sweep]\nanalyses = [\"cea\"]\n\
         \"contact.normal_stiffness\" = { values = [1e12, 1e13], also = \"boundaries.outer.normal_stiffness\" }\n";
-    let folder = folder();
-    std::fs::write(folder.path().join("case.toml"), coarse_disc(sections)).unwrap();
+    let folder = folder_with(&[("case.toml", coarse_disc(sections).as_bytes())]);
     let run = Run::new(&["sweep", "case.toml", "--format", "svg"]).within(&folder).out("out");
     let keys = ["contact.normal_stiffness", "boundaries.outer.normal_stiffness"];
     let answer = run.done().says(&keys);

@@ -1,11 +1,11 @@
 //! What each analysis is held to.
 
-use super::{Answer, Bench, Cell};
+use super::{Answer, Bench, Cell, Verdict};
 use crate::prelude::*;
 use crate::program::rows;
 
 /// A cell of the table: the body's bench, and that of the same body described otherwise.
-type Check = fn(&Bench, Option<&Bench>) -> Cell;
+type Check = fn(&Bench, Option<&Bench>) -> Verdict;
 
 pub const ALL: &[(&str, Check)] = &[
     ("`check`", check),
@@ -30,33 +30,18 @@ pub const ALL: &[(&str, Check)] = &[
 ];
 
 /// Goes on with a run that is done; a refusal is the cell.
-macro_rules! done {
-    ($answer:expr) => {
-        match $answer {
-            Answer::Done(summary, folder) => (summary, folder),
-            Answer::Refused(reason) => return Cell::Refused(reason),
-        }
-    };
+fn done(answer: Answer) -> Result<(Value, PathBuf), Cell> {
+    answer.map_err(Cell::Refused)
 }
 
 /// The same for a run that another one of this body needs, which must not be refused.
-macro_rules! needed {
-    ($answer:expr) => {
-        match $answer {
-            Answer::Done(summary, folder) => (summary, folder),
-            Answer::Refused(reason) => {
-                return Cell::Wrong(format!("its reference is refused: {reason}"))
-            }
-        }
-    };
+fn needed(answer: Answer) -> Result<(Value, PathBuf), Cell> {
+    answer.map_err(|reason| Cell::Wrong(format!("its reference is refused: {reason}")))
 }
 
 /// Right where `holds`, else wrong with what was found.
-fn verdict(holds: bool, found: impl FnOnce() -> String) -> Cell {
-    match holds {
-        true => Cell::Right,
-        false => Cell::Wrong(found()),
-    }
+fn verdict(holds: bool, found: impl FnOnce() -> String) -> Verdict {
+    if holds { Ok(()) } else { Err(Cell::Wrong(found())) }
 }
 
 fn is_close(a: f64, b: f64, tolerance: f64) -> bool {
@@ -75,13 +60,13 @@ fn spectrum(folder: &Path) -> Vec<[f64; 2]> {
 }
 
 /// Whether every mode of `a` below the last of both has its like in `b`: to `tolerance` of the circular frequency.
-fn agree(a: &[[f64; 2]], b: &[[f64; 2]], tolerance: f64) -> Cell {
+fn agree(a: &[[f64; 2]], b: &[[f64; 2]], tolerance: f64) -> Verdict {
     let highest = |modes: &[[f64; 2]]| modes.last().map_or(0.0, |mode| mode[0]);
     let limit = highest(a).min(highest(b)) * (1.0 - 1e-6);
     let below = |modes: &[[f64; 2]]| modes.iter().filter(|mode| mode[0] < limit).count();
-    if below(a) == 0 || below(a) != below(b) {
-        return Cell::Wrong(format!("{} modes beside {}: {a:?}, {b:?}", below(a), below(b)));
-    }
+    verdict(below(a) > 0 && below(a) == below(b), || {
+        format!("{} modes beside {}: {a:?}, {b:?}", below(a), below(b))
+    })?;
     let distance =
         |p: &[f64; 2], q: &[f64; 2]| (TAU * (p[0] - q[0])).hypot(p[1] - q[1]) / (TAU * p[0]);
     let worst = a
@@ -102,40 +87,38 @@ fn lowest_onset(summary: &Value) -> Option<f64> {
     onsets.min_by(f64::total_cmp)
 }
 
-fn check(bench: &Bench, _: Option<&Bench>) -> Cell {
-    done!(bench.run("check", &[]));
-    Cell::Right
+fn check(bench: &Bench, _: Option<&Bench>) -> Verdict {
+    done(bench.run("check", &[]))?;
+    Ok(())
 }
 
-fn mesh(bench: &Bench, twin: Option<&Bench>) -> Cell {
-    let (own, _) = done!(bench.run("mesh", &[]));
+fn mesh(bench: &Bench, twin: Option<&Bench>) -> Verdict {
+    let (own, _) = done(bench.run("mesh", &[]))?;
     let area = own["mesh"]["area_m2"].as_f64().or(own["mesh"]["volume_m3"].as_f64());
     let Some(twin) = twin else {
         return verdict(area.is_some_and(|area| area > 0.0), || format!("{}", own["mesh"]));
     };
-    let (other, _) = needed!(twin.run("mesh", &[]));
+    let (other, _) = needed(twin.run("mesh", &[]))?;
     let (area, other) = (area.unwrap(), other["mesh"]["area_m2"].as_f64().unwrap());
     verdict(is_close(area, other, 1e-12), || format!("area {area} and {other}"))
 }
 
 /// Against the other description of the body, else against a full solution's residual.
-fn cea(bench: &Bench, twin: Option<&Bench>) -> Cell {
-    let (summary, own) = done!(bench.run("cea", &[]));
+fn cea(bench: &Bench, twin: Option<&Bench>) -> Verdict {
+    let (summary, own) = done(bench.run("cea", &[]))?;
     let residual = summary["largest_residual"].as_f64().unwrap();
-    if residual > 1e-8 {
-        return Cell::Wrong(format!("residual {residual:e}"));
-    }
+    verdict(residual <= 1e-8, || format!("residual {residual:e}"))?;
     let Some(twin) = twin else {
-        return Cell::Right;
+        return Ok(());
     };
-    let (_, other) = needed!(twin.run("cea", &[]));
+    let (_, other) = needed(twin.run("cea", &[]))?;
     agree(&spectrum(&own), &spectrum(&other), 1e-8)
 }
 
-fn by_method(bench: &Bench, method: &str) -> Cell {
+fn by_method(bench: &Bench, method: &str) -> Verdict {
     let method = format!("cea.method=\"{method}\"");
-    let (_, own) = done!(bench.run("cea", &[&method, ALONE]));
-    let (_, other) = needed!(bench.run("cea", &[]));
+    let (_, own) = done(bench.run("cea", &[&method, ALONE]))?;
+    let (_, other) = needed(bench.run("cea", &[]))?;
     agree(&spectrum(&own), &spectrum(&other), 1e-8)
 }
 
@@ -143,10 +126,10 @@ fn by_method(bench: &Bench, method: &str) -> Cell {
 const SMALL_CHANGE: f64 = 1e-6;
 
 /// The derivative by Young's modulus is the difference of two analyses.
-fn sensitivities(bench: &Bench, _: Option<&Bench>) -> Cell {
-    let (_, folder) = done!(bench.run("cea", &["cea.sensitivities=true", ALONE]));
+fn sensitivities(bench: &Bench, _: Option<&Bench>) -> Verdict {
+    let (_, folder) = done(bench.run("cea", &["cea.sensitivities=true", ALONE]))?;
     if !folder.join("sensitivities.csv").exists() {
-        return Cell::Refused("not computed for this body yet".to_owned());
+        return Err(Cell::Refused("not computed for this body yet".to_owned()));
     }
     let table = rows(&folder.join("sensitivities.csv"));
     let of = |name: &str| -> Vec<f64> { table.iter().map(|row| row.number(name)).collect() };
@@ -167,7 +150,7 @@ fn sensitivities(bench: &Bench, _: Option<&Bench>) -> Cell {
     };
     let step = SMALL_CHANGE * value;
     let at = |value: f64| bench.run("cea", &[&format!("material.{name}={value:?}"), ALONE]);
-    let ((_, low), (_, high)) = (needed!(at(value - step)), needed!(at(value + step)));
+    let ((_, low), (_, high)) = (needed(at(value - step))?, needed(at(value + step))?);
     let (low, high) = (spectrum(&low), spectrum(&high));
     // Both waves of a pair have nearly one frequency: the growth rate tells them apart.
     let distance = |mode: &[f64; 2], [frequency, growth]: [f64; 2]| {
@@ -184,34 +167,27 @@ fn sensitivities(bench: &Bench, _: Option<&Bench>) -> Cell {
         own.iter().filter(|mode| distance(mode, place) < 1.0).count() == 1
     };
     let alone: Vec<usize> = (0..frequencies.len()).filter(is_alone).take(4).collect();
-    if alone.is_empty() {
-        return Cell::Wrong("no mode stands alone".to_owned());
-    }
+    verdict(!alone.is_empty(), || "no mode stands alone".to_owned())?;
     for i in alone {
         let at = |share: f64| {
             [frequencies[i] + share * step * slopes[0][i], growths[i] + share * step * slopes[1][i]]
         };
         let change = 2.0 * step * slopes[0][i];
         let difference = nearest(&high, at(1.0)) - nearest(&low, at(-1.0));
-        if (difference - change).abs() > 1e-3 * frequencies[i] * SMALL_CHANGE {
-            return Cell::Wrong(format!(
-                "{} Hz: {change} expected, {difference} found",
-                frequencies[i]
-            ));
-        }
+        verdict((difference - change).abs() <= 1e-3 * frequencies[i] * SMALL_CHANGE, || {
+            format!("{} Hz: {change} expected, {difference} found", frequencies[i])
+        })?;
     }
-    Cell::Right
+    Ok(())
 }
 
 /// Energy closes, and both operators tell the same.
-fn transient(bench: &Bench, operator: &str) -> Cell {
+fn transient(bench: &Bench, operator: &str) -> Verdict {
     let operator = format!("transient.operator=\"{operator}\"");
-    let (own, folder) = done!(bench.run("transient", &[&operator]));
+    let (own, folder) = done(bench.run("transient", &[&operator]))?;
     let residual = own["max_balance_residual"].as_f64().unwrap();
-    if residual > 1e-10 {
-        return Cell::Wrong(format!("energy balance {residual:e}"));
-    }
-    let (_, other) = needed!(bench.run("transient", &[]));
+    verdict(residual <= 1e-10, || format!("energy balance {residual:e}"))?;
+    let (_, other) = needed(bench.run("transient", &[]))?;
     let strain = |folder: &Path| *column(folder, "energy.csv", "strain_j").last().unwrap();
     let (own, other) = (strain(&folder), strain(&other));
     verdict(is_close(own, other, 1e-8), || format!("strain energy {own} and {other}"))
@@ -240,23 +216,23 @@ fn magnitudes(folder: &Path) -> Vec<f64> {
 }
 
 /// Force and response change places without a change (Maxwell and Betti).
-fn reciprocal(bench: &Bench, boundary: &str) -> Cell {
-    let (_, there) = done!(response(bench, boundary, PLACES, "auto"));
-    let (_, back) = needed!(response(bench, boundary, [PLACES[1], PLACES[0]], "auto"));
+fn reciprocal(bench: &Bench, boundary: &str) -> Verdict {
+    let (_, there) = done(response(bench, boundary, PLACES, "auto"))?;
+    let (_, back) = needed(response(bench, boundary, [PLACES[1], PLACES[0]], "auto"))?;
     let (there, back) = (magnitudes(&there), magnitudes(&back));
     let same = there.iter().zip(&back).all(|(a, b)| is_close(*a, *b, 1e-7));
     verdict(same, || format!("{there:?} there, {back:?} back"))
 }
 
 /// In sliding contact friction breaks the symmetry: the twin or the direct solution is the other route.
-fn frf_sliding(bench: &Bench, twin: Option<&Bench>) -> Cell {
-    let (_, own) = done!(response(bench, "sliding", PLACES, "auto"));
+fn frf_sliding(bench: &Bench, twin: Option<&Bench>) -> Verdict {
+    let (_, own) = done(response(bench, "sliding", PLACES, "auto"))?;
     let (_, other) = match twin {
-        Some(twin) => needed!(response(twin, "sliding", PLACES, "auto")),
+        Some(twin) => needed(response(twin, "sliding", PLACES, "auto"))?,
+        // Bodies of revolution have no direct solution of the whole body.
         None => match response(bench, "sliding", PLACES, "direct") {
-            Answer::Done(summary, folder) => (summary, folder),
-            // Bodies of revolution have no direct solution of the whole body.
-            Answer::Refused(_) => needed!(response(bench, "sliding", PLACES, "cyclic")),
+            Err(_) => needed(response(bench, "sliding", PLACES, "cyclic"))?,
+            found => needed(found)?,
         },
     };
     let (own, other) = (magnitudes(&own), magnitudes(&other));
@@ -266,27 +242,23 @@ fn frf_sliding(bench: &Bench, twin: Option<&Bench>) -> Cell {
 
 /// Energy closes over the period; of motions of a whole mesh a transient stays on what is stable, and where nothing grows `cea`
 /// knows no mode that does.
-fn cycle(bench: &Bench, _: Option<&Bench>) -> Cell {
+fn cycle(bench: &Bench, _: Option<&Bench>) -> Verdict {
     // The wave of the lowest onset may be none on a mesh as coarse as this one: others are.
     let lowest = "cycle={harmonics=[2],onsets=\"lowest\"}";
     let answer = match bench.run("cycle", &[lowest]) {
-        Answer::Refused(reason) if reason.starts_with("no limit cycle found") => {
+        Err(reason) if reason.starts_with("no limit cycle found") => {
             bench.run("cycle", &["cycle={harmonics=[1]}"])
         }
         answer => answer,
     };
-    let (summary, _) = done!(answer);
+    let (summary, _) = done(answer)?;
     let (text, own) = (summary.to_string(), &summary["cycles"][0]);
     if own["mode"].is_null() && !own.is_null() {
         return verdict(text.contains("balance_residual"), || text.clone());
     }
     if summary["steady_sliding_stable"] == true {
-        let lumped = [
-            "cea.friction_coefficients=[0.3]",
-            "cea.mass=\"lumped\"",
-            "cea.geometric_stiffness=false",
-        ];
-        let (_, folder) = needed!(bench.run("cea", &lumped));
+        let lumped = [ALONE, "cea.mass=\"lumped\"", "cea.geometric_stiffness=false"];
+        let (_, folder) = needed(bench.run("cea", &lumped))?;
         let growth = column(&folder, "eigenvalues.csv", "growth_rate_per_s");
         return verdict(growth.iter().all(|rate| *rate <= 0.0), || text.clone());
     }
@@ -296,18 +268,16 @@ fn cycle(bench: &Bench, _: Option<&Bench>) -> Cell {
 }
 
 /// The bounds of the boundary hold it between them.
-fn basin(bench: &Bench, _: Option<&Bench>) -> Cell {
-    let request =
-        "basin={harmonics=[1,2],seed_ratio_from=0.5,seed_ratio_to=2.0,tolerance=3.0,periods=50}";
-    let answer = match bench.run("basin", &[request]) {
+fn basin(bench: &Bench, _: Option<&Bench>) -> Verdict {
+    let request = "seed_ratio_from=0.5,seed_ratio_to=2.0,tolerance=3.0,periods=50}";
+    let answer = match bench.run("basin", &[&format!("basin={{harmonics=[1,2],{request}")]) {
         // Of a body without rotating waves two modes compete, or one with steady sliding.
-        Answer::Refused(reason) if reason.starts_with("basin.harmonics is not used") => {
-            let request = "basin={seed_ratio_from=0.5,seed_ratio_to=2.0,tolerance=3.0,periods=50}";
-            bench.run("basin", &[request])
+        Err(reason) if reason.starts_with("basin.harmonics is not used") => {
+            bench.run("basin", &[&format!("basin={{{request}")])
         }
         answer => answer,
     };
-    let (summary, _) = done!(answer);
+    let (summary, _) = done(answer)?;
     verdict(is_boundary(&summary), || summary.to_string())
 }
 
@@ -353,10 +323,10 @@ fn is_boundary(summary: &Value) -> bool {
 }
 
 /// A point of the sweep is the analysis alone.
-fn sweep(bench: &Bench, _: Option<&Bench>) -> Cell {
+fn sweep(bench: &Bench, _: Option<&Bench>) -> Verdict {
     let sweep = "sweep={\"damping.stiffness_coefficient\"=[3e-7,4.5e-7],analyses=[\"cea\"]}";
-    let (_, folder) = done!(bench.run("sweep", &[&[sweep], &FEW[..]].concat()));
-    let (alone, _) = needed!(bench.run("cea", &FEW));
+    let (_, folder) = done(bench.run("sweep", &[&[sweep], &FEW[..]].concat()))?;
+    let (alone, _) = needed(bench.run("cea", &FEW))?;
     let modes = column(&folder, "points.csv", "modes");
     let residual = column(&folder, "points.csv", "largest_residual");
     let own = [alone["modes"].as_f64().unwrap(), alone["largest_residual"].as_f64().unwrap()];
@@ -366,8 +336,8 @@ fn sweep(bench: &Bench, _: Option<&Bench>) -> Cell {
 }
 
 /// Fitted to its own frequencies, in the digits that a measurement has, the body gives its modulus back.
-fn fit(bench: &Bench, _: Option<&Bench>) -> Cell {
-    let (_, folder) = needed!(bench.run("cea", &[]));
+fn fit(bench: &Bench, _: Option<&Bench>) -> Verdict {
+    let (_, folder) = needed(bench.run("cea", &[]))?;
     let modes = spectrum(&folder);
     let lines: Vec<String> = modes.iter().take(3).map(|mode| format!("{:.3}\n", mode[0])).collect();
     let lines = bench.write("lines.csv", &format!("frequency_hz\n{}", lines.concat()));
@@ -375,19 +345,19 @@ fn fit(bench: &Bench, _: Option<&Bench>) -> Cell {
         "fit={starts=1,parameters={\"material.young_modulus\"=[2.48e9,2.52e9]}}",
         "material.young_modulus=2.499e9",
     ];
-    let (summary, _) = done!(bench.run_with("fit", &overrides, &[&lines]));
+    let (summary, _) = done(bench.run_with("fit", &overrides, &[&lines]))?;
     let value = summary["parameters"]["material.young_modulus"]["value"].as_f64().unwrap();
     verdict(is_close(value, 2.5e9, 1e-4), || format!("modulus {value}"))
 }
 
 /// Where next to nothing is uncertain the lowest critical friction is that of the analysis.
-fn uncertainty(bench: &Bench, _: Option<&Bench>) -> Cell {
+fn uncertainty(bench: &Bench, _: Option<&Bench>) -> Verdict {
     let overrides = [
         "uncertainty={samples=2,index_samples=0,seed=1}",
         "uncertainty.distributions={\"damping.stiffness_coefficient\"={uniform=[4.4999999e-7,4.5000001e-7]}}",
     ];
-    let (summary, _) = done!(bench.run("uncertainty", &overrides));
-    let (alone, _) = needed!(bench.run("cea", &[]));
+    let (summary, _) = done(bench.run("uncertainty", &overrides))?;
+    let (alone, _) = needed(bench.run("cea", &[]))?;
     let (own, single) = (summary["critical_friction"]["median"].as_f64(), lowest_onset(&alone));
     let none = summary["critical_friction"]["without_onset"].as_f64();
     match single {
@@ -399,35 +369,28 @@ fn uncertainty(bench: &Bench, _: Option<&Bench>) -> Cell {
 }
 
 /// The frequencies of the coarsest mesh are those of the analysis.
-fn convergence(bench: &Bench, _: Option<&Bench>) -> Cell {
+fn convergence(bench: &Bench, _: Option<&Bench>) -> Verdict {
     let factors = "convergence={factors=[1,2,4],analyses=[\"cea\"]}";
-    let (_, folder) = done!(bench.run("convergence", &[&[factors], &FEW[..]].concat()));
-    let (_, alone) = needed!(bench.run("cea", &FEW));
+    let (_, folder) = done(bench.run("convergence", &[&[factors], &FEW[..]].concat()))?;
+    let (_, alone) = needed(bench.run("cea", &FEW))?;
     let values = column(&folder, "convergence.csv", "value");
     let lowest = spectrum(&alone)[0][0];
     let found = values.iter().any(|value| is_close(*value, lowest, 1e-9));
     verdict(found, || format!("{lowest} is not among {values:?}"))
 }
 
-fn plot(bench: &Bench, _: Option<&Bench>) -> Cell {
-    let (_, folder) =
-        needed!(bench.run_drawn("cea", &["cea.friction_coefficients=[0.0,0.3]", "cea.modes=2"]));
-    match bench.redraw(&folder) {
-        Ok(()) => {
-            verdict(folder.join("locus.svg").exists() || folder.join("figures").exists(), || {
-                "no figure is drawn".to_owned()
-            })
-        }
-        Err(reason) => Cell::Refused(reason),
-    }
+fn plot(bench: &Bench, _: Option<&Bench>) -> Verdict {
+    let few = ["cea.friction_coefficients=[0.0,0.3]", "cea.modes=2"];
+    let (_, folder) = needed(bench.run_drawn("cea", &few))?;
+    bench.redraw(&folder).map_err(Cell::Refused)?;
+    let is_drawn = folder.join("locus.svg").exists() || folder.join("figures").exists();
+    verdict(is_drawn, || "no figure is drawn".to_owned())
 }
 
-fn compare(bench: &Bench, _: Option<&Bench>) -> Cell {
-    let runs = [bench.run("cea", &FEW), bench.run_with("cea", &FEW, &[])];
-    let [Answer::Done(_, a), Answer::Done(_, b)] = runs else {
-        return Cell::Wrong("cea is refused".to_owned());
-    };
-    let (summary, _) = done!(bench.run_on("compare", &[&a, &b], &[]));
+fn compare(bench: &Bench, _: Option<&Bench>) -> Verdict {
+    let [(_, a), (_, b)] =
+        [needed(bench.run("cea", &FEW))?, needed(bench.run_with("cea", &FEW, &[]))?];
+    let (summary, _) = done(bench.run_on("compare", &[&a, &b], &[], "--no-figures"))?;
     let quantities = summary["quantities"].as_array().unwrap().iter();
     let same =
         quantities.filter(|q| q["path"] != "wall_s").all(|q| q["values"][0] == q["values"][1]);

@@ -9,10 +9,8 @@ const SPEED: &str = "contact.decay_speed=0.2";
 
 #[test]
 fn both_keys_make_a_falling_law_and_a_ratio_of_one_a_constant_one() {
-    assert_eq!(
-        valid(DISC, &[RATIO, SPEED]).contact.sliding.decay,
-        Some(FrictionDecay { static_ratio: 1.4, decay_speed: 0.2 })
-    );
+    let falling = FrictionDecay { static_ratio: 1.4, decay_speed: 0.2 };
+    assert_eq!(valid(DISC, &[RATIO, SPEED]).contact.sliding.decay, Some(falling));
     let constant = ["contact.static_friction_ratio=1.0", SPEED];
     assert_eq!(valid(DISC, &constant).contact, valid(DISC, &[]).contact);
 }

@@ -99,8 +99,7 @@ fn the_cost_of_studies_counts_every_run() {
 fn the_cost_of_a_solid_case_is_that_of_its_run() {
     let block = Block { name: "block", origin: [0.0; 3], size: [1.0; 3], counts: [4, 4, 3] };
     let place = |[x, y, z]: [f64; 3]| [0.08 * x, 0.07 * y, 0.06 * z];
-    let folder = folder();
-    std::fs::write(folder.path().join("block.msh"), file_of_order(&[block], 2, place)).unwrap();
+    let folder = folder_with(&[("block.msh", &file_of_order(&[block], 2, place))]);
     let text = "[mesh]\nfile = \"block.msh\"\n[boundaries.block_z1]\ncondition = \"clamped\"
 [material]\nyoung_modulus = 5e9\npoisson_ratio = 0.4\ndensity = 1100.0
 [contact]\nboundary = \"block_z0\"\ncounterface = \"plane\"\ndirection = [1.0, 0.0, 0.0]
