@@ -38,10 +38,8 @@ fn every_form_of_the_file_reads_to_one_mesh() {
             assert_eq!(*file, read[0], "{element:?}");
         }
         let body = imported(&write_msh(&mesh, FORMS[0], &[], |p| p), 1.0);
-        assert_eq!(
-            (body.node_count(), body.element_count()),
-            (mesh.node_count(), mesh.element_count())
-        );
+        let counts = |mesh: &Mesh| (mesh.node_count(), mesh.element_count());
+        assert_eq!(counts(&body), counts(&mesh));
         let length: f64 = body.contact_edge().tributary_lengths.iter().sum();
         let expected: f64 = mesh.contact_edge().tributary_lengths.iter().sum();
         assert!((length / expected - 1.0).abs() < 1e-5);
@@ -194,8 +192,8 @@ fn a_block_on_an_elastic_mounting_lifts_a_corner_as_friction_rises() {
     let mut open = Vec::new();
     for (friction, &k) in frictions.iter().zip(&range.state_of) {
         let state = &range.states[k];
-        let (forces, displacement) =
-            (state.normal_forces(*friction), state.displacement(*friction));
+        let forces = state.normal_forces(*friction);
+        let displacement = state.displacement(*friction);
         let total: f64 = forces.iter().sum();
         for (i, force) in forces.iter().enumerate() {
             let gap = displacement[state.interface.normal_dof(i)] - 1e-5;
@@ -223,19 +221,10 @@ fn a_body_without_symmetry_grows_in_time_as_its_eigenvalue_says() {
     let contact = contact(610.0);
     let found = modes(&body, &options(MassKind::Lumped, false), &contact);
     let exact = found.iter().max_by(|a, b| a.growth_rate().total_cmp(&b.growth_rate())).unwrap();
-    let model = TransientModel::new(
-        SteppedBody::Plane { mesh: &body, annulus: None },
-        &POLYCARBONATE,
-        DAMPING,
-        contact,
-    );
-    let settings = transient_settings(
-        0.03,
-        4e-6,
-        0.0,
-        InitialState::SteadySliding,
-        Perturbation::of(&[1, 2], 1e-12),
-    );
+    let stepped = SteppedBody::Plane { mesh: &body, annulus: None };
+    let model = TransientModel::new(stepped, &POLYCARBONATE, DAMPING, contact);
+    let seed = Perturbation::of(&[1, 2], 1e-12);
+    let settings = transient_settings(0.03, 4e-6, 0.0, InitialState::SteadySliding, seed);
     let (mut record, residual) = recorded(model, OperatorChoice::Auto, &settings);
     assert!(residual < 1e-10);
     // The second half of the linear stage, where the fastest mode is alone.
@@ -251,12 +240,9 @@ fn energy_closes_with_supports_pressure_and_partial_contact() {
     specification.conditions[0].1 =
         BoundaryCondition::Support(springs([1e11, 1e10, 0.0], [3e4, 1e4]));
     let mesh = Mesh::from_gmsh(&file, &specification).unwrap();
-    let model = TransientModel::new(
-        SteppedBody::Plane { mesh: &mesh, annulus: None },
-        &POLYCARBONATE,
-        RayleighDamping { mass_coefficient: 40.0, stiffness_coefficient: 1e-7 },
-        plane(0.5),
-    );
+    let body = SteppedBody::Plane { mesh: &mesh, annulus: None };
+    let damping = RayleighDamping { mass_coefficient: 40.0, stiffness_coefficient: 1e-7 };
+    let model = TransientModel::new(body, &POLYCARBONATE, damping, plane(0.5));
     let settings =
         transient_settings(2e-3, 5e-6, 1e-4, InitialState::Rest, Perturbation::default());
     let (record, residual) = recorded(model, OperatorChoice::Auto, &settings);

@@ -101,13 +101,12 @@ fn nearest_onset(sweep: &FrictionSweep, friction: f64) -> f64 {
 
 /// A body without symmetry: its hub is round, its outer edge an oval about another centre, on an elastic support.
 fn oval(contact: &str) -> Body {
-    let folder = tempfile::tempdir().unwrap();
     let mesh = AnnulusMesh::generate(&annulus(ElementKind::Quad4, 24, 4)).unwrap().mesh;
     let oval = write_msh(&mesh, FORMS[2], &[], |[x, y]: [f64; 2]| {
         let outwards = (x.hypot(y) - 0.0205) / 0.07;
         [x * (1.0 + 0.3 * outwards) + 0.006 * outwards, y * (1.0 - 0.1 * outwards)]
     });
-    std::fs::write(folder.path().join("oval.msh"), oval).unwrap();
+    let folder = folder_with(&[("oval.msh", &oval)]);
     let text = format!(
         "[mesh]\nfile = \"oval.msh\"\n[boundaries.outer]\ncondition = \"support\"\nnormal_stiffness = 2e12\n\
          tangential_stiffness = 1e12\nnormal_damping = 2e4\n\
@@ -165,12 +164,11 @@ fn sensitivities_of_a_block_whose_corner_lifts_are_differences_of_its_spectra() 
 /// Two blocks of bricks whose meshes do not match; the dashpot of friction across the sliding follows the pressure.
 #[test]
 fn sensitivities_of_an_assembly_are_differences_of_its_spectra() {
-    let folder = tempfile::tempdir().unwrap();
     let blocks = [
         brick("lower", [0.0; 3], [0.05, 0.04, 0.02], [3, 2, 1]),
         brick("upper", [0.005, 0.004, 0.02], [0.04, 0.03, 0.015], [2, 2, 1]),
     ];
-    std::fs::write(folder.path().join("blocks.msh"), file_of(&blocks, |point| point)).unwrap();
+    let folder = folder_with(&[("blocks.msh", &file_of(&blocks, |point| point))]);
     let text = "[mesh]\nfile = \"blocks.msh\"\n[boundaries.lower_z0]\ncondition = \"clamped\"\n\
         [boundaries.upper_x0]\ncondition = \"fixed\"\ndirections = [\"x\"]\n\
         [boundaries.upper_y0]\ncondition = \"fixed\"\ndirections = [\"y\"]\n\

@@ -118,10 +118,8 @@ fn two_degrees_of_freedom_flutter_at_the_closed_form_friction() {
         assert_eq!(result.intervals.len(), 1, "{:?}", result.intervals);
         let found = &result.intervals[0];
         // At the double root the growth rate rises like the square root of the distance: 1e-6 in mu.
-        assert!(
-            (found.critical_friction - critical).abs() < 1e-6 * critical,
-            "{found:?} {critical}"
-        );
+        let error = (found.critical_friction - critical).abs();
+        assert!(error < 1e-6 * critical, "{found:?} {critical}");
         let frequency = (0.5 * (a + b)).sqrt() / TAU;
         assert!((found.frequency_hz - frequency).abs() < 1e-3 * frequency);
         assert!(!found.unstable_from_start && found.restabilized.is_none());
@@ -133,16 +131,10 @@ fn two_degrees_of_freedom_flutter_at_the_closed_form_friction() {
 #[test]
 fn sweep_of_a_general_quadratic_problem_equals_a_dense_decomposition() {
     let size = 14;
-    let (r, s, t) = (
-        random_columns(size, size, 1),
-        random_columns(size, size, 2),
-        random_columns(size, size, 3),
-    );
+    let [r, s, t] = [1, 2, 3].map(|seed| random_columns(size, size, seed));
     let entries = |value: &dyn Fn(usize, usize) -> f64| -> Entries {
-        (0..size)
-            .flat_map(|i| (0..size).map(move |j| (i, j)))
-            .map(|(i, j)| (i, j, value(i, j)))
-            .collect()
+        let places = (0..size).flat_map(|i| (0..size).map(move |j| (i, j)));
+        places.map(|(i, j)| (i, j, value(i, j))).collect()
     };
     let diagonal = |i: usize, j: usize, v: f64| if i == j { v } else { 0.0 };
     let stiffness = vec![
@@ -165,11 +157,8 @@ fn sweep_of_a_general_quadratic_problem_equals_a_dense_decomposition() {
         let dense = dense_eigenvalues(&tangent, point.friction_coefficient);
         assert_eq!(point.modes.len(), 8);
         for (mode, exact) in point.modes.iter().zip(&dense) {
-            assert!(
-                (mode.eigenvalue - exact).norm() < 1e-9 * exact.norm(),
-                "{} {exact}",
-                mode.eigenvalue
-            );
+            let error = (mode.eigenvalue - exact).norm();
+            assert!(error < 1e-9 * exact.norm(), "{} {exact}", mode.eigenvalue);
         }
     }
 }
@@ -244,11 +233,8 @@ fn sweep_is_bitwise_equal_on_one_and_two_threads() {
         shapes_at: &[values[3]],
         ..sweep_request(&values, ModeLimit::MaxFrequency(15_000.0))
     };
-    let on_threads = |count| {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(count).build().unwrap();
-        pool.install(|| sweep(&tangent, &request, &|_| {}).unwrap())
-    };
-    let (one, two) = (on_threads(1), on_threads(2));
+    let solve = || sweep(&tangent, &request, &|_| {}).unwrap();
+    let (one, two) = (on_threads(1, solve), on_threads(2, solve));
     assert!(one == two);
     assert!(one.points[3].modes.iter().all(|m| m.shape.is_some()));
     assert!(one.points[2].modes.iter().all(|m| m.shape.is_none()));
@@ -295,9 +281,8 @@ fn bad_requests_are_refused_with_the_bound() {
         sweep(&tangent, &request, &|_| {}).unwrap_err()
     };
     let none = ask(&[0.1], ModeLimit::MaxFrequency(1000.0));
-    assert!(
-        matches!(none, CeaError::NoModes { lowest_hz, .. } if (lowest_hz - 5900.0).abs() < 200.0)
-    );
+    let is_lowest = |hz: f64| (hz - 5900.0).abs() < 200.0;
+    assert!(matches!(none, CeaError::NoModes { lowest_hz, .. } if is_lowest(lowest_hz)));
     assert!(none.to_string().contains("cea.max_frequency_hz"));
     let many = ask(&[0.1], ModeLimit::Lowest(1_000_000));
     assert!(many.is_usage() && many.to_string().starts_with("cea.modes = 1000000, but"));

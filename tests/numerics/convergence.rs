@@ -11,7 +11,7 @@ pub mod rates;
 use crate::continuum::prestress::SteadyState;
 use crate::continuum::{Annulus, Contact, Eigenvalue, Rayleigh};
 use crate::prelude::*;
-use folded::{Discretisation, FORWARD, INTERFERENCE, base_state, material};
+use folded::{Discretisation, FORWARD, INTERFERENCE, Study, base_state, material};
 use frictionsim::fem::nodal_stress;
 use rates::{DISC, assert_rate, rate, refinements};
 
@@ -19,29 +19,10 @@ const NORMAL_STIFFNESS: f64 = 7.4e12;
 const RAYLEIGH: Rayleigh = (40.0, 4.5e-7);
 const UNDAMPED: Rayleigh = (0.0, 0.0);
 
-/// What one convergence study covers: the two lowest branches of harmonics 0 to 4, both directions.
-struct Study {
-    annulus: Annulus,
-    contact: Contact,
-    mass: MassKind,
-    rayleigh: Rayleigh,
-}
-
 impl Study {
-    fn of(contact: Contact, rayleigh: Rayleigh) -> Self {
-        Self { annulus: DISC, contact, mass: MassKind::Consistent, rayleigh }
-    }
-
     fn assert_rates(&self, element: ElementKind) {
-        let meshes = refinements(element).map(|specification| {
-            Discretisation::new(
-                &specification,
-                &self.annulus,
-                &self.contact,
-                self.mass,
-                self.rayleigh,
-            )
-        });
+        let meshes = refinements(element)
+            .map(|specification| Discretisation::new(&specification, self, FORWARD));
         let mut cancelled = 0;
         for harmonic in 0..=4 {
             let exact = self.annulus.eigenvalues(harmonic, &self.contact, self.rayleigh);
@@ -133,8 +114,8 @@ fn the_discrete_model_turns_unstable_where_the_continuum_does() {
         with_prestress(Contact::penalty(0.0, NORMAL_STIFFNESS)),
         with_prestress(Contact::rigid(0.0)),
     ] {
-        let mut discrete =
-            Discretisation::new(&specification, &DISC, &contact, MassKind::Consistent, RAYLEIGH);
+        let study = Study::of(contact, RAYLEIGH);
+        let mut discrete = Discretisation::new(&specification, &study, FORWARD);
         for (harmonic, branch) in [(1, 2), (2, 1), (1, 1)] {
             let critical = DISC
                 .critical_friction(harmonic, branch, &contact, RAYLEIGH, 1.0)
@@ -157,18 +138,9 @@ fn the_discrete_model_turns_unstable_where_the_continuum_does() {
 fn a_reversed_rotor_mirrors_the_spectrum() {
     let [specification, ..] = refinements(ElementKind::Quad8);
     for contact in [Contact::rigid(0.3), Contact::penalty(0.3, NORMAL_STIFFNESS)] {
-        let contact = with_prestress(contact);
-        let spectra = [FORWARD, -FORWARD].map(|rotation_speed| {
-            Discretisation::turning(
-                rotation_speed,
-                &specification,
-                &DISC,
-                &contact,
-                MassKind::Consistent,
-                RAYLEIGH,
-            )
-            .eigenvalues(2)
-        });
+        let study = Study::of(with_prestress(contact), RAYLEIGH);
+        let spectra = [FORWARD, -FORWARD]
+            .map(|speed| Discretisation::new(&specification, &study, speed).eigenvalues(2));
         for (forward, reversed) in spectra[0].iter().zip(&spectra[1]).take(8) {
             // Directions are relative to +e_theta here, whichever way the rotor turns.
             assert_eq!(forward.direction, -reversed.direction);
@@ -192,12 +164,8 @@ fn steady_sliding_converges_to_lame_and_the_shear_field() {
             let force: f64 = base.normal_forces(0.3).iter().sum();
             let length: f64 = base.interface.tributary_lengths.iter().sum();
             let torque = base.torque(0.3) / exact.torque - 1.0;
-            [
-                radial / INTERFERENCE,
-                tangential / INTERFERENCE,
-                force / length / exact.pressure - 1.0,
-                torque,
-            ]
+            let pressure = force / length / exact.pressure - 1.0;
+            [radial / INTERFERENCE, tangential / INTERFERENCE, pressure, torque]
         });
         for (i, what) in NAMES.iter().enumerate() {
             assert_rate(element, what, errors.map(|values| 1e6 * values[i]));

@@ -245,11 +245,8 @@ fn sectors_that_do_not_meet_are_refused() {
         case.unwrap_err().to_string()
     };
     let wrong = refused("wrong-count", 5, 0.0);
-    assert!(wrong.contains("mesh.sectors") && wrong.contains("72.000000 degrees"), "{wrong}");
-    assert!(wrong.contains("138.000000 degrees"), "{wrong}");
-    let shifted = refused("other-nodes", 3, 0.3);
-    assert!(shifted.contains("with other nodes"), "{shifted}");
-    assert!(shifted.contains("Periodic Curve"), "{shifted}");
+    has(&wrong, &["mesh.sectors ; 72.000000 degrees ; 138.000000 degrees"]);
+    has(&refused("other-nodes", 3, 0.3), &["with other nodes ; Periodic Curve"]);
 }
 
 #[test]
@@ -260,10 +257,8 @@ fn a_wrong_number_of_solid_sectors_is_reported_where_it_is_given() {
                 [material]\nyoung_modulus = 1.1e11\npoisson_ratio = 0.28\ndensity = 7200.0\n\
                 [damping]\nmass_coefficient = 0.0\nstiffness_coefficient = 1e-8\n\
                 [boundaries.ring_x0]\ncondition = \"clamped\"\n[cea]\nmodes = 4\n";
-    let wrong = read("wrong-solid-count", &mesh, text, "auto").unwrap_err();
-    let wrong = wrong.to_string();
-    assert!(wrong.contains("case.toml:3"), "{wrong}");
-    assert!(wrong.contains("the sector does not fit"), "{wrong}");
+    let wrong = read("wrong-solid-count", &mesh, text, "auto").unwrap_err().to_string();
+    has(&wrong, &["case.toml:3 ; the sector does not fit"]);
 }
 
 /// A body of sectors says its nodal diameters in every table, and its samples have the onset of the analysis although the case's own
@@ -314,10 +309,7 @@ fn a_contact_without_pressure_is_refused() {
         screwed_disc(4, "[cea]\nmodes = 4\n").replace("interference = 25e-6", "interference = 0.0");
     let mesh = disc_sector(4, [8, 5], 0.0);
     let refused = read("no-pressure", &mesh, &text, "auto").unwrap_err().to_string();
-    assert!(
-        refused.contains("contact.interference = 0.0") && refused.contains("nothing presses"),
-        "{refused}"
-    );
+    has(&refused, &["contact.interference = 0.0 ; nothing presses"]);
     // Solid bodies may be pressed by what overlaps in their mesh: there the base state tells.
     let block = brick("block", [0.0; 3], [0.02, 0.02, 0.01], [2, 2, 1]);
     let text = "[mesh]\nfile = \"sector.msh\"\n[material]\nyoung_modulus = 2.5e9\npoisson_ratio = 0.38\ndensity = 1228.0\n\
@@ -352,9 +344,8 @@ fn disc_of_bricks([around, radial]: [usize; 2], more: &str) -> String {
 }
 
 /// One of 20 bricks around with what `motion` says of it.
-fn built_in(name: &str, rpm: f64, motion: &str, method: &str) -> Result<Solution, CaseErrors> {
-    let text = disc_under_a_ring(rpm, &disc_of_bricks([20, 3], motion));
-    read(name, b"", &text, method).map(|_| solved(name, b"", &text, method))
+fn built_in(name: &str, rpm: f64, motion: &str, method: &str) -> Solution {
+    solved(name, b"", &disc_under_a_ring(rpm, &disc_of_bricks([20, 3], motion)), method)
 }
 
 /// Equal eigenvalues: each has one of the other list beside it.
@@ -370,8 +361,8 @@ fn assert_equal(a: &Solution, b: &Solution, tolerance: f64) {
 #[test]
 fn a_disc_that_turns_under_a_ring_at_rest_is_one_under_a_ring_that_turns() {
     let motion = "[motion.disc]\naxis = [0.0, 0.0, 1.0]\nrotation_speed_rpm = -300.0\n";
-    let turning = built_in("disc-turns", 0.0, motion, "auto").unwrap_or_else(|e| panic!("{e}"));
-    let at_rest = built_in("ring-turns", 300.0, "", "sparse").unwrap_or_else(|e| panic!("{e}"));
+    let turning = built_in("disc-turns", 0.0, motion, "auto");
+    let at_rest = built_in("ring-turns", 300.0, "", "sparse");
     assert_equal(&turning, &at_rest, 1e-9);
 }
 
@@ -380,8 +371,8 @@ fn a_disc_that_turns_under_a_ring_at_rest_is_one_under_a_ring_that_turns() {
 fn a_built_in_disc_that_turns_is_the_one_of_a_mesh_of_its_sector() {
     let motion = "[motion.disc]\naxis = [0.0, 0.0, 1.0]\nrotation_speed_rpm = 6000.0\nrotation_terms = true\n\
         frame = \"turning\"\n";
-    let own = built_in("built-in", 300.0, motion, "auto").unwrap_or_else(|e| panic!("{e}"));
-    let still = built_in("built-in-still", 300.0, "", "auto").unwrap_or_else(|e| panic!("{e}"));
+    let own = built_in("built-in", 300.0, motion, "auto");
+    let still = built_in("built-in-still", 300.0, "", "auto");
     let block = brick("disc", [0.05, 0.0, 0.0], [0.1, TAU / 20.0, 0.01], [3, 1, 1]);
     let mesh = file_of(&[block], |[r, t, z]| [r * t.cos(), r * t.sin(), z]);
     let more = format!(
@@ -392,30 +383,6 @@ fn a_built_in_disc_that_turns_is_the_one_of_a_mesh_of_its_sector() {
     assert_equal(&own, &of_file, 1e-9);
     let [turning, still] = [&own, &still].map(|own| own.sweep.points[0].modes[0].frequency_hz());
     assert!((turning / still - 1.0).abs() > 1e-4, "rotation matters: {turning} {still}");
-}
-
-#[test]
-fn a_body_of_revolution_turns_as_a_whole_about_its_axis_in_its_own_frame() {
-    let refused =
-        |motion: &str| built_in("refused", 300.0, motion, "auto").err().unwrap().to_string();
-    let about = |name: &str, axis: &str| {
-        refused(&format!("[motion.{name}]\naxis = {axis}\nrotation_speed_rpm = 60.0\n"))
-    };
-    let other = about("lining", "[0.0, 0.0, 1.0]");
-    assert!(other.contains("motion.lining is no motion"), "{other}");
-    let tilted = about("disc", "[0.0, 1.0, 1.0]");
-    assert!(tilted.contains("motion.disc is no motion"), "{tilted}");
-    let at_rest = refused(
-        "[motion.disc]\naxis = [0.0, 0.0, 1.0]\nrotation_speed_rpm = 60.0\nrotation_terms = true\n",
-    );
-    assert!(at_rest.contains("frame = \"turning\""), "{at_rest}");
-    let plane = disc_sector(3, [4, 4], 0.0);
-    let text = "[geometry]\ninner_radius = 0.05\nouter_radius = 0.15\n[mesh]\ncircumferential_elements = 20\n\
-        radial_elements = 3\n[material]\nyoung_modulus = 2.5e9\npoisson_ratio = 0.38\ndensity = 1228.0\n\
-        [contact]\nfriction_coefficient = 0.4\ninterference = 25e-6\nrotation_speed_rpm = 610.0\n\
-        [motion.disc]\naxis = [0.0, 0.0, 1.0]\nrotation_speed_rpm = 60.0\n[cea]\nmodes = 4\n";
-    let plane = read("plane-motion", &plane, text, "auto").unwrap_err().to_string();
-    assert!(plane.contains("plane annulus has no [motion.*]"), "{plane}");
 }
 
 /// Cross-method: a disc whose face is pressed all over has the spectrum of its whole mesh. Linear
@@ -436,11 +403,10 @@ fn a_disc_that_bends_away_from_its_ring_is_the_same_by_waves_and_as_a_whole() {
         let text = disc_under_a_ring(300.0, &disc_of_bricks(divisions, ""));
         let of = |method: &str| solved(&format!("bent-{method}"), b"", &text, method).sweep;
         let [waves, whole] = ["cyclic", "sparse"].map(of);
-        let frequencies = |sweep: &FrictionSweep| {
-            let modes = sweep.points[1].modes.iter();
-            modes.map(ComplexMode::frequency_hz).collect::<Vec<_>>()
-        };
-        for (own, other) in frequencies(&waves).iter().zip(frequencies(&whole)) {
+        let frequency = |mode: &ComplexMode| mode.frequency_hz();
+        let [own, other] =
+            [&waves, &whole].map(|sweep| sweep.points[1].modes.iter().map(frequency));
+        for (own, other) in own.zip(other) {
             assert!((own / other - 1.0).abs() < tolerance, "{own} {other}");
         }
         let critical = |sweep: &FrictionSweep| {

@@ -73,10 +73,13 @@ fn public(name: &str) -> PathBuf {
     folder.join(format!("disk_brake100_{name}"))
 }
 
+fn json(path: &Path) -> Value {
+    serde_json::from_slice(&fs::read(path).unwrap()).unwrap()
+}
+
 /// The exported problem at a friction coefficient, put together as `matrices.json` says.
 fn assembled(folder: &Path, friction: f64) -> [Mat<f64>; 4] {
-    let text = fs::read(folder.join("matrices.json")).unwrap();
-    let description: Value = serde_json::from_slice(&text).unwrap();
+    let description = json(&folder.join("matrices.json"));
     let size = description["dofs"].as_u64().unwrap() as usize;
     let away = friction - description["friction_coefficient"].as_f64().unwrap();
     let mut sums = [0, 1, 2, 3].map(|_| Mat::<f64>::zeros(size, size));
@@ -179,8 +182,7 @@ fn exported_matrices_of_solid_bodies_have_the_eigenvalues_of_the_analysis() {
         [contacts.face]\nsurface = \"high_z0\"\ncounter = \"low_z1\"\nfriction_coefficient = 0.4\n\
         [cea]\nfriction_coefficients = [0.4]\nmodes = 6\n";
     for contact in [&["contacts.face.normal_stiffness=1e13"][..], &[]] {
-        let folder = folder();
-        fs::write(folder.path().join("block.msh"), file_of(&blocks, |p| p)).unwrap();
+        let folder = folder_with(&[("block.msh", &file_of(&blocks, |p| p))]);
         fs::write(folder.path().join("block.toml"), text).unwrap();
         solved(&folder, contact);
         assert!(listed_modes_found(&folder, 0.4) >= 6);
@@ -248,8 +250,7 @@ fn exported_matrices_have_the_eigenvalues_of_the_analysis_where_contact_opens_or
         });
         solved(&folder, &set);
         let out = folder.path().join("matrices");
-        let text = fs::read(out.join("matrices.json")).unwrap();
-        let description: Value = serde_json::from_slice(&text).unwrap();
+        let description = json(&out.join("matrices.json"));
         let [low, high] = [0, 1].map(|end| description["friction_range"][end].as_f64().unwrap());
         let mut held = 0;
         for friction in frictions.into_iter().filter(|own| (low..=high).contains(own)) {
@@ -272,10 +273,8 @@ fn at_friction(folder: &TempDir, friction: f64, set: &[&str]) -> [Mat<f64>; 4] {
     let run = Run::new(&["matrices", "block.toml", "--quiet", "--force"]).within(folder);
     let run = run.out("alone").args(&["--friction", &friction.to_string()]).set(set);
     let out = run.done().out;
-    let files = fs::read_dir(&out).unwrap().map(|file| file.unwrap().file_name());
-    let files = files.map(|name| name.to_string_lossy().into_owned());
-    let mut files: Vec<String> = files.filter(|name| !name.starts_with('.')).collect();
-    files.sort();
+    let mut files = names_in(&out);
+    files.retain(|name| !name.starts_with('.'));
     let beside = ["manifest.json", "mesh.msh", "summary.json"];
     assert_eq!(files, [&["C.mtx", "K.mtx", "M.mtx"][..], &beside].concat());
     let [mass, damping, stiffness] =
@@ -295,10 +294,7 @@ fn exported_matrices_hold_where_contact_that_stiffens_has_opened() {
         let turning = format!("motion.low.rotation_speed_rpm={turning}");
         solved(&folder, &[&turning]);
         assert_eq!(listed_modes_found(&folder, 0.8), 6);
-        let out = folder.path();
-        let read = |file: &str| -> Value {
-            serde_json::from_slice(&fs::read(out.join(file)).unwrap()).unwrap()
-        };
+        let read = |file: &str| json(&folder.path().join(file));
         let range = &read("matrices/matrices.json")["friction_range"];
         assert!(range[0].as_f64().unwrap() > 0.2, "nothing opens: {range}");
         let base = &read("cea/summary.json")["base_state"];
@@ -367,9 +363,8 @@ fn archives_hold_compressed_rows_as_scipy_reads_them() {
         assert_eq!(read, values);
     }
     let unknowns = fs::read_to_string(out.join("unknowns.csv")).unwrap();
-    assert!(
-        unknowns.starts_with("unknown,node,kind,direction_x,direction_y,direction_z,x_m,y_m,z_m\n")
-    );
+    let head = "unknown,node,kind,direction_x,direction_y,direction_z,x_m,y_m,z_m\n";
+    assert!(unknowns.starts_with(head));
 }
 
 fn brake(folder: &TempDir, stiffness: &str) {

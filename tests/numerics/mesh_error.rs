@@ -15,6 +15,14 @@ fn solved(case: &Case) -> Solution {
     solve(case, &cea, &model, &Unwatched).unwrap()
 }
 
+/// A case of the block `part` in a folder that stays.
+fn bricks(name: &str, size: [f64; 3], counts: [usize; 3], text: &str) -> Case {
+    let folder = kept(name);
+    let block = brick("part", [0.0; 3], size, counts);
+    fs::write(folder.join("part.msh"), file_of(&[block], |point| point)).unwrap();
+    case_of(folder.join("part.toml"), text, AS_IT_IS)
+}
+
 /// Frequencies at the last friction value with their estimates, Hz.
 fn estimates(solution: &Solution) -> Vec<[f64; 2]> {
     let point = solution.sweep.points.last().unwrap();
@@ -39,17 +47,10 @@ fn effectivities(coarse: &[[f64; 2]], fine: &[[f64; 2]]) -> Vec<f64> {
 #[test]
 fn estimates_of_frequencies_are_within_a_factor_of_two_of_the_error_by_refinement() {
     let lining = |fineness: usize| {
-        let folder = kept(&format!("mesh-error-{fineness}"));
-        let block = brick(
-            "part",
-            [0.0; 3],
-            [0.05, 0.04, 0.02],
-            sized([6, 5, 3], [10, 8, 6]).map(|count| count * fineness),
-        );
-        fs::write(folder.join("part.msh"), file_of(&[block], |point| point)).unwrap();
+        let counts = sized([6, 5, 3], [10, 8, 6]).map(|count| count * fineness);
         let text = "[mesh]\nfile = \"part.msh\"\n[material]\nyoung_modulus = 8e9\npoisson_ratio = 0.25\n\
                     density = 2500.0\n[cea]\nmodes = 8\n";
-        case_of(folder.join("part.toml"), text, AS_IT_IS)
+        bricks(&format!("mesh-error-{fineness}"), [0.05, 0.04, 0.02], counts, text)
     };
     let disc = {
         let specification = crate::disc::annulus(ElementKind::Quad4, 48, 8);
@@ -83,13 +84,10 @@ fn estimates_of_frequencies_are_within_a_factor_of_two_of_the_error_by_refinemen
 #[test]
 fn estimates_of_one_layer_of_bricks_in_bending_are_of_the_size_of_the_error() {
     let plate = |fineness: usize| {
-        let folder = kept(&format!("plate-{fineness}"));
         let counts = [16 * fineness, 8 * fineness, fineness];
-        let block = brick("part", [0.0; 3], [0.16, 0.08, 0.006], counts);
-        fs::write(folder.join("part.msh"), file_of(&[block], |point| point)).unwrap();
         let text = "[mesh]\nfile = \"part.msh\"\n[material]\nyoung_modulus = 2e11\npoisson_ratio = 0.3\n\
                     density = 7800.0\n[boundaries.part_x0]\ncondition = \"clamped\"\n[cea]\nmodes = 5\n";
-        case_of(folder.join("part.toml"), text, AS_IT_IS)
+        bricks(&format!("plate-{fineness}"), [0.16, 0.08, 0.006], counts, text)
     };
     let [coarse, fine] = [plate(1), plate(2)].map(|case| estimates(&solved(&case)));
     let found = effectivities(&coarse, &fine);

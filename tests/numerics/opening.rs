@@ -18,10 +18,7 @@ const CASE: &str = "[mesh]\nfile = \"block.msh\"
 [cea]\nfriction_coefficients = [0.1, 0.8]\nmodes = 10\n";
 
 fn block() -> TempDir {
-    let folder = tempfile::tempdir().unwrap();
-    let mesh = rectangle(0.04, 0.06, 8, 12);
-    fs::write(folder.path().join("block.msh"), mesh).unwrap();
-    folder
+    folder_with(&[("block.msh", &rectangle(0.04, 0.06, 8, 12))])
 }
 
 fn sweep(folder: &TempDir, frictions: &[f64]) -> FrictionSweep {
@@ -110,19 +107,16 @@ const STRIP: &str = "[mesh]\nfile = \"strip.msh\"
 /// A branch that leaves the list where the state changes is no other one: with one mode more nothing jumps there.
 #[test]
 fn a_branch_that_leaves_the_list_as_contact_opens_keeps_its_name() {
-    let folder = tempfile::tempdir().unwrap();
     let mesh = rectangle(0.0432, 0.00905, 9, 2);
-    fs::write(folder.path().join("strip.msh"), mesh).unwrap();
+    let folder = folder_with(&[("strip.msh", &mesh)]);
     let frictions = [0.0, 0.002, 0.13, 0.519, 0.665];
     let listed = sweep_of(STRIP, &folder, &frictions);
     let longer = STRIP.replace("modes = 11", "modes = 12");
     let all = sweep_of(&longer, &folder, &frictions);
-    let onsets = |sweep: &FrictionSweep| -> Vec<f64> {
+    let [found, expected] = [listed, all].map(|sweep| -> Vec<f64> {
+        assert_eq!(sweep.intervals.len(), 2, "{:?}", sweep.intervals);
         sweep.intervals.iter().map(|own| own.critical_friction).collect()
-    };
-    let (found, expected) = (onsets(&listed), onsets(&all));
-    assert_eq!(found.len(), 2, "{:?}", listed.intervals);
-    assert_eq!(expected.len(), 2, "{:?}", all.intervals);
+    });
     for (own, other) in found.iter().zip(&expected) {
         assert!((own - other).abs() < 1e-8, "{found:?} {expected:?}");
     }
@@ -140,11 +134,9 @@ const STRUT: &str = "[mesh]\nfile = \"strut.msh\"
 [cea]\nfriction_coefficients = [0.0, 0.2]\nmodes = 8\n";
 
 fn strut() -> TempDir {
-    let folder = tempfile::tempdir().unwrap();
     let (xs, ys) = (even(0.01, 2), even(0.06, 10));
     let mesh = quadrilaterals(&xs, &ys, ["foot", "head", "strut"], |x, y| [x + 0.3 * y, y]);
-    fs::write(folder.path().join("strut.msh"), mesh).unwrap();
-    folder
+    folder_with(&[("strut.msh", &mesh)])
 }
 
 /// Positive real eigenvalues of the matrices at one friction coefficient, 1/s, by a dense decomposition (independent check).

@@ -10,10 +10,10 @@ pub use crate::disc::{
 };
 pub use crate::mesh_text::{even, mesh_text, quadrilaterals};
 pub use crate::msh::{CYLINDER, FORMS, plane_body, write_msh};
-pub use crate::program::{Answer, Run, folder, has, shipped};
+pub use crate::program::{Answer, Run, folder, folder_with, has, names_in, shipped};
 pub use crate::shaft::model::AnnulusMaterials;
 pub use crate::solids::model::{SolidModel, solid_sweep};
-pub use crate::spectra::{assert_same, eigenvalues_of, largest_error};
+pub use crate::spectra::{assert_same, eigenvalues_of, largest_error, on_threads};
 pub use crate::table_1::TABLE_1;
 pub use crate::tier::sized;
 pub use crate::triangles::body;
@@ -31,7 +31,7 @@ pub use frictionsim::contact::{
 pub use frictionsim::fem::operator::SimdLevel;
 pub use frictionsim::fem::{
     DofMap, ElasticMaterial, MassKind, PlaneFormulation, RayleighDamping, RegionMaterial, Triplets,
-    assemble_mass, assemble_stiffness, sector,
+    assemble_mass, assemble_stiffness,
 };
 pub use frictionsim::frf::{
     CyclicSystem, Direction, FrfError, FrfSystem, NodeFault, Terminal, cyclic_response,

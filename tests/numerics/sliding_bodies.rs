@@ -73,8 +73,7 @@ fn sliders() -> impl Strategy<Value = Slider> {
 
 /// A case of the mesh `part.msh`; tests run side by side, so each has a folder of its own.
 fn of_file(mesh: &[u8], text: &str) -> Case {
-    let folder = tempfile::tempdir().unwrap();
-    fs::write(folder.path().join("part.msh"), mesh).unwrap();
+    let folder = folder_with(&[("part.msh", mesh)]);
     case_of(folder.path().join("part.toml"), text, AS_IT_IS)
 }
 

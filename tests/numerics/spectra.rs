@@ -6,6 +6,11 @@ pub fn eigenvalues_of(modes: &[ComplexMode]) -> Vec<c64> {
     modes.iter().map(|mode| mode.eigenvalue).collect()
 }
 
+/// What some work gives on so many threads.
+pub fn on_threads<T: Send>(count: usize, work: impl FnOnce() -> T + Send) -> T {
+    rayon::ThreadPoolBuilder::new().num_threads(count).build().unwrap().install(work)
+}
+
 /// Largest relative distance of an expected eigenvalue from the nearest one found.
 pub fn largest_error(found: &[c64], expected: &[c64]) -> f64 {
     let error = |a: &c64| {

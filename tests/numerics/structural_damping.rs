@@ -45,6 +45,14 @@ pub fn dense(polynomial: &MatrixPolynomial, mu: f64) -> Mat<f64> {
     polynomial.pattern().multiply(&polynomial.evaluate(mu), identity.as_ref())
 }
 
+/// Two unknowns of a response that move along the radius.
+pub fn two_unknowns(system: &FrfSystem) -> [usize; 2] {
+    let terminal = |node: usize| Terminal { node, direction: Direction::Radial };
+    let free = (0..60).filter_map(|node| system.unknown(terminal(node), "force_node").ok());
+    let free: Vec<usize> = free.collect();
+    [free[2], free[9]]
+}
+
 /// Eigenvalues with `Im > 0` of `lambda^2 M + lambda C + K + i H`, by rising frequency.
 pub fn dense_eigenvalues(tangent: &SlidingTangent, mu: f64) -> Vec<c64> {
     let [mass, damping, stiffness] =
@@ -126,10 +134,7 @@ fn agrees_with_the_dense_matrices(tangent: &SlidingTangent) {
 fn the_response_with_loss_factors_is_that_of_the_dense_matrix() {
     let tangent = tangent([0.02, 0.2], RayleighDamping::default());
     let system = FrfSystem::sliding(&tangent, 0.3);
-    let terminal = |node: usize| Terminal { node, direction: Direction::Radial };
-    let free = (0..60).filter_map(|node| system.unknown(terminal(node), "force_node").ok());
-    let free: Vec<usize> = free.collect();
-    let (force, response) = (free[2], free[9]);
+    let [force, response] = two_unknowns(&system);
     let lines = [500.0, 4000.0, 7000.0];
     let found = direct_response(&system, force, response, &lines).unwrap();
     let [mass, stiffness, lost] =

@@ -4,7 +4,8 @@
 //! that much a frequency may differ.
 
 use crate::prelude::*;
-use frictionsim::results::matrices::{ExportedSystem, MatrixRole};
+use crate::sliding_bodies::sums;
+use frictionsim::results::matrices::ExportedSystem;
 use frictionsim::study::matrices::matrices;
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
@@ -76,17 +77,9 @@ fn part(body: &Body, folder: &str) -> Case {
 
 /// Squares of all angular frequencies by a dense decomposition, ascending.
 fn dense(system: &ExportedSystem) -> Vec<f64> {
-    let full = |role: MatrixRole| {
-        let own = system.matrices.iter().find(|own| own.role == role).unwrap();
-        let mut matrix = DMatrix::zeros(own.matrix.rows, own.matrix.columns);
-        for &(row, column, value) in &own.matrix.entries {
-            matrix[(row, column)] += value;
-        }
-        matrix
-    };
-    let mass = full(MatrixRole::Mass { friction_power: 0 });
-    let stiffness = full(MatrixRole::Stiffness { friction_power: 0 });
-    squares(mass, &stiffness)
+    let [mass, _, stiffness, _] = sums(system);
+    let full = |own: Mat<f64>| DMatrix::from_fn(own.nrows(), own.nrows(), |i, j| own[(i, j)]);
+    squares(full(mass), &full(stiffness))
 }
 
 /// Eigenvalues of a symmetric pencil, ascending.

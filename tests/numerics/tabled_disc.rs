@@ -16,8 +16,7 @@ fn disc_of(material: &str, sections: &str) -> Case {
 }
 
 fn disc_with(material: &str, sections: &str, set: &[&str]) -> Case {
-    let folder = tempfile::tempdir().unwrap();
-    fs::write(folder.path().join("lining.csv"), LINING).unwrap();
+    let folder = folder_with(&[("lining.csv", LINING.as_bytes())]);
     let flat = "frequency_hz,young_modulus,loss_factor\n0,3e9,0.1\n50000,3e9,0.1\n";
     fs::write(folder.path().join("flat.csv"), flat).unwrap();
     let text = format!(

@@ -106,17 +106,40 @@ fn patch_error(mesh: &Mesh, displacement: &[f64], jump: f64) -> f64 {
         .fold(0.0, f64::max)
 }
 
+/// Steel bodies with a contact, in the base state of their loads.
+fn assembled<'a>(
+    mesh: &'a Mesh,
+    contact: SlidingSurfaces,
+    motions: &[Motion],
+) -> Result<Assembly<'a>, PrestressError> {
+    Assembly::new(mesh, &STEEL, &[], &[contact], motions, BaseChoice::Solved)
+}
+
+/// Far from its axis the lower block moves nearly straight on.
+fn aside(mesh: &Mesh) -> Motion {
+    turning(mesh, [0.0, 0.0, 1.0], [1.0, 0.3, 0.0])
+}
+
 /// The stack pressed together, sliding on springs or rigid contact.
 fn pressed(mesh: &Mesh, normal_stiffness: Option<f64>) -> Assembly<'_> {
-    let motion = turning(mesh, [0.0, 0.0, 1.0], [1.0, 0.3, 0.0]);
-    let contact = sliding(mesh, normal_stiffness);
-    Assembly::new(mesh, &STEEL, &[], &[contact], &[motion], BaseChoice::Solved).unwrap()
+    assembled(mesh, sliding(mesh, normal_stiffness), &[aside(mesh)]).unwrap()
+}
+
+/// The stack as it is pressed.
+fn bar() -> Mesh {
+    mesh_of(&file_of(&stacked(0.0), |point| point), &PRESSED)
+}
+
+/// Small motions at a friction coefficient.
+fn tangent_at(assembly: &Assembly<'_>, friction: f64, options: &TangentOptions) -> SlidingTangent {
+    let range = assembly.range(&[friction]).unwrap();
+    assembly.tangent(&range.states[0], options).unwrap()
 }
 
 /// Theory: a bar under pressure, through a contact whose meshes do not match, rigid and on springs.
 #[test]
 fn constant_pressure_passes_a_contact_between_meshes_that_do_not_match() {
-    let mesh = mesh_of(&file_of(&stacked(0.0), |point| point), &PRESSED);
+    let mesh = bar();
     for normal_stiffness in [None, Some(1e14)] {
         let assembly = pressed(&mesh, normal_stiffness);
         let range = assembly.range(&[0.0]).unwrap();
@@ -138,7 +161,7 @@ fn constant_pressure_passes_a_contact_between_meshes_that_do_not_match() {
 /// Theory: the same bar through a tie.
 #[test]
 fn constant_pressure_passes_a_tie_between_meshes_that_do_not_match() {
-    let mesh = mesh_of(&file_of(&stacked(0.0), |point| point), &PRESSED);
+    let mesh = bar();
     let glue = tie(&mesh, "upper_z0", "lower_z1");
     let assembly = Assembly::new(&mesh, &STEEL, &[glue], &[], &[], BaseChoice::Solved).unwrap();
     let range = assembly.range(&[0.0]).unwrap();
@@ -149,10 +172,8 @@ fn constant_pressure_passes_a_tie_between_meshes_that_do_not_match() {
 }
 
 fn eigenvalues(assembly: &Assembly<'_>, friction: f64, count: usize) -> Vec<c64> {
-    let range = assembly.range(&[friction]).unwrap();
-    let tangent = assembly.tangent(&range.states[0], &OPTIONS).unwrap();
-    let modes = modes_at(&tangent, friction, ModeLimit::Lowest(count));
-    modes.into_iter().map(|mode| mode.eigenvalue).collect()
+    let tangent = tangent_at(assembly, friction, &OPTIONS);
+    eigenvalues_of(&modes_at(&tangent, friction, ModeLimit::Lowest(count)))
 }
 
 /// Coefficients of the powers of `x - origin` from those of the powers of `x`, by repeated division.
@@ -172,7 +193,7 @@ fn shift(coefficients: &mut [Vec<f64>], origin: f64) {
 /// everywhere, on springs and rigid.
 #[test]
 fn a_frozen_state_has_the_same_tangent_above() {
-    let mesh = mesh_of(&file_of(&stacked(0.0), |point| point), &PRESSED);
+    let mesh = bar();
     for normal_stiffness in [None, Some(1e14)] {
         let assembly = pressed(&mesh, normal_stiffness);
         let mut state = assembly.range(&[0.3]).unwrap().states.remove(0);
@@ -269,7 +290,7 @@ fn refusal(blocks: &[Block], sides: [&str; 2]) -> String {
         counter: Counterpart::Surface(boundary(&mesh, sides[1])),
         ..sliding(&mesh, Some(1e14))
     };
-    let motion = turning(&mesh, [0.0, 0.0, 1.0], [1.0, 0.3, 0.0]);
+    let motion = aside(&mesh);
     let closed = BaseChoice::Closed;
     let found = Assembly::new(&mesh, &STEEL, &[], &[contact], &[motion], closed);
     found.unwrap_err().to_string()
@@ -293,7 +314,7 @@ fn surfaces_that_make_no_contact_are_named_with_the_remedy() {
 #[test]
 fn a_motion_that_leaves_surfaces_at_rest_is_refused() {
     let mesh = mesh_of(&file_of(&stacked(0.0), |point| point), &[]);
-    let still = Motion { rotation_speed: 0.0, ..turning(&mesh, [0.0, 0.0, 1.0], [1.0, 0.3, 0.0]) };
+    let still = Motion { rotation_speed: 0.0, ..aside(&mesh) };
     let contact = sliding(&mesh, Some(1e14));
     let closed = BaseChoice::Closed;
     let found = Assembly::new(&mesh, &STEEL, &[], &[contact], &[still], closed);

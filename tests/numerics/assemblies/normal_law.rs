@@ -1,9 +1,6 @@
 //! Contact that stiffens with pressure.
 
-use super::{
-    PRESSED, STEEL, eigenvalues, largest_difference, mesh_of, patch_error, sliding, stacked,
-    turning,
-};
+use super::{aside, assembled, bar, eigenvalues, largest_difference, patch_error, sliding};
 use crate::prelude::*;
 
 const LAWS: [NormalLaw; 2] = [
@@ -11,17 +8,12 @@ const LAWS: [NormalLaw; 2] = [
     NormalLaw::Cubic { stiffness: 1e12, cubic_stiffness: 4e22 },
 ];
 
-fn bar() -> Mesh {
-    mesh_of(&file_of(&stacked(0.0), |point| point), &PRESSED)
-}
-
 fn stiffening(mesh: &Mesh, law: NormalLaw) -> SlidingSurfaces {
     SlidingSurfaces { law: Some(law), ..sliding(mesh, Some(law.stiffness(0.0))) }
 }
 
-fn solved<'a>(mesh: &'a Mesh, contact: SlidingSurfaces) -> Assembly<'a> {
-    let motion = turning(mesh, [0.0, 0.0, 1.0], [1.0, 0.3, 0.0]);
-    Assembly::new(mesh, &STEEL, &[], &[contact], &[motion], BaseChoice::Solved).unwrap()
+fn solved(mesh: &Mesh, contact: SlidingSurfaces) -> Assembly<'_> {
+    assembled(mesh, contact, &[aside(mesh)]).unwrap()
 }
 
 /// Closed form: under the pressure p the surfaces approach by `h ln(1 + p / p_r)`, or by the root of the cubic.

@@ -1,7 +1,7 @@
 //! The stress of the base state in small motions of solid bodies: geometric stiffness, and contact forces that turn.
 
 use super::rigid_counterface::plane;
-use super::{OPTIONS, STEEL, mesh_of, on_rigid, sliding, stacked, turning};
+use super::{OPTIONS, STEEL, assembled, mesh_of, on_rigid, sliding, stacked, tangent_at, turning};
 use crate::bricks::file_of_order;
 use crate::prelude::*;
 use frictionsim::contact::{RigidCounterface, RigidMotion, RigidShape};
@@ -22,8 +22,7 @@ fn forces_of_a_rotation(mesh: &Mesh, contact: SlidingSurfaces, motions: &[Motion
         (Counterpart::Rigid(rigid), _) => (rigid.axis, rigid.center),
         (_, motions) => (motions[0].axis, motions[0].center),
     };
-    let solved = BaseChoice::Solved;
-    let assembly = Assembly::new(mesh, &STEEL, &[], &[contact], motions, solved).unwrap();
+    let assembly = assembled(mesh, contact, motions).unwrap();
     let range = assembly.range(&[friction]).unwrap();
     let [without, tangent] =
         [OPTIONS, STRESSED].map(|own| assembly.tangent(&range.states[0], &own).unwrap());
@@ -160,8 +159,7 @@ fn a_column_buckles_under_the_load_of_euler() {
         let mesh = mesh_of(&bytes, &conditions);
         let solved = BaseChoice::Solved;
         let assembly = Assembly::new(&mesh, &STEEL, &[], &[], &[], solved).unwrap();
-        let state = assembly.range(&[0.0]).unwrap().states.remove(0);
-        let tangent = assembly.tangent(&state, &STRESSED).unwrap();
+        let tangent = tangent_at(&assembly, 0.0, &STRESSED);
         let modes = modes_at(&tangent, 0.0, ModeLimit::Lowest(2));
         modes[0].eigenvalue.im.powi(2)
     });

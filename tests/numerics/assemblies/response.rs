@@ -1,7 +1,7 @@
 //! Frequency responses of assemblies against their eigenvalues (cross-method: the response knows no modes).
 
 use super::rotation::{ring, turning as spinning};
-use super::{OPTIONS, PRESSED, STEEL, mesh_of, sliding, stacked, tie, turning};
+use super::{OPTIONS, STEEL, aside, assembled, bar, mesh_of, sliding, tangent_at, tie};
 use crate::prelude::*;
 use crate::structural_damping::dense;
 use faer::linalg::solvers::Solve;
@@ -35,18 +35,15 @@ fn pole(lines: [f64; 3], h: [c64; 3]) -> c64 {
 /// Pole and eigenvalue of the lowest mode agree at two friction coefficients, on a rigid contact and on springs.
 #[test]
 fn the_response_of_a_sliding_assembly_has_the_poles_of_its_eigenvalue_analysis() {
-    let mesh = mesh_of(&file_of(&stacked(0.0), |point| point), &PRESSED);
-    let motion = turning(&mesh, [0.0, 0.0, 1.0], [1.0, 0.3, 0.0]);
+    let (mesh, motion) = (bar(), aside(&bar()));
     let axis = Axis { center: [1.0, 0.3, 0.0], direction: [0.0, 0.0, 1.0] };
     for normal_stiffness in [None, Some(1e14)] {
         let contact = sliding(&mesh, normal_stiffness);
         let motions = std::slice::from_ref(&motion);
-        let solved = BaseChoice::Solved;
-        let assembly = Assembly::new(&mesh, &STEEL, &[], &[contact], motions, solved).unwrap();
+        let assembly = assembled(&mesh, contact, motions).unwrap();
         for friction in [0.2, 0.5] {
-            let range = assembly.range(&[friction]).unwrap();
-            let tangent = assembly.tangent(&range.states[0], &DAMPED).unwrap();
-            let lambda = lowest(&tangent, friction);
+            let tangent = tangent_at(&assembly, friction, &DAMPED);
+            let lambda = modes_at(&tangent, friction, ModeLimit::Lowest(2))[0].eigenvalue;
             let system = FrfSystem::sliding(&tangent, friction);
             let port = |place, direction, key| {
                 let terminal = terminal(node_at(&mesh, place), direction);
@@ -62,13 +59,6 @@ fn the_response_of_a_sliding_assembly_has_the_poles_of_its_eigenvalue_analysis()
             assert!((found - lambda).norm() < 1e-6 * lambda.norm(), "{lambda} {found}");
         }
     }
-}
-
-fn lowest(tangent: &SlidingTangent, friction: f64) -> c64 {
-    let at = [friction];
-    let request = sweep_request(&at, ModeLimit::Lowest(2));
-    let found = sweep(tangent, &request, &|_| {}).unwrap();
-    found.points[0].modes[0].eigenvalue
 }
 
 /// Cross-method: two tied halves respond like the whole, and a node that follows another can be observed, not excited.
@@ -87,8 +77,7 @@ fn tied_halves_respond_like_the_whole() {
         let ties: Vec<TiedSurfaces> =
             (blocks.len() == 2).then(|| tie(&mesh, "right_x0", "left_x1")).into_iter().collect();
         let assembly = Assembly::new(&mesh, &STEEL, &ties, &[], &[], BaseChoice::Closed).unwrap();
-        let range = assembly.range(&[0.0]).unwrap();
-        let tangent = assembly.tangent(&range.states[0], &DAMPED).unwrap();
+        let tangent = tangent_at(&assembly, 0.0, &DAMPED);
         let system = FrfSystem::tied(&tangent);
         let tip = terminal(node_at(&mesh, [0.12, 0.02, 0.02]), Direction::Z);
         let middle = terminal(node_at(&mesh, [0.08, 0.0, 0.0]), Direction::Y);
@@ -121,11 +110,9 @@ fn a_turning_ring_responds_like_the_dense_system_of_its_matrices() {
     for frame in [RotationFrame::Rest, RotationFrame::Turning] {
         let (mesh, seam) = ring([2, 24, 1], BoundaryCondition::Clamped);
         let motion = spinning(300.0, [0.0; 3], frame);
-        let (ties, motions) = ([seam], [motion]);
-        let closed = BaseChoice::Closed;
+        let (ties, motions, closed) = ([seam], [motion], BaseChoice::Closed);
         let assembly = Assembly::new(&mesh, &STEEL, &ties, &[], &motions, closed).unwrap();
-        let range = assembly.range(&[0.0]).unwrap();
-        let tangent = assembly.tangent(&range.states[0], &OPTIONS).unwrap();
+        let tangent = tangent_at(&assembly, 0.0, &OPTIONS);
         let system = FrfSystem::tied(&tangent);
         let node = node_at(&mesh, [0.0, 0.15, 0.005]);
         let ports = [Direction::X, Direction::Y].map(|direction| {

@@ -1,6 +1,8 @@
 //! Solid bodies on a rigid counterface: a block that is held at every node is one, and the program has another route for it.
 
-use super::{STEEL, eigenvalues, largest_difference, mesh_of, on_rigid, sliding, stacked, turning};
+use super::{
+    aside, assembled, eigenvalues, largest_difference, mesh_of, on_rigid, sliding, stacked,
+};
 use crate::prelude::*;
 use frictionsim::contact::{PairError, RigidCounterface, RigidMotion, RigidShape, Topography};
 
@@ -32,17 +34,12 @@ pub(super) fn plane(motion: RigidMotion, center: [f64; 3]) -> RigidCounterface {
     }
 }
 
-fn assembled<'a>(mesh: &'a Mesh, contact: SlidingSurfaces, motions: &[Motion]) -> Assembly<'a> {
-    let solved = BaseChoice::Solved;
-    Assembly::new(mesh, &STEEL, &[], &[contact], motions, solved).unwrap()
-}
-
 /// Independent check: a body all of whose nodes are held, of which gaps say how far it is pushed in.
 #[test]
 fn a_rigid_plane_is_a_body_that_is_held_everywhere() {
     let mesh = mesh_of(&file_of(&sheet(), |point| point), &HELD);
     let center = [1.0, 0.3, 0.0];
-    let motion = turning(&mesh, [0.0, 0.0, 1.0], center);
+    let motion = aside(&mesh);
     let corners = [[-0.1, -0.1, 0.02], [0.2, -0.1, 0.02], [-0.1, 0.2, 0.02], [0.2, 0.2, 0.02]];
     let places = (0..400).map(|k| [0.0026 * f64::from(k % 20), 0.0022 * f64::from(k / 20), 0.02]);
     let points = places.chain(corners).map(|place| (place, -INTERFERENCE));
@@ -50,12 +47,12 @@ fn a_rigid_plane_is_a_body_that_is_held_everywhere() {
     for stiffness in [None, Some(2e13)] {
         let held =
             SlidingSurfaces { topography: Some(Arc::clone(&gaps)), ..sliding(&mesh, stiffness) };
-        let held = assembled(&mesh, held, std::slice::from_ref(&motion));
+        let held = assembled(&mesh, held, std::slice::from_ref(&motion)).unwrap();
         let on_rigid = SlidingSurfaces {
             counter: Counterpart::Rigid(plane(RigidMotion::Turning(10.0), center)),
             ..sliding(&mesh, stiffness)
         };
-        let on_rigid = assembled(&mesh, on_rigid, &[]);
+        let on_rigid = assembled(&mesh, on_rigid, &[]).unwrap();
         let pressures = [&held, &on_rigid].map(|assembly| {
             let range = assembly.range(&[0.4]).unwrap();
             range.states[range.state_of[0]].normal_forces(0.4)
@@ -105,7 +102,7 @@ fn a_shaft_presses_a_bush_evenly_whatever_its_axis() {
             motion: RigidMotion::Turning(-3.0),
             interference: 1e-6,
         };
-        let assembly = assembled(&mesh, on_rigid(&mesh, "bush_x0", rigid, None), &[]);
+        let assembly = assembled(&mesh, on_rigid(&mesh, "bush_x0", rigid, None), &[]).unwrap();
         let (_, surface) = &assembly.contacts()[0];
         for (point, site) in surface.points.iter().zip(&surface.sites) {
             assert!((point.speed / (3.0 * radius) - 1.0).abs() < 1e-9);
@@ -126,8 +123,7 @@ fn a_shaft_presses_a_bush_evenly_whatever_its_axis() {
 fn refusal(rigid: RigidCounterface) -> PairError {
     let mesh = mesh_of(&file_of(&sheet(), |point| point), &HELD);
     let contact = SlidingSurfaces { counter: Counterpart::Rigid(rigid), ..sliding(&mesh, None) };
-    let found = Assembly::new(&mesh, &STEEL, &[], &[contact], &[], BaseChoice::Solved);
-    match found.unwrap_err() {
+    match assembled(&mesh, contact, &[]).unwrap_err() {
         PrestressError::Pair { error, .. } => *error,
         other => panic!("{other}"),
     }

@@ -1,6 +1,6 @@
 //! Rings that turn, in both frames.
 
-use super::{OPTIONS, STEEL, eigenvalues, mesh_of, tie};
+use super::{OPTIONS, STEEL, eigenvalues, mesh_of, tangent_at, tie};
 use crate::prelude::*;
 use frictionsim::fem::{RotationFrame, assemble_supports};
 
@@ -82,8 +82,7 @@ fn a_free_ring_turns_and_both_frames_tell_the_same_of_its_waves() {
         let motion = turning(speed, [0.0; 3], frame);
         let (ties, closed) = (std::slice::from_ref(&seam), BaseChoice::Closed);
         let assembly = Assembly::new(&mesh, &STEEL, ties, &[], &[motion], closed).unwrap();
-        let range = assembly.range(&[0.0]).unwrap();
-        let tangent = assembly.tangent(&range.states[0], &OPTIONS).unwrap();
+        let tangent = tangent_at(&assembly, 0.0, &OPTIONS);
         let request = sweep_request(&[0.0], ModeLimit::Lowest(8));
         let found = sweep(&tangent, &request, &|_| {}).unwrap();
         assert!(found.intervals.is_empty(), "{:?}", found.intervals);

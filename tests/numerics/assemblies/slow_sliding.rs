@@ -22,16 +22,15 @@ fn lists_of_lossy_modes_have_no_gaps_however_slow_the_sliding() {
     for (rotation_speed, loss_factor) in [(10.0, 0.3), (0.3, 0.05), (0.3, 0.3), (0.02, 0.15)] {
         let mut contact = sliding(&mesh, Some(1e14));
         contact.stiffness.loss_factor = loss_factor;
-        let motion = Motion { rotation_speed, ..turning(&mesh, [0.0, 0.0, 1.0], [1.0, 0.3, 0.0]) };
+        let motion = Motion { rotation_speed, ..aside(&mesh) };
         let steel = ElasticMaterial { loss_factor: 0.3 * loss_factor, ..STEEL };
         let solved = BaseChoice::Solved;
         let assembly = Assembly::new(&mesh, &steel, &[], &[contact], &[motion], solved).unwrap();
-        let range = assembly.range(&[0.5]).unwrap();
         let options = TangentOptions {
             damping: RayleighDamping { mass_coefficient: 100.0, stiffness_coefficient: 1e-8 },
             ..OPTIONS
         };
-        let tangent = assembly.tangent(&range.states[0], &options).unwrap();
+        let tangent = tangent_at(&assembly, 0.5, &options);
         let exact = dense_eigenvalues(&tangent, 0.5);
         for count in 4..9 {
             let request = sweep_request(&[0.5], ModeLimit::Lowest(count));

@@ -18,21 +18,16 @@ fn measured(places: &[[f64; 3]], gap: impl Fn([f64; 3]) -> f64) -> Option<Arc<To
     Some(Arc::new(Topography::new("pad.csv", points.collect())))
 }
 
-fn assembled(mesh: &Mesh, contact: SlidingSurfaces) -> Result<Assembly<'_>, PrestressError> {
-    let motion = turning(mesh, [0.0, 0.0, 1.0], [1.0, 0.3, 0.0]);
-    Assembly::new(mesh, &STEEL, &[], &[contact], &[motion], BaseChoice::Solved)
-}
-
 #[test]
 fn a_plane_of_gaps_at_scattered_points_is_exact_and_measured_points_keep_their_own() {
-    let mesh = mesh_of(&file_of(&stacked(0.0), |point| point), &PRESSED);
+    let mesh = bar();
     let plane = |[x, y, _]: [f64; 3]| 1e-6 + 3e-5 * x - 2e-5 * y;
     for stiffness in [None, Some(1e14)] {
         let contact = SlidingSurfaces {
             topography: measured(&places(400), plane),
             ..sliding(&mesh, stiffness)
         };
-        let assembly = assembled(&mesh, contact).unwrap();
+        let assembly = assembled(&mesh, contact, &[aside(&mesh)]).unwrap();
         let (_, surface) = &assembly.contacts()[0];
         for (point, site) in surface.points.iter().zip(&surface.sites) {
             // Dual weights give a node the value there of what is linear over its faces.
@@ -47,7 +42,7 @@ fn a_plane_of_gaps_at_scattered_points_is_exact_and_measured_points_keep_their_o
         topography: measured(&lines.collect::<Vec<_>>(), plane),
         ..sliding(&mesh, Some(1e14))
     };
-    let refused = assembled(&mesh, contact).unwrap_err().to_string();
+    let refused = assembled(&mesh, contact, &[aside(&mesh)]).unwrap_err().to_string();
     assert!(refused.contains("no measured point of pad.csv"), "{refused}");
 }
 
@@ -74,7 +69,7 @@ fn a_measured_gap_presses_as_the_same_gap_of_the_mesh_and_opens_where_it_opens()
             ..sliding(&flat, stiffness)
         };
         let pressures = |mesh: &Mesh, contact: SlidingSurfaces| -> Vec<(f64, bool)> {
-            let assembly = assembled(mesh, contact).unwrap();
+            let assembly = assembled(mesh, contact, &[aside(mesh)]).unwrap();
             let range = assembly.range(&[friction]).unwrap();
             let state = &range.states[range.state_of[0]];
             let forces = state.normal_forces(friction);

@@ -29,13 +29,10 @@ fn critical_frictions_equal_those_of_the_continuum() {
     let specification = annulus(ElementKind::Quad8, 120, 24);
     let found = run(&specification, &paper_options(), &[0.0, 0.5, 1.0], ModeLimit::Lowest(28));
     let onsets = [(0.1224, 1, 2), (0.1382, 2, 1), (0.2121, 1, 1)];
-    for ((critical, harmonic, branch), interval) in onsets.iter().zip(&found.sweep.intervals) {
-        assert_eq!(
-            (interval.harmonic, interval.branch, interval.direction),
-            (*harmonic, *branch, -1)
-        );
+    for ((critical, harmonic, branch), own) in onsets.iter().zip(&found.sweep.intervals) {
+        assert_eq!((own.harmonic, own.branch, own.direction), (*harmonic, *branch, -1));
         // Four digits are given; the continuum model has no geometric stiffness.
-        assert!((interval.critical_friction - critical).abs() < 1e-3, "{interval:?}");
+        assert!((own.critical_friction - critical).abs() < 1e-3, "{own:?}");
     }
 }
 
@@ -84,12 +81,8 @@ fn every_other_harmonic_is_proven_to_hold_no_mode_of_the_range() {
     let mut rigid = paper_options();
     rigid.contact.normal_stiffness = None;
     for options in [paper_options(), rigid] {
-        let found = run(
-            &annulus(ElementKind::Quad4, 180, 35),
-            &options,
-            &[0.0, 1.0],
-            ModeLimit::Lowest(30),
-        );
+        let specification = annulus(ElementKind::Quad4, 180, 35);
+        let found = run(&specification, &options, &[0.0, 1.0], ModeLimit::Lowest(30));
         let coverage = found.coverage;
         assert_eq!(coverage.followed, (0..=8).collect::<Vec<_>>());
         assert_eq!(coverage.proven_empty, (9..=90).collect::<Vec<_>>());
@@ -100,10 +93,10 @@ fn every_other_harmonic_is_proven_to_hold_no_mode_of_the_range() {
 #[test]
 fn results_are_the_same_to_the_last_bit_on_any_number_of_threads() {
     let solve = |threads: usize| {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         let specification = annulus(ElementKind::Quad4, 40, 8);
         let frictions = [0.0, 0.3, 0.7];
-        pool.install(|| run(&specification, &paper_options(), &frictions, ModeLimit::Lowest(30)))
+        let limit = ModeLimit::Lowest(30);
+        on_threads(threads, || run(&specification, &paper_options(), &frictions, limit))
     };
     let (one, four) = (solve(1), solve(4));
     assert_eq!(one.sweep, four.sweep);

@@ -83,14 +83,11 @@ fn solvers_differ_by_no_more_than_the_uncertainty_that_they_state() {
             assert!(penalty > 1e20, "{penalty:e}");
             continue;
         };
-        let pairs = cyclic.points[0].modes.iter().zip(&sparse.points[0].modes);
-        for (ours, theirs) in pairs {
-            let difference = (ours.eigenvalue - theirs.eigenvalue).norm() / ours.eigenvalue.norm();
+        for (ours, theirs) in cyclic.points[0].modes.iter().zip(&sparse.points[0].modes) {
+            let apart = (ours.eigenvalue - theirs.eigenvalue).norm() / ours.eigenvalue.norm();
             // Entries of a matrix carry a few rounding errors each; the sparse iteration leaves up to 1e-9.
-            assert!(
-                difference < (10.0 * ours.uncertainty).max(1e-9),
-                "{penalty:e} {difference:e} {ours:?}"
-            );
+            let bound = (10.0 * ours.uncertainty).max(1e-9);
+            assert!(apart < bound, "{penalty:e} {apart:e} {ours:?}");
             assert_eq!(ours.uncertainty > 1e-9, penalty > 1e14, "{penalty:e} {ours:?}");
         }
     }
@@ -130,11 +127,8 @@ fn expanded_shapes_are_eigenvectors_of_the_full_mesh() {
                 shape.chunks(2).map(|u| u[0].norm().hypot(u[1].norm())).fold(0.0, f64::max);
             assert!((largest - 1.0).abs() < 1e-12);
             let x = tangent.unknowns.restrict(shape);
-            let (m, c, k) = (
-                multiply(&tangent.mass, &x),
-                multiply(&tangent.damping, &x),
-                multiply(&tangent.stiffness, &x),
-            );
+            let [m, c, k] = [&tangent.mass, &tangent.damping, &tangent.stiffness]
+                .map(|matrix| multiply(matrix, &x));
             let lambda = mode.eigenvalue;
             let scale = k.iter().map(|v| v.norm()).fold(0.0, f64::max);
             for i in 0..x.len() {

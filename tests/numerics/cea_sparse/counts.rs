@@ -172,11 +172,8 @@ fn counts_do_not_depend_on_the_number_of_threads() {
     let tangent = problem(40, chain(40), None);
     let spectrum = dense_eigenvalues(&tangent, 3.5);
     let top = gap(&spectrum, 15..25);
-    let on = |threads: usize| {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
-        let pool = pool.build().unwrap();
-        pool.install(|| missing(&tangent, 3.5, &spectrum[1..], top))
-    };
+    let work = || missing(&tangent, 3.5, &spectrum[1..], top);
+    let on = |threads: usize| on_threads(threads, work);
     let one = on(1);
     assert_eq!(one.0, 1);
     assert!([2, 5].iter().all(|&threads| on(threads) == one));

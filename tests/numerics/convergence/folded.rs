@@ -24,6 +24,20 @@ pub fn base_state(mesh: &AnnulusMesh, annulus: &Annulus, rotation_speed: f64) ->
     SteadySliding::solve(&mesh.mesh, &stiffness, &sliding).expect("the disc is pressed everywhere")
 }
 
+/// What one convergence study covers: the two lowest branches of harmonics 0 to 4, both directions.
+pub struct Study {
+    pub annulus: Annulus,
+    pub contact: Contact,
+    pub mass: MassKind,
+    pub rayleigh: Rayleigh,
+}
+
+impl Study {
+    pub fn of(contact: Contact, rayleigh: Rayleigh) -> Self {
+        Self { annulus: super::rates::DISC, contact, mass: MassKind::Consistent, rayleigh }
+    }
+}
+
 /// The program's discrete problem for the same annulus and contact as the reference.
 pub struct Discretisation {
     /// `M`, `C`, `K_t` as polynomials in the friction coefficient.
@@ -37,39 +51,20 @@ pub struct Discretisation {
 }
 
 impl Discretisation {
-    /// Prestress and tangent on one mesh, rotor counter-clockwise; `rayleigh` on the whole tangent.
-    pub fn new(
-        specification: &AnnulusSpecification,
-        annulus: &Annulus,
-        contact: &Contact,
-        mass: MassKind,
-        rayleigh: Rayleigh,
-    ) -> Self {
-        Self::turning(FORWARD, specification, annulus, contact, mass, rayleigh)
-    }
-
-    /// [`Discretisation::new`] for either sense of rotation.
-    pub fn turning(
-        rotation_speed: f64,
-        specification: &AnnulusSpecification,
-        annulus: &Annulus,
-        contact: &Contact,
-        mass: MassKind,
-        rayleigh: Rayleigh,
-    ) -> Self {
+    /// Prestress and tangent on one mesh, the rotor turning at a speed; damping on the whole tangent.
+    pub fn new(specification: &AnnulusSpecification, study: &Study, rotation_speed: f64) -> Self {
+        let Study { annulus, contact, mass, rayleigh } = *study;
         let mesh = AnnulusMesh::generate(specification).expect("a valid mesh");
-        let material = material(annulus);
+        let material = material(&annulus);
+        let (mass_coefficient, stiffness_coefficient) = rayleigh;
         let options = TangentOptions {
             mass,
             geometric_stiffness: contact.prestress_interference.is_some(),
-            damping: RayleighDamping {
-                mass_coefficient: rayleigh.0,
-                stiffness_coefficient: rayleigh.1,
-            },
+            damping: RayleighDamping { mass_coefficient, stiffness_coefficient },
             contact: ContactStiffness { normal_stiffness: contact.normal_stiffness, ..RIGID },
             ..TANGENT
         };
-        let base = base_state(&mesh, annulus, rotation_speed);
+        let base = base_state(&mesh, &annulus, rotation_speed);
         let elastic = assemble_stiffness(&mesh.mesh, &material);
         Self {
             tangent: SlidingTangent::linearize(&mesh.mesh, &material, &elastic, &base, &options),

@@ -51,9 +51,7 @@ pub fn rate(errors: [f64; 3]) -> f64 {
 pub fn assert_rate(element: ElementKind, what: &str, errors: [f64; 3]) {
     let expected = expected_rate(element);
     let slope = rate(errors);
-    println!("{element:?} {what}: slope {slope:.3}, errors {errors:.3?}");
-    assert!(
-        (slope - expected).abs() <= 0.1,
-        "{element:?} {what}: slope {slope:.3}, errors {errors:?}"
-    );
+    let said = format!("{element:?} {what}: slope {slope:.3}, errors {errors:.3?}");
+    println!("{said}");
+    assert!((slope - expected).abs() <= 0.1, "{said}");
 }

@@ -22,12 +22,7 @@ fn critical_speed() -> f64 {
 }
 
 fn contact(speed: f64) -> SlidingContact {
-    SlidingContact {
-        decay: Some(DECAY),
-        friction_coefficient: 0.3,
-        interference: 0.0,
-        rotation_speed: speed,
-    }
+    SlidingContact { decay: Some(DECAY), ..sliding_at(0.3, 0.0, speed) }
 }
 
 /// 4 by 3 square elements; the plane below, the spring on the right, the pressure above.
@@ -49,9 +44,7 @@ pub fn block(pressure: f64) -> Mesh {
 fn growth_rate(mesh: &Mesh, speed: f64) -> f64 {
     let options = TangentOptions { damping: RayleighDamping::default(), ..TANGENT };
     let tangent = linearized(mesh, &STEEL, &contact(speed), &options);
-    let request = sweep_request(&[0.3], ModeLimit::Lowest(1));
-    let found = sweep(&tangent, &request, &|_| {}).unwrap();
-    let mode = &found.points[0].modes[0];
+    let mode = &modes_at(&tangent, 0.3, ModeLimit::Lowest(1))[0];
     // The block on its spring.
     let expected = (SPRING / MASS).sqrt();
     assert!((mode.eigenvalue.norm() / expected - 1.0).abs() < 0.02);
@@ -76,20 +69,13 @@ fn a_block_on_a_spring_turns_unstable_at_the_critical_speed_of_the_stick_slip_os
 
 /// Samples of a transient of forty periods that starts from a push.
 fn samples(mesh: &Mesh, speed: f64) -> Vec<SampleRow> {
-    let model = TransientModel::new(
-        SteppedBody::Plane { mesh, annulus: None },
-        &STEEL,
-        RayleighDamping { mass_coefficient: 0.0, stiffness_coefficient: 3e-7 },
-        contact(speed),
-    );
-    let period = std::f64::consts::TAU * (MASS / SPRING).sqrt();
-    let settings = transient_settings(
-        40.0 * period,
-        0.02 * period,
-        0.0,
-        InitialState::SteadySliding,
-        Perturbation { noise: 1e-2 * speed, ..Perturbation::default() },
-    );
+    let body = SteppedBody::Plane { mesh, annulus: None };
+    let damping = RayleighDamping { mass_coefficient: 0.0, stiffness_coefficient: 3e-7 };
+    let model = TransientModel::new(body, &STEEL, damping, contact(speed));
+    let period = TAU * (MASS / SPRING).sqrt();
+    let noise = Perturbation { noise: 1e-2 * speed, ..Perturbation::default() };
+    let [duration, interval] = [40.0, 0.02].map(|periods| periods * period);
+    let settings = transient_settings(duration, interval, 0.0, InitialState::SteadySliding, noise);
     let (record, residual) = recorded(model, OperatorChoice::Auto, &settings);
     assert!(residual < 1e-10, "{:e}", residual);
     record.rows

@@ -2,9 +2,7 @@
 
 use crate::prelude::*;
 
-const MATERIAL: &str = "[material]\nyoung_modulus = 2.5e9\npoisson_ratio = 0.3805\ndensity = 1228.0\n\
-    [damping]\nmass_coefficient = 40.0\nstiffness_coefficient = 4.5e-7\n\
-    [contact]\nfriction_coefficient = 0.3\ninterference = 25e-6\nrotation_speed_rpm = 610.0\n";
+use crate::plane_body::studies::MODEL as MATERIAL;
 
 /// A folder with the same coarse disc twice: `annulus.toml`, and `body.toml` with a mesh file in millimetres whose node
 /// numbers begin at 1001.

@@ -1,7 +1,7 @@
 //! The disc of the source paper with its thickness.
 
 use crate::prelude::*;
-use crate::solids::model::{disc, modes};
+use crate::solids::model::{base, disc, modes};
 
 /// Independent prototype, exact in theta: good to 2e-4 in plane; torsion is that of the plane.
 #[test]
@@ -38,11 +38,7 @@ fn every_mode_with_axial_motion_decays() {
 /// The same prototype: 2.599 MPa, 2.828 MPa in plane strain.
 #[test]
 fn mean_pressure_of_the_thick_disc_is_that_of_an_independent_solution() {
-    let model = disc(ElementKind::Quad8, [36, 12, 2]);
-    let sector = SolidSector::generate(&model.specification).unwrap();
-    let elastic = sector::stiffness(&sector, &model.material);
-    let base =
-        SolidSliding::solve(&sector, &elastic, &model.contact, None, model.options.mass).unwrap();
+    let (sector, base) = base(&disc(ElementKind::Quad8, [36, 12, 2])).unwrap();
     assert!((base.mean_pressure(&sector) / 2.599e6 - 1.0).abs() < 1e-3);
 }
 

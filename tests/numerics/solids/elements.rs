@@ -70,22 +70,16 @@ fn rigid_rotation_leaves_the_prestressed_body_in_balance() {
             // Neighbours of the clamped edge feel that it does not turn.
             let outermost = |dof: usize| sector.nodes[dof / 3].place[0] + 2 >= 12;
             for (after, before) in with.harmonic(0).stiffness.iter().zip(&without) {
-                let change: Vec<f64> = after
-                    .multiply(&rotation)
-                    .iter()
-                    .zip(before.multiply(&rotation))
-                    .map(|(a, b)| a - b)
-                    .collect();
+                let pairs = after.multiply(&rotation).into_iter().zip(before.multiply(&rotation));
+                let change: Vec<f64> = pairs.map(|(a, b)| a - b).collect();
                 let mut difference = after.clone();
                 difference.add_scaled(-1.0, before);
                 let scale = difference.values().iter().fold(0.0_f64, |m, v| m.max(v.abs())) * 0.09;
                 for (dof, unknown) in with.unknowns().unknown_of.iter().enumerate() {
                     if let (Some(unknown), false) = (unknown, outermost(dof)) {
                         // Each row sums a hundred terms of that size.
-                        assert!(
-                            change[*unknown].abs() < 1e-10 * scale,
-                            "{element:?} {contact:?} {dof}"
-                        );
+                        let is_balanced = change[*unknown].abs() < 1e-10 * scale;
+                        assert!(is_balanced, "{element:?} {contact:?} {dof}");
                     }
                 }
             }

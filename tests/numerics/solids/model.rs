@@ -4,11 +4,11 @@ use crate::disc::{TANGENT, elastic, sliding_at, sweep_request};
 use frictionsim::cea::cyclic::{WaveSweep, wave_sweep};
 use frictionsim::cea::{CeaError, ComplexMode, ModeLimit, SweepRequest};
 use frictionsim::contact::SlidingContact;
-use frictionsim::fem::{ElasticMaterial, MaterialField, PlaneFormulation, RayleighDamping};
+use frictionsim::fem::{ElasticMaterial, MaterialField, PlaneFormulation, RayleighDamping, sector};
 use frictionsim::mesh::{
     BoundaryCondition, ElementKind, SolidContact, SolidSector, SolidSpecification,
 };
-use frictionsim::prestress::{TangentOptions, WaveTangent};
+use frictionsim::prestress::{PrestressError, SolidSliding, TangentOptions, WaveTangent};
 use frictionsim::transient::{SteppedBody, TransientModel};
 use std::f64::consts::TAU;
 
@@ -30,6 +30,36 @@ pub fn solid_sweep<M: MaterialField>(
     let SolidModel { material, options, contact, .. } = model;
     let tangent = WaveTangent::of_revolution(&sector, material, options, contact)?;
     wave_sweep(tangent, request, &[])
+}
+
+/// Its small motions.
+pub fn tangent<M: MaterialField>(model: &SolidModel<M>) -> WaveTangent {
+    let sector = SolidSector::generate(&model.specification).unwrap();
+    let SolidModel { material, options, contact, .. } = model;
+    WaveTangent::of_revolution(&sector, material, options, contact).unwrap()
+}
+
+/// Its base state, with the sector that it is solved on.
+pub fn base(model: &SolidModel) -> Result<(SolidSector, SolidSliding), PrestressError> {
+    let sector = SolidSector::generate(&model.specification).unwrap();
+    let elastic = sector::stiffness(&sector, &model.material);
+    let law = model.options.contact.base_law();
+    let base = SolidSliding::solve(&sector, &elastic, &model.contact, law, model.options.mass)?;
+    Ok((sector, base))
+}
+
+/// A disc clamped at its bore, under a ring in the middle of its face, from which it bends away.
+pub fn bending(element: ElementKind, divisions: [usize; 3]) -> SolidModel {
+    let mut model = disc(element, divisions);
+    let specification = &mut model.specification;
+    specification.annulus.inner_radius = 0.045;
+    specification.annulus.outer_radius = 0.12;
+    specification.thickness = 0.008;
+    specification.contact = SolidContact::Ring { inner_radius: 0.075, outer_radius: 0.11 };
+    specification.conditions = [BoundaryCondition::Free; 4];
+    specification.conditions[0] = BoundaryCondition::Clamped;
+    model.contact.interference = 1e-5;
+    model
 }
 
 /// Clamped outside, pressed inside by 25 um, 610 rpm, friction 0.3, without geometric stiffness.

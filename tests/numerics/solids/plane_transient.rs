@@ -49,12 +49,7 @@ fn thick(divisions: [usize; 2]) -> Course {
     model.specification.conditions[2] = BoundaryCondition::Guide;
     model.specification.conditions[3] = BoundaryCondition::Guide;
     let sector = SolidSector::generate(&model.specification).unwrap();
-    let body = body(&model, &sector);
-    let operator = body.operator(OperatorChoice::Auto, SimdLevel::Scalar).unwrap();
-    let mut run = CentralDifference::start(body, operator.as_ref(), &settings()).unwrap();
-    let mut course = Course { is_solid: true, ..Course::default() };
-    run.run(&mut course).unwrap();
-    course
+    course(body(&model, &sector), true)
 }
 
 fn flat(divisions: [usize; 2]) -> Course {
@@ -63,10 +58,13 @@ fn flat(divisions: [usize; 2]) -> Course {
     let mut material = model.material;
     material.formulation = PlaneFormulation::PlaneStrain;
     let damping = model.options.damping;
-    let body = TransientModel::of_annulus(&annulus, &material, damping, model.contact);
+    course(TransientModel::of_annulus(&annulus, &material, damping, model.contact), false)
+}
+
+fn course(body: TransientModel<'_>, is_solid: bool) -> Course {
     let operator = body.operator(OperatorChoice::Auto, SimdLevel::Scalar).unwrap();
     let mut run = CentralDifference::start(body, operator.as_ref(), &settings()).unwrap();
-    let mut course = Course::default();
+    let mut course = Course { is_solid, ..Course::default() };
     run.run(&mut course).unwrap();
     course
 }

@@ -73,30 +73,30 @@ fn the_response_has_its_pole_on_the_axis_at_every_critical_friction_of_the_eigen
     has_poles_at_onsets(&model);
 }
 
-/// The springs carry the base state, on which all of the tangent rests.
-#[test]
-fn on_a_base_state_that_springs_carry_the_response_has_the_poles_of_the_eigenvalue_analysis() {
+/// The same on a contact, for either element.
+fn has_poles_on(contact: ContactStiffness) {
     for (element, divisions) in [(ElementKind::Quad4, [24, 6, 2]), (ElementKind::Quad8, [16, 4, 1])]
     {
         let mut model = disc(element, divisions);
         model.options.geometric_stiffness = true;
-        model.options.contact =
-            ContactStiffness { normal_stiffness: Some(1e12), is_base_compliant: true, ..RIGID };
+        model.options.contact = contact;
         has_poles_at_onsets(&model);
     }
+}
+
+/// The springs carry the base state, on which all of the tangent rests.
+#[test]
+fn on_a_base_state_that_springs_carry_the_response_has_the_poles_of_the_eigenvalue_analysis() {
+    let springs =
+        ContactStiffness { normal_stiffness: Some(1e12), is_base_compliant: true, ..RIGID };
+    has_poles_on(springs);
 }
 
 /// A contact that stiffens carries the base state, and the tangent has its stiffness at the pressure there.
 #[test]
 fn on_a_contact_that_stiffens_the_response_has_the_poles_of_the_eigenvalue_analysis() {
-    for (element, divisions) in [(ElementKind::Quad4, [24, 6, 2]), (ElementKind::Quad8, [16, 4, 1])]
-    {
-        let mut model = disc(element, divisions);
-        model.options.geometric_stiffness = true;
-        let law = NormalLaw::Exponential { reference_pressure: 2e5, height: 2e-6 };
-        model.options.contact = stiffening(law);
-        has_poles_at_onsets(&model);
-    }
+    let law = NormalLaw::Exponential { reference_pressure: 2e5, height: 2e-6 };
+    has_poles_on(stiffening(law));
 }
 
 /// Around, bricks of 20 nodes have the traction of a point act along the normals of nodes beside it: a term of `mu^2`.

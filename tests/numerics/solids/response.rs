@@ -1,7 +1,7 @@
 //! Frequency responses of bodies of revolution.
 
 use crate::prelude::*;
-use crate::solids::model::disc;
+use crate::solids::model::{disc, tangent};
 use crate::solids::whole_ring::WholeRing;
 
 use Direction::{Axial, Radial, Tangential};
@@ -13,10 +13,7 @@ pub fn body(model: &SolidModel, is_clamped: bool) -> CyclicSystem {
 }
 
 pub fn sliding(model: &SolidModel, friction: f64) -> CyclicSystem {
-    let sector = SolidSector::generate(&model.specification).unwrap();
-    let tangent =
-        WaveTangent::of_revolution(&sector, &model.material, &model.options, &model.contact);
-    CyclicSystem::sliding(&tangent.unwrap(), friction)
+    CyclicSystem::sliding(&tangent(model), friction)
 }
 
 fn small(element: ElementKind) -> SolidModel {
@@ -162,12 +159,8 @@ fn the_response_has_the_same_bits_on_any_number_of_threads() {
     let sector = SolidSector::generate(&model.specification).unwrap();
     let (a, b) = (at(&sector, 1, [0, 0], 0, Axial), at(&sector, 5, [2, 4], 0, Radial));
     let f: Vec<f64> = (1..=77).map(|line| 100.0 * f64::from(line)).collect();
-    let on = |threads: usize| {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
-        let work = || cyclic_response(&system, a, b, &f).unwrap();
-        pool.unwrap().install(work)
-    };
-    assert_eq!(on(1), on(3));
+    let work = || cyclic_response(&system, a, b, &f).unwrap();
+    assert_eq!(on_threads(1, work), on_threads(3, work));
 }
 
 #[test]

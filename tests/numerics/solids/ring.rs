@@ -1,7 +1,7 @@
 //! A flat ring that presses on the face of a disc.
 
 use crate::prelude::*;
-use crate::solids::model::{disc, modes};
+use crate::solids::model::{base, disc, modes};
 
 /// A ring on the outer half of the top face.
 fn ringed(element: ElementKind, divisions: [usize; 3]) -> SolidModel {
@@ -9,14 +9,6 @@ fn ringed(element: ElementKind, divisions: [usize; 3]) -> SolidModel {
     model.specification.contact = SolidContact::Ring { inner_radius: 0.05, outer_radius: 0.08 };
     model.contact.interference = 5e-6;
     model
-}
-
-fn base(model: &SolidModel) -> Result<(SolidSector, SolidSliding), PrestressError> {
-    let sector = SolidSector::generate(&model.specification).unwrap();
-    let elastic = sector::stiffness(&sector, &model.material);
-    let law = model.options.contact.base_law();
-    let base = SolidSliding::solve(&sector, &elastic, &model.contact, law, model.options.mass)?;
-    Ok((sector, base))
 }
 
 /// A ring on the whole face of a layer whose bottom cannot move, guided at its sides.

@@ -1,7 +1,7 @@
 //! Independent check: sensitivities of bodies of revolution against central differences of the whole analysis, base state included.
 
 use crate::prelude::*;
-use crate::solids::model::disc;
+use crate::solids::model::{bending, disc, tangent};
 use crate::waves::{STEP, pairs, rates};
 
 const FRICTION: f64 = 0.35;
@@ -11,12 +11,6 @@ type Name = (usize, usize, i8);
 
 fn request() -> SweepRequest<'static> {
     sweep_request(&[0.0, 0.4], ModeLimit::MaxFrequency(9e3))
-}
-
-fn tangent(model: &SolidModel) -> WaveTangent {
-    let sector = SolidSector::generate(&model.specification).unwrap();
-    let SolidModel { material, options, contact, .. } = model;
-    WaveTangent::of_revolution(&sector, material, options, contact).unwrap()
 }
 
 /// Eigenvalues of all branches at a friction coefficient, of the whole harmonics: what a small space leaves out of them, up to 1e-5 on
@@ -247,11 +241,7 @@ fn sensitivities_follow_the_end_of_what_is_pressed() {
         model.contact.interference = 4e-5;
         // Soft, so that more than the last ring is pressed.
         model.options.contact.normal_stiffness = Some(2e9);
-        let sector = SolidSector::generate(&model.specification).unwrap();
-        let contact = model.contact;
-        let tangent =
-            WaveTangent::of_revolution(&sector, &model.material, &model.options, &contact);
-        let tangent = tangent.unwrap();
+        let tangent = tangent(&model);
         let pressed = tangent.pressed();
         assert!(pressed.contains(&true) && pressed.contains(&false));
         compare(&model, &format!("partly open, {law:?}, {element:?}"));
@@ -262,14 +252,7 @@ fn sensitivities_follow_the_end_of_what_is_pressed() {
 /// derivative is the same for another step, and for a modulus that differs in its last digits.
 #[test]
 fn a_derivative_by_the_interference_is_that_of_the_pressure_not_of_round_off() {
-    let mut model = disc(ElementKind::Quad8, [24, 8, 2]);
-    let specification = &mut model.specification;
-    specification.annulus.inner_radius = 0.045;
-    specification.annulus.outer_radius = 0.12;
-    specification.thickness = 0.008;
-    specification.contact = SolidContact::Ring { inner_radius: 0.075, outer_radius: 0.11 };
-    specification.conditions = [BoundaryCondition::Free; 4];
-    specification.conditions[0] = BoundaryCondition::Clamped;
+    let mut model = bending(ElementKind::Quad8, [24, 8, 2]);
     model.options.geometric_stiffness = true;
     model.options.contact = ContactStiffness {
         normal_stiffness: Some(1e11),
@@ -279,7 +262,6 @@ fn a_derivative_by_the_interference_is_that_of_the_pressure_not_of_round_off() {
     let own_rates = |modulus: f64, step: f64| -> Vec<f64> {
         let mut model = model.clone();
         model.material = elastic(modulus, 0.3, 7850.0, PlaneFormulation::ThreeDimensional);
-        model.contact.interference = 1e-5;
         let request = sweep_request(&[0.0, 0.4], ModeLimit::MaxFrequency(3e3));
         let found = solid_sweep(&model, &request).unwrap();
         let all = pairs(&tangent(&model), &found.branches, FRICTION);

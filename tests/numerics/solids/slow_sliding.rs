@@ -4,7 +4,7 @@
 //! sliding held.
 
 use crate::prelude::*;
-use crate::solids::model::disc;
+use crate::solids::model::{disc, tangent};
 use frictionsim::fem::{MaterialField, ModulusTable, TabledMaterial};
 use std::sync::Arc;
 
@@ -46,10 +46,7 @@ fn dense_at<M: MaterialField>(
     is_held: &dyn Fn(usize) -> bool,
     omega: f64,
 ) -> Vec<c64> {
-    let sector = SolidSector::generate(&model.specification).unwrap();
-    let tangent =
-        WaveTangent::of_revolution(&sector, &model.material, &model.options, &model.contact)
-            .unwrap();
+    let tangent = tangent(model);
     let (harmonic, sigma) = (tangent.harmonic(n), c64::new(TAU * LIMIT, 0.0));
     let at = harmonic.at(FRICTION);
     let kept: Vec<usize> = (0..at.dimension()).filter(|&unknown| !is_held(unknown)).collect();
@@ -186,11 +183,8 @@ fn creep_without_vectors_of_its_own_leaves_the_other_modes() {
     let onsets = ["cyclic", "sparse"].map(|method| {
         let method = format!("cea.method={method}");
         let run = Run::of("cea", shipped("disc-three-dimensions.toml")).set(&[set, &method]);
-        let out = folder.path().join(method);
-        run.out(&out).done();
-        let table = fs::read_to_string(out.join("stability.csv")).unwrap();
-        let rows = table.lines().skip(1).map(|row| row.split(',').nth(3).unwrap().parse().unwrap());
-        rows.collect::<Vec<f64>>()
+        let rows = run.out(folder.path().join(method)).done().rows("stability.csv");
+        rows.iter().map(|row| row.number("critical_friction")).collect::<Vec<f64>>()
     });
     let [waves, whole] = onsets;
     assert_eq!(waves.len(), 5, "{waves:?}");
@@ -202,11 +196,7 @@ fn creep_without_vectors_of_its_own_leaves_the_other_modes() {
 #[test]
 fn sliding_that_comes_to_rest_has_the_spectrum_with_the_motion_across_it_held() {
     let model = turning(ElementKind::Quad4, [24, 6, 2], 1e-7);
-    let sector = SolidSector::generate(&model.specification).unwrap();
-    let tangent =
-        WaveTangent::of_revolution(&sector, &model.material, &model.options, &model.contact)
-            .unwrap();
-    let across = tangent.sideways_unknowns();
+    let across = tangent(&model).sideways_unknowns();
     let found = solved(&model);
     for n in [0, 2] {
         let held = dense(&model, n, &|unknown| across.contains(&unknown));

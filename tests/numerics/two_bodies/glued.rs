@@ -4,7 +4,7 @@
 
 use crate::cea_sparse::bare;
 use crate::prelude::*;
-use crate::two_bodies::model::{Part, file_of, one_material, rectangle, ring, rings, rings_of};
+use crate::two_bodies::model::{held_blocks, one_material, rectangle, ring, rings, rings_of};
 use frictionsim::cea::sparse::FrictionlessModes;
 use frictionsim::linalg::SparsityPattern;
 
@@ -114,26 +114,9 @@ fn glued_bodies_whose_meshes_do_not_match_converge_to_one_body_at_second_order()
 
 /// A block on a block, one as wide as the other, of `along` elements each (lower, upper).
 fn blocks(along: [usize; 2]) -> Mesh {
-    let part = |y: f64, height: f64, count, region, names| Part {
-        mesh: rectangle([0.0, y], [0.04, height], count),
-        region,
-        names,
-        turn: 0.0,
-    };
-    let parts = [
-        part(-0.02, 0.02, [along[0], 3], "lower", ["floor", "track"]),
-        part(0.0, 0.03, [along[1], 4], "upper", ["sole", "top"]),
-    ];
-    let specification = BodySpecification {
-        scale: 1.0,
-        contact: "sole".to_owned(),
-        counterface: CounterfaceSpecification::Plane { direction: None },
-        opposite: Some("track".to_owned()),
-        conditions: ["floor", "top"]
-            .map(|name| (name.to_owned(), BoundaryCondition::Clamped))
-            .to_vec(),
-    };
-    Mesh::from_gmsh(&FileMesh::read(&file_of(&parts)).unwrap(), &specification).unwrap()
+    let lower = rectangle([0.0, -0.02], [0.04, 0.02], [along[0], 3]);
+    let upper = rectangle([0.0, 0.0], [0.04, 0.03], [along[1], 4]);
+    held_blocks([lower, upper], BoundaryCondition::Clamped).unwrap()
 }
 
 /// Patch test: every state of constant strain passes glue between any two meshes: it is continuous, and with what it

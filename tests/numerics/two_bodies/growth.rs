@@ -36,12 +36,8 @@ fn run(
     eigenvalue: c64,
     shape: &[c64],
 ) -> (Recorder, usize) {
-    let model = TransientModel::new(
-        SteppedBody::Plane { mesh, annulus: None },
-        materials,
-        DAMPING,
-        contact(),
-    );
+    let body = SteppedBody::Plane { mesh, annulus: None };
+    let model = TransientModel::new(body, materials, DAMPING, contact());
     let operator = model.operator(OperatorChoice::Auto, SimdLevel::detect()).unwrap();
     let settings =
         transient_settings(0.004, 4e-6, 0.0, InitialState::SteadySliding, Perturbation::default());

@@ -9,7 +9,7 @@ mod sweeps;
 use crate::prelude::*;
 use frictionsim::fem::TabledMaterial;
 use frictionsim::mesh::BodyError;
-use model::{Part, contact, file_of, modes, one_material, options, rectangle, rings};
+use model::{contact, held_blocks, modes, one_material, options, rectangle, rings};
 
 /// Disc and shaft as built in, by sectors.
 fn built_in(
@@ -74,17 +74,7 @@ fn mounting() -> ElasticSupport {
 fn blocks(along: [usize; 2]) -> Result<Mesh, BodyError> {
     let lower = rectangle([-0.01, -0.02], [0.06, 0.02], [along[0], 3]);
     let upper = rectangle([0.0, 0.0], [0.04, 0.03], [along[1], 4]);
-    let parts = [
-        Part { mesh: lower, region: "lower", names: ["floor", "track"], turn: 0.0 },
-        Part { mesh: upper, region: "upper", names: ["sole", "top"], turn: 0.0 },
-    ];
-    let specification = plane_body(
-        "sole",
-        CounterfaceSpecification::Plane { direction: None },
-        Some("track"),
-        &[("floor", BoundaryCondition::Clamped), ("top", BoundaryCondition::Support(mounting()))],
-    );
-    Mesh::from_gmsh(&FileMesh::read(&file_of(&parts)).unwrap(), &specification)
+    held_blocks([lower, upper], BoundaryCondition::Support(mounting()))
 }
 
 /// Patch test: through meshes of any two fineness a constant pressure passes as it is.

@@ -7,7 +7,10 @@ use frictionsim::cea::sparse::sweep;
 use frictionsim::cea::{ComplexMode, ModeLimit, SweepRequest};
 use frictionsim::contact::SlidingContact;
 use frictionsim::fem::{MassKind, MaterialField};
-use frictionsim::mesh::{AnnulusMesh, Boundary, BoundaryCondition, ElementKind, FileMesh, Mesh};
+use frictionsim::mesh::{
+    AnnulusMesh, BodyError, Boundary, BoundaryCondition, CounterfaceSpecification, ElementKind,
+    FileMesh, Mesh,
+};
 use frictionsim::prestress::TangentOptions;
 
 /// A body with the names that its boundaries have in the file.
@@ -47,6 +50,22 @@ pub fn file_of(parts: &[Part<'_>]) -> Vec<u8> {
         }
     }
     mesh_text(&points, &groups, &elements)
+}
+
+/// A lower and an upper block in one file.
+pub fn blocks_of([lower, upper]: [Mesh; 2]) -> Vec<u8> {
+    file_of(&[
+        Part { mesh: lower, region: "lower", names: ["floor", "track"], turn: 0.0 },
+        Part { mesh: upper, region: "upper", names: ["sole", "top"], turn: 0.0 },
+    ])
+}
+
+/// The same read, the lower one held at its floor, the upper one at its top.
+pub fn held_blocks(blocks: [Mesh; 2], top: BoundaryCondition) -> Result<Mesh, BodyError> {
+    let plane = CounterfaceSpecification::Plane { direction: None };
+    let held = [("floor", BoundaryCondition::Clamped), ("top", top)];
+    let specification = plane_body("sole", plane, Some("track"), &held);
+    Mesh::from_gmsh(&FileMesh::read(&blocks_of(blocks)).unwrap(), &specification)
 }
 
 /// Disc and shaft as rings of `around` elements (shaft, disc); the shaft is turned by `turn`.

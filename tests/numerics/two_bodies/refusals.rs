@@ -1,27 +1,14 @@
 //! Cases of two bodies that are refused.
 
 use crate::prelude::*;
-use crate::two_bodies::model::{Part, file_of, rectangle};
+use crate::two_bodies::model::{blocks_of, rectangle};
 
 #[test]
 fn bodies_that_do_not_meet_are_refused_with_a_remedy() {
     let folder = kept("two_bodies");
     let block = |y: f64, x: f64| {
-        let parts = [
-            Part {
-                mesh: rectangle([-0.01, -0.02], [0.06, 0.02], [6, 2]),
-                region: "lower",
-                names: ["floor", "track"],
-                turn: 0.0,
-            },
-            Part {
-                mesh: rectangle([x, y], [0.04, 0.03], [4, 3]),
-                region: "upper",
-                names: ["sole", "top"],
-                turn: 0.0,
-            },
-        ];
-        file_of(&parts)
+        let lower = rectangle([-0.01, -0.02], [0.06, 0.02], [6, 2]);
+        blocks_of([lower, rectangle([x, y], [0.04, 0.03], [4, 3])])
     };
     std::fs::write(folder.join("good.msh"), block(0.0, 0.0)).unwrap();
     std::fs::write(folder.join("deep.msh"), block(-1e-4, 0.0)).unwrap();

@@ -1,26 +1,14 @@
 //! Steps whose sweeps over the contact between two bodies end before the forces have converged: consistency of what is said.
 
 use crate::prelude::*;
-use crate::two_bodies::model::{Part, file_of, rectangle};
+use crate::two_bodies::model::{blocks_of, rectangle};
 
 /// A block on another one, so many elements along the contact.
 fn write_case(folder: &Path, along: [usize; 2], upper_density: f64) {
-    let parts = [
-        Part {
-            mesh: rectangle([0.0, -0.02], [0.04, 0.02], [along[0], 2]),
-            region: "lower",
-            names: ["floor", "track"],
-            turn: 0.0,
-        },
-        Part {
-            mesh: rectangle([0.0, 0.0], [0.04, 0.03], [along[1], 3]),
-            region: "upper",
-            names: ["sole", "top"],
-            turn: 0.0,
-        },
-    ];
+    let lower = rectangle([0.0, -0.02], [0.04, 0.02], [along[0], 2]);
+    let upper = rectangle([0.0, 0.0], [0.04, 0.03], [along[1], 3]);
     std::fs::create_dir_all(folder).unwrap();
-    std::fs::write(folder.join("blocks.msh"), file_of(&parts)).unwrap();
+    std::fs::write(folder.join("blocks.msh"), blocks_of([lower, upper])).unwrap();
     let text = format!(
         "[mesh]\nfile = \"blocks.msh\"
 [material]\nyoung_modulus = 2.5e9\npoisson_ratio = 0.3\ndensity = 1228.0

@@ -65,12 +65,8 @@ fn closed_form(n: f64) -> [f64; 2] {
 /// speed.
 fn ring(sectors: usize) -> [[f64; 2]; 2] {
     let [inner, outer] = RADII;
-    let block = brick(
-        "ring",
-        [inner, 0.0, 0.0],
-        [outer - inner, TAU / sectors as f64, 0.01],
-        [sectors / 12, 1, 1],
-    );
+    let size = [outer - inner, TAU / sectors as f64, 0.01];
+    let block = brick("ring", [inner, 0.0, 0.0], size, [sectors / 12, 1, 1]);
     let mesh = file_of(&[block], |[r, angle, z]| [r * angle.cos(), r * angle.sin(), z]);
     let case = format!(
         "[mesh]\nfile = \"body.msh\"\nsectors = {sectors}\n[material]\nyoung_modulus = {YOUNG:e}\n\

@@ -23,14 +23,8 @@ fn block(young_modulus: f64) -> [f64; 3] {
     let block = brick("block", [0.0; 3], size, [2, 4, 2]);
     let folder = folder("hulten_1993", &file_of(&[block], |point| point));
     let mass = 7850.0 * size[0] * size[1] * size[2];
-    let [wall, floor] = [OWN[0] / size[1], OWN[1] / size[0]]
-        .map(|ratio| ratio / size[2] * mass * TAU * TAU)
-        .into_iter()
-        .zip(OWN)
-        .map(|(stiffness, own)| stiffness * own)
-        .collect::<Vec<f64>>()
-        .try_into()
-        .unwrap();
+    let [wall, floor] = [(OWN[0], size[1]), (OWN[1], size[0])]
+        .map(|(own, side)| own / side / size[2] * mass * TAU * TAU * own);
     let contact = |name: &str, surface: &str, direction: &str, stiffness: f64| {
         format!(
             "[contacts.{name}]\nsurface = \"{surface}\"\ncounterface = \"plane\"\ndirection = {direction}\n\
