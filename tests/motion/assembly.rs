@@ -121,13 +121,8 @@ fn model<'a>(assembly: &'a Assembly<'a>) -> TransientModel<'a> {
 }
 
 fn settings(initial: InitialState, duration: f64, noise: f64) -> TransientSettings {
-    transient_settings(
-        duration,
-        2e-6,
-        1e-4,
-        initial,
-        Perturbation { noise, ..Perturbation::default() },
-    )
+    let perturbation = Perturbation { noise, ..Perturbation::default() };
+    transient_settings(duration, 2e-6, 1e-4, initial, perturbation)
 }
 
 fn run(assembly: &Assembly<'_>, settings: &TransientSettings) -> (Recorder, f64) {
@@ -191,11 +186,10 @@ fn the_energy_of_an_assembly_closes_from_rest_to_sliding() {
     for springs in SPRINGS {
         let assembly = assembly(&mesh, &STEEL, springs, None, 0.05);
         let (record, _) = run(&assembly, &settings(InitialState::Rest, 1e-3, 0.05));
-        let sum = |of: fn(&frictionsim::transient::SampleRow) -> u64| -> u64 {
-            record.rows.iter().map(of).sum()
-        };
-        let counts =
-            [sum(|row| row.counts.stick), sum(|row| row.counts.slip), sum(|row| row.counts.open)];
+        let rows = record.rows.iter().map(|row| row.counts);
+        let counts = rows.fold([0; 3], |[stick, slip, open], own| {
+            [stick + own.stick, slip + own.slip, open + own.open]
+        });
         let residual = TransientAnalysis::without_symmetry(&record).largest_residual;
         println!("{springs:?}: {residual:e}, {counts:?}, {}", record.unconverged_steps);
         assert!(counts.iter().all(|&count| count > 0), "{counts:?}");

@@ -96,9 +96,7 @@ fn cycles_beside_stable_sliding_are_found_from_where_a_mode_grows() {
     assert!((motion.fractions[0] - stick).abs() < 2e-3);
     // Beyond the fold there is none, which the reason says.
     let beyond = format!("contact.speed={}", 1.1 * fold);
-    let case = over_speed(folder.path(), "none", 3.0, &[&beyond]);
-    let study = PeriodicStudy::new(&case, SimdLevel::detect()).unwrap();
-    let results = study.run(0, &Unwatched, &|_| {}).unwrap();
+    let results = cycles(&over_speed(folder.path(), "none", 3.0, &[&beyond]));
     let reason = results[0].outcome.as_ref().unwrap_err();
     assert!(reason.contains("no limit cycle beside it"), "{reason}");
 }

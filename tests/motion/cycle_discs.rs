@@ -94,10 +94,8 @@ fn scaled_lengths_moduli_densities_and_times_scale_the_results() {
     assert!(ratio(first.cycle.state.frequency, second.cycle.state.frequency * time) < 1e-8);
     // W/m: stress times length times velocity.
     let power = modulus * length * length / time;
-    assert!(
-        ratio(first.cycle.powers.contact.external * power, second.cycle.powers.contact.external)
-            < 1e-4
-    );
+    let [own, other] = [first, second].map(|own| own.cycle.powers.contact.external);
+    assert!(ratio(own * power, other) < 1e-4);
     let leading = |s: &frictionsim::cycle::SteppedCycle| s.stability.leading().unwrap().exponent;
     let difference = (leading(first) - leading(second) * time).norm();
     // A hundredth of a per cent of omega: where a node lands between two steps is round-off's choice.

@@ -4,11 +4,8 @@
 //! The two methods share the element matrices and nothing else. Rates are compared on a coarse mesh; speeds at which full-size
 //! transients leave a cycle are those of 180 x 35 elements.
 
+use crate::cycle::{operating, solver_of};
 use crate::prelude::*;
-
-fn operating(rpm: f64) -> OperatingPoint {
-    OperatingPoint { contact: contact(rpm), damping: DAMPING }
-}
 
 fn fine() -> AnnulusSpecification {
     annulus(ElementKind::Quad4, 180, 35)
@@ -16,10 +13,6 @@ fn fine() -> AnnulusSpecification {
 
 fn coarse() -> AnnulusSpecification {
     sized(annulus(ElementKind::Quad4, 120, 24), fine())
-}
-
-fn solver(harmonic: usize, disc: &AnnulusSpecification) -> CycleSolver {
-    CycleSolver::new(disc, &POLYCARBONATE, &DAMPING, Family::lowest(harmonic), None).unwrap()
 }
 
 /// The record of a transient that starts on a cycle, its velocity perturbed in one harmonic.
@@ -65,7 +58,7 @@ fn rate(values: &[(f64, f64)]) -> f64 {
 
 #[test]
 fn transient_started_on_a_stable_cycle_stays_and_forgets_other_harmonics_at_the_rate_found() {
-    let solver = solver(2, &coarse());
+    let solver = solver_of(&coarse(), 2);
     let cycle = solver.find(&operating(610.0)).unwrap();
     let stability = solver.stability(&cycle).unwrap();
     assert!(stability.is_stable());
@@ -89,7 +82,7 @@ fn transient_started_on_a_stable_cycle_stays_and_forgets_other_harmonics_at_the_
 #[test]
 fn transient_leaves_an_unstable_cycle_at_the_rate_found() {
     // Above the speed at which the double wave ceases to stick one odd perturbation grows, all others decay.
-    let solver = solver(2, &coarse());
+    let solver = solver_of(&coarse(), 2);
     let cycle = solver.find(&operating(4000.0)).unwrap();
     let stability = solver.stability(&cycle).unwrap();
     assert!(!stability.is_stable());
@@ -103,7 +96,7 @@ fn transient_leaves_an_unstable_cycle_at_the_rate_found() {
 #[test]
 fn single_wave_loses_stability_to_a_double_one_far_from_its_own_frequency() {
     // At friction 0.2 and 1000 rpm a wave of two nodal diameters at 9.3 kHz grows on the cycle of one at 10.3 kHz.
-    let [solver, solver_of_fine] = [coarse(), fine()].map(|disc| solver(1, &disc));
+    let [solver, solver_of_fine] = [coarse(), fine()].map(|disc| solver_of(&disc, 1));
     let mut point = operating(1000.0);
     point.contact.friction_coefficient = 0.2;
     let cycle = solver.find(&point).unwrap();
@@ -135,7 +128,7 @@ fn single_wave_loses_stability_to_a_double_one_far_from_its_own_frequency() {
 #[test]
 fn single_wave_loses_stability_to_the_double_one_between_speeds_where_the_transient_does() {
     // Transients that start on the cycle stay at 1300 rpm and leave it at 1400 rpm.
-    let solver = solver(1, &fine());
+    let solver = solver_of(&fine(), 1);
     let verdict = |rpm: f64| {
         let cycle = solver.find(&operating(rpm)).unwrap();
         let stability = solver.stability(&cycle).unwrap();

@@ -21,6 +21,18 @@ friction_coefficient = 0.3\nstatic_friction_ratio = 1.1\ndecay_speed = 0.5\ninte
     case_of(path, text, overrides)
 }
 
+/// The periodic motions that a case's study finds.
+pub fn cycles(case: &Case) -> Vec<PeriodicResult> {
+    let study = PeriodicStudy::new(case, SimdLevel::detect()).unwrap();
+    study.run(0, &Unwatched, &|_| {}).unwrap()
+}
+
+/// Holds a number to another, to a share of it.
+#[track_caller]
+pub fn near(found: f64, expected: f64, share: f64) {
+    assert!((found / expected - 1.0).abs() < share, "{found} {expected}");
+}
+
 /// The two contact nodes of the oscillator by its matrices: `m v' = T - K u - load - D v`, pressed by `N = preload + B u + b v`.
 pub struct EventDriven {
     masses: [f64; 2],

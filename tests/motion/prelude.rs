@@ -10,6 +10,7 @@ pub use crate::disc::{
 };
 pub use crate::kept::Kept;
 pub use crate::mesh_text::{even, quadrilaterals};
+pub use crate::oscillator::{cycles, near};
 pub use crate::tier::sized;
 pub use frictionsim::case::Case;
 pub use frictionsim::cea::{ModeLimit, SweepWatch, Unwatched};

@@ -1,7 +1,7 @@
 //! The contact law, the steady start, and an exact impact.
 
 use crate::prelude::*;
-use crate::transient::model::{LAWS, Watch, disc, model, on_contact, settings};
+use crate::transient::model::{LAWS, Watch, disc, kicked, model, on_contact, settings};
 
 /// Theory: the laws of Signorini and Coulomb at every node of every step.
 #[test]
@@ -10,8 +10,7 @@ fn multipliers_obey_signorini_and_coulomb_at_every_step() {
     for rpm in [610.0, -610.0] {
         let model = model(&annulus, rpm);
         let operator = model.operator(OperatorChoice::Auto, SimdLevel::detect()).unwrap();
-        let mut settings = settings(3e-3, &[1, 2]);
-        settings.perturbation = Perturbation::of(&[1, 2], 2.0);
+        let settings = kicked(3e-3, &[1, 2], 2.0);
         let mut run = CentralDifference::start(model, operator.as_ref(), &settings).unwrap();
         let surface_speed = model.contact.rotation_speed * 0.0205;
         let mut seen = [0; 3];
@@ -56,8 +55,7 @@ fn gap_and_velocity_of_a_node_between_two_bodies_are_those_over_the_other_body()
     let annulus = AnnulusMesh::generate(&specification).unwrap();
     let model = model(&annulus, 610.0);
     let operator = model.operator(OperatorChoice::Auto, SimdLevel::detect()).unwrap();
-    let mut settings = settings(3e-3, &[1, 2]);
-    settings.perturbation = Perturbation::of(&[1, 2], 2.0);
+    let settings = kicked(3e-3, &[1, 2], 2.0);
     let mut run = CentralDifference::start(model, operator.as_ref(), &settings).unwrap();
     let mut seen = [0; 3];
     while run.steps_done() < 5_000 {
@@ -143,13 +141,9 @@ fn bar_rebounds_from_a_rigid_wall_as_one_dimensional_theory_says() {
     let mut state = CentralDifference::start(model, operator.as_ref(), &settings).unwrap().state();
     let masses = lumped_masses(&annulus.mesh, model.material);
     let mut is_free = vec![true; masses.len()];
-    annulus
-        .mesh
-        .boundary("outer")
-        .unwrap()
-        .nodes
-        .iter()
-        .for_each(|&node| is_free[node as usize] = false);
+    for &node in &annulus.mesh.boundary("outer").unwrap().nodes {
+        is_free[node as usize] = false;
+    }
     for node in (0..masses.len()).filter(|&node| is_free[node]) {
         state.velocity[2 * node] = -speed;
         state.account.initial += 0.5 * masses[node] * speed * speed;

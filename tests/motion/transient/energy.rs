@@ -1,7 +1,7 @@
 //! The energy balance.
 
 use crate::prelude::*;
-use crate::transient::model::{LAWS, Watch, disc, model, on_contact, settings};
+use crate::transient::model::{LAWS, Watch, disc, free, kicked, on_contact};
 use frictionsim::transient::SampleRow;
 
 /// Theory: the discrete energy identity is exact, whatever contact, its springs and dashpots, its laws and damping do.
@@ -25,8 +25,7 @@ fn every_joule_is_accounted_for_through_stick_slip_and_separation() {
         (contact(610.0), second, Cyclic),
         (contact(610.0), second_damped, Cyclic),
     ] {
-        let mut settings = settings(6e-3, &[]);
-        settings.perturbation = Perturbation::of(&[1, 2], 2.0);
+        let settings = kicked(6e-3, &[1, 2], 2.0);
         let (record, _) = recorded(on_contact(&annulus, contact, stiffness), choice, &settings);
         for row in &record.rows {
             // Ten thousand steps of round-off 1e-16.
@@ -50,14 +49,10 @@ fn every_joule_is_accounted_for_through_stick_slip_and_separation() {
 #[test]
 fn free_undamped_vibration_keeps_its_energy_over_a_million_steps() {
     let annulus = disc(12, 3);
-    let mut model = model(&annulus, 0.0);
-    model.damping = RayleighDamping::default();
-    // The cylinder shrinks away and never touches.
-    model.contact.interference = -1.0;
+    let model = free(&annulus);
     let operator = model.operator(OperatorChoice::Cyclic, SimdLevel::detect()).unwrap();
-    let mut settings = settings(1.0, &[1, 2, 3]);
+    let mut settings = kicked(1.0, &[1, 2, 3], 1.0);
     settings.expansion_time = 0.0;
-    settings.perturbation = Perturbation::of(&[1, 2, 3], 1.0);
     settings.time_step = TimeStep::Seconds(1e-6);
     settings.sample_interval = 1e-3;
     let mut run = CentralDifference::start(model, operator.as_ref(), &settings).unwrap();

@@ -1,7 +1,7 @@
 //! The linear stage against the complex eigenvalues of the same model.
 
 use crate::prelude::*;
-use crate::transient::model::{LAWS, disc, on_contact, settings};
+use crate::transient::model::{LAWS, disc, kicked, on_contact};
 use frictionsim::cea::cyclic::sweep;
 use frictionsim::linalg::c64;
 
@@ -38,10 +38,9 @@ fn seeded_harmonics_grow_as_the_complex_eigenvalues_predict() {
     ] {
         let stepped = stiffness.damped_by(DAMPING.stiffness_coefficient);
         let model = on_contact(&annulus, contact, stepped);
-        let mut settings = settings(0.012, &[n]);
-        settings.initial = InitialState::SteadySliding;
         // Small enough to stay linear over the whole run.
-        settings.perturbation = Perturbation::of(&[n], 1e-8);
+        let mut settings = kicked(0.012, &[n], 1e-8);
+        settings.initial = InitialState::SteadySliding;
         let (record, _) = recorded(model, OperatorChoice::Auto, &settings);
         let analysis = TransientAnalysis::of(&record, &[n]);
         assert_eq!(analysis.first_nonlinearity, None);

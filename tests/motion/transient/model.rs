@@ -21,6 +21,14 @@ pub fn on_contact<'a>(
     TransientModel { stiffness, ..rigid }
 }
 
+/// A disc without damping, from which the cylinder shrinks away and never touches it.
+pub fn free(annulus: &AnnulusMesh) -> TransientModel<'_> {
+    let mut model = model(annulus, 0.0);
+    model.damping = RayleighDamping::default();
+    model.contact.interference = -1.0;
+    model
+}
+
 /// Contact that stiffens with pressure.
 pub const LAWS: [NormalLaw; 2] = [
     NormalLaw::Exponential { reference_pressure: 2e5, height: 2e-6 },
@@ -29,6 +37,12 @@ pub const LAWS: [NormalLaw; 2] = [
 
 pub fn settings(duration: f64, harmonics: &[usize]) -> TransientSettings {
     transient_settings(duration, 4e-6, 1e-4, InitialState::Rest, Perturbation::of(harmonics, 1e-3))
+}
+
+/// The same, the body kicked with a velocity of its own.
+pub fn kicked(duration: f64, harmonics: &[usize], velocity: f64) -> TransientSettings {
+    let perturbation = Perturbation::of(harmonics, velocity);
+    TransientSettings { perturbation, ..settings(duration, harmonics) }
 }
 
 pub struct Watch<F>(pub F);

@@ -1,7 +1,7 @@
 //! The two operators against the assembled matrix, each other and the scalar kernels.
 
 use crate::prelude::*;
-use crate::transient::model::{Watch, disc, largest, largest_difference, model, settings};
+use crate::transient::model::{Watch, disc, kicked, largest, largest_difference, model};
 use frictionsim::fem::DofMap;
 use frictionsim::fem::operator::{
     AlignedVector, MotionFields, SectorStencil, SparseOperator, StepCoefficients,
@@ -45,11 +45,8 @@ fn both_operators_equal_the_assembled_matrix_on_any_mesh() {
                 let found = gather(operator.as_ref(), &product);
                 // A dozen terms of the size of the largest.
                 let error = largest_difference(&found, &expected) / largest(&expected);
-                assert!(
-                    error < 1e-14,
-                    "{} {level} {around} x {across}: {error:e}",
-                    operator.name()
-                );
+                let name = operator.name();
+                assert!(error < 1e-14, "{name} {level} {around} x {across}: {error:e}");
             }
         }
     }
@@ -59,14 +56,13 @@ fn end_state(choice: OperatorChoice, level: SimdLevel) -> (TransientState, [u64;
     let annulus = disc(45, 9);
     let model = model(&annulus, 610.0);
     let operator = model.operator(choice, level).unwrap();
-    let mut settings = settings(4e-3, &[1, 2]);
-    settings.perturbation = Perturbation::of(&[1, 2], 2.0);
+    let settings = kicked(4e-3, &[1, 2], 2.0);
     let mut run = CentralDifference::start(model, operator.as_ref(), &settings).unwrap();
     let mut counts = [0; 3];
-    run.run(&mut Watch(|sample: &frictionsim::transient::Sample<'_>| {
-        counts[0] += sample.row.counts.stick;
-        counts[1] += sample.row.counts.slip;
-        counts[2] += sample.row.counts.open;
+    run.run(&mut Watch(|sample: &Sample<'_>| {
+        counts[0] += sample.counts.stick;
+        counts[1] += sample.counts.slip;
+        counts[2] += sample.counts.open;
     }))
     .unwrap();
     (run.state(), counts)
@@ -94,10 +90,7 @@ fn avx2_and_avx512_give_the_same_bits_and_scalar_the_same_motion() {
     for choice in [OperatorChoice::Cyclic, OperatorChoice::Sparse] {
         let (scalar, _) = end_state(choice, SimdLevel::Scalar);
         let mut fused = None;
-        for level in [SimdLevel::Avx2, SimdLevel::Avx512] {
-            if level.available().is_err() {
-                continue;
-            }
+        for level in LEVELS[1..].iter().copied().filter(|level| level.available().is_ok()) {
             let (state, _) = end_state(choice, level);
             let error = largest_difference(&state.displacement, &scalar.displacement)
                 / largest(&scalar.displacement);
@@ -128,6 +121,18 @@ fn largest_frequency_is_that_of_the_dense_matrix() {
     assert!((found / exact - 1.0).abs() < 1e-9, "{found} {exact}");
 }
 
+/// A body where it stands, with the velocity of a field.
+fn moving(operator: &dyn StiffnessOperator, velocity: &[f64]) -> MotionFields {
+    let zeros = || AlignedVector::zeros(operator.field_length());
+    let velocity = scatter(operator, velocity);
+    MotionFields { displacement: zeros(), velocity, elastic: zeros(), elastic_rate: zeros() }
+}
+
+fn coefficients(model: &TransientModel<'_>, time_step: f64) -> StepCoefficients {
+    let RayleighDamping { mass_coefficient, stiffness_coefficient } = model.damping;
+    StepCoefficients { time_step, mass_coefficient, stiffness_coefficient }
+}
+
 /// The stability limit is sharp: free motion stays bounded just below it and explodes just above.
 #[test]
 fn steps_are_stable_below_the_limit_and_unstable_above() {
@@ -138,18 +143,8 @@ fn steps_are_stable_below_the_limit_and_unstable_above() {
     let limit = stable_step_limit(largest_frequency(operator.as_ref()), &model.damping);
     let start = Perturbation::of(&[1, 12], 1.0);
     for (factor, is_stable) in [(0.999, true), (1.001, false)] {
-        let zeros = || AlignedVector::zeros(operator.field_length());
-        let mut fields = MotionFields {
-            displacement: zeros(),
-            velocity: scatter(operator.as_ref(), &model.perturbed(&start).unwrap()),
-            elastic: zeros(),
-            elastic_rate: zeros(),
-        };
-        let coefficients = StepCoefficients {
-            time_step: factor * limit,
-            mass_coefficient: model.damping.mass_coefficient,
-            stiffness_coefficient: model.damping.stiffness_coefficient,
-        };
+        let mut fields = moving(operator.as_ref(), &model.perturbed(&start).unwrap());
+        let coefficients = coefficients(&model, factor * limit);
         operator.multiply(&mut fields.velocity, &mut fields.elastic_rate);
         for _ in 0..40_000 {
             operator.advance(&mut fields, &coefficients);
@@ -173,19 +168,9 @@ fn a_large_body_moves_as_with_the_stencil_and_to_the_same_bits_on_any_number_of_
         (0..dofs).map(|dof| cyclic.masses()[cyclic.position(dof)] == 0.0).collect();
     let start: Vec<f64> =
         (0..dofs).map(|dof| if held[dof] { 0.0 } else { (1.7 * dof as f64).sin() }).collect();
-    let coefficients = StepCoefficients {
-        time_step: 1e-8,
-        mass_coefficient: model.damping.mass_coefficient,
-        stiffness_coefficient: model.damping.stiffness_coefficient,
-    };
+    let coefficients = coefficients(&model, 1e-8);
     let moved = |operator: &dyn StiffnessOperator, threads: usize| {
-        let zeros = || AlignedVector::zeros(operator.field_length());
-        let mut fields = MotionFields {
-            displacement: zeros(),
-            velocity: scatter(operator, &start),
-            elastic: zeros(),
-            elastic_rate: zeros(),
-        };
+        let mut fields = moving(operator, &start);
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
         let powers: Vec<f64> = pool.unwrap().install(|| {
             operator.multiply(&mut fields.velocity, &mut fields.elastic_rate);

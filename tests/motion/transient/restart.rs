@@ -1,7 +1,7 @@
 //! Saved and restored states.
 
 use crate::prelude::*;
-use crate::transient::model::{Watch, disc, model, settings};
+use crate::transient::model::{Watch, disc, kicked, model, settings};
 
 struct StopAt {
     record: Recorder,
@@ -35,8 +35,7 @@ fn restarted_run_equals_uninterrupted_run_bitwise() {
         (compliant, OperatorChoice::Cyclic),
     ] {
         let operator = model.operator(choice, SimdLevel::detect()).unwrap();
-        let mut settings = settings(4e-3, &[1, 2]);
-        settings.perturbation = Perturbation::of(&[1, 2], 2.0);
+        let settings = kicked(4e-3, &[1, 2], 2.0);
         let wanted = RecorderSettings {
             probes: vec![1, 17],
             snapshots: vec![1e-3, 3e-3],

@@ -1,7 +1,7 @@
 //! Seeds: the velocity that is added to the body's.
 
 use crate::prelude::*;
-use crate::transient::model::{Watch, disc, model, settings};
+use crate::transient::model::{Watch, disc, kicked, model, settings};
 use frictionsim::transient::StandingWave;
 
 fn record(annulus: &AnnulusMesh, settings: &TransientSettings) -> Recorder {
@@ -13,12 +13,8 @@ fn record(annulus: &AnnulusMesh, settings: &TransientSettings) -> Recorder {
 fn each_harmonic_has_its_own_velocity_and_its_crest_at_its_phase() {
     let annulus = disc(60, 6);
     let waves = [(1, 0.01, 0.3), (3, 0.07, -1.1), (20, 0.002, 0.0)];
-    let perturbation = Perturbation {
-        waves: waves
-            .map(|(harmonic, velocity, phase)| StandingWave { harmonic, velocity, phase })
-            .to_vec(),
-        ..Perturbation::default()
-    };
+    let wave = |(harmonic, velocity, phase)| StandingWave { harmonic, velocity, phase };
+    let perturbation = Perturbation { waves: waves.map(wave).to_vec(), ..Perturbation::default() };
     let field = model(&annulus, 610.0).perturbed(&perturbation).unwrap();
     let nodes = &annulus.mesh.contact_edge().nodes;
     for (harmonic, velocity, phase) in waves {
@@ -67,11 +63,9 @@ fn noise_has_its_standard_deviation_in_both_directions_and_spares_the_clamped_ed
 /// A kick of a body that slides steadily equals the same velocity at the start of a run that slides steadily.
 #[test]
 fn a_kick_starts_what_the_same_velocity_starts_at_time_zero_and_its_energy_is_accounted_for() {
-    use frictionsim::transient::InitialState;
     let annulus = disc(45, 9);
-    let mut early = settings(3e-3, &[2]);
+    let mut early = kicked(3e-3, &[2], 1e-2);
     early.initial = InitialState::SteadySliding;
-    early.perturbation = Perturbation::of(&[2], 1e-2);
     let mut late = early.clone();
     late.duration = 4e-3;
     late.perturbation.time = 1e-3;

@@ -1,7 +1,7 @@
 //! When a run has settled, and what is kept of it.
 
 use crate::prelude::*;
-use crate::transient::model::{disc, model, settings};
+use crate::transient::model::{disc, kicked, model, settings};
 use frictionsim::transient::{EndState, Unsettled};
 
 fn run(rpm: f64, settings: &TransientSettings, wanted: &RecorderSettings) -> (Recorder, RunEnd) {
@@ -19,10 +19,7 @@ fn torus() -> Recorder {
     let annulus = disc(60, 12);
     let mut model = model(&annulus, 1000.0);
     model.contact.friction_coefficient = 0.2;
-    let mut settings = settings(0.05, &[1, 2]);
-    settings.perturbation = Perturbation::of(&[1, 2], 0.3);
-    let (record, _) = recorded(model, OperatorChoice::Auto, &settings);
-    record
+    recorded(model, OperatorChoice::Auto, &kicked(0.05, &[1, 2], 0.3)).0
 }
 
 #[test]
@@ -60,9 +57,7 @@ fn a_run_that_is_too_short_says_the_duration_that_is_enough() {
 }
 
 fn seeded(duration: f64, velocity: f64) -> TransientSettings {
-    let mut settings = settings(duration, &[2]);
-    settings.perturbation = Perturbation::of(&[2], velocity);
-    settings
+    kicked(duration, &[2], velocity)
 }
 
 #[test]
