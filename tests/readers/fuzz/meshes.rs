@@ -2,6 +2,7 @@
 
 use crate::fuzz::hold;
 use crate::fuzz::mutation::{Random, binary, text};
+use crate::mesh_files::{ASSEMBLY, BULK_DATA, UNIVERSAL};
 use crate::msh::{CYLINDER, FORMS, plane_body, write_msh};
 use frictionsim::mesh::{
     AnnulusMesh, AnnulusSpecification, BoundaryCondition, ElementKind, FileMesh, Mesh,
@@ -53,9 +54,9 @@ fn no_mesh_file_makes_its_reader_panic() {
 
 /// Files of other programs, of solid bodies with all that such files hold.
 const OTHERS: [(&str, &str); 6] = [
-    ("bricks.inp", crate::mesh_files::ASSEMBLY),
-    ("brick.bdf", crate::mesh_files::BULK_DATA),
-    ("brick.unv", crate::mesh_files::UNIVERSAL),
+    ("bricks.inp", ASSEMBLY),
+    ("brick.bdf", BULK_DATA),
+    ("brick.unv", UNIVERSAL),
     ("ring.inp", include_str!("../meshes/ring-hex20.inp")),
     ("ring.bdf", include_str!("../meshes/ring-hex20.bdf")),
     ("ring.unv", include_str!("../meshes/ring-hex20.unv")),
@@ -114,18 +115,11 @@ fn references(random: &mut Random) -> (&'static str, String) {
     let is_deck = random.below(2) == 0;
     let own = |line: &&str| line.starts_with(['*', 's', 'e']) == is_deck;
     let own: String = more.lines().filter(own).flat_map(|line| [line, "\n"]).collect();
-    match is_deck {
-        true => {
-            let text =
-                crate::mesh_files::ASSEMBLY.replace("*TIE, NAME", &format!("{own}*TIE, NAME"));
-            ("bricks.inp", text)
-        }
-        false => {
-            let text =
-                crate::mesh_files::BULK_DATA.replace("CORD2C,2,1", &format!("{own}CORD2C,2,1"));
-            ("brick.bdf", text)
-        }
-    }
+    let (name, whole, place) = match is_deck {
+        true => ("bricks.inp", ASSEMBLY, "*TIE, NAME"),
+        false => ("brick.bdf", BULK_DATA, "CORD2C,2,1"),
+    };
+    (name, whole.replace(place, &format!("{own}{place}")))
 }
 
 #[test]
@@ -150,7 +144,7 @@ fn no_includes_make_a_case_panic() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("case.toml").display().to_string();
     let case = "[mesh]\nfile = \"a.inp\"\n[cea]\nmodes = 3\n";
-    let brick = crate::mesh_files::ASSEMBLY.as_bytes().to_vec();
+    let brick = ASSEMBLY.as_bytes().to_vec();
     let originals = ["b", "c", "a"].map(|name| {
         format!("*INCLUDE, INPUT={name}.inp\n*NODE, INPUT=c.inp\n*INCLUDE, INPUT=c.inp\n")
             .into_bytes()

@@ -10,7 +10,7 @@ pub use abaqus::ASSEMBLY;
 pub use nastran::BRICK as BULK_DATA;
 pub use universal::BRICK as UNIVERSAL;
 
-use frictionsim::mesh::{FileMesh, Mesh, MeshFileError};
+use frictionsim::mesh::{FileElasticity, FileMesh, Mesh, MeshFileError};
 
 fn read(name: &str, text: &str) -> Result<FileMesh, MeshFileError> {
     FileMesh::read_as(name, text.as_bytes())
@@ -28,7 +28,29 @@ fn area(mesh: &Mesh, name: &str) -> f64 {
     mesh.face_area(&boundary.faces)
 }
 
-fn error(name: &str, text: &str) -> String {
+/// An isotropic material, E 2e5, nu 0.3, as the stiffness of an orthotropic one: Lamé's constants and the diagonal, lambda + 2 G.
+fn isotropic_stiffness() -> [f64; 3] {
+    let (e, nu) = (2e5_f64, 0.3);
+    let lambda = e * nu / ((1.0 + nu) * (1.0 - 2.0 * nu));
+    let g = e / (2.0 * (1.0 + nu));
+    [lambda, g, lambda + 2.0 * g]
+}
+
+/// Holds the engineering constants that a stiffness was read as to those of that material.
+fn is_that_material(elasticity: Option<&FileElasticity>) {
+    let Some(FileElasticity::Orthotropic { young_moduli, poisson_ratios, shear_moduli, .. }) =
+        elasticity
+    else {
+        panic!("{elasticity:?}");
+    };
+    for i in 0..3 {
+        assert!((young_moduli[i] / 2e5 - 1.0).abs() < 1e-12);
+        assert!((poisson_ratios[i] / 0.3 - 1.0).abs() < 1e-12);
+        assert!((shear_moduli[i] / (2e5 / 2.6) - 1.0).abs() < 1e-12);
+    }
+}
+
+pub fn error(name: &str, text: &str) -> String {
     read(name, text).expect_err("the file is wrong").to_string()
 }
 

@@ -1,6 +1,7 @@
 //! What a case takes from its mesh file: units, sections, includes, and the case that `init --from` writes.
 
-use frictionsim::case::{Body, Case, CaseErrors, case_from};
+use crate::program::{self, has};
+use frictionsim::case::{Case, CaseErrors, case_from};
 use frictionsim::mesh::BoundaryCondition;
 use std::fs;
 use std::path::Path;
@@ -75,20 +76,26 @@ fn case_of(folder: &Path, text: &str) -> Result<Case, CaseErrors> {
     Case::parse(&path, text.as_bytes(), &[])
 }
 
+fn taken(folder: &Path, text: &str) -> Case {
+    case_of(folder, text).unwrap_or_else(|errors| panic!("{errors}\n{text}"))
+}
+
+fn refused(folder: &Path, text: &str) -> String {
+    case_of(folder, text).unwrap_err().messages().join("\n")
+}
+
 fn folder_with(deck: &str) -> tempfile::TempDir {
-    let folder = tempfile::tempdir().unwrap();
     // `Back` is a surface: to be held it needs to be a set of nodes, too.
     let deck = deck
         .replace("*SURFACE, NAME=Back", "*NSET, NSET=Back\n15, 16, 17, 18\n*SURFACE, NAME=Back");
-    fs::write(folder.path().join("bricks.inp"), deck).unwrap();
-    folder
+    program::folder_with(&[("bricks.inp", deck.as_bytes())])
 }
 
 #[test]
 fn a_file_in_millimetres_gives_a_case_in_si_units() {
     let folder = folder_with(BRICKS);
-    let case = case_of(folder.path(), CASE).unwrap_or_else(|errors| panic!("{errors}"));
-    let Body::Assembly(body) = &case.body else { panic!("{:?}", case.body) };
+    let case = taken(folder.path(), CASE);
+    let body = case.body.assembly().unwrap();
     let region = |name: &str| body.mesh.regions.iter().position(|r| r == name).unwrap();
     let lower = &body.materials[region("Lower")];
     assert_eq!(lower.own.elastic.young_modulus, 1.1e11);
@@ -107,15 +114,9 @@ fn a_file_in_millimetres_gives_a_case_in_si_units() {
     assert_eq!(condition("Ground"), BoundaryCondition::Clamped);
     assert_eq!(case.number("materials.Lower.young_modulus"), Some(1.1e11));
     // Everything taken is said.
-    let notes = case.taken.notes.join("\n");
-    for said in [
-        "materials taken from bricks.inp: Lower (Iron), Upper (Lining)",
-        "contacts taken",
-        "motion taken",
-        "boundaries taken",
-    ] {
-        assert!(notes.contains(said), "{notes}");
-    }
+    let materials = "materials taken from bricks.inp: Lower (Iron), Upper (Lining)";
+    let others = "contacts taken ; motion taken ; boundaries taken";
+    has(&case.taken.notes.join("\n"), &[materials, others]);
 }
 
 #[test]
@@ -123,8 +124,8 @@ fn sections_of_the_case_win_over_those_of_the_file() {
     let folder = folder_with(BRICKS);
     let text = CASE.to_owned()
         + "[materials.Upper]\nyoung_modulus = 8e9\n[boundaries.Back]\ncondition = \"free\"\n[contacts.Under]\nfriction_coefficient = 0.1\n";
-    let case = case_of(folder.path(), &text).unwrap_or_else(|errors| panic!("{errors}"));
-    let Body::Assembly(body) = &case.body else { panic!("{:?}", case.body) };
+    let case = taken(folder.path(), &text);
+    let body = case.body.assembly().unwrap();
     let upper = &body.materials[body.mesh.regions.iter().position(|r| r == "Upper").unwrap()];
     assert_eq!([upper.own.elastic.young_modulus, upper.own.elastic.density], [8e9, 2500.0]);
     assert_eq!(body.mesh.boundary("Back").unwrap().condition, BoundaryCondition::Free);
@@ -132,14 +133,14 @@ fn sections_of_the_case_win_over_those_of_the_file() {
     // A contact of the same surfaces under another name replaces that of the file.
     let own = CASE.to_owned()
         + "[contacts.mine]\nsurface = \"Over\"\ncounter = \"Under\"\nfriction_coefficient = 0.2\n";
-    let case = case_of(folder.path(), &own).unwrap_or_else(|errors| panic!("{errors}"));
-    let Body::Assembly(body) = &case.body else { panic!("{:?}", case.body) };
+    let case = taken(folder.path(), &own);
+    let body = case.body.assembly().unwrap();
     assert_eq!(body.contacts.len(), 1);
     // Nothing but the mesh.
     let bare = CASE.replace("[cea]\nmodes = 3\n", "").replace("units", "take = \"nothing\"\nunits")
         + "[material]\nyoung_modulus = 2e11\npoisson_ratio = 0.3\ndensity = 7850.0\n";
-    let case = case_of(folder.path(), &bare).unwrap_or_else(|errors| panic!("{errors}"));
-    let Body::Assembly(body) = &case.body else { panic!("{:?}", case.body) };
+    let case = taken(folder.path(), &bare);
+    let body = case.body.assembly().unwrap();
     assert!(body.contacts.is_empty() && body.motions.is_empty());
     assert!(case.taken.left_out.iter().any(|left_out| left_out.reason.contains("mesh.take")));
 }
@@ -147,30 +148,27 @@ fn sections_of_the_case_win_over_those_of_the_file() {
 #[test]
 fn what_is_not_used_is_a_warning_and_what_is_wrong_has_its_line() {
     let folder = folder_with(&BRICKS.replace("*STEP", "*CLOAD\n1, 1, 5.\n*STEP"));
-    let said = case_of(folder.path(), CASE).unwrap_err().messages().join("\n");
-    assert!(said.contains("*CLOAD (line "), "{said}");
+    let said = refused(folder.path(), CASE);
+    has(&said, &["*CLOAD (line "]);
     let dropped = CASE.replace("[mesh]", "[mesh]\ndrop = [\"*CLOAD\"]");
-    let case = case_of(folder.path(), &dropped).unwrap_or_else(|errors| panic!("{errors}"));
+    let case = taken(folder.path(), &dropped);
     let left_out = &case.taken.left_out;
     assert!(left_out.iter().any(|own| format!("{own:?}").contains("CLOAD")), "{left_out:?}");
     let folder = folder_with(&BRICKS.replace("*STEP", "*AMPLITUDE, NAME=A\n0., 1.\n*STEP"));
-    let case = case_of(folder.path(), CASE).unwrap_or_else(|errors| panic!("{errors}"));
+    let case = taken(folder.path(), CASE);
     let warnings: Vec<String> = case.warnings.iter().map(ToString::to_string).collect();
     assert!(warnings.iter().any(|w| w.contains("*AMPLITUDE (line ")), "{warnings:?}");
     let folder = folder_with(&BRICKS.replace("6000., 0.25", "6000., 0.75"));
-    let said = case_of(folder.path(), CASE).unwrap_err().messages().join("\n");
-    assert!(
-        said.contains("materials.Upper.poisson_ratio") && said.contains("bricks.inp, line "),
-        "{said}"
-    );
+    let said = refused(folder.path(), CASE);
+    has(&said, &["materials.Upper.poisson_ratio ; bricks.inp, line "]);
     let folder = folder_with(BRICKS);
     let both = CASE.replace("units", "scale = 0.001\nunits");
-    let said = case_of(folder.path(), &both).unwrap_err().messages().join("\n");
-    assert!(said.contains("mesh.units and mesh.scale"), "{said}");
+    let said = refused(folder.path(), &both);
+    has(&said, &["mesh.units and mesh.scale"]);
     // Millimetres read as metres.
     let metres = CASE.replace("units = \"mm-t-s\"\n", "");
-    let said = case_of(folder.path(), &metres).unwrap_err().messages().join("\n");
-    assert!(said.contains("20.0000 m wide") && said.contains("mesh.scale"), "{said}");
+    let said = refused(folder.path(), &metres);
+    has(&said, &["20.0000 m wide ; mesh.scale"]);
 }
 
 #[test]
@@ -183,22 +181,18 @@ fn included_files_stand_in_their_place_and_errors_name_them() {
     fs::write(path("parts/nodes.inp"), nodes).unwrap();
     fs::write(path("parts/mesh.inp"), "** a comment\n*INCLUDE, INPUT=nodes.inp\n").unwrap();
     fs::write(path("bricks.inp"), format!("*Include, Input=\"parts/mesh.inp\"\n{rest}")).unwrap();
-    let case = case_of(folder.path(), CASE).unwrap_or_else(|errors| panic!("{errors}"));
-    let Body::Assembly(body) = &case.body else { panic!("{:?}", case.body) };
+    let case = taken(folder.path(), CASE);
+    let body = case.body.assembly().unwrap();
     assert_eq!(body.mesh.node_count(), 16);
-    let said = |folder: &Path| case_of(folder, CASE).unwrap_err().messages().join("\n");
     fs::write(path("parts/nodes.inp"), nodes.replace("7, 10, 10, 10", "7, 10, 1O, 10")).unwrap();
-    let found = said(folder.path());
-    assert!(found.contains("nodes.inp, line 8: a coordinate expected, found \"1O\""), "{found}");
+    let found = refused(folder.path(), CASE);
+    has(&found, &["nodes.inp, line 8: a coordinate expected, found \"1O\""]);
     fs::write(path("parts/nodes.inp"), "*INCLUDE, INPUT=mesh.inp\n").unwrap();
-    let found = said(folder.path());
-    assert!(
-        found.contains("nodes.inp, line 1: cannot include mesh.inp: it includes this file itself"),
-        "{found}"
-    );
+    let found = refused(folder.path(), CASE);
+    has(&found, &["nodes.inp, line 1: cannot include mesh.inp: it includes this file itself"]);
     fs::remove_file(path("parts/nodes.inp")).unwrap();
-    let found = said(folder.path());
-    assert!(found.contains("mesh.inp, line 2: cannot include nodes.inp"), "{found}");
+    let found = refused(folder.path(), CASE);
+    has(&found, &["mesh.inp, line 2: cannot include nodes.inp"]);
 }
 
 /// Consistency check: the sections that `init --from` writes are those that the case would take anyway.
@@ -206,24 +200,18 @@ fn included_files_stand_in_their_place_and_errors_name_them() {
 fn the_case_to_start_from_says_all_that_the_file_holds() {
     let folder = folder_with(BRICKS);
     let text = case_from(&folder.path().join("bricks.inp"), "bricks.inp").unwrap();
-    assert!(text.contains("units = \"mm-t-s\""), "{text}");
-    let started = case_of(folder.path(), &text).unwrap_or_else(|errors| panic!("{errors}\n{text}"));
-    assert!(
-        started.taken.sections.iter().all(|section| section.path.0 == "material"),
-        "{:?}",
-        started.taken.sections
-    );
-    let taken = case_of(folder.path(), CASE).unwrap();
-    assert_eq!(started.body, taken.body);
+    has(&text, &["units = \"mm-t-s\""]);
+    let started = taken(folder.path(), &text);
+    let sections = &started.taken.sections;
+    assert!(sections.iter().all(|section| section.path.0 == "material"), "{sections:?}");
+    assert_eq!(started.body, taken(folder.path(), CASE).body);
     // A file without a motion gets one about the normal of the counter surface.
     let still = BRICKS
         .replace("*MOTION, ROTATION\nDisc, 6.283185307179586, 100., 0., 0., 100., 0., 5.\n", "");
     let folder = folder_with(&still);
     let text = case_from(&folder.path().join("bricks.inp"), "bricks.inp").unwrap();
-    let case = case_of(folder.path(), &text).unwrap_or_else(|errors| panic!("{errors}\n{text}"));
-    let Body::Assembly(body) = &case.body else { panic!("{:?}", case.body) };
-    assert_eq!(
-        (body.motions[0].axis, body.motions[0].center),
-        ([0.0, 0.0, 1.0], [0.005, 0.005, 0.005])
-    );
+    let case = taken(folder.path(), &text);
+    let body = case.body.assembly().unwrap();
+    let motion = &body.motions[0];
+    assert_eq!((motion.axis, motion.center), ([0.0, 0.0, 1.0], [0.005; 3]));
 }

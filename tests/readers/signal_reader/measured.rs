@@ -1,8 +1,9 @@
 //! Tables as analysers and other programs write them.
 
 use super::{message, read_response, read_signal, rows};
-use frictionsim::signal::ResponseQuantity;
+use crate::program::has;
 use frictionsim::signal::reader::{ResponseFile, ResponseOptions, SignalOptions};
+use frictionsim::signal::{ResponseQuantity, reader};
 use std::f64::consts::TAU;
 
 fn read(text: &str, columns: &[&str], channels: &[&str]) -> ResponseFile {
@@ -12,7 +13,7 @@ fn read(text: &str, columns: &[&str], channels: &[&str]) -> ResponseFile {
         columns: owned(columns),
         channels: owned(channels),
     };
-    let file = frictionsim::signal::reader::read_response(text.as_bytes(), "x", &options);
+    let file = reader::read_response(text.as_bytes(), "x", &options);
     file.unwrap_or_else(|error| panic!("{error}\n{text}"))
 }
 
@@ -88,8 +89,8 @@ fn responses_of_one_table_are_all_read_and_one_is_picked_by_name_or_number() {
         assert_eq!((file.responses.len(), file.responses[0].name.as_str()), (1, "H21"));
     }
     let options = ResponseOptions { channels: vec!["H31".into()], ..ResponseOptions::default() };
-    let error = frictionsim::signal::reader::read_response(text.as_bytes(), "x", &options);
-    assert!(error.unwrap_err().to_string().contains("--channel H31: the file has H11, H21"));
+    let error = reader::read_response(text.as_bytes(), "x", &options);
+    has(&error.unwrap_err().to_string(), &["--channel H31: the file has H11, H21"]);
 }
 
 #[test]
@@ -112,12 +113,12 @@ fn frequencies_that_look_like_kilohertz_are_doubted_where_no_unit_is_written() {
 #[test]
 fn columns_without_names_ask_for_them_and_a_wrong_number_of_names_is_refused() {
     let doubtful: String = (1..12).map(|i| format!("{i} {i} {i}\n")).collect();
-    assert!(message(&doubtful).contains("--columns f,re,im"));
+    has(&message(&doubtful), &["--columns f,re,im"]);
     let options =
         ResponseOptions { columns: vec!["f".into(), "re".into()], ..ResponseOptions::default() };
     let complex = rows(",", ".", "\n");
-    let error = frictionsim::signal::reader::read_response(complex.as_bytes(), "x", &options);
-    assert!(error.unwrap_err().to_string().contains("names 2 columns, the table has 3"));
+    let error = reader::read_response(complex.as_bytes(), "x", &options);
+    has(&error.unwrap_err().to_string(), &["names 2 columns, the table has 3"]);
     let no_unit = read_response(b"10,0.1+0.2j,x\n20,0.1+0.2j,y\n", "x", None).err().unwrap();
     assert!(no_unit.to_string().starts_with("x:1:13: `x` in column 3"), "{no_unit}");
 }
@@ -149,7 +150,7 @@ fn a_rounded_time_column_asks_for_the_rate_and_is_overruled_by_it() {
         .collect();
     let text = format!("t,x\n{rows}");
     let error = read_signal(text.as_bytes(), "x", None).unwrap_err().to_string();
-    assert!(error.contains("rounded to 0.0001 s") && error.contains("--rate HZ"), "{error}");
+    has(&error, &["rounded to 0.0001 s ; --rate HZ"]);
     let file = read_signal(text.as_bytes(), "x", Some(51_200.0)).unwrap();
     assert_eq!(file.sampling_rate, 51_200.0);
     assert!(file.notes[0].contains("replaces the time column"), "{:?}", file.notes);
@@ -164,7 +165,7 @@ fn signal_columns_are_named_and_skipped_on_request() {
         columns: ["t_ms", "-", "mic"].map(String::from).to_vec(),
         ..SignalOptions::default()
     };
-    let file = frictionsim::signal::reader::read_signal(rows.as_bytes(), "x", &options).unwrap();
+    let file = reader::read_signal(rows.as_bytes(), "x", &options).unwrap();
     assert_eq!(file.sampling_rate, 1e3);
     assert_eq!((file.channels.len(), file.channels[0].name.as_str()), (1, "mic"));
 }

@@ -5,8 +5,9 @@ mod formats;
 mod measured;
 mod mutation;
 
+use crate::program::has;
 use frictionsim::signal::reader::{ReadError, ResponseOptions, SignalFile, SignalOptions};
-use frictionsim::signal::{FrequencyResponse, ResponseQuantity};
+use frictionsim::signal::{FrequencyResponse, ResponseQuantity, reader};
 use std::f64::consts::TAU;
 
 #[derive(Debug)]
@@ -21,13 +22,13 @@ fn read_response(
     quantity: Option<ResponseQuantity>,
 ) -> Result<Read, ReadError> {
     let options = ResponseOptions { quantity, ..ResponseOptions::default() };
-    let file = frictionsim::signal::reader::read_response(bytes, source, &options)?;
+    let file = reader::read_response(bytes, source, &options)?;
     Ok(Read { response: file.responses[0].response.clone(), notes: file.notes })
 }
 
 fn read_signal(bytes: &[u8], source: &str, rate: Option<f64>) -> Result<SignalFile, ReadError> {
     let options = SignalOptions { rate, ..SignalOptions::default() };
-    frictionsim::signal::reader::read_signal(bytes, source, &options)
+    reader::read_signal(bytes, source, &options)
 }
 
 /// Ten rows `f, re, im` with a given field separator, decimal sign and line end.
@@ -94,20 +95,21 @@ fn decibel_with_degrees_and_kilohertz_equal_real_with_imaginary() {
 
 #[test]
 fn quantity_comes_from_option_name_unit_or_assumption_in_this_order() {
-    let table = |header: &str| format!("{header}\n{}", rows(",", ".", "\n"));
-    let read = |header: &str, option| {
-        let file = read_response(table(header).as_bytes(), "x", option).unwrap();
-        (file.response.quantity(), file.notes.len())
-    };
     use ResponseQuantity::*;
-    assert_eq!(read("frequency_hz,mobility_real,mobility_imag", None), (Mobility, 0));
-    assert_eq!(read("# receptance\nfrequency_hz,real,imag", None), (Receptance, 0));
-    assert_eq!(read("f (Hz),Re (m/N),Im (m/N)", None), (Receptance, 0));
-    assert_eq!(read("f (Hz),Re (m/s/N),Im (m/s/N)", None), (Mobility, 0));
-    assert_eq!(read("f (Hz),Re ((m/s^2)/N),Im ((m/s^2)/N)", None), (Accelerance, 0));
-    assert_eq!(read("frequency_hz,real,imag", None), (Accelerance, 1));
-    assert_eq!(read("frequency_hz,real,imag", Some(Mobility)), (Mobility, 0));
-    assert_eq!(read("f (Hz),Re (m/N),Im (m/N)", Some(Mobility)), (Mobility, 1));
+    for (header, option, expected) in [
+        ("frequency_hz,mobility_real,mobility_imag", None, (Mobility, 0)),
+        ("# receptance\nfrequency_hz,real,imag", None, (Receptance, 0)),
+        ("f (Hz),Re (m/N),Im (m/N)", None, (Receptance, 0)),
+        ("f (Hz),Re (m/s/N),Im (m/s/N)", None, (Mobility, 0)),
+        ("f (Hz),Re ((m/s^2)/N),Im ((m/s^2)/N)", None, (Accelerance, 0)),
+        ("frequency_hz,real,imag", None, (Accelerance, 1)),
+        ("frequency_hz,real,imag", Some(Mobility), (Mobility, 0)),
+        ("f (Hz),Re (m/N),Im (m/N)", Some(Mobility), (Mobility, 1)),
+    ] {
+        let text = format!("{header}\n{}", rows(",", ".", "\n"));
+        let file = read_response(text.as_bytes(), "x", option).unwrap();
+        assert_eq!((file.response.quantity(), file.notes.len()), expected, "{header}");
+    }
 }
 
 #[test]
@@ -127,40 +129,45 @@ fn rows_out_of_order_are_sorted_and_equal_repeats_dropped_with_a_note() {
 fn every_refusal_names_file_line_column_and_remedy() {
     let head = "frequency_hz,real,imag\n";
     let body = rows(",", ".", "\n");
-    let with = |row: &str| format!("{head}{body}{row}\n");
+    let last = |row: &str| message(&format!("{head}{body}{row}\n"));
     assert_eq!(
-        message(&with("110,nan,1")),
+        last("110,nan,1"),
         "FRF.csv:12:5: `nan` in column `real` is not finite (or beyond 1e100); remove the row, or export without \
          missing values"
     );
-    assert!(message(&with("110,1,inf")).starts_with("FRF.csv:12:7: `inf`"));
-    assert!(message(&with("110,1,")).starts_with("FRF.csv:12:5: 2 fields where"));
-    assert!(message(&with("110,,1")).starts_with("FRF.csv:12:5: `` in column `real`"));
-    assert!(message(&with("110,one,1")).starts_with("FRF.csv:12:5: `one` in column `real`"));
-    assert!(message(&with("110,1,2,3")).starts_with("FRF.csv:12:9: 4 fields where"));
-    assert!(message(&with("-5,1,2")).starts_with("FRF.csv:12:1: frequency -5 is negative"));
-    assert!(
-        message(&with("20,1,2")).starts_with("FRF.csv:12:1: frequency 20 Hz is already in line 3")
-    );
-    assert!(message("").contains("no data"));
-    assert!(message("# nothing\n\n").contains("no data"));
-    assert!(message("words\nmore words\n").contains("no row of numbers"));
-    assert!(
-        message(&format!("frequency_hz,real,other\n{body}"))
-            .contains("no column of imaginary part")
-    );
-    assert!(message(&format!("x,real,imag\n{body}")).contains("no column of frequency"));
-    assert!(message(&format!("frequency_hz,x,y\n{body}")).contains("no column of response"));
-    assert!(
-        message("frequency_hz,real,imag\n10,1,2\n").contains("1 samples; 8 or more are needed")
-    );
-    assert!(message("frequency_hz,real,imag\n10,x,2\n20,1,2\n").starts_with("FRF.csv:2:4: `x`"));
-    let commas = format!("frequency_hz,real,imag\n{}", rows(",", ",", "\n"));
-    assert!(message(&commas).starts_with("FRF.csv:2:1: 6 fields separated by commas"));
-    let mixed = "f;re;im\n1.000,5;1;2\n".to_string();
-    assert!(message(&mixed).contains("comma and point"), "{}", message(&mixed));
-    let negative = (1..10).map(|i| format!("{i},-{i}\n")).collect::<String>();
-    assert!(message(&format!("f,magnitude\n{negative}")).contains("decibels"));
+    for (row, begin) in [
+        ("110,1,inf", "7: `inf`"),
+        ("110,1,", "5: 2 fields where"),
+        ("110,,1", "5: `` in column `real`"),
+        ("110,one,1", "5: `one` in column `real`"),
+        ("110,1,2,3", "9: 4 fields where"),
+        ("-5,1,2", "1: frequency -5 is negative"),
+        ("20,1,2", "1: frequency 20 Hz is already in line 3"),
+    ] {
+        let said = last(row);
+        assert!(said.starts_with(&format!("FRF.csv:12:{begin}")), "{said}");
+    }
+    let commas = rows(",", ",", "\n");
+    for (rows, begin) in
+        [("10,x,2\n20,1,2\n", "4: `x`"), (&commas, "1: 6 fields separated by commas")]
+    {
+        let said = message(&format!("{head}{rows}"));
+        assert!(said.starts_with(&format!("FRF.csv:2:{begin}")), "{said}");
+    }
+    let negative: String = (1..10).map(|i| format!("{i},-{i}\n")).collect();
+    for (header, rows, part) in [
+        ("# nothing", "\n", "no data"),
+        ("words", "more words\n", "no row of numbers"),
+        ("frequency_hz,real,other", &body, "no column of imaginary part"),
+        ("x,real,imag", &body, "no column of frequency"),
+        ("frequency_hz,x,y", &body, "no column of response"),
+        ("frequency_hz,real,imag", "10,1,2\n", "1 samples; 8 or more are needed"),
+        ("f;re;im", "1.000,5;1;2\n", "comma and point"),
+        ("f,magnitude", &negative, "decibels"),
+    ] {
+        has(&message(&format!("{header}\n{rows}")), &[part]);
+    }
+    has(&message(""), &["no data"]);
 }
 
 #[test]
@@ -170,7 +177,7 @@ fn columns_without_names_are_read_only_where_the_numbers_leave_no_doubt() {
     let magnitude: String = (1..12).map(|i| format!("{i} {}\n", 0.1 * f64::from(i))).collect();
     assert!(!read_response(magnitude.as_bytes(), "x", None).unwrap().response.has_phase());
     let doubtful: String = (1..12).map(|i| format!("{i} {i} {i}\n")).collect();
-    assert!(message(&doubtful).contains("add a first line such as"));
+    has(&message(&doubtful), &["add a first line such as"]);
 }
 
 #[test]
@@ -201,17 +208,14 @@ fn signals_are_read_with_time_column_or_rate() {
 
 #[test]
 fn gaps_and_disorder_in_time_are_refused_at_their_line() {
-    let row = |i: u32| format!("{},{}\n", 0.001 * f64::from(i), i);
-    let gap: String = (0..40).filter(|i| *i != 20).map(row).collect();
-    let error = read_signal(format!("t,x\n{gap}").as_bytes(), "s.csv", None).unwrap_err();
-    assert!(
-        error.to_string().starts_with("s.csv:22:1: time 0.021 s is not on the grid"),
-        "{error}"
-    );
-    let back: String = (0..40).map(|i| row(if i == 20 { 3 } else { i })).collect();
-    let error = read_signal(format!("t,x\n{back}").as_bytes(), "s.csv", None).unwrap_err();
-    assert!(error.to_string().starts_with("s.csv:22:1: time 0.003 s does not follow"), "{error}");
-    let good: String = (0..40).map(row).collect();
-    let error = read_signal(format!("t,x\n{good}").as_bytes(), "s.csv", Some(500.0)).unwrap_err();
-    assert!(error.problem.contains("the option 500 Hz"), "{error}");
+    let refused = |milliseconds: Vec<u32>, rate| {
+        let row = |i: u32| format!("{},{}\n", 0.001 * f64::from(i), i);
+        let rows: String = milliseconds.into_iter().map(row).collect();
+        read_signal(format!("t,x\n{rows}").as_bytes(), "s.csv", rate).unwrap_err()
+    };
+    let gap = refused((0..40).filter(|i| *i != 20).collect(), None).to_string();
+    assert!(gap.starts_with("s.csv:22:1: time 0.021 s is not on the grid"), "{gap}");
+    let back = refused((0..40).map(|i| if i == 20 { 3 } else { i }).collect(), None).to_string();
+    assert!(back.starts_with("s.csv:22:1: time 0.003 s does not follow"), "{back}");
+    has(&refused((0..40).collect(), Some(500.0)).problem, &["the option 500 Hz"]);
 }
