@@ -50,55 +50,39 @@ fn eigenvalues_move_with_friction_and_modes_with_time() {
     check_text_stays_text(&browser);
 
     press(&browser, "locus", "Move friction");
-    let at = |browser: &Browser| {
-        browser.run("return document.querySelector('#locus .more p[aria-live]').textContent")
+    let shown = || {
+        browser.run(
+            "const more = document.querySelector('#locus .more');\
+             return [more.querySelector('p[aria-live]').textContent, more.querySelectorAll('li').length]",
+        )
     };
-    let count = |browser: &Browser| {
-        browser.run("return document.querySelectorAll('#locus .more li').length").as_u64().unwrap()
-    };
-    assert_eq!(
-        (at(&browser), count(&browser)),
-        (json!("friction coefficient = 0: no unstable"), 0)
-    );
+    assert_eq!(shown(), json!(["friction coefficient = 0: no unstable", 0]));
     browser.send("#locus input[type=range]", "\u{E010}");
     let rows = rows_of(&folder.path().join("out/eigenvalues.csv"));
     let unstable = rows.iter().filter(|row| row[0] == "0.6" && row[9] == "true").count() as u64;
     assert!(unstable > 0);
-    assert_eq!(
-        (at(&browser), count(&browser)),
-        (json!(format!("friction coefficient = 0.6: {unstable} unstable")), unstable)
-    );
+    let said = format!("friction coefficient = 0.6: {unstable} unstable");
+    assert_eq!(shown(), json!([said, unstable]));
     assert_ne!(browser.run("return document.querySelector('#locus input[type=range]').getAttribute('aria-valuetext')"), Value::Null);
 
     press(&browser, "modes-mu-0.3", "Animate");
-    let phase = |browser: &Browser| {
-        browser.run("return document.querySelector('#modes-mu-0\\\\.3 canvas').dataset.phase")
-    };
-    let picture = |browser: &Browser| {
-        browser.run("return document.querySelector('#modes-mu-0\\\\.3 canvas').toDataURL()")
-    };
-    let first = (phase(&browser), picture(&browser));
-    press(&browser, "modes-mu-0.3", "Play");
-    browser.wait(
-        "return Number(document.querySelector('#modes-mu-0\\\\.3 canvas').dataset.phase) > 0.05",
-    );
-    press(&browser, "modes-mu-0.3", "Pause");
-    assert_ne!((phase(&browser), picture(&browser)), first);
-    let still = phase(&browser);
+    let figure = "modes-mu-0.3";
+    let phase = || canvas(&browser, figure, "dataset.phase");
+    let picture = || canvas(&browser, figure, "toDataURL()");
+    let first = (phase(), picture());
+    play(&browser, figure);
+    assert_ne!((phase(), picture()), first);
+    let still = phase();
     std::thread::sleep(std::time::Duration::from_millis(150));
-    assert_eq!(phase(&browser), still);
+    assert_eq!(phase(), still);
     keep_screenshot(&browser, "motion-1280.png");
 
-    check_accessibility(&browser);
-    check_silence(&browser);
+    check_page(&browser);
 }
 
 fn solid_bodies_are_turned_and_their_modes_move() {
     let browser = Browser::open(WIDE);
-    let canvas = |figure: &str, what: &str| {
-        let figure = figure.replace('.', "\\\\.");
-        browser.run(&format!("return document.querySelector('#{figure} canvas').{what}"))
-    };
+    let canvas = |figure: &str, what: &str| canvas(&browser, figure, what);
 
     // A mesh: its regions and boundaries from every side.
     let mesh_file = format!("mesh.file={:?}", shipped("meshes/brake.inp"));
@@ -141,16 +125,11 @@ fn solid_bodies_are_turned_and_their_modes_move() {
         browser.press_along(&[[x + 300.0, y + 200.0], [x + 380.0, y + 240.0]]);
         let turned = canvas(figure, "toDataURL()");
         assert_ne!(turned, first, "{name}");
-        press(&browser, figure, "Play");
-        browser.wait(
-            "return Number(document.querySelector('#modes-mu-0\\\\.4 canvas').dataset.phase) > 0.05",
-        );
-        press(&browser, figure, "Pause");
+        play(&browser, figure);
         assert_ne!(canvas(figure, "toDataURL()"), turned, "{name}");
         keep_screenshot(&browser, &format!("modes-{name}-1280.png"));
         press(&browser, figure, "First view");
-        check_accessibility(&browser);
-        check_silence(&browser);
+        check_page(&browser);
     }
 }
 
@@ -160,31 +139,29 @@ fn tables_are_sorted_and_filtered() {
     browser.visit_ready(&report);
     keep_screenshot(&browser, "eigenvalues-400.png");
     let table = "[...document.querySelectorAll('table')].find(t => t.caption?.textContent.startsWith('Eigenvalues'))";
-    let column = |browser: &Browser, column: usize| -> Vec<f64> {
+    let column = || -> Vec<f64> {
         let script = format!(
-            "return [...{table}.tBodies[0].rows].filter(r => !r.hidden).map(r => Number(r.cells[{column}].textContent))"
+            "return [...{table}.tBodies[0].rows].filter(r => !r.hidden).map(r => Number(r.cells[3].textContent))"
         );
-        let values = browser.run(&script);
-        values.as_array().unwrap().iter().map(|v| v.as_f64().unwrap()).collect()
+        serde_json::from_value(browser.run(&script)).unwrap()
     };
-    let sort = |browser: &Browser| {
-        browser.run(&format!("{table}.tHead.rows[0].cells[3].querySelector('button').click()"))
-    };
-    let before = column(&browser, 3);
-    sort(&browser);
-    let rising = column(&browser, 3);
+    let head = format!("{table}.tHead.rows[0].cells[3]");
+    let sort = || browser.run(&format!("{head}.querySelector('button').click()"));
+    let before = column();
+    sort();
+    let rising = column();
     assert!(rising.is_sorted() && !before.is_sorted() && rising.len() == before.len());
-    sort(&browser);
-    assert!(column(&browser, 3).iter().rev().is_sorted());
+    sort();
+    assert!(column().iter().rev().is_sorted());
     assert_eq!(
-        browser.run(&format!("return {table}.tHead.rows[0].cells[3].getAttribute('aria-sort')")),
+        browser.run(&format!("return {head}.getAttribute('aria-sort')")),
         json!("descending")
     );
     browser.run(&format!(
         "{table}.parentElement.previousElementSibling.querySelector('input').id = 'filter'"
     ));
     browser.send("#filter", "unstable");
-    let left = column(&browser, 3);
+    let left = column();
     assert!(
         !left.is_empty() && left.len() < before.len() && left.iter().all(|&real| real > 0.0),
         "{left:?}"
@@ -192,8 +169,7 @@ fn tables_are_sorted_and_filtered() {
     // Nothing but a table or a picture, each in its own frame, is wider than the phone.
     let width = browser.run("return document.documentElement.scrollWidth");
     assert!(width.as_u64().unwrap() <= PHONE[0] as u64, "{width}");
-    check_accessibility(&browser);
-    check_silence(&browser);
+    check_page(&browser);
 }
 
 fn a_run_is_zoomed_read_heard_and_taken_along() {
@@ -205,23 +181,23 @@ fn a_run_is_zoomed_read_heard_and_taken_along() {
 
     press(&browser, "overview-5", "Zoom");
     let plot = "document.querySelector('#overview-5 .plot').plot";
-    let view = |browser: &Browser| -> [f64; 2] {
+    let view = || -> [f64; 2] {
         let view = browser.run(&format!("const x = {plot}.scales.x; return [x.min, x.max]"));
-        [0, 1].map(|i| view[i].as_f64().unwrap())
+        serde_json::from_value(view).unwrap()
     };
-    let all = view(&browser);
+    let all = view();
     // The last sample, 12 ms, is an end of the axis.
     assert!((all[1] - 12.0).abs() < 1e-9 && all[0].abs() < 1e-9, "{all:?}");
     press(&browser, "overview-5", "Zoom in");
-    let half = view(&browser);
+    let half = view();
     assert!((half[1] - half[0] - 0.5 * (all[1] - all[0])).abs() < 1e-9, "{half:?}");
     browser.run("document.querySelector('#overview-5 .plot').focus()");
     browser.send("#overview-5 .plot", "\u{E014}");
-    assert!(view(&browser)[0] > half[0]);
+    assert!(view()[0] > half[0]);
     browser.send("#overview-5 .plot", "0");
-    assert_eq!(view(&browser), all);
+    assert_eq!(view(), all);
     browser.drag_over("#overview-5 .u-over");
-    let dragged = view(&browser);
+    let dragged = view();
     assert!(dragged[0] > 1.0 && dragged[1] < 11.0, "{dragged:?}");
     browser.send("#overview-5 .plot", "0");
     browser.send("#overview-5 .plot", ".");
@@ -245,18 +221,18 @@ fn a_run_is_zoomed_read_heard_and_taken_along() {
     press(&browser, "energy", "Zoom");
     let pressed = "return document.querySelector('#energy .series').getAttribute('aria-pressed')";
     assert_eq!(browser.run(pressed), json!("true"));
-    let picture = |browser: &Browser| {
+    let picture = || {
         browser.run_async(
             "await new Promise(requestAnimationFrame); await new Promise(requestAnimationFrame);\
              return document.querySelector('#energy .series').parentElement.previousElementSibling.querySelector('canvas').toDataURL()",
         )
     };
-    let whole = picture(&browser);
+    let whole = picture();
     browser.run("document.querySelector('#energy .series').click()");
     assert_eq!(browser.run(pressed), json!("false"));
-    assert_ne!(picture(&browser), whole);
+    assert_ne!(picture(), whole);
     browser.run("document.querySelector('#energy .series').click()");
-    assert_eq!(picture(&browser), whole);
+    assert_eq!(picture(), whole);
 
     // The sound holds the main frequency.
     press(&browser, "overview-5", "Listen");
@@ -269,11 +245,7 @@ fn a_run_is_zoomed_read_heard_and_taken_along() {
          return [audio.duration, audio.previousElementSibling.textContent]",
     );
     assert!((heard[0].as_f64().unwrap_or(0.0) - 2.0).abs() < 1e-3, "{heard}");
-    let summary: Value = serde_json::from_str(
-        &std::fs::read_to_string(folder.path().join("out/summary.json")).unwrap(),
-    )
-    .unwrap();
-    let main = summary["main_frequency_hz"].as_f64().unwrap();
+    let main = summary_of(&folder)["main_frequency_hz"].as_f64().unwrap();
     // "loudest at 19.2 kHz, ...": a contact that opens may be loudest at a multiple of its main frequency.
     let said: f64 = heard[1]
         .as_str()
@@ -286,8 +258,7 @@ fn a_run_is_zoomed_read_heard_and_taken_along() {
     let off = (multiple - multiple.round()).abs();
     assert!(multiple > 0.9 && off < 0.05, "{heard} {main}");
 
-    check_accessibility(&browser);
-    check_silence(&browser);
+    check_page(&browser);
 }
 
 fn a_click_on_a_point_of_a_study_shows_the_numbers_of_its_run() {
@@ -312,8 +283,7 @@ fn a_click_on_a_point_of_a_study_shows_the_numbers_of_its_run() {
         "return [[...{row}.cells], [...document.querySelectorAll('#frequencies .picked dd')]].map(l => l.map(c => c.textContent))"
     ));
     assert_eq!(shown[0], shown[1], "{shown}");
-    check_accessibility(&browser);
-    check_silence(&browser);
+    check_page(&browser);
 }
 
 fn without_scripts_numbers_and_pictures_are_there() {
@@ -342,9 +312,7 @@ fn two_runs_are_compared_number_by_number_and_curve_over_curve() {
     let compare = Run::new(&["compare", &paths[0], &paths[1], "-qq"]).within(&folder).out("both");
     let rows = rows_of(&compare.done().path("compare.csv"));
     let [one, two] = [&folder, &other].map(|folder| {
-        let text = std::fs::read_to_string(folder.path().join("out/summary.json")).unwrap();
-        let summary: Value = serde_json::from_str(&text).unwrap();
-        summary["critical_frictions"][0]["critical_friction"].as_f64().unwrap()
+        summary_of(folder)["critical_frictions"][0]["critical_friction"].as_f64().unwrap()
     });
     let row = rows.iter().find(|row| row[0].ends_with(".critical_friction")).unwrap();
     let number = |at: usize| row[at].parse::<f64>().unwrap();
@@ -361,6 +329,5 @@ fn two_runs_are_compared_number_by_number_and_curve_over_curve() {
     let names: std::collections::BTreeSet<&str> =
         names.as_array().unwrap().iter().filter_map(Value::as_str).collect();
     assert_eq!(names.len(), 2, "{names:?}");
-    check_accessibility(&browser);
-    check_silence(&browser);
+    check_page(&browser);
 }

@@ -2,7 +2,7 @@
 
 use super::driver::Browser;
 use crate::program::{Run, folder_with, shipped};
-use serde_json::json;
+use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
 
@@ -66,9 +66,27 @@ pub fn check_accessibility(browser: &Browser) {
     assert_eq!(found, json!([]));
 }
 
-pub fn check_silence(browser: &Browser) {
+/// No fault of accessibility, no message in the console.
+pub fn check_page(browser: &Browser) {
+    check_accessibility(browser);
     let messages = browser.messages();
     assert!(messages.is_empty(), "{messages:?}");
+}
+
+/// What the canvas of a figure says.
+pub fn canvas(browser: &Browser, figure: &str, what: &str) -> Value {
+    let figure = figure.replace('.', "\\\\.");
+    browser.run(&format!("return document.querySelector('#{figure} canvas').{what}"))
+}
+
+/// Lets the modes of a figure move for a while.
+pub fn play(browser: &Browser, figure: &str) {
+    press(browser, figure, "Play");
+    let name = figure.replace('.', "\\\\.");
+    browser.wait(&format!(
+        "return Number(document.querySelector('#{name} canvas').dataset.phase) > 0.05"
+    ));
+    press(browser, figure, "Pause");
 }
 
 pub fn check_text_stays_text(browser: &Browser) {
@@ -87,6 +105,11 @@ pub fn keep_screenshot(browser: &Browser, name: &str) {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("reports");
     std::fs::create_dir_all(&folder).unwrap();
     std::fs::write(folder.join(name), browser.screenshot()).unwrap();
+}
+
+pub fn summary_of(folder: &TempDir) -> Value {
+    let text = std::fs::read_to_string(folder.path().join("out/summary.json")).unwrap();
+    serde_json::from_str(&text).unwrap()
 }
 
 pub fn rows_of(path: &Path) -> Vec<Vec<String>> {
