@@ -6,6 +6,7 @@
 
 use crate::prelude::*;
 use frictionsim::cycle::CycleError;
+use std::sync::LazyLock;
 
 fn disc() -> AnnulusSpecification {
     annulus(ElementKind::Quad4, 90, 18)
@@ -15,8 +16,17 @@ pub fn operating(rpm: f64) -> OperatingPoint {
     OperatingPoint { contact: contact(rpm), damping: DAMPING }
 }
 
-fn solver(harmonic: usize) -> CycleSolver {
-    solver_of(&disc(), harmonic)
+/// The solver of that disc for one or two nodal diameters, made once.
+fn solver(harmonic: usize) -> &'static CycleSolver {
+    static OWN: [LazyLock<CycleSolver>; 2] =
+        [LazyLock::new(|| solver_of(&disc(), 1)), LazyLock::new(|| solver_of(&disc(), 2))];
+    &OWN[harmonic - 1]
+}
+
+/// Its double wave at 610 rpm, found once.
+fn double_wave() -> &'static LimitCycle {
+    static OWN: LazyLock<LimitCycle> = LazyLock::new(|| solver(2).find(&operating(610.0)).unwrap());
+    &OWN
 }
 
 pub fn solver_of(disc: &AnnulusSpecification, harmonic: usize) -> CycleSolver {
@@ -70,7 +80,7 @@ fn cycles_along_a_branch_have_the_powers_of_each_alone() {
 #[test]
 fn signorini_and_coulomb_hold_at_every_point() {
     let point = operating(610.0);
-    let cycle = solver(2).find(&point).unwrap();
+    let cycle = double_wave();
     let surface_speed = point.contact.rotation_speed * disc().inner_radius;
     let largest = cycle.points.iter().fold(0.0_f64, |m, p| m.max(p.pressure));
     for p in &cycle.points {
@@ -89,17 +99,15 @@ fn signorini_and_coulomb_hold_at_every_point() {
         }
         assert!(p.pressure >= -1e-7 * largest);
     }
-    assert!(count(&cycle, ContactStatus::Open) > 0 && count(&cycle, ContactStatus::Stick) > 0);
+    assert!(count(cycle, ContactStatus::Open) > 0 && count(cycle, ContactStatus::Stick) > 0);
 }
 
 #[test]
 fn interference_and_speed_scaled_alike_scale_the_cycle() {
-    let solver = solver(2);
-    let point = operating(610.0);
-    let mut double = point;
+    let mut double = operating(610.0);
     double.contact.interference *= 2.0;
     double.contact.rotation_speed *= 2.0;
-    let (one, two) = (solver.find(&point).unwrap(), solver.find(&double).unwrap());
+    let (one, two) = (double_wave(), solver(2).find(&double).unwrap());
     // All laws are homogeneous of degree one: lengths and speeds double, powers grow fourfold.
     assert!((two.state.frequency / one.state.frequency - 1.0).abs() < 1e-9);
     assert!((two.powers.contact.external / one.powers.contact.external / 4.0 - 1.0).abs() < 1e-7);
@@ -141,13 +149,11 @@ fn cycle_without_stick_does_not_depend_on_the_speed() {
 
 #[test]
 fn branch_over_friction_is_born_at_the_onset_of_the_linear_theory() {
-    let solver = solver(2);
-    let point = operating(610.0);
+    let (solver, cycle) = (solver(2), double_wave());
     let onset = *solver.onset();
-    let cycle = solver.find(&point).unwrap();
     let critical = onset.friction_coefficient;
     let values = [critical - 2e-3, critical + 5e-4, critical + 2e-3, 0.3];
-    let branch = solver.follow(&cycle, Parameter::FrictionCoefficient, &values);
+    let branch = solver.follow(cycle, Parameter::FrictionCoefficient, &values);
     assert_eq!(branch.ends, [BranchEnd::Birth, BranchEnd::Range]);
     let first = &branch.cycles[0];
     let born = first.state.point.contact.friction_coefficient;
@@ -308,12 +314,11 @@ fn field_of_a_disc_with_a_supported_rim_has_the_nodes_of_its_mesh() {
 
 #[test]
 fn wave_travels_against_the_rotor_without_changing_its_shape() {
-    let solver = solver(2);
-    let cycle = solver.find(&operating(610.0)).unwrap();
+    let (solver, cycle) = (solver(2), double_wave());
     let sectors = solver.body().sector_count;
     // Phase n theta + omega t: after this time each sector has the state that the next one had.
     let passing = TAU * 2.0 / sectors as f64 / cycle.state.frequency;
-    let (now, later) = (solver.field(&cycle, 0.0), solver.field(&cycle, passing));
+    let (now, later) = (solver.field(cycle, 0.0), solver.field(cycle, passing));
     for (now, later) in now.iter().zip(&later) {
         let per_sector = now.len() / sectors;
         let largest = now.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
