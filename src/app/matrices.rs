@@ -2,7 +2,7 @@
 
 use super::{Failure, Run, RunOptions, Session};
 use crate::results::matrices::{MatricesSummary, print, write_matrices};
-use crate::results::{WholeMesh, write_summary};
+use crate::results::{write_summary, write_universal_mesh};
 use crate::study::matrices::matrices;
 use clap::Args;
 
@@ -42,8 +42,8 @@ impl Run for Arguments {
         let (summary, head) = (MatricesSummary::new(&system), session.head());
         write_matrices(&folder, &system, head, &summary)?;
         if case.output.universal {
-            let mesh = WholeMesh::of(&*case.body.mesh().map_err(Failure::run)?);
-            folder.write_bulk("mesh.unv", |out| mesh.write_universal(out))?;
+            let mesh = case.body.mesh().map_err(Failure::run)?;
+            folder.write_bulk("mesh.unv", |out| write_universal_mesh(out, &mesh))?;
         }
         let object = write_summary(&folder, head, &summary)?;
         session.options.output.finish(folder, &print(&summary), &object)

@@ -6,6 +6,7 @@ pub mod charts;
 pub mod compare;
 pub mod convergence;
 pub mod cycle;
+mod distinct;
 mod drawing;
 mod extent;
 mod finding;
@@ -29,9 +30,10 @@ pub mod sweep;
 pub mod sweep_figures;
 pub mod transient;
 pub mod uncertainty;
+mod universal;
 mod vtu;
-mod whole_mesh;
 
+use distinct::distinct;
 use store::{folder, framed, manifest, record, reopening, whole_file};
 
 pub use crate::output::csv::format_number;
@@ -48,5 +50,5 @@ pub use store::{
     read_record, record_bytes,
 };
 pub use summary::{Head, object, read_summary, summary_of, write_summary};
+pub use universal::{write_universal_mesh, write_universal_mode};
 pub use vtu::{EncodedMesh, Field, cartesian_vectors, write_vtu};
-pub use whole_mesh::WholeMesh;

@@ -1,8 +1,8 @@
 //! A body as results show it.
 
 use super::vtu::{EncodedMesh, Field, solid_vectors};
-use super::whole_mesh::WholeMesh;
 use crate::mesh::{Mesh, SolidFace, SolidSector};
+use std::borrow::Cow;
 use std::io;
 
 /// A body in tables, fields and figures.
@@ -14,7 +14,7 @@ pub struct ShownBody<'a> {
     pub sector: Option<&'a SolidSector>,
 }
 
-impl ShownBody<'_> {
+impl<'a> ShownBody<'a> {
     /// Whether it has three dimensions.
     pub fn is_solid(&self) -> bool {
         self.sector.is_some() || self.mesh.dimension == 3
@@ -37,13 +37,16 @@ impl ShownBody<'_> {
     }
 
     /// Its nodes and elements.
-    pub fn whole(&self) -> WholeMesh {
-        self.sector.map_or_else(|| WholeMesh::of(self.mesh), WholeMesh::of_revolution)
+    pub fn whole(&self) -> Cow<'a, Mesh> {
+        match self.sector {
+            Some(sector) => Cow::Owned(sector.part(sector.sector_count())),
+            None => Cow::Borrowed(self.mesh),
+        }
     }
 
     /// The same for ParaView.
     pub fn encoded(&self) -> io::Result<EncodedMesh> {
-        EncodedMesh::of(&self.whole())
+        EncodedMesh::new(&self.whole())
     }
 
     /// Vectors at all nodes, given in their frames, along x, y and z.

@@ -1,6 +1,5 @@
 //! Fields on the mesh for ParaView: VTK XML unstructured grids, appended raw, zlib-compressed.
 
-use super::whole_mesh::WholeMesh;
 use crate::contact::ContactStatus;
 use crate::fem::{NodalStress, SolidStress};
 use crate::mesh::{Mesh, SolidSector};
@@ -8,6 +7,7 @@ use crate::output::rounded;
 use flate2::{Compression, write::ZlibEncoder};
 use nalgebra::Vector3;
 use std::io::{self, Write};
+use std::slice;
 
 /// Bytes of one compressed block.
 const BLOCK: usize = 1 << 18;
@@ -83,6 +83,17 @@ impl Field {
         }
     }
 
+    /// Its values, compressed, of so many nodes or elements.
+    fn encoded(&self, count: usize) -> io::Result<Array> {
+        if self.values.len() != count * self.components {
+            return Err(io::Error::new(
+                io::ErrorKind::InvalidInput,
+                format!("field {} has {} values", self.name, self.values.len()),
+            ));
+        }
+        Array::new(self.values.kind(), &self.name, self.components, &self.values.bytes())
+    }
+
     /// One number of the whole file.
     pub fn number(name: &str, value: f64) -> Self {
         Self::scalars(name, vec![rounded(value, 12)])
@@ -105,21 +116,19 @@ impl Field {
     /// The stresses at the nodes of a solid body: `von_mises_pa`, `hydrostatic_pressure_pa`, and the components along
     /// `axes`, one letter each.
     pub fn solid_stresses(stresses: &[SolidStress], axes: &str) -> Vec<Self> {
-        let mut fields = vec![
-            Self::scalars("von_mises_pa", stresses.iter().map(SolidStress::von_mises).collect()),
-            Self::scalars(
-                "hydrostatic_pressure_pa",
-                stresses.iter().map(SolidStress::pressure).collect(),
-            ),
-        ];
+        let field = |name: &str, of: &dyn Fn(&SolidStress) -> f64| {
+            Self::scalars(name, stresses.iter().map(of).collect())
+        };
         let axes: Vec<char> = axes.chars().collect();
         let pairs = [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2)];
-        for (k, (one, other)) in pairs.into_iter().enumerate() {
-            let name = format!("stress_{}{}_pa", axes[one], axes[other]);
-            let values = stresses.iter().map(|stress| stress.0[k]).collect();
-            fields.push(Self::scalars(&name, values));
-        }
-        fields
+        let components = pairs.into_iter().enumerate().map(|(k, (one, other))| {
+            field(&format!("stress_{}{}_pa", axes[one], axes[other]), &|stress| stress.0[k])
+        });
+        let scalars = [
+            field("von_mises_pa", &SolidStress::von_mises),
+            field("hydrostatic_pressure_pa", &SolidStress::pressure),
+        ];
+        scalars.into_iter().chain(components).collect()
     }
 
     /// The stress components along `x` and `y` of a body that is no annulus about the origin, where polar ones say
@@ -210,47 +219,54 @@ pub fn cartesian_vectors(mesh: &Mesh, nodal: &[f64]) -> Vec<f64> {
         .collect()
 }
 
+/// An array of a file, compressed.
+#[derive(Clone, Debug)]
+struct Array {
+    kind: &'static str,
+    name: String,
+    components: usize,
+    bytes: Vec<u8>,
+}
+
+impl Array {
+    fn new(kind: &'static str, name: &str, components: usize, bytes: &[u8]) -> io::Result<Self> {
+        Ok(Self { kind, name: name.to_owned(), components, bytes: compress(bytes)? })
+    }
+}
+
 /// The geometry of a mesh, compressed once for any number of files.
 #[derive(Clone, Debug)]
 pub struct EncodedMesh {
     node_count: usize,
     element_count: usize,
-    points: Vec<u8>,
-    connectivity: Vec<u8>,
-    offsets: Vec<u8>,
-    types: Vec<u8>,
+    points: Array,
+    /// Connectivity, offsets and types.
+    cells: [Array; 3],
 }
 
 impl EncodedMesh {
     /// Compresses a mesh.
     pub fn new(mesh: &Mesh) -> io::Result<Self> {
-        Self::of(&WholeMesh::of(mesh))
-    }
-
-    /// Compresses the bricks of a whole body of revolution, its nodes sector by sector.
-    pub fn solid(sector: &SolidSector) -> io::Result<Self> {
-        Self::of(&WholeMesh::of_revolution(sector))
-    }
-
-    /// Compresses nodes and elements.
-    pub fn of(mesh: &WholeMesh) -> io::Result<Self> {
         let integers = |values: &mut dyn Iterator<Item = i64>| -> Vec<u8> {
             values.flat_map(i64::to_le_bytes).collect()
         };
-        let points = mesh.points.iter().flatten().copied();
-        let ends = mesh.kinds.iter().scan(0, |end, kind| {
+        let points = mesh.nodes.iter().flatten().copied();
+        let points: Vec<u8> = points.flat_map(f64::to_le_bytes).collect();
+        let ends = mesh.element_kinds.iter().scan(0, |end, kind| {
             *end += kind.node_count() as i64;
             Some(*end)
         });
-        let types: Vec<u8> = mesh.kinds.iter().map(|kind| kind.vtk_type()).collect();
-        let nodes = mesh.nodes.iter().map(|node| i64::from(*node));
+        let types: Vec<u8> = mesh.element_kinds.iter().map(|kind| kind.vtk_type()).collect();
+        let nodes = mesh.elements.iter().map(|node| i64::from(*node));
         Ok(Self {
-            node_count: mesh.points.len(),
-            element_count: mesh.kinds.len(),
-            points: compress(&points.flat_map(f64::to_le_bytes).collect::<Vec<u8>>())?,
-            connectivity: compress(&integers(&mut { nodes }))?,
-            offsets: compress(&integers(&mut { ends }))?,
-            types: compress(&types)?,
+            node_count: mesh.node_count(),
+            element_count: mesh.element_count(),
+            points: Array::new("Float64", "Points", 3, &points)?,
+            cells: [
+                Array::new("Int64", "connectivity", 1, &integers(&mut { nodes }))?,
+                Array::new("Int64", "offsets", 1, &integers(&mut { ends }))?,
+                Array::new("UInt8", "types", 1, &types)?,
+            ],
         })
     }
 }
@@ -287,8 +303,17 @@ pub fn write_vtu(
     point_fields: &[Field],
     cell_fields: &[Field],
 ) -> io::Result<()> {
-    let mut blobs: Vec<Vec<u8>> = Vec::new();
-    let mut offset = 0;
+    let encoded = |fields: &[Field], count: usize| -> io::Result<Vec<Array>> {
+        fields.iter().map(|field| field.encoded(count)).collect()
+    };
+    let at_nodes = encoded(point_fields, mesh.node_count)?;
+    let in_elements = encoded(cell_fields, mesh.element_count)?;
+    let groups = [
+        ("PointData", &at_nodes[..]),
+        ("CellData", &in_elements[..]),
+        ("Points", slice::from_ref(&mesh.points)),
+        ("Cells", &mesh.cells[..]),
+    ];
     writeln!(out, "<?xml version=\"1.0\"?>")?;
     writeln!(
         out,
@@ -302,45 +327,23 @@ pub fn write_vtu(
         "<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">",
         mesh.node_count, mesh.element_count
     )?;
-    for (tag, fields, count) in [
-        ("PointData", point_fields, mesh.node_count),
-        ("CellData", cell_fields, mesh.element_count),
-    ] {
+    let mut offset = 0;
+    for (tag, arrays) in groups {
         writeln!(out, "<{tag}>")?;
-        for field in fields {
-            if field.values.len() != count * field.components {
-                return Err(io::Error::new(
-                    io::ErrorKind::InvalidInput,
-                    format!("field {} has {} values", field.name, field.values.len()),
-                ));
-            }
-            let blob = compress(&field.values.bytes())?;
-            array(out, field.values.kind(), &field.name, field.components, offset)?;
-            offset += blob.len();
-            blobs.push(blob);
+        for Array { kind, name, components, bytes } in arrays {
+            writeln!(
+                out,
+                "<DataArray type=\"{kind}\" Name=\"{}\" NumberOfComponents=\"{components}\" \
+                 format=\"appended\" offset=\"{offset}\"/>",
+                escape(name)
+            )?;
+            offset += bytes.len();
         }
         writeln!(out, "</{tag}>")?;
     }
-    let geometry = [
-        ("Points", "Float64", "Points", 3, &mesh.points),
-        ("Cells", "Int64", "connectivity", 1, &mesh.connectivity),
-        ("Cells", "Int64", "offsets", 1, &mesh.offsets),
-        ("Cells", "UInt8", "types", 1, &mesh.types),
-    ];
-    for (index, (tag, kind, name, components, blob)) in geometry.iter().enumerate() {
-        if index == 0 || geometry[index - 1].0 != *tag {
-            writeln!(out, "<{tag}>")?;
-        }
-        array(out, kind, name, *components, offset)?;
-        offset += blob.len();
-        if geometry.get(index + 1).is_none_or(|next| next.0 != *tag) {
-            writeln!(out, "</{tag}>")?;
-        }
-    }
     write!(out, "</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_")?;
-    let geometry = geometry.iter().map(|entry| entry.4);
-    for blob in blobs.iter().chain(geometry) {
-        out.write_all(blob)?;
+    for array in groups.iter().flat_map(|group| group.1) {
+        out.write_all(&array.bytes)?;
     }
     write!(out, "\n</AppendedData>\n</VTKFile>\n")
 }
@@ -364,21 +367,6 @@ fn write_whole(out: &mut dyn Write, fields: &[Field]) -> io::Result<()> {
         writeln!(out, "</DataArray>")?;
     }
     writeln!(out, "</FieldData>")
-}
-
-fn array(
-    out: &mut dyn Write,
-    kind: &str,
-    name: &str,
-    components: usize,
-    offset: usize,
-) -> io::Result<()> {
-    writeln!(
-        out,
-        "<DataArray type=\"{kind}\" Name=\"{}\" NumberOfComponents=\"{components}\" \
-         format=\"appended\" offset=\"{offset}\"/>",
-        escape(name)
-    )
 }
 
 /// Text inside an XML attribute.

@@ -3,7 +3,6 @@
 use crate::prelude::*;
 use frictionsim::linalg::c64;
 use frictionsim::mesh::FileMesh;
-use frictionsim::results::WholeMesh;
 use frictionsim::signal::reader::{ResponseOptions, read_response, read_shapes};
 use frictionsim::study::eigenvalues::{SlidingModel, solve_modes};
 use std::fmt::Write;
@@ -130,8 +129,7 @@ fn shapes_and_responses_written_as_universal_files_are_read_back() {
     let case = case_of("case.toml", &case, AS_IT_IS);
     let mesh = case.body.mesh().unwrap();
     assert_eq!(file.points.len(), mesh.node_count());
-    let whole = WholeMesh::of(&mesh);
-    let own = whole.elements().map(|(_, nodes)| nodes);
+    let own = (0..mesh.element_count()).map(|element| mesh.element_nodes(element));
     assert!(file.elements.iter().map(|element| &element.nodes[..]).eq(own));
     // The response has the values of the table.
     run(&["frf", "case.toml"], "frf");

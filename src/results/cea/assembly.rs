@@ -87,19 +87,9 @@ impl AssemblyReport {
         self.points.iter().all(|point| point.pressure == 0.0)
     }
 
-    /// Pressure on each contact surface.
-    pub(super) fn prestress(&self, mesh: &Mesh) -> Result<Figure, ChartError> {
-        self.traction(mesh, ("prestress", "contact pressure"), |point| point.pressure)
-    }
-
-    /// Friction on each contact surface.
-    pub(super) fn shear(&self, mesh: &Mesh) -> Result<Figure, ChartError> {
-        self.traction(mesh, ("shear", "friction traction"), |point| point.shear)
-    }
-
     /// A traction on each contact surface, seen from outside along its mean normal, with the sliding over it; grey
     /// where it is open.
-    fn traction(
+    pub(super) fn traction(
         &self,
         mesh: &Mesh,
         (name, what): (&str, &'static str),

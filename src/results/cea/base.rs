@@ -41,12 +41,11 @@ pub struct BaseState {
 impl BaseState {
     /// Torque or drag with its name and unit.
     pub(super) fn drive(&self) -> String {
-        let [torque_unit, force_unit] = ["N m", "N"].map(|unit| self.extent.unit(unit));
-        let torque = self.torque_n_m;
-        let torque = torque.map(|torque| format!("torque {torque:.4} {torque_unit}"));
-        let drag = self.drag_n;
-        let drag = drag.map(|drag| format!("drag {drag:.4} {force_unit}"));
-        torque.or(drag).unwrap_or_default()
+        match (self.torque_n_m, self.drag_n) {
+            (Some(torque), _) => format!("torque {torque:.4} {}", self.extent.unit("N m")),
+            (None, Some(drag)) => format!("drag {drag:.4} {}", self.extent.unit("N")),
+            (None, None) => String::new(),
+        }
     }
 
     /// Its numbers of the whole file.

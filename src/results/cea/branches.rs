@@ -6,6 +6,10 @@ use std::collections::BTreeMap;
 /// Harmonic, branch and direction: what identifies a mode over friction.
 pub(super) type Branch = (usize, usize, i8);
 
+pub(super) fn branch_of_mode(mode: &ComplexMode) -> Branch {
+    (mode.harmonic, mode.branch, mode.direction)
+}
+
 pub(super) fn branch_of(interval: &UnstableInterval) -> Branch {
     (interval.harmonic, interval.branch, interval.direction)
 }

@@ -1,9 +1,10 @@
 //! Which modes couple where steady sliding loses its stability, as far as the sweep tells.
 
-use super::branches::{Branch, branch_of, branches};
+use super::branches::{Branch, branch_of, branch_of_mode, branches};
 use super::{CeaReport, direction_name};
 use crate::cea::{ComplexMode, FrictionPoint, UnstableInterval};
 use crate::output::fixed;
+use crate::results::distinct;
 
 /// Largest distance of two frequencies that couple, relative to their mean.
 const NEAR: f64 = 0.05;
@@ -14,17 +15,12 @@ const NEAR: f64 = 0.05;
 /// body the partner is the mode nearest in frequency, within 5 %, at the first friction value at which the branch is
 /// unstable, whose real part has fallen since the lowest friction while that of the branch rose.
 pub(super) fn sentences(report: &CeaReport<'_>) -> Vec<String> {
-    let mut told: Vec<Branch> = Vec::new();
-    let mut out = Vec::new();
-    for interval in &report.sweep.intervals {
-        let branch = branch_of(interval);
-        if told.contains(&branch) {
-            continue;
-        }
-        told.push(branch);
-        out.extend(if report.has_harmonics { of_pair(branch) } else { of_modes(report, interval) });
-    }
-    out
+    let intervals = &report.sweep.intervals;
+    let sentence = |branch: Branch| match report.has_harmonics {
+        true => of_pair(branch),
+        false => of_modes(report, intervals.iter().find(|own| branch_of(own) == branch)?),
+    };
+    distinct(intervals.iter().map(branch_of)).into_iter().filter_map(sentence).collect()
 }
 
 fn of_pair((harmonic, branch, direction): Branch) -> Option<String> {
@@ -50,7 +46,7 @@ fn of_modes(report: &CeaReport<'_>, interval: &UnstableInterval) -> Option<Strin
     let point = report.sweep.points.iter().find(is_behind)?;
     let own = point.modes.iter().find(is_here)?;
     let start = |mode: &ComplexMode| {
-        let points = all.get(&(mode.harmonic, mode.branch, mode.direction))?;
+        let points = all.get(&branch_of_mode(mode))?;
         Some(points.first()?.1.real_hz())
     };
     let rises = |mode: &ComplexMode| Some(mode.real_hz() - start(mode)?);
@@ -63,9 +59,8 @@ fn of_modes(report: &CeaReport<'_>, interval: &UnstableInterval) -> Option<Strin
         .min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
     rises(own).filter(|rise| *rise > 0.0)?;
     let name = |mode: &ComplexMode| {
-        let branch = (mode.harmonic, mode.branch, mode.direction);
         let frequency = fixed(mode.frequency_hz(), 1);
-        format!("{} ({frequency} Hz)", report.branch_name(branch, &numbers))
+        format!("{} ({frequency} Hz)", report.branch_name(branch_of_mode(mode), &numbers))
     };
     Some(format!(
         "{}: at friction {} it lies beside {}, which loses what it gains: these two couple.",

@@ -80,13 +80,13 @@ impl Feed {
         let whole = report.body().whole();
         let fields = self.modes.iter().map(|own| {
             let name = format!("mode_{}_growth_rate_per_s_m2", own.mode.mode);
-            let mut values = self.around_nodes(whole.labels.len(), own);
+            let mut values = self.around_nodes(whole.node_count(), own);
             values.iter_mut().filter(|v| v.is_nan()).for_each(|v| *v = 0.0);
             Field::scalars(&name, values)
         });
         let fields: Vec<Field> = fields.collect();
         folder.write_bulk("feed.vtu", |out| {
-            write_vtu(out, &EncodedMesh::of(&whole)?, &[], &fields, &[])
+            write_vtu(out, &EncodedMesh::new(&whole)?, &[], &fields, &[])
         })
     }
 
@@ -139,28 +139,31 @@ impl Feed {
     fn lines(&self, report: &CeaReport<'_>, modes: &[&ModeFeed], caption: String) -> Figure {
         // Across the rings of a body of revolution; along an edge by angle about the cylinder, or along the plane.
         let face = report.solid.map(|solid| solid.sector.specification.contact.face());
-        let along = |place: &FeedPlace| -> f64 {
-            let [x, y, z] = place.position;
-            match (face, &report.mesh.counterface) {
-                (Some(SolidFace::Inner | SolidFace::Outer), _) => z,
-                (Some(SolidFace::Top | SolidFace::Bottom), _) => x,
-                (None, Counterface::Cylinder { center, .. }) => {
-                    (y - center[1]).atan2(x - center[0]).rem_euclid(TAU)
-                }
-                (None, Counterface::Plane { point, direction }) => {
-                    (x - point[0]) * direction[0] + (y - point[1]) * direction[1]
-                }
+        let across = |name: &str| Axis::new(name, "mm").times(1e3).tight();
+        type Along<'a> = Box<dyn Fn([f64; 3]) -> f64 + 'a>;
+        let (x, along): (Axis, Along<'_>) = match (face, &report.mesh.counterface) {
+            (Some(SolidFace::Inner | SolidFace::Outer), _) => {
+                (across("height *z*"), Box::new(|[_, _, z]: [f64; 3]| z))
             }
+            (Some(SolidFace::Top | SolidFace::Bottom), _) => {
+                (across("radius *r*"), Box::new(|[x, _, _]: [f64; 3]| x))
+            }
+            (None, Counterface::Cylinder { center, .. }) => (
+                Axis::degrees().tight(),
+                Box::new(move |[x, y, _]: [f64; 3]| {
+                    (y - center[1]).atan2(x - center[0]).rem_euclid(TAU)
+                }),
+            ),
+            (None, Counterface::Plane { point, direction }) => (
+                across("along the contact"),
+                Box::new(move |[x, y, _]: [f64; 3]| {
+                    (x - point[0]) * direction[0] + (y - point[1]) * direction[1]
+                }),
+            ),
         };
+        let along = |place: &FeedPlace| along(place.position);
         let mut order: Vec<usize> = (0..self.places.len()).collect();
         crate::order::sort_by_number(&mut order, |&a| along(&self.places[a]));
-        let across = |name: &str| Axis::new(name, "mm").times(1e3).tight();
-        let x = match (face, &report.mesh.counterface) {
-            (Some(SolidFace::Inner | SolidFace::Outer), _) => across("height *z*"),
-            (Some(SolidFace::Top | SolidFace::Bottom), _) => across("radius *r*"),
-            (None, Counterface::Cylinder { .. }) => Axis::degrees().tight(),
-            (None, Counterface::Plane { .. }) => across("along the contact"),
-        };
         let y = Axis::new("feed", "1/(s cm²)").times(1e-4);
         let mut panel = Panel::new(x, y)
             .height(150.0)

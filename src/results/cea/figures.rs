@@ -15,6 +15,7 @@ use crate::fem::NodalStress;
 use crate::mesh::Counterface;
 use crate::results::charts::Disc;
 use crate::results::charts::palette::{STABLE, UNSTABLE};
+use crate::results::distinct;
 use crate::results::drawing::{Declaration, DrawingError, DrawingOptions, declared};
 use crate::results::folder::OutputFolder;
 use crate::results::write_page;
@@ -38,8 +39,11 @@ pub fn draw(
     match report.assembly {
         None => figures.push(Box::new(move || Ok(prestress(report)))),
         Some(assembly) => {
-            figures.push(Box::new(move || assembly.prestress(report.mesh)));
-            figures.push(Box::new(move || assembly.shear(report.mesh)));
+            let of = move |names, value| assembly.traction(report.mesh, names, value);
+            let pressure = ("prestress", "contact pressure");
+            figures.push(Box::new(move || of(pressure, |point| point.pressure)));
+            let shear = ("shear", "friction traction");
+            figures.push(Box::new(move || of(shear, |point| point.shear)));
         }
     }
     for point in &report.sweep.points {
@@ -66,12 +70,7 @@ fn pairs(report: &CeaReport<'_>) -> Result<Figure, ChartError> {
         return Err(ChartError::empty("pairs over friction"));
     }
     let (all, numbers) = (branches(sweep), report.mode_numbers());
-    let mut pairs: Vec<(usize, usize)> = Vec::new();
-    for (branch, _) in interval_rows(sweep) {
-        if !pairs.contains(&(branch.0, branch.1)) {
-            pairs.push((branch.0, branch.1));
-        }
-    }
+    let pairs = distinct(interval_rows(sweep).iter().map(|(branch, _)| (branch.0, branch.1)));
     let height = (620.0 / pairs.len().max(1) as f64 - 14.0).clamp(40.0, 92.0);
     type Quantity = fn(&ComplexMode) -> f64;
     let quantities: [(Axis, Quantity); 2] = [
@@ -105,16 +104,14 @@ fn pairs(report: &CeaReport<'_>) -> Result<Figure, ChartError> {
             });
             let growing = [-1, 0, 1].into_iter().filter_map(of).flatten();
             let growing = growing.filter(|(_, mode)| mode.is_unstable());
-            let line_of_all = match report.has_harmonics {
-                true => line(0).solid(STABLE, 1.1),
-                false => line(0).solid(STABLE, 1.1).name("mode"),
-            };
+            let standing = line(0).solid(STABLE, 1.1);
+            let standing = if report.has_harmonics { standing } else { standing.name("mode") };
             Panel::new(Axis::friction().tight(), axis)
                 .height(height)
                 .caption(caption.clone())
                 .layer(Rule::horizontal(0.0).stroke(Stroke::solid(INK, 0.6)))
                 .layers(joins)
-                .layer(line_of_all)
+                .layer(standing)
                 .layer(
                     line_of(other)
                         .stroke(Stroke::dashed(INK, 0.9))
@@ -211,24 +208,9 @@ fn wrapped(points: Vec<(f64, f64)>, is_closed: bool) -> Vec<(f64, f64)> {
     before.into_iter().chain(points).chain(after).collect()
 }
 
-/// Modes of one friction value that carry shapes.
-fn shapes_at<'a>(report: &CeaReport<'a>, friction: f64) -> Vec<ModeShape<'a>> {
-    let points = report.sweep.points.iter().filter(|p| p.friction_coefficient == friction);
-    let numbered = points.flat_map(|point| point.modes.iter().enumerate());
-    let with_shape = numbered.filter(|(_, mode)| mode.shape.is_some());
-    with_shape
-        .map(|(index, mode)| ModeShape {
-            has_harmonics: report.has_harmonics,
-            number: index + 1,
-            friction,
-            mode,
-        })
-        .collect()
-}
-
 /// All modes of one friction value as small multiples.
 fn shapes(report: &CeaReport<'_>, friction: f64) -> Figure {
-    let shapes = shapes_at(report, friction);
+    let shapes: Vec<_> = ModeShape::all(report).filter(|own| own.friction == friction).collect();
     let columns = match shapes.len() {
         0..=4 => shapes.len().max(2),
         5..=6 => 3,
@@ -257,14 +239,9 @@ fn shapes(report: &CeaReport<'_>, friction: f64) -> Figure {
 
 /// The first branches that turn unstable and have several shapes.
 fn followed_branches(report: &CeaReport<'_>) -> Vec<Branch> {
-    let mut followed: Vec<Branch> = Vec::new();
-    for branch in report.sweep.intervals.iter().map(branch_of) {
-        if !followed.contains(&branch) && branch_points(report, branch).len() > 1 {
-            followed.push(branch);
-        }
-    }
-    followed.truncate(FOLLOWED_BRANCHES);
-    followed
+    let branches = distinct(report.sweep.intervals.iter().map(branch_of)).into_iter();
+    let followed = branches.filter(|branch| branch_points(report, *branch).len() > 1);
+    followed.take(FOLLOWED_BRANCHES).collect()
 }
 
 /// The shapes of a branch at every friction value; a degenerate pair stands at the start of both its waves.
@@ -277,26 +254,30 @@ fn branch_points<'a>(
         (mode.harmonic, mode.branch) == (harmonic, branch)
             && [direction, 0].contains(&mode.direction)
     };
-    let frictions = report.sweep.points.iter().map(|point| point.friction_coefficient);
-    frictions.filter_map(|mu| shapes_at(report, mu).into_iter().find(is_own)).collect()
+    let mut shapes: Vec<_> = ModeShape::all(report).filter(is_own).collect();
+    shapes.dedup_by_key(|shape| shape.friction);
+    shapes
 }
 
 /// One branch at every friction value that has shapes.
 fn branch_shapes(report: &CeaReport<'_>, branch: Branch) -> Figure {
     let way = direction_name(branch.2);
-    let caption = match report.has_harmonics {
-        true => format!(
-            "Harmonic {}, branch {}, travelling {way} the rotor, at several friction coefficients.",
-            branch.0, branch.1
+    let (n, rank) = (branch.0, branch.1);
+    let (name, caption) = match report.has_harmonics {
+        true => (
+            format!("branch-n{n}-{rank}-{way}"),
+            format!(
+                "Harmonic {n}, branch {rank}, travelling {way} the rotor, at several friction \
+                 coefficients."
+            ),
         ),
-        false => format!(
-            "Branch {0} at several friction coefficients: the mode that is number {0} by frequency at the lowest.",
-            branch.1
+        false => (
+            format!("branch-{rank}"),
+            format!(
+                "Branch {rank} at several friction coefficients: the mode that is number {rank} \
+                 by frequency at the lowest."
+            ),
         ),
-    };
-    let name = match report.has_harmonics {
-        true => format!("branch-n{}-{}-{way}", branch.0, branch.1),
-        false => format!("branch-{}", branch.1),
     };
     let shapes = branch_points(report, branch);
     let body = Body::new(report, 24);

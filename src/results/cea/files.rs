@@ -1,16 +1,19 @@
 //! `eigenvalues.csv`, `stability.csv`, `summary.json`, mode shapes.
 
+use super::CeaReport;
 use super::base::write_base;
+use super::shape::ModeShape;
 use super::solid::size;
 use super::summary::summary;
 use super::tables::{eigenvalues, stability};
-use super::{CeaReport, ComplexMode};
+use crate::cea::ComplexMode;
 use crate::linalg::c64;
 use crate::output::rounded;
 use crate::results::finding::write_table;
 use crate::results::folder::{FolderError, OutputFolder};
 use crate::results::pvd::{PvdEntry, write_pvd};
 use crate::results::summary::{Head, write_summary};
+use crate::results::universal::{write_universal_mesh, write_universal_mode};
 use crate::results::vtu::{EncodedMesh, Field, write_vtu};
 use serde_json::Value;
 use std::io;
@@ -41,19 +44,17 @@ pub fn write(folder: &OutputFolder, report: &CeaReport<'_>) -> Result<Value, Fol
 /// Writes the shapes that the modes carry: one VTU each with the real and the imaginary part of the
 /// displacement, so that `Re(phi e^{i omega t})` can be animated, and `modes.pvd` over them.
 fn write_shapes(folder: &OutputFolder, report: &CeaReport<'_>) -> Result<(), FolderError> {
-    let shaped = shaped(report);
-    if shaped.is_empty() {
+    let shapes: Vec<ModeShape<'_>> = ModeShape::all(report).collect();
+    if shapes.is_empty() {
         return Ok(());
     }
     let mesh = report.body().encoded();
     let mut entries = Vec::new();
     // Compression takes the time: a batch of files side by side, written in order.
-    for batch in shaped.chunks(rayon::current_num_threads().max(1)) {
+    for batch in shapes.chunks(rayon::current_num_threads().max(1)) {
         let encoded: Vec<io::Result<Vec<u8>>> =
-            crate::parallel::map(batch, |(friction, _, mode)| {
-                encode_shape(report, &mesh, *friction, mode)
-            });
-        for ((friction, number, mode), bytes) in batch.iter().zip(encoded) {
+            crate::parallel::map(batch, |shape| encode_shape(report, &mesh, shape));
+        for (&ModeShape { friction, number, mode, .. }, bytes) in batch.iter().zip(encoded) {
             let name = format!("modes/mu-{friction}-mode-{number:03}.vtu");
             folder.write_bulk(&name, |out| out.write_all(&bytes?))?;
             entries.push(PvdEntry {
@@ -66,15 +67,6 @@ fn write_shapes(folder: &OutputFolder, report: &CeaReport<'_>) -> Result<(), Fol
     folder.write("modes.pvd", |out| write_pvd(out, &entries))
 }
 
-/// Modes with a shape: friction coefficient, number among those of that value, mode.
-fn shaped<'a>(report: &CeaReport<'a>) -> Vec<(f64, usize, &'a ComplexMode)> {
-    let numbered = report.sweep.points.iter().flat_map(|point| {
-        let modes = point.modes.iter().enumerate();
-        modes.map(move |(index, mode)| (point.friction_coefficient, index + 1, mode))
-    });
-    numbered.filter(|(_, _, mode)| mode.shape.is_some()).collect()
-}
-
 /// Name of the universal file of the mode shapes.
 pub const UNIVERSAL_MODES: &str = "modes.unv";
 
@@ -85,12 +77,12 @@ pub const UNIVERSAL_MODES: &str = "modes.unv";
 pub fn write_universal(folder: &OutputFolder, report: &CeaReport<'_>) -> Result<(), FolderError> {
     let mesh = report.body().whole();
     folder.write_bulk(UNIVERSAL_MODES, |out| {
-        mesh.write_universal(out)?;
-        for (k, (friction, number, mode)) in shaped(report).into_iter().enumerate() {
+        write_universal_mesh(out, &mesh)?;
+        for (k, ModeShape { friction, number, mode, .. }) in ModeShape::all(report).enumerate() {
             let name = format!("friction {friction}, mode {number}, {:.2} Hz", mode.frequency_hz());
             let [real, imaginary, _] = shape_fields(report, mode);
             let parts = [real.reals(), imaginary.reals()];
-            mesh.write_universal_mode(out, (&name, k + 1), mode.eigenvalue, parts)?;
+            write_universal_mode(out, &mesh, (&name, k + 1), mode.eigenvalue, parts)?;
         }
         Ok(())
     })
@@ -109,15 +101,14 @@ fn time_of(mode: &ComplexMode, before: &[PvdEntry]) -> f64 {
 fn encode_shape(
     report: &CeaReport<'_>,
     mesh: &io::Result<EncodedMesh>,
-    friction_coefficient: f64,
-    mode: &ComplexMode,
+    &ModeShape { friction, mode, .. }: &ModeShape<'_>,
 ) -> io::Result<Vec<u8>> {
     let mesh = mesh.as_ref().map_err(|error| io::Error::from(error.kind()))?;
     let fields = shape_fields(report, mode);
     let whole = [
         Field::number("frequency_hz", mode.frequency_hz()),
         Field::number("real_hz", mode.real_hz()),
-        Field::number("friction_coefficient", friction_coefficient),
+        Field::number("friction_coefficient", friction),
     ];
     let mut bytes = Vec::new();
     write_vtu(&mut bytes, mesh, &whole, &fields, &[])?;

@@ -9,7 +9,7 @@ use crate::chart::{
 };
 use crate::fem::RayleighDamping;
 use crate::results::charts::palette::{STABLE, UNSTABLE};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::TAU;
 
 /// Damping that regions of a body have, with the mark-up that names it.
@@ -90,9 +90,7 @@ pub(super) fn locus(report: &CeaReport<'_>, dampings: &[NamedDamping]) -> Figure
             }
         })
     });
-    let mut labelled: Vec<Branch> = unstable.clone();
-    labelled.sort_unstable();
-    labelled.dedup();
+    let labelled: BTreeSet<Branch> = unstable.iter().copied().collect();
     let labels = labelled.iter().filter_map(|branch| {
         let (_, mode) = all_branches.get(branch)?.last()?;
         let style = TextStyle::new(7.0).bold().with_halo();

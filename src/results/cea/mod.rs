@@ -43,10 +43,10 @@ pub(super) use summary::{ONSETS, SWEPT_MODES, SWEPT_ONSETS, UNSTABLE};
 pub(super) use tables::{AXIAL, MODES, PLACES};
 pub use tables::{View, document};
 
-use crate::cea::{ComplexMode, FrictionPoint, FrictionSweep};
+use crate::cea::{FrictionPoint, FrictionSweep};
 use crate::mesh::Mesh;
 use crate::results::ShownBody;
-use branches::Branch;
+use branches::{Branch, branch_of_mode};
 use std::collections::BTreeMap;
 
 /// Everything a complex eigenvalue analysis reports.
@@ -105,9 +105,7 @@ impl CeaReport<'_> {
     /// Number of each branch's mode at that friction value, by frequency from 1.
     fn mode_numbers(&self) -> BTreeMap<Branch, usize> {
         let modes = self.own_point().into_iter().flat_map(|point| &point.modes);
-        let of = |mode: &ComplexMode| (mode.harmonic, mode.branch, mode.direction);
-        let numbered = modes.enumerate();
-        numbered.map(|(index, mode)| (of(mode), index + 1)).collect()
+        modes.map(branch_of_mode).zip(1..).collect()
     }
 
     /// A branch as figures and tables name it: by harmonic, rank and sense of travel, or without symmetry by the number

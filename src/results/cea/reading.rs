@@ -5,6 +5,7 @@ use super::mode_name::{ModeName, NAMES, SHORT_NAMES};
 use super::{CeaReport, Feed};
 use crate::chart::{Axis, ChartError, Figure, INK, Line, Panel, Rule, Stroke, literal};
 use crate::output::{Table, columns, fixed};
+use crate::results::distinct;
 use std::collections::BTreeMap;
 
 /// What a contribution comes from.
@@ -188,6 +189,20 @@ impl Reading {
             budget.join(", ")
         )
     }
+
+    /// The branches that reach the largest growth rates, the fastest first.
+    fn fastest(&self) -> Vec<Branch> {
+        let mut fastest: Vec<(Branch, f64)> = Vec::new();
+        for coupling in &self.couplings {
+            let (branch, rate) = (branch_of_mode(&coupling.mode), coupling.growth_rate);
+            match fastest.iter_mut().find(|(known, _)| *known == branch) {
+                Some((_, largest)) => *largest = largest.max(rate),
+                None => fastest.push((branch, rate)),
+            }
+        }
+        crate::order::sort_by_number(&mut fastest, |a| -a.1);
+        fastest.into_iter().map(|(branch, _)| branch).collect()
+    }
 }
 
 /// Part of the largest contribution from which on another one is named.
@@ -209,13 +224,8 @@ const PANELS: usize = 6;
 
 /// Growth rate over friction of the modes that grow fastest, and what each part, support and contact adds to it.
 pub(super) fn budget(report: &CeaReport<'_>, reading: &Reading) -> Result<Figure, ChartError> {
-    let mut frictions: Vec<f64> = Vec::new();
-    for row in &reading.contributions {
-        let friction = row.mode.friction_coefficient;
-        if report.friction_coefficients.contains(&friction) && !frictions.contains(&friction) {
-            frictions.push(friction);
-        }
-    }
+    let frictions = reading.contributions.iter().map(|row| row.mode.friction_coefficient);
+    let frictions = distinct(frictions.filter(|own| report.friction_coefficients.contains(own)));
     if frictions.len() < 3 {
         return Err(ChartError::empty("budget of growth over friction"));
     }
@@ -240,12 +250,7 @@ pub(super) fn budget(report: &CeaReport<'_>, reading: &Reading) -> Result<Figure
 
 /// The growth rate of one branch, and its parts.
 fn budget_panel(name: String, rows: &[&Contribution], frictions: &[f64]) -> Panel {
-    let mut names: Vec<&str> = Vec::new();
-    for row in rows {
-        if !names.contains(&row.name.as_str()) {
-            names.push(&row.name);
-        }
-    }
+    let names = distinct(rows.iter().map(|row| row.name.as_str()));
     let total = frictions.iter().filter_map(|&friction| {
         let is_there = |row: &&&Contribution| row.mode.friction_coefficient == friction;
         let mut own = rows.iter().filter(is_there).peekable();
@@ -271,20 +276,4 @@ fn branch_of_mode(mode: &ModeName) -> Branch {
     // Waves around a body made of one sector are numbered together.
     let harmonic = mode.harmonic.filter(|_| mode.direction.is_some());
     (harmonic.unwrap_or(0), mode.branch, mode.direction.unwrap_or(0))
-}
-
-impl Reading {
-    /// The branches that reach the largest growth rates, the fastest first.
-    fn fastest(&self) -> Vec<Branch> {
-        let mut fastest: Vec<(Branch, f64)> = Vec::new();
-        for coupling in &self.couplings {
-            let (branch, rate) = (branch_of_mode(&coupling.mode), coupling.growth_rate);
-            match fastest.iter_mut().find(|(known, _)| *known == branch) {
-                Some((_, largest)) => *largest = largest.max(rate),
-                None => fastest.push((branch, rate)),
-            }
-        }
-        crate::order::sort_by_number(&mut fastest, |a| -a.1);
-        fastest.into_iter().map(|(branch, _)| branch).collect()
-    }
 }

@@ -28,7 +28,18 @@ pub(super) struct ModeShape<'a> {
     pub mode: &'a ComplexMode,
 }
 
-impl ModeShape<'_> {
+impl<'a> ModeShape<'a> {
+    /// All modes of a report that carry shapes, by rising friction.
+    pub fn all(report: &CeaReport<'a>) -> impl Iterator<Item = Self> {
+        let has_harmonics = report.has_harmonics;
+        let shapes = report.sweep.points.iter().flat_map(move |point| {
+            let friction = point.friction_coefficient;
+            let modes = (1..).zip(&point.modes);
+            modes.map(move |(number, mode)| Self { number, friction, has_harmonics, mode })
+        });
+        shapes.filter(|own| own.mode.shape.is_some())
+    }
+
     /// Colour of its headings.
     fn colour(&self) -> &'static str {
         if self.mode.is_unstable() { UNSTABLE } else { INK }
@@ -50,7 +61,7 @@ impl ModeShape<'_> {
 /// A body whose shapes are drawn.
 pub(super) enum Body<'a> {
     /// In the plane.
-    Plane(Disc<'a>, &'a Mesh),
+    Plane(Disc<'a>),
     /// With a thickness.
     Solid(Picture<'a>),
     /// From a mesh file of solid elements.
@@ -63,57 +74,49 @@ impl<'a> Body<'a> {
         match report.solid {
             Some(solid) => Self::Solid(Picture::new(&solid.sector)),
             None if report.assembly.is_some() => Self::Assembly(SolidView::new(report.mesh)),
-            None => Self::Plane(Disc::with_lattice(report.mesh, rays), report.mesh),
+            None => Self::Plane(Disc::with_lattice(report.mesh, rays)),
         }
     }
 
     /// The deformed body under some lines of heading.
     pub fn panel(&self, shape: &ModeShape<'_>, lines: &[String; 3]) -> Panel {
-        match self {
-            Self::Plane(disc, mesh) => shape_panel(disc, mesh, shape, lines),
-            Self::Assembly(view) => assembly_panel(view, shape, lines),
+        let values = shape.mode.shape.as_deref().unwrap_or(&[]);
+        let panel = match self {
+            Self::Plane(disc) => plane_panel(disc, values, shape.mode.harmonic),
+            Self::Assembly(view) => assembly_panel(view, values),
             Self::Solid(picture) => {
-                let values = shape.mode.shape.as_deref().unwrap_or(&[]);
-                let panel = picture.panel(values, Axis::new("", "").between(0.0, 1.0));
-                let heading = lines.iter();
-                heading
-                    .fold(panel, |panel, line| panel.heading_in(shape.colour(), line))
-                    .height(170.0)
+                picture.panel(values, Axis::new("", "").between(0.0, 1.0)).height(170.0)
             }
-        }
+        };
+        lines.iter().fold(panel, |panel, line| panel.heading_in(shape.colour(), line))
     }
 }
 
-/// The deformed body under some lines of heading, coloured by the displacement amplitude of the real part.
+/// The deformed body, coloured by the displacement amplitude of the real part.
 ///
 /// A travelling wave is shown at the instant that puts its crest at angle zero; every shape is scaled to its own
 /// maximum, which an eigenvector leaves open.
-fn shape_panel(disc: &Disc<'_>, mesh: &Mesh, shape: &ModeShape<'_>, lines: &[String; 3]) -> Panel {
-    let values = shape.mode.shape.as_deref().unwrap_or(&[]);
-    let turn = crest_phase(mesh, values, shape.mode.harmonic);
+fn plane_panel(disc: &Disc<'_>, values: &[c64], harmonic: usize) -> Panel {
+    let mesh = disc.mesh();
+    let turn = crest_phase(mesh, values, harmonic);
     let real: Vec<f64> = values.iter().map(|u| (u * turn).re).collect();
     let amplitude: Vec<f64> = real.chunks_exact(2).map(|u| u[0].hypot(u[1])).collect();
     let largest = amplitude.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
     let [low, high] = Field::window(&mesh.plane_nodes(), 0.0);
     let magnification = DEFLECTION * 0.5 * (high[0] - low[0]) / largest;
     let axis = Axis::new("", "").between(0.0, largest);
-    let colour = shape.colour();
     let stroke = Stroke::solid(MUTED, 0.45).dashes(&[1.5, 1.2]);
     // What is free at its rim leaves the place that it has at rest.
     let room = if mesh.is_cyclic { 0.02 } else { 0.04 + 2.0 * DEFLECTION };
-    let panel = lines.iter().fold(disc.panel(room), |panel, line| panel.heading_in(colour, line));
-    panel
+    disc.panel(room)
         .height(150.0)
         .layer(disc.deformed(amplitude, &real, magnification, axis))
         .layer(Line::through(disc.contact_edge()).stroke(stroke))
 }
 
 /// The deformed bodies, coloured by the displacement amplitude, at the instant of the largest displacement.
-fn assembly_panel(view: &SolidView<'_>, shape: &ModeShape<'_>, lines: &[String; 3]) -> Panel {
-    let values = shape.mode.shape.as_deref().unwrap_or(&[]);
-    let square = values.iter().fold(c64::ZERO, |sum, u| sum + u * u);
-    let root = square.sqrt();
-    let turn = if root.norm() > 0.0 { root.conj() / root.norm() } else { c64::ONE };
+fn assembly_panel(view: &SolidView<'_>, values: &[c64]) -> Panel {
+    let turn = turned_back(square_of(values).sqrt());
     let real: Vec<f64> = values.iter().map(|u| (u * turn).re).collect();
     let amplitude: Vec<f64> =
         real.chunks_exact(3).map(|u| u.iter().map(|x| x * x).sum::<f64>().sqrt()).collect();
@@ -121,11 +124,7 @@ fn assembly_panel(view: &SolidView<'_>, shape: &ModeShape<'_>, lines: &[String; 
     let magnification = 0.5 * DEFLECTION * view.size() / largest;
     let axis = Axis::new("", "").between(0.0, largest);
     let surface = view.surface(amplitude, (&real, magnification), axis, ColourMap::Viridis);
-    let colour = shape.colour();
-    let panel = lines
-        .iter()
-        .fold(Panel::plane(surface.window(0.04)), |panel, line| panel.heading_in(colour, line));
-    panel.height(130.0).layer(surface)
+    Panel::plane(surface.window(0.04)).height(130.0).layer(surface)
 }
 
 /// The modes as motions to choose from: the unstable ones first, as many as a page carries.
@@ -183,20 +182,28 @@ fn moving_mesh(
 /// that carries most of it has its tangential crest at angle zero. Both depend on the shape alone, not on the arbitrary
 /// phase a solver gave it.
 fn crest_phase(mesh: &Mesh, shape: &[c64], harmonic: usize) -> c64 {
-    let zero = c64::new(0.0, 0.0);
-    let square = shape.iter().fold(zero, |sum, u| sum + u * u);
+    let square = square_of(shape);
     let total: f64 = shape.iter().map(|u| u.norm_sqr()).sum();
-    let unit = |z: c64| if z.norm() > 0.0 { z.conj() / z.norm() } else { c64::new(1.0, 0.0) };
     if square.norm() > 0.5 * total {
-        return unit(square.sqrt());
+        return turned_back(square.sqrt());
     }
     let wave = |sign: f64| {
         let nodes = shape.chunks_exact(2).zip(mesh.frame_angles());
-        nodes.fold(zero, |sum, (u, &angle)| {
+        nodes.fold(c64::ZERO, |sum, (u, &angle)| {
             let phase = sign * harmonic as f64 * angle;
             sum + u[1] * c64::new(phase.cos(), phase.sin())
         })
     };
     let (forward, backward) = (wave(-1.0), wave(1.0));
-    unit(if forward.norm() >= backward.norm() { forward } else { backward })
+    turned_back(if forward.norm() >= backward.norm() { forward } else { backward })
+}
+
+/// `sum u^2` of a shape.
+fn square_of(shape: &[c64]) -> c64 {
+    shape.iter().fold(c64::ZERO, |sum, u| sum + u * u)
+}
+
+/// Unit factor that makes a number real and positive.
+fn turned_back(z: c64) -> c64 {
+    if z.norm() > 0.0 { z.conj() / z.norm() } else { c64::ONE }
 }

@@ -73,9 +73,9 @@ impl SolidReport {
         let stress = self.stress.repeat(self.sector.sector_count());
         fields.extend(Field::solid_stresses(&stress, "rtz"));
         fields.extend(self.contact_fields());
-        let whole = state.whole();
+        let mesh = self.sector.part(self.sector.sector_count());
         folder.write_bulk("prestress.vtu", |out| {
-            write_vtu(out, &EncodedMesh::solid(&self.sector)?, &whole, &fields, &[])
+            write_vtu(out, &EncodedMesh::new(&mesh)?, &state.whole(), &fields, &[])
         })
     }
 
@@ -155,35 +155,25 @@ pub(super) struct Picture<'a> {
 
 impl<'a> Picture<'a> {
     pub fn new(sector: &'a SolidSector) -> Self {
-        let mut picture = Self {
-            sector,
-            shown: Arc::new(Mesh { cells: Vec::new(), outlines: Vec::new(), lines: Vec::new() }),
-            points: Vec::new(),
-        };
         let sectors = sector.sector_count();
         let [nr, nz] = sector.divisions();
         let find = |place: [usize; 2]| {
             let is_here = |node: &SheetNode| node.place == place && node.half_step == 0;
             sector.nodes.iter().position(is_here).unwrap_or(0)
         };
+        let mut points: Vec<(usize, usize, bool)> = Vec::new();
         let (mut cells, mut outlines) = (Vec::new(), Vec::new());
         let mut grid = |rows: &[Vec<(usize, usize, bool)>], is_closed: bool| {
-            let first = picture.points.len() as u32;
+            let first = points.len() as u32;
             let width = rows[0].len() as u32;
             let count = rows.len() as u32;
-            picture.points.extend(rows.iter().flatten());
+            points.extend(rows.iter().flatten());
             let at = |row: u32, column: u32| first + (row % count) * width + column;
             for row in 0..if is_closed { count } else { count - 1 } {
                 for column in 0..width - 1 {
-                    cells.push(Cell {
-                        ring: vec![
-                            at(row, column),
-                            at(row, column + 1),
-                            at(row + 1, column + 1),
-                            at(row + 1, column),
-                        ],
-                        is_quadratic: false,
-                    });
+                    let corners = [(0, 0), (0, 1), (1, 1), (1, 0)];
+                    let ring = corners.map(|(up, right)| at(row + up, column + right)).to_vec();
+                    cells.push(Cell { ring, is_quadratic: false });
                 }
             }
             if is_closed {
@@ -208,8 +198,7 @@ impl<'a> Picture<'a> {
                 .collect();
             grid(&section, false);
         }
-        picture.shown = Arc::new(Mesh { cells, outlines, lines: Vec::new() });
-        picture
+        Self { sector, shown: Arc::new(Mesh { cells, outlines, lines: Vec::new() }), points }
     }
 
     /// The real part of a shape, scaled to its own largest displacement; amplitudes on `axis`.

@@ -1,5 +1,6 @@
 //! `summary.json` of a complex eigenvalue analysis.
 
+use super::branches::{branch_of, branch_of_mode};
 use super::{BaseState, CeaReport};
 use crate::cea::{ComplexMode, FrictionPoint, ModeCount, UnstableInterval};
 use crate::output::{Column, Described, parted};
@@ -129,23 +130,6 @@ finding! {
 pub(in crate::results) const SWEPT_ONSETS: &[Column<CriticalFriction>] =
     parted(ONSETS, "mesh_error").0;
 
-impl CriticalFriction {
-    fn of(interval: &UnstableInterval, mesh_error: Option<f64>, has_harmonics: bool) -> Self {
-        Self {
-            harmonic: interval.diameters(has_harmonics),
-            branch: interval.branch,
-            direction: has_harmonics.then_some(interval.direction),
-            critical_friction: present(interval.critical_friction),
-            frequency_hz: present(interval.frequency_hz),
-            restabilized_friction: interval.restabilized.map(|end| end.0),
-            restabilized_frequency_hz: interval.restabilized.map(|end| end.1),
-            unstable_from_start: interval.unstable_from_start,
-            lost_after: interval.lost_after,
-            mesh_error,
-        }
-    }
-}
-
 finding! {
     /// A mode at the friction coefficient of the case.
     #[derive(Clone, Copy, Debug, PartialEq, Described, Serialize, Deserialize)]
@@ -171,17 +155,22 @@ pub(in crate::results) const SWEPT_MODES: &[Column<ModeSummary>] =
     parted(OWN_MODES, "axial_share").0;
 
 impl ModeSummary {
-    pub(super) fn of(mode: &ComplexMode, mesh_error: Option<f64>, has_harmonics: bool) -> Self {
+    /// That of a number at a friction coefficient.
+    pub(super) fn of(
+        report: &CeaReport<'_>,
+        (friction, number): (f64, usize),
+        mode: &ComplexMode,
+    ) -> Self {
         Self {
-            harmonic: mode.diameters(has_harmonics),
+            harmonic: mode.diameters(report.has_harmonics),
             branch: mode.branch,
-            direction: has_harmonics.then_some(mode.direction),
+            direction: report.has_harmonics.then_some(mode.direction),
             real_hz: mode.real_hz(),
             frequency_hz: mode.frequency_hz(),
             unstable: mode.is_unstable(),
             contact_share: present(mode.contact_share),
             axial_share: mode.axial_share,
-            mesh_error,
+            mesh_error: report.reading.and_then(|own| own.mesh_error(friction, number)),
         }
     }
 }
@@ -208,29 +197,22 @@ finding! {
 impl UnstableMode {
     /// The unstable modes of a report in the order of its tables.
     fn all(report: &CeaReport<'_>) -> Vec<Self> {
-        let mut found = Vec::new();
-        for point in report.tabulated() {
-            let friction = point.friction_coefficient;
-            for (index, mode) in point.modes.iter().enumerate() {
-                if mode.is_unstable() {
-                    found.push(Self::of(report, friction, (index, mode)));
-                }
-            }
-        }
-        found
+        let modes = report.tabulated().flat_map(|point| {
+            let unstable = (1..).zip(&point.modes).filter(|(_, mode)| mode.is_unstable());
+            unstable.map(move |own| Self::of(report, point.friction_coefficient, own))
+        });
+        modes.collect()
     }
 
-    fn of(report: &CeaReport<'_>, friction: f64, (index, mode): (usize, &ComplexMode)) -> Self {
+    fn of(report: &CeaReport<'_>, friction: f64, (number, mode): (usize, &ComplexMode)) -> Self {
         let own = |interval: &&UnstableInterval| {
-            (interval.harmonic, interval.branch, interval.direction)
-                == (mode.harmonic, mode.branch, mode.direction)
-                && interval.critical_friction <= friction
+            branch_of(interval) == branch_of_mode(mode) && interval.critical_friction <= friction
         };
         let crossings = report.sweep.intervals.iter().filter(own);
         let last = crossings.max_by(|a, b| a.critical_friction.total_cmp(&b.critical_friction));
         Self {
             friction_coefficient: friction,
-            mode: index + 1,
+            mode: number,
             harmonic: mode.diameters(report.has_harmonics),
             branch: mode.branch,
             direction: report.has_harmonics.then_some(mode.direction),
@@ -251,9 +233,18 @@ pub(super) fn friction_values(count: usize) -> String {
 
 /// The crossings into instability.
 pub(super) fn onsets(report: &CeaReport<'_>) -> Vec<CriticalFriction> {
-    let onset = |(k, interval): (usize, &UnstableInterval)| {
-        let error = report.reading.and_then(|own| own.onset_errors.get(k).copied().flatten());
-        CriticalFriction::of(interval, error, report.has_harmonics)
+    let errors = report.reading.map_or(&[][..], |own| own.onset_errors.as_slice());
+    let onset = |(k, interval): (usize, &UnstableInterval)| CriticalFriction {
+        harmonic: interval.diameters(report.has_harmonics),
+        branch: interval.branch,
+        direction: report.has_harmonics.then_some(interval.direction),
+        critical_friction: present(interval.critical_friction),
+        frequency_hz: present(interval.frequency_hz),
+        restabilized_friction: interval.restabilized.map(|end| end.0),
+        restabilized_frequency_hz: interval.restabilized.map(|end| end.1),
+        unstable_from_start: interval.unstable_from_start,
+        lost_after: interval.lost_after,
+        mesh_error: errors.get(k).copied().flatten(),
     };
     report.sweep.intervals.iter().enumerate().map(onset).collect()
 }
@@ -268,10 +259,9 @@ pub fn summary(report: &CeaReport<'_>) -> CeaSummary {
     let base = report.base;
     let own = |point: &&FrictionPoint| point.friction_coefficient == base.friction_coefficient;
     let own = report.sweep.points.iter().find(own);
-    let reading = report.reading.as_ref();
     let modes_at = |point: &FrictionPoint| -> Vec<ModeSummary> {
-        let error = |mode: usize| reading?.mesh_error(point.friction_coefficient, mode);
-        let own = |(mode, own)| ModeSummary::of(own, error(mode), report.has_harmonics);
+        let friction = point.friction_coefficient;
+        let own = |(number, mode)| ModeSummary::of(report, (friction, number), mode);
         (1..).zip(&point.modes).map(own).collect()
     };
     let may_open = !report.has_harmonics || report.solid.is_some();

@@ -27,22 +27,18 @@ pub(in crate::results) struct ModeRow {
 }
 
 impl ModeRow {
-    fn new(report: &CeaReport<'_>, friction: f64, index: usize, mode: &ComplexMode) -> Self {
-        let error = report.reading.and_then(|own| own.mesh_error(friction, index + 1));
-        Self {
+    /// All modes at a friction value.
+    fn all(report: &CeaReport<'_>, point: &FrictionPoint) -> Vec<Self> {
+        let friction = point.friction_coefficient;
+        let row = |(number, mode): (usize, &ComplexMode)| Self {
             friction,
-            number: index + 1,
-            own: ModeSummary::of(mode, error, report.has_harmonics),
+            number,
+            own: ModeSummary::of(report, (friction, number), mode),
             damping_factor: mode.damping_factor(),
             growth_rate: mode.growth_rate(),
             residual: mode.residual,
-        }
-    }
-
-    /// All modes at a friction value.
-    fn all(report: &CeaReport<'_>, point: &FrictionPoint) -> Vec<Self> {
-        let modes = point.modes.iter().enumerate();
-        modes.map(|(i, mode)| Self::new(report, point.friction_coefficient, i, mode)).collect()
+        };
+        (1..).zip(&point.modes).map(row).collect()
     }
 }
 

@@ -16,6 +16,7 @@ use crate::chart::literal;
 use crate::mesh::{BoundaryCondition, Mesh, MeshQuality};
 use crate::output::{Described, Document, Format, Section, fixed, significant};
 use serde::Serialize;
+use std::collections::BTreeMap;
 
 /// `summary.json` of `frictionsim mesh`, with the statistics of the kind of body.
 #[derive(Clone, Debug, PartialEq, Described, Serialize)]
@@ -33,20 +34,15 @@ pub struct MeshSummary<S> {
 /// Statistics of a mesh of any kind.
 pub trait Measured: Serialize + Described {
     /// What there is to say of it.
-    fn section(&self, results: Section) -> Section;
-    /// Its counts.
-    fn size(&self) -> &MeshSize;
-    /// Its elements.
-    fn shape(&self) -> &ElementShapes;
+    fn section(&self) -> Section;
 }
 
 impl<S: Measured> MeshSummary<S> {
     /// Tables and sentences.
     pub fn document(&self) -> Document {
-        let results = Section::new("Results").facts(numbers(self.mesh.size(), self.mesh.shape()));
         let not_used = self.not_used.iter().map(|line| format!("not used: {line}"));
         Document::new("Mesh")
-            .section(self.mesh.section(results).text(not_used))
+            .section(self.mesh.section().text(not_used))
             .section(Section::new("Mesh").figures(["mesh"]))
     }
 }
@@ -112,16 +108,19 @@ fn condition_name(condition: BoundaryCondition) -> &'static str {
     }
 }
 
+/// What a boundary of solid bodies does, in a word: of one that slides or is glued that.
+fn role_of(mesh: &Mesh, boundary: usize, roles: &BTreeMap<usize, &'static str>) -> &'static str {
+    let condition = || condition_name(mesh.boundaries[boundary].condition);
+    roles.get(&boundary).copied().unwrap_or_else(condition)
+}
+
 /// Colours of the elements of the regions, which take them in turns.
 const REGION_COLOURS: [&str; 6] =
     ["#7d7d7d", "#b07d2b", "#4f8f5f", "#7a5c99", "#3f7fa8", "#a85858"];
 
 /// Caption of the picture of a case.
 fn caption(title: &str) -> String {
-    match title {
-        "" => "Mesh".to_owned(),
-        title => literal(title),
-    }
+    if title.is_empty() { "Mesh".to_owned() } else { literal(title) }
 }
 
 /// Writes `mesh.vtu` with node numbers, the nodes of the contact marked, what is held, and the region of each element.
@@ -130,33 +129,39 @@ pub fn write_mesh(
     mesh: &Mesh,
     contact: impl IntoIterator<Item = u32>,
 ) -> Result<(), FolderError> {
-    let ids = (0..mesh.node_count()).map(|node| mesh.node_label(node) as i64);
     let mut edge = vec![0; mesh.node_count()];
     mesh.held_dofs().for_each(|dof| edge[dof / mesh.dimension] = 2);
     contact.into_iter().for_each(|node| edge[node as usize] = 1);
-    let fields = [
-        Field::integers("node_id", ids.collect()),
-        // 1 contact, 2 held, 0 elsewhere.
-        Field::integers("edge", edge),
-    ];
     // Counted from 1 in the order in which the summary lists them.
     let regions = (0..mesh.element_count()).map(|element| mesh.region(element) as i64 + 1);
-    let regions = [Field::integers("region_id", regions.collect())];
-    folder.write("mesh.vtu", |out| write_vtu(out, &EncodedMesh::new(mesh)?, &[], &fields, &regions))
+    write_nodes(folder, mesh, edge, &[Field::integers("region_id", regions.collect())])
 }
 
-/// Sizes and quality, name and value.
-fn numbers(size: &MeshSize, shape: &ElementShapes) -> Vec<(String, String)> {
-    let count = |name: &str, count: usize| (name.to_owned(), count.to_string());
-    let metres = |name: &str, value: f64| (name.to_owned(), Format::Scientific(4).text(value, "m"));
-    vec![
-        count("nodes", size.nodes),
-        count("elements", size.elements),
-        count("unknowns", size.dofs),
-        count("contact nodes", size.contact_nodes),
-        metres("shortest edge", shape.smallest_edge_m),
-        metres("longest edge", shape.largest_edge_m),
-        ("largest aspect ratio".to_owned(), fixed(shape.largest_aspect_ratio, 2)),
-        ("worst Jacobian".to_owned(), significant(shape.worst_jacobian, 5)),
-    ]
+/// Writes `mesh.vtu` with node numbers, `edge` (1 contact, 2 held, 0 elsewhere) and what is known of the elements.
+fn write_nodes(
+    folder: &OutputFolder,
+    mesh: &Mesh,
+    edge: Vec<i64>,
+    of_elements: &[Field],
+) -> Result<(), FolderError> {
+    let ids = (0..mesh.node_count()).map(|node| mesh.node_label(node) as i64);
+    let fields = [Field::integers("node_id", ids.collect()), Field::integers("edge", edge)];
+    folder.write("mesh.vtu", |out| {
+        write_vtu(out, &EncodedMesh::new(mesh)?, &[], &fields, of_elements)
+    })
+}
+
+/// Sizes and quality.
+fn results(size: &MeshSize, shape: &ElementShapes) -> Section {
+    let metres = |value: f64| Format::Scientific(4).text(value, "m");
+    Section::new("Results").facts([
+        ("nodes", size.nodes.to_string()),
+        ("elements", size.elements.to_string()),
+        ("unknowns", size.dofs.to_string()),
+        ("contact nodes", size.contact_nodes.to_string()),
+        ("shortest edge", metres(shape.smallest_edge_m)),
+        ("longest edge", metres(shape.largest_edge_m)),
+        ("largest aspect ratio", fixed(shape.largest_aspect_ratio, 2)),
+        ("worst Jacobian", significant(shape.worst_jacobian, 5)),
+    ])
 }

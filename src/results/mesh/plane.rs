@@ -1,11 +1,10 @@
 //! Results of `mesh` for plane bodies and bodies of revolution.
 
-use super::{ElementShapes, Measured, MeshSize, condition_name};
+use super::{ElementShapes, Measured, MeshSize, condition_name, write_nodes};
 use crate::mesh::{AnnulusMesh, Mesh, SolidContact, SolidSector};
 use crate::output::{Described, Format, Section, Table};
 use crate::results::finding::finding;
 use crate::results::folder::{FolderError, OutputFolder};
-use crate::results::vtu::{EncodedMesh, Field, write_vtu};
 use serde::Serialize;
 
 /// Size and quality of a mesh.
@@ -67,24 +66,15 @@ finding! {
 }
 
 impl Measured for MeshStatistics {
-    fn size(&self) -> &MeshSize {
-        &self.size
-    }
-
-    fn shape(&self) -> &ElementShapes {
-        &self.shape
-    }
-
-    fn section(&self, results: Section) -> Section {
-        let row = |name: &str, value: Option<f64>, format: Format, unit: &str| {
-            Some((name.to_owned(), format.text(value?, unit)))
+    fn section(&self) -> Section {
+        let number = |name: &'static str, value: Option<f64>, format: Format| {
+            Some((name, format.number(value?)))
         };
         let few = Format::Significant(5);
         let further = [
-            row("area", Some(self.area_m2), Format::Scientific(6), "m2"),
-            row("area off the annulus by", self.area_error, Format::Scientific(1), ""),
-            row("elements per wavelength", self.elements_per_wavelength, few, ""),
-            row("contact nodes per wave", self.contact_nodes_per_wave, few, ""),
+            number("area off the annulus by", self.area_error, Format::Scientific(1)),
+            number("elements per wavelength", self.elements_per_wavelength, few),
+            number("contact nodes per wave", self.contact_nodes_per_wave, few),
         ];
         let layers = self.axial_elements.map(|layers| {
             format!(
@@ -92,20 +82,19 @@ impl Measured for MeshStatistics {
                 are of the section across the axis"
             )
         });
-        let ids = self.nodes_per_sector.map(|nodes| match self.axial_elements {
-            Some(_) => {
-                format!("node ids: 1 + j {nodes} + k, k in the sheet of a sector, j around from +x")
-            }
-            None => {
-                format!("node ids: 1 + j {nodes} + i, i outwards along a ray, j around from +x")
-            }
-        });
+        let place = match self.axial_elements {
+            Some(_) => "k, k in the sheet of a sector",
+            None => "i, i outwards along a ray",
+        };
+        let ids = self.nodes_per_sector;
+        let ids = ids.map(|nodes| format!("node ids: 1 + j {nodes} + {place}, j around from +x"));
         let free = match self.unnamed_free_edges {
             None | Some(0) => None,
             Some(1) => Some("1 free edge is in no physical curve".to_owned()),
             Some(count) => Some(format!("{count} free edges are in no physical curve")),
         };
-        results
+        super::results(&self.size, &self.shape)
+            .facts([("area", Format::Scientific(6).text(self.area_m2, "m2"))])
             .facts(further.into_iter().flatten())
             .tables([
                 Table::new("", "Regions").columns(REGIONS, &self.regions),
@@ -153,6 +142,19 @@ impl MeshStatistics {
         let contact = mesh.contact_edge();
         let contact_length: f64 = contact.tributary_lengths.iter().sum();
         let spacing = contact_length / contact.nodes.len() as f64;
+        let boundaries = mesh.boundaries.iter().enumerate().map(|(b, boundary)| {
+            let condition = match b {
+                b if b == mesh.contact => "contact",
+                b if Some(b) == mesh.opposite => "counterface",
+                _ => condition_name(boundary.condition),
+            };
+            BoundaryStatistics {
+                name: boundary.name.clone(),
+                nodes: boundary.nodes.len(),
+                length_m: boundary.tributary_lengths.iter().sum(),
+                condition: condition.to_owned(),
+            }
+        });
         Self {
             size: MeshSize::new(mesh, contact.nodes.len()),
             axial_elements: None,
@@ -166,41 +168,19 @@ impl MeshStatistics {
             elements_per_wavelength: wavelength.map(|length| length / quality.largest_edge),
             contact_nodes_per_wave: wavelength.map(|length| length / spacing),
             regions,
-            boundaries: mesh
-                .boundaries
-                .iter()
-                .enumerate()
-                .map(|(b, boundary)| BoundaryStatistics {
-                    name: boundary.name.clone(),
-                    nodes: boundary.nodes.len(),
-                    length_m: boundary.tributary_lengths.iter().sum(),
-                    condition: match b {
-                        b if b == mesh.contact => "contact".to_owned(),
-                        b if Some(b) == mesh.opposite => COUNTERFACE.to_owned(),
-                        _ => condition_name(boundary.condition).to_owned(),
-                    },
-                })
-                .collect(),
+            boundaries: boundaries.collect(),
         }
     }
 }
 
-/// What the boundary of the other body is that the contact slides on.
-const COUNTERFACE: &str = "counterface";
-
 /// Writes the bricks of a body of revolution.
 pub fn write_revolution(folder: &OutputFolder, sector: &SolidSector) -> Result<(), FolderError> {
     let per_sector = sector.node_count();
-    let count = per_sector * sector.sector_count();
     let edge_of = |node: usize| match node % per_sector {
         node if sector.rings.iter().any(|ring| ring.nodes.contains(&node)) => 1,
         node => 2 * i64::from((3 * node..3 * node + 3).any(|dof| sector.is_held(dof))),
     };
-    let edge = (0..count).map(edge_of).collect();
-    let fields = [
-        Field::integers("node_id", (1..=count as i64).collect()),
-        // 1 contact, 2 held, 0 elsewhere.
-        Field::integers("edge", edge),
-    ];
-    folder.write("mesh.vtu", |out| write_vtu(out, &EncodedMesh::solid(sector)?, &[], &fields, &[]))
+    let mesh = sector.part(sector.sector_count());
+    let edge = (0..mesh.node_count()).map(edge_of).collect();
+    write_nodes(folder, &mesh, edge, &[])
 }

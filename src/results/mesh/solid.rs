@@ -1,6 +1,6 @@
 //! Results of `mesh` for solid bodies of a mesh file.
 
-use super::{ElementShapes, Measured, MeshSize, condition_name};
+use super::{ElementShapes, Measured, MeshSize, role_of};
 use crate::mesh::Mesh;
 use crate::output::{Described, Section, Table};
 use crate::results::finding::finding;
@@ -61,19 +61,11 @@ finding! {
 }
 
 impl Measured for SolidMeshStatistics {
-    fn size(&self) -> &MeshSize {
-        &self.size
-    }
-
-    fn shape(&self) -> &ElementShapes {
-        &self.shape
-    }
-
-    fn section(&self, results: Section) -> Section {
+    fn section(&self) -> Section {
         let kinds = self.elements_by_kind.iter();
         let kinds: Vec<String> = kinds.map(|(kind, count)| format!("{count} {kind}")).collect();
         let point = |[x, y, z]: [f64; 3]| format!("({x:.6}, {y:.6}, {z:.6}) m");
-        results
+        super::results(&self.size, &self.shape)
             .facts([
                 ("elements by kind", kinds.join(", ")),
                 ("separate bodies", self.bodies.to_string()),
@@ -145,10 +137,7 @@ fn boundaries_of(mesh: &Mesh, roles: &BTreeMap<usize, &'static str>) -> Vec<Soli
         nodes: boundary.nodes.len(),
         faces: boundary.faces.len(),
         area_m2: mesh.face_area(&boundary.faces),
-        condition: match roles.get(&b) {
-            Some(role) => (*role).to_owned(),
-            None => condition_name(boundary.condition).to_owned(),
-        },
+        condition: role_of(mesh, b, roles).to_owned(),
     });
     boundaries.collect()
 }

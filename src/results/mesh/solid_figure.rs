@@ -1,6 +1,6 @@
 //! The picture of solid bodies of a mesh file: regions and boundaries.
 
-use super::{REGION_COLOURS, condition_name};
+use super::{REGION_COLOURS, role_of};
 use crate::chart::{Figure, Motion, MotionState, Panel, SERIES, Surface, literal};
 use crate::mesh::{BoundaryFace, Mesh};
 use crate::results::charts::{MovingBody, SolidView};
@@ -72,10 +72,7 @@ fn conditions_of_faces(
 ) -> BTreeMap<Vec<u32>, usize> {
     let mut kinds: BTreeMap<Vec<u32>, usize> = BTreeMap::new();
     for (b, boundary) in mesh.boundaries.iter().enumerate() {
-        let name = match roles.get(&b) {
-            Some(role) => role,
-            None => condition_name(boundary.condition),
-        };
+        let name = role_of(mesh, b, roles);
         let Some(kind) = CONDITION_COLOURS.iter().position(|entry| entry.1 == name) else {
             continue;
         };
