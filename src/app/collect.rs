@@ -38,7 +38,7 @@ impl Run for Arguments {
         let start = Instant::now();
         terminal::start_log(self.quiet, 0);
         start_threads(None);
-        let (folder, manifest) = SweepFolder::find(&self.folder)?;
+        let (folder, manifest) = SweepFolder::find(&self.folder, "sweep")?;
         let case = recorded_case(&self.folder, &manifest)?;
         let plan = SweepPlan::new(&case)?;
         let found = finished(&case, &plan, &folder)?;

@@ -64,7 +64,7 @@ pub fn redraw(path: &Path, manifest: &Manifest, options: &DrawingOptions) -> Res
     }
     let page: Page = read_record(path)?;
     if let command @ ("sweep" | "uncertainty") = manifest.command.as_str() {
-        return Ok(SweepFolder::find_of(path, command)?.0.draw(&page, options)?);
+        return Ok(SweepFolder::find(path, command)?.0.draw(&page, options)?);
     }
     // A run that is not finished has no summary.
     let _: Value = read_summary(path)?;

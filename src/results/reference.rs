@@ -1,11 +1,7 @@
 //! Every declared column of the tables and every key of `summary.json`, with unit and meaning.
 
 use super::basin::{BasinSummary, RUNS};
-use super::cea::{
-    AXIAL, CONTRIBUTIONS, COUPLINGS, CeaSummary, EIGENVALUES, FEED, MODES, NAMES, NODES, NUMBERS,
-    ONSETS, PLACES, PLANE, POINTS, RINGS, ROWS, SHORT_NAMES, STATUS, SWEPT_MODES, SWEPT_ONSETS,
-    TRACTIONS, UNSTABLE,
-};
+use super::cea::{self, CeaSummary};
 use super::compare::ComparisonSummary;
 use super::convergence::{self, ConvergenceSummary};
 use super::cycle::{self, CycleSummary};
@@ -22,9 +18,7 @@ use super::summary::STATUS as FRACTIONS;
 use super::sweep::{self, SweepSummary};
 use super::transient::{self, TransientSummary};
 use super::uncertainty::{self, UncertaintySummary};
-use crate::output::{
-    Column, Described, Entry, Key, describe_field, entries, keys_of, parted, unit_of,
-};
+use crate::output::{Column, Described, Entry, describe_field, entries, keys_of, parted, unit_of};
 use std::fmt::Write as _;
 
 /// What one file of a command holds.
@@ -81,14 +75,14 @@ pub fn reference() -> Vec<FileReference> {
     vec![
         file!("basin", "basin.csv"; RUNS),
         summary::<BasinSummary>("basin"),
-        file!("cea", "eigenvalues.csv"; PLACES, MODES, AXIAL),
-        file!("cea", "stability.csv"; ONSETS),
-        file!("cea", "prestress.csv"; NODES, RINGS, parted(POINTS, "x_m").0, TRACTIONS, STATUS,
-            PLANE, parted(POINTS, "z_m").1),
-        file!("cea", "sensitivities.csv"; ROWS, EIGENVALUES, rates()),
-        file!("cea", "contributions.csv"; NAMES, CONTRIBUTIONS),
-        file!("cea", "coupling.csv"; SHORT_NAMES, COUPLINGS),
-        file!("cea", "feed.csv"; NUMBERS, FEED),
+        file!("cea", "eigenvalues.csv"; cea::PLACES, cea::MODES, cea::AXIAL),
+        file!("cea", "stability.csv"; cea::ONSETS),
+        file!("cea", "prestress.csv"; cea::NODES, cea::RINGS, parted(cea::POINTS, "x_m").0,
+            cea::TRACTIONS, cea::STATUS, cea::PLANE, parted(cea::POINTS, "z_m").1),
+        file!("cea", "sensitivities.csv"; cea::ROWS, cea::EIGENVALUES, rates()),
+        file!("cea", "contributions.csv"; cea::NAMES, cea::CONTRIBUTIONS),
+        file!("cea", "coupling.csv"; cea::SHORT_NAMES, cea::COUPLINGS),
+        file!("cea", "feed.csv"; cea::NUMBERS, cea::FEED),
         summary::<CeaSummary>("cea"),
         summary::<ComparisonSummary>("compare"),
         file!("convergence", "convergence.csv"; convergence::ROWS),
@@ -130,9 +124,9 @@ pub fn reference() -> Vec<FileReference> {
         file!("signal", "spectrum-N.csv"; signal::SPECTRUM),
         summary::<SignalSummary>("signal"),
         file!("sweep", "points.csv"; swept(), one("KEY.KEY", "numbers of the summaries"), points()),
-        file!("sweep", "stability.csv"; swept(), SWEPT_ONSETS, points()),
-        file!("sweep", "unstable_modes.csv"; swept(), UNSTABLE, points()),
-        file!("sweep", "modes.csv"; swept(), SWEPT_MODES, points()),
+        file!("sweep", "stability.csv"; swept(), cea::SWEPT_ONSETS, points()),
+        file!("sweep", "unstable_modes.csv"; swept(), cea::UNSTABLE, points()),
+        file!("sweep", "modes.csv"; swept(), cea::SWEPT_MODES, points()),
         file!("sweep", "branches.csv"; swept(), sweep::BRANCHES, points()),
         summary::<SweepSummary>("sweep"),
         file!("transient", "probe-N.csv"; one("time_s", "time"),
@@ -173,11 +167,11 @@ fn parameter() -> Vec<Entry> {
 }
 
 fn pairs(columns: &[(&str, &str)]) -> Vec<Entry> {
-    columns.iter().flat_map(|(key, meaning)| one(key, meaning)).collect()
+    columns.iter().map(|(key, meaning)| Entry::new(*key, meaning)).collect()
 }
 
 fn one(key: &str, meaning: &str) -> Vec<Entry> {
-    vec![Entry { key: key.to_owned(), meaning: meaning.to_owned() }]
+    vec![Entry::new(key, meaning)]
 }
 
 /// The derivatives of `sensitivities.csv`.
@@ -194,17 +188,16 @@ fn rates() -> Vec<Entry> {
 }
 
 fn summary<T: crate::output::Described>(command: &'static str) -> FileReference {
-    let entry = |key: Key| Entry { key: key.path, meaning: plain(key.meaning) };
     let mut keys = keys_of::<T>();
-    let meaning = "what it was made from";
-    describe_field(Manifest::describe, "", ("manifest", meaning, false), &mut keys);
+    let manifest = ("manifest", "what it was made from", false);
+    describe_field(Manifest::describe, "", manifest, &mut keys);
+    keys.iter_mut().for_each(|own| own.meaning = plain(&own.meaning));
     let head = pairs(&[
         ("command", "the command"),
         ("title", "title of the case, of a command that runs one"),
         ("wall_s", "wall time, of a command that takes some"),
     ]);
-    let entries = head.into_iter().chain(keys.into_iter().map(entry)).collect();
-    FileReference { command, file: "summary.json", entries }
+    FileReference { command, file: "summary.json", entries: [head, keys].concat() }
 }
 
 /// The comment of a field as columns have their meaning: without its first capital and its full stop.

@@ -5,6 +5,7 @@
 
 use super::finding::finding;
 use super::folder::{FolderError, OutputFolder};
+use super::framed::write_json;
 use super::manifest::Manifest;
 use super::reopening::{SUMMARY, read_own};
 use crate::cycle::CriticalValue;
@@ -164,10 +165,7 @@ pub fn write_summary(
         FolderError::io("write", &folder.path().join(SUMMARY), error.into())
     };
     let object = summary_of(folder.manifest(), head, found).map_err(failed)?;
-    folder.write(SUMMARY, |out| {
-        serde_json::to_writer_pretty(&mut *out, &object)?;
-        out.write_all(b"\n")
-    })?;
+    folder.write(SUMMARY, |out| write_json(out, &object))?;
     Ok(object)
 }
 

@@ -272,7 +272,7 @@ fn sweeps_and_other_commands_keep_out_of_each_others_folder() {
     }
     let _cea = OutputFolder::open(folder.path(), &other, Replace::Anything).unwrap();
     assert!(matches!(open(Start::Resume), Err(FolderError::Busy(_))));
-    assert!(SweepFolder::find(folder.path()).is_err());
+    assert!(SweepFolder::find(folder.path(), "sweep").is_err());
 }
 
 /// Frictions, directions of rotation and moduli of a coarse disc: reversed rotation mirrors the disc, so that each condition has the

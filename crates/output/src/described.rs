@@ -1,26 +1,18 @@
 //! Keys of JSON with their meaning: `#[derive(Described)]` takes both from the fields of a struct.
 
+use super::table::Entry;
 use std::collections::BTreeMap;
-
-/// A key of JSON.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Key {
-    /// Its path from the root: `[]` for each entry of a list, `KEY` for each key that the case decides.
-    pub path: String,
-    /// What it means.
-    pub meaning: &'static str,
-}
 
 /// What knows the keys that it has in JSON; a plain value has none.
 pub trait Described {
-    /// Adds its keys, which begin with a path.
-    fn describe(path: &str, keys: &mut Vec<Key>) {
+    /// Adds its keys, which begin with a path: `[]` for each entry of a list, `KEY` for each key that the case decides.
+    fn describe(path: &str, keys: &mut Vec<Entry>) {
         let _ = (path, keys);
     }
 }
 
 /// The keys of a summary.
-pub fn keys_of<T: Described>() -> Vec<Key> {
+pub fn keys_of<T: Described>() -> Vec<Entry> {
     let mut keys = Vec::new();
     T::describe("", &mut keys);
     keys
@@ -28,18 +20,18 @@ pub fn keys_of<T: Described>() -> Vec<Key> {
 
 /// Adds a field and, by the `describe` of its type, what is in it; the keys of a flat one stand beside it.
 pub fn describe_field(
-    describe: fn(&str, &mut Vec<Key>),
+    describe: fn(&str, &mut Vec<Entry>),
     path: &str,
-    (name, meaning, is_flat): (&str, &'static str, bool),
-    keys: &mut Vec<Key>,
+    (name, meaning, is_flat): (&str, &str, bool),
+    keys: &mut Vec<Entry>,
 ) {
     if is_flat {
         return describe(path, keys);
     }
     let path = if path.is_empty() { name.to_owned() } else { format!("{path}.{name}") };
     // What several variants have is told once.
-    if keys.iter().all(|key| key.path != path) {
-        keys.push(Key { path: path.clone(), meaning: meaning.trim() });
+    if keys.iter().all(|own| own.key != path) {
+        keys.push(Entry::new(path.clone(), meaning.trim()));
         describe(&path, keys);
     }
 }
@@ -51,15 +43,14 @@ macro_rules! plain {
 plain!(bool, i8, i64, u8, u32, u64, usize, f64, String, serde_json::Value);
 
 impl Described for serde_json::Map<String, serde_json::Value> {
-    fn describe(path: &str, keys: &mut Vec<Key>) {
-        let meaning = "value of the key";
-        keys.push(Key { path: format!("{path}.KEY"), meaning });
+    fn describe(path: &str, keys: &mut Vec<Entry>) {
+        keys.push(Entry::new(format!("{path}.KEY"), "value of the key"));
     }
 }
 
 macro_rules! holders {
     ($($holder:ident $place:literal),+) => {$(impl<T: Described> Described for $holder<T> {
-        fn describe(path: &str, keys: &mut Vec<Key>) {
+        fn describe(path: &str, keys: &mut Vec<Entry>) {
             T::describe(&format!("{path}{}", $place), keys);
         }
     })+};
@@ -68,13 +59,13 @@ macro_rules! holders {
 holders!(Option "", Box "", Vec "[]");
 
 impl<T: Described, const N: usize> Described for [T; N] {
-    fn describe(path: &str, keys: &mut Vec<Key>) {
+    fn describe(path: &str, keys: &mut Vec<Entry>) {
         T::describe(&format!("{path}[]"), keys);
     }
 }
 
 impl<T: Described> Described for BTreeMap<String, T> {
-    fn describe(path: &str, keys: &mut Vec<Key>) {
+    fn describe(path: &str, keys: &mut Vec<Entry>) {
         T::describe(&format!("{path}.KEY"), keys);
     }
 }

@@ -12,7 +12,7 @@ mod table;
 
 pub use frictionsim_described::Described;
 
-pub use described::{Described, Key, describe_field, keys_of};
+pub use described::{Described, describe_field, keys_of};
 pub use document::{Document, Section};
 pub use number::{Format, fixed, rounded, significant, unit_of};
 pub use table::{Cell, Column, Entry, Head, Look, Shown, Table, entries, parted, write_rows};

@@ -181,22 +181,26 @@ pub fn write_rows<T>(
     csv::write(out, &names, rows.into_iter().map(cells))
 }
 
-/// A column in the reference: of a file, with what it means.
+/// A column of a file or a key of JSON in the reference, with what it means.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Entry {
-    /// Its name.
+    /// Its name, of a key its path from the root.
     pub key: String,
     /// What it means.
     pub meaning: String,
 }
 
+impl Entry {
+    /// A name and what it means.
+    pub fn new(key: impl Into<String>, meaning: &str) -> Self {
+        Self { key: key.into(), meaning: meaning.to_owned() }
+    }
+}
+
 /// The entries of declared columns, behind a prefix.
 pub fn entries<T>(prefix: &str, columns: &[Column<T>]) -> Vec<Entry> {
-    let entry = |column: &Column<T>| Entry {
-        key: format!("{prefix}{}", column.key),
-        meaning: column.meaning.to_owned(),
-    };
-    columns.iter().map(entry).collect()
+    let columns = columns.iter();
+    columns.map(|own| Entry::new(format!("{prefix}{}", own.key), own.meaning)).collect()
 }
 
 /// The head of a column in a table.

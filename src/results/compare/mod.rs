@@ -4,7 +4,7 @@ mod figures;
 
 pub use figures::overlaid;
 
-use super::{Manifest, Page};
+use super::{Manifest, Page, distinct};
 use crate::output::{Cell, Described, Document, Format, Section, Table, columns, unit_of};
 use serde::Serialize;
 use serde_json::Value;
@@ -106,17 +106,12 @@ pub fn shared(runs: &[ComparedRun]) -> Vec<SharedQuantity> {
         runs.iter().map(|run| numbers_of(&run.summary)).collect();
     let of =
         |path: &str, run: &[(String, f64)]| run.iter().find(|own| own.0 == path).map(|own| own.1);
-    let Some(first) = numbers.first() else {
-        return Vec::new();
-    };
-    let mut out: Vec<SharedQuantity> = Vec::new();
-    for (path, _) in first {
+    let quantity = |path: &String| {
         let values: Option<Vec<f64>> = numbers.iter().map(|run| of(path, run)).collect();
-        if let Some(values) = values.filter(|_| out.iter().all(|known| known.path != *path)) {
-            out.push(SharedQuantity { path: path.clone(), values });
-        }
-    }
-    out
+        Some(SharedQuantity { path: path.clone(), values: values? })
+    };
+    let paths = distinct(numbers.first().into_iter().flatten().map(|own| &own.0));
+    paths.into_iter().filter_map(quantity).collect()
 }
 
 impl SharedQuantity {
@@ -248,18 +243,9 @@ columns! {
     run = run.name.clone(), Always "run" Plain;
     command = run.manifest.command.clone(), Always "command" Plain;
     case = run.manifest.case_file.clone(), Always "case" Plain;
-    overrides = run.overrides(), Always "overrides" Plain;
+    overrides = run.manifest.overrides_text(), Always "overrides" Plain;
     version = run.manifest.version.clone(), Always "version" Plain;
     hash = run.manifest.case_hash.clone(), Always "SHA-256 of the case" Plain;
-}
-
-impl ComparedRun {
-    fn overrides(&self) -> String {
-        match self.manifest.overrides.as_slice() {
-            [] => "none".to_owned(),
-            all => all.join(", "),
-        }
-    }
 }
 
 /// The page: what decides, the figures over each other, every shared number, what the runs were made from.

@@ -5,11 +5,11 @@ mod spectrum;
 pub use spectrum::{FreeSpectrum, FreeSpectrumSummary};
 
 use super::folder::{FolderError, OutputFolder};
+use super::framed::write_json;
 use super::npz::NpzArchive;
 use super::summary::{Head, object};
 use crate::linalg::MarketMatrix;
-use crate::output::write_rows;
-use crate::output::{Described, Key, columns, significant};
+use crate::output::{Described, Entry, columns, significant, write_rows};
 use serde::Serialize;
 use std::fmt::Write as _;
 use std::io;
@@ -38,12 +38,6 @@ pub struct ExportedMatrix {
     pub role: MatrixRole,
     /// Its entries.
     pub matrix: MarketMatrix,
-}
-
-impl ExportedMatrix {
-    fn is_structural(&self) -> bool {
-        matches!(self.role, MatrixRole::Structural { .. })
-    }
 }
 
 /// What a matrix is in the problem.
@@ -78,9 +72,9 @@ pub enum MatrixRole {
 }
 
 impl Described for MatrixRole {
-    fn describe(path: &str, keys: &mut Vec<Key>) {
+    fn describe(path: &str, keys: &mut Vec<Entry>) {
         let meaning = "its `friction_power`: power of the distance from `friction_coefficient`";
-        keys.push(Key { path: format!("{path}.KEY"), meaning });
+        keys.push(Entry::new(format!("{path}.KEY"), meaning));
     }
 }
 
@@ -140,7 +134,7 @@ impl ExportedSystem {
     /// rows.
     #[must_use]
     pub fn at_one_friction(mut self) -> Self {
-        self.matrices.retain(|own| own.role.friction_power() == Some(0));
+        self.matrices.retain(|own| own.role.told().2 == Some(0));
         Self { is_at_one_friction: true, friction_range: [self.friction_coefficient; 2], ..self }
     }
 }
@@ -190,42 +184,33 @@ pub struct MatricesSummary {
 }
 
 impl MatrixRole {
-    fn unit(self, dimension: usize) -> &'static str {
-        match (self, dimension) {
-            (Self::Mass { .. }, 3) => "kg",
-            (Self::Mass { .. }, _) => "kg/m",
-            (Self::Damping { .. }, 3) => "N s/m",
-            (Self::Damping { .. }, _) => "Pa s",
-            (Self::Stiffness { .. } | Self::Structural { .. }, 3) => "N/m",
-            (Self::Stiffness { .. } | Self::Structural { .. }, _) => "Pa",
-            (Self::ContactNormal | Self::ContactSlip, _) => "1",
+    /// What it is, its units of plane and of solid bodies, and the power of a part of the problem; none of contact rows.
+    fn told(self) -> (&'static str, [&'static str; 2], Option<usize>) {
+        match self {
+            Self::Mass { friction_power: power } => ("mass", ["kg/m", "kg"], Some(power)),
+            Self::Damping { friction_power: power } => ("damping", ["Pa s", "N s/m"], Some(power)),
+            Self::Stiffness { friction_power: power } => ("stiffness", ["Pa", "N/m"], Some(power)),
+            Self::Structural { friction_power: power } => {
+                ("structural damping", ["Pa", "N/m"], Some(power))
+            }
+            Self::ContactNormal => {
+                ("motion of the contact points along the normal", ["1"; 2], None)
+            }
+            Self::ContactSlip => ("motion of the contact points along the sliding", ["1"; 2], None),
         }
     }
 
-    /// The power that a part of the problem belongs to; none of contact rows.
-    fn friction_power(self) -> Option<usize> {
-        match self {
-            Self::Mass { friction_power }
-            | Self::Damping { friction_power }
-            | Self::Stiffness { friction_power }
-            | Self::Structural { friction_power } => Some(friction_power),
-            Self::ContactNormal | Self::ContactSlip => None,
-        }
+    fn unit(self, dimension: usize) -> &'static str {
+        self.told().1[usize::from(dimension == 3)]
     }
 
     /// What it is, in words, about a friction coefficient.
     fn meaning(self, friction: f64) -> String {
-        let power = |what: &str, power: usize| match power {
-            0 => format!("{what} at friction {friction}"),
-            power => format!("{what}: coefficient of (mu - {friction})^{power}"),
-        };
-        match self {
-            Self::Mass { friction_power } => power("mass", friction_power),
-            Self::Damping { friction_power } => power("damping", friction_power),
-            Self::Stiffness { friction_power } => power("stiffness", friction_power),
-            Self::Structural { friction_power } => power("structural damping", friction_power),
-            Self::ContactNormal => "motion of the contact points along the normal".to_owned(),
-            Self::ContactSlip => "motion of the contact points along the sliding".to_owned(),
+        let (what, _, power) = self.told();
+        match power {
+            None => what.to_owned(),
+            Some(0) => format!("{what} at friction {friction}"),
+            Some(power) => format!("{what}: coefficient of (mu - {friction})^{power}"),
         }
     }
 }
@@ -244,7 +229,8 @@ impl MatricesSummary {
             npz: (!system.is_at_one_friction).then(|| format!("{}.npz", own.name)),
         };
         let beside = |file: &str| (!system.is_at_one_friction).then(|| file.to_owned());
-        let is_lossy = system.matrices.iter().any(ExportedMatrix::is_structural);
+        let is_lossy = |own: &ExportedMatrix| matches!(own.role, MatrixRole::Structural { .. });
+        let is_lossy = system.matrices.iter().any(is_lossy);
         let equation = if is_lossy { LOSSY } else { LOSSLESS };
         Self {
             dofs: system.unknowns.len(),
@@ -300,8 +286,7 @@ pub fn write_matrices(
                 fields.remove(key);
             }
         }
-        serde_json::to_writer_pretty(&mut *out, &description)?;
-        writeln!(out)
+        write_json(out, &description)
     })
 }
 

@@ -14,11 +14,7 @@ const POLICY: &str = "default-src 'none'; img-src data:; media-src data:; style-
 impl Report {
     /// The report as one HTML document.
     pub fn to_html(&self) -> String {
-        let title = if self.title.is_empty() {
-            self.manifest.case_file.clone()
-        } else {
-            self.title.clone()
-        };
+        let title = if self.title.is_empty() { &self.manifest.case_file } else { &self.title };
         let mut out = String::new();
         let _ = write!(
             out,
@@ -27,7 +23,7 @@ impl Report {
              <meta http-equiv=\"Content-Security-Policy\" content=\"{POLICY}\">\n\
              <title>{0}</title>\n<style>{STYLE}</style>\n</head>\n<body>\n<header>\n<h1>{0}</h1>\n\
              <p>{1}</p>\n</header>\n",
-            escape(&title),
+            escape(title),
             escape(&format!(
                 "{} {} {}, {} {}",
                 self.manifest.program,
@@ -88,17 +84,13 @@ impl Report {
             );
         }
         let [_, file, hash, overrides_name] = self.source();
-        let overrides = match manifest.overrides.is_empty() {
-            true => "none".to_string(),
-            false => manifest.overrides.join(", "),
-        };
         let rows = [
             ("program", manifest.program.clone()),
             ("version", manifest.version.clone()),
             ("command", manifest.command.clone()),
             (file, manifest.case_file.clone()),
             (hash, manifest.case_hash.clone()),
-            (overrides_name, overrides),
+            (overrides_name, manifest.overrides_text()),
             ("threads", manifest.threads.to_string()),
             ("SIMD level", manifest.simd.clone()),
         ];

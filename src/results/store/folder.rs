@@ -386,20 +386,16 @@ pub(crate) fn refuse_foreign(path: &Path) -> Result<(), FolderError> {
         return Err(FolderError::no_results(path, reason));
     }
     let entries = fs::read_dir(path).map_err(|e| FolderError::io("read folder", path, e))?;
-    let mut names: Vec<String> = entries
+    let names = entries
         .filter_map(|entry| Some(entry.ok()?.file_name().to_string_lossy().into_owned()))
         // Temporary files of a killed run start with a dot, as does the lock.
-        .filter(|name| !name.starts_with('.'))
-        .collect();
-    names.sort();
-    match names.into_iter().next() {
-        Some(found) => {
-            let reason = format!(
-                "holds files that this program did not write (for example {found}). Choose another \
-                 folder with --out, or write there all the same with --force"
-            );
-            Err(FolderError::unusable(path, reason))
-        }
-        None => Ok(()),
-    }
+        .filter(|name| !name.starts_with('.'));
+    let Some(found) = names.min() else {
+        return Ok(());
+    };
+    let reason = format!(
+        "holds files that this program did not write (for example {found}). Choose another folder \
+         with --out, or write there all the same with --force"
+    );
+    Err(FolderError::unusable(path, reason))
 }

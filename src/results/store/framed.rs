@@ -12,11 +12,20 @@ const CHECKSUM: &str = "checksum";
 const HEADER: usize = 8 + 4 + 4 + 8;
 
 /// Why a file cannot be used.
+#[derive(Debug, thiserror::Error)]
 pub enum Defect {
     /// It has this format, which is not the one wanted.
+    #[error("format {0}")]
     Version(u32),
     /// It is cut short or changed; what does not fit.
+    #[error("{0}")]
     Damage(String),
+}
+
+impl Defect {
+    pub(crate) fn damage(reason: impl ToString) -> Self {
+        Self::Damage(reason.to_string())
+    }
 }
 
 /// Writes header and payload.
@@ -30,13 +39,12 @@ pub fn write(out: &mut dyn Write, magic: [u8; 8], version: u32, payload: &[u8]) 
 
 /// The payload, if the file is whole and of this kind and version.
 pub fn read(bytes: &[u8], magic: [u8; 8], version: u32) -> Result<&[u8], Defect> {
-    let damage = |reason: &str| Defect::Damage(reason.to_owned());
     let Some((header, payload)) = bytes.split_at_checked(HEADER) else {
-        return Err(damage("it is shorter than its header"));
+        return Err(Defect::damage("it is shorter than its header"));
     };
     let (found, rest) = header.split_at(8);
     if found != magic {
-        return Err(damage("it does not begin as such a file does"));
+        return Err(Defect::damage("it does not begin as such a file does"));
     }
     let word = |at: usize| u32::from_le_bytes(std::array::from_fn(|i| rest[at + i]));
     let (found, checksum) = (word(0), word(4));
@@ -48,7 +56,7 @@ pub fn read(bytes: &[u8], magic: [u8; 8], version: u32) -> Result<&[u8], Defect>
         return Err(Defect::Damage(format!("{} bytes where {length} were written", payload.len())));
     }
     if crc32fast::hash(payload) != checksum {
-        return Err(damage("its checksum does not fit its contents"));
+        return Err(Defect::damage("its checksum does not fit its contents"));
     }
     Ok(payload)
 }
@@ -58,13 +66,18 @@ fn checksum(object: &Value) -> io::Result<String> {
     Ok(format!("{:08x}", crc32fast::hash(&serde_json::to_vec(object)?)))
 }
 
+/// Writes a value as lines of JSON.
+pub fn write_json(out: &mut dyn Write, value: &impl Serialize) -> io::Result<()> {
+    serde_json::to_writer_pretty(&mut *out, value)?;
+    out.write_all(b"\n")
+}
+
 /// Writes a JSON object with its checksum.
 pub fn write_sealed(out: &mut dyn Write, value: &impl Serialize) -> io::Result<()> {
     let mut object = serde_json::to_value(value)?;
     let checksum = checksum(&object)?;
     object[CHECKSUM] = Value::String(checksum);
-    serde_json::to_writer_pretty(&mut *out, &object)?;
-    out.write_all(b"\n")
+    write_json(out, &object)
 }
 
 /// A JSON object that knows whether it is whole.
@@ -77,18 +90,16 @@ pub enum Sealed {
 
 /// Reads a JSON object and checks its checksum.
 pub fn read_sealed(bytes: &[u8]) -> Result<Sealed, Defect> {
-    let damage = |reason: &str| Defect::Damage(reason.to_owned());
-    let mut object: Value =
-        serde_json::from_slice(bytes).map_err(|error| Defect::Damage(error.to_string()))?;
+    let mut object: Value = serde_json::from_slice(bytes).map_err(Defect::damage)?;
     let Some(entries) = object.as_object_mut() else {
-        return Err(damage("it is no object"));
+        return Err(Defect::damage("it is no object"));
     };
     let Some(found) = entries.shift_remove(CHECKSUM) else {
         return Ok(Sealed::Unsealed(object));
     };
-    let wanted = checksum(&object).map_err(|error| Defect::Damage(error.to_string()))?;
+    let wanted = checksum(&object).map_err(Defect::damage)?;
     if found.as_str() != Some(&wanted) {
-        return Err(damage("its checksum does not fit its contents"));
+        return Err(Defect::damage("its checksum does not fit its contents"));
     }
     Ok(Sealed::Whole(object))
 }

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 /// Everything needed to make a result again; part of every summary and of the output folder.
 ///
 /// Holds no time of day: the same run writes the same manifest.
-#[derive(Clone, Debug, PartialEq, Eq, Described, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Described, Serialize, Deserialize)]
 pub struct Manifest {
     /// Program name.
     pub program: String,
@@ -35,12 +35,14 @@ impl Manifest {
             program: env!("CARGO_PKG_NAME").to_owned(),
             version: env!("CARGO_PKG_VERSION").to_owned(),
             command: command.to_owned(),
-            case_file: String::new(),
-            case_text: String::new(),
-            case_hash: String::new(),
-            overrides: Vec::new(),
             threads: 1,
             simd: "scalar".to_owned(),
+            ..Self::default()
         }
+    }
+
+    /// The overrides in words.
+    pub fn overrides_text(&self) -> String {
+        if self.overrides.is_empty() { "none".to_owned() } else { self.overrides.join(", ") }
     }
 }

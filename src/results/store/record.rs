@@ -42,11 +42,8 @@ pub fn write_record<T: Record>(folder: &OutputFolder, record: &T) -> Result<(), 
 /// The record that the bytes of its file hold.
 pub fn decoded<T: Record>(bytes: &[u8]) -> Result<T, Defect> {
     let payload = framed::read(bytes, T::MAGIC, T::VERSION)?;
-    let record: T = postcard::from_bytes(payload).map_err(|e| Defect::Damage(e.to_string()))?;
-    match record.inconsistency() {
-        None => Ok(record),
-        Some(what) => Err(Defect::Damage(what.to_owned())),
-    }
+    let record: T = postcard::from_bytes(payload).map_err(Defect::damage)?;
+    record.inconsistency().map_or(Ok(record), |what| Err(Defect::damage(what)))
 }
 
 /// Reads the record of a folder.

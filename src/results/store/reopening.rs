@@ -103,10 +103,9 @@ fn contents_of(bytes: &[u8]) -> Result<Contents, Defect> {
     let is_known = |key: &String| KEYS_WITHOUT_CHECKSUMS.contains(&key.as_str());
     let mut keys = object.as_object().into_iter().flatten().map(|(key, _)| key);
     if !is_sealed && !keys.all(is_known) {
-        return Err(Defect::Damage("its checksum is gone".to_owned()));
+        return Err(Defect::damage("its checksum is gone"));
     }
-    let contents: Result<Contents, _> = serde_json::from_value(object);
-    let contents = contents.map_err(|error| Defect::Damage(error.to_string()))?;
+    let contents: Contents = serde_json::from_value(object).map_err(Defect::damage)?;
     Ok(Contents { is_sealed, ..contents })
 }
 
@@ -123,11 +122,7 @@ fn whole_contents(path: &Path) -> Result<Contents, FolderError> {
     let bytes =
         bytes.ok_or_else(|| FolderError::no_results(path, format!("it has no {MANIFEST}")))?;
     contents_of(&bytes).map_err(|defect| {
-        let reason = match defect {
-            Defect::Damage(reason) => reason,
-            Defect::Version(found) => format!("format {found}"),
-        };
-        FolderError::no_results(path, format!("its {MANIFEST} is damaged ({reason})"))
+        FolderError::no_results(path, format!("its {MANIFEST} is damaged ({defect})"))
     })
 }
 
@@ -156,12 +151,10 @@ pub(crate) fn read_own(path: &Path, name: &str) -> Result<Vec<u8>, FolderError> 
 
 /// A value that a JSON file of the program's own holds, if it is whole; files without a checksum count where
 /// `is_unsealed_allowed`.
-pub(crate) fn own_value(bytes: &[u8], is_unsealed_allowed: bool) -> Result<Value, String> {
-    match read_sealed(bytes) {
-        Ok(Sealed::Whole(value)) => Ok(value),
-        Ok(Sealed::Unsealed(value)) if is_unsealed_allowed => Ok(value),
-        Ok(Sealed::Unsealed(_)) => Err("its checksum is gone".to_owned()),
-        Err(Defect::Damage(reason)) => Err(reason),
-        Err(Defect::Version(found)) => Err(format!("format {found}")),
+pub(crate) fn own_value(bytes: &[u8], is_unsealed_allowed: bool) -> Result<Value, Defect> {
+    match read_sealed(bytes)? {
+        Sealed::Whole(value) => Ok(value),
+        Sealed::Unsealed(value) if is_unsealed_allowed => Ok(value),
+        Sealed::Unsealed(_) => Err(Defect::damage("its checksum is gone")),
     }
 }

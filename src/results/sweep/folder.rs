@@ -4,7 +4,7 @@ use super::super::drawing::{DrawingError, DrawingOptions, Page};
 use super::super::folder::{
     FolderError, OutputFolder, Replace, check_owner, refuse_foreign, remove_files, write_contents,
 };
-use super::super::framed::write_sealed;
+use super::super::framed::{Defect, write_json, write_sealed};
 use super::super::manifest::Manifest;
 use super::super::record::{Record, record_bytes};
 use super::super::reopening::{Contents, MANIFEST, own_value, read_contents, read_existing};
@@ -151,16 +151,12 @@ impl SweepFolder {
         Ok(folder)
     }
 
-    /// Opens the folder of a sweep that has been started, and gives its manifest.
+    /// Opens the folder that processes of a command share (`sweep`, `uncertainty`) once it has been started, and gives
+    /// its manifest.
     ///
     /// # Errors
     /// [`FolderError::Unusable`]; [`FolderError::Busy`]; those of the file system.
-    pub fn find(path: &Path) -> Result<(Self, Manifest), FolderError> {
-        Self::find_of(path, "sweep")
-    }
-
-    /// As [`Self::find`] for another command that shares its folder with others of its kind.
-    pub fn find_of(path: &Path, command: &str) -> Result<(Self, Manifest), FolderError> {
+    pub fn find(path: &Path, command: &str) -> Result<(Self, Manifest), FolderError> {
         let not_a_sweep = |reason: String| {
             FolderError::unusable(path, format!("is not the results folder of a sweep: {reason}"))
         };
@@ -197,11 +193,10 @@ impl SweepFolder {
         let Some(bytes) = read_existing(&self.point_path(point))? else {
             return Ok(Found::Nothing);
         };
-        let record = own_value(&bytes, !self.is_sealed).and_then(|value| {
-            serde_json::from_value::<PointRecord>(value).map_err(|error| error.to_string())
-        });
+        let record = own_value(&bytes, !self.is_sealed)
+            .and_then(|value| serde_json::from_value::<PointRecord>(value).map_err(Defect::damage));
         Ok(match record {
-            Err(reason) => Found::Damaged(reason),
+            Err(defect) => Found::Damaged(defect.to_string()),
             Ok(record) if record.point == point && record.sweep_hash == self.sweep_hash => {
                 Found::Point(Box::new(record))
             }
@@ -247,10 +242,7 @@ impl SweepFolder {
 
     /// Writes `summary.json`.
     pub fn write_summary(&self, summary: &Value) -> Result<(), FolderError> {
-        self.write("summary.json", |out| {
-            serde_json::to_writer_pretty(&mut *out, summary)?;
-            out.write_all(b"\n")
-        })
+        self.write("summary.json", |out| write_json(out, summary))
     }
 
     /// Writes one file whole or not at all.
@@ -287,17 +279,15 @@ impl SweepFolder {
         for &point in points {
             found += usize::from(matches!(self.read(point)?, Found::Point(_)));
         }
-        match found {
-            0 => Ok(()),
-            _ => {
-                let asked = points.len();
-                let reason = format!(
-                    "already holds {found} of the {asked} points asked for: go on with --resume, \
-                     start over with --force, or choose another folder with --out"
-                );
-                Err(FolderError::unusable(&self.path, reason))
-            }
+        if found == 0 {
+            return Ok(());
         }
+        let asked = points.len();
+        let reason = format!(
+            "already holds {found} of the {asked} points asked for: go on with --resume, start \
+             over with --force, or choose another folder with --out"
+        );
+        Err(FolderError::unusable(&self.path, reason))
     }
 }
 
@@ -305,12 +295,13 @@ fn point_name(point: usize) -> String {
     format!("{POINTS}/point-{point:06}.json")
 }
 
-/// Names of the files over all points.
-fn over_all() -> impl Iterator<Item = String> {
+/// Names of the files of points, and of those over all.
+fn names_of(points: impl Iterator<Item = usize>) -> impl Iterator<Item = String> {
     let figures = FIGURES.iter().flat_map(|name| {
         ["svg", "png", "pdf"].map(|extension| format!("figures/{name}.{extension}"))
     });
-    OVER_ALL.iter().map(|name| (*name).to_owned()).chain(figures)
+    let over_all = OVER_ALL.iter().map(|name| (*name).to_owned()).chain(figures);
+    points.flat_map(|point| [point_name(point), clock_name(point)]).chain(over_all)
 }
 
 fn clock_name(point: usize) -> String {
@@ -339,11 +330,8 @@ fn take_over(
     if let Some(contents) = &contents {
         remove_files(path, contents.files.iter())?;
     }
-    let files: BTreeMap<String, Option<u32>> = (1..=count)
-        .flat_map(|point| [point_name(point), clock_name(point)])
-        .chain(over_all())
-        .map(|name| (name, None))
-        .collect();
+    let files: BTreeMap<String, Option<u32>> =
+        names_of(1..=count).map(|name| (name, None)).collect();
     write_contents(path, &Contents::new(manifest, &files))
 }
 
@@ -352,10 +340,6 @@ fn remove_points(path: &Path, points: &[usize], company: Company) -> Result<(), 
     if company == Company::Others {
         return Err(FolderError::Busy(path.to_owned()));
     }
-    let names: Vec<String> = points
-        .iter()
-        .flat_map(|&point| [point_name(point), clock_name(point)])
-        .chain(over_all())
-        .collect();
+    let names: Vec<String> = names_of(points.iter().copied()).collect();
     remove_files(path, names.iter())
 }

@@ -154,7 +154,7 @@ fn a_damaged_manifest_or_summary_is_never_used() {
 fn a_damaged_point_counts_as_missing() {
     let scratch = tempfile::tempdir().unwrap();
     let path = finished(scratch.path(), "sweep");
-    let (folder, _) = frictionsim::results::sweep::SweepFolder::find(&path).unwrap();
+    let (folder, _) = frictionsim::results::sweep::SweepFolder::find(&path, "sweep").unwrap();
     let file = folder.point_path(1);
     let original = fs::read(&file).unwrap();
     let value: serde_json::Value = serde_json::from_slice(&original).unwrap();
