@@ -7,8 +7,10 @@ use super::cycle::{FamilyRecord, NamedFamily, draw_branches};
 use super::drawing::{Declaration, declared};
 use super::parameter::{parameter_axis, parameter_name};
 use super::sweep::{
-    PointRecord, TWO_FREQUENCY, UNSETTLED, critical_friction, listed, operating_matrix, printed,
+    PointRecord, SweepFolder, SweepReport, TWO_FREQUENCY, UNSETTLED, critical_friction, document,
+    listed, operating_matrix, printed,
 };
+use super::{DrawingError, DrawingOptions, Manifest, Page};
 use crate::chart::{
     Axis, ChartError, Figure, Fill, INK, Line, Marker, Panel, Points, Rule, Scale, Stroke, literal,
     look, plain,
@@ -22,6 +24,29 @@ const FRICTION: &str = "contact.friction_coefficient";
 const MOST_SERIES: usize = 12;
 /// Fraction of sticking nodes below which none is said to stick.
 const NO_STICK: f64 = 0.005;
+
+/// What the figures of a study need besides its points.
+#[derive(Clone, Debug)]
+pub struct SweepDrawing {
+    /// Unstable modes of the case, drawn across its frequencies.
+    pub references: Vec<ModeLine>,
+    /// Largest friction coefficient of its eigenvalue analyses.
+    pub highest_friction: f64,
+    /// How they are drawn.
+    pub options: DrawingOptions,
+}
+
+/// Draws what the study has points for into `figures/`, each as SVG and PNG, and writes `report.html`.
+pub fn draw(
+    folder: &SweepFolder,
+    report: &SweepReport<'_>,
+    manifest: &Manifest,
+    drawing: &SweepDrawing,
+) -> Result<(), DrawingError> {
+    let frictions = (report.friction_coefficient, drawing.highest_friction);
+    let figures = draw_sweep(&report.records, frictions, &drawing.references)?;
+    folder.write_page(&Page::new(document(report, true), figures, manifest), &drawing.options)
+}
 
 /// Draws what a study has points for: main frequency and contact status over the rotation speed, or else over another
 /// swept key; critical friction if one key besides friction was swept through eigenvalue analyses; the operating matrix
@@ -125,17 +150,17 @@ impl Study {
     }
 
     fn axis(&self) -> Axis {
-        let values =
-            self.series.iter().flat_map(|series| series.cycles.iter().map(|cycle| cycle.value));
+        let values = self.cycles().map(|cycle| cycle.value);
         parameter_axis(&self.key).scaled(Scale::for_values(values, 10.0))
+    }
+
+    fn cycles(&self) -> impl Iterator<Item = &Cycle> + Clone {
+        self.series.iter().flat_map(|series| &series.cycles)
     }
 
     /// What rings mean, where there are any.
     fn ring_caption(&self) -> String {
-        let ends_in = |end: &str| {
-            let mut cycles = self.series.iter().flat_map(|series| &series.cycles);
-            cycles.any(|cycle| cycle.end == end)
-        };
+        let ends_in = |end: &str| self.cycles().any(|cycle| cycle.end == end);
         let mut caption = String::new();
         if ends_in(UNSETTLED) {
             caption += "; ring: not settled";
@@ -152,12 +177,7 @@ impl Study {
 
     /// Main frequencies, one line for each choice of the other keys, with markers for the harmonic.
     fn frequencies(&self, modes: &[ModeLine], friction: f64) -> Result<Figure, ChartError> {
-        if !self
-            .series
-            .iter()
-            .flat_map(|series| &series.cycles)
-            .any(|cycle| cycle.frequency_hz.is_finite())
-        {
+        if !self.cycles().any(|cycle| cycle.frequency_hz.is_finite()) {
             return Err(ChartError::empty("limit cycles over a swept key"));
         }
         let modes = modes.iter().map(|mode| {
@@ -183,8 +203,7 @@ impl Study {
                     .name(format!("*ω*\\*, {}", series.name))
             }));
         }
-        let all = || self.series.iter().flat_map(|series| &series.cycles);
-        panel = panel.layers(rings(all(), |cycle| vec![(cycle.value, cycle.frequency_hz)]));
+        panel = panel.layers(rings(self.cycles(), |cycle| vec![(cycle.value, cycle.frequency_hz)]));
         for (harmonic, marker) in (0..).zip(Marker::ALL.iter().cycle()).take(9) {
             for (index, series) in self.series.iter().enumerate() {
                 let own = series.cycles.iter().filter(|cycle| cycle.harmonic == Some(harmonic));

@@ -5,69 +5,59 @@ use crate::chart::{
     Axis, ChartError, Figure, INK, Line, Marker, Panel, PanelData, Points, Scale, Series,
     SeriesKind, Stroke, literal, look,
 };
+use crate::results::distinct;
 use crate::results::drawing::{Declaration, declared};
 
 /// Most curves of one panel that are told apart.
 const MOST_CURVES: usize = 24;
 
 /// The curves and points of a figure of one run.
-struct Curves {
-    name: String,
+struct Curves<'a> {
+    /// Place and name of the run.
+    run: usize,
+    title: &'a str,
+    name: &'a str,
     panels: Vec<PanelData>,
 }
 
 /// Each figure that several runs have, with the curves of all of them.
 pub fn overlaid(runs: &[ComparedRun]) -> Result<Vec<Figure>, ChartError> {
-    let curves = |figure: &Figure| {
-        let mut panels = figure.data().panels;
-        let is_curve = |series: &Series| series.kind != SeriesKind::Field;
-        panels.iter_mut().for_each(|panel| panel.series.retain(is_curve));
-        Curves { name: figure.name.clone(), panels }
-    };
-    let pages = runs.iter().map(|run| {
-        let figures = run.page.iter().flat_map(|page| &page.figures);
-        (run.name.as_str(), figures.map(curves).collect())
+    let is_curve = |series: &Series| series.kind != SeriesKind::Field;
+    let figures = runs.iter().enumerate().flat_map(|(run, own)| {
+        let figures = own.page.iter().flat_map(|page| &page.figures);
+        figures.map(move |figure| {
+            let mut panels = figure.data().panels;
+            panels.iter_mut().for_each(|panel| panel.series.retain(is_curve));
+            Curves { run, title: &own.name, name: &figure.name, panels }
+        })
     });
-    let pages: Vec<(&str, Vec<Curves>)> = pages.collect();
-    let mut names: Vec<&str> = Vec::new();
-    for figure in pages.iter().flat_map(|page| &page.1) {
-        let count =
-            pages.iter().filter(|page| page.1.iter().any(|own| own.name == figure.name)).count();
-        if count > 1 && !names.contains(&figure.name.as_str()) {
-            names.push(&figure.name);
-        }
-    }
-    let pages = &pages;
-    let declarations = names.into_iter().map(|name| -> Declaration<'_> {
-        Box::new(move || figure_of(name, pages).ok_or_else(|| ChartError::empty(name)))
+    let figures: &Vec<Curves<'_>> = &figures.collect();
+    let names = distinct(figures.iter().map(|own| own.name)).into_iter();
+    let shared = names.filter(|name| figures.iter().filter(|own| own.name == *name).count() > 1);
+    let declarations = shared.map(|name| -> Declaration<'_> {
+        Box::new(move || figure_of(name, figures).ok_or_else(|| ChartError::empty(name)))
     });
     declared(declarations.collect())
 }
 
 /// A figure over all runs that have it; panels go together by their place, caption and axes.
-fn figure_of(name: &str, pages: &[(&str, Vec<Curves>)]) -> Option<Figure> {
-    let own: Vec<(usize, &str, &Curves)> = pages
-        .iter()
-        .enumerate()
-        .filter_map(|(run, (title, figures))| {
-            Some((run, *title, figures.iter().find(|f| f.name == name)?))
-        })
-        .collect();
-    let first = own.first()?.2;
-    let panels: Vec<Panel> = first
+fn figure_of(name: &str, figures: &[Curves<'_>]) -> Option<Figure> {
+    let own: Vec<&Curves<'_>> = figures.iter().filter(|own| own.name == name).collect();
+    let panels: Vec<Panel> = own
+        .first()?
         .panels
         .iter()
         .enumerate()
         .filter_map(|(at, panel)| {
-            let same = own.iter().filter_map(|(run, title, figure)| {
+            let same = own.iter().filter_map(|figure| {
                 let other = figure.panels.get(at).filter(|other| is_alike(other, panel))?;
-                Some((*run, *title, other))
+                Some((figure.run, figure.title, other))
             });
             let same: Vec<_> = same.collect();
             (same.len() > 1).then(|| panel_of(panel, &same))
         })
         .collect();
-    let runs: Vec<&str> = own.iter().map(|(_, title, _)| *title).collect();
+    let runs: Vec<&str> = own.iter().map(|figure| figure.title).collect();
     let caption = format!("{name} of {}.", runs.join(", "));
     let columns = if panels.len() > 2 { 2 } else { 1 };
     (!panels.is_empty()).then(|| Figure::new(name, caption).columns(columns).panels(panels))
@@ -90,17 +80,13 @@ fn panel_of(panel: &PanelData, runs: &[(usize, &str, &PanelData)]) -> Panel {
         out = out.caption(literal(&panel.caption));
     }
     // Colours tell the runs apart; dashes and markers the series of one run, as many of them as have a name.
-    let mut lines: Vec<&str> = Vec::new();
-    let mut points: Vec<&str> = Vec::new();
-    for series in runs.iter().flat_map(|(_, _, own)| &own.series) {
-        let names = match series.kind {
-            SeriesKind::Line | SeriesKind::Dashed => &mut lines,
-            SeriesKind::Points | SeriesKind::Field => &mut points,
-        };
-        if !series.name.is_empty() && !names.contains(&series.name.as_str()) {
-            names.push(&series.name);
-        }
-    }
+    let is_line = |series: &Series| matches!(series.kind, SeriesKind::Line | SeriesKind::Dashed);
+    let names = |of_lines: bool| {
+        let all = runs.iter().flat_map(|(_, _, own)| &own.series);
+        let own = all.filter(|series| is_line(series) == of_lines && !series.name.is_empty());
+        distinct(own.map(|series| series.name.as_str()))
+    };
+    let (lines, points) = (names(true), names(false));
     for (run, title, own) in runs {
         let colour = look(*run).0;
         // Of many curves those with a name stand for all.

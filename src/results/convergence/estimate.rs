@@ -41,22 +41,6 @@ impl Verdict {
             Self::Missing => "missing",
         }
     }
-
-    /// Observed order, where there is one.
-    pub fn order(self) -> Option<f64> {
-        match self {
-            Self::Converging { order, .. } => Some(order),
-            _ => None,
-        }
-    }
-
-    /// Extrapolated value, where there is one.
-    pub fn limit(self) -> Option<f64> {
-        match self {
-            Self::Converging { limit, .. } => Some(limit),
-            _ => None,
-        }
-    }
 }
 
 /// Reads order and limit from the three finest resolutions.

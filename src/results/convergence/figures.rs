@@ -2,6 +2,7 @@
 
 use super::{Quantity, Refinement, Series};
 use crate::chart::{Axis, Figure, Line, MUTED, Panel, Points, Rule, Stroke, look};
+use crate::results::distinct;
 
 /// For each series the change of every quantity from level to level, relative to its size, over the resolution; and the
 /// orders that the three finest levels show.
@@ -78,11 +79,5 @@ fn group_of(quantity: &Quantity) -> &str {
 }
 
 fn groups(series: &Series) -> Vec<&str> {
-    let mut groups = Vec::new();
-    for quantity in &series.quantities {
-        if !groups.contains(&group_of(quantity)) {
-            groups.push(group_of(quantity));
-        }
-    }
-    groups
+    distinct(series.quantities.iter().map(group_of))
 }

@@ -77,13 +77,16 @@ impl Quantity {
         let less = |limit: f64| values.iter().map(|value| present(value - limit)).collect();
         let finest = values[values.len().saturating_sub(3)..].iter().copied();
         let largest = finest.clone().fold(f64::NEG_INFINITY, f64::max);
-        let limit = verdict.limit();
+        let (order, limit) = match verdict {
+            Verdict::Converging { order, limit } => (Some(order), Some(limit)),
+            _ => (None, None),
+        };
         Self {
             name,
             unit: unit.to_owned(),
             values: less(0.0),
             verdict: verdict.name().to_owned(),
-            order: verdict.order(),
+            order,
             extrapolated: limit,
             errors: limit.map(less),
             spread: present(largest - finest.fold(f64::INFINITY, f64::min)),
@@ -165,11 +168,7 @@ columns! {
 
 impl Series {
     fn heading(&self) -> String {
-        let refinement = match self.refinement {
-            Refinement::Mesh => "mesh",
-            Refinement::TimeStep => "time step",
-        };
-        format!("{} over the {refinement}", self.analysis)
+        format!("{} over the {}", self.analysis, self.refinement.name().replace('-', " "))
     }
 
     fn rows(&self) -> impl Iterator<Item = Row> + '_ {

@@ -94,13 +94,10 @@ impl<'a> OperatingMatrix<'a> {
     /// The unstable modes as a table.
     pub(super) fn table(&self, keys: &[String]) -> Table {
         let count = self.modes().count();
-        let caption = match count > MOST_ROWS {
-            true => {
-                format!("The first {MOST_ROWS} of {count} unstable modes (all: unstable_modes.csv)")
-            }
-            false => {
-                "Unstable modes under every operating condition (unstable_modes.csv)".to_owned()
-            }
+        let caption = if count > MOST_ROWS {
+            format!("The first {MOST_ROWS} of {count} unstable modes (all: unstable_modes.csv)")
+        } else {
+            "Unstable modes under every operating condition (unstable_modes.csv)".to_owned()
         };
         let shown: Vec<_> = self.modes().take(MOST_ROWS).collect();
         let points = shown.iter().map(|own| (own.0.point, own.0.swept));

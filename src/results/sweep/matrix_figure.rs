@@ -7,6 +7,7 @@ use crate::chart::{
     Axis, ChartError, Figure, MUTED, Marker, Panel, Points, Shapes, extremes, literal,
 };
 use crate::output::fixed;
+use crate::results::distinct;
 use crate::results::parameter::{in_unit, parameter_name, shared_unit};
 use serde_json::Value;
 
@@ -77,10 +78,7 @@ pub(in crate::results) fn operating_matrix(records: &[PointRecord]) -> Result<Fi
         .columns(columns)
         .shared_y()
         .panels(panels);
-    Ok(match layout.friction_note() {
-        Some(note) => figure.note(note),
-        None => figure,
-    })
+    Ok(layout.friction_note().into_iter().fold(figure, |figure, note| figure.note(note)))
 }
 
 /// Which dimension goes where.
@@ -313,16 +311,9 @@ fn ordered(numbers: &[f64], label: impl Fn(f64) -> String) -> Vec<(usize, String
 
 /// Rank and label of each text, by where it appears first.
 fn in_order(texts: &[String]) -> Vec<(usize, String)> {
-    let mut distinct: Vec<&String> = Vec::new();
-    let ranked = texts.iter().map(|text| {
-        let known = distinct.iter().position(|other| *other == text);
-        let rank = known.unwrap_or_else(|| {
-            distinct.push(text);
-            distinct.len() - 1
-        });
-        (rank, text.clone())
-    });
-    ranked.collect()
+    let known = distinct(texts);
+    let rank = |text: &String| known.iter().position(|own| *own == text).unwrap_or(0);
+    texts.iter().map(|text| (rank(text), text.clone())).collect()
 }
 
 /// Adds a dimension, or its name to one that takes its values at the same conditions.

@@ -2,7 +2,6 @@
 
 mod company;
 mod critical;
-mod figures;
 mod folder;
 mod long;
 mod matrix;
@@ -12,7 +11,6 @@ mod report;
 mod swept;
 mod table;
 
-pub use figures::{SweepDrawing, draw};
 pub use folder::{Claim, Found, Start, SweepFolder};
 pub(super) use long::BRANCHES;
 pub use long::long_tables;

@@ -140,34 +140,30 @@ impl SweepReport<'_> {
                 makers.join("; ")
             ));
         }
-        let two = self.ending_in(|end| end == TWO_FREQUENCY);
-        if !two.is_empty() {
-            notes.push(format!(
-                "the transient ends in a vibration of two frequencies at {} of {} points ({}): their numbers are of no \
-                 limit cycle",
-                two.len(),
-                self.records.len(),
-                number_ranges(&two)
-            ));
-        }
-        let unsettled = self.ending_in(|end| end == UNSETTLED);
-        if !unsettled.is_empty() {
-            notes.push(format!(
-                "the transient ends before it has settled at {} of {} points ({}): these are not limit cycles; \
-                 raise transient.duration",
-                unsettled.len(),
-                self.records.len(),
-                number_ranges(&unsettled)
-            ));
+        let two = "their numbers are of no limit cycle";
+        let unsettled = "these are not limit cycles; raise transient.duration";
+        for (end, how, so) in [
+            (TWO_FREQUENCY, "in a vibration of two frequencies", two),
+            (UNSETTLED, "before it has settled", unsettled),
+        ] {
+            let points = self.ending_in(end);
+            if !points.is_empty() {
+                notes.push(format!(
+                    "the transient ends {how} at {} of {} points ({}): {so}",
+                    points.len(),
+                    self.records.len(),
+                    number_ranges(&points)
+                ));
+            }
         }
         notes
     }
 
-    /// Points whose transient ends in such a state.
-    fn ending_in(&self, is_such: impl Fn(&str) -> bool) -> Vec<usize> {
+    /// Points whose transient ends in a state.
+    fn ending_in(&self, end: &str) -> Vec<usize> {
         let ends_so = |record: &&PointRecord| {
             let mut summaries = record.summaries.values();
-            summaries.any(|summary| summary["end_state"].as_str().is_some_and(&is_such))
+            summaries.any(|summary| summary["end_state"].as_str() == Some(end))
         };
         let points = self.records.iter().filter(ends_so);
         points.map(|record| record.point).collect()
@@ -297,21 +293,12 @@ fn points_table(report: &SweepReport<'_>) -> Table {
 
 /// Ascending numbers with runs drawn together: `1-4, 7`.
 fn number_ranges(numbers: &[usize]) -> String {
-    let mut runs: Vec<(usize, usize)> = Vec::new();
-    for &number in numbers {
-        match runs.last_mut() {
-            Some((_, last)) if *last + 1 == number => *last = number,
-            _ => runs.push((number, number)),
-        }
-    }
-    let texts: Vec<String> = runs
-        .iter()
-        .map(|(first, last)| match first == last {
-            true => first.to_string(),
-            false => format!("{first}-{last}"),
-        })
-        .collect();
-    texts.join(", ")
+    let runs = numbers.chunk_by(|number, next| number + 1 == *next);
+    let texts = runs.map(|run| match run {
+        [first, .., last] => format!("{first}-{last}"),
+        one => one[0].to_string(),
+    });
+    texts.collect::<Vec<_>>().join(", ")
 }
 
 #[cfg(test)]

@@ -59,10 +59,7 @@ pub fn write_points(
         keys.iter().chain(&names).map(String::as_str).chain(["point", "error"]).collect();
     let cells = |(record, row): (&PointRecord, &Vec<(String, String)>)| {
         let cells: BTreeMap<&str, &str> = row.iter().map(|(n, v)| (n.as_str(), &v[..])).collect();
-        let swept = keys.iter().map(|key| {
-            let value = record.swept.get(key);
-            value.map_or_else(String::new, cell)
-        });
+        let swept = keys.iter().map(|key| record.swept.get(key).map_or_else(String::new, cell));
         let scalars =
             names.iter().map(|name| cells.get(name.as_str()).copied().unwrap_or("").to_owned());
         let error = record.error.clone().unwrap_or_default();
@@ -75,10 +72,7 @@ pub fn write_points(
 fn scalars(record: &PointRecord, longest: &mut BTreeMap<String, usize>) -> Vec<(String, String)> {
     let mut out = Vec::new();
     for (analysis, summary) in &record.summaries {
-        let prefix = match record.summaries.len() {
-            1 => "",
-            _ => analysis.as_str(),
-        };
+        let prefix = if record.summaries.len() == 1 { "" } else { analysis.as_str() };
         let Value::Object(entries) = summary else {
             continue;
         };
