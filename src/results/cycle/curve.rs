@@ -84,19 +84,16 @@ impl BranchRecord {
     /// One quantity along the branch: stable pieces strong, unstable ones dashed, others plain.
     pub(super) fn lines(&self, ys: &[f64], colour: &'static str) -> Vec<Line> {
         let places = self.places();
-        let mut lines = Vec::new();
+        let starts = &places[..places.len().saturating_sub(1)];
         let mut start = 0;
-        while start + 1 < places.len() {
-            let stability = places[start].1;
-            let mut end = start + 1;
-            while end + 1 < places.len() && places[end].1 == stability {
-                end += 1;
-            }
-            let piece = places[start..=end].iter().map(|(place, _)| (place.value, place.of(ys)));
-            lines.push(Line::through(piece).stroke(stroke(stability, colour)));
-            start = end;
-        }
-        lines
+        let line = |own: &[(Place, Option<bool>)]| {
+            // A piece ends where the next one begins.
+            let piece = &places[start..=start + own.len()];
+            start += own.len();
+            let points = piece.iter().map(|(place, _)| (place.value, place.of(ys)));
+            Line::through(points).stroke(stroke(own[0].1, colour))
+        };
+        starts.chunk_by(|a, b| a.1 == b.1).map(line).collect()
     }
 
     pub(super) fn fold_points(&self, ys: &[f64]) -> Vec<(f64, f64)> {
