@@ -8,8 +8,8 @@ use crate::case::Case;
 use crate::fem::operator::StiffnessOperator;
 use crate::linalg::interruption;
 use crate::results::transient::{
-    CHECKPOINT, Checkpoint, LinearStage, PredictedGrowth, RecordedRun, RunFigures, TransientReport,
-    document, draw, write, write_checkpoint,
+    CHECKPOINT, Checkpoint, LinearStage, RecordedRun, RunFigures, TransientReport, document, draw,
+    write, write_checkpoint,
 };
 use crate::results::{OutputFolder, read_record};
 use crate::study::{self, transient::TransientStudy};
@@ -111,7 +111,7 @@ impl Run for Arguments {
             draw(&folder, &run, report.title, &summary, &options)?;
         }
         let state = analysis.settling.state;
-        let document = document(&summary, state, PredictedGrowth::default());
+        let document = document(&summary, state, None);
         output.finish(folder, &document.titled(report.title).to_text(), &object)
     }
 }

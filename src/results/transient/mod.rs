@@ -16,7 +16,7 @@ pub use files::write;
 pub(super) use files::{ENERGY, STATUS};
 pub use run::{LinearStage, RecordedRun, RunFigures};
 pub use summary::{TransientSummary, summary};
-pub use tables::{PredictedGrowth, document, draw};
+pub use tables::{document, draw};
 
 use crate::transient::{Perturbation, StepPlan};
 

@@ -41,15 +41,6 @@ columns! {
     reason = row.1.as_ref().err().cloned(), IfAny "why there is none" Plain;
 }
 
-/// Growth rates of the eigenvalue analysis, 1/s.
-#[derive(Clone, Copy, Default)]
-pub struct PredictedGrowth<'a> {
-    /// By harmonic.
-    pub harmonics: &'a [(usize, f64)],
-    /// Of the mode of a body without symmetry that grows.
-    pub mode: Option<f64>,
-}
-
 /// Draws every figure that the run has data for and writes the page.
 pub fn draw(
     folder: &OutputFolder,
@@ -59,17 +50,15 @@ pub fn draw(
     options: &DrawingOptions,
 ) -> Result<(), DrawingError> {
     let state = run.run.analysis.settling.state;
-    let mode = run.growing_mode().map(|(_, rate)| rate);
-    let predicted = PredictedGrowth { harmonics: &run.stage.growth_rates, mode };
-    let document = document(summary, state, predicted).titled(title);
+    let document = document(summary, state, Some(run)).titled(title);
     write_page(folder, document, draw_run(run)?, options)
 }
 
-/// Tables and sentences of a run.
+/// Tables and sentences of a run; beside its growth that of the eigenvalue analysis, where there is one.
 pub fn document(
     summary: &TransientSummary,
     state: EndState,
-    predicted: PredictedGrowth<'_>,
+    run: Option<&RunFigures<'_>>,
 ) -> Document {
     let heading = match state {
         EndState::LimitCycle => "Limit cycle",
@@ -90,7 +79,7 @@ pub fn document(
                 .text(places(summary))
                 .figures([""]),
         )
-        .section(Section::new(heading).tables([motions(summary), growth(summary, predicted)]))
+        .section(Section::new(heading).tables([motions(summary), growth(summary, run)]))
         .notes(&summary.notes)
 }
 
@@ -221,10 +210,10 @@ fn motions(summary: &TransientSummary) -> Table {
     Table::new("", "Accelerations over the last fifth of the run").columns(PROBES, &rows)
 }
 
-fn growth(summary: &TransientSummary, predicted: PredictedGrowth<'_>) -> Table {
+fn growth(summary: &TransientSummary, run: Option<&RunFigures<'_>>) -> Table {
     let rate = |harmonic: Option<usize>| match harmonic {
-        Some(n) => predicted.harmonics.iter().find(|own| own.0 == n).map(|own| own.1),
-        None => predicted.mode,
+        Some(n) => run?.stage.growth_rates.iter().find(|own| own.0 == n).map(|own| own.1),
+        None => run?.growing_mode().map(|(_, rate)| rate),
     };
     let fitted = summary.growth.iter().map(|own| {
         let name = own.harmonic.map_or("strongest".to_owned(), |n| format!("n = {n}"));
