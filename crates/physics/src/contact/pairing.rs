@@ -143,7 +143,7 @@ impl ContactSurface {
             slopes: Vec::new(),
             spin: counterpart.rigid().map_or_else(|| spin(counter_motion), RigidCounterface::spin)
                 - spin(own_motion),
-            nodes: own_nodes(&pair),
+            nodes: nodes_of(pair.points.iter().map(|point| &point.own)),
             area: pair.area,
             covered: pair.covered,
         };
@@ -225,8 +225,7 @@ impl ContactSurface {
         retain(&mut self.sites, &is_kept);
         retain(&mut self.shares, &is_kept);
         retain(&mut self.slopes, &is_kept);
-        let nodes: BTreeSet<u32> = self.shares.iter().flatten().map(|own| own.0).collect();
-        self.nodes = nodes.into_iter().collect();
+        self.nodes = nodes_of(&self.shares);
     }
 
     fn add(
@@ -282,12 +281,10 @@ fn site(position: [f64; 3], normal: [f64; 3], whole: Vector3<f64>) -> (ContactSi
     (site, if is_sliding { speed } else { 0.0 })
 }
 
-fn own_nodes(pair: &SurfacePair) -> Vec<u32> {
-    let all = pair.points.iter().flat_map(|point| &point.own);
-    let mut nodes: Vec<u32> = all.map(|entry| entry.0).collect();
-    nodes.sort_unstable();
-    nodes.dedup();
-    nodes
+/// All nodes among those of points, ascending.
+fn nodes_of<'a>(points: impl IntoIterator<Item = &'a Vec<(u32, f64)>>) -> Vec<u32> {
+    let nodes: BTreeSet<u32> = points.into_iter().flatten().map(|entry| entry.0).collect();
+    nodes.into_iter().collect()
 }
 
 fn retain<T>(all: &mut Vec<T>, is_kept: &[bool]) {

@@ -22,53 +22,49 @@ const START_HARMONICS: usize = 13;
 /// Share of a known start that such a one adds, lest a mode that comes up between two cycles is missed.
 const UNKNOWN_SHARE: f64 = 0.1;
 
-/// The leading exponents of a cycle, and a start for those of its neighbours.
-pub(super) struct LeadingExponents {
-    pub stability: CycleStability,
-    /// Sum of the leading modes, of unit length.
-    pub modes: Vec<f64>,
-}
-
-impl LeadingExponents {
-    /// Arnoldi's process on the map of one period, until the leading multipliers have converged.
-    ///
-    /// `known` are modes of a neighbouring cycle. The exponent of the wave's own shift in phase is zero; what the steps of
-    /// time and mesh make of it instead is how far the others may be trusted, by experience twice over: half of it, a five
-    /// thousandth of `omega`, the residual and a hundredth of the rate make the uncertainty of each.
-    ///
-    /// # Errors
-    /// [`CycleError::NotFound`] where the leading multipliers do not converge.
-    pub fn of(period: &Period<'_>, known: Option<&[f64]>) -> Result<Self, CycleError> {
-        let mut start = unit(unknown_start(period));
-        if let Some(known) = known.filter(|known| known.len() == start.len()) {
-            for (x, k) in start.iter_mut().zip(known) {
-                *x = UNKNOWN_SHARE * *x + k;
-            }
+/// The leading exponents of a cycle, and the sum of their modes, of unit length: a start for those of its neighbours.
+///
+/// Arnoldi's process on the map of one period, until the leading multipliers have converged.
+///
+/// `known` are modes of a neighbouring cycle. The exponent of the wave's own shift in phase is zero; what the steps of
+/// time and mesh make of it instead is how far the others may be trusted, by experience twice over: half of it, a five
+/// thousandth of `omega`, the residual and a hundredth of the rate make the uncertainty of each.
+///
+/// # Errors
+/// [`CycleError::NotFound`] where the leading multipliers do not converge.
+pub(super) fn leading_exponents(
+    period: &Period<'_>,
+    known: Option<&[f64]>,
+) -> Result<(CycleStability, Vec<f64>), CycleError> {
+    let mut start = unit(unknown_start(period));
+    if let Some(known) = known.filter(|known| known.len() == start.len()) {
+        for (x, k) in start.iter_mut().zip(known) {
+            *x = UNKNOWN_SHARE * *x + k;
         }
-        let [reach, least] = NEUTRAL;
-        let search = MultiplierSearch {
-            dimensions: DIMENSIONS,
-            converged: CONVERGED,
-            listed: LISTED,
-            is_shift: &|own| own.value.ln().norm() < reach * TAU && own.along > least,
-        };
-        let found = search.run(&start, period.shift(), |direction| period.map(direction));
-        let found = found.map_err(|dimension| {
-            CycleError::NotFound(format!(
-                "the stability of this limit cycle cannot be told: no exponent has converged after \
-                 {dimension} periods; let a transient tell (transient.initial = \"limit-cycle\")"
-            ))
-        })?;
-        let neutral = found.shift.map(|shift| shift.ln() / period.duration);
-        let mut modes = vec![0.0; period.dimension()];
-        let mut exponents = Vec::new();
-        for ritz in &found.listed {
-            let vector = found.vector(ritz);
-            modes.iter_mut().zip(&vector).for_each(|(x, v)| *x += v.re + v.im);
-            exponents.push(exponent(period, ritz, &vector, neutral));
-        }
-        Ok(Self { stability: CycleStability { exponents }, modes: unit(modes) })
     }
+    let [reach, least] = NEUTRAL;
+    let search = MultiplierSearch {
+        dimensions: DIMENSIONS,
+        converged: CONVERGED,
+        listed: LISTED,
+        is_shift: &|own| own.value.ln().norm() < reach * TAU && own.along > least,
+    };
+    let found = search.run(&start, period.shift(), |direction| period.map(direction));
+    let found = found.map_err(|dimension| {
+        CycleError::NotFound(format!(
+            "the stability of this limit cycle cannot be told: no exponent has converged after \
+             {dimension} periods; let a transient tell (transient.initial = \"limit-cycle\")"
+        ))
+    })?;
+    let neutral = found.shift.map(|shift| shift.ln() / period.duration);
+    let mut modes = vec![0.0; period.dimension()];
+    let mut exponents = Vec::new();
+    for ritz in &found.listed {
+        let vector = found.vector(ritz);
+        modes.iter_mut().zip(&vector).for_each(|(x, v)| *x += v.re + v.im);
+        exponents.push(exponent(period, ritz, &vector, neutral));
+    }
+    Ok((CycleStability { exponents }, unit(modes)))
 }
 
 /// A multiplier as an exponent, with the circumferential harmonic that moves the edge most and its frequency.

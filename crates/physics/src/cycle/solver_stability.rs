@@ -1,6 +1,6 @@
 //! Stability of cycles, and where a branch changes it.
 
-use super::floquet::LeadingExponents;
+use super::floquet::leading_exponents;
 use super::limit_cycle::LimitCycle;
 use super::parameter::Parameter;
 use super::stability::{CycleStability, StabilityChange, crossing};
@@ -51,12 +51,9 @@ impl MeshStepping<'_> {
         neighbour: Option<&SteppedCycle>,
     ) -> Result<SteppedCycle, CycleError> {
         let period = self.period(cycle)?;
-        let found = LeadingExponents::of(&period, neighbour.map(|n| n.modes.as_slice()))?;
-        Ok(SteppedCycle {
-            cycle: period.stepped(cycle),
-            stability: found.stability,
-            modes: found.modes,
-        })
+        let known = neighbour.map(|own| own.modes.as_slice());
+        let (stability, modes) = leading_exponents(&period, known)?;
+        Ok(SteppedCycle { cycle: period.stepped(cycle), stability, modes })
     }
 
     /// Value of `parameter` (SI) at which the branch from one cycle to another, of different stability, changes it.

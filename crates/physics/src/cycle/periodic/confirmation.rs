@@ -85,7 +85,7 @@ fn perturbed(map: &mut PeriodMap<'_>, state: &PeriodicState) -> PeriodicState {
 
 /// First harmonic over one period of the displacement of each contact node along the counterface.
 fn first_harmonic(map: &mut PeriodMap<'_>) -> Vec<c64> {
-    let mut sums = vec![c64::new(0.0, 0.0); map.interface().len()];
+    let mut sums = vec![c64::new(0.0, 0.0); map.run.interface().len()];
     let steps = map.steps();
     for step in 0..steps {
         map.run.advance();

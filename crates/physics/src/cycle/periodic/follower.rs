@@ -193,11 +193,6 @@ impl<'c, 'b, 'a> Follower<'c, 'b, 'a> {
         next.value >= 0.0 && is_near && (is_first || is_short || cosine > STRAIGHT)
     }
 
-    /// The longest step: of amplitude, by the largest so far.
-    fn longest(&self) -> f64 {
-        STEPS[0] * self.largest.clamp(1.0, 5.0)
-    }
-
     /// Takes a point, and the fold that it shows.
     fn accept(&mut self, next: Point, reach: f64) -> Result<Option<BranchEnd>, TransientError> {
         let (from, to) = (self.place(), next.place(self.corrector.scales));
@@ -207,7 +202,8 @@ impl<'c, 'b, 'a> Follower<'c, 'b, 'a> {
         let cosine = (step[0] * self.tangent[0] + step[1] * self.tangent[1]) / length;
         self.tangent = step.map(|part| part / length);
         if is_easy && cosine > 0.9 {
-            self.length = (1.5 * self.length).min(self.longest());
+            // Of amplitude the longest step goes by the largest so far.
+            self.length = (1.5 * self.length).min(STEPS[0] * self.largest.clamp(1.0, 5.0));
         } else if cosine < 0.7 {
             self.length = 0.5 * reach;
         }

@@ -1,6 +1,6 @@
 //! The period map of a body: so many steps of the explicit transient, from a state to where it comes.
 
-use crate::contact::{ContactInterface, SlidingContact};
+use crate::contact::SlidingContact;
 use crate::cycle::vector::{add, difference, dot, norm};
 use crate::fem::operator::{StiffnessOperator, scatter};
 use crate::linalg::interruption;
@@ -166,11 +166,6 @@ impl<'a> PeriodMap<'a> {
     pub fn follow(&mut self, other: &Self) {
         self.steps = self.steps.max(other.steps);
         self.periods = other.periods;
-    }
-
-    /// The contact nodes.
-    pub fn interface(&self) -> &ContactInterface {
-        self.run.interface()
     }
 
     /// The state of a displacement `u_0` (m) and a velocity `v_{-1/2}` (m/s) over all dofs in nodal frames.

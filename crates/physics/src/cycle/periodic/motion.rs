@@ -139,7 +139,7 @@ impl PeriodicMotion {
     /// The contact and the fields over the period that begins with `from`.
     fn record(&mut self, map: &mut PeriodMap<'_>, from: &PeriodicState, request: MotionRequest) {
         map.place(from);
-        let (steps, nodes) = (map.steps(), map.interface().len());
+        let (steps, nodes) = (map.steps(), map.run.interface().len());
         let mut counts = vec![StatusCounts::default(); nodes];
         for step in 0..steps {
             let time = step as f64 * from.period / steps as f64;
@@ -204,7 +204,7 @@ fn is_one_of(step: usize, steps: usize, count: usize) -> bool {
 /// Displacement and velocity of the contact nodes that the time loop is in.
 fn contact_motion(map: &PeriodMap<'_>) -> [Vec<[f64; 2]>; 2] {
     let (law, fields) = (map.run.contact(), map.run.fields());
-    let nodes = 0..map.interface().len();
+    let nodes = 0..map.run.interface().len();
     [&fields.displacement, &fields.velocity]
         .map(|field| nodes.clone().map(|i| law.relative(i, field)).collect())
 }
@@ -213,7 +213,7 @@ fn contact_motion(map: &PeriodMap<'_>) -> [Vec<[f64; 2]>; 2] {
 fn instant(map: &PeriodMap<'_>, time: f64, before: &[Vec<[f64; 2]>; 2]) -> ContactInstant {
     let law = map.run.contact();
     let [_, after] = contact_motion(map);
-    let lengths = &map.interface().tributary_lengths;
+    let lengths = &map.run.interface().tributary_lengths;
     let stress = |forces: &[f64]| forces.iter().zip(lengths).map(|(f, w)| f / w).collect();
     let mean = |(a, b): (&[f64; 2], &[f64; 2])| [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])];
     ContactInstant {
@@ -232,7 +232,7 @@ fn contact_displacements(
     state: &PeriodicState,
 ) -> (Vec<Vec<[f64; 2]>>, Vec<bool>) {
     map.place(state);
-    let mut touches = vec![false; map.interface().len()];
+    let mut touches = vec![false; map.run.interface().len()];
     let steps = 0..map.steps();
     let sample = |_| {
         let [displacement, _] = contact_motion(map);

@@ -156,7 +156,9 @@ fn attempt(
         let is_stuck = !search.is_plain && search.spent >= search.improved.0 + PATIENCE;
         let is_spent = search.spent >= MOST + least || is_stuck;
         if search.best_residual() < TOLERANCE || is_spent {
-            return search.finish();
+            let (best, periods) = (search.best, search.spent);
+            let best = best.ok_or_else(|| CycleError::unbounded(periods))?;
+            return Ok(Found { periods, ..best });
         }
         let is_far = image.relative_residual() > NEAR && search.is_plain;
         search.is_plain = search.spent <= least || (is_far && search.spent <= most);
@@ -257,13 +259,5 @@ impl Search {
         self.last = Some((self.state.clone(), image.residual));
         add(&mut self.state.motion, share, &step);
         self.state.period += share * period;
-    }
-
-    fn finish(self) -> Result<Found, CycleError> {
-        let periods = self.spent;
-        let Some(best) = self.best else {
-            return Err(CycleError::unbounded(periods));
-        };
-        Ok(Found { periods, ..best })
     }
 }

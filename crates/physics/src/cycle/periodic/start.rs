@@ -36,7 +36,8 @@ impl GrowingMode<'_> {
 
     /// Slip of every contact node in its shape.
     pub fn slips(&self, map: &PeriodMap<'_>) -> Vec<c64> {
-        let (interface, law, operator) = (map.interface(), map.run.contact(), map.run.operator());
+        let (interface, law, operator) =
+            (map.run.interface(), map.run.contact(), map.run.operator());
         let part = |of: fn(&c64) -> f64| -> Vec<f64> { self.shape.iter().map(of).collect() };
         let [real, imaginary] = [part(|u| u.re), part(|u| u.im)].map(|u| scatter(operator, &u));
         let slip = |i: usize| match map.run.model().components() {
