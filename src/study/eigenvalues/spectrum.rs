@@ -81,6 +81,15 @@ pub struct OnsetSearch {
     pub within: Vec<(usize, usize)>,
 }
 
+impl OnsetSearch {
+    fn of(sweep: FrictionSweep, followed: Vec<usize>) -> Self {
+        let modes = sweep.points.iter().flat_map(|point| &point.modes);
+        let name = |m: &ComplexMode| (m.nodal_diameters.unwrap_or(m.harmonic), m.branch);
+        let within: BTreeSet<(usize, usize)> = modes.map(name).collect();
+        Self { followed, within: within.into_iter().collect(), intervals: sweep.intervals }
+    }
+}
+
 /// The ranges of friction over which branches of a case are unstable, from 0 to the largest of `frictions`.
 ///
 /// With `harmonics` those alone are looked at, without a proof that none is missed.
@@ -110,11 +119,7 @@ pub fn unstable_intervals(
         && let Ok(Some(tangent)) = wave_tangent(case, options)
         && let Ok(Some(found)) = cyclic::onsets(tangent, &request, harmonics)
     {
-        return Ok(OnsetSearch {
-            followed: Vec::new(),
-            within: branches_within(&found),
-            intervals: found.intervals,
-        });
+        return Ok(OnsetSearch::of(found, Vec::new()));
     }
     let found = model.spectrum(case, &request)?;
     super::refuse_no_modes(case, &cea, &found.sweep)?;
@@ -122,15 +127,5 @@ pub fn unstable_intervals(
         (Model::Waves(_), Some(coverage)) if case.body.dimension() == 2 => coverage.followed,
         _ => Vec::new(),
     };
-    Ok(OnsetSearch {
-        followed,
-        within: branches_within(&found.sweep),
-        intervals: found.sweep.intervals,
-    })
-}
-
-fn branches_within(sweep: &FrictionSweep) -> Vec<(usize, usize)> {
-    let modes = sweep.points.iter().flat_map(|point| &point.modes);
-    let name = |mode: &ComplexMode| (mode.nodal_diameters.unwrap_or(mode.harmonic), mode.branch);
-    modes.map(name).collect::<BTreeSet<_>>().into_iter().collect()
+    Ok(OnsetSearch::of(found.sweep, followed))
 }
