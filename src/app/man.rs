@@ -103,7 +103,8 @@ fn page(command: &clap::Command) -> io::Result<Vec<u8>> {
     section(&mut text, "FILES", &files);
     section(&mut text, "EXAMPLES", &examples);
     section(&mut text, "EXIT STATUS", &EXIT_STATUS);
-    if command.get_subcommands().next().is_some() || runs_a_case(command) {
+    let runs_a_case = command.get_arguments().any(|arg| arg.get_id() == "set");
+    if command.get_subcommands().next().is_some() || runs_a_case {
         text.push_str(".SH \"SEE ALSO\"\n");
         text.push_str("frictionsim\\-case(5): the keys of a case file\n");
     }
@@ -112,10 +113,6 @@ fn page(command: &clap::Command) -> io::Result<Vec<u8>> {
         man.render_version_section(&mut out)?;
     }
     Ok(out)
-}
-
-fn runs_a_case(command: &clap::Command) -> bool {
-    command.get_arguments().any(|arg| arg.get_id() == "set")
 }
 
 /// The page of the case file: every key with values, unit, default and meaning.

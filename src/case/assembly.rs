@@ -98,17 +98,12 @@ pub(super) struct AssemblyParts {
     motions: Vec<(String, Motion)>,
     contacts: Vec<NamedContact>,
     ties: Vec<(String, [String; 2])>,
-    base: BaseChoice,
+    pub base: BaseChoice,
     /// Of a file that has one sector.
     pub symmetry: Option<CyclicSymmetry>,
 }
 
 impl AssemblyParts {
-    /// Whether all facing points are said to touch, free of stress.
-    pub fn is_stress_free(&self) -> bool {
-        self.base == BaseChoice::Closed
-    }
-
     /// Direction and a point of the axis of what turns, bodies and rigid counterfaces, where all have the same.
     pub(super) fn axis(&self) -> Result<[[f64; 3]; 2], &'static str> {
         let mut axes = self.axes();

@@ -113,7 +113,7 @@ pub(super) fn mode_selection(section: &Section<'_>, unknowns: u128) -> ModeSelec
         (Some(limit), Some(modes)) => {
             // An override replaces what the file says in the other way.
             let keys = ["modes", "max_frequency_hz"];
-            let [is_count, is_limit] = keys.map(|key| section.is_overridden(key));
+            let [is_count, is_limit] = keys.map(|key| section.place(key).source > 0);
             if is_count == is_limit {
                 refuse!(section, "modes", "cea.modes and cea.max_frequency_hz exclude each other";
                     "give one of the two"; "keep one of the two");

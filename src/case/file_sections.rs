@@ -122,12 +122,8 @@ fn refuse_in_plane(model: &ModelData, left_out: &mut Vec<LeftOut>) {
         refuse("contact pair", &contact.name, &contact.place, reason);
     }
     for motion in &model.motions {
-        refuse(
-            "motion of",
-            &motion.region,
-            &motion.place,
-            "the speed of plane bodies is that of [contact]",
-        );
+        let reason = "the speed of plane bodies is that of [contact]";
+        refuse("motion of", &motion.region, &motion.place, reason);
     }
 }
 

@@ -1,8 +1,7 @@
 //! `[fit]`: which parameters are fitted to measured modes, and where they are sought.
 
-use super::checks::material_key;
 use super::parameters::{number, only, read_all};
-use super::{CaseErrors, ModelParameter, RawEntry, RawValue, Section, Spacing, refuse_at};
+use super::{ModelParameter, RawEntry, RawValue, Section, Spacing, refuse_at};
 
 /// A parameter with the bounds between which it is sought.
 #[derive(Clone, Debug, PartialEq)]
@@ -88,16 +87,4 @@ fn bounds(section: &Section<'_>, parameter: ModelParameter, entry: &RawEntry) ->
         );
     }
     FitParameter { parameter, from, to, scale }
-}
-
-impl super::Case {
-    /// The parameters to fit.
-    ///
-    /// # Errors
-    /// A case without `[fit]`, with what to add.
-    pub fn require_fit(&self) -> Result<&Fit, CaseErrors> {
-        let key = material_key(self, "poisson_ratio");
-        let remedy = format!("[fit.parameters]\n{key} = [0.2, 0.45]");
-        self.required(&self.fit, "fit", "parameter to fit", &remedy)
-    }
 }

@@ -305,11 +305,6 @@ impl Case {
             || contacts.iter().any(|own| own.stiffness.loss_factor != 0.0)
     }
 
-    /// Whether the springs of a support or a contact have structural damping.
-    fn has_lossy_springs(&self) -> bool {
-        self.body.has_lossy_supports() || self.has_lossy_contacts()
-    }
-
     /// An error at a dotted key: at its value where the case gives one, else at its section.
     pub fn error_at(
         &self,

@@ -14,6 +14,7 @@ use super::{
 };
 use crate::fem::{ElasticMaterial, RayleighDamping, RegionMaterial, TabledMaterial};
 use crate::mesh::{BoundaryCondition, CounterfaceSpecification};
+use crate::prestress::BaseChoice;
 
 /// `[damping]`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -147,7 +148,7 @@ fn assembly_model(
 ) -> Model {
     let (mut parts, contact) = assembly::sections(root, tables);
     let cea = root.section("cea", false);
-    if cea.has("geometric_stiffness") && cea.flag("geometric_stiffness") && parts.is_stress_free() {
+    if cea.flag("geometric_stiffness") && parts.base == BaseChoice::Closed {
         caution!(cea, "geometric_stiffness",
             "bodies that are closed and free of stress have no geometric stiffness";
             "no effect with base_state = \"closed\""; "leave one of the two out");

@@ -82,11 +82,6 @@ impl<'a> Section<'a> {
             .map_or_else(|| self.at.clone(), |entry| entry.item.at.clone())
     }
 
-    /// Whether a key's value comes from an override.
-    pub fn is_overridden(&self, key: &str) -> bool {
-        self.place(key).source > 0
-    }
-
     /// Whether the case gives a key.
     pub fn has(&self, key: &str) -> bool {
         self.table.is_some_and(|table| table.contains_key(key))

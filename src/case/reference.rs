@@ -74,8 +74,7 @@ pub fn template() -> String {
                 Default::Otherwise(words) => (key.example, format!("; left out: {words}")),
             };
             let is_required = matches!(key.default, Default::Required | Default::RequiredUnless(_));
-            let active = needed && is_required;
-            let comment = if active { "" } else { "# " };
+            let comment = if needed && is_required { "" } else { "# " };
             let line = format!("{comment}{} = {value}", key.short());
             let unit = match key.unit {
                 "" => String::new(),

@@ -64,7 +64,7 @@ impl Case {
         if !self.has_structural_damping() {
             return Ok(());
         }
-        if self.has_lossy_springs() {
+        if self.body.has_lossy_supports() || self.has_lossy_contacts() {
             return self
                 .refuse_losses_in_time("with loss factors of supports or contacts, a transient");
         }

@@ -1,8 +1,10 @@
 //! Sections that an analysis needs, and bodies and laws that it does not take.
 
+use super::checks::material_key;
 use super::value::table_of;
 use super::{
-    Analysis, Annulus, Body, Case, CaseErrors, Cea, Convergence, Frf, Sweep, placed, refusal,
+    Analysis, Annulus, Body, Case, CaseErrors, Cea, Convergence, Fit, Frf, Sweep, Uncertainty,
+    placed, refusal,
 };
 
 impl Case {
@@ -112,6 +114,26 @@ impl Case {
     /// A case without `[convergence]`, with what to add.
     pub fn require_convergence(&self) -> Result<&Convergence, CaseErrors> {
         self.required(&self.convergence, "convergence", "convergence study", "[convergence]")
+    }
+
+    /// The parameters to fit.
+    ///
+    /// # Errors
+    /// A case without `[fit]`, with what to add.
+    pub fn require_fit(&self) -> Result<&Fit, CaseErrors> {
+        let key = material_key(self, "poisson_ratio");
+        let remedy = format!("[fit.parameters]\n{key} = [0.2, 0.45]");
+        self.required(&self.fit, "fit", "parameter to fit", &remedy)
+    }
+
+    /// The parameters that are uncertain.
+    ///
+    /// # Errors
+    /// A case without `[uncertainty]`, with what to add.
+    pub fn require_uncertainty(&self) -> Result<&Uncertainty, CaseErrors> {
+        let key = self.contact_key("friction_coefficient");
+        let remedy = format!("[uncertainty.distributions]\n{key} = {{ log_normal = [0.3, 0.1] }}");
+        self.required(&self.uncertainty, "uncertainty", "uncertain parameter", &remedy)
     }
 
     /// The plane annulus of an analysis that no other body has; `waves` says what needs its sectors, `search` what

@@ -1,7 +1,7 @@
 //! `[uncertainty]`: parameters that are known but roughly.
 
 use super::parameters::{number, only, read_all};
-use super::{CaseErrors, ModelParameter, RawEntry, RawValue, Section, caution, refuse, refuse_at};
+use super::{ModelParameter, RawEntry, RawValue, Section, caution, refuse, refuse_at};
 use crate::linalg::Distribution;
 
 /// Share of a distribution beyond what its key can take from which on it is refused.
@@ -172,16 +172,4 @@ fn uncertain(
              from the rest", 100.0 * beyond; "reaches forbidden values");
     }
     UncertainParameter { parameter, distribution, range }
-}
-
-impl super::Case {
-    /// The parameters that are uncertain.
-    ///
-    /// # Errors
-    /// A case without `[uncertainty]`, with what to add.
-    pub fn require_uncertainty(&self) -> Result<&Uncertainty, CaseErrors> {
-        let key = self.contact_key("friction_coefficient");
-        let remedy = format!("[uncertainty.distributions]\n{key} = {{ log_normal = [0.3, 0.1] }}");
-        self.required(&self.uncertainty, "uncertainty", "uncertain parameter", &remedy)
-    }
 }

@@ -185,7 +185,8 @@ impl Case {
         }
         let sectors = self.body.sector_count();
         let sectors = sectors.filter(|_| self.responds_by_harmonics(frf));
-        let fill = sparse_fill(dofs);
+        // Entries of the factor of a plane mesh under a minimum-degree ordering, 12 bytes each, as measured.
+        let fill = 9.0 * dofs * dofs.max(2.0).log2();
         let (bytes, each) = match (frf.method, sectors, self.body.assembly()) {
             // One block band of a sector for each harmonic.
             (FrfMethod::Auto | FrfMethod::Cyclic, Some(sectors), _) => {
@@ -327,12 +328,6 @@ fn factor_entries(mesh: &Mesh) -> f64 {
     });
     let pattern = Arc::new(SparsityPattern::from_positions(mesh.nodes.len(), pairs));
     LdlAnalysis::new(&pattern).map_or(f64::INFINITY, |own| 9.0 * own.entry_count() as f64)
-}
-
-/// Entries of the factor of a plane mesh under a minimum-degree ordering, measured: about
-/// `9 n log2 n` of 12 bytes.
-fn sparse_fill(dofs: f64) -> f64 {
-    9.0 * dofs * dofs.max(2.0).log2()
 }
 
 /// Half the bandwidth of a harmonic of a body of revolution: neighbours in the numbering of a sheet, along its shorter
