@@ -79,8 +79,8 @@ pub struct SideFile<'a> {
 }
 
 impl<'a> SideFile<'a> {
-    /// Asks before any work whether the file, if one is named, may be written: nothing is replaced without `--force`, the measurement
-    /// itself never.
+    /// Asks before any work whether the file, if one is named, may be written. Nothing is replaced without `--force`,
+    /// the measurement itself never.
     ///
     /// # Errors
     /// [`Failure::Usage`] naming `option`.
