@@ -30,7 +30,7 @@ fn double_wave() -> &'static LimitCycle {
 }
 
 pub fn solver_of(disc: &AnnulusSpecification, harmonic: usize) -> CycleSolver {
-    CycleSolver::new(disc, &POLYCARBONATE, &DAMPING, harmonic, None).unwrap()
+    CycleSolver::new(disc, &POLYCARBONATE, &DAMPING, Family::lowest(harmonic), None).unwrap()
 }
 
 fn count(cycle: &LimitCycle, status: ContactStatus) -> usize {
@@ -150,7 +150,7 @@ fn cycle_without_stick_does_not_depend_on_the_speed() {
 #[test]
 fn branch_over_friction_is_born_at_the_onset_of_the_linear_theory() {
     let (solver, cycle) = (solver(2), double_wave());
-    let onset = *solver.onset();
+    let onset = solver.onset;
     let critical = onset.friction_coefficient;
     let values = [critical - 2e-3, critical + 5e-4, critical + 2e-3, 0.3];
     let branch = solver.follow(cycle, Parameter::FrictionCoefficient, &values);
@@ -226,7 +226,9 @@ fn lightly_damped_cycle_has_the_transients_frequency_and_statuses() {
         ..operating(610.0)
     };
     let specification = annulus(ElementKind::Quad4, 180, 35);
-    let solver = CycleSolver::new(&specification, &POLYCARBONATE, &point.damping, 1, None).unwrap();
+    let solver =
+        CycleSolver::new(&specification, &POLYCARBONATE, &point.damping, Family::lowest(1), None)
+            .unwrap();
     let cycle = solver.find(&point).unwrap();
     assert!((cycle.frequency_hz() / 10110.5 - 1.0).abs() < 5e-4);
     for (found, wanted) in cycle.fractions.iter().zip([0.469, 0.106, 0.424]) {
@@ -243,8 +245,7 @@ fn lightly_damped_cycle_has_the_transients_frequency_and_statuses() {
 fn cycle_of_the_second_onset_is_the_transients_and_loses_stability_where_they_leave_it() {
     let family = Family { harmonic: 1, onset: 2 };
     let specification = annulus(ElementKind::Quad4, 180, 35);
-    let solver =
-        CycleSolver::of_family(&specification, &POLYCARBONATE, &DAMPING, family, None).unwrap();
+    let solver = CycleSolver::new(&specification, &POLYCARBONATE, &DAMPING, family, None).unwrap();
     // Transients that start on the cycle, 60 ms: constant at 610 and 1100 rpm, gone to 9.9 kHz at 1250 rpm.
     let cycle = solver.find(&operating(610.0)).unwrap();
     assert!((cycle.frequency_hz() / 7666.9 - 1.0).abs() < 5e-4);
@@ -263,8 +264,7 @@ fn cycle_of_the_second_onset_is_the_transients_and_loses_stability_where_they_le
         assert_ne!(verdict, wrong, "{rpm} rpm");
     }
     let third = Family { harmonic: 1, onset: 30 };
-    let none =
-        CycleSolver::of_family(&specification, &POLYCARBONATE, &DAMPING, third, None).unwrap_err();
+    let none = CycleSolver::new(&specification, &POLYCARBONATE, &DAMPING, third, None).unwrap_err();
     assert!(none.to_string().starts_with("n = 1, onset 30: steady sliding has no such"));
 }
 
@@ -272,8 +272,14 @@ fn cycle_of_the_second_onset_is_the_transients_and_loses_stability_where_they_le
 fn number_of_phases_does_not_decide_what_is_found() {
     for (harmonic, rpm) in [(2, 610.0), (1, 300.0)] {
         let with = |phases: Option<usize>| {
-            let solver =
-                CycleSolver::new(&disc(), &POLYCARBONATE, &DAMPING, harmonic, phases).unwrap();
+            let solver = CycleSolver::new(
+                &disc(),
+                &POLYCARBONATE,
+                &DAMPING,
+                Family::lowest(harmonic),
+                phases,
+            )
+            .unwrap();
             solver.find(&operating(rpm)).unwrap()
         };
         let reference = with(None);
@@ -315,7 +321,7 @@ fn field_of_a_disc_with_a_supported_rim_has_the_nodes_of_its_mesh() {
 #[test]
 fn wave_travels_against_the_rotor_without_changing_its_shape() {
     let (solver, cycle) = (solver(2), double_wave());
-    let sectors = solver.body().sector_count;
+    let sectors = solver.body.sector_count;
     // Phase n theta + omega t: after this time each sector has the state that the next one had.
     let passing = TAU * 2.0 / sectors as f64 / cycle.state.frequency;
     let (now, later) = (solver.field(cycle, 0.0), solver.field(cycle, passing));
@@ -333,10 +339,12 @@ fn wave_travels_against_the_rotor_without_changing_its_shape() {
 fn impossible_requests_say_which_key_to_change() {
     let standing = solver(1).find(&operating(0.0)).unwrap_err();
     assert!(standing.to_string().contains("rotation_speed_rpm"));
-    let harmonic = CycleSolver::new(&disc(), &POLYCARBONATE, &DAMPING, 46, None).unwrap_err();
+    let harmonic =
+        CycleSolver::new(&disc(), &POLYCARBONATE, &DAMPING, Family::lowest(46), None).unwrap_err();
     assert!(matches!(harmonic, CycleError::Harmonic { limit: 45, .. }));
     let quad8 = annulus(ElementKind::Quad8, 90, 18);
-    let element = CycleSolver::new(&quad8, &POLYCARBONATE, &DAMPING, 1, None).unwrap_err();
+    let element =
+        CycleSolver::new(&quad8, &POLYCARBONATE, &DAMPING, Family::lowest(1), None).unwrap_err();
     assert_eq!(element, CycleError::Element);
     let mut weak = operating(610.0);
     weak.contact.friction_coefficient = 0.05;

@@ -69,7 +69,7 @@ impl WholeMesh {
                 let assembly = body.assembled()?;
                 let start = start_of(assembly.contacts());
                 let range = assembly.range(&[frictions, start, &own].concat())?;
-                (range, Sliding::Bodies(assembly.joined()))
+                (range, Sliding::Bodies(assembly.joined))
             }
             _ => {
                 let stiffness = assemble_stiffness(&mesh, case.materials());
@@ -103,7 +103,7 @@ impl WholeMesh {
             Sliding::Bodies(_) => {
                 // A centrifugal load depends on the density.
                 let body = case.body.assembly().filter(|body| body.rotors().next().is_none())?;
-                Sliding::Bodies(body.assembled().ok()?.joined())
+                Sliding::Bodies(body.assembled().ok()?.joined)
             }
         };
         Some(Self {
@@ -216,7 +216,7 @@ impl WholeMesh {
         let friction = case.contact.sliding.friction_coefficient;
         let state = self.state();
         let forces = state.normal_forces(friction);
-        let contacts = joined.contacts().iter();
+        let contacts = joined.contacts.iter();
         let all = contacts.clone().flat_map(|(contact, surface)| {
             let points = surface.points.iter().zip(&surface.sites).zip(&surface.shares);
             points.map(move |((point, site), shares)| (contact, point, site, shares))

@@ -60,9 +60,9 @@ fn end_state(choice: OperatorChoice, level: SimdLevel) -> (TransientState, [u64;
     let mut run = CentralDifference::start(model, operator.as_ref(), &settings).unwrap();
     let mut counts = [0; 3];
     run.run(&mut Watch(|sample: &Sample<'_>| {
-        counts[0] += sample.counts.stick;
-        counts[1] += sample.counts.slip;
-        counts[2] += sample.counts.open;
+        counts[0] += sample.row.counts.stick;
+        counts[1] += sample.row.counts.slip;
+        counts[2] += sample.row.counts.open;
     }))
     .unwrap();
     (run.state(), counts)
