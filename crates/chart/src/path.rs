@@ -2,13 +2,10 @@
 
 use std::fmt::Write;
 
-/// A path under construction, written relative to its last point to stay short.
+/// A path under construction, each point written relative to the one before to stay short.
 #[derive(Clone, Debug, Default)]
 pub struct Path {
     pub(super) data: String,
-    last: (i64, i64),
-    /// Whether the last command is a line.
-    is_line: bool,
 }
 
 impl Path {
@@ -17,46 +14,29 @@ impl Path {
         Self::default()
     }
 
-    /// Starts a new piece at a point.
-    pub fn move_to(&mut self, x: f64, y: f64) {
-        let point = hundredths(x, y);
-        self.data.push('M');
-        push_hundredths(&mut self.data, point.0);
-        push_next(&mut self.data, point.1);
-        self.last = point;
-        self.is_line = false;
-    }
-
-    /// Draws a straight line to a point; the letter is said once for a row of lines.
-    pub fn line_to(&mut self, x: f64, y: f64) {
-        let point = hundredths(x, y);
-        let step = (point.0 - self.last.0, point.1 - self.last.1);
-        if self.is_line {
-            push_next(&mut self.data, step.0);
-        } else {
-            self.data.push('l');
-            push_hundredths(&mut self.data, step.0);
-        }
-        push_next(&mut self.data, step.1);
-        self.last = point;
-        self.is_line = true;
-    }
-
-    /// Starts a new piece through all points.
+    /// Starts a new piece through all points; the letter of lines is said once for all of them.
     pub fn extend(&mut self, points: impl IntoIterator<Item = (f64, f64)>) {
-        for (index, (x, y)) in points.into_iter().enumerate() {
-            if index == 0 {
-                self.move_to(x, y);
+        let mut points = points.into_iter().map(hundredths);
+        let Some(mut last) = points.next() else { return };
+        self.data.push('M');
+        push_hundredths(&mut self.data, last.0);
+        push_next(&mut self.data, last.1);
+        for (index, point) in points.enumerate() {
+            let step = (point.0 - last.0, point.1 - last.1);
+            if index > 0 {
+                push_next(&mut self.data, step.0);
             } else {
-                self.line_to(x, y);
+                self.data.push('l');
+                push_hundredths(&mut self.data, step.0);
             }
+            push_next(&mut self.data, step.1);
+            last = point;
         }
     }
 
     /// Closes the current piece.
     pub fn close(&mut self) {
         self.data.push('z');
-        self.is_line = false;
     }
 
     /// Whether nothing was drawn.
@@ -75,7 +55,7 @@ impl Path {
     }
 }
 
-fn hundredths(x: f64, y: f64) -> (i64, i64) {
+fn hundredths((x, y): (f64, f64)) -> (i64, i64) {
     ((x * 100.0).round() as i64, (y * 100.0).round() as i64)
 }
 
