@@ -104,17 +104,8 @@ pub fn fit_modes(
     let mut fitted = problem.fit(starts, REMAINDER)?;
     fitted = extended(&problem, fitted, starts.len(), &parts)?;
     for _ in 0..2 {
-        let values = problem.values(&fitted.model);
-        let residuals = problem.residuals(&values);
-        let moduli: Vec<Vec<f64>> =
-            values.iter().map(|values| values.iter().map(|v| v.norm()).collect()).collect();
-        noise = (parts.iter().zip(&residuals).zip(&moduli))
-            .map(|((part, residuals), moduli)| {
-                let pairs = residuals.iter().zip(part.variance_factors());
-                let squares: Vec<f64> = pairs.map(|(r, factor)| r.norm_sqr() / factor).collect();
-                NoiseModel::from_squares(&squares, moduli, part.has_phase())
-            })
-            .collect();
+        let moduli;
+        (noise, moduli) = problem.noise(&fitted.model);
         problem = Problem::new(&parts, &noise, &moduli);
         let terms = fitted.model.shares[0].remainder.len();
         fitted = problem.fit(&fitted.model.poles, terms)?;

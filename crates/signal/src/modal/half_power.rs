@@ -38,6 +38,13 @@ pub struct HalfPowerBand {
     pub note: Option<ResonanceNote>,
 }
 
+impl HalfPowerBand {
+    /// Half the width of the band, Hz, where it has both ends.
+    pub(super) fn half_width_hz(&self) -> Option<f64> {
+        self.band_hz.map(|(low, high)| 0.5 * (high - low))
+    }
+}
+
 /// Resonances and damping factors by the half-power method.
 ///
 /// Works on the mobility, for which `zeta = (f_2 - f_1) / (2 f_0)` holds exactly at any damping of a
@@ -138,8 +145,8 @@ fn measure(f: &[f64], y: &[f64], top: usize) -> HalfPowerBand {
             least = c - 0.25 * b * b / a;
         }
     }
-    let low = crossing(f, y.len(), top, -1, least, inverse);
-    let high = crossing(f, y.len(), top, 1, least, inverse);
+    let low = crossing(f, top, -1, least, inverse);
+    let high = crossing(f, top, 1, least, inverse);
     let mut band = HalfPowerBand {
         frequency_hz: f0,
         magnitude: y[top],
@@ -167,16 +174,16 @@ fn measure(f: &[f64], y: &[f64], top: usize) -> HalfPowerBand {
 /// Frequency where the inverse power passes `2 least` on one side of the top.
 fn crossing(
     f: &[f64],
-    count: usize,
     top: usize,
     step: isize,
     least: f64,
     inverse: impl Fn(usize) -> f64 + Copy,
 ) -> Option<f64> {
     let level = 2.0 * least;
+    let next = |i: usize| i.checked_add_signed(step).filter(|n| *n < f.len());
     // The flank from 1.5 to 2.7 times the least inverse power; it must be left upwards.
     let (mut near, mut far) = (top, top);
-    while let Some(i) = far.checked_add_signed(step).filter(|n| *n < count) {
+    while let Some(i) = next(far) {
         far = i;
         if inverse(i) < 1.5 * least {
             near = i;
@@ -203,12 +210,12 @@ fn crossing(
     // Few lines: linear between the two around the level.
     let mut i = top;
     loop {
-        let next = i.checked_add_signed(step).filter(|n| *n < count)?;
-        if inverse(next) >= level {
-            let t = (level - inverse(i)) / (inverse(next) - inverse(i));
-            return Some(f[i] + t * (f[next] - f[i]));
+        let after = next(i)?;
+        if inverse(after) >= level {
+            let t = (level - inverse(i)) / (inverse(after) - inverse(i));
+            return Some(f[i] + t * (f[after] - f[i]));
         }
-        i = next;
+        i = after;
     }
 }
 

@@ -109,10 +109,7 @@ fn peaks(responses: &[FrequencyResponse]) -> Result<Vec<HalfPowerBand>, SignalEr
         // Peaks of one response are different ones, however close.
         let earlier = kept.len();
         for band in bands {
-            let half_width = |b: &HalfPowerBand| match b.band_hz {
-                Some((low, high)) => 0.5 * (high - low),
-                None => 5e-3 * b.frequency_hz,
-            };
+            let half_width = |b: &HalfPowerBand| b.half_width_hz().unwrap_or(5e-3 * b.frequency_hz);
             let apart = |b: &HalfPowerBand| (b.frequency_hz - band.frequency_hz).abs();
             let is_same = |b: &HalfPowerBand| apart(b) < half_width(b).max(half_width(&band));
             match kept[..earlier].iter_mut().find(|b| is_same(b)) {
@@ -154,8 +151,7 @@ fn refuse_coarse(resolution_hz: f64, bands: &[HalfPowerBand]) -> Result<(), Sign
 
 /// First poles for the fit: half-power widths, or the typical damping where there is none.
 fn starts(bands: &[HalfPowerBand]) -> Vec<Pole> {
-    let width =
-        |b: &HalfPowerBand| b.band_hz.map(|(low, high)| 0.5 * (high - low) / b.frequency_hz);
+    let width = |b: &HalfPowerBand| b.half_width_hz().map(|half| half / b.frequency_hz);
     let known: Vec<f64> = bands.iter().filter_map(width).collect();
     let typical = if known.is_empty() { 0.01 } else { crate::statistics::median(&known) };
     bands

@@ -78,16 +78,10 @@ impl<'a> Problem<'a> {
         pairs.map(|(part, residual)| part.lines.projection(residual, pole, reach)).sum()
     }
 
-    /// Model values on every line of every response.
-    pub(super) fn values(&self, model: &ModalModel) -> Vec<Vec<c64>> {
+    /// Noise of each response about a model, and the moduli of the model.
+    pub(super) fn noise(&self, model: &ModalModel) -> (Vec<NoiseModel>, Vec<Vec<f64>>) {
         let pairs = self.parts.iter().zip(&model.shares);
-        pairs.map(|(part, share)| part.values(&model.poles, share)).collect()
-    }
-
-    /// Residuals of the lines of each response, data less model, not weighted.
-    pub(super) fn residuals(&self, values: &[Vec<c64>]) -> Vec<Vec<c64>> {
-        let pairs = self.parts.iter().zip(values);
-        pairs.map(|(part, values)| part.residuals(values)).collect()
+        pairs.map(|(part, share)| part.noise(&part.values(&model.poles, share))).unzip()
     }
 
     /// Residuals in units of their standard deviation.
@@ -209,7 +203,16 @@ impl Weighted<'_> {
         pairs.map(|(v, w)| v / *w).collect()
     }
 
-    /// Residual of each line; real where the phase is unknown.
+    /// Noise about a model with these values, and their moduli.
+    fn noise(&self, values: &[c64]) -> (NoiseModel, Vec<f64>) {
+        let residuals = self.residuals(values);
+        let pairs = residuals.iter().zip(self.response.variance_factors());
+        let squares: Vec<f64> = pairs.map(|(r, factor)| r.norm_sqr() / factor).collect();
+        let moduli: Vec<f64> = values.iter().map(|v| v.norm()).collect();
+        (NoiseModel::from_squares(&squares, &moduli, self.response.has_phase()), moduli)
+    }
+
+    /// Residual of each line, data less model, not weighted; real where the phase is unknown.
     fn residuals(&self, values: &[c64]) -> Vec<c64> {
         let data = self.response.values();
         let pairs = data.iter().zip(values);
