@@ -52,8 +52,8 @@ fn eigenvalues_move_with_friction_and_modes_with_time() {
     press(&browser, "locus", "Move friction");
     let shown = || {
         browser.run(
-            "const more = document.querySelector('#locus .more');\
-             return [more.querySelector('p[aria-live]').textContent, more.querySelectorAll('li').length]",
+            "const of = part => [...document.querySelectorAll('#locus .more ' + part)];\
+             return [of('p[aria-live]')[0].textContent, of('li').length]",
         )
     };
     assert_eq!(shown(), json!(["friction coefficient = 0: no unstable", 0]));

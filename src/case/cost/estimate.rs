@@ -27,8 +27,8 @@ const SOLID_BYTES: f64 = 600.0;
 /// Memory of a whole plane mesh, bytes: at all, and for each unknown and vector of its basis.
 const SPARSE_BYTES: [f64; 2] = [1e8, 100.0];
 
-/// Memory of solid bodies, measured from 1e3 to 1.2e5 unknowns: bytes for each entry of the factors, which are complex and general
-/// at times, and for each unknown and mode.
+/// Memory of solid bodies, measured from 1e3 to 1.2e5 unknowns: bytes for each entry of the factors, which are complex
+/// and general at times, and for each unknown and mode.
 const FACTOR_BYTES: [f64; 2] = [70.0, 1000.0];
 /// Operations at each friction value for `e` entries of their factors, for each of `e^(3/2)`.
 const FACTORS: f64 = 0.2;
@@ -112,7 +112,7 @@ impl Case {
                 let (vectors, values) = (unknowns * modes as f64, friction_values as f64);
                 let (bytes, factors) = match &self.body {
                     Body::Assembly(own) => {
-                        let entries = factor_entries(&own.mesh);
+                        let entries = factor_entries(&own.mesh, unknowns);
                         let bytes = FACTOR_BYTES[0] * entries + FACTOR_BYTES[1] * vectors;
                         (bytes, FACTORS * values * entries.powf(1.5))
                     }
@@ -195,7 +195,7 @@ impl Case {
             (FrfMethod::Reduced, ..) => (24.0 * fill, 1e4),
             // In three dimensions eight lines share one factor.
             (_, _, Some(own)) => {
-                let entries = factor_entries(&own.mesh);
+                let entries = factor_entries(&own.mesh, dofs);
                 (FACTOR_BYTES[0] * entries, FACTORS / 8.0 * entries.powf(1.5))
             }
             // A complex factorization takes some operations for each entry and its rows.
@@ -320,14 +320,16 @@ fn solid_modes(assembly: &AssemblyBody, omega: f64) -> f64 {
     each.sum()
 }
 
-/// Entries of the factors of solid bodies: three unknowns at each node, coupled to those of the nodes of its elements.
-fn factor_entries(mesh: &Mesh) -> f64 {
+/// Entries of the factors of solid bodies: three unknowns at each node are coupled to those of the nodes of its elements.
+/// With other numbers of `unknowns` they grow as `n^(4/3)`.
+fn factor_entries(mesh: &Mesh, unknowns: f64) -> f64 {
     let pairs = (0..mesh.element_count()).flat_map(|element| {
         let nodes = mesh.element_nodes(element);
         nodes.iter().flat_map(|&i| nodes.iter().map(move |&j| (i as usize, j as usize)))
     });
     let pattern = Arc::new(SparsityPattern::from_positions(mesh.nodes.len(), pairs));
-    LdlAnalysis::new(&pattern).map_or(f64::INFINITY, |own| 9.0 * own.entry_count() as f64)
+    let own = LdlAnalysis::new(&pattern).map_or(f64::INFINITY, |own| own.entry_count() as f64);
+    9.0 * own * (unknowns / mesh.dof_count() as f64).powf(4.0 / 3.0)
 }
 
 /// Half the bandwidth of a harmonic of a body of revolution: neighbours in the numbering of a sheet, along its shorter

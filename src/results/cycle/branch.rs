@@ -1,6 +1,5 @@
 //! Branches of limit cycles over a parameter: their rows, what is kept of them for figures, and what is said of them.
 
-use super::summary::{CycleName, OnsetSummary, SoughtCycle};
 use crate::cycle::{Family, Verdict};
 use crate::output::{Described, columns};
 use crate::results::extent::Extent;
@@ -133,22 +132,6 @@ pub struct BranchRecord {
 }
 
 impl FamilyRecord {
-    /// Of a cycle that was sought and the rows of its branch.
-    pub(super) fn of(own: SoughtCycle, rows: Option<BranchRows>, extent: Extent) -> Self {
-        let onset = |own: &OnsetSummary| [own.critical_friction, own.frequency_hz];
-        let (harmonic, onset, mode, onsets) = match &own.name {
-            CycleName::Wave(own) => {
-                (own.harmonic, own.onset, None, own.onsets.iter().map(onset).collect())
-            }
-            CycleName::Mode(own) => (0, 0, Some(own.mode.mode), Vec::new()),
-        };
-        let cycle =
-            own.cycle.map(|own| [own.main_frequency_hz, own.amplitude_m.unwrap_or(f64::NAN)]);
-        let branch = own.branch.zip(rows);
-        let branch = branch.map(|(summary, rows)| BranchRecord::of(summary, &rows, extent));
-        Self { harmonic, onset, mode, onsets, cycle, branch }
-    }
-
     /// Which limit cycles.
     pub fn family(&self) -> Family {
         Family { harmonic: self.harmonic, onset: self.onset }
@@ -157,7 +140,7 @@ impl FamilyRecord {
 
 impl BranchRecord {
     /// The columns of a branch, of which this is said.
-    fn of(summary: BranchSummary, branch: &BranchRows, extent: Extent) -> Self {
+    pub(super) fn of(summary: BranchSummary, branch: &BranchRows, extent: Extent) -> Self {
         let BranchRows { own_value, threshold, rows, .. } = branch;
         let motions = summary.motions.unwrap_or_default();
         let column = |of: &dyn Fn(&BranchRow) -> f64| -> Vec<f64> { rows.iter().map(of).collect() };

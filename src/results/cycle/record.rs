@@ -1,11 +1,31 @@
 //! What the tables and figures of a limit cycle show.
 
-use super::branch::BranchRows;
+use super::branch::{BranchRecord, BranchRows, FamilyRecord};
+use super::summary::{CycleName, OnsetSummary, SoughtCycle};
 use super::verdicts::Perturbation;
 use crate::contact::ContactStatus;
 use crate::cycle::PhasePoint;
 use crate::cycle::periodic::MotionHarmonic;
 use crate::results::charts::palette::status_of_code;
+use crate::results::extent::Extent;
+
+impl FamilyRecord {
+    /// Of a cycle that was sought and the rows of its branch.
+    pub(super) fn of(own: SoughtCycle, rows: Option<BranchRows>, extent: Extent) -> Self {
+        let onset = |own: &OnsetSummary| [own.critical_friction, own.frequency_hz];
+        let (harmonic, onset, mode, onsets) = match &own.name {
+            CycleName::Wave(own) => {
+                (own.harmonic, own.onset, None, own.onsets.iter().map(onset).collect())
+            }
+            CycleName::Mode(own) => (0, 0, Some(own.mode.mode), Vec::new()),
+        };
+        let cycle =
+            own.cycle.map(|own| [own.main_frequency_hz, own.amplitude_m.unwrap_or(f64::NAN)]);
+        let branch = own.branch.zip(rows);
+        let branch = branch.map(|(summary, rows)| BranchRecord::of(summary, &rows, extent));
+        Self { harmonic, onset, mode, onsets, cycle, branch }
+    }
+}
 
 /// One limit cycle.
 pub(super) struct MotionRecord {
