@@ -55,7 +55,7 @@ fn rust_files(folder: &Path, files: &mut Vec<PathBuf>) {
 /// after a merge that conflicts here, the failure names the numbers to write.
 const BUDGETS: &[(&str, usize)] = &[
     ("crates/bounds", 196),
-    ("crates/chart", 4_889),
+    ("crates/chart", 4_869),
     ("crates/described", 105),
     ("crates/formats", 6_440),
     ("crates/linalg", 3_962),
@@ -71,14 +71,14 @@ const BUDGETS: &[(&str, usize)] = &[
     ("crates/physics/src/parallel.rs", 26),
     ("crates/physics/src/prestress", 5_183),
     ("crates/physics/src/transient", 4_929),
-    ("crates/signal", 6_182),
+    ("crates/signal", 6_179),
     ("src/app", 4_805),
-    ("src/case", 11_410),
+    ("src/case", 11_412),
     ("src/guide", 70),
-    ("src/lib.rs", 96),
+    ("src/lib.rs", 101),
     ("src/main.rs", 5),
-    ("src/results", 19_175),
-    ("src/study", 11_700),
+    ("src/results", 19_178),
+    ("src/study", 11_703),
 ];
 
 /// Lines of a file before its unit tests.

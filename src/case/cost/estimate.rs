@@ -320,7 +320,7 @@ fn solid_modes(assembly: &AssemblyBody, omega: f64) -> f64 {
     each.sum()
 }
 
-/// Entries of the factors of solid bodies: three unknowns at each node are coupled to those of the nodes of its elements.
+/// Entries of the factors of solid bodies: the unknowns at a node are coupled to those of the nodes of its elements.
 /// With other numbers of `unknowns` they grow as `n^(4/3)`.
 fn factor_entries(mesh: &Mesh, unknowns: f64) -> f64 {
     let pairs = (0..mesh.element_count()).flat_map(|element| {

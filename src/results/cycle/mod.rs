@@ -30,7 +30,7 @@ pub(super) use tables::{
 pub(super) use two_waves::TWO_WAVES;
 pub use two_waves::{FoundTwoWaves, TwoWaveResult, TwoWaveSummary};
 pub use verdicts::*;
-pub use waves::{Absence, CycleResult, Finding, known};
+pub use waves::{Absence, CycleResult, Finding};
 
 use crate::contact::{ContactInterface, SlidingContact};
 use crate::cycle::{CriticalValue, Onset};

@@ -7,8 +7,7 @@ use super::record::{ContactNode, MotionRecord};
 use super::summary::{
     CycleMotion, CycleName, ModeOfCycle, ModeSummary, SoughtCycle, SoundSummary, SteppedMotion,
 };
-use super::verdicts::{ConfirmationSummary, KnownStability, Perturbation, StabilitySummary};
-use super::waves::known;
+use super::verdicts::{ConfirmationSummary, KnownStability, Perturbation, StabilitySummary, known};
 use super::{CycleReport, MotionSearch};
 use crate::chart::extremes;
 use crate::contact::ContactInterface;

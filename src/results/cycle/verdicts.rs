@@ -6,6 +6,11 @@ use crate::results::finding::finding;
 use crate::results::summary::{StatusFractions, present};
 use serde::Serialize;
 
+/// The analysis of a cycle, where there is one.
+pub fn known<T>(finding: &Option<Result<T, String>>) -> Option<&T> {
+    finding.as_ref().and_then(|finding| finding.as_ref().ok())
+}
+
 /// A transient that started on a cycle, or why none could.
 #[derive(Clone, Debug, PartialEq, Described, Serialize)]
 #[serde(untagged)]

@@ -6,7 +6,7 @@ use super::branch::{
 use super::motions::mean_powers;
 use super::record::MotionRecord;
 use super::summary::{CycleMotion, CycleName, OnsetSummary, SoughtCycle, WaveOfCycle};
-use super::verdicts::{ConfirmationSummary, KnownStability, Perturbation, StabilitySummary};
+use super::verdicts::{ConfirmationSummary, KnownStability, Perturbation, StabilitySummary, known};
 use super::{CycleReport, WaveSearch};
 use crate::chart::extremes;
 use crate::cycle::periodic::{MotionFrame, velocity_level};
@@ -28,11 +28,6 @@ pub struct Absence {
 
 /// What is known of the stability of a cycle.
 pub type Finding = Option<Result<CycleStability, String>>;
-
-/// Its analysis, where there is one.
-pub fn known<T>(finding: &Option<Result<T, String>>) -> Option<&T> {
-    finding.as_ref().and_then(|finding| finding.as_ref().ok())
-}
 
 /// The limit cycle of one harmonic, and its branch.
 #[derive(Clone, Debug)]

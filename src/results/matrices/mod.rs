@@ -184,7 +184,8 @@ pub struct MatricesSummary {
 }
 
 impl MatrixRole {
-    /// What it is, its units of plane and of solid bodies, and the power of a part of the problem; none of contact rows.
+    /// What it is, its units of plane and of solid bodies, and the power of a part of the problem; none of contact
+    /// rows.
     fn told(self) -> (&'static str, [&'static str; 2], Option<usize>) {
         match self {
             Self::Mass { friction_power: power } => ("mass", ["kg/m", "kg"], Some(power)),

@@ -115,7 +115,8 @@ fn quotient<T>(
     Ok(vec![(2.0 / side, near), (-0.5 / side, far), (-1.5 / side, own)])
 }
 
-/// Derivatives of those eigenpairs of waves that there are, at the friction coefficient of a case by a parameter from its
+/// Derivatives of those eigenpairs of waves that there are, at the friction coefficient of a case by a parameter from
+/// its
 /// `value` on; `moved` is the case with it elsewhere.
 ///
 /// # Errors
