@@ -1,7 +1,6 @@
 //! Friction-induced vibration by finite elements: from a case to a result.
 //!
-//! Deformable bodies are pressed against each other or against a rigid counterface, and slide. A *case* describes
-//! them, in a
+//! Deformable bodies are pressed against each other or against a rigid counterface, and slide. A *case* describes them, in a
 //! text file or a string. The shortest way from a case to a result:
 //!
 //! ```
@@ -33,8 +32,7 @@
 //! 4. [`contact`]: points with gap, normal and sliding direction; the friction law; pairs of meshes that do not match.
 //! 5. [`prestress`]: steady sliding, `K u = G_n^T N + s mu G_t^T N` with `gap >= 0`, `N >= 0`, `gap N = 0`, and the
 //!    matrices of small motions around it.
-//! 6. [`cea`], [`transient`], [`frf`], [`cycle`]: eigenvalues, the time loop, responses and limit cycles, each for
-//! itself.
+//! 6. [`cea`], [`transient`], [`frf`], [`cycle`]: eigenvalues, the time loop, responses and limit cycles, each for itself.
 //! 7. [`study`]: an analysis of a case from beginning to end, and what repeats analyses: sweeps, fits, probabilities.
 //! 8. [`results`], [`output`] and [`chart`]: tables, fields, figures, reports. [`app`]: the command line.
 //!
@@ -49,8 +47,7 @@
 //! | (2), (3) Rayleigh damping, `zeta = (alpha_R/omega + beta_R omega)/2` | [`fem::RayleighDamping`] |
 //! | (4) `lambda = -zeta omega ± i omega sqrt(1 - zeta^2)` | [`cea::ComplexMode::damping_factor`] |
 //! | steady sliding, `u_n = delta`, `T = s mu N` | [`prestress::SteadySliding`], [`prestress::SectorSliding`] |
-//! | small motions around it, `M(mu) q'' + C(mu) q' + K_t(mu) q = 0` | [`prestress::SlidingTangent`],
-//! [`prestress::WaveTangent`] |
+//! | small motions around it, `M(mu) q'' + C(mu) q' + K_t(mu) q = 0` | [`prestress::SlidingTangent`], [`prestress::WaveTangent`] |
 //! | `(lambda^2 M + lambda C + K_t) phi = 0` | [`cea::sparse`], [`cea::cyclic`] |
 //! | `Re lambda(mu) = 0` | [`cea::UnstableInterval`] |
 //! | `d lambda / d parameter` | [`study::eigenvalues`] |
@@ -73,11 +70,9 @@
 //!
 //! # Floors
 //!
-//! [`chart`], [`formats`], [`linalg`], [`output`] and [`signal`] are crates of their own in `crates/`, which name
-//! nothing of this one:
+//! [`chart`], [`formats`], [`linalg`], [`output`] and [`signal`] are crates of their own in `crates/`, which name nothing of this one:
 //! [`output`] knows tables and nothing of friction. So is the physics, from [`mesh`] to [`cycle`], in `crates/physics`.
-//! Each module names only those below it: [`linalg`], [`mesh`]; [`fem`]; [`contact`]; [`prestress`]; [`cea`],
-//! [`transient`], [`frf`],
+//! Each module names only those below it: [`linalg`], [`mesh`]; [`fem`]; [`contact`]; [`prestress`]; [`cea`], [`transient`], [`frf`],
 //! [`cycle`]; [`case`], [`results`]; [`study`]; [`app`].
 
 pub mod case;

@@ -42,8 +42,7 @@ enum System {
     /// Harmonic by harmonic.
     Cyclic(Box<CyclicSystem>),
     /// The whole mesh, with the ports of force and response: every line is solved (`direct`), or the mesh is projected
-    /// on
-    /// a small space where that reaches its tolerance (`auto`) or fails (`reduced`).
+    /// on a small space where that reaches its tolerance (`auto`) or fails (`reduced`).
     Whole { system: Box<FrfSystem>, ports: Box<[Port; 2]>, method: FrfMethod },
 }
 

@@ -75,10 +75,10 @@ const BUDGETS: &[(&str, usize)] = &[
     ("src/app", 4_805),
     ("src/case", 11_412),
     ("src/guide", 70),
-    ("src/lib.rs", 101),
+    ("src/lib.rs", 96),
     ("src/main.rs", 5),
     ("src/results", 19_178),
-    ("src/study", 11_703),
+    ("src/study", 11_700),
 ];
 
 /// Lines of a file before its unit tests.

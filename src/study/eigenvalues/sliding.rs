@@ -180,8 +180,7 @@ impl SlidingModel {
 }
 
 /// The base state with so many contact nodes that slip and that are open, the range of pressure and of shear, and
-/// torque
-/// or drag with its power.
+/// torque or drag with its power.
 fn base_state(
     case: &Case,
     [slipping, open]: [usize; 2],

@@ -38,8 +38,8 @@ pub struct Identification {
     pub fit: ModalFit,
 }
 
-/// Finds the resonances of responses within a range of frequencies, Hz, or of all, their damping factors and the Rayleigh
-/// coefficients.
+/// Finds the resonances of responses within a range of frequencies, Hz, or of all, their damping factors and the
+/// Rayleigh coefficients.
 ///
 /// [`half_power`] finds the peaks; [`fit_modes`] starts from them; [`fit_rayleigh`] takes the fitted
 /// factors with their covariance, and beside it the half-power factors without. Several responses of one

@@ -39,8 +39,8 @@ impl Layout {
     }
 }
 
-/// Each part with the words that name it and the words that its words may begin with; the first that fits is it. A level is
-/// told before a real part: `dB re 1 m/s2/N` holds the word `re`.
+/// Each part with the words that name it and the words that its words may begin with; the first that fits is it. A
+/// level is told before a real part: `dB re 1 m/s2/N` holds the word `re`.
 const PARTS: [(Part, &str, &str); 6] = [
     (Part::Coherence, "", "coh kohärenz cohérence gamma2 γ²"),
     (Part::Decibel, "db decibel dezibel décibel", ""),

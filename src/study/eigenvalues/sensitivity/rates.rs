@@ -116,8 +116,7 @@ fn quotient<T>(
 }
 
 /// Derivatives of those eigenpairs of waves that there are, at the friction coefficient of a case by a parameter from
-/// its
-/// `value` on; `moved` is the case with it elsewhere.
+/// its `value` on; `moved` is the case with it elsewhere.
 ///
 /// # Errors
 /// Why there are none.
