@@ -31,7 +31,7 @@ struct Target {
 /// The eigenpairs of targets, `None` where no single vector belongs to one.
 enum Pairs {
     /// Of a body solved on its whole mesh, with the model at the friction coefficients of `places`.
-    Whole(Linearized, Vec<Place>),
+    Whole(Box<Linearized>, Vec<Place>),
     /// Of a body solved harmonic by harmonic, with the rings of its contact that are pressed.
     Waves(Vec<Option<WavePair>>, Vec<bool>),
 }
@@ -215,7 +215,7 @@ fn whole_pairs(
     for (k, place) in places.iter_mut().enumerate() {
         place.pairs = mode_pairs(base.tangent(k), place.friction, &place.targets);
     }
-    Ok(Pairs::Whole(base, places))
+    Ok(Pairs::Whole(Box::new(base), places))
 }
 
 impl Pairs {
