@@ -143,8 +143,11 @@ pub(super) fn whole(bytes: &[u8], is_big: bool) -> u64 {
     u64::from_le_bytes(eight)
 }
 
+/// The number that bits stand for.
+type Decoded = fn(u64) -> f64;
+
 /// Bytes of a number of a numeric type, and the number that they are, read as a whole one.
-fn numeric_type(kind: u32) -> Option<(usize, fn(u64) -> f64)> {
+fn numeric_type(kind: u32) -> Option<(usize, Decoded)> {
     Some(match kind {
         1 => (1, |bits| f64::from(bits as i8)),
         2 | 16 => (1, |bits| f64::from(bits as u8)),
