@@ -254,19 +254,21 @@ pub(super) fn normal_law(
                  normal stiffness"; "needs a number"; "give k in Pa/m, or leave normal_law out");
         }
     }
-    let number = |key: &str| section.optional_number(key);
+    // What another law would take is told above, and read.
+    let [cubic_stiffness, reference_pressure, height] =
+        ["cubic_stiffness", "reference_pressure", "height"].map(|key| section.optional_number(key));
     let law = match word {
         NormalLawWord::Linear => None,
         NormalLawWord::Cubic => stiffness
             .normal_stiffness
-            .zip(number("cubic_stiffness"))
+            .zip(cubic_stiffness)
             .map(|(stiffness, cubic_stiffness)| NormalLaw::Cubic { stiffness, cubic_stiffness }),
-        NormalLawWord::Exponential => number("reference_pressure").zip(number("height")).map(
-            |(reference_pressure, height)| NormalLaw::Exponential { reference_pressure, height },
-        ),
+        NormalLawWord::Exponential => {
+            reference_pressure.zip(height).map(|(reference_pressure, height)| {
+                NormalLaw::Exponential { reference_pressure, height }
+            })
+        }
     };
-    // What is asked for but unused is told above.
-    let _ = (number("cubic_stiffness"), number("reference_pressure"), number("height"));
     let at_rest = law.map(|law| law.stiffness(0.0));
     let stiffness =
         ContactStiffness { normal_stiffness: at_rest.or(stiffness.normal_stiffness), ..stiffness };

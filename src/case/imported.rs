@@ -371,8 +371,8 @@ pub(super) fn check_meeting(
     let name = &body.contact;
     if interface.is_empty() {
         return Err(format!(
-            "no point of \"{name}\" (contact.boundary) has \"{other}\" (contact.counter_boundary) facing it: check the \
-             curves, and contact.center, speed and direction"
+            "no point of \"{name}\" (contact.boundary) has \"{other}\" (contact.counter_boundary) \
+             facing it: check the curves, and contact.center, speed and direction"
         ));
     }
     let deepest =

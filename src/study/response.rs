@@ -92,9 +92,10 @@ impl<'a> FrequencyStudy<'a> {
             FrfMethod::Cyclic if case.has_sectors() && !case.responds_by_harmonics(frf) => {
                 // Without contact a disc and its shaft are two bodies.
                 return Err(StudyError::Case(refusal!(case, "frf.method",
-                    "frf.method = \"cyclic\" takes one body, and without contact disc and shaft are \
-                     two";
-                    "disc and shaft do not touch here"; "use \"auto\", \"direct\" or \"reduced\"")));
+                    "frf.method = \"cyclic\" takes one body, and without contact disc and shaft \
+                     are two";
+                    "disc and shaft do not touch here";
+                    "use \"auto\", \"direct\" or \"reduced\"")));
             }
             FrfMethod::Cyclic => cyclic(case, frf)?,
             FrfMethod::Auto if is_lossy => whole(case, frf, FrfMethod::Direct)?,

@@ -141,7 +141,8 @@ fn tables_are_sorted_and_filtered() {
     let table = "[...document.querySelectorAll('table')].find(t => t.caption?.textContent.startsWith('Eigenvalues'))";
     let column = || -> Vec<f64> {
         let script = format!(
-            "return [...{table}.tBodies[0].rows].filter(r => !r.hidden).map(r => Number(r.cells[3].textContent))"
+            "const shown = [...{table}.tBodies[0].rows].filter(r => !r.hidden);\
+             return shown.map(r => Number(r.cells[3].textContent))"
         );
         serde_json::from_value(browser.run(&script)).unwrap()
     };

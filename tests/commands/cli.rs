@@ -75,7 +75,8 @@ fn cea_prints_the_table_and_draws_its_figures() {
     ]);
     assert_eq!(answer.stderr, "");
     answer.wrote(
-        "eigenvalues.csv stability.csv summary.json manifest.json modes.pvd modes/mu-0.3-mode-001.vtu \
+        "eigenvalues.csv stability.csv summary.json manifest.json modes.pvd \
+         modes/mu-0.3-mode-001.vtu \
          prestress.csv prestress.vtu figures/locus.svg figures/pairs.png figures/prestress.png \
          figures/modes-mu-0.3.png",
     );

@@ -74,7 +74,8 @@ fn richardson_of_coarse_meshes_comes_nearer_to_a_fine_one_than_the_finest_of_the
 fn a_transient_is_tabled_over_mesh_and_time_step_with_figures_and_report() {
     let folder = folder();
     let text = disc(&format!(
-        "{CEA}{TRANSIENT}[convergence]\nfactors = [0.5, 0.75, 1]\ntime_step_factors = [1, 0.5, 0.25]\n"
+        "{CEA}{TRANSIENT}[convergence]\nfactors = [0.5, 0.75, 1]\n\
+         time_step_factors = [1, 0.5, 0.25]\n"
     ));
     let files =
         "convergence.csv summary.json report.html figures/convergence.svg figures/convergence.pdf";

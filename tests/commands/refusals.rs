@@ -47,6 +47,10 @@ fn said(head: &[&str], changes: &str) -> Result<String, String> {
                 case.warnings.iter().map(ToString::to_string).collect::<Vec<_>>()
             });
             let errors = case.as_ref().map_or_else(Clone::clone, |_| String::new());
+            let told: Vec<&str> = errors.split("\n\n").collect();
+            if (1..told.len()).any(|k| told[..k].contains(&told[k])) {
+                return Err(format!("is told twice: {errors}"));
+            }
             if let Some(line) = place {
                 let place = format!("{name}:{line}:");
                 if !errors.contains(&place) || !errors.contains('^') {

@@ -38,7 +38,10 @@ pub fn derive_described(item: TokenStream) -> TokenStream {
     let own = if generics.is_empty() { String::new() } else { format!("<{generics}>") };
     let code = format!(
         "impl{bound} ::frictionsim_output::Described for {name}{own} {{
-            fn describe(path: &str, keys: &mut Vec<::frictionsim_output::Entry>) {{ let _ = (path, &keys); {calls} }}
+            fn describe(path: &str, keys: &mut Vec<::frictionsim_output::Entry>) {{
+                let _ = (path, &keys);
+                {calls}
+            }}
         }}"
     );
     code.parse().unwrap_or_default()

@@ -197,8 +197,8 @@ pub(in crate::study) fn refuse_bodies(case: &Case) -> Result<(), CaseErrors> {
     match case.body.annulus() {
         Some(annulus) if annulus.specification.shaft.is_some() => {
             Err(refusal!(case, "geometry.shaft_inner_radius",
-                "improve adds to, or takes from, one place of a body, which breaks the symmetry that \
-                 disc and shaft are solved by";
+                "improve adds to, or takes from, one place of a body, which breaks the symmetry \
+                 that disc and shaft are solved by";
                 "a deformable shaft"; "give both bodies as a mesh file (mesh.file)"))
         }
         _ => Ok(()),

@@ -8,7 +8,8 @@ use frictionsim::results::uncertainty::document;
 use frictionsim::study::fit::{MeasuredMode, fit_case, refuse_too_few};
 use frictionsim::study::uncertainty::{Sampler, summarize};
 
-pub const MODEL: &str = "[material]\nyoung_modulus = 2.5e9\npoisson_ratio = 0.3805\ndensity = 1228.0\n\
+pub const MODEL: &str = "[material]\nyoung_modulus = 2.5e9\npoisson_ratio = 0.3805\n\
+    density = 1228.0\n\
     [damping]\nmass_coefficient = 40.0\nstiffness_coefficient = 4.5e-7\n\
     [contact]\nfriction_coefficient = 0.3\ninterference = 25e-6\nrotation_speed_rpm = 610.0\n";
 const STUDIES: &str = "[cea]\nmodes = 6\nfriction_coefficients = [0.0, 0.5]\ngeometric_stiffness = false\n\

@@ -100,13 +100,13 @@ fn no_mutation_of_a_file_makes_a_reader_or_an_analysis_panic() {
 }
 
 /// Nineteen, between bars.
-const PIECES: &str = ",|;|\t| |\n|\r\n|\"|# |frequency_hz|real|imag|magnitude_db|phase|time_ms|fs: 1e3 kHz|\
-                      nan|1e999|1,5|-";
+const PIECES: &str = ",|;|\t| |\n|\r\n|\"|# |frequency_hz|real|imag|magnitude_db|phase|\
+    time_ms|fs: 1e3 kHz|nan|1e999|1,5|-";
 
 /// Text made of the pieces that tables are made of, so that the fuzzing gets past the first line.
 fn table_like() -> impl Strategy<Value = String> {
     let piece = prop_oneof![
-        19 => prop::sample::select(PIECES.split('|').collect::<Vec<&str>>()).prop_map(str::to_owned),
+        19 => prop::sample::select(PIECES.split('|').collect::<Vec<_>>()).prop_map(str::to_owned),
         1 => "[0-9]{1,4}",
         1 => "[0-9]\\.[0-9]{1,3}",
         1 => "\\PC{0,3}",

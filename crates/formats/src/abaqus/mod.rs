@@ -94,7 +94,8 @@ struct Reader<'d, 'a> {
 /// Keywords that make nodes or elements which are not written out.
 #[rustfmt::skip]
 const GENERATORS: [&str; 9] = [
-    "NGEN", "NFILL", "NCOPY", "NMAP", "ELGEN", "ELCOPY", "SYSTEM", "SUBMODEL", "SYMMETRIC MODEL GENERATION",
+    "NGEN", "NFILL", "NCOPY", "NMAP", "ELGEN", "ELCOPY", "SYSTEM", "SUBMODEL",
+    "SYMMETRIC MODEL GENERATION",
 ];
 
 /// Keywords that are read.

@@ -22,8 +22,9 @@ pub enum PairError {
     },
     /// The outward normals of own and counter surface point the same way.
     #[error(
-        "surface \"{}\" faces away from \"{}\": where they lie over each other their outward normals point the \
-         same way. Name the surfaces that touch", .0[0], .0[1]
+        "surface \"{}\" faces away from \"{}\": where they lie over each other their \
+         outward normals point the same way. Name the surfaces that touch",
+        .0[0], .0[1]
     )]
     FacesAway([String; 2]),
     /// Nothing of the own surface lies over anything of the counter surface.
@@ -54,7 +55,8 @@ pub enum PairError {
     /// The counter surface does not move relative to the own one.
     #[error(
         "nothing slides between surfaces \"{}\" and \"{}\": the motion given leaves \
-         them at rest to each other. Check the axis, the centre and the regions of [motion]", .0[0], .0[1]
+         them at rest to each other. Check the axis, the centre and the regions of [motion]",
+        .0[0], .0[1]
     )]
     NoSliding([String; 2]),
     /// A rigid counterface does not move, or along its normal alone.

@@ -63,7 +63,8 @@ pub enum NodeFault {
     Missing(usize),
     /// It cannot move in that direction, `radial`, `tangential` or `axial`.
     #[error(
-        "cannot move in {0} direction with this boundary: choose a node inside the body, or frf.boundary = \"free\""
+        "cannot move in {0} direction with this boundary: choose a node inside the body, \
+         or frf.boundary = \"free\""
     )]
     Constrained(&'static str),
     /// It lies on the axis, where `radial` or `tangential` is nothing.
@@ -73,7 +74,8 @@ pub enum NodeFault {
     OnAxis(&'static str),
     /// A force on a node of a surface that follows another one.
     #[error(
-        "lies on a surface that is tied to or slides on another, and follows it. Apply the force to a node beside the surface"
+        "lies on a surface that is tied to or slides on another, and follows it. \
+         Apply the force to a node beside the surface"
     )]
     Follows,
     /// A plane body, along its axis.
