@@ -71,17 +71,17 @@
 //! # Floors
 //!
 //! [`chart`], [`formats`], [`linalg`], [`output`] and [`signal`] are crates of their own in `crates/`, which name nothing of this one:
-//! [`output`] knows tables and nothing of friction. So is the physics, from [`mesh`] to [`cycle`], in `crates/physics`.
+//! [`output`] knows tables and nothing of friction. So are the physics, from [`mesh`] to [`cycle`], [`case`] and [`results`].
 //! Each module names only those below it: [`linalg`], [`mesh`]; [`fem`]; [`contact`]; [`prestress`]; [`cea`], [`transient`], [`frf`],
 //! [`cycle`]; [`case`], [`results`]; [`study`]; [`app`].
 
-pub mod case;
 pub mod guide;
-pub mod results;
 pub mod study;
 
 pub mod app;
 
+#[doc(inline)]
+pub use frictionsim_case as case;
 #[doc(inline)]
 pub use frictionsim_chart as chart;
 #[doc(inline)]
@@ -92,5 +92,7 @@ pub use frictionsim_output as output;
 pub use frictionsim_physics::{
     cea, contact, cycle, fem, frf, linalg, mesh, order, parallel, prestress, transient,
 };
+#[doc(inline)]
+pub use frictionsim_results as results;
 #[doc(inline)]
 pub use frictionsim_signal as signal;

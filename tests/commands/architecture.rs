@@ -22,22 +22,30 @@ fn floor_of(module: &str) -> Option<usize> {
     FLOORS.iter().position(|floor| floor.contains(&module))
 }
 
-/// Folders of the tree of modules: the program, and the physics, which is a crate of its own.
-const TREES: [&str; 2] = ["src", "crates/physics/src"];
+/// Folder of the physics, which is a crate of its own.
+const PHYSICS: &str = "crates/physics/src";
+/// Folders of the tree of modules, and the module that each is: cases and results are crates of their own.
+const TREES: [(&str, &str); 4] =
+    [("src", ""), (PHYSICS, ""), ("crates/case/src", "case"), ("crates/results/src", "results")];
 
-/// The Rust files of the tree of modules, each with its path from the root of its crate.
+/// The Rust files of the tree of modules, each with its path in the tree.
 fn module_files() -> Vec<(PathBuf, PathBuf)> {
     let mut all = Vec::new();
-    for tree in TREES {
+    for (tree, module) in TREES {
         let source = Path::new(env!("CARGO_MANIFEST_DIR")).join(tree);
         let mut files = Vec::new();
         rust_files(&source, &mut files);
         all.extend(files.into_iter().map(|path| {
-            let relative = path.strip_prefix(&source).unwrap().to_owned();
+            let relative = Path::new(module).join(path.strip_prefix(&source).unwrap());
             (path, relative)
         }));
     }
     all
+}
+
+/// Whether a module is a crate: `crate::` is what lies in it.
+fn is_crate(module: &str) -> bool {
+    TREES.iter().any(|(_, own)| *own == module)
 }
 
 fn rust_files(folder: &Path, files: &mut Vec<PathBuf>) {
@@ -55,6 +63,7 @@ fn rust_files(folder: &Path, files: &mut Vec<PathBuf>) {
 /// after a merge that conflicts here, the failure names the numbers to write.
 const BUDGETS: &[(&str, usize)] = &[
     ("crates/bounds", 196),
+    ("crates/case", 11_414),
     ("crates/chart", 4_869),
     ("crates/described", 108),
     ("crates/formats", 6_441),
@@ -71,13 +80,12 @@ const BUDGETS: &[(&str, usize)] = &[
     ("crates/physics/src/parallel.rs", 26),
     ("crates/physics/src/prestress", 5_183),
     ("crates/physics/src/transient", 4_929),
+    ("crates/results", 19_178),
     ("crates/signal", 6_182),
     ("src/app", 4_805),
-    ("src/case", 11_414),
     ("src/guide", 70),
     ("src/lib.rs", 96),
     ("src/main.rs", 5),
-    ("src/results", 19_178),
     ("src/study", 11_701),
 ];
 
@@ -104,7 +112,7 @@ fn lines_of_rooms() -> BTreeMap<String, usize> {
     let mut rooms = BTreeMap::new();
     for path in files {
         let relative = path.strip_prefix(root).unwrap();
-        let depth = if relative.starts_with(TREES[1]) { 4 } else { 2 };
+        let depth = if relative.starts_with(PHYSICS) { 4 } else { 2 };
         let room: PathBuf = relative.iter().take(depth).collect();
         let room = room.to_str().unwrap().replace('\\', "/");
         *rooms.entry(room).or_default() += lines_without_tests(&path);
@@ -145,8 +153,10 @@ fn no_room_has_more_lines_than_its_budget() {
 fn lines_of_the_upper_rooms_have_120_columns_at_most() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let mut files = Vec::new();
-    let rooms = ["src/case", "src/study", "src/results", "src/app"];
-    for room in rooms.iter().chain(&["crates/chart", "crates/output", "crates/signal"]) {
+    let rooms = ["src/study", "src/app"];
+    let crates =
+        ["case", "chart", "output", "results", "signal"].map(|name| format!("crates/{name}"));
+    for room in rooms.map(str::to_owned).iter().chain(&crates) {
         rust_files(&root.join(room), &mut files);
     }
     for path in files {
@@ -210,6 +220,10 @@ fn every_module_names_only_lower_floors() {
     let mut broken = Vec::new();
     for (path, relative) in files {
         let home = relative.iter().next().unwrap().to_str().unwrap();
+        // What a crate names stands in its `Cargo.toml`.
+        if is_crate(home) {
+            continue;
+        }
         let Some(floor) = floor_of(home.trim_end_matches(".rs")) else {
             assert!(
                 matches!(home, "lib.rs" | "main.rs"),
@@ -232,7 +246,7 @@ fn every_module_names_only_lower_floors() {
 /// The producers of eigenproblems stand side by side on one theory, which knows neither; faer is the affair of `linalg`.
 #[test]
 fn the_eigenvalue_theory_names_none_of_its_producers_and_they_not_each_other() {
-    let home = Path::new(env!("CARGO_MANIFEST_DIR")).join(TREES[1]).join("cea");
+    let home = Path::new(env!("CARGO_MANIFEST_DIR")).join(PHYSICS).join("cea");
     let mut files = Vec::new();
     rust_files(&home, &mut files);
     for path in files {
@@ -265,7 +279,9 @@ type Names = Vec<String>;
 fn named_paths(code: &str, module: &[String]) -> Vec<Names> {
     let is_word = |c: char| c.is_alphanumeric() || c == '_';
     let mut paths = Vec::new();
-    for (root, kept) in [("crate::", 0), ("super::", module.len() - 1), ("self::", module.len())] {
+    let root = usize::from(is_crate(&module[0]));
+    for (root, kept) in [("crate::", root), ("super::", module.len() - 1), ("self::", module.len())]
+    {
         for (at, _) in code.match_indices(root) {
             // `super::super::` is found at its first word, and the end of a longer word is none.
             let before = code[..at].chars().next_back();

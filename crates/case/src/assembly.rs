@@ -1,0 +1,304 @@
+//! Assemblies of solid bodies: `[motion.*]`, `[contacts.*]`, `[ties.*]`.
+
+use super::boundaries::NamedCondition;
+use super::contact::section_of;
+use super::contacts::{NamedContact, contact, short_form, unit};
+use super::imported::{ImportError, whole_body};
+use super::modifications::{Modification, reshaped};
+use super::tables::TableFiles;
+use super::value::quote;
+use super::{Case, Contact, MeshBytes, Section, refuse, suggestion};
+use frictionsim_physics::contact::{
+    ContactStiffness, Counterpart, Motion, PointKind, RigidCounterface, RigidMotion, SlidingContact,
+};
+use frictionsim_physics::fem::{MaterialField, PlaneFormulation, RotationFrame, TabledMaterial};
+use frictionsim_physics::mesh::{BodyError, CyclicSymmetry, Mesh};
+use frictionsim_physics::prestress::{
+    Assembly, BaseChoice, PrestressError, SlidingSurfaces, TiedSurfaces,
+};
+use std::f64::consts::TAU;
+use std::sync::Arc;
+
+/// Solid bodies of a mesh file that are tied together and slide on each other.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AssemblyBody {
+    /// The mesh of all bodies.
+    pub mesh: Arc<Mesh>,
+    /// The material of each of its regions.
+    pub materials: Vec<TabledMaterial>,
+    /// Surfaces that are glued.
+    pub ties: Vec<TiedSurfaces>,
+    /// Surfaces that slide on each other.
+    pub contacts: Vec<SlidingSurfaces>,
+    /// Regions that turn.
+    pub motions: Vec<Motion>,
+    /// What the base state of the contacts is.
+    pub base: BaseChoice,
+}
+
+impl AssemblyBody {
+    /// The bodies with their surfaces paired.
+    ///
+    /// # Errors
+    /// [`PrestressError::Pair`] names the tie or contact whose surfaces do not meet.
+    pub fn assembled(&self) -> Result<Assembly<'_>, PrestressError> {
+        let (mesh, ties, contacts) = (&self.mesh, &self.ties, &self.contacts);
+        Assembly::new(mesh, &self.materials, ties, contacts, &self.motions, self.base)
+    }
+
+    /// The same with all contact points at nodes, for steps in time.
+    pub fn stepped(&self) -> Result<Assembly<'_>, PrestressError> {
+        self.stepped_as(&self.materials)
+    }
+
+    /// The same of other materials.
+    pub fn stepped_as<'a>(
+        &'a self,
+        materials: &'a dyn MaterialField,
+    ) -> Result<Assembly<'a>, PrestressError> {
+        let (surfaces, at_nodes) = ((&self.ties[..], &self.contacts[..]), Some(PointKind::Nodes));
+        Assembly::with_points(&self.mesh, materials, surfaces, (&self.motions, self.base), at_nodes)
+    }
+
+    /// Regions whose rotation has its inertia.
+    pub fn rotors(&self) -> impl Iterator<Item = &str> {
+        let turning = self.motions.iter().filter(|motion| motion.inertia.is_some());
+        let regions = turning.flat_map(|motion| &motion.regions);
+        regions.map(|&region| self.mesh.regions[region].as_str())
+    }
+
+    /// Whether motions are those in a frame that turns with the bodies.
+    pub fn turns_with_its_frame(&self) -> bool {
+        let turning = Some(RotationFrame::Turning);
+        self.motions.iter().any(|motion| motion.inertia == turning)
+    }
+
+    /// The rigid counterface of the first contact, if it has one.
+    pub fn rigid_counterface(&self) -> Option<&RigidCounterface> {
+        self.contacts.first()?.counter.rigid()
+    }
+
+    /// A point of the axis of what turns first, and its direction; none where nothing turns.
+    pub fn axis(&self) -> Option<[[f64; 3]; 2]> {
+        let own = self.motions.first().map(|motion| [motion.center, motion.axis]);
+        own.or_else(|| {
+            let rigid = self.rigid_counterface()?;
+            let turns = matches!(rigid.motion, RigidMotion::Turning(_));
+            turns.then_some([rigid.center, rigid.axis])
+        })
+    }
+
+    /// Nodes of the contact surfaces.
+    pub fn contact_node_count(&self) -> usize {
+        let surfaces = self.contacts.iter().map(|contact| contact.surface);
+        surfaces.map(|place| self.mesh.boundaries[place].nodes.len()).sum()
+    }
+}
+
+/// `[motion.*]`, `[contacts.*]` and `[ties.*]` as the case names regions and surfaces.
+pub(super) struct AssemblyParts {
+    motions: Vec<(String, Motion)>,
+    contacts: Vec<NamedContact>,
+    ties: Vec<(String, [String; 2])>,
+    pub base: BaseChoice,
+    /// Of a file that has one sector.
+    pub symmetry: Option<CyclicSymmetry>,
+}
+
+impl AssemblyParts {
+    /// Direction and a point of the axis of what turns, bodies and rigid counterfaces, where all have the same.
+    pub(super) fn axis(&self) -> Result<[[f64; 3]; 2], &'static str> {
+        let mut axes = self.axes();
+        let first = axes.next().ok_or("nothing of the case turns")?;
+        if axes.any(|other| other != first) { Err("what turns has several") } else { Ok(first) }
+    }
+
+    /// Whether something turns.
+    pub(super) fn turns(&self) -> bool {
+        self.axes().next().is_some()
+    }
+
+    fn axes(&self) -> impl Iterator<Item = [[f64; 3]; 2]> {
+        let rigid = self.contacts.iter().filter_map(|contact| contact.surfaces.counter.rigid());
+        let turning = rigid.filter(|rigid| matches!(rigid.motion, RigidMotion::Turning(_)));
+        let motions = self.motions.iter().map(|(_, motion)| [motion.axis, motion.center]);
+        motions.chain(turning.map(|rigid| [rigid.axis, rigid.center]))
+    }
+}
+
+/// Reads the sections of an assembly; its first contact and motion give the common contact of the case: a sweep varies
+/// the friction coefficient of the first contact, and the others keep their ratio to it.
+pub(super) fn sections(
+    root: &Section<'_>,
+    tables: &mut TableFiles<'_>,
+) -> (AssemblyParts, Contact) {
+    let motions = root.each("motion", motion);
+    let ties = root.each("ties", |section| [section.text("surface"), section.text("counter")]);
+    let mut bases = Vec::new();
+    let contacts = root.each("contacts", |section| contact(section, &mut bases, tables));
+    let named = |(name, mut contact): (String, NamedContact)| {
+        contact.surfaces.name = name;
+        contact
+    };
+    let mut contacts: Vec<NamedContact> = contacts.into_iter().map(named).collect();
+    if root.has("contact") && !root.has("contacts") {
+        contacts.push(root.section("contact", true).closed(short_form));
+    }
+    let base = bases.first().copied().unwrap_or_default();
+    if bases.iter().any(|other| *other != base) {
+        refuse!(root, "contacts",
+            "contacts are \"solved\" and \"closed\" in one case: one that is free of stress and \
+             one that is not have no common equilibrium";
+            "one state for all"; "give every contact the same `state`");
+    }
+    let first = contacts.first();
+    let rigid = first.and_then(|contact| contact.surfaces.counter.rigid());
+    let speed = rigid.map(|rigid| rigid.motion.speed());
+    let common = Contact {
+        sliding: SlidingContact {
+            friction_coefficient: first.map_or(0.0, |contact| contact.friction_coefficient),
+            decay: first.and_then(|contact| contact.surfaces.friction.decay),
+            interference: rigid.map_or(0.0, |rigid| rigid.interference),
+            // Where the counterface is at rest, the body slides under it.
+            rotation_speed: speed.filter(|speed| *speed != 0.0).unwrap_or_else(|| {
+                let first = motions.first();
+                first.map_or(0.0, |motion| motion.1.rotation_speed)
+            }),
+        },
+        stiffness: first
+            .map_or_else(ContactStiffness::default, |contact| contact.surfaces.stiffness),
+    };
+    let parts = AssemblyParts { motions, contacts, ties, base, symmetry: None };
+    (parts, common)
+}
+
+pub(super) fn motion(section: &Section<'_>) -> Motion {
+    section.needs("axis");
+    Motion {
+        regions: Vec::new(),
+        axis: unit(section, "axis"),
+        center: section.vector("center"),
+        rotation_speed: section.number("rotation_speed_rpm") * TAU / 60.0,
+        inertia: inertia(section),
+    }
+}
+
+/// In which frame the inertia of a motion counts.
+fn inertia(section: &Section<'_>) -> Option<RotationFrame> {
+    let frame = section.choice("frame");
+    if section.flag("rotation_terms") {
+        return Some(frame);
+    }
+    if section.has("frame") {
+        refuse!(section, "frame" => "has no effect without the inertia of rotation";
+            "needs rotation_terms = true"; "give rotation_terms = true, or leave frame out");
+    }
+    None
+}
+
+/// The solid bodies of a mesh file.
+pub(super) fn assemble(
+    bytes: &MeshBytes,
+    scale: f64,
+    conditions: &[NamedCondition],
+    (common, own): (Option<&TabledMaterial>, &[(String, TabledMaterial)]),
+    (parts, modifications): (AssemblyParts, &[Modification]),
+) -> Result<AssemblyBody, ImportError> {
+    let unusable = |error: BodyError| ImportError::of(error, &bytes.file);
+    let file = whole_body(bytes, parts.symmetry.as_ref(), scale).map_err(unusable)?;
+    let misfit = ImportError::misfit;
+    let (file, _) = reshaped(file, scale, "", modifications).map_err(misfit)?;
+    let mesh = Mesh::from_solids(&file, scale, conditions).map_err(unusable)?;
+    let region =
+        |name: &str, key: &str| named(&mesh.regions, name, key, "region (physical volume)");
+    let boundaries: Vec<String> = mesh.boundaries.iter().map(|b| b.name.clone()).collect();
+    let surface = |name: &str, key: &str| named(&boundaries, name, key, "surface");
+
+    // Materials of regions; those without a section of their own have the common one.
+    let solid = |material: &TabledMaterial| {
+        let mut solid = material.clone();
+        solid.own.elastic.formulation = PlaneFormulation::ThreeDimensional;
+        solid
+    };
+    let mut materials = vec![common.map(solid); mesh.regions.len()];
+    for (name, material) in own {
+        let place = region(name, &format!("materials.{name}"))?;
+        materials[place] = Some(solid(material));
+    }
+    let given = materials.into_iter().zip(&mesh.regions).map(|(material, region)| {
+        material.ok_or_else(|| ImportError::without_material(&bytes.file, region))
+    });
+    let materials = given.collect::<Result<Vec<_>, _>>()?;
+    let mut motions = Vec::new();
+    for (name, motion) in parts.motions {
+        motions.push(Motion { regions: vec![region(&name, &format!("motion.{name}"))?], ..motion });
+    }
+    let mut ties = Vec::new();
+    for (name, [own, counter]) in parts.ties {
+        ties.push(TiedSurfaces {
+            surface: surface(&own, &format!("ties.{name}.surface"))?,
+            counter: surface(&counter, &format!("ties.{name}.counter"))?,
+            name,
+        });
+    }
+    let reference = parts.contacts.first().map(|contact| contact.friction_coefficient);
+    let mut contacts = Vec::new();
+    for NamedContact {
+        sides: [own, counter],
+        keys: [own_key, counter_key],
+        friction_coefficient,
+        mut surfaces,
+    } in parts.contacts
+    {
+        surfaces.surface = surface(&own.unwrap_or_default(), &own_key)?;
+        if let (Some(counter), None) = (counter, surfaces.counter.rigid()) {
+            surfaces.counter = Counterpart::Surface(surface(&counter, &counter_key)?);
+        }
+        surfaces.friction.ratio = match reference {
+            Some(reference) if reference > 0.0 => friction_coefficient / reference,
+            _ => 1.0,
+        };
+        contacts.push(surfaces);
+    }
+    Ok(AssemblyBody { mesh: Arc::new(mesh), materials, ties, contacts, motions, base: parts.base })
+}
+
+/// Place of a name among those of a mesh file.
+fn named(known: &[String], name: &str, key: &str, what: &str) -> Result<usize, ImportError> {
+    known.iter().position(|other| other == name).ok_or_else(|| {
+        let hint = suggestion::nearest(name, known.iter().map(String::as_str))
+            .map_or_else(String::new, |near| format!("; did you mean \"{near}\"?"));
+        let list: Vec<String> = known.iter().map(|name| format!("\"{name}\"")).collect();
+        let message = format!(
+            "{key}: the mesh file has no {what} \"{name}\"; it has {}{hint}",
+            list.join(", ")
+        );
+        ImportError::new(key, message, "names none of its parts")
+    })
+}
+
+impl Case {
+    /// A key of the first contact, by its full name.
+    pub(super) fn contact_key(&self, key: &str) -> String {
+        let first = self.body.assembly().and_then(|body| body.contacts.first());
+        format!("{}.{key}", first.map_or_else(|| "contact".to_owned(), section_of))
+    }
+
+    /// The key that says how fast the first contact slides; the section of all motions where nothing moves.
+    pub fn speed_key(&self) -> String {
+        if let Some(body) = self.body.assembly()
+            && body.rigid_counterface().is_none()
+        {
+            let turning = body.motions.first().and_then(|motion| motion.regions.first());
+            let key = |&region: &usize| {
+                format!("motion.{}.rotation_speed_rpm", quote(&body.mesh.regions[region]))
+            };
+            return turning.map_or_else(|| "motion".to_owned(), key);
+        }
+        let straight = self.contact_key("speed");
+        match self.number(&straight) {
+            Some(_) => straight,
+            None => self.contact_key("rotation_speed_rpm"),
+        }
+    }
+}

@@ -1,0 +1,104 @@
+//! What modifications attach to a body, and the annulus whose symmetry they break.
+
+use super::modifications::{Misfit, Modification, reshaped};
+use super::node::Nodes;
+use super::{Annulus, Body, ImportedBody, Section, refuse};
+use frictionsim_physics::mesh::{
+    Attachment, BodyError, BodySpecification, CounterfaceSpecification, DampedPatch, Mesh,
+};
+use nalgebra::{Matrix3, Vector3};
+use std::sync::Arc;
+
+/// A built-in annulus with modifications: no symmetry is left, and it is what a mesh file of it would be.
+pub(super) fn reshaped_annulus(
+    annulus: &Annulus,
+    modifications: &[Modification],
+) -> Result<ImportedBody, Misfit> {
+    let first = modifications.first();
+    let key = first.map_or_else(String::new, |own| format!("modifications.{}", own.name));
+    let spec = &annulus.specification;
+    if spec.shaft.is_some() {
+        let why = "modifications are for one body on a rigid cylinder; give a disc with a \
+        deformable shaft as a mesh file";
+        return Err((key, why.to_owned()));
+    }
+    let mesh = frictionsim_physics::mesh::AnnulusMesh::generate(spec);
+    let mesh = mesh.map_err(|error| (key.clone(), error.to_string()))?.mesh;
+    let contact = mesh.contact_edge().name.clone();
+    let file = Arc::new(mesh.to_file());
+    let (file, center) = reshaped(file, 1.0, &contact, modifications)?;
+    let specification = BodySpecification {
+        scale: 1.0,
+        contact,
+        counterface: CounterfaceSpecification::Cylinder { center, radius: Some(spec.inner_radius) },
+        opposite: None,
+        conditions: vec![("outer".to_owned(), spec.outer)],
+    };
+    let body = Mesh::from_gmsh(&file, &specification);
+    let body = body.map_err(|error: BodyError| (key, error.to_string()))?;
+    let materials = vec![annulus.materials[0].clone()];
+    Ok(ImportedBody::new(body, materials, file, specification))
+}
+
+/// Attaches masses, springs, dashpots and damped patches to the mesh of a body; `thickness` is that of a plane body, m.
+pub(super) fn attach(
+    root: &Section<'_>,
+    modifications: &[Modification],
+    body: &mut Body,
+    thickness: f64,
+) {
+    if modifications.is_empty() {
+        return;
+    }
+    let all = root.section("modifications", false);
+    let extent = if body.dimension() == 2 { thickness } else { 1.0 };
+    let (mut attachments, mut patches) = (Vec::new(), Vec::new());
+    for own in modifications {
+        let section = all.section(&own.name, false);
+        if let Some(place) = &own.at {
+            let nodes = Nodes { body: Some(&*body) };
+            if let Some((node, _)) = nodes.find(&section, "at", place) {
+                attachments.push(own.attachment(node, extent));
+            }
+        }
+        if own.coefficients == [0.0; 2] {
+            continue;
+        }
+        let Some(((center, radius), mesh)) = own.within.zip(body.whole_mesh()) else {
+            continue;
+        };
+        let elements = mesh.elements_within(center, radius);
+        if elements.is_empty() {
+            refuse!(section, "radius" => "holds no element's middle"; "no element within it";
+                "center and radius are in metres");
+        }
+        patches.push(DampedPatch {
+            elements,
+            mass_coefficient: own.coefficients[0],
+            stiffness_coefficient: own.coefficients[1],
+        });
+    }
+    if let Some(mesh) = body.whole_mesh_mut() {
+        let mesh = Arc::make_mut(mesh);
+        (mesh.attachments, mesh.patches) = (attachments, patches);
+    }
+}
+
+impl Modification {
+    /// What it attaches to a node, for each metre of thickness in the plane.
+    fn attachment(&self, node: usize, thickness: f64) -> Attachment {
+        let law = match self.direction {
+            None => Matrix3::identity(),
+            Some(direction) => {
+                let along = Vector3::from(direction).normalize();
+                along * along.transpose()
+            }
+        };
+        Attachment {
+            node,
+            mass: self.mass / thickness,
+            stiffness: law * (self.stiffness / thickness),
+            damping: law * (self.damping / thickness),
+        }
+    }
+}

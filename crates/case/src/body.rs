@@ -1,0 +1,282 @@
+//! Kinds of body that a case can have, each with its own data.
+
+use super::{AssemblyBody, ImportedBody};
+use frictionsim_physics::contact::RigidMotion;
+use frictionsim_physics::fem::{ModulusTable, TabledMaterial};
+use frictionsim_physics::mesh::{
+    AnnulusMesh, AnnulusSpecification, BoundaryCondition, Counterface, Mesh, MeshError,
+    SolidContact, SolidSpecification,
+};
+use std::f64::consts::PI;
+use std::sync::Arc;
+
+/// A plane annulus that is generated from radii and element counts, with or without a deformable shaft in it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Annulus {
+    /// Radii, element counts, and what holds the outer edge.
+    pub specification: AnnulusSpecification,
+    /// The materials of the disc and, where there is one, of its shaft.
+    pub materials: Vec<TabledMaterial>,
+}
+
+/// A body of revolution in three dimensions that is generated from radii, thickness and element counts.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Revolution {
+    /// Radii, thickness, element counts, contact, and what holds each face.
+    pub specification: Box<SolidSpecification>,
+    /// The material of each of its regions.
+    pub materials: Vec<TabledMaterial>,
+}
+
+/// The body of a case.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Body {
+    /// A plane annulus.
+    Annulus(Annulus),
+    /// A body of revolution in three dimensions.
+    Revolution(Revolution),
+    /// A plane body from a mesh file.
+    Imported(ImportedBody),
+    /// Solid bodies from a mesh file.
+    Assembly(AssemblyBody),
+}
+
+impl Body {
+    /// The plane annulus, if it is one.
+    pub fn annulus(&self) -> Option<&Annulus> {
+        if let Self::Annulus(own) = self { Some(own) } else { None }
+    }
+
+    /// The body of revolution in three dimensions, if it is one.
+    pub fn revolution(&self) -> Option<&Revolution> {
+        if let Self::Revolution(own) = self { Some(own) } else { None }
+    }
+
+    /// The body from a mesh file, if it is one.
+    pub fn imported(&self) -> Option<&ImportedBody> {
+        if let Self::Imported(own) = self { Some(own) } else { None }
+    }
+
+    /// The solid bodies from a mesh file, if it is some.
+    pub fn assembly(&self) -> Option<&AssemblyBody> {
+        if let Self::Assembly(own) = self { Some(own) } else { None }
+    }
+
+    /// Radii and element counts across the axis, of a generated body.
+    pub fn grid(&self) -> Option<&AnnulusSpecification> {
+        match self {
+            Self::Annulus(annulus) => Some(&annulus.specification),
+            Self::Revolution(revolution) => Some(&revolution.specification.annulus),
+            Self::Imported(_) | Self::Assembly(_) => None,
+        }
+    }
+
+    /// Whether the body consists of equal sectors, so that its motions have harmonics.
+    pub fn has_sectors(&self) -> bool {
+        self.grid().is_some()
+    }
+
+    /// Whether it was made of one sector of a mesh file.
+    pub fn is_of_sectors(&self) -> bool {
+        self.whole_mesh().is_some_and(|mesh| mesh.symmetry.is_some())
+    }
+
+    /// Number of equal sectors, if the body has them.
+    pub fn sector_count(&self) -> Option<usize> {
+        self.grid().map(|grid| grid.circumferential_elements)
+    }
+
+    /// Components of a displacement.
+    pub fn dimension(&self) -> usize {
+        match self {
+            Self::Revolution(_) | Self::Assembly(_) => 3,
+            Self::Annulus(_) | Self::Imported(_) => 2,
+        }
+    }
+
+    /// Nodes, in a width that no input overflows.
+    pub fn node_count(&self) -> u128 {
+        match self {
+            Self::Annulus(annulus) => node_count(&annulus.specification),
+            Self::Revolution(revolution) => solid_node_count(&revolution.specification),
+            _ => self.whole_mesh().map_or(0, |mesh| mesh.node_count() as u128),
+        }
+    }
+
+    /// Elements, in a width that no input overflows.
+    pub fn element_count(&self) -> u128 {
+        let around = |grid: &AnnulusSpecification| {
+            grid.circumferential_elements as u128 * grid.elements_per_sector() as u128
+        };
+        match self {
+            Self::Annulus(annulus) => around(&annulus.specification),
+            Self::Revolution(Revolution { specification, .. }) => {
+                around(&specification.annulus) * specification.axial_elements as u128
+            }
+            _ => self.whole_mesh().map_or(0, |mesh| mesh.element_count() as u128),
+        }
+    }
+
+    /// Contact nodes, under a ring at most those of the whole face, in a width that no input overflows.
+    pub fn contact_node_count(&self) -> u128 {
+        let around = |grid: &AnnulusSpecification| {
+            let per_element = if grid.element.is_quadratic() { 2 } else { 1 };
+            per_element * grid.circumferential_elements as u128
+        };
+        match self {
+            Self::Annulus(annulus) => around(&annulus.specification),
+            Self::Revolution(Revolution { specification, .. }) => {
+                let rings = match specification.contact {
+                    SolidContact::Inner => specification.axial_elements + 1,
+                    SolidContact::Ring { .. } => specification.annulus.radial_elements + 1,
+                };
+                rings as u128 * around(&specification.annulus)
+            }
+            Self::Imported(imported) => imported.mesh.contact_edge().nodes.len() as u128,
+            Self::Assembly(assembly) => assembly.contact_node_count() as u128,
+        }
+    }
+
+    /// Whether an element has nodes between its corners.
+    pub fn is_quadratic(&self) -> bool {
+        let kinds = self.whole_mesh().map_or(&[][..], |mesh| &mesh.element_kinds);
+        let own = self.grid().map(|grid| &grid.element);
+        own.into_iter().chain(kinds).any(|kind| kind.is_quadratic())
+    }
+
+    /// Whether the elements are those that the explicit transient of this body takes.
+    pub fn suits_transient(&self) -> bool {
+        !self.has_sectors() || !self.is_quadratic()
+    }
+
+    /// Area of the body across the axis, m2.
+    pub fn area(&self) -> f64 {
+        match (self.grid(), self.imported()) {
+            (Some(grid), _) => PI * (grid.outer_radius.powi(2) - grid.inner_radius.powi(2)),
+            (_, Some(imported)) => imported.mesh.area(),
+            _ => (2.0 * self.size()).powi(2),
+        }
+    }
+
+    /// Half the largest extent of the body across the axis, m.
+    pub fn size(&self) -> f64 {
+        let of_mesh = self.whole_mesh().map(|mesh| mesh.size());
+        self.grid().map(|grid| grid.outer_radius).or(of_mesh).unwrap_or(0.0)
+    }
+
+    /// Whether its counterface moves along a straight line.
+    pub fn slides_straight(&self) -> bool {
+        let plane = self.imported().map(|own| &own.mesh.counterface);
+        let rigid = self.assembly().and_then(AssemblyBody::rigid_counterface);
+        matches!(plane, Some(Counterface::Plane { .. }))
+            || matches!(rigid.map(|own| own.motion), Some(RigidMotion::Sliding(_)))
+    }
+
+    /// The length that curvatures of the contact are compared with, m: the radius of a cylinder that turns in the body,
+    /// else half the body's largest extent.
+    pub fn contact_length(&self) -> f64 {
+        match (self.grid(), self.imported().map(|own| &own.mesh.counterface)) {
+            (Some(grid), _) => grid.inner_radius,
+            (_, Some(Counterface::Cylinder { radius, is_inside: true, .. })) => *radius,
+            _ => self.size(),
+        }
+    }
+
+    /// The mesh of the body, of one in three dimensions that of its section across the axis.
+    ///
+    /// # Errors
+    /// [`MeshError`] of a mesh that cannot be generated.
+    pub fn mesh(&self) -> Result<Arc<Mesh>, MeshError> {
+        let generate =
+            |grid: &AnnulusSpecification| Ok(Arc::new(AnnulusMesh::generate(grid)?.mesh));
+        match self {
+            Self::Annulus(annulus) => generate(&annulus.specification),
+            Self::Revolution(revolution) => generate(&revolution.specification.plane()),
+            Self::Imported(imported) => Ok(Arc::clone(&imported.mesh)),
+            Self::Assembly(assembly) => Ok(Arc::clone(&assembly.mesh)),
+        }
+    }
+
+    /// The mesh of a body from a mesh file, which is whole.
+    pub(super) fn whole_mesh(&self) -> Option<&Arc<Mesh>> {
+        match self {
+            Self::Imported(imported) => Some(&imported.mesh),
+            Self::Assembly(assembly) => Some(&assembly.mesh),
+            Self::Annulus(_) | Self::Revolution(_) => None,
+        }
+    }
+
+    /// As [`Self::whole_mesh`], to change it.
+    pub(super) fn whole_mesh_mut(&mut self) -> Option<&mut Arc<Mesh>> {
+        match self {
+            Self::Imported(imported) => Some(&mut imported.mesh),
+            Self::Assembly(assembly) => Some(&mut assembly.mesh),
+            Self::Annulus(_) | Self::Revolution(_) => None,
+        }
+    }
+
+    /// The material of each region of the mesh.
+    pub fn materials(&self) -> &Vec<TabledMaterial> {
+        match self {
+            Self::Annulus(annulus) => &annulus.materials,
+            Self::Revolution(revolution) => &revolution.materials,
+            Self::Imported(imported) => &imported.materials,
+            Self::Assembly(assembly) => &assembly.materials,
+        }
+    }
+
+    /// The tables over frequency that moduli follow, region by region.
+    pub fn tables(&self) -> impl Iterator<Item = &ModulusTable> {
+        self.materials().iter().filter_map(|material| material.table.as_deref())
+    }
+
+    /// Whether a material or the springs of a support have structural damping.
+    pub(super) fn has_structural_damping(&self) -> bool {
+        let is_lossy = |m: &TabledMaterial| m.table.is_some() || m.own.elastic.loss_factor != 0.0;
+        self.has_lossy_supports() || self.materials().iter().any(is_lossy)
+    }
+
+    /// Whether the springs of a support have structural damping.
+    pub(super) fn has_lossy_supports(&self) -> bool {
+        let is_lossy = |own: &BoundaryCondition| match own {
+            BoundaryCondition::Support(own) => own.loss_factor != 0.0,
+            _ => false,
+        };
+        match self {
+            Self::Annulus(annulus) => {
+                let (outer, shaft) = (&annulus.specification.outer, annulus.specification.shaft);
+                is_lossy(outer) || shaft.is_some_and(|shaft| is_lossy(&shaft.bore))
+            }
+            Self::Revolution(own) => own.specification.conditions.iter().any(is_lossy),
+            Self::Imported(_) | Self::Assembly(_) => self.whole_mesh().is_some_and(|mesh| {
+                mesh.boundaries.iter().any(|boundary| is_lossy(&boundary.condition))
+            }),
+        }
+    }
+
+    /// Number of materials.
+    pub fn region_count(&self) -> usize {
+        self.materials().len()
+    }
+
+    /// Number of a node, counted from 0, as the user knows it: that of the mesh file, or counted from 1.
+    pub fn node_label(&self, node: usize) -> usize {
+        self.whole_mesh().map_or(node + 1, |mesh| mesh.node_label(node))
+    }
+}
+
+/// Nodes of a mesh, in a width that no input overflows.
+pub(super) fn node_count(annulus: &AnnulusSpecification) -> u128 {
+    let around = annulus.circumferential_elements as u128;
+    annulus.nodes_per_sector().saturating_mul(around)
+}
+
+/// Nodes of a body of revolution, in a width that no input overflows.
+pub(super) fn solid_node_count(solid: &SolidSpecification) -> u128 {
+    let annulus = &solid.annulus;
+    let (radial, layers) = (annulus.radial_elements as u128, solid.axial_elements as u128);
+    let corners = (radial + 1).saturating_mul(layers + 1);
+    let between = corners + radial * (layers + 1) + (radial + 1) * layers;
+    let per_sector = corners + if annulus.element.is_quadratic() { between } else { 0 };
+    per_sector.saturating_mul(annulus.circumferential_elements as u128)
+}

@@ -1,0 +1,120 @@
+//! `[boundaries.*]`: what holds each boundary.
+
+use super::elastic::loss_factor;
+use super::words::{ConditionWord, HeldAxis};
+use super::{Section, refuse};
+use frictionsim_physics::mesh::{BoundaryCondition, ElasticSupport};
+
+/// A boundary of the case with its condition.
+pub(super) type NamedCondition = (String, BoundaryCondition);
+
+/// `[boundaries.*]`, in the order given.
+pub(super) fn all(root: &Section<'_>) -> Vec<NamedCondition> {
+    root.each("boundaries", condition)
+}
+
+fn condition(section: &Section<'_>) -> BoundaryCondition {
+    let word: ConditionWord = section.choice("condition");
+    let support = ElasticSupport {
+        normal_stiffness: section.number("normal_stiffness"),
+        tangential_stiffness: section.number("tangential_stiffness"),
+        axial_stiffness: section.number("axial_stiffness"),
+        normal_damping: section.number("normal_damping"),
+        tangential_damping: section.number("tangential_damping"),
+        loss_factor: loss_factor(section),
+    };
+    let has_springs =
+        support.normal_stiffness + support.tangential_stiffness + support.axial_stiffness > 0.0;
+    if word == ConditionWord::Support && support.loss_factor > 0.0 && !has_springs {
+        refuse!(section, "loss_factor" => "has no effect on a support without springs";
+            "nothing is lost"; "give a stiffness, or leave loss_factor out");
+    }
+    let pressure = section.optional_number("pressure");
+    let axes: Vec<HeldAxis> = section.choices("directions");
+    // A value without effect is a mistake.
+    let reject = |key: &str, needs: &str| {
+        refuse!(section, key => "has no effect here"; "needs condition = \"{needs}\"";
+            "change the condition to \"{needs}\", or leave {key} out");
+    };
+    let springs = "normal_stiffness tangential_stiffness axial_stiffness normal_damping \
+                   tangential_damping loss_factor";
+    for (needed, needs, keys) in [
+        (ConditionWord::Support, "support", springs),
+        (ConditionWord::Fixed, "fixed", "directions"),
+        (ConditionWord::Pressure, "pressure", "pressure"),
+    ] {
+        if word != needed {
+            section.refused(keys).into_iter().for_each(|key| reject(key, needs));
+        }
+    }
+    match word {
+        ConditionWord::Clamped => BoundaryCondition::Clamped,
+        ConditionWord::Support => BoundaryCondition::Support(support),
+        ConditionWord::Guide => BoundaryCondition::Guide,
+        ConditionWord::Fixed => {
+            if axes.is_empty() {
+                section.missing("directions");
+            }
+            let has = |axis: HeldAxis| axes.contains(&axis);
+            BoundaryCondition::Fixed([has(HeldAxis::X), has(HeldAxis::Y), has(HeldAxis::Z)])
+        }
+        ConditionWord::Pressure => {
+            BoundaryCondition::Pressure(pressure.unwrap_or_else(|| section.number("pressure")))
+        }
+        ConditionWord::Free => BoundaryCondition::Free,
+    }
+}
+
+/// Support along the axis is for bodies of revolution.
+pub(super) fn no_axial_support(root: &Section<'_>, boundaries: &[NamedCondition]) {
+    let section = root.section("boundaries", false);
+    for (name, condition) in boundaries {
+        if matches!(condition, BoundaryCondition::Support(support) if support.axial_stiffness > 0.0)
+        {
+            refuse!(section, name,
+                "boundaries.{name}.axial_stiffness has no effect on a plane body";
+                "the body is plane"; "leave axial_stiffness out");
+        }
+    }
+}
+
+/// Whether a condition holds a body against the friction that turns it.
+pub(super) fn holds_tangentially(condition: &BoundaryCondition) -> bool {
+    match condition {
+        BoundaryCondition::Clamped => true,
+        BoundaryCondition::Support(support) => support.tangential_stiffness > 0.0,
+        _ => false,
+    }
+}
+
+/// The condition of the annulus's outer edge; other names are errors.
+pub(super) fn outer_edge(
+    root: &Section<'_>,
+    boundaries: &[NamedCondition],
+    has_shaft: bool,
+) -> BoundaryCondition {
+    let section = root.section("boundaries", false);
+    let mut outer = BoundaryCondition::Clamped;
+    for (name, condition) in boundaries {
+        match (name.as_str(), condition) {
+            ("inner", BoundaryCondition::Free) => {}
+            ("inner", _) => refuse!(section, name,
+                "boundaries.inner is the contact edge: it can have no condition of its own";
+                "the contact is here"; "leave the section out"),
+            ("shaft", _) => refuse!(section, name,
+                "boundaries.shaft is the contact edge of the shaft: it can have no condition of \
+                 its own"; "the contact is here";
+                "leave the section out; what holds the shaft is boundaries.bore"),
+            ("bore", _) if has_shaft => {}
+            ("outer", _) if holds_tangentially(condition) => outer = *condition,
+            ("outer", _) => refuse!(section, name,
+                "nothing holds the disc against the friction that turns it";
+                "must hold the edge tangentially";
+                "use condition = \"clamped\", or \"support\" with tangential_stiffness above 0"),
+            _ => refuse!(section, name, "the annulus has no boundary \"{name}\"";
+                "it has \"inner\" and \"outer\", and \"bore\" with geometry.shaft_inner_radius";
+                "other boundaries come from an imported mesh (mesh.file)"),
+        }
+    }
+    outer
+}

@@ -1,0 +1,293 @@
+//! `[convergence]`: the same case on several meshes and with several time steps.
+
+use super::body::node_count;
+use super::{Analysis, Body, Revolution, Section, caution, refuse};
+use frictionsim_physics::mesh::{
+    AnnulusSpecification, BodyError, Mesh, ShaftSpecification, SolidSpecification,
+};
+use std::sync::Arc;
+
+/// Fewest refinements that an order can be observed from.
+const FEWEST: usize = 3;
+
+/// Refinements of the two directions may differ by this much before the user hears of it.
+const UNEVEN: f64 = 0.02;
+
+/// `[convergence]`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Convergence {
+    /// Refinements of the element size, rising: factors on both element counts of the annulus, powers of two on an
+    /// imported mesh, whose elements are split.
+    pub factors: Vec<f64>,
+    /// Factors on the transient's time step on the case's own mesh, falling; empty for no such study.
+    pub time_step_factors: Vec<f64>,
+    /// What is studied, each once, at least one.
+    pub analyses: Vec<Analysis>,
+}
+
+impl Convergence {
+    /// The mesh of a refinement: both element counts times `factor`, rounded; a graded mesh keeps its
+    /// distribution of element sizes over the radius.
+    pub fn refined(annulus: &AnnulusSpecification, factor: f64) -> AnnulusSpecification {
+        let times = |count: usize| (count as f64 * factor).round() as usize;
+        let radial_elements = times(annulus.radial_elements);
+        // Element k of n begins at the same radius as element (factor k) of (factor n).
+        let exponent = annulus.radial_elements as f64 / radial_elements.max(1) as f64;
+        let shaft = annulus.shaft.map(|shaft| ShaftSpecification {
+            radial_elements: times(shaft.radial_elements),
+            ..shaft
+        });
+        AnnulusSpecification {
+            shaft,
+            circumferential_elements: times(annulus.circumferential_elements),
+            radial_elements,
+            radial_grading: annulus.radial_grading.powf(exponent),
+            ..*annulus
+        }
+    }
+}
+
+impl super::Case {
+    /// The case on a mesh whose elements are `factor` times as fine: a generated mesh has so many times as many
+    /// elements in every direction, an imported one is split.
+    ///
+    /// # Errors
+    /// An imported mesh that cannot be refined.
+    pub fn refined(&self, factor: f64) -> Result<Self, super::CaseErrors> {
+        let mut body = self.body.clone();
+        match &mut body {
+            Body::Annulus(annulus) => {
+                annulus.specification = Convergence::refined(&annulus.specification, factor);
+            }
+            Body::Revolution(Revolution { specification, .. }) => {
+                specification.annulus = Convergence::refined(&specification.annulus, factor);
+                specification.axial_elements =
+                    (specification.axial_elements as f64 * factor).round() as usize;
+            }
+            // A generated body on its whole mesh stays as round as it is.
+            Body::Assembly(_) if self.raw.find("mesh.file").is_none() => {
+                body = self.with_counts_times(factor)?.body;
+            }
+            Body::Assembly(assembly) => {
+                for _ in 0..factor.log2() as u32 {
+                    let finer = assembly.mesh.refined_solids();
+                    let finer = finer.map_err(|error| self.no_refinement(factor, &error))?;
+                    assembly.mesh = Arc::new(finer);
+                }
+            }
+            Body::Imported(imported) => {
+                let finer = imported.refined(factor.log2() as u32);
+                *imported = finer.map_err(|error| self.no_refinement(factor, &error))?;
+            }
+        }
+        Ok(Self { body, ..self.clone() })
+    }
+
+    /// The case of a generated body with so many times as many elements in every direction.
+    fn with_counts_times(&self, factor: f64) -> Result<Self, super::CaseErrors> {
+        let counts = ["circumferential_elements", "radial_elements", "axial_elements"];
+        let finer = counts.map(|count| {
+            let key = format!("mesh.{count}");
+            let own = self.number(&key).unwrap_or(1.0);
+            format!("{key}={:.0}", own * factor)
+        });
+        Self::read(self.raw.with_overrides(&finer)?)
+    }
+
+    fn no_refinement(&self, factor: f64, error: &BodyError) -> super::CaseErrors {
+        let (key, label) = ("convergence.factors", "makes no body".to_owned());
+        self.error_at(key, format!("{key} = {factor}: {error}"), label, None)
+    }
+}
+
+/// Refinements of an imported mesh where none are given.
+const SPLITS: [f64; 3] = [1.0, 2.0, 4.0];
+
+/// Reads the section of a case that `has` a `[cea]`, a `[transient]` and a `[cycle]`.
+pub(super) fn read(
+    section: &Section<'_>,
+    root: &Section<'_>,
+    body: Option<&Body>,
+    has: [bool; 3],
+) -> Convergence {
+    if root.has("modifications") {
+        refuse!(root, "modifications",
+            "[modifications] are places of one mesh: a finer one would have others";
+            "not beside [convergence]";
+            "leave one of the two sections out, and compare meshes by hand");
+    }
+    let factors = match section.numbers("factors") {
+        _ if body.is_some_and(|body| !body.has_sectors()) && !section.has("factors") => {
+            SPLITS.to_vec()
+        }
+        given => given.unwrap_or_default(),
+    };
+    if has_enough(section, "factors", &factors) && is_ordered(section, "factors", &factors, 1.0) {
+        let solid = body.and_then(Body::revolution).map(|own| &*own.specification);
+        match (body.and_then(Body::whole_mesh), body.and_then(Body::grid)) {
+            (Some(mesh), _) => check_splits(section, mesh, &factors),
+            (None, Some(grid)) => check_meshes(section, grid, solid, &factors),
+            (None, None) => {}
+        }
+    }
+    let steps = section.numbers("time_step_factors");
+    let time_step_factors = steps.unwrap_or_default();
+    if section.has("time_step_factors")
+        && has_enough(section, "time_step_factors", &time_step_factors)
+    {
+        is_ordered(section, "time_step_factors", &time_step_factors, -1.0);
+    }
+    let is_linear = body.is_none_or(Body::suits_transient);
+    // Cycles of a body without symmetry have no name that two meshes share.
+    let has_waves = body.is_none_or(|body| body.annulus().is_some());
+    let analyses = analyses(section, is_linear, [has[0], has[1], has[2] && has_waves]);
+    if !time_step_factors.is_empty() && !analyses.contains(&Analysis::Transient) {
+        refuse!(section, "time_step_factors", "convergence.time_step_factors needs a [transient]";
+            "there is no transient in this case";
+            "add a [transient] section of quad4 elements, or leave time_step_factors out");
+    }
+    Convergence { factors, time_step_factors, analyses }
+}
+
+/// Refuses fewer than three values.
+fn has_enough(section: &Section<'_>, key: &'static str, values: &[f64]) -> bool {
+    let is_enough = values.len() >= FEWEST;
+    if !is_enough {
+        refuse!(section, key => "has {} values; observing an order takes {FEWEST} or more",
+            values.len(); "at least {FEWEST} values");
+    }
+    is_enough
+}
+
+/// Refuses values that do not strictly rise (`sign` 1) or fall (-1).
+fn is_ordered(section: &Section<'_>, key: &'static str, values: &[f64], sign: f64) -> bool {
+    let pair = values.windows(2).find(|pair| sign * (pair[1] - pair[0]) <= 0.0);
+    if let Some(pair) = pair {
+        let (word, why) = if sign > 0.0 {
+            ("rise", "each mesh finer than the one before")
+        } else {
+            ("fall", "each step shorter than the one before")
+        };
+        refuse!(section, key, "{} must {word}, but {} follows {}", section.name(key), pair[1],
+            pair[0]; "{why}");
+    }
+    pair.is_none()
+}
+
+/// Refuses factors that no splitting of elements gives, and meshes that are too large.
+fn check_splits(section: &Section<'_>, mesh: &Mesh, factors: &[f64]) {
+    let is_power = |factor: f64| (1.0..1e6).contains(&factor) && factor.log2().fract() == 0.0;
+    if let Some(factor) = factors.iter().find(|factor| !is_power(**factor)) {
+        refuse!(section, "factors",
+            "convergence.factors holds {factor}: an imported mesh is refined by splitting each \
+             element into four, a solid one into eight";
+            "powers of two: 1, 2, 4, ..."; "leave it out for [1, 2, 4]");
+        return;
+    }
+    let finest = factors.last().copied().unwrap_or(1.0);
+    let limit = f64::from(u32::MAX / mesh.dimension as u32);
+    let nodes = mesh.node_count() as f64 * finest.powi(mesh.dimension as i32);
+    if nodes > limit {
+        refuse!(section, "factors",
+            "the mesh of convergence.factors = {finest} would have {nodes:.0} nodes, above the \
+             limit of {limit}"; "too many elements");
+    }
+}
+
+/// Refuses factors whose rounded meshes are none, too large, or not refinements of each other.
+fn check_meshes(
+    section: &Section<'_>,
+    annulus: &AnnulusSpecification,
+    solid: Option<&SolidSpecification>,
+    factors: &[f64],
+) {
+    if annulus.circumferential_elements == 0 || annulus.radial_elements == 0 {
+        return;
+    }
+    let reject = |message: String, label: &str| {
+        section.reject("factors", message, label.to_owned(), None);
+    };
+    let mut previous: Option<(f64, AnnulusSpecification)> = None;
+    for &factor in factors {
+        let mesh = Convergence::refined(annulus, factor);
+        let (around, radial) = (mesh.circumferential_elements, mesh.radial_elements);
+        let name = format!("the mesh of convergence.factors = {factor}, {around} x {radial}");
+        if around < 3 || radial < 1 {
+            return reject(
+                format!("{name}, has too few elements"),
+                "at least 3 around and 1 along the radius",
+            );
+        }
+        let (nodes, limit) = (node_count(&mesh), u128::from(u32::MAX / 2));
+        if nodes > limit {
+            return reject(
+                format!("{name}, would have {nodes} nodes, above the limit of {limit}"),
+                "too many elements",
+            );
+        }
+        if let Some((other, coarser)) = &previous
+            && (around <= coarser.circumferential_elements || radial <= coarser.radial_elements)
+        {
+            return reject(
+                format!(
+                    "{name}, does not refine that of {other}, {} x {}, in both directions",
+                    coarser.circumferential_elements, coarser.radial_elements
+                ),
+                "factors further apart, or a finer mesh to start from",
+            );
+        }
+        let [a, r] = [
+            around as f64 / annulus.circumferential_elements as f64,
+            radial as f64 / annulus.radial_elements as f64,
+        ];
+        if (a / r - 1.0).abs() > UNEVEN {
+            caution!(section, "factors",
+                "{name}, refines by {a:.3} around and {r:.3} along the radius after rounding: the \
+                 observed order suffers from that"; "uneven after rounding");
+        }
+        let layers = solid.map_or(1, |solid| solid.axial_elements) as f64;
+        let z = (layers * factor).round() / layers;
+        if solid.is_some() && (z / a - 1.0).abs() > UNEVEN {
+            caution!(section, "factors",
+                "{name}, refines by {a:.3} around and {z:.3} over the thickness after rounding: \
+                 the observed order suffers from that"; "uneven after rounding");
+        }
+        previous = Some((factor, mesh));
+    }
+}
+
+/// What is studied: what the section names, else what the case has sections for and its elements can run.
+fn analyses(
+    section: &Section<'_>,
+    is_linear: bool,
+    [has_cea, has_transient, has_cycle]: [bool; 3],
+) -> Vec<Analysis> {
+    let all = [Analysis::Cea, Analysis::Transient, Analysis::Cycle, Analysis::Basin];
+    let named = section.choices("analyses");
+    let is_there = |analysis: Analysis| match analysis {
+        Analysis::Cea => has_cea,
+        Analysis::Transient => has_transient && is_linear,
+        Analysis::Cycle => has_cycle && is_linear,
+        // A boundary is no number that a mesh converges to within one step of its search.
+        Analysis::Basin => false,
+    };
+    if named.is_empty() {
+        let all: Vec<Analysis> = all.into_iter().filter(|own| is_there(*own)).collect();
+        if all.is_empty() && !section.has("analyses") {
+            refuse!(section, "analyses",
+                "[convergence] has nothing to study: the case has neither [cea] nor a [transient] \
+                 or a [cycle] that its elements can run";
+                "no analysis in the case"; "add\n[cea]\nmax_frequency_hz = 17500.0");
+        }
+        return all;
+    }
+    for analysis in all {
+        if named.contains(&analysis) && !is_there(analysis) {
+            refuse!(section, "analyses",
+                "convergence.analyses names \"{}\", which this case cannot run", analysis.word();
+                "an analysis needs its own section; a transient also needs quad4 elements, a cycle \
+                 quad4 elements and the built-in annulus");
+        }
+    }
+    all.into_iter().filter(|analysis| named.contains(analysis)).collect()
+}

@@ -1,0 +1,340 @@
+//! Operation counts and memory behind the cost of each analysis.
+
+use super::size::Size;
+use super::{CeaCost, CycleCost, FrfCost, RunCost, TransientCost};
+use crate::{
+    AssemblyBody, Body, Case, Cea, CeaMethod, Cycle, Frf, FrfMethod, ModeSelection, Revolution,
+    StabilityChoice, TimeStep, Transient,
+};
+use frictionsim_physics::cycle::BasinRequest;
+use frictionsim_physics::fem::ElasticMaterial;
+use frictionsim_physics::frf::FrfBoundary;
+use frictionsim_physics::linalg::{LdlAnalysis, SparsityPattern};
+use frictionsim_physics::mesh::{Mesh, SolidSpecification};
+use frictionsim_physics::transient::{OperatorChoice, stable_step_limit};
+use std::f64::consts::TAU;
+use std::sync::Arc;
+
+/// Operations for each eigenvalue of a harmonic: iterations, residual, its branch over friction.
+const HARMONIC_PAIR: f64 = 5e5;
+
+/// Operations for each unknown and mode of a whole mesh: for the basis, and for each friction value in it.
+const WHOLE_MESH: [f64; 2] = [8e3, 1e3];
+
+/// Memory of each harmonic of a body of revolution, bytes for each entry of its band.
+const SOLID_BYTES: f64 = 600.0;
+
+/// Memory of a whole plane mesh, bytes: at all, and for each unknown and vector of its basis.
+const SPARSE_BYTES: [f64; 2] = [1e8, 100.0];
+
+/// Memory of solid bodies, measured from 1e3 to 1.2e5 unknowns: bytes for each entry of the factors, which are complex
+/// and general at times, and for each unknown and mode.
+const FACTOR_BYTES: [f64; 2] = [70.0, 1000.0];
+/// Operations at each friction value for `e` entries of their factors, for each of `e^(3/2)`.
+const FACTORS: f64 = 0.2;
+
+/// Phases of a limit cycle where the mesh decides.
+const LIKELY_PHASES: usize = 169;
+
+/// Modes that grow where nobody knows yet.
+const LIKELY_GROWING: usize = 2;
+
+/// Periods that the search for a periodic motion and its multipliers take.
+const PERIODS: [f64; 2] = [80.0, 60.0];
+
+/// Steps of such a period.
+const PERIOD_STEPS: f64 = 800.0;
+
+/// Memory of the program itself, bytes, and of each unknown of a whole mesh that is stepped in time.
+const PROGRAM_BYTES: f64 = 2.5e7;
+const STEPPED_BYTES: f64 = 4e3;
+
+/// Operations of a step for each unknown: of a plane body of equal sectors, and of any other.
+const STEP: [f64; 2] = [1.0, 13.0];
+
+/// Steps of the transients that find the boundary of two basins, for each period of one: some eight.
+const BASIN_STEPS: f64 = 8.0 * PERIOD_STEPS;
+
+impl Case {
+    pub(super) fn samples(&self) -> f64 {
+        let duration = self.transient.as_ref().map_or(0.0, |run| run.duration);
+        duration / self.output.sample_interval
+    }
+
+    /// Energies and harmonics, and the motion of each probe, of all samples.
+    pub(super) fn sample_bytes(&self) -> f64 {
+        self.samples() * (400.0 + 48.0 * self.output.probes.len() as f64)
+    }
+
+    /// Status and two stresses of each contact node in all frames.
+    pub(super) fn frame_bytes(&self) -> f64 {
+        let duration = self.transient.as_ref().map_or(0.0, |run| run.duration);
+        let frames = match self.output.contact_interval {
+            Some(interval) => duration / interval,
+            None => self.samples().min(10_000.0),
+        };
+        // A status, and a normal stress and those along the contact in single precision.
+        let each = 4.0 * self.body.dimension() as f64 + 1.0;
+        frames * (100.0 + each * self.body.contact_node_count() as f64)
+    }
+
+    /// Displacements and velocities of all nodes at each snapshot.
+    pub(super) fn snapshot_bytes(&self) -> f64 {
+        let bytes = 16.0 * self.body.dimension() as f64 * self.body.node_count() as f64;
+        bytes * self.output.snapshots.len() as f64
+    }
+
+    pub(super) fn cea_cost(&self, cea: &Cea, size: &Size) -> CeaCost {
+        let friction_values = cea.solved_friction_coefficients().len();
+        let modes = match cea.modes {
+            ModeSelection::Lowest(modes) => modes,
+            ModeSelection::BelowHz(limit) => self.modes_below(limit, size),
+        };
+        let pairs = friction_values as f64 * modes as f64;
+        let shapes = (modes * cea.shapes_at.len()) as f64;
+        let unknowns = self.unknowns(size);
+        let (memory_bytes, operations) = match (&self.body, cea.method) {
+            (Body::Revolution(Revolution { specification, .. }), _) => {
+                let sectors = specification.annulus.circumferential_elements.max(1);
+                let (unknowns, band) =
+                    (unknowns / sectors as f64, solid_half_bandwidth(specification));
+                let waves = (modes as f64 / 4.0).max(3.0);
+                let factorization = 5.0 * unknowns * band * band;
+                (SOLID_BYTES * waves * unknowns * band, pairs * (HARMONIC_PAIR + factorization))
+            }
+            (Body::Annulus(annulus), CeaMethod::Auto | CeaMethod::Cyclic) => {
+                let sectors = annulus.specification.circumferential_elements.max(1);
+                let sector = unknowns / sectors as f64;
+                let bytes = 100.0 * sector * sector.min(200.0) + 16.0 * shapes * unknowns;
+                (bytes + pairs * (16.0 * sector + 600.0), pairs * HARMONIC_PAIR)
+            }
+            _ => {
+                let (vectors, values) = (unknowns * modes as f64, friction_values as f64);
+                let (bytes, factors) = match &self.body {
+                    Body::Assembly(own) => {
+                        let entries = factor_entries(&own.mesh, unknowns);
+                        let bytes = FACTOR_BYTES[0] * entries + FACTOR_BYTES[1] * vectors;
+                        (bytes, FACTORS * values * entries.powf(1.5))
+                    }
+                    _ => {
+                        let bytes = SPARSE_BYTES[1] * (2.0 * vectors + 40.0 * unknowns);
+                        (SPARSE_BYTES[0] + bytes, 0.0)
+                    }
+                };
+                (bytes, factors + vectors * (WHOLE_MESH[0] + WHOLE_MESH[1] * values))
+            }
+        };
+        let run = RunCost { memory_bytes: PROGRAM_BYTES + memory_bytes, operations };
+        CeaCost { friction_values, modes, run }
+    }
+
+    fn unknowns(&self, size: &Size) -> f64 {
+        self.body.dimension() as f64 * size.nodes as f64
+    }
+
+    pub(super) fn cycle_cost(&self, cycle: &Cycle, size: &Size) -> CycleCost {
+        if !self.has_rotating_waves() {
+            return self.periodic_cost(cycle, size);
+        }
+        let phases = cycle.phases.unwrap_or(LIKELY_PHASES) as f64;
+        let families = cycle.harmonics.as_ref().map_or(2, Vec::len);
+        let followed = cycle.continuation.as_ref().map_or(0, |range| range.count);
+        let stable = stable_cycles(cycle.stability, followed);
+        // Dense factorizations: of the search from birth, and of the exponents.
+        let dense = phases.powi(3) * (50.0 + followed as f64 + 80.0 * stable as f64);
+        let confirmation = cycle.confirmation_periods as f64 * PERIOD_STEPS;
+        let count = families as f64;
+        let run = RunCost {
+            // A few dense matrices of two unknowns for each phase, and of four for the perturbations.
+            memory_bytes: PROGRAM_BYTES + count * 8.0 * 40.0 * phases * phases,
+            operations: count * (dense + STEP[0] * self.unknowns(size) * confirmation),
+        };
+        CycleCost { families, cycles: 1 + followed, run }
+    }
+
+    /// Periodic motions of the whole mesh, each from the periods that it takes.
+    fn periodic_cost(&self, cycle: &Cycle, size: &Size) -> CycleCost {
+        let followed = cycle.continuation.as_ref().map_or(0, |range| range.count);
+        let families = LIKELY_GROWING;
+        let [search, multipliers] = PERIODS;
+        let analysed = stable_cycles(cycle.stability, followed);
+        let periods = search * (1 + followed) as f64
+            + multipliers * analysed as f64
+            + cycle.confirmation_periods as f64;
+        let unknowns = self.unknowns(size);
+        let count = families as f64;
+        let run = RunCost {
+            // Secants with their images and their basis, twice as long as there are unknowns, and the Krylov space.
+            memory_bytes: PROGRAM_BYTES + count * 8.0 * 2.0 * unknowns * 250.0,
+            operations: count * periods * PERIOD_STEPS * STEP[1] * unknowns,
+        };
+        CycleCost { families, cycles: 1 + followed, run }
+    }
+
+    pub(super) fn basin_cost(&self, basin: &BasinRequest, size: &Size) -> RunCost {
+        let steps = BASIN_STEPS * basin.periods as f64;
+        // A few fields, less than the mesh.
+        RunCost { memory_bytes: 0.0, operations: STEP[0] * self.unknowns(size) * steps }
+    }
+
+    pub(super) fn frf_cost(&self, frf: &Frf, size: &Size) -> FrfCost {
+        let dofs = self.unknowns(size);
+        let lines = frf.frequencies_hz.len();
+        if let Body::Revolution(Revolution { specification, .. }) = &self.body {
+            return solid_frf_cost(frf, specification, dofs);
+        }
+        let sectors = self.body.sector_count();
+        let sectors = sectors.filter(|_| self.responds_by_harmonics(frf));
+        // Entries of the factor of a plane mesh under a minimum-degree ordering, 12 bytes each, as measured.
+        let fill = 9.0 * dofs * dofs.max(2.0).log2();
+        let (bytes, each) = match (frf.method, sectors, self.body.assembly()) {
+            // One block band of a sector for each harmonic.
+            (FrfMethod::Auto | FrfMethod::Cyclic, Some(sectors), _) => {
+                (100.0 * dofs / sectors.max(1) as f64, 20.0 * dofs)
+            }
+            (FrfMethod::Reduced, ..) => (24.0 * fill, 1e4),
+            // In three dimensions eight lines share one factor.
+            (_, _, Some(own)) => {
+                let entries = factor_entries(&own.mesh, dofs);
+                (FACTOR_BYTES[0] * entries, FACTORS / 8.0 * entries.powf(1.5))
+            }
+            // A complex factorization takes some operations for each entry and its rows.
+            (FrfMethod::Auto | FrfMethod::Cyclic | FrfMethod::Direct, ..) => {
+                (24.0 * fill, 35.0 * fill)
+            }
+        };
+        frf_cost_of(lines, bytes, each)
+    }
+
+    /// Weyl's estimate of the number of modes below a frequency, see [`weyl`].
+    fn modes_below(&self, limit_hz: f64, size: &Size) -> usize {
+        let omega = TAU * limit_hz;
+        let count = match &self.body {
+            Body::Assembly(assembly) => solid_modes(assembly, omega),
+            Body::Annulus(_) | Body::Imported(_) | Body::Revolution(_) => {
+                let solid = self.body.revolution();
+                let thickness = solid.map(|body| body.specification.thickness);
+                weyl(&self.material, omega, self.body.area(), thickness)
+            }
+        };
+        let most = usize::try_from(2 * size.nodes).unwrap_or(usize::MAX);
+        (count as usize).clamp(1, most.max(1))
+    }
+
+    pub(super) fn transient_cost(&self, transient: &Transient, size: &Size) -> TransientCost {
+        let stable_step = stable_step_limit(size.highest_frequency, &self.damping.rayleigh);
+        let time_step = match transient.time_step {
+            TimeStep::Seconds(step) => step,
+            TimeStep::Auto => stable_step,
+        };
+        let steps = (transient.duration / time_step).ceil();
+        let is_sparse = transient.operator == OperatorChoice::Sparse;
+        let unknowns = self.unknowns(size);
+        let (each, operator_bytes) = match &self.body {
+            Body::Revolution(_) => (STEP[1], 0.0),
+            Body::Annulus(_) if !is_sparse => (STEP[0], 0.0),
+            _ => (STEP[1], STEPPED_BYTES * unknowns),
+        };
+        let run = RunCost {
+            // Ten nodal vectors and the record, which a checkpoint holds once more.
+            memory_bytes: PROGRAM_BYTES
+                + 160.0 * size.nodes as f64
+                + operator_bytes
+                + self.snapshot_bytes()
+                + 2.0 * (self.sample_bytes() + self.frame_bytes()),
+            operations: each * unknowns * steps,
+        };
+        TransientCost { time_step, stable_step, steps, run }
+    }
+}
+
+/// How many cycles' stability is worked out, of one and those that follow it along a branch.
+fn stable_cycles(choice: StabilityChoice, followed: usize) -> usize {
+    match choice {
+        StabilityChoice::None => 0,
+        StabilityChoice::Point => 1,
+        StabilityChoice::Branch => 1 + followed,
+    }
+}
+
+/// Memory of the program with some more bytes, and so many operations for each line.
+fn frf_cost_of(lines: usize, bytes: f64, each: f64) -> FrfCost {
+    let memory_bytes = PROGRAM_BYTES + bytes + 64.0 * lines as f64;
+    FrfCost { lines, run: RunCost { memory_bytes, operations: each * lines as f64 } }
+}
+
+/// One band of three unknowns at each node of a sheet for each harmonic, complex, eliminated for each line; with
+/// friction the waves with and against the rotor differ.
+fn solid_frf_cost(frf: &Frf, solid: &SolidSpecification, dofs: f64) -> FrfCost {
+    let sectors = solid.annulus.circumferential_elements.max(1) as f64;
+    let unknowns = dofs / sectors;
+    let half_bandwidth = solid_half_bandwidth(solid);
+    let waves = match frf.boundary {
+        FrfBoundary::Sliding => sectors,
+        FrfBoundary::Free | FrfBoundary::Clamped => 0.5 * sectors + 1.0,
+    };
+    let entries = unknowns * (2.0 * half_bandwidth + 1.0);
+    // Sixteen harmonics of three bands or 2^21 entries of each, and eight lines at a time.
+    let held = (16.0 * entries).min(entries.max(f64::from(1 << 21)));
+    let each = waves * unknowns * half_bandwidth.powi(2);
+    frf_cost_of(frf.frequencies_hz.len(), 48.0 * held + 256.0 * entries, each)
+}
+
+/// Weyl's estimate of the number of modes below an angular frequency: of motions in the plane
+/// `A omega^2 / 4 pi (1 / c_p^2 + 1 / c_s^2)`, and of the bending of a plate, `A omega / 4 pi sqrt(rho h / D)` with
+/// `D = E h^3 / 12 (1 - nu^2)`.
+fn weyl(material: &ElasticMaterial, omega: f64, area: f64, thickness: Option<f64>) -> f64 {
+    let [lambda, shear] = material.lame_constants();
+    let (density, ratio) = (material.density, material.poisson_ratio);
+    let slowness = density / (lambda + 2.0 * shear) + density / shear;
+    let area = area / (2.0 * TAU);
+    let bending = thickness.map_or(0.0, |thickness| {
+        let stiffness = material.young_modulus * thickness.powi(3);
+        let stiffness = stiffness / (12.0 * (1.0 - ratio * ratio));
+        area * omega * (density * thickness / stiffness).sqrt()
+    });
+    area * omega * omega * slowness + bending
+}
+
+/// The same of solid bodies: each region as a plate of half its surface that has its volume, and with
+/// `V omega^3 / 6 pi^2 (1 / c_p^3 + 2 / c_s^3)` as a piece of space.
+fn solid_modes(assembly: &AssemblyBody, omega: f64) -> f64 {
+    let mesh = &assembly.mesh;
+    let mut surfaces = vec![Vec::new(); mesh.regions.len()];
+    for face in mesh.outer_faces() {
+        surfaces[mesh.region(face.element as usize)].push(face);
+    }
+    let volumes = mesh.region_measures();
+    let regions = volumes.iter().zip(&surfaces).zip(&assembly.materials);
+    let each = regions.map(|((volume, faces), material)| {
+        let material = &material.own.elastic;
+        // A region within others has no surface of its own.
+        let area = (0.5 * mesh.face_area(faces)).max(volume.powf(2.0 / 3.0));
+        let [lambda, shear] = material.lame_constants();
+        let [pressure, shear] =
+            [lambda + 2.0 * shear, shear].map(|m| (material.density / m).sqrt());
+        let slowness = pressure.powi(3) + 2.0 * shear.powi(3);
+        let inside = volume * omega.powi(3) * slowness / (1.5 * TAU * TAU);
+        inside + weyl(material, omega, area, Some(volume / area))
+    });
+    each.sum()
+}
+
+/// Entries of the factors of solid bodies: the unknowns at a node are coupled to those of the nodes of its elements.
+/// With other numbers of `unknowns` they grow as `n^(4/3)`.
+fn factor_entries(mesh: &Mesh, unknowns: f64) -> f64 {
+    let pairs = (0..mesh.element_count()).flat_map(|element| {
+        let nodes = mesh.element_nodes(element);
+        nodes.iter().flat_map(|&i| nodes.iter().map(move |&j| (i as usize, j as usize)))
+    });
+    let pattern = Arc::new(SparsityPattern::from_positions(mesh.nodes.len(), pairs));
+    let own = LdlAnalysis::new(&pattern).map_or(f64::INFINITY, |own| own.entry_count() as f64);
+    9.0 * own * (unknowns / mesh.dof_count() as f64).powf(4.0 / 3.0)
+}
+
+/// Half the bandwidth of a harmonic of a body of revolution: neighbours in the numbering of a sheet, along its shorter
+/// side, with 20 nodes in four rows.
+fn solid_half_bandwidth(solid: &SolidSpecification) -> f64 {
+    let short = solid.annulus.radial_elements.min(solid.axial_elements) as f64;
+    3.0 * if solid.annulus.element.is_quadratic() { 4.0 * short + 5.0 } else { short + 3.0 }
+}

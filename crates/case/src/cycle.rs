@@ -1,0 +1,223 @@
+//! `[cycle]`: limit cycles found directly; `[basin]`: which of two motions wins.
+
+use super::{
+    Body, Case, CaseErrors, OnsetChoice, Section, Spacing, StabilityChoice, keys, range_values,
+    refusal, refuse,
+};
+use frictionsim_physics::cycle::{BasinRequest, Parameter};
+
+/// Shortest transient that puts a cycle to the test: its last fifth has the four periods that a frequency is read from,
+/// and a wave that is no motion of the disc is gone by then.
+const CONFIRMATION_PERIODS: usize = 20;
+
+/// `[cycle]`: limit cycles.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Cycle {
+    /// Circumferential harmonics; `None` takes those that are unstable.
+    pub harmonics: Option<Vec<usize>>,
+    /// Onsets of each harmonic.
+    pub onsets: OnsetChoice,
+    /// Phases along the wave; `None` takes as many as the mesh asks for.
+    pub phases: Option<usize>,
+    /// Harmonics in which the motion of a body without symmetry is told; `None` takes as many as leave a thousandth of
+    /// it.
+    pub harmonic_count: Option<usize>,
+    /// Times over one period at which the whole field is written.
+    pub frames: usize,
+    /// Periods of the transient that puts a cycle to the test; 0 for none.
+    pub confirmation_periods: usize,
+    /// What stability is worked out for.
+    pub stability: StabilityChoice,
+    /// Whether the motion of two frequencies is sought where a rotating wave loses its stability to another.
+    pub two_frequencies: bool,
+    /// Continuation over a parameter.
+    pub continuation: Option<Continuation>,
+}
+
+/// `[cycle.continuation]`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Continuation {
+    /// Dotted case key.
+    pub key: String,
+    /// Its first value.
+    pub from: f64,
+    /// Its last value.
+    pub to: f64,
+    /// Values between them, ends included, at which cycles are reported.
+    pub count: usize,
+    /// How those values are spaced.
+    pub spacing: Spacing,
+}
+
+impl Continuation {
+    /// The values, from first to last.
+    pub fn values(&self) -> Vec<f64> {
+        range_values(self.from, self.to, self.count, self.spacing)
+    }
+}
+
+impl Case {
+    /// The search for limit cycles.
+    ///
+    /// # Errors
+    /// A case without `[cycle]`, a body that the transient cannot step, a counterface at rest, and of rotating waves a
+    /// cylinder that turns backwards.
+    pub fn require_cycle(&self) -> Result<&Cycle, CaseErrors> {
+        self.refuse_losses_in_time("the search for limit cycles")?;
+        self.refuse_what_has_no_cycle()?;
+        // What no section would help against comes first.
+        let has_waves = self.has_rotating_waves();
+        let remedy = match has_waves {
+            true => "[cycle]\nharmonics = [1, 2]",
+            false => "[cycle]\nonsets = \"all\"",
+        };
+        let cycle = self.required(&self.cycle, "cycle", "limit cycle", remedy)?;
+        let speed = self.contact.sliding.rotation_speed;
+        let is_moving = if has_waves { speed > 0.0 } else { speed != 0.0 };
+        if is_moving {
+            return Ok(cycle);
+        }
+        let key = self.speed_key();
+        let value = self.raw.find(&key).map(|item| item.value.to_string());
+        let value = value.unwrap_or_default();
+        Err(match self.has_rotating_waves() {
+            true => {
+                refusal!(self, &key, "{key} = {value}: limit cycles need a cylinder that turns";
+                "must be positive here"; "a cylinder turning backwards gives the mirror image")
+            }
+            false => refusal!(self, &key,
+                "{key} = {value}: the contact sticks at rest, and no limit cycle lives there";
+                "must not be zero here"; "give a speed; its sign is the sense of the sliding"),
+        })
+    }
+
+    /// Refuses a body whose limit cycles cannot be motions of the transient.
+    pub(super) fn refuse_what_has_no_cycle(&self) -> Result<(), CaseErrors> {
+        self.require_steps(
+            "limit cycles need \"quad4\"",
+            "limit cycles need bricks of 8 nodes, \"quad4\": they are motions of the transient, \
+             which lumps the mass",
+        )
+    }
+
+    /// Whether the limit cycles of the body are rotating waves: on the generated annulus around a rigid shaft, with a
+    /// constant friction coefficient, in contact that does not stiffen with pressure. Those of any other plane body are
+    /// motions of the whole mesh.
+    pub fn has_rotating_waves(&self) -> bool {
+        let annulus = self.body.annulus();
+        annulus.is_some_and(|annulus| annulus.specification.shaft.is_none())
+            && self.contact.sliding.decay.is_none()
+            && self.contact.stiffness.law.is_none()
+    }
+
+    /// That its limit cycles are rotating waves.
+    ///
+    /// # Errors
+    /// A deformable shaft, friction that falls with speed, a body that is no generated annulus.
+    pub fn require_rotating_waves(&self) -> Result<(), CaseErrors> {
+        self.require_rigid_shaft("the search for rotating waves")?;
+        let (waves, search) =
+            ("limit cycles are rotating waves, which", "rotating waves are sought in");
+        self.require_annulus(waves, search)?;
+        self.require_constant_friction()
+    }
+}
+
+pub(super) fn cycle(section: &Section<'_>, body: Option<&Body>) -> Cycle {
+    let harmonics = section.harmonics(body.and_then(Body::sector_count));
+    let onsets = section.choice("onsets");
+    let phases = section.optional_count("phases");
+    let harmonic_count = section.optional_count("harmonic_count");
+    let frames = section.count("frames");
+    let confirmation_periods = section.count("confirmation_periods");
+    if let periods @ 1..CONFIRMATION_PERIODS = confirmation_periods {
+        refuse!(section, "confirmation_periods",
+            "cycle.confirmation_periods = {periods} is too short to read a frequency from its last \
+             fifth"; "0 for none, or {CONFIRMATION_PERIODS} and more");
+    }
+    let stability = section.choice("stability");
+    let two_frequencies = section.flag("two_frequencies");
+    if two_frequencies && stability == StabilityChoice::None {
+        refuse!(section, "two_frequencies",
+            "cycle.two_frequencies needs to know which cycles lose their stability";
+            "needs cycle.stability"; "cycle.stability = \"point\" or \"branch\"");
+    }
+    let continuation = section.read_section("continuation", continuation);
+    if stability == StabilityChoice::Branch && continuation.is_none() {
+        refuse!(section, "stability", "cycle.stability = \"branch\" needs [cycle.continuation]";
+            "needs [cycle.continuation]"; "add that table, or use \"point\"");
+    }
+    Cycle {
+        harmonics,
+        onsets,
+        phases,
+        harmonic_count,
+        frames,
+        confirmation_periods,
+        stability,
+        two_frequencies,
+        continuation,
+    }
+}
+
+fn continuation(section: &Section<'_>) -> Continuation {
+    let continuation = Continuation {
+        key: section.parameter("key"),
+        from: section.number("from"),
+        to: section.number("to"),
+        count: section.count("count"),
+        spacing: section.choice("spacing"),
+    };
+    let Continuation { key, from, to, spacing, .. } = &continuation;
+    let is_numeric = keys::find(key).is_some_and(|known| known.is_numeric());
+    if is_numeric && Parameter::from_key(key).is_none() {
+        let known = Parameter::ALL.map(Parameter::key);
+        refuse!(section, "key", "limit cycles cannot be followed over {key}";
+            "not one of the parameters of a cycle"; "one of {}", known.join(", "));
+    }
+    if from.min(*to) < 0.0 {
+        refuse!(section, if *from < 0.0 { "from" } else { "to" },
+            "{key} cannot be negative along a branch"; "must not be negative");
+    } else if *spacing == Spacing::Logarithmic && (*from == 0.0 || *to == 0.0) {
+        refuse!(section, "spacing",
+            "cycle.continuation.spacing = \"log\" needs two positive ends, not {from} and {to}";
+            "both ends must be positive"; "use \"linear\"");
+    }
+    if from == to {
+        refuse!(section, "to", "cycle.continuation.to = {to} equals from";
+            "must differ from `from`");
+    }
+    continuation
+}
+
+pub(super) fn basin(section: &Section<'_>, body: Option<&Body>) -> BasinRequest {
+    let pair = section.harmonics(body.and_then(Body::sector_count)).unwrap_or_default();
+    let modes = section.counts("modes");
+    let modes: Option<Vec<usize>> =
+        modes.map(|values| values.into_iter().map(|(mode, _)| mode).collect());
+    if let Some(modes) = &modes
+        && !(1..=2).contains(&modes.len())
+    {
+        refuse!(section, "modes",
+            "basin.modes must name two different modes, or one that competes with steady sliding";
+            "one or two of them");
+    }
+    let request = BasinRequest {
+        modes,
+        harmonics: [pair.first(), pair.last()].map(|n| n.copied().unwrap_or(1)),
+        seed_ratios: [section.number("seed_ratio_from"), section.number("seed_ratio_to")],
+        tolerance: section.number("tolerance"),
+        periods: section.count("periods"),
+    };
+    if pair.len() != 2 || pair[0] == pair[1] {
+        refuse!(section, "harmonics", "basin.harmonics must name two different harmonics";
+            "{} of them, two are compared", pair.len());
+    }
+    let [from, to] = request.seed_ratios;
+    if from >= to {
+        refuse!(section, "seed_ratio_from",
+            "basin.seed_ratio_from = {from:?} is not below basin.seed_ratio_to = {to:?}";
+            "below {to:?}");
+    }
+    request
+}

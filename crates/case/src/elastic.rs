@@ -1,0 +1,228 @@
+//! Elastic constants of a material, isotropic or orthotropic, and where its axes lie.
+
+use super::words::AxesWord;
+use super::{Section, refuse};
+use frictionsim_physics::fem::{
+    ElasticMaterial, MaterialAxes, ModulusTable, Orthotropy, PlaneFormulation, RATIOS,
+};
+
+/// The constants of an isotropic material.
+const ISOTROPIC: [&str; 2] = ["young_modulus", "poisson_ratio"];
+/// The constants of an orthotropic one.
+const ORTHOTROPIC: [&str; 3] = ["young_moduli", "poisson_ratios", "shear_moduli"];
+
+/// About what the body is built, which decides where the axes of a material can lie.
+pub(super) enum Surroundings {
+    /// Equal sectors about z through the origin; in the plane or not.
+    Sectors { is_plane: bool },
+    /// A plane body, and the axis of its counterface.
+    Plane { center: Option<[f64; 2]> },
+    /// Solid bodies, and the axis of their motion; else why there is none.
+    Solids { axis: Result<[[f64; 3]; 2], &'static str> },
+}
+
+/// The loss factor of a section, at most 1.
+pub(super) fn loss_factor(section: &Section<'_>) -> f64 {
+    let loss_factor = section.number("loss_factor");
+    if loss_factor > 1.0 {
+        refuse!(section, "loss_factor" =>
+            "= {loss_factor} is beyond any material's: at 1 half of the strain energy is lost in a \
+             sixth of a cycle"; "at most 1";
+            "steel has about 0.001, cast iron 0.002, a lining 0.01 to 0.1, rubber 0.1 to 1");
+    }
+    loss_factor
+}
+
+/// Elasticity and density of `[material]` or of a section of `[materials.*]`. Cylindrical axes are about z until
+/// [`place_axes`] knows the body. A table over frequency gives modulus and loss factor.
+pub(super) fn elastic(
+    section: &Section<'_>,
+    formulation: PlaneFormulation,
+    table: Option<&ModulusTable>,
+) -> ElasticMaterial {
+    let density = section.number("density");
+    let loss_factor = loss_factor(section);
+    let plain = ElasticMaterial { density, loss_factor, formulation, ..ElasticMaterial::PLAIN };
+    if section.has("table") {
+        // What is wrong with its file is said already.
+        let harmless = ModulusTable::new("", "", vec![[0.0, 1.0, 0.0]]);
+        return tabled(section, plain, table.unwrap_or(&harmless));
+    }
+    if ORTHOTROPIC.iter().any(|key| section.has(key)) {
+        for key in ISOTROPIC {
+            let _ = section.optional_number(key);
+            if section.has(key) {
+                refuse!(section, key => "beside the keys of an orthotropic material";
+                    "isotropic or orthotropic";
+                    "leave out the constants of the one or of the other");
+            }
+        }
+        let orthotropy = orthotropy(section);
+        let [young_modulus, poisson_ratio] = orthotropy.mean_constants();
+        return ElasticMaterial {
+            young_modulus,
+            poisson_ratio,
+            orthotropy: Some(orthotropy),
+            ..plain
+        };
+    }
+    // Known keys of the section, though none is given.
+    let _ = ORTHOTROPIC.map(|key| section.numbers(key));
+    if axes(section) != MaterialAxes::global() {
+        refuse!(section, "axes" => "is for an orthotropic material";
+            "an isotropic material has no axes";
+            "give young_moduli, poisson_ratios and shear_moduli, or leave it out");
+    }
+    let [young_modulus, poisson_ratio] = ISOTROPIC.map(|key| section.number(key));
+    ElasticMaterial { young_modulus, poisson_ratio, ..plain }
+}
+
+/// An isotropic material with the modulus of the lowest frequency of its table, which gives the loss factor too.
+fn tabled(section: &Section<'_>, plain: ElasticMaterial, table: &ModulusTable) -> ElasticMaterial {
+    let _ = ORTHOTROPIC.map(|key| section.numbers(key));
+    let _ = (axes(section), section.optional_number("young_modulus"));
+    let excluded = ["young_modulus", "loss_factor", "axes"];
+    for key in excluded.iter().chain(&ORTHOTROPIC).filter(|key| section.has(key)) {
+        refuse!(section, key => "beside {}", section.name("table");
+            "the table gives modulus and loss factor";
+            "leave out the one or the other; poisson_ratio and density stand beside a table");
+    }
+    section.needs("poisson_ratio");
+    ElasticMaterial {
+        young_modulus: table.static_modulus(),
+        poisson_ratio: section.optional_number("poisson_ratio").unwrap_or(0.0),
+        loss_factor: 0.0,
+        ..plain
+    }
+}
+
+/// The nine constants, which must give every strain a positive energy, and the axes.
+fn orthotropy(section: &Section<'_>) -> Orthotropy {
+    let triple = |key: &str| -> Option<[f64; 3]> {
+        section.needs(key);
+        let values = section.numbers(key)?;
+        let given = section.list_length(key).unwrap_or(1);
+        if given != 3 {
+            refuse!(section, key => "has {given} of three numbers"; "one for each of three axes");
+        }
+        values.try_into().ok()
+    };
+    let moduli = triple("young_moduli");
+    let ratios = triple("poisson_ratios");
+    let shears = triple("shear_moduli");
+    let harmless = [1.0; 3];
+    let orthotropy = Orthotropy {
+        young_moduli: moduli.unwrap_or(harmless),
+        poisson_ratios: ratios.unwrap_or([0.0; 3]),
+        shear_moduli: shears.unwrap_or(harmless),
+        axes: axes(section),
+    };
+    if moduli.is_none() || ratios.is_none() || shears.is_none() {
+        return orthotropy;
+    }
+    if let Err(broken) = orthotropy.check() {
+        let (name, [low, high]) = (RATIOS[broken.which], broken.bounds);
+        let value = orthotropy.poisson_ratios[broken.which];
+        refuse!(section, "poisson_ratios",
+            "{}: {name} = {value} would give some strain a negative energy; beside the other \
+             constants it must lie between {low:.6} and {high:.6}", section.name("poisson_ratios");
+            "{name} is too large";
+            "nu_ij is the contraction along j under a stress along i: nu_ij / E_i = nu_ji / E_j; \
+             are the axes swapped?");
+    }
+    orthotropy
+}
+
+/// `axes`: a word, or two vectors.
+fn axes(section: &Section<'_>) -> MaterialAxes {
+    let Some(vectors) = section.vectors("axes") else {
+        return match section.choice("axes") {
+            AxesWord::Global => MaterialAxes::global(),
+            AxesWord::Cylindrical => {
+                MaterialAxes::Cylindrical { axis: [0.0, 0.0, 1.0], center: [0.0; 3] }
+            }
+        };
+    };
+    let filled = |vector: &[f64]| match *vector {
+        [x, y] => Some([x, y, 0.0]),
+        [x, y, z] => Some([x, y, z]),
+        _ => None,
+    };
+    let found = match vectors.as_slice() {
+        [first, second] => filled(first).zip(filled(second)),
+        _ => None,
+    };
+    let Some((first, second)) = found else {
+        refuse!(section, "axes" => "needs two vectors"; "must be [[x, y, z], [x, y, z]]");
+        return MaterialAxes::global();
+    };
+    MaterialAxes::along(first, second).unwrap_or_else(|| {
+        refuse!(section, "axes", "the vectors of {} are parallel", section.name("axes");
+            "span no plane"; "the first is axis 1, the second lies in the plane of axes 1 and 2");
+        MaterialAxes::global()
+    })
+}
+
+/// Lays cylindrical axes about the body's own, and refuses axes under which the body is not what its analyses take it
+/// for. `path` is the material's section: `["material"]` or `["materials", NAME]`.
+pub(super) fn place_axes(
+    root: &Section<'_>,
+    path: &[&str],
+    material: &mut ElasticMaterial,
+    body: &Surroundings,
+) {
+    let Some(orthotropy) = &mut material.orthotropy else {
+        return;
+    };
+    let reject = |message: String, label: &str, help: &str| {
+        let outer = root.section(path[0], false);
+        let inner = path.get(1).map(|name| outer.section(name, false));
+        let section = inner.as_ref().unwrap_or(&outer);
+        let key = if section.has("axes") { "axes" } else { "young_moduli" };
+        refuse!(section, key, "{}: {message}", section.name(key); "{label}"; "{help}");
+    };
+    if let MaterialAxes::Cylindrical { axis, center } = &mut orthotropy.axes {
+        let found = match body {
+            Surroundings::Sectors { .. } => Ok([[0.0, 0.0, 1.0], [0.0; 3]]),
+            Surroundings::Plane { center } => center
+                .map(|[x, y]| [[0.0, 0.0, 1.0], [x, y, 0.0]])
+                .ok_or("the counterface is a plane, which has no axis"),
+            Surroundings::Solids { axis } => *axis,
+        };
+        match found {
+            Ok(found) => [*axis, *center] = found,
+            Err(reason) => reject(
+                format!("\"cylindrical\" axes lie about the axis of the motion: {reason}"),
+                "no axis to lie about",
+                "give two vectors, or \"global\"",
+            ),
+        }
+    }
+    let is_plane = match body {
+        Surroundings::Sectors { is_plane } => *is_plane,
+        Surroundings::Plane { .. } => true,
+        Surroundings::Solids { .. } => false,
+    };
+    if is_plane && !orthotropy.is_symmetric_across_z() {
+        reject(
+            "motions in the plane would cause others across it: a plane body needs one axis of the material along z"
+                .to_owned(),
+            "no plane of symmetry",
+            "give two vectors in the plane, or one in it and [0, 0, 1]",
+        );
+    } else if matches!(body, Surroundings::Sectors { .. }) && !orthotropy.is_invariant_about_z() {
+        let [e, nu] = [orthotropy.young_moduli[0], orthotropy.poisson_ratios[0]];
+        reject(
+            "fixed axes make the sectors of a body of revolution differ from one another, and its motions have no \
+             circumferential harmonics then"
+                .to_owned(),
+            "not the same at every angle",
+            &format!(
+                "use axes = \"cylindrical\", or describe the body by mesh.file, or give constants \
+                 that are the same across z. Such constants are E_1 = E_2, nu_13 = nu_23, G_13 = \
+                 G_23 and G_12 = E_1 / (2 (1 + nu_12)) = {:?}",
+                e / (2.0 * (1.0 + nu))
+            ),
+        );
+    }
+}

@@ -1,0 +1,262 @@
+//! What a mesh file holds beside the mesh, as the sections that a case would have for it, in SI units.
+
+use super::value::quote;
+use super::{Location, RawItem, RawValue, UnitsWord, keys};
+use frictionsim_physics::mesh::{
+    FileConditionKind, FileContact, FileElasticity, FileMaterial, FileMesh, LeftOut, MaterialAxes,
+    ModelData,
+};
+use std::collections::BTreeMap;
+
+/// A section as a mesh file gives it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FileSection {
+    /// The section of a case and the name in it, such as `materials` and `disc`.
+    pub path: (&'static str, String),
+    /// Its keys with their values, in SI units.
+    pub keys: Vec<(&'static str, RawValue)>,
+    /// Where the file says it.
+    pub place: String,
+    /// The name that the file has for it, where that is another one.
+    pub name: String,
+}
+
+/// All that a file holds as sections of a case, in SI units.
+pub(super) fn sections(
+    file: &FileMesh,
+    units: UnitsWord,
+    left_out: &mut Vec<LeftOut>,
+) -> Vec<FileSection> {
+    let model = &file.model;
+    let mut sections: Vec<FileSection> = Vec::new();
+    let own = model.materials.iter().map(|material| material_section(material, units, left_out));
+    sections.extend(own);
+    sections.extend(common_material(file, &sections));
+    if file.dimension == 2 {
+        refuse_in_plane(model, left_out);
+    } else {
+        for tie in &model.ties {
+            let keys = vec![("surface", text(&tie.surface)), ("counter", text(&tie.counter))];
+            sections.push(section(("ties", &tie.name), keys, &tie.place));
+        }
+        for contact in &model.contacts {
+            let keys = contact_keys(contact, units);
+            sections.push(section(("contacts", &contact.name), keys, &contact.place));
+        }
+        for motion in &model.motions {
+            let [from, to] = motion.axis;
+            let axis = [0, 1, 2].map(|i| to[i] - from[i]);
+            let rpm = motion.angular_velocity * 60.0 / std::f64::consts::TAU;
+            let mut keys = vec![
+                ("axis", numbers(&axis)),
+                ("center", numbers(&from.map(|x| scaled(x, units.length())))),
+                ("rotation_speed_rpm", RawValue::Float(rpm)),
+            ];
+            if motion.is_load {
+                keys.push(("rotation_terms", RawValue::Boolean(true)));
+                keys.push(("frame", text("turning")));
+            }
+            sections.push(section(("motion", &motion.region), keys, &motion.place));
+        }
+    }
+    for condition in &model.conditions {
+        let keys = match condition.kind {
+            FileConditionKind::Pressure(pressure) => vec![
+                ("condition", text("pressure")),
+                ("pressure", RawValue::Float(scaled(pressure, units.stress()))),
+            ],
+            FileConditionKind::Fixed(axes) => held(axes, file.dimension),
+        };
+        sections.push(section(("boundaries", &condition.boundary), keys, &condition.place));
+    }
+    sections
+}
+
+fn section(
+    path: (&'static str, &str),
+    keys: Vec<(&'static str, RawValue)>,
+    place: &str,
+) -> FileSection {
+    FileSection {
+        path: (path.0, path.1.to_owned()),
+        keys,
+        place: place.to_owned(),
+        name: path.1.to_owned(),
+    }
+}
+
+fn held(axes: [bool; 3], dimension: usize) -> Vec<(&'static str, RawValue)> {
+    if axes[..dimension].iter().all(|&is_held| is_held) {
+        return vec![("condition", text("clamped"))];
+    }
+    let letters = ["x", "y", "z"].into_iter().zip(axes);
+    let letters = letters.filter(|(_, is_held)| *is_held).map(|(letter, _)| text(letter));
+    vec![("condition", text("fixed")), ("directions", list(letters.collect()))]
+}
+
+fn contact_keys(contact: &FileContact, units: UnitsWord) -> Vec<(&'static str, RawValue)> {
+    let mut keys = vec![("surface", text(&contact.surface)), ("counter", text(&contact.counter))];
+    let mut number = |key, value: Option<f64>| {
+        keys.extend(value.map(|value| (key, RawValue::Float(value))));
+    };
+    number("friction_coefficient", contact.friction_coefficient);
+    number("static_friction_ratio", contact.decay.map(|decay| decay.0));
+    number("decay_speed", contact.decay.map(|decay| scaled(decay.1, units.length())));
+    let stiffness = |value| scaled(value, units.stress() - units.length());
+    number("normal_stiffness", contact.normal_stiffness.map(stiffness));
+    keys
+}
+
+/// What a plane body cannot take by itself: it has one contact, `[contact]`, and no ties.
+fn refuse_in_plane(model: &ModelData, left_out: &mut Vec<LeftOut>) {
+    let mut refuse = |what: &str, name: &str, place: &str, reason: &str| {
+        let own = LeftOut::once(format!("{what} {name}"), place.to_owned(), reason);
+        left_out.push(LeftOut { is_part: what == "tie", ..own });
+    };
+    for tie in &model.ties {
+        let reason = "plane bodies have no ties: let the parts share their nodes";
+        refuse("tie", &tie.name, &tie.place, reason);
+    }
+    for contact in &model.contacts {
+        let reason = "the contact of plane bodies is [contact] with counterface = \"body\"";
+        refuse("contact pair", &contact.name, &contact.place, reason);
+    }
+    for motion in &model.motions {
+        let reason = "the speed of plane bodies is that of [contact]";
+        refuse("motion of", &motion.region, &motion.place, reason);
+    }
+}
+
+fn material_section(
+    material: &FileMaterial,
+    units: UnitsWord,
+    left_out: &mut Vec<LeftOut>,
+) -> FileSection {
+    let stress = |value: f64| RawValue::Float(scaled(value, units.stress()));
+    let mut keys = Vec::new();
+    match &material.elasticity {
+        Some(FileElasticity::Isotropic { young_modulus, poisson_ratio }) => {
+            keys.push(("young_modulus", stress(*young_modulus)));
+            keys.push(("poisson_ratio", RawValue::Float(*poisson_ratio)));
+        }
+        Some(FileElasticity::Orthotropic { young_moduli, poisson_ratios, shear_moduli, axes }) => {
+            keys.push(("young_moduli", list(young_moduli.map(stress).to_vec())));
+            keys.push(("poisson_ratios", numbers(poisson_ratios)));
+            keys.push(("shear_moduli", list(shear_moduli.map(stress).to_vec())));
+            let axes = match axes {
+                MaterialAxes::Global => text("global"),
+                MaterialAxes::Vectors([first, second]) => {
+                    list(vec![numbers(first), numbers(second)])
+                }
+                MaterialAxes::Cylindrical([from, to]) => {
+                    let what =
+                        format!("axis of the cylindrical orientation of {}", material.region);
+                    let reason = format!(
+                        "axes are about the motion's axis here, there through {from:?} and {to:?}: \
+                         check it"
+                    );
+                    left_out.push(LeftOut::once(what, material.place.clone(), reason));
+                    text("cylindrical")
+                }
+            };
+            keys.push(("axes", axes));
+        }
+        None => {}
+    }
+    let density = |value| RawValue::Float(scaled(value, units.density()));
+    keys.extend(material.density.map(|value| ("density", density(value))));
+    let plain = [
+        ("mass_coefficient", material.mass_coefficient),
+        ("stiffness_coefficient", material.stiffness_coefficient),
+        ("loss_factor", material.loss_factor),
+    ];
+    for (key, value) in plain.into_iter().filter_map(|(key, value)| Some((key, value?))) {
+        match keys::find(&format!("materials.*.{key}")) {
+            Some(_) => keys.push((key, RawValue::Float(value))),
+            None => {
+                let what = format!("{key} of material {}", material.name);
+                let reason = "no material has it here";
+                left_out.push(LeftOut::once(what, material.place.clone(), reason));
+            }
+        }
+    }
+    FileSection {
+        name: material.name.clone(),
+        ..section(("materials", &material.region), keys, &material.place)
+    }
+}
+
+/// `[material]` where the file gives every region one of its own: that of the region with most elements, which no
+/// region uses. In the plane the formulation, too.
+fn common_material(file: &FileMesh, own: &[FileSection]) -> Option<FileSection> {
+    let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
+    file.elements.iter().for_each(|element| *counts.entry(&element.region).or_default() += 1);
+    let of = |region: &str| own.iter().find(|section| section.path.1 == region);
+    let is_isotropic = |section: &FileSection| {
+        let has = |key: &str| section.keys.iter().any(|known| known.0 == key);
+        has("young_modulus") && has("poisson_ratio") && has("density")
+    };
+    let formulation = match (file.dimension, file.model.is_plane_strain) {
+        (3, _) => Some("three-dimensional"),
+        (_, Some(true)) => Some("plane-strain"),
+        (_, Some(false)) => Some("plane-stress"),
+        (_, None) => None,
+    };
+    let mut keys: Vec<(&'static str, RawValue)> = Vec::new();
+    let mut place = String::new();
+    let largest = counts.iter().max_by_key(|(_, count)| **count);
+    if let (true, Some((region, _))) = (counts.keys().all(|region| of(region).is_some()), largest) {
+        let isotropic = of(region).filter(|section| is_isotropic(section));
+        let isotropic = isotropic.or_else(|| own.iter().find(|section| is_isotropic(section)))?;
+        let common = ["young_modulus", "poisson_ratio", "density"];
+        keys = isotropic.keys.iter().filter(|key| common.contains(&key.0)).cloned().collect();
+        place.clone_from(&isotropic.place);
+    }
+    keys.extend(formulation.map(|word| ("formulation", text(word))));
+    let is_useful = file.model.is_plane_strain.is_some() || !place.is_empty();
+    is_useful.then(|| section(("material", ""), keys, &place))
+}
+
+impl FileSection {
+    /// Its head as TOML.
+    pub fn head(&self) -> String {
+        match self.path.0 {
+            "material" => "[material]".to_owned(),
+            group => format!("[{group}.{}]", quote(&self.path.1)),
+        }
+    }
+}
+
+pub(super) fn item(value: RawValue, at: &Location) -> RawItem {
+    let value = match value {
+        RawValue::Array(items) => {
+            let items = items.into_iter().map(|inner| item(inner.value, at));
+            RawValue::Array(items.collect())
+        }
+        other => other,
+    };
+    RawItem { value, at: at.clone() }
+}
+
+fn text(text: &str) -> RawValue {
+    RawValue::String(text.to_owned())
+}
+
+fn list(values: Vec<RawValue>) -> RawValue {
+    let at = Location::default();
+    RawValue::Array(values.into_iter().map(|value| item(value, &at)).collect())
+}
+
+fn numbers(values: &[f64]) -> RawValue {
+    list(values.iter().map(|&value| RawValue::Float(value)).collect())
+}
+
+/// `value 10^power`, its decimal digits kept: 7.85e-9 times 10^12 is 7850.
+fn scaled(value: f64, power: i32) -> f64 {
+    let text = format!("{value:e}");
+    let parts = text.split_once('e').and_then(|(digits, exponent)| {
+        let exponent: i32 = exponent.parse().ok()?;
+        format!("{digits}e{}", exponent + power).parse().ok()
+    });
+    parts.unwrap_or(value * 10f64.powi(power))
+}

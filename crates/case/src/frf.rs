@@ -1,0 +1,79 @@
+//! `[frf]`: a frequency response of the model.
+
+use super::node::Nodes;
+use super::{FrfMethod, Section, caution, refuse};
+use frictionsim_physics::fem::MassKind;
+use frictionsim_physics::frf::{Direction, FrfBoundary, Terminal};
+use frictionsim_signal::ResponseQuantity;
+
+/// `[frf]`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Frf {
+    /// How the body is held.
+    pub boundary: FrfBoundary,
+    /// Where and in which direction the force acts.
+    pub force: Terminal,
+    /// Where and in which direction the motion is observed.
+    pub response: Terminal,
+    /// Frequencies, Hz, in the order given.
+    pub frequencies_hz: Vec<f64>,
+    /// What is observed.
+    pub quantity: ResponseQuantity,
+    /// How it is computed.
+    pub method: FrfMethod,
+    /// Which mass matrix.
+    pub mass: MassKind,
+    /// Standard deviation of the noise on each part, relative to the magnitude.
+    pub noise: f64,
+    /// Seed of the noise.
+    pub noise_seed: usize,
+}
+
+pub(super) fn read(section: &Section<'_>, nodes: &Nodes<'_>) -> Frf {
+    let named = ["force_node", "response_node"].map(|key| {
+        let named = section.node(key)?;
+        nodes.find(section, key, &named).map(|found| found.0)
+    });
+    section.needs("force_node");
+    let force_node = named[0].unwrap_or(0);
+    let response_node = named[1].unwrap_or(force_node);
+    let mut frequencies_hz = section.numbers("frequencies_hz").unwrap_or_default();
+    // What is wrong with a range has been said.
+    if !section.has("frequencies_hz") || section.is_empty_list("frequencies_hz") {
+        refuse!(section, "frequencies_hz", "frf.frequencies_hz is missing or empty";
+            "at least one frequency");
+    }
+    frequencies_hz.sort_by(f64::total_cmp);
+    frequencies_hz.dedup();
+    let direction = |key| {
+        let direction: Direction = section.choice(key);
+        let is_along = matches!(direction, Direction::Axial | Direction::Z);
+        if is_along && nodes.body.is_some_and(|body| body.dimension() == 2) {
+            let name = direction.name();
+            refuse!(section, key,
+                "frf.{key} = \"{name}\": a plane body does not move along its axis";
+                "the body is plane"; "use \"radial\" or \"tangential\"");
+        }
+        direction
+    };
+    let force_direction = direction("force_direction");
+    let response_direction = match section.has("response_direction") {
+        true => direction("response_direction"),
+        false => force_direction,
+    };
+    let frf = Frf {
+        boundary: section.choice("boundary"),
+        force: Terminal { node: force_node, direction: force_direction },
+        response: Terminal { node: response_node, direction: response_direction },
+        frequencies_hz,
+        quantity: section.choice("quantity"),
+        method: section.choice("method"),
+        mass: section.choice("mass"),
+        noise: section.number("noise"),
+        noise_seed: section.count("noise_seed"),
+    };
+    if section.has("noise_seed") && frf.noise == 0.0 {
+        caution!(section, "noise_seed", "frf.noise_seed is not used: frf.noise is 0"; "no noise");
+    }
+    frf
+}

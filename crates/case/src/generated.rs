@@ -1,0 +1,294 @@
+//! Bodies that the case's own numbers make: `[geometry]` and the element counts of `[mesh]`, with a deformable shaft in
+//! the annulus (`[materials.shaft]`, `[boundaries.bore]`).
+
+use super::body::node_count;
+use super::boundaries::{NamedCondition, holds_tangentially};
+use super::contact::contact;
+use super::elastic::{Surroundings, place_axes};
+use super::modifications::Modification;
+use super::tables::TableFiles;
+use super::whole_revolution::whole_revolution;
+use super::{
+    Annulus, Body, Case, CaseErrors, Contact, Revolution, Section, assembly, attachments,
+    boundaries, imported, modifications, refusal, refuse, solid,
+};
+use frictionsim_physics::contact::Motion;
+use frictionsim_physics::fem::{ElasticMaterial, RotationFrame, TabledMaterial};
+use frictionsim_physics::mesh::{
+    AnnulusSpecification, BoundaryCondition, ShaftSpecification, SolidSpecification,
+};
+
+/// The generated body with what its modifications take away or move, and its contact. Closes both sections.
+pub(super) fn generated(
+    root: &Section<'_>,
+    [geometry, mesh]: [Section<'_>; 2],
+    (conditions, is_pressed): (&[NamedCondition], bool),
+    (common, tables): (&mut TabledMaterial, &mut TableFiles<'_>),
+    (thickness, changes): (f64, &[Modification]),
+) -> (Option<Body>, Contact) {
+    let material = &mut common.own.elastic;
+    let is_solid = solid::is_solid(material);
+    imported::refuse_sectors(&mesh);
+    let axial = solid::axial_elements(&geometry, &mesh, is_solid);
+    let sectors = Surroundings::Sectors { is_plane: !is_solid };
+    place_axes(root, &["material"], material, &sectors);
+    let parts = (conditions, is_solid);
+    let (mut annulus, mut shaft) =
+        annulus(root, [&geometry, &mesh], parts, (material, &mut *tables));
+    if let Some(shaft) = &mut shaft {
+        let path = ["materials", "shaft"];
+        place_axes(root, &path, &mut shaft.own.elastic, &sectors);
+    }
+    geometry.close();
+    mesh.close();
+    let (mut contact, place) = contact(root, Some((&annulus, is_solid)), is_pressed);
+    let motion = motion(root, is_solid);
+    let turning = motion.as_ref().map_or(0.0, |own| own.spin_vector().z);
+    let body = match axial {
+        None => {
+            let materials = std::iter::once(common.clone()).chain(shaft).collect();
+            plane_annulus(root, Annulus { specification: annulus, materials }, changes)
+        }
+        Some(axial_elements) => {
+            let conditions = solid::conditions(root, conditions, place.solid);
+            annulus.outer = conditions[1];
+            let mut specification = SolidSpecification {
+                annulus,
+                thickness,
+                axial_elements,
+                contact: place.solid,
+                conditions,
+                parts: Vec::new(),
+            };
+            let mut materials = vec![common.clone()];
+            for (part, mut material) in
+                solid::parts(root, &common.own.elastic, tables, &specification)
+            {
+                let path = ["materials", &part.name];
+                place_axes(root, &path, &mut material.own.elastic, &sectors);
+                specification.parts.push(part);
+                materials.push(material);
+            }
+            let specification = Box::new(specification);
+            let revolution = Revolution { specification, materials };
+            revolution_body(root, revolution, (&contact, motion), changes)
+        }
+    };
+    // Friction knows the relative speed.
+    contact.sliding.rotation_speed -= turning;
+    (body, contact)
+}
+
+/// `[motion.disc]`: how the whole body turns about its own axis. In the plane it is held, and what is inside turns.
+fn motion(root: &Section<'_>, is_solid: bool) -> Option<Motion> {
+    let motions = root.each("motion", assembly::motion);
+    let section = root.section("motion", false);
+    for (name, own) in &motions {
+        if !is_solid {
+            refuse!(root, "motion", "the built-in plane annulus has no [motion.*]: it is held, and \
+                 its cylinder or shaft turns"; "a plane annulus is held";
+                "a disc that turns needs material.formulation = \"three-dimensional\"");
+        } else if name != "disc" || [own.axis, own.center].iter().any(|v| v[..2] != [0.0; 2]) {
+            refuse!(section, name => "is no motion of a body of revolution, which turns as a whole";
+                "not about its axis"; "give [motion.disc] with axis = [0.0, 0.0, 1.0] alone");
+        } else if own.inertia == Some(RotationFrame::Rest) {
+            refuse!(section, name => "counts its inertia at rest, but its damping in its own frame";
+                "two frames"; "give frame = \"turning\": waves stand n Omega beside those at rest");
+        }
+    }
+    motions.into_iter().next().map(|own| own.1)
+}
+
+/// A body of revolution, as a whole mesh where it turns, where modifications break its symmetry, where its losses have
+/// a chain of dashpots in time, and where that is asked for.
+fn revolution_body(
+    root: &Section<'_>,
+    revolution: Revolution,
+    (contact, motion): (&Contact, Option<Motion>),
+    changes: &[Modification],
+) -> Option<Body> {
+    let cea = root.section("cea", false);
+    let is_asked_for = cea.is_text("method", "sparse")
+        || root.section("transient", false).is_text("operator", "sparse");
+    let body = Body::Revolution(revolution.clone());
+    let is_lossy = body.has_structural_damping() || contact.stiffness.loss_factor > 0.0;
+    let is_chained = is_lossy && root.has("transient");
+    if changes.is_empty() && motion.is_none() && !is_asked_for && !is_chained {
+        return Some(body);
+    }
+    let reject = |(key, why): modifications::Misfit| {
+        let section = key.split('.').next().unwrap_or_default();
+        root.reject(section, format!("{key}: {why}"), "does not fit the whole mesh", None);
+    };
+    let whole = whole_revolution(&revolution, contact, (motion, changes)).map_err(reject);
+    whole.ok().map(Body::Assembly)
+}
+
+/// A plane annulus, as a whole mesh where modifications break its symmetry.
+fn plane_annulus(root: &Section<'_>, annulus: Annulus, changes: &[Modification]) -> Option<Body> {
+    // What is wrong with the counts is said elsewhere.
+    if changes.is_empty() || node_count(&annulus.specification) > 1 << 24 {
+        return Some(Body::Annulus(annulus));
+    }
+    let reject = |(key, why): modifications::Misfit| {
+        let message = format!("{key}: {why}");
+        root.reject("modifications", message, "does not fit the disc", None);
+    };
+    attachments::reshaped_annulus(&annulus, changes).map_err(reject).ok().map(Body::Imported)
+}
+
+/// The specification of the annulus, and the material of its shaft where it has one.
+fn annulus(
+    root: &Section<'_>,
+    [geometry, mesh]: [&Section<'_>; 2],
+    (conditions, is_solid): (&[NamedCondition], bool),
+    (material, tables): (&ElasticMaterial, &mut TableFiles<'_>),
+) -> (AnnulusSpecification, Option<TabledMaterial>) {
+    let inner_radius = geometry.number("inner_radius");
+    let outer_radius = geometry.number("outer_radius");
+    if outer_radius <= inner_radius {
+        refuse!(geometry, "outer_radius",
+            "geometry.outer_radius = {outer_radius} must be above geometry.inner_radius = \
+             {inner_radius}";
+            "must be above {inner_radius}"; "both are radii in metres; are they swapped?");
+    }
+    let shaft = match is_solid {
+        false => shaft(root, [geometry, mesh], inner_radius, conditions, material, tables),
+        true => None,
+    };
+    for (section, key) in [(geometry, "shaft_inner_radius"), (mesh, "shaft_radial_elements")] {
+        if is_solid && !section.refused(key).is_empty() {
+            refuse!(section, key, "a deformable shaft turns in a plane annulus only";
+                "the body is three-dimensional"; "leave the shaft out, or use a plane formulation");
+        }
+    }
+    let annulus = AnnulusSpecification {
+        inner_radius,
+        outer_radius,
+        circumferential_elements: mesh.count("circumferential_elements"),
+        radial_elements: mesh.count("radial_elements"),
+        radial_grading: mesh.number("radial_grading"),
+        element: mesh.choice("element"),
+        outer: match is_solid {
+            true => BoundaryCondition::Clamped,
+            false => boundaries::outer_edge(root, conditions, shaft.is_some()),
+        },
+        shaft: shaft.as_ref().map(|(shaft, _)| *shaft),
+    };
+    check_mesh(mesh, &annulus);
+    (annulus, shaft.map(|(_, material)| material))
+}
+
+fn check_mesh(mesh: &Section<'_>, annulus: &AnnulusSpecification) {
+    // Node indices are 32 bits wide, with room for two unknowns at each node.
+    let (nodes, limit) = (node_count(annulus), u128::from(u32::MAX / 2));
+    if nodes > limit {
+        refuse!(mesh, "circumferential_elements",
+            "the mesh would have {nodes} nodes, above the limit of {limit}"; "too many elements";
+            "lower mesh.circumferential_elements or mesh.radial_elements");
+    }
+    // Sizes that differ by more than this leave elements without width in double precision.
+    let ratio = annulus.radial_grading.ln() * (annulus.radial_elements as f64 - 1.0);
+    if ratio.abs() > 1e6f64.ln() {
+        refuse!(mesh, "radial_grading",
+            "mesh.radial_grading = {} makes the largest element {:.1e} times the \
+             smallest", annulus.radial_grading, ratio.abs().exp();
+            "at most a factor 1e6 over all elements"; "bring mesh.radial_grading nearer to 1");
+    }
+}
+
+/// The shaft, if the case has one, and its material.
+fn shaft(
+    root: &Section<'_>,
+    [geometry, mesh]: [&Section<'_>; 2],
+    contact_radius: f64,
+    boundaries: &[NamedCondition],
+    material: &ElasticMaterial,
+    tables: &mut TableFiles<'_>,
+) -> Option<(ShaftSpecification, TabledMaterial)> {
+    let bore = geometry.optional_number("shaft_inner_radius");
+    let elements = mesh.optional_count("shaft_radial_elements");
+    let found = materials(root, material, bore.is_some(), tables);
+    let Some(bore) = bore else {
+        if elements.is_some() {
+            refuse!(mesh, "shaft_radial_elements",
+                "mesh.shaft_radial_elements is for a deformable shaft, and the case has none";
+                "the cylinder is rigid";
+                "give geometry.shaft_inner_radius and [materials.shaft], or leave it out");
+        }
+        return None;
+    };
+    if bore >= contact_radius {
+        refuse!(geometry, "shaft_inner_radius",
+            "geometry.shaft_inner_radius = {bore} must be below geometry.inner_radius = \
+             {contact_radius}: the shaft reaches from its bore to the contact";
+            "must be below {contact_radius}");
+    }
+    if found.is_none() {
+        refuse!(geometry, "shaft_inner_radius",
+            "the shaft of geometry.shaft_inner_radius has no material"; "needs [materials.shaft]";
+            "add [materials.shaft] with young_modulus, poisson_ratio and density, or leave \
+             shaft_inner_radius out for a rigid cylinder");
+    }
+    let shaft = ShaftSpecification {
+        inner_radius: bore,
+        radial_elements: elements.unwrap_or_else(|| mesh.count("shaft_radial_elements")),
+        bore: bore_condition(root, boundaries),
+    };
+    found.map(|material| (shaft, material))
+}
+
+/// `[materials.shaft]`; the annulus has no other surfaces.
+fn materials(
+    root: &Section<'_>,
+    material: &ElasticMaterial,
+    has_shaft: bool,
+    tables: &mut TableFiles<'_>,
+) -> Option<TabledMaterial> {
+    let all = root.section("materials", false);
+    for (name, _) in all.remaining() {
+        match name {
+            "shaft" if has_shaft => {}
+            "shaft" => refuse!(all, name,
+                "[materials.shaft] is for a deformable shaft, and the case has none";
+                "the annulus has one material";
+                "give geometry.shaft_inner_radius and mesh.shaft_radial_elements, or leave the \
+                 section out"),
+            _ => refuse!(all, name,
+                "[materials.{name}] is for a physical surface of a mesh file (mesh.file)";
+                "the annulus has one material";
+                "describe the disc in [material] and a shaft in [materials.shaft]"),
+        }
+    }
+    let read = imported::materials(root, material, tables);
+    let mut shafts = read.into_iter().filter(|(name, _)| name == "shaft");
+    shafts.next().map(|(_, material)| material)
+}
+
+fn bore_condition(root: &Section<'_>, boundaries: &[NamedCondition]) -> BoundaryCondition {
+    let given = boundaries.iter().find(|(name, _)| name == "bore");
+    match given.map_or(BoundaryCondition::Clamped, |own| own.1) {
+        condition if holds_tangentially(&condition) => condition,
+        _ => {
+            refuse!(root.section("boundaries", false), "bore",
+                "nothing holds the shaft against the friction that turns it";
+                "must hold the bore tangentially";
+                "use condition = \"clamped\", or \"support\" with tangential_stiffness above 0");
+            BoundaryCondition::Clamped
+        }
+    }
+}
+
+impl Case {
+    /// An analysis that a deformable shaft has no part in.
+    pub(super) fn require_rigid_shaft(&self, what: &str) -> Result<(), CaseErrors> {
+        let grid = self.body.grid();
+        if grid.is_none_or(|grid| grid.shaft.is_none()) {
+            return Ok(());
+        }
+        let key = "geometry.shaft_inner_radius";
+        Err(refusal!(self, key,
+            "{what} takes the cylinder as rigid, and {key} gives a deformable shaft";
+            "not with a deformable shaft"; "leave {key} out"))
+    }
+}

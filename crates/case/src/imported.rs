@@ -1,0 +1,393 @@
+//! Bodies from mesh files: `mesh.file`, `[materials.*]`, and where the counterface is.
+
+use super::boundaries::NamedCondition;
+use super::elastic::elastic;
+use super::modifications::{Modification, reshaped};
+use super::tables::{TableFiles, modulus_table};
+use super::value::quote;
+use super::words::CounterfaceWord;
+use super::{
+    Diagnostic, MeshBytes, RawCase, Section, caution, first_of, inclusion, refuse, suggestion,
+};
+use frictionsim_physics::contact::ContactInterface;
+use frictionsim_physics::fem::{ElasticMaterial, RayleighDamping, RegionMaterial, TabledMaterial};
+use frictionsim_physics::mesh::{
+    BodyError, BodyPart, BodySpecification, CounterfaceSpecification, CyclicSymmetry, FileMesh,
+    Mesh, SolidContact, refined_file, repeated_file,
+};
+use std::path::Path;
+use std::sync::Arc;
+
+/// Names that a message lists.
+const MOST_NAMES: usize = 10;
+
+/// A body that a mesh file describes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ImportedBody {
+    /// Its mesh with boundaries and what holds them.
+    pub mesh: Arc<Mesh>,
+    /// The material of each of its regions.
+    pub materials: Vec<TabledMaterial>,
+    /// What the mesh was made of, for its refinements.
+    source: Arc<(Arc<FileMesh>, BodySpecification)>,
+}
+
+/// Where the counterface is, as `[contact]` says.
+pub(super) struct ContactPlace {
+    pub boundary: String,
+    pub counterface: CounterfaceSpecification,
+    /// Physical curve of the other body that it slides on.
+    pub opposite: Option<String>,
+    /// Speed of a plane, m/s.
+    pub plane_speed: Option<f64>,
+    /// Where a rotor touches a three-dimensional body.
+    pub solid: SolidContact,
+}
+
+/// Reads the keys of `[contact]` that only an imported body has.
+pub(super) fn contact_place(section: &Section<'_>) -> ContactPlace {
+    let boundary = section.text("boundary");
+    let (center, radius) = (section.vector("center"), section.optional_number("radius"));
+    let direction = section.vector("direction");
+    let speed = section.optional_number("speed");
+    let word: CounterfaceWord = section.choice("counterface");
+    let opposite = opposite_curve(section, word);
+    if word == CounterfaceWord::Sphere {
+        refuse!(section, "counterface",
+            "contact.counterface = \"sphere\" is for a mesh of solid elements";
+            "the body is plane"; "leave it out for a round contact curve; of a straight one \
+             give \"plane\" with `speed`");
+    }
+    let (counterface, plane_speed) = match word {
+        CounterfaceWord::Body if speed.is_some() => {
+            let along = section.has("direction").then_some(direction);
+            (CounterfaceSpecification::Plane { direction: along }, speed)
+        }
+        CounterfaceWord::Cylinder | CounterfaceWord::Sphere | CounterfaceWord::Body => {
+            (CounterfaceSpecification::Cylinder { center, radius }, None)
+        }
+        CounterfaceWord::Plane => {
+            if direction == [0.0; 2] {
+                refuse!(section, "direction", "contact.direction = [0, 0] has no direction";
+                    "must not be zero");
+            }
+            let plane = CounterfaceSpecification::Plane { direction: Some(direction) };
+            (plane, Some(speed.unwrap_or_else(|| section.number("speed"))))
+        }
+    };
+    for key in section.refused("axis") {
+        refuse!(section, key, "contact.axis is for a mesh of solid elements";
+            "a plane body turns about z"; "leave it out");
+    }
+    let is_plane = plane_speed.is_some();
+    let idle = if is_plane { "center radius rotation_speed_rpm" } else { "direction speed" };
+    for key in section.refused(idle) {
+        caution!(section, key => "is not used: the counterface is a {}",
+            if is_plane { "plane" } else { "cylinder" }; "no effect");
+    }
+    ContactPlace { solid: SolidContact::Inner, boundary, counterface, opposite, plane_speed }
+}
+
+/// `[materials.*]`: elasticity in place of the common one, damping of its own, and tables over frequency.
+pub(super) fn materials(
+    root: &Section<'_>,
+    common: &ElasticMaterial,
+    files: &mut TableFiles<'_>,
+) -> Vec<(String, TabledMaterial)> {
+    let all = materials_and(root, common, files, |section| {
+        for key in section.refused("radii heights") {
+            refuse!(section, key => "is of a part of a generated three-dimensional body";
+                "of other bodies"; "leave it out");
+        }
+    });
+    all.into_iter().map(|(name, (material, ()))| (name, material)).collect()
+}
+
+/// [`materials`] with what else their sections hold.
+pub(super) fn materials_and<T>(
+    root: &Section<'_>,
+    common: &ElasticMaterial,
+    files: &mut TableFiles<'_>,
+    beside: impl Fn(&Section<'_>) -> T,
+) -> Vec<(String, (TabledMaterial, T))> {
+    root.each("materials", |section| {
+        let coefficients = ["mass_coefficient", "stiffness_coefficient"];
+        let coefficients = coefficients.map(|key| section.optional_number(key));
+        let table = modulus_table(section, files);
+        let elastic = elastic(section, common.formulation, table.as_deref());
+        let damping = match coefficients {
+            [None, None] => None,
+            [mass, stiffness] => Some(RayleighDamping {
+                mass_coefficient: mass.unwrap_or(0.0),
+                stiffness_coefficient: stiffness.unwrap_or(0.0),
+            }),
+        };
+        (TabledMaterial { own: RegionMaterial { elastic, damping }, table }, beside(section))
+    })
+}
+
+/// Everything that makes a body of a mesh file but the file.
+pub(super) struct BodyParts {
+    pub scale: f64,
+    /// Of a file that has one sector.
+    pub symmetry: Option<CyclicSymmetry>,
+    pub place: ContactPlace,
+    /// How far the bodies are pushed into each other, m.
+    pub interference: f64,
+    pub boundaries: Vec<NamedCondition>,
+    pub materials: Vec<(String, TabledMaterial)>,
+    /// The material of regions that have none of their own.
+    pub common: Option<TabledMaterial>,
+}
+
+/// The mesh file that `mesh.file` names, relative to the case; read once.
+pub(super) fn mesh_bytes(raw: &RawCase, file: &str) -> Result<MeshBytes, String> {
+    if let Some(known) = raw.mesh.as_ref().filter(|known| known.file == file) {
+        return Ok(known.clone());
+    }
+    let folder = Path::new(&raw.name).parent().unwrap_or(Path::new(""));
+    let bytes = inclusion::mesh_file(&folder.join(file))?;
+    Ok(MeshBytes::new(file.to_owned(), bytes))
+}
+
+/// Refuses `mesh.sectors` where there is no file.
+pub(super) fn refuse_sectors(mesh: &Section<'_>) {
+    if mesh.optional_count("sectors").is_some() {
+        refuse!(mesh, "sectors",
+            "mesh.sectors is for a mesh file (mesh.file) that has one sector of the body";
+            "a generated body is made of sectors anyway"; "leave it out");
+    }
+}
+
+/// The symmetry that `mesh.sectors` says, about an axis of some direction through a point (m).
+pub(super) fn symmetry(
+    mesh: &Section<'_>,
+    axis: Result<[[f64; 3]; 2], &str>,
+) -> Option<CyclicSymmetry> {
+    let count = mesh.optional_count("sectors").filter(|count| *count > 1)?;
+    match axis {
+        Ok([direction, point]) => Some(CyclicSymmetry { count, point, direction }),
+        Err(why) => {
+            refuse!(mesh, "sectors",
+                "mesh.sectors needs one axis that the sectors turn about, but {why}";
+                "about which axis?"; "mesh the whole body, and leave mesh.sectors out");
+            None
+        }
+    }
+}
+
+/// The body that a mesh file describes: what it has, or all the sectors of which it has one.
+pub(super) fn whole_body(
+    mesh: &MeshBytes,
+    symmetry: Option<&CyclicSymmetry>,
+    scale: f64,
+) -> Result<Arc<FileMesh>, BodyError> {
+    let read = mesh.read()?;
+    let Some(symmetry) = symmetry else {
+        return Ok(read);
+    };
+    let in_file = CyclicSymmetry { point: symmetry.point.map(|x| x / scale), ..*symmetry };
+    repeated_file(&read, &in_file).map(Arc::new)
+}
+
+/// Why a mesh file does not describe the body, and the key of the case to blame.
+pub(super) struct ImportError {
+    pub key: String,
+    pub message: String,
+    pub label: String,
+    pub help: Option<String>,
+}
+
+impl ImportError {
+    /// What a modification or a motion asks for that the body does not have.
+    pub(super) fn misfit((key, why): (String, String)) -> Self {
+        let message = format!("{key}: {why}");
+        Self::new(&key, message, "does not fit the body")
+    }
+
+    pub(super) fn new(key: &str, message: String, label: &str) -> Self {
+        Self { key: key.to_owned(), message, label: label.to_owned(), help: suggestion::usage(key) }
+    }
+
+    /// A region of the mesh file that no section gives a material.
+    pub(super) fn without_material(file: &str, region: &str) -> Self {
+        let message = format!("{file}: the region \"{region}\" has no material");
+        let help = format!(
+            "give it a section [materials.{}], or [material] for all regions without one",
+            quote(region)
+        );
+        Self { help: Some(help), ..Self::new("materials", message, "no section for it") }
+    }
+
+    /// Reports it at its key.
+    pub(super) fn report(self, raw: &RawCase, mesh: &Section<'_>) {
+        let at = raw.place(&self.key);
+        mesh.findings.push(Diagnostic::error(self.message, self.label, at, self.help));
+    }
+
+    /// An error of the mesh file `file`, at the key that asked for what the mesh does not have.
+    pub(super) fn of(error: BodyError, file: &str) -> Self {
+        let message = format!("{file}: {error}");
+        let BodyError::Request { part, .. } = error else {
+            // What the key means is no remedy for what the file holds.
+            return Self { help: None, ..Self::new("mesh.file", message, "cannot be used") };
+        };
+        let (key, label) = match part {
+            BodyPart::Contact => ("contact.boundary".to_owned(), "the contact curve"),
+            BodyPart::Opposite => {
+                ("contact.counter_boundary".to_owned(), "the curve of the other body")
+            }
+            BodyPart::Boundary(name) => (format!("boundaries.{name}"), "a boundary of the mesh"),
+            BodyPart::Direction => ("contact.direction".to_owned(), "must lie along the face"),
+            BodyPart::Center => ("contact.center".to_owned(), "not the centre of the curve"),
+            BodyPart::Material(name) => (format!("materials.{name}"), "no such surface"),
+            BodyPart::Scale => ("mesh.scale".to_owned(), "metres?"),
+            BodyPart::Sectors => ("mesh.sectors".to_owned(), "the sector does not fit"),
+        };
+        Self::new(&key, message, label)
+    }
+}
+
+/// The body that a mesh file describes.
+pub(super) fn import(
+    mesh: &MeshBytes,
+    parts: &BodyParts,
+    modifications: &[Modification],
+) -> Result<ImportedBody, ImportError> {
+    let shown = &mesh.file;
+    let unusable = |error: BodyError| ImportError::of(error, shown);
+    let read = whole_body(mesh, parts.symmetry.as_ref(), parts.scale).map_err(unusable)?;
+    let misfit = ImportError::misfit;
+    let boundary = &parts.place.boundary;
+    let (read, way) = reshaped(read, parts.scale, boundary, modifications).map_err(misfit)?;
+    let specification = BodySpecification {
+        scale: parts.scale,
+        contact: parts.place.boundary.clone(),
+        counterface: moved(parts, way).map_err(misfit)?,
+        opposite: parts.place.opposite.clone(),
+        conditions: parts.boundaries.clone(),
+    };
+    let mesh = Mesh::from_gmsh(&read, &specification).map_err(unusable)?;
+    check_meeting(&mesh, &specification, parts.interference).map_err(|message| {
+        ImportError::new("contact.counter_boundary", message, "the bodies do not meet")
+    })?;
+    let unknown = parts.materials.iter().map(|(name, _)| name);
+    if let Some(name) = unknown.into_iter().find(|&name| !mesh.regions.contains(name)) {
+        let known = mesh.regions.iter().map(String::as_str);
+        let hint = suggestion::nearest(name, known)
+            .map_or_else(String::new, |near| format!("; did you mean \"{near}\"?"));
+        let regions = mesh.regions.iter().map(|region| format!("\"{region}\""));
+        let message = format!(
+            "no physical surface is called \"{name}\"; the file has {}{hint}",
+            first_of(regions, MOST_NAMES)
+        );
+        let part = BodyPart::Material(name.clone());
+        return Err(unusable(BodyError::Request { part, message }));
+    }
+    let material = |region: &String| {
+        let own = parts.materials.iter().find(|(name, _)| name == region);
+        let own = own.map(|(_, material)| material).or(parts.common.as_ref());
+        own.cloned().ok_or_else(|| ImportError::without_material(shown, region))
+    };
+    let materials = mesh.regions.iter().map(material).collect::<Result<_, _>>()?;
+    Ok(ImportedBody::new(mesh, materials, read, specification))
+}
+
+/// The counterface of a body whose contact curve is moved.
+fn moved(parts: &BodyParts, way: [f64; 2]) -> Result<CounterfaceSpecification, (String, String)> {
+    match (parts.place.counterface, &parts.place.opposite) {
+        (own, _) if way == [0.0; 2] => Ok(own),
+        (CounterfaceSpecification::Cylinder { center, radius }, None) => {
+            let center = [center[0] + way[0], center[1] + way[1]];
+            Ok(CounterfaceSpecification::Cylinder { center, radius })
+        }
+        _ => Err((
+            "modifications".to_owned(),
+            "an offset moves a hole with the rigid cylinder in it; this contact has another counterface".to_owned(),
+        )),
+    }
+}
+
+impl ImportedBody {
+    /// A body of a mesh that was made of a file.
+    pub(super) fn new(
+        mesh: Mesh,
+        materials: Vec<TabledMaterial>,
+        file: Arc<FileMesh>,
+        specification: BodySpecification,
+    ) -> Self {
+        Self { mesh: Arc::new(mesh), materials, source: Arc::new((file, specification)) }
+    }
+
+    /// The same body with every element split into four, `times` over.
+    ///
+    /// # Errors
+    /// A mesh that would be too large, or that folds where it is refined.
+    pub fn refined(&self, times: u32) -> Result<Self, BodyError> {
+        if times == 0 {
+            return Ok(self.clone());
+        }
+        let (file, specification) = &*self.source;
+        let mut fine = refined_file(file)?;
+        for _ in 1..times {
+            fine = refined_file(&fine)?;
+        }
+        Ok(Self {
+            mesh: Arc::new(Mesh::from_gmsh(&fine, specification)?),
+            materials: self.materials.clone(),
+            source: Arc::new((Arc::new(fine), specification.clone())),
+        })
+    }
+}
+
+/// `contact.counter_boundary`, which only two bodies have.
+pub(super) fn opposite_curve(section: &Section<'_>, word: CounterfaceWord) -> Option<String> {
+    let key = "counter_boundary";
+    let given = section.optional_text(key);
+    match (word, &given) {
+        (CounterfaceWord::Body, None) => refuse!(section, key,
+            "contact.counterface = \"body\" needs contact.counter_boundary";
+            "the curve of the other body"; "name the physical curve of the other body"),
+        (CounterfaceWord::Cylinder | CounterfaceWord::Plane | CounterfaceWord::Sphere, Some(_)) => {
+            refuse!(section, key, "contact.counter_boundary is for two bodies";
+                "the curve of the other body";
+                "set contact.counterface = \"body\", or leave it out");
+        }
+        _ => return given,
+    }
+    None
+}
+
+/// Two bodies must have their curves before each other, at most as far into each other as the interference.
+pub(super) fn check_meeting(
+    mesh: &Mesh,
+    body: &BodySpecification,
+    interference: f64,
+) -> Result<(), String> {
+    let Some(other) = &body.opposite else {
+        return Ok(());
+    };
+    let interface = ContactInterface::of(mesh);
+    let name = &body.contact;
+    if interface.is_empty() {
+        return Err(format!(
+            "no point of \"{name}\" (contact.boundary) has \"{other}\" (contact.counter_boundary) \
+             facing it: check the curves, and contact.center, speed and direction"
+        ));
+    }
+    let deepest =
+        (0..interface.len()).min_by(|&a, &b| interface.gaps[a].total_cmp(&interface.gaps[b]));
+    let Some(i) = deepest else { return Ok(()) };
+    let size = interface.tributary_lengths[i];
+    let depth = -interface.gaps[i];
+    // A thousandth of an element is what faceted curves differ by.
+    if depth > interference + 1e-3 * size {
+        return Err(format!(
+            "the bodies overlap: node {} of \"{name}\" lies {depth:.3e} m inside the other body, \
+             more than contact.interference = {interference:e} m. Mesh them just touching, and let \
+             contact.interference press them together",
+            mesh.node_label(interface.nodes[i] as usize)
+        ));
+    }
+    Ok(())
+}

@@ -1,0 +1,79 @@
+//! Mesh files with the files that they include.
+
+use frictionsim_bounds::{Budget, MESH};
+use frictionsim_physics::mesh::{MeshFormat, included_text};
+use std::path::{Path, PathBuf};
+
+/// The bytes of a mesh file; lines that include a file are replaced by its text.
+///
+/// Names are relative to the file that names them, else to the first one.
+pub(super) fn mesh_file(path: &Path) -> Result<Vec<u8>, String> {
+    let mut budget = Budget::new(MESH);
+    let bytes = budget
+        .read(path)
+        .map_err(|reason| format!("cannot read the mesh file {}: {reason}", path.display()))?;
+    let format = MeshFormat::of(&path.to_string_lossy(), &bytes);
+    let text = String::from_utf8_lossy(&bytes);
+    if !text.lines().any(|line| format.included(line).is_some()) {
+        return Ok(bytes);
+    }
+    let mut expansion = Expansion { format, chain: vec![path.to_path_buf()], budget };
+    expansion.expanded(&text).map(String::into_bytes)
+}
+
+/// A text on its way to one without includes.
+struct Expansion {
+    format: MeshFormat,
+    /// The first file and those that lead to the present one.
+    chain: Vec<PathBuf>,
+    budget: Budget,
+}
+
+impl Expansion {
+    /// The text of the last file of the chain with all that it includes.
+    fn expanded(&mut self, text: &str) -> Result<String, String> {
+        let mut out = String::with_capacity(text.len());
+        for (number, line) in text.lines().enumerate() {
+            let Some((name, stays)) = self.format.included(line) else {
+                out.push_str(line);
+                out.push('\n');
+                continue;
+            };
+            let here = self.chain[self.chain.len() - 1].display().to_string();
+            let at = |reason: String| {
+                format!("{here}, line {}: cannot include {name}: {reason}", number + 1)
+            };
+            let path = self.found(name);
+            if self.chain.iter().any(|other| is_same(other, &path)) {
+                return Err(at("it includes this file itself".to_owned()));
+            }
+            let depth = self.budget.descend(self.chain.len(), "files");
+            let bytes = depth.and_then(|()| self.budget.read(&path));
+            let bytes = bytes.map_err(|reason| at(reason.to_string()))?;
+            self.chain.push(path);
+            let inner = self.expanded(&String::from_utf8_lossy(&bytes))?;
+            self.chain.pop();
+            if stays {
+                out.push_str(line);
+                out.push('\n');
+            }
+            let comment = self.format.comment().unwrap_or_default();
+            out.push_str(&included_text(comment, name, &inner));
+        }
+        Ok(out)
+    }
+
+    /// Where an included file lies: beside the file that names it, else beside the first one.
+    fn found(&self, name: &str) -> PathBuf {
+        let beside = |file: &Path| file.parent().unwrap_or(Path::new("")).join(name);
+        let path = beside(&self.chain[self.chain.len() - 1]);
+        if path.exists() { path } else { beside(&self.chain[0]) }
+    }
+}
+
+fn is_same(a: &Path, b: &Path) -> bool {
+    match (a.canonicalize(), b.canonicalize()) {
+        (Ok(a), Ok(b)) => a == b,
+        _ => a == b,
+    }
+}

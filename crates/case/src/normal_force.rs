@@ -1,0 +1,200 @@
+//! `normal_force`: the counterface is pushed in until it presses with a given force.
+//!
+//! Without friction the summed normal force of a contact rises with its interference, by straight
+//! pieces where contact is rigid. The interference that belongs to a force is the one root of their
+//! difference.
+
+use super::contact::section_of;
+use super::{Body, Case, CaseErrors, Revolution, refusal};
+use frictionsim_physics::contact::{Counterpart, SlidingContact};
+use frictionsim_physics::fem::{MassKind, assemble_stiffness, sector};
+use frictionsim_physics::mesh::{SectorMesh, SolidSector};
+use frictionsim_physics::prestress::{PrestressError, SectorSliding, SolidSliding, SteadySliding};
+
+/// Factor of the steps up to an interference that presses enough.
+const STEP: f64 = 4.0;
+/// Steps up to it: from a micrometre to kilometres.
+const MOST_STEPS: usize = 15;
+/// Relative difference of forces below which the root is found.
+const TOLERANCE: f64 = 1e-12;
+/// Evaluations between two bounds, and rounds over contacts that lean on each other.
+const MOST_ROUNDS: usize = 60;
+
+/// A contact that is pressed with a force.
+struct Wanted {
+    key: String,
+    /// Place of the contact in the body.
+    contact: usize,
+    force: f64,
+}
+
+/// Pushes every counterface in whose contact has a force, and says how far.
+pub(super) fn press(case: &mut Case) -> Result<(), CaseErrors> {
+    let wanted = wanted(case);
+    for _ in 0..MOST_ROUNDS {
+        let mut is_met = true;
+        for own in &wanted {
+            is_met &= solve(case, own)?;
+        }
+        // Contacts that others have not moved since are all met.
+        if is_met || wanted.len() == 1 {
+            break;
+        }
+    }
+    for own in &wanted {
+        let pushed = interference_of(case, own.contact);
+        let note =
+            format!("{} = {}: the counterface is pushed in by {pushed:.6e} m", own.key, own.force);
+        case.taken.notes.push(note);
+    }
+    Ok(())
+}
+
+fn wanted(case: &Case) -> Vec<Wanted> {
+    let sections = match case.body.assembly() {
+        None => vec!["contact".to_owned()],
+        Some(body) => body.contacts.iter().map(section_of).collect(),
+    };
+    let keys = sections.into_iter().map(|section| format!("{section}.normal_force"));
+    let found = keys.enumerate().filter_map(|(contact, key)| {
+        let force = case.number(&key)?;
+        Some(Wanted { key, contact, force })
+    });
+    found.collect()
+}
+
+/// Whether the interference of one contact is that of its force already, which it is afterwards.
+fn solve(case: &mut Case, wanted: &Wanted) -> Result<bool, CaseErrors> {
+    let target = wanted.force;
+    let first = interference_of(case, wanted.contact);
+    let start = excess(case, wanted, first)?;
+    if start.abs() <= TOLERANCE * target {
+        return Ok(true);
+    }
+    // Bounds on either side; without any interference a contact without overlap has no force.
+    let (mut low, mut high) = ((0.0, -target), (first, start));
+    for _ in 0..MOST_STEPS {
+        if high.1 >= 0.0 {
+            break;
+        }
+        low = high;
+        let next = STEP * high.0;
+        high = (next, excess(case, wanted, next)?);
+    }
+    // The secant meets straight pieces at once; the bound that stays has its weight halved, after the Illinois rule.
+    let mut side = 0;
+    for _ in 0..MOST_ROUNDS {
+        if high.1 < 0.0 || high.0 - low.0 <= f64::EPSILON * high.0 {
+            break;
+        }
+        let next = low.0 - low.1 * (high.0 - low.0) / (high.1 - low.1);
+        let found = excess(case, wanted, next)?;
+        if found.abs() <= TOLERANCE * target {
+            return Ok(false);
+        }
+        if found < 0.0 {
+            low = (next, found);
+            high.1 *= if side < 0 { 0.5 } else { 1.0 };
+            side = -1;
+        } else {
+            high = (next, found);
+            low.1 *= if side > 0 { 0.5 } else { 1.0 };
+            side = 1;
+        }
+    }
+    let own = interference_of(case, wanted.contact);
+    if excess(case, wanted, own)?.abs() <= 1e3 * TOLERANCE * target {
+        return Ok(false);
+    }
+    Err(refusal!(case, &wanted.key,
+        "{} = {target}: no interference presses with this force", wanted.key; "not reached";
+        "a surface that overlaps the counterface in the mesh presses already; one that nothing \
+         holds gives way"))
+}
+
+/// The normal force of a contact pushed in so far, less the one that is wanted.
+fn excess(case: &mut Case, wanted: &Wanted, interference: f64) -> Result<f64, CaseErrors> {
+    set_interference(case, wanted.contact, interference);
+    let forces = case.normal_forces();
+    let forces = forces.map_err(|why| case.error_at(&wanted.key, why, "no base state", None))?;
+    Ok(forces.get(wanted.contact).copied().unwrap_or(0.0) - wanted.force)
+}
+
+fn interference_of(case: &Case, contact: usize) -> f64 {
+    match case.body.assembly().and_then(|body| body.contacts.get(contact)) {
+        Some(own) => own.counter.interference(),
+        None => case.contact.sliding.interference,
+    }
+}
+
+fn set_interference(case: &mut Case, contact: usize, interference: f64) {
+    if let Body::Assembly(body) = &mut case.body
+        && let Some(own) = body.contacts.get_mut(contact)
+        && let Counterpart::Rigid(rigid) = &mut own.counter
+    {
+        rigid.interference = interference;
+    }
+    // That of the first contact is the common one.
+    if contact == 0 {
+        case.contact.sliding.interference = interference;
+    }
+}
+
+impl Case {
+    /// Mass of the analysis by harmonics, else that of a time step: contact of bricks follows it.
+    pub fn mass(&self) -> MassKind {
+        let own = self.cea.as_ref().map(|own| own.mass);
+        let own = own.or(self.frf.as_ref().map(|own| own.mass));
+        let is_stepped = self.transient.is_some();
+        own.unwrap_or(if is_stepped { MassKind::Lumped } else { MassKind::Consistent })
+    }
+
+    /// Normal force of each contact without friction, N: the sum of its forces along its normals, none across a gap.
+    ///
+    /// # Errors
+    /// Why there is no base state.
+    pub fn normal_forces(&self) -> Result<Vec<f64>, String> {
+        let contact = SlidingContact { friction_coefficient: 0.0, ..self.contact.sliding };
+        let law = self.contact.stiffness.law;
+        let pressed = match &self.body {
+            Body::Annulus(annulus) => {
+                let mesh = SectorMesh::generate(&annulus.specification).map_err(in_words)?;
+                let elastic = sector::stiffness(&mesh, &annulus.materials);
+                let base = SectorSliding::solve(&mesh, &elastic, &contact, law);
+                let whole = self.thickness * mesh.sector_count() as f64;
+                base.map(|base| vec![whole * base.state.normal_forces[0].iter().sum::<f64>()])
+            }
+            Body::Revolution(Revolution { specification, materials }) => {
+                let mesh = SolidSector::generate(specification).map_err(in_words)?;
+                let elastic = sector::stiffness(&mesh, materials);
+                let law = self.contact.stiffness.base_law();
+                let base = SolidSliding::solve(&mesh, &elastic, &contact, law, self.mass());
+                let whole = mesh.sector_count() as f64;
+                let sum =
+                    |base: SolidSliding| base.normal_forces.iter().map(|own| own.1).sum::<f64>();
+                base.map(|base| vec![whole * sum(base)])
+            }
+            Body::Imported(body) => {
+                let stiffness = assemble_stiffness(&body.mesh, &body.materials);
+                let base = SteadySliding::solve_with(&body.mesh, &stiffness, &contact, law);
+                base.map(|base| vec![self.thickness * base.normal_forces(0.0).iter().sum::<f64>()])
+            }
+            Body::Assembly(body) => body.assembled().and_then(|assembly| {
+                let range = assembly.range(&[0.0])?;
+                let mut rest = range.states[range.state_of[0]].normal_forces(0.0).into_iter();
+                let contacts = assembly.contacts().iter().map(|(_, surface)| surface.points.len());
+                Ok(contacts.map(|count| rest.by_ref().take(count).sum()).collect())
+            }),
+        };
+        match pressed {
+            Err(PrestressError::GapEverywhere { .. }) => {
+                Ok(vec![0.0; self.body.assembly().map_or(1, |body| body.contacts.len())])
+            }
+            other => other.map_err(in_words),
+        }
+    }
+}
+
+fn in_words(error: impl std::fmt::Display) -> String {
+    error.to_string()
+}

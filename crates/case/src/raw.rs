@@ -1,0 +1,353 @@
+//! The case exactly as its TOML says it: a tree of values that know where they were written.
+
+use super::value::{convert_table, quote, table_of, with_point};
+use super::{
+    CaseErrors, Diagnostic, Location, RawItem, RawTable, RawValue, Source, keys, overrides, placed,
+};
+use frictionsim_physics::mesh::{FileMesh, MeshFileError};
+use sha2::{Digest, Sha256};
+use std::collections::HashSet;
+use std::fmt::Write as _;
+use std::sync::{Arc, OnceLock};
+use toml::de::DeTable;
+
+/// A parsed, not yet validated case: the file's TOML with the overrides laid over it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RawCase {
+    /// Name of the case file as the user gave it.
+    pub name: String,
+    /// Text of the case file.
+    pub text: String,
+    /// Overrides `KEY=VALUE` in the order given.
+    pub overrides: Vec<String>,
+    /// The effective tree.
+    pub root: RawTable,
+    /// The mesh file, once it is read.
+    pub mesh: Option<MeshBytes>,
+    /// Tables beside the case, once they are read.
+    pub tables: Vec<TableBytes>,
+}
+
+/// A table of a case as it was read.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TableBytes {
+    /// Its name in the case.
+    pub file: String,
+    /// What it holds.
+    pub bytes: Arc<[u8]>,
+}
+
+impl TableBytes {
+    /// The name under which the table of a section, named by a key, lies beside the results.
+    pub fn kept_as(key: &str, section: &str) -> String {
+        let plain = |c: char| if c.is_ascii_alphanumeric() { c } else { '_' };
+        format!("{key}-{}.csv", section.chars().map(plain).collect::<String>())
+    }
+}
+
+/// A mesh file as it was read.
+#[derive(Clone, Debug)]
+pub struct MeshBytes {
+    /// Its name in the case.
+    pub file: String,
+    /// What it holds, the text of files that it includes in their places.
+    pub bytes: Arc<[u8]>,
+    /// What its text says, once that is asked for.
+    parsed: Arc<OnceLock<Result<Arc<FileMesh>, MeshFileError>>>,
+}
+
+impl PartialEq for MeshBytes {
+    fn eq(&self, other: &Self) -> bool {
+        self.file == other.file && self.bytes == other.bytes
+    }
+}
+
+impl MeshBytes {
+    /// The bytes of the mesh file that a case calls `file`.
+    pub fn new(file: String, bytes: impl Into<Arc<[u8]>>) -> Self {
+        Self { file, bytes: bytes.into(), parsed: Arc::default() }
+    }
+
+    /// The mesh and what the file holds beside it; read once.
+    ///
+    /// # Errors
+    /// [`MeshFileError`] with the line, or the byte of a binary file.
+    pub fn read(&self) -> Result<Arc<FileMesh>, MeshFileError> {
+        let read = || FileMesh::read_as(&self.file, &self.bytes).map(Arc::new);
+        self.parsed.get_or_init(read).clone()
+    }
+}
+
+impl RawCase {
+    /// Parses the bytes of a case file and lays the overrides over it.
+    ///
+    /// An override is one TOML assignment to a dotted key, `contact.friction_coefficient=0.4`; a
+    /// value that is not TOML is taken as a string, so that `mesh.element=quad8` needs no quotes.
+    /// Nothing is validated here but the syntax.
+    ///
+    /// # Errors
+    /// [`CaseErrors`] with every syntax error of the file and of the overrides.
+    pub fn parse(name: &str, bytes: &[u8], overrides: &[String]) -> Result<Self, CaseErrors> {
+        let mut case = Self {
+            name: name.to_owned(),
+            text: String::new(),
+            overrides: Vec::new(),
+            root: RawTable::new(),
+            mesh: None,
+            tables: Vec::new(),
+        };
+        let mut diagnostics = Vec::new();
+        match readable_text(bytes) {
+            Ok(text) => {
+                case.root = parse_document(text, 0, &mut diagnostics);
+                case.text = text.to_owned();
+            }
+            Err((error, text)) => {
+                diagnostics.push(error);
+                case.text = text;
+            }
+        }
+        case.lay(overrides, diagnostics)
+    }
+
+    /// Lays overrides over the case, or gives the errors so far and theirs.
+    fn lay(
+        mut self,
+        overrides: &[String],
+        mut diagnostics: Vec<Diagnostic>,
+    ) -> Result<Self, CaseErrors> {
+        for text in overrides {
+            self.overrides.push(text.clone());
+            overrides::lay(&mut self.root, text, self.overrides.len(), &mut diagnostics);
+        }
+        if diagnostics.is_empty() { Ok(self) } else { Err(self.errors(diagnostics)) }
+    }
+
+    /// This case with further overrides, as a sweep makes its points.
+    pub fn with_overrides(&self, further: &[String]) -> Result<Self, CaseErrors> {
+        self.clone().lay(further, Vec::new())
+    }
+
+    /// The point of a parameter study that `overrides` make: a case of its own without `[sweep]`, so
+    /// that its hash stays the same when the study gains other points.
+    pub fn sweep_point(&self, overrides: &[String]) -> Result<Self, CaseErrors> {
+        let mut point = self.with_overrides(overrides)?;
+        point.root.remove("sweep");
+        Ok(point)
+    }
+
+    /// The effective case as canonical TOML, one `section.key = value` line for each key: comments,
+    /// white space and the way a number is written leave no trace.
+    pub fn canonical(&self) -> String {
+        fn walk(table: &RawTable, prefix: &str, out: &mut String) {
+            for (key, entry) in table {
+                let path = format!("{prefix}{}", quote(key));
+                match &entry.item.value {
+                    RawValue::Table(inner) if !inner.is_empty() => {
+                        walk(inner, &format!("{path}."), out);
+                    }
+                    value => {
+                        let _ = writeln!(out, "{path} = {value}");
+                    }
+                }
+            }
+        }
+        let mut out = String::new();
+        walk(&self.root, "", &mut out);
+        out
+    }
+
+    /// SHA-256 of [`RawCase::canonical`], and of the mesh file and tables where there are any, in hexadecimal.
+    pub fn hash(&self) -> String {
+        let canonical = self.canonical();
+        let mesh = self.mesh.iter().map(|mesh| &mesh.bytes[..]);
+        let tables = self.tables.iter().map(|table| &table.bytes[..]);
+        hash_of(std::iter::once(canonical.as_bytes()).chain(mesh).chain(tables))
+    }
+
+    /// Tables that the case names, each with the name under which it lies beside the results.
+    pub fn table_files(&self) -> Vec<(String, String)> {
+        let mut found = Vec::new();
+        for (group, key) in [("materials", "table"), ("contacts", "gap")] {
+            let Some(sections) = table_of(&self.root, group) else {
+                continue;
+            };
+            for name in sections.keys() {
+                let own = table_of(sections, name).and_then(|own| own.get(key));
+                let file = own.and_then(|own| own.item.value.text());
+                found.extend(file.map(|file| (TableBytes::kept_as(key, name), file.to_owned())));
+            }
+        }
+        found
+    }
+
+    /// The tables that were read, each with the name under which it lies beside the results.
+    pub fn kept_tables(&self) -> Vec<(String, &TableBytes)> {
+        let named = self.table_files().into_iter();
+        let kept = named.filter_map(|(name, file)| {
+            let table = self.tables.iter().find(|table| table.file == file)?;
+            Some((name, table))
+        });
+        kept.collect()
+    }
+
+    /// This case without some keys of its sections, `section.key`.
+    pub fn without(&self, keys: &[&str]) -> Self {
+        let mut case = self.clone();
+        for (section, key) in keys.iter().filter_map(|key| key.split_once('.')) {
+            let entry = case.root.get_mut(section);
+            if let Some(RawValue::Table(table)) = entry.map(|entry| &mut entry.item.value) {
+                table.remove(key);
+            }
+        }
+        case
+    }
+
+    /// The first key that has another value in `other`, in words: `section.key is 1 here, 2`.
+    pub fn difference(&self, other: &Self) -> Option<String> {
+        let (ours, theirs) = (self.canonical(), other.canonical());
+        let lines_of = |text| str::lines(text).collect::<HashSet<&str>>();
+        let [our_lines, their_lines] = [&*ours, &*theirs].map(lines_of);
+        let of_ours = ours.lines().find(|line| !their_lines.contains(line));
+        let of_theirs = theirs.lines().find(|line| !our_lines.contains(line));
+        let (key, _) = of_ours.or(of_theirs)?.split_once(" = ")?;
+        let value = |text: &str| {
+            let mut assignments = text.lines().filter_map(|line| line.split_once(" = "));
+            let found = assignments.find(|(name, _)| *name == key);
+            found.map_or("not given".to_owned(), |(_, value)| value.to_owned())
+        };
+        Some(format!("{key} is {} here, {}", value(&ours), value(&theirs)))
+    }
+
+    /// Bundles diagnostics with the texts they point into.
+    pub fn errors(&self, diagnostics: Vec<Diagnostic>) -> CaseErrors {
+        let mut sources = vec![Source { name: self.name.clone(), text: self.text.clone() }];
+        sources.extend(self.overrides.iter().map(|text| overrides::source(text)));
+        CaseErrors { sources, diagnostics }
+    }
+
+    /// Where the case ends.
+    pub(super) fn end(&self) -> Location {
+        let end = self.text.trim_end().len();
+        Location::new(0, end..end)
+    }
+
+    /// Where a dotted key is written, else the nearest section around it.
+    pub fn place(&self, key: &str) -> Location {
+        let key = keys::dotted(key);
+        let mut name = &*key;
+        loop {
+            if let Some(item) = self.find(name) {
+                return item.at.clone();
+            }
+            match name.rsplit_once('.') {
+                Some((section, _)) => name = section,
+                None => return Location::default(),
+            }
+        }
+    }
+
+    /// The value of a dotted key, if the case gives it.
+    pub fn find(&self, key: &str) -> Option<&RawItem> {
+        let mut table = &self.root;
+        let key = keys::dotted(key);
+        let mut parts = key.split('.').peekable();
+        while let Some(part) = parts.next() {
+            let item = &table.get(part)?.item;
+            match (&item.value, parts.peek()) {
+                (_, None) => return Some(item),
+                (RawValue::Table(inner), Some(_)) => table = inner,
+                (RawValue::Array(items), Some(place)) => {
+                    return items.get(keys::list_place(place)?);
+                }
+                _ => return None,
+            }
+        }
+        None
+    }
+}
+
+/// The text of a case file; else what it is instead, and as much of it as is fit to be shown.
+fn readable_text(bytes: &[u8]) -> Result<&str, (Diagnostic, String)> {
+    let refuse = |message: &str, at: std::ops::Range<usize>, shown: String| {
+        let label = if at.is_empty() { "" } else { "the first invalid byte" };
+        let at = Location::new(0, at);
+        Err((Diagnostic::error(message, label, at, "save the file as UTF-8 text"), shown))
+    };
+    if bytes.starts_with(&[0xff, 0xfe]) || bytes.starts_with(&[0xfe, 0xff]) {
+        return refuse("the case file is UTF-16 text, not UTF-8", 0..0, String::new());
+    }
+    if bytes.contains(&0) {
+        return refuse(
+            "the case file is not a text file: it holds zero bytes",
+            0..0,
+            String::new(),
+        );
+    }
+    std::str::from_utf8(bytes).or_else(|error| {
+        let start = error.valid_up_to();
+        let shown = String::from_utf8_lossy(bytes).into_owned();
+        refuse("the case file is not UTF-8 text", start..start + 1, shown)
+    })
+}
+
+/// Parses a whole document; syntax errors are added to `diagnostics`.
+fn parse_document(text: &str, source: usize, diagnostics: &mut Vec<Diagnostic>) -> RawTable {
+    let (table, errors) = DeTable::parse_recoverable(text);
+    if let (false, Some(other)) = (errors.is_empty(), foreign(text)) {
+        let first_line = 0..text.find('\n').unwrap_or(text.len());
+        diagnostics.push(placed!(Location::new(source, first_line),
+            "this is {other}, not a case"; "expected a section such as [geometry], or a key";
+            "`frictionsim init` writes a case to start from"));
+        return RawTable::new();
+    }
+    for error in &errors {
+        let span = error.span().unwrap_or(0..0);
+        let help = decimal_comma(text, span.start);
+        let at = Location::new(source, span);
+        diagnostics.push(Diagnostic::error(error.message(), "", at, help));
+    }
+    convert_table(table.get_ref(), source, diagnostics)
+}
+
+/// What a text is that is no TOML at all.
+fn foreign(text: &str) -> Option<&'static str> {
+    let begin = text.trim_start();
+    if begin.starts_with("$MeshFormat") {
+        return Some("a Gmsh mesh (a case names it as mesh.file)");
+    }
+    if begin.starts_with('{') {
+        return Some("a JSON file");
+    }
+    if begin.starts_with('<') {
+        return Some("an XML or HTML file");
+    }
+    let mut rows = text.lines().map(str::trim).filter(|line| !line.is_empty());
+    let is_row = |line: &str| {
+        let has_columns = line.contains([',', ';', '\t']);
+        has_columns && !line.contains('=') && !line.starts_with(['[', '#'])
+    };
+    // The first rows tell: a case has an assignment or a section among them.
+    let (first, second) = (rows.next()?, rows.next()?);
+    (is_row(first) && is_row(second)).then_some("a table of values")
+}
+
+/// A hint where the line of a syntax error gives a number with a decimal comma.
+fn decimal_comma(text: &str, at: usize) -> Option<String> {
+    let begin = text.get(..at)?.rfind('\n').map_or(0, |newline| newline + 1);
+    let line = text[begin..].lines().next()?;
+    let number = with_point(line.split_once('=')?.1.trim())?;
+    Some(format!("write the number with a decimal point, not a comma: {number}"))
+}
+
+/// SHA-256 of parts one behind the other, in hexadecimal.
+pub fn hash_of<'a>(parts: impl IntoIterator<Item = &'a [u8]>) -> String {
+    let mut digest = Sha256::new();
+    parts.into_iter().for_each(|part| digest.update(part));
+    hex(digest)
+}
+
+/// A finished digest in hexadecimal.
+pub fn hex(digest: Sha256) -> String {
+    digest.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
+}

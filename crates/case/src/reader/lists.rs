@@ -1,0 +1,240 @@
+//! Lists, ranges, and nodes by number or by place.
+
+use super::Section;
+use crate::{
+    Bound, Kind, Location, RawItem, RawTable, RawValue, Spacing, keys, range_values, refuse,
+    refuse_at,
+};
+
+/// Longest list that a range may stand for.
+const LONGEST_RANGE: usize = 100_000;
+
+/// How a case names a node by its place.
+const PLACE: &str = "{ x, y } or { radius, angle_deg }, with z on solid bodies";
+
+/// How a case names a node.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum NodePlace {
+    /// By its number.
+    Number(usize),
+    /// As the nearest to a point, m; on the top face of a body of revolution where no `z` is given.
+    Point([f64; 2], Option<f64>),
+    /// As the nearest to a radius, m, and an angle about the axis, rad.
+    Polar { radius: f64, angle: f64, z: Option<f64> },
+}
+
+impl<'a> Section<'a> {
+    /// Reads the section of a name, if the case has it.
+    pub fn read_section<T>(&self, name: &str, read: impl FnOnce(&Section<'a>) -> T) -> Option<T> {
+        let section = self.section(name, false);
+        section.is_given().then(|| section.closed(read))
+    }
+
+    /// What is read of a section, all of whose keys are known then.
+    pub fn closed<T>(self, read: impl FnOnce(&Section<'a>) -> T) -> T {
+        let value = read(&self);
+        self.close();
+        value
+    }
+
+    /// Reads every section under `name`, which are told apart by names that the case gives.
+    pub fn each<T>(&self, name: &str, mut read: impl FnMut(&Section<'_>) -> T) -> Vec<(String, T)> {
+        let all = self.section(name, false);
+        let names: Vec<&str> = all.remaining().into_iter().map(|(name, _)| name).collect();
+        let found = names
+            .into_iter()
+            .map(|name| (name.to_owned(), all.section(name, false).closed(&mut read)))
+            .collect();
+        all.close();
+        found
+    }
+
+    /// A list of whole numbers without repetition, each with its place, or the default.
+    pub fn counts(&self, key: &str) -> Option<Vec<(usize, Location)>> {
+        let least = self.least(key);
+        let Some(item) = self.item(key) else {
+            let items = self.default_items(key)?.into_iter();
+            let count = |item| Some((self.read_count(key, &item, least)?, self.place(key)));
+            return Some(items.filter_map(count).collect());
+        };
+        let mut values: Vec<(usize, Location)> = Vec::new();
+        let mut seen = std::collections::BTreeSet::new();
+        for item in item.listed() {
+            let Some(value) = self.read_count(key, item, least) else {
+                continue;
+            };
+            if seen.insert(value) {
+                values.push((value, item.at.clone()));
+            } else {
+                self.reject_at(item, key, "must not be listed twice");
+            }
+        }
+        Some(values)
+    }
+
+    /// The key `harmonics`: those that a mesh of so many elements around can hold.
+    pub fn harmonics(&self, sectors: Option<usize>) -> Option<Vec<usize>> {
+        let values = self.counts("harmonics")?;
+        let elements = sectors.unwrap_or(0);
+        let highest = elements / 2;
+        for (value, at) in &values {
+            if *value > highest && elements > 0 {
+                refuse_at!(self, at,
+                    "harmonic {value} in {} is above the mesh's highest, {highest}",
+                    self.name("harmonics"); "at most half of {elements} elements";
+                    "lower the harmonic or raise mesh.circumferential_elements");
+            }
+        }
+        Some(values.into_iter().map(|(value, _)| value).collect())
+    }
+
+    /// A list of numbers in rising order; equal ones are an error.
+    pub fn rising(&self, key: &str) -> Option<Vec<f64>> {
+        let mut values = self.numbers(key)?;
+        values.sort_by(f64::total_cmp);
+        if let Some(pair) = values.windows(2).find(|pair| pair[0] == pair[1]) {
+            refuse!(self, key => "has {} twice", pair[0]; "every value once");
+        }
+        Some(values)
+    }
+
+    /// A list of numbers: one by one, a single number, a range, or the default.
+    pub fn numbers(&self, key: &str) -> Option<Vec<f64>> {
+        let bound = match self.declared(key).kind {
+            Kind::Numbers(bound) => bound,
+            _ => Bound::Finite,
+        };
+        let Some(item) = self.item(key) else {
+            let items = self.default_items(key)?.into_iter();
+            return Some(items.filter_map(|item| self.read_number(key, &item, bound)).collect());
+        };
+        if let RawValue::Table(table) = &item.value {
+            return Some(self.range(key, table, item, bound));
+        }
+        if self.is_some_text(key) {
+            self.reject_at(item, key, "must be a list of numbers or a range { from, to, count }");
+            return Some(Vec::new());
+        }
+        let values = item.listed().iter();
+        Some(values.filter_map(|item| self.read_number(key, item, bound)).collect())
+    }
+
+    /// The list that stands for a key that is left out.
+    fn default_items(&self, key: &str) -> Option<Vec<RawItem>> {
+        match self.declared(key).default_value()? {
+            RawValue::Array(items) => Some(items),
+            _ => None,
+        }
+    }
+
+    /// So many numbers: as given, else the default, with 0 where that is shorter.
+    pub fn vector<const N: usize>(&self, key: &str) -> [f64; N] {
+        let mut values = self.numbers(key).unwrap_or_default();
+        if self.has(key) && values.len() != N {
+            self.no_vector::<N>(key, &format!("needs {} numbers", ["two", "three"][N - 2]));
+            values.clear();
+        }
+        // A direction is harmless where there is nothing to read.
+        std::array::from_fn(|place| match values.as_slice() {
+            [] => f64::from(u8::from(place == 0)),
+            values => values.get(place).copied().unwrap_or(0.0),
+        })
+    }
+
+    /// Says what so many numbers look like.
+    pub fn no_vector<const N: usize>(&self, key: &str, what: &str) {
+        let (names, example) = (["x", "y", "z"][..N].join(", "), &[1.0, 0.0, 0.0][..N]);
+        refuse!(self, key => "{what}"; "must be [{names}]"; "for example `{key} = {example:?}`");
+    }
+
+    /// A list of lists of numbers; `None` where the key is left out or a word.
+    pub fn vectors(&self, key: &str) -> Option<Vec<Vec<f64>>> {
+        let item = self.item(key)?;
+        if self.is_some_text(key) {
+            return None;
+        }
+        let of_one = |item: &RawItem| -> Vec<f64> {
+            let values = item.listed().iter();
+            values.filter_map(|item| self.read_number(key, item, Bound::Finite)).collect()
+        };
+        Some(item.listed().iter().map(of_one).collect())
+    }
+
+    /// The values of `{ from, to, count, spacing }`; none where something is wrong with it.
+    pub fn range(&self, key: &str, table: &'a RawTable, item: &RawItem, bound: Bound) -> Vec<f64> {
+        let mut range = Section::new(self.findings, self.name(key), Some(table), item.at.clone());
+        range.declarations = Some(&keys::RANGE);
+        let [from, to] = ["from", "to"].map(|end| {
+            let value = range.number(end);
+            match table.get(end) {
+                Some(entry) if !bound.admits(value) && value.is_finite() => {
+                    range.reject_at(&entry.item, end, &bound.text());
+                    f64::NAN
+                }
+                _ => value,
+            }
+        });
+        let count = range.count("count");
+        let spacing = range.choice("spacing");
+        range.close();
+        if from.is_nan() || to.is_nan() || count == 0 {
+            return Vec::new();
+        }
+        let refuse = |message: &str| {
+            self.reject_at(item, key, message);
+            Vec::new()
+        };
+        if count > LONGEST_RANGE {
+            return refuse(&format!("must have a count of at most {LONGEST_RANGE}"));
+        }
+        if spacing == Spacing::Logarithmic && !(from > 0.0 && to > 0.0) {
+            return refuse("must have positive ends for logarithmic spacing");
+        }
+        if count > 1 && from == to {
+            return refuse("must have two different ends");
+        }
+        range_values(from, to, count, spacing)
+    }
+
+    /// A list of nodes, each with its place in the case.
+    pub fn nodes(&self, key: &str) -> Vec<(NodePlace, Location)> {
+        let items = self.item(key).map_or(&[][..], RawItem::listed).iter();
+        items.filter_map(|item| Some((self.read_node(key, item)?, item.at.clone()))).collect()
+    }
+
+    /// One node; none where it is not given or wrong.
+    pub fn node(&self, key: &str) -> Option<(NodePlace, Location)> {
+        let item = self.item(key)?;
+        Some((self.read_node(key, item)?, item.at.clone()))
+    }
+
+    fn read_node(&self, key: &str, item: &'a RawItem) -> Option<NodePlace> {
+        let table = match &item.value {
+            RawValue::Table(table) => table,
+            RawValue::Integer(_) | RawValue::Float(_) => {
+                return self.read_count(key, item, 1).map(NodePlace::Number);
+            }
+            _ => {
+                self.reject_at(item, key, &format!("must be a node number, {PLACE}"));
+                return None;
+            }
+        };
+        let mut place = Section::new(self.findings, self.name(key), Some(table), item.at.clone());
+        place.declarations = Some(&keys::PLACE);
+        let [x, y, z, radius, angle] =
+            ["x", "y", "z", "radius", "angle_deg"].map(|part| place.optional_number(part));
+        place.close();
+        let found = match (x, y, radius, angle) {
+            (Some(x), Some(y), None, None) => NodePlace::Point([x, y], z),
+            (None, None, Some(radius), Some(angle)) => {
+                NodePlace::Polar { radius, angle: angle.to_radians(), z }
+            }
+            _ => {
+                self.reject_at(item, key, &format!("must be {PLACE}"));
+                return None;
+            }
+        };
+        let is_read = [x, y, z, radius, angle].into_iter().flatten();
+        is_read.into_iter().all(f64::is_finite).then_some(found)
+    }
+}

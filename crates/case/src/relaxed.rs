@@ -1,0 +1,82 @@
+//! What materials with loss factors and tables over frequency are in time.
+
+use super::{Case, CaseErrors, ModeSelection};
+use frictionsim_physics::fem::{MaterialField, MaxwellChain, RelaxedMaterials};
+use frictionsim_physics::linalg::c64;
+
+/// Band of a constant loss factor: from this part of `cea.max_frequency_hz` up to that.
+const LOWEST: f64 = 0.01;
+/// Least part of the highest frequency of a table at which its chain begins.
+const LOWEST_OF_TABLE: f64 = 1e-5;
+
+/// The materials of a case in time; none where they are what they are in any case, and where there is no band to fit
+/// them to.
+pub(super) fn relaxed(case: &Case) -> Option<RelaxedMaterials> {
+    let (materials, count) = (case.materials(), case.body.region_count());
+    if case.transient.is_none() || !has_losses(case) {
+        return None;
+    }
+    let band = constant_band(case);
+    let needs_band = (0..count).any(|region| materials.of(region).loss_factor != 0.0);
+    if needs_band && band.is_none() {
+        return None;
+    }
+    let chain = |region: usize| {
+        if let Some(table) = materials.table(region) {
+            let [low, high] = table.range_hz();
+            let ratio = |frequency_hz: f64| table.ratio(frequency_hz);
+            return Some(MaxwellChain::fit(&ratio, [low.max(LOWEST_OF_TABLE * high), high]));
+        }
+        let eta = materials.of(region).loss_factor;
+        let band = band.filter(|_| eta != 0.0)?;
+        Some(MaxwellChain::fit(&|_| c64::new(1.0, eta), band))
+    };
+    Some(RelaxedMaterials::of(materials, count, chain))
+}
+
+/// Whether a material has a loss factor or a table.
+fn has_losses(case: &Case) -> bool {
+    let materials = case.materials();
+    let mut regions = 0..case.body.region_count();
+    regions
+        .any(|region| materials.of(region).loss_factor != 0.0 || materials.table(region).is_some())
+}
+
+/// The band over which a constant loss factor is kept, Hz.
+fn constant_band(case: &Case) -> Option<[f64; 2]> {
+    match case.cea.as_ref()?.modes {
+        ModeSelection::BelowHz(limit) => Some([LOWEST * limit, limit]),
+        ModeSelection::Lowest(_) => None,
+    }
+}
+
+impl Case {
+    /// The material of each region of the mesh in time.
+    pub fn materials_in_time(&self) -> &dyn MaterialField {
+        match &self.relaxed {
+            Some(relaxed) => relaxed,
+            None => self.materials(),
+        }
+    }
+
+    /// Refuses losses that have no equivalent in time.
+    pub(super) fn refuse_losses_without_chain(&self) -> Result<(), CaseErrors> {
+        if !self.has_structural_damping() {
+            return Ok(());
+        }
+        if self.body.has_lossy_supports() || self.has_lossy_contacts() {
+            return self
+                .refuse_losses_in_time("with loss factors of supports or contacts, a transient");
+        }
+        if self.relaxed.is_some() {
+            return Ok(());
+        }
+        Err(self.loss_error(
+            "a transient has a Maxwell chain in place of a loss factor. It is fitted from a \
+             hundredth of cea.max_frequency_hz up to that, and the case has none"
+                .to_owned(),
+            "needs a band of frequencies",
+            "give [cea] with max_frequency_hz, or damping.stiffness_coefficient in place of loss_factor",
+        ))
+    }
+}

@@ -1,0 +1,171 @@
+//! `[superelements.*]`: systems that other programs have reduced to matrices.
+
+use super::cea::mode_selection;
+use super::raw::hex;
+use super::{CaseErrors, Findings, ModeSelection, RawCase, Section, refuse};
+use frictionsim_bounds::{MATRIX, SUPERELEMENT_UNKNOWNS};
+use frictionsim_physics::linalg::MarketMatrix;
+use sha2::{Digest, Sha256};
+use std::path::Path;
+
+/// The matrices of a superelement, in the order of their keys.
+const MATRICES: [&str; 3] = ["mass", "damping", "stiffness"];
+
+/// The matrices of a reduced system.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Superelement {
+    /// Its name in the case.
+    pub name: String,
+    /// Mass `M`.
+    pub mass: MarketMatrix,
+    /// Damping `C`; zero where the case gives none.
+    pub damping: MarketMatrix,
+    /// Stiffness `K`.
+    pub stiffness: MarketMatrix,
+}
+
+/// A case of one superelement that stands free: `(lambda^2 M + lambda C + K) x = 0`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FreeSystem {
+    /// Title.
+    pub title: String,
+    /// Its matrices.
+    pub superelement: Superelement,
+    /// Modes wanted.
+    pub modes: ModeSelection,
+    /// The case as it is written.
+    pub raw: RawCase,
+    /// SHA-256 of the effective case and of the files of its matrices, in hexadecimal.
+    pub hash: String,
+}
+
+impl FreeSystem {
+    /// Whether a case describes superelements and no body.
+    pub fn is_described_by(raw: &RawCase) -> bool {
+        let has = |section: &str| raw.root.contains_key(section);
+        has("superelements") && !has("geometry") && !has("mesh")
+    }
+
+    /// Reads the matrices of a case, whose files are relative to it.
+    ///
+    /// # Errors
+    /// [`CaseErrors`]: several superelements, a file that is not readable or no matrix, sizes that differ, an unknown
+    /// without entries, a key that means nothing here.
+    pub fn read(raw: RawCase) -> Result<Self, CaseErrors> {
+        let findings = Findings::of(&raw.root);
+        let root = Section::root(&findings, &raw.root, raw.end());
+        let title = root.optional_text("title").unwrap_or_default();
+        let all = root.section("superelements", true);
+        let names: Vec<&str> = all.remaining().into_iter().map(|(name, _)| name).collect();
+        if names.len() > 1 {
+            refuse!(all, names[1], "several superelements without a body have nothing in common";
+                "the second one"; "give each a case of its own");
+        }
+        let mut digest = Sha256::new_with_prefix(raw.canonical());
+        let folder = Path::new(&raw.name).parent().unwrap_or(Path::new(""));
+        let read = names.first().and_then(|name| {
+            let section = all.section(name, true);
+            let found = superelement(&section, name, folder, &mut digest);
+            section.close();
+            found
+        });
+        all.close();
+        let section = root.section("cea", true);
+        let unknowns = read.as_ref().map_or(0, |own| own.mass.rows as u128);
+        let modes = mode_selection(&section, unknowns);
+        section.close();
+        root.close();
+        let (errors, _) = findings.into_parts();
+        match read {
+            Some(superelement) if errors.is_empty() => {
+                let hash = hex(digest);
+                Ok(Self { title, superelement, modes, hash, raw })
+            }
+            _ => Err(raw.errors(errors)),
+        }
+    }
+}
+
+/// Refuses superelements beside a body.
+pub(super) fn refuse_attached(root: &Section<'_>) {
+    let all = root.section("superelements", false);
+    if !all.is_given() {
+        return;
+    }
+    refuse!(root, "superelements",
+        "superelements are solved free-standing; joining them to a mesh at interface nodes is not \
+         supported"; "beside a body";
+        "leave [geometry] and [mesh] out, or solve the superelement in a case of its own");
+}
+
+/// One superelement; `None` where something is wrong with it, which is reported.
+fn superelement(
+    section: &Section<'_>,
+    name: &str,
+    folder: &Path,
+    digest: &mut Sha256,
+) -> Option<Superelement> {
+    let read = |key: &str, digest: &mut Sha256| {
+        let file = match key {
+            "damping" => section.optional_text(key),
+            _ => Some(section.text(key)).filter(|_| section.has(key)),
+        };
+        file.map(|file| matrix(section, key, &folder.join(file), digest))
+    };
+    let [mass, damping, stiffness] = MATRICES.map(|key| read(key, digest));
+    let (mass, stiffness) = (mass??, stiffness??);
+    let none = MarketMatrix { entries: Vec::new(), ..mass.clone() };
+    let damping = damping.unwrap_or(Some(none))?;
+    let size = mass.rows;
+    for (key, own) in MATRICES.iter().zip([&mass, &damping, &stiffness]) {
+        if [own.rows, own.columns] != [size, size] {
+            refuse!(section, key => "is {} x {}, {} has {size} rows", own.rows, own.columns,
+                section.name("mass"); "another size";
+                "all matrices of a superelement are square and of one size");
+            return None;
+        }
+    }
+    if size == 0 || size > SUPERELEMENT_UNKNOWNS {
+        refuse!(section, "mass" => "has {size} unknowns";
+            "1 to {SUPERELEMENT_UNKNOWNS} unknowns"; "reduce the system further");
+        return None;
+    }
+    let own = Superelement { name: name.to_owned(), mass, damping, stiffness };
+    is_determined(section, &own).then_some(own)
+}
+
+/// Whether every unknown is part of some equation; the first that is not is reported.
+fn is_determined(section: &Section<'_>, own: &Superelement) -> bool {
+    let matrices = [&own.mass, &own.damping, &own.stiffness];
+    let mut is_met = vec![false; own.mass.rows];
+    let entries = matrices.into_iter().flat_map(|matrix| &matrix.entries);
+    for &(_, column, value) in entries {
+        is_met[column] |= value != 0.0;
+    }
+    let Some(unknown) = is_met.iter().position(|met| !met) else {
+        return true;
+    };
+    refuse!(section, "stiffness",
+        "unknown {} of superelement {} has no entry in any of its matrices: nothing holds it and \
+         it has no mass", unknown + 1, own.name;
+        "an empty column"; "remove its row and column from every matrix");
+    false
+}
+
+/// The matrix of a file.
+fn matrix(
+    section: &Section<'_>,
+    key: &str,
+    path: &Path,
+    digest: &mut Sha256,
+) -> Option<MarketMatrix> {
+    let reject = |what: String, label: &str| {
+        refuse!(section, key, "{}: {}: {what}", section.name(key), path.display(); "{label}";
+            "a real matrix in the Matrix Market format, as scipy.io.mmwrite writes it");
+    };
+    let bytes = frictionsim_bounds::read(path, MATRIX);
+    let bytes = bytes.map_err(|refusal| reject(refusal.to_string(), "not readable")).ok()?;
+    digest.update(&bytes);
+    let matrix = MarketMatrix::read(&String::from_utf8_lossy(&bytes), SUPERELEMENT_UNKNOWNS);
+    matrix.map_err(|error| reject(error.to_string(), "no such matrix")).ok()
+}

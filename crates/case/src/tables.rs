@@ -1,0 +1,152 @@
+//! Tables beside a case: `materials.*.table`, modulus and loss factor over frequency, and `contacts.*.gap`, a measured
+//! surface.
+
+use super::{RawCase, Section, TableBytes, caution, refuse};
+use frictionsim_bounds::TABLE;
+use frictionsim_physics::contact::Topography;
+use frictionsim_physics::fem::ModulusTable;
+use frictionsim_signal::reader::{ModulusRow, read_gaps, read_moduli};
+use std::path::Path;
+use std::sync::Arc;
+
+/// Softest material, Pa: with less the frequencies of a body spread over more decades than a table can follow.
+const SOFTEST: f64 = 100.0;
+/// A modulus that falls by more than this part of its largest value so far, beyond the scatter of measurements, is none
+/// of a passive material.
+const FALL: f64 = 0.05;
+
+/// The tables of a case: known already, or files beside it.
+pub(super) struct TableFiles<'a> {
+    raw: &'a RawCase,
+    pub(super) read: Vec<TableBytes>,
+}
+
+impl<'a> TableFiles<'a> {
+    /// Those of a case, none read yet.
+    pub(super) fn of(raw: &'a RawCase) -> Self {
+        Self { raw, read: Vec::new() }
+    }
+
+    fn bytes(&mut self, file: &str) -> Result<Arc<[u8]>, String> {
+        let mut known = self.read.iter().chain(&self.raw.tables).filter(|table| table.file == file);
+        let bytes = match known.next() {
+            Some(table) => Arc::clone(&table.bytes),
+            None => {
+                let folder = Path::new(&self.raw.name).parent().unwrap_or(Path::new(""));
+                read_file(&folder.join(file))?
+            }
+        };
+        if !self.read.iter().any(|table| table.file == file) {
+            self.read.push(TableBytes { file: file.to_owned(), bytes: Arc::clone(&bytes) });
+        }
+        Ok(bytes)
+    }
+}
+
+fn read_file(path: &Path) -> Result<Arc<[u8]>, String> {
+    let bytes = frictionsim_bounds::read(path, TABLE);
+    let fail = |reason| format!("cannot read the table {}: {reason}", path.display());
+    bytes.map(Into::into).map_err(fail)
+}
+
+/// The table of `[material]` or of a section of `[materials.*]`, where it has one.
+pub(super) fn modulus_table(
+    section: &Section<'_>,
+    files: &mut TableFiles<'_>,
+) -> Option<Arc<ModulusTable>> {
+    let file = section.optional_text("table")?;
+    let reject = |message: String, label: &str, help: &str| {
+        refuse!(section, "table", "{}: {message}", section.name("table"); "{label}"; "{help}");
+    };
+    let readable = files.bytes(&file);
+    let rows = readable.and_then(|bytes| read_moduli(&bytes, &file).map_err(|e| e.to_string()));
+    let columns = "its columns are frequency_hz, young_modulus (Pa) and loss_factor";
+    let rows = rows.map_err(|reason| reject(reason, "not a table of moduli", columns)).ok()?;
+    if let Err((line, what, help)) = sound(&rows) {
+        reject(format!("{file}:{line}: {what}"), "no material is like that", help);
+        return None;
+    }
+    if let Some((line, what)) = falling(&rows) {
+        caution!(section, "table",
+            "{}: {file}:{line}: {what}; the modulus of a passive material rises with the frequency",
+            section.name("table"); "falls with the frequency");
+    }
+    let rows = rows.iter().map(|row| [row.frequency_hz, row.young_modulus, row.loss_factor]);
+    let key = section.name("table");
+    Some(Arc::new(ModulusTable::new(&key, &file, rows.collect())))
+}
+
+/// The measured surface of a section of `[contacts.*]`, where it has one.
+pub(super) fn topography(
+    section: &Section<'_>,
+    files: &mut TableFiles<'_>,
+) -> Option<Arc<Topography>> {
+    let file = section.optional_text("gap")?;
+    let readable = files.bytes(&file);
+    let points = readable.and_then(|bytes| read_gaps(&bytes, &file).map_err(|e| e.to_string()));
+    points
+        .map(|points| Arc::new(Topography::new(&file, points)))
+        .map_err(|reason| {
+            refuse!(section, "gap", "{}: {reason}", section.name("gap"); "not a measured surface";
+                "its columns are x, y, z and gap, all in m");
+        })
+        .ok()
+}
+
+/// What no table can hold: line, what is wrong, remedy.
+fn sound(rows: &[ModulusRow]) -> Result<(), (usize, String, &'static str)> {
+    if let [only] = rows {
+        let what = "one row alone covers no range of frequencies".to_owned();
+        return Err((only.line, what, "give young_modulus and loss_factor instead, or more rows"));
+    }
+    let mut before = f64::NEG_INFINITY;
+    for row in rows {
+        let ModulusRow { line, frequency_hz, young_modulus, loss_factor } = *row;
+        if frequency_hz < 0.0 {
+            let what = format!("the frequency {frequency_hz} Hz is below zero");
+            return Err((line, what, "frequencies begin at 0 or above it"));
+        }
+        if frequency_hz <= before {
+            let what = format!(
+                "the frequency {frequency_hz} Hz does not lie above the {before} Hz before it"
+            );
+            return Err((line, what, "sort the rows by frequency and leave repeated ones out"));
+        }
+        if young_modulus > 0.0 && young_modulus < SOFTEST {
+            let what = format!("the modulus {young_modulus} Pa is below that of any solid");
+            return Err((line, what, "at least 100 Pa; a soft gel has 1000. Is it in GPa?"));
+        }
+        if young_modulus <= 0.0 {
+            let what = format!("the modulus {young_modulus} Pa is not above zero");
+            return Err((line, what, "a modulus is positive at every frequency"));
+        }
+        if loss_factor < 0.0 {
+            let what = format!(
+                "the loss factor {loss_factor} is below zero: the material would give energy"
+            );
+            return Err((line, what, "a loss factor is zero or positive"));
+        }
+        if loss_factor > 1.0 {
+            let what = format!(
+                "the loss factor {loss_factor} is beyond 1, where half of the strain energy is \
+                lost in a sixth of a cycle"
+            );
+            return Err((line, what, "at most 1; rubber has 0.1 to 1. Is it in percent?"));
+        }
+        before = frequency_hz;
+    }
+    Ok(())
+}
+
+/// The first row whose modulus lies well below that of one before: line and what it says.
+fn falling(rows: &[ModulusRow]) -> Option<(usize, String)> {
+    let mut largest = 0.0_f64;
+    for row in rows {
+        if row.young_modulus < (1.0 - FALL) * largest {
+            let what = format!("the modulus falls from {largest:e} to {:e} Pa", row.young_modulus);
+            return Some((row.line, what));
+        }
+        largest = largest.max(row.young_modulus);
+    }
+    None
+}

@@ -1,0 +1,324 @@
+//! `[transient]` and `[output]`: the explicit transient and what it writes.
+
+use super::node::Nodes;
+use super::{
+    AssemblyBody, Body, Case, CaseErrors, PlacedNode, Revolution, Section, caution, refusal,
+    refuse, refuse_at,
+};
+use frictionsim_physics::contact::SlidingContact;
+use frictionsim_physics::mesh::{Counterface, SolidContact};
+use frictionsim_physics::prestress::BaseChoice;
+use frictionsim_physics::transient::{
+    InitialState, OperatorChoice, Perturbation, StandingWave, TimeStep, whole_intervals,
+};
+
+/// Snapshots after the end of a run that are named one by one.
+const MOST_NAMED: usize = 4;
+
+/// `[transient]`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Transient {
+    /// Simulated time, s.
+    pub duration: f64,
+    /// Time step.
+    pub time_step: TimeStep,
+    /// Ramp of the interference, s.
+    pub expansion_time: f64,
+    /// Initial state.
+    pub initial: InitialState,
+    /// Operator.
+    pub operator: OperatorChoice,
+    /// Whether the run ends where it has settled.
+    pub stop_when_settled: bool,
+    /// Initial perturbation.
+    pub perturbation: Perturbation,
+}
+
+/// `[output]`: what a transient writes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Output {
+    /// Nodes, counted from 1.
+    pub probes: Vec<usize>,
+    /// Those of them that were asked for by their place.
+    pub placed_probes: Vec<PlacedNode>,
+    /// Time between samples, s.
+    pub sample_interval: f64,
+    /// Time between contact frames, s; `None` where the length of the run decides.
+    pub contact_interval: Option<f64>,
+    /// Whether probes have the acceleration of the sampled step too.
+    pub raw_acceleration: bool,
+    /// Times of the field snapshots, s, rising.
+    pub snapshots: Vec<f64>,
+    /// Wall time between checkpoints, s.
+    pub checkpoint_interval: f64,
+    /// Whether meshes, shapes and responses are written as universal files, too.
+    pub universal: bool,
+}
+
+impl Case {
+    /// The explicit transient.
+    ///
+    /// # Errors
+    /// A case without `[transient]`, and one of Quad8 elements, which the transient cannot run.
+    pub fn require_transient(&self) -> Result<&Transient, CaseErrors> {
+        self.refuse_losses_without_chain()?;
+        self.require_steps(
+            "the transient needs \"quad4\"",
+            "the transient needs bricks of 8 nodes, \"quad4\": it lumps the mass",
+        )?;
+        // What no section would help against comes first.
+        let remedy = "[transient]\nduration = 0.05";
+        let transient = self.required(&self.transient, "transient", "transient", remedy)?;
+        if let InitialState::LimitCycle { .. } = transient.initial {
+            self.refuse_losses_in_time("the search for the limit cycle that the run starts on")?;
+            self.require_annulus(
+                "limit cycles are rotating waves, which",
+                "limit cycles are sought in",
+            )?;
+        }
+        Ok(transient)
+    }
+
+    /// Refuses what an assembly cannot have in a transient, nor in a limit cycle, which is one.
+    pub(super) fn check_stepped(&self, assembly: &AssemblyBody) -> Result<(), CaseErrors> {
+        if assembly.base == BaseChoice::Closed {
+            return Err(refusal!(self, "contacts",
+                "contacts with state = \"closed\" are free of stress: without a normal force there \
+                 is no friction to step in time"; "steps in time need state = \"solved\"";
+                "press the bodies together (condition = \"pressure\"), or leave `state` out"));
+        }
+        if assembly.motions.iter().any(|motion| motion.inertia.is_some()) {
+            return Err(refusal!(self, "motion",
+                "rotation_terms are not stepped in time: the gyroscopic forces of the last half \
+                 step would feed the motion"; "with rotation_terms = false";
+                "use `frictionsim cea`, or leave rotation_terms out"));
+        }
+        Ok(())
+    }
+}
+
+pub(super) fn transient(
+    section: &Section<'_>,
+    body: Option<&Body>,
+    sliding: &SlidingContact,
+) -> Transient {
+    let duration = section.number("duration");
+    let time_step = match section.optional_number("time_step") {
+        Some(step) => TimeStep::Seconds(step),
+        None => TimeStep::Auto,
+    };
+    if let TimeStep::Seconds(step) = time_step
+        && step > duration
+    {
+        refuse!(section, "time_step",
+            "transient.time_step = {step:?} s is above transient.duration = {duration:?} s";
+            "at most {duration:?}");
+    }
+    let initial = initial(section, body);
+    let expansion_time = section.number("expansion_time");
+    if initial == InitialState::Rest && expansion_time > duration {
+        let default = if section.has("expansion_time") { "" } else { ", the default," };
+        refuse!(section, "expansion_time" =>
+            "= {expansion_time:?} s{default} is above transient.duration = {duration:?} s: the \
+             cylinder would never be fully expanded"; "at most the duration");
+    }
+    if initial != InitialState::Rest && section.has("expansion_time") {
+        caution!(section, "expansion_time",
+            "transient.expansion_time is not used: the run starts with the cylinder fully expanded";
+            "only with initial = \"rest\"");
+    }
+    Transient {
+        duration,
+        time_step,
+        expansion_time,
+        initial,
+        operator: section.choice("operator"),
+        stop_when_settled: section.flag("stop_when_settled"),
+        perturbation: section
+            .section("perturbation", false)
+            .closed(|own| perturbation(own, body, sliding, duration)),
+    }
+}
+
+/// `initial`, with the harmonic that a limit cycle needs.
+fn initial(section: &Section<'_>, body: Option<&Body>) -> InitialState {
+    let initial = section.choice("initial");
+    let InitialState::LimitCycle { .. } = initial else {
+        for key in section.refused("limit_cycle_harmonic limit_cycle_onset") {
+            refuse!(section, key,
+                "transient.{key} is given, but the run does not start on a limit cycle";
+                "only with initial = \"limit-cycle\"");
+        }
+        return initial;
+    };
+    let harmonic = section.count("limit_cycle_harmonic");
+    let sectors = body.and_then(Body::sector_count);
+    if let Some(sectors) = sectors.filter(|sectors| harmonic > sectors / 2) {
+        let highest = sectors / 2;
+        refuse!(section, "limit_cycle_harmonic",
+            "transient.limit_cycle_harmonic = {harmonic} is above the mesh's highest, {highest}";
+            "at most half of {sectors} elements");
+    }
+    InitialState::LimitCycle { harmonic, onset: section.count("limit_cycle_onset") }
+}
+
+/// `[transient.perturbation]`: the velocity that is added to the body's.
+fn perturbation(
+    section: &Section<'_>,
+    body: Option<&Body>,
+    sliding: &SlidingContact,
+    duration: f64,
+) -> Perturbation {
+    let harmonics = section.harmonics(body.and_then(Body::sector_count)).unwrap_or_default();
+    let unit = velocity_unit(section, body.map_or(1.0, |body| slip_speed(body, sliding)));
+    let velocities = one_for_each(section, "velocity", &harmonics);
+    let phases = one_for_each(section, "phase_deg", &harmonics);
+    if harmonics.is_empty() && section.has("phase_deg") {
+        refuse!(section, "phase_deg" => "is given without harmonics";
+            "needs transient.perturbation.harmonics");
+    }
+    let noise = section.number("noise");
+    let noise_seed = section.count("noise_seed");
+    if section.has("noise_seed") && noise == 0.0 {
+        refuse!(section, "noise_seed" => "is given without noise";
+            "needs transient.perturbation.noise");
+    }
+    let time = section.number("at");
+    if time > duration {
+        refuse!(section, "at" =>
+            "= {time:?} s is after the end of the run, transient.duration = {duration:?} s";
+            "must be within the run");
+    }
+    if time > 0.0 && harmonics.is_empty() && noise == 0.0 {
+        refuse!(section, "at" => "is given, but there is no velocity to add";
+            "needs harmonics or noise");
+    }
+    let waves = harmonics.iter().zip(velocities.iter().zip(&phases));
+    Perturbation {
+        waves: waves
+            .map(|(&harmonic, (velocity, phase))| StandingWave {
+                harmonic,
+                velocity: unit * velocity,
+                phase: phase.to_radians(),
+            })
+            .collect(),
+        noise: unit * noise,
+        noise_seed: noise_seed as u64,
+        time,
+    }
+}
+
+/// `|Omega| a`, under a ring `|Omega|` times its mean radius, on a plane its speed, m/s.
+fn slip_speed(body: &Body, sliding: &SlidingContact) -> f64 {
+    let radius = match body {
+        Body::Annulus(annulus) => annulus.specification.inner_radius,
+        Body::Revolution(Revolution { specification, .. }) => match specification.contact {
+            SolidContact::Ring { inner_radius, outer_radius } => {
+                0.5 * (inner_radius + outer_radius)
+            }
+            SolidContact::Inner => specification.annulus.inner_radius,
+        },
+        // Where it turns, the slip speed differs from point to point.
+        Body::Assembly(_) => 1.0,
+        Body::Imported(imported) => match imported.mesh.counterface {
+            Counterface::Cylinder { radius, .. } => radius,
+            // What turns is a speed, m/s, there.
+            Counterface::Plane { .. } => 1.0,
+        },
+    };
+    sliding.rotation_speed.abs() * radius
+}
+
+/// What the velocities of a perturbation are given in, m/s: 1, or with `relative` the slip speed.
+fn velocity_unit(section: &Section<'_>, slip_speed: f64) -> f64 {
+    if !section.flag("relative") {
+        return 1.0;
+    }
+    if slip_speed == 0.0 {
+        refuse!(section, "relative" =>
+            "= true, but contact.rotation_speed_rpm = 0: there is no slip speed";
+            "needs a cylinder that turns");
+    }
+    slip_speed
+}
+
+/// One number for all harmonics or one for each.
+fn one_for_each(section: &Section<'_>, key: &'static str, harmonics: &[usize]) -> Vec<f64> {
+    let values = section.numbers(key).unwrap_or_default();
+    match values.as_slice() {
+        [value] => vec![*value; harmonics.len()],
+        _ if values.len() == harmonics.len() => values,
+        // An item that is no number has been reported.
+        _ if section.list_length(key) == Some(harmonics.len()) => values,
+        _ => {
+            refuse!(section, key => "has {} values, transient.perturbation.harmonics has {}",
+                values.len(), harmonics.len(); "one for all, or one for each harmonic");
+            Vec::new()
+        }
+    }
+}
+
+pub(super) fn output(
+    section: &Section<'_>,
+    nodes: &Nodes<'_>,
+    transient: Option<&Transient>,
+) -> Output {
+    let (probes, placed_probes) = probes(section, nodes);
+    let sample_interval = section.number("sample_interval");
+    let mut snapshots = section.rising("snapshots").unwrap_or_default();
+    if let Some(transient) = transient {
+        let last = whole_intervals(transient.duration, sample_interval) as f64;
+        // They rise: those after the end stand last.
+        let is_inside = |time: &f64| (time / sample_interval).round() <= last;
+        let left_out = snapshots.split_off(snapshots.partition_point(is_inside));
+        let duration = transient.duration;
+        let further = left_out.len().saturating_sub(MOST_NAMED);
+        for time in left_out.iter().take(MOST_NAMED) {
+            caution!(section, "snapshots",
+                "output.snapshots: {time} s lies after the end of the run (transient.duration = \
+                 {duration} s) and is left out"; "after the end");
+        }
+        if further > 0 {
+            caution!(section, "snapshots",
+                "output.snapshots: {further} later times are left out, too"; "after the end");
+        }
+        if sample_interval > duration {
+            refuse!(section, "sample_interval" =>
+                "= {sample_interval:?} s is above transient.duration = {duration:?} s";
+                "a run has two samples at least");
+        }
+    }
+    let contact_interval = section.optional_number("contact_interval");
+    if let Some(interval) = contact_interval.filter(|interval| *interval < sample_interval) {
+        refuse!(section, "contact_interval" =>
+            "= {interval:?} s is below output.sample_interval = {sample_interval:?} s";
+            "at least the sample interval");
+    }
+    Output {
+        probes,
+        placed_probes,
+        sample_interval,
+        contact_interval,
+        raw_acceleration: section.flag("raw_acceleration"),
+        snapshots,
+        checkpoint_interval: section.number("checkpoint_interval"),
+        universal: section.flag("universal"),
+    }
+}
+
+/// The probes, counted from 1, and those of them that were asked for by their place.
+fn probes(section: &Section<'_>, nodes: &Nodes<'_>) -> (Vec<usize>, Vec<PlacedNode>) {
+    let (mut probes, mut placed) = (Vec::new(), Vec::new());
+    for named in section.nodes("probes") {
+        let Some((node, place)) = nodes.find(section, "probes", &named) else {
+            continue;
+        };
+        if probes.contains(&(node + 1)) {
+            refuse_at!(section, &named.1, "output.probes names node {} twice", nodes.label(node);
+                "must not be listed twice"; "leave one of them out");
+        }
+        probes.push(node + 1);
+        placed.extend(place);
+    }
+    (probes, placed)
+}

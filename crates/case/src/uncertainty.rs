@@ -1,0 +1,175 @@
+//! `[uncertainty]`: parameters that are known but roughly.
+
+use super::parameters::{number, only, read_all};
+use super::{ModelParameter, RawEntry, RawValue, Section, caution, refuse, refuse_at};
+use frictionsim_physics::linalg::Distribution;
+
+/// Share of a distribution beyond what its key can take from which on it is refused.
+const MOST_BEYOND: f64 = 0.05;
+
+/// Standard deviation of the logarithm beyond which a log-normal distribution is hardly meant: a factor of 20 either
+/// way.
+const LARGEST_LOG_DEVIATION: f64 = 3.0;
+
+/// A parameter and what is known of it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct UncertainParameter {
+    /// The parameter.
+    pub parameter: ModelParameter,
+    /// Its distribution.
+    pub distribution: Distribution,
+    /// Probabilities of the distribution between which samples are drawn: all but what its key cannot take.
+    pub range: [f64; 2],
+}
+
+impl UncertainParameter {
+    /// The value at a probability of the part that samples are drawn from.
+    pub fn value(&self, probability: f64) -> f64 {
+        let [low, high] = self.range;
+        self.distribution.quantile(low + (high - low) * probability)
+    }
+}
+
+/// `[uncertainty]`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Uncertainty {
+    /// Samples.
+    pub samples: usize,
+    /// Samples that the indices are worked out from; each costs one run more than there are parameters. 0 for no
+    /// indices.
+    pub index_samples: usize,
+    /// Seed of their scrambling.
+    pub seed: u64,
+    /// What is uncertain, in alphabetical order.
+    pub parameters: Vec<UncertainParameter>,
+}
+
+pub(super) fn uncertainty(section: &Section<'_>) -> Uncertainty {
+    let samples = section.count("samples");
+    let index_samples = section.optional_count("index_samples");
+    let seed = section.count("seed") as u64;
+    let found = read_all(section, "distributions", uncertain, |own| &own.parameter);
+    const MOST: usize = 16;
+    if found.len() > MOST {
+        refuse!(section, "distributions", "{} parameters are uncertain", found.len();
+            "at most {MOST}"; "leave out those with little influence");
+    }
+    for (key, count) in [("samples", Some(samples)), ("index_samples", index_samples)] {
+        if count.is_some_and(|count| count > 1_000_000) {
+            refuse!(section, key, "uncertainty.{key} is above a million"; "at most 1000000");
+        }
+    }
+    if index_samples.is_some_and(|count| count > samples) {
+        refuse!(section, "index_samples", "uncertainty.index_samples is above uncertainty.samples";
+            "at most {samples}");
+    }
+    Uncertainty {
+        samples,
+        index_samples: index_samples.unwrap_or_else(|| samples.div_ceil(4)),
+        seed,
+        parameters: found,
+    }
+}
+
+/// `{ normal = [mean, deviation] }`, `{ log_normal = [median, deviation] }` or `{ uniform = [from, to] }`.
+fn uncertain(
+    section: &Section<'_>,
+    parameter: ModelParameter,
+    entry: &RawEntry,
+) -> UncertainParameter {
+    let key = &parameter.key;
+    let help = "a distribution is { normal = [mean, deviation] }, \
+    { log_normal = [median, deviation of the logarithm] } \
+                or { uniform = [from, to] }";
+    let reject = |message: String, label: &str, help: &str| {
+        refuse_at!(section, &entry.item.at, "{message}"; "{label}"; "{help}");
+    };
+    let words = ["normal", "log_normal", "uniform"];
+    let mut given = None;
+    match &entry.item.value {
+        RawValue::Table(table) => {
+            only(section, table, &["normal", "log_normal", "uniform", "also"]);
+            let mut found = words.iter().filter_map(|word| Some((*word, table.get(*word)?)));
+            given = found.next();
+            if found.next().is_some() {
+                reject(format!("{key} has two distributions"), "one of them", help);
+            } else if given.is_none() {
+                reject(format!("{key} has no distribution"), "none of the three", help);
+            }
+        }
+        other => reject(format!("{key} is {}", other.kind()), "no distribution", help),
+    }
+    let none = UncertainParameter {
+        distribution: Distribution::Uniform { from: 0.0, to: 1.0 },
+        range: [0.0, 1.0],
+        parameter: parameter.clone(),
+    };
+    let Some((word, inner)) = given else {
+        return none;
+    };
+    let RawValue::Array(items) = &inner.item.value else {
+        reject(format!("{word} of {key} is no list"), "two numbers", help);
+        return none;
+    };
+    if items.len() != 2 {
+        reject(format!("{word} of {key} has {} numbers", items.len()), "two numbers", help);
+        return none;
+    }
+    let [a, b] = [0, 1].map(|i| number(section, inner, items.get(i).map(|item| &item.value)));
+    let (distribution, is_valid, needs) = match word {
+        "normal" => {
+            let (mean, deviation) = (a, b);
+            (Distribution::Normal { mean, deviation }, b > 0.0, "a positive deviation")
+        }
+        "log_normal" => {
+            let (median, deviation) = (a, b);
+            let is_valid = a > 0.0 && b > 0.0;
+            (Distribution::LogNormal { median, deviation }, is_valid, "two positive numbers")
+        }
+        _ => {
+            let (from, to) = (a, b);
+            (Distribution::Uniform { from, to }, a < b, "two rising ends")
+        }
+    };
+    if !is_valid {
+        // What is no number has been reported.
+        if a.is_finite() && b.is_finite() {
+            reject(format!("{word} = [{a}, {b}] of {key}"), needs, help);
+        }
+        return none;
+    }
+    if word == "log_normal" && b > LARGEST_LOG_DEVIATION {
+        reject(
+            format!(
+                "log_normal = [{a}, {b}] of {key}: the second number is the standard deviation of \
+                 the natural logarithm. One of {b} spans {:.0} powers of ten",
+                b / std::f64::consts::LN_10
+            ),
+            "at most 3",
+            "a scatter of 10 % is { log_normal = [median, 0.1] }; for a deviation in the unit of the key use normal",
+        );
+        return none;
+    }
+    let [least, most] = parameter.bound.ends();
+    let range = [distribution.below(least), distribution.below(most)];
+    let beyond = 1.0 - (range[1] - range[0]);
+    let rule = parameter.bound.text();
+    if beyond > MOST_BEYOND || (beyond > 0.0 && word == "uniform") {
+        reject(
+            format!(
+                "{:.3} % of {word} = [{a}, {b}] of {key} lies where the key {rule}",
+                100.0 * beyond
+            ),
+            "reaches forbidden values",
+            "make it narrower, or use log_normal, which stays positive",
+        );
+        return none;
+    }
+    // What a sample meets once in a million is not worth a word.
+    if beyond > 1e-6 {
+        caution!(section, key,
+            "{:.4} % of {word} = [{a}, {b}] of {key} lies where the key {rule}: samples are drawn \
+             from the rest", 100.0 * beyond; "reaches forbidden values");
+    }
+    UncertainParameter { parameter, distribution, range }
+}

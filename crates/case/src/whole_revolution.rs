@@ -1,0 +1,120 @@
+//! A body of revolution in three dimensions on its whole mesh: what it is where something breaks the symmetry that its
+//! harmonics are solved by.
+
+use super::modifications::{Misfit, Modification, reshaped};
+use super::{AssemblyBody, Body, Case, CaseErrors, Contact, Revolution};
+use frictionsim_physics::contact::{
+    Counterpart, Motion, PairFriction, RigidCounterface, RigidMotion, RigidShape,
+};
+use frictionsim_physics::mesh::{BoundaryCondition, Mesh, SolidContact, SolidFace, SolidSector};
+use frictionsim_physics::prestress::{BaseChoice, SlidingSurfaces};
+use std::borrow::Cow;
+use std::sync::Arc;
+
+impl Case {
+    /// The case with a body of revolution on its whole mesh, as with `cea.method = "sparse"`.
+    ///
+    /// # Errors
+    /// What the whole mesh does not have, at its key.
+    pub fn on_whole_mesh(&self) -> Result<Cow<'_, Self>, CaseErrors> {
+        let Body::Revolution(revolution) = &self.body else {
+            return Ok(Cow::Borrowed(self));
+        };
+        let body = whole_revolution(revolution, &self.contact, (None, &[]));
+        let body = body.map_err(|(key, why)| {
+            let label = "does not fit the whole mesh";
+            self.error_at(&key, format!("{key}: {why}"), label, None::<String>)
+        })?;
+        Ok(Cow::Owned(Self { body: Body::Assembly(body), ..self.clone() }))
+    }
+}
+
+/// The whole mesh of a body of revolution on its rigid cylinder, or under its rigid ring. It turns as one.
+pub(super) fn whole_revolution(
+    revolution: &Revolution,
+    contact: &Contact,
+    (motion, modifications): (Option<Motion>, &[Modification]),
+) -> Result<AssemblyBody, Misfit> {
+    let specification = &revolution.specification;
+    let stiffness = &contact.stiffness;
+    let has_springs = stiffness.law.is_none() && stiffness.normal_stiffness.is_some();
+    if has_springs && !stiffness.is_base_compliant {
+        let why = "on the whole mesh the springs of the contact carry the base state: give it as \"compliant\"";
+        return Err(("contact.base_state".to_owned(), why.to_owned()));
+    }
+    let of_mesh = |error: String| ("mesh".to_owned(), error);
+    let sector = SolidSector::generate(specification).map_err(|e| of_mesh(e.to_string()))?;
+    let conditions = SolidFace::ALL.into_iter().zip(specification.conditions);
+    let conditions = conditions.filter(|(_, condition)| *condition != BoundaryCondition::Free);
+    let conditions: Vec<_> = conditions
+        .map(|(face, condition)| {
+            check_support(face, &condition)?;
+            Ok((face.name().to_owned(), condition))
+        })
+        .collect::<Result<_, Misfit>>()?;
+    let mut file = Arc::new(sector.file());
+    if !modifications.is_empty() {
+        (file, _) = reshaped(file, 1.0, "", modifications)?;
+    }
+    let mesh = Mesh::from_solids(&file, 1.0, &conditions);
+    let mesh = mesh.map_err(|error| of_mesh(error.to_string()))?;
+    let surface = mesh.boundaries.iter().position(|own| own.name == sector.contact_surface());
+    let surface = surface.ok_or_else(|| {
+        let why = "nothing is left of the surface of the contact";
+        ("modifications".to_owned(), why.to_owned())
+    })?;
+    let regions = (0..mesh.regions.len()).collect();
+    // Regions are in the order of their names.
+    let names = specification.region_names();
+    let materials = mesh.regions.iter().map(|name| {
+        let own = names.iter().position(|own| own == name);
+        revolution.materials[own.unwrap_or(0)].clone()
+    });
+    Ok(AssemblyBody {
+        materials: materials.collect(),
+        ties: Vec::new(),
+        contacts: vec![sliding_surfaces(specification.contact, surface, contact)],
+        motions: motion.map(|own| Motion { regions, ..own }).into_iter().collect(),
+        base: BaseChoice::Solved,
+        mesh: Arc::new(mesh),
+    })
+}
+
+/// The contact with the cylinder or the ring.
+fn sliding_surfaces(place: SolidContact, surface: usize, contact: &Contact) -> SlidingSurfaces {
+    let sliding = &contact.sliding;
+    let counterface = RigidCounterface {
+        shape: match place {
+            SolidContact::Inner => RigidShape::Cylinder(None),
+            SolidContact::Ring { .. } => RigidShape::Plane,
+        },
+        center: [0.0; 3],
+        axis: [0.0, 0.0, 1.0],
+        motion: RigidMotion::Turning(sliding.rotation_speed),
+        interference: sliding.interference,
+    };
+    SlidingSurfaces {
+        name: SlidingSurfaces::SHORT_FORM.to_owned(),
+        surface,
+        counter: Counterpart::Rigid(counterface),
+        friction: PairFriction { ratio: 1.0, decay: sliding.decay },
+        stiffness: contact.stiffness,
+        law: contact.stiffness.law,
+        topography: None,
+    }
+}
+
+/// The springs of a support act alike along all tangents of the whole mesh.
+fn check_support(face: SolidFace, condition: &BoundaryCondition) -> Result<(), Misfit> {
+    match condition {
+        BoundaryCondition::Support(own)
+            if face.normal_component() == 0 && own.axial_stiffness != own.tangential_stiffness =>
+        {
+            let key = format!("boundaries.{}.axial_stiffness", face.name());
+            let why = "the springs of a support of the whole mesh act alike around and along the axis: give \
+                       axial_stiffness the value of tangential_stiffness";
+            Err((key, why.to_owned()))
+        }
+        _ => Ok(()),
+    }
+}

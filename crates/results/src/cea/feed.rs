@@ -1,0 +1,217 @@
+//! Where on the contact surfaces friction feeds the unstable modes: `feed.csv`, `feed.vtu` and a figure.
+
+use super::CeaReport;
+use super::mode_name::{ModeName, NUMBERS};
+use crate::charts::SolidView;
+use crate::finding::write_table;
+use crate::folder::{FolderError, OutputFolder};
+use crate::vtu::{EncodedMesh, Field, write_vtu};
+use frictionsim_chart::{
+    Axis, ChartError, ColourMap, Figure, INK, Line, Panel, Rule, Stroke, literal,
+};
+use frictionsim_output::{Table, columns, fixed};
+use frictionsim_physics::mesh::{Counterface, Mesh, SolidFace};
+use std::f64::consts::TAU;
+
+/// Modes that the figure shows, the fastest first: of plane bodies as lines, of solid ones as pictures.
+const LINES: usize = 6;
+const PICTURES: usize = 2;
+
+/// A contact point.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FeedPlace {
+    /// Name of its contact.
+    pub contact: String,
+    /// Where it is, m.
+    pub position: [f64; 3],
+    /// Area that belongs to it, m2.
+    pub area: f64,
+    /// Nodes that it is among, with their shares in it.
+    pub shares: Vec<(u32, f64)>,
+}
+
+/// What each contact point adds to the growth of a mode.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ModeFeed {
+    /// The mode.
+    pub mode: ModeName,
+    /// Of each point, 1/s; they add up to what the contacts feed in `contributions.csv`.
+    pub rates: Vec<f64>,
+}
+
+/// The feed of all unstable modes over the contact points.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Feed {
+    /// The modes.
+    pub modes: Vec<ModeFeed>,
+    /// The contact points.
+    pub places: Vec<FeedPlace>,
+}
+
+/// A contact point in a mode.
+pub(crate) struct FeedRow {
+    mode: ModeName,
+    place: FeedPlace,
+    rate: f64,
+}
+
+columns! {
+    /// What a contact point adds to the growth of a mode.
+    pub(crate) FEED: row as FeedRow;
+    contact: "name of the contact" = row.place.contact.clone();
+    x_m: "place of the contact point" = row.place.position[0];
+    y_m: "place of the contact point" = row.place.position[1];
+    z_m: "place of the contact point" = row.place.position[2];
+    area_m2: "area that belongs to it" = row.place.area;
+    growth_rate_per_s: "what it adds to the growth rate" = row.rate;
+    growth_rate_per_s_m2: "the same over its area" = row.rate / row.place.area;
+}
+
+impl Feed {
+    /// Writes `feed.csv`, a row for each unstable mode and contact point, and `feed.vtu`, growth for each area of the
+    /// contact surfaces, the mean of the points around each node, 0 elsewhere.
+    pub fn write(&self, folder: &OutputFolder, report: &CeaReport<'_>) -> Result<(), FolderError> {
+        let rows = self.modes.iter().flat_map(|own| {
+            let points = self.places.iter().zip(&own.rates);
+            points.map(move |(place, &rate)| FeedRow { mode: own.mode, place: place.clone(), rate })
+        });
+        let rows: Vec<FeedRow> = rows.collect();
+        let names = rows.iter().map(|row| row.mode);
+        let table = Table::new("feed.csv", "").columns(NUMBERS, names).columns(FEED, &rows);
+        write_table(folder, &table)?;
+        let whole = report.body().whole();
+        let fields = self.modes.iter().map(|own| {
+            let name = format!("mode_{}_growth_rate_per_s_m2", own.mode.mode);
+            let mut values = self.around_nodes(whole.node_count(), own);
+            values.iter_mut().filter(|v| v.is_nan()).for_each(|v| *v = 0.0);
+            Field::scalars(&name, values)
+        });
+        let fields: Vec<Field> = fields.collect();
+        folder.write_bulk("feed.vtu", |out| {
+            write_vtu(out, &EncodedMesh::new(&whole)?, &[], &fields, &[])
+        })
+    }
+
+    /// Growth for each area around each node; NaN where there is no contact point.
+    fn around_nodes(&self, count: usize, own: &ModeFeed) -> Vec<f64> {
+        let mut sums = vec![[0.0; 2]; count];
+        for (place, rate) in self.places.iter().zip(&own.rates) {
+            for &(node, share) in &place.shares {
+                // Shape functions of corners of quadratic faces may be negative.
+                sums[node as usize][0] += rate * share.abs();
+                sums[node as usize][1] += place.area * share.abs();
+            }
+        }
+        let mean = |[sum, area]: [f64; 2]| if area > 0.0 { sum / area } else { f64::NAN };
+        sums.into_iter().map(mean).collect()
+    }
+
+    /// The modes that grow fastest.
+    fn fastest(&self, report: &CeaReport<'_>) -> Vec<&ModeFeed> {
+        let friction = self.modes.first().map(|own| own.mode.friction_coefficient);
+        let mut points = report.sweep.points.iter();
+        let point = points.find(|point| Some(point.friction_coefficient) == friction);
+        let growth = |own: &ModeFeed| {
+            let mode = point.and_then(|point| point.modes.get(own.mode.mode - 1));
+            mode.map_or(0.0, |mode| mode.growth_rate())
+        };
+        let mut modes: Vec<&ModeFeed> = self.modes.iter().collect();
+        frictionsim_physics::order::sort_by_number(&mut modes, |a| -growth(a));
+        modes
+    }
+
+    /// Growth for each area of the contact: lines along a plane edge, pictures of the surfaces of solid bodies.
+    pub(super) fn figure(&self, report: &CeaReport<'_>) -> Result<Figure, ChartError> {
+        let modes = self.fastest(report);
+        let Some(first) = modes.first() else {
+            return Err(ChartError::empty("feed of unstable modes"));
+        };
+        let friction = first.mode.friction_coefficient;
+        let caption = format!(
+            "Where the contact feeds the unstable modes at friction {friction}: growth rate for \
+            each area of the surface; red \
+             feeds, blue takes. The sum over the surface is the contact's part in the budget."
+        );
+        match report.assembly {
+            Some(assembly) => Ok(self.pictures(report.mesh, &modes, &assembly.surfaces, caption)),
+            None => Ok(self.lines(report, &modes, caption)),
+        }
+    }
+
+    fn lines(&self, report: &CeaReport<'_>, modes: &[&ModeFeed], caption: String) -> Figure {
+        // Across the rings of a body of revolution; along an edge by angle about the cylinder, or along the plane.
+        let face = report.solid.map(|solid| solid.sector.specification.contact.face());
+        let across = |name: &str| Axis::new(name, "mm").times(1e3).tight();
+        type Along<'a> = Box<dyn Fn([f64; 3]) -> f64 + 'a>;
+        let (x, along): (Axis, Along<'_>) = match (face, &report.mesh.counterface) {
+            (Some(SolidFace::Inner | SolidFace::Outer), _) => {
+                (across("height *z*"), Box::new(|[_, _, z]: [f64; 3]| z))
+            }
+            (Some(SolidFace::Top | SolidFace::Bottom), _) => {
+                (across("radius *r*"), Box::new(|[x, _, _]: [f64; 3]| x))
+            }
+            (None, Counterface::Cylinder { center, .. }) => (
+                Axis::degrees().tight(),
+                Box::new(move |[x, y, _]: [f64; 3]| {
+                    (y - center[1]).atan2(x - center[0]).rem_euclid(TAU)
+                }),
+            ),
+            (None, Counterface::Plane { point, direction }) => (
+                across("along the contact"),
+                Box::new(move |[x, y, _]: [f64; 3]| {
+                    (x - point[0]) * direction[0] + (y - point[1]) * direction[1]
+                }),
+            ),
+        };
+        let along = |place: &FeedPlace| along(place.position);
+        let mut order: Vec<usize> = (0..self.places.len()).collect();
+        frictionsim_physics::order::sort_by_number(&mut order, |&a| along(&self.places[a]));
+        let y = Axis::new("feed", "1/(s cm²)").times(1e-4);
+        let mut panel = Panel::new(x, y)
+            .height(150.0)
+            .layer(Rule::horizontal(0.0).stroke(Stroke::solid(INK, 0.6)));
+        for (index, own) in modes.iter().take(LINES).enumerate() {
+            let points = order.iter().map(|&i| {
+                let place = &self.places[i];
+                (along(place), own.rates[i] / place.area)
+            });
+            panel = panel.layer(Line::through(points).nth(index).name(name(own)));
+        }
+        Figure::new("feed", caption).panel(panel)
+    }
+
+    fn pictures(
+        &self,
+        mesh: &Mesh,
+        modes: &[&ModeFeed],
+        surfaces: &[(String, usize)],
+        caption: String,
+    ) -> Figure {
+        let shown = modes.iter().take(PICTURES);
+        let panels = shown.flat_map(|own| {
+            let values = self.around_nodes(mesh.node_count(), own);
+            let numbers = values.iter().copied().filter(|value| value.is_finite());
+            let largest = numbers.map(f64::abs).fold(f64::MIN_POSITIVE, f64::max);
+            surfaces.iter().map(move |(contact, boundary)| {
+                let axis = Axis::new("feed", "1/(s cm²)").times(1e-4).between(-largest, largest);
+                let view = SolidView::of_boundary(mesh, *boundary);
+                view.panel(values.clone(), axis, ColourMap::Diverging, 0.05)
+                    .height(140.0)
+                    .caption(literal(contact))
+                    .heading(name(own))
+                    .colour_bar(frictionsim_chart::Side::Right)
+            })
+        });
+        let panels: Vec<Panel> = panels.collect();
+        Figure::new("feed", caption).columns(surfaces.len().clamp(1, 2)).panels(panels)
+    }
+}
+
+/// A mode for people.
+fn name(own: &ModeFeed) -> String {
+    let frequency = fixed(1e-3 * own.mode.frequency_hz, 3);
+    match own.mode.harmonic {
+        Some(harmonic) => format!("mode {}, *n* = {harmonic}, {frequency} kHz", own.mode.mode),
+        None => format!("mode {}, {frequency} kHz", own.mode.mode),
+    }
+}

@@ -1,0 +1,306 @@
+//! The figures of an eigenvalue analysis.
+
+use super::branches::{Branch, branch_of, branches, interval_rows, pieces};
+use super::locus::{NamedDamping, locus};
+use super::reading::budget;
+use super::shape::{Body, ModeShape, moving};
+use super::tables::{View, document};
+use super::{CeaReport, direction_name};
+use crate::charts::Disc;
+use crate::charts::palette::{STABLE, UNSTABLE};
+use crate::distinct;
+use crate::drawing::{Declaration, DrawingError, DrawingOptions, declared};
+use crate::folder::OutputFolder;
+use crate::write_page;
+use frictionsim_chart::{
+    Axis, ChartError, ColourMap, Figure, INK, Line, Marker, Panel, Points, Rule, SERIES, Side,
+    Stroke, signed,
+};
+use frictionsim_physics::cea::ComplexMode;
+use frictionsim_physics::fem::NodalStress;
+use frictionsim_physics::mesh::Counterface;
+use std::collections::BTreeMap;
+use std::f64::consts::TAU;
+
+/// Branches whose shape is followed over friction, at most.
+const FOLLOWED_BRANCHES: usize = 4;
+
+/// Draws every figure that the report has data for into `figures/`, and writes `report.html`: eigenvalue locus with
+/// stability bars, pairs that turn unstable, base state, mode shapes, the branches that turn unstable at every friction
+/// value that has shapes. `dampings` are those that regions of the body have.
+pub fn draw(
+    folder: &OutputFolder,
+    report: &CeaReport<'_>,
+    dampings: &[NamedDamping],
+    options: &DrawingOptions,
+) -> Result<(), DrawingError> {
+    let mut figures: Vec<Declaration<'_>> =
+        vec![Box::new(move || Ok(locus(report, dampings))), Box::new(move || pairs(report))];
+    match report.assembly {
+        None => figures.push(Box::new(move || Ok(prestress(report)))),
+        Some(assembly) => {
+            let of = move |names, value| assembly.traction(report.mesh, names, value);
+            let pressure = ("prestress", "contact pressure");
+            figures.push(Box::new(move || of(pressure, |point| point.pressure)));
+            let shear = ("shear", "friction traction");
+            figures.push(Box::new(move || of(shear, |point| point.shear)));
+        }
+    }
+    for point in &report.sweep.points {
+        let friction = point.friction_coefficient;
+        figures.push(Box::new(move || Ok(shapes(report, friction))));
+    }
+    for branch in followed_branches(report) {
+        figures.push(Box::new(move || Ok(branch_shapes(report, branch))));
+    }
+    if let Some(reading) = report.reading {
+        figures.push(Box::new(move || budget(report, reading)));
+        if let Some(feed) = &reading.feed {
+            figures.push(Box::new(move || feed.figure(report)));
+        }
+    }
+    write_page(folder, document(report, View::Page), declared(figures)?, options)
+}
+
+/// Frequency and damping factor over friction of each pair of waves that turns unstable, that with the rotor and that
+/// against it as two lines; without symmetry of each mode.
+fn pairs(report: &CeaReport<'_>) -> Result<Figure, ChartError> {
+    let sweep = report.sweep;
+    if sweep.points.len() < 2 {
+        return Err(ChartError::empty("pairs over friction"));
+    }
+    let (all, numbers) = (branches(sweep), report.mode_numbers());
+    let pairs = distinct(interval_rows(sweep).iter().map(|(branch, _)| (branch.0, branch.1)));
+    let height = (620.0 / pairs.len().max(1) as f64 - 14.0).clamp(40.0, 92.0);
+    type Quantity = fn(&ComplexMode) -> f64;
+    let quantities: [(Axis, Quantity); 2] = [
+        (Axis::kilohertz(), ComplexMode::frequency_hz),
+        (Axis::new("damping *ζ*", "%").times(100.0), ComplexMode::damping_factor),
+    ];
+    let panels = pairs.iter().flat_map(|&(harmonic, branch)| {
+        let caption = match report.has_harmonics {
+            true => format!("*n* = {harmonic}, branch {branch}"),
+            false => report.branch_name((harmonic, branch, 0), &numbers),
+        };
+        let of = |direction: i8| all.get(&(harmonic, branch, direction));
+        let other = partner(&all, (harmonic, branch, 0)).filter(|_| !report.has_harmonics);
+        quantities.clone().map(|(axis, quantity)| {
+            let values = |points: &[(f64, &ComplexMode)]| -> Vec<(f64, f64)> {
+                points.iter().map(|(mu, mode)| (*mu, quantity(mode))).collect()
+            };
+            let line_of = |branch: Option<&Vec<(f64, &ComplexMode)>>| {
+                let points = branch.map_or(&[][..], Vec::as_slice);
+                let pieces = pieces(points, sweep, report.contact_changes);
+                let gap = [(f64::NAN, f64::NAN)];
+                Line::through(
+                    pieces.into_iter().flat_map(|piece| [values(piece), gap.to_vec()].concat()),
+                )
+            };
+            let line = |direction: i8| line_of(of(direction));
+            // Pieces belong to one branch: where contact opens at every value they are dots without a join.
+            let own = [-1, 0, 1].into_iter().filter_map(of).map(|points| (points, STABLE));
+            let joins = own.chain(other.map(|points| (points, INK))).map(|(points, colour)| {
+                Line::through(values(points)).stroke(Stroke::dashed(colour, 0.4))
+            });
+            let growing = [-1, 0, 1].into_iter().filter_map(of).flatten();
+            let growing = growing.filter(|(_, mode)| mode.is_unstable());
+            let standing = line(0).solid(STABLE, 1.1);
+            let standing = if report.has_harmonics { standing } else { standing.name("mode") };
+            Panel::new(Axis::friction().tight(), axis)
+                .height(height)
+                .caption(caption.clone())
+                .layer(Rule::horizontal(0.0).stroke(Stroke::solid(INK, 0.6)))
+                .layers(joins)
+                .layer(standing)
+                .layer(
+                    line_of(other)
+                        .stroke(Stroke::dashed(INK, 0.9))
+                        .name("mode of the nearest frequency"),
+                )
+                .layer(line(-1).solid(STABLE, 1.1).name("against the rotor ↻"))
+                .layer(line(1).stroke(Stroke::dashed(INK, 0.9)).name("with the rotor ↺"))
+                .layer(
+                    Points::new(growing.map(|(mu, mode)| (*mu, quantity(mode))))
+                        .marker(Marker::Disc, 1.5, UNSTABLE)
+                        .name("unstable, *ζ* < 0"),
+                )
+        })
+    });
+    let caption = match report.has_harmonics {
+        true => {
+            "Frequency and damping factor over friction of the pairs of waves that turn unstable."
+        }
+        false => "Frequency and damping factor over friction of the modes that turn unstable.",
+    };
+    let figure = Figure::new("pairs", caption).columns(2).shared_x().panels(panels);
+    Ok(match report.contact_changes {
+        [] => figure,
+        _ => figure.note("thin dashed joins: contact opens or closes between"),
+    })
+}
+
+/// Share of a frequency within which another one counts as its partner.
+const COUPLED: f64 = 0.05;
+
+/// The branch of the nearest frequency where another one begins to grow: in mode coupling the mode that it meets.
+fn partner<'a, 'm>(
+    all: &'a BTreeMap<Branch, Vec<(f64, &'m ComplexMode)>>,
+    own: Branch,
+) -> Option<&'a Vec<(f64, &'m ComplexMode)>> {
+    let (friction, mode) = all.get(&own)?.iter().find(|(_, mode)| mode.is_unstable())?;
+    let distance = |points: &[(f64, &ComplexMode)]| {
+        let (_, other) = points.iter().find(|(mu, _)| mu == friction)?;
+        Some((other.frequency_hz() - mode.frequency_hz()).abs())
+    };
+    let others = all.iter().filter(|(branch, _)| **branch != own);
+    let there = others.filter_map(|(_, points)| Some((points, distance(points)?)));
+    let (points, distance) = there.min_by(|a, b| a.1.total_cmp(&b.1))?;
+    (distance < COUPLED * mode.frequency_hz()).then_some(points)
+}
+
+/// Contact pressure and friction traction around the edge, and the von Mises stress field.
+fn prestress(report: &CeaReport<'_>) -> Figure {
+    if let Some(solid) = report.solid {
+        return solid.prestress();
+    }
+    let (field, disc) = (report.field, Disc::new(report.mesh));
+    let von_mises = field.stress.iter().map(NodalStress::von_mises).collect();
+    let stress = Axis::new("von Mises stress", "Pa").prefixed();
+    let is_closed = report.mesh.contact_edge().is_closed;
+    let places = field.along_contact(report.mesh);
+    let place = match report.mesh.counterface {
+        // The angles of a straight edge stand for shares of its length.
+        Counterface::Plane { .. } => {
+            Axis::new("position along the contact", "%").times(100.0 / TAU)
+        }
+        Counterface::Cylinder { .. } if is_closed => Axis::angle(),
+        // A pad is looked at from end to end.
+        Counterface::Cylinder { .. } => Axis::degrees(),
+    };
+    let around = |name: &str, values: &[f64], colour| {
+        let axis = Axis::new(name, "Pa").prefixed().including(0.0).room(0.15);
+        let points: Vec<(f64, f64)> = places.iter().map(|&(i, angle)| (angle, values[i])).collect();
+        Panel::new(place.clone(), axis)
+            .height(86.0)
+            .layer(Line::through(wrapped(points, is_closed)).solid(colour, 1.2))
+    };
+    let stressed = disc.field(von_mises, stress, ColourMap::Viridis);
+    let stressed = disc.panel(0.01).beside(2).height(190.0).layer(stressed);
+    Figure::new(
+        "prestress",
+        "Steady sliding: von Mises stress (a), contact pressure (b) and friction traction (c) around the contact edge.",
+    )
+    .weighted(&[1.0, 1.15])
+    .shared_x()
+    .panel(stressed.colour_bar(Side::Right))
+    .panel(around("pressure *p*", &field.pressures, SERIES[0]))
+    .panel(around("traction *τ*", &field.shears, SERIES[1]))
+}
+
+/// Points over rising angles; around a whole circle the first and the last are repeated a turn away, so that the curve
+/// reaches both ends of its axis.
+fn wrapped(points: Vec<(f64, f64)>, is_closed: bool) -> Vec<(f64, f64)> {
+    let turned = |point: Option<&(f64, f64)>, by: f64| {
+        let point = point.filter(|_| is_closed);
+        point.map(|&(angle, value)| (angle + by, value))
+    };
+    let (before, after) = (turned(points.last(), -TAU), turned(points.first(), TAU));
+    before.into_iter().chain(points).chain(after).collect()
+}
+
+/// All modes of one friction value as small multiples.
+fn shapes(report: &CeaReport<'_>, friction: f64) -> Figure {
+    let shapes: Vec<_> = ModeShape::all(report).filter(|own| own.friction == friction).collect();
+    let columns = match shapes.len() {
+        0..=4 => shapes.len().max(2),
+        5..=6 => 3,
+        7..=8 | 11..=12 => 4,
+        9..=15 => 5,
+        16..=18 => 6,
+        _ => 7,
+    };
+    let caption = format!(
+        "Mode shapes at friction coefficient {friction}: the deformed body, coloured by \
+        displacement amplitude; unstable modes in red."
+    );
+    let body = Body::new(report, if columns < 6 { 24 } else { 12 });
+    let panels = shapes.iter().map(|shape| {
+        let first = format!("{}: {} Hz", shape.number, signed(shape.mode.frequency_hz(), 0));
+        let lines = [first, format!("Re {} Hz", signed(shape.mode.real_hz(), 1)), shape.harmonic()];
+        body.panel(shape, &lines)
+    });
+    let figure = multiples(
+        Figure::new(format!("modes-mu-{friction}"), caption).columns(columns),
+        panels,
+        report.has_harmonics,
+    );
+    if shapes.is_empty() { figure } else { figure.motion(moving(report, &shapes)) }
+}
+
+/// The first branches that turn unstable and have several shapes.
+fn followed_branches(report: &CeaReport<'_>) -> Vec<Branch> {
+    let branches = distinct(report.sweep.intervals.iter().map(branch_of)).into_iter();
+    let followed = branches.filter(|branch| branch_points(report, *branch).len() > 1);
+    followed.take(FOLLOWED_BRANCHES).collect()
+}
+
+/// The shapes of a branch at every friction value; a degenerate pair stands at the start of both its waves.
+fn branch_points<'a>(
+    report: &CeaReport<'a>,
+    (harmonic, branch, direction): Branch,
+) -> Vec<ModeShape<'a>> {
+    let is_own = |shape: &ModeShape<'_>| {
+        let mode = shape.mode;
+        (mode.harmonic, mode.branch) == (harmonic, branch)
+            && [direction, 0].contains(&mode.direction)
+    };
+    let mut shapes: Vec<_> = ModeShape::all(report).filter(is_own).collect();
+    shapes.dedup_by_key(|shape| shape.friction);
+    shapes
+}
+
+/// One branch at every friction value that has shapes.
+fn branch_shapes(report: &CeaReport<'_>, branch: Branch) -> Figure {
+    let way = direction_name(branch.2);
+    let (n, rank) = (branch.0, branch.1);
+    let (name, caption) = match report.has_harmonics {
+        true => (
+            format!("branch-n{n}-{rank}-{way}"),
+            format!(
+                "Harmonic {n}, branch {rank}, travelling {way} the rotor, at several friction \
+                 coefficients."
+            ),
+        ),
+        false => (
+            format!("branch-{rank}"),
+            format!(
+                "Branch {rank} at several friction coefficients: the mode that is number {rank} \
+                 by frequency at the lowest."
+            ),
+        ),
+    };
+    let shapes = branch_points(report, branch);
+    let body = Body::new(report, 24);
+    let panels = shapes.iter().map(|shape| {
+        let mode = shape.mode;
+        let values =
+            format!("{} Hz, Re {} Hz", signed(mode.frequency_hz(), 0), signed(mode.real_hz(), 1));
+        let lines = [format!("*μ* = {}", signed(shape.friction, 3)), values, shape.harmonic()];
+        body.panel(shape, &lines)
+    });
+    let columns = shapes.len().clamp(2, 5);
+    let columns = if shapes.len() == 6 { 3 } else { columns };
+    multiples(Figure::new(name, caption).columns(columns), panels, report.has_harmonics)
+}
+
+/// Small multiples of mode shapes with what their colours and arrows mean.
+fn multiples(figure: Figure, panels: impl Iterator<Item = Panel>, has_harmonics: bool) -> Figure {
+    let amplitude = Axis::new("displacement amplitude |*u*| / max |*u*|", "–").between(0.0, 1.0);
+    let figure = figure.unlettered().panels(panels).colour_foot(amplitude, ColourMap::Viridis);
+    match has_harmonics {
+        true => figure
+            .note("↺ travels with the rotor, ↻ against it")
+            .note("Re: real part of the eigenvalue / 2π; *n*: harmonic (nodal diameters)"),
+        false => figure.note("Re: real part of the eigenvalue / 2π"),
+    }
+}

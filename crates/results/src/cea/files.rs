@@ -1,0 +1,130 @@
+//! `eigenvalues.csv`, `stability.csv`, `summary.json`, mode shapes.
+
+use super::CeaReport;
+use super::base::write_base;
+use super::shape::ModeShape;
+use super::solid::size;
+use super::summary::summary;
+use super::tables::{eigenvalues, stability};
+use crate::finding::write_table;
+use crate::folder::{FolderError, OutputFolder};
+use crate::pvd::{PvdEntry, write_pvd};
+use crate::summary::{Head, write_summary};
+use crate::universal::{write_universal_mesh, write_universal_mode};
+use crate::vtu::{EncodedMesh, Field, write_vtu};
+use frictionsim_output::rounded;
+use frictionsim_physics::cea::ComplexMode;
+use frictionsim_physics::linalg::c64;
+use serde_json::Value;
+use std::io;
+
+/// Writes all files of the analysis and returns the summary.
+pub fn write(folder: &OutputFolder, report: &CeaReport<'_>) -> Result<Value, FolderError> {
+    write_table(folder, &eigenvalues(report))?;
+    write_table(folder, &stability(report))?;
+    if let Some(sensitivities) = report.sensitivities {
+        write_table(folder, &sensitivities.table())?;
+    }
+    if let Some(reading) = report.reading {
+        write_table(folder, &reading.contributions())?;
+        write_table(folder, &reading.couplings())?;
+        if let Some(feed) = &reading.feed {
+            feed.write(folder, report)?;
+        }
+    }
+    match (report.solid, report.assembly) {
+        (Some(solid), _) => solid.write_base(folder, &report.base)?,
+        (None, Some(assembly)) => assembly.write_base(folder, report.mesh)?,
+        (None, None) => write_base(folder, report.mesh, (&report.base, report.field))?,
+    }
+    write_shapes(folder, report)?;
+    write_summary(folder, Head::of(report.title, report.wall_s), &summary(report))
+}
+
+/// Writes the shapes that the modes carry: one VTU each with the real and the imaginary part of the
+/// displacement, so that `Re(phi e^{i omega t})` can be animated, and `modes.pvd` over them.
+fn write_shapes(folder: &OutputFolder, report: &CeaReport<'_>) -> Result<(), FolderError> {
+    let shapes: Vec<ModeShape<'_>> = ModeShape::all(report).collect();
+    if shapes.is_empty() {
+        return Ok(());
+    }
+    let mesh = report.body().encoded();
+    let mut entries = Vec::new();
+    // Compression takes the time: a batch of files side by side, written in order.
+    for batch in shapes.chunks(rayon::current_num_threads().max(1)) {
+        let encoded: Vec<io::Result<Vec<u8>>> =
+            frictionsim_physics::parallel::map(batch, |shape| encode_shape(report, &mesh, shape));
+        for (&ModeShape { friction, number, mode, .. }, bytes) in batch.iter().zip(encoded) {
+            let name = format!("modes/mu-{friction}-mode-{number:03}.vtu");
+            folder.write_bulk(&name, |out| out.write_all(&bytes?))?;
+            entries.push(PvdEntry {
+                time: time_of(mode, &entries),
+                group: format!("mu {friction}, mode {number}, {:.1} Hz", mode.frequency_hz()),
+                file: name,
+            });
+        }
+    }
+    folder.write("modes.pvd", |out| write_pvd(out, &entries))
+}
+
+/// Name of the universal file of the mode shapes.
+pub const UNIVERSAL_MODES: &str = "modes.unv";
+
+/// Writes the mesh and the shapes that the modes carry as a universal file.
+///
+/// # Errors
+/// Those of the folder; an element that universal files do not have.
+pub fn write_universal(folder: &OutputFolder, report: &CeaReport<'_>) -> Result<(), FolderError> {
+    let mesh = report.body().whole();
+    folder.write_bulk(UNIVERSAL_MODES, |out| {
+        write_universal_mesh(out, &mesh)?;
+        for (k, ModeShape { friction, number, mode, .. }) in ModeShape::all(report).enumerate() {
+            let name = format!("friction {friction}, mode {number}, {:.2} Hz", mode.frequency_hz());
+            let [real, imaginary, _] = shape_fields(report, mode);
+            let parts = [real.reals(), imaginary.reals()];
+            write_universal_mode(out, &mesh, (&name, k + 1), mode.eigenvalue, parts)?;
+        }
+        Ok(())
+    })
+}
+
+/// The time of a mode in the collection: its frequency, Hz, by which ParaView animates modes. It takes files of one
+/// time for parts of one body: of equal frequencies the later one stands a hair higher.
+fn time_of(mode: &ComplexMode, before: &[PvdEntry]) -> f64 {
+    let mut time = mode.frequency_hz();
+    while before.iter().any(|entry| rounded(entry.time, 12) == rounded(time, 12)) {
+        time += 1e-9 * time.max(1.0);
+    }
+    time
+}
+
+fn encode_shape(
+    report: &CeaReport<'_>,
+    mesh: &io::Result<EncodedMesh>,
+    &ModeShape { friction, mode, .. }: &ModeShape<'_>,
+) -> io::Result<Vec<u8>> {
+    let mesh = mesh.as_ref().map_err(|error| io::Error::from(error.kind()))?;
+    let fields = shape_fields(report, mode);
+    let whole = [
+        Field::number("frequency_hz", mode.frequency_hz()),
+        Field::number("real_hz", mode.real_hz()),
+        Field::number("friction_coefficient", friction),
+    ];
+    let mut bytes = Vec::new();
+    write_vtu(&mut bytes, mesh, &whole, &fields, &[])?;
+    Ok(bytes)
+}
+
+fn shape_fields(report: &CeaReport<'_>, mode: &ComplexMode) -> [Field; 3] {
+    let shape = mode.shape.as_deref().unwrap_or_default();
+    let body = report.body();
+    let part = |name: &str, of: fn(&c64) -> f64| {
+        body.vectors(name, &shape.iter().map(of).collect::<Vec<f64>>())
+    };
+    let dimension = if body.is_solid() { 3 } else { 2 };
+    [
+        part("displacement_real", |value| value.re),
+        part("displacement_imaginary", |value| value.im),
+        Field::scalars("amplitude", shape.chunks_exact(dimension).map(size).collect()),
+    ]
+}

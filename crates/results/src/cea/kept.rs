@@ -1,0 +1,105 @@
+//! Steps of an eigenvalue sweep that an interrupted run leaves in its folder, for the run that goes on.
+
+use crate::store::framed;
+use crate::{FolderError, OutputFolder};
+use frictionsim_bounds::{RESULT, read_file};
+use frictionsim_physics::cea::{SweepProgress, SweepWatch};
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeSet;
+use std::fs;
+use std::io;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Mutex, PoisonError};
+
+/// Where they are in the folder while the run goes on.
+const FOLDER: &str = "progress";
+const MAGIC: [u8; 8] = *b"FRSWSTEP";
+const VERSION: u32 = 1;
+
+/// A step: columns of numbers.
+#[derive(Serialize, Deserialize)]
+struct Step {
+    /// The program that found them: another one may take other steps.
+    program: String,
+    columns: Vec<Vec<f64>>,
+}
+
+/// Keeps the steps of a sweep in its output folder, one whole file each.
+pub struct KeptSteps<'a> {
+    folder: &'a OutputFolder,
+    heard: &'a (dyn Fn(SweepProgress) + Sync),
+    /// Names of all steps known.
+    names: Mutex<BTreeSet<String>>,
+    has_failed: AtomicBool,
+}
+
+impl<'a> KeptSteps<'a> {
+    /// Takes up the steps that an earlier run left in `folder` if `is_continued`, else drops them. `heard` is told how
+    /// far the sweep has come.
+    pub fn new(
+        folder: &'a OutputFolder,
+        is_continued: bool,
+        heard: &'a (dyn Fn(SweepProgress) + Sync),
+    ) -> Result<Self, FolderError> {
+        let entries = fs::read_dir(folder.path().join(FOLDER));
+        let files = entries.into_iter().flatten().flatten();
+        let names = files.filter_map(|entry| entry.file_name().into_string().ok());
+        let steps = Self {
+            folder,
+            heard,
+            names: Mutex::new(names.map(|name| format!("{FOLDER}/{name}")).collect()),
+            has_failed: AtomicBool::new(false),
+        };
+        if !is_continued {
+            steps.discard()?;
+        }
+        Ok(steps)
+    }
+
+    /// Drops all steps: the run is complete, or starts anew.
+    ///
+    /// # Errors
+    /// A file that cannot be removed.
+    pub fn discard(&self) -> Result<(), FolderError> {
+        let mut names = self.names.lock().unwrap_or_else(PoisonError::into_inner);
+        std::mem::take(&mut *names).iter().try_for_each(|name| self.folder.discard(name))?;
+        // Anything else in there is not ours.
+        let _ = fs::remove_dir(self.folder.path().join(FOLDER));
+        Ok(())
+    }
+
+    fn path(name: &str) -> String {
+        format!("{FOLDER}/{name}.bin")
+    }
+}
+
+impl SweepWatch for KeptSteps<'_> {
+    fn reached(&self, progress: SweepProgress) {
+        (self.heard)(progress);
+    }
+
+    fn recall(&self, name: &str) -> Option<Vec<Vec<f64>>> {
+        let bytes = read_file(&self.folder.path().join(Self::path(name)), RESULT).ok()?;
+        // A step that is damaged is taken again.
+        let payload = framed::read(&bytes, MAGIC, VERSION).ok()?;
+        let step: Step = postcard::from_bytes(payload).ok()?;
+        (step.program == env!("CARGO_PKG_VERSION")).then_some(step.columns)
+    }
+
+    fn keep(&self, name: &str, columns: &[Vec<f64>]) {
+        let path = Self::path(name);
+        let written = self.folder.write_bulk(&path, |out| {
+            let step =
+                Step { program: env!("CARGO_PKG_VERSION").to_owned(), columns: columns.to_vec() };
+            let payload = postcard::to_stdvec(&step).map_err(io::Error::other)?;
+            framed::write(out, MAGIC, VERSION, &payload)
+        });
+        let mut names = self.names.lock().unwrap_or_else(PoisonError::into_inner);
+        names.insert(path);
+        if let Err(error) = written
+            && !self.has_failed.swap(true, Ordering::Relaxed)
+        {
+            tracing::warn!("{error}: the run goes on, and would start over after an interruption");
+        }
+    }
+}

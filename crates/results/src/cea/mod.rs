@@ -1,0 +1,155 @@
+//! Results of a complex eigenvalue analysis: what is printed and what is written.
+
+mod assembly;
+mod base;
+mod branches;
+mod coupling;
+mod feed;
+mod figures;
+mod files;
+mod kept;
+mod locus;
+mod mode_name;
+mod reading;
+mod sensitivity;
+mod shape;
+mod solid;
+mod summary;
+mod tables;
+
+pub(super) use assembly::POINTS;
+pub use assembly::{AssemblyPoint, AssemblyReport};
+pub use base::{BaseField, BaseState, write_base};
+pub(super) use base::{NODES, PLANE, STATUS, TRACTIONS};
+pub(super) use feed::FEED;
+pub use feed::{Feed, FeedPlace, ModeFeed};
+pub use figures::draw;
+pub use files::{write, write_universal};
+pub use kept::KeptSteps;
+pub use locus::NamedDamping;
+pub use mode_name::ModeName;
+pub use mode_name::mode_name;
+pub(super) use mode_name::{BRANCH, DIRECTION, HARMONIC, NAMES, NUMBERS, SHORT_NAMES, arrow};
+pub(super) use reading::{CONTRIBUTIONS, COUPLINGS};
+pub use reading::{Contribution, Coupling, MeshError, Reading, Source};
+pub(super) use sensitivity::{EIGENVALUES, ROWS};
+pub use sensitivity::{OnsetRates, SensitivityReport, SensitivityRow};
+pub(super) use solid::RINGS;
+pub use solid::SolidReport;
+pub use summary::{
+    CeaSummary, CriticalFriction, ModeSummary, UnstableCount, UnstableMode, summary,
+};
+pub(super) use summary::{ONSETS, SWEPT_MODES, SWEPT_ONSETS, UNSTABLE};
+pub(super) use tables::{AXIAL, MODES, PLACES};
+pub use tables::{View, document};
+
+use crate::ShownBody;
+use branches::{Branch, branch_of_mode};
+use frictionsim_physics::cea::{FrictionPoint, FrictionSweep};
+use frictionsim_physics::mesh::Mesh;
+use std::collections::BTreeMap;
+
+/// Everything a complex eigenvalue analysis reports.
+#[derive(Clone, Debug)]
+pub struct CeaReport<'a> {
+    /// Title of the case.
+    pub title: &'a str,
+    /// The mesh, for the shapes.
+    pub mesh: &'a Mesh,
+    /// Whether modes have a circumferential harmonic and a direction; else they are named by rank.
+    pub has_harmonics: bool,
+    /// Unknowns of the eigenproblem.
+    pub dofs: usize,
+    /// Solver: `"cyclic"` or `"sparse"`.
+    pub method: &'a str,
+    /// What was asked for, in words: `"below 17500 Hz"`.
+    pub selection: String,
+    /// Friction coefficients of the tables, rising. The sweep may hold more, for the shapes.
+    pub friction_coefficients: &'a [f64],
+    /// The modes.
+    pub sweep: &'a FrictionSweep,
+    /// Friction coefficients at which contact nodes open or close, rising: no branch goes on smoothly across them.
+    pub contact_changes: &'a [f64],
+    /// The state of steady sliding at the case's own friction coefficient.
+    pub base: BaseState,
+    /// The same node by node.
+    pub field: &'a BaseField,
+    /// The body where it is three-dimensional; `mesh` and `field` then stand for nothing.
+    pub solid: Option<&'a SolidReport>,
+    /// The base state of solid bodies from a mesh file; `field` then stands for nothing.
+    pub assembly: Option<&'a AssemblyReport>,
+    /// Which parameter decides, where the solver knows.
+    pub sensitivities: Option<&'a SensitivityReport>,
+    /// Where growth comes from and which modes couple, where the solver knows.
+    pub reading: Option<&'a Reading>,
+    /// Anything the solver has to say: lost branches, harmonics left out, and why.
+    pub notes: Vec<String>,
+    /// Wall time of the run, s.
+    pub wall_s: f64,
+}
+
+impl CeaReport<'_> {
+    /// The body as results show it.
+    fn body(&self) -> ShownBody<'_> {
+        ShownBody { mesh: self.mesh, sector: self.solid.map(|solid| &solid.sector) }
+    }
+
+    /// The modes at the solved friction value nearest to the case's own.
+    fn own_point(&self) -> Option<&FrictionPoint> {
+        let own = self.base.friction_coefficient;
+        let distance = |point: &&FrictionPoint| (point.friction_coefficient - own).abs();
+        let points = self.sweep.points.iter();
+        points.min_by(|a, b| distance(a).total_cmp(&distance(b)))
+    }
+
+    /// Number of each branch's mode at that friction value, by frequency from 1.
+    fn mode_numbers(&self) -> BTreeMap<Branch, usize> {
+        let modes = self.own_point().into_iter().flat_map(|point| &point.modes);
+        modes.map(branch_of_mode).zip(1..).collect()
+    }
+
+    /// A branch as figures and tables name it: by harmonic, rank and sense of travel, or without symmetry by the number
+    /// that its mode has at the case's own friction, after its nodal diameters on a body of one sector.
+    fn branch_name(&self, branch: Branch, numbers: &BTreeMap<Branch, usize>) -> String {
+        match (self.has_harmonics, numbers.get(&branch)) {
+            (true, _) => mode_name(Some(branch.0), branch.1, branch.2),
+            (false, Some(number)) => {
+                let own = self.own_point().map(|point| &point.modes[number - 1]);
+                match own.and_then(|mode| mode.nodal_diameters) {
+                    Some(n) => format!("n = {n}, mode {number}"),
+                    None => format!("mode {number}"),
+                }
+            }
+            (false, None) => format!("branch {}", branch.1),
+        }
+    }
+
+    /// The friction values of the tables.
+    pub fn tabulated(&self) -> impl Iterator<Item = &FrictionPoint> {
+        self.sweep
+            .points
+            .iter()
+            .filter(|point| self.friction_coefficients.contains(&point.friction_coefficient))
+    }
+
+    /// Largest relative residual of any eigenpair, that of the quadratic problem.
+    pub fn largest_residual(&self) -> f64 {
+        let modes = self.sweep.points.iter().flat_map(|point| &point.modes);
+        modes.map(|mode| mode.residual).fold(0.0, f64::max)
+    }
+
+    /// Fewest and most modes found at one friction value.
+    pub fn mode_counts(&self) -> (usize, usize) {
+        let counts = || self.tabulated().map(|point| point.modes.len());
+        (counts().min().unwrap_or(0), counts().max().unwrap_or(0))
+    }
+}
+
+/// Direction in words.
+fn direction_name(direction: i8) -> &'static str {
+    match direction {
+        1.. => "with",
+        0 => "standing",
+        ..0 => "against",
+    }
+}

@@ -1,0 +1,279 @@
+//! Where the growth of each mode comes from, and which modes couple: `contributions.csv` and `coupling.csv`.
+
+use super::branches::Branch;
+use super::mode_name::{ModeName, NAMES, SHORT_NAMES};
+use super::{CeaReport, Feed};
+use crate::distinct;
+use frictionsim_chart::{Axis, ChartError, Figure, INK, Line, Panel, Rule, Stroke, literal};
+use frictionsim_output::{Table, columns, fixed};
+use std::collections::BTreeMap;
+
+/// What a contribution comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Source {
+    /// The material damping of a region.
+    Part,
+    /// The dashpots of a support.
+    Support,
+    /// A contact: its friction, its dashpots, the turning of its forces.
+    Contact,
+    /// The gyroscopic forces of regions that turn with the inertia of their rotation.
+    Rotation,
+}
+
+impl Source {
+    fn name(self) -> &'static str {
+        match self {
+            Self::Part => "part",
+            Self::Support => "support",
+            Self::Contact => "contact",
+            Self::Rotation => "rotation",
+        }
+    }
+}
+
+/// The share of one part, support or contact in a mode.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Contribution {
+    /// The mode.
+    pub mode: ModeName,
+    /// Name of the region, boundary or contact.
+    pub name: String,
+    /// What it is.
+    pub source: Source,
+    /// Share of the kinetic energy; none of what has no mass.
+    pub kinetic_share: Option<f64>,
+    /// Share of the strain energy of parts and supports; none of a contact.
+    pub strain_share: Option<f64>,
+    /// What it adds to the growth rate, 1/s.
+    pub growth_rate: f64,
+}
+
+/// The share of a mode of the lowest friction value in an unstable mode.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Coupling {
+    /// The unstable mode.
+    pub mode: ModeName,
+    /// Its growth rate, 1/s.
+    pub growth_rate: f64,
+    /// The mode of the lowest friction value.
+    pub reference: ModeName,
+    /// `|phi_0^H M phi|^2 / (phi_0^H M phi_0  phi^H M phi)`.
+    pub share: f64,
+}
+
+/// What the mesh makes of the frequency of a mode.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MeshError {
+    /// Friction coefficient.
+    pub friction_coefficient: f64,
+    /// Number by frequency, from 1.
+    pub mode: usize,
+    /// Its frequency, Hz.
+    pub of_hz: f64,
+    /// Estimate of the frequency less that on an ever finer mesh of the same outline, Hz.
+    pub frequency_hz: f64,
+}
+
+/// Where growth comes from, and which modes couple.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Reading {
+    /// Every mode whose shape was solved for, with all that contributes to it.
+    pub contributions: Vec<Contribution>,
+    /// Every unstable one of them with the modes that it consists of, the largest share first.
+    pub couplings: Vec<Coupling>,
+    /// Where the contacts feed the unstable modes at the case's own friction coefficient.
+    pub feed: Option<Feed>,
+    /// What the mesh makes of frequencies, where the left vectors are known.
+    pub mesh_errors: Vec<MeshError>,
+    /// What it makes of each critical friction of the sweep: estimate less that on an ever finer mesh.
+    pub onset_errors: Vec<Option<f64>>,
+}
+
+columns! {
+    /// A share in a mode.
+    pub(crate) CONTRIBUTIONS: row as Contribution;
+    name: "name of the region, boundary or contact" = row.name.clone();
+    kind: "part, support, contact or rotation" = row.source.name();
+    kinetic_share: "share of the kinetic energy; none of what has no mass" = row.kinetic_share;
+    strain_share: "share of the strain energy; none of a contact" = row.strain_share;
+    growth_rate_per_s: "what it adds to the growth rate" = row.growth_rate;
+}
+
+columns! {
+    /// A mode of the lowest friction value in an unstable mode.
+    pub(crate) COUPLINGS: row as Coupling;
+    growth_rate_per_s: "growth rate of the unstable mode" = row.growth_rate;
+    reference_friction: "lowest friction coefficient" = row.reference.friction_coefficient;
+    reference_mode: "number of the mode there, from 1" = row.reference.mode;
+    reference_frequency_hz: "its frequency" = row.reference.frequency_hz;
+    reference_harmonic: "its nodal diameters; none without symmetry" = row.reference.harmonic;
+    share: "share of that mode in the unstable one, 0 to 1" = row.share;
+}
+
+impl Reading {
+    /// The estimate of a mode's frequency error, Hz.
+    pub fn mesh_error(&self, friction_coefficient: f64, mode: usize) -> Option<f64> {
+        let mut all = self.mesh_errors.iter();
+        let own = all.find(|e| e.mode == mode && e.friction_coefficient == friction_coefficient);
+        own.map(|own| own.frequency_hz)
+    }
+
+    /// `contributions.csv`: a row for each mode, friction value and part, support or contact.
+    pub(super) fn contributions(&self) -> Table {
+        let rows = &self.contributions;
+        Table::new("contributions.csv", "")
+            .columns(NAMES, rows.iter().map(|row| row.mode))
+            .columns(CONTRIBUTIONS, rows)
+    }
+
+    /// `coupling.csv`: a row for each unstable mode and each mode of the lowest friction value that it consists of.
+    pub(super) fn couplings(&self) -> Table {
+        let rows = &self.couplings;
+        Table::new("coupling.csv", "")
+            .columns(SHORT_NAMES, rows.iter().map(|row| row.mode))
+            .columns(COUPLINGS, rows)
+    }
+
+    /// The unstable modes at a friction coefficient in a sentence each, the fastest first: which modes couple, what
+    /// feeds and what takes.
+    pub(super) fn sentences(&self, friction: f64, most: usize) -> Vec<String> {
+        let mut unstable: Vec<&Coupling> = Vec::new();
+        for coupling in &self.couplings {
+            let is_new = unstable.iter().all(|known| known.mode != coupling.mode);
+            if coupling.mode.friction_coefficient == friction && is_new {
+                unstable.push(coupling);
+            }
+        }
+        frictionsim_physics::order::sort_by_number(&mut unstable, |a| -a.growth_rate);
+        let modes = unstable.iter().take(most);
+        modes.map(|first| self.sentence(first)).collect()
+    }
+
+    fn sentence(&self, first: &Coupling) -> String {
+        let mode = &first.mode;
+        let own = self.couplings.iter().filter(|row| row.mode == *mode);
+        let partners: Vec<String> = own
+            .take_while(|row| row.share >= NOTABLE)
+            .take(2)
+            .map(|row| {
+                format!(
+                    "{} ({}, {:.0} %)",
+                    row.reference.mode,
+                    kilohertz(&row.reference),
+                    100.0 * row.share
+                )
+            })
+            .collect();
+        let partners = match partners.as_slice() {
+            [one] => format!("comes from mode {one}"),
+            [one, other] => format!("couples modes {one} and {other}"),
+            _ => "consists of many modes".to_owned(),
+        };
+        let budget = self.contributions.iter().filter(|row| row.mode == *mode);
+        let largest = budget.clone().map(|row| row.growth_rate.abs());
+        let largest = largest.fold(0.0, f64::max);
+        let budget: Vec<String> = budget
+            .filter(|row| row.growth_rate.abs() >= LEAST_RATE * largest)
+            .map(|row| {
+                let verb = if row.growth_rate > 0.0 { "feeds" } else { "takes" };
+                let rate = fixed(row.growth_rate.abs(), 1);
+                format!("{} {verb} {rate} 1/s", row.name)
+            })
+            .collect();
+        format!(
+            "mode {} ({}) {partners} of friction {}: {}",
+            mode.mode,
+            kilohertz(mode),
+            first.reference.friction_coefficient,
+            budget.join(", ")
+        )
+    }
+
+    /// The branches that reach the largest growth rates, the fastest first.
+    fn fastest(&self) -> Vec<Branch> {
+        let mut fastest: Vec<(Branch, f64)> = Vec::new();
+        for coupling in &self.couplings {
+            let (branch, rate) = (branch_of_mode(&coupling.mode), coupling.growth_rate);
+            match fastest.iter_mut().find(|(known, _)| *known == branch) {
+                Some((_, largest)) => *largest = largest.max(rate),
+                None => fastest.push((branch, rate)),
+            }
+        }
+        frictionsim_physics::order::sort_by_number(&mut fastest, |a| -a.1);
+        fastest.into_iter().map(|(branch, _)| branch).collect()
+    }
+}
+
+/// Part of the largest contribution from which on another one is named.
+const LEAST_RATE: f64 = 1e-3;
+
+/// Share from which on a mode is named.
+const NOTABLE: f64 = 0.05;
+
+fn kilohertz(mode: &ModeName) -> String {
+    let frequency = format!("{} kHz", fixed(1e-3 * mode.frequency_hz, 3));
+    match mode.harmonic {
+        Some(harmonic) => format!("n = {harmonic}, {frequency}"),
+        None => frequency,
+    }
+}
+
+/// Panels of the figure, at most.
+const PANELS: usize = 6;
+
+/// Growth rate over friction of the modes that grow fastest, and what each part, support and contact adds to it.
+pub(super) fn budget(report: &CeaReport<'_>, reading: &Reading) -> Result<Figure, ChartError> {
+    let frictions = reading.contributions.iter().map(|row| row.mode.friction_coefficient);
+    let frictions = distinct(frictions.filter(|own| report.friction_coefficients.contains(own)));
+    if frictions.len() < 3 {
+        return Err(ChartError::empty("budget of growth over friction"));
+    }
+    // Each branch by itself: its rows are found once.
+    let mut rows: BTreeMap<Branch, Vec<&Contribution>> = BTreeMap::new();
+    for row in &reading.contributions {
+        rows.entry(branch_of_mode(&row.mode)).or_default().push(row);
+    }
+    // As tables and other figures name them.
+    let numbers = report.mode_numbers();
+    let panels = reading.fastest().into_iter().take(PANELS).map(|branch| {
+        let name = report.branch_name(branch, &numbers);
+        budget_panel(name, &rows[&branch], &frictions)
+    });
+    let panels: Vec<Panel> = panels.collect();
+    if panels.is_empty() {
+        return Err(ChartError::empty("budget of growth over friction"));
+    }
+    let caption = "Growth rate of the fastest modes over friction, and what each part, support and contact adds to it.";
+    Ok(Figure::new("budget", caption).columns(2).shared_x().panels(panels))
+}
+
+/// The growth rate of one branch, and its parts.
+fn budget_panel(name: String, rows: &[&Contribution], frictions: &[f64]) -> Panel {
+    let names = distinct(rows.iter().map(|row| row.name.as_str()));
+    let total = frictions.iter().filter_map(|&friction| {
+        let is_there = |row: &&&Contribution| row.mode.friction_coefficient == friction;
+        let mut own = rows.iter().filter(is_there).peekable();
+        own.peek()?;
+        Some((friction, own.map(|row| row.growth_rate).sum::<f64>()))
+    });
+    let last = rows.last().map_or(0.0, |row| row.mode.frequency_hz);
+    let mut panel = Panel::new(Axis::friction().tight(), Axis::new("growth rate", "1/s"))
+        .height(90.0)
+        .caption(format!("{name}, {} kHz", fixed(1e-3 * last, 2)))
+        .layer(Rule::horizontal(0.0).stroke(Stroke::solid(INK, 0.6)))
+        .layer(Line::through(total).solid(INK, 1.4).name("growth rate"));
+    for (place, name) in names.into_iter().enumerate() {
+        let own = rows.iter().filter(|row| row.name == name);
+        let points = own.map(|row| (row.mode.friction_coefficient, row.growth_rate));
+        panel = panel.layer(Line::through(points).nth(place).name(literal(name)));
+    }
+    panel
+}
+
+/// The branch of a mode.
+fn branch_of_mode(mode: &ModeName) -> Branch {
+    // Waves around a body made of one sector are numbered together.
+    let harmonic = mode.harmonic.filter(|_| mode.direction.is_some());
+    (harmonic.unwrap_or(0), mode.branch, mode.direction.unwrap_or(0))
+}

@@ -1,0 +1,156 @@
+//! `sensitivities.csv`: which parameter decides whether a mode grows.
+
+use super::mode_name::travels;
+use crate::finding::finding;
+use frictionsim_output::{Format, Table, columns, fixed};
+use frictionsim_physics::linalg::c64;
+use std::f64::consts::TAU;
+use std::fmt::Write as _;
+
+/// Derivatives of the eigenvalues at one friction coefficient, and the values of the parameters there.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SensitivityReport {
+    /// Names of the parameters, the friction coefficient first.
+    pub parameters: Vec<String>,
+    /// Their values; that of the friction coefficient is each row's own.
+    pub values: Vec<f64>,
+    /// One for each branch.
+    pub rows: Vec<SensitivityRow>,
+}
+
+finding! {
+    /// Derivatives of one eigenvalue.
+    #[derive(Clone, Debug, PartialEq)]
+    SensitivityRow, ROWS {
+        friction_coefficient: f64 = "friction coefficient";
+        harmonic: Option<usize> = "number of nodal diameters; none without symmetry";
+        branch: usize = "rank within the harmonic, else among all, from 1";
+        direction: Option<i8>
+            = "1 travels with the rotor, -1 against it, 0 stands; none without symmetry";
+        /// Eigenvalue, rad/s.
+        eigenvalue: c64;
+        /// `d lambda / d parameter`, in the order of the parameters; `None` of one that the branch does not have.
+        derivatives: Vec<Option<c64>>;
+        /// Where the branch turns unstable first.
+        onset: Option<OnsetRates>;
+    }
+}
+
+columns! {
+    /// The eigenvalue of a branch; derivatives follow, two for each parameter.
+    pub(crate) EIGENVALUES: row as SensitivityRow;
+    growth_rate_per_s: "growth rate of the mode" = row.eigenvalue.re;
+    frequency_hz: "its frequency" = row.eigenvalue.im / TAU;
+}
+
+/// How the critical friction coefficient of a branch moves.
+#[derive(Clone, Debug, PartialEq)]
+pub struct OnsetRates {
+    /// The critical friction coefficient `mu_c`.
+    pub critical_friction: f64,
+    /// `d mu_c / d parameter`, in the order of the parameters; nothing by the friction coefficient itself.
+    pub derivatives: Vec<Option<f64>>,
+}
+
+impl SensitivityReport {
+    /// Change of the eigenvalue, 1/s, for one per cent more of each parameter, that of the growth rate largest first.
+    fn per_cent<'a>(&'a self, row: &'a SensitivityRow) -> Vec<(&'a str, c64)> {
+        let own = [row.friction_coefficient];
+        let values = own.iter().chain(self.values.iter().skip(1));
+        let given = row.derivatives.iter().zip(values).zip(&self.parameters);
+        let mut changes: Vec<(&str, c64)> = given
+            .filter_map(|((derivative, value), name)| {
+                Some((name.as_str(), (*derivative)? * (0.01 * value)))
+            })
+            .collect();
+        frictionsim_physics::order::sort_by_number(&mut changes, |a| -a.1.re.abs());
+        changes
+    }
+
+    /// `sensitivities.csv`, one row for each branch: the derivative of its growth rate (1/s) and of its frequency (Hz)
+    /// for each unit of each parameter, empty of one by which there is none; and the first critical friction
+    /// coefficient of the branch with its derivatives.
+    pub(super) fn table(&self) -> Table {
+        let rows = || self.rows.iter();
+        let mut table =
+            Table::new("sensitivities.csv", "").columns(ROWS, rows()).columns(EIGENVALUES, rows());
+        for (at, name) in self.parameters.iter().enumerate() {
+            let part = |of: fn(c64) -> f64| rows().map(move |row| row.derivatives[at].map(of));
+            table = table.column(&format!("growth_rate_per_{name}"), None, part(|d| d.re)).column(
+                &format!("frequency_hz_per_{name}"),
+                None,
+                part(|d| d.im / TAU),
+            );
+        }
+        let onsets = || rows().map(|row| row.onset.as_ref());
+        table = table.column(
+            "critical_friction",
+            None,
+            onsets().map(|own| Some(own?.critical_friction)),
+        );
+        for (at, name) in self.parameters.iter().enumerate().skip(1) {
+            let rates = onsets().map(|own| own.and_then(|own| own.derivatives[at]));
+            table = table.column(&format!("critical_friction_per_{name}"), None, rates);
+        }
+        table
+    }
+
+    /// Tables of the modes that grow fastest, at most `most`: what one per cent more of each parameter changes, largest
+    /// first.
+    pub(super) fn tables(&self, most: usize) -> Vec<Table> {
+        let mut rows: Vec<&SensitivityRow> = self.rows.iter().collect();
+        frictionsim_physics::order::sort_by_number(&mut rows, |a| -a.eigenvalue.re);
+        rows.into_iter().take(most).map(|row| self.changes(row)).collect()
+    }
+
+    fn changes(&self, own: &SensitivityRow) -> Table {
+        let mut changes = self.per_cent(own);
+        changes.retain(|(_, change)| change.norm() > 0.0);
+        let (rate, frequency) = (own.eigenvalue.re, own.eigenvalue.im / TAU);
+        let travels = own.direction.map_or("", travels);
+        let caption = format!(
+            "One per cent more of each parameter changes {}{travels} ({} Hz, {} at {} 1/s at friction {}) by",
+            self.name(own),
+            fixed(frequency, 2),
+            if rate > 0.0 { "grows" } else { "decays" },
+            fixed(rate.abs(), 2),
+            own.friction_coefficient,
+        );
+        let look = |label, digits| Some((label, Format::Signed(digits)));
+        Table::new("", caption)
+            .column(
+                "parameter",
+                look("parameter", 0),
+                changes.iter().map(|own| own.0.replace('_', " ")),
+            )
+            .column("growth_rate_per_s", look("growth rate", 3), changes.iter().map(|own| own.1.re))
+            .column("frequency_hz", look("frequency", 3), changes.iter().map(|own| own.1.im / TAU))
+    }
+
+    fn name(&self, row: &SensitivityRow) -> String {
+        match row.harmonic {
+            Some(harmonic) => format!("n = {harmonic}, branch {}", row.branch),
+            None => format!("branch {}", row.branch),
+        }
+    }
+
+    /// What decides the growth of the mode that grows fastest, in words.
+    pub fn print(&self) -> String {
+        let fastest = self.rows.iter().max_by(|a, b| a.eigenvalue.re.total_cmp(&b.eigenvalue.re));
+        let Some(row) = fastest else {
+            return String::new();
+        };
+        let mut text = format!(
+            "at friction {} mode {} {} at {:.1} 1/s; change of the growth rate when a parameter rises by 1 %:",
+            row.friction_coefficient,
+            self.name(row),
+            if row.eigenvalue.re > 0.0 { "grows" } else { "decays" },
+            row.eigenvalue.re.abs(),
+        );
+        for (index, (name, change)) in self.per_cent(row).into_iter().enumerate() {
+            let separator = if index == 0 { "" } else { "," };
+            let _ = write!(text, "{separator} {name} {:+.2}", change.re);
+        }
+        text + " 1/s"
+    }
+}

@@ -1,0 +1,209 @@
+//! A mode shape as a picture of the deformed body.
+
+use super::solid::Picture;
+use super::{CeaReport, arrow};
+use crate::charts::palette::UNSTABLE;
+use crate::charts::{Disc, MovingBody, SolidView};
+use frictionsim_chart::{
+    Axis, ColourMap, Field, INK, Line, MUTED, Motion, MotionKind, MotionState, Panel, Stroke,
+    plain, signed,
+};
+use frictionsim_physics::cea::ComplexMode;
+use frictionsim_physics::linalg::c64;
+use frictionsim_physics::mesh::Mesh;
+
+/// Largest displacement drawn, as a fraction of the half width of the mesh.
+const DEFLECTION: f64 = 0.07;
+
+/// One mode to draw.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct ModeShape<'a> {
+    /// Number in the list of modes, 1-based, in order of frequency.
+    pub number: usize,
+    /// Friction coefficient.
+    pub friction: f64,
+    /// Whether modes have a circumferential harmonic.
+    pub has_harmonics: bool,
+    /// The mode.
+    pub mode: &'a ComplexMode,
+}
+
+impl<'a> ModeShape<'a> {
+    /// All modes of a report that carry shapes, by rising friction.
+    pub fn all(report: &CeaReport<'a>) -> impl Iterator<Item = Self> {
+        let has_harmonics = report.has_harmonics;
+        let shapes = report.sweep.points.iter().flat_map(move |point| {
+            let friction = point.friction_coefficient;
+            let modes = (1..).zip(&point.modes);
+            modes.map(move |(number, mode)| Self { number, friction, has_harmonics, mode })
+        });
+        shapes.filter(|own| own.mode.shape.is_some())
+    }
+
+    /// Colour of its headings.
+    fn colour(&self) -> &'static str {
+        if self.mode.is_unstable() { UNSTABLE } else { INK }
+    }
+
+    /// Harmonic, direction and stability in mark-up.
+    pub fn harmonic(&self) -> String {
+        let arrow = arrow(self.mode.direction);
+        let unstable = if self.mode.is_unstable() { " unstable" } else { "" };
+        if !self.has_harmonics {
+            let diameters = self.mode.nodal_diameters;
+            let diameters = diameters.map_or(String::new(), |n| format!("*n* = {n}"));
+            return format!("{diameters}{unstable}").trim().to_owned();
+        }
+        format!("*n* = {}{arrow}{unstable}", self.mode.harmonic)
+    }
+}
+
+/// A body whose shapes are drawn.
+pub(super) enum Body<'a> {
+    /// In the plane.
+    Plane(Disc<'a>),
+    /// With a thickness.
+    Solid(Picture<'a>),
+    /// From a mesh file of solid elements.
+    Assembly(SolidView<'a>),
+}
+
+impl<'a> Body<'a> {
+    /// The body of a report, with about so many rays on a plane one.
+    pub fn new(report: &CeaReport<'a>, rays: usize) -> Self {
+        match report.solid {
+            Some(solid) => Self::Solid(Picture::new(&solid.sector)),
+            None if report.assembly.is_some() => Self::Assembly(SolidView::new(report.mesh)),
+            None => Self::Plane(Disc::with_lattice(report.mesh, rays)),
+        }
+    }
+
+    /// The deformed body under some lines of heading.
+    pub fn panel(&self, shape: &ModeShape<'_>, lines: &[String; 3]) -> Panel {
+        let values = shape.mode.shape.as_deref().unwrap_or(&[]);
+        let panel = match self {
+            Self::Plane(disc) => plane_panel(disc, values, shape.mode.harmonic),
+            Self::Assembly(view) => assembly_panel(view, values),
+            Self::Solid(picture) => {
+                picture.panel(values, Axis::new("", "").between(0.0, 1.0)).height(170.0)
+            }
+        };
+        lines.iter().fold(panel, |panel, line| panel.heading_in(shape.colour(), line))
+    }
+}
+
+/// The deformed body, coloured by the displacement amplitude of the real part.
+///
+/// A travelling wave is shown at the instant that puts its crest at angle zero; every shape is scaled to its own
+/// maximum, which an eigenvector leaves open.
+fn plane_panel(disc: &Disc<'_>, values: &[c64], harmonic: usize) -> Panel {
+    let mesh = disc.mesh();
+    let turn = crest_phase(mesh, values, harmonic);
+    let real: Vec<f64> = values.iter().map(|u| (u * turn).re).collect();
+    let amplitude: Vec<f64> = real.chunks_exact(2).map(|u| u[0].hypot(u[1])).collect();
+    let largest = amplitude.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
+    let [low, high] = Field::window(&mesh.plane_nodes(), 0.0);
+    let magnification = DEFLECTION * 0.5 * (high[0] - low[0]) / largest;
+    let axis = Axis::new("", "").between(0.0, largest);
+    let stroke = Stroke::solid(MUTED, 0.45).dashes(&[1.5, 1.2]);
+    // What is free at its rim leaves the place that it has at rest.
+    let room = if mesh.is_cyclic { 0.02 } else { 0.04 + 2.0 * DEFLECTION };
+    disc.panel(room)
+        .height(150.0)
+        .layer(disc.deformed(amplitude, &real, magnification, axis))
+        .layer(Line::through(disc.contact_edge()).stroke(stroke))
+}
+
+/// The deformed bodies, coloured by the displacement amplitude, at the instant of the largest displacement.
+fn assembly_panel(view: &SolidView<'_>, values: &[c64]) -> Panel {
+    let turn = turned_back(square_of(values).sqrt());
+    let real: Vec<f64> = values.iter().map(|u| (u * turn).re).collect();
+    let amplitude: Vec<f64> =
+        real.chunks_exact(3).map(|u| u.iter().map(|x| x * x).sum::<f64>().sqrt()).collect();
+    let largest = amplitude.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
+    let magnification = 0.5 * DEFLECTION * view.size() / largest;
+    let axis = Axis::new("", "").between(0.0, largest);
+    let surface = view.surface(amplitude, (&real, magnification), axis, ColourMap::Viridis);
+    Panel::plane(surface.window(0.04)).height(130.0).layer(surface)
+}
+
+/// The modes as motions to choose from: the unstable ones first, as many as a page carries.
+pub(super) fn moving(report: &CeaReport<'_>, shapes: &[ModeShape<'_>]) -> Motion {
+    match report.solid {
+        None => moving_mesh(report.mesh, shapes, |u, _| u),
+        Some(solid) => {
+            let sector = &solid.sector;
+            let whole = sector.part(sector.sector_count());
+            // Shapes have components along r, theta and z; the whole mesh has global frames.
+            moving_mesh(&whole, shapes, |[r, theta, z], node| {
+                let nodes = sector.node_count();
+                let (sin, cos) = sector.angle(node % nodes, node / nodes).sin_cos();
+                [cos * r - sin * theta, sin * r + cos * theta, z]
+            })
+        }
+    }
+}
+
+/// The modes of a mesh; `in_frame` brings the components of a node's displacement into its frame.
+fn moving_mesh(
+    mesh: &Mesh,
+    shapes: &[ModeShape<'_>],
+    in_frame: impl Fn([f64; 3], usize) -> [f64; 3],
+) -> Motion {
+    let body = MovingBody::new(mesh);
+    let (unstable, stable): (Vec<&ModeShape<'_>>, Vec<_>) =
+        shapes.iter().partition(|s| s.mode.is_unstable());
+    let chosen = unstable.into_iter().chain(stable).take(body.most_states());
+    let states = chosen.map(|shape| {
+        let values = shape.mode.shape.as_deref().unwrap_or(&[]);
+        let part = |of: fn(&c64) -> f64| {
+            body.cartesian(|node| {
+                let first = mesh.dimension * node;
+                let own = values.get(first..first + mesh.dimension).unwrap_or(&[]);
+                let component = |k: usize| own.get(k).map_or(0.0, of);
+                in_frame([0, 1, 2].map(component), node)
+            })
+        };
+        let frequency_hz = shape.mode.frequency_hz();
+        let name =
+            format!("{}: {} Hz, {}", shape.number, signed(frequency_hz, 0), shape.harmonic());
+        MotionState {
+            name: plain(name.trim_end_matches(", ")),
+            frequency_hz,
+            kind: MotionKind::Harmonic { real: part(|z| z.re), imaginary: part(|z| z.im) },
+        }
+    });
+    Motion { states: states.collect(), ..body.at_rest() }
+}
+
+/// Unit factor that turns a shape to the instant drawn.
+///
+/// A standing wave (`|sum u^2|` near `sum |u|^2`) is turned to its largest real part; a travelling one so that the wave
+/// that carries most of it has its tangential crest at angle zero. Both depend on the shape alone, not on the arbitrary
+/// phase a solver gave it.
+fn crest_phase(mesh: &Mesh, shape: &[c64], harmonic: usize) -> c64 {
+    let square = square_of(shape);
+    let total: f64 = shape.iter().map(|u| u.norm_sqr()).sum();
+    if square.norm() > 0.5 * total {
+        return turned_back(square.sqrt());
+    }
+    let wave = |sign: f64| {
+        let nodes = shape.chunks_exact(2).zip(mesh.frame_angles());
+        nodes.fold(c64::ZERO, |sum, (u, &angle)| {
+            let phase = sign * harmonic as f64 * angle;
+            sum + u[1] * c64::new(phase.cos(), phase.sin())
+        })
+    };
+    let (forward, backward) = (wave(-1.0), wave(1.0));
+    turned_back(if forward.norm() >= backward.norm() { forward } else { backward })
+}
+
+/// `sum u^2` of a shape.
+fn square_of(shape: &[c64]) -> c64 {
+    shape.iter().fold(c64::ZERO, |sum, u| sum + u * u)
+}
+
+/// Unit factor that makes a number real and positive.
+fn turned_back(z: c64) -> c64 {
+    if z.norm() > 0.0 { z.conj() / z.norm() } else { c64::ONE }
+}

@@ -1,0 +1,283 @@
+//! `summary.json` of a complex eigenvalue analysis.
+
+use super::branches::{branch_of, branch_of_mode};
+use super::{BaseState, CeaReport};
+use crate::finding::finding;
+use crate::summary::present;
+use frictionsim_output::{Column, Described, parted};
+use frictionsim_physics::cea::{ComplexMode, FrictionPoint, ModeCount, UnstableInterval};
+use serde::{Deserialize, Serialize};
+use std::f64::consts::TAU;
+
+/// `summary.json` of `frictionsim cea`.
+#[derive(Clone, Debug, PartialEq, Described, Serialize)]
+pub struct CeaSummary {
+    /// Unknowns of the eigenproblem.
+    pub dofs: usize,
+    /// `cyclic` or `sparse`.
+    pub method: String,
+    /// What was asked for, in words.
+    pub selection: String,
+    /// Most modes at one friction value.
+    pub modes: usize,
+    /// Friction values of the tables.
+    pub friction_values: usize,
+    /// Modes and unstable modes at each.
+    pub unstable_counts: Vec<UnstableCount>,
+    /// Crossings into instability, lowest first.
+    pub critical_frictions: Vec<CriticalFriction>,
+    /// Largest relative residual of any eigenpair.
+    pub largest_residual: Option<f64>,
+    /// The modes at the case's own friction coefficient, where it is one of those solved.
+    pub modes_at_friction: Option<Vec<ModeSummary>>,
+    /// The modes that grow at each friction value of the tables.
+    pub unstable_modes: Vec<UnstableMode>,
+    /// Steady sliding at the case's own friction coefficient.
+    pub base_state: BaseState,
+    /// What the solver has to say.
+    pub notes: Vec<String>,
+    /// Fraction of the contact nodes that are open, where some may be.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub contact_open_fraction: Option<f64>,
+    /// Counts of the modes by the argument principle, where they were asked for.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub mode_counts: Vec<CountSummary>,
+}
+
+/// The modes at one friction value, counted independently of the list.
+#[derive(Clone, Debug, PartialEq, Described, Serialize)]
+pub struct CountSummary {
+    /// The friction coefficient.
+    pub friction_coefficient: f64,
+    /// Frequencies between which was counted, Hz.
+    pub frequencies_hz: [f64; 2],
+    /// Growth rates between which was counted, 1/s.
+    pub growth_rates: [f64; 2],
+    /// Eigenvalues counted; none where that failed.
+    pub counted: Option<i64>,
+    /// Modes known there.
+    pub known: usize,
+    /// Those of them that only a search found that the count gave rise to.
+    pub recovered: usize,
+    /// Whether the two are the same.
+    pub is_complete: bool,
+    /// Frequency and growth rate (Hz, 1/s) about which the missing ones lie.
+    pub missing_near: Option<[f64; 2]>,
+    /// Why there is no count.
+    pub failure: Option<String>,
+    /// Determinants that were taken.
+    pub determinants: usize,
+}
+
+impl CountSummary {
+    fn of(count: &ModeCount) -> Self {
+        Self {
+            friction_coefficient: count.friction_coefficient,
+            frequencies_hz: count.region.frequencies_hz,
+            growth_rates: count.region.growth_rates,
+            counted: count.counted(),
+            known: count.known,
+            recovered: count.recovered,
+            is_complete: count.is_complete(),
+            missing_near: count.near.map(|near| [near.im / TAU, near.re]),
+            failure: count.missing.as_ref().err().cloned(),
+            determinants: count.determinants,
+        }
+    }
+}
+
+/// Modes at one friction value.
+#[derive(Clone, Copy, Debug, PartialEq, Described, Serialize, Deserialize)]
+pub struct UnstableCount {
+    /// The friction coefficient.
+    pub friction_coefficient: f64,
+    /// Modes.
+    pub modes: usize,
+    /// Those that grow.
+    pub unstable: usize,
+}
+
+finding! {
+    /// Where a branch turns unstable, and where it is stable again.
+    #[derive(Clone, Copy, Debug, PartialEq, Described, Serialize, Deserialize)]
+    CriticalFriction, ONSETS {
+        harmonic: Option<usize> = "number of nodal diameters; none without symmetry",
+            IfAny "n" Count;
+        branch: usize = "0 of a motion that grows without oscillating; rank within the harmonic, \
+            else among all, from 1", Always "branch" Count;
+        direction: Option<i8>
+            = "1 travels with the rotor, -1 against it, 0 stands; none without symmetry";
+        critical_friction: Option<f64> = "friction coefficient above which the branch is unstable",
+            Always "unstable above" Fixed(6);
+        frequency_hz: Option<f64> = "frequency there", Always "frequency" Fixed(2);
+        restabilized_friction: Option<f64> = "friction coefficient above which it is stable again",
+            IfAny "stable again above" Fixed(6);
+        restabilized_frequency_hz: Option<f64> = "frequency there",
+            IfAny "frequency there" Fixed(2);
+        unstable_from_start: bool
+            = "whether it is unstable at the lowest friction solved already";
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        lost_after: Option<f64> = "friction coefficient between which and critical_friction it \
+            turns unstable, where it was lost";
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        mesh_error: Option<f64>
+            = "estimate of the critical friction less that on an ever finer mesh",
+            IfAny "error of the mesh" Scientific(1);
+    }
+}
+
+/// Those that a sweep lists too.
+pub(crate) const SWEPT_ONSETS: &[Column<CriticalFriction>] = parted(ONSETS, "mesh_error").0;
+
+finding! {
+    /// A mode at the friction coefficient of the case.
+    #[derive(Clone, Copy, Debug, PartialEq, Described, Serialize, Deserialize)]
+    ModeSummary, OWN_MODES {
+        harmonic: Option<usize> = "number of nodal diameters; none without symmetry";
+        branch: usize = "rank within the harmonic, else among all, from 1";
+        direction: Option<i8>
+            = "1 travels with the rotor, -1 against it, 0 stands; none without symmetry";
+        real_hz: f64 = "real part of the eigenvalue over 2 pi";
+        frequency_hz: f64 = "imaginary part over 2 pi";
+        unstable: bool = "whether it grows";
+        contact_share: Option<f64> = "share of the kinetic energy at the contact";
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        axial_share: Option<f64>
+            = "share of the kinetic energy along the axis, of a body in three dimensions";
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        mesh_error: Option<f64> = "estimate of the frequency less that on an ever finer mesh, Hz";
+    }
+}
+
+/// Those that a sweep lists too.
+pub(crate) const SWEPT_MODES: &[Column<ModeSummary>] = parted(OWN_MODES, "axial_share").0;
+
+impl ModeSummary {
+    /// That of a number at a friction coefficient.
+    pub(super) fn of(
+        report: &CeaReport<'_>,
+        (friction, number): (f64, usize),
+        mode: &ComplexMode,
+    ) -> Self {
+        Self {
+            harmonic: mode.diameters(report.has_harmonics),
+            branch: mode.branch,
+            direction: report.has_harmonics.then_some(mode.direction),
+            real_hz: mode.real_hz(),
+            frequency_hz: mode.frequency_hz(),
+            unstable: mode.is_unstable(),
+            contact_share: present(mode.contact_share),
+            axial_share: mode.axial_share,
+            mesh_error: report.reading.and_then(|own| own.mesh_error(friction, number)),
+        }
+    }
+}
+
+finding! {
+    /// A mode that grows, where it was found, and from when it does.
+    #[derive(Clone, Copy, Debug, PartialEq, Described, Serialize, Deserialize)]
+    UnstableMode, UNSTABLE {
+        friction_coefficient: f64 = "friction coefficient", Always "friction" Plain;
+        mode: usize = "number by frequency at that friction, from 1", Always "mode" Count;
+        harmonic: Option<usize> = "number of nodal diameters; none without symmetry",
+            IfAny "n" Count;
+        branch: usize = "rank within the harmonic, else among all, from 1";
+        direction: Option<i8>
+            = "1 travels with the rotor, -1 against it, 0 stands; none without symmetry";
+        frequency_hz: f64 = "frequency", Always "frequency" Fixed(2);
+        growth_rate_per_s: f64 = "growth rate", Always "growth rate" Fixed(2);
+        damping_factor: f64 = "damping factor, below 0";
+        critical_friction: Option<f64> = "friction at which its branch turned unstable last",
+            IfAny "critical friction" Fixed(6);
+    }
+}
+
+impl UnstableMode {
+    /// The unstable modes of a report in the order of its tables.
+    fn all(report: &CeaReport<'_>) -> Vec<Self> {
+        let modes = report.tabulated().flat_map(|point| {
+            let unstable = (1..).zip(&point.modes).filter(|(_, mode)| mode.is_unstable());
+            unstable.map(move |own| Self::of(report, point.friction_coefficient, own))
+        });
+        modes.collect()
+    }
+
+    fn of(report: &CeaReport<'_>, friction: f64, (number, mode): (usize, &ComplexMode)) -> Self {
+        let own = |interval: &&UnstableInterval| {
+            branch_of(interval) == branch_of_mode(mode) && interval.critical_friction <= friction
+        };
+        let crossings = report.sweep.intervals.iter().filter(own);
+        let last = crossings.max_by(|a, b| a.critical_friction.total_cmp(&b.critical_friction));
+        Self {
+            friction_coefficient: friction,
+            mode: number,
+            harmonic: mode.diameters(report.has_harmonics),
+            branch: mode.branch,
+            direction: report.has_harmonics.then_some(mode.direction),
+            frequency_hz: mode.frequency_hz(),
+            growth_rate_per_s: mode.growth_rate(),
+            damping_factor: mode.damping_factor(),
+            critical_friction: last
+                .filter(|own| own.is_located())
+                .and_then(|own| present(own.critical_friction)),
+        }
+    }
+}
+
+/// So many friction values, in words.
+pub(super) fn friction_values(count: usize) -> String {
+    format!("{count} friction value{}", if count == 1 { "" } else { "s" })
+}
+
+/// The crossings into instability.
+pub(super) fn onsets(report: &CeaReport<'_>) -> Vec<CriticalFriction> {
+    let errors = report.reading.map_or(&[][..], |own| own.onset_errors.as_slice());
+    let onset = |(k, interval): (usize, &UnstableInterval)| CriticalFriction {
+        harmonic: interval.diameters(report.has_harmonics),
+        branch: interval.branch,
+        direction: report.has_harmonics.then_some(interval.direction),
+        critical_friction: present(interval.critical_friction),
+        frequency_hz: present(interval.frequency_hz),
+        restabilized_friction: interval.restabilized.map(|end| end.0),
+        restabilized_frequency_hz: interval.restabilized.map(|end| end.1),
+        unstable_from_start: interval.unstable_from_start,
+        lost_after: interval.lost_after,
+        mesh_error: errors.get(k).copied().flatten(),
+    };
+    report.sweep.intervals.iter().enumerate().map(onset).collect()
+}
+
+/// The summary of an analysis.
+pub fn summary(report: &CeaReport<'_>) -> CeaSummary {
+    let of_point = |point: &FrictionPoint| UnstableCount {
+        friction_coefficient: point.friction_coefficient,
+        modes: point.modes.len(),
+        unstable: point.modes.iter().filter(|mode| mode.is_unstable()).count(),
+    };
+    let base = report.base;
+    let own = |point: &&FrictionPoint| point.friction_coefficient == base.friction_coefficient;
+    let own = report.sweep.points.iter().find(own);
+    let modes_at = |point: &FrictionPoint| -> Vec<ModeSummary> {
+        let friction = point.friction_coefficient;
+        let own = |(number, mode)| ModeSummary::of(report, (friction, number), mode);
+        (1..).zip(&point.modes).map(own).collect()
+    };
+    let may_open = !report.has_harmonics || report.solid.is_some();
+    let nodes = (base.slipping + base.sticking + base.open).max(1);
+    CeaSummary {
+        dofs: report.dofs,
+        method: report.method.to_owned(),
+        selection: report.selection.clone(),
+        modes: report.mode_counts().1,
+        friction_values: report.friction_coefficients.len(),
+        unstable_counts: report.tabulated().map(of_point).collect(),
+        critical_frictions: onsets(report),
+        largest_residual: present(report.largest_residual()),
+        modes_at_friction: own.map(modes_at),
+        unstable_modes: UnstableMode::all(report),
+        base_state: base,
+        notes: report.notes.clone(),
+        contact_open_fraction: may_open.then(|| base.open as f64 / nodes as f64),
+        mode_counts: report.sweep.counts.iter().map(CountSummary::of).collect(),
+    }
+}

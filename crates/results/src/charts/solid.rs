@@ -1,0 +1,176 @@
+//! Solid bodies of a mesh file as pictures: their outer surface from one point of view.
+
+use frictionsim_chart::{Axis, ColourMap, Panel, Surface, SurfaceMesh, extremes};
+use frictionsim_physics::mesh::{BoundaryFace, Mesh};
+use nalgebra::Vector3;
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+/// Cosine of the angle between two faces below which their common edge is drawn.
+const SHARP: f64 = 0.75;
+
+/// The surface of solid bodies seen along a direction.
+pub struct SolidView<'a> {
+    mesh: &'a Mesh,
+    faces: Vec<BoundaryFace>,
+    shown: Arc<SurfaceMesh>,
+    /// Unit vectors to the right, upwards and towards the viewer.
+    axes: [Vector3<f64>; 3],
+}
+
+impl<'a> SolidView<'a> {
+    /// All bodies from the front, the right and above, `z` upwards.
+    pub fn new(mesh: &'a Mesh) -> Self {
+        Self::of(mesh, mesh.outer_faces(), Vector3::new(0.5, -0.72, 0.62))
+    }
+
+    /// The same turned over: from behind and below, `z` downwards.
+    pub fn turned_over(mesh: &'a Mesh) -> Self {
+        let towards = Vector3::new(0.5, 0.72, -0.62);
+        Self::upright(mesh, mesh.outer_faces(), towards, -Vector3::z())
+    }
+
+    /// One boundary from outside, along its mean normal.
+    pub fn of_boundary(mesh: &'a Mesh, boundary: usize) -> Self {
+        let faces = mesh.boundaries[boundary].faces.clone();
+        let normals = mesh.nodal_normals(&faces);
+        let sum = normals.values().map(|&normal| Vector3::from(normal)).sum();
+        Self::of(mesh, faces, sum)
+    }
+
+    fn of(mesh: &'a Mesh, faces: Vec<BoundaryFace>, towards: Vector3<f64>) -> Self {
+        let towards = towards.try_normalize(0.0).unwrap_or(Vector3::z());
+        // Upwards is z, but for what is seen along it.
+        let up = if towards.z.abs() > 0.9 { Vector3::y() } else { Vector3::z() };
+        Self::upright(mesh, faces, towards, up)
+    }
+
+    /// Faces seen from a direction, another one upwards.
+    fn upright(
+        mesh: &'a Mesh,
+        faces: Vec<BoundaryFace>,
+        towards: Vector3<f64>,
+        up: Vector3<f64>,
+    ) -> Self {
+        let towards = towards.normalize();
+        let right = up.cross(&towards).normalize();
+        let shown = SurfaceMesh {
+            triangles: faces.iter().flat_map(triangles).collect(),
+            edges: edges(mesh, &faces, false),
+        };
+        Self { mesh, faces, shown: Arc::new(shown), axes: [right, towards.cross(&right), towards] }
+    }
+
+    /// Values at the nodes (NaN: none) on the bodies displaced by `displacement` (nodal frames, three values a node, m)
+    /// times `magnification`.
+    pub fn surface(
+        &self,
+        values: Vec<f64>,
+        (displacement, magnification): (&[f64], f64),
+        axis: Axis,
+        map: ColourMap,
+    ) -> Surface {
+        let place = |(node, place): (usize, &[f64; 3])| {
+            let mut place = Vector3::from(*place);
+            if let Some(u) = displacement.get(3 * node..3 * node + 3) {
+                place += self.mesh.frame(node) * Vector3::from_column_slice(u) * magnification;
+            }
+            self.axes.map(|axis| axis.dot(&place))
+        };
+        let positions = self.mesh.nodes.iter().enumerate().map(place).collect();
+        Surface::new(Arc::clone(&self.shown), positions, values, axis, map)
+    }
+
+    /// The bodies with the edges of their elements, each face in the colour of its part; `parts` has colour and name of
+    /// each ("": not in the legend).
+    pub fn parts(
+        &self,
+        part_of: impl Fn(&BoundaryFace) -> usize,
+        parts: Vec<(&'static str, String)>,
+    ) -> Surface {
+        let shown = SurfaceMesh {
+            triangles: self.shown.triangles.clone(),
+            edges: edges(self.mesh, &self.faces, true),
+        };
+        let place = |node: &[f64; 3]| self.axes.map(|axis| axis.dot(&Vector3::from(*node)));
+        let positions = self.mesh.nodes.iter().map(place).collect();
+        let of_face = |face: &BoundaryFace| vec![part_of(face); triangles(face).len()];
+        let part_of = self.faces.iter().flat_map(of_face).collect();
+        let parts = parts.into_iter().map(|(colour, name)| (colour.into(), name)).collect();
+        Surface::of_parts(Arc::new(shown), positions, part_of, parts)
+    }
+
+    /// A picture of values at the nodes (NaN: none) on the bodies as they are, with `room` around it.
+    pub fn panel(&self, values: Vec<f64>, axis: Axis, map: ColourMap, room: f64) -> Panel {
+        let surface = self.surface(values, (&[], 0.0), axis, map);
+        Panel::plane(surface.window(room)).height(150.0).layer(surface)
+    }
+
+    /// Edges of faces between corners: where faces meet at an angle, between regions, at the rim of open surfaces; or
+    /// all.
+    pub(super) fn corner_edges(mesh: &Mesh, faces: &[BoundaryFace], all: bool) -> Vec<[u32; 2]> {
+        let edges = edge_paths(mesh, faces, all).into_iter();
+        edges.map(|path| [path[0], path[path.len() - 1]]).collect()
+    }
+
+    /// Where a place of the bodies lies in the picture, m to the right and upwards.
+    pub fn at(&self, place: [f64; 3]) -> (f64, f64) {
+        let place = Vector3::from(place);
+        (self.axes[0].dot(&place), self.axes[1].dot(&place))
+    }
+
+    /// Largest extent of the bodies along an axis, m.
+    pub fn size(&self) -> f64 {
+        let along = |axis: usize| {
+            let (low, high) = extremes(self.mesh.nodes.iter().map(|place| place[axis]));
+            high - low
+        };
+        (0..3).map(along).fold(f64::MIN_POSITIVE, f64::max)
+    }
+}
+
+/// The triangles between the nodes of a face.
+fn triangles(face: &BoundaryFace) -> Vec<[u32; 3]> {
+    let parts: &[[usize; 3]] = match face.nodes.len() {
+        3 => &[[0, 1, 2]],
+        4 => &[[0, 1, 2], [0, 2, 3]],
+        6 => &[[0, 3, 5], [3, 1, 4], [5, 4, 2], [3, 4, 5]],
+        8 => &[[0, 4, 7], [4, 1, 5], [5, 2, 6], [6, 3, 7], [4, 5, 6], [4, 6, 7]],
+        _ => &[],
+    };
+    parts.iter().map(|part| part.map(|node| face.nodes[node])).collect()
+}
+
+/// Edges drawn, in steps between their nodes.
+fn edges(mesh: &Mesh, faces: &[BoundaryFace], all: bool) -> Vec<[u32; 2]> {
+    let paths = edge_paths(mesh, faces, all);
+    let steps = paths.iter().flat_map(|path| path.windows(2));
+    steps.map(|step| [step[0], step[1]]).collect()
+}
+
+/// Nodes along each edge between faces that meet at an angle, between regions, and at the rim of open surfaces; or
+/// along all.
+fn edge_paths(mesh: &Mesh, faces: &[BoundaryFace], all: bool) -> Vec<Vec<u32>> {
+    type Side = (Vector3<f64>, usize);
+    let mut edges: BTreeMap<[u32; 2], (Vec<u32>, Vec<Side>)> = BTreeMap::new();
+    for face in faces {
+        let corners = face.kind.corner_count();
+        let [a, b, c] = [0, 1, 2].map(|k| Vector3::from(mesh.nodes[face.nodes[k] as usize]));
+        let normal = (b - a).cross(&(c - a)).try_normalize(0.0).unwrap_or_default();
+        let side = (normal, mesh.region(face.element as usize));
+        for edge in 0..corners {
+            let (p, q) = (face.nodes[edge], face.nodes[(edge + 1) % corners]);
+            let middle = face.nodes.get(corners + edge).copied();
+            let path = [Some(p), middle, Some(q)].into_iter().flatten().collect();
+            let entry = edges.entry([p.min(q), p.max(q)]);
+            entry.or_insert_with(|| (path, Vec::new())).1.push(side);
+        }
+    }
+    let is_sharp = |sides: &[Side]| match sides {
+        _ if all => true,
+        [one, other] => one.1 != other.1 || one.0.dot(&other.0) < SHARP,
+        _ => true,
+    };
+    let sharp = edges.into_values().filter(|(_, sides)| is_sharp(sides));
+    sharp.map(|(path, _)| path).collect()
+}

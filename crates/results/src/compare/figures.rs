@@ -1,0 +1,159 @@
+//! The curves of several reports over each other.
+
+use super::ComparedRun;
+use crate::distinct;
+use crate::drawing::{Declaration, declared};
+use frictionsim_chart::{
+    Axis, ChartError, Figure, INK, Line, Marker, Panel, PanelData, Points, Scale, Series,
+    SeriesKind, Stroke, literal, look,
+};
+
+/// Most curves of one panel that are told apart.
+const MOST_CURVES: usize = 24;
+
+/// The curves and points of a figure of one run.
+struct Curves<'a> {
+    /// Place and name of the run.
+    run: usize,
+    title: &'a str,
+    name: &'a str,
+    panels: Vec<PanelData>,
+}
+
+/// Each figure that several runs have, with the curves of all of them.
+pub fn overlaid(runs: &[ComparedRun]) -> Result<Vec<Figure>, ChartError> {
+    let is_curve = |series: &Series| series.kind != SeriesKind::Field;
+    let figures = runs.iter().enumerate().flat_map(|(run, own)| {
+        let figures = own.page.iter().flat_map(|page| &page.figures);
+        figures.map(move |figure| {
+            let mut panels = figure.data().panels;
+            panels.iter_mut().for_each(|panel| panel.series.retain(is_curve));
+            Curves { run, title: &own.name, name: &figure.name, panels }
+        })
+    });
+    let figures: &Vec<Curves<'_>> = &figures.collect();
+    let names = distinct(figures.iter().map(|own| own.name)).into_iter();
+    let shared = names.filter(|name| figures.iter().filter(|own| own.name == *name).count() > 1);
+    let declarations = shared.map(|name| -> Declaration<'_> {
+        Box::new(move || figure_of(name, figures).ok_or_else(|| ChartError::empty(name)))
+    });
+    declared(declarations.collect())
+}
+
+/// A figure over all runs that have it; panels go together by their place, caption and axes.
+fn figure_of(name: &str, figures: &[Curves<'_>]) -> Option<Figure> {
+    let own: Vec<&Curves<'_>> = figures.iter().filter(|own| own.name == name).collect();
+    let panels: Vec<Panel> = own
+        .first()?
+        .panels
+        .iter()
+        .enumerate()
+        .filter_map(|(at, panel)| {
+            let same = own.iter().filter_map(|figure| {
+                let other = figure.panels.get(at).filter(|other| is_alike(other, panel))?;
+                Some((figure.run, figure.title, other))
+            });
+            let same: Vec<_> = same.collect();
+            (same.len() > 1).then(|| panel_of(panel, &same))
+        })
+        .collect();
+    let runs: Vec<&str> = own.iter().map(|figure| figure.title).collect();
+    let caption = format!("{name} of {}.", runs.join(", "));
+    let columns = if panels.len() > 2 { 2 } else { 1 };
+    (!panels.is_empty()).then(|| Figure::new(name, caption).columns(columns).panels(panels))
+}
+
+fn is_alike(one: &PanelData, other: &PanelData) -> bool {
+    let titles = |panel: &PanelData| panel.axes.clone().map(|axis| axis.title);
+    titles(one) == titles(other) && !one.series.is_empty()
+}
+
+fn panel_of(panel: &PanelData, runs: &[(usize, &str, &PanelData)]) -> Panel {
+    let axis = |k: usize| {
+        let ends = runs.iter().map(|(_, _, own)| own.axes[k].ends);
+        let ends = ends.reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])]).unwrap_or([0.0, 1.0]);
+        let scale = if panel.axes[k].is_logarithmic { Scale::Logarithmic } else { Scale::Linear };
+        Axis::new(&literal(&panel.axes[k].title), "").scaled(scale).between(ends[0], ends[1])
+    };
+    let mut out = Panel::new(axis(0), axis(1)).height(150.0).legend();
+    if !panel.caption.is_empty() {
+        out = out.caption(literal(&panel.caption));
+    }
+    // Colours tell the runs apart; dashes and markers the series of one run, as many of them as have a name.
+    let is_line = |series: &Series| matches!(series.kind, SeriesKind::Line | SeriesKind::Dashed);
+    let names = |of_lines: bool| {
+        let all = runs.iter().flat_map(|(_, _, own)| &own.series);
+        let own = all.filter(|series| is_line(series) == of_lines && !series.name.is_empty());
+        distinct(own.map(|series| series.name.as_str()))
+    };
+    let (lines, points) = (names(true), names(false));
+    for (run, title, own) in runs {
+        let colour = look(*run).0;
+        // Of many curves those with a name stand for all.
+        let is_crowded = own.series.len() > MOST_CURVES;
+        let curves = own.series.iter().filter(|series| !is_crowded || !series.name.is_empty());
+        let mut anchor = None;
+        for series in curves {
+            let places = || series.xs.iter().copied().zip(series.ys.iter().copied());
+            anchor = anchor.or_else(|| places().find(|(x, y)| (x + y).is_finite()));
+            let label = match series.name.as_str() {
+                "" => literal(title),
+                name => format!("{}: {}", literal(title), literal(name)),
+            };
+            let number = |names: &[&str]| names.iter().position(|name| *name == series.name);
+            out = match series.kind {
+                SeriesKind::Line | SeriesKind::Dashed => {
+                    let dash = line_dash(series.kind, number(&lines).unwrap_or(0));
+                    let stroke = Stroke::solid(colour, 0.8).dashes(dash);
+                    out.layer(Line::through(places()).stroke(stroke).label(label))
+                }
+                SeriesKind::Points | SeriesKind::Field => {
+                    let marker = point_marker(number(&points).unwrap_or(0));
+                    out.layer(Points::new(places()).marker(marker, 1.4, colour).label(label))
+                }
+            };
+        }
+        let anchor = anchor.into_iter().flat_map(|place| [place, place]);
+        let key = Line::through(anchor).solid(colour, 0.0);
+        out = out.layer(key.name(literal(title)));
+    }
+    out.layers(series_keys(runs, &lines, &points))
+}
+
+/// Dashes of the `number`-th named line of a run.
+fn line_dash(kind: SeriesKind, number: usize) -> &'static [f64] {
+    const DASHES: [&[f64]; 4] = [&[], &[1.2, 1.2], &[5.0, 1.5], &[5.0, 1.5, 1.2, 1.5]];
+    match kind {
+        SeriesKind::Dashed => &[3.0, 2.0],
+        _ => DASHES[number % DASHES.len()],
+    }
+}
+
+/// Marker of the `number`-th named set of points of a run: the first is hollow, so that others stand out of it.
+fn point_marker(number: usize) -> Marker {
+    [Marker::Circle, Marker::Diamond, Marker::Triangle, Marker::Square][number % 4]
+}
+
+/// Legend entries of the series, in ink: what dashes and markers mean in every run.
+fn series_keys(runs: &[(usize, &str, &PanelData)], lines: &[&str], points: &[&str]) -> Vec<Points> {
+    // Lines of one kind need no entry of their own.
+    let many_lines = lines.len() > 1;
+    let series = || runs.iter().flat_map(|(_, _, own)| &own.series);
+    let key = |name: &&str| {
+        let own = series().find(|series| series.name == **name)?;
+        let mut places = own.xs.iter().copied().zip(own.ys.iter().copied());
+        let place = places.find(|(x, y)| (x + y).is_finite())?;
+        let number = points.iter().position(|known| known == name);
+        let keyed = Points::new([place]).marker(point_marker(number.unwrap_or(0)), 0.01, INK);
+        let keyed = match number {
+            Some(_) => keyed,
+            None => {
+                let number = lines.iter().position(|known| known == name).unwrap_or(0);
+                keyed.keyed(Stroke::solid(INK, 0.8).dashes(line_dash(own.kind, number)))
+            }
+        };
+        Some(keyed.name(literal(name)))
+    };
+    let lines = lines.iter().filter(|_| many_lines);
+    points.iter().chain(lines).filter_map(key).collect()
+}

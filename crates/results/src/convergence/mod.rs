@@ -1,0 +1,237 @@
+//! Results of a convergence study.
+
+mod estimate;
+mod figures;
+
+pub use estimate::{Verdict, estimate};
+
+use super::drawing::Declaration;
+use super::{Finding, summary::present};
+use frictionsim_output::{Described, Document, Format, Section, Table, columns};
+use serde::Serialize;
+
+/// What is refined.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Described, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Refinement {
+    /// The mesh; sizes are element sizes, m.
+    Mesh,
+    /// The time step; sizes are steps, s.
+    TimeStep,
+}
+
+impl Refinement {
+    /// Name in tables.
+    fn name(self) -> &'static str {
+        match self {
+            Self::Mesh => "mesh",
+            Self::TimeStep => "time-step",
+        }
+    }
+}
+
+/// A quantity over the levels of its series.
+#[derive(Clone, Debug, PartialEq, Described, Serialize)]
+pub struct Quantity {
+    /// Name, with the mode it belongs to.
+    pub name: String,
+    /// Unit; empty for a pure number.
+    pub unit: String,
+    /// One value for each level, where there is one.
+    pub values: Vec<Option<f64>>,
+    /// What the values say.
+    pub verdict: String,
+    /// Observed order.
+    pub order: Option<f64>,
+    /// Value extrapolated after Richardson.
+    pub extrapolated: Option<f64>,
+    /// Values less that one.
+    pub errors: Option<Vec<Option<f64>>>,
+    /// Largest less smallest value of the three finest levels.
+    pub spread: Option<f64>,
+    /// Whether it is of a mode that does not grow.
+    pub is_minor: bool,
+}
+
+impl Quantity {
+    /// Judges values on levels of these sizes.
+    pub fn new(name: String, unit: &str, sizes: &[f64], values: Vec<f64>) -> Self {
+        let verdict = estimate(sizes, &values);
+        Self::judged(name, unit, &values, verdict)
+    }
+
+    /// A whole number on each level, which is the same on the three finest or has not converged.
+    pub fn count(name: String, values: Vec<f64>) -> Self {
+        let finest = &values[values.len().saturating_sub(3)..];
+        let verdict = if !finest.iter().all(|value| value.is_finite()) {
+            Verdict::Missing
+        } else if finest.windows(2).all(|pair| pair[0] == pair[1]) {
+            Verdict::Settled
+        } else {
+            Verdict::NotConverging
+        };
+        Self::judged(name, "", &values, verdict)
+    }
+
+    fn judged(name: String, unit: &str, values: &[f64], verdict: Verdict) -> Self {
+        let less = |limit: f64| values.iter().map(|value| present(value - limit)).collect();
+        let finest = values[values.len().saturating_sub(3)..].iter().copied();
+        let largest = finest.clone().fold(f64::NEG_INFINITY, f64::max);
+        let (order, limit) = match verdict {
+            Verdict::Converging { order, limit } => (Some(order), Some(limit)),
+            _ => (None, None),
+        };
+        Self {
+            name,
+            unit: unit.to_owned(),
+            values: less(0.0),
+            verdict: verdict.name().to_owned(),
+            order,
+            extrapolated: limit,
+            errors: limit.map(less),
+            spread: present(largest - finest.fold(f64::INFINITY, f64::min)),
+            is_minor: false,
+        }
+    }
+
+    fn error(&self, level: usize) -> Option<f64> {
+        self.errors.as_ref()?.get(level).copied().flatten()
+    }
+}
+
+/// One analysis over refinements of one kind.
+#[derive(Clone, Debug, PartialEq, Described, Serialize)]
+pub struct Series {
+    /// Analysis, with the family of its limit cycles.
+    pub analysis: String,
+    /// `mesh` or `time-step`.
+    pub refinement: Refinement,
+    /// Name of each level: `90 x 18`, or the time step.
+    pub levels: Vec<String>,
+    /// Element size, m, or time step, s, of each level, strictly falling.
+    pub sizes: Vec<f64>,
+    /// Wall time of each level, s; levels run side by side.
+    pub wall_s: Vec<f64>,
+    /// What else there is to say.
+    pub notes: Vec<String>,
+    /// The quantities.
+    pub quantities: Vec<Quantity>,
+}
+
+/// `summary.json` of `frictionsim convergence`.
+#[derive(Clone, Debug, PartialEq, Described, Serialize)]
+pub struct ConvergenceSummary {
+    /// What was studied.
+    pub series: Vec<Series>,
+}
+
+/// A quantity on a level of a series.
+pub(super) struct Row {
+    series: (String, Refinement, String, f64),
+    level: usize,
+    own: Quantity,
+}
+
+columns! {
+    /// A quantity on a level.
+    pub(super) ROWS: row as Row;
+    analysis: "the analysis, with the family of its limit cycles" = row.series.0.clone();
+    refinement: "what is refined: mesh or time-step" = row.series.1.name();
+    quantity: "name of the quantity, with the mode it belongs to" = row.own.name.clone();
+    unit: "its unit; empty for a pure number" = row.own.unit.clone();
+    level: "name of the level: elements along the edges, or the time step" = row.series.2.clone();
+    size: "element size, m, or time step, s" = row.series.3;
+    value: "value on the level" = row.own.values[row.level];
+    error: "value less the extrapolated one" = row.own.error(row.level);
+    extrapolated: "value extrapolated after Richardson from the three finest levels"
+        = row.own.extrapolated;
+    order: "observed order of convergence" = row.own.order;
+    verdict: "what the three finest values say" = row.own.verdict.clone();
+}
+
+columns! {
+    /// What a quantity is.
+    NAMES: own as Quantity;
+    quantity = own.name.clone(), Always "quantity" Plain;
+    unit = Some(own.unit.clone()).filter(|unit| !unit.is_empty()), IfAny "unit" Plain;
+}
+
+columns! {
+    /// What the levels say of a quantity.
+    VERDICTS: own as Quantity;
+    extrapolated = own.extrapolated, Always "extrapolated" Significant(7);
+    order = own.order, Always "order" Fixed(2);
+    error = own.error(own.values.len() - 1), IfAny "error" Significant(3);
+    spread = own.spread, Always "spread" Significant(4);
+    verdict = own.verdict.clone(), Always "verdict" Plain;
+}
+
+impl Series {
+    fn heading(&self) -> String {
+        format!("{} over the {}", self.analysis, self.refinement.name().replace('-', " "))
+    }
+
+    fn rows(&self) -> impl Iterator<Item = Row> + '_ {
+        let row = |own: &Quantity, level: usize| Row {
+            series: (
+                self.analysis.clone(),
+                self.refinement,
+                self.levels[level].clone(),
+                self.sizes[level],
+            ),
+            level,
+            own: own.clone(),
+        };
+        let levels = self.levels.len();
+        self.quantities.iter().flat_map(move |own| (0..levels).map(move |level| row(own, level)))
+    }
+
+    /// All quantities, or those that matter, and how many are left out.
+    fn section(&self, is_whole: bool) -> Section {
+        let is_shown = |own: &&Quantity| is_whole || !own.is_minor;
+        let (shown, left): (Vec<&Quantity>, Vec<_>) = self.quantities.iter().partition(is_shown);
+        let orders = left.iter().filter_map(|own| own.order);
+        let (low, high) = frictionsim_chart::extremes(orders);
+        let range = (low <= high).then(|| format!(" (orders {low:.2} to {high:.2})"));
+        let said = (!left.is_empty()).then(|| {
+            format!(
+                "{} quantities of modes that do not grow are in convergence.csv; --verbose lists them{}",
+                left.len(),
+                range.unwrap_or_default()
+            )
+        });
+        let names = shown.iter().copied();
+        let mut table = Table::new("", self.heading()).columns(NAMES, names.clone());
+        for (at, level) in self.levels.iter().enumerate() {
+            let values = names.clone().map(|own| own.values[at]);
+            table = table.column(level, Some((level, Format::Significant(7))), values);
+        }
+        Section::new(self.heading())
+            .text(self.notes.iter().cloned())
+            .text(said)
+            .tables([table.columns(VERDICTS, names)])
+    }
+}
+
+impl ConvergenceSummary {
+    /// All quantities of every series, or those that matter.
+    pub fn told(&self, is_whole: bool) -> Document {
+        let figure = Section::new("Convergence").figures(["convergence"]);
+        let document = Document::new("Convergence").section(figure);
+        let series = self.series.iter().map(|own| own.section(is_whole));
+        let rows = self.series.iter().flat_map(Series::rows);
+        series
+            .fold(document, Document::section)
+            .file(Table::new("convergence.csv", "").columns(ROWS, rows))
+    }
+}
+
+impl Finding for ConvergenceSummary {
+    fn document(&self) -> Document {
+        self.told(true)
+    }
+
+    fn figures(&self) -> Vec<Declaration<'_>> {
+        vec![Box::new(|| Ok(figures::convergence(&self.series)))]
+    }
+}

@@ -1,0 +1,241 @@
+//! Branches of limit cycles over a parameter: their rows, what is kept of them for figures, and what is said of them.
+
+use crate::extent::Extent;
+use crate::summary::MeanPowers;
+use frictionsim_output::{Described, columns};
+use frictionsim_physics::cycle::{Family, Verdict};
+use serde::{Deserialize, Serialize};
+
+/// A cycle of a branch.
+#[derive(Clone, Debug)]
+pub(crate) struct BranchRow {
+    /// The parameter, in units of its key.
+    pub value: f64,
+    /// Circumferential harmonic of a wave.
+    pub harmonic: Option<usize>,
+    pub main_frequency_hz: f64,
+    /// Fractions that stick, slip, are open.
+    pub fractions: [f64; 3],
+    pub powers: MeanPowers,
+    pub amplitude_m: f64,
+    pub balance_residual: f64,
+    /// Growth rate of the leading perturbation, 1/s, where it is known.
+    pub growth_rate: Option<f64>,
+    pub verdict: Option<Verdict>,
+    pub stepped: Option<SteppedRow>,
+}
+
+/// The cycles of a branch.
+pub(super) struct BranchRows {
+    /// Key of the parameter.
+    pub key: &'static str,
+    /// The case's own value, in its units.
+    pub own_value: f64,
+    /// Amplitude (m) and velocity of the kick (m/s) of the unstable cycle between stable sliding and the case's own.
+    pub threshold: Option<[f64; 2]>,
+    /// In its order.
+    pub rows: Vec<BranchRow>,
+}
+
+/// What else there is to a motion that was stepped in time.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct SteppedRow {
+    pub velocity_level_db: f64,
+    pub residual: f64,
+    pub periods: usize,
+    pub fold: bool,
+}
+
+columns! {
+    /// A cycle of a branch, behind the parameter: before its status and its powers.
+    pub(crate) BRANCH: row as BranchRow;
+    harmonic: "circumferential harmonic of a wave" = row.harmonic;
+    main_frequency_hz: "frequency" = row.main_frequency_hz;
+}
+
+columns! {
+    /// What else is known of it, behind its status and its powers.
+    pub(crate) ALONG: row as BranchRow;
+    amplitude_m: "amplitude along the counterface" = row.amplitude_m;
+    velocity_level_db: "level of the velocity over 5e-8 m/s, of motions of the whole mesh"
+        = row.stepped.map(|own| own.velocity_level_db);
+    balance_residual: "residual of the energy balance, relative to the external power"
+        = row.balance_residual;
+    growth_rate_per_s: "growth rate of the leading perturbation, where it was asked for"
+        = row.growth_rate;
+    stability: "stable, unstable or undecided, where it was asked for"
+        = row.verdict.map(Verdict::word);
+    residual: "what the motion misses its start by, of motions of the whole mesh"
+        = row.stepped.map(|own| own.residual);
+    periods: "periods stepped to find it, of motions of the whole mesh"
+        = row.stepped.map(|own| own.periods);
+    fold: "whether the branch turns back here, of motions of the whole mesh"
+        = row.stepped.map(|own| own.fold);
+}
+
+/// The limit cycles of one harmonic or mode.
+#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
+pub struct FamilyRecord {
+    /// Circumferential harmonic; 0 of a body without rotating waves, whose cycles have a mode.
+    pub harmonic: usize,
+    /// Onset of that harmonic at which the cycles are born, from 1.
+    pub onset: usize,
+    /// The mode that leads to the cycles of a body without rotating waves.
+    #[serde(default)]
+    pub mode: Option<usize>,
+    /// Critical friction and frequency (Hz) of every onset.
+    pub onsets: Vec<[f64; 2]>,
+    /// Frequency (Hz) and amplitude (m) of the cycle at the case's own operating point.
+    pub cycle: Option<[f64; 2]>,
+    /// Its branch.
+    pub branch: Option<BranchRecord>,
+}
+
+/// Cycles along a branch, in its order.
+#[derive(Clone, Debug, Default, PartialEq, Described, Serialize, Deserialize)]
+pub struct BranchRecord {
+    /// Case key of the parameter.
+    pub key: String,
+    /// The parameter at each cycle, in units of the key.
+    pub values: Vec<f64>,
+    /// The case's own value.
+    pub own_value: f64,
+    /// Main frequency, Hz.
+    pub frequency_hz: Vec<f64>,
+    /// Amplitude along the counterface, m.
+    pub amplitude: Vec<f64>,
+    /// Fractions that stick, slip, are open.
+    pub status: [Vec<f64>; 3],
+    /// Powers relative to the external one: stick, slide, dissipated in the contact, material damping, normal contact.
+    pub shares: [Vec<f64>; 5],
+    /// What powers are of.
+    #[serde(default)]
+    pub extent: Extent,
+    /// Power of the counterface, W or W/m.
+    #[serde(default)]
+    pub external: Vec<f64>,
+    /// Whether the cycle is stable, where that is known.
+    pub stable: Vec<Option<bool>>,
+    /// Growth rate of its leading perturbation, 1/s, where it is known.
+    pub growth_rate: Vec<Option<f64>>,
+    /// Parameter values at which the branch turns back.
+    pub folds: Vec<f64>,
+    /// Values at which steady sliding loses its stability, where these were looked for.
+    #[serde(default)]
+    pub sliding_onsets: Vec<f64>,
+    /// Where cycles live beside stable sliding.
+    #[serde(default)]
+    pub coexistence: Vec<[f64; 2]>,
+    /// Amplitude (m) and velocity of the kick (m/s) of the unstable cycle between stable sliding and the case's own.
+    #[serde(default)]
+    pub threshold: Option<[f64; 2]>,
+}
+
+impl FamilyRecord {
+    /// Which limit cycles.
+    pub fn family(&self) -> Family {
+        Family { harmonic: self.harmonic, onset: self.onset }
+    }
+}
+
+impl BranchRecord {
+    /// The columns of a branch, of which this is said.
+    pub(super) fn of(summary: BranchSummary, branch: &BranchRows, extent: Extent) -> Self {
+        let BranchRows { own_value, threshold, rows, .. } = branch;
+        let motions = summary.motions.unwrap_or_default();
+        let column = |of: &dyn Fn(&BranchRow) -> f64| -> Vec<f64> { rows.iter().map(of).collect() };
+        let power =
+            |of: fn(&MeanPowers) -> Option<f64>| column(&|row| of(&row.powers).unwrap_or(f64::NAN));
+        let external = power(|powers| powers.external);
+        let share = |of: fn(&MeanPowers) -> Option<f64>| {
+            power(of).iter().zip(&external).map(|(own, all)| own / all).collect()
+        };
+        Self {
+            key: summary.key,
+            values: column(&|row| row.value),
+            own_value: *own_value,
+            frequency_hz: column(&|row| row.main_frequency_hz),
+            amplitude: column(&|row| row.amplitude_m),
+            status: [0, 1, 2].map(|i| column(&|row| row.fractions[i])),
+            shares: [
+                share(|powers| powers.stick),
+                share(|powers| powers.slide),
+                share(|powers| powers.contact_dissipated),
+                share(|powers| powers.material_damping),
+                share(|powers| powers.normal_contact),
+            ],
+            extent,
+            stable: rows.iter().map(|row| row.verdict?.is_stable()).collect(),
+            growth_rate: rows.iter().map(|row| row.growth_rate).collect(),
+            folds: summary.folds,
+            sliding_onsets: motions.onsets,
+            coexistence: motions.coexistence,
+            threshold: *threshold,
+            external,
+        }
+    }
+}
+
+/// A branch of limit cycles.
+#[derive(Clone, Debug, PartialEq, Described, Serialize)]
+pub struct BranchSummary {
+    /// Case key of the parameter.
+    pub key: String,
+    /// Cycles.
+    pub cycles: usize,
+    /// Smallest and largest value of the parameter.
+    pub range: Option<[f64; 2]>,
+    /// Values at which it turns back, in its order.
+    pub folds: Vec<f64>,
+    /// Why it ends, at either end.
+    pub ends: [String; 2],
+    /// Where stability changes between folds: the value; of waves an object.
+    pub stability_changes: Vec<StabilityChangeSummary>,
+    /// What else there is to a branch of waves.
+    #[serde(flatten)]
+    pub waves: Option<WaveBranch>,
+    /// What else there is to one of motions of the whole mesh.
+    #[serde(flatten)]
+    pub motions: Option<MotionBranch>,
+}
+
+/// What only branches of waves have.
+#[derive(Clone, Debug, PartialEq, Described, Serialize)]
+pub struct WaveBranch {
+    /// Speed from which on no node sticks, rpm.
+    pub saturation_speed_rpm: Option<f64>,
+    /// Dense factorizations spent.
+    pub factorizations: usize,
+}
+
+/// What only branches of motions of the whole mesh have.
+#[derive(Clone, Debug, Default, PartialEq, Described, Serialize)]
+pub struct MotionBranch {
+    /// Values at which steady sliding loses its stability.
+    pub onsets: Vec<f64>,
+    /// Where cycles live beside stable sliding.
+    pub coexistence: Vec<[f64; 2]>,
+}
+
+/// Where a branch changes its stability.
+#[derive(Clone, Copy, Debug, PartialEq, Described, Serialize)]
+#[serde(untagged)]
+pub enum StabilityChangeSummary {
+    /// Of a motion of the whole mesh.
+    At(f64),
+    /// Of a wave, by a mode.
+    By(ModeOfChange),
+}
+
+/// The mode by which a wave changes its stability.
+#[derive(Clone, Copy, Debug, PartialEq, Described, Serialize)]
+pub struct ModeOfChange {
+    /// Value of the parameter.
+    pub at: f64,
+    /// Circumferential harmonic of the mode that starts or ceases to grow.
+    pub harmonic: usize,
+    /// Its frequency, Hz.
+    pub frequency_hz: f64,
+    /// Whether the wave gives way to a motion of two frequencies: a Neimark-Sacker bifurcation.
+    pub to_two_frequencies: bool,
+}

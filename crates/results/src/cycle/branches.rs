@@ -1,0 +1,208 @@
+//! Figures of branches of limit cycles, whose curves may turn back.
+
+use super::branch::{BranchRecord, FamilyRecord};
+use super::two_waves::TwoWaveResult;
+use crate::charts::palette::{
+    CONTACT_DISSIPATION, MATERIAL_DISSIPATION, NORMAL_POWER, SLIDE_POWER, STATUSES, STICK_POWER,
+};
+use crate::drawing::{Declaration, declared};
+use crate::extent::Extent;
+use crate::parameter::parameter_axis;
+use frictionsim_chart::{
+    Axis, ChartError, Figure, Line, MUTED, Marker, Panel, Points, Rule, SERIES, Scale, Stroke,
+};
+use frictionsim_output::significant;
+use frictionsim_physics::cycle::TwoWaveMotion;
+
+/// A family with what its name says besides the harmonic.
+pub type NamedFamily<'a> = (String, &'a FamilyRecord);
+
+/// Names and colours of the powers in the order of a branch's shares.
+const POWERS: [(&str, &str); 5] = [
+    ("stick", STICK_POWER),
+    ("slide", SLIDE_POWER),
+    ("dissipated in the contact", CONTACT_DISSIPATION),
+    ("material damping", MATERIAL_DISSIPATION),
+    ("normal contact", NORMAL_POWER),
+];
+
+/// Draws frequency, amplitude, statuses and powers along the branches of several families.
+pub fn draw_branches(
+    families: &[NamedFamily<'_>],
+    two_waves: &[TwoWaveResult],
+) -> Result<Vec<Figure>, ChartError> {
+    // A branch of a single cycle is no curve.
+    let curves: Vec<Curve<'_>> = families
+        .iter()
+        .filter_map(|(suffix, family)| {
+            Some(Curve { suffix, family, branch: family.branch.as_ref()? })
+        })
+        .filter(|curve| curve.branch.values.len() > 1)
+        .collect();
+    let curves = &curves[..];
+    let figures: Vec<Declaration<'_>> =
+        vec![Box::new(|| frequencies(curves, two_waves)), Box::new(|| shares(curves))];
+    declared(figures)
+}
+
+/// The branch of one family.
+struct Curve<'a> {
+    suffix: &'a str,
+    family: &'a FamilyRecord,
+    branch: &'a BranchRecord,
+}
+
+impl Curve<'_> {
+    fn name(&self) -> String {
+        if let Some(mode) = self.family.mode {
+            return format!("mode {mode}{}", self.suffix);
+        }
+        let family = self.family.family().to_string();
+        format!("*{}{}", family.replacen(' ', "* ", 1), self.suffix)
+    }
+}
+
+/// Logarithmic over more than a decade.
+fn axis_of(curves: &[Curve<'_>]) -> (Axis, Scale) {
+    let key = curves.first().map_or("", |curve| &curve.branch.key);
+    let values = curves.iter().flat_map(|curve| curve.branch.values.iter().copied());
+    let scale = Scale::for_values(values, 10.0);
+    (parameter_axis(key).scaled(scale), scale)
+}
+
+/// What the strokes of the curves mean, where any stability is known.
+fn with_strokes(figure: Figure, curves: &[Curve<'_>]) -> Figure {
+    let is_known = |curve: &Curve<'_>| curve.branch.stable.iter().any(Option::is_some);
+    match curves.iter().any(is_known) {
+        true => figure.note("strong lines: stable; dashed: unstable; thin: stability unknown"),
+        false => figure,
+    }
+}
+
+/// Frequencies and amplitudes of two waves.
+const OF_BOTH: [fn(&TwoWaveMotion) -> [f64; 2]; 2] =
+    [TwoWaveMotion::frequencies_hz, |motion| motion.amplitudes];
+
+/// One quantity along a branch.
+type Column = fn(&BranchRecord) -> &Vec<f64>;
+
+/// Main frequency, amplitude and power of the limit cycles over the parameter, one curve for each family.
+fn frequencies(curves: &[Curve<'_>], two_waves: &[TwoWaveResult]) -> Result<Figure, ChartError> {
+    let (x, scale) = axis_of(curves);
+    let extent = curves.first().map_or_else(Extent::default, |curve| curve.branch.extent);
+    let frequency = Axis::new("main frequency *f*", "kHz").times(1e-3);
+    let amplitude = Axis::new("amplitude along the contact", "m").prefixed();
+    let amplitude = match scale {
+        Scale::Logarithmic => amplitude.logarithmic(),
+        Scale::Linear => amplitude.including(0.0),
+    };
+    let power = Axis::new("power of the counterface", &extent.unit("W")).prefixed();
+    let sliding = curves.iter().flat_map(|curve| &curve.branch.sliding_onsets).map(|&onset| {
+        let rule = Rule::vertical(onset).stretching().stroke(Stroke::dotted(MUTED, 0.9));
+        rule.name("onset: steady sliding loses its stability")
+    });
+    let panel =
+        |y: Axis, height: f64| Panel::new(x.clone(), y).height(height).layers(sliding.clone());
+    let quantities: [(Panel, Column, Option<usize>); 3] = [
+        (panel(frequency, 150.0).layers(onset_rules(curves)), |b| &b.frequency_hz, Some(0)),
+        (panel(amplitude, 92.0), |b| &b.amplitude, Some(1)),
+        (panel(power, 76.0), |b| &b.external, None),
+    ];
+    let panels = quantities.into_iter().map(|(panel, quantity, own)| {
+        let of_both = own.map(|own| OF_BOTH[own]);
+        let together = two_waves.iter().flat_map(|pair| of_both.map(|own| pair.curves(own)));
+        let panel = panel.layers(together.flatten());
+        curves.iter().enumerate().fold(panel, |panel, (index, curve)| {
+            let (branch, colour) = (curve.branch, SERIES[index % SERIES.len()]);
+            let ys = quantity(branch);
+            let folds = Points::new(branch.fold_points(ys)).marker(Marker::Diamond, 1.9, colour);
+            let at_own = |value: f64, marker: Marker, name: String| {
+                Points::new([(branch.own_value, value)]).marker(marker, 2.2, colour).name(name)
+            };
+            let cycle = curve.family.cycle.zip(own);
+            let cycle = cycle.map(|(cycle, own)| {
+                at_own(cycle[own], Marker::Circle, "the case's own cycle".to_owned())
+            });
+            let threshold = branch.threshold.filter(|_| own == Some(1));
+            let threshold = threshold.map(|[amplitude, velocity]| {
+                let name = format!("a kick of more than {velocity:.3e} m/s tips sliding");
+                at_own(amplitude, Marker::Square, name)
+            });
+            panel
+                .layers(branch.lines(ys, colour))
+                .layer(Line::new(&branch.values, ys).solid(colour, 0.3).name(curve.name()))
+                .layer(folds.name("fold"))
+                .layers(cycle)
+                .layers(threshold)
+        })
+    });
+    let both = curves.iter().flat_map(|curve| &curve.branch.coexistence);
+    let both = both.map(|ends| {
+        let [from, to] = ends.map(|value| significant(value, 4));
+        format!(" Stable sliding and a limit cycle coexist from {from} to {to}.")
+    });
+    let caption = format!(
+        "Main frequency (a), amplitude (b) and power of the counterface (c) of the limit cycles \
+         along their branches. Dotted: where linear theory has them begin. Diamonds: folds.{}",
+        both.collect::<String>()
+    );
+    let figure = Figure::new("branch-frequencies", caption).shared_x().panels(panels);
+    Ok(with_strokes(figure, curves))
+}
+
+/// The frequencies at which linear theory has waves begin.
+fn onset_rules(curves: &[Curve<'_>]) -> impl Iterator<Item = Rule> {
+    let onsets = curves.iter().filter_map(|curve| {
+        let family = curve.family;
+        let [critical, frequency] = *family.onsets.get(family.onset.checked_sub(1)?)?;
+        let (kilohertz, n) = (frequency * 1e-3, family.harmonic);
+        Some((frequency, format!("{kilohertz:.2} kHz, *n* = {n} at *μ* = {critical:.3}")))
+    });
+    let mut onsets: Vec<(f64, String)> = onsets.collect();
+    onsets.dedup();
+    onsets.into_iter().map(|(frequency, text)| {
+        let rule = Rule::horizontal(frequency).stretching().stroke(Stroke::dotted(MUTED, 0.8));
+        rule.at_rim(text).name("onset of the instability, linear theory")
+    })
+}
+
+/// Statuses and power shares of the limit cycles over the parameter, one column for each family.
+fn shares(curves: &[Curve<'_>]) -> Result<Figure, ChartError> {
+    let (x, _) = axis_of(curves);
+    let percent = |name: &str| Axis::new(name, "%").times(100.0);
+    let statuses = STATUSES.map(|(_, name, _, _, colour)| (name, colour));
+    let panel =
+        |curve: &Curve<'_>, y: Axis, series: &[Vec<f64>], named: &[(&str, &'static str)]| {
+            let (turns, narrow) = curve.branch.fold_places();
+            let folds = turns.iter().chain(&narrow).map(|place| {
+                Rule::vertical(place.value).stroke(Stroke::dotted(MUTED, 0.7)).name("fold")
+            });
+            let panel = Panel::new(x.clone(), y).height(104.0).layers(folds);
+            series.iter().zip(named).fold(panel, |panel, (values, &(name, colour))| {
+                let named = Line::new(&curve.branch.values, values).solid(colour, 0.4).name(name);
+                panel.layer(named).layers(curve.branch.lines(values, colour))
+            })
+        };
+    let status = |curve: &Curve<'_>| {
+        let axis = percent("contact nodes").between(0.0, 1.0);
+        panel(curve, axis, &curve.branch.status, &statuses).heading(curve.name())
+    };
+    let power = |curve: &Curve<'_>| {
+        let axis = percent("share of external power").including(0.0).including(1.0);
+        panel(curve, axis, &curve.branch.shares, &POWERS)
+    };
+    let mut figure = Figure::new(
+        "branch-shares",
+        "Contact status, and powers relative to the external one, along the branch of each family.",
+    )
+    .columns(curves.len().clamp(1, 3))
+    .shared_y();
+    for row in curves.chunks(3) {
+        let fill = |figure: Figure| {
+            (row.len()..curves.len().min(3)).fold(figure, |figure, _| figure.panel_or_gap(None))
+        };
+        figure = fill(figure.panels(row.iter().map(status)));
+        figure = fill(figure.panels(row.iter().map(power)));
+    }
+    Ok(with_strokes(figure, curves))
+}

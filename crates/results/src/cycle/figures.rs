@@ -1,0 +1,376 @@
+//! The figures of limit cycles, from their record.
+
+use super::record::MotionRecord;
+use super::{CycleReport, Search};
+use crate::charts::palette::{status_ground, status_of_code};
+use crate::charts::{
+    ContactInstant, ContactVelocity, MovingBody, contact_figure, contact_surfaces, place_axis,
+    shear_stress_figure, status_curves, status_map, velocity_figure,
+};
+use crate::drawing::{Declaration, declared};
+use frictionsim_chart::{
+    Axis, ChartError, Figure, INK, Line, MUTED, Marker, Motion, MotionKind, MotionState, Panel,
+    Rule, SERIES, Stroke, plain,
+};
+use frictionsim_physics::contact::ContactStatus;
+use frictionsim_physics::cycle::PhasePoint;
+use frictionsim_physics::fem::MaterialField;
+use std::f64::consts::TAU;
+
+/// Whole-field pictures of one kind, at most.
+const FIELD_LIMIT: usize = 8;
+/// When the fields are.
+const WHEN: &str = "of the limit cycles at one instant";
+/// Periods of a history.
+const PERIODS: usize = 2;
+/// Amplitude along the normal, over that along the contact, below which it is round-off.
+const ROUND_OFF: f64 = 1e-9;
+
+/// Limit cycles and what their figures show besides.
+pub struct CycleFigures<'a> {
+    /// What was found.
+    pub(super) report: &'a CycleReport<'a>,
+    /// What is shown of each cycle.
+    cycles: Vec<MotionRecord>,
+    /// The contacts of an assembly, each with the boundary that has its points.
+    surfaces: Vec<(String, usize)>,
+    /// The materials, for the stress fields.
+    materials: &'a dyn MaterialField,
+}
+
+/// Draws the cycles: contact over the period and at one instant, history, closed curves and harmonics of each, then the
+/// fields of all.
+pub fn draw_cycles(data: &CycleFigures<'_>) -> Result<Vec<Figure>, ChartError> {
+    let mut figures: Vec<Declaration<'_>> = Vec::new();
+    for motion in &data.cycles {
+        figures.push(Box::new(move || data.status(motion)));
+        figures.push(Box::new(move || Ok(data.at_one_instant(motion))));
+        figures.push(Box::new(move || Ok(data.history(motion))));
+        figures.push(Box::new(move || Ok(data.orbit(motion))));
+        figures.push(Box::new(move || harmonics(motion)));
+    }
+    figures.push(Box::new(|| data.velocity()));
+    figures.push(Box::new(|| data.shear_stress()));
+    declared(figures)
+}
+
+impl<'a> CycleFigures<'a> {
+    /// The figures of a search; `surfaces` are the contacts of an assembly, each with the boundary that has its points.
+    pub fn new(
+        report: &'a CycleReport<'a>,
+        surfaces: Vec<(String, usize)>,
+        materials: &'a dyn MaterialField,
+    ) -> Self {
+        let mut cycles = report.records();
+        cycles.retain(|own| !own.fields[0].is_empty());
+        Self { report, cycles, surfaces, materials }
+    }
+
+    /// Nodes of the contact of motions of the whole mesh, counted from 0.
+    fn nodes(&self) -> &[u32] {
+        match &self.report.search {
+            Search::Waves(_) => &[],
+            Search::Motions(search) => &search.interface.nodes,
+        }
+    }
+
+    /// The values of the contact nodes that the figures over the angle show, instant by instant.
+    fn shown<T: Copy>(&self, values: &[T]) -> Vec<T> {
+        let instants = values.chunks(self.nodes().len().max(1));
+        instants.flat_map(|own| self.report.body.shown(own)).collect()
+    }
+
+    /// Where the shown contact nodes are.
+    fn places(&self) -> Axis {
+        match self.report.body.is_assembly() {
+            true => {
+                Axis::new("contact nodes in their order", "%").times(100.0 / TAU).between(0.0, TAU)
+            }
+            false => place_axis(self.report.body.mesh.has_round_contact()),
+        }
+    }
+
+    /// The status of all contact nodes over one period; that of a wave is its history.
+    fn status(&self, motion: &MotionRecord) -> Result<Figure, ChartError> {
+        if motion.is_wave() {
+            return Err(ChartError::empty("statuses over a period"));
+        }
+        let times = motion.over_time(|row| row.time);
+        let codes = self.shown(&motion.status);
+        let range = (times[0], times[times.len() - 1]);
+        let map = status_map(&times, codes.len() / times.len(), &codes, range);
+        let (map, _) = map.ok_or_else(|| ChartError::empty("statuses over a period"))?;
+        let caption = format!(
+            "Contact status of every contact node over one period of the limit cycle of {}.",
+            motion.whose()
+        );
+        let panel = Panel::new(Axis::time(), self.places()).plain().height(120.0);
+        let panel = panel.layer(map).legend();
+        Ok(Figure::new(format!("status-{}", motion.tag), caption).panel(panel))
+    }
+
+    /// The contact at time zero; of a wave around the whole circle, where a node at angle `theta` is in phase `n
+    /// theta`.
+    fn at_one_instant(&self, motion: &MotionRecord) -> Figure {
+        let body = &self.report.body;
+        if body.is_assembly() {
+            return self.on_surfaces(motion);
+        }
+        let n = motion.diameters.max(1);
+        let around = |values: &[f64]| self.shown(&values.repeat(n));
+        let [pressure, shear, velocity] = motion.edge.each_ref().map(|own| around(own));
+        let speed = if body.mesh.opposite.is_some() { f64::NAN } else { self.shown_speed(motion) };
+        let turns = format!("; the pattern turns against the rotor at 1/{n} of the frequency");
+        let (turns, wave) =
+            if motion.is_wave() { (turns, ", wave ↻") } else { (String::new(), "") };
+        let first = match &self.report.search {
+            Search::Waves(_) => None,
+            Search::Motions(search) => search.interface.angles.first().copied(),
+        };
+        let shown = ContactInstant {
+            name: format!("contact-{}", motion.tag),
+            subject: [format!("Limit cycle of {} at one instant", motion.whose()), turns],
+            instant: motion.heading() + wave,
+            first_angle: first.unwrap_or(0.0),
+            status: &self.shown(&motion.first_statuses().repeat(n)),
+            tractions: [&pressure, &shear],
+            velocity: ContactVelocity::Absolute(&velocity, speed),
+        };
+        contact_figure(body, &shown)
+    }
+
+    /// Pressure on each contact surface at time zero, seen from outside along its mean normal; grey where it is open.
+    fn on_surfaces(&self, motion: &MotionRecord) -> Figure {
+        let [pressure, ..] = &motion.edge;
+        let mut values = vec![f64::NAN; self.report.body.mesh.node_count()];
+        let nodes = self.nodes().iter().zip(pressure);
+        for ((&node, &pressure), status) in nodes.zip(motion.first_statuses()) {
+            if status != ContactStatus::Open {
+                values[node as usize] = pressure;
+            }
+        }
+        let largest = pressure.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
+        let axis = || Axis::new("contact pressure", "Pa").prefixed().between(0.0, largest);
+        let caption = format!(
+            "Limit cycle of {} at one instant: contact pressure on each contact surface, seen from \
+            outside; grey where it is open.",
+            motion.whose()
+        );
+        let name = format!("contact-{}", motion.tag);
+        let surfaces = (self.report.body.mesh, &self.surfaces[..]);
+        contact_surfaces((&name, &caption), surfaces, (&values, &[]), &axis)
+    }
+
+    /// Speed of the counterface at the shown contact nodes, m/s: it grows with the radius.
+    fn shown_speed(&self, motion: &MotionRecord) -> f64 {
+        let Some(sector) = self.report.body.sector else {
+            return motion.counterface_speed;
+        };
+        let radius = |ring: usize| sector.rings[ring].radius;
+        let rings = sector.rings.len();
+        motion.counterface_speed * radius(rings / 2) / radius(motion.node % rings)
+    }
+
+    /// The contact node of the history in words.
+    fn node(&self, motion: &MotionRecord) -> String {
+        match self.nodes().get(motion.node) {
+            None => "a contact node".to_owned(),
+            Some(&node) => {
+                format!("contact node {}", self.report.body.mesh.node_label(node as usize))
+            }
+        }
+    }
+
+    /// What the node goes through in two periods, on a ground coloured by its status.
+    fn history(&self, motion: &MotionRecord) -> Figure {
+        let repeated = Repeated::new(motion);
+        let [normal, along] = directions(motion);
+        let line = |of: fn(&PhasePoint) -> f64, colour| {
+            Line::through(repeated.curve(&motion.over_time(of))).solid(colour, 1.1)
+        };
+        let displacement = |direction: &str, of, caption: &str| {
+            let metres = Axis::new(&format!("*u*_{{{direction}}}"), "m").prefixed();
+            repeated.panel(metres, 62.0, caption).layer(line(of, INK))
+        };
+        // What a node that sticks moves with, and the limits of friction, where they are numbers.
+        let counterface = (self.report.body.mesh.opposite.is_none())
+            .then(|| Rule::horizontal(motion.counterface_speed).stretching().name("counterface"));
+        let limit = |sign: f64| {
+            let friction = sign * motion.friction_coefficient.unwrap_or(f64::NAN);
+            let limit = motion.over_time(|row| friction * row.pressure);
+            Line::through(repeated.curve(&limit)).stroke(Stroke::dashed(MUTED, 0.9))
+        };
+        let law = [limit(1.0).name("Coulomb limit ±*μp*"), limit(-1.0)].into_iter();
+        let law = law.filter(|_| motion.friction_coefficient.is_some());
+        let velocity = repeated
+            .panel(Axis::new("*v*", "m/s"), 78.0, "velocity")
+            .layers(counterface)
+            .layer(line(|row| row.velocity[0], SERIES[2]).name(format!("normal *v*_{{{normal}}}")))
+            .layer(
+                line(|row| row.velocity[1], SERIES[0]).name(format!("tangential *v*_{{{along}}}")),
+            );
+        let tractions = repeated
+            .panel(Axis::new("traction", "Pa").prefixed(), 90.0, "tractions")
+            .layers(law)
+            .layer(line(|row| row.pressure, INK).name("pressure *p*"))
+            .layer(line(|row| row.shear, SERIES[1]).name("friction traction *τ*"));
+        let (node, whose) = (self.node(motion), motion.whose());
+        let caption = format!("Two periods of {node} in the limit cycle of {whose}.");
+        Figure::new(format!("history-{}", motion.tag), caption)
+            .shared_x()
+            .panel(displacement(along, |row| row.displacement[1], "displacement along the contact"))
+            .panel(displacement(normal, |row| row.displacement[0], "normal displacement"))
+            .panel(velocity)
+            .panel(tractions)
+    }
+
+    /// The closed curves of the node: velocity over displacement, along the contact and normal, and its path.
+    fn orbit(&self, motion: &MotionRecord) -> Figure {
+        let [normal, along] = directions(motion);
+        let statuses = motion.node_statuses();
+        let status: Vec<ContactStatus> = statuses.iter().chain(statuses.first()).copied().collect();
+        type Of = fn(&PhasePoint) -> f64;
+        let loop_of = |caption: &str, x: (String, Of), y: (String, &str, Of)| {
+            let (xs, ys) = (motion.over_time(x.1), motion.over_time(y.2));
+            let points = || xs.iter().copied().zip(ys.iter().copied());
+            let closed: Vec<(f64, f64)> = points().chain(points().next()).collect();
+            Panel::new(Axis::new(&x.0, "m").prefixed(), Axis::new(&y.0, y.1).prefixed())
+                .height(128.0)
+                .caption(caption)
+                .layers(status_curves(&closed, &status))
+                .layer(Line::through(closed).solid(INK, 0.0).arrows(3))
+        };
+        let caption = format!(
+            "Phase plots, along the contact (a) and normal to it (b), and path (c) of {} in the limit cycle of {}.",
+            self.node(motion),
+            motion.whose()
+        );
+        let moved = |way: &str| format!("displacement *u*_{{{way}}}");
+        let speed = |way: &str| format!("velocity *v*_{{{way}}}");
+        let (u_n, u_t): (Of, Of) = (|row| row.displacement[0], |row| row.displacement[1]);
+        let (v_n, v_t): (Of, Of) = (|row| row.velocity[0], |row| row.velocity[1]);
+        Figure::new(format!("orbit-{}", motion.tag), caption)
+            .columns(3)
+            .panel(loop_of("along the contact", (moved(along), u_t), (speed(along), "m/s", v_t)))
+            .panel(loop_of("normal", (moved(normal), u_n), (speed(normal), "m/s", v_n)))
+            .panel(loop_of("path", (moved(along), u_t), (moved(normal), "m", u_n)))
+    }
+
+    /// Contact status at time zero of every node of the edge; of a wave that of the nearest phase.
+    fn around(&self, motion: &MotionRecord) -> Vec<u8> {
+        let nodes = self.report.body.mesh.contact_edge().nodes.len();
+        let points = motion.status.len().max(1);
+        let nearest =
+            |node: usize| (2 * motion.diameters * node * points + nodes) / (2 * nodes) % points;
+        match motion.diameters {
+            0 => motion.first_statuses().into_iter().map(|status| status as u8).collect(),
+            _ => (0..nodes).filter_map(|node| motion.status.get(nearest(node)).copied()).collect(),
+        }
+    }
+
+    fn shown_cycles(&self) -> impl Iterator<Item = &MotionRecord> {
+        self.cycles.iter().take(FIELD_LIMIT)
+    }
+
+    /// The waves in motion, without the steady state that they ride on.
+    fn turning(&self) -> Motion {
+        let body = MovingBody::new(self.report.body.mesh);
+        let states = self.shown_cycles().map(|wave| MotionState {
+            name: plain(&wave.heading()),
+            frequency_hz: wave.frequency_hz,
+            kind: MotionKind::Turning {
+                displacement: body.wave(&wave.fields[0]),
+                turn: -wave.counterface_speed.signum() * TAU / wave.diameters as f64,
+                status: self.around(wave),
+            },
+        });
+        Motion { states: states.collect(), ..body.at_rest() }
+    }
+
+    fn velocity(&self) -> Result<Figure, ChartError> {
+        let fields = self.shown_cycles().map(|motion| {
+            let status = self.around(motion).into_iter().map(status_of_code);
+            (motion.heading(), &motion.fields[1][..], status.collect())
+        });
+        let figure = velocity_figure(&self.report.body, (WHEN, 0.0), fields)?;
+        let is_wave = self.cycles.iter().any(|own| own.is_wave());
+        Ok(if is_wave { figure.motion(self.turning()) } else { figure })
+    }
+
+    fn shear_stress(&self) -> Result<Figure, ChartError> {
+        let cycles = self.shown_cycles();
+        let fields = cycles.map(|motion| (motion.heading(), &motion.fields[0][..]));
+        shear_stress_figure(&self.report.body, self.materials, WHEN, fields)
+    }
+}
+
+/// Names of the directions normal to the contact and along it: radius and angle of the disc of a wave.
+fn directions(motion: &MotionRecord) -> [&'static str; 2] {
+    if motion.is_wave() { ["r", "θ"] } else { ["n", "t"] }
+}
+
+/// A few periods of the node of the history.
+struct Repeated {
+    interval: f64,
+    samples: usize,
+    status: Vec<ContactStatus>,
+}
+
+impl Repeated {
+    fn new(motion: &MotionRecord) -> Self {
+        let count = motion.history.len();
+        let samples = PERIODS * count + 1;
+        let own = motion.node_statuses().into_iter().cycle().take(samples);
+        Self {
+            interval: 1.0 / (motion.frequency_hz * count as f64),
+            samples,
+            status: own.collect(),
+        }
+    }
+
+    /// Values of one period again and again, over the time.
+    fn curve(&self, values: &[f64]) -> Vec<(f64, f64)> {
+        let values = values.iter().copied().cycle().take(self.samples);
+        let timed = values.enumerate();
+        timed.map(|(i, v)| (i as f64 * self.interval, v)).collect()
+    }
+
+    /// A panel over the time on a ground coloured by status; a sample stands for half an interval on either side.
+    fn panel(&self, y: Axis, height: f64, caption: &str) -> Panel {
+        let end = (self.samples - 1) as f64 * self.interval;
+        let ground = status_ground(&self.status, |i| (i as f64 - 0.5) * self.interval);
+        Panel::new(Axis::time().between(0.0, end), y)
+            .plain()
+            .height(height)
+            .caption(caption)
+            .layer(ground)
+    }
+}
+
+/// Amplitudes of the harmonics in time of a motion of the whole mesh.
+fn harmonics(motion: &MotionRecord) -> Result<Figure, ChartError> {
+    if motion.harmonics.is_empty() {
+        return Err(ChartError::empty("harmonics in time"));
+    }
+    let amplitudes = |c: usize| motion.harmonics.iter().map(|own| own.amplitude[c]).collect();
+    let [normal, along]: [Vec<f64>; 2] = [0, 1].map(amplitudes);
+    let caption = format!(
+        "Harmonics of the motion of the contact nodes in the limit cycle of {}: root mean square over the nodes.",
+        motion.whose()
+    );
+    let line = |values: &[f64], colour, name: &str| {
+        let frequencies = (1..=values.len()).map(|k| k as f64 * motion.frequency_hz);
+        Line::through(frequencies.zip(values.iter().copied()))
+            .solid(colour, 0.8)
+            .marked(Marker::Circle, 1.6)
+            .name(name)
+    };
+    let amplitude = Axis::new("amplitude", "m").logarithmic();
+    let panel = Panel::new(Axis::kilohertz(), amplitude).height(110.0);
+    let panel = panel.layer(line(&along, SERIES[0], "along the contact"));
+    // Rigid contact that stays closed leaves round-off along the normal.
+    let largest = |values: &[f64]| values.iter().copied().fold(0.0, f64::max);
+    let has_normal = largest(&normal) > ROUND_OFF * largest(&along);
+    let normal = has_normal.then(|| line(&normal, SERIES[2], "normal"));
+    Ok(Figure::new(format!("harmonics-{}", motion.tag), caption).panel(panel.layers(normal)))
+}

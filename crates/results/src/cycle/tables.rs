@@ -1,0 +1,297 @@
+//! Columns of limit cycles, and the document of a search.
+
+use super::branch::{ALONG, BRANCH, BranchRows};
+use super::record::{ContactNode, MotionRecord};
+use super::summary::{CycleMotion, CycleSummary, SoughtCycle};
+use super::two_waves::TwoWaveSummary;
+use super::verdicts::EXPONENTS;
+use crate::summary::{MeanPowers, STATUS, StatusFractions};
+use frictionsim_output::{Document, Section, Table, columns, fixed, parted};
+use frictionsim_physics::cycle::PhasePoint;
+use frictionsim_physics::cycle::periodic::MotionHarmonic;
+
+columns! {
+    /// What leads to a cycle.
+    pub(crate) NAMES: own as SoughtCycle;
+    mode: "number of the mode that leads to it, of a body without rotating waves"
+        = own.name.mode().map(|own| own.mode.mode), IfAny "mode" Count;
+    harmonic: "nodal diameters of a wave"
+        = own.name.wave().map(|own| own.harmonic), IfAny "n" Count;
+    onset: "onset of that harmonic at which the wave is born, from 1"
+        = own.name.wave().map(|own| own.onset), IfAny "onset" Count;
+}
+
+columns! {
+    /// What a cycle is.
+    pub(crate) MOTION: cycle as CycleMotion;
+    main_frequency_hz: "frequency" = cycle.main_frequency_hz, Always "main frequency" Fixed(2);
+    amplitude_m: "amplitude along the counterface"
+        = cycle.amplitude_m, Always "amplitude" Scientific(3);
+}
+
+columns! {
+    /// Where its power goes.
+    pub(crate) POWERS: power as MeanPowers;
+    external_w: "power of the counterface"
+        = power.external, Always "power of the counterface" Fixed(2);
+    stick_w: "power given to the body by nodes that stick"
+        = power.stick, Always "while sticking" Fixed(2);
+    slide_w: "power given to the body by nodes that slide"
+        = power.slide, Always "while sliding" Fixed(2);
+    contact_dissipated_w: "power lost to friction"
+        = power.contact_dissipated, Always "dissipated in the contact" Fixed(2);
+    material_damping_w: "power lost in the body"
+        = power.material_damping, Always "material damping" Fixed(2);
+    normal_contact_w: "power of the normal contact forces"
+        = power.normal_contact, Always "normal contact" Fixed(2);
+}
+
+columns! {
+    /// How well its powers balance.
+    pub(crate) BALANCE: cycle as CycleMotion;
+    balance_residual: "residual of the energy balance, relative to the power of the counterface"
+        = cycle.balance_residual, Always "balance" Scientific(1);
+}
+
+columns! {
+    /// What is known of it.
+    pub(crate) KNOWN: own as SoughtCycle;
+    velocity_level_db: "level of the velocity, root mean square over time and mass, over 5e-8 m/s"
+        = own.of(|cycle| cycle.velocity_level_db), IfAny "velocity level" Fixed(1);
+    sound_power_db: "level of the sound power over 1e-12 W, estimated"
+        = own.of(|cycle| Some(cycle.stepped.as_ref()?.sound.as_ref()?.level_db)),
+        IfAny "sound power" Fixed(1);
+    stable: "whether small perturbations decay; empty where that is undecided or was not asked for"
+        = own.known().and_then(|known| known.is_stable), IfAny "stable" Plain;
+    growth_rate_per_s: "growth rate of the leading perturbation"
+        = own.known().and_then(|known| Some(known.leading.as_ref()?.growth_rate_per_s)),
+        IfAny "leading growth" Fixed(1);
+    kick_velocity: "velocity of a kick, m/s, beyond which stable sliding tips into the cycle"
+        = own.of(|cycle| cycle.stepped.as_ref()?.kick_velocity),
+        IfAny "kick that tips sliding (m/s)" Scientific(3);
+}
+
+columns! {
+    /// Why there is no cycle.
+    pub(crate) ERRORS: own as SoughtCycle;
+    error: "why none was found" = own.error.clone();
+}
+
+columns! {
+    /// What leads to a cycle, for people.
+    BESIDE: own as SoughtCycle;
+    phases = own.name.wave().map(|own| own.phases).filter(|&phases| phases > 0),
+        IfAny "phases" Count;
+    critical = own.name.wave().and_then(|own| own.critical_friction), IfAny "grows above" Fixed(5);
+    mode_hz = own.name.mode().map(|own| own.mode.mode_frequency_hz), IfAny "its frequency" Fixed(2);
+    mode_per_s = own.name.mode().map(|own| own.mode.growth_rate_per_s),
+        IfAny "its growth rate" Fixed(1);
+}
+
+columns! {
+    /// What a transient says, and why there is none, for people.
+    SAID: own as SoughtCycle;
+    transient_hz = own.run().and_then(|run| run.main_frequency_hz),
+        IfAny "transient from it" Fixed(2);
+    stays = own.agrees(), IfAny "a transient stays on it" Plain;
+    absence = own.absence(), IfAny "why there is none" Plain;
+}
+
+columns! {
+    /// A contact node at one instant.
+    pub(crate) HISTORY: row as PhasePoint;
+    phase_rad: "phase" = row.phase;
+    time_s: "time" = row.time;
+    status: "stick, slip or open" = row.status.name();
+    pressure_pa: "contact pressure" = row.pressure;
+    shear_pa: "contact shear" = row.shear;
+}
+
+columns! {
+    /// Its motion on the disc of a wave.
+    pub(crate) WAVE_PATH: row as PhasePoint;
+    u_r_m: "radial displacement" = row.displacement[0];
+    u_theta_m: "tangential displacement" = row.displacement[1];
+    v_r_m_per_s: "radial velocity" = row.velocity[0];
+    v_theta_m_per_s: "tangential velocity" = row.velocity[1];
+}
+
+columns! {
+    /// Its motion on any other body.
+    pub(crate) PATH: row as PhasePoint;
+    u_n_m: "displacement along the normal" = row.displacement[0];
+    u_t_m: "displacement along the counterface" = row.displacement[1];
+    v_n_m_per_s: "velocity along the normal" = row.velocity[0];
+    v_t_m_per_s: "velocity along the counterface" = row.velocity[1];
+}
+
+columns! {
+    /// A contact node over the period.
+    pub(crate) CONTACT_NODES: own as ContactNode;
+    node: "number of the node" = own.node;
+    x_m: "its place" = own.place[0];
+    y_m: "its place" = own.place[1];
+    z_m: "its place, of bodies in three dimensions" = own.place[2];
+    stick: "share of the period in which it sticks" = own.shares[0];
+    slip: "share in which it slips" = own.shares[1];
+    open: "share in which it is open" = own.shares[2];
+    mean_pressure_pa: "mean contact pressure" = own.mean_pressure;
+    mean_shear_pa: "mean contact shear" = own.mean_shear;
+    amplitude_n_m: "half the range of its displacement along the normal" = own.amplitude[0];
+    amplitude_t_m: "half the range along the counterface" = own.amplitude[1];
+}
+
+/// Number and frequency of a harmonic, and its motion.
+type Harmonic = (usize, f64, MotionHarmonic);
+
+columns! {
+    /// A harmonic in time.
+    pub(crate) HARMONICS: row as Harmonic;
+    harmonic: "number of the harmonic" = row.0;
+    frequency_hz: "its frequency" = row.1;
+    amplitude_n_m: "amplitude along the normal, root mean square over the contact nodes"
+        = row.2.amplitude[0];
+    amplitude_t_m: "amplitude along the counterface" = row.2.amplitude[1];
+    remainder: "share of the vibration that the harmonics up to this one leave" = row.2.remainder;
+}
+
+impl MotionRecord {
+    /// Its tables.
+    pub(super) fn tables(&self, is_solid: bool) -> Vec<Table> {
+        let table = |what: &str| Table::new(format!("{what}-{}.csv", self.tag), "");
+        let key = self.branch.as_ref().map(|branch| branch.key);
+        let mut tables = Vec::new();
+        if !self.history.is_empty() {
+            let path = if self.is_wave() { WAVE_PATH } else { PATH };
+            let table = table("cycle").columns(HISTORY, &self.history);
+            tables.push(table.columns(path, &self.history));
+        }
+        if !self.nodes.is_empty() {
+            let (plane, solid) = const { parted(CONTACT_NODES, "z_m") };
+            let rest = if is_solid { solid } else { const { parted(CONTACT_NODES, "stick").1 } };
+            let table = table("contact").columns(plane, &self.nodes);
+            tables.push(table.columns(rest, &self.nodes));
+        }
+        if !self.harmonics.is_empty() {
+            let numbered = self.harmonics.iter().zip(1..);
+            let rows = numbered.map(|(own, k)| (k, k as f64 * self.frequency_hz, *own));
+            tables.push(table("harmonics").columns(HARMONICS, rows));
+        }
+        if let Some(exponents) = &self.exponents {
+            let mut table = table("stability");
+            if self.is_wave() {
+                let values = exponents.iter().map(|own| own.0);
+                table = table.column(key.unwrap_or("point"), None, values);
+            }
+            let others: &[&str] = match self.is_wave() {
+                true => &["beat_hz", "modulus", "argument_rad"],
+                false => &["class", "wave_frequency_rad_per_s", "harmonic", "frequency_hz"],
+            };
+            let table = table.columns(EXPONENTS, exponents.iter().map(|own| &own.1));
+            tables.push(without_empty(table, others));
+        }
+        if let Some(BranchRows { key, rows, .. }) = &self.branch {
+            let others: &[&str] = match self.is_wave() {
+                true => &["velocity_level_db", "stability", "residual", "periods", "fold"],
+                false => &["harmonic"],
+            };
+            let table = table("branch")
+                .column(key, None, rows.iter().map(|row| row.value))
+                .columns(BRANCH, rows)
+                .columns(STATUS, rows.iter().map(|row| StatusFractions::of(row.fractions)))
+                .columns(POWERS, rows.iter().map(|row| row.powers))
+                .columns(ALONG, rows);
+            tables.push(without_empty(table, others));
+        }
+        tables
+    }
+}
+
+/// A table without those of these columns in which no row has anything.
+fn without_empty(table: Table, keys: &[&str]) -> Table {
+    keys.iter().fold(table, |table, key| table.without_empty(key))
+}
+
+impl SoughtCycle {
+    /// A quantity of the cycle, where there is one.
+    fn of<T>(&self, of: impl Fn(&CycleMotion) -> Option<T>) -> Option<T> {
+        of(self.cycle.as_ref()?)
+    }
+
+    /// Why there is no cycle of its own.
+    fn absence(&self) -> Option<String> {
+        let same = self.name.mode().and_then(|own| own.same_as);
+        let same = same.map(|other| format!("the cycle of mode {other}"));
+        self.error.clone().or(self.absent.clone()).or(same)
+    }
+
+    /// What decides, in a line.
+    fn fact(&self) -> (String, String) {
+        let Some(cycle) = &self.cycle else {
+            return (self.name.to_string(), self.absence().unwrap_or_default());
+        };
+        let mut text = format!("{} Hz", fixed(cycle.main_frequency_hz, 2));
+        if let Some(known) = self.known() {
+            text += &format!(", {}", known.verdict);
+        }
+        (self.name.to_string(), text)
+    }
+}
+
+/// A table with what each cycle is; nothing where there is none.
+fn with_motions(table: Table, cycles: &[Option<&CycleMotion>]) -> Table {
+    let status = cycles.iter().map(|own| Some((*own)?.status));
+    table.group("", "", MOTION, cycles.iter().copied()).group("", "", STATUS, status)
+}
+
+/// A table with where the power of each cycle goes.
+fn with_powers(table: Table, cycles: &[Option<&CycleMotion>]) -> Table {
+    let powers = cycles.iter().map(|own| Some((*own)?.power_w));
+    table.group("", "", POWERS, powers).group("", "", BALANCE, cycles.iter().copied())
+}
+
+impl CycleSummary {
+    /// Tables and sentences of a search.
+    pub fn document(&self) -> Document {
+        let cycles = &self.cycles;
+        let all: Vec<Option<&CycleMotion>> = cycles.iter().map(|own| own.cycle.as_ref()).collect();
+        let motions = Table::new("", "Limit cycles at the case's own operating point")
+            .columns(NAMES, cycles)
+            .columns(BESIDE, cycles);
+        let motions = with_motions(motions, &all).columns(KNOWN, cycles).columns(SAID, cycles);
+        let powers = Table::new("", "Their powers")
+            .columns(NAMES, cycles.iter().filter(|own| own.cycle.is_some()));
+        let found: Vec<Option<&CycleMotion>> =
+            all.iter().copied().filter(Option::is_some).collect();
+        let powers = with_powers(powers, &found);
+        let file = Table::new("cycle.csv", "").columns(NAMES, cycles);
+        let file = with_powers(with_motions(file, &all), &all);
+        let file = file.columns(KNOWN, cycles).columns(ERRORS, cycles);
+        let results = Section::new("Results");
+        let results = match self.steady_sliding_stable && found.is_empty() {
+            true => results,
+            false => results.facts(cycles.iter().map(SoughtCycle::fact)).tables([
+                motions,
+                powers,
+                TwoWaveSummary::shown(&self.two_waves),
+            ]),
+        };
+        let names = ["status", "contact", "history", "orbit", "harmonics", "velocity", "shear"];
+        let pairs = self.two_waves.iter().filter_map(TwoWaveSummary::ends_text);
+        Document::new("Limit cycles")
+            .section(results)
+            .section(
+                Section::new("Limit cycles")
+                    .text(cycles.iter().flat_map(SoughtCycle::sentences))
+                    .figures(names),
+            )
+            .section(
+                Section::new("Branches")
+                    .text(cycles.iter().filter_map(SoughtCycle::branch_sentence))
+                    .text(pairs)
+                    .figures(["branch"]),
+            )
+            .file(file)
+            .notes(&self.notes)
+    }
+}

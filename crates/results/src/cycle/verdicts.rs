@@ -1,0 +1,127 @@
+//! What a transient and small perturbations say of a limit cycle.
+
+use crate::finding::finding;
+use crate::summary::{StatusFractions, present};
+use frictionsim_output::Described;
+use frictionsim_physics::cycle::Confirmation;
+use serde::Serialize;
+
+/// The analysis of a cycle, where there is one.
+pub fn known<T>(finding: &Option<Result<T, String>>) -> Option<&T> {
+    finding.as_ref().and_then(|finding| finding.as_ref().ok())
+}
+
+/// A transient that started on a cycle, or why none could.
+#[derive(Clone, Debug, PartialEq, Described, Serialize)]
+#[serde(untagged)]
+pub enum ConfirmationSummary {
+    /// It ran.
+    Ran(ConfirmationRun),
+    /// It could not.
+    Failed {
+        /// False.
+        agrees: bool,
+        /// Why it could not run.
+        error: String,
+    },
+}
+
+/// A transient that started on a cycle.
+#[derive(Clone, Debug, PartialEq, Described, Serialize)]
+pub struct ConfirmationRun {
+    /// Length of the run in periods of the cycle.
+    pub periods: usize,
+    /// Whether it still is on the cycle.
+    pub agrees: bool,
+    /// Frequency, Hz; none if it has stopped to vibrate.
+    pub main_frequency_hz: Option<f64>,
+    /// Its harmonic, of a wave that still vibrates.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub main_harmonic: Option<usize>,
+    /// Fractions of contact nodes.
+    pub status: StatusFractions,
+    /// Power of the counterface.
+    pub power_w: ExternalPower,
+    /// E-folds of the leading perturbation over the run; negative where it decays, 0 where it is not known.
+    pub e_folds: f64,
+}
+
+impl ConfirmationSummary {
+    /// Of a run, and whether that still is on the cycle.
+    pub(super) fn ran(run: &Confirmation, agrees: bool, thickness: f64) -> Self {
+        Self::Ran(ConfirmationRun {
+            periods: run.periods,
+            agrees,
+            main_frequency_hz: run.main_frequency_hz.and_then(present),
+            main_harmonic: run.main_harmonic,
+            status: StatusFractions::of(run.status),
+            power_w: ExternalPower { external: present(run.external_power * thickness) },
+            e_folds: run.e_folds,
+        })
+    }
+}
+
+/// Power of the counterface alone.
+#[derive(Clone, Copy, Debug, PartialEq, Described, Serialize)]
+pub struct ExternalPower {
+    /// Mean power, W.
+    pub external: Option<f64>,
+}
+
+/// Stability of a cycle, or why it is not known.
+#[derive(Clone, Debug, PartialEq, Described, Serialize)]
+#[serde(untagged)]
+pub enum StabilitySummary {
+    /// It is known.
+    Known(Box<KnownStability>),
+    /// It could not be found.
+    Failed {
+        /// Why it is not known.
+        error: String,
+    },
+}
+
+/// Stability of a cycle.
+#[derive(Clone, Debug, PartialEq, Described, Serialize)]
+pub struct KnownStability {
+    /// `stable`, `unstable` or `undecided`.
+    pub verdict: String,
+    /// The same as a flag; none if undecided.
+    pub is_stable: Option<bool>,
+    /// Circumferential harmonics that grow, of a wave.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub growing_harmonics: Option<Vec<usize>>,
+    /// The leading perturbation.
+    pub leading: Option<Perturbation>,
+    /// Modulus of the multiplier of a shift in phase, which is 1, of a motion that was stepped in time.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub shift: Option<f64>,
+}
+
+finding! {
+    /// A small perturbation of a cycle: an exponent of a wave, a multiplier of a motion that was stepped in time.
+    #[derive(Clone, Debug, Default, PartialEq, Described, Serialize)]
+    Perturbation, EXPONENTS {
+        #[serde(skip_serializing_if = "Option::is_none")]
+        class: Option<usize> = "class of the harmonics that it holds, of a wave";
+        growth_rate_per_s: f64 = "growth rate";
+        #[serde(skip_serializing_if = "Option::is_none")]
+        wave_frequency_rad_per_s: Option<f64> = "frequency in the frame of the wave";
+        #[serde(skip_serializing_if = "Option::is_none")]
+        harmonic: Option<usize>
+            = "circumferential harmonic at which it moves the edge most, of a wave";
+        #[serde(skip_serializing_if = "Option::is_none")]
+        frequency_hz: Option<f64> = "frequency in the fixed frame, of a wave";
+        #[serde(skip_serializing_if = "Option::is_none")]
+        beat_hz: Option<f64>
+            = "distance of its frequency from the nearest harmonic, of motions of the whole mesh";
+        #[serde(skip_serializing_if = "Option::is_none")]
+        modulus: Option<f64> = "modulus of its multiplier, of motions of the whole mesh";
+        #[serde(skip_serializing_if = "Option::is_none")]
+        argument_rad: Option<f64> = "argument of its multiplier, of motions of the whole mesh";
+        /// What it leads to where it grows.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        leads_to: Option<String>;
+        uncertainty_per_s: Option<f64> = "uncertainty of the growth rate";
+    }
+}

@@ -1,0 +1,52 @@
+//! `improve.vtu` and `improved.toml`.
+
+use super::{Candidate, ImproveSummary, TargetFields};
+use crate::vtu::{EncodedMesh, Field, write_vtu};
+use crate::{FolderError, OutputFolder};
+use frictionsim_physics::mesh::Mesh;
+
+/// Writes the fields over the mesh, and the keys of the best candidate.
+pub fn write(
+    folder: &OutputFolder,
+    summary: &ImproveSummary,
+    mesh: &Mesh,
+    fields: &[TargetFields],
+) -> Result<(), FolderError> {
+    write_fields(folder, mesh, fields)?;
+    let holds = |own: &&Candidate| ["silenced", "confirmed"].contains(&own.verdict.as_str());
+    if let Some(best) = summary.candidates.iter().find(holds) {
+        folder.write("improved.toml", |out| {
+            writeln!(out, "# {}", best.place())?;
+            best.keys.iter().try_for_each(|key| writeln!(out, "{}", key.replacen('=', " = ", 1)))
+        })?;
+    }
+    Ok(())
+}
+
+/// Writes the derivatives of each target as fields.
+fn write_fields(
+    folder: &OutputFolder,
+    mesh: &Mesh,
+    targets: &[TargetFields],
+) -> Result<(), FolderError> {
+    let power = if mesh.dimension == 2 { "m2" } else { "m3" };
+    let (mut nodal, mut in_elements) = (Vec::new(), Vec::new());
+    for own in targets {
+        let field = |what: &str, unit: &str, values: &[f64]| {
+            let name = format!("mode_{}_growth_by_{what}_{unit}", own.mode);
+            Field::scalars(&name, values.to_vec())
+        };
+        nodal.extend([
+            field("mass", "1_per_s_kg", &own.mass),
+            field("spring", "m_per_n_s", &own.spring),
+            field("dashpot", "m_per_n_s2", &own.dashpot),
+        ]);
+        in_elements.extend([
+            field("removal", &format!("1_per_s_{power}"), &own.removal),
+            field("damping", &format!("1_per_s2_{power}"), &own.damping),
+        ]);
+    }
+    folder.write_bulk("improve.vtu", |out| {
+        write_vtu(out, &EncodedMesh::new(mesh)?, &[], &nodal, &in_elements)
+    })
+}

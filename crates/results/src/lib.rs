@@ -1,0 +1,54 @@
+//! Result files: tables, fields, figures, manifest.
+
+pub mod basin;
+pub mod cea;
+pub mod charts;
+pub mod compare;
+pub mod convergence;
+pub mod cycle;
+mod distinct;
+mod drawing;
+mod extent;
+mod finding;
+pub mod fit;
+pub mod identification;
+pub mod improve;
+pub mod mac;
+pub mod matrices;
+pub mod mesh;
+mod npz;
+mod parameter;
+mod pvd;
+pub mod reference;
+pub mod report;
+mod response;
+mod shown_body;
+pub mod signal;
+mod store;
+pub mod summary;
+pub mod sweep;
+pub mod sweep_figures;
+pub mod transient;
+pub mod uncertainty;
+mod universal;
+mod vtu;
+
+use distinct::distinct;
+use store::{folder, framed, manifest, record, reopening, whole_file};
+
+pub use drawing::{
+    DOTS_PER_INCH, DrawingError, DrawingOptions, Format, Page, ResultFile, declared,
+};
+pub use extent::Extent;
+pub use finding::{Finding, write_page, write_table, write_tables};
+pub use frictionsim_output::csv::format_number;
+pub use pvd::{PvdEntry, write_pvd};
+pub use response::{ResponseSummary, response_figure, write_response, write_universal_response};
+pub use shown_body::ShownBody;
+pub use store::{
+    FolderError, MESH, Manifest, OutputFolder, Record, Replace, is_result, read_manifest,
+    read_record, record_bytes,
+};
+pub use summary::{Head, object, read_summary, summary_of, write_summary};
+pub use universal::{write_universal_mesh, write_universal_mode};
+pub use vtu::{EncodedMesh, Field, cartesian_vectors, write_vtu};

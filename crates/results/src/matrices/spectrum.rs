@@ -1,0 +1,109 @@
+//! The eigenvalues of a superelement: table, summary, print.
+
+use crate::cea::BRANCH;
+use crate::finding::write_table;
+use crate::folder::{FolderError, OutputFolder};
+use crate::summary::{Head, write_summary};
+use frictionsim_output::{Table, columns};
+use frictionsim_physics::cea::QuadraticMode;
+use serde::Serialize;
+use serde_json::Value;
+use std::f64::consts::TAU;
+
+/// The modes of a superelement that stands free.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FreeSpectrum {
+    /// Title of the case.
+    pub title: String,
+    /// Name of the superelement.
+    pub name: String,
+    /// Number of unknowns.
+    pub dofs: usize,
+    /// Oscillating modes by frequency.
+    pub modes: Vec<QuadraticMode>,
+    /// Number of real eigenvalues.
+    pub overdamped: usize,
+}
+
+/// `summary.json` of `frictionsim cea` of a superelement.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct FreeSpectrumSummary {
+    /// Name of the superelement.
+    pub superelement: String,
+    /// Number of unknowns.
+    pub dofs: usize,
+    /// `dense`.
+    pub method: String,
+    /// Number of modes listed.
+    pub modes: usize,
+    /// Number of them that grow.
+    pub unstable: usize,
+    /// Number of real eigenvalues, which are not listed.
+    pub overdamped: usize,
+    /// Largest residual of a mode listed.
+    pub max_residual: f64,
+}
+
+/// Place of a mode by frequency, from 0, and the mode.
+type Row = (usize, QuadraticMode);
+
+columns! {
+    /// A mode, with the columns of every eigenvalue analysis: no friction, no harmonic, no direction, no contact.
+    MODES: row as Row;
+    friction_coefficient: "none" = None::<f64>;
+    mode: "number by frequency, from 1" = row.0 + 1, Always "mode" Count;
+    real_hz: "real part of the eigenvalue over 2 pi" = row.1.eigenvalue.re / TAU;
+    frequency_hz: "imaginary part over 2 pi"
+        = row.1.eigenvalue.im / TAU, Always "frequency" Scientific(6);
+    damping_factor: "damping factor"
+        = -row.1.eigenvalue.re / row.1.eigenvalue.norm(), Always "damping factor" Fixed(6);
+    growth_rate_per_s: "real part" = row.1.eigenvalue.re, Always "growth" Scientific(5);
+    harmonic: "none" = None::<usize>;
+    branch: BRANCH = row.0 + 1;
+    direction: "none" = None::<i8>;
+    unstable: "whether it grows" = row.1.eigenvalue.re > 0.0;
+    residual: "relative residual" = row.1.residual;
+    contact_share: "none" = None::<f64>;
+}
+
+impl FreeSpectrum {
+    fn table(&self) -> Table {
+        let rows = self.modes.iter().cloned().enumerate();
+        Table::new("eigenvalues.csv", "Eigenvalues").columns(MODES, rows)
+    }
+
+    /// Writes `eigenvalues.csv` and the summary.
+    pub fn write(&self, folder: &OutputFolder, wall_s: f64) -> Result<Value, FolderError> {
+        write_table(folder, &self.table())?;
+        write_summary(
+            folder,
+            Head::of(&self.title, wall_s),
+            &FreeSpectrumSummary {
+                superelement: self.name.clone(),
+                dofs: self.dofs,
+                method: "dense".to_owned(),
+                modes: self.modes.len(),
+                unstable: self.unstable(),
+                overdamped: self.overdamped,
+                max_residual: self.modes.iter().map(|mode| mode.residual).fold(0.0, f64::max),
+            },
+        )
+    }
+
+    fn unstable(&self) -> usize {
+        self.modes.iter().filter(|mode| mode.eigenvalue.re > 0.0).count()
+    }
+
+    /// What is printed.
+    pub fn print(&self) -> String {
+        format!(
+            "superelement {}: {} unknowns, {} modes listed, {} unstable; {} real eigenvalues are not listed\n\n{}",
+            self.name,
+            self.dofs,
+            self.modes.len(),
+            self.unstable(),
+            self.overdamped,
+            self.table().text(),
+        )
+    }
+}

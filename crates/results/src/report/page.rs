@@ -1,0 +1,207 @@
+//! The report as an HTML document.
+
+use super::{NamedFigure, Report, script};
+use frictionsim_chart::{ID_PREFIX, escape};
+use frictionsim_output::{Section, Table};
+use std::fmt::Write;
+
+const STYLE: &str = include_str!("style.css");
+
+/// What the page may load: nothing from outside.
+const POLICY: &str = "default-src 'none'; img-src data:; media-src data:; style-src 'unsafe-inline'; \
+                      script-src 'unsafe-inline'";
+
+impl Report {
+    /// The report as one HTML document.
+    pub fn to_html(&self) -> String {
+        let title = if self.title.is_empty() { &self.manifest.case_file } else { &self.title };
+        let mut out = String::new();
+        let _ = write!(
+            out,
+            "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
+             <meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">\n\
+             <meta http-equiv=\"Content-Security-Policy\" content=\"{POLICY}\">\n\
+             <title>{0}</title>\n<style>{STYLE}</style>\n</head>\n<body>\n<header>\n<h1>{0}</h1>\n\
+             <p>{1}</p>\n</header>\n",
+            escape(title),
+            escape(&format!(
+                "{} {} {}, {} {}",
+                self.manifest.program,
+                self.manifest.version,
+                self.manifest.command,
+                self.source()[0],
+                self.manifest.case_file
+            ))
+        );
+        self.write_contents(&mut out);
+        out.push_str("<main>\n");
+        let mut figures = 0;
+        for (index, section) in self.sections.iter().enumerate() {
+            write_section(&mut out, (index, &section.0), &section.1, &mut figures);
+        }
+        self.write_origin(&mut out);
+        out.push_str("</main>\n");
+        let figures = self.sections.iter().flat_map(|section| &section.1);
+        script::write(&mut out, figures);
+        out.push_str("</body>\n</html>\n");
+        out
+    }
+
+    /// Whether it is made from a case, or else from a table of measurements.
+    fn has_case(&self) -> bool {
+        !self.manifest.case_text.is_empty()
+    }
+
+    /// What it is made from: in a word, and the names of file, hash and options in the manifest.
+    fn source(&self) -> [&'static str; 4] {
+        match (self.has_case(), self.manifest.command.as_str()) {
+            (true, _) => ["case", "case file", "SHA-256 of the effective case", "overrides"],
+            (false, "compare") => ["run", "compared with", "SHA-256 of names and cases", "runs"],
+            (false, _) => ["table", "table", "SHA-256 of table and options", "options"],
+        }
+    }
+
+    fn write_contents(&self, out: &mut String) {
+        out.push_str("<nav aria-label=\"Contents\">\n<ul>\n");
+        for (index, section) in self.sections.iter().enumerate() {
+            let heading = escape(&section.0.heading);
+            let _ = writeln!(out, "<li><a href=\"#section-{}\">{heading}</a></li>", index + 1);
+        }
+        if self.has_case() {
+            out.push_str("<li><a href=\"#case\">Case</a></li>\n");
+        }
+        out.push_str("<li><a href=\"#manifest\">Manifest</a></li>\n</ul>\n</nav>\n");
+    }
+
+    fn write_origin(&self, out: &mut String) {
+        let manifest = &self.manifest;
+        if self.has_case() {
+            let _ = write!(
+                out,
+                "<section id=\"case\">\n<h2>Case</h2>\n<pre tabindex=\"0\" role=\"region\" \
+                aria-label=\"Case\"><code>{}</code></pre>\n</section>\n",
+                escape(&manifest.case_text)
+            );
+        }
+        let [_, file, hash, overrides_name] = self.source();
+        let rows = [
+            ("program", manifest.program.clone()),
+            ("version", manifest.version.clone()),
+            ("command", manifest.command.clone()),
+            (file, manifest.case_file.clone()),
+            (hash, manifest.case_hash.clone()),
+            (overrides_name, manifest.overrides_text()),
+            ("threads", manifest.threads.to_string()),
+            ("SIMD level", manifest.simd.clone()),
+        ];
+        out.push_str(
+            "<section id=\"manifest\">\n<h2>Manifest</h2>\n\
+             <div class=\"scroll\" role=\"region\" aria-label=\"Manifest\" tabindex=\"0\"><table>\n",
+        );
+        for (name, value) in rows {
+            let _ = writeln!(
+                out,
+                "<tr><th scope=\"row\">{}</th><td>{}</td></tr>",
+                escape(name),
+                escape(&value)
+            );
+        }
+        out.push_str("</table></div>\n</section>\n");
+    }
+}
+
+/// A paragraph; text of several lines, a block to paste, as it stands.
+fn write_paragraph(out: &mut String, text: &str) {
+    let text = escape(text);
+    let _ = match text.contains('\n') {
+        true => writeln!(out, "<pre tabindex=\"0\"><code>{text}</code></pre>"),
+        false => writeln!(out, "<p>{text}</p>"),
+    };
+}
+
+fn write_section(
+    out: &mut String,
+    (index, section): (usize, &Section),
+    drawn: &[NamedFigure],
+    figures: &mut usize,
+) {
+    // The numbers that decide are set as a box.
+    let is_box = !section.facts.is_empty();
+    let _ = write!(
+        out,
+        "<section id=\"section-{}\"{}>\n<h2>{}</h2>\n",
+        index + 1,
+        if is_box { " class=\"results\"" } else { "" },
+        escape(&section.heading)
+    );
+    if is_box {
+        out.push_str("<dl>\n");
+        for (name, value) in &section.facts {
+            let _ = writeln!(out, "<div><dt>{}</dt><dd>{}</dd></div>", escape(name), escape(value));
+        }
+        out.push_str("</dl>\n");
+    }
+    for paragraph in &section.text {
+        write_paragraph(out, paragraph);
+    }
+    // A report begins with numbers; behind them pictures come first.
+    let is_first = index == 0;
+    if is_first {
+        section.tables.iter().for_each(|table| write_table(out, table));
+    }
+    for figure in drawn {
+        *figures += 1;
+        write_figure(out, *figures, figure);
+    }
+    if !is_first {
+        section.tables.iter().for_each(|table| write_table(out, table));
+    }
+    out.push_str("</section>\n");
+}
+
+fn write_figure(out: &mut String, number: usize, figure: &NamedFigure) {
+    // Two drawings of one kind carry the same ids; on one page each needs its own.
+    let own = format!("{ID_PREFIX}{number}-");
+    let _ = write!(
+        out,
+        "<figure id=\"{}\">\n<div class=\"scroll picture\" role=\"region\" aria-label=\"Figure \
+        {number}\" tabindex=\"0\">\n{}</div>\n\
+         <figcaption><b>Figure {number}.</b> {}</figcaption>\n</figure>\n",
+        escape(&figure.name),
+        figure.svg.replace(ID_PREFIX, &own),
+        escape(&figure.caption)
+    );
+}
+
+/// The columns of a table that people see; nothing of one without a row.
+fn write_table(out: &mut String, table: &Table) {
+    let (labels, rows) = table.shown();
+    if rows.is_empty() {
+        return;
+    }
+    // A column of numbers is set right-aligned, its name too.
+    let is_number = |column: usize| {
+        rows.iter().all(|row| row[column].is_empty() || row[column].parse::<f64>().is_ok())
+    };
+    let class = |column: usize| {
+        if is_number(column) { " class=\"number\"" } else { "" }
+    };
+    let _ = write!(
+        out,
+        "<div class=\"scroll\" role=\"region\" aria-label=\"{0}\" \
+        tabindex=\"0\"><table>\n<caption>{0}</caption>\n<thead><tr>",
+        escape(&table.caption)
+    );
+    for (column, name) in labels.iter().enumerate() {
+        let _ = write!(out, "<th scope=\"col\"{}>{}</th>", class(column), escape(name));
+    }
+    out.push_str("</tr></thead>\n<tbody>\n");
+    for row in &rows {
+        out.push_str("<tr>");
+        for (column, cell) in row.iter().enumerate() {
+            let _ = write!(out, "<td{}>{}</td>", class(column), escape(cell));
+        }
+        out.push_str("</tr>\n");
+    }
+    out.push_str("</tbody></table></div>\n");
+}

@@ -1,0 +1,217 @@
+//! Data of the report's scripts: the numbers of every figure as JSON and one packed block.
+
+use super::NamedFigure;
+use super::numbers::Numbers;
+use frictionsim_chart::{
+    AxisData, Mark, Motion, MotionKind, PanelData, Series, SeriesKind, Steps, keep_extremes,
+};
+use serde_json::{Value, json};
+use std::fmt::Write;
+
+/// Charts with axes and zoom, under the MIT licence.
+const LIBRARY: &str = include_str!("vendor/uPlot.iife.min.js");
+const LIBRARY_STYLE: &str = include_str!("vendor/uPlot.min.css");
+const SCRIPTS: [&str; 3] =
+    [include_str!("report.js"), include_str!("solid.js"), include_str!("motion.js")];
+
+/// Columns that a curve over rising abscissae is thinned to, at most four points in each.
+const COLUMNS: usize = 400;
+/// Most points of any other curve.
+const MOST_POINTS: usize = 4000;
+
+/// Most samples of a signal that can be heard, every second, third ... of a longer one: a page is to be mailed.
+const LONGEST_SIGNAL: usize = 1 << 14;
+/// Longest signal that is kept for the ear.
+const LONGEST_HEARD: usize = 1 << 16;
+
+/// Writes the numbers of the figures and the scripts.
+pub fn write<'a>(out: &mut String, figures: impl Iterator<Item = &'a NamedFigure>) {
+    let mut numbers = Numbers::default();
+    let figures: Vec<Value> = figures.map(|figure| of_figure(figure, &mut numbers)).collect();
+    let (arrays, block) = numbers.finish();
+    let data = json!({ "arrays": arrays, "figures": figures });
+    // No text of a user ends the element.
+    let data = data.to_string().replace('<', "\\u003c");
+    let _ = write!(
+        out,
+        "<script type=\"application/json\" id=\"data\">{data}</script>\n\
+         <script type=\"text/plain\" id=\"block\">{block}</script>\n\
+         <style>{LIBRARY_STYLE}</style>\n<script>{LIBRARY}</script>\n<script>\n\"use strict\";\n"
+    );
+    SCRIPTS.iter().for_each(|script| out.push_str(script));
+    out.push_str("</script>\n");
+}
+
+fn of_figure(figure: &NamedFigure, numbers: &mut Numbers) -> Value {
+    let data = &figure.data;
+    let panels = data.panels.iter().map(|panel| of_panel(panel, numbers));
+    let panels: Vec<Value> = panels.collect();
+    json!({
+        "name": figure.name,
+        "panels": panels,
+        "motion": data.motion.as_ref().map(|motion| of_motion(motion, numbers)),
+        "steps": data.steps.as_ref().map(of_steps),
+    })
+}
+
+fn of_panel(panel: &PanelData, numbers: &mut Numbers) -> Value {
+    let axis = |axis: &AxisData| json!({ "title": axis.title, "log": axis.is_logarithmic, "ends": axis.ends });
+    let series = panel.series.iter().map(|series| of_series(series, numbers));
+    let series: Vec<Value> = series.collect();
+    let [x, y] = &panel.axes;
+    let rules = panel.rules.iter().filter(|rule| rule.value.is_finite());
+    let rules: Vec<Value> = rules.map(|rule| json!([rule.is_horizontal, rule.value])).collect();
+    let labels = panel.labels.iter();
+    let labels = labels.filter(|label| (label.place.0 + label.place.1).is_finite());
+    let labels: Vec<Value> =
+        labels.map(|label| json!([label.place.0, label.place.1, label.text])).collect();
+    json!({
+        "caption": panel.caption,
+        "x": axis(x),
+        "y": axis(y),
+        "series": series,
+        "rules": rules,
+        "labels": labels,
+    })
+}
+
+fn of_series(series: &Series, numbers: &mut Numbers) -> Value {
+    let kind = match series.kind {
+        SeriesKind::Line => "line",
+        SeriesKind::Dashed => "dashed",
+        SeriesKind::Points => "points",
+        SeriesKind::Field => "field",
+    };
+    if let Some((name, values)) = &series.values {
+        let [x, y] = [&series.xs, &series.ys].map(|places| numbers.levels(places));
+        let values = numbers.levels(values);
+        return json!({ "name": name, "kind": kind, "x": x, "y": y, "value": values });
+    }
+    let ((xs, ys), is_even) = thinned(series);
+    let mut out = json!({
+        "name": series.name,
+        "kind": kind,
+        "colour": series.colour.to_string(),
+        "x": numbers.floats(&xs),
+        "y": numbers.floats(&ys),
+        "of": series.xs.len(),
+    });
+    if is_even {
+        out["even"] = true.into();
+    }
+    // Of a signal too long for a page the end is kept for the ear.
+    if series.is_whole && series.kind == SeriesKind::Line && series.ys.len() > LONGEST_HEARD {
+        let end = &series.ys[series.ys.len() - LONGEST_SIGNAL..];
+        out["heard"] = numbers.floats(end).into();
+    }
+    if !series.rows.is_empty() {
+        out["rows"] = series.rows.clone().into();
+    }
+    if !series.tips.is_empty() {
+        out["tips"] = series.tips.clone().into();
+    }
+    out
+}
+
+/// A curve with no more points than a screen shows, and whether these are samples at equal distances; of a signal to be
+/// heard they are.
+fn thinned(series: &Series) -> ((Vec<f64>, Vec<f64>), bool) {
+    let (xs, ys) = (&series.xs, &series.ys);
+    let count = xs.len().min(ys.len());
+    let strided = |stride: usize| (0..count).step_by(stride).map(|i| (xs[i], ys[i])).unzip();
+    if count <= 4 * COLUMNS {
+        return (strided(1), series.is_whole);
+    }
+    if series.is_whole && count <= LONGEST_HEARD {
+        return (strided(count.div_ceil(LONGEST_SIGNAL)), true);
+    }
+    if xs.is_sorted() {
+        let width = (xs[count - 1] - xs[0]).max(f64::MIN_POSITIVE);
+        let column = |x: f64| (x - xs[0]) / width * COLUMNS as f64;
+        return (keep_extremes(xs, ys, column).into_iter().unzip(), false);
+    }
+    (strided(count.div_ceil(MOST_POINTS)), false)
+}
+
+fn of_steps(steps: &Steps) -> Value {
+    let of = |mark: &Mark| json!([mark.place.0, mark.place.1, mark.name, mark.is_listed]);
+    let marks: Vec<Vec<Value>> =
+        steps.marks.iter().map(|marks| marks.iter().map(of).collect()).collect();
+    json!({ "quantity": steps.quantity, "values": steps.values, "marks": marks })
+}
+
+fn of_motion(motion: &Motion, numbers: &mut Numbers) -> Value {
+    let flat = |places: &[[f64; 3]]| -> Vec<f64> {
+        let places = places.iter();
+        places.flat_map(|place| &place[..motion.dimension]).copied().collect()
+    };
+    let sizes = motion.cells.iter().map(|cell| cell.len() as u32);
+    let sizes = numbers.indices(sizes);
+    let cells = numbers.indices(motion.cells.iter().flatten().copied());
+    let edge = numbers.indices(motion.edge.iter().copied());
+    let positions = numbers.levels(&flat(&motion.positions));
+    let states = motion.states.iter().map(|state| {
+        let mut out = json!({ "name": state.name, "hz": state.frequency_hz });
+        match &state.kind {
+            MotionKind::Harmonic { real, imaginary } => {
+                let (real, imaginary) = (flat(real), flat(imaginary));
+                let all = real.iter().chain(&imaginary);
+                let largest = all.fold(f64::MIN_POSITIVE, |most, v| most.max(v.abs()));
+                out["real"] = numbers.parts(&real, largest).into();
+                out["imaginary"] = numbers.parts(&imaginary, largest).into();
+            }
+            MotionKind::Turning { displacement, turn, status } => {
+                out["displacement"] = numbers.levels(&flat(displacement)).into();
+                out["turn"] = (*turn).into();
+                out["status"] = numbers.indices(status.iter().map(|&code| u32::from(code))).into();
+            }
+            MotionKind::Parts { part_of, parts } => {
+                out["partOf"] = numbers.indices(part_of.iter().copied()).into();
+                out["parts"] =
+                    parts.iter().map(|part| json!([part.0.to_string(), part.1])).collect();
+            }
+        }
+        out
+    });
+    let states: Vec<Value> = states.collect();
+    let lines = numbers.indices(motion.lines.as_flattened().iter().copied());
+    json!({
+        "dimension": motion.dimension,
+        "positions": positions,
+        "sizes": sizes,
+        "cells": cells,
+        "edge": edge,
+        "lines": lines,
+        "states": states,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use frictionsim_chart::INK;
+
+    /// A signal of so many samples, 2 µs apart.
+    fn signal(count: usize) -> Value {
+        let series = Series {
+            name: "acceleration".into(),
+            kind: SeriesKind::Line,
+            colour: INK.into(),
+            xs: (0..count).map(|i| 2e-6 * i as f64).collect(),
+            ys: (0..count).map(|i| (0.1 * i as f64).sin()).collect(),
+            values: None,
+            rows: Vec::new(),
+            tips: Vec::new(),
+            is_whole: true,
+        };
+        of_series(&series, &mut Numbers::default())
+    }
+
+    #[test]
+    fn signals_of_every_length_can_be_heard() {
+        // The length of the shipped transients, and that of a second of a measurement.
+        assert_eq!(signal(25_001)["even"], true);
+        let long = signal(500_000);
+        assert!(long.get("even").is_none() && long["heard"].is_u64());
+    }
+}

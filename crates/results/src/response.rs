@@ -1,0 +1,197 @@
+//! Table, figure and report of a computed frequency response.
+
+use super::finding::write_table;
+use super::folder::{FolderError, OutputFolder};
+use super::identification::unit_of;
+use frictionsim_chart::{Axis, Figure, INK, Line, Marker, Panel, Points, SERIES};
+use frictionsim_output::{Described, Document, Section, Table};
+use frictionsim_physics::linalg::c64;
+use frictionsim_signal::reader::{self, NamedResponse};
+use frictionsim_signal::{FrequencyResponse, ResponseQuantity};
+use serde::Serialize;
+use std::io;
+
+/// `summary.json` of `frictionsim frf`.
+#[derive(Clone, Debug, PartialEq, Described, Serialize)]
+pub struct ResponseSummary {
+    /// What was computed, in a sentence.
+    pub description: String,
+    /// Unknowns.
+    pub dofs: usize,
+    /// Frequencies.
+    pub lines: usize,
+    /// Method: `cyclic`, `direct` or `reduced`.
+    pub method: String,
+    /// Largest relative error at the check lines of a reduction.
+    pub largest_error: Option<f64>,
+    /// Vectors of a reduction.
+    pub basis_vectors: Option<usize>,
+    /// Largest backward error of a cyclic solution.
+    pub backward_error: Option<f64>,
+    /// Accelerance, mobility or receptance.
+    pub quantity: String,
+    /// Relative standard deviation of the noise added.
+    pub noise: f64,
+}
+
+/// Name of the table of a response in its folder; `frictionsim identify` reads it.
+const RESPONSE_TABLE: &str = "frf.csv";
+
+/// Writes frequency, real and imaginary part.
+pub fn write_response(
+    folder: &OutputFolder,
+    quantity: ResponseQuantity,
+    frequencies_hz: &[f64],
+    values: &[c64],
+) -> Result<(), FolderError> {
+    let name = quantity.name();
+    let table = Table::new(RESPONSE_TABLE, "")
+        .column("frequency_hz", None, frequencies_hz.iter().copied())
+        .column(&format!("{name}_real"), None, values.iter().map(|h| h.re))
+        .column(&format!("{name}_imaginary"), None, values.iter().map(|h| h.im));
+    write_table(folder, &table)
+}
+
+/// Writes the response as a universal file, dataset 58.
+pub fn write_universal_response(
+    folder: &OutputFolder,
+    quantity: ResponseQuantity,
+    frequencies_hz: &[f64],
+    values: &[c64],
+) -> Result<(), FolderError> {
+    folder.write("frf.unv", |out| {
+        let response = FrequencyResponse::new(frequencies_hz.to_vec(), values.to_vec(), quantity);
+        let response = response.map_err(io::Error::other)?;
+        let named = NamedResponse { name: quantity.name().to_owned(), response };
+        out.write_all(reader::write_response(&named).as_bytes())
+    })
+}
+
+impl ResponseSummary {
+    /// What was computed, and its figure.
+    pub fn document(&self) -> Document {
+        let section = Section::new("Frequency response")
+            .text([self.description.clone()])
+            .figures(["response"]);
+        Document::new("Frequency response").section(section)
+    }
+}
+
+/// Degrees beyond half a turn up to which the phase goes on before it is drawn a turn away: noise about half a turn is
+/// no jump.
+const PHASE_MARGIN: f64 = 25.0;
+/// Least rise of a maximum over its surroundings, as a natural logarithm (3 dB), and in units of the noise.
+const PROMINENCE: (f64, f64) = (0.345, 12.0);
+/// Most maxima that are marked.
+const MOST_MAXIMA: usize = 40;
+
+/// The phase, degrees, followed from value to value and drawn a whole number of turns away only where it leaves the
+/// axis; where that happens the line breaks.
+fn followed_phase(frequencies: &[f64], values: &[c64]) -> Vec<(f64, f64)> {
+    let limit = 180.0 + PHASE_MARGIN;
+    let mut points: Vec<(f64, f64)> = Vec::with_capacity(values.len());
+    let mut last: Option<f64> = None;
+    for (&frequency, value) in frequencies.iter().zip(values) {
+        let own = value.arg().to_degrees();
+        let near = last.map_or(own, |last| own + 360.0 * ((last - own) / 360.0).round());
+        let shown = if near.abs() > limit { own } else { near };
+        if shown != near {
+            points.push((f64::NAN, f64::NAN));
+        }
+        points.push((frequency, shown));
+        last = Some(shown).filter(|phase| phase.is_finite()).or(last);
+    }
+    points
+}
+
+/// Places of the maxima that rise out of their surroundings by more than the noise does, highest rise first.
+///
+/// The rise of a maximum is the smaller of the two depths to which the logarithm of the magnitude falls on its sides
+/// before it climbs higher again. The noise is the median distance of neighbouring logarithms over 0.95, which of
+/// independent normal values is their standard deviation.
+fn maxima(magnitude: &[f64]) -> Vec<usize> {
+    let logs: Vec<f64> = magnitude.iter().map(|m| m.max(1e-300).ln()).collect();
+    let mut steps: Vec<f64> = logs.windows(2).map(|pair| (pair[1] - pair[0]).abs()).collect();
+    steps.sort_by(f64::total_cmp);
+    let noise = steps.get(steps.len() / 2).copied().unwrap_or(0.0) / 0.95;
+    let least = PROMINENCE.0.max(PROMINENCE.1 * noise);
+    let depth = |top: f64, side: &mut dyn Iterator<Item = &f64>| {
+        let until = side.take_while(|value| **value <= top);
+        top - until.copied().fold(top, f64::min)
+    };
+    let peaks = (1..logs.len().saturating_sub(1))
+        .filter(|&i| logs[i] > logs[i - 1] && logs[i] >= logs[i + 1]);
+    let rise = |i: usize| {
+        let before = depth(logs[i], &mut logs[..i].iter().rev());
+        before.min(depth(logs[i], &mut logs[i + 1..].iter()))
+    };
+    // A look at the nearest values spares most of the noise the long way.
+    let is_high = |i: &usize| {
+        let near = &logs[i.saturating_sub(3)..(i + 4).min(logs.len())];
+        near.iter().all(|value| *value <= logs[*i])
+    };
+    let mut found: Vec<(f64, usize)> =
+        peaks.filter(is_high).map(|i| (rise(i), i)).filter(|(rise, _)| *rise > least).collect();
+    frictionsim_physics::order::sort_by_number(&mut found, |a| -a.0);
+    found.truncate(MOST_MAXIMA);
+    found.into_iter().map(|(_, place)| place).collect()
+}
+
+/// Magnitude and phase of a response over the frequency.
+pub fn response_figure(response: &FrequencyResponse) -> Figure {
+    let (frequencies, values) = (response.frequencies_hz(), response.values());
+    let magnitude: Vec<f64> = values.iter().map(|h| h.norm()).collect();
+    let limit = 180.0 + PHASE_MARGIN;
+    let phase = Line::through(followed_phase(frequencies, values)).solid(SERIES[0], 0.8);
+    let quarters =
+        [-180, -90, 0, 90, 180].map(|d: i32| (f64::from(d), d.to_string().replace('-', "−")));
+    let over = |y: Axis, height: f64, line: Line| {
+        Panel::new(Axis::kilohertz().tight(), y).height(height).layer(line)
+    };
+    let size = Line::new(frequencies, &magnitude).solid(SERIES[0], 0.8);
+    let places = maxima(&magnitude);
+    let tips = places.iter().map(|&i| format!("maximum at {:.1} Hz", frequencies[i])).collect();
+    let peaks = Points::new(places.iter().map(|&i| (frequencies[i], magnitude[i])));
+    let peaks = peaks.marker(Marker::Disc, 1.6, INK).tips(tips).name("maximum");
+    let modulus = Axis::new("|*H*|", unit_of(response.quantity())).logarithmic();
+    let degrees = Axis::new("phase", "°").between(-limit, limit).ticks(quarters);
+    let caption = "Frequency response of the model: magnitude (a), with the maxima that stand out \
+                   of the noise, and phase (b).";
+    Figure::new("response", caption)
+        .shared_x()
+        .panel(over(modulus, 150.0, size).layer(peaks))
+        .panel(over(degrees, 72.0, phase))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use frictionsim_physics::linalg::GaussianNoise;
+
+    #[test]
+    fn maxima_are_the_resonances_and_none_of_the_noise() {
+        let mut noise = GaussianNoise::new(7);
+        let lines = 20_000;
+        let modes = [2000.0, 5000.0, 11_000.0];
+        let values: Vec<c64> = (0..lines)
+            .map(|i| {
+                let f = i as f64;
+                let one = |f0: f64| c64::new(1.0, 0.0) / c64::new(f0 * f0 - f * f, 0.02 * f0 * f);
+                let sum = modes.iter().map(|&f0| one(f0)).fold(c64::new(0.0, 0.0), |a, b| a + b);
+                sum * (c64::new(1.0, 0.0) + noise.draw() * 0.07)
+            })
+            .collect();
+        let magnitude: Vec<f64> = values.iter().map(|h| h.norm()).collect();
+        let mut found = maxima(&magnitude);
+        found.sort_unstable();
+        assert_eq!(found.len(), modes.len(), "{found:?}");
+        for (place, mode) in found.iter().zip(modes) {
+            assert!((*place as f64 / mode - 1.0).abs() < 0.02, "{found:?}");
+        }
+        // The phase breaks where it leaves the axis, not at every value of the noise about half a turn.
+        let frequencies: Vec<f64> = (0..lines).map(|i| i as f64).collect();
+        let phase = followed_phase(&frequencies, &values);
+        let breaks = phase.iter().filter(|point| point.0.is_nan()).count();
+        assert!(breaks < 6, "{breaks}");
+    }
+}

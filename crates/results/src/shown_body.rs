@@ -1,0 +1,74 @@
+//! A body as results show it.
+
+use super::vtu::{EncodedMesh, Field, solid_vectors};
+use frictionsim_physics::mesh::{Mesh, SolidFace, SolidSector};
+use std::borrow::Cow;
+use std::io;
+
+/// A body in tables, fields and figures.
+#[derive(Clone, Copy, Debug)]
+pub struct ShownBody<'a> {
+    /// The mesh; of a body of revolution in three dimensions the section across the axis.
+    pub mesh: &'a Mesh,
+    /// One sector of a body of revolution in three dimensions.
+    pub sector: Option<&'a SolidSector>,
+}
+
+impl<'a> ShownBody<'a> {
+    /// Whether it has three dimensions.
+    pub fn is_solid(&self) -> bool {
+        self.sector.is_some() || self.mesh.dimension == 3
+    }
+
+    /// Whether it is solid bodies of a mesh, whose nodes move along x, y and z.
+    pub fn is_assembly(&self) -> bool {
+        self.sector.is_none() && self.mesh.dimension == 3
+    }
+
+    /// Where a node of the whole body is, m.
+    pub fn position(&self, node: usize) -> [f64; 3] {
+        let Some(sector) = self.sector else {
+            return self.mesh.nodes[node];
+        };
+        let (own, turn) = (node % sector.node_count(), node / sector.node_count());
+        let (sine, cosine) = sector.angle(own, turn).sin_cos();
+        let place = &sector.nodes[own];
+        [place.radius * cosine, place.radius * sine, place.height]
+    }
+
+    /// Its nodes and elements.
+    pub fn whole(&self) -> Cow<'a, Mesh> {
+        match self.sector {
+            Some(sector) => Cow::Owned(sector.part(sector.sector_count())),
+            None => Cow::Borrowed(self.mesh),
+        }
+    }
+
+    /// The same for ParaView.
+    pub fn encoded(&self) -> io::Result<EncodedMesh> {
+        EncodedMesh::new(&self.whole())
+    }
+
+    /// Vectors at all nodes, given in their frames, along x, y and z.
+    pub fn vectors(&self, name: &str, nodal: &[f64]) -> Field {
+        match self.sector {
+            Some(sector) => solid_vectors(name, sector, nodal),
+            None => Field::vectors(name, self.mesh, nodal),
+        }
+    }
+
+    /// The values at one instant of those nodes of the contact that figures over the angle show: of several rings of
+    /// nodes the middle one.
+    pub fn shown<T: Copy>(&self, values: &[T]) -> Vec<T> {
+        let rings = self.sector.map_or(1, |sector| sector.rings.len());
+        values.iter().skip(rings / 2).step_by(rings).copied().collect()
+    }
+
+    /// What the contact slides on, in legends.
+    pub fn counterface(&self) -> &'static str {
+        match self.sector {
+            Some(sector) if sector.specification.contact.face() != SolidFace::Inner => "ring",
+            _ => "cylinder *Ωa*",
+        }
+    }
+}

@@ -1,0 +1,182 @@
+//! Typed summaries: the struct that `summary.json` is.
+//!
+//! Its fields are the keys in their order, between a head and a foot that all have. A value that may be absent is an
+//! `Option` and null in JSON: JSON has neither NaN nor infinity.
+
+use super::finding::finding;
+use super::folder::{FolderError, OutputFolder};
+use super::framed::write_json;
+use super::manifest::Manifest;
+use super::reopening::{SUMMARY, read_own};
+use frictionsim_output::Described;
+use frictionsim_physics::cycle::CriticalValue;
+use frictionsim_physics::transient::ContactPowers;
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+use serde_json::Value;
+use std::path::Path;
+
+/// Where along a parameter steady sliding loses its stability.
+#[derive(Clone, Debug, PartialEq, Described, Serialize)]
+pub struct CriticalSummary {
+    /// Key of the case.
+    pub key: String,
+    /// Value, in its units.
+    pub value: f64,
+}
+
+finding! {
+    /// Fractions of the contact nodes, averaged over the interval that a summary is of.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Described, Serialize)]
+    StatusFractions, STATUS {
+        stick: Option<f64> = "fraction of the contact that sticks", Always "stick" Percent(1);
+        slip: Option<f64> = "fraction that slips", Always "slip" Percent(1);
+        open: Option<f64> = "fraction that is open", Always "open" Percent(1);
+    }
+}
+
+impl StatusFractions {
+    /// Of `[stick, slip, open]`.
+    pub fn of(fractions: [f64; 3]) -> Self {
+        let [stick, slip, open] = fractions.map(present);
+        Self { stick, slip, open }
+    }
+}
+
+impl From<CriticalValue> for CriticalSummary {
+    fn from(own: CriticalValue) -> Self {
+        Self { key: own.parameter.key().to_owned(), value: own.parameter.in_key_units(own.value) }
+    }
+}
+
+/// Mean powers of a whole disc, W; equations (9) to (12).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Described, Serialize)]
+pub struct MeanPowers {
+    /// Of the motor.
+    pub external: Option<f64>,
+    /// Of sticking nodes.
+    pub stick: Option<f64>,
+    /// Of sliding nodes.
+    pub slide: Option<f64>,
+    /// Lost to friction.
+    pub contact_dissipated: Option<f64>,
+    /// Lost in the body.
+    pub material_damping: Option<f64>,
+    /// Of the normal contact forces.
+    pub normal_contact: Option<f64>,
+    /// Lost in the dashpots of a contact that has some.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub contact_damping: Option<f64>,
+}
+
+impl MeanPowers {
+    /// Of the contact and of the damping of the body.
+    pub fn of(contact: &ContactPowers, material_damping: f64) -> Self {
+        Self {
+            external: present(contact.external),
+            stick: present(contact.stick),
+            slide: present(contact.slide),
+            contact_dissipated: present(contact.contact_dissipated),
+            material_damping: present(material_damping),
+            normal_contact: present(contact.normal),
+            contact_damping: (contact.damping != 0.0).then_some(contact.damping),
+        }
+    }
+}
+
+/// Amplitude ratios between which the winner of two waves changes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Described, Serialize)]
+pub struct Bounds {
+    /// Largest ratio at which the first wave wins; without `high` it wins at every ratio tried.
+    pub low: Option<f64>,
+    /// Smallest ratio at which the second wins; without `low` it wins at every ratio tried.
+    pub high: Option<f64>,
+}
+
+/// A number where there is one: JSON has neither NaN nor infinity, and nobody wants -0.0.
+pub fn present(value: f64) -> Option<f64> {
+    value.is_finite().then_some(value + 0.0)
+}
+
+/// What every summary begins with behind its command.
+#[derive(Clone, Copy, Debug, Default, Serialize)]
+pub struct Head<'a> {
+    /// Title of the case, of a command that runs one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub title: Option<&'a str>,
+    /// Wall time, s, of a command that takes some.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub wall_s: Option<f64>,
+}
+
+impl<'a> Head<'a> {
+    /// Of a case that took so long, s.
+    pub fn of(title: &'a str, wall_s: f64) -> Self {
+        Self { title: Some(title), wall_s: Some(wall_s) }
+    }
+}
+
+/// The JSON object of what a command has found, behind its name and its head. No zero has a sign.
+pub fn object(command: &str, head: Head<'_>, found: &impl Serialize) -> serde_json::Result<Value> {
+    #[derive(Serialize)]
+    struct Whole<'a, S> {
+        command: &'a str,
+        #[serde(flatten)]
+        head: Head<'a>,
+        #[serde(flatten)]
+        found: &'a S,
+    }
+    let mut object = serde_json::to_value(Whole { command, head, found })?;
+    drop_signs_of_zeros(&mut object);
+    Ok(object)
+}
+
+/// The same with what it was made from: what `summary.json` holds.
+pub fn summary_of(
+    manifest: &Manifest,
+    head: Head<'_>,
+    found: &impl Serialize,
+) -> serde_json::Result<Value> {
+    let mut whole = object(&manifest.command, head, found)?;
+    if let Some(entries) = whole.as_object_mut() {
+        entries.insert("manifest".to_owned(), serde_json::to_value(manifest)?);
+    }
+    Ok(whole)
+}
+
+fn drop_signs_of_zeros(value: &mut Value) {
+    match value {
+        Value::Number(number) if number.is_f64() && number.as_f64() == Some(0.0) => {
+            *value = Value::from(0.0);
+        }
+        Value::Array(items) => items.iter_mut().for_each(drop_signs_of_zeros),
+        Value::Object(entries) => entries.values_mut().for_each(drop_signs_of_zeros),
+        _ => {}
+    }
+}
+
+/// Writes `summary.json` of what was found and gives the object that it holds.
+pub fn write_summary(
+    folder: &OutputFolder,
+    head: Head<'_>,
+    found: &impl Serialize,
+) -> Result<Value, FolderError> {
+    let failed = |error: serde_json::Error| {
+        FolderError::io("write", &folder.path().join(SUMMARY), error.into())
+    };
+    let object = summary_of(folder.manifest(), head, found).map_err(failed)?;
+    folder.write(SUMMARY, |out| write_json(out, &object))?;
+    Ok(object)
+}
+
+/// The summary of a results folder.
+///
+/// # Errors
+/// [`FolderError::Unusable`] if there is none, as after a run that was killed, if it is damaged, or if it is of
+/// another command; those of the file system.
+pub fn read_summary<T: DeserializeOwned>(path: &Path) -> Result<T, FolderError> {
+    let bytes = read_own(path, SUMMARY)?;
+    let damaged =
+        |error| FolderError::no_results(path, format!("its {SUMMARY} is damaged ({error})"));
+    serde_json::from_slice(&bytes).map_err(damaged)
+}

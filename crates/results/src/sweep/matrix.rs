@@ -1,0 +1,106 @@
+//! The operating matrix of a study of eigenvalue analyses: which modes grow under which conditions.
+
+use super::record::{PointRecord, listed};
+use super::swept::{of_points, swept_text};
+use crate::cea::{UNSTABLE, UnstableCount, UnstableMode};
+use frictionsim_output::{Table, fixed};
+use serde_json::{Map, Value};
+use std::collections::BTreeSet;
+
+/// Longest list of unstable modes in a report; `unstable_modes.csv` has all.
+const MOST_ROWS: usize = 400;
+
+/// One operating condition: a point of the study at one friction coefficient.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Condition<'a> {
+    /// Number of the point.
+    pub point: usize,
+    /// Swept keys and their values.
+    pub swept: &'a Map<String, Value>,
+    /// Friction coefficient.
+    pub friction_coefficient: f64,
+    /// The modes that grow.
+    pub unstable: Vec<UnstableMode>,
+}
+
+/// Every condition of a study.
+#[derive(Clone, Debug, PartialEq)]
+pub struct OperatingMatrix<'a> {
+    /// In the order of the points, friction rising within each.
+    pub conditions: Vec<Condition<'a>>,
+    /// Points whose analysis failed.
+    pub failed: Vec<&'a PointRecord>,
+}
+
+impl<'a> OperatingMatrix<'a> {
+    /// The conditions of the points that have an eigenvalue analysis.
+    pub fn of(records: &'a [PointRecord]) -> Self {
+        let (mut conditions, mut failed) = (Vec::new(), Vec::new());
+        for record in records {
+            if record.error.is_some() {
+                failed.push(record);
+            }
+            let Some(summary) = record.summaries.get("cea") else {
+                continue;
+            };
+            let modes = listed::<UnstableMode>(summary.get("unstable_modes"));
+            for count in listed::<UnstableCount>(summary.get("unstable_counts")) {
+                let friction = count.friction_coefficient;
+                let here = |mode: &&UnstableMode| mode.friction_coefficient == friction;
+                conditions.push(Condition {
+                    point: record.point,
+                    swept: &record.swept,
+                    friction_coefficient: friction,
+                    unstable: modes.iter().filter(here).copied().collect(),
+                });
+            }
+        }
+        Self { conditions, failed }
+    }
+
+    /// How many conditions squeal, and the one whose mode grows fastest; nothing without a condition.
+    pub fn sentence(&self) -> Option<String> {
+        if self.conditions.is_empty() {
+            return None;
+        }
+        let squealing = self.conditions.iter().filter(|c| !c.unstable.is_empty());
+        let points: BTreeSet<usize> = self.conditions.iter().map(|c| c.point).collect();
+        let mut text = format!(
+            "{} of {} operating conditions ({} points) have unstable modes",
+            squealing.count(),
+            self.conditions.len(),
+            points.len(),
+        );
+        let modes = self.modes();
+        let fastest = modes.max_by(|a, b| a.1.growth_rate_per_s.total_cmp(&b.1.growth_rate_per_s));
+        if let Some((condition, mode)) = fastest {
+            text += &format!(
+                "; the fastest, {} Hz, grows by {} 1/s at {}, friction {}",
+                fixed(mode.frequency_hz, 1),
+                fixed(mode.growth_rate_per_s, 1),
+                swept_text(condition.swept),
+                condition.friction_coefficient,
+            );
+        }
+        Some(text)
+    }
+
+    /// Every unstable mode with its condition.
+    fn modes(&self) -> impl Iterator<Item = (&Condition<'a>, &UnstableMode)> {
+        let conditions = self.conditions.iter();
+        conditions.flat_map(|own| own.unstable.iter().map(move |mode| (own, mode)))
+    }
+
+    /// The unstable modes as a table.
+    pub(super) fn table(&self, keys: &[String]) -> Table {
+        let count = self.modes().count();
+        let caption = if count > MOST_ROWS {
+            format!("The first {MOST_ROWS} of {count} unstable modes (all: unstable_modes.csv)")
+        } else {
+            "Unstable modes under every operating condition (unstable_modes.csv)".to_owned()
+        };
+        let shown: Vec<_> = self.modes().take(MOST_ROWS).collect();
+        let points = shown.iter().map(|own| (own.0.point, own.0.swept));
+        of_points(caption, keys, points).columns(UNSTABLE, shown.iter().map(|own| own.1))
+    }
+}

@@ -1,0 +1,340 @@
+//! Summary and document of a sweep.
+
+use super::PointRecord;
+use super::matrix::OperatingMatrix;
+use super::swept::{heads, of_points};
+use frictionsim_chart::extremes;
+use frictionsim_output::{Cell, Described, Document, Format, Section, Table, columns, significant};
+use serde::Serialize;
+use serde_json::{Map, Value};
+
+/// What the first summary of a point says that has it; nothing of a point that failed.
+fn first(point: &PointRecord, path: &str) -> Cell {
+    let mut said = point.summaries.values().filter_map(|summary| summary.pointer(path));
+    match said.find(|value| !value.is_null()) {
+        Some(Value::Number(number)) => match number.as_i64() {
+            Some(count) => Cell::Count(count),
+            None => number.as_f64().into(),
+        },
+        Some(Value::Bool(flag)) => Cell::Flag(*flag),
+        Some(Value::String(text)) => text.into(),
+        _ => Cell::None,
+    }
+}
+
+/// The lowest critical friction; the first friction of the analysis is only a bound of it, as is one where its branch
+/// was lost.
+fn critical(point: &PointRecord) -> Cell {
+    let said = |key: &str| first(point, &format!("/critical_frictions/0/{key}"));
+    let is_from_start = matches!(said("unstable_from_start"), Cell::Flag(true));
+    match (said("critical_friction"), said("lost_after")) {
+        (lowest, Cell::None) if !is_from_start => lowest,
+        (lowest, _) => Cell::Text(format!("<={}", lowest.text(Format::Fixed(6)))),
+    }
+}
+
+columns! {
+    /// What a person wants first of a point.
+    FIRST: point as PointRecord;
+    main_frequency_hz = first(point, "/main_frequency_hz"), IfAny "main frequency" Fixed(2);
+    harmonic = first(point, "/main_harmonic"), IfAny "n" Count;
+    stick = first(point, "/status/stick"), IfAny "stick" Fixed(3);
+    slip = first(point, "/status/slip"), IfAny "slip" Fixed(3);
+    open = first(point, "/status/open"), IfAny "open" Fixed(3);
+    critical_friction = critical(point), IfAny "critical friction" Fixed(6);
+    critical_harmonic = first(point, "/critical_frictions/0/harmonic"), IfAny "n" Count;
+    first_harmonic = first(point, "/cycles/0/harmonic"), IfAny "n" Count;
+    first_hz = first(point, "/cycles/0/main_frequency_hz"), IfAny "main frequency" Fixed(2);
+    first_stick = first(point, "/cycles/0/status/stick"), IfAny "stick" Fixed(3);
+    first_open = first(point, "/cycles/0/status/open"), IfAny "open" Fixed(3);
+    second_harmonic = first(point, "/cycles/1/harmonic"), IfAny "n" Count;
+    second_hz = first(point, "/cycles/1/main_frequency_hz"), IfAny "main frequency" Fixed(2);
+    second_stick = first(point, "/cycles/1/status/stick"), IfAny "stick" Fixed(3);
+    second_open = first(point, "/cycles/1/status/open"), IfAny "open" Fixed(3);
+    winner = first(point, "/winner"), IfAny "n that always wins" Count;
+    low = first(point, "/boundary/low"), IfAny "ratio below" Fixed(3);
+    high = first(point, "/boundary/high"), IfAny "ratio above" Fixed(3);
+}
+
+columns! {
+    /// How a point ends.
+    ENDS: point as PointRecord;
+    end = first(point, "/end_state"), IfAny "ends in" Plain;
+    settled = first(point, "/settled"), IfAny "settled" Plain;
+}
+
+/// Names of the ends of a transient that are no limit cycle although it vibrates.
+pub(crate) const TWO_FREQUENCY: &str = "two-frequency";
+pub(crate) const UNSETTLED: &str = "unsettled";
+
+/// Longest table that is printed.
+const MOST_ROWS: usize = 200;
+
+/// Everything that is known of a sweep.
+#[derive(Clone, Debug)]
+pub struct SweepReport<'a> {
+    /// Title of the case.
+    pub title: &'a str,
+    /// Friction coefficient where it is not swept.
+    pub friction_coefficient: f64,
+    /// Swept keys.
+    pub keys: Vec<String>,
+    /// Names of the analyses at each point.
+    pub analyses: Vec<&'static str>,
+    /// Number of points of the whole sweep.
+    pub count: usize,
+    /// Finished points in their order.
+    pub records: Vec<PointRecord>,
+    /// Time that they kept cores busy, s.
+    pub core_s: f64,
+    /// Points that this process ran, or none if it only collects.
+    pub ran: Option<usize>,
+    /// Wall time of this process, s.
+    pub wall_s: f64,
+}
+
+impl SweepReport<'_> {
+    /// Numbers of the points that are not finished, ascending.
+    pub fn missing(&self) -> Vec<usize> {
+        let mut finished = self.records.iter().map(|record| record.point).peekable();
+        (1..=self.count).filter(|point| finished.next_if_eq(point).is_none()).collect()
+    }
+
+    /// Failed points.
+    pub fn failed(&self) -> impl Iterator<Item = &PointRecord> {
+        self.records.iter().filter(|record| record.error.is_some())
+    }
+
+    /// Points done in an hour of one core; failed ones cost time but do not count.
+    fn points_per_core_hour(&self) -> Option<f64> {
+        let done = self.records.len() - self.failed().count();
+        (done > 0 && self.core_s > 0.0).then(|| done as f64 * 3600.0 / self.core_s)
+    }
+
+    /// Errors in the order of their first points, each with the numbers of all points that have it.
+    fn errors(&self) -> Vec<(&str, Vec<usize>)> {
+        let mut errors: Vec<(&str, Vec<usize>)> = Vec::new();
+        for record in self.failed() {
+            let text = record.error.as_deref().unwrap_or_default();
+            match errors.iter_mut().find(|(known, _)| *known == text) {
+                Some((_, points)) => points.push(record.point),
+                None => errors.push((text, vec![record.point])),
+            }
+        }
+        errors
+    }
+
+    /// What to know before points are compared: they were not all made alike.
+    pub(super) fn notes(&self) -> Vec<String> {
+        let mut makers: Vec<String> = self
+            .records
+            .iter()
+            .map(|record| format!("version {}, SIMD {}", record.version, record.simd))
+            .collect();
+        makers.sort();
+        makers.dedup();
+        let mut notes = Vec::new();
+        if makers.len() > 1 {
+            notes.push(format!(
+                "the points were not all made alike, so their last digits may differ: {}",
+                makers.join("; ")
+            ));
+        }
+        let two = "their numbers are of no limit cycle";
+        let unsettled = "these are not limit cycles; raise transient.duration";
+        for (end, how, so) in [
+            (TWO_FREQUENCY, "in a vibration of two frequencies", two),
+            (UNSETTLED, "before it has settled", unsettled),
+        ] {
+            let points = self.ending_in(end);
+            if !points.is_empty() {
+                notes.push(format!(
+                    "the transient ends {how} at {} of {} points ({}): {so}",
+                    points.len(),
+                    self.records.len(),
+                    number_ranges(&points)
+                ));
+            }
+        }
+        notes
+    }
+
+    /// Points whose transient ends in a state.
+    fn ending_in(&self, end: &str) -> Vec<usize> {
+        let ends_so = |record: &&PointRecord| {
+            let mut summaries = record.summaries.values();
+            summaries.any(|summary| summary["end_state"].as_str() == Some(end))
+        };
+        let points = self.records.iter().filter(ends_so);
+        points.map(|record| record.point).collect()
+    }
+}
+
+/// `summary.json` of `frictionsim sweep`.
+#[derive(Clone, Debug, PartialEq, Described, Serialize)]
+pub struct SweepSummary {
+    /// Swept keys.
+    pub swept: Vec<String>,
+    /// Analyses at each point.
+    pub analyses: Vec<String>,
+    /// Points of the whole sweep.
+    pub points: usize,
+    /// Finished points.
+    pub finished: usize,
+    /// Points that this process ran; absent if it only gathered.
+    pub ran: Option<usize>,
+    /// Points that failed.
+    pub failed: Vec<FailedPoint>,
+    /// Numbers of those that are not finished.
+    pub missing: Vec<usize>,
+    /// Time that the points kept cores busy, s.
+    pub core_s: f64,
+    /// Points done in an hour of one core.
+    pub points_per_core_hour: Option<f64>,
+    /// What to know before points are compared.
+    pub notes: Vec<String>,
+}
+
+/// A point that failed, and why.
+#[derive(Clone, Debug, PartialEq, Described, Serialize)]
+pub struct FailedPoint {
+    /// Its number, from 1.
+    pub point: usize,
+    /// Swept keys and their values.
+    pub swept: Map<String, Value>,
+    /// Why.
+    pub error: Option<String>,
+}
+
+impl SweepSummary {
+    /// The summary of a report.
+    pub fn of(report: &SweepReport<'_>) -> Self {
+        let failed = report.failed().map(|record| FailedPoint {
+            point: record.point,
+            swept: record.swept.clone(),
+            error: record.error.clone(),
+        });
+        Self {
+            swept: report.keys.clone(),
+            analyses: report.analyses.iter().map(|&name| name.to_owned()).collect(),
+            points: report.count,
+            finished: report.records.len(),
+            ran: report.ran,
+            failed: failed.collect(),
+            missing: report.missing(),
+            core_s: report.core_s,
+            points_per_core_hour: report.points_per_core_hour(),
+            notes: report.notes(),
+        }
+    }
+}
+
+/// Tables and sentences of a sweep: what failed, what is missing, what a person wants first of every point.
+pub fn document(report: &SweepReport<'_>, is_page: bool) -> Document {
+    let matrix = OperatingMatrix::of(&report.records);
+    let errors = report.errors();
+    let errors =
+        errors.iter().map(|(error, points)| format!("failed: {}: {error}", number_ranges(points)));
+    let missing = report.missing();
+    let missing = (!missing.is_empty()).then(|| format!("missing: {}", number_ranges(&missing)));
+    // Pages of the same points are the same bytes.
+    let rate = report.points_per_core_hour().filter(|_| !is_page);
+    let rate = rate.map(|rate| ("points per core-hour", format!("{rate:.0}")));
+    let results = Section::new("Results")
+        .text([format!("{} at each point.", report.analyses.join(" and "))])
+        .text(matrix.sentence())
+        .text(errors)
+        .text(missing)
+        .facts(ranges(report))
+        .facts(rate);
+    let modes = Some(matrix.table(&report.keys)).filter(|_| is_page);
+    let points =
+        Some(points_table(report)).filter(|_| is_page || report.records.len() <= MOST_ROWS);
+    Document::new("Study")
+        .titled(report.title)
+        .section(results)
+        .section(Section::new("Study").figures([""]))
+        .section(Section::new("Points").tables(modes).tables(points))
+        .notes(&report.notes())
+}
+
+/// How far the study is, and the range of every quantity that a person wants first.
+fn ranges(report: &SweepReport<'_>) -> Vec<(String, String)> {
+    let finished = format!("{} of {}", report.records.len(), report.count);
+    let failed = report.failed().count().to_string();
+    let mut out = vec![("points".to_owned(), finished), ("failed".to_owned(), failed)];
+    let mut add = |head: String, numbers: Vec<f64>| {
+        if let (false, (low, high)) = (numbers.is_empty(), extremes(numbers.iter().copied())) {
+            let [low, high] = [low, high].map(|value| significant(value, 6));
+            out.push((head, if low == high { low } else { format!("{low} to {high}") }));
+        }
+    };
+    for (key, head) in heads(&report.keys.iter().collect::<Vec<_>>()) {
+        let values = report.records.iter().filter_map(|record| record.swept.get(key)?.as_f64());
+        add(head.to_owned(), values.collect());
+    }
+    for column in FIRST {
+        let values = report.records.iter().filter_map(|record| (column.cell)(record).number());
+        add(column.heading(), values.collect());
+    }
+    out
+}
+
+/// What a person wants first of every point; `points.csv` has all.
+fn points_table(report: &SweepReport<'_>) -> Table {
+    let records = &report.records;
+    let points = records.iter().map(|record| (record.point, &record.swept));
+    let table = of_points("Finished points (every quantity: points.csv)", &report.keys, points);
+    table.columns(FIRST, records).columns(ENDS, records).shown_column(
+        "outcome",
+        records.iter().map(|record| record.error.as_ref().map(|_| "failed")),
+    )
+}
+
+/// Ascending numbers with runs drawn together: `1-4, 7`.
+fn number_ranges(numbers: &[usize]) -> String {
+    let runs = numbers.chunk_by(|number, next| number + 1 == *next);
+    let texts = runs.map(|run| match run {
+        [first, .., last] => format!("{first}-{last}"),
+        one => one[0].to_string(),
+    });
+    texts.collect::<Vec<_>>().join(", ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn runs_of_missing_points_are_drawn_together() {
+        assert_eq!(number_ranges(&[1, 2, 3, 7, 9, 10]), "1-3, 7, 9-10");
+        assert_eq!(number_ranges(&[]), "");
+    }
+
+    #[test]
+    fn points_without_a_record_are_missing() {
+        let record = |point| PointRecord {
+            point,
+            swept: Map::new(),
+            error: None,
+            summaries: Map::new(),
+            case_hash: String::new(),
+            sweep_hash: String::new(),
+            version: "1".into(),
+            simd: "scalar".into(),
+        };
+        let report = SweepReport {
+            title: "",
+            friction_coefficient: 0.3,
+            keys: Vec::new(),
+            analyses: Vec::new(),
+            count: 5,
+            records: vec![record(2), record(3), record(5)],
+            core_s: 6.0,
+            ran: None,
+            wall_s: 0.0,
+        };
+        assert_eq!(report.missing(), [1, 4]);
+        assert_eq!(report.points_per_core_hour(), Some(1800.0));
+    }
+}

@@ -1,0 +1,283 @@
+//! `points.csv`: one row for each finished point.
+
+use super::super::format_number;
+use super::PointRecord;
+use frictionsim_output::csv;
+use serde_json::Value;
+use std::collections::BTreeMap;
+use std::io::{self, Write};
+
+/// Lists longer than this anywhere in a sweep stay in the points' own files.
+const LONGEST_LIST: usize = 16;
+
+/// What a table over many points leaves out of a summary: what is the same for all of them, and
+/// what the clock says, so that the table does not depend on who computed it and how fast; and the modes and the
+/// branches of limit cycles, which are tables of their own.
+const LEFT_OUT: [&str; 10] = [
+    "runs",
+    "command",
+    "curves",
+    "modes_at_friction",
+    "unstable_modes",
+    "title",
+    "manifest",
+    "notes",
+    "wall_s",
+    "element_steps_per_s",
+];
+
+/// Writes the table: swept keys, the scalars of the summaries, `point` and `error`.
+///
+/// A scalar inside an object or a list has a dotted name, `status.stick`, `harmonics.0`; an item of a list that is a
+/// mode goes by the mode and not by its rank, so that a column has one mode in all rows:
+/// `critical_frictions.n1_b1_against.critical_friction`, `cycles.n2.main_frequency_hz`.
+/// With more than one analysis to a point the name begins with the analysis. The bytes depend on
+/// the points alone, not on the order or the number of processes and threads that made them.
+///
+/// Does not sort: `records` come in the order of the points.
+pub fn write_points(
+    out: &mut dyn Write,
+    keys: &[String],
+    records: &[PointRecord],
+) -> io::Result<()> {
+    let mut longest = BTreeMap::new();
+    let rows: Vec<Vec<(String, String)>> =
+        records.iter().map(|record| scalars(record, &mut longest)).collect();
+    let mut columns = Columns::default();
+    for row in &rows {
+        columns.add(row);
+    }
+    let too_long: Vec<String> = longest
+        .into_iter()
+        .filter(|&(_, length)| length > LONGEST_LIST)
+        .map(|(path, _)| format!("{path}."))
+        .collect();
+    let is_kept = |name: &String| !too_long.iter().any(|list| name.starts_with(list.as_str()));
+    let names: Vec<String> = columns.0.into_iter().filter(is_kept).collect();
+
+    let header: Vec<&str> =
+        keys.iter().chain(&names).map(String::as_str).chain(["point", "error"]).collect();
+    let cells = |(record, row): (&PointRecord, &Vec<(String, String)>)| {
+        let cells: BTreeMap<&str, &str> = row.iter().map(|(n, v)| (n.as_str(), &v[..])).collect();
+        let swept = keys.iter().map(|key| record.swept.get(key).map_or_else(String::new, cell));
+        let scalars =
+            names.iter().map(|name| cells.get(name.as_str()).copied().unwrap_or("").to_owned());
+        let error = record.error.clone().unwrap_or_default();
+        swept.chain(scalars).chain([record.point.to_string(), error]).collect::<Vec<_>>()
+    };
+    csv::write(out, &header, records.iter().zip(&rows).map(cells))
+}
+
+/// Names and cells of a record's scalars in the order of its summaries.
+fn scalars(record: &PointRecord, longest: &mut BTreeMap<String, usize>) -> Vec<(String, String)> {
+    let mut out = Vec::new();
+    for (analysis, summary) in &record.summaries {
+        let prefix = if record.summaries.len() == 1 { "" } else { analysis.as_str() };
+        let Value::Object(entries) = summary else {
+            continue;
+        };
+        for (key, value) in entries {
+            if !LEFT_OUT.contains(&key.as_str()) {
+                flatten(&join(prefix, key), value, &mut out, longest);
+            }
+        }
+    }
+    out
+}
+
+fn flatten(
+    path: &str,
+    value: &Value,
+    out: &mut Vec<(String, String)>,
+    longest: &mut BTreeMap<String, usize>,
+) {
+    match value {
+        Value::Object(entries) => {
+            for (key, value) in entries.iter().filter(|(key, _)| *key != "wall_s") {
+                flatten(&join(path, key), value, out, longest);
+            }
+        }
+        Value::Array(items) => {
+            let length = longest.entry(path.to_owned()).or_default();
+            *length = items.len().max(*length);
+            if items.len() <= LONGEST_LIST {
+                let mut names: Vec<String> = Vec::new();
+                for (index, item) in items.iter().enumerate() {
+                    let name = item_name(item).unwrap_or_else(|| index.to_string());
+                    let earlier = names.iter().filter(|known| **known == name).count();
+                    let again = match earlier {
+                        0 => name.clone(),
+                        _ => format!("{name}_again{earlier}"),
+                    };
+                    flatten(&join(path, &again), item, out, longest);
+                    names.push(name);
+                }
+            }
+        }
+        scalar => out.push((path.to_owned(), cell(scalar))),
+    }
+}
+
+/// Name of a list's item: of a mode harmonic, branch (or onset) and direction, of what is known at one friction
+/// coefficient that.
+fn item_name(item: &Value) -> Option<String> {
+    let number = |key: &str| item.get(key).and_then(Value::as_i64);
+    if let (None, Some(friction)) = (number("harmonic"), item.get("friction_coefficient")) {
+        return Some(format!("mu{friction}"));
+    }
+    let mut name = format!("n{}", number("harmonic")?);
+    for (key, letter) in [("branch", 'b'), ("onset", 'o')] {
+        if let Some(rank) = number(key) {
+            name += &format!("_{letter}{rank}");
+        }
+    }
+    // What else has a direction, has it as a result.
+    if number("branch").is_some() {
+        name += match number("direction") {
+            Some(1) => "_with",
+            Some(-1) => "_against",
+            _ => "",
+        };
+    }
+    Some(name)
+}
+
+fn join(path: &str, key: &str) -> String {
+    match path {
+        "" => key.to_owned(),
+        _ => format!("{path}.{key}"),
+    }
+}
+
+/// A value as a table cell: text without quotes, lists as JSON.
+pub(super) fn cell(value: &Value) -> String {
+    match value {
+        Value::Null => String::new(),
+        Value::String(text) => text.clone(),
+        Value::Number(number) if number.is_f64() => {
+            number.as_f64().map_or_else(String::new, format_number)
+        }
+        other => other.to_string(),
+    }
+}
+
+/// Column names of rows that need not have the same ones.
+#[derive(Default)]
+struct Columns(Vec<String>);
+
+impl Columns {
+    /// Adds the names of a row that are new, each behind the one before it in that row.
+    fn add(&mut self, row: &[(String, String)]) {
+        let mut at = 0;
+        for (name, _) in row {
+            if self.0.get(at) != Some(name) {
+                match self.0.iter().position(|known| known == name) {
+                    Some(known) => at = known,
+                    None => self.0.insert(at, name.clone()),
+                }
+            }
+            at += 1;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::json;
+
+    fn record(point: usize, summary: Value) -> PointRecord {
+        let object = |value: Value| value.as_object().cloned().unwrap_or_default();
+        PointRecord {
+            point,
+            swept: object(json!({ "contact.friction_coefficient": 0.3 })),
+            error: None,
+            summaries: object(json!({ "transient": summary })),
+            case_hash: String::new(),
+            sweep_hash: String::new(),
+            version: String::new(),
+            simd: String::new(),
+        }
+    }
+
+    fn table(records: &[PointRecord]) -> String {
+        let mut out = Vec::new();
+        write_points(&mut out, &["contact.friction_coefficient".into()], records).unwrap();
+        String::from_utf8(out).unwrap()
+    }
+
+    #[test]
+    fn nested_scalars_have_dotted_names_and_the_clock_is_left_out() {
+        let summary = json!({
+            "steps": 10, "wall_s": 3.0, "status": { "stick": 0.25 },
+            "growth": [{ "rate_per_s": 1e-7, "harmonic": 2 }], "notes": ["slow"]
+        });
+        assert_eq!(
+            table(&[record(1, summary)]),
+            "contact.friction_coefficient,steps,status.stick,growth.n2.rate_per_s,growth.n2.harmonic,\
+             point,error\n0.3,10,0.25,1e-7,2,1,\n"
+        );
+    }
+
+    #[test]
+    fn a_column_has_one_mode_in_all_rows_whatever_its_rank() {
+        let onset = |branch: usize, mu: f64| {
+            let mut own = json!({ "harmonic": 1, "branch": branch, "direction": -1 });
+            own["critical_friction"] = json!(mu);
+            own
+        };
+        let both = record(1, json!({ "onsets": [onset(1, 0.1), onset(0, 0.2)] }));
+        let one = record(2, json!({ "onsets": [onset(0, 0.15)] }));
+        let text = table(&[both, one]);
+        let rows: Vec<Vec<&str>> = text.lines().map(|row| row.split(',').collect()).collect();
+        let column = |name: &str| {
+            let at = rows[0].iter().position(|known| *known == name).unwrap();
+            [rows[1][at], rows[2][at]]
+        };
+        assert_eq!(column("onsets.n1_b0_against.critical_friction"), ["0.2", "0.15"]);
+        assert_eq!(column("onsets.n1_b1_against.critical_friction"), ["0.1", ""]);
+    }
+
+    #[test]
+    fn what_is_known_at_one_friction_coefficient_is_named_by_it() {
+        let count = |friction: f64| json!({ "friction_coefficient": friction, "unstable": 1 });
+        let text = table(&[record(1, json!({ "counts": [count(0.0), count(0.25)] }))]);
+        assert!(
+            text.contains("counts.mu0.0.unstable") && text.contains("counts.mu0.25.unstable"),
+            "{text}"
+        );
+    }
+
+    #[test]
+    fn rows_with_other_scalars_share_columns_in_their_own_order() {
+        let short = record(1, json!({ "a": 1, "list": [1], "z": 2 }));
+        let long = record(2, json!({ "a": 1, "list": [1, 2], "z": null }));
+        assert_eq!(
+            table(&[short, long]),
+            "contact.friction_coefficient,a,list.0,list.1,z,point,error\n\
+             0.3,1,1,,2,1,\n0.3,1,1,2,,2,\n"
+        );
+    }
+
+    #[test]
+    fn a_list_that_is_long_at_one_point_is_in_no_row() {
+        let short = record(1, json!({ "list": [1], "z": 2 }));
+        let long = record(2, json!({ "list": vec![0; 17], "z": 2 }));
+        assert_eq!(
+            table(&[short, long]),
+            "contact.friction_coefficient,z,point,error\n0.3,2,1,\n0.3,2,2,\n"
+        );
+    }
+
+    #[test]
+    fn a_failed_point_is_a_row_with_its_error_quoted() {
+        let mut failed = record(2, Value::Null);
+        failed.summaries.clear();
+        failed.error = Some("step 3, node 4: \"open\"".into());
+        assert_eq!(
+            table(&[record(1, json!({ "a": 1 })), failed]),
+            "contact.friction_coefficient,a,point,error\n\
+             0.3,1,1,\n0.3,,2,\"step 3, node 4: \"\"open\"\"\"\n"
+        );
+    }
+}

@@ -1,0 +1,344 @@
+//! The figures of a parameter study, from its points.
+
+use super::basin::basin_map;
+use super::charts::ModeLine;
+use super::charts::palette::{OPEN, SLIP, STICK};
+use super::cycle::{FamilyRecord, NamedFamily, draw_branches};
+use super::drawing::{Declaration, declared};
+use super::parameter::{parameter_axis, parameter_name};
+use super::sweep::{
+    PointRecord, SweepFolder, SweepReport, TWO_FREQUENCY, UNSETTLED, critical_friction, document,
+    listed, operating_matrix, printed,
+};
+use super::{DrawingError, DrawingOptions, Manifest, Page};
+use frictionsim_chart::{
+    Axis, ChartError, Figure, Fill, INK, Line, Marker, Panel, Points, Rule, Scale, Stroke, literal,
+    look, plain,
+};
+use serde_json::{Map, Value};
+
+const SPEED: &str = "contact.rotation_speed_rpm";
+const FRICTION: &str = "contact.friction_coefficient";
+
+/// Most curves of one figure.
+const MOST_SERIES: usize = 12;
+/// Fraction of sticking nodes below which none is said to stick.
+const NO_STICK: f64 = 0.005;
+
+/// What the figures of a study need besides its points.
+#[derive(Clone, Debug)]
+pub struct SweepDrawing {
+    /// Unstable modes of the case, drawn across its frequencies.
+    pub references: Vec<ModeLine>,
+    /// Largest friction coefficient of its eigenvalue analyses.
+    pub highest_friction: f64,
+    /// How they are drawn.
+    pub options: DrawingOptions,
+}
+
+/// Draws what the study has points for into `figures/`, each as SVG and PNG, and writes `report.html`.
+pub fn draw(
+    folder: &SweepFolder,
+    report: &SweepReport<'_>,
+    manifest: &Manifest,
+    drawing: &SweepDrawing,
+) -> Result<(), DrawingError> {
+    let frictions = (report.friction_coefficient, drawing.highest_friction);
+    let figures = draw_sweep(&report.records, frictions, &drawing.references)?;
+    folder.write_page(&Page::new(document(report, true), figures, manifest), &drawing.options)
+}
+
+/// Draws what a study has points for: main frequency and contact status over the rotation speed, or else over another
+/// swept key; critical friction if one key besides friction was swept through eigenvalue analyses; the operating matrix
+/// of their unstable modes; branches of limit cycles if they were followed at its points.
+///
+/// `modes` are unstable modes at `friction_coefficient`, the case's own; `highest_friction` is the largest of its
+/// eigenvalue analysis.
+pub fn draw_sweep(
+    records: &[PointRecord],
+    (friction_coefficient, highest_friction): (f64, f64),
+    modes: &[ModeLine],
+) -> Result<Vec<Figure>, ChartError> {
+    let study = Study::of(records);
+    let study = &study;
+    let declarations: Vec<Declaration<'_>> = vec![
+        Box::new(move || study.frequencies(modes, friction_coefficient)),
+        Box::new(move || study.status()),
+        Box::new(move || critical_friction(records, highest_friction)),
+        Box::new(move || basin_map(records)),
+        Box::new(move || operating_matrix(records)),
+    ];
+    let mut figures = declared(declarations)?;
+    let mut families = cycle_families(records);
+    families.sort_by_key(|(_, family)| (family.mode, family.family()));
+    let families: Vec<NamedFamily<'_>> = families.iter().map(|(l, f)| (l.clone(), f)).collect();
+    figures.extend(draw_branches(&families, &[])?);
+    Ok(figures)
+}
+
+/// The limit cycle found at one point.
+struct Cycle {
+    /// Number of its point.
+    point: usize,
+    value: f64,
+    frequency_hz: f64,
+    harmonic: Option<u64>,
+    /// What the transient ends in.
+    end: String,
+    /// Fractions of contact nodes that stick, slip, are open.
+    status: [f64; 3],
+}
+
+/// Points that differ in one key alone, in order of its values.
+struct Series {
+    name: String,
+    cycles: Vec<Cycle>,
+}
+
+/// Limit cycles over one swept key.
+struct Study {
+    key: String,
+    series: Vec<Series>,
+}
+
+impl Study {
+    /// The points of a study over the rotation speed, where that was swept, or over the first swept key with several
+    /// values; one series for each choice of the other keys.
+    fn of(records: &[PointRecord]) -> Self {
+        let value = |record: &PointRecord, key: &str| number(record.swept.get(key));
+        let several = |key: &&String| {
+            let first = records.first().map_or(f64::NAN, |record| value(record, key));
+            first.is_finite() && records.iter().any(|record| value(record, key) != first)
+        };
+        let keys = || records.iter().flat_map(|record| record.swept.keys()).take(8).filter(several);
+        let key = keys().find(|key| *key == SPEED).or_else(|| keys().next());
+        let key = key.cloned().unwrap_or_default();
+        let mut series: Vec<Series> = Vec::new();
+        for record in records {
+            let Some(summary) = record.summaries.get("transient") else {
+                continue;
+            };
+            let mut rest = record.swept.clone();
+            rest.remove(&key);
+            let name = swept_label(&rest);
+            let quantity = |path: &str| number(summary.pointer(path));
+            let cycle = Cycle {
+                point: record.point,
+                value: value(record, &key),
+                frequency_hz: quantity("/main_frequency_hz"),
+                harmonic: summary.pointer("/main_harmonic").and_then(Value::as_u64),
+                end: summary
+                    .pointer("/end_state")
+                    .and_then(Value::as_str)
+                    .unwrap_or_default()
+                    .to_owned(),
+                status: ["stick", "slip", "open"]
+                    .map(|status| quantity(&format!("/status/{status}"))),
+            };
+            match series.iter_mut().find(|series| series.name == name) {
+                Some(series) => series.cycles.push(cycle),
+                None => series.push(Series { name, cycles: vec![cycle] }),
+            }
+        }
+        for series in &mut series {
+            frictionsim_physics::order::sort_by_number(&mut series.cycles, |a| a.value);
+        }
+        series.sort_by(|a, b| a.name.cmp(&b.name));
+        series.retain(|series| series.cycles.len() > 1);
+        series.truncate(MOST_SERIES);
+        Self { key, series }
+    }
+
+    fn axis(&self) -> Axis {
+        let values = self.cycles().map(|cycle| cycle.value);
+        parameter_axis(&self.key).scaled(Scale::for_values(values, 10.0))
+    }
+
+    fn cycles(&self) -> impl Iterator<Item = &Cycle> + Clone {
+        self.series.iter().flat_map(|series| &series.cycles)
+    }
+
+    /// What rings mean, where there are any.
+    fn ring_caption(&self) -> String {
+        let ends_in = |end: &str| self.cycles().any(|cycle| cycle.end == end);
+        let mut caption = String::new();
+        if ends_in(UNSETTLED) {
+            caption += "; ring: not settled";
+        }
+        if ends_in(TWO_FREQUENCY) {
+            caption += "; double ring: a vibration of two frequencies, no limit cycle";
+        }
+        caption
+    }
+
+    fn over(&self) -> String {
+        plain(&parameter_axis(&self.key).title())
+    }
+
+    /// Main frequencies, one line for each choice of the other keys, with markers for the harmonic.
+    fn frequencies(&self, modes: &[ModeLine], friction: f64) -> Result<Figure, ChartError> {
+        if !self.cycles().any(|cycle| cycle.frequency_hz.is_finite()) {
+            return Err(ChartError::empty("limit cycles over a swept key"));
+        }
+        let modes = modes.iter().map(|mode| {
+            let text = format!("{:.2} kHz, {}", mode.frequency_hz * 1e-3, mode.label);
+            let name = format!("unstable mode of the eigenvalue analysis at *μ* = {friction}");
+            Rule::horizontal(mode.frequency_hz)
+                .stroke(Stroke::dashed(INK, 0.6))
+                .at_rim(text)
+                .name(name)
+        });
+        let mut panel = Panel::new(self.axis(), Axis::new("main frequency *f*", "kHz").times(1e-3))
+            .height(180.0)
+            .layers(modes);
+        for (index, series) in self.series.iter().enumerate() {
+            let line =
+                Line::through(series.cycles.iter().map(|cycle| (cycle.value, cycle.frequency_hz)));
+            panel = panel.layer(line.nth(index).name(series.name.clone()));
+            let selected = series.selection().filter(|_| self.key == SPEED);
+            panel = panel.layers(selected.map(|speed| {
+                Rule::vertical(speed)
+                    .stroke(Stroke::dotted(look(index).0, 0.9))
+                    .beside("*ω*\\*")
+                    .name(format!("*ω*\\*, {}", series.name))
+            }));
+        }
+        panel = panel.layers(rings(self.cycles(), |cycle| vec![(cycle.value, cycle.frequency_hz)]));
+        for (harmonic, marker) in (0..).zip(Marker::ALL.iter().cycle()).take(9) {
+            for (index, series) in self.series.iter().enumerate() {
+                let own = series.cycles.iter().filter(|cycle| cycle.harmonic == Some(harmonic));
+                let (points, rows): (Vec<(f64, f64)>, _) =
+                    own.map(|cycle| ((cycle.value, cycle.frequency_hz), cycle.point)).unzip();
+                let named = Points::new(points.iter().copied())
+                    .marker(*marker, 0.01, INK)
+                    .name(format!("*n* = {harmonic}"));
+                let points = Points::new(points).marker(*marker, 2.0, look(index).0);
+                panel = panel.layer(named).layer(points.rows(rows));
+            }
+        }
+        let caption = format!(
+            "Main frequency of the vibration over {}, with markers for the number of nodal \
+            diameters; dashed: unstable modes{}.",
+            self.over(),
+            self.ring_caption()
+        );
+        Ok(Figure::new("frequencies", caption).panel(panel))
+    }
+
+    /// Shares of stick, slip and open as stacked areas, one panel for each choice of the other keys.
+    fn status(&self) -> Result<Figure, ChartError> {
+        if self.series.is_empty() {
+            return Err(ChartError::empty("contact status over a swept key"));
+        }
+        let panels = self.series.iter().map(|series| {
+            let known = || {
+                series
+                    .cycles
+                    .iter()
+                    .filter(|cycle| cycle.status.iter().all(|part| part.is_finite()))
+            };
+            let column = |of: &dyn Fn(&Cycle) -> f64| known().map(of).collect::<Vec<f64>>();
+            let values = column(&|cycle| cycle.value);
+            let stick = column(&|cycle| cycle.status[0]);
+            let slip = column(&|cycle| cycle.status[0] + cycle.status[1]);
+            let all = column(&|cycle| cycle.status.iter().sum());
+            let rows = known().chain(known()).map(|cycle| cycle.point).collect();
+            let bounds = values.iter().zip(&stick).chain(values.iter().zip(&slip));
+            let no_stick = series.end_of_stick().filter(|_| self.key == SPEED);
+            Panel::new(
+                self.axis().tight(),
+                Axis::new("contact nodes", "%").times(100.0).between(0.0, 1.0),
+            )
+            .plain()
+            .heading(series.name.clone())
+            .layer(Fill::from(0.0, &values, &stick, STICK).name("stick"))
+            .layer(Fill::between(&values, &stick, &slip, SLIP).name("slip"))
+            .layer(Fill::between(&values, &slip, &all, OPEN).name("open"))
+            .layers(rings(known(), |cycle| {
+                let [stick, slip, _] = cycle.status;
+                vec![(cycle.value, stick), (cycle.value, stick + slip)]
+            }))
+            .layer(
+                Points::new(bounds.map(|(x, y)| (*x, *y)))
+                    .marker(Marker::Disc, 1.1, INK)
+                    .rows(rows)
+                    .name("computed"),
+            )
+            .layers(no_stick.map(|speed| {
+                Rule::vertical(speed).beside("*ω*^{+}").name("*ω*^{+}: no stick from here on")
+            }))
+        });
+        let caption = format!(
+            "Shares of sticking, slipping and open contact nodes over {}{}.",
+            self.over(),
+            self.ring_caption()
+        );
+        let columns = self.series.len().clamp(1, 3);
+        Ok(Figure::new("status", caption).columns(columns).shared_y().panels(panels))
+    }
+}
+
+impl Series {
+    /// The value from which on one harmonic is selected for good, where another was selected before.
+    fn selection(&self) -> Option<f64> {
+        let last = self.cycles.last()?.harmonic?;
+        let other = self.cycles.iter().rposition(|cycle| cycle.harmonic != Some(last))?;
+        Some(self.cycles.get(other + 1)?.value)
+    }
+
+    /// The value from which on no node sticks, where some did before.
+    fn end_of_stick(&self) -> Option<f64> {
+        let sticks = |cycle: &Cycle| cycle.status[0] > NO_STICK;
+        let last = self.cycles.iter().rposition(sticks)?;
+        Some(self.cycles.get(last + 1)?.value)
+    }
+}
+
+/// Rings around the points that are no limit cycles: one where the run has not settled, two around two frequencies.
+fn rings<'a>(
+    cycles: impl Iterator<Item = &'a Cycle> + Clone,
+    places: impl Fn(&Cycle) -> Vec<(f64, f64)>,
+) -> Vec<Points> {
+    let ring = |end: &str, radius: f64| {
+        let own = cycles.clone().filter(|cycle| cycle.end == end);
+        let own: Vec<(f64, f64)> = own.flat_map(&places).collect();
+        let points = !own.is_empty();
+        points.then(|| Points::new(own).marker(Marker::Circle, radius, INK))
+    };
+    let named = |points: Option<Points>, name: &str| points.map(|points| points.name(name));
+    let rings = [
+        named(ring(UNSETTLED, 3.6), "not settled"),
+        named(ring(TWO_FREQUENCY, 5.0), "two frequencies"),
+        ring(TWO_FREQUENCY, 3.6),
+    ];
+    rings.into_iter().flatten().collect()
+}
+
+/// The branches of limit cycles of all points.
+fn cycle_families(records: &[PointRecord]) -> Vec<(String, FamilyRecord)> {
+    let mut families = Vec::new();
+    for record in records {
+        let summary = record.summaries.get("cycle");
+        let curves = listed(summary.and_then(|summary| summary.get("curves"))).into_iter();
+        families.extend(curves.map(|own| (format!(", {}", swept_label(&record.swept)), own)));
+    }
+    families
+}
+
+/// What a point is known by, in mark-up.
+fn swept_label(swept: &Map<String, Value>) -> String {
+    match (swept.len(), swept.get(FRICTION)) {
+        (0, _) => "limit cycle".into(),
+        (1, Some(friction)) => format!("*μ* = {friction}"),
+        _ => {
+            let parts = swept.iter().map(|(key, value)| {
+                format!("{} = {}", parameter_name(key), literal(&printed(value)))
+            });
+            parts.collect::<Vec<_>>().join(", ")
+        }
+    }
+}
+
+fn number(value: Option<&Value>) -> f64 {
+    value.and_then(Value::as_f64).unwrap_or(f64::NAN)
+}

@@ -1,0 +1,118 @@
+//! The state of a transient on disk, to go on from.
+
+use crate::folder::{FolderError, OutputFolder};
+use crate::framed::{self, Defect};
+use crate::record::{Record, decoded};
+use frictionsim_bounds::{RESULT, read_file};
+use frictionsim_physics::transient::{Recorder, TransientState};
+use serde::{Deserialize, Serialize};
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// Name of the checkpoint in its folder.
+pub const CHECKPOINT: &str = "checkpoint.bin";
+
+/// A checkpoint that cannot be used.
+#[derive(Debug, thiserror::Error)]
+pub enum CheckpointError {
+    /// None there.
+    #[error(
+        "{} does not exist: there is nothing to resume (run without --resume)",
+        .0.display()
+    )]
+    Missing(PathBuf),
+    /// It cannot be read, is damaged, or belongs to another run or version: the file, why, and the remedy.
+    #[error("{0}")]
+    Unusable(String),
+}
+
+/// Everything that a run needs to go on to the same bytes as one that was never stopped.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Checkpoint {
+    /// Hash of the case without its end, which may be moved.
+    pub case_hash: String,
+    /// SIMD level: another one rounds differently.
+    pub simd: String,
+    /// State of the time loop.
+    pub state: TransientState,
+    /// What was recorded so far; `None` where the folder's record has it.
+    pub record: Option<Recorder>,
+}
+
+impl Record for Checkpoint {
+    const FILE: &str = CHECKPOINT;
+    const MAGIC: [u8; 8] = *b"FRICSIMC";
+    const VERSION: u32 = 5;
+
+    fn inconsistency(&self) -> Option<&'static str> {
+        self.record.as_ref().and_then(Record::inconsistency)
+    }
+}
+
+/// What a longer run goes on from.
+impl Record for Recorder {
+    const FILE: &str = "record.bin";
+    const MAGIC: [u8; 8] = *b"FRICSIMR";
+    const VERSION: u32 = 4;
+
+    fn inconsistency(&self) -> Option<&'static str> {
+        (!self.is_consistent()).then_some("its samples, probes and frames do not fit together")
+    }
+}
+
+/// Writes a checkpoint; the one before stays until this one is complete. Without a record it goes with that of the
+/// folder.
+pub fn write_checkpoint(
+    folder: &OutputFolder,
+    case_hash: &str,
+    state: &TransientState,
+    record: Option<&Recorder>,
+) -> Result<(), FolderError> {
+    // These are the bytes of a [`Checkpoint`], without a copy.
+    let contents = (case_hash, &folder.manifest().simd, state, record);
+    folder.write(CHECKPOINT, |out| {
+        let payload = postcard::to_stdvec(&contents).map_err(io::Error::other)?;
+        framed::write(out, Checkpoint::MAGIC, Checkpoint::VERSION, &payload)
+    })
+}
+
+/// Reads the checkpoint of a folder, if it is whole and of this run.
+///
+/// # Errors
+/// [`CheckpointError`] says why it cannot be used; the file is left as it is.
+pub fn read_checkpoint(
+    folder: &Path,
+    case_hash: &str,
+    simd: &str,
+) -> Result<Checkpoint, CheckpointError> {
+    let path = folder.join(CHECKPOINT);
+    let file = path.display();
+    let unusable = |why: String| CheckpointError::Unusable(format!("{file} {why}"));
+    let again = "run without --resume to start over";
+    let bytes = read_file(&path, RESULT).map_err(|error| match error.kind() {
+        io::ErrorKind::NotFound => CheckpointError::Missing(path.clone()),
+        _ => CheckpointError::Unusable(format!("cannot read {file}: {error}")),
+    })?;
+    let checkpoint: Checkpoint = decoded(&bytes).map_err(|defect| {
+        unusable(match defect {
+            Defect::Version(found) => format!(
+                "has format {found}, this version reads format {}: resume with the version that \
+                 wrote it, or {again}",
+                Checkpoint::VERSION
+            ),
+            Defect::Damage(reason) => {
+                format!("is damaged ({reason}): it is left as it is; {again}")
+            }
+        })
+    })?;
+    for (what, found, expected) in
+        [("case hash", &checkpoint.case_hash, case_hash), ("SIMD level", &checkpoint.simd, simd)]
+    {
+        if found != expected {
+            return Err(unusable(format!(
+                "belongs to another run: its {what} is {found}, here it is {expected}; {again}"
+            )));
+        }
+    }
+    Ok(checkpoint)
+}

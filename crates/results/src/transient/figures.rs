@@ -1,0 +1,214 @@
+//! The figures of a transient, from its record.
+
+use super::run::RunFigures;
+use crate::charts::palette::status_of_code;
+use crate::charts::{
+    ContactInstant, ContactVelocity, contact_figure, shear_stress_figure, status_curves,
+    velocity_figure,
+};
+use crate::drawing::{Declaration, declared};
+use frictionsim_chart::{Axis, ChartError, Figure, Line, Panel, SERIES, extremes};
+use frictionsim_physics::contact::{ContactInterface, ContactStatus};
+use frictionsim_physics::mesh::{SolidFace, SolidSector};
+use frictionsim_physics::transient::{EndState, Snapshot};
+
+/// Whole-field pictures of one kind, at most.
+const FIELD_LIMIT: usize = 8;
+/// When the fields are.
+const WHEN: &str = "at the snapshot times";
+
+/// Draws every figure that the record has data for.
+pub fn draw_run(run: &RunFigures<'_>) -> Result<Vec<Figure>, ChartError> {
+    let mut figures: Vec<Declaration<'_>> = Vec::new();
+    for probe in 0..run.run.record.probes.len() {
+        figures.push(Box::new(move || Ok(run.overview(probe))));
+        figures.push(Box::new(move || Ok(run.spectrum(probe))));
+    }
+    figures.push(Box::new(|| Ok(run.growth())));
+    figures.push(Box::new(|| run.velocity()));
+    figures.push(Box::new(|| run.shear_stress()));
+    figures.push(Box::new(|| run.trajectories()));
+    figures.push(Box::new(|| run.contact()));
+    figures.push(Box::new(|| Ok(super::energy::energy(run))));
+    declared(figures)
+}
+
+impl RunFigures<'_> {
+    fn snapshots(&self) -> impl Iterator<Item = &Snapshot> {
+        self.run.record.snapshots.iter().take(FIELD_LIMIT)
+    }
+
+    fn velocity(&self) -> Result<Figure, ChartError> {
+        // What is that much slower than the cylinder is round-off of a body at rest.
+        let rest = 1e-9 * self.peripheral_speed.abs();
+        let fields = self.snapshots().map(|snapshot| {
+            let status = statuses(&snapshot.contact.status);
+            (heading(snapshot), &snapshot.velocity[..], status)
+        });
+        velocity_figure(&self.run.body, (WHEN, rest), fields)
+    }
+
+    fn shear_stress(&self) -> Result<Figure, ChartError> {
+        let fields = self.snapshots();
+        let fields = fields.map(|snapshot| (heading(snapshot), &snapshot.displacement[..]));
+        shear_stress_figure(&self.run.body, self.run.material, WHEN, fields)
+    }
+
+    /// Whether a probe lies on the contact edge.
+    pub(super) fn is_on_contact(&self, probe: usize) -> bool {
+        let node = self.run.record.probes[probe] as u32;
+        if let Some(sector) = self.run.body.sector {
+            return contact_nodes(sector).contains(&(node - 1));
+        }
+        self.run.body.mesh.contact_edge().nodes.iter().any(|other| other + 1 == node)
+    }
+
+    /// Phase plot of an internal node, and path of a contact node coloured by status over the last fifth.
+    fn trajectories(&self) -> Result<Figure, ChartError> {
+        let body = &self.run.body;
+        let has_edge = body
+            .sector
+            .is_none_or(|sector| sector.specification.contact.face() == SolidFace::Inner);
+        if body.is_assembly() || !has_edge {
+            return Err(ChartError::empty("paths of nodes of an edge"));
+        }
+        let probes = 0..self.run.record.probes.len();
+        let (edge, inside): (Vec<usize>, Vec<usize>) =
+            probes.partition(|&probe| self.is_on_contact(probe));
+        let (Some(&edge), Some(&inside)) = (edge.first(), inside.first()) else {
+            return Err(ChartError::empty("probes inside and on the contact edge"));
+        };
+        let pair = |probe: usize, x: usize, y: usize| -> Vec<(f64, f64)> {
+            self.run.record.probe_rows[probe].iter().map(|row| (row[x], row[y])).collect()
+        };
+        let (phase, path) = (pair(inside, 1, 3), pair(edge, 1, 0));
+        let start = path.len() - path.len().div_ceil(5);
+        let metres = |name: &str| Axis::new(name, "m").prefixed();
+        let panel = |y: Axis, caption: String, points: &[(f64, f64)]| {
+            let before = Line::through(points[..start].iter().copied()).solid("#d0d0d0", 0.3);
+            Panel::new(metres("tangential *u*_{θ}"), y)
+                .height(172.0)
+                .caption(caption)
+                .layer(before.name("before"))
+        };
+        let end = match self.run.analysis.settling.state {
+            EndState::LimitCycle => "limit cycle",
+            EndState::TwoFrequency(_) => "two frequencies",
+            _ => "last fifth of the run",
+        };
+        let last = Line::through(phase[start..].iter().copied()).solid(SERIES[1], 0.8).name(end);
+        let velocity = Axis::new("velocity *v*_{θ}", "m/s").prefixed();
+        let caption = format!("node {}, tangential", self.run.probe_label(inside));
+        let phase_panel = panel(velocity, caption, &phase).layer(last);
+        let caption = format!("contact node {}", self.run.probe_label(edge));
+        let path_panel = panel(metres("radial *u*_{r}"), caption, &path)
+            .layers(status_curves(&path[start..], &self.traced_status(edge, start)));
+        let caption = "Phase plot of an internal node (a) and path of a contact node (b), whose \
+        last fifth is coloured by contact status.";
+        Ok(Figure::new("trajectories", caption).columns(2).panel(phase_panel).panel(path_panel))
+    }
+
+    /// Status of a contact node from a sample on, from its motion: off the cylinder it is open, with the cylinder's
+    /// velocity it sticks. Finer in time than the contact frames; the node touches the cylinder at its smallest radial
+    /// displacement.
+    fn traced_status(&self, probe: usize, start: usize) -> Vec<ContactStatus> {
+        let rows = &self.run.record.probe_rows[probe][start..];
+        if self.run.body.mesh.opposite.is_some() {
+            return self.kept_status(probe, start);
+        }
+        let (low, high) = extremes(rows.iter().map(|row| row[0]));
+        let distance = 1e-6 * low.abs().max(high.abs());
+        let slowness = 1e-6 * self.peripheral_speed.abs().max(f64::MIN_POSITIVE);
+        let status = rows.iter().map(|row| {
+            if row[0] - low > distance {
+                ContactStatus::Open
+            } else if (row[3] - self.peripheral_speed).abs() <= slowness {
+                ContactStatus::Stick
+            } else {
+                ContactStatus::Slip
+            }
+        });
+        status.collect()
+    }
+
+    /// Status of a contact node from a sample on, as the contact frames keep it: what it touches moves as well.
+    fn kept_status(&self, probe: usize, start: usize) -> Vec<ContactStatus> {
+        let node = self.run.record.probes[probe] as u32 - 1;
+        let edge = ContactInterface::of(self.run.body.mesh).nodes;
+        let place = edge.iter().position(|&other| other == node);
+        let (frames, stride) = (&self.run.record.frames, self.run.record.frame_stride as usize);
+        let samples = start..self.run.record.rows.len();
+        let status = samples.map(|sample| {
+            let frame = frames.get(sample / stride).or(frames.last());
+            match (frame, place) {
+                (Some(frame), Some(place)) => status_of_code(frame.status[place]),
+                _ => ContactStatus::Open,
+            }
+        });
+        status.collect()
+    }
+
+    /// The contact at the last snapshot.
+    fn contact(&self) -> Result<Figure, ChartError> {
+        let body = &self.run.body;
+        let snapshot = self.run.record.snapshots.last();
+        let snapshot = snapshot.filter(|_| !body.is_assembly());
+        let snapshot = snapshot.ok_or_else(|| ChartError::empty("contact at the snapshots"))?;
+        let frame = &snapshot.contact;
+        let wide = |values: &[f32]| -> Vec<f64> {
+            body.shown(values).into_iter().map(f64::from).collect()
+        };
+        let velocity = body.shown(&self.contact_velocity(snapshot));
+        let shown = ContactInstant {
+            name: "contact".to_owned(),
+            subject: ["Contact at the last snapshot".to_owned(), String::new()],
+            instant: format!("*t* = {:.3} ms", snapshot.time * 1e3),
+            first_angle: self.run.record.contact_angles.first().copied().unwrap_or(0.0),
+            status: &statuses(&body.shown(&frame.status)),
+            tractions: [&wide(&frame.pressure), &wide(frame.shear())],
+            velocity: match body.mesh.opposite {
+                Some(_) => ContactVelocity::Slip(&velocity),
+                None => ContactVelocity::Absolute(&velocity, self.peripheral_speed),
+            },
+        };
+        Ok(contact_figure(body, &shown))
+    }
+
+    /// Tangential velocity of each contact node, m/s: before another body that of what it meets less its own, the slip.
+    fn contact_velocity(&self, snapshot: &Snapshot) -> Vec<f64> {
+        let own = |nodes: &[u32], components: usize| -> Vec<f64> {
+            let place = |&node: &u32| snapshot.velocity[components * node as usize + 1];
+            nodes.iter().map(place).collect()
+        };
+        if let Some(sector) = self.run.body.sector {
+            return own(&contact_nodes(sector), 3);
+        }
+        let interface = ContactInterface::of(self.run.body.mesh);
+        let own = own(&interface.nodes, 2).into_iter().enumerate();
+        let slip = |(i, velocity): (usize, f64)| {
+            let shares = interface.opposite_of(i);
+            if shares.is_empty() {
+                return velocity;
+            }
+            let met = shares.iter();
+            let met: f64 = met.map(|share| share.tangential * snapshot.velocity[share.dof]).sum();
+            self.peripheral_speed + met - velocity
+        };
+        own.map(slip).collect()
+    }
+}
+
+fn statuses(codes: &[u8]) -> Vec<ContactStatus> {
+    codes.iter().map(|&code| status_of_code(code)).collect()
+}
+
+fn heading(snapshot: &Snapshot) -> String {
+    format!("*t* = {:.2} ms", snapshot.time * 1e3)
+}
+
+/// Contact nodes of a body of revolution in the order of the record, counted from 0.
+fn contact_nodes(sector: &SolidSector) -> Vec<u32> {
+    let rings = || sector.rings.iter().flat_map(|ring| &ring.nodes);
+    let sectors = 0..sector.sector_count();
+    sectors.flat_map(|s| rings().map(move |node| (s * sector.node_count() + node) as u32)).collect()
+}

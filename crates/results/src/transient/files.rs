@@ -1,0 +1,280 @@
+//! Probes, energies, contact, snapshots, summary.
+
+use super::{TransientReport, TransientSummary, summary};
+use crate::charts::palette::status_of_code;
+use crate::folder::{FolderError, OutputFolder};
+use crate::npz::NpzArchive;
+use crate::pvd::{PvdEntry, write_pvd};
+use crate::record::write_record;
+use crate::summary::{Head, write_summary};
+use crate::vtu::{Field, write_vtu};
+use frictionsim_output::csv::{self, format_number};
+use frictionsim_output::{columns, parted, write_rows};
+use frictionsim_physics::fem::{nodal_stress, revolved_stress, solid_stress};
+use frictionsim_physics::transient::{Recorder, SampleRow, Snapshot};
+use serde_json::Value;
+use std::io::{self, Write};
+
+/// Writes all files of the transient and gives the summary, as it is and as an object.
+pub fn write(
+    folder: &OutputFolder,
+    report: &TransientReport<'_>,
+) -> Result<(TransientSummary, Value), FolderError> {
+    let record = report.run.record;
+    let raw = record.raw_accelerations.as_ref();
+    for (index, rows) in record.probe_rows.iter().enumerate() {
+        let probe = ProbeRows {
+            rows,
+            axial: record.axial_rows.get(index).map(Vec::as_slice),
+            raw: raw.map(|raw| raw[index].as_slice()),
+            is_cartesian: report.run.body.is_assembly(),
+            turn: report.turn_of_probe(index),
+        };
+        let name = format!("probe-{}.csv", report.run.probe_label(index));
+        folder.write(&name, |out| write_probe(out, &record.rows, &probe))?;
+    }
+    folder.write("energy.csv", |out| write_energy(out, report))?;
+    folder.write("contact.csv", |out| write_contact(out, &record.rows))?;
+    if report.run.has_harmonics {
+        folder.write("harmonics.csv", |out| write_harmonics(out, record))?;
+    }
+    folder.write("contact.npz", |out| out.write_all(&encode_contact(record)?))?;
+    write_snapshots(folder, report)?;
+    write_record(folder, record)?;
+    let summary = summary(report);
+    let object = write_summary(folder, Head::of(report.title, report.wall_s), &summary)?;
+    Ok((summary, object))
+}
+
+/// What is recorded of one probe, sample by sample.
+struct ProbeRows<'a> {
+    /// In the axes of its node.
+    rows: &'a [[f64; 6]],
+    /// Along the axis, in three dimensions.
+    axial: Option<&'a [[f64; 4]]>,
+    /// Accelerations of the sampled step alone, where they are kept.
+    raw: Option<&'a [[f64; 2]]>,
+    /// Whether its axes are x, y and z.
+    is_cartesian: bool,
+    /// Sine and cosine of the angle of its node's axes, of a body that is no annulus about the origin.
+    turn: Option<(f64, f64)>,
+}
+
+/// Motion of a probe; the accelerations are means since the last sample, those of the sampled step alone come behind
+/// them where they are kept, and motions along `x` and `y` last.
+fn write_probe(
+    out: &mut dyn Write,
+    samples: &[SampleRow],
+    probe: &ProbeRows<'_>,
+) -> io::Result<()> {
+    let ProbeRows { rows, axial, raw, turn, is_cartesian } = *probe;
+    let motions = |axes: &[&str]| -> Vec<String> {
+        let kinds = [("u", "m"), ("v", "m_per_s"), ("a", "m_per_s2")].iter();
+        kinds
+            .flat_map(|(kind, unit)| axes.iter().map(move |axis| format!("{kind}_{axis}_{unit}")))
+            .collect()
+    };
+    let axes = if is_cartesian { ["x", "y"] } else { ["r", "theta"] };
+    let mut columns = vec!["time_s".to_owned()];
+    columns.extend(motions(&axes));
+    if axial.is_some() {
+        columns.extend(motions(&["z"]));
+    }
+    if raw.is_some() {
+        let axes = axes.into_iter().chain(axial.map(|_| "z"));
+        columns.extend(axes.map(|axis| format!("a_{axis}_step_m_per_s2")));
+    }
+    if turn.is_some() {
+        columns.extend(motions(&["x", "y"]));
+    }
+    let columns: Vec<&str> = columns.iter().map(String::as_str).collect();
+    let cells = |(index, (sample, row)): (usize, (&SampleRow, &[f64; 6]))| {
+        let mut numbers = vec![sample.time];
+        numbers.extend(row);
+        let axial = axial.map(|rows| rows[index]);
+        numbers.extend(axial.iter().flat_map(|row| &row[..3]));
+        if let Some(raw) = raw {
+            numbers.extend(raw[index]);
+            numbers.extend(axial.map(|row| row[3]));
+        }
+        if let Some((sin, cos)) = turn {
+            let along =
+                |k: usize| [cos * row[k] - sin * row[k + 1], sin * row[k] + cos * row[k + 1]];
+            numbers.extend([0, 2, 4].map(along).as_flattened());
+        }
+        numbers.into_iter().map(format_number).collect::<Vec<_>>()
+    };
+    csv::write(out, &columns, samples.iter().zip(rows).enumerate().map(cells))
+}
+
+/// Energies (J) and powers (W) of a sample, in the order of the table.
+type Energies = [f64; 12];
+
+columns! {
+    /// A sample of the energies; the last two of contacts with springs or dashpots.
+    pub(crate) ENERGY: row as Energies;
+    time_s: "time" = row[0];
+    kinetic_j: "kinetic energy" = row[1];
+    strain_j: "strain energy" = row[2];
+    external_w: "power of the drive, mean over the sample interval, as the others" = row[3];
+    stick_w: "power given to the body by nodes that stick" = row[4];
+    slide_w: "power given to the body by nodes that slide" = row[5];
+    contact_dissipated_w: "power lost to friction" = row[6];
+    material_damping_w: "power lost in the body" = row[7];
+    normal_contact_w: "power of the normal contact forces" = row[8];
+    balance_residual: "residual of the energy balance, relative to the largest energy or work so far" = row[9];
+    contact_j: "energy in the springs of the contact" = row[10];
+    contact_damping_w: "power lost in the dashpots of the contact" = row[11];
+}
+
+fn write_energy(out: &mut dyn Write, report: &TransientReport<'_>) -> io::Result<()> {
+    let (record, thickness) = (report.run.record, report.run.thickness);
+    let rows = record.rows.iter().map(|row| {
+        let powers = row.powers.scaled(thickness);
+        [
+            row.time,
+            thickness * row.kinetic_energy,
+            thickness * row.strain_energy,
+            powers.external,
+            powers.stick,
+            powers.slide,
+            powers.contact_dissipated,
+            thickness * row.material_damping,
+            powers.normal,
+            row.balance_residual,
+            thickness * row.contact_energy,
+            powers.damping,
+        ]
+    });
+    let all = record.has_contact_springs();
+    write_rows(out, if all { ENERGY } else { const { parted(ENERGY, "contact_j").0 } }, rows)
+}
+
+/// Time and `[stick, slip, open]` of a sample.
+type Fractions = (f64, [f64; 3]);
+
+columns! {
+    /// A sample of the contact.
+    pub(crate) STATUS: row as Fractions;
+    time_s: "time" = row.0;
+    stick: "fraction of the contact nodes that stick" = row.1[0];
+    slip: "fraction that slips" = row.1[1];
+    open: "fraction that is open" = row.1[2];
+}
+
+fn write_contact(out: &mut dyn Write, rows: &[SampleRow]) -> io::Result<()> {
+    write_rows(out, STATUS, rows.iter().map(|row| (row.time, row.counts.fractions())))
+}
+
+/// Complex amplitude of each harmonic of the contact edge's tangential displacement: `n = 0..=8`, and of the higher
+/// ones those that matter.
+fn write_harmonics(out: &mut dyn Write, record: &Recorder) -> io::Result<()> {
+    let harmonics = record.significant_harmonics();
+    let parts =
+        harmonics.iter().flat_map(|n| [format!("n{n}_real_m"), format!("n{n}_imaginary_m")]);
+    let columns: Vec<String> = std::iter::once("time_s".to_owned()).chain(parts).collect();
+    let names: Vec<&str> = columns.iter().map(String::as_str).collect();
+    let cells = |(sample, row): (usize, &SampleRow)| {
+        let parts = harmonics.iter().flat_map(|&n| {
+            let parts = record.amplitude(sample, n).into_iter().flatten();
+            parts.map(move |part| match n < row.harmonics.len() {
+                true => format_number(part),
+                // The higher ones are kept in single precision.
+                false => format!("{:?}", part as f32 + 0.0),
+            })
+        });
+        std::iter::once(format_number(row.time)).chain(parts).collect::<Vec<_>>()
+    };
+    csv::write(out, &names, record.rows.iter().enumerate().map(cells))
+}
+
+/// `contact.npz`, the contact edge over time, node by node: the arrays `time_s (F)`, `angle_rad (N)`, `status (F, N)`,
+/// `pressure_pa (F, N)` and `shear_pa (F, N)` for `F` frames and `N` contact nodes, as NumPy reads them; the numbers
+/// `interval_s` between frames, and `status_open` (0), `status_stick` (1), `status_slip` (2), which say what the codes
+/// of `status` mean. A body in three dimensions has `shear_across_pa (F, N)` too, along `e_z` on its inner edge and
+/// `e_r` on its top.
+///
+/// A frame is the state of one step; frames may lie several samples apart.
+fn encode_contact(record: &Recorder) -> io::Result<Vec<u8>> {
+    let mut archive = NpzArchive::default();
+    let frames = &record.frames;
+    let shape = [frames.len(), record.contact_angles.len()];
+    archive.array("time_s", &shape[..1], frames.iter().map(|f| f.time))?;
+    archive.array("angle_rad", &shape[1..], record.contact_angles.iter().copied())?;
+    archive.array("status", &shape, frames.iter().flat_map(|f| f.status.iter().copied()))?;
+    archive.array("pressure_pa", &shape, frames.iter().flat_map(|f| f.pressure.iter().copied()))?;
+    archive.array("shear_pa", &shape, frames.iter().flat_map(|f| f.shear().iter().copied()))?;
+    if frames.iter().any(|frame| !frame.shear_across().is_empty()) {
+        let across = frames.iter().flat_map(|f| f.shear_across().iter().copied());
+        archive.array("shear_across_pa", &shape, across)?;
+    }
+    let interval = record.frame_stride as f64 * record.sample_interval;
+    archive.array("interval_s", &[], std::iter::once(interval))?;
+    archive.status_codes()?;
+    archive.finish()
+}
+
+/// One VTU for each snapshot and `snapshots.pvd` over them.
+fn write_snapshots(folder: &OutputFolder, report: &TransientReport<'_>) -> Result<(), FolderError> {
+    let snapshots = &report.run.record.snapshots;
+    if snapshots.is_empty() {
+        return Ok(());
+    }
+    let mesh = report.run.body.encoded();
+    let mesh = mesh.map_err(|error| FolderError::io("write", folder.path(), error))?;
+    let mut entries = Vec::new();
+    for (index, snapshot) in snapshots.iter().enumerate() {
+        let file = format!("snapshots/snapshot-{:03}.vtu", index + 1);
+        let fields = snapshot_fields(report, snapshot);
+        let whole = [
+            Field::number("time_s", snapshot.time),
+            Field::number("friction_coefficient", report.friction_coefficient),
+        ];
+        folder.write(&file, |out| write_vtu(out, &mesh, &whole, &fields, &[]))?;
+        entries.push(PvdEntry { time: snapshot.time, group: String::new(), file });
+    }
+    folder.write("snapshots.pvd", |out| write_pvd(out, &entries))
+}
+
+/// Motion and stress of all nodes, and the contact at the same step: status (0 open, 1 stick, 2 slip; -1 off the
+/// contact edge), pressure, shear and gap (zero off the contact edge).
+fn snapshot_fields(report: &TransientReport<'_>, snapshot: &Snapshot) -> Vec<Field> {
+    let (body, displacement) = (&report.run.body, &snapshot.displacement);
+    let mesh = body.mesh;
+    let mut fields = vec![
+        body.vectors("displacement_m", displacement),
+        body.vectors("velocity_m_per_s", &snapshot.velocity),
+    ];
+    let material = report.run.material;
+    match (body.sector, mesh.dimension) {
+        (Some(sector), _) => {
+            let stress = revolved_stress(sector, material, displacement);
+            fields.extend(Field::solid_stresses(&stress, "rtz"));
+        }
+        (None, 3) => {
+            let stress = solid_stress(mesh, material, displacement);
+            fields.extend(Field::solid_stresses(&stress, "xyz"));
+        }
+        _ => {
+            let stress = nodal_stress(mesh, material, displacement);
+            fields.extend(Field::stresses(&stress));
+            fields.extend(Field::cartesian_stresses(mesh, &stress));
+        }
+    }
+    let count = displacement.len() / if body.is_solid() { 3 } else { 2 };
+    let (edge, contact) = (&report.contact_nodes, &snapshot.contact);
+    let on_edge = |name: &str, values: &[f32]| {
+        let values: Vec<f64> = values.iter().copied().map(f64::from).collect();
+        Field::on_edge(name, count, edge, &values)
+    };
+    let codes = contact.status.iter().map(|&code| status_of_code(code));
+    fields.push(Field::status(count, edge, codes));
+    fields.push(on_edge("pressure_pa", &contact.pressure));
+    fields.push(on_edge("shear_pa", contact.shear()));
+    // In three dimensions friction may act across the sliding too.
+    if !contact.shear_across().is_empty() {
+        fields.push(on_edge("shear_across_pa", contact.shear_across()));
+    }
+    fields.push(Field::on_edge("gap_m", count, edge, &snapshot.gap));
+    fields
+}

@@ -1,0 +1,135 @@
+//! A recorded run as its report and its figures see it.
+
+use crate::ShownBody;
+use crate::charts::ModeLine;
+use crate::extent::Extent;
+use frictionsim_physics::fem::MaterialField;
+use frictionsim_physics::transient::{Recorder, TransientAnalysis};
+
+/// The record of a run, and the body that it is of.
+#[derive(Clone, Copy, Debug)]
+pub struct RecordedRun<'a> {
+    /// What was recorded.
+    pub record: &'a Recorder,
+    /// What it says.
+    pub analysis: &'a TransientAnalysis,
+    /// The body.
+    pub body: ShownBody<'a>,
+    /// Its material, for the stresses.
+    pub material: &'a dyn MaterialField,
+    /// Whether its vibrations have circumferential harmonics: it has the symmetry of the built-in annulus.
+    pub has_harmonics: bool,
+    /// Thickness, m; 1 in three dimensions, where records are of the whole body.
+    pub thickness: f64,
+    /// What forces, powers and energies are of.
+    pub extent: Extent,
+}
+
+/// Unstable modes of steady sliding as the time loop has it: the same mesh and contact, lumped mass, small
+/// displacements.
+#[derive(Clone, Debug, Default)]
+pub struct LinearStage {
+    /// Frequencies, numbered among all modes by frequency, for the lines across spectrograms and spectra.
+    pub references: Vec<ModeLine>,
+    /// Largest growth rate of each unstable harmonic, 1/s, harmonics rising; none for a body without symmetry.
+    pub growth_rates: Vec<(usize, f64)>,
+    /// Frequency (Hz) and growth rate (1/s) of each unstable mode.
+    pub mode_rates: Vec<(f64, f64)>,
+}
+
+/// A run and what its figures show besides.
+#[derive(Clone, Debug)]
+pub struct RunFigures<'a> {
+    /// The run.
+    pub run: RecordedRun<'a>,
+    /// Peripheral speed of the cylinder, m/s.
+    pub peripheral_speed: f64,
+    /// What the eigenvalue analysis makes of its linear stage.
+    pub stage: LinearStage,
+}
+
+impl RecordedRun<'_> {
+    /// Number of a probe as the user knows it.
+    pub(super) fn probe_label(&self, probe: usize) -> usize {
+        self.body.mesh.node_label(self.record.probes[probe] - 1)
+    }
+}
+
+impl RunFigures<'_> {
+    /// What the components of a probe are along, the first, the second and the third.
+    pub(super) fn directions(&self) -> [&'static str; 3] {
+        match self.run.body.is_assembly() {
+            true => ["acceleration along x", "acceleration along y", "acceleration along z"],
+            false => ["radial acceleration", "tangential acceleration", "axial acceleration"],
+        }
+    }
+
+    /// Times of all samples, s.
+    pub(super) fn times(&self) -> Vec<f64> {
+        self.run.record.rows.iter().map(|row| row.time).collect()
+    }
+
+    /// Time between samples, s; zero for fewer than two.
+    pub(super) fn interval(&self) -> f64 {
+        let rows = &self.run.record.rows;
+        match (rows.first(), rows.last(), rows.len()) {
+            (Some(first), Some(last), 2..) => (last.time - first.time) / (rows.len() - 1) as f64,
+            _ => 0.0,
+        }
+    }
+
+    /// One column of a probe: displacements, velocities, accelerations, each radial and tangential.
+    pub(super) fn column(&self, probe: usize, column: usize) -> Vec<f64> {
+        let rows = self.run.record.probe_rows[probe].iter();
+        rows.map(|row| row[column]).collect()
+    }
+
+    /// Which component of a probe is shown: the tangential one, which friction drives and over which runs are compared;
+    /// of solid bodies of a mesh, which may lie anyhow, the strongest.
+    pub(super) fn shown_component(&self, probe: usize) -> usize {
+        if !self.run.body.is_assembly() {
+            return 1;
+        }
+        let size = |component: usize| -> f64 {
+            let signal = self.component(probe, component);
+            signal.iter().map(|a| a * a).sum()
+        };
+        (0..3).max_by(|&a, &b| size(a).total_cmp(&size(b))).unwrap_or(1)
+    }
+
+    /// Acceleration of a probe along one of its directions.
+    fn component(&self, probe: usize, component: usize) -> Vec<f64> {
+        match component {
+            2 => {
+                let rows = self.run.record.axial_rows[probe].iter();
+                rows.map(|row| row[2]).collect()
+            }
+            _ => self.column(probe, 4 + component),
+        }
+    }
+
+    /// The acceleration of a probe that is shown.
+    pub(super) fn acceleration(&self, probe: usize) -> Vec<f64> {
+        self.component(probe, self.shown_component(probe))
+    }
+
+    /// Frequency (Hz) and growth rate (1/s) of the unstable mode nearest to the vibration that grows on a body without
+    /// symmetry, if one lies within 3 % of it.
+    pub(super) fn growing_mode(&self) -> Option<(f64, f64)> {
+        let growth = self.run.analysis.growth.first()?;
+        let frequency = growth.stage.as_ref().ok()?.frequency_hz.value.abs();
+        let distance = |mode: &&(f64, f64)| (mode.0 / frequency - 1.0).abs();
+        let nearest =
+            self.stage.mode_rates.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
+        (distance(&nearest) < 0.03).then_some(*nearest)
+    }
+
+    /// Highest frequency shown: three superharmonics, or all modes drawn.
+    pub(super) fn highest_frequency(&self) -> f64 {
+        let main = self.run.analysis.last_fifth.main_frequency_hz.unwrap_or(0.0);
+        let modes = self.stage.references.iter().map(|mode| mode.frequency_hz);
+        let wanted = modes.fold(3.4 * main, |top, f| top.max(1.1 * f));
+        let nyquist = 0.5 / self.interval().max(1e-12);
+        if wanted > 0.0 { wanted.min(nyquist) } else { nyquist.min(35e3) }
+    }
+}
