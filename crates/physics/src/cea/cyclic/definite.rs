@@ -1,6 +1,6 @@
 //! Proof that a harmonic holds no eigenvalue in a region, for a whole range of friction at once.
 
-use crate::cea::vectors::ZERO;
+use crate::cea::vectors::{ZERO, dot};
 use crate::linalg::banded::{BandedFactor, BandedHermitian, BandedMatrix};
 use crate::linalg::c64;
 use crate::prestress::HarmonicTangent;
@@ -126,25 +126,22 @@ impl<'a> TestSpace<'a> {
 
     /// Whether the Schur complement on the tangential rows is positive definite.
     fn schur_is_definite(&self, factor: &BandedHermitian, weights: &[f64; 4], kappa: c64) -> bool {
-        let rows: Vec<Vec<c64>> = (0..self.tangential.len())
-            .map(|index| self.tested_row(index, weights, kappa))
-            .collect();
-        let columns: Vec<Vec<c64>> = (0..rows.len())
-            .map(|index| {
-                let column = self.column(index, weights, kappa);
-                let border = |&dof: &usize| 0.5 * (column[dof] + rows[index][dof].conj());
-                self.others.iter().map(border).collect()
-            })
-            .collect();
+        let lines = (0..self.tangential.len())
+            .map(|index| self.tested_row_and_column(index, weights, kappa))
+            .collect::<Vec<_>>();
+        let solved = lines.iter().map(|[row, column]| {
+            let border = |&dof: &usize| 0.5 * (column[dof] + row[dof].conj());
+            factor.half_solve(&self.others.iter().map(border).collect::<Vec<c64>>())
+        });
+        let solved: Vec<Vec<c64>> = solved.collect();
         // Cholesky of the small complement, row by row.
-        let count = rows.len();
+        let count = lines.len();
         let mut lower = vec![vec![ZERO; count]; count];
-        let solved: Vec<Vec<c64>> = columns.iter().map(|b| factor.half_solve(b)).collect();
         for i in 0..count {
             for j in 0..=i {
                 let (ti, tj) = (self.tangential[i], self.tangential[j]);
-                let mut value = 0.5 * (rows[i][tj] + rows[j][ti].conj());
-                value -= crate::cea::vectors::dot(&solved[i], &solved[j]);
+                let mut value = 0.5 * (lines[i][0][tj] + lines[j][0][ti].conj());
+                value -= dot(&solved[i], &solved[j]);
                 let known = lower[i].iter().zip(&lower[j]).take(j);
                 value -= known.map(|(a, b)| a * b.conj()).sum::<c64>();
                 if i == j {
@@ -160,11 +157,11 @@ impl<'a> TestSpace<'a> {
         true
     }
 
-    /// Row `t` of `T (K - kappa M)`.
-    fn tested_row(&self, index: usize, weights: &[f64; 4], kappa: c64) -> Vec<c64> {
-        let row = self.tangential[index];
-        let unit = units();
-        let mut result = vec![ZERO; self.tangent.mass[0].dimension()];
+    /// Row `t` of `T (K - kappa M)`, and column `t` of `K - kappa M`.
+    fn tested_row_and_column(&self, index: usize, weights: &[f64; 4], kappa: c64) -> [Vec<c64>; 2] {
+        let (place, unit) = (self.tangential[index], units());
+        let zeros = vec![ZERO; self.tangent.mass[0].dimension()];
+        let (mut row, mut column) = (zeros.clone(), zeros);
         let terms = [
             (&self.tangent.stiffness, &self.stiffness[index], c64::new(1.0, 0.0)),
             (&self.tangent.mass, &self.mass[index], -kappa),
@@ -172,33 +169,17 @@ impl<'a> TestSpace<'a> {
         for (matrices, tested, factor) in terms {
             for (k, matrix) in matrices.iter().enumerate() {
                 let plain = factor * unit[k] * weights[k];
-                for column in matrix.columns(row) {
-                    result[column] += plain * matrix.get(row, column);
+                for other in matrix.columns(place) {
+                    row[other] += plain * matrix.get(place, other);
+                    column[other] += plain * matrix.get(other, place);
                 }
                 let turned = factor * unit[k + 1] * weights[k + 1];
-                for (sum, value) in result.iter_mut().zip(&tested[k]) {
+                for (sum, value) in row.iter_mut().zip(&tested[k]) {
                     *sum += turned * *value;
                 }
             }
         }
-        result
-    }
-
-    /// Column `t` of `K - kappa M`.
-    fn column(&self, index: usize, weights: &[f64; 4], kappa: c64) -> Vec<c64> {
-        let column = self.tangential[index];
-        let unit = units();
-        let mut result = vec![ZERO; self.tangent.mass[0].dimension()];
-        let terms = [(&self.tangent.stiffness, c64::new(1.0, 0.0)), (&self.tangent.mass, -kappa)];
-        for (matrices, factor) in terms {
-            for (k, matrix) in matrices.iter().enumerate() {
-                let factor = factor * unit[k] * weights[k];
-                for row in matrix.columns(column) {
-                    result[row] += factor * matrix.get(row, column);
-                }
-            }
-        }
-        result
+        [row, column]
     }
 }
 
