@@ -6,15 +6,7 @@ use super::paths::HarmonicPaths;
 use super::problem::HarmonicProblem;
 use crate::cea::onset::{BranchSolver, instabilities};
 use crate::cea::{BranchPoint, ModeBranch};
-use crate::linalg::c64;
 use std::convert::Infallible;
-
-/// `theta` of the path that carries a wave of eigenvalue `lambda`.
-pub(super) fn path_theta(problem: &HarmonicProblem, is_backward: bool, lambda: c64) -> c64 {
-    let own =
-        if problem.is_proportional() { problem.tangent.rayleigh.kappa(lambda) } else { lambda };
-    if is_backward { own.conj() } else { own }
-}
 
 /// Everything needed to solve one branch again at any friction value.
 struct WaveSolver<'a> {
@@ -27,20 +19,11 @@ struct WaveSolver<'a> {
 pub(super) fn branches_of(paths: &HarmonicPaths, sliding_direction: f64) -> Vec<ModeBranch> {
     let mut branches = Vec::new();
     for path in &paths.paths {
-        for waves in waves_of(path.waves) {
+        for waves in path.waves.singly() {
             branches.push(branch_of(&paths.problem, path, *waves, sliding_direction));
         }
     }
     branches
-}
-
-/// The single waves that a path stands for.
-pub(super) fn waves_of(waves: Waves) -> &'static [Waves] {
-    match waves {
-        Waves::Both => &[Waves::Forward, Waves::Backward],
-        Waves::Forward => &[Waves::Forward],
-        Waves::Backward => &[Waves::Backward],
-    }
 }
 
 /// `U(r) e^{i n theta + lambda t}` with `Im(lambda) > 0` travels towards `-theta`: against a rotor that
@@ -54,20 +37,13 @@ pub(super) fn direction_of(problem: &HarmonicProblem, waves: Waves, sliding_dire
     }
 }
 
-/// `lambda` (`Im >= 0`) and `d lambda / d theta` of a wave, from the path's `theta`.
-pub(super) fn eigenvalue_of(problem: &HarmonicProblem, waves: Waves, theta: c64) -> (c64, c64) {
-    let own = if waves == Waves::Backward { theta.conj() } else { theta };
-    (problem.eigenvalue(own), problem.eigenvalue_slope(own))
-}
-
 /// A wave of a path at one of its points.
 pub(super) fn point_of(problem: &HarmonicProblem, waves: Waves, pair: &Eigenpair) -> BranchPoint {
-    let (eigenvalue, slope) = eigenvalue_of(problem, waves, pair.theta);
-    let rate = if waves == Waves::Backward { pair.rate.conj() } else { pair.rate };
+    let theta = waves.own(pair.theta);
     BranchPoint {
         friction_coefficient: pair.parameter,
-        eigenvalue,
-        rate: slope * rate,
+        eigenvalue: problem.eigenvalue(theta),
+        rate: problem.eigenvalue_slope(theta) * waves.own(pair.rate),
         residual: pair.residual,
     }
 }
@@ -111,7 +87,7 @@ impl BranchSolver for WaveSolver<'_> {
         guess: BranchPoint,
     ) -> Result<Option<BranchPoint>, Infallible> {
         let (problem, friction) = (self.problem, guess.friction_coefficient);
-        let theta = path_theta(problem, self.waves == Waves::Backward, guess.eigenvalue);
+        let theta = self.waves.own(problem.theta(guess.eigenvalue));
         let found = self.follower.find(&problem.at(friction), friction, theta);
         Ok(found.map(|found| point_of(problem, self.waves, &found)))
     }

@@ -1,6 +1,6 @@
 //! The modes at one friction value, from the followed branches.
 
-use super::branch::{direction_of, eigenvalue_of, waves_of};
+use super::branch::direction_of;
 use super::found::Wanted;
 use super::path::{Path, Waves};
 use super::paths::HarmonicPaths;
@@ -28,7 +28,7 @@ fn point(
     let mut modes = Vec::new();
     for paths in followed {
         for path in &paths.paths {
-            for &waves in waves_of(path.waves) {
+            for &waves in path.waves.singly() {
                 modes.extend(mode(tangent, (paths, path), waves, friction, wanted));
             }
         }
@@ -55,7 +55,7 @@ fn mode(
     let harmonic = problem.tangent.harmonic;
     let found = path.points.binary_search_by(|p| p.parameter.total_cmp(&friction)).ok()?;
     let pair = &path.points[found];
-    let (eigenvalue, _) = eigenvalue_of(problem, waves, pair.theta);
+    let eigenvalue = problem.eigenvalue(waves.own(pair.theta));
     if let ModeLimit::MaxFrequency(limit) = request.limit
         && eigenvalue.im > TAU * limit
     {

@@ -34,6 +34,22 @@ pub(super) enum Waves {
     Backward,
 }
 
+impl Waves {
+    /// The single waves that a path stands for.
+    pub fn singly(self) -> &'static [Self] {
+        match self {
+            Self::Both => &[Self::Forward, Self::Backward],
+            Self::Forward => &[Self::Forward],
+            Self::Backward => &[Self::Backward],
+        }
+    }
+
+    /// What belongs to this wave of what belongs to the wave `+n`, and the other way round.
+    pub fn own(self, value: c64) -> c64 {
+        if self == Self::Backward { value.conj() } else { value }
+    }
+}
+
 /// One branch of one harmonic.
 pub(super) struct Path {
     /// Rank among the harmonic's modes without friction; those that do not reach back there are numbered from 1000 on.

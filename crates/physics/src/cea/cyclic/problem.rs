@@ -212,10 +212,15 @@ impl HarmonicProblem {
         } else {
             (theta, 1.0)
         };
+        factor * largest(&force) / (self.size(at, lambda, x) * largest(x))
+    }
+
+    /// `|lambda|^2 |M| + |lambda| |C| + |K|`.
+    fn size(&self, at: &Matrices, lambda: c64, x: &[c64]) -> f64 {
         let [m, _, k] = at.norms;
         let c = self.damping_norm(at, x);
         let size = lambda.norm();
-        factor * largest(&force) / ((size * size * m + size * c + k) * largest(x))
+        size * size * m + size * c + k
     }
 
     /// How well rounded matrices determine an eigenvalue, see [`crate::cea::ComplexMode`].
@@ -229,11 +234,8 @@ impl HarmonicProblem {
         } else {
             [c64::new(1.0, 0.0); 2]
         };
-        let [m, _, k] = at.norms;
-        let c = self.damping_norm(at, &pair.x);
-        let size = lambda.norm();
-        let scale = size * size * m + size * c + k;
-        f64::EPSILON * scale / ((factor * slope / rate).norm() * size)
+        let scale = self.size(at, lambda, &pair.x);
+        f64::EPSILON * scale / ((factor * slope / rate).norm() * lambda.norm())
     }
 
     /// Largest row sum of `C`; in three dimensions each column counts as much as the vector has of it: the motion across the sliding
@@ -311,6 +313,11 @@ impl HarmonicProblem {
             return theta;
         }
         self.tangent.rayleigh.eigenvalue(theta)
+    }
+
+    /// `theta` of an eigenvalue `lambda` of the wave `+n`.
+    pub fn theta(&self, lambda: c64) -> c64 {
+        if self.is_proportional() { self.tangent.rayleigh.kappa(lambda) } else { lambda }
     }
 
     /// Whether the matrices are small full ones, of a harmonic in three dimensions.

@@ -1,6 +1,6 @@
 //! Right and left vectors of waves, and what small changes of the model do to their eigenvalues.
 
-use super::branch::{path_theta, point_of};
+use super::branch::point_of;
 use super::follow::Follower;
 use super::path::Waves;
 use super::problem::HarmonicProblem;
@@ -29,8 +29,8 @@ pub struct WavePair {
     pub eigenvalue: c64,
     /// `d lambda / d mu`, rad/s.
     pub derivative: c64,
-    /// Whether the branch is the wave `-n`: the complex conjugate of a root of the wave `+n`'s problem with `Im < 0`.
-    is_backward: bool,
+    /// Of the wave `-n` the eigenvalue is the complex conjugate of a root of the wave `+n`'s problem with `Im < 0`.
+    waves: Waves,
     /// The root of the wave `+n`.
     root: c64,
     right: Vec<c64>,
@@ -52,7 +52,8 @@ pub fn wave_pairs(tangent: &WaveTangent, wanted: &[(&ModeBranch, f64)]) -> Vec<O
     let direction = tangent.sliding_direction;
     let pair = |&(branch, friction): &(&ModeBranch, f64)| {
         let is_backward = f64::from(branch.direction) * direction > 0.0;
-        pair_of(&harmonics[&branch.harmonic], (branch, friction), is_backward)
+        let waves = if is_backward { Waves::Backward } else { Waves::Forward };
+        pair_of(&harmonics[&branch.harmonic], (branch, friction), waves)
     };
     crate::parallel::map(wanted, pair)
 }
@@ -121,13 +122,8 @@ impl WavePair {
         if self.own_slope != ZERO {
             step = own_frequency_step(step, self.own_slope);
         }
-        Some(of_wave(step, self.is_backward))
+        Some(self.waves.own(step))
     }
-}
-
-/// What belongs to a branch of what belongs to the wave `+n`, and the other way round.
-fn of_wave(value: c64, is_backward: bool) -> c64 {
-    if is_backward { value.conj() } else { value }
 }
 
 /// `y^H A x` of a band; changes are zero in most of it.
@@ -144,16 +140,15 @@ fn form(band: &[c64], h: usize, y: &[c64], x: &[c64]) -> c64 {
 fn pair_of(
     problem: &HarmonicProblem,
     (branch, friction): (&ModeBranch, f64),
-    is_backward: bool,
+    waves: Waves,
 ) -> Option<WavePair> {
     let start = branch.interpolate(friction)?;
-    let guess = path_theta(problem, is_backward, start);
+    let guess = waves.own(problem.theta(start));
     let found = Follower::new(problem).find(&problem.at(friction), friction, guess)?;
-    let waves = if is_backward { Waves::Backward } else { Waves::Forward };
     let BranchPoint { eigenvalue, rate, .. } = point_of(problem, waves, &found);
     // Not so of what is not a number.
     let is_it = (eigenvalue - start).norm() <= LOST * start.norm();
-    let (root, right, left) = (of_wave(eigenvalue, is_backward), found.x, found.y);
+    let (root, right, left) = (waves.own(eigenvalue), found.x, found.y);
     let at = problem.tangent.at(friction);
     let slope = dot(&left, &at.apply_slope(root, &right, false));
     let own = at.losses.iter().map(|(gain, band)| (gain.slope(root), band));
@@ -167,7 +162,7 @@ fn pair_of(
         friction_coefficient: friction,
         eigenvalue,
         derivative: rate,
-        is_backward,
+        waves,
         root,
         right,
         left,
