@@ -12,7 +12,6 @@ use std::convert::Infallible;
 struct WaveSolver<'a> {
     follower: Follower<'a>,
     waves: Waves,
-    problem: &'a HarmonicProblem,
 }
 
 /// Public branches of one harmonic with their unstable intervals.
@@ -61,7 +60,7 @@ fn branch_of(
         points: path.points.iter().map(|p| point_of(problem, waves, p)).collect(),
         intervals: Vec::new(),
     };
-    let mut solver = WaveSolver { follower: Follower::new(problem), waves, problem };
+    let mut solver = WaveSolver { follower: Follower::new(problem), waves };
     let Ok(found) = instabilities(&mut solver, &branch.points);
     let name = (branch.harmonic, branch.branch, branch.direction);
     branch.intervals = found.iter().map(|i| i.interval(name, |point| *point)).collect();
@@ -86,7 +85,7 @@ impl BranchSolver for WaveSolver<'_> {
         _: &BranchPoint,
         guess: BranchPoint,
     ) -> Result<Option<BranchPoint>, Infallible> {
-        let (problem, friction) = (self.problem, guess.friction_coefficient);
+        let (problem, friction) = (self.follower.problem, guess.friction_coefficient);
         let theta = self.waves.own(problem.theta(guess.eigenvalue));
         let found = self.follower.find(&problem.at(friction), friction, theta);
         Ok(found.map(|found| point_of(problem, self.waves, &found)))

@@ -17,7 +17,7 @@ const NEAR: f64 = 1e-2;
 const JUMPS: [f64; 4] = [1e-5, 1e-4, 1e-3, 1e-2];
 
 /// Carries path `index`, which cannot be followed any further towards `target`, and the path that it meets
-/// past their meeting; `false` where they do not meet.
+/// past their meeting; `None` where they do not meet.
 ///
 /// `approach` follows a path as far as it can towards a parameter; `matrices` gives the problem.
 pub(super) fn pass(
@@ -26,36 +26,25 @@ pub(super) fn pass(
     index: usize,
     target: f64,
     mut approach: impl FnMut(&mut Follower<'_>, &mut Vec<Eigenpair>, f64),
-) -> bool {
-    let Some(stuck) = paths[index].points.last().cloned() else {
-        return false;
-    };
+) -> Option<()> {
+    let stuck = paths[index].points.last()?.clone();
     let distance =
         |path: &Path| path.points.last().map_or(f64::INFINITY, |p| (p.theta - stuck.theta).norm());
     let others = (0..paths.len()).filter(|&other| other != index);
-    let Some(partner) = others.min_by(|&a, &b| distance(&paths[a]).total_cmp(&distance(&paths[b])))
-    else {
-        return false;
-    };
+    let partner = others.min_by(|&a, &b| distance(&paths[a]).total_cmp(&distance(&paths[b])))?;
     approach(follower, &mut paths[partner].points, stuck.parameter);
-    let Some(met) = paths[partner].points.last().cloned() else {
-        return false;
-    };
+    let met = paths[partner].points.last()?.clone();
     let gap = (met.theta - stuck.theta).norm();
     if gap > NEAR * stuck.theta.norm() || met.parameter > stuck.parameter {
-        return false;
+        return None;
     }
-    for jump in JUMPS {
+    let [first, second] = JUMPS.into_iter().find_map(|jump| {
         let beyond = (stuck.parameter + jump).min(target);
-        let at = follower.problem.at(beyond);
-        if let Some([first, second]) = pair_near(follower, &at, beyond, &stuck, &met) {
-            let (low, high) = (index.min(partner), index.max(partner));
-            paths[low].points.push(first);
-            paths[high].points.push(second);
-            return true;
-        }
-    }
-    false
+        pair_near(follower, &follower.problem.at(beyond), beyond, &stuck, &met)
+    })?;
+    paths[index.min(partner)].points.push(first);
+    paths[index.max(partner)].points.push(second);
+    Some(())
 }
 
 /// The two eigenpairs that continue `a` and `b`: real ones rising, or the conjugate pair with the
@@ -70,15 +59,13 @@ fn pair_near(
     let middle = 0.5 * (a.theta + b.theta);
     let guesses = invariant_pair(follower, at, middle, a, b)?;
     let found = guesses.map(|guess| follower.find(at, parameter, guess));
-    let [Some(first), Some(second)] = found else {
-        return None;
-    };
-    let separation = (first.theta - second.theta).norm();
-    if separation < 1e-6 * middle.norm() {
+    let [first, second] = found;
+    let (first, second) = (first?, second?);
+    let difference = first.theta - second.theta;
+    if difference.norm() < 1e-6 * middle.norm() {
         return None;
     }
     // Sideways when they are a conjugate pair, along the axis when they are real.
-    let difference = first.theta - second.theta;
     let is_pair = difference.im.abs() > difference.re.abs();
     let is_ordered = if is_pair { difference.im > 0.0 } else { difference.re < 0.0 };
     Some(if is_ordered { [first, second] } else { [second, first] })
@@ -97,10 +84,10 @@ fn invariant_pair(
     follower.factorize(at, shift);
     for _ in 0..4 {
         for x in &mut right {
-            *x = follower.solve(&problem.apply_slope(at, shift, x, false), false);
+            *x = follower.inverse_step(at, shift, x, false);
         }
         for y in &mut left {
-            *y = follower.solve(&problem.apply_slope(at, shift, y, true), true);
+            *y = follower.inverse_step(at, shift, y, true);
         }
         orthonormalize(&mut right);
         orthonormalize(&mut left);

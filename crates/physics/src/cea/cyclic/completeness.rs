@@ -53,23 +53,22 @@ pub(super) fn verify(
     let is_followed = |n: &usize| followed.iter().any(|paths| paths.problem.tangent.harmonic == *n);
     let others: Vec<usize> = (0..=tangent.largest_harmonic()).filter(|n| !is_followed(n)).collect();
     let tangential = tangent.tangential_unknowns();
+    let is_complete = |problem: &HarmonicProblem, paths: Option<&HarmonicPaths>| {
+        checks.iter().all(|&mu| missed(problem, paths, limit, region, mu) == Some(0))
+    };
     let verdicts: Vec<(usize, bool, bool)> = crate::parallel::map(others, |n| {
         let harmonic = tangent.harmonic(n);
         let is_proven = tangent.is_proportional()
             && definite::is_empty(&harmonic, &tangential, friction, region);
         let problem = HarmonicProblem::new(harmonic, tangent.is_standing(n));
-        let is_empty = is_proven
-            || checks.iter().all(|&mu| missed(&problem, None, limit, region, mu) == Some(0));
-        (n, is_proven, is_empty)
+        (n, is_proven, is_proven || is_complete(&problem, None))
     });
     let gaps: Vec<Option<usize>> = crate::parallel::map(followed, |paths| {
         // A small space has not the determinant of the harmonic.
         let n = paths.problem.tangent.harmonic;
-        let whole = || HarmonicProblem::new(tangent.harmonic(n), tangent.is_standing(n));
-        let whole = paths.space.as_ref().map(|_| whole());
+        let whole = paths.space.as_ref().map(|_| HarmonicProblem::of(tangent, n));
         let problem = whole.as_ref().unwrap_or(&paths.problem);
-        let is_complete = |&mu: &f64| missed(problem, Some(paths), limit, region, mu) == Some(0);
-        (!checks.iter().all(is_complete)).then_some(n)
+        (!is_complete(problem, Some(paths))).then_some(n)
     });
     let pick = |proven: bool| {
         let chosen = verdicts.iter().filter(|v| v.1 == proven && v.2);

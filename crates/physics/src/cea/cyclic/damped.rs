@@ -5,9 +5,8 @@
 //! computed at every friction coefficient; branches are what leads from one to the next.
 
 use super::follow::{Follower, StepControl};
-use super::found::Overdamped;
 use super::path::{Eigenpair, Path, Waves};
-use super::paths::{HarmonicPaths, describe, start};
+use super::paths::{HarmonicPaths, Overdamped, Range, describe, start};
 use super::problem::{HarmonicProblem, Matrices};
 use crate::cea::CeaError;
 use crate::cea::counted::NEARLY_CRITICAL;
@@ -33,26 +32,16 @@ const QUOTIENTS: usize = 4;
 /// with the model, and with it names would.
 const FIRST_BORN: usize = 1000;
 
-/// What is to be found of a harmonic.
-pub(super) struct Range<'a> {
-    /// Rising friction coefficients.
-    pub grid: &'a [f64],
-    /// Those of them at which vectors are kept.
-    pub kept: &'a [f64],
-    /// Largest modulus of the eigenvalues, rad/s.
-    pub largest: f64,
-}
-
 /// Branches of a harmonic, starting from these `(kappa, x)` at rest, complete at every friction coefficient of the range.
 pub(super) fn follow_damped(
     problem: HarmonicProblem,
     pairs: &[(f64, Vec<f64>)],
     range: &Range<'_>,
-) -> Result<(HarmonicPaths, Vec<Overdamped>), CeaError> {
+) -> Result<HarmonicPaths, CeaError> {
     let mut course = Course {
         problem: &problem,
         follower: Follower::new(&problem),
-        largest: range.largest,
+        largest: range.margin.sqrt(),
         paths: Vec::new(),
         next_branch: (pairs.len() + 1).max(FIRST_BORN),
     };
@@ -69,9 +58,7 @@ pub(super) fn follow_damped(
     }
     let factorizations = course.follower.factorizations;
     let paths = course.paths.into_iter().map(|tracked| tracked.path).collect();
-    let at_rest = pairs.iter().map(|pair| pair.0).collect();
-    let followed = HarmonicPaths { paths, at_rest, problem, factorizations, space: None };
-    Ok((followed, overdamped))
+    Ok(HarmonicPaths { overdamped, ..HarmonicPaths::new(problem, paths, pairs, factorizations) })
 }
 
 /// A branch and how far it has come.
@@ -96,6 +83,7 @@ impl Tracked {
 struct Course<'a> {
     problem: &'a HarmonicProblem,
     follower: Follower<'a>,
+    /// Largest modulus of the eigenvalues, rad/s.
     largest: f64,
     paths: Vec<Tracked>,
     next_branch: usize,
@@ -151,8 +139,9 @@ impl Course<'_> {
                 }
             }
         }
-        let slow = all.iter().filter(|value| self.is_overdamped(value));
-        Ok(self.overdamped(friction, slow.chain(&creeping)))
+        let slow = all.iter().filter(|value| self.is_overdamped(value)).chain(&creeping);
+        let slow = slow.filter(|value| value.norm() <= self.largest);
+        Ok(Overdamped::joined(friction, slow.map(|value| Overdamped::one(friction, -value.re))))
     }
 
     /// Eigenvalues with the stiffness of their own frequencies: those that branches have come to, and what others with the
@@ -242,20 +231,6 @@ impl Course<'_> {
     /// Whether a motion that no branch has come to decays without oscillating, or creeps.
     fn is_overdamped(&self, value: &c64) -> bool {
         self.problem.is_ending(*value) || value.norm() < CREEP * self.largest
-    }
-
-    /// The `slow` motions up to the bound.
-    fn overdamped<'a>(&self, friction: f64, slow: impl Iterator<Item = &'a c64>) -> Overdamped {
-        let rates: Vec<f64> =
-            slow.filter(|value| value.norm() <= self.largest).map(|value| -value.re).collect();
-        Overdamped {
-            friction_coefficient: friction,
-            count: rates.len(),
-            decay: [
-                rates.iter().copied().fold(f64::INFINITY, f64::min),
-                rates.iter().copied().fold(0.0, f64::max),
-            ],
-        }
     }
 
     /// What is listed at a friction coefficient.

@@ -61,11 +61,9 @@ impl<'a> Follower<'a> {
             self.factorize(at, theta);
             // The second pair of solves costs a third of a factorization and saves most of one.
             for _ in 0..2 {
-                x = self.problem.apply_slope(at, theta, &x, false);
-                self.lu.solve(&mut x);
+                x = self.inverse_step(at, theta, &x, false);
                 normalize(&mut x);
-                y = self.problem.apply_slope(at, theta, &y, true);
-                self.lu.solve_adjoint(&mut y);
+                y = self.inverse_step(at, theta, &y, true);
                 normalize(&mut y);
             }
             let (next, slope) = self.problem.rayleigh_quotient(at, theta, &x, &y);
@@ -89,38 +87,27 @@ impl<'a> Follower<'a> {
                     continue;
                 }
                 let rate = self.problem.rate_of(at, theta, &x, &y, slope);
-                return Some(Eigenpair {
-                    parameter,
-                    theta,
-                    rate,
-                    x,
-                    y,
-                    residual,
-                    contact_share: f64::NAN,
-                    axial_share: f64::NAN,
-                    uncertainty: f64::NAN,
-                });
+                return Some(Eigenpair::new(parameter, [theta, rate], [x, y], residual));
             }
         }
         None
     }
 
-    /// Factorizes `T(theta)` for [`Self::solve`].
+    /// Factorizes `T(theta)` for [`Self::inverse_step`].
     pub fn factorize(&mut self, at: &Matrices, theta: c64) {
         self.problem.assemble(at, theta, &mut self.values);
         self.lu.factorize(&self.values);
         self.factorizations += 1;
     }
 
-    /// `T^-1 b` or `T^-H b` with the last factorization.
-    pub fn solve(&self, b: &[c64], adjoint: bool) -> Vec<c64> {
-        let mut x = b.to_vec();
-        if adjoint {
-            self.lu.solve_adjoint(&mut x);
-        } else {
-            self.lu.solve(&mut x);
+    /// `T^-1 T' x`, or `T^-H T'^H x`, with the last factorization.
+    pub fn inverse_step(&self, at: &Matrices, theta: c64, x: &[c64], adjoint: bool) -> Vec<c64> {
+        let mut image = self.problem.apply_slope(at, theta, x, adjoint);
+        match adjoint {
+            true => self.lu.solve_adjoint(&mut image),
+            false => self.lu.solve(&mut image),
         }
-        x
+        image
     }
 
     /// Eigenpair nearest to an accurate guess, without vectors to start from.
@@ -138,17 +125,9 @@ impl<'a> Follower<'a> {
     pub fn at_rest(&self, at: &Matrices, theta: c64, x: Vec<c64>) -> Eigenpair {
         let y: Vec<c64> = x.iter().map(|v| v.conj()).collect();
         let (_, slope) = self.problem.rayleigh_quotient(at, theta, &x, &y);
-        Eigenpair {
-            parameter: 0.0,
-            theta,
-            rate: self.problem.rate_of(at, theta, &x, &y, slope),
-            residual: self.problem.residual(at, theta, &x),
-            contact_share: f64::NAN,
-            axial_share: f64::NAN,
-            uncertainty: f64::NAN,
-            x,
-            y,
-        }
+        let rate = self.problem.rate_of(at, theta, &x, &y, slope);
+        let residual = self.problem.residual(at, theta, &x);
+        Eigenpair::new(0.0, [theta, rate], [x, y], residual)
     }
 
     /// Follows `path` (its last point) up to `target`, appending every accepted point; `matrices` gives

@@ -2,13 +2,10 @@
 
 use super::branch::branches_of;
 use super::completeness::Verdict;
-use super::paths::HarmonicPaths;
-use crate::cea::{ComplexMode, FrictionPoint, FrictionSweep, ModeBranch, SweepRequest};
+use super::paths::{HarmonicPaths, Overdamped};
+use crate::cea::{CeaError, ComplexMode, FrictionPoint, FrictionSweep, ModeBranch, SweepRequest};
 use crate::prestress::WaveTangent;
 use std::f64::consts::TAU;
-
-/// Branches are followed from this much above the highest frequency wanted: friction may carry a mode down into the range.
-pub(super) const MARGIN: f64 = 1.2;
 
 /// Which harmonics were solved, and why no other can matter.
 #[derive(Clone, Debug, PartialEq)]
@@ -30,18 +27,6 @@ pub struct Coverage {
     pub factorizations: usize,
     /// Whether modes were counted with friction, too; else at rest alone.
     pub is_verified: bool,
-}
-
-/// Motions that hardly oscillate as they decay, at one friction coefficient.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Overdamped {
-    /// Friction coefficient `mu`.
-    pub friction_coefficient: f64,
-    /// Number of motions: real eigenvalues, those with a frequency below a tenth of their size, creep of the contact, and
-    /// those beyond half of critical damping whose vectors it hides.
-    pub count: usize,
-    /// Their slowest and fastest decay, 1/s.
-    pub decay: [f64; 2],
 }
 
 /// A sweep with everything that the symmetry reveals.
@@ -71,10 +56,17 @@ pub(super) struct Wanted<'a> {
     /// Friction coefficients at which the waves of one sector are kept.
     pub waves_at: &'a [f64],
     /// All friction coefficients, rising.
-    pub grid: &'a [f64],
+    pub grid: Vec<f64>,
 }
 
-impl Wanted<'_> {
+impl<'a> Wanted<'a> {
+    /// Refuses friction coefficients and limits that are none.
+    pub fn new(request: &'a SweepRequest<'a>, waves_at: &'a [f64]) -> Result<Self, CeaError> {
+        let grid = request.rising_grid()?;
+        request.limit.check()?;
+        Ok(Self { request, waves_at, grid })
+    }
+
     /// Friction coefficients at which vectors are kept.
     pub fn kept(&self) -> Vec<f64> {
         [self.request.shapes_at, self.waves_at].concat()
@@ -89,14 +81,18 @@ pub(super) struct Found {
     pub limit: f64,
     /// Frequency up to which branches were followed from rest, rad/s.
     pub margin: f64,
-    pub reduction_error: f64,
-    pub overdamped: Vec<Overdamped>,
 }
 
 impl Found {
-    /// The sweep of what was found, with what is known about the other harmonics.
-    pub fn sweep(self, tangent: WaveTangent, verdict: Verdict, is_verified: bool) -> WaveSweep {
-        let Self { followed, points, limit, margin, reduction_error, overdamped } = self;
+    /// The sweep of what was found over friction coefficients `grid`, with what is known about the other harmonics.
+    pub fn sweep(
+        self,
+        tangent: WaveTangent,
+        grid: &[f64],
+        verdict: Verdict,
+        is_verified: bool,
+    ) -> WaveSweep {
+        let Self { followed, points, limit, margin } = self;
         let coverage = Coverage {
             largest_harmonic: tangent.largest_harmonic(),
             followed: followed.iter().map(|paths| paths.problem.tangent.harmonic).collect(),
@@ -108,20 +104,26 @@ impl Found {
             is_verified,
         };
         let (sweep, branches) = together(points, &followed, tangent.sliding_direction);
-        let dofs = match tangent.components {
-            2 => tangent.unknowns().len(),
-            _ => tangent.dof_count(),
+        let (dofs, overdamped) = match tangent.components {
+            2 => (tangent.unknowns().len(), Vec::new()),
+            _ => (tangent.dof_count(), grid.iter().map(|mu| overdamped(&followed, *mu)).collect()),
         };
         WaveSweep {
             sweep,
             branches,
             coverage,
             dofs: dofs * tangent.sector_count(),
-            reduction_error,
+            reduction_error: followed.iter().map(|paths| paths.reduction_error).fold(0.0, f64::max),
             overdamped,
             tangent,
         }
     }
+}
+
+/// The overdamped motions of all harmonics at one friction coefficient.
+fn overdamped(followed: &[HarmonicPaths], friction: f64) -> Overdamped {
+    let all = followed.iter().flat_map(|paths| &paths.overdamped).copied();
+    Overdamped::joined(friction, all.filter(|own| own.friction_coefficient == friction))
 }
 
 /// A sweep of its points and the paths that they are of, and the branches that have one of the modes.

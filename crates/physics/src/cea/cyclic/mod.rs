@@ -6,7 +6,7 @@
 //! none is missed. Then each mode is followed continuously over the friction coefficient by two-sided Rayleigh quotient
 //! iteration.
 //!
-//! A harmonic of the plane annulus has a narrow band and is followed as it stands (`proven`). One in three dimensions has some
+//! A harmonic of the plane annulus has a narrow band and is followed as it stands (`paths`). One in three dimensions has some
 //! thousand unknowns, too many to factorize for every mode and friction coefficient. Friction acts on the few nodes of the
 //! contact. So the harmonic is first reduced to its modes at rest and to what the contact causes (`reduced`). Structural damping
 //! goes that way in the plane, too: eigenvalues of the small space are refined over all unknowns. Where friction damps the motion
@@ -26,15 +26,13 @@ mod path;
 mod paths;
 mod pencil;
 mod problem;
-mod proven;
 mod reduced;
 mod reduction;
-mod reduction_error;
 mod refined;
 mod sensitivity;
 mod sweep;
 
-pub use found::{Coverage, Overdamped, WaveSweep};
-pub use proven::onsets;
+pub use found::{Coverage, WaveSweep};
+pub use paths::Overdamped;
 pub use sensitivity::{Beside, WavePair, wave_pairs, wave_responses};
-pub use sweep::{sweep, wave_sweep};
+pub use sweep::{onsets, sweep, wave_sweep};

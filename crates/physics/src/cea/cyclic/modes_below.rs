@@ -114,24 +114,19 @@ pub(super) fn modes_below(
     let (mut n, mut in_a_row, mut step) = (0, 0, 1);
     while n <= largest {
         // Several harmonics side by side.
-        let batch: Vec<usize> = (0..if step == 1 { BATCH } else { 1 })
-            .map(|k| n + k)
-            .filter(|n| *n <= largest)
-            .collect();
-        let own = batch.iter().map(|&n| (n, known.get_mut(n).and_then(Option::take)));
-        let with_known: Vec<_> = own.collect();
+        let last = if step == 1 { (n + BATCH - 1).min(largest) } else { n };
+        let own = (n..=last).map(|n| (n, known.get_mut(n).and_then(Option::take)));
         let found: Result<Vec<Option<AtRest>>, CeaError> =
-            crate::parallel::map(with_known, |own| at_rest(tangent, own, kappa));
-        for (&n, found) in batch.iter().zip(found?) {
+            crate::parallel::map(own, |own| at_rest(tangent, own, kappa));
+        for (n, found) in (n..=last).zip(found?) {
             in_a_row = if found.is_some() { 0 } else { in_a_row + 1 };
             if found.is_none() {
                 empty.push(n);
             }
             all.extend(found);
         }
-        n = batch[batch.len() - 1];
-        step = if in_a_row >= EMPTY { 1 + n / 2 } else { 1 };
-        n = if n < largest { (n + step).min(largest) } else { n + 1 };
+        step = if in_a_row >= EMPTY { 1 + last / 2 } else { 1 };
+        n = if last < largest { (last + step).min(largest) } else { last + 1 };
     }
     Ok((all, empty))
 }

@@ -23,6 +23,19 @@ pub(super) struct Eigenpair {
     pub uncertainty: f64,
 }
 
+impl Eigenpair {
+    /// One of which the rest is not known yet, from `theta` and its rate, right and left vector.
+    pub fn new(
+        parameter: f64,
+        [theta, rate]: [c64; 2],
+        [x, y]: [Vec<c64>; 2],
+        residual: f64,
+    ) -> Self {
+        let [contact_share, axial_share, uncertainty] = [f64::NAN; 3];
+        Self { parameter, theta, rate, x, y, residual, contact_share, axial_share, uncertainty }
+    }
+}
+
 /// Which waves a path stands for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Waves {

@@ -19,9 +19,73 @@ pub(super) struct HarmonicPaths {
     pub factorizations: usize,
     /// The small space of their vectors; `None` where they are over all unknowns.
     pub space: Option<Reduction>,
+    /// What that leaves out of an eigenvalue, relative to it: the largest estimate at the largest friction coefficient.
+    pub reduction_error: f64,
+    /// What does not oscillate, where that was looked for: at each friction coefficient.
+    pub overdamped: Vec<Overdamped>,
+}
+
+/// Motions that hardly oscillate as they decay, at one friction coefficient.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Overdamped {
+    /// Friction coefficient `mu`.
+    pub friction_coefficient: f64,
+    /// Number of motions: real eigenvalues, those with a frequency below a tenth of their size, creep of the contact, and
+    /// those beyond half of critical damping whose vectors it hides.
+    pub count: usize,
+    /// Their slowest and fastest decay, 1/s.
+    pub decay: [f64; 2],
+}
+
+impl Overdamped {
+    /// One motion.
+    pub(super) fn one(friction_coefficient: f64, decay: f64) -> Self {
+        Self { friction_coefficient, count: 1, decay: [decay; 2] }
+    }
+
+    /// All of these at one friction coefficient.
+    pub(super) fn joined(friction_coefficient: f64, all: impl Iterator<Item = Self>) -> Self {
+        let none = Self { friction_coefficient, count: 0, decay: [f64::INFINITY, 0.0] };
+        all.fold(none, |sum, own| Self {
+            count: sum.count + own.count,
+            decay: [sum.decay[0].min(own.decay[0]), sum.decay[1].max(own.decay[1])],
+            ..sum
+        })
+    }
+}
+
+/// What is to be found of a harmonic.
+pub(super) struct Range<'a> {
+    /// Rising friction coefficients.
+    pub grid: &'a [f64],
+    /// Those of them at which vectors are kept.
+    pub kept: &'a [f64],
+    /// `kappa` at rest up to which modes are wanted ...
+    pub wanted: f64,
+    /// ... and up to which they are followed.
+    pub margin: f64,
+}
+
+impl Range<'_> {
+    /// The largest friction coefficient.
+    pub fn highest_friction(&self) -> f64 {
+        self.grid[self.grid.len() - 1]
+    }
 }
 
 impl HarmonicPaths {
+    /// Paths over all unknowns of their problem, from these `(kappa, x)` at rest.
+    pub fn new(
+        problem: HarmonicProblem,
+        paths: Vec<Path>,
+        pairs: &[(f64, Vec<f64>)],
+        factorizations: usize,
+    ) -> Self {
+        let at_rest = pairs.iter().map(|pair| pair.0).collect();
+        let (space, reduction_error, overdamped) = (None, 0.0, Vec::new());
+        Self { problem, paths, at_rest, factorizations, space, reduction_error, overdamped }
+    }
+
     /// A vector of a path over all unknowns.
     pub fn unknowns(&self, x: &[c64]) -> Vec<c64> {
         self.space.as_ref().map_or_else(|| x.to_vec(), |space| space.expand(x))
@@ -34,26 +98,24 @@ impl HarmonicPaths {
     }
 }
 
-/// Follows the branches with these `(kappa, x)` at rest through the rising friction values `grid`; points of `kept` keep their vectors.
+/// Follows the branches with these `(kappa, x)` at rest. They end early where one stops to oscillate: see
+/// [`HarmonicPaths::are_whole`].
 pub(super) fn follow_pairs(
     problem: HarmonicProblem,
     pairs: &[(f64, Vec<f64>)],
-    grid: &[f64],
-    kept: &[f64],
+    range: &Range<'_>,
 ) -> Result<HarmonicPaths, CeaError> {
     let mut follower = Follower::new(&problem);
-    let paths = follow_all(&mut follower, pairs, grid, kept, StepControl::NORMAL)
-        .or_else(|_| follow_all(&mut follower, pairs, grid, kept, StepControl::FINE))?;
+    let paths = follow_all(&mut follower, pairs, range, StepControl::NORMAL)
+        .or_else(|_| follow_all(&mut follower, pairs, range, StepControl::FINE))?;
     let factorizations = follower.factorizations;
-    let at_rest = pairs.iter().map(|pair| pair.0).collect();
-    Ok(HarmonicPaths { paths, at_rest, problem, factorizations, space: None })
+    Ok(HarmonicPaths::new(problem, paths, pairs, factorizations))
 }
 
 fn follow_all(
     follower: &mut Follower<'_>,
     pairs: &[(f64, Vec<f64>)],
-    grid: &[f64],
-    kept: &[f64],
+    range: &Range<'_>,
     control: StepControl,
 ) -> Result<Vec<Path>, CeaError> {
     let problem = follower.problem;
@@ -65,7 +127,7 @@ fn follow_all(
     for (branch, (kappa, shape)) in (1..).zip(pairs) {
         paths.extend(start(follower, &at_rest, branch, *kappa, shape).ok_or_else(|| lost(0.0))?);
     }
-    for &friction in grid {
+    for &friction in range.grid {
         // Most branches reach the grid value in one step and share its matrices.
         let shared = Rc::new(problem.at(friction));
         let mut matrices = |value: f64| {
@@ -73,34 +135,32 @@ fn follow_all(
         };
         let reached: Vec<usize> = paths.iter().map(|path| path.points.len()).collect();
         for index in 0..paths.len() {
-            if has_ended(&paths[index]) {
-                continue;
-            }
             while !follower.advance(&mut paths[index].points, friction, control, &mut matrices) {
                 if has_ended(&paths[index]) {
-                    break;
+                    return Ok(paths);
                 }
                 // In three dimensions smaller steps since the last value mostly do, where small ones all along cost many times more.
                 if problem.is_reduced() && control != StepControl::FINE {
                     let points = &mut paths[index].points;
                     points.truncate(reached[index]);
-                    if follower.advance(points, friction, StepControl::FINE, &mut matrices)
-                        || has_ended(&paths[index])
-                    {
+                    if follower.advance(points, friction, StepControl::FINE, &mut matrices) {
                         break;
+                    }
+                    if has_ended(&paths[index]) {
+                        return Ok(paths);
                     }
                 }
                 let approach = |follower: &mut Follower<'_>, points: &mut Vec<_>, target: f64| {
                     follower.advance(points, target, control, &mut matrices);
                 };
                 let may_meet = problem.is_standing && problem.is_proportional();
-                if !may_meet || !collision::pass(follower, &mut paths, index, friction, approach) {
-                    return Err(lost(friction));
-                }
+                let passed = may_meet
+                    .then(|| collision::pass(follower, &mut paths, index, friction, approach));
+                passed.flatten().ok_or_else(|| lost(friction))?;
             }
         }
         for path in &mut paths {
-            describe(problem, &shared, &mut path.points, kept);
+            describe(problem, &shared, &mut path.points, range.kept);
         }
         if !are_distinct(&paths) {
             return Err(lost(friction));

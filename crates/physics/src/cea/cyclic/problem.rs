@@ -6,7 +6,9 @@ use crate::cea::vectors::{ZERO, add, dot, largest, product};
 use crate::fem::own_frequency_step;
 use crate::linalg::banded::{BandedLu, BandedMatrix, multiply_band};
 use crate::linalg::{Mat, c64};
-use crate::prestress::{FrictionPolynomial, HarmonicTangent, MovingHarmonic, evaluate};
+use crate::prestress::{
+    FrictionPolynomial, HarmonicTangent, MovingHarmonic, WaveTangent, evaluate,
+};
 
 pub(super) const I: c64 = c64::new(0.0, 1.0);
 
@@ -27,7 +29,7 @@ pub(super) struct HarmonicProblem {
 /// The matrices at one friction value and their derivatives with respect to it, as bands of values.
 #[derive(Clone)]
 pub(super) struct Matrices {
-    now: MovingHarmonic,
+    pub now: MovingHarmonic,
     /// Of `M`, `C`, `K`, and of each loss.
     rates: [Option<Vec<c64>>; 3],
     loss_rates: Vec<Option<Vec<c64>>>,
@@ -52,6 +54,11 @@ impl HarmonicProblem {
             half_bandwidth: tangent.mass[0].half_bandwidth(),
             tangent,
         }
+    }
+
+    /// That of harmonic `n` of a body, over all its unknowns.
+    pub fn of(tangent: &WaveTangent, n: usize) -> Self {
+        Self::new(tangent.harmonic(n), tangent.is_standing(n))
     }
 
     pub fn is_proportional(&self) -> bool {
@@ -167,13 +174,18 @@ impl HarmonicProblem {
         &self,
         at: &Matrices,
         theta: c64,
-        [x, y]: [&[c64]; 2],
+        vectors: [&[c64]; 2],
         (step, slope): (c64, c64),
     ) -> Option<c64> {
+        Some(own_frequency_step(step, self.own_slope(at, theta, vectors)? / slope))
+    }
+
+    /// `y^H (dK / d theta) x` of stiffness that follows its eigenvalue; `None` without tables.
+    pub fn own_slope(&self, at: &Matrices, theta: c64, [x, y]: [&[c64]; 2]) -> Option<c64> {
         let tabled = at.now.losses.iter().map(|(gain, own)| (gain.slope(theta), own));
         let tabled = tabled.filter(|(rate, _)| *rate != ZERO);
         let own = tabled.map(|(rate, values)| dot(y, &self.multiply(values, rate, x, false)));
-        Some(own_frequency_step(step, own.reduce(|sum, own| sum + own)? / slope))
+        own.reduce(|sum, own| sum + own)
     }
 
     /// `d theta / d parameter = -y^H (dT) x / y^H T' x`.
@@ -278,33 +290,28 @@ impl HarmonicProblem {
 
     /// Kinetic energy of the contact edge's nodes over the whole, see [`crate::cea::ComplexMode`].
     pub fn contact_share(&self, x: &[c64]) -> f64 {
-        if let Some([contact, _]) = &self.tangent.shares {
-            return self.share(contact, x);
+        let HarmonicTangent { shares, mass, contact, .. } = &self.tangent;
+        match shares {
+            Some([contact, _]) => self.share(x, |x| energy(contact, x)),
+            None => self.share(x, |x| {
+                let momentum = mass[0].multiply(x);
+                contact.iter().map(|&k| x[k] * momentum[k]).sum()
+            }),
         }
-        let part = |of: fn(&c64) -> f64| {
-            let x: Vec<f64> = x.iter().map(of).collect();
-            let momentum = self.tangent.mass[0].multiply(&x);
-            let energy = |k: usize| x[k] * momentum[k];
-            let contact = self.tangent.contact.iter().map(|&k| energy(k)).sum::<f64>();
-            [contact, (0..x.len()).map(energy).sum::<f64>()]
-        };
-        let (real, imaginary) = (part(|v| v.re), part(|v| v.im));
-        (real[0] + imaginary[0]) / (real[1] + imaginary[1])
     }
 
     /// Kinetic energy of axial motion over the whole; not a number in the plane.
     pub fn axial_share(&self, x: &[c64]) -> f64 {
-        self.tangent.shares.as_ref().map_or(f64::NAN, |[_, axial]| self.share(axial, x))
+        let axial = self.tangent.shares.as_ref().map(|[_, axial]| axial);
+        axial.map_or(f64::NAN, |axial| self.share(x, |x| energy(axial, x)))
     }
 
-    /// `Re(x^H F x) / x^H M x`.
-    fn share(&self, form: &BandedMatrix, x: &[c64]) -> f64 {
-        let value = |matrix: &BandedMatrix, part: fn(&c64) -> f64| {
-            let x: Vec<f64> = x.iter().map(part).collect();
-            x.iter().zip(matrix.multiply(&x)).map(|(a, b)| a * b).sum::<f64>()
-        };
-        let both = |matrix: &BandedMatrix| value(matrix, |v| v.re) + value(matrix, |v| v.im);
-        both(form) / both(&self.tangent.mass[0])
+    /// A part of the kinetic energy, of real and imaginary part alone, over the whole.
+    fn share(&self, x: &[c64], part: impl Fn(&[f64]) -> f64) -> f64 {
+        let real: Vec<f64> = x.iter().map(|v| v.re).collect();
+        let imaginary: Vec<f64> = x.iter().map(|v| v.im).collect();
+        let whole = |x: &[f64]| energy(&self.tangent.mass[0], x);
+        (part(&real) + part(&imaginary)) / (whole(&real) + whole(&imaginary))
     }
 
     /// `lambda` with `Im >= 0` of the wave `+n`.
@@ -369,6 +376,11 @@ impl HarmonicProblem {
     pub fn workspace(&self) -> BandedLu {
         BandedLu::new(self.dimension, self.half_bandwidth)
     }
+}
+
+/// `x^T F x`.
+fn energy(form: &BandedMatrix, x: &[f64]) -> f64 {
+    x.iter().zip(form.multiply(x)).map(|(a, b)| a * b).sum()
 }
 
 /// `dP / d mu = i dP / dz`; `None` where it vanishes identically.

@@ -4,7 +4,7 @@
 
 use super::follow::Follower;
 use super::path::Eigenpair;
-use super::paths::{HarmonicPaths, are_distinct, describe};
+use super::paths::{HarmonicPaths, Range, are_distinct, describe};
 use super::problem::HarmonicProblem;
 use crate::cea::CeaError;
 use crate::linalg::banded::BandedMatrix;
@@ -35,14 +35,13 @@ pub(super) fn of_all_unknowns(
     HarmonicProblem::new(HarmonicTangent { shares, ..harmonic }, is_standing)
 }
 
-/// Every point of the branches that come below `|lambda| = largest`, solved in `problem`; those at the friction coefficients `kept`
-/// have vectors.
+/// Every point of the branches that come below the margin of the range, solved in `problem`.
 pub(super) fn refined(
     mut small: HarmonicPaths,
     problem: HarmonicProblem,
-    (kept, largest): (&[f64], f64),
+    range: &Range<'_>,
 ) -> Result<HarmonicPaths, CeaError> {
-    let mut follower = Follower::new(&problem);
+    let (mut follower, largest) = (Follower::new(&problem), range.margin.sqrt());
     let lost = |guess: &Eigenpair| {
         CeaError::unrefined(problem.tangent.harmonic, guess.parameter, guess.theta)
     };
@@ -67,7 +66,7 @@ pub(super) fn refined(
                 None if matters(guess.theta) => return Err(lost(guess)),
                 None => break,
             }
-            describe(&problem, &at, &mut points, kept);
+            describe(&problem, &at, &mut points, range.kept);
         }
         path.points = points;
     }

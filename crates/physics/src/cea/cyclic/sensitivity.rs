@@ -9,7 +9,7 @@ use crate::cea::{BranchPoint, ModeBranch};
 use crate::fem::own_frequency_step;
 use crate::linalg::c64;
 use crate::prestress::{HarmonicTangent, MovingHarmonic, WaveTangent};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Distance relative to an eigenvalue from that of its branch above which it is another's: small spaces leave out far less.
 const LOST: f64 = 1e-3;
@@ -37,18 +37,16 @@ pub struct WavePair {
     left: Vec<c64>,
     /// `y^H (2 lambda M + C) x`.
     slope: c64,
-    /// `y^H (dK / d omega) x` of stiffness that depends on frequency, over that.
-    own_slope: c64,
+    /// `y^H (dK / d lambda) x` of stiffness that depends on frequency, over that.
+    own_slope: Option<c64>,
 }
 
 /// The eigenpairs of branches, each at a friction coefficient: `None` where the branch does not oscillate there, and where
 /// Rayleigh quotient iteration does not find its eigenvalue again.
 pub fn wave_pairs(tangent: &WaveTangent, wanted: &[(&ModeBranch, f64)]) -> Vec<Option<WavePair>> {
-    let numbers = wanted.iter().map(|(branch, _)| (branch.harmonic, ()));
-    let numbers: BTreeMap<usize, ()> = numbers.collect();
-    let problem = |n| (n, HarmonicProblem::new(tangent.harmonic(n), tangent.is_standing(n)));
+    let numbers: BTreeSet<usize> = wanted.iter().map(|(branch, _)| branch.harmonic).collect();
     let harmonics: BTreeMap<usize, HarmonicProblem> =
-        crate::parallel::map(numbers, |(n, ())| problem(n));
+        crate::parallel::map(numbers, |n| (n, HarmonicProblem::of(tangent, n)));
     let direction = tangent.sliding_direction;
     let pair = |&(branch, friction): &(&ModeBranch, f64)| {
         let is_backward = f64::from(branch.direction) * direction > 0.0;
@@ -118,11 +116,9 @@ impl WavePair {
         let [mass, damping, stiffness] =
             [&change.mass[..], &change.damping, &change.stiffness_at(self.root)].map(form);
         let changed = self.root * (self.root * mass + damping) + stiffness;
-        let mut step = -changed / self.slope;
-        if self.own_slope != ZERO {
-            step = own_frequency_step(step, self.own_slope);
-        }
-        Some(self.waves.own(step))
+        let step = -changed / self.slope;
+        let own = self.own_slope.map(|own| own_frequency_step(step, own));
+        Some(self.waves.own(own.unwrap_or(step)))
     }
 }
 
@@ -144,17 +140,14 @@ fn pair_of(
 ) -> Option<WavePair> {
     let start = branch.interpolate(friction)?;
     let guess = waves.own(problem.theta(start));
-    let found = Follower::new(problem).find(&problem.at(friction), friction, guess)?;
+    let at = problem.at(friction);
+    let found = Follower::new(problem).find(&at, friction, guess)?;
     let BranchPoint { eigenvalue, rate, .. } = point_of(problem, waves, &found);
     // Not so of what is not a number.
     let is_it = (eigenvalue - start).norm() <= LOST * start.norm();
     let (root, right, left) = (waves.own(eigenvalue), found.x, found.y);
-    let at = problem.tangent.at(friction);
-    let slope = dot(&left, &at.apply_slope(root, &right, false));
-    let own = at.losses.iter().map(|(gain, band)| (gain.slope(root), band));
-    let own = own.filter(|(rate, _)| *rate != ZERO);
-    let own = own.map(|(rate, band)| rate * form(band, at.half_bandwidth, &left, &right));
-    let own_slope = own.fold(ZERO, |sum, own| sum + own) / slope;
+    let slope = dot(&left, &at.now.apply_slope(root, &right, false));
+    let own_slope = problem.own_slope(&at, root, [&right, &left]).map(|own| own / slope);
     is_it.then_some(WavePair {
         harmonic: branch.harmonic,
         branch: branch.branch,

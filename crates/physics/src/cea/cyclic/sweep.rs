@@ -1,12 +1,24 @@
 //! A sweep over the friction coefficient.
 
-use super::found::{Wanted, WaveSweep};
-use super::{proven, reduced};
-use crate::cea::{CeaError, SweepRequest};
+use super::completeness::{Verdict, verify};
+use super::found::{Found, Wanted, WaveSweep};
+use super::modes::points;
+use super::modes_below::{self, at_rest, modes_below};
+use super::paths::{HarmonicPaths, Range, follow_pairs};
+use super::problem::HarmonicProblem;
+use super::reduced;
+use crate::cea::{CeaError, FrictionPoint, FrictionSweep, ModeLimit, SweepRequest};
 use crate::contact::SlidingContact;
-use crate::fem::MaterialField;
+use crate::fem::{MaterialField, ModulusTable};
 use crate::mesh::{AnnulusSpecification, SectorMesh};
 use crate::prestress::{TangentOptions, WaveTangent};
+use std::f64::consts::TAU;
+
+/// Branches are followed from this much above the highest frequency wanted: friction may carry a mode down into the range.
+const MARGIN: f64 = 1.2;
+
+/// How often the margin is raised, by its own factor, where a branch comes from above it.
+const MARGIN_ATTEMPTS: usize = 4;
 
 /// Eigenvalues of steady sliding of a plane annulus over a range of friction coefficients.
 ///
@@ -31,25 +43,138 @@ pub fn sweep(
 /// # Errors
 /// [`CeaError`] where a branch cannot be followed.
 pub fn wave_sweep(
-    tangent: WaveTangent,
+    mut tangent: WaveTangent,
     request: &SweepRequest<'_>,
     waves_at: &[f64],
 ) -> Result<WaveSweep, CeaError> {
-    let wanted = Wanted { request, waves_at, grid: &request.rising_grid()? };
-    request.limit.check()?;
-    match proven::applies(&tangent) {
-        true => proven::solve(tangent, &wanted),
-        false => reduced::solve(tangent, &wanted),
+    let wanted = Wanted::new(request, waves_at)?;
+    // What depends on frequency by a table is no analytic function of the eigenvalue.
+    let is_direct = is_direct(&tangent);
+    let is_verified = is_direct || request.count_modes && tangent.tables().next().is_none();
+    let mut margin = MARGIN;
+    let mut failure = None;
+    for _ in 0..if is_direct { MARGIN_ATTEMPTS } else { 1 } {
+        match follow(&mut tangent, &wanted, margin, None) {
+            Ok((found, counted)) => {
+                let verdict = match is_verified {
+                    true => verify(&tangent, &found.followed, found.limit, &wanted.grid),
+                    false => Verdict { counted, ..Verdict::default() },
+                };
+                let Some(harmonic) = verdict.missed else {
+                    return Ok(found.sweep(tangent, &wanted.grid, verdict, is_verified));
+                };
+                failure = Some(CeaError::Unproven { harmonic, margin });
+            }
+            // The branch that it meets may lie above the margin.
+            Err(error @ CeaError::LostHarmonic { .. }) => failure = Some(error),
+            Err(error) => return Err(error),
+        }
+        margin *= MARGIN;
     }
+    Err(failure.unwrap_or_else(CeaError::no_friction))
+}
+
+/// A sweep over some harmonics, without a proof that no mode is missed: for the many samples of a model for some of which a
+/// whole one has said which harmonics hold modes. `None` of a body whose harmonics are reduced first.
+///
+/// # Errors
+/// As [`wave_sweep`].
+pub fn onsets(
+    mut tangent: WaveTangent,
+    request: &SweepRequest<'_>,
+    harmonics: &[usize],
+) -> Result<Option<FrictionSweep>, CeaError> {
+    if !is_direct(&tangent) {
+        return Ok(None);
+    }
+    let wanted = Wanted::new(request, &[])?;
+    let (found, _) = follow(&mut tangent, &wanted, MARGIN, Some(harmonics))?;
+    Ok(Some(found.sweep(tangent, &wanted.grid, Verdict::default(), false).sweep))
+}
+
+/// Whether harmonics are followed as they stand: their bands are narrow, and the waves `+n` and `-n` are of one real problem.
+fn is_direct(tangent: &WaveTangent) -> bool {
+    tangent.components == 2 && !tangent.is_lossy()
+}
+
+/// The branches of all harmonics, or of those given, up to a `margin` above the highest frequency wanted; and the harmonics that are
+/// counted empty at rest.
+fn follow(
+    tangent: &mut WaveTangent,
+    asked: &Wanted<'_>,
+    margin: f64,
+    harmonics: Option<&[usize]>,
+) -> Result<(Found, Vec<usize>), CeaError> {
+    let (limit, is_direct) = (asked.request.limit, is_direct(tangent));
+    let is_tabled = tangent.tables().next().is_some();
+    let (bound, known) = match is_tabled {
+        true => {
+            let stiffest = tangent.referred_to(ModulusTable::stiffest_hz);
+            let (bound, _) = modes_below::bound(&stiffest, limit)?;
+            // As many modes lie below a frequency as with the moduli of that frequency, as long as these rise less than its square.
+            let highest = bound.sqrt() * MARGIN / TAU;
+            *tangent = tangent.referred_to(|_| highest);
+            (bound, Vec::new())
+        }
+        false => modes_below::bound(tangent, limit)?,
+    };
+
+    // Modes at rest, and what of them is wanted.
+    let span = if is_direct { 1.0 } else { reduced::SPAN };
+    let kappa = bound * (margin * span).powi(2);
+    let (mut found, counted) = match (harmonics, limit) {
+        (Some(own), ModeLimit::MaxFrequency(_)) => {
+            let found: Result<Vec<_>, CeaError> =
+                crate::parallel::map(own, |&n| at_rest(tangent, (n, None), kappa));
+            (found?.into_iter().flatten().collect(), Vec::new())
+        }
+        _ => modes_below(tangent, kappa, known)?,
+    };
+    let wanted = match is_tabled {
+        true => bound,
+        false => modes_below::wanted(tangent, &found, limit, bound)?,
+    };
+    let margin = wanted * margin * margin;
+    found.retain(|found| found.modes.iter().any(|mode| mode.0 < margin));
+
+    // Each harmonic by itself.
+    let range = Range { grid: &asked.grid, kept: &asked.kept(), wanted, margin };
+    let followed: Result<Vec<HarmonicPaths>, CeaError> =
+        crate::parallel::map(found, |mut found| {
+            if !is_direct {
+                return reduced::follow(tangent, found, &range);
+            }
+            found.modes.retain(|(kappa, _)| *kappa < margin);
+            follow_pairs(HarmonicProblem::of(tangent, found.harmonic), &found.modes, &range)
+        });
+    let followed = followed?;
+    let points = points(tangent, &followed, asked);
+    check_tables(tangent, &points)?;
+    let highest = points.iter().filter_map(|point| point.modes.last());
+    let limit = match limit {
+        ModeLimit::Lowest(_) if is_direct => {
+            highest.fold(0.0_f64, |top, mode| top.max(mode.eigenvalue.im))
+        }
+        _ => wanted.sqrt(),
+    };
+    Ok((Found { followed, points, limit, margin: margin.sqrt() }, counted))
+}
+
+/// Refuses modes whose stiffness follows from a table that does not reach them.
+fn check_tables(tangent: &WaveTangent, points: &[FrictionPoint]) -> Result<(), CeaError> {
+    for (point, mode) in points.iter().flat_map(|p| p.modes.iter().map(move |mode| (p, mode))) {
+        let frequency_hz = mode.frequency_hz();
+        if let Some(own) = tangent.tables().find(|own| !own.table.covers(frequency_hz)) {
+            let mu = point.friction_coefficient;
+            return Err(CeaError::beyond_table(&own.table, mu, frequency_hz));
+        }
+    }
+    Ok(())
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::cea::ModeLimit;
-    use crate::cea::cyclic::completeness::verify;
-    use crate::cea::cyclic::found::MARGIN;
-    use crate::cea::cyclic::paths::HarmonicPaths;
     use crate::contact::ContactStiffness;
     use crate::fem::{ElasticMaterial, MassKind, RayleighDamping};
     use crate::mesh::{BoundaryCondition, ElementKind};
@@ -76,7 +201,7 @@ mod tests {
         };
         let grid = [0.0, 0.3];
         let request = SweepRequest::new(&grid, ModeLimit::MaxFrequency(12e3));
-        let wanted = Wanted { request: &request, waves_at: &[], grid: &grid };
+        let wanted = Wanted::new(&request, &[]).unwrap();
         for [loss_factor, tangential_damping] in [[0.05, 0.0], [0.0, 2e3]] {
             let material = ElasticMaterial {
                 young_modulus: 2.5e9,
@@ -95,11 +220,8 @@ mod tests {
             let sector = SectorMesh::generate(&specification).unwrap();
             let tangent = WaveTangent::of_annulus(&sector, &material, &options, &contact);
             let mut tangent = tangent.unwrap();
-            let found = match proven::applies(&tangent) {
-                true => proven::follow(&tangent, &wanted, MARGIN, None),
-                false => reduced::follow_all(&mut tangent, &wanted).map(|found| found.0),
-            };
-            let (mut followed, limit) = found.map(|found| (found.followed, found.limit)).unwrap();
+            let (found, _) = follow(&mut tangent, &wanted, MARGIN, None).unwrap();
+            let (mut followed, limit) = (found.followed, found.limit);
             let missed =
                 |followed: &[HarmonicPaths]| verify(&tangent, followed, limit, &grid).missed;
             assert_eq!(missed(&followed), None);
