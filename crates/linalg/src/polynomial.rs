@@ -65,6 +65,18 @@ impl FrictionWeights {
             _ => f64::from(power - 1) * (mu - self.origin).powi(power - 2),
         }
     }
+
+    /// How `count` coefficients become `P(mu)`, or `dP/dmu`: `(place, factor, weight)` of steps `sum <- factor sum + weight P_place` from
+    /// zero on, those of powers by Horner's rule.
+    pub fn steps(self, count: usize, mu: f64, is_slope: bool) -> Vec<(usize, f64, f64)> {
+        if self.are_powers() {
+            let weight = |place: usize| if is_slope { place as f64 } else { 1.0 };
+            let places = (usize::from(is_slope)..count).rev();
+            return places.map(|place| (place, mu, weight(place))).collect();
+        }
+        let weight = if is_slope { Self::slope } else { Self::at };
+        (0..count).map(|place| (place, 1.0, weight(self, place, mu))).collect()
+    }
 }
 
 /// A square sparse matrix `P(mu) = P_0 + mu P_1 + mu^2 P_2 + ...` of a real parameter `mu`.
@@ -74,8 +86,7 @@ impl FrictionWeights {
 pub struct MatrixPolynomial {
     pattern: Arc<SparsityPattern>,
     coefficients: Vec<Vec<f64>>,
-    /// See [`Self::frozen_below`].
-    origin: f64,
+    weights: FrictionWeights,
 }
 
 impl MatrixPolynomial {
@@ -123,7 +134,7 @@ impl MatrixPolynomial {
         for values in &coefficients {
             assert_eq!(values.len(), pattern.nonzero_count());
         }
-        Self { pattern: Arc::clone(pattern), coefficients, origin: 0.0 }
+        Self { pattern: Arc::clone(pattern), coefficients, weights: FrictionWeights::default() }
     }
 
     /// The same coefficients with other weights, for `origin > 0`:
@@ -135,19 +146,19 @@ impl MatrixPolynomial {
     /// a polynomial above `origin`, linear below.
     #[inline]
     pub fn frozen_below(self, origin: f64) -> Self {
-        Self { origin, ..self }
+        Self { weights: FrictionWeights { origin }, ..self }
     }
 
     /// See [`Self::frozen_below`]; 0 of powers of `mu`.
     #[inline]
     pub fn origin(&self) -> f64 {
-        self.origin
+        self.weights.origin
     }
 
     /// What each coefficient weighs.
     #[inline]
     pub fn weights(&self) -> FrictionWeights {
-        FrictionWeights { origin: self.origin }
+        self.weights
     }
 
     /// Coefficients of the powers of `mu - a`, of the polynomial that it is above [`Self::frozen_below`].
@@ -157,13 +168,14 @@ impl MatrixPolynomial {
     pub fn about(&self, a: f64) -> Vec<Vec<f64>> {
         let mut terms = self.coefficients.clone();
         // What does not change above the origin is one term.
-        if self.origin > 0.0 && terms.len() > 1 {
+        let origin = self.origin();
+        if origin > 0.0 && terms.len() > 1 {
             let linear = terms.remove(1);
             let pairs = terms[0].iter_mut().zip(&linear);
-            pairs.for_each(|(constant, value)| *constant += self.origin * value);
+            pairs.for_each(|(constant, value)| *constant += origin * value);
         }
         // Taylor's shift by repeated Horner steps: mu - origin = (mu - a) + shift.
-        let shift = a - self.origin;
+        let shift = a - origin;
         for first in 0..terms.len() {
             for p in (first..terms.len() - 1).rev() {
                 let (lower, upper) = terms.split_at_mut(p + 1);
@@ -232,19 +244,13 @@ impl MatrixPolynomial {
     /// Nonzero values of `P(mu)`.
     #[inline]
     pub fn evaluate(&self, mu: f64) -> Vec<f64> {
-        match self.origin > 0.0 {
-            true => self.weighted(|place| self.weights().at(place, mu)),
-            false => self.horner(mu, |_| 1.0, 0),
-        }
+        self.summed(mu, false)
     }
 
     /// Nonzero values of `dP/dmu` at `mu`.
     #[inline]
     pub fn derivative(&self, mu: f64) -> Vec<f64> {
-        match self.origin > 0.0 {
-            true => self.weighted(|place| self.weights().slope(place, mu)),
-            false => self.horner(mu, |power| power as f64, 1),
-        }
+        self.summed(mu, true)
     }
 
     /// By how much the terms of `P(mu)` exceed their sum, largest entries taken: rounding of the terms is as many times that of the sum.
@@ -263,12 +269,11 @@ impl MatrixPolynomial {
         }
     }
 
-    fn weighted(&self, weight: impl Fn(usize) -> f64) -> Vec<f64> {
+    fn summed(&self, mu: f64, is_slope: bool) -> Vec<f64> {
         let mut values = vec![0.0; self.pattern.nonzero_count()];
-        for (place, coefficient) in self.coefficients.iter().enumerate() {
-            let factor = weight(place);
-            let pairs = values.iter_mut().zip(coefficient);
-            pairs.for_each(|(sum, c)| *sum += factor * c);
+        for (place, factor, weight) in self.weights.steps(self.coefficients.len(), mu, is_slope) {
+            let pairs = values.iter_mut().zip(&self.coefficients[place]);
+            pairs.for_each(|(sum, c)| *sum = factor * *sum + weight * c);
         }
         values
     }
@@ -288,19 +293,7 @@ impl MatrixPolynomial {
                 }
             }
         }
-        Self::from_coefficients(&a.pattern, coefficients).frozen_below(a.origin.max(b.origin))
-    }
-
-    /// `sum_{p >= first} weight(p) P_p mu^(p - first)`.
-    fn horner(&self, mu: f64, weight: impl Fn(usize) -> f64, first: usize) -> Vec<f64> {
-        let mut values = vec![0.0; self.pattern.nonzero_count()];
-        for (power, coefficient) in self.coefficients.iter().enumerate().skip(first).rev() {
-            let factor = weight(power);
-            for (sum, &c) in values.iter_mut().zip(coefficient) {
-                *sum = *sum * mu + factor * c;
-            }
-        }
-        values
+        Self::from_coefficients(&a.pattern, coefficients).frozen_below(a.origin().max(b.origin()))
     }
 }
 

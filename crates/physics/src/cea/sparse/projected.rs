@@ -5,7 +5,7 @@ use super::mode::ReducedMode;
 use super::packed::forms;
 use crate::fem::own_frequency_step;
 use crate::linalg::dense::{column, column_mut, product, transpose_product};
-use crate::linalg::{ComplexDenseLu, Mat, Scale, c64};
+use crate::linalg::{ComplexDenseLu, FrictionWeights, Mat, Scale, c64};
 use crate::prestress::TabledGain;
 use std::f64::consts::TAU;
 
@@ -203,35 +203,22 @@ fn times(terms: &[(c64, &Mat<f64>)], x: &Mat<c64>, is_left: bool) -> Mat<c64> {
     sum
 }
 
-/// `sum_p weight(p) P_p`.
-pub fn weighted(coefficients: &[Mat<f64>], weight: impl Fn(usize) -> f64) -> Mat<f64> {
-    let size = coefficients[0].nrows();
-    let mut sum = Mat::zeros(size, size);
-    for (place, c) in coefficients.iter().enumerate() {
-        scale_and_add(&mut sum, 1.0, weight(place), c);
-    }
-    sum
-}
-
-/// `sum_{p >= first} weight(p) P_p mu^(p - first)`.
-pub fn horner(
+/// `P(mu)` of the projected `coefficients`, or `dP/dmu`.
+pub fn summed(
     coefficients: &[Mat<f64>],
+    weights: FrictionWeights,
     mu: f64,
-    weight: impl Fn(usize) -> f64,
-    first: usize,
+    is_slope: bool,
 ) -> Mat<f64> {
     let size = coefficients[0].nrows();
     let mut sum = Mat::zeros(size, size);
-    for (power, c) in coefficients.iter().enumerate().skip(first).rev() {
-        scale_and_add(&mut sum, mu, weight(power), c);
+    for (place, factor, weight) in weights.steps(coefficients.len(), mu, is_slope) {
+        // In one pass: these matrices are larger than the caches.
+        for j in 0..size {
+            let entries = column_mut(&mut sum, j).iter_mut();
+            let entries = entries.zip(column(coefficients[place].as_ref(), j));
+            entries.for_each(|(s, c)| *s = factor * *s + weight * c);
+        }
     }
     sum
-}
-
-/// `sum <- factor sum + weight c`, in one pass: these matrices are larger than the caches.
-fn scale_and_add(sum: &mut Mat<f64>, factor: f64, weight: f64, c: &Mat<f64>) {
-    for j in 0..sum.ncols() {
-        let entries = column_mut(sum, j).iter_mut().zip(column(c.as_ref(), j));
-        entries.for_each(|(s, c)| *s = factor * *s + weight * c);
-    }
 }

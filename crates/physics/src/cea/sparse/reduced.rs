@@ -6,7 +6,7 @@ mod parts;
 use super::NEIGHBOURS;
 use super::linearization::Linearization;
 use super::mode::ReducedMode;
-use super::projected::{ProjectedMatrices, horner, projected, weighted};
+use super::projected::{ProjectedMatrices, projected, summed};
 use super::term::Term;
 use super::{MULTIPLE, SAME_SPACE};
 use crate::cea::vectors::length;
@@ -167,20 +167,12 @@ impl ReducedModel {
 
     /// The projected matrices at `mu`.
     pub fn at(&self, mu: f64) -> ProjectedMatrices {
-        let weights = self.weights;
-        self.combine(|coefficients| match weights.are_powers() {
-            true => horner(coefficients, mu, |_| 1.0, 0),
-            false => weighted(coefficients, |place| weights.at(place, mu)),
-        })
+        self.combine(|coefficients| summed(coefficients, self.weights, mu, false))
     }
 
     /// Their derivatives by `mu`.
     pub fn derivative_at(&self, mu: f64) -> ProjectedMatrices {
-        let weights = self.weights;
-        self.combine(|coefficients| match weights.are_powers() {
-            true => horner(coefficients, mu, |power| power as f64, 1),
-            false => weighted(coefficients, |place| weights.slope(place, mu)),
-        })
+        self.combine(|coefficients| summed(coefficients, self.weights, mu, true))
     }
 
     fn combine(&self, evaluate: impl Fn(&[Mat<f64>]) -> Mat<f64>) -> ProjectedMatrices {
