@@ -1,6 +1,6 @@
 //! All modes at one friction coefficient, each held to its residual in the full matrices.
 
-mod kept;
+pub(super) mod kept;
 
 use super::basis::BasisBuilder;
 use super::edge::ContactEdge;
@@ -135,21 +135,25 @@ pub struct PointSolver<'a> {
 }
 
 impl PointSolver<'_> {
-    /// Solves the projected problem at `mu` and checks its modes in the full matrices. Left vectors are coarse ones, until
-    /// [`SolvedPoint::refine_lefts`]. With `leaves_out` motions near critical damping that have not converged take no places:
-    /// combinations of what the basis does not hold.
-    pub fn solve(
+    /// The modes of the projected problem at `mu`. Left vectors are coarse ones, until [`SolvedPoint::refine_lefts`]. With `leaves_out`
+    /// motions near critical damping that have not converged take no places: combinations of what the basis does not hold.
+    pub fn modes(
         &self,
         model: &ReducedModel,
         mu: f64,
         leaves_out: bool,
-    ) -> Result<SolvedPoint, LinalgError> {
+    ) -> Result<Vec<ReducedMode>, LinalgError> {
         let mut modes = model.solve_with_coarse_lefts(mu, self.count + TRACKING_MARGIN)?;
         if leaves_out {
             let checks = self.check(model, mu, &modes);
             let mut converged = checks.iter().map(|check| check.residual <= RESIDUAL_BOUND);
             modes.retain(|mode| converged.next() == Some(true) || !mode.is_nearly_critical());
         }
+        Ok(modes)
+    }
+
+    /// The point of these modes at `mu`, with their checks in the full matrices.
+    pub fn checked(&self, model: &ReducedModel, mu: f64, modes: Vec<ReducedMode>) -> SolvedPoint {
         let wanted = self.wanted(&modes);
         let range_end = match self.limit {
             ModeLimit::Lowest(_) => modes[..wanted].last().map_or(0.0, |m| m.eigenvalue.im),
@@ -157,7 +161,7 @@ impl PointSolver<'_> {
         };
         let checked = self.count.max(wanted).min(modes.len());
         let checks = self.check(model, mu, &modes[..checked]);
-        Ok(SolvedPoint {
+        SolvedPoint {
             friction_coefficient: mu,
             modes,
             wanted,
@@ -165,7 +169,7 @@ impl PointSolver<'_> {
             range_end,
             solved_in: model.sample_width(mu),
             has_coarse_lefts: true,
-        })
+        }
     }
 
     /// How many of `modes`, by rising frequency, are wanted.

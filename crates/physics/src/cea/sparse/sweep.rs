@@ -11,7 +11,7 @@ use super::branches::{BranchLabel, TrackedBranch, label_first, track};
 use super::edge::ContactEdge;
 use super::frictionless::FrictionlessModes;
 use super::linearization::Linearization;
-use super::point::{PointSolver, SolvedPoint};
+use super::point::{PointSolver, SolvedPoint, kept};
 use super::{GUARD_MODES, RESIDUAL_BOUND, TRACKING_MARGIN};
 use crate::cea::{
     CeaError, FrictionSweep, ModeLimit, PartWatch, SweepProgress, SweepRequest, SweepStage,
@@ -281,14 +281,17 @@ impl<'a> SparseSweep<'a> {
         let stage = if leaves_out { "-left-out" } else { "" };
         let (steps, held) = (self.builder.steps, self.builder.count);
         let name = format!("value-{steps:04}-of-{held}-{mu:?}{stage}");
+        let (solver, model) = (self.point_solver(), &self.builder.model);
         let kept = self.watch.recall(&name);
-        if let Some(mut point) = kept.and_then(|kept| SolvedPoint::from_columns(mu, &kept)) {
-            point.solved_in = self.builder.model.sample_width(mu);
-            return Ok(point);
-        }
-        let point = self.point_solver().solve(&self.builder.model, mu, leaves_out)?;
-        self.watch.keep(&name, &point.to_columns());
-        Ok(point)
+        let modes = match kept.and_then(|columns| kept::from_columns(&columns)) {
+            Some(modes) => modes,
+            None => {
+                let modes = solver.modes(model, mu, leaves_out)?;
+                self.watch.keep(&name, &kept::to_columns(&modes));
+                modes
+            }
+        };
+        Ok(solver.checked(model, mu, modes))
     }
 
     fn point_solver(&self) -> PointSolver<'_> {
