@@ -21,7 +21,6 @@ use crate::linalg::{
 };
 use crate::linalg::{Mat, Scale, c64};
 use crate::prestress::SlidingTangent;
-use samples::MOST_DENSE;
 use std::borrow::Cow;
 
 /// Part of a block of corrections, relative to its longest: a longer one is a direction that the basis takes up, a shorter one is
@@ -41,9 +40,6 @@ const CHEBYSHEV_POINTS: usize = 5;
 const SAMPLE_RESIDUAL: f64 = 1e-8;
 /// Unknowns up to which a dense decomposition is as cheap as that iteration.
 const DENSE_UP_TO: usize = 150;
-/// Unknowns for each mode asked for up to which a small problem is solved as it is: the modes at two friction coefficients, real and
-/// imaginary parts, span it all.
-const ALL_OF_FEW: usize = 4;
 /// Start vectors of an iteration from the modes without friction: modes may come in pairs of equal eigenvalue, and factors are read once
 /// for both.
 const START_WIDTH: usize = 2;
@@ -80,9 +76,7 @@ pub struct BasisBuilder<'a> {
     pub rigid: usize,
     /// Whether the basis is made of the modes at a few friction coefficients, each from an iteration of its own. Else, where damping is
     /// proportional and the contact alike all around, it grows by residuals: friction couples few modes, and a block holds all values.
-    is_sampling: bool,
-    /// Whether it holds every motion, as those asked for are many: nothing can be added, and points need no samples.
-    pub holds_all: bool,
+    pub(super) is_sampling: bool,
     /// Friction coefficients whose modes the basis holds as such.
     sampled: Vec<f64>,
     watch: &'a dyn SweepWatch,
@@ -106,12 +100,6 @@ impl<'a> BasisBuilder<'a> {
         model.extend(first.to_owned(), 1e-8);
         model.extend(others.to_owned(), 1e-8);
         let has_symmetry = !tangent.contact.angles.is_empty();
-        let unknowns = tangent.stiffness.dimension();
-        let has_many = ALL_OF_FEW * modes.ncols() >= unknowns && unknowns <= MOST_DENSE;
-        let holds_all = has_many && tangent.tabled.is_empty();
-        if holds_all {
-            model.extend(Mat::identity(unknowns, unknowns), SAME_SPACE);
-        }
         Self {
             tangent,
             linearization,
@@ -122,16 +110,10 @@ impl<'a> BasisBuilder<'a> {
             count: modes.ncols() - rigid,
             rigid,
             is_sampling: !(matches!(linearization, Linearization::Reduced(..)) && has_symmetry),
-            holds_all,
             sampled: Vec::new(),
             watch,
             steps: 0,
         }
-    }
-
-    /// Whether the basis is made of modes at friction coefficients of their own.
-    pub(super) fn is_sampling(&self) -> bool {
-        self.is_sampling && !self.holds_all
     }
 
     /// The columns of the next step at `mu`: those that an earlier run of the same sweep found, else those that `find` does.

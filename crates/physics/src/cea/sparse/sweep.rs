@@ -178,10 +178,7 @@ impl<'a> SparseSweep<'a> {
 
     /// Grows the basis over the whole range of friction coefficients.
     pub fn cover(&mut self) -> Result<(), CeaError> {
-        if self.builder.holds_all {
-            return Ok(());
-        }
-        if self.builder.is_sampling() {
+        if self.builder.is_sampling {
             let first = self.first_asked();
             // Over a short range the modes at its middle are corrected to those at its ends.
             if self.is_continued && self.grid[self.grid.len() - 1] - self.lowest < SHORT_RANGE {
@@ -221,16 +218,6 @@ impl<'a> SparseSweep<'a> {
         if self.points.is_empty() {
             self.leaves_out = vec![false; all.len()];
             self.points = self.solve_points(&all)?;
-            if self.builder.holds_all && self.lacks_modes() {
-                self.builder.count = self.most_wanted()?;
-                self.points = self.solve_points(&all)?;
-            }
-            // In a space so wide round-off may be more than modes may have.
-            if self.builder.holds_all && !self.missing_points().is_empty() {
-                self.builder.holds_all = false;
-                self.cover()?;
-                self.points = self.solve_points(&all)?;
-            }
         } else {
             let is_stale = |k: &usize| {
                 let own = self.builder.model.sample_width(self.grid[*k]);
@@ -346,12 +333,12 @@ impl<'a> SparseSweep<'a> {
                 lost.map(|end| (end.after, end.between)).collect();
             open.sort_by_key(|(k, _)| *k);
             open.dedup_by_key(|(k, _)| *k);
-            if open.is_empty() || self.builder.holds_all {
+            if open.is_empty() {
                 return Ok(branches);
             }
             for (k, [seen_at, lost_at]) in open {
                 let (from, to) = (self.grid[k], self.grid[k + 1]);
-                let (is_sampling, place) = (self.builder.is_sampling(), 0.5 * (seen_at + lost_at));
+                let (is_sampling, place) = (self.builder.is_sampling, 0.5 * (seen_at + lost_at));
                 if !(is_sampling && self.builder.improve_between(from, to, place)?) {
                     searched.push(k);
                     self.builder.search(to, TRACKING_MARGIN)?;

@@ -8,9 +8,9 @@ use crate::cea::sparse::factors::StiffnessFactors;
 use crate::cea::sparse::full_problem::FullProblem;
 use crate::cea::sparse::linearization::Linearization;
 use crate::cea::sparse::mode::ReducedMode;
-use crate::cea::sparse::packed::{PackedModes, side_by_side};
+use crate::cea::sparse::packed::PackedModes;
 use crate::cea::sparse::structure::StructureMatrices;
-use crate::cea::sparse::{BESIDE, GROUP_WIDTH, SAME_SPACE, TRACKING_MARGIN};
+use crate::cea::sparse::{BESIDE, GROUP_WIDTH, SAME_SPACE};
 use crate::linalg::dense::join_columns;
 use crate::linalg::{LinalgError, Mat, MatrixPolynomial, c64};
 use crate::prestress::SlidingTangent;
@@ -40,12 +40,11 @@ impl BasisBuilder<'_> {
     }
 
     /// Begins the sample at `mu`, anew, with the rigid motions: in a span without them, what corrections have of them looks like modes.
-    /// Modes of a decomposition are not corrected.
     fn begin_sample(&mut self, mu: f64) {
         self.model.drop_sample(mu);
         self.sampled.retain(|held| *held != mu);
         self.sampled.push(mu);
-        if self.rigid > 0 && !self.may_decompose() {
+        if self.rigid > 0 {
             self.model.hold_coordinates(mu, Mat::identity(self.model.dimension(), self.rigid));
         }
     }
@@ -66,8 +65,6 @@ impl BasisBuilder<'_> {
     pub fn improve_at(&mut self, mu: f64) -> Result<bool, CeaError> {
         match self.linearization {
             _ if !self.is_sampling => Ok(self.refine_at(mu)?.is_some()),
-            // A decomposition leaves nothing to correct.
-            _ if self.sampled.contains(&mu) && self.may_decompose() => Ok(false),
             _ if self.sampled.contains(&mu) => self.refine_sample(mu),
             Linearization::Reduced(..) => {
                 self.begin_sample(mu);
@@ -75,9 +72,6 @@ impl BasisBuilder<'_> {
             }
             Linearization::Companion { .. } => {
                 self.begin_sample(mu);
-                if self.may_decompose() {
-                    return self.sample_densely(mu);
-                }
                 // From combinations of the modes without friction, which the basis holds first.
                 let known = self.model.dimension();
                 let leading = self.leading_count().min(known);
@@ -96,11 +90,6 @@ impl BasisBuilder<'_> {
         self.tangent.stiffness.dimension() <= MOST_DENSE
     }
 
-    /// Whether all modes of a lossy problem may come from one decomposition of its matrices.
-    fn may_decompose(&self) -> bool {
-        self.is_small() && self.tangent.structural.is_some() && self.tangent.tabled.is_empty()
-    }
-
     /// Lets all motions of the body stand for the sample at `mu`.
     pub fn hold_all(&mut self, mu: f64) -> Result<(), LinalgError> {
         let unknowns = self.tangent.stiffness.dimension();
@@ -109,20 +98,6 @@ impl BasisBuilder<'_> {
         self.begin_sample(mu);
         self.model.hold_sample(mu, &all);
         Ok(())
-    }
-
-    /// Takes up the modes at `mu` from a dense decomposition of the full matrices; whether the basis grew.
-    fn sample_densely(&mut self, mu: f64) -> Result<bool, CeaError> {
-        let unknowns = self.tangent.stiffness.dimension();
-        let vectors = self.step(mu, |builder| {
-            let count = builder.count + TRACKING_MARGIN;
-            let modes = builder.model.solve_unreduced(builder.tangent, mu, count)?;
-            let vectors: Vec<Vec<c64>> = modes.into_iter().map(|mode| mode.right).collect();
-            Ok::<_, LinalgError>(real_columns(unknowns, &vectors))
-        })?;
-        let has_grown = self.model.extend(vectors.clone(), SAME_SPACE).ncols() > 0;
-        self.model.hold_sample(mu, &vectors);
-        Ok(has_grown)
     }
 
     /// Drops what repairs of lossy modes, each of many rounds, added to the basis beyond the modes that it holds; the coordinates of the
@@ -149,12 +124,9 @@ impl BasisBuilder<'_> {
         Ok(())
     }
 
-    /// Corrects `modes` that the basis holds nearly at `mu`, from the second time on those that it holds now, or takes up those of a
-    /// decomposition; whether there was anything to correct.
+    /// Corrects `modes` that the basis holds nearly at `mu`, from the second time on those that it holds now; whether there was anything
+    /// to correct.
     pub fn correct_at(&mut self, mu: f64, modes: &[ReducedMode]) -> Result<bool, CeaError> {
-        if self.may_decompose() {
-            return self.improve_at(mu);
-        }
         self.take_up(mu, modes);
         self.refine_sample(mu)
     }
@@ -175,9 +147,6 @@ impl BasisBuilder<'_> {
     /// # Errors
     /// If the analysis of the matrices fails.
     pub fn shift(&mut self, mu: f64, modes: &[ReducedMode]) -> Result<bool, CeaError> {
-        if self.holds_all {
-            return Ok(false);
-        }
         let vectors = self.step(mu, |builder| builder.shifted_corrections(mu, modes))?;
         let has_grown = self.model.extend(vectors.clone(), SAME_SPACE).ncols() > 0;
         match self.sampled.contains(&mu) {
@@ -289,11 +258,4 @@ impl BasisBuilder<'_> {
 fn parts_of(x: &Mat<c64>) -> Mat<f64> {
     let part = |j: usize, own: c64| if j.is_multiple_of(2) { own.re } else { own.im };
     Mat::from_fn(x.nrows(), 2 * x.ncols(), |i, j| part(j, x[(i, j / 2)]))
-}
-
-/// Complex vectors as real and imaginary parts in neighbouring columns, as real as can be.
-fn real_columns(rows: usize, vectors: &[Vec<c64>]) -> Mat<f64> {
-    let mut columns = side_by_side(rows, vectors);
-    turn_to_real(&mut columns);
-    columns
 }

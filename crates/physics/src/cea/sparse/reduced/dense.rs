@@ -6,9 +6,8 @@ use crate::cea::sparse::mode::ReducedMode;
 use crate::cea::sparse::own_frequency;
 use crate::cea::sparse::projected::ProjectedMatrices;
 use crate::linalg::dense_eigen::{complex_eigen, real_eigen, real_eigenvalues};
-use crate::linalg::{ComplexDenseLu, DenseLu, LinalgError, MatrixPolynomial};
+use crate::linalg::{ComplexDenseLu, DenseLu, LinalgError};
 use crate::linalg::{Mat, MatRef, Scale, c64};
-use crate::prestress::SlidingTangent;
 
 impl ReducedModel {
     /// The modes of projected matrices, without derivatives and scale.
@@ -68,29 +67,6 @@ impl ReducedModel {
             .collect();
         crate::order::sort_by_number(&mut modes, |p| p.eigenvalue.im);
         Ok(modes)
-    }
-
-    /// The `count` lowest modes at `mu` of the full matrices of `tangent`, with structural damping, as [`Self::solve_right`] gives those in
-    /// the basis; vectors are over the unknowns.
-    pub fn solve_unreduced(
-        &self,
-        tangent: &SlidingTangent,
-        mu: f64,
-        count: usize,
-    ) -> Result<Vec<ReducedMode>, LinalgError> {
-        let n = tangent.stiffness.dimension();
-        let full = |p: &MatrixPolynomial| {
-            let identity = Mat::identity(n, n);
-            p.pattern().multiply(&p.evaluate(mu), identity.as_ref())
-        };
-        let at = ProjectedMatrices {
-            stiffness: full(&tangent.stiffness),
-            damping: full(&tangent.damping),
-            mass: full(&tangent.mass),
-            structural: tangent.structural.as_ref().map(full),
-            tabled: Vec::new(),
-        };
-        self.solve_lossy(&at, count, false)
     }
 
     /// [`Self::solve_projected`] with structural damping `H`: the eigenvalues `1 / nu` of the complex operator

@@ -1,10 +1,8 @@
 //! How many modes a sweep holds.
 
 use super::SparseSweep;
-use crate::cea::sparse::GUARD_MODES;
 use crate::cea::sparse::branches::TrackedBranch;
 use crate::cea::{CeaError, ModeLimit};
-use crate::linalg::LinalgError;
 
 impl SparseSweep<'_> {
     /// Motions of the body that are not rigid.
@@ -27,16 +25,5 @@ impl SparseSweep<'_> {
         let is_short = self.points.iter().any(|point| point.wanted < count);
         let may_hold_more = is_short && self.builder.count < self.elastic();
         Ok(may_hold_more && self.divergence(branches)?.is_some())
-    }
-
-    /// Number of modes to hold of a basis of all motions.
-    pub(super) fn most_wanted(&self) -> Result<usize, LinalgError> {
-        let (all, solver) = (self.elastic(), self.point_solver());
-        let wanted = self.grid.iter().map(|&mu| {
-            let modes = self.builder.model.solve_right(mu, all)?;
-            Ok(solver.wanted(&modes))
-        });
-        let most = wanted.collect::<Result<Vec<_>, _>>()?.into_iter().max();
-        Ok((most.unwrap_or(0) + GUARD_MODES).min(all))
     }
 }

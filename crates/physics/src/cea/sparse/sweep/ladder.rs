@@ -96,7 +96,7 @@ impl SparseSweep<'_> {
         let (mu, point) = (self.grid[k], &self.points[k]);
         match rung {
             Rung::AtRest
-                if is_alone && point.worst().1 <= CORRECTABLE && self.builder.is_sampling() =>
+                if is_alone && point.worst().1 <= CORRECTABLE && self.builder.is_sampling =>
             {
                 self.builder.correct_at(mu, &point.modes)?;
             }
@@ -126,7 +126,7 @@ impl SparseSweep<'_> {
     }
 
     /// Points whose modes could still be improved.
-    pub(super) fn missing_points(&self) -> Vec<usize> {
+    fn missing_points(&self) -> Vec<usize> {
         let first = match self.linearization {
             Linearization::Reduced(..) => 0,
             Linearization::Companion { .. } => self.first_asked(),

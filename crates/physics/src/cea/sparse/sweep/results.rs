@@ -94,7 +94,7 @@ impl SparseSweep<'_> {
             // Crossings that moved since the last round, all in the first one.
             let mut open: Vec<&State> = Vec::new();
             let mut moved: Vec<usize> = Vec::new();
-            for &i in sought.iter().filter(|_| self.builder.is_sampling()) {
+            for &i in sought.iter().filter(|_| self.builder.is_sampling) {
                 let own: Vec<&State> = found[i].iter().flat_map(FoundInterval::crossings).collect();
                 let places: Vec<f64> = own.iter().map(|state| state.mu).collect();
                 let before = std::mem::replace(&mut before[i], places);
