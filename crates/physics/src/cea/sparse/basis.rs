@@ -10,7 +10,7 @@ use super::open_residuals::OpenResiduals;
 use super::packed::PackedModes;
 use super::reduced::ReducedModel;
 use super::structure::{ShiftInverted, StructureMatrices};
-use super::{CONVERGED, GROUP_WIDTH, SAME_SPACE, SEARCH_WIDTH};
+use super::{CHANGE_PLACES, CONVERGED, GROUP_WIDTH, MOST_STEPS, SAME_SPACE, SEARCH_WIDTH};
 use crate::cea::{CeaError, SweepProgress, SweepStage, SweepWatch};
 use crate::linalg::dense::{
     column, column_mut, column_norms, columns_of, dot, from_columns, join_columns, join_rows,
@@ -43,13 +43,8 @@ const DENSE_UP_TO: usize = 150;
 /// Start vectors of an iteration from the modes without friction: modes may come in pairs of equal eigenvalue, and factors are read once
 /// for both.
 const START_WIDTH: usize = 2;
-/// Frequency up to which modes are held, over the highest one: two that differ in damping change places as they converge, and the one
-/// of lower frequency may have the larger eigenvalue.
-const CHANGE_PLACES: f64 = 1.01;
 /// Refinements of the modes at one friction coefficient for structural damping, each of which wins about the loss factor.
 const LOSSY_ROUNDS: usize = 6;
-/// Refinements of one basis before the preconditioner is considered unfit.
-const MAX_ROUNDS: usize = 40;
 
 /// Block Davidson iteration over friction coefficients.
 ///
@@ -154,7 +149,7 @@ impl<'a> BasisBuilder<'a> {
             }
             return Ok(());
         }
-        for &mu in spread(values).iter().cycle().take(MAX_ROUNDS) {
+        for &mu in spread(values).iter().cycle().take(MOST_STEPS) {
             // The last corrections need no other look: points are checked.
             let is_done = |longest: f64| longest <= CONVERGED;
             if self.refine_at(mu)?.is_none_or(is_done) {

@@ -4,7 +4,7 @@ use super::edge::ContactEdge;
 use super::mode::ReducedMode;
 use super::point::SolvedPoint;
 use super::reduced::ReducedModel;
-use super::{MULTIPLE, SAME_EIGENVALUE};
+use super::{CHANGE_PLACES, MULTIPLE, SAME_EIGENVALUE};
 use crate::cea::counted::NEARLY_CRITICAL;
 use crate::linalg::{ComplexDenseLu, LinalgError};
 use crate::linalg::{Mat, c64};
@@ -13,8 +13,6 @@ use crate::linalg::{Mat, c64};
 const ALIKE: f64 = 0.5;
 /// Distance within which they are one beyond doubt.
 const SAME: f64 = 0.1;
-/// Part of the end of a range by which a mode is above it beyond doubt.
-const ABOVE_RANGE: f64 = 0.01;
 /// Bisections of an interval, one within the other, before modes are matched by their extrapolated eigenvalue.
 const MAX_BISECTIONS: usize = 10;
 /// Bisections of an interval in all; a branch that these do not follow is lost.
@@ -82,7 +80,7 @@ fn may_vanish(mode: &ReducedMode, step: f64) -> bool {
 /// others may have come from below.
 fn leaves_range(mode: &ReducedMode, step: f64, range_end: f64) -> bool {
     let (frequency, change) = (mode.eigenvalue.im, mode.derivative.im * step);
-    frequency.min(frequency + change) > range_end * (1.0 + ABOVE_RANGE) + change.abs()
+    frequency.min(frequency + change) > range_end * CHANGE_PLACES + change.abs()
 }
 
 /// Names the first `count` modes of the first point and rotates degenerate ones so that they are the limits of the modes with more

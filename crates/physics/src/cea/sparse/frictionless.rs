@@ -3,7 +3,7 @@
 use super::factors::StiffnessFactors;
 use super::inertia::{counted, gyroscopic_count};
 use super::linearization::Centre;
-use super::{CONVERGED, GUARD_MODES, LOSSY_GUARD};
+use super::{CONVERGED, GUARD_MODES, LOSSY_GUARD, MOST_ATTEMPTS};
 use crate::cea::{CeaError, ModeLimit, SweepWatch};
 use crate::linalg::dense::{column, column_mut, columns_of, dot, from_columns, norm, pick_columns};
 use crate::linalg::{
@@ -24,13 +24,8 @@ const SHIFT: f64 = 1e-3;
 const FARTHER: f64 = 10.0;
 /// Lowest eigenvalue, relative to the highest, above which factors of `K` itself serve all modes.
 const STIFFLY_HELD: f64 = 1e-5;
-/// Shifts that are tried until all pairs converge, and restarts with each.
-const MAX_SHIFTS: usize = 5;
-const MAX_RESTARTS: usize = 8;
 /// Energy of a motion, in rounding errors of the terms that make it up, below which it is rigid.
 const ROUNDING_ERRORS: f64 = 8.0;
-/// Iterations with more vectors after the inertia counted modes that were not found.
-const MAX_RECOUNTS: usize = 3;
 /// Where the shift of the factors kept may lie between zero and the highest eigenvalue `kappa`.
 const AMID: std::ops::Range<f64> = 0.4..0.65;
 /// Distance of that shift from the frequencies about it, relative to the highest. At a pair of equal frequencies the factors would
@@ -132,7 +127,7 @@ impl FrictionlessModes {
                 let middle = 0.5 * (frequencies[kept - 1] + frequencies[kept]);
                 let counted = inertia.count_below(middle)?;
                 if counted != kept + rigid {
-                    if recounts == MAX_RECOUNTS {
+                    if recounts == MOST_ATTEMPTS {
                         return Err(contradicted(kept + rigid, middle, counted));
                     }
                     recounts += 1;
@@ -272,7 +267,7 @@ impl<'a> Inertia<'a> {
             tolerance: CONVERGED,
             applications: 0,
         });
-        for attempt in 0..MAX_SHIFTS {
+        for attempt in 0..MOST_ATTEMPTS {
             let factors = loop {
                 match SparseLdl::factorize(&self.analysis, &self.shifted(-*shift)) {
                     Ok(factors) if factors.negative_count() == 0 => break factors,
@@ -286,7 +281,7 @@ impl<'a> Inertia<'a> {
                 count,
                 tolerance: CONVERGED,
                 block: BLOCK,
-                max_restarts: MAX_RESTARTS,
+                max_restarts: MOST_ATTEMPTS,
             };
             let pairs = block_lanczos(&pencil, None, &settings)?;
             if pairs.converged == count {
@@ -296,7 +291,7 @@ impl<'a> Inertia<'a> {
                 converged: pairs.converged,
                 wanted: count,
                 tolerance: CONVERGED,
-                applications: MAX_RESTARTS * count,
+                applications: MOST_ATTEMPTS * count,
             });
             // The highest pair is known well enough to place the shift by it.
             let placed = SHIFT * (pairs.values[count - 1].recip() - *shift);

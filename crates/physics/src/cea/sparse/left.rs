@@ -3,7 +3,7 @@
 use super::StiffnessFactors;
 use super::full_problem::{Factor, FullProblem};
 use super::packed::{joined, side_by_side};
-use super::{BESIDE, MOST_STEPS};
+use super::{BESIDE, GROUP_WIDTH, MOST_STEPS};
 use crate::cea::vectors::{dot, length};
 use crate::linalg::dense::{product, transpose_product};
 use crate::linalg::{ComplexDenseLu, Mat, c64};
@@ -11,8 +11,8 @@ use crate::prestress::SlidingTangent;
 
 /// Energy of a correction, relative to that of the vector, below which no more are made.
 const NEGLIGIBLE: f64 = 1e-8;
-/// Modes that are corrected together.
-const PAIRS_AT_A_TIME: usize = 8;
+/// Modes that are corrected together: each is worked on by three vectors.
+const PAIRS_AT_A_TIME: usize = GROUP_WIDTH / 3;
 
 /// A mode over the unknowns.
 pub struct OpenPair {

@@ -82,13 +82,23 @@ const CONVERGED: f64 = 1e-11;
 const SAME_SPACE: f64 = 1e-13;
 /// Distance of factors from an eigenvalue, relative to it: regular there, far above its error and far below its distance from others.
 const BESIDE: f64 = 1e-3;
-/// Steps of an iteration for one mode after which it counts as not found: ten or fewer do, or three or four by factors at each.
+/// Steps of an iteration for one mode, or for one basis, after which it counts as one that does not converge: ten or fewer do, or three or
+/// four by factors at each.
 const MOST_STEPS: usize = 24;
+/// Attempts of one remedy, of which one or two do where it is fit: rounds at one point or crossing, restarts, shifts, samples between two
+/// friction values. After more of them another remedy takes over, or what is open is said.
+const MOST_ATTEMPTS: usize = 8;
+/// Part of an error that a round of a remedy or a step of an iteration may leave: with more it is worth no other one.
+const LITTLE: f64 = 0.3;
+/// Frequency up to which modes are held or wanted, over the highest one: two that differ in damping change places as they converge, and the
+/// one of lower frequency may have the larger eigenvalue. One farther above is above the range beyond doubt.
+const CHANGE_PLACES: f64 = 1.01;
 /// Samples near a friction coefficient whose modes, together, come near its own and their left vectors.
 const NEIGHBOURS: usize = 4;
 /// Start vectors of an iteration that relies on no known modes: as many as equal eigenvalues may come together.
 const SEARCH_WIDTH: usize = 4;
 /// Vectors over the unknowns that are expanded, multiplied and solved for together.
 const GROUP_WIDTH: usize = 24;
-/// Relative residual of the quadratic problem above which no pair is reported as converged.
+/// Relative error that is promised. A pair with a larger residual of the quadratic problem is not listed as converged, and one whose
+/// eigenvalue round-off of that residual moves by more is improved.
 const RESIDUAL_BOUND: f64 = 1e-9;

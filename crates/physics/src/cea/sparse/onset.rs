@@ -1,10 +1,10 @@
 //! The projected problem as a solver of single branches, for the search of their onsets.
 
-use super::RESIDUAL_BOUND;
 use super::branches::{TrackedBranch, followed};
 use super::mode::ReducedMode;
 use super::point::{PointSolver, SolvedPoint};
 use super::reduced::ReducedModel;
+use super::{CONVERGED, RESIDUAL_BOUND};
 use crate::cea::onset::{BranchSolver, Instability, instabilities};
 use crate::cea::vectors::length;
 use crate::cea::{BranchPoint, UnstableInterval};
@@ -174,8 +174,8 @@ impl BranchSolver for OnsetFinder<'_> {
     type State = State;
     type Error = LinalgError;
 
-    const ROUND_OFF: f64 = 1e-11;
-    const TOLERANCE: f64 = 1e-9;
+    const ROUND_OFF: f64 = CONVERGED;
+    const TOLERANCE: f64 = RESIDUAL_BOUND;
 
     fn point(&self, state: &State) -> BranchPoint {
         BranchPoint {

@@ -1,19 +1,14 @@
 //! Modes of projected matrices whose stiffness depends on frequency, each at its own frequency.
 
-use super::SAME_EIGENVALUE;
 use super::mode::ReducedMode;
 use super::projected::ProjectedMatrices;
+use super::{MOST_STEPS, SAME_EIGENVALUE};
 use crate::cea::vectors::{dot, length};
 use crate::linalg::LinalgError;
 use std::f64::consts::TAU;
 
-/// What the overlap of two right vectors lacks to 1 where they are one.
-const PARALLEL: f64 = 1e-4;
-/// Solutions at one frequency after which a mode counts as one that does not settle.
-const MAX_PASSES: usize = 40;
-/// Passes with whole steps; half ones follow.
-const WHOLE_PASSES: usize = 12;
-/// Relative change of the frequency from which on the Rayleigh quotient iteration finishes.
+/// What the overlap of two right vectors lacks to 1 where they are one, and relative change of the frequency from which on the Rayleigh
+/// quotient iteration finishes: it is the square of the change of the vectors.
 const NEAR: f64 = 1e-4;
 
 /// The modes, by rising frequency, without derivatives and scale: as many as `frozen` gives at one frequency in Hz.
@@ -58,7 +53,7 @@ fn fixed_point(
 ) -> Result<ReducedMode, LinalgError> {
     let mut mode = start.clone();
     let mut frequency_hz = mode.eigenvalue.im / TAU;
-    for pass in 0..MAX_PASSES {
+    for pass in 0..MOST_STEPS {
         let mut all = frozen(frequency_hz)?;
         if place >= all.len() {
             break;
@@ -72,7 +67,8 @@ fn fixed_point(
                 return Ok(fine);
             }
         }
-        frequency_hz = if pass < WHOLE_PASSES { next } else { 0.5 * (next + frequency_hz) };
+        // Whole steps, then half ones.
+        frequency_hz = if 2 * pass < MOST_STEPS { next } else { 0.5 * (next + frequency_hz) };
     }
     Ok(mode)
 }
@@ -83,6 +79,5 @@ fn is_same(one: &ReducedMode, other: &ReducedMode) -> bool {
     if distance > SAME_EIGENVALUE * one.eigenvalue.norm() {
         return false;
     }
-    dot(&one.right, &other.right).norm()
-        > (1.0 - PARALLEL) * length(&one.right) * length(&other.right)
+    dot(&one.right, &other.right).norm() > (1.0 - NEAR) * length(&one.right) * length(&other.right)
 }

@@ -19,8 +19,6 @@ use std::f64::consts::TAU;
 
 /// Residual relative to the matrices below which there is only round-off.
 const ROUND_OFF: f64 = 1e-15;
-/// Relative error of an eigenvalue that such a residual may mean.
-const EIGENVALUE_GOAL: f64 = 1e-9;
 /// What the full matrices say about one mode.
 #[derive(Clone, Debug)]
 pub struct ModeCheck {
@@ -72,7 +70,7 @@ impl SolvedPoint {
         let open = pairs.filter(move |(_, check)| {
             // A residual of round-off is no excuse where the mode answers to it.
             let error = check.residual / f64::EPSILON * check.uncertainty;
-            let is_round_off = check.residual <= ROUND_OFF && error <= EIGENVALUE_GOAL;
+            let is_round_off = check.residual <= ROUND_OFF && error <= RESIDUAL_BOUND;
             let is_fine = check.force_residual <= goal && check.residual <= RESIDUAL_BOUND;
             !is_fine && !is_round_off
         });

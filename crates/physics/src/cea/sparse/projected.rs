@@ -1,8 +1,8 @@
 //! The projected matrices at one friction coefficient, and single modes of them.
 
-use super::MOST_STEPS;
 use super::mode::ReducedMode;
 use super::packed::forms;
+use super::{LITTLE, MOST_STEPS};
 use crate::fem::own_frequency_step;
 use crate::linalg::dense::{column, column_mut, product, transpose_product};
 use crate::linalg::{ComplexDenseLu, FrictionWeights, Mat, Scale, c64};
@@ -14,8 +14,6 @@ const QUOTIENT_TOLERANCE: f64 = 1e-8;
 /// Change of the vectors, of length 1, that ends the iteration by factors from before; source: A. Neumaier, SIAM J. Numer. Anal. 22 (1985),
 /// residual inverse iteration.
 const VECTOR_TOLERANCE: f64 = 1e-10;
-/// Part of the last change above which factors are made anew: they cost as much as all steps by those from before.
-const STALE: f64 = 0.2;
 
 /// `K`, `C` and `M` (or their derivatives) projected, at one friction coefficient.
 pub struct ProjectedMatrices {
@@ -140,7 +138,8 @@ impl ProjectedMatrices {
                 return Some(mode);
             }
             if is_reused {
-                factors = factors.filter(|_| moved <= STALE * before);
+                // New ones cost as much as all steps by those from before.
+                factors = factors.filter(|_| moved <= LITTLE * before);
                 before = moved;
             }
         }

@@ -12,7 +12,7 @@ use super::edge::ContactEdge;
 use super::frictionless::FrictionlessModes;
 use super::linearization::Linearization;
 use super::point::{PointSolver, SolvedPoint, kept};
-use super::{GUARD_MODES, RESIDUAL_BOUND, TRACKING_MARGIN};
+use super::{GUARD_MODES, MOST_ATTEMPTS, RESIDUAL_BOUND, TRACKING_MARGIN};
 use crate::cea::{
     CeaError, FrictionSweep, ModeLimit, PartWatch, SweepProgress, SweepRequest, SweepStage,
     SweepWatch, UnconvergedMode,
@@ -27,11 +27,9 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 const MIN_SAMPLES: usize = 6;
 /// Range of friction coefficients over which modes hardly change.
 const SHORT_RANGE: f64 = 0.05;
-/// Change of a critical friction coefficient below which its mode needs no more corrections.
+/// Change of a critical friction coefficient below which its mode needs no more corrections, and width of the range that it is located in.
 const SETTLED: f64 = 1e-10;
-/// Highest modes that stiffness which depends on frequency is referred to, one after the other.
-const MAX_REFERENCES: usize = 4;
-/// Relative change of their frequency that is none.
+/// Relative change that is none of the frequency that stiffness is referred to where it depends on it.
 const REFERENCE_SETTLED: f64 = 0.02;
 
 /// Complex modes of `tangent` at every friction coefficient of `request`, and where their branches turn unstable.
@@ -98,7 +96,7 @@ fn referred(
         ModeLimit::MaxFrequency(limit_hz) => Ok(Cow::Owned(tangent.referred_to(limit_hz))),
         ModeLimit::Lowest(count) => {
             let (mut referred, mut highest_hz) = (tangent.clone(), 0.0);
-            for _ in 0..MAX_REFERENCES {
+            for _ in 0..MOST_ATTEMPTS {
                 let modes = FrictionlessModes::compute(&referred, limit)?;
                 let place = count.min(modes.frequencies.len()) - 1;
                 let found_hz = modes.frequencies[place] / TAU;

@@ -1,8 +1,6 @@
 //! A basis of the modes at a few friction coefficients, each from an iteration of its own.
 
-use super::{
-    BasisBuilder, CHANGE_PLACES, LOSSY_ROUNDS, VECTOR_TOLERANCE, scale_to_unit_length, turn_to_real,
-};
+use super::{BasisBuilder, LOSSY_ROUNDS, VECTOR_TOLERANCE, scale_to_unit_length, turn_to_real};
 use crate::cea::CeaError;
 use crate::cea::sparse::factors::StiffnessFactors;
 use crate::cea::sparse::full_problem::FullProblem;
@@ -10,7 +8,7 @@ use crate::cea::sparse::linearization::Linearization;
 use crate::cea::sparse::mode::ReducedMode;
 use crate::cea::sparse::packed::PackedModes;
 use crate::cea::sparse::structure::StructureMatrices;
-use crate::cea::sparse::{BESIDE, GROUP_WIDTH, SAME_SPACE};
+use crate::cea::sparse::{BESIDE, CHANGE_PLACES, GROUP_WIDTH, MOST_ATTEMPTS, SAME_SPACE};
 use crate::linalg::dense::join_columns;
 use crate::linalg::{LinalgError, Mat, MatrixPolynomial, c64};
 use crate::prestress::SlidingTangent;
@@ -22,8 +20,6 @@ const HISTORY: usize = 3;
 /// Unknowns up to which a problem, of twice that size, is decomposed: where its modes are lossy or do not converge. That takes a
 /// second or two for each friction value.
 pub(super) const MOST_DENSE: usize = 300;
-/// Samples between two friction values, at places where branches were lost, after which more of them are no help.
-const MOST_BETWEEN: usize = 8;
 impl BasisBuilder<'_> {
     /// Takes up the modes without friction, where branches begin: where stiffness depends on frequency, each at its own.
     pub fn begin_at_rest(&mut self) -> Result<(), CeaError> {
@@ -245,7 +241,7 @@ impl BasisBuilder<'_> {
     /// branch was lost; whether anything was left to do.
     pub fn improve_between(&mut self, from: f64, to: f64, place: f64) -> Result<bool, CeaError> {
         let is_between = |mu: &&f64| (from..to).contains(*mu);
-        let has_many = self.sampled.iter().filter(is_between).count() > MOST_BETWEEN;
+        let has_many = self.sampled.iter().filter(is_between).count() > MOST_ATTEMPTS;
         let mut values = [from, to, place].into_iter();
         match values.find(|mu| !self.sampled.contains(mu)) {
             Some(mu) if !has_many => self.improve_at(mu).map(|_| true),

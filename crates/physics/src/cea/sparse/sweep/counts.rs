@@ -4,7 +4,7 @@ use super::SparseSweep;
 use crate::cea::sparse::branches::TrackedBranch;
 use crate::cea::sparse::count::{ModeCounter, Winding};
 use crate::cea::sparse::point::SolvedPoint;
-use crate::cea::sparse::{RESIDUAL_BOUND, TRACKING_MARGIN};
+use crate::cea::sparse::{MOST_ATTEMPTS, RESIDUAL_BOUND, TRACKING_MARGIN};
 use crate::cea::{CeaError, CountedRegion, ModeCount, ModeLimit, SweepRequest};
 use crate::linalg::c64;
 use std::f64::consts::TAU;
@@ -15,8 +15,6 @@ const FARTHER: [f64; 3] = [1.0, 1.37, 0.83];
 const FEW_VALUES: usize = 6;
 /// Relative distance of the upper end of a region from the nearest known frequency.
 const CLEARANCE: f64 = 1e-6;
-/// How often the upper end is lowered where an eigenvalue above the lowest modes is counted.
-const LOWERINGS: usize = 4;
 
 impl SparseSweep<'_> {
     /// Counts the modes by the argument principle: at each friction value asked for where these are few, else at the first, the middle
@@ -87,7 +85,7 @@ impl SparseSweep<'_> {
         let mut top = upper_end(point, &known, self.limit);
         let mut count = count_below(counter, point, &known, top);
         let highest = highest(point);
-        for _ in 0..LOWERINGS {
+        for _ in 0..MOST_ATTEMPTS {
             let above = count.near.filter(|near| near.im > highest);
             // Of the lowest modes one above all that are listed is none.
             let (Some(above), ModeLimit::Lowest(_)) = (above, self.limit) else {

@@ -1,13 +1,10 @@
 //! Where steady sliding loses its static stability: a motion grows there without oscillating.
 
-use super::SparseSweep;
+use super::{SETTLED, SparseSweep};
 use crate::cea::sparse::branches::{BranchEnd, TrackedBranch};
 use crate::cea::sparse::mode::ReducedMode;
 use crate::cea::{CeaError, UnstableInterval};
 use crate::linalg::c64;
-
-/// Width of the range of friction coefficients in which the loss is located.
-const LOCATED: f64 = 1e-10;
 
 impl SparseSweep<'_> {
     /// From where on a motion grows without oscillating, as an interval of the branch 0 and the frequency 0.
@@ -67,7 +64,7 @@ impl SparseSweep<'_> {
                 break (high, after);
             }
         };
-        while high - low > LOCATED * (1.0 + high) {
+        while high - low > SETTLED * (1.0 + high) {
             // Values far apart in size would keep the secant at one end.
             let t = (before / (before - after)).clamp(0.05, 0.95);
             let middle = low + t * (high - low);

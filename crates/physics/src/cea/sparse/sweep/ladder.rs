@@ -2,19 +2,12 @@
 
 use super::SparseSweep;
 use crate::cea::CeaError;
-use crate::cea::sparse::RESIDUAL_BOUND;
 use crate::cea::sparse::linearization::Linearization;
 use crate::cea::sparse::mode::ReducedMode;
+use crate::cea::sparse::{LITTLE, MOST_ATTEMPTS, RESIDUAL_BOUND};
 
 /// Residual force, relative to the inertia force, up to which modes are corrected rather than computed anew.
 const CORRECTABLE: f64 = 1e-4;
-/// Part of the error of a point that a remedy may leave: with more the next one takes over.
-const LITTLE: f64 = 0.3;
-/// Rounds of one remedy at one point or crossing: with more of them it would not converge either.
-pub(super) const MOST_ROUNDS: usize = 8;
-/// Residual force, relative to the inertia force, above which a point with other than viscous damping is improved: its basis, made of right
-/// vectors alone, is too poor in left ones for errors of eigenvalues to be of second order.
-const LOSSY_GOAL: f64 = 1e-9;
 
 /// Remedies, one after the other.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -44,7 +37,7 @@ impl Ladder {
     /// The remedy for what is left, the `error`: another one where the last did little. What is converged is only corrected, as long as
     /// that helps: round-off does not become less. The whole problem is one of a body that `is_small`.
     fn climb(&mut self, error: f64, is_converged: bool, is_small: bool) -> Rung {
-        let does_little = error > LITTLE * self.error || self.rounds == MOST_ROUNDS;
+        let does_little = error > LITTLE * self.error || self.rounds == MOST_ATTEMPTS;
         (self.error, self.rounds) = (error, self.rounds + 1);
         if does_little {
             self.rung = match self.rung {
@@ -120,9 +113,13 @@ impl SparseSweep<'_> {
         Ok(())
     }
 
-    /// Residual force, relative to the inertia force, above which a point is improved.
+    /// Residual force, relative to the inertia force, above which a point is improved. With other than viscous damping the basis, made of
+    /// right vectors alone, is too poor in left ones for errors of eigenvalues to be of second order.
     fn goal(&self) -> f64 {
-        if self.tangent.is_lossy() { LOSSY_GOAL } else { self.linearization.force_residual_goal() }
+        match self.tangent.is_lossy() {
+            true => RESIDUAL_BOUND,
+            false => self.linearization.force_residual_goal(),
+        }
     }
 
     /// Points whose modes could still be improved.

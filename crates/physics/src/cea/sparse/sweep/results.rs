@@ -1,10 +1,9 @@
 //! What a sweep found: points, unstable intervals, shapes.
 
-use super::ladder::MOST_ROUNDS;
 use super::{SETTLED, SparseSweep};
-use crate::cea::sparse::RESIDUAL_BOUND;
 use crate::cea::sparse::branches::{BranchLabel, TrackedBranch};
 use crate::cea::sparse::onset::{FoundInterval, OnsetFinder, State};
+use crate::cea::sparse::{MOST_ATTEMPTS, RESIDUAL_BOUND};
 use crate::cea::{BeyondMode, CeaError, ComplexMode, FrictionPoint, FrictionSweep, SweepRequest};
 use crate::cea::{EndedMode, UnconvergedMode};
 use crate::linalg::c64;
@@ -114,7 +113,7 @@ impl SparseSweep<'_> {
                 open.extend(missed());
                 moved = all();
             }
-            if round == MOST_ROUNDS {
+            if round == MOST_ATTEMPTS {
                 open.clear();
             }
             let mut has_grown = false;
