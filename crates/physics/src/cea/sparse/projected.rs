@@ -2,6 +2,7 @@
 
 use super::mode::ReducedMode;
 use super::packed::forms;
+use super::term::{Term, projected};
 use super::{LITTLE, MOST_STEPS};
 use crate::fem::own_frequency_step;
 use crate::linalg::dense::{column, column_mut, product, transpose_product};
@@ -27,12 +28,6 @@ pub struct ProjectedMatrices {
     pub structural: Option<Mat<f64>>,
     /// `V^T K_p V` of parts whose stiffness depends on frequency.
     pub tabled: Vec<(TabledGain, Mat<f64>)>,
-}
-
-/// `P^T A P` of a small matrix `A` and orthonormal columns `P`.
-pub(super) fn projected(small: &Mat<f64>, columns: &Mat<f64>) -> Mat<f64> {
-    let image = product(small.as_ref(), columns.as_ref());
-    transpose_product(columns.as_ref(), image.as_ref())
 }
 
 impl ProjectedMatrices {
@@ -202,20 +197,15 @@ fn times(terms: &[(c64, &Mat<f64>)], x: &Mat<c64>, is_left: bool) -> Mat<c64> {
     sum
 }
 
-/// `P(mu)` of the projected `coefficients`, or `dP/dmu`.
-pub fn summed(
-    coefficients: &[Mat<f64>],
-    weights: FrictionWeights,
-    mu: f64,
-    is_slope: bool,
-) -> Mat<f64> {
-    let size = coefficients[0].nrows();
+/// `V^T P(mu) V` of the `terms` of `P`, or of `dP/dmu`.
+pub fn summed(terms: &[Term], weights: FrictionWeights, mu: f64, is_slope: bool) -> Mat<f64> {
+    let size = terms[0].projected.nrows();
     let mut sum = Mat::zeros(size, size);
-    for (place, factor, weight) in weights.steps(coefficients.len(), mu, is_slope) {
+    for (place, factor, weight) in weights.steps(terms.len(), mu, is_slope) {
         // In one pass: these matrices are larger than the caches.
         for j in 0..size {
-            let entries = column_mut(&mut sum, j).iter_mut();
-            let entries = entries.zip(column(coefficients[place].as_ref(), j));
+            let own = column(terms[place].projected.as_ref(), j);
+            let entries = column_mut(&mut sum, j).iter_mut().zip(own);
             entries.for_each(|(s, c)| *s = factor * *s + weight * c);
         }
     }

@@ -6,7 +6,7 @@ mod parts;
 use super::NEIGHBOURS;
 use super::linearization::Linearization;
 use super::mode::ReducedMode;
-use super::projected::{ProjectedMatrices, projected, summed};
+use super::projected::{ProjectedMatrices, summed};
 use super::term::Term;
 use super::{MULTIPLE, SAME_SPACE};
 use crate::cea::vectors::length;
@@ -58,17 +58,14 @@ fn combined(columns: &Mat<f64>, coordinates: &[c64]) -> Vec<c64> {
 /// is compressed.
 pub struct ReducedModel {
     linearization: Linearization,
-    /// Coefficients of `P = K, C, M, H` by power of `mu`.
+    /// Coefficients of `P = K, C, M, H` by power of `mu`; `C` only where it is not proportional, `H` where there is structural damping.
     terms: [Vec<Term>; 4],
+    /// The same of the stiffness of each part that depends on frequency.
+    tabled: Vec<(TabledGain, Vec<Term>)>,
     /// What they weigh.
     weights: FrictionWeights,
     /// `V`, `unknowns x m`.
     basis: GrowingColumns,
-    /// `V^T P_p V` of `P = K, C, M, H` for each power of `mu`; `C` only where it is not proportional, `H` where there is
-    /// structural damping.
-    projected: [Vec<Mat<f64>>; 4],
-    /// Coefficients of the stiffness of each part that depends on frequency.
-    tabled: Vec<TabledTerms>,
     /// Friction coefficients whose modes the basis holds as such, and the coordinates that span them.
     pub(super) samples: Vec<(f64, Mat<f64>)>,
     /// Coordinates of corrections between samples, and where they were made.
@@ -76,11 +73,13 @@ pub struct ReducedModel {
     parts: BasisParts,
 }
 
-/// The stiffness of a part that depends on frequency, by power of `mu`, and `V^T K_p V` for each.
-struct TabledTerms {
-    gain: TabledGain,
-    terms: Vec<Term>,
-    projected: Vec<Mat<f64>>,
+/// All terms.
+fn all<'t>(
+    terms: &'t mut [Vec<Term>],
+    tabled: &'t mut [(TabledGain, Vec<Term>)],
+) -> impl Iterator<Item = &'t mut Term> {
+    let tabled = tabled.iter_mut().flat_map(|(_, terms)| terms);
+    terms.iter_mut().flatten().chain(tabled)
 }
 
 impl ReducedModel {
@@ -98,21 +97,13 @@ impl ReducedModel {
         };
         let structural = tangent.structural.as_ref();
         let structural = structural.map_or_else(Vec::new, |p| terms(p, true));
-        let tabled = tangent.tabled.iter().map(|part| {
-            let terms = terms(&part.stiffness, true);
-            TabledTerms {
-                gain: part.gain.clone(),
-                projected: vec![Mat::zeros(0, 0); terms.len()],
-                terms,
-            }
-        });
-        let tabled = tabled.collect();
+        let tabled = tangent.tabled.iter();
+        let tabled = tabled.map(|part| (part.gain.clone(), terms(&part.stiffness, true))).collect();
         let terms =
             [terms(&tangent.stiffness, true), damping, terms(&tangent.mass, true), structural];
         Self {
             linearization,
             basis: GrowingColumns::new(tangent.stiffness.dimension()),
-            projected: terms.each_ref().map(|t| vec![Mat::zeros(0, 0); t.len()]),
             terms,
             weights: tangent.stiffness.weights(),
             tabled,
@@ -135,48 +126,30 @@ impl ReducedModel {
             return new;
         }
         let basis = self.basis.columns();
-        let tabled = self.tabled.iter_mut();
-        let tabled = tabled.map(|part| (&mut part.projected, &mut part.terms));
-        for (projected, terms) in self.projected.iter_mut().zip(&mut self.terms).chain(tabled) {
-            for (small, term) in projected.iter_mut().zip(terms) {
-                *small = term.grow(small, basis, &new);
-            }
-        }
+        all(&mut self.terms, &mut self.tabled).for_each(|term| term.grow(basis, &new));
         self.basis.append(new.as_ref());
         new
     }
 
     /// Restricts the basis to the span of the orthonormal `columns` of coordinates.
     pub fn compress(&mut self, columns: &Mat<f64>) {
-        let (mut all_terms, mut all_projected) = (Vec::new(), Vec::new());
-        all_terms.extend(self.terms.iter_mut().flatten());
-        all_projected.extend(self.projected.iter_mut().flatten());
-        for part in &mut self.tabled {
-            all_terms.extend(&mut part.terms);
-            all_projected.extend(&mut part.projected);
-        }
-        for term in all_terms {
-            term.compress(columns);
-        }
-        for small in all_projected {
-            *small = projected(small, columns);
-        }
+        all(&mut self.terms, &mut self.tabled).for_each(|term| term.compress(columns));
         self.basis.combine(columns.as_ref());
         self.parts = BasisParts::default();
     }
 
     /// The projected matrices at `mu`.
     pub fn at(&self, mu: f64) -> ProjectedMatrices {
-        self.combine(|coefficients| summed(coefficients, self.weights, mu, false))
+        self.combine(|terms| summed(terms, self.weights, mu, false))
     }
 
     /// Their derivatives by `mu`.
     pub fn derivative_at(&self, mu: f64) -> ProjectedMatrices {
-        self.combine(|coefficients| summed(coefficients, self.weights, mu, true))
+        self.combine(|terms| summed(terms, self.weights, mu, true))
     }
 
-    fn combine(&self, evaluate: impl Fn(&[Mat<f64>]) -> Mat<f64>) -> ProjectedMatrices {
-        let [stiffness, damping, mass, structural] = &self.projected;
+    fn combine(&self, evaluate: impl Fn(&[Term]) -> Mat<f64>) -> ProjectedMatrices {
+        let [stiffness, damping, mass, structural] = &self.terms;
         let structural = (!structural.is_empty()).then(|| evaluate(structural));
         let (stiffness, mass) = (evaluate(stiffness), evaluate(mass));
         let damping = match self.linearization {
@@ -187,7 +160,7 @@ impl ReducedModel {
             Linearization::Companion { .. } => evaluate(damping),
         };
         let tabled = self.tabled.iter();
-        let tabled = tabled.map(|part| (part.gain.clone(), evaluate(&part.projected)));
+        let tabled = tabled.map(|(gain, terms)| (gain.clone(), evaluate(terms)));
         ProjectedMatrices { stiffness, damping, mass, structural, tabled: tabled.collect() }
     }
 

@@ -3,17 +3,25 @@
 use crate::linalg::MatrixPolynomial;
 use crate::linalg::dense::{join_columns, product, transpose_product};
 use crate::linalg::{Mat, MatRef};
+use std::sync::Arc;
 
 /// One coefficient `P` of a matrix polynomial, over the unknowns that it touches.
-pub struct Term {
+struct Coefficient {
     matrix: MatrixPolynomial,
     /// Its nonzeros by rows.
     sorted: Vec<f64>,
     /// The unknowns, where they are not all.
     support: Option<Vec<usize>>,
-    /// Rows of `V` of these unknowns.
-    restricted: Mat<f64>,
     is_symmetric: bool,
+}
+
+/// A coefficient and its projection.
+pub struct Term {
+    coefficient: Arc<Coefficient>,
+    /// Rows of `V` of the unknowns that it touches, where they are not all.
+    restricted: Mat<f64>,
+    /// `V^T P V`.
+    pub projected: Mat<f64>,
 }
 
 impl Term {
@@ -23,26 +31,29 @@ impl Term {
         let support = (unknowns.len() < polynomial.dimension()).then_some(unknowns);
         let rows = support.as_ref().map_or(0, Vec::len);
         let sorted = matrix.pattern().by_rows(&matrix.coefficients()[0]);
-        Self { matrix, sorted, support, restricted: Mat::zeros(rows, 0), is_symmetric }
+        let coefficient = Arc::new(Coefficient { matrix, sorted, support, is_symmetric });
+        Self { coefficient, restricted: Mat::zeros(rows, 0), projected: Mat::zeros(0, 0) }
     }
 
-    /// `V^T P V` with the rows and columns of `new` basis vectors added.
-    pub fn grow(&mut self, known: &Mat<f64>, basis: MatRef<'_, f64>, new: &Mat<f64>) -> Mat<f64> {
-        let Some(support) = &self.support else {
-            return self.grown(known, basis, new.as_ref());
+    /// Adds the rows and columns of `new` vectors of the `basis`.
+    pub fn grow(&mut self, basis: MatRef<'_, f64>, new: &Mat<f64>) {
+        let Some(support) = &self.coefficient.support else {
+            self.projected = self.grown(basis, new.as_ref());
+            return;
         };
         let rows = Mat::from_fn(support.len(), new.ncols(), |i, j| new[(support[i], j)]);
-        let grown = self.grown(known, self.restricted.as_ref(), rows.as_ref());
+        self.projected = self.grown(self.restricted.as_ref(), rows.as_ref());
         self.restricted = join_columns(self.restricted.as_ref(), rows.as_ref());
-        grown
     }
 
-    fn grown(&self, known: &Mat<f64>, basis: MatRef<'_, f64>, new: MatRef<'_, f64>) -> Mat<f64> {
-        let (pattern, values) = (self.matrix.pattern(), &self.matrix.coefficients()[0]);
+    fn grown(&self, basis: MatRef<'_, f64>, new: MatRef<'_, f64>) -> Mat<f64> {
+        let Coefficient { matrix, sorted, is_symmetric, .. } = &*self.coefficient;
+        let (pattern, values, known) =
+            (matrix.pattern(), &matrix.coefficients()[0], &self.projected);
         let (old, total) = (known.ncols(), known.ncols() + new.ncols());
-        let [image] = pattern.multiply_sorted([&self.sorted], new);
+        let [image] = pattern.multiply_sorted([sorted], new);
         let above = transpose_product(basis, image.as_ref());
-        let below = if self.is_symmetric {
+        let below = if *is_symmetric {
             above.transpose().to_owned()
         } else {
             transpose_product(pattern.multiply_transpose(values, new).as_ref(), basis)
@@ -57,8 +68,24 @@ impl Term {
 
     /// Restricts the basis to the span of the orthonormal `columns` of coordinates.
     pub fn compress(&mut self, columns: &Mat<f64>) {
-        if self.support.is_some() {
+        if self.coefficient.support.is_some() {
             self.restricted = product(self.restricted.as_ref(), columns.as_ref());
         }
+        self.projected = projected(&self.projected, columns);
     }
+
+    /// The projection alone in that span, which does not grow.
+    pub fn within(&self, columns: &Mat<f64>) -> Self {
+        Self {
+            coefficient: Arc::clone(&self.coefficient),
+            restricted: Mat::zeros(0, 0),
+            projected: projected(&self.projected, columns),
+        }
+    }
+}
+
+/// `P^T A P` of a small matrix `A` and orthonormal columns `P`.
+pub fn projected(small: &Mat<f64>, columns: &Mat<f64>) -> Mat<f64> {
+    let image = product(small.as_ref(), columns.as_ref());
+    transpose_product(columns.as_ref(), image.as_ref())
 }

@@ -6,7 +6,7 @@
 use super::{ReducedModel, spanned};
 use crate::cea::sparse::NEIGHBOURS;
 use crate::cea::sparse::mode::ReducedMode;
-use crate::cea::sparse::projected::projected;
+use crate::cea::sparse::term::Term;
 use crate::linalg::dense::{GrowingColumns, column};
 use crate::linalg::{Mat, c64};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -85,15 +85,12 @@ impl ReducedModel {
 
     /// The projected problem alone, in the space of orthonormal `columns` of coordinates.
     fn within(&self, columns: &Mat<f64>) -> Self {
-        let within = |all: &Vec<Mat<f64>>| -> Vec<Mat<f64>> {
-            all.iter().map(|small| projected(small, columns)).collect()
-        };
+        let within = |terms: &Vec<Term>| terms.iter().map(|term| term.within(columns)).collect();
         Self {
             linearization: self.linearization,
-            terms: Default::default(),
+            terms: self.terms.each_ref().map(within),
             weights: self.weights,
             basis: GrowingColumns::new(0),
-            projected: self.projected.each_ref().map(within),
             tabled: Vec::new(),
             samples: Vec::new(),
             corrections: Vec::new(),
