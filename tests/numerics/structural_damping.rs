@@ -192,7 +192,7 @@ fn derivatives_with_loss_factors_are_differences_of_eigenvalues() {
         // Pairs +n and -n that friction has not parted have no single vector.
         let Some(pair) = pair else { continue };
         count += 1;
-        let own = pair.lossy_response(pattern, [&none, &none, &none], &change);
+        let own = pair.response(pattern, [&none, &none, &none], &change);
         difference(k, [nearest(&by_eta[0], k), nearest(&by_eta[1], k)], own);
         let own = pair.derivative;
         difference(k, [nearest(&by_mu[0], k), nearest(&by_mu[1], k)], own);

@@ -126,7 +126,7 @@ fn derivatives_follow_the_frequency_of_the_mode() {
             pairs.map(|(a, b)| (a - b) / (2.0 * step)).collect()
         };
         let [dk, dc, dm, dh] = [0, 1, 2, 3].map(change);
-        let response = pair.lossy_response(own.stiffness.pattern(), [&dk, &dc, &dm], &dh);
+        let response = pair.response(own.stiffness.pattern(), [&dk, &dc, &dm], &dh);
         let by_modulus = (nearest(&stiffer, value) - nearest(&softer, value)) / (2.0 * step);
         let error = (response - by_modulus).norm();
         println!("{value} {response} {by_modulus}");

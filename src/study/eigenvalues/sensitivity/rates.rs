@@ -239,7 +239,7 @@ fn responses(place: &Place, k: usize, terms: &[(f64, Linearized)]) -> Vec<Option
     let response = |pair: &Option<ModePair>, changes: &[Vec<f64>; 4]| {
         let [stiffness, damping, mass, structural] = changes.each_ref().map(Vec::as_slice);
         let pair = pair.as_ref()?;
-        Some(pair.lossy_response(pattern, [stiffness, damping, mass], structural))
+        Some(pair.response(pattern, [stiffness, damping, mass], structural))
     };
     let modes = place.targets.iter().zip(&place.pairs);
     if tangent.tabled.is_empty() {

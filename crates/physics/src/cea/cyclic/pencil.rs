@@ -64,7 +64,7 @@ impl Pencil {
     pub fn lowest(&self, count: usize) -> Modes {
         let settings =
             LanczosSettings { count, tolerance: SETTLED, block: 1, max_restarts: RESTARTS };
-        let pairs = block_lanczos(self, None, &settings);
+        let pairs = block_lanczos(self, &settings);
         let settled = pairs.ok().filter(|pairs| pairs.converged == pairs.values.len());
         let modes = |pairs: LanczosPairs| {
             let mode = |(j, theta): (usize, &f64)| {

@@ -283,7 +283,7 @@ impl<'a> Inertia<'a> {
                 block: BLOCK,
                 max_restarts: MOST_ATTEMPTS,
             };
-            let pairs = block_lanczos(&pencil, None, &settings)?;
+            let pairs = block_lanczos(&pencil, &settings)?;
             if pairs.converged == count {
                 return Ok(self.told_apart(&pencil, pairs));
             }

@@ -33,12 +33,21 @@ pub struct ModePair {
 }
 
 impl ModePair {
-    /// `d lambda = - w^T (lambda^2 dM + lambda dC + dK) x` for changes `[dK, dC, dM]` given by their nonzero values.
-    pub fn response(&self, pattern: &SparsityPattern, changes: [&[f64]; 3]) -> c64 {
-        let [stiffness, damping, mass] =
-            changes.map(|values| form(pattern, values, &self.left, &self.right));
-        let lambda = self.eigenvalue;
-        self.followed(-(lambda * (lambda * mass + damping) + stiffness))
+    /// `d lambda = - w^T (lambda^2 dM + lambda dC + dK + i dH) x` for changes `[dK, dC, dM]`, and `dH` of the structural damping, given by
+    /// their nonzero values; an empty `dH` is none.
+    pub fn response(
+        &self,
+        pattern: &SparsityPattern,
+        changes: [&[f64]; 3],
+        structural: &[f64],
+    ) -> c64 {
+        let form = |values: &[f64]| form(pattern, values, &self.left, &self.right);
+        let ([stiffness, damping, mass], lambda) = (changes.map(form), self.eigenvalue);
+        let viscous = self.followed(-(lambda * (lambda * mass + damping) + stiffness));
+        match structural.is_empty() {
+            true => viscous,
+            false => viscous + self.followed(c64::new(0.0, -1.0) * form(structural)),
+        }
     }
 
     /// The change of the eigenvalue where it would be `change` at fixed stiffness: with tables the stiffness follows it.
@@ -47,21 +56,6 @@ impl ModePair {
             true => change,
             false => own_frequency_step(change, self.own_slope),
         }
-    }
-
-    /// [`Self::response`] with a change `dH` of the structural damping, which adds `- i w^T dH x`; an empty one is none.
-    pub fn lossy_response(
-        &self,
-        pattern: &SparsityPattern,
-        changes: [&[f64]; 3],
-        structural: &[f64],
-    ) -> c64 {
-        let viscous = self.response(pattern, changes);
-        if structural.is_empty() {
-            return viscous;
-        }
-        let lost = form(pattern, structural, &self.left, &self.right);
-        viscous + self.followed(c64::new(0.0, -1.0) * lost)
     }
 }
 
