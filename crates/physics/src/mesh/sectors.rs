@@ -121,26 +121,20 @@ fn connect(spec: &AnnulusSpecification, rays: &[Ray], built: usize) -> Mesh {
         for (body, ray) in rays.iter().enumerate() {
             let here = sector * per_sector + ray.start;
             let next = (sector + 1) % sectors * per_sector + ray.start;
-            let count = ray.element_count();
-            for i in 0..count {
-                let ids = if spec.element.is_quadratic() {
-                    let middle = here + 2 * count + 1;
-                    vec![
-                        here + 2 * i,
-                        here + 2 * i + 2,
-                        next + 2 * i + 2,
-                        next + 2 * i,
-                        here + 2 * i + 1,
-                        middle + i + 1,
-                        next + 2 * i + 1,
-                        middle + i,
-                    ]
-                } else {
-                    vec![here + i, here + i + 1, next + i + 1, next + i]
+            // Nodes on a ray: of quadratic elements those at middles of edges are there, but on the middle ray.
+            let middle = sector * per_sector + ray.middle();
+            let spacing = if spec.element.is_quadratic() { 1 } else { 2 };
+            let on_rays = [(here, spacing), (middle, 2), (next, spacing)];
+            for i in 0..ray.element_count() {
+                // Radially and around, in halves of an element.
+                let node = |[a, b, _]: [f64; 3]| {
+                    let (start, spacing) = on_rays[1usize.wrapping_add_signed(b as isize)];
+                    let place = (2 * i + 1).wrapping_add_signed(a as isize);
+                    (start + place / spacing) as u32
                 };
                 // The annulus, region 0, is the last body.
                 let region = usize::from(body + 1 < rays.len());
-                let nodes = ids.into_iter().map(|id| id as u32);
+                let nodes = spec.element.node_places().into_iter().map(node);
                 mesh.push_element(spec.element, nodes, (region, representative));
                 representative += 1;
             }

@@ -2,13 +2,11 @@
 
 use super::kernel::{LineLayout, RowStencil};
 use super::sparse::free_masses;
-use super::stencil::{StencilRows, check_mirrored};
+use super::stencil::{Blocks, StencilRows, sector_blocks};
 use super::{OperatorError, SectorStencil, SimdLevel};
 use crate::fem::{MaterialField, assemble_stiffness, assemble_supports};
 use crate::mesh::{AnnulusMesh, BoundaryCondition};
-
-/// `blocks[i][k][l][c][d]`: from component `d` of node `(i + k - 1, j + l - 1)` to component `c` of `(i, j)`.
-type Blocks = Vec<[[[[f64; 2]; 2]; 3]; 3]>;
+use std::collections::BTreeMap;
 
 impl SectorStencil {
     /// Assembles the stencil of `annulus` with what holds its edges; the rows of a shaft come before its own, and no
@@ -28,13 +26,16 @@ impl SectorStencil {
             return Err(OperatorError::NotQuad4);
         }
         let node_masses = free_masses(&annulus.mesh, material)?;
-        let blocks = sector_blocks(annulus, material);
-        let entries = blocks.iter().flatten().flat_map(|block| {
-            let of = |(c, d): (usize, usize)| ([0, 1, 2].map(|l| block[l][c][d]), c != d);
-            [(0, 0), (0, 1), (1, 0), (1, 1)].map(of)
-        });
-        check_mirrored(entries)?;
         let per_sector = annulus.sector_node_count();
+        // What couples sector 1 to sectors 0, 1 and 2.
+        let [springs, _] = assemble_supports(&annulus.mesh);
+        let body = assemble_stiffness(&annulus.mesh, material).entries.into_iter();
+        let dofs = 2 * per_sector;
+        let entries = body.chain(springs.entries).filter(|(row, ..)| row / dofs == 1);
+        let entries = entries.map(|(row, column, value)| {
+            (row % dofs, column % dofs, 2 * (column / dofs) as isize - 2, value)
+        });
+        let blocks = sector_blocks(per_sector, entries)?;
         let specification = &annulus.specification;
         let is_clamped = specification.outer == BoundaryCondition::Clamped;
         let bore = specification.shaft.map(|shaft| shaft.bore);
@@ -42,7 +43,7 @@ impl SectorStencil {
         let nodes = usize::from(is_bore_clamped)..per_sector - usize::from(is_clamped);
         // A row of zeros on either side, of which a clamped bore takes the place of the first.
         let layout = LineLayout::new(2, annulus.sector_count(), nodes.len() + 2);
-        let stencil = |i: usize| row_stencil(&blocks[i], node_masses[i], i + 1 < nodes.end);
+        let stencil = |i: usize| row_stencil(i, &blocks[i], node_masses[i], i + 1 < nodes.end);
         let mut own = Self {
             masses: vec![0.0; layout.field_length()],
             rows: StencilRows::Radial(nodes.clone().map(stencil).collect()),
@@ -58,30 +59,17 @@ impl SectorStencil {
     }
 }
 
-/// Blocks that couple the nodes of sector 1 to sectors 0, 1 and 2.
-fn sector_blocks(annulus: &AnnulusMesh, material: &dyn MaterialField) -> Blocks {
-    let per_sector = annulus.sector_node_count();
-    let mut blocks = vec![[[[[0.0; 2]; 2]; 3]; 3]; per_sector];
-    let [springs, _] = assemble_supports(&annulus.mesh);
-    let body = assemble_stiffness(&annulus.mesh, material).entries;
-    for (row, column, value) in body.into_iter().chain(springs.entries) {
-        let (node, other) = (row / 2, column / 2);
-        if node / per_sector != 1 {
-            continue;
-        }
-        let (i, other_i) = (node % per_sector, other % per_sector);
-        let radial_offset = other_i + 1 - i;
-        let sector_offset = other / per_sector;
-        blocks[i][radial_offset][sector_offset][row % 2][column % 2] += value;
-    }
-    blocks
-}
-
-/// Stencil of one radius, divided by its mass; the outer neighbour of the last moving row is clamped.
-fn row_stencil(blocks: &[[[[f64; 2]; 2]; 3]; 3], mass: f64, has_outer: bool) -> RowStencil {
+/// Stencil of radius `i` from what its neighbours do, divided by its mass; the outer one of the last moving row is clamped.
+fn row_stencil(
+    i: usize,
+    neighbours: &BTreeMap<usize, Blocks<2>>,
+    mass: f64,
+    has_outer: bool,
+) -> RowStencil {
     let mut stencil = RowStencil::default();
-    for k in 0..if has_outer { 3 } else { 2 } {
-        let entry = |l: usize, c: usize, d: usize| blocks[k][l][c][d] / mass;
+    for (&other, block) in neighbours.iter().filter(|(other, _)| has_outer || **other <= i) {
+        let k = other + 1 - i;
+        let entry = |l: usize, c: usize, d: usize| block[l][c][d] / mass;
         let even = |c: usize| 0.5 * (entry(2, c, c) + entry(0, c, c));
         let odd = |c: usize, d: usize| 0.5 * (entry(2, c, d) - entry(0, c, d));
         stencil.rr0[k] = entry(1, 0, 0);

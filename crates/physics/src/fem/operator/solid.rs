@@ -1,15 +1,12 @@
 //! `M^-1 K` of a body of revolution in three dimensions, one stencil for each node of a sector.
 
 use super::kernel::{LineLayout, solid::SheetCoupling};
-use super::stencil::{StencilRows, check_mirrored};
+use super::stencil::{Blocks, StencilRows, sector_blocks};
 use super::{OperatorError, SectorStencil, SimdLevel};
 use crate::fem::fold::SectorMatrix;
 use crate::fem::{MassKind, MaterialField, sector};
 use crate::mesh::SolidSector;
 use std::collections::BTreeMap;
-
-/// `[l][c][d]`: from component `d` of a node in sector `s + l - 1` to component `c` of one in sector `s`.
-type Blocks = [[[f64; 3]; 3]; 3];
 
 impl SectorStencil {
     /// Assembles the stencil of bricks of 8 nodes from the elastic stiffness of a sector and the
@@ -31,15 +28,9 @@ impl SectorStencil {
         let layout = LineLayout::new(3, sector.sector_count(), sector.node_count());
         let node_masses = nodal_masses(sector, material)?;
         let elastic = sector::stiffness(sector, material);
-        let blocks = sector_blocks(sector, &[&elastic, springs]);
-        let entries = blocks.iter().flat_map(BTreeMap::values).flat_map(|own| {
-            let of = move |k: usize| {
-                ([0, 1, 2].map(|l| own[l][k / 3][k % 3]), (k / 3 == 1) != (k % 3 == 1))
-            };
-            (0..9).map(of)
-        });
-        check_mirrored(entries)?;
-        let row = |(node, neighbours): (usize, &BTreeMap<usize, Blocks>)| {
+        let entries = elastic.entries().chain(springs.entries());
+        let blocks = sector_blocks(sector.node_count(), entries)?;
+        let row = |(node, neighbours): (usize, &BTreeMap<usize, Blocks<3>>)| {
             let scale = [0, 1, 2].map(|c| match sector.is_held(3 * node + c) {
                 true => 0.0,
                 false => node_masses[node].recip(),
@@ -83,18 +74,8 @@ fn nodal_masses(
     }
 }
 
-/// Blocks between each node of a sector and its neighbours.
-fn sector_blocks(sector: &SolidSector, terms: &[&SectorMatrix]) -> Vec<BTreeMap<usize, Blocks>> {
-    let mut blocks = vec![BTreeMap::<usize, Blocks>::new(); sector.node_count()];
-    for (row, column, ahead, value) in terms.iter().flat_map(|term| term.entries()) {
-        let block = blocks[row / 3].entry(column / 3).or_default();
-        block[(2 + ahead) as usize / 2][row % 3][column % 3] += value;
-    }
-    blocks
-}
-
 /// A neighbour's part of a stencil; rows are multiplied by `scale`.
-fn coupling([before, here, after]: &Blocks, scale: [f64; 3], start: usize) -> SheetCoupling {
+fn coupling([before, here, after]: &Blocks<3>, scale: [f64; 3], start: usize) -> SheetCoupling {
     const EVEN: [(usize, usize); 5] = [(0, 0), (0, 2), (2, 0), (2, 2), (1, 1)];
     const ODD: [(usize, usize); 4] = [(0, 1), (2, 1), (1, 0), (1, 2)];
     SheetCoupling {

@@ -2,6 +2,7 @@
 
 use super::kernel::{self, LineLayout, RowStencil, solid::SheetCoupling};
 use super::{MotionFields, OperatorError, SimdLevel, StepCoefficients, StiffnessOperator};
+use std::collections::BTreeMap;
 
 /// `M^-1 K` of a body of equal sectors, without a matrix.
 ///
@@ -99,22 +100,38 @@ impl StiffnessOperator for SectorStencil {
     }
 }
 
-/// Refuses entries `[before, here, after]` that are not their own mirror images, even or odd.
-pub(super) fn check_mirrored(
-    entries: impl Iterator<Item = ([f64; 3], bool)>,
-) -> Result<(), OperatorError> {
+/// `[l][c][d]`: from component `d` of a node in sector `s + l - 1` to component `c` of one in sector `s`.
+pub(super) type Blocks<const D: usize> = [[[f64; D]; D]; 3];
+
+/// Blocks between each node of a sector and its neighbours, from `(row, column, halves of a sector ahead, value)` of each entry.
+///
+/// # Errors
+/// [`OperatorError::NotCyclic`] where they are not their own mirror images, even or odd.
+pub(super) fn sector_blocks<const D: usize>(
+    nodes: usize,
+    entries: impl Iterator<Item = (usize, usize, isize, f64)>,
+) -> Result<Vec<BTreeMap<usize, Blocks<D>>>, OperatorError> {
+    let mut blocks = vec![BTreeMap::<usize, Blocks<D>>::new(); nodes];
+    for (row, column, ahead, value) in entries {
+        let block = blocks[row / D].entry(column / D).or_insert([[[0.0; D]; D]; 3]);
+        block[(2 + ahead) as usize / 2][row % D][column % D] += value;
+    }
     let (mut largest, mut worst) = (0.0_f64, 0.0_f64);
-    for ([before, here, after], is_odd) in entries {
-        let parity = if is_odd { -1.0 } else { 1.0 };
-        worst = worst.max((after - parity * before).abs());
-        if is_odd {
-            worst = worst.max(here.abs());
+    for block in blocks.iter().flat_map(BTreeMap::values) {
+        for (c, d) in (0..D * D).map(|k| (k / D, k % D)) {
+            let [before, here, after] = block.each_ref().map(|own| own[c][d]);
+            let is_odd = (c == 1) != (d == 1);
+            let parity = if is_odd { -1.0 } else { 1.0 };
+            worst = worst.max((after - parity * before).abs());
+            if is_odd {
+                worst = worst.max(here.abs());
+            }
+            largest = largest.max(here.abs());
         }
-        largest = largest.max(here.abs());
     }
     // Assembly order leaves a few units of round-off; anything more is no sector.
     match worst / largest {
         relative if relative > 1e-11 => Err(OperatorError::NotCyclic { relative }),
-        _ => Ok(()),
+        _ => Ok(blocks),
     }
 }
