@@ -86,9 +86,9 @@ fn a_flat_face_keeps_its_distance_from_a_ball() {
     let surface = mesh.boundary("z0").unwrap();
     let pair = SurfacePair::on_rigid(&mesh, surface, &ball(0.0)).unwrap();
     for point in &pair.points {
-        let exact = point.position.iter().map(|x| x * x).sum::<f64>().sqrt() - BALL;
+        let exact = point.at.position.iter().map(|x| x * x).sum::<f64>().sqrt() - BALL;
         // The means of the ends of edges are wrong by up to 6e-5 m.
-        assert!((point.gap - exact).abs() < 1e-6, "{} {exact}", point.gap);
+        assert!((point.at.gap - exact).abs() < 1e-6, "{} {exact}", point.at.gap);
     }
     // A real overlap is one, whatever the edges: this cup has the radius of a smaller ball.
     let mut small = block(ElementKind::Tet10, [4, 4, 1], |at| cup(at).map(|x| 0.99 * x));

@@ -16,6 +16,8 @@
 //! [`RigidCounterface`] may stand in place of the other surface.
 
 mod counterpart;
+mod dual;
+mod grid;
 mod interface;
 mod law;
 mod linearized;
@@ -43,8 +45,8 @@ pub use normal_law::NormalLaw;
 pub use opposite::OppositeShare;
 pub use pair_error::PairError;
 pub use pairing::{ContactSite, ContactSurface, Motion, PairFriction, PointKind};
-pub use point::{Point, Row};
-pub use surface::{SegmentPoint, SurfacePair, row_along};
+pub use point::{Point, Row, row_along};
+pub use surface::{SegmentPoint, SurfacePair, SurfacePoint};
 pub use topography::Topography;
 pub use turning::{Turning, turned};
 

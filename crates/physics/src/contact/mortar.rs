@@ -1,9 +1,10 @@
 //! Surfaces that are tied, or in rigid contact, node by node: dual mortar points of segments.
 
-use super::Row;
-use super::surface::{SegmentPoint, SurfacePair, row_along};
+use super::dual::dual_basis;
+use super::surface::{SegmentPoint, SurfacePair, SurfacePoint};
+use super::{Row, row_along};
 use crate::mesh::{Boundary, BoundaryFace, Mesh};
-use nalgebra::{DMatrix, Vector3};
+use nalgebra::Vector3;
 use std::collections::BTreeMap;
 
 /// Share of the corners' displacement in that of a quadratic edge's middle, which makes the integrals of all basis functions
@@ -15,20 +16,8 @@ const CORNER_SHARE: f64 = 0.2;
 pub struct MortarNode {
     /// The node.
     pub node: u32,
-    /// Where it is, m.
-    pub position: [f64; 3],
-    /// Unit normal into the own body, the mean over its faces.
-    pub normal: [f64; 3],
-    /// Area that belongs to it, m2.
-    pub area: f64,
-    /// Mean distance from the counter surface along the normal, m.
-    pub gap: f64,
-    /// Nodes of the own surface with the coefficients of their displacements.
-    pub own: Vec<(u32, f64)>,
-    /// Nodes of the counter surface with theirs.
-    pub counter: Vec<(u32, f64)>,
-    /// Nodes of the counter surface with their slopes by arc, 1/m.
-    pub slopes: Vec<(u32, Vector3<f64>)>,
+    /// The node as a point, with the means over its faces of normal and gap.
+    pub at: SurfacePoint,
     /// Nodes of the own surface that move along a direction, and how far, where the jump here alone is one.
     pub lift: Vec<(u32, f64)>,
 }
@@ -91,25 +80,18 @@ pub fn mortar_nodes(mesh: &Mesh, surface: &Boundary, pair: &SurfacePair) -> Vec<
                     vec![(node, whole), (p, corner), (q, corner)]
                 }
             };
-            let counter = sum.counter.iter();
-            MortarNode {
-                node,
+            let counter = sum.counter.iter().map(|(&other, value)| (other, value / sum.area));
+            let slopes = sum.slopes.iter().map(|(&other, slope)| (other, slope / sum.area));
+            let at = SurfacePoint {
                 position: mesh.nodes[node as usize],
                 normal: sum.normal.normalize().into(),
                 area: sum.area,
                 gap: sum.gap / sum.area,
-                lift,
                 own,
-                counter: counter
-                    .map(|(&other, value)| (other, value / sum.area))
-                    .filter(|entry| entry.1 != 0.0)
-                    .collect(),
-                slopes: sum
-                    .slopes
-                    .iter()
-                    .map(|(&other, slope)| (other, slope / sum.area))
-                    .collect(),
-            }
+                counter: counter.filter(|entry| entry.1 != 0.0).collect(),
+                slopes: slopes.collect(),
+            };
+            MortarNode { node, at, lift }
         })
         .collect()
 }
@@ -128,24 +110,16 @@ fn corners_of_middles<'a>(
 
 /// Adds the integrals of one face.
 fn add_face(face: &BoundaryFace, points: &[&SegmentPoint], sums: &mut BTreeMap<u32, Sums>) {
-    let count = face.nodes.len();
-    let mut mass = DMatrix::<f64>::zeros(count, count);
-    let mut diagonal = vec![0.0; count];
-    let bases: Vec<Vec<f64>> = points.iter().map(|point| positive_basis(face, point)).collect();
-    for (point, basis) in points.iter().zip(&bases) {
-        for i in 0..count {
-            diagonal[i] += point.area * basis[i];
-            for j in 0..count {
-                mass[(i, j)] += point.area * basis[i] * basis[j];
-            }
-        }
-    }
-    let Some(inverse) = mass.try_inverse() else {
+    let points = points.iter().map(|point| &point.at);
+    let bases = points.clone().map(|point| positive_basis(face, point));
+    let bases: Vec<Vec<f64>> = bases.collect();
+    let areas = points.clone().map(|point| point.area);
+    let Some((diagonal, inverse)) = dual_basis(face.nodes.len(), areas.zip(&bases)) else {
         return;
     };
-    for (point, basis) in points.iter().zip(&bases) {
+    for (point, basis) in points.zip(&bases) {
         for (i, &node) in face.nodes.iter().enumerate() {
-            let row = (0..count).map(|j| inverse[(i, j)] * basis[j]);
+            let row = basis.iter().enumerate().map(|(j, value)| inverse[(i, j)] * value);
             let psi = point.area * diagonal[i] * row.sum::<f64>();
             let sum = sums.entry(node).or_default();
             sum.area += psi;
@@ -162,7 +136,7 @@ fn add_face(face: &BoundaryFace, points: &[&SegmentPoint], sums: &mut BTreeMap<u
 }
 
 /// Shape functions with positive integrals: each corner's with a share of those of its edges' middles.
-fn positive_basis(face: &BoundaryFace, point: &SegmentPoint) -> Vec<f64> {
+fn positive_basis(face: &BoundaryFace, point: &SurfacePoint) -> Vec<f64> {
     let mut basis: Vec<f64> = point.own.iter().map(|entry| entry.1).collect();
     if !face.kind.is_quadratic() {
         return basis;
@@ -180,13 +154,13 @@ fn positive_basis(face: &BoundaryFace, point: &SegmentPoint) -> Vec<f64> {
 impl MortarNode {
     /// `direction . (u_own - u_counter)`, over all dofs; the node's own dofs come first, the largest of them ahead.
     pub fn jump(&self, mesh: &Mesh, direction: [f64; 3]) -> Row {
-        let mut row = row_along(mesh, &self.own, direction, 1.0);
+        let mut row = row_along(mesh, &self.at.own, direction, 1.0);
         let is_own = |dof: usize| dof / mesh.dimension == self.node as usize;
         row.sort_by(|a, b| {
             let key = |entry: &(usize, f64)| (!is_own(entry.0), -entry.1.abs());
             key(a).partial_cmp(&key(b)).expect("coefficients are finite")
         });
-        row.extend(row_along(mesh, &self.counter, direction, -1.0));
+        row.extend(row_along(mesh, &self.at.counter, direction, -1.0));
         row
     }
 }

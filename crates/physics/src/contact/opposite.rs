@@ -1,5 +1,6 @@
 //! Coupling of a contact edge to the edge of another body, whose mesh need not match.
 
+use super::dual::dual_basis;
 use crate::mesh::{Counterface, FaceKind, Mesh};
 use std::collections::BTreeMap;
 
@@ -201,14 +202,21 @@ fn mortar(
                 GAUSS.map(|(at, weight)| (other, low + width * at, weight * width * length))
             })
             .collect();
-        let Some(dual) = dual_basis(edge, &points) else {
+        let value = |shape: (usize, f64, f64)| shape.1;
+        let values =
+            points.iter().map(|point| edge.shapes(point.1).into_iter().map(value).collect());
+        let values: Vec<Vec<f64>> = values.collect();
+        let weights = points.iter().map(|point| point.2);
+        let count = edge.nodes.len();
+        let Some((diagonal, inverse)) = dual_basis(count, weights.zip(&values)) else {
             continue;
         };
         for &(other, share, weight) in &points {
             let shapes = edge.shapes(share);
             let met = other.shapes(edge.share_on(other, share, surface));
-            for (row, &(node, ..)) in dual.iter().zip(&shapes) {
-                let psi: f64 = row.iter().zip(&shapes).map(|(a, shape)| a * shape.1).sum();
+            for (i, &(node, ..)) in shapes.iter().enumerate() {
+                let row = (0..count).map(|j| diagonal[i] * inverse[(i, j)]);
+                let psi: f64 = row.zip(&shapes).map(|(a, shape)| a * shape.1).sum();
                 let sum = sums.entry(node).or_default();
                 sum.covered += weight * psi;
                 for &(opposite, value, slope) in &met {
@@ -226,26 +234,6 @@ fn mortar(
             meeting(mesh, node as usize, &sum, heights)
         })
         .collect()
-}
-
-/// Coefficients of the basis that is biorthogonal to an edge's shape functions over the covered part, `A = D M^-1`;
-/// `None` where nothing is covered.
-fn dual_basis(edge: &Edge, points: &[(&Edge, f64, f64)]) -> Option<Vec<Vec<f64>>> {
-    let count = edge.nodes.len();
-    let mut mass = nalgebra::DMatrix::<f64>::zeros(count, count);
-    let mut diagonal = vec![0.0; count];
-    for &(_, share, weight) in points {
-        let shapes = edge.shapes(share);
-        for (i, a) in shapes.iter().enumerate() {
-            diagonal[i] += weight * a.1;
-            for (j, b) in shapes.iter().enumerate() {
-                mass[(i, j)] += weight * a.1 * b.1;
-            }
-        }
-    }
-    let inverse = mass.try_inverse()?;
-    let row = |i: usize| (0..count).map(|j| diagonal[i] * inverse[(i, j)]).collect();
-    Some((0..count).map(row).collect())
 }
 
 fn meeting(mesh: &Mesh, node: usize, sums: &Sums, heights: &BTreeMap<u32, f64>) -> Meeting {

@@ -1,9 +1,10 @@
 //! Contact points of two surfaces of which one slides over the other.
 
-use super::mortar::{MortarNode, mortar_nodes};
-use super::surface::{SurfacePair, row_along};
+use super::mortar::mortar_nodes;
+use super::surface::{SegmentPoint, SurfacePair, SurfacePoint};
 use super::{
-    Counterpart, FrictionDecay, PairError, Point, RigidCounterface, Row, SteadyFriction, Topography,
+    Counterpart, FrictionDecay, PairError, Point, RigidCounterface, Row, SteadyFriction,
+    Topography, row_along,
 };
 use crate::fem::{RotationFrame, Spin};
 use crate::mesh::{Boundary, Mesh};
@@ -143,20 +144,28 @@ impl ContactSurface {
             slopes: Vec::new(),
             spin: counterpart.rigid().map_or_else(|| spin(counter_motion), RigidCounterface::spin)
                 - spin(own_motion),
-            nodes: nodes_of(pair.points.iter().map(|point| &point.own)),
+            nodes: nodes_of(pair.points.iter().map(|point| &point.at.own)),
             area: pair.area,
             covered: pair.covered,
         };
         match kind {
-            PointKind::Segments => found.add_segments(mesh, &pair, friction, sliding),
-            PointKind::Nodes => {
-                let mut nodes = mortar_nodes(mesh, surface, &pair);
-                if let Counterpart::Rigid(rigid) = counterpart {
-                    for node in &mut nodes {
-                        node.normal = rigid.normal(node.position, node.normal);
-                    }
+            PointKind::Segments => {
+                for SegmentPoint { at, .. } in pair.points {
+                    let (velocity, shares) = (sliding(at.position), at.own.clone());
+                    let jump = |direction| at.jump(mesh, direction);
+                    found.add((&at, shares), (velocity, friction), jump, Row::new());
                 }
-                found.add_nodes(mesh, nodes, friction, sliding);
+            }
+            PointKind::Nodes => {
+                for mut node in mortar_nodes(mesh, surface, &pair) {
+                    if let Counterpart::Rigid(rigid) = counterpart {
+                        node.at.normal = rigid.normal(node.at.position, node.at.normal);
+                    }
+                    let (velocity, shares) = (sliding(node.at.position), vec![(node.node, 1.0)]);
+                    let jump = |direction| node.jump(mesh, direction);
+                    let lift = row_along(mesh, &node.lift, node.at.normal, 1.0);
+                    found.add((&node.at, shares), (velocity, friction), jump, lift);
+                }
             }
         }
         if counter.is_none() {
@@ -176,46 +185,6 @@ impl ContactSurface {
         }
     }
 
-    /// A point for each quadrature point of the segments.
-    fn add_segments(
-        &mut self,
-        mesh: &Mesh,
-        pair: &SurfacePair,
-        friction: PairFriction,
-        sliding: impl Fn([f64; 3]) -> Vector3<f64>,
-    ) {
-        for point in &pair.points {
-            let site = site(point.position, point.normal, sliding(point.position));
-            let jump = |direction: [f64; 3]| -> Row {
-                let mut row = row_along(mesh, &point.own, direction, 1.0);
-                row.extend(row_along(mesh, &point.counter, direction, -1.0));
-                row
-            };
-            self.add(site, [point.area, point.gap], friction, jump);
-            self.shares.push(point.own.clone());
-            self.slopes.push(point.slopes.clone());
-        }
-    }
-
-    /// A point for each node of the own surface.
-    fn add_nodes(
-        &mut self,
-        mesh: &Mesh,
-        nodes: Vec<MortarNode>,
-        friction: PairFriction,
-        sliding: impl Fn([f64; 3]) -> Vector3<f64>,
-    ) {
-        for node in nodes {
-            let site = site(node.position, node.normal, sliding(node.position));
-            let jump = |direction: [f64; 3]| node.jump(mesh, direction);
-            self.add(site, [node.area, node.gap], friction, jump);
-            self.shares.push(vec![(node.node, 1.0)]);
-            self.slopes.push(node.slopes);
-            let lift = row_along(mesh, &node.lift, node.normal, 1.0);
-            self.points.last_mut().expect("one was added").lift = lift;
-        }
-    }
-
     /// Takes out the points that are held along their normals: they cannot give way to a rigid counterface.
     fn drop_held(&mut self, mesh: &Mesh) {
         let held: BTreeSet<usize> = mesh.held_dofs().collect();
@@ -228,13 +197,16 @@ impl ContactSurface {
         self.nodes = nodes_of(&self.shares);
     }
 
+    /// A point among nodes with `shares`, over which the counterpart goes at a velocity; `jump` is the row of the displacement of one
+    /// side relative to the other along a direction.
     fn add(
         &mut self,
-        (site, speed): (ContactSite, f64),
-        [weight, gap]: [f64; 2],
-        friction: PairFriction,
+        (at, shares): (&SurfacePoint, Vec<(u32, f64)>),
+        (velocity, friction): (Vector3<f64>, PairFriction),
         jump: impl Fn([f64; 3]) -> Row,
+        lift: Row,
     ) {
+        let (site, speed) = site(at.position, at.normal, velocity);
         let law = friction.decay;
         let share = law.map_or(1.0, |decay| decay.share(speed));
         let slope = law.map_or(0.0, |decay| decay.slope(speed));
@@ -244,8 +216,9 @@ impl ContactSurface {
             if is_sliding { jump(direction) } else { Row::new() }
         };
         self.points.push(Point {
-            weight,
-            gap,
+            weight: at.area,
+            gap: at.gap,
+            lift,
             normal: jump(site.normal),
             slip: along(site.direction),
             across: along(across.into()),
@@ -254,9 +227,10 @@ impl ContactSurface {
                 drag: friction.ratio * share,
                 slope: friction.ratio * slope,
             },
-            ..Point::default()
         });
         self.sites.push(site);
+        self.shares.push(shares);
+        self.slopes.push(at.slopes.clone());
     }
 }
 

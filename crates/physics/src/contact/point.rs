@@ -1,6 +1,8 @@
 //! Contact points as rows over the degrees of freedom of one body or two.
 
 use super::{ContactInterface, SlidingContact, SteadyFriction};
+use crate::mesh::Mesh;
+use nalgebra::Vector3;
 
 /// Coefficients `(dof, coefficient)` of a linear form of the displacements.
 pub type Row = Vec<(usize, f64)>;
@@ -54,4 +56,20 @@ impl ContactInterface {
         };
         (0..self.len()).map(point).collect()
     }
+}
+
+/// `direction . u` at a point of a face, over all dofs.
+pub fn row_along(mesh: &Mesh, nodes: &[(u32, f64)], direction: [f64; 3], sign: f64) -> Row {
+    let direction = Vector3::from(direction);
+    let mut row = Row::new();
+    for &(node, value) in nodes {
+        let frame = mesh.frame(node as usize);
+        for axis in 0..3 {
+            let along = sign * value * frame.column(axis).dot(&direction);
+            if along.abs() > 1e-15 {
+                row.push((mesh.dimension * node as usize + axis, along));
+            }
+        }
+    }
+    row
 }

@@ -1,16 +1,14 @@
 //! Faces of two surfaces that face each other, cut into the segments that both have.
 
+use super::grid::Grid;
 use super::polygon::{clipped, signed_area, without_straight_corners};
-use super::{PairError, RigidCounterface, Row};
+use super::{PairError, RigidCounterface, Row, row_along};
 use crate::mesh::{Boundary, BoundaryFace, Mesh};
 use nalgebra::{Matrix2, Vector2, Vector3};
-use std::collections::BTreeMap;
 
-/// A point at which one surface faces another.
+/// A point at which one surface faces another: of a segment, or a node with the mean of what lies around it.
 #[derive(Clone, Debug, PartialEq)]
-pub struct SegmentPoint {
-    /// Face of the own surface that it lies on.
-    pub face: usize,
+pub struct SurfacePoint {
     /// Where it is on the own surface, m.
     pub position: [f64; 3],
     /// Unit normal into the own body.
@@ -19,12 +17,30 @@ pub struct SegmentPoint {
     pub area: f64,
     /// Distance from the counter surface along the normal, m; negative where they overlap.
     pub gap: f64,
-    /// Nodes of the own face with their shape functions there.
+    /// Nodes of the own surface with the coefficients of their displacements: shape functions on a segment.
     pub own: Vec<(u32, f64)>,
-    /// Nodes of the face before it with theirs.
+    /// Nodes of the counter surface with theirs.
     pub counter: Vec<(u32, f64)>,
     /// The same with their slopes by arc on the own surface, 1/m.
     pub slopes: Vec<(u32, Vector3<f64>)>,
+}
+
+/// A quadrature point of a segment.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SegmentPoint {
+    /// Face of the own surface that it lies on.
+    pub face: usize,
+    /// The point.
+    pub at: SurfacePoint,
+}
+
+impl SurfacePoint {
+    /// `direction . (u_own - u_counter)`, over all dofs.
+    pub fn jump(&self, mesh: &Mesh, direction: [f64; 3]) -> Row {
+        let mut row = row_along(mesh, &self.own, direction, 1.0);
+        row.extend(row_along(mesh, &self.counter, direction, -1.0));
+        row
+    }
 }
 
 /// Two surfaces of a solid mesh that face each other.
@@ -210,7 +226,9 @@ impl SurfacePair {
             (area / facets.len() as f64).sqrt()
         };
         let reach = 0.5 * size(&own).max(size(&others));
-        let grid = Grid::of(&others);
+        let largest = others.iter().map(|facet| facet.radius).fold(0.0, f64::max);
+        let spheres = others.iter().map(|facet| (facet.center, facet.radius));
+        let grid = Grid::of(2.0 * largest, spheres);
         let mut pair = Self {
             points: Vec::new(),
             area: own.iter().map(|facet| facet.area).sum(),
@@ -219,7 +237,7 @@ impl SurfacePair {
         };
         for (f, facet) in own.iter().enumerate() {
             let plane = Plane::of(facet);
-            for other in grid.near(facet, reach) {
+            for other in grid.near(&facet.center, facet.radius + 2.0 * reach) {
                 pair.add_segment((f, facet), &others[other], &plane);
             }
         }
@@ -270,7 +288,7 @@ impl SurfacePair {
             })
         };
         let points = quadrature((f, facet), &polygon, plane, meet);
-        self.covered += points.iter().map(|point| point.area).sum::<f64>();
+        self.covered += points.iter().map(|point| point.at.area).sum::<f64>();
         self.points.extend(points);
     }
 
@@ -300,11 +318,11 @@ impl SurfacePair {
         });
         let mut points: Vec<SegmentPoint> = points.collect();
         for point in &mut points {
-            point.gap = placed.gap(&point.own);
+            point.at.gap = placed.gap(&point.at.own);
         }
         let area: f64 = own.iter().map(|facet| facet.area).sum();
         Ok(Self {
-            covered: points.iter().map(|point| point.area).sum(),
+            covered: points.iter().map(|point| point.at.area).sum(),
             reach: 0.5 * (area / own.len() as f64).sqrt(),
             points,
             area,
@@ -345,8 +363,7 @@ fn quadrature(
             let Some(met) = meet(target, &own.position, &outward) else {
                 continue;
             };
-            points.push(SegmentPoint {
-                face: f,
+            let at = SurfacePoint {
                 position: own.position.into(),
                 normal: met.normal.into(),
                 // Area on the surface itself, whose normal leans against the plane's.
@@ -355,7 +372,8 @@ fn quadrature(
                 own: nodes_with(facet.face, own.values()),
                 counter: met.counter,
                 slopes: met.slopes,
-            });
+            };
+            points.push(SegmentPoint { face: f, at });
         }
     }
     points
@@ -363,22 +381,6 @@ fn quadrature(
 
 fn nodes_with<T>(face: &BoundaryFace, values: Vec<T>) -> Vec<(u32, T)> {
     face.nodes.iter().copied().zip(values).collect()
-}
-
-/// `direction . u` at a point of a face, over all dofs.
-pub fn row_along(mesh: &Mesh, nodes: &[(u32, f64)], direction: [f64; 3], sign: f64) -> Row {
-    let direction = Vector3::from(direction);
-    let mut row = Row::new();
-    for &(node, value) in nodes {
-        let frame = mesh.frame(node as usize);
-        for axis in 0..3 {
-            let along = sign * value * frame.column(axis).dot(&direction);
-            if along.abs() > 1e-15 {
-                row.push((mesh.dimension * node as usize + axis, along));
-            }
-        }
-    }
-    row
 }
 
 /// The part of a face in its plane that another lies over; `None` where there is nothing but round-off.
@@ -397,45 +399,4 @@ fn shared_polygon(
     let smallest = SLIVER * facet.area.min(other.area);
     let polygon = without_straight_corners(clipped(flat(facet.corners()), &shadow), smallest);
     (polygon.len() > 2 && signed_area(&polygon) > smallest).then_some(polygon)
-}
-
-/// Faces by the cells of a grid that their bounding spheres touch.
-struct Grid {
-    cell: f64,
-    faces: BTreeMap<[i64; 3], Vec<usize>>,
-}
-
-impl Grid {
-    fn of(facets: &[Facet<'_>]) -> Self {
-        let largest = facets.iter().map(|facet| facet.radius).fold(0.0, f64::max);
-        let mut grid = Self { cell: 2.0 * largest, faces: BTreeMap::new() };
-        for (f, facet) in facets.iter().enumerate() {
-            for cell in grid.cells(&facet.center, facet.radius) {
-                grid.faces.entry(cell).or_default().push(f);
-            }
-        }
-        grid
-    }
-
-    fn cells(&self, center: &Vector3<f64>, radius: f64) -> Vec<[i64; 3]> {
-        let bound = |axis: usize, sign: f64| ((center[axis] + sign * radius) / self.cell).floor();
-        let range = |axis: usize| bound(axis, -1.0) as i64..=bound(axis, 1.0) as i64;
-        let mut cells = Vec::new();
-        for i in range(0) {
-            for j in range(1) {
-                cells.extend(range(2).map(|k| [i, j, k]));
-            }
-        }
-        cells
-    }
-
-    /// Faces whose cells a face within `reach` touches, ascending.
-    fn near(&self, facet: &Facet<'_>, reach: f64) -> Vec<usize> {
-        let cells = self.cells(&facet.center, facet.radius + 2.0 * reach);
-        let lists = cells.iter().filter_map(|cell| self.faces.get(cell));
-        let mut found: Vec<usize> = lists.flatten().copied().collect();
-        found.sort_unstable();
-        found.dedup();
-        found
-    }
 }

@@ -1,9 +1,9 @@
 //! A measured surface: gaps at scattered points, between which they are interpolated.
 
 use super::PairError;
+use super::grid::Grid;
 use super::surface::SurfacePair;
 use nalgebra::{Matrix3, Vector3};
-use std::collections::BTreeMap;
 
 /// Share of a surface's size within which a contact point needs a measured one.
 const REACH: f64 = 0.1;
@@ -36,7 +36,7 @@ impl Topography {
     pub(super) fn widen(&self, pair: &mut SurfacePair, surface: &str) -> Result<(), PairError> {
         let reach = pair.reach.max(REACH * pair.area.sqrt());
         let grids = self.grids(reach);
-        for point in &mut pair.points {
+        for point in pair.points.iter_mut().map(|point| &mut point.at) {
             let (position, normal) = (point.position.into(), Vector3::from(point.normal));
             let first = Vector3::ith(normal.iamin(), 1.0);
             let first = (first - normal * normal.dot(&first)).normalize();
@@ -58,13 +58,14 @@ impl Topography {
     }
 
     /// Grids of the measured points, the finest first: the coarsest has cells of `reach`, the finest few points in each.
-    fn grids(&self, reach: f64) -> Vec<Cells> {
-        let mut grids = vec![Cells::of(&self.points, reach)];
+    fn grids(&self, reach: f64) -> Vec<Grid> {
+        let points = self.points.iter().map(|(place, _)| (Vector3::from(*place), 0.0));
+        let mut grids = vec![Grid::of(reach, points.clone())];
         while let Some(last) = grids.last()
-            && self.points.len() > IN_CELL * last.points.len()
+            && self.points.len() > IN_CELL * last.members.len()
             && grids.len() < MOST_GRIDS
         {
-            grids.push(Cells::of(&self.points, 0.5 * last.size));
+            grids.push(Grid::of(0.5 * last.size, points.clone()));
         }
         grids.reverse();
         grids
@@ -74,14 +75,14 @@ impl Topography {
     /// where the coarsest grid has no more.
     fn around(
         &self,
-        grids: &[Cells],
+        grids: &[Grid],
         position: &Vector3<f64>,
         axes: &[Vector3<f64>; 2],
     ) -> Vec<usize> {
         let mut chosen = Vec::new();
         for grid in grids {
             let mut quadrants: [Vec<(f64, usize)>; 4] = Default::default();
-            for i in grid.near(position) {
+            for i in grid.near(position, grid.size) {
                 let arm = Vector3::from(self.points[i].0) - position;
                 if arm.norm() <= grid.size {
                     let [along, across] = axes.map(|axis| usize::from(arm.dot(&axis) < 0.0));
@@ -127,39 +128,5 @@ impl Topography {
         let is_flat = moments.determinant() < FLAT * total;
         let factors = moments.cholesky().filter(|_| !is_flat);
         factors.map_or(right[0] / total, |factors| factors.solve(&right)[0])
-    }
-}
-
-/// Measured points by the cells of a grid.
-struct Cells {
-    size: f64,
-    points: BTreeMap<[i64; 3], Vec<usize>>,
-}
-
-impl Cells {
-    fn of(points: &[([f64; 3], f64)], size: f64) -> Self {
-        let mut cells = Self { size, points: BTreeMap::new() };
-        for (i, (place, _)) in points.iter().enumerate() {
-            let cell = cells.cell(&Vector3::from(*place));
-            cells.points.entry(cell).or_default().push(i);
-        }
-        cells
-    }
-
-    fn cell(&self, place: &Vector3<f64>) -> [i64; 3] {
-        [0, 1, 2].map(|axis| (place[axis] / self.size).floor() as i64)
-    }
-
-    /// Points in the cells around a place, ascending.
-    fn near(&self, place: &Vector3<f64>) -> Vec<usize> {
-        let middle = self.cell(place);
-        let mut found = Vec::new();
-        for k in 0..27 {
-            let step = [k % 3, k / 3 % 3, k / 9];
-            let cell = [0, 1, 2].map(|axis| middle[axis].saturating_add(step[axis] - 1));
-            found.extend(self.points.get(&cell).into_iter().flatten());
-        }
-        found.sort_unstable();
-        found
     }
 }

@@ -1,9 +1,9 @@
 //! How the forces of the base state turn with the surfaces.
 
 use super::linearized::{add_product, alone, following, merge_many, power};
-use super::surface::row_along;
 use super::{
     ContactInterface, ContactSurface, Counterpart, OppositeShare, Point, PressedPoints, Row,
+    row_along,
 };
 use crate::fem::Triplets;
 use crate::mesh::Mesh;
