@@ -1,7 +1,7 @@
 //! Direct solution of each harmonic at each frequency.
 
 use super::cyclic_system::Place;
-use super::system::check_frequencies;
+use super::system::{BACKWARD_ERROR_BOUND, GROWTH_BOUND, check_frequencies};
 use super::{CyclicSystem, FrfError, Terminal};
 use crate::fem::RayleighDamping;
 use crate::linalg::LinalgError;
@@ -10,10 +10,6 @@ use crate::linalg::c64;
 use crate::prestress::MovingHarmonic;
 use std::f64::consts::{PI, TAU};
 
-/// Backward error above which a solution without pivoting is found again with pivoting.
-const BACKWARD_ERROR_BOUND: f64 = 1e-14;
-/// `|A| |x| / |b|` above which a matrix has no inverse in double precision.
-const GROWTH_BOUND: f64 = 1e15;
 /// Harmonics held in memory at a time, and the entries of their bands where those are wide.
 const HARMONICS_AT_ONCE: usize = 16;
 const ENTRIES_AT_ONCE: usize = 1 << 21;

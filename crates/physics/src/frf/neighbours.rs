@@ -2,15 +2,11 @@
 
 use super::factors::Analyses;
 use super::krylov::KrylovSpace;
+use super::system::{BACKWARD_ERROR_BOUND, GROWTH_BOUND};
 use super::{FrfSystem, Port};
 use crate::fem::RayleighDamping;
 use crate::linalg::{ComplexSparseLu, MatMut, SparseLdl, SparseLu, c64};
 use std::f64::consts::TAU;
-
-/// Backward error `|f - A x| / (|A| |x|)` above which a line is not taken from the space.
-const BACKWARD_ERROR_BOUND: f64 = 1e-14;
-/// `|A| |x| / |f|` above which a matrix has no inverse in double precision.
-const GROWTH_BOUND: f64 = 1e15;
 
 /// The response at each line; `None` where only a factorization of its own will do.
 pub(super) fn solve_together(

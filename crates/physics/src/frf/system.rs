@@ -17,6 +17,11 @@ use std::sync::Arc;
 /// Share of a direction that is the round-off of a frame.
 const NO_SHARE: f64 = 1e-12;
 
+/// Backward error `|f - A x| / (|A| |x|)` above which a line is solved again: with pivoting, or by a factorization of its own.
+pub(super) const BACKWARD_ERROR_BOUND: f64 = 1e-14;
+/// `|A| |x| / |f|` above which a matrix has no inverse in double precision.
+pub(super) const GROWTH_BOUND: f64 = 1e15;
+
 /// `M`, `C`, `K` over the unknowns, on one sparsity pattern.
 #[derive(Clone, Debug)]
 pub struct FrfSystem {

@@ -25,9 +25,19 @@ pub(super) struct JoinedPoints<'a> {
 impl<'a> JoinedPoints<'a> {
     pub fn new(pressing: &'a Pressing<'a>) -> Self {
         let unknowns = pressing.elimination.unknowns();
-        let [normals, drags] = pressing.rows(&unknowns);
-        let stiffness = pressing.elimination.congruent(pressing.stiffness);
-        Self { pressing, unknowns, stiffness, normals, drags }
+        let Pressing { elimination, points, .. } = pressing;
+        let normals = points.iter().map(|point| elimination.over(&unknowns, &point.normal));
+        let drags = points.iter().map(|point| {
+            let slip = elimination.over(&unknowns, &point.slip).into_iter();
+            slip.map(|(dof, a)| (dof, point.friction.drag * a)).collect()
+        });
+        Self {
+            normals: normals.collect(),
+            drags: drags.collect(),
+            stiffness: elimination.congruent(pressing.stiffness),
+            pressing,
+            unknowns,
+        }
     }
 
     /// Factorizes `P` with springs `r_i`, N/m.

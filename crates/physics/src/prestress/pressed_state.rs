@@ -4,8 +4,8 @@
 use super::PrestressError;
 use super::elimination::Elimination;
 use super::friction_polynomial::{evaluate, interpolated};
-use crate::contact::{NormalLaw, Point, PressedPoints, Row};
-use crate::fem::{DofMap, Triplets};
+use crate::contact::{NormalLaw, Point, PressedPoints};
+use crate::fem::Triplets;
 
 /// Smallest range of friction coefficients of a polynomial: without friction the state needs none, but its tangent is
 /// followed from there.
@@ -51,18 +51,6 @@ pub struct Pressing<'a> {
 }
 
 impl Pressing<'_> {
-    /// Rows `n` and `drag t` of the points over the unknowns.
-    pub(super) fn rows(&self, unknowns: &DofMap) -> [Vec<Row>; 2] {
-        let over_unknowns = |row: &Row| self.elimination.over(unknowns, row);
-        let points = self.points.iter();
-        let normals = points.clone().map(|point| over_unknowns(&point.normal));
-        let drags = points.map(|point| {
-            let slip = over_unknowns(&point.slip).into_iter();
-            slip.map(|(dof, a)| (dof, point.friction.drag * a)).collect()
-        });
-        [normals.collect(), drags.collect()]
-    }
-
     /// The contact whose forces on all its points are in balance by themselves, so that nothing presses it.
     pub(super) fn unpressed(&self, forces: &[f64]) -> Option<PrestressError> {
         let all: f64 = forces.iter().map(|force| force.abs()).sum();
