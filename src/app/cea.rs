@@ -2,7 +2,7 @@
 //! stands free.
 
 use super::limits::STANDARD_INPUT;
-use super::{Failure, Run, RunOptions, Session, input_name, read_input, start_threads, terminal};
+use super::{Failure, RunOptions, Session, input_name, read_input, start_threads, terminal};
 use crate::case::{FreeSystem, RawCase};
 use crate::cea::{SweepProgress, SweepStage};
 use crate::results::Manifest;
@@ -32,14 +32,12 @@ pub struct Arguments {
 /// What an interrupted run leaves.
 const KEPT: &str = "friction values that are done are kept: the same command with --resume goes on";
 
-impl Run for Arguments {
-    fn run(&self) -> Result<(), Failure> {
-        let options = &self.options;
-        if let Some(system) = described_system(&options.case, &options.changes.overrides())? {
-            return run_free(options, &system);
-        }
-        run_on_mesh(self)
+pub(super) fn run(asked: &Arguments) -> Result<(), Failure> {
+    let options = &asked.options;
+    if let Some(system) = described_system(&options.case, &options.changes.overrides())? {
+        return run_free(options, &system);
     }
+    run_on_mesh(asked)
 }
 
 /// Shows how far a sweep has come.

@@ -3,7 +3,7 @@
 use super::cea::described_system;
 use super::options::CaseChanges;
 use super::session::{gibibytes, machine_memory, read_case};
-use super::{Failure, Run, terminal};
+use super::{Failure, terminal};
 use crate::case::{Case, Convergence, Cost, FreeSystem, RunCost, StudyCost};
 use crate::study::{Preflight, preflight};
 use clap::{Args, ValueHint};
@@ -27,38 +27,36 @@ pub struct Arguments {
     json: bool,
 }
 
-impl Run for Arguments {
-    fn run(&self) -> Result<(), Failure> {
-        let mut reports = Vec::new();
-        let mut text = String::new();
-        let mut bad = 0;
-        for path in &self.cases {
-            let name = path.display().to_string();
-            match check(path, &name, &self.changes) {
-                Ok((described, report)) => {
-                    text.push_str(&described);
-                    reports.push(report);
-                }
-                Err(failure) => {
-                    bad += 1;
-                    terminal::report(&failure);
-                    let errors = failure.messages();
-                    reports.push(json!({ "case": name, "valid": false, "errors": errors }));
-                }
+pub(super) fn run(asked: &Arguments) -> Result<(), Failure> {
+    let mut reports = Vec::new();
+    let mut text = String::new();
+    let mut bad = 0;
+    for path in &asked.cases {
+        let name = path.display().to_string();
+        match check(path, &name, &asked.changes) {
+            Ok((described, report)) => {
+                text.push_str(&described);
+                reports.push(report);
+            }
+            Err(failure) => {
+                bad += 1;
+                terminal::report(&failure);
+                let errors = failure.messages();
+                reports.push(json!({ "case": name, "valid": false, "errors": errors }));
             }
         }
-        if self.json {
-            terminal::print_json(&json!({ "command": "check", "cases": reports }))?;
-        } else {
-            terminal::print(&text)?;
-        }
-        match bad {
-            0 => Ok(()),
-            _ => Err(Failure::usage(format!(
-                "{bad} of {} cannot run",
-                plural(self.cases.len(), "case", "cases")
-            ))),
-        }
+    }
+    if asked.json {
+        terminal::print_json(&json!({ "command": "check", "cases": reports }))?;
+    } else {
+        terminal::print(&text)?;
+    }
+    match bad {
+        0 => Ok(()),
+        _ => Err(Failure::usage(format!(
+            "{bad} of {} cannot run",
+            plural(asked.cases.len(), "case", "cases")
+        ))),
     }
 }
 

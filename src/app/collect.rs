@@ -2,7 +2,7 @@
 
 use super::options::FigureOptions;
 use super::sweep::{SweepPlan, drawing, finished, gather};
-use super::{Failure, OutputOptions, Run, start_threads, terminal};
+use super::{Failure, OutputOptions, start_threads, terminal};
 use crate::case::{Case, MeshBytes, RawCase, RawValue, TableBytes};
 use crate::results::sweep::{SweepFolder, SweepReport, document};
 use crate::results::{MESH, Manifest};
@@ -33,27 +33,25 @@ pub struct Arguments {
     quiet: u8,
 }
 
-impl Run for Arguments {
-    fn run(&self) -> Result<(), Failure> {
-        let start = Instant::now();
-        terminal::start_log(self.quiet, 0);
-        start_threads(None);
-        let (folder, manifest) = SweepFolder::find(&self.folder, "sweep")?;
-        let case = recorded_case(&self.folder, &manifest)?;
-        let plan = SweepPlan::new(&case)?;
-        let found = finished(&case, &plan, &folder)?;
-        let report = SweepReport { wall_s: start.elapsed().as_secs_f64(), ..found };
-        let drawing = (!self.no_figures).then(|| drawing(&case, &plan, &self.figures.drawing()));
-        let summary = gather(&folder, &report, &manifest, drawing.as_ref())?;
-        let output = OutputOptions { json: self.json, quiet: self.quiet, ..Default::default() };
-        output.print(&document(&report, false).to_text(), &summary, folder.path())?;
-        match report.missing().len() {
-            0 => Ok(()),
-            missing => Err(Failure::run(format!(
-                "{missing} of {} points are missing: run the sweep again with --resume",
-                report.count
-            ))),
-        }
+pub(super) fn run(asked: &Arguments) -> Result<(), Failure> {
+    let start = Instant::now();
+    terminal::start_log(asked.quiet, 0);
+    start_threads(None);
+    let (folder, manifest) = SweepFolder::find(&asked.folder, "sweep")?;
+    let case = recorded_case(&asked.folder, &manifest)?;
+    let plan = SweepPlan::new(&case)?;
+    let found = finished(&case, &plan, &folder)?;
+    let report = SweepReport { wall_s: start.elapsed().as_secs_f64(), ..found };
+    let drawing = (!asked.no_figures).then(|| drawing(&case, &plan, &asked.figures.drawing()));
+    let summary = gather(&folder, &report, &manifest, drawing.as_ref())?;
+    let output = OutputOptions { json: asked.json, quiet: asked.quiet, ..Default::default() };
+    output.print(&document(&report, false).to_text(), &summary, folder.path())?;
+    match report.missing().len() {
+        0 => Ok(()),
+        missing => Err(Failure::run(format!(
+            "{missing} of {} points are missing: run the sweep again with --resume",
+            report.count
+        ))),
     }
 }
 

@@ -1,6 +1,6 @@
 //! `frictionsim compare`: runs side by side.
 
-use super::{Failure, OutputOptions, Run, Told, terminal};
+use super::{Failure, OutputOptions, Told, terminal};
 use crate::case::hash_of;
 use crate::results::compare::{
     ComparedRun, ComparisonSummary, document, file, overlaid, print, shared,
@@ -24,54 +24,44 @@ pub struct Arguments {
     output: OutputOptions,
 }
 
-impl Run for Arguments {
-    fn run(&self) -> Result<(), Failure> {
-        terminal::start_log(self.output.quiet, self.output.verbose);
-        let names = names_of(&self.folders);
-        let runs = self.folders.iter().zip(names).map(|(path, name)| {
-            let page = read_record::<Page>(path).ok();
-            Ok(ComparedRun {
-                name,
-                manifest: read_manifest(path)?,
-                summary: read_summary(path)?,
-                page,
-            })
-        });
-        let runs: Vec<ComparedRun> = runs.collect::<Result<_, Failure>>()?;
-        let quantities = shared(&runs);
-        if quantities.is_empty() {
-            let commands: Vec<&str> =
-                runs.iter().map(|run| run.manifest.command.as_str()).collect();
-            return Err(Failure::usage(format!(
-                "these runs ({}) share no number: compare runs of one command",
-                commands.join(", ")
-            )));
-        }
-        for run in runs.iter().filter(|run| run.page.is_none()) {
-            tracing::warn!(
-                "{} has no {}, so its figures are left out: run it again with figures",
-                run.name,
-                Page::FILE
-            );
-        }
-        let manifest = manifest_of(&self.folders, &runs);
-        let output = match self.output.out {
-            Some(_) => self.output.clone(),
-            None => OutputOptions {
-                out: Some(default_folder(&runs, &manifest, self.output.force)),
-                ..self.output.clone()
-            },
-        };
-        let folder = output.open_folder(&manifest, false)?;
-        write_table(&folder, &file(&runs, &quantities))?;
-        let text = print(&runs, &quantities);
-        let told = Told { text, ..Told::of(Head::default(), document(&runs, &quantities)) };
-        let summary = ComparisonSummary {
-            runs: runs.iter().map(|run| run.name.clone()).collect(),
-            quantities,
-        };
-        output.finish_result(folder, told, &summary, || overlaid(&runs))
+pub(super) fn run(asked: &Arguments) -> Result<(), Failure> {
+    terminal::start_log(asked.output.quiet, asked.output.verbose);
+    let names = names_of(&asked.folders);
+    let runs = asked.folders.iter().zip(names).map(|(path, name)| {
+        let page = read_record::<Page>(path).ok();
+        Ok(ComparedRun { name, manifest: read_manifest(path)?, summary: read_summary(path)?, page })
+    });
+    let runs: Vec<ComparedRun> = runs.collect::<Result<_, Failure>>()?;
+    let quantities = shared(&runs);
+    if quantities.is_empty() {
+        let commands: Vec<&str> = runs.iter().map(|run| run.manifest.command.as_str()).collect();
+        return Err(Failure::usage(format!(
+            "these runs ({}) share no number: compare runs of one command",
+            commands.join(", ")
+        )));
     }
+    for run in runs.iter().filter(|run| run.page.is_none()) {
+        tracing::warn!(
+            "{} has no {}, so its figures are left out: run it again with figures",
+            run.name,
+            Page::FILE
+        );
+    }
+    let manifest = manifest_of(&asked.folders, &runs);
+    let output = match asked.output.out {
+        Some(_) => asked.output.clone(),
+        None => OutputOptions {
+            out: Some(default_folder(&runs, &manifest, asked.output.force)),
+            ..asked.output.clone()
+        },
+    };
+    let folder = output.open_folder(&manifest, false)?;
+    write_table(&folder, &file(&runs, &quantities))?;
+    let text = print(&runs, &quantities);
+    let told = Told { text, ..Told::of(Head::default(), document(&runs, &quantities)) };
+    let summary =
+        ComparisonSummary { runs: runs.iter().map(|run| run.name.clone()).collect(), quantities };
+    output.finish_result(folder, told, &summary, || overlaid(&runs))
 }
 
 /// `results/compare/A-B`, after the names of the runs; where that holds another comparison, with the beginning of its

@@ -1,6 +1,6 @@
 //! `frictionsim completions`: a shell's completion script.
 
-use super::{CommandLine, Failure, Run, terminal};
+use super::{CommandLine, Failure, terminal};
 use clap::{Args, CommandFactory};
 use clap_complete::Shell;
 
@@ -11,11 +11,9 @@ pub struct Arguments {
     shell: Shell,
 }
 
-impl Run for Arguments {
-    fn run(&self) -> Result<(), Failure> {
-        let mut script = Vec::new();
-        let mut command = CommandLine::command();
-        clap_complete::generate(self.shell, &mut command, "frictionsim", &mut script);
-        terminal::print(&String::from_utf8_lossy(&script))
-    }
+pub(super) fn run(asked: &Arguments) -> Result<(), Failure> {
+    let mut script = Vec::new();
+    let mut command = CommandLine::command();
+    clap_complete::generate(asked.shell, &mut command, "frictionsim", &mut script);
+    terminal::print(&String::from_utf8_lossy(&script))
 }

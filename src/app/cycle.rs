@@ -1,7 +1,7 @@
 //! `frictionsim cycle`: limit cycles found directly, and followed over a parameter.
 
 use super::session::{available_memory, gibibytes};
-use super::{Failure, Run, RunOptions, Session, terminal};
+use super::{Failure, RunOptions, Session, terminal};
 use crate::case::{Case, refusal};
 use crate::results::OutputFolder;
 use crate::results::cea::KeptSteps;
@@ -34,16 +34,14 @@ const KEPT_PAIRS: &str =
 const KEPT: &str = "cycles and points of branches that are done are kept (done-modeK.json: a mode \
     that is done). The same command with --resume goes on";
 
-impl Run for Arguments {
-    fn run(&self) -> Result<(), Failure> {
-        let session = Session::start("cycle", &self.options)?;
-        let case = &session.case;
-        case.require_cycle()?;
-        session.check_memory(case.memory("cycle").0)?;
-        match case.has_rotating_waves() {
-            true => waves(&session, self.resume),
-            false => motions(&session, self.resume),
-        }
+pub(super) fn run(asked: &Arguments) -> Result<(), Failure> {
+    let session = Session::start("cycle", &asked.options)?;
+    let case = &session.case;
+    case.require_cycle()?;
+    session.check_memory(case.memory("cycle").0)?;
+    match case.has_rotating_waves() {
+        true => waves(&session, asked.resume),
+        false => motions(&session, asked.resume),
     }
 }
 

@@ -1,6 +1,6 @@
 //! `frictionsim fit`: parameters of a case from measured modes.
 
-use super::{Failure, Run, RunOptions, Session, input_name, read_input};
+use super::{Failure, RunOptions, Session, input_name, read_input};
 use crate::case::hash_of;
 use crate::results::fit::BLOCK;
 use crate::signal::reader::{MeasuredShape, read_modes, read_shapes};
@@ -31,31 +31,29 @@ pub struct Arguments {
     scale: f64,
 }
 
-impl Run for Arguments {
-    fn run(&self) -> Result<(), Failure> {
-        let mut session = Session::start("fit", &self.options)?;
-        session.case.require_fit()?;
-        let bytes = read_input(&self.modes, MEASUREMENT)?;
-        let lines = read_modes(&bytes, &input_name(&self.modes))?;
-        // Results belong to case and table.
-        session.manifest.case_hash = hash_of([session.manifest.case_hash.as_bytes(), &bytes]);
-        let shapes = self.shapes.as_ref();
-        let shapes = shapes.map(|path| measured_shapes(path, self.scale, &mut session));
-        let shapes = shapes.transpose()?;
-        let shapes = shapes.as_deref().map(|shapes| MeasuredShapes { shapes, scale: self.scale });
-        refuse_too_few(&session.case, &lines)?;
-        let folder = session.begin()?;
+pub(super) fn run(asked: &Arguments) -> Result<(), Failure> {
+    let mut session = Session::start("fit", &asked.options)?;
+    session.case.require_fit()?;
+    let bytes = read_input(&asked.modes, MEASUREMENT)?;
+    let lines = read_modes(&bytes, &input_name(&asked.modes))?;
+    // Results belong to case and table.
+    session.manifest.case_hash = hash_of([session.manifest.case_hash.as_bytes(), &bytes]);
+    let shapes = asked.shapes.as_ref();
+    let shapes = shapes.map(|path| measured_shapes(path, asked.scale, &mut session));
+    let shapes = shapes.transpose()?;
+    let shapes = shapes.as_deref().map(|shapes| MeasuredShapes { shapes, scale: asked.scale });
+    refuse_too_few(&session.case, &lines)?;
+    let folder = session.begin()?;
 
-        let case = &session.case;
-        let fitted = fit_case_with_shapes(case, &lines, shapes)?;
-        let mut found = summarize(case, &lines, &fitted)?;
-        found.measurement = input_name(&self.modes);
-        for note in &found.notes {
-            tracing::warn!("{note}");
-        }
-        folder.write(BLOCK, |out| out.write_all(found.block().as_bytes()))?;
-        session.finish_finding(folder, &found)
+    let case = &session.case;
+    let fitted = fit_case_with_shapes(case, &lines, shapes)?;
+    let mut found = summarize(case, &lines, &fitted)?;
+    found.measurement = input_name(&asked.modes);
+    for note in &found.notes {
+        tracing::warn!("{note}");
     }
+    folder.write(BLOCK, |out| out.write_all(found.block().as_bytes()))?;
+    session.finish_finding(folder, &found)
 }
 
 /// Measured shapes; results belong to them and their scale too.

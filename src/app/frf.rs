@@ -1,56 +1,43 @@
 //! `frictionsim frf`: frequency response of the model between two nodes.
 
-use super::{Failure, Run, RunOptions, Session, terminal};
+use super::{Failure, RunOptions, Session, terminal};
 use crate::case::{Case, Frf};
 use crate::frf::Terminal;
 use crate::results::{ResponseSummary, response_figure, write_response, write_universal_response};
 use crate::signal::FrequencyResponse;
 use crate::study::response::{FrequencyStudy, Response};
-use clap::Args;
 
-/// Frequency response between two nodes
-///
-/// Writes frf.csv, which `frictionsim identify` reads. Compare it with a hammer test, or check identification against a
-/// known damping. Needs a section `[frf]`.
-#[derive(Args)]
-pub struct Arguments {
-    #[command(flatten)]
-    options: RunOptions,
-}
-
-impl Run for Arguments {
-    fn run(&self) -> Result<(), Failure> {
-        let session = Session::start("frf", &self.options)?;
-        let case = &session.case;
-        let frf = case.require_frf()?;
-        let folder = session.begin()?;
-        let bar = terminal::progress(session.options.output.is_quiet(), 0, "frequencies");
-        let computed = FrequencyStudy::new(case)?.solve(&|lines| {
-            bar.set_length(frf.frequencies_hz.len() as u64);
-            bar.inc(lines as u64);
-        })?;
-        bar.finish_and_clear();
-        let values = computed.observed(frf);
-        write_response(&folder, frf.quantity, &frf.frequencies_hz, &values)?;
-        if case.output.universal {
-            write_universal_response(&folder, frf.quantity, &frf.frequencies_hz, &values)?;
-        }
-        let summary = ResponseSummary {
-            description: described(case, frf, &computed),
-            dofs: computed.dofs,
-            lines: frf.frequencies_hz.len(),
-            method: computed.method.to_owned(),
-            largest_error: computed.largest_error,
-            basis_vectors: computed.vectors,
-            backward_error: computed.backward_error,
-            quantity: frf.quantity.name().to_owned(),
-            noise: frf.noise,
-        };
-        let response = FrequencyResponse::new(frf.frequencies_hz.clone(), values, frf.quantity);
-        // A few lines are numbers, but no curve.
-        let figures = || Ok(response.iter().map(response_figure).collect());
-        session.finish_result(folder, summary.document(), &summary, figures)
+pub(super) fn run(options: &RunOptions) -> Result<(), Failure> {
+    let session = Session::start("frf", options)?;
+    let case = &session.case;
+    let frf = case.require_frf()?;
+    let folder = session.begin()?;
+    let bar = terminal::progress(session.options.output.is_quiet(), 0, "frequencies");
+    let computed = FrequencyStudy::new(case)?.solve(&|lines| {
+        bar.set_length(frf.frequencies_hz.len() as u64);
+        bar.inc(lines as u64);
+    })?;
+    bar.finish_and_clear();
+    let values = computed.observed(frf);
+    write_response(&folder, frf.quantity, &frf.frequencies_hz, &values)?;
+    if case.output.universal {
+        write_universal_response(&folder, frf.quantity, &frf.frequencies_hz, &values)?;
     }
+    let summary = ResponseSummary {
+        description: described(case, frf, &computed),
+        dofs: computed.dofs,
+        lines: frf.frequencies_hz.len(),
+        method: computed.method.to_owned(),
+        largest_error: computed.largest_error,
+        basis_vectors: computed.vectors,
+        backward_error: computed.backward_error,
+        quantity: frf.quantity.name().to_owned(),
+        noise: frf.noise,
+    };
+    let response = FrequencyResponse::new(frf.frequencies_hz.clone(), values, frf.quantity);
+    // A few lines are numbers, but no curve.
+    let figures = || Ok(response.iter().map(response_figure).collect());
+    session.finish_result(folder, summary.document(), &summary, figures)
 }
 
 /// What was computed, in a sentence.

@@ -2,7 +2,7 @@
 
 use super::measurement::{Measurement, SideFile, chosen};
 use super::options::Choice;
-use super::{Failure, OutputOptions, Run, Told, one_of};
+use super::{Failure, OutputOptions, Told, one_of};
 use crate::results::identification::{
     DAMPING_BLOCK, IdentificationSummary, document, identification, write_fits,
 };
@@ -51,48 +51,46 @@ const QUANTITIES: [Choice<ResponseQuantity>; 3] = [
     ("receptance", ResponseQuantity::Receptance, "Displacement over force"),
 ];
 
-impl Run for Arguments {
-    fn run(&self) -> Result<(), Failure> {
-        let range = frequency_range(self)?;
-        let (uff, force) = (self.uff.as_deref(), self.output.force);
-        let copy = SideFile::prepare("--uff", uff, &self.response, force)?;
-        let measurement =
-            Measurement::start("identify", &self.response, &self.output, choices(self))?;
-        let reading = ResponseOptions {
-            quantity: self.quantity,
-            columns: self.columns.clone(),
-            channels: self.channel.clone(),
-        };
-        let file = read_response(&measurement.bytes, &measurement.source, &reading)?;
-        for note in &file.notes {
-            tracing::warn!("{}: {note}", measurement.source);
-        }
-        let responses: Vec<FrequencyResponse> =
-            file.responses.iter().map(|named| named.response.clone()).collect();
-        let found = identify(&responses, Some(range))
-            .map_err(|error| Failure::run(format!("{}: {error}", measurement.source)))?;
-        let folder = measurement.open_folder()?;
-        let summary = IdentificationSummary::new(
-            &measurement.source,
-            &file.responses,
-            &found,
-            file.notes.clone(),
-        );
-        write_fits(&folder, &file.responses, &found.fit)?;
-        let block = summary.damping_block();
-        folder.write(DAMPING_BLOCK, |out| out.write_all(block.as_bytes()))?;
-        if let Some(copy) = copy {
-            let text: String = file.responses.iter().map(write_response).collect();
-            copy.write(text.as_bytes())?;
-        }
-        let figures = || Ok(vec![identification(&responses[0], &found)]);
-        self.output.finish_result(
-            folder,
-            Told::of(measurement.head(), document(&summary)),
-            &summary,
-            figures,
-        )
+pub(super) fn run(asked: &Arguments) -> Result<(), Failure> {
+    let range = frequency_range(asked)?;
+    let (uff, force) = (asked.uff.as_deref(), asked.output.force);
+    let copy = SideFile::prepare("--uff", uff, &asked.response, force)?;
+    let measurement =
+        Measurement::start("identify", &asked.response, &asked.output, choices(asked))?;
+    let reading = ResponseOptions {
+        quantity: asked.quantity,
+        columns: asked.columns.clone(),
+        channels: asked.channel.clone(),
+    };
+    let file = read_response(&measurement.bytes, &measurement.source, &reading)?;
+    for note in &file.notes {
+        tracing::warn!("{}: {note}", measurement.source);
     }
+    let responses: Vec<FrequencyResponse> =
+        file.responses.iter().map(|named| named.response.clone()).collect();
+    let found = identify(&responses, Some(range))
+        .map_err(|error| Failure::run(format!("{}: {error}", measurement.source)))?;
+    let folder = measurement.open_folder()?;
+    let summary = IdentificationSummary::new(
+        &measurement.source,
+        &file.responses,
+        &found,
+        file.notes.clone(),
+    );
+    write_fits(&folder, &file.responses, &found.fit)?;
+    let block = summary.damping_block();
+    folder.write(DAMPING_BLOCK, |out| out.write_all(block.as_bytes()))?;
+    if let Some(copy) = copy {
+        let text: String = file.responses.iter().map(write_response).collect();
+        copy.write(text.as_bytes())?;
+    }
+    let figures = || Ok(vec![identification(&responses[0], &found)]);
+    asked.output.finish_result(
+        folder,
+        Told::of(measurement.head(), document(&summary)),
+        &summary,
+        figures,
+    )
 }
 
 /// The frequency range, checked.

@@ -1,7 +1,7 @@
 //! `frictionsim init`: a commented case to start from.
 
 use super::shipped::{ShippedCase, ShippedFile, all_cases, all_files};
-use super::{Failure, Run, terminal};
+use super::{Failure, terminal};
 use crate::case::{case_from, reference};
 use clap::{Args, ValueHint};
 use std::fmt::Write as _;
@@ -50,41 +50,39 @@ pub struct Arguments {
     force: bool,
 }
 
-impl Run for Arguments {
-    fn run(&self) -> Result<(), Failure> {
-        if self.list {
-            return terminal::print(&list());
-        }
-        if self.all {
-            let folder = self.out.clone().unwrap_or_else(|| PathBuf::from("cases"));
-            let files: Vec<_> = missing(&folder, all_files()).collect();
-            return write_files(&files, self.force);
-        }
-        if let Some(mesh) = &self.from {
-            return start_from(mesh, self);
-        }
-        let name = self.template.as_str();
-        let case = if name == REFERENCE { None } else { Some(find(name)?) };
-        let own = self.out.clone();
-        let path = own.unwrap_or_else(|| PathBuf::from(format!("{name}.toml")));
-        let is_stdout = path == Path::new("-");
-        let shown = match path.file_name() {
-            Some(name) if !is_stdout => name.to_string_lossy().into_owned(),
-            _ => format!("{name}.toml"),
-        };
-        let text = match &case {
-            Some(case) => case.named(&shown),
-            None => reference::template(),
-        };
-        if is_stdout {
-            return terminal::print(&text);
-        }
-        let folder = path.parent().map(Path::to_path_buf).unwrap_or_default();
-        let beside = case.map_or(Vec::new(), |case| case.files());
-        let mut files = vec![(path, text.as_bytes())];
-        files.extend(missing(&folder, beside));
-        write_files(&files, self.force)
+pub(super) fn run(asked: &Arguments) -> Result<(), Failure> {
+    if asked.list {
+        return terminal::print(&list());
     }
+    if asked.all {
+        let folder = asked.out.clone().unwrap_or_else(|| PathBuf::from("cases"));
+        let files: Vec<_> = missing(&folder, all_files()).collect();
+        return write_files(&files, asked.force);
+    }
+    if let Some(mesh) = &asked.from {
+        return start_from(mesh, asked);
+    }
+    let name = asked.template.as_str();
+    let case = if name == REFERENCE { None } else { Some(find(name)?) };
+    let own = asked.out.clone();
+    let path = own.unwrap_or_else(|| PathBuf::from(format!("{name}.toml")));
+    let is_stdout = path == Path::new("-");
+    let shown = match path.file_name() {
+        Some(name) if !is_stdout => name.to_string_lossy().into_owned(),
+        _ => format!("{name}.toml"),
+    };
+    let text = match &case {
+        Some(case) => case.named(&shown),
+        None => reference::template(),
+    };
+    if is_stdout {
+        return terminal::print(&text);
+    }
+    let folder = path.parent().map(Path::to_path_buf).unwrap_or_default();
+    let beside = case.map_or(Vec::new(), |case| case.files());
+    let mut files = vec![(path, text.as_bytes())];
+    files.extend(missing(&folder, beside));
+    write_files(&files, asked.force)
 }
 
 /// Every shipped case with its short name and its title, one on a line.

@@ -1,6 +1,6 @@
 //! `frictionsim keys`: every key of a case file.
 
-use super::{Failure, Run, terminal};
+use super::{Failure, terminal};
 use crate::case::{CaseKey, KEYS, reference};
 use clap::Args;
 use serde_json::{Value, json};
@@ -22,31 +22,26 @@ pub struct Arguments {
     schema: bool,
 }
 
-impl Run for Arguments {
-    fn run(&self) -> Result<(), Failure> {
-        if self.schema {
-            return terminal::print_json(&reference::schema());
-        }
-        if self.markdown {
-            return terminal::print(&reference::markdown());
-        }
-        let word = self.word.as_deref().unwrap_or("");
-        let lower = word.to_lowercase();
-        let holds = |key: &&CaseKey| {
-            key.name.contains(&lower) || key.meaning.to_lowercase().contains(&lower)
-        };
-        let keys: Vec<&CaseKey> = KEYS.iter().filter(holds).collect();
-        if keys.is_empty() {
-            return Err(Failure::usage(format!(
-                "no case key has \"{word}\" in its name or meaning"
-            )));
-        }
-        if self.json {
-            let objects: Vec<Value> = keys.iter().map(|key| reference::object(key)).collect();
-            return terminal::print_json(&json!({ "command": "keys", "keys": objects }));
-        }
-        terminal::print(&describe(&keys))
+pub(super) fn run(asked: &Arguments) -> Result<(), Failure> {
+    if asked.schema {
+        return terminal::print_json(&reference::schema());
     }
+    if asked.markdown {
+        return terminal::print(&reference::markdown());
+    }
+    let word = asked.word.as_deref().unwrap_or("");
+    let lower = word.to_lowercase();
+    let holds =
+        |key: &&CaseKey| key.name.contains(&lower) || key.meaning.to_lowercase().contains(&lower);
+    let keys: Vec<&CaseKey> = KEYS.iter().filter(holds).collect();
+    if keys.is_empty() {
+        return Err(Failure::usage(format!("no case key has \"{word}\" in its name or meaning")));
+    }
+    if asked.json {
+        let objects: Vec<Value> = keys.iter().map(|key| reference::object(key)).collect();
+        return terminal::print_json(&json!({ "command": "keys", "keys": objects }));
+    }
+    terminal::print(&describe(&keys))
 }
 
 /// Two lines for each key, section by section.

@@ -1,7 +1,7 @@
 //! `frictionsim mac`: modal assurance of measured shapes.
 
 use super::fit::measured_shapes;
-use super::{Failure, Run, RunOptions, Session, input_name};
+use super::{Failure, RunOptions, Session, input_name};
 use crate::results::mac::MacSummary;
 use crate::study::mac::assurance;
 use clap::{Args, ValueHint};
@@ -24,14 +24,12 @@ pub struct Arguments {
     scale: f64,
 }
 
-impl Run for Arguments {
-    fn run(&self) -> Result<(), Failure> {
-        let mut session = Session::start("mac", &self.options)?;
-        let shapes = measured_shapes(&self.shapes, self.scale, &mut session)?;
-        session.case.require_cea()?;
-        let folder = session.begin()?;
-        let found = assurance(&session.case, &shapes, self.scale)?;
-        let summary = MacSummary { measurement: input_name(&self.shapes), ..found };
-        session.finish_finding(folder, &summary)
-    }
+pub(super) fn run(asked: &Arguments) -> Result<(), Failure> {
+    let mut session = Session::start("mac", &asked.options)?;
+    let shapes = measured_shapes(&asked.shapes, asked.scale, &mut session)?;
+    session.case.require_cea()?;
+    let folder = session.begin()?;
+    let found = assurance(&session.case, &shapes, asked.scale)?;
+    let summary = MacSummary { measurement: input_name(&asked.shapes), ..found };
+    session.finish_finding(folder, &summary)
 }

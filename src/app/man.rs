@@ -1,6 +1,6 @@
 //! `frictionsim man`: manual pages.
 
-use super::{Failure, Run, command_line, terminal};
+use super::{Failure, command_line, terminal};
 use crate::case::{KEYS, reference};
 use clap::{Args, ValueHint};
 use clap_mangen::Man;
@@ -52,25 +52,22 @@ const EXIT_STATUS: [(&str, &str); 4] = [
     ("130", "interrupted by Ctrl-C or SIGTERM"),
 ];
 
-impl Run for Arguments {
-    fn run(&self) -> Result<(), Failure> {
-        let mut command = command_line();
-        // Builds the names of the subcommands: `frictionsim-cea`.
-        command.build();
-        if let Some(folder) = &self.out {
-            let failed =
-                |error| Failure::run(format!("cannot write {}: {error}", folder.display()));
-            return write_pages(&command, folder).map_err(failed);
-        }
-        let shown = match &self.command {
-            None => &command,
-            Some(name) if name == "case" => return terminal::print(&case_page()),
-            Some(name) => command.find_subcommand(name).ok_or_else(|| {
-                Failure::usage(format!("there is no command {name}: see frictionsim --help"))
-            })?,
-        };
-        terminal::print(&String::from_utf8_lossy(&page(shown)?))
+pub(super) fn run(asked: &Arguments) -> Result<(), Failure> {
+    let mut command = command_line();
+    // Builds the names of the subcommands: `frictionsim-cea`.
+    command.build();
+    if let Some(folder) = &asked.out {
+        let failed = |error| Failure::run(format!("cannot write {}: {error}", folder.display()));
+        return write_pages(&command, folder).map_err(failed);
     }
+    let shown = match &asked.command {
+        None => &command,
+        Some(name) if name == "case" => return terminal::print(&case_page()),
+        Some(name) => command.find_subcommand(name).ok_or_else(|| {
+            Failure::usage(format!("there is no command {name}: see frictionsim --help"))
+        })?,
+    };
+    terminal::print(&String::from_utf8_lossy(&page(shown)?))
 }
 
 fn write_pages(command: &clap::Command, folder: &std::path::Path) -> io::Result<()> {

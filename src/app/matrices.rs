@@ -1,6 +1,6 @@
 //! `frictionsim matrices`: the matrices of a case, for other programs.
 
-use super::{Failure, Run, RunOptions, Session};
+use super::{Failure, RunOptions, Session};
 use crate::results::matrices::{MatricesSummary, print, write_matrices};
 use crate::results::{write_summary, write_universal_mesh};
 use crate::study::matrices::matrices;
@@ -29,23 +29,21 @@ fn friction_coefficient(text: &str) -> Result<f64, String> {
     }
 }
 
-impl Run for Arguments {
-    fn run(&self) -> Result<(), Failure> {
-        let session = Session::start("matrices", &self.options)?;
-        let case = &*session.case.on_whole_mesh()?;
-        let folder = session.begin()?;
-        let system = matrices(case, self.friction)?;
-        let system = match self.friction {
-            Some(_) => system.at_one_friction(),
-            None => system,
-        };
-        let (summary, head) = (MatricesSummary::new(&system), session.head());
-        write_matrices(&folder, &system, head, &summary)?;
-        if case.output.universal {
-            let mesh = case.body.mesh().map_err(Failure::run)?;
-            folder.write_bulk("mesh.unv", |out| write_universal_mesh(out, &mesh))?;
-        }
-        let object = write_summary(&folder, head, &summary)?;
-        session.options.output.finish(folder, &print(&summary), &object)
+pub(super) fn run(asked: &Arguments) -> Result<(), Failure> {
+    let session = Session::start("matrices", &asked.options)?;
+    let case = &*session.case.on_whole_mesh()?;
+    let folder = session.begin()?;
+    let system = matrices(case, asked.friction)?;
+    let system = match asked.friction {
+        Some(_) => system.at_one_friction(),
+        None => system,
+    };
+    let (summary, head) = (MatricesSummary::new(&system), session.head());
+    write_matrices(&folder, &system, head, &summary)?;
+    if case.output.universal {
+        let mesh = case.body.mesh().map_err(Failure::run)?;
+        folder.write_bulk("mesh.unv", |out| write_universal_mesh(out, &mesh))?;
     }
+    let object = write_summary(&folder, head, &summary)?;
+    session.options.output.finish(folder, &print(&summary), &object)
 }

@@ -1,6 +1,6 @@
 //! `frictionsim mesh`: the mesh alone.
 
-use super::{Failure, Run, RunOptions, Session};
+use super::{Failure, RunOptions, Session};
 use crate::case::{AssemblyBody, Case, ModeSelection};
 use crate::chart::{ChartError, Figure};
 use crate::mesh::{AnnulusMesh, SolidSector};
@@ -9,42 +9,32 @@ use crate::results::mesh::{
     Measured, MeshStatistics, MeshSummary, SolidMeshStatistics, plane_figure, solid_figure,
     write_mesh, write_revolution,
 };
-use clap::Args;
 use std::collections::BTreeMap;
 
-/// Draw and measure the mesh alone
-#[derive(Args)]
-pub struct Arguments {
-    #[command(flatten)]
-    options: RunOptions,
-}
-
-impl Run for Arguments {
-    fn run(&self) -> Result<(), Failure> {
-        let session = Session::start("mesh", &self.options)?;
-        let case = &session.case;
-        let folder = session.begin()?;
-        if let Some(assembly) = case.body.assembly() {
-            return run_solid(&session, folder, assembly);
-        }
-        let mesh = case.mesh().map_err(Failure::usage)?;
-        let revolution = case.body.revolution().map(|body| &body.specification);
-        let grid = revolution.map(|own| own.plane()).or(case.body.grid().copied());
-        let annulus = grid.map(|grid| AnnulusMesh::generate(&grid).map_err(Failure::usage));
-        let annulus = annulus.transpose()?;
-        let solid = revolution.map(|solid| SolidSector::generate(solid).map_err(Failure::usage));
-        let solid = solid.transpose()?;
-        match &solid {
-            Some(sector) => write_revolution(&folder, sector)?,
-            None => write_mesh(&folder, &mesh, mesh.contact_edge().nodes.iter().copied())?,
-        }
-        let mut statistics = MeshStatistics::new(&mesh, annulus.as_ref(), shortest_wave(case));
-        if let Some(sector) = &solid {
-            statistics.turn(sector);
-        }
-        let figures = || Ok(vec![plane_figure(&mesh, &case.title, &case.output.probes)]);
-        finish(&session, folder, (statistics, Vec::new()), figures)
+pub(super) fn run(options: &RunOptions) -> Result<(), Failure> {
+    let session = Session::start("mesh", options)?;
+    let case = &session.case;
+    let folder = session.begin()?;
+    if let Some(assembly) = case.body.assembly() {
+        return run_solid(&session, folder, assembly);
     }
+    let mesh = case.mesh().map_err(Failure::usage)?;
+    let revolution = case.body.revolution().map(|body| &body.specification);
+    let grid = revolution.map(|own| own.plane()).or(case.body.grid().copied());
+    let annulus = grid.map(|grid| AnnulusMesh::generate(&grid).map_err(Failure::usage));
+    let annulus = annulus.transpose()?;
+    let solid = revolution.map(|solid| SolidSector::generate(solid).map_err(Failure::usage));
+    let solid = solid.transpose()?;
+    match &solid {
+        Some(sector) => write_revolution(&folder, sector)?,
+        None => write_mesh(&folder, &mesh, mesh.contact_edge().nodes.iter().copied())?,
+    }
+    let mut statistics = MeshStatistics::new(&mesh, annulus.as_ref(), shortest_wave(case));
+    if let Some(sector) = &solid {
+        statistics.turn(sector);
+    }
+    let figures = || Ok(vec![plane_figure(&mesh, &case.title, &case.output.probes)]);
+    finish(&session, folder, (statistics, Vec::new()), figures)
 }
 
 /// The mesh of solid bodies.

@@ -60,27 +60,19 @@ pub struct CommandLine {
     command: Command,
 }
 
-/// A subcommand, by the arguments that it takes.
-trait Run {
-    /// Runs it.
-    ///
-    /// # Errors
-    /// What it is asked for in vain: arguments, a case or a folder (exit code 2); a run that fails (1).
-    fn run(&self) -> Result<(), Failure>;
-}
-
-/// The table of commands, each with the file that holds it.
+/// The table of commands: the arguments of each, and the file whose `run` takes them. It fails on what is asked for in
+/// vain: arguments, a case or a folder (exit code 2); or the run fails (1).
 macro_rules! commands {
-    ($($name:ident: $module:ident,)*) => {
+    ($($(#[$help:meta])* $name:ident($arguments:ty): $module:ident,)*) => {
         #[derive(Subcommand)]
         enum Command {
-            $($name($module::Arguments),)*
+            $($(#[$help])* $name($arguments),)*
         }
 
         impl Command {
             fn run(&self) -> Result<(), Failure> {
                 match self {
-                    $(Self::$name(arguments) => arguments.run(),)*
+                    $(Self::$name(arguments) => $module::run(arguments),)*
                 }
             }
         }
@@ -88,30 +80,50 @@ macro_rules! commands {
 }
 
 commands! {
-    Cea: cea,
-    Transient: transient,
-    Sweep: sweep,
-    Collect: collect,
-    Compare: compare,
-    Plot: plot,
-    Cycle: cycle,
-    Basin: basin,
-    Convergence: convergence,
-    Improve: improve,
-    Mac: mac,
-    Mesh: mesh,
-    Matrices: matrices,
-    Check: check,
-    Init: init,
-    Keys: keys,
-    Columns: columns,
-    Fit: fit,
-    Frf: frf,
-    Identify: identify,
-    Signal: signal,
-    Uncertainty: uncertainty,
-    Completions: completions,
-    Man: man,
+    Cea(cea::Arguments): cea,
+    Transient(transient::Arguments): transient,
+    Sweep(sweep::Arguments): sweep,
+    Collect(collect::Arguments): collect,
+    Compare(compare::Arguments): compare,
+    Plot(plot::Arguments): plot,
+    Cycle(cycle::Arguments): cycle,
+    /// Which of two limit cycles wins
+    ///
+    /// Runs transients with two seeds: two waves on the built-in disc, two modes on any other body. Bisects the ratio
+    /// of the seeds above which the second one wins. With one mode it finds the kick that tips stable sliding into its
+    /// limit cycle. Needs a [basin] section. A map over speed and friction is a sweep with analyses = ["basin"].
+    Basin(RunOptions): basin,
+    /// Show that results have converged over mesh and time step
+    ///
+    /// Runs the analyses of a case on refined meshes, and its transient with shorter time steps. Reads the observed
+    /// order off the three finest runs, extrapolates after Richardson, and marks what does not converge. Needs a
+    /// section `[convergence]`.
+    Convergence(RunOptions): convergence,
+    /// Find changes that silence the unstable modes
+    ///
+    /// Computes the derivatives of growth rates by a mass, spring, dashpot, damping layer or removed patch at every
+    /// place. Predicts the best places with all modes together. Runs the best candidates again as cases of their own.
+    /// The [improve] section limits what may be changed and by how much.
+    Improve(RunOptions): improve,
+    Mac(mac::Arguments): mac,
+    /// Draw and measure the mesh alone
+    Mesh(RunOptions): mesh,
+    Matrices(matrices::Arguments): matrices,
+    Check(check::Arguments): check,
+    Init(init::Arguments): init,
+    Keys(keys::Arguments): keys,
+    Columns(columns::Arguments): columns,
+    Fit(fit::Arguments): fit,
+    /// Frequency response between two nodes
+    ///
+    /// Writes frf.csv, which `frictionsim identify` reads. Compare it with a hammer test, or check identification
+    /// against a known damping. Needs a section `[frf]`.
+    Frf(RunOptions): frf,
+    Identify(identify::Arguments): identify,
+    Signal(signal::Arguments): signal,
+    Uncertainty(uncertainty::Arguments): uncertainty,
+    Completions(completions::Arguments): completions,
+    Man(man::Arguments): man,
 }
 
 /// Commands by what they are for, in the order of the help; all others are under "Help".

@@ -1,7 +1,7 @@
 //! `frictionsim plot`: the figures of a results folder once more.
 
 use super::options::FigureOptions;
-use super::{Failure, Run, start_threads, terminal};
+use super::{Failure, start_threads, terminal};
 use crate::results::sweep::SweepFolder;
 use crate::results::{
     DrawingOptions, FolderError, Manifest, OutputFolder, Page, Record, read_manifest, read_record,
@@ -30,26 +30,24 @@ pub struct Arguments {
     quiet: u8,
 }
 
-impl Run for Arguments {
-    fn run(&self) -> Result<(), Failure> {
-        terminal::start_log(self.quiet, 0);
-        start_threads(self.threads);
-        let path = &self.folder;
-        let manifest = read_manifest(path)?;
-        if manifest.version != env!("CARGO_PKG_VERSION") {
-            tracing::warn!(
-                "{} was written by version {}: figures of this version may differ from its tables",
-                path.display(),
-                manifest.version
-            );
-        }
-        let options = self.figures.drawing();
-        redraw(path, &manifest, &options)?;
-        let figures = path.join("figures");
-        match self.quiet {
-            0 | 1 => terminal::print(&format!("figures in {}\n", figures.display())),
-            _ => Ok(()),
-        }
+pub(super) fn run(asked: &Arguments) -> Result<(), Failure> {
+    terminal::start_log(asked.quiet, 0);
+    start_threads(asked.threads);
+    let path = &asked.folder;
+    let manifest = read_manifest(path)?;
+    if manifest.version != env!("CARGO_PKG_VERSION") {
+        tracing::warn!(
+            "{} was written by version {}: figures of this version may differ from its tables",
+            path.display(),
+            manifest.version
+        );
+    }
+    let options = asked.figures.drawing();
+    redraw(path, &manifest, &options)?;
+    let figures = path.join("figures");
+    match asked.quiet {
+        0 | 1 => terminal::print(&format!("figures in {}\n", figures.display())),
+        _ => Ok(()),
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::measurement::{Measurement, SideFile, chosen};
 use super::session::read_case;
-use super::{Failure, OutputOptions, Run, Told, terminal};
+use super::{Failure, OutputOptions, Told, terminal};
 use crate::case::{Case, Cea};
 use crate::cea::{ComplexMode, ModeLimit};
 use crate::fem::MassKind;
@@ -80,79 +80,74 @@ pub struct Arguments {
     output: OutputOptions,
 }
 
-impl Run for Arguments {
-    fn run(&self) -> Result<(), Failure> {
-        let (signal, force) = (&self.signal, self.output.force);
-        let wav = SideFile::prepare("--wav", self.wav.as_deref(), signal, force)?;
-        let uff = SideFile::prepare("--uff", self.uff.as_deref(), signal, force)?;
-        let case = self.case.as_ref().map(|path| read_case(path, &self.set)).transpose()?;
-        let measurement =
-            Measurement::start("signal", &self.signal, &self.output, choices(self, case.as_ref()))?;
-        let reading = SignalOptions {
-            rate: self.rate,
-            columns: self.columns.clone(),
-            channels: self.channel.clone(),
-        };
-        let file = read_signal(&measurement.bytes, &measurement.source, &reading)?;
-        for note in &file.notes {
-            tracing::warn!("{}: {note}", measurement.source);
-        }
-        check_drawing(self, &file)?;
-        let bar =
-            terminal::progress(self.output.is_quiet(), file.channels.len() as u64, "channels");
-        let analysed =
-            crate::parallel::map::<_, _, Result<Vec<_>, Failure>>(&file.channels, |channel| {
-                let found = analyse(self, &file, channel);
-                bar.inc(1);
-                found
-            })?;
-        bar.finish_and_clear();
-        let (mut channels, spectra): (Vec<ChannelSummary>, Vec<AmplitudeSpectrum>) =
-            analysed.into_iter().unzip();
-        let main = channels.iter().filter_map(|c| c.main_frequency_hz);
-        let highest = main.fold(0.0, f64::max);
-        let modes = match &case {
-            Some(case) if highest > 0.0 => {
-                ModeSummary::all(&modes_below(case, 1.3 * highest)?, case.has_sectors())
-            }
-            _ => Vec::new(),
-        };
-        for channel in &mut channels {
-            channel.name_modes(&modes);
-        }
-        let folder = measurement.open_folder()?;
-        let friction = |case: &Case| case.contact.sliding.friction_coefficient;
-        let summary = SignalSummary {
-            source: measurement.source.clone(),
-            sampling_rate_hz: file.sampling_rate,
-            samples: file.channels[0].samples.len(),
-            friction_coefficient: case.as_ref().map(friction),
-            mode_tolerance: MODE_TOLERANCE,
-            channels,
-            notes: file.notes.clone(),
-        };
-        write_spectra(&folder, &spectra)?;
-        let aside = write_copies(self, [wav, uff], &file)?;
-        let mut told = Told::of(measurement.head(), document(&summary));
-        told.text += &aside;
-        self.output.finish_result(folder, told, &summary, || {
-            let unstable = modes.iter().filter(|mode| mode.unstable);
-            let line = |mode: &ModeSummary| ModeLine {
-                frequency_hz: mode.frequency_hz,
-                label: mode.label(),
-            };
-            let drawing = SignalDrawing {
-                file: &file,
-                spectra,
-                window: window_length(self, &file),
-                max_frequency_hz: self.max_frequency,
-                modes: unstable.map(line).collect(),
-            };
-            let (figures, left_out) = draw_figures(&drawing, &summary)?;
-            left_out.iter().for_each(|reason| tracing::warn!("{reason}"));
-            Ok(figures)
-        })
+pub(super) fn run(asked: &Arguments) -> Result<(), Failure> {
+    let (signal, force) = (&asked.signal, asked.output.force);
+    let wav = SideFile::prepare("--wav", asked.wav.as_deref(), signal, force)?;
+    let uff = SideFile::prepare("--uff", asked.uff.as_deref(), signal, force)?;
+    let case = asked.case.as_ref().map(|path| read_case(path, &asked.set)).transpose()?;
+    let measurement =
+        Measurement::start("signal", &asked.signal, &asked.output, choices(asked, case.as_ref()))?;
+    let reading = SignalOptions {
+        rate: asked.rate,
+        columns: asked.columns.clone(),
+        channels: asked.channel.clone(),
+    };
+    let file = read_signal(&measurement.bytes, &measurement.source, &reading)?;
+    for note in &file.notes {
+        tracing::warn!("{}: {note}", measurement.source);
     }
+    check_drawing(asked, &file)?;
+    let bar = terminal::progress(asked.output.is_quiet(), file.channels.len() as u64, "channels");
+    let analysed =
+        crate::parallel::map::<_, _, Result<Vec<_>, Failure>>(&file.channels, |channel| {
+            let found = analyse(asked, &file, channel);
+            bar.inc(1);
+            found
+        })?;
+    bar.finish_and_clear();
+    let (mut channels, spectra): (Vec<ChannelSummary>, Vec<AmplitudeSpectrum>) =
+        analysed.into_iter().unzip();
+    let main = channels.iter().filter_map(|c| c.main_frequency_hz);
+    let highest = main.fold(0.0, f64::max);
+    let modes = match &case {
+        Some(case) if highest > 0.0 => {
+            ModeSummary::all(&modes_below(case, 1.3 * highest)?, case.has_sectors())
+        }
+        _ => Vec::new(),
+    };
+    for channel in &mut channels {
+        channel.name_modes(&modes);
+    }
+    let folder = measurement.open_folder()?;
+    let friction = |case: &Case| case.contact.sliding.friction_coefficient;
+    let summary = SignalSummary {
+        source: measurement.source.clone(),
+        sampling_rate_hz: file.sampling_rate,
+        samples: file.channels[0].samples.len(),
+        friction_coefficient: case.as_ref().map(friction),
+        mode_tolerance: MODE_TOLERANCE,
+        channels,
+        notes: file.notes.clone(),
+    };
+    write_spectra(&folder, &spectra)?;
+    let aside = write_copies(asked, [wav, uff], &file)?;
+    let mut told = Told::of(measurement.head(), document(&summary));
+    told.text += &aside;
+    asked.output.finish_result(folder, told, &summary, || {
+        let unstable = modes.iter().filter(|mode| mode.unstable);
+        let line =
+            |mode: &ModeSummary| ModeLine { frequency_hz: mode.frequency_hz, label: mode.label() };
+        let drawing = SignalDrawing {
+            file: &file,
+            spectra,
+            window: window_length(asked, &file),
+            max_frequency_hz: asked.max_frequency,
+            modes: unstable.map(line).collect(),
+        };
+        let (figures, left_out) = draw_figures(&drawing, &summary)?;
+        left_out.iter().for_each(|reason| tracing::warn!("{reason}"));
+        Ok(figures)
+    })
 }
 
 /// Length of the spectrogram's window, s.

@@ -7,7 +7,7 @@ pub use workers::{PointRunner, SweepProgress, SweepRun};
 
 use super::share::ShareOptions;
 use super::transient::linear_stage;
-use super::{Failure, Run, RunOptions, Session, cycle, terminal};
+use super::{Failure, RunOptions, Session, cycle, terminal};
 use crate::case::{Analysis, Case};
 use crate::results::sweep::{Found, PointRecord, SweepFolder, SweepReport, SweepSummary};
 use crate::results::sweep::{document, long_tables, write_points};
@@ -29,47 +29,45 @@ pub struct Arguments {
     share: ShareOptions,
 }
 
-impl Run for Arguments {
-    fn run(&self) -> Result<(), Failure> {
-        let session = Session::start("sweep", &self.options)?;
-        let plan = SweepPlan::new(&session.case)?;
-        let threads = session.manifest.threads;
-        session.check_memory(threads.min(plan.count()) as f64 * point_memory(&session, &plan))?;
-        let points = self.share.pieces(plan.count());
-        let output = &self.options.output;
-        let folder = self.share.open(&session, plan.count(), &points)?;
+pub(super) fn run(asked: &Arguments) -> Result<(), Failure> {
+    let session = Session::start("sweep", &asked.options)?;
+    let plan = SweepPlan::new(&session.case)?;
+    let threads = session.manifest.threads;
+    session.check_memory(threads.min(plan.count()) as f64 * point_memory(&session, &plan))?;
+    let points = asked.share.pieces(plan.count());
+    let output = &asked.options.output;
+    let folder = asked.share.open(&session, plan.count(), &points)?;
 
-        terminal::catch_signals(workers::KEPT);
-        let progress = SweepProgress::new(output.is_quiet(), points.len());
-        let run = SweepRun {
-            plan: &plan,
-            folder: &folder,
-            manifest: &session.manifest,
-            progress: &progress,
-            runner: &|case| run_point(case, &plan.analyses, &session.manifest),
-        };
-        let outcome = run.run(&points, threads);
-        progress.finish();
-        let ran = outcome?;
+    terminal::catch_signals(workers::KEPT);
+    let progress = SweepProgress::new(output.is_quiet(), points.len());
+    let run = SweepRun {
+        plan: &plan,
+        folder: &folder,
+        manifest: &session.manifest,
+        progress: &progress,
+        runner: &|case| run_point(case, &plan.analyses, &session.manifest),
+    };
+    let outcome = run.run(&points, threads);
+    progress.finish();
+    let ran = outcome?;
 
-        let found = finished(&session.case, &plan, &folder)?;
-        let report = SweepReport { ran: Some(ran), wall_s: session.wall_seconds(), ..found };
-        let summary = if report.missing().is_empty() {
-            let options = output.drawing();
-            let drawing = options.map(|options| drawing(&session.case, &plan, &options));
-            gather(&folder, &report, &session.manifest, drawing.as_ref())?
-        } else {
-            summary_object(&report, &session.manifest)?
-        };
-        output.print(&document(&report, false).to_text(), &summary, folder.path())?;
-        let of_these = |record: &&PointRecord| points.binary_search(&record.point).is_ok();
-        match report.failed().filter(of_these).count() {
-            0 => Ok(()),
-            failed => Err(Failure::run(format!(
-                "{failed} of {} points failed; the results of the others are kept",
-                points.len()
-            ))),
-        }
+    let found = finished(&session.case, &plan, &folder)?;
+    let report = SweepReport { ran: Some(ran), wall_s: session.wall_seconds(), ..found };
+    let summary = if report.missing().is_empty() {
+        let options = output.drawing();
+        let drawing = options.map(|options| drawing(&session.case, &plan, &options));
+        gather(&folder, &report, &session.manifest, drawing.as_ref())?
+    } else {
+        summary_object(&report, &session.manifest)?
+    };
+    output.print(&document(&report, false).to_text(), &summary, folder.path())?;
+    let of_these = |record: &&PointRecord| points.binary_search(&record.point).is_ok();
+    match report.failed().filter(of_these).count() {
+        0 => Ok(()),
+        failed => Err(Failure::run(format!(
+            "{failed} of {} points failed; the results of the others are kept",
+            points.len()
+        ))),
     }
 }
 

@@ -3,7 +3,7 @@
 mod continuation;
 mod watch;
 
-use super::{Failure, Run, RunOptions, Session};
+use super::{Failure, RunOptions, Session};
 use crate::case::Case;
 use crate::fem::operator::StiffnessOperator;
 use crate::linalg::interruption;
@@ -57,63 +57,59 @@ fn resume<'b>(
     Ok((run, record))
 }
 
-impl Run for Arguments {
-    fn run(&self) -> Result<(), Failure> {
-        let session = Session::start("transient", &self.options)?;
-        let study = TransientStudy::new(&session.case, session.simd)?;
-        session.check_memory(session.case.memory("transient").0)?;
-        let operator = study.operator()?;
-        // Whatever is wrong with the case is said before the folder is touched.
-        let fresh = study.start(operator.as_ref())?;
-        let recorder = study.recorder(&fresh)?;
-        let saved = if self.resume { continuation::find(&session)? } else { None };
-        let goes_on = saved.is_some();
-        let (mut loop_, record) = match saved {
-            None => (fresh, recorder),
-            Some(saved) => {
-                resume(&study, operator.as_ref(), saved, &continuation::place(&session))?
-            }
-        };
-        let folder = match self.resume {
-            true => continuation::reopen(&session, goes_on)?,
-            false => open(&session)?,
-        };
-        let stepped = step(&session, &study, &folder, &mut loop_, record)?;
+pub(super) fn run(asked: &Arguments) -> Result<(), Failure> {
+    let session = Session::start("transient", &asked.options)?;
+    let study = TransientStudy::new(&session.case, session.simd)?;
+    session.check_memory(session.case.memory("transient").0)?;
+    let operator = study.operator()?;
+    // Whatever is wrong with the case is said before the folder is touched.
+    let fresh = study.start(operator.as_ref())?;
+    let recorder = study.recorder(&fresh)?;
+    let saved = if asked.resume { continuation::find(&session)? } else { None };
+    let goes_on = saved.is_some();
+    let (mut loop_, record) = match saved {
+        None => (fresh, recorder),
+        Some(saved) => resume(&study, operator.as_ref(), saved, &continuation::place(&session))?,
+    };
+    let folder = match asked.resume {
+        true => continuation::reopen(&session, goes_on)?,
+        false => open(&session)?,
+    };
+    let stepped = step(&session, &study, &folder, &mut loop_, record)?;
 
-        let (record, plan) = (&stepped.record, *loop_.plan());
-        let analysis = study.analyse(record);
-        let report = TransientReport {
-            steps: loop_.steps_done(),
-            steps_timed: stepped.steps,
-            stepping_s: stepped.stepping_s,
-            wall_s: session.wall_seconds(),
-            is_finished: stepped.is_finished,
-            ..study.report(record, &analysis, plan, operator.name())
-        };
-        // The last checkpoint goes with the record of the folder; while that is replaced, one with a record of its own
-        // holds the place of the last.
-        let (case_hash, state) = (continuation::run_hash(&session), loop_.state());
-        if goes_on {
-            write_checkpoint(&folder, &case_hash, &state, Some(record))?;
-        }
-        let (summary, object) = write(&folder, &report)?;
-        write_checkpoint(&folder, &case_hash, &state, None)?;
-        if !stepped.is_finished {
-            return Err(stopped(folder, &loop_));
-        }
-        let output = &self.options.output;
-        if let Some(options) = output.drawing() {
-            let run = RunFigures {
-                run: RecordedRun { material: study.case.materials(), ..report.run },
-                peripheral_speed: study.shown_speed(),
-                stage: linear_stage(study.case),
-            };
-            draw(&folder, &run, report.title, &summary, &options)?;
-        }
-        let state = analysis.settling.state;
-        let document = document(&summary, state, None);
-        output.finish(folder, &document.titled(report.title).to_text(), &object)
+    let (record, plan) = (&stepped.record, *loop_.plan());
+    let analysis = study.analyse(record);
+    let report = TransientReport {
+        steps: loop_.steps_done(),
+        steps_timed: stepped.steps,
+        stepping_s: stepped.stepping_s,
+        wall_s: session.wall_seconds(),
+        is_finished: stepped.is_finished,
+        ..study.report(record, &analysis, plan, operator.name())
+    };
+    // The last checkpoint goes with the record of the folder; while that is replaced, one with a record of its own
+    // holds the place of the last.
+    let (case_hash, state) = (continuation::run_hash(&session), loop_.state());
+    if goes_on {
+        write_checkpoint(&folder, &case_hash, &state, Some(record))?;
     }
+    let (summary, object) = write(&folder, &report)?;
+    write_checkpoint(&folder, &case_hash, &state, None)?;
+    if !stepped.is_finished {
+        return Err(stopped(folder, &loop_));
+    }
+    let output = &asked.options.output;
+    if let Some(options) = output.drawing() {
+        let run = RunFigures {
+            run: RecordedRun { material: study.case.materials(), ..report.run },
+            peripheral_speed: study.shown_speed(),
+            stage: linear_stage(study.case),
+        };
+        draw(&folder, &run, report.title, &summary, &options)?;
+    }
+    let state = analysis.settling.state;
+    let document = document(&summary, state, None);
+    output.finish(folder, &document.titled(report.title).to_text(), &object)
 }
 
 /// The modes that the figures mark; where there are none to be had, the log says why.

@@ -1,7 +1,7 @@
 //! `frictionsim uncertainty`: how likely is squeal, and which parameter decides it.
 
 use super::share::ShareOptions;
-use super::{Failure, Run, RunOptions, Session, terminal};
+use super::{Failure, RunOptions, Session, terminal};
 use crate::case::{Case, find_key};
 use crate::results::sweep::{Found, PointClock, PointRecord, SweepFolder};
 use crate::results::uncertainty::{Sample, document, draw_report, samples_table};
@@ -34,70 +34,68 @@ pub struct Arguments {
     bound: f64,
 }
 
-impl Run for Arguments {
-    fn run(&self) -> Result<(), Failure> {
-        let session = Session::start("uncertainty", &self.options)?;
-        for design in &self.robust {
-            // What the results depend on belongs to what they are made from.
-            check(design, &session.case)?;
-        }
-        if !(self.bound > 0.0 && self.bound < 1.0) {
-            let bound = self.bound;
-            return Err(Failure::usage(format!("--bound {bound}: a probability between 0 and 1")));
-        }
-        let case = session.case.clone();
-        let uncertainty = case.require_uncertainty()?;
-        let sampler = Sampler::new(&case)?;
-        let workers = session.manifest.threads as f64;
-        session.check_memory(workers * case.memory("cea").0)?;
-        let count = uncertainty.samples.div_ceil(BLOCK);
-        let blocks = self.share.pieces(count);
-        let output = &self.options.output;
-        let folder = self.share.open(&session, count, &blocks)?;
-        terminal::catch_signals("finished samples are kept: go on with --resume");
-
-        let asked = blocks.len() * BLOCK;
-        let bar = terminal::progress(output.is_quiet(), asked as u64, "samples");
-        for &block in &blocks {
-            run_block(&sampler, &folder, &session.manifest, block)?;
-            bar.inc(BLOCK as u64);
-        }
-        bar.finish_and_clear();
-        let (samples, missing) = finished(&folder, count)?;
-        let samples: Vec<Sample> =
-            samples.into_iter().filter(|sample| sample.number <= uncertainty.samples).collect();
-        let mut summary = summarize(&case, &samples);
-        if missing > 0 {
-            summary.notes.push(format!(
-            "{missing} of {count} blocks of samples are missing: run it again with --resume once all shards have ended"
-        ));
-        } else if !self.robust.is_empty() {
-            let (designs, bound) = (&self.robust, self.bound);
-            summary.robust = Some(curves(&case, &sampler, designs, bound)?);
-        }
-        for note in &summary.notes {
-            tracing::warn!("{note}");
-        }
-        let manifest = &session.manifest;
-        let object = summary_of(manifest, session.head(), &summary).map_err(Failure::run)?;
-        let document = document(&summary).titled(&case.title);
-        let text = document.to_text();
-        if missing == 0 {
-            let largest = summary.largest_friction;
-            let table = samples_table(&sampler.keys(), &samples, largest);
-            folder.write(&table.file, |out| table.write_csv(out))?;
-            let mut failed = samples.iter().filter_map(|sample| sample.error.as_deref());
-            if failed.clone().count() == samples.len() {
-                let first = failed.next().unwrap_or_default();
-                return Err(Failure::run(format!("no sample could be solved; the first: {first}")));
-            }
-            folder.write_summary(&object)?;
-            if let Some(drawing) = output.drawing() {
-                draw_report(&folder, &summary, document, manifest, &drawing)?;
-            }
-        }
-        output.print(&text, &object, folder.path())
+pub(super) fn run(asked: &Arguments) -> Result<(), Failure> {
+    let session = Session::start("uncertainty", &asked.options)?;
+    for design in &asked.robust {
+        // What the results depend on belongs to what they are made from.
+        check(design, &session.case)?;
     }
+    if !(asked.bound > 0.0 && asked.bound < 1.0) {
+        let bound = asked.bound;
+        return Err(Failure::usage(format!("--bound {bound}: a probability between 0 and 1")));
+    }
+    let case = session.case.clone();
+    let uncertainty = case.require_uncertainty()?;
+    let sampler = Sampler::new(&case)?;
+    let workers = session.manifest.threads as f64;
+    session.check_memory(workers * case.memory("cea").0)?;
+    let count = uncertainty.samples.div_ceil(BLOCK);
+    let blocks = asked.share.pieces(count);
+    let output = &asked.options.output;
+    let folder = asked.share.open(&session, count, &blocks)?;
+    terminal::catch_signals("finished samples are kept: go on with --resume");
+
+    let count_asked = (blocks.len() * BLOCK) as u64;
+    let bar = terminal::progress(output.is_quiet(), count_asked, "samples");
+    for &block in &blocks {
+        run_block(&sampler, &folder, &session.manifest, block)?;
+        bar.inc(BLOCK as u64);
+    }
+    bar.finish_and_clear();
+    let (samples, missing) = finished(&folder, count)?;
+    let samples: Vec<Sample> =
+        samples.into_iter().filter(|sample| sample.number <= uncertainty.samples).collect();
+    let mut summary = summarize(&case, &samples);
+    if missing > 0 {
+        summary.notes.push(format!(
+        "{missing} of {count} blocks of samples are missing: run it again with --resume once all shards have ended"
+    ));
+    } else if !asked.robust.is_empty() {
+        let (designs, bound) = (&asked.robust, asked.bound);
+        summary.robust = Some(curves(&case, &sampler, designs, bound)?);
+    }
+    for note in &summary.notes {
+        tracing::warn!("{note}");
+    }
+    let manifest = &session.manifest;
+    let object = summary_of(manifest, session.head(), &summary).map_err(Failure::run)?;
+    let document = document(&summary).titled(&case.title);
+    let text = document.to_text();
+    if missing == 0 {
+        let largest = summary.largest_friction;
+        let table = samples_table(&sampler.keys(), &samples, largest);
+        folder.write(&table.file, |out| table.write_csv(out))?;
+        let mut failed = samples.iter().filter_map(|sample| sample.error.as_deref());
+        if failed.clone().count() == samples.len() {
+            let first = failed.next().unwrap_or_default();
+            return Err(Failure::run(format!("no sample could be solved; the first: {first}")));
+        }
+        folder.write_summary(&object)?;
+        if let Some(drawing) = output.drawing() {
+            draw_report(&folder, &summary, document, manifest, &drawing)?;
+        }
+    }
+    output.print(&text, &object, folder.path())
 }
 
 /// The finished samples in their order, and how many blocks are missing.
