@@ -204,37 +204,30 @@ fn check_meshes(
     if annulus.circumferential_elements == 0 || annulus.radial_elements == 0 {
         return;
     }
-    let reject = |message: String, label: &str| {
-        section.reject("factors", message, label.to_owned(), None);
-    };
     let mut previous: Option<(f64, AnnulusSpecification)> = None;
     for &factor in factors {
         let mesh = Convergence::refined(annulus, factor);
         let (around, radial) = (mesh.circumferential_elements, mesh.radial_elements);
         let name = format!("the mesh of convergence.factors = {factor}, {around} x {radial}");
         if around < 3 || radial < 1 {
-            return reject(
-                format!("{name}, has too few elements"),
-                "at least 3 around and 1 along the radius",
-            );
+            refuse!(section, "factors", "{name}, has too few elements";
+                "at least 3 around and 1 along the radius");
+            return;
         }
         let (nodes, limit) = (node_count(&mesh), u128::from(u32::MAX / 2));
         if nodes > limit {
-            return reject(
-                format!("{name}, would have {nodes} nodes, above the limit of {limit}"),
-                "too many elements",
-            );
+            refuse!(section, "factors",
+                "{name}, would have {nodes} nodes, above the limit of {limit}"; "too many elements");
+            return;
         }
         if let Some((other, coarser)) = &previous
             && (around <= coarser.circumferential_elements || radial <= coarser.radial_elements)
         {
-            return reject(
-                format!(
-                    "{name}, does not refine that of {other}, {} x {}, in both directions",
-                    coarser.circumferential_elements, coarser.radial_elements
-                ),
-                "factors further apart, or a finer mesh to start from",
-            );
+            refuse!(section, "factors",
+                "{name}, does not refine that of {other}, {} x {}, in both directions",
+                coarser.circumferential_elements, coarser.radial_elements;
+                "factors further apart, or a finer mesh to start from");
+            return;
         }
         let [a, r] = [
             around as f64 / annulus.circumferential_elements as f64,

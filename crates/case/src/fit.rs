@@ -1,6 +1,7 @@
 //! `[fit]`: which parameters are fitted to measured modes, and where they are sought.
 
 use super::parameters::{number, only, read_all};
+use super::words::choice_of;
 use super::{ModelParameter, RawEntry, RawValue, Section, Spacing, refuse_at};
 
 /// A parameter with the bounds between which it is sought.
@@ -38,9 +39,7 @@ pub(super) fn fit(section: &Section<'_>) -> Fit {
 /// `[from, to]` or `{ from, to, scale, also }`.
 fn bounds(section: &Section<'_>, parameter: ModelParameter, entry: &RawEntry) -> FitParameter {
     let key = &parameter.key;
-    let reject = |message: String, label: &str, help: &str| {
-        refuse_at!(section, &entry.item.at, "{message}"; "{label}"; "{help}");
-    };
+    let at = &entry.item.at;
     let help = "bounds are [0.3, 0.45] or { from = 1e10, to = 1e13, scale = \"log\" }";
     let mut scale = Spacing::Linear;
     let [from, to] = match &entry.item.value {
@@ -49,42 +48,34 @@ fn bounds(section: &Section<'_>, parameter: ModelParameter, entry: &RawEntry) ->
         }
         RawValue::Table(table) => {
             only(section, table, &["from", "to", "scale", "also"]);
-            match table.get("scale").map(|scale| &scale.item.value) {
-                None => {}
-                Some(RawValue::String(word)) if word == "linear" => {}
-                Some(RawValue::String(word)) if word == "log" => scale = Spacing::Logarithmic,
-                Some(other) => reject(
-                    format!("scale = {} of {key}", other.shortened()),
-                    "must be \"linear\" or \"log\"",
-                    help,
-                ),
+            if let Some(given) = table.get("scale").map(|scale| &scale.item.value) {
+                match given.text().and_then(choice_of) {
+                    Some(word) => scale = word,
+                    None => refuse_at!(section, at, "scale = {} of {key}", given.shortened();
+                        "must be \"linear\" or \"log\""; "{help}"),
+                }
             }
             ["from", "to"]
                 .map(|end| number(section, entry, table.get(end).map(|entry| &entry.item.value)))
         }
         other => {
-            reject(format!("the bounds of {key} are {}", other.kind()), "not bounds", help);
+            refuse_at!(section, at, "the bounds of {key} are {}", other.kind(); "not bounds";
+                "{help}");
             [f64::NAN; 2]
         }
     };
     for value in [from, to] {
         if value.is_finite() && !parameter.bound.admits(value) {
-            let message = format!("{key} = {value} {}", parameter.bound.text());
-            reject(message, "a bound outside what the key allows", "choose narrower bounds");
+            refuse_at!(section, at, "{key} = {value} {}", parameter.bound.text();
+                "a bound outside what the key allows"; "choose narrower bounds");
         }
     }
     if from >= to {
-        reject(
-            format!("the bounds of {key} are {from} and {to}"),
-            "must rise",
-            "the first must be below the second",
-        );
+        refuse_at!(section, at, "the bounds of {key} are {from} and {to}"; "must rise";
+            "the first must be below the second");
     } else if scale == Spacing::Logarithmic && from <= 0.0 {
-        reject(
-            format!("scale = \"log\" of {key} needs positive bounds, not {from}"),
-            "no logarithm",
-            "raise the lower bound above 0, or use scale = \"linear\"",
-        );
+        refuse_at!(section, at, "scale = \"log\" of {key} needs positive bounds, not {from}";
+            "no logarithm"; "raise the lower bound above 0, or use scale = \"linear\"");
     }
     FitParameter { parameter, from, to, scale }
 }

@@ -100,7 +100,17 @@ fn numbered(
         _ => format!("{} = {number}", section.name(key)),
     };
     if let Some(mesh) = body.whole_mesh() {
-        return labelled(&mesh.labels, section, &what, number, at);
+        // Labels rise, as nodes stand in the order of their numbers.
+        let labels = &mesh.labels;
+        let found = labels.binary_search(&number).ok();
+        if found.is_none() {
+            let ends = [labels.first(), labels.last()].map(|label| label.map_or(0, |&n| n));
+            refuse_at!(section, at,
+                "{what} does not exist: the elements of the mesh file have {} nodes, numbered {} \
+                 to {}", labels.len(), ends[0], ends[1]; "no node of the body";
+                "give its position instead, {{ x = .., y = .. }} in metres");
+        }
+        return found;
     }
     let help = match body.revolution() {
         None => "node ids count radially outwards first: 1 + j (radial_elements + 1) + i",
@@ -113,25 +123,6 @@ fn numbered(
         return None;
     }
     Some(number.saturating_sub(1))
-}
-
-/// The node of a number of the mesh file; labels rise, as nodes stand in the order of their numbers.
-fn labelled(
-    labels: &[usize],
-    section: &Section<'_>,
-    what: &str,
-    number: usize,
-    at: &Location,
-) -> Option<usize> {
-    let found = labels.binary_search(&number).ok();
-    if found.is_none() {
-        let ends = [labels.first(), labels.last()].map(|label| label.map_or(0, |&n| n));
-        refuse_at!(section, at,
-            "{what} does not exist: the elements of the mesh file have {} nodes, numbered {} to {}",
-            labels.len(), ends[0], ends[1]; "no node of the body";
-            "give its position instead, {{ x = .., y = .. }} in metres");
-    }
-    found
 }
 
 /// Coordinates in brackets, with so many decimals.

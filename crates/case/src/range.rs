@@ -22,19 +22,13 @@ pub enum Spacing {
 pub fn range_values(from: f64, to: f64, count: usize, spacing: Spacing) -> Vec<f64> {
     let last = count.saturating_sub(1);
     (0..count)
-        .map(|i| {
-            if i == 0 {
-                return from;
+        .map(|i| match (spacing, i as f64, last as f64) {
+            _ if i == 0 => from,
+            _ if i == last => to,
+            (Spacing::Linear, step, steps) => rounded(from + (to - from) * step / steps, 15),
+            (Spacing::Logarithmic, step, steps) => {
+                rounded(from * (to / from).powf(step / steps), 15)
             }
-            if i == last {
-                return to;
-            }
-            let (step, steps) = (i as f64, last as f64);
-            let value = match spacing {
-                Spacing::Linear => from + (to - from) * step / steps,
-                Spacing::Logarithmic => from * (to / from).powf(step / steps),
-            };
-            rounded(value, 15)
         })
         .collect()
 }

@@ -77,7 +77,6 @@ impl Sweep {
 pub(super) fn read(root: &Section<'_>) -> Option<Sweep> {
     let section = root.section("sweep", false);
     if !section.is_given() {
-        section.close();
         return None;
     }
     let combination = section.choice("combine");

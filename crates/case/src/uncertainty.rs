@@ -81,9 +81,7 @@ fn uncertain(
     let help = "a distribution is { normal = [mean, deviation] }, \
     { log_normal = [median, deviation of the logarithm] } \
                 or { uniform = [from, to] }";
-    let reject = |message: String, label: &str, help: &str| {
-        refuse_at!(section, &entry.item.at, "{message}"; "{label}"; "{help}");
-    };
+    let at = &entry.item.at;
     let words = ["normal", "log_normal", "uniform"];
     let mut given = None;
     match &entry.item.value {
@@ -92,12 +90,12 @@ fn uncertain(
             let mut found = words.iter().filter_map(|word| Some((*word, table.get(*word)?)));
             given = found.next();
             if found.next().is_some() {
-                reject(format!("{key} has two distributions"), "one of them", help);
+                refuse_at!(section, at, "{key} has two distributions"; "one of them"; "{help}");
             } else if given.is_none() {
-                reject(format!("{key} has no distribution"), "none of the three", help);
+                refuse_at!(section, at, "{key} has no distribution"; "none of the three"; "{help}");
             }
         }
-        other => reject(format!("{key} is {}", other.kind()), "no distribution", help),
+        other => refuse_at!(section, at, "{key} is {}", other.kind(); "no distribution"; "{help}"),
     }
     let none = UncertainParameter {
         distribution: Distribution::Uniform { from: 0.0, to: 1.0 },
@@ -108,11 +106,12 @@ fn uncertain(
         return none;
     };
     let RawValue::Array(items) = &inner.item.value else {
-        reject(format!("{word} of {key} is no list"), "two numbers", help);
+        refuse_at!(section, at, "{word} of {key} is no list"; "two numbers"; "{help}");
         return none;
     };
     if items.len() != 2 {
-        reject(format!("{word} of {key} has {} numbers", items.len()), "two numbers", help);
+        refuse_at!(section, at, "{word} of {key} has {} numbers", items.len(); "two numbers";
+            "{help}");
         return none;
     }
     let [a, b] = [0, 1].map(|i| number(section, inner, items.get(i).map(|item| &item.value)));
@@ -134,20 +133,17 @@ fn uncertain(
     if !is_valid {
         // What is no number has been reported.
         if a.is_finite() && b.is_finite() {
-            reject(format!("{word} = [{a}, {b}] of {key}"), needs, help);
+            refuse_at!(section, at, "{word} = [{a}, {b}] of {key}"; "{needs}"; "{help}");
         }
         return none;
     }
     if word == "log_normal" && b > LARGEST_LOG_DEVIATION {
-        reject(
-            format!(
-                "log_normal = [{a}, {b}] of {key}: the second number is the standard deviation of \
-                 the natural logarithm. One of {b} spans {:.0} powers of ten",
-                b / std::f64::consts::LN_10
-            ),
-            "at most 3",
-            "a scatter of 10 % is { log_normal = [median, 0.1] }; for a deviation in the unit of the key use normal",
-        );
+        refuse_at!(section, at,
+            "log_normal = [{a}, {b}] of {key}: the second number is the standard deviation of the \
+             natural logarithm. One of {b} spans {:.0} powers of ten", b / std::f64::consts::LN_10;
+            "at most 3";
+            "a scatter of 10 % is {{ log_normal = [median, 0.1] }}; for a deviation in the unit of \
+             the key use normal");
         return none;
     }
     let [least, most] = parameter.bound.ends();
@@ -155,14 +151,9 @@ fn uncertain(
     let beyond = 1.0 - (range[1] - range[0]);
     let rule = parameter.bound.text();
     if beyond > MOST_BEYOND || (beyond > 0.0 && word == "uniform") {
-        reject(
-            format!(
-                "{:.3} % of {word} = [{a}, {b}] of {key} lies where the key {rule}",
-                100.0 * beyond
-            ),
-            "reaches forbidden values",
-            "make it narrower, or use log_normal, which stays positive",
-        );
+        refuse_at!(section, at,
+            "{:.3} % of {word} = [{a}, {b}] of {key} lies where the key {rule}", 100.0 * beyond;
+            "reaches forbidden values"; "make it narrower, or use log_normal, which stays positive");
         return none;
     }
     // What a sample meets once in a million is not worth a word.
