@@ -111,9 +111,7 @@ impl<'a> SweepPlan<'a> {
     pub fn point_case(&self, point: usize) -> Result<Case, String> {
         let overrides = self.sweep.overrides(point - 1);
         let one_line = |errors: CaseErrors| one_line(&errors.line());
-        let mut raw = self.case.raw.with_overrides(&overrides).map_err(one_line)?;
-        raw.root.remove("sweep");
-        Case::read(raw).map_err(one_line)
+        self.case.raw.sweep_point(&overrides).and_then(Case::read).map_err(one_line)
     }
 }
 

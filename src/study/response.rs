@@ -81,8 +81,7 @@ impl<'a> FrequencyStudy<'a> {
             FrfMethod::Reduced if is_lossy => {
                 let refusal = case.loss_error(
                     "frf.method = \"reduced\" projects on real spaces of viscous damping, which \
-                    structural damping is not"
-                        .to_owned(),
+                    structural damping is not",
                     "not in a reduced model",
                     "use frf.method = \"direct\"",
                 );
@@ -112,10 +111,7 @@ impl<'a> FrequencyStudy<'a> {
         let (frf, lines) = (self.frf, &self.frf.frequencies_hz);
         let mut found = Response {
             frequencies_hz: lines.clone(),
-            thickness: match self.case.body.dimension() {
-                3 => 1.0,
-                _ => self.case.thickness,
-            },
+            thickness: self.case.depth(),
             ..Response::default()
         };
         match &self.system {

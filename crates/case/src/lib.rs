@@ -293,6 +293,12 @@ impl Case {
         self.body.has_sectors()
     }
 
+    /// What forces, powers and energies of the mesh are multiplied by, m: the thickness of a plane body. Those of a body
+    /// in three dimensions are of the whole, and this is 1.
+    pub fn depth(&self) -> f64 {
+        if self.body.dimension() == 2 { self.thickness } else { 1.0 }
+    }
+
     /// Whether a material, a support or a contact has structural damping.
     pub fn has_structural_damping(&self) -> bool {
         self.body.has_structural_damping() || self.has_lossy_contacts()

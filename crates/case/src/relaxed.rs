@@ -73,8 +73,7 @@ impl Case {
         }
         Err(self.loss_error(
             "a transient has a Maxwell chain in place of a loss factor. It is fitted from a \
-             hundredth of cea.max_frequency_hz up to that, and the case has none"
-                .to_owned(),
+             hundredth of cea.max_frequency_hz up to that, and the case has none",
             "needs a band of frequencies",
             "give [cea] with max_frequency_hz, or damping.stiffness_coefficient in place of loss_factor",
         ))

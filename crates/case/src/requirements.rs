@@ -153,7 +153,7 @@ impl Case {
     }
 
     /// An error at the first loss factor of the case.
-    pub fn loss_error(&self, message: String, label: &str, help: &str) -> CaseErrors {
+    pub fn loss_error(&self, message: &str, label: &str, help: &str) -> CaseErrors {
         let keys = |section: &str| -> Vec<String> {
             let names = table_of(&self.raw.root, section).into_iter().flatten();
             names.map(|(name, _)| format!("{section}.{name}.loss_factor")).collect()
@@ -168,7 +168,7 @@ impl Case {
         let key = key.or_else(|| table.map(|table| table.key.clone()));
         let key = key.unwrap_or_else(|| "material.loss_factor".to_owned());
         let message = format!("{key}: {message}");
-        self.error_at(&key, message, label.to_owned(), Some(help.to_owned()))
+        self.error_at(&key, message, label, help)
     }
 
     /// Refuses structural damping in an analysis over time.
@@ -177,7 +177,7 @@ impl Case {
             return Ok(());
         }
         Err(self.loss_error(
-            format!(
+            &format!(
                 "{what} is over time, and a stiffness K (1 + i eta) belongs to one frequency: in \
                 time it would act before its cause"
             ),

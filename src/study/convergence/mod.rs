@@ -89,28 +89,7 @@ pub fn solve(
     manifest: &Manifest,
     done: &(dyn Fn() + Sync),
 ) -> Result<Vec<Series>, StudyError> {
-    let mut all = Vec::new();
-    let solved = solve_levels(levels, manifest, done)?;
-    for (outcomes, levels) in solved.into_iter().zip(levels) {
-        all.extend(series(case, levels, outcomes)?);
-    }
-    Ok(all)
-}
-
-fn with_time_step(case: &Case, step: f64) -> Case {
-    let mut case = case.clone();
-    if let Some(transient) = &mut case.transient {
-        transient.time_step = TimeStep::Seconds(step);
-    }
-    case
-}
-
-fn solve_levels(
-    studies: &[Levels],
-    manifest: &Manifest,
-    done: &(dyn Fn() + Sync),
-) -> Result<Vec<Vec<Timed>>, StudyError> {
-    let jobs = studies.iter().flat_map(|study| {
+    let jobs = levels.iter().flat_map(|study| {
         let cases = study.cases.iter();
         cases.map(|case| (study.analysis, case))
     });
@@ -131,8 +110,20 @@ fn solve_levels(
             Ok((outcome, start.elapsed().as_secs_f64()))
         });
     // The first level that failed speaks, whichever thread was first.
-    let mut solved = solved.into_iter().rev();
-    studies.iter().map(|study| solved.by_ref().take(study.cases.len()).collect()).collect()
+    let mut solved = solved.into_iter().rev().collect::<Result<Vec<Timed>, _>>()?.into_iter();
+    let of_each = levels.iter().map(|study| {
+        let outcomes = solved.by_ref().take(study.cases.len()).collect();
+        series(case, study, outcomes)
+    });
+    Ok(of_each.collect::<Result<Vec<_>, _>>()?.concat())
+}
+
+fn with_time_step(case: &Case, step: f64) -> Case {
+    let mut case = case.clone();
+    if let Some(transient) = &mut case.transient {
+        transient.time_step = TimeStep::Seconds(step);
+    }
+    case
 }
 
 /// The case with the limit cycles at its own operating point alone.

@@ -36,10 +36,6 @@ pub fn continuation(
             "limit cycles cannot be followed over {}", continuation.key;
             "not one of the parameters of a cycle"; "one of {}", known.join(", "))));
     };
-    if continuation.from.min(continuation.to) < 0.0 {
-        return Err(StudyError::Case(refusal!(case, "cycle.continuation.from",
-            "{} cannot be negative along a branch", continuation.key; "must not be negative")));
-    }
     let values = continuation.values().into_iter();
     let values = values.map(|value| value * parameter.unit()).collect();
     Ok(Some((parameter, values)))

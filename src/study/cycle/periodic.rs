@@ -308,7 +308,7 @@ impl<'a> PeriodicStudy<'a> {
         CycleReport {
             title: &self.case.title,
             body: self.stepped.shown(),
-            thickness: self.stepped.thickness(self.case),
+            thickness: self.case.depth(),
             extent: extent_of(self.case),
             friction_coefficient: self.case.contact.sliding.friction_coefficient,
             critical: self.critical,

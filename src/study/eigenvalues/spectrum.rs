@@ -71,6 +71,7 @@ pub fn modes_at_own_friction(
 }
 
 /// The onsets of a case.
+#[derive(Default)]
 pub struct OnsetSearch {
     /// The ranges of friction over which branches are unstable.
     pub intervals: Vec<UnstableInterval>,

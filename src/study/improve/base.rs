@@ -187,8 +187,7 @@ pub(in crate::study) fn refuse_bodies(case: &Case) -> Result<(), CaseErrors> {
     if case.has_structural_damping() {
         return Err(case.loss_error(
             "improve takes derivatives of conjugate pairs of modes, which structural damping K (1 \
-            + i eta) does not leave"
-                .to_owned(),
+            + i eta) does not leave",
             "not in improve",
             "set it to 0 and give the damping by damping.stiffness_coefficient: beta = eta / omega \
             at the frequency of the mode",

@@ -70,10 +70,7 @@ pub fn improve(case: &Case) -> Result<Improvement, StudyError> {
     let mut notes = whole_mesh_note(case);
     let case = &*case.on_whole_mesh()?;
     let base = Base::solve(case, cea)?;
-    let thickness = match base.mesh.dimension {
-        2 => case.thickness,
-        _ => 1.0,
-    };
+    let thickness = case.depth();
     let sizes = sizes(&base, thickness);
     let targets = base.targets().into_iter();
     let derivatives: Vec<_> = targets.map(|mode| Derivatives::of(&base, mode)).collect();
@@ -205,18 +202,17 @@ fn change(search: &Search<'_>, modal: &ModalModel<'_>, trial: &Trial) -> Result<
             let matrix = |amount: f64| {
                 DMatrix::from_fn(d, d, |i, j| amount * own[(i, j)] / search.thickness)
             };
-            let none = DMatrix::<f64>::zeros(d, d);
-            Ok(match kind {
+            let none = || DMatrix::<f64>::zeros(d, d);
+            let matrices = match kind {
                 ModificationKind::Mass => {
                     let mass = matrix(sizes.mass_kg);
                     let damping = &mass * base.options.damping.mass_coefficient;
-                    modal.attached(&dofs, [&mass, &damping, &none])
+                    [mass, damping, none()]
                 }
-                ModificationKind::Spring => {
-                    modal.attached(&dofs, [&none, &none, &matrix(sizes.stiffness_n_per_m)])
-                }
-                _ => modal.attached(&dofs, [&none, &matrix(sizes.damping_n_s_per_m), &none]),
-            })
+                ModificationKind::Spring => [none(), none(), matrix(sizes.stiffness_n_per_m)],
+                _ => [none(), matrix(sizes.damping_n_s_per_m), none()],
+            };
+            Ok(modal.attached(&dofs, matrices.each_ref()))
         }
         (Target::Patch(_, elements), kind) => {
             let (dofs, matrices) = patch_matrices(base, elements, kind, sizes.patch_damping_s);

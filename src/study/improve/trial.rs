@@ -82,14 +82,13 @@ impl Search<'_> {
                     (None, self.growth(&|own| own.by_mass(node, alpha) * mass))
                 }
                 _ => {
-                    let of = match kind {
-                        ModificationKind::Spring => Derivatives::by_spring,
-                        _ => Derivatives::by_dashpot,
+                    let (of, size): (fn(&Derivatives, usize) -> Matrix3<f64>, f64) = match kind {
+                        ModificationKind::Spring => {
+                            (Derivatives::by_spring, self.sizes.stiffness_n_per_m)
+                        }
+                        _ => (Derivatives::by_dashpot, self.sizes.damping_n_s_per_m),
                     };
-                    let amount = match kind {
-                        ModificationKind::Spring => self.sizes.stiffness_n_per_m / extent,
-                        _ => self.sizes.damping_n_s_per_m / extent,
-                    };
+                    let amount = size / extent;
                     let along = steepest(&of(self.fastest(), node), self.base.mesh.dimension);
                     let change = |own: &Derivatives| {
                         let rate = along.dot(&(of(own, node) * along));

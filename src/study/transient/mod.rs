@@ -76,7 +76,14 @@ impl<'a> TransientStudy<'a> {
             stepped: SteppedMesh::of(case)?,
             transient,
             simd,
-            settings: settings::run_settings(case, transient),
+            settings: TransientSettings {
+                duration: transient.duration,
+                time_step: transient.time_step,
+                sample_interval: case.output.sample_interval,
+                expansion_time: transient.expansion_time,
+                initial: transient.initial,
+                perturbation: transient.perturbation.clone(),
+            },
         })
     }
 
@@ -92,7 +99,14 @@ impl<'a> TransientStudy<'a> {
 
     /// What the case asks a run to keep.
     pub fn recorder_settings(&self) -> RecorderSettings {
-        settings::recorder_settings(self.case, self.transient)
+        let output = &self.case.output;
+        RecorderSettings {
+            probes: output.probes.clone(),
+            snapshots: output.snapshots.clone(),
+            contact_interval: output.contact_interval,
+            raw_acceleration: output.raw_acceleration,
+            stop_when_settled: self.transient.stop_when_settled,
+        }
     }
 
     /// What applies the stiffness.
@@ -244,7 +258,7 @@ impl<'a> TransientStudy<'a> {
                 body: self.stepped.shown(),
                 material: case.materials_in_time(),
                 has_harmonics: case.has_sectors(),
-                thickness: self.stepped.thickness(case),
+                thickness: case.depth(),
                 extent: extent_of(case),
             },
             contact_nodes: self.body().interface().nodes,

@@ -1,29 +1,8 @@
-//! From the case's terms to those of the time loop, and its errors back to keys of the case.
+//! Errors of the time loop at their keys of the case.
 
-use crate::case::{Case, Transient};
+use crate::case::Case;
 use crate::study::StudyError;
-use crate::transient::{Breakdown, RecorderSettings, TransientError, TransientSettings};
-
-pub fn run_settings(case: &Case, transient: &Transient) -> TransientSettings {
-    TransientSettings {
-        duration: transient.duration,
-        time_step: transient.time_step,
-        sample_interval: case.output.sample_interval,
-        expansion_time: transient.expansion_time,
-        initial: transient.initial,
-        perturbation: transient.perturbation.clone(),
-    }
-}
-
-pub fn recorder_settings(case: &Case, transient: &Transient) -> RecorderSettings {
-    RecorderSettings {
-        probes: case.output.probes.clone(),
-        snapshots: case.output.snapshots.clone(),
-        contact_interval: case.output.contact_interval,
-        raw_acceleration: case.output.raw_acceleration,
-        stop_when_settled: transient.stop_when_settled,
-    }
-}
+use crate::transient::{Breakdown, TransientError};
 
 /// Settings that stand in `[output]`; the others stand in `[transient]`.
 const OUTPUT: [&str; 3] = ["probes", "sample_interval", "snapshots"];

@@ -90,15 +90,4 @@ impl<'a> SteppedMesh<'a> {
             None => self.mesh.node_count(),
         }
     }
-
-    /// Whether the body has a thickness of its own.
-    pub fn is_solid(&self) -> bool {
-        self.sector.is_some() || self.assembly.is_some()
-    }
-
-    /// What powers and energies are multiplied by, m: those of a body in three dimensions are of the whole, and this is
-    /// 1.
-    pub fn thickness(&self, case: &Case) -> f64 {
-        if self.is_solid() { 1.0 } else { case.thickness }
-    }
 }

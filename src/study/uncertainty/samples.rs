@@ -112,27 +112,17 @@ impl<'a> Sampler<'a> {
         harmonics: Option<&[usize]>,
     ) -> (Sample, Vec<usize>) {
         let [values, _] = self.halves(index);
-        let mut sample = Sample {
-            number: index + 1,
-            values: values.clone(),
-            friction_coefficient: case.contact.sliding.friction_coefficient,
-            onsets: Vec::new(),
-            within: Vec::new(),
-            error: None,
-            mixed: Vec::new(),
-        };
-        match self.onsets(case, &values, harmonics) {
-            Ok((own, onsets, found)) => {
-                sample.friction_coefficient = own;
-                sample.onsets = onsets;
-                sample.within = found.within;
-                (sample, found.followed)
-            }
-            Err(error) => {
-                sample.error = Some(one_line(&error));
-                (sample, Vec::new())
-            }
-        }
+        let found = self.onsets(case, &values, harmonics);
+        let error = found.as_ref().err().map(|error| one_line(error));
+        let (friction_coefficient, onsets, found) = found.unwrap_or_else(|_| {
+            (case.contact.sliding.friction_coefficient, Vec::new(), OnsetSearch::default())
+        });
+        let (number, mixed) = (index + 1, Vec::new());
+        let within = found.within;
+        (
+            Sample { number, values, friction_coefficient, onsets, within, error, mixed },
+            found.followed,
+        )
     }
 
     /// Harmonics to look at beside a sample that holds modes in `followed`.
