@@ -4,7 +4,7 @@ use super::{Failure, RunOptions, Session, input_name, read_input};
 use crate::case::hash_of;
 use crate::results::fit::BLOCK;
 use crate::signal::reader::{MeasuredShape, read_modes, read_shapes};
-use crate::study::fit::{MeasuredShapes, fit_case_with_shapes, refuse_too_few, summarize};
+use crate::study::fit::{MeasuredShapes, fit_case, refuse_too_few, summarize};
 use clap::{Args, ValueHint};
 use frictionsim_bounds::MEASUREMENT;
 use std::path::{Path, PathBuf};
@@ -46,7 +46,7 @@ pub(super) fn run(asked: &Arguments) -> Result<(), Failure> {
     let folder = session.begin()?;
 
     let case = &session.case;
-    let fitted = fit_case_with_shapes(case, &lines, shapes)?;
+    let fitted = fit_case(case, &lines, shapes)?;
     let mut found = summarize(case, &lines, &fitted)?;
     found.measurement = input_name(&asked.modes);
     for note in &found.notes {

@@ -73,7 +73,7 @@ fn coverage(case: &Case, limit_hz: f64, noise: [f64; 2], seeds: u64) -> Vec<usiz
             let real_hz = mode.real_hz() + noise[1] * mode.frequency_hz() * error.im;
             line(k + 1, frequency_hz, Some(real_hz))
         });
-        let fitted = fit_case(case, &lines.collect::<Vec<_>>()).unwrap();
+        let fitted = fit_case(case, &lines.collect::<Vec<_>>(), None).unwrap();
         for ((hit, estimate), truth) in hits.iter_mut().zip(&fitted.parameters).zip(&truth) {
             let [low, high] = estimate.interval.unwrap();
             *hit += usize::from(low <= *truth && *truth <= high);

@@ -113,7 +113,7 @@ fn nine_constants_of_a_lining_come_out_of_its_free_modes() {
     let seeds: u64 = sized(3, 12);
     let mut inside = [0; 9];
     for seed in 1..=seeds {
-        let found = fit_case(&case, &measured(&case, 30, 1e-3, seed)).unwrap();
+        let found = fit_case(&case, &measured(&case, 30, 1e-3, seed), None).unwrap();
         // Parameters come in the order of their keys.
         let mut keys: Vec<(&str, f64)> = CONSTANTS.to_vec();
         keys.sort_by_key(|(key, _)| *key);
@@ -138,7 +138,7 @@ fn what_free_modes_cannot_tell_apart_is_named() {
     constants.retain(|(key, _)| !key.contains("poisson"));
     constants.push(("material.density", 2500.0));
     let case = lining("blind", &fitted(&constants), &[]);
-    let error = fit_case(&case, &measured(&case, 30, 0.0, 1)).unwrap_err();
+    let error = fit_case(&case, &measured(&case, 30, 0.0, 1), None).unwrap_err();
     let StudyError::Fit(FitError::Blind(direction)) = &error else {
         panic!("{error}");
     };

@@ -21,19 +21,11 @@ fn limit_hz(lines: &[MeasuredMode]) -> f64 {
     MARGIN * lines.iter().map(|line| line.frequency_hz).fold(0.0, f64::max)
 }
 
-/// Fits the parameters of a case to measured modes.
+/// Fits the parameters of a case to measured modes, with measured shapes of some of the lines.
 ///
 /// # Errors
-/// A case without `[fit]`; a fit that cannot be made.
-pub fn fit_case(case: &Case, lines: &[MeasuredMode]) -> Result<Fitted, StudyError> {
-    fit_case_with_shapes(case, lines, None)
-}
-
-/// [`fit_case`] with measured shapes of some of the lines.
-///
-/// # Errors
-/// As [`fit_case`]; shapes that belong to no line, points off the body.
-pub fn fit_case_with_shapes(
+/// A case without `[fit]`; a fit that cannot be made; shapes that belong to no line, points off the body.
+pub fn fit_case(
     case: &Case,
     lines: &[MeasuredMode],
     shapes: Option<MeasuredShapes<'_>>,

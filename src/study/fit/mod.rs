@@ -23,7 +23,7 @@ mod shapes;
 mod summary;
 
 pub use crate::signal::reader::MeasuredMode;
-pub use case::{fit_case, fit_case_with_shapes, refuse_too_few, summarize};
+pub use case::{fit_case, refuse_too_few, summarize};
 pub use estimate::{Fitted, LineFit, fit};
 pub use interval::Estimate;
 pub(in crate::study) use matching::least_cost;

@@ -118,7 +118,7 @@ fn no_study_solves_an_imported_body_by_sectors() {
     refusal(modes_and_onsets(&body).unwrap_err().messages().join("; "));
     let sampler = Sampler::new(&body).map(|_| ());
     refusal(sampler.unwrap_err().messages().join("; "));
-    refusal(fit_case(&body, &[line(2, 1e4)]).unwrap_err().messages().join("; "));
+    refusal(fit_case(&body, &[line(2, 1e4)], None).unwrap_err().messages().join("; "));
 }
 
 #[test]
