@@ -1,8 +1,6 @@
 //! Failures of a command and their exit codes.
 
 use crate::case::CaseErrors;
-use crate::cea::CeaError;
-use crate::prestress::PrestressError;
 use crate::results::{DrawingError, FolderError};
 use crate::study::StudyError;
 use std::io;
@@ -64,18 +62,6 @@ impl From<DrawingError> for Failure {
             DrawingError::Folder(error) => error.into(),
             DrawingError::Chart(_) => Self::Run(error.into()),
         }
-    }
-}
-
-impl From<PrestressError> for Failure {
-    fn from(error: PrestressError) -> Self {
-        Self::Run(error.into())
-    }
-}
-
-impl From<CeaError> for Failure {
-    fn from(error: CeaError) -> Self {
-        if error.is_usage() { Self::Usage(error.into()) } else { Self::Run(error.into()) }
     }
 }
 
