@@ -70,8 +70,7 @@ pub fn improve(case: &Case) -> Result<Improvement, StudyError> {
     let mut notes = whole_mesh_note(case);
     let case = &*case.on_whole_mesh()?;
     let base = Base::solve(case, cea)?;
-    let thickness = case.depth();
-    let sizes = sizes(&base, thickness);
+    let sizes = sizes(&base);
     let targets = base.targets().into_iter();
     let derivatives: Vec<_> = targets.map(|mode| Derivatives::of(&base, mode)).collect();
     let search = Search {
@@ -79,7 +78,6 @@ pub fn improve(case: &Case) -> Result<Improvement, StudyError> {
         derivatives: &derivatives,
         base: &base,
         sizes,
-        thickness,
     };
     let modal = ModalModel::new(&base).map_err(CeaError::from)?;
 
@@ -132,12 +130,12 @@ pub fn improve(case: &Case) -> Result<Improvement, StudyError> {
 
 /// Sizes of the modifications that the case gives, or that follow, to four digits, from its bodies and the fastest of
 /// its targets.
-fn sizes(base: &Base<'_>, thickness: f64) -> Sizes {
+fn sizes(base: &Base<'_>) -> Sizes {
     let asked = &base.case.improve;
     let worst = base.worst_frequency().unwrap_or(1.0);
     let masses = lumped_masses(&base.mesh, base.case.materials());
     let own = |asked: Option<f64>, usual: f64| asked.unwrap_or(rounded(usual, 4));
-    let mass = own(asked.mass, 0.01 * thickness * masses.iter().sum::<f64>());
+    let mass = own(asked.mass, 0.01 * base.case.depth() * masses.iter().sum::<f64>());
     let size = base.case.body.size();
     Sizes {
         mass_kg: mass,
@@ -200,7 +198,7 @@ fn change(search: &Search<'_>, modal: &ModalModel<'_>, trial: &Trial) -> Result<
             let law = confirm::law(*direction);
             let own = base.mesh.in_frame(*node, &law);
             let matrix = |amount: f64| {
-                DMatrix::from_fn(d, d, |i, j| amount * own[(i, j)] / search.thickness)
+                DMatrix::from_fn(d, d, |i, j| amount * own[(i, j)] / base.case.depth())
             };
             let none = || DMatrix::<f64>::zeros(d, d);
             let matrices = match kind {

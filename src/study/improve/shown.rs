@@ -22,7 +22,7 @@ pub(super) fn added_mass(search: &Search<'_>, trial: &Trial) -> f64 {
         (_, ModificationKind::Mass) => search.sizes.mass_kg,
         (Target::Patch(_, elements), ModificationKind::Removal) => {
             let masses = elements.iter().map(|&e| element_size(search, e as usize)[0]);
-            -search.thickness * masses.sum::<f64>()
+            -search.base.case.depth() * masses.sum::<f64>()
         }
         _ => 0.0,
     }
@@ -35,7 +35,7 @@ pub(super) fn fields(search: &Search<'_>) -> Vec<TargetFields> {
     let sizes: Vec<f64> = sizes.collect();
     let of = |(own, mode): (&Derivatives, TargetMode)| {
         let alpha = search.base.options.damping.mass_coefficient;
-        let extent = search.thickness;
+        let extent = search.base.case.depth();
         let nodes = || 0..own.nodes.len();
         let least = |form: Matrix3<f64>| match search.base.mesh.dimension {
             2 => {

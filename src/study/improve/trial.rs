@@ -35,8 +35,6 @@ pub(super) struct Trial {
 pub(super) struct Search<'a> {
     pub base: &'a Base<'a>,
     pub sizes: Sizes,
-    /// Extent that shares these among the matrices of a plane body, m; 1 of solid ones.
-    pub thickness: f64,
     pub places: Places,
     pub derivatives: &'a [Derivatives],
 }
@@ -74,7 +72,7 @@ impl Search<'_> {
 
     fn at_nodes(&self, kind: ModificationKind) -> Vec<Trial> {
         let alpha = self.base.options.damping.mass_coefficient;
-        let extent = self.thickness;
+        let extent = self.base.case.depth();
         let trial = |&node: &usize| {
             let (direction, first_order) = match kind {
                 ModificationKind::Mass => {

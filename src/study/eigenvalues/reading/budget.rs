@@ -53,7 +53,8 @@ impl Parts<'_> {
             let (number, own) = shapes.modes[mode];
             let name = shapes.name(number, own);
             let contacts = |fed: f64| self.contact_rates(shapes, (mode, own), &sums, fed);
-            write((name, own, mode), (&rows, &sums), &contacts, out);
+            let rows = rows.iter().map(|row| (&row.name, row.source, row.forms[mode]));
+            write((name, own), rows, [sums.kinetic[mode], sums.strain[mode]], &contacts, out);
         }
     }
 
@@ -184,23 +185,23 @@ impl Parts<'_> {
     }
 }
 
-/// The rows of the mode of place `i`; its contacts feed what the others leave of its growth.
-pub(super) fn write(
-    (name, mode, i): (ModeName, &ComplexMode, usize),
-    (rows, sums): (&[Row], &Sums),
+/// The rows of a mode, each with its kinetic and strain energy and its damping, of what these are in all. Its contacts
+/// feed what the others leave of its growth.
+pub(super) fn write<'r>(
+    (name, mode): (ModeName, &ComplexMode),
+    rows: impl Iterator<Item = (&'r String, Source, [f64; 3])>,
+    [kinetic, strain]: [f64; 2],
     contacts: &dyn Fn(f64) -> Vec<(String, f64)>,
     out: &mut Vec<Contribution>,
 ) {
-    let (kinetic, strain) = (sums.kinetic[i], sums.strain[i]);
     let rate = |damping: f64| -damping / (2.0 * kinetic);
     let mut taken = 0.0;
-    for row in rows {
-        let [m, k, c] = row.forms[i];
+    for (row, source, [m, k, c]) in rows {
         taken += rate(c);
         out.push(Contribution {
             mode: name,
-            name: row.name.clone(),
-            source: row.source,
+            name: row.clone(),
+            source,
             kinetic_share: m.is_finite().then_some(m / kinetic),
             strain_share: k.is_finite().then_some(k / strain),
             growth_rate: rate(c),

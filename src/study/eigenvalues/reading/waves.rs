@@ -1,6 +1,6 @@
 //! The same of a body solved harmonic by harmonic, from the matrices of one sector: every sector has an equal share.
 
-use super::budget::{Row, Sums, write};
+use super::budget::write;
 use super::shapes::{name_of, strongest};
 use crate::case::Case;
 use crate::cea::{ComplexMode, FrictionPoint, FrictionSweep, ModeWave};
@@ -93,28 +93,18 @@ impl<'t> Apart<'t> {
         let regions = parts.of_regions(root, own.name.friction_coefficient, x);
         let supports = parts.of_supports(root, x);
         let strain = |forms: &[PartForms]| -> f64 { forms.iter().map(|own| own.stiffness).sum() };
-        let sums = Sums {
-            kinetic: vec![own.mass],
-            strain: vec![strain(&regions) + strain(&supports)],
-            balance: None,
-        };
-        let row = |name: &String, source, forms: [f64; 3]| Row {
-            name: name.clone(),
-            source,
-            forms: vec![forms],
-        };
+        let energies = [own.mass, strain(&regions) + strain(&supports)];
         let parts = self
             .regions
             .iter()
             .zip(&regions)
-            .map(|(name, own)| row(name, Source::Part, [own.mass, own.stiffness, own.damping]));
+            .map(|(name, part)| (name, Source::Part, [own.mass, part.stiffness, part.damping]));
         let held =
-            self.supports.iter().zip(&supports).map(|(name, own)| {
-                row(name, Source::Support, [f64::NAN, own.stiffness, own.damping])
+            self.supports.iter().zip(&supports).map(|(name, part)| {
+                (name, Source::Support, [f64::NAN, part.stiffness, part.damping])
             });
-        let rows: Vec<Row> = parts.chain(held).collect();
         let contact = |fed: f64| vec![(CONTACT.to_owned(), fed)];
-        write((own.name, own.mode, 0), (&rows, &sums), &contact, out);
+        write((own.name, own.mode), parts.chain(held), energies, &contact, out);
     }
 
     /// The feed of the unstable modes at the case's own friction coefficient.
