@@ -32,10 +32,6 @@ fn condition(section: &Section<'_>) -> BoundaryCondition {
     let pressure = section.optional_number("pressure");
     let axes: Vec<HeldAxis> = section.choices("directions");
     // A value without effect is a mistake.
-    let reject = |key: &str, needs: &str| {
-        refuse!(section, key => "has no effect here"; "needs condition = \"{needs}\"";
-            "change the condition to \"{needs}\", or leave {key} out");
-    };
     let springs = "normal_stiffness tangential_stiffness axial_stiffness normal_damping \
                    tangential_damping loss_factor";
     for (needed, needs, keys) in [
@@ -43,8 +39,10 @@ fn condition(section: &Section<'_>) -> BoundaryCondition {
         (ConditionWord::Fixed, "fixed", "directions"),
         (ConditionWord::Pressure, "pressure", "pressure"),
     ] {
-        if word != needed {
-            section.refused(keys).into_iter().for_each(|key| reject(key, needs));
+        let idle = if word == needed { Vec::new() } else { section.refused(keys) };
+        for key in idle {
+            refuse!(section, key => "has no effect here"; "needs condition = \"{needs}\"";
+                "change the condition to \"{needs}\", or leave {key} out");
         }
     }
     match word {

@@ -245,29 +245,22 @@ impl Case {
     pub fn memory(&self, command: &str) -> (f64, &'static str) {
         let cost = self.cost();
         let mesh = self.larger_count();
-        let own = match command {
-            "cea" | "improve" | "mac" => cost.cea.map(|cea| (cea.run.memory_bytes, mesh)),
-            "transient" => {
-                cost.transient.map(|transient| (transient.run.memory_bytes, self.record_key()))
+        let phases = self.cycle.as_ref().and_then(|cycle| cycle.phases);
+        let (run, key) = match command {
+            "cea" | "improve" | "mac" => (cost.cea.map(|own| own.run), mesh),
+            "transient" => (cost.transient.map(|own| own.run), self.record_key()),
+            "cycle" if phases.is_some() && self.has_rotating_waves() => {
+                (cost.cycle.map(|own| own.run), "cycle.phases")
             }
-            "cycle" => cost.cycle.map(|cycle| {
-                let phases = self.cycle.as_ref().and_then(|cycle| cycle.phases);
-                let key = match phases {
-                    Some(_) if self.has_rotating_waves() => "cycle.phases",
-                    _ => mesh,
-                };
-                (cycle.run.memory_bytes, key)
-            }),
-            "frf" => cost.frf.map(|frf| (frf.run.memory_bytes, mesh)),
-            "sweep" => self
-                .sweep_cost()
-                .map(|sweep| (sweep.run.memory_bytes - cost.mesh_memory_bytes, mesh)),
-            "convergence" => {
-                self.convergence_cost().map(|study| (study.run.memory_bytes, "convergence.factors"))
-            }
-            _ => None,
+            "cycle" => (cost.cycle.map(|own| own.run), mesh),
+            "frf" => (cost.frf.map(|own| own.run), mesh),
+            "sweep" => (self.sweep_cost().map(|own| own.run), mesh),
+            "convergence" => (self.convergence_cost().map(|own| own.run), "convergence.factors"),
+            _ => (None, mesh),
         };
-        let (bytes, key) = own.unwrap_or((0.0, mesh));
+        let bytes = run.map_or(0.0, |run| run.memory_bytes);
+        // Those of a sweep hold their meshes.
+        let bytes = bytes - if command == "sweep" { cost.mesh_memory_bytes } else { 0.0 };
         let blamed = if bytes > cost.mesh_memory_bytes { key } else { mesh };
         (cost.mesh_memory_bytes + bytes.max(0.0), blamed)
     }

@@ -109,22 +109,20 @@ fn contact_keys(contact: &FileContact, units: UnitsWord) -> Vec<(&'static str, R
 
 /// What a plane body cannot take by itself: it has one contact, `[contact]`, and no ties.
 fn refuse_in_plane(model: &ModelData, left_out: &mut Vec<LeftOut>) {
-    let mut refuse = |what: &str, name: &str, place: &str, reason: &str| {
-        let own = LeftOut::once(format!("{what} {name}"), place.to_owned(), reason);
-        left_out.push(LeftOut { is_part: what == "tie", ..own });
-    };
-    for tie in &model.ties {
-        let reason = "plane bodies have no ties: let the parts share their nodes";
-        refuse("tie", &tie.name, &tie.place, reason);
-    }
-    for contact in &model.contacts {
-        let reason = "the contact of plane bodies is [contact] with counterface = \"body\"";
-        refuse("contact pair", &contact.name, &contact.place, reason);
-    }
-    for motion in &model.motions {
-        let reason = "the speed of plane bodies is that of [contact]";
-        refuse("motion of", &motion.region, &motion.place, reason);
-    }
+    let [no_tie, one_contact, one_speed] = [
+        "plane bodies have no ties: let the parts share their nodes",
+        "the contact of plane bodies is [contact] with counterface = \"body\"",
+        "the speed of plane bodies is that of [contact]",
+    ];
+    let ties = model.ties.iter().map(|own| ("tie", &own.name, &own.place, no_tie));
+    let contacts = model.contacts.iter();
+    let contacts = contacts.map(|own| ("contact pair", &own.name, &own.place, one_contact));
+    let motions = model.motions.iter().map(|own| ("motion of", &own.region, &own.place, one_speed));
+    let refused = ties.chain(contacts).chain(motions).map(|(what, name, place, reason)| LeftOut {
+        is_part: what == "tie",
+        ..LeftOut::once(format!("{what} {name}"), place.clone(), reason)
+    });
+    left_out.extend(refused);
 }
 
 fn material_section(

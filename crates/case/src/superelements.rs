@@ -65,15 +65,11 @@ impl FreeSystem {
         let folder = Path::new(&raw.name).parent().unwrap_or(Path::new(""));
         let read = names.first().and_then(|name| {
             let section = all.section(name, true);
-            let found = superelement(&section, name, folder, &mut digest);
-            section.close();
-            found
+            section.closed(|own| superelement(own, name, folder, &mut digest))
         });
         all.close();
-        let section = root.section("cea", true);
         let unknowns = read.as_ref().map_or(0, |own| own.mass.rows as u128);
-        let modes = mode_selection(&section, unknowns);
-        section.close();
+        let modes = root.section("cea", true).closed(|own| mode_selection(own, unknowns));
         root.close();
         let (errors, _) = findings.into_parts();
         match read {

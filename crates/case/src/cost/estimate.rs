@@ -133,41 +133,28 @@ impl Case {
     }
 
     pub(super) fn cycle_cost(&self, cycle: &Cycle, size: &Size) -> CycleCost {
-        if !self.has_rotating_waves() {
-            return self.periodic_cost(cycle, size);
-        }
-        let phases = cycle.phases.unwrap_or(LIKELY_PHASES) as f64;
-        let families = cycle.harmonics.as_ref().map_or(2, Vec::len);
         let followed = cycle.continuation.as_ref().map_or(0, |range| range.count);
-        let stable = stable_cycles(cycle.stability, followed);
-        // Dense factorizations: of the search from birth, and of the exponents.
-        let dense = phases.powi(3) * (50.0 + followed as f64 + 80.0 * stable as f64);
-        let confirmation = cycle.confirmation_periods as f64 * PERIOD_STEPS;
-        let count = families as f64;
-        let run = RunCost {
+        let analysed = stable_cycles(cycle.stability, followed) as f64;
+        let (unknowns, confirmed) = (self.unknowns(size), cycle.confirmation_periods as f64);
+        let (families, bytes, operations) = if self.has_rotating_waves() {
+            let families = cycle.harmonics.as_ref().map_or(2, Vec::len);
+            let phases = cycle.phases.unwrap_or(LIKELY_PHASES) as f64;
+            // Dense factorizations: of the search from birth, and of the exponents.
+            let dense = phases.powi(3) * (50.0 + followed as f64 + 80.0 * analysed);
             // A few dense matrices of two unknowns for each phase, and of four for the perturbations.
-            memory_bytes: PROGRAM_BYTES + count * 8.0 * 40.0 * phases * phases,
-            operations: count * (dense + STEP[0] * self.unknowns(size) * confirmation),
-        };
-        CycleCost { families, cycles: 1 + followed, run }
-    }
-
-    /// Periodic motions of the whole mesh, each from the periods that it takes.
-    fn periodic_cost(&self, cycle: &Cycle, size: &Size) -> CycleCost {
-        let followed = cycle.continuation.as_ref().map_or(0, |range| range.count);
-        let families = LIKELY_GROWING;
-        let [search, multipliers] = PERIODS;
-        let analysed = stable_cycles(cycle.stability, followed);
-        let periods = search * (1 + followed) as f64
-            + multipliers * analysed as f64
-            + cycle.confirmation_periods as f64;
-        let unknowns = self.unknowns(size);
-        let count = families as f64;
-        let run = RunCost {
+            let bytes = 8.0 * 40.0 * phases * phases;
+            (families, bytes, dense + STEP[0] * unknowns * confirmed * PERIOD_STEPS)
+        } else {
+            // Periodic motions of the whole mesh, each from the periods that it takes.
+            let [search, multipliers] = PERIODS;
+            let periods = search * (1 + followed) as f64 + multipliers * analysed + confirmed;
             // Secants with their images and their basis, twice as long as there are unknowns, and the Krylov space.
-            memory_bytes: PROGRAM_BYTES + count * 8.0 * 2.0 * unknowns * 250.0,
-            operations: count * periods * PERIOD_STEPS * STEP[1] * unknowns,
+            let bytes = 8.0 * 2.0 * unknowns * 250.0;
+            (LIKELY_GROWING, bytes, periods * PERIOD_STEPS * STEP[1] * unknowns)
         };
+        let count = families as f64;
+        let run =
+            RunCost { memory_bytes: PROGRAM_BYTES + count * bytes, operations: count * operations };
         CycleCost { families, cycles: 1 + followed, run }
     }
 
