@@ -38,7 +38,8 @@ fn resume<'b>(
     saved: Checkpoint,
     folder: &Path,
 ) -> Result<(CentralDifference<'b>, Recorder), Failure> {
-    let run = study.resume(operator, &saved.state)?;
+    let (body, settings) = (study.body(), &study.settings);
+    let run = study.told(CentralDifference::resume(body, operator, settings, &saved.state))?;
     let plan = run.plan();
     if run.steps_done() > plan.total_steps() {
         let reached = (run.steps_done() - 1) as f64 * plan.time_step;
@@ -46,14 +47,14 @@ fn resume<'b>(
             "the run in {} has come to {reached:.6} s, beyond transient.duration = {:?} s: raise that, or start \
              over without --resume",
             folder.display(),
-            study.settings().duration,
+            settings.duration,
         )));
     }
     let record = match saved.record {
         Some(record) => record,
         None => read_record(folder)?,
     };
-    let record = study.resume_record(&run, record)?;
+    let record = study.told(record.resume(&run, &study.recorder_settings()))?;
     Ok((run, record))
 }
 
@@ -64,7 +65,7 @@ pub(super) fn run(asked: &Arguments) -> Result<(), Failure> {
     let operator = study.operator()?;
     // Whatever is wrong with the case is said before the folder is touched.
     let fresh = study.start(operator.as_ref())?;
-    let recorder = study.recorder(&fresh)?;
+    let recorder = study.told(Recorder::new(&fresh, &study.recorder_settings()))?;
     let saved = if asked.resume { continuation::find(&session)? } else { None };
     let goes_on = saved.is_some();
     let (mut loop_, record) = match saved {
@@ -158,7 +159,7 @@ fn step(
     };
     let stepping_s = clock.elapsed().as_secs_f64();
     let record = watch.finish()?;
-    let end = end.map_err(|error| study.error(error))?;
+    let end = study.told(end)?;
     // What there is is written in peace.
     interruption::acknowledge();
     Ok(Stepped {

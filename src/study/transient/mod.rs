@@ -33,7 +33,7 @@ use crate::prestress::Assembly;
 use crate::results::transient::{RecordedRun, TransientReport};
 use crate::transient::{
     CentralDifference, InitialState, Recorder, RecorderSettings, StepPlan, TransientAnalysis,
-    TransientError, TransientModel, TransientSettings, TransientState,
+    TransientError, TransientModel, TransientSettings,
 };
 use std::time::Instant;
 
@@ -45,7 +45,8 @@ pub struct TransientStudy<'a> {
     pub stepped: SteppedMesh<'a>,
     transient: &'a Transient,
     simd: SimdLevel,
-    settings: TransientSettings,
+    /// Choices of the run.
+    pub settings: TransientSettings,
 }
 
 /// What came of a run.
@@ -90,11 +91,6 @@ impl<'a> TransientStudy<'a> {
     /// The body with its contact.
     pub fn body(&self) -> TransientModel<'_> {
         self.stepped.body(self.case)
-    }
-
-    /// Choices of the run.
-    pub fn settings(&self) -> &TransientSettings {
-        &self.settings
     }
 
     /// What the case asks a run to keep.
@@ -144,38 +140,6 @@ impl<'a> TransientStudy<'a> {
             _ => CentralDifference::start(self.body(), operator, &self.settings),
         };
         self.told(started)
-    }
-
-    /// The run where a saved state left it.
-    ///
-    /// # Errors
-    /// As [`Self::start`]; a state of another case.
-    pub fn resume<'b>(
-        &'b self,
-        operator: &'b dyn StiffnessOperator,
-        state: &TransientState,
-    ) -> Result<CentralDifference<'b>, StudyError> {
-        self.told(CentralDifference::resume(self.body(), operator, &self.settings, state))
-    }
-
-    /// What keeps of a run that starts what the case asks for.
-    ///
-    /// # Errors
-    /// [`StudyError::Case`] for probes that are no nodes, snapshots outside the run.
-    pub fn recorder(&self, run: &CentralDifference<'_>) -> Result<Recorder, StudyError> {
-        self.told(Recorder::new(run, &self.recorder_settings()))
-    }
-
-    /// A record that goes on with its run.
-    ///
-    /// # Errors
-    /// As [`Self::recorder`]; a record of another run.
-    pub fn resume_record(
-        &self,
-        run: &CentralDifference<'_>,
-        record: Recorder,
-    ) -> Result<Recorder, StudyError> {
-        self.told(record.resume(run, &self.recorder_settings()))
     }
 
     /// Reads a record.
@@ -236,7 +200,7 @@ impl<'a> TransientStudy<'a> {
         let settings = TransientSettings { initial, ..self.settings.clone() };
         let started = CentralDifference::start(self.body(), operator.as_ref(), &settings);
         let fresh = self.told(started)?;
-        self.recorder(&fresh)?;
+        self.told(Recorder::new(&fresh, &self.recorder_settings()))?;
         Ok(*fresh.plan())
     }
 
@@ -277,13 +241,12 @@ impl<'a> TransientStudy<'a> {
         }
     }
 
-    /// An error of the time loop, at its key of the case where it has one.
-    pub fn error(&self, error: TransientError) -> StudyError {
-        settings::study_error(self.case, error)
-    }
-
-    fn told<T>(&self, outcome: Result<T, TransientError>) -> Result<T, StudyError> {
-        outcome.map_err(|error| self.error(error))
+    /// An outcome of the time loop, its error at its key of the case where it has one.
+    ///
+    /// # Errors
+    /// [`StudyError::Case`] for what the case asks for in vain; what fails in the loop.
+    pub fn told<T>(&self, outcome: Result<T, TransientError>) -> Result<T, StudyError> {
+        outcome.map_err(|error| settings::study_error(self.case, error))
     }
 
     /// Speed of the counterface where figures show the contact, m/s: of several rings of nodes at the middle one.
