@@ -50,7 +50,7 @@ fn waves(session: &Session, is_continued: bool) -> Result<(), Failure> {
     check_memory(&session.case)?;
     let study = CycleStudy::new(&session.case, session.simd)?;
     let folder = session.open_folder(is_continued)?;
-    let families = study.family_count() as u64;
+    let families = study.solvers.len() as u64;
     let bar = terminal::progress(session.options.output.is_quiet(), families, "families");
     let steps = KeptSteps::new(&folder, is_continued, &|_| {})?;
     terminal::catch_signals(match study.choices.two_frequencies {
@@ -71,7 +71,7 @@ fn motions(session: &Session, is_continued: bool) -> Result<(), Failure> {
     let study = PeriodicStudy::new(&session.case, session.simd)?;
     let folder = session.open_folder(is_continued)?;
     let steps = KeptSteps::new(&folder, is_continued, &|_| {})?;
-    let sought = study.sought_count() as u64;
+    let sought = study.sought.len() as u64;
     let bar = terminal::progress(session.options.output.is_quiet(), sought, "modes");
     terminal::catch_signals(KEPT);
     let kept_name = |result: &PeriodicResult| format!("done-{}.json", result.tag());

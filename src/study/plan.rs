@@ -92,11 +92,6 @@ impl<'a> SweepPlan<'a> {
         self.analyses.iter().map(|analysis| analysis.word()).collect()
     }
 
-    /// Numbers of the points of a shard, ascending from 1.
-    pub fn points(&self, shard: Option<Shard>) -> Vec<usize> {
-        Shard::points(shard, self.count())
-    }
-
     /// Swept keys and their values at a point.
     pub fn swept(&self, point: usize) -> Map<String, Value> {
         let overrides = self.sweep.overrides(point - 1);

@@ -29,8 +29,8 @@ fn shards_are_disjoint_and_cover_every_point() {
     let case = study(SEVEN);
     let plan = SweepPlan::new(&case).unwrap();
     for count in 1..=9 {
-        let shards =
-            (1..=count).map(|number| plan.points(format!("{number}/{count}").parse().ok()));
+        let shards = (1..=count)
+            .map(|number| Shard::points(format!("{number}/{count}").parse().ok(), plan.count()));
         let mut all: Vec<usize> = shards.flatten().collect();
         all.sort_unstable();
         assert_eq!(all, [1, 2, 3, 4, 5, 6, 7]);
@@ -88,7 +88,7 @@ fn sweep(
 ) -> Result<usize, FolderError> {
     let plan = SweepPlan::new(case).unwrap();
     let shard: Option<Shard> = shard.map(|text| text.parse().unwrap());
-    let (points, manifest) = (plan.points(shard), manifest(case));
+    let (points, manifest) = (Shard::points(shard, plan.count()), manifest(case));
     let folder = SweepFolder::open(folder, &manifest, plan.count(), &points, start)?;
     let run = SweepRun {
         plan: &plan,

@@ -53,7 +53,8 @@ pub struct CycleStudy<'a> {
     onsets: Vec<Onset>,
     /// Where along the parameter of `continuation` sliding loses its stability, where it is stable at the case's own.
     critical: Option<CriticalValue>,
-    solvers: Vec<Sought>,
+    /// A solver for each family sought, or why it has none.
+    pub solvers: Vec<Sought>,
 }
 
 impl<'a> CycleStudy<'a> {
@@ -90,11 +91,6 @@ impl<'a> CycleStudy<'a> {
             solvers,
             onsets,
         })
-    }
-
-    /// How many families are sought.
-    pub fn family_count(&self) -> usize {
-        self.solvers.len()
     }
 
     /// The cycles, with the whole field at so many times over one period; `done` hears of every family.

@@ -46,7 +46,7 @@ pub struct PeriodicStudy<'a> {
     /// Steady sliding where the search starts.
     steady: Steady,
     /// The modes whose cycles are sought, by falling growth: places among all.
-    sought: Vec<usize>,
+    pub sought: Vec<usize>,
     continuation: Option<(Parameter, Vec<f64>)>,
 }
 
@@ -100,11 +100,6 @@ impl<'a> PeriodicStudy<'a> {
             continuation,
             stepped,
         })
-    }
-
-    /// How many cycles are sought.
-    pub fn sought_count(&self) -> usize {
-        self.sought.len()
     }
 
     fn body(&self) -> TransientModel<'_> {

@@ -124,10 +124,7 @@ impl<'a> NearModes<'a> {
             push(&|i| mode.pair.right[i], &|i| mode.pair.left[i]);
         }
         for (_, factors) in dynamic {
-            let mut responses = [0, 1].map(|_| Mat::<c64>::zeros(count, rows.len()));
-            for (j, &row) in rows.iter().enumerate() {
-                responses.iter_mut().for_each(|own| own[(row, j)] = c64::ONE);
-            }
+            let mut responses = [0, 1].map(|_| unit_loads(count, rows));
             factors.solve_in_place(responses[0].as_mut());
             factors.solve_transpose_in_place(responses[1].as_mut());
             let [x, y] = &responses;
@@ -138,6 +135,12 @@ impl<'a> NearModes<'a> {
         [right, left]
             .map(|columns: Vec<Vec<f64>>| Mat::from_fn(count, columns.len(), |i, j| columns[j][i]))
     }
+}
+
+/// A unit load at each of some unknowns.
+pub(super) fn unit_loads(count: usize, rows: &[usize]) -> Mat<c64> {
+    let load = |i: usize, j: usize| if i == rows[j] { c64::ONE } else { c64::ZERO };
+    Mat::from_fn(count, rows.len(), load)
 }
 
 /// Adds a column of unit length to either basis, orthogonal to those before it, where both keep a part of their length.

@@ -18,7 +18,7 @@
 
 mod onset;
 
-use super::attached::{Attached, NearModes};
+use super::attached::{Attached, NearModes, unit_loads};
 use super::base::{Base, PairedMode};
 use crate::cea::sparse::FullProblem;
 use crate::linalg::dense::transpose_product;
@@ -223,23 +223,17 @@ impl<'a> ModalModel<'a> {
         dofs: &[usize],
         (s, factors): (c64, &ComplexSparseLu),
     ) -> Mat<c64> {
-        let tangent = &self.base.tangent;
-        let unknown = |dof: usize| tangent.unknowns.unknown_of[dof];
-        let mut response = Mat::<c64>::zeros(tangent.unknowns.len(), dofs.len());
-        for (j, &dof) in dofs.iter().enumerate() {
-            if let Some(row) = unknown(dof) {
-                response[(row, j)] = c64::ONE;
-            }
-        }
+        let unknowns = &self.base.tangent.unknowns;
+        let rows: Vec<usize> = dofs.iter().filter_map(|&dof| unknowns.unknown_of[dof]).collect();
+        let mut response = unit_loads(unknowns.len(), &rows);
         factors.solve_in_place(response.as_mut());
         Mat::from_fn(dofs.len(), dofs.len(), |i, j| {
-            let whole = unknown(dofs[i]).map_or(c64::ZERO, |row| response[(row, j)]);
             let modes = self.base.modes.iter().map(|mode| {
                 let (lambda, product) =
                     (mode.eigenvalue(), mode.right[dofs[i]] * mode.left[dofs[j]]);
                 product / (s - lambda) + product.conj() / (s - lambda.conj())
             });
-            modes.fold(whole, |rest, part| rest - part)
+            modes.fold(response[(rows[i], j)], |rest, part| rest - part)
         })
     }
 
