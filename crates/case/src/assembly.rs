@@ -46,12 +46,10 @@ impl AssemblyBody {
         Assembly::new(mesh, &self.materials, ties, contacts, &self.motions, self.base)
     }
 
-    /// The same with all contact points at nodes, for steps in time.
-    pub fn stepped(&self) -> Result<Assembly<'_>, PrestressError> {
-        self.stepped_as(&self.materials)
-    }
-
-    /// The same of other materials.
+    /// The same with all contact points at nodes, for steps in time, of the materials that it has there.
+    ///
+    /// # Errors
+    /// As [`Self::assembled`].
     pub fn stepped_as<'a>(
         &'a self,
         materials: &'a dyn MaterialField,

@@ -232,8 +232,13 @@ impl Body {
 
     /// Whether a material or the springs of a support have structural damping.
     pub(super) fn has_structural_damping(&self) -> bool {
+        self.has_lossy_supports() || self.has_lossy_materials()
+    }
+
+    /// Whether a material has a loss factor or a table.
+    pub(super) fn has_lossy_materials(&self) -> bool {
         let is_lossy = |m: &TabledMaterial| m.table.is_some() || m.own.elastic.loss_factor != 0.0;
-        self.has_lossy_supports() || self.materials().iter().any(is_lossy)
+        self.materials().iter().any(is_lossy)
     }
 
     /// Whether the springs of a support have structural damping.

@@ -189,7 +189,10 @@ impl Case {
             let raw = self.raw.sweep_point(&sweep.overrides(point)).ok()?;
             let case = Case::read(raw).ok()?;
             let cost = case.cost();
-            let runs = case.studied(&sweep.analyses).into_iter().map(|of| cost.run_of(of));
+            // The analyses named, else all that the case has.
+            let named = &sweep.analyses;
+            let is_run = |of: &Analysis| case.has(*of) && (named.is_empty() || named.contains(of));
+            let runs = Analysis::all().filter(is_run).map(|of| cost.run_of(of));
             Some(runs.fold(RunCost::default(), |all, run| RunCost {
                 memory_bytes: all.memory_bytes.max(run.memory_bytes),
                 operations: all.operations + run.operations,
@@ -233,12 +236,6 @@ impl Case {
             }
         }
         Some(total)
-    }
-
-    /// The analyses that a study of these runs: those named, else all that the case has.
-    fn studied(&self, named: &[Analysis]) -> Vec<Analysis> {
-        let here = Analysis::all().filter(|analysis| self.has(*analysis));
-        here.filter(|analysis| named.is_empty() || named.contains(analysis)).collect()
     }
 
     /// Memory that a command needs, bytes, and the key that asks for most of it.

@@ -13,7 +13,7 @@ const LOWEST_OF_TABLE: f64 = 1e-5;
 /// them to.
 pub(super) fn relaxed(case: &Case) -> Option<RelaxedMaterials> {
     let (materials, count) = (case.materials(), case.body.region_count());
-    if case.transient.is_none() || !has_losses(case) {
+    if case.transient.is_none() || !case.body.has_lossy_materials() {
         return None;
     }
     let band = constant_band(case);
@@ -32,14 +32,6 @@ pub(super) fn relaxed(case: &Case) -> Option<RelaxedMaterials> {
         Some(MaxwellChain::fit(&|_| c64::new(1.0, eta), band))
     };
     Some(RelaxedMaterials::of(materials, count, chain))
-}
-
-/// Whether a material has a loss factor or a table.
-fn has_losses(case: &Case) -> bool {
-    let materials = case.materials();
-    let mut regions = 0..case.body.region_count();
-    regions
-        .any(|region| materials.of(region).loss_factor != 0.0 || materials.table(region).is_some())
 }
 
 /// The band over which a constant loss factor is kept, Hz.

@@ -52,14 +52,13 @@ impl<'a> Section<'a> {
     /// A list of whole numbers without repetition, each with its place, or the default.
     pub fn counts(&self, key: &str) -> Option<Vec<(usize, Location)>> {
         let least = self.least(key);
-        let Some(item) = self.item(key) else {
-            let items = self.default_items(key)?.into_iter();
-            let count = |item| Some((self.read_count(key, &item, least)?, self.place(key)));
-            return Some(items.filter_map(count).collect());
+        let items = match self.item(key) {
+            Some(item) => item.listed().to_vec(),
+            None => self.default_items(key)?,
         };
         let mut values: Vec<(usize, Location)> = Vec::new();
         let mut seen = std::collections::BTreeSet::new();
-        for item in item.listed() {
+        for item in &items {
             let Some(value) = self.read_count(key, item, least) else {
                 continue;
             };
@@ -122,7 +121,10 @@ impl<'a> Section<'a> {
     /// The list that stands for a key that is left out.
     fn default_items(&self, key: &str) -> Option<Vec<RawItem>> {
         match self.declared(key).default_value()? {
-            RawValue::Array(items) => Some(items),
+            RawValue::Array(items) => {
+                let at = |item| RawItem { at: self.place(key), ..item };
+                Some(items.into_iter().map(at).collect())
+            }
             _ => None,
         }
     }
