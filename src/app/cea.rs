@@ -2,37 +2,24 @@
 //! stands free.
 
 use super::limits::STANDARD_INPUT;
-use super::{Failure, RunOptions, Session, input_name, read_input, start_threads, terminal};
+use super::{
+    Failure, ResumedRun, RunOptions, Session, input_name, read_input, start_threads, terminal,
+};
 use crate::case::{FreeSystem, RawCase};
 use crate::cea::{SweepProgress, SweepStage};
 use crate::results::Manifest;
 use crate::results::cea::{KeptSteps, View, document, draw, write, write_universal};
 use crate::study::eigenvalues::{self, Solved, Solver, refuse_no_modes};
 use crate::study::superelement::free_spectrum;
-use clap::Args;
 use frictionsim_bounds::CASE;
 use indicatif::ProgressBar;
 use std::path::Path;
 use std::time::Instant;
 
-/// Which modes turn unstable, at which friction and why
-///
-/// Solves complex eigenvalues over the friction coefficient. For a body that is solved on its whole mesh, Ctrl-C keeps
-/// finished friction values; --resume continues. Needs a section `[cea]`.
-#[derive(Args)]
-pub struct Arguments {
-    /// The case and how to run it.
-    #[command(flatten)]
-    pub options: RunOptions,
-    /// Continue from what an interrupted run has finished, or start from the beginning
-    #[arg(long, conflicts_with = "force")]
-    pub resume: bool,
-}
-
 /// What an interrupted run leaves.
 const KEPT: &str = "friction values that are done are kept: the same command with --resume goes on";
 
-pub(super) fn run(asked: &Arguments) -> Result<(), Failure> {
+pub(super) fn run(asked: &ResumedRun) -> Result<(), Failure> {
     let options = &asked.options;
     if let Some(system) = described_system(&options.case, &options.changes.overrides())? {
         return run_free(options, &system);
@@ -51,7 +38,7 @@ fn show(bar: &ProgressBar, progress: SweepProgress) {
     bar.set_position(progress.solved as u64);
 }
 
-fn run_on_mesh(arguments: &Arguments) -> Result<(), Failure> {
+fn run_on_mesh(arguments: &ResumedRun) -> Result<(), Failure> {
     let session = Session::start("cea", &arguments.options)?;
     let case = &session.case;
     let cea = case.require_cea()?;

@@ -1,30 +1,13 @@
 //! `frictionsim cycle`: limit cycles found directly, and followed over a parameter.
 
 use super::session::{available_memory, gibibytes};
-use super::{Failure, RunOptions, Session, terminal};
+use super::{Failure, ResumedRun, Session, terminal};
 use crate::case::{Case, refusal};
 use crate::results::OutputFolder;
 use crate::results::cea::KeptSteps;
 use crate::results::cycle::{CycleFigures, CycleReport, PeriodicResult};
 use crate::study::cycle::{CycleStudy, PeriodicStudy, refuse_nothing};
-use clap::Args;
 use serde_json::Value;
-
-/// The vibration that each unstable mode saturates to
-///
-/// Finds limit cycles without time stepping. On the built-in disc a limit cycle is a rotating wave, solved along its
-/// phase. On any other body it is the periodic motion that a growing mode saturates to, solved over one period of the
-/// transient. cycle.continuation follows it over a parameter. Its stability is computed, and a short transient confirms
-/// it. Ctrl-C keeps finished cycles and branch points; --resume continues. Needs a section `[cycle]`.
-#[derive(Args)]
-pub struct Arguments {
-    /// The case and how to run it.
-    #[command(flatten)]
-    pub options: RunOptions,
-    /// Continue from what an interrupted run has finished, or start from the beginning
-    #[arg(long, conflicts_with = "force")]
-    pub resume: bool,
-}
 
 /// What an interrupted search for motions of two frequencies leaves.
 const KEPT_PAIRS: &str =
@@ -34,7 +17,7 @@ const KEPT_PAIRS: &str =
 const KEPT: &str = "cycles and points of branches that are done are kept (done-modeK.json: a mode \
     that is done). The same command with --resume goes on";
 
-pub(super) fn run(asked: &Arguments) -> Result<(), Failure> {
+pub(super) fn run(asked: &ResumedRun) -> Result<(), Failure> {
     let session = Session::start("cycle", &asked.options)?;
     let case = &session.case;
     case.require_cycle()?;

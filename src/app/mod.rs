@@ -36,7 +36,7 @@ pub mod transient;
 mod uncertainty;
 
 pub use failure::Failure;
-pub use options::{OutputOptions, RunOptions};
+pub use options::{OutputOptions, ResumedRun, RunOptions};
 pub use session::Session;
 
 use limits::{input_name, read_input};
@@ -80,13 +80,24 @@ macro_rules! commands {
 }
 
 commands! {
-    Cea(cea::Arguments): cea,
+    /// Which modes turn unstable, at which friction and why
+    ///
+    /// Solves complex eigenvalues over the friction coefficient. For a body that is solved on its whole mesh, Ctrl-C
+    /// keeps finished friction values; --resume continues. Needs a section `[cea]`.
+    Cea(ResumedRun): cea,
     Transient(transient::Arguments): transient,
     Sweep(sweep::Arguments): sweep,
     Collect(collect::Arguments): collect,
     Compare(compare::Arguments): compare,
     Plot(plot::Arguments): plot,
-    Cycle(cycle::Arguments): cycle,
+    /// The vibration that each unstable mode saturates to
+    ///
+    /// Finds limit cycles without time stepping. On the built-in disc a limit cycle is a rotating wave, solved along
+    /// its phase. On any other body it is the periodic motion that a growing mode saturates to, solved over one period
+    /// of the transient. cycle.continuation follows it over a parameter. Its stability is computed, and a short
+    /// transient confirms it. Ctrl-C keeps finished cycles and branch points; --resume continues. Needs a section
+    /// `[cycle]`.
+    Cycle(ResumedRun): cycle,
     /// Which of two limit cycles wins
     ///
     /// Runs transients with two seeds: two waves on the built-in disc, two modes on any other body. Bisects the ratio

@@ -36,6 +36,17 @@ pub struct RunOptions {
     pub output: OutputOptions,
 }
 
+/// A run that keeps what it has finished where it is interrupted.
+#[derive(Args, Clone, Debug)]
+pub struct ResumedRun {
+    /// The case and how to run it.
+    #[command(flatten)]
+    pub options: RunOptions,
+    /// Continue from what an interrupted run has finished, or start from the beginning
+    #[arg(long, conflicts_with = "force")]
+    pub resume: bool,
+}
+
 /// What the command line changes of a case.
 #[derive(Args, Clone, Debug, Default)]
 pub struct CaseChanges {
