@@ -21,7 +21,7 @@ pub enum StudyError {
     Eigenvalues(#[from] CeaError),
     /// The transient cannot start, or belongs to another case.
     #[error(transparent)]
-    Transient(TransientError),
+    Transient(#[from] TransientError),
     /// The transient became numerically unstable.
     #[error("{error}: {remedy}")]
     Unstable {

@@ -189,8 +189,7 @@ impl<'a> PeriodicStudy<'a> {
         watch: &dyn SweepWatch,
         done: &(dyn Fn(&PeriodicResult) + Sync),
     ) -> Result<Vec<PeriodicResult>, StudyError> {
-        let operator = self.body().operator(OperatorChoice::Auto, self.simd);
-        let operator = operator.map_err(StudyError::Transient)?;
+        let operator = self.body().operator(OperatorChoice::Auto, self.simd)?;
         let solve = |&place: &usize| {
             let start = Instant::now();
             let outcome = self.solve(operator.as_ref(), place, frames, watch);

@@ -228,8 +228,7 @@ fn other_minima(problem: &FitProblem<'_>, minima: &[Trial]) -> Vec<Vec<f64>> {
 }
 
 fn refuse_unmatched(problem: &FitProblem<'_>, best: &Trial) -> Result<(), FitError> {
-    for (line, mode) in problem.lines.iter().zip(&best.matched) {
-        let mode = mode.map(|m| &best.modes[m]);
+    for (line, mode) in problem.lines.iter().zip(best.of_lines()) {
         let fits = |mode: &&ModelMode| {
             let is_near = (mode.frequency_hz() - line.frequency_hz).abs()
                 <= LARGEST_DIFFERENCE * line.frequency_hz;
@@ -259,29 +258,25 @@ fn described(mode: &ModelMode) -> String {
 }
 
 fn line_fits(problem: &FitProblem<'_>, best: &Trial) -> Vec<LineFit> {
-    let pairs = problem.lines.iter().zip(&best.matched);
-    let matched = pairs
-        .zip(&problem.shape_of)
-        .filter_map(|((line, mode), shape)| Some((line, &best.modes[(*mode)?], shape)));
-    matched
-        .map(|(line, mode, shape)| LineFit {
+    let lines = problem.lines.iter().zip(best.of_lines()).zip(&problem.shape_of);
+    let matched = lines.filter_map(|((line, mode), shape)| {
+        Some(LineFit {
             measured: *line,
-            mode: mode.clone(),
-            assurance: shape.and_then(|shape| mode.assurances.get(shape).copied()),
+            mode: mode?.clone(),
+            assurance: shape.and_then(|shape| mode?.assurances.get(shape).copied()),
         })
-        .collect()
+    });
+    matched.collect()
 }
 
 fn scatter(problem: &FitProblem<'_>, best: &Trial) -> [Option<f64>; 2] {
     [0, 1].map(|part| {
-        let pairs = problem.lines.iter().zip(&best.matched);
+        let pairs = problem.lines.iter().zip(best.of_lines());
         let pairs = pairs.filter(|(line, _)| part == 0 || line.real_hz.is_some());
-        let squares: Vec<f64> = pairs
-            .filter_map(|(line, mode)| {
-                let mode = &best.modes[(*mode)?];
-                Some((differences(line, mode)[part] / line.frequency_hz).powi(2))
-            })
-            .collect();
+        let squares = pairs.filter_map(|(line, mode)| {
+            Some((differences(line, mode?)[part] / line.frequency_hz).powi(2))
+        });
+        let squares: Vec<f64> = squares.collect();
         let count = squares.len() as f64;
         (!squares.is_empty()).then(|| (squares.iter().sum::<f64>() / count).sqrt())
     })

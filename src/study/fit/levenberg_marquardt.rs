@@ -32,6 +32,13 @@ pub(super) struct Squares<'a> {
     pub weights: Vec<Weights>,
 }
 
+impl Trial {
+    /// The mode of each line, where one is matched.
+    pub fn of_lines(&self) -> impl Iterator<Item = Option<&ModelMode>> {
+        self.matched.iter().map(|mode| mode.map(|m| &self.modes[m]))
+    }
+}
+
 impl Squares<'_> {
     pub fn trial(&self, places: &[f64], with_rates: bool) -> Result<Trial, String> {
         let modes = (self.problem.model)(&self.problem.values(places), with_rates)?;
@@ -43,9 +50,8 @@ impl Squares<'_> {
     pub fn residuals(&self, trial: &Trial) -> Vec<f64> {
         let lines = self.problem.lines.iter().zip(&self.weights);
         lines
-            .zip(&trial.matched)
+            .zip(trial.of_lines())
             .flat_map(|((line, weights), mode)| {
-                let mode = mode.map(|m| &trial.modes[m]);
                 let [df, dr] = mode.map_or([0.0; 2], |mode| differences(line, mode));
                 let strange = mode.map_or(0.0, |mode| weights.strangeness(mode));
                 [weights.frequency * df, weights.real * dr, strange]
@@ -62,13 +68,10 @@ impl Squares<'_> {
             let is_known = |mode: &ModelMode| matches!(mode.rates.get(column), Some(Some(_)));
             // What a parameter does to shapes is known from differences alone.
             let has_shapes = self.weights.iter().any(|weights| weights.shape.is_some());
-            let given =
-                !has_shapes && trial.matched.iter().flatten().all(|&m| is_known(&trial.modes[m]));
+            let given = !has_shapes && trial.of_lines().flatten().all(is_known);
             let around = if given { None } else { Some(self.around(trial, column)?) };
-            for (row, line) in lines.iter().enumerate() {
-                let Some(mode) = trial.matched[row].map(|m| &trial.modes[m]) else {
-                    continue;
-                };
+            for (row, (line, mode)) in lines.iter().zip(trial.of_lines()).enumerate() {
+                let Some(mode) = mode else { continue };
                 let weights = self.weights[row];
                 let sides = around.as_ref().and_then(|(low, high, width)| {
                     Some(([same(mode, &weights, low)?, same(mode, &weights, high)?], *width))

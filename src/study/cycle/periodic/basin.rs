@@ -26,12 +26,10 @@ pub fn boundary_of_modes(
     let modes: Vec<(usize, GrowingMode<'_>)> =
         places.into_iter().map(|place| (place + 1, steady.mode(place))).collect();
     let body = stepped.body(case);
-    let operator = body.operator(OperatorChoice::Auto, simd);
-    let operator = operator.map_err(StudyError::Transient)?;
-    let fastest = modes.iter().map(|(_, mode)| mode.eigenvalue.im);
-    let map =
-        PeriodMap::new(body, operator.as_ref(), fastest.fold(0.0, f64::max), longest_step(case));
-    let mut contest = ModeContest::new(map.map_err(StudyError::Transient)?, &modes, request);
+    let operator = body.operator(OperatorChoice::Auto, simd)?;
+    let fastest = modes.iter().map(|(_, mode)| mode.eigenvalue.im).fold(0.0, f64::max);
+    let map = PeriodMap::new(body, operator.as_ref(), fastest, longest_step(case))?;
+    let mut contest = ModeContest::new(map, &modes, request);
     let rivals = contest.rivals();
     let found = request.boundary(rivals, |ratio| Ok::<_, StudyError>(contest.run(ratio)))?;
     Ok((rivals, found))

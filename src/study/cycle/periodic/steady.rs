@@ -2,10 +2,9 @@
 
 use super::super::operating_point;
 use crate::case::{Body, Case};
-use crate::cea::{CeaError, ComplexMode, FrictionSweep, SweepRequest, Unwatched, sparse};
+use crate::cea::{ComplexMode, FrictionSweep, SweepRequest, Unwatched, sparse};
 use crate::cycle::Parameter;
 use crate::cycle::periodic::GrowingMode;
-use crate::prestress::{Assembly, TangentOptions};
 use crate::study::StudyError;
 use crate::study::eigenvalues::{Model, Solver, asked_modes};
 use crate::study::tangent::{MODES_IN_TIME, options_in_time};
@@ -36,28 +35,19 @@ impl Steady {
                 shapes_at: &own,
                 ..SweepRequest::new(&own, asked_modes(case, MODES_IN_TIME))
             };
-            return Self::of_assembly(assembly, &options_in_time(case), &request);
+            // Their contact points are at nodes, as the transient has them.
+            let range = assembly.range(&own)?;
+            let state = &range.states[range.state_of[0]];
+            let tangent = assembly.tangent(state, &options_in_time(case))?;
+            let found = sparse::sweep(&tangent, &request, &Unwatched)?;
+            return Ok(Self { base: state.displacement(own[0]), modes: found.into_first_modes() });
         }
         let (model, sweep) = sweep_in_time(case, &own, &own)?;
         let base = match &model {
             Model::Whole(whole) => whole.state().displacement(own[0]),
-            _ => stepped.body(case).sliding_displacement().map_err(StudyError::Transient)?,
+            _ => stepped.body(case).sliding_displacement()?,
         };
         Ok(Self { base, modes: sweep.into_first_modes() })
-    }
-
-    /// That of solid bodies, with their contact points at nodes as the transient has them.
-    fn of_assembly(
-        assembly: &Assembly<'_>,
-        options: &TangentOptions,
-        request: &SweepRequest<'_>,
-    ) -> Result<Self, StudyError> {
-        let frictions = request.friction_coefficients;
-        let range = assembly.range(frictions).map_err(CeaError::from)?;
-        let state = &range.states[range.state_of[0]];
-        let tangent = assembly.tangent(state, options).map_err(CeaError::from)?;
-        let found = sparse::sweep(&tangent, request, &Unwatched)?;
-        Ok(Self { base: state.displacement(frictions[0]), modes: found.into_first_modes() })
     }
 
     /// That of a case with a parameter at another value, SI.
