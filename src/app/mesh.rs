@@ -1,7 +1,7 @@
 //! `frictionsim mesh`: the mesh alone.
 
 use super::{Failure, RunOptions, Session};
-use crate::case::{AssemblyBody, Case, ModeSelection};
+use crate::case::{AssemblyBody, Case, ModeLimit};
 use crate::chart::{ChartError, Figure};
 use crate::mesh::{AnnulusMesh, SolidSector};
 use crate::results::OutputFolder;
@@ -82,7 +82,7 @@ fn roles(assembly: &AssemblyBody) -> BTreeMap<usize, &'static str> {
 
 /// Shear wavelength at the highest frequency that the case asks modes for, m.
 fn shortest_wave(case: &Case) -> Option<f64> {
-    let ModeSelection::BelowHz(frequency) = case.cea.as_ref()?.modes else {
+    let ModeLimit::MaxFrequency(frequency) = case.cea.as_ref()?.modes else {
         return None;
     };
     let speed = |region: usize| {

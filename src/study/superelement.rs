@@ -1,7 +1,7 @@
 //! The eigenvalues of a superelement that stands free.
 
 use super::StudyError;
-use crate::case::{FreeSystem, ModeSelection};
+use crate::case::{FreeSystem, ModeLimit};
 use crate::cea::quadratic_modes;
 use crate::linalg::{MarketMatrix, Mat};
 use crate::results::matrices::FreeSpectrum;
@@ -20,8 +20,8 @@ pub fn free_spectrum(system: &FreeSystem) -> Result<FreeSpectrum, StudyError> {
     let overdamped = total - modes.len();
     crate::order::sort_by_number(&mut modes, |a| a.eigenvalue.im);
     match system.modes {
-        ModeSelection::Lowest(count) => modes.truncate(count),
-        ModeSelection::BelowHz(limit) => modes.retain(|mode| mode.eigenvalue.im <= TAU * limit),
+        ModeLimit::Lowest(count) => modes.truncate(count),
+        ModeLimit::MaxFrequency(limit) => modes.retain(|mode| mode.eigenvalue.im <= TAU * limit),
     }
     Ok(FreeSpectrum {
         title: system.title.clone(),

@@ -1,16 +1,8 @@
 //! `[cea]`: the complex eigenvalue analysis.
 
 use super::{Body, Case, CeaMethod, Section, refuse};
+use frictionsim_physics::cea::ModeLimit;
 use frictionsim_physics::fem::MassKind;
-
-/// Which modes are found.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum ModeSelection {
-    /// All below this frequency, Hz.
-    BelowHz(f64),
-    /// This many of the lowest.
-    Lowest(usize),
-}
 
 /// `[cea]`.
 #[derive(Clone, Debug, PartialEq)]
@@ -18,7 +10,7 @@ pub struct Cea {
     /// Friction coefficients of the sweep, rising.
     pub friction_coefficients: Vec<f64>,
     /// Which modes.
-    pub modes: ModeSelection,
+    pub modes: ModeLimit,
     /// Which solver.
     pub method: CeaMethod,
     /// Which mass matrix.
@@ -99,7 +91,7 @@ pub(super) fn cea(
 }
 
 /// Which modes are wanted of so many unknowns.
-pub(super) fn mode_selection(section: &Section<'_>, unknowns: u128) -> ModeSelection {
+pub(super) fn mode_selection(section: &Section<'_>, unknowns: u128) -> ModeLimit {
     let limit = section.optional_number("max_frequency_hz");
     let modes = section.optional_count("modes");
     if let Some(modes) = modes.filter(|modes| *modes as u128 > unknowns && unknowns > 0) {
@@ -108,8 +100,8 @@ pub(super) fn mode_selection(section: &Section<'_>, unknowns: u128) -> ModeSelec
             "at most {unknowns}"; "ask for fewer, or refine the mesh");
     }
     match (limit, modes) {
-        (Some(limit), None) => ModeSelection::BelowHz(limit),
-        (None, Some(modes)) => ModeSelection::Lowest(modes),
+        (Some(limit), None) => ModeLimit::MaxFrequency(limit),
+        (None, Some(modes)) => ModeLimit::Lowest(modes),
         (Some(limit), Some(modes)) => {
             // An override replaces what the file says in the other way.
             let keys = ["modes", "max_frequency_hz"];
@@ -119,14 +111,14 @@ pub(super) fn mode_selection(section: &Section<'_>, unknowns: u128) -> ModeSelec
                     "give one of the two"; "keep one of the two");
             }
             let is_counted = is_count && !is_limit;
-            if is_counted { ModeSelection::Lowest(modes) } else { ModeSelection::BelowHz(limit) }
+            if is_counted { ModeLimit::Lowest(modes) } else { ModeLimit::MaxFrequency(limit) }
         }
         (None, None) => {
             refuse!(section, "max_frequency_hz", "cea.max_frequency_hz (or cea.modes) is missing";
                 "does not say which modes to find";
                 "add `max_frequency_hz = 17500.0` (all modes below it) or `modes = 28` (the lowest \
                  ones)");
-            ModeSelection::BelowHz(f64::NAN)
+            ModeLimit::MaxFrequency(f64::NAN)
         }
     }
 }

@@ -54,7 +54,7 @@ mod words;
 
 pub use assembly::AssemblyBody;
 pub use body::{Annulus, Body, Revolution};
-pub use cea::{Cea, ModeSelection};
+pub use cea::Cea;
 pub use contact::Contact;
 pub use convergence::Convergence;
 pub use cost::{CeaCost, Cost, CycleCost, FrfCost, RunCost, StudyCost, TransientCost};
@@ -64,6 +64,7 @@ use diagnostic::{caution, diagnosis, placed, refuse, refuse_at};
 pub use file_sections::FileSection;
 pub use fit::{Fit, FitParameter};
 pub use frf::Frf;
+pub use frictionsim_physics::cea::ModeLimit;
 pub use frictionsim_physics::transient::{InitialState, OperatorChoice, Perturbation, TimeStep};
 pub use imported::ImportedBody;
 pub use improve::Improve;

@@ -1,6 +1,6 @@
 //! What materials with loss factors and tables over frequency are in time.
 
-use super::{Case, CaseErrors, ModeSelection};
+use super::{Case, CaseErrors, ModeLimit};
 use frictionsim_physics::fem::{MaterialField, MaxwellChain, RelaxedMaterials};
 use frictionsim_physics::linalg::c64;
 
@@ -37,8 +37,8 @@ pub(super) fn relaxed(case: &Case) -> Option<RelaxedMaterials> {
 /// The band over which a constant loss factor is kept, Hz.
 fn constant_band(case: &Case) -> Option<[f64; 2]> {
     match case.cea.as_ref()?.modes {
-        ModeSelection::BelowHz(limit) => Some([LOWEST * limit, limit]),
-        ModeSelection::Lowest(_) => None,
+        ModeLimit::MaxFrequency(limit) => Some([LOWEST * limit, limit]),
+        ModeLimit::Lowest(_) => None,
     }
 }
 

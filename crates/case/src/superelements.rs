@@ -2,7 +2,7 @@
 
 use super::cea::mode_selection;
 use super::raw::hex;
-use super::{CaseErrors, Findings, ModeSelection, RawCase, Section, refuse};
+use super::{CaseErrors, Findings, ModeLimit, RawCase, Section, refuse};
 use frictionsim_bounds::{MATRIX, SUPERELEMENT_UNKNOWNS};
 use frictionsim_physics::linalg::MarketMatrix;
 use sha2::{Digest, Sha256};
@@ -32,7 +32,7 @@ pub struct FreeSystem {
     /// Its matrices.
     pub superelement: Superelement,
     /// Modes wanted.
-    pub modes: ModeSelection,
+    pub modes: ModeLimit,
     /// The case as it is written.
     pub raw: RawCase,
     /// SHA-256 of the effective case and of the files of its matrices, in hexadecimal.

@@ -3,7 +3,6 @@
 use super::critical::{candidates, critical};
 use super::operating_point;
 use crate::case::{Case, CaseErrors, Cycle, OnsetChoice, refusal};
-use crate::cea::ModeLimit;
 use crate::cycle::{
     CriticalValue, CycleError, CycleSolver, DiscModel, Family, LARGEST_FRICTION, MODES, Onset,
     Parameter,
@@ -46,7 +45,7 @@ pub fn next_onset(case: &Case, friction: f64) -> Option<Onset> {
     let model = disc_model(case).ok()?;
     let mut highest = 2.0 * friction;
     while highest <= 2.0 {
-        let found = model.onsets(highest, mode_limit(case)).ok()?;
+        let found = model.onsets(highest, asked_modes(case, MODES)).ok()?;
         if let Some(first) = found.into_iter().next() {
             return Some(first);
         }
@@ -72,7 +71,7 @@ pub fn critical_value(case: &Case, parameter: Parameter, values: &[f64]) -> Opti
         parameter.set(&mut point, value);
         let damping = point.damping;
         let other = DiscModel { damping, ..model };
-        let onsets = other.onsets(LARGEST_FRICTION, mode_limit(case)).ok()?;
+        let onsets = other.onsets(LARGEST_FRICTION, asked_modes(case, MODES)).ok()?;
         let lowest = onsets.first().map(|onset| onset.friction_coefficient);
         Some(friction - lowest.unwrap_or(LARGEST_FRICTION))
     };
@@ -95,16 +94,11 @@ pub fn disc_model(case: &Case) -> Result<DiscModel, CaseErrors> {
     })
 }
 
-/// The modes whose onsets are looked for: those of the case's own eigenvalue analysis, else the lowest.
-pub fn mode_limit(case: &Case) -> ModeLimit {
-    asked_modes(case, MODES)
-}
-
 /// One solver for each family asked for; where no harmonic is named, for every wave that is unstable at the case's
 /// friction. A harmonic that is named is sought even where steady sliding is stable: its cycles may outlive their
 /// birth.
 pub fn solvers(case: &Case, cycle: &Cycle, onsets: &[Onset]) -> Result<Vec<Sought>, StudyError> {
-    let (model, limit) = (disc_model(case)?, mode_limit(case));
+    let (model, limit) = (disc_model(case)?, asked_modes(case, MODES));
     let harmonics: BTreeSet<usize> = match &cycle.harmonics {
         Some(harmonics) => harmonics.iter().copied().collect(),
         None => onsets.iter().map(|onset| onset.harmonic).collect(),

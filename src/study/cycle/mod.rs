@@ -19,15 +19,15 @@ mod families;
 mod periodic;
 mod two_waves;
 
-pub use families::{disc_model, mode_limit};
+pub use families::disc_model;
 pub use periodic::{PeriodicStudy, boundary_of_modes};
 
 use super::{StudyError, extent_of};
 use crate::case::{Case, Cycle, StabilityChoice};
 use crate::cycle::periodic::MotionFrame;
 use crate::cycle::{
-    CriticalValue, CycleError, CycleSolver, CycleStability, Family, LimitCycle, MeshStepping,
-    Onset, OperatingPoint, Parameter,
+    CriticalValue, CycleError, CycleSolver, CycleStability, Family, LimitCycle, MODES,
+    MeshStepping, Onset, OperatingPoint, Parameter,
 };
 use crate::fem::lumped_masses;
 use crate::fem::operator::SimdLevel;
@@ -36,6 +36,7 @@ use crate::results::ShownBody;
 use crate::results::cycle::{
     Absence, CycleReport, CycleResult, Search, SoughtCycle, TwoWaveResult, WaveSearch, known,
 };
+use crate::study::eigenvalues::asked_modes;
 use along::{along, changes};
 use families::{Sought, continuation, critical_value, next_onset, solvers};
 use std::time::Instant;
@@ -68,7 +69,7 @@ impl<'a> CycleStudy<'a> {
         let model = disc_model(case)?;
         let point = operating_point(case);
         let friction = point.contact.friction_coefficient;
-        let mut onsets = model.onsets(friction, mode_limit(case))?;
+        let mut onsets = model.onsets(friction, asked_modes(case, MODES))?;
         let continuation = continuation(case, choices, true)?;
         let mut critical = None;
         let solvers = solvers(case, choices, &onsets)?;
@@ -252,7 +253,7 @@ impl<'a> CycleStudy<'a> {
 pub fn limit_cycle(case: &Case, family: Family) -> Result<(CycleSolver, LimitCycle), StudyError> {
     let phases = case.cycle.as_ref().and_then(|cycle| cycle.phases);
     let model = disc_model(case)?;
-    let onset = model.onset_of(family, mode_limit(case))?;
+    let onset = model.onset_of(family, asked_modes(case, MODES))?;
     let solver = CycleSolver::born_at(&model, family, &onset, phases)?;
     let cycle = solver.find(&operating_point(case))?;
     Ok((solver, cycle))

@@ -25,7 +25,7 @@ mod states;
 mod whole;
 
 pub use dampings::dampings;
-pub use model::{Model, Solver, Spectrum, Waves, asked_modes, mode_limit, wave_tangent};
+pub use model::{Model, Solver, Spectrum, asked_modes, wave_tangent};
 pub(super) use sensitivity::rates::{is_like, rates_of_waves};
 pub use sensitivity::{BodySensitivities, body_sensitivities};
 pub use sliding::{SlidingModel, SteadyState};
@@ -38,7 +38,7 @@ pub(in crate::study) use whole::BasePoint;
 pub use whole::{Sliding, WholeMesh};
 
 use super::StudyError;
-use crate::case::{Case, Cea, Diagnostic, ModeSelection};
+use crate::case::{Case, Cea, Diagnostic, ModeLimit};
 use crate::cea::sparse::FrictionlessModes;
 use crate::cea::{CeaError, FrictionSweep, SweepRequest, SweepWatch};
 use crate::linalg::banded::BandedFactor;
@@ -78,7 +78,7 @@ pub fn modes_and_onsets(case: &Case) -> Result<FrictionSweep, StudyError> {
     };
     let frictions = cea.solved_friction_coefficients();
     let shapes_at: &[f64] = if case.body.has_sectors() { &[] } else { &cea.shapes_at };
-    let request = SweepRequest { shapes_at, ..SweepRequest::new(&frictions, mode_limit(&cea)) };
+    let request = SweepRequest { shapes_at, ..SweepRequest::new(&frictions, cea.modes) };
     let model = Model::new(case, &cea)?;
     let sweep = model.spectrum(case, &request)?.sweep;
     refuse_no_modes(case, &cea, &sweep)?;
@@ -106,7 +106,7 @@ pub fn preflight(case: &Case, cea: &Cea) -> Result<(), StudyError> {
         let solution = solve_modes(case, &one, &SlidingModel::new(case, &one)?)?;
         return refuse_no_modes(case, &one, &solution.sweep);
     }
-    let ModeSelection::BelowHz(limit_hz) = cea.modes else {
+    let ModeLimit::MaxFrequency(limit_hz) = cea.modes else {
         return Ok(());
     };
     let kappa = (TAU * limit_hz).powi(2);
@@ -126,7 +126,7 @@ pub fn preflight(case: &Case, cea: &Cea) -> Result<(), StudyError> {
             }
             // Friction may bring a mode below the limit. There is little to follow.
             let frictions = cea.solved_friction_coefficients();
-            let request = SweepRequest::new(&frictions, mode_limit(cea));
+            let request = SweepRequest::new(&frictions, cea.modes);
             return refuse_no_modes(case, cea, &model.spectrum(case, &request)?.sweep);
         }
     };
@@ -136,14 +136,14 @@ pub fn preflight(case: &Case, cea: &Cea) -> Result<(), StudyError> {
     if SparseLdl::factorize(&analysis, &shifted).is_ok_and(|f| f.negative_count() > MOST_RIGID) {
         return Ok(());
     }
-    let found = FrictionlessModes::compute(&tangent, mode_limit(cea));
+    let found = FrictionlessModes::compute(&tangent, cea.modes);
     found.map_or_else(|error| Err(at_key(case, &error)), |_| Ok(()))
 }
 
 /// A frequency limit below the first mode is an error of the case.
 pub fn refuse_no_modes(case: &Case, cea: &Cea, sweep: &FrictionSweep) -> Result<(), StudyError> {
     match cea.modes {
-        ModeSelection::BelowHz(limit) if sweep.points.iter().all(|own| own.modes.is_empty()) => {
+        ModeLimit::MaxFrequency(limit) if sweep.points.iter().all(|own| own.modes.is_empty()) => {
             let message = format!("cea.max_frequency_hz = {limit}: there are no modes below it");
             Err(no_modes(case, message))
         }
@@ -179,8 +179,8 @@ pub fn report<'a>(
         dofs: solution.dofs,
         method: solution.method,
         selection: match cea.modes {
-            ModeSelection::BelowHz(limit) => format!("below {limit} Hz"),
-            ModeSelection::Lowest(count) => format!("the {count} lowest"),
+            ModeLimit::MaxFrequency(limit) => format!("below {limit} Hz"),
+            ModeLimit::Lowest(count) => format!("the {count} lowest"),
         },
         friction_coefficients: &cea.friction_coefficients,
         sweep: &solution.sweep,

@@ -2,11 +2,9 @@
 
 use super::whole::WholeMesh;
 use super::{Progress, StudyError};
-use crate::case::{
-    Annulus, Body, Case, CaseErrors, Cea, CeaMethod, ModeSelection, Revolution, refusal,
-};
-use crate::cea::cyclic::{self, Coverage, Overdamped, WaveSweep};
-use crate::cea::{CeaError, FrictionSweep, ModeBranch, ModeLimit, SweepRequest, Unwatched};
+use crate::case::{Annulus, Body, Case, CaseErrors, Cea, CeaMethod, Revolution, refusal};
+use crate::cea::cyclic::{self, WaveSweep};
+use crate::cea::{CeaError, FrictionSweep, ModeLimit, SweepRequest, Unwatched};
 use crate::mesh::{SectorMesh, SolidSector};
 use crate::prestress::{TangentOptions, WaveTangent};
 use crate::study::tangent_options;
@@ -89,14 +87,6 @@ pub enum Model {
     Whole(Box<WholeMesh>),
 }
 
-/// The branches of a body that is solved harmonic by harmonic, and what their waves belong to.
-pub struct Waves {
-    /// The linearisation of a sector.
-    pub tangent: WaveTangent,
-    /// The branches of all modes that occur in the sweep.
-    pub branches: Vec<ModeBranch>,
-}
-
 /// The spectrum of a model over friction coefficients.
 #[derive(Default)]
 pub struct Spectrum {
@@ -106,12 +96,8 @@ pub struct Spectrum {
     pub dofs: usize,
     /// What the solver has to say of the spectrum.
     pub notes: Vec<String>,
-    /// Which harmonics were solved, of a body that has them.
-    pub coverage: Option<Coverage>,
-    /// Motions of a body of revolution that decay without oscillating, at each friction coefficient; none elsewhere.
-    pub overdamped: Vec<Overdamped>,
-    /// The branches with what they belong to; none of a body solved on its whole mesh.
-    pub waves: Option<Waves>,
+    /// What the symmetry of sectors reveals, but for the sweep; none of a body solved on its whole mesh.
+    pub waves: Option<WaveSweep>,
     /// Name of the solver: `cyclic`, of a body made of one sector too that was solved by waves around it, or `sparse`.
     pub method: &'static str,
 }
@@ -160,16 +146,14 @@ impl Model {
         match self {
             Self::Waves(options) => {
                 let tangent = wave_tangent(case, options)?.expect("a body of sectors has waves");
-                let found = cyclic::wave_sweep(tangent, request, waves_at)?;
+                let mut found = cyclic::wave_sweep(tangent, request, waves_at)?;
                 let is_reduced = found.reduction_error > 0.0;
                 let notes = is_reduced.then(|| reduction_note(&found, request));
                 Ok(Spectrum {
-                    sweep: found.sweep,
+                    sweep: std::mem::take(&mut found.sweep),
                     dofs: found.dofs,
                     notes: notes.into_iter().collect(),
-                    coverage: Some(found.coverage),
-                    overdamped: found.overdamped,
-                    waves: Some(Waves { tangent: found.tangent, branches: found.branches }),
+                    waves: Some(found),
                     method: "cyclic",
                 })
             }
@@ -212,15 +196,7 @@ fn reduction_note(found: &WaveSweep, request: &SweepRequest<'_>) -> String {
     )
 }
 
-/// The modes that a case asks for.
-pub fn mode_limit(cea: &Cea) -> ModeLimit {
-    match cea.modes {
-        ModeSelection::BelowHz(limit) => ModeLimit::MaxFrequency(limit),
-        ModeSelection::Lowest(count) => ModeLimit::Lowest(count),
-    }
-}
-
 /// The modes of the case's own eigenvalue analysis, else so many of the lowest.
 pub fn asked_modes(case: &Case, otherwise: usize) -> ModeLimit {
-    case.cea.as_ref().map(mode_limit).unwrap_or(ModeLimit::Lowest(otherwise))
+    case.cea.as_ref().map_or(ModeLimit::Lowest(otherwise), |cea| cea.modes)
 }

@@ -4,9 +4,8 @@ pub(super) mod rates;
 
 use self::rates::{Linearized, Rates, rates_of, step_of};
 use super::StudyError;
-use super::model::Waves;
 use crate::case::{Case, Cea};
-use crate::cea::cyclic::{WavePair, wave_pairs};
+use crate::cea::cyclic::{WavePair, WaveSweep, wave_pairs};
 use crate::cea::sparse::{ModePair, mode_pairs};
 use crate::cea::{ComplexMode, FrictionSweep, ModeBranch, UnstableInterval};
 use crate::linalg::c64;
@@ -67,7 +66,7 @@ pub fn body_sensitivities(
     case: &Case,
     cea: &Cea,
     sweep: &FrictionSweep,
-    waves: Option<&Waves>,
+    waves: Option<&WaveSweep>,
 ) -> Result<BodySensitivities, StudyError> {
     let friction = case.contact.sliding.friction_coefficient;
 

@@ -1,6 +1,6 @@
 //! Solution of the eigenvalue analysis of a case, and the notes on its results.
 
-use super::model::{Model, Spectrum, mode_limit};
+use super::model::{Model, Spectrum};
 use super::notes::{
     MISSING_SHOWN, count_notes, coverage_note, damping_note, ended_notes, friction_note,
     instead_note, overdamped_note, table_notes, uncertainty_note, weak_note,
@@ -50,7 +50,7 @@ fn solve_with(
         shapes_at: &shown,
         lefts_at: &lefts_at,
         count_modes: cea.count_modes && with_reading,
-        ..SweepRequest::new(&frictions, mode_limit(cea))
+        ..SweepRequest::new(&frictions, cea.modes)
     };
     let found = model.model.spectrum_with_waves(case, (&request, waves_at), progress);
     let mut found = found.map_err(|error| at_key(case, &error))?;
@@ -62,10 +62,12 @@ fn solve_with(
         false => (None, None),
     };
 
-    let mut notes: Vec<String> = found.coverage.iter().map(coverage_note).collect();
-    notes.extend(count_notes(cea, &found.sweep, found.coverage.is_some()));
+    let waves = found.waves.as_ref();
+    let mut notes: Vec<String> =
+        waves.map(|waves| coverage_note(&waves.coverage)).into_iter().collect();
+    notes.extend(count_notes(cea, &found.sweep, waves.is_some()));
     notes.extend(found.notes);
-    notes.extend(overdamped_note(case, model, &found.overdamped));
+    notes.extend(waves.and_then(|waves| overdamped_note(case, model, &waves.overdamped)));
     notes.extend(model.solid().and_then(solid::note));
     notes.extend(table_notes(case));
     notes.extend(rate_note);
@@ -75,7 +77,7 @@ fn solve_with(
     notes.extend(weak_note(&found.sweep));
     notes.extend(friction_note(case, model));
     let reading = match with_reading {
-        true => read(case, model, found.waves.as_ref().map(|waves| &waves.tangent), &found.sweep),
+        true => read(case, model, waves.map(|waves| &waves.tangent), &found.sweep),
         false => None,
     };
     // Shapes and waves that only the reading needed.

@@ -1,9 +1,9 @@
 //! The spectrum of a case for those who study it: no files, no base fields, no shapes.
 
 use super::StudyError;
-use super::model::{Model, Solver, Waves, mode_limit, wave_tangent};
-use crate::case::{Case, Cea, CeaMethod, ModeSelection};
-use crate::cea::cyclic;
+use super::model::{Model, Solver, wave_tangent};
+use crate::case::{Case, Cea, CeaMethod};
+use crate::cea::cyclic::{self, WaveSweep};
 use crate::cea::{CeaError, ComplexMode, FrictionSweep, ModeLimit, SweepRequest, UnstableInterval};
 use crate::fem::MassKind;
 use crate::prestress::TangentOptions;
@@ -12,7 +12,7 @@ use std::collections::BTreeSet;
 
 /// What `[cea]` says of a case, or its defaults, for these friction coefficients and modes up to a frequency.
 pub(in crate::study) fn analysis(case: &Case, frictions: &[f64], limit_hz: f64) -> Cea {
-    let modes = ModeSelection::BelowHz(limit_hz);
+    let modes = ModeLimit::MaxFrequency(limit_hz);
     let friction_coefficients = frictions.to_vec();
     match &case.cea {
         Some(cea) => Cea { friction_coefficients, modes, count_modes: false, ..cea.of_tables() },
@@ -41,14 +41,12 @@ pub fn modes_with_waves_below(
     case: &Case,
     limit_hz: f64,
     shapes_at: &[f64],
-) -> Result<(Vec<ComplexMode>, Option<Waves>), StudyError> {
+) -> Result<(Vec<ComplexMode>, Option<WaveSweep>), StudyError> {
     let friction = case.contact.sliding.friction_coefficient;
     let cea = analysis(case, &[friction], limit_hz);
     let model = Model::new(case, &cea)?;
-    let request = SweepRequest {
-        shapes_at,
-        ..SweepRequest::new(&cea.friction_coefficients, mode_limit(&cea))
-    };
+    let request =
+        SweepRequest { shapes_at, ..SweepRequest::new(&cea.friction_coefficients, cea.modes) };
     let found = model.spectrum(case, &request)?;
     Ok((found.sweep.into_first_modes(), found.waves))
 }
@@ -113,7 +111,7 @@ pub fn unstable_intervals(
         frictions.sort_by(f64::total_cmp);
         frictions.dedup();
     }
-    let request = SweepRequest::new(&frictions, mode_limit(&cea));
+    let request = SweepRequest::new(&frictions, cea.modes);
     let options = tangent_options(case, cea.mass);
     let model = Model::with_solver(case, solver, options, &frictions)?;
     if let (Some(harmonics), Model::Waves(options)) = (harmonics, &model)
@@ -124,8 +122,8 @@ pub fn unstable_intervals(
     }
     let found = model.spectrum(case, &request)?;
     super::refuse_no_modes(case, &cea, &found.sweep)?;
-    let followed = match (&model, found.coverage) {
-        (Model::Waves(_), Some(coverage)) if case.body.dimension() == 2 => coverage.followed,
+    let followed = match (&model, found.waves) {
+        (Model::Waves(_), Some(waves)) if case.body.dimension() == 2 => waves.coverage.followed,
         _ => Vec::new(),
     };
     Ok(OnsetSearch::of(found.sweep, followed))

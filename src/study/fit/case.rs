@@ -6,11 +6,11 @@ use super::{
     summary,
 };
 use crate::case::{Case, Cea, Fit, FitParameter, Spacing};
-use crate::cea::cyclic::{WavePair, wave_pairs};
+use crate::cea::cyclic::{WavePair, WaveSweep, wave_pairs};
 use crate::cea::{ComplexMode, ModeBranch};
 use crate::linalg::c64;
 use crate::results::fit::FitSummary;
-use crate::study::eigenvalues::{Solver, Waves, analysis, rates_of_waves};
+use crate::study::eigenvalues::{Solver, analysis, rates_of_waves};
 use crate::study::{StudyError, eigenvalues};
 
 /// Modes are computed up to this much above the highest line.
@@ -166,7 +166,7 @@ fn modes(
 fn wave_rates(
     (case, cea): (&Case, &Cea),
     modes: &[ComplexMode],
-    waves: &Waves,
+    waves: &WaveSweep,
     (wanted, values): (&Fit, &[f64]),
 ) -> Vec<Vec<Option<c64>>> {
     let friction = case.contact.sliding.friction_coefficient;

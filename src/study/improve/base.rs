@@ -8,7 +8,7 @@ use crate::linalg::c64;
 use crate::mesh::Mesh;
 use crate::prestress::{SlidingTangent, TangentOptions};
 use crate::results::improve::{State, TargetMode};
-use crate::study::eigenvalues::{WholeMesh, mode_limit};
+use crate::study::eigenvalues::WholeMesh;
 use crate::study::tangent_options;
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -94,7 +94,7 @@ pub(super) fn spectrum_of(case: &Case, cea: &Cea) -> Result<(WholeMesh, Friction
     let own = case.contact.sliding.friction_coefficient;
     let frictions: Vec<f64> = (0..=STEPS).map(|i| own * i as f64 / STEPS as f64).collect();
     let whole = WholeMesh::solve(case, tangent_options(case, cea.mass), &frictions)?;
-    let request = SweepRequest::new(&frictions, mode_limit(cea));
+    let request = SweepRequest::new(&frictions, cea.modes);
     let sweep = whole.sweep(case, &request, &Unwatched)?.sweep;
     Ok((whole, sweep))
 }

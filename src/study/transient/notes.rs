@@ -1,7 +1,7 @@
 //! What to know of a run before its numbers are used.
 
 use super::TransientStudy;
-use crate::case::ModeSelection;
+use crate::case::ModeLimit;
 use crate::fem::{RelaxedMaterials, assemble_stiffness};
 use crate::prestress::{PrestressError, SteadySliding};
 use crate::transient::{InitialState, Recorder, TransientAnalysis};
@@ -118,7 +118,7 @@ impl TransientStudy<'_> {
 
     /// That the run vibrates at a frequency that the eigenvalue analysis of the case does not look at.
     fn beyond_modes(&self, analysis: &TransientAnalysis) -> Option<String> {
-        let ModeSelection::BelowHz(limit) = self.case.cea.as_ref()?.modes else {
+        let ModeLimit::MaxFrequency(limit) = self.case.cea.as_ref()?.modes else {
             return None;
         };
         let frequency = analysis.last_fifth.main_frequency_hz?;

@@ -107,7 +107,7 @@ fn files_that_are_no_text_are_named() {
 fn a_key_taken_away_makes_room_for_another() {
     let gone = unset("cea.max_frequency_hz");
     let case = valid(DISC, &[&gone, "cea.modes=10"]);
-    assert_eq!(case.require_cea().unwrap().modes, frictionsim::case::ModeSelection::Lowest(10));
+    assert_eq!(case.require_cea().unwrap().modes, frictionsim::case::ModeLimit::Lowest(10));
     assert!(valid(RUN, &[&unset("transient")]).transient.is_none());
     // A known key that is not there may go; an unknown one may not.
     valid(DISC, &[&unset("transient.duration")]);

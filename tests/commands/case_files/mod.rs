@@ -9,7 +9,7 @@ mod suggestions;
 
 use crate::prelude::*;
 use frictionsim::case::{
-    CaseErrors, CeaMethod, ModeSelection, RawCase, Spacing, TimeStep, range_values,
+    CaseErrors, CeaMethod, ModeLimit, RawCase, Spacing, TimeStep, range_values,
 };
 use proptest::prelude::*;
 
@@ -51,7 +51,7 @@ fn the_disc_case_holds_the_model_of_the_paper() {
     assert_eq!(cea.friction_coefficients.len(), 51);
     assert!(cea.friction_coefficients.contains(&0.3));
     assert_eq!(cea.shapes_at, [0.3]);
-    assert_eq!(cea.modes, ModeSelection::BelowHz(17500.0));
+    assert_eq!(cea.modes, ModeLimit::MaxFrequency(17500.0));
     assert_eq!(cea.method, CeaMethod::Auto);
     assert_eq!(case.contact.stiffness.normal_stiffness, Some(7.4e12));
     // 610 revolutions a minute.
@@ -129,7 +129,7 @@ fn overrides_change_exactly_their_key() {
     let case = valid(DISC, &["cea.friction_coefficients.count=101"]);
     assert_eq!(case.cea.unwrap().friction_coefficients.len(), 101);
     let case = valid(DISC, &["cea.modes=28"]);
-    assert_eq!(case.cea.unwrap().modes, ModeSelection::Lowest(28));
+    assert_eq!(case.cea.unwrap().modes, ModeLimit::Lowest(28));
     let case = valid(DISC, &["contact.normal_stiffness=rigid"]);
     assert_eq!(case.contact.stiffness.normal_stiffness, None);
 }

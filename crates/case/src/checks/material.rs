@@ -1,7 +1,7 @@
 //! Materials that hardly any solid has.
 
 use super::Limit;
-use crate::{Case, Diagnostic, ModeSelection, RawValue, diagnosis};
+use crate::{Case, Diagnostic, ModeLimit, RawValue, diagnosis};
 use frictionsim_physics::fem::PlaneFormulation;
 use std::ops::RangeInclusive;
 
@@ -93,7 +93,7 @@ pub(super) fn poisson_ratio(case: &Case) -> Option<Diagnostic> {
 /// has its first mode.
 pub(super) fn overdamping(case: &Case) -> Option<Diagnostic> {
     let limit = match case.cea.as_ref().map(|cea| cea.modes) {
-        Some(ModeSelection::BelowHz(limit)) => limit,
+        Some(ModeLimit::MaxFrequency(limit)) => limit,
         _ => (bar_wave_speed(case) / (4.0 * case.body.size())).round(),
     };
     let zeta = case.damping.rayleigh.damping_factor(std::f64::consts::TAU * limit);

@@ -3,7 +3,7 @@
 use super::size::Size;
 use super::{CeaCost, CycleCost, FrfCost, RunCost, TransientCost};
 use crate::{
-    AssemblyBody, Body, Case, Cea, CeaMethod, Cycle, Frf, FrfMethod, ModeSelection, Revolution,
+    AssemblyBody, Body, Case, Cea, CeaMethod, Cycle, Frf, FrfMethod, ModeLimit, Revolution,
     StabilityChoice, TimeStep, Transient,
 };
 use frictionsim_physics::cycle::BasinRequest;
@@ -87,8 +87,8 @@ impl Case {
     pub(super) fn cea_cost(&self, cea: &Cea, size: &Size) -> CeaCost {
         let friction_values = cea.solved_friction_coefficients().len();
         let modes = match cea.modes {
-            ModeSelection::Lowest(modes) => modes,
-            ModeSelection::BelowHz(limit) => self.modes_below(limit, size),
+            ModeLimit::Lowest(modes) => modes,
+            ModeLimit::MaxFrequency(limit) => self.modes_below(limit, size),
         };
         let pairs = friction_values as f64 * modes as f64;
         let shapes = (modes * cea.shapes_at.len()) as f64;
