@@ -83,7 +83,7 @@ pub(super) fn run(asked: &Arguments) -> Result<(), Failure> {
     let text = document.to_text();
     if missing == 0 {
         let largest = summary.largest_friction;
-        let table = samples_table(&sampler.keys(), &samples, largest);
+        let table = samples_table(&uncertainty.keys(), &samples, largest);
         folder.write(&table.file, |out| table.write_csv(out))?;
         let mut failed = samples.iter().filter_map(|sample| sample.error.as_deref());
         if failed.clone().count() == samples.len() {

@@ -44,6 +44,13 @@ pub struct Uncertainty {
     pub parameters: Vec<UncertainParameter>,
 }
 
+impl Uncertainty {
+    /// Keys of the parameters.
+    pub fn keys(&self) -> Vec<String> {
+        self.parameters.iter().map(|own| own.parameter.key.clone()).collect()
+    }
+}
+
 pub(super) fn uncertainty(section: &Section<'_>) -> Uncertainty {
     let samples = section.count("samples");
     let index_samples = section.optional_count("index_samples");

@@ -89,7 +89,8 @@ impl SweepRun<'_> {
     /// Runs one point and keeps it, unless it is finished or another process has it.
     fn run_point(&self, point: usize) -> Result<bool, Failure> {
         let Some(_claim) = self.folder.take(point)? else {
-            self.progress.skip();
+            // It was finished already, or another process runs it.
+            self.progress.bar.inc(1);
             return Ok(false);
         };
         let swept = self.plan.swept(point);
@@ -158,11 +159,6 @@ impl SweepProgress {
     pub fn new(quiet: bool, points: usize) -> Self {
         let template = "sweep {track}{count} points  {elapsed_precise}{left}\n{wide_msg}";
         Self { bar: progress_in(quiet, points as u64, template), in_flight: Mutex::default() }
-    }
-
-    /// A point that was finished already, or that another process runs.
-    pub fn skip(&self) {
-        self.bar.inc(1);
     }
 
     /// A point starts.

@@ -18,12 +18,9 @@ mod quantities;
 
 use super::transient::TransientStudy;
 use super::{StudyError, eigenvalues, summarize, summary};
-use crate::case::{
-    Analysis, Body, Case, CaseErrors, Revolution, StabilityChoice, TimeStep, refusal,
-};
+use crate::case::{Analysis, Case, CaseErrors, StabilityChoice, TimeStep, refusal};
 use crate::cea::FrictionSweep;
 use crate::fem::operator::SimdLevel;
-use crate::mesh::AnnulusSpecification;
 use crate::results::Manifest;
 use crate::results::convergence::{Quantity, Refinement, Series};
 use serde_json::Value;
@@ -208,27 +205,17 @@ fn series(case: &Case, study: &Levels, outcomes: Vec<Timed>) -> Result<Vec<Serie
 
 /// Element size and name of a mesh: the size is the side of a square of the mean element area, m.
 fn mesh_level(case: &Case) -> (f64, String) {
-    let of = |grid: &AnnulusSpecification| {
-        let (around, radial) = (grid.circumferential_elements, grid.radial_elements);
-        let area = case.body.area();
-        let size = (area / (around as f64 * radial as f64)).sqrt();
-        (size, format!("{around} x {radial}"))
+    let body = &case.body;
+    let Some(grid) = body.grid() else {
+        let count = body.element_count();
+        let size = match body.dimension() {
+            3 => 2.0 * body.size() / (count as f64).cbrt(),
+            _ => (body.area() / count as f64).sqrt(),
+        };
+        return (size, format!("{count} elements"));
     };
-    match &case.body {
-        Body::Annulus(annulus) => of(&annulus.specification),
-        Body::Revolution(Revolution { specification, .. }) => {
-            let (size, name) = of(&specification.annulus);
-            (size, format!("{name} x {}", specification.axial_elements))
-        }
-        Body::Assembly(assembly) => {
-            let count = assembly.mesh.element_count();
-            let size = 2.0 * assembly.mesh.size() / (count as f64).cbrt();
-            (size, format!("{count} elements"))
-        }
-        Body::Imported(imported) => {
-            let count = imported.mesh.element_count();
-            let size = (imported.mesh.area() / count as f64).sqrt();
-            (size, format!("{count} elements"))
-        }
-    }
+    let (around, radial) = (grid.circumferential_elements, grid.radial_elements);
+    let size = (body.area() / (around as f64 * radial as f64)).sqrt();
+    let layers = body.revolution().map(|own| format!(" x {}", own.specification.axial_elements));
+    (size, format!("{around} x {radial}{}", layers.unwrap_or_default()))
 }

@@ -99,7 +99,11 @@ impl<'a> CycleStudy<'a> {
         crate::parallel::map(&self.solvers, |solver| {
             let result = match solver {
                 Ok(solver) => self.solve(solver, frames),
-                Err((family, error)) => self.absent(*family, error),
+                // A family that cannot be sought at all.
+                Err((family, error)) => {
+                    let is_stable = matches!(error, CycleError::NoOnset { .. });
+                    self.result(*family, Err(Absence { reason: error.to_string(), is_stable }))
+                }
             };
             done();
             result
@@ -163,15 +167,6 @@ impl<'a> CycleStudy<'a> {
             },
             is_stable,
         }
-    }
-
-    /// The result of a family that cannot be sought at all.
-    fn absent(&self, family: Family, error: &CycleError) -> CycleResult {
-        let absence = Absence {
-            reason: error.to_string(),
-            is_stable: matches!(error, CycleError::NoOnset { .. }),
-        };
-        self.result(family, Err(absence))
     }
 
     /// The result of a family with nothing found out beside its cycle.

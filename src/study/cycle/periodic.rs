@@ -123,14 +123,6 @@ impl<'a> PeriodicStudy<'a> {
         PeriodMap::new(body, operator, mode.eigenvalue.im, longest_step(self.case))
     }
 
-    /// Where the search starts.
-    fn body_at_start(&self) -> TransientModel<'_> {
-        match (self.start, &self.continuation) {
-            (Some(value), Some((parameter, _))) => self.body_at(*parameter, value),
-            _ => self.body(),
-        }
-    }
-
     /// The branch through a cycle over the parameter of the case.
     fn branch<'b>(
         &'b self,
@@ -223,7 +215,12 @@ impl<'a> PeriodicStudy<'a> {
         watch: &dyn SweepWatch,
     ) -> Result<FoundCycle, CycleError> {
         let mode = &self.steady.modes[place];
-        let mut map = self.map(self.body_at_start(), operator, mode)?;
+        // Where sliding is stable at the case's own value of the parameter, another one starts the search.
+        let body = match (self.start, &self.continuation) {
+            (Some(value), Some((parameter, _))) => self.body_at(*parameter, value),
+            _ => self.body(),
+        };
+        let mut map = self.map(body, operator, mode)?;
         // From the growing mode to the motion that repeats itself, and along the parameter.
         let watch =
             PartWatch { whole: watch, prefix: format!("mode{}-", place + 1), is_heard: false };

@@ -122,9 +122,7 @@ pub fn unstable_intervals(
     }
     let found = model.spectrum(case, &request)?;
     super::refuse_no_modes(case, &cea, &found.sweep)?;
-    let followed = match (&model, found.waves) {
-        (Model::Waves(_), Some(waves)) if case.body.dimension() == 2 => waves.coverage.followed,
-        _ => Vec::new(),
-    };
-    Ok(OnsetSearch::of(found.sweep, followed))
+    let waves = found.waves.filter(|_| case.body.dimension() == 2);
+    let followed = waves.map(|waves| waves.coverage.followed);
+    Ok(OnsetSearch::of(found.sweep, followed.unwrap_or_default()))
 }

@@ -44,12 +44,6 @@ impl<'a> Sampler<'a> {
         Ok(Self { case, uncertainty, sequence })
     }
 
-    /// Keys of the uncertain parameters.
-    pub fn keys(&self) -> Vec<String> {
-        let parameters = self.uncertainty.parameters.iter();
-        parameters.map(|parameter| parameter.parameter.key.clone()).collect()
-    }
-
     /// Values of `A_i` and of `B_i`.
     fn halves(&self, index: usize) -> [Vec<f64>; 2] {
         let point = self.sequence.point(index as u32);

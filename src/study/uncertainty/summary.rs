@@ -1,7 +1,7 @@
 //! From samples to a probability of squeal.
 
 use super::largest_friction;
-use crate::case::Case;
+use crate::case::{Case, Uncertainty};
 use crate::results::uncertainty::{
     CriticalFriction, FamilySummary, Index, Onset, Sample, UncertaintySummary,
 };
@@ -97,8 +97,7 @@ pub fn indices_with_intervals(a: &[f64], b: &[f64], mixed: &[Vec<f64>]) -> Vec<I
 
 /// What the samples of a case say.
 pub fn summarize(case: &Case, samples: &[Sample]) -> UncertaintySummary {
-    let parameters = case.uncertainty.iter().flat_map(|u| &u.parameters);
-    let keys: Vec<String> = parameters.map(|p| p.parameter.key.clone()).collect();
+    let keys = case.uncertainty.as_ref().map(Uncertainty::keys).unwrap_or_default();
     let largest_friction = largest_friction(case);
     let friction = case.contact.sliding.friction_coefficient;
     let solved: Vec<&Sample> = samples.iter().filter(|sample| sample.error.is_none()).collect();
