@@ -217,7 +217,8 @@ fn check_meshes(
         let (nodes, limit) = (node_count(&mesh), u128::from(u32::MAX / 2));
         if nodes > limit {
             refuse!(section, "factors",
-                "{name}, would have {nodes} nodes, above the limit of {limit}"; "too many elements");
+                "{name}, would have {nodes} nodes, above the limit of {limit}";
+                "too many elements");
             return;
         }
         if let Some((other, coarser)) = &previous

@@ -160,7 +160,8 @@ fn uncertain(
     if beyond > MOST_BEYOND || (beyond > 0.0 && word == "uniform") {
         refuse_at!(section, at,
             "{:.3} % of {word} = [{a}, {b}] of {key} lies where the key {rule}", 100.0 * beyond;
-            "reaches forbidden values"; "make it narrower, or use log_normal, which stays positive");
+            "reaches forbidden values";
+            "make it narrower, or use log_normal, which stays positive");
         return none;
     }
     // What a sample meets once in a million is not worth a word.
