@@ -294,8 +294,8 @@ impl Case {
         self.body.has_sectors()
     }
 
-    /// What forces, powers and energies of the mesh are multiplied by, m: the thickness of a plane body. Those of a body
-    /// in three dimensions are of the whole, and this is 1.
+    /// What forces, powers and energies of the mesh are multiplied by, m: the thickness of a plane body.
+    /// Those of a body in three dimensions are of the whole, and this is 1.
     pub fn depth(&self) -> f64 {
         if self.body.dimension() == 2 { self.thickness } else { 1.0 }
     }
