@@ -4,7 +4,6 @@
 
 use crate::prelude::*;
 use crate::table_1;
-use frictionsim::linalg::GaussianNoise;
 use frictionsim::signal::reader::MeasuredMode;
 use frictionsim::study::eigenvalues::modes_below;
 use frictionsim::study::fit::fit_case;

@@ -4,9 +4,6 @@
 //! here, never from the library's own modal model.
 
 use crate::prelude::*;
-use frictionsim::fem::MassKind;
-use frictionsim::frf::{Direction, FrfSystem, ReductionSettings, Terminal, reduced_response};
-use frictionsim::linalg::GaussianNoise;
 use frictionsim::signal::{
     Estimate, FrequencyResponse, Identification, ResonanceNote, ResponseQuantity, SignalError,
     identify,

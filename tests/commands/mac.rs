@@ -1,8 +1,6 @@
 //! `frictionsim mac`: shapes that the program itself computed, turned in phase, scaled and noisy, find their modes again.
 
 use crate::prelude::*;
-use frictionsim::linalg::c64;
-use frictionsim::mesh::FileMesh;
 use frictionsim::signal::reader::{ResponseOptions, read_response, read_shapes};
 use frictionsim::study::eigenvalues::{SlidingModel, solve_modes};
 use std::fmt::Write;

@@ -28,7 +28,6 @@ mod mode_counts;
 mod normal_force;
 mod normal_law;
 mod plot;
-mod prelude;
 mod reading;
 mod refusals;
 mod results;
@@ -41,6 +40,4 @@ mod sweep;
 mod transient_command;
 mod uncertainty;
 
-use common::{
-    bricks, cases, coarse_block, coarse_disc, disc, draws, mesh_text, program, table_1, tier,
-};
+use common::{disc, draws, mesh_text, prelude, program, table_1, tier};

@@ -1,18 +1,15 @@
 //! Materials as a user meets them: results beside theory, keys that name one number of a list, refusals.
 
 use crate::bodies::grid::{Grid, Shape, msh};
-use crate::program::has;
-use frictionsim::case::{Case, Cea, CeaMethod};
-use frictionsim::contact::SlidingContact;
+use crate::prelude::*;
+use frictionsim::case::{Cea, CeaMethod};
 use frictionsim::fem::sector;
-use frictionsim::mesh::SectorMesh;
-use frictionsim::prestress::SectorSliding;
 use frictionsim::study::eigenvalues::Solver;
 
 const DISC: &str = include_str!("refused/orthotropic.toml");
 
 fn read(overrides: &[&str]) -> Result<Case, String> {
-    crate::cases::read_case("disc.toml", DISC, overrides)
+    read_case("disc.toml", DISC, overrides)
 }
 
 /// Theory (Lekhnitskii): a disc of cylindrical orthotropy in plane stress, clamped outside and widened inside:

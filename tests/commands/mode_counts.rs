@@ -1,8 +1,6 @@
 //! `cea.count_modes` as a user meets it.
 
-use crate::mesh_text::{Listed, mesh_text};
 use crate::prelude::*;
-use std::collections::BTreeSet;
 
 fn counted(case: &str, sets: &[&str], code: i32) -> (Answer, tempfile::TempDir) {
     let folder = folder();

@@ -1,7 +1,6 @@
 //! `contact.normal_law` as a user meets it: cases, refusals, tables, the shipped case.
 
 use crate::prelude::*;
-use crate::program::rows;
 
 const DISC: &str = include_str!("refused/stiffening.toml");
 

@@ -1,8 +1,6 @@
 //! `contributions.csv` and `coupling.csv` of `cea`: where growth comes from, which modes couple.
 
 use crate::prelude::*;
-use crate::program::Row;
-use std::collections::BTreeSet;
 
 /// Two pads on a slab that turns, the slab and one pad with damping of their own.
 const CASE: &str = "title = \"Two pads\"

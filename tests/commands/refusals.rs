@@ -1,7 +1,6 @@
 //! What is refused or warned of: `refusals.txt` has the changes to shipped cases and the words that are said of them.
 
 use crate::prelude::*;
-use frictionsim::case::unset;
 
 /// The path of a shipped case, or of one that is here to be refused.
 fn place_of(name: &str) -> String {

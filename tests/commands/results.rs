@@ -3,9 +3,6 @@
 use crate::figures::synthetic;
 use crate::prelude::*;
 use flate2::read::ZlibDecoder;
-use frictionsim::cea::{ComplexMode, FrictionPoint};
-use frictionsim::contact::ContactInterface;
-use frictionsim::mesh::AnnulusSpecification;
 use frictionsim::results::cea::{View, document, write};
 use frictionsim::results::mesh::MeshStatistics;
 use frictionsim::results::{EncodedMesh, Field, FolderError, cartesian_vectors, write_vtu};

@@ -1,8 +1,6 @@
 //! Brakes that creep: friction across the sliding, a dashpot of `mu p / V`, overdamps the modes that slide across.
 
 use crate::prelude::*;
-use frictionsim::cea::quadratic_modes;
-use frictionsim::linalg::{MarketMatrix, Mat};
 
 /// Frequencies and growth rates at friction 0.32, and what the command printed, of the brake of the operating matrix at 3 rpm.
 fn spectrum(frictions: &str) -> (Vec<[f64; 2]>, String) {

@@ -2,7 +2,6 @@
 //! place of a solver, so that the checks are about who runs what and what is kept of it.
 
 use crate::prelude::*;
-use crate::program::Row;
 use frictionsim::app::Failure;
 use frictionsim::app::sweep::{
     PointRunner, Shard, SweepPlan, SweepProgress, SweepRun, finished, gather,

@@ -4,7 +4,6 @@
 //! threads, the shards and the interruptions.
 
 use crate::prelude::*;
-use frictionsim::study::eigenvalues::modes_and_onsets;
 use frictionsim::study::uncertainty::Sampler;
 
 const COARSE: [&str; 5] = [

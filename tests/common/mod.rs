@@ -1,6 +1,6 @@
 //! Builders of bodies and cases, readers of results and the start of commands.
 
-#![allow(dead_code, reason = "each binary uses a part")]
+#![allow(dead_code, unused_imports, reason = "each binary uses a part")]
 
 pub mod block;
 pub mod bricks;
@@ -12,7 +12,9 @@ pub mod draws;
 pub mod kept;
 pub mod mesh_text;
 pub mod msh;
+pub mod prelude;
 pub mod program;
+pub mod spectra;
 pub mod table_1;
 pub mod tier;
 pub mod triangles;

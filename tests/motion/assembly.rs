@@ -1,17 +1,7 @@
 //! Transients of solid bodies that are tied together and slide on each other.
 
 use crate::prelude::*;
-use frictionsim::cea::ComplexMode;
 use frictionsim::cea::sparse::sweep;
-use frictionsim::contact::{
-    Counterpart, Motion, PairFriction, PointKind, RigidCounterface, RigidMotion, RigidShape,
-};
-use frictionsim::fem::{
-    MaterialField, MaxwellChain, RegionMaterial, RelaxedMaterials, TabledMaterial,
-};
-use frictionsim::linalg::c64;
-use frictionsim::mesh::{FileMesh, Mesh};
-use frictionsim::prestress::{Assembly, BaseChoice, DampingModel, SlidingSurfaces, TiedSurfaces};
 
 const STEEL: ElasticMaterial = elastic(2e11, 0.3, 7850.0, PlaneFormulation::ThreeDimensional);
 

@@ -5,7 +5,6 @@
 
 use crate::cycle_branch::over_speed;
 use crate::prelude::*;
-use frictionsim::cycle::{BasinBoundary, BasinRequest};
 use frictionsim::study::basin::boundary;
 use frictionsim::study::cycle::boundary_of_modes;
 

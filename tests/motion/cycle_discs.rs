@@ -4,7 +4,6 @@
 //! cycle. The transients are independent of the grid of phases: they share with it the element matrices alone.
 
 use crate::prelude::*;
-use frictionsim::cycle::DiscModel;
 
 fn ring(radii: [f64; 2], elements: [usize; 2]) -> AnnulusSpecification {
     crate::disc::ring(radii, ElementKind::Quad4, elements[0], elements[1])

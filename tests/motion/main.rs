@@ -17,4 +17,4 @@ mod oscillator;
 mod prelude;
 mod transient;
 
-use common::{bricks, cases, coarse_block, disc, kept, mesh_text, tier};
+use common::disc;

@@ -1,7 +1,6 @@
 //! An oscillator of two contact nodes, and its motion integrated from event to event.
 
 use crate::prelude::*;
-use frictionsim::contact::ContactInterface;
 
 /// A square of one element on a moving plane, its far side held: two contact nodes that stick and slip under friction that
 /// falls with speed.

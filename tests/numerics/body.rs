@@ -2,7 +2,6 @@
 //! says otherwise).
 
 use crate::prelude::*;
-use frictionsim::prestress::SlidingRange;
 
 fn options(mass: MassKind, geometric_stiffness: bool) -> TangentOptions {
     TangentOptions { mass, geometric_stiffness, ..TANGENT }

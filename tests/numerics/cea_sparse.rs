@@ -4,15 +4,11 @@
 mod counts;
 
 use crate::cea_cyclic::model::paper_options;
-use crate::kept::Kept;
 use crate::prelude::*;
 use crate::structural_damping::dense_eigenvalues;
-use frictionsim::cea::CeaError;
 use frictionsim::cea::sparse::{
     Centre, FrictionlessModes, Linearization, ShiftInverted, StiffnessFactors, StructureMatrices,
 };
-use frictionsim::linalg::{BlockOperator, KrylovSchurSettings, LuAnalysis, krylov_schur};
-use frictionsim::prestress::ContactDofs;
 
 type Entries = Vec<(usize, usize, f64)>;
 

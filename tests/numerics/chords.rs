@@ -2,7 +2,6 @@
 
 use crate::assemblies::on_rigid;
 use crate::prelude::*;
-use frictionsim::contact::{RigidCounterface, RigidMotion, RigidShape, SurfacePair};
 
 const RUBBER: ElasticMaterial =
     ElasticMaterial { formulation: PlaneFormulation::ThreeDimensional, ..POLYCARBONATE };

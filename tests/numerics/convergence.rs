@@ -12,7 +12,6 @@ use crate::continuum::prestress::SteadyState;
 use crate::continuum::{Annulus, Contact, Eigenvalue, Rayleigh};
 use crate::prelude::*;
 use folded::{Discretisation, FORWARD, INTERFERENCE, Study, base_state, material};
-use frictionsim::fem::nodal_stress;
 use rates::{DISC, assert_rate, rate, refinements};
 
 const NORMAL_STIFFNESS: f64 = 7.4e12;

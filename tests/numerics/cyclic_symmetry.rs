@@ -1,9 +1,6 @@
 //! Bodies from a mesh of one of their sectors, solved by waves around them, against their whole mesh.
 
 use crate::prelude::*;
-use frictionsim::case::CaseErrors;
-use frictionsim::cea::Unwatched;
-use frictionsim::results::Manifest;
 use frictionsim::results::cea::{self, Reading, View};
 use frictionsim::results::report::Report;
 use frictionsim::study::eigenvalues::{self, SlidingModel, Solution, solve};

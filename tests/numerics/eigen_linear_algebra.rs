@@ -6,10 +6,6 @@ use faer::{MatMut, MatRef};
 use frictionsim::linalg::banded::{BandedMatrix, CompactRows};
 use frictionsim::linalg::dense::{GrowingColumns, column, product};
 use frictionsim::linalg::dense_eigen::real_eigen;
-use frictionsim::linalg::{
-    BlockOperator, ComplexSparseLu, KrylovSchurSettings, LdlAnalysis, LinalgError, LuAnalysis,
-    RealPairs, SparseCholesky, SparseLdl, SparseLu, krylov_schur,
-};
 
 /// Five-point Laplacian on a `side x side` grid, plus `skew` times an unsymmetric convection.
 fn grid_operator(side: usize, skew: f64) -> MatrixPolynomial {

@@ -1,7 +1,6 @@
 //! Independent checks of the element matrices against elasticity theory.
 
 use crate::prelude::*;
-use frictionsim::fem::nodal_stress;
 use frictionsim::study::eigenvalues::{SlidingModel, SteadyState};
 
 const ELEMENTS: [ElementKind; 2] = [ElementKind::Quad4, ElementKind::Quad8];

@@ -2,7 +2,6 @@
 
 use crate::plane_body::studies::line;
 use crate::prelude::*;
-use frictionsim::linalg::GaussianNoise;
 use frictionsim::study::StudyError;
 use frictionsim::study::fit::{FitError, MeasuredMode, fit_case};
 

@@ -1,7 +1,6 @@
 //! Frequency responses of the finite-element model against theory and against each other.
 
 use crate::prelude::*;
-use frictionsim::frf::{ReductionSettings, reduced_response};
 
 const RADIAL: usize = 10;
 

@@ -2,7 +2,6 @@
 //! assembly, another factorization: independent checks).
 
 use crate::prelude::*;
-use frictionsim::case::unset;
 use frictionsim::study::response::FrequencyStudy;
 
 /// Even and odd numbers of sectors differ in their last harmonic.

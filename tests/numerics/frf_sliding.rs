@@ -3,7 +3,6 @@
 
 use crate::prelude::*;
 use crate::structural_damping::dense;
-use frictionsim::linalg::DenseLu;
 
 const RADIAL: usize = 5;
 /// Scale between displacement and velocity in the state, rad/s: balances the companion matrix.

@@ -37,7 +37,6 @@ mod sliding_bodies;
 mod solid_elements;
 mod solid_refinement;
 mod solids;
-mod spectra;
 mod structural_damping;
 mod supported_bodies;
 mod tabled;
@@ -46,6 +45,4 @@ mod two_bodies;
 mod verification;
 mod waves;
 
-use common::{
-    block, bricks, cases, disc, draws, kept, mesh_text, msh, program, table_1, tier, triangles,
-};
+use common::{bricks, disc, draws, mesh_text, msh, program, triangles};

@@ -4,11 +4,7 @@
 //! Consistency check: the exported matrices of a body without symmetry, solved densely, have the eigenvalues of `cea`.
 
 use crate::prelude::*;
-use crate::program::rows;
 use faer::linalg::solvers::Solve;
-use frictionsim::cea::quadratic_modes;
-use frictionsim::linalg::MarketMatrix;
-use serde_json::Value;
 use std::io::Read;
 
 pub fn dense(matrix: &MarketMatrix) -> Mat<f64> {

@@ -1,7 +1,6 @@
 //! What the mesh makes of frequencies and of critical friction, against finer meshes.
 
 use crate::prelude::*;
-use frictionsim::cea::Unwatched;
 use frictionsim::study::eigenvalues::{SlidingModel, Solution, solve};
 
 fn shipped(name: &str, modes: usize, frictions: &str) -> Case {

@@ -3,8 +3,6 @@
 use crate::cea_cyclic::model::paper_options;
 use crate::friction_law::block::{MASS, STEEL, WIDTH, block};
 use crate::prelude::*;
-use frictionsim::fem::sector;
-use frictionsim::prestress::{SectorSliding, SlidingRange};
 
 const LAWS: [NormalLaw; 2] = [
     NormalLaw::Exponential { reference_pressure: 2e5, height: 4e-6 },

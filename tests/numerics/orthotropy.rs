@@ -3,9 +3,8 @@
 use crate::continuum::radial::gauss_legendre;
 use crate::prelude::*;
 use crate::solid_elements::Pencil;
+use frictionsim::fem::MaterialAxes;
 use frictionsim::fem::element::ElementGeometry;
-use frictionsim::fem::{MaterialAxes, Orthotropy};
-use frictionsim::mesh::NodalFrames;
 use nalgebra::{Matrix3, Rotation3, Vector3};
 
 /// A lining: soft across its plane.

@@ -4,7 +4,6 @@ use crate::continuum::Contact;
 use crate::convergence::rates::DISC;
 use crate::prelude::*;
 use crate::triangles::triangles;
-use frictionsim::mesh::refined_file;
 
 const NORMAL_STIFFNESS: f64 = 7.4e12;
 

@@ -1,7 +1,6 @@
 //! Maxwell chains in time: growth against the eigenvalue, energy to round-off, restart to the bit.
 
 use crate::prelude::*;
-use frictionsim::fem::{MaxwellChain, RelaxedMaterials, TabledMaterial};
 
 const BAND: [f64; 2] = [300.0, 30_000.0];
 const HARMONIC: usize = 2;

@@ -3,10 +3,6 @@
 use crate::prelude::*;
 use faer::linalg::solvers::Solve;
 use faer::sparse::{SparseColMat, Triplet};
-use frictionsim::fem::{
-    assemble_geometric_stiffness, assemble_pressures, assemble_supports, lumped_masses,
-    solid_stress,
-};
 use nalgebra::{Matrix3, Rotation3, SymmetricEigen, Vector3};
 use std::f64::consts::FRAC_PI_2;
 

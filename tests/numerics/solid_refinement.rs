@@ -1,7 +1,6 @@
 //! Uniform refinement of solid bodies (independent: volumes, surfaces, exact eigenvalues of the meshed block).
 
 use crate::prelude::*;
-use frictionsim::fem::lumped_masses;
 
 const STEEL: ElasticMaterial = elastic(2e11, 0.3, 7850.0, PlaneFormulation::ThreeDimensional);
 

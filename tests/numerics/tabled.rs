@@ -2,9 +2,7 @@
 
 use crate::prelude::*;
 use crate::structural_damping::{dense_eigenvalues, eigenvalues, solved, two_unknowns};
-use frictionsim::cea::CeaError;
 use frictionsim::cea::sparse::mode_pairs;
-use frictionsim::fem::{ModulusTable, TabledMaterial};
 use frictionsim::study::eigenvalues::preflight;
 use frictionsim::study::response::FrequencyStudy;
 

@@ -1,9 +1,7 @@
 //! Derivatives of the branches of bodies that are solved harmonic by harmonic.
 
-use frictionsim::cea::ModeBranch;
+use crate::prelude::*;
 use frictionsim::cea::cyclic::{Beside, WavePair, wave_pairs, wave_responses};
-use frictionsim::linalg::c64;
-use frictionsim::prestress::WaveTangent;
 
 /// Step of a parameter relative to its value.
 pub const STEP: f64 = 1e-3;

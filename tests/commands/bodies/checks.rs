@@ -2,7 +2,6 @@
 
 use super::{Answer, Bench, Cell, Verdict};
 use crate::prelude::*;
-use crate::program::rows;
 
 /// A cell of the table: the body's bench, and that of the same body described otherwise.
 type Check = fn(&Bench, Option<&Bench>) -> Verdict;

@@ -2,7 +2,6 @@
 
 use super::{DISC, RUN, valid};
 use crate::prelude::*;
-use frictionsim::contact::FrictionDecay;
 
 const RATIO: &str = "contact.static_friction_ratio=1.4";
 const SPEED: &str = "contact.decay_speed=0.2";

@@ -3,7 +3,7 @@
 
 use super::{DISC, RUN, parse, report, valid};
 use crate::prelude::*;
-use frictionsim::case::{Default, reference, unset};
+use frictionsim::case::{Default, reference};
 
 fn whole() -> String {
     let further = "

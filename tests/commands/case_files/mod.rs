@@ -8,9 +8,7 @@ mod sizes;
 mod suggestions;
 
 use crate::prelude::*;
-use frictionsim::case::{
-    CaseErrors, CeaMethod, ModeLimit, RawCase, Spacing, TimeStep, range_values,
-};
+use frictionsim::case::{CeaMethod, ModeLimit, RawCase, Spacing, TimeStep, range_values};
 use proptest::prelude::*;
 
 const DISC: &str = include_str!("../../../cases/polycarbonate-disc.toml");

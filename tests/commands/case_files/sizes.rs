@@ -1,7 +1,6 @@
 //! Consistency checks of sizes: what a case asks for is weighed before anything of it is made.
 
 use super::{RUN, STUDY, parse, valid};
-use crate::bricks::file_of_order;
 use crate::prelude::*;
 use std::process::Stdio;
 

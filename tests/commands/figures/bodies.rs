@@ -4,10 +4,8 @@
 
 use crate::figures::{check_texts, synthetic, texts};
 use crate::prelude::*;
-use frictionsim::mesh::Mesh;
 use frictionsim::results::cea::{View, document, draw, write_base};
 use frictionsim::results::{DrawingOptions, Format};
-use std::f64::consts::PI;
 
 /// A body whose mesh is no annulus to the program, though its hole is round.
 fn body() -> Mesh {

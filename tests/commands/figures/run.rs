@@ -1,18 +1,11 @@
 //! Figures of a real run: the polycarbonate disc on a coarse mesh, seeded with harmonic 2.
 
-use crate::disc::{DAMPING, POLYCARBONATE, annulus, contact, transient_settings};
 use crate::figures::check;
 use crate::prelude::*;
 use frictionsim::chart::Figure;
-use frictionsim::contact::SlidingContact;
-use frictionsim::fem::operator::SimdLevel;
 use frictionsim::results::ShownBody;
 use frictionsim::results::charts::ModeLine;
 use frictionsim::results::transient::{LinearStage, RecordedRun, RunFigures, draw_run};
-use frictionsim::transient::{
-    CentralDifference, InitialState, OperatorChoice, Perturbation, Recorder, RecorderSettings,
-    TransientAnalysis, TransientModel,
-};
 
 #[test]
 fn a_run_gets_every_figure_of_its_record() {

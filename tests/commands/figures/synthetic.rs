@@ -1,9 +1,6 @@
 //! Analytic stand-ins for solver results: waves on an annulus.
 
 use crate::prelude::*;
-use frictionsim::cea::{ComplexMode, FrictionPoint};
-use frictionsim::mesh::Mesh;
-use std::f64::consts::PI;
 
 pub const MASS_COEFFICIENT: f64 = 40.0;
 pub const STIFFNESS_COEFFICIENT: f64 = 4.5e-7;

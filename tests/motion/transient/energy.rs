@@ -2,7 +2,6 @@
 
 use crate::prelude::*;
 use crate::transient::model::{LAWS, Watch, disc, free, kicked, on_contact};
-use frictionsim::transient::SampleRow;
 
 /// Theory: the discrete energy identity is exact, whatever contact, its springs and dashpots, its laws and damping do.
 #[test]

@@ -3,7 +3,6 @@
 use crate::prelude::*;
 use crate::transient::model::{LAWS, disc, kicked, on_contact};
 use frictionsim::cea::cyclic::sweep;
-use frictionsim::linalg::c64;
 
 /// Eigenvalue of a harmonic with the largest real part as the time loop has it: lumped mass, no geometric stiffness.
 fn least_stable(contact: &SlidingContact, stiffness: ContactStiffness, harmonic: usize) -> c64 {

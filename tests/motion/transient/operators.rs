@@ -2,7 +2,6 @@
 
 use crate::prelude::*;
 use crate::transient::model::{Watch, disc, kicked, largest, largest_difference, model};
-use frictionsim::fem::DofMap;
 use frictionsim::fem::operator::{
     AlignedVector, MotionFields, SectorStencil, SparseOperator, StepCoefficients,
     StiffnessOperator, gather, largest_frequency, scatter,

@@ -2,7 +2,6 @@
 
 use crate::prelude::*;
 use crate::transient::model::{Watch, disc, kicked, model, settings};
-use frictionsim::transient::StandingWave;
 
 fn record(annulus: &AnnulusMesh, settings: &TransientSettings) -> Recorder {
     recorded(model(annulus, 610.0), OperatorChoice::Auto, settings).0

@@ -2,7 +2,6 @@
 
 use crate::prelude::*;
 use crate::transient::model::{disc, kicked, model, settings};
-use frictionsim::transient::{EndState, Unsettled};
 
 fn run(rpm: f64, settings: &TransientSettings, wanted: &RecorderSettings) -> (Recorder, RunEnd) {
     let annulus = disc(45, 9);

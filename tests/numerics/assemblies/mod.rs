@@ -8,10 +8,8 @@ mod rotation;
 mod slow_sliding;
 mod topography;
 
-use crate::bricks::file_of_order;
 use crate::prelude::*;
 use crate::structural_damping::dense;
-use frictionsim::contact::{PairError, RigidCounterface};
 
 const STEEL: ElasticMaterial = elastic(2e11, 0.3, 7850.0, PlaneFormulation::ThreeDimensional);
 

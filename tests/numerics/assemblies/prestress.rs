@@ -2,13 +2,8 @@
 
 use super::rigid_counterface::plane;
 use super::{OPTIONS, STEEL, assembled, mesh_of, on_rigid, sliding, stacked, tangent_at, turning};
-use crate::bricks::file_of_order;
 use crate::prelude::*;
-use frictionsim::contact::{RigidCounterface, RigidMotion, RigidShape};
-use frictionsim::fem::assemble_geometric_stiffness;
-use frictionsim::prestress::RigidFriction;
 use nalgebra::Vector3;
-use std::collections::BTreeSet;
 
 const STRESSED: TangentOptions = TangentOptions { geometric_stiffness: true, ..OPTIONS };
 

@@ -5,8 +5,6 @@ use super::{OPTIONS, STEEL, aside, assembled, bar, mesh_of, sliding, tangent_at,
 use crate::prelude::*;
 use crate::structural_damping::dense;
 use faer::linalg::solvers::Solve;
-use frictionsim::fem::RotationFrame;
-use frictionsim::frf::Axis;
 
 const DAMPED: TangentOptions = TangentOptions {
     damping: RayleighDamping { mass_coefficient: 30.0, stiffness_coefficient: 2e-8 },

@@ -4,7 +4,6 @@ use super::{
     aside, assembled, eigenvalues, largest_difference, mesh_of, on_rigid, sliding, stacked,
 };
 use crate::prelude::*;
-use frictionsim::contact::{PairError, RigidCounterface, RigidMotion, RigidShape, Topography};
 
 /// How far the counterface is pushed in, m.
 const INTERFERENCE: f64 = 2e-6;

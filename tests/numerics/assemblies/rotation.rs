@@ -2,7 +2,6 @@
 
 use super::{OPTIONS, STEEL, eigenvalues, mesh_of, tangent_at, tie};
 use crate::prelude::*;
-use frictionsim::fem::{RotationFrame, assemble_supports};
 
 const SOFT: ElasticSupport = springs([2e6, 3e6, 0.0], [0.0, 0.0]);
 

@@ -2,7 +2,6 @@
 
 use crate::cea_cyclic::model::{paper_options, run};
 use crate::prelude::*;
-use frictionsim::cea::ModeBranch;
 use frictionsim::cea::cyclic::sweep;
 
 #[test]

@@ -2,7 +2,6 @@
 
 use super::{Disc, Entries, dense_eigenvalues, problem};
 use crate::prelude::*;
-use frictionsim::cea::CountedRegion;
 use frictionsim::cea::sparse::ModeCounter;
 
 /// A chain of unit masses with dashpots at some, and with friction strong enough for flutter.

@@ -4,7 +4,6 @@
 
 use crate::body::rectangle;
 use crate::prelude::*;
-use frictionsim::transient::SampleRow;
 
 /// So stiff that the block moves as one: its own modes lie above 30 kHz.
 pub const STEEL: ElasticMaterial = elastic(2.1e11, 0.3, 7850.0, PlaneFormulation::PlaneStrain);

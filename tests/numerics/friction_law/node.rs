@@ -1,7 +1,6 @@
 //! The implicit law at one node.
 
 use crate::prelude::*;
-use frictionsim::contact::{CoulombFriction, NodeFriction, SlippingNode};
 
 const DECAY: FrictionDecay = FrictionDecay { static_ratio: 1.4, decay_speed: 0.2 };
 

@@ -2,7 +2,6 @@
 
 use crate::prelude::*;
 use crate::triangles::triangles;
-use frictionsim::mesh::refined_file;
 
 const KINDS: [ElementKind; 4] =
     [ElementKind::Quad4, ElementKind::Quad8, ElementKind::Tri3, ElementKind::Tri6];

@@ -2,7 +2,6 @@
 
 use crate::prelude::*;
 use frictionsim::cea::cyclic::sweep;
-use frictionsim::fem::MaterialField;
 
 /// Materials of an annulus, region 0, and of its deformable shaft, region 1.
 #[derive(Clone, Copy, Debug, PartialEq)]

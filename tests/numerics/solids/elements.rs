@@ -4,7 +4,6 @@ use crate::prelude::*;
 use crate::solids::model::{disc, modes};
 use frictionsim::fem::fold::{MirrorParity, WaveDofs};
 use frictionsim::fem::sector::{Sectored, stiffness};
-use frictionsim::mesh::SheetNode;
 
 /// Independent check: strains `xx`, `zx`, `zz` constant over the body cost no force inside. In waves around,
 /// `u_x = x` is `(r, r, 0) / 2` at n = 2, `u_z = x` is `(0, 0, r)` and `u_x = z` is `(z, z, 0)` at n = 1, and `u_z = z` is n = 0.

@@ -3,7 +3,6 @@
 use crate::prelude::*;
 use crate::solids::model::{disc, modes};
 use frictionsim::cea::cyclic::sweep;
-use frictionsim::fem::revolved_stress;
 
 fn plane(model: &SolidModel, formulation: PlaneFormulation, limit_hz: f64) -> Vec<ComplexMode> {
     let request = sweep_request(&[0.3], ModeLimit::MaxFrequency(limit_hz));

@@ -1,16 +1,8 @@
 //! The polycarbonate disc in three dimensions.
 
-use crate::disc::{TANGENT, elastic, sliding_at, sweep_request};
+use crate::common::prelude::*;
 use frictionsim::cea::cyclic::{WaveSweep, wave_sweep};
-use frictionsim::cea::{CeaError, ComplexMode, ModeLimit, SweepRequest};
-use frictionsim::contact::SlidingContact;
-use frictionsim::fem::{ElasticMaterial, MaterialField, PlaneFormulation, RayleighDamping, sector};
-use frictionsim::mesh::{
-    BoundaryCondition, ElementKind, SolidContact, SolidSector, SolidSpecification,
-};
-use frictionsim::prestress::{PrestressError, SolidSliding, TangentOptions, WaveTangent};
-use frictionsim::transient::{SteppedBody, TransientModel};
-use std::f64::consts::TAU;
+use frictionsim::fem::sector;
 
 /// A body of revolution with all that its analysis is made from.
 #[derive(Clone, Debug, PartialEq)]
@@ -66,7 +58,7 @@ pub fn bending(element: ElementKind, divisions: [usize; 3]) -> SolidModel {
 pub fn disc(element: ElementKind, [around, radial, axial]: [usize; 3]) -> SolidModel {
     SolidModel {
         specification: SolidSpecification {
-            annulus: crate::disc::annulus(element, around, radial),
+            annulus: annulus(element, around, radial),
             thickness: 0.009,
             axial_elements: axial,
             contact: SolidContact::Inner,

@@ -2,8 +2,6 @@
 
 use crate::prelude::*;
 use crate::solids::model::{body, disc};
-use frictionsim::transient::{Observer, Sample, TimeStep};
-use std::ops::ControlFlow;
 
 /// Statuses, tangential displacements and normal forces of the contact nodes at every sample.
 #[derive(Default)]

@@ -5,8 +5,6 @@
 
 use crate::prelude::*;
 use crate::solids::model::{disc, tangent};
-use frictionsim::fem::{MaterialField, ModulusTable, TabledMaterial};
-use std::sync::Arc;
 
 const FRICTION: f64 = 0.3;
 const LIMIT: f64 = 9000.0;

@@ -3,8 +3,6 @@
 use crate::prelude::*;
 use crate::solids::model::{base, bending, body, disc, modes};
 use frictionsim::fem::operator::{OperatorError, StiffnessOperator};
-use frictionsim::transient::{Observer, Sample, TimeStep, TransientError};
-use std::ops::ControlFlow;
 
 fn operator(body: &TransientModel<'_>) -> Box<dyn StiffnessOperator> {
     body.operator(OperatorChoice::Auto, SimdLevel::detect()).unwrap()

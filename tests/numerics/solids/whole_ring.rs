@@ -2,7 +2,6 @@
 
 use crate::prelude::*;
 use crate::solids::model::body;
-use frictionsim::mesh::face_quadrature;
 
 /// `M`, `C`, `K` over the dofs `3 (s n + k) + c` in nodal frames, and the dofs that move.
 pub struct WholeRing {

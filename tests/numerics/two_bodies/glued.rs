@@ -6,7 +6,6 @@ use crate::cea_sparse::bare;
 use crate::prelude::*;
 use crate::two_bodies::model::{held_blocks, one_material, rectangle, ring, rings, rings_of};
 use frictionsim::cea::sparse::FrictionlessModes;
-use frictionsim::linalg::SparsityPattern;
 
 /// `u = T y`: for each glued dof the dofs that it follows, with their weights.
 type Glue = BTreeMap<usize, Vec<(usize, f64)>>;

@@ -2,7 +2,6 @@
 
 use crate::prelude::*;
 use crate::two_bodies::model::{contact, modes_of, options, rings};
-use frictionsim::fem::TabledMaterial;
 
 /// Size of the seeded mode, m: a slip speed a thousandth of the sliding, and far above the short waves, which grow faster, out
 /// of round-off.

@@ -7,8 +7,6 @@ mod refusals;
 mod sweeps;
 
 use crate::prelude::*;
-use frictionsim::fem::TabledMaterial;
-use frictionsim::mesh::BodyError;
 use model::{contact, held_blocks, modes, one_material, options, rectangle, rings};
 
 /// Disc and shaft as built in, by sectors.

@@ -1,17 +1,7 @@
 //! Two bodies of a mesh file, four-node elements, their meshes matching or not.
 
-use crate::disc::{self, POLYCARBONATE, TANGENT, linearized, sweep_request};
-use crate::mesh_text::mesh_text;
-use crate::msh::{CYLINDER, plane_body};
-use frictionsim::cea::sparse::sweep;
-use frictionsim::cea::{ComplexMode, ModeLimit, SweepRequest};
-use frictionsim::contact::SlidingContact;
-use frictionsim::fem::{MassKind, MaterialField};
-use frictionsim::mesh::{
-    AnnulusMesh, BodyError, Boundary, BoundaryCondition, CounterfaceSpecification, ElementKind,
-    FileMesh, Mesh,
-};
-use frictionsim::prestress::TangentOptions;
+use crate::disc;
+use crate::prelude::*;
 
 /// A body with the names that its boundaries have in the file.
 pub struct Part<'a> {

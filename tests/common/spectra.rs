@@ -1,6 +1,6 @@
 //! Spectra beside each other.
 
-use crate::prelude::*;
+use super::prelude::*;
 
 pub fn eigenvalues_of(modes: &[ComplexMode]) -> Vec<c64> {
     modes.iter().map(|mode| mode.eigenvalue).collect()
