@@ -6,78 +6,7 @@ use frictionsim::mesh::{FileConditionKind, FileElasticity, MaterialAxes};
 
 /// A brick of 1 x 2 x 3 as a part, twice in the assembly: as it is, and moved by 10 along x, then turned by 90 degrees about the z
 /// axis through (10, 0, 0).
-pub const ASSEMBLY: &str = "*HEADING
-two bricks
-*PART, NAME=Brick
-*NODE
-1, 0, 0, 0
-2, 1, 0, 0
-3, 1, 2, 0
-4, 0, 2, 0
-5, 0, 0, 3
-6, 1., 0., 3.
-7, 1.0D0, 2.0d0, 3.
-8, 0, 2, 3,
-99, 7, 7, 7
-*ELEMENT, TYPE=C3D8R, ELSET=All
-1, 1, 2, 3, 4, 5, 6, 7, 8
-*NSET, NSET=Foot, GENERATE
-1, 4, 1
-*SURFACE, NAME=Top
-All, S2
-*SURFACE, NAME=Skin
-All,
-*ORIENTATION, NAME=Fibre
-0., 1., 0., -1., 0., 0.
-*SOLID SECTION, ELSET=ALL, MATERIAL=Mat, ORIENTATION=Fibre
-*END PART
-*ASSEMBLY, NAME=A
-*INSTANCE, NAME=One, PART=BRICK
-*END INSTANCE
-*INSTANCE, NAME=Two, PART=Brick
-10., 0., 0.
-10., 0., 0., 10., 0., 1., 90.
-*END INSTANCE
-*NSET, NSET=Both_feet
-One.Foot, Two.Foot
-*NSET, NSET=Corner, INSTANCE=Two
-2, 3
-*TIE, NAME=Glue, ADJUST=YES
-One.Top, Two.Top
-*END ASSEMBLY
-*MATERIAL, NAME=Mat
-*ELASTIC, TYPE=ENGINEERING CONSTANTS
-8000., 8000., 1500., 0.25, 0.1, 0.1, 3000., 1000.,
-1000.
-*DENSITY
-2.5E-9,
-*DAMPING, ALPHA=10., BETA=1E-7
-*SURFACE INTERACTION, NAME=Rub
-*FRICTION, EXPONENTIAL DECAY
-0.45, 0.3, 0.005
-*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR
-1E5
-*CONTACT PAIR, INTERACTION=RUB
-One.Skin, Two.Skin
-*BOUNDARY
-Both_feet, 3
-Two.7, 1, 2
-*STEP
-*STATIC
-*BOUNDARY
-One.Foot, PINNED
-Two.Foot, 1, 1, 0.5
-*DSLOAD
-Two.Top, P, 2.5
-One.Top, HP, 2.5
-*DLOAD
-One.All, P1, 1.25
-*CLOAD
-One.7, 1, 10.
-*NODE PRINT
-U
-*END STEP
-";
+pub const ASSEMBLY: &str = include_str!("../meshes/assembly.inp");
 
 /// Closed form: places and areas of two bricks.
 #[test]

@@ -6,39 +6,7 @@ use frictionsim::mesh::{FileConditionKind, FileElasticity};
 
 /// A brick of 1 x 2 x 3 whose nodes stand in a system moved by (5, 0, 0) and turned by 90 degrees about z, one of them in cylindrical
 /// coordinates in that; in small, large and free fields.
-pub const BRICK: &str = "SOL 103
-CEND
-TITLE = a brick
-SPC = 20
-LOAD = 3
-BEGIN BULK
-$HMNAME PROP               1\"iron\" 4
-CORD2R  1       0       5.      0.      0.      5.      0.      1.      +C1
-+C1     5.      1.      0.
-CORD2C,2,1,0.,0.,0.,0.,0.,1.,
-,1.,0.,0.
-GRID    1       1       0.      0.      0.
-GRID    2       1       1.      0.      0.
-GRID*                  3               1              1.              2.
-*                     0.
-GRID,4,2,2.,90.,0.0
-GRID    5       1       0.      0.      30.-1
-GRID    6       1       1.      0.      .3+1
-GRID,7,1,1.,2.,3.
-GRID,8,1,0.,2.,3.
-CHEXA   10      1       1       2       3       4       5       6       +E
-+E      7       8
-PSOLID  1       7
-MAT1    7       1.1+11          .27     7200.
-SPC1    20      123     1       2       3       4
-SPC1,21,3,5,THRU,8
-SPC,20,5,3,0.
-PLOAD4  3       10      2.5                             5       7
-CQUAD4  30      4       1       2       6       5
-PSHELL  4       7       .1
-FORCE   3       1       0       1.      1.      0.      0.
-ENDDATA
-";
+pub const BRICK: &str = include_str!("../meshes/brick.bdf");
 
 /// Closed form: a brick in systems of coordinates within each other.
 #[test]

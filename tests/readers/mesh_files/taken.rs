@@ -7,67 +7,7 @@ use std::fs;
 use std::path::Path;
 
 /// Two bricks of 10 mm on each other, in mm, t and s; what is under them is clamped, a pressure presses, friction 0.4.
-const BRICKS: &str = "*NODE
-1, 0, 0, 0
-2, 10, 0, 0
-3, 10, 10, 0
-4, 0, 10, 0
-5, 0, 0, 10
-6, 10, 0, 10
-7, 10, 10, 10
-8, 0, 10, 10
-11, 2, 2, 10
-12, 8, 2, 10
-13, 8, 8, 10
-14, 2, 8, 10
-15, 2, 2, 20
-16, 8, 2, 20
-17, 8, 8, 20
-18, 2, 8, 20
-*ELEMENT, TYPE=C3D8I, ELSET=Lower
-1, 1, 2, 3, 4, 5, 6, 7, 8
-*ELEMENT, TYPE=C3D8I, ELSET=Upper
-2, 11, 12, 13, 14, 15, 16, 17, 18
-*NSET, NSET=Ground
-1, 2, 3, 4
-*NSET, NSET=Disc
-1, 2, 3, 4, 5, 6, 7, 8
-*SURFACE, NAME=Under
-Upper, S1
-*SURFACE, NAME=Over
-Lower, S2
-*SURFACE, NAME=Back
-Upper, S2
-*SOLID SECTION, ELSET=Lower, MATERIAL=Iron
-*SOLID SECTION, ELSET=Upper, MATERIAL=Lining
-*MATERIAL, NAME=Iron
-*ELASTIC
-1.1E5, 0.27
-*DENSITY
-7.2E-9,
-*MATERIAL, NAME=Lining
-*ELASTIC
-6000., 0.25
-*DENSITY
-2.5E-9,
-*DAMPING, ALPHA=40.
-*SURFACE INTERACTION, NAME=Rub
-*FRICTION
-0.4,
-*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR
-2E4
-*CONTACT PAIR, INTERACTION=Rub
-Under, Over
-*BOUNDARY
-Ground, 1, 3
-Back, 1
-*STEP
-*DSLOAD
-Back, P, 1.5
-*MOTION, ROTATION
-Disc, 6.283185307179586, 100., 0., 0., 100., 0., 5.
-*END STEP
-";
+const BRICKS: &str = include_str!("../meshes/bricks-in-contact.inp");
 
 const CASE: &str = "[mesh]\nfile = \"bricks.inp\"\nunits = \"mm-t-s\"\n[cea]\nmodes = 3\n";
 

@@ -4,59 +4,7 @@ use super::{area, body, check_errors, read};
 use crate::program::has;
 
 /// A brick of 1 x 2 x 3, its bottom a group of nodes, its top a group of one shell; a dataset that is not known before it.
-pub const BRICK: &str = "    -1
-   151
- some model
-    -1
-    -1
-   164
-         1SI: Meter (newton)           2
-  1.0D+03  1.0D+00  1.0D+00
-  2.7D+02
-    -1
-    -1
-  2411
-         1         1         1        11
-   0.0D+00   0.0D+00   0.0D+00
-         2         1         1        11
-   1.0D+00   0.0D+00   0.0D+00
-         3         1         1        11
-   1.0D+00   2.0D+00   0.0D+00
-         4         1         1        11
-   0.0D+00   2.0D+00   0.0D+00
-         5         1         1        11
-   0.0D+00   0.0D+00   3.0D+00
-         6         1         1        11
-   1.0D+00   0.0D+00   3.0D+00
-         7         1         1        11
-   1.0D+00   2.0D+00   3.0D+00
-         8         1         1        11
-   0.0D+00   2.0D+00   3.0D+00
-    -1
-    -1
-  2412
-         1       115         1         1         7         8
-         1         2         3         4         5         6         7         8
-         2        94         1         1         7         4
-         5         6         7         8
-         3        21         1         1         7         2
-         0         1         1
-         1         2
-    -1
-    -1
-  2467
-         1         0         0         0         0         0         0         1
-iron
-         8         1         0         0
-         2         0         0         0         0         0         0         4
-foot
-         7         1         0         0         7         2         0         0
-         7         3         0         0         7         4         0         0
-         3         0         0         0         0         0         0         1
-head
-         8         2         0         0
-    -1
-";
+pub const BRICK: &str = include_str!("../meshes/brick.unv");
 
 #[test]
 fn groups_are_regions_surfaces_and_sets_of_nodes() {
