@@ -1,7 +1,8 @@
 //! Bodies of bricks side by side in one mesh file.
 
-use std::collections::BTreeMap;
-use std::fmt::Write;
+use super::block::block;
+use super::mesh_text::mesh_text;
+use frictionsim::mesh::ElementKind;
 
 /// A block of bricks; its sides are the surfaces `NAME_x0`, `NAME_x1`, `NAME_y0` ... of the file.
 pub struct Block {
@@ -25,9 +26,7 @@ pub fn file_of(blocks: &[Block], place: impl Fn([f64; 3]) -> [f64; 3]) -> Vec<u8
     file_of_order(blocks, 1, place)
 }
 
-/// Corners of a brick in halves of its edges, and the edges in the order of Gmsh.
-const CORNERS: [[usize; 3]; 8] =
-    [[0, 0, 0], [2, 0, 0], [2, 2, 0], [0, 2, 0], [0, 0, 2], [2, 0, 2], [2, 2, 2], [0, 2, 2]];
+/// Edges of a brick in the order of Gmsh, by their ends.
 pub const EDGES: [usize; 24] =
     [0, 1, 0, 3, 0, 4, 1, 2, 1, 5, 2, 3, 2, 6, 3, 7, 4, 5, 4, 7, 5, 6, 6, 7];
 
@@ -37,82 +36,32 @@ pub fn file_of_order(
     order: usize,
     place: impl Fn([f64; 3]) -> [f64; 3],
 ) -> Vec<u8> {
-    let (mut names, mut nodes, mut elements) = (String::new(), String::new(), String::new());
-    let (mut name_count, mut node_count, mut element_count) = (0, 0, 0);
-    for block in blocks {
-        let counts = block.counts;
-        // Nodes by their place in halves of an element; a brick of 20 nodes has none in faces or inside.
-        let step = if order == 1 { 2 } else { 1 };
-        let mut numbers = BTreeMap::new();
-        for k in (0..=2 * counts[2]).step_by(step) {
-            for j in (0..=2 * counts[1]).step_by(step) {
-                for i in (0..=2 * counts[0]).step_by(step) {
-                    if i % 2 + j % 2 + k % 2 > 1 {
-                        continue;
-                    }
-                    let half = [i, j, k];
-                    let share = |axis: usize| half[axis] as f64 / (2 * counts[axis]) as f64;
-                    let at = |axis: usize| block.origin[axis] + block.size[axis] * share(axis);
-                    let [x, y, z] = place([at(0), at(1), at(2)]);
-                    node_count += 1;
-                    numbers.insert(half, node_count);
-                    writeln!(nodes, "{node_count} {x:?} {y:?} {z:?}").unwrap();
-                }
-            }
+    let kind = [ElementKind::Hex8, ElementKind::Hex20][order - 1];
+    let middle_of = |ends: &[usize; 2]| {
+        let same = |edge: &[usize; 2]| ends.iter().all(|end| edge.contains(end));
+        8 + kind.edges().iter().position(same).unwrap()
+    };
+    let middles = EDGES.as_chunks().0.iter().filter(|_| order == 2).map(middle_of);
+    let locals: Vec<usize> = (0..8).chain(middles).collect();
+    let (mut points, mut groups, mut elements) = (Vec::new(), Vec::new(), Vec::new());
+    for own in blocks {
+        let at = |share: [f64; 3]| [0, 1, 2].map(|k| own.origin[k] + own.size[k] * share[k]);
+        let file = block(kind, own.counts, |share| place(at(share)));
+        let number = |node: u32| points.len() + node as usize;
+        for element in &file.elements {
+            let nodes = locals.iter().map(|&local| number(element.nodes[local])).collect();
+            elements.push((kind.gmsh_type(), groups.len(), nodes));
         }
-        name_count += 1;
-        let group = name_count;
-        writeln!(names, "3 {group} \"{}\"", block.name).unwrap();
-        let mut element = |kind: u32, group: usize, list: &[usize]| {
-            element_count += 1;
-            let list: Vec<String> = list.iter().map(usize::to_string).collect();
-            let list = list.join(" ");
-            writeln!(elements, "{element_count} {kind} 2 {group} {group} {list}").unwrap();
-        };
-        // Corners of an element or a face, and the middles of its edges behind them.
-        let with_middles = |corners: &[[usize; 3]], edges: &[[usize; 2]]| -> Vec<usize> {
-            let middle = |[a, b]: &[usize; 2]| {
-                std::array::from_fn(|axis| (corners[*a][axis] + corners[*b][axis]) / 2)
-            };
-            let middles = edges.iter().filter(|_| order == 2).map(middle);
-            corners.iter().copied().chain(middles).map(|half| numbers[&half]).collect()
-        };
-        for k in 0..counts[2] {
-            for j in 0..counts[1] {
-                for i in 0..counts[0] {
-                    let at = |[a, b, c]: [usize; 3]| [2 * i + a, 2 * j + b, 2 * k + c];
-                    element(
-                        [5, 17][order - 1],
-                        group,
-                        &with_middles(&CORNERS.map(at), EDGES.as_chunks().0),
-                    );
-                }
+        groups.push((3, own.name.to_owned()));
+        for (side, faces) in &file.surfaces {
+            for (_, nodes) in faces {
+                let nodes = nodes.iter().map(|&node| number(node)).collect();
+                elements.push(([3, 16][order - 1], groups.len(), nodes));
             }
+            groups.push((2, format!("{}_{side}", own.name)));
         }
-        for (axis, letter) in ["x", "y", "z"].into_iter().enumerate() {
-            for (end, at) in [0, block.counts[axis]].into_iter().enumerate() {
-                name_count += 1;
-                writeln!(names, "2 {name_count} \"{}_{letter}{end}\"", block.name).unwrap();
-                let [u, v] = [(axis + 1) % 3, (axis + 2) % 3];
-                for a in 0..block.counts[u] {
-                    for b in 0..block.counts[v] {
-                        let corner = |da: usize, db: usize| {
-                            let mut index = [0; 3];
-                            (index[axis], index[u], index[v]) =
-                                (2 * at, 2 * (a + da), 2 * (b + db));
-                            index
-                        };
-                        let corners = [corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1)];
-                        let list = with_middles(&corners, &[[0, 1], [1, 2], [2, 3], [3, 0]]);
-                        element([3, 16][order - 1], name_count, &list);
-                    }
-                }
-            }
-        }
+        points.extend(file.points);
     }
-    format!(
-        "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n{name_count}\n{names}$EndPhysicalNames\n\
-         $Nodes\n{node_count}\n{nodes}$EndNodes\n$Elements\n{element_count}\n{elements}$EndElements\n"
-    )
-    .into_bytes()
+    let groups: Vec<(u32, &str)> = groups.iter().map(|(d, name)| (*d, name.as_str())).collect();
+    mesh_text(&points, &groups, &elements)
 }

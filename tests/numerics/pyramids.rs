@@ -2,7 +2,6 @@
 
 use crate::prelude::*;
 use crate::solid_elements::passes_the_patch_test;
-use frictionsim::mesh::FileElement;
 
 /// Three cells in a row: a brick, six pyramids, and tetrahedra with a pyramid on the side of the others.
 fn row(is_quadratic: bool) -> FileMesh {
@@ -28,32 +27,11 @@ fn row(is_quadratic: bool) -> FileMesh {
             }
         }
     }
-    // Middles of the edges, then a map of all that is linear, so that edges stay straight.
-    let mut file = FileMesh { dimension: 3, ..FileMesh::default() };
-    let mut middles: BTreeMap<[u32; 2], u32> = BTreeMap::new();
-    for (number, mut nodes) in elements.into_iter().enumerate() {
-        let kind = ElementKind::Tet4.with_corners(nodes.len(), is_quadratic);
-        for &[start, end] in kind.edges().iter().filter(|_| is_quadratic) {
-            let mut ends = [nodes[start], nodes[end]];
-            ends.sort_unstable();
-            nodes.push(*middles.entry(ends).or_insert_with(|| {
-                let [p, q] = ends.map(|node| places[node as usize]);
-                places.push([0, 1, 2].map(|axis| 0.5 * (p[axis] + q[axis])));
-                places.len() as u32 - 1
-            }));
-        }
-        file.elements.push(FileElement {
-            label: number + 1,
-            kind,
-            region: "body".into(),
-            entity: 1,
-            nodes,
-        });
-    }
-    file.labels = (1..=places.len()).collect();
-    file.is_used = vec![true; places.len()];
+    let kind = |corners: &Vec<u32>| ElementKind::Tet4.with_corners(corners.len(), is_quadratic);
+    let mut file = meshed(places, elements.into_iter().map(|corners| (kind(&corners), corners)));
+    // A map of all that is linear, so that edges stay straight.
     let skewed = |[x, y, z]: [f64; 3]| [0.05 * x + 0.01 * y, 0.06 * y + 0.008 * z, 0.04 * z];
-    file.points = places.into_iter().map(skewed).collect();
+    file.points = file.points.into_iter().map(skewed).collect();
     file
 }
 
