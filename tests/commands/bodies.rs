@@ -5,7 +5,6 @@
 //! difference of two whole analyses. What the program refuses stands in the table with its reason.
 
 mod checks;
-pub mod grid;
 mod kinds;
 
 use crate::prelude::*;

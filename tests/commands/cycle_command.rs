@@ -1,6 +1,5 @@
 //! `frictionsim cycle` as a user runs it: the shipped case, at full size in the long tier, and what it says where there is no cycle.
 
-use crate::bodies::grid::{Grid, msh};
 use crate::prelude::*;
 use frictionsim::results::cycle::{CycleSummary, Origin, TwoWaveSummary};
 use std::process::Command;
@@ -210,8 +209,9 @@ fn a_body_without_symmetry_says_what_it_does_not_use_and_where_nothing_grows() {
 
 /// A square of one element on a moving plane, whose friction falls with speed: from 1.28 to 2.15 m/s it squeals beside stable sliding.
 fn square(command: &str, folder: &Path, set: &[&str]) -> Run {
-    let square = Grid::block([0.01, 0.01], [1, 1], &|_| "body");
-    std::fs::write(folder.join("square.msh"), msh(&[square])).unwrap();
+    let edge = even(0.01, 1);
+    let square = quadrilaterals(&edge, &edge, ["face", "back", "body"], |x, y| [x, y]);
+    std::fs::write(folder.join("square.msh"), square).unwrap();
     let text = "[mesh]\nfile = \"square.msh\"\n[boundaries.back]\ncondition = \"clamped\"
 [material]\nyoung_modulus = 2.5e9\npoisson_ratio = 0.38\ndensity = 1228.0
 [damping]\nmass_coefficient = 40.0\nstiffness_coefficient = 2e-7

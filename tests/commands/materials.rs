@@ -1,6 +1,5 @@
 //! Materials as a user meets them: results beside theory, keys that name one number of a list, refusals.
 
-use crate::bodies::grid::{Grid, Shape, msh};
 use crate::prelude::*;
 use frictionsim::case::{Cea, CeaMethod};
 use frictionsim::fem::sector;
@@ -89,16 +88,9 @@ const TWO_REGIONS: &str = "[mesh]\nfile = \"ring.msh\"
 
 #[test]
 fn a_common_material_is_asked_for_only_where_a_region_has_none() {
-    let ring = Grid {
-        shape: Shape::Ring { inner: 0.0205, outer: 0.0905 },
-        along: 16,
-        across: 4,
-        region_of_layer: &|layer| if layer < 2 { "disc" } else { "rim" },
-        names: ["inner", "outer"],
-        triangles: false,
-    };
-    let folder = tempfile::tempdir().unwrap();
-    std::fs::write(folder.path().join("ring.msh"), msh(&[ring])).unwrap();
+    let region = |layer| if layer < 2 { "disc" } else { "rim" };
+    let ring = ring_grid([0.0205, 0.0905], [16, 4], ["inner", "outer"], &region);
+    let folder = folder_with(&[("ring.msh", &grids(&[ring]))]);
     let path = folder.path().join("case.toml");
     let read = |text: &str| Case::parse(path.to_str().unwrap(), text.as_bytes(), &[]);
     let case = read(TWO_REGIONS).unwrap();

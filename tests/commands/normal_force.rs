@@ -1,6 +1,5 @@
 //! `normal_force`: force and interference are two ways to say one thing.
 
-use crate::bodies::grid::{Grid, msh};
 use crate::prelude::*;
 
 const MATERIAL: &str = "young_modulus = 2.5e9\npoisson_ratio = 0.38\ndensity = 1228.0\n";
@@ -26,14 +25,12 @@ fn read(folder: &Path, text: &str) -> Result<Case, String> {
     read_case(folder.join("case.toml"), text, AS_IT_IS)
 }
 
-fn folder() -> tempfile::TempDir {
-    let folder = tempfile::tempdir().unwrap();
-    let block = Grid::block([0.04, 0.03], [6, 4], &|_| "block");
-    fs::write(folder.path().join("block.msh"), msh(&[block])).unwrap();
+fn folder() -> TempDir {
+    let names = ["face", "back", "block"];
+    let block = quadrilaterals(&even(0.04, 6), &even(0.03, 4), names, |x, y| [x, y]);
     let pad = |name, left: f64| brick(name, [left, 0.0, 0.0], [0.02, 0.02, 0.01], [2, 2, 1]);
     let pads = [pad("left", 0.0), pad("right", 0.02)];
-    fs::write(folder.path().join("pads.msh"), file_of(&pads, |point| point)).unwrap();
-    folder
+    folder_with(&[("block.msh", &block), ("pads.msh", &file_of(&pads, |point| point))])
 }
 
 /// Interference, force, and the same interference again, on every kind of body.

@@ -1,19 +1,17 @@
 //! The kinds of bodies, coarse.
 
-use super::grid::{Grid, Shape, msh};
 use crate::prelude::*;
 
 pub struct Kind {
     pub name: &'static str,
     pub case: String,
-    pub mesh: Option<String>,
+    pub mesh: Option<Vec<u8>>,
     /// The kind that is the same body described otherwise.
     pub twin: Option<&'static str>,
 }
 
 const AROUND: usize = 32;
 const ACROSS: usize = 6;
-const RING: Shape = Shape::Ring { inner: 0.0205, outer: 0.0905 };
 const POLYCARBONATE: &str = "young_modulus = 2.5e9\npoisson_ratio = 0.3805\ndensity = 1228.0\n";
 /// Stiffer around than outwards; axes about the disc's own.
 const LINING: &str = "young_moduli = [2e9, 5e9, 1.5e9]\npoisson_ratios = [0.2, 0.3, 0.25]\n\
@@ -46,33 +44,19 @@ fn imported(contact: &str, further: &str) -> String {
     case("[mesh]\nfile = \"body.msh\"", &contact, &further)
 }
 
-fn ring<'a>(region_of_layer: &'a dyn Fn(usize) -> &'a str) -> Grid<'a> {
-    Grid {
-        shape: RING,
-        along: AROUND,
-        across: ACROSS,
-        region_of_layer,
-        names: ["inner", "outer"],
-        triangles: false,
-    }
+fn disc<'a>(region_of_layer: &'a dyn Fn(usize) -> &'a str) -> Grid<'a> {
+    ring_grid([0.0205, 0.0905], [AROUND, ACROSS], ["inner", "outer"], region_of_layer)
 }
 
 /// Disc and shaft in one file, the shaft of `around` elements.
-fn two_bodies(around: usize) -> String {
-    let shaft = Grid {
-        shape: Shape::Ring { inner: 0.006, outer: 0.0205 },
-        along: around,
-        across: 2,
-        region_of_layer: &|_| "shaft",
-        names: ["bore", "journal"],
-        triangles: false,
-    };
-    msh(&[ring(&|_| "disc"), shaft])
+fn two_bodies(around: usize) -> Vec<u8> {
+    let shaft = ring_grid([0.006, 0.0205], [around, 2], ["bore", "journal"], &|_| "shaft");
+    grids(&[disc(&|_| "disc"), shaft])
 }
 
 /// A slab that turns about a far axis, a lining pressed on it, and a backplate glued to the lining, whose meshes do not match: on
 /// springs against the slab as `contact` says, held at a side of the plate by springs of `support` Pa/m.
-fn solids(contact: &str, support: &str, counts: [[usize; 3]; 3]) -> (String, String) {
+fn solids(contact: &str, support: &str, counts: [[usize; 3]; 3]) -> (String, Vec<u8>) {
     let block = |name, bottom, height, counts| {
         brick(name, [0.0, 0.0, bottom], [0.04, 0.035, height], counts)
     };
@@ -81,7 +65,7 @@ fn solids(contact: &str, support: &str, counts: [[usize; 3]; 3]) -> (String, Str
         block("lining", -0.015, 0.01, counts[1]),
         block("plate", -0.005, 0.005, counts[2]),
     ];
-    let mesh = String::from_utf8(file_of(&blocks, |point| point)).expect("a file of text");
+    let mesh = file_of(&blocks, |point| point);
     let case = format!(
         "title = \"A kind of body\"\n[mesh]\nfile = \"body.msh\"\n[material]\n{POLYCARBONATE}
 [boundaries.slab_z0]\ncondition = \"clamped\"
@@ -95,9 +79,8 @@ fn solids(contact: &str, support: &str, counts: [[usize; 3]; 3]) -> (String, Str
 }
 
 /// One sector of a ring around a cylinder, whose body is its six copies; its own friction lies above the onset at 0.12.
-fn sectors() -> (String, String) {
-    let sector =
-        brick("ring", [0.0205, 0.0, 0.0], [0.07, std::f64::consts::TAU / 6.0, 0.009], [3, 2, 1]);
+fn sectors() -> (String, Vec<u8>) {
+    let sector = brick("ring", [0.0205, 0.0, 0.0], [0.07, TAU / 6.0, 0.009], [3, 2, 1]);
     let mesh = file_of(&[sector], |[r, t, z]| [r * t.cos(), r * t.sin(), z]);
     let case = format!(
         "title = \"A kind of body\"\n[mesh]\nfile = \"body.msh\"\nsectors = 6\n[material]\n{POLYCARBONATE}
@@ -105,7 +88,7 @@ fn sectors() -> (String, String) {
 [contact]\nboundary = \"ring_x0\"\ncounterface = \"cylinder\"\ninterference = 25e-6
 rotation_speed_rpm = 610.0\nfriction_coefficient = 0.3\n{ANALYSES}"
     );
-    (case, String::from_utf8(mesh).expect("a file of text"))
+    (case, mesh)
 }
 
 pub fn kinds() -> Vec<Kind> {
@@ -146,7 +129,7 @@ pub fn kinds() -> Vec<Kind> {
             ..of_file(
                 "annulus from a file, stiffening contact",
                 imported(stiffening, ""),
-                msh(&[ring(&|_| "disc")]),
+                grids(&[disc(&|_| "disc")]),
             )
         },
         kind("annulus, supported", annulus("", "", support)),
@@ -157,7 +140,7 @@ pub fn kinds() -> Vec<Kind> {
         }),
         Kind {
             twin: Some("annulus"),
-            ..of_file("annulus from a file", imported("", ""), msh(&[ring(&|_| "disc")]))
+            ..of_file("annulus from a file", imported("", ""), grids(&[disc(&|_| "disc")]))
         },
         kind("orthotropic annulus", annulus("", "", "").replace(POLYCARBONATE, LINING)),
         Kind {
@@ -165,13 +148,13 @@ pub fn kinds() -> Vec<Kind> {
             ..of_file(
                 "orthotropic annulus from a file",
                 imported("", "").replace(POLYCARBONATE, LINING),
-                msh(&[ring(&|_| "disc")]),
+                grids(&[disc(&|_| "disc")]),
             )
         },
         of_file(
             "triangles from a file",
             imported("", ""),
-            msh(&[Grid { triangles: true, ..ring(&|_| "disc") }]),
+            grids(&[Grid { is_cut: true, ..disc(&|_| "disc") }]),
         ),
         of_file(
             "two materials",
@@ -181,12 +164,14 @@ pub fn kinds() -> Vec<Kind> {
                     "[materials.rim]\n{STEEL}mass_coefficient = 40.0\nstiffness_coefficient = 1e-8\n"
                 ),
             ),
-            msh(&[ring(&|layer| if layer < 4 { "disc" } else { "rim" })]),
+            grids(&[disc(&|layer| if layer < 4 { "disc" } else { "rim" })]),
         ),
         of_file(
             "block, contact opens in part",
             block,
-            msh(&[Grid::block([0.04, 0.06], [10, 10], &|_| "block")]),
+            quadrilaterals(&even(0.04, 10), &even(0.06, 10), ["face", "back", "block"], |x, y| {
+                [x, y]
+            }),
         ),
         Kind {
             twin: Some("annulus and shaft"),

@@ -42,16 +42,28 @@ pub fn file_of(parts: &[Part<'_>]) -> Vec<u8> {
     mesh_text(&points, &groups, &elements)
 }
 
+/// Lines of a grid along and across.
+pub type Lines = [Vec<f64>; 2];
+
 /// A lower and an upper block in one file.
-pub fn blocks_of([lower, upper]: [Mesh; 2]) -> Vec<u8> {
-    file_of(&[
-        Part { mesh: lower, region: "lower", names: ["floor", "track"], turn: 0.0 },
-        Part { mesh: upper, region: "upper", names: ["sole", "top"], turn: 0.0 },
-    ])
+pub fn blocks_of(blocks: [Lines; 2]) -> Vec<u8> {
+    let names = [("lower", ["floor", "track"]), ("upper", ["sole", "top"])];
+    let regions = names.map(|(region, _)| move |_| region);
+    let own = blocks.into_iter().zip(names).zip(&regions);
+    let own = own.map(|(([xs, ys], (_, names)), region_of_layer)| Grid {
+        xs,
+        ys,
+        is_closed: false,
+        is_cut: false,
+        names,
+        region_of_layer,
+        place: &|x, y| [x, y],
+    });
+    grids(&own.collect::<Vec<_>>())
 }
 
 /// The same read, the lower one held at its floor, the upper one at its top.
-pub fn held_blocks(blocks: [Mesh; 2], top: BoundaryCondition) -> Result<Mesh, BodyError> {
+pub fn held_blocks(blocks: [Lines; 2], top: BoundaryCondition) -> Result<Mesh, BodyError> {
     let plane = CounterfaceSpecification::Plane { direction: None };
     let held = [("floor", BoundaryCondition::Clamped), ("top", top)];
     let specification = plane_body("sole", plane, Some("track"), &held);
@@ -122,32 +134,10 @@ pub fn one_material() -> &'static dyn MaterialField {
     &POLYCARBONATE
 }
 
-/// A rectangle of elements with its lower left corner at `corner`.
-pub fn rectangle(corner: [f64; 2], size: [f64; 2], count: [usize; 2]) -> Mesh {
-    let [nx, ny] = count;
-    let node = |i: usize, j: usize| (i + j * (nx + 1)) as u32;
-    let mut mesh = Mesh { dimension: 2, ..Mesh::default() };
-    for j in 0..=ny {
-        for i in 0..=nx {
-            let share = [i as f64 / nx as f64, j as f64 / ny as f64];
-            let [x, y] = [0, 1].map(|c| corner[c] + size[c] * share[c]);
-            mesh.nodes.push([x, y, 0.0]);
-        }
-    }
-    mesh.element_starts.push(0);
-    for j in 0..ny {
-        for i in 0..nx {
-            let corners = [node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)];
-            mesh.elements.extend(corners);
-            mesh.element_starts.push(mesh.elements.len() as u32);
-            mesh.element_kinds.push(ElementKind::Quad4);
-        }
-    }
-    for j in [0, ny] {
-        mesh.boundaries.push(Boundary {
-            nodes: (0..=nx).map(|i| node(i, j)).collect(),
-            ..Boundary::default()
-        });
-    }
-    mesh
+/// A rectangle of so many elements with its lower left corner at `corner`.
+pub fn rectangle(corner: [f64; 2], size: [f64; 2], count: [usize; 2]) -> Lines {
+    [0, 1].map(|c| {
+        let shares = (0..=count[c]).map(|i| i as f64 / count[c] as f64);
+        shares.map(|share| corner[c] + size[c] * share).collect()
+    })
 }
