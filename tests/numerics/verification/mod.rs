@@ -28,25 +28,15 @@ fn folder(name: &str, mesh: &[u8]) -> PathBuf {
 
 /// Runs a command of the program on a case in a folder, and reads one table of its results.
 fn table(folder: &Path, command: &str, case: &str, file: &str) -> Vec<Row> {
-    let path = folder.join("case.toml");
-    fs::write(&path, case).unwrap();
-    let results = folder.join(command);
-    let words = ["frictionsim", command, path.to_str().unwrap(), "--no-figures", "-qq", "--force"];
-    let mut words: Vec<_> = words.iter().map(std::ffi::OsString::from).collect();
-    words.extend(["--out".into(), results.clone().into()]);
-    assert_eq!(frictionsim::app::run_arguments(words), 0, "{}", path.display());
-    rows(&results.join(file))
+    let run = Run::of_text(command, folder, case).args(&["-qq", "--force"]).out(command);
+    rows(&run.done().path(file))
 }
 
 /// The rows of a table of results.
 fn rows(path: &Path) -> Vec<Row> {
-    let mut reader = csv::Reader::from_path(path).unwrap();
-    let heads = reader.headers().unwrap().clone();
-    let row = |record: csv::StringRecord| -> Row {
-        let cells = heads.iter().zip(&record);
-        cells.map(|(head, cell)| (head.to_owned(), cell.parse().unwrap_or(f64::NAN))).collect()
-    };
-    reader.records().map(|record| row(record.unwrap())).collect()
+    let number = |(head, cell): (String, String)| (head, cell.parse().unwrap_or(f64::NAN));
+    let rows = crate::program::rows(path).into_iter();
+    rows.map(|row| row.0.into_iter().map(number).collect()).collect()
 }
 
 /// Integral of a smooth function by Simpson's rule on 400 intervals.

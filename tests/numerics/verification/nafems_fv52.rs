@@ -9,7 +9,7 @@
 //! because a line carries no load in three dimensions. The others move in the plane and come within 4e-4.
 
 use super::{folder, table};
-use std::collections::BTreeMap;
+use crate::prelude::*;
 use std::fmt::Write;
 
 /// The targets above the rigid motions, Hz.
@@ -17,43 +17,18 @@ const TARGETS: [f64; 7] = [45.897, 109.44, 109.44, 167.89, 193.59, 206.19, 206.1
 
 /// The plate of `n` x `n` x 1 bricks of 20 nodes, as an input file.
 fn plate(n: usize) -> String {
-    let size = [2 * n, 2 * n, 2];
-    let mut nodes = String::new();
-    let mut number = BTreeMap::new();
-    let mut edges = Vec::new();
-    for k in 0..=size[2] {
-        for j in 0..=size[1] {
-            for i in 0..=size[0] {
-                // Corners and middles of edges.
-                if [i, j, k].iter().filter(|index| **index % 2 == 1).count() > 1 {
-                    continue;
-                }
-                let own = number.len() + 1;
-                number.insert([i, j, k], own);
-                let at = |index: usize, axis: usize, length: f64| {
-                    length * index as f64 / size[axis] as f64
-                };
-                let [x, y, z] = [at(i, 0, 10.0), at(j, 1, 10.0), at(k, 2, 1.0)];
-                writeln!(nodes, "{own}, {x:?}, {y:?}, {z:?}").unwrap();
-                if k == 0 && (i % size[0] == 0 || j % size[1] == 0) {
-                    edges.push(own.to_string());
-                }
-            }
+    // The nodes of a brick come in the order of the file.
+    let file = block(ElementKind::Hex20, [n, n, 1], |[x, y, z]| [10.0 * x, 10.0 * y, z]);
+    let (mut nodes, mut elements, mut edges) = (String::new(), String::new(), Vec::new());
+    for (number, [x, y, z]) in file.labels.iter().zip(&file.points) {
+        writeln!(nodes, "{number}, {x:?}, {y:?}, {z:?}").unwrap();
+        if *z == 0.0 && [x, y].iter().any(|at| [0.0, 10.0].contains(*at)) {
+            edges.push(number.to_string());
         }
     }
-    let corners = [[0, 0, 0], [2, 0, 0], [2, 2, 0], [0, 2, 0]];
-    let middles = [[1, 0, 0], [2, 1, 0], [1, 2, 0], [0, 1, 0]];
-    let mut elements = String::new();
-    for e in 0..n * n {
-        let [x, y] = [2 * (e % n), 2 * (e / n)];
-        let at = |place: &[usize; 3], z: usize| number[&[x + place[0], y + place[1], z]];
-        let mut own: Vec<usize> = corners.iter().map(|corner| at(corner, 0)).collect();
-        own.extend(corners.iter().map(|corner| at(corner, 2)));
-        own.extend(middles.iter().map(|middle| at(middle, 0)));
-        own.extend(middles.iter().map(|middle| at(middle, 2)));
-        own.extend(corners.iter().map(|corner| at(corner, 1)));
-        let own: Vec<String> = own.iter().map(usize::to_string).collect();
-        writeln!(elements, "{}, {}", e + 1, own.join(", ")).unwrap();
+    for element in &file.elements {
+        let own: Vec<String> = element.nodes.iter().map(|node| (node + 1).to_string()).collect();
+        writeln!(elements, "{}, {}", element.label, own.join(", ")).unwrap();
     }
     let edges: Vec<String> = edges.chunks(8).map(|some| some.join(", ")).collect();
     format!(
