@@ -66,37 +66,23 @@ fn has_poles_at_onsets(model: &SolidModel) {
     }
 }
 
+/// On rigid contact, on springs that carry the base state, on which all of the tangent rests, and on contact that stiffens, which
+/// carries it too and whose tangent has the stiffness at the pressure there.
 #[test]
 fn the_response_has_its_pole_on_the_axis_at_every_critical_friction_of_the_eigenvalue_analysis() {
-    let mut model = disc(ElementKind::Quad4, [24, 6, 2]);
-    model.options.geometric_stiffness = true;
-    has_poles_at_onsets(&model);
-}
-
-/// The same on a contact, for either element.
-fn has_poles_on(contact: ContactStiffness) {
-    for (element, divisions) in [(ElementKind::Quad4, [24, 6, 2]), (ElementKind::Quad8, [16, 4, 1])]
-    {
-        let mut model = disc(element, divisions);
-        model.options.geometric_stiffness = true;
-        model.options.contact = contact;
-        has_poles_at_onsets(&model);
-    }
-}
-
-/// The springs carry the base state, on which all of the tangent rests.
-#[test]
-fn on_a_base_state_that_springs_carry_the_response_has_the_poles_of_the_eigenvalue_analysis() {
+    let hex8 = (ElementKind::Quad4, [24, 6, 2]);
+    let both = [hex8, (ElementKind::Quad8, [16, 4, 1])];
     let springs =
         ContactStiffness { normal_stiffness: Some(1e12), is_base_compliant: true, ..RIGID };
-    has_poles_on(springs);
-}
-
-/// A contact that stiffens carries the base state, and the tangent has its stiffness at the pressure there.
-#[test]
-fn on_a_contact_that_stiffens_the_response_has_the_poles_of_the_eigenvalue_analysis() {
     let law = NormalLaw::Exponential { reference_pressure: 2e5, height: 2e-6 };
-    has_poles_on(stiffening(law));
+    for (contact, bricks) in [(RIGID, &both[..1]), (springs, &both), (stiffening(law), &both)] {
+        for &(element, divisions) in bricks {
+            let mut model = disc(element, divisions);
+            model.options.geometric_stiffness = true;
+            model.options.contact = contact;
+            has_poles_at_onsets(&model);
+        }
+    }
 }
 
 /// Around, bricks of 20 nodes have the traction of a point act along the normals of nodes beside it: a term of `mu^2`.
