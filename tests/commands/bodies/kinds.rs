@@ -91,6 +91,13 @@ rotation_speed_rpm = 610.0\nfriction_coefficient = 0.3\n{ANALYSES}"
     (case, mesh)
 }
 
+impl Kind {
+    /// The same body as another kind.
+    fn like(self, twin: &'static str) -> Self {
+        Self { twin: Some(twin), ..self }
+    }
+}
+
 pub fn kinds() -> Vec<Kind> {
     let kind = |name, case| Kind { name, case, mesh: None, twin: None };
     let of_file = |name, case, mesh| Kind { name, case, mesh: Some(mesh), twin: None };
@@ -124,33 +131,27 @@ pub fn kinds() -> Vec<Kind> {
         kind("annulus", annulus("", "", "")),
         kind("annulus, springs in the contact", annulus("", springs, "")),
         kind("annulus, stiffening contact", annulus("", stiffening, "")),
-        Kind {
-            twin: Some("annulus, stiffening contact"),
-            ..of_file(
-                "annulus from a file, stiffening contact",
-                imported(stiffening, ""),
-                grids(&[disc(&|_| "disc")]),
-            )
-        },
+        of_file(
+            "annulus from a file, stiffening contact",
+            imported(stiffening, ""),
+            grids(&[disc(&|_| "disc")]),
+        )
+        .like("annulus, stiffening contact"),
         kind("annulus, supported", annulus("", "", support)),
         kind("annulus, falling friction", annulus("", falling, "")),
         kind("annulus and shaft", {
             let text = annulus("shaft_inner_radius = 0.006", "", &shaft);
             text.replace("radial_elements = 6", "radial_elements = 6\nshaft_radial_elements = 2")
         }),
-        Kind {
-            twin: Some("annulus"),
-            ..of_file("annulus from a file", imported("", ""), grids(&[disc(&|_| "disc")]))
-        },
+        of_file("annulus from a file", imported("", ""), grids(&[disc(&|_| "disc")]))
+            .like("annulus"),
         kind("orthotropic annulus", annulus("", "", "").replace(POLYCARBONATE, LINING)),
-        Kind {
-            twin: Some("orthotropic annulus"),
-            ..of_file(
-                "orthotropic annulus from a file",
-                imported("", "").replace(POLYCARBONATE, LINING),
-                grids(&[disc(&|_| "disc")]),
-            )
-        },
+        of_file(
+            "orthotropic annulus from a file",
+            imported("", "").replace(POLYCARBONATE, LINING),
+            grids(&[disc(&|_| "disc")]),
+        )
+        .like("orthotropic annulus"),
         of_file(
             "triangles from a file",
             imported("", ""),
@@ -173,10 +174,8 @@ pub fn kinds() -> Vec<Kind> {
                 [x, y]
             }),
         ),
-        Kind {
-            twin: Some("annulus and shaft"),
-            ..of_file("two bodies, matching", imported(journal, &bore), two_bodies(AROUND))
-        },
+        of_file("two bodies, matching", imported(journal, &bore), two_bodies(AROUND))
+            .like("annulus and shaft"),
         of_file("two bodies, not matching", imported(journal, &bore), two_bodies(24)),
         kind("body of revolution, contact on the edge", solid("", "")),
         kind(
