@@ -87,16 +87,12 @@ fn both_mass_matrices_carry_the_mass_of_the_ring() {
     }
 }
 
-fn paper_contact() -> SlidingContact {
-    sliding_at(0.3, 25e-6, 610.0 * PI / 30.0)
-}
-
 #[test]
 fn contact_without_interference_is_reported_as_open_with_node_and_angle() {
     let material = polycarbonate(PlaneFormulation::PlaneStrain);
     let mesh = annulus(ElementKind::Quad4, 24, 4);
     let stiffness = assemble_stiffness(&mesh, &material);
-    let contact = SlidingContact { interference: -1e-6, ..paper_contact() };
+    let contact = SlidingContact { interference: -1e-6, ..contact(610.0) };
     let error = SteadySliding::solve(&mesh, &stiffness, &contact).unwrap_err();
     assert!(matches!(error, PrestressError::Separation { count: 24, node: 1, .. }));
     assert!(error.to_string().contains("contact.interference"));

@@ -8,26 +8,14 @@ fn annulus() -> AnnulusMesh {
     AnnulusMesh::generate(&crate::disc::annulus(ElementKind::Quad4, 48, RADIAL)).unwrap()
 }
 
-fn material() -> ElasticMaterial {
-    elastic(2.5e9, 0.3805, 1228.0, PlaneFormulation::PlaneStrain)
-}
-
-const DAMPING: RayleighDamping =
-    RayleighDamping { mass_coefficient: 40.0, stiffness_coefficient: 4.5e-7 };
-
 fn body(is_clamped: bool, damping: RayleighDamping) -> FrfSystem {
     let mass = MassKind::Consistent;
-    FrfSystem::body(&annulus().mesh, &material(), mass, damping, is_clamped)
+    FrfSystem::body(&annulus().mesh, &POLYCARBONATE, mass, damping, is_clamped)
 }
 
 fn sliding(damping_model: DampingModel) -> FrfSystem {
-    let mesh = annulus().mesh;
-    let stiffness = assemble_stiffness(&mesh, &material());
-    let contact = sliding_at(0.3, 25e-6, 610.0 * PI / 30.0);
-    let base = SteadySliding::solve(&mesh, &stiffness, &contact).unwrap();
-    let options =
-        TangentOptions { geometric_stiffness: true, damping: DAMPING, damping_model, ..TANGENT };
-    let tangent = SlidingTangent::linearize(&mesh, &material(), &stiffness, &base, &options);
+    let options = TangentOptions { geometric_stiffness: true, damping_model, ..TANGENT };
+    let tangent = linearized(&annulus().mesh, &POLYCARBONATE, &contact(610.0), &options);
     FrfSystem::sliding(&tangent, 0.3)
 }
 

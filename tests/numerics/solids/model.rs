@@ -71,11 +71,8 @@ pub fn disc(element: ElementKind, [around, radial, axial]: [usize; 3]) -> SolidM
             parts: Vec::new(),
         },
         material: elastic(2.5e9, 0.3805, 1228.0, PlaneFormulation::ThreeDimensional),
-        options: TangentOptions {
-            damping: RayleighDamping { mass_coefficient: 40.0, stiffness_coefficient: 4.5e-7 },
-            ..TANGENT
-        },
-        contact: sliding_at(0.3, 25e-6, 610.0 * TAU / 60.0),
+        options: TANGENT,
+        contact: contact(610.0),
     }
 }
 
