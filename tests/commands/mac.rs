@@ -136,9 +136,7 @@ fn shapes_and_responses_written_as_universal_files_are_read_back() {
         let file = read_response(&bytes, name, &ResponseOptions::default()).unwrap();
         file.responses[0].response.values().to_vec()
     });
-    for (a, b) in table.iter().zip(&universal) {
-        assert!((a - b).norm() < 1e-11 * a.norm(), "{a} {b}");
-    }
+    near_each(&universal, &table, 1e-11);
 }
 
 #[test]

@@ -80,9 +80,7 @@ fn every_contact_gets_its_own_force() {
     let both = contact("left", 200.0) + &contact("right", 300.0);
     let case = read(folder().path(), &pads(&both)).unwrap();
     let forces = case.normal_forces().unwrap();
-    for (found, asked) in forces.iter().zip([200.0, 300.0]) {
-        assert!((found / asked - 1.0).abs() < 1e-9, "{forces:?}");
-    }
+    near_each(&forces, &[200.0, 300.0], 1e-9);
 }
 
 /// Closed form: a block without Poisson's ratio under a rigid plane is a spring `E A / h`.

@@ -138,10 +138,8 @@ fn a_rotor_above_its_critical_speed_has_the_published_frequencies_in_its_turning
     let found = modes_of(folder.path(), &(mesh.clone() + &set + &load), "[cea]\nmodes = 10\n");
     let published =
         [5.089832, 11737.65, 14535.82, 23381.42, 34851.37, 38368.38, 45038.27, 49577.86];
-    for (found, published) in found.iter().zip(published) {
-        println!("{found} {published}");
-        assert!((found / published - 1.0).abs() < 5e-3, "{found} {published}");
-    }
+    println!("{found:?} {published:?}");
+    near_each(&found[..published.len()], &published, 5e-3);
 
     // The mean displacement of the bore's nodes at each end vanishes; weak springs hold the turn about the axis.
     let mut text = mesh;
@@ -153,10 +151,8 @@ fn a_rotor_above_its_critical_speed_has_the_published_frequencies_in_its_turning
         6128.151, 6351.323, 14905.19, 20215.56, 27483.61, 28809.47, 41398.47, 48544.58, 60801.77,
         71798.82,
     ];
-    for (found, published) in found[1..].iter().zip(published) {
-        println!("{found} {published}");
-        assert!((found / published - 1.0).abs() < 5e-3, "{found} {published}");
-    }
+    println!("{found:?} {published:?}");
+    near_each(&found[1..=published.len()], &published, 5e-3);
 }
 
 /// Independent: the body of CalculiX' deck `rotor3`, six elements of its tube missing, which answers a force on the rim of its disc

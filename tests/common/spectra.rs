@@ -45,3 +45,20 @@ pub fn assert_same(
         assert!(apart < onsets, "{what}: {ours:?} {theirs:?}");
     }
 }
+
+/// Largest relative distance of numbers from as many others, one by one.
+pub fn largest_difference(a: &[c64], b: &[c64]) -> f64 {
+    assert_eq!(a.len(), b.len());
+    let pairs = a.iter().zip(b);
+    pairs.map(|(a, b)| (a - b).norm() / a.norm()).fold(0.0, f64::max)
+}
+
+/// Holds numbers to as many others one by one, to a share of each.
+#[track_caller]
+pub fn near_each<T: Into<c64> + Copy>(found: &[T], expected: &[T], share: f64) {
+    assert_eq!(found.len(), expected.len());
+    for (found, expected) in found.iter().zip(expected) {
+        let [a, b]: [c64; 2] = [found, expected].map(|own| (*own).into());
+        assert!((a - b).norm() <= share * b.norm(), "{a} {b}");
+    }
+}

@@ -10,6 +10,7 @@ mod topography;
 
 use crate::prelude::*;
 use crate::structural_damping::dense;
+use BaseChoice::{Closed, Solved};
 
 const STEEL: ElasticMaterial = elastic(2e11, 0.3, 7850.0, PlaneFormulation::ThreeDimensional);
 
@@ -110,7 +111,7 @@ fn assembled<'a>(
     contact: SlidingSurfaces,
     motions: &[Motion],
 ) -> Result<Assembly<'a>, PrestressError> {
-    Assembly::new(mesh, &STEEL, &[], &[contact], motions, BaseChoice::Solved)
+    Assembly::new(mesh, &STEEL, &[], &[contact], motions, Solved)
 }
 
 /// Far from its axis the lower block moves nearly straight on.
@@ -161,7 +162,7 @@ fn constant_pressure_passes_a_contact_between_meshes_that_do_not_match() {
 fn constant_pressure_passes_a_tie_between_meshes_that_do_not_match() {
     let mesh = bar();
     let glue = tie(&mesh, "upper_z0", "lower_z1");
-    let assembly = Assembly::new(&mesh, &STEEL, &[glue], &[], &[], BaseChoice::Solved).unwrap();
+    let assembly = Assembly::new(&mesh, &STEEL, &[glue], &[], &[], Solved).unwrap();
     let range = assembly.range(&[0.0]).unwrap();
     let error = patch_error(&mesh, &range.states[0].displacements[0], 0.0);
     let size = 1e8 / STEEL.young_modulus * 0.035;
@@ -216,25 +217,19 @@ fn a_frozen_state_has_the_same_tangent_above() {
     }
 }
 
-fn largest_difference(a: &[c64], b: &[c64]) -> f64 {
-    assert_eq!(a.len(), b.len());
-    let pairs = a.iter().zip(b);
-    pairs.map(|(a, b)| (a - b).norm() / a.norm()).fold(0.0, f64::max)
-}
-
 #[test]
 fn a_tie_of_two_halves_has_the_spectrum_of_the_whole() {
     let clamped = [("whole_z0", BoundaryCondition::Clamped)];
     let whole = [brick("whole", [0.0; 3], [0.05, 0.04, 0.04], [4, 3, 4])];
     let whole = mesh_of(&file_of(&whole, |point| point), &clamped);
-    let expected = Assembly::new(&whole, &STEEL, &[], &[], &[], BaseChoice::Closed).unwrap();
+    let expected = Assembly::new(&whole, &STEEL, &[], &[], &[], Closed).unwrap();
     let half = |name: &'static str, height: f64| {
         brick(name, [0.0, 0.0, height], [0.05, 0.04, 0.02], [4, 3, 2])
     };
     let halves = file_of(&[half("lower", 0.0), half("upper", 0.02)], |point| point);
     let halves = mesh_of(&halves, &[("lower_z0", BoundaryCondition::Clamped)]);
     let glue = tie(&halves, "upper_z0", "lower_z1");
-    let tied = Assembly::new(&halves, &STEEL, &[glue], &[], &[], BaseChoice::Closed).unwrap();
+    let tied = Assembly::new(&halves, &STEEL, &[glue], &[], &[], Closed).unwrap();
     let error = largest_difference(&eigenvalues(&expected, 0.0, 8), &eigenvalues(&tied, 0.0, 8));
     println!("{error:e}");
     assert!(error < 1e-9, "{error:e}");
@@ -268,9 +263,8 @@ fn an_assembly_turned_in_space_keeps_its_spectrum() {
             // Damping that is not proportional.
             contact.stiffness.tangential_damping = 1e7;
             let motion = turning(&mesh, place([0.0, 0.0, 1.0]), place(center));
-            let closed = BaseChoice::Closed;
             let assembly =
-                Assembly::new(&mesh, &STEEL, &[], &[contact], &[motion], closed).unwrap();
+                Assembly::new(&mesh, &STEEL, &[], &[contact], &[motion], Closed).unwrap();
             eigenvalues(&assembly, 0.4, 8)
         };
         let [straight, turned] = [spectrum(|point| point), spectrum(turned)];
@@ -289,8 +283,7 @@ fn refusal(blocks: &[Block], sides: [&str; 2]) -> String {
         ..sliding(&mesh, Some(1e14))
     };
     let motion = aside(&mesh);
-    let closed = BaseChoice::Closed;
-    let found = Assembly::new(&mesh, &STEEL, &[], &[contact], &[motion], closed);
+    let found = Assembly::new(&mesh, &STEEL, &[], &[contact], &[motion], Closed);
     found.unwrap_err().to_string()
 }
 
@@ -314,8 +307,7 @@ fn a_motion_that_leaves_surfaces_at_rest_is_refused() {
     let mesh = mesh_of(&file_of(&stacked(0.0), |point| point), &[]);
     let still = Motion { rotation_speed: 0.0, ..aside(&mesh) };
     let contact = sliding(&mesh, Some(1e14));
-    let closed = BaseChoice::Closed;
-    let found = Assembly::new(&mesh, &STEEL, &[], &[contact], &[still], closed);
+    let found = Assembly::new(&mesh, &STEEL, &[], &[contact], &[still], Closed);
     match found.unwrap_err() {
         PrestressError::Pair { name, error } => {
             assert_eq!(name, "contacts.pad");

@@ -1,6 +1,6 @@
 //! Contact that stiffens with pressure.
 
-use super::{aside, assembled, bar, eigenvalues, largest_difference, patch_error, sliding};
+use super::{aside, assembled, bar, eigenvalues, patch_error, sliding};
 use crate::prelude::*;
 
 const LAWS: [NormalLaw; 2] = [

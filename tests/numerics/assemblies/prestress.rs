@@ -3,6 +3,7 @@
 use super::rigid_counterface::plane;
 use super::{OPTIONS, STEEL, assembled, mesh_of, on_rigid, sliding, stacked, tangent_at, turning};
 use crate::prelude::*;
+use BaseChoice::Solved;
 use nalgebra::Vector3;
 
 const STRESSED: TangentOptions = TangentOptions { geometric_stiffness: true, ..OPTIONS };
@@ -152,8 +153,7 @@ fn a_column_buckles_under_the_load_of_euler() {
         let pressure = BoundaryCondition::Pressure(share * euler / (side * side));
         let conditions = [("column_z0", BoundaryCondition::Clamped), ("column_z1", pressure)];
         let mesh = mesh_of(&bytes, &conditions);
-        let solved = BaseChoice::Solved;
-        let assembly = Assembly::new(&mesh, &STEEL, &[], &[], &[], solved).unwrap();
+        let assembly = Assembly::new(&mesh, &STEEL, &[], &[], &[], Solved).unwrap();
         let tangent = tangent_at(&assembly, 0.0, &STRESSED);
         let modes = modes_at(&tangent, 0.0, ModeLimit::Lowest(2));
         modes[0].eigenvalue.im.powi(2)

@@ -1,8 +1,6 @@
 //! Solid bodies on a rigid counterface: a block that is held at every node is one, and the program has another route for it.
 
-use super::{
-    aside, assembled, eigenvalues, largest_difference, mesh_of, on_rigid, sliding, stacked,
-};
+use super::{aside, assembled, eigenvalues, mesh_of, on_rigid, sliding, stacked};
 use crate::prelude::*;
 
 /// How far the counterface is pushed in, m.

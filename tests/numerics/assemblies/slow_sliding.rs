@@ -24,8 +24,7 @@ fn lists_of_lossy_modes_have_no_gaps_however_slow_the_sliding() {
         contact.stiffness.loss_factor = loss_factor;
         let motion = Motion { rotation_speed, ..aside(&mesh) };
         let steel = ElasticMaterial { loss_factor: 0.3 * loss_factor, ..STEEL };
-        let solved = BaseChoice::Solved;
-        let assembly = Assembly::new(&mesh, &steel, &[], &[contact], &[motion], solved).unwrap();
+        let assembly = Assembly::new(&mesh, &steel, &[], &[contact], &[motion], Solved).unwrap();
         let options = TangentOptions {
             damping: RayleighDamping { mass_coefficient: 100.0, stiffness_coefficient: 1e-8 },
             ..OPTIONS

@@ -54,22 +54,3 @@ fn the_response_in_sliding_contact_is_that_of_the_case_and_its_cost_is_known_bef
     assert_eq!(summary["dofs"], 24 * (6 * 3 * 3 - 3));
     assert!(summary["backward_error"].as_f64().unwrap() <= 1e-14);
 }
-
-#[test]
-fn methods_of_plane_bodies_and_held_nodes_are_refused_with_key_and_remedy() {
-    let folder = folder();
-    for method in ["direct", "reduced"] {
-        let set = format!("frf.method={method}");
-        for command in ["frf", "check"] {
-            let message = format!(
-                "frf.method = \"{method}\" is for bodies that are solved on their whole mesh"
-            );
-            let remedy = "use \"auto\" or \"cyclic\"";
-            run(&folder, command, &[&set]).refused(&[&message, remedy]);
-        }
-    }
-    run(&folder, "frf", &["frf.boundary=clamped"]).refused(&[
-        "frf.force_node = 63 cannot move in axial direction",
-        "frf.boundary = \"free\"",
-    ]);
-}

@@ -35,8 +35,6 @@ fn a_part_of_the_same_material_is_none() {
     let same = "[materials.ring]\nradii = [0.03, 0.04]\nyoung_modulus = 2.5e9\n\
                 poisson_ratio = 0.38\ndensity = 1228.0\n";
     let [uniform, same, steel] = ["", same, RING].map(whole);
-    for (a, b) in uniform.iter().zip(&same) {
-        assert!((a / b - 1.0).abs() < 1e-9, "{a} {b}");
-    }
+    near_each(&uniform, &same, 1e-9);
     assert!((steel[0] / uniform[0] - 1.0).abs() > 0.01);
 }
