@@ -15,9 +15,15 @@ mod frf;
 mod solid;
 mod transient;
 
-use common::{bricks, disc, mesh_text, msh};
+use common::{bricks, disc};
 use frictionsim::transient::{Observer, Sample};
 use std::ops::ControlFlow;
+
+/// What the models of the tests name.
+mod prelude {
+    pub use crate::common::prelude::*;
+    pub use frictionsim::cea::sparse::sweep;
+}
 
 /// Benchmarks that print tables of their own; divan has the others.
 const TABLES: [(&str, fn()); 4] = [
