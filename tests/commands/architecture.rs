@@ -86,7 +86,7 @@ const BUDGETS: &[(&str, usize)] = &[
     ("src/guide", 70),
     ("src/lib.rs", 98),
     ("src/main.rs", 5),
-    ("src/study", 11_499),
+    ("src/study", 11_502),
 ];
 
 /// Lines of a file before its unit tests.

@@ -8,6 +8,9 @@ use crate::linalg::c64;
 use crate::results::improve::Sizes;
 use nalgebra::{Matrix3, SymmetricEigen, Vector3};
 
+/// Blocks of a derivative at a node.
+type Blocks = fn(&Derivatives, usize) -> Matrix3<f64>;
+
 /// Places of each kind that are kept for a closer look, for each one that is listed.
 const KEPT: usize = 6;
 
@@ -80,7 +83,7 @@ impl Search<'_> {
                     (None, self.growth(&|own| own.by_mass(node, alpha) * mass))
                 }
                 _ => {
-                    let (of, size): (fn(&Derivatives, usize) -> Matrix3<f64>, f64) = match kind {
+                    let (of, size): (Blocks, f64) = match kind {
                         ModificationKind::Spring => {
                             (Derivatives::by_spring, self.sizes.stiffness_n_per_m)
                         }
