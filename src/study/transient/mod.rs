@@ -189,7 +189,7 @@ impl<'a> TransientStudy<'a> {
     /// than a check is worth.
     ///
     /// # Errors
-    /// As [`Self::start`] and [`Self::recorder`].
+    /// As [`Self::start`], and those of the recorder.
     pub fn preflight(&self) -> Result<StepPlan, StudyError> {
         let operator = self.operator()?;
         let initial = match (self.case.body.annulus(), self.settings.initial) {
