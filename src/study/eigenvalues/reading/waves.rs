@@ -98,7 +98,7 @@ impl<'t> Apart<'t> {
             .regions
             .iter()
             .zip(&regions)
-            .map(|(name, part)| (name, Source::Part, [own.mass, part.stiffness, part.damping]));
+            .map(|(name, part)| (name, Source::Part, [part.mass, part.stiffness, part.damping]));
         let held =
             self.supports.iter().zip(&supports).map(|(name, part)| {
                 (name, Source::Support, [f64::NAN, part.stiffness, part.damping])
