@@ -68,8 +68,9 @@ pub(super) fn run(asked: &Arguments) -> Result<(), Failure> {
     let mut summary = summarize(&case, &samples);
     if missing > 0 {
         summary.notes.push(format!(
-        "{missing} of {count} blocks of samples are missing: run it again with --resume once all shards have ended"
-    ));
+            "{missing} of {count} blocks of samples are missing: run it again with --resume once \
+             all shards have ended"
+        ));
     } else if !asked.robust.is_empty() {
         let (designs, bound) = (&asked.robust, asked.bound);
         summary.robust = Some(curves(&case, &sampler, designs, bound)?);

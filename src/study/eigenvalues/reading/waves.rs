@@ -94,17 +94,17 @@ impl<'t> Apart<'t> {
         let supports = parts.of_supports(root, x);
         let strain = |forms: &[PartForms]| -> f64 { forms.iter().map(|own| own.stiffness).sum() };
         let energies = [own.mass, strain(&regions) + strain(&supports)];
-        let parts = self
-            .regions
+        let forms = |own: &PartForms| [own.mass, own.stiffness, own.damping];
+        let regions = self.regions.iter().zip(&regions);
+        let regions = regions.map(|(name, own)| (name, Source::Part, forms(own)));
+        // A support has no mass.
+        let supports = self
+            .supports
             .iter()
-            .zip(&regions)
-            .map(|(name, part)| (name, Source::Part, [part.mass, part.stiffness, part.damping]));
-        let held =
-            self.supports.iter().zip(&supports).map(|(name, part)| {
-                (name, Source::Support, [f64::NAN, part.stiffness, part.damping])
-            });
+            .zip(&supports)
+            .map(|(name, own)| (name, Source::Support, [f64::NAN, own.stiffness, own.damping]));
         let contact = |fed: f64| vec![(CONTACT.to_owned(), fed)];
-        write((own.name, own.mode), parts.chain(held), energies, &contact, out);
+        write((own.name, own.mode), regions.chain(supports), energies, &contact, out);
     }
 
     /// The feed of the unstable modes at the case's own friction coefficient.
