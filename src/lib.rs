@@ -71,12 +71,12 @@
 //! # Floors
 //!
 //! [`chart`], [`formats`], [`linalg`], [`output`] and [`signal`] are crates of their own in `crates/`, which name nothing of this one:
-//! [`output`] knows tables and nothing of friction. So are the physics, from [`mesh`] to [`cycle`], [`case`] and [`results`].
+//! [`output`] knows tables and nothing of friction. So are the physics, from [`mesh`] to [`cycle`],
+//! [`case`], [`results`] and [`study`].
 //! Each module names only those below it: [`linalg`], [`mesh`]; [`fem`]; [`contact`]; [`prestress`]; [`cea`], [`transient`], [`frf`],
 //! [`cycle`]; [`case`], [`results`]; [`study`]; [`app`].
 
 pub mod guide;
-pub mod study;
 
 pub mod app;
 
@@ -96,3 +96,5 @@ pub use frictionsim_physics::{
 pub use frictionsim_results as results;
 #[doc(inline)]
 pub use frictionsim_signal as signal;
+#[doc(inline)]
+pub use frictionsim_study as study;

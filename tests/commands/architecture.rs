@@ -24,9 +24,14 @@ fn floor_of(module: &str) -> Option<usize> {
 
 /// Folder of the physics, which is a crate of its own.
 const PHYSICS: &str = "crates/physics/src";
-/// Folders of the tree of modules, and the module that each is: cases and results are crates of their own.
-const TREES: [(&str, &str); 4] =
-    [("src", ""), (PHYSICS, ""), ("crates/case/src", "case"), ("crates/results/src", "results")];
+/// Folders of the tree of modules, and the module that each is: cases, results and studies are crates of their own.
+const TREES: [(&str, &str); 5] = [
+    ("src", ""),
+    (PHYSICS, ""),
+    ("crates/case/src", "case"),
+    ("crates/results/src", "results"),
+    ("crates/study/src", "study"),
+];
 
 /// The Rust files of the tree of modules, each with its path in the tree.
 fn module_files() -> Vec<(PathBuf, PathBuf)> {
@@ -82,11 +87,11 @@ const BUDGETS: &[(&str, usize)] = &[
     ("crates/physics/src/transient", 4_929),
     ("crates/results", 19_189),
     ("crates/signal", 6_182),
+    ("crates/study", 11_514),
     ("src/app", 4_672),
     ("src/guide", 70),
-    ("src/lib.rs", 98),
+    ("src/lib.rs", 100),
     ("src/main.rs", 5),
-    ("src/study", 11_502),
 ];
 
 /// Lines of a file before its unit tests.
@@ -153,10 +158,9 @@ fn no_room_has_more_lines_than_its_budget() {
 fn lines_of_the_upper_rooms_have_120_columns_at_most() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let mut files = Vec::new();
-    let rooms = ["src/study", "src/app"];
-    let crates =
-        ["case", "chart", "output", "results", "signal"].map(|name| format!("crates/{name}"));
-    for room in rooms.map(str::to_owned).iter().chain(&crates) {
+    let crates = ["case", "chart", "output", "results", "signal", "study"];
+    let crates = crates.map(|name| format!("crates/{name}"));
+    for room in crates.iter().map(String::as_str).chain(["src/app"]) {
         rust_files(&root.join(room), &mut files);
     }
     for path in files {

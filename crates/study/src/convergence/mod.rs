@@ -1,0 +1,221 @@
+//! A case on several meshes and with several time steps, and what is compared between them.
+//!
+//! ```no_run
+//! use frictionsim::case::Case;
+//! use frictionsim::fem::operator::SimdLevel;
+//! use frictionsim::results::Manifest;
+//! use frictionsim::study::convergence::{levels, solve};
+//!
+//! let case = Case::parse("disc", &std::fs::read("cases/convergence.toml")?, &[])?;
+//! let levels = levels(&case, SimdLevel::detect())?;
+//! for series in solve(&case, &levels, &Manifest::new("convergence"), &|| {})? {
+//!     println!("{} over {}", series.analysis, series.levels.join(", "));
+//! }
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod quantities;
+
+use super::transient::TransientStudy;
+use super::{StudyError, eigenvalues, summarize, summary};
+use frictionsim_case::{Analysis, Case, CaseErrors, StabilityChoice, TimeStep, refusal};
+use frictionsim_physics::cea::FrictionSweep;
+use frictionsim_physics::fem::operator::SimdLevel;
+use frictionsim_results::Manifest;
+use frictionsim_results::convergence::{Quantity, Refinement, Series};
+use serde_json::Value;
+use std::time::Instant;
+
+/// Levels of one series: the same case refined.
+pub struct Levels {
+    /// What runs.
+    pub analysis: Analysis,
+    /// What is refined.
+    pub refinement: Refinement,
+    /// One case for each level, coarsest first.
+    pub cases: Vec<Case>,
+}
+
+/// What one level gave.
+enum Outcome {
+    Cea(FrictionSweep),
+    Summary(Value),
+}
+
+/// A level done, and its wall time, s.
+type Timed = (Outcome, f64);
+
+/// The levels that a case asks for.
+///
+/// # Errors
+/// [`StudyError::Case`] for a case without `[convergence]`, or that makes no valid case when refined.
+pub fn levels(case: &Case, simd: SimdLevel) -> Result<Vec<Levels>, StudyError> {
+    let convergence = case.require_convergence()?;
+    let factors = convergence.factors.iter();
+    let meshes: Result<Vec<Case>, CaseErrors> = factors.map(|&f| case.refined(f)).collect();
+    let meshes = meshes?;
+    let over_meshes = convergence.analyses.iter().map(|&analysis| Levels {
+        analysis,
+        refinement: Refinement::Mesh,
+        cases: match analysis {
+            Analysis::Cycle => meshes.iter().map(own_cycles).collect(),
+            _ => meshes.clone(),
+        },
+    });
+    let mut all: Vec<Levels> = over_meshes.collect();
+    if !convergence.time_step_factors.is_empty() {
+        let study = TransientStudy::new(case, simd)?;
+        let step = study.plan(study.operator()?.as_ref())?.time_step;
+        let factors = convergence.time_step_factors.iter();
+        all.push(Levels {
+            analysis: Analysis::Transient,
+            refinement: Refinement::TimeStep,
+            cases: factors.map(|&f| with_time_step(case, f * step)).collect(),
+        });
+    }
+    Ok(all)
+}
+
+/// Solves every level, side by side, the costliest first, and compares them; `done` hears of every level.
+///
+/// # Errors
+/// Those of the first level that cannot be solved; time steps that are the same.
+pub fn solve(
+    case: &Case,
+    levels: &[Levels],
+    manifest: &Manifest,
+    done: &(dyn Fn() + Sync),
+) -> Result<Vec<Series>, StudyError> {
+    let jobs = levels.iter().flat_map(|study| {
+        let cases = study.cases.iter();
+        cases.map(|case| (study.analysis, case))
+    });
+    // Finest meshes and shortest steps stand last in each study.
+    let jobs: Vec<(Analysis, &Case)> = jobs.collect();
+    let solved: Vec<Result<Timed, StudyError>> =
+        frictionsim_physics::parallel::map(jobs.iter().rev(), |(analysis, case)| {
+            let start = Instant::now();
+            let outcome = match analysis {
+                Analysis::Cea => Outcome::Cea(eigenvalues::modes_and_onsets(case)?),
+                // That a level has no cycle is said beside the others.
+                Analysis::Cycle => Outcome::Summary(summary::cycle(case, manifest, |_| Ok(()))?),
+                Analysis::Transient | Analysis::Basin => {
+                    Outcome::Summary(summarize(case, *analysis, manifest)?)
+                }
+            };
+            done();
+            Ok((outcome, start.elapsed().as_secs_f64()))
+        });
+    // The first level that failed speaks, whichever thread was first.
+    let mut solved = solved.into_iter().rev().collect::<Result<Vec<Timed>, _>>()?.into_iter();
+    let of_each = levels.iter().map(|study| {
+        let outcomes = solved.by_ref().take(study.cases.len()).collect();
+        series(case, study, outcomes)
+    });
+    Ok(of_each.collect::<Result<Vec<_>, _>>()?.concat())
+}
+
+fn with_time_step(case: &Case, step: f64) -> Case {
+    let mut case = case.clone();
+    if let Some(transient) = &mut case.transient {
+        transient.time_step = TimeStep::Seconds(step);
+    }
+    case
+}
+
+/// The case with the limit cycles at its own operating point alone.
+fn own_cycles(case: &Case) -> Case {
+    let mut case = case.clone();
+    if let Some(cycle) = &mut case.cycle {
+        cycle.continuation = None;
+        cycle.stability = StabilityChoice::None;
+    }
+    case
+}
+
+/// The series of a study: one, or for limit cycles one for each family.
+fn series(case: &Case, study: &Levels, outcomes: Vec<Timed>) -> Result<Vec<Series>, StudyError> {
+    let (outcomes, wall_s): (Vec<Outcome>, Vec<f64>) = outcomes.into_iter().unzip();
+    let (mut sweeps, mut summaries) = (Vec::new(), Vec::new());
+    for outcome in outcomes {
+        match outcome {
+            Outcome::Cea(sweep) => sweeps.push(sweep),
+            Outcome::Summary(summary) => summaries.push(summary),
+        }
+    }
+    let steps = summaries.iter().filter_map(|s: &Value| s["time_step_s"].as_f64());
+    let steps: Vec<f64> = steps.collect();
+    let (sizes, levels): (Vec<f64>, Vec<String>) = match study.refinement {
+        Refinement::Mesh => study.cases.iter().map(mesh_level).unzip(),
+        Refinement::TimeStep => steps.iter().map(|&s| (s, format!("{s:.4e}"))).unzip(),
+    };
+    if sizes.windows(2).any(|pair| pair[1] >= pair[0]) {
+        return Err(StudyError::Case(refusal!(case, "convergence.time_step_factors",
+            "convergence.time_step_factors gives the time steps {} s: two are the same, as a step \
+             divides output.sample_interval", levels.join(", ");
+            "factors further apart")));
+    }
+    let of = |analysis: &str, quantities: Vec<Quantity>, notes: Vec<String>| Series {
+        analysis: analysis.to_owned(),
+        refinement: study.refinement,
+        levels: levels.clone(),
+        sizes: sizes.clone(),
+        quantities,
+        wall_s: wall_s.clone(),
+        notes,
+    };
+    Ok(match study.analysis {
+        Analysis::Cea => {
+            let (quantities, notes) = quantities::of_sweeps(case, &sizes, &sweeps);
+            vec![of("cea", quantities, notes)]
+        }
+        Analysis::Transient => {
+            let steps: Vec<String> = steps.iter().map(|step| format!("{step:.4e}")).collect();
+            let notes = match study.refinement {
+                Refinement::Mesh => vec![format!("time steps {} s", steps.join(", "))],
+                Refinement::TimeStep => Vec::new(),
+            };
+            let quantities = quantities::of_transients(&sizes, &summaries);
+            vec![of("transient", quantities, notes)]
+        }
+        Analysis::Basin => vec![of("basin", Vec::new(), Vec::new())],
+        Analysis::Cycle => quantities::by_family(&summaries)
+            .into_iter()
+            .map(|(family, cycles)| {
+                let phases = cycles.iter().map(|cycle| match cycle["phases"].as_u64() {
+                    Some(phases) => phases.to_string(),
+                    None => "no".to_owned(),
+                });
+                let mut notes = vec![format!("{} phases", phases.collect::<Vec<_>>().join(", "))];
+                for (level, cycle) in levels.iter().zip(&cycles) {
+                    let error = cycle["error"].as_str();
+                    notes.extend(error.map(|error| format!("{level}: {error}")));
+                    if cycle["confirmation"]["agrees"] == false {
+                        notes.push(format!(
+                            "{level}: NOT CONFIRMED: a transient does not stay on the cycle found: take a finer mesh"
+                        ));
+                    }
+                }
+                let quantities = quantities::of_limit_cycles(&sizes, &cycles);
+                of(&format!("cycle-{}", family.tag()), quantities, notes)
+            })
+            .collect(),
+    })
+}
+
+/// Element size and name of a mesh: the size is the side of a square of the mean element area, m.
+fn mesh_level(case: &Case) -> (f64, String) {
+    let body = &case.body;
+    let Some(grid) = body.grid() else {
+        let count = body.element_count();
+        let size = match body.dimension() {
+            3 => 2.0 * body.size() / (count as f64).cbrt(),
+            _ => (body.area() / count as f64).sqrt(),
+        };
+        return (size, format!("{count} elements"));
+    };
+    let (around, radial) = (grid.circumferential_elements, grid.radial_elements);
+    let size = (body.area() / (around as f64 * radial as f64)).sqrt();
+    let layers = body.revolution().map(|own| format!(" x {}", own.specification.axial_elements));
+    (size, format!("{around} x {radial}{}", layers.unwrap_or_default()))
+}

@@ -1,0 +1,244 @@
+//! Quantities compared between the levels of a convergence study.
+
+use frictionsim_case::Case;
+use frictionsim_physics::cea::{ComplexMode, FrictionSweep, UnstableInterval};
+use frictionsim_physics::cycle::Family;
+use frictionsim_physics::linalg::c64;
+use frictionsim_results::cea::mode_name;
+use frictionsim_results::convergence::Quantity;
+use serde_json::Value;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Harmonic, branch and direction: what a mode is known by on every mesh.
+type ModeKey = (usize, usize, i8);
+
+/// A part of an eigenvalue, Hz.
+type PartOf = fn(&ComplexMode) -> f64;
+
+fn key_of(mode: &ComplexMode) -> ModeKey {
+    (mode.harmonic, mode.branch, mode.direction)
+}
+
+fn interval_key(interval: &UnstableInterval) -> ModeKey {
+    (interval.harmonic, interval.branch, interval.direction)
+}
+
+fn name_of((harmonic, branch, direction): ModeKey, has_harmonics: bool) -> String {
+    mode_name(has_harmonics.then_some(harmonic), branch, direction)
+}
+
+/// Frequency and real part of every mode at the case's friction coefficient, and every first onset,
+/// that all levels have; notes name those that some level lacks.
+pub fn of_sweeps(
+    case: &Case,
+    sizes: &[f64],
+    sweeps: &[FrictionSweep],
+) -> (Vec<Quantity>, Vec<String>) {
+    let friction = case.contact.sliding.friction_coefficient;
+    let mut named = Vec::new();
+    let sweeps = match case.has_sectors() {
+        true => sweeps,
+        false => {
+            named.extend_from_slice(sweeps);
+            name_by_rank(&mut named, friction);
+            &named
+        }
+    };
+    let modes: Vec<&[ComplexMode]> = sweeps.iter().map(|sweep| sweep.modes_at(friction)).collect();
+    let finest = modes.last().copied().unwrap_or_default();
+    let everywhere: Vec<Vec<&ComplexMode>> = finest
+        .iter()
+        .filter_map(|mode| {
+            let same = |level: &&'_ [ComplexMode]| -> Option<usize> {
+                level.iter().position(|other| key_of(other) == key_of(mode))
+            };
+            let found = modes.iter().map(|level| Some(&level[same(level)?]));
+            found.collect()
+        })
+        .collect();
+    let mut quantities = Vec::new();
+    let parts: [(&str, PartOf); 2] =
+        [("frequency", ComplexMode::frequency_hz), ("real part", ComplexMode::real_hz)];
+    for (part, value) in parts {
+        for levels in &everywhere {
+            let name = format!("{part}, {}", name_of(key_of(levels[0]), case.has_sectors()));
+            let values = levels.iter().map(|mode| value(mode)).collect();
+            quantities.push(Quantity {
+                is_minor: !levels.last().is_some_and(|finest| finest.is_unstable()),
+                ..Quantity::new(name, "Hz", sizes, values)
+            });
+        }
+    }
+    quantities.extend(onsets(sizes, sweeps, case.has_sectors()));
+    let mut notes = vec![format!("{} modes at friction coefficient {friction}", everywhere.len())];
+    let most = modes.iter().map(|level| level.len()).max().unwrap_or(0);
+    if most > everywhere.len() {
+        notes.push(format!(
+            "left out: {} modes that not every mesh has in the range asked for",
+            most - everywhere.len()
+        ));
+    }
+    (quantities, notes)
+}
+
+/// Least likeness (modal assurance criterion) of the shapes of one mode on two meshes.
+const SAME_MODE: f64 = 0.5;
+
+/// First number of the branches that the finest mesh does not have.
+const FOREIGN: usize = 1 << 20;
+
+/// Gives the branches of a body without symmetry the rank that their mode has by frequency on the finest mesh, from 1;
+/// from mesh to mesh the likest shapes at `friction` belong together, `|x^H y|^2 / (|x|^2 |y|^2)` over the nodes of the
+/// coarser mesh, which come first on the finer one.
+fn name_by_rank(sweeps: &mut [FrictionSweep], friction: f64) {
+    type Shapes = Vec<(Vec<c64>, usize)>;
+    let own = |sweep: &FrictionSweep| -> Shapes {
+        let modes = sweep.modes_at(friction).iter();
+        modes.map(|mode| (mode.shape.clone().unwrap_or_default(), mode.branch)).collect()
+    };
+    let mut finer: Option<Shapes> = None;
+    for sweep in sweeps.iter_mut().rev() {
+        let modes = own(sweep);
+        let mut rank_of = BTreeMap::new();
+        let mut pairs = Vec::new();
+        match &finer {
+            None => rank_of.extend(modes.iter().enumerate().map(|(i, mode)| (mode.1, i + 1))),
+            Some(finer) => {
+                for (x, branch) in &modes {
+                    pairs.extend(finer.iter().map(|(y, rank)| (-likeness(x, y), *branch, *rank)));
+                }
+            }
+        }
+        // Likest pairs first, each mode once.
+        pairs.retain(|pair| pair.0 < -SAME_MODE);
+        rank_of.extend(frictionsim_physics::order::each_once(pairs));
+        let rename = |branch: &mut usize| {
+            *branch = rank_of.get(branch).map_or(FOREIGN + *branch, |rank| *rank);
+        };
+        for mode in sweep.points.iter_mut().flat_map(|point| &mut point.modes) {
+            rename(&mut mode.branch);
+            (mode.harmonic, mode.direction) = (0, 0);
+        }
+        for interval in &mut sweep.intervals {
+            rename(&mut interval.branch);
+            (interval.harmonic, interval.direction) = (0, 0);
+        }
+        finer = Some(own(sweep));
+    }
+}
+
+/// `|x^H y|^2 / (|x|^2 |y|^2)` over the leading entries that both have.
+fn likeness(x: &[c64], y: &[c64]) -> f64 {
+    let pairs = || x.iter().zip(y);
+    let product: c64 = pairs().map(|(a, b)| a.conj() * b).sum();
+    let size = |v: f64, part: c64| v + part.norm_sqr();
+    let sizes = pairs().fold((0.0, 0.0), |(p, q), (a, b)| (size(p, *a), size(q, *b)));
+    product.norm_sqr() / (sizes.0 * sizes.1).max(f64::MIN_POSITIVE)
+}
+
+/// Critical friction of every branch that turns unstable within the range of every level.
+fn onsets(sizes: &[f64], sweeps: &[FrictionSweep], has_harmonics: bool) -> Vec<Quantity> {
+    let mut quantities: Vec<Quantity> = Vec::new();
+    let Some(finest) = sweeps.last() else {
+        return quantities;
+    };
+    let mut seen: BTreeSet<ModeKey> = BTreeSet::new();
+    for interval in finest.intervals.iter().filter(|i| i.is_located()) {
+        let key = interval_key(interval);
+        if !seen.insert(key) {
+            continue;
+        }
+        let values: Option<Vec<f64>> = sweeps
+            .iter()
+            .map(|sweep| {
+                let mut all = sweep.intervals.iter();
+                all.find(|other| interval_key(other) == key)
+                    .filter(|other| other.is_located())
+                    .map(|other| other.critical_friction)
+            })
+            .collect();
+        if let Some(values) = values {
+            let name = format!("critical friction, {}", name_of(key, has_harmonics));
+            quantities.push(Quantity::new(name, "", sizes, values));
+        }
+    }
+    quantities
+}
+
+/// A number of a summary; `NaN` where there is none.
+fn number(summary: &Value, path: &str) -> f64 {
+    summary.pointer(path).and_then(Value::as_f64).unwrap_or(f64::NAN)
+}
+
+/// The entries of a list of a summary.
+fn listed<'a>(summary: &'a Value, name: &str) -> impl Iterator<Item = &'a Value> {
+    summary[name].as_array().into_iter().flatten()
+}
+
+/// Frequency, harmonic, status, powers and growth rates of transients, from their summaries.
+pub fn of_transients(sizes: &[f64], summaries: &[Value]) -> Vec<Quantity> {
+    let harmonics = summaries.iter().map(|summary| number(summary, "/main_harmonic"));
+    let harmonic = Quantity::count("main harmonic".to_owned(), harmonics.collect());
+    let mut quantities = of_limit_cycles(sizes, summaries);
+    quantities.insert(1, harmonic);
+    quantities.extend(growth_rates(sizes, summaries));
+    quantities
+}
+
+/// Frequency, status and powers of limit cycles.
+pub fn of_limit_cycles(sizes: &[f64], cycles: &[Value]) -> Vec<Quantity> {
+    let each = |name: &str, unit: &'static str, path: &str| {
+        let values = cycles.iter().map(|cycle| number(cycle, path));
+        Quantity::new(name.to_owned(), unit, sizes, values.collect())
+    };
+    // A power as a share of the external one.
+    let share = |name: &str, path: &str| {
+        let external = |cycle: &Value| number(cycle, "/power_w/external");
+        let values = cycles.iter().map(|cycle| number(cycle, path) / external(cycle));
+        Quantity::new(format!("{name} / external power"), "", sizes, values.collect())
+    };
+    vec![
+        each("main frequency", "Hz", "/main_frequency_hz"),
+        each("stick fraction", "", "/status/stick"),
+        each("slip fraction", "", "/status/slip"),
+        each("open fraction", "", "/status/open"),
+        each("external power", "W", "/power_w/external"),
+        share("stick", "/power_w/stick"),
+        share("slide", "/power_w/slide"),
+        share("contact dissipation", "/power_w/contact_dissipated"),
+        share("material damping", "/power_w/material_damping"),
+    ]
+}
+
+/// The limit cycles of each family that some search looked for, level by level; null where one did not.
+pub fn by_family(summaries: &[Value]) -> Vec<(Family, Vec<Value>)> {
+    let family = |cycle: &Value| {
+        let part = |name: &str| Some(cycle[name].as_u64()? as usize);
+        Some(Family { harmonic: part("harmonic")?, onset: part("onset")? })
+    };
+    let all = summaries.iter().flat_map(|summary| listed(summary, "cycles"));
+    let families: BTreeSet<Family> = all.filter_map(family).collect();
+    let of = |wanted: Family| {
+        let own = |summary: &Value| {
+            let mut cycles = listed(summary, "cycles");
+            cycles.find(|cycle| family(cycle) == Some(wanted)).cloned().unwrap_or_default()
+        };
+        summaries.iter().map(own).collect()
+    };
+    families.into_iter().map(|f| (f, of(f))).collect()
+}
+
+/// Growth rate of each harmonic that some run has one of.
+fn growth_rates(sizes: &[f64], summaries: &[Value]) -> Vec<Quantity> {
+    let all = summaries.iter().flat_map(|summary| listed(summary, "growth"));
+    let harmonics: BTreeSet<u64> = all.filter_map(|growth| growth["harmonic"].as_u64()).collect();
+    let of = |harmonic: u64| {
+        let rate = |summary: &Value| {
+            let own = listed(summary, "growth").find(|growth| growth["harmonic"] == harmonic);
+            own.map_or(f64::NAN, |growth| number(growth, "/rate_per_s"))
+        };
+        let name = format!("growth rate, n = {harmonic}");
+        Quantity::new(name, "1/s", sizes, summaries.iter().map(rate).collect())
+    };
+    harmonics.into_iter().map(of).collect()
+}

@@ -1,0 +1,132 @@
+//! Limit cycles that a case asks for, and the parameter over which they are followed.
+
+use super::critical::{candidates, critical};
+use super::operating_point;
+use crate::StudyError;
+use crate::eigenvalues::asked_modes;
+use frictionsim_case::{Case, CaseErrors, Cycle, OnsetChoice, refusal};
+use frictionsim_physics::cycle::{
+    CriticalValue, CycleError, CycleSolver, DiscModel, Family, LARGEST_FRICTION, MODES, Onset,
+    Parameter,
+};
+use std::collections::BTreeSet;
+
+/// The solver of a family, or why it has none.
+pub type Sought = Result<CycleSolver, (Family, CycleError)>;
+
+/// The parameter of `[cycle.continuation]` and its SI values, for a round or a plane counterface or for solid bodies.
+pub fn continuation(
+    case: &Case,
+    cycle: &Cycle,
+    is_round: bool,
+) -> Result<Option<(Parameter, Vec<f64>)>, StudyError> {
+    let Some(continuation) = &cycle.continuation else {
+        return Ok(None);
+    };
+    let suits = |known: &&Parameter| match case.body.assembly() {
+        Some(_) => known.is_of_solid_bodies(),
+        None => known.suits(is_round),
+    };
+    let parameter = Parameter::from_key(&continuation.key).filter(|known| suits(&known));
+    let Some(parameter) = parameter else {
+        let known = Parameter::ALL.iter().filter(suits);
+        let known: Vec<&str> = known.map(|known| known.key()).collect();
+        return Err(StudyError::Case(refusal!(case, "cycle.continuation.key",
+            "limit cycles cannot be followed over {}", continuation.key;
+            "not one of the parameters of a cycle"; "one of {}", known.join(", "))));
+    };
+    let values = continuation.values().into_iter();
+    let values = values.map(|value| value * parameter.unit()).collect();
+    Ok(Some((parameter, values)))
+}
+
+/// The first onset above a friction coefficient, for the sentence that steady sliding is stable there.
+pub fn next_onset(case: &Case, friction: f64) -> Option<Onset> {
+    let model = disc_model(case).ok()?;
+    let mut highest = 2.0 * friction;
+    while highest <= 2.0 {
+        let found = model.onsets(highest, asked_modes(case, MODES)).ok()?;
+        if let Some(first) = found.into_iter().next() {
+            return Some(first);
+        }
+        highest *= 2.0;
+    }
+    None
+}
+
+/// The value of a parameter towards its range at which the lowest onset comes down to the case's friction coefficient;
+/// none of parameters that no onset depends on: sliding at constant friction knows neither speed nor interference.
+pub fn critical_value(case: &Case, parameter: Parameter, values: &[f64]) -> Option<CriticalValue> {
+    let mut point = operating_point(case);
+    let (model, here) = (disc_model(case).ok()?, parameter.of(&point));
+    let friction = point.contact.friction_coefficient;
+    if parameter == Parameter::FrictionCoefficient {
+        let onset = next_onset(case, friction)?;
+        return Some(CriticalValue { parameter, value: onset.friction_coefficient });
+    }
+    if parameter.is_of_contact() {
+        return None;
+    }
+    let mut growth = |value: f64| {
+        parameter.set(&mut point, value);
+        let damping = point.damping;
+        let other = DiscModel { damping, ..model };
+        let onsets = other.onsets(LARGEST_FRICTION, asked_modes(case, MODES)).ok()?;
+        let lowest = onsets.first().map(|onset| onset.friction_coefficient);
+        Some(friction - lowest.unwrap_or(LARGEST_FRICTION))
+    };
+    let growing = candidates(values, here);
+    let growing = growing.into_iter().find(|&value| growth(value).is_some_and(|own| own > 0.0))?;
+    critical(parameter, growth, [here, growing])
+}
+
+/// The disc of a case as its limit cycles see it.
+///
+/// # Errors
+/// A body that is no plane annulus.
+pub fn disc_model(case: &Case) -> Result<DiscModel, CaseErrors> {
+    let search = "limit cycles are sought in";
+    let annulus = case.require_annulus("limit cycles are rotating waves, which", search)?;
+    Ok(DiscModel {
+        specification: annulus.specification,
+        material: annulus.materials[0].own.elastic,
+        damping: case.damping.rayleigh,
+    })
+}
+
+/// One solver for each family asked for; where no harmonic is named, for every wave that is unstable at the case's
+/// friction. A harmonic that is named is sought even where steady sliding is stable: its cycles may outlive their
+/// birth.
+pub fn solvers(case: &Case, cycle: &Cycle, onsets: &[Onset]) -> Result<Vec<Sought>, StudyError> {
+    let (model, limit) = (disc_model(case)?, asked_modes(case, MODES));
+    let harmonics: BTreeSet<usize> = match &cycle.harmonics {
+        Some(harmonics) => harmonics.iter().copied().collect(),
+        None => onsets.iter().map(|onset| onset.harmonic).collect(),
+    };
+    let mut solvers = Vec::new();
+    for harmonic in harmonics {
+        let own = onsets.iter().filter(|onset| onset.harmonic == harmonic);
+        let mut own: Vec<Onset> = own.copied().collect();
+        if own.is_empty() {
+            match model.onset_of(Family::lowest(harmonic), limit) {
+                Ok(onset) => own.push(onset),
+                Err(error) => {
+                    solvers.push(Err((Family::lowest(harmonic), error)));
+                    continue;
+                }
+            }
+        }
+        if cycle.onsets == OnsetChoice::Lowest {
+            own.truncate(1);
+        }
+        for (rank, onset) in own.iter().enumerate() {
+            let family = Family { harmonic, onset: rank + 1 };
+            match CycleSolver::born_at(&model, family, onset, cycle.phases) {
+                Ok(solver) => solvers.push(Ok(solver)),
+                Err(error @ CycleError::Undamped { .. }) => solvers.push(Err((family, error))),
+                Err(error) => return Err(error.into()),
+            }
+        }
+    }
+    Ok(solvers)
+}

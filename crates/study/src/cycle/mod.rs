@@ -1,0 +1,290 @@
+//! Limit cycles of a case: found directly, followed over a parameter, with their stability.
+//!
+//! ```no_run
+//! use frictionsim::case::Case;
+//! use frictionsim::fem::operator::SimdLevel;
+//! use frictionsim::study::cycle::CycleStudy;
+//!
+//! let bytes = std::fs::read("cases/limit-cycle.toml")?;
+//! let case = Case::parse("disc", &bytes, &["cycle.stability=\"none\"".to_owned()])?;
+//! for result in CycleStudy::new(&case, SimdLevel::detect())?.run(0, &|| {}) {
+//!     println!("{}: {:?} Hz", result.family, result.cycle.map(|cycle| cycle.frequency_hz()));
+//! }
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod along;
+mod critical;
+mod families;
+mod periodic;
+mod two_waves;
+
+pub use families::disc_model;
+pub use periodic::{PeriodicStudy, boundary_of_modes};
+
+use super::{StudyError, extent_of};
+use crate::eigenvalues::asked_modes;
+use along::{along, changes};
+use families::{Sought, continuation, critical_value, next_onset, solvers};
+use frictionsim_case::{Case, Cycle, StabilityChoice};
+use frictionsim_physics::cycle::periodic::MotionFrame;
+use frictionsim_physics::cycle::{
+    CriticalValue, CycleError, CycleSolver, CycleStability, Family, LimitCycle, MODES,
+    MeshStepping, Onset, OperatingPoint, Parameter,
+};
+use frictionsim_physics::fem::lumped_masses;
+use frictionsim_physics::fem::operator::SimdLevel;
+use frictionsim_physics::mesh::AnnulusMesh;
+use frictionsim_results::ShownBody;
+use frictionsim_results::cycle::{
+    Absence, CycleReport, CycleResult, Search, SoughtCycle, TwoWaveResult, WaveSearch, known,
+};
+use std::time::Instant;
+
+/// What a case asks for: cycles of which harmonics, where, and followed over what.
+pub struct CycleStudy<'a> {
+    case: &'a Case,
+    /// What the case says of its cycles.
+    pub choices: &'a Cycle,
+    annulus: AnnulusMesh,
+    simd: SimdLevel,
+    point: OperatingPoint,
+    continuation: Option<(Parameter, Vec<f64>)>,
+    /// Every onset below the case's friction coefficient; where there is none, those of the harmonics sought.
+    onsets: Vec<Onset>,
+    /// Where along the parameter of `continuation` sliding loses its stability, where it is stable at the case's own.
+    critical: Option<CriticalValue>,
+    /// A solver for each family sought, or why it has none.
+    pub solvers: Vec<Sought>,
+}
+
+impl<'a> CycleStudy<'a> {
+    /// What a case asks for.
+    ///
+    /// # Errors
+    /// A bad case; steady sliding that is stable against every harmonic, where the case names none.
+    pub fn new(case: &'a Case, simd: SimdLevel) -> Result<Self, StudyError> {
+        let choices = case.require_cycle()?;
+        case.require_rotating_waves()?;
+        let model = disc_model(case)?;
+        let point = operating_point(case);
+        let friction = point.contact.friction_coefficient;
+        let mut onsets = model.onsets(friction, asked_modes(case, MODES))?;
+        let continuation = continuation(case, choices, true)?;
+        let mut critical = None;
+        let solvers = solvers(case, choices, &onsets)?;
+        if onsets.is_empty() {
+            let along = continuation.as_ref();
+            critical =
+                along.and_then(|(parameter, values)| critical_value(case, *parameter, values));
+            onsets = solvers.iter().flatten().map(|s| s.onset).collect();
+            onsets.extend(next_onset(case, friction));
+            frictionsim_physics::order::sort_by_number(&mut onsets, |a| a.friction_coefficient);
+        }
+        Ok(Self {
+            case,
+            choices,
+            annulus: AnnulusMesh::generate(&model.specification)?,
+            simd,
+            point,
+            continuation,
+            critical,
+            solvers,
+            onsets,
+        })
+    }
+
+    /// The cycles, with the whole field at so many times over one period; `done` hears of every family.
+    pub fn run(&self, frames: usize, done: &(dyn Fn() + Sync)) -> Vec<CycleResult> {
+        frictionsim_physics::parallel::map(&self.solvers, |solver| {
+            let result = match solver {
+                Ok(solver) => self.solve(solver, frames),
+                // A family that cannot be sought at all.
+                Err((family, error)) => {
+                    let is_stable = matches!(error, CycleError::NoOnset { .. });
+                    self.result(*family, Err(Absence { reason: error.to_string(), is_stable }))
+                }
+            };
+            done();
+            result
+        })
+    }
+
+    /// Root mean square over the mass that moves of a velocity field: of a rotating wave it is the same at every time.
+    fn velocity(&self, field: &[f64]) -> f64 {
+        let mesh = &self.annulus.mesh;
+        let masses = lumped_masses(mesh, self.case.materials());
+        let mut moves = vec![true; field.len()];
+        mesh.held_dofs().for_each(|dof| moves[dof] = false);
+        let sums =
+            (0..field.len()).filter(|&dof| moves[dof]).fold([0.0; 2], |[energy, mass], dof| {
+                let own = masses[dof / 2];
+                [energy + own * field[dof].powi(2), mass + 0.5 * own]
+            });
+        (sums[0] / sums[1]).sqrt()
+    }
+
+    /// Everything that there is to report of the results.
+    pub fn report(
+        &self,
+        results: Vec<CycleResult>,
+        two_waves: Vec<TwoWaveResult>,
+        wall_s: f64,
+    ) -> CycleReport<'_> {
+        CycleReport {
+            title: &self.case.title,
+            body: ShownBody { mesh: &self.annulus.mesh, sector: None },
+            thickness: self.case.thickness,
+            extent: extent_of(self.case),
+            friction_coefficient: self.point.contact.friction_coefficient,
+            critical: self.critical,
+            search: Search::Waves(WaveSearch {
+                inner_radius: self.annulus.specification.inner_radius,
+                contact: self.point.contact,
+                lowest_onset: self.onsets.first().copied(),
+                results,
+                two_waves,
+            }),
+            wall_s,
+        }
+    }
+
+    fn onsets_of(&self, harmonic: usize) -> Vec<Onset> {
+        self.onsets.iter().filter(|o| o.harmonic == harmonic).copied().collect()
+    }
+
+    /// Why a family whose onset is known has no cycle.
+    fn absence(&self, solver: &CycleSolver, error: &CycleError) -> Absence {
+        let (friction, onset) =
+            (self.point.contact.friction_coefficient, solver.onset.friction_coefficient);
+        let is_stable = friction < onset;
+        Absence {
+            reason: match is_stable {
+                true => {
+                    format!("{friction} < {onset:.4}: steady sliding is stable against this wave")
+                }
+                false => error.to_string(),
+            },
+            is_stable,
+        }
+    }
+
+    /// The result of a family with nothing found out beside its cycle.
+    fn result(&self, family: Family, cycle: Result<LimitCycle, Absence>) -> CycleResult {
+        CycleResult {
+            family,
+            onsets: self.onsets_of(family.harmonic),
+            cycle,
+            frames: Vec::new(),
+            velocity: None,
+            phases: 0,
+            confirmation: None,
+            stability: None,
+            branch_stability: Vec::new(),
+            stability_changes: Vec::new(),
+            branch: None,
+            wall_s: 0.0,
+        }
+    }
+
+    /// The cycle of a family with everything asked for: branch, stability, confirmation, fields.
+    fn solve(&self, solver: &CycleSolver, frame_count: usize) -> CycleResult {
+        let start = Instant::now();
+        let stability = self.choices.stability;
+        let found = solver.find(&self.point);
+        let branch = match (&found, &self.continuation) {
+            (Ok(cycle), Some((parameter, values))) => {
+                Some(solver.follow(cycle, *parameter, values))
+            }
+            _ => None,
+        };
+        let frames = found.as_ref().map_or(Vec::new(), |cycle| {
+            let field = |time| solver.field(cycle, time);
+            frames(field, 1.0 / cycle.frequency_hz(), frame_count)
+        });
+        let velocity = found.as_ref().ok();
+        let velocity = velocity.map(|cycle| self.velocity(&solver.field(cycle, 0.0)[1]));
+        let cycle = found.map_err(|error| self.absence(solver, &error));
+        let mut result = CycleResult {
+            velocity,
+            phases: solver.grid.points,
+            frames,
+            ..self.result(solver.family, cycle)
+        };
+        // What the mesh's own time stepping makes of it.
+        if let Ok(cycle) = &mut result.cycle {
+            match solver.stepping(self.simd) {
+                Ok(stepping) => {
+                    if stability != StabilityChoice::None {
+                        result.stability = Some(settle(&stepping, cycle));
+                    }
+                    let periods = self.choices.confirmation_periods;
+                    let known = known(&result.stability);
+                    result.confirmation = (periods > 0).then(|| {
+                        stepping.confirm(cycle, known, periods).map_err(|e| e.to_string())
+                    });
+                    if let (Some(branch), StabilityChoice::Branch) = (&branch, stability) {
+                        let settled = along(&stepping, &branch.cycles);
+                        result.stability_changes = changes(&stepping, branch.parameter, &settled);
+                        result.branch_stability = settled
+                            .into_iter()
+                            .map(|settled| Some(settled.map(|settled| settled.stability)))
+                            .collect();
+                    }
+                }
+                Err(error) => result.confirmation = Some(Err(error.to_string())),
+            }
+        }
+        result.branch = branch;
+        result.wall_s = start.elapsed().as_secs_f64();
+        result
+    }
+}
+
+/// The limit cycle of `family` at the case's own operating point, and its solver.
+///
+/// # Errors
+/// No such cycle, or elements that a cycle cannot be sought on.
+pub fn limit_cycle(case: &Case, family: Family) -> Result<(CycleSolver, LimitCycle), StudyError> {
+    let phases = case.cycle.as_ref().and_then(|cycle| cycle.phases);
+    let model = disc_model(case)?;
+    let onset = model.onset_of(family, asked_modes(case, MODES))?;
+    let solver = CycleSolver::born_at(&model, family, &onset, phases)?;
+    let cycle = solver.find(&operating_point(case))?;
+    Ok((solver, cycle))
+}
+
+/// That there is no cycle is an answer where steady sliding is stable, else a failure.
+///
+/// # Errors
+/// [`StudyError::NoCycle`].
+pub fn refuse_nothing(report: &CycleReport<'_>) -> Result<(), StudyError> {
+    let cycles = report.cycles();
+    if report.is_stable() || cycles.iter().any(|own| own.cycle.is_some()) {
+        return Ok(());
+    }
+    let reason = |own: &SoughtCycle| {
+        let reason = own.error.as_ref().or(own.absent.as_ref())?;
+        Some(format!("{}: {reason}", own.name))
+    };
+    let reasons: Vec<String> = cycles.iter().filter_map(reason).collect();
+    Err(StudyError::NoCycle(reasons.join("; ")))
+}
+
+/// Where a case stands among the limit cycles of its disc.
+pub fn operating_point(case: &Case) -> OperatingPoint {
+    OperatingPoint { contact: case.contact.sliding, damping: case.damping.rayleigh }
+}
+
+/// Stability of a cycle; its powers and fractions become those of the transient.
+fn settle(stepping: &MeshStepping<'_>, cycle: &mut LimitCycle) -> Result<CycleStability, String> {
+    let settled = stepping.settle(cycle, None).map_err(|e| e.to_string())?;
+    *cycle = settled.cycle;
+    Ok(settled.stability)
+}
+
+/// The whole field, given for a time, at `count` times over one period (s).
+fn frames(field: impl Fn(f64) -> [Vec<f64>; 2], period: f64, count: usize) -> Vec<MotionFrame> {
+    let times = (0..count).map(|i| period * i as f64 / count as f64);
+    times.map(|time| MotionFrame { time, fields: field(time), contact: None }).collect()
+}

@@ -1,0 +1,197 @@
+//! Complex eigenvalues of the steady sliding of a case: its model, and the sweep over friction by
+//! the solver it gets. The spectrum alone is for those who study it.
+//!
+//! ```no_run
+//! use frictionsim::case::Case;
+//! use frictionsim::study::eigenvalues::modes_and_onsets;
+//!
+//! let bytes = std::fs::read("cases/polycarbonate-disc.toml")?;
+//! let case = Case::parse("disc", &bytes, &["contact.friction_coefficient=0.25".to_owned()])?;
+//! let sweep = modes_and_onsets(&case)?;
+//! println!("{:?}", sweep.intervals.first());
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod dampings;
+mod model;
+mod notes;
+mod reading;
+mod sensitivity;
+mod sliding;
+mod solid;
+mod solve;
+mod spectrum;
+mod states;
+mod whole;
+
+pub use dampings::dampings;
+pub use model::{Model, Solver, Spectrum, asked_modes, wave_tangent};
+pub(super) use sensitivity::rates::{is_like, rates_of_waves};
+pub use sensitivity::{BodySensitivities, body_sensitivities};
+pub use sliding::{SlidingModel, SteadyState};
+pub use solve::{Solved, solve, solve_modes, solved};
+pub(super) use spectrum::analysis;
+pub use spectrum::{
+    OnsetSearch, modes_at_own_friction, modes_below, modes_with_waves_below, unstable_intervals,
+};
+pub(crate) use whole::BasePoint;
+pub use whole::{Sliding, WholeMesh};
+
+use super::StudyError;
+use frictionsim_case::{Case, Cea, Diagnostic, ModeLimit};
+use frictionsim_physics::cea::sparse::FrictionlessModes;
+use frictionsim_physics::cea::{CeaError, FrictionSweep, SweepRequest, SweepWatch};
+use frictionsim_physics::linalg::banded::BandedFactor;
+use frictionsim_physics::linalg::{LdlAnalysis, SparseLdl};
+use frictionsim_results::cea::{BaseField, CeaReport, Reading, SensitivityReport};
+use solve::at_key;
+use std::f64::consts::TAU;
+
+/// Hears of every friction value that is solved, and may keep what took long to find.
+pub type Progress<'a> = dyn SweepWatch + 'a;
+
+/// What a solver gives back.
+pub struct Solution {
+    /// Modes at every friction value, and where branches turn unstable.
+    pub sweep: FrictionSweep,
+    /// Unknowns of the eigenproblem.
+    pub dofs: usize,
+    /// Which solver.
+    pub method: &'static str,
+    /// Derivatives of the eigenvalues at the case's own friction coefficient.
+    pub sensitivities: Option<SensitivityReport>,
+    /// Where growth comes from and which modes couple; none without mode shapes.
+    pub reading: Option<Reading>,
+    /// What it has to say.
+    pub notes: Vec<String>,
+}
+
+/// Modes at the case's own friction coefficient and the onsets over its sweep; mode shapes only of a body without
+/// symmetry, whose modes are recognised by nothing else.
+///
+/// # Errors
+/// Those of the mesh, of steady sliding and of the solver; a frequency limit below the first mode.
+pub fn modes_and_onsets(case: &Case) -> Result<FrictionSweep, StudyError> {
+    let cea = Cea {
+        shapes_at: vec![case.contact.sliding.friction_coefficient],
+        ..case.require_cea()?.clone()
+    };
+    let frictions = cea.solved_friction_coefficients();
+    let shapes_at: &[f64] = if case.body.has_sectors() { &[] } else { &cea.shapes_at };
+    let request = SweepRequest { shapes_at, ..SweepRequest::new(&frictions, cea.modes) };
+    let model = Model::new(case, &cea)?;
+    let sweep = model.spectrum(case, &request)?.sweep;
+    refuse_no_modes(case, &cea, &sweep)?;
+    Ok(sweep)
+}
+
+/// Motions below a frequency limit up to which they are told apart, for so many may be rigid; unknowns up to which
+/// tables are tried.
+const MOST_RIGID: usize = 12;
+const MOST_TABLED: usize = 3_000;
+
+/// Refuses what a run refuses before it follows branches: no steady sliding, no mode below the limit, modes beyond a
+/// table.
+///
+/// Modes without friction are counted: by one factorization of `K - omega^2 M`, or by one of each harmonic.
+///
+/// # Errors
+/// As [`SlidingModel::new`] and [`refuse_no_modes`].
+pub fn preflight(case: &Case, cea: &Cea) -> Result<(), StudyError> {
+    let SlidingModel { model, mesh, .. } = SlidingModel::new(case, cea)?;
+    if case.body.tables().next().is_some() && mesh.dof_count() <= MOST_TABLED {
+        // Tables hold the frequencies of all modes, or not.
+        let one =
+            Cea { friction_coefficients: vec![cea.friction_coefficients[0]], ..cea.of_tables() };
+        let solution = solve_modes(case, &one, &SlidingModel::new(case, &one)?)?;
+        return refuse_no_modes(case, &one, &solution.sweep);
+    }
+    let ModeLimit::MaxFrequency(limit_hz) = cea.modes else {
+        return Ok(());
+    };
+    let kappa = (TAU * limit_hz).powi(2);
+    let tangent = match &model {
+        Model::Whole(whole) => {
+            let first = &whole.range.states[whole.range.state_of[0]];
+            whole.tangent(case, first)?.referred_to(limit_hz)
+        }
+        Model::Waves(options) => {
+            let waves = wave_tangent(case, options)?.expect("a body of sectors has waves");
+            let has_modes = |n: usize| {
+                let [mass, stiffness] = waves.at_rest(n);
+                BandedFactor::new(&stiffness, &mass, kappa).negative_count() > 0
+            };
+            if (0..=waves.largest_harmonic()).any(has_modes) {
+                return Ok(());
+            }
+            // Friction may bring a mode below the limit. There is little to follow.
+            let frictions = cea.solved_friction_coefficients();
+            let request = SweepRequest::new(&frictions, cea.modes);
+            return refuse_no_modes(case, cea, &model.spectrum(case, &request)?.sweep);
+        }
+    };
+    let [stiffness, mass] = [&tangent.stiffness, &tangent.mass].map(|own| own.evaluate(0.0));
+    let shifted: Vec<f64> = stiffness.iter().zip(&mass).map(|(k, m)| k - kappa * m).collect();
+    let analysis = LdlAnalysis::new(tangent.stiffness.pattern()).map_err(CeaError::from)?;
+    if SparseLdl::factorize(&analysis, &shifted).is_ok_and(|f| f.negative_count() > MOST_RIGID) {
+        return Ok(());
+    }
+    let found = FrictionlessModes::compute(&tangent, cea.modes);
+    found.map_or_else(|error| Err(at_key(case, &error)), |_| Ok(()))
+}
+
+/// A frequency limit below the first mode is an error of the case.
+pub fn refuse_no_modes(case: &Case, cea: &Cea, sweep: &FrictionSweep) -> Result<(), StudyError> {
+    match cea.modes {
+        ModeLimit::MaxFrequency(limit) if sweep.points.iter().all(|own| own.modes.is_empty()) => {
+            let message = format!("cea.max_frequency_hz = {limit}: there are no modes below it");
+            Err(no_modes(case, message))
+        }
+        _ => Ok(()),
+    }
+}
+
+fn no_modes(case: &Case, message: String) -> StudyError {
+    let error = Diagnostic::error(
+        message,
+        "below the first mode",
+        case.raw.place("cea.max_frequency_hz"),
+        "raise it, or ask for the lowest ones with `modes = 10` instead",
+    );
+    // A slip of units comes first: the missing modes are its consequence.
+    let all = [case.warnings.as_slice(), &[error]].concat();
+    StudyError::Case(case.raw.errors(all))
+}
+
+/// What there is to report of a solution.
+pub fn report<'a>(
+    case: &'a Case,
+    cea: &'a Cea,
+    model: &'a SlidingModel,
+    solution: &'a Solution,
+    field: &'a BaseField,
+    wall_s: f64,
+) -> CeaReport<'a> {
+    CeaReport {
+        title: &case.title,
+        mesh: &model.mesh,
+        has_harmonics: case.has_sectors(),
+        dofs: solution.dofs,
+        method: solution.method,
+        selection: match cea.modes {
+            ModeLimit::MaxFrequency(limit) => format!("below {limit} Hz"),
+            ModeLimit::Lowest(count) => format!("the {count} lowest"),
+        },
+        friction_coefficients: &cea.friction_coefficients,
+        sweep: &solution.sweep,
+        contact_changes: model.contact_changes(),
+        base: model.base_state(case),
+        field,
+        solid: model.solid(),
+        assembly: model.assembly(),
+        sensitivities: solution.sensitivities.as_ref(),
+        reading: solution.reading.as_ref(),
+        notes: solution.notes.clone(),
+        wall_s,
+    }
+}

@@ -1,0 +1,128 @@
+//! Where on the contact surfaces friction feeds the unstable modes, point by point.
+//!
+//! The forces of the bodies are `f = sum_i dN_i (n_i + mu drag_i t_i) - sum_i (lambda C_i + K_i)
+//! phi` over the contact points `i`. A rigid one has an unknown `dN_i = lift_i . (f + sum_j (lambda
+//! C_j + K_j) phi)`. The growth rate that a point feeds is
+//!
+//! ```text
+//! sigma_i = Im(conj(n_i.phi + mu drag_i t_i.phi) dN_i - phi^H (lambda C_i + K_i) phi) / (2 omega m)
+//! ```
+//!
+//! and their sum what the contact feeds in the budget, without a remainder.
+
+use super::budget::Sums;
+use super::parts::Parts;
+use super::shapes::Shapes;
+use crate::eigenvalues::model::Model;
+use crate::eigenvalues::sliding::SlidingModel;
+use crate::eigenvalues::whole::BasePoint;
+use frictionsim_case::Case;
+use frictionsim_physics::cea::FrictionPoint;
+use frictionsim_physics::contact::{PressedPoints, linearized, turned};
+use frictionsim_physics::fem::Triplets;
+use frictionsim_physics::linalg::c64;
+use frictionsim_results::cea::{Feed, ModeFeed};
+
+/// Stiffness and dashpots of one point over all dofs at a friction coefficient.
+type PointTerms = [Vec<(usize, usize, f64)>; 2];
+
+/// The feed of every unstable mode at the case's own friction coefficient; `None` where there is none.
+pub(super) fn feed(
+    case: &Case,
+    model: &SlidingModel,
+    parts: &Parts<'_>,
+    points: &[&FrictionPoint],
+) -> Option<Feed> {
+    let friction = case.contact.sliding.friction_coefficient;
+    let own = points.iter().find(|p| p.friction_coefficient == friction)?;
+    let shapes = Shapes::of(own, case.has_sectors(), |mode| mode.is_unstable());
+    if shapes.modes.is_empty() {
+        return None;
+    }
+    let Model::Whole(whole) = &model.model else {
+        return None;
+    };
+    let pressed = whole.contact_points(case);
+
+    // Forces of the bodies at every dof, those of the contact's own terms beside them.
+    let mut sums = Sums::new(shapes.modes.len(), Some(parts.mesh.dof_count()));
+    parts.of_regions(model, &shapes, &mut sums);
+    parts.of_supports(&shapes, &mut sums);
+    parts.of_rotation(&shapes, &mut sums);
+    let terms: Vec<PointTerms> = pressed.iter().map(|own| terms(own, friction)).collect();
+    let beta = parts.whole_beta();
+    let balance = sums.balance.unwrap_or_default();
+    let modes = balance.into_iter().enumerate().map(|(i, mut forces)| {
+        let (number, mode) = shapes.modes[i];
+        let (lambda, phi) = (mode.eigenvalue, shapes.column(i));
+        // beta_R multiplies stiffness of prestress and contact too, where the damping has them.
+        let of_stiffness = c64::ONE + lambda * beta;
+        let factors = [of_stiffness, lambda];
+        for own in &terms {
+            for (entries, factor) in own.iter().zip(factors) {
+                for &(row, column, value) in entries {
+                    forces[row] += factor * phi[column] * value;
+                }
+            }
+        }
+        let scale = 1.0 / (2.0 * lambda.im * sums.kinetic[i]);
+        let rates = pressed.iter().zip(&terms).map(|(own, terms)| {
+            let held = held(own, friction, &phi, &forces);
+            scale * (held - form(terms, factors, &phi).im)
+        });
+        ModeFeed { mode: shapes.name(number, mode), rates: rates.collect() }
+    });
+    Some(Feed {
+        modes: modes.collect(),
+        places: pressed.iter().map(|own| own.place.clone()).collect(),
+    })
+}
+
+/// `Im(conj(n.phi + mu drag t.phi) dN)` of a rigid point that is pressed; 0 of others.
+fn held(own: &BasePoint, friction: f64, phi: &[c64], forces: &[c64]) -> f64 {
+    if own.stiffness.normal_stiffness.is_some() || !own.is_pressed {
+        return 0.0;
+    }
+    let along = |row: &[(usize, f64)], values: &[c64]| -> c64 {
+        row.iter().map(|&(dof, share)| values[dof] * share).sum()
+    };
+    let normal = along(&own.point.lift, forces);
+    let drag = friction * own.point.friction.drag;
+    let moved = along(&own.point.normal, phi) + along(&own.point.slip, phi) * drag;
+    (moved.conj() * normal).im
+}
+
+/// `phi^H (f_K K_i + f_C C_i) phi`.
+fn form(terms: &PointTerms, factors: [c64; 2], phi: &[c64]) -> c64 {
+    let mut sum = c64::ZERO;
+    for (entries, factor) in terms.iter().zip(factors) {
+        let own = entries.iter();
+        let own: c64 = own.map(|&(row, column, value)| phi[row].conj() * phi[column] * value).sum();
+        sum += factor * own;
+    }
+    sum
+}
+
+/// What one point adds to the stiffness and to the dashpots.
+fn terms(own: &BasePoint, friction: f64) -> PointTerms {
+    let state = PressedPoints {
+        first: 0,
+        is_pressed: &[own.is_pressed],
+        normal_forces: &own.forces,
+        stiffnesses: &own.springs,
+        frozen_below: 0.0,
+    };
+    let point = std::slice::from_ref(&own.point);
+    let found = linearized(point, &state, &own.stiffness);
+    let at = |powers: &[Triplets]| -> Vec<(usize, usize, f64)> {
+        let each = powers.iter().enumerate().flat_map(|(power, terms)| {
+            let factor = friction.powi(power as i32);
+            let entries = terms.entries.iter();
+            entries.map(move |&(row, column, value)| (row, column, factor * value))
+        });
+        each.collect()
+    };
+    let mut stiffness = at(&found.stiffness);
+    stiffness.extend(at(&turned(point, &own.turning, &state)));
+    [stiffness, at(&found.dashpots)]
+}

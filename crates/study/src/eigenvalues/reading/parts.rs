@@ -1,0 +1,262 @@
+//! The bodies of a model as sums over regions and supports.
+
+use super::shapes::Shapes;
+use crate::eigenvalues::model::Model;
+use crate::eigenvalues::sliding::{SlidingModel, SteadyState};
+use crate::eigenvalues::whole::CONTACT;
+use frictionsim_case::Case;
+use frictionsim_physics::fem::{
+    ModulusTable, Triplets, assemble_geometric_stiffness, assemble_patch_damping,
+    assemble_point_masses, assemble_region, assemble_supports,
+};
+use frictionsim_physics::linalg::{Mat, MatRef, MatrixPolynomial, c64};
+use frictionsim_physics::mesh::{BoundaryCondition, Mesh};
+use frictionsim_physics::prestress::{Assembly, DampingModel, PressedState, TangentOptions};
+use std::borrow::Cow;
+use std::cell::RefCell;
+use std::collections::BTreeMap;
+use std::f64::consts::TAU;
+use std::sync::Arc;
+
+/// Mass and stiffness on one pattern.
+pub(super) struct Pair(MatrixPolynomial);
+
+impl Pair {
+    fn new(count: usize, [mass, stiffness]: [Triplets; 2]) -> Self {
+        Self(MatrixPolynomial::from_triplets(count, &[mass.entries, stiffness.entries]))
+    }
+
+    /// `M x`.
+    fn mass_image(&self, x: MatRef<'_, f64>) -> Mat<f64> {
+        self.0.pattern().multiply(&self.0.coefficients()[0], x)
+    }
+
+    /// `M x` and `K x`.
+    pub fn multiply(&self, x: MatRef<'_, f64>) -> [Mat<f64>; 2] {
+        let [mass, stiffness] = self.0.coefficients() else {
+            unreachable!("a pair has two coefficients")
+        };
+        self.0.pattern().multiply_each([mass, stiffness], x)
+    }
+}
+
+/// A region of a body.
+pub(super) struct Region {
+    pub name: String,
+    pub pair: Pair,
+    pub alpha: f64,
+    pub beta: f64,
+    eta: f64,
+    table: Option<Arc<ModulusTable>>,
+}
+
+impl Region {
+    /// What its stiffness is multiplied by at the frequency of an eigenvalue: `1 + i eta`, or what a table says.
+    pub fn ratio(&self, lambda: c64) -> c64 {
+        match &self.table {
+            Some(table) => table.ratio(lambda.im / TAU),
+            None => c64::new(1.0, self.eta),
+        }
+    }
+}
+
+/// The bodies of a model as sums.
+pub(super) struct Parts<'a> {
+    pub case: &'a Case,
+    pub mesh: &'a Mesh,
+    pub options: &'a TangentOptions,
+    /// Each region with its name and its coefficients `alpha`, `beta`, `eta`, and the table that its stiffness follows.
+    pub regions: Vec<Region>,
+    /// Dashpots and springs of each support with its `eta`, and last of the modifications.
+    pub supports: Vec<(String, Pair, f64)>,
+    /// Point masses.
+    pub attached: Option<Pair>,
+    /// Gyroscopic matrix and transport stiffness of the regions that turn with the inertia of their rotation.
+    pub rotation: Option<Pair>,
+    /// Each contact with the dofs of its surfaces.
+    pub contacts: Vec<(String, Vec<usize>)>,
+    /// Geometric stiffness by base state and region, a polynomial in friction.
+    geometric: RefCell<BTreeMap<(usize, usize), MatrixPolynomial>>,
+}
+
+impl<'a> Parts<'a> {
+    pub fn new(case: &'a Case, model: &'a SlidingModel) -> Option<Self> {
+        let mesh = &*model.mesh;
+        let (options, assembly) = match &model.model {
+            Model::Waves(_) if case.body.dimension() == 3 => return None,
+            Model::Waves(options) => (options, None),
+            Model::Whole(whole) => (&whole.options, whole.assembly(case)),
+        };
+        let pairs = assembly.iter().flat_map(Assembly::contacts).map(|(own, _)| {
+            let surfaces = std::iter::once(own.surface).chain(own.counter.surface());
+            (own.name.clone(), surfaces.collect())
+        });
+        let contacts = contact_dofs(mesh, &pairs.collect::<Vec<_>>());
+        let materials = case.materials();
+        let count = mesh.dof_count();
+        let regions = mesh.regions.iter().enumerate().map(|(region, name)| {
+            let own = assemble_region(mesh, materials, options.mass, region);
+            let damping = materials.own_damping(region).unwrap_or(options.damping);
+            Region {
+                name: name.clone(),
+                pair: Pair::new(count, own),
+                alpha: damping.mass_coefficient,
+                beta: damping.stiffness_coefficient,
+                eta: materials.of(region).loss_factor,
+                table: materials.table(region).cloned(),
+            }
+        });
+        let regions = regions.collect();
+        let masses = assemble_point_masses(mesh);
+        let has_masses = !masses.entries.is_empty();
+        let mut supports = supports(mesh);
+        if !(mesh.attachments.is_empty() && mesh.patches.is_empty()) {
+            let patches = assemble_patch_damping(mesh, materials, options.mass);
+            supports.push(modifications(mesh, patches));
+        }
+        let rotation = assembly.as_ref().and_then(|own| own.rotation_terms().cloned());
+        let rotation =
+            rotation.map(|[transport, gyroscopic]| Pair::new(count, [gyroscopic, transport]));
+        Some(Self {
+            case,
+            mesh,
+            options,
+            regions,
+            supports,
+            attached: has_masses.then(|| Pair::new(count, [masses, Triplets::default()])),
+            rotation,
+            contacts: match contacts.is_empty() {
+                true => vec![(CONTACT.to_owned(), Vec::new())],
+                false => contacts,
+            },
+            geometric: RefCell::default(),
+        })
+    }
+
+    /// `M x` of all regions and point masses.
+    pub fn mass_image(&self, x: MatRef<'_, f64>) -> Mat<f64> {
+        let regions = self.regions.iter().map(|region| &region.pair);
+        let mut sum = Mat::zeros(x.nrows(), x.ncols());
+        for pair in regions.chain(&self.attached) {
+            sum += pair.mass_image(x);
+        }
+        sum
+    }
+
+    /// `K_sigma phi` of a region for each shape; `None` where no stress of the base state acts on small motions.
+    pub fn geometric_image(
+        &self,
+        model: &SlidingModel,
+        shapes: &Shapes<'_>,
+        region: usize,
+    ) -> Option<Mat<f64>> {
+        let base = base_state(self.case, model, shapes.friction);
+        let (place, state) = base.filter(|_| self.options.geometric_stiffness)?;
+        // Linear in the displacement: assembled once for each state and power of the friction beyond its origin.
+        let mut known = self.geometric.borrow_mut();
+        let geometric = known.entry((place, region)).or_insert_with(|| {
+            let materials = self.case.materials();
+            let terms = state.displacements.iter().map(|displacement| {
+                assemble_geometric_stiffness(self.mesh, materials, displacement, Some(region))
+                    .entries
+            });
+            let terms: Vec<_> = terms.collect();
+            MatrixPolynomial::from_triplets(self.mesh.dof_count(), &terms)
+        });
+        let values = geometric.evaluate((shapes.friction - state.frozen_below).max(0.0));
+        Some(geometric.pattern().multiply(&values, shapes.columns.as_ref()))
+    }
+
+    /// What `beta_R` multiplies of the geometric stiffness and of contact.
+    pub fn whole_beta(&self) -> f64 {
+        match self.options.damping_model {
+            DampingModel::WholeTangent => self.options.damping.stiffness_coefficient,
+            DampingModel::BodyOnly => 0.0,
+        }
+    }
+}
+
+/// The dofs on both surfaces of each contact; a node that several contacts touch is of the one whose finer surface is
+/// nearest.
+fn contact_dofs(mesh: &Mesh, contacts: &[(String, Vec<usize>)]) -> Vec<(String, Vec<usize>)> {
+    let nodes = |boundary: usize| mesh.boundaries[boundary].nodes.iter().map(|&n| n as usize);
+    let distance = |node: usize, contact: usize| {
+        let at = mesh.nodes[node];
+        let away = |other: usize| -> f64 {
+            let place = mesh.nodes[other];
+            (0..3).map(|k| (at[k] - place[k]).powi(2)).sum()
+        };
+        nodes(contacts[contact].1[0]).map(away).fold(f64::INFINITY, f64::min)
+    };
+    let mut touched: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+    for (contact, (_, surfaces)) in contacts.iter().enumerate() {
+        for node in surfaces.iter().flat_map(|&surface| nodes(surface)) {
+            let known = touched.entry(node).or_default();
+            if !known.contains(&contact) {
+                known.push(contact);
+            }
+        }
+    }
+    let mut dofs = vec![Vec::new(); contacts.len()];
+    for (node, all) in touched {
+        let nearest = all.iter().copied();
+        let nearest = nearest.min_by(|a, b| distance(node, *a).total_cmp(&distance(node, *b)));
+        let owner = nearest.unwrap_or(all[0]);
+        let d = mesh.dimension;
+        dofs[owner].extend((0..d).map(|k| d * node + k));
+    }
+    let names = contacts.iter().map(|(name, _)| name.clone());
+    names.zip(dofs).collect()
+}
+
+/// Number of the base state at a friction coefficient, and the state as far as its stress is not in the terms of the
+/// rotation.
+fn base_state<'m>(
+    case: &Case,
+    model: &'m SlidingModel,
+    friction: f64,
+) -> Option<(usize, Cow<'m, PressedState>)> {
+    let place = || {
+        let solved = case.cea.as_ref()?.solved_friction_coefficients();
+        solved.iter().position(|&mu| mu == friction)
+    };
+    match (&model.model, &model.state) {
+        (Model::Whole(whole), _) => {
+            let state = whole.range.state_of[place()?];
+            Some((state, whole.stressing(case, &whole.range.states[state])?))
+        }
+        (_, SteadyState::Plane(base)) => Some((0, Cow::Borrowed(&base.state))),
+        (_, SteadyState::Solid(_) | SteadyState::Assembly(_)) => None,
+    }
+}
+
+/// Dashpots and springs of the modifications, with the damping of their patches.
+fn modifications(mesh: &Mesh, patches: Triplets) -> (String, Pair, f64) {
+    let mut own = mesh.clone();
+    own.boundaries.iter_mut().for_each(|own| own.condition = BoundaryCondition::Free);
+    let [springs, mut dashpots] = assemble_supports(&own);
+    dashpots.entries.extend(patches.entries);
+    let pair = Pair::new(mesh.dof_count(), [dashpots, springs]);
+    ("modifications".to_owned(), pair, 0.0)
+}
+
+/// Dashpots and springs of each supported boundary, with its loss factor.
+fn supports(mesh: &Mesh) -> Vec<(String, Pair, f64)> {
+    let of = |boundary: usize| {
+        let BoundaryCondition::Support(support) = &mesh.boundaries[boundary].condition else {
+            return None;
+        };
+        // The mesh with this support alone.
+        let mut own = mesh.clone();
+        own.attachments.clear();
+        for (other, free) in own.boundaries.iter_mut().enumerate() {
+            if other != boundary {
+                free.condition = BoundaryCondition::Free;
+            }
+        }
+        let [springs, dashpots] = assemble_supports(&own);
+        let pair = Pair::new(mesh.dof_count(), [dashpots, springs]);
+        Some((mesh.boundaries[boundary].name.clone(), pair, support.loss_factor))
+    };
+    (0..mesh.boundaries.len()).filter_map(of).collect()
+}

@@ -1,0 +1,142 @@
+//! Mode shapes of one friction value side by side, and quadratic forms of them.
+
+use frictionsim_physics::cea::{ComplexMode, FrictionPoint};
+use frictionsim_physics::linalg::{Mat, c64};
+use frictionsim_results::cea::{Coupling, ModeName};
+
+/// Share below which a mode of the lowest friction value is left out of the couplings.
+const LEAST_SHARE: f64 = 0.01;
+
+/// The name of a mode with its number at a friction coefficient.
+pub(super) fn name_of(
+    friction_coefficient: f64,
+    (number, mode): (usize, &ComplexMode),
+    has_harmonics: bool,
+) -> ModeName {
+    ModeName {
+        friction_coefficient,
+        mode: number,
+        frequency_hz: mode.frequency_hz(),
+        harmonic: mode.diameters(has_harmonics),
+        branch: mode.branch,
+        direction: has_harmonics.then_some(mode.direction),
+    }
+}
+
+/// The shares that count, the largest first.
+pub(super) fn strongest(mut shares: Vec<Coupling>) -> Vec<Coupling> {
+    shares.retain(|row| row.share >= LEAST_SHARE);
+    frictionsim_physics::order::sort_by_number(&mut shares, |a| -a.share);
+    shares
+}
+
+/// The shapes of one friction value, real and imaginary part of each in two columns.
+pub(super) struct Shapes<'a> {
+    /// Friction coefficient.
+    pub friction: f64,
+    has_harmonics: bool,
+    /// Number of each mode by frequency, from 1.
+    pub modes: Vec<(usize, &'a ComplexMode)>,
+    /// Over all dofs.
+    pub columns: Mat<f64>,
+}
+
+impl<'a> Shapes<'a> {
+    /// Those of the modes that have one and are wanted.
+    pub fn of(
+        point: &'a FrictionPoint,
+        has_harmonics: bool,
+        is_wanted: impl Fn(&ComplexMode) -> bool,
+    ) -> Self {
+        let numbered = point.modes.iter().enumerate();
+        let modes: Vec<(usize, &ComplexMode)> = numbered
+            .filter(|(_, mode)| mode.shape.is_some() && is_wanted(mode))
+            .map(|(index, mode)| (index + 1, mode))
+            .collect();
+        let shape = |column: usize| modes[column / 2].1.shape.as_deref().unwrap_or_default();
+        let rows = modes.first().map_or(0, |_| shape(0).len());
+        let columns = Mat::from_fn(rows, 2 * modes.len(), |row, column| {
+            let value = shape(column)[row];
+            if column % 2 == 0 { value.re } else { value.im }
+        });
+        Self { friction: point.friction_coefficient, has_harmonics, modes, columns }
+    }
+
+    pub fn name(&self, number: usize, mode: &ComplexMode) -> ModeName {
+        name_of(self.friction, (number, mode), self.has_harmonics)
+    }
+
+    /// `phi^H A phi` of each mode, from the product of a symmetric `A` with the columns.
+    pub fn forms(&self, image: &Mat<f64>) -> Vec<f64> {
+        let product = |column: usize| -> f64 {
+            let pairs = self.columns.col_as_slice(column).iter().zip(image.col_as_slice(column));
+            pairs.map(|(x, y)| x * y).sum()
+        };
+        (0..self.modes.len()).map(|i| product(2 * i) + product(2 * i + 1)).collect()
+    }
+
+    /// `Im(phi^H G phi)` of each mode, from the product of a skew `G` with the columns.
+    pub fn skew_forms(&self, image: &Mat<f64>) -> Vec<f64> {
+        let product = |left: usize, right: usize| -> f64 {
+            let own = self.columns.col_as_slice(left).iter();
+            own.zip(image.col_as_slice(right)).map(|(x, y)| x * y).sum()
+        };
+        let form = |i: usize| product(2 * i, 2 * i + 1) - product(2 * i + 1, 2 * i);
+        (0..self.modes.len()).map(form).collect()
+    }
+
+    /// A mode over all dofs.
+    pub fn column(&self, i: usize) -> Vec<c64> {
+        let [re, im] = [2 * i, 2 * i + 1].map(|column| self.columns.col_as_slice(column));
+        let parts = re.iter().zip(im);
+        parts.map(|(&re, &im)| c64::new(re, im)).collect()
+    }
+
+    /// Adds `sum_k factors_k A_k phi` of each mode to its balance.
+    pub fn add<const N: usize>(
+        &self,
+        balance: &mut [Vec<c64>],
+        images: [&Mat<f64>; N],
+        factors: impl Fn(c64) -> [c64; N],
+    ) {
+        for (i, ((_, mode), sum)) in self.modes.iter().zip(balance).enumerate() {
+            for (image, factor) in images.into_iter().zip(factors(mode.eigenvalue)) {
+                let (re, im) = (image.col_as_slice(2 * i), image.col_as_slice(2 * i + 1));
+                for (sum, (re, im)) in sum.iter_mut().zip(re.iter().zip(im)) {
+                    *sum += factor * c64::new(*re, *im);
+                }
+            }
+        }
+    }
+
+    /// Shares of the reference modes in every unstable mode, the largest first: `|phi_ref^H M phi|^2` over the product
+    /// of both modes' `phi^H M phi`, with `M phi` of these shapes and of the references.
+    pub fn couplings(
+        &self,
+        own_images: &Mat<f64>,
+        (references, images): (&Shapes<'_>, &Mat<f64>),
+    ) -> Vec<Coupling> {
+        let (own, of_references) = (self.forms(own_images), references.forms(images));
+        let mut all = Vec::new();
+        for (i, (number, mode)) in
+            self.modes.iter().enumerate().filter(|(_, (_, mode))| mode.is_unstable())
+        {
+            let phi = [2 * i, 2 * i + 1].map(|column| self.columns.col_as_slice(column));
+            let mut shares: Vec<Coupling> = Vec::new();
+            for (j, (reference, other)) in references.modes.iter().enumerate() {
+                let image = [2 * j, 2 * j + 1].map(|column| images.col_as_slice(column));
+                let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(x, y)| x * y).sum::<f64>();
+                let re = dot(image[0], phi[0]) + dot(image[1], phi[1]);
+                let im = dot(image[0], phi[1]) - dot(image[1], phi[0]);
+                shares.push(Coupling {
+                    mode: self.name(*number, mode),
+                    growth_rate: mode.growth_rate(),
+                    reference: references.name(*reference, other),
+                    share: (re * re + im * im) / (own[i] * of_references[j]),
+                });
+            }
+            all.extend(strongest(shares));
+        }
+        all
+    }
+}

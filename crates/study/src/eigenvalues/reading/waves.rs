@@ -1,0 +1,204 @@
+//! The same of a body solved harmonic by harmonic, from the matrices of one sector: every sector has an equal share.
+
+use super::budget::write;
+use super::shapes::{name_of, strongest};
+use crate::eigenvalues::sliding::{SlidingModel, SteadyState};
+use crate::eigenvalues::whole::{CONTACT, edge_places};
+use frictionsim_case::Case;
+use frictionsim_physics::cea::{ComplexMode, FrictionPoint, FrictionSweep, ModeWave};
+use frictionsim_physics::linalg::c64;
+use frictionsim_physics::mesh::SolidSector;
+use frictionsim_physics::prestress::{HarmonicParts, PartForms, WaveTangent};
+use frictionsim_results::cea::{
+    Contribution, Coupling, Feed, FeedPlace, ModeFeed, ModeName, Reading, Source,
+};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// A body taken apart, and its harmonics as far as they were needed.
+struct Apart<'a> {
+    regions: Vec<String>,
+    supports: Vec<String>,
+    harmonics: BTreeMap<usize, HarmonicParts<'a>>,
+}
+
+/// A mode with its wave, and `M x` of it.
+struct Waving<'a> {
+    name: ModeName,
+    mode: &'a ComplexMode,
+    wave: &'a ModeWave,
+    momentum: Vec<c64>,
+    /// `x^H M x`.
+    mass: f64,
+}
+
+/// Reads every mode whose wave was kept.
+pub(super) fn read(
+    case: &Case,
+    model: &SlidingModel,
+    tangent: &WaveTangent,
+    sweep: &FrictionSweep,
+) -> Option<Reading> {
+    let apart = Apart::new(model, tangent, sweep);
+    let waving: Vec<Vec<Waving<'_>>> = sweep.points.iter().map(|p| apart.waving(p)).collect();
+    let references = waving.iter().find(|modes| !modes.is_empty())?;
+    let mut reading = Reading::default();
+    for own in &waving {
+        for waving in own {
+            apart.contributions(waving, &mut reading.contributions);
+            if waving.mode.is_unstable() {
+                reading.couplings.extend(waving.couplings(references));
+            }
+        }
+    }
+    let friction = case.contact.sliding.friction_coefficient;
+    let own = waving.iter().flatten();
+    let own = own.filter(|own| own.name.friction_coefficient == friction);
+    let unstable: Vec<&Waving<'_>> = own.filter(|own| own.mode.is_unstable()).collect();
+    if !unstable.is_empty() {
+        reading.feed = apart.feed(case, model, &unstable, &reading.contributions);
+    }
+    Some(reading)
+}
+
+impl<'t> Apart<'t> {
+    fn new(model: &SlidingModel, tangent: &'t WaveTangent, sweep: &FrictionSweep) -> Self {
+        let modes = sweep.points.iter().flat_map(|point| &point.modes);
+        let numbers: BTreeSet<usize> =
+            modes.filter(|mode| mode.wave.is_some()).map(|mode| mode.harmonic).collect();
+        let supports = tangent.support_names().map(str::to_owned).collect();
+        let harmonics = numbers.into_iter().map(|n| (n, tangent.parts(n))).collect();
+        Self { regions: model.mesh.regions.clone(), supports, harmonics }
+    }
+
+    fn waving<'a>(&self, point: &'a FrictionPoint) -> Vec<Waving<'a>> {
+        let numbered = point.modes.iter().enumerate();
+        let own = numbered.filter_map(|(index, mode)| {
+            let wave = mode.wave.as_ref()?;
+            let momentum = self.harmonics[&mode.harmonic].momentum(&wave.unknowns);
+            Some(Waving {
+                name: name_of(point.friction_coefficient, (index + 1, mode), true),
+                mass: product(&wave.unknowns, &momentum).re,
+                mode,
+                wave,
+                momentum,
+            })
+        });
+        own.collect()
+    }
+
+    /// What each region, support and the contact adds to a mode.
+    fn contributions(&self, own: &Waving<'_>, out: &mut Vec<Contribution>) {
+        let parts = &self.harmonics[&own.mode.harmonic];
+        let (x, root) = (&own.wave.unknowns, own.wave.root(own.mode.eigenvalue));
+        let regions = parts.of_regions(root, own.name.friction_coefficient, x);
+        let supports = parts.of_supports(root, x);
+        let strain = |forms: &[PartForms]| -> f64 { forms.iter().map(|own| own.stiffness).sum() };
+        let energies = [own.mass, strain(&regions) + strain(&supports)];
+        let forms = |own: &PartForms| [own.mass, own.stiffness, own.damping];
+        let regions = self.regions.iter().zip(&regions);
+        let regions = regions.map(|(name, own)| (name, Source::Part, forms(own)));
+        // A support has no mass.
+        let supports = self
+            .supports
+            .iter()
+            .zip(&supports)
+            .map(|(name, own)| (name, Source::Support, [f64::NAN, own.stiffness, own.damping]));
+        let contact = |fed: f64| vec![(CONTACT.to_owned(), fed)];
+        write((own.name, own.mode), regions.chain(supports), energies, &contact, out);
+    }
+
+    /// The feed of the unstable modes at the case's own friction coefficient.
+    ///
+    /// What a small space of a harmonic, or round-off, leaves between the forces on the contact nodes and the contact's
+    /// part in the budget is spread over the area.
+    fn feed(
+        &self,
+        case: &Case,
+        model: &SlidingModel,
+        unstable: &[&Waving<'_>],
+        contributions: &[Contribution],
+    ) -> Option<Feed> {
+        // Each place with the contact node, or ring, of the sector that it repeats.
+        let places: Vec<(usize, FeedPlace)> = match &model.state {
+            SteadyState::Plane(base) => {
+                let all = edge_places(case, &model.mesh, base).into_iter();
+                let (_, parts) = self.harmonics.first_key_value()?;
+                let per_sector = parts.contact_count();
+                all.enumerate().map(|(i, place)| (i % per_sector, place)).collect()
+            }
+            SteadyState::Solid(solid) => {
+                ring_places(&solid.sector).into_iter().enumerate().collect()
+            }
+            SteadyState::Assembly(_) => return None,
+        };
+        let area: f64 = places.iter().map(|(_, place)| place.area).sum();
+        let modes = unstable.iter().map(|own| {
+            let root = own.wave.root(own.mode.eigenvalue);
+            let parts = &self.harmonics[&own.mode.harmonic];
+            let friction = own.name.friction_coefficient;
+            let works = parts.works_at_contact(root, friction, &own.wave.unknowns);
+            // A place is of one sector, or of all of them.
+            let repeats = places.len() / works.len();
+            let scale = 1.0 / (2.0 * root.im * own.mass * repeats as f64);
+            let is_own =
+                |row: &&Contribution| row.mode == own.name && row.source == Source::Contact;
+            let fed = contributions.iter().find(is_own);
+            let fed = fed.map_or(0.0, |row| row.growth_rate);
+            let rates: Vec<f64> = places.iter().map(|(k, _)| scale * works[*k]).collect();
+            let left = (fed - rates.iter().sum::<f64>()) / area;
+            let pairs = rates.iter().zip(&places);
+            ModeFeed {
+                mode: own.name,
+                rates: pairs.map(|(rate, (_, place))| rate + left * place.area).collect(),
+            }
+        });
+        Some(Feed {
+            modes: modes.collect(),
+            places: places.into_iter().map(|(_, place)| place).collect(),
+        })
+    }
+}
+
+impl Waving<'_> {
+    /// The modes of the lowest friction value in this one, the largest share first. Waves of different harmonics, and
+    /// those that travel in opposite directions, are orthogonal.
+    fn couplings(&self, references: &[Waving<'_>]) -> Vec<Coupling> {
+        let is_alike = |other: &&Waving<'_>| {
+            (other.mode.harmonic, other.wave.is_backward)
+                == (self.mode.harmonic, self.wave.is_backward)
+        };
+        let shares = references.iter().filter(is_alike).map(|other| {
+            let overlap = product(&other.wave.unknowns, &self.momentum).norm_sqr();
+            Coupling {
+                mode: self.name,
+                growth_rate: self.mode.growth_rate(),
+                reference: other.name,
+                share: overlap / (self.mass * other.mass),
+            }
+        });
+        strongest(shares.collect())
+    }
+}
+
+/// `y^H x`.
+fn product(y: &[c64], x: &[c64]) -> c64 {
+    y.iter().zip(x).map(|(y, x)| y.conj() * x).sum()
+}
+
+/// The rings of contact nodes of a body of revolution, each at angle 0 with the area of all its nodes.
+fn ring_places(sector: &SolidSector) -> Vec<FeedPlace> {
+    let sectors = sector.sector_count();
+    let place = |ring: &frictionsim_physics::mesh::ContactRing| {
+        let nodes = (0..sectors).flat_map(|j| {
+            let own = ring.nodes.iter();
+            own.map(move |node| ((j * sector.node_count() + node) as u32, 1.0))
+        });
+        FeedPlace {
+            contact: CONTACT.to_owned(),
+            position: [ring.radius, 0.0, ring.height],
+            area: ring.area * sectors as f64,
+            shares: nodes.collect(),
+        }
+    };
+    sector.rings.iter().map(place).collect()
+}

@@ -1,0 +1,237 @@
+//! Solution of the eigenvalue analysis of a case, and the notes on its results.
+
+use super::model::{Model, Spectrum};
+use super::notes::{
+    MISSING_SHOWN, count_notes, coverage_note, damping_note, ended_notes, friction_note,
+    instead_note, overdamped_note, table_notes, uncertainty_note, weak_note,
+};
+use super::reading::{lefts_needed, read, shapes_needed};
+use super::sensitivity::body_sensitivities;
+use super::solid;
+use super::{Progress, SlidingModel, Solution, StudyError, no_modes};
+use frictionsim_case::{Case, Cea, CeaMethod};
+use frictionsim_physics::cea::{CeaError, SweepRequest, Unwatched};
+use frictionsim_physics::prestress::PrestressError;
+use frictionsim_results::cea::SensitivityReport;
+use std::borrow::Cow;
+
+/// Solves the case's eigenproblems with its method; `progress` hears of every friction value solved.
+pub fn solve(
+    case: &Case,
+    cea: &Cea,
+    model: &SlidingModel,
+    progress: &Progress<'_>,
+) -> Result<Solution, StudyError> {
+    solve_with(case, cea, model, (true, progress))
+}
+
+/// [`solve`] without the sensitivities.
+pub fn solve_modes(case: &Case, cea: &Cea, model: &SlidingModel) -> Result<Solution, StudyError> {
+    solve_with(case, cea, model, (false, &Unwatched))
+}
+
+fn solve_with(
+    case: &Case,
+    cea: &Cea,
+    model: &SlidingModel,
+    (with_reading, progress): (bool, &Progress<'_>),
+) -> Result<Solution, StudyError> {
+    // Branches are known up to the largest friction coefficient of the sweep.
+    let friction = case.contact.sliding.friction_coefficient;
+    let frictions = cea.solved_friction_coefficients();
+    let waves_at: &[f64] = if with_reading { &frictions } else { &[] };
+    let modes = case.cost().cea.map_or(0, |cost| cost.modes) as f64;
+    let (mut shown, mut lefts_at) = (cea.shapes_at.clone(), Vec::new());
+    if with_reading {
+        shown.extend(shapes_needed(case, &model.model, &frictions, modes));
+        lefts_at = lefts_needed(case, cea.mass, &shown, modes);
+    }
+    let request = SweepRequest {
+        shapes_at: &shown,
+        lefts_at: &lefts_at,
+        count_modes: cea.count_modes && with_reading,
+        ..SweepRequest::new(&frictions, cea.modes)
+    };
+    let found = model.model.spectrum_with_waves(case, (&request, waves_at), progress);
+    let mut found = found.map_err(|error| at_key(case, &error))?;
+    // Those of waves cost next to nothing.
+    let is_asked = cea.sensitivities.unwrap_or(found.waves.is_some());
+    let is_asked = is_asked && with_reading && frictions.iter().any(|&mu| mu >= friction);
+    let (sensitivities, rate_note) = match is_asked {
+        true => body_rates(case, cea, &found),
+        false => (None, None),
+    };
+
+    let waves = found.waves.as_ref();
+    let mut notes: Vec<String> =
+        waves.map(|waves| coverage_note(&waves.coverage)).into_iter().collect();
+    notes.extend(count_notes(cea, &found.sweep, waves.is_some()));
+    notes.extend(found.notes);
+    notes.extend(waves.and_then(|waves| overdamped_note(case, model, &waves.overdamped)));
+    notes.extend(model.solid().and_then(solid::note));
+    notes.extend(table_notes(case));
+    notes.extend(rate_note);
+    notes.extend(uncertainty_note(case, &found.sweep));
+    notes.extend(damping_note(case, &found.sweep));
+    notes.extend(ended_notes(&found.sweep));
+    notes.extend(weak_note(&found.sweep));
+    notes.extend(friction_note(case, model));
+    let reading = match with_reading {
+        true => read(case, model, waves.map(|waves| &waves.tangent), &found.sweep),
+        false => None,
+    };
+    // Shapes and waves that only the reading needed.
+    for point in &mut found.sweep.points {
+        point.modes.iter_mut().for_each(|mode| mode.wave = None);
+        if !cea.shapes_at.contains(&point.friction_coefficient) {
+            point.modes.iter_mut().for_each(|mode| mode.shape = None);
+        }
+    }
+    Ok(Solution {
+        reading,
+        dofs: found.dofs,
+        method: found.method,
+        sensitivities,
+        notes,
+        sweep: found.sweep,
+    })
+}
+
+/// Sensitivities of a body; why there are none, or what is missing of them.
+fn body_rates(
+    case: &Case,
+    cea: &Cea,
+    found: &Spectrum,
+) -> (Option<SensitivityReport>, Option<String>) {
+    let friction = case.contact.sliding.friction_coefficient;
+    let (sweep, waves) = (&found.sweep, found.waves.as_ref());
+    if waves.is_none() && sweep.modes_at(friction).is_empty() {
+        let note = format!(
+            "no sensitivities: there are no modes at contact.friction_coefficient = {friction}; name it in \
+             cea.friction_coefficients"
+        );
+        return (None, Some(note));
+    }
+    match body_sensitivities(case, cea, sweep, waves) {
+        Ok(found) => {
+            let missing = found.missing.iter().take(MISSING_SHOWN).cloned();
+            let mut missing: Vec<String> = missing.collect();
+            if found.missing.len() > MISSING_SHOWN {
+                missing.push("...".to_owned());
+            }
+            let note = format!("sensitivities.csv has gaps: {}", missing.join("; "));
+            let has_gaps = !found.missing.is_empty();
+            (Some(found.report), has_gaps.then_some(note))
+        }
+        // The spectrum is there all the same.
+        Err(error) => (None, Some(format!("no sensitivities: {}", error.line()))),
+    }
+}
+
+/// An error about a key of the case where that is given; any other as it is.
+pub(super) fn at_key(case: &Case, error: &CeaError) -> StudyError {
+    match error {
+        CeaError::BeyondTable { key, .. } => {
+            let help = "extend the table, or lower cea.max_frequency_hz or cea.modes";
+            case.error_at(key, error.to_string(), "does not cover the modes", help).into()
+        }
+        CeaError::NoModes { .. } => no_modes(case, error.to_string()),
+        other => other.clone().into(),
+    }
+}
+
+/// A case as it was solved.
+pub struct Solved<'a> {
+    /// It, on its whole mesh where its harmonics could not be followed.
+    pub case: Cow<'a, Case>,
+    /// What was solved.
+    pub model: SlidingModel,
+    /// What came of it.
+    pub solution: Solution,
+}
+
+/// [`SlidingModel::new`] and [`solve`], or [`solve_modes`] without a `progress`. Where `auto` chose
+/// the harmonics of a body and a branch of them cannot be followed, its whole mesh is solved.
+///
+/// # Errors
+/// Those of both.
+pub fn solved<'a>(
+    case: &'a Case,
+    cea: &Cea,
+    progress: Option<&Progress<'_>>,
+) -> Result<Solved<'a>, StudyError> {
+    let how = (progress.is_some(), progress.unwrap_or(&Unwatched));
+    let model = SlidingModel::new(case, cea)?;
+    let has_whole = cea.method == CeaMethod::Auto && matches!(model.model, Model::Waves(_));
+    let error = match solve_with(case, cea, &model, how) {
+        Err(StudyError::Eigenvalues(error)) if has_whole && is_lost(&error) => error,
+        other => return Ok(Solved { case: Cow::Borrowed(case), solution: other?, model }),
+    };
+    on_whole_mesh(case, cea, error, how)
+}
+
+/// The case's whole mesh solved, after its harmonics ended in `error`.
+fn on_whole_mesh<'a>(
+    case: &'a Case,
+    cea: &Cea,
+    error: CeaError,
+    how: (bool, &Progress<'_>),
+) -> Result<Solved<'a>, StudyError> {
+    let Ok(case) = case.on_whole_mesh() else {
+        return Err(error.into());
+    };
+    let (mut case, whole) = (case.into_owned(), Cea { method: CeaMethod::Sparse, ..cea.clone() });
+    // Nor waves around it.
+    case.cea = case.cea.map(|own| Cea { method: CeaMethod::Sparse, ..own });
+    let model = SlidingModel::new(&case, &whole)?;
+    let mut solution = solve_with(&case, &whole, &model, how)?;
+    solution.notes.insert(0, instead_note(&error));
+    Ok(Solved { case: Cow::Owned(case), model, solution })
+}
+
+/// Whether the harmonics of a body could not be followed.
+fn is_lost(error: &CeaError) -> bool {
+    matches!(
+        error,
+        CeaError::LostHarmonic { .. }
+            | CeaError::Unproven { .. }
+            | CeaError::Harmonic(_)
+            | CeaError::Prestress(PrestressError::Singular)
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Harmonics that cannot be followed leave a body of revolution its whole mesh.
+    #[test]
+    fn the_whole_mesh_is_solved_where_a_branch_of_a_harmonic_is_lost() {
+        let bytes = std::fs::read("cases/disc-three-dimensions.toml").unwrap();
+        let sets = [
+            "mesh.circumferential_elements=12",
+            "mesh.radial_elements=3",
+            "mesh.axial_elements=1",
+            "mesh.element=\"quad4\"",
+            "cea.friction_coefficients=[0.0, 0.3]",
+            "cea.max_frequency_hz=12000",
+        ];
+        let case = Case::parse("disc", &bytes, &sets.map(str::to_owned)).unwrap();
+        let cea = case.require_cea().unwrap();
+        let waves = solved(&case, cea, None).unwrap();
+        let error = CeaError::LostHarmonic { harmonic: 3, friction: 0.3 };
+        let whole = on_whole_mesh(&case, cea, error, (false, &Unwatched)).unwrap();
+        assert_eq!((waves.solution.method, whole.solution.method), ("cyclic", "sparse"));
+        let note = "a branch of harmonic 3 could not be followed up to friction 0.3: \
+                    the whole mesh was solved instead";
+        assert!(whole.solution.notes[0].starts_with(note), "{:?}", whole.solution.notes);
+        let points = waves.solution.sweep.points.iter().zip(&whole.solution.sweep.points);
+        for (waves, whole) in points {
+            assert_eq!(waves.modes.len(), whole.modes.len());
+            for (wave, mode) in waves.modes.iter().zip(&whole.modes) {
+                let error = (wave.frequency_hz() - mode.frequency_hz()).abs();
+                assert!(error < 1e-6 * mode.frequency_hz(), "{error}");
+            }
+        }
+    }
+}

@@ -1,0 +1,227 @@
+//! Friction sweep of a whole mesh whose contact nodes open or close within the range.
+
+mod joining;
+
+use super::Progress;
+use super::model::Spectrum;
+use super::whole::{WholeMesh, notes};
+use frictionsim_case::Case;
+use frictionsim_physics::cea::sparse;
+use frictionsim_physics::cea::{CeaError, FrictionSweep, PartWatch, SweepRequest};
+use frictionsim_physics::prestress::{CyclicTangent, PressedRange, PressedState};
+use joining::{Part, Undecided, joined, jumps, label, undecided};
+
+/// What the parts of a sweep have in common.
+struct Common<'a> {
+    case: &'a Case,
+    request: &'a SweepRequest<'a>,
+    progress: &'a Progress<'a>,
+    /// Unknowns of the whole mesh.
+    dofs: usize,
+    /// What keeps a mesh of equal sectors from being solved by waves around it.
+    asymmetry: Option<String>,
+    /// Sweeps of earlier rounds, by the pressed points of their state and their friction coefficients.
+    solved: Vec<(Vec<bool>, Vec<f64>, FrictionSweep)>,
+}
+
+/// Share of the largest contact force from which on it is said that base states leave that out.
+const COARSE: f64 = 1e-7;
+/// Rounds in which base states are solved where stability changes between two of them.
+const MOST_ROUNDS: usize = 30;
+
+impl WholeMesh {
+    /// Solves the sparse eigenproblems at the friction coefficients that the model was made for: a sweep of each state
+    /// with its tangent, which the friction coefficients where one gives way to the next end and begin.
+    ///
+    /// Between two friction coefficients asked for contact points may open or close one after the other. Where the
+    /// stability of a branch changes there, the states between are solved too, by bisection, until one of them has the
+    /// critical friction, or two meet there.
+    pub(crate) fn sweep(
+        &self,
+        case: &Case,
+        request: &SweepRequest<'_>,
+        progress: &Progress<'_>,
+    ) -> Result<Spectrum, CeaError> {
+        let mut frictions = request.friction_coefficients.to_vec();
+        // The base states of this round and of the last one.
+        let (mut refined, mut earlier): (Option<PressedRange>, Option<PressedRange>) = (None, None);
+        let (dofs, asymmetry, solved) = (0, None, Vec::new());
+        let mut common = Common { case, request, progress, dofs, asymmetry, solved };
+        let (mut known, mut unsolved) = (frictions.len(), false);
+        for round in 0.. {
+            let range = refined.as_ref().unwrap_or(&self.range);
+            let mut parts = match self.parts(range, (round, &frictions), &mut common) {
+                Ok(parts) => parts,
+                // What is known without the states between is kept, and the rest said.
+                Err(_) if frictions.len() > known => {
+                    frictions.truncate(known);
+                    (refined, unsolved) = (earlier.take(), true);
+                    continue;
+                }
+                Err(error) => return Err(error),
+            };
+            label(&mut parts);
+            let open: Vec<f64> = undecided(&parts).map(|own| place_in(&own, round)).collect();
+            if open.is_empty() || round >= MOST_ROUNDS || unsolved {
+                let is_by_waves = self.symmetry.is_some() && common.asymmetry.is_none();
+                let mut all = case.body.assembly().map_or_else(Vec::new, notes);
+                all.extend(common.asymmetry.map(|why| {
+                    format!(
+                        "the whole mesh was solved, not waves around it one number of nodal \
+                         diameters after the other: {why}"
+                    )
+                }));
+                all.extend(contact_notes(&self.range, &parts));
+                return Ok(Spectrum {
+                    sweep: joined(parts, request.friction_coefficients),
+                    dofs: common.dofs,
+                    notes: all,
+                    method: if is_by_waves { "cyclic" } else { "sparse" },
+                    ..Spectrum::default()
+                });
+            }
+            let more = [frictions.as_slice(), &open].concat();
+            match self.states_at(case, &more) {
+                Ok(range) => {
+                    earlier = refined.replace(range);
+                    known = frictions.len();
+                    frictions = more;
+                }
+                // There may be no state between.
+                Err(_) => unsolved = true,
+            }
+        }
+        unreachable!("rounds end")
+    }
+
+    /// The sweeps of the states at `frictions`, by rising friction.
+    fn parts(
+        &self,
+        range: &PressedRange,
+        (round, frictions): (usize, &[f64]),
+        common: &mut Common<'_>,
+    ) -> Result<Vec<Part>, CeaError> {
+        let mut parts = Vec::new();
+        for (k, state) in range.states.iter().enumerate() {
+            let own = frictions.iter().zip(&range.state_of);
+            let mut values: Vec<f64> = own.filter(|(_, s)| **s == k).map(|(mu, _)| *mu).collect();
+            if values.is_empty() {
+                continue;
+            }
+            // Branches are followed up to the change on either side.
+            let before = k.checked_sub(1);
+            values.extend(before.map(|before| range.changes[before]));
+            values.extend(range.changes.get(k));
+            values.sort_by(f64::total_cmp);
+            values.dedup();
+            let begin = before.map_or(values[0], |before| range.unknown_between(before).end);
+            let mut known = common.solved.iter();
+            let known =
+                known.find(|(set, at, _)| *set == state.is_pressed && are_same(at, &values));
+            let sweep = match known {
+                Some((_, _, sweep)) => sweep.clone(),
+                None => {
+                    let name = match round {
+                        0 => format!("state-{k}-"),
+                        round => format!("round-{round}-state-{k}-"),
+                    };
+                    let own = SweepRequest {
+                        friction_coefficients: &values,
+                        is_continued: k > 0,
+                        ..*common.request
+                    };
+                    let sweep = self.part(state, &own, name, common)?;
+                    common.solved.push((state.is_pressed.clone(), values, sweep.clone()));
+                    sweep
+                }
+            };
+            parts.push(Part { begin, sweep });
+        }
+        Ok(parts)
+    }
+
+    /// The sweep of one state.
+    fn part(
+        &self,
+        state: &PressedState,
+        request: &SweepRequest<'_>,
+        prefix: String,
+        common: &mut Common<'_>,
+    ) -> Result<FrictionSweep, CeaError> {
+        let tangent = self.tangent(common.case, state)?;
+        common.dofs = common.dofs.max(tangent.unknowns.len());
+        let watch = PartWatch { whole: common.progress, prefix, is_heard: true };
+        if let Some(symmetry) = &self.symmetry {
+            match CyclicTangent::new(&tangent, symmetry, self.mesh.node_count()) {
+                Ok(waves) => {
+                    return sparse::sweep_by_diameters(&tangent, &waves, request, &watch);
+                }
+                Err(why) => {
+                    common.asymmetry.get_or_insert(why);
+                }
+            }
+        }
+        sparse::sweep(&tangent, request, &watch)
+    }
+}
+
+/// Difference of friction coefficients at which contact points open or close that is round-off.
+const SAME_CHANGE: f64 = 1e-8;
+
+/// Whether two lists are of the same friction coefficients.
+fn are_same(one: &[f64], other: &[f64]) -> bool {
+    let mut pairs = one.iter().zip(other);
+    one.len() == other.len() && pairs.all(|(a, b)| (a - b).abs() <= SAME_CHANGE)
+}
+
+/// Where in a gap the next state is solved: where a branch may change its stability, every other time in the middle.
+fn place_in(Undecided { gap, guess }: &Undecided, round: usize) -> f64 {
+    let width = gap.end - gap.start;
+    let is_inside = |mu: &f64| (mu - gap.start).min(gap.end - mu) > 0.01 * width;
+    let guess = guess.filter(|mu| round.is_multiple_of(2) && is_inside(mu));
+    guess.unwrap_or(0.5 * (gap.start + gap.end))
+}
+
+/// What there is to say of contact points that open or close within a sweep.
+fn contact_notes(range: &PressedRange, parts: &[Part]) -> Vec<String> {
+    let places = (0..range.changes.len()).map(|k| {
+        let unknown = range.unknown_between(k);
+        match unknown.is_empty() {
+            true => format!("{:.6}", unknown.start),
+            false => format!("{:.6} to {:.6} (several)", unknown.start, unknown.end),
+        }
+    });
+    let listed = |all: Vec<String>, by: &str| (!all.is_empty()).then(|| all.join(by));
+    let opening = listed(places.collect(), ", ").map(|places| {
+        format!(
+            "contact points open or close at friction coefficients {places}: the tangent changes \
+             there, and branches are matched across by their eigenvalues"
+        )
+    });
+    let jumps = jumps(parts).map(|mu| format!("{mu:.6}"));
+    let jump = listed(jumps.collect(), ", ").map(|places| {
+        format!(
+            "at friction {places} the growth of a mode jumps across zero as contact points open or \
+             close"
+        )
+    });
+    let gaps = undecided(parts).map(|own| own.gap);
+    let gaps = gaps.map(|gap| format!("{:.6} and {:.6}", gap.start, gap.end));
+    let unknown = listed(gaps.collect(), ", between ").map(|gaps| {
+        format!(
+            "a mode changes its stability between friction {gaps}, where contact points open or \
+             close and the states between could not be solved. Its critical friction is only \
+             known to lie there"
+        )
+    });
+    let coarse = (range.left_out > COARSE).then(|| {
+        format!(
+            "contact forces between the friction values are known to a share of {:.0e} of the \
+             largest only, as they grow steeply with friction. Eigenvalues may be wrong by about \
+             as much. Ask for values closer together, or for one alone",
+            range.left_out
+        )
+    });
+    let all = opening.into_iter().chain(jump).chain(unknown);
+    all.chain(coarse).collect()
+}

@@ -1,0 +1,240 @@
+//! One sweep from those of its base states.
+
+use frictionsim_physics::cea::{
+    BeyondMode, ComplexMode, FrictionPoint, FrictionSweep, ModeCount, ModeVectors, UnstableInterval,
+};
+use std::collections::BTreeMap;
+use std::ops::Range;
+
+/// The sweep of one base state.
+pub struct Part {
+    /// Friction coefficient from which the state holds; the sweep may begin before that, where the last one ends.
+    pub begin: f64,
+    pub sweep: FrictionSweep,
+}
+
+impl Part {
+    /// The point of highest friction.
+    fn last(&self) -> Option<&FrictionPoint> {
+        let points = self.sweep.points.iter();
+        points.max_by(|a, b| a.friction_coefficient.total_cmp(&b.friction_coefficient))
+    }
+
+    /// The point of lowest friction.
+    fn first(&self) -> Option<&FrictionPoint> {
+        let points = self.sweep.points.iter();
+        points.min_by(|a, b| a.friction_coefficient.total_cmp(&b.friction_coefficient))
+    }
+}
+
+/// Name of a branch: harmonic and number.
+type Name = (usize, usize);
+/// That of a motion that grows without oscillating.
+const STATIC: Name = (0, 0);
+
+fn name(mode: &ComplexMode) -> Name {
+    (mode.harmonic, mode.branch)
+}
+
+fn name_of(interval: &UnstableInterval) -> Name {
+    (interval.harmonic, interval.branch)
+}
+
+/// A branch whose stability is another on either side of the place where two parts meet.
+struct Jump<'a> {
+    friction_coefficient: f64,
+    name: Name,
+    /// The mode beyond.
+    mode: &'a ComplexMode,
+}
+
+/// The branches that both of two neighbours know where they meet, and whose stability changes there.
+fn jumps_between<'a>(before: &'a Part, after: &'a Part) -> impl Iterator<Item = Jump<'a>> {
+    let ends = before.last().zip(after.first());
+    ends.into_iter().flat_map(|(last, first)| {
+        first.known().enumerate().filter_map(move |(j, mode)| {
+            let mut old = last.known().enumerate();
+            let (i, same) = old.find(|(_, other)| is_same(other, mode))?;
+            let is_listed = i < last.modes.len() || j < first.modes.len();
+            (is_listed && same.is_unstable() != mode.is_unstable()).then(|| Jump {
+                friction_coefficient: first.friction_coefficient,
+                name: name(mode),
+                mode,
+            })
+        })
+    })
+}
+
+/// Whether the static stability is lost between two neighbours.
+fn begins_statically(before: &Part, after: &Part) -> bool {
+    let is_open = |own: &UnstableInterval| name_of(own) == STATIC && own.restabilized.is_none();
+    let begins = |own: &UnstableInterval| name_of(own) == STATIC && own.unstable_from_start;
+    after.sweep.intervals.iter().any(begins) && !before.sweep.intervals.iter().any(is_open)
+}
+
+/// Whether two modes are on one branch.
+fn is_same(one: &ComplexMode, other: &ComplexMode) -> bool {
+    one.branch > 0 && name(one) == name(other)
+}
+
+/// Friction coefficients at which the growth of a branch jumps across zero.
+pub fn jumps(parts: &[Part]) -> impl Iterator<Item = f64> {
+    let decided = parts.windows(2).filter(|pair| unknown(pair).is_empty());
+    decided.filter_map(|pair| {
+        let mut jumps = jumps_between(&pair[0], &pair[1]);
+        jumps.next().map(|jump| jump.friction_coefficient)
+    })
+}
+
+/// Friction coefficients between two neighbours at which the state is unknown.
+fn unknown(pair: &[Part]) -> Range<f64> {
+    let end = pair[0].last().map_or(f64::NAN, |p| p.friction_coefficient);
+    end..pair[1].begin.max(end)
+}
+
+/// Friction coefficients at which the state is unknown and between which a branch changes its stability.
+pub struct Undecided {
+    pub gap: Range<f64>,
+    /// Where the state beyond would have that branch change it, if it held there.
+    pub guess: Option<f64>,
+}
+
+/// All of them.
+pub fn undecided(parts: &[Part]) -> impl Iterator<Item = Undecided> {
+    let gaps = parts.windows(2).map(|pair| (unknown(pair), pair));
+    let gaps = gaps.filter(|(gap, _)| !gap.is_empty());
+    gaps.filter_map(|(gap, pair)| {
+        let ends = |interval: &UnstableInterval| {
+            let onset = interval.is_located().then_some(interval.critical_friction);
+            let end = interval.restabilized.map(|(mu, _)| mu);
+            [onset, end]
+        };
+        let all = pair[1].sweep.intervals.iter().flat_map(ends).flatten();
+        let guess = all.filter(|mu| gap.contains(mu)).min_by(|a, b| a.total_cmp(b));
+        let is_open = guess.is_some()
+            || begins_statically(&pair[0], &pair[1])
+            || jumps_between(&pair[0], &pair[1]).next().is_some();
+        is_open.then_some(Undecided { gap, guess })
+    })
+}
+
+/// Names the branches of each part like those of the one before by the nearest eigenvalues where they meet.
+pub fn label(parts: &mut [Part]) {
+    for k in 1..parts.len() {
+        let (before, after) = parts.split_at_mut(k);
+        relabel(&before[k - 1], &mut after[0]);
+    }
+}
+
+/// One sweep of the parts, with the friction coefficients asked for: one at which a state gives way to the next is that
+/// of the next.
+pub fn joined(mut parts: Vec<Part>, frictions: &[f64]) -> FrictionSweep {
+    let found = joined_intervals(&mut parts, frictions);
+    let parts: Vec<FrictionSweep> = parts.into_iter().map(|part| part.sweep).collect();
+    let all = || parts.iter().rev().flat_map(|part| &part.points);
+    let at = |mu: &f64| all().find(|point| point.friction_coefficient == *mu).cloned();
+    let points = frictions.iter().filter_map(at).collect();
+    let ended = parts.iter().flat_map(|part| part.ended.iter().copied()).collect();
+    let is_asked = |mu: f64| frictions.contains(&mu);
+    let counts = parts.iter().flat_map(|part| part.counts.clone());
+    let mut counts: Vec<ModeCount> =
+        counts.filter(|count| is_asked(count.friction_coefficient)).collect();
+    counts.dedup_by(|b, a| a.friction_coefficient == b.friction_coefficient);
+    let unconverged = parts.iter().flat_map(|part| part.unconverged.iter().copied());
+    let unconverged = unconverged.filter(|own| is_asked(own.friction_coefficient)).collect();
+    let beyond = parts.iter().filter_map(|part| part.beyond);
+    let beyond = BeyondMode::fastest(beyond.filter(|own| is_asked(own.friction_coefficient)));
+    let rigid_motions = parts.first().map_or(0, |part| part.rigid_motions);
+    let joined = FrictionSweep::joined(points, found, ended);
+    FrictionSweep { counts, unconverged, beyond, rigid_motions, ..joined }
+}
+
+/// Unstable intervals over all parts: those that go on across a change are one, and growth may jump across zero at it.
+fn joined_intervals(
+    parts: &mut [Part],
+    frictions: &[f64],
+) -> Vec<(UnstableInterval, Option<ModeVectors>)> {
+    let mut found: Vec<(UnstableInterval, Option<ModeVectors>)> = Vec::new();
+    let is_open =
+        |own: &UnstableInterval, name: Name| name_of(own) == name && own.restabilized.is_none();
+    for k in 0..parts.len() {
+        let (before, rest) = parts.split_at_mut(k);
+        let part = &mut rest[0];
+        let intervals = std::mem::take(&mut part.sweep.intervals);
+        let crossings = std::mem::take(&mut part.sweep.crossings);
+        let jumps = before.last().map(|before| jumps_between(before, part));
+        let jumps: Vec<Jump<'_>> = jumps.into_iter().flatten().collect();
+        // Where growth jumps to decay an interval ends.
+        for jump in jumps.iter().filter(|jump| !jump.mode.is_unstable()) {
+            let own = found.iter_mut().rev().find(|(known, _)| is_open(known, jump.name));
+            if let Some((known, _)) = own {
+                known.restabilized = Some((jump.friction_coefficient, jump.mode.frequency_hz()));
+            }
+        }
+        // So does one of static instability where the next state is stable.
+        let is_static = |own: &UnstableInterval| own.branch == 0 && own.unstable_from_start;
+        if !intervals.iter().any(is_static)
+            && let Some((known, _)) = found.iter_mut().find(|(own, _)| is_open(own, STATIC))
+        {
+            known.restabilized = part.first().map(|first| (first.friction_coefficient, 0.0));
+        }
+        for (mut interval, crossing) in intervals.into_iter().zip(crossings) {
+            if interval.unstable_from_start {
+                // A branch that is unstable on both sides of a change goes on.
+                let own = name_of(&interval);
+                let same = found.iter_mut().find(|(known, _)| is_open(known, own));
+                if let Some((known, _)) = same {
+                    known.restabilized = interval.restabilized;
+                    continue;
+                }
+                // One that is stable before the change begins at it; one that was not there came from above the range,
+                // or was lost.
+                let last = before.last().and_then(Part::last);
+                let is_known = own == STATIC
+                    || last.is_some_and(|last| last.known().any(|mode| name(mode) == own));
+                let earlier =
+                    frictions.iter().copied().filter(|mu| *mu < interval.critical_friction);
+                interval.lost_after = earlier.max_by(f64::total_cmp).filter(|_| !is_known);
+                interval.unstable_from_start = before.is_empty();
+            }
+            found.push((interval, crossing));
+        }
+    }
+    found
+}
+
+/// Gives the branches of `after` the names that their nearest eigenvalues have in `before` where both meet.
+fn relabel(before: &Part, after: &mut Part) {
+    let (Some(last), Some(first)) = (before.last(), after.first()) else {
+        return;
+    };
+    // Nearest pairs first, each mode once; those just above the list too, which may enter it.
+    let [old, new] = [last, first].map(|point| point.known().collect::<Vec<_>>());
+    let mut pairs: Vec<(f64, usize, usize)> = Vec::new();
+    for (i, old) in old.iter().enumerate() {
+        for (j, new) in new.iter().enumerate() {
+            if old.nodal_diameters == new.nodal_diameters {
+                pairs.push(((old.eigenvalue - new.eigenvalue).norm(), i, j));
+            }
+        }
+    }
+    let paired = frictionsim_physics::order::each_once(pairs).into_iter();
+    let paired = paired.filter(|&(i, j)| old[i].branch > 0 && new[j].branch > 0);
+    let mut name_at: BTreeMap<Name, Name> =
+        paired.map(|(i, j)| (name(new[j]), name(old[i]))).collect();
+    // Others have new numbers.
+    let known = before.sweep.points.iter().flat_map(FrictionPoint::known).map(|mode| mode.branch);
+    let mut next = known.max().map_or(1, |branch| branch + 1);
+    let mut rename = |harmonic: &mut usize, branch: &mut usize| {
+        (*harmonic, *branch) = *name_at.entry((*harmonic, *branch)).or_insert_with(|| {
+            next += 1;
+            (*harmonic, next - 1)
+        });
+    };
+    let points = after.sweep.points.iter_mut();
+    let modes = points.flat_map(|point| point.modes.iter_mut().chain(&mut point.above));
+    let named = modes.filter(|mode| mode.branch > 0);
+    named.for_each(|mode| rename(&mut mode.harmonic, &mut mode.branch));
+    let intervals = after.sweep.intervals.iter_mut().filter(|own| own.branch > 0);
+    intervals.for_each(|own| rename(&mut own.harmonic, &mut own.branch));
+}

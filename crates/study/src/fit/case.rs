@@ -1,0 +1,193 @@
+//! The parameters that a case asks to be fitted.
+
+use super::free_part::{STEP, free_part, rates};
+use super::{
+    BoundedParameter, FitError, FitProblem, Fitted, MeasuredMode, MeasuredShapes, ModelMode, fit,
+    summary,
+};
+use crate::eigenvalues::{Solver, analysis, rates_of_waves};
+use crate::{StudyError, eigenvalues};
+use frictionsim_case::{Case, Cea, Fit, FitParameter, Spacing};
+use frictionsim_physics::cea::cyclic::{WavePair, WaveSweep, wave_pairs};
+use frictionsim_physics::cea::{ComplexMode, ModeBranch};
+use frictionsim_physics::linalg::c64;
+use frictionsim_results::fit::FitSummary;
+
+/// Modes are computed up to this much above the highest line.
+const MARGIN: f64 = 1.15;
+
+/// Modes are computed up to this frequency.
+fn limit_hz(lines: &[MeasuredMode]) -> f64 {
+    MARGIN * lines.iter().map(|line| line.frequency_hz).fold(0.0, f64::max)
+}
+
+/// Fits the parameters of a case to measured modes, with measured shapes of some of the lines.
+///
+/// # Errors
+/// A case without `[fit]`; a fit that cannot be made; shapes that belong to no line, points off the body.
+pub fn fit_case(
+    case: &Case,
+    lines: &[MeasuredMode],
+    shapes: Option<MeasuredShapes<'_>>,
+) -> Result<Fitted, StudyError> {
+    let wanted = case.require_fit()?;
+    if let Some(cea) = &case.cea {
+        // What every point would be refused for.
+        Solver::of(case, cea.method)?;
+    }
+    let shape_of = match &shapes {
+        Some(shapes) => {
+            shapes.check(case)?;
+            shapes.of_lines(lines)?
+        }
+        None => vec![None; lines.len()],
+    };
+    let limit_hz = limit_hz(lines);
+    let model = |values: &[f64], with_rates: bool| {
+        modes(case, (wanted, shapes), values, limit_hz, with_rates)
+    };
+    let parameters: Vec<BoundedParameter> = wanted.parameters.iter().map(bounded).collect();
+    let own = wanted.parameters.iter().map(|parameter| case.number(&parameter.parameter.key));
+    let problem = FitProblem {
+        model: &model,
+        parameters: &parameters,
+        lines,
+        shape_of,
+        shape_weight: wanted.shape_weight,
+        starts: wanted.starts,
+        own: own.collect(),
+    };
+    Ok(fit(&problem)?)
+}
+
+/// The summary of a fit, without its source.
+///
+/// # Errors
+/// A case without `[fit]`.
+pub fn summarize(
+    case: &Case,
+    lines: &[MeasuredMode],
+    fitted: &Fitted,
+) -> Result<FitSummary, StudyError> {
+    // The case as it is written need not have a solution.
+    let before = eigenvalues::modes_below(case, limit_hz(lines)).unwrap_or_default();
+    Ok(summary::of(case, case.require_fit()?, fitted, &before))
+}
+
+/// Lines of a table of modes beyond which it is hardly one: assigning them to modes grows with the cube of their
+/// number.
+const MOST_LINES: usize = 1000;
+
+/// Frequencies that a measured mode has, Hz.
+const FREQUENCIES_HZ: [f64; 2] = [1e-3, 1e9];
+
+/// Refuses fewer measured numbers than there are parameters, more lines than modes that anybody measures, and
+/// frequencies that are none.
+///
+/// # Errors
+/// [`StudyError::Case`] for a case without `[fit]`, and at `fit.parameters`; [`StudyError::Fit`] for such a table.
+pub fn refuse_too_few(case: &Case, lines: &[MeasuredMode]) -> Result<(), StudyError> {
+    let wanted = case.require_fit()?;
+    if lines.len() > MOST_LINES {
+        let lines = lines.len();
+        return Err(FitError::Table(format!(
+            "the table has {lines} lines, at most {MOST_LINES} modes can be fitted: give the modes \
+             alone, not a frequency response"
+        ))
+        .into());
+    }
+    let [least, most] = FREQUENCIES_HZ;
+    let is_outside = |line: &&MeasuredMode| !(least..=most).contains(&line.frequency_hz);
+    if let Some(line) = lines.iter().find(is_outside) {
+        return Err(FitError::Table(format!(
+            "line {} of the table: {:e} Hz is no frequency of a mode, which lies between {least:e} \
+             and {most:e} Hz",
+            line.line, line.frequency_hz
+        ))
+        .into());
+    }
+    let data = lines.iter().map(|line| 1 + usize::from(line.real_hz.is_some())).sum();
+    let parameters = wanted.parameters.len();
+    if data >= parameters {
+        return Ok(());
+    }
+    let message = FitError::too_few_data(parameters, data).to_string();
+    let label = format!("{data} numbers are measured");
+    let errors = case.error_at("fit.parameters", message, label, None);
+    Err(errors.into())
+}
+
+fn bounded(parameter: &FitParameter) -> BoundedParameter {
+    BoundedParameter {
+        name: parameter.parameter.key.clone(),
+        from: parameter.from,
+        to: parameter.to,
+        is_logarithmic: parameter.scale == Spacing::Logarithmic,
+    }
+}
+
+/// The modes of the case with its parameters at some values, with their derivatives by each parameter and their
+/// likeness to the measured shapes.
+fn modes(
+    case: &Case,
+    (wanted, shapes): (&Fit, Option<MeasuredShapes<'_>>),
+    values: &[f64],
+    limit_hz: f64,
+    with_rates: bool,
+) -> Result<Vec<ModelMode>, String> {
+    let parameters = wanted.parameters.iter().map(|parameter| &parameter.parameter);
+    let parameters = parameters.zip(values.iter().copied());
+    let case = case.with_parameters(parameters.clone())?;
+    let is_free = with_rates && free_part(&case).is_some();
+    let own = [case.contact.sliding.friction_coefficient];
+    let shapes_at = &own[..usize::from(is_free || shapes.is_some())];
+    let solved = eigenvalues::modes_with_waves_below(&case, limit_hz, shapes_at);
+    let (modes, waves) = solved.map_err(|error| error.line())?;
+    let assurances = match shapes {
+        Some(shapes) => shapes.assurances(&case, &modes).map_err(|error| error.line())?,
+        None => vec![Vec::new(); modes.len()],
+    };
+    let cea = analysis(&case, &own, limit_hz);
+    let by_parameter = match waves {
+        _ if is_free => rates(&case, cea.mass, &modes, parameters),
+        Some(waves) if with_rates => wave_rates((&case, &cea), &modes, &waves, (wanted, values)),
+        _ => vec![vec![None; modes.len()]; wanted.parameters.len()],
+    };
+    let of = |(i, (mode, assurances)): (usize, (&ComplexMode, Vec<f64>))| ModelMode {
+        rates: by_parameter.iter().map(|rates| rates[i]).collect(),
+        assurances,
+        ..ModelMode::of(mode, case.has_sectors())
+    };
+    Ok(modes.iter().zip(assurances).enumerate().map(of).collect())
+}
+
+/// Derivatives of modes of a body solved harmonic by harmonic by each parameter, with the keys that follow it; `None`
+/// where there is none.
+fn wave_rates(
+    (case, cea): (&Case, &Cea),
+    modes: &[ComplexMode],
+    waves: &WaveSweep,
+    (wanted, values): (&Fit, &[f64]),
+) -> Vec<Vec<Option<c64>>> {
+    let friction = case.contact.sliding.friction_coefficient;
+    let branch_of = |mode: &ComplexMode| {
+        let is_it = |b: &&ModeBranch| {
+            (b.harmonic, b.branch, b.direction) == (mode.harmonic, mode.branch, mode.direction)
+        };
+        waves.branches.iter().find(is_it)
+    };
+    let branches: Vec<_> = modes.iter().map(branch_of).collect();
+    let all: Vec<_> = branches.iter().flatten().map(|branch| (*branch, friction)).collect();
+    let mut found = wave_pairs(&waves.tangent, &all).into_iter();
+    let pairs: Vec<Option<WavePair>> =
+        branches.iter().map(|branch| branch.and_then(|_| found.next()?)).collect();
+    let by_parameter = wanted.parameters.iter().zip(values).map(|(parameter, &value)| {
+        // From zero the range says what is little.
+        let scale = if value == 0.0 { parameter.to - parameter.from } else { value.abs() };
+        let moved = |offset: f64| case.with_parameters([(&parameter.parameter, value + offset)]);
+        let own = (&pairs[..], waves.tangent.pressed());
+        let rates = rates_of_waves((case, cea), own, STEP * scale, &moved);
+        rates.unwrap_or_else(|_| vec![None; pairs.len()])
+    });
+    by_parameter.collect()
+}

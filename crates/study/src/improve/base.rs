@@ -1,0 +1,230 @@
+//! What there is to improve: the unstable modes of a case with their left and right vectors.
+
+use super::super::StudyError;
+use crate::eigenvalues::WholeMesh;
+use crate::tangent_options;
+use frictionsim_case::{Case, CaseErrors, Cea, refusal};
+use frictionsim_physics::cea::sparse::{ModePair, mode_pairs};
+use frictionsim_physics::cea::{CeaError, FrictionSweep, SweepRequest, Unwatched};
+use frictionsim_physics::linalg::c64;
+use frictionsim_physics::mesh::Mesh;
+use frictionsim_physics::prestress::{SlidingTangent, TangentOptions};
+use frictionsim_results::improve::{State, TargetMode};
+use std::f64::consts::TAU;
+use std::sync::Arc;
+
+/// Steps of friction from 0 to that of the case, over which branches are followed.
+const STEPS: usize = 4;
+
+/// A mode with its vectors over the unknowns and over all dofs.
+pub(super) struct PairedMode {
+    /// Vectors over the unknowns.
+    pub pair: ModePair,
+    /// Displacement of every dof.
+    pub right: Vec<c64>,
+    /// What a change of a body's matrix over all dofs is seen by, see [`SlidingTangent::left_displacement`].
+    pub left: Vec<c64>,
+}
+
+impl PairedMode {
+    /// `lambda`.
+    pub fn eigenvalue(&self) -> c64 {
+        self.pair.eigenvalue
+    }
+}
+
+/// The frequencies of the modes that are to be silenced, Hz.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Window(pub [f64; 2]);
+
+impl Window {
+    /// Whether a mode is one of them.
+    pub fn holds(&self, eigenvalue: c64) -> bool {
+        let frequency = eigenvalue.im / TAU;
+        (self.0[0]..=self.0[1]).contains(&frequency)
+    }
+
+    /// What some modes come to; their critical friction is left open.
+    pub fn outlook(&self, modes: impl IntoIterator<Item = c64>) -> State {
+        let (own, others): (Vec<c64>, Vec<c64>) =
+            modes.into_iter().partition(|mode| self.holds(*mode));
+        let count = |modes: &[c64]| modes.iter().filter(|mode| mode.re > 0.0).count();
+        let (worst, beside) = (fastest(&own), fastest(&others).filter(|mode| mode.re > 0.0));
+        State {
+            growth_rate_per_s: worst.map(|mode| mode.re),
+            frequency_hz: worst.map(|mode| mode.im / TAU),
+            critical_friction: None,
+            unstable: count(&own),
+            unstable_beside: count(&others),
+            beside_hz: beside.map(|mode| mode.im / TAU),
+        }
+    }
+}
+
+/// The mode that grows fastest, or decays slowest.
+fn fastest<'m>(modes: impl IntoIterator<Item = &'m c64>) -> Option<c64> {
+    modes.into_iter().copied().max_by(|a, b| a.re.total_cmp(&b.re))
+}
+
+/// The model of a case over its whole mesh, at its own friction coefficient.
+pub(super) struct Base<'a> {
+    pub case: &'a Case,
+    pub cea: &'a Cea,
+    pub mesh: Arc<Mesh>,
+    pub options: TangentOptions,
+    pub tangent: SlidingTangent,
+    /// The case's own friction coefficient.
+    pub friction: f64,
+    /// Displacement of the base state there, with which elements have a geometric stiffness; none where it is free of
+    /// stress.
+    pub displacement: Option<Vec<f64>>,
+    pub window: Window,
+    /// Eigenvalues of all listed modes, by frequency.
+    pub listed: Vec<c64>,
+    /// Those of them that have vectors.
+    pub modes: Vec<PairedMode>,
+    /// What they come to, with the lowest critical friction coefficient of a mode in the window.
+    pub state: State,
+    /// Modes that coincide with another one.
+    pub multiple: usize,
+}
+
+/// The model and the spectrum of a case over its whole mesh, from friction 0 to that of the case.
+pub(super) fn spectrum_of(case: &Case, cea: &Cea) -> Result<(WholeMesh, FrictionSweep), CeaError> {
+    let own = case.contact.sliding.friction_coefficient;
+    let frictions: Vec<f64> = (0..=STEPS).map(|i| own * i as f64 / STEPS as f64).collect();
+    let whole = WholeMesh::solve(case, tangent_options(case, cea.mass), &frictions)?;
+    let request = SweepRequest::new(&frictions, cea.modes);
+    let sweep = whole.sweep(case, &request, &Unwatched)?.sweep;
+    Ok((whole, sweep))
+}
+
+/// The lowest critical friction coefficient of a mode in a window.
+pub(super) fn lowest_onset(sweep: &FrictionSweep, window: Window) -> Option<f64> {
+    let intervals = sweep.intervals.iter();
+    let own = intervals.filter(|own| window.holds(c64::new(0.0, TAU * own.frequency_hz)));
+    own.map(|own| own.critical_friction).min_by(f64::total_cmp)
+}
+
+impl<'a> Base<'a> {
+    /// Solves the modes of a case over friction, and the vectors of those at its own.
+    ///
+    /// # Errors
+    /// A body that has no whole mesh; no unstable mode; those of the solver.
+    pub fn solve(case: &'a Case, cea: &'a Cea) -> Result<Self, StudyError> {
+        refuse_bodies(case)?;
+        let friction = case.contact.sliding.friction_coefficient;
+        let window = Window(case.improve.frequencies_hz);
+        let (whole, sweep) = spectrum_of(case, cea)?;
+        let own = sweep.modes_at(friction).iter();
+        let targets: Vec<c64> = own.map(|mode| mode.eigenvalue).collect();
+        let outlook = window.outlook(targets.iter().copied());
+        if outlook.unstable == 0 {
+            return Err(nothing_grows(case, outlook.unstable_beside, window).into());
+        }
+
+        // Left and right vectors of all listed modes.
+        let tangent = whole.own_tangent(case)?;
+        let pairs = mode_pairs(&tangent, friction, &targets);
+        let multiple = pairs.iter().filter(|pair| pair.is_none()).count();
+        let modes = pairs.into_iter().flatten().map(|pair| PairedMode {
+            right: tangent.displacement(&pair.right),
+            left: tangent.left_displacement(&pair.left, friction),
+            pair,
+        });
+        let modes: Vec<PairedMode> = modes.collect();
+        let stressing = whole.stressing(case, whole.state());
+        Ok(Self {
+            displacement: stressing.map(|state| state.displacement(friction)),
+            mesh: case.mesh()?,
+            options: tangent_options(case, cea.mass),
+            state: State { critical_friction: lowest_onset(&sweep, window), ..outlook },
+            case,
+            cea,
+            tangent,
+            friction,
+            window,
+            listed: targets,
+            modes,
+            multiple,
+        })
+    }
+
+    /// Angular frequency of the mode of the window that grows fastest, rad/s.
+    pub fn worst_frequency(&self) -> Option<f64> {
+        let own = self.listed.iter().filter(|mode| self.window.holds(**mode));
+        fastest(own).map(|mode| mode.im)
+    }
+
+    /// The modes that are to be silenced.
+    pub fn targets(&self) -> Vec<&PairedMode> {
+        let modes = self.modes.iter();
+        let grows =
+            |mode: &&PairedMode| self.window.holds(mode.eigenvalue()) && mode.eigenvalue().re > 0.0;
+        modes.filter(grows).collect()
+    }
+}
+
+/// The modes that are to be silenced, numbered as `cea` numbers them.
+pub(super) fn target_modes(base: &Base<'_>) -> Vec<TargetMode> {
+    let targets = base.targets();
+    let number = |mode: &PairedMode| {
+        let listed = base.listed.iter();
+        1 + listed.filter(|other| other.im < mode.eigenvalue().im).count()
+    };
+    targets
+        .into_iter()
+        .map(|mode| TargetMode {
+            mode: number(mode),
+            frequency_hz: mode.eigenvalue().im / TAU,
+            growth_rate_per_s: mode.eigenvalue().re,
+        })
+        .collect()
+}
+
+/// Bodies whose changes break the symmetry that they are solved by, and damping without linear derivatives.
+pub(crate) fn refuse_bodies(case: &Case) -> Result<(), CaseErrors> {
+    if case.has_structural_damping() {
+        return Err(case.loss_error(
+            "improve takes derivatives of conjugate pairs of modes, which structural damping K (1 \
+            + i eta) does not leave",
+            "not in improve",
+            "set it to 0 and give the damping by damping.stiffness_coefficient: beta = eta / omega \
+            at the frequency of the mode",
+        ));
+    }
+    match case.body.annulus() {
+        Some(annulus) if annulus.specification.shaft.is_some() => {
+            Err(refusal!(case, "geometry.shaft_inner_radius",
+                "improve adds to, or takes from, one place of a body, which breaks the symmetry \
+                 that disc and shaft are solved by";
+                "a deformable shaft"; "give both bodies as a mesh file (mesh.file)"))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// No mode of the window grows.
+fn nothing_grows(case: &Case, beside: usize, window: Window) -> CaseErrors {
+    let friction = case.contact.sliding.friction_coefficient;
+    let [low, high] = window.0;
+    let place = match (low > 0.0, high.is_finite()) {
+        (false, false) => "of [cea]".to_owned(),
+        (true, false) => format!("above {low} Hz"),
+        (false, true) => format!("below {high} Hz"),
+        (true, true) => format!("from {low} to {high} Hz"),
+    };
+    let beside = match beside {
+        0 => String::new(),
+        count => format!("; {count} beside these frequencies do"),
+    };
+    let key = match case.raw.find("contact.friction_coefficient") {
+        Some(_) => "contact.friction_coefficient",
+        None => "contacts",
+    };
+    refusal!(case, key,
+        "no mode {place} grows at friction {friction}: there is nothing to improve{beside}";
+        "every mode decays";
+        "raise the friction coefficient above the lowest critical one that `cea` prints, or widen \
+         improve.min_frequency_hz and max_frequency_hz")
+}

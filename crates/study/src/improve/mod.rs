@@ -1,0 +1,365 @@
+//! What silences the unstable modes of a case. Derivatives by every place of its bodies come first.
+//! The best of them are looked at with all modes together, the best of those run again as cases of
+//! their own.
+//!
+//! ```no_run
+//! use frictionsim::case::Case;
+//! use frictionsim::study::improve::improve;
+//!
+//! let case = Case::parse("disc", &std::fs::read("cases/polycarbonate-disc.toml")?, &[])?;
+//! for candidate in improve(&case)?.summary.candidates {
+//!     println!("{} {}: {}", candidate.kind, candidate.place(), candidate.verdict);
+//! }
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod attached;
+mod base;
+mod confirm;
+mod fields;
+mod modal;
+mod places;
+mod shown;
+mod trial;
+
+use super::mac::whole_mesh_note;
+use super::{StudyError, extent_of};
+pub(super) use base::refuse_bodies;
+use base::{Base, target_modes};
+use confirm::{keys_of, run_again, verdict};
+use fields::{Derivatives, element_dofs, element_terms, matrices};
+use frictionsim_case::{Case, ModificationKind};
+use frictionsim_output::rounded;
+use frictionsim_physics::cea::CeaError;
+use frictionsim_physics::fem::lumped_masses;
+use frictionsim_physics::mesh::Mesh;
+use frictionsim_results::improve::{Candidate, ImproveSummary, Sizes, State, TargetFields};
+use modal::{Change, ModalModel};
+use nalgebra::DMatrix;
+use places::Places;
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
+use trial::{Search, Target, Trial};
+
+/// What `improve` finds.
+pub struct Improvement {
+    /// What there is to say of it.
+    pub summary: ImproveSummary,
+    /// The mesh of the fields.
+    pub mesh: Arc<Mesh>,
+    /// Derivatives of each target over the mesh.
+    pub fields: Vec<TargetFields>,
+}
+
+/// Removals that are looked at closely, for each one that is listed.
+const SHORTLISTED: usize = 2;
+
+/// A trial with what all modes together make of it.
+#[derive(Clone)]
+struct Predicted {
+    trial: Trial,
+    state: State,
+}
+
+/// Finds what silences the unstable modes of a case at its friction coefficient, as its `[improve]` asks.
+///
+/// # Errors
+/// A body that is solved by its symmetry, nothing that grows; those of the solver.
+pub fn improve(case: &Case) -> Result<Improvement, StudyError> {
+    let cea = case.require_cea()?;
+    let mut notes = whole_mesh_note(case);
+    let case = &*case.on_whole_mesh()?;
+    let base = Base::solve(case, cea)?;
+    let sizes = sizes(&base);
+    let targets = base.targets().into_iter();
+    let derivatives: Vec<_> = targets.map(|mode| Derivatives::of(&base, mode)).collect();
+    let search = Search {
+        places: Places::of(&base, sizes.patch_radius_m)?,
+        derivatives: &derivatives,
+        base: &base,
+        sizes,
+    };
+    let modal = ModalModel::new(&base).map_err(CeaError::from)?;
+
+    // The best places of each kind, and what all modes make of them.
+    let asked = &case.improve.modifications;
+    let is_asked = |kind: &ModificationKind| asked.is_empty() || asked.contains(kind);
+    let kinds: Vec<ModificationKind> = ModificationKind::all().filter(is_asked).collect();
+    let mut listed: Vec<(usize, Predicted)> = Vec::new();
+    for &kind in &kinds {
+        let predicted = predictions(&search, &modal, kind, &mut notes)?;
+        if predicted.is_empty() {
+            notes.push(format!("{}: no place of this size helps", kind.word()));
+        }
+        listed.extend(predicted.into_iter().enumerate());
+    }
+    sort(&mut listed);
+
+    // The best of each kind before the second best of any.
+    let mut order: Vec<usize> = (0..listed.len()).collect();
+    order.sort_by_key(|&i| (listed[i].0, i));
+    order.truncate(case.improve.confirm);
+    order.sort_unstable();
+    let run = |&i: &usize| (i, run_again(&base, &keys_of(&search, &listed[i].1.trial)));
+    let confirmed: Vec<_> = frictionsim_physics::parallel::map(&order, run);
+    let candidates = listed.iter().enumerate().map(|(i, (_, own))| {
+        let outcome = confirmed.iter().find(|(place, _)| *place == i);
+        candidate(&search, i + 1, own, outcome.map(|(_, outcome)| outcome))
+    });
+    let mut candidates: Vec<Candidate> = candidates.collect();
+    promote(&mut candidates);
+    if base.multiple > 0 {
+        notes.push(format!(
+            "{} of the modes coincide with another one and are left out of the predictions",
+            base.multiple
+        ));
+    }
+    let summary = ImproveSummary {
+        dofs: base.tangent.unknowns.len(),
+        friction_coefficient: base.friction,
+        base: base.state,
+        modes: target_modes(&base),
+        sizes,
+        extent: extent_of(case),
+        candidates,
+        notes,
+    };
+    let fields = shown::fields(&search);
+    Ok(Improvement { summary, mesh: Arc::clone(&base.mesh), fields })
+}
+
+/// Sizes of the modifications that the case gives, or that follow, to four digits, from its bodies and the fastest of
+/// its targets.
+fn sizes(base: &Base<'_>) -> Sizes {
+    let asked = &base.case.improve;
+    let worst = base.worst_frequency().unwrap_or(1.0);
+    let masses = lumped_masses(&base.mesh, base.case.materials());
+    let own = |asked: Option<f64>, usual: f64| asked.unwrap_or(rounded(usual, 4));
+    let mass = own(asked.mass, 0.01 * base.case.depth() * masses.iter().sum::<f64>());
+    let size = base.case.body.size();
+    Sizes {
+        mass_kg: mass,
+        stiffness_n_per_m: own(asked.stiffness, worst * worst * mass),
+        damping_n_s_per_m: own(asked.damping, 0.1 * worst * mass),
+        patch_radius_m: own(asked.patch_radius, 0.05 * size),
+        patch_damping_s: own(asked.patch_damping, 0.1 / worst),
+        offset_m: own(asked.offset, 0.1 * size),
+    }
+}
+
+/// The candidates of one kind, the best first.
+fn predictions(
+    search: &Search<'_>,
+    modal: &ModalModel<'_>,
+    kind: ModificationKind,
+    notes: &mut Vec<String>,
+) -> Result<Vec<Predicted>, StudyError> {
+    let count = search.base.case.improve.candidates;
+    let mut trials = search.best(kind);
+    if kind == ModificationKind::Removal {
+        trials = shortlist(search, modal, trials, SHORTLISTED * count)?;
+    }
+    let changes: Vec<Result<(Change, Trial), String>> =
+        frictionsim_physics::parallel::map(trials, |trial| {
+            Ok((change(search, modal, &trial)?, trial))
+        });
+    for reason in changes.iter().filter_map(|own| own.as_ref().err()) {
+        notes.push(format!("{}: {reason}", kind.word()));
+    }
+    let changes: Vec<(Change, Trial)> = changes.into_iter().flatten().collect();
+
+    // By the growth of all modes together first; onsets only of those that are listed.
+    let outlooks: Result<Vec<State>, _> =
+        frictionsim_physics::parallel::map(&changes, |(own, _)| modal.outlook(Some(own)));
+    let outlooks = outlooks.map_err(CeaError::from)?;
+    let mut order: Vec<usize> = (0..changes.len()).collect();
+    let growth = |i: usize| outlooks[i].growth_rate_per_s.unwrap_or(f64::NEG_INFINITY);
+    frictionsim_physics::order::sort_by_number(&mut order, |&a| growth(a));
+    let base = &search.base.state;
+    let before = base.growth_rate_per_s.unwrap_or(f64::INFINITY);
+    order.retain(|&i| growth(i) < before);
+    order.truncate(count);
+
+    let predicted: Result<Vec<Predicted>, frictionsim_physics::linalg::LinalgError> =
+        frictionsim_physics::parallel::map(&order, |&i| {
+            let onset = modal.corrected_onset(&changes[i].0, base.critical_friction)?;
+            let critical_friction = onset.filter(|mu| *mu < search.base.friction);
+            let state = State { critical_friction, ..outlooks[i] };
+            Ok(Predicted { trial: changes[i].1.clone(), state })
+        });
+    Ok(predicted.map_err(CeaError::from)?)
+}
+
+/// What a trial changes in the space of the modes.
+fn change(search: &Search<'_>, modal: &ModalModel<'_>, trial: &Trial) -> Result<Change, String> {
+    let (base, sizes) = (search.base, &search.sizes);
+    let d = base.mesh.dimension;
+    match (&trial.target, trial.kind) {
+        (Target::Node(node, direction), kind) => {
+            let dofs: Vec<usize> = (0..d).map(|axis| d * node + axis).collect();
+            let law = confirm::law(*direction);
+            let own = base.mesh.in_frame(*node, &law);
+            let matrix = |amount: f64| {
+                DMatrix::from_fn(d, d, |i, j| amount * own[(i, j)] / base.case.depth())
+            };
+            let none = || DMatrix::<f64>::zeros(d, d);
+            let matrices = match kind {
+                ModificationKind::Mass => {
+                    let mass = matrix(sizes.mass_kg);
+                    let damping = &mass * base.options.damping.mass_coefficient;
+                    [mass, damping, none()]
+                }
+                ModificationKind::Spring => [none(), none(), matrix(sizes.stiffness_n_per_m)],
+                _ => [none(), matrix(sizes.damping_n_s_per_m), none()],
+            };
+            Ok(modal.attached(&dofs, matrices.each_ref()))
+        }
+        (Target::Patch(_, elements), kind) => {
+            let (dofs, matrices) = patch_matrices(base, elements, kind, sizes.patch_damping_s);
+            if kind != ModificationKind::Removal {
+                return Ok(modal.yielding(&dofs, matrices.each_ref()));
+            }
+            let is_shared = shared(search, elements, &dofs);
+            modal
+                .removed((&dofs, &is_shared), matrices.each_ref())
+                .ok_or_else(|| "nothing is left beside what is taken away".to_owned())
+        }
+        (Target::Hole(_), _) => {
+            let tangent = confirm::tangent_of(base, &keys_of(search, trial))?;
+            let change = modal.to(&tangent);
+            change.ok_or_else(|| "the unknowns change with it".to_owned())
+        }
+    }
+}
+
+/// The removals of some that the listed modes alone, which see no more than the mass and stiffness lost, rank first.
+fn shortlist(
+    search: &Search<'_>,
+    modal: &ModalModel<'_>,
+    trials: Vec<Trial>,
+    count: usize,
+) -> Result<Vec<Trial>, StudyError> {
+    let growth = |trial: Trial| -> Result<(f64, Trial), frictionsim_physics::linalg::LinalgError> {
+        let Target::Patch(_, elements) = &trial.target else {
+            return Ok((f64::INFINITY, trial));
+        };
+        let (dofs, own) = patch_matrices(search.base, elements, trial.kind, 0.0);
+        let [m, c, k] = own.map(|matrix| -matrix);
+        let outlook = modal.outlook(Some(&modal.local(&dofs, [&m, &c, &k])))?;
+        Ok((outlook.growth_rate_per_s.unwrap_or(f64::NEG_INFINITY), trial))
+    };
+    let ranked: Result<Vec<(f64, Trial)>, _> = frictionsim_physics::parallel::map(trials, growth);
+    let mut ranked = ranked.map_err(CeaError::from)?;
+    frictionsim_physics::order::sort_by_number(&mut ranked, |a| a.0);
+    ranked.truncate(count);
+    Ok(ranked.into_iter().map(|(_, trial)| trial).collect())
+}
+
+/// Which dofs of a patch belong to elements beside it too.
+fn shared(search: &Search<'_>, elements: &[u32], dofs: &[usize]) -> Vec<bool> {
+    let mesh = &search.base.mesh;
+    let mut inside: BTreeMap<u32, u32> = BTreeMap::new();
+    for &element in elements {
+        for &node in mesh.element_nodes(element as usize) {
+            *inside.entry(node).or_default() += 1;
+        }
+    }
+    let is_shared = |dof: &usize| {
+        let node = dof / mesh.dimension;
+        inside.get(&(node as u32)) < Some(&search.places.uses[node])
+    };
+    dofs.iter().map(is_shared).collect()
+}
+
+/// The dofs of a patch, rising, and its mass, damping and stiffness, or what damping it changes of them.
+fn patch_matrices(
+    base: &Base<'_>,
+    elements: &[u32],
+    kind: ModificationKind,
+    beta: f64,
+) -> (Vec<usize>, [DMatrix<f64>; 3]) {
+    let all = elements.iter().map(|&e| element_dofs(base, e as usize));
+    let all: Vec<Vec<usize>> = all.collect();
+    let own: BTreeSet<usize> = all.iter().flatten().copied().collect();
+    let own: Vec<usize> = own.into_iter().collect();
+    let mut sums = [0, 1, 2].map(|_| DMatrix::<f64>::zeros(own.len(), own.len()));
+    for (&element, dofs) in elements.iter().zip(&all) {
+        let terms = match kind {
+            ModificationKind::Removal => element_terms(base, element as usize),
+            _ => {
+                let [mass, elastic] = matrices(base, element as usize);
+                [mass * 0.0, &elastic * beta, elastic * 0.0]
+            }
+        };
+        let places: Vec<usize> = dofs.iter().map(|dof| own.partition_point(|o| o < dof)).collect();
+        for (sum, term) in sums.iter_mut().zip(terms) {
+            for (j, &column) in places.iter().enumerate() {
+                for (i, &row) in places.iter().enumerate() {
+                    sum[(row, column)] += term[(i, j)];
+                }
+            }
+        }
+    }
+    (own, sums)
+}
+
+/// The best first: by critical friction, then by growth.
+fn sort(listed: &mut [(usize, Predicted)]) {
+    let merit = |own: &Predicted| {
+        let onset = own.state.critical_friction.unwrap_or(f64::INFINITY);
+        (-onset, own.state.growth_rate_per_s.unwrap_or(f64::INFINITY))
+    };
+    listed.sort_by(|(_, a), (_, b)| {
+        let (a, b) = (merit(a), merit(b));
+        a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1))
+    });
+}
+
+/// One row of the list.
+fn candidate(
+    search: &Search<'_>,
+    rank: usize,
+    own: &Predicted,
+    outcome: Option<&Result<State, String>>,
+) -> Candidate {
+    let trial = &own.trial;
+    let (node, direction) = match &trial.target {
+        Target::Node(node, direction) => (Some(search.base.mesh.node_label(*node)), *direction),
+        _ => (None, None),
+    };
+    Candidate {
+        rank,
+        kind: trial.kind.word().to_owned(),
+        node,
+        position_m: search.place(trial),
+        direction,
+        added_mass_kg: shown::added_mass(search, trial),
+        first_order_growth_rate_per_s: trial.first_order,
+        predicted: own.state,
+        confirmed: outcome.and_then(|outcome| outcome.as_ref().ok()).copied(),
+        verdict: match outcome {
+            None => "not run again".to_owned(),
+            Some(Ok(state)) => verdict(&search.base.state, state),
+            Some(Err(reason)) => format!("struck off: {reason}"),
+        },
+        keys: keys_of(search, trial),
+    }
+}
+
+/// Puts what was struck off behind what was not.
+fn promote(candidates: &mut [Candidate]) {
+    let class = |own: &Candidate| match own.verdict.as_str() {
+        "silenced" => 0,
+        "confirmed" => 1,
+        "not run again" => 2,
+        _ => 3,
+    };
+    let onset = |own: &Candidate| {
+        let state = own.confirmed.unwrap_or(own.predicted);
+        -state.critical_friction.unwrap_or(f64::INFINITY)
+    };
+    candidates.sort_by(|a, b| class(a).cmp(&class(b)).then(onset(a).total_cmp(&onset(b))));
+    for (place, own) in candidates.iter_mut().enumerate() {
+        own.rank = place + 1;
+    }
+}

@@ -1,0 +1,267 @@
+//! Modal assurance of measured shapes against the modes of a case.
+
+use super::StudyError;
+use super::eigenvalues::{SlidingModel, solve_modes};
+use super::fit::least_cost;
+use frictionsim_case::{Body, Case, Cea, refusal};
+use frictionsim_physics::cea::ComplexMode;
+use frictionsim_physics::linalg::c64;
+use frictionsim_physics::mesh::Mesh;
+use frictionsim_results::mac::{MacMode, MacPair, MacShape, MacSummary};
+use frictionsim_signal::reader::MeasuredShape;
+use nalgebra::Vector3;
+
+/// Distance from the nearest node, as a share of half the body's size, beyond which a point lies off the body.
+const FAR: f64 = 0.05;
+/// Factors to metres that a file may have been written without, with the units.
+const UNITS: [(f64, &str); 4] =
+    [(1e-3, "millimetres"), (1e-2, "centimetres"), (0.0254, "inches"), (1e3, "kilometres")];
+
+/// Modal assurance criterion
+///
+/// ```text
+/// MAC = |phi^H y|^2 / (phi^H phi  y^H y)
+/// ```
+///
+/// of every measured shape `y` with every mode `phi` at the case's friction coefficient, over the measured points, each
+/// at its nearest node, and directions; each shape is paired with one mode so that the sum is largest. `scale` is the
+/// factor on the coordinates of the file. Points off the body are left out, and said. The source of the shapes is
+/// left open.
+///
+/// Source: R. J. Allemang, The modal assurance criterion: twenty years of use and abuse, Sound and Vibration 37 (2003).
+///
+/// # Errors
+/// Points none of which lie on the body; those of the solver.
+pub fn assurance(
+    case: &Case,
+    shapes: &[MeasuredShape],
+    scale: f64,
+) -> Result<MacSummary, StudyError> {
+    let cea = case.require_cea()?;
+    let mut notes = whole_mesh_note(case);
+    let case = &*case.on_whole_mesh()?;
+    let friction = case.contact.sliding.friction_coefficient;
+    let own = Cea {
+        friction_coefficients: vec![friction],
+        shapes_at: vec![friction],
+        sensitivities: Some(false),
+        count_modes: false,
+        ..cea.clone()
+    };
+    let model = SlidingModel::new(case, &own)?;
+    // Before anything is solved.
+    let placed = placed(case, &model.mesh, shapes, scale)?;
+    let solution = solve_modes(case, &own, &model)?;
+    let modes: Vec<_> = solution
+        .sweep
+        .points
+        .iter()
+        .flat_map(|point| &point.modes)
+        .filter(|mode| mode.shape.is_some())
+        .collect();
+
+    // The matrix and the pairs.
+    let matrix = criteria(&model.mesh, &modes, shapes, &placed);
+    for (shape, placed) in shapes.iter().zip(&placed) {
+        notes.extend(placed.note(shape, case.body.size()));
+    }
+    Ok(MacSummary {
+        measurement: String::new(),
+        friction_coefficient: friction,
+        pairs: paired(&matrix),
+        shapes: shapes
+            .iter()
+            .zip(&placed)
+            .map(|(shape, placed)| MacShape {
+                name: shape.name.clone(),
+                frequency_hz: shape.frequency_hz,
+                points: shape.points.len(),
+                off_body: placed.off,
+                largest_distance_m: placed.farthest,
+            })
+            .collect(),
+        modes: modes
+            .iter()
+            .enumerate()
+            .map(|(index, mode)| MacMode {
+                mode: index + 1,
+                frequency_hz: mode.frequency_hz(),
+                real_hz: mode.real_hz(),
+                harmonic: mode.diameters(case.has_sectors()),
+            })
+            .collect(),
+        mac: matrix,
+        notes,
+    })
+}
+
+/// Says of a body of revolution that its whole mesh is solved.
+pub(crate) fn whole_mesh_note(case: &Case) -> Vec<String> {
+    let note =
+        "this body of revolution was solved on its whole mesh, as with cea.method = \"sparse\"";
+    case.body.revolution().map(|_| note.to_owned()).into_iter().collect()
+}
+
+/// Measured points that a fit compares with its own modes are nodes of the whole mesh.
+pub(crate) fn refuse_revolution(case: &Case) -> Result<(), StudyError> {
+    let Body::Revolution(_) = &case.body else {
+        return Ok(());
+    };
+    Err(refusal!(case, "material.formulation",
+        "measured points are compared node by node, and the modes of this body are solved harmonic \
+         by harmonic, either sense of travel alone";
+        "a body of revolution in three dimensions"; "take its whole mesh: cea.method = \"sparse\"")
+    .into())
+}
+
+/// The nodes of the points of some shapes.
+pub(crate) fn placed(
+    case: &Case,
+    mesh: &Mesh,
+    shapes: &[MeasuredShape],
+    scale: f64,
+) -> Result<Vec<Placed>, StudyError> {
+    let all = shapes.iter();
+    all.map(|shape| Placed::of(case, mesh, shape, scale)).collect()
+}
+
+/// The criterion of every shape with every mode, `[shape][mode]`.
+pub(crate) fn criteria(
+    mesh: &Mesh,
+    modes: &[&ComplexMode],
+    shapes: &[MeasuredShape],
+    placed: &[Placed],
+) -> Vec<Vec<f64>> {
+    let row = |(shape, placed): (&MeasuredShape, &Placed)| -> Vec<f64> {
+        let shapes = modes.iter().map(|mode| mode.shape.as_deref().unwrap_or_default());
+        shapes.map(|phi| criterion(mesh, phi, shape, placed)).collect()
+    };
+    shapes.iter().zip(placed).map(row).collect()
+}
+
+/// The nodes of a shape's points.
+pub(crate) struct Placed {
+    /// Node of each point; none where it lies off the body.
+    nodes: Vec<Option<usize>>,
+    /// Points off the body, and the largest distance of any point from its node, m.
+    off: usize,
+    farthest: f64,
+}
+
+impl Placed {
+    fn of(case: &Case, mesh: &Mesh, shape: &MeasuredShape, scale: f64) -> Result<Self, StudyError> {
+        let reach = FAR * case.body.size();
+        let nearest = |factor: f64| -> Vec<(usize, f64)> {
+            let points = shape.points.iter();
+            points.map(|point| nearest_node(mesh, point.map(|x| factor * x))).collect()
+        };
+        let own = nearest(scale);
+        let off = own.iter().filter(|(_, away)| *away > reach).count();
+        if 2 * off > own.len() {
+            return Err(off_body(case, shape, (off, &own), &|factor: f64| {
+                let there = nearest(scale * factor);
+                let near = there.iter().filter(|(_, away)| *away <= reach).count();
+                // Points shrunk into one place are near to anything.
+                let nodes: std::collections::BTreeSet<usize> =
+                    there.iter().map(|(node, _)| *node).collect();
+                10 * near >= 9 * there.len() && 2 * nodes.len() > there.len()
+            })
+            .into());
+        }
+        Ok(Self {
+            nodes: own.iter().map(|(node, away)| (*away <= reach).then_some(*node)).collect(),
+            off,
+            farthest: own.iter().fold(0.0, |m, (_, away)| m.max(*away)),
+        })
+    }
+
+    /// What is to be said of its points.
+    fn note(&self, shape: &MeasuredShape, size: f64) -> Option<String> {
+        (self.off > 0).then(|| {
+            format!(
+                "shape {}: {} of {} points lie off the body, up to {:.3e} m from it (more than \
+                {:.1e} m), and are left out",
+                shape.name,
+                self.off,
+                shape.points.len(),
+                self.farthest,
+                FAR * size
+            )
+        })
+    }
+}
+
+/// Most points lie off the body: in which unit they would not.
+fn off_body(
+    case: &Case,
+    shape: &MeasuredShape,
+    (off, own): (usize, &[(usize, f64)]),
+    fits: &dyn Fn(f64) -> bool,
+) -> frictionsim_case::CaseErrors {
+    let farthest = own.iter().fold(0.0_f64, |m, (_, away)| m.max(*away));
+    let help = match UNITS.iter().find(|(factor, _)| fits(*factor)) {
+        Some((factor, unit)) => {
+            format!("the points would lie on it in {unit}: add --scale {factor}")
+        }
+        None => {
+            "give the points in metres in the coordinates of the case's mesh, or --scale FACTOR"
+                .to_owned()
+        }
+    };
+    let key = match case.raw.find("mesh.file") {
+        Some(_) => "mesh.file",
+        None => "geometry",
+    };
+    refusal!(case, key,
+        "shape {}: {off} of {} points lie off the body, up to {farthest:.3e} m from its nearest \
+         node", shape.name, own.len(); "half its size is {:.3e} m", case.body.size(); "{help}")
+}
+
+fn nearest_node(mesh: &Mesh, point: [f64; 3]) -> (usize, f64) {
+    let d = mesh.dimension;
+    let away = |node: &[f64; 3]| -> f64 { (0..d).map(|k| (node[k] - point[k]).powi(2)).sum() };
+    let all = mesh.nodes.iter().map(away).enumerate();
+    let nearest = all.min_by(|a, b| a.1.total_cmp(&b.1));
+    nearest.map_or((0, f64::INFINITY), |(node, square)| (node, square.sqrt()))
+}
+
+/// The criterion of one shape with one mode, over all dofs in nodal frames.
+fn criterion(mesh: &Mesh, mode: &[c64], shape: &MeasuredShape, placed: &Placed) -> f64 {
+    let d = mesh.dimension;
+    let (mut product, mut own, mut measured) = (c64::ZERO, 0.0, 0.0);
+    let points = shape.motion.iter().zip(&placed.nodes);
+    for (motion, node) in points.filter_map(|(motion, node)| Some((motion, (*node)?))) {
+        let frame = mesh.frame(node);
+        let part = |of: fn(&c64) -> f64| {
+            let mut local = Vector3::zeros();
+            (0..d).for_each(|k| local[k] = of(&mode[d * node + k]));
+            frame * local
+        };
+        let (re, im) = (part(|z| z.re), part(|z| z.im));
+        for (axis, y) in motion.iter().enumerate() {
+            let Some(y) = y else { continue };
+            let phi = c64::new(re[axis], im[axis]);
+            product += phi.conj() * y;
+            own += phi.norm_sqr();
+            measured += y.norm_sqr();
+        }
+    }
+    if own * measured > 0.0 { product.norm_sqr() / (own * measured) } else { 0.0 }
+}
+
+/// Pairs of shapes and modes with the largest sum of the criterion.
+fn paired(matrix: &[Vec<f64>]) -> Vec<MacPair> {
+    let (rows, columns) = (matrix.len(), matrix.first().map_or(0, Vec::len));
+    // Those of which there are fewer each find one of the others.
+    let places = |few: usize, many: usize| if rows <= columns { (few, many) } else { (many, few) };
+    let cost = |(shape, mode): (usize, usize)| 1.0 - matrix[shape][mode];
+    let row = |few: usize| (0..rows.max(columns)).map(|many| cost(places(few, many))).collect();
+    let costs: Vec<Vec<f64>> = (0..rows.min(columns)).map(row).collect();
+    let pairs = least_cost(&costs).into_iter().enumerate();
+    let pairs = pairs.map(|(few, many)| places(few, many));
+    let mut pairs: Vec<MacPair> = pairs
+        .map(|(shape, mode)| MacPair { shape: shape + 1, mode: mode + 1, mac: matrix[shape][mode] })
+        .collect();
+    pairs.sort_by_key(|pair| pair.shape);
+    pairs
+}

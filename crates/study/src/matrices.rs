@@ -1,0 +1,191 @@
+//! The matrices that the eigenvalue analysis of a case solves, over the friction coefficient.
+
+use super::StudyError;
+use super::eigenvalues::{BasePoint, Sliding, Solver, WholeMesh};
+use super::tangent_options;
+use frictionsim_case::{Case, CeaMethod};
+use frictionsim_physics::contact::Row;
+use frictionsim_physics::linalg::{MarketMatrix, MatrixPolynomial};
+use frictionsim_physics::mesh::Mesh;
+use frictionsim_physics::order::range;
+use frictionsim_physics::prestress::SlidingTangent;
+use frictionsim_results::matrices::{
+    ExportedContactPoint, ExportedMatrix, ExportedSystem, ExportedUnknown, MatrixRole,
+};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Mass, damping, stiffness and contact rows of a case's body around steady sliding, by power of the distance from the
+/// case's own friction coefficient, or from another one in its place: of a body of revolution those of its whole mesh.
+/// The base states are those of the eigenvalue analysis.
+///
+/// # Errors
+/// A case without `[cea]`; no steady sliding.
+pub fn matrices(case: &Case, friction: Option<f64>) -> Result<ExportedSystem, StudyError> {
+    let cea = case.require_cea()?;
+    let frictions = cea.solved_friction_coefficients();
+    let mut case = case.on_whole_mesh()?.into_owned();
+    if let Some(friction) = friction {
+        case.contact.sliding.friction_coefficient = friction;
+    }
+    let case = &case;
+    if case.body.tables().next().is_some() {
+        let refusal = case.loss_error(
+            "the files hold one problem, and a modulus over frequency is another one at each \
+             frequency",
+            "not written",
+            "give the material one modulus and a loss factor",
+        );
+        return Err(StudyError::Case(refusal));
+    }
+    // The whole mesh, whatever the case's own method; what no method solves is refused.
+    Solver::of(case, CeaMethod::Auto)?;
+    let body = WholeMesh::solve(case, tangent_options(case, cea.mass), &frictions)?;
+    let tangent = &body.own_tangent(case)?;
+    let friction = case.contact.sliding.friction_coefficient;
+    let [smallest, largest] = range(frictions.iter().copied().chain([friction]));
+    // The polynomials are those of one set of pressed points, which changes at `changes`.
+    let changes = || body.range.changes.iter().copied();
+    let below = changes().filter(|change| *change <= friction);
+    let above = changes().filter(|change| *change > friction);
+    let mut system = ExportedSystem {
+        dimension: body.mesh.dimension,
+        friction_coefficient: friction,
+        friction_range: [below.fold(smallest, f64::max), above.fold(largest, f64::min)],
+        proportional_damping: tangent
+            .proportional
+            .map(|rayleigh| [rayleigh.mass_coefficient, rayleigh.stiffness_coefficient]),
+        matrices: Vec::new(),
+        unknowns: unknowns(&body.mesh, tangent),
+        contact: Vec::new(),
+        is_at_one_friction: false,
+    };
+    let matrices = &mut system.matrices;
+    let parts: [Part; 4] = [
+        ("M", Some(&tangent.mass), |friction_power| MatrixRole::Mass { friction_power }),
+        ("C", Some(&tangent.damping), |friction_power| MatrixRole::Damping { friction_power }),
+        ("K", Some(&tangent.stiffness), |friction_power| MatrixRole::Stiffness { friction_power }),
+        ("H", tangent.structural.as_ref(), |friction_power| MatrixRole::Structural {
+            friction_power,
+        }),
+    ];
+    for (name, polynomial, role) in parts {
+        if let Some(polynomial) = polynomial {
+            matrices.extend(powers(name, polynomial, friction, role));
+        }
+    }
+    contact_rows(&body, (case, tangent), &mut system);
+    Ok(system)
+}
+
+/// Name, matrix by powers of friction, and what the matrix of a power is.
+type Part<'a> = (&'static str, Option<&'a MatrixPolynomial>, fn(usize) -> MatrixRole);
+
+/// The coefficients of a polynomial about a friction coefficient that are not zero, and always its value there.
+fn powers<'a>(
+    name: &'a str,
+    polynomial: &'a MatrixPolynomial,
+    friction: f64,
+    role: fn(usize) -> MatrixRole,
+) -> impl Iterator<Item = ExportedMatrix> + 'a {
+    let (size, pattern) = (polynomial.dimension(), polynomial.pattern());
+    let coefficients = polynomial.about(friction).into_iter().enumerate();
+    coefficients.filter_map(move |(power, values)| {
+        let columns = (0..size).flat_map(|column| {
+            let nonzeros = pattern.column(column);
+            nonzeros.map(move |(position, row)| (row, column, position))
+        });
+        let entries = columns.map(|(row, column, position)| (row, column, values[position]));
+        let matrix = MarketMatrix {
+            rows: size,
+            columns: size,
+            entries: entries.filter(|entry| entry.2 != 0.0).collect(),
+        };
+        (power == 0 || !matrix.entries.is_empty()).then(|| ExportedMatrix {
+            name: match power {
+                0 => name.to_owned(),
+                power => format!("{name}_mu{power}"),
+            },
+            role: role(power),
+            matrix,
+        })
+    })
+}
+
+/// Node, direction and place of every unknown.
+fn unknowns(mesh: &Mesh, tangent: &SlidingTangent) -> Vec<ExportedUnknown> {
+    let distances: BTreeSet<usize> = tangent.distances.iter().map(|own| own.0).collect();
+    let unknown = |&dof: &usize| {
+        let (node, axis) = (dof / mesh.dimension, dof % mesh.dimension);
+        ExportedUnknown {
+            node: mesh.node_label(node),
+            is_distance: distances.contains(&dof),
+            direction: mesh.frame(node).column(axis).into_owned().into(),
+            place: mesh.nodes[node],
+        }
+    };
+    tangent.unknowns.dofs.iter().map(unknown).collect()
+}
+
+/// The contact points and their motion along the normal and along the sliding. In rigid contact the normal motion of a
+/// pressed point is no unknown: its row is empty.
+fn contact_rows(
+    body: &WholeMesh,
+    (case, tangent): (&Case, &SlidingTangent),
+    system: &mut ExportedSystem,
+) {
+    let combined: BTreeMap<usize, &Row> = {
+        let distances = tangent.distances.iter();
+        distances.map(|(dof, row)| (*dof, row)).collect()
+    };
+    // A row over all dofs as one over the unknowns, without what cancels.
+    let over_unknowns = |row: &Row| -> Row {
+        let mut sum: BTreeMap<usize, f64> = BTreeMap::new();
+        let mut largest = 0.0_f64;
+        for &(dof, value) in row {
+            let own = [(dof, 1.0)];
+            let parts = combined.get(&dof).map_or(&own[..], |row| row.as_slice());
+            for &(part, share) in parts {
+                largest = largest.max((value * share).abs());
+                if let Some(unknown) = tangent.unknowns.unknown_of[part] {
+                    *sum.entry(unknown).or_default() += value * share;
+                }
+            }
+        }
+        let kept = sum.into_iter();
+        kept.filter(|entry| entry.1.abs() > 1e-14 * largest).collect()
+    };
+    let (mut normal, mut slip) = (Vec::new(), Vec::new());
+    let points = body.contact_points(case);
+    for (i, own) in points.iter().enumerate() {
+        let rows = [(&own.point.normal, &mut normal), (&own.point.slip, &mut slip)];
+        for (row, entries) in rows {
+            let row = over_unknowns(row).into_iter();
+            entries.extend(row.map(|(unknown, share)| (i, unknown, share)));
+        }
+        system.contact.push(exported(body, own));
+    }
+    for (name, role, entries) in [
+        ("contact_normal", MatrixRole::ContactNormal, normal),
+        ("contact_slip", MatrixRole::ContactSlip, slip),
+    ] {
+        system.matrices.push(ExportedMatrix {
+            name: name.to_owned(),
+            role,
+            matrix: MarketMatrix { rows: points.len(), columns: system.unknowns.len(), entries },
+        });
+    }
+}
+
+/// A contact point: of a plane edge with its node, of solid bodies with its contact.
+fn exported(body: &WholeMesh, own: &BasePoint) -> ExportedContactPoint {
+    let is_node = matches!(body.sliding, Sliding::Edge(_));
+    let node = own.place.shares.first().filter(|_| is_node);
+    ExportedContactPoint {
+        node: node.map(|(node, _)| body.mesh.node_label(*node as usize)),
+        contact: (!is_node).then(|| own.place.contact.clone()),
+        place: own.place.position,
+        is_pressed: own.is_pressed,
+        weight: own.point.weight,
+        normal_force: own.forces.first().map_or(0.0, |force| force[0]),
+    }
+}

@@ -1,0 +1,154 @@
+//! Checks of a case without running it, through the code paths of the run.
+
+use super::eigenvalues::Solver;
+use super::improve;
+use super::response::FrequencyStudy;
+use super::transient::TransientStudy;
+use super::{StudyError, eigenvalues};
+use frictionsim_case::{
+    Body, Case, CaseErrors, Cea, CeaMethod, Cost, Diagnostic, Location, StudyCost,
+};
+use frictionsim_physics::fem::operator::SimdLevel;
+use frictionsim_physics::mesh::SolidSector;
+
+/// Nodes up to which matrices are set up to find out.
+const MOST_NODES: u128 = 200_000;
+
+/// Unknowns up to which a whole mesh is factorized to find out: in about a second.
+const MOST_SOLVED: u128 = 20_000;
+
+/// What is known of a case before it runs.
+#[derive(Debug)]
+pub struct Preflight {
+    /// Cost of each analysis, with the time step of the run where it is cheaply had.
+    pub cost: Cost,
+    /// Whether time step and number of steps are the run's own.
+    pub is_step_exact: bool,
+    /// Cost of the parameter study.
+    pub sweep: Option<StudyCost>,
+    /// Cost of the convergence study.
+    pub convergence: Option<StudyCost>,
+    /// Cost of the samples of an uncertainty study.
+    pub uncertainty: Option<StudyCost>,
+    /// Memory of the hungriest command, bytes.
+    pub memory_bytes: f64,
+    /// Keys that an analysis of the case ignores.
+    pub warnings: Vec<Diagnostic>,
+}
+
+/// Finds out whether the commands that a case is for can run on a machine with so much memory, bytes.
+///
+/// # Errors
+/// What those commands would refuse as bad input.
+pub fn preflight(case: &Case, available: f64) -> Result<Preflight, StudyError> {
+    let mut found = Preflight {
+        cost: case.cost(),
+        is_step_exact: false,
+        sweep: case.sweep_cost(),
+        convergence: case.convergence_cost(),
+        uncertainty: case.uncertainty_cost(),
+        memory_bytes: 0.0,
+        warnings: Vec::new(),
+    };
+    let commands = commands(case);
+    for command in &commands {
+        let (bytes, _) = case.memory(command);
+        refuse_memory(case, command, bytes, available)?;
+        found.memory_bytes = found.memory_bytes.max(bytes);
+        for warning in case.ignored_by(command) {
+            if !found.warnings.contains(&warning) {
+                found.warnings.push(warning);
+            }
+        }
+    }
+    if commands.contains(&"cycle") {
+        case.require_cycle()?;
+    }
+    let is_small = found.cost.nodes <= MOST_NODES;
+    let is_solved = found.cost.dofs <= MOST_SOLVED;
+    if let Body::Revolution(revolution) = &case.body
+        && is_small
+    {
+        SolidSector::generate(&revolution.specification)?;
+    }
+    if case.raw.root.contains_key("improve") {
+        improve::refuse_bodies(case)?;
+    }
+    if is_small && commands.contains(&"transient") {
+        let plan = TransientStudy::new(case, SimdLevel::detect());
+        let plan = found.tolerate("transient", plan.and_then(|study| study.preflight()))?;
+        if let (Some(run), Some(plan)) = (&mut found.cost.transient, plan) {
+            let steps = plan.total_steps() as f64;
+            run.run.operations *= steps / run.steps;
+            run.time_step = plan.time_step;
+            run.steps = steps;
+            found.is_step_exact = true;
+        }
+    }
+    if let Some(cea) = &case.cea
+        && is_small
+    {
+        Solver::of_analysis(case, cea)?;
+        // Harmonics are solved at once, and all methods find the same modes.
+        if Solver::by_symmetry(case) == Solver::Waves || is_solved {
+            let auto = Cea { method: CeaMethod::Auto, ..cea.clone() };
+            found.tolerate("cea", eigenvalues::preflight(case, &auto))?;
+        }
+    }
+    if case.frf.is_some() && (is_solved || is_small && case.body.has_sectors()) {
+        let tried = FrequencyStudy::new(case).map(|_| ());
+        found.tolerate("frf", tried)?;
+    }
+    Ok(found)
+}
+
+impl Preflight {
+    /// A run that would fail although its case is good is no error of the case: it is said.
+    fn tolerate<T>(
+        &mut self,
+        command: &str,
+        outcome: Result<T, StudyError>,
+    ) -> Result<Option<T>, StudyError> {
+        match outcome {
+            Ok(value) => Ok(Some(value)),
+            Err(error) if error.is_usage() => Err(error),
+            Err(error) => {
+                let message = format!("{command} would fail: {error}");
+                let at = Location::default();
+                let warning = Diagnostic::error(message, String::new(), at, None);
+                self.warnings.push(warning);
+                Ok(None)
+            }
+        }
+    }
+}
+
+/// Commands that a case has sections for, and whose elements can run.
+fn commands(case: &Case) -> Vec<&'static str> {
+    let is_linear = case.body.suits_transient();
+    let has = [
+        ("mesh", true),
+        ("cea", case.cea.is_some()),
+        ("transient", case.transient.is_some() && is_linear),
+        ("cycle", case.cycle.is_some() && is_linear),
+        ("basin", case.basin.is_some() && is_linear),
+        ("frf", case.frf.is_some()),
+        ("convergence", case.convergence.is_some()),
+        ("sweep", case.sweep.is_some()),
+    ];
+    let here = has.into_iter().filter(|pair| pair.1);
+    here.map(|pair| pair.0).collect()
+}
+
+/// Refuses a command that takes more bytes than are available.
+///
+/// # Errors
+/// Those of the case, at the key that asks for most of it.
+pub fn refuse_memory(
+    case: &Case,
+    command: &str,
+    bytes: f64,
+    available: f64,
+) -> Result<(), CaseErrors> {
+    if bytes > available { Err(case.memory_error(command, bytes, available)) } else { Ok(()) }
+}

@@ -1,0 +1,284 @@
+//! Frequency response of a case between two of its nodes.
+//!
+//! ```no_run
+//! use frictionsim::case::Case;
+//! use frictionsim::study::response::FrequencyStudy;
+//!
+//! let bytes = std::fs::read("cases/hammer-test.toml")?;
+//! let case = Case::parse("hammer", &bytes, &[])?;
+//! let response = FrequencyStudy::new(&case)?.solve(&|_| {})?;
+//! println!("{} unknowns, {:?} m/N", response.dofs, response.receptance().first());
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+use super::eigenvalues::{WholeMesh, wave_tangent};
+use super::{StudyError, tangent_options};
+use frictionsim_case::{AssemblyBody, Body, Case, CaseErrors, Frf, FrfMethod, refusal};
+use frictionsim_physics::fem::sector::Sectored;
+use frictionsim_physics::frf::{
+    Axis, CyclicSystem, FrfBoundary, FrfError, FrfSystem, Port, ReductionSettings, cyclic_response,
+    direct_response_with, reduced_response,
+};
+use frictionsim_physics::linalg::{GaussianNoise, c64};
+use frictionsim_physics::mesh::{BoundaryCondition, Mesh, SectorMesh, SolidSector};
+use frictionsim_physics::prestress::BaseChoice;
+use std::f64::consts::TAU;
+use std::sync::Arc;
+
+/// Hears how many frequencies are solved, a few at a time, from any thread; the cyclic method and the reduction are
+/// silent.
+pub type Progress<'a> = dyn Fn(usize) + Sync + 'a;
+
+/// The system that a case excites, ready to be solved.
+#[derive(Clone, Debug)]
+pub struct FrequencyStudy<'a> {
+    case: &'a Case,
+    frf: &'a Frf,
+    system: System,
+}
+
+#[derive(Clone, Debug)]
+enum System {
+    /// Harmonic by harmonic.
+    Cyclic(Box<CyclicSystem>),
+    /// The whole mesh, with the ports of force and response: every line is solved (`direct`), or the mesh is projected
+    /// on a small space where that reaches its tolerance (`auto`) or fails (`reduced`).
+    Whole { system: Box<FrfSystem>, ports: Box<[Port; 2]>, method: FrfMethod },
+}
+
+/// A computed response and how it came about.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Response {
+    /// Frequencies, Hz.
+    pub frequencies_hz: Vec<f64>,
+    /// Unknowns.
+    pub dofs: usize,
+    /// Method: `cyclic`, `direct` or `reduced`.
+    pub method: &'static str,
+    /// Largest relative error found at the check lines of a reduction.
+    pub largest_error: Option<f64>,
+    /// Vectors of a reduction.
+    pub vectors: Option<usize>,
+    /// Largest backward error of the solutions, harmonic by harmonic.
+    pub backward_error: Option<f64>,
+    /// As solved: of a plane body for each metre of thickness.
+    solved: Vec<c64>,
+    /// What to divide that by: the thickness of a plane body, 1 in three dimensions.
+    thickness: f64,
+}
+
+impl<'a> FrequencyStudy<'a> {
+    /// Builds the system of `[frf]`, with its base state where the contact slides.
+    ///
+    /// # Errors
+    /// A case without `[frf]`, a node that does not exist or is held, a method that the body does not allow, each with
+    /// its key; a mesh that cannot be built; no state of sliding.
+    pub fn new(case: &'a Case) -> Result<Self, StudyError> {
+        let frf = case.require_frf()?;
+        let is_lossy = case.has_structural_damping();
+        refuse_beyond_tables(case, frf)?;
+        let system = match frf.method {
+            FrfMethod::Reduced if is_lossy => {
+                let refusal = case.loss_error(
+                    "frf.method = \"reduced\" projects on real spaces of viscous damping, which \
+                    structural damping is not",
+                    "not in a reduced model",
+                    "use frf.method = \"direct\"",
+                );
+                return Err(refusal.into());
+            }
+            FrfMethod::Auto if case.responds_by_harmonics(frf) => cyclic(case, frf)?,
+            FrfMethod::Cyclic if case.has_sectors() && !case.responds_by_harmonics(frf) => {
+                // Without contact a disc and its shaft are two bodies.
+                return Err(StudyError::Case(refusal!(case, "frf.method",
+                    "frf.method = \"cyclic\" takes one body, and without contact disc and shaft \
+                     are two";
+                    "disc and shaft do not touch here";
+                    "use \"auto\", \"direct\" or \"reduced\"")));
+            }
+            FrfMethod::Cyclic => cyclic(case, frf)?,
+            FrfMethod::Auto if is_lossy => whole(case, frf, FrfMethod::Direct)?,
+            method => whole(case, frf, method)?,
+        };
+        Ok(Self { case, frf, system })
+    }
+
+    /// Solves at all frequencies.
+    ///
+    /// # Errors
+    /// [`StudyError::Response`] at an undamped resonance, or where a reduction misses its tolerance.
+    pub fn solve(&self, done: &Progress<'_>) -> Result<Response, StudyError> {
+        let (frf, lines) = (self.frf, &self.frf.frequencies_hz);
+        let mut found = Response {
+            frequencies_hz: lines.clone(),
+            thickness: self.case.depth(),
+            ..Response::default()
+        };
+        match &self.system {
+            System::Cyclic(system) => {
+                let solved = cyclic_response(system, frf.force, frf.response, lines)?;
+                (found.method, found.dofs) = ("cyclic", system.dimension());
+                found.backward_error = Some(solved.backward_error);
+                found.solved = solved.receptance;
+            }
+            System::Whole { system, ports, method } => {
+                let [force, response] = &**ports;
+                let settings = ReductionSettings::default();
+                let reduced = (*method != FrfMethod::Direct).then(|| {
+                    reduced_response(system, force.clone(), response.clone(), lines, &settings)
+                });
+                found.dofs = system.dimension();
+                let reduced = match reduced {
+                    // A reduction that misses its tolerance is no answer; each line for itself is.
+                    Some(Err(FrfError::NotReduced { .. })) if *method == FrfMethod::Auto => None,
+                    other => other.transpose()?,
+                };
+                if let Some(solved) = reduced {
+                    found.method = "reduced";
+                    found.largest_error = Some(solved.largest_error);
+                    found.vectors = Some(solved.vectors);
+                    found.solved = solved.receptance;
+                } else {
+                    let solved = direct_response_with(system, force, response, lines, done)?;
+                    (found.method, found.solved) = ("direct", solved);
+                }
+            }
+        }
+        Ok(found)
+    }
+}
+
+impl Response {
+    /// Displacement for each unit of force at each frequency, of the body's true thickness, m/N.
+    pub fn receptance(&self) -> Vec<c64> {
+        self.solved.iter().map(|h| h / self.thickness).collect()
+    }
+
+    /// The quantity that `[frf]` asks for, `h (i omega)^d`, with its noise.
+    pub fn observed(&self, frf: &Frf) -> Vec<c64> {
+        let mut noise = GaussianNoise::new(frf.noise_seed as u64);
+        self.frequencies_hz
+            .iter()
+            .zip(&self.solved)
+            .map(|(f, h)| {
+                let rate = c64::new(0.0, TAU * f).powi(frf.quantity.derivatives());
+                let value = h * rate / self.thickness;
+                value + noise.draw() * (frf.noise * value.norm())
+            })
+            .collect()
+    }
+}
+
+/// Refuses lines that a table of moduli does not hold.
+fn refuse_beyond_tables(case: &Case, frf: &Frf) -> Result<(), CaseErrors> {
+    for table in case.body.tables() {
+        let mut lines = frf.frequencies_hz.iter();
+        if let Some(line) = lines.find(|line| !table.covers(**line)) {
+            let ([low, high], key, file) = (table.range_hz(), &table.key, &table.file);
+            return Err(refusal!(case, key,
+                "{key} = \"{file}\" holds {low} to {high} Hz, and frf asks for {line} Hz: a \
+                 modulus beyond a table is not guessed";
+                "does not cover the lines"; "extend the table, or ask for lines within it"));
+        }
+    }
+    Ok(())
+}
+
+/// The harmonics of an annulus, or of a body of revolution in three dimensions.
+fn cyclic(case: &Case, frf: &Frf) -> Result<System, StudyError> {
+    let system = match (&case.body, frf.boundary) {
+        (Body::Imported(_) | Body::Assembly(_), _) => {
+            return Err(StudyError::Case(refusal!(case, "frf.method",
+                "frf.method = \"cyclic\" needs the symmetry of the built-in annulus";
+                "an imported mesh has no sectors"; "use \"auto\", \"direct\" or \"reduced\"")));
+        }
+        (_, FrfBoundary::Sliding) => {
+            refuse_rest(case)?;
+            let waves = wave_tangent(case, &tangent_options(case, frf.mass))?;
+            let waves = waves.expect("a body of equal sectors has waves");
+            CyclicSystem::sliding(&waves, case.contact.sliding.friction_coefficient)
+        }
+        (Body::Annulus(body), _) => apart(case, frf, &SectorMesh::generate(&body.specification)?),
+        (Body::Revolution(body), _) => {
+            apart(case, frf, &SolidSector::generate(&body.specification)?)
+        }
+    };
+    for (terminal, key) in [(frf.force, "force_node"), (frf.response, "response_node")] {
+        let checked = system.check(terminal, key);
+        checked.map_err(|error| at_node(case, &error))?;
+    }
+    Ok(System::Cyclic(Box::new(system)))
+}
+
+/// The harmonics of a body of equal sectors that touches nothing.
+fn apart<S: Sectored>(case: &Case, frf: &Frf, sector: &S) -> CyclicSystem {
+    let is_held = frf.boundary == FrfBoundary::Clamped;
+    CyclicSystem::body(sector, case.materials(), frf.mass, case.damping.rayleigh, is_held)
+}
+
+/// Matrices of the whole mesh as it is held, and the ports of force and response.
+fn whole(case: &Case, frf: &Frf, method: FrfMethod) -> Result<System, StudyError> {
+    if case.body.revolution().is_some() {
+        let name = if method == FrfMethod::Direct { "direct" } else { "reduced" };
+        return Err(StudyError::Case(refusal!(case, "frf.method",
+            "frf.method = \"{name}\" is for bodies that are solved on their whole mesh";
+            "a body of revolution is solved harmonic by harmonic";
+            "use \"auto\" or \"cyclic\", or take the whole mesh: cea.method = \"sparse\"")));
+    }
+    let (system, mesh) = held(case, frf)?;
+    let axis = case.body.assembly().and_then(AssemblyBody::axis);
+    let axis = axis.map(|[center, direction]| Axis { center, direction });
+    let port = |terminal, key| {
+        let found = system.port(&mesh, axis, terminal, key);
+        found.map_err(|error| at_node(case, &error))
+    };
+    let force = port(frf.force, "force_node")?;
+    let response = port(frf.response, "response_node")?;
+    Ok(System::Whole { system: Box::new(system), ports: Box::new([force, response]), method })
+}
+
+/// A body as it is held, with its mesh: sliding, or its parts as they are tied, without their contacts.
+fn held(case: &Case, frf: &Frf) -> Result<(FrfSystem, Arc<Mesh>), StudyError> {
+    let options = tangent_options(case, frf.mass);
+    if frf.boundary == FrfBoundary::Sliding {
+        refuse_rest(case)?;
+        let whole = WholeMesh::solve(case, options, &[])?;
+        let friction = case.contact.sliding.friction_coefficient;
+        return Ok((FrfSystem::sliding(&whole.own_tangent(case)?, friction), whole.mesh));
+    }
+    let Body::Assembly(body) = &case.body else {
+        let (mesh, is_clamped) = (case.mesh()?, frf.boundary == FrfBoundary::Clamped);
+        let (materials, rayleigh) = (case.materials(), case.damping.rayleigh);
+        return Ok((FrfSystem::body(&mesh, materials, frf.mass, rayleigh, is_clamped), mesh));
+    };
+    // Without contact there is no base state to find, and nothing may hold the bodies.
+    let mut apart = AssemblyBody { contacts: Vec::new(), base: BaseChoice::Closed, ..body.clone() };
+    if frf.boundary == FrfBoundary::Free {
+        let mesh = Arc::make_mut(&mut apart.mesh);
+        for boundary in &mut mesh.boundaries {
+            boundary.condition = BoundaryCondition::Free;
+        }
+    }
+    let mut tied = case.clone();
+    tied.body = Body::Assembly(apart);
+    let whole = WholeMesh::solve(&tied, options, &[])?;
+    Ok((FrfSystem::tied(&whole.own_tangent(&tied)?), Arc::clone(&body.mesh)))
+}
+
+/// A counterface at rest sticks: there is no steady sliding to respond around.
+fn refuse_rest(case: &Case) -> Result<(), CaseErrors> {
+    if case.contact.sliding.rotation_speed != 0.0 {
+        return Ok(());
+    }
+    Err(refusal!(case, "frf.boundary",
+        "frf.boundary = \"sliding\" at rest: the contact sticks, and there is no steady sliding to \
+         respond around";
+        "the speed is 0"; "give a speed, however small, or use \"clamped\" or \"free\""))
+}
+
+/// What is wrong with a node, at its key.
+fn at_node(case: &Case, error: &FrfError) -> CaseErrors {
+    let key = format!("frf.{}", error.node_key().unwrap_or("force_node"));
+    let label = "cannot be excited or observed here".to_owned();
+    case.error_at(&key, error.to_string(), label, None)
+}

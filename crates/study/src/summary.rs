@@ -1,0 +1,94 @@
+//! The summary of one analysis of a case, as its command prints it, without a file written: what a point of a sweep
+//! holds.
+
+use super::cycle::{CycleStudy, PeriodicStudy, refuse_nothing};
+use super::eigenvalues::{self, Solved};
+use super::transient::TransientStudy;
+use super::{StudyError, basin};
+use frictionsim_case::{Analysis, Case};
+use frictionsim_physics::cea::Unwatched;
+use frictionsim_physics::fem::operator::SimdLevel;
+use frictionsim_results::cycle::{CycleReport, CycleSummary};
+use frictionsim_results::transient::TransientReport;
+use frictionsim_results::{self, Head, Manifest, object};
+use serde::Serialize;
+use serde_json::Value;
+use std::time::Instant;
+
+/// Runs an analysis of a case and gives its summary; nothing is kept that would only go to files.
+///
+/// # Errors
+/// A case without the section of the analysis, and those of the analysis.
+pub fn summarize(
+    case: &Case,
+    analysis: Analysis,
+    manifest: &Manifest,
+) -> Result<Value, StudyError> {
+    match analysis {
+        Analysis::Cea => cea(case),
+        Analysis::Transient => transient(case, manifest),
+        Analysis::Basin => {
+            let start = Instant::now();
+            let found = basin::summary(case, manifest)?;
+            told("basin", Head::of(&case.title, start.elapsed().as_secs_f64()), &found)
+        }
+        Analysis::Cycle => cycle(case, manifest, refuse_nothing),
+    }
+}
+
+/// What an analysis has found, without what it was made from.
+fn told(command: &str, head: Head<'_>, found: &impl Serialize) -> Result<Value, StudyError> {
+    Ok(object(command, head, found)?)
+}
+
+/// Mode shapes are not computed.
+fn cea(case: &Case) -> Result<Value, StudyError> {
+    let start = Instant::now();
+    let cea = case.require_cea()?.of_tables();
+    let Solved { case, model, solution } = eigenvalues::solved(case, &cea, None)?;
+    eigenvalues::refuse_no_modes(&case, &cea, &solution.sweep)?;
+    let field = model.base_field(&case);
+    let wall_s = start.elapsed().as_secs_f64();
+    let report = eigenvalues::report(&case, &cea, &model, &solution, &field, wall_s);
+    told("cea", Head::of(report.title, wall_s), &frictionsim_results::cea::summary(&report))
+}
+
+fn transient(case: &Case, manifest: &Manifest) -> Result<Value, StudyError> {
+    let start = Instant::now();
+    let study = TransientStudy::new(case, SimdLevel::choose(&manifest.simd)?)?;
+    let solved = study.solve()?;
+    let report = TransientReport {
+        steps: solved.steps,
+        steps_timed: solved.steps,
+        stepping_s: solved.stepping_s,
+        wall_s: start.elapsed().as_secs_f64(),
+        ..study.report(&solved.record, &solved.analysis, solved.plan, solved.operator)
+    };
+    let head = Head::of(report.title, report.wall_s);
+    told("transient", head, &frictionsim_results::transient::summary(&report))
+}
+
+/// The limit cycles with their branches as `curves`, of which the command itself writes tables; `judge` may refuse what
+/// was found.
+pub(super) fn cycle(
+    case: &Case,
+    manifest: &Manifest,
+    judge: impl Fn(&CycleReport<'_>) -> Result<(), StudyError>,
+) -> Result<Value, StudyError> {
+    let start = Instant::now();
+    let simd = SimdLevel::choose(&manifest.simd)?;
+    let wall = || start.elapsed().as_secs_f64();
+    let told = |report: &CycleReport<'_>| -> Result<Value, StudyError> {
+        judge(report)?;
+        let curves = Some(report.curves());
+        let head = Head::of(report.title, report.wall_s);
+        told("cycle", head, &CycleSummary { curves, ..report.summary() })
+    };
+    if case.has_rotating_waves() {
+        let study = CycleStudy::new(case, simd)?;
+        let results = study.run(0, &|| {});
+        return told(&study.report(results, Vec::new(), wall()));
+    }
+    let study = PeriodicStudy::new(case, simd)?;
+    told(&study.report(study.run(0, &Unwatched, &|_| {})?, wall()))
+}

@@ -1,0 +1,41 @@
+//! The eigenvalues of a superelement that stands free.
+
+use super::StudyError;
+use frictionsim_case::{FreeSystem, ModeLimit};
+use frictionsim_physics::cea::quadratic_modes;
+use frictionsim_physics::linalg::{MarketMatrix, Mat};
+use frictionsim_results::matrices::FreeSpectrum;
+use std::f64::consts::TAU;
+
+/// The oscillating modes that a case asks for, out of all eigenvalues of its matrices.
+///
+/// # Errors
+/// Matrices that are singular together.
+pub fn free_spectrum(system: &FreeSystem) -> Result<FreeSpectrum, StudyError> {
+    let own = &system.superelement;
+    let [mass, damping, stiffness] = [&own.mass, &own.damping, &own.stiffness].map(dense);
+    let all = quadratic_modes(mass.as_ref(), damping.as_ref(), stiffness.as_ref())?;
+    let total = all.len();
+    let mut modes: Vec<_> = all.into_iter().filter(|mode| mode.eigenvalue.im > 0.0).collect();
+    let overdamped = total - modes.len();
+    frictionsim_physics::order::sort_by_number(&mut modes, |a| a.eigenvalue.im);
+    match system.modes {
+        ModeLimit::Lowest(count) => modes.truncate(count),
+        ModeLimit::MaxFrequency(limit) => modes.retain(|mode| mode.eigenvalue.im <= TAU * limit),
+    }
+    Ok(FreeSpectrum {
+        title: system.title.clone(),
+        name: own.name.clone(),
+        dofs: own.mass.rows,
+        modes,
+        overdamped,
+    })
+}
+
+fn dense(matrix: &MarketMatrix) -> Mat<f64> {
+    let mut dense = Mat::zeros(matrix.rows, matrix.columns);
+    for &(row, column, value) in &matrix.entries {
+        dense[(row, column)] += value;
+    }
+    dense
+}

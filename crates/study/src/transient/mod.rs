@@ -1,0 +1,272 @@
+//! The explicit transient of a case: its body, where it starts, the time loop, and what its record says.
+//!
+//! ```
+//! use frictionsim::case::Case;
+//! use frictionsim::fem::operator::SimdLevel;
+//! use frictionsim::study::transient::TransientStudy;
+//!
+//! # let mesh = ["mesh.circumferential_elements=24", "mesh.radial_elements=4"];
+//! # let coarse = [&mesh[..], &["output.snapshots=[]", "output.probes=[1]"]].concat();
+//! # let shorter = ["transient.duration=2e-4", "transient.expansion_time=1e-4"];
+//! # let overrides: Vec<String> = coarse.iter().chain(&shorter).map(|text| text.to_string()).collect();
+//! let bytes = std::fs::read("cases/polycarbonate-610rpm.toml")?;
+//! let case = Case::parse("disc", &bytes, &overrides)?;
+//! let solved = TransientStudy::new(&case, SimdLevel::detect())?.solve()?;
+//! println!("{:?}", solved.analysis.settling.state);
+//! assert!(solved.analysis.largest_residual < 1e-10);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod notes;
+mod settings;
+mod stepped;
+
+pub use stepped::SteppedMesh;
+
+use super::cycle::limit_cycle;
+use super::{StudyError, extent_of};
+use frictionsim_case::{Case, Transient};
+use frictionsim_physics::cycle::Family;
+use frictionsim_physics::fem::operator::{SimdLevel, StiffnessOperator};
+use frictionsim_physics::linalg::interruption;
+use frictionsim_physics::prestress::Assembly;
+use frictionsim_physics::transient::{
+    CentralDifference, InitialState, Recorder, RecorderSettings, StepPlan, TransientAnalysis,
+    TransientError, TransientModel, TransientSettings,
+};
+use frictionsim_results::transient::{RecordedRun, TransientReport};
+use std::time::Instant;
+
+/// A case made ready for the time loop.
+pub struct TransientStudy<'a> {
+    /// The case.
+    pub case: &'a Case,
+    /// Its mesh.
+    pub stepped: SteppedMesh<'a>,
+    transient: &'a Transient,
+    simd: SimdLevel,
+    /// Choices of the run.
+    pub settings: TransientSettings,
+}
+
+/// What came of a run.
+pub struct SolvedTransient {
+    /// What was recorded: the samples, without fields and contact frames.
+    pub record: Recorder,
+    /// What it says.
+    pub analysis: TransientAnalysis,
+    /// Time step and samples.
+    pub plan: StepPlan,
+    /// Steps done.
+    pub steps: u64,
+    /// Name of the operator.
+    pub operator: &'static str,
+    /// Wall time of the steps, s.
+    pub stepping_s: f64,
+}
+
+impl<'a> TransientStudy<'a> {
+    /// The body and the settings of a case.
+    ///
+    /// # Errors
+    /// [`StudyError::Case`] for a case without `[transient]`; a mesh that cannot be built.
+    pub fn new(case: &'a Case, simd: SimdLevel) -> Result<Self, StudyError> {
+        let transient = case.require_transient()?;
+        Ok(Self {
+            case,
+            stepped: SteppedMesh::of(case)?,
+            transient,
+            simd,
+            settings: TransientSettings {
+                duration: transient.duration,
+                time_step: transient.time_step,
+                sample_interval: case.output.sample_interval,
+                expansion_time: transient.expansion_time,
+                initial: transient.initial,
+                perturbation: transient.perturbation.clone(),
+            },
+        })
+    }
+
+    /// The body with its contact.
+    pub fn body(&self) -> TransientModel<'_> {
+        self.stepped.body(self.case)
+    }
+
+    /// What the case asks a run to keep.
+    pub fn recorder_settings(&self) -> RecorderSettings {
+        let output = &self.case.output;
+        RecorderSettings {
+            probes: output.probes.clone(),
+            snapshots: output.snapshots.clone(),
+            contact_interval: output.contact_interval,
+            raw_acceleration: output.raw_acceleration,
+            stop_when_settled: self.transient.stop_when_settled,
+        }
+    }
+
+    /// What applies the stiffness.
+    ///
+    /// # Errors
+    /// [`StudyError::Case`] at `transient.operator` for one that cannot represent the mesh.
+    pub fn operator(&self) -> Result<Box<dyn StiffnessOperator>, StudyError> {
+        self.told(self.body().operator(self.transient.operator, self.simd))
+    }
+
+    /// Time step and samples of the run.
+    ///
+    /// # Errors
+    /// [`StudyError::Case`] for times that do not fit together.
+    pub fn plan(&self, operator: &dyn StiffnessOperator) -> Result<StepPlan, StudyError> {
+        self.told(self.body().plan(operator, &self.settings))
+    }
+
+    /// The run in its initial state.
+    ///
+    /// # Errors
+    /// [`StudyError::Case`] for settings that do not fit the mesh; a base state or a limit cycle that does not exist.
+    pub fn start<'b>(
+        &'b self,
+        operator: &'b dyn StiffnessOperator,
+    ) -> Result<CentralDifference<'b>, StudyError> {
+        let started = match self.settings.initial {
+            InitialState::LimitCycle { harmonic, onset } => {
+                let family = Family { harmonic, onset };
+                let time_step = self.plan(operator)?.time_step;
+                let (solver, cycle) = limit_cycle(self.case, family)?;
+                let [u, v] = solver.starting_fields(&cycle, time_step);
+                CentralDifference::start_from(self.body(), operator, &self.settings, &u, v)
+            }
+            _ => CentralDifference::start(self.body(), operator, &self.settings),
+        };
+        self.told(started)
+    }
+
+    /// Reads a record.
+    pub fn analyse(&self, record: &Recorder) -> TransientAnalysis {
+        let perturbation = &self.settings.perturbation;
+        let analysis = match (self.case.has_sectors(), perturbation.noise) {
+            (false, _) => TransientAnalysis::without_symmetry(record),
+            (true, 0.0) => TransientAnalysis::of(record, &perturbation.harmonics()),
+            // Noise seeds every harmonic.
+            (true, _) => TransientAnalysis::of(record, &record.significant_harmonics()),
+        };
+        match self.settings.initial {
+            InitialState::LimitCycle { .. } => analysis.from_limit_cycle(),
+            InitialState::Rest | InitialState::SteadySliding => analysis,
+        }
+    }
+
+    /// Runs to the end, or to where it settles if the case says so, and keeps the samples alone.
+    ///
+    /// # Errors
+    /// As [`Self::start`]; a run that becomes unstable.
+    pub fn solve(&self) -> Result<SolvedTransient, StudyError> {
+        let operator = self.operator()?;
+        let mut run = self.start(operator.as_ref())?;
+        let settings = RecorderSettings {
+            stop_when_settled: self.transient.stop_when_settled,
+            ..RecorderSettings::default()
+        };
+        let mut record = self.told(Recorder::new(&run, &settings))?;
+        let clock = Instant::now();
+        // On a thread of the pool: a step hands parts of itself to the others.
+        self.told(rayon::scope(|_| run.run(&mut record)))?;
+        interruption::check();
+        let stepping_s = clock.elapsed().as_secs_f64();
+        Ok(SolvedTransient {
+            analysis: self.analyse(&record),
+            record,
+            plan: *run.plan(),
+            steps: run.steps_done(),
+            operator: operator.name(),
+            stepping_s,
+        })
+    }
+
+    /// Sets the run up to its first step: finds out whether it can start, and gives its time step. A limit cycle that
+    /// it would start on is not looked for, nor the steady sliding of any body but a plane annulus, which takes longer
+    /// than a check is worth.
+    ///
+    /// # Errors
+    /// As [`Self::start`], and those of the recorder.
+    pub fn preflight(&self) -> Result<StepPlan, StudyError> {
+        let operator = self.operator()?;
+        let initial = match (self.case.body.annulus(), self.settings.initial) {
+            (None, _) => InitialState::Rest,
+            (Some(_), InitialState::LimitCycle { .. }) => return self.plan(operator.as_ref()),
+            (Some(_), own) => own,
+        };
+        let settings = TransientSettings { initial, ..self.settings.clone() };
+        let started = CentralDifference::start(self.body(), operator.as_ref(), &settings);
+        let fresh = self.told(started)?;
+        self.told(Recorder::new(&fresh, &self.recorder_settings()))?;
+        Ok(*fresh.plan())
+    }
+
+    /// What there is to report of a run by its record; what it took is left zero.
+    pub fn report<'b>(
+        &'b self,
+        record: &'b Recorder,
+        analysis: &'b TransientAnalysis,
+        plan: StepPlan,
+        operator: &'b str,
+    ) -> TransientReport<'b> {
+        let (case, settings) = (self.case, &self.settings);
+        let places = case.output.placed_probes.iter();
+        TransientReport {
+            title: &case.title,
+            run: RecordedRun {
+                record,
+                analysis,
+                body: self.stepped.shown(),
+                material: case.materials_in_time(),
+                has_harmonics: case.has_sectors(),
+                thickness: case.depth(),
+                extent: extent_of(case),
+            },
+            contact_nodes: self.body().interface().nodes,
+            friction_coefficient: case.contact.sliding.friction_coefficient,
+            initial: settings.initial.name(),
+            perturbation: &settings.perturbation,
+            places: places.map(|place| (place.node, [place.asked[0], place.asked[1]])).collect(),
+            operator,
+            plan,
+            steps: 0,
+            steps_timed: 0,
+            stepping_s: 0.0,
+            wall_s: 0.0,
+            is_finished: true,
+            notes: self.notes(record, analysis, plan.time_step),
+        }
+    }
+
+    /// An outcome of the time loop, its error at its key of the case where it has one.
+    ///
+    /// # Errors
+    /// [`StudyError::Case`] for what the case asks for in vain; what fails in the loop.
+    pub fn told<T>(&self, outcome: Result<T, TransientError>) -> Result<T, StudyError> {
+        outcome.map_err(|error| settings::study_error(self.case, error))
+    }
+
+    /// Speed of the counterface where figures show the contact, m/s: of several rings of nodes at the middle one.
+    pub fn shown_speed(&self) -> f64 {
+        let speed = self.case.contact.sliding.rotation_speed;
+        match &self.stepped.sector {
+            Some(sector) => speed * sector.rings[sector.rings.len() / 2].radius,
+            None if self.stepped.assembly.is_some() => self.sliding_speed(),
+            None => self.body().interface().surface_speed(speed),
+        }
+    }
+
+    /// Mean speed at which the contacts of an assembly slide, m/s.
+    fn sliding_speed(&self) -> f64 {
+        let contacts = self.stepped.assembly.iter();
+        let contacts = contacts.flat_map(Assembly::contacts);
+        let points = contacts.flat_map(|(_, surface)| &surface.points);
+        let [speed, area] = points.fold([0.0; 2], |[speed, area], point| {
+            [speed + point.weight * point.speed, area + point.weight]
+        });
+        speed / area.max(f64::MIN_POSITIVE)
+    }
+}

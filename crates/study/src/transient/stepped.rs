@@ -1,0 +1,93 @@
+//! The body of a case as the time loop takes it.
+
+use crate::StudyError;
+use crate::cycle::operating_point;
+use frictionsim_case::{Annulus, AssemblyBody, Body, Case, Revolution};
+use frictionsim_physics::cycle::OperatingPoint;
+use frictionsim_physics::mesh::{AnnulusMesh, Mesh, SolidSector};
+use frictionsim_physics::prestress::Assembly;
+use frictionsim_physics::transient::{SteppedBody, TransientModel};
+use frictionsim_results::ShownBody;
+use std::sync::Arc;
+
+/// The mesh of a case and what belongs to it: a transient and the limit cycles that it may end on step the same body.
+#[derive(Debug)]
+pub struct SteppedMesh<'a> {
+    /// The mesh; of a body of revolution in three dimensions the section across the axis.
+    pub mesh: Arc<Mesh>,
+    /// One sector of a body of revolution in three dimensions.
+    pub sector: Option<SolidSector>,
+    /// Solid bodies of a mesh with their ties and contacts.
+    pub assembly: Option<Assembly<'a>>,
+    annulus: Option<AnnulusMesh>,
+}
+
+impl<'a> SteppedMesh<'a> {
+    /// That of a case.
+    ///
+    /// # Errors
+    /// A mesh that cannot be built; surfaces that do not meet.
+    pub fn of(case: &'a Case) -> Result<Self, StudyError> {
+        let (mut annulus, mut sector, mut assembly) = (None, None, None);
+        let mesh = match &case.body {
+            Body::Annulus(Annulus { specification, .. }) => {
+                let generated = AnnulusMesh::generate(specification)?;
+                let mesh = Arc::new(generated.mesh.clone());
+                annulus = Some(generated);
+                mesh
+            }
+            Body::Revolution(Revolution { specification, .. }) => {
+                let generated = SolidSector::generate(specification)?;
+                let mesh = Arc::new(generated.section()?);
+                sector = Some(generated);
+                mesh
+            }
+            Body::Imported(imported) => Arc::clone(&imported.mesh),
+            Body::Assembly(body) => {
+                assembly = Some(body.stepped_as(case.materials_in_time())?);
+                Arc::clone(&body.mesh)
+            }
+        };
+        Ok(Self { mesh, sector, assembly, annulus })
+    }
+
+    /// The body of the case with its contact.
+    pub fn body<'b>(&'b self, case: &'b Case) -> TransientModel<'b> {
+        self.body_at(case, &operating_point(case))
+    }
+
+    /// The same at another operating point.
+    pub fn body_at<'b>(&'b self, case: &'b Case, point: &OperatingPoint) -> TransientModel<'b> {
+        let body = match (&self.assembly, self.sector.as_ref()) {
+            (Some(assembly), _) => {
+                let axis = case.body.assembly().and_then(AssemblyBody::axis);
+                let axis = axis.unwrap_or([[0.0; 3], [0.0, 0.0, 1.0]]);
+                SteppedBody::Assembly { assembly, axis }
+            }
+            (None, Some(sector)) => SteppedBody::Revolution(sector),
+            (None, None) => SteppedBody::Plane { mesh: &self.mesh, annulus: self.annulus.as_ref() },
+        };
+        let material = case.materials_in_time();
+        TransientModel {
+            stiffness: case.contact.stiffness,
+            contact_damping: match case.damping.include_contact {
+                true => point.damping.stiffness_coefficient,
+                false => 0.0,
+            },
+            ..TransientModel::new(body, material, point.damping, point.contact)
+        }
+    }
+
+    /// The body as results show it.
+    pub fn shown(&self) -> ShownBody<'_> {
+        ShownBody { mesh: &self.mesh, sector: self.sector.as_ref() }
+    }
+
+    /// Nodes of the whole body.
+    pub fn node_count(&self) -> usize {
+        match &self.sector {
+            Some(sector) => sector.node_count() * sector.sector_count(),
+            None => self.mesh.node_count(),
+        }
+    }
+}

@@ -1,0 +1,332 @@
+//! From samples to a probability of squeal.
+
+use super::largest_friction;
+use frictionsim_case::{Case, Uncertainty};
+use frictionsim_results::uncertainty::{
+    CriticalFriction, FamilySummary, Index, Onset, Sample, UncertaintySummary,
+};
+use frictionsim_signal::{Estimate, student_95};
+use std::collections::BTreeMap;
+
+/// Parts of the sequence whose scatter tells how sure a mean is.
+const PARTS: usize = 16;
+
+/// Friction coefficients at which the probability of squeal is reported.
+const FRICTIONS: usize = 101;
+
+/// 95 % interval of a probability of which `count` trials gave `hits`.
+///
+/// E. B. Wilson, "Probable inference, the law of succession, and statistical inference", J. Am. Stat. Assoc. 22 (1927)
+/// 209. Points of a Sobol sequence scatter less than the random trials that it is made for.
+pub fn wilson(hits: usize, count: usize) -> Estimate {
+    let (n, z2) = (count.max(1) as f64, 1.959_963_984_540_054_f64.powi(2));
+    let value = hits as f64 / n;
+    let middle = (value + 0.5 * z2 / n) / (1.0 + z2 / n);
+    let half = (z2 * (value * (1.0 - value) + 0.25 * z2 / n) / n).sqrt() / (1.0 + z2 / n);
+    Estimate {
+        value,
+        low: if hits == 0 { 0.0 } else { middle - half },
+        high: if hits == count { 1.0 } else { middle + half },
+    }
+}
+
+/// First-order and total index of each parameter, from values at `A`, `B` and `A` with one column of `B`.
+///
+/// ```text
+/// S_k = 1 - <(f_B - f_ABk)^2> / 2 V,   T_k = <(f_A - f_ABk)^2> / 2 V
+/// ```
+///
+/// A. Saltelli et al., "Variance based sensitivity analysis of model output. Design and estimator for the total
+/// sensitivity index", Comput. Phys. Commun. 181 (2010) 259, with M. J. W. Jansen's estimators. Zero without variance.
+pub fn indices(a: &[f64], b: &[f64], mixed: &[Vec<f64>]) -> Vec<[f64; 2]> {
+    let count = a.len().max(1) as f64;
+    let both = || a.iter().chain(b);
+    let mean = both().sum::<f64>() / (2.0 * count);
+    let variance = both().map(|f| (f - mean).powi(2)).sum::<f64>() / (2.0 * count);
+    if !(variance > 0.0) {
+        return vec![[0.0; 2]; mixed.len()];
+    }
+    let distance = |x: &[f64], y: &[f64]| {
+        let squares = x.iter().zip(y).map(|(x, y)| (x - y).powi(2));
+        squares.sum::<f64>() / (2.0 * count * variance)
+    };
+    let of = |column: &Vec<f64>| [1.0 - distance(b, column), distance(a, column)];
+    mixed.iter().map(of).collect()
+}
+
+/// Resamples that the intervals of indices rest on.
+const RESAMPLES: usize = 400;
+
+/// First-order and total index of each parameter with 95 % intervals: the percentiles over samples drawn from the given
+/// ones with replacement.
+///
+/// G. E. B. Archer, A. Saltelli, I. M. Sobol, "Sensitivity measures, ANOVA-like techniques and the use of bootstrap",
+/// J. Stat. Comput. Simul. 58 (1997) 99.
+pub fn indices_with_intervals(a: &[f64], b: &[f64], mixed: &[Vec<f64>]) -> Vec<Index> {
+    let count = a.len();
+    // A fixed sequence of numbers: the same samples have the same intervals.
+    let mut state = 0x9e37_79b9_7f4a_7c15_u64;
+    let mut draw = || {
+        state =
+            state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        ((state >> 33) as usize) % count.max(1)
+    };
+    let resampled: Vec<Vec<[f64; 2]>> = (0..RESAMPLES)
+        .map(|_| {
+            let drawn: Vec<usize> = (0..count).map(|_| draw()).collect();
+            let of = |values: &[f64]| -> Vec<f64> { drawn.iter().map(|&i| values[i]).collect() };
+            let columns: Vec<Vec<f64>> = mixed.iter().map(|column| of(column)).collect();
+            indices(&of(a), &of(b), &columns)
+        })
+        .collect();
+    let interval = |k: usize, which: usize| {
+        let mut values: Vec<f64> = resampled.iter().map(|found| found[k][which]).collect();
+        values.sort_by(f64::total_cmp);
+        quantile(&values, 0.025).zip(quantile(&values, 0.975))
+    };
+    let found = indices(a, b, mixed).into_iter().enumerate();
+    found
+        .map(|(k, [first, total])| Index {
+            first,
+            total,
+            first_interval: interval(k, 0).map(<[f64; 2]>::from),
+            total_interval: interval(k, 1).map(<[f64; 2]>::from),
+        })
+        .collect()
+}
+
+/// What the samples of a case say.
+pub fn summarize(case: &Case, samples: &[Sample]) -> UncertaintySummary {
+    let keys = case.uncertainty.as_ref().map(Uncertainty::keys).unwrap_or_default();
+    let largest_friction = largest_friction(case);
+    let friction = case.contact.sliding.friction_coefficient;
+    let solved: Vec<&Sample> = samples.iter().filter(|sample| sample.error.is_none()).collect();
+    let count = solved.len();
+    let hits = |friction: &dyn Fn(&Sample) -> f64| {
+        solved.iter().filter(|sample| sample.is_unstable(friction(sample))).count()
+    };
+    let over = (0..FRICTIONS).map(|k| {
+        let friction = largest_friction * k as f64 / (FRICTIONS - 1) as f64;
+        let p = wilson(hits(&|_| friction), count);
+        [friction, p.value, p.low, p.high]
+    });
+    let (sobol, index_samples) = sobol_of(&keys, &solved, largest_friction);
+    let decisive = sobol.iter().max_by(|a, b| a.1.total.total_cmp(&b.1.total));
+    let failed = samples.len() - count;
+    let mut notes = Vec::new();
+    if let Some(sample) = samples.iter().find(|sample| sample.error.is_some()) {
+        notes.push(format!(
+            "{failed} samples could not be solved and are left out; the first is sample {}: {}",
+            sample.number,
+            sample.error.as_deref().unwrap_or_default()
+        ));
+    }
+    let families = families(&solved, largest_friction);
+    notes.extend(beyond_note(&families));
+    UncertaintySummary {
+        samples: samples.len(),
+        failed,
+        index_samples,
+        friction_coefficient: solved
+            .iter()
+            .all(|own| own.friction_coefficient == friction)
+            .then_some(friction),
+        largest_friction,
+        probability_unstable: wilson(hits(&|sample| sample.friction_coefficient), count),
+        critical_friction: critical_friction(&solved, largest_friction),
+        families,
+        decisive: decisive.map(|(key, _)| key.clone()),
+        sobol,
+        probability_over_friction: over.collect(),
+        robust: None,
+        notes,
+    }
+}
+
+/// The indices of the lowest critical friction, which is the end of the range where there is none.
+fn sobol_of(keys: &[String], solved: &[&Sample], most: f64) -> (BTreeMap<String, Index>, usize) {
+    let used: Vec<&&Sample> =
+        solved.iter().filter(|sample| sample.mixed.len() == keys.len() + 1).collect();
+    if used.is_empty() {
+        return (BTreeMap::new(), 0);
+    }
+    let capped = |value: Option<f64>| value.map_or(most, |value| value.min(most));
+    let own = |sample: &&&Sample| capped(sample.lowest(most).map(|onset| onset.critical_friction));
+    let a: Vec<f64> = used.iter().map(own).collect();
+    let column = |k: usize| used.iter().map(|sample| capped(sample.mixed[k])).collect();
+    let mixed: Vec<Vec<f64>> = (1..=keys.len()).map(column).collect();
+    let found = indices_with_intervals(&a, &column(0), &mixed);
+    (keys.iter().cloned().zip(found).collect(), used.len())
+}
+
+/// A quantile of values that may be beyond all numbers.
+fn quantile(sorted: &[f64], share: f64) -> Option<f64> {
+    let last = sorted.len().checked_sub(1)?;
+    let place = share * last as f64;
+    let (low, high) = (sorted[place.floor() as usize], sorted[place.ceil() as usize]);
+    let value = low + (high - low) * place.fract();
+    let value = if low == high { low } else { value };
+    value.is_finite().then_some(value)
+}
+
+fn critical_friction(solved: &[&Sample], most: f64) -> CriticalFriction {
+    let of = |sample: &&Sample| sample.lowest(most).map_or(f64::INFINITY, |o| o.critical_friction);
+    let all: Vec<f64> = solved.iter().map(of).collect();
+    let mean = |values: &[f64]| {
+        let finite: Vec<f64> = values.iter().copied().filter(|v| v.is_finite()).collect();
+        (!finite.is_empty()).then(|| finite.iter().sum::<f64>() / finite.len() as f64)
+    };
+    let parts: Vec<f64> = match all.len() / PARTS {
+        0 => Vec::new(),
+        size => all.chunks_exact(size).take(PARTS).filter_map(mean).collect(),
+    };
+    let middle = mean(&all);
+    let half = middle.filter(|_| parts.len() == PARTS).map(|middle| {
+        let n = PARTS as f64;
+        let variance = parts.iter().map(|p| (p - middle).powi(2)).sum::<f64>() / (n - 1.0);
+        student_95(n - 1.0) * (variance / n).sqrt()
+    });
+    let beyond = all.iter().filter(|value| value.is_infinite()).count();
+    let mut sorted = all.clone();
+    sorted.sort_by(f64::total_cmp);
+    CriticalFriction {
+        mean: middle,
+        mean_low: middle.zip(half).map(|(m, half)| m - half),
+        mean_high: middle.zip(half).map(|(m, half)| m + half),
+        median: quantile(&sorted, 0.5),
+        p05: quantile(&sorted, 0.05),
+        p95: quantile(&sorted, 0.95),
+        without_onset: beyond as f64 / all.len().max(1) as f64,
+    }
+}
+
+/// Families that leave the range of frequencies in some samples.
+fn beyond_note(families: &[FamilySummary]) -> Option<String> {
+    let beyond = families.iter().filter(|family| family.beyond_limit > 0.0);
+    let worst = beyond.max_by(|a, b| a.beyond_limit.total_cmp(&b.beyond_limit))?;
+    Some(format!(
+        "{} lies beyond the modes that [cea] asks for in {:.4} of the samples and counts as stable \
+         there. Raise cea.max_frequency_hz (or cea.modes) to follow it in all of them",
+        worst.name(),
+        worst.beyond_limit
+    ))
+}
+
+/// Modes followed across samples by harmonic, rank and direction.
+fn families(solved: &[&Sample], most: f64) -> Vec<FamilySummary> {
+    let name_of = |onset: &Onset| (onset.harmonic, onset.branch, onset.direction);
+    let mut names: Vec<(Option<usize>, usize, i8)> = Vec::new();
+    for onset in solved.iter().flat_map(|sample| &sample.onsets) {
+        let name = name_of(onset);
+        if onset.critical_friction <= most && !names.contains(&name) {
+            names.push(name);
+        }
+    }
+    let count = solved.len().max(1) as f64;
+    let mut found: Vec<FamilySummary> = names
+        .into_iter()
+        .map(|name| {
+            let (harmonic, branch, direction) = name;
+            let is_hit = |sample: &&&Sample| {
+                let mut onsets = sample.onsets.iter().filter(|onset| name_of(onset) == name);
+                onsets.any(|onset| onset.holds(sample.friction_coefficient))
+            };
+            let hits = solved.iter().filter(is_hit).count();
+            let first = |sample: &&Sample| {
+                let mut onsets = sample.onsets.iter().filter(|onset| name_of(onset) == name);
+                let first = onsets.next().filter(|onset| onset.critical_friction <= most);
+                first.map_or((f64::INFINITY, f64::NAN), |o| (o.critical_friction, o.frequency_hz))
+            };
+            let firsts: Vec<(f64, f64)> = solved.iter().map(first).collect();
+            let mut sorted: Vec<f64> = firsts.iter().map(|f| f.0).collect();
+            sorted.sort_by(f64::total_cmp);
+            let within = sorted.partition_point(|value| value.is_finite());
+            let is_beyond = |sample: &&&Sample| sample.is_beyond(harmonic, branch);
+            let beyond = solved.iter().filter(is_beyond).count();
+            let frequencies = firsts.iter().map(|f| f.1).filter(|f| f.is_finite());
+            FamilySummary {
+                harmonic,
+                branch,
+                direction,
+                probability: hits as f64 / count,
+                probability_in_range: within as f64 / count,
+                beyond_limit: beyond as f64 / count,
+                critical_friction_median: quantile(&sorted[..within], 0.5).unwrap_or(most),
+                frequency_hz: frequencies.sum::<f64>() / within.max(1) as f64,
+                critical_friction_percentiles: (1..100)
+                    .map(|k| quantile(&sorted, 0.01 * f64::from(k)))
+                    .collect(),
+            }
+        })
+        .collect();
+    found.sort_by(|a, b| {
+        let by_range = b.probability_in_range.total_cmp(&a.probability_in_range);
+        let by_name =
+            || (a.harmonic, a.branch, a.direction).cmp(&(b.harmonic, b.branch, b.direction));
+        b.probability.total_cmp(&a.probability).then(by_range).then_with(by_name)
+    });
+    found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ScrambledSobol;
+    use std::f64::consts::PI;
+
+    /// Ishigami's function on the unit cube.
+    fn ishigami(x: &[f64]) -> f64 {
+        let [x1, x2, x3] = [0, 1, 2].map(|i| PI * (2.0 * x[i] - 1.0));
+        x1.sin() + 7.0 * x2.sin().powi(2) + 0.1 * x3.powi(4) * x1.sin()
+    }
+
+    #[test]
+    fn indices_of_ishigamis_function_are_the_exact_ones_within_a_hundredth() {
+        // V1 = (1 + b pi^4 / 5)^2 / 2, V2 = a^2 / 8, V13 = b^2 pi^8 (1/18 - 1/50).
+        let (v1, v2) = (0.5 * (1.0 + 0.1 * PI.powi(4) / 5.0).powi(2), 49.0 / 8.0);
+        let v13 = 0.01 * PI.powi(8) * (1.0 / 18.0 - 1.0 / 50.0);
+        let v = v1 + v2 + v13;
+        let exact = [[v1 / v, (v1 + v13) / v], [v2 / v, v2 / v], [0.0, v13 / v]];
+        for seed in 1..=3 {
+            let sequence = ScrambledSobol::new(6, seed);
+            let (mut a, mut b, mut mixed) = (Vec::new(), Vec::new(), vec![Vec::new(); 3]);
+            for i in 0..4096 {
+                let point = sequence.point(i);
+                a.push(ishigami(&point[..3]));
+                b.push(ishigami(&point[3..]));
+                for (k, column) in mixed.iter_mut().enumerate() {
+                    let mut x = point[..3].to_vec();
+                    x[k] = point[3 + k];
+                    column.push(ishigami(&x));
+                }
+            }
+            for (found, exact) in indices_with_intervals(&a, &b, &mixed).iter().zip(exact) {
+                assert!((found.first - exact[0]).abs() < 0.01, "{seed} {found:?} {exact:?}");
+                assert!((found.total - exact[1]).abs() < 0.01, "{seed} {found:?} {exact:?}");
+                // Points of a Sobol sequence scatter less than the random ones that resampling stands for.
+                for (interval, exact) in
+                    [(found.first_interval, exact[0]), (found.total_interval, exact[1])]
+                {
+                    let [low, high] = interval.expect("an interval");
+                    assert!(low <= exact && exact <= high, "{seed} {found:?} {exact}");
+                    assert!(high - low < 0.15, "{seed} {found:?}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn wilsons_interval_is_the_published_one() {
+        // R. G. Newcombe, Statist. Med. 17 (1998) 857: 81 of 263, 15 of 148, 0 of 20, 1 of 29.
+        for (hits, count, low, high) in [
+            (81, 263, 0.2553, 0.3662),
+            (15, 148, 0.0624, 0.1605),
+            (0, 20, 0.0, 0.1611),
+            (1, 29, 0.0061, 0.1718),
+        ] {
+            let found = wilson(hits, count);
+            assert!((found.low - low).abs() < 6e-5, "{found:?}");
+            assert!((found.high - high).abs() < 6e-5, "{found:?}");
+        }
+    }
+}
