@@ -4,8 +4,8 @@
 //! d lambda = - w^T (lambda^2 dM + lambda dC + dK) x,    w^T (2 lambda M + C) x = 1
 //! ```
 //!
-//! with `w` over all dofs, see [`frictionsim_physics::prestress::SlidingTangent::left_displacement`]. The base state is kept as it
-//! is.
+//! with `w` over all dofs, see [`frictionsim_physics::prestress::SlidingTangent::left_displacement`].
+//! The base state is kept as it is.
 //!
 //! Source: H. M. Adelman, R. T. Haftka, Sensitivity analysis of discrete structural systems, AIAA Journal 24 (1986).
 
