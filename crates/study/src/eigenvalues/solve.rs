@@ -207,7 +207,8 @@ mod tests {
     /// Harmonics that cannot be followed leave a body of revolution its whole mesh.
     #[test]
     fn the_whole_mesh_is_solved_where_a_branch_of_a_harmonic_is_lost() {
-        let bytes = std::fs::read("cases/disc-three-dimensions.toml").unwrap();
+        let cases = concat!(env!("CARGO_MANIFEST_DIR"), "/../../cases");
+        let bytes = std::fs::read(format!("{cases}/disc-three-dimensions.toml")).unwrap();
         let sets = [
             "mesh.circumferential_elements=12",
             "mesh.radial_elements=3",
