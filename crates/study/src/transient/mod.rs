@@ -9,6 +9,7 @@
 //! # let coarse = [&mesh[..], &["output.snapshots=[]", "output.probes=[1]"]].concat();
 //! # let shorter = ["transient.duration=2e-4", "transient.expansion_time=1e-4"];
 //! # let overrides: Vec<String> = coarse.iter().chain(&shorter).map(|text| text.to_string()).collect();
+//! # std::env::set_current_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."))?;
 //! let bytes = std::fs::read("cases/polycarbonate-610rpm.toml")?;
 //! let case = Case::parse("disc", &bytes, &overrides)?;
 //! let solved = TransientStudy::new(&case, SimdLevel::detect())?.solve()?;
