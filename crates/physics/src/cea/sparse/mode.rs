@@ -3,7 +3,7 @@
 use crate::cea::counted::NEARLY_CRITICAL;
 use crate::linalg::c64;
 
-/// Damping factor from which on a motion may as well be one of those that do not oscillate.
+/// Damping factor, of decay or of growth, from which on a motion may as well be one of those that do not oscillate.
 const HARDLY_OSCILLATING: f64 = 0.95;
 
 /// One mode of the projected problem.
@@ -40,6 +40,6 @@ impl ReducedMode {
 
     /// Whether it may as well be one of the motions that do not oscillate.
     pub fn hardly_oscillates(&self) -> bool {
-        self.damping_factor() > HARDLY_OSCILLATING
+        self.damping_factor().abs() > HARDLY_OSCILLATING
     }
 }

@@ -99,3 +99,48 @@ impl SparseSweep<'_> {
         Ok(ln.im.cos() * (ln.re - size).exp())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::cea::sparse::fixtures::string_on_belt;
+    use crate::cea::sparse::sweep;
+    use crate::cea::{ModeLimit, SweepRequest};
+    use crate::linalg::MatrixPolynomial;
+    use std::sync::Arc;
+
+    /// Independent check: a string on springs that friction takes away, which grows beyond without oscillating. Losses of two of the
+    /// springs between masses that push each other give that an imaginary part: it is no mode. Growth begins a little before the determinant
+    /// of the stiffness vanishes, as losses have it.
+    #[test]
+    fn a_lossy_motion_that_grows_without_oscillating_is_no_mode() {
+        let mut tangent = string_on_belt(60, 1.0, false);
+        let pattern = Arc::clone(tangent.stiffness.pattern());
+        let springs = [28, 30].into_iter().flat_map(|i| {
+            let pair = [i, i + 1].into_iter().flat_map(move |j| [(i, j), (i + 1, j)]);
+            pair.map(|(j, k)| (j, k, if j == k { 0.5 } else { -0.5 }))
+        });
+        tangent.structural = Some(MatrixPolynomial::on_pattern(&pattern, &[springs.collect()]));
+        let softened = (20..40).map(|i| (i, i, -1.0)).collect();
+        let added = MatrixPolynomial::on_pattern(&pattern, &[Vec::new(), softened]);
+        tangent.stiffness = MatrixPolynomial::combination(1.0, &tangent.stiffness, 1.0, &added);
+
+        let frictions = [0.0, 0.02, 0.05, 0.1, 0.15];
+        let request = SweepRequest::new(&frictions, ModeLimit::Lowest(8));
+        let found = sweep(&tangent, &request, &|_| {}).unwrap();
+        for mode in found.points.iter().flat_map(|point| &point.modes) {
+            assert!(mode.eigenvalue.re < mode.eigenvalue.im, "{}", mode.eigenvalue);
+        }
+        // The pivots of the tridiagonal matrix.
+        let is_stable = |mu: f64| {
+            let mut pivot = f64::INFINITY;
+            (0..60).all(|i| {
+                let own = if (20..40).contains(&i) { 2.01 - mu } else { 2.01 };
+                pivot = own - if i % 2 == 1 { 1.0 - mu } else { 1.0 } / pivot;
+                pivot > 0.0
+            })
+        };
+        let critical = found.intervals.iter().map(|own| own.critical_friction);
+        let critical = critical.fold(f64::INFINITY, f64::min);
+        assert!(is_stable(0.97 * critical) && !is_stable(1.03 * critical), "{critical}");
+    }
+}
