@@ -2,6 +2,7 @@
 
 use super::value::quote;
 use super::{Location, RawItem, RawValue, UnitsWord, keys};
+use frictionsim_output::rounded;
 use frictionsim_physics::mesh::{
     FileConditionKind, FileContact, FileElasticity, FileMaterial, FileMesh, LeftOut, MaterialAxes,
     ModelData,
@@ -46,7 +47,8 @@ pub(super) fn sections(
         for motion in &model.motions {
             let [from, to] = motion.axis;
             let axis = [0, 1, 2].map(|i| to[i] - from[i]);
-            let rpm = motion.angular_velocity * 60.0 / std::f64::consts::TAU;
+            // 10.47197551 rad/s is 100 rpm.
+            let rpm = rounded(motion.angular_velocity * 60.0 / std::f64::consts::TAU, 9);
             let mut keys = vec![
                 ("axis", numbers(&axis)),
                 ("center", numbers(&from.map(|x| scaled(x, units.length())))),
