@@ -3,6 +3,7 @@
 use super::Recorder;
 use super::vibration::{rms, series};
 use crate::linalg::c64;
+use crate::order::range as range_of;
 use crate::signal::{RotatingLine, rotating_lines};
 use std::ops::Range;
 
@@ -110,13 +111,9 @@ fn envelope_ratio(record: &Recorder, range: &Range<usize>, frequency: f64) -> f6
         .collect();
     let period = ((1.0 / (frequency * record.sample_interval)).round() as usize).max(2);
     let sizes = displacement.windows(period + 1).map(|window| {
-        let [low, high] =
-            window.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], &value| {
-                [low.min(value), high.max(value)]
-            });
+        let [low, high] = range_of(window.iter().copied());
         0.5 * (high - low)
     });
-    let [smallest, largest] =
-        sizes.fold([f64::INFINITY, 0.0_f64], |[low, high], size| [low.min(size), high.max(size)]);
+    let [smallest, largest] = range_of(sizes);
     largest / smallest
 }

@@ -125,8 +125,7 @@ pub(super) fn places(mesh: &Mesh, annulus: Option<&AnnulusMesh>) -> Vec<Place> {
     let counterface = mesh.counterface;
     let edge = mesh.contact_edge().nodes.iter();
     let along = edge.map(|&node| counterface.place(mesh.plane_node(node as usize)));
-    let (low, high) =
-        along.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), s| (low.min(s), high.max(s)));
+    let [low, high] = crate::order::range(along);
     let gap = |point: [f64; 2]| counterface.gap(point).max(0.0);
     let deepest = mesh.plane_nodes().into_iter().map(gap).fold(f64::MIN_POSITIVE, f64::max);
     let place = points.map(|(point, frame)| {

@@ -78,8 +78,7 @@ pub(super) fn dies_out(record: &Recorder, fifth: &Range<usize>, share: f64) -> b
         return false;
     };
     let losses: [f64; 3] = std::array::from_fn(|k| 1.0 - sizes[k + 1] / sizes[k]);
-    let least = losses.iter().copied().fold(f64::INFINITY, f64::min);
-    let most = losses.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let [least, most] = crate::order::range(losses);
     sizes[0] < share * record.largest_motion(fifth.clone())
         && least >= LOSS
         && most - least <= SAME_LOSS * most

@@ -66,9 +66,7 @@ pub struct PeriodicBranch {
 impl PeriodicBranch {
     /// Smallest and largest value, SI.
     pub fn range(&self) -> Option<[f64; 2]> {
-        let values = self.motions.iter().map(|own| own.value);
-        let ends = [f64::INFINITY, f64::NEG_INFINITY];
-        let [low, high] = values.fold(ends, |[low, high], v| [low.min(v), high.max(v)]);
+        let [low, high] = crate::order::range(self.motions.iter().map(|own| own.value));
         (low <= high).then_some([low, high])
     }
 

@@ -250,9 +250,7 @@ fn contact_displacements(
 /// The node among those that touch that moves most along the counterface, and half the range of its displacement.
 fn widest(samples: &[Vec<[f64; 2]>], touches: &[bool]) -> (usize, f64) {
     let range = |node: usize| {
-        let along = samples.iter().map(|sample| sample[node][1]);
-        let [low, high] = along
-            .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], u| [low.min(u), high.max(u)]);
+        let [low, high] = crate::order::range(samples.iter().map(|sample| sample[node][1]));
         0.5 * (high - low)
     };
     let nodes = (0..touches.len()).filter(|&node| touches[node]);
