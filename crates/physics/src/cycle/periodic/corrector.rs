@@ -2,7 +2,7 @@
 
 use super::map::{PeriodImage, PeriodMap, PeriodicState};
 use super::search::{ACCEPTED, Found};
-use super::secants::{Change, NEW_ALONG, SecantSpace};
+use super::secants::{Change, Iterate, NEW_ALONG, SecantSpace};
 use crate::cycle::CycleError;
 use crate::cycle::vector::{add, difference, norm};
 use crate::transient::TransientError;
@@ -17,8 +17,6 @@ const CLOSED: f64 = 1e-7;
 const MOST: usize = 80;
 /// Periods without a residual half as large as before after which the search ends.
 const PATIENCE: usize = 12;
-/// Longest step relative to the amplitude, of the period relative to it, and of the parameter in units of its scale.
-const LONGEST: [f64; 3] = [0.3, 0.05, 0.1];
 /// Secants that are kept however far they lead.
 const FEWEST: usize = 3;
 /// Share of the last residual above which a step has gained nothing: older secants are of another status of the nodes.
@@ -31,6 +29,13 @@ pub(super) const POINT_COLUMNS: usize = 3;
 
 /// Parameter and amplitude of a point, each over a scale: the plane in which a branch is a curve.
 pub(super) type Place = [f64; 2];
+
+/// Direction and distance from one place to another.
+pub(super) fn way(from: Place, to: Place) -> (Place, f64) {
+    let step = [to[0] - from[0], to[1] - from[1]];
+    let length = step[0].hypot(step[1]);
+    (step.map(|part| part / length), length)
+}
 
 /// What ties a point of a branch down.
 #[derive(Clone, Copy, Debug)]
@@ -147,13 +152,6 @@ pub(super) struct Corrector<'b, 'a> {
     weight: f64,
 }
 
-/// The iterate before.
-struct Iterate {
-    guess: Guess,
-    place: Place,
-    residual: Vec<f64>,
-}
-
 impl<'b, 'a> Corrector<'b, 'a> {
     /// One that knows nothing yet.
     pub fn new(map: PeriodMap<'a>, tune: Tune<'b, 'a>, scales: Place) -> Self {
@@ -226,7 +224,7 @@ impl<'b, 'a> Corrector<'b, 'a> {
         self.secants.aim(goal.weights().map(|by| self.weight * by));
         let first = self.map.periods();
         let mut last = Some(Iterate {
-            guess: Guess { value: near.value, state: near.found.state.clone() },
+            state: near.found.state.clone(),
             place: near.place(self.scales),
             residual: near.found.image.residual.clone(),
         });
@@ -256,60 +254,40 @@ impl<'b, 'a> Corrector<'b, 'a> {
                 return accepted(best, periods);
             }
             // One step of the secants.
+            let state = guess.state.clone();
+            let here = Iterate { state, place, residual: image.residual.clone() };
             if let Some(last) = last.take() {
-                self.learn(&last, (&guess, place), &image.residual, periods);
+                self.learn(&last, &here, periods);
             }
-            let mut next = self.step(&guess, &image, closure);
+            last = Some(here);
+            self.step(&mut guess, &image, closure);
             if let Goal::Value(value) = goal {
-                next.value = *value;
+                guess.value = *value;
             }
-            last = Some(Iterate {
-                guess: std::mem::replace(&mut guess, next),
-                place,
-                residual: image.residual,
-            });
         }
     }
 
     /// Adds the change from the iterate before, the older ones gone where that has gained nothing.
-    fn learn(
-        &mut self,
-        last: &Iterate,
-        (guess, place): (&Guess, Place),
-        residual: &[f64],
-        periods: usize,
-    ) {
-        if periods > 1 && norm(residual) > GAINED * norm(&last.residual) {
+    fn learn(&mut self, last: &Iterate, here: &Iterate, periods: usize) {
+        if periods > 1 && norm(&here.residual) > GAINED * norm(&last.residual) {
             self.secants.keep_latest(periods);
         }
-        self.secants.push(Change {
-            motion: difference(&guess.state.motion, &last.guess.state.motion),
-            period: guess.state.period - last.guess.state.period,
-            place: [0, 1].map(|i| place[i] - last.place[i]),
-            residual: difference(residual, &last.residual),
-        });
+        self.secants.push(Change::between(last, here));
     }
 
-    /// The next guess: by the secants, of which the older half goes as long as they lead too far.
-    fn step(&mut self, guess: &Guess, image: &PeriodImage, closure: f64) -> Guess {
+    /// On to the next guess: by the secants, of which the older half goes as long as they lead too far.
+    fn step(&mut self, guess: &mut Guess, image: &PeriodImage, closure: f64) {
         let closure = self.weight * closure;
-        let ((step, period, value), share) = loop {
-            let (step, period, value) = self.secants.step(&image.residual, closure, &image.rate);
-            let lengths =
-                [norm(&step) / image.vibration, period.abs() / guess.state.period, value.abs()];
-            let share = lengths.iter().zip(LONGEST).fold(1.0_f64, |share, (length, longest)| {
-                share.min(longest / length.max(f64::MIN_POSITIVE))
-            });
+        loop {
+            let step = self.secants.step(&image.residual, closure, &image.rate);
+            let share = step.allowed(guess.state.period, image);
             if share == 1.0 || self.secants.count() <= FEWEST {
-                break ((step, period, value), share);
+                step.take(share, &mut guess.state);
+                guess.value += share * step.value * self.scales[0];
+                return;
             }
             self.secants.keep_latest(self.secants.count() / 2);
-        };
-        let mut next = guess.clone();
-        add(&mut next.state.motion, share, &step);
-        next.state.period += share * period;
-        next.value += share * value * self.scales[0];
-        next
+        }
     }
 
     /// The relative residual of a motion that may lie on the branch of `near`.

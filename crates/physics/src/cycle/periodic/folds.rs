@@ -1,6 +1,6 @@
 //! Folds of a branch: those at which it bends, and corners.
 
-use super::corrector::{GOOD, Goal, Place, Point};
+use super::corrector::{GOOD, Goal, Place, Point, way};
 use super::follower::{ALONG, Follower};
 use crate::transient::TransientError;
 
@@ -40,13 +40,11 @@ impl Follower<'_, '_, '_> {
                     continue;
                 };
                 let to = next.place(scales);
-                let step = [to[0] - place[0], to[1] - place[1]];
-                let distance = step[0].hypot(step[1]);
+                let (direction, distance) = way(place, to);
                 let is_other = self.off_branch(to) > 0.2 * length;
-                if step[0] * along < 0.0 && distance < FAR * length && is_other {
+                if direction[0] * along < 0.0 && distance < FAR * length && is_other {
                     self.points[at].is_fold = true;
-                    self.tangent = step.map(|part| part / distance);
-                    self.length = distance;
+                    (self.tangent, self.length) = (direction, distance);
                     self.points.push(next);
                     return Ok(true);
                 }

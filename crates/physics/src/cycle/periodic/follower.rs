@@ -1,6 +1,6 @@
 //! The way along a branch: tangents, steps, values asked for, folds, ends.
 
-use super::corrector::{Corrector, Goal, Guess, POINT_COLUMNS, Place, Point, TOLERANCE};
+use super::corrector::{Corrector, Goal, Guess, POINT_COLUMNS, Place, Point, TOLERANCE, way};
 use crate::cycle::CycleError;
 use crate::cycle::continuation::{BranchEnd, Values, Way};
 use crate::transient::TransientError;
@@ -119,9 +119,7 @@ impl<'c, 'b, 'a> Follower<'c, 'b, 'a> {
         self.length = self.length.min(STEPS[0]);
         if let [.., before, here] = &self.points[..] {
             let [from, to] = [before, here].map(|point| point.place(self.corrector.scales));
-            let step = [to[0] - from[0], to[1] - from[1]];
-            let length = step[0].hypot(step[1]);
-            self.tangent = step.map(|part| part / length);
+            (self.tangent, _) = way(from, to);
         }
     }
 
@@ -170,7 +168,7 @@ impl<'c, 'b, 'a> Follower<'c, 'b, 'a> {
         let mut at = vec![0.0];
         for pair in last.windows(2) {
             let [from, to] = [&pair[0], &pair[1]].map(|point| point.place(scales));
-            at.push(at[at.len() - 1] + (to[0] - from[0]).hypot(to[1] - from[1]));
+            at.push(at[at.len() - 1] + way(from, to).1);
         }
         let points: Vec<&Point> = last.iter().collect();
         let mut guess = Guess::through(&points, &at, at[at.len() - 1] + reach);
@@ -180,12 +178,15 @@ impl<'c, 'b, 'a> Follower<'c, 'b, 'a> {
         guess
     }
 
+    /// Distance to a point, and cosine of the angle at which it lies off the tangent.
+    fn step_to(&self, next: &Point) -> (f64, f64) {
+        let (direction, length) = way(self.place(), next.place(self.corrector.scales));
+        (length, direction[0] * self.tangent[0] + direction[1] * self.tangent[1])
+    }
+
     /// Whether a point may be the next one of this branch.
     fn suits(&self, next: &Point, reach: f64) -> bool {
-        let (from, to) = (self.place(), next.place(self.corrector.scales));
-        let step = [to[0] - from[0], to[1] - from[1]];
-        let length = step[0].hypot(step[1]);
-        let cosine = (step[0] * self.tangent[0] + step[1] * self.tangent[1]) / length;
+        let (length, cosine) = self.step_to(next);
         let is_first = self.points.len() == 1;
         let is_short = reach < 8.0 * STEPS[1];
         // A first step goes along the parameter, however steep the branch is.
@@ -195,12 +196,10 @@ impl<'c, 'b, 'a> Follower<'c, 'b, 'a> {
 
     /// Takes a point, and the fold that it shows.
     fn accept(&mut self, next: Point, reach: f64) -> Result<Option<BranchEnd>, TransientError> {
-        let (from, to) = (self.place(), next.place(self.corrector.scales));
-        let step = [to[0] - from[0], to[1] - from[1]];
-        let length = step[0].hypot(step[1]);
+        let (_, cosine) = self.step_to(&next);
         let is_easy = next.found.residual < 10.0 * TOLERANCE;
-        let cosine = (step[0] * self.tangent[0] + step[1] * self.tangent[1]) / length;
-        self.tangent = step.map(|part| part / length);
+        let to = next.place(self.corrector.scales);
+        (self.tangent, _) = way(self.place(), to);
         if is_easy && cosine > 0.9 {
             // Of amplitude the longest step goes by the largest so far.
             self.length = (1.5 * self.length).min(STEPS[0] * self.largest.clamp(1.0, 5.0));

@@ -1,9 +1,8 @@
 //! The search for a periodic motion.
 
 use super::map::{PeriodImage, PeriodMap, PeriodicState};
-use super::secants::{Change, NEW, SecantSpace};
+use super::secants::{Change, Iterate, NEW, SecantSpace};
 use crate::cycle::CycleError;
-use crate::cycle::vector::{add, difference, norm};
 
 /// Residual, relative to the amplitude of the vibration, at which a motion repeats itself.
 pub const TOLERANCE: f64 = 1e-9;
@@ -21,8 +20,8 @@ const LONG: usize = 80;
 const MOST: usize = 240;
 /// Periods without a residual half as large as before after which the search ends.
 const PATIENCE: usize = 50;
-/// Longest step, relative to the amplitude, and of the period, relative to it.
-const LONGEST: [f64; 2] = [0.3, 0.05];
+/// Most by which a plain period changes the period, relative to it.
+const LONGEST: f64 = 0.05;
 /// A residual so many times the smallest goes back to it.
 const ASTRAY: f64 = 50.0;
 /// How often that is done.
@@ -172,8 +171,8 @@ struct Search {
     first_period: f64,
     secants: SecantSpace,
     state: PeriodicState,
-    /// The iterate before, with its residual.
-    last: Option<(PeriodicState, Vec<f64>)>,
+    /// The iterate before.
+    last: Option<Iterate>,
     /// The state of the smallest residual.
     best: Option<Found>,
     /// Periods spent when the residual last halved, and what it was then.
@@ -226,7 +225,7 @@ impl Search {
 
     /// One period further.
     fn go_plainly(&mut self, image: PeriodImage) {
-        let limit = LONGEST[1] * self.state.period;
+        let limit = LONGEST * self.state.period;
         self.state.period += image.delay().clamp(-limit, limit);
         self.state.motion = image.motion;
     }
@@ -243,21 +242,13 @@ impl Search {
             self.forget();
             return self.go_plainly(image);
         }
-        if let Some((state, residual)) = self.last.take() {
-            self.secants.push(Change {
-                motion: difference(&self.state.motion, &state.motion),
-                period: self.state.period - state.period,
-                place: [0.0; 2],
-                residual: difference(&image.residual, &residual),
-            });
+        let state = self.state.clone();
+        let here = Iterate { state, place: [0.0; 2], residual: image.residual.clone() };
+        if let Some(last) = self.last.take() {
+            self.secants.push(Change::between(&last, &here));
         }
-        let (step, period, _) = self.secants.step(&image.residual, 0.0, &image.rate);
-        let lengths = [norm(&step) / image.vibration, period.abs() / self.state.period];
-        let share = lengths.iter().zip(LONGEST).fold(1.0_f64, |share, (length, longest)| {
-            share.min(longest / length.max(f64::MIN_POSITIVE))
-        });
-        self.last = Some((self.state.clone(), image.residual));
-        add(&mut self.state.motion, share, &step);
-        self.state.period += share * period;
+        let step = self.secants.step(&here.residual, 0.0, &image.rate);
+        step.take(step.allowed(self.state.period, &image), &mut self.state);
+        self.last = Some(here);
     }
 }

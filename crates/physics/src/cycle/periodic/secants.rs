@@ -1,6 +1,7 @@
 //! Newton's method on the differences of past iterates, plain periods on what they do not hold.
 
-use crate::cycle::vector::{add, dot, norm};
+use super::map::{PeriodImage, PeriodicState};
+use crate::cycle::vector::{add, difference, dot, norm};
 use std::collections::VecDeque;
 
 /// Share of a difference that must lie beyond later ones, lest it says nothing new.
@@ -10,6 +11,19 @@ pub const NEW_ALONG: f64 = 0.05;
 /// Fewest and most differences kept, and numbers that all their motions may have.
 const DEPTHS: [usize; 2] = [24, 100];
 const NUMBERS: usize = 16_000_000;
+/// Longest step relative to the amplitude, of the period relative to it, and of the parameter in units of its scale.
+const LONGEST: [f64; 3] = [0.3, 0.05, 0.1];
+
+/// A state on the way of a search.
+#[derive(Clone, Debug)]
+pub struct Iterate {
+    /// Itself.
+    pub state: PeriodicState,
+    /// Parameter of a branch and amplitude, each in units of its scale.
+    pub place: [f64; 2],
+    /// What the map misses it by.
+    pub residual: Vec<f64>,
+}
 
 /// What changes from one iterate to the next.
 #[derive(Clone, Debug, Default)]
@@ -22,6 +36,46 @@ pub struct Change {
     pub place: [f64; 2],
     /// `dr`.
     pub residual: Vec<f64>,
+}
+
+impl Change {
+    /// From one iterate to the next.
+    pub fn between(from: &Iterate, to: &Iterate) -> Self {
+        Self {
+            motion: difference(&to.state.motion, &from.state.motion),
+            period: to.state.period - from.state.period,
+            place: [0, 1].map(|i| to.place[i] - from.place[i]),
+            residual: difference(&to.residual, &from.residual),
+        }
+    }
+}
+
+/// A step of a search.
+#[derive(Clone, Debug)]
+pub struct Step {
+    /// `dx`.
+    pub motion: Vec<f64>,
+    /// `dT`, s.
+    pub period: f64,
+    /// Of the parameter of a branch, in units of its scale.
+    pub value: f64,
+}
+
+impl Step {
+    /// The share of it that is not too long, from a state of this period with this image.
+    pub fn allowed(&self, period: f64, image: &PeriodImage) -> f64 {
+        let lengths =
+            [norm(&self.motion) / image.vibration, self.period.abs() / period, self.value.abs()];
+        lengths.iter().zip(LONGEST).fold(1.0_f64, |share, (length, longest)| {
+            share.min(longest / length.max(f64::MIN_POSITIVE))
+        })
+    }
+
+    /// Takes a share of it.
+    pub fn take(&self, share: f64, state: &mut PeriodicState) {
+        add(&mut state.motion, share, &self.motion);
+        state.period += share * self.period;
+    }
 }
 
 /// Differences of iterates `(dx, dT)` with those of their residuals `dr`, which a linear residual `r` would have as
@@ -106,9 +160,8 @@ impl SecantSpace {
         self.changes.push_front((change, vec![own]));
     }
 
-    /// The step from an iterate with this residual, this closure and this rate `x'` at its end: `dx`, `dT` and that of the
-    /// parameter.
-    pub fn step(&self, residual: &[f64], closure: f64, rate: &[f64]) -> (Vec<f64>, f64, f64) {
+    /// The step from an iterate with this residual, this closure and this rate `x'` at its end.
+    pub fn step(&self, residual: &[f64], closure: f64, rate: &[f64]) -> Step {
         let changes = || self.changes.iter().map(|(change, _)| change);
         let [by_value, by_amplitude] = self.closure;
         let closures: Vec<f64> =
@@ -132,18 +185,17 @@ impl SecantSpace {
         let factors = least_squares(&product, &against, self.least);
 
         // What they make of the residual, and the motion that goes with it.
-        let mut step = residual.to_vec();
-        add(&mut step, factors[count], rate);
-        let (mut period, mut value) = (factors[count], 0.0);
+        let mut step = Step { motion: residual.to_vec(), period: factors[count], value: 0.0 };
+        add(&mut step.motion, factors[count], rate);
         for (factor, change) in factors.iter().zip(changes()) {
             if *factor != 0.0 {
-                add(&mut step, *factor, &change.motion);
-                add(&mut step, *factor, &change.residual);
-                period += factor * change.period;
-                value += factor * change.place[0];
+                add(&mut step.motion, *factor, &change.motion);
+                add(&mut step.motion, *factor, &change.residual);
+                step.period += factor * change.period;
+                step.value += factor * change.place[0];
             }
         }
-        (step, period, value)
+        step
     }
 }
 
@@ -182,7 +234,6 @@ fn least_squares(product: &dyn Fn(usize, usize) -> f64, against: &[f64], least: 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::cycle::vector::difference;
     use crate::linalg::GaussianNoise;
 
     /// An affine map of `n` unknowns with one multiplier of 1.2, one of -0.95 and a shift of multiplier 1, whose residual
@@ -216,10 +267,10 @@ mod tests {
                     residual: difference(&r, &r0),
                 });
             }
-            let (dx, dt, _) = space.step(&r, 0.0, &shift);
+            let step = space.step(&r, 0.0, &shift);
             last = Some((x.clone(), period, r));
-            add(&mut x, 1.0, &dx);
-            period += dt;
+            add(&mut x, 1.0, &step.motion);
+            period += step.period;
         }
         assert!(norm(&residual(&x, period)) < 1e-10);
         assert!((period - 2.0).abs() < 1e-10, "{period}");
