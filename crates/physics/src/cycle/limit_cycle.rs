@@ -130,7 +130,7 @@ impl LimitCycle {
 
     /// `omega / 2 pi`, Hz: the main frequency of any point of the body.
     pub fn frequency_hz(&self) -> f64 {
-        self.state.frequency / TAU
+        self.state.frequency() / TAU
     }
 }
 
@@ -168,7 +168,7 @@ impl EdgeMotion {
         (phases.enumerate())
             .map(|(i, phase)| PhasePoint {
                 phase,
-                time: phase / state.frequency,
+                time: phase / state.frequency(),
                 status: state.contact[i].status(),
                 pressure: state.normal[i] / length,
                 shear: state.tangential[i] / length,

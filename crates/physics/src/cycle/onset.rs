@@ -2,7 +2,7 @@
 
 use super::body::DynamicCoefficients;
 use super::parameter::OperatingPoint;
-use super::state::{Event, PointState, WaveState};
+use super::state::{Event, Phase, PointState, WaveState};
 use super::wave::Wave;
 use super::{CycleError, Family};
 use crate::cea::cyclic;
@@ -181,10 +181,8 @@ pub fn largest_linear_wave(
     let mut state = WaveState {
         tangential: vec![0.0; points],
         normal,
-        frequency: onset.frequency,
         contact: vec![PointState::SlipForward; points],
-        origin,
-        second: None,
+        phases: Phase::of(&[[onset.frequency, origin]], [points, 1]),
         point,
     };
     state.impose_law();

@@ -102,66 +102,61 @@ impl Event {
     }
 }
 
-/// The phase of a second wave that lives with the first.
+/// The phase of one wave.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SecondPhase {
-    /// `omega_2`, rad/s.
+pub struct Phase {
+    /// `omega`, rad/s.
     pub frequency: f64,
-    /// As [`WaveState::origin`].
+    /// Phase of the first harmonic of the edge's tangential displacement, rad: which point of the wave is called zero.
     pub origin: f64,
-    /// Points along it; the first phase runs first over the points of the grid.
+    /// Points along it.
     pub points: usize,
-}
-
-/// One phase of a state.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Phase {
-    /// 0 for the first, 1 for the second.
-    pub index: usize,
-    /// Phase of its first harmonic, rad.
-    pub origin: f64,
-    /// Points along it, and points of the grid from one of them to the next.
-    pub points: usize,
+    /// Points of the grid from one of them to the next: the first phase runs first.
     pub stride: usize,
 }
 
-/// Contact forces of a rotating wave along its phase, its frequency, and what it lives on.
+impl Phase {
+    /// The phases of one wave or two, `[frequency, origin]` each, on a grid of so many points along either.
+    pub fn of(waves: &[[f64; 2]], sides: [usize; 2]) -> Vec<Self> {
+        let phase = |((&[frequency, origin], points), stride): ((&[f64; 2], usize), usize)| Self {
+            frequency,
+            origin,
+            points,
+            stride,
+        };
+        waves.iter().zip(sides).zip([1, sides[0]]).map(phase).collect()
+    }
+
+    /// Place along it of a point of the grid.
+    pub fn place(&self, point: usize) -> usize {
+        (point / self.stride) % self.points
+    }
+}
+
+/// Contact forces of a rotating wave along its phase, or of two along both, frequencies, and what it lives on.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WaveState {
     /// Normal force on a contact node at each phase, N/m.
     pub normal: Vec<f64>,
     /// Tangential force, N/m.
     pub tangential: Vec<f64>,
-    /// `omega`, rad/s.
-    pub frequency: f64,
     /// Contact state at each phase.
     pub contact: Vec<PointState>,
-    /// Phase of the first harmonic of the edge's tangential displacement, rad: which point of the wave is called zero.
-    pub origin: f64,
-    /// The phase of a second wave, where there is one.
-    pub second: Option<SecondPhase>,
+    /// The phase of each wave, one or two.
+    pub phases: Vec<Phase>,
     /// Contact and damping.
     pub point: OperatingPoint,
 }
 
 impl WaveState {
-    /// `omega_1, omega_2`, rad/s; zero for a second wave that is not there.
-    pub fn frequencies(&self) -> [f64; 2] {
-        [self.frequency, self.second.map_or(0.0, |own| own.frequency)]
+    /// `omega` of the first wave, rad/s.
+    pub fn frequency(&self) -> f64 {
+        self.frequencies()[0]
     }
 
-    /// Its phases, one or two.
-    pub(super) fn phases(&self) -> Vec<Phase> {
-        let across = self.second.map_or(1, |own| own.points);
-        let along = self.contact.len() / across;
-        let first = Phase { index: 0, origin: self.origin, points: along, stride: 1 };
-        let second = self.second.map(|own| Phase {
-            index: 1,
-            origin: own.origin,
-            points: across,
-            stride: along,
-        });
-        [Some(first), second].into_iter().flatten().collect()
+    /// `omega_1, omega_2`, rad/s; zero for a second wave that is not there.
+    pub fn frequencies(&self) -> [f64; 2] {
+        [0, 1].map(|wave| self.phases.get(wave).map_or(0.0, |own| own.frequency))
     }
 
     /// Points in contact, and points that stick, in rising order.
@@ -192,34 +187,29 @@ impl WaveState {
 
     /// Everything but the operating point, as columns of numbers.
     pub(super) fn columns(&self) -> [Vec<f64>; STATE_COLUMNS] {
-        let second = self.second.iter();
-        let second = second.flat_map(|own| [own.frequency, own.origin, own.points as f64]);
+        let waves = self.phases.iter().flat_map(|own| [own.frequency, own.origin]);
+        // The points along the first phase are what the second leaves of all.
+        let across = self.phases.get(1).map(|own| own.points as f64);
         [
             self.normal.clone(),
             self.tangential.clone(),
             self.contact.iter().map(|&state| f64::from(state as u8)).collect(),
-            [self.frequency, self.origin].into_iter().chain(second).collect(),
+            waves.chain(across).collect(),
         ]
     }
 
     /// The state of [`Self::columns`] at an operating point; none where they are no state.
     pub(super) fn from_columns(columns: &[Vec<f64>], point: OperatingPoint) -> Option<Self> {
         let [normal, tangential, contact, scalars]: &[Vec<f64>; 4] = columns.try_into().ok()?;
-        let (&[frequency, origin], second) = scalars.split_first_chunk()?;
-        let second = second.try_into().ok();
-        let second = second.map(|[frequency, origin, points]: [f64; 3]| SecondPhase {
-            frequency,
-            origin,
-            points: points as usize,
-        });
+        let (waves, across) = scalars.as_chunks();
+        let across = across.first().map_or(1, |points| *points as usize);
+        let along = contact.len().checked_div(across).filter(|_| !waves.is_empty())?;
         let state = |code: &f64| POINT_STATES.get(*code as usize).copied();
         Some(Self {
             normal: normal.clone(),
             tangential: tangential.clone(),
-            frequency,
             contact: contact.iter().map(state).collect::<Option<_>>()?,
-            origin,
-            second,
+            phases: Phase::of(waves, [along, across]),
             point,
         })
     }

@@ -92,7 +92,7 @@ impl MeshStepping<'_> {
         field: impl Fn(f64) -> [Vec<f64>; 2],
     ) -> Result<(CentralDifference<'_>, usize), CycleError> {
         let point = &cycle.state.point;
-        let duration = TAU / cycle.state.frequency;
+        let duration = TAU / cycle.state.frequency();
         let limit = stable_step_limit(self.largest_frequency, &point.damping);
         let steps = (duration / (SAFETY * limit)).ceil() as usize;
         let time_step = duration / steps as f64;

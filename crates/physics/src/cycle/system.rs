@@ -1,7 +1,7 @@
 //! The linear systems of one step along a branch, of one wave or of two.
 
 use super::parameter::Parameter;
-use super::state::{Event, Phase, WaveState};
+use super::state::{Event, WaveState};
 use super::vector::{add, difference};
 use super::wave::Linearization;
 use crate::linalg::{DenseLu, Mat, MatMut, c64};
@@ -45,17 +45,21 @@ impl Heading {
         self.values.iter_mut().for_each(|value| *value = -*value);
     }
 
-    /// Moves a state by `length` times this; contact laws with fixed drag hold exactly afterwards.
-    pub fn add_to(&self, state: &mut WaveState, length: f64, parameter: Parameter) {
+    /// Moves a state by `length` times this.
+    pub fn shift(&self, state: &mut WaveState, length: f64, parameter: Parameter) {
         add(&mut state.normal, length, self.normal());
         add(&mut state.tangential, length, self.tangential());
         let [first, second, change] = self.scalars();
-        state.frequency += length * first;
-        if let Some(own) = &mut state.second {
-            own.frequency += length * second;
+        for (own, change) in state.phases.iter_mut().zip([first, second]) {
+            own.frequency += length * change;
         }
         let value = parameter.of(&state.point) + length * change;
         parameter.set(&mut state.point, value);
+    }
+
+    /// The same; contact laws with fixed drag hold exactly afterwards.
+    pub fn add_to(&self, state: &mut WaveState, length: f64, parameter: Parameter) {
+        self.shift(state, length, parameter);
         state.impose_law();
     }
 }
@@ -92,7 +96,6 @@ enum Law {
 pub struct System<'a> {
     state: &'a WaveState,
     parameter: Parameter,
-    phases: Vec<Phase>,
     contact: Vec<usize>,
     stick: Vec<usize>,
     force_scale: f64,
@@ -104,15 +107,14 @@ impl<'a> System<'a> {
     /// The unknowns of `state`.
     pub fn new(state: &'a WaveState, parameter: Parameter, force_scale: f64) -> Self {
         let (contact, stick) = state.active();
-        let phases = state.phases();
-        let (points, frequencies) = (state.contact.len(), state.frequencies());
+        let points = state.contact.len();
         let forces = contact.iter().copied().chain(stick.iter().map(|i| points + i));
-        let own = phases.iter().map(|own| own.index);
-        let own = own.map(|index| (2 * points + index, 0.01 * frequencies[index]));
+        let own = state.phases.iter().enumerate();
+        let own = own.map(|(wave, own)| (2 * points + wave, 0.01 * own.frequency));
         let last = (2 * points + 2, parameter.of(&state.point).abs().max(1e-12));
         let unknowns = forces.map(|place| (place, force_scale)).chain(own).chain([last]);
         let unknowns = unknowns.collect();
-        Self { state, parameter, contact, stick, force_scale, unknowns, phases }
+        Self { state, parameter, contact, stick, force_scale, unknowns }
     }
 
     fn size(&self) -> usize {
@@ -135,39 +137,54 @@ impl<'a> System<'a> {
 
     /// Which point of the grid lies from `from` as `to` from its first.
     fn lag(&self, from: usize, to: usize) -> usize {
-        let lags = self.phases.iter().map(|own| {
-            let [from, to] = [from, to].map(|i| (i / own.stride) % own.points);
+        let lags = self.state.phases.iter().map(|own| {
+            let [from, to] = [from, to].map(|i| own.place(i));
             own.stride * if to >= from { to - from } else { to + own.points - from }
         });
         lags.sum()
     }
 
-    /// A row of responses at `row`, columns of the circulant with the drag of slipping points, and what the law misses there,
-    /// scaled.
+    /// Row `at` of the responses to each unknown, times `scale`: that of a point to its normal and its tangential force by their
+    /// weights, since a point that slips has both, and those to the scalars `by`.
+    fn fill_row(
+        &self,
+        matrix: &mut Mat<f64>,
+        at: usize,
+        scale: f64,
+        response: impl Fn(usize, [f64; 2]) -> f64,
+        by: impl Iterator<Item = f64>,
+    ) {
+        let friction = self.state.point.contact.friction_coefficient;
+        let pressed = self.contact.iter();
+        let pressed = pressed.map(|&i| (i, [1.0, friction * self.state.contact[i].drag()]));
+        let sheared = self.stick.iter().map(|&i| (i, [0.0, 1.0]));
+        let force = scale * self.force_scale;
+        for (j, (i, weights)) in pressed.chain(sheared).enumerate() {
+            matrix[(at, j)] = force * response(i, weights);
+        }
+        for (j, ((_, own), by)) in self.scalars().iter().zip(by).enumerate() {
+            matrix[(at, self.forces() + j)] = scale * own * by;
+        }
+    }
+
+    /// The row of a law at a point, by columns of the circulant, and what it misses there, scaled.
     fn response_row(
         &self,
         matrix: &mut Mat<f64>,
         at: usize,
-        row: usize,
+        point: usize,
         linear: &Linearization,
         law: Law,
     ) -> f64 {
-        let friction = self.state.point.contact.friction_coefficient;
-        let columns = &linear.columns[law as usize];
+        let [normal, tangential] = &linear.columns[law as usize];
         let scale = linear.scales[law as usize] / self.force_scale;
-        let force = scale * self.force_scale;
-        for (j, &i) in self.contact.iter().enumerate() {
-            let drag = friction * self.state.contact[i].drag();
-            let lag = self.lag(i, row);
-            matrix[(at, j)] = force * (columns[0][lag] + drag * columns[1][lag]);
-        }
-        for (j, &i) in self.stick.iter().enumerate() {
-            matrix[(at, self.contact.len() + j)] = force * columns[1][self.lag(i, row)];
-        }
-        for (j, ((_, own), by)) in self.scalars().iter().zip(&linear.by).enumerate() {
-            matrix[(at, self.forces() + j)] = scale * own * by[law as usize][row];
-        }
-        scale * [&linear.gap, &linear.slip][law as usize][row]
+        let response = |i: usize, [pressed, sheared]: [f64; 2]| {
+            let lag = self.lag(i, point);
+            pressed * normal[lag] + sheared * tangential[lag]
+        };
+        let by = linear.by.iter().map(|by| by[law as usize][point]);
+        self.fill_row(matrix, at, scale, response, by);
+        scale * [&linear.gap, &linear.slip][law as usize][point]
     }
 
     /// Matrix and residual, scaled.
@@ -180,9 +197,9 @@ impl<'a> System<'a> {
             residual[at] = self.response_row(&mut matrix, at, i, linear, law);
         }
         // `Im(u_theta,1) = 0` along each phase.
-        for own in &self.phases {
-            let at = self.forces() + own.index;
-            residual[at] = self.first_row(&mut matrix, at, linear, own, |value| value.im);
+        for wave in 0..self.state.phases.len() {
+            let at = self.forces() + wave;
+            residual[at] = self.first_row(&mut matrix, at, linear, wave, |value| value.im);
         }
         self.closure_row(&mut matrix, &mut residual, linear, closure);
         (matrix, residual)
@@ -194,28 +211,17 @@ impl<'a> System<'a> {
         matrix: &mut Mat<f64>,
         at: usize,
         linear: &Linearization,
-        phase: &Phase,
+        wave: usize,
         part: impl Fn(c64) -> f64,
     ) -> f64 {
-        let first = &linear.first[phase.index];
+        let (phase, first) = (&self.state.phases[wave], &linear.first[wave]);
         let scale = linear.scales[0] / self.force_scale;
-        let friction = self.state.point.contact.friction_coefficient;
-        let turn = |i: usize| {
-            let place = ((i / phase.stride) % phase.points) as f64;
-            c64::from_polar(1.0, -std::f64::consts::TAU * place / phase.points as f64)
+        let response = |i: usize, [pressed, sheared]: [f64; 2]| {
+            let angle = -std::f64::consts::TAU * phase.place(i) as f64 / phase.points as f64;
+            let response = pressed * first.row[0] + sheared * first.row[1];
+            part(c64::from_polar(1.0, angle) * response)
         };
-        let force = scale * self.force_scale;
-        for (j, &i) in self.contact.iter().enumerate() {
-            let drag = friction * self.state.contact[i].drag();
-            let response = turn(i) * (first.row[0] + drag * first.row[1]);
-            matrix[(at, j)] = force * part(response);
-        }
-        for (j, &i) in self.stick.iter().enumerate() {
-            matrix[(at, self.contact.len() + j)] = force * part(turn(i) * first.row[1]);
-        }
-        for (j, ((_, own), by)) in self.scalars().iter().zip(&first.by).enumerate() {
-            matrix[(at, self.forces() + j)] = scale * own * part(*by);
-        }
+        self.fill_row(matrix, at, scale, response, first.by.iter().map(|by| part(*by)));
         scale * part(first.value)
     }
 
@@ -234,9 +240,8 @@ impl<'a> System<'a> {
                 residual[at] =
                     (self.parameter.of(&self.state.point) - value) / self.parameter_scale();
             }
-            Closure::Amplitude(phase, value) => {
-                let own = &self.phases[phase];
-                let found = self.first_row(matrix, at, linear, own, |value| value.re);
+            Closure::Amplitude(wave, value) => {
+                let found = self.first_row(matrix, at, linear, wave, |value| value.re);
                 residual[at] = found - linear.scales[0] / self.force_scale * value;
             }
             Closure::AlongParameter => matrix[(at, at)] = 1.0,

@@ -300,13 +300,13 @@ impl Linearization {
         slip.iter_mut().for_each(|slip| *slip -= surface_speed);
 
         // By each frequency and by the parameter.
-        let phases = state.phases();
+        let phases = &state.phases;
         let scalars: Vec<usize> = (0..phases.len()).chain([2]).collect();
         let by = scalars.iter();
         let mut by: Vec<[Vec<f64>; 2]> =
             by.map(|&which| [gap_of(1 + which), velocity_change(which)]).collect();
-        let first = phases.iter().map(|phase| {
-            let k = wave.first(phase.index);
+        let first = phases.iter().enumerate().map(|(number, phase)| {
+            let k = wave.first(number);
             let share = c64::from_polar(2.0 / wave.points() as f64, -phase.origin);
             let by = scalars.iter();
             FirstHarmonic {

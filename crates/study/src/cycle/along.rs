@@ -15,7 +15,7 @@ pub fn along(
     cycles: &[LimitCycle],
 ) -> Vec<Result<SteppedCycle, String>> {
     let is_scaled = |a: &LimitCycle, b: &LimitCycle| {
-        let drift = a.state.frequency / b.state.frequency - 1.0;
+        let drift = a.state.frequency() / b.state.frequency() - 1.0;
         a.state.contact == b.state.contact && drift.abs() < 1e-9
     };
     let settled: Vec<Vec<Result<SteppedCycle, String>>> =

@@ -2,7 +2,7 @@
 
 use super::super::field::{amplitude, slips};
 use super::super::parameter::OperatingPoint;
-use super::super::state::{PointState, SecondPhase, WaveState};
+use super::super::state::{Phase, PointState, WaveState};
 use super::TwoWaves;
 use crate::linalg::{c64, interruption};
 use crate::signal::rotating_lines;
@@ -184,18 +184,7 @@ impl History {
             PointState::of(*normal < OPEN * scale, *shear, limit)
         });
         let contact = contact.collect();
-        WaveState {
-            normal,
-            tangential,
-            frequency: measured.frequencies[0],
-            contact,
-            origin: 0.0,
-            second: Some(SecondPhase {
-                frequency: measured.frequencies[1],
-                origin: 0.0,
-                points: sides[1],
-            }),
-            point: *point,
-        }
+        let phases = Phase::of(&measured.frequencies.map(|frequency| [frequency, 0.0]), sides);
+        WaveState { normal, tangential, contact, phases, point: *point }
     }
 }

@@ -4,7 +4,7 @@ use super::super::body::WaveBody;
 use super::super::grid::{RESOLVED, landing_share};
 use super::super::parameter::Parameter;
 use super::super::state::{PointState, WaveState};
-use super::super::system::{Closure, System};
+use super::super::system::{Closure, Heading, System};
 use super::super::wave::{Linearization, Wave, orders};
 use super::super::{CycleError, DiscModel};
 
@@ -172,17 +172,7 @@ impl Iterate {
 
 /// The state a share of the way from one to another, with the contact of the other.
 fn between(from: &WaveState, to: &WaveState, share: f64, parameter: Parameter) -> WaveState {
-    let mix = |a: f64, b: f64| a + share * (b - a);
-    let mut state = to.clone();
-    for i in 0..state.normal.len() {
-        state.normal[i] = mix(from.normal[i], to.normal[i]);
-        state.tangential[i] = mix(from.tangential[i], to.tangential[i]);
-    }
-    state.frequency = mix(from.frequency, to.frequency);
-    if let (Some(own), Some(before)) = (&mut state.second, &from.second) {
-        own.frequency = mix(before.frequency, own.frequency);
-    }
-    let value = mix(parameter.of(&from.point), parameter.of(&to.point));
-    parameter.set(&mut state.point, value);
+    let mut state = WaveState { contact: to.contact.clone(), ..from.clone() };
+    Heading::between(from, to, parameter).shift(&mut state, share, parameter);
     state
 }
