@@ -30,7 +30,7 @@ fn run(solver: &CycleSolver, cycle: &LimitCycle, perturbed: usize, duration: f64
     let operator = model.operator(OperatorChoice::Auto, SimdLevel::detect()).unwrap();
     let operator = operator.as_ref();
     let refused = CentralDifference::start(model, operator, &settings);
-    assert!(matches!(refused.err(), Some(TransientError::FieldsMissing { .. })));
+    assert!(matches!(refused.err(), Some(TransientError::FieldsMissing(_))));
     let step = model.plan(operator, &settings).unwrap().time_step;
     let [displacement, _] = solver.field(cycle, 0.0);
     let [_, velocity] = solver.field(cycle, -0.5 * step);

@@ -6,111 +6,21 @@ use crate::prestress::PrestressError;
 /// A transient that cannot start or cannot go on.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum TransientError {
-    /// A time that must be positive is not.
-    #[error("{setting} = {value} s must be a positive finite time")]
-    Time {
-        /// Name of the setting.
+    /// A setting that does not fit.
+    #[error("{setting}{problem}")]
+    Setting {
+        /// Its name, which the message begins with.
         setting: &'static str,
-        /// Given value, s.
-        value: f64,
-    },
-    /// A value that must not be negative is.
-    #[error("{setting} = {value} must be zero or a positive finite number")]
-    Negative {
-        /// Name of the setting.
-        setting: &'static str,
-        /// Given value.
-        value: f64,
-    },
-    /// A time that must lie within the run does not.
-    #[error(
-        "{setting} = {value:?} s is beyond the end of the run, duration = {duration:?} s: {remedy}"
-    )]
-    BeyondEnd {
-        /// Name of the setting.
-        setting: &'static str,
-        /// Given value, s.
-        value: f64,
-        /// Duration, s.
-        duration: f64,
-        /// What to change.
-        remedy: &'static str,
-    },
-    /// The step is unstable.
-    #[error(
-        "time_step = {step:e} s is above the stability limit of {limit:.4e} s on this mesh \
-         (largest frequency {largest_frequency:.4e} rad/s, damping included). Lower it, or use \
-         \"auto\""
-    )]
-    StepAboveLimit {
-        /// Given step, s.
-        step: f64,
-        /// Largest stable step, s.
-        limit: f64,
-        /// `omega_max`, rad/s.
-        largest_frequency: f64,
-    },
-    /// Samples more often than steps.
-    #[error(
-        "sample_interval = {interval:e} s is below the time step of {step:.4e} s: raise it to at \
-         least the step"
-    )]
-    SampleBelowStep {
-        /// Given interval, s.
-        interval: f64,
-        /// Time step, s.
-        step: f64,
-    },
-    /// A harmonic that the mesh cannot carry.
-    #[error(
-        "perturbation.harmonics holds {harmonic}, above {limit}, the highest harmonic that \
-         {elements} elements around the circumference can carry"
-    )]
-    HarmonicAboveNyquist {
-        /// Given harmonic.
-        harmonic: usize,
-        /// Highest harmonic.
-        limit: usize,
-        /// Circumferential elements.
-        elements: usize,
-    },
-    /// A probe that is no node.
-    #[error("probes holds {probe}: the mesh has nodes 1 to {count}")]
-    UnknownProbe {
-        /// Given 1-based node.
-        probe: usize,
-        /// Node count.
-        count: usize,
-    },
-    /// A snapshot outside the run.
-    #[error("snapshots holds {time} s: the run covers 0 to {duration} s")]
-    SnapshotOutsideRun {
-        /// Given time, s.
-        time: f64,
-        /// Duration, s.
-        duration: f64,
+        /// What would fit, in a few words.
+        fitting: String,
+        /// What is wrong with its value, and the remedy.
+        problem: String,
     },
     /// The numbers stopped making sense.
-    #[error(
-        "the run became numerically unstable at t = {time:.6e} s (step {step}): {symptom}. The \
-         fastest node is {node}, at {angle_degrees:.2} degrees and radius {radius:.4e} m, moving \
-         at {speed:.3e} m/s; {cause}"
-    )]
+    #[error("the run became numerically unstable at {problem}; {cause}")]
     Unstable {
-        /// Time, s.
-        time: f64,
-        /// Step number.
-        step: u64,
-        /// What was seen.
-        symptom: String,
-        /// 1-based node with the largest velocity.
-        node: usize,
-        /// Its angle, degrees.
-        angle_degrees: f64,
-        /// Its radius, m.
-        radius: f64,
-        /// Its speed, m/s.
-        speed: f64,
+        /// When, what was seen, and the node with the largest velocity.
+        problem: String,
         /// Likely cause.
         cause: Breakdown,
     },
@@ -126,11 +36,8 @@ pub enum TransientError {
     #[error("the saved record does not belong to this run, or it is not whole")]
     ForeignRecord,
     /// A start that the time loop cannot work out by itself.
-    #[error("a start on a limit cycle needs the fields of the cycle of {harmonic} nodal diameters")]
-    FieldsMissing {
-        /// Circumferential harmonic.
-        harmonic: usize,
-    },
+    #[error("a start on a limit cycle needs the fields of the cycle of {0} nodal diameters")]
+    FieldsMissing(usize),
     /// The operator cannot represent the mesh.
     #[error(transparent)]
     Operator(#[from] OperatorError),
@@ -140,19 +47,9 @@ pub enum TransientError {
 }
 
 impl TransientError {
-    /// Name of the setting that does not fit, which the message begins with; `None` where no single one is to blame.
-    pub fn setting(&self) -> Option<&'static str> {
-        Some(match self {
-            Self::Time { setting, .. }
-            | Self::Negative { setting, .. }
-            | Self::BeyondEnd { setting, .. } => setting,
-            Self::StepAboveLimit { .. } => "time_step",
-            Self::SampleBelowStep { .. } => "sample_interval",
-            Self::HarmonicAboveNyquist { .. } => "perturbation.harmonics",
-            Self::UnknownProbe { .. } => "probes",
-            Self::SnapshotOutsideRun { .. } => "snapshots",
-            _ => return None,
-        })
+    /// A setting that does not fit: its name, what would fit, and what is wrong with its value, after the name.
+    pub(super) fn setting(setting: &'static str, fitting: String, problem: String) -> Self {
+        Self::Setting { setting, fitting, problem }
     }
 }
 

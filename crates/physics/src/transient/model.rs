@@ -267,7 +267,7 @@ impl<'a> TransientModel<'a> {
     /// those of an assembly go along its axis over all bodies.
     ///
     /// # Errors
-    /// [`TransientError::HarmonicAboveNyquist`] for a harmonic above half the circumferential elements.
+    /// [`TransientError::Setting`] for a harmonic above half the circumferential elements.
     pub fn perturbed(&self, perturbation: &Perturbation) -> Result<Vec<f64>, TransientError> {
         perturbation.check_harmonics(match self.body {
             SteppedBody::Plane { annulus: Some(annulus), .. } => annulus.sector_count(),

@@ -53,11 +53,15 @@ impl Perturbation {
     pub(super) fn check_harmonics(&self, elements: usize) -> Result<(), TransientError> {
         let limit = elements / 2;
         match self.waves.iter().find(|wave| wave.harmonic > limit) {
-            Some(wave) => Err(TransientError::HarmonicAboveNyquist {
-                harmonic: wave.harmonic,
-                limit,
-                elements,
-            }),
+            Some(wave) => {
+                let problem = format!(
+                    " holds {}, above {limit}, the highest harmonic that {elements} elements \
+                     around the circumference can carry",
+                    wave.harmonic
+                );
+                let fitting = format!("at most {limit}");
+                Err(TransientError::setting("perturbation.harmonics", fitting, problem))
+            }
             None => Ok(()),
         }
     }

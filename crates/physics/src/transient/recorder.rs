@@ -186,7 +186,8 @@ impl Recorder {
         let count = run.operator().dof_count() / components;
         let mut nodes = settings.probes.iter();
         if let Some(&probe) = nodes.find(|&&node| node == 0 || node > count) {
-            return Err(TransientError::UnknownProbe { probe, count });
+            let problem = format!(" holds {probe}: the mesh has nodes 1 to {count}");
+            return Err(TransientError::setting("probes", format!("1 to {count}"), problem));
         }
         let stride = settings.contact_interval.unwrap_or(0.0) / plan.sample_interval;
         let higher_harmonics =
@@ -333,8 +334,9 @@ fn snapshot_indices(plan: &StepPlan, times: &[f64]) -> Result<Vec<u64>, Transien
     for &time in times {
         let index = (time / plan.sample_interval).round();
         if !(index >= 0.0 && index < plan.samples as f64) {
-            let duration = plan.end_time();
-            return Err(TransientError::SnapshotOutsideRun { time, duration });
+            let fitting = format!("0 to {}", plan.end_time());
+            let problem = format!(" holds {time} s: the run covers {fitting} s");
+            return Err(TransientError::setting("snapshots", fitting, problem));
         }
         indices.push(index as u64);
     }

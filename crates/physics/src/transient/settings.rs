@@ -133,14 +133,25 @@ impl StepPlan {
         let wanted = match settings.time_step {
             TimeStep::Auto => (SAFETY * limit).min(settings.sample_interval),
             TimeStep::Seconds(step) if step > limit => {
-                return Err(TransientError::StepAboveLimit { step, limit, largest_frequency });
+                let problem = format!(
+                    " = {step:e} s is above the stability limit of {limit:.4e} s on this mesh \
+                     (largest frequency {largest_frequency:.4e} rad/s, damping included). Lower it, \
+                     or use \"auto\""
+                );
+                let fitting = format!("at most {limit:.4e}");
+                return Err(TransientError::setting("time_step", fitting, problem));
             }
             TimeStep::Seconds(step) => step,
         };
         let interval = settings.sample_interval;
         // A millionth of slack: 2e-6 / 1e-7 must be 20 steps, not 21.
         if interval < wanted * (1.0 - 1e-6) {
-            return Err(TransientError::SampleBelowStep { interval, step: wanted });
+            let problem = format!(
+                " = {interval:e} s is below the time step of {wanted:.4e} s: raise it to at least \
+                 the step"
+            );
+            let fitting = format!("at least {wanted:.4e}");
+            return Err(TransientError::setting("sample_interval", fitting, problem));
         }
         let steps_per_sample = (interval / wanted * (1.0 - 1e-6)).ceil().max(1.0);
         Ok(Self {
@@ -183,7 +194,8 @@ pub(super) fn check_times(settings: &TransientSettings) -> Result<(), TransientE
     }
     for (setting, value) in positive {
         if !(value > 0.0 && value.is_finite()) {
-            return Err(TransientError::Time { setting, value });
+            let problem = format!(" = {value} s must be a positive finite time");
+            return Err(TransientError::setting(setting, "a positive time".to_owned(), problem));
         }
     }
     let velocities = perturbation.waves.iter().map(|wave| wave.velocity.abs());
@@ -194,7 +206,8 @@ pub(super) fn check_times(settings: &TransientSettings) -> Result<(), TransientE
         ("perturbation.at", perturbation.time),
     ] {
         if !(value >= 0.0 && value.is_finite()) {
-            return Err(TransientError::Negative { setting, value });
+            let problem = format!(" = {value} must be zero or a positive finite number");
+            return Err(TransientError::setting(setting, "zero or more".to_owned(), problem));
         }
     }
     let duration = settings.duration;
@@ -204,7 +217,10 @@ pub(super) fn check_times(settings: &TransientSettings) -> Result<(), TransientE
         ("perturbation.at", perturbation.time, "the velocity would never be added"),
     ] {
         if value > duration * (1.0 + 1e-9) {
-            return Err(TransientError::BeyondEnd { setting, value, duration, remedy });
+            let problem = format!(
+                " = {value:?} s is beyond the end of the run, duration = {duration:?} s: {remedy}"
+            );
+            return Err(TransientError::setting(setting, format!("at most {duration:?}"), problem));
         }
     }
     Ok(())

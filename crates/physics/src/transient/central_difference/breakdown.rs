@@ -42,15 +42,14 @@ impl CentralDifference<'_> {
             }
         }
         let [radius, angle] = self.model.place(node);
-        TransientError::Unstable {
-            time: (self.next_step - 1) as f64 * self.plan.time_step,
-            step: self.next_step - 1,
-            symptom,
-            node: node + 1,
-            angle_degrees: angle.to_degrees(),
-            radius,
-            speed: largest,
-            cause,
-        }
+        let step = self.next_step - 1;
+        let problem = format!(
+            "t = {:.6e} s (step {step}): {symptom}. The fastest node is {}, at {:.2} degrees and \
+             radius {radius:.4e} m, moving at {largest:.3e} m/s",
+            step as f64 * self.plan.time_step,
+            node + 1,
+            angle.to_degrees(),
+        );
+        TransientError::Unstable { problem, cause }
     }
 }

@@ -23,7 +23,7 @@ impl<'a> CentralDifference<'a> {
             InitialState::Rest => still.clone(),
             InitialState::SteadySliding => model.sliding_displacement()?,
             InitialState::LimitCycle { harmonic, .. } => {
-                return Err(TransientError::FieldsMissing { harmonic });
+                return Err(TransientError::FieldsMissing(harmonic));
             }
         };
         Self::start_from(model, operator, settings, &displacement, still)
