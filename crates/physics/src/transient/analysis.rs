@@ -66,21 +66,19 @@ pub struct LastFifth {
     pub harmonics: [f64; HARMONIC_COUNT],
     /// The same of every harmonic `n >= 1` that is above a thousandth of the largest of them.
     pub significant: Vec<(usize, f64)>,
-    /// Motion of each probe.
-    pub probes: Vec<ProbeMotion>,
+    /// Motion of each probe: radially, tangentially, and along the axis of a body in three dimensions.
+    pub probes: Vec<Vec<ProbeMotion>>,
 }
 
-/// How a probe moves, radially and tangentially.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+/// Motion in one direction.
+#[derive(Clone, Copy, Debug, PartialEq, crate::output::Described, serde::Serialize)]
 pub struct ProbeMotion {
     /// Half the range of the displacement, m.
-    pub displacement_amplitude: [f64; 2],
-    /// Root mean square of the acceleration, m/s2.
-    pub acceleration_rms: [f64; 2],
-    /// Largest magnitude of the acceleration, m/s2.
-    pub acceleration_peak: [f64; 2],
-    /// The same three along the axis of a body in three dimensions.
-    pub axial: Option<[f64; 3]>,
+    pub displacement_amplitude_m: f64,
+    /// Root mean square acceleration, m/s2.
+    pub acceleration_rms_m_per_s2: f64,
+    /// Largest acceleration, m/s2.
+    pub acceleration_peak_m_per_s2: f64,
 }
 
 /// What a run did.
@@ -249,18 +247,7 @@ impl LastFifth {
             material_damping,
             harmonics,
             significant: significant(record, range.clone()),
-            probes: record
-                .probe_rows
-                .iter()
-                .enumerate()
-                .map(|(probe, rows)| ProbeMotion {
-                    axial: record
-                        .axial_rows
-                        .get(probe)
-                        .map(|rows| motion(rows[range.clone()].iter().map(|row| [row[0], row[2]]))),
-                    ..ProbeMotion::of(&rows[range.clone()])
-                })
-                .collect(),
+            probes: probes(record, &range),
         }
     }
 }
@@ -280,27 +267,36 @@ fn significant(record: &Recorder, range: Range<usize>) -> Vec<(usize, f64)> {
     means.into_iter().filter(above).collect()
 }
 
-impl ProbeMotion {
-    fn of(rows: &[[f64; 6]]) -> Self {
-        let both = [0, 1].map(|c| motion(rows.iter().map(|row| [row[c], row[4 + c]])));
-        let [displacement_amplitude, acceleration_rms, acceleration_peak] =
-            [0, 1, 2].map(|k| both.map(|own| own[k]));
-        Self { displacement_amplitude, acceleration_rms, acceleration_peak, axial: None }
-    }
+/// Motion of each probe in its two or three directions.
+fn probes(record: &Recorder, range: &Range<usize>) -> Vec<Vec<ProbeMotion>> {
+    let probes = record.probe_rows.iter().enumerate().map(|(probe, rows)| {
+        let rows = &rows[range.clone()];
+        let plane = [0, 1].map(|c| ProbeMotion::of(rows.iter().map(|row| [row[c], row[4 + c]])));
+        let axial = record
+            .axial_rows
+            .get(probe)
+            .map(|rows| ProbeMotion::of(rows[range.clone()].iter().map(|row| [row[0], row[2]])));
+        plane.into_iter().chain(axial).collect()
+    });
+    probes.collect()
 }
 
-/// Of samples `[u, a]` half the range of displacements (m), root mean square and largest magnitude
-/// of accelerations (m/s2).
-fn motion(samples: impl ExactSizeIterator<Item = [f64; 2]>) -> [f64; 3] {
-    let count = samples.len() as f64;
-    let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
-    let (mut square, mut peak) = (0.0, 0.0_f64);
-    for [u, a] in samples {
-        (low, high) = (low.min(u), high.max(u));
-        square += a * a;
-        peak = peak.max(a.abs());
+impl ProbeMotion {
+    /// Of samples of displacement (m) and acceleration (m/s2).
+    fn of(samples: impl ExactSizeIterator<Item = [f64; 2]> + Clone) -> Self {
+        let count = samples.len() as f64;
+        let [low, high] = crate::order::range(samples.clone().map(|[u, _]| u));
+        let (mut square, mut peak) = (0.0, 0.0_f64);
+        for [_, a] in samples {
+            square += a * a;
+            peak = peak.max(a.abs());
+        }
+        Self {
+            displacement_amplitude_m: 0.5 * (high - low),
+            acceleration_rms_m_per_s2: (square / count).sqrt(),
+            acceleration_peak_m_per_s2: peak,
+        }
     }
-    [0.5 * (high - low), (square / count).sqrt(), peak]
 }
 
 fn growth(record: &Recorder, stage: Range<usize>, harmonic: usize) -> Option<Growth> {

@@ -5,7 +5,7 @@ use crate::extent::Extent;
 use crate::summary::{MeanPowers, StatusFractions, present};
 use frictionsim_output::Described;
 use frictionsim_physics::transient::{
-    Drift, EndState, Growth, Perturbation, TransientAnalysis, Vibration,
+    Drift, EndState, Growth, Perturbation, ProbeMotion, TransientAnalysis, Vibration,
 };
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -153,12 +153,12 @@ pub struct ProbeSummary {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub place: Option<PlaceSummary>,
     /// Radially.
-    pub radial: MotionSummary,
+    pub radial: ProbeMotion,
     /// Tangentially.
-    pub tangential: MotionSummary,
+    pub tangential: ProbeMotion,
     /// Along the axis; absent in the plane.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub axial: Option<MotionSummary>,
+    pub axial: Option<ProbeMotion>,
 }
 
 /// A place that was asked for, and its nearest node.
@@ -168,17 +168,6 @@ pub struct PlaceSummary {
     pub asked_m: [f64; 2],
     /// The node, m.
     pub at_m: [f64; 2],
-}
-
-/// Motion in one direction.
-#[derive(Clone, Copy, Debug, PartialEq, Described, Serialize)]
-pub struct MotionSummary {
-    /// Half the range of the displacement, m.
-    pub displacement_amplitude_m: f64,
-    /// Root mean square acceleration, m/s2.
-    pub acceleration_rms_m_per_s2: f64,
-    /// Largest acceleration, m/s2.
-    pub acceleration_peak_m_per_s2: f64,
 }
 
 /// The summary of a run.
@@ -261,13 +250,6 @@ fn probes(report: &TransientReport<'_>) -> BTreeMap<String, ProbeSummary> {
     let motions = report.run.analysis.last_fifth.probes.iter().enumerate();
     motions
         .map(|(probe, motion)| {
-            let [radial, tangential] = [0, 1].map(|c| {
-                MotionSummary::of([
-                    motion.displacement_amplitude[c],
-                    motion.acceleration_rms[c],
-                    motion.acceleration_peak[c],
-                ])
-            });
             let node = report.run.record.probes[probe] - 1;
             let mut places = report.places.iter();
             let place = places.find(|place| place.0 == node).map(|&(_, asked_m)| {
@@ -276,23 +258,13 @@ fn probes(report: &TransientReport<'_>) -> BTreeMap<String, ProbeSummary> {
             });
             let summary = ProbeSummary {
                 place,
-                radial,
-                tangential,
-                axial: motion.axial.map(MotionSummary::of),
+                radial: motion[0],
+                tangential: motion[1],
+                axial: motion.get(2).copied(),
             };
             (report.run.probe_label(probe).to_string(), summary)
         })
         .collect()
-}
-
-impl MotionSummary {
-    fn of([displacement, rms, peak]: [f64; 3]) -> Self {
-        Self {
-            displacement_amplitude_m: displacement,
-            acceleration_rms_m_per_s2: rms,
-            acceleration_peak_m_per_s2: peak,
-        }
-    }
 }
 
 impl PerturbationSummary {

@@ -1,18 +1,18 @@
 //! Tables and sentences of a transient, and its page.
 
-use super::summary::{GrowthSummary, MotionSummary, TransientSummary};
+use super::summary::{GrowthSummary, TransientSummary};
 use super::{RunFigures, draw_run};
 use crate::drawing::{DrawingError, DrawingOptions};
 use crate::finding::write_page;
 use crate::folder::OutputFolder;
 use frictionsim_output::{Document, Format, Section, Table, columns, fixed};
-use frictionsim_physics::transient::EndState;
+use frictionsim_physics::transient::{EndState, ProbeMotion};
 
 /// Periods of the main vibration between two contact frames beyond which they do not show it.
 const COARSE_FRAMES: f64 = 0.25;
 
 /// Node, direction and motion of a probe.
-type ProbeRow = (String, &'static str, MotionSummary);
+type ProbeRow = (String, &'static str, ProbeMotion);
 
 columns! {
     /// A probe in one direction.
