@@ -7,6 +7,7 @@ mod start;
 pub use energy::EnergyAccount;
 
 use super::boundary::BoundaryForces;
+use super::contact::Step;
 use super::relaxation::Relaxation;
 use super::{
     ContactPowers, LagrangeContact, Observer, Sample, SampleRow, StatusCounts, StepPlan,
@@ -129,18 +130,17 @@ impl<'a> CentralDifference<'a> {
 
     /// One step, without looking at it.
     pub fn advance(&mut self) {
-        let step = self.next_step;
-        let shares = self.shares(step);
-        let share = shares[2];
+        let shares = self.shares(self.next_step);
+        let (share, step) = (shares[2], Step { coefficients: self.coefficients, shares });
         // Supports, pressures, regions with damping of their own.
         self.boundary.apply(&mut self.fields, share);
         self.relaxation.apply(&mut self.fields);
         // (6): multipliers of this step, which hold the constraints at its end.
-        self.contact.apply(&mut self.fields, &self.coefficients, shares);
+        self.contact.apply(&mut self.fields, &step);
         // (7) with beta_2 = 1/2; the power of material damping is (11), with one of its velocities half a step old.
         let damping = self.operator.advance(&mut self.fields, &self.coefficients);
         // (9), (10): powers at the contact.
-        let (powers, counts) = self.contact.settle(&mut self.fields, &self.coefficients, shares);
+        let (powers, counts) = self.contact.settle(&mut self.fields, &step);
         let relaxed = self.relaxation.settle(&mut self.fields, self.plan.time_step);
         let [own_damping, pressure] =
             self.boundary.settle(&mut self.fields, self.plan.time_step, share);
@@ -151,7 +151,7 @@ impl<'a> CentralDifference<'a> {
         self.sums.0 += powers;
         self.sums.1 += damping;
         self.sums.2 += counts;
-        self.next_step = step + 1;
+        self.next_step += 1;
         // Round-off of the running sum of dt K v goes.
         if self.next_step.is_multiple_of(REFRESH) {
             let fields = &mut self.fields;

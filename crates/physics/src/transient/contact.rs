@@ -128,44 +128,34 @@ struct PointForces {
 
 /// What all points of a step have in common.
 #[derive(Clone, Copy, Debug)]
-struct Step {
-    coefficients: StepCoefficients,
+pub(super) struct Step {
+    pub coefficients: StepCoefficients,
     /// Shares of the interference that are reached one step ago, now and at the next step.
-    shares: [f64; 3],
+    pub shares: [f64; 3],
 }
 
 impl LagrangeContact {
     /// Finds the multipliers of the coming step and adds them to the elastic accelerations.
-    ///
-    /// `shares` of the interference are reached one step ago, now and at the next step.
-    pub fn apply(
-        &mut self,
-        fields: &mut MotionFields,
-        coefficients: &StepCoefficients,
-        shares: [f64; 3],
-    ) {
-        let step = Step { coefficients: *coefficients, shares };
+    pub(super) fn apply(&mut self, fields: &mut MotionFields, step: &Step) {
         match (self.tangents, self.is_single) {
-            (1, true) => self.apply_to_single_dofs::<1>(fields, &step),
-            (_, true) => self.apply_to_single_dofs::<2>(fields, &step),
-            (1, false) => self.apply_in_sweeps::<1>(fields, &step),
-            (_, false) => self.apply_in_sweeps::<2>(fields, &step),
+            (1, true) => self.apply_to_single_dofs::<1>(fields, step),
+            (_, true) => self.apply_to_single_dofs::<2>(fields, step),
+            (1, false) => self.apply_in_sweeps::<1>(fields, step),
+            (_, false) => self.apply_in_sweeps::<2>(fields, step),
         }
     }
 
     /// Takes the multipliers out of the elastic accelerations after the step, and returns what they did.
-    pub fn settle(
+    pub(super) fn settle(
         &self,
         fields: &mut MotionFields,
-        coefficients: &StepCoefficients,
-        shares: [f64; 3],
+        step: &Step,
     ) -> (ContactPowers, StatusCounts) {
-        let step = Step { coefficients: *coefficients, shares };
         match (self.tangents, self.is_single) {
-            (1, true) => self.settle_single_dofs::<1>(fields, &step),
-            (_, true) => self.settle_single_dofs::<2>(fields, &step),
-            (1, false) => self.settle_after_sweeps::<1>(fields, &step),
-            (_, false) => self.settle_after_sweeps::<2>(fields, &step),
+            (1, true) => self.settle_single_dofs::<1>(fields, step),
+            (_, true) => self.settle_single_dofs::<2>(fields, step),
+            (1, false) => self.settle_after_sweeps::<1>(fields, step),
+            (_, false) => self.settle_after_sweeps::<2>(fields, step),
         }
     }
 
