@@ -29,14 +29,14 @@ pub use growth::{
 };
 pub use lines::{SpectralLine, SpectralResolution, main_frequency, spectral_lines};
 pub use modal::{
-    DampingSample, Estimate, FittedMode, HalfPowerBand, Identification, IdentifiedMode, ModalFit,
-    ModalModel, ModalShare, NoiseModel, Pole, RayleighFit, ResonanceNote, fit_modes, fit_rayleigh,
-    half_power, identify,
+    Estimate, FittedMode, HalfPowerBand, Identification, IdentifiedMode, ModalFit, ModalModel,
+    ModalShare, NoiseModel, Pole, RayleighFit, ResonanceNote, fit_modes, fit_rayleigh, half_power,
+    identify,
 };
 pub use response::{FrequencyResponse, ResponseQuantity};
 pub use rotating::{RotatingLine, rotating_lines};
 pub use spectrogram::{Spectrogram, SpectrogramOptions, spectrogram};
-pub use spectrum::{AmplitudeSpectrum, amplitude_spectrum, averaged_spectrum};
+pub use spectrum::{AmplitudeSpectrum, amplitude_spectrum, averaged_spectrum, centred};
 pub use statistics::student_95;
 pub use transform::{Fft, forward_transform, inverse_transform};
 pub use window::Window;

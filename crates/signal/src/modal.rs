@@ -19,4 +19,4 @@ pub use fit::{FittedMode, ModalFit, fit_modes};
 pub use half_power::{HalfPowerBand, ResonanceNote, half_power};
 pub use identification::{Identification, IdentifiedMode, identify};
 pub use noise::NoiseModel;
-pub use rayleigh::{DampingSample, Estimate, RayleighFit, fit_rayleigh};
+pub use rayleigh::{Estimate, RayleighFit, fit_rayleigh};

@@ -4,6 +4,8 @@ use super::Window;
 use super::error::{SignalError, check_finite, check_positive, too_short};
 use faer::c64;
 use realfft::RealFftPlanner;
+use std::iter::Sum;
+use std::ops::{Div, Sub};
 
 /// One-sided amplitude spectrum: a sinusoid `A cos(2 pi f t + phi)` on a bin reads `A`.
 #[derive(Clone, Debug, PartialEq)]
@@ -134,10 +136,13 @@ pub(super) fn signed_bin(bin: usize, count: usize) -> f64 {
     if bin > count / 2 { bin as f64 - count as f64 } else { bin as f64 }
 }
 
-/// The signal less its mean.
-pub(super) fn centred(samples: &[f64]) -> Vec<f64> {
-    let mean = samples.iter().sum::<f64>() / samples.len().max(1) as f64;
-    samples.iter().map(|x| x - mean).collect()
+/// A real or complex signal less its mean.
+pub fn centred<T>(samples: &[T]) -> Vec<T>
+where
+    T: Copy + Sum<T> + Sub<Output = T> + Div<f64, Output = T>,
+{
+    let mean = samples.iter().copied().sum::<T>() / samples.len().max(1) as f64;
+    samples.iter().map(|x| *x - mean).collect()
 }
 
 /// Common checks of a time signal.

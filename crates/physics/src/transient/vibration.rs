@@ -2,7 +2,7 @@
 
 use super::Recorder;
 use crate::linalg::c64;
-use crate::signal::strongest_vibration;
+use crate::signal::{centred, strongest_vibration};
 use std::ops::Range;
 
 /// Fewest samples that a vibration is read from.
@@ -49,11 +49,7 @@ pub(super) fn amplitudes(
 
 /// A followed harmonic about its mean, m.
 pub(super) fn series(record: &Recorder, range: Range<usize>, harmonic: usize) -> Option<Vec<c64>> {
-    let count = range.len() as f64;
-    let mut series = amplitudes(record, range, harmonic)?;
-    let mean = series.iter().sum::<c64>() / count;
-    series.iter_mut().for_each(|value| *value -= mean);
-    Some(series)
+    Some(centred(&amplitudes(record, range, harmonic)?))
 }
 
 /// Root mean square of a series.

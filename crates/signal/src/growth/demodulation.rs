@@ -92,16 +92,11 @@ impl Demodulated {
         let (drift, _) = slope(t, &self.phase[first..last], self.correlated);
         let mean_time = t.iter().sum::<f64>() / t.len() as f64;
         let mean_log = self.log_amplitude[first..last].iter().sum::<f64>() / t.len() as f64;
-        let hertz = |radians: f64| self.frequency_hz + radians / TAU;
         Ok(ExponentialStage {
             start: t[0],
             end: t[t.len() - 1],
             rate_per_s: rate,
-            frequency_hz: Estimate {
-                value: hertz(drift.value),
-                low: hertz(drift.low),
-                high: hertz(drift.high),
-            },
+            frequency_hz: drift.map(|radians| self.frequency_hz + radians / TAU),
             initial_amplitude: (mean_log + rate.value * (t[0] - mean_time)).exp()
                 / self.growth_gain(rate.value, drift.value),
             deviation,
@@ -145,6 +140,5 @@ fn slope(t: &[f64], y: &[f64], correlated: f64) -> (Estimate, f64) {
     let spread: f64 = t.iter().map(|t| (t - mean) * (t - mean)).sum();
     let degrees = (n / correlated - 2.0).max(1.0);
     let error = deviation * (n / (degrees * spread)).sqrt() * student_95(degrees);
-    let estimate = Estimate { value, low: value - error, high: value + error };
-    (estimate, deviation)
+    (Estimate::around(value, error), deviation)
 }

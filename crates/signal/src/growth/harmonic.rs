@@ -3,7 +3,7 @@
 use super::demodulation::{Demodulated, demodulate};
 use super::{ExponentialStage, LARGEST_DEVIATION, NoGrowth, round_off_floor};
 use crate::forward_transform;
-use crate::spectrum::signed_bin;
+use crate::spectrum::{centred, signed_bin};
 use faer::c64;
 use std::f64::consts::TAU;
 
@@ -86,11 +86,6 @@ fn around(series: &[c64], sampling_rate: f64, cycles_per_sample: f64) -> Demodul
     let taper: Vec<f64> = (0..length).map(|k| hann(k, length)).collect();
     let frequency_hz = cycles_per_sample * sampling_rate;
     demodulate(series, sampling_rate, frequency_hz, &taper, (length / 8).max(1))
-}
-
-fn centred(series: &[c64]) -> Vec<c64> {
-    let mean = series.iter().sum::<c64>() / series.len() as f64;
-    series.iter().map(|z| z - mean).collect()
 }
 
 fn hann(index: usize, count: usize) -> f64 {

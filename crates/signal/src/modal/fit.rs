@@ -35,6 +35,14 @@ pub struct FittedMode {
     pub overlaps_hz: Option<f64>,
 }
 
+impl FittedMode {
+    /// Frequency and damping factor without their intervals.
+    pub fn pole(&self) -> Pole {
+        let (frequency_hz, damping_factor) = (self.frequency_hz.value, self.damping_factor.value);
+        Pole { frequency_hz, damping_factor }
+    }
+}
+
 /// A modal model fitted to one or more frequency responses.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ModalFit {

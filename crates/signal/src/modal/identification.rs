@@ -3,7 +3,7 @@
 use super::basis::Pole;
 use super::fit::{FittedMode, ModalFit, fit_modes};
 use super::half_power::{HalfPowerBand, LINES_NEEDED, ResonanceNote, half_power};
-use super::rayleigh::{DampingSample, RayleighFit, fit_rayleigh};
+use super::rayleigh::{RayleighFit, fit_rayleigh};
 use crate::{FrequencyResponse, SignalError};
 use faer::Mat;
 
@@ -77,13 +77,7 @@ pub fn identify(
         }
     }
     let used: Vec<usize> = (0..modes.len()).filter(|&k| modes[k].is_used).collect();
-    let samples: Vec<DampingSample> = used
-        .iter()
-        .map(|&k| DampingSample {
-            frequency_hz: modes[k].fitted.frequency_hz.value,
-            damping_factor: modes[k].fitted.damping_factor.value,
-        })
-        .collect();
+    let samples: Vec<Pole> = used.iter().map(|&k| modes[k].fitted.pole()).collect();
     let covariance =
         Mat::from_fn(used.len(), used.len(), |i, j| fit.damping_covariance[(used[i], used[j])]);
     Ok(Identification {
@@ -125,15 +119,11 @@ fn peaks(responses: &[FrequencyResponse]) -> Result<Vec<HalfPowerBand>, SignalEr
 
 /// Coefficients from half-power factors that carry no doubt.
 fn half_power_rayleigh(modes: &[IdentifiedMode]) -> Option<RayleighFit> {
-    let samples: Vec<DampingSample> = modes
-        .iter()
-        .filter_map(|m| m.half_power)
-        .filter(|b| b.note.is_none())
-        .filter_map(|b| {
-            Some(DampingSample { frequency_hz: b.frequency_hz, damping_factor: b.damping_factor? })
-        })
-        .collect();
-    fit_rayleigh(&samples, None).ok()
+    let bands = modes.iter().filter_map(|m| m.half_power).filter(|b| b.note.is_none());
+    let samples = bands.filter_map(|HalfPowerBand { frequency_hz, damping_factor, .. }| {
+        Some(Pole { frequency_hz, damping_factor: damping_factor? })
+    });
+    fit_rayleigh(&samples.collect::<Vec<_>>(), None).ok()
 }
 
 /// A response whose every half-power band is too coarse cannot give a damping factor.
@@ -169,9 +159,7 @@ fn nearest(modes: &[IdentifiedMode], frequency_hz: f64) -> Option<usize> {
     let k = (0..modes.len())
         .filter(|&k| modes[k].half_power.is_none())
         .min_by(|i, j| miss(*i).total_cmp(&miss(*j)))?;
-    let fitted = modes[k].fitted;
-    let width = 2.0 * fitted.damping_factor.value * fitted.frequency_hz.value;
-    (miss(k) <= width).then_some(k)
+    (miss(k) <= modes[k].fitted.pole().bandwidth_hz()).then_some(k)
 }
 
 /// A single peak over two modes looks sound to the half-power method; the fit knows better.

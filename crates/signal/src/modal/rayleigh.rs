@@ -1,5 +1,6 @@
 //! Rayleigh coefficients from modal damping factors (equation (3)).
 
+use super::Pole;
 use crate::SignalError;
 use crate::statistics::{NORMAL_95, student_95};
 use faer::Mat;
@@ -19,13 +20,16 @@ pub struct Estimate {
     pub high: f64,
 }
 
-/// A modal damping factor at its undamped natural frequency.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct DampingSample {
-    /// Undamped natural frequency, Hz.
-    pub frequency_hz: f64,
-    /// Damping factor.
-    pub damping_factor: f64,
+impl Estimate {
+    /// The interval of an error to either side of a value.
+    pub fn around(value: f64, error: f64) -> Self {
+        Self { value, low: value - error, high: value + error }
+    }
+
+    /// The estimate of what rises with this.
+    pub fn map(self, of: impl Fn(f64) -> f64) -> Self {
+        Self { value: of(self.value), low: of(self.low), high: of(self.high) }
+    }
 }
 
 /// Coefficients of Rayleigh damping fitted to modal damping factors.
@@ -53,7 +57,7 @@ pub struct RayleighFit {
 /// [`SignalError::Asked`] for a frequency not positive; [`SignalError::Fit`] for a covariance
 /// that is singular or modes at one frequency.
 pub fn fit_rayleigh(
-    samples: &[DampingSample],
+    samples: &[Pole],
     covariance: Option<&Mat<f64>>,
 ) -> Result<RayleighFit, SignalError> {
     let m = samples.len();
@@ -96,9 +100,8 @@ pub fn fit_rayleigh(
     let factor = known.max(if m > 2 { student_95(degrees) * scatter } else { 0.0 });
     let estimate = |k: usize, unit: f64| {
         let error = factor * spread[(k, k)].max(0.0).sqrt();
-        let own = [x[k], (x[k] - error).max(0.0), x[k] + error];
-        let [value, low, high] = own.map(|own| own * unit);
-        Estimate { value, low, high }
+        let own = Estimate::around(x[k], error);
+        Estimate { low: own.low.max(0.0), ..own }.map(|own| own * unit)
     };
     Ok(RayleighFit {
         mass_coefficient: estimate(0, reference),
@@ -111,10 +114,10 @@ pub fn fit_rayleigh(
 mod tests {
     use super::*;
 
-    fn curve(alpha: f64, beta: f64, frequencies: &[f64]) -> Vec<DampingSample> {
+    fn curve(alpha: f64, beta: f64, frequencies: &[f64]) -> Vec<Pole> {
         frequencies
             .iter()
-            .map(|f| DampingSample {
+            .map(|f| Pole {
                 frequency_hz: *f,
                 damping_factor: 0.5 * (alpha / (TAU * f) + beta * TAU * f),
             })
