@@ -1,6 +1,6 @@
 //! Errors of the search for a limit cycle, a wave or a motion of the whole mesh.
 
-use super::Family;
+use super::{Family, LARGEST_FRICTION};
 use crate::mesh::MeshError;
 use crate::transient::TransientError;
 
@@ -27,25 +27,18 @@ pub enum CycleError {
     },
     /// Steady sliding never loses stability to this wave.
     #[error(
-        "{family}: steady sliding has no such loss of stability up to a friction coefficient of \
+        "{0}: steady sliding has no such loss of stability up to a friction coefficient of \
          {limit}, so no limit cycle is born. Only the modes of cea.modes or cea.max_frequency_hz \
-         are looked at, else the lowest ones. Name another harmonic or onset"
+         are looked at, else the lowest ones. Name another harmonic or onset",
+        limit = LARGEST_FRICTION
     )]
-    NoOnset {
-        /// Which limit cycle.
-        family: Family,
-        /// Largest friction coefficient searched.
-        limit: f64,
-    },
+    NoOnset(Family),
     /// The wave grows at any friction.
     #[error(
-        "{family}: this wave grows without friction already, so it has no critical friction at \
+        "{0}: this wave grows without friction already, so it has no critical friction at \
          which a cycle could be born. Give the body some damping (damping.stiffness_coefficient)"
     )]
-    Undamped {
-        /// Which limit cycle.
-        family: Family,
-    },
+    Undamped(Family),
     /// The branch ends before the point asked for.
     #[error(
         "{family}: the branch of limit cycles does not reach {key} = {value:.6}: it ends at {reached:.6} \
@@ -65,14 +58,11 @@ pub enum CycleError {
     },
     /// The vibration dies.
     #[error(
-        "the vibration dies out: what is left after {periods} periods is steady sliding. The mode \
+        "the vibration dies out: what is left after {0} periods is steady sliding. The mode \
          grows too slowly, or has no limit cycle of its own: a transient with a seed of this mode \
          tells"
     )]
-    Died {
-        /// Periods spent.
-        periods: usize,
-    },
+    Died(usize),
     /// No node touches any more.
     #[error(
         "the body leaves its counterface: no contact node touches it over a whole period. Press it \
@@ -105,10 +95,7 @@ impl CycleError {
     /// Whether elements, mesh, damping or harmonics of the case are to blame, which hold for all cycles, rather than the
     /// operating point.
     pub fn is_usage(&self) -> bool {
-        matches!(
-            self,
-            Self::Element | Self::Mesh(_) | Self::Harmonic { .. } | Self::Undamped { .. }
-        )
+        matches!(self, Self::Element | Self::Mesh(_) | Self::Harmonic { .. } | Self::Undamped(_))
     }
 
     /// The numbers grow out of all bounds.

@@ -57,4 +57,4 @@ pub use solver_stability::SteppedCycle;
 pub use stability::{CycleStability, FloquetExponent, StabilityChange, Verdict, differing};
 pub use state::{PointState, WaveState};
 pub use stepping::{MeshStepping, Period};
-pub use two_waves::{Measured, NoTwoWaves, TwoWaveBranch, TwoWaveMotion, TwoWaveSearch, TwoWaves};
+pub use two_waves::{Measured, TwoWaveBranch, TwoWaveMotion, TwoWaveSearch, TwoWaves};

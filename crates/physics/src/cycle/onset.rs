@@ -95,7 +95,7 @@ impl DiscModel {
                 return Ok(onset);
             }
             if highest >= LARGEST_FRICTION {
-                return Err(CycleError::NoOnset { family, limit: LARGEST_FRICTION });
+                return Err(CycleError::NoOnset(family));
             }
             highest *= 2.0;
         }

@@ -85,7 +85,7 @@ impl CycleSolver {
         let (specification, material) = (&model.specification, &model.material);
         check_mesh(specification, family.harmonic)?;
         if onset.friction_coefficient <= 0.0 {
-            return Err(CycleError::Undamped { family });
+            return Err(CycleError::Undamped(family));
         }
         // A wave with the rotor is one of `-n` in the phase that rises with time.
         let harmonic = family.harmonic as isize * -isize::from(onset.direction);

@@ -123,7 +123,7 @@ pub fn solvers(case: &Case, cycle: &Cycle, onsets: &[Onset]) -> Result<Vec<Sough
             let family = Family { harmonic, onset: rank + 1 };
             match CycleSolver::born_at(&model, family, onset, cycle.phases) {
                 Ok(solver) => solvers.push(Ok(solver)),
-                Err(error @ CycleError::Undamped { .. }) => solvers.push(Err((family, error))),
+                Err(error @ CycleError::Undamped(_)) => solvers.push(Err((family, error))),
                 Err(error) => return Err(error.into()),
             }
         }

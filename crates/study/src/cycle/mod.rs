@@ -101,7 +101,7 @@ impl<'a> CycleStudy<'a> {
                 Ok(solver) => self.solve(solver, frames),
                 // A family that cannot be sought at all.
                 Err((family, error)) => {
-                    let is_stable = matches!(error, CycleError::NoOnset { .. });
+                    let is_stable = matches!(error, CycleError::NoOnset(_));
                     self.result(*family, Err(Absence { reason: error.to_string(), is_stable }))
                 }
             };

@@ -273,7 +273,7 @@ impl<'a> PeriodicStudy<'a> {
         mode: &ComplexMode,
         branch: Option<&mut PeriodicBranch>,
     ) -> Result<(PeriodMap<'b>, Found), CycleError> {
-        let branch = branch.ok_or(CycleError::Died { periods: 0 })?;
+        let branch = branch.ok_or(CycleError::Died(0))?;
         let kept = std::mem::take(&mut branch.kept);
         let largest = kept
             .into_iter()

@@ -299,7 +299,7 @@ impl<'b, 'a> Corrector<'b, 'a> {
             return Err(CycleError::Separated);
         }
         if image.amplitude < 1e-3 * near.found.image.amplitude {
-            return Err(CycleError::Died { periods });
+            return Err(CycleError::Died(periods));
         }
         let residual = image.relative_residual();
         if residual > ASTRAY {

@@ -84,7 +84,7 @@ impl Way for Follower<'_, '_, '_> {
                 }
                 let is_small = self.place()[1] < 5.0 * BORN * self.largest;
                 Ok(Some(match other {
-                    Err(CycleError::Died { .. }) => BranchEnd::Birth,
+                    Err(CycleError::Died(_)) => BranchEnd::Birth,
                     _ if is_small => BranchEnd::Birth,
                     _ => BranchEnd::Lost,
                 }))

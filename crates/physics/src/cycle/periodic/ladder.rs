@@ -33,7 +33,7 @@ pub fn find_from(map: &mut PeriodMap<'_>, mode: &GrowingMode<'_>) -> Result<Foun
     let steps = map.steps();
     let mut found = find(map, start.clone());
     let retries: &[f64] = match &found {
-        Err(CycleError::Died { .. }) => &LARGER,
+        Err(CycleError::Died(_)) => &LARGER,
         Err(CycleError::Separated) => &[SMALLER],
         _ => &[],
     };

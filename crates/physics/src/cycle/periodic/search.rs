@@ -203,7 +203,7 @@ impl Search {
         }
         self.largest = self.largest.max(image.vibration);
         if image.vibration < DEAD * self.largest {
-            return Err(CycleError::Died { periods });
+            return Err(CycleError::Died(periods));
         }
         if image.counts.stick + image.counts.slip == 0 {
             return Err(CycleError::Separated);

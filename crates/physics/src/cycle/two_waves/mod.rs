@@ -26,4 +26,4 @@ pub use branch::TwoWaveBranch;
 pub use history::Measured;
 pub use motion::TwoWaveMotion;
 pub use newton::TwoWaves;
-pub use search::{NoTwoWaves, TwoWaveSearch};
+pub use search::TwoWaveSearch;

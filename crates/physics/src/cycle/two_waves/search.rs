@@ -21,30 +21,6 @@ const GONE: f64 = 0.05;
 /// Relative difference of the frequencies of a transient that stays on the motion.
 const AGREES: f64 = 1e-3;
 
-/// Why there is no motion of two frequencies.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum NoTwoWaves {
-    /// The second wave does not come up.
-    #[error(
-        "a transient from the cycle has no second wave of {0} nodal diameters after {1} periods"
-    )]
-    Vanishes(usize, usize),
-    /// The first wave goes.
-    #[error("a transient from the cycle ends on the wave of {0} nodal diameters alone")]
-    TakesOver(usize),
-    /// The amplitudes do not come to rest.
-    #[error("the amplitudes of both waves still change after {0} periods of a transient")]
-    Unsettled(usize),
-    /// The contact laws are not met on the grid of phases.
-    #[error(
-        "the balance of both waves does not converge from the motion of {0:.1} and {1:.1} Hz that a transient settles on"
-    )]
-    NotConverged(f64, f64),
-    /// The mesh or its time stepping.
-    #[error(transparent)]
-    Cycle(#[from] CycleError),
-}
-
 /// A motion of two frequencies beside a cycle.
 pub struct TwoWaveSearch {
     /// Its grid of phases.
@@ -76,14 +52,15 @@ impl MeshStepping<'_> {
     /// interrupted search has found.
     ///
     /// # Errors
-    /// [`NoTwoWaves`].
+    /// [`CycleError::NotFound`] where a transient from the cycle comes to no such motion, or its balance does not converge;
+    /// [`CycleError::Mesh`] and [`CycleError::Stepping`].
     pub fn two_waves(
         &self,
         cycle: &LimitCycle,
         second: isize,
         side: Option<usize>,
         watch: &dyn SweepWatch,
-    ) -> Result<TwoWaveSearch, NoTwoWaves> {
+    ) -> Result<TwoWaveSearch, CycleError> {
         let harmonics = [self.solver.body.harmonic, second];
         let grid = |settled: &Measured| {
             TwoWaves::new(&self.solver.model, harmonics, settled.frequencies, side)
@@ -110,7 +87,13 @@ impl MeshStepping<'_> {
         let value = Closure::Value(point.contact.friction_coefficient);
         let [a, b] = settled.frequencies.map(|omega| omega / std::f64::consts::TAU);
         let state = waves.solved(&start, parameter, value);
-        let motion = waves.motion(state.ok_or(NoTwoWaves::NotConverged(a, b))?);
+        let not_converged = || {
+            CycleError::NotFound(format!(
+                "the balance of both waves does not converge from the motion of {a:.1} and \
+                 {b:.1} Hz that a transient settles on"
+            ))
+        };
+        let motion = waves.motion(state.ok_or_else(not_converged)?);
         let (mut run, steps) = self.start_from(cycle, None, |time| waves.field(&motion, time))?;
         let confirmation = History::of(&mut run, harmonics, steps, WINDOWS[1]).measured();
         let numbers = [Some(settled), confirmation].map(|own| own.as_ref().map(Measured::numbers));
@@ -125,7 +108,7 @@ impl MeshStepping<'_> {
         &self,
         cycle: &LimitCycle,
         harmonics: [isize; 2],
-    ) -> Result<(Measured, History), NoTwoWaves> {
+    ) -> Result<(Measured, History), CycleError> {
         let (point, other) = (&cycle.state.point, harmonics[1].unsigned_abs());
         let surface_speed = point.contact.rotation_speed * self.solver.body.radius;
         let (mut run, steps) = self.start(cycle, Some((other, SEED * surface_speed)))?;
@@ -139,7 +122,9 @@ impl MeshStepping<'_> {
                 continue;
             };
             if first < GONE * second {
-                return Err(NoTwoWaves::TakesOver(other));
+                return Err(CycleError::NotFound(format!(
+                    "a transient from the cycle ends on the wave of {other} nodal diameters alone"
+                )));
             }
             is_constant = (second / before - 1.0).abs() < CONSTANT;
             before = second;
@@ -147,16 +132,23 @@ impl MeshStepping<'_> {
                 break;
             }
         }
+        let periods = LOOKS * window;
+        let vanishes = || {
+            CycleError::NotFound(format!(
+                "a transient from the cycle has no second wave of {other} nodal diameters after \
+                 {periods} periods"
+            ))
+        };
+        if !is_constant && before.is_nan() {
+            return Err(vanishes());
+        }
         if !is_constant {
-            let periods = LOOKS * window;
-            return Err(match before.is_nan() {
-                true => NoTwoWaves::Vanishes(other, periods),
-                false => NoTwoWaves::Unsettled(periods),
-            });
+            return Err(CycleError::NotFound(format!(
+                "the amplitudes of both waves still change after {periods} periods of a transient"
+            )));
         }
         let history = History::of(&mut run, harmonics, steps, last);
-        let settled = history.measured();
-        let settled = settled.ok_or(NoTwoWaves::Vanishes(other, LOOKS * window))?;
+        let settled = history.measured().ok_or_else(vanishes)?;
         Ok((settled, history))
     }
 }
