@@ -28,6 +28,7 @@ mod field;
 mod floquet;
 mod grid;
 mod limit_cycle;
+mod moving;
 mod onset;
 mod parameter;
 pub mod periodic;

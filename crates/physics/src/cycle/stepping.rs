@@ -3,6 +3,7 @@
 
 use super::field::start_of;
 use super::limit_cycle::{CyclePowers, LimitCycle};
+use super::moving::MovingDofs;
 use super::state::PointState;
 use super::{CycleError, CycleSolver};
 use crate::contact::ContactStatus;
@@ -44,8 +45,7 @@ pub struct Period<'a> {
     places: Vec<[usize; 2]>,
     /// Contact of each node, step after step.
     contact: Vec<PointState>,
-    /// Places of the moving dofs, with the root of their mass.
-    dofs: Vec<(usize, f64)>,
+    moving: MovingDofs,
     /// Harmonic of the wave in the phase `n theta + omega t`.
     pub harmonic: isize,
     /// Its length, s.
@@ -125,10 +125,8 @@ impl MeshStepping<'_> {
         let duration = steps as f64 * time_step;
         (0..SETTLING * steps).for_each(|_| run.advance());
         run.take_sums();
-        let masses = operator.masses();
-        let places = (0..operator.dof_count()).map(|dof| operator.position(dof));
-        let moving = places.filter(|&place| masses[place] > 0.0);
-        let law = run.contact();
+        let moving = MovingDofs::of(operator, TAU / duration);
+        let (law, fields) = (run.contact(), run.fields());
         let mut period = Period {
             stepping: self,
             coefficients: StepCoefficients {
@@ -139,14 +137,13 @@ impl MeshStepping<'_> {
             friction_coefficient: point.contact.friction_coefficient,
             places: (0..law.status.len()).map(|i| law.places(i)).collect(),
             contact: Vec::with_capacity(steps * law.status.len()),
-            dofs: moving.map(|k| (k, masses[k].sqrt())).collect(),
+            start: moving.motion(&fields.displacement, &fields.velocity),
+            moving,
             harmonic: self.solver.body.harmonic,
             duration,
             powers: CyclePowers::default(),
             fractions: [0.0; 3],
-            start: Vec::new(),
         };
-        period.start = period.packed(run.fields());
         for _ in 0..steps {
             interruption::check();
             run.advance();
@@ -179,12 +176,12 @@ impl Period<'_> {
 
     /// Length of a perturbation: twice the moving dofs, sector after sector.
     pub fn dimension(&self) -> usize {
-        2 * self.dofs.len()
+        2 * self.moving.count()
     }
 
     /// Moving dofs of one sector, those of its contact node first.
     pub fn sector_dofs(&self) -> usize {
-        self.dofs.len() / self.places.len()
+        self.moving.count() / self.places.len()
     }
 
     /// Contact nodes, one for each sector.
@@ -192,18 +189,10 @@ impl Period<'_> {
         self.places.len()
     }
 
-    /// Displacement and velocity as a perturbation: `(omega sqrt(m) u, sqrt(m) v)`, whose square is an energy.
-    fn packed(&self, fields: &MotionFields) -> Vec<f64> {
-        let omega = self.frequency();
-        let displacement = self.dofs.iter().map(|&(k, root)| omega * root * fields.displacement[k]);
-        let velocity = self.dofs.iter().map(|&(k, root)| root * fields.velocity[k]);
-        displacement.chain(velocity).collect()
-    }
-
     /// The direction in which the wave shifts in phase: differences of neighbouring sectors.
     pub fn shift(&self) -> Vec<f64> {
         let (per, count) = (self.sector_dofs(), self.sectors());
-        let half = self.dofs.len();
+        let half = self.moving.count();
         (0..self.dimension())
             .map(|i| {
                 let (part, at) = (i / half * half, i % half);
@@ -224,12 +213,7 @@ impl Period<'_> {
             elastic: zeros(),
             elastic_rate: zeros(),
         };
-        let (displacement, velocity) = perturbation.split_at(self.dofs.len());
-        let omega = self.frequency();
-        for (&(k, root), (u, v)) in self.dofs.iter().zip(displacement.iter().zip(velocity)) {
-            fields.displacement[k] = u / (omega * root);
-            fields.velocity[k] = v / root;
-        }
+        self.moving.place(perturbation, &mut fields);
         operator.multiply(&mut fields.displacement, &mut fields.elastic);
         operator.multiply(&mut fields.velocity, &mut fields.elastic_rate);
         let mut before = vec![[0.0; 2]; self.places.len()];
@@ -238,7 +222,7 @@ impl Period<'_> {
             operator.advance(&mut fields, &self.coefficients);
             self.release(&mut fields, contact, &before);
         }
-        self.packed(&fields)
+        self.moving.motion(&fields.displacement, &fields.velocity)
     }
 
     /// Adds the change of the contact forces to the elastic accelerations of the coming step.

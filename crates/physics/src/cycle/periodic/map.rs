@@ -1,12 +1,14 @@
 //! The period map of a body: so many steps of the explicit transient, from a state to where it comes.
 
 use crate::contact::SlidingContact;
+use crate::cycle::CyclePowers;
+use crate::cycle::moving::MovingDofs;
 use crate::cycle::vector::{add, difference, dot, norm};
 use crate::fem::operator::{StiffnessOperator, scatter};
 use crate::linalg::interruption;
 use crate::transient::{
-    CentralDifference, ContactPowers, SAFETY, StatusCounts, TimeStep, TransientError,
-    TransientModel, TransientSettings,
+    CentralDifference, SAFETY, StatusCounts, TimeStep, TransientError, TransientModel,
+    TransientSettings,
 };
 
 /// Share of the longest step that a period begins with: it may grow by the rest before it takes another number of steps.
@@ -40,10 +42,8 @@ pub struct PeriodImage {
     pub vibration: f64,
     /// Root of twice the mean kinetic energy over the period: the same at every phase.
     pub amplitude: f64,
-    /// Mean contact powers, W/m.
-    pub powers: ContactPowers,
-    /// Mean power of the dampings of body and supports, W/m.
-    pub material_damping: f64,
+    /// Mean powers, W/m.
+    pub powers: CyclePowers,
     /// Statuses over all nodes and steps.
     pub counts: StatusCounts,
 }
@@ -73,10 +73,7 @@ impl PeriodImage {
 /// changes its status at another step. For each metre of thickness, of a body in three dimensions for the whole.
 pub struct PeriodMap<'a> {
     pub(super) run: CentralDifference<'a>,
-    /// Places of the moving dofs, with the roots of their masses.
-    pub(super) moving: Vec<(usize, f64)>,
-    /// `omega`, rad/s, that weighs displacements.
-    frequency: f64,
+    moving: MovingDofs,
     longest_step: f64,
     fewest_steps: usize,
     steps: usize,
@@ -99,14 +96,9 @@ impl<'a> PeriodMap<'a> {
         let settings = TransientSettings::sliding(2.0 * period, TimeStep::Auto, period);
         let still = vec![0.0; operator.dof_count()];
         let run = CentralDifference::start_from(model, operator, &settings, &still, still.clone())?;
-        let masses = operator.masses();
-        let places = (0..operator.dof_count()).map(|dof| operator.position(dof));
-        let moving =
-            places.filter(|&place| masses[place] > 0.0).map(|place| (place, masses[place].sqrt()));
         let longest = SAFETY * run.plan().limit;
         let mut map = Self {
-            moving: moving.collect(),
-            frequency,
+            moving: MovingDofs::of(operator, frequency),
             longest_step: longest_step.map_or(longest, |given| given.min(longest)),
             fewest_steps: longest_step.map_or(FEWEST_STEPS, |_| 1),
             steps: 1,
@@ -135,13 +127,12 @@ impl<'a> PeriodMap<'a> {
 
     /// Mass that moves, kg/m, of a body in three dimensions kg: the mean over its directions.
     pub fn mass(&self) -> f64 {
-        let masses = self.moving.iter().map(|(_, root)| root * root);
-        masses.sum::<f64>() / self.run.model().components() as f64
+        self.moving.mass() / self.run.model().components() as f64
     }
 
     /// Length of a state's motion.
     pub fn unknowns(&self) -> usize {
-        2 * self.moving.len()
+        2 * self.moving.count()
     }
 
     /// Steps of a period.
@@ -170,35 +161,20 @@ impl<'a> PeriodMap<'a> {
 
     /// The state of a displacement `u_0` (m) and a velocity `v_{-1/2}` (m/s) over all dofs in nodal frames.
     pub fn state(&self, displacement: &[f64], velocity: &[f64], period: f64) -> PeriodicState {
-        let weighed = |field: &[f64], weight: f64| -> Vec<f64> {
-            let placed = scatter(self.run.operator(), field);
-            self.moving.iter().map(|&(place, root)| weight * root * placed[place]).collect()
-        };
-        let motion = [weighed(displacement, self.frequency), weighed(velocity, 1.0)].concat();
-        PeriodicState { motion, period }
+        let [u, v] = [displacement, velocity].map(|field| scatter(self.run.operator(), field));
+        PeriodicState { motion: self.moving.motion(&u, &v), period }
     }
 
     /// The motion that the time loop is in.
     pub(super) fn motion(&self) -> Vec<f64> {
         let fields = self.run.fields();
-        let moving = self.moving.iter();
-        let displacement =
-            moving.map(|&(place, root)| self.frequency * root * fields.displacement[place]);
-        let velocity = self.moving.iter().map(|&(place, root)| root * fields.velocity[place]);
-        displacement.chain(velocity).collect()
+        self.moving.motion(&fields.displacement, &fields.velocity)
     }
 
     /// Puts the time loop at the start of a period.
     pub(super) fn place(&mut self, state: &PeriodicState) {
-        let (displacement, velocity) = state.motion.split_at(self.moving.len());
-        let (moving, frequency) = (&self.moving, self.frequency);
         let time_step = state.period / self.steps as f64;
-        self.run.restart(time_step, |fields| {
-            for (&(place, root), (u, v)) in moving.iter().zip(displacement.iter().zip(velocity)) {
-                fields.displacement[place] = u / (frequency * root);
-                fields.velocity[place] = v / root;
-            }
-        });
+        self.run.restart(time_step, |fields| self.moving.place(&state.motion, fields));
     }
 
     /// Where a state comes after its period, which [`Self::fit`] must know.
@@ -211,7 +187,7 @@ impl<'a> PeriodMap<'a> {
         for step in 0..self.steps - 1 {
             self.run.advance();
             if step.is_multiple_of(look_every) {
-                let energy = self.twice_kinetic_energy();
+                let energy = self.moving.twice_kinetic_energy(&self.run.fields().velocity);
                 (largest, sum, looks) = (largest.max(energy), sum + energy, looks + 1);
             }
         }
@@ -223,16 +199,14 @@ impl<'a> PeriodMap<'a> {
         let per_step = self.steps as f64 / state.period;
         let mut rate = difference(&motion, &before);
         rate.iter_mut().for_each(|value| *value *= per_step);
-        let (powers, damping, counts) = self.run.take_sums();
-        let share = 1.0 / self.steps as f64;
+        let (contact, material_damping, counts) = self.run.take_sums();
         PeriodImage {
             residual: difference(&motion, &state.motion),
             motion,
             rate,
             vibration: largest.max(f64::MIN_POSITIVE).sqrt(),
             amplitude: (sum / f64::from(looks.max(1))).sqrt(),
-            powers: powers.scaled(share),
-            material_damping: share * damping,
+            powers: CyclePowers { contact, material_damping }.scaled(1.0 / self.steps as f64),
             counts,
         }
     }
@@ -248,10 +222,5 @@ impl<'a> PeriodMap<'a> {
             add(&mut mean, share, &self.motion());
         }
         mean
-    }
-
-    fn twice_kinetic_energy(&self) -> f64 {
-        let velocity = &self.run.fields().velocity;
-        self.moving.iter().map(|&(place, root)| (root * velocity[place]).powi(2)).sum()
     }
 }

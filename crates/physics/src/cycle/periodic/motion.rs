@@ -118,10 +118,7 @@ impl PeriodicMotion {
             steps: map.steps(),
             residual: found.residual,
             periods: found.periods,
-            powers: CyclePowers {
-                contact: found.image.powers,
-                material_damping: found.image.material_damping,
-            },
+            powers: found.image.powers,
             fractions: found.image.counts.fractions(),
             shares: Vec::new(),
             node,
