@@ -71,19 +71,18 @@ pub(super) fn part(name: &str) -> Part {
 pub(super) fn layouts(
     table: &Table,
     frequency: usize,
-    source: &str,
     notes: &mut Vec<String>,
 ) -> Result<Vec<(String, Layout)>, ReadError> {
     let whole: Vec<usize> =
         (0..table.columns.len()).filter(|k| table.columns[*k].imaginary.is_some()).collect();
     if table.names.is_empty() && whole.is_empty() {
-        return Ok(vec![("response".to_string(), unnamed_layout(table, source)?)]);
+        return Ok(vec![("response".to_string(), unnamed_layout(table)?)]);
     }
     let columns = |wanted: Part| -> Vec<usize> {
         let named = (0..table.names.len()).filter(|k| *k != frequency);
         named.filter(|k| part(&table.names[*k]) == wanted).collect()
     };
-    let missing = |wanted, remedy| Err(table.missing(source, wanted, remedy));
+    let missing = |wanted, remedy| Err(table.missing(wanted, remedy));
     let (real, imaginary) = (columns(Part::Real), columns(Part::Imaginary));
     if whole.is_empty() && real.len() > imaginary.len() {
         return missing("imaginary part", "name it `imaginary`, or give magnitude and phase");
@@ -174,7 +173,7 @@ fn one_estimator(
 }
 
 /// Columns without names, where the numbers leave no doubt.
-fn unnamed_layout(table: &Table, source: &str) -> Result<Layout, ReadError> {
+fn unnamed_layout(table: &Table) -> Result<Layout, ReadError> {
     let column = |k: usize| table.columns[k].real.iter().copied();
     let least = |k: usize| column(k).fold(f64::INFINITY, f64::min);
     let most = |k: usize| column(k).fold(f64::NEG_INFINITY, f64::max);
@@ -195,14 +194,14 @@ fn unnamed_layout(table: &Table, source: &str) -> Result<Layout, ReadError> {
         }
         1 => {
             let remedy = "frequency and response must stand side by side";
-            Err(table.missing(source, "response", remedy))
+            Err(table.missing("response", remedy))
         }
         count => {
             let problem = format!(
                 "{count} columns without names could mean several things; add a first line such \
                  as `f,re,im`, or give the names: --columns f,re,im"
             );
-            Err(table.error(source, 0, 0, problem))
+            Err(table.error(0, 0, problem))
         }
     }
 }

@@ -79,7 +79,7 @@ pub(super) fn read_table(
             return Err(damaged(&too_large));
         }
     }
-    let table = content.into_table().map_err(damaged)?;
+    let table = content.into_table(source).map_err(damaged)?;
     if columns.is_empty() {
         return Ok(table);
     }
@@ -87,7 +87,7 @@ pub(super) fn read_table(
         let problem = column_count(columns.len(), table.columns.len());
         return Err(ReadError::whole(source, problem));
     }
-    Ok(Table::of_columns(columns.to_vec(), table.columns, table.remarks))
+    Ok(Table::of_columns(source, columns.to_vec(), table.columns, table.remarks))
 }
 
 /// Elements one after the other: type and data.
@@ -254,7 +254,7 @@ impl Content {
     }
 
     /// The arrays that have the longest side in common, as columns.
-    fn into_table(self) -> Result<Table, &'static str> {
+    fn into_table(self, source: &str) -> Result<Table, &'static str> {
         let longest = |a: &Array| a.rows.max(a.real.len() / a.rows);
         let count = self.arrays.iter().map(longest).max();
         let count =
@@ -289,6 +289,6 @@ impl Content {
         if arrays == 1 && columns.len() > 1 {
             titles.clear();
         }
-        Ok(Table::of_columns(titles, columns, self.remarks))
+        Ok(Table::of_columns(source, titles, columns, self.remarks))
     }
 }

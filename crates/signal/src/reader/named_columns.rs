@@ -22,21 +22,21 @@ impl<const N: usize> Kind<N> {
     pub fn read(&self, bytes: &[u8], source: &str) -> Result<Vec<(usize, [f64; N])>, ReadError> {
         let table = read_table(bytes, source, &[])?;
         if table.names.iter().any(|name| (self.is_other)(name)) {
-            return Err(table.missing(source, self.units.0, self.units.1));
+            return Err(table.missing(self.units.0, self.units.1));
         }
-        let places = self.places(&table, source)?;
+        let places = self.places(&table)?;
         let numbers = |row: usize| places.map(|place| table.columns[place].real[row]);
         Ok((0..table.rows()).map(|row| (table.line(row), numbers(row))).collect())
     }
 
     /// Where the columns are.
-    fn places(&self, table: &Table, source: &str) -> Result<[usize; N], ReadError> {
+    fn places(&self, table: &Table) -> Result<[usize; N], ReadError> {
         let mut places = std::array::from_fn(|k| k);
         if table.names.is_empty() {
             let wanted = "as many columns as there are names";
             return match table.columns.len() == N {
                 true => Ok(places),
-                false => Err(table.missing(source, wanted, self.header)),
+                false => Err(table.missing(wanted, self.header)),
             };
         }
         for (place, (wanted, begins)) in places.iter_mut().zip(&self.columns) {
@@ -48,7 +48,7 @@ impl<const N: usize> Kind<N> {
                 begins.iter().any(short)
             };
             let found = table.names.iter().position(is_it);
-            *place = found.ok_or_else(|| table.missing(source, wanted, self.header))?;
+            *place = found.ok_or_else(|| table.missing(wanted, self.header))?;
         }
         Ok(places)
     }
@@ -56,7 +56,7 @@ impl<const N: usize> Kind<N> {
 
 impl Table {
     /// That it lacks a column.
-    pub(super) fn missing(&self, source: &str, wanted: &str, remedy: &str) -> ReadError {
-        ReadError::whole(source, missing_column(wanted, &self.described(), remedy))
+    pub(super) fn missing(&self, wanted: &str, remedy: &str) -> ReadError {
+        ReadError::whole(&self.source, missing_column(wanted, &self.described(), remedy))
     }
 }

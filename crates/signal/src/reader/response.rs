@@ -47,7 +47,7 @@ pub fn read_response(
             let found = "a WAV file, which holds time signals: give it to `frictionsim signal`";
             return Err(ReadError::foreign(source, found));
         }
-        other => from_table(&other.table(bytes, source, &options.columns)?, source, options)?,
+        other => from_table(&other.table(bytes, source, &options.columns)?, options)?,
     };
     file.responses = selected(file.responses, |one| &one.name, &options.channels, source)?;
     file.conjugate_where_needed();
@@ -73,22 +73,16 @@ impl ResponseFile {
     }
 }
 
-fn from_table(
-    table: &Table,
-    source: &str,
-    options: &ResponseOptions,
-) -> Result<ResponseFile, ReadError> {
+fn from_table(table: &Table, options: &ResponseOptions) -> Result<ResponseFile, ReadError> {
     let mut notes = Vec::new();
-    let (frequency, factor, states_unit) = frequency_column(table, source)?;
-    let layouts = layouts(table, frequency, source, &mut notes)?;
+    let (frequency, factor, states_unit) = frequency_column(table)?;
+    let layouts = layouts(table, frequency, &mut notes)?;
     let quantity = quantity(table, options.quantity, &mut notes);
     let gravity = if names_standard_gravity(table) { 9.806_65 } else { 1.0 };
     // One order of the rows for all responses.
-    let values: Vec<Vec<c64>> = layouts
-        .iter()
-        .map(|(_, layout)| values(table, *layout, source))
-        .collect::<Result<_, _>>()?;
-    let rows = ordered(table, frequency, factor, &values, source, &mut notes)?;
+    let values = layouts.iter().map(|(_, layout)| values(table, *layout));
+    let values: Vec<Vec<c64>> = values.collect::<Result<_, _>>()?;
+    let rows = ordered(table, frequency, factor, &values, &mut notes)?;
     let frequencies: Vec<f64> = rows.iter().map(|row| row.0).collect();
     doubt_unit(&frequencies, states_unit, &mut notes);
     let coherences: Vec<usize> =
@@ -105,7 +99,7 @@ fn from_table(
         let has_phase = layout.has_phase();
         let response =
             FrequencyResponse::measured(frequencies.clone(), values, quantity, has_phase);
-        let mut response = response.map_err(|error| ReadError::signal(source, &error))?;
+        let mut response = response.map_err(|error| ReadError::signal(&table.source, &error))?;
         // One coherence for each response, or one for all.
         if let Some(column) = coherences.get(k).or(coherences.first()) {
             let all = &table.columns[*column].real;
@@ -118,7 +112,7 @@ fn from_table(
 }
 
 /// The frequency column, its factor to Hz, and whether its name states the unit.
-fn frequency_column(table: &Table, source: &str) -> Result<(usize, f64, bool), ReadError> {
+fn frequency_column(table: &Table) -> Result<(usize, f64, bool), ReadError> {
     if table.names.is_empty() {
         return Ok((0, 1.0, false));
     }
@@ -126,7 +120,7 @@ fn frequency_column(table: &Table, source: &str) -> Result<(usize, f64, bool), R
     (0..table.names.len())
         .filter(|&k| part(&table.names[k]) == Part::Other && table.columns[k].imaginary.is_none())
         .find_map(|k| hertz(&table.names[k]).map(|(factor, stated)| (k, factor, stated)))
-        .ok_or_else(|| table.missing(source, "frequency", remedy))
+        .ok_or_else(|| table.missing("frequency", remedy))
 }
 
 /// Frequencies that look like kHz, or like rad/s, under a name without a unit.
@@ -141,7 +135,7 @@ fn doubt_unit(frequencies: &[f64], states_unit: bool, notes: &mut Vec<String>) {
 }
 
 /// Complex values of each row; real magnitudes where there is no phase.
-fn values(table: &Table, layout: Layout, source: &str) -> Result<Vec<c64>, ReadError> {
+fn values(table: &Table, layout: Layout) -> Result<Vec<c64>, ReadError> {
     let real = |k: usize| &table.columns[k].real;
     match layout {
         Layout::Whole(k) => {
@@ -164,7 +158,7 @@ fn values(table: &Table, layout: Layout, source: &str) -> Result<Vec<c64>, ReadE
                         "magnitude {value} is negative; if it is in decibels, say so in the header \
                          (magnitude_db)"
                     );
-                    return Err(table.error(source, i, magnitude, problem));
+                    return Err(table.error(i, magnitude, problem));
                 }
                 let angle = phase.map_or(0.0, |(k, factor)| real(k)[i] * factor);
                 Ok(c64::from_polar(modulus, angle))
@@ -179,13 +173,12 @@ fn ordered(
     column: usize,
     factor: f64,
     values: &[Vec<c64>],
-    source: &str,
     notes: &mut Vec<String>,
 ) -> Result<Vec<(f64, usize)>, ReadError> {
     let raw = &table.columns[column].real;
     if let Some(i) = raw.iter().position(|f| *f < 0.0) {
         let problem = format!("frequency {} is negative; export the one-sided response", raw[i]);
-        return Err(table.error(source, i, column, problem));
+        return Err(table.error(i, column, problem));
     }
     let numbered = raw.iter().enumerate();
     let mut rows: Vec<(f64, usize)> = numbered.map(|(i, f)| (f * factor, i)).collect();
@@ -204,7 +197,7 @@ fn ordered(
                         "frequency {value} Hz is already in line {first} with another value; keep \
                          one of the rows"
                     );
-                    return Err(table.error(source, row.1, column, problem));
+                    return Err(table.error(row.1, column, problem));
                 }
                 dropped += 1;
             }

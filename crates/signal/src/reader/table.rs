@@ -9,6 +9,8 @@ use super::text::{comment, decode, first_of, lines, shortened};
 /// Numbers in named columns.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Table {
+    /// Name of where it comes from.
+    pub source: String,
     /// Lower-case column names with their unit row joined; empty if the file has none.
     pub names: Vec<String>,
     /// Column names as written.
@@ -25,8 +27,14 @@ pub(super) struct Table {
 
 impl Table {
     /// A table that was no text.
-    pub fn of_columns(titles: Vec<String>, columns: Vec<Column>, remarks: String) -> Self {
+    pub fn of_columns(
+        source: &str,
+        titles: Vec<String>,
+        columns: Vec<Column>,
+        remarks: String,
+    ) -> Self {
         Self {
+            source: source.to_owned(),
             names: titles.iter().map(|t| t.to_lowercase()).collect(),
             titles,
             columns,
@@ -46,13 +54,13 @@ impl Table {
     }
 
     /// An error at a field.
-    pub fn error(&self, source: &str, row: usize, column: usize, problem: String) -> ReadError {
+    pub fn error(&self, row: usize, column: usize, problem: String) -> ReadError {
         let Some(line) = self.lines.get(row) else {
-            return ReadError::whole(source, problem);
+            return ReadError::whole(&self.source, problem);
         };
         let text = lines(&self.text).nth(line - 1).map_or("", |(_, text)| text);
         let at = fields(text, self.separator).nth(column);
-        ReadError::at(source, *line, at.map_or(1, |f| character(text, f)), problem)
+        ReadError::at(&self.source, *line, at.map_or(1, |f| character(text, f)), problem)
     }
 
     /// The column names for a message.
@@ -118,7 +126,7 @@ pub(super) fn read_table(
     let titles = titles(columns, &above, separator, count, source)?;
     let columns = numbers(data, separator, &titles, source)?;
     let lines = data.iter().map(|(line, _)| *line).collect();
-    Ok(Table { lines, separator, text, ..Table::of_columns(titles, columns, remarks) })
+    Ok(Table { lines, separator, text, ..Table::of_columns(source, titles, columns, remarks) })
 }
 
 /// A listing of the time-history post-processor of ANSYS: pages that repeat a header of several lines,
@@ -159,7 +167,7 @@ fn post26_listing(
         titles = self::titles(columns, &[], Separator::Blanks, count, source)?;
     }
     let values = numbers(&data, Separator::Blanks, &titles, source)?;
-    Ok(Table::of_columns(titles, values, remarks))
+    Ok(Table::of_columns(source, titles, values, remarks))
 }
 
 /// Index of the first line all of whose fields are numbers under some separator, time stamps not alone.

@@ -46,7 +46,7 @@ pub fn read_signal(
     let mut file = match Format::of(bytes) {
         Format::Universal => uff::read_signals(bytes, source)?,
         Format::Wave => wav::read_wav(bytes, source)?,
-        other => from_table(&other.table(bytes, source, &options.columns)?, source, options)?,
+        other => from_table(&other.table(bytes, source, &options.columns)?, options)?,
     };
     // A file that states its rate is overruled aloud.
     if let Some(rate) = options.rate.filter(|rate| *rate != file.sampling_rate) {
@@ -68,28 +68,24 @@ fn too_short(source: &str, count: usize) -> ReadError {
     ReadError::signal(source, &crate::error::too_short(what, count, FEWEST, remedy))
 }
 
-fn from_table(
-    table: &Table,
-    source: &str,
-    options: &SignalOptions,
-) -> Result<SignalFile, ReadError> {
+fn from_table(table: &Table, options: &SignalOptions) -> Result<SignalFile, ReadError> {
     let time = time_column(table);
     if table.rows() < FEWEST {
-        return Err(too_short(source, table.rows()));
+        return Err(too_short(&table.source, table.rows()));
     }
     let mut notes = Vec::new();
     let (rate, start) = match time {
         Some((column, factor)) => {
             let times: Vec<f64> = table.columns[column].real.iter().map(|t| t * factor).collect();
             let rate = match options.rate {
-                Some(rate) => agreed_rate(table, column, &times, rate, source, &mut notes)?,
-                None => 1.0 / regular_step(table, column, &times, source)?,
+                Some(rate) => agreed_rate(table, column, &times, rate, &mut notes)?,
+                None => 1.0 / regular_step(table, column, &times)?,
             };
             (rate, times[0])
         }
         None => {
             let stated = sampling_rate(&table.remarks).or(options.rate);
-            (stated.ok_or_else(|| ReadError::whole(source, NO_RATE))?, 0.0)
+            (stated.ok_or_else(|| ReadError::whole(&table.source, NO_RATE))?, 0.0)
         }
     };
     let is_skipped = |k: usize| {
@@ -108,7 +104,7 @@ fn from_table(
         .collect();
     if channels.is_empty() {
         let remedy = "only times were found; export the samples too";
-        return Err(table.missing(source, "signal", remedy));
+        return Err(table.missing("signal", remedy));
     }
     if table.columns.iter().any(|column| column.imaginary.is_some()) {
         notes.push("complex numbers: the real part is used".to_string());
@@ -134,7 +130,7 @@ fn time_column(table: &Table) -> Option<(usize, f64)> {
 }
 
 /// The step of a regular time column with the times `t`, s.
-fn regular_step(table: &Table, column: usize, t: &[f64], source: &str) -> Result<f64, ReadError> {
+fn regular_step(table: &Table, column: usize, t: &[f64]) -> Result<f64, ReadError> {
     let step = (t[t.len() - 1] - t[0]) / (t.len() - 1) as f64;
     // Times that stand still now and then, and never go back, are rounded.
     let falls = t.windows(2).any(|w| w[1] < w[0]);
@@ -145,14 +141,14 @@ fn regular_step(table: &Table, column: usize, t: &[f64], source: &str) -> Result
             "the time column is rounded to {step} s, which hides the sampling rate (about \
              {rate:.1} Hz); give it with --rate HZ"
         );
-        return Err(ReadError::whole(source, problem));
+        return Err(ReadError::whole(&table.source, problem));
     }
     if let Some(i) = (1..t.len()).find(|&i| t[i] <= t[i - 1]) {
         let (value, previous) = (t[i], t[i - 1]);
         let problem = format!(
             "time {value} s does not follow the {previous} s before it; sort the rows by time"
         );
-        return Err(table.error(source, i, column, problem));
+        return Err(table.error(i, column, problem));
     }
     let off = |i: usize| (t[i] - t[0] - i as f64 * step).abs() > JITTER * step;
     if (0..t.len()).any(off) || !(step.is_finite() && (1.0 / step).is_finite()) {
@@ -168,7 +164,7 @@ fn regular_step(table: &Table, column: usize, t: &[f64], source: &str) -> Result
              equal steps, or cut the record at the gap",
             t[i]
         );
-        return Err(table.error(source, i, column, problem));
+        return Err(table.error(i, column, problem));
     }
     Ok(step)
 }
@@ -188,7 +184,6 @@ fn agreed_rate(
     column: usize,
     t: &[f64],
     option: f64,
-    source: &str,
     notes: &mut Vec<String>,
 ) -> Result<f64, ReadError> {
     let found = (t.len() - 1) as f64 / (t[t.len() - 1] - t[0]);
@@ -201,8 +196,8 @@ fn agreed_rate(
     if (option / found - 1.0).abs() > 1e-2 || !found.is_finite() {
         let problem =
             format!("the time column says {found} Hz, the option {option} Hz; leave --rate out");
-        return Err(ReadError::whole(source, problem));
+        return Err(ReadError::whole(&table.source, problem));
     }
     // Within 1 % the column knows better, if it is regular.
-    Ok(1.0 / regular_step(table, column, t, source)?)
+    Ok(1.0 / regular_step(table, column, t)?)
 }
