@@ -86,11 +86,8 @@ pub enum NoGrowth {
     )]
     NotExponential(f64),
     /// A power of another wave, which grows so many times as fast at so many times its frequency.
-    #[error("it holds a power of the growing wave of harmonic {harmonic}, and no mode of its own")]
-    Power {
-        /// Harmonic of that wave.
-        harmonic: usize,
-    },
+    #[error("it holds a power of the growing wave of harmonic {0}, and no mode of its own")]
+    Power(usize),
     /// No vibration stands out of the noise.
     #[error("no line stands out from the noise")]
     NoLine,

@@ -191,7 +191,7 @@ fn refuse_powers(growths: &mut [Growth]) {
             })
         };
         if let Some(&(harmonic, ..)) = waves.iter().find(|wave| power(wave)) {
-            growth.stage = Err(NoGrowth::Power { harmonic });
+            growth.stage = Err(NoGrowth::Power(harmonic));
         }
     }
 }
