@@ -15,7 +15,7 @@ use crate::fma_peak::fma_peak;
 use crate::{Ignore, is_measured};
 use frictionsim::cea::{ModeLimit, SweepRequest};
 use frictionsim::fem::operator::{
-    AlignedVector, MotionFields, SimdLevel, SparseOperator, StepCoefficients, StiffnessOperator,
+    MotionFields, SimdLevel, SparseOperator, StepCoefficients, StiffnessOperator,
 };
 use frictionsim::fem::{ElasticMaterial, PlaneFormulation, assemble_stiffness, lumped_masses};
 use frictionsim::mesh::{ElementKind, FileMesh, Mesh, SolidSector};
@@ -83,13 +83,7 @@ fn assembled(divisions: usize, threads: usize) {
     let masses = masses.iter().flat_map(|&mass| [mass; 3]).collect();
     let operator = SparseOperator::<3>::new(&stiffness, masses, Vec::new(), SimdLevel::detect());
     let operator = operator.expect("an operator");
-    let zeros = || AlignedVector::zeros(operator.field_length());
-    let mut fields = MotionFields {
-        displacement: zeros(),
-        velocity: zeros(),
-        elastic: zeros(),
-        elastic_rate: zeros(),
-    };
+    let mut fields = MotionFields::zeros(operator.field_length());
     fields.velocity[0] = 1.0;
     let coefficients =
         StepCoefficients { time_step: 1e-8, mass_coefficient: 0.0, stiffness_coefficient: 0.0 };

@@ -3,8 +3,8 @@
 use crate::prelude::*;
 use crate::transient::model::{Watch, disc, kicked, largest, largest_difference, model};
 use frictionsim::fem::operator::{
-    AlignedVector, MotionFields, SectorStencil, SparseOperator, StepCoefficients,
-    StiffnessOperator, gather, largest_frequency, scatter,
+    MotionFields, SectorStencil, SparseOperator, StepCoefficients, StiffnessOperator, gather,
+    largest_frequency, scatter,
 };
 
 const LEVELS: [SimdLevel; 3] = [SimdLevel::Scalar, SimdLevel::Avx2, SimdLevel::Avx512];
@@ -122,9 +122,8 @@ fn largest_frequency_is_that_of_the_dense_matrix() {
 
 /// A body where it stands, with the velocity of a field.
 fn moving(operator: &dyn StiffnessOperator, velocity: &[f64]) -> MotionFields {
-    let zeros = || AlignedVector::zeros(operator.field_length());
     let velocity = scatter(operator, velocity);
-    MotionFields { displacement: zeros(), velocity, elastic: zeros(), elastic_rate: zeros() }
+    MotionFields { velocity, ..MotionFields::zeros(operator.field_length()) }
 }
 
 fn coefficients(model: &TransientModel<'_>, time_step: f64) -> StepCoefficients {

@@ -9,7 +9,7 @@ use super::{CycleError, CycleSolver};
 use crate::contact::ContactStatus;
 use crate::fem::RayleighDamping;
 use crate::fem::operator::{
-    AlignedVector, MotionFields, SimdLevel, StepCoefficients, StiffnessOperator, largest_frequency,
+    MotionFields, SimdLevel, StepCoefficients, StiffnessOperator, largest_frequency,
 };
 use crate::linalg::interruption;
 use crate::mesh::AnnulusMesh;
@@ -206,13 +206,7 @@ impl Period<'_> {
     /// A perturbation one period later.
     pub fn map(&self, perturbation: &[f64]) -> Vec<f64> {
         let operator = self.stepping.operator.as_ref();
-        let zeros = || AlignedVector::zeros(operator.field_length());
-        let mut fields = MotionFields {
-            displacement: zeros(),
-            velocity: zeros(),
-            elastic: zeros(),
-            elastic_rate: zeros(),
-        };
+        let mut fields = MotionFields::zeros(operator.field_length());
         self.moving.place(perturbation, &mut fields);
         operator.multiply(&mut fields.displacement, &mut fields.elastic);
         operator.multiply(&mut fields.velocity, &mut fields.elastic_rate);

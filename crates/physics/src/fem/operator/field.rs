@@ -60,3 +60,11 @@ pub struct MotionFields {
     /// `z_{n-1/2} = M^-1 K v_{n-1/2}`, m/s3.
     pub elastic_rate: AlignedVector,
 }
+
+impl MotionFields {
+    /// At rest, each of so many numbers.
+    pub fn zeros(length: usize) -> Self {
+        let zeros = || AlignedVector::zeros(length);
+        Self { displacement: zeros(), velocity: zeros(), elastic: zeros(), elastic_rate: zeros() }
+    }
+}

@@ -132,12 +132,7 @@ impl<'a> CentralDifference<'a> {
                 mass_coefficient: damping.mass_coefficient,
                 stiffness_coefficient: damping.stiffness_coefficient,
             },
-            fields: MotionFields {
-                displacement: zeros(),
-                velocity: zeros(),
-                elastic: zeros(),
-                elastic_rate: zeros(),
-            },
+            fields: MotionFields::zeros(operator.field_length()),
             contact: model.lagrange_contact(operator, &interface)?,
             boundary: model.boundary_forces(operator),
             relaxation: model.relaxation(operator),
