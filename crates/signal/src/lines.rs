@@ -126,14 +126,14 @@ fn peaks(spectrum: &AmplitudeSpectrum, scale: f64) -> Vec<SpectralLine> {
     let count = spectrum.averages as f64;
     let exceeded = normal_exceeded(FALSE_ALARM / a.len() as f64);
     let ratio = mean_power_exceeded(count, exceeded) / mean_power_exceeded(count, 0.0);
-    let noise = LocalNoise::of(a, reach);
+    let noise = local_noise(a, reach);
     let mut lines = Vec::new();
     for k in PADDING..a.len() - 1 {
         let neighbours = &a[k.saturating_sub(reach)..(k + reach + 1).min(a.len())];
         let is_peak = a[k] > a[k - 1] && a[k] >= a[k + 1] && a[k] >= WEAKEST * top;
         if is_peak
             && neighbours.iter().all(|other| *other <= a[k])
-            && a[k] > noise.amplitude(k) * ratio.sqrt()
+            && a[k] > noise[k] * ratio.sqrt()
         {
             lines.push(located(spectrum, k));
         }
@@ -142,33 +142,21 @@ fn peaks(spectrum: &AmplitudeSpectrum, scale: f64) -> Vec<SpectralLine> {
     lines
 }
 
-/// Median amplitudes over bands of a spectrum, narrow at low frequencies.
-struct LocalNoise {
-    /// First bin behind each band, and the median in it.
-    bands: Vec<(usize, f64)>,
-}
-
-impl LocalNoise {
-    fn of(amplitudes: &[f64], reach: usize) -> Self {
-        let mut bands = Vec::new();
-        let mut first = 0;
-        while first < amplitudes.len() {
-            let width = ((NOISE_BAND - 1.0) * first as f64) as usize;
-            let mut end = first + width.max(NOISE_LOBES * reach);
-            // A remnant at the end belongs to the band before it.
-            if end + NOISE_LOBES * reach > amplitudes.len() {
-                end = amplitudes.len();
-            }
-            bands.push((end, median(&amplitudes[first..end])));
-            first = end;
+/// Median amplitude beside each bin of a spectrum, over bands that are narrow at low frequencies.
+fn local_noise(amplitudes: &[f64], reach: usize) -> Vec<f64> {
+    let count = amplitudes.len();
+    let mut noise = Vec::with_capacity(count);
+    while noise.len() < count {
+        let first = noise.len();
+        let width = ((NOISE_BAND - 1.0) * first as f64) as usize;
+        let mut end = first + width.max(NOISE_LOBES * reach);
+        // A remnant at the end belongs to the band before it.
+        if end + NOISE_LOBES * reach > count {
+            end = count;
         }
-        Self { bands }
+        noise.resize(end, median(&amplitudes[first..end]));
     }
-
-    fn amplitude(&self, bin: usize) -> f64 {
-        let k = self.bands.partition_point(|(end, _)| *end <= bin);
-        self.bands[k].1
-    }
+    noise
 }
 
 /// The line whose largest bin is `k`.

@@ -139,7 +139,7 @@ fn extended(
 ) -> Result<Fitted, SignalError> {
     let most_poles =
         if parts.iter().all(|part| part.has_phase()) { 2 * starts + 4 } else { starts };
-    let (count, responses) = (problem.data_count(), problem.response_count());
+    let (count, responses) = (problem.data_count(), parts.len());
     for _ in 0..(starts + 8) {
         let poles = best.model.poles.clone();
         let terms = best.model.shares[0].remainder.len();

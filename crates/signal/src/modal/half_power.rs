@@ -105,14 +105,7 @@ fn valley(y: &[f64], first: usize, last: usize) -> usize {
 /// Logarithmic height of a maximum above the higher of the two lowest passes to higher ground.
 fn prominence(y: &[f64], top: usize) -> f64 {
     let descent = |walk: &mut dyn Iterator<Item = usize>| {
-        let mut lowest = y[top];
-        for i in walk {
-            if y[i] > y[top] {
-                break;
-            }
-            lowest = lowest.min(y[i]);
-        }
-        lowest
+        walk.map(|i| y[i]).take_while(|own| *own <= y[top]).fold(y[top], f64::min)
     };
     let left = descent(&mut (0..top).rev());
     let right = descent(&mut (top + 1..y.len()));

@@ -57,11 +57,6 @@ impl<'a> Problem<'a> {
         Self { parts: parts.collect(), reference_hz }
     }
 
-    /// Number of responses.
-    pub(super) fn response_count(&self) -> usize {
-        self.parts.len()
-    }
-
     /// Real numbers in the data: two for each line, one where the phase is unknown.
     pub(super) fn data_count(&self) -> usize {
         let count = |part: &Weighted| {

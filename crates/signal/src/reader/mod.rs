@@ -55,6 +55,18 @@ enum Format {
     Foreign(&'static str),
 }
 
+/// First bytes of files that are not read, and what these are.
+const FOREIGN: [(&[u8], &str); 7] = [
+    (b"\x89HDF", HDF5),
+    (b"PK\x03\x04", "a ZIP archive, such as xlsx, ods or npz (export it as CSV)"),
+    (b"\xd0\xcf\x11\xe0", "an old Excel workbook (export it as CSV)"),
+    (b"%PDF", "a PDF document"),
+    (b"\x93NUMPY", "a NumPy array (numpy.savetxt writes text)"),
+    (b"$MeshFormat", "a Gmsh mesh, not a measurement"),
+    (b"TDSm", "a LabVIEW TDMS file"),
+];
+const HDF5: &str = "an HDF5 file (MATLAB writes it as version 7.3)";
+
 impl Format {
     fn of(bytes: &[u8]) -> Self {
         let begins = |mark: &[u8]| bytes.starts_with(mark);
@@ -64,20 +76,10 @@ impl Format {
             Format::Wave
         } else if bytes.get(126..128).is_some_and(|mark| mark == b"IM" || mark == b"MI") {
             Format::Matlab
-        } else if begins(b"\x89HDF") || (begins(b"MATLAB 7.3") && bytes.len() > 512) {
-            Format::Foreign("an HDF5 file (MATLAB writes it as version 7.3)")
-        } else if begins(b"PK\x03\x04") {
-            Format::Foreign("a ZIP archive, such as xlsx, ods or npz (export it as CSV)")
-        } else if begins(b"\xd0\xcf\x11\xe0") {
-            Format::Foreign("an old Excel workbook (export it as CSV)")
-        } else if begins(b"%PDF") {
-            Format::Foreign("a PDF document")
-        } else if begins(b"\x93NUMPY") {
-            Format::Foreign("a NumPy array (numpy.savetxt writes text)")
-        } else if begins(b"$MeshFormat") {
-            Format::Foreign("a Gmsh mesh, not a measurement")
-        } else if begins(b"TDSm") {
-            Format::Foreign("a LabVIEW TDMS file")
+        } else if begins(b"MATLAB 7.3") && bytes.len() > 512 {
+            Format::Foreign(HDF5)
+        } else if let Some((_, found)) = FOREIGN.iter().find(|(mark, _)| begins(mark)) {
+            Format::Foreign(found)
         } else if dash.starts_with(b"-1") && uff::is_universal(dash) {
             Format::Universal
         } else {
