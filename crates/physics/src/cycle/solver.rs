@@ -281,34 +281,6 @@ impl<'a> Half<'a> {
         let Ok(end) = self.run("", &Unwatched);
         self.cycles.pop().ok_or((self.branch.value(), end))
     }
-
-    /// One step of the branch, with the cycle where it ends at a value asked for.
-    fn step(&mut self) -> Option<BranchEnd> {
-        let Some(left) = self.steps.checked_sub(1) else {
-            return Some(BranchEnd::Steps);
-        };
-        self.steps = left;
-        let Some(step) = self.branch.advance(self.values) else {
-            return Some(BranchEnd::Lost);
-        };
-        self.turning.follow(self.branch.value());
-        let state = &self.branch.state;
-        if let Step::At(value) = step {
-            let cycle = LimitCycle::new(self.branch.wave, state.clone());
-            if !cycle.is_physical() {
-                return Some(BranchEnd::Unphysical);
-            }
-            self.cycles.push(cycle);
-            if self.values.end_at(value, self.branch.direction > 0.0) {
-                return Some(BranchEnd::Range);
-            }
-        }
-        if state.contact.iter().all(|&point| point == PointState::SlipForward) {
-            return Some(BranchEnd::Birth);
-        }
-        let is_beyond = !(state.point.contact.friction_coefficient < self.highest);
-        is_beyond.then_some(BranchEnd::Lost)
-    }
 }
 
 impl Way for Half<'_> {
@@ -319,8 +291,32 @@ impl Way for Half<'_> {
         self.cycles.len()
     }
 
+    /// One step of the branch, with the cycle where it ends at a value asked for.
     fn advance(&mut self) -> Result<Option<BranchEnd>, Infallible> {
-        Ok(self.step())
+        let Some(left) = self.steps.checked_sub(1) else {
+            return Ok(Some(BranchEnd::Steps));
+        };
+        self.steps = left;
+        let Some(step) = self.branch.advance(self.values) else {
+            return Ok(Some(BranchEnd::Lost));
+        };
+        self.turning.follow(self.branch.value());
+        let state = &self.branch.state;
+        if let Step::At(value) = step {
+            let cycle = LimitCycle::new(self.branch.wave, state.clone());
+            if !cycle.is_physical() {
+                return Ok(Some(BranchEnd::Unphysical));
+            }
+            self.cycles.push(cycle);
+            if self.values.end_at(value, self.branch.direction > 0.0) {
+                return Ok(Some(BranchEnd::Range));
+            }
+        }
+        if state.contact.iter().all(|&point| point == PointState::SlipForward) {
+            return Ok(Some(BranchEnd::Birth));
+        }
+        let is_beyond = !(state.point.contact.friction_coefficient < self.highest);
+        Ok(is_beyond.then_some(BranchEnd::Lost))
     }
 }
 

@@ -122,12 +122,12 @@ impl Guess {
     }
 
     /// The polynomial through points at the places `at` of a coordinate along the branch, continued to `to`.
-    pub fn through(points: &[&Point], at: &[f64], to: f64) -> Self {
+    pub fn through(points: &[Point], at: &[f64], to: f64) -> Self {
         let weight = |i: usize| {
             let others = at.iter().enumerate().filter(|(j, _)| *j != i);
             others.map(|(_, other)| (to - other) / (at[i] - other)).product::<f64>()
         };
-        Self::combined(points.iter().enumerate().map(|(i, point)| (*point, weight(i))))
+        Self::combined(points.iter().enumerate().map(|(i, point)| (point, weight(i))))
     }
 }
 

@@ -170,8 +170,7 @@ impl<'c, 'b, 'a> Follower<'c, 'b, 'a> {
             let [from, to] = [&pair[0], &pair[1]].map(|point| point.place(scales));
             at.push(at[at.len() - 1] + way(from, to).1);
         }
-        let points: Vec<&Point> = last.iter().collect();
-        let mut guess = Guess::through(&points, &at, at[at.len() - 1] + reach);
+        let mut guess = Guess::through(last, &at, at[at.len() - 1] + reach);
         if let Goal::Value(value) = goal {
             guess.value = *value;
         }

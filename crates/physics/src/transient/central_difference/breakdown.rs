@@ -34,13 +34,9 @@ impl CentralDifference<'_> {
                 .fold(component(0).hypot(component(1)), |size, c| size.hypot(component(c)));
             if speed.is_finite() { speed } else { f64::MAX }
         };
-        let (mut node, mut largest) = (0, speed(0));
-        for candidate in 1..self.operator.dof_count() / count {
-            let value = speed(candidate);
-            if value > largest {
-                (node, largest) = (candidate, value);
-            }
-        }
+        let speeds = (0..self.operator.dof_count() / count).map(|node| (node, speed(node)));
+        let fastest = speeds.reduce(|best, own| if own.1 > best.1 { own } else { best });
+        let (node, largest) = fastest.unwrap_or_default();
         let [radius, angle] = self.model.place(node);
         let step = self.next_step - 1;
         let problem = format!(
