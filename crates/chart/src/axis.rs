@@ -161,7 +161,7 @@ changed! { Axis:
     /// The same with the unit's prefix chosen by the data.
     prefixed() => { factor: None }
     /// The same with a scale.
-    scaled(scale: Scale) => { scale }
+    scaled(scale: Scale) => { scale: scale }
     /// The same with room at the ends, as a fraction of the range.
     room(fraction: f64) => { ends: Ends::Room(fraction) }
     /// The same between two values, in the unit of the data.

@@ -5,12 +5,13 @@
 macro_rules! changed {
     ($of:ty: $(
         $(#[$doc:meta])*
-        $name:ident($($given:ident: $kind:ty),*) => { $($field:ident $(: $value:expr)?),+ }
+        $name:ident($($given:ident: $kind:ty),*) => { $($($field:ident).+: $value:expr),+ }
     )+) => {
         impl $of {$(
             $(#[$doc])*
-            pub fn $name(self $(, $given: $kind)*) -> Self {
-                Self { $($field $(: $value)?,)+ ..self }
+            pub fn $name(mut self $(, $given: $kind)*) -> Self {
+                $(self.$($field).+ = $value;)+
+                self
             }
         )+}
     };

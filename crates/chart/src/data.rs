@@ -26,28 +26,10 @@ pub struct PanelData {
     pub axes: [AxisData; 2],
     /// Curves, points, fields in the order of their layers.
     pub series: Vec<Series>,
-    /// Lines across the panel.
-    pub rules: Vec<RuleData>,
-    /// Texts at places.
-    pub labels: Vec<LabelData>,
-}
-
-/// A line across a panel at one value of an axis.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct RuleData {
-    /// Whether it lies at an ordinate, else at an abscissa.
-    pub is_horizontal: bool,
-    /// Where.
-    pub value: f64,
-}
-
-/// A text at a place.
-#[derive(Clone, Debug, PartialEq)]
-pub struct LabelData {
-    /// Where.
-    pub place: (f64, f64),
-    /// Plain text.
-    pub text: String,
+    /// Lines across the panel: whether each lies at an ordinate, else at an abscissa, and where.
+    pub rules: Vec<(bool, f64)>,
+    /// Texts at places, plain.
+    pub labels: Vec<(f64, f64, String)>,
 }
 
 /// An axis as it is drawn.

@@ -36,24 +36,6 @@ impl Figure {
         Self { name: name.into(), caption: caption.into(), grid, motion: None, steps: None }
     }
 
-    /// The same for one column of a page.
-    pub fn narrow(mut self) -> Self {
-        self.grid.width_mm = ONE_COLUMN;
-        self
-    }
-
-    /// The same with so many panels in a row.
-    pub fn columns(mut self, columns: usize) -> Self {
-        self.grid.columns = columns.max(1);
-        self
-    }
-
-    /// The same with columns of these relative widths.
-    pub fn weighted(mut self, weights: &[f64]) -> Self {
-        self.grid.weights = weights.to_vec();
-        self.columns(weights.len())
-    }
-
     /// The same with one horizontal axis for all panels of a column.
     pub fn shared_x(mut self) -> Self {
         self.grid.shares[0] = true;
@@ -84,21 +66,9 @@ impl Figure {
         self
     }
 
-    /// The same without letters on its panels.
-    pub fn unlettered(mut self) -> Self {
-        self.grid.has_letters = false;
-        self
-    }
-
     /// The same with a line of remarks below, in mark-up.
     pub fn note(mut self, note: impl Into<String>) -> Self {
         self.grid.notes.push(note.into());
-        self
-    }
-
-    /// The same with one scale of colours for all panels below them, over the given ends of an axis.
-    pub fn colour_foot(mut self, axis: Axis, map: ColourMap) -> Self {
-        self.grid.foot = Some(Colours::over(axis, map, &[]));
         self
     }
 
@@ -162,6 +132,18 @@ impl Figure {
 changed! { Figure:
     /// The same under another name.
     named(name: impl Into<String>) => { name: name.into() }
+    /// The same for one column of a page.
+    narrow() => { grid.width_mm: ONE_COLUMN }
+    /// The same with so many panels in a row.
+    columns(columns: usize) => { grid.columns: columns.max(1) }
+    /// The same with columns of these relative widths.
+    weighted(weights: &[f64]) => {
+        grid.weights: weights.to_vec(), grid.columns: weights.len().max(1)
+    }
+    /// The same without letters on its panels.
+    unlettered() => { grid.has_letters: false }
+    /// The same with one scale of colours for all panels below them, over the given ends of an axis.
+    colour_foot(axis: Axis, map: ColourMap) => { grid.foot: Some(Colours::over(axis, map, &[])) }
     /// The same with a body that moves, where the figure is read with scripts.
     motion(motion: Motion) => { motion: Some(motion) }
     /// The same with points of the first panel that move with a parameter, where the figure is read with scripts.

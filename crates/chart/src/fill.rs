@@ -52,7 +52,7 @@ changed! { Fill:
     /// The same with an entry in the legend.
     name(name: impl Into<String>) => { name: Some(name.into()) }
     /// The same, transparent: 0 is invisible.
-    opacity(opacity: f64) => { opacity }
+    opacity(opacity: f64) => { opacity: opacity }
 }
 
 impl Layer for Fill {

@@ -1,7 +1,7 @@
 //! Layers drawn between two axes.
 
 use super::colour_bar::Colours;
-use super::data::{LabelData, RuleData, Series};
+use super::data::Series;
 use super::frame::Frame;
 use super::legend::Key;
 use super::svg::Svg;
@@ -40,23 +40,8 @@ pub trait Layer: Send + Sync {
         true
     }
 
-    /// A place on an axis that is named beyond the frame.
-    fn rim_label(&self) -> Option<(Side, f64, &str)> {
-        None
-    }
-
     /// The values that its colours mean.
     fn colours(&self) -> Option<&Colours> {
-        None
-    }
-
-    /// The line across the panel that it is, in the unit of the data.
-    fn rule(&self) -> Option<RuleData> {
-        None
-    }
-
-    /// The text at a place that it is, in the units of the data.
-    fn label(&self) -> Option<LabelData> {
         None
     }
 

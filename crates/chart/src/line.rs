@@ -84,11 +84,11 @@ changed! { Line:
     /// The same with an entry in the legend.
     name(name: impl Into<String>) => { name: Some(name.into()) }
     /// The same with a stroke.
-    stroke(stroke: Stroke) => { stroke }
+    stroke(stroke: Stroke) => { stroke: stroke }
     /// The same with a marker of this radius (points) at every point.
     marked(marker: Marker, radius: f64) => { marker: Some((marker, radius)) }
     /// The same with so many arrow heads along it.
-    arrows(arrows: usize) => { arrows }
+    arrows(arrows: usize) => { arrows: arrows }
     /// The same with a name for those who take the numbers, which the legend does not show.
     label(label: impl Into<String>) => { label: Some(label.into()) }
     /// The same, with every sample kept for those who take the numbers: a signal to listen to.
@@ -223,13 +223,13 @@ changed! { Points:
     /// The same with a name for those who take the numbers, which the legend does not show.
     label(label: impl Into<String>) => { label: Some(label.into()) }
     /// The same with what each point is, in plain text, for readers who point at it.
-    tips(tips: Vec<String>) => { tips }
+    tips(tips: Vec<String>) => { tips: tips }
     /// The same with a marker of this radius, points, and colour.
     marker(marker: Marker, radius: f64, colour: impl Into<Colour>) => {
-        marker, radius, colour: colour.into()
+        marker: marker, radius: radius, colour: colour.into()
     }
     /// The same, each point standing for the row of a table with this number.
-    rows(rows: Vec<usize>) => { rows }
+    rows(rows: Vec<usize>) => { rows: rows }
 }
 
 impl Layer for Points {

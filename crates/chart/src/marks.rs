@@ -1,19 +1,18 @@
 //! Rules and labels that data are compared with.
 
 use super::colour::{INK, MUTED};
-use super::data::{LabelData, RuleData};
 use super::frame::{Frame, LABEL_SIZE, on_sheet};
 use super::layer::{Layer, Side};
 use super::legend::Key;
 use super::svg::{Stroke, Svg};
-use super::text::{self, Anchor, TextStyle, plain};
+use super::text::{self, Anchor, TextStyle};
 use serde::{Deserialize, Serialize};
 
 /// A line across the panel at one value.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Rule {
-    value: f64,
-    is_horizontal: bool,
+    pub(super) value: f64,
+    pub(super) is_horizontal: bool,
     stroke: Stroke,
     stretches: bool,
     pub(super) name: Option<String>,
@@ -37,6 +36,12 @@ impl Rule {
         Self::new(value, false)
     }
 
+    /// Its place on an axis, where that is named beyond the frame.
+    pub(super) fn rim_label(&self) -> Option<(Side, f64, &str)> {
+        let side = if self.is_horizontal { Side::Right } else { Side::Above };
+        Some((side, self.value, self.rim.as_deref()?))
+    }
+
     /// Where it lies in the drawing, if the axis reaches it.
     fn place(&self, frame: &Frame) -> Option<f64> {
         let (ruler, at) = match self.is_horizontal {
@@ -51,7 +56,7 @@ changed! { Rule:
     /// The same with an entry in the legend.
     name(name: impl Into<String>) => { name: Some(name.into()) }
     /// The same with a stroke.
-    stroke(stroke: Stroke) => { stroke }
+    stroke(stroke: Stroke) => { stroke: stroke }
     /// The same, and the axis reaches it.
     stretching() => { stretches: true }
     /// The same with a text along it inside the frame.
@@ -94,23 +99,14 @@ impl Layer for Rule {
     fn is_data(&self) -> bool {
         self.stretches
     }
-
-    fn rule(&self) -> Option<RuleData> {
-        Some(RuleData { is_horizontal: self.is_horizontal, value: self.value })
-    }
-
-    fn rim_label(&self) -> Option<(Side, f64, &str)> {
-        let side = if self.is_horizontal { Side::Right } else { Side::Above };
-        Some((side, self.value, self.rim.as_deref()?))
-    }
 }
 
 /// Text at a point of the data.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Label {
-    place: (f64, f64),
+    pub(super) place: (f64, f64),
     offset: (f64, f64),
-    text: String,
+    pub(super) text: String,
     style: TextStyle,
 }
 
@@ -154,7 +150,7 @@ changed! { Label:
     /// The same, moved from the point, points right and down.
     moved(right: f64, down: f64) => { offset: (right, down) }
     /// The same in a style.
-    style(style: TextStyle) => { style }
+    style(style: TextStyle) => { style: style }
 }
 
 impl Layer for Label {
@@ -169,10 +165,6 @@ impl Layer for Label {
 
     fn is_data(&self) -> bool {
         false
-    }
-
-    fn label(&self) -> Option<LabelData> {
-        Some(LabelData { place: self.place, text: plain(&self.text) })
     }
 }
 

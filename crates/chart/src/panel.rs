@@ -3,13 +3,13 @@
 use super::axis::Axis;
 use super::colour::{Colour, INK, MUTED};
 use super::colour_bar::Colours;
-use super::data::{AxisData, LabelData, PanelData, RuleData, Series};
+use super::data::{AxisData, PanelData, Series};
 use super::frame::{
     Frame, LABEL_SIZE, TICK, TITLE_SIZE, draw_grid, draw_x_axis, draw_y_axis, vertical_count,
 };
 use super::layer::{Drawn, Side};
 use super::legend::{Key, Legend};
-use super::marks::{RIM_SIZE, draw_rim_labels};
+use super::marks::{Label, RIM_SIZE, draw_rim_labels};
 use super::ruler::{Ruler, Tick, widest};
 use super::svg::{Stroke, Svg};
 use super::text::{self, Anchor, TextStyle, plain};
@@ -150,22 +150,25 @@ impl Panel {
             "" => headings.map(|heading| plain(heading)).collect(),
             caption => vec![plain(caption)],
         };
-        let rule = |mut rule: RuleData| {
-            let ruler = if rule.is_horizontal { &y } else { &x };
-            rule.value = ruler.shown(rule.value);
-            rule
-        };
-        let label = |mut label: LabelData| {
-            label.place = (x.shown(label.place.0), y.shown(label.place.1));
-            label
-        };
-        let layers = || self.layers.iter();
+        let (mut rules, mut labels) = (Vec::new(), Vec::new());
+        for layer in &self.layers {
+            match layer {
+                Drawn::Rule(rule) => {
+                    let ruler = if rule.is_horizontal { &y } else { &x };
+                    rules.push((rule.is_horizontal, ruler.shown(rule.value)));
+                }
+                Drawn::Label(Label { place, text, .. }) => {
+                    labels.push((x.shown(place.0), y.shown(place.1), plain(text)));
+                }
+                _ => {}
+            }
+        }
         PanelData {
-            rules: layers().filter_map(|l| l.rule()).map(rule).collect(),
-            labels: layers().filter_map(|l| l.label()).map(label).collect(),
             caption: title.join(", "),
             axes: [AxisData::of(&x), AxisData::of(&y)],
             series: self.layers.iter().flat_map(|layer| layer.series()).map(shown).collect(),
+            rules,
+            labels,
         }
     }
 
@@ -192,7 +195,10 @@ impl Panel {
     }
 
     fn rim_labels(&self, frame: Option<&Frame>) -> Vec<(Side, f64, &str)> {
-        let labels = self.layers.iter().filter_map(|layer| layer.rim_label());
+        let labels = self.layers.iter().filter_map(|layer| match layer {
+            Drawn::Rule(rule) => rule.rim_label(),
+            _ => None,
+        });
         let shown = |label: &(Side, f64, &str)| match (frame, label.0) {
             (Some(frame), Side::Right) => frame.y.contains(label.1),
             (Some(frame), _) => frame.x.contains(label.1),
@@ -313,7 +319,7 @@ changed! { Panel:
     /// The same with a caption above its left corner.
     caption(caption: impl Into<String>) => { caption: caption.into() }
     /// The same with a height of the data area, points; of a plane, the largest.
-    height(height: f64) => { height }
+    height(height: f64) => { height: height }
     /// The same without grid lines.
     plain() => { has_grid: false }
     /// The same with a legend of its own above it.

@@ -7,6 +7,7 @@ use super::frame::Frame;
 use super::image::{IndexedImage, Palette};
 use super::layer::Layer;
 use super::legend::Key;
+use super::scale::extremes;
 use super::svg::Svg;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
@@ -120,10 +121,8 @@ impl Surface {
             canvas.fill(corners.map(place), self.levels(triangle, corners), shade);
         }
         // An edge lies in its faces: it stands a little in front of them.
-        let reach = self.positions.iter().map(|place| place[2]);
-        let (near, far) = reach
-            .fold((f64::NEG_INFINITY, f64::INFINITY), |(near, far), z| (near.max(z), far.min(z)));
-        let lift = 4e-3 * (near - far).max(0.0);
+        let (far, near) = extremes(self.positions.iter().map(|place| place[2]));
+        let lift = 4e-3 * (near - far);
         for ends in &self.mesh.edges {
             canvas.line(ends.map(place), lift);
         }

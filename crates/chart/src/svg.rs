@@ -106,7 +106,7 @@ changed! { Stroke:
         dash: std::array::from_fn(|at| pattern.get(at).copied().unwrap_or(0.0))
     }
     /// The same line with another opacity.
-    with_opacity(opacity: f64) => { opacity }
+    with_opacity(opacity: f64) => { opacity: opacity }
 }
 
 /// A coordinate with at most two decimals and no trailing zeros.

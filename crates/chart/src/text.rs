@@ -58,9 +58,9 @@ impl TextStyle {
 
 changed! { TextStyle:
     /// The same with another anchor.
-    anchored(anchor: Anchor) => { anchor }
+    anchored(anchor: Anchor) => { anchor: anchor }
     /// The same, rotated (degrees clockwise).
-    rotated(rotation: f64) => { rotation }
+    rotated(rotation: f64) => { rotation: rotation }
     /// The same in another colour.
     coloured(colour: impl Into<Colour>) => { colour: colour.into() }
     /// The same in bold.

@@ -66,11 +66,6 @@ impl Placed<'_> {
         self.frame.area.width - caption - 24.0
     }
 
-    /// Width of a legend that has lines of its own, points.
-    pub(super) fn legend_width(&self) -> f64 {
-        self.part.1
-    }
-
     /// Room needed above the data area, points.
     pub(super) fn top_need(&self, letters: bool) -> f64 {
         let headings = self.heading_lines(letters).len() as f64 * 1.25 * HEADING_SIZE;
@@ -82,7 +77,8 @@ impl Placed<'_> {
         let legend = match self.legend.width() {
             _ if self.legend.is_empty() => 0.0,
             width if width <= self.legend_room() => LINE_HEIGHT,
-            _ => line + self.legend.height(self.legend_width()),
+            // It has lines of its own.
+            _ => line + self.legend.height(self.part.1),
         };
         let head = match self.panel.caption.is_empty() {
             true => headings.max(line).max(legend),
@@ -103,9 +99,9 @@ impl Placed<'_> {
                 let x = area.right() - self.legend.width() + 9.0;
                 self.legend.draw(svg, (x, baseline - 7.5), self.legend.width());
             } else {
-                let height = self.legend.height(self.legend_width());
+                let height = self.legend.height(self.part.1);
                 let place = (left, baseline + 1.5 - height);
-                self.legend.draw(svg, place, self.legend_width());
+                self.legend.draw(svg, place, self.part.1);
                 baseline -= height;
             }
         }

@@ -59,12 +59,9 @@ fn of_panel(panel: &PanelData, numbers: &mut Numbers) -> Value {
     let series = panel.series.iter().map(|series| of_series(series, numbers));
     let series: Vec<Value> = series.collect();
     let [x, y] = &panel.axes;
-    let rules = panel.rules.iter().filter(|rule| rule.value.is_finite());
-    let rules: Vec<Value> = rules.map(|rule| json!([rule.is_horizontal, rule.value])).collect();
-    let labels = panel.labels.iter();
-    let labels = labels.filter(|label| (label.place.0 + label.place.1).is_finite());
-    let labels: Vec<Value> =
-        labels.map(|label| json!([label.place.0, label.place.1, label.text])).collect();
+    let rules: Vec<_> = panel.rules.iter().filter(|rule| rule.1.is_finite()).collect();
+    let labels: Vec<_> =
+        panel.labels.iter().filter(|label| (label.0 + label.1).is_finite()).collect();
     json!({
         "caption": panel.caption,
         "x": axis(x),
