@@ -28,34 +28,27 @@ pub struct Condition<'a> {
 pub struct OperatingMatrix<'a> {
     /// In the order of the points, friction rising within each.
     pub conditions: Vec<Condition<'a>>,
-    /// Points whose analysis failed.
-    pub failed: Vec<&'a PointRecord>,
 }
 
 impl<'a> OperatingMatrix<'a> {
     /// The conditions of the points that have an eigenvalue analysis.
     pub fn of(records: &'a [PointRecord]) -> Self {
-        let (mut conditions, mut failed) = (Vec::new(), Vec::new());
-        for record in records {
-            if record.error.is_some() {
-                failed.push(record);
-            }
-            let Some(summary) = record.summaries.get("cea") else {
-                continue;
-            };
+        let of_point = |(record, summary): (&'a PointRecord, &Value)| {
             let modes = listed::<UnstableMode>(summary.get("unstable_modes"));
-            for count in listed::<UnstableCount>(summary.get("unstable_counts")) {
-                let friction = count.friction_coefficient;
-                let here = |mode: &&UnstableMode| mode.friction_coefficient == friction;
-                conditions.push(Condition {
-                    point: record.point,
-                    swept: &record.swept,
-                    friction_coefficient: friction,
-                    unstable: modes.iter().filter(here).copied().collect(),
-                });
-            }
-        }
-        Self { conditions, failed }
+            let counts = listed::<UnstableCount>(summary.get("unstable_counts")).into_iter();
+            counts.map(move |UnstableCount { friction_coefficient, .. }| Condition {
+                point: record.point,
+                swept: &record.swept,
+                friction_coefficient,
+                unstable: modes
+                    .iter()
+                    .filter(|mode| mode.friction_coefficient == friction_coefficient)
+                    .copied()
+                    .collect(),
+            })
+        };
+        let solved = records.iter().filter_map(|own| Some((own, own.summaries.get("cea")?)));
+        Self { conditions: solved.flat_map(of_point).collect() }
     }
 
     /// How many conditions squeal, and the one whose mode grows fastest; nothing without a condition.

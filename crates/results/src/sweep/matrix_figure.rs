@@ -268,13 +268,14 @@ fn dimensions(conditions: &[Condition<'_>]) -> Vec<Dimension> {
             None => {
                 let texts: Vec<String> = values.iter().map(|value| printed(value)).collect();
                 let name = (parameter_name(key), String::new());
-                add(&mut found, Role::Other, name, in_order(&texts));
+                let ranked = ranked(&texts, &distinct(texts.clone()), String::clone);
+                add(&mut found, Role::Other, name, ranked);
             }
         }
     }
     let name = ("friction coefficient *μ*".to_owned(), String::new());
-    let labels = ordered(&frictions, |friction| literal(&friction.to_string()));
-    add(&mut found, Role::Friction, name, labels);
+    let label = |friction: &f64| literal(&friction.to_string());
+    add(&mut found, Role::Friction, name, ranked(&frictions, &rising(&frictions), label));
     found.retain(|own| own.labels.len() > 1);
     found
 }
@@ -285,35 +286,38 @@ fn of_numbers(key: &str, numbers: &[f64], found: &mut Vec<Dimension>) {
     let is_speed = key.ends_with("rotation_speed_rpm") || key.ends_with(".speed");
     let is_both_ways = is_speed && low < 0.0 && high > 0.0;
     if is_both_ways {
-        let ways = numbers.iter().map(|speed| match *speed < 0.0 {
-            true => (1, "reverse, speed < 0".to_owned()),
-            false => (0, "forward, speed > 0".to_owned()),
-        });
+        let is_reverse: Vec<bool> = numbers.iter().map(|speed| *speed < 0.0).collect();
+        let way = |is_reverse: &bool| match is_reverse {
+            true => "reverse, speed < 0".to_owned(),
+            false => "forward, speed > 0".to_owned(),
+        };
         let name = (parameter_name(key), String::new());
-        add(found, Role::Direction, name, ways.collect());
+        add(found, Role::Direction, name, ranked(&is_reverse, &[false, true], way));
     }
     let sizes = numbers.iter().map(|v| if is_both_ways { v.abs() } else { *v });
     let sizes: Vec<f64> = sizes.collect();
     let (factor, unit) = shared_unit(key, low.abs().max(high.abs()));
     let role = if key.ends_with("pressure") { Role::Pressure } else { Role::Other };
-    let labels = ordered(&sizes, |value| in_unit(value, factor));
-    add(found, role, (parameter_name(key), unit), labels);
+    let ranked = ranked(&sizes, &rising(&sizes), |value| in_unit(*value, factor));
+    add(found, role, (parameter_name(key), unit), ranked);
 }
 
-/// Rank and label of each number, the ranks rising.
-fn ordered(numbers: &[f64], label: impl Fn(f64) -> String) -> Vec<(usize, String)> {
+/// The distinct ones of some numbers, rising.
+fn rising(numbers: &[f64]) -> Vec<f64> {
     let mut distinct = numbers.to_vec();
     distinct.sort_by(f64::total_cmp);
     distinct.dedup();
-    let rank = |value: f64| distinct.partition_point(|other| *other < value);
-    numbers.iter().map(|&value| (rank(value), label(value))).collect()
+    distinct
 }
 
-/// Rank and label of each text, by where it appears first.
-fn in_order(texts: &[String]) -> Vec<(usize, String)> {
-    let known = distinct(texts);
-    let rank = |text: &String| known.iter().position(|own| *own == text).unwrap_or(0);
-    texts.iter().map(|text| (rank(text), text.clone())).collect()
+/// The labels of distinct values, and which of them each value is.
+fn ranked<T: PartialEq>(
+    values: &[T],
+    distinct: &[T],
+    label: impl Fn(&T) -> String,
+) -> (Vec<String>, Vec<usize>) {
+    let rank = |value: &T| distinct.iter().position(|own| own == value).unwrap_or(0);
+    (distinct.iter().map(label).collect(), values.iter().map(rank).collect())
 }
 
 /// Adds a dimension, or its name to one that takes its values at the same conditions.
@@ -321,15 +325,9 @@ fn add(
     found: &mut Vec<Dimension>,
     role: Role,
     (name, unit): (String, String),
-    ranked: Vec<(usize, String)>,
+    (labels, at): (Vec<String>, Vec<usize>),
 ) {
-    let count = ranked.iter().map(|(rank, _)| rank + 1).max().unwrap_or(0);
-    let mut labels = vec![String::new(); count];
-    for (rank, label) in &ranked {
-        labels[*rank].clone_from(label);
-    }
-    let at: Vec<usize> = ranked.iter().map(|(rank, _)| *rank).collect();
-    let same = |own: &&mut Dimension| own.at == at && own.role == role && count > 1;
+    let same = |own: &&mut Dimension| own.at == at && own.role == role && labels.len() > 1;
     if let Some(known) = found.iter_mut().find(same) {
         known.name = joined(&known.name, &name);
         return;
