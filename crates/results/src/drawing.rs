@@ -76,15 +76,6 @@ pub enum DrawingError {
     Folder(#[from] FolderError),
 }
 
-/// A file of the results.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct ResultFile {
-    /// Name in the results folder.
-    pub name: String,
-    /// Its bytes.
-    pub bytes: Vec<u8>,
-}
-
 /// A page as data, `figures.bin`: what was drawn, to be drawn again at any size.
 #[derive(Serialize, Deserialize)]
 pub struct Page {
@@ -114,8 +105,21 @@ impl Page {
         Self { document, figures, manifest: manifest.clone() }
     }
 
-    /// Every figure in every format asked for, `figures/NAME.svg` and so on, and `report.html`.
-    pub fn files(&self, options: &DrawingOptions) -> Result<Vec<ResultFile>, ChartError> {
+    /// Draws into a folder.
+    pub fn draw(
+        &self,
+        folder: &OutputFolder,
+        options: &DrawingOptions,
+    ) -> Result<(), DrawingError> {
+        self.write(options, |name, bytes| folder.write_bulk(name, |out| out.write_all(bytes)))
+    }
+
+    /// Gives `write` every figure in every format asked for, `figures/NAME.svg` and so on, and `report.html`.
+    pub fn write(
+        &self,
+        options: &DrawingOptions,
+        write: impl Fn(&str, &[u8]) -> Result<(), FolderError>,
+    ) -> Result<(), DrawingError> {
         let drawn = |figure: &Figure| {
             let svg = figure.to_svg(options.width_mm)?;
             let (name, caption) = (figure.name.clone(), figure.caption.clone());
@@ -124,27 +128,18 @@ impl Page {
         };
         let drawn: Result<Vec<_>, ChartError> =
             frictionsim_physics::parallel::map(&self.figures, drawn);
-        let (files, figures): (Vec<Vec<ResultFile>>, Vec<NamedFigure>) = drawn?.into_iter().unzip();
-        let bytes = Report::of(self.document.clone(), figures, &self.manifest).to_html().into();
-        let report = ResultFile { name: REPORT.to_owned(), bytes };
-        Ok(files.into_iter().flatten().chain([report]).collect())
-    }
-
-    /// Writes [`Self::files`].
-    pub fn draw(
-        &self,
-        folder: &OutputFolder,
-        options: &DrawingOptions,
-    ) -> Result<(), DrawingError> {
-        for file in self.files(options)? {
-            folder.write_bulk(&file.name, |out| out.write_all(&file.bytes))?;
-        }
-        Ok(())
+        let (files, figures): (Vec<Vec<File>>, Vec<NamedFigure>) = drawn?.into_iter().unzip();
+        files.iter().flatten().try_for_each(|(name, bytes)| write(name, bytes))?;
+        let report = Report::of(self.document.clone(), figures, &self.manifest).to_html();
+        Ok(write(REPORT, report.as_bytes())?)
     }
 }
 
+/// Name in the results folder, and bytes.
+type File = (String, Vec<u8>);
+
 /// A figure in every format asked for.
-fn files_of(figure: &NamedFigure, options: &DrawingOptions) -> Result<Vec<ResultFile>, ChartError> {
+fn files_of(figure: &NamedFigure, options: &DrawingOptions) -> Result<Vec<File>, ChartError> {
     let drawing = Drawing::parse(&figure.svg)?;
     let file = |format: &Format| {
         let (extension, bytes) = match format {
@@ -152,7 +147,7 @@ fn files_of(figure: &NamedFigure, options: &DrawingOptions) -> Result<Vec<Result
             Format::Png => ("png", drawing.to_png(options.dots_per_inch)?),
             Format::Pdf => ("pdf", drawing.to_pdf()?),
         };
-        Ok(ResultFile { name: format!("{FIGURES}{}.{extension}", figure.name), bytes })
+        Ok((format!("{FIGURES}{}.{extension}", figure.name), bytes))
     };
     options.formats.iter().map(file).collect()
 }

@@ -268,10 +268,7 @@ impl SweepFolder {
 
     /// Draws a page.
     pub fn draw(&self, page: &Page, options: &DrawingOptions) -> Result<(), DrawingError> {
-        for file in page.files(options)? {
-            self.write(&file.name, |out| out.write_all(&file.bytes))?;
-        }
-        Ok(())
+        page.write(options, |name, bytes| self.write(name, |out| out.write_all(bytes)))
     }
 
     fn refuse_started(&self, points: &[usize]) -> Result<(), FolderError> {
