@@ -3,7 +3,7 @@
 use super::basin::basin_map;
 use super::charts::ModeLine;
 use super::charts::palette::{OPEN, SLIP, STICK};
-use super::cycle::{FamilyRecord, NamedFamily, draw_branches};
+use super::cycle::{FamilyRecord, draw_branches};
 use super::drawing::{Declaration, declared};
 use super::parameter::{parameter_axis, parameter_name};
 use super::sweep::{
@@ -62,8 +62,8 @@ pub fn draw_sweep(
     let study = Study::of(records);
     let study = &study;
     let declarations: Vec<Declaration<'_>> = vec![
-        Box::new(move || study.frequencies(modes, friction_coefficient)),
-        Box::new(move || study.status()),
+        Box::new(move || Ok(study.frequencies(modes, friction_coefficient))),
+        Box::new(move || Ok(study.status())),
         Box::new(move || critical_friction(records, highest_friction)),
         Box::new(move || basin_map(records)),
         Box::new(move || operating_matrix(records)),
@@ -71,7 +71,6 @@ pub fn draw_sweep(
     let mut figures = declared(declarations)?;
     let mut families = cycle_families(records);
     families.sort_by_key(|(_, family)| (family.mode, family.family()));
-    let families: Vec<NamedFamily<'_>> = families.iter().map(|(l, f)| (l.clone(), f)).collect();
     figures.extend(draw_branches(&families, &[])?);
     Ok(figures)
 }
@@ -176,10 +175,7 @@ impl Study {
     }
 
     /// Main frequencies, one line for each choice of the other keys, with markers for the harmonic.
-    fn frequencies(&self, modes: &[ModeLine], friction: f64) -> Result<Figure, ChartError> {
-        if !self.cycles().any(|cycle| cycle.frequency_hz.is_finite()) {
-            return Err(ChartError::empty("limit cycles over a swept key"));
-        }
+    fn frequencies(&self, modes: &[ModeLine], friction: f64) -> Figure {
         let modes = modes.iter().map(|mode| {
             let text = format!("{:.2} kHz, {}", mode.frequency_hz * 1e-3, mode.label);
             let name = format!("unstable mode of the eigenvalue analysis at *μ* = {friction}");
@@ -222,14 +218,11 @@ impl Study {
             self.over(),
             self.ring_caption()
         );
-        Ok(Figure::new("frequencies", caption).panel(panel))
+        Figure::new("frequencies", caption).panel(panel)
     }
 
     /// Shares of stick, slip and open as stacked areas, one panel for each choice of the other keys.
-    fn status(&self) -> Result<Figure, ChartError> {
-        if self.series.is_empty() {
-            return Err(ChartError::empty("contact status over a swept key"));
-        }
+    fn status(&self) -> Figure {
         let panels = self.series.iter().map(|series| {
             let known = || {
                 series
@@ -274,7 +267,7 @@ impl Study {
             self.ring_caption()
         );
         let columns = self.series.len().clamp(1, 3);
-        Ok(Figure::new("status", caption).columns(columns).shared_y().panels(panels))
+        Figure::new("status", caption).columns(columns).shared_y().panels(panels)
     }
 }
 

@@ -1,13 +1,11 @@
 //! The figure of a search for the boundary between two basins.
 
 use super::BasinSummary;
-use frictionsim_chart::{
-    Axis, ChartError, Figure, INK, Marker, Panel, Points, Rule, SERIES, Stroke,
-};
+use frictionsim_chart::{Axis, Figure, INK, Marker, Panel, Points, Rule, SERIES, Stroke};
 use frictionsim_physics::cycle::BasinRun;
 
 /// The winner of each transient over the ratio of the amplitudes at the first stick or opening.
-pub(super) fn search(summary: &BasinSummary) -> Result<Figure, ChartError> {
+pub(super) fn search(summary: &BasinSummary) -> Figure {
     let [first, second] = summary.harmonics;
     let place = |run: &BasinRun| {
         let at = if run.winner == first { 0.0 } else { 1.0 };
@@ -44,7 +42,7 @@ pub(super) fn search(summary: &BasinSummary) -> Result<Figure, ChartError> {
     .layer(points(second, true))
     .layer(points(first, false))
     .layer(points(second, false));
-    Ok(Figure::new(
+    Figure::new(
         "basin",
         match summary.of_modes {
             true => "What wins over the ratio, one point for each transient.",
@@ -54,5 +52,5 @@ pub(super) fn search(summary: &BasinSummary) -> Result<Figure, ChartError> {
             }
         },
     )
-    .panel(panel))
+    .panel(panel)
 }

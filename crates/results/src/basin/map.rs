@@ -55,9 +55,6 @@ pub fn basin_map(records: &[PointRecord]) -> Result<Figure, ChartError> {
             None => series.push((name, vec![boundary])),
         }
     }
-    if series.is_empty() {
-        return Err(nothing());
-    }
     let [one, two] = harmonics;
     let values = series.iter().flat_map(|(_, all)| all).map(|b| b.value);
     let axis = parameter_axis(key).scaled(Scale::for_values(values, 10.0));

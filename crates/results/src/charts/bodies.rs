@@ -1,7 +1,7 @@
 //! Fields of bodies in three dimensions at one time.
 
 use super::solid::SolidView;
-use frictionsim_chart::{Axis, ChartError, ColourMap, Figure, Line, Panel, Side, literal};
+use frictionsim_chart::{Axis, ColourMap, Figure, Line, Panel, Side, literal};
 use frictionsim_physics::mesh::{Mesh, SolidFace, SolidSector};
 
 /// Values at nodes (NaN: grey) on each contact surface, seen from outside along its mean normal; `surfaces` has the
@@ -29,14 +29,11 @@ pub fn contact_surfaces(
 
 /// Speed over the surface of solid bodies in several frames, each a heading and a velocity field (nodal frames, m/s),
 /// each picture with colours of its own.
-///
-/// # Errors
-/// [`ChartError::Empty`] without frames.
 pub fn speeds_of_bodies<'a>(
     mesh: &Mesh,
     caption: &str,
     frames: impl Iterator<Item = (String, &'a [f64])>,
-) -> Result<Figure, ChartError> {
+) -> Figure {
     let view = SolidView::new(mesh);
     let panels = frames.map(|(heading, velocity)| {
         let speeds = velocity.chunks_exact(3);
@@ -46,11 +43,8 @@ pub fn speeds_of_bodies<'a>(
         panel.heading(heading).colour_bar(Side::Below)
     });
     let panels: Vec<Panel> = panels.collect();
-    if panels.is_empty() {
-        return Err(ChartError::empty("velocity of the bodies"));
-    }
     let columns = panels.len().clamp(1, 3);
-    Ok(Figure::new("velocity", caption).columns(columns).panels(panels))
+    Figure::new("velocity", caption).columns(columns).panels(panels)
 }
 
 /// Speed of the nodes of the top face of a body of revolution, m/s, in the order of the plane section: outwards first.

@@ -14,9 +14,6 @@ use frictionsim_chart::{
 use frictionsim_output::significant;
 use frictionsim_physics::cycle::TwoWaveMotion;
 
-/// A family with what its name says besides the harmonic.
-pub type NamedFamily<'a> = (String, &'a FamilyRecord);
-
 /// Names and colours of the powers in the order of a branch's shares.
 const POWERS: [(&str, &str); 5] = [
     ("stick", STICK_POWER),
@@ -26,9 +23,10 @@ const POWERS: [(&str, &str); 5] = [
     ("normal contact", NORMAL_POWER),
 ];
 
-/// Draws frequency, amplitude, statuses and powers along the branches of several families.
+/// Draws frequency, amplitude, statuses and powers along the branches of several families, each with what its name says
+/// besides the harmonic.
 pub fn draw_branches(
-    families: &[NamedFamily<'_>],
+    families: &[(String, FamilyRecord)],
     two_waves: &[TwoWaveResult],
 ) -> Result<Vec<Figure>, ChartError> {
     // A branch of a single cycle is no curve.

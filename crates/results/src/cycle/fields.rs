@@ -4,8 +4,11 @@ use super::motions::encode_contact;
 use super::{CycleReport, Search};
 use crate::folder::{FolderError, OutputFolder};
 use crate::pvd::{PvdEntry, write_pvd};
-use crate::vtu::{Field, write_vtu};
+use crate::vtu::{EncodedMesh, Field, write_vtu};
 use frictionsim_physics::cycle::periodic::MotionFrame;
+use std::cell::LazyCell;
+use std::io;
+use std::ops::Deref;
 
 /// Writes each frame as a VTU file, `cycles.pvd` over the waves at time zero and, where there are several frames,
 /// `cycle-TAG.pvd` over the time; of a motion of two waves likewise `two-waves-nN-nM.vtu`, over one period of the
@@ -14,13 +17,17 @@ pub(super) fn write_fields(
     folder: &OutputFolder,
     report: &CycleReport<'_>,
 ) -> Result<(), FolderError> {
+    let mesh = LazyCell::new(|| report.body.encoded());
+    let write = |stem: &str, group: &str, frames: &[MotionFrame]| {
+        report.write_frames(folder, &mesh, (stem, group), frames)
+    };
     match &report.search {
         Search::Waves(search) => {
             let mut waves = Vec::new();
             for (place, own) in search.results.iter().enumerate() {
                 let group = format!("limit cycle of {} nodal diameters", own.family.harmonic);
                 let stem = format!("cycle-{}", own.family.tag());
-                let first = report.write_frames(folder, (&stem, &group), &own.frames)?;
+                let first = write(&stem, &group, &own.frames)?;
                 waves.extend(first.map(|own| PvdEntry { time: (place + 1) as f64, ..own }));
             }
             for own in &search.two_waves {
@@ -28,7 +35,7 @@ pub(super) fn write_fields(
                 let group = format!("waves of {first} and {second} nodal diameters together");
                 let stem = format!("two-waves-n{first}-n{second}");
                 if let Ok(found) = &own.outcome {
-                    report.write_frames(folder, (&stem, &group), &found.frames)?;
+                    write(&stem, &group, &found.frames)?;
                 }
             }
             if !waves.is_empty() {
@@ -36,16 +43,14 @@ pub(super) fn write_fields(
             }
         }
         Search::Motions(search) => {
-            for result in &search.results {
-                let Some(found) = result.own() else {
-                    continue;
-                };
-                let (motion, tag) = (&found.motion, result.tag());
+            let found = search.results.iter().filter_map(|own| Some((own.tag(), own.own()?)));
+            for (tag, found) in found {
+                let motion = &found.motion;
                 folder.write_bulk(&format!("contact-{tag}.npz"), |out| {
                     out.write_all(&encode_contact(&search.interface, motion)?)
                 })?;
                 let group = format!("limit cycle of {:.2} Hz", motion.frequency_hz);
-                report.write_frames(folder, (&format!("cycle-{tag}"), &group), &motion.frames)?;
+                write(&format!("cycle-{tag}"), &group, &motion.frames)?;
             }
         }
     }
@@ -58,6 +63,7 @@ impl CycleReport<'_> {
     fn write_frames(
         &self,
         folder: &OutputFolder,
+        mesh: &dyn Deref<Target = io::Result<EncodedMesh>>,
         (stem, group): (&str, &str),
         frames: &[MotionFrame],
     ) -> Result<Option<PvdEntry>, FolderError> {
@@ -68,8 +74,9 @@ impl CycleReport<'_> {
                 _ => format!("{stem}-{i:03}.vtu"),
             };
             folder.write(&name, |out| {
+                let mesh = mesh.as_ref().map_err(|error| io::Error::from(error.kind()))?;
                 let whole = [Field::number("time_s", frame.time)];
-                write_vtu(out, &self.body.encoded()?, &whole, &self.frame_fields(frame), &[])
+                write_vtu(out, mesh, &whole, &self.frame_fields(frame), &[])
             })?;
             entries.push(PvdEntry { time: frame.time, group: group.to_owned(), file: name });
         }

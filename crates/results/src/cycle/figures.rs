@@ -2,7 +2,7 @@
 
 use super::record::MotionRecord;
 use super::{CycleReport, Search};
-use crate::charts::palette::{status_ground, status_of_code};
+use crate::charts::palette::status_ground;
 use crate::charts::{
     ContactInstant, ContactVelocity, MovingBody, contact_figure, contact_surfaces, place_axis,
     shear_stress_figure, status_curves, status_map, velocity_figure,
@@ -43,11 +43,11 @@ pub struct CycleFigures<'a> {
 pub fn draw_cycles(data: &CycleFigures<'_>) -> Result<Vec<Figure>, ChartError> {
     let mut figures: Vec<Declaration<'_>> = Vec::new();
     for motion in &data.cycles {
-        figures.push(Box::new(move || data.status(motion)));
+        figures.push(Box::new(move || Ok(data.status(motion))));
         figures.push(Box::new(move || Ok(data.at_one_instant(motion))));
         figures.push(Box::new(move || Ok(data.history(motion))));
         figures.push(Box::new(move || Ok(data.orbit(motion))));
-        figures.push(Box::new(move || harmonics(motion)));
+        figures.push(Box::new(move || Ok(harmonics(motion))));
     }
     figures.push(Box::new(|| data.velocity()));
     figures.push(Box::new(|| data.shear_stress()));
@@ -91,22 +91,18 @@ impl<'a> CycleFigures<'a> {
     }
 
     /// The status of all contact nodes over one period; that of a wave is its history.
-    fn status(&self, motion: &MotionRecord) -> Result<Figure, ChartError> {
-        if motion.is_wave() {
-            return Err(ChartError::empty("statuses over a period"));
-        }
+    fn status(&self, motion: &MotionRecord) -> Figure {
         let times = motion.over_time(|row| row.time);
-        let codes = self.shown(&motion.status);
+        let codes: Vec<u8> = self.shown(&motion.status).into_iter().map(|own| own as u8).collect();
         let range = (times[0], times[times.len() - 1]);
         let map = status_map(&times, codes.len() / times.len(), &codes, range);
-        let (map, _) = map.ok_or_else(|| ChartError::empty("statuses over a period"))?;
         let caption = format!(
             "Contact status of every contact node over one period of the limit cycle of {}.",
             motion.whose()
         );
         let panel = Panel::new(Axis::time(), self.places()).plain().height(120.0);
-        let panel = panel.layer(map).legend();
-        Ok(Figure::new(format!("status-{}", motion.tag), caption).panel(panel))
+        let panel = panel.layers(map.map(|own| own.0)).legend();
+        Figure::new(format!("status-{}", motion.tag), caption).panel(panel)
     }
 
     /// The contact at time zero; of a wave around the whole circle, where a node at angle `theta` is in phase `n
@@ -117,8 +113,8 @@ impl<'a> CycleFigures<'a> {
             return self.on_surfaces(motion);
         }
         let n = motion.diameters.max(1);
-        let around = |values: &[f64]| self.shown(&values.repeat(n));
-        let [pressure, shear, velocity] = motion.edge.each_ref().map(|own| around(own));
+        let edge = self.shown(&motion.edge.repeat(n));
+        let all = |of: fn(&PhasePoint) -> f64| -> Vec<f64> { edge.iter().map(of).collect() };
         let speed = if body.mesh.opposite.is_some() { f64::NAN } else { self.shown_speed(motion) };
         let turns = format!("; the pattern turns against the rotor at 1/{n} of the frequency");
         let (turns, wave) =
@@ -132,24 +128,22 @@ impl<'a> CycleFigures<'a> {
             subject: [format!("Limit cycle of {} at one instant", motion.whose()), turns],
             instant: motion.heading() + wave,
             first_angle: first.unwrap_or(0.0),
-            status: &self.shown(&motion.first_statuses().repeat(n)),
-            tractions: [&pressure, &shear],
-            velocity: ContactVelocity::Absolute(&velocity, speed),
+            status: &edge.iter().map(|point| point.status).collect::<Vec<_>>(),
+            tractions: [&all(|point| point.pressure), &all(|point| point.shear)],
+            velocity: ContactVelocity::Absolute(&all(|point| point.velocity[1]), speed),
         };
         contact_figure(body, &shown)
     }
 
     /// Pressure on each contact surface at time zero, seen from outside along its mean normal; grey where it is open.
     fn on_surfaces(&self, motion: &MotionRecord) -> Figure {
-        let [pressure, ..] = &motion.edge;
         let mut values = vec![f64::NAN; self.report.body.mesh.node_count()];
-        let nodes = self.nodes().iter().zip(pressure);
-        for ((&node, &pressure), status) in nodes.zip(motion.first_statuses()) {
-            if status != ContactStatus::Open {
-                values[node as usize] = pressure;
-            }
+        let closed = self.nodes().iter().zip(&motion.edge);
+        for (&node, point) in closed.filter(|own| own.1.status != ContactStatus::Open) {
+            values[node as usize] = point.pressure;
         }
-        let largest = pressure.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
+        let pressures = motion.edge.iter().map(|point| point.pressure);
+        let largest = pressures.fold(f64::MIN_POSITIVE, f64::max);
         let axis = || Axis::new("contact pressure", "Pa").prefixed().between(0.0, largest);
         let caption = format!(
             "Limit cycle of {} at one instant: contact pressure on each contact surface, seen from \
@@ -257,14 +251,15 @@ impl<'a> CycleFigures<'a> {
     }
 
     /// Contact status at time zero of every node of the edge; of a wave that of the nearest phase.
-    fn around(&self, motion: &MotionRecord) -> Vec<u8> {
+    fn around(&self, motion: &MotionRecord) -> Vec<ContactStatus> {
         let nodes = self.report.body.mesh.contact_edge().nodes.len();
-        let points = motion.status.len().max(1);
+        let points = motion.edge.len().max(1);
         let nearest =
             |node: usize| (2 * motion.diameters * node * points + nodes) / (2 * nodes) % points;
+        let shown = |point: &PhasePoint| point.status;
         match motion.diameters {
-            0 => motion.first_statuses().into_iter().map(|status| status as u8).collect(),
-            _ => (0..nodes).filter_map(|node| motion.status.get(nearest(node)).copied()).collect(),
+            0 => motion.edge.iter().map(shown).collect(),
+            _ => (0..nodes).filter_map(|node| motion.edge.get(nearest(node)).map(shown)).collect(),
         }
     }
 
@@ -281,17 +276,16 @@ impl<'a> CycleFigures<'a> {
             kind: MotionKind::Turning {
                 displacement: body.wave(&wave.fields[0]),
                 turn: -wave.counterface_speed.signum() * TAU / wave.diameters as f64,
-                status: self.around(wave),
+                status: self.around(wave).into_iter().map(|status| status as u8).collect(),
             },
         });
         Motion { states: states.collect(), ..body.at_rest() }
     }
 
     fn velocity(&self) -> Result<Figure, ChartError> {
-        let fields = self.shown_cycles().map(|motion| {
-            let status = self.around(motion).into_iter().map(status_of_code);
-            (motion.heading(), &motion.fields[1][..], status.collect())
-        });
+        let cycles = self.shown_cycles();
+        let fields =
+            cycles.map(|motion| (motion.heading(), &motion.fields[1][..], self.around(motion)));
         let figure = velocity_figure(&self.report.body, (WHEN, 0.0), fields)?;
         let is_wave = self.cycles.iter().any(|own| own.is_wave());
         Ok(if is_wave { figure.motion(self.turning()) } else { figure })
@@ -348,10 +342,7 @@ impl Repeated {
 }
 
 /// Amplitudes of the harmonics in time of a motion of the whole mesh.
-fn harmonics(motion: &MotionRecord) -> Result<Figure, ChartError> {
-    if motion.harmonics.is_empty() {
-        return Err(ChartError::empty("harmonics in time"));
-    }
+fn harmonics(motion: &MotionRecord) -> Figure {
     let amplitudes = |c: usize| motion.harmonics.iter().map(|own| own.amplitude[c]).collect();
     let [normal, along]: [Vec<f64>; 2] = [0, 1].map(amplitudes);
     let caption = format!(
@@ -372,5 +363,5 @@ fn harmonics(motion: &MotionRecord) -> Result<Figure, ChartError> {
     let largest = |values: &[f64]| values.iter().copied().fold(0.0, f64::max);
     let has_normal = largest(&normal) > ROUND_OFF * largest(&along);
     let normal = has_normal.then(|| line(&normal, SERIES[2], "normal"));
-    Ok(Figure::new(format!("harmonics-{}", motion.tag), caption).panel(panel.layers(normal)))
+    Figure::new(format!("harmonics-{}", motion.tag), caption).panel(panel.layers(normal))
 }

@@ -19,7 +19,7 @@ pub use branch::{
     BranchRecord, BranchSummary, FamilyRecord, ModeOfChange, MotionBranch, StabilityChangeSummary,
     WaveBranch,
 };
-pub use branches::{NamedFamily, draw_branches};
+pub use branches::draw_branches;
 pub use figures::CycleFigures;
 pub use motions::{FoundCycle, PeriodicResult};
 pub use summary::*;
@@ -205,9 +205,8 @@ impl CycleSummary {
         data: &CycleFigures<'_>,
         options: &DrawingOptions,
     ) -> Result<(), DrawingError> {
-        let families = data.report.curves();
-        let families: Vec<NamedFamily<'_>> =
-            families.iter().map(|own| (String::new(), own)).collect();
+        let families = data.report.curves().into_iter();
+        let families: Vec<_> = families.map(|own| (String::new(), own)).collect();
         let mut figures = figures::draw_cycles(data)?;
         figures.extend(draw_branches(&families, data.report.two_waves())?);
         write_page(folder, self.document().titled(data.report.title), figures, options)

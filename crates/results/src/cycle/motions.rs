@@ -241,7 +241,6 @@ impl PeriodicResult {
             let (node, body) = (node as usize, &report.body);
             contact_node(motion, place, (body.mesh.node_label(node), body.position(node)))
         });
-        let codes = motion.instants.iter().flat_map(|at| &at.status);
         let exponents = known(&found.stability)
             .map(|found| found.multipliers.iter().map(|own| (None, perturbation(own))).collect());
         Some(MotionRecord {
@@ -249,16 +248,12 @@ impl PeriodicResult {
             diameters: 0,
             mode: self.mode.mode,
             frequency_hz: motion.frequency_hz,
-            history: history(motion),
-            status: codes.map(|status| *status as u8).collect(),
+            history: motion.instants.iter().map(|at| point(motion, at, motion.node)).collect(),
+            edge: (0..search.interface.len()).map(|node| point(motion, first, node)).collect(),
+            status: motion.instants.iter().flat_map(|at| at.status.iter().copied()).collect(),
             node: motion.node,
             counterface_speed: motion.counterface_speed,
             friction_coefficient: motion.friction_coefficient,
-            edge: [
-                first.pressure.clone(),
-                first.shear.clone(),
-                first.velocity.iter().map(|v| v[1]).collect(),
-            ],
             nodes: nodes.collect(),
             harmonics: motion.harmonics.iter().take(found.harmonic_count).copied().collect(),
             fields: motion.frames.first().map_or_else(Default::default, |own| own.fields.clone()),
@@ -268,10 +263,9 @@ impl PeriodicResult {
     }
 }
 
-/// Contact and motion over the period of the contact node that moves most.
-fn history(motion: &PeriodicMotion) -> Vec<PhasePoint> {
-    let node = motion.node;
-    let row = |at: &ContactInstant| PhasePoint {
+/// Contact and motion of a contact node at one instant, by its place among those of the contact.
+fn point(motion: &PeriodicMotion, at: &ContactInstant, node: usize) -> PhasePoint {
+    PhasePoint {
         phase: TAU * at.time * motion.frequency_hz,
         time: at.time,
         status: at.status[node],
@@ -279,8 +273,7 @@ fn history(motion: &PeriodicMotion) -> Vec<PhasePoint> {
         shear: at.shear[node],
         displacement: at.displacement[node],
         velocity: at.velocity[node],
-    };
-    motion.instants.iter().map(row).collect()
+    }
 }
 
 /// Means and amplitudes of a contact node, by its place among those of the contact.

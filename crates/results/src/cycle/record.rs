@@ -3,7 +3,6 @@
 use super::branch::{BranchRecord, BranchRows, FamilyRecord};
 use super::summary::{CycleName, OnsetSummary, SoughtCycle};
 use super::verdicts::Perturbation;
-use crate::charts::palette::status_of_code;
 use crate::extent::Extent;
 use frictionsim_physics::contact::ContactStatus;
 use frictionsim_physics::cycle::PhasePoint;
@@ -39,17 +38,16 @@ pub(super) struct MotionRecord {
     pub frequency_hz: f64,
     /// Contact and motion over the period: of the contact node that moves most, of a wave of any.
     pub history: Vec<PhasePoint>,
-    /// Statuses of all contact nodes, instant by instant, of a wave along the phase: 0 open, 1 stick, 2 slip.
-    pub status: Vec<u8>,
+    /// All contact nodes at time zero, of a wave along the phase.
+    pub edge: Vec<PhasePoint>,
+    /// Statuses of all contact nodes, instant by instant; none of a wave.
+    pub status: Vec<ContactStatus>,
     /// Contact node that moves most, among those of the edge.
     pub node: usize,
     /// Speed of the counterface there, m/s.
     pub counterface_speed: f64,
     /// Friction coefficient there; none where it falls with the slip speed.
     pub friction_coefficient: Option<f64>,
-    /// Pressure (Pa), shear (Pa) and velocity along the counterface (m/s) of all contact nodes at time zero, of a wave
-    /// along the phase.
-    pub edge: [Vec<f64>; 3],
     /// The contact nodes over the period; none of a wave.
     pub nodes: Vec<ContactNode>,
     /// The harmonics in time in which it is told; none of a wave.
@@ -105,11 +103,5 @@ impl MotionRecord {
     /// One quantity of the history.
     pub(super) fn over_time(&self, of: impl Fn(&PhasePoint) -> f64) -> Vec<f64> {
         self.history.iter().map(of).collect()
-    }
-
-    /// Status of all contact nodes at time zero, of a wave along the phase.
-    pub(super) fn first_statuses(&self) -> Vec<ContactStatus> {
-        let first = self.status.iter().take(self.edge[0].len());
-        first.map(|&code| status_of_code(code)).collect()
     }
 }

@@ -23,10 +23,11 @@ columns! {
 
 columns! {
     /// What a cycle is.
-    pub(crate) MOTION: cycle as CycleMotion;
-    main_frequency_hz: "frequency" = cycle.main_frequency_hz, Always "main frequency" Fixed(2);
+    pub(crate) MOTION: own as SoughtCycle;
+    main_frequency_hz: "frequency"
+        = own.of(|cycle| Some(cycle.main_frequency_hz)), Always "main frequency" Fixed(2);
     amplitude_m: "amplitude along the counterface"
-        = cycle.amplitude_m, Always "amplitude" Scientific(3);
+        = own.of(|cycle| cycle.amplitude_m), Always "amplitude" Scientific(3);
 }
 
 columns! {
@@ -48,9 +49,9 @@ columns! {
 
 columns! {
     /// How well its powers balance.
-    pub(crate) BALANCE: cycle as CycleMotion;
+    pub(crate) BALANCE: own as SoughtCycle;
     balance_residual: "residual of the energy balance, relative to the power of the counterface"
-        = cycle.balance_residual, Always "balance" Scientific(1);
+        = own.of(|cycle| Some(cycle.balance_residual)), Always "balance" Scientific(1);
 }
 
 columns! {
@@ -238,37 +239,34 @@ impl SoughtCycle {
     }
 }
 
-/// A table with what each cycle is; nothing where there is none.
-fn with_motions(table: Table, cycles: &[Option<&CycleMotion>]) -> Table {
-    let status = cycles.iter().map(|own| Some((*own)?.status));
-    table.group("", "", MOTION, cycles.iter().copied()).group("", "", STATUS, status)
-}
-
-/// A table with where the power of each cycle goes.
-fn with_powers(table: Table, cycles: &[Option<&CycleMotion>]) -> Table {
-    let powers = cycles.iter().map(|own| Some((*own)?.power_w));
-    table.group("", "", POWERS, powers).group("", "", BALANCE, cycles.iter().copied())
-}
-
 impl CycleSummary {
     /// Tables and sentences of a search.
     pub fn document(&self) -> Document {
         let cycles = &self.cycles;
-        let all: Vec<Option<&CycleMotion>> = cycles.iter().map(|own| own.cycle.as_ref()).collect();
+        let found = || cycles.iter().filter(|own| own.cycle.is_some());
+        let status = |own: &SoughtCycle| own.of(|cycle| Some(cycle.status));
+        let power = |own: &SoughtCycle| own.of(|cycle| Some(cycle.power_w));
         let motions = Table::new("", "Limit cycles at the case's own operating point")
             .columns(NAMES, cycles)
-            .columns(BESIDE, cycles);
-        let motions = with_motions(motions, &all).columns(KNOWN, cycles).columns(SAID, cycles);
+            .columns(BESIDE, cycles)
+            .columns(MOTION, cycles)
+            .group("", "", STATUS, cycles.iter().map(status))
+            .columns(KNOWN, cycles)
+            .columns(SAID, cycles);
         let powers = Table::new("", "Their powers")
-            .columns(NAMES, cycles.iter().filter(|own| own.cycle.is_some()));
-        let found: Vec<Option<&CycleMotion>> =
-            all.iter().copied().filter(Option::is_some).collect();
-        let powers = with_powers(powers, &found);
-        let file = Table::new("cycle.csv", "").columns(NAMES, cycles);
-        let file = with_powers(with_motions(file, &all), &all);
-        let file = file.columns(KNOWN, cycles).columns(ERRORS, cycles);
+            .columns(NAMES, found())
+            .group("", "", POWERS, found().map(power))
+            .columns(BALANCE, found());
+        let file = Table::new("cycle.csv", "")
+            .columns(NAMES, cycles)
+            .columns(MOTION, cycles)
+            .group("", "", STATUS, cycles.iter().map(status))
+            .group("", "", POWERS, cycles.iter().map(power))
+            .columns(BALANCE, cycles)
+            .columns(KNOWN, cycles)
+            .columns(ERRORS, cycles);
         let results = Section::new("Results");
-        let results = match self.steady_sliding_stable && found.is_empty() {
+        let results = match self.steady_sliding_stable && found().next().is_none() {
             true => results,
             false => results.facts(cycles.iter().map(SoughtCycle::fact)).tables([
                 motions,

@@ -239,22 +239,17 @@ impl CycleResult {
         search: &WaveSearch,
     ) -> Option<MotionRecord> {
         let cycle = self.cycle.as_ref().ok()?;
-        let points = &cycle.points;
         Some(MotionRecord {
             tag: self.family.tag(),
             diameters: self.family.harmonic,
             mode: 0,
             frequency_hz: cycle.frequency_hz(),
-            history: points.clone(),
-            status: points.iter().map(|point| point.status as u8).collect(),
+            history: cycle.points.clone(),
+            edge: cycle.points.clone(),
+            status: Vec::new(),
             node: 0,
             counterface_speed: search.contact.rotation_speed * search.inner_radius,
             friction_coefficient: Some(search.contact.friction_coefficient),
-            edge: [
-                points.iter().map(|point| point.pressure).collect(),
-                points.iter().map(|point| point.shear).collect(),
-                points.iter().map(|point| point.velocity[1]).collect(),
-            ],
             nodes: Vec::new(),
             harmonics: Vec::new(),
             fields: self.frames.first().map_or_else(Default::default, |own| own.fields.clone()),

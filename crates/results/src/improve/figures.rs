@@ -25,19 +25,15 @@ pub fn figures(
     };
     let mut order: Vec<&TargetFields> = fields.iter().collect();
     frictionsim_physics::order::sort_by_number(&mut order, |a| -growth(a));
-    let mut figures: Vec<Declaration<'_>> = Vec::new();
-    for own in order.into_iter().take(MOST) {
-        figures.push(Box::new(move || target_figure(summary, mesh, own)));
-    }
-    declared(figures)
+    let figures = order
+        .into_iter()
+        .take(MOST)
+        .map(|own| -> Declaration<'_> { Box::new(move || Ok(target_figure(summary, mesh, own))) });
+    declared(figures.collect())
 }
 
 /// The derivatives of one growth rate over the body, a panel for each kind of modification.
-fn target_figure(
-    summary: &ImproveSummary,
-    mesh: &Mesh,
-    own: &TargetFields,
-) -> Result<Figure, ChartError> {
+fn target_figure(summary: &ImproveSummary, mesh: &Mesh, own: &TargetFields) -> Figure {
     let Sizes { mass_kg, stiffness_n_per_m, damping_n_s_per_m, patch_radius_m: radius, .. } =
         summary.sizes;
     let unit = |unit: &str| summary.extent.unit(unit);
@@ -83,7 +79,7 @@ fn target_figure(
         own.mode, own.frequency_hz, summary.friction_coefficient
     );
     let name = format!("improve-mode-{}", own.mode);
-    Ok(Figure::new(name, caption).columns(2).panels(panels))
+    Figure::new(name, caption).columns(2).panels(panels)
 }
 
 /// Means at the nodes of values in the elements around them.

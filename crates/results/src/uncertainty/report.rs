@@ -4,8 +4,9 @@ use super::figures::{indices, robust, uncertainty};
 use super::summary::{DesignCurve, FamilySummary, Index, UncertaintySummary};
 use super::{ONSETS, Sample};
 use crate::Manifest;
-use crate::drawing::{Declaration, DrawingError, DrawingOptions, Page, declared};
+use crate::drawing::{DrawingError, DrawingOptions, Page};
 use crate::sweep::SweepFolder;
+use frictionsim_chart::Figure;
 use frictionsim_output::{Document, Format, Section, Table, columns};
 
 columns! {
@@ -89,15 +90,13 @@ pub fn draw_report(
     manifest: &Manifest,
     options: &DrawingOptions,
 ) -> Result<(), DrawingError> {
-    let mut declarations: Vec<Declaration<'_>> = vec![Box::new(|| Ok(uncertainty(summary)))];
-    if !summary.sobol.is_empty() {
-        declarations.push(Box::new(|| Ok(indices(summary))));
-    }
-    if let Some(designs) = &summary.robust {
-        declarations.push(Box::new(|| Ok(robust(designs))));
-    }
-    let page = Page::new(document, declared(declarations)?, manifest);
-    folder.write_page(&page, options)
+    let figures = [
+        Some(uncertainty(summary)),
+        (!summary.sobol.is_empty()).then(|| indices(summary)),
+        summary.robust.as_ref().map(robust),
+    ];
+    let figures = figures.into_iter().flatten().filter(Figure::has_data).collect();
+    folder.write_page(&Page::new(document, figures, manifest), options)
 }
 
 /// Tables and sentences.
