@@ -36,7 +36,7 @@ pub(super) fn run(options: &RunOptions) -> Result<(), Failure> {
     };
     let response = FrequencyResponse::new(frf.frequencies_hz.clone(), values, frf.quantity);
     // A few lines are numbers, but no curve.
-    let figures = || Ok(response.iter().map(response_figure).collect());
+    let figures = || response.iter().map(response_figure).collect();
     session.finish_result(folder, summary.document(), &summary, figures)
 }
 

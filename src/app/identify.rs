@@ -84,7 +84,7 @@ pub(super) fn run(asked: &Arguments) -> Result<(), Failure> {
         let text: String = file.responses.iter().map(write_response).collect();
         copy.write(text.as_bytes())?;
     }
-    let figures = || Ok(vec![identification(&responses[0], &found)]);
+    let figures = || vec![identification(&responses[0], &found)];
     asked.output.finish_result(
         folder,
         Told::of(measurement.head(), document(&summary)),

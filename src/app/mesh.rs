@@ -2,7 +2,7 @@
 
 use super::{Failure, RunOptions, Session};
 use crate::case::{AssemblyBody, Case, ModeLimit};
-use crate::chart::{ChartError, Figure};
+use crate::chart::Figure;
 use crate::mesh::{AnnulusMesh, SolidSector};
 use crate::results::OutputFolder;
 use crate::results::mesh::{
@@ -33,7 +33,7 @@ pub(super) fn run(options: &RunOptions) -> Result<(), Failure> {
     if let Some(sector) = &solid {
         statistics.turn(sector);
     }
-    let figures = || Ok(vec![plane_figure(&mesh, &case.title, &case.output.probes)]);
+    let figures = || vec![plane_figure(&mesh, &case.title, &case.output.probes)];
     finish(&session, folder, (statistics, Vec::new()), figures)
 }
 
@@ -52,7 +52,7 @@ fn run_solid(
     let contact_nodes = contacts.flat_map(|role| mesh.boundaries[*role.0].nodes.iter().copied());
     write_mesh(&folder, mesh, contact_nodes)?;
     let statistics = SolidMeshStatistics::new(mesh, &densities, &roles);
-    let figures = || Ok(vec![solid_figure(mesh, &case.title, &roles)]);
+    let figures = || vec![solid_figure(mesh, &case.title, &roles)];
     finish(session, folder, (statistics, case.taken.notes.clone()), figures)
 }
 
@@ -61,7 +61,7 @@ fn finish<S: Measured>(
     session: &Session,
     folder: OutputFolder,
     (mesh, notes): (S, Vec<String>),
-    figures: impl FnOnce() -> Result<Vec<Figure>, ChartError>,
+    figures: impl FnOnce() -> Vec<Figure>,
 ) -> Result<(), Failure> {
     let summary = MeshSummary { mesh, notes, not_used: session.case.taken.not_used() };
     session.finish_result(folder, summary.document(), &summary, figures)

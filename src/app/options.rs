@@ -3,12 +3,12 @@
 use super::limits::STANDARD_INPUT;
 use super::{Failure, terminal};
 use crate::case::unset;
-use crate::chart::{ChartError, Figure, WIDEST};
+use crate::chart::{Figure, WIDEST};
 use crate::fem::operator::SimdLevel;
 use crate::output::Document;
 use crate::results::{
-    DOTS_PER_INCH, DrawingError, DrawingOptions, Format, Head, Manifest, OutputFolder, Replace,
-    is_result, read_manifest, write_page, write_summary, write_tables,
+    DOTS_PER_INCH, DrawingOptions, Format, Head, Manifest, OutputFolder, Replace, is_result,
+    read_manifest, write_page, write_summary, write_tables,
 };
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{ArgAction, Args, ValueHint};
@@ -214,12 +214,11 @@ impl OutputOptions {
         folder: OutputFolder,
         told: Told<'_>,
         summary: &impl Serialize,
-        figures: impl FnOnce() -> Result<Vec<Figure>, ChartError>,
+        figures: impl FnOnce() -> Vec<Figure>,
     ) -> Result<(), Failure> {
         write_tables(&folder, &told.document)?;
         if let Some(options) = self.drawing() {
-            let figures = figures().map_err(DrawingError::from)?;
-            write_page(&folder, told.document, figures, &options)?;
+            write_page(&folder, told.document, figures(), &options)?;
         }
         let object = write_summary(&folder, told.head, summary)?;
         self.finish(folder, &told.text, &object)

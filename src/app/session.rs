@@ -2,7 +2,7 @@
 
 use super::{Failure, RunOptions, Told, embedded, input_name, read_input, terminal};
 use crate::case::{Case, RawCase};
-use crate::chart::{ChartError, Figure};
+use crate::chart::Figure;
 use crate::fem::operator::SimdLevel;
 use crate::output::Document;
 use crate::results::{Finding, FolderError, Head, MESH, Manifest, OutputFolder, declared};
@@ -102,7 +102,7 @@ impl Session {
         folder: OutputFolder,
         document: Document,
         summary: &impl Serialize,
-        figures: impl FnOnce() -> Result<Vec<Figure>, ChartError>,
+        figures: impl FnOnce() -> Vec<Figure>,
     ) -> Result<(), Failure> {
         self.options.output.finish_result(folder, Told::of(self.head(), document), summary, figures)
     }

@@ -49,20 +49,13 @@ impl Default for DrawingOptions {
     }
 }
 
-/// Declares a figure.
-pub type Declaration<'a> = Box<dyn Fn() -> Result<Figure, ChartError> + Sync + Send + 'a>;
+/// Declares a figure, where there is one.
+pub type Declaration<'a> = Box<dyn Fn() -> Option<Figure> + Sync + Send + 'a>;
 
 /// Declares the figures side by side and keeps those that have something to draw, in order.
-///
-/// # Errors
-/// That of a figure that cannot be declared although there is something to draw.
-pub fn declared(declarations: Vec<Declaration<'_>>) -> Result<Vec<Figure>, ChartError> {
+pub fn declared(declarations: Vec<Declaration<'_>>) -> Vec<Figure> {
     let all: Vec<_> = frictionsim_physics::parallel::map(declarations, |declare| declare());
-    let is_kept = |own: &Result<Figure, ChartError>| match own {
-        Ok(figure) => figure.has_data(),
-        Err(error) => !matches!(error, ChartError::Empty(_)),
-    };
-    all.into_iter().filter(is_kept).collect()
+    all.into_iter().flatten().filter(Figure::has_data).collect()
 }
 
 /// A figure that could not be drawn or written.

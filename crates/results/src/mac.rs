@@ -2,9 +2,7 @@
 
 use super::Finding;
 use super::drawing::Declaration;
-use frictionsim_chart::{
-    Axis, ChartError, ColourMap, Figure, Heat, INK, Marker, Panel, Points, Side,
-};
+use frictionsim_chart::{Axis, ColourMap, Figure, Heat, INK, Marker, Panel, Points, Side};
 use frictionsim_output::{Described, Document, Section, Table, columns};
 use serde::Serialize;
 use std::f64::consts::TAU;
@@ -133,12 +131,12 @@ impl Finding for MacSummary {
     }
 
     fn figures(&self) -> Vec<Declaration<'_>> {
-        vec![Box::new(|| matrix(self))]
+        vec![Box::new(|| Some(matrix(self)))]
     }
 }
 
 /// The criterion over modes and shapes, pairs marked.
-fn matrix(summary: &MacSummary) -> Result<Figure, ChartError> {
+fn matrix(summary: &MacSummary) -> Figure {
     let (shapes, modes) = (summary.shapes.len(), summary.modes.len());
     let span = |count: usize| ((0.5, count as f64 + 0.5), count);
     let axis = Axis::new("modal assurance criterion", "").between(0.0, 1.0);
@@ -156,9 +154,9 @@ fn matrix(summary: &MacSummary) -> Result<Figure, ChartError> {
         .layer(heat)
         .layer(Points::new(places).marker(Marker::Circle, 2.6, INK))
         .colour_bar(Side::Right);
-    Ok(Figure::new(
+    Figure::new(
         "mac",
         "Modal assurance criterion of each measured shape with each mode; circles are the pairs.",
     )
-    .panel(panel))
+    .panel(panel)
 }

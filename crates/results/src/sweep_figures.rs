@@ -12,8 +12,7 @@ use super::sweep::{
 };
 use super::{DrawingError, DrawingOptions, Manifest, Page};
 use frictionsim_chart::{
-    Axis, ChartError, Figure, Fill, INK, Line, Marker, Panel, Points, Rule, Scale, Stroke, literal,
-    look, plain,
+    Axis, Figure, Fill, INK, Line, Marker, Panel, Points, Rule, Scale, Stroke, literal, look, plain,
 };
 use serde_json::{Map, Value};
 
@@ -44,7 +43,7 @@ pub fn draw(
     drawing: &SweepDrawing,
 ) -> Result<(), DrawingError> {
     let frictions = (report.friction_coefficient, drawing.highest_friction);
-    let figures = draw_sweep(&report.records, frictions, &drawing.references)?;
+    let figures = draw_sweep(&report.records, frictions, &drawing.references);
     folder.write_page(&Page::new(document(report, true), figures, manifest), &drawing.options)
 }
 
@@ -58,21 +57,21 @@ pub fn draw_sweep(
     records: &[PointRecord],
     (friction_coefficient, highest_friction): (f64, f64),
     modes: &[ModeLine],
-) -> Result<Vec<Figure>, ChartError> {
+) -> Vec<Figure> {
     let study = Study::of(records);
     let study = &study;
     let declarations: Vec<Declaration<'_>> = vec![
-        Box::new(move || Ok(study.frequencies(modes, friction_coefficient))),
-        Box::new(move || Ok(study.status())),
+        Box::new(move || Some(study.frequencies(modes, friction_coefficient))),
+        Box::new(move || Some(study.status())),
         Box::new(move || critical_friction(records, highest_friction)),
         Box::new(move || basin_map(records)),
         Box::new(move || operating_matrix(records)),
     ];
-    let mut figures = declared(declarations)?;
+    let mut figures = declared(declarations);
     let mut families = cycle_families(records);
     families.sort_by_key(|(_, family)| (family.mode, family.family()));
-    figures.extend(draw_branches(&families, &[])?);
-    Ok(figures)
+    figures.extend(draw_branches(&families, &[]));
+    figures
 }
 
 /// The limit cycle found at one point.

@@ -51,7 +51,7 @@ fn a_run_gets_every_figure_of_its_record() {
         },
     };
     let started = std::time::Instant::now();
-    let figures = draw_run(&data).unwrap();
+    let figures = draw_run(&data);
     println!("{} figures of a run drawn in {:?}", figures.len(), started.elapsed());
     let expected: [(&str, &[&str]); 10] = [
         ("overview-196", &["node 196", "time t (ms)"]),
@@ -77,5 +77,5 @@ fn a_run_gets_every_figure_of_its_record() {
     let drawn = |figures: &[Figure]| -> Vec<String> {
         figures.iter().map(|figure| figure.to_svg(None).unwrap()).collect()
     };
-    assert_eq!(drawn(&figures), drawn(&draw_run(&data).unwrap()));
+    assert_eq!(drawn(&figures), drawn(&draw_run(&data)));
 }

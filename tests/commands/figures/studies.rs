@@ -45,7 +45,7 @@ fn points_over_speed_show_harmonics_selection_and_end_of_stick() {
         .collect();
     let modes = [(9901.0, "mode 5, *n* = 2"), (7660.0, "mode 3, *n* = 1")];
     let modes = modes.map(|(frequency_hz, label)| ModeLine { frequency_hz, label: label.into() });
-    let figures = draw_sweep(&records, (0.3, 1.0), &modes).unwrap();
+    let figures = draw_sweep(&records, (0.3, 1.0), &modes);
     let names: Vec<&str> = figures.iter().map(|f| f.name.as_str()).collect();
     assert_eq!(names, ["frequencies", "status"]);
     let words = "μ = 0.2 ; n = 1 ; n = 2 ; ω*, μ = 0.4 ; 9.90 kHz, mode 5 ; at μ = 0.3 ; \
@@ -69,7 +69,7 @@ fn points_over_any_key_have_frequencies_and_status_too() {
             )
         })
         .collect();
-    let figures = draw_sweep(&records, (0.3, 1.0), &[]).unwrap();
+    let figures = draw_sweep(&records, (0.3, 1.0), &[]);
     assert_eq!(figures.len(), 2);
     let svg = figures[0].to_svg(None).unwrap();
     check("study-interference", &svg, &["interference δ ; main frequency f (kHz)"]);
@@ -95,7 +95,7 @@ fn eigenvalue_analyses_over_one_key_become_a_critical_friction_line_for_each_bra
             )
         })
         .collect();
-    let figures = draw_sweep(&records, (0.3, 1.0), &[]).unwrap();
+    let figures = draw_sweep(&records, (0.3, 1.0), &[]);
     assert_eq!(figures.len(), 1);
     let svg = figures[0].to_svg(None).unwrap();
     let words = "stiffness damping βR (s) ; n = 2, branch 0 ; stable ; μ (–)";

@@ -2,9 +2,7 @@
 
 use super::super::parameter::parameter_axis;
 use super::super::sweep::{PointRecord, swept_text};
-use frictionsim_chart::{
-    Axis, ChartError, Figure, Line, Marker, Panel, Points, Scale, literal, look,
-};
+use frictionsim_chart::{Axis, Figure, Line, Marker, Panel, Points, Scale, literal, look};
 use serde_json::Value;
 
 const SPEED: &str = "contact.rotation_speed_rpm";
@@ -19,15 +17,10 @@ struct Boundary {
 
 /// Amplitude ratio at saturation above which the second wave wins, over the rotation speed or the first swept key; one
 /// line for each choice of the other keys.
-///
-/// # Errors
-/// [`ChartError`] if no point has a boundary.
-pub fn basin_map(records: &[PointRecord]) -> Result<Figure, ChartError> {
-    let nothing = || ChartError::empty("basins over a swept key");
-    let first = records.first().ok_or_else(nothing)?;
+pub fn basin_map(records: &[PointRecord]) -> Option<Figure> {
+    let first = records.first()?;
     let keys = || first.swept.keys();
-    let key = keys().find(|key| *key == SPEED).or_else(|| keys().next());
-    let key = key.ok_or_else(nothing)?;
+    let key = keys().find(|key| *key == SPEED).or_else(|| keys().next())?;
     let mut harmonics = [1, 2];
     let mut series: Vec<(String, Vec<Boundary>)> = Vec::new();
     for record in records {
@@ -90,5 +83,5 @@ pub fn basin_map(records: &[PointRecord]) -> Result<Figure, ChartError> {
         "Amplitude of *n* = {two} over that of *n* = {one} at the first stick or opening, above \
          which *n* = {two} wins; bars: the bounds found."
     );
-    Ok(Figure::new("basins", caption).panel(panel))
+    Some(Figure::new("basins", caption).panel(panel))
 }

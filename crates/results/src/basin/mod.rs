@@ -174,6 +174,6 @@ impl Finding for BasinSummary {
     }
 
     fn figures(&self) -> Vec<Declaration<'_>> {
-        vec![Box::new(|| Ok(figures::search(self)))]
+        vec![Box::new(|| Some(figures::search(self)))]
     }
 }

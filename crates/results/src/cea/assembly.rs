@@ -5,7 +5,7 @@ use crate::charts::contact_surfaces;
 use crate::finding::write_table;
 use crate::folder::{FolderError, OutputFolder};
 use crate::vtu::{EncodedMesh, Field, write_vtu};
-use frictionsim_chart::{Axis, ChartError, Figure};
+use frictionsim_chart::{Axis, Figure};
 use frictionsim_output::{Table, columns};
 use frictionsim_physics::contact::ContactSite;
 use frictionsim_physics::fem::SolidStress;
@@ -94,9 +94,9 @@ impl AssemblyReport {
         mesh: &Mesh,
         (name, what): (&str, &'static str),
         value: fn(&AssemblyPoint) -> f64,
-    ) -> Result<Figure, ChartError> {
+    ) -> Option<Figure> {
         if self.is_free_of_stress() {
-            return Err(ChartError::empty("tractions of contacts that are free of stress"));
+            return None;
         }
         let tractions = self.around_nodes(mesh, value);
         let closed = self.around_nodes(mesh, |point| f64::from(u8::from(point.is_closed)));
@@ -114,7 +114,7 @@ impl AssemblyReport {
         let arrows = self.surfaces.iter().map(|(contact, _)| self.arrow(contact));
         let arrows: Vec<[[f64; 3]; 2]> = arrows.collect();
         let surfaces = (mesh, &self.surfaces[..]);
-        Ok(contact_surfaces((name, &caption), surfaces, (&values, &arrows), &axis))
+        Some(contact_surfaces((name, &caption), surfaces, (&values, &arrows), &axis))
     }
 
     /// Ends of an arrow in the middle of a contact along the mean sliding of the other surface over it.

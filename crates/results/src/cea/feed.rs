@@ -6,9 +6,7 @@ use crate::charts::SolidView;
 use crate::finding::write_table;
 use crate::folder::{FolderError, OutputFolder};
 use crate::vtu::{EncodedMesh, Field, write_vtu};
-use frictionsim_chart::{
-    Axis, ChartError, ColourMap, Figure, INK, Line, Panel, Rule, Stroke, literal,
-};
+use frictionsim_chart::{Axis, ColourMap, Figure, INK, Line, Panel, Rule, Stroke, literal};
 use frictionsim_output::{Table, columns, fixed};
 use frictionsim_physics::mesh::{Counterface, Mesh, SolidFace};
 use std::f64::consts::TAU;
@@ -121,21 +119,18 @@ impl Feed {
     }
 
     /// Growth for each area of the contact: lines along a plane edge, pictures of the surfaces of solid bodies.
-    pub(super) fn figure(&self, report: &CeaReport<'_>) -> Result<Figure, ChartError> {
+    pub(super) fn figure(&self, report: &CeaReport<'_>) -> Option<Figure> {
         let modes = self.fastest(report);
-        let Some(first) = modes.first() else {
-            return Err(ChartError::empty("feed of unstable modes"));
-        };
-        let friction = first.mode.friction_coefficient;
+        let friction = modes.first()?.mode.friction_coefficient;
         let caption = format!(
             "Where the contact feeds the unstable modes at friction {friction}: growth rate for \
             each area of the surface; red \
              feeds, blue takes. The sum over the surface is the contact's part in the budget."
         );
-        match report.assembly {
-            Some(assembly) => Ok(self.pictures(report.mesh, &modes, &assembly.surfaces, caption)),
-            None => Ok(self.lines(report, &modes, caption)),
-        }
+        Some(match report.assembly {
+            Some(assembly) => self.pictures(report.mesh, &modes, &assembly.surfaces, caption),
+            None => self.lines(report, &modes, caption),
+        })
     }
 
     fn lines(&self, report: &CeaReport<'_>, modes: &[&ModeFeed], caption: String) -> Figure {

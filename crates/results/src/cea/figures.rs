@@ -13,8 +13,7 @@ use crate::drawing::{Declaration, DrawingError, DrawingOptions, declared};
 use crate::folder::OutputFolder;
 use crate::write_page;
 use frictionsim_chart::{
-    Axis, ChartError, ColourMap, Figure, INK, Line, Marker, Panel, Points, Rule, SERIES, Side,
-    Stroke, signed,
+    Axis, ColourMap, Figure, INK, Line, Marker, Panel, Points, Rule, SERIES, Side, Stroke, signed,
 };
 use frictionsim_physics::cea::ComplexMode;
 use frictionsim_physics::fem::NodalStress;
@@ -35,9 +34,9 @@ pub fn draw(
     options: &DrawingOptions,
 ) -> Result<(), DrawingError> {
     let mut figures: Vec<Declaration<'_>> =
-        vec![Box::new(move || Ok(locus(report, dampings))), Box::new(move || pairs(report))];
+        vec![Box::new(move || Some(locus(report, dampings))), Box::new(move || pairs(report))];
     match report.assembly {
-        None => figures.push(Box::new(move || Ok(prestress(report)))),
+        None => figures.push(Box::new(move || Some(prestress(report)))),
         Some(assembly) => {
             let of = move |names, value| assembly.traction(report.mesh, names, value);
             let pressure = ("prestress", "contact pressure");
@@ -48,10 +47,10 @@ pub fn draw(
     }
     for point in &report.sweep.points {
         let friction = point.friction_coefficient;
-        figures.push(Box::new(move || Ok(shapes(report, friction))));
+        figures.push(Box::new(move || Some(shapes(report, friction))));
     }
     for branch in followed_branches(report) {
-        figures.push(Box::new(move || Ok(branch_shapes(report, branch))));
+        figures.push(Box::new(move || Some(branch_shapes(report, branch))));
     }
     if let Some(reading) = report.reading {
         figures.push(Box::new(move || budget(report, reading)));
@@ -59,15 +58,15 @@ pub fn draw(
             figures.push(Box::new(move || feed.figure(report)));
         }
     }
-    write_page(folder, document(report, View::Page), declared(figures)?, options)
+    write_page(folder, document(report, View::Page), declared(figures), options)
 }
 
 /// Frequency and damping factor over friction of each pair of waves that turns unstable, that with the rotor and that
 /// against it as two lines; without symmetry of each mode.
-fn pairs(report: &CeaReport<'_>) -> Result<Figure, ChartError> {
+fn pairs(report: &CeaReport<'_>) -> Option<Figure> {
     let sweep = report.sweep;
     if sweep.points.len() < 2 {
-        return Err(ChartError::empty("pairs over friction"));
+        return None;
     }
     let (all, numbers) = (branches(sweep), report.mode_numbers());
     let pairs = distinct(interval_rows(sweep).iter().map(|(branch, _)| (branch.0, branch.1)));
@@ -133,7 +132,7 @@ fn pairs(report: &CeaReport<'_>) -> Result<Figure, ChartError> {
         false => "Frequency and damping factor over friction of the modes that turn unstable.",
     };
     let figure = Figure::new("pairs", caption).columns(2).shared_x().panels(panels);
-    Ok(match report.contact_changes {
+    Some(match report.contact_changes {
         [] => figure,
         _ => figure.note("thin dashed joins: contact opens or closes between"),
     })

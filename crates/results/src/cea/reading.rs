@@ -4,7 +4,7 @@ use super::branches::Branch;
 use super::mode_name::{ModeName, NAMES, SHORT_NAMES};
 use super::{CeaReport, Feed};
 use crate::distinct;
-use frictionsim_chart::{Axis, ChartError, Figure, INK, Line, Panel, Rule, Stroke, literal};
+use frictionsim_chart::{Axis, Figure, INK, Line, Panel, Rule, Stroke, literal};
 use frictionsim_output::{Table, columns, fixed};
 use std::collections::BTreeMap;
 
@@ -223,11 +223,11 @@ fn kilohertz(mode: &ModeName) -> String {
 const PANELS: usize = 6;
 
 /// Growth rate over friction of the modes that grow fastest, and what each part, support and contact adds to it.
-pub(super) fn budget(report: &CeaReport<'_>, reading: &Reading) -> Result<Figure, ChartError> {
+pub(super) fn budget(report: &CeaReport<'_>, reading: &Reading) -> Option<Figure> {
     let frictions = reading.contributions.iter().map(|row| row.mode.friction_coefficient);
     let frictions = distinct(frictions.filter(|own| report.friction_coefficients.contains(own)));
     if frictions.len() < 3 {
-        return Err(ChartError::empty("budget of growth over friction"));
+        return None;
     }
     // Each branch by itself: its rows are found once.
     let mut rows: BTreeMap<Branch, Vec<&Contribution>> = BTreeMap::new();
@@ -240,12 +240,8 @@ pub(super) fn budget(report: &CeaReport<'_>, reading: &Reading) -> Result<Figure
         let name = report.branch_name(branch, &numbers);
         budget_panel(name, &rows[&branch], &frictions)
     });
-    let panels: Vec<Panel> = panels.collect();
-    if panels.is_empty() {
-        return Err(ChartError::empty("budget of growth over friction"));
-    }
     let caption = "Growth rate of the fastest modes over friction, and what each part, support and contact adds to it.";
-    Ok(Figure::new("budget", caption).columns(2).shared_x().panels(panels))
+    Some(Figure::new("budget", caption).columns(2).shared_x().panels(panels))
 }
 
 /// The growth rate of one branch, and its parts.

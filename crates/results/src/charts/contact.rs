@@ -7,7 +7,7 @@ use super::palette::{
 };
 use crate::ShownBody;
 use frictionsim_chart::{
-    Axis, ChartError, ColourMap, Figure, Heat, INK, Label, Line, Palette, Panel, Rule, SERIES, Side,
+    Axis, ColourMap, Figure, Heat, INK, Label, Line, Palette, Panel, Rule, SERIES, Side,
 };
 use frictionsim_physics::contact::ContactStatus;
 use frictionsim_physics::fem::{MaterialField, nodal_stress};
@@ -188,9 +188,9 @@ pub fn shear_stress_figure<'a>(
     material: &dyn MaterialField,
     when: &str,
     fields: impl Iterator<Item = (String, &'a [f64])>,
-) -> Result<Figure, ChartError> {
+) -> Option<Figure> {
     if body.is_solid() {
-        return Err(ChartError::empty("shear stress of a plane body"));
+        return None;
     }
     let disc = Disc::new(body.mesh);
     let caption = format!("Shear stress {when}.");
@@ -201,7 +201,7 @@ pub fn shear_stress_figure<'a>(
     };
     let axis = Axis::new("shear stress *τ*_{rθ}", "MPa").times(1e-6);
     let (names, frames) = (("shear-stress", &caption[..]), fields.map(frame).collect());
-    Ok(field_figure(names, &disc, &axis, ColourMap::Diverging, frames))
+    Some(field_figure(names, &disc, &axis, ColourMap::Diverging, frames))
 }
 
 /// Velocity fields (nodal frames, m/s) side by side, each with its heading and the status of the contact nodes; `when`
@@ -210,10 +210,10 @@ pub fn velocity_figure<'a>(
     body: &ShownBody<'_>,
     (when, rest): (&str, f64),
     fields: impl Iterator<Item = (String, &'a [f64], Vec<ContactStatus>)>,
-) -> Result<Figure, ChartError> {
+) -> Figure {
     if body.is_assembly() {
         let caption = format!("Velocity modulus {when}.");
-        return Ok(speeds_of_bodies(body.mesh, &caption, fields.map(|own| (own.0, own.1))));
+        return speeds_of_bodies(body.mesh, &caption, fields.map(|own| (own.0, own.1)));
     }
     let frames = fields.map(|(heading, velocity, status)| -> FieldFrame {
         let (speeds, status) = match body.sector {
@@ -227,7 +227,7 @@ pub fn velocity_figure<'a>(
     let caption = format!("Velocity modulus and contact status {when}.");
     let axis = Axis::new("velocity |*v*|", "m/s");
     let disc = Disc::new(body.mesh);
-    Ok(field_figure(("velocity", &caption), &disc, &axis, ColourMap::Viridis, frames.collect()))
+    field_figure(("velocity", &caption), &disc, &axis, ColourMap::Viridis, frames.collect())
 }
 
 /// Fields side by side, each with its own scale of colours, as amplitudes may differ by decades, and with the contact

@@ -4,8 +4,8 @@ use super::ComparedRun;
 use crate::distinct;
 use crate::drawing::{Declaration, declared};
 use frictionsim_chart::{
-    Axis, ChartError, Figure, INK, Line, Marker, Panel, PanelData, Points, Scale, Series,
-    SeriesKind, Stroke, literal, look,
+    Axis, Figure, INK, Line, Marker, Panel, PanelData, Points, Scale, Series, SeriesKind, Stroke,
+    literal, look,
 };
 
 /// Most curves of one panel that are told apart.
@@ -21,7 +21,7 @@ struct Curves<'a> {
 }
 
 /// Each figure that several runs have, with the curves of all of them.
-pub fn overlaid(runs: &[ComparedRun]) -> Result<Vec<Figure>, ChartError> {
+pub fn overlaid(runs: &[ComparedRun]) -> Vec<Figure> {
     let is_curve = |series: &Series| series.kind != SeriesKind::Field;
     let figures = runs.iter().enumerate().flat_map(|(run, own)| {
         let figures = own.page.iter().flat_map(|page| &page.figures);
@@ -34,9 +34,8 @@ pub fn overlaid(runs: &[ComparedRun]) -> Result<Vec<Figure>, ChartError> {
     let figures: &Vec<Curves<'_>> = &figures.collect();
     let names = distinct(figures.iter().map(|own| own.name)).into_iter();
     let shared = names.filter(|name| figures.iter().filter(|own| own.name == *name).count() > 1);
-    let declarations = shared.map(|name| -> Declaration<'_> {
-        Box::new(move || figure_of(name, figures).ok_or_else(|| ChartError::empty(name)))
-    });
+    let declarations =
+        shared.map(|name| -> Declaration<'_> { Box::new(move || figure_of(name, figures)) });
     declared(declarations.collect())
 }
 

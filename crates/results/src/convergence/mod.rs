@@ -232,6 +232,6 @@ impl Finding for ConvergenceSummary {
     }
 
     fn figures(&self) -> Vec<Declaration<'_>> {
-        vec![Box::new(|| Ok(figures::convergence(&self.series)))]
+        vec![Box::new(|| Some(figures::convergence(&self.series)))]
     }
 }

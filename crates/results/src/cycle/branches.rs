@@ -9,7 +9,7 @@ use crate::drawing::{Declaration, declared};
 use crate::extent::Extent;
 use crate::parameter::parameter_axis;
 use frictionsim_chart::{
-    Axis, ChartError, Figure, Line, MUTED, Marker, Panel, Points, Rule, SERIES, Scale, Stroke,
+    Axis, Figure, Line, MUTED, Marker, Panel, Points, Rule, SERIES, Scale, Stroke,
 };
 use frictionsim_output::significant;
 use frictionsim_physics::cycle::TwoWaveMotion;
@@ -28,7 +28,7 @@ const POWERS: [(&str, &str); 5] = [
 pub fn draw_branches(
     families: &[(String, FamilyRecord)],
     two_waves: &[TwoWaveResult],
-) -> Result<Vec<Figure>, ChartError> {
+) -> Vec<Figure> {
     // A branch of a single cycle is no curve.
     let curves: Vec<Curve<'_>> = families
         .iter()
@@ -39,7 +39,7 @@ pub fn draw_branches(
         .collect();
     let curves = &curves[..];
     let figures: Vec<Declaration<'_>> =
-        vec![Box::new(|| frequencies(curves, two_waves)), Box::new(|| shares(curves))];
+        vec![Box::new(|| Some(frequencies(curves, two_waves))), Box::new(|| Some(shares(curves)))];
     declared(figures)
 }
 
@@ -85,7 +85,7 @@ const OF_BOTH: [fn(&TwoWaveMotion) -> [f64; 2]; 2] =
 type Column = fn(&BranchRecord) -> &Vec<f64>;
 
 /// Main frequency, amplitude and power of the limit cycles over the parameter, one curve for each family.
-fn frequencies(curves: &[Curve<'_>], two_waves: &[TwoWaveResult]) -> Result<Figure, ChartError> {
+fn frequencies(curves: &[Curve<'_>], two_waves: &[TwoWaveResult]) -> Figure {
     let (x, scale) = axis_of(curves);
     let extent = curves.first().map_or_else(Extent::default, |curve| curve.branch.extent);
     let frequency = Axis::new("main frequency *f*", "kHz").times(1e-3);
@@ -145,7 +145,7 @@ fn frequencies(curves: &[Curve<'_>], two_waves: &[TwoWaveResult]) -> Result<Figu
         both.collect::<String>()
     );
     let figure = Figure::new("branch-frequencies", caption).shared_x().panels(panels);
-    Ok(with_strokes(figure, curves))
+    with_strokes(figure, curves)
 }
 
 /// The frequencies at which linear theory has waves begin.
@@ -165,7 +165,7 @@ fn onset_rules(curves: &[Curve<'_>]) -> impl Iterator<Item = Rule> {
 }
 
 /// Statuses and power shares of the limit cycles over the parameter, one column for each family.
-fn shares(curves: &[Curve<'_>]) -> Result<Figure, ChartError> {
+fn shares(curves: &[Curve<'_>]) -> Figure {
     let (x, _) = axis_of(curves);
     let percent = |name: &str| Axis::new(name, "%").times(100.0);
     let statuses = STATUSES.map(|(_, name, _, _, colour)| (name, colour));
@@ -202,5 +202,5 @@ fn shares(curves: &[Curve<'_>]) -> Result<Figure, ChartError> {
         figure = fill(figure.panels(row.iter().map(status)));
         figure = fill(figure.panels(row.iter().map(power)));
     }
-    Ok(with_strokes(figure, curves))
+    with_strokes(figure, curves)
 }

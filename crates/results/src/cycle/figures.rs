@@ -9,8 +9,8 @@ use crate::charts::{
 };
 use crate::drawing::{Declaration, declared};
 use frictionsim_chart::{
-    Axis, ChartError, Figure, INK, Line, MUTED, Marker, Motion, MotionKind, MotionState, Panel,
-    Rule, SERIES, Stroke, plain,
+    Axis, Figure, INK, Line, MUTED, Marker, Motion, MotionKind, MotionState, Panel, Rule, SERIES,
+    Stroke, plain,
 };
 use frictionsim_physics::contact::ContactStatus;
 use frictionsim_physics::cycle::PhasePoint;
@@ -40,16 +40,16 @@ pub struct CycleFigures<'a> {
 
 /// Draws the cycles: contact over the period and at one instant, history, closed curves and harmonics of each, then the
 /// fields of all.
-pub fn draw_cycles(data: &CycleFigures<'_>) -> Result<Vec<Figure>, ChartError> {
+pub fn draw_cycles(data: &CycleFigures<'_>) -> Vec<Figure> {
     let mut figures: Vec<Declaration<'_>> = Vec::new();
     for motion in &data.cycles {
-        figures.push(Box::new(move || Ok(data.status(motion))));
-        figures.push(Box::new(move || Ok(data.at_one_instant(motion))));
-        figures.push(Box::new(move || Ok(data.history(motion))));
-        figures.push(Box::new(move || Ok(data.orbit(motion))));
-        figures.push(Box::new(move || Ok(harmonics(motion))));
+        figures.push(Box::new(move || Some(data.status(motion))));
+        figures.push(Box::new(move || Some(data.at_one_instant(motion))));
+        figures.push(Box::new(move || Some(data.history(motion))));
+        figures.push(Box::new(move || Some(data.orbit(motion))));
+        figures.push(Box::new(move || Some(harmonics(motion))));
     }
-    figures.push(Box::new(|| data.velocity()));
+    figures.push(Box::new(|| Some(data.velocity())));
     figures.push(Box::new(|| data.shear_stress()));
     declared(figures)
 }
@@ -282,16 +282,16 @@ impl<'a> CycleFigures<'a> {
         Motion { states: states.collect(), ..body.at_rest() }
     }
 
-    fn velocity(&self) -> Result<Figure, ChartError> {
+    fn velocity(&self) -> Figure {
         let cycles = self.shown_cycles();
         let fields =
             cycles.map(|motion| (motion.heading(), &motion.fields[1][..], self.around(motion)));
-        let figure = velocity_figure(&self.report.body, (WHEN, 0.0), fields)?;
+        let figure = velocity_figure(&self.report.body, (WHEN, 0.0), fields);
         let is_wave = self.cycles.iter().any(|own| own.is_wave());
-        Ok(if is_wave { figure.motion(self.turning()) } else { figure })
+        if is_wave { figure.motion(self.turning()) } else { figure }
     }
 
-    fn shear_stress(&self) -> Result<Figure, ChartError> {
+    fn shear_stress(&self) -> Option<Figure> {
         let cycles = self.shown_cycles();
         let fields = cycles.map(|motion| (motion.heading(), &motion.fields[0][..]));
         shear_stress_figure(&self.report.body, self.materials, WHEN, fields)

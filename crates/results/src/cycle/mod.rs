@@ -207,8 +207,8 @@ impl CycleSummary {
     ) -> Result<(), DrawingError> {
         let families = data.report.curves().into_iter();
         let families: Vec<_> = families.map(|own| (String::new(), own)).collect();
-        let mut figures = figures::draw_cycles(data)?;
-        figures.extend(draw_branches(&families, data.report.two_waves())?);
+        let mut figures = figures::draw_cycles(data);
+        figures.extend(draw_branches(&families, data.report.two_waves()));
         write_page(folder, self.document().titled(data.report.title), figures, options)
     }
 }

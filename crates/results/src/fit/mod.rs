@@ -70,6 +70,6 @@ impl Finding for FitSummary {
     }
 
     fn figures(&self) -> Vec<Declaration<'_>> {
-        vec![Box::new(|| Ok(figures::fit(self)))]
+        vec![Box::new(|| Some(figures::fit(self)))]
     }
 }

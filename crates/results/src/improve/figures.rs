@@ -3,9 +3,7 @@
 use super::{ImproveSummary, Sizes, TargetFields};
 use crate::charts::{Disc, SolidView};
 use crate::drawing::{Declaration, declared};
-use frictionsim_chart::{
-    Axis, ChartError, ColourMap, Figure, INK, Marker, Points, Side, significant,
-};
+use frictionsim_chart::{Axis, ColourMap, Figure, INK, Marker, Points, Side, significant};
 use frictionsim_physics::mesh::Mesh;
 use std::f64::consts::PI;
 
@@ -13,11 +11,7 @@ use std::f64::consts::PI;
 const MOST: usize = 4;
 
 /// A figure for each target, the fastest first.
-pub fn figures(
-    summary: &ImproveSummary,
-    mesh: &Mesh,
-    fields: &[TargetFields],
-) -> Result<Vec<Figure>, ChartError> {
+pub fn figures(summary: &ImproveSummary, mesh: &Mesh, fields: &[TargetFields]) -> Vec<Figure> {
     let growth = |own: &TargetFields| {
         let modes = summary.modes.iter();
         let rate = modes.filter(|mode| mode.mode == own.mode);
@@ -25,10 +19,9 @@ pub fn figures(
     };
     let mut order: Vec<&TargetFields> = fields.iter().collect();
     frictionsim_physics::order::sort_by_number(&mut order, |a| -growth(a));
-    let figures = order
-        .into_iter()
-        .take(MOST)
-        .map(|own| -> Declaration<'_> { Box::new(move || Ok(target_figure(summary, mesh, own))) });
+    let figures = order.into_iter().take(MOST).map(|own| -> Declaration<'_> {
+        Box::new(move || Some(target_figure(summary, mesh, own)))
+    });
     declared(figures.collect())
 }
 

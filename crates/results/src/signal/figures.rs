@@ -3,7 +3,7 @@
 use super::summary::{ChannelSummary, SignalSummary};
 use crate::charts::{ModeLine, run_axis, signal_panel, spectrogram_panels, spectrum_panel};
 use crate::drawing::{Declaration, declared};
-use frictionsim_chart::{ChartError, Figure, literal};
+use frictionsim_chart::{Figure, literal};
 use frictionsim_signal::reader::{Channel, SignalFile};
 use frictionsim_signal::{AmplitudeSpectrum, SpectrogramOptions, spectrogram};
 use std::sync::Mutex;
@@ -24,10 +24,7 @@ pub struct SignalDrawing<'a> {
 }
 
 /// Draws each channel over its spectrograms, then the spectra; beside the figures, why a spectrogram was left out.
-pub fn draw(
-    drawing: &SignalDrawing<'_>,
-    summary: &SignalSummary,
-) -> Result<(Vec<Figure>, Vec<String>), ChartError> {
+pub fn draw(drawing: &SignalDrawing<'_>, summary: &SignalSummary) -> (Vec<Figure>, Vec<String>) {
     let left_out = Mutex::new(Vec::new());
     let left_out = &left_out;
     let mut figures: Vec<Declaration<'_>> = Vec::new();
@@ -37,16 +34,16 @@ pub fn draw(
             if let (Some(reason), Ok(mut left_out)) = (reason, left_out.lock()) {
                 left_out.push(reason);
             }
-            Ok(figure)
+            Some(figure)
         }));
     }
     for (index, channel) in summary.channels.iter().enumerate() {
-        figures.push(Box::new(move || Ok(drawing.spectrum(channel, index))));
+        figures.push(Box::new(move || Some(drawing.spectrum(channel, index))));
     }
-    let figures = declared(figures)?;
+    let figures = declared(figures);
     let mut left_out = left_out.lock().map_or(Vec::new(), |reasons| reasons.clone());
     left_out.sort();
-    Ok((figures, left_out))
+    (figures, left_out)
 }
 
 impl SignalDrawing<'_> {

@@ -4,7 +4,7 @@ use super::record::{PointRecord, listed};
 use crate::cea::{CriticalFriction, arrow};
 use crate::charts::palette::STABLE;
 use crate::parameter::parameter_axis;
-use frictionsim_chart::{Axis, ChartError, Figure, Fill, Label, Line, Panel, Scale, look};
+use frictionsim_chart::{Axis, Figure, Fill, Label, Line, Panel, Scale, look};
 use std::collections::BTreeSet;
 
 const FRICTION: &str = "contact.friction_coefficient";
@@ -16,15 +16,11 @@ fn name(onset: &CriticalFriction) -> (Option<usize>, usize, i8) {
 
 /// The critical friction of each branch over the one swept key besides friction; below all of them steady sliding is
 /// stable. `highest` is the largest friction coefficient that was studied.
-///
-/// # Errors
-/// [`ChartError::Empty`] where not one key was swept through eigenvalue analyses.
-pub fn critical_friction(records: &[PointRecord], highest: f64) -> Result<Figure, ChartError> {
-    let nothing = || ChartError::empty("critical friction over a swept key");
-    let first = records.first().ok_or_else(nothing)?;
-    let mut keys = first.swept.keys().filter(|key| *key != FRICTION);
+/// Nothing where not one key was swept through eigenvalue analyses.
+pub fn critical_friction(records: &[PointRecord], highest: f64) -> Option<Figure> {
+    let mut keys = records.first()?.swept.keys().filter(|key| *key != FRICTION);
     let (Some(key), None) = (keys.next(), keys.next()) else {
-        return Err(nothing());
+        return None;
     };
     let point = |record: &PointRecord| {
         let onsets = record.summaries.get("cea")?.get("critical_frictions");
@@ -34,7 +30,7 @@ pub fn critical_friction(records: &[PointRecord], highest: f64) -> Result<Figure
     frictionsim_physics::order::sort_by_number(&mut points, |a| a.0);
     points.dedup_by(|a, b| a.0 == b.0);
     if points.len() < 2 {
-        return Err(nothing());
+        return None;
     }
     let values: Vec<f64> = points.iter().map(|point| point.0).collect();
     // The first onset of each branch at each value; none where it stays stable.
@@ -63,5 +59,5 @@ pub fn critical_friction(records: &[PointRecord], highest: f64) -> Result<Figure
     let caption = format!(
         "Critical friction of each branch over {key}; steady sliding is stable below all of them."
     );
-    Ok(Figure::new("critical-friction", caption).narrow().panel(panel))
+    Some(Figure::new("critical-friction", caption).narrow().panel(panel))
 }

@@ -5,9 +5,7 @@ use super::matrix::{Condition, OperatingMatrix};
 use super::swept::{printed, swept_text};
 use crate::distinct;
 use crate::parameter::{in_unit, parameter_name, shared_unit};
-use frictionsim_chart::{
-    Axis, ChartError, Figure, MUTED, Marker, Panel, Points, Shapes, extremes, literal,
-};
+use frictionsim_chart::{Axis, Figure, MUTED, Marker, Panel, Points, Shapes, extremes, literal};
 use frictionsim_output::fixed;
 use serde_json::Value;
 
@@ -46,12 +44,12 @@ enum Role {
 
 /// Frequency of the unstable modes over the operating conditions, marked by growth; one panel for each direction of
 /// rotation and each choice of what is left over.
-pub(crate) fn operating_matrix(records: &[PointRecord]) -> Result<Figure, ChartError> {
+pub(crate) fn operating_matrix(records: &[PointRecord]) -> Option<Figure> {
     let matrix = OperatingMatrix::of(records);
     let conditions = &matrix.conditions;
     let modes = || conditions.iter().flat_map(|own| &own.unstable);
     if conditions.len() < 2 || modes().next().is_none() {
-        return Err(ChartError::empty("unstable modes over operating conditions"));
+        return None;
     }
     let layout = Layout::of(conditions);
     let largest = modes().map(|mode| mode.growth_rate_per_s);
@@ -78,7 +76,7 @@ pub(crate) fn operating_matrix(records: &[PointRecord]) -> Result<Figure, ChartE
         .columns(columns)
         .shared_y()
         .panels(panels);
-    Ok(layout.friction_note().into_iter().fold(figure, |figure, note| figure.note(note)))
+    Some(layout.friction_note().into_iter().fold(figure, |figure, note| figure.note(note)))
 }
 
 /// Which dimension goes where.

@@ -7,7 +7,7 @@ use crate::charts::{
     velocity_figure,
 };
 use crate::drawing::{Declaration, declared};
-use frictionsim_chart::{Axis, ChartError, Figure, Line, Panel, SERIES, extremes};
+use frictionsim_chart::{Axis, Figure, Line, Panel, SERIES, extremes};
 use frictionsim_physics::contact::{ContactInterface, ContactStatus};
 use frictionsim_physics::mesh::{SolidFace, SolidSector};
 use frictionsim_physics::transient::{EndState, Snapshot};
@@ -18,18 +18,18 @@ const FIELD_LIMIT: usize = 8;
 const WHEN: &str = "at the snapshot times";
 
 /// Draws every figure that the record has data for.
-pub fn draw_run(run: &RunFigures<'_>) -> Result<Vec<Figure>, ChartError> {
+pub fn draw_run(run: &RunFigures<'_>) -> Vec<Figure> {
     let mut figures: Vec<Declaration<'_>> = Vec::new();
     for probe in 0..run.run.record.probes.len() {
-        figures.push(Box::new(move || Ok(run.overview(probe))));
-        figures.push(Box::new(move || Ok(run.spectrum(probe))));
+        figures.push(Box::new(move || Some(run.overview(probe))));
+        figures.push(Box::new(move || Some(run.spectrum(probe))));
     }
-    figures.push(Box::new(|| Ok(run.growth())));
-    figures.push(Box::new(|| run.velocity()));
+    figures.push(Box::new(|| Some(run.growth())));
+    figures.push(Box::new(|| Some(run.velocity())));
     figures.push(Box::new(|| run.shear_stress()));
     figures.push(Box::new(|| run.trajectories()));
     figures.push(Box::new(|| run.contact()));
-    figures.push(Box::new(|| Ok(super::energy::energy(run))));
+    figures.push(Box::new(|| Some(super::energy::energy(run))));
     declared(figures)
 }
 
@@ -38,7 +38,7 @@ impl RunFigures<'_> {
         self.run.record.snapshots.iter().take(FIELD_LIMIT)
     }
 
-    fn velocity(&self) -> Result<Figure, ChartError> {
+    fn velocity(&self) -> Figure {
         // What is that much slower than the cylinder is round-off of a body at rest.
         let rest = 1e-9 * self.peripheral_speed.abs();
         let fields = self.snapshots().map(|snapshot| {
@@ -48,7 +48,7 @@ impl RunFigures<'_> {
         velocity_figure(&self.run.body, (WHEN, rest), fields)
     }
 
-    fn shear_stress(&self) -> Result<Figure, ChartError> {
+    fn shear_stress(&self) -> Option<Figure> {
         let fields = self.snapshots();
         let fields = fields.map(|snapshot| (heading(snapshot), &snapshot.displacement[..]));
         shear_stress_figure(&self.run.body, self.run.material, WHEN, fields)
@@ -64,20 +64,18 @@ impl RunFigures<'_> {
     }
 
     /// Phase plot of an internal node, and path of a contact node coloured by status over the last fifth.
-    fn trajectories(&self) -> Result<Figure, ChartError> {
+    fn trajectories(&self) -> Option<Figure> {
         let body = &self.run.body;
         let has_edge = body
             .sector
             .is_none_or(|sector| sector.specification.contact.face() == SolidFace::Inner);
         if body.is_assembly() || !has_edge {
-            return Err(ChartError::empty("paths of nodes of an edge"));
+            return None;
         }
         let probes = 0..self.run.record.probes.len();
         let (edge, inside): (Vec<usize>, Vec<usize>) =
             probes.partition(|&probe| self.is_on_contact(probe));
-        let (Some(&edge), Some(&inside)) = (edge.first(), inside.first()) else {
-            return Err(ChartError::empty("probes inside and on the contact edge"));
-        };
+        let (edge, inside) = (*edge.first()?, *inside.first()?);
         let pair = |probe: usize, x: usize, y: usize| -> Vec<(f64, f64)> {
             self.run.record.probe_rows[probe].iter().map(|row| (row[x], row[y])).collect()
         };
@@ -105,7 +103,7 @@ impl RunFigures<'_> {
             .layers(status_curves(&path[start..], &self.traced_status(edge, start)));
         let caption = "Phase plot of an internal node (a) and path of a contact node (b), whose \
         last fifth is coloured by contact status.";
-        Ok(Figure::new("trajectories", caption).columns(2).panel(phase_panel).panel(path_panel))
+        Some(Figure::new("trajectories", caption).columns(2).panel(phase_panel).panel(path_panel))
     }
 
     /// Status of a contact node from a sample on, from its motion: off the cylinder it is open, with the cylinder's
@@ -149,11 +147,9 @@ impl RunFigures<'_> {
     }
 
     /// The contact at the last snapshot.
-    fn contact(&self) -> Result<Figure, ChartError> {
+    fn contact(&self) -> Option<Figure> {
         let body = &self.run.body;
-        let snapshot = self.run.record.snapshots.last();
-        let snapshot = snapshot.filter(|_| !body.is_assembly());
-        let snapshot = snapshot.ok_or_else(|| ChartError::empty("contact at the snapshots"))?;
+        let snapshot = self.run.record.snapshots.last().filter(|_| !body.is_assembly())?;
         let frame = &snapshot.contact;
         let wide = |values: &[f32]| -> Vec<f64> {
             body.shown(values).into_iter().map(f64::from).collect()
@@ -171,7 +167,7 @@ impl RunFigures<'_> {
                 None => ContactVelocity::Absolute(&velocity, self.peripheral_speed),
             },
         };
-        Ok(contact_figure(body, &shown))
+        Some(contact_figure(body, &shown))
     }
 
     /// Tangential velocity of each contact node, m/s: before another body that of what it meets less its own, the slip.

@@ -51,7 +51,7 @@ pub fn draw(
 ) -> Result<(), DrawingError> {
     let state = run.run.analysis.settling.state;
     let document = document(summary, state, Some(run)).titled(title);
-    write_page(folder, document, draw_run(run)?, options)
+    write_page(folder, document, draw_run(run), options)
 }
 
 /// Tables and sentences of a run; beside its growth that of the eigenvalue analysis, where there is one.
