@@ -10,6 +10,9 @@ use super::svg::{Rect, Stroke, Svg};
 use super::text::{Anchor, TextStyle};
 use serde::{Deserialize, Serialize};
 
+/// Room that a flat bar needs below its top, points.
+pub(super) const FLAT_BAR_HEIGHT: f64 = LABEL_SIZE + TITLE_SIZE + 14.0;
+
 /// A range of values shown by the colours of a map.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Colours {
@@ -46,11 +49,6 @@ impl Colours {
     /// Room that an upright bar needs, points.
     pub(super) fn bar_width(&self, height: f64) -> f64 {
         21.0 + widest(&self.ruler().ticks(vertical_count(height)), LABEL_SIZE) + TITLE_SIZE
-    }
-
-    /// Room that a flat bar needs below its top, points.
-    pub(super) fn flat_bar_height() -> f64 {
-        LABEL_SIZE + TITLE_SIZE + 14.0
     }
 
     /// Draws an upright bar with its left edge at `x`, over the height of an area: ticks and title at its right.

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 mod placed;
 
 use super::colour::MUTED;
-use super::colour_bar::Colours;
+use super::colour_bar::{Colours, FLAT_BAR_HEIGHT};
 use super::frame::{Frame, TITLE_SIZE};
 use super::legend::Legend;
 use super::panel::Panel;
@@ -250,7 +250,7 @@ impl<'a> Layout<'a> {
             let width = 160f64.min(0.5 * self.width);
             let left = self.width - width - 16.0;
             colours.draw_flat_bar(svg, (left, self.bottom + 3.0), width);
-            foot += Colours::flat_bar_height();
+            foot += FLAT_BAR_HEIGHT;
             // Its title may be wider than the bar.
             if RIM + 2.0 + widest > left - 24.0 {
                 first = foot;

@@ -2,7 +2,7 @@
 
 use super::axis::Axis;
 use super::colour::{Colour, INK, MUTED};
-use super::colour_bar::Colours;
+use super::colour_bar::{Colours, FLAT_BAR_HEIGHT};
 use super::data::{AxisData, PanelData, Series};
 use super::frame::{
     Frame, LABEL_SIZE, TICK, TITLE_SIZE, draw_grid, draw_x_axis, draw_y_axis, vertical_count,
@@ -240,7 +240,7 @@ impl Panel {
     /// Room needed below the data area, points.
     pub(super) fn bottom_need(&self, labels: bool) -> f64 {
         let bar = match (self.bar, self.colours()) {
-            (Some(Side::Below), Some(_)) => 3.0 + Colours::flat_bar_height(),
+            (Some(Side::Below), Some(_)) => 3.0 + FLAT_BAR_HEIGHT,
             _ => 0.0,
         };
         bar + match (self.is_bare, labels) {

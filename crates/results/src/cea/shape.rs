@@ -97,7 +97,7 @@ impl<'a> Body<'a> {
 /// A travelling wave is shown at the instant that puts its crest at angle zero; every shape is scaled to its own
 /// maximum, which an eigenvector leaves open.
 fn plane_panel(disc: &Disc<'_>, values: &[c64], harmonic: usize) -> Panel {
-    let mesh = disc.mesh();
+    let mesh = disc.mesh;
     let turn = crest_phase(mesh, values, harmonic);
     let real: Vec<f64> = values.iter().map(|u| (u * turn).re).collect();
     let amplitude: Vec<f64> = real.chunks_exact(2).map(|u| u[0].hypot(u[1])).collect();

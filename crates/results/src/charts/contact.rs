@@ -242,7 +242,7 @@ fn field_figure(
     let count = frames.len();
     let (radius, first_angle) = disc.contact_place();
     // Beside an edge that is no whole hole there is no place for a ring.
-    let has_place = disc.mesh().has_round_contact();
+    let has_place = disc.mesh.has_round_contact();
     let has_status = has_place && frames.iter().any(|frame| !frame.2.is_empty());
     let panels = frames.into_iter().map(|(heading, values, status)| {
         let panel = disc.panel(0.01).heading(heading).layer(disc.field(values, axis.clone(), map));

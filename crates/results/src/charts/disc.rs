@@ -8,7 +8,7 @@ use std::sync::Arc;
 /// A body as figures show it.
 #[derive(Clone)]
 pub struct Disc<'a> {
-    mesh: &'a Mesh,
+    pub(crate) mesh: &'a Mesh,
     shown: Arc<frictionsim_chart::Mesh>,
 }
 
@@ -69,11 +69,6 @@ impl<'a> Disc<'a> {
         let places =
             edge.nodes.iter().chain(again).map(|&node| self.mesh.plane_node(node as usize));
         places.map(|[x, y]| (x, y)).collect()
-    }
-
-    /// The mesh.
-    pub fn mesh(&self) -> &Mesh {
-        self.mesh
     }
 
     /// Smallest distance of the contact edge from the origin, m, and the angle of its first node.

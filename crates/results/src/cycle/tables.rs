@@ -3,7 +3,7 @@
 use super::branch::{ALONG, BRANCH, BranchRows};
 use super::record::{ContactNode, MotionRecord};
 use super::summary::{CycleMotion, CycleSummary, SoughtCycle};
-use super::two_waves::TwoWaveSummary;
+use super::two_waves::{SHOWN, TwoWaveSummary};
 use super::verdicts::EXPONENTS;
 use crate::summary::{MeanPowers, STATUS, StatusFractions};
 use frictionsim_output::{Document, Section, Table, columns, fixed, parted};
@@ -271,7 +271,7 @@ impl CycleSummary {
             false => results.facts(cycles.iter().map(SoughtCycle::fact)).tables([
                 motions,
                 powers,
-                TwoWaveSummary::shown(&self.two_waves),
+                Table::new("", "Motions of two frequencies").columns(SHOWN, &self.two_waves),
             ]),
         };
         let names = ["status", "contact", "history", "orbit", "harmonics", "velocity", "shear"];

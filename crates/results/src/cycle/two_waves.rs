@@ -82,7 +82,7 @@ columns! {
 
 columns! {
     /// A motion of two waves for people.
-    SHOWN: own as TwoWaveSummary;
+    pub(super) SHOWN: own as TwoWaveSummary;
     waves = own.name(), Always "waves" Plain;
     first_hz = own.frequencies_hz.map(|f| f[0]), Always "first frequency" Fixed(2);
     second_hz = own.frequencies_hz.map(|f| f[1]), Always "second frequency" Fixed(2);
@@ -182,11 +182,6 @@ impl TwoWaveSummary {
     fn births_text(&self) -> Option<String> {
         let births: Vec<String> = self.births.iter().map(|&value| significant(value, 5)).collect();
         (!births.is_empty()).then(|| births.join(", "))
-    }
-
-    /// The table of several.
-    pub(super) fn shown(all: &[Self]) -> Table {
-        Table::new("", "Motions of two frequencies").columns(SHOWN, all)
     }
 
     /// Why its branch ends, in a sentence.

@@ -43,17 +43,15 @@ pub fn write_points(
     let mut longest = BTreeMap::new();
     let rows: Vec<Vec<(String, String)>> =
         records.iter().map(|record| scalars(record, &mut longest)).collect();
-    let mut columns = Columns::default();
-    for row in &rows {
-        columns.add(row);
-    }
+    let mut columns = Vec::new();
+    rows.iter().for_each(|row| add_columns(&mut columns, row));
     let too_long: Vec<String> = longest
         .into_iter()
         .filter(|&(_, length)| length > LONGEST_LIST)
         .map(|(path, _)| format!("{path}."))
         .collect();
     let is_kept = |name: &String| !too_long.iter().any(|list| name.starts_with(list.as_str()));
-    let names: Vec<String> = columns.0.into_iter().filter(is_kept).collect();
+    let names: Vec<String> = columns.into_iter().filter(is_kept).collect();
 
     let header: Vec<&str> =
         keys.iter().chain(&names).map(String::as_str).chain(["point", "error"]).collect();
@@ -161,23 +159,17 @@ pub(super) fn cell(value: &Value) -> String {
     }
 }
 
-/// Column names of rows that need not have the same ones.
-#[derive(Default)]
-struct Columns(Vec<String>);
-
-impl Columns {
-    /// Adds the names of a row that are new, each behind the one before it in that row.
-    fn add(&mut self, row: &[(String, String)]) {
-        let mut at = 0;
-        for (name, _) in row {
-            if self.0.get(at) != Some(name) {
-                match self.0.iter().position(|known| known == name) {
-                    Some(known) => at = known,
-                    None => self.0.insert(at, name.clone()),
-                }
+/// Adds the names of a row that are new to those of columns, each behind the one before it in that row.
+fn add_columns(columns: &mut Vec<String>, row: &[(String, String)]) {
+    let mut at = 0;
+    for (name, _) in row {
+        if columns.get(at) != Some(name) {
+            match columns.iter().position(|known| known == name) {
+                Some(known) => at = known,
+                None => columns.insert(at, name.clone()),
             }
-            at += 1;
         }
+        at += 1;
     }
 }
 
