@@ -7,8 +7,8 @@ use super::cycle::{FamilyRecord, draw_branches};
 use super::drawing::{Declaration, declared};
 use super::parameter::{parameter_axis, parameter_name};
 use super::sweep::{
-    PointRecord, SweepFolder, SweepReport, TWO_FREQUENCY, UNSETTLED, critical_friction, document,
-    listed, operating_matrix, printed,
+    PointRecord, SweepFolder, SweepReport, TWO_FREQUENCY, UNSETTLED, by_other_keys,
+    critical_friction, document, listed, operating_matrix, printed,
 };
 use super::{DrawingError, DrawingOptions, Manifest, Page};
 use frictionsim_chart::{
@@ -111,33 +111,22 @@ impl Study {
         let keys = || records.iter().flat_map(|record| record.swept.keys()).take(8).filter(several);
         let key = keys().find(|key| *key == SPEED).or_else(|| keys().next());
         let key = key.cloned().unwrap_or_default();
-        let mut series: Vec<Series> = Vec::new();
-        for record in records {
-            let Some(summary) = record.summaries.get("transient") else {
-                continue;
-            };
-            let mut rest = record.swept.clone();
-            rest.remove(&key);
-            let name = swept_label(&rest);
-            let quantity = |path: &str| number(summary.pointer(path));
+        let cycles = records.iter().filter_map(|record| {
+            let summary = record.summaries.get("transient")?;
             let cycle = Cycle {
                 point: record.point,
                 value: value(record, &key),
-                frequency_hz: quantity("/main_frequency_hz"),
-                harmonic: summary.pointer("/main_harmonic").and_then(Value::as_u64),
-                end: summary
-                    .pointer("/end_state")
-                    .and_then(Value::as_str)
-                    .unwrap_or_default()
-                    .to_owned(),
+                frequency_hz: number(summary.get("main_frequency_hz")),
+                harmonic: summary["main_harmonic"].as_u64(),
+                end: summary["end_state"].as_str().unwrap_or_default().to_owned(),
                 status: ["stick", "slip", "open"]
-                    .map(|status| quantity(&format!("/status/{status}"))),
+                    .map(|status| number(summary["status"].get(status))),
             };
-            match series.iter_mut().find(|series| series.name == name) {
-                Some(series) => series.cycles.push(cycle),
-                None => series.push(Series { name, cycles: vec![cycle] }),
-            }
-        }
+            Some((record, cycle))
+        });
+        let series = by_other_keys(cycles, &key, swept_label).into_iter();
+        let mut series: Vec<Series> =
+            series.map(|(name, cycles)| Series { name, cycles }).collect();
         for series in &mut series {
             frictionsim_physics::order::sort_by_number(&mut series.cycles, |a| a.value);
         }
@@ -223,12 +212,8 @@ impl Study {
     /// Shares of stick, slip and open as stacked areas, one panel for each choice of the other keys.
     fn status(&self) -> Figure {
         let panels = self.series.iter().map(|series| {
-            let known = || {
-                series
-                    .cycles
-                    .iter()
-                    .filter(|cycle| cycle.status.iter().all(|part| part.is_finite()))
-            };
+            let is_known = |cycle: &&Cycle| cycle.status.iter().all(|part| part.is_finite());
+            let known = || series.cycles.iter().filter(is_known);
             let column = |of: &dyn Fn(&Cycle) -> f64| known().map(of).collect::<Vec<f64>>();
             let values = column(&|cycle| cycle.value);
             let stick = column(&|cycle| cycle.status[0]);
@@ -294,8 +279,7 @@ fn rings<'a>(
     let ring = |end: &str, radius: f64| {
         let own = cycles.clone().filter(|cycle| cycle.end == end);
         let own: Vec<(f64, f64)> = own.flat_map(&places).collect();
-        let points = !own.is_empty();
-        points.then(|| Points::new(own).marker(Marker::Circle, radius, INK))
+        (!own.is_empty()).then(|| Points::new(own).marker(Marker::Circle, radius, INK))
     };
     let named = |points: Option<Points>, name: &str| points.map(|points| points.name(name));
     let rings = [

@@ -1,9 +1,8 @@
 //! The map of a study of basins.
 
 use super::super::parameter::parameter_axis;
-use super::super::sweep::{PointRecord, swept_text};
+use super::super::sweep::{PointRecord, by_other_keys, swept_text};
 use frictionsim_chart::{Axis, Figure, Line, Marker, Panel, Points, Scale, literal, look};
-use serde_json::Value;
 
 const SPEED: &str = "contact.rotation_speed_rpm";
 const FRICTION: &str = "contact.friction_coefficient";
@@ -22,32 +21,23 @@ pub fn basin_map(records: &[PointRecord]) -> Option<Figure> {
     let keys = || first.swept.keys();
     let key = keys().find(|key| *key == SPEED).or_else(|| keys().next())?;
     let mut harmonics = [1, 2];
-    let mut series: Vec<(String, Vec<Boundary>)> = Vec::new();
-    for record in records {
-        let Some(summary) = record.summaries.get("basin") else {
-            continue;
-        };
-        let number = |path: &str| summary.pointer(path).and_then(Value::as_f64);
+    let boundaries = records.iter().filter_map(|record| {
+        let summary = record.summaries.get("basin")?;
         for (place, harmonic) in harmonics.iter_mut().enumerate() {
-            let found = number(&format!("/harmonics/{place}"));
+            let found = summary["harmonics"][place].as_f64();
             *harmonic = found.map_or(*harmonic, |n| n as usize);
         }
         let boundary = Boundary {
             value: record.swept[key].as_f64().unwrap_or(f64::NAN),
-            low: number("/boundary/low"),
-            high: number("/boundary/high"),
+            low: summary["boundary"]["low"].as_f64(),
+            high: summary["boundary"]["high"].as_f64(),
         };
-        let mut rest = record.swept.clone();
-        rest.remove(key);
-        let name = match rest.get(FRICTION) {
-            Some(friction) if rest.len() == 1 => format!("*μ* = {friction}"),
-            _ => literal(&swept_text(&rest)),
-        };
-        match series.iter_mut().find(|(known, _)| *known == name) {
-            Some((_, boundaries)) => boundaries.push(boundary),
-            None => series.push((name, vec![boundary])),
-        }
-    }
+        Some((record, boundary))
+    });
+    let series = by_other_keys(boundaries, key, |rest| match rest.get(FRICTION) {
+        Some(friction) if rest.len() == 1 => format!("*μ* = {friction}"),
+        _ => literal(&swept_text(rest)),
+    });
     let [one, two] = harmonics;
     let values = series.iter().flat_map(|(_, all)| all).map(|b| b.value);
     let axis = parameter_axis(key).scaled(Scale::for_values(values, 10.0));

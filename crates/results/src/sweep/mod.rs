@@ -23,4 +23,4 @@ pub(super) use critical::critical_friction;
 pub(super) use matrix_figure::operating_matrix;
 pub(super) use record::listed;
 pub(super) use report::{TWO_FREQUENCY, UNSETTLED};
-pub(super) use swept::printed;
+pub(super) use swept::{by_other_keys, printed};

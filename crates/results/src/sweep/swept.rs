@@ -1,5 +1,6 @@
 //! Swept keys and their values as people read them.
 
+use super::PointRecord;
 use super::table::cell;
 use frictionsim_output::{Format, Table, rounded};
 use serde_json::{Map, Value};
@@ -35,6 +36,25 @@ pub(super) fn of_points<'a>(
         let values = points.clone().map(|own| own.1.get(key).map(printed));
         table.column("", Some((head, Format::Plain)), values)
     })
+}
+
+/// What points have, a list for each choice of the swept keys other than one, under its label.
+pub(crate) fn by_other_keys<'a, T>(
+    points: impl Iterator<Item = (&'a PointRecord, T)>,
+    key: &str,
+    label: impl Fn(&Map<String, Value>) -> String,
+) -> Vec<(String, Vec<T>)> {
+    let mut lists: Vec<(String, Vec<T>)> = Vec::new();
+    for (record, own) in points {
+        let mut rest = record.swept.clone();
+        rest.remove(key);
+        let name = label(&rest);
+        match lists.iter_mut().find(|(known, _)| *known == name) {
+            Some((_, list)) => list.push(own),
+            None => lists.push((name, vec![own])),
+        }
+    }
+    lists
 }
 
 /// `friction_coefficient = 0.3, rotation_speed_rpm = 610`; keys of one name and value once.
