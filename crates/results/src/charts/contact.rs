@@ -85,43 +85,48 @@ pub struct ContactInstant<'a> {
 /// The contact at one instant, its nodes evenly spaced, on a ground coloured by status: tractions (Pa) and tangential
 /// velocity (m/s), and around a whole hole arcs of stick, slip and separation.
 pub fn contact_figure(body: &ShownBody<'_>, own: &ContactInstant<'_>) -> Figure {
-    match body.mesh.has_round_contact() {
-        true => round_contact(body.counterface(), own),
-        false => open_contact(own),
+    let [subject, turning] = &own.subject;
+    if body.mesh.has_round_contact() {
+        let names = (body.counterface(), "tangential *v*_{θ}");
+        let caption = format!(
+            "{subject}: status around the circle (a), tractions (b), velocity (c){turning}."
+        );
+        return Figure::new(own.name.clone(), caption)
+            .weighted(&[1.0, 1.7])
+            .shared_x()
+            .panel(circle(own))
+            .panels(contact_panels(own, true, names));
     }
-}
-
-fn open_contact(own: &ContactInstant<'_>) -> Figure {
-    let step = TAU / own.status.len().saturating_sub(1).max(1) as f64;
-    let along = |values: &[f64]| {
-        let places = values.iter().enumerate();
-        Line::through(places.map(|(i, &value)| (i as f64 * step, value)))
-    };
-    let panel = |y: Axis| {
-        Panel::new(place_axis(false), y)
-            .plain()
-            .height(78.0)
-            .legend()
-            .layer(status_ground(own.status, |i| (i as f64 - 0.5) * step).unnamed())
-    };
     let names = ("counterface", "tangential velocity");
-    let [traction, velocity] = contact_panels(panel, along, own, names);
+    let [traction, velocity] = contact_panels(own, false, names);
     let caption = format!(
-        "{} along the contact edge: tractions (a), velocity (b), on a ground coloured by status.",
-        own.subject[0]
+        "{subject} along the contact edge: tractions (a), velocity (b), on a ground coloured by \
+         status."
     );
     let traction = traction.caption(own.instant.clone());
     Figure::new(own.name.clone(), caption).shared_x().panel(traction).panel(velocity)
 }
 
-/// Tractions (Pa) and tangential velocity along a contact; `names` are those of the counterface and of an absolute
-/// velocity.
-fn contact_panels(
-    panel: impl Fn(Axis) -> Panel,
-    line: impl Fn(&[f64]) -> Line,
-    own: &ContactInstant<'_>,
-    names: (&str, &str),
-) -> [Panel; 2] {
+/// Tractions (Pa) and tangential velocity along a contact or around a whole hole; `names` are those of the counterface
+/// and of an absolute velocity.
+fn contact_panels(own: &ContactInstant<'_>, is_round: bool, names: (&str, &str)) -> [Panel; 2] {
+    // Around a hole the first node comes again at the end.
+    let (first, steps) = match is_round {
+        true => (own.first_angle, own.status.len()),
+        false => (0.0, own.status.len().saturating_sub(1)),
+    };
+    let step = TAU / steps.max(1) as f64;
+    let line = |values: &[f64]| {
+        let again = values.first().filter(|_| is_round);
+        let places = values.iter().chain(again).enumerate();
+        Line::through(places.map(|(i, &value)| (first + i as f64 * step, value)))
+    };
+    let again = own.status.first().filter(|_| is_round);
+    let status: Vec<ContactStatus> = own.status.iter().chain(again).copied().collect();
+    let panel = |y: Axis| {
+        let ground = status_ground(&status, |i| first + (i as f64 - 0.5) * step).unnamed();
+        Panel::new(place_axis(is_round), y).plain().height(78.0).legend().layer(ground)
+    };
     let [pressure, shear] = own.tractions;
     // At the rule a node sticks.
     let (velocity, name, rule) = match own.velocity {
@@ -143,40 +148,21 @@ fn contact_panels(
     ]
 }
 
-fn round_contact(counterface: &str, own: &ContactInstant<'_>) -> Figure {
-    let (first_angle, status) = (own.first_angle, own.status);
-    let step = TAU / status.len().max(1) as f64;
-    let closed = |values: &[f64]| {
-        let around = values.iter().chain(values.first()).enumerate();
-        Line::through(around.map(|(i, &value)| (first_angle + i as f64 * step, value)))
-    };
-    let all_around: Vec<ContactStatus> = status.iter().chain(status.first()).copied().collect();
-    let ground = || status_ground(&all_around, |i| first_angle + (i as f64 - 0.5) * step);
-    let over_angle = |y: Axis| {
-        Panel::new(Axis::angle(), y).plain().height(78.0).legend().layer(ground().unnamed())
-    };
+/// The hole with arcs of stick, slip and separation.
+fn circle(own: &ContactInstant<'_>) -> Panel {
     let angles = [0, 90, 180, 270].map(|degrees: i32| {
         let (sin, cos) = f64::from(degrees).to_radians().sin_cos();
         Label::new((0.48 * cos, 0.48 * sin), format!("{degrees}°"))
             .style(centred(6.75))
             .moved(0.0, 2.4)
     });
-    let circle = Panel::plane([[-1.05, -1.05], [1.05, 1.05]])
+    Panel::plane([[-1.05, -1.05], [1.05, 1.05]])
         .beside(2)
         .caption(own.instant.clone())
-        .layer(status_ring(1.06, first_angle, status))
+        .layer(status_ring(1.06, own.first_angle, own.status))
         .layers(angles)
         .layer(Label::new((0.0, 0.0), "↺").style(centred(13.0)))
-        .layer(Label::new((0.0, 0.0), "rotor").style(centred(6.75)).moved(0.0, 11.0));
-    let names = (counterface, "tangential *v*_{θ}");
-    let [subject, turning] = &own.subject;
-    let caption =
-        format!("{subject}: status around the circle (a), tractions (b), velocity (c){turning}.");
-    Figure::new(own.name.clone(), caption)
-        .weighted(&[1.0, 1.7])
-        .shared_x()
-        .panel(circle)
-        .panels(contact_panels(over_angle, closed, own, names))
+        .layer(Label::new((0.0, 0.0), "rotor").style(centred(6.75)).moved(0.0, 11.0))
 }
 
 /// One field of several: heading, values at the nodes, status of each node of the contact edge.
