@@ -152,28 +152,21 @@ impl Layout {
         for heading in self.headings(panel) {
             drawn = drawn.heading(heading);
         }
+        let modes = own.iter().flat_map(|(at, condition)| {
+            condition.unstable.iter().map(move |mode| (self.x(*at), *condition, mode))
+        });
         // The fastest first, so that none hides behind a larger mark.
-        for (class, &(colour, radius)) in CLASSES.iter().enumerate().rev() {
-            let (mut points, mut rows, mut tips) = (Vec::new(), Vec::new(), Vec::new());
-            for (at, condition) in own {
-                for mode in &condition.unstable {
-                    if bounds.partition_point(|b| *b <= mode.growth_rate_per_s) != class {
-                        continue;
-                    }
-                    points.push((self.x(*at), mode.frequency_hz));
-                    rows.push(condition.point);
-                    tips.push(tip(condition, mode));
-                }
-            }
-            drawn = drawn.layer(
-                Points::new(points)
-                    .marker(Marker::Disc, radius, colour)
-                    .rows(rows)
-                    .tips(tips)
-                    .name(class_name(bounds, class)),
-            );
-        }
-        drawn
+        let classes = CLASSES.iter().enumerate().rev().map(|(class, &(colour, radius))| {
+            let of_class = modes.clone().filter(|(.., mode)| {
+                bounds.partition_point(|bound| *bound <= mode.growth_rate_per_s) == class
+            });
+            Points::new(of_class.clone().map(|(x, _, mode)| (x, mode.frequency_hz)))
+                .marker(Marker::Disc, radius, colour)
+                .rows(of_class.clone().map(|(_, condition, _)| condition.point).collect())
+                .tips(of_class.map(|(_, condition, mode)| tip(condition, mode)).collect())
+                .name(class_name(bounds, class))
+        });
+        drawn.layers(classes)
     }
 
     /// The choices that a panel stands for.
