@@ -122,12 +122,6 @@ impl FoundCycle {
             }),
         }
     }
-
-    /// What a transient that started beside it says.
-    fn confirmed(&self, thickness: f64) -> Option<ConfirmationSummary> {
-        let run = self.confirmation.as_ref()?;
-        Some(ConfirmationSummary::ran(run, run.agrees_with(&self.motion), thickness))
-    }
 }
 
 fn branch_summary(branch: &PeriodicBranch) -> BranchSummary {
@@ -195,7 +189,11 @@ impl PeriodicResult {
             cycle: found.map(|found| found.summary(report, search)),
             absent: None,
             error: self.outcome.as_ref().err().cloned(),
-            confirmation: found.and_then(|found| found.confirmed(report.thickness)),
+            confirmation: found.and_then(|found| {
+                let run = found.confirmation.as_ref()?;
+                let agrees = run.agrees_with(&found.motion);
+                Some(ConfirmationSummary::ran(run, agrees, report.thickness))
+            }),
             stability: found.and_then(|found| Some(stability(found.stability.as_ref()?))),
             branch: found.and_then(|found| found.branch.as_ref().map(branch_summary)),
         }

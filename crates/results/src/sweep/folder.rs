@@ -213,15 +213,6 @@ impl SweepFolder {
         clock.unwrap_or_default()
     }
 
-    /// Claims a point for this process; `None` if another one has it.
-    ///
-    /// A claimed point may have been finished a moment ago: look before running it.
-    pub fn claim(&self, point: usize) -> Result<Option<Claim>, FolderError> {
-        let path = self.path.join(POINTS).join(format!("{CLAIM}{point:06}"));
-        let (file, company) = try_lock(&path)?;
-        Ok((company != Company::Others).then(|| Claim { path, _lock: file }))
-    }
-
     /// Claims a point for this process; `None` where it is finished or another one has it.
     pub fn take(&self, point: usize) -> Result<Option<Claim>, FolderError> {
         let is_finished =
@@ -229,7 +220,9 @@ impl SweepFolder {
         if is_finished()? {
             return Ok(None);
         }
-        let claim = self.claim(point)?;
+        let path = self.path.join(POINTS).join(format!("{CLAIM}{point:06}"));
+        let (lock, company) = try_lock(&path)?;
+        let claim = (company != Company::Others).then(|| Claim { path, _lock: lock });
         // Another process may have finished it between the look and the claim.
         Ok(if is_finished()? { None } else { claim })
     }
