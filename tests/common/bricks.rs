@@ -1,8 +1,9 @@
 //! Bodies of bricks side by side in one mesh file.
 
 use super::block::block;
-use super::mesh_text::mesh_text;
+use super::mesh_text::{Listed, mesh_text};
 use frictionsim::mesh::ElementKind;
+use std::collections::BTreeMap;
 
 /// A block of bricks; its sides are the surfaces `NAME_x0`, `NAME_x1`, `NAME_y0` ... of the file.
 pub struct Block {
@@ -27,14 +28,37 @@ pub fn file_of(blocks: &[Block], place: impl Fn([f64; 3]) -> [f64; 3]) -> Vec<u8
 }
 
 /// Edges of a brick in the order of Gmsh, by their ends.
-pub const EDGES: [usize; 24] =
-    [0, 1, 0, 3, 0, 4, 1, 2, 1, 5, 2, 3, 2, 6, 3, 7, 4, 5, 4, 7, 5, 6, 6, 7];
+const EDGES: [usize; 24] = [0, 1, 0, 3, 0, 4, 1, 2, 1, 5, 2, 3, 2, 6, 3, 7, 4, 5, 4, 7, 5, 6, 6, 7];
+
+/// Radius, angle and height as a place.
+pub fn polar([radius, angle, z]: [f64; 3]) -> [f64; 3] {
+    let (sin, cos) = angle.sin_cos();
+    [radius * cos, radius * sin, z]
+}
 
 /// The same of bricks with 8 nodes (`order` 1) or 20 nodes (`order` 2).
 pub fn file_of_order(
     blocks: &[Block],
     order: usize,
     place: impl Fn([f64; 3]) -> [f64; 3],
+) -> Vec<u8> {
+    write(blocks, order, place, false)
+}
+
+/// The same, nodes of all blocks that lie at one place being one node.
+pub fn welded_file_of(
+    blocks: &[Block],
+    order: usize,
+    place: impl Fn([f64; 3]) -> [f64; 3],
+) -> Vec<u8> {
+    write(blocks, order, place, true)
+}
+
+fn write(
+    blocks: &[Block],
+    order: usize,
+    place: impl Fn([f64; 3]) -> [f64; 3],
+    is_welded: bool,
 ) -> Vec<u8> {
     let kind = [ElementKind::Hex8, ElementKind::Hex20][order - 1];
     let middle_of = |ends: &[usize; 2]| {
@@ -62,6 +86,23 @@ pub fn file_of_order(
         }
         points.extend(file.points);
     }
+    if is_welded {
+        weld(&mut points, &mut elements);
+    }
     let groups: Vec<(u32, &str)> = groups.iter().map(|(d, name)| (*d, name.as_str())).collect();
     mesh_text(&points, &groups, &elements)
+}
+
+/// Gives nodes at one place, to a millionth of a metre, one number.
+fn weld(points: &mut Vec<[f64; 3]>, elements: &mut [Listed]) {
+    let (mut numbers, mut own) = (BTreeMap::new(), Vec::new());
+    let number = points.iter().map(|point| {
+        *numbers.entry(point.map(|x| (1e6 * x).round() as i64)).or_insert_with(|| {
+            own.push(*point);
+            own.len() - 1
+        })
+    });
+    let number: Vec<usize> = number.collect();
+    elements.iter_mut().flat_map(|own| &mut own.2).for_each(|node| *node = number[*node]);
+    *points = own;
 }

@@ -1,6 +1,7 @@
 //! Cases that are read from a text, under changes of which several stand in one with ` ; ` between.
 
 use frictionsim::case::Case;
+use frictionsim::signal::reader::MeasuredMode;
 use std::path::{Path, PathBuf};
 
 /// A case whose files lie beside `path`, or what is said of it.
@@ -32,6 +33,31 @@ pub fn kept(name: &str) -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
     std::fs::create_dir_all(&folder).unwrap();
     folder
+}
+
+/// A case that must be valid, beside files in a folder of a name, which stays.
+#[track_caller]
+pub fn case_beside<S: AsRef<str>>(
+    name: &str,
+    files: &[(&str, &[u8])],
+    text: &str,
+    changes: &[S],
+) -> Case {
+    let folder = kept(name);
+    for (file, bytes) in files {
+        std::fs::write(folder.join(file), bytes).unwrap();
+    }
+    case_of(folder.join("case.toml"), text, changes)
+}
+
+/// What a case is warned of, a line each.
+pub fn warnings(case: &Case) -> String {
+    case.warnings.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n")
+}
+
+/// A measured mode of a line of a table.
+pub fn measured_mode(line: usize, frequency_hz: f64, real_hz: Option<f64>) -> MeasuredMode {
+    MeasuredMode { line, frequency_hz, real_hz, harmonic: None, sigma_hz: None, is_unstable: false }
 }
 
 /// No changes.

@@ -8,6 +8,7 @@ use frictionsim::fem::{
     ElasticMaterial, MassKind, MaterialField, MaxwellChain, ModulusTable, PlaneFormulation,
     RayleighDamping, assemble_stiffness,
 };
+use frictionsim::frf::{Direction, Terminal};
 use frictionsim::mesh::{
     AnnulusSpecification, BoundaryCondition, ElasticSupport, ElementKind, Mesh, ShaftSpecification,
 };
@@ -109,6 +110,12 @@ pub fn stiffening(law: NormalLaw) -> ContactStiffness {
     ContactStiffness { normal_stiffness: Some(law.stiffness(0.0)), law: Some(law), ..RIGID }
 }
 
+/// A node of a response along the radius or around it.
+pub fn at_node(node: usize, is_tangential: bool) -> Terminal {
+    let direction = if is_tangential { Direction::Tangential } else { Direction::Radial };
+    Terminal { node, direction }
+}
+
 /// Springs along the normal, the edge and the axis; dashpots along the normal and the edge.
 pub const fn springs(stiffness: [f64; 3], dashpots: [f64; 2]) -> ElasticSupport {
     ElasticSupport {
@@ -137,6 +144,9 @@ pub const fn elastic(
 ) -> ElasticMaterial {
     ElasticMaterial { young_modulus, poisson_ratio, density, formulation, ..ElasticMaterial::PLAIN }
 }
+
+/// Steel of solid bodies.
+pub const STEEL: ElasticMaterial = elastic(2e11, 0.3, 7850.0, PlaneFormulation::ThreeDimensional);
 
 /// Constant friction.
 pub const fn sliding_at(friction: f64, interference: f64, rotation_speed: f64) -> SlidingContact {
@@ -168,14 +178,23 @@ pub fn modes_at(tangent: &SlidingTangent, friction: f64, limit: ModeLimit) -> Ve
     found.points.into_iter().next().unwrap().modes
 }
 
+/// A run at its start; its operator lives as long as the tests.
+pub fn started<'a>(
+    model: TransientModel<'a>,
+    choice: OperatorChoice,
+    settings: &TransientSettings,
+) -> CentralDifference<'a> {
+    let operator = Box::leak(model.operator(choice, SimdLevel::detect()).unwrap());
+    CentralDifference::start(model, operator, settings).unwrap()
+}
+
 /// A run from its start to its end: its record, and the largest residual of its energy.
 pub fn recorded(
     model: TransientModel<'_>,
     choice: OperatorChoice,
     settings: &TransientSettings,
 ) -> (Recorder, f64) {
-    let operator = model.operator(choice, SimdLevel::detect()).unwrap();
-    let mut run = CentralDifference::start(model, operator.as_ref(), settings).unwrap();
+    let mut run = started(model, choice, settings);
     let mut record = Recorder::new(&run, &RecorderSettings::default()).unwrap();
     run.run(&mut record).unwrap();
     (record, run.largest_residual())
@@ -203,10 +222,9 @@ pub fn goes_on(
         run.run(&mut record).unwrap();
         run.state()
     };
-    let start = |settings| CentralDifference::start(model, operator.as_ref(), settings).unwrap();
-    let half = ran(start(first));
+    let half = ran(started(model, choice, first));
     let resumed = CentralDifference::resume(model, operator.as_ref(), whole, &half).unwrap();
-    assert_eq!(ran(resumed), ran(start(whole)));
+    assert_eq!(ran(resumed), ran(started(model, choice, whole)));
     half
 }
 

@@ -14,6 +14,7 @@ pub mod mesh_text;
 pub mod msh;
 pub mod prelude;
 pub mod program;
+pub mod solids;
 pub mod spectra;
 pub mod table_1;
 pub mod tier;

@@ -11,6 +11,7 @@ pub use super::kept::Kept;
 pub use super::mesh_text::*;
 pub use super::msh::*;
 pub use super::program::{Answer, Row, Run, folder, folder_with, has, names_in, rows, shipped};
+pub use super::solids::*;
 pub use super::spectra::*;
 pub use super::table_1::TABLE_1;
 pub use super::tier::sized;

@@ -53,6 +53,41 @@ pub fn largest_difference(a: &[c64], b: &[c64]) -> f64 {
     pairs.map(|(a, b)| (a - b).norm() / a.norm()).fold(0.0, f64::max)
 }
 
+/// A matrix of a file as a dense one.
+pub fn market_matrix(path: &Path) -> Mat<f64> {
+    let matrix = MarketMatrix::read(&fs::read_to_string(path).unwrap(), usize::MAX).unwrap();
+    dense_of(&matrix)
+}
+
+/// Entries as a dense matrix.
+pub fn dense_of(matrix: &MarketMatrix) -> Mat<f64> {
+    let mut dense = Mat::zeros(matrix.rows, matrix.columns);
+    matrix.entries.iter().for_each(|&(row, column, value)| dense[(row, column)] += value);
+    dense
+}
+
+/// Eigenvalues of `lambda^2 M + lambda C + K` by a dense decomposition.
+pub fn quadratic_eigenvalues([mass, damping, stiffness]: [&Mat<f64>; 3]) -> Vec<c64> {
+    let found = quadratic_modes(mass.as_ref(), damping.as_ref(), stiffness.as_ref()).unwrap();
+    found.iter().map(|mode| mode.eigenvalue).collect()
+}
+
+/// Prints an error, and holds it below a bound.
+#[track_caller]
+pub fn below(error: f64, bound: f64, what: impl std::fmt::Display) {
+    println!("{what}: {error:e}");
+    assert!(error < bound, "{what}: {error:e}");
+}
+
+/// Holds numbers to as many others one by one, to a distance.
+#[track_caller]
+pub fn within(found: &[f64], expected: &[f64], distance: f64) {
+    assert_eq!(found.len(), expected.len());
+    for (a, b) in found.iter().zip(expected) {
+        assert!((a - b).abs() < distance, "{a} {b}: {found:?} {expected:?}");
+    }
+}
+
 /// Holds numbers to as many others one by one, to a share of each.
 #[track_caller]
 pub fn near_each<T: Into<c64> + Copy>(found: &[T], expected: &[T], share: f64) {

@@ -230,9 +230,7 @@ fn lightly_damped_cycle_has_the_transients_frequency_and_statuses() {
             .unwrap();
     let cycle = solver.find(&point).unwrap();
     assert!((cycle.frequency_hz() / 10110.5 - 1.0).abs() < 5e-4);
-    for (found, wanted) in cycle.fractions.iter().zip([0.469, 0.106, 0.424]) {
-        assert!((found - wanted).abs() < 0.01, "{:?}", cycle.fractions);
-    }
+    within(&cycle.fractions, &[0.469, 0.106, 0.424], 0.01);
     assert!(cycle.powers.balance_residual() < 1e-8);
     // The same cycle by way of the damping.
     let from = solver.find(&operating(610.0)).unwrap();
@@ -248,9 +246,7 @@ fn cycle_of_the_second_onset_is_the_transients_and_loses_stability_where_they_le
     // Transients that start on the cycle, 60 ms: constant at 610 and 1100 rpm, gone to 9.9 kHz at 1250 rpm.
     let cycle = solver.find(&operating(610.0)).unwrap();
     assert!((cycle.frequency_hz() / 7666.9 - 1.0).abs() < 5e-4);
-    for (found, wanted) in cycle.fractions.iter().zip([0.248, 0.752, 0.0]) {
-        assert!((found - wanted).abs() < 0.006, "{:?}", cycle.fractions);
-    }
+    within(&cycle.fractions, &[0.248, 0.752, 0.0], 0.006);
     let speeds = [(1100.0, true), (1250.0, false), (610.0, true)];
     for &(rpm, is_stable) in sized(&speeds[..2], &speeds) {
         let cycle = solver.find(&operating(rpm)).unwrap();
@@ -310,9 +306,7 @@ fn field_of_a_disc_with_a_supported_rim_has_the_nodes_of_its_mesh() {
     assert_eq!(field.len(), 2 * annulus.mesh.node_count());
     let edge = cycle.points[0].displacement;
     let largest = field.iter().fold(0.0_f64, |m, u| m.max(u.abs()));
-    for (own, wanted) in field[..2].iter().zip(edge) {
-        assert!((own - wanted).abs() < 1e-9 * largest, "{own} {wanted}");
-    }
+    within(&field[..2], &edge, 1e-9 * largest);
     let rim = 2 * specification.radial_elements;
     assert!(field[rim..rim + 2].iter().any(|u| u.abs() > 1e-6 * largest));
 }

@@ -20,7 +20,7 @@ fn bounds(found: &BasinBoundary) -> [f64; 2] {
 /// steady sliding is its start, and the motion on the edge has a shape of its own.
 #[test]
 fn a_kick_tips_sliding_into_its_cycle_at_the_amplitude_of_the_unstable_cycle() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = folder();
     let whole = cycle(&over_speed(folder.path(), "none", 3.0, &[]));
     let [onset, fold] = whole.branch.unwrap().coexistence()[0];
     let speed = 0.5 * (onset + fold);

@@ -37,7 +37,7 @@ fn at_speed(folder: &Path, speed: f64) -> EventDriven {
 
 #[test]
 fn a_branch_bends_back_at_the_speed_at_which_integration_from_event_to_event_loses_the_cycle() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = folder();
     let branch = branch(&over_speed(folder.path(), "branch", 3.0, &[]));
     let folds = branch.folds();
     assert_eq!(folds.len(), 1, "{folds:?} {:?}", branch.ends);
@@ -72,7 +72,7 @@ fn a_branch_bends_back_at_the_speed_at_which_integration_from_event_to_event_los
 
 #[test]
 fn cycles_beside_stable_sliding_are_found_from_where_a_mode_grows() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = folder();
     let whole = branch(&over_speed(folder.path(), "none", 3.0, &[]));
     let [onset, fold] = whole.coexistence()[0];
     // Between both the case's own sliding is stable: the cycle comes from the end of the range at which it is not.
@@ -103,7 +103,7 @@ fn cycles_beside_stable_sliding_are_found_from_where_a_mode_grows() {
 
 #[test]
 fn a_branch_that_goes_on_after_an_interruption_is_the_same_bit_by_bit() {
-    let case = over_speed(tempfile::tempdir().unwrap().path(), "branch", 0.8, &[]);
+    let case = over_speed(folder().path(), "branch", 0.8, &[]);
     let kept = Kept::default();
     let whole = searched(&case, &kept);
     assert!(kept.count() > 4);
@@ -117,7 +117,7 @@ fn a_branch_that_goes_on_after_an_interruption_is_the_same_bit_by_bit() {
 #[test]
 fn a_branch_without_a_fold_says_so() {
     // A block under constant friction, above its onset.
-    let folder = tempfile::tempdir().unwrap();
+    let folder = folder();
     let overrides = [
         &coarse_block(folder.path()),
         "contact.friction_coefficient=0.66",

@@ -12,7 +12,7 @@ use crate::oscillator::{EventDriven, oscillator};
 
 /// The block at a friction coefficient at which one mode grows.
 fn block(overrides: &[&str]) -> Case {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = folder();
     let mesh = coarse_block(folder.path());
     let own = [&mesh, "contact.friction_coefficient=0.7 ; cycle={ confirmation_periods = 20 }"];
     shipped_case("sliding-block.toml", &[&own, overrides].concat())
@@ -31,17 +31,11 @@ pub fn hold_to_transient(case: &Case) -> PeriodicResult {
     let end = solved.solve().unwrap().analysis.last_fifth;
     let frequency = end.main_frequency_hz.unwrap();
     near(motion.frequency_hz, frequency, 1e-3);
-    let fractions = motion.fractions.iter().zip(end.status);
-    fractions.for_each(|(a, b)| assert!((a - b).abs() < 0.02, "{a} {b}"));
+    within(&motion.fractions, &end.status, 0.02);
     let (own, other) = (motion.powers.contact, end.powers);
-    for (a, b) in [
-        (own.external, other.external),
-        (own.stick, other.stick),
-        (own.slide, other.slide),
-        (motion.powers.material_damping, end.material_damping),
-    ] {
-        assert!((a - b).abs() < 0.02 * other.external, "{a} {b}");
-    }
+    let found = [own.external, own.stick, own.slide, motion.powers.material_damping];
+    let expected = [other.external, other.stick, other.slide, end.material_damping];
+    within(&found, &expected, 0.02 * other.external);
     result
 }
 
@@ -106,9 +100,7 @@ fn energy_of_a_cycle_closes_and_its_parts_add_up() {
         let shares = motion.shares.iter().map(|share| share[k]);
         shares.sum::<f64>() / motion.shares.len() as f64
     };
-    for k in 0..3 {
-        assert!((mean(k) - motion.fractions[k]).abs() < 1e-12);
-    }
+    within(&[0, 1, 2].map(mean), &motion.fractions, 1e-12);
     let told = &motion.harmonics[..cycle.harmonic_count];
     assert!(told.last().unwrap().remainder <= 1e-3);
     assert!(told.len() < motion.harmonics.len() && told.len() > 1);
@@ -145,8 +137,7 @@ fn below_the_onset_steady_sliding_is_said_to_be_stable() {
     let report = study.report(study.run(0, &Unwatched, &|_| {}).unwrap(), 0.0);
     assert!(refuse_nothing(&report).is_ok());
     let text = report.stable_sliding().unwrap();
-    let parts = ["as far as 10 modes", "stable at friction 0.5"];
-    assert!(parts.iter().all(|part| text.contains(part)), "{text}");
+    has(&text, &["as far as 10 modes", "stable at friction 0.5"]);
     // The critical friction that it tells of: a mode grows above it, none below.
     let critical = report.critical.unwrap();
     assert_eq!(critical.parameter, Parameter::FrictionCoefficient);
@@ -221,13 +212,10 @@ fn rotating_waves_are_periodic_motions_of_the_whole_mesh() {
     let motion = &found(nearest.unwrap()).motion;
     // The phases of the wave's own search are the difference.
     near(motion.frequency_hz, wave.frequency_hz(), 5e-4);
-    let fractions = motion.fractions.iter().zip(wave.fractions);
-    fractions.for_each(|(a, b)| assert!((a - b).abs() < 0.01, "{a} {b}"));
+    within(&motion.fractions, &wave.fractions, 0.01);
     let (own, other) = (motion.powers.contact, wave.powers.contact);
     near(own.external, other.external, 0.01);
-    for (a, b) in [(own.stick, other.stick), (own.slide, other.slide)] {
-        assert!((a - b).abs() < 0.01 * other.external, "{a} {b}");
-    }
+    within(&[own.stick, own.slide], &[other.stick, other.slide], 0.01 * other.external);
 
     // Floquet exponents of the wave, from linearized contact, and multipliers, from differences of the motion.
     let own = found(nearest.unwrap()).stability.as_ref().unwrap().as_ref();
@@ -240,7 +228,7 @@ fn rotating_waves_are_periodic_motions_of_the_whole_mesh() {
 
 #[test]
 fn an_oscillator_that_sticks_and_slips_agrees_with_integration_from_event_to_event() {
-    let case = oscillator(tempfile::tempdir().unwrap().path(), &[]);
+    let case = oscillator(folder().path(), &[]);
     let results = cycles(&case);
     assert_eq!(results.len(), 1);
     let motion = &found(&results[0]).motion;

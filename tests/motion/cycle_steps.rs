@@ -41,8 +41,8 @@ impl PlaneBlock {
 }
 
 fn cycles(mesh: &[u8], text: &str, overrides: &[&str]) -> Vec<PeriodicResult> {
-    let folder = tempfile::tempdir().unwrap();
-    std::fs::write(folder.path().join("body.msh"), mesh).unwrap();
+    let folder = folder();
+    fs::write(folder.path().join("body.msh"), mesh).unwrap();
     crate::oscillator::cycles(&case_of(folder.path().join("case.toml"), text, overrides))
 }
 

@@ -4,7 +4,7 @@ use crate::prelude::*;
 
 /// A square of one element on a moving plane, its far side held: two contact nodes that stick and slip under friction that
 /// falls with speed.
-pub fn oscillator(folder: &std::path::Path, overrides: &[&str]) -> Case {
+pub fn oscillator(folder: &Path, overrides: &[&str]) -> Case {
     let edge = even(0.01, 1);
     let mesh = quadrilaterals(&edge, &edge, ["face", "back", "body"], |x, y| [x, y]);
     let text = "[mesh]\nfile = \"square.msh\"\n[boundaries.back]\ncondition = \"clamped\"
@@ -14,9 +14,9 @@ pub fn oscillator(folder: &std::path::Path, overrides: &[&str]) -> Case {
 friction_coefficient = 0.3\nstatic_friction_ratio = 1.1\ndecay_speed = 0.5\ninterference = 1e-5
 [cea]\nmodes = 2\n[transient]\nduration = 1e-3\ntime_step = 2.5e-9
 [cycle]\nconfirmation_periods = 0\nstability = \"none\"\n";
-    std::fs::write(folder.join("square.msh"), mesh).unwrap();
+    fs::write(folder.join("square.msh"), mesh).unwrap();
     let path = folder.join("case.toml");
-    std::fs::write(&path, text).unwrap();
+    fs::write(&path, text).unwrap();
     case_of(path, text, overrides)
 }
 

@@ -3,7 +3,7 @@
 use crate::prelude::*;
 use frictionsim::results::cea::{self, Reading, View};
 use frictionsim::results::report::Report;
-use frictionsim::study::eigenvalues::{self, SlidingModel, Solution, solve};
+use frictionsim::study::eigenvalues::{self, Solution};
 use frictionsim::study::uncertainty::Sampler;
 
 /// One of `count` sectors of a disc as a file in MSH 2.2: bent cut faces, uneven elements, and a hole, the boundary "screw", off the
@@ -73,10 +73,7 @@ fn screwed_disc(sectors: usize, more: &str) -> String {
 }
 
 fn solved(name: &str, mesh: &[u8], text: &str, method: &str) -> Solution {
-    let case = read(name, mesh, text, method).unwrap_or_else(|e| panic!("{e}"));
-    let cea = case.cea.clone().unwrap();
-    let model = SlidingModel::new(&case, &cea).unwrap();
-    solve(&case, &cea, &model, &Unwatched).unwrap()
+    solution(&read(name, mesh, text, method).unwrap_or_else(|e| panic!("{e}"))).1
 }
 
 /// Largest error of as many modes.
@@ -137,10 +134,7 @@ fn waves_around_solid_bodies_have_the_spectrum_of_their_whole_mesh() {
             block("ring", [-0.008, 0.008], high),
             block("above", [0.008, 0.02], 1),
         ];
-        file_of(&blocks, |[r, t, z]| {
-            let angle = t + 0.1 * (60.0 * (r - 0.07)).sin();
-            [r * angle.cos(), r * angle.sin(), z]
-        })
+        file_of(&blocks, |[r, t, z]| polar([r, t + 0.1 * (60.0 * (r - 0.07)).sin(), z]))
     };
     let lining = |name: &str| {
         format!("[materials.{name}]\nyoung_modulus = 5e9\npoisson_ratio = 0.25\ndensity = 2500.0\n")
@@ -193,7 +187,7 @@ fn waves_around_solid_bodies_have_the_spectrum_of_their_whole_mesh() {
 #[test]
 fn waves_around_a_turning_ring_have_the_spectrum_of_its_whole_mesh() {
     let ring = brick("ring", [0.05, 0.0, -0.005], [0.1, TAU / 20.0, 0.01], [3, 2, 1]);
-    let mesh = file_of(&[ring], |[r, t, z]| [r * t.cos(), r * t.sin(), z]);
+    let mesh = file_of(&[ring], polar);
     let text = |frame: &str| {
         format!(
             "[mesh]\nfile = \"sector.msh\"\nsectors = 20\n[material]\nyoung_modulus = 2.1e11\npoisson_ratio = 0.3\n\
@@ -249,7 +243,7 @@ fn sectors_that_do_not_meet_are_refused() {
 #[test]
 fn a_wrong_number_of_solid_sectors_is_reported_where_it_is_given() {
     let block = brick("ring", [0.07, 0.0, 0.0], [0.05, TAU / 6.0, 0.01], [2, 4, 1]);
-    let mesh = file_of(&[block], |[r, t, z]| [r * t.cos(), r * t.sin(), z]);
+    let mesh = file_of(&[block], polar);
     let text = "[mesh]\nfile = \"sector.msh\"\nsectors = 5\n\
                 [material]\nyoung_modulus = 1.1e11\npoisson_ratio = 0.28\ndensity = 7200.0\n\
                 [damping]\nmass_coefficient = 0.0\nstiffness_coefficient = 1e-8\n\
@@ -267,11 +261,9 @@ fn every_table_of_a_body_of_sectors_has_its_nodal_diameters_and_samples_have_its
     let mesh = disc_sector(4, [8, 5], 0.0);
     let case = read("tables", &mesh, &screwed_disc(4, more), "auto");
     let case = case.unwrap_or_else(|e| panic!("{e}"));
-    let cea = case.cea.clone().unwrap();
-    let model = SlidingModel::new(&case, &cea).unwrap();
-    let solution = solve(&case, &cea, &model, &Unwatched).unwrap();
-    let field = model.base_field(&case);
-    let report = eigenvalues::report(&case, &cea, &model, &solution, &field, 0.0);
+    let (model, solution) = solution(&case);
+    let (cea, field) = (case.cea.as_ref().unwrap(), model.base_field(&case));
+    let report = eigenvalues::report(&case, cea, &model, &solution, &field, 0.0);
     let manifest = Manifest::new("cea");
     let told = cea::summary(&report);
     let own = |modes: &[ComplexMode]| modes.iter().map(|m| m.nodal_diameters).collect::<Vec<_>>();
@@ -307,15 +299,6 @@ fn a_contact_without_pressure_is_refused() {
     let mesh = disc_sector(4, [8, 5], 0.0);
     let refused = read("no-pressure", &mesh, &text, "auto").unwrap_err().to_string();
     has(&refused, &["contact.interference = 0.0 ; nothing presses"]);
-    // Solid bodies may be pressed by what overlaps in their mesh: there the base state tells.
-    let block = brick("block", [0.0; 3], [0.02, 0.02, 0.01], [2, 2, 1]);
-    let text = "[mesh]\nfile = \"sector.msh\"\n[material]\nyoung_modulus = 2.5e9\npoisson_ratio = 0.38\ndensity = 1228.0\n\
-        [boundaries.block_z1]\ncondition = \"clamped\"\n[contact]\nboundary = \"block_z0\"\ncounterface = \"plane\"\n\
-        direction = [1.0, 0.0, 0.0]\nspeed = 1.0\nfriction_coefficient = 0.3\ninterference = 0.0\n[cea]\nmodes = 2\n";
-    let case = read("no-pressure-solid", &file_of(&[block], |point| point), text, "auto");
-    let case = case.unwrap_or_else(|e| panic!("{e}"));
-    let refused = SlidingModel::new(&case, case.cea.as_ref().unwrap()).err().unwrap();
-    assert!(refused.to_string().contains("nothing presses the contact"), "{refused}");
 }
 
 /// A disc under a ring on the whole of its top face, clamped at its bore; `more` adds the motions and the mesh.
@@ -371,7 +354,7 @@ fn a_built_in_disc_that_turns_is_the_one_of_a_mesh_of_its_sector() {
     let own = built_in("built-in", 300.0, motion, "auto");
     let still = built_in("built-in-still", 300.0, "", "auto");
     let block = brick("disc", [0.05, 0.0, 0.0], [0.1, TAU / 20.0, 0.01], [3, 1, 1]);
-    let mesh = file_of(&[block], |[r, t, z]| [r * t.cos(), r * t.sin(), z]);
+    let mesh = file_of(&[block], polar);
     let more = format!(
         "boundary = \"disc_z1\"\ncounterface = \"plane\"\n[mesh]\nfile = \"sector.msh\"\nsectors = 20\n\
          [boundaries.disc_x0]\ncondition = \"clamped\"\n{motion}"

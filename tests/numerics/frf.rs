@@ -20,11 +20,7 @@ fn sliding(damping_model: DampingModel) -> FrfSystem {
 }
 
 fn unknown(system: &FrfSystem, node: usize, is_tangential: bool) -> usize {
-    let terminal = Terminal {
-        node,
-        direction: if is_tangential { Direction::Tangential } else { Direction::Radial },
-    };
-    system.unknown(terminal, "force_node").unwrap()
+    system.unknown(at_node(node, is_tangential), "force_node").unwrap()
 }
 
 #[test]
@@ -69,13 +65,12 @@ fn reduction_agrees_with_direct_solution_for_every_boundary() {
 #[test]
 fn a_clamped_node_and_a_missing_one_are_refused_with_their_key() {
     let system = body(true, DAMPING);
-    let at = |node| Terminal { node, direction: Direction::Radial };
-    let error = system.unknown(at(RADIAL), "force_node").unwrap_err();
+    let error = system.unknown(at_node(RADIAL, false), "force_node").unwrap_err();
     assert!(
         matches!(error, FrfError::Node { node: 11, fault: NodeFault::Constrained(_), .. }),
         "{error}"
     );
-    let error = system.unknown(at(100_000), "response_node").unwrap_err();
+    let error = system.unknown(at_node(100_000, false), "response_node").unwrap_err();
     assert!(error.to_string().contains("frf.response_node = 100001"), "{error}");
     let error = direct_response(&system, 0, 0, &[-1.0]).unwrap_err();
     assert!(matches!(error, FrfError::Frequency { value: -1.0 }));

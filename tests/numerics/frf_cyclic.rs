@@ -17,9 +17,8 @@ fn meshes() -> [AnnulusSpecification; 3] {
 fn terminals(specification: &AnnulusSpecification, is_sliding: bool) -> Vec<[Terminal; 2]> {
     let mesh = AnnulusMesh::generate(specification).unwrap().mesh;
     let per_sector = mesh.node_count() / specification.circumferential_elements;
-    let at = |sector: usize, position: usize, is_tangential: bool| Terminal {
-        node: sector * per_sector + position,
-        direction: if is_tangential { Direction::Tangential } else { Direction::Radial },
+    let at = |sector: usize, position: usize, is_tangential: bool| {
+        at_node(sector * per_sector + position, is_tangential)
     };
     // On the contact edge, inside, and (Quad8) on the middle ray of a sector.
     let middle = if specification.element.is_quadratic() { per_sector - 4 } else { 2 };
@@ -149,7 +148,7 @@ fn held_and_missing_nodes_and_negative_frequencies_are_refused_with_their_key() 
     let sector = SectorMesh::generate(&specification).unwrap();
     let mass = MassKind::Consistent;
     let system = CyclicSystem::body(&sector, &POLYCARBONATE, mass, DAMPING, true);
-    let at = |node| Terminal { node, direction: Direction::Radial };
+    let at = |node| at_node(node, false);
     let error = system.check(at(6), "force_node").unwrap_err();
     assert!(
         matches!(error, FrfError::Node { node: 7, fault: NodeFault::Constrained(_), .. }),

@@ -29,10 +29,7 @@ fn cyclic(options: &TangentOptions, friction_coefficient: f64) -> CyclicSystem {
 }
 
 fn at(sector: usize, ring: usize, is_tangential: bool) -> Terminal {
-    Terminal {
-        node: sector * (RADIAL + 1) + ring,
-        direction: if is_tangential { Direction::Tangential } else { Direction::Radial },
-    }
+    at_node(sector * (RADIAL + 1) + ring, is_tangential)
 }
 
 /// Poles, right vectors, left vectors and defect of the first-order form

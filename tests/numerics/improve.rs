@@ -77,7 +77,7 @@ impl Body {
         let d = mesh.dimension;
         let unit = |i: usize| [0, 1, 2].map(|k| f64::from(u8::from(k == i)));
         let axes: Vec<f64> = (0..d).map(|i| along(unit(i))).collect();
-        let mut form = nalgebra::DMatrix::from_fn(d, d, |i, _| axes[i]);
+        let mut form = DMatrix::from_fn(d, d, |i, _| axes[i]);
         for (i, j) in (0..d).flat_map(|i| (0..i).map(move |j| (i, j))) {
             let (e, f) = (unit(i), unit(j));
             let between = [0, 1, 2].map(|k| e[k] + f[k]);
@@ -192,10 +192,9 @@ fn fields_of_an_oval_on_supports_are_differences_of_its_spectra() {
 /// A pad on a slab of bricks, free of stress.
 #[test]
 fn fields_of_an_assembly_are_differences_of_its_spectra() {
-    let block = |name, origin, size, counts| brick(name, origin, size, counts);
     let blocks = [
-        block("slab", [0.0; 3], [0.06, 0.03, 0.01], [6, 3, 1]),
-        block("patch", [0.005, 0.005, 0.01], [0.02, 0.02, 0.02], [3, 3, 2]),
+        brick("slab", [0.0; 3], [0.06, 0.03, 0.01], [6, 3, 1]),
+        brick("patch", [0.005, 0.005, 0.01], [0.02, 0.02, 0.02], [3, 3, 2]),
     ];
     let folder = folder_with(&[("pads.msh", &file_of(&blocks, |point| point))]);
     let text = "[mesh]\nfile = \"pads.msh\"\n\

@@ -7,25 +7,22 @@ use crate::prelude::*;
 use faer::linalg::solvers::Solve;
 use std::io::Read;
 
-pub fn dense(matrix: &MarketMatrix) -> Mat<f64> {
-    let mut dense = Mat::zeros(matrix.rows, matrix.columns);
-    for &(row, column, value) in &matrix.entries {
-        dense[(row, column)] += value;
-    }
-    dense
+/// The eigenvalues published with the problem.
+fn published() -> Vec<c64> {
+    let text = fs::read_to_string(public("eigenvalues.csv")).unwrap();
+    let values = text.lines().skip(1).map(|line| {
+        let (re, im) = line.split_once(',').unwrap();
+        c64::new(re.parse().unwrap(), im.parse().unwrap())
+    });
+    values.collect()
 }
 
 /// Badly scaled on purpose: sizes of eigenvalues lie seven orders apart. A plain linearization loses the small ones.
 #[test]
 fn the_public_disk_brake_problem_has_its_eigenvalues_of_every_size() {
     let [mass, damping, stiffness] =
-        ["M.mtx", "C.mtx", "K.mtx"].map(|name| dense(&read(&public(name))));
-    let text = fs::read_to_string(public("eigenvalues.csv")).unwrap();
-    let exact = text.lines().skip(1).map(|line| {
-        let (re, im) = line.split_once(',').unwrap();
-        c64::new(re.parse().unwrap(), im.parse().unwrap())
-    });
-    let exact: Vec<c64> = exact.collect();
+        ["M.mtx", "C.mtx", "K.mtx"].map(|name| market_matrix(&public(name)));
+    let exact = published();
     let found = quadratic_modes(mass.as_ref(), damping.as_ref(), stiffness.as_ref()).unwrap();
     assert_eq!(found.len(), exact.len());
     let own: Vec<c64> = found.iter().map(|mode| mode.eigenvalue).collect();
@@ -81,7 +78,7 @@ fn assembled(folder: &Path, friction: f64) -> [Mat<f64>; 4] {
     let mut sums = [0, 1, 2, 3].map(|_| Mat::<f64>::zeros(size, size));
     for entry in description["matrices"].as_array().unwrap() {
         let file = folder.join(entry["matrix_market"].as_str().unwrap());
-        let matrix = dense(&read(&file));
+        let matrix = market_matrix(&file);
         let roles = ["mass", "damping", "stiffness", "structural"];
         for (sum, role) in sums.iter_mut().zip(roles) {
             if let Some(power) = entry["role"][role]["friction_power"].as_i64() {
@@ -145,8 +142,7 @@ fn modes_among(folder: &TempDir, friction: f64, matrices: &[Mat<f64>; 4]) -> usi
     let found: Vec<c64> = if losses.norm_max() > 0.0 {
         lossy_eigenvalues([mass, damping, stiffness, losses])
     } else {
-        let found = quadratic_modes(mass.as_ref(), damping.as_ref(), stiffness.as_ref()).unwrap();
-        found.iter().map(|mode| mode.eigenvalue).collect()
+        quadratic_eigenvalues([mass, damping, stiffness])
     };
     let rows = rows(&folder.path().join("cea/eigenvalues.csv"));
     let own = rows.iter().filter(|row| row.number("friction_coefficient") == friction);
@@ -165,22 +161,29 @@ fn lifted(out: &Path, unknown: usize) -> f64 {
     if is_high { row[5].parse().unwrap() } else { 0.0 }
 }
 
+/// A block that is pressed on another, which turns under it.
+const BLOCKS: &str = "[mesh]\nfile = \"block.msh\"
+[material]\nyoung_modulus = 2e10\npoisson_ratio = 0.3\ndensity = 2500.0
+[damping]\nmass_coefficient = 10.0\nstiffness_coefficient = 1e-7
+[boundaries.low_z0]\ncondition = \"clamped\"
+[boundaries.high_z1]\ncondition = \"pressure\"\npressure = 1e6
+[boundaries.high_x1]\ncondition = \"support\"\nnormal_stiffness = 2e9\ntangential_stiffness = 1e10
+[motion.low]\naxis = [0.0, 0.0, 1.0]\ncenter = [0.0, -0.2, 0.0]\nrotation_speed_rpm = 100.0
+[contacts.face]\nsurface = \"high_z0\"\ncounter = \"low_z1\"\nfriction_coefficient = 0.8\n";
+
 /// Two blocks that slide on each other, on springs and rigidly, and the rows of their contact.
 #[test]
 fn exported_matrices_of_solid_bodies_have_the_eigenvalues_of_the_analysis() {
     let block = |name, z: f64, counts| brick(name, [0.0, 0.0, z], [0.02, 0.02, 0.01], counts);
     let blocks = [block("low", 0.0, [2, 2, 1]), block("high", 0.01, [3, 2, 1])];
-    let text = "[mesh]\nfile = \"block.msh\"\n[material]\nyoung_modulus = 2e10\npoisson_ratio = 0.3\ndensity = 2500.0\n\
-        [damping]\nmass_coefficient = 10.0\nstiffness_coefficient = 1e-7\n\
-        [boundaries.low_z0]\ncondition = \"clamped\"\n[boundaries.high_z1]\ncondition = \"pressure\"\npressure = 1e6\n\
-        [boundaries.high_x1]\ncondition = \"support\"\nnormal_stiffness = 1e12\ntangential_stiffness = 1e10\n\
-        [motion.low]\naxis = [0.0, 0.0, 1.0]\ncenter = [0.0, -0.2, 0.0]\nrotation_speed_rpm = 100.0\n\
-        [contacts.face]\nsurface = \"high_z0\"\ncounter = \"low_z1\"\nfriction_coefficient = 0.4\n\
-        [cea]\nfriction_coefficients = [0.4]\nmodes = 6\n";
+    let text = format!("{BLOCKS}[cea]\nfriction_coefficients = [0.4]\nmodes = 6\n");
+    let files: [(&str, &[u8]); 2] =
+        [("block.msh", &file_of(&blocks, |p| p)), ("block.toml", text.as_bytes())];
+    let stiffer =
+        "boundaries.high_x1.normal_stiffness=1e12 ; contacts.face.friction_coefficient=0.4";
     for contact in [&["contacts.face.normal_stiffness=1e13"][..], &[]] {
-        let folder = folder_with(&[("block.msh", &file_of(&blocks, |p| p))]);
-        fs::write(folder.path().join("block.toml"), text).unwrap();
-        solved(&folder, contact);
+        let folder = folder_with(&files);
+        solved(&folder, &[&[stiffer], contact].concat());
         assert!(listed_modes_found(&folder, 0.4) >= 6);
         // Each point parts by one where the upper block is lifted by one; pressed rigid points do not part.
         let out = folder.path().join("matrices");
@@ -207,15 +210,8 @@ fn tall_block(folder: &TempDir, contact: &str, frictions: &str) {
     let across = sized(1, 2);
     let blocks =
         [block("low", 0.0, 0.01, [2, across, 1]), block("high", 0.01, 0.03, [3, across, 2])];
-    let text = format!(
-        "[mesh]\nfile = \"block.msh\"\n[material]\nyoung_modulus = 2e10\npoisson_ratio = 0.3\ndensity = 2500.0\n\
-        [damping]\nmass_coefficient = 10.0\nstiffness_coefficient = 1e-7\n\
-        [boundaries.low_z0]\ncondition = \"clamped\"\n[boundaries.high_z1]\ncondition = \"pressure\"\npressure = 1e6\n\
-        [boundaries.high_x1]\ncondition = \"support\"\nnormal_stiffness = 2e9\ntangential_stiffness = 1e10\n\
-        [motion.low]\naxis = [0.0, 0.0, 1.0]\ncenter = [0.0, -0.2, 0.0]\nrotation_speed_rpm = 100.0\n\
-        [contacts.face]\nsurface = \"high_z0\"\ncounter = \"low_z1\"\nfriction_coefficient = 0.8\n{contact}\n\
-        [cea]\nfriction_coefficients = {frictions}\nmodes = 6\n"
-    );
+    let cea = format!("[cea]\nfriction_coefficients = {frictions}\nmodes = 6\n");
+    let text = format!("{BLOCKS}{contact}\n{cea}");
     fs::write(folder.path().join("block.msh"), file_of(&blocks, |p| p)).unwrap();
     fs::write(folder.path().join("block.toml"), text).unwrap();
 }
@@ -274,7 +270,7 @@ fn at_friction(folder: &TempDir, friction: f64, set: &[&str]) -> [Mat<f64>; 4] {
     let beside = ["manifest.json", "mesh.msh", "summary.json"];
     assert_eq!(files, [&["C.mtx", "K.mtx", "M.mtx"][..], &beside].concat());
     let [mass, damping, stiffness] =
-        ["M.mtx", "C.mtx", "K.mtx"].map(|name| dense(&read(&out.join(name))));
+        ["M.mtx", "C.mtx", "K.mtx"].map(|name| market_matrix(&out.join(name)));
     let none = Mat::zeros(mass.nrows(), mass.nrows());
     [mass, damping, stiffness, none]
 }
@@ -379,13 +375,8 @@ fn cea_of_a_superelement_lists_the_oscillating_modes_of_its_matrices() {
     brake(&folder, "K.mtx");
     let found = run(&folder, "cea", &[]).done().rows("eigenvalues.csv");
     let found: Vec<f64> = found.iter().map(|row| TAU * row.number("frequency_hz")).collect();
-    let text = fs::read_to_string(public("eigenvalues.csv")).unwrap();
-    let exact: Vec<f64> = text
-        .lines()
-        .skip(1)
-        .map(|line| line.split_once(',').unwrap().1.parse::<f64>().unwrap())
-        .filter(|imaginary| *imaginary > 0.0)
-        .collect();
+    let mut exact: Vec<f64> = published().iter().map(|own| own.im).collect();
+    exact.retain(|imaginary| *imaginary > 0.0);
     assert_eq!(found.len(), exact.len());
     for exact in exact {
         let nearest =

@@ -1,25 +1,17 @@
 //! What the mesh makes of frequencies and of critical friction, against finer meshes.
 
 use crate::prelude::*;
-use frictionsim::study::eigenvalues::{SlidingModel, Solution, solve};
+use frictionsim::study::eigenvalues::Solution;
 
 fn shipped(name: &str, modes: usize, frictions: &str) -> Case {
     let own = format!("cea.modes={modes} ; cea.friction_coefficients={frictions}");
     shipped_case(&format!("{name}.toml"), &[own.as_str(), "cea.sensitivities=false"])
 }
 
-fn solved(case: &Case) -> Solution {
-    let cea = case.cea.clone().unwrap();
-    let model = SlidingModel::new(case, &cea).unwrap();
-    solve(case, &cea, &model, &Unwatched).unwrap()
-}
-
 /// A case of the block `part` in a folder that stays.
 fn bricks(name: &str, size: [f64; 3], counts: [usize; 3], text: &str) -> Case {
-    let folder = kept(name);
-    let block = brick("part", [0.0; 3], size, counts);
-    fs::write(folder.join("part.msh"), file_of(&[block], |point| point)).unwrap();
-    case_of(folder.join("part.toml"), text, AS_IT_IS)
+    let mesh = file_of(&[brick("part", [0.0; 3], size, counts)], |point| point);
+    case_beside(name, &[("part.msh", &mesh)], text, AS_IT_IS)
 }
 
 /// Frequencies at the last friction value with their estimates, Hz.
@@ -54,12 +46,11 @@ fn estimates_of_frequencies_are_within_a_factor_of_two_of_the_error_by_refinemen
     let disc = {
         let specification = crate::disc::annulus(ElementKind::Quad4, 48, 8);
         let mesh = crate::triangles::triangles(&specification, true);
-        let folder = kept("mesh-error-disc");
-        fs::write(folder.join("disc.msh"), write_msh(&mesh, FORMS[0], &[], |point| point)).unwrap();
+        let mesh = write_msh(&mesh, FORMS[0], &[], |point| point);
         let shipped = fs::read_to_string(crate::program::shipped("disc-triangles.toml")).unwrap();
         let text = shipped.replace("meshes/disc.msh", "disc.msh").replace("scale = 0.001", "");
         let set = ["cea.modes=6 ; cea.friction_coefficients=[0.3] ; cea.sensitivities=false"];
-        case_of(folder.join("disc.toml"), &text, &set)
+        case_beside("mesh-error-disc", &[("disc.msh", &mesh)], &text, &set)
     };
     let disc = sized(disc, shipped("disc-triangles", 6, "[0.3]"));
     // The strain of bricks with incompatible modes is better than that of others, and so less is recovered.
@@ -67,7 +58,7 @@ fn estimates_of_frequencies_are_within_a_factor_of_two_of_the_error_by_refinemen
         ("lining", 2.3, [lining(1), lining(2)]),
         ("disc", 2.0, [disc.clone(), disc.refined(2.0).unwrap()]),
     ] {
-        let [coarse, fine] = [coarse, fine].map(|case| estimates(&solved(&case)));
+        let [coarse, fine] = [coarse, fine].map(|case| estimates(&solution(&case).1));
         let found = effectivities(&coarse, &fine);
         println!("{name}: {found:.3?}");
         assert!(found.iter().all(|e| (0.5..most).contains(e)), "{name}: {found:?}");
@@ -88,7 +79,7 @@ fn estimates_of_one_layer_of_bricks_in_bending_are_of_the_size_of_the_error() {
                     density = 7800.0\n[boundaries.part_x0]\ncondition = \"clamped\"\n[cea]\nmodes = 5\n";
         bricks(&format!("plate-{fineness}"), [0.16, 0.08, 0.006], counts, text)
     };
-    let [coarse, fine] = [plate(1), plate(2)].map(|case| estimates(&solved(&case)));
+    let [coarse, fine] = [plate(1), plate(2)].map(|case| estimates(&solution(&case).1));
     let found = effectivities(&coarse, &fine);
     println!("{found:.3?} of {coarse:.3?} {fine:.3?}");
     for ((found, coarse), fine) in found.iter().zip(&coarse).zip(&fine) {
@@ -110,7 +101,7 @@ fn estimates_of_critical_friction_follow_the_error_by_refinement() {
         sized(shipped_case("limit-cycle.toml", &annulus), shipped("test-bench", 10, "[0.1, 0.2]"));
     let fine = coarse.refined(2.0).unwrap();
     let onsets = |case: &Case| -> Vec<[f64; 2]> {
-        let solution = solved(case);
+        let (_, solution) = solution(case);
         let reading = solution.reading.as_ref().unwrap();
         let pairs = solution.sweep.intervals.iter().zip(&reading.onset_errors);
         pairs

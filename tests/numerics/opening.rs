@@ -117,9 +117,7 @@ fn a_branch_that_leaves_the_list_as_contact_opens_keeps_its_name() {
         assert_eq!(sweep.intervals.len(), 2, "{:?}", sweep.intervals);
         sweep.intervals.iter().map(|own| own.critical_friction).collect()
     });
-    for (own, other) in found.iter().zip(&expected) {
-        assert!((own - other).abs() < 1e-8, "{found:?} {expected:?}");
-    }
+    within(&found, &expected, 1e-8);
     assert!((found[1] - 0.2268).abs() < 1e-4, "{found:?}");
 }
 

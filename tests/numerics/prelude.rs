@@ -6,3 +6,12 @@ pub use crate::solids::model::{SolidModel, solid_sweep};
 pub use frictionsim::cea::cyclic::WaveSweep;
 pub use frictionsim::cea::sparse::sweep;
 pub use frictionsim::linalg::dense::random_columns;
+use frictionsim::study::eigenvalues::{SlidingModel, Solution, solve};
+
+/// A case's body in its base state, and its eigenvalue analysis.
+pub fn solution(case: &Case) -> (SlidingModel, Solution) {
+    let cea = case.cea.as_ref().unwrap();
+    let model = SlidingModel::new(case, cea).unwrap();
+    let found = solve(case, cea, &model, &Unwatched).unwrap();
+    (model, found)
+}

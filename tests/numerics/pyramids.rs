@@ -40,7 +40,7 @@ fn row(is_quadratic: bool) -> FileMesh {
 fn bricks_pyramids_and_tetrahedra_in_one_body_pass_the_patch_test() {
     for is_quadratic in [false, true] {
         let mesh = Mesh::from_solids(&row(is_quadratic), 1.0, &[]).unwrap();
-        let kinds: std::collections::BTreeSet<ElementKind> =
+        let kinds: BTreeSet<ElementKind> =
             (0..mesh.element_count()).map(|e| mesh.element_kind(e)).collect();
         assert_eq!(kinds.len(), 3);
         passes_the_patch_test(&mesh, &format!("quadratic {is_quadratic}"));

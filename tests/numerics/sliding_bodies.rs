@@ -5,7 +5,7 @@
 //! Independent check: a dense decomposition of the exported matrices at each friction coefficient. Every mode damped by less than
 //! half of critical that lies below the highest one listed is listed, and what is listed is an eigenvalue.
 
-use crate::matrices::{dense, lossy_eigenvalues};
+use crate::matrices::lossy_eigenvalues;
 use crate::prelude::*;
 use faer::linalg::solvers::Solve;
 use frictionsim::results::matrices::{ExportedSystem, MatrixRole};
@@ -125,7 +125,7 @@ pub fn sums(system: &ExportedSystem) -> [Mat<f64>; 4] {
             MatrixRole::Structural { friction_power: 0 } => 3,
             _ => continue,
         };
-        sums[place] += dense(&own.matrix);
+        sums[place] += dense_of(&own.matrix);
     }
     sums
 }

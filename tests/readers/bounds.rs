@@ -1,14 +1,8 @@
 //! Bounds on what is read: input that is small to write and had no end, or ended in an abort or a panic.
 
 use crate::mesh_files::{ASSEMBLY, BULK_DATA, error};
-use crate::program::{folder_with, has};
-use frictionsim::case::{Case, CaseErrors, case_from};
-use frictionsim::linalg::MarketMatrix;
-use frictionsim::mesh::FileMesh;
+use crate::prelude::*;
 use frictionsim::signal::reader::read_shapes;
-use std::fmt::Write as _;
-use std::fs;
-use std::path::Path;
 
 fn parsed(folder: &Path, case: &str) -> Result<Case, CaseErrors> {
     Case::parse(&folder.join("case.toml").display().to_string(), case.as_bytes(), &[])
@@ -117,7 +111,7 @@ fn a_hundred_thousand_unknown_keywords_take_moments_and_messages_stay_short() {
     for k in 0..100_000 {
         writeln!(text, "*WORD{k}").unwrap();
     }
-    let start = std::time::Instant::now();
+    let start = Instant::now();
     let file = FileMesh::read_as("a.inp", text.as_bytes()).unwrap();
     assert!(file.model.left_out.len() > 100_000);
     assert!(start.elapsed().as_secs_f64() < 5.0, "{:?}", start.elapsed());

@@ -6,6 +6,7 @@ mod common;
 mod bounds;
 mod fuzz;
 mod mesh_files;
+mod prelude;
 mod signal_reader;
 
-use common::{block, msh, program, tier};
+use common::program;

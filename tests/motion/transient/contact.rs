@@ -9,9 +9,8 @@ fn multipliers_obey_signorini_and_coulomb_at_every_step() {
     let annulus = disc(30, 6);
     for rpm in [610.0, -610.0] {
         let model = model(&annulus, rpm);
-        let operator = model.operator(OperatorChoice::Auto, SimdLevel::detect()).unwrap();
         let settings = kicked(3e-3, &[1, 2], 2.0);
-        let mut run = CentralDifference::start(model, operator.as_ref(), &settings).unwrap();
+        let mut run = started(model, OperatorChoice::Auto, &settings);
         let surface_speed = model.contact.rotation_speed * 0.0205;
         let mut seen = [0; 3];
         while run.steps_done() < 10_000 {
@@ -54,9 +53,8 @@ fn gap_and_velocity_of_a_node_between_two_bodies_are_those_over_the_other_body()
     let specification = crate::disc::on_shaft(disc(30, 6).specification, 2);
     let annulus = AnnulusMesh::generate(&specification).unwrap();
     let model = model(&annulus, 610.0);
-    let operator = model.operator(OperatorChoice::Auto, SimdLevel::detect()).unwrap();
     let settings = kicked(3e-3, &[1, 2], 2.0);
-    let mut run = CentralDifference::start(model, operator.as_ref(), &settings).unwrap();
+    let mut run = started(model, OperatorChoice::Auto, &settings);
     let mut seen = [0; 3];
     while run.steps_done() < 5_000 {
         run.advance();
@@ -96,10 +94,9 @@ fn steady_sliding_start_stays_in_equilibrium() {
         (contact(610.0), stiffening(LAWS[1]), 1e-8),
     ] {
         let model = on_contact(&annulus, contact, stiffness);
-        let operator = model.operator(OperatorChoice::Auto, SimdLevel::detect()).unwrap();
         let mut settings = settings(1e-3, &[]);
         settings.initial = InitialState::SteadySliding;
-        let mut run = CentralDifference::start(model, operator.as_ref(), &settings).unwrap();
+        let mut run = started(model, OperatorChoice::Auto, &settings);
         let elastic = assemble_stiffness(&annulus.mesh, model.material);
         let base = SteadySliding::solve_with(&annulus.mesh, &elastic, &contact, stiffness.law);
         let base = base.unwrap();

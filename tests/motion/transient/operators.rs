@@ -107,7 +107,7 @@ fn largest_frequency_is_that_of_the_dense_matrix() {
     let stiffness = assemble_stiffness(&annulus.mesh, &material);
     let masses = lumped_masses(&annulus.mesh, &material);
     let free = DofMap::clamped(&annulus.mesh);
-    let mut matrix = faer::Mat::<f64>::zeros(free.len(), free.len());
+    let mut matrix = Mat::<f64>::zeros(free.len(), free.len());
     for (row, column, value) in stiffness.entries {
         if let (Some(i), Some(j)) = (free.unknown_of[row], free.unknown_of[column]) {
             matrix[(i, j)] += value / (masses[row / 2] * masses[column / 2]).sqrt();
@@ -169,8 +169,7 @@ fn a_large_body_moves_as_with_the_stencil_and_to_the_same_bits_on_any_number_of_
     let coefficients = coefficients(&model, 1e-8);
     let moved = |operator: &dyn StiffnessOperator, threads: usize| {
         let mut fields = moving(operator, &start);
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
-        let powers: Vec<f64> = pool.unwrap().install(|| {
+        let powers: Vec<f64> = on_threads(threads, || {
             operator.multiply(&mut fields.velocity, &mut fields.elastic_rate);
             (0..4).map(|_| operator.advance(&mut fields, &coefficients)).collect()
         });
@@ -180,10 +179,8 @@ fn a_large_body_moves_as_with_the_stencil_and_to_the_same_bits_on_any_number_of_
     let (alone, powers) = moved(sparse.as_ref(), 1);
     // A dozen terms of the size of the largest in each of five products.
     assert!(largest_difference(&alone, &expected) < 1e-13 * largest(&expected));
-    for (power, expected) in powers.iter().zip(expected_powers) {
-        // Sums of 70,000 terms, hardly any negative, in two orders.
-        assert!((power / expected - 1.0).abs() < 1e-12);
-    }
+    // Sums of 70,000 terms, hardly any negative, in two orders.
+    near_each(&powers, &expected_powers, 1e-12);
     for threads in [2, 3] {
         assert_eq!(moved(sparse.as_ref(), threads), (alone.clone(), powers.clone()));
     }

@@ -67,12 +67,9 @@ fn restarted_run_equals_uninterrupted_run_bitwise() {
 fn runs_are_bitwise_equal_inside_thread_pools_of_any_size() {
     let annulus = disc(30, 6);
     let end = |threads: usize| {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        pool.install(|| {
+        on_threads(threads, || {
             let model = model(&annulus, 610.0);
-            let operator = model.operator(OperatorChoice::Auto, SimdLevel::detect()).unwrap();
-            let mut run =
-                CentralDifference::start(model, operator.as_ref(), &settings(1e-3, &[1])).unwrap();
+            let mut run = started(model, OperatorChoice::Auto, &settings(1e-3, &[1]));
             run.run(&mut Watch(|_: &Sample<'_>| {})).unwrap();
             run.state()
         })
@@ -83,15 +80,11 @@ fn runs_are_bitwise_equal_inside_thread_pools_of_any_size() {
 #[test]
 fn a_state_of_another_mesh_is_refused() {
     let (small, large) = (disc(12, 3), disc(15, 3));
-    let saved = {
-        let model = model(&small, 600.0);
-        let operator = model.operator(OperatorChoice::Auto, SimdLevel::detect()).unwrap();
-        CentralDifference::start(model, operator.as_ref(), &settings(1e-3, &[1])).unwrap().state()
-    };
+    let settings = settings(1e-3, &[1]);
+    let saved = started(model(&small, 600.0), OperatorChoice::Auto, &settings).state();
     let model = model(&large, 600.0);
     let operator = model.operator(OperatorChoice::Auto, SimdLevel::detect()).unwrap();
-    let error = CentralDifference::resume(model, operator.as_ref(), &settings(1e-3, &[1]), &saved)
-        .err()
-        .unwrap();
-    assert_eq!(error, TransientError::ForeignState { found: 96, expected: 120 });
+    let resumed = CentralDifference::resume(model, operator.as_ref(), &settings, &saved);
+    let foreign = TransientError::ForeignState { found: 96, expected: 120 };
+    assert_eq!(resumed.err(), Some(foreign));
 }

@@ -16,19 +16,18 @@ fn failure(change: impl FnOnce(&mut TransientSettings)) -> String {
 #[test]
 fn a_setting_that_does_not_fit_is_named_with_its_bound() {
     type Change = fn(&mut TransientSettings);
-    let changes: [(Change, &[&str]); 5] = [
-        (|s| s.time_step = TimeStep::Seconds(5e-6), &["time_step = 5e-6 s is above", "limit of"]),
-        (|s| s.duration = 0.0, &["duration = 0 s"]),
+    let changes: [(Change, &str); 5] = [
+        (|s| s.time_step = TimeStep::Seconds(5e-6), "time_step = 5e-6 s is above ; limit of"),
+        (|s| s.duration = 0.0, "duration = 0 s"),
         (
             |s| (s.time_step, s.sample_interval) = (TimeStep::Seconds(1e-6), 1e-9),
-            &["sample_interval = 1e-9 s is below"],
+            "sample_interval = 1e-9 s is below",
         ),
-        (|s| s.perturbation = Perturbation::of(&[13], 1e-3), &["holds 13, above 12"]),
-        (|s| s.expansion_time = -1.0, &["expansion_time = -1"]),
+        (|s| s.perturbation = Perturbation::of(&[13], 1e-3), "holds 13, above 12"),
+        (|s| s.expansion_time = -1.0, "expansion_time = -1"),
     ];
-    for (change, parts) in changes {
-        let message = failure(change);
-        assert!(parts.iter().all(|part| message.contains(part)), "{message}");
+    for (change, said) in changes {
+        has(&failure(change), &[said]);
     }
 }
 
@@ -36,8 +35,7 @@ fn a_setting_that_does_not_fit_is_named_with_its_bound() {
 fn a_probe_or_snapshot_that_does_not_exist_is_named_with_its_bound() {
     let annulus = disc(24, 6);
     let model = model(&annulus, 600.0);
-    let operator = model.operator(OperatorChoice::Auto, SimdLevel::detect()).unwrap();
-    let run = CentralDifference::start(model, operator.as_ref(), &settings(1e-3, &[1])).unwrap();
+    let run = started(model, OperatorChoice::Auto, &settings(1e-3, &[1]));
     let failure = |probes: &[usize], snapshots: &[f64]| {
         let wanted = RecorderSettings {
             probes: probes.to_vec(),
@@ -74,13 +72,9 @@ fn a_run_that_leaves_the_numbers_says_when_where_and_why() {
     let annulus = disc(24, 6);
     let mut model = model(&annulus, 600.0);
     model.contact.rotation_speed = 1e200;
-    let operator = model.operator(OperatorChoice::Auto, SimdLevel::detect()).unwrap();
-    let settings = kicked(1e-3, &[2], 1e170);
-    let mut run = CentralDifference::start(model, operator.as_ref(), &settings).unwrap();
+    let mut run = started(model, OperatorChoice::Auto, &kicked(1e-3, &[2], 1e170));
     let error = run.run(&mut Watch(|_: &Sample<'_>| {})).unwrap_err();
     let message = error.to_string();
     assert!(matches!(error, TransientError::Unstable { .. }), "{message}");
-    for part in ["at t = ", "node is ", "degrees", "rotation speed"] {
-        assert!(message.contains(part), "{message}");
-    }
+    has(&message, &["at t = ; node is  ; degrees ; rotation speed"]);
 }

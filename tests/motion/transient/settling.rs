@@ -6,8 +6,7 @@ use crate::transient::model::{disc, kicked, model, settings};
 fn run(rpm: f64, settings: &TransientSettings, wanted: &RecorderSettings) -> (Recorder, RunEnd) {
     let annulus = disc(45, 9);
     let model = model(&annulus, rpm);
-    let operator = model.operator(OperatorChoice::Auto, SimdLevel::detect()).unwrap();
-    let mut run = CentralDifference::start(model, operator.as_ref(), settings).unwrap();
+    let mut run = started(model, OperatorChoice::Auto, settings);
     let mut record = Recorder::new(&run, wanted).unwrap();
     let end = run.run(&mut record).unwrap();
     (record, end)

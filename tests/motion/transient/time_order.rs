@@ -7,12 +7,11 @@ use crate::transient::model::{Watch, disc, free, largest_difference, settings};
 fn end(steps: u32) -> (Vec<f64>, Vec<f64>) {
     let annulus = disc(24, 5);
     let model = free(&annulus);
-    let operator = model.operator(OperatorChoice::Cyclic, SimdLevel::detect()).unwrap();
     let mut settings = settings(2e-4, &[2]);
     settings.expansion_time = 0.0;
     settings.sample_interval = 2e-4;
     settings.time_step = TimeStep::Seconds(2e-4 / f64::from(steps));
-    let mut run = CentralDifference::start(model, operator.as_ref(), &settings).unwrap();
+    let mut run = started(model, OperatorChoice::Cyclic, &settings);
     let mut last = None;
     run.run(&mut Watch(|sample: &Sample<'_>| {
         last = Some((sample.displacement(), sample.velocity()));

@@ -1,7 +1,7 @@
 //! Frequency responses of assemblies against their eigenvalues (cross-method: the response knows no modes).
 
 use super::rotation::{ring, turning as spinning};
-use super::{OPTIONS, STEEL, aside, assembled, bar, mesh_of, sliding, tangent_at, tie};
+use super::{OPTIONS, aside, assembled, bar, sliding, tangent_at};
 use crate::prelude::*;
 use crate::structural_damping::dense;
 use faer::linalg::solvers::Solve;
@@ -62,12 +62,11 @@ fn the_response_of_a_sliding_assembly_has_the_poles_of_its_eigenvalue_analysis()
 /// Cross-method: two tied halves respond like the whole, and a node that follows another can be observed, not excited.
 #[test]
 fn tied_halves_respond_like_the_whole() {
-    let block = |name, origin, size, counts| brick(name, origin, size, counts);
     let clamped = |name| [(name, BoundaryCondition::Clamped)];
-    let whole = [block("bar", [0.0; 3], [0.12, 0.02, 0.02], [6, 2, 2])];
+    let whole = [brick("bar", [0.0; 3], [0.12, 0.02, 0.02], [6, 2, 2])];
     let halves = [
-        block("left", [0.0; 3], [0.06, 0.02, 0.02], [3, 2, 2]),
-        block("right", [0.06, 0.0, 0.0], [0.06, 0.02, 0.02], [3, 2, 2]),
+        brick("left", [0.0; 3], [0.06, 0.02, 0.02], [3, 2, 2]),
+        brick("right", [0.06, 0.0, 0.0], [0.06, 0.02, 0.02], [3, 2, 2]),
     ];
     let lines = [500.0, 1300.0, 4000.0];
     let responses = [(whole.as_slice(), "bar_x0"), (&halves, "left_x0")].map(|(blocks, held)| {

@@ -1,6 +1,6 @@
 //! Solid bodies on a rigid counterface: a block that is held at every node is one, and the program has another route for it.
 
-use super::{aside, assembled, eigenvalues, mesh_of, on_rigid, sliding, stacked};
+use super::{aside, assembled, eigenvalues, on_rigid, sliding, stacked};
 use crate::prelude::*;
 
 /// How far the counterface is pushed in, m.
@@ -57,9 +57,7 @@ fn a_rigid_plane_is_a_body_that_is_held_everywhere() {
         if stiffness.is_none() {
             let largest = pressures[0].iter().copied().fold(0.0, f64::max);
             assert!(largest > 0.0);
-            for (a, b) in pressures[0].iter().zip(&pressures[1]) {
-                assert!((a - b).abs() < 1e-9 * largest, "{a} {b}");
-            }
+            within(&pressures[0], &pressures[1], 1e-9 * largest);
         } else {
             // Points of the one are those of common segments.
             let [a, b] = pressures.map(|all| all.iter().sum::<f64>());
@@ -85,7 +83,7 @@ fn a_shaft_presses_a_bush_evenly_whatever_its_axis() {
     };
     let [e, f, axis] = [e, f, axis].map(unit);
     let place = |[r, turn, along]: [f64; 3]| {
-        let (sin, cos) = (std::f64::consts::TAU * turn).sin_cos();
+        let (sin, cos) = (TAU * turn).sin_cos();
         let r = radius + wall * r;
         std::array::from_fn(|k| center[k] + r * (cos * e[k] + sin * f[k]) + 0.02 * along * axis[k])
     };
@@ -128,20 +126,15 @@ fn refusal(rigid: RigidCounterface) -> PairError {
 
 #[test]
 fn a_rigid_counterface_that_does_not_fit_the_surface_is_refused() {
-    let center = [1.0, 0.3, 0.0];
-    let sliding = RigidMotion::Sliding([1.0, 0.0, 0.2]);
-    let found = refusal(plane(sliding, center));
+    use RigidMotion::{Sliding, Turning};
+    let plane = |motion| plane(motion, [1.0, 0.3, 0.0]);
+    let found = refusal(plane(Sliding([1.0, 0.0, 0.2])));
     assert!(matches!(found, PairError::LeavesPlane { is_turning: false, .. }), "{found}");
-    let tilted =
-        RigidCounterface { axis: [0.0, 0.6, 0.8], ..plane(RigidMotion::Turning(1.0), center) };
-    let found = refusal(tilted);
+    let found = refusal(RigidCounterface { axis: [0.0, 0.6, 0.8], ..plane(Turning(1.0)) });
     assert!(matches!(found, PairError::LeavesPlane { is_turning: true, .. }), "{found}");
-    let found = refusal(plane(RigidMotion::Sliding([0.0; 3]), center));
+    let found = refusal(plane(Sliding([0.0; 3])));
     assert!(matches!(found, PairError::AtRest(_)), "{found}");
-    let cylinder = RigidCounterface {
-        shape: RigidShape::Cylinder(None),
-        ..plane(RigidMotion::Turning(1.0), [0.0, 0.0, 0.0])
-    };
-    let found = refusal(cylinder);
+    let (shape, center) = (RigidShape::Cylinder(None), [0.0; 3]);
+    let found = refusal(RigidCounterface { shape, center, ..plane(Turning(1.0)) });
     assert!(matches!(found, PairError::NotRound { .. }), "{found}");
 }

@@ -1,6 +1,6 @@
 //! The cyclic eigenvalue analysis against theory, dense solutions, the sparse solver and the paper.
 
-mod dense;
+pub mod dense;
 pub mod model;
 mod sensitivity;
 mod stability;

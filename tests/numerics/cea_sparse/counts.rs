@@ -95,9 +95,8 @@ fn determinant_of_a_disc_is_that_of_dense_elimination() {
     let tangent = disc.tangent();
     let counter = ModeCounter::new(&tangent).unwrap();
     let (mu, size) = (0.6, tangent.mass.dimension());
-    let identity = Mat::<f64>::identity(size, size);
     let dense = [&tangent.mass, &tangent.damping, &tangent.stiffness]
-        .map(|p| p.pattern().multiply(&p.evaluate(mu), identity.as_ref()));
+        .map(|p| crate::structural_damping::dense(p, mu));
     let random = random_columns(4, 2, 3);
     for k in 0..4 {
         let lambda = c64::new(2e4 * random[(k, 0)], TAU * 1e4 * (1.0 + random[(k, 1)].abs()));

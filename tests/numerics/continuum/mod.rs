@@ -217,14 +217,7 @@ impl Annulus {
         contact: &Contact,
         rayleigh: Rayleigh,
     ) -> Vec<Eigenvalue> {
-        let kappas = self.kappas(harmonic, contact);
-        let mut all: Vec<Eigenvalue> = kappas
-            .iter()
-            .flat_map(|&kappa| damped_pair(kappa, rayleigh, harmonic))
-            .flatten()
-            .collect();
-        all.sort_by(|x, y| x.lambda.im.total_cmp(&y.lambda.im));
-        all
+        damped(&self.kappas(harmonic, contact), rayleigh, harmonic)
     }
 
     /// Eigenvalue of one branch (1 = lowest of its harmonic) and travelling direction.
@@ -312,13 +305,17 @@ pub fn smallest_first(stiffness: &Mat<c64>, mass: &Mat<c64>) -> Vec<c64> {
     kappas
 }
 
+/// The eigenvalues of some `kappa` with damping, by rising frequency.
+pub fn damped(kappas: &[c64], rayleigh: Rayleigh, harmonic: usize) -> Vec<Eigenvalue> {
+    let pairs = kappas.iter().flat_map(|&kappa| damped_pair(kappa, rayleigh, harmonic));
+    let mut all: Vec<Eigenvalue> = pairs.flatten().collect();
+    all.sort_by(|x, y| x.lambda.im.total_cmp(&y.lambda.im));
+    all
+}
+
 /// Both roots of `lambda^2 + alpha lambda + (1 + beta lambda) kappa = 0` that oscillate
 /// (`|Re| < |Im|`), turned to `Im(lambda) > 0`; one only for `n = 0`.
-pub fn damped_pair(
-    kappa: c64,
-    (alpha, beta): Rayleigh,
-    harmonic: usize,
-) -> [Option<Eigenvalue>; 2] {
+fn damped_pair(kappa: c64, (alpha, beta): Rayleigh, harmonic: usize) -> [Option<Eigenvalue>; 2] {
     let half = (c64::new(alpha, 0.0) + kappa * beta) * 0.5;
     let root = (half * half - kappa).sqrt();
     let mut roots = [root - half, -root - half];

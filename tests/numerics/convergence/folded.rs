@@ -1,6 +1,7 @@
 //! The program's discrete problem, solved densely one circumferential harmonic at a time.
 
-use crate::continuum::{Annulus, Contact, Eigenvalue, Rayleigh, damped_pair, smallest_first};
+use crate::cea_cyclic::dense::fold;
+use crate::continuum::{Annulus, Contact, Eigenvalue, Rayleigh, damped, smallest_first};
 use crate::prelude::*;
 
 /// Radial expansion of the cylinder, m.
@@ -42,8 +43,7 @@ impl Study {
 pub struct Discretisation {
     /// `M`, `C`, `K_t` as polynomials in the friction coefficient.
     pub tangent: SlidingTangent,
-    /// Sectors of the mesh.
-    pub sectors: usize,
+    pub mesh: AnnulusMesh,
     /// `mu` of every evaluation.
     pub friction_coefficient: f64,
     /// `(alpha, beta)`.
@@ -68,45 +68,17 @@ impl Discretisation {
         let elastic = assemble_stiffness(&mesh.mesh, &material);
         Self {
             tangent: SlidingTangent::linearize(&mesh.mesh, &material, &elastic, &base, &options),
-            sectors: mesh.sector_count(),
             friction_coefficient: contact.friction_coefficient,
             rayleigh,
+            mesh,
         }
-    }
-
-    /// Dense block of one harmonic: rows of sector 0, columns of sector `j` folded onto sector 0
-    /// with the phase `e^{i n theta_j}`. Exact, because in polar frames every sector has the same
-    /// rows.
-    pub fn fold(&self, matrix: &MatrixPolynomial, harmonic: usize) -> Mat<c64> {
-        let values = matrix.evaluate(self.friction_coefficient);
-        let pattern = matrix.pattern();
-        let size = pattern.dimension() / self.sectors;
-        let mut folded = Mat::<c64>::zeros(size, size);
-        for column in 0..pattern.dimension() {
-            let turns = (harmonic * (column / size)) as f64 / self.sectors as f64;
-            let phase = c64::cis(TAU * turns);
-            let range = pattern.column_pointers()[column]..pattern.column_pointers()[column + 1];
-            for place in range {
-                let row = pattern.row_indices()[place];
-                if row < size {
-                    folded[(row, column % size)] += phase * values[place];
-                }
-            }
-        }
-        folded
     }
 
     /// Eigenvalues of one harmonic, as [`Annulus::eigenvalues`] gives them.
     pub fn eigenvalues(&self, harmonic: usize) -> Vec<Eigenvalue> {
-        let stiffness = self.fold(&self.tangent.stiffness, harmonic);
-        let mass = self.fold(&self.tangent.mass, harmonic);
-        let kappas = smallest_first(&stiffness, &mass);
-        let mut all: Vec<Eigenvalue> = kappas
-            .iter()
-            .flat_map(|&kappa| damped_pair(kappa, self.rayleigh, harmonic))
-            .flatten()
-            .collect();
-        all.sort_by(|x, y| x.lambda.im.total_cmp(&y.lambda.im));
-        all
+        let (tangent, mu) = (&self.tangent, self.friction_coefficient);
+        let [stiffness, mass] = [&tangent.stiffness, &tangent.mass]
+            .map(|own| fold(tangent, &self.mesh, own, mu, harmonic as i32));
+        damped(&smallest_first(&stiffness, &mass), self.rayleigh, harmonic)
     }
 }

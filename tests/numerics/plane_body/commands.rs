@@ -1,27 +1,23 @@
 //! The commands on imported bodies.
 
-use crate::prelude::*;
-
 use crate::plane_body::studies::MODEL as MATERIAL;
+use crate::prelude::*;
 
 /// A folder with the same coarse disc twice: `annulus.toml`, and `body.toml` with a mesh file in millimetres whose node
 /// numbers begin at 1001.
 fn folder() -> TempDir {
-    let folder = tempfile::tempdir().unwrap();
     let mesh = AnnulusMesh::generate(&annulus(ElementKind::Quad4, 24, 4)).unwrap().mesh;
     let numbers: Vec<usize> = (1001..=1000 + mesh.node_count()).collect();
     let bytes = write_msh(&mesh, FORMS[2], &numbers, |[x, y]| [1e3 * x, 1e3 * y]);
-    fs::write(folder.path().join("disc.msh"), bytes).unwrap();
     let run = "[cea]\nmodes = 6\ngeometric_stiffness = false\n[transient]\nduration = 2e-4\nexpansion_time = 1e-4\n\
         [transient.perturbation]\nharmonics = [2]\n[output]\nsample_interval = 2e-6\nsnapshots = [1e-4]\n";
     let generated = "[geometry]\ninner_radius = 0.0205\nouter_radius = 0.0905\n\
         [mesh]\ncircumferential_elements = 24\nradial_elements = 4\n";
     let imported =
         "[mesh]\nfile = \"disc.msh\"\nscale = 0.001\n[boundaries.outer]\ncondition = \"clamped\"\n";
-    for (name, mesh) in [("annulus.toml", generated), ("body.toml", imported)] {
-        fs::write(folder.path().join(name), format!("{mesh}{MATERIAL}{run}")).unwrap();
-    }
-    folder
+    let [generated, imported] = [generated, imported].map(|own| format!("{own}{MATERIAL}{run}"));
+    let files = [("annulus.toml", generated.as_bytes()), ("body.toml", imported.as_bytes())];
+    folder_with(&[("disc.msh", &bytes), files[0], files[1]])
 }
 
 fn run(folder: &TempDir, command: &str, case: &str, set: &[&str]) -> Run {
@@ -110,9 +106,8 @@ fn a_signal_is_named_by_the_modes_of_an_imported_body() {
     let unstable = rows.iter().find(|row| row["unstable"] == "true").unwrap();
     let [mode, frequency] = unstable.numbers(["mode", "frequency_hz"]);
     let samples = (0..20_000).map(|k| f64::from(k) * 5e-6);
-    let rows: String = samples
-        .map(|t| format!("{t:e},{:e}\n", (std::f64::consts::TAU * frequency * t).sin()))
-        .collect();
+    let rows: String =
+        samples.map(|t| format!("{t:e},{:e}\n", (TAU * frequency * t).sin())).collect();
     fs::write(folder.path().join("tone.csv"), format!("time_s,a\n{rows}")).unwrap();
     let run = run(&folder, "signal", "tone.csv", &[]).args(&["--case", "body.toml"]).out("signal");
     let named = &run.done().summary()["channels"][0]["mode"];

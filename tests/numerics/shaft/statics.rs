@@ -25,7 +25,7 @@ fn the_interference_is_shared_as_lame_says_at_the_order_of_the_element() {
         let elastic = assemble_stiffness(&mesh, &on(STEEL));
         let base = SteadySliding::solve(&mesh, &elastic, &contact(610.0)).unwrap();
         let force: f64 = base.normal_forces(0.3).iter().sum();
-        let mean = force / (std::f64::consts::TAU * r);
+        let mean = force / (TAU * r);
         (mean / exact - 1.0).abs()
     };
     let errors = [error(12, [3, 5]), error(24, [6, 10])];

@@ -10,9 +10,9 @@ fn bodies_that_do_not_meet_are_refused_with_a_remedy() {
         let lower = rectangle([-0.01, -0.02], [0.06, 0.02], [6, 2]);
         blocks_of([lower, rectangle([x, y], [0.04, 0.03], [4, 3])])
     };
-    std::fs::write(folder.join("good.msh"), block(0.0, 0.0)).unwrap();
-    std::fs::write(folder.join("deep.msh"), block(-1e-4, 0.0)).unwrap();
-    std::fs::write(folder.join("apart.msh"), block(0.0, 0.5)).unwrap();
+    fs::write(folder.join("good.msh"), block(0.0, 0.0)).unwrap();
+    fs::write(folder.join("deep.msh"), block(-1e-4, 0.0)).unwrap();
+    fs::write(folder.join("apart.msh"), block(0.0, 0.5)).unwrap();
     let read = |mesh: &str, contact: &str| {
         let text = format!(
             "[mesh]\nfile = \"{mesh}\"\n[material]\nyoung_modulus = 2.5e9\npoisson_ratio = 0.3\ndensity = 1228.0\n\

@@ -7,8 +7,8 @@ use crate::two_bodies::model::{blocks_of, rectangle};
 fn write_case(folder: &Path, along: [usize; 2], upper_density: f64) {
     let lower = rectangle([0.0, -0.02], [0.04, 0.02], [along[0], 2]);
     let upper = rectangle([0.0, 0.0], [0.04, 0.03], [along[1], 3]);
-    std::fs::create_dir_all(folder).unwrap();
-    std::fs::write(folder.join("blocks.msh"), blocks_of([lower, upper])).unwrap();
+    fs::create_dir_all(folder).unwrap();
+    fs::write(folder.join("blocks.msh"), blocks_of([lower, upper])).unwrap();
     let text = format!(
         "[mesh]\nfile = \"blocks.msh\"
 [material]\nyoung_modulus = 2.5e9\npoisson_ratio = 0.3\ndensity = 1228.0
@@ -20,7 +20,7 @@ fn write_case(folder: &Path, along: [usize; 2], upper_density: f64) {
      friction_coefficient = 0.3\ninterference = 1e-5\nspeed = 1.0
 [transient]\nduration = 2e-4\nexpansion_time = 5e-5\n"
     );
-    std::fs::write(folder.join("case.toml"), text).unwrap();
+    fs::write(folder.join("case.toml"), text).unwrap();
 }
 
 fn run(folder: &Path, options: &[&str]) -> Answer {
@@ -43,7 +43,7 @@ fn steps_whose_sweeps_end_early_are_counted_and_said_where_there_are_any() {
     // The energy of a step closes whatever its forces are.
     assert!(summary["max_balance_residual"].as_f64().unwrap() < 1e-10);
 
-    let matching = tempfile::tempdir().unwrap();
+    let matching = TempDir::new().unwrap();
     write_case(matching.path(), [10, 10], 1e5);
     let answer = run(matching.path(), &[]).says(&["!converged"]);
     assert!(answer.summary().get("unconverged_steps").is_none());

@@ -67,7 +67,7 @@ fn ring(sectors: usize) -> [[f64; 2]; 2] {
     let [inner, outer] = RADII;
     let size = [outer - inner, TAU / sectors as f64, 0.01];
     let block = brick("ring", [inner, 0.0, 0.0], size, [sectors / 12, 1, 1]);
-    let mesh = file_of(&[block], |[r, angle, z]| [r * angle.cos(), r * angle.sin(), z]);
+    let mesh = file_of(&[block], polar);
     let case = format!(
         "[mesh]\nfile = \"body.msh\"\nsectors = {sectors}\n[material]\nyoung_modulus = {YOUNG:e}\n\
          poisson_ratio = {POISSON}\ndensity = {DENSITY:?}\n[boundaries.ring_x0]\ncondition = \"support\"\n\

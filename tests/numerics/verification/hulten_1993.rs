@@ -54,7 +54,7 @@ fn hulten_1993_a_block_in_a_corner_flutters_where_two_degrees_of_freedom_do() {
     // kappa = -lambda^2 has the imaginary part w_1 w_2 sqrt(mu^2 - mu_c^2).
     let growth = {
         let imaginary = w1 * w2 * (0.4_f64.powi(2) - critical * critical).sqrt();
-        let kappa = faer::c64::new(0.5 * (w1 * w1 + w2 * w2), imaginary);
+        let kappa = c64::new(0.5 * (w1 * w1 + w2 * w2), imaginary);
         kappa.sqrt().im
     };
     let expected = [critical, frequency, growth];

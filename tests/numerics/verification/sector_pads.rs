@@ -13,7 +13,6 @@
 //! bricks of 20 nodes, 4 x 48 x 1. Errors fall with the square of the thickness, as shear and rotation do.
 
 use super::{folder, integral, order, ritz, table};
-use crate::bricks::EDGES;
 use crate::prelude::*;
 
 const RADII: [f64; 2] = [0.05, 0.1];
@@ -48,51 +47,19 @@ fn closed_form(n: f64, thickness: f64) -> f64 {
     2.0 / (thickness * n) * radius * s.abs() / (HALF_ANGLE.powi(2) - s * s).sqrt()
 }
 
-/// The plate of 4 x 48 x 1 bricks of 20 nodes: region `disc`, surfaces `bore`, `below` and `above` under the pads.
+/// The plate of 4 x 48 x 1 bricks of 20 nodes: under the pads, beside them around, and within.
 fn plate(thickness: f64) -> Vec<u8> {
-    const RADIAL: usize = 4;
-    const AROUND: usize = 48;
-    let mut numbers: BTreeMap<[usize; 3], usize> = BTreeMap::new();
-    let mut points = Vec::new();
-    let mut node = |[i, j, k]: [usize; 3]| {
-        let j = j % (2 * AROUND);
-        *numbers.entry([i, j, k]).or_insert_with(|| {
-            let r = RADII[0] + (RADII[1] - RADII[0]) * i as f64 / (2 * RADIAL) as f64;
-            let (sin, cos) = (TAU * j as f64 / (2 * AROUND) as f64).sin_cos();
-            points.push([r * cos, r * sin, thickness * (k as f64 / 2.0 - 0.5)]);
-            points.len() - 1
-        })
+    let half = (RADII[1] - RADII[0]) / 2.0;
+    let part = |name, radius: f64, [from, to]: [f64; 2], around| {
+        let size = [half, to - from, thickness];
+        brick(name, [radius, from, -0.5 * thickness], size, [2, around, 1])
     };
-    let mut elements = Vec::new();
-    // Corners in units of half an element, then the middles of edges.
-    let low = [[0, 0, 0], [2, 0, 0], [2, 2, 0], [0, 2, 0]];
-    let high = low.map(|[i, j, _]| [i, j, 2]);
-    let ring = [[0, 1], [1, 2], [2, 3], [3, 0]];
-    for i in 0..RADIAL {
-        for j in 0..AROUND {
-            let mut add =
-                |kind: u32, group: usize, corners: &[[usize; 3]], edges: &[[usize; 2]]| {
-                    let middle = |&[a, b]: &[usize; 2]| {
-                        [0, 1, 2].map(|axis| (corners[a][axis] + corners[b][axis]) / 2)
-                    };
-                    let all = corners.iter().copied().chain(edges.iter().map(middle));
-                    let list = all.map(|[a, b, c]| node([2 * i + a, 2 * j + b, c])).collect();
-                    elements.push((kind, group, list));
-                };
-            add(17, 3, &[low, high].concat(), EDGES.as_chunks().0);
-            if i == 0 {
-                add(16, 0, &[low[0], high[0], high[3], low[3]], &ring);
-            }
-            let angle = TAU * (j as f64 + 0.5) / AROUND as f64;
-            let angle = angle.min(TAU - angle);
-            let radius = RADII[0] + (RADII[1] - RADII[0]) * (i as f64 + 0.5) / RADIAL as f64;
-            if angle < HALF_ANGLE && radius > PAD {
-                add(16, 1, &[low[0], low[3], low[2], low[1]], &ring);
-                add(16, 2, &high, &ring);
-            }
-        }
-    }
-    mesh_text(&points, &[(2, "bore"), (2, "below"), (2, "above"), (3, "disc")], &elements)
+    let parts = [
+        part("hub", RADII[0], [0.0, TAU], 48),
+        part("pad", PAD, [-HALF_ANGLE, HALF_ANGLE], 10),
+        part("rest", PAD, [HALF_ANGLE, TAU - HALF_ANGLE], 38),
+    ];
+    welded_file_of(&parts, 2, polar)
 }
 
 /// Critical frictions of the waves of five and six nodal diameters.
@@ -108,10 +75,10 @@ fn found(thickness: f64) -> [f64; 2] {
     };
     let case = format!(
         "[mesh]\nfile = \"body.msh\"\n[material]\nyoung_modulus = 2.1e11\npoisson_ratio = 0.3\n\
-         density = 7850.0\n[boundaries.bore]\ncondition = \"clamped\"\n{}{}[cea]\nmodes = 13\n\
+         density = 7850.0\n[boundaries.hub_x0]\ncondition = \"clamped\"\n{}{}[cea]\nmodes = 13\n\
          friction_coefficients = [0.0, {:?}]\ngeometric_stiffness = false\n",
-        pad("above"),
-        pad("below"),
+        pad("pad_z1"),
+        pad("pad_z0"),
         1.1 * closed_form(6.0, thickness),
     );
     let mut onsets =

@@ -1,30 +1,12 @@
 //! Mesh files of both versions, as texts and in binary.
 
-use crate::fuzz::hold;
-use crate::fuzz::mutation::{Random, binary, text};
 use crate::mesh_files::{ASSEMBLY, BULK_DATA, UNIVERSAL};
-use crate::msh::{CYLINDER, FORMS, plane_body, write_msh};
-use frictionsim::mesh::{
-    AnnulusMesh, AnnulusSpecification, BoundaryCondition, ElementKind, FileMesh, Mesh,
-};
-
-fn ring(element: ElementKind) -> Mesh {
-    let specification = AnnulusSpecification {
-        inner_radius: 0.02,
-        outer_radius: 0.09,
-        circumferential_elements: 5,
-        radial_elements: 2,
-        radial_grading: 1.0,
-        element,
-        outer: BoundaryCondition::Clamped,
-        shaft: None,
-    };
-    AnnulusMesh::generate(&specification).unwrap().mesh
-}
+use crate::prelude::*;
 
 #[test]
 fn no_mesh_file_makes_its_reader_panic() {
-    let meshes = [ElementKind::Quad4, ElementKind::Quad8].map(ring);
+    let meshes = [ElementKind::Quad4, ElementKind::Quad8]
+        .map(|element| AnnulusMesh::generate(&ring([0.02, 0.09], element, 5, 2)).unwrap().mesh);
     let files = meshes
         .iter()
         .flat_map(|mesh| FORMS.map(|form| (form, write_msh(mesh, form, &[], |point| point))));
@@ -141,7 +123,7 @@ fn no_sets_or_systems_that_name_each_other_make_their_reader_panic() {
 /// Three files that include each other in changed ways, as a case reads them.
 #[test]
 fn no_includes_make_a_case_panic() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = folder();
     let path = folder.path().join("case.toml").display().to_string();
     let case = "[mesh]\nfile = \"a.inp\"\n[cea]\nmodes = 3\n";
     let brick = ASSEMBLY.as_bytes().to_vec();
@@ -158,9 +140,9 @@ fn no_includes_make_a_case_panic() {
         },
         |bytes| {
             for (name, part) in ["a", "b", "c"].iter().zip(bytes.split(|byte| *byte == 1)) {
-                std::fs::write(folder.path().join(format!("{name}.inp")), part).unwrap();
+                fs::write(folder.path().join(format!("{name}.inp")), part).unwrap();
             }
-            if let Err(errors) = frictionsim::case::Case::parse(&path, case.as_bytes(), &[]) {
+            if let Err(errors) = Case::parse(&path, case.as_bytes(), &[]) {
                 assert!(!errors.to_string().is_empty());
             }
         },
@@ -181,9 +163,7 @@ fn no_matrix_makes_its_reader_panic() {
         "matrix",
         |random: &mut Random| text(random, &corpus),
         |bytes| {
-            let read =
-                frictionsim::linalg::MarketMatrix::read(&String::from_utf8_lossy(bytes), 2000);
-            if let Ok(matrix) = read {
+            if let Ok(matrix) = MarketMatrix::read(&String::from_utf8_lossy(bytes), 2000) {
                 assert!(matrix.entries.len() <= 2 * bytes.len());
             }
         },

@@ -9,10 +9,8 @@ pub mod mutation;
 mod readers;
 mod results;
 
-use crate::tier::sized;
+use crate::prelude::*;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::path::Path;
-use std::time::{Duration, Instant};
 
 /// Longest time for one input, s; generous, as other programs share the cores.
 const LONGEST: f64 = 10.0;
@@ -38,7 +36,7 @@ pub fn hold<T: AsRef<[u8]>>(
         let took = start.elapsed().as_secs_f64();
         if outcome.is_err() || took > LONGEST {
             let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("{target}-{seed}"));
-            let _ = std::fs::write(&path, input.as_ref());
+            let _ = fs::write(&path, input.as_ref());
             panic!("{target}: seed {seed} after {took:.1} s, input in {}", path.display());
         }
         seed += 1;

@@ -1,17 +1,10 @@
 //! What users write: cases and overrides.
 
-use crate::fuzz::hold;
-use crate::fuzz::mutation::text;
-use frictionsim::case::Case;
-use std::path::Path;
+use crate::prelude::*;
 
 fn shipped_cases() -> Vec<Vec<u8>> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases");
-    let entries = std::fs::read_dir(folder).unwrap();
-    let mut paths: Vec<_> = entries.map(|entry| entry.unwrap().path()).collect();
-    paths.sort();
-    let cases = paths.iter().filter(|path| path.extension().is_some_and(|e| e == "toml"));
-    cases.map(|path| std::fs::read(path).unwrap()).collect()
+    let names = names_in(shipped("").as_ref()).into_iter().filter(|name| name.ends_with(".toml"));
+    names.map(|name| fs::read(shipped(&name)).unwrap()).collect()
 }
 
 fn parse(text: &[u8], set: &[String]) {
@@ -44,8 +37,6 @@ fn no_override_makes_its_reader_panic_or_cost_much() {
     hold(
         "set",
         |random| text(random, &corpus),
-        |bytes| {
-            parse(&case, &[String::from_utf8_lossy(bytes).into_owned()]);
-        },
+        |bytes| parse(&case, &[String::from_utf8_lossy(bytes).into_owned()]),
     );
 }

@@ -1,14 +1,10 @@
 //! What the program writes and reads again: manifests, summaries, records, points, checkpoints.
 
-use crate::fuzz::hold;
-use crate::fuzz::mutation::{Random, binary, text};
-use crate::program::{Run, shipped};
+use crate::prelude::*;
 use frictionsim::app::plot::redraw;
+use frictionsim::results::sweep::{Found, SweepFolder};
 use frictionsim::results::transient::{CHECKPOINT, read_checkpoint, write_checkpoint};
-use frictionsim::results::{DrawingOptions, Format, Manifest, OutputFolder, Replace, read_record};
-use frictionsim::transient::{EnergyAccount, Recorder, TransientAnalysis, TransientState};
-use std::fs;
-use std::path::{Path, PathBuf};
+use frictionsim::results::{DrawingOptions, Format, read_manifest, read_record};
 
 /// One finished folder of a command with the files that `plot` reads, of a run that takes moments.
 fn finished(folder: &Path, command: &str) -> PathBuf {
@@ -60,13 +56,13 @@ fn record_of(random: &mut Random, original: &[u8]) -> Vec<u8> {
 }
 
 fn plot(folder: &Path) -> bool {
-    let manifest = frictionsim::results::read_manifest(folder);
+    let manifest = read_manifest(folder);
     let coarse = DrawingOptions { dots_per_inch: 20.0, width_mm: None, formats: vec![Format::Svg] };
     manifest.is_ok_and(|manifest| redraw(folder, &manifest, &coarse).is_ok())
 }
 
 fn hold_figures(command: &str) {
-    let scratch = tempfile::tempdir().unwrap();
+    let scratch = folder();
     let folder = finished(scratch.path(), command);
     let original = fs::read(folder.join("figures.bin")).unwrap();
     assert!(plot(&folder), "{command}: the folder as it was written");
@@ -92,7 +88,7 @@ fn no_figures_of_limit_cycles_make_plot_panic() {
 
 #[test]
 fn no_checkpoint_makes_its_reader_panic() {
-    let scratch = tempfile::tempdir().unwrap();
+    let scratch = folder();
     let folder = &scratch.path().join("run");
     let file = folder.join(CHECKPOINT);
     let manifest = Manifest::new("transient");
@@ -127,19 +123,19 @@ fn no_checkpoint_makes_its_reader_panic() {
 
 #[test]
 fn a_damaged_manifest_or_summary_is_never_used() {
-    let scratch = tempfile::tempdir().unwrap();
+    let scratch = folder();
     let [mesh, convergence] = ["mesh", "convergence"].map(|name| finished(scratch.path(), name));
     for (folder, name) in
         [(&mesh, "manifest.json"), (&mesh, "summary.json"), (&convergence, "summary.json")]
     {
         let original = fs::read(folder.join(name)).unwrap();
-        let value: serde_json::Value = serde_json::from_slice(&original).unwrap();
+        let value: Value = serde_json::from_slice(&original).unwrap();
         hold(
             name,
             |random| text(random, std::slice::from_ref(&original)),
             |bytes| {
                 fs::write(folder.join(name), bytes).unwrap();
-                let same: Option<serde_json::Value> = serde_json::from_slice(bytes).ok();
+                let same: Option<Value> = serde_json::from_slice(bytes).ok();
                 if same.as_ref() != Some(&value) {
                     assert!(!plot(folder), "used although it was changed");
                 }
@@ -152,20 +148,19 @@ fn a_damaged_manifest_or_summary_is_never_used() {
 
 #[test]
 fn a_damaged_point_counts_as_missing() {
-    let scratch = tempfile::tempdir().unwrap();
+    let scratch = folder();
     let path = finished(scratch.path(), "sweep");
-    let (folder, _) = frictionsim::results::sweep::SweepFolder::find(&path, "sweep").unwrap();
+    let (folder, _) = SweepFolder::find(&path, "sweep").unwrap();
     let file = folder.point_path(1);
     let original = fs::read(&file).unwrap();
-    let value: serde_json::Value = serde_json::from_slice(&original).unwrap();
+    let value: Value = serde_json::from_slice(&original).unwrap();
     hold(
         "point",
         |random| text(random, std::slice::from_ref(&original)),
         |bytes| {
-            use frictionsim::results::sweep::Found;
             fs::write(&file, bytes).unwrap();
             let is_used = matches!(folder.read(1).unwrap(), Found::Point(_));
-            let same: Option<serde_json::Value> = serde_json::from_slice(bytes).ok();
+            let same: Option<Value> = serde_json::from_slice(bytes).ok();
             assert!(!is_used || same.as_ref() == Some(&value));
         },
     );

@@ -10,7 +10,7 @@ pub use abaqus::ASSEMBLY;
 pub use nastran::BRICK as BULK_DATA;
 pub use universal::BRICK as UNIVERSAL;
 
-use frictionsim::mesh::{FileElasticity, FileMesh, Mesh, MeshFileError};
+use crate::prelude::*;
 
 fn read(name: &str, text: &str) -> Result<FileMesh, MeshFileError> {
     FileMesh::read_as(name, text.as_bytes())

@@ -1,10 +1,7 @@
 //! One body in every format (independent checks: node orders of the manuals, and files that Gmsh wrote).
 
 use super::{area, body};
-use crate::block::{SOLIDS, block};
-use frictionsim::mesh::{ElementKind, FileMesh, Mesh};
-use std::f64::consts::PI;
-use std::fmt::Write;
+use crate::prelude::*;
 
 /// Sides of the block that the files name.
 const SIDES: [&str; 2] = ["x0", "z1"];

@@ -1,10 +1,7 @@
 //! What a case takes from its mesh file: units, sections, includes, and the case that `init --from` writes.
 
-use crate::program::{self, has};
-use frictionsim::case::{Case, CaseErrors, case_from};
-use frictionsim::mesh::BoundaryCondition;
-use std::fs;
-use std::path::Path;
+use crate::prelude::*;
+use crate::program;
 
 /// Two bricks of 10 mm on each other, in mm, t and s; what is under them is clamped, a pressure presses, friction 0.4.
 const BRICKS: &str = include_str!("../meshes/bricks-in-contact.inp");
@@ -24,7 +21,7 @@ fn refused(folder: &Path, text: &str) -> String {
     case_of(folder, text).unwrap_err().messages().join("\n")
 }
 
-fn folder_with(deck: &str) -> tempfile::TempDir {
+fn folder_with(deck: &str) -> TempDir {
     // `Back` is a surface: to be held it needs to be a set of nodes, too.
     let deck = deck
         .replace("*SURFACE, NAME=Back", "*NSET, NSET=Back\n15, 16, 17, 18\n*SURFACE, NAME=Back");
@@ -46,7 +43,7 @@ fn a_file_in_millimetres_gives_a_case_in_si_units() {
     assert_eq!(body.contacts[0].stiffness.normal_stiffness, Some(2e13));
     assert_eq!(case.contact.sliding.friction_coefficient, 0.4);
     let motion = &body.motions[0];
-    assert!((motion.rotation_speed - std::f64::consts::TAU).abs() < 1e-12);
+    assert!((motion.rotation_speed - TAU).abs() < 1e-12);
     assert_eq!((motion.axis, motion.center), ([0.0, 0.0, 1.0], [0.1, 0.0, 0.0]));
     let condition = |name: &str| body.mesh.boundary(name).unwrap().condition;
     assert_eq!(condition("Back"), BoundaryCondition::Pressure(1.5e6));
@@ -88,27 +85,23 @@ fn sections_of_the_case_win_over_those_of_the_file() {
 #[test]
 fn what_is_not_used_is_a_warning_and_what_is_wrong_has_its_line() {
     let folder = folder_with(&BRICKS.replace("*STEP", "*CLOAD\n1, 1, 5.\n*STEP"));
-    let said = refused(folder.path(), CASE);
-    has(&said, &["*CLOAD (line "]);
+    has(&refused(folder.path(), CASE), &["*CLOAD (line "]);
     let dropped = CASE.replace("[mesh]", "[mesh]\ndrop = [\"*CLOAD\"]");
     let case = taken(folder.path(), &dropped);
     let left_out = &case.taken.left_out;
     assert!(left_out.iter().any(|own| format!("{own:?}").contains("CLOAD")), "{left_out:?}");
     let folder = folder_with(&BRICKS.replace("*STEP", "*AMPLITUDE, NAME=A\n0., 1.\n*STEP"));
     let case = taken(folder.path(), CASE);
-    let warnings: Vec<String> = case.warnings.iter().map(ToString::to_string).collect();
-    assert!(warnings.iter().any(|w| w.contains("*AMPLITUDE (line ")), "{warnings:?}");
+    has(&warnings(&case), &["*AMPLITUDE (line "]);
     let folder = folder_with(&BRICKS.replace("6000., 0.25", "6000., 0.75"));
-    let said = refused(folder.path(), CASE);
-    has(&said, &["materials.Upper.poisson_ratio ; bricks.inp, line "]);
+    let said = "materials.Upper.poisson_ratio ; bricks.inp, line ";
+    has(&refused(folder.path(), CASE), &[said]);
     let folder = folder_with(BRICKS);
     let both = CASE.replace("units", "scale = 0.001\nunits");
-    let said = refused(folder.path(), &both);
-    has(&said, &["mesh.units and mesh.scale"]);
+    has(&refused(folder.path(), &both), &["mesh.units and mesh.scale"]);
     // Millimetres read as metres.
     let metres = CASE.replace("units = \"mm-t-s\"\n", "");
-    let said = refused(folder.path(), &metres);
-    has(&said, &["20.0000 m wide ; mesh.scale"]);
+    has(&refused(folder.path(), &metres), &["20.0000 m wide ; mesh.scale"]);
 }
 
 #[test]
@@ -125,14 +118,12 @@ fn included_files_stand_in_their_place_and_errors_name_them() {
     let body = case.body.assembly().unwrap();
     assert_eq!(body.mesh.node_count(), 16);
     fs::write(path("parts/nodes.inp"), nodes.replace("7, 10, 10, 10", "7, 10, 1O, 10")).unwrap();
-    let found = refused(folder.path(), CASE);
-    has(&found, &["nodes.inp, line 8: a coordinate expected, found \"1O\""]);
+    let is_refused = |said: &str| has(&refused(folder.path(), CASE), &[said]);
+    is_refused("nodes.inp, line 8: a coordinate expected, found \"1O\"");
     fs::write(path("parts/nodes.inp"), "*INCLUDE, INPUT=mesh.inp\n").unwrap();
-    let found = refused(folder.path(), CASE);
-    has(&found, &["nodes.inp, line 1: cannot include mesh.inp: it includes this file itself"]);
+    is_refused("nodes.inp, line 1: cannot include mesh.inp: it includes this file itself");
     fs::remove_file(path("parts/nodes.inp")).unwrap();
-    let found = refused(folder.path(), CASE);
-    has(&found, &["mesh.inp, line 2: cannot include nodes.inp"]);
+    is_refused("mesh.inp, line 2: cannot include nodes.inp");
 }
 
 /// Consistency check: the sections that `init --from` writes are those that the case would take anyway.

@@ -1,12 +1,10 @@
 //! Universal, WAV and MATLAB files, and those that are not read.
 
 use super::{read_response, read_signal};
-use crate::program::has;
-use faer::c64;
+use crate::prelude::*;
 use frictionsim::signal::reader::{
-    Channel, NamedResponse, ResponseOptions, SignalFile, write_response, write_signal, write_wav,
+    Channel, NamedResponse, SignalFile, write_response, write_signal, write_wav,
 };
-use frictionsim::signal::{FrequencyResponse, ResponseQuantity, reader};
 use std::io::Write;
 
 /// Channels of these names at 50 kHz, all of the same samples.
@@ -113,11 +111,8 @@ fn universal_files_in_text_and_binary_give_back_the_response() {
         assert_eq!(file.responses[0].name, want.name);
         let got = &file.responses[0].response;
         assert_eq!(got.quantity(), ResponseQuantity::Mobility);
-        for (a, b) in got.values().iter().zip(want.response.values()) {
-            assert!((a - b).norm() <= tolerance * b.norm());
-        }
-        let pairs = got.frequencies_hz().iter().zip(want.response.frequencies_hz());
-        assert!(pairs.into_iter().all(|(a, b)| (a - b).abs() < 1e-9 * b));
+        near_each(got.values(), want.response.values(), tolerance);
+        near_each(got.frequencies_hz(), want.response.frequencies_hz(), 1e-9);
     };
     // Twelve decimals in text; eight bytes in binary.
     check(text.as_bytes(), 1e-12);
@@ -129,8 +124,7 @@ fn universal_files_in_text_and_binary_give_back_the_response() {
     let cut = &text[..text.len() - 200];
     let error = read_response(cut.as_bytes(), "cut.uff", None).err().unwrap().to_string();
     assert!(error.starts_with("cut.uff: universal file: dataset 58 number 1"), "{error}");
-    let error = read_signal(text.as_bytes(), "x", None).unwrap_err().to_string();
-    has(&error, &["no time response"]);
+    has(&read_signal(text.as_bytes(), "x", None).unwrap_err().to_string(), &["no time response"]);
 }
 
 #[test]

@@ -1,10 +1,8 @@
 //! Tables as analysers and other programs write them.
 
 use super::{message, read_response, read_signal, rows};
-use crate::program::has;
-use frictionsim::signal::reader::{ResponseFile, ResponseOptions, SignalOptions};
-use frictionsim::signal::{ResponseQuantity, reader};
-use std::f64::consts::TAU;
+use crate::prelude::*;
+use frictionsim::signal::reader::ResponseFile;
 
 fn read(text: &str, columns: &[&str], channels: &[&str]) -> ResponseFile {
     let owned = |names: &[&str]| names.iter().map(ToString::to_string).collect();
@@ -18,10 +16,10 @@ fn read(text: &str, columns: &[&str], channels: &[&str]) -> ResponseFile {
 }
 
 /// Rows of a frequency and what a function makes of a complex response of one mode at 60 Hz.
-fn table(header: &str, row: impl Fn(f64, faer::c64) -> String) -> String {
+fn table(header: &str, row: impl Fn(f64, c64) -> String) -> String {
     let rows = (1..=12).map(|k| {
         let f = 10.0 * f64::from(k);
-        row(f, 1e3 / faer::c64::new(3600.0 - f * f, 12.0 * f))
+        row(f, 1e3 / c64::new(3600.0 - f * f, 12.0 * f))
     });
     format!("{header}\n{}\n", rows.collect::<Vec<String>>().join("\n"))
 }
@@ -30,10 +28,10 @@ fn table(header: &str, row: impl Fn(f64, faer::c64) -> String) -> String {
 fn every_notation_of_a_complex_response_reads_as_real_and_imaginary_part() {
     let want = read(&table("f,re,im", |f, h| format!("{f},{},{}", h.re, h.im)), &[], &[]);
     let want = &want.responses[0].response;
-    let level = |h: faer::c64, reference: f64| 20.0 * (h.norm() / reference).log10();
-    let degrees = |h: faer::c64| h.arg().to_degrees();
-    let polar = |f: f64, h: faer::c64| format!("{f};{};{}", level(h, 1.0), degrees(h));
-    let parts = |f: f64, h: faer::c64| format!("{f};{};{}", h.re, h.im);
+    let level = |h: c64, reference: f64| 20.0 * (h.norm() / reference).log10();
+    let degrees = |h: c64| h.arg().to_degrees();
+    let polar = |f: f64, h: c64| format!("{f};{};{}", level(h, 1.0), degrees(h));
+    let parts = |f: f64, h: c64| format!("{f};{};{}", h.re, h.im);
     let tables = [
         table("Frequency (Hz);Magnitude (dB re 1 m/s2/N);Phase (deg)", polar),
         table("Frequency (Hz);Magnitude (dB re 1e-6 m/s2/N);Phase (deg)", |f, h| {
@@ -63,10 +61,8 @@ fn every_notation_of_a_complex_response_reads_as_real_and_imaginary_part() {
     for file in all.chain([named]) {
         let got = &file.responses[0].response;
         assert_eq!(got.frequencies_hz(), want.frequencies_hz());
-        for (a, b) in got.values().iter().zip(want.values()) {
-            // Fifteen digits, and the logarithm of a level.
-            assert!((a - b).norm() < 1e-11 * b.norm(), "{a} {b}");
-        }
+        // Fifteen digits, and the logarithm of a level.
+        near_each(got.values(), want.values(), 1e-11);
     }
 }
 

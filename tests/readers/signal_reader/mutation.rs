@@ -3,14 +3,11 @@
 
 use super::formats::{matlab, signal, wave};
 use super::{read_response, read_signal};
-use crate::fuzz::hold;
-use crate::fuzz::mutation::{binary, text};
-use frictionsim::signal::reader::{
-    self, NamedResponse, ResponseOptions, SignalOptions, write_response, write_signal,
-};
+use crate::prelude::*;
+use frictionsim::signal::reader::{NamedResponse, write_response, write_signal};
 use frictionsim::signal::{
-    FrequencyResponse, ResponseQuantity, SpectralResolution, SpectrogramOptions, exponential_stage,
-    identify, spectral_lines, spectrogram,
+    SpectralResolution, SpectrogramOptions, exponential_stage, identify, spectral_lines,
+    spectrogram,
 };
 use proptest::prelude::*;
 
@@ -46,7 +43,7 @@ fn analyse(bytes: &[u8]) {
 /// Response of two modes, of receptance.
 fn response(count: usize) -> FrequencyResponse {
     let f: Vec<f64> = (1..=count).map(|k| 10.0 * k as f64).collect();
-    let mode = |f: f64, f0: f64| 1.0 / faer::c64::new(f0 * f0 - f * f, 0.02 * f0 * f);
+    let mode = |f: f64, f0: f64| 1.0 / c64::new(f0 * f0 - f * f, 0.02 * f0 * f);
     let h = f.iter().map(|f| mode(*f, 200.0) + mode(*f, 410.0)).collect();
     FrequencyResponse::new(f, h, ResponseQuantity::Receptance).unwrap()
 }

@@ -1,0 +1,9 @@
+//! What most of these tests name.
+
+pub use crate::common::prelude::*;
+pub use crate::fuzz::hold;
+pub use crate::fuzz::mutation::{Random, binary, text};
+pub use frictionsim::case::case_from;
+pub use frictionsim::signal::reader::{self, ResponseOptions, SignalOptions};
+pub use frictionsim::signal::{FrequencyResponse, ResponseQuantity};
+pub use std::fmt::Write as _;
