@@ -28,16 +28,16 @@ pub type Verdict = Result<(), Cell>;
 
 /// A body's case file in a folder of its own, with the answers of the runs so far.
 pub struct Bench {
-    folder: tempfile::TempDir,
+    folder: TempDir,
     answers: RefCell<HashMap<String, Answer>>,
 }
 
 impl Bench {
     fn new(kind: &Kind) -> Self {
-        let folder = tempfile::tempdir().unwrap();
-        std::fs::write(folder.path().join("case.toml"), &kind.case).unwrap();
+        let folder = folder();
+        fs::write(folder.path().join("case.toml"), &kind.case).unwrap();
         if let Some(mesh) = &kind.mesh {
-            std::fs::write(folder.path().join("body.msh"), mesh).unwrap();
+            fs::write(folder.path().join("body.msh"), mesh).unwrap();
         }
         Self { folder, answers: RefCell::default() }
     }
@@ -45,7 +45,7 @@ impl Bench {
     /// A file beside the case.
     pub fn write(&self, name: &str, text: &str) -> PathBuf {
         let path = self.folder.path().join(name);
-        std::fs::write(&path, text).unwrap();
+        fs::write(&path, text).unwrap();
         path
     }
 
@@ -105,7 +105,7 @@ impl Bench {
 /// The table of `tests/README.md`: names of its bodies, and each analysis with a cell for each body.
 fn stored_table() -> (Vec<String>, Vec<(String, Vec<Cell>)>) {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/README.md");
-    let text = std::fs::read_to_string(path).unwrap();
+    let text = fs::read_to_string(path).unwrap();
     let (_, rest) = text.split_once("<!-- table of bodies and analyses -->\n").unwrap();
     let (table, _) = rest.split_once("<!-- end of the table -->").unwrap();
     let (rows, reasons) = table.split_once("\n\n").unwrap();

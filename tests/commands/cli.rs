@@ -60,7 +60,7 @@ fn a_sweep_has_the_values_asked_for_and_that_of_the_case() {
         let folder = folder();
         let answer = on_disc(&folder, "cea", &["--no-figures"]).set(&[asked]).out("o").done();
         let rows = answer.rows("eigenvalues.csv");
-        let found: std::collections::BTreeSet<&String> =
+        let found: BTreeSet<&String> =
             rows.iter().map(|row| &row["friction_coefficient"]).collect();
         assert_eq!(found.into_iter().collect::<Vec<_>>(), ["0.1", "0.2", "0.3"]);
     }
@@ -387,7 +387,7 @@ fn tables_of_one_name_from_two_runs_have_a_folder_each() {
         let mut table = "time_s,v\n".to_owned();
         for i in 0..400 {
             let t = 1e-4 * f64::from(i);
-            table += &format!("{t},{}\n", (std::f64::consts::TAU * frequency * t).sin());
+            table += &format!("{t},{}\n", (TAU * frequency * t).sin());
         }
         fs::write(path.join("probe-1.csv"), table).unwrap();
         let signal = format!("results/{name}/transient/probe-1.csv");

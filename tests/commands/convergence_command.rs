@@ -14,7 +14,7 @@ const TRANSIENT: &str = "[transient]\nduration = 0.002\n\
                          [transient.perturbation]\nharmonics = [2]\n";
 
 fn study(folder: &Path, text: &str) -> Run {
-    std::fs::write(folder.join("disc.toml"), text).unwrap();
+    fs::write(folder.join("disc.toml"), text).unwrap();
     Run::new(&["convergence", "disc.toml", "--quiet", "--force"]).within(folder).out("out")
 }
 

@@ -38,7 +38,7 @@ fn shipped_case_follows_both_waves_over_the_speed_and_says_where_the_single_one_
         }
         let branch = &wave["branch"];
         assert!(branch["cycles"].as_u64().unwrap() >= count);
-        let ends = serde_json::json!(["the range ends", "the range ends"]);
+        let ends = json!(["the range ends", "the range ends"]);
         assert_eq!(branch["ends"], ends);
     }
     let changes = one["branch"]["stability_changes"].as_array().unwrap();
@@ -132,13 +132,13 @@ fn an_interrupted_search_says_what_is_kept_and_can_be_started_again() {
     // Hours of work, if it were let.
     let long = waves("cycle", &out, &COARSE).set(&["cycle.continuation.count=100000"]);
     let child = long.program().stderr(std::process::Stdio::piped()).spawn().unwrap();
-    let begin = std::time::Instant::now();
+    let begin = Instant::now();
     while !out.join("manifest.json").exists() {
         assert!(begin.elapsed().as_secs() < 60);
-        std::thread::sleep(std::time::Duration::from_millis(20));
+        std::thread::sleep(Duration::from_millis(20));
     }
     // The handler is in place as soon as the folder is.
-    std::thread::sleep(std::time::Duration::from_millis(200));
+    std::thread::sleep(Duration::from_millis(200));
     let killed = Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
     assert!(killed.success());
     let output = child.wait_with_output().unwrap();
@@ -211,7 +211,7 @@ fn a_body_without_symmetry_says_what_it_does_not_use_and_where_nothing_grows() {
 fn square(command: &str, folder: &Path, set: &[&str]) -> Run {
     let edge = even(0.01, 1);
     let square = quadrilaterals(&edge, &edge, ["face", "back", "body"], |x, y| [x, y]);
-    std::fs::write(folder.join("square.msh"), square).unwrap();
+    fs::write(folder.join("square.msh"), square).unwrap();
     let text = "[mesh]\nfile = \"square.msh\"\n[boundaries.back]\ncondition = \"clamped\"
 [material]\nyoung_modulus = 2.5e9\npoisson_ratio = 0.38\ndensity = 1228.0
 [damping]\nmass_coefficient = 40.0\nstiffness_coefficient = 2e-7
@@ -220,7 +220,7 @@ friction_coefficient = 0.3\nstatic_friction_ratio = 1.1\ndecay_speed = 0.5\ninte
 [cea]\nmodes = 2\n[transient]\nduration = 1e-2
 [cycle]\nconfirmation_periods = 0\nstability = \"none\"
 continuation = { key = \"contact.speed\", from = 0.25, to = 3.0, count = 10 }\n";
-    std::fs::write(folder.join("case.toml"), text).unwrap();
+    fs::write(folder.join("case.toml"), text).unwrap();
     let run = Run::new(&[command, "case.toml", "--format", "svg"]).within(folder);
     run.set(set).out(command)
 }

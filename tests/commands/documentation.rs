@@ -97,7 +97,7 @@ fn commands(block: &Block) -> Vec<String> {
 /// `# dry run` with `--dry-run`. Figures of modes are drawn where the page draws them again. Every line of a block of printed text is part of what a command before it has printed.
 fn run_page(name: &str) {
     let (_, text) = pages().into_iter().find(|(page, _)| page == name).unwrap();
-    let folder = tempfile::tempdir().unwrap();
+    let folder = folder();
     let program = || {
         let mut command = Command::cargo_bin("frictionsim").unwrap();
         command.current_dir(folder.path());

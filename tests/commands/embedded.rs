@@ -4,7 +4,6 @@ use crate::prelude::*;
 use frictionsim::app::Failure;
 use frictionsim::app::embedded::{EmbeddedFailure, EmbeddedRun};
 use std::ffi::OsString;
-use tempfile::tempdir;
 
 fn words(command: &str, case: &str, folder: &TempDir, name: &str, set: &[&str]) -> Vec<OsString> {
     let out = folder.path().join(name);
@@ -66,7 +65,7 @@ fn transient(folder: &TempDir, name: &str, duration: &str) -> Vec<OsString> {
 
 #[test]
 fn a_transient_that_is_stopped_keeps_what_it_has_and_resumes_to_the_same_bytes() {
-    let folder = tempdir().unwrap();
+    let folder = folder();
     let counts = |run: &EmbeddedRun| run.progress().is_some_and(|progress| progress.done > 0);
     let (failure, time) = stopped(transient(&folder, "run", "transient.duration=10.0"), counts);
     assert!(interruption(&failure).contains("--resume"), "{failure:?}");
@@ -88,7 +87,7 @@ fn a_transient_that_is_stopped_keeps_what_it_has_and_resumes_to_the_same_bytes()
 
 #[test]
 fn a_sweep_that_is_stopped_keeps_its_finished_points() {
-    let folder = tempdir().unwrap();
+    let folder = folder();
     let swept = "sweep={\"contact.rotation_speed_rpm\"=[600.0, 605.0, 610.0, 620.0]}";
     let set = [&RUN[..], &["transient.duration=0.5", swept]].concat();
     let study = words("sweep", "polycarbonate-610rpm.toml", &folder, "study", &set);
@@ -103,7 +102,7 @@ fn a_sweep_that_is_stopped_keeps_its_finished_points() {
 
 #[test]
 fn an_eigenvalue_analysis_is_stopped_between_factorizations() {
-    let folder = tempdir().unwrap();
+    let folder = folder();
     let set = ["cea.method=sparse", "mesh.radial_elements=35", "mesh.circumferential_elements=180"];
     let case = words("cea", "polycarbonate-disc.toml", &folder, "cea", &set);
     stopped_after(500, case, "--resume goes on");
@@ -125,7 +124,7 @@ fn a_panic_is_caught_and_the_next_run_goes_on() {
 
 #[test]
 fn bad_words_and_bad_cases_are_failures_as_on_the_command_line() {
-    let folder = tempdir().unwrap();
+    let folder = folder();
     let unknown = run(vec!["cea".into(), "--colour".into()]).unwrap_err();
     let EmbeddedFailure::Command(failure @ Failure::Usage(_)) = &unknown else {
         panic!("{unknown:?}");
@@ -138,7 +137,7 @@ fn bad_words_and_bad_cases_are_failures_as_on_the_command_line() {
 
 #[test]
 fn warnings_are_kept_for_the_caller_and_each_run_has_its_own() {
-    let folder = tempdir().unwrap();
+    let folder = folder();
     let (loud, calm) = (EmbeddedRun::default(), EmbeddedRun::default());
     let set = |thickness: &'static str| ["cea.friction_coefficients=[0.3]", thickness];
     let case = "polycarbonate-disc.toml";

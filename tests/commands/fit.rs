@@ -4,7 +4,6 @@
 
 use crate::prelude::*;
 use crate::table_1;
-use frictionsim::signal::reader::MeasuredMode;
 use frictionsim::study::eigenvalues::modes_below;
 use frictionsim::study::fit::fit_case;
 
@@ -41,7 +40,7 @@ fn table_1_gives_back_the_three_values_that_the_paper_leaves_out() {
 
 #[test]
 fn one_support_stiffness_explains_the_four_frequencies_heard() {
-    let table = std::fs::read_to_string(shipped("squeal.csv")).unwrap();
+    let table = fs::read_to_string(shipped("squeal.csv")).unwrap();
     let set = ["mesh.circumferential_elements=60", "mesh.radial_elements=16"];
     let found = fitted("fit-test-bench.toml", &table, &set).code(0).value();
     assert!(found["worst_percent"].as_f64().unwrap() < 5.0, "{found:#}");
@@ -52,10 +51,6 @@ fn one_support_stiffness_explains_the_four_frequencies_heard() {
     assert!(stiffness["low"].as_f64().unwrap() < value);
     let heard = found["residuals"].as_array().unwrap().iter();
     assert!(heard.clone().all(|row| row["mode"]["real_hz"].as_f64().unwrap() > 0.0));
-}
-
-fn line(line: usize, frequency_hz: f64, real_hz: Option<f64>) -> MeasuredMode {
-    MeasuredMode { line, frequency_hz, real_hz, harmonic: None, sigma_hz: None, is_unstable: false }
 }
 
 /// In how many of `seeds` noisy spectra of a case the interval of each fitted parameter holds the value of the case.
@@ -70,7 +65,7 @@ fn coverage(case: &Case, limit_hz: f64, noise: [f64; 2], seeds: u64) -> Vec<usiz
             let error = stream.draw();
             let frequency_hz = mode.frequency_hz() * (1.0 + noise[0] * error.re);
             let real_hz = mode.real_hz() + noise[1] * mode.frequency_hz() * error.im;
-            line(k + 1, frequency_hz, Some(real_hz))
+            measured_mode(k + 1, frequency_hz, Some(real_hz))
         });
         let fitted = fit_case(case, &lines.collect::<Vec<_>>(), None).unwrap();
         for ((hit, estimate), truth) in hits.iter_mut().zip(&fitted.parameters).zip(&truth) {
@@ -134,7 +129,6 @@ fn a_fit_on_its_bound_says_so() {
 /// frequencies, and only the shapes tell which. They mix a little where the modes are close.
 #[test]
 fn shapes_tell_modes_apart_that_cross() {
-    use frictionsim::linalg::c64;
     use frictionsim::study::fit::{BoundedParameter, FitProblem, ModelMode, fit};
     let truth = 1.2996_f64;
     let frequencies = |p: f64| [1000.0 * p.sqrt(), 1000.0 * (2.4 - p).sqrt()];
@@ -143,7 +137,7 @@ fn shapes_tell_modes_apart_that_cross() {
         let mixed = 0.1 * (-((values[0] - 1.2) / 0.05).powi(2)).exp();
         let modes = frequencies(values[0]).into_iter().enumerate();
         let modes = modes.map(|(k, frequency)| ModelMode {
-            eigenvalue: c64::new(-10.0, std::f64::consts::TAU * frequency),
+            eigenvalue: c64::new(-10.0, TAU * frequency),
             harmonic: None,
             branch: k,
             direction: 0,
@@ -156,7 +150,7 @@ fn shapes_tell_modes_apart_that_cross() {
         Ok(modes.collect())
     };
     let lines = frequencies(truth).into_iter().enumerate();
-    let lines: Vec<_> = lines.map(|(k, frequency_hz)| line(k + 2, frequency_hz, None)).collect();
+    let lines: Vec<_> = lines.map(|(k, own)| measured_mode(k + 2, own, None)).collect();
     let parameters =
         [BoundedParameter { name: "p".to_owned(), from: 0.8, to: 1.6, is_logarithmic: false }];
     let with = |shape_of: [Option<usize>; 2]| {

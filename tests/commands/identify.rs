@@ -243,7 +243,7 @@ fn the_command_prints_both_estimators_and_a_block_that_parses() {
         .zip(noisy(&h, 0.01, 2))
         .map(|(f, h)| format!("{f};{};{}\r\n", h.re, h.im).replace('.', ","))
         .collect();
-    std::fs::write(&table, format!("Frequency [Hz];Real;Imag\r\n{rows}")).unwrap();
+    fs::write(&table, format!("Frequency [Hz];Real;Imag\r\n{rows}")).unwrap();
     let run =
         |more: &[&str]| Run::new(&["identify", "hammer.csv"]).within(&folder).args(more).done();
     let summary = run(&["--json", "--quiet"]).value();
@@ -255,7 +255,7 @@ fn the_command_prints_both_estimators_and_a_block_that_parses() {
     assert!(summary["modes"][0]["frequency_hz"].is_f64());
     assert!(summary["modes"][0]["damping_factor"].is_f64());
     let results = folder.path().join("results/hammer/identify");
-    let block = std::fs::read_to_string(results.join("damping.toml")).unwrap();
+    let block = fs::read_to_string(results.join("damping.toml")).unwrap();
     let parsed: toml::Table = block.parse().unwrap();
     assert!(parsed["damping"]["mass_coefficient"].is_float());
     assert!(results.join("figures/identification.png").exists());

@@ -98,7 +98,7 @@ fn long_names_and_many_unknown_keys_are_bounded_in_time_and_in_what_is_said() {
     for i in 0..30_000 {
         writeln!(case, "unknown_key_{i} = 1").unwrap();
     }
-    let start = std::time::Instant::now();
+    let start = Instant::now();
     let said = on_block(MESH, &case).code(2).warns(&["unknown key"]).stderr;
     assert!(said.len() < 10_000, "{} bytes", said.len());
     // 52 s before; the limit leaves room for a busy machine.
@@ -113,7 +113,7 @@ fn tone(channel: &str) -> String {
     let mut text = format!("time_s,\"{channel}\"\n");
     for i in 0..1000 {
         let time = f64::from(i) / 20e3;
-        writeln!(text, "{time},{}", (std::f64::consts::TAU * 1e3 * time).sin()).unwrap();
+        writeln!(text, "{time},{}", (TAU * 1e3 * time).sin()).unwrap();
     }
     text
 }

@@ -78,8 +78,8 @@ fn universal(shapes: &[Motion]) -> String {
 }
 
 fn run(folder: &Path, shapes: &str, further: &[&str]) -> Run {
-    std::fs::write(folder.join("case.toml"), coarse_disc(CEA)).unwrap();
-    std::fs::write(folder.join("shapes"), shapes).unwrap();
+    fs::write(folder.join("case.toml"), coarse_disc(CEA)).unwrap();
+    fs::write(folder.join("shapes"), shapes).unwrap();
     let run = Run::new(&["mac", "case.toml", "shapes", "--force"]).within(folder).out("out");
     run.args(further)
 }
@@ -132,7 +132,7 @@ fn shapes_and_responses_written_as_universal_files_are_read_back() {
     // The response has the values of the table.
     run(&["frf", "case.toml"], "frf");
     let [table, universal] = ["frf/frf.csv", "frf/frf.unv"].map(|name| {
-        let bytes = std::fs::read(folder.path().join(name)).unwrap();
+        let bytes = fs::read(folder.path().join(name)).unwrap();
         let file = read_response(&bytes, name, &ResponseOptions::default()).unwrap();
         file.responses[0].response.values().to_vec()
     });
@@ -200,8 +200,8 @@ fn what_is_no_shape_is_named_with_its_place() {
 fn fit_with(folder: &Path, shapes: &str, set: &[&str]) -> Run {
     let fit =
         format!("{CEA}\n[fit]\nparameters = {{ \"material.young_modulus\" = [1.5e9, 4e9] }}\n");
-    std::fs::write(folder.join("case.toml"), coarse_disc(&fit)).unwrap();
-    std::fs::write(folder.join("shapes"), shapes).unwrap();
+    fs::write(folder.join("case.toml"), coarse_disc(&fit)).unwrap();
+    fs::write(folder.join("shapes"), shapes).unwrap();
     let words = ["fit", "case.toml", "modes.csv", "--shapes", "shapes", "--force", "--no-figures"];
     Run::new(&words).within(folder).out("out").set(set)
 }
@@ -220,7 +220,7 @@ fn measured_shapes_are_data_of_a_fit() {
         text
     };
     let rows: String = frequencies.iter().map(|f| format!("{f}\n")).collect();
-    std::fs::write(folder.path().join("modes.csv"), format!("frequency_hz\n{rows}")).unwrap();
+    fs::write(folder.path().join("modes.csv"), format!("frequency_hz\n{rows}")).unwrap();
 
     let answer = fit_with(folder.path(), &named(1.0), &[]).done();
     let summary = answer.summary();

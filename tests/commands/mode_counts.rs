@@ -2,7 +2,7 @@
 
 use crate::prelude::*;
 
-fn counted(case: &str, sets: &[&str], code: i32) -> (Answer, tempfile::TempDir) {
+fn counted(case: &str, sets: &[&str], code: i32) -> (Answer, TempDir) {
     let folder = folder();
     let run = Run::of("cea", shipped(case)).out(folder.path().join("run"));
     let block = case == "sliding-block.toml";

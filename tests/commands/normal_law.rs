@@ -25,7 +25,7 @@ fn plane_and_solid_discs_and_basins_take_a_law() {
 fn both_methods_have_the_same_tables() {
     let folder = folder();
     let case = folder.path().join("disc.toml");
-    std::fs::write(&case, DISC).unwrap();
+    fs::write(&case, DISC).unwrap();
     let sensitivities = |method: &str| -> Vec<[f64; 5]> {
         let set = [&format!("cea.method={method}"), "cea.sensitivities=true"];
         let answer = run("cea", &case, &folder.path().join(method), &set);
@@ -76,7 +76,7 @@ fn both_methods_have_the_same_tables() {
 #[test]
 fn a_law_of_the_case_replaces_the_stiffness_of_an_input_file() {
     let path = shipped("brake.toml");
-    let own = std::fs::read_to_string(&path).unwrap();
+    let own = fs::read_to_string(&path).unwrap();
     let read = |text: &str| Case::parse(&path, text.as_bytes(), &[]).unwrap();
     let law = "normal_law = \"exponential\"\nreference_pressure = 1e5\nheight = 1e-6\n";
     let sections = ["Outer", "Inner"].map(|pad| format!("[contacts.{pad}_Friction_face]\n{law}"));
@@ -113,7 +113,7 @@ fn critical_friction_of_the_shipped_case_depends_on_the_brake_pressure() {
     let [low, high] = lowest(case.as_ref());
     assert!(low > 0.35 && low < 0.42 && high < 0.7 * low, "{low} {high}");
     // The same contact without a law, from a case of its own: only the geometric stiffness follows the pressure.
-    let text = std::fs::read_to_string(&case).unwrap();
+    let text = fs::read_to_string(&case).unwrap();
     let lines = text.lines().map(|line| match line.split(' ').next() {
         Some("normal_law") => "normal_stiffness = 5e11".to_owned(),
         Some("reference_pressure" | "height") => String::new(),
@@ -124,7 +124,7 @@ fn critical_friction_of_the_shipped_case_depends_on_the_brake_pressure() {
         _ => line.to_owned(),
     });
     let constant = folder.path().join("constant.toml");
-    std::fs::write(&constant, lines.collect::<Vec<_>>().join("\n")).unwrap();
+    fs::write(&constant, lines.collect::<Vec<_>>().join("\n")).unwrap();
     let [low, high] = lowest(&constant);
     assert!((high / low - 1.0).abs() < 1e-3, "{low} {high}");
 }

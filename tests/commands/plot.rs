@@ -181,7 +181,7 @@ fn signal_figures_are_drawn_again_to_the_same_bytes() {
     let mut text = String::from("time_s,left,right\n");
     for j in 0..4000 {
         let t = f64::from(j) * 1e-5;
-        let [left, right] = [5000.0, 7000.0].map(|f| (std::f64::consts::TAU * f * t).sin());
+        let [left, right] = [5000.0, 7000.0].map(|f| (TAU * f * t).sin());
         text += &format!("{t:?},{left:?},{right:?}\n");
     }
     fs::write(folder.path().join("signal.csv"), text).unwrap();

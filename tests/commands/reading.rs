@@ -18,11 +18,10 @@ const CASE: &str = "title = \"Two pads\"
 [cea]\nfriction_coefficients = [0.0, 0.3, 0.6]\nmodes = 12\n";
 
 fn pads() -> Vec<u8> {
-    let block = |name, origin, size, counts| brick(name, origin, size, counts);
     let blocks = [
-        block("slab", [0.0; 3], [0.06, 0.03, 0.01], [6, 3, 1]),
-        block("left", [0.005, 0.005, 0.01], [0.015, 0.02, 0.012], [3, 3, 2]),
-        block("right", [0.035, 0.005, 0.01], [0.02, 0.02, 0.01], [3, 3, 2]),
+        brick("slab", [0.0; 3], [0.06, 0.03, 0.01], [6, 3, 1]),
+        brick("left", [0.005, 0.005, 0.01], [0.015, 0.02, 0.012], [3, 3, 2]),
+        brick("right", [0.035, 0.005, 0.01], [0.02, 0.02, 0.01], [3, 3, 2]),
     ];
     file_of(&blocks, |point| point)
 }
@@ -341,16 +340,12 @@ const ROTOR: &str = "title = \"Two pads on a rotor\"
 /// that decay; without friction they feed nothing, and with friction all rows add up to the growth rate.
 #[test]
 fn gyroscopic_forces_have_their_own_row_in_the_budget() {
-    let block = |name, origin, size, counts| brick(name, origin, size, counts);
     let blocks = [
-        block("ring", [0.06, 0.0, 0.0], [0.06, TAU, 0.01], [2, 24, 1]),
-        block("first", [0.08, 0.3, 0.01], [0.03, 0.8, 0.01], [2, 3, 1]),
-        block("second", [0.08, 3.5, 0.01], [0.03, 0.8, 0.01], [2, 3, 1]),
+        brick("ring", [0.06, 0.0, 0.0], [0.06, TAU, 0.01], [2, 24, 1]),
+        brick("first", [0.08, 0.3, 0.01], [0.03, 0.8, 0.01], [2, 3, 1]),
+        brick("second", [0.08, 3.5, 0.01], [0.03, 0.8, 0.01], [2, 3, 1]),
     ];
-    let file = file_of(&blocks, |[radius, angle, z]| {
-        let (sin, cos) = angle.sin_cos();
-        [radius * cos, radius * sin, z]
-    });
+    let file = file_of(&blocks, polar);
     let folder = folder_with(&[("rotor.msh", &file), ("case.toml", ROTOR.as_bytes())]);
     let answer = cea(folder.path(), "case.toml", &[]);
     let rows = answer.rows("contributions.csv");

@@ -95,7 +95,7 @@ fn manifest(hash: &str) -> Manifest {
 
 #[test]
 fn tables_hold_one_row_for_each_mode_of_a_tabulated_friction_value() {
-    let (mesh, folder) = (annulus(ElementKind::Quad4), tempfile::tempdir().unwrap());
+    let (mesh, folder) = (annulus(ElementKind::Quad4), folder());
     let sweep = sweep(&mesh);
     let output = OutputFolder::open(folder.path(), &manifest("a"), Replace::SameCase).unwrap();
     let summary = write(&output, &report(&mesh, &sweep, &field(&mesh))).unwrap();
@@ -233,7 +233,7 @@ fn a_rigid_translation_is_one_cartesian_vector_at_every_node() {
 
 #[test]
 fn shapes_come_as_real_and_imaginary_fields_in_a_collection() {
-    let (mesh, folder) = (annulus(ElementKind::Quad8), tempfile::tempdir().unwrap());
+    let (mesh, folder) = (annulus(ElementKind::Quad8), folder());
     let sweep = sweep(&mesh);
     let output = OutputFolder::open(folder.path(), &manifest("a"), Replace::SameCase).unwrap();
     write(&output, &report(&mesh, &sweep, &field(&mesh))).unwrap();
@@ -282,7 +282,7 @@ fn open(path: &Path, hash: &str, replace: Replace) -> Result<OutputFolder, Folde
 #[cfg(unix)]
 #[test]
 fn files_beyond_a_linked_subfolder_stay_as_they_are() {
-    let (folder, elsewhere) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
+    let (folder, elsewhere) = (folder(), folder());
     let first = open(folder.path(), "a", Replace::SameCase).unwrap();
     first.write("a.csv", |out| out.write_all(b"1")).unwrap();
     first.finish().unwrap();
@@ -299,7 +299,7 @@ fn files_beyond_a_linked_subfolder_stay_as_they_are() {
 #[test]
 fn a_file_that_cannot_be_removed_is_named() {
     use std::os::unix::fs::PermissionsExt;
-    let folder = tempfile::tempdir().unwrap();
+    let folder = folder();
     let output = open(folder.path(), "a", Replace::SameCase).unwrap();
     output.write("steps/1.bin", |out| out.write_all(b"1")).unwrap();
     let steps = folder.path().join("steps");
@@ -315,7 +315,7 @@ fn a_file_that_cannot_be_removed_is_named() {
 
 #[test]
 fn a_complete_run_leaves_no_file_of_an_earlier_one() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = folder();
     for names in [["a.csv", "b.csv"], ["a.csv", "c.csv"]] {
         let output = open(folder.path(), "a", Replace::SameCase).unwrap();
         for name in names {
@@ -329,7 +329,7 @@ fn a_complete_run_leaves_no_file_of_an_earlier_one() {
 
 #[test]
 fn what_a_killed_run_left_does_not_survive_another_case() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = folder();
     let killed = open(folder.path(), "a", Replace::SameCase).unwrap();
     killed.write("figures/early.svg", |out| out.write_all(b"1")).unwrap();
     // The process dies: no end of the run, and a temporary file half written.
@@ -342,7 +342,7 @@ fn what_a_killed_run_left_does_not_survive_another_case() {
 
 #[test]
 fn a_run_interrupted_before_its_first_file_leaves_its_folder_to_any_case() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = folder();
     drop(open(folder.path(), "a", Replace::SameCase).unwrap());
     assert!(folder.path().join("manifest.json").exists());
     OutputFolder::may_open(folder.path(), &manifest("b"), Replace::SameCase).unwrap();
@@ -360,7 +360,7 @@ fn a_run_interrupted_before_its_first_file_leaves_its_folder_to_any_case() {
 
 #[test]
 fn a_failed_write_leaves_the_earlier_file_whole() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = folder();
     let output = open(folder.path(), "a", Replace::SameCase).unwrap();
     output.write("table.csv", |out| out.write_all(b"whole")).unwrap();
     let error = output.write("table.csv", |out| {

@@ -1,4 +1,4 @@
-//! Bodies that turn as a user meets them: input files of CalculiX with a centrifugal load, both frames, refusals.
+//! Bodies that turn as a user meets them: input files of CalculiX with a centrifugal load, both frames.
 
 use crate::prelude::*;
 use std::fmt::Write as _;
@@ -105,10 +105,10 @@ fn columns_of<const N: usize>(
     [command, table]: [&str; 2],
     columns: [&str; N],
 ) -> Vec<[f64; N]> {
-    std::fs::write(folder.join("rotor.inp"), deck).unwrap();
+    fs::write(folder.join("rotor.inp"), deck).unwrap();
     Run::new(&["init", "--from", "rotor.inp", "--force"]).within(folder).done();
-    let case = std::fs::read_to_string(folder.join("rotor.toml")).unwrap();
-    std::fs::write(folder.join("rotor.toml"), format!("{case}\n{more}")).unwrap();
+    let case = fs::read_to_string(folder.join("rotor.toml")).unwrap();
+    fs::write(folder.join("rotor.toml"), format!("{case}\n{more}")).unwrap();
     let run = Run::of(command, "rotor.toml").within(folder).args(&["--force"]).out("out");
     run.done().rows(table).iter().map(|row| row.numbers(columns)).collect()
 }
@@ -222,38 +222,5 @@ fn frequencies_of_a_turning_ring_in_both_frames_differ_by_multiples_of_its_speed
             .flat_map(|omega| (-6..=6).map(move |n| (omega + f64::from(n) * speed).abs() - found));
         let nearest = nearest.min_by(|a, b| a.abs().total_cmp(&b.abs())).unwrap();
         assert!(nearest.abs() < 1e-6 * found, "{found}: {nearest}");
-    }
-}
-
-#[test]
-fn a_frame_that_turns_turns_with_every_region_and_needs_the_inertia() {
-    let ring = Revolved { around: 8, cells: vec![[60.0, 80.0, 0.0, 8.0]], holes: Vec::new() };
-    let folder = folder_with(&[("ring.inp", ring.text().1.as_bytes())]);
-    let case = "[mesh]\nfile = \"ring.inp\"\nunits = \"mm-t-s\"\n[motion.Eall]\naxis = [0.0, 0.0, 1.0]\nrotation_speed_rpm = 100.0\nframe = \"turning\"\n[cea]\nmodes = 2\n";
-    Run::of_text("check", folder.path(), case)
-        .refused(&["motion.Eall.frame", "rotation_terms = true"]);
-}
-
-/// Consistency check: what a case is to blame for is refused before it runs.
-#[test]
-fn a_block_that_turns_is_no_body_of_revolution_and_is_refused_by_check_too() {
-    let block = |name, bottom| Block {
-        name,
-        origin: [0.0, 0.0, bottom],
-        size: [0.02, 0.02, 0.01],
-        counts: [2, 2, 1],
-    };
-    let mesh = file_of(&[block("low", 0.0), block("high", 0.01)], |at| at);
-    let folder = folder_with(&[("blocks.msh", &mesh)]);
-    let text =
-        "[mesh]\nfile = \"blocks.msh\"\n[material]\nyoung_modulus = 2e10\npoisson_ratio = 0.3
-density = 2500.0\n[boundaries.low_z0]\ncondition = \"clamped\"\n[boundaries.high_z1]
-condition = \"pressure\"\npressure = 1e6\n[boundaries.high_x1]\ncondition = \"support\"
-normal_stiffness = 2e9\ntangential_stiffness = 1e10\n[motion.low]\naxis = [0.0, 0.0, 1.0]
-center = [0.0, -0.2, 0.0]\nrotation_speed_rpm = 100.0\nrotation_terms = true\n[contacts.face]
-surface = \"high_z0\"\ncounter = \"low_z1\"\nfriction_coefficient = 0.4\n[cea]\nmodes = 4\n";
-    for command in ["check", "cea"] {
-        let said = ["\"low\" is no body of revolution about that axis", "frame = \"turning\""];
-        Run::of_text(command, folder.path(), text).refused(&said);
     }
 }

@@ -70,7 +70,7 @@ fn a_steady_tone_beside_no_unstable_mode_is_given_none_and_can_be_heard() {
     assert!(distance > 0.03 && (distance - (frequency / 9433.0 - 1.0)).abs() < 1e-3, "{nearest}");
     assert!(channel["growth"].is_null() && channel["no_growth"].is_string());
     // 250 kHz is played five times slower.
-    let sound = std::fs::read(folder.path().join("tone.wav")).unwrap();
+    let sound = fs::read(folder.path().join("tone.wav")).unwrap();
     assert_eq!(&sound[24..28], 50_000u32.to_le_bytes());
     for nonsense in [["--window", "0"], ["--resolution", "1"], ["--max-frequency", "0"]] {
         run(&nonsense).refused(&[nonsense[0]]);

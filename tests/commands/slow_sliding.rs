@@ -45,15 +45,9 @@ fn bent(counterface: &str, [u, v, w]: [f64; 3]) -> [f64; 3] {
 
 /// The spectrum of what `frictionsim matrices` writes, by a dense decomposition: frequency (Hz) and growth rate.
 fn dense(out: &Path) -> Vec<[f64; 2]> {
-    let [mass, damping, stiffness] = ["M", "C", "K"].map(|name| {
-        let text = std::fs::read_to_string(out.join(format!("{name}.mtx"))).unwrap();
-        let matrix = MarketMatrix::read(&text, usize::MAX).unwrap();
-        let mut dense = Mat::<f64>::zeros(matrix.rows, matrix.columns);
-        matrix.entries.iter().for_each(|&(i, j, value)| dense[(i, j)] += value);
-        dense
-    });
-    let found = quadratic_modes(mass.as_ref(), damping.as_ref(), stiffness.as_ref()).unwrap();
-    found.iter().map(|own| [own.eigenvalue.im / TAU, own.eigenvalue.re]).collect()
+    let matrices = ["M", "C", "K"].map(|name| market_matrix(&out.join(format!("{name}.mtx"))));
+    let found = quadratic_eigenvalues(matrices.each_ref());
+    found.iter().map(|own| [own.im / TAU, own.re]).collect()
 }
 
 /// Independent: a dense decomposition of the exported matrices. Friction overdamps what slides across; nothing else is lost.
@@ -79,9 +73,8 @@ interference = 2e-5\nrotation_speed_rpm = {rpm}\n[cea]\nfriction_coefficients = 
         assert_eq!(own.len(), 6, "{}", answer.said());
         let matrices = run("matrices").args(&["--friction", "0.3"]).done().out;
         let all = dense(&matrices);
-        let distance = |a: &[f64; 2], b: &[f64; 2]| (a[0] - b[0]).hypot((a[1] - b[1]) / TAU);
         let error = |of: &[f64; 2], among: &[[f64; 2]]| {
-            let distances = among.iter().map(|other| distance(of, other));
+            let distances = among.iter().map(|b| (of[0] - b[0]).hypot((of[1] - b[1]) / TAU));
             distances.fold(f64::INFINITY, f64::min) / of[0]
         };
         for mode in &own {

@@ -16,7 +16,7 @@ const STUDY: &str = "[transient]\nduration = 0.01
      \"contact.rotation_speed_rpm\" = { from = 10, to = 6000, count = 10, spacing = \"log\" }\n";
 
 struct Study {
-    root: tempfile::TempDir,
+    root: TempDir,
 }
 
 impl Study {
@@ -66,7 +66,7 @@ fn terminate(child: Child) {
 
 /// The finished points by file name, byte for byte.
 fn points(folder: &Path) -> BTreeMap<String, String> {
-    let Ok(entries) = std::fs::read_dir(folder.join("points")) else {
+    let Ok(entries) = fs::read_dir(folder.join("points")) else {
         return BTreeMap::new();
     };
     let mut points = BTreeMap::new();
@@ -74,14 +74,14 @@ fn points(folder: &Path) -> BTreeMap<String, String> {
         let path = entry.unwrap().path();
         let name = path.file_name().unwrap().to_str().unwrap().to_owned();
         if name.starts_with("point-") {
-            points.insert(name, std::fs::read_to_string(&path).unwrap());
+            points.insert(name, fs::read_to_string(&path).unwrap());
         }
     }
     points
 }
 
 fn table(folder: &Path) -> String {
-    std::fs::read_to_string(folder.join("points.csv")).unwrap()
+    fs::read_to_string(folder.join("points.csv")).unwrap()
 }
 
 /// Time, table and points of a sweep that nothing happens to, run once.
@@ -212,7 +212,7 @@ fn a_terminated_sweep_says_how_to_go_on() {
     let mut command = study.sweep("stopped", &[]).program();
     let child = command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
     while points(&study.folder("stopped")).is_empty() {
-        std::thread::sleep(std::time::Duration::from_millis(5));
+        std::thread::sleep(Duration::from_millis(5));
     }
     terminate(child);
 }
@@ -223,7 +223,7 @@ fn cea(folder: &Path, options: &[&str]) -> Run {
 }
 
 fn steps(folder: &Path) -> usize {
-    let entries = std::fs::read_dir(folder.join("progress"));
+    let entries = fs::read_dir(folder.join("progress"));
     let names = entries.into_iter().flatten().flatten();
     let is_whole = |name: &str| name.ends_with(".bin");
     names.filter(|entry| is_whole(&entry.file_name().to_string_lossy())).count()
@@ -240,7 +240,7 @@ fn an_eigenvalue_sweep_stopped_twice_resumes_to_identical_tables() {
         let mut child = command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
         while steps(&stopped) < wanted {
             assert!(child.try_wait().unwrap().is_none(), "over before it was stopped");
-            std::thread::sleep(std::time::Duration::from_millis(2));
+            std::thread::sleep(Duration::from_millis(2));
         }
         terminate(child);
     }
@@ -249,7 +249,7 @@ fn an_eigenvalue_sweep_stopped_twice_resumes_to_identical_tables() {
         assert!(!folder.join("progress").exists());
     }
     for table in ["eigenvalues.csv", "stability.csv"] {
-        let [one, other] = [&stopped, &whole].map(|f| std::fs::read(f.join(table)).unwrap());
+        let [one, other] = [&stopped, &whole].map(|f| fs::read(f.join(table)).unwrap());
         assert!(one == other, "{table}");
     }
 }

@@ -108,7 +108,7 @@ fn write_table(case: &Case, folder: &SweepFolder) {
 }
 
 fn table(folder: &Path) -> String {
-    std::fs::read_to_string(folder.join("points.csv")).unwrap()
+    fs::read_to_string(folder.join("points.csv")).unwrap()
 }
 
 #[test]
@@ -208,9 +208,9 @@ fn a_damaged_point_is_run_again() {
     sweep(&case, folder.path(), None, 2, Start::Fresh, &formula).unwrap();
     let expected = table(folder.path());
     let path = |point: usize| folder.path().join(format!("points/point-{point:06}.json"));
-    let whole = std::fs::read_to_string(path(4)).unwrap();
-    std::fs::write(path(4), &whole[..whole.len() / 2]).unwrap();
-    std::fs::copy(path(7), path(8)).unwrap();
+    let whole = fs::read_to_string(path(4)).unwrap();
+    fs::write(path(4), &whole[..whole.len() / 2]).unwrap();
+    fs::copy(path(7), path(8)).unwrap();
     let ran = sweep(&case, folder.path(), None, 2, Start::Resume, &formula).unwrap();
     assert_eq!(ran, 2);
     assert_eq!(table(folder.path()), expected);
@@ -239,7 +239,7 @@ fn two_runs_on_one_folder_share_the_points() {
     let calls = AtomicUsize::new(0);
     let runner = |point: &Case| {
         calls.fetch_add(1, Ordering::Relaxed);
-        std::thread::sleep(std::time::Duration::from_millis(5));
+        std::thread::sleep(Duration::from_millis(5));
         formula(point)
     };
     std::thread::scope(|scope| {
@@ -249,7 +249,7 @@ fn two_runs_on_one_folder_share_the_points() {
     });
     assert_eq!(calls.into_inner(), 15, "each point once");
     sweep(&case, folder.path(), None, 2, Start::Resume, &formula).unwrap();
-    let alone = tempfile::tempdir().unwrap();
+    let alone = TempDir::new().unwrap();
     sweep(&case, alone.path(), None, 2, Start::Fresh, &formula).unwrap();
     assert_eq!(table(folder.path()), table(alone.path()));
 }
@@ -355,7 +355,7 @@ fn keys_of_one_short_name_have_heads_of_their_own() {
     let of_keys = tables.iter().filter(|own| keys.iter().all(|key| own.contains(&key.to_string())));
     assert_eq!(of_keys.count(), 2, "modes and points: {tables:?}");
     for heads in &tables {
-        let distinct: std::collections::BTreeSet<&String> = heads.iter().collect();
+        let distinct: BTreeSet<&String> = heads.iter().collect();
         assert_eq!(distinct.len(), heads.len(), "{heads:?}");
     }
 }

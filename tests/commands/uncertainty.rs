@@ -68,7 +68,7 @@ fn threads_shards_and_interruptions_leave_the_same_bytes() {
     found(&two, &[], &["--threads", "2", "--shard", "2/2"]);
     assert!(!two.join("samples.csv").exists());
     found(&two, &[], &["--threads", "2", "--resume"]);
-    let bytes = |folder: &Path, name: &str| std::fs::read(folder.join(name)).unwrap();
+    let bytes = |folder: &Path, name: &str| fs::read(folder.join(name)).unwrap();
     for name in ["samples.csv", "points/point-000001.json", "points/point-000003.json"] {
         assert!(bytes(&one, name) == bytes(&two, name), "{name}");
     }

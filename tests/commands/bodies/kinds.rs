@@ -81,7 +81,7 @@ fn solids(contact: &str, support: &str, counts: [[usize; 3]; 3]) -> (String, Vec
 /// One sector of a ring around a cylinder, whose body is its six copies; its own friction lies above the onset at 0.12.
 fn sectors() -> (String, Vec<u8>) {
     let sector = brick("ring", [0.0205, 0.0, 0.0], [0.07, TAU / 6.0, 0.009], [3, 2, 1]);
-    let mesh = file_of(&[sector], |[r, t, z]| [r * t.cos(), r * t.sin(), z]);
+    let mesh = file_of(&[sector], polar);
     let case = format!(
         "title = \"A kind of body\"\n[mesh]\nfile = \"body.msh\"\nsectors = 6\n[material]\n{POLYCARBONATE}
 [boundaries.ring_x1]\ncondition = \"clamped\"\n[boundaries.ring_z0]\ncondition = \"guide\"

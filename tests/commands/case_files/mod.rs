@@ -185,8 +185,7 @@ fn windows_line_ends_and_a_byte_order_mark_are_read() {
 #[test]
 fn a_quadratic_mesh_runs_no_transient() {
     let case = valid(RUN, &["mesh.element=quad8"]);
-    let report = case.require_transient().unwrap_err().to_string();
-    has(&report, &["mesh.element", "--set:1:", "quad4"]);
+    has(&case.require_transient().unwrap_err().to_string(), &["mesh.element", "--set:1:", "quad4"]);
     assert!(case.require_cea().is_ok());
 }
 

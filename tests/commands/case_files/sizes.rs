@@ -84,7 +84,7 @@ fn the_cost_of_studies_counts_every_run() {
 
     // A solid mesh twice as fine has eight times the elements: beside the first, 8 and 64 times what grows least.
     let solid = shipped("tread-block.toml");
-    let text = std::fs::read_to_string(&solid).unwrap();
+    let text = fs::read_to_string(&solid).unwrap();
     let set = "convergence={factors=[1,2,4],analyses=[\"cea\"]}".to_owned();
     let solid = Case::parse(&solid, text.as_bytes(), &[set]).unwrap();
     let (one, all) = (solid.cost().cea.unwrap().run, solid.convergence_cost().unwrap().run);
@@ -112,7 +112,7 @@ speed = 0.5\nfriction_coefficient = 0.3\ninterference = 2e-5
     let mut child = child.stdout(Stdio::null()).spawn().unwrap();
     let (status, mut peak) = (format!("/proc/{}/status", child.id()), 0.0_f64);
     while child.try_wait().unwrap().is_none() {
-        let text = std::fs::read_to_string(&status).unwrap_or_default();
+        let text = fs::read_to_string(&status).unwrap_or_default();
         let line = text.lines().find_map(|line| line.strip_prefix("VmHWM:"));
         let kibibytes =
             line.map_or(0.0, |line| line.trim_end_matches("kB").trim().parse().unwrap());

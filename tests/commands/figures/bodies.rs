@@ -75,7 +75,7 @@ fn report<'a>(
 }
 
 fn drawn(report: &CeaReport<'_>, width_mm: Option<f64>) -> TempDir {
-    let out = tempfile::tempdir().unwrap();
+    let out = folder();
     let path = out.path().join("out");
     let folder = OutputFolder::open(&path, &Manifest::new("cea"), Replace::Anything).unwrap();
     let one = RayleighDamping { mass_coefficient: 40.0, stiffness_coefficient: 4.5e-7 };
@@ -89,7 +89,7 @@ fn drawn(report: &CeaReport<'_>, width_mm: Option<f64>) -> TempDir {
 }
 
 fn read(folder: &TempDir, name: &str) -> String {
-    std::fs::read_to_string(folder.path().join("out").join(name)).unwrap()
+    fs::read_to_string(folder.path().join("out").join(name)).unwrap()
 }
 
 #[test]
@@ -151,11 +151,11 @@ fn contact_around_an_imported_hole_is_drawn_and_listed_over_rising_angles() {
     let path = folder.path().join("base");
     let out = OutputFolder::open(&path, &Manifest::new("cea"), Replace::Anything).unwrap();
     write_base(&out, &mesh, (&report.base, &field)).unwrap();
-    let table = std::fs::read_to_string(path.join("prestress.csv")).unwrap();
+    let table = fs::read_to_string(path.join("prestress.csv")).unwrap();
     let angles = table.lines().skip(1).map(|line| line.split(',').nth(1).unwrap());
     let angles: Vec<f64> = angles.map(|angle| angle.parse().unwrap()).collect();
     assert!(angles.is_sorted() && angles.len() == 40, "{angles:?}");
-    let fields = std::fs::read(path.join("prestress.vtu")).unwrap();
+    let fields = fs::read(path.join("prestress.vtu")).unwrap();
     let names = "status pressure_pa shear_pa stress_xx_pa friction_coefficient power_w";
     let names = names.split(' ').map(|name| format!("Name=\"{name}\"")).collect::<Vec<_>>();
     has(&String::from_utf8_lossy(&fields), &[&names.join(" ; ")]);

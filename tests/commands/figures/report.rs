@@ -43,7 +43,7 @@ fn report_of_an_eigenvalue_analysis_holds_every_figure_table_and_the_case() {
         case_file: "disc.toml".into(),
         ..Manifest::new("cea")
     };
-    let path = std::path::PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("report");
+    let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("report");
     let folder = OutputFolder::open(&path, &manifest, Replace::Anything).unwrap();
     let start = Instant::now();
     draw(&folder, &report, &dampings, &DrawingOptions::default()).unwrap();
@@ -55,21 +55,21 @@ fn report_of_an_eigenvalue_analysis_holds_every_figure_table_and_the_case() {
             formats: vec![Format::Svg],
             ..DrawingOptions::default()
         };
-        let folder = tempfile::tempdir().unwrap();
+        let folder = TempDir::new().unwrap();
         let folder =
             OutputFolder::open(&folder.path().join("out"), &manifest, Replace::Anything).unwrap();
         // How long the run took is no matter of its report: the same bytes another day.
         let slower = CeaReport { wall_s: 77.7, ..report.clone() };
         draw(&folder, &slower, &dampings, &options).unwrap();
-        let read = |name: &str| std::fs::read_to_string(folder.path().join(name)).unwrap();
+        let read = |name: &str| fs::read_to_string(folder.path().join(name)).unwrap();
         assert!(!read("report.html").contains("77.70 s"));
-        for entry in std::fs::read_dir(folder.path().join("figures")).unwrap() {
+        for entry in fs::read_dir(folder.path().join("figures")).unwrap() {
             let path = entry.unwrap().path();
             let name = format!("{} at {width} mm", path.display());
-            check_texts(&name, &std::fs::read_to_string(path).unwrap());
+            check_texts(&name, &fs::read_to_string(path).unwrap());
         }
     }
-    let text = std::fs::read_to_string(path.join("report.html")).unwrap();
+    let text = fs::read_to_string(path.join("report.html")).unwrap();
     let wanted = "<h1>Polycarbonate disc</h1> ; Critical friction of each branch ; \
          Eigenvalues at friction coefficient 0.3 ; circumferential_elements = 180 ; Figure 1.";
     // Pictures are as dark as their page.
@@ -79,7 +79,7 @@ fn report_of_an_eigenvalue_analysis_holds_every_figure_table_and_the_case() {
         assert!(text.contains(&format!("<figure id=\"{name}\">")), "{name}");
         for extension in ["svg", "png"] {
             let file = path.join(format!("figures/{name}.{extension}"));
-            assert!(std::fs::metadata(file).unwrap().len() > 1000);
+            assert!(fs::metadata(file).unwrap().len() > 1000);
         }
     }
 }

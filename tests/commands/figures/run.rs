@@ -15,8 +15,7 @@ fn a_run_gets_every_figure_of_its_record() {
     let model = TransientModel::of_annulus(&annulus, &POLYCARBONATE, DAMPING, contact);
     let settings =
         transient_settings(0.02, 2e-6, 5e-4, InitialState::Rest, Perturbation::of(&[2], 1e-2));
-    let operator = model.operator(OperatorChoice::Auto, SimdLevel::detect()).unwrap();
-    let mut run = CentralDifference::start(model, operator.as_ref(), &settings).unwrap();
+    let mut run = started(model, OperatorChoice::Auto, &settings);
     // Node 1 + 15 * 13 lies on the contact edge at 90 degrees, seven nodes further out on its ray.
     let mut record = Recorder::new(
         &run,
@@ -50,7 +49,7 @@ fn a_run_gets_every_figure_of_its_record() {
             mode_rates: Vec::new(),
         },
     };
-    let started = std::time::Instant::now();
+    let started = Instant::now();
     let figures = draw_run(&data);
     println!("{} figures of a run drawn in {:?}", figures.len(), started.elapsed());
     let expected: [(&str, &[&str]); 10] = [
