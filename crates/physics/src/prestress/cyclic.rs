@@ -28,24 +28,10 @@ const ALIKE: f64 = 1e-8;
 /// Meth. Eng. 14 (1979).
 pub struct CyclicTangent<'a> {
     whole: &'a SlidingTangent,
+    /// Sectors of the body.
     count: usize,
-    /// Unknown of the whole body: place `i` of sector `j` at `j * size + i`.
-    at: Vec<usize>,
-    /// Sector and place of each unknown.
-    place_of: Vec<[usize; 2]>,
-    /// Entries in the rows of sector 0.
-    entries: Vec<Entry>,
-}
-
-/// An entry of the matrices in a row of sector 0.
-struct Entry {
-    /// Places within the sectors.
-    row: usize,
-    column: usize,
-    /// Sector of the column.
-    sector: usize,
-    /// Position in the pattern of the whole body.
-    position: usize,
+    /// Unknowns of each: those of sector `j` are the ones from `j * size` on.
+    size: usize,
 }
 
 impl<'a> CyclicTangent<'a> {
@@ -58,59 +44,39 @@ impl<'a> CyclicTangent<'a> {
         symmetry: &CyclicSymmetry,
         node_count: usize,
     ) -> Result<Self, String> {
-        let count = symmetry.count;
-        // Unknowns by sector, in the order of their dofs.
-        let per_sector = whole.unknowns.unknown_of.len() / node_count * (node_count / count);
-        let mut places: Vec<Vec<[usize; 2]>> = vec![Vec::new(); count];
-        for (unknown, dof) in whole.unknowns.dofs.iter().enumerate() {
-            places[dof / per_sector].push([dof % per_sector, unknown]);
-        }
-        let dofs = |j: usize| places[j].iter().map(|place| place[0]);
-        if let Some(j) = (1..count).find(|&j| !dofs(j).eq(dofs(0))) {
+        let (count, unknowns) = (symmetry.count, &whole.unknowns);
+        // Nodes, and with them unknowns, follow each other sector by sector.
+        let per_sector = unknowns.unknown_of.len() / node_count * (node_count / count);
+        let start = |j: usize| unknowns.dofs.partition_point(|&dof| dof < j * per_sector);
+        let places = |j: usize| {
+            let dofs = &unknowns.dofs[start(j)..start(j + 1)];
+            dofs.iter().map(|dof| dof % per_sector)
+        };
+        if let Some(j) = (1..count).find(|&j| !places(j).eq(places(0))) {
             return Err(format!(
                 "sector {} is held, tied or pressed otherwise than the first",
                 j + 1
             ));
         }
-        let size = places[0].len();
-        let at: Vec<usize> = places.iter().flatten().map(|place| place[1]).collect();
-        let mut place_of = vec![[0; 2]; at.len()];
-        for (k, &unknown) in at.iter().enumerate() {
-            place_of[unknown] = [k / size, k % size];
-        }
-        let pattern = whole.stiffness.pattern();
-        let rows = (0..size).flat_map(|row| pattern.row(at[row]).map(move |own| (row, own)));
-        let entries = rows.map(|(row, (position, column))| {
-            let [sector, column] = place_of[column];
-            Entry { row, column, sector, position }
-        });
-        let entries = entries.collect();
-        let own = Self { entries, whole, count, at, place_of };
+        let own = Self { whole, count, size: start(1) };
         own.check_alike()?;
         Ok(own)
     }
 
     /// Refuses matrices that differ from sector to sector.
     fn check_alike(&self) -> Result<(), String> {
-        let (size, total, whole) = (self.size(), self.at.len(), self.whole);
+        let (size, total, whole) = (self.size, self.size * self.count, self.whole);
         let pattern = whole.stiffness.pattern();
-        let mut named = vec![
-            ("mass", &whole.mass),
-            ("damping", &whole.damping),
-            ("stiffness", &whole.stiffness),
-        ];
-        named.extend(whole.structural.iter().map(|own| ("structural damping", own)));
+        let viscous =
+            [("mass", &whole.mass), ("damping", &whole.damping), ("stiffness", &whole.stiffness)];
+        let structural = whole.structural.iter().map(|own| ("structural damping", own));
         let tabled = whole.tabled.iter().map(|own| &own.stiffness);
-        named.extend(tabled.map(|own| ("stiffness of a part with a table", own)));
-        for (what, matrix) in named {
+        let tabled = tabled.map(|own| ("stiffness of a part with a table", own));
+        for (what, matrix) in viscous.into_iter().chain(structural).chain(tabled) {
             let pairs = matrix.coefficients().iter().map(|values| {
                 turned_pair(size, total, |x| {
-                    let mut own = vec![0.0; total];
-                    self.at.iter().zip(x).for_each(|(&unknown, value)| own[unknown] = *value);
-                    let row = |&unknown: &usize| {
-                        pattern.row(unknown).map(|(k, column)| values[k] * own[column]).sum()
-                    };
-                    self.at.iter().map(row).collect()
+                    let row = |row| pattern.row(row).map(|(k, column)| values[k] * x[column]).sum();
+                    (0..total).map(row).collect()
                 })
             });
             // Powers of mu that almost cancel are held to the others.
@@ -128,11 +94,6 @@ impl<'a> CyclicTangent<'a> {
             }
         }
         Ok(())
-    }
-
-    /// Unknowns of one sector.
-    fn size(&self) -> usize {
-        self.at.len() / self.count
     }
 
     /// Largest number of nodal diameters, `N / 2`.
@@ -154,40 +115,35 @@ impl<'a> CyclicTangent<'a> {
     /// The tangent that waves of `n` nodal diameters see, over `a` and, where there is one, `b`: its vectors are those of a body
     /// whose dofs are these unknowns.
     pub fn harmonic(&self, n: usize) -> SlidingTangent {
-        let (size, whole) = (self.size(), self.whole);
-        let is_paired = self.is_paired(n);
+        let (size, whole) = (self.size, self.whole);
+        let blocks = if self.is_paired(n) { 2 } else { 1 };
         let phases: Vec<[f64; 2]> = (0..self.count).map(|j| self.phase(n, j)).collect();
-        // Places of an entry's blocks with their factors.
-        let blocks = |entry: &Entry| {
-            let (row, column) = (entry.row, entry.column);
-            let [cos, sin] = phases[entry.sector];
+        // Where the entries in the rows of sector 0 come to stand, with their positions and factors.
+        let entries_of = |row: usize| whole.stiffness.pattern().row(row).map(move |own| (row, own));
+        let entries = (0..size).flat_map(entries_of).flat_map(|(row, (position, column))| {
+            let ([cos, sin], column) = (phases[column / size], column % size);
             let all = [
                 (row, column, cos),
                 (row, size + column, sin),
                 (size + row, column, -sin),
                 (size + row, size + column, cos),
             ];
-            all.into_iter().take(if is_paired { 4 } else { 1 })
-        };
-        let positions = self.entries.iter().flat_map(blocks).map(|(row, column, _)| (row, column));
-        let dimension = if is_paired { 2 * size } else { size };
-        let pattern = Arc::new(SparsityPattern::from_positions(dimension, positions));
+            all.into_iter().take(blocks * blocks).map(move |own| (position, own))
+        });
+        let entries: Vec<(usize, (usize, usize, f64))> = entries.collect();
+        let positions = entries.iter().map(|&(_, (row, column, _))| (row, column));
+        let pattern = Arc::new(SparsityPattern::from_positions(blocks * size, positions));
         let of_waves = |matrix: &MatrixPolynomial| {
             let coefficients = matrix.coefficients().iter().map(|values| {
-                let terms = self.entries.iter().flat_map(|entry| {
-                    let value = values[entry.position];
-                    blocks(entry).map(move |(row, column, factor)| (row, column, factor * value))
-                });
-                terms.collect()
+                let entries = entries.iter();
+                entries.map(|&(at, (row, column, factor))| (row, column, factor * values[at]))
             });
-            let coefficients: Vec<Vec<(usize, usize, f64)>> = coefficients.collect();
+            let coefficients: Vec<Vec<_>> = coefficients.map(Iterator::collect).collect();
             MatrixPolynomial::on_pattern(&pattern, &coefficients).frozen_below(matrix.origin())
         };
         let touched = |unknowns: &[usize]| -> Vec<usize> {
-            let places = unknowns.iter().map(|&unknown| self.place_of[unknown]);
-            let own = places.filter(|[sector, _]| *sector == 0).map(|[_, place]| place);
-            let second = own.clone().filter(|_| is_paired).map(|place| size + place);
-            own.chain(second).collect()
+            let own = unknowns.iter().copied().filter(|unknown| *unknown < size);
+            (0..blocks).flat_map(|block| own.clone().map(move |k| block * size + k)).collect()
         };
         let tabled = whole.tabled.iter().map(|own| TabledStiffness {
             gain: own.gain.clone(),
@@ -201,7 +157,7 @@ impl<'a> CyclicTangent<'a> {
             tabled: tabled.collect(),
             proportional: whole.proportional,
             is_gyroscopic: whole.is_gyroscopic,
-            unknowns: DofMap::excluding(dimension, []),
+            unknowns: DofMap::excluding(blocks * size, []),
             contact: ContactDofs {
                 tangential: touched(&whole.contact.tangential),
                 normal: touched(&whole.contact.normal),
@@ -216,16 +172,13 @@ impl<'a> CyclicTangent<'a> {
 
     /// A wave of `n` nodal diameters over all unknowns of the body.
     pub fn expand(&self, n: usize, wave: &[c64]) -> Vec<c64> {
-        let size = self.size();
-        let mut all = vec![c64::new(0.0, 0.0); self.at.len()];
-        for j in 0..self.count {
+        let (first, second) = wave.split_at(self.size);
+        let of_sector = |j: usize| {
             let [cos, sin] = self.phase(n, j);
-            for i in 0..size {
-                let second = wave.get(size + i).map_or(c64::new(0.0, 0.0), |b| b * sin);
-                all[self.at[j * size + i]] = wave[i] * cos + second;
-            }
-        }
-        all
+            let sine = move |i: usize| second.get(i).map_or(c64::ZERO, |b| b * sin);
+            first.iter().enumerate().map(move |(i, a)| a * cos + sine(i))
+        };
+        (0..self.count).flat_map(of_sector).collect()
     }
 
     /// `|x|^2` of the whole body over that of the wave: `N`, or `N / 2` where there is a sine.
@@ -237,15 +190,15 @@ impl<'a> CyclicTangent<'a> {
 
 /// What a matrix over `total` places, `size` a sector, makes of a vector, turned by one sector, and
 /// what it makes of the vector turned: alike where the matrix is the same in all sectors.
-pub(super) fn turned_pair(
-    size: usize,
-    total: usize,
-    multiply: impl Fn(&[f64]) -> Vec<f64>,
-) -> [Vec<f64>; 2] {
-    // Any vector that has no symmetry of its own.
-    let own: Vec<f64> = (0..total).map(|k| (1.0 + k as f64).sqrt().fract() - 0.5).collect();
+fn turned_pair(size: usize, total: usize, multiply: impl Fn(&[f64]) -> Vec<f64>) -> [Vec<f64>; 2] {
+    let own: Vec<f64> = (0..total).map(without_symmetry).collect();
     let turned = |values: &[f64]| -> Vec<f64> {
         (0..total).map(|k| values[(k + total - size) % total]).collect()
     };
     [turned(&multiply(&own)), multiply(&turned(&own))]
+}
+
+/// Entry `k` of a vector that has no symmetry, between -0.5 and 0.5.
+pub(super) fn without_symmetry(k: usize) -> f64 {
+    (1.0 + k as f64).sqrt().fract() - 0.5
 }
