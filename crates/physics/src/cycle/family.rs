@@ -2,6 +2,9 @@
 
 use std::fmt;
 
+/// Largest friction coefficient at which the onset of a wave that is asked for by name is looked for.
+pub const LARGEST_FRICTION: f64 = 2.0;
+
 /// The limit cycles of one circumferential harmonic that are born at one of its onsets.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Family {

@@ -4,7 +4,7 @@ use super::body::DynamicCoefficients;
 use super::parameter::OperatingPoint;
 use super::state::{Event, Phase, PointState, WaveState};
 use super::wave::Wave;
-use super::{CycleError, Family};
+use super::{CycleError, Family, LARGEST_FRICTION};
 use crate::cea::cyclic;
 use crate::cea::{ModeLimit, SweepRequest};
 use crate::contact::{ContactStiffness, SlidingContact};
@@ -13,9 +13,6 @@ use crate::linalg::c64;
 use crate::mesh::AnnulusSpecification;
 use crate::prestress::{DampingModel, TangentOptions};
 use std::f64::consts::TAU;
-
-/// Largest friction coefficient at which the onset of a wave that is asked for by name is looked for.
-pub const LARGEST_FRICTION: f64 = 2.0;
 
 /// Modes of lowest frequency whose onsets are looked for where no limit is given, `+n` and `-n` counted singly.
 pub const MODES: usize = 60;

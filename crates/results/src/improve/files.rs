@@ -1,6 +1,6 @@
 //! `improve.vtu` and `improved.toml`.
 
-use super::{Candidate, ImproveSummary, TargetFields};
+use super::{ImproveSummary, TargetFields};
 use crate::vtu::{EncodedMesh, Field, write_vtu};
 use crate::{FolderError, OutputFolder};
 use frictionsim_physics::mesh::Mesh;
@@ -13,8 +13,7 @@ pub fn write(
     fields: &[TargetFields],
 ) -> Result<(), FolderError> {
     write_fields(folder, mesh, fields)?;
-    let holds = |own: &&Candidate| ["silenced", "confirmed"].contains(&own.verdict.as_str());
-    if let Some(best) = summary.candidates.iter().find(holds) {
+    if let Some(best) = summary.best() {
         folder.write("improved.toml", |out| {
             writeln!(out, "# {}", best.place())?;
             best.keys.iter().try_for_each(|key| writeln!(out, "{}", key.replacen('=', " = ", 1)))

@@ -151,17 +151,21 @@ pub(super) fn critical(value: Option<f64>, friction: f64) -> String {
 }
 
 impl ImproveSummary {
+    /// The first candidate that silences the window when it is run again, else the first of which that confirms what was predicted.
+    pub fn best(&self) -> Option<&Candidate> {
+        let of_verdict = |verdict: &str| self.candidates.iter().find(|own| own.verdict == verdict);
+        of_verdict("silenced").or_else(|| of_verdict("confirmed"))
+    }
+
     /// What was found, in a sentence.
     pub fn answer(&self) -> String {
         let friction = self.friction_coefficient;
         let base = critical(self.base.critical_friction, friction);
-        let of_verdict = |verdict: &str| self.candidates.iter().find(|own| own.verdict == verdict);
         let change = |own: &Candidate, state: Option<State>| {
             let critical = critical(state.and_then(|state| state.critical_friction), friction);
             format!("{} ({}): critical friction {base} -> {critical}", own.kind, own.place())
         };
-        let best = of_verdict("silenced").or_else(|| of_verdict("confirmed"));
-        match (best, self.candidates.first()) {
+        match (self.best(), self.candidates.first()) {
             (Some(own), _) => {
                 format!("{}, run again and {}", change(own, own.confirmed), own.verdict)
             }
