@@ -19,8 +19,8 @@ fn glue(mesh: &Mesh) -> Glue {
     let nodes = 0..interface.len();
     nodes
         .flat_map(|i| {
-            let across = interface.separation(i).collect();
-            let along = interface.slip(i).collect();
+            let across = interface.separation(i);
+            let along = interface.slip(i);
             let [n, t] = [interface.normal_dof(i), interface.tangential_dof(i)];
             [others(n, across), others(t, along)]
         })

@@ -84,12 +84,12 @@ fn a_constant_pressure_passes_between_meshes_that_do_not_match() {
         let mut forces: BTreeMap<usize, [f64; 2]> = BTreeMap::new();
         for i in 0..interface.len() {
             let force = 2e6 * interface.tributary_lengths[i];
-            for share in interface.opposite_of(i) {
-                let (node, component) = (share.dof / 2, share.dof % 2);
+            for &(dof, share) in &interface.opposite[i].moves[0] {
+                let (node, component) = (dof / 2, dof % 2);
                 let (sin, cos) = mesh.frame_angles()[node].sin_cos();
                 let axis = [[cos, sin], [-sin, cos]][component];
                 let sum = forces.entry(node).or_insert([0.0; 2]);
-                (0..2).for_each(|c| sum[c] += force * share.normal * axis[c]);
+                (0..2).for_each(|c| sum[c] += force * share * axis[c]);
             }
         }
         // What unit pressure over the covered part of the lower edge gives to its nodes.

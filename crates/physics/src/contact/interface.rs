@@ -1,7 +1,7 @@
 //! The contact edge of a mesh.
 
-use super::opposite::{OppositeShare, meetings};
-use super::{SlidingContact, SteadyFriction};
+use super::opposite::{OppositeMotion, meetings};
+use super::{Point, Row, SlidingContact, SteadyFriction};
 use crate::mesh::{BoundaryCondition, Counterface, Mesh};
 
 /// Contact nodes with their geometry, in order along the edge (of rising angle on the annulus).
@@ -18,7 +18,7 @@ pub struct ContactInterface {
     /// The counterface.
     pub counterface: Counterface,
     /// For each node how the opposite body moves there; empty on a rigid counterface.
-    pub opposite: Vec<Vec<OppositeShare>>,
+    pub opposite: Vec<OppositeMotion>,
 }
 
 impl ContactInterface {
@@ -56,31 +56,43 @@ impl ContactInterface {
             if let Some(meeting) = meetings.as_mut().map(|all| std::mem::take(&mut all[i])) {
                 lengths[k] *= meeting.covered;
                 gaps[k] -= meeting.height;
-                opposite.push(meeting.shares);
+                opposite.push(meeting.motion);
             }
         }
         Self { opposite, angles, tributary_lengths: lengths, gaps, counterface, nodes }
     }
 
-    /// The opposite body's shares at contact node `i`, none on a rigid counterface.
-    pub fn opposite_of(&self, i: usize) -> &[OppositeShare] {
-        self.opposite.get(i).map_or(&[], Vec::as_slice)
+    /// The contact nodes as points, in order.
+    pub fn points(&self, contact: &SlidingContact) -> Vec<Point> {
+        let friction = self.steady_friction(contact);
+        let speed = self.surface_speed(contact.rotation_speed).abs();
+        let point = |i: usize| Point {
+            weight: self.tributary_lengths[i],
+            gap: self.gaps[i],
+            normal: self.separation(i),
+            lift: vec![(self.normal_dof(i), 1.0)],
+            slip: self.slip(i),
+            across: Row::new(),
+            speed,
+            friction,
+        };
+        (0..self.len()).map(point).collect()
     }
 
-    /// Slip of contact node `i` over what it touches, `u_t - sum P u`, as `(dof, coefficient)`.
-    pub fn slip(&self, i: usize) -> impl Iterator<Item = (usize, f64)> + '_ {
-        let opposite = self.opposite_of(i).iter();
-        std::iter::once((self.tangential_dof(i), 1.0))
-            .chain(opposite.map(|share| (share.dof, -share.tangential)))
-            .filter(|&(_, along)| along != 0.0)
+    /// Slip of contact node `i` over what it touches, `u_t - sum P u`.
+    pub fn slip(&self, i: usize) -> Row {
+        self.relative(i, self.tangential_dof(i), 1)
     }
 
-    /// Separation of contact node `i` from what it touches, `u_n - sum P u`, as `(dof, coefficient)`.
-    pub fn separation(&self, i: usize) -> impl Iterator<Item = (usize, f64)> + '_ {
-        let opposite = self.opposite_of(i).iter();
-        std::iter::once((self.normal_dof(i), 1.0))
-            .chain(opposite.map(|share| (share.dof, -share.normal)))
-            .filter(|&(_, along)| along != 0.0)
+    /// Separation of contact node `i` from what it touches, `u_n - sum P u`.
+    pub fn separation(&self, i: usize) -> Row {
+        self.relative(i, self.normal_dof(i), 0)
+    }
+
+    fn relative(&self, i: usize, dof: usize, direction: usize) -> Row {
+        let opposite = self.opposite.get(i).map_or(&[][..], |own| &own.moves[direction]);
+        let opposite = opposite.iter().map(|&(dof, along)| (dof, -along));
+        std::iter::once((dof, 1.0)).chain(opposite).collect()
     }
 
     /// Full dof of contact node `i`'s normal displacement.

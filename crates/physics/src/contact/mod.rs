@@ -42,7 +42,7 @@ pub use law::{
 pub use linearized::{ContactTerms, PressedPoints, linearized};
 pub use mortar::{MortarNode, mortar_nodes};
 pub use normal_law::NormalLaw;
-pub use opposite::OppositeShare;
+pub use opposite::OppositeMotion;
 pub use pair_error::PairError;
 pub use pairing::{ContactSite, ContactSurface, Motion, PairFriction, PointKind};
 pub use point::{Point, Row, row_along};

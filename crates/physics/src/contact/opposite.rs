@@ -1,37 +1,24 @@
 //! Coupling of a contact edge to the edge of another body, whose mesh need not match.
 
+use super::Row;
 use super::dual::dual_basis;
 use crate::mesh::{Counterface, FaceKind, Mesh};
 use std::collections::BTreeMap;
 
-/// Part that a dof of the opposite body has in what a contact node meets.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct OppositeShare {
-    /// Full dof.
-    pub dof: usize,
-    /// In the displacement along the contact node's normal.
-    pub normal: f64,
-    /// In that along its tangent.
-    pub tangential: f64,
-    /// In the derivative of the displacement by the arc along the tangent, along the normal, 1/m.
-    pub normal_slope: f64,
-    /// The same along the tangent, 1/m.
-    pub tangential_slope: f64,
-}
-
-impl OppositeShare {
-    /// With its parts along the normal and along the tangent, and their derivatives by the arc.
-    fn new(dof: usize, [normal, tangential]: [f64; 2], slopes: [f64; 2]) -> Self {
-        let [normal_slope, tangential_slope] = slopes;
-        Self { dof, normal, tangential, normal_slope, tangential_slope }
-    }
+/// How the opposite body moves before a contact node, as rows over all dofs along the node's normal and along its tangent.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct OppositeMotion {
+    /// The displacement.
+    pub moves: [Row; 2],
+    /// Its derivative by the arc along the tangent, 1/m.
+    pub slopes: [Row; 2],
 }
 
 /// What a contact node meets.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Meeting {
-    /// Parts of the opposite body's dofs.
-    pub shares: Vec<OppositeShare>,
+    /// How the opposite body moves there.
+    pub motion: OppositeMotion,
     /// Share of the node's tributary length that has the opposite edge before it.
     pub covered: f64,
     /// Height of the opposite edge above the common surface, along the normal, m.
@@ -64,23 +51,18 @@ fn pairs(mesh: &Mesh, nodes: &[u32]) -> Vec<Meeting> {
     let per_arc = count as f64 / std::f64::consts::TAU * curvature;
     let pair = |i: usize| {
         let dof = 2 * nodes[i] as usize;
-        let own = OppositeShare::new(dof, [1.0, 0.0], [0.0, curvature]);
-        let across = OppositeShare::new(dof + 1, [0.0, 1.0], [-curvature, 0.0]);
+        let mut slopes = [vec![(dof + 1, -curvature)], vec![(dof, curvature)]];
         let stencil: &[(usize, f64)] = match (is_quadratic, i % 2) {
             (true, 0) => &[(count - 2, 0.25), (count - 1, -1.0), (1, 1.0), (2, -0.25)],
             _ => &[(count - 1, -0.5), (1, 0.5)],
         };
-        let slopes = stencil.iter().flat_map(|&(offset, weight)| {
+        for &(offset, weight) in stencil {
             let dof = 2 * nodes[(i + offset) % count] as usize;
-            let slope = weight * per_arc;
-            [(dof, [slope, 0.0]), (dof + 1, [0.0, slope])]
-                .map(|(dof, slopes)| OppositeShare::new(dof, [0.0; 2], slopes))
-        });
-        Meeting {
-            shares: [own, across].into_iter().chain(slopes).collect(),
-            covered: 1.0,
-            height: 0.0,
+            slopes[0].push((dof, weight * per_arc));
+            slopes[1].push((dof + 1, weight * per_arc));
         }
+        let moves = [vec![(dof, 1.0)], vec![(dof + 1, 1.0)]];
+        Meeting { motion: OppositeMotion { moves, slopes }, covered: 1.0, height: 0.0 }
     };
     (0..count).map(pair).collect()
 }
@@ -248,9 +230,13 @@ fn meeting(mesh: &Mesh, node: usize, sums: &Sums, heights: &BTreeMap<u32, f64>) 
         meeting.height += share * heights[&(opposite as u32)];
         // Axes of the opposite node's frame along the contact node's.
         let (sin, cos) = (mesh.frame_angles()[opposite] - normal).sin_cos();
-        for (c, [along, across]) in [[cos, sin], [-sin, cos]].into_iter().enumerate() {
-            let [parts, slopes] = [share, slope].map(|own| [own * along, own * across]);
-            meeting.shares.push(OppositeShare::new(2 * opposite + c, parts, slopes));
+        for (axis, turn) in [[cos, sin], [-sin, cos]].into_iter().enumerate() {
+            let OppositeMotion { moves, slopes } = &mut meeting.motion;
+            for (rows, value) in [(moves, share), (slopes, slope)] {
+                for (row, part) in rows.iter_mut().zip(turn.map(|part| value * part)) {
+                    row.extend((part != 0.0).then_some((2 * opposite + axis, part)));
+                }
+            }
         }
     }
     meeting

@@ -1,6 +1,6 @@
 //! Contact points as rows over the degrees of freedom of one body or two.
 
-use super::{ContactInterface, SlidingContact, SteadyFriction};
+use super::SteadyFriction;
 use crate::mesh::Mesh;
 use nalgebra::Vector3;
 
@@ -37,25 +37,6 @@ pub struct Point {
     pub speed: f64,
     /// Friction at that speed for each unit of friction coefficient and normal force.
     pub friction: SteadyFriction,
-}
-
-impl ContactInterface {
-    /// The contact nodes as points, in order.
-    pub fn points(&self, contact: &SlidingContact) -> Vec<Point> {
-        let friction = self.steady_friction(contact);
-        let speed = self.surface_speed(contact.rotation_speed).abs();
-        let point = |i: usize| Point {
-            weight: self.tributary_lengths[i],
-            gap: self.gaps[i],
-            normal: self.separation(i).collect(),
-            lift: vec![(self.normal_dof(i), 1.0)],
-            slip: self.slip(i).collect(),
-            across: Row::new(),
-            speed,
-            friction,
-        };
-        (0..self.len()).map(point).collect()
-    }
 }
 
 /// `direction . u` at a point of a face, over all dofs.

@@ -1,10 +1,7 @@
 //! How the forces of the base state turn with the surfaces.
 
 use super::linearized::{add_product, alone, following, merge_many, power};
-use super::{
-    ContactInterface, ContactSurface, Counterpart, OppositeShare, Point, PressedPoints, Row,
-    row_along,
-};
+use super::{ContactInterface, ContactSurface, Counterpart, Point, PressedPoints, Row, row_along};
 use crate::fem::Triplets;
 use crate::mesh::Mesh;
 use nalgebra::Vector3;
@@ -88,17 +85,15 @@ fn of_unit_force(point: &Point, turning: &Turning) -> [Vec<(usize, usize, f64)>;
 impl ContactInterface {
     /// How its points turn; nothing is across in the plane.
     pub fn turnings(&self) -> Vec<Turning> {
-        let slope = |i: usize, along: fn(&OppositeShare) -> f64| -> Row {
-            let shares = self.opposite_of(i).iter();
-            let all = shares.map(|share| (share.dof, along(share)));
-            all.filter(|(_, value)| *value != 0.0).collect()
-        };
         let curvature = self.counterface.curvature();
-        let turning = |i: usize| Turning {
-            tilt: [slope(i, |share| share.normal_slope), Row::new()],
-            stretch: [slope(i, |share| share.tangential_slope), Row::new()],
-            veer: Row::new(),
-            curvature: [[curvature, 0.0], [0.0; 2]],
+        let turning = |i: usize| {
+            let [tilt, stretch] = self.opposite.get(i).cloned().unwrap_or_default().slopes;
+            Turning {
+                tilt: [tilt, Row::new()],
+                stretch: [stretch, Row::new()],
+                curvature: [[curvature, 0.0], [0.0; 2]],
+                ..Turning::default()
+            }
         };
         (0..self.len()).map(turning).collect()
     }

@@ -25,14 +25,9 @@ pub fn assemble_stiffness(mesh: &Mesh, material: &dyn MaterialField) -> Triplets
 
 /// Global mass `M` over all dofs, point masses included, kg for each metre of thickness.
 pub fn assemble_mass(mesh: &Mesh, material: &dyn MaterialField, kind: MassKind) -> Triplets {
-    match kind {
-        MassKind::Consistent => {
-            let mut mass = consistent_mass(mesh, material, &|_| true);
-            mass.entries.extend(assemble_point_masses(mesh).entries);
-            mass
-        }
-        MassKind::Lumped => diagonal(mesh, lumped_masses(mesh, material).into_iter().enumerate()),
-    }
+    let mut mass = mass_of(mesh, material, kind, &|_| true);
+    mass.entries.extend(assemble_point_masses(mesh).entries);
+    mass
 }
 
 /// Point masses over all dofs, kg, in the plane for each metre of thickness.
@@ -88,21 +83,23 @@ pub fn assemble_region(
     region: usize,
 ) -> [Triplets; 2] {
     let is_own = |e: usize| mesh.region(e) == region;
-    let mass = match kind {
-        MassKind::Consistent => consistent_mass(mesh, material, &is_own),
-        MassKind::Lumped => {
-            diagonal(mesh, masses_of(mesh, material, &is_own).into_iter().enumerate())
-        }
-    };
-    [mass, assemble_congruent(mesh, &is_own, |e| element_stiffness(mesh, material, e))]
+    let stiffness = assemble_congruent(mesh, &is_own, |e| element_stiffness(mesh, material, e));
+    [mass_of(mesh, material, kind, &is_own), stiffness]
 }
 
-fn consistent_mass(
+/// Mass of some elements without point masses.
+fn mass_of(
     mesh: &Mesh,
     material: &dyn MaterialField,
+    kind: MassKind,
     keep: &dyn Fn(usize) -> bool,
 ) -> Triplets {
-    assemble_congruent(mesh, keep, |e| element_mass(mesh, material, MassKind::Consistent, e))
+    match kind {
+        MassKind::Consistent => {
+            assemble_congruent(mesh, keep, |e| element_mass(mesh, material, kind, e))
+        }
+        MassKind::Lumped => diagonal(mesh, masses_of(mesh, material, keep).into_iter().enumerate()),
+    }
 }
 
 /// Masses of nodes along all axes.
@@ -147,7 +144,8 @@ pub fn assemble_geometric_stiffness(
 ) -> Triplets {
     let is_own = |e: usize| region.is_none_or(|region| mesh.region(e) == region);
     sum_of_elements(mesh, &is_own, |e| {
-        element::geometric_stiffness(mesh, e, material.of(mesh.region(e)), base)
+        let values = element::nodal_values(mesh, e, base);
+        ElementGeometry::new(mesh, e).geometric_stiffness(material.of(mesh.region(e)), &values)
     })
 }
 
@@ -250,20 +248,11 @@ pub fn assemble_patch_damping(
 /// Structural damping `sum_e eta_e K_e` over all dofs, N/m, in the plane for each metre of thickness; `None` where no material
 /// has any. The force on a motion `x e^{lambda t}` with `Im lambda > 0` is `i` times it.
 pub fn assemble_structural_damping(mesh: &Mesh, material: &dyn MaterialField) -> Option<Triplets> {
-    let losses: Vec<f64> =
-        (0..mesh.regions.len().max(1)).map(|region| material.of(region).loss_factor).collect();
-    if losses.iter().all(|loss| *loss == 0.0) {
-        return None;
-    }
-    let mut triplets = Triplets::default();
-    for e in 0..mesh.element_count() {
-        let region = mesh.region(e);
-        if losses[region] != 0.0 {
-            let matrix = element_stiffness(mesh, material, e) * losses[region];
-            scatter(&mut triplets, mesh, e, &matrix);
-        }
-    }
-    Some(triplets)
+    let loss = |e: usize| material.of(mesh.region(e)).loss_factor;
+    let is_lossy = |e: usize| loss(e) != 0.0;
+    let lossy = |e: usize| element_stiffness(mesh, material, e) * loss(e);
+    let has_losses = (0..mesh.element_count()).any(is_lossy);
+    has_losses.then(|| sum_of_elements(mesh, &is_lossy, lossy))
 }
 
 /// Structural damping `sum_b eta_b K_b` of the springs of supports over all dofs, as [`assemble_structural_damping`]; `None` where no

@@ -9,7 +9,7 @@ mod strain;
 
 use super::{ElasticMaterial, PlaneFormulation};
 use crate::mesh::{ElementKind, Mesh, QuadraturePoint};
-use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
+use nalgebra::{DMatrix, Matrix3, Vector3};
 
 /// Strain `(xx, yy, zz, 2 xy, 2 yz, 2 zx)` or stress `(xx, yy, zz, xy, yz, zx)`.
 pub type Voigt = [f64; 6];
@@ -248,20 +248,16 @@ impl ElementGeometry {
     }
 
     /// Element geometric stiffness `K_sigma = ∫ (grad N_I . sigma . grad N_J) I dV` of the stress of nodal displacements
-    /// `values`, in their frames, m, and of the amplitudes of the incompatible modes that an element has: N/m, in the plane for
+    /// `values`, in their frames, m, and of the amplitudes of the incompatible modes that come with them: N/m, in the plane for
     /// each metre of thickness.
     ///
     /// It is the stress part of the tangent alone: a pressure that follows its surface adds the follower terms of the contact,
     /// which the caller must include too.
-    pub fn geometric_stiffness(
-        &self,
-        material: &ElasticMaterial,
-        values: &[f64],
-        internal: Option<&DVector<f64>>,
-    ) -> DMatrix<f64> {
+    pub fn geometric_stiffness(&self, material: &ElasticMaterial, values: &[f64]) -> DMatrix<f64> {
         let count = self.node_count();
         let points = self.stiffness_points();
-        let gradients = self.displacement_gradients(&points, values, internal);
+        let internal = self.internal_amplitudes(material, values);
+        let gradients = self.displacement_gradients(&points, values, internal.as_ref());
         let law = self.solid_aware(material);
         let mut scalar = DMatrix::<f64>::zeros(count, count);
         for (i, point) in points.iter().enumerate() {
@@ -329,20 +325,6 @@ fn tensor(s: &Voigt) -> Matrix3<f64> {
 /// Values of an element's nodes out of those of all nodes.
 pub fn nodal_values(mesh: &Mesh, element: usize, all: &[f64]) -> Vec<f64> {
     mesh.element_dofs(element).map(|dof| all[dof]).collect()
-}
-
-/// Element geometric stiffness of the stress that `base` (all dofs, nodal frames, m) causes, see
-/// [`ElementGeometry::geometric_stiffness`].
-pub fn geometric_stiffness(
-    mesh: &Mesh,
-    element: usize,
-    material: &ElasticMaterial,
-    base: &[f64],
-) -> DMatrix<f64> {
-    let geometry = ElementGeometry::new(mesh, element);
-    let values = nodal_values(mesh, element, base);
-    let internal = geometry.internal_amplitudes(material, &values);
-    geometry.geometric_stiffness(material, &values, internal.as_ref())
 }
 
 /// Makes a matrix whose upper triangle was filled exactly symmetric.

@@ -113,32 +113,23 @@ fn along(values: &[f64], ahead: &[f64], component: usize) -> Vec<f64> {
     nodes.flat_map(|(value, angle)| turned(component, *angle).map(|c| c * value)).collect()
 }
 
-/// Forces of a unit traction along `component` over some elements of a face, the same in every sector, m2.
-pub fn face_load(sector: &SolidSector, faces: &[FaceElement], component: usize) -> Vec<f64> {
-    let mut load = vec![0.0; 3 * sector.node_count()];
-    for face in faces {
-        for point in face_quadrature(sector.is_quadratic()) {
-            let (values, area) = face.values_at(sector, point);
-            let ahead = angles_ahead(sector, face, sector.half_angle() * point.0[0]);
-            for (((node, _), value), angle) in face.nodes.iter().zip(values).zip(ahead) {
-                let angle = if sector.is_quadratic() { angle } else { 0.0 };
-                for (c, part) in turned(component, angle).into_iter().enumerate() {
-                    load[3 * node + c] += area * value * part;
-                }
-            }
-        }
-    }
-    load
-}
-
 /// Forces of the pressures on the faces, the same in every sector, N.
 pub fn pressure_load(sector: &SolidSector) -> Vec<f64> {
     let mut load = vec![0.0; 3 * sector.node_count()];
     for (face, condition) in SolidFace::ALL.into_iter().zip(&sector.specification.conditions) {
-        if let BoundaryCondition::Pressure(pressure) = condition {
-            let unit = face_load(sector, &sector.face_elements(face), face.normal_component());
-            let factor = pressure * face.inward_sign();
-            load.iter_mut().zip(unit).for_each(|(sum, value)| *sum += factor * value);
+        let BoundaryCondition::Pressure(pressure) = condition else { continue };
+        let (component, factor) = (face.normal_component(), pressure * face.inward_sign());
+        for element in sector.face_elements(face) {
+            for point in face_quadrature(sector.is_quadratic()) {
+                let (values, area) = element.values_at(sector, point);
+                let ahead = angles_ahead(sector, &element, sector.half_angle() * point.0[0]);
+                for (((node, _), value), angle) in element.nodes.iter().zip(values).zip(ahead) {
+                    let angle = if sector.is_quadratic() { angle } else { 0.0 };
+                    for (c, part) in turned(component, angle).into_iter().enumerate() {
+                        load[3 * node + c] += factor * area * value * part;
+                    }
+                }
+            }
         }
     }
     load

@@ -5,7 +5,7 @@ use super::system::{BACKWARD_ERROR_BOUND, GROWTH_BOUND, check_frequencies};
 use super::{CyclicSystem, FrfError, Terminal};
 use crate::fem::RayleighDamping;
 use crate::linalg::LinalgError;
-use crate::linalg::banded::{BandedBatch, BandedLu, LANES, Lanes};
+use crate::linalg::banded::{BandedBatch, BandedLu, LANES, Lanes, multiply_band};
 use crate::linalg::c64;
 use crate::prestress::MovingHarmonic;
 use std::f64::consts::{PI, TAU};
@@ -55,7 +55,7 @@ pub fn cyclic_response(
             crate::parallel::map(numbers, |&n| Wave::new(system, n, force, response));
         let lines = receptance.chunks_mut(LANES).zip(frequencies_hz.chunks(LANES));
         let errors: Result<Vec<f64>, _> = crate::parallel::map(lines, |(sums, frequencies)| {
-            Lines::new(system, frequencies).add(&waves, sums)
+            Lines::new(frequencies, &waves[0].bands).add(&waves, sums)
         });
         backward_error = errors?.into_iter().fold(backward_error, f64::max);
     }
@@ -117,12 +117,15 @@ impl Wave {
 struct Lines<'a> {
     frequencies_hz: &'a [f64],
     dimension: usize,
-    batch: Option<BandedBatch>,
+    batch: BandedBatch,
 }
 
 impl<'a> Lines<'a> {
-    fn new(system: &CyclicSystem, frequencies_hz: &'a [f64]) -> Self {
-        Self { frequencies_hz, dimension: system.dofs.count, batch: None }
+    /// Of harmonics whose bands have this shape.
+    fn new(frequencies_hz: &'a [f64], bands: &MovingHarmonic) -> Self {
+        let dimension = bands.dimension();
+        let batch = BandedBatch::new(dimension, bands.half_bandwidth);
+        Self { frequencies_hz, dimension, batch }
     }
 
     /// Adds the waves' shares of the response; returns the largest backward error.
@@ -158,9 +161,6 @@ impl<'a> Lines<'a> {
         // Lanes left over repeat the last frequency.
         let lane_frequency = |lane: usize| frequencies[lane.min(frequencies.len() - 1)];
         let omega = |lane: usize| sign * TAU * lane_frequency(lane);
-        let batch = self
-            .batch
-            .get_or_insert_with(|| BandedBatch::new(self.dimension, wave.bands.half_bandwidth));
         let lanes = |factor: &dyn Fn(f64) -> c64| Lanes::from_fn(|lane| factor(omega(lane)));
         let bands = &wave.bands;
         let (alpha, beta) = match &wave.proportional {
@@ -177,18 +177,18 @@ impl<'a> Lines<'a> {
         for (gain, values) in &bands.losses {
             terms.push((lanes(&|w| gain.at(c64::new(0.0, w))), values));
         }
-        batch.assemble(&terms);
-        let quality = batch.solve(wave.force);
+        self.batch.assemble(&terms);
+        let quality = self.batch.solve(wave.force);
         let mut result = [c64::new(0.0, 0.0); LANES];
         let mut largest = 0.0_f64;
         for lane in 0..frequencies.len() {
             let mut growth = quality[lane].growth;
-            result[lane] = batch.solution()[wave.response].get(lane);
+            result[lane] = self.batch.solution()[wave.response].get(lane);
             if quality[lane].backward_error <= BACKWARD_ERROR_BOUND {
                 largest = largest.max(quality[lane].backward_error);
             } else {
                 let (solution, error, own) =
-                    pivoted(&batch.system(lane), bands.half_bandwidth, wave.force);
+                    pivoted(&self.batch.system(lane), bands.half_bandwidth, wave.force);
                 (result[lane], growth) = (solution[wave.response], own);
                 largest = largest.max(error);
             }
@@ -221,15 +221,12 @@ fn pivoted(band: &[c64], h: usize, force: usize) -> (Vec<c64>, f64, f64) {
     let mut solution = vec![c64::new(0.0, 0.0); dimension];
     solution[force] = c64::new(1.0, 0.0);
     lu.solve(&mut solution);
-    let (mut residual, mut norm) = (0.0_f64, 0.0_f64);
-    for (i, row) in band.chunks_exact(2 * h + 1).enumerate() {
-        let columns = i.saturating_sub(h)..(i + h + 1).min(dimension);
-        let unit = if i == force { 1.0 } else { 0.0 };
-        let image: c64 = columns.map(|j| row[j + h - i] * solution[j]).sum();
-        residual = residual.max((image - unit).norm());
-        norm = norm.max(row.iter().map(|value| value.norm()).sum());
-    }
-    let largest = solution.iter().fold(0.0, |m: f64, x| m.max(x.norm()));
+    let mut residual = multiply_band(band, h, &solution, false);
+    residual[force] -= 1.0;
+    let sums = band.chunks_exact(2 * h + 1).map(|row| row.iter().map(|value| value.norm()).sum());
+    let norm = sums.fold(0.0_f64, f64::max);
+    let [residual, largest] =
+        [&residual, &solution].map(|own| own.iter().fold(0.0_f64, |m, x| m.max(x.norm())));
     let growth = norm * largest;
     (solution, residual / growth, growth)
 }

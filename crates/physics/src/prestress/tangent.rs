@@ -194,12 +194,11 @@ impl SlidingTangent {
         };
         let interface = &base.interface;
         let nodes = 0..interface.len();
-        let shares = interface.opposite.iter().flatten();
-        let touched = shares.filter(|share| share.normal != 0.0 || share.tangential != 0.0);
+        let opposite = interface.opposite.iter().flat_map(|own| own.moves.iter().flatten());
         let dofs = ContactDofs {
             tangential: nodes.clone().map(|i| interface.tangential_dof(i)).collect(),
             normal: nodes.map(|i| interface.normal_dof(i)).collect(),
-            opposite: touched.map(|share| share.dof).collect(),
+            opposite: opposite.map(|share| share.0).collect(),
             angles: if mesh.is_cyclic { interface.angles.clone() } else { Vec::new() },
             sliding_direction: base.sliding_direction,
         };

@@ -182,12 +182,11 @@ impl RunFigures<'_> {
         let interface = ContactInterface::of(self.run.body.mesh);
         let own = own(&interface.nodes, 2).into_iter().enumerate();
         let slip = |(i, velocity): (usize, f64)| {
-            let shares = interface.opposite_of(i);
-            if shares.is_empty() {
+            let Some(opposite) = interface.opposite.get(i) else {
                 return velocity;
-            }
-            let met = shares.iter();
-            let met: f64 = met.map(|share| share.tangential * snapshot.velocity[share.dof]).sum();
+            };
+            let met = opposite.moves[1].iter();
+            let met: f64 = met.map(|&(dof, share)| share * snapshot.velocity[dof]).sum();
             self.peripheral_speed + met - velocity
         };
         own.map(slip).collect()

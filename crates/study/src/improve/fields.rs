@@ -10,7 +10,8 @@
 //! Source: H. M. Adelman, R. T. Haftka, Sensitivity analysis of discrete structural systems, AIAA Journal 24 (1986).
 
 use super::base::{Base, PairedMode};
-use frictionsim_physics::fem::{element::geometric_stiffness, element_matrices};
+use frictionsim_physics::fem::element::{ElementGeometry, nodal_values};
+use frictionsim_physics::fem::element_matrices;
 use frictionsim_physics::linalg::c64;
 use frictionsim_physics::prestress::DampingModel;
 use nalgebra::{DMatrix, Matrix3};
@@ -127,7 +128,9 @@ pub(super) fn element_terms(base: &Base<'_>, element: usize) -> [DMatrix<f64>; 3
         base.displacement.as_ref().filter(|_| base.options.geometric_stiffness)
     {
         let elastic = materials.of(region);
-        let geometric = geometric_stiffness(&base.mesh, element, elastic, displacement);
+        let values = nodal_values(&base.mesh, element, displacement);
+        let geometry = ElementGeometry::new(&base.mesh, element);
+        let geometric = geometry.geometric_stiffness(elastic, &values);
         if base.options.damping_model == DampingModel::WholeTangent {
             damping += &geometric * common.stiffness_coefficient;
         }

@@ -41,7 +41,7 @@ impl GrowingMode<'_> {
         let part = |of: fn(&c64) -> f64| -> Vec<f64> { self.shape.iter().map(of).collect() };
         let [real, imaginary] = [part(|u| u.re), part(|u| u.im)].map(|u| scatter(operator, &u));
         let slip = |i: usize| match map.run.model().components() {
-            2 => interface.slip(i).map(|(dof, along)| self.shape[dof] * along).sum(),
+            2 => interface.slip(i).iter().map(|&(dof, along)| self.shape[dof] * along).sum(),
             _ => c64::new(law.slip(i, &real), law.slip(i, &imaginary)),
         };
         (0..interface.len()).map(slip).collect()
