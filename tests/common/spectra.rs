@@ -79,6 +79,11 @@ pub fn below(error: f64, bound: f64, what: impl std::fmt::Display) {
     assert!(error < bound, "{what}: {error:e}");
 }
 
+/// Of all, the one at the least distance.
+pub fn nearest_by<T>(all: impl IntoIterator<Item = T>, distance: impl Fn(&T) -> f64) -> T {
+    all.into_iter().min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap()
+}
+
 /// Holds numbers to as many others one by one, to a distance.
 #[track_caller]
 pub fn within(found: &[f64], expected: &[f64], distance: f64) {

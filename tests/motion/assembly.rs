@@ -253,8 +253,7 @@ fn grows_as_one_of(modes: &[ComplexMode], record: &Recorder) -> [f64; 2] {
 
 /// Growth (1/s) and frequency (Hz) of the mode next to a frequency.
 fn nearest(modes: &[ComplexMode], frequency_hz: f64) -> [f64; 2] {
-    let distance = |mode: &&ComplexMode| (mode.frequency_hz() - frequency_hz).abs();
-    let own = modes.iter().min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap();
+    let own = nearest_by(modes, |mode| (mode.frequency_hz() - frequency_hz).abs());
     [TAU * own.real_hz(), own.frequency_hz()]
 }
 

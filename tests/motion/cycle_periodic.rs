@@ -204,12 +204,12 @@ fn rotating_waves_are_periodic_motions_of_the_whole_mesh() {
     let waves = waves.run(0, &|| {});
     let wave = waves[0].cycle.as_ref().unwrap();
     let all = cycles(&disc("cycle={ confirmation_periods = 0 }"));
-    let distance = |result: &PeriodicResult| {
+    let distance = |result: &&PeriodicResult| {
         let motion = result.outcome.as_ref().ok().map(|found| found.motion.frequency_hz);
         (motion.unwrap_or(0.0) / wave.frequency_hz() - 1.0).abs()
     };
-    let nearest = all.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)));
-    let motion = &found(nearest.unwrap()).motion;
+    let nearest = nearest_by(&all, distance);
+    let motion = &found(nearest).motion;
     // The phases of the wave's own search are the difference.
     near(motion.frequency_hz, wave.frequency_hz(), 5e-4);
     within(&motion.fractions, &wave.fractions, 0.01);
@@ -218,7 +218,7 @@ fn rotating_waves_are_periodic_motions_of_the_whole_mesh() {
     within(&[own.stick, own.slide], &[other.stick, other.slide], 0.01 * other.external);
 
     // Floquet exponents of the wave, from linearized contact, and multipliers, from differences of the motion.
-    let own = found(nearest.unwrap()).stability.as_ref().unwrap().as_ref();
+    let own = found(nearest).stability.as_ref().unwrap().as_ref();
     let own = own.unwrap().leading().unwrap();
     let other = waves[0].stability.as_ref().unwrap().as_ref();
     let other = other.unwrap().leading().unwrap();

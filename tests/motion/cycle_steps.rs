@@ -7,36 +7,23 @@ use crate::prelude::*;
 const MATERIAL: &str = "young_modulus = 2.5e9\npoisson_ratio = 0.38\ndensity = 1228.0\n";
 const CYCLE: &str = "[cycle]\nonsets = \"all\"\nconfirmation_periods = 0\nstability = \"none\"\n";
 
-/// A plane block of so many squares, held at its back by springs `[normal, tangential]` (Pa/m) and pressed on a moving plane.
-struct PlaneBlock {
-    size: [f64; 2],
-    counts: [usize; 2],
-    springs: [f64; 2],
-    stiffness_damping: f64,
-    speed: f64,
-    interference: f64,
-}
+/// A plane block of a size and so many squares, held at its back by springs `[normal, tangential]` (Pa/m) and pressed on a moving
+/// plane, with its damping by stiffness, the speed and the interference.
+struct PlaneBlock([f64; 2], [usize; 2], [f64; 2], [f64; 3]);
 
 impl PlaneBlock {
-    fn mesh(&self) -> Vec<u8> {
-        let [xs, ys] = [0, 1].map(|axis| even(self.size[axis], self.counts[axis]));
-        quadrilaterals(&xs, &ys, ["face", "back", "block"], |x, y| [x, y])
-    }
-
-    fn text(&self) -> String {
-        let [normal, tangential] = self.springs;
-        format!(
+    fn cycles(&self, overrides: &[&str]) -> Vec<PeriodicResult> {
+        let Self(size, counts, [normal, tangential], [damping, speed, interference]) = *self;
+        let [xs, ys] = [0, 1].map(|axis| even(size[axis], counts[axis]));
+        let mesh = quadrilaterals(&xs, &ys, ["face", "back", "block"], |x, y| [x, y]);
+        let text = format!(
             "[mesh]\nfile = \"body.msh\"\n[boundaries.back]\ncondition = \"support\"\nnormal_stiffness = {normal:?}\n\
              tangential_stiffness = {tangential:?}\n[material]\nformulation = \"plane-strain\"\n{MATERIAL}[damping]\n\
-             mass_coefficient = 40.0\nstiffness_coefficient = {:?}\n[contact]\nboundary = \"face\"\n\
-             counterface = \"plane\"\ndirection = [1.0, 0.0]\nspeed = {:?}\nfriction_coefficient = 0.45\n\
-             interference = {:?}\n[cea]\nmodes = 12\n{CYCLE}[transient]\nduration = 0.01\n",
-            self.stiffness_damping, self.speed, self.interference
-        )
-    }
-
-    fn cycles(&self, overrides: &[&str]) -> Vec<PeriodicResult> {
-        cycles(&self.mesh(), &self.text(), overrides)
+             mass_coefficient = 40.0\nstiffness_coefficient = {damping:?}\n[contact]\nboundary = \"face\"\n\
+             counterface = \"plane\"\ndirection = [1.0, 0.0]\nspeed = {speed:?}\nfriction_coefficient = 0.45\n\
+             interference = {interference:?}\n[cea]\nmodes = 12\n{CYCLE}[transient]\nduration = 0.01\n"
+        );
+        cycles(&mesh, &text, overrides)
     }
 }
 
@@ -54,14 +41,12 @@ fn frequency(results: &[PeriodicResult], mode: usize) -> f64 {
 /// Mode 8 grows into the cycle of mode 5, in steps of its own.
 #[test]
 fn a_motion_that_two_modes_lead_to_is_listed_once_at_every_time_step() {
-    let block = PlaneBlock {
-        size: [0.2, 0.08],
-        counts: [17, 7],
-        springs: [154_441_363_118.673_68, 77_087_331_589.532_04],
-        stiffness_damping: 1e-6,
-        speed: 1.0,
-        interference: 3e-5,
-    };
+    let block = PlaneBlock(
+        [0.2, 0.08],
+        [17, 7],
+        [154_441_363_118.673_68, 77_087_331_589.532_04],
+        [1e-6, 1.0, 3e-5],
+    );
     let steps: [&[&str]; 3] = [&[], &["transient.time_step=2e-6"], &["transient.time_step=1e-6"]];
     for step in steps {
         let results = block.cycles(step);
@@ -73,14 +58,12 @@ fn a_motion_that_two_modes_lead_to_is_listed_once_at_every_time_step() {
 /// After no time at all every motion repeats itself: mode 11 ended at 2.8e10 Hz.
 #[test]
 fn a_period_of_no_time_is_no_limit_cycle() {
-    let block = PlaneBlock {
-        size: [0.3, 0.2],
-        counts: [20, 13],
-        springs: [438_689_779_033.696_66, 697_676_614_630.444_1],
-        stiffness_damping: 4.5e-7,
-        speed: 0.5,
-        interference: 1e-5,
-    };
+    let block = PlaneBlock(
+        [0.3, 0.2],
+        [20, 13],
+        [438_689_779_033.696_66, 697_676_614_630.444_1],
+        [4.5e-7, 0.5, 1e-5],
+    );
     for result in block.cycles(&[]) {
         let ratio = result.outcome.unwrap().motion.frequency_hz / result.mode.mode_frequency_hz;
         assert!((0.25..4.0).contains(&ratio), "{}: {ratio}", result.mode);
@@ -90,14 +73,12 @@ fn a_period_of_no_time_is_no_limit_cycle() {
 /// The automatic step led mode 5 to 7404 Hz, the cycle of mode 6; finer ones to 10,065 Hz.
 #[test]
 fn the_cycle_of_a_mode_does_not_depend_on_the_time_step() {
-    let block = PlaneBlock {
-        size: [0.3, 0.08],
-        counts: [20, 5],
-        springs: [214_913_034_420.552_76, 116_363_535_283.640_61],
-        stiffness_damping: 1e-7,
-        speed: 0.3,
-        interference: 1e-5,
-    };
+    let block = PlaneBlock(
+        [0.3, 0.08],
+        [20, 5],
+        [214_913_034_420.552_76, 116_363_535_283.640_61],
+        [1e-7, 0.3, 1e-5],
+    );
     let [automatic, fine]: [Vec<_>; 2] =
         [&[][..], &["transient.time_step=1e-6"]].map(|step| block.cycles(step));
     for mode in [5, 6] {

@@ -89,14 +89,12 @@ pub fn nearest((friction, sweep): &(f64, FrictionSweep), eigenvalue: c64) -> c64
     let points = sweep.points.iter();
     let point = points.filter(|point| point.friction_coefficient == *friction);
     let all = point.flat_map(|point| &point.modes).map(|mode| mode.eigenvalue);
-    let distance = |other: &c64| (other - eigenvalue).norm();
-    all.min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap()
+    nearest_by(all, |other| (other - eigenvalue).norm())
 }
 
 fn nearest_onset(sweep: &FrictionSweep, friction: f64) -> f64 {
     let all = sweep.intervals.iter().map(|i| i.critical_friction);
-    let distance = |other: &f64| (other - friction).abs();
-    all.min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap()
+    nearest_by(all, |other| (other - friction).abs())
 }
 
 /// Takes a disc to a body without symmetry: its hub stays round, its outer edge is an oval about another centre.

@@ -46,11 +46,8 @@ fn located(sweep: &FrictionSweep) -> Vec<&UnstableInterval> {
 /// The growth rate at a friction value of the mode nearest to a frequency, over that in rad/s.
 fn growth(folder: &TempDir, friction: f64, frequency_hz: f64) -> f64 {
     let sweep = sweep(folder, &[friction]);
-    let modes = sweep.points[0].modes.iter();
-    let distance = |hz: f64| (hz / frequency_hz - 1.0).abs();
-    let nearest =
-        modes.min_by(|a, b| distance(a.frequency_hz()).total_cmp(&distance(b.frequency_hz())));
-    let nearest = nearest.unwrap();
+    let distance = |mode: &&ComplexMode| (mode.frequency_hz() / frequency_hz - 1.0).abs();
+    let nearest = nearest_by(&sweep.points[0].modes, distance);
     nearest.growth_rate() / nearest.eigenvalue.norm()
 }
 

@@ -98,10 +98,7 @@ fn derivatives_follow_the_frequency_of_the_mode() {
     let [above, below] = [1.0, -1.0].map(|s| eigenvalues(&solved(&own, &[mu + s * step]), 0));
     let [stiffer, softer] =
         [1.0, -1.0].map(|s| eigenvalues(&solved(&tangent_of(1e9 * (1.0 + s * step)), &[mu]), 0));
-    let nearest = |all: &[c64], value: c64| {
-        let distance = |v: &&c64| (**v - value).norm();
-        *all.iter().min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap()
-    };
+    let nearest = |all: &[c64], value: c64| *nearest_by(all, |v| (**v - value).norm());
     for pair in pairs.iter().flatten() {
         let value = pair.eigenvalue;
         let by_friction = (nearest(&above, value) - nearest(&below, value)) / (2.0 * step);
@@ -240,9 +237,7 @@ fn a_sandwich_beam_loses_what_ross_kerwin_and_ungar_say() {
             lambda =
                 c64::new(0.0, 1.0) * (rigidity(lambda.im / TAU) * (wave.powi(4) / mass)).sqrt();
         }
-        let nearest =
-            found.iter().min_by(|a, b| (**a - lambda).norm().total_cmp(&(**b - lambda).norm()));
-        let own = *nearest.unwrap();
+        let own = *nearest_by(&found, |own| (**own - lambda).norm());
         let loss = |lambda: c64| {
             let square = lambda * lambda;
             square.im.abs() / square.re.abs()

@@ -12,9 +12,9 @@ const DAMPED: TangentOptions = TangentOptions {
 };
 
 fn node_at(mesh: &Mesh, place: [f64; 3]) -> usize {
-    let distance = |p: &[f64; 3]| (0..3).map(|k| (p[k] - place[k]).powi(2)).sum::<f64>();
-    let nodes = mesh.nodes.iter().map(distance).enumerate();
-    nodes.min_by(|a, b| a.1.total_cmp(&b.1)).unwrap().0
+    nearest_by(0..mesh.node_count(), |&node| {
+        (0..3).map(|k| (mesh.nodes[node][k] - place[k]).powi(2)).sum()
+    })
 }
 
 fn terminal(node: usize, direction: Direction) -> Terminal {

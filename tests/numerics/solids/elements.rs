@@ -143,8 +143,7 @@ fn frequencies_converge_with_the_order_of_the_bricks() {
             let distance = |mode: &&ComplexMode| (mode.frequency_hz() - exact).abs();
             let twists =
                 found.iter().filter(|mode| mode.harmonic == 0 && mode.axial_share < Some(1e-6));
-            let nearest = twists.min_by(|a, b| distance(a).total_cmp(&distance(b)));
-            distance(&nearest.unwrap()) / exact
+            distance(&nearest_by(twists, distance)) / exact
         });
         let orders = [0, 1].map(|k| (errors[k] / errors[k + 1]).log2());
         // Terms of the next order are a twentieth of the error on the finer pair.

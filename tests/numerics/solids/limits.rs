@@ -15,9 +15,8 @@ fn plane(model: &SolidModel, formulation: PlaneFormulation, limit_hz: f64) -> Ve
 
 /// Eigenvalue of the given modes nearest to one of the plane.
 fn nearest<'a>(modes: &'a [ComplexMode], wanted: &ComplexMode) -> &'a ComplexMode {
-    let distance = |mode: &&ComplexMode| (mode.eigenvalue - wanted.eigenvalue).norm();
     let same = modes.iter().filter(|mode| mode.harmonic == wanted.harmonic);
-    same.min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap()
+    nearest_by(same, |mode| (mode.eigenvalue - wanted.eigenvalue).norm())
 }
 
 #[test]
