@@ -194,10 +194,7 @@ impl BranchSolver for OnsetFinder<'_> {
         guess: BranchPoint,
     ) -> Result<Option<State>, LinalgError> {
         let mu = guess.friction_coefficient;
-        // Where the ends are too far for that, step by step from the nearer one; a whole decomposition is the last resort.
-        let nearer = if to.mu - mu < mu - from.mu { to } else { from };
-        let step_by_step = || followed(self.model, (nearer.mu, &nearer.mode), mu);
-        if let Some(mode) = self.continued(from, to, guess).or_else(step_by_step) {
+        if let Some(mode) = self.continued(from, to, guess) {
             return Ok(Some(State { mu, mode }));
         }
         let mut modes = self.model.solve_between(mu, self.points[0].modes.len())?;
