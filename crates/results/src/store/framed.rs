@@ -80,26 +80,19 @@ pub fn write_sealed(out: &mut dyn Write, value: &impl Serialize) -> io::Result<(
     write_json(out, &object)
 }
 
-/// A JSON object that knows whether it is whole.
-pub enum Sealed {
-    /// It has a checksum, which fits.
-    Whole(Value),
-    /// It has none: of a version before checksums, or damaged.
-    Unsealed(Value),
-}
-
-/// Reads a JSON object and checks its checksum.
-pub fn read_sealed(bytes: &[u8]) -> Result<Sealed, Defect> {
+/// Reads a JSON object and checks its checksum; whether it has one. Without it is of a version before checksums, or
+/// damaged.
+pub fn read_sealed(bytes: &[u8]) -> Result<(Value, bool), Defect> {
     let mut object: Value = serde_json::from_slice(bytes).map_err(Defect::damage)?;
     let Some(entries) = object.as_object_mut() else {
         return Err(Defect::damage("it is no object"));
     };
     let Some(found) = entries.shift_remove(CHECKSUM) else {
-        return Ok(Sealed::Unsealed(object));
+        return Ok((object, false));
     };
     let wanted = checksum(&object).map_err(Defect::damage)?;
     if found.as_str() != Some(&wanted) {
         return Err(Defect::damage("its checksum does not fit its contents"));
     }
-    Ok(Sealed::Whole(object))
+    Ok((object, true))
 }

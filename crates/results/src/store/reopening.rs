@@ -1,7 +1,7 @@
 //! Reopening of a results folder: the run that it holds, if it is whole.
 
 use super::error::FolderError;
-use super::framed::{Defect, Sealed, read_sealed};
+use super::framed::{Defect, read_sealed};
 use super::manifest::Manifest;
 use frictionsim_bounds::{RESULT, read_file, read_text};
 use serde::{Deserialize, Serialize};
@@ -96,10 +96,7 @@ pub fn is_result(folder: &Path, name: &Path) -> bool {
 }
 
 fn contents_of(bytes: &[u8]) -> Result<Contents, Defect> {
-    let (object, is_sealed) = match read_sealed(bytes)? {
-        Sealed::Whole(object) => (object, true),
-        Sealed::Unsealed(object) => (object, false),
-    };
+    let (object, is_sealed) = read_sealed(bytes)?;
     let is_known = |key: &String| KEYS_WITHOUT_CHECKSUMS.contains(&key.as_str());
     let mut keys = object.as_object().into_iter().flatten().map(|(key, _)| key);
     if !is_sealed && !keys.all(is_known) {
@@ -152,9 +149,9 @@ pub(crate) fn read_own(path: &Path, name: &str) -> Result<Vec<u8>, FolderError> 
 /// A value that a JSON file of the program's own holds, if it is whole; files without a checksum count where
 /// `is_unsealed_allowed`.
 pub(crate) fn own_value(bytes: &[u8], is_unsealed_allowed: bool) -> Result<Value, Defect> {
-    match read_sealed(bytes)? {
-        Sealed::Whole(value) => Ok(value),
-        Sealed::Unsealed(value) if is_unsealed_allowed => Ok(value),
-        Sealed::Unsealed(_) => Err(Defect::damage("its checksum is gone")),
+    let (value, is_sealed) = read_sealed(bytes)?;
+    match is_sealed || is_unsealed_allowed {
+        true => Ok(value),
+        false => Err(Defect::damage("its checksum is gone")),
     }
 }
