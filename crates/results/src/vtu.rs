@@ -155,17 +155,23 @@ impl Field {
         vec![field("stress_xx_pa", 0), field("stress_yy_pa", 1), field("stress_xy_pa", 2)]
     }
 
-    /// Contact status of all `count` nodes: 0 open, 1 stick, 2 slip at the nodes of the contact edge, -1 off it.
-    pub fn status(
+    /// The contact at the nodes of its edge among `count` nodes: `status` (0 open, 1 stick, 2 slip; -1 off the edge),
+    /// `pressure_pa` and `shear_pa`.
+    pub fn contact(
         count: usize,
         edge: &[u32],
         statuses: impl IntoIterator<Item = ContactStatus>,
-    ) -> Self {
+        [pressures, shears]: [&[f64]; 2],
+    ) -> [Self; 3] {
         let mut codes = vec![-1; count];
         for (&node, status) in edge.iter().zip(statuses) {
             codes[node as usize] = status as i64;
         }
-        Self::integers("status", codes)
+        [
+            Self::integers("status", codes),
+            Self::on_edge("pressure_pa", count, edge, pressures),
+            Self::on_edge("shear_pa", count, edge, shears),
+        ]
     }
 
     /// Values at the nodes of the contact edge among `count` nodes, zero off it.

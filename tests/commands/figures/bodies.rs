@@ -150,7 +150,7 @@ fn contact_around_an_imported_hole_is_drawn_and_listed_over_rising_angles() {
     assert!(steps.len() > 30 && steps.iter().all(|step| *step > 0.0), "{curve}");
     let path = folder.path().join("base");
     let out = OutputFolder::open(&path, &Manifest::new("cea"), Replace::Anything).unwrap();
-    write_base(&out, &mesh, (&report.base, &field)).unwrap();
+    write_base(&out, &report).unwrap();
     let table = fs::read_to_string(path.join("prestress.csv")).unwrap();
     let angles = table.lines().skip(1).map(|line| line.split(',').nth(1).unwrap());
     let angles: Vec<f64> = angles.map(|angle| angle.parse().unwrap()).collect();

@@ -2,9 +2,7 @@
 
 use super::base::{STATUS, TRACTIONS};
 use crate::charts::contact_surfaces;
-use crate::finding::write_table;
-use crate::folder::{FolderError, OutputFolder};
-use crate::vtu::{EncodedMesh, Field, write_vtu};
+use crate::vtu::Field;
 use frictionsim_chart::{Axis, Figure};
 use frictionsim_output::{Table, columns};
 use frictionsim_physics::contact::ContactSite;
@@ -60,15 +58,18 @@ columns! {
 }
 
 impl AssemblyReport {
-    /// Writes `prestress.csv` (contact points) and `prestress.vtu` (displacement and stress; pressure, traction and
-    /// closed share of the points around each node of a contact surface, zero elsewhere).
-    pub fn write_base(&self, folder: &OutputFolder, mesh: &Mesh) -> Result<(), FolderError> {
+    /// The contact points.
+    pub(super) fn table(&self) -> Table {
         let points = || self.points.iter();
-        let table = Table::new("prestress.csv", "")
+        Table::new("prestress.csv", "")
             .columns(POINTS, points())
             .columns(TRACTIONS, points().map(|point| (point.pressure, point.shear)))
-            .columns(STATUS, points().map(|point| point.is_closed));
-        write_table(folder, &table)?;
+            .columns(STATUS, points().map(|point| point.is_closed))
+    }
+
+    /// Displacement and stress of all nodes; pressure, traction and closed share of the points around each node of a
+    /// contact surface, zero elsewhere.
+    pub(super) fn fields(&self, mesh: &Mesh) -> Vec<Field> {
         let around = |value: fn(&AssemblyPoint) -> f64| self.around_nodes(mesh, value);
         let mut fields = vec![
             Field::vectors("displacement_m", mesh, &self.displacement),
@@ -77,9 +78,7 @@ impl AssemblyReport {
             Field::scalars("closed_share", around(|point| f64::from(u8::from(point.is_closed)))),
         ];
         fields.extend(Field::solid_stresses(&self.stress, "xyz"));
-        folder.write_bulk("prestress.vtu", |out| {
-            write_vtu(out, &EncodedMesh::new(mesh)?, &[], &fields, &[])
-        })
+        fields
     }
 
     /// Whether no contact point presses: the closed state of an analysis without prestress.

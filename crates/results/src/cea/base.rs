@@ -1,9 +1,7 @@
 //! The steady sliding state that the eigenvalues belong to.
 
 use crate::extent::Extent;
-use crate::finding::write_table;
-use crate::folder::{FolderError, OutputFolder};
-use crate::vtu::{EncodedMesh, Field, write_vtu};
+use crate::vtu::Field;
 use frictionsim_output::{Described, Table, columns};
 use frictionsim_physics::contact::ContactStatus;
 use frictionsim_physics::fem::NodalStress;
@@ -79,8 +77,12 @@ columns! {
 columns! {
     /// Whether it presses.
     pub(crate) STATUS: is_pressed as bool;
-    status: "slip, or open"
-        = [ContactStatus::Open, ContactStatus::Slip][usize::from(*is_pressed)].name();
+    status: "slip, or open" = sliding_status(*is_pressed).name();
+}
+
+/// The status of a contact that slides where it is pressed.
+pub(super) fn sliding_status(is_pressed: bool) -> ContactStatus {
+    if is_pressed { ContactStatus::Slip } else { ContactStatus::Open }
 }
 
 columns! {
@@ -134,42 +136,32 @@ impl BaseField {
         }
         places
     }
-}
 
-/// Writes `prestress.csv` (contact nodes) and `prestress.vtu` (displacement and stress of all nodes; status, pressure
-/// and friction traction of the contact edge; friction coefficient and power of the whole).
-pub fn write_base(
-    folder: &OutputFolder,
-    mesh: &Mesh,
-    (state, base): (&BaseState, &BaseField),
-) -> Result<(), FolderError> {
-    let along = base.along_contact(mesh);
-    let places = || along.iter().map(|own| own.0);
-    let label = |i: usize| mesh.node_label(base.nodes[i] as usize);
-    let mut table = Table::new("prestress.csv", "")
-        .columns(NODES, along.iter().map(|&(i, angle)| (label(i), angle)))
-        .columns(TRACTIONS, places().map(|i| (base.pressures[i], base.shears[i])));
-    // On an annulus every node slips, at its angle.
-    if let Some(is_pressed) = &base.is_pressed {
-        let place = |i: usize| mesh.plane_node(base.nodes[i] as usize);
-        table = table
-            .columns(STATUS, places().map(|i| is_pressed[i]))
-            .columns(PLANE, places().map(place));
+    /// The contact nodes.
+    pub(super) fn table(&self, mesh: &Mesh) -> Table {
+        let along = self.along_contact(mesh);
+        let places = || along.iter().map(|own| own.0);
+        let label = |i: usize| mesh.node_label(self.nodes[i] as usize);
+        let table = Table::new("prestress.csv", "")
+            .columns(NODES, along.iter().map(|&(i, angle)| (label(i), angle)))
+            .columns(TRACTIONS, places().map(|i| (self.pressures[i], self.shears[i])));
+        // On an annulus every node slips, at its angle.
+        let Some(is_pressed) = &self.is_pressed else {
+            return table;
+        };
+        let place = |i: usize| mesh.plane_node(self.nodes[i] as usize);
+        table.columns(STATUS, places().map(|i| is_pressed[i])).columns(PLANE, places().map(place))
     }
-    write_table(folder, &table)?;
-    let mut fields = vec![Field::vectors("displacement_m", mesh, &base.displacement)];
-    fields.extend(Field::stresses(&base.stress));
-    fields.extend(Field::cartesian_stresses(mesh, &base.stress));
-    let codes = (0..base.nodes.len()).map(|i| {
-        let is_pressed = base.is_pressed.as_ref().is_none_or(|pressed| pressed[i]);
-        [ContactStatus::Open, ContactStatus::Slip][usize::from(is_pressed)]
-    });
-    let count = mesh.node_count();
-    fields.push(Field::status(count, &base.nodes, codes));
-    let on_edge = |name, values: &[f64]| Field::on_edge(name, count, &base.nodes, values);
-    fields.push(on_edge("pressure_pa", &base.pressures));
-    fields.push(on_edge("shear_pa", &base.shears));
-    folder.write_bulk("prestress.vtu", |out| {
-        write_vtu(out, &EncodedMesh::new(mesh)?, &state.whole(), &fields, &[])
-    })
+
+    /// Displacement and stress of all nodes; status, pressure and friction traction of the contact edge.
+    pub(super) fn fields(&self, mesh: &Mesh) -> Vec<Field> {
+        let is_pressed = |i: usize| self.is_pressed.as_ref().is_none_or(|pressed| pressed[i]);
+        let statuses = (0..self.nodes.len()).map(|i| sliding_status(is_pressed(i)));
+        let tractions = [&self.pressures[..], &self.shears];
+        let mut fields = vec![Field::vectors("displacement_m", mesh, &self.displacement)];
+        fields.extend(Field::stresses(&self.stress));
+        fields.extend(Field::cartesian_stresses(mesh, &self.stress));
+        fields.extend(Field::contact(mesh.node_count(), &self.nodes, statuses, tractions));
+        fields
+    }
 }

@@ -1,7 +1,6 @@
 //! `eigenvalues.csv`, `stability.csv`, `summary.json`, mode shapes.
 
 use super::CeaReport;
-use super::base::write_base;
 use super::shape::ModeShape;
 use super::solid::size;
 use super::summary::summary;
@@ -32,13 +31,24 @@ pub fn write(folder: &OutputFolder, report: &CeaReport<'_>) -> Result<Value, Fol
             feed.write(folder, report)?;
         }
     }
-    match (report.solid, report.assembly) {
-        (Some(solid), _) => solid.write_base(folder, &report.base)?,
-        (None, Some(assembly)) => assembly.write_base(folder, report.mesh)?,
-        (None, None) => write_base(folder, report.mesh, (&report.base, report.field))?,
-    }
+    write_base(folder, report)?;
     write_shapes(folder, report)?;
     write_summary(folder, Head::of(report.title, report.wall_s), &summary(report))
+}
+
+/// Writes the base state: `prestress.csv` (its contact) and `prestress.vtu` (its fields; of a body that no mesh file
+/// gives in three dimensions also friction coefficient and power of the whole).
+pub fn write_base(folder: &OutputFolder, report: &CeaReport<'_>) -> Result<(), FolderError> {
+    let (mesh, state) = (report.mesh, report.base.whole());
+    let (table, whole, fields) = match (report.solid, report.assembly) {
+        (Some(solid), _) => (solid.table(), &state[..], solid.fields()),
+        (None, Some(assembly)) => (assembly.table(), &[][..], assembly.fields(mesh)),
+        (None, None) => (report.field.table(mesh), &state[..], report.field.fields(mesh)),
+    };
+    write_table(folder, &table)?;
+    folder.write_bulk("prestress.vtu", |out| {
+        write_vtu(out, &report.body().encoded()?, whole, &fields, &[])
+    })
 }
 
 /// Writes the shapes that the modes carry: one VTU each with the real and the imaginary part of the

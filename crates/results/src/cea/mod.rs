@@ -19,12 +19,12 @@ mod tables;
 
 pub(super) use assembly::POINTS;
 pub use assembly::{AssemblyPoint, AssemblyReport};
-pub use base::{BaseField, BaseState, write_base};
+pub use base::{BaseField, BaseState};
 pub(super) use base::{NODES, PLANE, STATUS, TRACTIONS};
 pub(super) use feed::FEED;
 pub use feed::{Feed, FeedPlace, ModeFeed};
 pub use figures::draw;
-pub use files::{write, write_universal};
+pub use files::{write, write_base, write_universal};
 pub use kept::KeptSteps;
 pub use locus::NamedDamping;
 pub use mode_name::ModeName;

@@ -1,15 +1,11 @@
 //! Results of a body of revolution in three dimensions: base state along the contact, bricks, shapes.
 
-use super::BaseState;
-use super::base::{STATUS, TRACTIONS};
-use crate::finding::write_table;
-use crate::folder::{FolderError, OutputFolder};
-use crate::vtu::{EncodedMesh, Field, solid_vectors, write_vtu};
+use super::base::{STATUS, TRACTIONS, sliding_status};
+use crate::vtu::{Field, solid_vectors};
 use frictionsim_chart::{
     Axis, Cell, ColourMap, Field as ColourField, Figure, Line, Marker, Mesh, Panel, SERIES, Side,
 };
 use frictionsim_output::{Table, columns};
-use frictionsim_physics::contact::ContactStatus;
 use frictionsim_physics::fem::SolidStress;
 use frictionsim_physics::linalg::c64;
 use frictionsim_physics::mesh::{ContactRing, SheetNode, SolidFace, SolidSector};
@@ -55,33 +51,29 @@ impl SolidReport {
         sector.repeat(self.sector.sector_count())
     }
 
-    /// Writes `prestress.csv`, one row for each ring of contact nodes, and `prestress.vtu`.
-    pub(super) fn write_base(
-        &self,
-        folder: &OutputFolder,
-        state: &BaseState,
-    ) -> Result<(), FolderError> {
+    /// One row for each ring of contact nodes.
+    pub(super) fn table(&self) -> Table {
         let tractions = self.base.pressures.iter().copied().zip(self.shears());
-        let table = Table::new("prestress.csv", "")
+        Table::new("prestress.csv", "")
             .columns(RINGS, self.sector.rings.iter().map(|ring| [ring.radius, ring.height]))
             .columns(TRACTIONS, tractions)
-            .columns(STATUS, self.base.is_pressed.iter().copied());
-        write_table(folder, &table)?;
+            .columns(STATUS, self.base.is_pressed.iter().copied())
+    }
+
+    /// Displacement and stress of all nodes; status, pressure and friction traction of the contact nodes.
+    pub(super) fn fields(&self) -> Vec<Field> {
         let displacement = self.base.displacement(self.friction_coefficient);
         let displacement = self.repeated(&displacement);
         let mut fields = vec![solid_vectors("displacement_m", &self.sector, &displacement)];
         let stress = self.stress.repeat(self.sector.sector_count());
         fields.extend(Field::solid_stresses(&stress, "rtz"));
         fields.extend(self.contact_fields());
-        let mesh = self.sector.part(self.sector.sector_count());
-        folder.write_bulk("prestress.vtu", |out| {
-            write_vtu(out, &EncodedMesh::new(&mesh)?, &state.whole(), &fields, &[])
-        })
+        fields
     }
 
     /// Status, pressure and friction traction at the contact nodes of all sectors.
     fn contact_fields(&self) -> [Field; 3] {
-        let (sector, shears) = (&self.sector, self.shears());
+        let sector = &self.sector;
         let (mut edge, mut ring_of) = (Vec::new(), Vec::new());
         for j in 0..sector.sector_count() {
             for (k, ring) in sector.rings.iter().enumerate() {
@@ -91,19 +83,11 @@ impl SolidReport {
             }
         }
         let count = sector.sector_count() * sector.node_count();
-        let statuses = ring_of.iter().map(|&k| match self.base.is_pressed[k] {
-            true => ContactStatus::Slip,
-            false => ContactStatus::Open,
-        });
-        let of = |name, values: &[f64]| {
-            let values: Vec<f64> = ring_of.iter().map(|&k| values[k]).collect();
-            Field::on_edge(name, count, &edge, &values)
-        };
-        [
-            Field::status(count, &edge, statuses),
-            of("pressure_pa", &self.base.pressures),
-            of("shear_pa", &shears),
-        ]
+        let statuses = ring_of.iter().map(|&k| sliding_status(self.base.is_pressed[k]));
+        let at_nodes =
+            |values: &[f64]| -> Vec<f64> { ring_of.iter().map(|&k| values[k]).collect() };
+        let tractions = [&at_nodes(&self.base.pressures)[..], &at_nodes(&self.shears())];
+        Field::contact(count, &edge, statuses, tractions)
     }
 
     /// Pressure and traction along the contact, and the section as the rotor deforms it.

@@ -96,11 +96,9 @@ impl CycleReport<'_> {
         if let (Some(contact), Search::Motions(search)) = (&frame.contact, &self.search) {
             let count = displacement.len() / if self.body.is_solid() { 3 } else { 2 };
             let nodes = &search.interface.nodes;
-            fields.extend([
-                Field::status(count, nodes, contact.status.iter().copied()),
-                Field::on_edge("pressure_pa", count, nodes, &contact.pressure),
-                Field::on_edge("shear_pa", count, nodes, &contact.shear),
-            ]);
+            let tractions = [&contact.pressure[..], &contact.shear];
+            let statuses = contact.status.iter().copied();
+            fields.extend(Field::contact(count, nodes, statuses, tractions));
         }
         fields
     }

@@ -263,17 +263,14 @@ fn snapshot_fields(report: &TransientReport<'_>, snapshot: &Snapshot) -> Vec<Fie
     }
     let count = displacement.len() / if body.is_solid() { 3 } else { 2 };
     let (edge, contact) = (&report.contact_nodes, &snapshot.contact);
-    let on_edge = |name: &str, values: &[f32]| {
-        let values: Vec<f64> = values.iter().copied().map(f64::from).collect();
-        Field::on_edge(name, count, edge, &values)
-    };
+    let wide = |values: &[f32]| -> Vec<f64> { values.iter().copied().map(f64::from).collect() };
     let codes = contact.status.iter().map(|&code| status_of_code(code));
-    fields.push(Field::status(count, edge, codes));
-    fields.push(on_edge("pressure_pa", &contact.pressure));
-    fields.push(on_edge("shear_pa", contact.shear()));
+    let tractions = [&wide(&contact.pressure)[..], &wide(contact.shear())];
+    fields.extend(Field::contact(count, edge, codes, tractions));
     // In three dimensions friction may act across the sliding too.
     if !contact.shear_across().is_empty() {
-        fields.push(on_edge("shear_across_pa", contact.shear_across()));
+        let across = wide(contact.shear_across());
+        fields.push(Field::on_edge("shear_across_pa", count, edge, &across));
     }
     fields.push(Field::on_edge("gap_m", count, edge, &snapshot.gap));
     fields
