@@ -216,7 +216,7 @@ fn analyse(
     // Of a record that grows and then settles the lines are those of its end.
     let end = channel.samples.len() as f64 / rate;
     let settles = |end_of_stage: f64| end_of_stage < (1.0 - LAST_SHARE) * end;
-    let grows = stage.as_ref().is_ok_and(|stage| stage.is_growing() && settles(stage.end));
+    let grows = stage.as_ref().is_ok_and(|stage| stage.is_growing() && settles(stage.end_s));
     let begin = if grows { (1.0 - LAST_SHARE) * end } else { 0.0 };
     let from = arguments.from.unwrap_or(begin);
     let to = arguments.to.unwrap_or(end).min(end);

@@ -70,7 +70,8 @@ fn describe_fields(fields: TokenStream, calls: &mut String) {
 
 /// Takes one field off the tokens of a struct and adds the call that describes it.
 fn describe_field(tokens: &mut Tokens, calls: &mut String) {
-    let (mut docs, mut is_flat, mut name) = (Vec::new(), false, String::new());
+    let (mut docs, mut name) = (Vec::new(), String::new());
+    let (mut is_flat, mut is_skipped) = (false, false);
     // Attributes, `pub`, the name, and a colon.
     for token in tokens.by_ref() {
         match token {
@@ -79,7 +80,11 @@ fn describe_field(tokens: &mut Tokens, calls: &mut String) {
                 let attribute = inside.next().map_or_else(String::new, |a| a.to_string());
                 match attribute.as_str() {
                     "doc" => docs.extend(inside.nth(1).map(|text| text.to_string())),
-                    "serde" => is_flat |= group.to_string().contains("flatten"),
+                    "serde" => {
+                        is_flat |= group.to_string().contains("flatten");
+                        // `skip` alone: other attributes skip a key under a condition.
+                        is_skipped |= group.to_string().contains("skip)");
+                    }
                     _ => {}
                 }
             }
@@ -98,6 +103,9 @@ fn describe_field(tokens: &mut Tokens, calls: &mut String) {
             _ => {}
         }
         of_type.extend([token]);
+    }
+    if is_skipped {
+        return;
     }
     let _ = writeln!(
         calls,

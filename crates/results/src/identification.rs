@@ -5,8 +5,7 @@ mod summary;
 
 pub use figures::{identification, unit_of};
 pub use summary::{
-    CoefficientSummary, FitSummary, HalfPowerSummary, IdentificationSummary, ModeSummary,
-    ResponseSummary,
+    CoefficientSummary, FitSummary, IdentificationSummary, ModeSummary, ResponseSummary,
 };
 
 use super::{FolderError, OutputFolder};

@@ -5,8 +5,8 @@ mod summary;
 
 pub use figures::{SignalDrawing, draw};
 pub use summary::{
-    ChannelSummary, GrowthSummary, MODE_TOLERANCE, ModeSummary, NearestMode, PeakSummary,
-    SignalSummary, Superharmonic,
+    ChannelSummary, MODE_TOLERANCE, ModeSummary, NearestMode, PeakSummary, SignalSummary,
+    Superharmonic,
 };
 
 use super::cea::{BRANCH, DIRECTION};

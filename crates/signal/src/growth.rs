@@ -10,6 +10,8 @@ use super::modal::Estimate;
 use super::spectrum::{centred, check_signal};
 use super::{Window, main_frequency};
 use demodulation::{Demodulated, demodulate, line, prefix_sums};
+use frictionsim_output::Described;
+use serde::Serialize;
 
 /// Periods in the demodulation window: its pass band is a third of the frequency to either side,
 /// and -92 dB outside, so a constant, a drift and superharmonics stay out.
@@ -30,19 +32,22 @@ pub fn round_off_floor(largest_motion: f64) -> f64 {
 }
 
 /// A stretch of a signal that grows or decays as `A e^{sigma t} cos(2 pi f t + phi)`.
-#[derive(Clone, Copy, Debug, PartialEq)]
+///
+/// The rate is `sigma`, negative for a decay; the frequency `f` is signed for a complex series.
+#[derive(Clone, Copy, Debug, PartialEq, Described, Serialize)]
 pub struct ExponentialStage {
     /// Begin, s after the first sample.
-    pub start: f64,
+    pub start_s: f64,
     /// End, s after the first sample.
-    pub end: f64,
-    /// Growth rate `sigma`, 1/s, with its 95 % interval; negative for a decay.
+    pub end_s: f64,
+    /// Rate, 1/s, with its 95 % interval.
     pub rate_per_s: Estimate,
-    /// Frequency, Hz, with its 95 % interval; signed for a complex series.
+    /// Frequency, Hz, with its 95 % interval.
     pub frequency_hz: Estimate,
     /// Amplitude at the start of the stage, unit of the signal.
+    #[serde(skip)]
     pub initial_amplitude: f64,
-    /// Root mean square deviation of the logarithmic envelope from the fitted line.
+    /// Root mean square deviation of the logarithmic envelope from a line.
     pub deviation: f64,
 }
 
@@ -131,7 +136,7 @@ pub fn exponential_stage(
     // The stage may vibrate elsewhere than the limit cycle that dominates the record.
     for _ in 0..2 {
         let range = |t: f64| ((t * sampling_rate) as usize).min(samples.len());
-        let part = &samples[range(stage.start)..range(stage.end)];
+        let part = &samples[range(stage.start_s)..range(stage.end_s)];
         let Ok(line) = main_frequency(part, sampling_rate) else { break };
         if (line.frequency_hz / frequency - 1.0).abs() < 0.02 {
             break;
@@ -274,7 +279,7 @@ mod tests {
         // Leakage of the negative frequency and of the removed mean through the window: -92 dB.
         assert!((stage.rate_per_s.value - 150.0).abs() < 0.05, "{stage:?}");
         assert!((stage.frequency_hz.value - 1000.0).abs() < 0.01, "{stage:?}");
-        let start = (150.0 * stage.start).exp();
+        let start = (150.0 * stage.start_s).exp();
         assert!((stage.initial_amplitude / start - 1.0).abs() < 1e-3, "{stage:?}");
     }
 

@@ -155,7 +155,7 @@ impl Mesh {
             let [p, q] = [p, q].map(|node| &of[node as usize]);
             p.iter().any(|b| !q.contains(b)) && q.iter().any(|b| !p.contains(b))
         };
-        let mut pairs = coincident_nodes(&self.nodes, COINCIDENT * self.quality().smallest_edge);
+        let mut pairs = coincident_nodes(&self.nodes, COINCIDENT * self.quality().smallest_edge_m);
         pairs.retain(|&(p, q)| !is_meant(p, q));
         let first = pairs.iter().take(NAMED).map(|&(p, q)| {
             ([p, q].map(|node| self.node_label(node as usize)), self.nodes[p as usize])

@@ -2,22 +2,27 @@
 
 use super::error::BodyError;
 use super::{BoundaryCondition, Mesh};
+use crate::output::Described;
 use nalgebra::{Matrix3, SymmetricEigen, Vector3};
+use serde::Serialize;
 
-/// How good the elements of a mesh are.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// Sizes and shapes of the elements of a mesh.
+///
+/// The Jacobian determinants are those at the nodes and quadrature points: their ratio is 1 for parallelograms and
+/// straight triangles, not positive for elements that fold.
+#[derive(Clone, Copy, Debug, PartialEq, Described, Serialize)]
 pub struct MeshQuality {
-    /// Smallest Jacobian determinant of an element over its largest, at its nodes and quadrature points: 1 for
-    /// parallelograms and straight triangles, not positive for elements that fold.
-    pub worst_jacobian: f64,
-    /// Largest ratio of an element's longest edge to its shortest.
-    pub largest_aspect_ratio: f64,
-    /// The element that has it.
-    pub worst_element: usize,
-    /// Shortest edge, m.
-    pub smallest_edge: f64,
+    /// Shortest edge of any element, m.
+    pub smallest_edge_m: f64,
     /// Longest edge, m.
-    pub largest_edge: f64,
+    pub largest_edge_m: f64,
+    /// Largest ratio of the edges of one element.
+    pub largest_aspect_ratio: f64,
+    /// Smallest Jacobian determinant of an element over its largest.
+    pub worst_jacobian: f64,
+    /// The element that has it.
+    #[serde(skip)]
+    pub worst_element: usize,
 }
 
 impl Mesh {
@@ -99,8 +104,8 @@ impl Mesh {
             worst_jacobian: 1.0,
             worst_element: 0,
             largest_aspect_ratio: 1.0,
-            smallest_edge: f64::INFINITY,
-            largest_edge: 0.0,
+            smallest_edge_m: f64::INFINITY,
+            largest_edge_m: 0.0,
         };
         for element in 0..self.element_count() {
             let ratio = self.jacobian_ratio(element);
@@ -118,8 +123,8 @@ impl Mesh {
             let (low, high) = lengths.fold((f64::INFINITY, 0.0_f64), |(low, high), length| {
                 (low.min(length), high.max(length))
             });
-            quality.smallest_edge = quality.smallest_edge.min(low);
-            quality.largest_edge = quality.largest_edge.max(high);
+            quality.smallest_edge_m = quality.smallest_edge_m.min(low);
+            quality.largest_edge_m = quality.largest_edge_m.max(high);
             quality.largest_aspect_ratio = quality.largest_aspect_ratio.max(high / low);
         }
         quality

@@ -320,8 +320,8 @@ mod tests {
         let growth = |harmonic: usize, rate: f64, frequency: f64| Growth {
             vibration: Vibration::Harmonic(harmonic),
             stage: Ok(ExponentialStage {
-                start: 0.0,
-                end: 1.0,
+                start_s: 0.0,
+                end_s: 1.0,
                 rate_per_s: exactly(rate),
                 frequency_hz: exactly(frequency),
                 initial_amplitude: 1e-9,

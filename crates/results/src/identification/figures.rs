@@ -34,7 +34,7 @@ pub fn identification(response: &FrequencyResponse, found: &Identification) -> F
     };
     let bands = found.modes.iter().filter_map(|mode| mode.half_power);
     let halves = bands.filter_map(|band| Some((band.frequency_hz, band.band_hz?)));
-    let halves = halves.flat_map(|(peak, (low, high))| {
+    let halves = halves.flat_map(|(peak, [low, high])| {
         // By definition they lie a factor sqrt(2) below the peak.
         [low, high].map(|f| (f, at(peak) / std::f64::consts::SQRT_2))
     });

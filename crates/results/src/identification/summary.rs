@@ -76,22 +76,11 @@ pub struct ModeSummary {
     /// 95 % interval.
     pub damping_factor_interval: [f64; 2],
     /// By the half-power points.
-    pub half_power: Option<HalfPowerSummary>,
+    pub half_power: Option<HalfPowerBand>,
     /// Whether it enters the coefficients.
     pub used: bool,
     /// What is doubtful about it.
     pub flag: Option<String>,
-}
-
-/// A half-power band.
-#[derive(Clone, Debug, PartialEq, Described, Serialize)]
-pub struct HalfPowerSummary {
-    /// Peak, Hz.
-    pub frequency_hz: f64,
-    /// Damping factor, where the band can be trusted.
-    pub damping_factor: Option<f64>,
-    /// Half-power frequencies, Hz.
-    pub band_hz: Option<[f64; 2]>,
 }
 
 /// The fit of all responses.
@@ -174,17 +163,12 @@ impl IdentificationSummary {
 impl ModeSummary {
     fn of(mode: &IdentifiedMode) -> Self {
         let (f, zeta) = (mode.fitted.frequency_hz, mode.fitted.damping_factor);
-        let half_power = |b: HalfPowerBand| HalfPowerSummary {
-            frequency_hz: b.frequency_hz,
-            damping_factor: b.damping_factor,
-            band_hz: b.band_hz.map(|(low, high)| [low, high]),
-        };
         Self {
             frequency_hz: f.value,
             damping_factor: zeta.value,
             frequency_interval_hz: [f.low, f.high],
             damping_factor_interval: [zeta.low, zeta.high],
-            half_power: mode.half_power.map(half_power),
+            half_power: mode.half_power,
             used: mode.is_used,
             flag: flag(mode),
         }

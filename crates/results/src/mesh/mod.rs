@@ -60,19 +60,6 @@ pub struct MeshSize {
     pub contact_nodes: usize,
 }
 
-/// Sizes and shapes of the elements of a mesh.
-#[derive(Clone, Debug, PartialEq, Described, Serialize)]
-pub struct ElementShapes {
-    /// Shortest edge of any element, m.
-    pub smallest_edge_m: f64,
-    /// Longest edge, m.
-    pub largest_edge_m: f64,
-    /// Largest ratio of the edges of one element.
-    pub largest_aspect_ratio: f64,
-    /// Smallest Jacobian determinant of an element over its largest.
-    pub worst_jacobian: f64,
-}
-
 impl MeshSize {
     /// Counts of a mesh with so many contact nodes.
     fn new(mesh: &Mesh, contact_nodes: usize) -> Self {
@@ -81,17 +68,6 @@ impl MeshSize {
             elements: mesh.element_count(),
             dofs: mesh.dof_count(),
             contact_nodes,
-        }
-    }
-}
-
-impl From<MeshQuality> for ElementShapes {
-    fn from(own: MeshQuality) -> Self {
-        Self {
-            smallest_edge_m: own.smallest_edge,
-            largest_edge_m: own.largest_edge,
-            largest_aspect_ratio: own.largest_aspect_ratio,
-            worst_jacobian: own.worst_jacobian,
         }
     }
 }
@@ -152,7 +128,7 @@ fn write_nodes(
 }
 
 /// Sizes and quality.
-fn results(size: &MeshSize, shape: &ElementShapes) -> Section {
+fn results(size: &MeshSize, shape: &MeshQuality) -> Section {
     let metres = |value: f64| Format::Scientific(4).text(value, "m");
     Section::new("Results").facts([
         ("nodes", size.nodes.to_string()),

@@ -1,10 +1,10 @@
 //! Results of `mesh` for plane bodies and bodies of revolution.
 
-use super::{ElementShapes, Measured, MeshSize, condition_name, write_nodes};
+use super::{Measured, MeshSize, condition_name, write_nodes};
 use crate::finding::finding;
 use crate::folder::{FolderError, OutputFolder};
 use frictionsim_output::{Described, Format, Section, Table};
-use frictionsim_physics::mesh::{AnnulusMesh, Mesh, SolidContact, SolidSector};
+use frictionsim_physics::mesh::{AnnulusMesh, Mesh, MeshQuality, SolidContact, SolidSector};
 use serde::Serialize;
 
 /// Size and quality of a mesh.
@@ -22,7 +22,7 @@ pub struct MeshStatistics {
     pub nodes_per_sector: Option<usize>,
     /// Sizes and shapes of the elements.
     #[serde(flatten)]
-    pub shape: ElementShapes,
+    pub shape: MeshQuality,
     /// Edges of one element alone that belong to no named boundary, of a mesh file.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub unnamed_free_edges: Option<usize>,
@@ -159,13 +159,13 @@ impl MeshStatistics {
             size: MeshSize::new(mesh, contact.nodes.len()),
             axial_elements: None,
             nodes_per_sector: annulus.map(AnnulusMesh::sector_node_count),
-            shape: quality.into(),
+            shape: quality,
             unnamed_free_edges: (!mesh.labels.is_empty())
                 .then(|| mesh.unnamed_edge_count())
                 .flatten(),
             area_m2: area,
             area_error: annulus.map(|annulus| (area / exact(annulus) - 1.0).abs()),
-            elements_per_wavelength: wavelength.map(|length| length / quality.largest_edge),
+            elements_per_wavelength: wavelength.map(|length| length / quality.largest_edge_m),
             contact_nodes_per_wave: wavelength.map(|length| length / spacing),
             regions,
             boundaries: boundaries.collect(),

@@ -24,7 +24,7 @@ pub fn figure(mesh: &Mesh, title: &str, probes: &[usize]) -> Figure {
     let labels = known.iter().map(|(probe, at)| {
         Label::new(*at, mesh.node_label(probe - 1).to_string()).moved(4.0, -4.0)
     });
-    let longest = mesh.quality().largest_edge;
+    let longest = mesh.quality().largest_edge_m;
     let boundaries = || mesh.boundaries.iter().enumerate();
     let edges = boundaries().filter_map(|(b, boundary)| edge(mesh, (b, boundary), longest));
     // Names are for the curves of a file; those of the annulus go without saying.

@@ -1,9 +1,9 @@
 //! Results of `mesh` for solid bodies of a mesh file.
 
-use super::{ElementShapes, Measured, MeshSize, role_of};
+use super::{Measured, MeshSize, role_of};
 use crate::finding::finding;
 use frictionsim_output::{Described, Section, Table};
-use frictionsim_physics::mesh::Mesh;
+use frictionsim_physics::mesh::{Mesh, MeshQuality};
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -23,7 +23,7 @@ pub struct SolidMeshStatistics {
     pub highest_m: [f64; 3],
     /// Sizes and shapes of the elements.
     #[serde(flatten)]
-    pub shape: ElementShapes,
+    pub shape: MeshQuality,
     /// Centre of the element that has it, m.
     pub worst_element_at_m: [f64; 3],
     /// Volume, m3.
@@ -120,7 +120,7 @@ impl SolidMeshStatistics {
             bodies: 1 + mesh.bodies().into_iter().max().unwrap_or(0),
             lowest_m: [0, 1, 2].map(|axis| bound(axis, f64::min, f64::INFINITY)),
             highest_m: [0, 1, 2].map(|axis| bound(axis, f64::max, f64::NEG_INFINITY)),
-            shape: quality.into(),
+            shape: quality,
             worst_element_at_m: centre,
             volume_m3: regions.iter().map(|region| region.volume_m3).sum(),
             mass_kg: regions.iter().map(|region| region.mass_kg).sum(),

@@ -2,7 +2,7 @@
 
 use frictionsim_output::Described;
 use frictionsim_physics::cea::ComplexMode;
-use frictionsim_signal::{Estimate, ExponentialStage, NoGrowth, SpectralLine, SpectralResolution};
+use frictionsim_signal::{ExponentialStage, NoGrowth, SpectralLine, SpectralResolution};
 use serde::Serialize;
 
 /// Largest distance of a line from a mode that it is said to belong to, relative to the line.
@@ -43,7 +43,7 @@ pub struct ChannelSummary {
     /// Peaks, strongest first.
     pub peaks: Vec<PeakSummary>,
     /// The exponential stage, if there is one.
-    pub growth: Option<GrowthSummary>,
+    pub growth: Option<ExponentialStage>,
     /// Why there is none.
     pub no_growth: Option<String>,
     /// The mode that the channel vibrates in: one that can squeal.
@@ -72,21 +72,6 @@ pub struct Superharmonic {
     pub of_peak: usize,
     /// The multiple.
     pub order: usize,
-}
-
-/// The exponential stage.
-#[derive(Clone, Debug, PartialEq, Described, Serialize)]
-pub struct GrowthSummary {
-    /// Begin, s after the first sample.
-    pub start_s: f64,
-    /// End, s after the first sample.
-    pub end_s: f64,
-    /// Rate, 1/s, with its 95 % interval.
-    pub rate_per_s: Estimate,
-    /// Frequency, Hz, with its 95 % interval.
-    pub frequency_hz: Estimate,
-    /// Root mean square deviation of the logarithmic envelope from a line.
-    pub deviation: f64,
 }
 
 /// A mode of the case.
@@ -208,20 +193,14 @@ impl ChannelSummary {
             averages,
             main_frequency_hz: main.map(|line| line.frequency_hz),
             peaks: peaks.collect(),
-            growth: stage.ok().map(|stage| GrowthSummary {
-                start_s: stage.start,
-                end_s: stage.end,
-                rate_per_s: stage.rate_per_s,
-                frequency_hz: stage.frequency_hz,
-                deviation: stage.deviation,
-            }),
+            growth: stage.ok(),
             no_growth,
             mode: None,
             nearest_unstable_mode: None,
         }
     }
 
-    fn grows(&self) -> Option<&GrowthSummary> {
+    fn grows(&self) -> Option<&ExponentialStage> {
         self.growth.as_ref().filter(|g| g.rate_per_s.low > 0.0)
     }
 

@@ -93,8 +93,8 @@ impl Demodulated {
         let mean_time = t.iter().sum::<f64>() / t.len() as f64;
         let mean_log = self.log_amplitude[first..last].iter().sum::<f64>() / t.len() as f64;
         Ok(ExponentialStage {
-            start: t[0],
-            end: t[t.len() - 1],
+            start_s: t[0],
+            end_s: t[t.len() - 1],
             rate_per_s: rate,
             frequency_hz: drift.map(|radians| self.frequency_hz + radians / TAU),
             initial_amplitude: (mean_log + rate.value * (t[0] - mean_time)).exp()

@@ -60,7 +60,7 @@ pub fn harmonic_growth(
         return Err(NoGrowth::NotExponential(stage.frequency_hz.value.abs()));
     }
     let begin = (series.len() / 3 + first) as f64 / sampling_rate;
-    (stage.start, stage.end) = (stage.start + begin, stage.end + begin);
+    (stage.start_s, stage.end_s) = (stage.start_s + begin, stage.end_s + begin);
     Ok(stage)
 }
 

@@ -2,6 +2,8 @@
 
 use super::NoiseModel;
 use crate::{FrequencyResponse, ResponseQuantity, SignalError};
+use frictionsim_output::Described;
+use serde::Serialize;
 
 /// Frequency lines a half-power band must hold: a parabola through the top and two crossings.
 pub(super) const LINES_NEEDED: usize = 5;
@@ -23,25 +25,30 @@ pub enum ResonanceNote {
     OneSided,
 }
 
-/// A resonance and its half-power points.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// A resonance `f_0` and its half-power points `f_1`, `f_2`, which give `zeta = (f_2 - f_1) / (2 f_0)`.
+///
+/// The resonance is the maximum of the mobility, which is the undamped natural frequency. There is a damping factor
+/// where both points exist and the band holds lines enough.
+#[derive(Clone, Copy, Debug, PartialEq, Described, Serialize)]
 pub struct HalfPowerBand {
-    /// Resonance, Hz: the maximum of the mobility, which is the undamped natural frequency.
+    /// Peak, Hz.
     pub frequency_hz: f64,
     /// Largest modulus, in the quantity of the response given.
+    #[serde(skip)]
     pub magnitude: f64,
-    /// Lower and upper half-power frequency, Hz, where both exist.
-    pub band_hz: Option<(f64, f64)>,
-    /// `zeta = (f_2 - f_1) / (2 f_0)`, where both points exist and the band holds lines enough.
+    /// Damping factor, where the band can be trusted.
     pub damping_factor: Option<f64>,
+    /// Half-power frequencies, Hz.
+    pub band_hz: Option<[f64; 2]>,
     /// Doubts.
+    #[serde(skip)]
     pub note: Option<ResonanceNote>,
 }
 
 impl HalfPowerBand {
     /// Half the width of the band, Hz, where it has both ends.
     pub(super) fn half_width_hz(&self) -> Option<f64> {
-        self.band_hz.map(|(low, high)| 0.5 * (high - low))
+        self.band_hz.map(|[low, high]| 0.5 * (high - low))
     }
 }
 
@@ -152,7 +159,7 @@ fn measure(f: &[f64], y: &[f64], top: usize) -> HalfPowerBand {
         && low < f0
         && f0 < high
     {
-        band.band_hz = Some((low, high));
+        band.band_hz = Some([low, high]);
         let lines = f.partition_point(|f| *f <= high) - f.partition_point(|f| *f < low);
         if lines < LINES_NEEDED {
             band.note = Some(ResonanceNote::TooCoarse(lines));
@@ -236,8 +243,8 @@ fn parabola(
 fn mark_overlaps(bands: &mut [HalfPowerBand]) {
     for i in 1..bands.len() {
         let (left, right) = (bands[i - 1], bands[i]);
-        let reach = left.band_hz.map_or(left.frequency_hz, |b| b.1);
-        let begin = right.band_hz.map_or(right.frequency_hz, |b| b.0);
+        let reach = left.band_hz.map_or(left.frequency_hz, |b| b[1]);
+        let begin = right.band_hz.map_or(right.frequency_hz, |b| b[0]);
         if reach > begin {
             bands[i - 1].note = Some(ResonanceNote::Overlaps(right.frequency_hz));
             bands[i].note = Some(ResonanceNote::Overlaps(left.frequency_hz));
