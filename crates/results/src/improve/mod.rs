@@ -151,7 +151,7 @@ pub(super) fn critical(value: Option<f64>, friction: f64) -> String {
 }
 
 impl ImproveSummary {
-    /// The first candidate that silences the window when it is run again, else the first of which that confirms what was predicted.
+    /// The first candidate that silences the window when it is run again, else the first that does what was predicted.
     pub fn best(&self) -> Option<&Candidate> {
         let of_verdict = |verdict: &str| self.candidates.iter().find(|own| own.verdict == verdict);
         of_verdict("silenced").or_else(|| of_verdict("confirmed"))
