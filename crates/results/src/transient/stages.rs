@@ -4,6 +4,9 @@ use crate::charts::Stage;
 use frictionsim_chart::extremes;
 use frictionsim_physics::transient::{EndState, Recorder, SampleRow, TransientAnalysis};
 
+/// Part of a run below which a stage is none, as the instant before the first node of pressed pads sticks.
+const SHORTEST: f64 = 2e-3;
+
 /// The stages of a run as figure 8 of the paper letters them: A vibrations of the start die out, B exponential growth,
 /// C stick and separation set in, D limit cycle.
 ///
@@ -54,6 +57,7 @@ pub(super) fn stages(record: &Recorder, analysis: &TransientAnalysis) -> Vec<Sta
         ("C", nonlinear, cycle),
         ("D", cycle, last.time),
     ];
-    let present = spans.into_iter().filter(|(_, start, end)| end > start);
+    let shortest = SHORTEST * (last.time - rows[0].time);
+    let present = spans.into_iter().filter(|(_, start, end)| end - start > shortest);
     present.map(|(name, start, _)| Stage { name, start }).collect()
 }
