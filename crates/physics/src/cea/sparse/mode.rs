@@ -1,10 +1,15 @@
 //! A mode in coordinates of the common basis.
 
+use super::SAME_EIGENVALUE;
 use crate::cea::counted::NEARLY_CRITICAL;
+use crate::cea::vectors::{dot, length};
 use crate::linalg::c64;
 
 /// Damping factor, of decay or of growth, from which on a motion may as well be one of those that do not oscillate.
 const HARDLY_OSCILLATING: f64 = 0.95;
+/// What the overlap of two right vectors lacks to 1 where they are one, and relative change of the frequency from which on the Rayleigh
+/// quotient iteration finishes: it is the square of the change of the vectors.
+pub(super) const NEAR: f64 = 1e-4;
 
 /// One mode of the projected problem.
 #[derive(Clone, Debug, PartialEq)]
@@ -41,5 +46,13 @@ impl ReducedMode {
     /// Whether it may as well be one of the motions that do not oscillate.
     pub fn hardly_oscillates(&self) -> bool {
         self.damping_factor().abs() > HARDLY_OSCILLATING
+    }
+
+    /// Whether both have one eigenvalue and one right vector.
+    pub fn is_same(&self, other: &Self) -> bool {
+        let distance = (self.eigenvalue - other.eigenvalue).norm();
+        let lengths = length(&self.right) * length(&other.right);
+        distance <= SAME_EIGENVALUE * self.eigenvalue.norm()
+            && dot(&self.right, &other.right).norm() > (1.0 - NEAR) * lengths
     }
 }

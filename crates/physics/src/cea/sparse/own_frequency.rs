@@ -1,15 +1,10 @@
 //! Modes of projected matrices whose stiffness depends on frequency, each at its own frequency.
 
-use super::mode::ReducedMode;
+use super::MOST_STEPS;
+use super::mode::{NEAR, ReducedMode};
 use super::projected::ProjectedMatrices;
-use super::{MOST_STEPS, SAME_EIGENVALUE};
-use crate::cea::vectors::{dot, length};
 use crate::linalg::LinalgError;
 use std::f64::consts::TAU;
-
-/// What the overlap of two right vectors lacks to 1 where they are one, and relative change of the frequency from which on the Rayleigh
-/// quotient iteration finishes: it is the square of the change of the vectors.
-const NEAR: f64 = 1e-4;
 
 /// The modes, by rising frequency, without derivatives and scale: as many as `frozen` gives at one frequency in Hz.
 ///
@@ -28,7 +23,7 @@ pub(super) fn solve(
     for i in 1..found.len() {
         let (before, own) = found.split_at_mut(i);
         let is_known =
-            |mode: &ReducedMode| before.iter().flatten().any(|other| is_same(mode, other));
+            |mode: &ReducedMode| before.iter().flatten().any(|other| mode.is_same(other));
         if own[0].as_ref().is_some_and(|mode| mode.eigenvalue.im <= 0.0 || is_known(mode)) {
             own[0] = None;
         }
@@ -62,7 +57,7 @@ fn fixed_point(
         let next = mode.eigenvalue.im / TAU;
         if (next - frequency_hz).abs() <= NEAR * next {
             let fine = at.mode_near(&mode);
-            let is_new = |fine: &ReducedMode| !others.iter().any(|other| is_same(fine, other));
+            let is_new = |fine: &ReducedMode| !others.iter().any(|other| fine.is_same(other));
             if let Some(fine) = fine.filter(is_new) {
                 return Ok(fine);
             }
@@ -71,13 +66,4 @@ fn fixed_point(
         frequency_hz = if 2 * pass < MOST_STEPS { next } else { 0.5 * (next + frequency_hz) };
     }
     Ok(mode)
-}
-
-/// Whether two modes have one eigenvalue and one right vector.
-fn is_same(one: &ReducedMode, other: &ReducedMode) -> bool {
-    let distance = (one.eigenvalue - other.eigenvalue).norm();
-    if distance > SAME_EIGENVALUE * one.eigenvalue.norm() {
-        return false;
-    }
-    dot(&one.right, &other.right).norm() > (1.0 - NEAR) * length(&one.right) * length(&other.right)
 }

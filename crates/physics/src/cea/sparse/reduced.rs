@@ -26,17 +26,18 @@ fn lengthened(columns: &Mat<f64>, rows: usize) -> Mat<f64> {
     Mat::from_fn(rows, columns.ncols(), |i, j| if i < known { columns[(i, j)] } else { 0.0 })
 }
 
-/// Orthonormal `columns` continued by what the coordinates of some samples have beyond them.
-fn spanned<'a>(
-    mut columns: Mat<f64>,
-    samples: impl Iterator<Item = &'a (f64, Mat<f64>)>,
-) -> Mat<f64> {
-    for (_, coordinates) in samples {
-        let own = lengthened(coordinates, columns.nrows());
-        let new = orthonormal_complement(columns.as_ref(), own, SAME_SPACE);
-        columns = join_columns(columns.as_ref(), new.as_ref());
-    }
-    columns
+/// Orthonormal `columns` continued by what `others` have beyond them.
+fn widened(columns: Mat<f64>, others: Mat<f64>) -> Mat<f64> {
+    let new = orthonormal_complement(columns.as_ref(), others, SAME_SPACE);
+    join_columns(columns.as_ref(), new.as_ref())
+}
+
+/// The same of the coordinates of some samples.
+fn spanned<'a>(columns: Mat<f64>, samples: impl Iterator<Item = &'a (f64, Mat<f64>)>) -> Mat<f64> {
+    samples.fold(columns, |columns, (_, own)| {
+        let own = lengthened(own, columns.nrows());
+        widened(columns, own)
+    })
 }
 
 /// `columns` times complex coordinates; nothing of no coordinates.
@@ -66,7 +67,7 @@ pub struct ReducedModel {
     weights: FrictionWeights,
     /// `V`, `unknowns x m`.
     basis: GrowingColumns,
-    /// Friction coefficients whose modes the basis holds as such, and the coordinates that span them.
+    /// Friction coefficients whose modes the basis holds as such, and the orthonormal coordinates that span them.
     pub(super) samples: Vec<(f64, Mat<f64>)>,
     /// Coordinates of corrections between samples, and where they were made.
     corrections: Vec<(f64, Mat<f64>)>,
@@ -207,6 +208,31 @@ impl ReducedModel {
         self.solve_in(self.span_of_nearest(mu, self.neighbours()), &at, count, false)
     }
 
+    /// The same with the left vectors of the span of the samples, without derivatives and scale.
+    pub fn solve_two_sided(&self, mu: f64, count: usize) -> Result<Vec<ReducedMode>, LinalgError> {
+        let at = self.at(mu);
+        self.solve_in(self.span_of_nearest(mu, self.neighbours()), &at, count, true)
+    }
+
+    /// What `modes` at a sampled `mu` have become as the sample grew; nothing where one of them does not settle, or two become one.
+    pub fn followed(&self, mu: f64, modes: &[ReducedMode]) -> Option<Vec<ReducedMode>> {
+        let columns = self.span_of_nearest(mu, 1)?;
+        let at = self.at(mu).within(&columns);
+        let found: Vec<Option<ReducedMode>> = crate::parallel::map(modes, |mode| {
+            at.mode_near(&mode.map(|own| inside(&columns, own)))
+        });
+        let mut found: Vec<ReducedMode> = found.into_iter().collect::<Option<_>>()?;
+        let is_known =
+            |(i, mode): (usize, &ReducedMode)| found[..i].iter().any(|own| own.is_same(mode));
+        let oscillates = |own: &ReducedMode| own.eigenvalue.im > 0.0 && !own.hardly_oscillates();
+        if found.iter().enumerate().any(is_known) || !found.iter().all(oscillates) {
+            return None;
+        }
+        crate::order::sort_by_number(&mut found, |own| own.eigenvalue.im);
+        found.iter_mut().for_each(|own| *own = own.map(|own| combined(&columns, own)));
+        Some(found)
+    }
+
     /// The same for matching modes between solved points, with left vectors of the whole basis: in the span of the two nearest samples.
     pub fn solve_between(&self, mu: f64, count: usize) -> Result<Vec<ReducedMode>, LinalgError> {
         let at = self.at(mu);
@@ -250,13 +276,14 @@ impl ReducedModel {
     /// [`Self::hold_sample`] of vectors given by their coordinates in the basis.
     pub fn hold_coordinates(&mut self, mu: f64, coordinates: Mat<f64>) {
         self.parts.change_at(mu);
-        match self.samples.iter_mut().find(|sample| sample.0 == mu) {
-            Some((_, held)) => {
-                let known = lengthened(held, coordinates.nrows());
-                *held = join_columns(known.as_ref(), coordinates.as_ref());
-            }
-            None => self.samples.push((mu, coordinates)),
-        }
+        let rows = coordinates.nrows();
+        let place = self.samples.iter().position(|sample| sample.0 == mu);
+        let place = place.unwrap_or_else(|| {
+            self.samples.push((mu, Mat::zeros(rows, 0)));
+            self.samples.len() - 1
+        });
+        let held = &mut self.samples[place].1;
+        *held = widened(lengthened(held, rows), coordinates);
     }
 
     /// Adds the corrections `vectors` of modes at `mu` to what is held there.
@@ -279,13 +306,13 @@ impl ReducedModel {
     fn span_of_nearest(&self, mu: f64, count: usize) -> Option<Mat<f64>> {
         let mut nearest: Vec<&(f64, Mat<f64>)> = self.samples.iter().collect();
         crate::order::sort_by_number(&mut nearest, |a| (a.0 - mu).abs());
-        let is_sampled = nearest.first()?.0 == mu;
-        if is_sampled {
-            nearest.retain(|sample| sample.0 == mu)
-        } else {
-            nearest.truncate(count)
+        let first = nearest.first()?;
+        let columns = lengthened(&first.1, self.dimension());
+        if first.0 == mu {
+            return Some(columns);
         }
-        Some(spanned(Mat::zeros(self.dimension(), 0), nearest.into_iter()))
+        nearest.truncate(count);
+        Some(spanned(columns, nearest.into_iter().skip(1)))
     }
 
     /// The modes within a space of coordinates, or in the whole basis, without derivatives and scale.

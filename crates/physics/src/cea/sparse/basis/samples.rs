@@ -17,6 +17,10 @@ use crate::prestress::SlidingTangent;
 const MOST_SHIFTS: usize = 6;
 /// Refinements of lossy modes whose corrections are kept beside the modes: with none of them convergence is slow and uneven.
 const HISTORY: usize = 3;
+/// Unknowns up to which complex factors beside lossy modes cost less than the rounds by the factors at rest that they save, and rounds of
+/// corrections by them: each leaves a hundredth or less.
+const MOST_LIGHT: usize = 3000;
+const LIGHT_ROUNDS: usize = 2;
 /// Unknowns up to which a problem, of twice that size, is decomposed: where its modes are lossy or do not converge. That takes a
 /// second or two for each friction value.
 pub(super) const MOST_DENSE: usize = 300;
@@ -61,7 +65,7 @@ impl BasisBuilder<'_> {
     pub fn improve_at(&mut self, mu: f64) -> Result<bool, CeaError> {
         match self.linearization {
             _ if !self.is_sampling => Ok(self.refine_at(mu)?.is_some()),
-            _ if self.sampled.contains(&mu) => self.refine_sample(mu),
+            _ if self.is_sampled(mu) => self.refine_sample(mu),
             Linearization::Reduced(..) => {
                 self.begin_sample(mu);
                 self.sample(mu, self.leading_count(), None)
@@ -79,6 +83,11 @@ impl BasisBuilder<'_> {
                 Ok(has_grown)
             }
         }
+    }
+
+    /// Whether the basis holds the modes at `mu` as such.
+    pub fn is_sampled(&self, mu: f64) -> bool {
+        self.sampled.contains(&mu)
     }
 
     /// Whether the full problem may be decomposed.
@@ -105,14 +114,23 @@ impl BasisBuilder<'_> {
 
     /// Refines the sample at `mu` round after round and keeps of what was added to the `known` first vectors of the basis only the modes.
     fn refine_lossy(&mut self, mu: f64, known: usize) -> Result<(), CeaError> {
-        for round in 0..LOSSY_ROUNDS {
-            if round % HISTORY == 0 {
-                let modes = self.model.solve_right(mu, self.count)?;
+        let is_light = self.tangent.stiffness.dimension() <= MOST_LIGHT;
+        let mut modes = self.model.solve_two_sided(mu, self.count)?;
+        for round in 0..if is_light { LIGHT_ROUNDS } else { LOSSY_ROUNDS } {
+            if is_light || round % HISTORY == 0 {
                 self.hold_solved(mu, &modes);
             }
-            if !self.refine_sample(mu)? {
+            let has_grown = match is_light {
+                true => self.shift(mu, &modes)?,
+                false => self.refine_modes(mu, &modes)?,
+            };
+            if !has_grown {
                 break;
             }
+            modes = match self.model.followed(mu, &modes) {
+                Some(modes) => modes,
+                None => self.model.solve_two_sided(mu, self.count)?,
+            };
         }
         let modes = self.model.solve_right(mu, self.count)?;
         self.hold_solved(mu, &modes);
@@ -120,16 +138,15 @@ impl BasisBuilder<'_> {
         Ok(())
     }
 
-    /// Corrects `modes` that the basis holds nearly at `mu`, from the second time on those that it holds now; whether there was anything
-    /// to correct.
+    /// Corrects `modes`, those that the basis holds at `mu` or nearly so; whether there was anything to correct.
     pub fn correct_at(&mut self, mu: f64, modes: &[ReducedMode]) -> Result<bool, CeaError> {
         self.take_up(mu, modes);
-        self.refine_sample(mu)
+        self.refine_modes(mu, modes)
     }
 
     /// Lets `modes` stand for a sample at `mu`, if there is none and the basis is made of samples.
     pub fn take_up(&mut self, mu: f64, modes: &[ReducedMode]) {
-        if self.is_sampling && !self.sampled.contains(&mu) {
+        if self.is_sampling && !self.is_sampled(mu) {
             self.begin_sample(mu);
             self.model.hold_coordinates(mu, self.leading(modes));
         }
@@ -145,7 +162,7 @@ impl BasisBuilder<'_> {
     pub fn shift(&mut self, mu: f64, modes: &[ReducedMode]) -> Result<bool, CeaError> {
         let vectors = self.step(mu, |builder| builder.shifted_corrections(mu, modes))?;
         let has_grown = self.model.extend(vectors.clone(), SAME_SPACE).ncols() > 0;
-        match self.sampled.contains(&mu) {
+        match self.is_sampled(mu) {
             true => self.model.hold_sample(mu, &vectors),
             false => self.model.hold_correction(mu, &vectors),
         }
@@ -199,7 +216,7 @@ impl BasisBuilder<'_> {
 
     /// Lets the `modes` found in the sample at `mu`, if there is one, stand for it: corrections made it wider than they need.
     pub fn hold_solved(&mut self, mu: f64, modes: &[ReducedMode]) {
-        if self.sampled.contains(&mu) && modes.len() >= self.count {
+        if self.is_sampled(mu) && modes.len() >= self.count {
             self.begin_sample(mu);
             self.model.hold_coordinates(mu, self.leading(modes));
         }
@@ -219,15 +236,19 @@ impl BasisBuilder<'_> {
     /// Where `mu` lies among the friction coefficients whose modes the basis holds: an odd number at one, an even one between.
     pub fn gap(&self, mu: f64) -> usize {
         let below = self.sampled.iter().filter(|&&held| held < mu).count();
-        2 * below + usize::from(self.sampled.contains(&mu))
+        2 * below + usize::from(self.is_sampled(mu))
     }
 
     /// Adds the corrections of the modes at a sampled `mu` to the basis and to the sample; whether there were any.
     fn refine_sample(&mut self, mu: f64) -> Result<bool, CeaError> {
-        let mut corrections = self.step(mu, |builder| {
-            let modes = builder.model.solve_right(mu, builder.count)?;
-            Ok::<_, LinalgError>(builder.corrections(&modes, mu))
-        })?;
+        let modes = self.model.solve_right(mu, self.count)?;
+        self.refine_modes(mu, &modes)
+    }
+
+    /// The same of `modes`, those in the basis as it is.
+    fn refine_modes(&mut self, mu: f64, modes: &[ReducedMode]) -> Result<bool, CeaError> {
+        let mut corrections =
+            self.step(mu, |builder| Ok::<_, LinalgError>(builder.corrections(modes, mu)))?;
         scale_to_unit_length(&mut corrections);
         let has_any = corrections.ncols() > 0;
         if has_any {

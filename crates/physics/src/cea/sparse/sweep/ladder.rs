@@ -88,13 +88,13 @@ impl SparseSweep<'_> {
     fn treat(&mut self, k: usize, rung: Rung, is_alone: bool) -> Result<(), CeaError> {
         let (mu, point) = (self.grid[k], &self.points[k]);
         match rung {
-            Rung::AtRest
-                if is_alone && point.worst().1 <= CORRECTABLE && self.builder.is_sampling =>
-            {
-                self.builder.correct_at(mu, &point.modes)?;
-            }
             Rung::AtRest => {
-                self.builder.improve_at(mu)?;
+                let is_near = is_alone && point.worst().1 <= CORRECTABLE;
+                let modes = &point.modes[..point.checks.len()];
+                match self.builder.is_sampling && (is_near || self.builder.is_sampled(mu)) {
+                    true => self.builder.correct_at(mu, modes)?,
+                    false => self.builder.improve_at(mu)?,
+                };
             }
             Rung::Shifted | Rung::Without => {
                 self.leaves_out[k] = rung == Rung::Without;
