@@ -50,16 +50,12 @@ fn sweep(mesh: &AnnulusMesh) -> FrictionSweep {
 }
 
 fn field(mesh: &AnnulusMesh) -> BaseField {
-    let interface = ContactInterface::of(&mesh.mesh);
-    let count = interface.len();
+    let ContactInterface { nodes, angles, .. } = ContactInterface::of(&mesh.mesh);
+    let angles: Vec<(u32, f64)> = nodes.into_iter().zip(angles).collect();
+    let stress = vec![NodalStress::default(); mesh.mesh.node_count()];
     BaseField {
-        nodes: interface.nodes,
-        angles: interface.angles,
-        pressures: vec![2.8e6; count],
-        is_pressed: None,
-        shears: vec![0.84e6; count],
         displacement: vec![1e-6; 2 * mesh.mesh.node_count()],
-        stress: vec![NodalStress::default(); mesh.mesh.node_count()],
+        ..synthetic::field(&mesh.mesh, &angles, |_| [2.8e6, 0.84e6], stress)
     }
 }
 

@@ -109,7 +109,7 @@ fn the_reported_torque_and_power_are_those_of_the_whole_thickness() {
         panic!("a plane annulus");
     };
     let lengths = &steady.interface.tributary_lengths;
-    let force: f64 = field.shears.iter().zip(lengths).map(|(t, w)| t * w).sum();
+    let force: f64 = field.contact.iter().zip(lengths).map(|(own, w)| own.shear * w).sum();
     let torque = 0.009 * 0.0205 * force;
     assert!((base.torque_n_m.unwrap() / torque - 1.0).abs() < 1e-12);
     assert!((base.power_w / (torque * 610.0 * TAU / 60.0) - 1.0).abs() < 1e-12);

@@ -1,7 +1,7 @@
 //! The matrices that the eigenvalue analysis of a case solves, over the friction coefficient.
 
 use super::StudyError;
-use super::eigenvalues::{BasePoint, Sliding, Solver, WholeMesh};
+use super::eigenvalues::{BasePoint, Solver, SteadyState, WholeMesh};
 use super::tangent_options;
 use frictionsim_case::{Case, CeaMethod};
 use frictionsim_physics::contact::Row;
@@ -156,13 +156,14 @@ fn contact_rows(
     };
     let (mut normal, mut slip) = (Vec::new(), Vec::new());
     let points = body.contact_points(case);
+    let forces = body.state().normal_forces(case.contact.sliding.friction_coefficient);
     for (i, own) in points.iter().enumerate() {
         let rows = [(&own.point.normal, &mut normal), (&own.point.slip, &mut slip)];
         for (row, entries) in rows {
             let row = over_unknowns(row).into_iter();
             entries.extend(row.map(|(unknown, share)| (i, unknown, share)));
         }
-        system.contact.push(exported(body, own));
+        system.contact.push(exported(body, (i, own), &forces));
     }
     for (name, role, entries) in [
         ("contact_normal", MatrixRole::ContactNormal, normal),
@@ -177,15 +178,19 @@ fn contact_rows(
 }
 
 /// A contact point: of a plane edge with its node, of solid bodies with its contact.
-fn exported(body: &WholeMesh, own: &BasePoint) -> ExportedContactPoint {
-    let is_node = matches!(body.sliding, Sliding::Edge(_));
+fn exported(
+    body: &WholeMesh,
+    (i, own): (usize, &BasePoint<'_>),
+    forces: &[f64],
+) -> ExportedContactPoint {
+    let is_node = matches!(body.sliding, SteadyState::Plane(_));
     let node = own.place.shares.first().filter(|_| is_node);
     ExportedContactPoint {
         node: node.map(|(node, _)| body.mesh.node_label(*node as usize)),
         contact: (!is_node).then(|| own.place.contact.clone()),
         place: own.place.position,
-        is_pressed: own.is_pressed,
+        is_pressed: body.state().is_pressed[i],
         weight: own.point.weight,
-        normal_force: own.forces.first().map_or(0.0, |force| force[0]),
+        normal_force: forces.get(i).copied().unwrap_or(0.0),
     }
 }

@@ -34,21 +34,16 @@ fn sweep() -> FrictionSweep {
 /// The contact of the hole as an imported edge lists it: angles up to half a turn, then on from minus half a turn.
 fn field(mesh: &Mesh) -> BaseField {
     let nodes = mesh.contact_edge().nodes.clone();
-    let angle = |node: &u32| {
-        let [x, y] = mesh.plane_node(*node as usize);
-        y.atan2(x)
+    let angle = |node: u32| {
+        let [x, y] = mesh.plane_node(node as usize);
+        (node, y.atan2(x))
     };
-    let angles: Vec<f64> = nodes.iter().map(angle).collect();
-    assert!(!angles.is_sorted() && angles.iter().any(|angle| *angle < -0.9 * PI));
-    BaseField {
-        is_pressed: Some(vec![true; nodes.len()]),
-        pressures: angles.iter().map(|angle| 1e6 * (2.0 + angle.cos())).collect(),
-        shears: angles.iter().map(|angle| 3e5 * (2.0 + angle.cos())).collect(),
-        nodes,
-        angles,
-        displacement: vec![0.0; 2 * mesh.node_count()],
-        stress: vec![NodalStress { radial: -1e6, ..NodalStress::default() }; mesh.node_count()],
-    }
+    let angles: Vec<(u32, f64)> = nodes.into_iter().map(angle).collect();
+    assert!(!angles.iter().map(|own| own.1).is_sorted());
+    assert!(angles.iter().any(|own| own.1 < -0.9 * PI));
+    let stress = NodalStress { radial: -1e6, ..NodalStress::default() };
+    let tractions = |angle: f64| [1e6, 3e5].map(|mean| mean * (2.0 + angle.cos()));
+    synthetic::field(mesh, &angles, tractions, vec![stress; mesh.node_count()])
 }
 
 fn report<'a>(

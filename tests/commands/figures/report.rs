@@ -14,22 +14,13 @@ fn report_of_an_eigenvalue_analysis_holds_every_figure_table_and_the_case() {
         sweep.points[index].modes = synthetic::modes(friction, Some(&mesh));
     }
     let contact = &mesh.contact_edge().nodes;
-    let field = BaseField {
-        is_pressed: None,
-        nodes: contact.clone(),
-        angles: contact.iter().map(|&node| mesh.frame_angles()[node as usize]).collect(),
-        pressures: vec![2.827e6; contact.len()],
-        shears: vec![0.848e6; contact.len()],
-        displacement: vec![0.0; 2 * mesh.node_count()],
-        stress: mesh
-            .nodes
-            .iter()
-            .map(|p| NodalStress {
-                radial: -2.8e6 * (0.0205 / p[0].hypot(p[1])).powi(2),
-                ..NodalStress::default()
-            })
-            .collect(),
-    };
+    let angles = contact.iter().map(|&node| (node, mesh.frame_angles()[node as usize]));
+    let angles: Vec<(u32, f64)> = angles.collect();
+    let stress = mesh.nodes.iter().map(|p| NodalStress {
+        radial: -2.8e6 * (0.0205 / p[0].hypot(p[1])).powi(2),
+        ..NodalStress::default()
+    });
+    let field = synthetic::field(&mesh, &angles, |_| [2.827e6, 0.848e6], stress.collect());
     let frictions: Vec<f64> = sweep.points.iter().map(|p| p.friction_coefficient).collect();
     let report = synthetic::report(&mesh, &sweep, &field);
     let report = CeaReport { friction_coefficients: &frictions, ..report };

@@ -90,11 +90,38 @@ pub const SLIDING: BaseState = BaseState {
     extent: Extent::WholeBody,
 };
 
+/// A state whose contact nodes have these angles, with pressure and friction traction by angle, and one stress.
+pub fn field(
+    mesh: &Mesh,
+    angles: &[(u32, f64)],
+    tractions: impl Fn(f64) -> [f64; 2],
+    stress: Vec<NodalStress>,
+) -> BaseField {
+    let contact = angles.iter().map(|&(node, angle)| {
+        let [pressure, shear] = tractions(angle);
+        let place = ContactPlace {
+            contact: "contact".to_owned(),
+            position: mesh.nodes[node as usize],
+            angle: Some(angle),
+            area: 1e-6,
+            shares: vec![(node, 1.0)],
+            ..ContactPlace::default()
+        };
+        ContactState { place, speed: 1.0, pressure, shear, is_pressed: true }
+    });
+    BaseField {
+        contact: contact.collect(),
+        surfaces: Vec::new(),
+        displacement: vec![0.0; 2 * mesh.node_count()],
+        stress: BaseStress::Plane(stress),
+    }
+}
+
 /// A report of the disc with such a state.
 pub fn report<'a>(mesh: &'a Mesh, sweep: &'a FrictionSweep, field: &'a BaseField) -> CeaReport<'a> {
     CeaReport {
         title: "Polycarbonate disc",
-        mesh,
+        body: ShownBody { mesh, sector: None },
         has_harmonics: true,
         dofs: 12_420,
         method: "cyclic",
@@ -104,8 +131,6 @@ pub fn report<'a>(mesh: &'a Mesh, sweep: &'a FrictionSweep, field: &'a BaseField
         contact_changes: &[],
         base: SLIDING,
         field,
-        solid: None,
-        assembly: None,
         sensitivities: None,
         reading: None,
         notes: Vec::new(),

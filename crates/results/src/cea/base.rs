@@ -1,10 +1,11 @@
 //! The steady sliding state that the eigenvalues belong to.
 
+use crate::ShownBody;
 use crate::extent::Extent;
 use crate::vtu::Field;
 use frictionsim_output::{Described, Table, columns};
 use frictionsim_physics::contact::ContactStatus;
-use frictionsim_physics::fem::NodalStress;
+use frictionsim_physics::fem::{NodalStress, SolidStress};
 use frictionsim_physics::mesh::{Counterface, Mesh};
 use serde::Serialize;
 use std::f64::consts::{PI, TAU};
@@ -60,6 +61,39 @@ impl BaseState {
     }
 }
 
+/// A place of the contact: a node of a plane edge, a ring of nodes of a body of revolution, or a point between the nodes of
+/// solid bodies.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ContactPlace {
+    /// Name of its contact.
+    pub contact: String,
+    /// Where it is, m; of a ring radius, 0 and height.
+    pub position: [f64; 3],
+    /// Angle of a node of a plane edge, rad.
+    pub angle: Option<f64>,
+    /// Unit vector along which the other surface slides over a point of solid bodies.
+    pub direction: Option<[f64; 3]>,
+    /// Area that belongs to it, m2.
+    pub area: f64,
+    /// Nodes that it is among, with their shares in it.
+    pub shares: Vec<(u32, f64)>,
+}
+
+/// The contact at one place in the base state.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ContactState {
+    /// The place.
+    pub place: ContactPlace,
+    /// Sliding speed, m/s.
+    pub speed: f64,
+    /// Contact pressure, Pa.
+    pub pressure: f64,
+    /// Friction traction, Pa.
+    pub shear: f64,
+    /// Whether it is pressed; else it is open.
+    pub is_pressed: bool,
+}
+
 columns! {
     /// A contact node and its angle, rad.
     pub(crate) NODES: row as (usize, f64);
@@ -68,56 +102,79 @@ columns! {
 }
 
 columns! {
+    /// A ring of contact nodes.
+    pub(crate) RINGS: own as ContactState;
+    radius_m: "radius of the ring of contact nodes, of bodies of revolution" = own.place.position[0];
+    height_m: "its height" = own.place.position[2];
+}
+
+columns! {
+    /// A contact point of solid bodies.
+    pub(crate) POINTS: own as ContactState;
+    contact: "name of the contact, of solid bodies" = own.place.contact.clone();
+    x_m: "place of the contact point" = own.place.position[0];
+    y_m: "place of the contact point" = own.place.position[1];
+    z_m: "place of the contact point" = own.place.position[2];
+    area_m2: "area that belongs to it" = own.place.area;
+}
+
+columns! {
     /// Pressure and traction.
-    pub(crate) TRACTIONS: row as (f64, f64);
-    pressure_pa: "contact pressure" = row.0;
-    shear_pa: "friction traction" = row.1;
+    pub(crate) TRACTIONS: own as ContactState;
+    pressure_pa: "contact pressure" = own.pressure;
+    shear_pa: "friction traction" = own.shear;
 }
 
 columns! {
     /// Whether it presses.
-    pub(crate) STATUS: is_pressed as bool;
-    status: "slip, or open" = sliding_status(*is_pressed).name();
-}
-
-/// The status of a contact that slides where it is pressed.
-pub(super) fn sliding_status(is_pressed: bool) -> ContactStatus {
-    if is_pressed { ContactStatus::Slip } else { ContactStatus::Open }
+    pub(crate) STATUS: own as ContactState;
+    status: "slip, or open" = own.status().name();
 }
 
 columns! {
     /// Where it is in the plane.
-    pub(crate) PLANE: place as [f64; 2];
-    x_m: "place of the contact node" = place[0];
-    y_m: "place of the contact node" = place[1];
+    pub(crate) PLANE: own as ContactState;
+    x_m: "place of the contact node" = own.place.position[0];
+    y_m: "place of the contact node" = own.place.position[1];
 }
 
-/// The same state node by node.
-#[derive(Clone, Debug, Default, PartialEq)]
+impl ContactState {
+    /// The status of a contact that slides where it is pressed.
+    fn status(&self) -> ContactStatus {
+        if self.is_pressed { ContactStatus::Slip } else { ContactStatus::Open }
+    }
+}
+
+/// Stress at every node.
+#[derive(Clone, Debug, PartialEq)]
+pub enum BaseStress {
+    /// In the plane, in nodal frames.
+    Plane(Vec<NodalStress>),
+    /// In three dimensions: of a body of revolution in nodal frames, of solid bodies along global axes.
+    Solid(Vec<SolidStress>),
+}
+
+/// The same state place by place.
+#[derive(Clone, Debug, PartialEq)]
 pub struct BaseField {
-    /// Contact nodes, 0-based, in order along the edge.
-    pub nodes: Vec<u32>,
-    /// Angle of each contact node, rad.
-    pub angles: Vec<f64>,
-    /// Contact pressure at each contact node, Pa.
-    pub pressures: Vec<f64>,
-    /// Friction traction at each contact node, Pa.
-    pub shears: Vec<f64>,
-    /// Whether each contact node is pressed, on bodies where some may be open.
-    pub is_pressed: Option<Vec<bool>>,
-    /// Displacement of every node in nodal frames, `2 * node_count` values, m.
+    /// The contact, along an edge in order.
+    pub contact: Vec<ContactState>,
+    /// Each contact of solid bodies with the boundary that has its points.
+    pub surfaces: Vec<(String, usize)>,
+    /// Displacement of every node in nodal frames, two or three values a node, m.
     pub displacement: Vec<f64>,
     /// Stress at every node.
-    pub stress: Vec<NodalStress>,
+    pub stress: BaseStress,
 }
 
 impl BaseField {
-    /// The contact nodes as figures and tables list them: place in the fields of this struct and angle, rad.
+    /// The contact as figures and tables list it: place in the fields of this struct and angle, rad, of a plane edge.
     ///
     /// Around a whole circle the angles rise from 0 to `2 pi`; along an arc they go on from that of its first node
     /// without a jump by a turn. Shares of a straight edge stay as they are.
     pub fn along_contact(&self, mesh: &Mesh) -> Vec<(usize, f64)> {
-        let mut places: Vec<(usize, f64)> = self.angles.iter().copied().enumerate().collect();
+        let angles = self.contact.iter().map(|own| own.place.angle.unwrap_or_default());
+        let mut places: Vec<(usize, f64)> = angles.enumerate().collect();
         if matches!(mesh.counterface, Counterface::Plane { .. }) {
             return places;
         }
@@ -137,31 +194,100 @@ impl BaseField {
         places
     }
 
-    /// The contact nodes.
-    pub(super) fn table(&self, mesh: &Mesh) -> Table {
-        let along = self.along_contact(mesh);
-        let places = || along.iter().map(|own| own.0);
-        let label = |i: usize| mesh.node_label(self.nodes[i] as usize);
-        let table = Table::new("prestress.csv", "")
-            .columns(NODES, along.iter().map(|&(i, angle)| (label(i), angle)))
-            .columns(TRACTIONS, places().map(|i| (self.pressures[i], self.shears[i])));
+    /// `prestress.csv`: the contact place by place.
+    pub(super) fn table(&self, body: &ShownBody<'_>, has_harmonics: bool) -> Table {
+        let table = Table::new("prestress.csv", "");
+        let all = &self.contact;
+        if body.is_solid() {
+            let places = if body.is_assembly() { POINTS } else { RINGS };
+            return table.columns(places, all).columns(TRACTIONS, all).columns(STATUS, all);
+        }
+        let along = self.along_contact(body.mesh);
+        let all = || along.iter().map(|own| &all[own.0]);
+        let label = |own: &ContactState| body.mesh.node_label(own.place.shares[0].0 as usize);
+        let nodes = all().map(label).zip(along.iter().map(|own| own.1));
+        let table = table.columns(NODES, nodes).columns(TRACTIONS, all());
         // On an annulus every node slips, at its angle.
-        let Some(is_pressed) = &self.is_pressed else {
-            return table;
-        };
-        let place = |i: usize| mesh.plane_node(self.nodes[i] as usize);
-        table.columns(STATUS, places().map(|i| is_pressed[i])).columns(PLANE, places().map(place))
+        if has_harmonics { table } else { table.columns(STATUS, all()).columns(PLANE, all()) }
     }
 
-    /// Displacement and stress of all nodes; status, pressure and friction traction of the contact edge.
-    pub(super) fn fields(&self, mesh: &Mesh) -> Vec<Field> {
-        let is_pressed = |i: usize| self.is_pressed.as_ref().is_none_or(|pressed| pressed[i]);
-        let statuses = (0..self.nodes.len()).map(|i| sliding_status(is_pressed(i)));
-        let tractions = [&self.pressures[..], &self.shears];
-        let mut fields = vec![Field::vectors("displacement_m", mesh, &self.displacement)];
-        fields.extend(Field::stresses(&self.stress));
-        fields.extend(Field::cartesian_stresses(mesh, &self.stress));
-        fields.extend(Field::contact(mesh.node_count(), &self.nodes, statuses, tractions));
+    /// Displacement and stress of all nodes, and the contact: of solid bodies pressure, traction and closed share of
+    /// the points around each node, of others status, pressure and friction traction of the contact nodes.
+    pub(super) fn fields(&self, body: &ShownBody<'_>) -> Vec<Field> {
+        let mut fields = vec![body.vectors("displacement_m", &self.displacement)];
+        if body.is_assembly() {
+            let around = |name: &str, value| {
+                Field::scalars(name, self.around_nodes(body.mesh.node_count(), value))
+            };
+            fields.push(around("pressure_pa", |own| own.pressure));
+            fields.push(around("shear_pa", |own| own.shear));
+            fields.push(around("closed_share", closed_share));
+        }
+        match &self.stress {
+            BaseStress::Plane(stress) => {
+                fields.extend(Field::stresses(stress));
+                fields.extend(Field::cartesian_stresses(body.mesh, stress));
+            }
+            BaseStress::Solid(stress) => {
+                let axes = if body.is_assembly() { "xyz" } else { "rtz" };
+                fields.extend(Field::solid_stresses(stress, axes));
+            }
+        }
+        if !body.is_assembly() {
+            fields.extend(self.at_nodes(body));
+        }
         fields
     }
+
+    /// Status, pressure and friction traction at the contact nodes.
+    fn at_nodes(&self, body: &ShownBody<'_>) -> [Field; 3] {
+        let nodes = self
+            .contact
+            .iter()
+            .flat_map(|own| own.place.shares.iter().map(move |&(node, _)| (node, own)));
+        let (nodes, states): (Vec<u32>, Vec<&ContactState>) = nodes.unzip();
+        let count = self.displacement.len() / if body.is_solid() { 3 } else { 2 };
+        let statuses = states.iter().map(|own| own.status());
+        let of = |value: fn(&ContactState) -> f64| -> Vec<f64> {
+            states.iter().map(|own| value(own)).collect()
+        };
+        let tractions = [&of(|own| own.pressure)[..], &of(|own| own.shear)];
+        Field::contact(count, &nodes, statuses, tractions)
+    }
+
+    /// Whether nothing presses: the closed state of an analysis without prestress.
+    pub(super) fn is_free_of_stress(&self) -> bool {
+        self.contact.iter().all(|own| own.pressure == 0.0)
+    }
+
+    /// Mean over the contact points around each node, weighted by area and share.
+    pub(super) fn around_nodes(&self, count: usize, value: fn(&ContactState) -> f64) -> Vec<f64> {
+        let all = self.contact.iter().map(|own| (&own.place, value(own)));
+        let sums = sums_around(count, all, |value, area, share| area * share * value);
+        let mean = |[sum, area]: [f64; 2]| if area > 0.0 { sum / area } else { 0.0 };
+        sums.into_iter().map(mean).collect()
+    }
+}
+
+/// 1 where it is closed, else 0.
+pub(super) fn closed_share(own: &ContactState) -> f64 {
+    f64::from(u8::from(own.is_pressed))
+}
+
+/// Sums over the contact points around each node, of what each has there by its value, area and share, and of the area.
+pub(super) fn sums_around<'a>(
+    count: usize,
+    points: impl Iterator<Item = (&'a ContactPlace, f64)>,
+    term: fn(f64, f64, f64) -> f64,
+) -> Vec<[f64; 2]> {
+    let mut sums = vec![[0.0; 2]; count];
+    for (place, value) in points {
+        for &(node, share) in &place.shares {
+            // Shape functions of corners of quadratic faces may be negative.
+            let sum = &mut sums[node as usize];
+            sum[0] += term(value, place.area, share.abs());
+            sum[1] += place.area * share.abs();
+        }
+    }
+    sums
 }

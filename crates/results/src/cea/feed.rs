@@ -1,6 +1,7 @@
 //! Where on the contact surfaces friction feeds the unstable modes: `feed.csv`, `feed.vtu` and a figure.
 
 use super::CeaReport;
+use super::base::{ContactPlace, sums_around};
 use super::mode_name::{ModeName, NUMBERS};
 use crate::charts::SolidView;
 use crate::finding::write_table;
@@ -14,19 +15,6 @@ use std::f64::consts::TAU;
 /// Modes that the figure shows, the fastest first: of plane bodies as lines, of solid ones as pictures.
 const LINES: usize = 6;
 const PICTURES: usize = 2;
-
-/// A contact point.
-#[derive(Clone, Debug, PartialEq)]
-pub struct FeedPlace {
-    /// Name of its contact.
-    pub contact: String,
-    /// Where it is, m.
-    pub position: [f64; 3],
-    /// Area that belongs to it, m2.
-    pub area: f64,
-    /// Nodes that it is among, with their shares in it.
-    pub shares: Vec<(u32, f64)>,
-}
 
 /// What each contact point adds to the growth of a mode.
 #[derive(Clone, Debug, PartialEq)]
@@ -43,13 +31,13 @@ pub struct Feed {
     /// The modes.
     pub modes: Vec<ModeFeed>,
     /// The contact points.
-    pub places: Vec<FeedPlace>,
+    pub places: Vec<ContactPlace>,
 }
 
 /// A contact point in a mode.
 pub(crate) struct FeedRow {
     mode: ModeName,
-    place: FeedPlace,
+    place: ContactPlace,
     rate: f64,
 }
 
@@ -77,7 +65,7 @@ impl Feed {
         let names = rows.iter().map(|row| row.mode);
         let table = Table::new("feed.csv", "").columns(NUMBERS, names).columns(FEED, &rows);
         write_table(folder, &table)?;
-        let whole = report.body().whole();
+        let whole = report.body.whole();
         let fields = self.modes.iter().map(|own| {
             let name = format!("mode_{}_growth_rate_per_s_m2", own.mode.mode);
             let mut values = self.around_nodes(whole.node_count(), own);
@@ -92,14 +80,8 @@ impl Feed {
 
     /// Growth for each area around each node; NaN where there is no contact point.
     fn around_nodes(&self, count: usize, own: &ModeFeed) -> Vec<f64> {
-        let mut sums = vec![[0.0; 2]; count];
-        for (place, rate) in self.places.iter().zip(&own.rates) {
-            for &(node, share) in &place.shares {
-                // Shape functions of corners of quadratic faces may be negative.
-                sums[node as usize][0] += rate * share.abs();
-                sums[node as usize][1] += place.area * share.abs();
-            }
-        }
+        let points = self.places.iter().zip(own.rates.iter().copied());
+        let sums = sums_around(count, points, |rate, _, share| rate * share);
         let mean = |[sum, area]: [f64; 2]| if area > 0.0 { sum / area } else { f64::NAN };
         sums.into_iter().map(mean).collect()
     }
@@ -127,18 +109,18 @@ impl Feed {
             each area of the surface; red \
              feeds, blue takes. The sum over the surface is the contact's part in the budget."
         );
-        Some(match report.assembly {
-            Some(assembly) => self.pictures(report.mesh, &modes, &assembly.surfaces, caption),
-            None => self.lines(report, &modes, caption),
+        Some(match report.body.is_assembly() {
+            true => self.pictures(report.body.mesh, &modes, &report.field.surfaces, caption),
+            false => self.lines(report, &modes, caption),
         })
     }
 
     fn lines(&self, report: &CeaReport<'_>, modes: &[&ModeFeed], caption: String) -> Figure {
         // Across the rings of a body of revolution; along an edge by angle about the cylinder, or along the plane.
-        let face = report.solid.map(|solid| solid.sector.specification.contact.face());
+        let face = report.body.sector.map(|sector| sector.specification.contact.face());
         let across = |name: &str| Axis::new(name, "mm").times(1e3).tight();
         type Along<'a> = Box<dyn Fn([f64; 3]) -> f64 + 'a>;
-        let (x, along): (Axis, Along<'_>) = match (face, &report.mesh.counterface) {
+        let (x, along): (Axis, Along<'_>) = match (face, &report.body.mesh.counterface) {
             (Some(SolidFace::Inner | SolidFace::Outer), _) => {
                 (across("height *z*"), Box::new(|[_, _, z]: [f64; 3]| z))
             }
@@ -158,7 +140,7 @@ impl Feed {
                 }),
             ),
         };
-        let along = |place: &FeedPlace| along(place.position);
+        let along = |place: &ContactPlace| along(place.position);
         let mut order: Vec<usize> = (0..self.places.len()).collect();
         frictionsim_physics::order::sort_by_number(&mut order, |&a| along(&self.places[a]));
         let y = Axis::new("feed", "1/(s cm²)").times(1e-4);

@@ -5,21 +5,17 @@ use super::locus::{NamedDamping, locus};
 use super::reading::budget;
 use super::shape::{Body, ModeShape, moving};
 use super::tables::{View, document};
-use super::{CeaReport, direction_name};
-use crate::charts::Disc;
+use super::{CeaReport, direction_name, prestress};
 use crate::charts::palette::{STABLE, UNSTABLE};
 use crate::distinct;
 use crate::drawing::{Declaration, DrawingError, DrawingOptions, declared};
 use crate::folder::OutputFolder;
 use crate::write_page;
 use frictionsim_chart::{
-    Axis, ColourMap, Figure, INK, Line, Marker, Panel, Points, Rule, SERIES, Side, Stroke, signed,
+    Axis, ColourMap, Figure, INK, Line, Marker, Panel, Points, Rule, Stroke, signed,
 };
 use frictionsim_physics::cea::ComplexMode;
-use frictionsim_physics::fem::NodalStress;
-use frictionsim_physics::mesh::Counterface;
 use std::collections::BTreeMap;
-use std::f64::consts::TAU;
 
 /// Branches whose shape is followed over friction, at most.
 const FOLLOWED_BRANCHES: usize = 4;
@@ -35,15 +31,19 @@ pub fn draw(
 ) -> Result<(), DrawingError> {
     let mut figures: Vec<Declaration<'_>> =
         vec![Box::new(move || Some(locus(report, dampings))), Box::new(move || pairs(report))];
-    match report.assembly {
-        None => figures.push(Box::new(move || Some(prestress(report)))),
-        Some(assembly) => {
-            let of = move |names, value| assembly.traction(report.mesh, names, value);
-            let pressure = ("prestress", "contact pressure");
-            figures.push(Box::new(move || of(pressure, |point| point.pressure)));
-            let shear = ("shear", "friction traction");
-            figures.push(Box::new(move || of(shear, |point| point.shear)));
+    let (body, field) = (report.body, report.field);
+    match body.sector {
+        Some(sector) => {
+            figures.push(Box::new(move || Some(prestress::revolution(sector, field))));
         }
+        None if body.is_assembly() => {
+            let of = move |names, value| prestress::surfaces(body.mesh, field, names, value);
+            let pressure = ("prestress", "contact pressure");
+            figures.push(Box::new(move || of(pressure, |own| own.pressure)));
+            let shear = ("shear", "friction traction");
+            figures.push(Box::new(move || of(shear, |own| own.shear)));
+        }
+        None => figures.push(Box::new(move || prestress::plane(report))),
     }
     for point in &report.sweep.points {
         let friction = point.friction_coefficient;
@@ -155,56 +155,6 @@ fn partner<'a, 'm>(
     let there = others.filter_map(|(_, points)| Some((points, distance(points)?)));
     let (points, distance) = there.min_by(|a, b| a.1.total_cmp(&b.1))?;
     (distance < COUPLED * mode.frequency_hz()).then_some(points)
-}
-
-/// Contact pressure and friction traction around the edge, and the von Mises stress field.
-fn prestress(report: &CeaReport<'_>) -> Figure {
-    if let Some(solid) = report.solid {
-        return solid.prestress();
-    }
-    let (field, disc) = (report.field, Disc::new(report.mesh));
-    let von_mises = field.stress.iter().map(NodalStress::von_mises).collect();
-    let stress = Axis::new("von Mises stress", "Pa").prefixed();
-    let is_closed = report.mesh.contact_edge().is_closed;
-    let places = field.along_contact(report.mesh);
-    let place = match report.mesh.counterface {
-        // The angles of a straight edge stand for shares of its length.
-        Counterface::Plane { .. } => {
-            Axis::new("position along the contact", "%").times(100.0 / TAU)
-        }
-        Counterface::Cylinder { .. } if is_closed => Axis::angle(),
-        // A pad is looked at from end to end.
-        Counterface::Cylinder { .. } => Axis::degrees(),
-    };
-    let around = |name: &str, values: &[f64], colour| {
-        let axis = Axis::new(name, "Pa").prefixed().including(0.0).room(0.15);
-        let points: Vec<(f64, f64)> = places.iter().map(|&(i, angle)| (angle, values[i])).collect();
-        Panel::new(place.clone(), axis)
-            .height(86.0)
-            .layer(Line::through(wrapped(points, is_closed)).solid(colour, 1.2))
-    };
-    let stressed = disc.field(von_mises, stress, ColourMap::Viridis);
-    let stressed = disc.panel(0.01).beside(2).height(190.0).layer(stressed);
-    Figure::new(
-        "prestress",
-        "Steady sliding: von Mises stress (a), contact pressure (b) and friction traction (c) around the contact edge.",
-    )
-    .weighted(&[1.0, 1.15])
-    .shared_x()
-    .panel(stressed.colour_bar(Side::Right))
-    .panel(around("pressure *p*", &field.pressures, SERIES[0]))
-    .panel(around("traction *τ*", &field.shears, SERIES[1]))
-}
-
-/// Points over rising angles; around a whole circle the first and the last are repeated a turn away, so that the curve
-/// reaches both ends of its axis.
-fn wrapped(points: Vec<(f64, f64)>, is_closed: bool) -> Vec<(f64, f64)> {
-    let turned = |point: Option<&(f64, f64)>, by: f64| {
-        let point = point.filter(|_| is_closed);
-        point.map(|&(angle, value)| (angle + by, value))
-    };
-    let (before, after) = (turned(points.last(), -TAU), turned(points.first(), TAU));
-    before.into_iter().chain(points).chain(after).collect()
 }
 
 /// All modes of one friction value as small multiples.

@@ -39,15 +39,11 @@ pub fn write(folder: &OutputFolder, report: &CeaReport<'_>) -> Result<Value, Fol
 /// Writes the base state: `prestress.csv` (its contact) and `prestress.vtu` (its fields; of a body that no mesh file
 /// gives in three dimensions also friction coefficient and power of the whole).
 pub fn write_base(folder: &OutputFolder, report: &CeaReport<'_>) -> Result<(), FolderError> {
-    let (mesh, state) = (report.mesh, report.base.whole());
-    let (table, whole, fields) = match (report.solid, report.assembly) {
-        (Some(solid), _) => (solid.table(), &state[..], solid.fields()),
-        (None, Some(assembly)) => (assembly.table(), &[][..], assembly.fields(mesh)),
-        (None, None) => (report.field.table(mesh), &state[..], report.field.fields(mesh)),
-    };
-    write_table(folder, &table)?;
+    let (body, field, state) = (&report.body, report.field, report.base.whole());
+    let whole = if body.is_assembly() { &[][..] } else { &state[..] };
+    write_table(folder, &field.table(body, report.has_harmonics))?;
     folder.write_bulk("prestress.vtu", |out| {
-        write_vtu(out, &report.body().encoded()?, whole, &fields, &[])
+        write_vtu(out, &body.encoded()?, whole, &field.fields(body), &[])
     })
 }
 
@@ -58,7 +54,7 @@ fn write_shapes(folder: &OutputFolder, report: &CeaReport<'_>) -> Result<(), Fol
     if shapes.is_empty() {
         return Ok(());
     }
-    let mesh = report.body().encoded();
+    let mesh = report.body.encoded();
     let mut entries = Vec::new();
     // Compression takes the time: a batch of files side by side, written in order.
     for batch in shapes.chunks(rayon::current_num_threads().max(1)) {
@@ -85,7 +81,7 @@ pub const UNIVERSAL_MODES: &str = "modes.unv";
 /// # Errors
 /// Those of the folder; an element that universal files do not have.
 pub fn write_universal(folder: &OutputFolder, report: &CeaReport<'_>) -> Result<(), FolderError> {
-    let mesh = report.body().whole();
+    let mesh = report.body.whole();
     folder.write_bulk(UNIVERSAL_MODES, |out| {
         write_universal_mesh(out, &mesh)?;
         for (k, ModeShape { friction, number, mode, .. }) in ModeShape::all(report).enumerate() {
@@ -127,7 +123,7 @@ fn encode_shape(
 
 fn shape_fields(report: &CeaReport<'_>, mode: &ComplexMode) -> [Field; 3] {
     let shape = mode.shape.as_deref().unwrap_or_default();
-    let body = report.body();
+    let body = &report.body;
     let part = |name: &str, of: fn(&c64) -> f64| {
         body.vectors(name, &shape.iter().map(of).collect::<Vec<f64>>())
     };

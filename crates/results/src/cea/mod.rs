@@ -1,6 +1,5 @@
 //! Results of a complex eigenvalue analysis: what is printed and what is written.
 
-mod assembly;
 mod base;
 mod branches;
 mod coupling;
@@ -10,6 +9,7 @@ mod files;
 mod kept;
 mod locus;
 mod mode_name;
+mod prestress;
 mod reading;
 mod sensitivity;
 mod shape;
@@ -17,12 +17,10 @@ mod solid;
 mod summary;
 mod tables;
 
-pub(super) use assembly::POINTS;
-pub use assembly::{AssemblyPoint, AssemblyReport};
-pub use base::{BaseField, BaseState};
-pub(super) use base::{NODES, PLANE, STATUS, TRACTIONS};
+pub use base::{BaseField, BaseState, BaseStress, ContactPlace, ContactState};
+pub(super) use base::{NODES, PLANE, POINTS, RINGS, STATUS, TRACTIONS};
 pub(super) use feed::FEED;
-pub use feed::{Feed, FeedPlace, ModeFeed};
+pub use feed::{Feed, ModeFeed};
 pub use figures::draw;
 pub use files::{write, write_base, write_universal};
 pub use kept::KeptSteps;
@@ -34,8 +32,6 @@ pub(super) use reading::{CONTRIBUTIONS, COUPLINGS};
 pub use reading::{Contribution, Coupling, MeshError, Reading, Source};
 pub(super) use sensitivity::{EIGENVALUES, ROWS};
 pub use sensitivity::{OnsetRates, SensitivityReport, SensitivityRow};
-pub(super) use solid::RINGS;
-pub use solid::SolidReport;
 pub use summary::{
     CeaSummary, CriticalFriction, ModeSummary, UnstableCount, UnstableMode, summary,
 };
@@ -46,7 +42,6 @@ pub use tables::{View, document};
 use crate::ShownBody;
 use branches::{Branch, branch_of_mode};
 use frictionsim_physics::cea::{FrictionPoint, FrictionSweep};
-use frictionsim_physics::mesh::Mesh;
 use std::collections::BTreeMap;
 
 /// Everything a complex eigenvalue analysis reports.
@@ -54,8 +49,8 @@ use std::collections::BTreeMap;
 pub struct CeaReport<'a> {
     /// Title of the case.
     pub title: &'a str,
-    /// The mesh, for the shapes.
-    pub mesh: &'a Mesh,
+    /// The body.
+    pub body: ShownBody<'a>,
     /// Whether modes have a circumferential harmonic and a direction; else they are named by rank.
     pub has_harmonics: bool,
     /// Unknowns of the eigenproblem.
@@ -72,12 +67,8 @@ pub struct CeaReport<'a> {
     pub contact_changes: &'a [f64],
     /// The state of steady sliding at the case's own friction coefficient.
     pub base: BaseState,
-    /// The same node by node.
+    /// The same place by place.
     pub field: &'a BaseField,
-    /// The body where it is three-dimensional; `mesh` and `field` then stand for nothing.
-    pub solid: Option<&'a SolidReport>,
-    /// The base state of solid bodies from a mesh file; `field` then stands for nothing.
-    pub assembly: Option<&'a AssemblyReport>,
     /// Which parameter decides, where the solver knows.
     pub sensitivities: Option<&'a SensitivityReport>,
     /// Where growth comes from and which modes couple, where the solver knows.
@@ -89,11 +80,6 @@ pub struct CeaReport<'a> {
 }
 
 impl CeaReport<'_> {
-    /// The body as results show it.
-    fn body(&self) -> ShownBody<'_> {
-        ShownBody { mesh: self.mesh, sector: self.solid.map(|solid| &solid.sector) }
-    }
-
     /// The modes at the solved friction value nearest to the case's own.
     fn own_point(&self) -> Option<&FrictionPoint> {
         let own = self.base.friction_coefficient;

@@ -71,10 +71,11 @@ pub(super) enum Body<'a> {
 impl<'a> Body<'a> {
     /// The body of a report, with about so many rays on a plane one.
     pub fn new(report: &CeaReport<'a>, rays: usize) -> Self {
-        match report.solid {
-            Some(solid) => Self::Solid(Picture::new(&solid.sector)),
-            None if report.assembly.is_some() => Self::Assembly(SolidView::new(report.mesh)),
-            None => Self::Plane(Disc::with_lattice(report.mesh, rays)),
+        let mesh = report.body.mesh;
+        match report.body.sector {
+            Some(sector) => Self::Solid(Picture::new(sector)),
+            None if report.body.is_assembly() => Self::Assembly(SolidView::new(mesh)),
+            None => Self::Plane(Disc::with_lattice(mesh, rays)),
         }
     }
 
@@ -129,10 +130,9 @@ fn assembly_panel(view: &SolidView<'_>, values: &[c64]) -> Panel {
 
 /// The modes as motions to choose from: the unstable ones first, as many as a page carries.
 pub(super) fn moving(report: &CeaReport<'_>, shapes: &[ModeShape<'_>]) -> Motion {
-    match report.solid {
-        None => moving_mesh(report.mesh, shapes, |u, _| u),
-        Some(solid) => {
-            let sector = &solid.sector;
+    match report.body.sector {
+        None => moving_mesh(report.body.mesh, shapes, |u, _| u),
+        Some(sector) => {
             let whole = sector.part(sector.sector_count());
             // Shapes have components along r, theta and z; the whole mesh has global frames.
             moving_mesh(&whole, shapes, |[r, theta, z], node| {

@@ -1,128 +1,12 @@
-//! Results of a body of revolution in three dimensions: base state along the contact, bricks, shapes.
+//! A body of revolution in three dimensions as a picture.
 
-use super::base::{STATUS, TRACTIONS, sliding_status};
-use crate::vtu::{Field, solid_vectors};
-use frictionsim_chart::{
-    Axis, Cell, ColourMap, Field as ColourField, Figure, Line, Marker, Mesh, Panel, SERIES, Side,
-};
-use frictionsim_output::{Table, columns};
-use frictionsim_physics::fem::SolidStress;
+use frictionsim_chart::{Axis, Cell, ColourMap, Field, Mesh, Panel};
 use frictionsim_physics::linalg::c64;
-use frictionsim_physics::mesh::{ContactRing, SheetNode, SolidFace, SolidSector};
-use frictionsim_physics::prestress::SolidSliding;
+use frictionsim_physics::mesh::{SheetNode, SolidSector};
 use std::sync::Arc;
 
 /// Largest displacement drawn, as a fraction of the outer radius.
 const DEFLECTION: f64 = 0.07;
-
-/// A body of revolution with its steady sliding state.
-#[derive(Clone, Debug)]
-pub struct SolidReport {
-    /// One sector of the body.
-    pub sector: SolidSector,
-    /// Its base state.
-    pub base: SolidSliding,
-    /// Friction coefficient of the base state that is shown.
-    pub friction_coefficient: f64,
-    /// Its stress at the nodes of one sector, in their frames.
-    pub stress: Vec<SolidStress>,
-}
-
-columns! {
-    /// A ring of contact nodes.
-    pub(crate) RINGS: ring as [f64; 2];
-    radius_m: "radius of the ring of contact nodes, of bodies of revolution" = ring[0];
-    height_m: "its height" = ring[1];
-}
-
-impl SolidReport {
-    /// Friction traction at each ring, Pa.
-    pub fn shears(&self) -> Vec<f64> {
-        let rings = self.sector.rings.iter().zip(&self.base.pressures);
-        rings
-            .map(|(ring, pressure)| {
-                self.friction_coefficient * self.base.friction(ring.radius).1.drag * pressure
-            })
-            .collect()
-    }
-
-    /// Displacements of all nodes, sector by sector, from those of one.
-    fn repeated(&self, sector: &[f64]) -> Vec<f64> {
-        sector.repeat(self.sector.sector_count())
-    }
-
-    /// One row for each ring of contact nodes.
-    pub(super) fn table(&self) -> Table {
-        let tractions = self.base.pressures.iter().copied().zip(self.shears());
-        Table::new("prestress.csv", "")
-            .columns(RINGS, self.sector.rings.iter().map(|ring| [ring.radius, ring.height]))
-            .columns(TRACTIONS, tractions)
-            .columns(STATUS, self.base.is_pressed.iter().copied())
-    }
-
-    /// Displacement and stress of all nodes; status, pressure and friction traction of the contact nodes.
-    pub(super) fn fields(&self) -> Vec<Field> {
-        let displacement = self.base.displacement(self.friction_coefficient);
-        let displacement = self.repeated(&displacement);
-        let mut fields = vec![solid_vectors("displacement_m", &self.sector, &displacement)];
-        let stress = self.stress.repeat(self.sector.sector_count());
-        fields.extend(Field::solid_stresses(&stress, "rtz"));
-        fields.extend(self.contact_fields());
-        fields
-    }
-
-    /// Status, pressure and friction traction at the contact nodes of all sectors.
-    fn contact_fields(&self) -> [Field; 3] {
-        let sector = &self.sector;
-        let (mut edge, mut ring_of) = (Vec::new(), Vec::new());
-        for j in 0..sector.sector_count() {
-            for (k, ring) in sector.rings.iter().enumerate() {
-                let nodes = ring.nodes.iter();
-                edge.extend(nodes.map(|node| (j * sector.node_count() + node) as u32));
-                ring_of.extend(std::iter::repeat_n(k, ring.nodes.len()));
-            }
-        }
-        let count = sector.sector_count() * sector.node_count();
-        let statuses = ring_of.iter().map(|&k| sliding_status(self.base.is_pressed[k]));
-        let at_nodes =
-            |values: &[f64]| -> Vec<f64> { ring_of.iter().map(|&k| values[k]).collect() };
-        let tractions = [&at_nodes(&self.base.pressures)[..], &at_nodes(&self.shears())];
-        Field::contact(count, &edge, statuses, tractions)
-    }
-
-    /// Pressure and traction along the contact, and the section as the rotor deforms it.
-    pub(super) fn prestress(&self) -> Figure {
-        let is_cylinder = self.sector.specification.contact.face() == SolidFace::Inner;
-        let (name, place): (&str, fn(&ContactRing) -> f64) = match is_cylinder {
-            true => ("height *z*", |ring| ring.height),
-            false => ("radius *r*", |ring| ring.radius),
-        };
-        let places: Vec<f64> = self.sector.rings.iter().map(place).collect();
-        let along = |quantity: &str, values: Vec<f64>, colour| {
-            let axis = Axis::new(quantity, "Pa").prefixed().including(0.0).room(0.15);
-            let points = places.iter().copied().zip(values);
-            Panel::new(Axis::new(name, "mm").times(1e3), axis)
-                .height(100.0)
-                .layer(Line::through(points).solid(colour, 1.2).marked(Marker::Disc, 1.4))
-        };
-        let displacement = self.base.displacement(self.friction_coefficient);
-        let shape: Vec<c64> =
-            self.repeated(&displacement).into_iter().map(|v| c64::new(v, 0.0)).collect();
-        let largest = shape.chunks_exact(3).map(size).fold(0.0, f64::max);
-        let axis = Axis::new("displacement |*u*|", "m").prefixed().between(0.0, largest);
-        let state = Picture::new(&self.sector).panel(&shape, axis).height(190.0);
-        Figure::new(
-            "prestress",
-            "Steady sliding: the body from above and its section through the axis, deformed and \
-             coloured by displacement (a). Contact pressure (b) and friction traction (c) along \
-             the contact.",
-        )
-        .weighted(&[1.0, 1.15])
-        .panel(state.beside(2).colour_bar(Side::Right))
-        .panel(along("pressure *p*", self.base.pressures.clone(), SERIES[0]))
-        .panel(along("traction *τ*", self.shears(), SERIES[1]))
-    }
-}
 
 /// Amplitude of the displacement of a node.
 pub(super) fn size(u: &[c64]) -> f64 {
@@ -213,14 +97,9 @@ impl<'a> Picture<'a> {
             self.points.iter().map(|point| place(point, [0.0; 3])).collect();
         let places = self.points.iter().zip(&moved).map(|(point, u)| place(point, *u));
         let values = moved.iter().map(amplitude).collect();
-        let field = ColourField::new(
-            self.shown.clone(),
-            places.collect(),
-            values,
-            axis,
-            ColourMap::Viridis,
-        );
+        let field =
+            Field::new(self.shown.clone(), places.collect(), values, axis, ColourMap::Viridis);
         let room = 0.04 + 2.0 * DEFLECTION;
-        Panel::plane(ColourField::window(&at_rest, room)).layer(field)
+        Panel::plane(Field::window(&at_rest, room)).layer(field)
     }
 }

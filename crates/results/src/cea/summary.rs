@@ -262,7 +262,7 @@ pub fn summary(report: &CeaReport<'_>) -> CeaSummary {
         let own = |(number, mode)| ModeSummary::of(report, (friction, number), mode);
         (1..).zip(&point.modes).map(own).collect()
     };
-    let may_open = !report.has_harmonics || report.solid.is_some();
+    let may_open = !report.has_harmonics || report.body.sector.is_some();
     let nodes = (base.slipping + base.sticking + base.open).max(1);
     CeaSummary {
         dofs: report.dofs,

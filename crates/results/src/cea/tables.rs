@@ -120,7 +120,7 @@ pub(super) fn eigenvalues(report: &CeaReport<'_>) -> Table {
     let points = report.sweep.points.iter().filter(is_listed);
     let rows: Vec<ModeRow> = points.flat_map(|point| ModeRow::all(report, point)).collect();
     let table = Table::new("eigenvalues.csv", "").columns(PLACES, &rows).columns(MODES, &rows);
-    if report.solid.is_some() { table.columns(AXIAL, &rows) } else { table }
+    if report.body.sector.is_some() { table.columns(AXIAL, &rows) } else { table }
 }
 
 /// `stability.csv`: one row for each crossing into instability.
@@ -227,7 +227,7 @@ fn words(report: &CeaReport<'_>, view: View) -> Vec<String> {
         report.method,
         report.largest_residual(),
     );
-    let free = report.assembly.is_some_and(|assembly| assembly.is_free_of_stress());
+    let free = report.body.is_assembly() && report.field.is_free_of_stress();
     let [low, high] = base.pressure_pa.map(|pressure| fixed(1e-6 * pressure, 4));
     let state = match free {
         true => "free of stress".to_owned(),
@@ -238,7 +238,7 @@ fn words(report: &CeaReport<'_>, view: View) -> Vec<String> {
         base.friction_coefficient,
         base.slipping,
         // Solid bodies touch at points between their nodes.
-        if report.assembly.is_some() { "points" } else { "nodes" },
+        if report.body.is_assembly() { "points" } else { "nodes" },
         base.sticking,
         base.open,
     );

@@ -12,6 +12,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod contact;
 mod dampings;
 mod model;
 mod notes;
@@ -24,18 +25,19 @@ mod spectrum;
 mod states;
 mod whole;
 
+pub use contact::{SolidState, SteadyState};
 pub use dampings::dampings;
 pub use model::{Model, Solver, Spectrum, asked_modes, wave_tangent};
 pub(super) use sensitivity::rates::{is_like, rates_of_waves};
 pub use sensitivity::{BodySensitivities, body_sensitivities};
-pub use sliding::{SlidingModel, SteadyState};
+pub use sliding::SlidingModel;
 pub use solve::{Solved, solve, solve_modes, solved};
 pub(super) use spectrum::analysis;
 pub use spectrum::{
     OnsetSearch, modes_at_own_friction, modes_below, modes_with_waves_below, unstable_intervals,
 };
 pub(crate) use whole::BasePoint;
-pub use whole::{Sliding, WholeMesh};
+pub use whole::WholeMesh;
 
 use super::StudyError;
 use frictionsim_case::{Case, Cea, Diagnostic, ModeLimit};
@@ -43,6 +45,7 @@ use frictionsim_physics::cea::sparse::FrictionlessModes;
 use frictionsim_physics::cea::{CeaError, FrictionSweep, SweepRequest, SweepWatch};
 use frictionsim_physics::linalg::banded::BandedFactor;
 use frictionsim_physics::linalg::{LdlAnalysis, SparseLdl};
+use frictionsim_results::ShownBody;
 use frictionsim_results::cea::{BaseField, CeaReport, Reading, SensitivityReport};
 use solve::at_key;
 use std::f64::consts::TAU;
@@ -174,7 +177,7 @@ pub fn report<'a>(
 ) -> CeaReport<'a> {
     CeaReport {
         title: &case.title,
-        mesh: &model.mesh,
+        body: ShownBody { mesh: &model.mesh, sector: model.solid().map(|own| &own.sector) },
         has_harmonics: case.has_sectors(),
         dofs: solution.dofs,
         method: solution.method,
@@ -187,8 +190,6 @@ pub fn report<'a>(
         contact_changes: model.contact_changes(),
         base: model.base_state(case),
         field,
-        solid: model.solid(),
-        assembly: model.assembly(),
         sensitivities: solution.sensitivities.as_ref(),
         reading: solution.reading.as_ref(),
         notes: solution.notes.clone(),

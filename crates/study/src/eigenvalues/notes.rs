@@ -1,7 +1,7 @@
 //! What is said beside the results of an eigenvalue analysis.
 
 use super::SlidingModel;
-use super::sliding::SteadyState;
+use super::contact::SteadyState;
 use super::solid::{dashpot_across, mean_friction};
 use frictionsim_case::{Body, Case, Cea};
 use frictionsim_physics::cea::cyclic::{Coverage, Overdamped};

@@ -1,30 +1,20 @@
 //! Steady sliding, reported beside the modes of an eigenvalue analysis.
 
 use super::StudyError;
+use super::contact::{SolidState, SteadyState};
 use super::model::Model;
 use super::solid;
-use super::whole::Sliding;
 use crate::extent_of;
 use frictionsim_case::{Annulus, AssemblyBody, Body, Case, Cea, Revolution, refusal};
-use frictionsim_physics::fem::{nodal_stress, sector};
+use frictionsim_physics::fem::{nodal_stress, revolved_stress, sector, solid_stress};
 use frictionsim_physics::mesh::{AnnulusMesh, Mesh, SectorMesh};
 use frictionsim_physics::order::range;
 use frictionsim_physics::prestress::{BaseChoice, SectorSliding, SteadySliding, TangentOptions};
-use frictionsim_results::cea::{AssemblyReport, BaseField, BaseState, SolidReport};
+use frictionsim_results::cea::{BaseField, BaseState, BaseStress, ContactState};
 use std::sync::Arc;
 
 /// Share of the modulus below which a contact pressure is round-off.
 const NO_PRESSURE: f64 = 1e-13;
-
-/// Steady sliding at the case's own friction coefficient.
-pub enum SteadyState {
-    /// Of a plane body.
-    Plane(Box<SteadySliding>),
-    /// Of a body of revolution in three dimensions.
-    Solid(Box<SolidReport>),
-    /// Of solid bodies that slide on each other.
-    Assembly(AssemblyReport),
-}
 
 /// A model with its mesh and its steady sliding.
 pub struct SlidingModel {
@@ -34,13 +24,15 @@ pub struct SlidingModel {
     pub model: Model,
     /// Its base state.
     pub state: SteadyState,
+    /// The contact in it.
+    pub contact: Vec<ContactState>,
 }
 
-/// The mesh and the base state of a body of equal sectors, from one of them.
+/// The mesh and the base state of a body of equal sectors, from one of them, and the contact in it.
 fn sliding_sector(
     case: &Case,
     options: &TangentOptions,
-) -> Result<(Arc<Mesh>, SteadyState), StudyError> {
+) -> Result<(Arc<Mesh>, SteadyState, Vec<ContactState>), StudyError> {
     let sliding = &case.contact.sliding;
     Ok(match &case.body {
         Body::Annulus(Annulus { specification, materials }) => {
@@ -49,13 +41,17 @@ fn sliding_sector(
             let stiffness = sector::stiffness(&sector, materials);
             let base = SectorSliding::solve(&sector, &stiffness, sliding, options.contact.law)?;
             let base = SteadySliding::from_sector(&mesh, &sector, &base, sliding);
-            (Arc::new(mesh.mesh), SteadyState::Plane(Box::new(base)))
+            let mesh = mesh.mesh;
+            let (own, state) = (base.state.clone(), SteadyState::Plane(Box::new(base)));
+            let contact = state.contact(case, &mesh, &own);
+            (Arc::new(mesh), state, contact)
         }
         Body::Revolution(Revolution { specification, .. }) => {
             let solid = solid::solved(case, specification)?;
             let mut mesh = AnnulusMesh::generate(&specification.plane())?.mesh;
             mesh.regions = specification.region_names();
-            (Arc::new(mesh), SteadyState::Solid(Box::new(solid)))
+            let contact = solid.contact(sliding.friction_coefficient);
+            (Arc::new(mesh), SteadyState::Solid(Box::new(solid)), contact)
         }
         Body::Imported(_) | Body::Assembly(_) => unreachable!("a body of equal sectors has waves"),
     })
@@ -69,17 +65,15 @@ impl SlidingModel {
     /// symmetry which is not there.
     pub fn new(case: &Case, cea: &Cea) -> Result<Self, StudyError> {
         let model = Model::new(case, cea)?;
-        let (mesh, state) = match &model {
+        let (mesh, state, contact) = match &model {
             Model::Whole(whole) => {
-                let state = match &whole.sliding {
-                    Sliding::Edge(base) => SteadyState::Plane(base.clone()),
-                    Sliding::Bodies(joined) => SteadyState::Assembly(whole.report(case, joined)),
-                };
-                (Arc::clone(&whole.mesh), state)
+                let (mesh, state) = (Arc::clone(&whole.mesh), whole.sliding.clone());
+                let contact = state.contact(case, &mesh, whole.state());
+                (mesh, state, contact)
             }
             Model::Waves(options) => sliding_sector(case, options)?,
         };
-        let model = Self { mesh, model, state };
+        let model = Self { mesh, model, state, contact };
         model.refuse_no_pressure(case)?;
         Ok(model)
     }
@@ -107,14 +101,9 @@ impl SlidingModel {
                 "give an interference above zero, or a boundary with condition = \"pressure\"")))
     }
 
-    /// The body in three dimensions and its base state, if it is one.
-    pub fn solid(&self) -> Option<&SolidReport> {
+    /// The body of revolution in three dimensions and its base state, if it is one.
+    pub fn solid(&self) -> Option<&SolidState> {
         if let SteadyState::Solid(own) = &self.state { Some(own) } else { None }
-    }
-
-    /// The base state of solid bodies that slide on each other, if they are some.
-    pub fn assembly(&self) -> Option<&AssemblyReport> {
-        if let SteadyState::Assembly(own) = &self.state { Some(own) } else { None }
     }
 
     /// Friction coefficients at which contact nodes open or close, rising.
@@ -127,77 +116,74 @@ impl SlidingModel {
 
     /// What the report says of the base state, scaled to the case's thickness.
     pub fn base_state(&self, case: &Case) -> BaseState {
-        let friction = case.contact.sliding.friction_coefficient;
-        let speed = case.contact.sliding.rotation_speed;
-        match &self.state {
+        let sliding = &case.contact.sliding;
+        let (friction, speed) = (sliding.friction_coefficient, sliding.rotation_speed);
+        let contact = || self.contact.iter();
+        // Torque or drag, and its power.
+        let [drive, power_w] = match &self.state {
             SteadyState::Solid(solid) => {
                 let torque = solid.base.torque(&solid.sector, friction);
-                let tractions =
-                    [range(solid.base.pressures.iter().copied()), range(solid.shears())];
-                base_state(case, solid::node_counts(solid), tractions, [torque, torque * speed])
-            }
-            SteadyState::Assembly(report) => {
-                let points = || report.points.iter();
-                let closed = points().filter(|point| point.is_closed).count();
-                let power: f64 = points().map(|point| point.shear * point.area * point.speed).sum();
-                let drive = if speed == 0.0 { 0.0 } else { power / speed };
-                let tractions =
-                    [range(points().map(|own| own.pressure)), range(points().map(|own| own.shear))];
-                let counts = [closed, report.points.len() - closed];
-                base_state(case, counts, tractions, [drive, power])
+                [torque, torque * speed]
             }
             SteadyState::Plane(base) => {
-                let pressures = range(base.pressures(friction));
-                let traction = base.friction.drag * friction;
-                let shears = range(pressures.map(|pressure| traction * pressure));
                 let torque = case.thickness * base.torque(friction);
-                let open = base.is_pressed.iter().filter(|is_pressed| !**is_pressed).count();
-                let counts = [base.is_pressed.len() - open, open];
-                base_state(case, counts, [pressures, shears], [torque, torque * speed])
+                [torque, torque * speed]
             }
-        }
-    }
-
-    /// The base state node by node.
-    pub fn base_field(&self, case: &Case) -> BaseField {
-        let SteadyState::Plane(base) = &self.state else {
-            return BaseField::default();
+            SteadyState::Assembly(_) => {
+                let power = contact().map(|own| own.shear * own.place.area * own.speed).sum();
+                [if speed == 0.0 { 0.0 } else { power / speed }, power]
+            }
         };
-        let friction = case.contact.sliding.friction_coefficient;
-        let displacement = base.displacement(friction);
-        let pressures = base.pressures(friction);
-        let traction = base.friction.drag * friction;
-        BaseField {
-            nodes: base.interface.nodes.clone(),
-            angles: base.interface.angles.clone(),
-            shears: pressures.iter().map(|pressure| traction * pressure).collect(),
-            pressures,
-            is_pressed: (!case.has_sectors()).then(|| base.is_pressed.clone()),
-            stress: nodal_stress(&self.mesh, case.materials(), &displacement),
-            displacement,
+        // Solid bodies touch at points between their nodes.
+        let nodes = |own: &ContactState| match self.state {
+            SteadyState::Assembly(_) => 1,
+            _ => own.place.shares.len(),
+        };
+        let count = |is_pressed: bool| {
+            contact().filter(|own| own.is_pressed == is_pressed).map(nodes).sum()
+        };
+        let is_straight = case.body.slides_straight();
+        BaseState {
+            friction_coefficient: friction,
+            slipping: count(true),
+            sticking: 0,
+            open: count(false),
+            pressure_pa: range(contact().map(|own| own.pressure)),
+            shear_pa: range(contact().map(|own| own.shear)),
+            torque_n_m: (!is_straight).then_some(drive),
+            drag_n: is_straight.then_some(drive),
+            power_w,
+            extent: extent_of(case),
         }
     }
-}
 
-/// The base state with so many contact nodes that slip and that are open, the range of pressure and of shear, and
-/// torque or drag with its power.
-fn base_state(
-    case: &Case,
-    [slipping, open]: [usize; 2],
-    [pressure_pa, shear_pa]: [[f64; 2]; 2],
-    [drive, power_w]: [f64; 2],
-) -> BaseState {
-    let is_straight = case.body.slides_straight();
-    BaseState {
-        friction_coefficient: case.contact.sliding.friction_coefficient,
-        slipping,
-        sticking: 0,
-        open,
-        pressure_pa,
-        shear_pa,
-        torque_n_m: (!is_straight).then_some(drive),
-        drag_n: is_straight.then_some(drive),
-        power_w,
-        extent: extent_of(case),
+    /// The base state place by place.
+    pub fn base_field(&self, case: &Case) -> BaseField {
+        let (friction, materials) = (case.contact.sliding.friction_coefficient, case.materials());
+        let mut surfaces = Vec::new();
+        let (displacement, stress) = match (&self.state, &self.model) {
+            (SteadyState::Plane(base), _) => {
+                let displacement = base.displacement(friction);
+                let stress = nodal_stress(&self.mesh, materials, &displacement);
+                (displacement, BaseStress::Plane(stress))
+            }
+            (SteadyState::Solid(solid), _) => {
+                let (sector, displacement) = (&solid.sector, solid.base.displacement(friction));
+                let stress = revolved_stress(sector, materials, &displacement);
+                let count = sector.sector_count();
+                (displacement.repeat(count), BaseStress::Solid(stress.repeat(count)))
+            }
+            (SteadyState::Assembly(joined), Model::Whole(whole)) => {
+                let contacts = joined.contacts.iter();
+                surfaces.extend(contacts.map(|(own, _)| (own.name.clone(), own.surface)));
+                let displacement = whole.state().displacement(friction);
+                let stress = solid_stress(&self.mesh, materials, &displacement);
+                (displacement, BaseStress::Solid(stress))
+            }
+            (SteadyState::Assembly(_), Model::Waves(_)) => {
+                unreachable!("solid bodies are solved on their whole mesh")
+            }
+        };
+        BaseField { contact: self.contact.clone(), surfaces, displacement, stress }
     }
 }

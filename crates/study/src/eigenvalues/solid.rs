@@ -1,13 +1,13 @@
 //! Eigenvalues of a body of revolution in three dimensions.
 
 use super::StudyError;
+use super::contact::SolidState;
 use frictionsim_case::Case;
 use frictionsim_physics::contact::SteadyFriction;
-use frictionsim_physics::fem::{revolved_stress, sector};
+use frictionsim_physics::fem::sector;
 use frictionsim_physics::mesh::{ContactRing, SolidSector, SolidSpecification};
 use frictionsim_physics::order::range;
 use frictionsim_physics::prestress::SolidSliding;
-use frictionsim_results::cea::SolidReport;
 
 /// Generates the body and solves its base state.
 ///
@@ -16,41 +16,29 @@ use frictionsim_results::cea::SolidReport;
 pub(super) fn solved(
     case: &Case,
     specification: &SolidSpecification,
-) -> Result<SolidReport, StudyError> {
+) -> Result<SolidState, StudyError> {
     let sector = SolidSector::generate(specification)?;
     let elastic = sector::stiffness(&sector, case.materials());
     let law = case.contact.stiffness.base_law();
     let base = SolidSliding::solve(&sector, &elastic, &case.contact.sliding, law, case.mass())?;
-    let friction_coefficient = case.contact.sliding.friction_coefficient;
-    let displacement = base.displacement(friction_coefficient);
-    let stress = revolved_stress(&sector, case.materials(), &displacement);
-    Ok(SolidReport { sector, stress, base, friction_coefficient })
-}
-
-/// Contact nodes that slip, and those that are open.
-pub(super) fn node_counts(solid: &SolidReport) -> [usize; 2] {
-    [true, false].map(|is_pressed| {
-        let rings = solid.sector.rings.iter().zip(&solid.base.is_pressed);
-        let own = rings.filter(|(_, pressed)| **pressed == is_pressed);
-        own.map(|(ring, _)| ring.nodes.len() * solid.sector.sector_count()).sum()
-    })
+    Ok(SolidState { sector, base })
 }
 
 /// Friction at the mean radius of the contact, and the mean pressure there, Pa.
-pub(super) fn mean_friction(solid: &SolidReport) -> (SteadyFriction, f64) {
+pub(super) fn mean_friction(solid: &SolidState) -> (SteadyFriction, f64) {
     let friction = solid.base.friction(mean_radius(solid)).1;
     (friction, solid.base.mean_pressure(&solid.sector))
 }
 
 /// The dashpot `mu p / V` of friction across the sliding, Pa s/m, at the mean radius and pressure.
-pub(super) fn dashpot_across(solid: &SolidReport, friction_coefficient: f64) -> f64 {
+pub(super) fn dashpot_across(solid: &SolidState, friction_coefficient: f64) -> f64 {
     let (speed, friction) = solid.base.friction(mean_radius(solid));
     let pressure = solid.base.mean_pressure(&solid.sector);
     friction_coefficient * friction.drag.abs() * pressure / speed
 }
 
 /// Mean radius of the contact, m.
-fn mean_radius(solid: &SolidReport) -> f64 {
+fn mean_radius(solid: &SolidState) -> f64 {
     let rings = || solid.sector.rings.iter();
     let area: f64 = rings().map(|ring| ring.area).sum();
     let moment: f64 = rings().map(|ring| ring.area * ring.radius).sum();
@@ -58,8 +46,8 @@ fn mean_radius(solid: &SolidReport) -> f64 {
 }
 
 /// What an open part of the contact means.
-pub(super) fn note(solid: &SolidReport) -> Option<String> {
-    let SolidReport { sector, base, .. } = solid;
+pub(super) fn note(solid: &SolidState) -> Option<String> {
+    let SolidState { sector, base } = solid;
     let rings = sector.rings.iter().zip(&base.is_pressed);
     let pressed = rings.filter(|(_, pressed)| **pressed).map(|(ring, _)| ring);
     let pressed: Vec<_> = pressed.collect();

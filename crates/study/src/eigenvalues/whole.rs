@@ -1,20 +1,18 @@
 //! A body that is solved on its whole mesh, and its base states.
 
+use super::contact::SteadyState;
 use frictionsim_case::{AssemblyBody, Body, Case, Cea, CeaMethod};
 use frictionsim_physics::cea::CeaError;
 use frictionsim_physics::contact::{ContactStiffness, ContactSurface, Point, Turning};
-use frictionsim_physics::fem::{assemble_stiffness, solid_stress};
+use frictionsim_physics::fem::assemble_stiffness;
 use frictionsim_physics::mesh::{CyclicSymmetry, Mesh};
 use frictionsim_physics::prestress::{
-    Assembly, BaseChoice, Joined, PressedRange, PressedState, SlidingRange, SlidingSurfaces,
-    SlidingTangent, SteadySliding, TangentOptions,
+    Assembly, BaseChoice, PressedRange, PressedState, SlidingRange, SlidingSurfaces,
+    SlidingTangent, TangentOptions,
 };
-use frictionsim_results::cea::{AssemblyPoint, AssemblyReport, FeedPlace};
+use frictionsim_results::cea::ContactPlace;
 use std::borrow::Cow;
 use std::sync::Arc;
-
-/// Name of the only contact of a body that slides on a rigid counterface.
-pub(super) const CONTACT: &str = "contact";
 
 /// A whole mesh and its base states.
 pub struct WholeMesh {
@@ -27,27 +25,15 @@ pub struct WholeMesh {
     /// The symmetry that the eigenvalue analysis uses.
     pub symmetry: Option<CyclicSymmetry>,
     /// What slides on it.
-    pub sliding: Sliding,
+    pub sliding: SteadyState,
 }
 
-/// What slides on a whole mesh.
-pub enum Sliding {
-    /// The contact edge of a plane body, here in the base state at the case's own friction coefficient.
-    Edge(Box<SteadySliding>),
-    /// Solid bodies, with their surfaces paired.
-    Bodies(Arc<Joined>),
-}
-
-/// A contact point in the base state at the case's own friction coefficient.
-pub(crate) struct BasePoint {
-    pub place: FeedPlace,
-    pub point: Point,
+/// A contact point of a whole mesh.
+pub(crate) struct BasePoint<'a> {
+    pub place: ContactPlace,
+    pub point: &'a Point,
     /// How it turns; nothing where no stress acts on small motions.
-    pub turning: Vec<Turning>,
-    pub is_pressed: bool,
-    /// Normal force, none of a state that is free of stress, and stiffness where contact stiffens.
-    pub forces: Vec<Vec<f64>>,
-    pub springs: Vec<Vec<f64>>,
+    pub turning: Option<Turning>,
     pub stiffness: ContactStiffness,
 }
 
@@ -69,14 +55,14 @@ impl WholeMesh {
                 let assembly = body.assembled()?;
                 let start = start_of(assembly.contacts());
                 let range = assembly.range(&[frictions, start, &own].concat())?;
-                (range, Sliding::Bodies(assembly.joined))
+                (range, SteadyState::Assembly(assembly.joined))
             }
             _ => {
                 let stiffness = assemble_stiffness(&mesh, case.materials());
                 let (law, all) = (options.contact.law, [frictions, &own].concat());
                 let range = SlidingRange::solve(&mesh, &stiffness, contact, law, &all)?;
                 let base = Box::new(range.states[place_of_own(&range)].clone());
-                (range.map(|own| own.state), Sliding::Edge(base))
+                (range.map(|own| own.state), SteadyState::Plane(base))
             }
         };
         Ok(Self { symmetry: used_symmetry(case, &mesh), mesh, range, options, sliding })
@@ -99,12 +85,12 @@ impl WholeMesh {
     /// The model of a case with the base states of this one: for a case that differs in nothing that these depend on.
     pub(super) fn with_its_states(&self, case: &Case, options: TangentOptions) -> Option<Self> {
         let sliding = match &self.sliding {
-            Sliding::Edge(base) => Sliding::Edge(base.clone()),
-            Sliding::Bodies(_) => {
+            SteadyState::Assembly(_) => {
                 // A centrifugal load depends on the density.
                 let body = case.body.assembly().filter(|body| body.rotors().next().is_none())?;
-                Sliding::Bodies(body.assembled().ok()?.joined)
+                SteadyState::Assembly(body.assembled().ok()?.joined)
             }
+            edge => edge.clone(),
         };
         Some(Self {
             // Its boundaries have supports.
@@ -124,7 +110,7 @@ impl WholeMesh {
     /// The solid bodies with what ties them and what slides; `None` of a plane body.
     pub fn assembly<'a>(&self, case: &'a Case) -> Option<Assembly<'a>> {
         match (&self.sliding, &case.body) {
-            (Sliding::Bodies(joined), Body::Assembly(body)) => {
+            (SteadyState::Assembly(joined), Body::Assembly(body)) => {
                 Some(Assembly::of(&body.mesh, &body.materials, Arc::clone(joined)))
             }
             _ => None,
@@ -137,7 +123,7 @@ impl WholeMesh {
     /// Those of [`Assembly::tangent`].
     pub fn tangent(&self, case: &Case, state: &PressedState) -> Result<SlidingTangent, CeaError> {
         let (mesh, materials, options) = (&self.mesh, case.materials(), &self.options);
-        let Sliding::Edge(base) = &self.sliding else {
+        let SteadyState::Plane(base) = &self.sliding else {
             let assembly = self.assembly(case);
             let assembly = assembly.expect("paired surfaces are those of solid bodies");
             return Ok(assembly.tangent(state, options)?);
@@ -169,78 +155,31 @@ impl WholeMesh {
         }
     }
 
-    /// The contact points in the base state at the case's own friction coefficient.
-    pub(crate) fn contact_points(&self, case: &Case) -> Vec<BasePoint> {
-        let (state, friction) = (self.state(), case.contact.sliding.friction_coefficient);
-        let (forces, springs) = (state.normal_forces(friction), state.springs(friction));
-        let mut found = Vec::new();
-        let mut add = |place: FeedPlace, point: &Point, turning: Option<&Turning>, stiffness| {
-            let i = found.len();
-            found.push(BasePoint {
-                place,
-                point: point.clone(),
-                turning: turning.cloned().into_iter().collect(),
-                is_pressed: state.is_pressed[i],
-                forces: value_of(&forces, i),
-                springs: value_of(&springs, i),
-                stiffness,
-            });
+    /// The contact points in the order of the base states, as they turn in that at the case's own friction coefficient.
+    pub(crate) fn contact_points(&self, case: &Case) -> Vec<BasePoint<'_>> {
+        let is_stressed =
+            self.options.geometric_stiffness && self.stressing(case, self.state()).is_some();
+        let assembly = self.assembly(case);
+        let turnings = match &self.sliding {
+            _ if !is_stressed => Vec::new(),
+            SteadyState::Plane(base) => base.interface.turnings(),
+            _ => assembly.iter().flat_map(Assembly::turnings).flatten().collect(),
         };
-        let is_stressed = self.options.geometric_stiffness && self.stressing(case, state).is_some();
-        if let Sliding::Edge(base) = &self.sliding {
-            let turnings = if is_stressed { base.interface.turnings() } else { Vec::new() };
-            let places = edge_places(case, &self.mesh, base).into_iter().zip(&base.points);
-            for (i, (place, point)) in places.enumerate() {
-                add(place, point, turnings.get(i), self.options.contact);
-            }
-        } else if let Some(assembly) = self.assembly(case) {
-            let turnings = if is_stressed { assembly.turnings() } else { Vec::new() };
-            for (k, (contact, surface)) in assembly.contacts().iter().enumerate() {
-                for (i, point) in surface.points.iter().enumerate() {
-                    let place = FeedPlace {
-                        contact: contact.name.clone(),
-                        position: surface.sites[i].position,
-                        area: point.weight,
-                        shares: surface.shares[i].clone(),
-                    };
-                    let turning = turnings.get(k).and_then(|own| own.get(i));
-                    add(place, point, turning, contact.stiffness);
-                }
-            }
-        }
-        found
-    }
-
-    /// The base state of solid bodies point by point at the case's own friction coefficient.
-    pub(super) fn report(&self, case: &Case, joined: &Joined) -> AssemblyReport {
-        let friction = case.contact.sliding.friction_coefficient;
-        let state = self.state();
-        let forces = state.normal_forces(friction);
-        let contacts = joined.contacts.iter();
-        let all = contacts.clone().flat_map(|(contact, surface)| {
-            let points = surface.points.iter().zip(&surface.sites).zip(&surface.shares);
-            points.map(move |((point, site), shares)| (contact, point, site, shares))
+        // Each contact of solid bodies has its own stiffness, a plane edge that of the case.
+        let contacts = assembly.iter().flat_map(Assembly::contacts);
+        let stiffness = contacts.flat_map(|(contact, surface)| {
+            std::iter::repeat_n(contact.stiffness, surface.points.len())
         });
-        let points = all.enumerate().map(|(i, (contact, point, site, shares))| {
-            let pressure = forces.get(i).map_or(0.0, |force| force / point.weight);
-            AssemblyPoint {
-                contact: contact.name.clone(),
-                site: *site,
-                area: point.weight,
-                pressure,
-                shear: friction * point.friction.drag * pressure,
-                is_closed: state.is_pressed[i],
-                speed: point.speed,
-                shares: shares.clone(),
-            }
-        });
-        let displacement = state.displacement(friction);
-        AssemblyReport {
-            stress: solid_stress(&self.mesh, case.materials(), &displacement),
-            surfaces: contacts.map(|(own, _)| (own.name.clone(), own.surface)).collect(),
-            points: points.collect(),
-            displacement,
-        }
+        let stiffness = stiffness.chain(std::iter::repeat(self.options.contact));
+        let points = self.sliding.points(case, &self.mesh).into_iter();
+        let points = points.zip(stiffness).enumerate();
+        let point = |(i, ((place, point), stiffness))| BasePoint {
+            place,
+            point,
+            turning: turnings.get(i).cloned(),
+            stiffness,
+        };
+        points.map(point).collect()
     }
 }
 
@@ -259,24 +198,6 @@ fn start_of(contacts: &[(SlidingSurfaces, ContactSurface)]) -> &'static [f64] {
 fn used_symmetry(case: &Case, mesh: &Mesh) -> Option<CyclicSymmetry> {
     let is_whole = |cea: &Cea| cea.method == CeaMethod::Sparse;
     mesh.symmetry.filter(|_| !case.cea.as_ref().is_some_and(is_whole))
-}
-
-/// The value of a point as a power of friction, where there are any.
-fn value_of(values: &[f64], point: usize) -> Vec<Vec<f64>> {
-    values.get(point).map(|value| vec![*value]).into_iter().collect()
-}
-
-/// The places of the nodes of a plane contact edge, in the order of its points.
-pub(super) fn edge_places(case: &Case, mesh: &Mesh, base: &SteadySliding) -> Vec<FeedPlace> {
-    let points = base.interface.nodes.iter().zip(&base.points);
-    points
-        .map(|(&node, point)| FeedPlace {
-            contact: CONTACT.to_owned(),
-            position: mesh.nodes[node as usize],
-            area: point.weight * case.thickness,
-            shares: vec![(node, 1.0)],
-        })
-        .collect()
 }
 
 /// What a base state without stress and the inertia of rotation leave out.

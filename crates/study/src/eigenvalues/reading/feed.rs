@@ -49,7 +49,21 @@ pub(super) fn feed(
     parts.of_regions(model, &shapes, &mut sums);
     parts.of_supports(&shapes, &mut sums);
     parts.of_rotation(&shapes, &mut sums);
-    let terms: Vec<PointTerms> = pressed.iter().map(|own| terms(own, friction)).collect();
+    // Forces and springs at the friction coefficient are the only power of it.
+    let state = whole.state();
+    let only = |own: Vec<f64>| if own.is_empty() { Vec::new() } else { vec![own] };
+    let (forces, springs) = (only(state.normal_forces(friction)), only(state.springs(friction)));
+    let terms = pressed.iter().enumerate().map(|(first, own)| {
+        let state = PressedPoints {
+            first,
+            is_pressed: &state.is_pressed,
+            normal_forces: &forces,
+            stiffnesses: &springs,
+            frozen_below: 0.0,
+        };
+        terms(own, &state, friction)
+    });
+    let terms: Vec<PointTerms> = terms.collect();
     let beta = parts.whole_beta();
     let balance = sums.balance.unwrap_or_default();
     let modes = balance.into_iter().enumerate().map(|(i, mut forces)| {
@@ -66,21 +80,22 @@ pub(super) fn feed(
             }
         }
         let scale = 1.0 / (2.0 * lambda.im * sums.kinetic[i]);
-        let rates = pressed.iter().zip(&terms).map(|(own, terms)| {
-            let held = held(own, friction, &phi, &forces);
+        let points = pressed.iter().zip(&state.is_pressed).zip(&terms);
+        let rates = points.map(|((own, is_pressed), terms)| {
+            let held = if *is_pressed { held(own, friction, &phi, &forces) } else { 0.0 };
             scale * (held - form(terms, factors, &phi).im)
         });
         ModeFeed { mode: shapes.name(number, mode), rates: rates.collect() }
     });
     Some(Feed {
         modes: modes.collect(),
-        places: pressed.iter().map(|own| own.place.clone()).collect(),
+        places: pressed.into_iter().map(|own| own.place).collect(),
     })
 }
 
-/// `Im(conj(n.phi + mu drag t.phi) dN)` of a rigid point that is pressed; 0 of others.
-fn held(own: &BasePoint, friction: f64, phi: &[c64], forces: &[c64]) -> f64 {
-    if own.stiffness.normal_stiffness.is_some() || !own.is_pressed {
+/// `Im(conj(n.phi + mu drag t.phi) dN)` of a point that is pressed and rigid; 0 of one that has springs.
+fn held(own: &BasePoint<'_>, friction: f64, phi: &[c64], forces: &[c64]) -> f64 {
+    if own.stiffness.normal_stiffness.is_some() {
         return 0.0;
     }
     let along = |row: &[(usize, f64)], values: &[c64]| -> c64 {
@@ -104,16 +119,9 @@ fn form(terms: &PointTerms, factors: [c64; 2], phi: &[c64]) -> c64 {
 }
 
 /// What one point adds to the stiffness and to the dashpots.
-fn terms(own: &BasePoint, friction: f64) -> PointTerms {
-    let state = PressedPoints {
-        first: 0,
-        is_pressed: &[own.is_pressed],
-        normal_forces: &own.forces,
-        stiffnesses: &own.springs,
-        frozen_below: 0.0,
-    };
-    let point = std::slice::from_ref(&own.point);
-    let found = linearized(point, &state, &own.stiffness);
+fn terms(own: &BasePoint<'_>, state: &PressedPoints<'_>, friction: f64) -> PointTerms {
+    let point = std::slice::from_ref(own.point);
+    let found = linearized(point, state, &own.stiffness);
     let at = |powers: &[Triplets]| -> Vec<(usize, usize, f64)> {
         let each = powers.iter().enumerate().flat_map(|(power, terms)| {
             let factor = friction.powi(power as i32);
@@ -123,6 +131,6 @@ fn terms(own: &BasePoint, friction: f64) -> PointTerms {
         each.collect()
     };
     let mut stiffness = at(&found.stiffness);
-    stiffness.extend(at(&turned(point, &own.turning, &state)));
+    stiffness.extend(at(&turned(point, own.turning.as_slice(), state)));
     [stiffness, at(&found.dashpots)]
 }

@@ -1,9 +1,9 @@
 //! The bodies of a model as sums over regions and supports.
 
 use super::shapes::Shapes;
+use crate::eigenvalues::contact::{CONTACT, SteadyState};
 use crate::eigenvalues::model::Model;
-use crate::eigenvalues::sliding::{SlidingModel, SteadyState};
-use crate::eigenvalues::whole::CONTACT;
+use crate::eigenvalues::sliding::SlidingModel;
 use frictionsim_case::Case;
 use frictionsim_physics::fem::{
     ModulusTable, Triplets, assemble_geometric_stiffness, assemble_patch_damping,

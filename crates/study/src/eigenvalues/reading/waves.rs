@@ -2,15 +2,14 @@
 
 use super::budget::write;
 use super::shapes::{name_of, strongest};
-use crate::eigenvalues::sliding::{SlidingModel, SteadyState};
-use crate::eigenvalues::whole::{CONTACT, edge_places};
+use crate::eigenvalues::contact::CONTACT;
+use crate::eigenvalues::sliding::SlidingModel;
 use frictionsim_case::Case;
 use frictionsim_physics::cea::{ComplexMode, FrictionPoint, FrictionSweep, ModeWave};
 use frictionsim_physics::linalg::c64;
-use frictionsim_physics::mesh::SolidSector;
 use frictionsim_physics::prestress::{HarmonicParts, PartForms, WaveTangent};
 use frictionsim_results::cea::{
-    Contribution, Coupling, Feed, FeedPlace, ModeFeed, ModeName, Reading, Source,
+    ContactPlace, Contribution, Coupling, Feed, ModeFeed, ModeName, Reading, Source,
 };
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -55,7 +54,7 @@ pub(super) fn read(
     let own = own.filter(|own| own.name.friction_coefficient == friction);
     let unstable: Vec<&Waving<'_>> = own.filter(|own| own.mode.is_unstable()).collect();
     if !unstable.is_empty() {
-        reading.feed = apart.feed(case, model, &unstable, &reading.contributions);
+        reading.feed = Some(apart.feed(model, &unstable, &reading.contributions));
     }
     Some(reading)
 }
@@ -113,49 +112,34 @@ impl<'t> Apart<'t> {
     /// part in the budget is spread over the area.
     fn feed(
         &self,
-        case: &Case,
         model: &SlidingModel,
         unstable: &[&Waving<'_>],
         contributions: &[Contribution],
-    ) -> Option<Feed> {
-        // Each place with the contact node, or ring, of the sector that it repeats.
-        let places: Vec<(usize, FeedPlace)> = match &model.state {
-            SteadyState::Plane(base) => {
-                let all = edge_places(case, &model.mesh, base).into_iter();
-                let (_, parts) = self.harmonics.first_key_value()?;
-                let per_sector = parts.contact_count();
-                all.enumerate().map(|(i, place)| (i % per_sector, place)).collect()
-            }
-            SteadyState::Solid(solid) => {
-                ring_places(&solid.sector).into_iter().enumerate().collect()
-            }
-            SteadyState::Assembly(_) => return None,
-        };
-        let area: f64 = places.iter().map(|(_, place)| place.area).sum();
+    ) -> Feed {
+        let places: Vec<ContactPlace> = model.contact.iter().map(|own| own.place.clone()).collect();
+        let area: f64 = places.iter().map(|place| place.area).sum();
         let modes = unstable.iter().map(|own| {
             let root = own.wave.root(own.mode.eigenvalue);
             let parts = &self.harmonics[&own.mode.harmonic];
             let friction = own.name.friction_coefficient;
+            // Of the contact nodes of one sector, or of rings, which are of all sectors.
             let works = parts.works_at_contact(root, friction, &own.wave.unknowns);
-            // A place is of one sector, or of all of them.
             let repeats = places.len() / works.len();
             let scale = 1.0 / (2.0 * root.im * own.mass * repeats as f64);
             let is_own =
                 |row: &&Contribution| row.mode == own.name && row.source == Source::Contact;
             let fed = contributions.iter().find(is_own);
             let fed = fed.map_or(0.0, |row| row.growth_rate);
-            let rates: Vec<f64> = places.iter().map(|(k, _)| scale * works[*k]).collect();
+            let rates = works.iter().cycle().take(places.len()).map(|work| scale * work);
+            let rates: Vec<f64> = rates.collect();
             let left = (fed - rates.iter().sum::<f64>()) / area;
             let pairs = rates.iter().zip(&places);
             ModeFeed {
                 mode: own.name,
-                rates: pairs.map(|(rate, (_, place))| rate + left * place.area).collect(),
+                rates: pairs.map(|(rate, place)| rate + left * place.area).collect(),
             }
         });
-        Some(Feed {
-            modes: modes.collect(),
-            places: places.into_iter().map(|(_, place)| place).collect(),
-        })
+        Feed { modes: modes.collect(), places }
     }
 }
 
@@ -183,22 +167,4 @@ impl Waving<'_> {
 /// `y^H x`.
 fn product(y: &[c64], x: &[c64]) -> c64 {
     y.iter().zip(x).map(|(y, x)| y.conj() * x).sum()
-}
-
-/// The rings of contact nodes of a body of revolution, each at angle 0 with the area of all its nodes.
-fn ring_places(sector: &SolidSector) -> Vec<FeedPlace> {
-    let sectors = sector.sector_count();
-    let place = |ring: &frictionsim_physics::mesh::ContactRing| {
-        let nodes = (0..sectors).flat_map(|j| {
-            let own = ring.nodes.iter();
-            own.map(move |node| ((j * sector.node_count() + node) as u32, 1.0))
-        });
-        FeedPlace {
-            contact: CONTACT.to_owned(),
-            position: [ring.radius, 0.0, ring.height],
-            area: ring.area * sectors as f64,
-            shares: nodes.collect(),
-        }
-    };
-    sector.rings.iter().map(place).collect()
 }
