@@ -10,7 +10,7 @@ use super::transient::linear_stage;
 use super::{Failure, RunOptions, Session, cycle, terminal};
 use crate::case::{Analysis, Case};
 use crate::results::sweep::{Found, PointRecord, SweepFolder, SweepReport, SweepSummary};
-use crate::results::sweep::{document, long_tables, write_points};
+use crate::results::sweep::{document, tables};
 use crate::results::sweep_figures::{SweepDrawing, draw};
 use crate::results::{DrawingOptions, Head, Manifest, summary_of};
 use crate::study::summarize;
@@ -145,8 +145,7 @@ pub fn gather(
     if let Some(drawing) = drawing {
         draw(folder, report, manifest, drawing)?;
     }
-    folder.write("points.csv", |out| write_points(out, &report.keys, &report.records))?;
-    for table in long_tables(&report.keys, &report.analyses, &report.records) {
+    for table in tables(&report.keys, &report.analyses, &report.records) {
         folder.write(&table.file, |out| table.write_csv(out))?;
     }
     let summary = summary_object(report, manifest)?;

@@ -34,36 +34,29 @@ pub struct Feed {
     pub places: Vec<ContactPlace>,
 }
 
-/// A contact point in a mode.
-pub(crate) struct FeedRow {
-    mode: ModeName,
-    place: ContactPlace,
-    rate: f64,
-}
+/// A contact point, and what it adds to the growth rate of a mode, 1/s.
+type FeedRow = (ContactPlace, f64);
 
 columns! {
     /// What a contact point adds to the growth of a mode.
     pub(crate) FEED: row as FeedRow;
-    contact: "name of the contact" = row.place.contact.clone();
-    x_m: "place of the contact point" = row.place.position[0];
-    y_m: "place of the contact point" = row.place.position[1];
-    z_m: "place of the contact point" = row.place.position[2];
-    area_m2: "area that belongs to it" = row.place.area;
-    growth_rate_per_s: "what it adds to the growth rate" = row.rate;
-    growth_rate_per_s_m2: "the same over its area" = row.rate / row.place.area;
+    contact: "name of the contact" = row.0.contact.clone();
+    x_m: "place of the contact point" = row.0.position[0];
+    y_m: "place of the contact point" = row.0.position[1];
+    z_m: "place of the contact point" = row.0.position[2];
+    area_m2: "area that belongs to it" = row.0.area;
+    growth_rate_per_s: "what it adds to the growth rate" = row.1;
+    growth_rate_per_s_m2: "the same over its area" = row.1 / row.0.area;
 }
 
 impl Feed {
     /// Writes `feed.csv`, a row for each unstable mode and contact point, and `feed.vtu`, growth for each area of the
     /// contact surfaces, the mean of the points around each node, 0 elsewhere.
     pub fn write(&self, folder: &OutputFolder, report: &CeaReport<'_>) -> Result<(), FolderError> {
-        let rows = self.modes.iter().flat_map(|own| {
-            let points = self.places.iter().zip(&own.rates);
-            points.map(move |(place, &rate)| FeedRow { mode: own.mode, place: place.clone(), rate })
-        });
-        let rows: Vec<FeedRow> = rows.collect();
-        let names = rows.iter().map(|row| row.mode);
-        let table = Table::new("feed.csv", "").columns(NUMBERS, names).columns(FEED, &rows);
+        let modes = self.modes.iter();
+        let names = modes.clone().flat_map(|own| self.places.iter().map(|_| own.mode));
+        let rows = modes.flat_map(|own| self.places.iter().cloned().zip(own.rates.iter().copied()));
+        let table = Table::new("feed.csv", "").columns(NUMBERS, names).columns(FEED, rows);
         write_table(folder, &table)?;
         let whole = report.body.whole();
         let fields = self.modes.iter().map(|own| {

@@ -4,8 +4,9 @@ use super::branches::Branch;
 use super::mode_name::{ModeName, NAMES, SHORT_NAMES};
 use super::{CeaReport, Feed};
 use crate::distinct;
+use crate::finding::finding;
 use frictionsim_chart::{Axis, Figure, INK, Line, Panel, Rule, Stroke, literal};
-use frictionsim_output::{Table, columns, fixed};
+use frictionsim_output::{Cell, Table, columns, fixed};
 use std::collections::BTreeMap;
 
 /// What a contribution comes from.
@@ -21,32 +22,29 @@ pub enum Source {
     Rotation,
 }
 
-impl Source {
-    fn name(self) -> &'static str {
-        match self {
-            Self::Part => "part",
-            Self::Support => "support",
-            Self::Contact => "contact",
-            Self::Rotation => "rotation",
-        }
+impl From<Source> for Cell {
+    fn from(source: Source) -> Self {
+        Self::from(match source {
+            Source::Part => "part",
+            Source::Support => "support",
+            Source::Contact => "contact",
+            Source::Rotation => "rotation",
+        })
     }
 }
 
-/// The share of one part, support or contact in a mode.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Contribution {
-    /// The mode.
-    pub mode: ModeName,
-    /// Name of the region, boundary or contact.
-    pub name: String,
-    /// What it is.
-    pub source: Source,
-    /// Share of the kinetic energy; none of what has no mass.
-    pub kinetic_share: Option<f64>,
-    /// Share of the strain energy of parts and supports; none of a contact.
-    pub strain_share: Option<f64>,
-    /// What it adds to the growth rate, 1/s.
-    pub growth_rate: f64,
+finding! {
+    /// The share of one part, support or contact in a mode.
+    #[derive(Clone, Debug, PartialEq)]
+    Contribution, CONTRIBUTIONS {
+        /// The mode.
+        mode: ModeName;
+        name: String = "name of the region, boundary or contact";
+        kind: Source = "part, support, contact or rotation";
+        kinetic_share: Option<f64> = "share of the kinetic energy; none of what has no mass";
+        strain_share: Option<f64> = "share of the strain energy; none of a contact";
+        growth_rate_per_s: f64 = "what it adds to the growth rate";
+    }
 }
 
 /// The share of a mode of the lowest friction value in an unstable mode.
@@ -88,16 +86,6 @@ pub struct Reading {
     pub mesh_errors: Vec<MeshError>,
     /// What it makes of each critical friction of the sweep: estimate less that on an ever finer mesh.
     pub onset_errors: Vec<Option<f64>>,
-}
-
-columns! {
-    /// A share in a mode.
-    pub(crate) CONTRIBUTIONS: row as Contribution;
-    name: "name of the region, boundary or contact" = row.name.clone();
-    kind: "part, support, contact or rotation" = row.source.name();
-    kinetic_share: "share of the kinetic energy; none of what has no mass" = row.kinetic_share;
-    strain_share: "share of the strain energy; none of a contact" = row.strain_share;
-    growth_rate_per_s: "what it adds to the growth rate" = row.growth_rate;
 }
 
 columns! {
@@ -171,13 +159,13 @@ impl Reading {
             _ => "consists of many modes".to_owned(),
         };
         let budget = self.contributions.iter().filter(|row| row.mode == *mode);
-        let largest = budget.clone().map(|row| row.growth_rate.abs());
+        let largest = budget.clone().map(|row| row.growth_rate_per_s.abs());
         let largest = largest.fold(0.0, f64::max);
         let budget: Vec<String> = budget
-            .filter(|row| row.growth_rate.abs() >= LEAST_RATE * largest)
+            .filter(|row| row.growth_rate_per_s.abs() >= LEAST_RATE * largest)
             .map(|row| {
-                let verb = if row.growth_rate > 0.0 { "feeds" } else { "takes" };
-                let rate = fixed(row.growth_rate.abs(), 1);
+                let verb = if row.growth_rate_per_s > 0.0 { "feeds" } else { "takes" };
+                let rate = fixed(row.growth_rate_per_s.abs(), 1);
                 format!("{} {verb} {rate} 1/s", row.name)
             })
             .collect();
@@ -251,7 +239,7 @@ fn budget_panel(name: String, rows: &[&Contribution], frictions: &[f64]) -> Pane
         let is_there = |row: &&&Contribution| row.mode.friction_coefficient == friction;
         let mut own = rows.iter().filter(is_there).peekable();
         own.peek()?;
-        Some((friction, own.map(|row| row.growth_rate).sum::<f64>()))
+        Some((friction, own.map(|row| row.growth_rate_per_s).sum::<f64>()))
     });
     let last = rows.last().map_or(0.0, |row| row.mode.frequency_hz);
     let mut panel = Panel::new(Axis::friction().tight(), Axis::new("growth rate", "1/s"))
@@ -261,7 +249,7 @@ fn budget_panel(name: String, rows: &[&Contribution], frictions: &[f64]) -> Pane
         .layer(Line::through(total).solid(INK, 1.4).name("growth rate"));
     for (place, name) in names.into_iter().enumerate() {
         let own = rows.iter().filter(|row| row.name == name);
-        let points = own.map(|row| (row.mode.friction_coefficient, row.growth_rate));
+        let points = own.map(|row| (row.mode.friction_coefficient, row.growth_rate_per_s));
         panel = panel.layer(Line::through(points).nth(place).name(literal(name)));
     }
     panel

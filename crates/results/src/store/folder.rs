@@ -94,9 +94,7 @@ impl OutputFolder {
                 }
             }
         }
-        // What a killed run left is known from its journal.
-        let unfinished = read_text(&journal_path, RESULT).unwrap_or_default();
-        earlier.extend(unfinished.lines().map(|name| (name.to_owned(), None)));
+        earlier.extend(unfinished(path));
         let journal = OpenOptions::new()
             .create(true)
             .append(true)
@@ -241,10 +239,8 @@ impl OutputFolder {
         let destination = &self.destination;
         let replaced = read_contents(destination)?.map(Contents::into_files);
         let mut replaced = replaced.unwrap_or_default();
-        // What a killed run left there is known from its journal.
         let journal_path = destination.join(JOURNAL);
-        let unfinished = read_text(&journal_path, RESULT).unwrap_or_default();
-        replaced.extend(unfinished.lines().map(|name| (name.to_owned(), None)));
+        replaced.extend(unfinished(destination));
         // A process that is killed from here on leaves a run of this case that has not ended.
         let names: String = written.keys().map(|name| format!("{name}\n")).collect();
         fs::write(&journal_path, names).map_err(|e| FolderError::io("write", &journal_path, e))?;
@@ -347,9 +343,14 @@ fn replaces_others(
 /// Whether a folder holds nobody's results: those of a run that ended before its first file, or with its mesh alone.
 fn is_void(path: &Path, contents: &Contents) -> bool {
     let is_there = |name: &str| name != MESH && is_inside(name) && path.join(name).exists();
-    let unfinished = read_text(&path.join(JOURNAL), RESULT).unwrap_or_default();
-    let mut names = contents.files.iter().map(String::as_str);
-    !names.any(is_there) && !unfinished.lines().any(is_there)
+    !contents.files.iter().any(|name| is_there(name))
+        && !unfinished(path).keys().any(|name| is_there(name))
+}
+
+/// The files that a killed run left in a folder, known from its journal.
+fn unfinished(folder: &Path) -> BTreeMap<String, Option<u32>> {
+    let journal = read_text(&folder.join(JOURNAL), RESULT).unwrap_or_default();
+    journal.lines().map(|name| (name.to_owned(), None)).collect()
 }
 
 /// Whether the results there are of the same effective case; refuses those that must stay.

@@ -1,7 +1,7 @@
 //! Long tables of a sweep: one row for each onset, mode or limit cycle of each point, named by what it is.
 
 use super::record::{PointRecord, listed};
-use super::table::cell;
+use super::table::{points, swept};
 use crate::cea::{SWEPT_MODES, SWEPT_ONSETS, UNSTABLE};
 use crate::cycle::{BranchRecord, FamilyRecord};
 use frictionsim_output::{Column, Table, columns};
@@ -34,9 +34,9 @@ columns! {
         = at(own, |branch| &branch.growth_rate).flatten();
 }
 
-/// The long tables of a sweep with these analyses; failed points have no rows.
-pub fn long_tables(keys: &[String], analyses: &[&str], records: &[PointRecord]) -> Vec<Table> {
-    let mut tables = Vec::new();
+/// The tables of a sweep with these analyses: its points, and the long tables, in which failed points have no rows.
+pub fn tables(keys: &[String], analyses: &[&str], records: &[PointRecord]) -> Vec<Table> {
+    let mut tables = vec![points(keys, records)];
     if analyses.contains(&"cea") {
         let of = ("stability.csv", "cea", "critical_frictions");
         tables.push(long(of, keys, records, SWEPT_ONSETS, |own| vec![own]));
@@ -46,12 +46,12 @@ pub fn long_tables(keys: &[String], analyses: &[&str], records: &[PointRecord]) 
         tables.push(long(of, keys, records, SWEPT_MODES, |own| vec![own]));
     }
     if analyses.contains(&"cycle") {
-        let points = |family: FamilyRecord| -> Vec<BranchPoint> {
+        let cycles = |family: FamilyRecord| -> Vec<BranchPoint> {
             let count = family.branch.as_ref().map_or(0, |branch| branch.values.len());
             (0..count).map(|place| (family.clone(), place)).collect()
         };
         let of = ("branches.csv", "cycle", "curves");
-        tables.push(long(of, keys, records, BRANCHES, points));
+        tables.push(long(of, keys, records, BRANCHES, cycles));
     }
     tables
 }
@@ -71,11 +71,8 @@ fn long<S: DeserializeOwned, T>(
         let own = listed(found).into_iter().flat_map(&rows_of);
         rows.extend(own.map(|row| (record, row)));
     }
-    let swept = keys.iter().fold(Table::new(file, ""), |table, key| {
-        let values = rows.iter().map(|row| row.0.swept.get(key).map(cell));
-        table.column(key, None, values)
-    });
-    let table = swept.columns(columns, rows.iter().map(|row| &row.1));
+    let table = swept(file, keys, rows.iter().map(|row| row.0));
+    let table = table.columns(columns, rows.iter().map(|row| &row.1));
     table.column("point", None, rows.iter().map(|row| row.0.point))
 }
 
@@ -99,7 +96,7 @@ mod tests {
 
     fn written(file: &str, records: &[PointRecord]) -> String {
         let keys = ["geometry.inner_radius".to_owned()];
-        let tables = long_tables(&keys, &["cea", "cycle"], records);
+        let tables = tables(&keys, &["cea", "cycle"], records);
         let mut out = Vec::new();
         tables.iter().find(|table| table.file == file).unwrap().write_csv(&mut out).unwrap();
         String::from_utf8(out).unwrap()

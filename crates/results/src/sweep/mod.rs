@@ -13,11 +13,10 @@ mod table;
 
 pub use folder::{Claim, Found, Start, SweepFolder};
 pub(super) use long::BRANCHES;
-pub use long::long_tables;
+pub use long::tables;
 pub use record::{PointClock, PointRecord};
 pub use report::{FailedPoint, SweepReport, SweepSummary, document};
 pub use swept::swept_text;
-pub use table::write_points;
 
 pub(super) use critical::critical_friction;
 pub(super) use matrix_figure::operating_matrix;

@@ -3,6 +3,7 @@
 use super::PointRecord;
 use super::matrix::OperatingMatrix;
 use super::swept::{heads, of_points};
+use super::table::cell;
 use frictionsim_chart::extremes;
 use frictionsim_output::{Cell, Described, Document, Format, Section, Table, columns, significant};
 use serde::Serialize;
@@ -11,15 +12,7 @@ use serde_json::{Map, Value};
 /// What the first summary of a point says that has it; nothing of a point that failed.
 fn first(point: &PointRecord, path: &str) -> Cell {
     let mut said = point.summaries.values().filter_map(|summary| summary.pointer(path));
-    match said.find(|value| !value.is_null()) {
-        Some(Value::Number(number)) => match number.as_i64() {
-            Some(count) => Cell::Count(count),
-            None => number.as_f64().into(),
-        },
-        Some(Value::Bool(flag)) => Cell::Flag(*flag),
-        Some(Value::String(text)) => text.into(),
-        _ => Cell::None,
-    }
+    said.find(|value| !value.is_null()).map_or(Cell::None, cell)
 }
 
 /// The lowest critical friction; the first friction of the analysis is only a bound of it, as is one where its branch

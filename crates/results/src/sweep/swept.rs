@@ -8,8 +8,10 @@ use serde_json::{Map, Value};
 /// A value as people read it: numbers to five significant digits.
 pub(crate) fn printed(value: &Value) -> String {
     match value.as_f64() {
-        Some(number) => cell(&Value::from(rounded(number, 5))).trim_end_matches(".0").to_owned(),
-        None => cell(value),
+        Some(number) => {
+            cell(&Value::from(rounded(number, 5))).csv().trim_end_matches(".0").to_owned()
+        }
+        None => cell(value).csv(),
     }
 }
 

@@ -1,11 +1,9 @@
 //! `points.csv`: one row for each finished point.
 
-use super::super::format_number;
 use super::PointRecord;
-use frictionsim_output::csv;
+use frictionsim_output::{Cell, Table};
 use serde_json::Value;
 use std::collections::BTreeMap;
-use std::io::{self, Write};
 
 /// Lists longer than this anywhere in a sweep stay in the points' own files.
 const LONGEST_LIST: usize = 16;
@@ -26,7 +24,7 @@ const LEFT_OUT: [&str; 10] = [
     "element_steps_per_s",
 ];
 
-/// Writes the table: swept keys, the scalars of the summaries, `point` and `error`.
+/// The table: swept keys, the scalars of the summaries, `point` and `error`.
 ///
 /// A scalar inside an object or a list has a dotted name, `status.stick`, `harmonics.0`; an item of a list that is a
 /// mode goes by the mode and not by its rank, so that a column has one mode in all rows:
@@ -35,13 +33,9 @@ const LEFT_OUT: [&str; 10] = [
 /// the points alone, not on the order or the number of processes and threads that made them.
 ///
 /// Does not sort: `records` come in the order of the points.
-pub fn write_points(
-    out: &mut dyn Write,
-    keys: &[String],
-    records: &[PointRecord],
-) -> io::Result<()> {
+pub(super) fn points(keys: &[String], records: &[PointRecord]) -> Table {
     let mut longest = BTreeMap::new();
-    let rows: Vec<Vec<(String, String)>> =
+    let rows: Vec<Vec<(String, Cell)>> =
         records.iter().map(|record| scalars(record, &mut longest)).collect();
     let mut columns = Vec::new();
     rows.iter().for_each(|row| add_columns(&mut columns, row));
@@ -53,21 +47,31 @@ pub fn write_points(
     let is_kept = |name: &String| !too_long.iter().any(|list| name.starts_with(list.as_str()));
     let names: Vec<String> = columns.into_iter().filter(is_kept).collect();
 
-    let header: Vec<&str> =
-        keys.iter().chain(&names).map(String::as_str).chain(["point", "error"]).collect();
-    let cells = |(record, row): (&PointRecord, &Vec<(String, String)>)| {
-        let cells: BTreeMap<&str, &str> = row.iter().map(|(n, v)| (n.as_str(), &v[..])).collect();
-        let swept = keys.iter().map(|key| record.swept.get(key).map_or_else(String::new, cell));
-        let scalars =
-            names.iter().map(|name| cells.get(name.as_str()).copied().unwrap_or("").to_owned());
-        let error = record.error.clone().unwrap_or_default();
-        swept.chain(scalars).chain([record.point.to_string(), error]).collect::<Vec<_>>()
-    };
-    csv::write(out, &header, records.iter().zip(&rows).map(cells))
+    let rows: Vec<BTreeMap<String, Cell>> =
+        rows.into_iter().map(|row| row.into_iter().collect()).collect();
+    let table = names.iter().fold(swept("points.csv", keys, records.iter()), |table, name| {
+        table.column(name, None, rows.iter().map(|row| row.get(name).cloned()))
+    });
+    table.column("point", None, records.iter().map(|record| record.point)).column(
+        "error",
+        None,
+        records.iter().map(|record| record.error.as_ref()),
+    )
+}
+
+/// A table of points that begins with a column for each swept key.
+pub(super) fn swept<'a>(
+    file: &str,
+    keys: &[String],
+    points: impl Iterator<Item = &'a PointRecord> + Clone,
+) -> Table {
+    keys.iter().fold(Table::new(file, ""), |table, key| {
+        table.column(key, None, points.clone().map(|own| own.swept.get(key).map(cell)))
+    })
 }
 
 /// Names and cells of a record's scalars in the order of its summaries.
-fn scalars(record: &PointRecord, longest: &mut BTreeMap<String, usize>) -> Vec<(String, String)> {
+fn scalars(record: &PointRecord, longest: &mut BTreeMap<String, usize>) -> Vec<(String, Cell)> {
     let mut out = Vec::new();
     for (analysis, summary) in &record.summaries {
         let prefix = if record.summaries.len() == 1 { "" } else { analysis.as_str() };
@@ -86,7 +90,7 @@ fn scalars(record: &PointRecord, longest: &mut BTreeMap<String, usize>) -> Vec<(
 fn flatten(
     path: &str,
     value: &Value,
-    out: &mut Vec<(String, String)>,
+    out: &mut Vec<(String, Cell)>,
     longest: &mut BTreeMap<String, usize>,
 ) {
     match value {
@@ -148,19 +152,21 @@ fn join(path: &str, key: &str) -> String {
 }
 
 /// A value as a table cell: text without quotes, lists as JSON.
-pub(super) fn cell(value: &Value) -> String {
+pub(super) fn cell(value: &Value) -> Cell {
     match value {
-        Value::Null => String::new(),
-        Value::String(text) => text.clone(),
-        Value::Number(number) if number.is_f64() => {
-            number.as_f64().map_or_else(String::new, format_number)
+        Value::Null => Cell::None,
+        Value::Bool(flag) => Cell::Flag(*flag),
+        Value::String(text) => text.into(),
+        Value::Number(number) if number.is_f64() => number.as_f64().into(),
+        Value::Number(number) => {
+            number.as_i64().map_or_else(|| Cell::Text(number.to_string()), Cell::Count)
         }
-        other => other.to_string(),
+        Value::Array(_) | Value::Object(_) => Cell::Text(value.to_string()),
     }
 }
 
 /// Adds the names of a row that are new to those of columns, each behind the one before it in that row.
-fn add_columns(columns: &mut Vec<String>, row: &[(String, String)]) {
+fn add_columns(columns: &mut Vec<String>, row: &[(String, Cell)]) {
     let mut at = 0;
     for (name, _) in row {
         if columns.get(at) != Some(name) {
@@ -194,7 +200,8 @@ mod tests {
 
     fn table(records: &[PointRecord]) -> String {
         let mut out = Vec::new();
-        write_points(&mut out, &["contact.friction_coefficient".into()], records).unwrap();
+        let keys = ["contact.friction_coefficient".to_owned()];
+        points(&keys, records).write_csv(&mut out).unwrap();
         String::from_utf8(out).unwrap()
     }
 

@@ -201,20 +201,20 @@ pub(super) fn write<'r>(
         out.push(Contribution {
             mode: name,
             name: row.clone(),
-            source,
+            kind: source,
             kinetic_share: m.is_finite().then_some(m / kinetic),
             strain_share: k.is_finite().then_some(k / strain),
-            growth_rate: rate(c),
+            growth_rate_per_s: rate(c),
         });
     }
-    for (contact, growth_rate) in contacts(mode.growth_rate() - taken) {
+    for (contact, growth_rate_per_s) in contacts(mode.growth_rate() - taken) {
         out.push(Contribution {
             mode: name,
             name: contact,
-            source: Source::Contact,
+            kind: Source::Contact,
             kinetic_share: None,
             strain_share: None,
-            growth_rate,
+            growth_rate_per_s,
         });
     }
 }

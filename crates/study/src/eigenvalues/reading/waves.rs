@@ -126,10 +126,9 @@ impl<'t> Apart<'t> {
             let works = parts.works_at_contact(root, friction, &own.wave.unknowns);
             let repeats = places.len() / works.len();
             let scale = 1.0 / (2.0 * root.im * own.mass * repeats as f64);
-            let is_own =
-                |row: &&Contribution| row.mode == own.name && row.source == Source::Contact;
+            let is_own = |row: &&Contribution| row.mode == own.name && row.kind == Source::Contact;
             let fed = contributions.iter().find(is_own);
-            let fed = fed.map_or(0.0, |row| row.growth_rate);
+            let fed = fed.map_or(0.0, |row| row.growth_rate_per_s);
             let rates = works.iter().cycle().take(places.len()).map(|work| scale * work);
             let rates: Vec<f64> = rates.collect();
             let left = (fed - rates.iter().sum::<f64>()) / area;
