@@ -39,10 +39,9 @@ use store::{folder, framed, manifest, record, reopening, whole_file};
 pub use drawing::{DOTS_PER_INCH, DrawingError, DrawingOptions, Format, Page, declared};
 pub use extent::Extent;
 pub use finding::{Finding, write_page, write_table, write_tables};
-pub use frictionsim_output::csv::format_number;
 pub use pvd::{PvdEntry, write_pvd};
 pub use response::{ResponseSummary, response_figure, write_response, write_universal_response};
-pub use shown_body::ShownBody;
+pub use shown_body::{BodyStress, ShownBody};
 pub use store::{
     FolderError, MESH, Manifest, OutputFolder, Record, Replace, is_result, read_manifest,
     read_record, record_bytes,

@@ -1,6 +1,9 @@
 //! A body as results show it.
 
 use super::vtu::{EncodedMesh, Field, solid_vectors};
+use frictionsim_physics::fem::{
+    MaterialField, NodalStress, SolidStress, nodal_stress, revolved_stress, solid_stress,
+};
 use frictionsim_physics::mesh::{Mesh, SolidFace, SolidSector};
 use std::borrow::Cow;
 use std::io;
@@ -12,6 +15,15 @@ pub struct ShownBody<'a> {
     pub mesh: &'a Mesh,
     /// One sector of a body of revolution in three dimensions.
     pub sector: Option<&'a SolidSector>,
+}
+
+/// Stress at every node of a body.
+#[derive(Clone, Debug, PartialEq)]
+pub enum BodyStress {
+    /// In the plane, in nodal frames.
+    Plane(Vec<NodalStress>),
+    /// In three dimensions: of a body of revolution in nodal frames, of solid bodies along global axes.
+    Solid(Vec<SolidStress>),
 }
 
 impl<'a> ShownBody<'a> {
@@ -54,6 +66,36 @@ impl<'a> ShownBody<'a> {
         match self.sector {
             Some(sector) => solid_vectors(name, sector, nodal),
             None => Field::vectors(name, self.mesh, nodal),
+        }
+    }
+
+    /// The stress of a displacement of all nodes in their frames, m; of a body of revolution one sector will do, which
+    /// all others repeat.
+    pub fn stress(&self, material: &dyn MaterialField, displacement: &[f64]) -> BodyStress {
+        match self.sector {
+            Some(sector) => {
+                let own = revolved_stress(sector, material, displacement);
+                let whole = sector.sector_count() * sector.node_count();
+                BodyStress::Solid(own.repeat(whole / own.len()))
+            }
+            None if self.is_assembly() => {
+                BodyStress::Solid(solid_stress(self.mesh, material, displacement))
+            }
+            None => BodyStress::Plane(nodal_stress(self.mesh, material, displacement)),
+        }
+    }
+
+    /// Invariants and components of a stress at all nodes.
+    pub fn stress_fields(&self, stress: &BodyStress) -> Vec<Field> {
+        match stress {
+            BodyStress::Plane(stress) => {
+                let mut fields = Field::stresses(stress);
+                fields.extend(Field::cartesian_stresses(self.mesh, stress));
+                fields
+            }
+            BodyStress::Solid(stress) => {
+                Field::solid_stresses(stress, if self.is_assembly() { "xyz" } else { "rtz" })
+            }
         }
     }
 

@@ -113,7 +113,7 @@ pub fn field(
         contact: contact.collect(),
         surfaces: Vec::new(),
         displacement: vec![0.0; 2 * mesh.node_count()],
-        stress: BaseStress::Plane(stress),
+        stress: BodyStress::Plane(stress),
     }
 }
 

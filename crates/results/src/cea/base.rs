@@ -1,11 +1,10 @@
 //! The steady sliding state that the eigenvalues belong to.
 
-use crate::ShownBody;
 use crate::extent::Extent;
 use crate::vtu::Field;
+use crate::{BodyStress, ShownBody};
 use frictionsim_output::{Described, Table, columns};
 use frictionsim_physics::contact::ContactStatus;
-use frictionsim_physics::fem::{NodalStress, SolidStress};
 use frictionsim_physics::mesh::{Counterface, Mesh};
 use serde::Serialize;
 use std::f64::consts::{PI, TAU};
@@ -145,15 +144,6 @@ impl ContactState {
     }
 }
 
-/// Stress at every node.
-#[derive(Clone, Debug, PartialEq)]
-pub enum BaseStress {
-    /// In the plane, in nodal frames.
-    Plane(Vec<NodalStress>),
-    /// In three dimensions: of a body of revolution in nodal frames, of solid bodies along global axes.
-    Solid(Vec<SolidStress>),
-}
-
 /// The same state place by place.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BaseField {
@@ -164,7 +154,7 @@ pub struct BaseField {
     /// Displacement of every node in nodal frames, two or three values a node, m.
     pub displacement: Vec<f64>,
     /// Stress at every node.
-    pub stress: BaseStress,
+    pub stress: BodyStress,
 }
 
 impl BaseField {
@@ -223,16 +213,7 @@ impl BaseField {
             fields.push(around("shear_pa", |own| own.shear));
             fields.push(around("closed_share", closed_share));
         }
-        match &self.stress {
-            BaseStress::Plane(stress) => {
-                fields.extend(Field::stresses(stress));
-                fields.extend(Field::cartesian_stresses(body.mesh, stress));
-            }
-            BaseStress::Solid(stress) => {
-                let axes = if body.is_assembly() { "xyz" } else { "rtz" };
-                fields.extend(Field::solid_stresses(stress, axes));
-            }
-        }
+        fields.extend(body.stress_fields(&self.stress));
         if !body.is_assembly() {
             fields.extend(self.at_nodes(body));
         }

@@ -17,7 +17,7 @@ mod solid;
 mod summary;
 mod tables;
 
-pub use base::{BaseField, BaseState, BaseStress, ContactPlace, ContactState};
+pub use base::{BaseField, BaseState, ContactPlace, ContactState};
 pub(super) use base::{NODES, PLANE, POINTS, RINGS, STATUS, TRACTIONS};
 pub(super) use feed::FEED;
 pub use feed::{Feed, ModeFeed};

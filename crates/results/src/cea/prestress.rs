@@ -1,8 +1,9 @@
 //! The figures of the base state.
 
 use super::CeaReport;
-use super::base::{BaseField, BaseStress, ContactState, closed_share};
+use super::base::{BaseField, ContactState, closed_share};
 use super::solid::{Picture, size};
+use crate::BodyStress;
 use crate::charts::{Disc, contact_surfaces};
 use frictionsim_chart::{Axis, ColourMap, Figure, Line, Marker, Panel, SERIES, Side};
 use frictionsim_physics::fem::NodalStress;
@@ -16,7 +17,7 @@ const ARROW: f64 = 0.15;
 
 /// Contact pressure and friction traction around a plane edge, and the von Mises stress field.
 pub(super) fn plane(report: &CeaReport<'_>) -> Option<Figure> {
-    let BaseStress::Plane(stress) = &report.field.stress else {
+    let BodyStress::Plane(stress) = &report.field.stress else {
         return None;
     };
     let (field, mesh) = (report.field, report.body.mesh);

@@ -10,7 +10,6 @@ use crate::summary::{Head, write_summary};
 use crate::vtu::{Field, write_vtu};
 use frictionsim_output::csv::{self, format_number};
 use frictionsim_output::{columns, parted, write_rows};
-use frictionsim_physics::fem::{nodal_stress, revolved_stress, solid_stress};
 use frictionsim_physics::transient::{Recorder, SampleRow, Snapshot};
 use serde_json::Value;
 use std::io::{self, Write};
@@ -34,7 +33,7 @@ pub fn write(
         folder.write(&name, |out| write_probe(out, &record.rows, &probe))?;
     }
     folder.write("energy.csv", |out| write_energy(out, report))?;
-    folder.write("contact.csv", |out| write_contact(out, &record.rows))?;
+    folder.write("contact.csv", |out| write_rows(out, STATUS, record.rows.iter().copied()))?;
     if report.run.has_harmonics {
         folder.write("harmonics.csv", |out| write_harmonics(out, record))?;
     }
@@ -107,63 +106,47 @@ fn write_probe(
     csv::write(out, &columns, samples.iter().zip(rows).enumerate().map(cells))
 }
 
-/// Energies (J) and powers (W) of a sample, in the order of the table.
-type Energies = [f64; 12];
-
 columns! {
-    /// A sample of the energies; the last two of contacts with springs or dashpots.
-    pub(crate) ENERGY: row as Energies;
-    time_s: "time" = row[0];
-    kinetic_j: "kinetic energy" = row[1];
-    strain_j: "strain energy" = row[2];
-    external_w: "power of the drive, mean over the sample interval, as the others" = row[3];
-    stick_w: "power given to the body by nodes that stick" = row[4];
-    slide_w: "power given to the body by nodes that slide" = row[5];
-    contact_dissipated_w: "power lost to friction" = row[6];
-    material_damping_w: "power lost in the body" = row[7];
-    normal_contact_w: "power of the normal contact forces" = row[8];
-    balance_residual: "residual of the energy balance, relative to the largest energy or work so far" = row[9];
-    contact_j: "energy in the springs of the contact" = row[10];
-    contact_damping_w: "power lost in the dashpots of the contact" = row[11];
+    /// Energies (J) and powers (W) of a sample; the last two of contacts with springs or dashpots.
+    pub(crate) ENERGY: row as SampleRow;
+    time_s: "time" = row.time;
+    kinetic_j: "kinetic energy" = row.kinetic_energy;
+    strain_j: "strain energy" = row.strain_energy;
+    external_w: "power of the drive, mean over the sample interval, as the others"
+        = row.powers.external;
+    stick_w: "power given to the body by nodes that stick" = row.powers.stick;
+    slide_w: "power given to the body by nodes that slide" = row.powers.slide;
+    contact_dissipated_w: "power lost to friction" = row.powers.contact_dissipated;
+    material_damping_w: "power lost in the body" = row.material_damping;
+    normal_contact_w: "power of the normal contact forces" = row.powers.normal;
+    balance_residual: "residual of the energy balance, relative to the largest energy or work so far"
+        = row.balance_residual;
+    contact_j: "energy in the springs of the contact" = row.contact_energy;
+    contact_damping_w: "power lost in the dashpots of the contact" = row.powers.damping;
 }
 
 fn write_energy(out: &mut dyn Write, report: &TransientReport<'_>) -> io::Result<()> {
     let (record, thickness) = (report.run.record, report.run.thickness);
-    let rows = record.rows.iter().map(|row| {
-        let powers = row.powers.scaled(thickness);
-        [
-            row.time,
-            thickness * row.kinetic_energy,
-            thickness * row.strain_energy,
-            powers.external,
-            powers.stick,
-            powers.slide,
-            powers.contact_dissipated,
-            thickness * row.material_damping,
-            powers.normal,
-            row.balance_residual,
-            thickness * row.contact_energy,
-            powers.damping,
-        ]
-    });
+    let of_whole_thickness = |row: &SampleRow| SampleRow {
+        kinetic_energy: thickness * row.kinetic_energy,
+        strain_energy: thickness * row.strain_energy,
+        contact_energy: thickness * row.contact_energy,
+        powers: row.powers.scaled(thickness),
+        material_damping: thickness * row.material_damping,
+        ..*row
+    };
     let all = record.has_contact_springs();
-    write_rows(out, if all { ENERGY } else { const { parted(ENERGY, "contact_j").0 } }, rows)
+    let columns = if all { ENERGY } else { const { parted(ENERGY, "contact_j").0 } };
+    write_rows(out, columns, record.rows.iter().map(of_whole_thickness))
 }
-
-/// Time and `[stick, slip, open]` of a sample.
-type Fractions = (f64, [f64; 3]);
 
 columns! {
-    /// A sample of the contact.
-    pub(crate) STATUS: row as Fractions;
-    time_s: "time" = row.0;
-    stick: "fraction of the contact nodes that stick" = row.1[0];
-    slip: "fraction that slips" = row.1[1];
-    open: "fraction that is open" = row.1[2];
-}
-
-fn write_contact(out: &mut dyn Write, rows: &[SampleRow]) -> io::Result<()> {
-    write_rows(out, STATUS, rows.iter().map(|row| (row.time, row.counts.fractions())))
+    /// The contact at a sample.
+    pub(crate) STATUS: row as SampleRow;
+    time_s: "time" = row.time;
+    stick: "fraction of the contact nodes that stick" = row.counts.fractions()[0];
+    slip: "fraction that slips" = row.counts.fractions()[1];
+    open: "fraction that is open" = row.counts.fractions()[2];
 }
 
 /// Complex amplitude of each harmonic of the contact edge's tangential displacement: `n = 0..=8`, and of the higher
@@ -240,27 +223,11 @@ fn write_snapshots(folder: &OutputFolder, report: &TransientReport<'_>) -> Resul
 /// contact edge), pressure, shear and gap (zero off the contact edge).
 fn snapshot_fields(report: &TransientReport<'_>, snapshot: &Snapshot) -> Vec<Field> {
     let (body, displacement) = (&report.run.body, &snapshot.displacement);
-    let mesh = body.mesh;
     let mut fields = vec![
         body.vectors("displacement_m", displacement),
         body.vectors("velocity_m_per_s", &snapshot.velocity),
     ];
-    let material = report.run.material;
-    match (body.sector, mesh.dimension) {
-        (Some(sector), _) => {
-            let stress = revolved_stress(sector, material, displacement);
-            fields.extend(Field::solid_stresses(&stress, "rtz"));
-        }
-        (None, 3) => {
-            let stress = solid_stress(mesh, material, displacement);
-            fields.extend(Field::solid_stresses(&stress, "xyz"));
-        }
-        _ => {
-            let stress = nodal_stress(mesh, material, displacement);
-            fields.extend(Field::stresses(&stress));
-            fields.extend(Field::cartesian_stresses(mesh, &stress));
-        }
-    }
+    fields.extend(body.stress_fields(&body.stress(report.run.material, displacement)));
     let count = displacement.len() / if body.is_solid() { 3 } else { 2 };
     let (edge, contact) = (&report.contact_nodes, &snapshot.contact);
     let wide = |values: &[f32]| -> Vec<f64> { values.iter().copied().map(f64::from).collect() };

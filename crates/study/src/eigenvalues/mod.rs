@@ -45,7 +45,6 @@ use frictionsim_physics::cea::sparse::FrictionlessModes;
 use frictionsim_physics::cea::{CeaError, FrictionSweep, SweepRequest, SweepWatch};
 use frictionsim_physics::linalg::banded::BandedFactor;
 use frictionsim_physics::linalg::{LdlAnalysis, SparseLdl};
-use frictionsim_results::ShownBody;
 use frictionsim_results::cea::{BaseField, CeaReport, Reading, SensitivityReport};
 use solve::at_key;
 use std::f64::consts::TAU;
@@ -177,7 +176,7 @@ pub fn report<'a>(
 ) -> CeaReport<'a> {
     CeaReport {
         title: &case.title,
-        body: ShownBody { mesh: &model.mesh, sector: model.solid().map(|own| &own.sector) },
+        body: model.body(),
         has_harmonics: case.has_sectors(),
         dofs: solution.dofs,
         method: solution.method,

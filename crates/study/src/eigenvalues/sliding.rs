@@ -6,11 +6,12 @@ use super::model::Model;
 use super::solid;
 use crate::extent_of;
 use frictionsim_case::{Annulus, AssemblyBody, Body, Case, Cea, Revolution, refusal};
-use frictionsim_physics::fem::{nodal_stress, revolved_stress, sector, solid_stress};
+use frictionsim_physics::fem::sector;
 use frictionsim_physics::mesh::{AnnulusMesh, Mesh, SectorMesh};
 use frictionsim_physics::order::range;
 use frictionsim_physics::prestress::{BaseChoice, SectorSliding, SteadySliding, TangentOptions};
-use frictionsim_results::cea::{BaseField, BaseState, BaseStress, ContactState};
+use frictionsim_results::ShownBody;
+use frictionsim_results::cea::{BaseField, BaseState, ContactState};
 use std::sync::Arc;
 
 /// Share of the modulus below which a contact pressure is round-off.
@@ -157,33 +158,33 @@ impl SlidingModel {
         }
     }
 
+    /// The body as results show it.
+    pub fn body(&self) -> ShownBody<'_> {
+        ShownBody { mesh: &self.mesh, sector: self.solid().map(|own| &own.sector) }
+    }
+
     /// The base state place by place.
     pub fn base_field(&self, case: &Case) -> BaseField {
-        let (friction, materials) = (case.contact.sliding.friction_coefficient, case.materials());
-        let mut surfaces = Vec::new();
-        let (displacement, stress) = match (&self.state, &self.model) {
-            (SteadyState::Plane(base), _) => {
-                let displacement = base.displacement(friction);
-                let stress = nodal_stress(&self.mesh, materials, &displacement);
-                (displacement, BaseStress::Plane(stress))
-            }
-            (SteadyState::Solid(solid), _) => {
-                let (sector, displacement) = (&solid.sector, solid.base.displacement(friction));
-                let stress = revolved_stress(sector, materials, &displacement);
-                let count = sector.sector_count();
-                (displacement.repeat(count), BaseStress::Solid(stress.repeat(count)))
-            }
-            (SteadyState::Assembly(joined), Model::Whole(whole)) => {
-                let contacts = joined.contacts.iter();
-                surfaces.extend(contacts.map(|(own, _)| (own.name.clone(), own.surface)));
-                let displacement = whole.state().displacement(friction);
-                let stress = solid_stress(&self.mesh, materials, &displacement);
-                (displacement, BaseStress::Solid(stress))
-            }
-            (SteadyState::Assembly(_), Model::Waves(_)) => {
-                unreachable!("solid bodies are solved on their whole mesh")
-            }
+        let friction = case.contact.sliding.friction_coefficient;
+        let displacement = match (&self.model, &self.state) {
+            (Model::Whole(whole), _) => whole.state().displacement(friction),
+            (_, SteadyState::Plane(base)) => base.displacement(friction),
+            (_, SteadyState::Solid(solid)) => solid.base.displacement(friction),
+            (_, SteadyState::Assembly(_)) => unreachable!("solid bodies have no waves"),
         };
-        BaseField { contact: self.contact.clone(), surfaces, displacement, stress }
+        let surfaces = match &self.state {
+            SteadyState::Assembly(joined) => {
+                let contacts = joined.contacts.iter();
+                contacts.map(|(own, _)| (own.name.clone(), own.surface)).collect()
+            }
+            _ => Vec::new(),
+        };
+        let sectors = self.solid().map_or(1, |own| own.sector.sector_count());
+        BaseField {
+            contact: self.contact.clone(),
+            surfaces,
+            stress: self.body().stress(case.materials(), &displacement),
+            displacement: displacement.repeat(sectors),
+        }
     }
 }
