@@ -1,18 +1,16 @@
 //! Assemblies of solid bodies: `[motion.*]`, `[contacts.*]`, `[ties.*]`.
 
-use super::boundaries::NamedCondition;
 use super::contact::section_of;
 use super::contacts::{NamedContact, contact, short_form, unit};
-use super::imported::{ImportError, whole_body};
-use super::modifications::{Modification, reshaped};
+use super::imported::{FileParts, ImportError, near_name};
 use super::tables::TableFiles;
 use super::value::quote;
-use super::{Case, Contact, MeshBytes, Section, refuse, suggestion};
+use super::{Case, Contact, Section, refuse};
 use frictionsim_physics::contact::{
     ContactStiffness, Counterpart, Motion, PointKind, RigidCounterface, RigidMotion, SlidingContact,
 };
 use frictionsim_physics::fem::{MaterialField, PlaneFormulation, RotationFrame, TabledMaterial};
-use frictionsim_physics::mesh::{BodyError, CyclicSymmetry, Mesh};
+use frictionsim_physics::mesh::Mesh;
 use frictionsim_physics::prestress::{
     Assembly, BaseChoice, PrestressError, SlidingSurfaces, TiedSurfaces,
 };
@@ -99,8 +97,6 @@ pub(super) struct AssemblyParts {
     contacts: Vec<NamedContact>,
     ties: Vec<(String, [String; 2])>,
     pub base: BaseChoice,
-    /// Of a file that has one sector.
-    pub symmetry: Option<CyclicSymmetry>,
 }
 
 impl AssemblyParts {
@@ -126,10 +122,7 @@ impl AssemblyParts {
 
 /// Reads the sections of an assembly; its first contact and motion give the common contact of the case: a sweep varies
 /// the friction coefficient of the first contact, and the others keep their ratio to it.
-pub(super) fn sections(
-    root: &Section<'_>,
-    tables: &mut TableFiles<'_>,
-) -> (AssemblyParts, Contact) {
+pub(super) fn sections(root: &Section<'_>, tables: &TableFiles<'_>) -> (AssemblyParts, Contact) {
     let motions = root.each("motion", motion);
     let ties = root.each("ties", |section| [section.text("surface"), section.text("counter")]);
     let mut bases = Vec::new();
@@ -166,7 +159,7 @@ pub(super) fn sections(
         stiffness: first
             .map_or_else(ContactStiffness::default, |contact| contact.surfaces.stiffness),
     };
-    let parts = AssemblyParts { motions, contacts, ties, base, symmetry: None };
+    let parts = AssemblyParts { motions, contacts, ties, base };
     (parts, common)
 }
 
@@ -196,37 +189,20 @@ fn inertia(section: &Section<'_>) -> Option<RotationFrame> {
 
 /// The solid bodies of a mesh file.
 pub(super) fn assemble(
-    bytes: &MeshBytes,
-    scale: f64,
-    conditions: &[NamedCondition],
-    (common, own): (Option<&TabledMaterial>, &[(String, TabledMaterial)]),
-    (parts, modifications): (AssemblyParts, &[Modification]),
+    file: &FileParts<'_>,
+    parts: AssemblyParts,
 ) -> Result<AssemblyBody, ImportError> {
-    let unusable = |error: BodyError| ImportError::of(error, &bytes.file);
-    let file = whole_body(bytes, parts.symmetry.as_ref(), scale).map_err(unusable)?;
-    let misfit = ImportError::misfit;
-    let (file, _) = reshaped(file, scale, "", modifications).map_err(misfit)?;
-    let mesh = Mesh::from_solids(&file, scale, conditions).map_err(unusable)?;
-    let region =
-        |name: &str, key: &str| named(&mesh.regions, name, key, "region (physical volume)");
+    let (read, _) = file.shaped("")?;
+    let mesh = Mesh::from_solids(&read, file.own.scale, &file.own.conditions);
+    let mesh = mesh.map_err(|error| file.unusable(error))?;
+    let region = |name: &str, key: &str| named(&mesh.regions, name, key, REGION);
     let boundaries: Vec<String> = mesh.boundaries.iter().map(|b| b.name.clone()).collect();
     let surface = |name: &str, key: &str| named(&boundaries, name, key, "surface");
-
-    // Materials of regions; those without a section of their own have the common one.
-    let solid = |material: &TabledMaterial| {
-        let mut solid = material.clone();
-        solid.own.elastic.formulation = PlaneFormulation::ThreeDimensional;
-        solid
-    };
-    let mut materials = vec![common.map(solid); mesh.regions.len()];
-    for (name, material) in own {
-        let place = region(name, &format!("materials.{name}"))?;
-        materials[place] = Some(solid(material));
+    let unknown = |name: &str| absent(&mesh.regions, name, &format!("materials.{name}"), REGION);
+    let mut materials = file.materials_of(&mesh.regions, unknown)?;
+    for material in &mut materials {
+        material.own.elastic.formulation = PlaneFormulation::ThreeDimensional;
     }
-    let given = materials.into_iter().zip(&mesh.regions).map(|(material, region)| {
-        material.ok_or_else(|| ImportError::without_material(&bytes.file, region))
-    });
-    let materials = given.collect::<Result<Vec<_>, _>>()?;
     let mut motions = Vec::new();
     for (name, motion) in parts.motions {
         motions.push(Motion { regions: vec![region(&name, &format!("motion.{name}"))?], ..motion });
@@ -261,18 +237,24 @@ pub(super) fn assemble(
     Ok(AssemblyBody { mesh: Arc::new(mesh), materials, ties, contacts, motions, base: parts.base })
 }
 
+/// What a mesh file calls a region.
+const REGION: &str = "region (physical volume)";
+
 /// Place of a name among those of a mesh file.
 fn named(known: &[String], name: &str, key: &str, what: &str) -> Result<usize, ImportError> {
-    known.iter().position(|other| other == name).ok_or_else(|| {
-        let hint = suggestion::nearest(name, known.iter().map(String::as_str))
-            .map_or_else(String::new, |near| format!("; did you mean \"{near}\"?"));
-        let list: Vec<String> = known.iter().map(|name| format!("\"{name}\"")).collect();
-        let message = format!(
-            "{key}: the mesh file has no {what} \"{name}\"; it has {}{hint}",
-            list.join(", ")
-        );
-        ImportError::new(key, message, "names none of its parts")
-    })
+    let place = known.iter().position(|other| other == name);
+    place.ok_or_else(|| absent(known, name, key, what))
+}
+
+/// The error of a name that is none of a mesh file's.
+fn absent(known: &[String], name: &str, key: &str, what: &str) -> ImportError {
+    let list: Vec<String> = known.iter().map(|name| format!("\"{name}\"")).collect();
+    let message = format!(
+        "{key}: the mesh file has no {what} \"{name}\"; it has {}{}",
+        list.join(", "),
+        near_name(name, known)
+    );
+    ImportError::new(key, message, "names none of its parts")
 }
 
 impl Case {

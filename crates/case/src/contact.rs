@@ -1,12 +1,11 @@
 //! The section `[contact]`: what presses, the springs and how they stiffen with pressure, friction.
 
 use super::elastic::loss_factor;
-use super::imported::ContactPlace;
 use super::value::quote;
 use super::words::{BaseContact, NormalLawWord, word_of};
 use super::{Case, Section, imported, refuse, solid};
 use frictionsim_physics::contact::{ContactStiffness, FrictionDecay, NormalLaw, SlidingContact};
-use frictionsim_physics::mesh::AnnulusSpecification;
+use frictionsim_physics::mesh::{AnnulusSpecification, BodySpecification, SolidContact};
 use frictionsim_physics::prestress::SlidingSurfaces;
 use std::f64::consts::TAU;
 
@@ -84,24 +83,26 @@ impl Case {
 }
 
 /// `annulus` is that of a generated body, with whether it is three-dimensional; `is_pressed` says whether a boundary
-/// has a pressure of its own.
+/// has a pressure of its own. Beside the contact stand the curves and the counterface of a body from a mesh file, and
+/// where a rotor touches a three-dimensional body.
 pub(super) fn contact(
     root: &Section<'_>,
     annulus: Option<(&AnnulusSpecification, bool)>,
     is_pressed: bool,
-) -> (Contact, ContactPlace) {
+) -> (Contact, BodySpecification, SolidContact) {
     let section = root.section("contact", true);
-    let mut place = imported::contact_place(&section);
+    let (place, mut plane_speed) = imported::contact_place(&section);
     let (is_annulus, is_solid) = (annulus.is_some(), annulus.is_some_and(|given| given.1));
-    match annulus {
-        Some((annulus, true)) => place.solid = solid::contact(&section, annulus),
+    let face = match annulus {
+        Some((annulus, true)) => solid::contact(&section, annulus),
         _ => {
             for key in section.refused("ring_inner_radius ring_outer_radius") {
                 refuse!(section, key => "is for a ring on the top face of a three-dimensional body";
                     "of other bodies"; "leave it out");
             }
+            SolidContact::Inner
         }
-    }
+    };
     if is_annulus {
         let own = if is_solid { "" } else { "boundary" };
         let others = "counter_boundary counterface center axis radius direction speed";
@@ -109,7 +110,7 @@ pub(super) fn contact(
             refuse!(section, key, "contact.{key} is for a body from a mesh file (mesh.file)";
                 "not used by the built-in annulus"; "leave it out");
         }
-        place.plane_speed = None;
+        plane_speed = None;
     }
     let interference = interference(&section);
     if is_pressed && section.has("normal_force") {
@@ -121,7 +122,7 @@ pub(super) fn contact(
         refuse!(section, "interference", "contact.interference = 0.0 must be positive and finite";
             "must be positive and finite"; "without it nothing presses the body");
     }
-    let rotation_speed = match place.plane_speed {
+    let rotation_speed = match plane_speed {
         Some(speed) => {
             let _ = section.optional_number("rotation_speed_rpm");
             speed
@@ -157,7 +158,7 @@ pub(super) fn contact(
             "{help}");
     }
     section.close();
-    (contact, place)
+    (contact, place, face)
 }
 
 /// The springs and dashpots of a contact, and how they stiffen; one without springs loses nothing in them.

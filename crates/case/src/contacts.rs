@@ -50,7 +50,7 @@ pub(super) fn short_form(section: &Section<'_>) -> NamedContact {
 pub(super) fn contact(
     section: &Section<'_>,
     bases: &mut Vec<BaseChoice>,
-    tables: &mut TableFiles<'_>,
+    tables: &TableFiles<'_>,
 ) -> NamedContact {
     let base = section.choice("state");
     bases.push(base);

@@ -2,76 +2,62 @@
 //! the annulus (`[materials.shaft]`, `[boundaries.bore]`).
 
 use super::body::node_count;
-use super::boundaries::{NamedCondition, holds_tangentially};
+use super::boundaries::holds_tangentially;
 use super::contact::contact;
+use super::description::Description;
 use super::elastic::{Surroundings, place_axes};
-use super::modifications::Modification;
-use super::tables::TableFiles;
+use super::modifications::Misfit;
 use super::whole_revolution::whole_revolution;
 use super::{
     Annulus, Body, Case, CaseErrors, Contact, Revolution, Section, assembly, attachments,
-    boundaries, imported, modifications, refusal, refuse, solid,
+    boundaries, imported, refusal, refuse, solid,
 };
 use frictionsim_physics::contact::Motion;
-use frictionsim_physics::fem::{ElasticMaterial, RotationFrame, TabledMaterial};
+use frictionsim_physics::fem::{RotationFrame, TabledMaterial};
 use frictionsim_physics::mesh::{
     AnnulusSpecification, BoundaryCondition, ShaftSpecification, SolidSpecification,
 };
 
 /// The generated body with what its modifications take away or move, and its contact. Closes both sections.
-pub(super) fn generated(
-    root: &Section<'_>,
-    [geometry, mesh]: [Section<'_>; 2],
-    (conditions, is_pressed): (&[NamedCondition], bool),
-    (common, tables): (&mut TabledMaterial, &mut TableFiles<'_>),
-    (thickness, changes): (f64, &[Modification]),
-) -> (Option<Body>, Contact) {
-    let material = &mut common.own.elastic;
-    let is_solid = solid::is_solid(material);
-    imported::refuse_sectors(&mesh);
-    let axial = solid::axial_elements(&geometry, &mesh, is_solid);
+pub(super) fn generated(own: &mut Description<'_>) -> (Option<Body>, Contact) {
+    let (root, is_solid) = (own.root, own.is_solid());
+    imported::refuse_sectors(&own.mesh);
+    let axial = solid::axial_elements(own);
     let sectors = Surroundings::Sectors { is_plane: !is_solid };
-    place_axes(root, &["material"], material, &sectors);
-    let parts = (conditions, is_solid);
-    let (mut annulus, mut shaft) =
-        annulus(root, [&geometry, &mesh], parts, (material, &mut *tables));
+    place_axes(root, &["material"], &mut own.common.own.elastic, &sectors);
+    let (mut annulus, mut shaft) = annulus(own);
     if let Some(shaft) = &mut shaft {
-        let path = ["materials", "shaft"];
-        place_axes(root, &path, &mut shaft.own.elastic, &sectors);
+        place_axes(root, &["materials", "shaft"], &mut shaft.own.elastic, &sectors);
     }
-    geometry.close();
-    mesh.close();
-    let (mut contact, place) = contact(root, Some((&annulus, is_solid)), is_pressed);
+    own.geometry.close();
+    own.mesh.close();
+    let (mut contact, _, face) = contact(root, Some((&annulus, is_solid)), own.is_pressed());
     let motion = motion(root, is_solid);
     let turning = motion.as_ref().map_or(0.0, |own| own.spin_vector().z);
     let body = match axial {
         None => {
-            let materials = std::iter::once(common.clone()).chain(shaft).collect();
-            plane_annulus(root, Annulus { specification: annulus, materials }, changes)
+            let materials = std::iter::once(own.common.clone()).chain(shaft).collect();
+            plane_annulus(own, Annulus { specification: annulus, materials })
         }
         Some(axial_elements) => {
-            let conditions = solid::conditions(root, conditions, place.solid);
+            let conditions = solid::conditions(root, &own.conditions, face);
             annulus.outer = conditions[1];
             let mut specification = SolidSpecification {
                 annulus,
-                thickness,
+                thickness: own.thickness,
                 axial_elements,
-                contact: place.solid,
+                contact: face,
                 conditions,
                 parts: Vec::new(),
             };
-            let mut materials = vec![common.clone()];
-            for (part, mut material) in
-                solid::parts(root, &common.own.elastic, tables, &specification)
-            {
-                let path = ["materials", &part.name];
-                place_axes(root, &path, &mut material.own.elastic, &sectors);
+            let mut materials = vec![own.common.clone()];
+            for (part, mut material) in solid::parts(own, &specification) {
+                place_axes(root, &["materials", &part.name], &mut material.own.elastic, &sectors);
                 specification.parts.push(part);
                 materials.push(material);
             }
             let specification = Box::new(specification);
-            let revolution = Revolution { specification, materials };
-            revolution_body(root, revolution, (&contact, motion), changes)
+            revolution_body(own, Revolution { specification, materials }, &contact, motion)
         }
     };
     // Friction knows the relative speed.
@@ -102,48 +88,46 @@ fn motion(root: &Section<'_>, is_solid: bool) -> Option<Motion> {
 /// A body of revolution, as a whole mesh where it turns, where modifications break its symmetry, where its losses have
 /// a chain of dashpots in time, and where that is asked for.
 fn revolution_body(
-    root: &Section<'_>,
+    own: &Description<'_>,
     revolution: Revolution,
-    (contact, motion): (&Contact, Option<Motion>),
-    changes: &[Modification],
+    contact: &Contact,
+    motion: Option<Motion>,
 ) -> Option<Body> {
-    let cea = root.section("cea", false);
-    let is_asked_for = cea.is_text("method", "sparse")
+    let root = own.root;
+    let is_asked_for = root.section("cea", false).is_text("method", "sparse")
         || root.section("transient", false).is_text("operator", "sparse");
     let body = Body::Revolution(revolution.clone());
     let is_lossy = body.has_structural_damping() || contact.stiffness.loss_factor > 0.0;
     let is_chained = is_lossy && root.has("transient");
-    if changes.is_empty() && motion.is_none() && !is_asked_for && !is_chained {
+    if own.modifications.is_empty() && motion.is_none() && !is_asked_for && !is_chained {
         return Some(body);
     }
-    let reject = |(key, why): modifications::Misfit| {
-        let section = key.split('.').next().unwrap_or_default();
-        root.reject(section, format!("{key}: {why}"), "does not fit the whole mesh", None);
-    };
-    let whole = whole_revolution(&revolution, contact, (motion, changes)).map_err(reject);
-    whole.ok().map(Body::Assembly)
+    let whole = whole_revolution(&revolution, contact, motion, &own.modifications);
+    fitting(root, whole, "the whole mesh").map(Body::Assembly)
 }
 
 /// A plane annulus, as a whole mesh where modifications break its symmetry.
-fn plane_annulus(root: &Section<'_>, annulus: Annulus, changes: &[Modification]) -> Option<Body> {
+fn plane_annulus(own: &Description<'_>, annulus: Annulus) -> Option<Body> {
     // What is wrong with the counts is said elsewhere.
-    if changes.is_empty() || node_count(&annulus.specification) > 1 << 24 {
+    if own.modifications.is_empty() || node_count(&annulus.specification) > 1 << 24 {
         return Some(Body::Annulus(annulus));
     }
-    let reject = |(key, why): modifications::Misfit| {
-        let message = format!("{key}: {why}");
-        root.reject("modifications", message, "does not fit the disc", None);
+    let whole = attachments::reshaped_annulus(&annulus, &own.modifications);
+    fitting(own.root, whole, "the disc").map(Body::Imported)
+}
+
+/// A whole mesh; what of the case does not fit it is an error at its section.
+fn fitting<T>(root: &Section<'_>, whole: Result<T, Misfit>, what: &str) -> Option<T> {
+    let reject = |(key, why): Misfit| {
+        let section = key.split('.').next().unwrap_or_default();
+        refuse!(root, section, "{key}: {why}"; "does not fit {what}");
     };
-    attachments::reshaped_annulus(&annulus, changes).map_err(reject).ok().map(Body::Imported)
+    whole.map_err(reject).ok()
 }
 
 /// The specification of the annulus, and the material of its shaft where it has one.
-fn annulus(
-    root: &Section<'_>,
-    [geometry, mesh]: [&Section<'_>; 2],
-    (conditions, is_solid): (&[NamedCondition], bool),
-    (material, tables): (&ElasticMaterial, &mut TableFiles<'_>),
-) -> (AnnulusSpecification, Option<TabledMaterial>) {
+fn annulus(own: &Description<'_>) -> (AnnulusSpecification, Option<TabledMaterial>) {
+    let Description { root, geometry, mesh, conditions, .. } = own;
     let inner_radius = geometry.number("inner_radius");
     let outer_radius = geometry.number("outer_radius");
     if outer_radius <= inner_radius {
@@ -152,10 +136,8 @@ fn annulus(
              {inner_radius}";
             "must be above {inner_radius}"; "both are radii in metres; are they swapped?");
     }
-    let shaft = match is_solid {
-        false => shaft(root, [geometry, mesh], inner_radius, conditions, material, tables),
-        true => None,
-    };
+    let is_solid = own.is_solid();
+    let shaft = if is_solid { None } else { shaft(own, inner_radius) };
     for (section, key) in [(geometry, "shaft_inner_radius"), (mesh, "shaft_radial_elements")] {
         if is_solid && !section.refused(key).is_empty() {
             refuse!(section, key, "a deformable shaft turns in a plane annulus only";
@@ -199,16 +181,13 @@ fn check_mesh(mesh: &Section<'_>, annulus: &AnnulusSpecification) {
 
 /// The shaft, if the case has one, and its material.
 fn shaft(
-    root: &Section<'_>,
-    [geometry, mesh]: [&Section<'_>; 2],
+    own: &Description<'_>,
     contact_radius: f64,
-    boundaries: &[NamedCondition],
-    material: &ElasticMaterial,
-    tables: &mut TableFiles<'_>,
 ) -> Option<(ShaftSpecification, TabledMaterial)> {
+    let Description { geometry, mesh, .. } = own;
     let bore = geometry.optional_number("shaft_inner_radius");
     let elements = mesh.optional_count("shaft_radial_elements");
-    let found = materials(root, material, bore.is_some(), tables);
+    let found = materials(own, bore.is_some());
     let Some(bore) = bore else {
         if elements.is_some() {
             refuse!(mesh, "shaft_radial_elements",
@@ -233,19 +212,14 @@ fn shaft(
     let shaft = ShaftSpecification {
         inner_radius: bore,
         radial_elements: elements.unwrap_or_else(|| mesh.count("shaft_radial_elements")),
-        bore: bore_condition(root, boundaries),
+        bore: bore_condition(own),
     };
     found.map(|material| (shaft, material))
 }
 
 /// `[materials.shaft]`; the annulus has no other surfaces.
-fn materials(
-    root: &Section<'_>,
-    material: &ElasticMaterial,
-    has_shaft: bool,
-    tables: &mut TableFiles<'_>,
-) -> Option<TabledMaterial> {
-    let all = root.section("materials", false);
+fn materials(own: &Description<'_>, has_shaft: bool) -> Option<TabledMaterial> {
+    let all = own.root.section("materials", false);
     for (name, _) in all.remaining() {
         match name {
             "shaft" if has_shaft => {}
@@ -260,17 +234,17 @@ fn materials(
                 "describe the disc in [material] and a shaft in [materials.shaft]"),
         }
     }
-    let read = imported::materials(root, material, tables);
+    let read = imported::materials(own.root, &own.common.own.elastic, own.tables);
     let mut shafts = read.into_iter().filter(|(name, _)| name == "shaft");
     shafts.next().map(|(_, material)| material)
 }
 
-fn bore_condition(root: &Section<'_>, boundaries: &[NamedCondition]) -> BoundaryCondition {
-    let given = boundaries.iter().find(|(name, _)| name == "bore");
+fn bore_condition(own: &Description<'_>) -> BoundaryCondition {
+    let given = own.conditions.iter().find(|(name, _)| name == "bore");
     match given.map_or(BoundaryCondition::Clamped, |own| own.1) {
         condition if holds_tangentially(&condition) => condition,
         _ => {
-            refuse!(root.section("boundaries", false), "bore",
+            refuse!(own.root.section("boundaries", false), "bore",
                 "nothing holds the shaft against the friction that turns it";
                 "must hold the bore tangentially";
                 "use condition = \"clamped\", or \"support\" with tangential_stiffness above 0");

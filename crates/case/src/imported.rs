@@ -1,8 +1,8 @@
 //! Bodies from mesh files: `mesh.file`, `[materials.*]`, and where the counterface is.
 
-use super::boundaries::NamedCondition;
+use super::description::{Description, has_common_constants};
 use super::elastic::elastic;
-use super::modifications::{Modification, reshaped};
+use super::modifications::{Misfit, Modification, reshaped};
 use super::tables::{TableFiles, modulus_table};
 use super::value::quote;
 use super::words::CounterfaceWord;
@@ -13,7 +13,7 @@ use frictionsim_physics::contact::ContactInterface;
 use frictionsim_physics::fem::{ElasticMaterial, RayleighDamping, RegionMaterial, TabledMaterial};
 use frictionsim_physics::mesh::{
     BodyError, BodyPart, BodySpecification, CounterfaceSpecification, CyclicSymmetry, FileMesh,
-    Mesh, SolidContact, refined_file, repeated_file,
+    Mesh, refined_file, repeated_file,
 };
 use std::path::Path;
 use std::sync::Arc;
@@ -32,21 +32,10 @@ pub struct ImportedBody {
     source: Arc<(Arc<FileMesh>, BodySpecification)>,
 }
 
-/// Where the counterface is, as `[contact]` says.
-pub(super) struct ContactPlace {
-    pub boundary: String,
-    pub counterface: CounterfaceSpecification,
-    /// Physical curve of the other body that it slides on.
-    pub opposite: Option<String>,
-    /// Speed of a plane, m/s.
-    pub plane_speed: Option<f64>,
-    /// Where a rotor touches a three-dimensional body.
-    pub solid: SolidContact,
-}
-
-/// Reads the keys of `[contact]` that only an imported body has.
-pub(super) fn contact_place(section: &Section<'_>) -> ContactPlace {
-    let boundary = section.text("boundary");
+/// Reads the keys of `[contact]` that only an imported body has: its curves with the counterface, and the speed of a
+/// plane, m/s.
+pub(super) fn contact_place(section: &Section<'_>) -> (BodySpecification, Option<f64>) {
+    let contact = section.text("boundary");
     let (center, radius) = (section.vector("center"), section.optional_number("radius"));
     let direction = section.vector("direction");
     let speed = section.optional_number("speed");
@@ -85,14 +74,16 @@ pub(super) fn contact_place(section: &Section<'_>) -> ContactPlace {
         caution!(section, key => "is not used: the counterface is a {}",
             if is_plane { "plane" } else { "cylinder" }; "no effect");
     }
-    ContactPlace { solid: SolidContact::Inner, boundary, counterface, opposite, plane_speed }
+    let place =
+        BodySpecification { scale: 1.0, contact, counterface, opposite, conditions: Vec::new() };
+    (place, plane_speed)
 }
 
 /// `[materials.*]`: elasticity in place of the common one, damping of its own, and tables over frequency.
 pub(super) fn materials(
     root: &Section<'_>,
     common: &ElasticMaterial,
-    files: &mut TableFiles<'_>,
+    files: &TableFiles<'_>,
 ) -> Vec<(String, TabledMaterial)> {
     let all = materials_and(root, common, files, |section| {
         for key in section.refused("radii heights") {
@@ -107,7 +98,7 @@ pub(super) fn materials(
 pub(super) fn materials_and<T>(
     root: &Section<'_>,
     common: &ElasticMaterial,
-    files: &mut TableFiles<'_>,
+    files: &TableFiles<'_>,
     beside: impl Fn(&Section<'_>) -> T,
 ) -> Vec<(String, (TabledMaterial, T))> {
     root.each("materials", |section| {
@@ -126,18 +117,57 @@ pub(super) fn materials_and<T>(
     })
 }
 
-/// Everything that makes a body of a mesh file but the file.
-pub(super) struct BodyParts {
-    pub scale: f64,
+/// What makes a body of a mesh file, be it plane or of solid elements.
+pub(super) struct FileParts<'a> {
+    pub bytes: &'a MeshBytes,
+    pub own: &'a Description<'a>,
     /// Of a file that has one sector.
     pub symmetry: Option<CyclicSymmetry>,
-    pub place: ContactPlace,
-    /// How far the bodies are pushed into each other, m.
-    pub interference: f64,
-    pub boundaries: Vec<NamedCondition>,
+    /// The materials of regions that have one of their own.
     pub materials: Vec<(String, TabledMaterial)>,
-    /// The material of regions that have none of their own.
-    pub common: Option<TabledMaterial>,
+}
+
+impl FileParts<'_> {
+    /// The error of a file that makes no body.
+    pub(super) fn unusable(&self, error: BodyError) -> ImportError {
+        ImportError::of(error, &self.bytes.file)
+    }
+
+    /// What the file has, or all the sectors of which it has one.
+    fn whole(&self) -> Result<Arc<FileMesh>, BodyError> {
+        let read = self.bytes.read()?;
+        let Some(symmetry) = &self.symmetry else {
+            return Ok(read);
+        };
+        let point = symmetry.point.map(|x| x / self.own.scale);
+        repeated_file(&read, &CyclicSymmetry { point, ..*symmetry }).map(Arc::new)
+    }
+
+    /// The whole body with what modifications take away and move, and how far they move its counterface, m.
+    pub(super) fn shaped(&self, contact: &str) -> Result<(Arc<FileMesh>, [f64; 2]), ImportError> {
+        let whole = self.whole().map_err(|error| self.unusable(error))?;
+        reshaped(whole, self.own.scale, contact, &self.own.modifications)
+            .map_err(ImportError::misfit)
+    }
+
+    /// The material of each region; `unknown` is the error of a name that none of them has.
+    pub(super) fn materials_of(
+        &self,
+        regions: &[String],
+        unknown: impl Fn(&str) -> ImportError,
+    ) -> Result<Vec<TabledMaterial>, ImportError> {
+        let mut names = self.materials.iter().map(|(name, _)| name);
+        if let Some(name) = names.find(|name| !regions.contains(name)) {
+            return Err(unknown(name));
+        }
+        let common = Some(&self.own.common).filter(|_| has_common_constants(self.own.root));
+        let material = |region: &String| {
+            let own = self.materials.iter().find(|(name, _)| name == region);
+            let own = own.map(|(_, material)| material).or(common);
+            own.cloned().ok_or_else(|| ImportError::without_material(&self.bytes.file, region))
+        };
+        regions.iter().map(material).collect()
+    }
 }
 
 /// The mesh file that `mesh.file` names, relative to the case; read once.
@@ -176,20 +206,6 @@ pub(super) fn symmetry(
     }
 }
 
-/// The body that a mesh file describes: what it has, or all the sectors of which it has one.
-pub(super) fn whole_body(
-    mesh: &MeshBytes,
-    symmetry: Option<&CyclicSymmetry>,
-    scale: f64,
-) -> Result<Arc<FileMesh>, BodyError> {
-    let read = mesh.read()?;
-    let Some(symmetry) = symmetry else {
-        return Ok(read);
-    };
-    let in_file = CyclicSymmetry { point: symmetry.point.map(|x| x / scale), ..*symmetry };
-    repeated_file(&read, &in_file).map(Arc::new)
-}
-
 /// Why a mesh file does not describe the body, and the key of the case to blame.
 pub(super) struct ImportError {
     pub key: String,
@@ -200,7 +216,7 @@ pub(super) struct ImportError {
 
 impl ImportError {
     /// What a modification or a motion asks for that the body does not have.
-    pub(super) fn misfit((key, why): (String, String)) -> Self {
+    pub(super) fn misfit((key, why): Misfit) -> Self {
         let message = format!("{key}: {why}");
         Self::new(&key, message, "does not fit the body")
     }
@@ -220,9 +236,9 @@ impl ImportError {
     }
 
     /// Reports it at its key.
-    pub(super) fn report(self, raw: &RawCase, mesh: &Section<'_>) {
+    pub(super) fn report(self, raw: &RawCase, root: &Section<'_>) {
         let at = raw.place(&self.key);
-        mesh.findings.push(Diagnostic::error(self.message, self.label, at, self.help));
+        root.findings.push(Diagnostic::error(self.message, self.label, at, self.help));
     }
 
     /// An error of the mesh file `file`, at the key that asked for what the mesh does not have.
@@ -240,7 +256,6 @@ impl ImportError {
             BodyPart::Boundary(name) => (format!("boundaries.{name}"), "a boundary of the mesh"),
             BodyPart::Direction => ("contact.direction".to_owned(), "must lie along the face"),
             BodyPart::Center => ("contact.center".to_owned(), "not the centre of the curve"),
-            BodyPart::Material(name) => (format!("materials.{name}"), "no such surface"),
             BodyPart::Scale => ("mesh.scale".to_owned(), "metres?"),
             BodyPart::Sectors => ("mesh.sectors".to_owned(), "the sector does not fit"),
         };
@@ -248,54 +263,46 @@ impl ImportError {
     }
 }
 
-/// The body that a mesh file describes.
+/// A hint at the known name that is meant by another.
+pub(super) fn near_name(name: &str, known: &[String]) -> String {
+    let near = suggestion::nearest(name, known.iter().map(String::as_str));
+    near.map_or_else(String::new, |near| format!("; did you mean \"{near}\"?"))
+}
+
+/// The plane body that a mesh file describes, with its contact curves and counterface at `place`.
 pub(super) fn import(
-    mesh: &MeshBytes,
-    parts: &BodyParts,
-    modifications: &[Modification],
+    parts: &FileParts<'_>,
+    place: BodySpecification,
+    interference: f64,
 ) -> Result<ImportedBody, ImportError> {
-    let shown = &mesh.file;
-    let unusable = |error: BodyError| ImportError::of(error, shown);
-    let read = whole_body(mesh, parts.symmetry.as_ref(), parts.scale).map_err(unusable)?;
-    let misfit = ImportError::misfit;
-    let boundary = &parts.place.boundary;
-    let (read, way) = reshaped(read, parts.scale, boundary, modifications).map_err(misfit)?;
+    let (read, way) = parts.shaped(&place.contact)?;
     let specification = BodySpecification {
-        scale: parts.scale,
-        contact: parts.place.boundary.clone(),
-        counterface: moved(parts, way).map_err(misfit)?,
-        opposite: parts.place.opposite.clone(),
-        conditions: parts.boundaries.clone(),
+        scale: parts.own.scale,
+        counterface: moved(&place, way).map_err(ImportError::misfit)?,
+        conditions: parts.own.conditions.clone(),
+        ..place
     };
-    let mesh = Mesh::from_gmsh(&read, &specification).map_err(unusable)?;
-    check_meeting(&mesh, &specification, parts.interference).map_err(|message| {
+    let mesh = Mesh::from_gmsh(&read, &specification).map_err(|error| parts.unusable(error))?;
+    check_meeting(&mesh, &specification, interference).map_err(|message| {
         ImportError::new("contact.counter_boundary", message, "the bodies do not meet")
     })?;
-    let unknown = parts.materials.iter().map(|(name, _)| name);
-    if let Some(name) = unknown.into_iter().find(|&name| !mesh.regions.contains(name)) {
-        let known = mesh.regions.iter().map(String::as_str);
-        let hint = suggestion::nearest(name, known)
-            .map_or_else(String::new, |near| format!("; did you mean \"{near}\"?"));
+    let unknown = |name: &str| {
         let regions = mesh.regions.iter().map(|region| format!("\"{region}\""));
         let message = format!(
-            "no physical surface is called \"{name}\"; the file has {}{hint}",
-            first_of(regions, MOST_NAMES)
+            "{}: no physical surface is called \"{name}\"; the file has {}{}",
+            parts.bytes.file,
+            first_of(regions, MOST_NAMES),
+            near_name(name, &mesh.regions)
         );
-        let part = BodyPart::Material(name.clone());
-        return Err(unusable(BodyError::Request { part, message }));
-    }
-    let material = |region: &String| {
-        let own = parts.materials.iter().find(|(name, _)| name == region);
-        let own = own.map(|(_, material)| material).or(parts.common.as_ref());
-        own.cloned().ok_or_else(|| ImportError::without_material(shown, region))
+        ImportError::new(&format!("materials.{name}"), message, "no such surface")
     };
-    let materials = mesh.regions.iter().map(material).collect::<Result<_, _>>()?;
+    let materials = parts.materials_of(&mesh.regions, unknown)?;
     Ok(ImportedBody::new(mesh, materials, read, specification))
 }
 
 /// The counterface of a body whose contact curve is moved.
-fn moved(parts: &BodyParts, way: [f64; 2]) -> Result<CounterfaceSpecification, (String, String)> {
-    match (parts.place.counterface, &parts.place.opposite) {
+fn moved(place: &BodySpecification, way: [f64; 2]) -> Result<CounterfaceSpecification, Misfit> {
+    match (place.counterface, &place.opposite) {
         (own, _) if way == [0.0; 2] => Ok(own),
         (CounterfaceSpecification::Cylinder { center, radius }, None) => {
             let center = [center[0] + way[0], center[1] + way[1]];
@@ -341,7 +348,7 @@ impl ImportedBody {
 }
 
 /// `contact.counter_boundary`, which only two bodies have.
-pub(super) fn opposite_curve(section: &Section<'_>, word: CounterfaceWord) -> Option<String> {
+fn opposite_curve(section: &Section<'_>, word: CounterfaceWord) -> Option<String> {
     let key = "counter_boundary";
     let given = section.optional_text(key);
     match (word, &given) {
@@ -359,11 +366,7 @@ pub(super) fn opposite_curve(section: &Section<'_>, word: CounterfaceWord) -> Op
 }
 
 /// Two bodies must have their curves before each other, at most as far into each other as the interference.
-pub(super) fn check_meeting(
-    mesh: &Mesh,
-    body: &BodySpecification,
-    interference: f64,
-) -> Result<(), String> {
+fn check_meeting(mesh: &Mesh, body: &BodySpecification, interference: f64) -> Result<(), String> {
     let Some(other) = &body.opposite else {
         return Ok(());
     };

@@ -197,7 +197,7 @@ impl<'a> Section<'a> {
     }
 
     /// Reports every key that nobody asked for: the first ones by name, then how many more.
-    pub fn close(self) {
+    pub fn close(&self) {
         let asked = self.asked.borrow();
         let names: Vec<&str> = asked.iter().map(String::as_str).collect();
         let entries = self.table.into_iter().flatten();

@@ -1,25 +1,17 @@
 //! Bodies of revolution in three dimensions: `material.formulation = "three-dimensional"`.
 
 use super::boundaries::{NamedCondition, holds_tangentially};
-use super::tables::TableFiles;
+use super::description::Description;
 use super::{Case, CaseErrors, Section, imported, refusal, refuse, suggestion};
-use frictionsim_physics::fem::{ElasticMaterial, PlaneFormulation, TabledMaterial};
+use frictionsim_physics::fem::TabledMaterial;
 use frictionsim_physics::mesh::{
     AnnulusSpecification, BoundaryCondition, SolidContact, SolidFace, SolidPart, SolidSpecification,
 };
 
-/// Whether the body has a thickness of its own.
-pub(super) fn is_solid(material: &ElasticMaterial) -> bool {
-    material.formulation == PlaneFormulation::ThreeDimensional
-}
-
 /// Elements over the thickness; `None` in the plane, where they are an error.
-pub(super) fn axial_elements(
-    geometry: &Section<'_>,
-    mesh: &Section<'_>,
-    is_solid: bool,
-) -> Option<usize> {
-    if !is_solid {
+pub(super) fn axial_elements(own: &Description<'_>) -> Option<usize> {
+    let Description { geometry, mesh, .. } = own;
+    if !own.is_solid() {
         for key in mesh.refused("axial_elements") {
             refuse!(mesh, key, "mesh.axial_elements has no effect on a plane body";
                 "needs material.formulation = \"three-dimensional\"";
@@ -74,15 +66,13 @@ pub(super) fn contact(section: &Section<'_>, annulus: &AnnulusSpecification) -> 
 
 /// `[materials.*]`: parts of a body between radii and heights, which no element crosses, with their materials.
 pub(super) fn parts(
-    root: &Section<'_>,
-    common: &ElasticMaterial,
-    tables: &mut TableFiles<'_>,
+    own: &Description<'_>,
     body: &SolidSpecification,
 ) -> Vec<(SolidPart, TabledMaterial)> {
     let radii = body.corner_radii().unwrap_or_default();
     let height = |layer: usize| body.thickness * layer as f64 / body.axial_elements as f64;
     let heights: Vec<f64> = (0..=body.axial_elements).map(height).collect();
-    let found = imported::materials_and(root, common, tables, |section| {
+    let found = imported::materials_and(own.root, &own.common.own.elastic, own.tables, |section| {
         if !section.has("radii") && !section.has("heights") {
             refuse!(section, "radii", "{} needs the radii or the heights between which it lies",
                 section.name("radii"); "lies nowhere";
@@ -113,7 +103,7 @@ pub(super) fn parts(
         };
         [range("radii", &radii), range("heights", &heights)]
     });
-    let section = root.section("materials", false);
+    let section = own.root.section("materials", false);
     let mut parts: Vec<(SolidPart, TabledMaterial)> = Vec::new();
     for (name, (material, [radii, heights])) in found {
         let meets = |[a, b]: [f64; 2], [c, d]: [f64; 2]| a.max(c) < b.min(d);

@@ -6,6 +6,7 @@ use frictionsim_bounds::TABLE;
 use frictionsim_physics::contact::Topography;
 use frictionsim_physics::fem::ModulusTable;
 use frictionsim_signal::reader::{ModulusRow, read_gaps, read_moduli};
+use std::cell::RefCell;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -18,17 +19,18 @@ const FALL: f64 = 0.05;
 /// The tables of a case: known already, or files beside it.
 pub(super) struct TableFiles<'a> {
     raw: &'a RawCase,
-    pub(super) read: Vec<TableBytes>,
+    pub(super) read: RefCell<Vec<TableBytes>>,
 }
 
 impl<'a> TableFiles<'a> {
     /// Those of a case, none read yet.
     pub(super) fn of(raw: &'a RawCase) -> Self {
-        Self { raw, read: Vec::new() }
+        Self { raw, read: RefCell::default() }
     }
 
-    fn bytes(&mut self, file: &str) -> Result<Arc<[u8]>, String> {
-        let mut known = self.read.iter().chain(&self.raw.tables).filter(|table| table.file == file);
+    fn bytes(&self, file: &str) -> Result<Arc<[u8]>, String> {
+        let mut read = self.read.borrow_mut();
+        let mut known = read.iter().chain(&self.raw.tables).filter(|table| table.file == file);
         let bytes = match known.next() {
             Some(table) => Arc::clone(&table.bytes),
             None => {
@@ -36,8 +38,8 @@ impl<'a> TableFiles<'a> {
                 read_file(&folder.join(file))?
             }
         };
-        if !self.read.iter().any(|table| table.file == file) {
-            self.read.push(TableBytes { file: file.to_owned(), bytes: Arc::clone(&bytes) });
+        if !read.iter().any(|table| table.file == file) {
+            read.push(TableBytes { file: file.to_owned(), bytes: Arc::clone(&bytes) });
         }
         Ok(bytes)
     }
@@ -52,7 +54,7 @@ fn read_file(path: &Path) -> Result<Arc<[u8]>, String> {
 /// The table of `[material]` or of a section of `[materials.*]`, where it has one.
 pub(super) fn modulus_table(
     section: &Section<'_>,
-    files: &mut TableFiles<'_>,
+    files: &TableFiles<'_>,
 ) -> Option<Arc<ModulusTable>> {
     let file = section.optional_text("table")?;
     let reject = |message: String, label: &str, help: &str| {
@@ -77,10 +79,7 @@ pub(super) fn modulus_table(
 }
 
 /// The measured surface of a section of `[contacts.*]`, where it has one.
-pub(super) fn topography(
-    section: &Section<'_>,
-    files: &mut TableFiles<'_>,
-) -> Option<Arc<Topography>> {
+pub(super) fn topography(section: &Section<'_>, files: &TableFiles<'_>) -> Option<Arc<Topography>> {
     let file = section.optional_text("gap")?;
     let readable = files.bytes(&file);
     let points = readable.and_then(|bytes| read_gaps(&bytes, &file).map_err(|e| e.to_string()));

@@ -20,7 +20,7 @@ impl Case {
         let Body::Revolution(revolution) = &self.body else {
             return Ok(Cow::Borrowed(self));
         };
-        let body = whole_revolution(revolution, &self.contact, (None, &[]));
+        let body = whole_revolution(revolution, &self.contact, None, &[]);
         let body = body.map_err(|(key, why)| {
             let label = "does not fit the whole mesh";
             self.error_at(&key, format!("{key}: {why}"), label, None::<String>)
@@ -33,7 +33,8 @@ impl Case {
 pub(super) fn whole_revolution(
     revolution: &Revolution,
     contact: &Contact,
-    (motion, modifications): (Option<Motion>, &[Modification]),
+    motion: Option<Motion>,
+    modifications: &[Modification],
 ) -> Result<AssemblyBody, Misfit> {
     let specification = &revolution.specification;
     let stiffness = &contact.stiffness;

@@ -42,8 +42,6 @@ pub enum BodyPart {
     Direction,
     /// The axis of a cylinder.
     Center,
-    /// The material of a region.
-    Material(String),
     /// The scale of the coordinates.
     Scale,
     /// The number of sectors.

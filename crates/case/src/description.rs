@@ -1,0 +1,132 @@
+//! The sections that describe the body of a case, of whichever kind it is.
+
+use super::boundaries::NamedCondition;
+use super::elastic::elastic;
+use super::modifications::Modification;
+use super::tables::{TableFiles, modulus_table};
+use super::words::FilePart;
+use super::{Section, UnitsWord, boundaries, modifications, refuse};
+use frictionsim_physics::fem::{
+    ElasticMaterial, PlaneFormulation, RayleighDamping, RegionMaterial, TabledMaterial,
+};
+use frictionsim_physics::mesh::BoundaryCondition;
+
+/// `[damping]`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Damping {
+    /// Rayleigh's coefficients.
+    pub rayleigh: RayleighDamping,
+    /// Whether `beta_R` multiplies the whole tangent, contact and friction terms included, or the
+    /// body's stiffness alone.
+    pub include_contact: bool,
+}
+
+/// What describes the body of a case.
+pub(super) struct Description<'a> {
+    pub root: &'a Section<'a>,
+    pub geometry: Section<'a>,
+    pub mesh: Section<'a>,
+    pub tables: &'a TableFiles<'a>,
+    /// The mesh file, and the factor on its coordinates.
+    pub file: Option<String>,
+    pub scale: f64,
+    /// The common material, whose axes are laid into the body once that is known.
+    pub common: TabledMaterial,
+    /// What holds its boundaries.
+    pub conditions: Vec<NamedCondition>,
+    /// What is added to it or taken away.
+    pub modifications: Vec<Modification>,
+    pub thickness: f64,
+}
+
+impl<'a> Description<'a> {
+    pub fn read(root: &'a Section<'a>, tables: &'a TableFiles<'a>) -> Self {
+        let common = material(root, tables);
+        let modifications = modifications::sections(root);
+        let conditions = boundaries::all(root);
+        let mesh = root.section("mesh", true);
+        let file = mesh.optional_text("file");
+        let scale = length_factor(&mesh);
+        let geometry = root.section("geometry", file.is_none());
+        let thickness = geometry.number("thickness");
+        let own = Self {
+            root,
+            geometry,
+            mesh,
+            tables,
+            file,
+            scale,
+            common,
+            conditions,
+            modifications,
+            thickness,
+        };
+        if !own.is_solid() {
+            boundaries::no_axial_support(root, &own.conditions);
+        }
+        own
+    }
+
+    /// Whether the body has a thickness of its own.
+    pub fn is_solid(&self) -> bool {
+        self.common.own.elastic.formulation == PlaneFormulation::ThreeDimensional
+    }
+
+    /// Whether a boundary has a pressure of its own.
+    pub fn is_pressed(&self) -> bool {
+        let is_pressure = |own: &BoundaryCondition| matches!(own, BoundaryCondition::Pressure(_));
+        self.conditions.iter().any(|(_, condition)| is_pressure(condition))
+    }
+}
+
+/// Factor on the coordinates of a mesh file: that of its units, or `mesh.scale`.
+fn length_factor(mesh: &Section<'_>) -> f64 {
+    let units: UnitsWord = mesh.choice("units");
+    let _: Vec<FilePart> = mesh.choices("take");
+    let _ = mesh.texts("drop");
+    let scale = mesh.number("scale");
+    if !mesh.has("units") {
+        return scale;
+    }
+    if mesh.has("scale") {
+        refuse!(mesh, "scale", "mesh.units and mesh.scale both scale the coordinates";
+            "beside mesh.units"; "leave one of them out");
+    }
+    10f64.powi(units.length())
+}
+
+/// Whether `[material]` has the constants of regions without a section of their own; a formulation alone gives them
+/// none.
+pub(super) fn has_common_constants(root: &Section<'_>) -> bool {
+    let given = root.section("material", false).remaining();
+    given.iter().any(|(key, _)| *key != "formulation")
+}
+
+/// `[material]`. Where every region of a mesh file may have a section of its own, it can be left out: the constants are
+/// then those of the first region, once it is read.
+fn material(root: &Section<'_>, tables: &TableFiles<'_>) -> TabledMaterial {
+    let has_regions = root.section("mesh", false).has("file")
+        && !root.section("materials", false).remaining().is_empty();
+    let is_needed = !has_regions || has_common_constants(root);
+    let section = root.section("material", is_needed);
+    let formulation = section.choice("formulation");
+    let (elastic, table) = match is_needed {
+        true => {
+            let table = modulus_table(&section, tables);
+            (elastic(&section, formulation, table.as_deref()), table)
+        }
+        false => (ElasticMaterial { formulation, ..ElasticMaterial::PLAIN }, None),
+    };
+    section.close();
+    TabledMaterial { own: RegionMaterial { elastic, damping: None }, table }
+}
+
+pub(super) fn damping(section: &Section<'_>) -> Damping {
+    Damping {
+        rayleigh: RayleighDamping {
+            mass_coefficient: section.number("mass_coefficient"),
+            stiffness_coefficient: section.number("stiffness_coefficient"),
+        },
+        include_contact: section.flag("include_contact"),
+    }
+}
