@@ -166,7 +166,8 @@ pub fn linearized(
     options: &TangentOptions,
 ) -> SlidingTangent {
     let elastic = assemble_stiffness(mesh, material);
-    let base = SteadySliding::solve(mesh, &elastic, contact).unwrap();
+    let law = options.contact.law;
+    let base = SteadySliding::solve_with(mesh, &elastic, contact, law).unwrap();
     SlidingTangent::linearize(mesh, material, &elastic, &base, options)
 }
 

@@ -90,12 +90,11 @@ fn a_supported_rim_gives_the_sounds_of_the_prototype() {
     ];
     let material = ElasticMaterial { formulation: PlaneFormulation::PlaneStress, ..POLYCARBONATE };
     for (outer, expected) in rows {
-        let mut specification = annulus(ElementKind::Quad8, 96, 20);
-        specification.outer = outer;
-        let request = sweep_request(&[0.3], ModeLimit::MaxFrequency(17000.0));
+        let disc = annulus(ElementKind::Quad8, 96, 20);
+        let specification = AnnulusSpecification { outer, ..disc };
         let options = options(MassKind::Consistent, false);
-        let found =
-            cyclic::sweep(&specification, &material, &options, &contact(610.0), &request).unwrap();
+        let model = WaveModel { specification, material, options, contact: contact(610.0) };
+        let found = model.swept(&[0.3], ModeLimit::MaxFrequency(17000.0));
         let modes = &found.sweep.points[0].modes;
         for &(harmonic, frequency, growth) in expected {
             let near = modes.iter().find(|mode| {

@@ -1,10 +1,9 @@
 //! Contact of plane bodies that stiffens with pressure.
 
-use crate::cea_cyclic::model::paper_options;
 use crate::friction_law::block::{MASS, STEEL, WIDTH, block};
 use crate::prelude::*;
 
-const LAWS: [NormalLaw; 2] = [
+pub const LAWS: [NormalLaw; 2] = [
     NormalLaw::Exponential { reference_pressure: 2e5, height: 4e-6 },
     NormalLaw::Cubic { stiffness: 2e11, cubic_stiffness: 1e22 },
 ];
@@ -29,28 +28,6 @@ fn disc_and_interface_share_the_interference() {
         assert!((pressure / expected - 1.0).abs() < 1e-12);
         let spring = own.state.stiffnesses[0][0] / width;
         assert!((spring / law.stiffness(law.approach(pressure)) - 1.0).abs() < 1e-12);
-    }
-}
-
-/// Cross-method: harmonic by harmonic, and over the whole mesh, whose base state is solved by complementarity.
-#[test]
-fn harmonics_and_whole_mesh_have_the_same_spectrum() {
-    for (law, element) in LAWS.into_iter().zip([ElementKind::Quad4, ElementKind::Quad8]) {
-        let specification = annulus(element, 24, 5);
-        let mut options = paper_options();
-        options.contact = stiffening(law);
-        let frictions = [0.0, 0.4];
-        let request = sweep_request(&frictions, ModeLimit::Lowest(12));
-        let sliding = contact(610.0);
-        let own = cyclic::sweep(&specification, &POLYCARBONATE, &options, &sliding, &request);
-        let own = own.unwrap().sweep;
-        let mesh = AnnulusMesh::generate(&specification).unwrap().mesh;
-        let elastic = assemble_stiffness(&mesh, &POLYCARBONATE);
-        let range = SlidingRange::solve(&mesh, &elastic, &sliding, Some(law), &frictions);
-        let base = &range.unwrap().states[0];
-        let tangent = SlidingTangent::linearize(&mesh, &POLYCARBONATE, &elastic, base, &options);
-        let whole = sparse::sweep(&tangent, &request, &|_| {}).unwrap();
-        assert_same(&own, &whole, [1e-8, 1e-8], &format!("{law:?}"));
     }
 }
 

@@ -2,7 +2,8 @@
 
 pub use crate::common::prelude::*;
 pub use crate::shaft::model::AnnulusMaterials;
-pub use crate::solids::model::{SolidModel, solid_sweep};
+pub use crate::solids::model::SolidModel;
+pub use crate::waves::{AnnulusModel, WaveModel};
 pub use frictionsim::cea::cyclic::WaveSweep;
 pub use frictionsim::cea::sparse::sweep;
 pub use frictionsim::linalg::dense::random_columns;

@@ -1,10 +1,93 @@
-//! Derivatives of the branches of bodies that are solved harmonic by harmonic.
+//! Bodies that are solved harmonic by harmonic, and the derivatives of their branches.
 
 use crate::prelude::*;
-use frictionsim::cea::cyclic::{Beside, WavePair, wave_pairs, wave_responses};
+use frictionsim::cea::cyclic::{Beside, WavePair, wave_pairs, wave_responses, wave_sweep};
 
 /// Step of a parameter relative to its value.
 pub const STEP: f64 = 1e-3;
+
+/// What a body is made from by equal sectors.
+pub trait Sectors: Clone {
+    fn tangent(
+        &self,
+        material: &dyn MaterialField,
+        options: &TangentOptions,
+        contact: &SlidingContact,
+    ) -> Result<WaveTangent, CeaError>;
+}
+
+impl Sectors for AnnulusSpecification {
+    fn tangent(
+        &self,
+        material: &dyn MaterialField,
+        options: &TangentOptions,
+        contact: &SlidingContact,
+    ) -> Result<WaveTangent, CeaError> {
+        let sector = SectorMesh::generate(self)?;
+        Ok(WaveTangent::of_annulus(&sector, material, options, contact)?)
+    }
+}
+
+impl Sectors for SolidSpecification {
+    fn tangent(
+        &self,
+        material: &dyn MaterialField,
+        options: &TangentOptions,
+        contact: &SlidingContact,
+    ) -> Result<WaveTangent, CeaError> {
+        let sector = SolidSector::generate(self)?;
+        Ok(WaveTangent::of_revolution(&sector, material, options, contact)?)
+    }
+}
+
+/// A body with all that its analysis is made from.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WaveModel<S, M = ElasticMaterial> {
+    pub specification: S,
+    pub material: M,
+    pub options: TangentOptions,
+    pub contact: SlidingContact,
+}
+
+pub type AnnulusModel<M = ElasticMaterial> = WaveModel<AnnulusSpecification, M>;
+
+impl<S: Sectors, M: MaterialField + Clone> WaveModel<S, M> {
+    /// Its small motions.
+    pub fn tangent(&self) -> WaveTangent {
+        self.specification.tangent(&self.material, &self.options, &self.contact).unwrap()
+    }
+
+    /// Its eigenvalues over friction.
+    pub fn sweep(&self, request: &SweepRequest<'_>) -> Result<WaveSweep, CeaError> {
+        let Self { specification, material, options, contact } = self;
+        wave_sweep(specification.tangent(material, options, contact)?, request, &[])
+    }
+
+    /// The modes of a limit at some friction coefficients.
+    pub fn swept(&self, frictions: &[f64], limit: ModeLimit) -> WaveSweep {
+        self.sweep(&sweep_request(frictions, limit)).unwrap()
+    }
+
+    /// The same model with a change.
+    pub fn with(&self, change: impl FnOnce(&mut Self)) -> Self {
+        let mut changed = self.clone();
+        change(&mut changed);
+        changed
+    }
+}
+
+impl<M: MaterialField> AnnulusModel<M> {
+    /// Its small motions on the whole mesh, which knows nothing of the symmetry.
+    pub fn whole(&self) -> SlidingTangent {
+        let mesh = AnnulusMesh::generate(&self.specification).unwrap().mesh;
+        linearized(&mesh, &self.material, &self.contact, &self.options)
+    }
+
+    /// The eigenvalues of these.
+    pub fn whole_swept(&self, frictions: &[f64], limit: ModeLimit) -> FrictionSweep {
+        sparse::sweep(&self.whole(), &sweep_request(frictions, limit), &|_| {}).unwrap()
+    }
+}
 
 /// The eigenpairs of the branches that oscillate at a friction coefficient.
 pub fn pairs(tangent: &WaveTangent, branches: &[ModeBranch], friction: f64) -> Vec<WavePair> {
@@ -28,4 +111,153 @@ pub fn rates(pairs: &[WavePair], step: f64, at: &dyn Fn(f64) -> WaveTangent) -> 
 pub fn is_of(pair: &WavePair) -> impl Fn(&&ModeBranch) -> bool {
     let name = (pair.harmonic, pair.branch, pair.direction);
     move |branch| (branch.harmonic, branch.branch, branch.direction) == name
+}
+
+/// How derivatives are held to differences of whole analyses.
+pub struct Differences {
+    /// Below these the branches are compared, and looked for beside the value of a parameter, Hz.
+    pub limits_hz: [f64; 2],
+    /// Whether eigenvalues are those of the whole harmonics: what a small space leaves out of them, up to 1e-5 on coarse meshes,
+    /// changes with the parameters.
+    pub is_whole: bool,
+    /// Steps over those of the table.
+    pub factor: f64,
+    /// Largest error relative to the change over the parameter's own size, or to a thousandth of `|lambda|` where that is less.
+    pub tolerance: f64,
+}
+
+/// Branch by harmonic, rank and direction.
+type Name = (usize, usize, i8);
+
+/// Eigenvalues of all branches where a parameter is so much more.
+type Along<'a> = &'a dyn Fn(f64) -> BTreeMap<Name, c64>;
+
+/// A parameter's name, its own size, the step of a difference, and the change of a model by so much.
+type Parameter<S> = (&'static str, Option<f64>, f64, fn(&mut WaveModel<S>, f64));
+
+/// The parameters that a model may have; of Poisson's ratio the size is about what is left to 1/2.
+fn parameters<S: Sectors>(model: &WaveModel<S>) -> [Parameter<S>; 11] {
+    let WaveModel { material, options, contact, .. } = model;
+    let (cubic, exponential) = match options.contact.law {
+        Some(NormalLaw::Cubic { cubic_stiffness, .. }) => (Some(cubic_stiffness), None),
+        Some(NormalLaw::Exponential { reference_pressure, height }) => {
+            (None, Some([reference_pressure, height]))
+        }
+        None => (None, None),
+    };
+    let k_n = options.contact.normal_stiffness.filter(|_| exponential.is_none());
+    let [p_r, height] = [0, 1].map(|k| exponential.map(|own| own[k]));
+    let [alpha, beta] = [options.damping.mass_coefficient, options.damping.stiffness_coefficient];
+    let share = |value: Option<f64>, share: f64| share * value.unwrap_or(0.0);
+    [
+        ("nu", Some(1.0), 2.5e-4, |m, h| m.material.poisson_ratio += h),
+        ("E", Some(material.young_modulus), 1e7, |m, h| m.material.young_modulus += h),
+        ("rho", Some(material.density), 5.0, |m, h| m.material.density += h),
+        ("alpha", Some(alpha), 1.0, |m, h| m.options.damping.mass_coefficient += h),
+        ("beta", Some(beta), 1e-8, |m, h| m.options.damping.stiffness_coefficient += h),
+        ("k_n", k_n, share(k_n, 0.004), |m, h| {
+            if let Some(k) = &mut m.options.contact.normal_stiffness {
+                *k += h;
+            }
+            if let Some(NormalLaw::Cubic { stiffness, .. }) = &mut m.options.contact.law {
+                *stiffness += h;
+            }
+        }),
+        ("c", cubic, share(cubic, 0.004), |m, h| {
+            if let Some(NormalLaw::Cubic { cubic_stiffness, .. }) = &mut m.options.contact.law {
+                *cubic_stiffness += h;
+            }
+        }),
+        ("p_r", p_r, share(p_r, 0.004), |m, h| {
+            let law = &mut m.options.contact.law;
+            if let Some(NormalLaw::Exponential { reference_pressure, .. }) = law {
+                *reference_pressure += h;
+            }
+        }),
+        ("h", height, share(height, 0.002), |m, h| {
+            if let Some(NormalLaw::Exponential { height, .. }) = &mut m.options.contact.law {
+                *height += h;
+            }
+        }),
+        ("q", contact.decay.map(|d| d.static_ratio), 5e-3, |m, h| {
+            if let Some(decay) = &mut m.contact.decay {
+                decay.static_ratio += h;
+            }
+        }),
+        ("v_c", contact.decay.map(|d| d.decay_speed), 5e-3, |m, h| {
+            if let Some(decay) = &mut m.contact.decay {
+                decay.decay_speed += h;
+            }
+        }),
+    ]
+}
+
+impl Differences {
+    /// Friction coefficient of the derivatives.
+    pub const FRICTION: f64 = 0.35;
+
+    /// Eigenvalues of all branches at a friction coefficient.
+    fn eigenvalues<S: Sectors>(&self, model: &WaveModel<S>, friction: f64) -> BTreeMap<Name, c64> {
+        let limit = ModeLimit::MaxFrequency(self.limits_hz[1]);
+        let branches = model.swept(&[friction], limit).branches;
+        if self.is_whole {
+            let own = pairs(&model.tangent(), &branches, friction).into_iter();
+            return own.map(|s| ((s.harmonic, s.branch, s.direction), s.eigenvalue)).collect();
+        }
+        let found = branches.iter().filter_map(|own| {
+            Some(((own.harmonic, own.branch, own.direction), own.interpolate(friction)?))
+        });
+        found.collect()
+    }
+
+    /// Holds the derivatives of every branch, by every parameter that the model has and by friction, to differences of whole
+    /// analyses, base state included: of fourth order, so that the step may stay far above round-off. How many branches there are.
+    pub fn hold<S: Sectors>(&self, model: &WaveModel<S>, what: &str) -> usize {
+        let limit = ModeLimit::MaxFrequency(self.limits_hz[0]);
+        let found = model.swept(&[0.0, Self::FRICTION], limit);
+        let all = pairs(&model.tangent(), &found.branches, Self::FRICTION);
+        assert!(all.len() >= 5, "{what}: {}", all.len());
+        let mut errors = Vec::new();
+        let mut check = |name: &str, [scale, step]: [f64; 2], own: &[c64], at: Along<'_>| {
+            let sides = [-2.0, -1.0, 1.0, 2.0].map(|k| at(k * step));
+            let mut missing = 0;
+            let mut worst = (0.0, c64::new(0.0, 0.0), c64::new(0.0, 0.0), (0, 0, 0));
+            for (s, own) in all.iter().zip(own) {
+                let branch = (s.harmonic, s.branch, s.direction);
+                let [Some(a), Some(b), Some(c), Some(d)] = sides.each_ref().map(|s| s.get(&branch))
+                else {
+                    missing += 1;
+                    continue;
+                };
+                let numeric = ((c - b) * 8.0 - (d - a)) / (12.0 * step);
+                let size = (numeric * scale).norm() + 1e-3 * s.eigenvalue.norm();
+                let error = (own - numeric).norm() * scale / size;
+                let is_near = (own - numeric).norm() < 1e-9 * s.eigenvalue.norm();
+                assert!(name != "mu" || is_near, "{what}: {branch:?} {own} {numeric}");
+                if error.is_nan() || error > worst.0 {
+                    worst = (error, own * scale, numeric * scale, branch);
+                }
+            }
+            // At the limit of frequency, where nothing is looked for above it.
+            let is_at_limit = self.limits_hz[0] == self.limits_hz[1];
+            assert!(missing <= if is_at_limit { 2 } else { 0 }, "{what}, {name}: {missing}");
+            errors.push((name.to_owned(), worst));
+        };
+        for (name, scale, step, change) in parameters(model) {
+            let Some(scale) = scale else {
+                continue;
+            };
+            let changed = |offset: f64| model.with(|own| change(own, offset));
+            let step_of_rate = STEP * if name == "nu" { 0.1 } else { scale };
+            let own = rates(&all, step_of_rate, &|offset| changed(offset).tangent());
+            check(name, [scale, self.factor * step], &own, &|offset| {
+                self.eigenvalues(&changed(offset), Self::FRICTION)
+            });
+        }
+        let own: Vec<c64> = all.iter().map(|pair| pair.derivative).collect();
+        let friction = [Self::FRICTION, 2e-3];
+        check("mu", friction, &own, &|more| self.eigenvalues(model, Self::FRICTION + more));
+        assert!(errors.iter().all(|(_, own)| own.0 < self.tolerance), "{what}: {errors:?}");
+        all.len()
+    }
 }

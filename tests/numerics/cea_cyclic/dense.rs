@@ -1,9 +1,8 @@
 //! Independent checks: dense solutions of harmonics folded from the matrices of the full mesh.
 
-use crate::cea_cyclic::model::{paper_options, run};
+use crate::cea_cyclic::model::paper;
 use crate::prelude::*;
 use faer::linalg::solvers::Solve;
-use frictionsim::cea::cyclic::sweep;
 
 /// Harmonic `n` of a matrix of the full mesh: couplings of the first sector's unknowns with everything,
 /// weighted with the wave's phase. Exact, because in polar frames every sector has the same rows.
@@ -71,20 +70,12 @@ fn dense_eigenvalues(tangent: &SlidingTangent, mesh: &AnnulusMesh, mu: f64, n: i
 
 /// Largest relative distance of the cyclic modes to the dense ones of their signed harmonic; panics unless
 /// both have equally many modes below the limit, for every harmonic of the mesh.
-fn worst_difference(
-    specification: &AnnulusSpecification,
-    material: &ElasticMaterial,
-    options: &TangentOptions,
-    contact: &SlidingContact,
-    frictions: &[f64],
-    limit_hz: f64,
-) -> f64 {
-    let request = sweep_request(frictions, ModeLimit::MaxFrequency(limit_hz));
-    let cyclic = sweep(specification, material, options, contact, &request).unwrap();
-    let mesh = AnnulusMesh::generate(specification).unwrap();
-    let tangent = linearized(&mesh.mesh, material, contact, options);
+fn worst_difference(model: &AnnulusModel, frictions: &[f64], limit_hz: f64) -> f64 {
+    let cyclic = model.swept(frictions, ModeLimit::MaxFrequency(limit_hz));
+    let mesh = AnnulusMesh::generate(&model.specification).unwrap();
+    let tangent = model.whole();
     let sectors = mesh.sector_count() as i32;
-    let against: i8 = if contact.rotation_speed < 0.0 { 1 } else { -1 };
+    let against: i8 = if model.contact.rotation_speed < 0.0 { 1 } else { -1 };
     let mut worst = 0.0_f64;
     for (point, &mu) in cyclic.sweep.points.iter().zip(frictions) {
         for n in (1 - sectors) / 2..=sectors / 2 {
@@ -118,25 +109,16 @@ fn spectrum_equals_dense_solution_of_every_harmonic_of_the_full_mesh() {
         for mass in [MassKind::Consistent, MassKind::Lumped] {
             for normal_stiffness in [None, Some(7.4e12)] {
                 for geometric_stiffness in [false, true] {
-                    let mut options = paper_options();
-                    options.mass = mass;
-                    options.contact.normal_stiffness = normal_stiffness;
-                    options.geometric_stiffness = geometric_stiffness;
-                    let mut contact = contact(610.0);
+                    let mut model = paper(element, n_theta, 6);
+                    model.options.mass = mass;
+                    model.options.contact.normal_stiffness = normal_stiffness;
+                    model.options.geometric_stiffness = geometric_stiffness;
                     if geometric_stiffness {
                         // A strong prestress, and the other sense of rotation.
-                        contact.interference = 4e-4;
-                        contact.rotation_speed = -60.0;
+                        model.contact.interference = 4e-4;
+                        model.contact.rotation_speed = -60.0;
                     }
-                    let specification = annulus(element, n_theta, 6);
-                    let worst = worst_difference(
-                        &specification,
-                        &POLYCARBONATE,
-                        &options,
-                        &contact,
-                        &[0.0, 0.3, 0.9],
-                        17500.0,
-                    );
+                    let worst = worst_difference(&model, &[0.0, 0.3, 0.9], 17500.0);
                     // Dense solvers leave a few ulps of the mesh's largest eigenvalue, 1e3 times these.
                     assert!(worst < 1e-10, "{element:?} {mass:?} {normal_stiffness:?} {worst:e}");
                 }
@@ -152,19 +134,16 @@ fn quadratic_problem_equals_dense_companion_solution() {
         for (normal_stiffness, normal_damping, tangential_damping) in
             [(None, 0.0, 1e4), (Some(7.4e12), 2e6, 3e4), (Some(7.4e12), 0.0, 0.0)]
         {
-            let mut options = paper_options();
-            options.damping_model = damping_model;
-            options.contact =
-                ContactStiffness { normal_stiffness, normal_damping, tangential_damping, ..RIGID };
             for element in [ElementKind::Quad4, ElementKind::Quad8] {
-                let worst = worst_difference(
-                    &annulus(element, 14, 5),
-                    &POLYCARBONATE,
-                    &options,
-                    &contact(610.0),
-                    &[0.0, 0.4, 1.0],
-                    15000.0,
-                );
+                let mut model = paper(element, 14, 5);
+                model.options.damping_model = damping_model;
+                model.options.contact = ContactStiffness {
+                    normal_stiffness,
+                    normal_damping,
+                    tangential_damping,
+                    ..RIGID
+                };
+                let worst = worst_difference(&model, &[0.0, 0.4, 1.0], 15000.0);
                 below(worst, 1e-9, format_args!("{damping_model:?} {element:?}"));
             }
         }
@@ -184,9 +163,10 @@ fn random_models_lose_no_mode_and_gain_none() {
     for index in 0..40 {
         let mut choose = |count: usize| (random() * count as f64) as usize;
         let element = [ElementKind::Quad4, ElementKind::Quad8][choose(2)];
-        let mut specification = annulus(element, 11 + choose(12), 2 + choose(5));
-        let formulation = [PlaneFormulation::PlaneStrain, PlaneFormulation::PlaneStress][choose(2)];
-        let mut options = paper_options();
+        let mut model = paper(element, 11 + choose(12), 2 + choose(5));
+        let AnnulusModel { specification, material, options, contact } = &mut model;
+        material.formulation =
+            [PlaneFormulation::PlaneStrain, PlaneFormulation::PlaneStress][choose(2)];
         options.mass = [MassKind::Consistent, MassKind::Lumped][choose(2)];
         options.geometric_stiffness = choose(3) > 0;
         let is_penalty = choose(5) > 1;
@@ -199,15 +179,12 @@ fn random_models_lose_no_mode_and_gain_none() {
         options.damping.stiffness_coefficient = 4.5e-6 * random();
         specification.radial_grading = 0.8 + 0.5 * random();
         specification.inner_radius = 0.01 + 0.06 * random();
-        let material =
-            ElasticMaterial { poisson_ratio: -0.2 + 0.69 * random(), formulation, ..POLYCARBONATE };
-        let mut contact = contact(610.0);
+        material.poisson_ratio = -0.2 + 0.69 * random();
         contact.interference = 1e-3 * random();
         contact.rotation_speed = if random() < 0.5 { -3.0 } else { 9.0 };
         let frictions = [0.0, 0.5 * random(), 0.5 + 1.5 * random()];
         let limit = 6000.0 + 12000.0 * random();
-        let worst =
-            worst_difference(&specification, &material, &options, &contact, &frictions, limit);
+        let worst = worst_difference(&model, &frictions, limit);
         assert!(worst < 1e-9, "model {index}: {worst:e}");
     }
 }
@@ -215,24 +192,19 @@ fn random_models_lose_no_mode_and_gain_none() {
 /// Two real eigenvalues of the shortest wave of a coarse mesh meet and go on as a conjugate pair.
 #[test]
 fn branches_of_a_standing_harmonic_that_meet_are_followed_beyond() {
-    let mut options = paper_options();
-    options.mass = MassKind::Lumped;
-    options.damping.stiffness_coefficient = 3.195e-6;
-    options.contact.normal_stiffness = Some(3e11);
-    let mut contact = contact(610.0);
-    contact.interference = 9.876e-5;
-    let material = ElasticMaterial {
-        poisson_ratio: 0.266,
-        formulation: PlaneFormulation::PlaneStress,
-        ..POLYCARBONATE
-    };
-    let mut specification = annulus(ElementKind::Quad8, 10, 4);
-    specification.inner_radius = 0.0387;
-    specification.radial_grading = 1.09;
+    let mut model = paper(ElementKind::Quad8, 10, 4);
+    model.options.mass = MassKind::Lumped;
+    model.options.damping.stiffness_coefficient = 3.195e-6;
+    model.options.contact.normal_stiffness = Some(3e11);
+    model.contact.interference = 9.876e-5;
+    model.material.poisson_ratio = 0.266;
+    model.material.formulation = PlaneFormulation::PlaneStress;
+    model.specification.inner_radius = 0.0387;
+    model.specification.radial_grading = 1.09;
     let frictions = [0.0, 0.1, 0.2, 0.25, 0.3, 0.5, 0.7];
-    let worst =
-        worst_difference(&specification, &material, &options, &contact, &frictions, 19585.0);
+    let worst = worst_difference(&model, &frictions, 19585.0);
     assert!(worst < 1e-9, "{worst:e}");
-    let found = run(&specification, &options, &frictions, ModeLimit::MaxFrequency(19585.0));
+    let plain = WaveModel { material: POLYCARBONATE, contact: contact(610.0), ..model };
+    let found = plain.swept(&frictions, ModeLimit::MaxFrequency(19585.0));
     assert_eq!(found.coverage.largest_harmonic, 5);
 }

@@ -1,7 +1,6 @@
-//! Sweeps of the paper's disc.
+//! Models of the paper's disc.
 
 use crate::prelude::*;
-use frictionsim::cea::cyclic::sweep;
 
 pub fn paper_options() -> TangentOptions {
     TangentOptions {
@@ -11,12 +10,12 @@ pub fn paper_options() -> TangentOptions {
     }
 }
 
-pub fn run(
-    specification: &AnnulusSpecification,
-    options: &TangentOptions,
-    frictions: &[f64],
-    limit: ModeLimit,
-) -> WaveSweep {
-    let request = sweep_request(frictions, limit);
-    sweep(specification, &POLYCARBONATE, options, &contact(610.0), &request).unwrap()
+/// The disc on so many elements around and across.
+pub fn paper(element: ElementKind, around: usize, across: usize) -> AnnulusModel {
+    WaveModel {
+        specification: annulus(element, around, across),
+        material: POLYCARBONATE,
+        options: paper_options(),
+        contact: contact(610.0),
+    }
 }

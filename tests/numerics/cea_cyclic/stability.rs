@@ -1,13 +1,11 @@
 //! Onsets, intervals, completeness and maps, against the paper, the continuum and each other.
 
-use crate::cea_cyclic::model::{paper_options, run};
+use crate::cea_cyclic::model::paper;
 use crate::prelude::*;
-use frictionsim::cea::cyclic::sweep;
 
 #[test]
 fn eigenvalues_equal_table_1_of_the_paper() {
-    let specification = annulus(ElementKind::Quad8, 180, 35);
-    let found = run(&specification, &paper_options(), &[0.3], ModeLimit::Lowest(28));
+    let found = paper(ElementKind::Quad8, 180, 35).swept(&[0.3], ModeLimit::Lowest(28));
     let rows = TABLE_1.iter().zip(&found.sweep.points[0].modes).zip(1..);
     for (((real, frequency, harmonic, branch), mode), row) in rows {
         assert_eq!((mode.harmonic, mode.branch), (*harmonic, *branch), "{mode:?}");
@@ -25,8 +23,8 @@ fn eigenvalues_equal_table_1_of_the_paper() {
 /// Onsets of the exact continuum model with the paper's data: 0.1224 (n = 1), 0.1382 (n = 2), 0.2121 (n = 1).
 #[test]
 fn critical_frictions_equal_those_of_the_continuum() {
-    let specification = annulus(ElementKind::Quad8, 120, 24);
-    let found = run(&specification, &paper_options(), &[0.0, 0.5, 1.0], ModeLimit::Lowest(28));
+    let model = paper(ElementKind::Quad8, 120, 24);
+    let found = model.swept(&[0.0, 0.5, 1.0], ModeLimit::Lowest(28));
     let onsets = [(0.1224, 1, 2), (0.1382, 2, 1), (0.2121, 1, 1)];
     for ((critical, harmonic, branch), own) in onsets.iter().zip(&found.sweep.intervals) {
         assert_eq!((own.harmonic, own.branch, own.direction), (*harmonic, *branch, -1));
@@ -39,15 +37,11 @@ fn critical_frictions_equal_those_of_the_continuum() {
 /// between 0.0077 and 0.0142, and at each end the branch neither grows nor decays.
 #[test]
 fn unstable_intervals_do_not_depend_on_the_grid() {
-    let mut options = paper_options();
-    options.contact.normal_stiffness = Some(1e11);
-    options.damping.stiffness_coefficient = 0.0;
-    let material = ElasticMaterial { poisson_ratio: 0.45, ..POLYCARBONATE };
-    let solve = |frictions: &[f64]| {
-        let request = sweep_request(frictions, ModeLimit::MaxFrequency(20000.0));
-        let specification = annulus(ElementKind::Quad4, 40, 10);
-        sweep(&specification, &material, &options, &contact(610.0), &request).unwrap()
-    };
+    let mut model = paper(ElementKind::Quad4, 40, 10);
+    model.options.contact.normal_stiffness = Some(1e11);
+    model.options.damping.stiffness_coefficient = 0.0;
+    model.material.poisson_ratio = 0.45;
+    let solve = |frictions: &[f64]| model.swept(frictions, ModeLimit::MaxFrequency(20000.0));
     let steps: Vec<f64> = (0..=1250).map(|i| 0.004 * f64::from(i)).collect();
     let (fine, coarse) = (solve(&steps).sweep.intervals, solve(&[5.0]));
     let narrow = |i: &&UnstableInterval| i.restabilized.is_some_and(|(end, _)| end < 0.02);
@@ -77,12 +71,10 @@ fn unstable_intervals_do_not_depend_on_the_grid() {
 
 #[test]
 fn every_other_harmonic_is_proven_to_hold_no_mode_of_the_range() {
-    let mut rigid = paper_options();
-    rigid.contact.normal_stiffness = None;
-    for options in [paper_options(), rigid] {
-        let specification = annulus(ElementKind::Quad4, 180, 35);
-        let found = run(&specification, &options, &[0.0, 1.0], ModeLimit::Lowest(30));
-        let coverage = found.coverage;
+    for normal_stiffness in [Some(7.4e12), None] {
+        let mut model = paper(ElementKind::Quad4, 180, 35);
+        model.options.contact.normal_stiffness = normal_stiffness;
+        let coverage = model.swept(&[0.0, 1.0], ModeLimit::Lowest(30)).coverage;
         assert_eq!(coverage.followed, (0..=8).collect::<Vec<_>>());
         assert_eq!(coverage.proven_empty, (9..=90).collect::<Vec<_>>());
         assert!(coverage.counted_empty.is_empty());
@@ -91,11 +83,9 @@ fn every_other_harmonic_is_proven_to_hold_no_mode_of_the_range() {
 
 #[test]
 fn results_are_the_same_to_the_last_bit_on_any_number_of_threads() {
+    let model = paper(ElementKind::Quad4, 40, 8);
     let solve = |threads: usize| {
-        let specification = annulus(ElementKind::Quad4, 40, 8);
-        let frictions = [0.0, 0.3, 0.7];
-        let limit = ModeLimit::Lowest(30);
-        on_threads(threads, || run(&specification, &paper_options(), &frictions, limit))
+        on_threads(threads, || model.swept(&[0.0, 0.3, 0.7], ModeLimit::Lowest(30)))
     };
     let (one, four) = (solve(1), solve(4));
     assert_eq!(one.sweep, four.sweep);
@@ -104,7 +94,7 @@ fn results_are_the_same_to_the_last_bit_on_any_number_of_threads() {
 
 #[test]
 fn impossible_requests_name_their_key() {
-    let specification = annulus(ElementKind::Quad4, 12, 2);
+    let model = paper(ElementKind::Quad4, 12, 2);
     for (frictions, limit, key) in [
         (vec![], ModeLimit::Lowest(3), "cea.friction_coefficients"),
         (vec![-0.1], ModeLimit::Lowest(3), "cea.friction_coefficients"),
@@ -112,9 +102,7 @@ fn impossible_requests_name_their_key() {
         (vec![0.1], ModeLimit::Lowest(1000), "cea.modes"),
         (vec![0.1], ModeLimit::MaxFrequency(-5.0), "cea.max_frequency_hz"),
     ] {
-        let request = sweep_request(&frictions, limit);
-        let (material, options) = (POLYCARBONATE, paper_options());
-        let outcome = sweep(&specification, &material, &options, &contact(610.0), &request);
+        let outcome = model.sweep(&sweep_request(&frictions, limit));
         assert!(outcome.unwrap_err().to_string().contains(key));
     }
 }
@@ -122,19 +110,15 @@ fn impossible_requests_name_their_key() {
 /// Where an eigenvalue is predicted exact to the last bit, `T(theta)` has a pivot of zero: 4 of 1000 random moduli have one.
 #[test]
 fn branches_are_followed_past_an_eigenvalue_predicted_to_the_last_bit() {
-    let specification = annulus(ElementKind::Quad4, 90, 18);
     let frictions: Vec<f64> = (0..11).map(|k| f64::from(k) / 10.0).collect();
-    let options = TangentOptions {
-        mass: MassKind::Lumped,
-        geometric_stiffness: false,
-        contact: ContactStiffness::default(),
-        ..paper_options()
-    };
     let intervals = |young_modulus: f64| {
-        let material = ElasticMaterial { young_modulus, ..POLYCARBONATE };
-        let request = sweep_request(&frictions, ModeLimit::MaxFrequency(17_500.0));
-        let found = sweep(&specification, &material, &options, &contact(1000.0), &request);
-        found.unwrap().sweep.intervals
+        let model = WaveModel {
+            material: ElasticMaterial { young_modulus, ..POLYCARBONATE },
+            options: TangentOptions { mass: MassKind::Lumped, ..TANGENT },
+            contact: contact(1000.0),
+            ..paper(ElementKind::Quad4, 90, 18)
+        };
+        model.swept(&frictions, ModeLimit::MaxFrequency(17_500.0)).sweep.intervals
     };
     let [exact, beside] = [2_540_479_684.482_66, 2_540_479_684.482_67].map(intervals);
     assert_eq!(exact.len(), beside.len());

@@ -1,14 +1,37 @@
-//! Cross-method checks: the sparse solver and the matrices of the whole mesh.
-
-use crate::cea_cyclic::model::{paper_options, run};
+use crate::cea_cyclic::model::paper;
+use crate::normal_law::LAWS;
 use crate::prelude::*;
-use frictionsim::cea::cyclic::sweep;
+use crate::shaft::model::{STEEL, model as on_shaft, on, rigid_contact, with_shaft};
+
+/// Eigenvalues, directions, branches, onsets and contact shares by harmonics and on the whole mesh.
+fn agree<M: MaterialField + Clone>(
+    model: &AnnulusModel<M>,
+    (frictions, count): (&[f64], usize),
+    tolerances: [f64; 2],
+    what: &str,
+) {
+    let limit = ModeLimit::Lowest(count);
+    let cyclic = model.swept(frictions, limit).sweep;
+    let sparse = model.whole_swept(frictions, limit);
+    assert_same(&cyclic, &sparse, tolerances, what);
+    assert!(!cyclic.intervals.is_empty(), "{what}");
+    for (ours, theirs) in cyclic.points.iter().zip(&sparse.points) {
+        for mode in &ours.modes {
+            let same = theirs.modes.iter().filter(|m| {
+                (m.harmonic, m.branch, m.direction) == (mode.harmonic, mode.branch, mode.direction)
+            });
+            let shares = same.map(|m| (m.contact_share - mode.contact_share).abs());
+            let share = shares.fold(f64::MAX, f64::min);
+            // A quadratic form of a vector that is known to the root of that.
+            assert!(share < 100.0 * tolerances[0], "{what}: {mode:?} {share:e}");
+        }
+    }
+}
 
 /// Cross-method check: the sparse solver on the whole mesh, which knows nothing of the symmetry, under constant friction, and under
 /// friction that falls with speed at both senses of rotation.
 #[test]
 fn spectrum_branches_and_onsets_equal_those_of_the_sparse_solver() {
-    let frictions = [0.0, 0.3, 0.6];
     let (quad4, quad8) = ((ElementKind::Quad4, 36), (ElementKind::Quad8, 18));
     let springs = Some(7.4e12);
     for ((element, sectors), mass, normal_stiffness, contact) in [
@@ -19,44 +42,55 @@ fn spectrum_branches_and_onsets_equal_those_of_the_sparse_solver() {
         (quad4, MassKind::Consistent, None, falling(610.0)),
         (quad8, MassKind::Consistent, springs, falling(-300.0)),
     ] {
-        let mut options = paper_options();
-        options.mass = mass;
-        options.contact.normal_stiffness = normal_stiffness;
-        let specification = annulus(element, sectors, 6);
-        let request = sweep_request(&frictions, ModeLimit::Lowest(18));
-        let cyclic = sweep(&specification, &POLYCARBONATE, &options, &contact, &request);
-        let cyclic = cyclic.unwrap().sweep;
-        let mesh = AnnulusMesh::generate(&specification).unwrap().mesh;
-        let tangent = linearized(&mesh, &POLYCARBONATE, &contact, &options);
-        let sparse = sparse::sweep(&tangent, &request, &|_| {}).unwrap();
+        let mut model = WaveModel { contact, ..paper(element, sectors, 6) };
+        model.options.mass = mass;
+        model.options.contact.normal_stiffness = normal_stiffness;
         let what = format!("{element:?} {mass:?} {normal_stiffness:?} {contact:?}");
-        assert_same(&cyclic, &sparse, [1e-9, 1e-8], &what);
-        for (ours, theirs) in cyclic.points.iter().zip(&sparse.points) {
-            for mode in &ours.modes {
-                let same = theirs.modes.iter().filter(|m| {
-                    (m.harmonic, m.branch, m.direction)
-                        == (mode.harmonic, mode.branch, mode.direction)
-                });
-                let shares = same.map(|m| (m.contact_share - mode.contact_share).abs());
-                let share = shares.fold(f64::MAX, f64::min);
-                // A quadratic form of a vector that is known to 1e-8.
-                assert!(share < 1e-7, "{what}: {mode:?} {share:e}");
-            }
-        }
+        agree(&model, (&[0.0, 0.3, 0.6], 18), [1e-9, 1e-8], &what);
+    }
+}
+
+/// The same of contact that stiffens with pressure, whose base state the whole mesh solves by complementarity.
+#[test]
+fn spectrum_of_contact_that_stiffens_equals_that_of_the_sparse_solver() {
+    for (law, element) in LAWS.into_iter().zip([ElementKind::Quad4, ElementKind::Quad8]) {
+        let model = paper(element, 24, 5).with(|own| own.options.contact = stiffening(law));
+        agree(&model, (&[0.0, 0.4], 12), [1e-8, 1e-8], &format!("{law:?}"));
+    }
+}
+
+/// The same of two bodies, whose damping and support are their own.
+#[test]
+fn cyclic_and_sparse_spectra_of_two_bodies_are_the_same() {
+    let alike = on_shaft(
+        with_shaft(ElementKind::Quad4, 20, [2, 4]),
+        on(POLYCARBONATE),
+        rigid_contact(true),
+    );
+    let mut damped =
+        on_shaft(with_shaft(ElementKind::Quad8, 12, [2, 4]), on(STEEL), rigid_contact(true));
+    damped.material.shaft.as_mut().unwrap().damping =
+        Some(RayleighDamping { mass_coefficient: 5.0, stiffness_coefficient: 1e-8 });
+    let mut supported = alike.clone();
+    supported.specification.circumferential_elements = 18;
+    supported.specification.shaft.as_mut().unwrap().bore =
+        BoundaryCondition::Support(springs([1e13, 2e13, 0.0], [10.0, 0.0]));
+    supported.options.contact = compliant(7.4e12, [1e3, 2e3]);
+    supported.options.damping_model = DampingModel::BodyOnly;
+    supported.options.mass = MassKind::Lumped;
+    for (k, model) in [alike, damped, supported].iter().enumerate() {
+        agree(model, (&[0.0, 0.3, 0.6], 12), [1e-9, 1e-7], &format!("case {k}"));
     }
 }
 
 /// Consistency check: without friction every mode but those of `n = 0` is double, and no count cuts a pair.
 #[test]
 fn a_cut_through_a_pair_keeps_both_members_in_both_solvers() {
-    let specification = annulus(ElementKind::Quad4, 24, 5);
-    let options = paper_options();
-    let mesh = AnnulusMesh::generate(&specification).unwrap().mesh;
-    let tangent = linearized(&mesh, &POLYCARBONATE, &contact(610.0), &options);
+    let model = paper(ElementKind::Quad4, 24, 5);
     for asked in 2..6 {
-        let cyclic = run(&specification, &options, &[0.0, 0.4], ModeLimit::Lowest(asked)).sweep;
-        let request = sweep_request(&[0.0, 0.4], ModeLimit::Lowest(asked));
-        let sparse = sparse::sweep(&tangent, &request, &|_| {}).unwrap();
+        let limit = ModeLimit::Lowest(asked);
+        let cyclic = model.swept(&[0.0, 0.4], limit).sweep;
+        let sparse = model.whole_swept(&[0.0, 0.4], limit);
         for found in [cyclic, sparse] {
             let [rest, sliding] = [0, 1].map(|i| &found.points[i].modes);
             let singles = rest.iter().filter(|mode| mode.harmonic == 0).count();
@@ -71,15 +105,12 @@ fn a_cut_through_a_pair_keeps_both_members_in_both_solvers() {
 /// Consistency check: the uncertainty says what a penalty of any size does to the digits that both solvers share.
 #[test]
 fn solvers_differ_by_no_more_than_the_uncertainty_that_they_state() {
-    let specification = annulus(ElementKind::Quad4, 24, 5);
     for penalty in [7.4e12, 7.4e18, 7.4e24] {
-        let mut options = paper_options();
-        options.contact.normal_stiffness = Some(penalty);
-        let cyclic = run(&specification, &options, &[0.4], ModeLimit::Lowest(8)).sweep;
-        let mesh = AnnulusMesh::generate(&specification).unwrap().mesh;
-        let tangent = linearized(&mesh, &POLYCARBONATE, &contact(610.0), &options);
+        let mut model = paper(ElementKind::Quad4, 24, 5);
+        model.options.contact.normal_stiffness = Some(penalty);
         let request = sweep_request(&[0.4], ModeLimit::Lowest(8));
-        let Ok(sparse) = sparse::sweep(&tangent, &request, &|_| {}) else {
+        let cyclic = model.sweep(&request).unwrap().sweep;
+        let Ok(sparse) = sparse::sweep(&model.whole(), &request, &|_| {}) else {
             assert!(penalty > 1e20, "{penalty:e}");
             continue;
         };
@@ -99,15 +130,12 @@ fn expanded_shapes_are_eigenvectors_of_the_full_mesh() {
     for (element, normal_stiffness) in
         [(ElementKind::Quad4, Some(7.4e12)), (ElementKind::Quad8, None)]
     {
-        let mut options = paper_options();
-        options.contact.normal_stiffness = normal_stiffness;
-        let specification = annulus(element, 24, 6);
+        let mut model = paper(element, 24, 6);
+        model.options.contact.normal_stiffness = normal_stiffness;
         let request =
             SweepRequest { shapes_at: &[0.6], ..sweep_request(&[0.6, 0.0], ModeLimit::Lowest(20)) };
-        let (material, contact) = (POLYCARBONATE, contact(610.0));
-        let found = sweep(&specification, &material, &options, &contact, &request).unwrap();
-        let mesh = AnnulusMesh::generate(&specification).unwrap().mesh;
-        let tangent = linearized(&mesh, &material, &contact, &options);
+        let found = model.sweep(&request).unwrap();
+        let tangent = model.whole();
         let multiply = |p: &MatrixPolynomial, x: &[c64]| {
             let (values, pattern) = (p.evaluate(0.6), p.pattern());
             let mut y = vec![c64::new(0.0, 0.0); x.len()];

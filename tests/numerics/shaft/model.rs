@@ -1,7 +1,6 @@
 //! The paper's disc on a deformable shaft.
 
 use crate::prelude::*;
-use frictionsim::cea::cyclic::sweep;
 
 /// Materials of an annulus, region 0, and of its deformable shaft, region 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -51,13 +50,11 @@ pub fn rigid_contact(geometric_stiffness: bool) -> TangentOptions {
     TangentOptions { geometric_stiffness, ..TANGENT }
 }
 
-pub fn spectrum(
-    specification: &AnnulusSpecification,
-    materials: &AnnulusMaterials,
-    options: &TangentOptions,
-    frictions: &[f64],
-    limit: ModeLimit,
-) -> WaveSweep {
-    let request = sweep_request(frictions, limit);
-    sweep(specification, materials, options, &contact(610.0), &request).unwrap()
+/// Disc and shaft at 610 rpm.
+pub fn model(
+    specification: AnnulusSpecification,
+    material: AnnulusMaterials,
+    options: TangentOptions,
+) -> AnnulusModel<AnnulusMaterials> {
+    WaveModel { specification, material, options, contact: contact(610.0) }
 }

@@ -48,8 +48,7 @@ fn a_branch_that_needs_small_steps_makes_no_other_take_them() {
     let mut model = disc(ElementKind::Quad4, [180, 35, 4]);
     model.options.geometric_stiffness = true;
     let values: Vec<f64> = (0..21).map(|i| 0.03 * f64::from(i)).collect();
-    let request = sweep_request(&values, ModeLimit::Lowest(30));
-    let found = solid_sweep(&model, &request).unwrap();
+    let found = model.swept(&values, ModeLimit::Lowest(30));
     let modes: usize = found.sweep.points.iter().map(|p| p.modes.len()).sum();
     // Branches above the range are followed too, and strongly coupled ones take several steps; small steps all along spend 18.
     let spent = found.coverage.factorizations;

@@ -2,15 +2,16 @@
 
 use crate::prelude::*;
 use crate::solids::model::{disc, modes};
-use frictionsim::cea::cyclic::sweep;
 
 fn plane(model: &SolidModel, formulation: PlaneFormulation, limit_hz: f64) -> Vec<ComplexMode> {
-    let request = sweep_request(&[0.3], ModeLimit::MaxFrequency(limit_hz));
-    let mut material = model.material;
-    material.formulation = formulation;
-    let found =
-        sweep(&model.specification.annulus, &material, &model.options, &model.contact, &request);
-    found.unwrap().sweep.points.remove(0).modes
+    let plane = WaveModel {
+        specification: model.specification.annulus,
+        material: ElasticMaterial { formulation, ..model.material },
+        options: model.options,
+        contact: model.contact,
+    };
+    let found = plane.swept(&[0.3], ModeLimit::MaxFrequency(limit_hz));
+    found.sweep.points.into_iter().next().unwrap().modes
 }
 
 /// Eigenvalue of the given modes nearest to one of the plane.
@@ -40,10 +41,7 @@ fn guided_faces_give_plane_strain() {
 #[test]
 fn the_estimate_of_what_the_small_space_of_a_harmonic_leaves_out_is_what_it_leaves_out() {
     let model = disc(ElementKind::Quad8, [24, 5, 1]);
-    let up_to = |limit_hz: f64| {
-        let request = sweep_request(&[0.3], ModeLimit::MaxFrequency(limit_hz));
-        solid_sweep(&model, &request).unwrap()
-    };
+    let up_to = |limit_hz: f64| model.swept(&[0.3], ModeLimit::MaxFrequency(limit_hz));
     let (small, large) = (up_to(9000.0), up_to(18_000.0));
     let left_out = small.sweep.points[0].modes.iter().map(|mode| {
         let better = nearest(&large.sweep.points[0].modes, mode);

@@ -1,35 +1,9 @@
 //! The polycarbonate disc in three dimensions.
 
-use crate::common::prelude::*;
-use frictionsim::cea::cyclic::{WaveSweep, wave_sweep};
+use crate::prelude::*;
 use frictionsim::fem::sector;
 
-/// A body of revolution with all that its analysis is made from.
-#[derive(Clone, Debug, PartialEq)]
-pub struct SolidModel<M = ElasticMaterial> {
-    pub specification: SolidSpecification,
-    pub material: M,
-    pub options: TangentOptions,
-    pub contact: SlidingContact,
-}
-
-/// Its eigenvalues over friction.
-pub fn solid_sweep<M: MaterialField>(
-    model: &SolidModel<M>,
-    request: &SweepRequest<'_>,
-) -> Result<WaveSweep, CeaError> {
-    let sector = SolidSector::generate(&model.specification)?;
-    let SolidModel { material, options, contact, .. } = model;
-    let tangent = WaveTangent::of_revolution(&sector, material, options, contact)?;
-    wave_sweep(tangent, request, &[])
-}
-
-/// Its small motions.
-pub fn tangent<M: MaterialField>(model: &SolidModel<M>) -> WaveTangent {
-    let sector = SolidSector::generate(&model.specification).unwrap();
-    let SolidModel { material, options, contact, .. } = model;
-    WaveTangent::of_revolution(&sector, material, options, contact).unwrap()
-}
+pub type SolidModel<M = ElasticMaterial> = WaveModel<SolidSpecification, M>;
 
 /// Its base state, with the sector that it is solved on.
 pub fn base(model: &SolidModel) -> Result<(SolidSector, SolidSliding), PrestressError> {
@@ -77,9 +51,7 @@ pub fn disc(element: ElementKind, [around, radial, axial]: [usize; 3]) -> SolidM
 }
 
 pub fn modes(model: &SolidModel, friction: f64, limit_hz: f64) -> Vec<ComplexMode> {
-    let at = [friction];
-    let request = sweep_request(&at, ModeLimit::MaxFrequency(limit_hz));
-    let found = solid_sweep(model, &request).unwrap();
+    let found = model.swept(&[friction], ModeLimit::MaxFrequency(limit_hz));
     found.sweep.points.into_iter().next().unwrap().modes
 }
 

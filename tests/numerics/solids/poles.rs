@@ -47,8 +47,8 @@ fn pole_beside(
 
 /// Where branches below 12 kHz turn unstable.
 fn onsets(model: &SolidModel) -> Vec<UnstableInterval> {
-    let request = sweep_request(&[0.0, 0.1, 0.2, 0.3, 0.4, 0.5], ModeLimit::MaxFrequency(12e3));
-    let found = solid_sweep(model, &request).unwrap().sweep;
+    let limit = ModeLimit::MaxFrequency(12e3);
+    let found = model.swept(&[0.0, 0.1, 0.2, 0.3, 0.4, 0.5], limit).sweep;
     let onsets = found.intervals.into_iter();
     onsets.filter(|i| !i.unstable_from_start).collect()
 }

@@ -1,7 +1,7 @@
 //! Frequency responses of bodies of revolution.
 
 use crate::prelude::*;
-use crate::solids::model::{disc, tangent};
+use crate::solids::model::disc;
 use crate::solids::whole_ring::WholeRing;
 
 use Direction::{Axial, Radial, Tangential};
@@ -13,7 +13,7 @@ pub fn body(model: &SolidModel, is_clamped: bool) -> CyclicSystem {
 }
 
 pub fn sliding(model: &SolidModel, friction: f64) -> CyclicSystem {
-    CyclicSystem::sliding(&tangent(model), friction)
+    CyclicSystem::sliding(&model.tangent(), friction)
 }
 
 fn small(element: ElementKind) -> SolidModel {

@@ -1,35 +1,8 @@
 //! Independent check: sensitivities of bodies of revolution against central differences of the whole analysis, base state included.
 
 use crate::prelude::*;
-use crate::solids::model::{bending, disc, tangent};
-use crate::waves::{STEP, pairs, rates};
-
-const FRICTION: f64 = 0.35;
-
-/// Branch by harmonic, rank and direction.
-type Name = (usize, usize, i8);
-
-fn request() -> SweepRequest<'static> {
-    sweep_request(&[0.0, 0.4], ModeLimit::MaxFrequency(9e3))
-}
-
-/// Eigenvalues of all branches at a friction coefficient, of the whole harmonics: what a small space leaves out of them, up to 1e-5 on
-/// meshes as coarse as these, changes with the parameters.
-fn eigenvalues(model: &SolidModel, friction: f64) -> BTreeMap<Name, c64> {
-    let found = solid_sweep(model, &request()).unwrap();
-    let own = pairs(&tangent(model), &found.branches, friction).into_iter();
-    own.map(|s| ((s.harmonic, s.branch, s.direction), s.eigenvalue)).collect()
-}
-
-/// Fourth order, so that the step may stay far above round-off.
-fn differences(step: f64, at: &dyn Fn(f64) -> BTreeMap<Name, c64>) -> BTreeMap<Name, c64> {
-    let [a, b, c, d] = [-2.0, -1.0, 1.0, 2.0].map(|k| at(k * step));
-    let all = b.keys().filter_map(|name| {
-        let [a, b, c, d] = [a.get(name)?, b.get(name)?, c.get(name)?, d.get(name)?];
-        Some((*name, ((c - b) * 8.0 - (d - a)) / (12.0 * step)))
-    });
-    all.collect()
-}
+use crate::solids::model::{bending, disc};
+use crate::waves::{Differences, STEP, pairs, rates};
 
 /// Linear elements in the first tier; quadratic ones stay there under a ring in rigid contact and where a ring is pressed in part.
 fn kinds() -> &'static [ElementKind] {
@@ -37,107 +10,9 @@ fn kinds() -> &'static [ElementKind] {
     sized(&both[..1], both)
 }
 
-/// Compares every derivative of every branch; returns the largest error relative to the change over the parameter's own size, or to
-/// a thousandth of `|lambda|` where that is less.
-fn compare(model: &SolidModel, what: &str) {
-    let found = solid_sweep(model, &request()).unwrap();
-    let all = pairs(&tangent(model), &found.branches, FRICTION);
-    assert!(all.len() >= 5, "{what}: {}", all.len());
-    let changed = |change: fn(&mut SolidModel, f64)| {
-        move |offset: f64| {
-            let mut changed = model.clone();
-            change(&mut changed, offset);
-            eigenvalues(&changed, FRICTION)
-        }
-    };
-    let contact = model.options.contact;
-    let (cubic, exponential) = match contact.law {
-        Some(NormalLaw::Cubic { cubic_stiffness, .. }) => (Some(cubic_stiffness), None),
-        Some(NormalLaw::Exponential { reference_pressure, height }) => {
-            (None, Some([reference_pressure, height]))
-        }
-        None => (None, None),
-    };
-    let k_n = contact.normal_stiffness.filter(|_| exponential.is_none());
-    let [p_r, height] = [0, 1].map(|k| exponential.map(|own| own[k]));
-    let decay = model.contact.decay;
-    type Change = fn(&mut SolidModel, f64);
-    let checks: [(&str, Option<f64>, f64, Change); 11] = [
-        ("nu", Some(1.0), 2.5e-4, |m, h| m.material.poisson_ratio += h),
-        ("E", Some(2.5e9), 1e7, |m, h| m.material.young_modulus += h),
-        ("rho", Some(1228.0), 5.0, |m, h| m.material.density += h),
-        ("alpha", Some(40.0), 1.0, |m, h| m.options.damping.mass_coefficient += h),
-        ("beta", Some(4.5e-7), 1e-8, |m, h| m.options.damping.stiffness_coefficient += h),
-        ("k_n", k_n, 0.004 * k_n.unwrap_or(0.0), |m, h| {
-            if let Some(k) = &mut m.options.contact.normal_stiffness {
-                *k += h;
-            }
-            if let Some(NormalLaw::Cubic { stiffness, .. }) = &mut m.options.contact.law {
-                *stiffness += h;
-            }
-        }),
-        ("c", cubic, 0.004 * cubic.unwrap_or(0.0), |m, h| {
-            if let Some(NormalLaw::Cubic { cubic_stiffness, .. }) = &mut m.options.contact.law {
-                *cubic_stiffness += h;
-            }
-        }),
-        ("p_r", p_r, 0.004 * p_r.unwrap_or(0.0), |m, h| {
-            let law = &mut m.options.contact.law;
-            if let Some(NormalLaw::Exponential { reference_pressure, .. }) = law {
-                *reference_pressure += h;
-            }
-        }),
-        ("h", height, 0.002 * height.unwrap_or(0.0), |m, h| {
-            if let Some(NormalLaw::Exponential { height, .. }) = &mut m.options.contact.law {
-                *height += h;
-            }
-        }),
-        ("q", decay.map(|d| d.static_ratio), 5e-3, |m, h| {
-            if let Some(decay) = &mut m.contact.decay {
-                decay.static_ratio += h;
-            }
-        }),
-        ("v_c", decay.map(|d| d.decay_speed), 5e-3, |m, h| {
-            if let Some(decay) = &mut m.contact.decay {
-                decay.decay_speed += h;
-            }
-        }),
-    ];
-    let mut errors = Vec::new();
-    let mut check = |name: &str, scale: f64, numeric: &BTreeMap<Name, c64>, own: &[c64]| {
-        assert!(numeric.len() + 2 >= all.len(), "{what}, {name}");
-        let mut worst = (0.0, c64::new(0.0, 0.0), c64::new(0.0, 0.0), (0, 0, 0));
-        for (s, own) in all.iter().zip(own) {
-            let branch = (s.harmonic, s.branch, s.direction);
-            // At the limit of frequency.
-            let Some(numeric) = numeric.get(&branch) else {
-                continue;
-            };
-            let size = (numeric * scale).norm() + 1e-3 * s.eigenvalue.norm();
-            let error = (own - numeric).norm() * scale / size;
-            if error.is_nan() || error > worst.0 {
-                worst = (error, own * scale, numeric * scale, branch);
-            }
-        }
-        println!("{what}, {name}: {:.1e} {:.6e} {:.6e} {:?}", worst.0, worst.1, worst.2, worst.3);
-        errors.push(worst.0);
-    };
-    for (name, scale, step, change) in checks {
-        let Some(scale) = scale else {
-            continue;
-        };
-        // Of Poisson's ratio relative to what is left to 1/2.
-        let own = rates(&all, STEP * if name == "nu" { 0.1 } else { scale }, &|offset| {
-            let mut changed = model.clone();
-            change(&mut changed, offset);
-            tangent(&changed)
-        });
-        check(name, scale, &differences(step, &changed(change)), &own);
-    }
-    let by_friction = differences(2e-3, &|offset| eigenvalues(model, FRICTION + offset));
-    let own: Vec<c64> = all.iter().map(|pair| pair.derivative).collect();
-    check("mu", FRICTION, &by_friction, &own);
-    assert!(errors.iter().all(|error| *error < 1e-7), "{what}: {errors:?}");
+fn hold(model: &SolidModel, what: &str) {
+    let limits_hz = [9e3; 2];
+    Differences { limits_hz, is_whole: true, factor: 1.0, tolerance: 1e-7 }.hold(model, what);
 }
 
 const SPRINGS: ContactStiffness = compliant(2e12, [3e4, 2e4]);
@@ -172,7 +47,7 @@ fn strained(element: ElementKind, contact: ContactStiffness) -> SolidModel {
 #[test]
 fn sensitivities_in_rigid_contact_equal_finite_differences() {
     for &element in kinds() {
-        compare(&strained(element, ContactStiffness::default()), &format!("rigid, {element:?}"));
+        hold(&strained(element, ContactStiffness::default()), &format!("rigid, {element:?}"));
     }
 }
 
@@ -185,7 +60,7 @@ fn sensitivities_under_a_ring_in_rigid_contact_equal_finite_differences() {
     model.specification.annulus.radial_elements = 3;
     model.specification.conditions[3] = BoundaryCondition::Guide;
     model.contact.interference = 1e-5;
-    compare(&model, "ring");
+    hold(&model, "ring");
 }
 
 #[test]
@@ -197,14 +72,14 @@ fn sensitivities_on_springs_equal_finite_differences() {
         model.specification.conditions[1] =
             BoundaryCondition::Support(springs([2e11, 1e11, 1e11], [1e4, 1e4]));
         model.options.damping_model = DampingModel::BodyOnly;
-        compare(&model, &format!("springs, {element:?}"));
+        hold(&model, &format!("springs, {element:?}"));
     }
 }
 
 #[test]
 fn sensitivities_with_a_base_state_on_springs_equal_finite_differences() {
     for &element in kinds() {
-        compare(&strained(element, COMPLIANT), &format!("compliant, {element:?}"));
+        hold(&strained(element, COMPLIANT), &format!("compliant, {element:?}"));
     }
 }
 
@@ -219,7 +94,7 @@ fn sensitivities_of_a_contact_that_stiffens_equal_finite_differences() {
                 is_base_compliant: false,
                 ..COMPLIANT
             };
-            compare(&strained(element, contact), &format!("{law:?}, {element:?}"));
+            hold(&strained(element, contact), &format!("{law:?}, {element:?}"));
         }
     }
 }
@@ -241,10 +116,10 @@ fn sensitivities_follow_the_end_of_what_is_pressed() {
         model.contact.interference = 4e-5;
         // Soft, so that more than the last ring is pressed.
         model.options.contact.normal_stiffness = Some(2e9);
-        let tangent = tangent(&model);
+        let tangent = model.tangent();
         let pressed = tangent.pressed();
         assert!(pressed.contains(&true) && pressed.contains(&false));
-        compare(&model, &format!("partly open, {law:?}, {element:?}"));
+        hold(&model, &format!("partly open, {law:?}, {element:?}"));
     }
 }
 
@@ -262,14 +137,9 @@ fn a_derivative_by_the_interference_is_that_of_the_pressure_not_of_round_off() {
     let own_rates = |modulus: f64, step: f64| -> Vec<f64> {
         let mut model = model.clone();
         model.material = elastic(modulus, 0.3, 7850.0, PlaneFormulation::ThreeDimensional);
-        let request = sweep_request(&[0.0, 0.4], ModeLimit::MaxFrequency(3e3));
-        let found = solid_sweep(&model, &request).unwrap();
-        let all = pairs(&tangent(&model), &found.branches, FRICTION);
-        let changed = |offset: f64| {
-            let mut changed = model.clone();
-            changed.contact.interference += offset;
-            tangent(&changed)
-        };
+        let found = model.swept(&[0.0, 0.4], ModeLimit::MaxFrequency(3e3));
+        let all = pairs(&model.tangent(), &found.branches, Differences::FRICTION);
+        let changed = |offset: f64| model.with(|own| own.contact.interference += offset).tangent();
         rates(&all, step * 1e-5, &changed).iter().map(|rate| rate.im).collect()
     };
     let own = own_rates(2.1e11, STEP);

@@ -4,7 +4,7 @@
 //! sliding held.
 
 use crate::prelude::*;
-use crate::solids::model::{disc, tangent};
+use crate::solids::model::disc;
 
 const FRICTION: f64 = 0.3;
 const LIMIT: f64 = 9000.0;
@@ -18,9 +18,8 @@ fn turning(element: ElementKind, divisions: [usize; 3], rpm: f64) -> SolidModel 
     model
 }
 
-fn solved<M: MaterialField>(model: &SolidModel<M>) -> WaveSweep {
-    let request = sweep_request(&[FRICTION], ModeLimit::MaxFrequency(LIMIT));
-    solid_sweep(model, &request).unwrap()
+fn solved<M: MaterialField + Clone>(model: &SolidModel<M>) -> WaveSweep {
+    model.swept(&[FRICTION], ModeLimit::MaxFrequency(LIMIT))
 }
 
 /// Listed eigenvalues of harmonic `n`.
@@ -38,13 +37,13 @@ fn dense(model: &SolidModel, n: usize, is_held: &dyn Fn(usize) -> bool) -> Vec<c
 }
 
 /// The same with the stiffness of an angular frequency.
-fn dense_at<M: MaterialField>(
+fn dense_at<M: MaterialField + Clone>(
     model: &SolidModel<M>,
     n: usize,
     is_held: &dyn Fn(usize) -> bool,
     omega: f64,
 ) -> Vec<c64> {
-    let tangent = tangent(model);
+    let tangent = model.tangent();
     let (harmonic, sigma) = (tangent.harmonic(n), c64::new(TAU * LIMIT, 0.0));
     let at = harmonic.at(FRICTION);
     let kept: Vec<usize> = (0..at.dimension()).filter(|&unknown| !is_held(unknown)).collect();
@@ -194,7 +193,7 @@ fn creep_without_vectors_of_its_own_leaves_the_other_modes() {
 #[test]
 fn sliding_that_comes_to_rest_has_the_spectrum_with_the_motion_across_it_held() {
     let model = turning(ElementKind::Quad4, [24, 6, 2], 1e-7);
-    let across = tangent(&model).sideways_unknowns();
+    let across = model.tangent().sideways_unknowns();
     let found = solved(&model);
     for n in [0, 2] {
         let held = dense(&model, n, &|unknown| across.contains(&unknown));

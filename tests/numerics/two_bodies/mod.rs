@@ -17,11 +17,13 @@ fn built_in(
     geometric_stiffness: bool,
     count: usize,
 ) -> Vec<ComplexMode> {
-    let specification = on_shaft(annulus(element, around, radial[1]), radial[0]);
-    let request = sweep_request(&[0.3], ModeLimit::Lowest(count));
-    let options = options(MassKind::Consistent, geometric_stiffness);
-    let material = one_material();
-    let found = cyclic::sweep(&specification, material, &options, &contact(), &request).unwrap();
+    let model = WaveModel {
+        specification: on_shaft(annulus(element, around, radial[1]), radial[0]),
+        material: POLYCARBONATE,
+        options: options(MassKind::Consistent, geometric_stiffness),
+        contact: contact(),
+    };
+    let found = model.swept(&[0.3], ModeLimit::Lowest(count));
     found.sweep.points.into_iter().next().unwrap().modes
 }
 
