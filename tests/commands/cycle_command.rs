@@ -212,17 +212,12 @@ fn square(command: &str, folder: &Path, set: &[&str]) -> Run {
     let edge = even(0.01, 1);
     let square = quadrilaterals(&edge, &edge, ["face", "back", "body"], |x, y| [x, y]);
     fs::write(folder.join("square.msh"), square).unwrap();
-    let text = "[mesh]\nfile = \"square.msh\"\n[boundaries.back]\ncondition = \"clamped\"
-[material]\nyoung_modulus = 2.5e9\npoisson_ratio = 0.38\ndensity = 1228.0
-[damping]\nmass_coefficient = 40.0\nstiffness_coefficient = 2e-7
-[contact]\nboundary = \"face\"\ncounterface = \"plane\"\ndirection = [1.0, 0.0]\nspeed = 1.5
-friction_coefficient = 0.3\nstatic_friction_ratio = 1.1\ndecay_speed = 0.5\ninterference = 1e-5
-[cea]\nmodes = 2\n[transient]\nduration = 1e-2
-[cycle]\nconfirmation_periods = 0\nstability = \"none\"
-continuation = { key = \"contact.speed\", from = 0.25, to = 3.0, count = 10 }\n";
-    fs::write(folder.join("case.toml"), text).unwrap();
-    let run = Run::new(&[command, "case.toml", "--format", "svg"]).within(folder);
-    run.set(set).out(command)
+    fs::write(folder.join("case.toml"), include_str!("../cases/oscillator.toml")).unwrap();
+    let own = "contact.speed=1.5 ; transient.duration=1e-2 ; cycle.continuation={ \
+               key = \"contact.speed\", from = 0.25, to = 3.0, count = 10 }";
+    let run =
+        Run::new(&[command, "case.toml", "--format", "svg", "--unset", "transient.time_step"]);
+    run.within(folder).set(&[own]).set(set).out(command)
 }
 
 /// The kick, the branch and the frequency have one wording and one rounding each; counts are whole numbers.

@@ -3,19 +3,7 @@
 use crate::prelude::*;
 
 /// Two pads on a slab that turns, the slab and one pad with damping of their own.
-const CASE: &str = "title = \"Two pads\"
-[mesh]\nfile = \"pads.msh\"
-[material]\nyoung_modulus = 2.5e9\npoisson_ratio = 0.38\ndensity = 1228.0
-[materials.slab]\nyoung_modulus = 7e9\npoisson_ratio = 0.3\ndensity = 2000.0\nmass_coefficient = 10.0\nstiffness_coefficient = 1e-7
-[materials.left]\nyoung_modulus = 2e9\npoisson_ratio = 0.3\ndensity = 1200.0\nmass_coefficient = 5.0\nstiffness_coefficient = 2e-7
-[damping]\nmass_coefficient = 40.0\nstiffness_coefficient = 4.5e-7\ninclude_contact = false
-[boundaries.slab_z0]\ncondition = \"support\"\nnormal_stiffness = 1e13\ntangential_stiffness = 1e13\nnormal_damping = 1e4
-[boundaries.left_z1]\ncondition = \"clamped\"
-[boundaries.right_z1]\ncondition = \"clamped\"
-[motion.slab]\naxis = [0.0, 0.0, 1.0]\ncenter = [0.5, 0.1, 0.0]\nrotation_speed_rpm = 100.0
-[contacts.first]\nsurface = \"left_z0\"\ncounter = \"slab_z1\"\nfriction_coefficient = 0.6\nnormal_stiffness = 1e13\nstate = \"closed\"
-[contacts.second]\nsurface = \"right_z0\"\ncounter = \"slab_z1\"\nfriction_coefficient = 0.6\nnormal_stiffness = 1e13\nstate = \"closed\"
-[cea]\nfriction_coefficients = [0.0, 0.3, 0.6]\nmodes = 12\n";
+const CASE: &str = include_str!("../cases/two-pads.toml");
 
 fn pads() -> Vec<u8> {
     let blocks = [
@@ -323,18 +311,7 @@ fn a_guided_body_of_revolution_has_the_budget_of_the_plane_disc() {
 }
 
 /// Two pads on a ring that turns fast, with the inertia of its rotation, everything damped by its mass.
-const ROTOR: &str = "title = \"Two pads on a rotor\"
-[mesh]\nfile = \"rotor.msh\"
-[material]\nyoung_modulus = 2e11\npoisson_ratio = 0.3\ndensity = 7850.0
-[damping]\nmass_coefficient = 200.0\nstiffness_coefficient = 1e-7\ninclude_contact = false
-[boundaries.ring_x0]\ncondition = \"support\"\nnormal_stiffness = 1e10\ntangential_stiffness = 1e10\nnormal_damping = 3e4
-[boundaries.first_z1]\ncondition = \"clamped\"
-[boundaries.second_z1]\ncondition = \"clamped\"
-[ties.seam]\nsurface = \"ring_y1\"\ncounter = \"ring_y0\"
-[motion.ring]\naxis = [0.0, 0.0, 1.0]\ncenter = [0.0, 0.0, 0.0]\nrotation_speed_rpm = 9000.0\nrotation_terms = true
-[contacts.first]\nsurface = \"first_z0\"\ncounter = \"ring_z1\"\nfriction_coefficient = 0.5\nnormal_stiffness = 1e11\nstate = \"closed\"
-[contacts.second]\nsurface = \"second_z0\"\ncounter = \"ring_z1\"\nfriction_coefficient = 0.5\nnormal_stiffness = 1e11\nstate = \"closed\"
-[cea]\nfriction_coefficients = [0.0, 0.5]\nmodes = 10\n";
+const ROTOR: &str = include_str!("../cases/two-pads-on-a-rotor.toml");
 
 /// Exact identities: gyroscopic forces have a row of their own, without which the contacts would have to feed what they add to motions
 /// that decay; without friction they feed nothing, and with friction all rows add up to the growth rate.

@@ -3,22 +3,10 @@
 use crate::prelude::*;
 
 /// The built-in disc, coarse, as the harmonics solve it.
-const DISC: &str = "[geometry]\ninner_radius = 0.0205\nouter_radius = 0.0905\nthickness = 0.009
-[mesh]\ncircumferential_elements = 16\nradial_elements = 3\naxial_elements = 1
-[material]\nyoung_modulus = 2.5e9\npoisson_ratio = 0.3805\ndensity = 1228.0\n\
-     formulation = \"three-dimensional\"
-[damping]\nmass_coefficient = 40.0\nstiffness_coefficient = 4.5e-7
-[contact]\nfriction_coefficient = 0.3\ninterference = 25e-6\nrotation_speed_rpm = 1e9
-[cea]\nfriction_coefficients = [0.0, 0.3]\nmodes = 12\ngeometric_stiffness = false\n";
+const DISC: &str = include_str!("../cases/solid-disc.toml");
 
 /// A block of rubber on a plane that slides under it.
-const BLOCK: &str = "[mesh]\nfile = \"block.msh\"
-[boundaries.block_z1]\ncondition = \"clamped\"
-[material]\nyoung_modulus = 5e6\npoisson_ratio = 0.4\ndensity = 1100.0
-[damping]\nmass_coefficient = 5.0\nstiffness_coefficient = 1e-6
-[contact]\nboundary = \"block_z0\"\ncounterface = \"plane\"\ndirection = [1.0, 0.0, 0.0]\n\
-     speed = 0.5\nfriction_coefficient = 0.3\ninterference = 2e-4
-[cea]\nfriction_coefficients = [0.0, 0.3]\nmodes = 8\n";
+const BLOCK: &str = include_str!("../cases/rubber-block.toml");
 
 fn block() -> Vec<u8> {
     let block = brick("block", [0.0; 3], [0.04, 0.03, 0.02], [4, 3, 2]);

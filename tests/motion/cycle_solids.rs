@@ -6,25 +6,7 @@ use crate::cycle_periodic::{found, hold_to_transient};
 use crate::prelude::*;
 
 /// A pad on a disc that turns, the seam of the disc glued.
-const PAD: &str = "title = \"Pad on a disc\"
-[mesh]\nfile = \"body.msh\"
-[material]\nyoung_modulus = 2.5e9\npoisson_ratio = 0.38\ndensity = 1228.0
-[materials.pad]\nyoung_modulus = 5e8\npoisson_ratio = 0.3\ndensity = 2500.0
-[damping]\nmass_coefficient = 40.0\nstiffness_coefficient = 3e-7
-[boundaries.disc_x0]\ncondition = \"clamped\"
-[boundaries.pad_z1]\ncondition = \"pressure\"\npressure = 2e5
-[boundaries.pad_y0]\ncondition = \"support\"\nnormal_stiffness = 1e10\n\
-     tangential_stiffness = 1e10
-[boundaries.pad_y1]\ncondition = \"support\"\nnormal_stiffness = 1e10\n\
-     tangential_stiffness = 1e10
-[motion.disc]\naxis = [0.0, 0.0, 1.0]\nrotation_speed_rpm = 200.0
-[contacts.pad]\nsurface = \"pad_z0\"\ncounter = \"disc_z1\"\nfriction_coefficient = 0.5
-[ties.seam]\nsurface = \"disc_y0\"\ncounter = \"disc_y1\"
-[cea]\nmodes = 20
-[cycle]
-[transient]\nduration = 0.05\ntime_step = 1e-6\ninitial = \"steady-sliding\"\n\
-     perturbation = { noise = 1e-2 }
-[output]\nprobes = [100]\nsample_interval = 1e-5\nsnapshots = []\n";
+const PAD: &str = include_str!("../cases/pad-on-a-turning-disc.toml");
 
 fn pad(folder: &Path, around: usize, overrides: &[&str]) -> Case {
     let blocks = [

@@ -7,13 +7,7 @@ use crate::prelude::*;
 pub fn oscillator(folder: &Path, overrides: &[&str]) -> Case {
     let edge = even(0.01, 1);
     let mesh = quadrilaterals(&edge, &edge, ["face", "back", "body"], |x, y| [x, y]);
-    let text = "[mesh]\nfile = \"square.msh\"\n[boundaries.back]\ncondition = \"clamped\"
-[material]\nyoung_modulus = 2.5e9\npoisson_ratio = 0.38\ndensity = 1228.0\nformulation = \"plane-strain\"
-[damping]\nmass_coefficient = 40.0\nstiffness_coefficient = 2e-7
-[contact]\nboundary = \"face\"\ncounterface = \"plane\"\ndirection = [1.0, 0.0]\nspeed = 0.3
-friction_coefficient = 0.3\nstatic_friction_ratio = 1.1\ndecay_speed = 0.5\ninterference = 1e-5
-[cea]\nmodes = 2\n[transient]\nduration = 1e-3\ntime_step = 2.5e-9
-[cycle]\nconfirmation_periods = 0\nstability = \"none\"\n";
+    let text = include_str!("../cases/oscillator.toml");
     fs::write(folder.join("square.msh"), mesh).unwrap();
     let path = folder.join("case.toml");
     fs::write(&path, text).unwrap();

@@ -170,17 +170,7 @@ fn sensitivities_of_an_assembly_are_differences_of_its_spectra() {
         brick("upper", [0.005, 0.004, 0.02], [0.04, 0.03, 0.015], [2, 2, 1]),
     ];
     let folder = folder_with(&[("blocks.msh", &file_of(&blocks, |point| point))]);
-    let text = "[mesh]\nfile = \"blocks.msh\"\n[boundaries.lower_z0]\ncondition = \"clamped\"\n\
-        [boundaries.upper_x0]\ncondition = \"fixed\"\ndirections = [\"x\"]\n\
-        [boundaries.upper_y0]\ncondition = \"fixed\"\ndirections = [\"y\"]\n\
-        [boundaries.upper_z1]\ncondition = \"pressure\"\npressure = 2e6\n\
-        [material]\nyoung_modulus = 2e11\npoisson_ratio = 0.3\ndensity = 7850.0\n\
-        [materials.upper]\nyoung_modulus = 8e9\npoisson_ratio = 0.25\ndensity = 2200.0\nmass_coefficient = 50.0\nstiffness_coefficient = 1e-7\n\
-        [damping]\nmass_coefficient = 20.0\nstiffness_coefficient = 1e-8\n\
-        [motion.lower]\naxis = [0.0, 0.0, 1.0]\ncenter = [1.0, 0.3, 0.0]\nrotation_speed_rpm = 12.0\n\
-        [contacts.pad]\nsurface = \"upper_z0\"\ncounter = \"lower_z1\"\nfriction_coefficient = 0.3\nnormal_stiffness = 1e13\n\
-        [cea]\nmodes = 5\nfriction_coefficients = [0.0, 0.3]\n"
-        .to_owned();
+    let text = include_str!("../cases/two-blocks-under-pressure.toml").to_owned();
     let body = Body { folder, text };
     body.check(&[
         ("materials.upper.young_modulus", "materials.upper.young_modulus"),

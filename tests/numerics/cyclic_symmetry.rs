@@ -301,31 +301,10 @@ fn a_contact_without_pressure_is_refused() {
     has(&refused, &["contact.interference = 0.0 ; nothing presses"]);
 }
 
-/// A disc under a ring on the whole of its top face, clamped at its bore; `more` adds the motions and the mesh.
-fn disc_under_a_ring(rpm: f64, more: &str) -> String {
-    format!(
-        "[material]\nyoung_modulus = 2.1e11\npoisson_ratio = 0.3\ndensity = 7850.0\n\
-         formulation = \"three-dimensional\"\n\
-         [damping]\nmass_coefficient = 20.0\nstiffness_coefficient = 1.5e-7\n\
-         [contact]\nfriction_coefficient = 0.4\ninterference = 1e-6\nrotation_speed_rpm = {rpm:?}\n\
-         normal_stiffness = 1e11\n{more}\
-         [cea]\nmodes = 10\nfriction_coefficients = [0.0, 0.4]\ngeometric_stiffness = false\n"
-    )
-}
-
-/// A built-in disc of bricks with what `more` says of its contact, mesh and boundaries.
-fn disc_of_bricks([around, radial]: [usize; 2], more: &str) -> String {
-    format!(
-        "base_state = \"compliant\"\nboundary = \"top\"\n[geometry]\ninner_radius = 0.05\nouter_radius = 0.15\n\
-         thickness = 0.01\n[boundaries.inner]\ncondition = \"clamped\"\n[boundaries.outer]\n\
-         condition = \"free\"\n[mesh]\ncircumferential_elements = {around}\n\
-         radial_elements = {radial}\naxial_elements = 1\n{more}"
-    )
-}
-
-/// One of 20 bricks around with what `motion` says of it.
-fn built_in(name: &str, rpm: f64, motion: &str, method: &str) -> Solution {
-    solved(name, b"", &disc_under_a_ring(rpm, &disc_of_bricks([20, 3], motion)), method)
+/// A built-in disc of 20 bricks around under a ring on the whole of its top face, clamped at its bore, with some changes.
+fn under_a_ring(files: &[(&str, &[u8])], changes: &[&str]) -> Solution {
+    let text = include_str!("../commands/refused/disc-under-a-ring.toml");
+    solution(&case_beside("sectors-disc", files, text, changes)).1
 }
 
 /// Equal eigenvalues: each has one of the other list beside it.
@@ -340,26 +319,27 @@ fn assert_equal(a: &Solution, b: &Solution, tolerance: f64) {
 /// way. The first goes by nodal diameters, the second by its whole mesh at once.
 #[test]
 fn a_disc_that_turns_under_a_ring_at_rest_is_one_under_a_ring_that_turns() {
-    let motion = "[motion.disc]\naxis = [0.0, 0.0, 1.0]\nrotation_speed_rpm = -300.0\n";
-    let turning = built_in("disc-turns", 0.0, motion, "auto");
-    let at_rest = built_in("ring-turns", 300.0, "", "sparse");
+    let turns = "contact.rotation_speed_rpm=0.0 ; \
+                 motion.disc={ axis = [0.0, 0.0, 1.0], rotation_speed_rpm = -300.0 }";
+    let turning = under_a_ring(&[], &[turns]);
+    let at_rest = under_a_ring(&[], &["cea.method=sparse"]);
     assert_equal(&turning, &at_rest, 1e-9);
 }
 
 /// The same disc as a mesh file of one sector: rotation, friction and damping together.
 #[test]
 fn a_built_in_disc_that_turns_is_the_one_of_a_mesh_of_its_sector() {
-    let motion = "[motion.disc]\naxis = [0.0, 0.0, 1.0]\nrotation_speed_rpm = 6000.0\nrotation_terms = true\n\
-        frame = \"turning\"\n";
-    let own = built_in("built-in", 300.0, motion, "auto");
-    let still = built_in("built-in-still", 300.0, "", "auto");
+    let motion = "motion.disc={ axis = [0.0, 0.0, 1.0], rotation_speed_rpm = 6000.0, \
+                  rotation_terms = true, frame = \"turning\" }";
+    let [own, still] = [&[motion][..], &[]].map(|set| under_a_ring(&[], set));
     let block = brick("disc", [0.05, 0.0, 0.0], [0.1, TAU / 20.0, 0.01], [3, 1, 1]);
     let mesh = file_of(&[block], polar);
-    let more = format!(
-        "boundary = \"disc_z1\"\ncounterface = \"plane\"\n[mesh]\nfile = \"sector.msh\"\nsectors = 20\n\
-         [boundaries.disc_x0]\ncondition = \"clamped\"\n{motion}"
-    );
-    let of_file = solved("of-file", &mesh, &disc_under_a_ring(300.0, &more), "cyclic");
+    let built_in = ["geometry", "mesh", "boundaries", "contact.base_state"].map(unset);
+    let file = "mesh={ file = \"disc.msh\", sectors = 20 } ; contact.counterface=plane ; \
+                contact.boundary=disc_z1 ; boundaries.disc_x0={ condition = \"clamped\" } ; \
+                cea.method=cyclic";
+    let changes = built_in.iter().map(String::as_str).chain([file, motion]);
+    let of_file = under_a_ring(&[("disc.msh", &mesh)], &changes.collect::<Vec<_>>());
     assert_equal(&own, &of_file, 1e-9);
     let [turning, still] = [&own, &still].map(|own| own.sweep.points[0].modes[0].frequency_hz());
     assert!((turning / still - 1.0).abs() > 1e-4, "rotation matters: {turning} {still}");
@@ -369,10 +349,10 @@ fn a_built_in_disc_that_turns_is_the_one_of_a_mesh_of_its_sector() {
 /// bricks have the same contact, on the face that their nodes span.
 #[test]
 fn a_disc_of_linear_bricks_has_the_contact_of_its_whole_mesh() {
-    let guided = "[boundaries.bottom]\ncondition = \"guide\"\n";
-    let text = disc_under_a_ring(300.0, &disc_of_bricks([20, 3], guided));
-    let of = |method: &str| solved(&format!("guided-{method}"), b"", &text, method);
-    assert_equal(&of("cyclic"), &of("sparse"), 1e-6);
+    let guided = "boundaries.bottom={ condition = \"guide\" }";
+    let [waves, whole] = ["cyclic", "sparse"]
+        .map(|method| under_a_ring(&[], &[guided, &format!("cea.method={method}")]));
+    assert_equal(&waves, &whole, 1e-6);
 }
 
 /// Cross-method: where the disc bends away from the ring, waves end the pressed part within an
@@ -380,9 +360,12 @@ fn a_disc_of_linear_bricks_has_the_contact_of_its_whole_mesh() {
 #[test]
 fn a_disc_that_bends_away_from_its_ring_is_the_same_by_waves_and_as_a_whole() {
     for (divisions, tolerance) in [([20, 3], 0.02), ([40, 6], 0.01)] {
-        let text = disc_under_a_ring(300.0, &disc_of_bricks(divisions, ""));
-        let of = |method: &str| solved(&format!("bent-{method}"), b"", &text, method).sweep;
-        let [waves, whole] = ["cyclic", "sparse"].map(of);
+        let [around, radial] = divisions;
+        let mesh = format!(
+            "mesh.circumferential_elements={around} ; mesh.radial_elements={radial} ; cea.method="
+        );
+        let [waves, whole] = ["cyclic", "sparse"]
+            .map(|method| under_a_ring(&[], &[&format!("{mesh}{method}")]).sweep);
         let [own, other] = [&waves, &whole].map(|sweep| -> Vec<f64> {
             sweep.points[1].modes.iter().map(ComplexMode::frequency_hz).collect()
         });

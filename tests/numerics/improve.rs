@@ -197,16 +197,7 @@ fn fields_of_an_assembly_are_differences_of_its_spectra() {
         brick("patch", [0.005, 0.005, 0.01], [0.02, 0.02, 0.02], [3, 3, 2]),
     ];
     let folder = folder_with(&[("pads.msh", &file_of(&blocks, |point| point))]);
-    let text = "[mesh]\nfile = \"pads.msh\"\n\
-        [material]\nyoung_modulus = 7e9\npoisson_ratio = 0.3\ndensity = 2000.0\n\
-        [materials.patch]\nyoung_modulus = 2.5e9\npoisson_ratio = 0.3\ndensity = 1228.0\n\
-        [damping]\nmass_coefficient = 2.0\nstiffness_coefficient = 1e-9\n\
-        [boundaries.slab_z0]\ncondition = \"clamped\"\n[boundaries.patch_z1]\ncondition = \"fixed\"\ndirections = [\"z\"]\n\
-        [boundaries.patch_x0]\ncondition = \"fixed\"\ndirections = [\"x\", \"y\"]\n\
-        [motion.slab]\naxis = [0.0, 0.0, 1.0]\ncenter = [0.5, 0.1, 0.0]\nrotation_speed_rpm = 100.0\n\
-        [contacts.pad]\nsurface = \"patch_z0\"\ncounter = \"slab_z1\"\nfriction_coefficient = 0.5\n\
-        normal_stiffness = 1e13\nstate = \"closed\"\n[cea]\nmodes = 10\n"
-        .to_owned();
+    let text = include_str!("../cases/pad-on-a-slab.toml").to_owned();
     let body = Body { folder, text };
     let mesh = body.case(AS_IT_IS).mesh().unwrap();
     let node = mesh.nearest_node([0.005, 0.005]).unwrap().0;

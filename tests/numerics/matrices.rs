@@ -39,11 +39,7 @@ fn block(folder: &TempDir) {
     let sheared = |x: f64, y: f64| [x + 0.2 * y, y * (1.0 + 4.0 * x)];
     let mesh = quadrilaterals(&even(0.05, 5), &even(0.03, 3), names, sheared);
     fs::write(folder.path().join("block.msh"), mesh).unwrap();
-    let case = "[mesh]\nfile = \"block.msh\"\n[boundaries.back]\ncondition = \"support\"\nnormal_stiffness = 1e12\n\
-        tangential_stiffness = 1e12\nnormal_damping = 2e5\n[material]\nyoung_modulus = 2.5e9\npoisson_ratio = 0.38\n\
-        density = 1228.0\nformulation = \"plane-strain\"\n[damping]\nmass_coefficient = 40.0\nstiffness_coefficient = 4.5e-7\n\
-        [contact]\nboundary = \"face\"\ncounterface = \"plane\"\ndirection = [1.0, 0.0]\nspeed = 1.5\n\
-        friction_coefficient = 0.3\ninterference = 1e-5\n[cea]\nfriction_coefficients = [0.3]\nmodes = 6\n";
+    let case = include_str!("../cases/sheared-block.toml");
     fs::write(folder.path().join("block.toml"), case).unwrap();
 }
 
@@ -162,14 +158,7 @@ fn lifted(out: &Path, unknown: usize) -> f64 {
 }
 
 /// A block that is pressed on another, which turns under it.
-const BLOCKS: &str = "[mesh]\nfile = \"block.msh\"
-[material]\nyoung_modulus = 2e10\npoisson_ratio = 0.3\ndensity = 2500.0
-[damping]\nmass_coefficient = 10.0\nstiffness_coefficient = 1e-7
-[boundaries.low_z0]\ncondition = \"clamped\"
-[boundaries.high_z1]\ncondition = \"pressure\"\npressure = 1e6
-[boundaries.high_x1]\ncondition = \"support\"\nnormal_stiffness = 2e9\ntangential_stiffness = 1e10
-[motion.low]\naxis = [0.0, 0.0, 1.0]\ncenter = [0.0, -0.2, 0.0]\nrotation_speed_rpm = 100.0
-[contacts.face]\nsurface = \"high_z0\"\ncounter = \"low_z1\"\nfriction_coefficient = 0.8\n";
+const BLOCKS: &str = include_str!("../cases/block-on-a-turning-block.toml");
 
 /// Two blocks that slide on each other, on springs and rigidly, and the rows of their contact.
 #[test]

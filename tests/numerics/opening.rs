@@ -8,14 +8,7 @@ use crate::sliding_bodies::sums;
 use frictionsim::study::matrices::matrices;
 
 /// A block on an elastic mounting, which the drag tilts: between friction 0.2 and 0.66 six of its nine contact nodes lift.
-const CASE: &str = "[mesh]\nfile = \"block.msh\"
-[boundaries.top]\ncondition = \"support\"\nnormal_stiffness = 1e12\ntangential_stiffness = 1e12
-[material]\nyoung_modulus = 2.5e9\npoisson_ratio = 0.38\ndensity = 1228.0\n\
-     formulation = \"plane-strain\"
-[damping]\nmass_coefficient = 10.0\nstiffness_coefficient = 1e-8
-[contact]\nboundary = \"bottom\"\ncounterface = \"plane\"\ndirection = [1.0, 0.0]\n\
-     speed = 1.5\nfriction_coefficient = 0.5\ninterference = 1e-5
-[cea]\nfriction_coefficients = [0.1, 0.8]\nmodes = 10\n";
+const CASE: &str = include_str!("../cases/mounted-block.toml");
 
 fn block() -> TempDir {
     folder_with(&[("block.msh", &rectangle(0.04, 0.06, 8, 12))])
@@ -91,15 +84,7 @@ fn critical_friction_does_not_depend_on_the_friction_values_asked_for() {
 
 /// A strip on soft springs. Where its first node opens, near friction 0.514, the tenth and eleventh mode couple at 4.94 kHz; the list
 /// ends between them, before with the one that decays, beyond with the one that grows.
-const STRIP: &str = "[mesh]\nfile = \"strip.msh\"
-[boundaries.top]\ncondition = \"support\"\nnormal_stiffness = 16819006.0\n\
-     tangential_stiffness = 1264667.0\nnormal_damping = 320.38
-[material]\nyoung_modulus = 90218515.0\npoisson_ratio = 0.0\ndensity = 7850.0\n\
-     formulation = \"plane-strain\"
-[damping]\nmass_coefficient = 10.0\nstiffness_coefficient = 1e-8
-[contact]\nboundary = \"bottom\"\ncounterface = \"plane\"\ndirection = [1.0, 0.0]\n\
-     speed = 6.786835\nfriction_coefficient = 0.5\ninterference = 5.972646e-9
-[cea]\nfriction_coefficients = [0.1, 0.8]\nmodes = 11\n";
+const STRIP: &str = include_str!("../cases/strip-on-soft-springs.toml");
 
 /// A branch that leaves the list where the state changes is no other one: with one mode more nothing jumps there.
 #[test]
@@ -119,14 +104,7 @@ fn a_branch_that_leaves_the_list_as_contact_opens_keeps_its_name() {
 }
 
 /// A rubber strut that leans against the sliding: its foot is pressed the more, the larger friction is, until it buckles or digs in.
-const STRUT: &str = "[mesh]\nfile = \"strut.msh\"
-[boundaries.head]\ncondition = \"clamped\"
-[material]\nyoung_modulus = 1e8\npoisson_ratio = 0.3\ndensity = 1200.0\n\
-     formulation = \"plane-strain\"
-[damping]\nstiffness_coefficient = 1e-7
-[contact]\nboundary = \"foot\"\ncounterface = \"plane\"\ndirection = [1.0, 0.0]\n\
-     speed = 1.0\nfriction_coefficient = 0.1\ninterference = 1e-3
-[cea]\nfriction_coefficients = [0.0, 0.2]\nmodes = 8\n";
+const STRUT: &str = include_str!("../cases/leaning-strut.toml");
 
 fn strut() -> TempDir {
     let (xs, ys) = (even(0.01, 2), even(0.06, 10));

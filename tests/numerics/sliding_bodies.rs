@@ -243,12 +243,7 @@ fn slow_motions_close_together_keep_their_digits_beside_fast_modes() {
 fn equal_eigenvalues_that_friction_does_not_move_are_all_listed() {
     let size = [0.07207033928546175, 0.005263329653561904, 0.0062918081827297535];
     let block = brick("part", [0.0; 3], size, [3, 2, 5]);
-    let text = "[mesh]\nfile = \"part.msh\"\n[material]\nyoung_modulus = 1.720164e8\npoisson_ratio = 0.0\n\
-                density = 7850.0\n[boundaries.part_z1]\ncondition = \"support\"\nnormal_stiffness = 8757.597\n\
-                tangential_stiffness = 454.318\n[contact]\nboundary = \"part_z0\"\ncounterface = \"plane\"\n\
-                direction = [1.0, 0.0, 0.0]\nspeed = 5.134476e-3\nfriction_coefficient = 0.58\n\
-                interference = 6.291808e-9\nnormal_stiffness = 2.698371e11\n\
-                [cea]\nfriction_coefficients = [0.0, 0.397, 0.58]\ngeometric_stiffness = false\nmodes = 27\n";
+    let text = include_str!("../cases/block-of-equal-eigenvalues.toml");
     let case = of_file(&file_of(&[block], |point| point), text);
     let found = modes_and_onsets(&case).unwrap();
     assert!(found.ended.iter().all(|end| end.lost_before.is_none()), "{:?}", found.ended);
@@ -265,15 +260,7 @@ fn equal_eigenvalues_that_friction_does_not_move_are_all_listed() {
 #[test]
 fn a_mode_that_grows_before_it_nearly_meets_another_has_its_own_onset() {
     let block = brick("part", [0.0; 3], [0.027372827842916517; 3], [3, 3, 2]);
-    let text = "[mesh]\nfile = \"part.msh\"\n[material]\nyoung_modulus = 5.630217e11\n\
-                poisson_ratio = 0.45\n\
-                density = 7850.0\n[boundaries.part_z1]\ncondition = \"support\"\n\
-                normal_stiffness = 3.993823e8\n\
-                tangential_stiffness = 9.354510e6\nnormal_damping = 57.49282\n[contact]\n\
-                boundary = \"part_z0\"\n\
-                counterface = \"plane\"\ndirection = [1.0, 0.0, 0.0]\nspeed = 4.582433e-3\n\
-                friction_coefficient = 0.06\ninterference = 1.483458e-8\n\
-                [cea]\nfriction_coefficients = [0.016327, 0.06]\nmax_frequency_hz = 275000.0\n";
+    let text = include_str!("../cases/cube-of-near-eigenvalues.toml");
     let case = of_file(&file_of(&[block], |point| point), text);
     let found = modes_and_onsets(&case).unwrap();
     let mut located = found.intervals.iter().filter(|own| own.is_located());
@@ -292,18 +279,7 @@ fn a_mode_that_grows_before_it_nearly_meets_another_has_its_own_onset() {
 fn modes_that_friction_brings_below_a_limit_in_frequency_are_listed() {
     let [xs, ys] = [0.020107041919607042, 0.021423467543813624].map(|edge| even(edge, 3));
     let mesh = quadrilaterals(&xs, &ys, ["part_z0", "part_z1", "part"], |x, y| [x, y]);
-    let text = "[mesh]\nfile = \"part.msh\"\n[material]\nyoung_modulus = 1.762983925e11\n\
-                poisson_ratio = 0.3\n\
-                density = 7850.0\nformulation = \"plane-strain\"\n[boundaries.part_z1]\n\
-                condition = \"support\"\n\
-                normal_stiffness = 1.228280591e12\ntangential_stiffness = 7.667491236e10\n\
-                normal_damping = 3.7335\n\
-                [contact]\nboundary = \"part_z0\"\ncounterface = \"plane\"\n\
-                direction = [1.0, 0.0]\nspeed = 2.0596e-3\n\
-                friction_coefficient = 0.617907591291667\ninterference = 4.863789604578336e-07\n\
-                [cea]\nfriction_coefficients = [0.56, 0.617907591291667]\n\
-                geometric_stiffness = false\n\
-                max_frequency_hz = 155859.15\n";
+    let text = include_str!("../cases/plane-block-beyond-a-limit.toml");
     let case = of_file(&mesh, text);
     let found = modes_and_onsets(&case).unwrap();
     for point in &found.points {

@@ -3,6 +3,7 @@
 use super::rigid_counterface::plane;
 use super::{OPTIONS, assembled, on_rigid, sliding, stacked, tangent_at, turning};
 use crate::prelude::*;
+use crate::solids::parts::SOLID_RING;
 use BaseChoice::Solved;
 use nalgebra::Vector3;
 
@@ -166,21 +167,17 @@ fn a_column_buckles_under_the_load_of_euler() {
 /// rigid and on springs that carry the base state.
 #[test]
 fn the_whole_mesh_of_a_disc_has_the_prestress_of_its_harmonics() {
-    let compliant = "normal_stiffness = 1e13\nbase_state = \"compliant\"\n";
-    for (contact, bound) in [("", 5e-4), (compliant, 2e-2)] {
+    let rigid = "contact.friction_coefficient=0.4 ; contact.interference=1e-4 ; cea.modes=12 ; \
+                 cea.friction_coefficients=[0.4] ; mesh.circumferential_elements=24 ; \
+                 mesh.radial_elements=2";
+    let compliant = "contact.normal_stiffness=1e13 ; contact.base_state=compliant";
+    for (contact, bound) in [(&[rigid][..], 5e-4), (&[rigid, compliant], 2e-2)] {
         // Frequencies of the modes of the section's plane: of the others friction across the sliding, which is distributed in
         // another way, is a part.
         let frequencies = |method: &str, stressed: bool| -> Vec<f64> {
-            let text = format!(
-                "[geometry]\ninner_radius = 0.02\nouter_radius = 0.05\nthickness = 0.01\n\
-                 [mesh]\ncircumferential_elements = 24\nradial_elements = 2\naxial_elements = 2\n\
-                 [material]\nyoung_modulus = 2.5e9\npoisson_ratio = 0.38\ndensity = 1228.0\n\
-                 formulation = \"three-dimensional\"\n\
-                 [contact]\nfriction_coefficient = 0.4\ninterference = 1e-4\nrotation_speed_rpm = 600.0\n{contact}\
-                 [cea]\nmodes = 12\nmethod = \"{method}\"\ngeometric_stiffness = {stressed}\n\
-                 friction_coefficients = [0.4]\n"
-            );
-            let points = modes_and_onsets(&case_of("disc.toml", &text, AS_IT_IS)).unwrap().points;
+            let how = format!("cea.method={method} ; cea.geometric_stiffness={stressed}");
+            let case = case_of("disc.toml", SOLID_RING, &[contact, &[&how]].concat());
+            let points = modes_and_onsets(&case).unwrap().points;
             let all = points[0].modes.iter().map(|mode| mode.eigenvalue.im / TAU);
             all.filter(|own| (10e3..15e3).contains(own)).collect()
         };

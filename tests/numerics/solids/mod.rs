@@ -5,7 +5,7 @@ mod elements;
 mod frf_command;
 mod limits;
 pub mod model;
-mod parts;
+pub mod parts;
 mod plane_transient;
 mod poles;
 mod response;

@@ -3,19 +3,14 @@
 use crate::prelude::*;
 
 /// A disc on a cylinder, free of prestress in its modes; parts and analysis follow.
-const DISC: &str = "[geometry]\ninner_radius = 0.02\nouter_radius = 0.05\nthickness = 0.01\n\
-     [mesh]\ncircumferential_elements = 16\nradial_elements = 3\naxial_elements = 2\n\
-     [material]\nyoung_modulus = 2.5e9\npoisson_ratio = 0.38\ndensity = 1228.0\n\
-     formulation = \"three-dimensional\"\n\
-     [contact]\nfriction_coefficient = 0.0\ninterference = 2e-5\nrotation_speed_rpm = 600.0\n\
-     [cea]\nmodes = 20\ngeometric_stiffness = false\n";
+pub const SOLID_RING: &str = include_str!("../../cases/solid-ring.toml");
 
 /// A steel ring within the middle third of the radii, in the lower layer.
 const RING: &str = "[materials.ring]\nradii = [0.03, 0.04]\nheights = [0.0, 0.005]\n\
      young_modulus = 2e11\npoisson_ratio = 0.3\ndensity = 7850.0\n";
 
 fn case(parts: &str) -> Case {
-    case_of("disc.toml", &format!("{DISC}{parts}"), AS_IT_IS)
+    case_of("disc.toml", &format!("{SOLID_RING}{parts}"), AS_IT_IS)
 }
 
 fn frequencies(modes: &[ComplexMode]) -> Vec<f64> {

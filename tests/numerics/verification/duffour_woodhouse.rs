@@ -23,11 +23,7 @@ fn duffour_woodhouse_critical_friction_is_a_root_of_two_responses() {
         [x - y, y]
     });
     let folder = folder("duffour_woodhouse", &mesh);
-    let body = "[mesh]\nfile = \"body.msh\"\n[material]\nyoung_modulus = 2.5e9\npoisson_ratio = 0.38\n\
-                density = 1228.0\nformulation = \"plane-strain\"\n[damping]\nmass_coefficient = 40.0\n\
-                stiffness_coefficient = 2e-7\n[boundaries.top]\ncondition = \"clamped\"\n[contact]\n\
-                boundary = \"face\"\ncounterface = \"plane\"\ndirection = [1.0, 0.0]\nspeed = 1.0\n\
-                friction_coefficient = 0.4\ninterference = 1e-7\n";
+    let body = include_str!("../../cases/duffour-woodhouse.toml");
     let cea = "[cea]\nmodes = 6\nfriction_coefficients = { from = 0.0, to = 0.4, count = 5 }\n\
                geometric_stiffness = false\n";
     let onsets = table(&folder, "cea", &format!("{body}{cea}"), "stability.csv");

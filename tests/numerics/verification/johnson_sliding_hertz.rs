@@ -43,11 +43,7 @@ fn errors(step: f64) -> [f64; 2] {
         let below = 0.5 * x.abs().min(6e-3).powi(2) / RADIUS;
         [x, below + (HEIGHT - below) * y / HEIGHT]
     });
-    let case = "[mesh]\nfile = \"body.msh\"\n[material]\nyoung_modulus = 2.1e11\npoisson_ratio = 0.3\n\
-                density = 7850.0\nformulation = \"plane-strain\"\n[boundaries.top]\ncondition = \"clamped\"\n\
-                [contact]\nboundary = \"face\"\ncounterface = \"plane\"\ndirection = [1.0, 0.0]\nspeed = 1.0\n\
-                friction_coefficient = 0.5\ninterference = 2e-5\n[cea]\nmodes = 1\n\
-                friction_coefficients = [0.5]\ngeometric_stiffness = false\n";
+    let case = include_str!("../../cases/johnson-sliding-hertz.toml");
     let mut nodes = table(&folder("johnson_sliding_hertz", &mesh), "cea", case, "prestress.csv");
     nodes.sort_by(|a, b| a["x_m"].total_cmp(&b["x_m"]));
     let force: f64 = nodes

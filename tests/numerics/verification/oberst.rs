@@ -18,11 +18,7 @@ fn beam(elements: usize) -> [f64; 2] {
         brick(name, [0.0, 0.0, z], [0.2, 0.005, thickness], [elements, 1, count])
     };
     let mesh = file_of(&[layer("metal", 0.0, 1e-3, 1), layer("layer", 1e-3, 2e-3, 2)], |p| p);
-    let case = "[mesh]\nfile = \"body.msh\"\n[material]\nyoung_modulus = 2.1e11\npoisson_ratio = 0.0\n\
-                density = 7850.0\n[materials.layer]\nyoung_modulus = 3e9\npoisson_ratio = 0.0\n\
-                density = 1500.0\nloss_factor = 0.5\n[boundaries.metal_x0]\ncondition = \"clamped\"\n\
-                [boundaries.layer_x0]\ncondition = \"clamped\"\n[ties.glue]\nsurface = \"layer_z0\"\n\
-                counter = \"metal_z1\"\n[cea]\nmodes = 1\nfriction_coefficients = [0.0]\n";
+    let case = include_str!("../../cases/oberst.toml");
     let modes = table(&folder("oberst", &mesh), "cea", case, "eigenvalues.csv");
     let lambda = c64::new(modes[0]["real_hz"], modes[0]["frequency_hz"]);
     // lambda^2 = -omega_0^2 (1 + i eta).
