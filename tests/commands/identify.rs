@@ -92,9 +92,6 @@ fn over_noise_seeds_the_errors_are_as_large_as_stated_and_the_intervals_hold_the
     let beta = share(&|r| holds(r.rayleigh.stiffness_coefficient, BETA));
     let near_alpha = share(&|r| (r.rayleigh.mass_coefficient.value / ALPHA - 1.0).abs() < 0.1);
     let near_beta = share(&|r| (r.rayleigh.stiffness_coefficient.value / BETA - 1.0).abs() < 0.03);
-    println!(
-        "alpha covered {alpha}, beta {beta}; within 10 % {near_alpha}, within 3 % {near_beta}"
-    );
     assert!(alpha >= covered && beta >= covered, "{alpha} {beta}");
     assert!(near_alpha >= near && near_beta >= near, "{near_alpha} {near_beta}");
     // The same mode by mode. Of 100 independent pulls the mean is known to 0.1 and the standard
@@ -112,7 +109,6 @@ fn over_noise_seeds_the_errors_are_as_large_as_stated_and_the_intervals_hold_the
             })
             .collect();
         let (mean, deviation) = moments(&pulls);
-        println!("mode {k}: pulls {mean:.2} +- {deviation:.2}");
         assert!(mean.abs() < mean_bound, "mode {k}: {mean}");
         assert!(deviations.contains(&deviation), "mode {k}: {deviation}");
     }

@@ -62,7 +62,6 @@ fn the_force_of_an_interference_gives_that_interference_back() {
         assert!(force > 0.0, "{head}");
         let pressed = with(&format!("normal_force = {force:?}"));
         let found = pressed.contact.sliding.interference;
-        println!("{force} N: {:e}", found / 2e-5 - 1.0);
         assert!((found / 2e-5 - 1.0).abs() < 1e-9, "{head}: {found:e}");
         assert!((pressed.normal_forces().unwrap()[0] / force - 1.0).abs() < 1e-9);
     }

@@ -67,7 +67,6 @@ fn the_whole_mesh_of_a_body_of_revolution_has_the_spectrum_of_its_harmonics() {
         };
         let still = distance(&at_rest(&whole), &at_rest(&cyclic));
         let sliding = distance(&whole, &cyclic);
-        println!("{still:e} without friction, {sliding:e} with");
         assert!(still < 1e-10, "{still:e}");
         assert!(sliding < 1e-7, "{sliding:e}");
     }

@@ -138,7 +138,6 @@ fn a_rotor_above_its_critical_speed_has_the_published_frequencies_in_its_turning
     let found = modes_of(folder.path(), &(mesh.clone() + &set + &load), "[cea]\nmodes = 10\n");
     let published =
         [5.089832, 11737.65, 14535.82, 23381.42, 34851.37, 38368.38, 45038.27, 49577.86];
-    println!("{found:?} {published:?}");
     near_each(&found[..published.len()], &published, 5e-3);
 
     // The mean displacement of the bore's nodes at each end vanishes; weak springs hold the turn about the axis.
@@ -151,7 +150,6 @@ fn a_rotor_above_its_critical_speed_has_the_published_frequencies_in_its_turning
         6128.151, 6351.323, 14905.19, 20215.56, 27483.61, 28809.47, 41398.47, 48544.58, 60801.77,
         71798.82,
     ];
-    println!("{found:?} {published:?}");
     near_each(&found[1..=published.len()], &published, 5e-3);
 }
 
@@ -185,9 +183,8 @@ fn an_undamped_rotor_answers_a_force_in_its_turning_frame_by_a_hermitian_matrix(
     let expected = [[0.55149, 0.0], [0.11340, -0.37617], [0.11340, 0.37617]];
     for ([force, observed], expected) in [["x", "x"], ["x", "y"], ["y", "x"]].iter().zip(expected) {
         let found = response(force, observed);
-        println!("{force} {observed}: {found:?} {expected:?} mm/N");
         let error = (found[0] - expected[0]).hypot(found[1] - expected[1]);
-        assert!(error < 5e-3 * 0.55149, "{force} {observed}: {found:?}");
+        assert!(error < 5e-3 * 0.55149, "{force} {observed}: {found:?} {expected:?} mm/N");
         assert!(force != observed || found[1].abs() < 1e-8 * found[0], "{found:?}");
     }
 }
@@ -214,7 +211,6 @@ fn frequencies_of_a_turning_ring_in_both_frames_differ_by_multiples_of_its_speed
         modes_of(folder.path(), &deck, &format!("{motion}{springs}[cea]\nmodes = 20\n"))
     };
     let (turning, rest) = (modes("turning"), modes("rest"));
-    println!("{turning:?}\n{rest:?}");
     // Each mode at rest is one of the turning frame, of some number of nodal diameters.
     for found in &rest[..12] {
         let nearest = turning

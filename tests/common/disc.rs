@@ -234,10 +234,10 @@ pub fn grows_as(record: &Recorder, harmonic: usize, expected: c64, tolerance: f6
     let analysis = TransientAnalysis::of(record, &[harmonic]);
     let stage = analysis.growth[0].stage.as_ref().unwrap();
     let found = c64::new(stage.rate_per_s.value, TAU * stage.frequency_hz.value.abs());
-    println!("n = {harmonic}: {found}, eigenvalue {expected}, {:e}", analysis.largest_residual);
-    assert!((found.re / expected.re - 1.0).abs() < 0.01);
-    assert!((found.im / expected.im.abs() - 1.0).abs() < tolerance);
-    assert!(analysis.largest_residual < 1e-10);
+    let what = format!("n = {harmonic}: {found}, eigenvalue {expected}");
+    assert!((found.re / expected.re - 1.0).abs() < 0.01, "{what}");
+    assert!((found.im / expected.im.abs() - 1.0).abs() < tolerance, "{what}");
+    assert!(analysis.largest_residual < 1e-10, "{what}, {:e}", analysis.largest_residual);
 }
 
 /// A transient with the step that its model has.

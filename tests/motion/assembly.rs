@@ -141,9 +141,8 @@ fn steady_sliding_of_an_assembly_is_an_equilibrium_of_its_transient() {
         let state = &assembly.range(&[FRICTION]).unwrap().states[0];
         let pressed = state.is_pressed.iter().filter(|pressed| **pressed);
         let open = state.is_pressed.len() - pressed.count();
-        println!("{springs:?}: {speed:e} m/s, {counts:?}, {}", record.unconverged_steps);
         // Sliding at 2 m/s; round-off of the pressed displacement over a step.
-        assert!(speed < 1e-7, "{speed:e}");
+        assert!(speed < 1e-7, "{springs:?}: {speed:e}");
         // Over the steps of a sample.
         let points = (counts.slip + counts.open) as usize / state.is_pressed.len();
         assert_eq!((counts.stick, counts.open as usize), (0, points * open));
@@ -162,7 +161,6 @@ fn the_energy_of_an_assembly_closes_from_rest_to_sliding() {
             [stick + own.stick, slip + own.slip, open + own.open]
         });
         let residual = TransientAnalysis::without_symmetry(&record).largest_residual;
-        println!("{springs:?}: {residual:e}, {counts:?}, {}", record.unconverged_steps);
         assert!(counts.iter().all(|&count| count > 0), "{counts:?}");
         assert!(residual < 1e-11, "{residual:e}");
         assert_eq!(record.unconverged_steps, 0);
@@ -244,7 +242,6 @@ fn grows_as_one_of(modes: &[ComplexMode], record: &Recorder) -> [f64; 2] {
     let stage = analysis.growth[0].stage.as_ref().unwrap();
     let found = [stage.rate_per_s.value, stage.frequency_hz.value.abs()];
     let expected = nearest(modes, found[1]);
-    println!("{found:?}, eigenvalue {expected:?}, residual {:e}", analysis.largest_residual);
     assert!(analysis.largest_residual < 1e-10);
     assert!((found[0] / expected[0] - 1.0).abs() < 0.01, "{found:?} {expected:?}");
     assert!((found[1] / expected[1] - 1.0).abs() < 1e-3, "{found:?} {expected:?}");

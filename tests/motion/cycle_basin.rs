@@ -55,7 +55,6 @@ fn modes_of_an_annulus_compete_as_its_waves_do() {
     let (numbers, found) = boundary_of_modes(&case, &request, simd).unwrap();
     assert_eq!(numbers, rivals);
     let modes = bounds(&found);
-    println!("waves {waves:?}, modes {modes:?}");
     // Each is known to the factor of its search.
     let factor = request.tolerance;
     assert!(modes[0] < waves[1] * factor && waves[0] < modes[1] * factor, "{waves:?} {modes:?}");

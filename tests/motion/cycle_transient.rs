@@ -131,9 +131,7 @@ fn single_wave_loses_stability_to_the_double_one_between_speeds_where_the_transi
     let solver = solver_of(&fine(), 1);
     let verdict = |rpm: f64| {
         let cycle = solver.find(&operating(rpm)).unwrap();
-        let stability = solver.stability(&cycle).unwrap();
-        println!("{rpm}: {:?}", stability.leading());
-        stability.verdict()
+        solver.stability(&cycle).unwrap().verdict()
     };
     // Close to the change the verdict may be left open, but not be wrong.
     assert_ne!(verdict(1200.0), Verdict::Unstable);

@@ -69,9 +69,6 @@ fn a_cup_with_straight_edges_is_pressed_like_one_with_curved_edges() {
         let [_, expected] = pressed(&curved, 2e-5);
         let [largest, force] = pressed(&straight, 2e-5);
         let [of_linear, _] = pressed(&block(linear, cells, cup), 2e-5);
-        println!(
-            "{kind:?}: {largest:e} Pa, linear {of_linear:e} Pa; {force} N, curved {expected} N"
-        );
         assert!((force / expected - 1.0).abs() < 0.05, "{kind:?} {force} {expected}");
         assert!(largest < 1.5 * of_linear, "{kind:?} {largest} {of_linear}");
     }
@@ -117,7 +114,6 @@ fn a_plane_ring_with_straight_edges_is_pressed_like_one_with_curved_edges() {
         state.normal_forces(0.3).iter().sum::<f64>()
     };
     let [straight, curved] = [true, false].map(force);
-    println!("{straight} {curved}");
     assert!((straight / curved - 1.0).abs() < 0.01, "{straight} {curved}");
 }
 

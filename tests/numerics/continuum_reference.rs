@@ -112,13 +112,6 @@ fn the_published_table_is_reproduced() {
         let (real, frequency, ..) = TABLE_1[row];
         let relative = mode.frequency_hz() / frequency - 1.0;
         let difference = mode.real_hz() - real;
-        println!(
-            "mode {:2}: {:9.2} Hz ({:+.3} %), {:8.2} Hz ({difference:+.2} Hz)",
-            row + 1,
-            mode.frequency_hz(),
-            100.0 * relative,
-            mode.real_hz(),
-        );
         squares += relative * relative;
         let bound = if row == 19 || row == 20 { 10.0 } else { 5.2 };
         assert!(relative.abs() < 1.8e-3, "mode {}: {relative}", row + 1);
@@ -155,7 +148,6 @@ fn critical_frictions_are_those_of_the_continuum_model() {
     ] {
         let critical =
             FITTED.critical_friction(harmonic, branch, &contact, RAYLEIGH, 1.0).unwrap_or(f64::NAN);
-        println!("mode {mode}: {critical:.6}");
         assert!((critical - expected).abs() < 1.02 * digit, "mode {mode}: {critical}");
     }
 }

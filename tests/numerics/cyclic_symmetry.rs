@@ -104,7 +104,6 @@ fn assert_same(name: &str, mesh: &[u8], text: &str) {
         assert!(a.nodal_diameters.is_some() && b.nodal_diameters.is_none());
         worst[1] = worst[1].max((a.critical_friction - b.critical_friction).abs());
     }
-    println!("{} critical; worst {worst:?}", waves.len());
     assert!(worst[0] < 1e-9 && worst[1] < 5e-9 && worst[2] < 0.2, "{worst:?}");
 }
 

@@ -124,7 +124,6 @@ fn nine_constants_of_a_lining_come_out_of_its_free_modes() {
             assert!((0.62..1.58).contains(&ratio), "{key} {ratio}");
         }
     }
-    println!("{inside:?} of {seeds}");
     let share = f64::from(inside.iter().sum::<u32>()) / (9.0 * seeds as f64);
     // 95 % of 27 or 108 draws, less three standard deviations and their dependence within a seed.
     assert!((sized(0.8, 0.86)..=1.0).contains(&share), "{inside:?}");
@@ -141,7 +140,6 @@ fn what_free_modes_cannot_tell_apart_is_named() {
     let StudyError::Fit(FitError::Blind(direction)) = &error else {
         panic!("{error}");
     };
-    println!("{direction}");
     constants.iter().for_each(|(key, _)| has(direction, &[key]));
 }
 

@@ -74,7 +74,6 @@ fn short_waves_on_an_annulus_tend_to_those_of_the_sliding_half_space() {
     // Curvature enters with 1 / n.
     let limit = (short * 36.0 - long * 24.0) / 12.0;
     let theory = half_space_speed();
-    println!("{long} {short} {limit} {theory}");
     assert!((theory.norm() / c64::new(1.4207, 0.2984).norm() - 1.0).abs() < 1e-4);
     assert!((limit.re.abs() / theory.re.abs() - 1.0).abs() < 5e-3, "{limit}");
     assert!((limit.im / theory.im - 1.0).abs() < 5e-3, "{limit}");

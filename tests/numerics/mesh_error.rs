@@ -60,7 +60,6 @@ fn estimates_of_frequencies_are_within_a_factor_of_two_of_the_error_by_refinemen
     ] {
         let [coarse, fine] = [coarse, fine].map(|case| estimates(&solution(&case).1));
         let found = effectivities(&coarse, &fine);
-        println!("{name}: {found:.3?}");
         assert!(found.iter().all(|e| (0.5..most).contains(e)), "{name}: {found:?}");
         // Both meshes are fine enough for the error to fall as its order says.
         let falls = coarse.iter().zip(&fine).all(|(a, b)| b[1] < 0.4 * a[1]);
@@ -81,7 +80,6 @@ fn estimates_of_one_layer_of_bricks_in_bending_are_of_the_size_of_the_error() {
     };
     let [coarse, fine] = [plate(1), plate(2)].map(|case| estimates(&solution(&case).1));
     let found = effectivities(&coarse, &fine);
-    println!("{found:.3?} of {coarse:.3?} {fine:.3?}");
     for ((found, coarse), fine) in found.iter().zip(&coarse).zip(&fine) {
         let is_large = (coarse[0] / fine[0] - 1.0).abs() > 3e-3;
         assert!(!is_large || (0.5..2.0).contains(found), "{found} {coarse:?} {fine:?}");
@@ -111,6 +109,5 @@ fn estimates_of_critical_friction_follow_the_error_by_refinement() {
     let [coarse, fine] = [coarse, fine].map(|case| onsets(&case));
     assert_eq!(coarse.len(), 3, "{coarse:?}");
     let found = effectivities(&coarse, &fine);
-    println!("{found:.3?} of {coarse:?}");
     assert!(found.iter().all(|e| (0.5..2.0).contains(e)), "{found:?}");
 }

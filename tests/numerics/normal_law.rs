@@ -22,8 +22,7 @@ fn disc_and_interface_share_the_interference() {
         let own = SectorSliding::solve(&sector, &stiffness, &sliding, Some(law)).unwrap();
         let pressure = own.state.normal_forces[0][0] / width;
         let share = 1.0 - law.approach(pressure) / sliding.interference;
-        println!("{law:?}: {pressure} Pa, {share}");
-        assert!(share > 0.05 && share < 0.95);
+        assert!(share > 0.05 && share < 0.95, "{law:?}: {share}");
         let expected = share * rigid.state.normal_forces[0][0] / width;
         assert!((pressure / expected - 1.0).abs() < 1e-12);
         let spring = own.state.stiffnesses[0][0] / width;
@@ -55,7 +54,6 @@ fn the_frequency_of_a_block_follows_the_pressure_on_it() {
         let expected = ((pressure + 1e5) * WIDTH / (5e-4 * MASS)).sqrt();
         let apart = |mode: &ComplexMode| (mode.eigenvalue.im / expected - 1.0).abs();
         let nearest = modes.iter().map(apart).fold(f64::MAX, f64::min);
-        println!("{pressure} Pa: {} Hz, {nearest:e}", expected / TAU);
         // Steel gives way by less than a thousandth of what the springs do.
         assert!(nearest < 1e-3, "{pressure}: {nearest:e}");
     }

@@ -80,7 +80,6 @@ fn eigenvalues_on_unstructured_meshes_converge_with_orders_two_and_four() {
             errors.push(error_of(&body(&file), &EXACT[..5]));
         }
         let slope = (errors[1] / errors[2]).log2();
-        println!("{kind:?} {errors:?} {slope}");
         // A family of three meshes shows its order within a tenth of it.
         assert!((slope - order).abs() < 0.1 * order, "{kind:?} {errors:?} {slope}");
     }

@@ -59,7 +59,6 @@ fn a_wave_grows_as_its_eigenvalue_says_with_a_chain_in_place_of_a_loss_factor() 
     let analysis = TransientAnalysis::of(&record, &[HARMONIC]);
     let found = analysis.growth[0].stage.as_ref().unwrap().rate_per_s.value;
     let exact = eigenvalue();
-    println!("{found} 1/s, eigenvalue {exact} 1/s");
     // The eigenvalue has the stiffness of its frequency, the chain that of its growth too: sigma / omega times the rise of the
     // modulus a factor e, over the growth.
     assert!((found / exact - 1.0).abs() < 0.02, "{found} {exact}");

@@ -293,7 +293,6 @@ fn the_lame_mode_of_a_cube_converges_with_the_order_of_the_kind() {
         };
         let errors = cells.map(|cells| error(kind, cells));
         let order = (errors[0] / errors[1]).ln() / (cells[1] as f64 / cells[0] as f64).ln();
-        println!("{kind:?} {errors:?} {order}");
         let expected = if kind.is_quadratic() { 4.0 } else { 2.0 };
         // Split cells have not lost their next term yet (1.60 and 3.62 here, 1.76 with 8 and 14 cells, 1.37 and 3.2 with half as
         // many); bricks have.
@@ -325,7 +324,6 @@ fn quadratic_kinds_and_incompatible_bricks_agree_on_a_clamped_beam() {
         (ElementKind::Hex8, [16, 4, 4], 0.02),
     ] {
         let found = beam(kind, cells);
-        println!("{kind:?} {found:?} {reference:?}");
         near_each(&found, &reference, tolerance);
     }
 }
@@ -465,7 +463,6 @@ fn the_ventilated_disc_has_the_volumes_and_pad_faces_of_its_geometry() {
         assert_eq!(name, expected);
         // Quadratic edges of 25 mm on circles of 10 mm and more.
         let tolerance = if name == "bolts" { 2e-2 } else { 2e-3 };
-        println!("{name} {found} {exact}");
         assert!((found / exact - 1.0).abs() < tolerance, "{name} {found} {exact}");
     }
 }

@@ -58,10 +58,8 @@ fn every_mode_has_the_stiffness_of_its_own_frequency() {
             }
             let at_limit = dense_eigenvalues(&tangent.at_frequency(limit_hz), mu);
             let expected = at_limit.iter().filter(|v| v.im < TAU * limit_hz).count();
-            println!("mu {mu}: {} modes, {expected} expected", own.len());
             assert_eq!(own.len(), expected, "{mu}");
         }
-        println!("{:?}", found.intervals);
         for interval in &found.intervals {
             let omega = TAU * interval.frequency_hz;
             let frozen = tangent.at_frequency(interval.frequency_hz);
@@ -122,8 +120,7 @@ fn derivatives_follow_the_frequency_of_the_mode() {
         let response = pair.response(own.stiffness.pattern(), [&dk, &dc, &dm], &dh);
         let by_modulus = (nearest(&stiffer, value) - nearest(&softer, value)) / (2.0 * step);
         let error = (response - by_modulus).norm();
-        println!("{value} {response} {by_modulus}");
-        assert!(error < 1e-3 * by_modulus.norm(), "{value} {error:e}");
+        assert!(error < 1e-3 * by_modulus.norm(), "{value} {response} {by_modulus}");
     }
 }
 
@@ -242,7 +239,6 @@ fn a_sandwich_beam_loses_what_ross_kerwin_and_ungar_say() {
             let square = lambda * lambda;
             square.im.abs() / square.re.abs()
         };
-        println!("{n}: {own} {lambda}; eta {:.5} {:.5}", loss(own), loss(lambda));
         // The theory leaves out shear of the faces, rotatory inertia and stretch of the core.
         assert!((loss(own) / loss(lambda) - 1.0).abs() < 0.01, "{n} {own} {lambda}");
         assert!((own.im / lambda.im - 1.0).abs() < 0.01, "{n} {own} {lambda}");
@@ -295,7 +291,6 @@ fn a_rubber_mounted_mass_moves_at_the_modulus_of_its_own_frequency() {
         let stiffness = c64::new(1.0, loss_factor) * (modulus * area / 0.01);
         lambda = c64::new(0.0, 1.0) * (stiffness / mass).sqrt();
     }
-    println!("{found} {lambda}");
     // The steel gives way by a ten-thousandth.
     assert!((found - lambda).norm() < 2e-4 * lambda.norm(), "{found} {lambda}");
     let other = mount("other", &RUBBER.replace("0.45", "0.46"), "[cea]\nmodes = 1\n").unwrap();

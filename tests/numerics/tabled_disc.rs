@@ -50,7 +50,6 @@ fn an_onset_has_the_modulus_of_its_own_frequency() {
             distances.fold(f64::INFINITY, f64::min)
         };
         let [own, lowest] = [onset.frequency_hz, 100.0].map(|f| nearest(table.at(f)));
-        println!("{onset:?}: {own:e}, {lowest:e}");
         assert!(own < 1e-7 && lowest > 1e-4, "{onset:?} {own:e} {lowest:e}");
     }
 }
@@ -100,7 +99,6 @@ fn losses_of_an_annulus_by_harmonics_are_those_of_its_whole_mesh() {
         for (a, b) in waves.points.iter().zip(&whole.points) {
             let [a, b] = [a, b].map(|point| eigenvalues_of(&point.modes));
             let error = largest_error(&a, &b).max(largest_error(&b, &a));
-            println!("{name}: {error:e} of {} modes", a.len());
             assert!(a.len() == b.len() && error < 1e-9, "{name}: {error:e}");
         }
         let directions = |point: &frictionsim::cea::FrictionPoint| {

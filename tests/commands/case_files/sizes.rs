@@ -120,7 +120,6 @@ speed = 0.5\nfriction_coefficient = 0.3\ninterference = 2e-5
         std::thread::sleep(Duration::from_millis(2));
     }
     let announced = told["memory_bytes"].as_f64().unwrap();
-    println!("{announced:e} bytes announced, {peak:e} used");
     assert!((0.5..2.0).contains(&(announced / peak)), "{announced:e} {peak:e}");
     assert_eq!(told["cea"]["time"], "seconds");
 }

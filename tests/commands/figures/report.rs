@@ -36,9 +36,7 @@ fn report_of_an_eigenvalue_analysis_holds_every_figure_table_and_the_case() {
     };
     let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("report");
     let folder = OutputFolder::open(&path, &manifest, Replace::Anything).unwrap();
-    let start = Instant::now();
     draw(&folder, &report, &dampings, &DrawingOptions::default()).unwrap();
-    println!("figures and report in {:?}", start.elapsed());
     folder.finish().unwrap();
     for width in [85.0, 178.0] {
         let options = DrawingOptions {

@@ -49,9 +49,7 @@ fn a_run_gets_every_figure_of_its_record() {
             mode_rates: Vec::new(),
         },
     };
-    let started = Instant::now();
     let figures = draw_run(&data);
-    println!("{} figures of a run drawn in {:?}", figures.len(), started.elapsed());
     let expected: [(&str, &[&str]); 10] = [
         ("overview-196", &["node 196", "time t (ms)"]),
         ("spectrum-196", &["frequency f (kHz)"]),

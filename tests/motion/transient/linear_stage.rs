@@ -44,7 +44,6 @@ fn seeded_harmonics_grow_as_the_complex_eigenvalues_predict() {
         let analysis = TransientAnalysis::of(&record, &[n]);
         assert_eq!(analysis.first_nonlinearity, None);
         let exact = least_stable(&contact, stiffness, n);
-        println!("{contact:?} {stiffness:?}");
         grows_as(&record, n, exact, 1e-3);
         if exact.re > 0.0 {
             // The unstable member of a pair travels against the rotor.

@@ -31,7 +31,6 @@ fn smooth_linear_motion_converges_with_order_two_in_time() {
     for quantity in 0..2 {
         for pair in errors.windows(2) {
             let slope = (pair[0][quantity] / pair[1][quantity]).log2();
-            println!("order {slope:.4}");
             assert!((slope - 2.0).abs() < 0.1, "{slope} {errors:?}");
         }
     }

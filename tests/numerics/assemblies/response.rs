@@ -52,7 +52,6 @@ fn the_response_of_a_sliding_assembly_has_the_poles_of_its_eigenvalue_analysis()
             let lines = [-1e-4, 0.0, 1e-4].map(|shift| lambda.im / TAU * (1.0 + shift));
             let h = direct_response(&system, force, response, &lines).unwrap();
             let found = pole(lines, [h[0], h[1], h[2]]);
-            println!("{normal_stiffness:?} {friction}: {lambda} {found}");
             // The other modes are a constant beside it to the square of the lines' distance, relative to theirs.
             assert!((found - lambda).norm() < 1e-6 * lambda.norm(), "{lambda} {found}");
         }

@@ -60,7 +60,6 @@ fn a_rotor_on_soft_springs_tilts_as_a_rigid_gyroscope() {
     ];
     expected.sort_by(f64::total_cmp);
     let found = frequencies(&mesh, &seam, speed, 6);
-    println!("{expected:?}\n{found:?}");
     // The ring bends a little: its lowest mode is at 3e3 rad/s.
     near_each(&found, &expected, 5e-3);
 }
@@ -85,7 +84,6 @@ fn a_free_ring_turns_and_both_frames_tell_the_same_of_its_waves() {
         [elastic[0], elastic[1]]
     };
     let [at_rest, along] = [RotationFrame::Rest, RotationFrame::Turning].map(lowest);
-    println!("{at_rest:?} {along:?}");
     let expected = [along[0] - 2.0 * speed, along[1] + 2.0 * speed];
     // 40 elements around carry a wave of two diameters to (2 / 40)^2 of the shift.
     within(&at_rest, &expected, 0.01 * 2.0 * speed);

@@ -52,6 +52,5 @@ pub fn assert_rate(element: ElementKind, what: &str, errors: [f64; 3]) {
     let expected = expected_rate(element);
     let slope = rate(errors);
     let said = format!("{element:?} {what}: slope {slope:.3}, errors {errors:.3?}");
-    println!("{said}");
     assert!((slope - expected).abs() <= 0.1, "{said}");
 }

@@ -112,7 +112,6 @@ fn differences(divisions: [usize; 2]) -> [f64; 4] {
 fn a_guided_body_moves_sticks_slips_and_opens_as_in_plane_strain_the_more_so_the_finer_the_mesh() {
     let coarse = differences([40, 8]);
     let fine = differences([80, 16]);
-    println!("{coarse:?} {fine:?}");
     // Statuses, displacement, mean normal force, mean kinetic energy; the last is within 0.2 % on both meshes.
     for (k, bound) in [0.04, 0.06, 0.01, 0.002].into_iter().enumerate() {
         assert!(fine[k] < bound, "{k}: {fine:?}");

@@ -60,7 +60,6 @@ fn has_poles_at_onsets(model: &SolidModel) {
     for onset in onsets {
         let lambda = c64::new(0.0, TAU * onset.frequency_hz);
         let pole = pole_beside(model, onset.critical_friction, lambda, (1, 1.0));
-        println!("mu {:.4}, {:.1} Hz: {pole:.1e} Hz", onset.critical_friction, onset.frequency_hz);
         // Onsets are located to 1e-9; what the reduced space of the eigenvalue analysis leaves out of a mesh that fine.
         assert!(pole.norm() < 1e-6 * onset.frequency_hz, "{onset:?}: {pole}");
     }

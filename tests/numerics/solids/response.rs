@@ -79,7 +79,6 @@ fn agrees(
             worst = worst.max((h - dense[k]).norm() / top);
         }
     }
-    println!("{what}: {worst:.1e} of the largest response");
     // Backward errors of 1e-14 or less, condition numbers below 1e4 from 700 Hz up.
     assert!(worst < 1e-10, "{what}: {worst:e}");
 }

@@ -67,7 +67,6 @@ fn guided_faces_respond_as_plane_strain_does() {
         let apart = pairs.iter().map(|(known, h)| (h - known).norm() / top);
         apart.fold(0.0, f64::max)
     });
-    println!("sliding: {apart:?}");
     assert!(apart[1] < 5e-3 && apart[1] < apart[0] / 3.0, "{apart:?}");
 }
 

@@ -146,7 +146,6 @@ fn slow_sliding_with_a_table_has_the_eigenvalues_of_dense_solutions_at_their_fre
                 assert!(error < 1e-9, "{rpm} rpm, n = {n}, {value}: {error:e}");
             }
             let below = dense_at(&model, n, &|_| false, TAU * LIMIT);
-            println!("{rpm} rpm, n = {n}: {} modes", listed.len());
             assert!(!listed.is_empty());
             assert_eq!(listed.len(), below.len(), "{rpm} rpm, n = {n}");
         }

@@ -152,7 +152,6 @@ fn energy_is_balanced_over_long_squeal() {
     settings.sample_interval = 1e-4;
     let analysis = TransientAnalysis::of(&run(&model, &settings), &[1]);
     let status = analysis.last_fifth.status;
-    println!("{status:?}, residual {:e}", analysis.largest_residual);
     assert!(status[0] > 0.01 && status[2] > 0.1, "{status:?}");
     assert!(analysis.largest_residual < 1e-10);
 }

@@ -56,7 +56,6 @@ fn non_matching_meshes_keep_the_order_of_convergence() {
     let matching = levels.map(|k| error([12, 12], k));
     let order = |errors: [f64; 3]| (errors[0] / errors[2]).log2();
     let (found, wanted) = (order(apart), order(matching));
-    println!("{apart:?} order {found:.3}; matching {matching:?} order {wanted:.3}");
     // Second order on finer meshes than these.
     assert!(found > wanted - 0.1, "{apart:?} {matching:?}");
     for (a, b) in apart.iter().zip(&matching) {

@@ -90,7 +90,6 @@ fn bryan_1890_the_waves_of_a_turning_ring_part() {
     for (k, n) in [2.0, 3.0].into_iter().enumerate() {
         let expected = closed_form(n);
         let errors = meshes.map(|found| [0, 1].map(|what| found[k][what] / expected[what] - 1.0));
-        println!("n = {n}: {expected:?}, errors {errors:?}");
         assert!(errors[2][0].abs() < 6e-3 && errors[2][1].abs() < 3e-3, "{errors:?}");
         for what in 0..2 {
             let order = order(errors[1][what], errors[2][what], 2.0);

@@ -60,7 +60,6 @@ fn hulten_1993_a_block_in_a_corner_flutters_where_two_degrees_of_freedom_do() {
     let expected = [critical, frequency, growth];
     let errors = [2.1e11, 2.1e12].map(|modulus| {
         let found = block(modulus);
-        println!("E {modulus:e}: {found:?}, expected {expected:?}");
         [0, 1, 2].map(|k| found[k] / expected[k] - 1.0)
     });
     for k in 0..3 {

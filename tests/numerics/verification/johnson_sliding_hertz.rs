@@ -81,7 +81,6 @@ fn errors(step: f64) -> [f64; 2] {
 #[test]
 fn johnson_sliding_hertz_the_patch_shifts_against_friction() {
     let found = [2e-4, 1e-4, 5e-5].map(errors);
-    println!("{found:?}");
     assert!(found[2][0] < 5e-3 && found[2][1].abs() < 1e-3, "{found:?}");
     // The nodes beside the edges of the patch, which pressure leaves nearly as a square root, decide.
     let order = order(found[0][0], found[2][0], 4.0);

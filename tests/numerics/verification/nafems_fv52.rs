@@ -51,7 +51,6 @@ fn frequencies(n: usize) -> Vec<f64> {
 #[test]
 fn the_frequencies_of_a_thick_plate_are_the_targets_of_the_benchmark() {
     let [coarse, fine] = [4, 8].map(frequencies);
-    println!("{coarse:?}\n{fine:?}");
     for (k, (found, target)) in coarse.iter().zip(TARGETS).enumerate() {
         let bound = if k < 4 { 0.025 } else { 2.5e-3 };
         assert!((found / target - 1.0).abs() < bound, "{found} {target}");

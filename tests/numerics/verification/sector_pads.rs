@@ -96,7 +96,6 @@ fn sector_pads_friction_couples_what_the_springs_part() {
         println!("{thickness}: {found:?}, expected {expected:?}");
         [0, 1].map(|k| found[k] / expected[k] - 1.0)
     });
-    println!("{errors:?}");
     for k in 0..2 {
         assert!(errors[1][k].abs() < 6e-3, "{errors:?}");
         let order = order(errors[0][k], errors[1][k], 2.0);
