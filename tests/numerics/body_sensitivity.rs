@@ -107,14 +107,7 @@ pub fn oval([x, y]: [f64; 2]) -> [f64; 2] {
 fn supported_oval(contact: &str) -> Body {
     let mesh = AnnulusMesh::generate(&annulus(ElementKind::Quad4, 24, 4)).unwrap().mesh;
     let folder = folder_with(&[("oval.msh", &write_msh(&mesh, FORMS[2], &[], oval))]);
-    let text = format!(
-        "[mesh]\nfile = \"oval.msh\"\n[boundaries.outer]\ncondition = \"support\"\nnormal_stiffness = 2e12\n\
-         tangential_stiffness = 1e12\nnormal_damping = 2e4\n\
-         [material]\nyoung_modulus = 2.5e9\npoisson_ratio = 0.3805\ndensity = 1228.0\n\
-         [damping]\nmass_coefficient = 40.0\nstiffness_coefficient = 2e-7\n\
-         [contact]\nfriction_coefficient = 0.3\ninterference = 25e-6\nrotation_speed_rpm = 610.0\n{contact}\
-         [cea]\nmodes = 8\nfriction_coefficients = [0.0, 0.15, 0.3, 0.45]\n"
-    );
+    let text = format!("{}{contact}", include_str!("../cases/supported-oval.toml"));
     Body { folder, text }
 }
 

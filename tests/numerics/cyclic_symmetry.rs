@@ -63,13 +63,10 @@ fn read(name: &str, mesh: &[u8], text: &str, method: &str) -> Result<Case, CaseE
     Case::parse(path.to_str().unwrap(), text.as_bytes(), &[method])
 }
 
+/// A disc of so many sectors, with more of its contact, and further sections.
 fn screwed_disc(sectors: usize, more: &str) -> String {
-    format!(
-        "[mesh]\nfile = \"sector.msh\"\nsectors = {sectors}\n[boundaries.screw]\ncondition = \"clamped\"\n\
-         [material]\nyoung_modulus = 2.5e9\npoisson_ratio = 0.3805\ndensity = 1228.0\nformulation = \"plane-strain\"\n\
-         [damping]\nmass_coefficient = 40.0\nstiffness_coefficient = 4.5e-7\n\
-         [contact]\nboundary = \"inner\"\nfriction_coefficient = 0.4\ninterference = 25e-6\nrotation_speed_rpm = 610.0\n{more}"
-    )
+    let text = include_str!("../cases/screwed-disc.toml");
+    text.replace("sectors = 3", &format!("sectors = {sectors}")) + more
 }
 
 fn solved(name: &str, mesh: &[u8], text: &str, method: &str) -> Solution {
@@ -135,32 +132,9 @@ fn waves_around_solid_bodies_have_the_spectrum_of_their_whole_mesh() {
         ];
         file_of(&blocks, |[r, t, z]| polar([r, t + 0.1 * (60.0 * (r - 0.07)).sin(), z]))
     };
-    let lining = |name: &str| {
-        format!("[materials.{name}]\nyoung_modulus = 5e9\npoisson_ratio = 0.25\ndensity = 2500.0\n")
-    };
-    let contact = |name: &str, own: &str, counter: &str| {
-        format!(
-            "[contacts.{name}]\nsurface = \"{own}\"\ncounter = \"{counter}\"\nfriction_coefficient = 0.4\nnormal_stiffness = 1e12\n"
-        )
-    };
-    let text = |pressure: &str, frictions: &str| {
-        format!(
-            "[mesh]\nfile = \"sector.msh\"\nsectors = 6\n\
-         [material]\nyoung_modulus = 1.1e11\npoisson_ratio = 0.28\ndensity = 7200.0\n{}{}\
-         [damping]\nmass_coefficient = 0.0\nstiffness_coefficient = 1e-8\n\
-         [boundaries.ring_x0]\ncondition = \"clamped\"\n[boundaries.below_z0]\ncondition = \"clamped\"\n\
-         [boundaries.above_z1]\ncondition = \"pressure\"\npressure = {pressure}\n\
-         [boundaries.above_x1]\ncondition = \"support\"\nnormal_stiffness = 1e11\ntangential_stiffness = 1e11\n\
-         [motion.ring]\naxis = [0.0, 0.0, 1.0]\nrotation_speed_rpm = 300.0\n{}{}\
-         [cea]\nmodes = 16\nfriction_coefficients = {frictions}\ngeometric_stiffness = true\n",
-            lining("below"),
-            lining("above"),
-            contact("below", "below_z1", "ring_z0"),
-            contact("above", "above_z0", "ring_z1"),
-        )
-    };
+    let text = include_str!("../cases/ring-between-linings.toml");
     let own = mesh(sized([2, 2, 1], [3, 4, 2]));
-    assert_same("ring", &own, &text("1e6", "[0.0, 0.3, 0.6]"));
+    assert_same("ring", &own, text);
 
     // Pressed a hundred times as much, motions damped by friction across the sliding lie among the modes, two of which are at one
     // frequency: all that are asked for converge. More come into range as others cease to oscillate: three of them grow by then, and
@@ -169,7 +143,7 @@ fn waves_around_solid_bodies_have_the_spectrum_of_their_whole_mesh() {
         ([2, 3, 1], [(0.141304, 8914.23), (0.279520, 9550.55), (0.284175, 9904.08)]),
         ([3, 4, 2], [(0.198758, 8742.75), (0.265936, 9289.07), (0.279959, 9571.03)]),
     );
-    let text = text("1e8", "[0.0, 0.3, 0.6]");
+    let text = text.replace("pressure = 1e6", "pressure = 1e8");
     let pressed = solved("pressed-ring", &mesh(size), &text, "sparse").sweep;
     assert!(pressed.unconverged.is_empty(), "{:?}", pressed.unconverged);
     assert!(pressed.points.iter().all(|point| point.modes.len() >= 16));
@@ -187,18 +161,12 @@ fn waves_around_solid_bodies_have_the_spectrum_of_their_whole_mesh() {
 fn waves_around_a_turning_ring_have_the_spectrum_of_its_whole_mesh() {
     let ring = brick("ring", [0.05, 0.0, -0.005], [0.1, TAU / 20.0, 0.01], [3, 2, 1]);
     let mesh = file_of(&[ring], polar);
-    let text = |frame: &str| {
-        format!(
-            "[mesh]\nfile = \"sector.msh\"\nsectors = 20\n[material]\nyoung_modulus = 2.1e11\npoisson_ratio = 0.3\n\
-             density = 7850.0\n[boundaries.ring_x0]\ncondition = \"clamped\"\n[motion.ring]\naxis = [0.0, 0.0, 1.0]\n\
-             rotation_speed_rpm = 6000.0\nrotation_terms = true\nframe = \"{frame}\"\n[cea]\nmodes = 12\n\
-             friction_coefficients = [0.0]\n"
-        )
-    };
+    let text = include_str!("../cases/turning-ring.toml");
     let mut of_frame = Vec::new();
     for frame in ["rest", "turning"] {
         let [waves, whole] = ["cyclic", "sparse"].map(|method| {
-            let found = solved(&format!("turning-{frame}"), &mesh, &text(frame), method);
+            let text = text.replace("\"rest\"", &format!("{frame:?}"));
+            let found = solved(&format!("turning-{frame}"), &mesh, &text, method);
             found.sweep.points[0].modes.clone()
         });
         assert!(distance(&waves, &whole) < 1e-9, "{waves:?} {whole:?}");

@@ -261,17 +261,7 @@ fn mount(name: &str, table: &str, sections: &str) -> Result<Case, String> {
     let blocks = [block("rubber", 0.0, 0.01), block("mass", 0.01, 0.02)];
     fs::write(folder.join("mount.msh"), file_of(&blocks, |point| point)).unwrap();
     fs::write(folder.join("rubber.csv"), table).unwrap();
-    let guides = ["rubber_x0", "rubber_x1", "mass_x0", "mass_x1"].map(|side| {
-        format!("[boundaries.{side}]\ncondition = \"fixed\"\ndirections = [\"x\", \"y\"]\n")
-    });
-    let text = format!(
-        "[mesh]\nfile = \"mount.msh\"
-[material]\nyoung_modulus = 2e11\npoisson_ratio = 0.3\ndensity = 7850.0
-[materials.rubber]\ntable = \"rubber.csv\"\npoisson_ratio = 0.0\ndensity = 25.0
-[boundaries.rubber_z0]\ncondition = \"clamped\"
-[ties.glue]\nsurface = \"rubber_z1\"\ncounter = \"mass_z0\"\n{}{sections}",
-        guides.concat()
-    );
+    let text = format!("{}{sections}", include_str!("../cases/rubber-mount.toml"));
     read_case(folder.join("mount.toml"), &text, AS_IT_IS)
 }
 

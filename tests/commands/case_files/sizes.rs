@@ -99,12 +99,12 @@ fn the_cost_of_a_solid_case_is_that_of_its_run() {
     let block = Block { name: "block", origin: [0.0; 3], size: [1.0; 3], counts: [4, 4, 3] };
     let place = |[x, y, z]: [f64; 3]| [0.08 * x, 0.07 * y, 0.06 * z];
     let folder = folder_with(&[("block.msh", &file_of_order(&[block], 2, place))]);
-    let text = "[mesh]\nfile = \"block.msh\"\n[boundaries.block_z1]\ncondition = \"clamped\"
-[material]\nyoung_modulus = 5e9\npoisson_ratio = 0.4\ndensity = 1100.0
-[contact]\nboundary = \"block_z0\"\ncounterface = \"plane\"\ndirection = [1.0, 0.0, 0.0]
-speed = 0.5\nfriction_coefficient = 0.3\ninterference = 2e-5
-[cea]\nfriction_coefficients = [0.0, 0.3]\nmodes = 8\n";
-    let run = |command| Run::of_text(command, folder.path(), text);
+    let text = include_str!("../../cases/rubber-block.toml");
+    let stiffer = ["material.young_modulus=5e9", "contact.interference=2e-5"];
+    let run = |command| {
+        let run = Run::of_text(command, folder.path(), text).args(&["--unset", "damping"]);
+        run.set(&stiffer)
+    };
     let told = run("check").args(&["--json"]).done().value()["cases"][0].clone();
     let unknowns = run("mesh").out("mesh").done().summary()["mesh"]["dofs"].clone();
     assert_eq!(told["dofs"], unknowns);

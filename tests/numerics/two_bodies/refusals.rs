@@ -13,40 +13,36 @@ fn bodies_that_do_not_meet_are_refused_with_a_remedy() {
     fs::write(folder.join("good.msh"), block(0.0, 0.0)).unwrap();
     fs::write(folder.join("deep.msh"), block(-1e-4, 0.0)).unwrap();
     fs::write(folder.join("apart.msh"), block(0.0, 0.5)).unwrap();
-    let read = |mesh: &str, contact: &str| {
-        let text = format!(
-            "[mesh]\nfile = \"{mesh}\"\n[material]\nyoung_modulus = 2.5e9\npoisson_ratio = 0.3\ndensity = 1228.0\n\
-             [boundaries.floor]\ncondition = \"clamped\"\n[boundaries.top]\ncondition = \"support\"\n\
-             normal_stiffness = 1e11\ntangential_stiffness = 1e11\n[contact]\nboundary = \"sole\"\n\
-             friction_coefficient = 0.3\ninterference = 1e-5\nspeed = 1.0\n{contact}\n"
-        );
-        read_case(folder.join("case.toml"), &text, AS_IT_IS).map(|_| ())
+    let read = |mesh: &str, changes: &[&str]| {
+        let text = include_str!("../../cases/plane-block-on-a-block.toml");
+        let mesh = format!("mesh.file={mesh:?}");
+        read_case(folder.join("case.toml"), text, &[&[mesh.as_str()], changes].concat()).map(|_| ())
     };
-    let body = "counterface = \"body\"\ncounter_boundary = \"track\"";
-    read("good.msh", body).unwrap();
-    for (mesh, contact, message, remedy) in [
-        ("deep.msh", body, "the bodies overlap", "contact.interference"),
-        ("apart.msh", body, "no point of \"sole\"", "check the curves"),
+    read("good.msh", &[]).unwrap();
+    let without = unset("contact.counter_boundary");
+    for (mesh, changes, message, remedy) in [
+        ("deep.msh", &[][..], "the bodies overlap", "contact.interference"),
+        ("apart.msh", &[], "no point of \"sole\"", "check the curves"),
         (
             "good.msh",
-            "counterface = \"body\"\ncounter_boundary = \"sole\"",
+            &["contact.counter_boundary=sole"],
             "are both \"sole\"",
             "name the curve of the other body",
         ),
         (
             "good.msh",
-            "counterface = \"body\"",
+            &[without.as_str()],
             "needs contact.counter_boundary",
             "name the physical curve",
         ),
         (
             "good.msh",
-            "counterface = \"plane\"\ncounter_boundary = \"track\"",
+            &["contact.counterface=plane"],
             "contact.counter_boundary is for two bodies",
             "set contact.counterface = \"body\"",
         ),
     ] {
-        let error = read(mesh, contact).unwrap_err();
+        let error = read(mesh, changes).unwrap_err();
         assert!(error.contains(message) && error.contains(remedy), "{error}");
     }
 }

@@ -3,23 +3,13 @@
 use crate::prelude::*;
 use crate::two_bodies::model::{blocks_of, rectangle};
 
-/// A block on another one, so many elements along the contact.
-fn write_case(folder: &Path, along: [usize; 2], upper_density: f64) {
+/// A heavy block on a light one, so many elements along the contact.
+fn write_case(folder: &Path, along: [usize; 2]) {
     let lower = rectangle([0.0, -0.02], [0.04, 0.02], [along[0], 2]);
     let upper = rectangle([0.0, 0.0], [0.04, 0.03], [along[1], 3]);
     fs::create_dir_all(folder).unwrap();
     fs::write(folder.join("blocks.msh"), blocks_of([lower, upper])).unwrap();
-    let text = format!(
-        "[mesh]\nfile = \"blocks.msh\"
-[material]\nyoung_modulus = 2.5e9\npoisson_ratio = 0.3\ndensity = 1228.0
-[materials.upper]\nyoung_modulus = 2.5e9\npoisson_ratio = 0.3\ndensity = {upper_density:?}
-[damping]\nmass_coefficient = 40.0\nstiffness_coefficient = 4.5e-7
-[boundaries.floor]\ncondition = \"clamped\"
-[boundaries.top]\ncondition = \"support\"\nnormal_stiffness = 1e11\ntangential_stiffness = 1e11
-[contact]\nboundary = \"sole\"\ncounterface = \"body\"\ncounter_boundary = \"track\"\n\
-     friction_coefficient = 0.3\ninterference = 1e-5\nspeed = 1.0
-[transient]\nduration = 2e-4\nexpansion_time = 5e-5\n"
-    );
+    let text = include_str!("../../cases/plane-block-on-a-block.toml");
     fs::write(folder.join("case.toml"), text).unwrap();
 }
 
@@ -32,7 +22,7 @@ fn run(folder: &Path, options: &[&str]) -> Answer {
 #[test]
 fn steps_whose_sweeps_end_early_are_counted_and_said_where_there_are_any() {
     let folder = folder();
-    write_case(folder.path(), [4, 40], 1e5);
+    write_case(folder.path(), [4, 40]);
     let answer = run(folder.path(), &[]);
     let summary = answer.summary();
     let steps = summary["steps"].as_u64().unwrap();
@@ -44,7 +34,7 @@ fn steps_whose_sweeps_end_early_are_counted_and_said_where_there_are_any() {
     assert!(summary["max_balance_residual"].as_f64().unwrap() < 1e-10);
 
     let matching = TempDir::new().unwrap();
-    write_case(matching.path(), [10, 10], 1e5);
+    write_case(matching.path(), [10, 10]);
     let answer = run(matching.path(), &[]).says(&["!converged"]);
     assert!(answer.summary().get("unconverged_steps").is_none());
 }
@@ -53,7 +43,7 @@ fn steps_whose_sweeps_end_early_are_counted_and_said_where_there_are_any() {
 #[test]
 fn a_run_that_goes_on_keeps_the_count_of_its_steps_without_converged_forces() {
     let folder = folder();
-    write_case(folder.path(), [4, 40], 1e5);
+    write_case(folder.path(), [4, 40]);
     let whole = run(folder.path(), &[]);
     let (steps, record) = (whole.summary()["unconverged_steps"].clone(), whole.bytes("record.bin"));
     let shorter = ["--force", "--set", "transient.duration=1e-4"];
