@@ -1,7 +1,7 @@
 //! The paper's disc: geometry, material, damping and contact. Poisson's ratio and density are a fit to its Table 1.
 
 use faer::c64;
-use frictionsim::cea::{ComplexMode, ModeLimit, SweepRequest, sparse};
+use frictionsim::cea::{ComplexMode, FrictionSweep, ModeLimit, SweepRequest, sparse};
 use frictionsim::contact::{ContactStiffness, FrictionDecay, NormalLaw, SlidingContact};
 use frictionsim::fem::operator::SimdLevel;
 use frictionsim::fem::{
@@ -171,11 +171,14 @@ pub fn linearized(
     SlidingTangent::linearize(mesh, material, &elastic, &base, options)
 }
 
+/// Eigenvalues over friction.
+pub fn swept(tangent: &SlidingTangent, frictions: &[f64], limit: ModeLimit) -> FrictionSweep {
+    sparse::sweep(tangent, &sweep_request(frictions, limit), &|_| {}).unwrap()
+}
+
 /// Modes at one friction coefficient.
 pub fn modes_at(tangent: &SlidingTangent, friction: f64, limit: ModeLimit) -> Vec<ComplexMode> {
-    let at = [friction];
-    let request = sweep_request(&at, limit);
-    let found = sparse::sweep(tangent, &request, &|_| {}).unwrap();
+    let found = swept(tangent, &[friction], limit);
     found.points.into_iter().next().unwrap().modes
 }
 

@@ -1,7 +1,6 @@
 //! Transients of solid bodies that are tied together and slide on each other.
 
 use crate::prelude::*;
-use frictionsim::cea::sparse::sweep;
 
 const DAMPING: RayleighDamping =
     RayleighDamping { mass_coefficient: 50.0, stiffness_coefficient: 1e-7 };
@@ -118,9 +117,7 @@ fn modes(assembly: &Assembly<'_>, count: usize) -> Vec<ComplexMode> {
     let range = assembly.range(&[FRICTION, 0.0]).unwrap();
     let state = &range.states[range.state_of[0]];
     let tangent = assembly.tangent(state, &options).unwrap();
-    let request = sweep_request(&[FRICTION], ModeLimit::Lowest(count));
-    let found = sweep(&tangent, &request, &|_| {}).unwrap();
-    found.points.into_iter().flat_map(|point| point.modes).collect()
+    modes_at(&tangent, FRICTION, ModeLimit::Lowest(count))
 }
 
 /// Rigid contact, constant springs, and springs that stiffen to about the same at the pressure of 2 MPa.

@@ -78,26 +78,21 @@ impl Disc {
     }
 }
 
-fn run(tangent: &SlidingTangent, values: &[f64], limit: ModeLimit) -> FrictionSweep {
-    let request = sweep_request(values, limit);
-    sweep(tangent, &request, &|_| {}).unwrap()
-}
-
 /// Consistency: what grows just above the modes asked for is told as a longer list has it, and nothing where nothing grows.
 #[test]
 fn an_unstable_mode_just_above_the_list_is_told() {
     let tangent = Disc::coarse().tangent();
     let values = [0.0, 0.15, 0.3];
-    let all = run(&tangent, &values, ModeLimit::Lowest(12));
+    let all = swept(&tangent, &values, ModeLimit::Lowest(12));
     let last = &all.points[2].modes;
     assert!(!last[..2].iter().any(ComplexMode::is_unstable));
-    let beyond = run(&tangent, &values, ModeLimit::Lowest(2)).beyond.unwrap();
+    let beyond = swept(&tangent, &values, ModeLimit::Lowest(2)).beyond.unwrap();
     let listed = last.iter().find(|mode| {
         (mode.frequency_hz() - beyond.frequency_hz).abs() < 1e-6 * beyond.frequency_hz
     });
     assert_eq!(beyond.friction_coefficient, 0.3);
     assert!((listed.unwrap().growth_rate() - beyond.growth_rate).abs() < 1e-6 * beyond.growth_rate);
-    assert!(run(&tangent, &[0.0], ModeLimit::Lowest(2)).beyond.is_none());
+    assert!(swept(&tangent, &[0.0], ModeLimit::Lowest(2)).beyond.is_none());
 }
 
 /// `mu_c = (c^2 + ((A - B)/2)^2) / (c d)`: where the two eigenvalues of `K` meet.
@@ -110,7 +105,7 @@ fn two_degrees_of_freedom_flutter_at_the_closed_form_friction() {
         let undamped = Some(RayleighDamping::default());
         let tangent = problem(2, [mass, Vec::new(), stiffness], undamped);
         let values: Vec<f64> = (0..12).map(|i| f64::from(i) * critical / 7.3).collect();
-        let result = run(&tangent, &values, ModeLimit::Lowest(2));
+        let result = swept(&tangent, &values, ModeLimit::Lowest(2));
         assert_eq!(result.intervals.len(), 1, "{:?}", result.intervals);
         let found = &result.intervals[0];
         // At the double root the growth rate rises like the square root of the distance: 1e-6 in mu.
@@ -148,7 +143,7 @@ fn sweep_of_a_general_quadratic_problem_equals_a_dense_decomposition() {
     ];
     let tangent = problem(size, [mass, damping, stiffness], None);
     let values = [0.0, 0.2, 0.45, 0.8];
-    let result = run(&tangent, &values, ModeLimit::Lowest(8));
+    let result = swept(&tangent, &values, ModeLimit::Lowest(8));
     for point in &result.points {
         let dense = dense_eigenvalues(&tangent, point.friction_coefficient);
         near_each(&eigenvalues_of(&point.modes), &dense[..8], 1e-9);
@@ -187,7 +182,7 @@ fn exact_modes(
 fn sweep_agrees_with_krylov_schur_at_the_same_friction() {
     let tangent = Disc::coarse().tangent();
     let mu = 0.6;
-    let result = run(&tangent, &[mu], ModeLimit::Lowest(24));
+    let result = swept(&tangent, &[mu], ModeLimit::Lowest(24));
     let linearization = Linearization::of(&tangent, 1e5, Centre::default());
     let exact = exact_modes(&tangent, linearization, mu, 30);
     let modes = &result.points[0].modes;
@@ -202,7 +197,7 @@ fn sweep_with_general_damping_agrees_with_krylov_schur_at_every_friction() {
     let disc = Disc { damping_model: DampingModel::BodyOnly, ..Disc::coarse() };
     let tangent = disc.tangent();
     let values: Vec<f64> = (0..9).map(|i| f64::from(i) * 0.075).collect();
-    let result = run(&tangent, &values, ModeLimit::Lowest(8));
+    let result = swept(&tangent, &values, ModeLimit::Lowest(8));
     let linearization = Linearization::of(&tangent, 1e5, Centre::default());
     for point in &result.points[1..] {
         let mu = point.friction_coefficient;
@@ -251,7 +246,7 @@ fn sweep_goes_on_from_any_step_to_the_same_bits() {
 fn inertia_count_equals_the_number_of_modes_below_the_limit() {
     let tangent = Disc::coarse().tangent();
     for hz in [8_000.0, 12_000.0, 17_000.0] {
-        let result = run(&tangent, &[0.0], ModeLimit::MaxFrequency(hz));
+        let result = swept(&tangent, &[0.0], ModeLimit::MaxFrequency(hz));
         let modes = FrictionlessModes::compute(&tangent, ModeLimit::Lowest(60)).unwrap();
         let below = modes.frequencies.iter().filter(|&&w| w < TAU * hz).count();
         // Damping lowers frequencies by parts in 1e4 only.

@@ -153,8 +153,7 @@ fn at_a_critical_friction_of_the_eigenvalue_analysis_the_response_grows_as_one_o
     let options = options(DampingModel::WholeTangent, ContactStiffness::default());
     let tangent = tangent(&options);
     let values: Vec<f64> = (0..=10).map(|k| 0.05 * f64::from(k)).collect();
-    let request = sweep_request(&values, ModeLimit::MaxFrequency(17_500.0));
-    let found = sweep(&tangent, &request, &|_| {}).unwrap();
+    let found = swept(&tangent, &values, ModeLimit::MaxFrequency(17_500.0));
     let onsets: Vec<_> =
         found.intervals.iter().filter(|interval| !interval.unstable_from_start).collect();
     assert!(onsets.len() >= 2, "{onsets:?}");

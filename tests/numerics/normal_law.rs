@@ -49,8 +49,7 @@ fn the_frequency_of_a_block_follows_the_pressure_on_it() {
             ..TANGENT
         };
         let tangent = SlidingTangent::linearize(&mesh, &STEEL, &elastic, &base, &options);
-        let request = sweep_request(&[0.0], ModeLimit::Lowest(3));
-        let modes = &sparse::sweep(&tangent, &request, &|_| {}).unwrap().points[0].modes;
+        let modes = modes_at(&tangent, 0.0, ModeLimit::Lowest(3));
         let expected = ((pressure + 1e5) * WIDTH / (5e-4 * MASS)).sqrt();
         let apart = |mode: &ComplexMode| (mode.eigenvalue.im / expected - 1.0).abs();
         let nearest = modes.iter().map(apart).fold(f64::MAX, f64::min);

@@ -31,8 +31,7 @@ fn tangent_with(
 }
 
 pub fn solved(tangent: &SlidingTangent, frictions: &[f64]) -> FrictionSweep {
-    let request = sweep_request(frictions, ModeLimit::Lowest(8));
-    sweep(tangent, &request, &|_| {}).unwrap()
+    swept(tangent, frictions, ModeLimit::Lowest(8))
 }
 
 pub fn eigenvalues(sweep: &FrictionSweep, point: usize) -> Vec<c64> {

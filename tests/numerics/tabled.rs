@@ -46,8 +46,7 @@ fn every_mode_has_the_stiffness_of_its_own_frequency() {
     for contact_stiffness in [ContactStiffness::default(), springs] {
         let tangent = tangent(rubber(1e9), contact_stiffness);
         let (frictions, limit_hz) = ([0.0, 0.3, 0.6, 0.9], 11000.0);
-        let request = sweep_request(&frictions, ModeLimit::MaxFrequency(limit_hz));
-        let found = sweep(&tangent, &request, &|_| {}).unwrap();
+        let found = swept(&tangent, &frictions, ModeLimit::MaxFrequency(limit_hz));
         for (point, &mu) in frictions.iter().enumerate() {
             let own = eigenvalues(&found, point);
             for lambda in &own {
@@ -215,8 +214,7 @@ fn a_sandwich_beam_loses_what_ross_kerwin_and_ungar_say() {
     let state = assembly.range(&[0.0]).unwrap();
     let options = TangentOptions { damping: RayleighDamping::default(), ..TANGENT };
     let tangent = assembly.tangent(&state.states[0], &options).unwrap();
-    let request = sweep_request(&[0.0], ModeLimit::Lowest(5));
-    let found = eigenvalues(&sweep(&tangent, &request, &|_| {}).unwrap(), 0);
+    let found = eigenvalues_of(&modes_at(&tangent, 0.0, ModeLimit::Lowest(5)));
 
     let mass = 2.0 * FACE * 2700.0 + CORE * 1000.0;
     for n in 1..=3 {

@@ -82,11 +82,6 @@ impl<M: MaterialField> AnnulusModel<M> {
         let mesh = AnnulusMesh::generate(&self.specification).unwrap().mesh;
         linearized(&mesh, &self.material, &self.contact, &self.options)
     }
-
-    /// The eigenvalues of these.
-    pub fn whole_swept(&self, frictions: &[f64], limit: ModeLimit) -> FrictionSweep {
-        sparse::sweep(&self.whole(), &sweep_request(frictions, limit), &|_| {}).unwrap()
-    }
 }
 
 /// The eigenpairs of the branches that oscillate at a friction coefficient.

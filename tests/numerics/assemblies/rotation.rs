@@ -75,8 +75,7 @@ fn a_free_ring_turns_and_both_frames_tell_the_same_of_its_waves() {
         let ties = std::slice::from_ref(&seam);
         let assembly = Assembly::new(&mesh, &STEEL, ties, &[], &[motion], Closed).unwrap();
         let tangent = tangent_at(&assembly, 0.0, &OPTIONS);
-        let request = sweep_request(&[0.0], ModeLimit::Lowest(8));
-        let found = sweep(&tangent, &request, &|_| {}).unwrap();
+        let found = swept(&tangent, &[0.0], ModeLimit::Lowest(8));
         assert!(found.intervals.is_empty(), "{:?}", found.intervals);
         let own = found.points[0].modes.iter().map(|mode| mode.eigenvalue.im);
         // Rigid motions go round at the speed of the frame.

@@ -12,7 +12,7 @@ fn agree<M: MaterialField + Clone>(
 ) {
     let limit = ModeLimit::Lowest(count);
     let cyclic = model.swept(frictions, limit).sweep;
-    let sparse = model.whole_swept(frictions, limit);
+    let sparse = swept(&model.whole(), frictions, limit);
     assert_same(&cyclic, &sparse, tolerances, what);
     assert!(!cyclic.intervals.is_empty(), "{what}");
     for (ours, theirs) in cyclic.points.iter().zip(&sparse.points) {
@@ -90,7 +90,7 @@ fn a_cut_through_a_pair_keeps_both_members_in_both_solvers() {
     for asked in 2..6 {
         let limit = ModeLimit::Lowest(asked);
         let cyclic = model.swept(&[0.0, 0.4], limit).sweep;
-        let sparse = model.whole_swept(&[0.0, 0.4], limit);
+        let sparse = swept(&model.whole(), &[0.0, 0.4], limit);
         for found in [cyclic, sparse] {
             let [rest, sliding] = [0, 1].map(|i| &found.points[i].modes);
             let singles = rest.iter().filter(|mode| mode.harmonic == 0).count();

@@ -25,27 +25,29 @@ fn faces_of(file: &FileMesh, side: &str) -> Vec<(usize, Vec<usize>, Vec<u32>)> {
     found
 }
 
-/// Number of the face with these corners, Abaqus Analysis User's Guide, "Solid element library": corners of S1, S2, ...
-fn abaqus_face(kind: ElementKind, corners: &[usize]) -> usize {
-    let faces: &[&[usize]] = match kind {
-        ElementKind::Tet4 | ElementKind::Tet10 => &[&[1, 2, 3], &[1, 4, 2], &[2, 4, 3], &[3, 4, 1]],
-        ElementKind::Hex8 | ElementKind::Hex20 => &[
-            &[1, 2, 3, 4],
-            &[5, 8, 7, 6],
-            &[1, 5, 6, 2],
-            &[2, 6, 7, 3],
-            &[3, 7, 8, 4],
-            &[4, 8, 5, 1],
-        ],
-        ElementKind::Pyramid5 | ElementKind::Pyramid13 => {
-            &[&[1, 2, 3, 4], &[1, 5, 2], &[2, 5, 3], &[3, 5, 4], &[4, 5, 1]]
-        }
-        _ => &[&[1, 2, 3], &[4, 6, 5], &[1, 4, 5, 2], &[2, 5, 6, 3], &[3, 6, 4, 1]],
+/// What `kinds.txt` says of a kind of element: its type and faces in Abaqus, its card and order of nodes in Nastran, its descriptor
+/// and order in universal files.
+fn kind_in_files(kind: ElementKind) -> [&'static str; 6] {
+    let mut lines = include_str!("../meshes/kinds.txt").lines();
+    let own = format!("{kind:?} | ");
+    let mut fields = lines.find_map(|line| line.strip_prefix(&own)).unwrap().split(" | ");
+    [(); 6].map(|()| fields.next().unwrap())
+}
+
+/// The nodes of an element in an order of the table.
+fn ordered(element: &FileElement, order: &str) -> Vec<u32> {
+    let own = &element.nodes;
+    let place = |at: &str| own[at.parse::<usize>().unwrap()];
+    if order == "-" { own.clone() } else { order.split(' ').map(place).collect() }
+}
+
+/// Number of the face with these corners.
+fn abaqus_face(faces: &str, corners: &[usize]) -> usize {
+    let is_same = |face: &str| {
+        let has = |corner: &usize| face.contains(&(corner + 1).to_string());
+        face.len() == corners.len() && corners.iter().all(has)
     };
-    let is_same = |face: &&[usize]| {
-        face.len() == corners.len() && corners.iter().all(|c| face.contains(&(c + 1)))
-    };
-    1 + faces.iter().position(is_same).unwrap()
+    1 + faces.split(' ').position(is_same).unwrap()
 }
 
 fn inp(file: &FileMesh) -> String {
@@ -53,17 +55,7 @@ fn inp(file: &FileMesh) -> String {
     for (label, [x, y, z]) in file.labels.iter().zip(&file.points) {
         writeln!(out, "{label}, {x:?}, {y:?}, {z:?}").unwrap();
     }
-    let kind = file.elements[0].kind;
-    let name = match kind {
-        ElementKind::Tet4 => "C3D4",
-        ElementKind::Tet10 => "C3D10",
-        ElementKind::Hex8 => "C3D8I",
-        ElementKind::Hex20 => "C3D20",
-        ElementKind::Wedge6 => "C3D6",
-        ElementKind::Pyramid5 => "C3D5",
-        ElementKind::Pyramid13 => "C3D13",
-        _ => "C3D15",
-    };
+    let [name, faces, ..] = kind_in_files(file.elements[0].kind);
     writeln!(out, "*Element, type={name}, elset=body").unwrap();
     for element in &file.elements {
         write!(out, "{}", element.label).unwrap();
@@ -77,22 +69,10 @@ fn inp(file: &FileMesh) -> String {
     for side in SIDES {
         writeln!(out, "*SURFACE, NAME={side}").unwrap();
         for (element, corners, _) in faces_of(file, side) {
-            writeln!(out, "{element}, S{}", abaqus_face(kind, &corners)).unwrap();
+            writeln!(out, "{element}, S{}", abaqus_face(faces, &corners)).unwrap();
         }
     }
     out
-}
-
-/// Places of the nodes on the card, MSC Nastran Quick Reference Guide, CHEXA, CPENTA: mid-side nodes of the bottom, along the height,
-/// of the top.
-fn nastran_order(kind: ElementKind) -> Vec<usize> {
-    match kind {
-        ElementKind::Hex20 => {
-            vec![0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 16, 17, 18, 19, 12, 13, 14, 15]
-        }
-        ElementKind::Wedge15 => vec![0, 1, 2, 3, 4, 5, 6, 7, 8, 12, 13, 14, 9, 10, 11],
-        _ => (0..kind.node_count()).collect(),
-    }
 }
 
 fn bdf(file: &FileMesh) -> String {
@@ -104,16 +84,10 @@ fn bdf(file: &FileMesh) -> String {
         writeln!(out, "GRID*,{label},,{x:?},{y:?}\n*,{z:?}").unwrap();
     }
     let kind = file.elements[0].kind;
-    let name = match kind {
-        ElementKind::Tet4 | ElementKind::Tet10 => "CTETRA",
-        ElementKind::Hex8 | ElementKind::Hex20 => "CHEXA",
-        ElementKind::Pyramid5 | ElementKind::Pyramid13 => "CPYRAM",
-        _ => "CPENTA",
-    };
+    let [_, _, name, order, ..] = kind_in_files(kind);
     for element in &file.elements {
         let mut fields = vec![element.label, 7];
-        let place = |at: usize| file.labels[element.nodes[at] as usize];
-        fields.extend(nastran_order(kind).into_iter().map(place));
+        fields.extend(ordered(element, order).iter().map(|&node| file.labels[node as usize]));
         // Small fields of eight columns, eight on a line.
         for (i, line) in fields.chunks(8).enumerate() {
             write!(out, "{:<8}", if i == 0 { name } else { "+" }).unwrap();
@@ -139,18 +113,6 @@ fn bdf(file: &FileMesh) -> String {
     out + "ENDDATA\n"
 }
 
-/// Nodes in the order of the file, corner, middle, corner around each face.
-fn unv_order(kind: ElementKind) -> Vec<usize> {
-    match kind {
-        ElementKind::Tet10 => vec![0, 4, 1, 5, 2, 6, 7, 8, 9, 3],
-        ElementKind::Hex20 => {
-            vec![0, 8, 1, 9, 2, 10, 3, 11, 16, 17, 18, 19, 4, 12, 5, 13, 6, 14, 7, 15]
-        }
-        ElementKind::Wedge15 => vec![0, 6, 1, 7, 2, 8, 12, 13, 14, 3, 9, 4, 10, 5, 11],
-        _ => (0..kind.node_count()).collect(),
-    }
-}
-
 fn unv(file: &FileMesh) -> String {
     let mut out = String::from("    -1\n  2411\n");
     for (label, [x, y, z]) in file.labels.iter().zip(&file.points) {
@@ -159,17 +121,9 @@ fn unv(file: &FileMesh) -> String {
         writeln!(out, "{label:10}         1         1        11\n  {x}  {y}  {z}").unwrap();
     }
     out.push_str("    -1\n    -1\n  2412\n");
-    let kind = file.elements[0].kind;
-    let descriptor = match kind {
-        ElementKind::Tet4 => 111,
-        ElementKind::Tet10 => 118,
-        ElementKind::Hex8 => 115,
-        ElementKind::Hex20 => 116,
-        ElementKind::Wedge6 => 112,
-        _ => 113,
-    };
-    let mut write_element = |label: usize, descriptor: usize, nodes: &[usize]| {
-        writeln!(out, "{label:10}{descriptor:10}         1         1         7{:10}", nodes.len())
+    let [.., descriptor, order] = kind_in_files(file.elements[0].kind);
+    let mut write_element = |label: usize, descriptor: &str, nodes: &[usize]| {
+        writeln!(out, "{label:10}{descriptor:>10}         1         1         7{:10}", nodes.len())
             .unwrap();
         for line in nodes.chunks(8) {
             line.iter().for_each(|node| write!(out, "{node:10}").unwrap());
@@ -178,8 +132,7 @@ fn unv(file: &FileMesh) -> String {
     };
     let label = |node: u32| file.labels[node as usize];
     for element in &file.elements {
-        let nodes: Vec<usize> =
-            unv_order(kind).into_iter().map(|at| label(element.nodes[at])).collect();
+        let nodes: Vec<usize> = ordered(element, order).into_iter().map(label).collect();
         write_element(element.label, descriptor, &nodes);
     }
     let mut next = 1 + file.elements.len();
@@ -188,7 +141,7 @@ fn unv(file: &FileMesh) -> String {
         let first = next;
         for (_, corners, nodes) in faces_of(file, side) {
             let nodes: Vec<usize> = nodes.iter().map(|&node| label(node)).collect();
-            write_element(next, if corners.len() == 3 { 91 } else { 94 }, &nodes);
+            write_element(next, if corners.len() == 3 { "91" } else { "94" }, &nodes);
             next += 1;
         }
         groups.push((side, (first..next).collect()));
