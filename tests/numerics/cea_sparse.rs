@@ -3,7 +3,7 @@
 
 mod counts;
 
-use crate::cea_cyclic::model::paper_options;
+use crate::cea_cyclic::model::paper;
 use crate::prelude::*;
 use crate::structural_damping::dense_eigenvalues;
 use frictionsim::cea::sparse::{
@@ -58,30 +58,21 @@ pub fn bare(
     }
 }
 
-struct Disc {
-    circumferential: usize,
-    radial: usize,
-    damping_model: DampingModel,
+/// The paper's disc on so many elements around and across.
+fn disc(around: usize, across: usize, damping_model: DampingModel) -> SlidingTangent {
+    let mut model = paper(ElementKind::Quad4, around, across);
+    model.options.damping_model = damping_model;
+    model.whole()
 }
 
-impl Disc {
-    fn coarse() -> Self {
-        Self { circumferential: 48, radial: 10, damping_model: DampingModel::WholeTangent }
-    }
-
-    /// The paper's disc; `nu`, `rho` and `k_n` from a fit of the exact continuum to its Table 1.
-    fn tangent(&self) -> SlidingTangent {
-        let specification = annulus(ElementKind::Quad4, self.circumferential, self.radial);
-        let mesh = AnnulusMesh::generate(&specification).unwrap().mesh;
-        let options = TangentOptions { damping_model: self.damping_model, ..paper_options() };
-        linearized(&mesh, &POLYCARBONATE, &contact(610.0), &options)
-    }
+fn coarse_disc() -> SlidingTangent {
+    disc(48, 10, DampingModel::WholeTangent)
 }
 
 /// Consistency: what grows just above the modes asked for is told as a longer list has it, and nothing where nothing grows.
 #[test]
 fn an_unstable_mode_just_above_the_list_is_told() {
-    let tangent = Disc::coarse().tangent();
+    let tangent = coarse_disc();
     let values = [0.0, 0.15, 0.3];
     let all = swept(&tangent, &values, ModeLimit::Lowest(12));
     let last = &all.points[2].modes;
@@ -180,7 +171,7 @@ fn exact_modes(
 /// The sweep's common basis against a Krylov-Schur iteration with the factors of `K(mu)` itself.
 #[test]
 fn sweep_agrees_with_krylov_schur_at_the_same_friction() {
-    let tangent = Disc::coarse().tangent();
+    let tangent = coarse_disc();
     let mu = 0.6;
     let result = swept(&tangent, &[mu], ModeLimit::Lowest(24));
     let linearization = Linearization::of(&tangent, 1e5, Centre::default());
@@ -194,8 +185,7 @@ fn sweep_agrees_with_krylov_schur_at_the_same_friction() {
 /// Krylov-Schur iteration on vectors of full length at each of them.
 #[test]
 fn sweep_with_general_damping_agrees_with_krylov_schur_at_every_friction() {
-    let disc = Disc { damping_model: DampingModel::BodyOnly, ..Disc::coarse() };
-    let tangent = disc.tangent();
+    let tangent = disc(48, 10, DampingModel::BodyOnly);
     let values: Vec<f64> = (0..9).map(|i| f64::from(i) * 0.075).collect();
     let result = swept(&tangent, &values, ModeLimit::Lowest(8));
     let linearization = Linearization::of(&tangent, 1e5, Centre::default());
@@ -209,7 +199,7 @@ fn sweep_with_general_damping_agrees_with_krylov_schur_at_every_friction() {
 
 #[test]
 fn sweep_is_bitwise_equal_on_one_and_two_threads() {
-    let tangent = Disc::coarse().tangent();
+    let tangent = coarse_disc();
     let values: Vec<f64> = (0..9).map(|i| f64::from(i) * 0.1).collect();
     let request = SweepRequest {
         shapes_at: &[values[3]],
@@ -227,9 +217,8 @@ fn sweep_is_bitwise_equal_on_one_and_two_threads() {
 #[test]
 fn sweep_goes_on_from_any_step_to_the_same_bits() {
     for damping_model in [DampingModel::WholeTangent, DampingModel::BodyOnly] {
-        let disc = Disc { circumferential: 24, radial: 6, damping_model };
-        let (tangent, values) = (disc.tangent(), [0.1, 0.2, 0.3]);
-        let request = sweep_request(&values, ModeLimit::Lowest(6));
+        let tangent = disc(24, 6, damping_model);
+        let request = sweep_request(&[0.1, 0.2, 0.3], ModeLimit::Lowest(6));
         let first = Kept::default();
         let whole = sweep(&tangent, &request, &first).unwrap();
         let steps = first.count();
@@ -244,7 +233,7 @@ fn sweep_goes_on_from_any_step_to_the_same_bits() {
 
 #[test]
 fn inertia_count_equals_the_number_of_modes_below_the_limit() {
-    let tangent = Disc::coarse().tangent();
+    let tangent = coarse_disc();
     for hz in [8_000.0, 12_000.0, 17_000.0] {
         let result = swept(&tangent, &[0.0], ModeLimit::MaxFrequency(hz));
         let modes = FrictionlessModes::compute(&tangent, ModeLimit::Lowest(60)).unwrap();
@@ -257,7 +246,7 @@ fn inertia_count_equals_the_number_of_modes_below_the_limit() {
 
 #[test]
 fn bad_requests_are_refused_with_the_bound() {
-    let tangent = Disc::coarse().tangent();
+    let tangent = coarse_disc();
     let ask = |values: &[f64], limit| {
         let request = sweep_request(values, limit);
         sweep(&tangent, &request, &|_| {}).unwrap_err()

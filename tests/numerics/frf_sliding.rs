@@ -1,6 +1,7 @@
 //! Frequency responses in sliding contact against eigenvalues and eigenvectors: of a dense
 //! decomposition, and of the eigenvalue analysis (other equations, other solvers: independent checks).
 
+use crate::cea_cyclic::model::paper;
 use crate::prelude::*;
 use crate::structural_damping::dense;
 
@@ -8,24 +9,12 @@ const RADIAL: usize = 5;
 /// Scale between displacement and velocity in the state, rad/s: balances the companion matrix.
 const OMEGA: f64 = TAU * 1e5;
 
-fn specification() -> AnnulusSpecification {
-    AnnulusSpecification { radial_grading: 1.1, ..annulus(ElementKind::Quad4, 18, RADIAL) }
-}
-
-fn options(damping_model: DampingModel, contact: ContactStiffness) -> TangentOptions {
-    TangentOptions { geometric_stiffness: true, damping_model, contact, ..TANGENT }
-}
-
-fn tangent(options: &TangentOptions) -> SlidingTangent {
-    let mesh = AnnulusMesh::generate(&specification()).unwrap().mesh;
-    linearized(&mesh, &POLYCARBONATE, &contact(610.0), options)
-}
-
-fn cyclic(options: &TangentOptions, friction_coefficient: f64) -> CyclicSystem {
-    let sector = SectorMesh::generate(&specification()).unwrap();
-    let tangent =
-        WaveTangent::of_annulus(&sector, &POLYCARBONATE, options, &contact(610.0)).unwrap();
-    CyclicSystem::sliding(&tangent, friction_coefficient)
+fn model(damping_model: DampingModel, stiffness: ContactStiffness) -> AnnulusModel {
+    let mut model = paper(ElementKind::Quad4, 18, RADIAL);
+    model.specification.radial_grading = 1.1;
+    model.options.damping_model = damping_model;
+    model.options.contact = stiffness;
+    model
 }
 
 fn at(sector: usize, ring: usize, is_tangential: bool) -> Terminal {
@@ -117,13 +106,13 @@ fn responses_in_sliding_contact_are_the_sums_over_right_and_left_eigenvectors() 
         (DampingModel::BodyOnly, rigid),
         (DampingModel::BodyOnly, penalty),
     ] {
-        let options = options(damping_model, contact);
-        let tangent = tangent(&options);
+        let model = model(damping_model, contact);
+        let tangent = model.whole();
         let modal = ModalForm::of(&tangent, 0.3);
         let unstable = modal.poles.iter().filter(|p| p.re > 0.0).count();
         assert!(unstable >= 2, "{unstable}");
         let whole = FrfSystem::sliding(&tangent, 0.3);
-        let cyclic = cyclic(&options, 0.3);
+        let cyclic = CyclicSystem::sliding(&model.tangent(), 0.3);
         for [force, response] in [
             [at(0, 0, true), at(0, 0, true)],
             [at(3, 0, true), at(11, 2, false)],
@@ -150,8 +139,8 @@ fn responses_in_sliding_contact_are_the_sums_over_right_and_left_eigenvectors() 
 
 #[test]
 fn at_a_critical_friction_of_the_eigenvalue_analysis_the_response_grows_as_one_over_the_distance() {
-    let options = options(DampingModel::WholeTangent, ContactStiffness::default());
-    let tangent = tangent(&options);
+    let model = model(DampingModel::WholeTangent, ContactStiffness::default());
+    let tangent = model.whole();
     let values: Vec<f64> = (0..=10).map(|k| 0.05 * f64::from(k)).collect();
     let found = swept(&tangent, &values, ModeLimit::MaxFrequency(17_500.0));
     let onsets: Vec<_> =
@@ -162,7 +151,7 @@ fn at_a_critical_friction_of_the_eigenvalue_analysis_the_response_grows_as_one_o
         let distances = [-0.2, -0.1, 0.1, 0.2];
         let frequencies = distances.map(|d| onset.frequency_hz + d);
         let node = at(4, 0, true);
-        let system = cyclic(&options, onset.critical_friction);
+        let system = CyclicSystem::sliding(&model.tangent(), onset.critical_friction);
         let h = cyclic_response(&system, node, node, &frequencies).unwrap();
         let scaled: Vec<c64> = (0..4).map(|k| h.receptance[k] * distances[k]).collect();
         for z in &scaled {

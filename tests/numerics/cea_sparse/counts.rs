@@ -1,6 +1,6 @@
 //! Counts by the argument principle against dense spectra and against lists that are short on purpose.
 
-use super::{Disc, Entries, dense_eigenvalues, problem};
+use super::{Entries, dense_eigenvalues, disc, problem};
 use crate::prelude::*;
 use frictionsim::cea::sparse::ModeCounter;
 
@@ -91,8 +91,7 @@ fn counts_are_those_of_a_dense_spectrum() {
 /// The determinant of the tangent of a disc with friction is that of dense elimination.
 #[test]
 fn determinant_of_a_disc_is_that_of_dense_elimination() {
-    let disc = Disc { circumferential: 24, radial: 4, damping_model: DampingModel::BodyOnly };
-    let tangent = disc.tangent();
+    let tangent = disc(24, 4, DampingModel::BodyOnly);
     let counter = ModeCounter::new(&tangent).unwrap();
     let (mu, size) = (0.6, tangent.mass.dimension());
     let dense = [&tangent.mass, &tangent.damping, &tangent.stiffness]
@@ -132,8 +131,7 @@ fn determinant_of_a_disc_is_that_of_dense_elimination() {
 fn sweep_of_a_disc_is_complete_by_count() {
     for damping_model in [DampingModel::WholeTangent, DampingModel::BodyOnly] {
         let [circumferential, radial] = sized([32, 6], [48, 10]);
-        let disc = Disc { damping_model, circumferential, radial };
-        let tangent = disc.tangent();
+        let tangent = disc(circumferential, radial, damping_model);
         for limit in [ModeLimit::Lowest(13), ModeLimit::MaxFrequency(15_000.0)] {
             let request =
                 SweepRequest { count_modes: true, ..sweep_request(&[0.0, 0.3, 0.7], limit) };
