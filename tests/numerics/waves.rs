@@ -6,40 +6,6 @@ use frictionsim::cea::cyclic::{Beside, WavePair, wave_pairs, wave_responses, wav
 /// Step of a parameter relative to its value.
 pub const STEP: f64 = 1e-3;
 
-/// What a body is made from by equal sectors.
-pub trait Sectors: Clone {
-    fn tangent(
-        &self,
-        material: &dyn MaterialField,
-        options: &TangentOptions,
-        contact: &SlidingContact,
-    ) -> Result<WaveTangent, CeaError>;
-}
-
-impl Sectors for AnnulusSpecification {
-    fn tangent(
-        &self,
-        material: &dyn MaterialField,
-        options: &TangentOptions,
-        contact: &SlidingContact,
-    ) -> Result<WaveTangent, CeaError> {
-        let sector = SectorMesh::generate(self)?;
-        Ok(WaveTangent::of_annulus(&sector, material, options, contact)?)
-    }
-}
-
-impl Sectors for SolidSpecification {
-    fn tangent(
-        &self,
-        material: &dyn MaterialField,
-        options: &TangentOptions,
-        contact: &SlidingContact,
-    ) -> Result<WaveTangent, CeaError> {
-        let sector = SolidSector::generate(self)?;
-        Ok(WaveTangent::of_revolution(&sector, material, options, contact)?)
-    }
-}
-
 /// A body with all that its analysis is made from.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WaveModel<S, M = ElasticMaterial> {
@@ -51,16 +17,37 @@ pub struct WaveModel<S, M = ElasticMaterial> {
 
 pub type AnnulusModel<M = ElasticMaterial> = WaveModel<AnnulusSpecification, M>;
 
+/// What a body is made from by equal sectors.
+pub trait Sectors: Clone {
+    /// The small motions of a model.
+    fn tangent<M: MaterialField>(model: &WaveModel<Self, M>) -> Result<WaveTangent, CeaError>;
+}
+
+impl Sectors for AnnulusSpecification {
+    fn tangent<M: MaterialField>(model: &WaveModel<Self, M>) -> Result<WaveTangent, CeaError> {
+        let WaveModel { specification, material, options, contact } = model;
+        let sector = SectorMesh::generate(specification)?;
+        Ok(WaveTangent::of_annulus(&sector, material, options, contact)?)
+    }
+}
+
+impl Sectors for SolidSpecification {
+    fn tangent<M: MaterialField>(model: &WaveModel<Self, M>) -> Result<WaveTangent, CeaError> {
+        let WaveModel { specification, material, options, contact } = model;
+        let sector = SolidSector::generate(specification)?;
+        Ok(WaveTangent::of_revolution(&sector, material, options, contact)?)
+    }
+}
+
 impl<S: Sectors, M: MaterialField + Clone> WaveModel<S, M> {
     /// Its small motions.
     pub fn tangent(&self) -> WaveTangent {
-        self.specification.tangent(&self.material, &self.options, &self.contact).unwrap()
+        S::tangent(self).unwrap()
     }
 
     /// Its eigenvalues over friction.
     pub fn sweep(&self, request: &SweepRequest<'_>) -> Result<WaveSweep, CeaError> {
-        let Self { specification, material, options, contact } = self;
-        wave_sweep(specification.tangent(material, options, contact)?, request, &[])
+        wave_sweep(S::tangent(self)?, request, &[])
     }
 
     /// The modes of a limit at some friction coefficients.
@@ -119,13 +106,12 @@ pub struct Differences {
     pub factor: f64,
     /// Largest error relative to the change over the parameter's own size, or to a thousandth of `|lambda|` where that is less.
     pub tolerance: f64,
+    /// Largest error of derivatives by friction, relative to `|lambda|`.
+    pub by_friction: f64,
 }
 
 /// Branch by harmonic, rank and direction.
 type Name = (usize, usize, i8);
-
-/// Eigenvalues of all branches where a parameter is so much more.
-type Along<'a> = &'a dyn Fn(f64) -> BTreeMap<Name, c64>;
 
 /// A parameter's name, its own size, the step of a difference, and the change of a model by so much.
 type Parameter<S> = (&'static str, Option<f64>, f64, fn(&mut WaveModel<S>, f64));
@@ -175,14 +161,10 @@ fn parameters<S: Sectors>(model: &WaveModel<S>) -> [Parameter<S>; 11] {
             }
         }),
         ("q", contact.decay.map(|d| d.static_ratio), 5e-3, |m, h| {
-            if let Some(decay) = &mut m.contact.decay {
-                decay.static_ratio += h;
-            }
+            m.contact.decay.as_mut().unwrap().static_ratio += h;
         }),
         ("v_c", contact.decay.map(|d| d.decay_speed), 5e-3, |m, h| {
-            if let Some(decay) = &mut m.contact.decay {
-                decay.decay_speed += h;
-            }
+            m.contact.decay.as_mut().unwrap().decay_speed += h;
         }),
     ]
 }
@@ -205,39 +187,45 @@ impl Differences {
         found.collect()
     }
 
+    /// The worst error of derivatives `own` by a parameter of a size, with the derivative, the difference of fourth order over
+    /// steps, both over that size, and their branch; and the largest error relative to `|lambda|`.
+    fn worst(
+        &self,
+        (all, own): (&[WavePair], &[c64]),
+        [scale, step]: [f64; 2],
+        at: &dyn Fn(f64) -> BTreeMap<Name, c64>,
+    ) -> ((f64, c64, c64, Name), f64) {
+        let sides = [-2.0, -1.0, 1.0, 2.0].map(|k| at(k * step));
+        let (mut missing, mut largest) = (0, 0.0_f64);
+        let mut worst = (0.0, c64::default(), c64::default(), (0, 0, 0));
+        for (s, own) in all.iter().zip(own) {
+            let branch = (s.harmonic, s.branch, s.direction);
+            let sides = sides.each_ref().map(|side| side.get(&branch));
+            let [Some(a), Some(b), Some(c), Some(d)] = sides else {
+                missing += 1;
+                continue;
+            };
+            let numeric = ((c - b) * 8.0 - (d - a)) / (12.0 * step);
+            let size = (numeric * scale).norm() + 1e-3 * s.eigenvalue.norm();
+            let error = (own - numeric).norm() * scale / size;
+            if error.is_nan() || error > worst.0 {
+                worst = (error, own * scale, numeric * scale, branch);
+            }
+            largest = largest.max((own - numeric).norm() / s.eigenvalue.norm());
+        }
+        // At the limit of frequency, where nothing is looked for above it.
+        let is_at_limit = self.limits_hz[0] == self.limits_hz[1];
+        assert!(missing <= if is_at_limit { 2 } else { 0 }, "{missing} branches are lost");
+        (worst, largest)
+    }
+
     /// Holds the derivatives of every branch, by every parameter that the model has and by friction, to differences of whole
-    /// analyses, base state included: of fourth order, so that the step may stay far above round-off. How many branches there are.
+    /// analyses, base state included, so that the step may stay far above round-off. How many branches there are.
     pub fn hold<S: Sectors>(&self, model: &WaveModel<S>, what: &str) -> usize {
         let limit = ModeLimit::MaxFrequency(self.limits_hz[0]);
         let found = model.swept(&[0.0, Self::FRICTION], limit);
         let all = pairs(&model.tangent(), &found.branches, Self::FRICTION);
         assert!(all.len() >= 5, "{what}: {}", all.len());
-        let mut errors = Vec::new();
-        let mut check = |name: &str, [scale, step]: [f64; 2], own: &[c64], at: Along<'_>| {
-            let sides = [-2.0, -1.0, 1.0, 2.0].map(|k| at(k * step));
-            let mut missing = 0;
-            let mut worst = (0.0, c64::new(0.0, 0.0), c64::new(0.0, 0.0), (0, 0, 0));
-            for (s, own) in all.iter().zip(own) {
-                let branch = (s.harmonic, s.branch, s.direction);
-                let [Some(a), Some(b), Some(c), Some(d)] = sides.each_ref().map(|s| s.get(&branch))
-                else {
-                    missing += 1;
-                    continue;
-                };
-                let numeric = ((c - b) * 8.0 - (d - a)) / (12.0 * step);
-                let size = (numeric * scale).norm() + 1e-3 * s.eigenvalue.norm();
-                let error = (own - numeric).norm() * scale / size;
-                let is_near = (own - numeric).norm() < 1e-9 * s.eigenvalue.norm();
-                assert!(name != "mu" || is_near, "{what}: {branch:?} {own} {numeric}");
-                if error.is_nan() || error > worst.0 {
-                    worst = (error, own * scale, numeric * scale, branch);
-                }
-            }
-            // At the limit of frequency, where nothing is looked for above it.
-            let is_at_limit = self.limits_hz[0] == self.limits_hz[1];
-            assert!(missing <= if is_at_limit { 2 } else { 0 }, "{what}, {name}: {missing}");
-            errors.push((name.to_owned(), worst));
-        };
         for (name, scale, step, change) in parameters(model) {
             let Some(scale) = scale else {
                 continue;
@@ -245,14 +233,16 @@ impl Differences {
             let changed = |offset: f64| model.with(|own| change(own, offset));
             let step_of_rate = STEP * if name == "nu" { 0.1 } else { scale };
             let own = rates(&all, step_of_rate, &|offset| changed(offset).tangent());
-            check(name, [scale, self.factor * step], &own, &|offset| {
+            let (worst, _) = self.worst((&all, &own), [scale, self.factor * step], &|offset| {
                 self.eigenvalues(&changed(offset), Self::FRICTION)
             });
+            assert!(worst.0 < self.tolerance, "{what}, {name}: {worst:?}");
         }
         let own: Vec<c64> = all.iter().map(|pair| pair.derivative).collect();
-        let friction = [Self::FRICTION, 2e-3];
-        check("mu", friction, &own, &|more| self.eigenvalues(model, Self::FRICTION + more));
-        assert!(errors.iter().all(|(_, own)| own.0 < self.tolerance), "{what}: {errors:?}");
+        let at = |more: f64| self.eigenvalues(model, Self::FRICTION + more);
+        let (worst, largest) = self.worst((&all, &own), [Self::FRICTION, 2e-3], &at);
+        assert!(worst.0 < self.tolerance, "{what}, friction: {worst:?}");
+        assert!(largest < self.by_friction, "{what}, friction: {largest:e}");
         all.len()
     }
 }

@@ -12,7 +12,9 @@ fn kinds() -> &'static [ElementKind] {
 
 fn hold(model: &SolidModel, what: &str) {
     let limits_hz = [9e3; 2];
-    Differences { limits_hz, is_whole: true, factor: 1.0, tolerance: 1e-7 }.hold(model, what);
+    let (tolerance, by_friction) = (1e-7, 1e-8);
+    Differences { limits_hz, is_whole: true, factor: 1.0, tolerance, by_friction }
+        .hold(model, what);
 }
 
 const SPRINGS: ContactStiffness = compliant(2e12, [3e4, 2e4]);
