@@ -2,8 +2,9 @@
 
 use super::curve::{Curve, EdgeWeights};
 use super::error::{BodyError, BodyPart, refuse_far};
+use super::faces::face_key;
 use super::plane_body::{plane_body, used_nodes};
-use super::{Boundary, BoundaryCondition, Chord, Counterface, Mesh, NodalFrames};
+use super::{Boundary, BoundaryCondition, BoundaryFace, Chord, Counterface, Mesh, NodalFrames};
 use frictionsim_formats::FileMesh;
 use nalgebra::Vector3;
 use std::collections::{BTreeMap, BTreeSet};
@@ -122,16 +123,16 @@ impl Mesh {
 /// The curves of a file that are the rim of its body: others bound nothing, and matter only if they are asked for.
 fn rim_curves<'f>(file: &'f FileMesh, mesh: &Mesh) -> Result<BTreeMap<&'f str, Curve>, BodyError> {
     let index_of = used_nodes(file)?;
-    let ends = |p: u32, q: u32| (p.min(q), p.max(q));
-    let outline = mesh.outline_edges().into_iter().map(|edge| (ends(edge.0, edge.1), edge));
-    let outline: BTreeMap<_, _> = outline.collect();
+    let outer = mesh.outer_faces_by_key();
     let chains = file.curves.iter().filter_map(|(name, edges)| {
         let rim = edges.iter().map(|&(p, q, _)| {
             let [p, q] = [p, q].map(|node| index_of[node as usize]);
-            outline.get(&ends(p?, q?)).copied()
+            outer.get(&face_key([p?, q?])).cloned()
         });
-        let edges: BTreeSet<_> = rim.collect::<Option<_>>()?;
-        Some((name.as_str(), Curve::chain(edges.into_iter().collect())))
+        let mut edges: Vec<BoundaryFace> = rim.collect::<Option<_>>()?;
+        edges.sort_by(|a, b| a.nodes.cmp(&b.nodes));
+        edges.dedup();
+        Some((name.as_str(), Curve::chain(&edges)))
     });
     Ok(chains.collect())
 }
@@ -223,8 +224,8 @@ fn counterface(
     let points = contact.nodes.iter().map(|&node| mesh.plane_node(node as usize));
     match specification.counterface {
         CounterfaceSpecification::Plane { direction } => {
-            let last = contact.edges.len() - 1;
-            let ends = [contact.edges[0].0, contact.edges[last].1];
+            let last = contact.faces.len() - 1;
+            let ends = [contact.faces[0].nodes[0], contact.faces[last].nodes[1]];
             let [from, to] = ends.map(|node| mesh.plane_node(node as usize));
             let [x, y] = direction.unwrap_or([to[0] - from[0], to[1] - from[1]]);
             let length = x.hypot(y);
@@ -236,8 +237,7 @@ fn counterface(
         }
         CounterfaceSpecification::Cylinder { center, radius } => {
             let distance = |p: [f64; 2]| (p[0] - center[0]).hypot(p[1] - center[1]);
-            let faces = mesh.edge_faces(&contact.edges);
-            let chords = mesh.chords(&faces, |[x, y, _]| {
+            let chords = mesh.chords(&contact.faces, |[x, y, _]| {
                 Vector3::new(x - center[0], y - center[1], 0.0).normalize()
             });
             let mut distances = contact.nodes.iter().copied().zip(points.map(distance)).collect();
@@ -258,8 +258,8 @@ fn counterface(
                 return Err(BodyError::Request { part, message });
             }
             // Inside where the body's outward normals point towards the axis.
-            let edges = contact.edges.iter().map(|&(p, q, _)| {
-                let [p, q] = [p, q].map(|node| mesh.plane_node(node as usize));
+            let edges = contact.faces.iter().map(|face| {
+                let [p, q] = [0, 1].map(|end| mesh.plane_node(face.nodes[end] as usize));
                 let middle = [0.5 * (p[0] + q[0]) - center[0], 0.5 * (p[1] + q[1]) - center[1]];
                 middle[0] * (p[1] - q[1]) + middle[1] * (q[0] - p[0])
             });
@@ -323,7 +323,7 @@ fn held_boundary(
     Boundary {
         name: name.to_owned(),
         nodes: curve.nodes.clone(),
-        faces: mesh.edge_faces(&curve.edges),
+        faces: curve.faces.clone(),
         tributary_lengths: weights.lengths,
         normal_angles,
         is_closed: curve.is_closed,

@@ -69,8 +69,7 @@ pub struct Boundary {
     pub nodes: Vec<u32>,
     /// Its faces, or edges in the plane.
     pub faces: Vec<BoundaryFace>,
-    /// Tributary length of each node, m. Of a surface the area `∫ N_i dA`, m2, which is not positive at corners of quadratic
-    /// faces. Where the node's frame is that of the contact or of a guide,
+    /// Tributary length of each node of a plane curve, m. Where the node's frame is that of the contact or of a guide,
     /// `∫ N_i |n . e_i| ds` with `n` the boundary's normal and `e_i` the node's first axis: the force that unit
     /// pressure exerts along that axis. `∫ N_i ds` elsewhere.
     pub tributary_lengths: Vec<f64>,
@@ -91,20 +90,11 @@ impl Boundary {
         !nodes.is_empty() && self.nodes.iter().all(|node| nodes.contains(node))
     }
 
-    /// The same surface with nodes beside those of its faces, which have no share in its area.
-    pub(super) fn with_nodes(self, nodes: &BTreeSet<u32>) -> Self {
-        if nodes.is_empty() {
-            return self;
-        }
-        let area_of = |node: &u32| match self.nodes.binary_search(node) {
-            Ok(place) => self.tributary_lengths[place],
-            Err(_) => 0.0,
-        };
-        Self {
-            tributary_lengths: nodes.iter().map(area_of).collect(),
-            nodes: nodes.iter().copied().collect(),
-            ..self
-        }
+    /// A named surface of some faces, free.
+    pub(super) fn of_faces(name: &str, faces: Vec<BoundaryFace>) -> Self {
+        let nodes: BTreeSet<u32> = faces.iter().flat_map(|f| f.nodes.iter().copied()).collect();
+        let (name, nodes) = (name.to_owned(), nodes.into_iter().collect());
+        Self { name, nodes, faces, ..Self::default() }
     }
 
     /// Puts the nodes of the contact edge in the order in which their places along the counterface rise; a closed edge

@@ -1,15 +1,14 @@
 //! Curves of element edges: their order and the lengths that belong to their nodes.
 
 use super::error::BodyError;
-use super::{FaceKind, Mesh};
-use frictionsim_formats::CurveEdge;
+use super::{BoundaryFace, FaceKind, FacePoint, Mesh};
 use std::collections::BTreeMap;
 
 /// Edges in order along a curve, the body on their left; where it has several pieces, one after the other.
 #[derive(Clone, Debug)]
 pub(super) struct Curve {
     /// The edges.
-    pub edges: Vec<CurveEdge>,
+    pub faces: Vec<BoundaryFace>,
     /// The nodes, mid-side nodes between their ends.
     pub nodes: Vec<u32>,
     /// Whether it is one piece that closes on itself.
@@ -22,21 +21,22 @@ pub(super) struct Curve {
 
 impl Curve {
     /// Puts edges in order.
-    pub fn chain(edges: Vec<CurveEdge>) -> Self {
+    pub fn chain(edges: &[BoundaryFace]) -> Self {
         let mut from: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
         let mut arriving: BTreeMap<u32, usize> = BTreeMap::new();
-        for (i, &(p, q, _)) in edges.iter().enumerate() {
-            from.entry(p).or_default().push(i);
-            *arriving.entry(q).or_default() += 1;
+        for (i, edge) in edges.iter().enumerate() {
+            from.entry(edge.nodes[0]).or_default().push(i);
+            *arriving.entry(edge.nodes[1]).or_default() += 1;
         }
         let is_double =
             |node: &u32| from[node].len() > 1 || arriving.get(node).is_some_and(|&n| n > 1);
         let touching = from.keys().copied().find(is_double);
         // Open pieces begin where no edge arrives; what is left then are loops.
-        let open = (0..edges.len()).filter(|&i| !arriving.contains_key(&edges[i].0));
+        let open = (0..edges.len()).filter(|&i| !arriving.contains_key(&edges[i].nodes[0]));
         let starts: Vec<usize> = open.chain(0..edges.len()).collect();
         let mut is_taken = vec![false; edges.len()];
-        let (mut ordered, mut pieces) = (Vec::with_capacity(edges.len()), Vec::new());
+        let mut ordered: Vec<BoundaryFace> = Vec::with_capacity(edges.len());
+        let mut pieces = Vec::new();
         for start in starts {
             if is_taken[start] {
                 continue;
@@ -45,30 +45,31 @@ impl Curve {
             let mut next = Some(start);
             while let Some(i) = next {
                 is_taken[i] = true;
-                ordered.push(edges[i]);
-                let following = from.get(&edges[i].1);
+                ordered.push(edges[i].clone());
+                let following = from.get(&edges[i].nodes[1]);
                 next = following.and_then(|out| out.iter().copied().find(|&k| !is_taken[k]));
             }
         }
         let mut nodes = Vec::new();
-        for (i, &(p, q, middle)) in ordered.iter().enumerate() {
-            nodes.push(p);
-            nodes.extend(middle);
-            let goes_on = ordered.get(i + 1).is_some_and(|next| next.0 == q);
+        for (i, edge) in ordered.iter().enumerate() {
+            let end = edge.nodes[1];
+            nodes.push(edge.nodes[0]);
+            nodes.extend(&edge.nodes[2..]);
+            let goes_on = ordered.get(i + 1).is_some_and(|next| next.nodes[0] == end);
             let starts_piece = pieces.contains(&(i + 1));
             if !goes_on || starts_piece {
-                nodes.push(q);
+                nodes.push(end);
             }
         }
         let is_closed = pieces.len() == 1 && nodes.first() == nodes.last() && nodes.len() > 2;
         let mut seen = std::collections::BTreeSet::new();
         nodes.retain(|&node| seen.insert(node));
-        Self { edges: ordered, nodes, is_closed, pieces, touching }
+        Self { faces: ordered, nodes, is_closed, pieces, touching }
     }
 
     /// A contact curve must be one piece that does not touch itself.
     pub fn check_single(&self, name: &str, labels: &[usize]) -> Result<(), BodyError> {
-        if self.edges.is_empty() {
+        if self.faces.is_empty() {
             return Err(BodyError::Body(format!(
                 "the contact curve \"{name}\" has no edges: a contact needs some between its nodes; name another curve"
             )));
@@ -80,7 +81,7 @@ impl Curve {
             )));
         }
         if let [_, second, ..] = self.pieces[..] {
-            let (end, start) = (self.edges[second - 1].1, self.edges[second].0);
+            let (end, start) = (self.faces[second - 1].nodes[1], self.faces[second].nodes[0]);
             return Err(BodyError::Body(format!(
                 "the contact curve \"{name}\" is open: it is in {} pieces, one ends at node {} and \
                  another begins at node {}. Put every edge between them into the physical curve, \
@@ -135,23 +136,16 @@ impl EdgeWeights {
             lengths: vec![0.0; curve.nodes.len()],
             normals: vec![[0.0; 2]; curve.nodes.len()],
         };
-        for &(p, q, middle) in &curve.edges {
-            let nodes: Vec<u32> = [p, q].into_iter().chain(middle).collect();
-            let kind = if middle.is_some() { FaceKind::Line3 } else { FaceKind::Line2 };
-            for ([s, ..], weight) in FaceKind::Line3.quadrature() {
-                let shapes = kind.shape_functions([s, 0.0]);
-                let mut tangent = [0.0; 2];
-                for (&node, shape) in nodes.iter().zip(&shapes) {
-                    let [x, y] = mesh.plane_node(node as usize);
-                    tangent[0] += shape.1[0] * x;
-                    tangent[1] += shape.1[0] * y;
-                }
-                for (node, shape) in nodes.iter().zip(&shapes) {
+        for face in &curve.faces {
+            let points = mesh.face_points(face);
+            for (at, weight) in FaceKind::Line3.quadrature() {
+                // The body lies on the left of an edge.
+                let FacePoint { values, area: [x, y, _], .. } = face.kind.at(&points, (at, 1.0));
+                for (node, value) in face.nodes.iter().zip(values) {
                     let i = place[node];
-                    weights.lengths[i] += weight * shape.0 * tangent[0].hypot(tangent[1]);
-                    // The body lies on the left: the outward normal is a quarter turn behind the tangent.
-                    weights.normals[i][0] += weight * shape.0 * tangent[1];
-                    weights.normals[i][1] -= weight * shape.0 * tangent[0];
+                    weights.lengths[i] += weight * value * x.hypot(y);
+                    weights.normals[i][0] += weight * value * x;
+                    weights.normals[i][1] += weight * value * y;
                 }
             }
         }

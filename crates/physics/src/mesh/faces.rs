@@ -1,7 +1,6 @@
 //! Faces on the surface of a body, edges on the rim of a plane one.
 
 use super::{BoundaryFace, ElementKind, Mesh};
-use frictionsim_formats::CurveEdge;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Corners of a face in ascending order: what names it whichever side it is seen from.
@@ -63,20 +62,15 @@ impl Mesh {
         alone.map(|(element, face)| self.element_face(element as usize, face as usize)).collect()
     }
 
+    /// The same by what names them.
+    pub(super) fn outer_faces_by_key(&self) -> BTreeMap<FaceKey, BoundaryFace> {
+        self.outer_faces().into_iter().map(|face| (face.key(), face)).collect()
+    }
+
     /// Edges that belong to one element only, as `(start, end, middle)` with the body on their left.
     pub fn outline_edges(&self) -> Vec<(u32, u32, Option<u32>)> {
         let faces = self.outer_faces().into_iter();
         faces.map(|face| (face.nodes[0], face.nodes[1], face.nodes.get(2).copied())).collect()
-    }
-
-    /// The faces of a plane body along edges of its outline, in their order.
-    pub(super) fn edge_faces(&self, edges: &[CurveEdge]) -> Vec<BoundaryFace> {
-        let outer: BTreeMap<(u32, u32), BoundaryFace> = self
-            .outer_faces()
-            .into_iter()
-            .map(|face| ((face.nodes[0], face.nodes[1]), face))
-            .collect();
-        edges.iter().filter_map(|&(start, end, _)| outer.get(&(start, end)).cloned()).collect()
     }
 
     /// Gives every boundary the outline edges whose nodes are all its own.

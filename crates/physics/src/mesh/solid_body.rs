@@ -30,8 +30,7 @@ impl Mesh {
         refuse_far(file, scale)?;
         let index_of = used_nodes(file)?;
         let mut mesh = solid_elements(file, scale, &index_of)?;
-        let outer: BTreeMap<FaceKey, BoundaryFace> =
-            mesh.outer_faces().into_iter().map(|face| (face.key(), face)).collect();
+        let outer = mesh.outer_faces_by_key();
         // Each named surface with its faces on the outside; those that have some inside are no boundaries.
         for (name, faces) in &file.surfaces {
             let found: Option<BTreeMap<FaceKey, BoundaryFace>> = faces
@@ -45,7 +44,7 @@ impl Mesh {
                 })
                 .collect();
             if let Some(found) = found {
-                mesh.boundaries.push(mesh.surface(name, found.into_values().collect()));
+                mesh.boundaries.push(Boundary::of_faces(name, found.into_values().collect()));
             }
         }
         mesh.add_node_sets(file, &index_of, &outer);
@@ -91,35 +90,10 @@ impl Mesh {
             }
             let faces = outer.values();
             let own = faces.filter(|face| face.nodes.iter().all(|node| nodes.contains(node)));
-            self.boundaries.push(self.surface(name, own.cloned().collect()).with_nodes(&nodes));
+            let surface = Boundary::of_faces(name, own.cloned().collect());
+            self.boundaries.push(Boundary { nodes: nodes.into_iter().collect(), ..surface });
         }
         self.boundaries.sort_by(|a, b| a.name.cmp(&b.name));
-    }
-
-    /// A named surface of some faces, free.
-    pub(super) fn surface(&self, name: &str, faces: Vec<BoundaryFace>) -> Boundary {
-        let nodes: BTreeSet<u32> = faces.iter().flat_map(|f| f.nodes.iter().copied()).collect();
-        let nodes: Vec<u32> = nodes.into_iter().collect();
-        let mut areas = vec![0.0; nodes.len()];
-        for face in &faces {
-            let points = self.face_points(face);
-            for point in face.kind.quadrature() {
-                let point = face.kind.at(&points, point);
-                let area = Vector3::from(point.area).norm();
-                for (node, value) in face.nodes.iter().zip(&point.values) {
-                    let place = nodes.binary_search(node);
-                    areas[place.expect("the nodes of a surface are those of its faces")] +=
-                        area * value;
-                }
-            }
-        }
-        Boundary {
-            name: name.to_owned(),
-            nodes,
-            faces,
-            tributary_lengths: areas,
-            ..Boundary::default()
-        }
     }
 
     /// Orthonormal directions in which boundary conditions hold each node of a solid body.

@@ -57,12 +57,13 @@ impl Mesh {
             let between = places
                 .iter()
                 .filter(|(place, _)| place.iter().all(|(corner, _)| own.contains(corner)));
-            let between: BTreeSet<u32> = match boundary.is_covered() {
-                true => BTreeSet::new(),
-                false => own.iter().copied().chain(between.map(|own| *own.1)).collect(),
-            };
-            let surface = fine.surface(&boundary.name, faces.cloned().collect());
-            Boundary { condition: boundary.condition, ..surface.with_nodes(&between) }
+            let mut surface = Boundary::of_faces(&boundary.name, faces.cloned().collect());
+            if !boundary.is_covered() {
+                let all: BTreeSet<u32> =
+                    own.iter().copied().chain(between.map(|own| *own.1)).collect();
+                surface.nodes = all.into_iter().collect();
+            }
+            Boundary { condition: boundary.condition, ..surface }
         };
         fine.boundaries = self.boundaries.iter().map(split).collect();
         fine.turn_frames_to_guides();
