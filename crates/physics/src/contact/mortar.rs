@@ -1,6 +1,6 @@
 //! Surfaces that are tied, or in rigid contact, node by node: dual mortar points of segments.
 
-use super::dual::dual_basis;
+use super::dual::dual_weights;
 use super::surface::{SegmentPoint, SurfacePair, SurfacePoint};
 use super::{Row, row_along};
 use crate::mesh::{Boundary, BoundaryFace, Mesh};
@@ -111,16 +111,13 @@ fn corners_of_middles<'a>(
 /// Adds the integrals of one face.
 fn add_face(face: &BoundaryFace, points: &[&SegmentPoint], sums: &mut BTreeMap<u32, Sums>) {
     let points = points.iter().map(|point| &point.at);
-    let bases = points.clone().map(|point| positive_basis(face, point));
-    let bases: Vec<Vec<f64>> = bases.collect();
-    let areas = points.clone().map(|point| point.area);
-    let Some((diagonal, inverse)) = dual_basis(face.nodes.len(), areas.zip(&bases)) else {
+    let bases = points.clone().map(|point| (point.area, positive_basis(face, point)));
+    let bases: Vec<(f64, Vec<f64>)> = bases.collect();
+    let Some(weights) = dual_weights(face.nodes.len(), &bases) else {
         return;
     };
-    for (point, basis) in points.zip(&bases) {
-        for (i, &node) in face.nodes.iter().enumerate() {
-            let row = basis.iter().enumerate().map(|(j, value)| inverse[(i, j)] * value);
-            let psi = point.area * diagonal[i] * row.sum::<f64>();
+    for (point, weights) in points.zip(weights) {
+        for (&node, psi) in face.nodes.iter().zip(weights) {
             let sum = sums.entry(node).or_default();
             sum.area += psi;
             sum.gap += psi * point.gap;

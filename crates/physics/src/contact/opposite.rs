@@ -1,8 +1,8 @@
 //! Coupling of a contact edge to the edge of another body, whose mesh need not match.
 
 use super::Row;
-use super::dual::dual_basis;
-use crate::mesh::{Counterface, FaceKind, Mesh};
+use super::dual::dual_weights;
+use crate::mesh::{Boundary, BoundaryFace, Counterface, Mesh};
 use std::collections::BTreeMap;
 
 /// How the opposite body moves before a contact node, as rows over all dofs along the node's normal and along its tangent.
@@ -37,9 +37,10 @@ pub(super) fn meetings(mesh: &Mesh) -> Option<Vec<Meeting>> {
     if mesh.is_cyclic {
         return Some(pairs(mesh, &mesh.boundaries[opposite].nodes));
     }
-    let edges = Edge::of(mesh, mesh.contact);
+    let opposite = &mesh.boundaries[opposite];
+    let edges = Edge::of(mesh, mesh.contact_edge());
     let others = Edge::of(mesh, opposite);
-    let heights = mesh.distances_from_counterface(&mesh.boundaries[opposite]);
+    let heights = mesh.distances_from_counterface(opposite);
     Some(mortar(mesh, &edges, (&others, &heights)))
 }
 
@@ -68,39 +69,29 @@ fn pairs(mesh: &Mesh, nodes: &[u32]) -> Vec<Meeting> {
 }
 
 /// An element edge on the common surface.
-struct Edge {
-    /// Its ends and its middle, if it has one.
-    nodes: Vec<usize>,
+struct Edge<'a> {
+    face: &'a BoundaryFace,
     /// Arc along the tangent of the contact at its first end, and how far the second end lies from there, m.
     start: f64,
     extent: f64,
 }
 
-impl Edge {
+impl<'a> Edge<'a> {
     /// The edges of a boundary.
-    fn of(mesh: &Mesh, boundary: usize) -> Vec<Self> {
-        let nodes = &mesh.boundaries[boundary].nodes;
-        let is_on: std::collections::BTreeSet<u32> = nodes.iter().copied().collect();
-        let is_edge = |&(p, q, middle): &(u32, u32, Option<u32>)| {
-            is_on.contains(&p) && is_on.contains(&q) && middle.is_none_or(|m| is_on.contains(&m))
-        };
+    fn of(mesh: &Mesh, boundary: &'a Boundary) -> Vec<Self> {
         let surface = &mesh.counterface;
-        let edge = |(p, q, middle): (u32, u32, Option<u32>)| {
-            let arc = |node: u32| arc(surface, mesh.plane_node(node as usize));
-            Self {
-                start: arc(p),
-                extent: wrapped(surface, arc(q) - arc(p)),
-                nodes: [p, q].into_iter().chain(middle).map(|n| n as usize).collect(),
-            }
+        let edge = |face: &'a BoundaryFace| {
+            let ends = [face.nodes[0], face.nodes[1]];
+            let [start, end] = ends.map(|node| arc(surface, mesh.plane_node(node as usize)));
+            Self { face, start, extent: wrapped(surface, end - start) }
         };
-        mesh.outline_edges().into_iter().filter(is_edge).map(edge).collect()
+        boundary.faces.iter().map(edge).collect()
     }
 
     /// Shape functions and their derivatives by the arc at a share `0..1` of the way from the first to the second end.
-    fn shapes(&self, share: f64) -> Vec<(usize, f64, f64)> {
+    fn shapes(&self, share: f64) -> Vec<(u32, f64, f64)> {
         let (s, slope) = (2.0 * share - 1.0, 2.0 / self.extent);
-        let kind = if self.nodes.len() == 3 { FaceKind::Line3 } else { FaceKind::Line2 };
-        let nodes = self.nodes.iter().zip(kind.shape_functions([s, 0.0]));
+        let nodes = self.face.nodes.iter().zip(self.face.kind.shape_functions([s, 0.0]));
         nodes.map(|(&node, (value, rates))| (node, value, rates[0] * slope)).collect()
     }
 
@@ -156,16 +147,16 @@ struct Sums {
     covered: f64,
     whole: f64,
     /// `∫ psi_i M_j ds` and `∫ psi_i M_j' ds` of the opposite nodes.
-    opposite: BTreeMap<usize, [f64; 2]>,
+    opposite: BTreeMap<u32, [f64; 2]>,
 }
 
 fn mortar(
     mesh: &Mesh,
-    edges: &[Edge],
-    (others, heights): (&[Edge], &BTreeMap<u32, f64>),
+    edges: &[Edge<'_>],
+    (others, heights): (&[Edge<'_>], &BTreeMap<u32, f64>),
 ) -> Vec<Meeting> {
     let surface = &mesh.counterface;
-    let mut sums: BTreeMap<usize, Sums> = BTreeMap::new();
+    let mut sums: BTreeMap<u32, Sums> = BTreeMap::new();
     for edge in edges {
         let length = edge.extent.abs();
         for (weight, share) in GAUSS.map(|(share, weight)| (weight * length, share)) {
@@ -173,38 +164,30 @@ fn mortar(
                 sums.entry(node).or_default().whole += weight * value;
             }
         }
-        let overlaps: Vec<(&Edge, [f64; 2])> = others
-            .iter()
-            .filter_map(|other| Some((other, edge.overlap(other, surface)?)))
-            .collect();
-        let points: Vec<(&Edge, f64, f64)> = overlaps
-            .iter()
-            .flat_map(|&(other, [low, high])| {
-                let width = high - low;
-                GAUSS.map(|(at, weight)| (other, low + width * at, weight * width * length))
-            })
-            .collect();
-        let value = |shape: (usize, f64, f64)| shape.1;
-        let values =
-            points.iter().map(|point| edge.shapes(point.1).into_iter().map(value).collect());
-        let values: Vec<Vec<f64>> = values.collect();
-        let weights = points.iter().map(|point| point.2);
-        let count = edge.nodes.len();
-        let Some((diagonal, inverse)) = dual_basis(count, weights.zip(&values)) else {
+        // Gauss points of what other edges cover, with their weights and the values of the shape functions there.
+        let overlaps =
+            others.iter().filter_map(|other| Some((other, edge.overlap(other, surface)?)));
+        let points = overlaps.flat_map(|(other, [low, high])| {
+            let width = high - low;
+            GAUSS.map(|(at, weight)| (other, low + width * at, weight * width * length))
+        });
+        let points: Vec<(&Edge<'_>, f64, f64)> = points.collect();
+        let bases = points.iter().map(|&(_, share, weight)| {
+            (weight, edge.shapes(share).into_iter().map(|shape| shape.1).collect())
+        });
+        let bases: Vec<(f64, Vec<f64>)> = bases.collect();
+        let Some(weights) = dual_weights(edge.face.nodes.len(), &bases) else {
             continue;
         };
-        for &(other, share, weight) in &points {
-            let shapes = edge.shapes(share);
+        for (&(other, share, _), weights) in points.iter().zip(weights) {
             let met = other.shapes(edge.share_on(other, share, surface));
-            for (i, &(node, ..)) in shapes.iter().enumerate() {
-                let row = (0..count).map(|j| diagonal[i] * inverse[(i, j)]);
-                let psi: f64 = row.zip(&shapes).map(|(a, shape)| a * shape.1).sum();
+            for (&node, psi) in edge.face.nodes.iter().zip(weights) {
                 let sum = sums.entry(node).or_default();
-                sum.covered += weight * psi;
+                sum.covered += psi;
                 for &(opposite, value, slope) in &met {
                     let entry = sum.opposite.entry(opposite).or_default();
-                    entry[0] += weight * psi * value;
-                    entry[1] += weight * psi * slope;
+                    entry[0] += psi * value;
+                    entry[1] += psi * slope;
                 }
             }
         }
@@ -212,7 +195,7 @@ fn mortar(
     let nodes = mesh.contact_edge().nodes.iter();
     nodes
         .map(|&node| {
-            let sum = sums.get(&(node as usize)).cloned().unwrap_or_default();
+            let sum = sums.get(&node).cloned().unwrap_or_default();
             meeting(mesh, node as usize, &sum, heights)
         })
         .collect()
@@ -227,7 +210,8 @@ fn meeting(mesh: &Mesh, node: usize, sums: &Sums, heights: &BTreeMap<u32, f64>) 
     let mut meeting = Meeting { covered: sums.covered / sums.whole, ..Meeting::default() };
     for (&opposite, integrals) in &sums.opposite {
         let [share, slope] = integrals.map(|value| value / sums.covered);
-        meeting.height += share * heights[&(opposite as u32)];
+        meeting.height += share * heights[&opposite];
+        let opposite = opposite as usize;
         // Axes of the opposite node's frame along the contact node's.
         let (sin, cos) = (mesh.frame_angles()[opposite] - normal).sin_cos();
         for (axis, turn) in [[cos, sin], [-sin, cos]].into_iter().enumerate() {
