@@ -88,6 +88,12 @@ enum Law {
     Slip = 1,
 }
 
+/// One equation of a system, scaled: what it changes by with each unknown, and what it misses.
+struct Equation {
+    row: Vec<f64>,
+    residual: f64,
+}
+
 /// The unknowns of one set of contact states: normal forces in contact, tangential forces in stick, and the scalars, one or two
 /// frequencies and the parameter.
 ///
@@ -144,155 +150,127 @@ impl<'a> System<'a> {
         lags.sum()
     }
 
-    /// Row `at` of the responses to each unknown, times `scale`: that of a point to its normal and its tangential force by their
-    /// weights, since a point that slips has both, and those to the scalars `by`.
-    fn fill_row(
+    /// An equation for `scale` times a `value`, with the responses of that to each unknown: to the normal and the tangential force of
+    /// a point by their weights, since a point that slips has both, and those to the scalars `by`.
+    fn equation(
         &self,
-        matrix: &mut Mat<f64>,
-        at: usize,
         scale: f64,
+        value: f64,
         response: impl Fn(usize, [f64; 2]) -> f64,
         by: impl Iterator<Item = f64>,
-    ) {
+    ) -> Equation {
         let friction = self.state.point.contact.friction_coefficient;
         let pressed = self.contact.iter();
         let pressed = pressed.map(|&i| (i, [1.0, friction * self.state.contact[i].drag()]));
         let sheared = self.stick.iter().map(|&i| (i, [0.0, 1.0]));
         let force = scale * self.force_scale;
-        for (j, (i, weights)) in pressed.chain(sheared).enumerate() {
-            matrix[(at, j)] = force * response(i, weights);
-        }
-        for (j, ((_, own), by)) in self.scalars().iter().zip(by).enumerate() {
-            matrix[(at, self.forces() + j)] = scale * own * by;
-        }
+        let mut row = Vec::with_capacity(self.size());
+        row.extend(pressed.chain(sheared).map(|(i, weights)| force * response(i, weights)));
+        row.extend(self.scalars().iter().zip(by).map(|((_, own), by)| scale * own * by));
+        Equation { row, residual: scale * value }
     }
 
-    /// The row of a law at a point, by columns of the circulant, and what it misses there, scaled.
-    fn response_row(
-        &self,
-        matrix: &mut Mat<f64>,
-        at: usize,
-        point: usize,
-        linear: &Linearization,
-        law: Law,
-    ) -> f64 {
+    /// That a law holds at a point, by columns of the circulant.
+    fn law_at(&self, point: usize, law: Law, linear: &Linearization) -> Equation {
         let [normal, tangential] = &linear.columns[law as usize];
-        let scale = linear.scales[law as usize] / self.force_scale;
         let response = |i: usize, [pressed, sheared]: [f64; 2]| {
             let lag = self.lag(i, point);
             pressed * normal[lag] + sheared * tangential[lag]
         };
-        let by = linear.by.iter().map(|by| by[law as usize][point]);
-        self.fill_row(matrix, at, scale, response, by);
-        scale * [&linear.gap, &linear.slip][law as usize][point]
+        let scale = linear.scales[law as usize] / self.force_scale;
+        let value = [&linear.gap, &linear.slip][law as usize][point];
+        self.equation(scale, value, response, linear.by.iter().map(|by| by[law as usize][point]))
     }
 
-    /// Matrix and residual, scaled.
-    pub fn assemble(&self, linear: &Linearization, closure: Closure<'_>) -> (Mat<f64>, Vec<f64>) {
-        let size = self.size();
-        let mut matrix = Mat::zeros(size, size);
-        let mut residual = vec![0.0; size];
-        let gaps = self.contact.iter().map(|&i| (i, Law::Gap));
-        for (at, (i, law)) in gaps.chain(self.stick.iter().map(|&i| (i, Law::Slip))).enumerate() {
-            residual[at] = self.response_row(&mut matrix, at, i, linear, law);
-        }
-        // `Im(u_theta,1) = 0` along each phase.
-        for wave in 0..self.state.phases.len() {
-            let at = self.forces() + wave;
-            residual[at] = self.first_row(&mut matrix, at, linear, wave, |value| value.im);
-        }
-        self.closure_row(&mut matrix, &mut residual, linear, closure);
-        (matrix, residual)
-    }
-
-    /// A row of the real or the imaginary `part` of the first harmonic along a phase, and its scaled value.
-    fn first_row(
+    /// That the real or the imaginary `part` of the first harmonic along a phase vanishes.
+    fn first_harmonic(
         &self,
-        matrix: &mut Mat<f64>,
-        at: usize,
-        linear: &Linearization,
         wave: usize,
         part: impl Fn(c64) -> f64,
-    ) -> f64 {
+        linear: &Linearization,
+    ) -> Equation {
         let (phase, first) = (&self.state.phases[wave], &linear.first[wave]);
-        let scale = linear.scales[0] / self.force_scale;
         let response = |i: usize, [pressed, sheared]: [f64; 2]| {
             let angle = -std::f64::consts::TAU * phase.place(i) as f64 / phase.points as f64;
             let response = pressed * first.row[0] + sheared * first.row[1];
             part(c64::from_polar(1.0, angle) * response)
         };
-        self.fill_row(matrix, at, scale, response, first.by.iter().map(|by| part(*by)));
-        scale * part(first.value)
+        let scale = linear.scales[0] / self.force_scale;
+        self.equation(scale, part(first.value), response, first.by.iter().map(|by| part(*by)))
     }
 
-    fn closure_row(
-        &self,
-        matrix: &mut Mat<f64>,
-        residual: &mut [f64],
-        linear: &Linearization,
-        closure: Closure<'_>,
-    ) {
-        let at = self.size() - 1;
+    /// An equation for a few of the unknowns.
+    fn equation_of(&self, factors: &[(usize, f64)], residual: f64) -> Equation {
+        let mut row = vec![0.0; self.size()];
+        factors.iter().for_each(|&(unknown, factor)| row[unknown] = factor);
+        Equation { row, residual }
+    }
+
+    /// The equation that picks a point on the curve.
+    fn closure(&self, closure: Closure<'_>, linear: &Linearization) -> Equation {
+        let last = self.size() - 1;
         match closure {
-            Closure::Event(event) => self.event_row(matrix, residual, linear, event),
+            Closure::Event(event) => self.event(event, linear),
             Closure::Value(value) => {
-                matrix[(at, at)] = 1.0;
-                residual[at] =
-                    (self.parameter.of(&self.state.point) - value) / self.parameter_scale();
+                let missed = self.parameter.of(&self.state.point) - value;
+                self.equation_of(&[(last, 1.0)], missed / self.parameter_scale())
             }
             Closure::Amplitude(wave, value) => {
-                let found = self.first_row(matrix, at, linear, wave, |value| value.re);
-                residual[at] = found - linear.scales[0] / self.force_scale * value;
+                let Equation { row, residual } =
+                    self.first_harmonic(wave, |value| value.re, linear);
+                let scale = linear.scales[0] / self.force_scale;
+                Equation { row, residual: residual - scale * value }
             }
-            Closure::AlongParameter => matrix[(at, at)] = 1.0,
-            Closure::Along(heading) => {
-                for (j, value) in self.scaled(heading).into_iter().enumerate() {
-                    matrix[(at, j)] = value;
-                }
-            }
+            Closure::AlongParameter => self.equation_of(&[(last, 1.0)], 0.0),
+            Closure::Along(heading) => Equation { row: self.scaled(heading), residual: 0.0 },
             Closure::Plane(heading, through) => {
                 let row = self.scaled(heading);
                 let offset = self.scaled(&Heading::between(through, self.state, self.parameter));
-                residual[at] = row.iter().zip(&offset).map(|(a, b)| a * b).sum();
-                for (j, value) in row.into_iter().enumerate() {
-                    matrix[(at, j)] = value;
-                }
+                let residual = row.iter().zip(&offset).map(|(a, b)| a * b).sum();
+                Equation { row, residual }
             }
         }
     }
 
-    fn event_row(
-        &self,
-        matrix: &mut Mat<f64>,
-        residual: &mut [f64],
-        linear: &Linearization,
-        event: Event,
-    ) {
-        let at = self.size() - 1;
-        let place = |list: &[usize], i: usize| list.binary_search(&i).expect("an active point");
-        match event {
-            Event::Lift(i) => {
-                matrix[(at, place(&self.contact, i))] = 1.0;
-                residual[at] = self.state.normal[i] / self.force_scale;
+    /// That an inequality holds with equality.
+    fn event(&self, event: Event, linear: &Linearization) -> Equation {
+        let i = event.point();
+        let place = |list: &[usize]| list.binary_search(&i).expect("an active point");
+        let (force, shear) = (self.state.normal[i], self.state.tangential[i]);
+        let drag = match event {
+            Event::Lift(_) => {
+                return self.equation_of(&[(place(&self.contact), 1.0)], force / self.force_scale);
             }
-            Event::Touch(i) => {
-                residual[at] = self.response_row(matrix, at, i, linear, Law::Gap);
-            }
-            Event::Rest(i) => {
-                residual[at] = self.response_row(matrix, at, i, linear, Law::Slip);
-            }
-            Event::SlideForward(i) | Event::SlideBackward(i) => {
-                let drag = if matches!(event, Event::SlideForward(_)) { 1.0 } else { -1.0 };
-                let friction = self.state.point.contact.friction_coefficient;
-                let (force, shear) = (self.state.normal[i], self.state.tangential[i]);
-                matrix[(at, place(&self.contact, i))] = friction;
-                matrix[(at, self.contact.len() + place(&self.stick, i))] = -drag;
-                if self.parameter == Parameter::FrictionCoefficient {
-                    matrix[(at, at)] = force * self.parameter_scale() / self.force_scale;
-                }
-                residual[at] = (friction * force - drag * shear) / self.force_scale;
-            }
-        }
+            Event::Touch(_) => return self.law_at(i, Law::Gap, linear),
+            Event::Rest(_) => return self.law_at(i, Law::Slip, linear),
+            Event::SlideForward(_) => 1.0,
+            Event::SlideBackward(_) => -1.0,
+        };
+        let friction = self.state.point.contact.friction_coefficient;
+        let rise = match self.parameter {
+            Parameter::FrictionCoefficient => force * self.parameter_scale() / self.force_scale,
+            _ => 0.0,
+        };
+        let sheared = self.contact.len() + place(&self.stick);
+        let factors = [(place(&self.contact), friction), (sheared, -drag), (self.size() - 1, rise)];
+        self.equation_of(&factors, (friction * force - drag * shear) / self.force_scale)
+    }
+
+    /// Matrix and residual, scaled.
+    pub fn assemble(&self, linear: &Linearization, closure: Closure<'_>) -> (Mat<f64>, Vec<f64>) {
+        let gaps = self.contact.iter().map(|&i| self.law_at(i, Law::Gap, linear));
+        let slips = self.stick.iter().map(|&i| self.law_at(i, Law::Slip, linear));
+        // `Im(u_theta,1) = 0` along each phase.
+        let waves = 0..self.state.phases.len();
+        let waves = waves.map(|wave| self.first_harmonic(wave, |value| value.im, linear));
+        let equations = gaps.chain(slips).chain(waves).chain([self.closure(closure, linear)]);
+        let mut matrix = Mat::zeros(self.size(), self.size());
+        let place = |(at, Equation { row, residual }): (usize, Equation)| {
+            row.into_iter().enumerate().for_each(|(j, value)| matrix[(at, j)] = value);
+            residual
+        };
+        let residual = equations.enumerate().map(place).collect();
+        (matrix, residual)
     }
 
     /// Scaled components of a heading along the unknowns.
