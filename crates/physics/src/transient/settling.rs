@@ -170,15 +170,16 @@ pub struct Settling {
 struct Block {
     /// Index of its first sample.
     start: usize,
-    /// Root mean square of each followed harmonic about its mean, m.
-    amplitudes: Vec<f64>,
+    /// Fractions of contact nodes; mean twist, m; root mean square of each followed harmonic about its mean, m.
+    means: Vec<f64>,
     /// The main vibration, demodulated by its frequency.
     demodulated: c64,
-    /// Mean twist, m.
-    twist: f64,
-    /// Fractions of contact nodes.
-    status: [f64; 3],
 }
+
+/// Places of the means of a block.
+const STATUS: Range<usize> = 0..3;
+const TWIST: usize = 3;
+const HARMONICS: usize = 4;
 
 impl Settling {
     /// Whether amplitude, frequency and status stay what they are.
@@ -267,7 +268,8 @@ fn stationary(
     length: usize,
 ) -> Result<(Drift, usize), Unsettled> {
     // Backwards from the end, until something has drifted too far.
-    let mut extremes = Extremes::new(main, record.sample_interval * length as f64);
+    let interval = record.sample_interval * length as f64;
+    let mut extremes = Extremes { means: Vec::new(), frequency: NOTHING, later: None };
     let mut from = fifth.end;
     let mut drift = Drift::default();
     let mut end = fifth.end;
@@ -276,7 +278,8 @@ fn stationary(
         if record.rows[block.start].time < record.start_up_time {
             break;
         }
-        let reached = extremes.add(&block, record);
+        extremes.add(&block, interval);
+        let reached = extremes.drift(record, main);
         let is_inside = block.start >= fifth.start;
         if is_inside {
             drift = reached;
@@ -345,70 +348,49 @@ impl Block {
                 })
                 .sum()
         });
+        let twist = rows.iter().map(|row| row.harmonics[0][0]).sum::<f64>() / rows.len() as f64;
+        let sizes = record.followed_harmonics().map(|n| rms(&of(n)));
         Self {
             start: range.start,
-            amplitudes: record.followed_harmonics().map(|n| rms(&of(n))).collect(),
+            means: counts.fractions().into_iter().chain([twist]).chain(sizes).collect(),
             demodulated,
-            twist: rows.iter().map(|row| row.harmonics[0][0]).sum::<f64>() / rows.len() as f64,
-            status: counts.fractions(),
         }
     }
 }
 
 /// Largest and smallest values over the blocks so far.
 struct Extremes {
-    main: Option<(usize, f64)>,
-    /// Time from one block to the next, s.
-    interval: f64,
-    amplitudes: Vec<[f64; 2]>,
-    twist: [f64; 2],
+    means: Vec<[f64; 2]>,
+    /// Distance of the main frequency from that of the demodulation, Hz.
     frequency: [f64; 2],
-    status: [[f64; 2]; 3],
+    /// The main vibration of the block added last.
     later: Option<c64>,
 }
 
 impl Extremes {
-    fn new(main: Option<(usize, f64)>, interval: f64) -> Self {
-        Self {
-            main,
-            interval,
-            amplitudes: Vec::new(),
-            twist: NOTHING,
-            frequency: NOTHING,
-            status: [NOTHING; 3],
-            later: None,
+    /// Adds the block before those so far, `interval` earlier (s).
+    fn add(&mut self, block: &Block, interval: f64) {
+        self.means.resize(block.means.len(), NOTHING);
+        self.means.iter_mut().zip(&block.means).for_each(|(range, value)| widen(range, *value));
+        if let Some(later) = self.later.replace(block.demodulated) {
+            widen(&mut self.frequency, (later / block.demodulated).arg() / (TAU * interval));
         }
     }
 
-    /// Adds the block before those so far, and gives the drift over all of them.
-    fn add(&mut self, block: &Block, record: &Recorder) -> Drift {
-        self.amplitudes.resize(block.amplitudes.len(), NOTHING);
-        for (range, value) in self.amplitudes.iter_mut().zip(&block.amplitudes) {
-            widen(range, *value);
-        }
-        for (range, value) in self.status.iter_mut().zip(block.status) {
-            widen(range, value);
-        }
-        widen(&mut self.twist, block.twist);
-        if let (Some(later), Some(_)) = (self.later, self.main) {
-            let turn = (later / block.demodulated).arg();
-            widen(&mut self.frequency, turn / (TAU * self.interval));
-        }
-        self.later = Some(block.demodulated);
-        let status = self.status.iter().map(width).fold(0.0, f64::max);
-        let widest = self.amplitudes.iter().map(width).fold(0.0, f64::max);
-        let Some((_, frequency)) = self.main else {
+    /// The drift over all of them.
+    fn drift(&self, record: &Recorder, main: Option<(usize, f64)>) -> Drift {
+        let widest = |ranges: &[[f64; 2]]| ranges.iter().map(width).fold(0.0, f64::max);
+        let (twist, harmonics) = (&self.means[TWIST], &self.means[HARMONICS..]);
+        let status = widest(&self.means[STATUS]);
+        let Some((_, frequency)) = main else {
             // Nothing vibrates at the end: what rings down before is held against the deformation.
-            let scale = self.twist[1].abs().max(1e-3 * record.interference.abs());
-            return Drift {
-                amplitude: width(&self.twist).max(widest) / scale.max(f64::MIN_POSITIVE),
-                frequency: 0.0,
-                status,
-            };
+            let scale = twist[1].abs().max(1e-3 * record.interference.abs());
+            let amplitude = width(twist).max(widest(harmonics)) / scale.max(f64::MIN_POSITIVE);
+            return Drift { amplitude, frequency: 0.0, status };
         };
-        let largest = self.amplitudes.iter().map(|range| range[1]);
+        let largest = harmonics.iter().map(|range| range[1]);
         Drift {
-            amplitude: widest / largest.fold(f64::MIN_POSITIVE, f64::max),
+            amplitude: widest(harmonics) / largest.fold(f64::MIN_POSITIVE, f64::max),
             frequency: width(&self.frequency) / frequency.abs(),
             status,
         }
