@@ -24,7 +24,7 @@ fn limit_cycle(simd: SimdLevel) -> Result<(), Box<dyn Error>> {
     let text = include_str!("../cases/limit-cycle.toml");
     let case = case(text, &[coarse, alone, at_once, near].concat())?;
     let found = CycleStudy::new(&case, simd)?.run(0, &|| {});
-    let cycle = found[0].cycle.as_ref().map_err(|absence| absence.reason.clone())?;
+    let cycle = &found[0].outcome.as_ref().map_err(|absence| absence.reason.clone())?.cycle;
     let [stick, slip, open] = cycle.fractions;
     println!(
         "a wave of 2 nodal diameters at {:.0} Hz: stick {stick:.2}, slip {slip:.2}, open {open:.2}",

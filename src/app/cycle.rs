@@ -5,7 +5,7 @@ use super::{Failure, ResumedRun, Session, terminal};
 use crate::case::{Case, refusal};
 use crate::results::OutputFolder;
 use crate::results::cea::KeptSteps;
-use crate::results::cycle::{CycleFigures, CycleReport, PeriodicResult};
+use crate::results::cycle::{CycleReport, SoughtCycle};
 use crate::study::cycle::{CycleStudy, PeriodicStudy, refuse_nothing};
 use serde_json::Value;
 
@@ -57,20 +57,20 @@ fn motions(session: &Session, is_continued: bool) -> Result<(), Failure> {
     let sought = study.sought.len() as u64;
     let bar = terminal::progress(session.options.output.is_quiet(), sought, "modes");
     terminal::catch_signals(KEPT);
-    let kept_name = |result: &PeriodicResult| format!("done-{}.json", result.tag());
+    let kept_name = |own: &SoughtCycle| format!("done-{}.json", own.name.tag());
     let results = study.run(study.choices.frames, &steps, &|result| {
         bar.inc(1);
-        let told = study.report(vec![result.clone()], 0.0).cycles();
-        let kept = folder.write(&kept_name(result), |out| {
-            Ok(told.iter().try_for_each(|own| serde_json::to_writer_pretty(&mut *out, own))?)
-        });
-        if let Err(error) = kept {
-            tracing::warn!("{error}");
+        for own in study.report(vec![result.clone()], 0.0).cycles {
+            let kept = folder
+                .write(&kept_name(&own), |out| Ok(serde_json::to_writer_pretty(&mut *out, &own)?));
+            if let Err(error) = kept {
+                tracing::warn!("{error}");
+            }
         }
     })?;
     bar.finish_and_clear();
-    let kept: Vec<String> = results.iter().map(kept_name).collect();
     let report = study.report(results, session.wall_seconds());
+    let kept: Vec<String> = report.cycles.iter().map(kept_name).collect();
     let (text, object) = written(session, &folder, &report)?;
     kept.iter().try_for_each(|name| folder.discard(name))?;
     steps.discard()?;
@@ -92,8 +92,7 @@ fn written(
         let bodies = session.case.body.assembly().into_iter();
         let surfaces = bodies.flat_map(|body| &body.contacts);
         let surfaces = surfaces.map(|own| (own.name.clone(), own.surface)).collect();
-        let data = CycleFigures::new(report, surfaces, session.case.materials());
-        summary.draw(folder, &data, &drawing)?;
+        report.draw(folder, surfaces, session.case.materials(), &drawing)?;
     }
     Ok((summary.document().titled(report.title).to_text(), object))
 }

@@ -59,7 +59,7 @@ fn cycles_along_a_branch_have_the_powers_of_each_alone() {
     let case = shipped_case("limit-cycle.toml", &overrides);
     let study = CycleStudy::new(&case, SimdLevel::detect()).unwrap();
     let results = study.run(0, &|| {});
-    let branch = results[0].branch.as_ref().unwrap();
+    let branch = results[0].outcome.as_ref().unwrap().branch.as_ref().unwrap();
     let solver = solver(1);
     assert!(branch.cycles.len() >= 3);
     for cycle in &branch.cycles {

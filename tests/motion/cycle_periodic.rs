@@ -4,7 +4,7 @@
 //! an oscillator integrated from event to event. The others are identities.
 
 use crate::prelude::*;
-use frictionsim::results::cycle::Search;
+use frictionsim::results::cycle::Origin;
 use frictionsim::study::cycle::refuse_nothing;
 use frictionsim::study::transient::TransientStudy;
 
@@ -165,16 +165,16 @@ fn the_critical_damping_of_stable_sliding_is_where_the_onset_is_the_friction() {
         );
         let study = CycleStudy::new(&case, SimdLevel::detect()).unwrap();
         let report = study.report(Vec::new(), Vec::new(), 0.0);
-        let Search::Waves(search) = report.search else {
+        let Origin::Waves { lowest_onset } = report.origin else {
             panic!("a disc");
         };
-        (report.critical, search.lowest_onset.unwrap())
+        (report.critical, lowest_onset.unwrap())
     };
     let (critical, onset) = at(4.5e-7);
     let critical = critical.unwrap();
-    assert!(onset.friction_coefficient > 0.05 && critical.value < 4.5e-7);
+    assert!(onset.critical_friction > 0.05 && critical.value < 4.5e-7);
     let (_, there) = at(critical.value);
-    assert!((there.friction_coefficient / 0.05 - 1.0).abs() < 1e-3, "{there:?}");
+    assert!((there.critical_friction / 0.05 - 1.0).abs() < 1e-3, "{there:?}");
 }
 
 /// In slow sliding the nodes of the pad stick together, at whole steps, and the motion repeats itself to no more than 1e-5; it is that
@@ -202,7 +202,8 @@ fn rotating_waves_are_periodic_motions_of_the_whole_mesh() {
     let case = disc("cycle={ harmonics = [2], onsets = \"lowest\", confirmation_periods = 0 }");
     let waves = CycleStudy::new(&case, SimdLevel::detect()).unwrap();
     let waves = waves.run(0, &|| {});
-    let wave = waves[0].cycle.as_ref().unwrap();
+    let found_wave = waves[0].outcome.as_ref().unwrap();
+    let wave = &found_wave.cycle;
     let all = cycles(&disc("cycle={ confirmation_periods = 0 }"));
     let distance = |result: &&PeriodicResult| {
         let motion = result.outcome.as_ref().ok().map(|found| found.motion.frequency_hz);
@@ -220,7 +221,7 @@ fn rotating_waves_are_periodic_motions_of_the_whole_mesh() {
     // Floquet exponents of the wave, from linearized contact, and multipliers, from differences of the motion.
     let own = found(nearest).stability.as_ref().unwrap().as_ref();
     let own = own.unwrap().leading().unwrap();
-    let other = waves[0].stability.as_ref().unwrap().as_ref();
+    let other = found_wave.stability.as_ref().unwrap().as_ref();
     let other = other.unwrap().leading().unwrap();
     let bound = own.uncertainty + other.uncertainty;
     assert!((own.growth_rate - other.exponent.re).abs() < bound, "{own:?} {other:?}");

@@ -1,76 +1,59 @@
 //! Branches of limit cycles over a parameter: their rows, what is kept of them for figures, and what is said of them.
 
+use super::record::{CycleMotion, SteppedMotion};
 use crate::extent::Extent;
 use crate::summary::MeanPowers;
+use frictionsim_chart::extremes;
 use frictionsim_output::{Described, columns};
-use frictionsim_physics::cycle::{Family, Verdict};
+use frictionsim_physics::cycle::{BranchEnd, Family, Parameter, Verdict};
 use serde::{Deserialize, Serialize};
 
 /// A cycle of a branch.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub(crate) struct BranchRow {
     /// The parameter, in units of its key.
     pub value: f64,
     /// Circumferential harmonic of a wave.
     pub harmonic: Option<usize>,
-    pub main_frequency_hz: f64,
-    /// Fractions that stick, slip, are open.
-    pub fractions: [f64; 3],
-    pub powers: MeanPowers,
-    pub amplitude_m: f64,
-    pub balance_residual: f64,
+    pub motion: CycleMotion,
     /// Growth rate of the leading perturbation, 1/s, where it is known.
     pub growth_rate: Option<f64>,
     pub verdict: Option<Verdict>,
-    pub stepped: Option<SteppedRow>,
+    /// Whether the branch turns back here, of motions of the whole mesh.
+    pub is_fold: Option<bool>,
 }
 
-/// The cycles of a branch.
-pub(super) struct BranchRows {
-    /// Key of the parameter.
-    pub key: &'static str,
-    /// The case's own value, in its units.
-    pub own_value: f64,
-    /// Amplitude (m) and velocity of the kick (m/s) of the unstable cycle between stable sliding and the case's own.
-    pub threshold: Option<[f64; 2]>,
-    /// In its order.
-    pub rows: Vec<BranchRow>,
-}
-
-/// What else there is to a motion that was stepped in time.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct SteppedRow {
-    pub velocity_level_db: f64,
-    pub residual: f64,
-    pub periods: usize,
-    pub fold: bool,
+impl BranchRow {
+    fn stepped(&self) -> Option<&SteppedMotion> {
+        self.motion.stepped.as_ref()
+    }
 }
 
 columns! {
     /// A cycle of a branch, behind the parameter: before its status and its powers.
     pub(crate) BRANCH: row as BranchRow;
     harmonic: "circumferential harmonic of a wave" = row.harmonic;
-    main_frequency_hz: "frequency" = row.main_frequency_hz;
+    main_frequency_hz: "frequency" = row.motion.main_frequency_hz;
 }
 
 columns! {
     /// What else is known of it, behind its status and its powers.
     pub(crate) ALONG: row as BranchRow;
-    amplitude_m: "amplitude along the counterface" = row.amplitude_m;
+    amplitude_m: "amplitude along the counterface" = row.motion.amplitude_m;
     velocity_level_db: "level of the velocity over 5e-8 m/s, of motions of the whole mesh"
-        = row.stepped.map(|own| own.velocity_level_db);
+        = row.motion.velocity_level_db;
     balance_residual: "residual of the energy balance, relative to the external power"
-        = row.balance_residual;
+        = row.motion.balance_residual;
     growth_rate_per_s: "growth rate of the leading perturbation, where it was asked for"
         = row.growth_rate;
     stability: "stable, unstable or undecided, where it was asked for"
         = row.verdict.map(Verdict::word);
     residual: "what the motion misses its start by, of motions of the whole mesh"
-        = row.stepped.map(|own| own.residual);
+        = row.stepped().map(|own| own.residual);
     periods: "periods stepped to find it, of motions of the whole mesh"
-        = row.stepped.map(|own| own.periods);
+        = row.stepped().map(|own| own.periods);
     fold: "whether the branch turns back here, of motions of the whole mesh"
-        = row.stepped.map(|own| own.fold);
+        = row.is_fold;
 }
 
 /// The limit cycles of one harmonic or mode.
@@ -139,24 +122,29 @@ impl FamilyRecord {
 }
 
 impl BranchRecord {
-    /// The columns of a branch, of which this is said.
-    pub(super) fn of(summary: BranchSummary, branch: &BranchRows, extent: Extent) -> Self {
-        let BranchRows { own_value, threshold, rows, .. } = branch;
-        let motions = summary.motions.unwrap_or_default();
-        let column = |of: &dyn Fn(&BranchRow) -> f64| -> Vec<f64> { rows.iter().map(of).collect() };
-        let power =
-            |of: fn(&MeanPowers) -> Option<f64>| column(&|row| of(&row.powers).unwrap_or(f64::NAN));
-        let external = power(|powers| powers.external);
+    /// The columns of a branch.
+    pub(super) fn of(branch: &BranchSummary, extent: Extent) -> Self {
+        let rows = &branch.rows;
+        let motions = branch.motions.clone().unwrap_or_default();
+        let column = |of: &dyn Fn(&CycleMotion) -> Option<f64>| -> Vec<f64> {
+            rows.iter().map(|row| of(&row.motion).unwrap_or(f64::NAN)).collect()
+        };
+        let external = column(&|own| own.power_w.external);
         let share = |of: fn(&MeanPowers) -> Option<f64>| {
-            power(of).iter().zip(&external).map(|(own, all)| own / all).collect()
+            let powers = column(&|own| of(&own.power_w));
+            powers.iter().zip(&external).map(|(own, all)| own / all).collect()
         };
         Self {
-            key: summary.key,
-            values: column(&|row| row.value),
-            own_value: *own_value,
-            frequency_hz: column(&|row| row.main_frequency_hz),
-            amplitude: column(&|row| row.amplitude_m),
-            status: [0, 1, 2].map(|i| column(&|row| row.fractions[i])),
+            key: branch.key.clone(),
+            values: rows.iter().map(|row| row.value).collect(),
+            own_value: branch.own_value,
+            frequency_hz: column(&|own| Some(own.main_frequency_hz)),
+            amplitude: column(&|own| own.amplitude_m),
+            status: [
+                column(&|own| own.status.stick),
+                column(&|own| own.status.slip),
+                column(&|own| own.status.open),
+            ],
             shares: [
                 share(|powers| powers.stick),
                 share(|powers| powers.slide),
@@ -167,10 +155,10 @@ impl BranchRecord {
             extent,
             stable: rows.iter().map(|row| row.verdict?.is_stable()).collect(),
             growth_rate: rows.iter().map(|row| row.growth_rate).collect(),
-            folds: summary.folds,
+            folds: branch.folds.clone(),
             sliding_onsets: motions.onsets,
             coexistence: motions.coexistence,
-            threshold: *threshold,
+            threshold: branch.threshold,
             external,
         }
     }
@@ -197,6 +185,40 @@ pub struct BranchSummary {
     /// What else there is to one of motions of the whole mesh.
     #[serde(flatten)]
     pub motions: Option<MotionBranch>,
+    /// The case's own value of the parameter, in units of its key.
+    #[serde(skip)]
+    pub(super) own_value: f64,
+    /// Amplitude (m) and velocity of the kick (m/s) of the unstable cycle between stable sliding and the case's own.
+    #[serde(skip)]
+    pub(super) threshold: Option<[f64; 2]>,
+    /// Its cycles, in its order.
+    #[serde(skip)]
+    pub(super) rows: Vec<BranchRow>,
+}
+
+impl BranchSummary {
+    /// Of its cycles, and the case's own value in units of the key; no fold and no change of stability.
+    pub(super) fn new(
+        parameter: Parameter,
+        own_value: f64,
+        ends: [BranchEnd; 2],
+        rows: Vec<BranchRow>,
+    ) -> Self {
+        let (low, high) = extremes(rows.iter().map(|row| row.value));
+        Self {
+            key: parameter.key().to_owned(),
+            cycles: rows.len(),
+            range: (!rows.is_empty()).then_some([low, high]),
+            folds: Vec::new(),
+            ends: ends.map(|end| end.describe().to_owned()),
+            stability_changes: Vec::new(),
+            waves: None,
+            motions: None,
+            own_value,
+            threshold: None,
+            rows,
+        }
+    }
 }
 
 /// What only branches of waves have.

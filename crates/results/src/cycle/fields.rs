@@ -1,7 +1,7 @@
 //! Whole fields of limit cycles, for ParaView.
 
+use super::CycleReport;
 use super::motions::encode_contact;
-use super::{CycleReport, Search};
 use crate::folder::{FolderError, OutputFolder};
 use crate::pvd::{PvdEntry, write_pvd};
 use crate::vtu::{EncodedMesh, Field, write_vtu};
@@ -21,38 +21,31 @@ pub(super) fn write_fields(
     let write = |stem: &str, group: &str, frames: &[MotionFrame]| {
         report.write_frames(folder, &mesh, (stem, group), frames)
     };
-    match &report.search {
-        Search::Waves(search) => {
-            let mut waves = Vec::new();
-            for (place, own) in search.results.iter().enumerate() {
-                let group = format!("limit cycle of {} nodal diameters", own.family.harmonic);
-                let stem = format!("cycle-{}", own.family.tag());
-                let first = write(&stem, &group, &own.frames)?;
-                waves.extend(first.map(|own| PvdEntry { time: (place + 1) as f64, ..own }));
-            }
-            for own in &search.two_waves {
-                let [first, second] = own.harmonics;
-                let group = format!("waves of {first} and {second} nodal diameters together");
-                let stem = format!("two-waves-n{first}-n{second}");
-                if let Ok(found) = &own.outcome {
-                    write(&stem, &group, &found.frames)?;
-                }
-            }
-            if !waves.is_empty() {
-                folder.write("cycles.pvd", |out| write_pvd(out, &waves))?;
-            }
+    let mut waves = Vec::new();
+    for (place, sought) in report.cycles.iter().enumerate() {
+        let Some(own) = &sought.record else {
+            continue;
+        };
+        let tag = own.name.tag();
+        if let Some(interface) = report.interface() {
+            folder.write_bulk(&format!("contact-{tag}.npz"), |out| {
+                out.write_all(&encode_contact(interface, &own.instants)?)
+            })?;
         }
-        Search::Motions(search) => {
-            let found = search.results.iter().filter_map(|own| Some((own.tag(), own.own()?)));
-            for (tag, found) in found {
-                let motion = &found.motion;
-                folder.write_bulk(&format!("contact-{tag}.npz"), |out| {
-                    out.write_all(&encode_contact(&search.interface, motion)?)
-                })?;
-                let group = format!("limit cycle of {:.2} Hz", motion.frequency_hz);
-                write(&format!("cycle-{tag}"), &group, &motion.frames)?;
-            }
+        let group = format!("limit cycle of {}", own.whose());
+        let first = write(&format!("cycle-{tag}"), &group, &own.frames)?.filter(|_| own.is_wave());
+        waves.extend(first.map(|own| PvdEntry { time: (place + 1) as f64, ..own }));
+    }
+    for own in &report.two_waves {
+        let [first, second] = own.harmonics;
+        let group = format!("waves of {first} and {second} nodal diameters together");
+        let stem = format!("two-waves-n{first}-n{second}");
+        if let Ok(found) = &own.outcome {
+            write(&stem, &group, &found.frames)?;
         }
+    }
+    if !waves.is_empty() {
+        folder.write("cycles.pvd", |out| write_pvd(out, &waves))?;
     }
     Ok(())
 }
@@ -93,12 +86,11 @@ impl CycleReport<'_> {
             self.body.vectors("displacement_m", displacement),
             self.body.vectors("velocity_m_per_s", velocity),
         ];
-        if let (Some(contact), Search::Motions(search)) = (&frame.contact, &self.search) {
+        if let (Some(contact), Some(interface)) = (&frame.contact, self.interface()) {
             let count = displacement.len() / if self.body.is_solid() { 3 } else { 2 };
-            let nodes = &search.interface.nodes;
             let tractions = [&contact.pressure[..], &contact.shear];
             let statuses = contact.status.iter().copied();
-            fields.extend(Field::contact(count, nodes, statuses, tractions));
+            fields.extend(Field::contact(count, &interface.nodes, statuses, tractions));
         }
         fields
     }

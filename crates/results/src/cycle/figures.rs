@@ -1,7 +1,7 @@
 //! The figures of limit cycles, from their record.
 
+use super::CycleReport;
 use super::record::MotionRecord;
-use super::{CycleReport, Search};
 use crate::charts::palette::status_ground;
 use crate::charts::{
     ContactInstant, ContactVelocity, MovingBody, contact_figure, contact_surfaces, place_axis,
@@ -27,57 +27,47 @@ const PERIODS: usize = 2;
 const ROUND_OFF: f64 = 1e-9;
 
 /// Limit cycles and what their figures show besides.
-pub struct CycleFigures<'a> {
+pub(super) struct CycleFigures<'a> {
     /// What was found.
-    pub(super) report: &'a CycleReport<'a>,
+    report: &'a CycleReport<'a>,
     /// What is shown of each cycle.
-    cycles: Vec<MotionRecord>,
+    cycles: Vec<&'a MotionRecord>,
     /// The contacts of an assembly, each with the boundary that has its points.
     surfaces: Vec<(String, usize)>,
     /// The materials, for the stress fields.
     materials: &'a dyn MaterialField,
 }
 
-/// Draws the cycles: contact over the period and at one instant, history, closed curves and harmonics of each, then the
-/// fields of all.
-pub fn draw_cycles(data: &CycleFigures<'_>) -> Vec<Figure> {
-    let mut figures: Vec<Declaration<'_>> = Vec::new();
-    for motion in &data.cycles {
-        figures.push(Box::new(move || Some(data.status(motion))));
-        figures.push(Box::new(move || Some(data.at_one_instant(motion))));
-        figures.push(Box::new(move || Some(data.history(motion))));
-        figures.push(Box::new(move || Some(data.orbit(motion))));
-        figures.push(Box::new(move || Some(harmonics(motion))));
-    }
-    figures.push(Box::new(|| Some(data.velocity())));
-    figures.push(Box::new(|| data.shear_stress()));
-    declared(figures)
-}
-
 impl<'a> CycleFigures<'a> {
-    /// The figures of a search; `surfaces` are the contacts of an assembly, each with the boundary that has its points.
-    pub fn new(
+    /// Those of a search; `surfaces` are the contacts of an assembly, each with the boundary that has its points.
+    pub(super) fn new(
         report: &'a CycleReport<'a>,
         surfaces: Vec<(String, usize)>,
         materials: &'a dyn MaterialField,
     ) -> Self {
-        let mut cycles = report.records();
-        cycles.retain(|own| !own.fields[0].is_empty());
+        let cycles = report.records().filter(|own| !own.frames.is_empty()).collect();
         Self { report, cycles, surfaces, materials }
+    }
+
+    /// Draws the cycles: contact over the period and at one instant, history, closed curves and harmonics of each, then
+    /// the fields of all.
+    pub(super) fn draw(&self) -> Vec<Figure> {
+        let mut figures: Vec<Declaration<'_>> = Vec::new();
+        for &motion in &self.cycles {
+            figures.push(Box::new(move || Some(self.status(motion))));
+            figures.push(Box::new(move || Some(self.at_one_instant(motion))));
+            figures.push(Box::new(move || Some(self.history(motion))));
+            figures.push(Box::new(move || Some(self.orbit(motion))));
+            figures.push(Box::new(move || Some(harmonics(motion))));
+        }
+        figures.push(Box::new(|| Some(self.velocity())));
+        figures.push(Box::new(|| self.shear_stress()));
+        declared(figures)
     }
 
     /// Nodes of the contact of motions of the whole mesh, counted from 0.
     fn nodes(&self) -> &[u32] {
-        match &self.report.search {
-            Search::Waves(_) => &[],
-            Search::Motions(search) => &search.interface.nodes,
-        }
-    }
-
-    /// The values of the contact nodes that the figures over the angle show, instant by instant.
-    fn shown<T: Copy>(&self, values: &[T]) -> Vec<T> {
-        let instants = values.chunks(self.nodes().len().max(1));
-        instants.flat_map(|own| self.report.body.shown(own)).collect()
+        self.report.interface().map_or(&[], |interface| &interface.nodes)
     }
 
     /// Where the shown contact nodes are.
@@ -93,7 +83,8 @@ impl<'a> CycleFigures<'a> {
     /// The status of all contact nodes over one period; that of a wave is its history.
     fn status(&self, motion: &MotionRecord) -> Figure {
         let times = motion.over_time(|row| row.time);
-        let codes: Vec<u8> = self.shown(&motion.status).into_iter().map(|own| own as u8).collect();
+        let statuses = motion.instants.iter().flat_map(|at| self.report.body.shown(&at.status));
+        let codes: Vec<u8> = statuses.map(|own| own as u8).collect();
         let range = (times[0], times[times.len() - 1]);
         let map = status_map(&times, codes.len() / times.len(), &codes, range);
         let caption = format!(
@@ -102,7 +93,7 @@ impl<'a> CycleFigures<'a> {
         );
         let panel = Panel::new(Axis::time(), self.places()).plain().height(120.0);
         let panel = panel.layers(map.map(|own| own.0)).legend();
-        Figure::new(format!("status-{}", motion.tag), caption).panel(panel)
+        Figure::new(format!("status-{}", motion.name.tag()), caption).panel(panel)
     }
 
     /// The contact at time zero; of a wave around the whole circle, where a node at angle `theta` is in phase `n
@@ -112,22 +103,19 @@ impl<'a> CycleFigures<'a> {
         if body.is_assembly() {
             return self.on_surfaces(motion);
         }
-        let n = motion.diameters.max(1);
-        let edge = self.shown(&motion.edge.repeat(n));
+        let n = motion.diameters().max(1);
+        let edge = body.shown(&motion.edge.repeat(n));
         let all = |of: fn(&PhasePoint) -> f64| -> Vec<f64> { edge.iter().map(of).collect() };
         let speed = if body.mesh.opposite.is_some() { f64::NAN } else { self.shown_speed(motion) };
         let turns = format!("; the pattern turns against the rotor at 1/{n} of the frequency");
         let (turns, wave) =
             if motion.is_wave() { (turns, ", wave ↻") } else { (String::new(), "") };
-        let first = match &self.report.search {
-            Search::Waves(_) => None,
-            Search::Motions(search) => search.interface.angles.first().copied(),
-        };
+        let angles = self.report.interface().map_or(&[][..], |interface| &interface.angles);
         let shown = ContactInstant {
-            name: format!("contact-{}", motion.tag),
+            name: format!("contact-{}", motion.name.tag()),
             subject: [format!("Limit cycle of {} at one instant", motion.whose()), turns],
             instant: motion.heading() + wave,
-            first_angle: first.unwrap_or(0.0),
+            first_angle: angles.first().copied().unwrap_or(0.0),
             status: &edge.iter().map(|point| point.status).collect::<Vec<_>>(),
             tractions: [&all(|point| point.pressure), &all(|point| point.shear)],
             velocity: ContactVelocity::Absolute(&all(|point| point.velocity[1]), speed),
@@ -150,7 +138,7 @@ impl<'a> CycleFigures<'a> {
             outside; grey where it is open.",
             motion.whose()
         );
-        let name = format!("contact-{}", motion.tag);
+        let name = format!("contact-{}", motion.name.tag());
         let surfaces = (self.report.body.mesh, &self.surfaces[..]);
         contact_surfaces((&name, &caption), surfaces, (&values, &[]), &axis)
     }
@@ -210,7 +198,7 @@ impl<'a> CycleFigures<'a> {
             .layer(line(|row| row.shear, SERIES[1]).name("friction traction *τ*"));
         let (node, whose) = (self.node(motion), motion.whose());
         let caption = format!("Two periods of {node} in the limit cycle of {whose}.");
-        Figure::new(format!("history-{}", motion.tag), caption)
+        Figure::new(format!("history-{}", motion.name.tag()), caption)
             .shared_x()
             .panel(displacement(along, |row| row.displacement[1], "displacement along the contact"))
             .panel(displacement(normal, |row| row.displacement[0], "normal displacement"))
@@ -243,7 +231,7 @@ impl<'a> CycleFigures<'a> {
         let speed = |way: &str| format!("velocity *v*_{{{way}}}");
         let (u_n, u_t): (Of, Of) = (|row| row.displacement[0], |row| row.displacement[1]);
         let (v_n, v_t): (Of, Of) = (|row| row.velocity[0], |row| row.velocity[1]);
-        Figure::new(format!("orbit-{}", motion.tag), caption)
+        Figure::new(format!("orbit-{}", motion.name.tag()), caption)
             .columns(3)
             .panel(loop_of("along the contact", (moved(along), u_t), (speed(along), "m/s", v_t)))
             .panel(loop_of("normal", (moved(normal), u_n), (speed(normal), "m/s", v_n)))
@@ -255,16 +243,16 @@ impl<'a> CycleFigures<'a> {
         let nodes = self.report.body.mesh.contact_edge().nodes.len();
         let points = motion.edge.len().max(1);
         let nearest =
-            |node: usize| (2 * motion.diameters * node * points + nodes) / (2 * nodes) % points;
+            |node: usize| (2 * motion.diameters() * node * points + nodes) / (2 * nodes) % points;
         let shown = |point: &PhasePoint| point.status;
-        match motion.diameters {
+        match motion.diameters() {
             0 => motion.edge.iter().map(shown).collect(),
             _ => (0..nodes).filter_map(|node| motion.edge.get(nearest(node)).map(shown)).collect(),
         }
     }
 
     fn shown_cycles(&self) -> impl Iterator<Item = &MotionRecord> {
-        self.cycles.iter().take(FIELD_LIMIT)
+        self.cycles.iter().copied().take(FIELD_LIMIT)
     }
 
     /// The waves in motion, without the steady state that they ride on.
@@ -274,8 +262,8 @@ impl<'a> CycleFigures<'a> {
             name: plain(&wave.heading()),
             frequency_hz: wave.frequency_hz,
             kind: MotionKind::Turning {
-                displacement: body.wave(&wave.fields[0]),
-                turn: -wave.counterface_speed.signum() * TAU / wave.diameters as f64,
+                displacement: body.wave(&wave.frames[0].fields[0]),
+                turn: -wave.counterface_speed.signum() * TAU / wave.diameters() as f64,
                 status: self.around(wave).into_iter().map(|status| status as u8).collect(),
             },
         });
@@ -284,8 +272,8 @@ impl<'a> CycleFigures<'a> {
 
     fn velocity(&self) -> Figure {
         let cycles = self.shown_cycles();
-        let fields =
-            cycles.map(|motion| (motion.heading(), &motion.fields[1][..], self.around(motion)));
+        let fields = cycles
+            .map(|motion| (motion.heading(), &motion.frames[0].fields[1][..], self.around(motion)));
         let figure = velocity_figure(&self.report.body, (WHEN, 0.0), fields);
         let is_wave = self.cycles.iter().any(|own| own.is_wave());
         if is_wave { figure.motion(self.turning()) } else { figure }
@@ -293,7 +281,7 @@ impl<'a> CycleFigures<'a> {
 
     fn shear_stress(&self) -> Option<Figure> {
         let cycles = self.shown_cycles();
-        let fields = cycles.map(|motion| (motion.heading(), &motion.fields[0][..]));
+        let fields = cycles.map(|motion| (motion.heading(), &motion.frames[0].fields[0][..]));
         shear_stress_figure(&self.report.body, self.materials, WHEN, fields)
     }
 }
@@ -363,5 +351,5 @@ fn harmonics(motion: &MotionRecord) -> Figure {
     let largest = |values: &[f64]| values.iter().copied().fold(0.0, f64::max);
     let has_normal = largest(&normal) > ROUND_OFF * largest(&along);
     let normal = has_normal.then(|| line(&normal, SERIES[2], "normal"));
-    Figure::new(format!("harmonics-{}", motion.tag), caption).panel(panel.layers(normal))
+    Figure::new(format!("harmonics-{}", motion.name.tag()), caption).panel(panel.layers(normal))
 }

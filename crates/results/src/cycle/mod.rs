@@ -6,6 +6,7 @@ mod curve;
 mod fields;
 mod figures;
 mod motions;
+mod name;
 mod record;
 mod summary;
 mod tables;
@@ -20,8 +21,9 @@ pub use branch::{
     WaveBranch,
 };
 pub use branches::draw_branches;
-pub use figures::CycleFigures;
-pub use motions::{FoundCycle, PeriodicResult};
+pub use motions::{FoundCycle, MotionBody, PeriodicResult};
+pub use name::*;
+pub use record::{CycleMotion, SoundSummary, SteppedMotion};
 pub use summary::*;
 pub(super) use tables::{
     BALANCE, CONTACT_NODES, ERRORS, HARMONICS, HISTORY, KNOWN, MOTION, NAMES, PATH, POWERS,
@@ -30,7 +32,7 @@ pub(super) use tables::{
 pub(super) use two_waves::TWO_WAVES;
 pub use two_waves::{FoundTwoWaves, TwoWaveResult, TwoWaveSummary};
 pub use verdicts::*;
-pub use waves::{Absence, CycleResult, Finding};
+pub use waves::{Absence, CycleResult, Finding, FoundWave};
 
 use crate::drawing::DrawingError;
 use crate::extent::Extent;
@@ -38,8 +40,10 @@ use crate::finding::{write_page, write_table, write_tables};
 use crate::folder::{FolderError, OutputFolder};
 use crate::summary::{CriticalSummary, Head, write_summary};
 use crate::{DrawingOptions, ShownBody};
-use frictionsim_physics::contact::{ContactInterface, SlidingContact};
-use frictionsim_physics::cycle::{CriticalValue, Onset};
+use figures::CycleFigures;
+use frictionsim_physics::contact::ContactInterface;
+use frictionsim_physics::cycle::CriticalValue;
+use frictionsim_physics::fem::MaterialField;
 use record::MotionRecord;
 use serde_json::Value;
 
@@ -59,124 +63,59 @@ pub struct CycleReport<'a> {
     /// Where along the parameter of the case sliding loses its stability, where it is stable at its own operating
     /// point.
     pub critical: Option<CriticalValue>,
-    /// What was sought, and found.
-    pub search: Search,
+    /// What the search has started from.
+    pub origin: Origin,
+    /// One entry for each wave, or for each mode that grows, fastest first.
+    pub cycles: Vec<SoughtCycle>,
+    /// Motions of two waves that live together.
+    pub two_waves: Vec<TwoWaveResult>,
     /// Wall time of the run, s.
     pub wall_s: f64,
 }
 
-/// What was sought, and found.
-#[derive(Clone, Debug)]
-pub enum Search {
-    /// Rotating waves of a disc.
-    Waves(WaveSearch),
-    /// Motions of the whole mesh.
-    Motions(MotionSearch),
-}
-
-/// A search for rotating waves.
-#[derive(Clone, Debug)]
-pub struct WaveSearch {
-    /// Radius of the contact edge, m.
-    pub inner_radius: f64,
-    /// The contact at the case's own operating point.
-    pub contact: SlidingContact,
-    /// The onset of lowest friction among those looked for, where there is one.
-    pub lowest_onset: Option<Onset>,
-    /// One entry for each family.
-    pub results: Vec<CycleResult>,
-    /// Motions of two waves that live together.
-    pub two_waves: Vec<TwoWaveResult>,
-}
-
-/// A search for motions of the whole mesh.
-#[derive(Clone, Debug)]
-pub struct MotionSearch {
-    /// The contact nodes.
-    pub interface: ContactInterface,
-    /// Modes looked at.
-    pub modes: usize,
-    /// Frequency of the highest, Hz.
-    pub highest_hz: f64,
-    /// The mode that grows fastest or decays slowest.
-    pub least_stable: Option<ModeSummary>,
-    /// One entry for each mode that grows, fastest first.
-    pub results: Vec<PeriodicResult>,
-}
-
 impl CycleReport<'_> {
-    /// What is said of each wave or of each mode that was sought from.
-    fn each<T>(
-        &self,
-        of_wave: impl Fn(&CycleResult, &WaveSearch) -> T,
-        of_mode: impl Fn(&PeriodicResult, &MotionSearch) -> T,
-    ) -> Vec<T> {
-        match &self.search {
-            Search::Waves(search) => {
-                search.results.iter().map(|own| of_wave(own, search)).collect()
-            }
-            Search::Motions(search) => {
-                search.results.iter().map(|own| of_mode(own, search)).collect()
-            }
-        }
-    }
-
-    /// Every cycle that was sought.
-    pub fn cycles(&self) -> Vec<SoughtCycle> {
-        self.each(|own, search| own.sought(self, search), |own, search| own.sought(self, search))
-    }
-
     /// The branches, for a study that writes no tables of them.
     pub fn curves(&self) -> Vec<FamilyRecord> {
-        let thickness = self.thickness;
-        let branches =
-            self.each(|own, _| own.branch_rows(thickness), |own, _| own.branch_rows(thickness));
-        let cycles = self.cycles().into_iter().zip(branches);
-        let families = cycles.map(|(own, rows)| FamilyRecord::of(own, rows, self.extent));
+        let families = self.cycles.iter().map(|own| own.family(self.extent));
         families.filter(|own| own.mode.is_none() || own.branch.is_some()).collect()
     }
 
     /// What the tables and figures show of each cycle.
-    fn records(&self) -> Vec<MotionRecord> {
-        let records = self
-            .each(|own, search| own.record(self, search), |own, search| own.record(self, search));
-        records.into_iter().flatten().collect()
+    fn records(&self) -> impl Iterator<Item = &MotionRecord> {
+        self.cycles.iter().filter_map(|own| own.record.as_deref())
     }
 
-    /// The motions of two waves that were sought.
-    fn two_waves(&self) -> &[TwoWaveResult] {
-        match &self.search {
-            Search::Waves(search) => &search.two_waves,
-            Search::Motions(_) => &[],
+    /// The contact of motions of the whole mesh.
+    fn interface(&self) -> Option<&ContactInterface> {
+        match &self.origin {
+            Origin::Modes { interface, .. } => Some(interface),
+            Origin::Waves { .. } => None,
         }
     }
 
     /// Whether steady sliding is stable against everything looked at.
     pub fn is_stable(&self) -> bool {
-        match &self.search {
-            Search::Waves(search) => search.is_stable(self.friction_coefficient),
-            Search::Motions(search) => search.is_stable(),
+        match &self.origin {
+            Origin::Waves { lowest_onset } => {
+                let friction = self.friction_coefficient;
+                self.cycles.iter().all(|own| own.absent.is_some())
+                    && lowest_onset.is_none_or(|onset| onset.critical_friction >= friction)
+            }
+            Origin::Modes { least_stable, .. } => {
+                least_stable.is_none_or(|mode| mode.growth_rate_per_s <= 0.0)
+            }
         }
     }
 
     /// The summary.
     pub fn summary(&self) -> CycleSummary {
-        let origin = match &self.search {
-            Search::Waves(search) => {
-                let lowest_onset = search.lowest_onset.as_ref().map(OnsetSummary::from);
-                Origin::Waves { lowest_onset }
-            }
-            Search::Motions(search) => {
-                Origin::Modes { modes: search.modes, least_stable: search.least_stable }
-            }
-        };
-        let two_waves = self.two_waves().iter().map(|own| own.summary(self.thickness));
+        let two_waves = self.two_waves.iter().map(|own| own.summary(self.thickness));
         CycleSummary {
             steady_sliding_stable: self.is_stable(),
-            origin,
+            origin: self.origin.clone(),
             critical_value: self.critical.map(CriticalSummary::from),
             extent: self.extent,
-            cycles: self.cycles(),
+            cycles: self.cycles.clone(),
             two_waves: two_waves.collect(),
             notes: self.notes(),
             curves: None,
@@ -185,9 +124,8 @@ impl CycleReport<'_> {
 
     /// Writes all files and gives the summary, as it is and as an object.
     pub fn write(&self, folder: &OutputFolder) -> Result<(CycleSummary, Value), FolderError> {
-        let records = self.records();
-        let tables = records.iter().flat_map(|own| own.tables(self.body.is_solid()));
-        let pairs = self.two_waves().iter().filter_map(|own| own.table(self.thickness));
+        let tables = self.cycles.iter().flat_map(|own| own.tables(self.body.is_solid()));
+        let pairs = self.two_waves.iter().filter_map(|own| own.table(self.thickness));
         tables.chain(pairs).try_for_each(|table| write_table(folder, &table))?;
         fields::write_fields(folder, self)?;
         let summary = self.summary();
@@ -195,20 +133,20 @@ impl CycleReport<'_> {
         let object = write_summary(folder, Head::of(self.title, self.wall_s), &summary)?;
         Ok((summary, object))
     }
-}
 
-impl CycleSummary {
-    /// Draws every figure of the cycles and writes the page.
+    /// Draws every figure of the cycles and writes the page; `surfaces` are the contacts of an assembly, each with the
+    /// boundary that has its points, `materials` those of the stress fields.
     pub fn draw(
         &self,
         folder: &OutputFolder,
-        data: &CycleFigures<'_>,
+        surfaces: Vec<(String, usize)>,
+        materials: &dyn MaterialField,
         options: &DrawingOptions,
     ) -> Result<(), DrawingError> {
-        let families = data.report.curves().into_iter();
+        let families = self.curves().into_iter();
         let families: Vec<_> = families.map(|own| (String::new(), own)).collect();
-        let mut figures = figures::draw_cycles(data);
-        figures.extend(draw_branches(&families, data.report.two_waves()));
-        write_page(folder, self.document().titled(data.report.title), figures, options)
+        let mut figures = CycleFigures::new(self, surfaces, materials).draw();
+        figures.extend(draw_branches(&families, &self.two_waves));
+        write_page(folder, self.summary().document().titled(self.title), figures, options)
     }
 }

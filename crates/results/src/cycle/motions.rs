@@ -1,14 +1,11 @@
 //! Motions of the whole mesh as limit cycles.
 
-use super::branch::{
-    BranchRow, BranchRows, BranchSummary, MotionBranch, StabilityChangeSummary, SteppedRow,
-};
-use super::record::{ContactNode, MotionRecord};
-use super::summary::{
-    CycleMotion, CycleName, ModeOfCycle, ModeSummary, SoughtCycle, SoundSummary, SteppedMotion,
-};
+use super::branch::{BranchRow, BranchSummary, MotionBranch, StabilityChangeSummary};
+use super::name::{CycleName, ModeOfCycle, ModeSummary};
+use super::record::{ContactNode, CycleMotion, MotionRecord, SoundSummary, SteppedMotion};
+use super::summary::SoughtCycle;
 use super::verdicts::{ConfirmationSummary, KnownStability, Perturbation, StabilitySummary, known};
-use super::{CycleReport, MotionSearch};
+use crate::ShownBody;
 use crate::npz::NpzArchive;
 use crate::summary::{MeanPowers, StatusFractions, present};
 use frictionsim_chart::extremes;
@@ -20,6 +17,7 @@ use frictionsim_physics::cycle::periodic::{
 use frictionsim_physics::cycle::{Confirmation, CyclePowers, PhasePoint, Verdict};
 use std::f64::consts::TAU;
 use std::io;
+use std::sync::Arc;
 
 /// A limit cycle and what is known of it.
 #[derive(Clone, Debug)]
@@ -53,13 +51,6 @@ pub struct PeriodicResult {
     pub wall_s: f64,
 }
 
-impl MotionSearch {
-    /// Whether no mode looked at grows at the case's own operating point.
-    pub(super) fn is_stable(&self) -> bool {
-        self.least_stable.is_none_or(|mode| mode.growth_rate_per_s <= 0.0)
-    }
-}
-
 /// The powers of a body of such a thickness, W.
 pub(super) fn mean_powers(powers: &CyclePowers, thickness: f64) -> MeanPowers {
     let powers = powers.scaled(thickness);
@@ -79,25 +70,38 @@ fn perturbation(own: &FloquetMultiplier) -> Perturbation {
     }
 }
 
-fn stability(found: &Result<FloquetMultipliers, String>) -> StabilitySummary {
-    match found {
-        Err(error) => StabilitySummary::Failed { error: error.clone() },
-        Ok(found) => StabilitySummary::Known(Box::new(KnownStability {
-            shift: found.shift.map(|shift| shift.norm()),
-            ..KnownStability::new(found.verdict(), found.leading().map(perturbation))
-        })),
+/// What the multipliers say.
+fn stability(found: &FloquetMultipliers) -> KnownStability {
+    KnownStability {
+        shift: found.shift.map(|shift| shift.norm()),
+        ..KnownStability::new(found.verdict(), found.leading().map(perturbation))
     }
 }
 
-impl FoundCycle {
-    fn summary(&self, report: &CycleReport<'_>, search: &MotionSearch) -> CycleMotion {
-        let motion = &self.motion;
-        let told = motion.harmonics.iter().take(self.harmonic_count);
-        let threshold = self.branch.as_ref().and_then(PeriodicBranch::threshold);
+/// The body that the motions are of.
+#[derive(Clone, Copy, Debug)]
+pub struct MotionBody<'a> {
+    /// In tables, fields and figures.
+    pub shown: ShownBody<'a>,
+    /// Its contact nodes.
+    pub interface: &'a ContactInterface,
+    /// Thickness, m; 1 in three dimensions.
+    pub thickness: f64,
+}
+
+impl MotionBody<'_> {
+    /// Label of a contact node, by its place among those of the contact.
+    fn label(&self, node: usize) -> usize {
+        self.shown.mesh.node_label(self.interface.nodes[node] as usize)
+    }
+
+    /// What a motion is, told in so many harmonics.
+    fn motion(&self, motion: &PeriodicMotion, harmonic_count: usize) -> CycleMotion {
+        let told = motion.harmonics.iter().take(harmonic_count);
         CycleMotion {
             main_frequency_hz: motion.frequency_hz,
             status: StatusFractions::of(motion.fractions),
-            power_w: mean_powers(&motion.powers, report.thickness),
+            power_w: mean_powers(&motion.powers, self.thickness),
             balance_residual: motion.powers.balance_residual(),
             amplitude_m: Some(motion.amplitude),
             velocity_level_db: Some(velocity_level(motion.velocity)),
@@ -106,158 +110,124 @@ impl FoundCycle {
                 residual: motion.residual,
                 periods: motion.periods,
                 steps: motion.steps,
-                contact_node: report
-                    .body
-                    .mesh
-                    .node_label(search.interface.nodes[motion.node] as usize),
-                kick_velocity: threshold.map(PeriodicMotion::kick_velocity),
-                sound: self.sound.as_ref().map(|sound| SoundSummary {
-                    power_w: sound.power(),
-                    level_db: sound.level(),
-                    area_m2: sound.area,
-                    harmonics_w: sound.harmonics.clone(),
-                }),
-                harmonic_count: self.harmonic_count,
-                harmonic_remainder: told.clone().next_back().map_or(1.0, |last| last.remainder),
+                contact_node: self.label(motion.node),
+                kick_velocity: None,
+                sound: None,
+                harmonic_count,
+                harmonic_remainder: told.last().map_or(1.0, |last| last.remainder),
+                harmonics_needed: motion.harmonics_within(REMAINDER),
             }),
         }
     }
-}
 
-fn branch_summary(branch: &PeriodicBranch) -> BranchSummary {
-    let in_units = |value: f64| branch.parameter.in_key_units(value);
-    let coexistence = branch.coexistence().into_iter();
-    let changes = branch.stability_changes().into_iter();
-    BranchSummary {
-        key: branch.parameter.key().to_owned(),
-        cycles: branch.motions.len(),
-        range: branch.range().map(|ends| ends.map(in_units)),
-        folds: branch.folds().into_iter().map(in_units).collect(),
-        ends: branch.ends.map(|end| end.describe().to_owned()),
-        stability_changes: changes.map(|at| StabilityChangeSummary::At(in_units(at))).collect(),
-        waves: None,
-        motions: Some(MotionBranch {
-            onsets: branch.onsets.iter().map(|&at| in_units(at)).collect(),
-            coexistence: coexistence.map(|ends| ends.map(in_units)).collect(),
-        }),
-    }
-}
-
-fn branch_row(branch: &PeriodicBranch, own: &BranchMotion, thickness: f64) -> BranchRow {
-    let motion = &own.motion;
-    BranchRow {
-        value: branch.parameter.in_key_units(own.value),
-        harmonic: None,
-        main_frequency_hz: motion.frequency_hz,
-        fractions: motion.fractions,
-        powers: mean_powers(&motion.powers, thickness),
-        amplitude_m: motion.amplitude,
-        balance_residual: motion.powers.scaled(thickness).balance_residual(),
-        growth_rate: own.growth_rate(),
-        verdict: known(&own.stability).map(FloquetMultipliers::verdict),
-        stepped: Some(SteppedRow {
-            velocity_level_db: velocity_level(motion.velocity),
-            residual: motion.residual,
-            periods: motion.periods,
-            fold: own.is_fold,
-        }),
-    }
-}
-
-impl PeriodicResult {
-    /// The cycle, where this mode is the first to lead to it.
-    pub fn own(&self) -> Option<&FoundCycle> {
-        let found = self.outcome.as_ref().ok();
-        found.filter(|_| self.same_as.is_none())
-    }
-
-    /// Part of a file name: `mode15`.
-    pub fn tag(&self) -> String {
-        format!("mode{}", self.mode.mode)
-    }
-
-    /// What the summary says of it.
-    pub(super) fn sought(&self, report: &CycleReport<'_>, search: &MotionSearch) -> SoughtCycle {
-        let found = self.own();
-        SoughtCycle {
-            name: CycleName::Mode(ModeOfCycle {
-                mode: self.mode,
-                same_as: self.same_as,
-                sought_from: self.start.map(|(_, value)| value),
-            }),
-            wall_s: self.wall_s,
-            cycle: found.map(|found| found.summary(report, search)),
-            absent: None,
-            error: self.outcome.as_ref().err().cloned(),
-            confirmation: found.and_then(|found| {
-                let run = found.confirmation.as_ref()?;
-                let agrees = run.agrees_with(&found.motion);
-                Some(ConfirmationSummary::ran(run, agrees, report.thickness))
-            }),
-            stability: found.and_then(|found| Some(stability(found.stability.as_ref()?))),
-            branch: found.and_then(|found| found.branch.as_ref().map(branch_summary)),
+    fn branch_row(&self, branch: &PeriodicBranch, own: &BranchMotion) -> BranchRow {
+        // The histories and harmonics of a branch are not kept.
+        let motion = CycleMotion {
+            balance_residual: own.motion.powers.scaled(self.thickness).balance_residual(),
+            ..self.motion(&own.motion, 0)
+        };
+        BranchRow {
+            value: branch.parameter.in_key_units(own.value),
+            harmonic: None,
+            motion,
+            growth_rate: own.growth_rate(),
+            verdict: known(&own.stability).map(FloquetMultipliers::verdict),
+            is_fold: Some(own.is_fold),
         }
     }
 
-    /// That the harmonics asked for do not tell the motion, if so, and how many would.
-    pub(super) fn coarse_harmonics(&self) -> Option<String> {
-        let found = self.own()?;
-        let left = found.motion.harmonics[..found.harmonic_count].last()?.remainder;
-        let enough = found.motion.harmonics_within(REMAINDER);
-        (found.harmonic_count < enough).then(|| {
-            format!(
-                "{}: {} harmonics leave {left:.1e} of the motion of the contact: {enough} leave \
-                less than a thousandth (raise \
-                 cycle.harmonic_count, or leave it out)",
-                self.mode, found.harmonic_count,
-            )
-        })
-    }
-
-    /// The rows of its branch.
-    pub(super) fn branch_rows(&self, thickness: f64) -> Option<BranchRows> {
-        let branch = self.own()?.branch.as_ref()?;
-        let rows = branch.motions.iter().map(|own| branch_row(branch, own, thickness));
-        Some(BranchRows {
-            key: branch.parameter.key(),
-            own_value: branch.parameter.in_key_units(branch.own),
+    fn branch(&self, branch: &PeriodicBranch) -> BranchSummary {
+        let in_units = |value: f64| branch.parameter.in_key_units(value);
+        let coexistence = branch.coexistence().into_iter();
+        let changes = branch.stability_changes().into_iter();
+        let rows = branch.motions.iter().map(|own| self.branch_row(branch, own));
+        BranchSummary {
+            folds: branch.folds().into_iter().map(in_units).collect(),
+            stability_changes: changes.map(|at| StabilityChangeSummary::At(in_units(at))).collect(),
+            motions: Some(MotionBranch {
+                onsets: branch.onsets.iter().map(|&at| in_units(at)).collect(),
+                coexistence: coexistence.map(|ends| ends.map(in_units)).collect(),
+            }),
             threshold: branch.threshold().map(|own| [own.amplitude, own.kick_velocity()]),
-            rows: rows.collect(),
-        })
+            ..BranchSummary::new(
+                branch.parameter,
+                in_units(branch.own),
+                branch.ends,
+                rows.collect(),
+            )
+        }
+    }
+}
+
+impl FoundCycle {
+    fn summary(&self, body: &MotionBody<'_>) -> CycleMotion {
+        let mut cycle = body.motion(&self.motion, self.harmonic_count);
+        if let Some(stepped) = &mut cycle.stepped {
+            let threshold = self.branch.as_ref().and_then(PeriodicBranch::threshold);
+            stepped.kick_velocity = threshold.map(PeriodicMotion::kick_velocity);
+            stepped.sound = self.sound.as_ref().map(|sound| SoundSummary {
+                power_w: sound.power(),
+                level_db: sound.level(),
+                area_m2: sound.area,
+                harmonics_w: sound.harmonics.clone(),
+            });
+        }
+        cycle
     }
 
-    /// What the tables and figures show of its cycle and branch.
-    pub(super) fn record(
-        &self,
-        report: &CycleReport<'_>,
-        search: &MotionSearch,
-    ) -> Option<MotionRecord> {
-        let found = self.own()?;
-        let motion = &found.motion;
-        let first = motion.instants.first()?;
-        let nodes = search.interface.nodes.iter().enumerate().map(|(place, &node)| {
-            let (node, body) = (node as usize, &report.body);
-            contact_node(motion, place, (body.mesh.node_label(node), body.position(node)))
+    /// What the tables and figures show of it.
+    fn record(self, name: CycleName, body: &MotionBody<'_>) -> MotionRecord {
+        let motion = self.motion;
+        let nodes = body.interface.nodes.iter().enumerate().map(|(place, &node)| {
+            contact_node(&motion, place, (body.label(place), body.shown.position(node as usize)))
         });
-        let exponents = known(&found.stability)
+        let first = motion.instants.first();
+        let edge = first.map_or_else(Vec::new, |first| {
+            (0..body.interface.len()).map(|node| point(&motion, first, node)).collect()
+        });
+        let exponents = known(&self.stability)
             .map(|found| found.multipliers.iter().map(|own| (None, perturbation(own))).collect());
-        Some(MotionRecord {
-            tag: self.tag(),
-            diameters: 0,
-            mode: self.mode.mode,
+        MotionRecord {
+            name,
             frequency_hz: motion.frequency_hz,
-            history: motion.instants.iter().map(|at| point(motion, at, motion.node)).collect(),
-            edge: (0..search.interface.len()).map(|node| point(motion, first, node)).collect(),
-            status: motion.instants.iter().flat_map(|at| at.status.iter().copied()).collect(),
+            history: motion.instants.iter().map(|at| point(&motion, at, motion.node)).collect(),
+            edge,
             node: motion.node,
             counterface_speed: motion.counterface_speed,
             friction_coefficient: motion.friction_coefficient,
             nodes: nodes.collect(),
-            harmonics: motion.harmonics.iter().take(found.harmonic_count).copied().collect(),
-            fields: motion.frames.first().map_or_else(Default::default, |own| own.fields.clone()),
+            harmonics: motion.harmonics.iter().take(self.harmonic_count).copied().collect(),
+            instants: motion.instants,
+            frames: motion.frames,
             exponents,
-            branch: self.branch_rows(report.thickness),
-        })
+        }
+    }
+}
+
+impl PeriodicResult {
+    /// What is reported of it.
+    pub fn sought(self, body: &MotionBody<'_>) -> SoughtCycle {
+        let name = CycleName::Mode(ModeOfCycle {
+            mode: self.mode,
+            same_as: self.same_as,
+            sought_from: self.start.map(|(_, value)| value),
+        });
+        let sought = SoughtCycle::new(name.clone(), self.wall_s);
+        match (self.outcome, self.same_as) {
+            (Err(error), _) => SoughtCycle { error: Some(error), ..sought },
+            (Ok(_), Some(_)) => sought,
+            (Ok(found), None) => SoughtCycle {
+                cycle: Some(found.summary(body)),
+                confirmation: found.confirmation.as_ref().map(|run| {
+                    let agrees = run.agrees_with(&found.motion);
+                    ConfirmationSummary::ran(run, agrees, body.thickness)
+                }),
+                stability: StabilitySummary::of(&found.stability, stability),
+                branch: found.branch.as_ref().map(|branch| body.branch(branch)),
+                record: Some(Arc::new(found.record(name, body))),
+                ..sought
+            },
+        }
     }
 }
 
@@ -299,9 +269,8 @@ fn contact_node(motion: &PeriodicMotion, i: usize, node: (usize, [f64; 3])) -> C
 /// transient.
 pub(super) fn encode_contact(
     interface: &ContactInterface,
-    motion: &PeriodicMotion,
+    instants: &[ContactInstant],
 ) -> io::Result<Vec<u8>> {
-    let instants = &motion.instants;
     let shape = [instants.len(), interface.len()];
     let mut archive = NpzArchive::default();
     archive.array("time_s", &shape[..1], instants.iter().map(|at| at.time))?;
@@ -313,8 +282,8 @@ pub(super) fn encode_contact(
     let shear = instants.iter().flat_map(|at| at.shear.iter().copied());
     archive.array("shear_pa", &shape, shear)?;
     for (component, name) in ["u_n_m", "u_t_m"].into_iter().enumerate() {
-        let motion = instants.iter().flat_map(|at| &at.displacement);
-        archive.array(name, &shape, motion.map(|u| u[component]))?;
+        let displacement = instants.iter().flat_map(|at| &at.displacement);
+        archive.array(name, &shape, displacement.map(|u| u[component]))?;
     }
     archive.status_codes()?;
     archive.finish()

@@ -1,67 +1,109 @@
-//! What the tables and figures of a limit cycle show.
+//! What a limit cycle is, in the summary and in its tables and figures.
 
-use super::branch::{BranchRecord, BranchRows, FamilyRecord};
-use super::summary::{CycleName, OnsetSummary, SoughtCycle};
+use super::name::CycleName;
 use super::verdicts::Perturbation;
-use crate::extent::Extent;
+use crate::summary::{MeanPowers, StatusFractions};
+use frictionsim_output::Described;
 use frictionsim_physics::contact::ContactStatus;
 use frictionsim_physics::cycle::PhasePoint;
-use frictionsim_physics::cycle::periodic::MotionHarmonic;
+use frictionsim_physics::cycle::periodic::{ContactInstant, MotionFrame, MotionHarmonic};
+use serde::Serialize;
 
-impl FamilyRecord {
-    /// Of a cycle that was sought and the rows of its branch.
-    pub(super) fn of(own: SoughtCycle, rows: Option<BranchRows>, extent: Extent) -> Self {
-        let onset = |own: &OnsetSummary| [own.critical_friction, own.frequency_hz];
-        let (harmonic, onset, mode, onsets) = match &own.name {
-            CycleName::Wave(own) => {
-                (own.harmonic, own.onset, None, own.onsets.iter().map(onset).collect())
-            }
-            CycleName::Mode(own) => (0, 0, Some(own.mode.mode), Vec::new()),
-        };
-        let cycle =
-            own.cycle.map(|own| [own.main_frequency_hz, own.amplitude_m.unwrap_or(f64::NAN)]);
-        let branch = own.branch.zip(rows);
-        let branch = branch.map(|(summary, rows)| BranchRecord::of(summary, &rows, extent));
-        Self { harmonic, onset, mode, onsets, cycle, branch }
-    }
+/// A limit cycle.
+#[derive(Clone, Debug, PartialEq, Described, Serialize)]
+pub struct CycleMotion {
+    /// Frequency, Hz.
+    pub main_frequency_hz: f64,
+    /// Fractions of the contact nodes.
+    pub status: StatusFractions,
+    /// Mean powers.
+    pub power_w: MeanPowers,
+    /// Residual of the energy balance, relative to the external power.
+    pub balance_residual: f64,
+    /// Amplitude along the counterface, m: of the wave's own harmonic. On other bodies half the range of the contact
+    /// node that moves most.
+    pub amplitude_m: Option<f64>,
+    /// Level of the velocity, root mean square over time and mass, over 5e-8 m/s, dB.
+    pub velocity_level_db: Option<f64>,
+    /// Amplitudes along the counterface, m: of a wave the harmonics 0 to 8 around the contact edge. On other bodies the
+    /// harmonics 1, 2, ... in time, root mean square over the contact nodes.
+    pub harmonics: Vec<f64>,
+    /// What else there is to a motion that was stepped in time.
+    #[serde(flatten)]
+    pub stepped: Option<SteppedMotion>,
 }
 
-/// One limit cycle.
+/// A motion of the whole mesh that was stepped in time.
+#[derive(Clone, Debug, PartialEq, Described, Serialize)]
+pub struct SteppedMotion {
+    /// What the motion misses its start by after a period, relative to its amplitude.
+    pub residual: f64,
+    /// Periods stepped to find it.
+    pub periods: usize,
+    /// Steps of a period.
+    pub steps: usize,
+    /// Label of the contact node that moves most along the counterface.
+    pub contact_node: usize,
+    /// Velocity of a kick that tips stable sliding into this cycle: `2 pi f` times the amplitude of the unstable cycle
+    /// between both, m/s.
+    pub kick_velocity: Option<f64>,
+    /// Estimate of the sound that it radiates, of a body with flat faces.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub sound: Option<SoundSummary>,
+    /// Harmonics in which the motion is told.
+    pub harmonic_count: usize,
+    /// Share of the vibration of the contact nodes that these leave.
+    pub harmonic_remainder: f64,
+    /// Harmonics that leave less than a thousandth.
+    #[serde(skip)]
+    pub harmonics_needed: usize,
+}
+
+/// Sound radiated into air, by the Rayleigh integral: each flat face in an infinite rigid baffle.
+#[derive(Clone, Debug, PartialEq, Described, Serialize)]
+pub struct SoundSummary {
+    /// Power of all harmonics up to 20 kHz, W.
+    pub power_w: f64,
+    /// Its level over 1e-12 W, dB.
+    pub level_db: f64,
+    /// Area of the faces, m2.
+    pub area_m2: f64,
+    /// Power of harmonics 1, 2, ..., W.
+    pub harmonics_w: Vec<f64>,
+}
+
+/// One limit cycle over its period.
+#[derive(Clone, Debug, PartialEq)]
 pub(super) struct MotionRecord {
-    /// Part of a file name: `n2` or `mode15`.
-    pub tag: String,
-    /// Nodal diameters of a wave; 0 of a motion of the whole mesh.
-    pub diameters: usize,
-    /// Number of the mode that leads to a motion of the whole mesh; 0 of a wave.
-    pub mode: usize,
+    /// What leads to it.
+    pub name: CycleName,
     /// Frequency, Hz.
     pub frequency_hz: f64,
     /// Contact and motion over the period: of the contact node that moves most, of a wave of any.
     pub history: Vec<PhasePoint>,
     /// All contact nodes at time zero, of a wave along the phase.
     pub edge: Vec<PhasePoint>,
-    /// Statuses of all contact nodes, instant by instant; none of a wave.
-    pub status: Vec<ContactStatus>,
+    /// All contact nodes over the period; none of a wave.
+    pub instants: Vec<ContactInstant>,
     /// Contact node that moves most, among those of the edge.
     pub node: usize,
     /// Speed of the counterface there, m/s.
     pub counterface_speed: f64,
     /// Friction coefficient there; none where it falls with the slip speed.
     pub friction_coefficient: Option<f64>,
-    /// The contact nodes over the period; none of a wave.
+    /// What each contact node does over the period; none of a wave.
     pub nodes: Vec<ContactNode>,
     /// The harmonics in time in which it is told; none of a wave.
     pub harmonics: Vec<MotionHarmonic>,
-    /// Displacement (m) and velocity (m/s) of every dof in nodal frames at time zero, where they are known.
-    pub fields: [Vec<f64>; 2],
+    /// The whole body at times over the period, from zero on, where it is known.
+    pub frames: Vec<MotionFrame>,
     /// Its exponents or multipliers, where they are known; those of waves with the value of the parameter of the
     /// branch.
     pub exponents: Option<Vec<(Option<f64>, Perturbation)>>,
-    /// The cycles of its branch.
-    pub branch: Option<BranchRows>,
 }
 
 /// A contact node over the period.
+#[derive(Clone, Debug, PartialEq)]
 pub(crate) struct ContactNode {
     pub node: usize,
     pub place: [f64; 3],
@@ -75,22 +117,27 @@ pub(crate) struct ContactNode {
 impl MotionRecord {
     /// Whether it is a wave of a disc.
     pub(super) fn is_wave(&self) -> bool {
-        self.diameters > 0
+        self.name.wave().is_some()
+    }
+
+    /// Nodal diameters of a wave; 0 of a motion of the whole mesh.
+    pub(super) fn diameters(&self) -> usize {
+        self.name.wave().map_or(0, |wave| wave.harmonic)
     }
 
     /// Whose it is: `2 nodal diameters`, or its frequency.
     pub(super) fn whose(&self) -> String {
-        match self.diameters {
-            0 => format!("{:.2} Hz", self.frequency_hz),
-            n => format!("{n} nodal diameters"),
+        match &self.name {
+            CycleName::Wave(wave) => format!("{} nodal diameters", wave.harmonic),
+            CycleName::Mode(_) => format!("{:.2} Hz", self.frequency_hz),
         }
     }
 
     /// The heading of its pictures.
     pub(super) fn heading(&self) -> String {
-        let name = match self.diameters {
-            0 => format!("mode {}", self.mode),
-            n => format!("*n* = {n}"),
+        let name = match &self.name {
+            CycleName::Wave(wave) => format!("*n* = {}", wave.harmonic),
+            CycleName::Mode(own) => own.mode.to_string(),
         };
         format!("{name}, {:.2} kHz", self.frequency_hz * 1e-3)
     }

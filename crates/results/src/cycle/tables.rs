@@ -1,11 +1,11 @@
 //! Columns of limit cycles, and the document of a search.
 
-use super::branch::{ALONG, BRANCH, BranchRows};
-use super::record::{ContactNode, MotionRecord};
-use super::summary::{CycleMotion, CycleSummary, SoughtCycle};
+use super::branch::{ALONG, BRANCH};
+use super::record::{ContactNode, CycleMotion};
+use super::summary::{CycleSummary, SoughtCycle};
 use super::two_waves::{SHOWN, TwoWaveSummary};
 use super::verdicts::EXPONENTS;
-use crate::summary::{MeanPowers, STATUS, StatusFractions};
+use crate::summary::{MeanPowers, STATUS};
 use frictionsim_output::{Document, Section, Table, columns, fixed, parted};
 use frictionsim_physics::cycle::PhasePoint;
 use frictionsim_physics::cycle::periodic::MotionHarmonic;
@@ -156,51 +156,55 @@ columns! {
     remainder: "share of the vibration that the harmonics up to this one leave" = row.2.remainder;
 }
 
-impl MotionRecord {
-    /// Its tables.
+impl SoughtCycle {
+    /// Its tables; none where there is no cycle.
     pub(super) fn tables(&self, is_solid: bool) -> Vec<Table> {
-        let table = |what: &str| Table::new(format!("{what}-{}.csv", self.tag), "");
-        let key = self.branch.as_ref().map(|branch| branch.key);
+        let Some(own) = &self.record else {
+            return Vec::new();
+        };
+        let table = |what: &str| Table::new(format!("{what}-{}.csv", self.name.tag()), "");
+        let key = self.branch.as_ref().map(|branch| branch.key.as_str());
         let mut tables = Vec::new();
-        if !self.history.is_empty() {
-            let path = if self.is_wave() { WAVE_PATH } else { PATH };
-            let table = table("cycle").columns(HISTORY, &self.history);
-            tables.push(table.columns(path, &self.history));
+        if !own.history.is_empty() {
+            let path = if own.is_wave() { WAVE_PATH } else { PATH };
+            let table = table("cycle").columns(HISTORY, &own.history);
+            tables.push(table.columns(path, &own.history));
         }
-        if !self.nodes.is_empty() {
+        if !own.nodes.is_empty() {
             let (plane, solid) = const { parted(CONTACT_NODES, "z_m") };
             let rest = if is_solid { solid } else { const { parted(CONTACT_NODES, "stick").1 } };
-            let table = table("contact").columns(plane, &self.nodes);
-            tables.push(table.columns(rest, &self.nodes));
+            let table = table("contact").columns(plane, &own.nodes);
+            tables.push(table.columns(rest, &own.nodes));
         }
-        if !self.harmonics.is_empty() {
-            let numbered = self.harmonics.iter().zip(1..);
-            let rows = numbered.map(|(own, k)| (k, k as f64 * self.frequency_hz, *own));
+        if !own.harmonics.is_empty() {
+            let numbered = own.harmonics.iter().zip(1..);
+            let rows = numbered.map(|(row, k)| (k, k as f64 * own.frequency_hz, *row));
             tables.push(table("harmonics").columns(HARMONICS, rows));
         }
-        if let Some(exponents) = &self.exponents {
+        if let Some(exponents) = &own.exponents {
             let mut table = table("stability");
-            if self.is_wave() {
-                let values = exponents.iter().map(|own| own.0);
+            if own.is_wave() {
+                let values = exponents.iter().map(|row| row.0);
                 table = table.column(key.unwrap_or("point"), None, values);
             }
-            let others: &[&str] = match self.is_wave() {
+            let others: &[&str] = match own.is_wave() {
                 true => &["beat_hz", "modulus", "argument_rad"],
                 false => &["class", "wave_frequency_rad_per_s", "harmonic", "frequency_hz"],
             };
-            let table = table.columns(EXPONENTS, exponents.iter().map(|own| &own.1));
+            let table = table.columns(EXPONENTS, exponents.iter().map(|row| &row.1));
             tables.push(without_empty(table, others));
         }
-        if let Some(BranchRows { key, rows, .. }) = &self.branch {
-            let others: &[&str] = match self.is_wave() {
+        if let Some(branch) = &self.branch {
+            let rows = &branch.rows;
+            let others: &[&str] = match own.is_wave() {
                 true => &["velocity_level_db", "stability", "residual", "periods", "fold"],
                 false => &["harmonic"],
             };
             let table = table("branch")
-                .column(key, None, rows.iter().map(|row| row.value))
+                .column(&branch.key, None, rows.iter().map(|row| row.value))
                 .columns(BRANCH, rows)
-                .columns(STATUS, rows.iter().map(|row| StatusFractions::of(row.fractions)))
-                .columns(POWERS, rows.iter().map(|row| row.powers))
+                .columns(STATUS, rows.iter().map(|row| row.motion.status))
+                .columns(POWERS, rows.iter().map(|row| row.motion.power_w))
                 .columns(ALONG, rows);
             tables.push(without_empty(table, others));
         }

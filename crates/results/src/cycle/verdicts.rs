@@ -3,7 +3,7 @@
 use crate::finding::finding;
 use crate::summary::{StatusFractions, present};
 use frictionsim_output::Described;
-use frictionsim_physics::cycle::Confirmation;
+use frictionsim_physics::cycle::{Confirmation, Verdict};
 use serde::Serialize;
 
 /// The analysis of a cycle, where there is one.
@@ -81,6 +81,19 @@ pub enum StabilitySummary {
     },
 }
 
+impl StabilitySummary {
+    /// Of an analysis, where it was asked for.
+    pub(super) fn of<T>(
+        finding: &Option<Result<T, String>>,
+        known: impl Fn(&T) -> KnownStability,
+    ) -> Option<Self> {
+        Some(match finding.as_ref()? {
+            Ok(found) => Self::Known(Box::new(known(found))),
+            Err(error) => Self::Failed { error: error.clone() },
+        })
+    }
+}
+
 /// Stability of a cycle.
 #[derive(Clone, Debug, PartialEq, Described, Serialize)]
 pub struct KnownStability {
@@ -96,6 +109,19 @@ pub struct KnownStability {
     /// Modulus of the multiplier of a shift in phase, which is 1, of a motion that was stepped in time.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub shift: Option<f64>,
+}
+
+impl KnownStability {
+    /// Of a verdict and the leading perturbation.
+    pub(super) fn new(verdict: Verdict, leading: Option<Perturbation>) -> Self {
+        Self {
+            verdict: verdict.word().to_owned(),
+            is_stable: verdict.is_stable(),
+            growing_harmonics: None,
+            leading,
+            shift: None,
+        }
+    }
 }
 
 finding! {

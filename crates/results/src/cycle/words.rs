@@ -1,12 +1,12 @@
 //! Limit cycles in words.
 
 use super::branch::{BranchSummary, StabilityChangeSummary};
+use super::name::{ModeSummary, OnsetSummary};
 use super::summary::SoughtCycle;
 use super::verdicts::{ConfirmationSummary, StabilitySummary};
-use super::{CycleReport, MotionSearch, Search, WaveSearch};
+use super::{CycleReport, Origin};
 use frictionsim_output::significant;
 use frictionsim_physics::cycle::periodic::ASTRAY;
-use std::f64::consts::TAU;
 
 /// Values in words, with five digits.
 fn listed(values: &[f64]) -> Vec<String> {
@@ -23,9 +23,11 @@ impl CycleReport<'_> {
     }
 
     fn origin(&self) -> String {
-        match &self.search {
-            Search::Waves(search) => self.of_waves(search),
-            Search::Motions(search) => self.of_motions(search),
+        match &self.origin {
+            Origin::Waves { lowest_onset } => self.of_waves(lowest_onset.as_ref()),
+            Origin::Modes { modes, least_stable, highest_hz, start, .. } => {
+                self.of_modes((*modes, *highest_hz), least_stable.as_ref(), *start)
+            }
         }
     }
 
@@ -37,23 +39,23 @@ impl CycleReport<'_> {
     /// Whether nothing was sought since steady sliding is stable.
     fn has_nothing(&self) -> bool {
         self.is_stable()
-            && match &self.search {
-                Search::Waves(_) => true,
-                Search::Motions(search) => search.results.is_empty(),
+            && match &self.origin {
+                Origin::Waves { .. } => true,
+                Origin::Modes { .. } => self.cycles.is_empty(),
             }
     }
 
-    fn of_waves(&self, search: &WaveSearch) -> String {
+    fn of_waves(&self, lowest_onset: Option<&OnsetSummary>) -> String {
         let friction = self.friction_coefficient;
         if !self.is_stable() {
             return "Waves that turn against the rotor without changing their shape.".to_owned();
         }
-        let Some(onset) = &search.lowest_onset else {
+        let Some(onset) = lowest_onset else {
             return format!(
                 "steady sliding is stable at contact.friction_coefficient = {friction}"
             );
         };
-        let critical = onset.friction_coefficient;
+        let critical = onset.critical_friction;
         let advice = match self.critical {
             Some(at) => format!("sliding loses its stability at {at}"),
             None => format!("raise contact.friction_coefficient above {critical:.4}"),
@@ -61,25 +63,28 @@ impl CycleReport<'_> {
         format!(
             "{friction} < {critical:.4}: steady sliding is stable, so no limit cycle is sought. \
              The first wave to grow has {} nodal diameters and {:.2} Hz ({advice})",
-            onset.harmonic,
-            onset.frequency / TAU,
+            onset.harmonic, onset.frequency_hz,
         )
     }
 
-    fn of_motions(&self, search: &MotionSearch) -> String {
+    fn of_modes(
+        &self,
+        (modes, highest_hz): (usize, f64),
+        least_stable: Option<&ModeSummary>,
+        start: Option<(&'static str, f64)>,
+    ) -> String {
         if !self.has_nothing() {
-            let start = search.results.iter().find_map(|result| result.start);
             let start = start.map_or_else(
                 || format!("friction {}", self.friction_coefficient),
                 |(key, value)| format!("{key} = {value}, since none grows at the case's own"),
             );
             return format!(
                 "Limit cycles as periodic motions of the whole mesh, from {} of {} modes that grow at {start}.",
-                search.results.len(),
-                search.modes,
+                self.cycles.len(),
+                modes,
             );
         }
-        let slowest = search.least_stable.map_or_else(String::new, |mode| {
+        let slowest = least_stable.map_or_else(String::new, |mode| {
             let (frequency, rate) = (mode.mode_frequency_hz, mode.growth_rate_per_s);
             format!("; the slowest to decay is {mode}, {frequency:.2} Hz, at {rate:.1} 1/s")
         });
@@ -93,33 +98,43 @@ impl CycleReport<'_> {
         format!(
             "steady sliding is stable at friction {} as far as {} modes up to {:.0} Hz tell, so no \
              limit cycle is sought. None of them grows{slowest} ({advice})",
-            self.friction_coefficient, search.modes, search.highest_hz,
+            self.friction_coefficient, modes, highest_hz,
         )
     }
 
     /// Why results should not be trusted, if so.
     pub fn doubts(&self) -> Vec<String> {
-        let (coarse, remedy): (Vec<String>, _) = match &self.search {
-            Search::Waves(_) => (
-                Vec::new(),
-                "refine the mesh (mesh.circumferential_elements and radial_elements), or trust the transient",
-            ),
-            Search::Motions(search) => (
-                search.results.iter().filter_map(|own| own.coarse_harmonics()).collect(),
+        let remedy = match &self.origin {
+            Origin::Waves { .. } => {
+                "refine the mesh (mesh.circumferential_elements and radial_elements), or trust the transient"
+            }
+            Origin::Modes { .. } => {
                 "trust the transient, or give it more periods (cycle.confirmation_periods): a slow \
-                perturbation may take them",
-            ),
+                perturbation may take them"
+            }
         };
-        let cycles = self.cycles();
-        let doubted = cycles.iter().filter(|own| own.agrees() == Some(false) && !own.leaves());
+        let coarse = self.cycles.iter().filter_map(SoughtCycle::coarse_sentence);
+        let doubted = self.cycles.iter().filter(|own| own.agrees() == Some(false) && !own.leaves());
         let said = doubted.filter_map(|own| {
             Some(format!("{}: {}; {remedy}", own.name, own.confirmation_sentence()?))
         });
-        coarse.into_iter().chain(said).collect()
+        coarse.chain(said).collect()
     }
 }
 
 impl SoughtCycle {
+    /// That the harmonics in which it is told leave too much.
+    fn coarse_sentence(&self) -> Option<String> {
+        let own = self.cycle.as_ref()?.stepped.as_ref()?;
+        (own.harmonic_count < own.harmonics_needed).then(|| {
+            format!(
+                "{}: {} harmonics leave {:.1e} of the motion of the contact: {} leave less than a \
+                thousandth (raise cycle.harmonic_count, or leave it out)",
+                self.name, own.harmonic_count, own.harmonic_remainder, own.harmonics_needed,
+            )
+        })
+    }
+
     /// Whether a transient is expected to leave the cycle.
     fn leaves(&self) -> bool {
         self.known().is_some_and(|known| known.is_stable == Some(false))

@@ -8,7 +8,7 @@
 //! let bytes = std::fs::read("cases/limit-cycle.toml")?;
 //! let case = Case::parse("disc", &bytes, &["cycle.stability=\"none\"".to_owned()])?;
 //! for result in CycleStudy::new(&case, SimdLevel::detect())?.run(0, &|| {}) {
-//!     println!("{}: {:?} Hz", result.family, result.cycle.map(|cycle| cycle.frequency_hz()));
+//!     println!("{}: {:?} Hz", result.family, result.outcome.map(|own| own.cycle.frequency_hz()));
 //! }
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
@@ -37,7 +37,8 @@ use frictionsim_physics::fem::operator::SimdLevel;
 use frictionsim_physics::mesh::AnnulusMesh;
 use frictionsim_results::ShownBody;
 use frictionsim_results::cycle::{
-    Absence, CycleReport, CycleResult, Search, SoughtCycle, TwoWaveResult, WaveSearch, known,
+    Absence, CycleReport, CycleResult, FoundWave, OnsetSummary, Origin, SoughtCycle, TwoWaveResult,
+    known,
 };
 use std::time::Instant;
 
@@ -97,16 +98,23 @@ impl<'a> CycleStudy<'a> {
     /// The cycles, with the whole field at so many times over one period; `done` hears of every family.
     pub fn run(&self, frames: usize, done: &(dyn Fn() + Sync)) -> Vec<CycleResult> {
         frictionsim_physics::parallel::map(&self.solvers, |solver| {
-            let result = match solver {
-                Ok(solver) => self.solve(solver, frames),
+            let start = Instant::now();
+            let (family, phases, outcome) = match solver {
+                Ok(own) => (own.family, own.grid.points, self.solve(own, frames)),
                 // A family that cannot be sought at all.
                 Err((family, error)) => {
                     let is_stable = matches!(error, CycleError::NoOnset(_));
-                    self.result(*family, Err(Absence { reason: error.to_string(), is_stable }))
+                    (*family, 0, Err(Absence { reason: error.to_string(), is_stable }))
                 }
             };
             done();
-            result
+            CycleResult {
+                family,
+                onsets: self.onsets_of(family.harmonic),
+                phases,
+                outcome,
+                wall_s: start.elapsed().as_secs_f64(),
+            }
         })
     }
 
@@ -131,20 +139,18 @@ impl<'a> CycleStudy<'a> {
         two_waves: Vec<TwoWaveResult>,
         wall_s: f64,
     ) -> CycleReport<'_> {
+        let (thickness, radius) = (self.case.thickness, self.annulus.specification.inner_radius);
+        let cycles = results.into_iter().map(|own| own.sought(thickness, radius));
         CycleReport {
             title: &self.case.title,
             body: ShownBody { mesh: &self.annulus.mesh, sector: None },
-            thickness: self.case.thickness,
+            thickness,
             extent: extent_of(self.case),
             friction_coefficient: self.point.contact.friction_coefficient,
             critical: self.critical,
-            search: Search::Waves(WaveSearch {
-                inner_radius: self.annulus.specification.inner_radius,
-                contact: self.point.contact,
-                lowest_onset: self.onsets.first().copied(),
-                results,
-                two_waves,
-            }),
+            origin: Origin::Waves { lowest_onset: self.onsets.first().map(OnsetSummary::from) },
+            cycles: cycles.collect(),
+            two_waves,
             wall_s,
         }
     }
@@ -169,75 +175,45 @@ impl<'a> CycleStudy<'a> {
         }
     }
 
-    /// The result of a family with nothing found out beside its cycle.
-    fn result(&self, family: Family, cycle: Result<LimitCycle, Absence>) -> CycleResult {
-        CycleResult {
-            family,
-            onsets: self.onsets_of(family.harmonic),
+    /// The cycle of a family with everything asked for: branch, stability, confirmation, fields.
+    fn solve(&self, solver: &CycleSolver, frame_count: usize) -> Result<FoundWave, Absence> {
+        let found = solver.find(&self.point);
+        let cycle = found.map_err(|error| self.absence(solver, &error))?;
+        let continuation = self.continuation.as_ref();
+        let field = |time| solver.field(&cycle, time);
+        let mut found = FoundWave {
+            branch: continuation.map(|(key, values)| solver.follow(&cycle, *key, values)),
+            frames: frames(field, 1.0 / cycle.frequency_hz(), frame_count),
+            velocity: self.velocity(&field(0.0)[1]),
             cycle,
-            frames: Vec::new(),
-            velocity: None,
-            phases: 0,
             confirmation: None,
             stability: None,
             branch_stability: Vec::new(),
             stability_changes: Vec::new(),
-            branch: None,
-            wall_s: 0.0,
-        }
-    }
-
-    /// The cycle of a family with everything asked for: branch, stability, confirmation, fields.
-    fn solve(&self, solver: &CycleSolver, frame_count: usize) -> CycleResult {
-        let start = Instant::now();
-        let stability = self.choices.stability;
-        let found = solver.find(&self.point);
-        let branch = match (&found, &self.continuation) {
-            (Ok(cycle), Some((parameter, values))) => {
-                Some(solver.follow(cycle, *parameter, values))
-            }
-            _ => None,
-        };
-        let frames = found.as_ref().map_or(Vec::new(), |cycle| {
-            let field = |time| solver.field(cycle, time);
-            frames(field, 1.0 / cycle.frequency_hz(), frame_count)
-        });
-        let velocity = found.as_ref().ok();
-        let velocity = velocity.map(|cycle| self.velocity(&solver.field(cycle, 0.0)[1]));
-        let cycle = found.map_err(|error| self.absence(solver, &error));
-        let mut result = CycleResult {
-            velocity,
-            phases: solver.grid.points,
-            frames,
-            ..self.result(solver.family, cycle)
         };
         // What the mesh's own time stepping makes of it.
-        if let Ok(cycle) = &mut result.cycle {
-            match solver.stepping(self.simd) {
-                Ok(stepping) => {
-                    if stability != StabilityChoice::None {
-                        result.stability = Some(settle(&stepping, cycle));
-                    }
-                    let periods = self.choices.confirmation_periods;
-                    let known = known(&result.stability);
-                    result.confirmation = (periods > 0).then(|| {
-                        stepping.confirm(cycle, known, periods).map_err(|e| e.to_string())
-                    });
-                    if let (Some(branch), StabilityChoice::Branch) = (&branch, stability) {
-                        let settled = along(&stepping, &branch.cycles);
-                        result.stability_changes = changes(&stepping, branch.parameter, &settled);
-                        result.branch_stability = settled
-                            .into_iter()
-                            .map(|settled| Some(settled.map(|settled| settled.stability)))
-                            .collect();
-                    }
-                }
-                Err(error) => result.confirmation = Some(Err(error.to_string())),
-            }
+        match solver.stepping(self.simd) {
+            Ok(stepping) => self.step(&stepping, &mut found),
+            Err(error) => found.confirmation = Some(Err(error.to_string())),
         }
-        result.branch = branch;
-        result.wall_s = start.elapsed().as_secs_f64();
-        result
+        Ok(found)
+    }
+
+    /// Stability of a cycle and of its branch, and what a transient says of it.
+    fn step(&self, stepping: &MeshStepping<'_>, found: &mut FoundWave) {
+        let (choice, periods) = (self.choices.stability, self.choices.confirmation_periods);
+        if choice != StabilityChoice::None {
+            found.stability = Some(settle(stepping, &mut found.cycle));
+        }
+        let known = known(&found.stability);
+        found.confirmation = (periods > 0)
+            .then(|| stepping.confirm(&found.cycle, known, periods).map_err(|e| e.to_string()));
+        if let (Some(branch), StabilityChoice::Branch) = (&found.branch, choice) {
+            let settled = along(stepping, &branch.cycles);
+            found.stability_changes = changes(stepping, branch.parameter, &settled);
+            let stability = settled.into_iter().map(|own| Some(own.map(|own| own.stability)));
+            found.branch_stability = stability.collect();
+        }
     }
 }
 
@@ -259,7 +235,7 @@ pub fn limit_cycle(case: &Case, family: Family) -> Result<(CycleSolver, LimitCyc
 /// # Errors
 /// [`StudyError::NoCycle`].
 pub fn refuse_nothing(report: &CycleReport<'_>) -> Result<(), StudyError> {
-    let cycles = report.cycles();
+    let cycles = &report.cycles;
     if report.is_stable() || cycles.iter().any(|own| own.cycle.is_some()) {
         return Ok(());
     }

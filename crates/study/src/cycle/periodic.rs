@@ -20,7 +20,7 @@ use frictionsim_physics::cycle::{Confirmation, CriticalValue, CycleError, Parame
 use frictionsim_physics::fem::operator::{SimdLevel, StiffnessOperator};
 use frictionsim_physics::transient::{OperatorChoice, TransientError, TransientModel};
 use frictionsim_results::cycle::{
-    CycleReport, FoundCycle, ModeSummary, MotionSearch, PeriodicResult, Search,
+    CycleReport, FoundCycle, ModeSummary, MotionBody, Origin, PeriodicResult,
 };
 use std::time::Instant;
 
@@ -297,20 +297,26 @@ impl<'a> PeriodicStudy<'a> {
 
     /// Everything that there is to report of the results.
     pub fn report(&self, results: Vec<PeriodicResult>, wall_s: f64) -> CycleReport<'_> {
+        let interface = self.body().interface();
+        let (shown, thickness) = (self.stepped.shown(), self.case.depth());
+        let body = MotionBody { shown, interface: &interface, thickness };
+        let cycles = results.into_iter().map(|own| own.sought(&body)).collect();
         CycleReport {
             title: &self.case.title,
-            body: self.stepped.shown(),
-            thickness: self.case.depth(),
+            body: shown,
+            thickness,
             extent: extent_of(self.case),
             friction_coefficient: self.case.contact.sliding.friction_coefficient,
             critical: self.critical,
-            search: Search::Motions(MotionSearch {
-                interface: self.body().interface(),
+            origin: Origin::Modes {
                 modes: self.steady.modes.len(),
                 highest_hz: self.steady.modes.last().map_or(0.0, ComplexMode::frequency_hz),
                 least_stable: self.least_stable,
-                results,
-            }),
+                start: self.named_start(),
+                interface,
+            },
+            cycles,
+            two_waves: Vec::new(),
             wall_s,
         }
     }

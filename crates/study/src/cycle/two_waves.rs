@@ -74,10 +74,10 @@ impl CycleStudy<'_> {
 /// The cycle of a family that loses its stability to a wave of another harmonic, at the case's own operating point or
 /// first along the branch, and that harmonic.
 fn loses_to_another(result: &CycleResult) -> Option<(&LimitCycle, usize)> {
-    let own = result.cycle.as_ref().ok().map(|cycle| (cycle, &result.stability));
-    let branch = result.branch.iter().flat_map(|branch| &branch.cycles);
-    let along = branch.zip(&result.branch_stability);
-    own.into_iter().chain(along).find_map(|(cycle, finding)| {
+    let found = result.outcome.as_ref().ok()?;
+    let branch = found.branch.iter().flat_map(|branch| &branch.cycles);
+    let along = branch.zip(&found.branch_stability);
+    [(&found.cycle, &found.stability)].into_iter().chain(along).find_map(|(cycle, finding)| {
         let leading = known(finding)?.leading()?;
         let is_other = leading.harmonic != result.family.harmonic && leading.harmonic > 0;
         (leading.verdict() == Verdict::Unstable && is_other).then_some((cycle, leading.harmonic))

@@ -1,0 +1,133 @@
+//! What leads to a limit cycle: a wave of a disc and its onset, or a mode of any other body.
+
+use frictionsim_output::Described;
+use frictionsim_physics::cycle::{Family, Onset};
+use serde::Serialize;
+use std::f64::consts::TAU;
+use std::fmt;
+
+/// What leads to a cycle.
+#[derive(Clone, Debug, PartialEq, Described, Serialize)]
+#[serde(untagged)]
+pub enum CycleName {
+    /// A wave of a disc.
+    Wave(WaveOfCycle),
+    /// A mode of a body without rotating waves.
+    Mode(ModeOfCycle),
+}
+
+/// A mode, and what it leads to.
+#[derive(Clone, Debug, PartialEq, Described, Serialize)]
+pub struct ModeOfCycle {
+    /// The mode.
+    #[serde(flatten)]
+    pub mode: ModeSummary,
+    /// Mode that has led to the same cycle before.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub same_as: Option<usize>,
+    /// Value of the parameter of `cycle.continuation` at which the mode grows, where none does at the case's own.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub sought_from: Option<f64>,
+}
+
+/// A wave and its onset.
+#[derive(Clone, Debug, PartialEq, Described, Serialize)]
+pub struct WaveOfCycle {
+    /// Circumferential harmonic.
+    pub harmonic: usize,
+    /// Onset of that harmonic at which it is born, from 1.
+    pub onset: usize,
+    /// Critical friction coefficient of that onset.
+    pub critical_friction: Option<f64>,
+    /// Its direction.
+    pub direction: Option<i8>,
+    /// Points along the phase.
+    pub phases: usize,
+    /// Every onset of the harmonic.
+    pub onsets: Vec<OnsetSummary>,
+}
+
+impl WaveOfCycle {
+    /// Which limit cycle of its harmonic.
+    fn family(&self) -> Family {
+        Family { harmonic: self.harmonic, onset: self.onset }
+    }
+}
+
+impl CycleName {
+    /// Part of a file name: `n2`, `n1-onset2` or `mode15`.
+    pub fn tag(&self) -> String {
+        match self {
+            Self::Wave(own) => own.family().tag(),
+            Self::Mode(own) => format!("mode{}", own.mode.mode),
+        }
+    }
+
+    /// The wave, if it is one.
+    pub fn wave(&self) -> Option<&WaveOfCycle> {
+        match self {
+            Self::Wave(wave) => Some(wave),
+            Self::Mode(_) => None,
+        }
+    }
+
+    /// The mode, if it is one.
+    pub fn mode(&self) -> Option<&ModeOfCycle> {
+        match self {
+            Self::Mode(mode) => Some(mode),
+            Self::Wave(_) => None,
+        }
+    }
+}
+
+/// `n = 2`, `n = 1, onset 2` or `mode 15`.
+impl fmt::Display for CycleName {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Wave(own) => own.family().fmt(f),
+            Self::Mode(own) => own.mode.fmt(f),
+        }
+    }
+}
+
+/// Where a wave starts to grow.
+#[derive(Clone, Copy, Debug, PartialEq, Described, Serialize)]
+pub struct OnsetSummary {
+    /// Circumferential harmonic.
+    pub harmonic: usize,
+    /// +1 with the rotor, -1 against it.
+    pub direction: i8,
+    /// Critical friction coefficient.
+    pub critical_friction: f64,
+    /// Frequency, Hz.
+    pub frequency_hz: f64,
+}
+
+impl From<&Onset> for OnsetSummary {
+    fn from(onset: &Onset) -> Self {
+        Self {
+            harmonic: onset.harmonic,
+            direction: onset.direction,
+            critical_friction: onset.friction_coefficient,
+            frequency_hz: onset.frequency / TAU,
+        }
+    }
+}
+
+/// A mode of steady sliding.
+#[derive(Clone, Copy, Debug, PartialEq, Described, Serialize)]
+pub struct ModeSummary {
+    /// Number by frequency, from 1, at the case's own friction coefficient.
+    pub mode: usize,
+    /// Frequency, Hz.
+    pub mode_frequency_hz: f64,
+    /// Growth rate, 1/s.
+    pub growth_rate_per_s: f64,
+}
+
+/// `mode 15`.
+impl fmt::Display for ModeSummary {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "mode {}", self.mode)
+    }
+}
