@@ -289,6 +289,7 @@ fn motions_of_two_frequencies_are_told_with_their_numbers() {
         births: vec![620.7],
         ends: Some(["one wave vanishes", "the range ends"].map(str::to_owned)),
         error: None,
+        ..TwoWaveSummary::default()
     };
     let summary = CycleSummary {
         steady_sliding_stable: false,

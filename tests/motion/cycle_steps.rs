@@ -34,7 +34,7 @@ fn cycles(mesh: &[u8], text: &str, overrides: &[&str]) -> Vec<PeriodicResult> {
 }
 
 fn frequency(results: &[PeriodicResult], mode: usize) -> f64 {
-    let own = results.iter().find(|result| result.mode.mode == mode).unwrap();
+    let own = results.iter().find(|result| result.name.mode.mode == mode).unwrap();
     own.outcome.as_ref().unwrap().motion.frequency_hz
 }
 
@@ -50,7 +50,8 @@ fn a_motion_that_two_modes_lead_to_is_listed_once_at_every_time_step() {
     let steps: [&[&str]; 3] = [&[], &["transient.time_step=2e-6"], &["transient.time_step=1e-6"]];
     for step in steps {
         let results = block.cycles(step);
-        let listed: Vec<_> = results.iter().map(|own| (own.mode.mode, own.same_as)).collect();
+        let listed: Vec<_> =
+            results.iter().map(|own| (own.name.mode.mode, own.name.same_as)).collect();
         assert_eq!(listed, [(5, None), (8, Some(5)), (11, None)], "{step:?}");
     }
 }
@@ -65,8 +66,9 @@ fn a_period_of_no_time_is_no_limit_cycle() {
         [4.5e-7, 0.5, 1e-5],
     );
     for result in block.cycles(&[]) {
-        let ratio = result.outcome.unwrap().motion.frequency_hz / result.mode.mode_frequency_hz;
-        assert!((0.25..4.0).contains(&ratio), "{}: {ratio}", result.mode);
+        let ratio =
+            result.outcome.unwrap().motion.frequency_hz / result.name.mode.mode_frequency_hz;
+        assert!((0.25..4.0).contains(&ratio), "{}: {ratio}", result.name.mode);
     }
 }
 

@@ -1,7 +1,7 @@
 //! Figures of branches of limit cycles, whose curves may turn back.
 
 use super::branch::{BranchRecord, FamilyRecord};
-use super::two_waves::TwoWaveResult;
+use super::two_waves::TwoWaveSummary;
 use crate::charts::palette::{
     CONTACT_DISSIPATION, MATERIAL_DISSIPATION, NORMAL_POWER, SLIDE_POWER, STATUSES, STICK_POWER,
 };
@@ -27,7 +27,7 @@ const POWERS: [(&str, &str); 5] = [
 /// besides the harmonic.
 pub fn draw_branches(
     families: &[(String, FamilyRecord)],
-    two_waves: &[TwoWaveResult],
+    two_waves: &[TwoWaveSummary],
 ) -> Vec<Figure> {
     // A branch of a single cycle is no curve.
     let curves: Vec<Curve<'_>> = families
@@ -85,7 +85,7 @@ const OF_BOTH: [fn(&TwoWaveMotion) -> [f64; 2]; 2] =
 type Column = fn(&BranchRecord) -> &Vec<f64>;
 
 /// Main frequency, amplitude and power of the limit cycles over the parameter, one curve for each family.
-fn frequencies(curves: &[Curve<'_>], two_waves: &[TwoWaveResult]) -> Figure {
+fn frequencies(curves: &[Curve<'_>], two_waves: &[TwoWaveSummary]) -> Figure {
     let (x, scale) = axis_of(curves);
     let extent = curves.first().map_or_else(Extent::default, |curve| curve.branch.extent);
     let frequency = Axis::new("main frequency *f*", "kHz").times(1e-3);

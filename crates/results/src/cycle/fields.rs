@@ -40,9 +40,7 @@ pub(super) fn write_fields(
         let [first, second] = own.harmonics;
         let group = format!("waves of {first} and {second} nodal diameters together");
         let stem = format!("two-waves-n{first}-n{second}");
-        if let Ok(found) = &own.outcome {
-            write(&stem, &group, &found.frames)?;
-        }
+        write(&stem, &group, &own.frames)?;
     }
     if !waves.is_empty() {
         folder.write("cycles.pvd", |out| write_pvd(out, &waves))?;

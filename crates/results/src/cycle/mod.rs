@@ -30,7 +30,7 @@ pub(super) use tables::{
     WAVE_PATH,
 };
 pub(super) use two_waves::TWO_WAVES;
-pub use two_waves::{FoundTwoWaves, TwoWaveResult, TwoWaveSummary};
+pub use two_waves::{TwoWaveRow, TwoWaveSummary};
 pub use verdicts::*;
 pub use waves::{Absence, CycleResult, Finding, FoundWave};
 
@@ -54,8 +54,6 @@ pub struct CycleReport<'a> {
     pub title: &'a str,
     /// The body.
     pub body: ShownBody<'a>,
-    /// Thickness, m: scales powers; 1 of a body in three dimensions.
-    pub thickness: f64,
     /// What powers are of.
     pub extent: Extent,
     /// Friction coefficient of the case.
@@ -68,7 +66,7 @@ pub struct CycleReport<'a> {
     /// One entry for each wave, or for each mode that grows, fastest first.
     pub cycles: Vec<SoughtCycle>,
     /// Motions of two waves that live together.
-    pub two_waves: Vec<TwoWaveResult>,
+    pub two_waves: Vec<TwoWaveSummary>,
     /// Wall time of the run, s.
     pub wall_s: f64,
 }
@@ -109,14 +107,13 @@ impl CycleReport<'_> {
 
     /// The summary.
     pub fn summary(&self) -> CycleSummary {
-        let two_waves = self.two_waves.iter().map(|own| own.summary(self.thickness));
         CycleSummary {
             steady_sliding_stable: self.is_stable(),
             origin: self.origin.clone(),
             critical_value: self.critical.map(CriticalSummary::from),
             extent: self.extent,
             cycles: self.cycles.clone(),
-            two_waves: two_waves.collect(),
+            two_waves: self.two_waves.clone(),
             notes: self.notes(),
             curves: None,
         }
@@ -125,7 +122,7 @@ impl CycleReport<'_> {
     /// Writes all files and gives the summary, as it is and as an object.
     pub fn write(&self, folder: &OutputFolder) -> Result<(CycleSummary, Value), FolderError> {
         let tables = self.cycles.iter().flat_map(|own| own.tables(self.body.is_solid()));
-        let pairs = self.two_waves.iter().filter_map(|own| own.table(self.thickness));
+        let pairs = self.two_waves.iter().filter_map(TwoWaveSummary::table);
         tables.chain(pairs).try_for_each(|table| write_table(folder, &table))?;
         fields::write_fields(folder, self)?;
         let summary = self.summary();

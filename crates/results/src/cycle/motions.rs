@@ -1,7 +1,7 @@
 //! Motions of the whole mesh as limit cycles.
 
 use super::branch::{BranchRow, BranchSummary, MotionBranch, StabilityChangeSummary};
-use super::name::{CycleName, ModeOfCycle, ModeSummary};
+use super::name::{CycleName, ModeOfCycle};
 use super::record::{ContactNode, CycleMotion, MotionRecord, SoundSummary, SteppedMotion};
 use super::summary::SoughtCycle;
 use super::verdicts::{ConfirmationSummary, KnownStability, Perturbation, StabilitySummary, known};
@@ -40,13 +40,9 @@ pub struct FoundCycle {
 #[derive(Clone, Debug)]
 pub struct PeriodicResult {
     /// The mode.
-    pub mode: ModeSummary,
+    pub name: ModeOfCycle,
     /// The cycle, or why there is none.
     pub outcome: Result<FoundCycle, String>,
-    /// Mode that has led to the same cycle before.
-    pub same_as: Option<usize>,
-    /// Case key and value at which the search has started from its mode, where no mode grows at the case's own.
-    pub start: Option<(&'static str, f64)>,
     /// Wall time, s.
     pub wall_s: f64,
 }
@@ -207,13 +203,10 @@ impl FoundCycle {
 impl PeriodicResult {
     /// What is reported of it.
     pub fn sought(self, body: &MotionBody<'_>) -> SoughtCycle {
-        let name = CycleName::Mode(ModeOfCycle {
-            mode: self.mode,
-            same_as: self.same_as,
-            sought_from: self.start.map(|(_, value)| value),
-        });
+        let same_as = self.name.same_as;
+        let name = CycleName::Mode(self.name);
         let sought = SoughtCycle::new(name.clone(), self.wall_s);
-        match (self.outcome, self.same_as) {
+        match (self.outcome, same_as) {
             (Err(error), _) => SoughtCycle { error: Some(error), ..sought },
             (Ok(_), Some(_)) => sought,
             (Ok(found), None) => SoughtCycle {

@@ -48,8 +48,22 @@ pub struct WaveOfCycle {
 }
 
 impl WaveOfCycle {
+    /// Of a family, sought with so many points along the phase, and every onset of its harmonic by rising friction: it
+    /// is born at its own.
+    pub fn new(family: Family, phases: usize, onsets: &[Onset]) -> Self {
+        let birth = onsets.get(family.onset - 1);
+        Self {
+            harmonic: family.harmonic,
+            onset: family.onset,
+            critical_friction: birth.map(|onset| onset.friction_coefficient),
+            direction: birth.map(|onset| onset.direction),
+            phases,
+            onsets: onsets.iter().map(OnsetSummary::from).collect(),
+        }
+    }
+
     /// Which limit cycle of its harmonic.
-    fn family(&self) -> Family {
+    pub fn family(&self) -> Family {
         Family { harmonic: self.harmonic, onset: self.onset }
     }
 }

@@ -13,7 +13,7 @@ use serde::Serialize;
 use std::sync::Arc;
 
 /// `summary.json` of `frictionsim cycle`.
-#[derive(Clone, Debug, PartialEq, Described, Serialize)]
+#[derive(Clone, Debug, Described, Serialize)]
 pub struct CycleSummary {
     /// Whether nothing looked at grows.
     pub steady_sliding_stable: bool,

@@ -3,38 +3,12 @@
 use frictionsim_chart::{INK, Line, Stroke};
 use frictionsim_output::{Described, Table, columns, significant};
 use frictionsim_physics::cycle::periodic::MotionFrame;
-use frictionsim_physics::cycle::{BranchEnd, Measured, TwoWaveBranch, TwoWaveMotion};
+use frictionsim_physics::cycle::{BranchEnd, TwoWaveBranch, TwoWaveMotion, TwoWaveSearch};
 use serde::Serialize;
 use std::f64::consts::TAU;
 
-/// What two waves that may live together come to.
-#[derive(Clone, Debug)]
-pub struct TwoWaveResult {
-    /// Harmonics of the wave that loses its stability and of the one that grows on it.
-    pub harmonics: [usize; 2],
-    /// Their motion, or why there is none.
-    pub outcome: Result<FoundTwoWaves, String>,
-}
-
-/// A motion of two frequencies, and its branch.
-#[derive(Clone, Debug)]
-pub struct FoundTwoWaves {
-    /// The motion.
-    pub motion: TwoWaveMotion,
-    /// Points along both phases.
-    pub sides: [usize; 2],
-    /// A transient that started on it.
-    pub confirmation: Option<Measured>,
-    /// Whether that still has both frequencies within a thousandth.
-    pub is_confirmed: bool,
-    /// Its branch over the case's parameter.
-    pub branch: Option<TwoWaveBranch>,
-    /// The whole field over one period of the first wave; the second is elsewhere by then.
-    pub frames: Vec<MotionFrame>,
-}
-
-/// A motion of two frequencies in the summary.
-#[derive(Clone, Debug, PartialEq, Described, Serialize)]
+/// What two waves that may live together come to: a motion of two frequencies, or nothing.
+#[derive(Clone, Debug, Default, Described, Serialize)]
 pub struct TwoWaveSummary {
     /// Harmonics of both waves.
     pub harmonics: [usize; 2],
@@ -60,24 +34,41 @@ pub struct TwoWaveSummary {
     pub ends: Option<[String; 2]>,
     /// Why there is none.
     pub error: Option<String>,
+    /// Key of the parameter of its branch, where one was asked for.
+    #[serde(skip)]
+    pub key: Option<&'static str>,
+    /// The motions of the branch in its order, or the motion alone.
+    #[serde(skip)]
+    pub rows: Vec<TwoWaveRow>,
+    /// The whole field over one period of the first wave; the second is elsewhere by then.
+    #[serde(skip)]
+    pub frames: Vec<MotionFrame>,
 }
 
-/// A motion of a branch: the parameter, the motion, the thickness.
-type Row = (f64, TwoWaveMotion, f64);
+/// A motion of two waves along a branch.
+#[derive(Clone, Debug)]
+pub struct TwoWaveRow {
+    /// The parameter, in units of its key.
+    pub value: f64,
+    /// The motion.
+    pub motion: TwoWaveMotion,
+    /// Power of the rotor, W.
+    pub external_w: f64,
+}
 
 columns! {
     /// A motion of two waves, behind the parameter.
-    pub(crate) TWO_WAVES: row as Row;
-    frequency_1_hz: "frequency of the first wave" = row.1.frequencies_hz()[0];
-    frequency_2_hz: "frequency of the second" = row.1.frequencies_hz()[1];
-    amplitude_1_m: "amplitude of the first wave along the edge" = row.1.amplitudes[0];
-    amplitude_2_m: "amplitude of the second" = row.1.amplitudes[1];
-    stick: "fraction of the edge that sticks" = row.1.fractions[0];
-    slip: "fraction that slips" = row.1.fractions[1];
-    open: "fraction that is open" = row.1.fractions[2];
-    external_w: "power of the rotor" = row.1.powers.contact.external * row.2;
+    pub(crate) TWO_WAVES: row as TwoWaveRow;
+    frequency_1_hz: "frequency of the first wave" = row.motion.frequencies_hz()[0];
+    frequency_2_hz: "frequency of the second" = row.motion.frequencies_hz()[1];
+    amplitude_1_m: "amplitude of the first wave along the edge" = row.motion.amplitudes[0];
+    amplitude_2_m: "amplitude of the second" = row.motion.amplitudes[1];
+    stick: "fraction of the edge that sticks" = row.motion.fractions[0];
+    slip: "fraction that slips" = row.motion.fractions[1];
+    open: "fraction that is open" = row.motion.fractions[2];
+    external_w: "power of the rotor" = row.external_w;
     balance_residual: "residual of the energy balance, relative to it"
-        = row.1.powers.balance_residual();
+        = row.motion.powers.balance_residual();
 }
 
 columns! {
@@ -99,11 +90,6 @@ columns! {
     error = own.error.clone(), IfAny "why there is none" Plain;
 }
 
-/// Value of the parameter of a branch at a motion, in units of its key.
-fn value(branch: &TwoWaveBranch, motion: &TwoWaveMotion) -> f64 {
-    branch.parameter.in_key_units(branch.parameter.of(&motion.state.point))
-}
-
 /// Why a branch of two waves ends, in words.
 fn described(end: BranchEnd) -> &'static str {
     match end {
@@ -112,43 +98,61 @@ fn described(end: BranchEnd) -> &'static str {
     }
 }
 
-impl TwoWaveResult {
-    /// What the summary says of it.
-    pub(super) fn summary(&self, thickness: f64) -> TwoWaveSummary {
-        let found = self.outcome.as_ref().ok();
-        let motion = found.map(|found| &found.motion);
-        let branch = found.and_then(|found| found.branch.as_ref());
-        let births = branch.map_or(Vec::new(), |branch| {
-            branch.births.iter().map(|&value| branch.parameter.in_key_units(value)).collect()
-        });
-        TwoWaveSummary {
-            harmonics: self.harmonics,
-            frequencies_hz: motion.map(TwoWaveMotion::frequencies_hz),
-            amplitudes_m: motion.map(|motion| motion.amplitudes),
-            status: motion.map(|motion| motion.fractions),
-            points: found.map(|found| found.sides),
-            external_w: motion.map(|motion| motion.powers.contact.external * thickness),
-            balance_residual: motion.map(|motion| motion.powers.balance_residual()),
+impl TwoWaveSummary {
+    /// Of two waves, by their harmonics, of whose motion nothing is known: an error says why.
+    pub fn failed(harmonics: [usize; 2], error: String) -> Self {
+        Self { harmonics, error: Some(error), ..Self::default() }
+    }
+
+    /// Of what a search has led to on a disc of such a thickness, and the branch over the case's parameter.
+    pub fn of(
+        harmonics: [usize; 2],
+        found: &TwoWaveSearch,
+        branch: Option<&TwoWaveBranch>,
+        thickness: f64,
+    ) -> Self {
+        let motion = &found.motion;
+        let row = |value: f64, motion: &TwoWaveMotion| TwoWaveRow {
+            value,
+            motion: motion.clone(),
+            external_w: motion.powers.contact.external * thickness,
+        };
+        let mut own = Self {
+            harmonics,
+            frequencies_hz: Some(motion.frequencies_hz()),
+            amplitudes_m: Some(motion.amplitudes),
+            status: Some(motion.fractions),
+            points: Some(found.waves.sides),
+            external_w: Some(motion.powers.contact.external * thickness),
+            balance_residual: Some(motion.powers.balance_residual()),
             transient_frequencies_hz: found
-                .and_then(|found| found.confirmation)
+                .confirmation
                 .map(|own| own.frequencies.map(|omega| omega / TAU)),
-            is_confirmed: found.map(|found| found.is_confirmed),
-            births,
-            ends: branch.map(|branch| branch.ends.map(|end| described(end).to_owned())),
-            error: self.outcome.as_ref().err().cloned(),
+            is_confirmed: Some(found.agrees()),
+            rows: vec![row(0.0, motion)],
+            ..Self::default()
+        };
+        if let Some(branch) = branch {
+            let parameter = branch.parameter;
+            let in_units = |value: f64| parameter.in_key_units(value);
+            let value = |own: &TwoWaveMotion| in_units(parameter.of(&own.state.point));
+            own.key = Some(parameter.key());
+            own.rows = branch.motions.iter().map(|own| row(value(own), own)).collect();
+            own.births = branch.births.iter().map(|&value| in_units(value)).collect();
+            own.ends = Some(branch.ends.map(|end| described(end).to_owned()));
         }
+        own
     }
 
     /// A quantity of both waves along their branch.
     pub(super) fn curves(&self, quantity: fn(&TwoWaveMotion) -> [f64; 2]) -> Vec<Line> {
-        let found = self.outcome.as_ref().ok();
-        let Some(branch) = found.and_then(|found| found.branch.as_ref()) else {
+        if self.key.is_none() {
             return Vec::new();
-        };
-        let [first, second] = self.harmonics;
+        }
         let curve = |wave: usize| {
-            let motions = branch.motions.iter();
-            Line::through(motions.map(|own| (value(branch, own), quantity(own)[wave])))
+            let points = self.rows.iter().map(|row| (row.value, quantity(&row.motion)[wave]));
+            let [first, second] = self.harmonics;
+            Line::through(points)
                 .stroke(Stroke::dotted(INK, 1.1))
                 .name(format!("*n* = {first} and {second} together"))
         };
@@ -156,24 +160,15 @@ impl TwoWaveResult {
     }
 
     /// The table of its branch, or of the motion alone.
-    pub(super) fn table(&self, thickness: f64) -> Option<Table> {
-        let found = self.outcome.as_ref().ok()?;
+    pub(super) fn table(&self) -> Option<Table> {
+        self.frequencies_hz?;
         let [first, second] = self.harmonics;
-        let rows: Vec<Row> = match &found.branch {
-            Some(branch) => {
-                let rows = branch.motions.iter();
-                rows.map(|own| (value(branch, own), own.clone(), thickness)).collect()
-            }
-            None => vec![(0.0, found.motion.clone(), thickness)],
-        };
-        let key = found.branch.as_ref().map_or("point", |branch| branch.parameter.key());
-        let values = rows.iter().map(|row| row.0);
+        let values = self.rows.iter().map(|row| row.value);
         let name = format!("two-waves-n{first}-n{second}.csv");
-        Some(Table::new(name, "").column(key, None, values).columns(TWO_WAVES, &rows))
+        let table = Table::new(name, "").column(self.key.unwrap_or("point"), None, values);
+        Some(table.columns(TWO_WAVES, &self.rows))
     }
-}
 
-impl TwoWaveSummary {
     fn name(&self) -> String {
         let [first, second] = self.harmonics;
         format!("n = {first} and {second} together")

@@ -2,7 +2,7 @@
 
 use super::branch::{BranchRow, BranchSummary, ModeOfChange, StabilityChangeSummary, WaveBranch};
 use super::motions::mean_powers;
-use super::name::{CycleName, OnsetSummary, WaveOfCycle};
+use super::name::{CycleName, WaveOfCycle};
 use super::record::{CycleMotion, MotionRecord};
 use super::summary::SoughtCycle;
 use super::verdicts::{ConfirmationSummary, KnownStability, Perturbation, StabilitySummary, known};
@@ -10,8 +10,7 @@ use crate::summary::{StatusFractions, present};
 use frictionsim_chart::extremes;
 use frictionsim_physics::cycle::periodic::{MotionFrame, velocity_level};
 use frictionsim_physics::cycle::{
-    Confirmation, CycleBranch, CycleStability, Family, FloquetExponent, LimitCycle, Onset,
-    StabilityChange,
+    Confirmation, CycleBranch, CycleStability, FloquetExponent, LimitCycle, StabilityChange,
 };
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -32,11 +31,7 @@ pub type Finding = Option<Result<CycleStability, String>>;
 #[derive(Clone, Debug)]
 pub struct CycleResult {
     /// Which limit cycle.
-    pub family: Family,
-    /// Every onset of the harmonic, by rising friction; the cycle is born at that of its family.
-    pub onsets: Vec<Onset>,
-    /// Points along the phase.
-    pub phases: usize,
+    pub name: WaveOfCycle,
     /// The cycle at the case's own operating point, or why there is none.
     pub outcome: Result<FoundWave, Absence>,
     /// Wall time of cycle and branch, s.
@@ -117,21 +112,9 @@ fn stability(found: &CycleStability) -> KnownStability {
 }
 
 impl CycleResult {
-    /// The onset that the cycle is born at.
-    pub fn birth(&self) -> Option<&Onset> {
-        self.onsets.get(self.family.onset - 1)
-    }
-
     /// What is reported of it, on a disc of such a thickness and radius of the contact edge.
     pub fn sought(self, thickness: f64, inner_radius: f64) -> SoughtCycle {
-        let name = CycleName::Wave(WaveOfCycle {
-            harmonic: self.family.harmonic,
-            onset: self.family.onset,
-            critical_friction: self.birth().map(|onset| onset.friction_coefficient),
-            direction: self.birth().map(|onset| onset.direction),
-            phases: self.phases,
-            onsets: self.onsets.iter().map(OnsetSummary::from).collect(),
-        });
+        let name = CycleName::Wave(self.name);
         let sought = SoughtCycle::new(name.clone(), self.wall_s);
         match self.outcome {
             Err(Absence { reason, is_stable: true }) => {

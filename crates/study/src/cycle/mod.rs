@@ -8,7 +8,7 @@
 //! let bytes = std::fs::read("cases/limit-cycle.toml")?;
 //! let case = Case::parse("disc", &bytes, &["cycle.stability=\"none\"".to_owned()])?;
 //! for result in CycleStudy::new(&case, SimdLevel::detect())?.run(0, &|| {}) {
-//!     println!("{}: {:?} Hz", result.family, result.outcome.map(|own| own.cycle.frequency_hz()));
+//!     println!("{}: {:?} Hz", result.name.family(), result.outcome.map(|own| own.cycle.frequency_hz()));
 //! }
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
@@ -37,8 +37,8 @@ use frictionsim_physics::fem::operator::SimdLevel;
 use frictionsim_physics::mesh::AnnulusMesh;
 use frictionsim_results::ShownBody;
 use frictionsim_results::cycle::{
-    Absence, CycleReport, CycleResult, FoundWave, OnsetSummary, Origin, SoughtCycle, TwoWaveResult,
-    known,
+    Absence, CycleReport, CycleResult, FoundWave, OnsetSummary, Origin, SoughtCycle,
+    TwoWaveSummary, WaveOfCycle, known,
 };
 use std::time::Instant;
 
@@ -109,9 +109,7 @@ impl<'a> CycleStudy<'a> {
             };
             done();
             CycleResult {
-                family,
-                onsets: self.onsets_of(family.harmonic),
-                phases,
+                name: WaveOfCycle::new(family, phases, &self.onsets_of(family.harmonic)),
                 outcome,
                 wall_s: start.elapsed().as_secs_f64(),
             }
@@ -136,7 +134,7 @@ impl<'a> CycleStudy<'a> {
     pub fn report(
         &self,
         results: Vec<CycleResult>,
-        two_waves: Vec<TwoWaveResult>,
+        two_waves: Vec<TwoWaveSummary>,
         wall_s: f64,
     ) -> CycleReport<'_> {
         let (thickness, radius) = (self.case.thickness, self.annulus.specification.inner_radius);
@@ -144,7 +142,6 @@ impl<'a> CycleStudy<'a> {
         CycleReport {
             title: &self.case.title,
             body: ShownBody { mesh: &self.annulus.mesh, sector: None },
-            thickness,
             extent: extent_of(self.case),
             friction_coefficient: self.point.contact.friction_coefficient,
             critical: self.critical,

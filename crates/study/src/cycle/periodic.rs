@@ -20,7 +20,7 @@ use frictionsim_physics::cycle::{Confirmation, CriticalValue, CycleError, Parame
 use frictionsim_physics::fem::operator::{SimdLevel, StiffnessOperator};
 use frictionsim_physics::transient::{OperatorChoice, TransientError, TransientModel};
 use frictionsim_results::cycle::{
-    CycleReport, FoundCycle, ModeSummary, MotionBody, Origin, PeriodicResult,
+    CycleReport, FoundCycle, ModeOfCycle, ModeSummary, MotionBody, Origin, PeriodicResult,
 };
 use std::time::Instant;
 
@@ -186,10 +186,12 @@ impl<'a> PeriodicStudy<'a> {
             let start = Instant::now();
             let outcome = self.solve(operator.as_ref(), place, frames, watch);
             let result = PeriodicResult {
-                mode: sought(&self.steady, place),
+                name: ModeOfCycle {
+                    mode: sought(&self.steady, place),
+                    same_as: None,
+                    sought_from: self.named_start().map(|(_, value)| value),
+                },
                 outcome: outcome.map_err(|error| error.to_string()),
-                same_as: None,
-                start: self.named_start(),
                 wall_s: start.elapsed().as_secs_f64(),
             };
             done(&result);
@@ -304,7 +306,6 @@ impl<'a> PeriodicStudy<'a> {
         CycleReport {
             title: &self.case.title,
             body: shown,
-            thickness,
             extent: extent_of(self.case),
             friction_coefficient: self.case.contact.sliding.friction_coefficient,
             critical: self.critical,
@@ -376,8 +377,8 @@ fn name_repeated(results: &mut [PeriodicResult]) {
         };
         let same = known.iter().find(|result| {
             let other = result.outcome.as_ref();
-            result.same_as.is_none() && other.is_ok_and(|other| other.motion.is(&own.motion))
+            result.name.same_as.is_none() && other.is_ok_and(|other| other.motion.is(&own.motion))
         });
-        rest[0].same_as = same.map(|result| result.mode.mode);
+        rest[0].name.same_as = same.map(|result| result.name.mode.mode);
     }
 }

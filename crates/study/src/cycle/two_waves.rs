@@ -2,27 +2,31 @@
 
 use super::{CycleStudy, frames};
 use frictionsim_physics::cea::{PartWatch, SweepWatch};
-use frictionsim_physics::cycle::{CycleSolver, LimitCycle, MeshStepping, Verdict};
-use frictionsim_results::cycle::{CycleResult, FoundTwoWaves, TwoWaveResult, known};
+use frictionsim_physics::cycle::{CycleError, CycleSolver, LimitCycle, Verdict};
+use frictionsim_results::cycle::{CycleResult, TwoWaveSummary, known};
 
 impl CycleStudy<'_> {
     /// For each family the motion in which its wave and the one that grows on it live together: from the cycle at the
     /// case's own operating point where it is unstable, else from the first unstable one of its branch. `watch` keeps
     /// what is done for a search that goes on after an interruption.
-    pub fn two_waves(&self, results: &[CycleResult], watch: &dyn SweepWatch) -> Vec<TwoWaveResult> {
+    pub fn two_waves(
+        &self,
+        results: &[CycleResult],
+        watch: &dyn SweepWatch,
+    ) -> Vec<TwoWaveSummary> {
         if !self.choices.two_frequencies {
             return Vec::new();
         }
         let solvers = self.solvers.iter().zip(results);
         let solvers = solvers.filter_map(|(solver, result)| Some((solver.as_ref().ok()?, result)));
-        let mut found: Vec<TwoWaveResult> = Vec::new();
+        let mut found: Vec<TwoWaveSummary> = Vec::new();
         for (solver, result) in solvers {
             let Some((cycle, second)) = loses_to_another(result) else {
                 continue;
             };
-            let harmonics = [result.family.harmonic, second];
-            let is_same = |own: &&TwoWaveResult| {
-                own.outcome.is_ok() && own.harmonics == [harmonics[1], harmonics[0]]
+            let harmonics = [result.name.harmonic, second];
+            let is_same = |own: &&TwoWaveSummary| {
+                own.error.is_none() && own.harmonics == [harmonics[1], harmonics[0]]
             };
             if found.iter().find(is_same).is_none() {
                 let [first, second] = harmonics;
@@ -43,14 +47,12 @@ impl CycleStudy<'_> {
         cycle: &LimitCycle,
         harmonics: [usize; 2],
         watch: &dyn SweepWatch,
-    ) -> TwoWaveResult {
+    ) -> TwoWaveSummary {
         let onset = self.onsets_of(harmonics[1]).into_iter().next();
         let direction = onset.map_or(-1, |onset| isize::from(onset.direction));
         let second = -direction * harmonics[1] as isize;
-        let stepping = solver.stepping(self.simd).map_err(|error| error.to_string());
-        let search = |stepping: &MeshStepping<'_>| {
-            let found = stepping.two_waves(cycle, second, None, watch);
-            let found = found.map_err(|error| error.to_string())?;
+        let search = || {
+            let found = solver.stepping(self.simd)?.two_waves(cycle, second, None, watch)?;
             let (waves, motion) = (&found.waves, &found.motion);
             let branch = self.continuation.as_ref();
             let branch =
@@ -58,16 +60,13 @@ impl CycleStudy<'_> {
             // Over one period of the first wave; the second has moved on by then.
             let period = 1.0 / motion.frequencies_hz()[0];
             let frames = frames(|time| waves.field(motion, time), period, self.choices.frames);
-            Ok(FoundTwoWaves {
-                is_confirmed: found.agrees(),
-                confirmation: found.confirmation,
-                sides: found.waves.sides,
-                frames,
-                motion: found.motion,
-                branch,
-            })
+            let thickness = self.case.thickness;
+            let own = TwoWaveSummary::of(harmonics, &found, branch.as_ref(), thickness);
+            Ok(TwoWaveSummary { frames, ..own })
         };
-        TwoWaveResult { harmonics, outcome: stepping.and_then(|stepping| search(&stepping)) }
+        search().unwrap_or_else(|error: CycleError| {
+            TwoWaveSummary::failed(harmonics, error.to_string())
+        })
     }
 }
 
@@ -79,7 +78,7 @@ fn loses_to_another(result: &CycleResult) -> Option<(&LimitCycle, usize)> {
     let along = branch.zip(&found.branch_stability);
     [(&found.cycle, &found.stability)].into_iter().chain(along).find_map(|(cycle, finding)| {
         let leading = known(finding)?.leading()?;
-        let is_other = leading.harmonic != result.family.harmonic && leading.harmonic > 0;
+        let is_other = leading.harmonic != result.name.harmonic && leading.harmonic > 0;
         (leading.verdict() == Verdict::Unstable && is_other).then_some((cycle, leading.harmonic))
     })
 }
