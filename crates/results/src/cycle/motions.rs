@@ -11,8 +11,8 @@ use crate::summary::{MeanPowers, StatusFractions, present};
 use frictionsim_chart::extremes;
 use frictionsim_physics::contact::ContactInterface;
 use frictionsim_physics::cycle::periodic::{
-    BranchMotion, ContactInstant, FloquetMultiplier, FloquetMultipliers, PeriodicBranch,
-    PeriodicMotion, REMAINDER, Sound, velocity_level,
+    ContactInstant, FloquetMultiplier, FloquetMultipliers, PeriodicBranch, PeriodicMotion,
+    REMAINDER, Sound, velocity_level,
 };
 use frictionsim_physics::cycle::{Confirmation, CyclePowers, PhasePoint, Verdict};
 use std::f64::consts::TAU;
@@ -116,27 +116,23 @@ impl MotionBody<'_> {
         }
     }
 
-    fn branch_row(&self, branch: &PeriodicBranch, own: &BranchMotion) -> BranchRow {
-        // The histories and harmonics of a branch are not kept.
-        let motion = CycleMotion {
-            balance_residual: own.motion.powers.scaled(self.thickness).balance_residual(),
-            ..self.motion(&own.motion, 0)
-        };
-        BranchRow {
-            value: branch.parameter.in_key_units(own.value),
-            harmonic: None,
-            motion,
-            growth_rate: own.growth_rate(),
-            verdict: known(&own.stability).map(FloquetMultipliers::verdict),
-            is_fold: Some(own.is_fold),
-        }
-    }
-
     fn branch(&self, branch: &PeriodicBranch) -> BranchSummary {
         let in_units = |value: f64| branch.parameter.in_key_units(value);
         let coexistence = branch.coexistence().into_iter();
         let changes = branch.stability_changes().into_iter();
-        let rows = branch.motions.iter().map(|own| self.branch_row(branch, own));
+        let rows = branch.motions.iter().map(|own| BranchRow {
+            value: in_units(own.value),
+            harmonic: None,
+            // The histories and harmonics of a branch are not kept.
+            motion: CycleMotion {
+                balance_residual: own.motion.powers.scaled(self.thickness).balance_residual(),
+                ..self.motion(&own.motion, 0)
+            },
+            growth_rate: own.growth_rate(),
+            verdict: known(&own.stability).map(FloquetMultipliers::verdict),
+            is_fold: Some(own.is_fold),
+        });
+        let own_value = in_units(branch.own);
         BranchSummary {
             folds: branch.folds().into_iter().map(in_units).collect(),
             stability_changes: changes.map(|at| StabilityChangeSummary::At(in_units(at))).collect(),
@@ -145,22 +141,17 @@ impl MotionBody<'_> {
                 coexistence: coexistence.map(|ends| ends.map(in_units)).collect(),
             }),
             threshold: branch.threshold().map(|own| [own.amplitude, own.kick_velocity()]),
-            ..BranchSummary::new(
-                branch.parameter,
-                in_units(branch.own),
-                branch.ends,
-                rows.collect(),
-            )
+            ..BranchSummary::new(branch.parameter, own_value, branch.ends, rows.collect())
         }
     }
 }
 
 impl FoundCycle {
-    fn summary(&self, body: &MotionBody<'_>) -> CycleMotion {
+    /// What it is, with the kick that tips stable sliding into it.
+    fn summary(&self, body: &MotionBody<'_>, kick_velocity: Option<f64>) -> CycleMotion {
         let mut cycle = body.motion(&self.motion, self.harmonic_count);
         if let Some(stepped) = &mut cycle.stepped {
-            let threshold = self.branch.as_ref().and_then(PeriodicBranch::threshold);
-            stepped.kick_velocity = threshold.map(PeriodicMotion::kick_velocity);
+            stepped.kick_velocity = kick_velocity;
             stepped.sound = self.sound.as_ref().map(|sound| SoundSummary {
                 power_w: sound.power(),
                 level_db: sound.level(),
@@ -209,17 +200,21 @@ impl PeriodicResult {
         match (self.outcome, same_as) {
             (Err(error), _) => SoughtCycle { error: Some(error), ..sought },
             (Ok(_), Some(_)) => sought,
-            (Ok(found), None) => SoughtCycle {
-                cycle: Some(found.summary(body)),
-                confirmation: found.confirmation.as_ref().map(|run| {
-                    let agrees = run.agrees_with(&found.motion);
-                    ConfirmationSummary::ran(run, agrees, body.thickness)
-                }),
-                stability: StabilitySummary::of(&found.stability, stability),
-                branch: found.branch.as_ref().map(|branch| body.branch(branch)),
-                record: Some(Arc::new(found.record(name, body))),
-                ..sought
-            },
+            (Ok(found), None) => {
+                let branch = found.branch.as_ref().map(|branch| body.branch(branch));
+                let kick = branch.as_ref().and_then(|branch| Some(branch.threshold?[1]));
+                SoughtCycle {
+                    cycle: Some(found.summary(body, kick)),
+                    confirmation: found.confirmation.as_ref().map(|run| {
+                        let agrees = run.agrees_with(&found.motion);
+                        ConfirmationSummary::ran(run, agrees, body.thickness)
+                    }),
+                    stability: StabilitySummary::of(&found.stability, stability),
+                    branch,
+                    record: Some(Arc::new(found.record(name, body))),
+                    ..sought
+                }
+            }
         }
     }
 }
