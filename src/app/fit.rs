@@ -2,9 +2,9 @@
 
 use super::{Failure, RunOptions, Session, input_name, read_input};
 use crate::case::hash_of;
-use crate::results::fit::BLOCK;
+use crate::results::fit::{BLOCK, FitSummary};
 use crate::signal::reader::{MeasuredShape, read_modes, read_shapes};
-use crate::study::fit::{MeasuredShapes, fit_case, refuse_too_few, summarize};
+use crate::study::fit::{MeasuredShapes, fit_case, refuse_too_few};
 use clap::{Args, ValueHint};
 use frictionsim_bounds::MEASUREMENT;
 use std::path::{Path, PathBuf};
@@ -45,10 +45,8 @@ pub(super) fn run(asked: &Arguments) -> Result<(), Failure> {
     refuse_too_few(&session.case, &lines)?;
     let folder = session.begin()?;
 
-    let case = &session.case;
-    let fitted = fit_case(case, &lines, shapes)?;
-    let mut found = summarize(case, &lines, &fitted)?;
-    found.measurement = input_name(&asked.modes);
+    let found = fit_case(&session.case, &lines, shapes)?;
+    let found = FitSummary { measurement: input_name(&asked.modes), ..found };
     for note in &found.notes {
         tracing::warn!("{note}");
     }

@@ -68,8 +68,9 @@ fn coverage(case: &Case, limit_hz: f64, noise: [f64; 2], seeds: u64) -> Vec<usiz
             measured_mode(k + 1, frequency_hz, Some(real_hz))
         });
         let fitted = fit_case(case, &lines.collect::<Vec<_>>(), None).unwrap();
-        for ((hit, estimate), truth) in hits.iter_mut().zip(&fitted.parameters).zip(&truth) {
-            let [low, high] = estimate.interval.unwrap();
+        let estimates = fitted.parameters.values();
+        for ((hit, estimate), truth) in hits.iter_mut().zip(estimates).zip(&truth) {
+            let (low, high) = estimate.low.zip(estimate.high).unwrap();
             *hit += usize::from(low <= *truth && *truth <= high);
         }
     }
@@ -167,14 +168,14 @@ fn shapes_tell_modes_apart_that_cross() {
         fit(&problem).unwrap()
     };
     let alone = with([None, None]);
-    assert!(!alone.others.is_empty(), "{alone:?}");
+    assert!(!alone.other_minima.is_empty(), "{alone:?}");
     let swapped = [Some(1), Some(0)];
     for (shape_of, expected) in [([Some(0), Some(1)], truth), (swapped, 2.4 - truth)] {
         let fitted = with(shape_of);
-        let value = fitted.parameters[0].value;
+        let value = fitted.parameters["p"].value;
         assert!((value - expected).abs() < 1e-3, "{value} {expected}");
-        assert!(fitted.others.is_empty(), "{:?}", fitted.others);
-        let assured = fitted.lines.iter().map(|line| line.assurance.unwrap());
+        assert!(fitted.other_minima.is_empty(), "{:?}", fitted.other_minima);
+        let assured = fitted.residuals.iter().map(|line| line.mac.unwrap());
         assert!(assured.clone().all(|mac| mac > 0.9));
     }
 }

@@ -116,8 +116,9 @@ fn nine_constants_of_a_lining_come_out_of_its_free_modes() {
         // Parameters come in the order of their keys.
         let mut keys: Vec<(&str, f64)> = CONSTANTS.to_vec();
         keys.sort_by_key(|(key, _)| *key);
-        for (k, (estimate, (key, exact))) in found.parameters.iter().zip(&keys).enumerate() {
-            let [low, high] = estimate.interval.unwrap_or_else(|| panic!("{key}"));
+        for (k, (estimate, (key, exact))) in found.parameters.values().zip(&keys).enumerate() {
+            let interval = estimate.low.zip(estimate.high);
+            let (low, high) = interval.unwrap_or_else(|| panic!("{key}"));
             inside[k] += u32::from(low <= *exact && *exact <= high);
             // At its bounds it would have no interval of its own.
             let ratio = estimate.value / exact;

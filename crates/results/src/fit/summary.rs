@@ -11,7 +11,7 @@ use std::fmt::Write as _;
 pub const BLOCK: &str = "fitted.toml";
 
 /// `summary.json` of a fit.
-#[derive(Clone, Debug, Described, Serialize)]
+#[derive(Clone, Debug, Default, Described, Serialize)]
 pub struct FitSummary {
     /// The table of measured modes.
     pub measurement: String,
@@ -42,7 +42,7 @@ pub struct FitSummary {
 }
 
 /// One fitted parameter.
-#[derive(Clone, Debug, Described, Serialize)]
+#[derive(Clone, Debug, Default, Described, Serialize)]
 pub struct FittedParameter {
     /// Its value.
     pub value: f64,
@@ -113,7 +113,7 @@ pub(crate) const MEASURED: &[Column<LineSummary>] = parted(LINES, "difference_hz
 pub(crate) const DIFFERENCES: &[Column<LineSummary>] = parted(LINES, "difference_hz").1;
 
 /// How a minimum was found.
-#[derive(Clone, Copy, Debug, Described, Serialize)]
+#[derive(Clone, Copy, Debug, Default, Described, Serialize)]
 pub struct SearchSummary {
     /// Points looked at.
     pub starts: usize,

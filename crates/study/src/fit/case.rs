@@ -1,13 +1,11 @@
 //! The parameters that a case asks to be fitted.
 
 use super::free_part::{STEP, free_part, rates};
-use super::{
-    BoundedParameter, FitError, FitProblem, Fitted, MeasuredMode, MeasuredShapes, ModelMode, fit,
-    summary,
-};
+use super::notes::notes;
+use super::{BoundedParameter, FitError, FitProblem, MeasuredMode, MeasuredShapes, ModelMode, fit};
 use crate::eigenvalues::{Solver, analysis, rates_of_waves};
 use crate::{StudyError, eigenvalues};
-use frictionsim_case::{Case, Cea, Fit, FitParameter, Spacing};
+use frictionsim_case::{Case, Cea, Fit, FitParameter, Spacing, find_key};
 use frictionsim_physics::cea::cyclic::{WavePair, WaveSweep, wave_pairs};
 use frictionsim_physics::cea::{ComplexMode, ModeBranch};
 use frictionsim_physics::linalg::c64;
@@ -21,7 +19,8 @@ fn limit_hz(lines: &[MeasuredMode]) -> f64 {
     MARGIN * lines.iter().map(|line| line.frequency_hz).fold(0.0, f64::max)
 }
 
-/// Fits the parameters of a case to measured modes, with measured shapes of some of the lines.
+/// Fits the parameters of a case to measured modes, with measured shapes of some of the lines. The name of the measurement
+/// is left open.
 ///
 /// # Errors
 /// A case without `[fit]`; a fit that cannot be made; shapes that belong to no line, points off the body.
@@ -29,7 +28,7 @@ pub fn fit_case(
     case: &Case,
     lines: &[MeasuredMode],
     shapes: Option<MeasuredShapes<'_>>,
-) -> Result<Fitted, StudyError> {
+) -> Result<FitSummary, StudyError> {
     let wanted = case.require_fit()?;
     if let Some(cea) = &case.cea {
         // What every point would be refused for.
@@ -57,21 +56,22 @@ pub fn fit_case(
         starts: wanted.starts,
         own: own.collect(),
     };
-    Ok(fit(&problem)?)
-}
+    let mut found = fit(&problem)?;
 
-/// The summary of a fit, without its source.
-///
-/// # Errors
-/// A case without `[fit]`.
-pub fn summarize(
-    case: &Case,
-    lines: &[MeasuredMode],
-    fitted: &Fitted,
-) -> Result<FitSummary, StudyError> {
+    // What the case says of the parameters.
+    for FitParameter { parameter, .. } in &wanted.parameters {
+        if let Some(fitted) = found.parameters.get_mut(&parameter.key) {
+            fitted.also.clone_from(&parameter.also);
+            fitted.unit = find_key(&parameter.key).map_or("", |known| known.unit).to_owned();
+        }
+    }
     // The case as it is written need not have a solution.
-    let before = eigenvalues::modes_below(case, limit_hz(lines)).unwrap_or_default();
-    Ok(summary::of(case, case.require_fit()?, fitted, &before))
+    let before = eigenvalues::modes_below(case, limit_hz).unwrap_or_default();
+    let told = |mode: &ComplexMode| ModelMode::of(mode, case.has_sectors()).told();
+    found.modes_of_case = before.iter().map(told).collect();
+    found.friction_coefficient = case.contact.sliding.friction_coefficient;
+    found.notes = notes(case, wanted, &found);
+    Ok(found)
 }
 
 /// Lines of a table of modes beyond which it is hardly one: assigning them to modes grows with the cube of their

@@ -1,11 +1,13 @@
 //! The search from several points, and what is known of its result.
 
-use super::interval::{Estimate, estimates};
+use super::interval::estimates;
 use super::levenberg_marquardt::{KINDS, Squares, Trial};
 use super::matching::{Weights, differences};
 use super::{FitError, FitProblem, MeasuredMode, ModelMode};
 use crate::sobol::ScrambledSobol;
+use frictionsim_results::fit::{FitSummary, LineSummary, SearchSummary};
 use frictionsim_signal::student_95;
+use std::collections::BTreeMap;
 
 /// Starting points from which the search goes on.
 const DESCENTS: usize = 4;
@@ -19,38 +21,7 @@ const LARGEST_DIFFERENCE: f64 = 0.25;
 /// Distance of two minima, in units of the bounds, from which on they are two.
 const DISTINCT: f64 = 0.02;
 
-/// One line and its mode.
-#[derive(Clone, Debug, PartialEq)]
-pub struct LineFit {
-    /// The line.
-    pub measured: MeasuredMode,
-    /// Its mode.
-    pub mode: ModelMode,
-    /// Modal assurance criterion of the line's shape and the mode, if it has one.
-    pub assurance: Option<f64>,
-}
-
-/// A model fitted to measured modes.
-#[derive(Clone, Debug)]
-pub struct Fitted {
-    /// The parameters, in their order.
-    pub parameters: Vec<Estimate>,
-    /// Correlations of the estimates; 0 with one on its bound.
-    pub correlations: Vec<Vec<f64>>,
-    /// The lines.
-    pub lines: Vec<LineFit>,
-    /// All modes of the fitted model.
-    pub modes: Vec<ModelMode>,
-    /// Root mean square of the differences of frequencies, and of real parts where measured, as shares of the
-    /// frequency.
-    pub scatter: [Option<f64>; 2],
-    /// Values of the parameters at other minima that the data cannot tell from the best.
-    pub others: Vec<Vec<f64>>,
-    /// Starting points, searches, those that ended at this minimum.
-    pub searches: [usize; 3],
-}
-
-/// Fits the parameters.
+/// Fits the parameters. What only a case can tell (its friction, units, modes as it is written, notes) is left out.
 ///
 /// Without `sigma_hz` differences weigh as shares of the frequency; frequencies and real parts scatter each by their
 /// own measure where there are eight of each or more, so that the weight between the two is the data's own. Intervals
@@ -58,7 +29,7 @@ pub struct Fitted {
 ///
 /// # Errors
 /// [`FitError`].
-pub fn fit(problem: &FitProblem<'_>) -> Result<Fitted, FitError> {
+pub fn fit(problem: &FitProblem<'_>) -> Result<FitSummary, FitError> {
     let (data, count) = (problem.data_count(), problem.parameters.len());
     if data < count {
         return Err(FitError::too_few_data(count, data));
@@ -89,14 +60,20 @@ pub fn fit(problem: &FitProblem<'_>) -> Result<Fitted, FitError> {
     let (parameters, correlations) = estimates(&squares, &best, degrees).map_err(failed)??;
     let is_here = |trial: &&Trial| distance(&trial.places, &first.places) <= DISTINCT;
     let here = minima.iter().filter(is_here).count();
-    Ok(Fitted {
+    let [frequency_scatter, real_scatter] = scatter(problem, &best);
+    let residuals = lines(problem, &best);
+    let worst = residuals.iter().map(|line| line.difference_percent.abs());
+    Ok(FitSummary {
         parameters,
         correlations,
-        others: other_minima(problem, &minima),
-        scatter: scatter(problem, &best),
-        lines: line_fits(problem, &best),
-        modes: best.modes,
-        searches: [points.len(), searched, here],
+        worst_percent: worst.fold(0.0, f64::max),
+        residuals,
+        frequency_scatter,
+        real_scatter,
+        other_minima: other_minima(problem, &minima),
+        search: SearchSummary { starts: points.len(), searches: searched, arrived: here },
+        modes: best.modes.iter().map(ModelMode::told).collect(),
+        ..FitSummary::default()
     })
 }
 
@@ -211,7 +188,7 @@ fn distance(a: &[f64], b: &[f64]) -> f64 {
 }
 
 /// Minima whose sum of squares lies within the joint 95 % region of the best one, each once.
-fn other_minima(problem: &FitProblem<'_>, minima: &[Trial]) -> Vec<Vec<f64>> {
+fn other_minima(problem: &FitProblem<'_>, minima: &[Trial]) -> Vec<BTreeMap<String, f64>> {
     let count = problem.parameters.len() as f64;
     let degrees = problem.data_count() as f64 - count;
     if degrees < 1.0 || minima.is_empty() {
@@ -224,7 +201,7 @@ fn other_minima(problem: &FitProblem<'_>, minima: &[Trial]) -> Vec<Vec<f64>> {
             kept.push(trial);
         }
     }
-    kept[1..].iter().map(|trial| problem.values(&trial.places)).collect()
+    kept[1..].iter().map(|trial| problem.by_key(problem.values(&trial.places))).collect()
 }
 
 fn refuse_unmatched(problem: &FitProblem<'_>, best: &Trial) -> Result<(), FitError> {
@@ -257,13 +234,23 @@ fn described(mode: &ModelMode) -> String {
     format!("{harmonic}{:.0} Hz, growth {:+.1} Hz", mode.frequency_hz(), mode.real_hz())
 }
 
-fn line_fits(problem: &FitProblem<'_>, best: &Trial) -> Vec<LineFit> {
+/// Each line with its mode.
+fn lines(problem: &FitProblem<'_>, best: &Trial) -> Vec<LineSummary> {
     let lines = problem.lines.iter().zip(best.of_lines()).zip(&problem.shape_of);
-    let matched = lines.filter_map(|((line, mode), shape)| {
-        Some(LineFit {
-            measured: *line,
-            mode: mode?.clone(),
-            assurance: shape.and_then(|shape| mode?.assurances.get(shape).copied()),
+    let matched = lines.filter_map(|((measured, mode), shape)| {
+        let own = mode?.told();
+        let difference_hz = own.frequency_hz - measured.frequency_hz;
+        Some(LineSummary {
+            line: measured.line,
+            frequency_hz: measured.frequency_hz,
+            real_hz: measured.real_hz,
+            harmonic: measured.harmonic,
+            unstable: measured.is_unstable,
+            difference_hz,
+            difference_percent: 100.0 * difference_hz / measured.frequency_hz,
+            real_difference_hz: measured.real_hz.map(|real| own.real_hz - real),
+            mac: shape.and_then(|shape| mode?.assurances.get(shape).copied()),
+            mode: own,
         })
     });
     matched.collect()

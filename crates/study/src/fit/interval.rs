@@ -2,26 +2,19 @@
 
 use super::levenberg_marquardt::{Squares, Trial};
 use super::{BoundedParameter, FitError};
+use frictionsim_results::fit::FittedParameter;
 use frictionsim_signal::student_95;
 use nalgebra::DMatrix;
+use std::collections::BTreeMap;
 
 /// Least ratio of singular values of what the data see.
 const BLIND: f64 = 1e-6;
 
-/// One parameter.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Estimate {
-    /// Its value.
-    pub value: f64,
-    /// 95 % interval; `None` where the value lies on a bound, or no data are left to tell the scatter.
-    pub interval: Option<[f64; 2]>,
-    /// The bound that it lies on.
-    pub at_bound: Option<f64>,
-}
+/// The parameters by their keys, and their correlations by key and key.
+type Estimates = (BTreeMap<String, FittedParameter>, BTreeMap<String, BTreeMap<String, f64>>);
 
-type Estimates = (Vec<Estimate>, Vec<Vec<f64>>);
-
-/// Values, intervals and correlations from the derivatives at the minimum.
+/// Values, intervals and correlations from the derivatives at the minimum. A value on a bound has no interval, nor has any
+/// where no data are left to tell the scatter; one on its bound has no correlations.
 pub fn estimates(
     squares: &Squares<'_>,
     best: &Trial,
@@ -44,29 +37,29 @@ pub fn estimates(
         let quantile = student_95(degrees.min(most_degrees));
         Some(quantile * (variance * covariance[(k, k)]).sqrt())
     };
-    let mut all: Vec<Estimate> = parameters
-        .iter()
-        .zip(&best.places)
-        .map(|(parameter, &place)| Estimate {
-            value: parameter.value(place),
-            interval: None,
-            at_bound: is_on_bound(place).then(|| parameter.value(place)),
-        })
-        .collect();
+    let at_place = |(parameter, &place): (&BoundedParameter, &f64)| FittedParameter {
+        value: parameter.value(place),
+        bounds: [parameter.from, parameter.to],
+        at_bound: is_on_bound(place).then(|| parameter.value(place)),
+        ..FittedParameter::default()
+    };
+    let mut all: Vec<FittedParameter> = parameters.iter().zip(&best.places).map(at_place).collect();
     let mut correlations = vec![vec![0.0; parameters.len()]; parameters.len()];
     for k in 0..parameters.len() {
         correlations[k][k] = 1.0;
     }
     for (i, &k) in free.iter().enumerate() {
         let (place, parameter) = (best.places[k], &parameters[k]);
-        all[k].interval =
-            half_width(i).map(|half| [place - half, place + half].map(|p| parameter.value(p)));
+        let half = half_width(i);
+        all[k].low = half.map(|half| parameter.value(place - half));
+        all[k].high = half.map(|half| parameter.value(place + half));
         for (j, &l) in free.iter().enumerate() {
             let of = |c: &DMatrix<f64>| c[(i, j)] / (c[(i, i)] * c[(j, j)]).sqrt();
             correlations[k][l] = covariance.as_ref().map_or(0.0, of);
         }
     }
-    Ok(Ok((all, correlations)))
+    let correlations = correlations.into_iter().map(|row| problem.by_key(row));
+    Ok(Ok((problem.by_key(all), problem.by_key(correlations))))
 }
 
 /// The direction in which no measured number changes, in words.

@@ -19,18 +19,19 @@ mod free_part;
 mod interval;
 mod levenberg_marquardt;
 mod matching;
+mod notes;
 mod shapes;
-mod summary;
 
-pub use case::{fit_case, refuse_too_few, summarize};
-pub use estimate::{Fitted, LineFit, fit};
+pub use case::{fit_case, refuse_too_few};
+pub use estimate::fit;
 pub use frictionsim_signal::reader::MeasuredMode;
-pub use interval::Estimate;
 pub(crate) use matching::least_cost;
 pub use shapes::MeasuredShapes;
 
 use frictionsim_physics::cea::ComplexMode;
 use frictionsim_physics::linalg::c64;
+use frictionsim_results::fit::ModeSummary;
+use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 
 /// A mode of the model at some values of the parameters.
@@ -73,6 +74,17 @@ impl ModelMode {
         self.eigenvalue.re / TAU
     }
 
+    /// The mode in the words of the results.
+    fn told(&self) -> ModeSummary {
+        ModeSummary {
+            harmonic: self.harmonic,
+            branch: self.branch,
+            direction: self.direction,
+            frequency_hz: self.frequency_hz(),
+            real_hz: self.real_hz(),
+        }
+    }
+
     fn name(&self) -> (Option<usize>, usize, i8) {
         (self.harmonic, self.branch, self.direction)
     }
@@ -81,7 +93,7 @@ impl ModelMode {
 /// A parameter between its bounds.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BoundedParameter {
-    /// What messages call it.
+    /// Its key, in results and messages.
     pub name: String,
     /// Lower bound.
     pub from: f64,
@@ -160,6 +172,11 @@ impl FitProblem<'_> {
     fn values(&self, places: &[f64]) -> Vec<f64> {
         let pairs = self.parameters.iter().zip(places);
         pairs.map(|(parameter, place)| parameter.value(*place)).collect()
+    }
+
+    /// What the parameters have, by their keys.
+    fn by_key<T>(&self, each: impl IntoIterator<Item = T>) -> BTreeMap<String, T> {
+        self.parameters.iter().map(|parameter| parameter.name.clone()).zip(each).collect()
     }
 
     /// Real numbers measured.
