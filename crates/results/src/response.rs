@@ -12,7 +12,7 @@ use serde::Serialize;
 use std::io;
 
 /// `summary.json` of `frictionsim frf`.
-#[derive(Clone, Debug, PartialEq, Described, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Described, Serialize)]
 pub struct ResponseSummary {
     /// What was computed, in a sentence.
     pub description: String,

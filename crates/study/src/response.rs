@@ -7,7 +7,7 @@
 //! let bytes = std::fs::read("cases/hammer-test.toml")?;
 //! let case = Case::parse("hammer", &bytes, &[])?;
 //! let response = FrequencyStudy::new(&case)?.solve(&|_| {})?;
-//! println!("{} unknowns, {:?} m/N", response.dofs, response.receptance().first());
+//! println!("{}: {:?} m/N", response.summary.description, response.receptance().first());
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
@@ -16,12 +16,13 @@ use super::{StudyError, tangent_options};
 use frictionsim_case::{AssemblyBody, Body, Case, CaseErrors, Frf, FrfMethod, refusal};
 use frictionsim_physics::fem::sector::Sectored;
 use frictionsim_physics::frf::{
-    Axis, CyclicSystem, FrfBoundary, FrfError, FrfSystem, Port, ReductionSettings, cyclic_response,
-    direct_response_with, reduced_response,
+    Axis, CyclicSystem, FrfBoundary, FrfError, FrfSystem, Port, ReductionSettings, Terminal,
+    cyclic_response, direct_response_with, reduced_response,
 };
 use frictionsim_physics::linalg::{GaussianNoise, c64};
 use frictionsim_physics::mesh::{BoundaryCondition, Mesh, SectorMesh, SolidSector};
 use frictionsim_physics::prestress::BaseChoice;
+use frictionsim_results::ResponseSummary;
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
@@ -47,20 +48,10 @@ enum System {
 }
 
 /// A computed response and how it came about.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Response {
-    /// Frequencies, Hz.
-    pub frequencies_hz: Vec<f64>,
-    /// Unknowns.
-    pub dofs: usize,
-    /// Method: `cyclic`, `direct` or `reduced`.
-    pub method: &'static str,
-    /// Largest relative error found at the check lines of a reduction.
-    pub largest_error: Option<f64>,
-    /// Vectors of a reduction.
-    pub vectors: Option<usize>,
-    /// Largest backward error of the solutions, harmonic by harmonic.
-    pub backward_error: Option<f64>,
+    /// What there is to say of it.
+    pub summary: ResponseSummary,
     /// As solved: of a plane body for each metre of thickness.
     solved: Vec<c64>,
     /// What to divide that by: the thickness of a plane body, 1 in three dimensions.
@@ -109,17 +100,18 @@ impl<'a> FrequencyStudy<'a> {
     /// [`StudyError::Response`] at an undamped resonance, or where a reduction misses its tolerance.
     pub fn solve(&self, done: &Progress<'_>) -> Result<Response, StudyError> {
         let (frf, lines) = (self.frf, &self.frf.frequencies_hz);
-        let mut found = Response {
-            frequencies_hz: lines.clone(),
-            thickness: self.case.depth(),
-            ..Response::default()
+        let mut found = ResponseSummary {
+            lines: lines.len(),
+            quantity: frf.quantity.name().to_owned(),
+            noise: frf.noise,
+            ..ResponseSummary::default()
         };
-        match &self.system {
+        let (method, solved) = match &self.system {
             System::Cyclic(system) => {
                 let solved = cyclic_response(system, frf.force, frf.response, lines)?;
-                (found.method, found.dofs) = ("cyclic", system.dimension());
+                found.dofs = system.dimension();
                 found.backward_error = Some(solved.backward_error);
-                found.solved = solved.receptance;
+                ("cyclic", solved.receptance)
             }
             System::Whole { system, ports, method } => {
                 let [force, response] = &**ports;
@@ -133,19 +125,44 @@ impl<'a> FrequencyStudy<'a> {
                     Some(Err(FrfError::NotReduced { .. })) if *method == FrfMethod::Auto => None,
                     other => other.transpose()?,
                 };
-                if let Some(solved) = reduced {
-                    found.method = "reduced";
-                    found.largest_error = Some(solved.largest_error);
-                    found.vectors = Some(solved.vectors);
-                    found.solved = solved.receptance;
-                } else {
-                    let solved = direct_response_with(system, force, response, lines, done)?;
-                    (found.method, found.solved) = ("direct", solved);
+                match reduced {
+                    Some(solved) => {
+                        found.largest_error = Some(solved.largest_error);
+                        found.basis_vectors = Some(solved.vectors);
+                        ("reduced", solved.receptance)
+                    }
+                    None => ("direct", direct_response_with(system, force, response, lines, done)?),
                 }
             }
-        }
-        Ok(found)
+        };
+        found.method = method.to_owned();
+        found.description = described(self.case, frf, &found);
+        Ok(Response { summary: found, solved, thickness: self.case.depth() })
     }
+}
+
+/// What was computed, in a sentence.
+fn described(case: &Case, frf: &Frf, found: &ResponseSummary) -> String {
+    let place = |t: Terminal| {
+        let direction = t.direction.name();
+        format!("node {} {direction}", case.body.node_label(t.node))
+    };
+    let error = match (found.largest_error, found.basis_vectors, found.backward_error) {
+        (Some(error), Some(vectors), _) => {
+            format!(" ({vectors} vectors, largest relative error at the check lines {error:.1e})")
+        }
+        (_, _, Some(error)) => format!(" (largest backward error {error:.1e})"),
+        _ => String::new(),
+    };
+    format!(
+        "{} from {} to {}: {} lines, {} unknowns, {}{error}",
+        found.quantity,
+        place(frf.force),
+        place(frf.response),
+        found.lines,
+        found.dofs,
+        found.method,
+    )
 }
 
 impl Response {
@@ -157,15 +174,13 @@ impl Response {
     /// The quantity that `[frf]` asks for, `h (i omega)^d`, with its noise.
     pub fn observed(&self, frf: &Frf) -> Vec<c64> {
         let mut noise = GaussianNoise::new(frf.noise_seed as u64);
-        self.frequencies_hz
-            .iter()
-            .zip(&self.solved)
-            .map(|(f, h)| {
-                let rate = c64::new(0.0, TAU * f).powi(frf.quantity.derivatives());
-                let value = h * rate / self.thickness;
-                value + noise.draw() * (frf.noise * value.norm())
-            })
-            .collect()
+        let lines = frf.frequencies_hz.iter().zip(&self.solved);
+        let observed = lines.map(|(f, h)| {
+            let rate = c64::new(0.0, TAU * f).powi(frf.quantity.derivatives());
+            let value = h * rate / self.thickness;
+            value + noise.draw() * (frf.noise * value.norm())
+        });
+        observed.collect()
     }
 }
 
