@@ -4,7 +4,7 @@ use super::StudyError;
 use frictionsim_case::{FreeSystem, ModeLimit};
 use frictionsim_physics::cea::quadratic_modes;
 use frictionsim_physics::linalg::{MarketMatrix, Mat};
-use frictionsim_results::matrices::FreeSpectrum;
+use frictionsim_results::matrices::{FreeSpectrum, FreeSpectrumSummary};
 use std::f64::consts::TAU;
 
 /// The oscillating modes that a case asks for, out of all eigenvalues of its matrices.
@@ -23,13 +23,16 @@ pub fn free_spectrum(system: &FreeSystem) -> Result<FreeSpectrum, StudyError> {
         ModeLimit::Lowest(count) => modes.truncate(count),
         ModeLimit::MaxFrequency(limit) => modes.retain(|mode| mode.eigenvalue.im <= TAU * limit),
     }
-    Ok(FreeSpectrum {
-        title: system.title.clone(),
-        name: own.name.clone(),
+    let summary = FreeSpectrumSummary {
+        superelement: own.name.clone(),
         dofs: own.mass.rows,
-        modes,
+        method: "dense".to_owned(),
+        modes: modes.len(),
+        unstable: modes.iter().filter(|mode| mode.eigenvalue.re > 0.0).count(),
         overdamped,
-    })
+        max_residual: modes.iter().map(|mode| mode.residual).fold(0.0, f64::max),
+    };
+    Ok(FreeSpectrum { title: system.title.clone(), modes, summary })
 }
 
 fn dense(matrix: &MarketMatrix) -> Mat<f64> {

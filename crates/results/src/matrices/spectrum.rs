@@ -15,14 +15,10 @@ use std::f64::consts::TAU;
 pub struct FreeSpectrum {
     /// Title of the case.
     pub title: String,
-    /// Name of the superelement.
-    pub name: String,
-    /// Number of unknowns.
-    pub dofs: usize,
     /// Oscillating modes by frequency.
     pub modes: Vec<QuadraticMode>,
-    /// Number of real eigenvalues.
-    pub overdamped: usize,
+    /// What there is to say of them.
+    pub summary: FreeSpectrumSummary,
 }
 
 /// `summary.json` of `frictionsim cea` of a superelement.
@@ -75,34 +71,16 @@ impl FreeSpectrum {
     /// Writes `eigenvalues.csv` and the summary.
     pub fn write(&self, folder: &OutputFolder, wall_s: f64) -> Result<Value, FolderError> {
         write_table(folder, &self.table())?;
-        write_summary(
-            folder,
-            Head::of(&self.title, wall_s),
-            &FreeSpectrumSummary {
-                superelement: self.name.clone(),
-                dofs: self.dofs,
-                method: "dense".to_owned(),
-                modes: self.modes.len(),
-                unstable: self.unstable(),
-                overdamped: self.overdamped,
-                max_residual: self.modes.iter().map(|mode| mode.residual).fold(0.0, f64::max),
-            },
-        )
-    }
-
-    fn unstable(&self) -> usize {
-        self.modes.iter().filter(|mode| mode.eigenvalue.re > 0.0).count()
+        write_summary(folder, Head::of(&self.title, wall_s), &self.summary)
     }
 
     /// What is printed.
     pub fn print(&self) -> String {
+        let FreeSpectrumSummary { superelement, dofs, modes, unstable, overdamped, .. } =
+            &self.summary;
         format!(
-            "superelement {}: {} unknowns, {} modes listed, {} unstable; {} real eigenvalues are not listed\n\n{}",
-            self.name,
-            self.dofs,
-            self.modes.len(),
-            self.unstable(),
-            self.overdamped,
+            "superelement {superelement}: {dofs} unknowns, {modes} modes listed, {unstable} \
+             unstable; {overdamped} real eigenvalues are not listed\n\n{}",
             self.table().text(),
         )
     }
