@@ -8,11 +8,12 @@ use crate::case::Case;
 use crate::fem::operator::StiffnessOperator;
 use crate::linalg::interruption;
 use crate::results::transient::{
-    CHECKPOINT, Checkpoint, LinearStage, RecordedRun, RunFigures, TransientReport, document, draw,
-    write, write_checkpoint,
+    CHECKPOINT, Checkpoint, LinearStage, RecordedRun, RunFigures, document, draw, write,
+    write_checkpoint,
 };
 use crate::results::{OutputFolder, read_record};
-use crate::study::{self, transient::TransientStudy};
+use crate::study;
+use crate::study::transient::{SolvedTransient, TransientStudy};
 use crate::transient::{CentralDifference, Recorder, RunEnd};
 use clap::Args;
 use std::path::Path;
@@ -76,27 +77,18 @@ pub(super) fn run(asked: &Arguments) -> Result<(), Failure> {
         true => continuation::reopen(&session, goes_on)?,
         false => open(&session)?,
     };
-    let stepped = step(&session, &study, &folder, &mut loop_, record)?;
+    let solved = step(&session, &study, &folder, (&mut loop_, operator.name()), record)?;
 
-    let (record, plan) = (&stepped.record, *loop_.plan());
-    let analysis = study.analyse(record);
-    let report = TransientReport {
-        steps: loop_.steps_done(),
-        steps_timed: stepped.steps,
-        stepping_s: stepped.stepping_s,
-        wall_s: session.wall_seconds(),
-        is_finished: stepped.is_finished,
-        ..study.report(record, &analysis, plan, operator.name())
-    };
+    let report = study.report(&solved, session.wall_seconds());
     // The last checkpoint goes with the record of the folder; while that is replaced, one with a record of its own
     // holds the place of the last.
     let (case_hash, state) = (continuation::run_hash(&session), loop_.state());
     if goes_on {
-        write_checkpoint(&folder, &case_hash, &state, Some(record))?;
+        write_checkpoint(&folder, &case_hash, &state, Some(&solved.record))?;
     }
     let (summary, object) = write(&folder, &report)?;
     write_checkpoint(&folder, &case_hash, &state, None)?;
-    if !stepped.is_finished {
+    if !solved.is_finished {
         return Err(stopped(folder, &loop_));
     }
     let output = &asked.options.output;
@@ -108,7 +100,7 @@ pub(super) fn run(asked: &Arguments) -> Result<(), Failure> {
         };
         draw(&folder, &run, report.title, &summary, &options)?;
     }
-    let state = analysis.settling.state;
+    let state = solved.analysis.settling.state;
     let document = document(&summary, state, None);
     output.finish(folder, &document.titled(report.title).to_text(), &object)
 }
@@ -121,25 +113,14 @@ pub fn linear_stage(case: &Case) -> LinearStage {
     })
 }
 
-/// What came of the time loop.
-struct Stepped {
-    record: Recorder,
-    /// Whether the run reached its end, or where it settles.
-    is_finished: bool,
-    /// Steps done by this process.
-    steps: u64,
-    /// Their wall time, s.
-    stepping_s: f64,
-}
-
 /// Steps to the end, with checkpoints on the way.
 fn step(
     session: &Session,
     study: &TransientStudy<'_>,
     folder: &OutputFolder,
-    run: &mut CentralDifference<'_>,
+    (run, operator): (&mut CentralDifference<'_>, &'static str),
     record: Recorder,
-) -> Result<Stepped, Failure> {
+) -> Result<SolvedTransient, Failure> {
     let first_step = run.steps_done();
     let case_hash = continuation::run_hash(session);
     let checkpoints = Checkpoints {
@@ -162,10 +143,14 @@ fn step(
     let end = study.told(end)?;
     // What there is is written in peace.
     interruption::acknowledge();
-    Ok(Stepped {
+    Ok(SolvedTransient {
         is_finished: end == RunEnd::Finished || record.has_stopped,
+        analysis: study.analyse(&record),
         record,
-        steps: run.steps_done() - first_step,
+        plan: *run.plan(),
+        operator,
+        steps: run.steps_done(),
+        steps_timed: run.steps_done() - first_step,
         stepping_s,
     })
 }

@@ -9,7 +9,6 @@ use frictionsim_case::{Analysis, Case};
 use frictionsim_physics::cea::Unwatched;
 use frictionsim_physics::fem::operator::SimdLevel;
 use frictionsim_results::cycle::{CycleReport, CycleSummary};
-use frictionsim_results::transient::TransientReport;
 use frictionsim_results::{self, Head, Manifest, object};
 use serde::Serialize;
 use serde_json::Value;
@@ -57,13 +56,7 @@ fn transient(case: &Case, manifest: &Manifest) -> Result<Value, StudyError> {
     let start = Instant::now();
     let study = TransientStudy::new(case, SimdLevel::choose(&manifest.simd)?)?;
     let solved = study.solve()?;
-    let report = TransientReport {
-        steps: solved.steps,
-        steps_timed: solved.steps,
-        stepping_s: solved.stepping_s,
-        wall_s: start.elapsed().as_secs_f64(),
-        ..study.report(&solved.record, &solved.analysis, solved.plan, solved.operator)
-    };
+    let report = study.report(&solved, start.elapsed().as_secs_f64());
     let head = Head::of(report.title, report.wall_s);
     told("transient", head, &frictionsim_results::transient::summary(&report))
 }

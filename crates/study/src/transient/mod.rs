@@ -52,18 +52,22 @@ pub struct TransientStudy<'a> {
 
 /// What came of a run.
 pub struct SolvedTransient {
-    /// What was recorded: the samples, without fields and contact frames.
+    /// What was recorded.
     pub record: Recorder,
     /// What it says.
     pub analysis: TransientAnalysis,
     /// Time step and samples.
     pub plan: StepPlan,
-    /// Steps done.
-    pub steps: u64,
     /// Name of the operator.
     pub operator: &'static str,
-    /// Wall time of the steps, s.
+    /// Steps done since the start, those before a resume included.
+    pub steps: u64,
+    /// Steps done by this process.
+    pub steps_timed: u64,
+    /// Wall time of those steps, s.
     pub stepping_s: f64,
+    /// Whether the run reached its end, or where it settles.
+    pub is_finished: bool,
 }
 
 impl<'a> TransientStudy<'a> {
@@ -179,9 +183,11 @@ impl<'a> TransientStudy<'a> {
             analysis: self.analyse(&record),
             record,
             plan: *run.plan(),
-            steps: run.steps_done(),
             operator: operator.name(),
+            steps: run.steps_done(),
+            steps_timed: run.steps_done(),
             stepping_s,
+            is_finished: true,
         })
     }
 
@@ -205,21 +211,15 @@ impl<'a> TransientStudy<'a> {
         Ok(*fresh.plan())
     }
 
-    /// What there is to report of a run by its record; what it took is left zero.
-    pub fn report<'b>(
-        &'b self,
-        record: &'b Recorder,
-        analysis: &'b TransientAnalysis,
-        plan: StepPlan,
-        operator: &'b str,
-    ) -> TransientReport<'b> {
+    /// What there is to report of a run that took so long altogether, s.
+    pub fn report<'b>(&'b self, solved: &'b SolvedTransient, wall_s: f64) -> TransientReport<'b> {
         let (case, settings) = (self.case, &self.settings);
         let places = case.output.placed_probes.iter();
         TransientReport {
             title: &case.title,
             run: RecordedRun {
-                record,
-                analysis,
+                record: &solved.record,
+                analysis: &solved.analysis,
                 body: self.stepped.shown(),
                 material: case.materials_in_time(),
                 has_harmonics: case.has_sectors(),
@@ -231,14 +231,14 @@ impl<'a> TransientStudy<'a> {
             initial: settings.initial.name(),
             perturbation: &settings.perturbation,
             places: places.map(|place| (place.node, [place.asked[0], place.asked[1]])).collect(),
-            operator,
-            plan,
-            steps: 0,
-            steps_timed: 0,
-            stepping_s: 0.0,
-            wall_s: 0.0,
-            is_finished: true,
-            notes: self.notes(record, analysis, plan.time_step),
+            operator: solved.operator,
+            plan: solved.plan,
+            steps: solved.steps,
+            steps_timed: solved.steps_timed,
+            stepping_s: solved.stepping_s,
+            wall_s,
+            is_finished: solved.is_finished,
+            notes: self.notes(&solved.record, &solved.analysis, solved.plan.time_step),
         }
     }
 
