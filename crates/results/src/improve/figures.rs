@@ -12,13 +12,8 @@ const MOST: usize = 4;
 
 /// A figure for each target, the fastest first.
 pub fn figures(summary: &ImproveSummary, mesh: &Mesh, fields: &[TargetFields]) -> Vec<Figure> {
-    let growth = |own: &TargetFields| {
-        let modes = summary.modes.iter();
-        let rate = modes.filter(|mode| mode.mode == own.mode);
-        rate.map(|mode| mode.growth_rate_per_s).fold(0.0, f64::max)
-    };
     let mut order: Vec<&TargetFields> = fields.iter().collect();
-    frictionsim_physics::order::sort_by_number(&mut order, |a| -growth(a));
+    frictionsim_physics::order::sort_by_number(&mut order, |a| -a.mode.growth_rate_per_s);
     let figures = order.into_iter().take(MOST).map(|own| -> Declaration<'_> {
         Box::new(move || Some(target_figure(summary, mesh, own)))
     });
@@ -69,9 +64,9 @@ fn target_figure(summary: &ImproveSummary, mesh: &Mesh, own: &TargetFields) -> F
     let caption = format!(
         "Change of the growth rate of mode {} ({:.1} Hz) at friction {} by a modification at each \
          place, to first order. Blue damps the mode, red feeds it; circles are the candidates.",
-        own.mode, own.frequency_hz, summary.friction_coefficient
+        own.mode.mode, own.mode.frequency_hz, summary.friction_coefficient
     );
-    let name = format!("improve-mode-{}", own.mode);
+    let name = format!("improve-mode-{}", own.mode.mode);
     Figure::new(name, caption).columns(2).panels(panels)
 }
 

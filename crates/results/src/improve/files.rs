@@ -32,7 +32,7 @@ fn write_fields(
     let (mut nodal, mut in_elements) = (Vec::new(), Vec::new());
     for own in targets {
         let field = |what: &str, unit: &str, values: &[f64]| {
-            let name = format!("mode_{}_growth_by_{what}_{unit}", own.mode);
+            let name = format!("mode_{}_growth_by_{what}_{unit}", own.mode.mode);
             Field::scalars(&name, values.to_vec())
         };
         nodal.extend([

@@ -17,10 +17,8 @@ pub(super) use tables::{CANDIDATES, EFFECTS, VERDICTS};
 /// Fields over the mesh of one target.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TargetFields {
-    /// Number of the mode by frequency, from 1.
-    pub mode: usize,
-    /// Its frequency, Hz.
-    pub frequency_hz: f64,
+    /// Its mode.
+    pub mode: TargetMode,
     /// Derivative of the growth rate by a mass at each node, 1/s for each kg.
     pub mass: Vec<f64>,
     /// By a spring at each node along the direction that helps most, 1/s for each N/m.
@@ -55,7 +53,7 @@ pub struct ImproveSummary {
 }
 
 /// A mode that is to be silenced.
-#[derive(Clone, Copy, Debug, Described, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Described, Serialize)]
 pub struct TargetMode {
     /// Number by frequency, from 1.
     pub mode: usize,

@@ -54,13 +54,6 @@ pub struct Improvement {
 /// Removals that are looked at closely, for each one that is listed.
 const SHORTLISTED: usize = 2;
 
-/// A trial with what all modes together make of it.
-#[derive(Clone)]
-struct Predicted {
-    trial: Trial,
-    state: State,
-}
-
 /// Finds what silences the unstable modes of a case at its friction coefficient, as its `[improve]` asks.
 ///
 /// # Errors
@@ -85,7 +78,7 @@ pub fn improve(case: &Case) -> Result<Improvement, StudyError> {
     let asked = &case.improve.modifications;
     let is_asked = |kind: &ModificationKind| asked.is_empty() || asked.contains(kind);
     let kinds: Vec<ModificationKind> = ModificationKind::all().filter(is_asked).collect();
-    let mut listed: Vec<(usize, Predicted)> = Vec::new();
+    let mut listed: Vec<(usize, Candidate)> = Vec::new();
     for &kind in &kinds {
         let predicted = predictions(&search, &modal, kind, &mut notes)?;
         if predicted.is_empty() {
@@ -100,13 +93,16 @@ pub fn improve(case: &Case) -> Result<Improvement, StudyError> {
     order.sort_by_key(|&i| (listed[i].0, i));
     order.truncate(case.improve.confirm);
     order.sort_unstable();
-    let run = |&i: &usize| (i, run_again(&base, &keys_of(&search, &listed[i].1.trial)));
-    let confirmed: Vec<_> = frictionsim_physics::parallel::map(&order, run);
-    let candidates = listed.iter().enumerate().map(|(i, (_, own))| {
-        let outcome = confirmed.iter().find(|(place, _)| *place == i);
-        candidate(&search, i + 1, own, outcome.map(|(_, outcome)| outcome))
-    });
-    let mut candidates: Vec<Candidate> = candidates.collect();
+    let run = |&i: &usize| (i, run_again(&base, &listed[i].1.keys));
+    let outcomes: Vec<_> = frictionsim_physics::parallel::map(&order, run);
+    let mut candidates: Vec<Candidate> = listed.into_iter().map(|(_, own)| own).collect();
+    for (i, outcome) in outcomes {
+        candidates[i].verdict = match &outcome {
+            Ok(state) => verdict(&base.state, state),
+            Err(reason) => format!("struck off: {reason}"),
+        };
+        candidates[i].confirmed = outcome.ok();
+    }
     promote(&mut candidates);
     if base.multiple > 0 {
         notes.push(format!(
@@ -153,7 +149,7 @@ fn predictions(
     modal: &ModalModel<'_>,
     kind: ModificationKind,
     notes: &mut Vec<String>,
-) -> Result<Vec<Predicted>, StudyError> {
+) -> Result<Vec<Candidate>, StudyError> {
     let count = search.base.case.improve.candidates;
     let mut trials = search.best(kind);
     if kind == ModificationKind::Removal {
@@ -180,12 +176,12 @@ fn predictions(
     order.retain(|&i| growth(i) < before);
     order.truncate(count);
 
-    let predicted: Result<Vec<Predicted>, frictionsim_physics::linalg::LinalgError> =
+    let predicted: Result<Vec<Candidate>, frictionsim_physics::linalg::LinalgError> =
         frictionsim_physics::parallel::map(&order, |&i| {
             let onset = modal.corrected_onset(&changes[i].0, base.critical_friction)?;
             let critical_friction = onset.filter(|mu| *mu < search.base.friction);
             let state = State { critical_friction, ..outlooks[i] };
-            Ok(Predicted { trial: changes[i].1.clone(), state })
+            Ok(candidate(search, &changes[i].1, state))
         });
     Ok(predicted.map_err(CeaError::from)?)
 }
@@ -304,10 +300,10 @@ fn patch_matrices(
 }
 
 /// The best first: by critical friction, then by growth.
-fn sort(listed: &mut [(usize, Predicted)]) {
-    let merit = |own: &Predicted| {
-        let onset = own.state.critical_friction.unwrap_or(f64::INFINITY);
-        (-onset, own.state.growth_rate_per_s.unwrap_or(f64::INFINITY))
+fn sort(listed: &mut [(usize, Candidate)]) {
+    let merit = |own: &Candidate| {
+        let onset = own.predicted.critical_friction.unwrap_or(f64::INFINITY);
+        (-onset, own.predicted.growth_rate_per_s.unwrap_or(f64::INFINITY))
     };
     listed.sort_by(|(_, a), (_, b)| {
         let (a, b) = (merit(a), merit(b));
@@ -315,38 +311,28 @@ fn sort(listed: &mut [(usize, Predicted)]) {
     });
 }
 
-/// One row of the list.
-fn candidate(
-    search: &Search<'_>,
-    rank: usize,
-    own: &Predicted,
-    outcome: Option<&Result<State, String>>,
-) -> Candidate {
-    let trial = &own.trial;
+/// A trial with what all modes together make of it, before it is run again.
+fn candidate(search: &Search<'_>, trial: &Trial, predicted: State) -> Candidate {
     let (node, direction) = match &trial.target {
         Target::Node(node, direction) => (Some(search.base.mesh.node_label(*node)), *direction),
         _ => (None, None),
     };
     Candidate {
-        rank,
+        rank: 0,
         kind: trial.kind.word().to_owned(),
         node,
         position_m: search.place(trial),
         direction,
         added_mass_kg: shown::added_mass(search, trial),
         first_order_growth_rate_per_s: trial.first_order,
-        predicted: own.state,
-        confirmed: outcome.and_then(|outcome| outcome.as_ref().ok()).copied(),
-        verdict: match outcome {
-            None => "not run again".to_owned(),
-            Some(Ok(state)) => verdict(&search.base.state, state),
-            Some(Err(reason)) => format!("struck off: {reason}"),
-        },
+        predicted,
+        confirmed: None,
+        verdict: "not run again".to_owned(),
         keys: keys_of(search, trial),
     }
 }
 
-/// Puts what was struck off behind what was not.
+/// Puts what was struck off behind what was not, and ranks all.
 fn promote(candidates: &mut [Candidate]) {
     let class = |own: &Candidate| match own.verdict.as_str() {
         "silenced" => 0,

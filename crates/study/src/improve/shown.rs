@@ -45,8 +45,7 @@ pub(super) fn fields(search: &Search<'_>) -> Vec<TargetFields> {
             _ => SymmetricEigen::new(form).eigenvalues.min(),
         };
         TargetFields {
-            mode: mode.mode,
-            frequency_hz: mode.frequency_hz,
+            mode,
             mass: nodes().map(|n| own.by_mass(n, alpha).re / extent).collect(),
             spring: nodes().map(|n| least(own.by_spring(n))).collect(),
             dashpot: nodes().map(|n| least(own.by_dashpot(n))).collect(),
