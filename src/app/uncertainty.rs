@@ -4,8 +4,8 @@ use super::share::ShareOptions;
 use super::{Failure, RunOptions, Session, terminal};
 use crate::case::{Case, find_key};
 use crate::results::sweep::{Found, PointClock, PointRecord, SweepFolder};
-use crate::results::uncertainty::{Sample, document, draw_report, samples_table};
-use crate::results::{Manifest, summary_of};
+use crate::results::uncertainty::{Sample, samples_table};
+use crate::results::{Finding, Manifest, Page, declared, summary_of};
 use crate::study::uncertainty::{BLOCK, Design, Sampler, curves, summarize};
 use clap::Args;
 use serde_json::Map;
@@ -80,7 +80,7 @@ pub(super) fn run(asked: &Arguments) -> Result<(), Failure> {
     }
     let manifest = &session.manifest;
     let object = summary_of(manifest, session.head(), &summary).map_err(Failure::run)?;
-    let document = document(&summary).titled(&case.title);
+    let document = summary.document().titled(&case.title);
     let text = document.to_text();
     if missing == 0 {
         let largest = summary.largest_friction;
@@ -93,7 +93,8 @@ pub(super) fn run(asked: &Arguments) -> Result<(), Failure> {
         }
         folder.write_summary(&object)?;
         if let Some(drawing) = output.drawing() {
-            draw_report(&folder, &summary, document, manifest, &drawing)?;
+            let page = Page::new(document, declared(summary.figures()), manifest);
+            folder.write_page(&page, &drawing)?;
         }
     }
     output.print(&text, &object, folder.path())

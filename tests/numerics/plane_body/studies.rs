@@ -5,7 +5,7 @@
 
 use crate::body_sensitivity::oval;
 use crate::prelude::*;
-use frictionsim::results::uncertainty::document;
+use frictionsim::results::Finding;
 use frictionsim::study::fit::{fit_case, refuse_too_few};
 use frictionsim::study::uncertainty::{Sampler, summarize};
 
@@ -80,7 +80,7 @@ fn uncertainty_finds_the_lowest_critical_friction_of_an_imported_body() {
         let summary = summarize(&body, &samples);
         let median = summary.critical_friction.median.unwrap();
         assert!((median - 0.3).abs() > 0.01, "{median}");
-        let text = document(&summary).to_text();
+        let text = summary.document().to_text();
         assert!(!text.contains("n ="), "{text}");
     }
 }

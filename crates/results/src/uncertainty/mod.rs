@@ -4,8 +4,8 @@ mod figures;
 mod report;
 mod summary;
 
+pub use report::samples_table;
 pub(super) use report::{ERRORS, SAMPLES};
-pub use report::{document, draw_report, samples_table};
 pub use summary::{
     CriticalFriction, DesignCurve, FamilySummary, Index, RobustSummary, UncertaintySummary,
 };

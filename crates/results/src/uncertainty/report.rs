@@ -1,12 +1,10 @@
-//! Tables, figures and page of an uncertainty analysis, in a folder that several processes may share.
+//! Tables, figures and page of an uncertainty analysis.
 
 use super::figures::{indices, robust, uncertainty};
 use super::summary::{DesignCurve, FamilySummary, Index, UncertaintySummary};
 use super::{ONSETS, Sample};
-use crate::Manifest;
-use crate::drawing::{DrawingError, DrawingOptions, Page};
-use crate::sweep::SweepFolder;
-use frictionsim_chart::Figure;
+use crate::Finding;
+use crate::drawing::Declaration;
 use frictionsim_output::{Document, Format, Section, Table, columns};
 
 columns! {
@@ -82,54 +80,50 @@ pub fn samples_table(keys: &[String], samples: &[Sample], largest_friction: f64)
         .columns(ERRORS, samples)
 }
 
-/// Draws the figures into `figures/` and writes `report.html`.
-pub fn draw_report(
-    folder: &SweepFolder,
-    summary: &UncertaintySummary,
-    document: Document,
-    manifest: &Manifest,
-    options: &DrawingOptions,
-) -> Result<(), DrawingError> {
-    let figures = [
-        Some(uncertainty(summary)),
-        (!summary.sobol.is_empty()).then(|| indices(summary)),
-        summary.robust.as_ref().map(robust),
-    ];
-    let figures = figures.into_iter().flatten().filter(Figure::has_data).collect();
-    folder.write_page(&Page::new(document, figures, manifest), options)
-}
-
-/// Tables and sentences.
-pub fn document(summary: &UncertaintySummary) -> Document {
-    let friction = summary.friction_text();
-    let mut results = Section::new("Results").facts(facts(summary)).tables([Table::new(
-        "",
-        format!("Families of modes, followed across samples by harmonic and rank, at {friction}"),
-    )
-    .columns(FAMILIES, &summary.families)]);
-    if !summary.sobol.is_empty() {
-        let mut rows: Vec<(String, Index)> =
-            summary.sobol.iter().map(|(key, index)| (key.clone(), *index)).collect();
-        frictionsim_physics::order::sort_by_number(&mut rows, |a| -a.1.total);
-        let caption = "Sobol's indices of the lowest critical friction: which parameter decides it";
-        results = results.tables([Table::new("", caption).columns(INDICES, rows)]);
-    }
-    if let Some(robust) = &summary.robust {
-        let bound = robust.bound;
-        let caption = format!("Designs: where the probability of squeal falls to {bound}");
-        let cheapest = robust.cheapest.as_ref().map(|key| {
+impl Finding for UncertaintySummary {
+    fn document(&self) -> Document {
+        let friction = self.friction_text();
+        let mut results = Section::new("Results").facts(facts(self)).tables([Table::new(
+            "",
             format!(
-                "The smallest relative change that brings the probability of squeal down to {bound} is that of {key}."
-            )
-        });
-        results = results
-            .tables([Table::new("", caption).columns(DESIGNS, &robust.curves)])
-            .text(cheapest);
+                "Families of modes, followed across samples by harmonic and rank, at {friction}"
+            ),
+        )
+        .columns(FAMILIES, &self.families)]);
+        if !self.sobol.is_empty() {
+            let mut rows: Vec<(String, Index)> =
+                self.sobol.iter().map(|(key, index)| (key.clone(), *index)).collect();
+            frictionsim_physics::order::sort_by_number(&mut rows, |a| -a.1.total);
+            let caption =
+                "Sobol's indices of the lowest critical friction: which parameter decides it";
+            results = results.tables([Table::new("", caption).columns(INDICES, rows)]);
+        }
+        if let Some(robust) = &self.robust {
+            let bound = robust.bound;
+            let caption = format!("Designs: where the probability of squeal falls to {bound}");
+            let cheapest = robust.cheapest.as_ref().map(|key| {
+                format!(
+                    "The smallest relative change that brings the probability of squeal down to \
+                     {bound} is that of {key}."
+                )
+            });
+            results = results
+                .tables([Table::new("", caption).columns(DESIGNS, &robust.curves)])
+                .text(cheapest);
+        }
+        Document::new("Probability of squeal")
+            .section(results)
+            .section(Section::new("Probability of squeal").figures([""]))
+            .notes(&self.notes)
     }
-    Document::new("Probability of squeal")
-        .section(results)
-        .section(Section::new("Probability of squeal").figures([""]))
-        .notes(&summary.notes)
+
+    fn figures(&self) -> Vec<Declaration<'_>> {
+        vec![
+            Box::new(|| Some(uncertainty(self))),
+            Box::new(|| (!self.sobol.is_empty()).then(|| indices(self))),
+            Box::new(|| self.robust.as_ref().map(robust)),
+        ]
+    }
 }
 
 /// What decides, name and value.
