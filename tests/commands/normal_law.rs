@@ -86,8 +86,8 @@ fn a_law_of_the_case_replaces_the_stiffness_of_an_input_file() {
     assert_eq!(plain.len(), 2);
     for (old, new) in plain.iter().zip(stiffening) {
         let linear = old.stiffness.normal_stiffness.unwrap();
-        assert!(old.law.is_none() && (linear / 2e13 - 1.0).abs() < 1e-12);
-        assert!(new.law.is_some() && new.surface == old.surface);
+        assert!(old.stiffness.law.is_none() && (linear / 2e13 - 1.0).abs() < 1e-12);
+        assert!(new.stiffness.law.is_some() && new.surface == old.surface);
     }
 }
 

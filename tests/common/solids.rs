@@ -28,7 +28,6 @@ pub fn contact_of(
         counter,
         friction: PairFriction { ratio: 1.0, decay: None },
         stiffness: ContactStiffness { normal_stiffness, ..RIGID },
-        law: None,
         topography: None,
     }
 }

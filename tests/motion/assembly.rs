@@ -73,11 +73,9 @@ fn between<'a>(
     (normal_stiffness, law): (Option<f64>, Option<NormalLaw>),
     (decay, motions): (Option<FrictionDecay>, &[Motion]),
 ) -> Assembly<'a> {
-    let contact = SlidingSurfaces {
-        friction: PairFriction { ratio: 1.0, decay },
-        law,
-        ..contact_of(mesh, "upper_z0", counter, normal_stiffness)
-    };
+    let mut contact = contact_of(mesh, "upper_z0", counter, normal_stiffness);
+    contact.friction.decay = decay;
+    contact.stiffness.law = law;
     let (tie, solved) = (tie(mesh, "upper_z1", "plate_z0"), BaseChoice::Solved);
     let (surfaces, at_nodes) = ((&[tie][..], &[contact][..]), Some(PointKind::Nodes));
     Assembly::with_points(mesh, materials, surfaces, (motions, solved), at_nodes).unwrap()

@@ -57,15 +57,14 @@ impl Springs {
 impl Case {
     /// The springs of each contact that has them.
     pub(super) fn springs(&self) -> Vec<Springs> {
-        let of = |section: String, own: &ContactStiffness, law| {
-            Some(Springs { section, stiffness: own.normal_stiffness?, law })
+        let of = |section: String, own: &ContactStiffness| {
+            Some(Springs { section, stiffness: own.normal_stiffness?, law: own.law })
         };
         let Some(body) = self.body.assembly() else {
-            let own = &self.contact.stiffness;
-            return of("contact".to_owned(), own, own.law).into_iter().collect();
+            return of("contact".to_owned(), &self.contact.stiffness).into_iter().collect();
         };
         let contacts = body.contacts.iter();
-        contacts.filter_map(|own| of(section_of(own), &own.stiffness, own.law)).collect()
+        contacts.filter_map(|own| of(section_of(own), &own.stiffness)).collect()
     }
 
     /// How a contact does without its springs: what needs them goes with them.

@@ -99,14 +99,12 @@ fn sliding_surfaces(
     topography: Option<Arc<Topography>>,
 ) -> SlidingSurfaces {
     let decay = friction_decay(section);
-    let stiffness = contact_stiffness(section, true);
     SlidingSurfaces {
         name: String::new(),
         surface: 0,
         counter,
         friction: PairFriction { ratio: 1.0, decay },
-        stiffness,
-        law: stiffness.law,
+        stiffness: contact_stiffness(section, true),
         topography,
     }
 }

@@ -100,7 +100,6 @@ fn sliding_surfaces(place: SolidContact, surface: usize, contact: &Contact) -> S
         counter: Counterpart::Rigid(counterface),
         friction: PairFriction { ratio: 1.0, decay: sliding.decay },
         stiffness: contact.stiffness,
-        law: contact.stiffness.law,
         topography: None,
     }
 }

@@ -9,7 +9,8 @@ const LAWS: [NormalLaw; 2] = [
 ];
 
 fn stiffening(mesh: &Mesh, law: NormalLaw) -> SlidingSurfaces {
-    SlidingSurfaces { law: Some(law), ..sliding(mesh, Some(law.stiffness(0.0))) }
+    let linear = sliding(mesh, Some(law.stiffness(0.0)));
+    SlidingSurfaces { stiffness: ContactStiffness { law: Some(law), ..linear.stiffness }, ..linear }
 }
 
 fn solved(mesh: &Mesh, contact: SlidingSurfaces) -> Assembly<'_> {

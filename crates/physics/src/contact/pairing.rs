@@ -63,8 +63,8 @@ pub enum PointKind {
     Nodes,
 }
 
-/// Place and directions of a contact point of two surfaces.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// Place and directions of a contact point of two surfaces, and the nodes around it.
+#[derive(Clone, Debug, PartialEq)]
 pub struct ContactSite {
     /// Where it is on the own surface, m.
     pub position: [f64; 3],
@@ -72,6 +72,10 @@ pub struct ContactSite {
     pub normal: [f64; 3],
     /// Unit vector along which the counter surface slides over it; zero where it does not.
     pub direction: [f64; 3],
+    /// Nodes of the own surface that it is among, with their shares in it.
+    pub shares: Vec<(u32, f64)>,
+    /// Nodes of the counter surface before it, with the slopes of their shares by arc, 1/m; none on a rigid one.
+    pub slopes: Vec<(u32, Vector3<f64>)>,
 }
 
 /// The contact points of two surfaces.
@@ -81,10 +85,6 @@ pub struct ContactSurface {
     pub points: Vec<Point>,
     /// Place of each.
     pub sites: Vec<ContactSite>,
-    /// Nodes of the own surface that each point is among, with their shares in it.
-    pub shares: Vec<Vec<(u32, f64)>>,
-    /// Nodes of the counter surface before each point, with the slopes of their shares by arc, 1/m; none on a rigid one.
-    pub slopes: Vec<Vec<(u32, Vector3<f64>)>>,
     /// Rotation of the counterpart relative to the own body, rad/s.
     pub spin: Vector3<f64>,
     /// Nodes of the own surface that have the other before them.
@@ -140,8 +140,6 @@ impl ContactSurface {
         let mut found = Self {
             points: Vec::new(),
             sites: Vec::new(),
-            shares: Vec::new(),
-            slopes: Vec::new(),
             spin: counterpart.rigid().map_or_else(|| spin(counter_motion), RigidCounterface::spin)
                 - spin(own_motion),
             nodes: nodes_of(pair.points.iter().map(|point| &point.at.own)),
@@ -192,9 +190,7 @@ impl ContactSurface {
         let is_kept: Vec<bool> = self.points.iter().map(gives_way).collect();
         retain(&mut self.points, &is_kept);
         retain(&mut self.sites, &is_kept);
-        retain(&mut self.shares, &is_kept);
-        retain(&mut self.slopes, &is_kept);
-        self.nodes = nodes_of(&self.shares);
+        self.nodes = nodes_of(self.sites.iter().map(|site| &site.shares));
     }
 
     /// A point among nodes with `shares`, over which the counterpart goes at a velocity; `jump` is the row of the displacement of one
@@ -206,11 +202,11 @@ impl ContactSurface {
         jump: impl Fn([f64; 3]) -> Row,
         lift: Row,
     ) {
-        let (site, speed) = site(at.position, at.normal, velocity);
+        let (direction, speed) = direction_of(at.normal, velocity);
         let law = friction.decay;
         let share = law.map_or(1.0, |decay| decay.share(speed));
         let slope = law.map_or(0.0, |decay| decay.slope(speed));
-        let across = Vector3::from(site.normal).cross(&Vector3::from(site.direction));
+        let across = Vector3::from(at.normal).cross(&Vector3::from(direction));
         let is_sliding = speed > 0.0;
         let along = |direction: [f64; 3]| {
             if is_sliding { jump(direction) } else { Row::new() }
@@ -219,8 +215,8 @@ impl ContactSurface {
             weight: at.area,
             gap: at.gap,
             lift,
-            normal: jump(site.normal),
-            slip: along(site.direction),
+            normal: jump(at.normal),
+            slip: along(direction),
             across: along(across.into()),
             speed,
             friction: SteadyFriction {
@@ -228,9 +224,8 @@ impl ContactSurface {
                 slope: friction.ratio * slope,
             },
         });
-        self.sites.push(site);
-        self.shares.push(shares);
-        self.slopes.push(at.slopes.clone());
+        let SurfacePoint { position, normal, slopes, .. } = at.clone();
+        self.sites.push(ContactSite { position, normal, direction, shares, slopes });
     }
 }
 
@@ -240,19 +235,16 @@ fn motion_of<'a>(mesh: &Mesh, boundary: &Boundary, motions: &'a [Motion]) -> Opt
     motions.iter().find(|motion| motion.regions.contains(&region))
 }
 
-/// Directions at a point, and the sliding speed there, where the counterpart has the velocity `whole` relative to the own body.
-fn site(position: [f64; 3], normal: [f64; 3], whole: Vector3<f64>) -> (ContactSite, f64) {
+/// Direction and speed of the sliding where the counterpart has the velocity `whole` relative to the own body.
+fn direction_of(normal: [f64; 3], whole: Vector3<f64>) -> ([f64; 3], f64) {
     let n = Vector3::from(normal);
     let sliding = whole - n * whole.dot(&n);
     let speed = sliding.norm();
     // What is left of a velocity along the normal is round-off.
-    let is_sliding = speed > 1e-12 * whole.norm();
-    let site = ContactSite {
-        position,
-        normal,
-        direction: if is_sliding { (sliding / speed).into() } else { [0.0; 3] },
-    };
-    (site, if is_sliding { speed } else { 0.0 })
+    match speed > 1e-12 * whole.norm() {
+        true => ((sliding / speed).into(), speed),
+        false => ([0.0; 3], 0.0),
+    }
 }
 
 /// All nodes among those of points, ascending.

@@ -105,8 +105,7 @@ impl ContactSurface {
     pub fn turnings(&self, mesh: &Mesh, counterpart: &Counterpart) -> Vec<Turning> {
         let counter = counterpart.surface().map(|place| &mesh.boundaries[place]);
         let normals = counter.map_or_else(BTreeMap::new, |own| mesh.nodal_normals(&own.faces));
-        let sites = self.sites.iter().zip(&self.points).zip(&self.shares).zip(&self.slopes);
-        let turnings = sites.map(|(((site, point), shares), slopes)| {
+        let turnings = self.sites.iter().zip(&self.points).map(|(site, point)| {
             if point.speed == 0.0 {
                 return Turning::default();
             }
@@ -114,13 +113,14 @@ impl ContactSurface {
             let directions = [t, n.cross(&t)];
             // Displacements of the counterface along a direction, by arc.
             let slope = |direction: Vector3<f64>, arc: Vector3<f64>| -> Row {
-                let shares = slopes.iter().map(|(node, slope)| (*node, slope.dot(&arc)));
+                let shares = site.slopes.iter().map(|(node, slope)| (*node, slope.dot(&arc)));
                 row_along(mesh, &shares.collect::<Vec<_>>(), direction.into(), 1.0)
             };
             let turn = |a: Vector3<f64>, b: Vector3<f64>| match counterpart.rigid() {
                 Some(rigid) => rigid.curvature(site.position, n, [a, b]),
                 None => {
-                    let parts = slopes
+                    let parts = site
+                        .slopes
                         .iter()
                         .map(|(node, g)| g.dot(&b) * Vector3::from(normals[node]).dot(&a));
                     parts.sum()
@@ -133,7 +133,7 @@ impl ContactSurface {
             Turning {
                 tilt: directions.map(|arc| slope(n, arc)),
                 stretch: directions.map(|arc| slope(t, arc)),
-                veer: row_along(mesh, shares, veer.into(), 1.0),
+                veer: row_along(mesh, &site.shares, veer.into(), 1.0),
                 curvature: [[along, mixed], [mixed, across]],
             }
         });

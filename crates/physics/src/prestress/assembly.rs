@@ -181,7 +181,7 @@ impl<'a> Assembly<'a> {
         let named = contacts.iter();
         let named = named.map(|(own, of)| (format!("contacts.{}", own.name), of.points.len()));
         let pressing = Pressing {
-            laws: of_points().map(|(own, _)| own.law).collect(),
+            laws: of_points().map(|(own, _)| own.stiffness.law).collect(),
             stiffness: &stiffness,
             load,
             elimination: self.joined.basis.clone(),

@@ -1,6 +1,6 @@
 //! What ties surfaces of solid bodies, and what slides on them.
 
-use crate::contact::{ContactStiffness, Counterpart, NormalLaw, PairFriction, Topography};
+use crate::contact::{ContactStiffness, Counterpart, PairFriction, Topography};
 use std::sync::Arc;
 
 /// Two boundaries of a mesh by their indices.
@@ -37,8 +37,6 @@ pub struct SlidingSurfaces {
     pub friction: PairFriction,
     /// Penalty or rigid, and dashpots.
     pub stiffness: ContactStiffness,
-    /// How it stiffens with pressure; `None` where it does not. Its stiffness without pressure is that of `stiffness`.
-    pub law: Option<NormalLaw>,
     /// Gaps beside those of the mesh, of a measured or worn surface.
     pub topography: Option<Arc<Topography>>,
 }

@@ -52,14 +52,14 @@ impl SteadyState {
             }
             Self::Assembly(joined) => {
                 let all = joined.contacts.iter().flat_map(|(contact, surface)| {
-                    let points = surface.points.iter().zip(&surface.sites).zip(&surface.shares);
-                    points.map(move |((point, site), shares)| {
+                    let points = surface.points.iter().zip(&surface.sites);
+                    points.map(move |(point, site)| {
                         let place = ContactPlace {
                             contact: contact.name.clone(),
                             position: site.position,
                             direction: Some(site.direction),
                             area: point.weight,
-                            shares: shares.clone(),
+                            shares: site.shares.clone(),
                             ..ContactPlace::default()
                         };
                         (place, point)

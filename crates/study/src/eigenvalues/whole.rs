@@ -190,7 +190,7 @@ fn place_of_own<S>(range: &PressedRange<S>) -> usize {
 
 /// Where the base states begin: contact that stiffens depends on friction, and the analysis starts without.
 fn start_of(contacts: &[(SlidingSurfaces, ContactSurface)]) -> &'static [f64] {
-    let stiffens = contacts.iter().any(|(contact, _)| contact.law.is_some());
+    let stiffens = contacts.iter().any(|(contact, _)| contact.stiffness.law.is_some());
     if stiffens { &[0.0] } else { &[] }
 }
 

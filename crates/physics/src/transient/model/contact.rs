@@ -1,9 +1,7 @@
 //! The contact of a body: its nodes, its points, and the steady sliding that its springs start from.
 
 use super::{SteppedBody, TransientModel};
-use crate::contact::{
-    ContactInterface, ContactStiffness, ContactSurface, CoulombFriction, Point, Row,
-};
+use crate::contact::{ContactInterface, ContactSurface, CoulombFriction, Point, Row};
 use crate::fem::operator::StiffnessOperator;
 use crate::fem::{MassKind, assemble_stiffness, sector};
 use crate::mesh::{Counterface, Mesh, SolidSector};
@@ -175,8 +173,7 @@ impl TransientModel<'_> {
                 decay: surfaces.friction.decay,
             },
             interference: surfaces.counter.interference(),
-            stiffness: ContactStiffness { law: surfaces.law, ..surfaces.stiffness }
-                .damped_by(self.contact_damping),
+            stiffness: surfaces.stiffness.damped_by(self.contact_damping),
         });
         parts.collect()
     }
@@ -237,8 +234,8 @@ impl TransientModel<'_> {
 fn points_of_nodes(surface: &ContactSurface) -> BTreeMap<u32, Vec<(usize, f64)>> {
     let mut nodes: BTreeMap<u32, Vec<(usize, f64)>> =
         surface.nodes.iter().map(|&node| (node, Vec::new())).collect();
-    for (k, shares) in surface.shares.iter().enumerate() {
-        for (node, share) in shares {
+    for (k, site) in surface.sites.iter().enumerate() {
+        for (node, share) in &site.shares {
             if let Some(points) = nodes.get_mut(node) {
                 points.push((k, *share));
             }
