@@ -254,20 +254,17 @@ const BAND: [f64; 2] = [200.0, 2e5];
 
 /// Materials in time, a chain in place of the losses of the upper block, and those of the eigenvalue analysis, which have the
 /// modulus of that chain as a table.
-fn losing(mesh: &Mesh) -> (RelaxedMaterials, Vec<TabledMaterial>) {
+fn losing(mesh: &Mesh) -> [Vec<RegionMaterial>; 2] {
     let upper = mesh.regions.iter().position(|name| name == "upper");
     let chain = || MaxwellChain::fit(&|_| c64::new(1.0, 0.01), BAND);
     let count = mesh.regions.len();
-    let in_time = RelaxedMaterials::of(&STEEL, count, |region| (Some(region) == upper).then(chain));
+    let in_time =
+        |region| RegionMaterial::in_time(&STEEL, region, (Some(region) == upper).then(chain));
     let table = modulus_table(&chain(), STEEL.young_modulus, BAND);
-    let own = |young_modulus| RegionMaterial {
-        elastic: ElasticMaterial { young_modulus, ..STEEL },
-        damping: None,
-    };
-    let mut materials = vec![TabledMaterial::from(own(STEEL.young_modulus)); count];
-    materials[upper.unwrap()] =
-        TabledMaterial { own: own(table.static_modulus()), table: Some(Arc::new(table)) };
-    (in_time, materials)
+    let lossy = ElasticMaterial { young_modulus: table.static_modulus(), ..STEEL };
+    let mut materials = vec![RegionMaterial::from(STEEL); count];
+    materials[upper.unwrap()] = RegionMaterial { table: Some(Arc::new(table)), ..lossy.into() };
+    [(0..count).map(in_time).collect(), materials]
 }
 
 /// Cross-method: with a Maxwell chain in the upper block a vibration grows as the eigenvalue with the modulus of its own frequency,
@@ -276,7 +273,7 @@ fn losing(mesh: &Mesh) -> (RelaxedMaterials, Vec<TabledMaterial>) {
 fn losses_of_an_assembly_slow_its_growth_as_the_eigenvalue_says() {
     let coarse = [[3, 2, 2], [4, 3, 2], [4, 3, 1]];
     let mesh = bodies(sized(coarse, [[4, 3, 2], [5, 4, 2], [5, 4, 1]]), true);
-    let (in_time, tabled) = losing(&mesh);
+    let [in_time, tabled] = losing(&mesh);
     let decay = Some(FrictionDecay { static_ratio: 4.0, decay_speed: 1.0 });
     let springs = SPRINGS[1];
     let count = sized(12, 40);

@@ -9,8 +9,8 @@ fn chain() -> MaxwellChain {
     MaxwellChain::fit(&|_| c64::new(1.0, 0.02), BAND)
 }
 
-fn relaxed() -> RelaxedMaterials {
-    RelaxedMaterials::of(&POLYCARBONATE, 1, |_| Some(chain()))
+fn relaxed() -> Vec<RegionMaterial> {
+    vec![RegionMaterial::in_time(&POLYCARBONATE, 0, Some(chain()))]
 }
 
 /// Friction at which the wave grows slowly enough for a long linear stage.
@@ -30,12 +30,9 @@ fn settings(duration: f64, at: f64) -> TransientSettings {
 /// The largest growth rate of the body (1/s), its modulus a table that the chain fills, lumped as the time loop has it.
 fn eigenvalue() -> f64 {
     let table = modulus_table(&chain(), POLYCARBONATE.young_modulus, BAND);
-    let own = RegionMaterial {
-        elastic: ElasticMaterial { young_modulus: table.static_modulus(), ..POLYCARBONATE },
-        damping: None,
-    };
+    let elastic = ElasticMaterial { young_modulus: table.static_modulus(), ..POLYCARBONATE };
     let table = Some(Arc::new(table));
-    let materials = vec![TabledMaterial { own, table }];
+    let materials = vec![RegionMaterial { table, ..elastic.into() }];
     let mesh = disc().mesh;
     let options =
         TangentOptions { mass: MassKind::Lumped, damping: RayleighDamping::default(), ..TANGENT };

@@ -24,7 +24,7 @@ fn tangent_with(
     let steel = elastic(2.1e11, 0.3, 7850.0, PlaneFormulation::PlaneStrain);
     let materials = AnnulusMaterials {
         annulus: lossy(disc, POLYCARBONATE),
-        shaft: Some(RegionMaterial { elastic: lossy(shaft, steel), damping: None }),
+        shaft: Some(lossy(shaft, steel).into()),
     };
     let options = TangentOptions { damping, contact: contact_stiffness, ..TANGENT };
     linearized(&mesh, &materials, &contact(610.0), &options)

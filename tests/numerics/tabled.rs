@@ -26,9 +26,8 @@ fn tangent(rows: Vec<[f64; 3]>, contact_stiffness: ContactStiffness) -> SlidingT
     let steel = ElasticMaterial { loss_factor: 0.002, ..steel };
     let table = ModulusTable::new("materials.disc.table", "rubber.csv", rows);
     let disc = ElasticMaterial { young_modulus: table.static_modulus(), ..POLYCARBONATE };
-    let own = |elastic| RegionMaterial { elastic, damping: None };
-    let materials =
-        vec![TabledMaterial { own: own(disc), table: Some(Arc::new(table)) }, own(steel).into()];
+    let disc = RegionMaterial { table: Some(Arc::new(table)), ..disc.into() };
+    let materials = vec![disc, steel.into()];
     let options = TangentOptions {
         geometric_stiffness: true,
         damping: RayleighDamping { mass_coefficient: 20.0, stiffness_coefficient: 1e-7 },
@@ -199,15 +198,14 @@ fn a_sandwich_beam_loses_what_ross_kerwin_and_ungar_say() {
     let solid = |young_modulus: f64, poisson_ratio: f64, density: f64| {
         elastic(young_modulus, poisson_ratio, density, PlaneFormulation::ThreeDimensional)
     };
-    let own = |elastic| RegionMaterial { elastic, damping: None };
     let poisson_ratio = 0.3;
-    let core = TabledMaterial {
-        own: own(solid(table.static_modulus(), poisson_ratio, 1000.0)),
+    let core = RegionMaterial {
         table: Some(Arc::new(table.clone())),
+        ..solid(table.static_modulus(), poisson_ratio, 1000.0).into()
     };
-    let face: TabledMaterial = own(solid(7e10, 0.0, 2700.0)).into();
+    let face: RegionMaterial = solid(7e10, 0.0, 2700.0).into();
     let regions = mesh.regions.iter();
-    let materials: Vec<TabledMaterial> =
+    let materials: Vec<RegionMaterial> =
         regions.map(|name| if name == "core" { core.clone() } else { face.clone() }).collect();
     let closed = BaseChoice::Closed;
     let assembly = Assembly::new(&mesh, &materials, &[], &[], &[], closed).unwrap();

@@ -9,7 +9,7 @@ use super::{Case, Contact, Section, refuse};
 use frictionsim_physics::contact::{
     ContactStiffness, Counterpart, Motion, PointKind, RigidCounterface, RigidMotion, SlidingContact,
 };
-use frictionsim_physics::fem::{MaterialField, PlaneFormulation, RotationFrame, TabledMaterial};
+use frictionsim_physics::fem::{MaterialField, PlaneFormulation, RegionMaterial, RotationFrame};
 use frictionsim_physics::mesh::Mesh;
 use frictionsim_physics::prestress::{
     Assembly, BaseChoice, PrestressError, SlidingSurfaces, TiedSurfaces,
@@ -23,7 +23,7 @@ pub struct AssemblyBody {
     /// The mesh of all bodies.
     pub mesh: Arc<Mesh>,
     /// The material of each of its regions.
-    pub materials: Vec<TabledMaterial>,
+    pub materials: Vec<RegionMaterial>,
     /// Surfaces that are glued.
     pub ties: Vec<TiedSurfaces>,
     /// Surfaces that slide on each other.
@@ -201,7 +201,7 @@ pub(super) fn assemble(
     let unknown = |name: &str| absent(&mesh.regions, name, &format!("materials.{name}"), REGION);
     let mut materials = file.materials_of(&mesh.regions, unknown)?;
     for material in &mut materials {
-        material.own.elastic.formulation = PlaneFormulation::ThreeDimensional;
+        material.elastic.formulation = PlaneFormulation::ThreeDimensional;
     }
     let mut motions = Vec::new();
     for (name, motion) in parts.motions {

@@ -2,7 +2,7 @@
 
 use super::{AssemblyBody, ImportedBody};
 use frictionsim_physics::contact::RigidMotion;
-use frictionsim_physics::fem::{ModulusTable, TabledMaterial};
+use frictionsim_physics::fem::{ModulusTable, RegionMaterial};
 use frictionsim_physics::mesh::{
     AnnulusMesh, AnnulusSpecification, BoundaryCondition, Counterface, Mesh, MeshError,
     SolidContact, SolidSpecification,
@@ -16,7 +16,7 @@ pub struct Annulus {
     /// Radii, element counts, and what holds the outer edge.
     pub specification: AnnulusSpecification,
     /// The materials of the disc and, where there is one, of its shaft.
-    pub materials: Vec<TabledMaterial>,
+    pub materials: Vec<RegionMaterial>,
 }
 
 /// A body of revolution in three dimensions that is generated from radii, thickness and element counts.
@@ -25,7 +25,7 @@ pub struct Revolution {
     /// Radii, thickness, element counts, contact, and what holds each face.
     pub specification: Box<SolidSpecification>,
     /// The material of each of its regions.
-    pub materials: Vec<TabledMaterial>,
+    pub materials: Vec<RegionMaterial>,
 }
 
 /// The body of a case.
@@ -216,7 +216,7 @@ impl Body {
     }
 
     /// The material of each region of the mesh.
-    pub fn materials(&self) -> &Vec<TabledMaterial> {
+    pub fn materials(&self) -> &Vec<RegionMaterial> {
         match self {
             Self::Annulus(annulus) => &annulus.materials,
             Self::Revolution(revolution) => &revolution.materials,
@@ -237,7 +237,7 @@ impl Body {
 
     /// Whether a material has a loss factor or a table.
     pub(super) fn has_lossy_materials(&self) -> bool {
-        let is_lossy = |m: &TabledMaterial| m.table.is_some() || m.own.elastic.loss_factor != 0.0;
+        let is_lossy = |m: &RegionMaterial| m.table.is_some() || m.elastic.loss_factor != 0.0;
         self.materials().iter().any(is_lossy)
     }
 

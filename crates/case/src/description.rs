@@ -7,7 +7,7 @@ use super::tables::{TableFiles, modulus_table};
 use super::words::FilePart;
 use super::{Section, UnitsWord, boundaries, modifications, refuse};
 use frictionsim_physics::fem::{
-    ElasticMaterial, PlaneFormulation, RayleighDamping, RegionMaterial, TabledMaterial,
+    ElasticMaterial, PlaneFormulation, RayleighDamping, RegionMaterial,
 };
 use frictionsim_physics::mesh::BoundaryCondition;
 
@@ -31,7 +31,7 @@ pub(super) struct Description<'a> {
     pub file: Option<String>,
     pub scale: f64,
     /// The common material, whose axes are laid into the body once that is known.
-    pub common: TabledMaterial,
+    pub common: RegionMaterial,
     /// What holds its boundaries.
     pub conditions: Vec<NamedCondition>,
     /// What is added to it or taken away.
@@ -69,7 +69,7 @@ impl<'a> Description<'a> {
 
     /// Whether the body has a thickness of its own.
     pub fn is_solid(&self) -> bool {
-        self.common.own.elastic.formulation == PlaneFormulation::ThreeDimensional
+        self.common.elastic.formulation == PlaneFormulation::ThreeDimensional
     }
 
     /// Whether a boundary has a pressure of its own.
@@ -104,7 +104,7 @@ pub(super) fn has_common_constants(root: &Section<'_>) -> bool {
 
 /// `[material]`. Where every region of a mesh file may have a section of its own, it can be left out: the constants are
 /// then those of the first region, once it is read.
-fn material(root: &Section<'_>, tables: &TableFiles<'_>) -> TabledMaterial {
+fn material(root: &Section<'_>, tables: &TableFiles<'_>) -> RegionMaterial {
     let has_regions = root.section("mesh", false).has("file")
         && !root.section("materials", false).remaining().is_empty();
     let is_needed = !has_regions || has_common_constants(root);
@@ -118,7 +118,7 @@ fn material(root: &Section<'_>, tables: &TableFiles<'_>) -> TabledMaterial {
         false => (ElasticMaterial { formulation, ..ElasticMaterial::PLAIN }, None),
     };
     section.close();
-    TabledMaterial { own: RegionMaterial { elastic, damping: None }, table }
+    RegionMaterial { table, ..elastic.into() }
 }
 
 pub(super) fn damping(section: &Section<'_>) -> Damping {

@@ -13,7 +13,7 @@ use super::{
     boundaries, imported, refusal, refuse, solid,
 };
 use frictionsim_physics::contact::Motion;
-use frictionsim_physics::fem::{RotationFrame, TabledMaterial};
+use frictionsim_physics::fem::{RegionMaterial, RotationFrame};
 use frictionsim_physics::mesh::{
     AnnulusSpecification, BoundaryCondition, ShaftSpecification, SolidSpecification,
 };
@@ -24,10 +24,10 @@ pub(super) fn generated(own: &mut Description<'_>) -> (Option<Body>, Contact) {
     imported::refuse_sectors(&own.mesh);
     let axial = solid::axial_elements(own);
     let sectors = Surroundings::Sectors { is_plane: !is_solid };
-    place_axes(root, &["material"], &mut own.common.own.elastic, &sectors);
+    place_axes(root, &["material"], &mut own.common.elastic, &sectors);
     let (mut annulus, mut shaft) = annulus(own);
     if let Some(shaft) = &mut shaft {
-        place_axes(root, &["materials", "shaft"], &mut shaft.own.elastic, &sectors);
+        place_axes(root, &["materials", "shaft"], &mut shaft.elastic, &sectors);
     }
     own.geometry.close();
     own.mesh.close();
@@ -52,7 +52,7 @@ pub(super) fn generated(own: &mut Description<'_>) -> (Option<Body>, Contact) {
             };
             let mut materials = vec![own.common.clone()];
             for (part, mut material) in solid::parts(own, &specification) {
-                place_axes(root, &["materials", &part.name], &mut material.own.elastic, &sectors);
+                place_axes(root, &["materials", &part.name], &mut material.elastic, &sectors);
                 specification.parts.push(part);
                 materials.push(material);
             }
@@ -126,7 +126,7 @@ fn fitting<T>(root: &Section<'_>, whole: Result<T, Misfit>, what: &str) -> Optio
 }
 
 /// The specification of the annulus, and the material of its shaft where it has one.
-fn annulus(own: &Description<'_>) -> (AnnulusSpecification, Option<TabledMaterial>) {
+fn annulus(own: &Description<'_>) -> (AnnulusSpecification, Option<RegionMaterial>) {
     let Description { root, geometry, mesh, conditions, .. } = own;
     let inner_radius = geometry.number("inner_radius");
     let outer_radius = geometry.number("outer_radius");
@@ -183,7 +183,7 @@ fn check_mesh(mesh: &Section<'_>, annulus: &AnnulusSpecification) {
 fn shaft(
     own: &Description<'_>,
     contact_radius: f64,
-) -> Option<(ShaftSpecification, TabledMaterial)> {
+) -> Option<(ShaftSpecification, RegionMaterial)> {
     let Description { geometry, mesh, .. } = own;
     let bore = geometry.optional_number("shaft_inner_radius");
     let elements = mesh.optional_count("shaft_radial_elements");
@@ -218,7 +218,7 @@ fn shaft(
 }
 
 /// `[materials.shaft]`; the annulus has no other surfaces.
-fn materials(own: &Description<'_>, has_shaft: bool) -> Option<TabledMaterial> {
+fn materials(own: &Description<'_>, has_shaft: bool) -> Option<RegionMaterial> {
     let all = own.root.section("materials", false);
     for (name, _) in all.remaining() {
         match name {
@@ -234,7 +234,7 @@ fn materials(own: &Description<'_>, has_shaft: bool) -> Option<TabledMaterial> {
                 "describe the disc in [material] and a shaft in [materials.shaft]"),
         }
     }
-    let read = imported::materials(own.root, &own.common.own.elastic, own.tables);
+    let read = imported::materials(own.root, &own.common.elastic, own.tables);
     let mut shafts = read.into_iter().filter(|(name, _)| name == "shaft");
     shafts.next().map(|(_, material)| material)
 }

@@ -2,7 +2,7 @@
 
 use super::description::{Description, has_common_constants};
 use super::elastic::elastic;
-use super::modifications::{Misfit, Modification, reshaped};
+use super::modifications::{Misfit, reshaped};
 use super::tables::{TableFiles, modulus_table};
 use super::value::quote;
 use super::words::CounterfaceWord;
@@ -10,7 +10,7 @@ use super::{
     Diagnostic, MeshBytes, RawCase, Section, caution, first_of, inclusion, refuse, suggestion,
 };
 use frictionsim_physics::contact::ContactInterface;
-use frictionsim_physics::fem::{ElasticMaterial, RayleighDamping, RegionMaterial, TabledMaterial};
+use frictionsim_physics::fem::{ElasticMaterial, RayleighDamping, RegionMaterial};
 use frictionsim_physics::mesh::{
     BodyError, BodyPart, BodySpecification, CounterfaceSpecification, CyclicSymmetry, FileMesh,
     Mesh, refined_file, repeated_file,
@@ -27,7 +27,7 @@ pub struct ImportedBody {
     /// Its mesh with boundaries and what holds them.
     pub mesh: Arc<Mesh>,
     /// The material of each of its regions.
-    pub materials: Vec<TabledMaterial>,
+    pub materials: Vec<RegionMaterial>,
     /// What the mesh was made of, for its refinements.
     source: Arc<(Arc<FileMesh>, BodySpecification)>,
 }
@@ -84,7 +84,7 @@ pub(super) fn materials(
     root: &Section<'_>,
     common: &ElasticMaterial,
     files: &TableFiles<'_>,
-) -> Vec<(String, TabledMaterial)> {
+) -> Vec<(String, RegionMaterial)> {
     let all = materials_and(root, common, files, |section| {
         for key in section.refused("radii heights") {
             refuse!(section, key => "is of a part of a generated three-dimensional body";
@@ -100,7 +100,7 @@ pub(super) fn materials_and<T>(
     common: &ElasticMaterial,
     files: &TableFiles<'_>,
     beside: impl Fn(&Section<'_>) -> T,
-) -> Vec<(String, (TabledMaterial, T))> {
+) -> Vec<(String, (RegionMaterial, T))> {
     root.each("materials", |section| {
         let coefficients = ["mass_coefficient", "stiffness_coefficient"];
         let coefficients = coefficients.map(|key| section.optional_number(key));
@@ -113,7 +113,7 @@ pub(super) fn materials_and<T>(
                 stiffness_coefficient: stiffness.unwrap_or(0.0),
             }),
         };
-        (TabledMaterial { own: RegionMaterial { elastic, damping }, table }, beside(section))
+        (RegionMaterial { damping, table, ..elastic.into() }, beside(section))
     })
 }
 
@@ -124,7 +124,7 @@ pub(super) struct FileParts<'a> {
     /// Of a file that has one sector.
     pub symmetry: Option<CyclicSymmetry>,
     /// The materials of regions that have one of their own.
-    pub materials: Vec<(String, TabledMaterial)>,
+    pub materials: Vec<(String, RegionMaterial)>,
 }
 
 impl FileParts<'_> {
@@ -155,7 +155,7 @@ impl FileParts<'_> {
         &self,
         regions: &[String],
         unknown: impl Fn(&str) -> ImportError,
-    ) -> Result<Vec<TabledMaterial>, ImportError> {
+    ) -> Result<Vec<RegionMaterial>, ImportError> {
         let mut names = self.materials.iter().map(|(name, _)| name);
         if let Some(name) = names.find(|name| !regions.contains(name)) {
             return Err(unknown(name));
@@ -319,7 +319,7 @@ impl ImportedBody {
     /// A body of a mesh that was made of a file.
     pub(super) fn new(
         mesh: Mesh,
-        materials: Vec<TabledMaterial>,
+        materials: Vec<RegionMaterial>,
         file: Arc<FileMesh>,
         specification: BodySpecification,
     ) -> Self {

@@ -91,7 +91,7 @@ pub use words::{
     UnitsWord,
 };
 
-use frictionsim_physics::fem::{ElasticMaterial, MaterialField, RelaxedMaterials};
+use frictionsim_physics::fem::{ElasticMaterial, MaterialField, RegionMaterial};
 use frictionsim_physics::mesh::{Mesh, MeshError};
 use reader::{Findings, Section};
 use std::sync::Arc;
@@ -136,7 +136,7 @@ pub struct Case {
     /// What is tried against unstable modes.
     pub improve: Improve,
     /// What its materials are in time, where that is another thing: with loss factors and tables over frequency.
-    pub relaxed: Option<RelaxedMaterials>,
+    pub relaxed: Option<Vec<RegionMaterial>>,
     /// What it takes from its mesh file beside the mesh.
     pub taken: Taken,
     /// Things that are no errors but that the user should hear of.
@@ -174,7 +174,7 @@ impl Case {
         let tables = tables::TableFiles::of(&raw);
         let mut described = description::Description::read(&root, &tables);
         let (body, contact, mesh) = model::body(&mut described, &raw);
-        let (material, thickness) = (described.common.own.elastic, described.thickness);
+        let (material, thickness) = (described.common.elastic, described.thickness);
         let tables = tables.read.into_inner();
         let damping = root.section("damping", false).closed(description::damping);
         let own_friction = contact.sliding.friction_coefficient;

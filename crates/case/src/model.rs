@@ -9,7 +9,7 @@ use super::imported::{FileParts, ImportError};
 use super::{
     Body, Contact, MeshBytes, RawCase, Section, assembly, attachments, caution, imported, refuse,
 };
-use frictionsim_physics::fem::TabledMaterial;
+use frictionsim_physics::fem::RegionMaterial;
 use frictionsim_physics::mesh::{BodySpecification, CounterfaceSpecification};
 use frictionsim_physics::prestress::BaseChoice;
 
@@ -125,15 +125,15 @@ fn solid_joints(own: &Description<'_>, has_solids: bool) -> (AssemblyParts, Cont
 
 /// `[materials.*]` with their axes and those of `[material]` laid into the body. A case without `[material]` gets the
 /// constants of its first region for what asks for one.
-fn materials(own: &mut Description<'_>, body: &Surroundings) -> Vec<(String, TabledMaterial)> {
-    let (root, common) = (own.root, &mut own.common.own.elastic);
+fn materials(own: &mut Description<'_>, body: &Surroundings) -> Vec<(String, RegionMaterial)> {
+    let (root, common) = (own.root, &mut own.common.elastic);
     place_axes(root, &["material"], common, body);
     let mut all = imported::materials(root, common, own.tables);
     for (name, material) in &mut all {
-        place_axes(root, &["materials", name], &mut material.own.elastic, body);
+        place_axes(root, &["materials", name], &mut material.elastic, body);
     }
     if let Some((_, first)) = all.first().filter(|_| !has_common_constants(root)) {
-        *common = first.own.elastic;
+        *common = first.elastic;
     }
     all
 }

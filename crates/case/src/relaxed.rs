@@ -1,7 +1,7 @@
 //! What materials with loss factors and tables over frequency are in time.
 
 use super::{Case, CaseErrors, ModeLimit};
-use frictionsim_physics::fem::{MaterialField, MaxwellChain, RelaxedMaterials};
+use frictionsim_physics::fem::{MaterialField, MaxwellChain, RegionMaterial};
 use frictionsim_physics::linalg::c64;
 
 /// Band of a constant loss factor: from this part of `cea.max_frequency_hz` up to that.
@@ -11,7 +11,7 @@ const LOWEST_OF_TABLE: f64 = 1e-5;
 
 /// The materials of a case in time; none where they are what they are in any case, and where there is no band to fit
 /// them to.
-pub(super) fn relaxed(case: &Case) -> Option<RelaxedMaterials> {
+pub(super) fn relaxed(case: &Case) -> Option<Vec<RegionMaterial>> {
     let (materials, count) = (case.materials(), case.body.region_count());
     if case.transient.is_none() || !case.body.has_lossy_materials() {
         return None;
@@ -31,7 +31,8 @@ pub(super) fn relaxed(case: &Case) -> Option<RelaxedMaterials> {
         let band = band.filter(|_| eta != 0.0)?;
         Some(MaxwellChain::fit(&|_| c64::new(1.0, eta), band))
     };
-    Some(RelaxedMaterials::of(materials, count, chain))
+    let in_time = |region| RegionMaterial::in_time(materials, region, chain(region));
+    Some((0..count).map(in_time).collect())
 }
 
 /// The band over which a constant loss factor is kept, Hz.

@@ -3,7 +3,7 @@
 use super::boundaries::{NamedCondition, holds_tangentially};
 use super::description::Description;
 use super::{Case, CaseErrors, Section, imported, refusal, refuse, suggestion};
-use frictionsim_physics::fem::TabledMaterial;
+use frictionsim_physics::fem::RegionMaterial;
 use frictionsim_physics::mesh::{
     AnnulusSpecification, BoundaryCondition, SolidContact, SolidFace, SolidPart, SolidSpecification,
 };
@@ -68,11 +68,11 @@ pub(super) fn contact(section: &Section<'_>, annulus: &AnnulusSpecification) -> 
 pub(super) fn parts(
     own: &Description<'_>,
     body: &SolidSpecification,
-) -> Vec<(SolidPart, TabledMaterial)> {
+) -> Vec<(SolidPart, RegionMaterial)> {
     let radii = body.corner_radii().unwrap_or_default();
     let height = |layer: usize| body.thickness * layer as f64 / body.axial_elements as f64;
     let heights: Vec<f64> = (0..=body.axial_elements).map(height).collect();
-    let found = imported::materials_and(own.root, &own.common.own.elastic, own.tables, |section| {
+    let found = imported::materials_and(own.root, &own.common.elastic, own.tables, |section| {
         if !section.has("radii") && !section.has("heights") {
             refuse!(section, "radii", "{} needs the radii or the heights between which it lies",
                 section.name("radii"); "lies nowhere";
@@ -104,7 +104,7 @@ pub(super) fn parts(
         [range("radii", &radii), range("heights", &heights)]
     });
     let section = own.root.section("materials", false);
-    let mut parts: Vec<(SolidPart, TabledMaterial)> = Vec::new();
+    let mut parts: Vec<(SolidPart, RegionMaterial)> = Vec::new();
     for (name, (material, [radii, heights])) in found {
         let meets = |[a, b]: [f64; 2], [c, d]: [f64; 2]| a.max(c) < b.min(d);
         let covers = |own: &SolidPart| meets(own.radii, radii) && meets(own.heights, heights);

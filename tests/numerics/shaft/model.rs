@@ -3,7 +3,7 @@
 use crate::prelude::*;
 
 /// Materials of an annulus, region 0, and of its deformable shaft, region 1.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct AnnulusMaterials {
     /// Of the annulus.
     pub annulus: ElasticMaterial,
@@ -24,7 +24,7 @@ impl MaterialField for AnnulusMaterials {
     }
 
     fn own_damping(&self, region: usize) -> Option<RayleighDamping> {
-        self.shaft.filter(|_| region == 1)?.damping
+        self.shaft.as_ref().filter(|_| region == 1)?.damping
     }
 }
 
@@ -36,10 +36,7 @@ pub fn with_shaft(element: ElementKind, around: usize, radial: [usize; 2]) -> An
 }
 
 pub fn on(shaft: ElasticMaterial) -> AnnulusMaterials {
-    AnnulusMaterials {
-        annulus: POLYCARBONATE,
-        shaft: Some(RegionMaterial { elastic: shaft, damping: None }),
-    }
+    AnnulusMaterials { annulus: POLYCARBONATE, shaft: Some(shaft.into()) }
 }
 
 pub fn stiffer(factor: f64) -> AnnulusMaterials {

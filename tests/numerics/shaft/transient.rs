@@ -29,7 +29,7 @@ fn a_wave_in_disc_and_shaft_grows_as_the_complex_eigenvalue_predicts() {
     let options = TangentOptions { mass: MassKind::Lumped, ..rigid_contact(false) };
     for (materials, n, duration) in [(on(POLYCARBONATE), 2, 0.006), (steel, 2, 0.006)] {
         let limit = ModeLimit::MaxFrequency(20e3);
-        let found = model(specification, materials, options).swept(&[0.0, 0.3], limit);
+        let found = model(specification, materials.clone(), options).swept(&[0.0, 0.3], limit);
         let modes = &found.sweep.points[1].modes;
         let of_harmonic = modes.iter().filter(|mode| mode.harmonic == n);
         let predicted =

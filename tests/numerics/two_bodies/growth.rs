@@ -13,8 +13,7 @@ fn a_mode_of_two_bodies_whose_meshes_do_not_match_grows_as_its_eigenvalue_says()
     let brass = elastic(1e11, 0.35, 8500.0, PlaneFormulation::PlaneStrain);
     let mesh = rings([40, 48], [3, 9], 0.05);
     for shaft in [POLYCARBONATE, brass] {
-        let region = |elastic| TabledMaterial::from(RegionMaterial { elastic, damping: None });
-        let materials = vec![region(POLYCARBONATE), region(shaft)];
+        let materials = [POLYCARBONATE, shaft].map(RegionMaterial::from).to_vec();
         assert_eq!(mesh.regions, ["disc", "shaft"]);
         let options = options(MassKind::Lumped, false);
         let found = modes_of(&mesh, &materials, &options, ModeLimit::Lowest(12), &[0.3]);
@@ -31,7 +30,7 @@ fn a_mode_of_two_bodies_whose_meshes_do_not_match_grows_as_its_eigenvalue_says()
 /// A transient from steady sliding and `Re(shape e^(lambda t))`, with the harmonic of the edge in which it moves most.
 fn run(
     mesh: &frictionsim::mesh::Mesh,
-    materials: &Vec<TabledMaterial>,
+    materials: &Vec<RegionMaterial>,
     eigenvalue: c64,
     shape: &[c64],
 ) -> (Recorder, usize) {

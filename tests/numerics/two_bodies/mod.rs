@@ -117,8 +117,7 @@ fn a_block_on_a_block_of_another_mesh_is_pressed_alike_everywhere() {
     let mesh = blocks([13, 5]).unwrap();
     // The lower block as stiff as nothing deforms.
     let stiff = ElasticMaterial { young_modulus: 1e9 * material.young_modulus, ..material };
-    let region = |elastic| TabledMaterial::from(RegionMaterial { elastic, damping: None });
-    let materials = vec![region(stiff), region(material)];
+    let materials = [stiff, material].map(RegionMaterial::from).to_vec();
     assert_eq!(mesh.regions, ["lower", "upper"]);
     let stiffness = assemble_stiffness(&mesh, &materials);
     let sliding = sliding_at(0.0, 1e-5, 1.0);

@@ -294,7 +294,7 @@ fn solid_modes(assembly: &AssemblyBody, omega: f64) -> f64 {
     let volumes = mesh.region_measures();
     let regions = volumes.iter().zip(&surfaces).zip(&assembly.materials);
     let each = regions.map(|((volume, faces), material)| {
-        let material = &material.own.elastic;
+        let material = &material.elastic;
         // A region within others has no surface of its own.
         let area = (0.5 * mesh.face_area(faces)).max(volume.powf(2.0 / 3.0));
         let [lambda, shear] = material.lame_constants();

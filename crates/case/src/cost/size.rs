@@ -1,7 +1,7 @@
 //! Size of a mesh, as the cost estimates need it.
 
 use crate::{Body, Case, Revolution};
-use frictionsim_physics::fem::{ElasticMaterial, MaterialField, TabledMaterial};
+use frictionsim_physics::fem::{ElasticMaterial, MaterialField, RegionMaterial};
 use frictionsim_physics::mesh::{AnnulusSpecification, Mesh};
 use std::f64::consts::TAU;
 
@@ -28,13 +28,13 @@ impl Size {
             Body::Annulus(annulus) => {
                 let grid = &annulus.specification;
                 let of_disc = grid_frequency(grid, annulus.materials.of(0), 0.0);
-                let shaft = annulus.materials.get(1).map(|shaft| &shaft.own.elastic);
+                let shaft = annulus.materials.get(1).map(|shaft| &shaft.elastic);
                 of_disc.max(shaft_frequency(grid, shaft))
             }
             Body::Revolution(Revolution { specification, materials }) => {
                 let through = specification.axial_elements as f64 / specification.thickness;
-                let of = |own: &TabledMaterial| {
-                    grid_frequency(&specification.annulus, &own.own.elastic, through)
+                let of = |own: &RegionMaterial| {
+                    grid_frequency(&specification.annulus, &own.elastic, through)
                 };
                 materials.iter().map(of).fold(0.0, f64::max)
             }
@@ -88,8 +88,8 @@ fn shaft_frequency(grid: &AnnulusSpecification, material: Option<&ElasticMateria
 }
 
 /// The highest of all elements of a mesh.
-fn highest(mesh: &Mesh, materials: &[TabledMaterial], of: fn(&Mesh, usize, f64) -> f64) -> f64 {
-    let speed = |element| pressure_wave_speed(&materials[mesh.region(element)].own.elastic);
+fn highest(mesh: &Mesh, materials: &[RegionMaterial], of: fn(&Mesh, usize, f64) -> f64) -> f64 {
+    let speed = |element| pressure_wave_speed(&materials[mesh.region(element)].elastic);
     let each = (0..mesh.element_count()).map(|element| of(mesh, element, speed(element)));
     each.fold(0.0, f64::max)
 }

@@ -62,90 +62,58 @@ impl MaterialField for ElasticMaterial {
 }
 
 /// Material of one region.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct RegionMaterial {
-    /// Elasticity and density.
+    /// Elasticity and density: with a table that of its lowest frequency, with a chain that at rest.
     pub elastic: ElasticMaterial,
     /// Rayleigh coefficients of its own, else those of the whole body.
     pub damping: Option<RayleighDamping>,
-}
-
-/// Material of one region, which may depend on frequency.
-#[derive(Clone, Debug, PartialEq)]
-pub struct TabledMaterial {
-    /// Elasticity, that of the lowest frequency of a table, density and damping.
-    pub own: RegionMaterial,
     /// Modulus and loss factor over frequency.
     pub table: Option<Arc<ModulusTable>>,
+    /// What it has in time beside its elasticity.
+    pub chain: Option<MaxwellChain>,
 }
 
-impl From<RegionMaterial> for TabledMaterial {
-    fn from(own: RegionMaterial) -> Self {
-        Self { own, table: None }
+/// Depends on nothing, and is damped as the whole body.
+impl From<ElasticMaterial> for RegionMaterial {
+    fn from(elastic: ElasticMaterial) -> Self {
+        Self { elastic, damping: None, table: None, chain: None }
     }
 }
 
-/// Materials in time: those with damping that belongs to frequencies have the elasticity of their chain at rest, and the chain.
-#[derive(Clone, Debug, PartialEq)]
-pub struct RelaxedMaterials {
-    regions: Vec<(RegionMaterial, Option<MaxwellChain>)>,
-}
-
-impl RelaxedMaterials {
-    /// The materials of so many regions, with the chain that `chain` gives a region.
-    pub fn of(
+impl RegionMaterial {
+    /// What a region has in time: one with damping that belongs to frequencies the elasticity of its chain at rest, and the chain.
+    pub fn in_time(
         materials: &dyn MaterialField,
-        count: usize,
-        chain: impl Fn(usize) -> Option<MaxwellChain>,
+        region: usize,
+        chain: Option<MaxwellChain>,
     ) -> Self {
-        let regions = (0..count).map(|region| {
-            let chain = chain(region);
-            let at_rest = chain.as_ref().map_or(1.0, |chain| chain.at_rest);
-            let own = RegionMaterial {
-                elastic: ElasticMaterial {
-                    loss_factor: 0.0,
-                    ..materials.of(region).scaled(at_rest)
-                },
-                damping: materials.own_damping(region),
-            };
-            (own, chain)
-        });
-        Self { regions: regions.collect() }
-    }
-
-    /// The chains, each with its region.
-    pub fn chains(&self) -> impl Iterator<Item = (usize, &MaxwellChain)> {
-        let regions = self.regions.iter().enumerate();
-        regions.filter_map(|(region, (_, chain))| Some((region, chain.as_ref()?)))
-    }
-}
-
-impl MaterialField for RelaxedMaterials {
-    fn of(&self, region: usize) -> &ElasticMaterial {
-        &self.regions[region].0.elastic
-    }
-
-    fn own_damping(&self, region: usize) -> Option<RayleighDamping> {
-        self.regions[region].0.damping
-    }
-
-    fn chain(&self, region: usize) -> Option<&MaxwellChain> {
-        self.regions[region].1.as_ref()
+        let at_rest = chain.as_ref().map_or(1.0, |chain| chain.at_rest);
+        let elastic = materials.of(region).scaled(at_rest);
+        Self {
+            damping: materials.own_damping(region),
+            chain,
+            ..ElasticMaterial { loss_factor: 0.0, ..elastic }.into()
+        }
     }
 }
 
 /// One for each region.
-impl MaterialField for Vec<TabledMaterial> {
+impl MaterialField for Vec<RegionMaterial> {
     fn of(&self, region: usize) -> &ElasticMaterial {
-        &self[region].own.elastic
+        &self[region].elastic
     }
 
     fn own_damping(&self, region: usize) -> Option<RayleighDamping> {
-        self[region].own.damping
+        self[region].damping
     }
 
     fn table(&self, region: usize) -> Option<&Arc<ModulusTable>> {
         self[region].table.as_ref()
+    }
+
+    fn chain(&self, region: usize) -> Option<&MaxwellChain> {
+        self[region].chain.as_ref()
     }
 }
 

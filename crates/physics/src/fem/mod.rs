@@ -34,7 +34,6 @@ pub use discretization::DiscretizationError;
 pub use dof_map::DofMap;
 pub use material::{
     ElasticMaterial, MaterialField, PlaneFormulation, RayleighDamping, RegionMaterial,
-    RelaxedMaterials, TabledMaterial,
 };
 pub use maxwell::{MaxwellChain, MaxwellElement};
 pub use modulus_table::{ModulusTable, own_frequency_step};

@@ -89,7 +89,7 @@ pub fn disc_model(case: &Case) -> Result<DiscModel, CaseErrors> {
     let annulus = case.require_annulus("limit cycles are rotating waves, which", search)?;
     Ok(DiscModel {
         specification: annulus.specification,
-        material: annulus.materials[0].own.elastic,
+        material: annulus.materials[0].elastic,
         damping: case.damping.rayleigh,
     })
 }

@@ -13,7 +13,7 @@ pub(super) fn free_part(case: &Case) -> Option<&AssemblyBody> {
     let body = case.body.assembly()?;
     let rayleigh = case.damping.rayleigh;
     let is_damped = rayleigh.mass_coefficient != 0.0 || rayleigh.stiffness_coefficient != 0.0;
-    let mut own = body.materials.iter().map(|material| material.own.damping);
+    let mut own = body.materials.iter().map(|material| material.damping);
     let is_plain = !is_damped && own.all(|damping| damping.is_none());
     let is_plain = is_plain && !case.has_structural_damping();
     let is_plain = is_plain && body.mesh.attachments.is_empty() && body.mesh.patches.is_empty();

@@ -2,7 +2,7 @@
 
 use super::TransientStudy;
 use frictionsim_case::ModeLimit;
-use frictionsim_physics::fem::{RelaxedMaterials, assemble_stiffness};
+use frictionsim_physics::fem::assemble_stiffness;
 use frictionsim_physics::prestress::{PrestressError, SteadySliding};
 use frictionsim_physics::transient::{InitialState, Recorder, TransientAnalysis};
 
@@ -35,8 +35,8 @@ impl TransientStudy<'_> {
 
     /// What stands in time for stiffness that belongs to frequencies.
     fn chains(&self) -> Vec<String> {
-        let relaxed = self.case.relaxed.iter();
-        let chains = relaxed.flat_map(RelaxedMaterials::chains);
+        let relaxed = self.case.relaxed.iter().flatten().enumerate();
+        let chains = relaxed.filter_map(|(region, own)| Some((region, own.chain.as_ref()?)));
         let said = chains.map(|(region, chain)| {
             let name = match self.stepped.mesh.regions.get(region) {
                 Some(name) => format!("region {name}"),
