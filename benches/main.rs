@@ -22,6 +22,7 @@ use std::ops::ControlFlow;
 /// What the models of the tests name.
 mod prelude {
     pub use crate::common::prelude::*;
+    pub use crate::common::waves::WaveModel;
     pub use frictionsim::cea::sparse::sweep;
 }
 

@@ -167,7 +167,7 @@ fn eigenvalues(divisions: [usize; 3]) -> f64 {
     let frictions: Vec<f64> = (0..21).map(|i| f64::from(i) / 20.0).collect();
     let request = SweepRequest::new(&frictions, ModeLimit::Lowest(30));
     let clock = Instant::now();
-    let found = model::solid_sweep(&model, &request).expect("the disc can be solved");
+    let found = model.sweep(&request).expect("the disc can be solved");
     assert!(found.sweep.points.iter().all(|point| point.modes.len() >= 30));
     clock.elapsed().as_secs_f64()
 }

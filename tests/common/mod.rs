@@ -19,3 +19,4 @@ pub mod spectra;
 pub mod table_1;
 pub mod tier;
 pub mod triangles;
+pub mod waves;

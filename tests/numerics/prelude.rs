@@ -1,9 +1,9 @@
 //! What most of these tests name.
 
 pub use crate::common::prelude::*;
+pub use crate::common::waves::{AnnulusModel, WaveModel};
 pub use crate::shaft::model::AnnulusMaterials;
 pub use crate::solids::model::SolidModel;
-pub use crate::waves::{AnnulusModel, WaveModel};
 pub use frictionsim::cea::cyclic::WaveSweep;
 pub use frictionsim::cea::sparse::sweep;
 pub use frictionsim::linalg::dense::random_columns;
