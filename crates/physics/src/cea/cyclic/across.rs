@@ -57,12 +57,7 @@ impl Across {
             .filter(|&k| self.dashpots.get(k, k) > 0.0)
             .map(|k| pencil.stiffness().get(k, k) / self.dashpots.get(k, k))
             .fold(0.0, f64::max);
-        let held = self.added_to(pencil, HOLDING * stiffest);
+        let held = pencil.stiffened(HOLDING * stiffest, &self.dashpots);
         held.map_or_else(Vec::new, |held| held.lowest(held.count_below(kappa)))
-    }
-
-    /// A pencil with `factor A` as further stiffness.
-    pub fn added_to(&self, pencil: &Pencil, factor: f64) -> Option<Pencil> {
-        pencil.stiffened(factor, &self.dashpots)
     }
 }

@@ -134,27 +134,16 @@ impl<'a> TestSpace<'a> {
             factor.half_solve(&self.others.iter().map(border).collect::<Vec<c64>>())
         });
         let solved: Vec<Vec<c64>> = solved.collect();
-        // Cholesky of the small complement, row by row.
         let count = lines.len();
-        let mut lower = vec![vec![ZERO; count]; count];
+        let mut complement = BandedHermitian::zeros(count, count.saturating_sub(1));
         for i in 0..count {
             for j in 0..=i {
                 let (ti, tj) = (self.tangential[i], self.tangential[j]);
-                let mut value = 0.5 * (lines[i][0][tj] + lines[j][0][ti].conj());
-                value -= dot(&solved[i], &solved[j]);
-                let known = lower[i].iter().zip(&lower[j]).take(j);
-                value -= known.map(|(a, b)| a * b.conj()).sum::<c64>();
-                if i == j {
-                    if value.re.is_nan() || value.re <= 0.0 {
-                        return false;
-                    }
-                    lower[i][i] = c64::new(value.re.sqrt(), 0.0);
-                } else {
-                    lower[i][j] = value / lower[j][j];
-                }
+                let own = 0.5 * (lines[i][0][tj] + lines[j][0][ti].conj());
+                complement.add(i, j, own - dot(&solved[i], &solved[j]));
             }
         }
-        true
+        complement.cholesky().is_some()
     }
 
     /// Row `t` of `T (K - kappa M)`, and column `t` of `K - kappa M`.

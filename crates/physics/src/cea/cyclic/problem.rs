@@ -217,14 +217,16 @@ impl HarmonicProblem {
 
     /// Residual of the quadratic problem in the largest-entry norm, see [`crate::cea::ComplexMode`].
     pub fn residual(&self, at: &Matrices, theta: c64, x: &[c64]) -> f64 {
-        let force = self.apply(at, theta, x);
-        let (lambda, factor) = if self.is_proportional() {
-            let lambda = self.eigenvalue(theta);
-            (lambda, (1.0 + self.tangent.rayleigh.stiffness_coefficient * lambda).norm())
-        } else {
-            (theta, 1.0)
-        };
-        factor * largest(&force) / (self.size(at, lambda, x) * largest(x))
+        let (force, lambda) = (self.apply(at, theta, x), self.eigenvalue(theta));
+        self.stretch(lambda).norm() * largest(&force) / (self.size(at, lambda, x) * largest(x))
+    }
+
+    /// What `T(lambda)` is over `T(theta)`: `1 + beta lambda` of `T = K - kappa M`.
+    fn stretch(&self, lambda: c64) -> c64 {
+        match self.is_proportional() {
+            true => 1.0 + self.tangent.rayleigh.stiffness_coefficient * lambda,
+            false => c64::ONE,
+        }
     }
 
     /// `|lambda|^2 |M| + |lambda| |C| + |K|`.
@@ -239,15 +241,9 @@ impl HarmonicProblem {
     pub fn uncertainty(&self, at: &Matrices, pair: &Eigenpair) -> f64 {
         let lambda = self.eigenvalue(pair.theta);
         let slope = dot(&pair.y, &self.apply_slope(at, pair.theta, &pair.x, false));
-        // dT/dlambda from dT/dtheta; of the reduced problem T(lambda) = (1 + beta lambda) (K - kappa M).
-        let [factor, rate] = if self.is_proportional() {
-            let factor = 1.0 + self.tangent.rayleigh.stiffness_coefficient * lambda;
-            [factor, self.eigenvalue_slope(pair.theta)]
-        } else {
-            [c64::new(1.0, 0.0); 2]
-        };
-        let scale = self.size(at, lambda, &pair.x);
-        f64::EPSILON * scale / ((factor * slope / rate).norm() * lambda.norm())
+        // dT/dlambda from dT/dtheta.
+        let slope = self.stretch(lambda) * slope / self.eigenvalue_slope(pair.theta);
+        f64::EPSILON * self.size(at, lambda, &pair.x) / (slope.norm() * lambda.norm())
     }
 
     /// Largest row sum of `C`; in three dimensions each column counts as much as the vector has of it: the motion across the sliding

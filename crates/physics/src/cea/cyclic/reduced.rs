@@ -51,7 +51,7 @@ pub(super) fn follow(
         return refined(paths, of_all_unknowns(harmonic, &axial, tangent.is_standing(n)), range);
     }
     let added = range.highest_friction() * range.margin.sqrt();
-    let damped = is_damped.then(|| across.added_to(&pencil, added)).flatten();
+    let damped = is_damped.then(|| pencil.stiffened(added, &across.dashpots)).flatten();
     let answering = damped.unwrap_or(pencil);
     let reduction_error = largest_error(&paths, (&reduction, &harmonic, &answering), range.wanted);
     Ok(HarmonicPaths { space: Some(reduction), reduction_error, ..paths })
