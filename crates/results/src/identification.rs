@@ -4,15 +4,13 @@ mod figures;
 mod summary;
 
 pub use figures::{identification, unit_of};
-pub use summary::{
-    CoefficientSummary, FitSummary, IdentificationSummary, ModeSummary, ResponseSummary,
-};
+pub use summary::{FitSummary, IdentificationSummary, ModeSummary, ResponseSummary};
 
 use super::{FolderError, OutputFolder};
 use frictionsim_output::{Document, Section, Table, columns, write_rows};
 use frictionsim_physics::linalg::c64;
 use frictionsim_signal::reader::NamedResponse;
-use frictionsim_signal::{Estimate, ModalFit};
+use frictionsim_signal::{ModalFit, RayleighFit};
 
 /// Name of the `[damping]` section in its folder.
 pub const DAMPING_BLOCK: &str = "damping.toml";
@@ -42,14 +40,14 @@ columns! {
 
 columns! {
     /// Rayleigh coefficients of an estimator.
-    COEFFICIENTS: row as (&'static str, [Estimate; 2]);
+    COEFFICIENTS: row as (&'static str, RayleighFit);
     estimator = row.0, Always "estimator" Plain;
-    mass_coefficient_per_s = row.1[0].value, Always "alpha_R" Scientific(4);
-    mass_coefficient_low = row.1[0].low, Always "from" Scientific(4);
-    mass_coefficient_high = row.1[0].high, Always "to" Scientific(4);
-    stiffness_coefficient_s = row.1[1].value, Always "beta_R" Scientific(4);
-    stiffness_coefficient_low = row.1[1].low, Always "from" Scientific(4);
-    stiffness_coefficient_high = row.1[1].high, Always "to" Scientific(4);
+    mass_coefficient_per_s = row.1.mass_coefficient.value, Always "alpha_R" Scientific(4);
+    mass_coefficient_low = row.1.mass_coefficient.low, Always "from" Scientific(4);
+    mass_coefficient_high = row.1.mass_coefficient.high, Always "to" Scientific(4);
+    stiffness_coefficient_s = row.1.stiffness_coefficient.value, Always "beta_R" Scientific(4);
+    stiffness_coefficient_low = row.1.stiffness_coefficient.low, Always "from" Scientific(4);
+    stiffness_coefficient_high = row.1.stiffness_coefficient.high, Always "to" Scientific(4);
 }
 
 /// Frequency of a line, response, fitted response.
@@ -88,11 +86,8 @@ pub fn document(summary: &IdentificationSummary) -> Document {
         "The material is not exactly Rayleigh, and the intervals are widened for it.".to_owned()
     });
     let half = summary.half_power;
-    let estimators = std::iter::once((
-        "fit of the response",
-        [summary.mass_coefficient, summary.stiffness_coefficient],
-    ))
-    .chain(half.map(|own| ("half-power alone", [own.mass_coefficient, own.stiffness_coefficient])));
+    let estimators = std::iter::once(("fit of the response", summary.rayleigh))
+        .chain(half.map(|own| ("half-power alone", own)));
     let few = half
         .is_none()
         .then(|| "Half-power alone: fewer than three modes without doubt.".to_owned());

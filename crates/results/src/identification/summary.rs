@@ -20,14 +20,13 @@ pub struct IdentificationSummary {
     pub lines: usize,
     /// The responses.
     pub responses: Vec<ResponseSummary>,
-    /// `alpha_R`, 1/s.
-    pub mass_coefficient: Estimate,
-    /// `beta_R`, s.
-    pub stiffness_coefficient: Estimate,
+    /// The coefficients.
+    #[serde(flatten)]
+    pub rayleigh: RayleighFit,
     /// Scatter of the damping factors about equation (3) over what their errors explain, squared.
     pub reduced_chi_square: f64,
     /// The coefficients from half-power factors alone.
-    pub half_power: Option<CoefficientSummary>,
+    pub half_power: Option<RayleighFit>,
     /// Modes by frequency.
     pub modes: Vec<ModeSummary>,
     /// Peaks of which the fit made no mode, Hz.
@@ -53,15 +52,6 @@ pub struct ResponseSummary {
     pub relative_noise: f64,
     /// Noise that does not depend on the response, its unit.
     pub additive_noise: f64,
-}
-
-/// Rayleigh coefficients.
-#[derive(Clone, Copy, Debug, PartialEq, Described, Serialize)]
-pub struct CoefficientSummary {
-    /// `alpha_R`, 1/s.
-    pub mass_coefficient: Estimate,
-    /// `beta_R`, s.
-    pub stiffness_coefficient: Estimate,
 }
 
 /// One mode with both estimates of its damping.
@@ -118,20 +108,15 @@ impl IdentificationSummary {
                 additive_noise: noise.additive,
             }
         });
-        let coefficients = |fit: RayleighFit| CoefficientSummary {
-            mass_coefficient: fit.mass_coefficient,
-            stiffness_coefficient: fit.stiffness_coefficient,
-        };
         Self {
             source: source.to_owned(),
             quantity: first.quantity().name().to_owned(),
             has_phase: first.has_phase(),
             lines: first.values().len(),
             responses: described.collect(),
-            mass_coefficient: found.rayleigh.mass_coefficient,
-            stiffness_coefficient: found.rayleigh.stiffness_coefficient,
+            rayleigh: found.rayleigh,
             reduced_chi_square: found.rayleigh.reduced_chi_square,
-            half_power: found.half_power_rayleigh.map(coefficients),
+            half_power: found.half_power_rayleigh,
             modes: found.modes.iter().map(ModeSummary::of).collect(),
             unmatched_peaks_hz: found.unmatched.iter().map(|b| b.frequency_hz).collect(),
             fit: FitSummary {
@@ -154,8 +139,8 @@ impl IdentificationSummary {
         format!(
             "[damping] # identified from {}\n{}{}",
             self.source.replace(['\n', '\r'], " "),
-            line("mass_coefficient", self.mass_coefficient, "1/s"),
-            line("stiffness_coefficient", self.stiffness_coefficient, "s"),
+            line("mass_coefficient", self.rayleigh.mass_coefficient, "1/s"),
+            line("stiffness_coefficient", self.rayleigh.stiffness_coefficient, "s"),
         )
     }
 }

@@ -33,7 +33,7 @@ impl Estimate {
 }
 
 /// Coefficients of Rayleigh damping fitted to modal damping factors.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Described, Serialize)]
 pub struct RayleighFit {
     /// `alpha_R`, 1/s.
     pub mass_coefficient: Estimate,
@@ -41,6 +41,7 @@ pub struct RayleighFit {
     pub stiffness_coefficient: Estimate,
     /// Chi-square for each degree of freedom: about 1 where the scatter of the modes about the curve
     /// is what their uncertainties explain; 1 by construction where those are unknown.
+    #[serde(skip)]
     pub reduced_chi_square: f64,
 }
 
