@@ -62,24 +62,12 @@ pub fn assurance(
 
     // The matrix and the pairs.
     let matrix = criteria(&model.mesh, &modes, shapes, &placed);
-    for (shape, placed) in shapes.iter().zip(&placed) {
-        notes.extend(placed.note(shape, case.body.size()));
-    }
+    notes.extend(placed.iter().filter_map(|own| own.note(case.body.size())));
     Ok(MacSummary {
         measurement: String::new(),
         friction_coefficient: friction,
         pairs: paired(&matrix),
-        shapes: shapes
-            .iter()
-            .zip(&placed)
-            .map(|(shape, placed)| MacShape {
-                name: shape.name.clone(),
-                frequency_hz: shape.frequency_hz,
-                points: shape.points.len(),
-                off_body: placed.off,
-                largest_distance_m: placed.farthest,
-            })
-            .collect(),
+        shapes: placed.into_iter().map(|own| own.shape).collect(),
         modes: modes
             .iter()
             .enumerate()
@@ -143,9 +131,8 @@ pub(crate) fn criteria(
 pub(crate) struct Placed {
     /// Node of each point; none where it lies off the body.
     nodes: Vec<Option<usize>>,
-    /// Points off the body, and the largest distance of any point from its node, m.
-    off: usize,
-    farthest: f64,
+    /// What there is to say of them.
+    shape: MacShape,
 }
 
 impl Placed {
@@ -170,21 +157,23 @@ impl Placed {
         }
         Ok(Self {
             nodes: own.iter().map(|(node, away)| (*away <= reach).then_some(*node)).collect(),
-            off,
-            farthest: own.iter().fold(0.0, |m, (_, away)| m.max(*away)),
+            shape: MacShape {
+                name: shape.name.clone(),
+                frequency_hz: shape.frequency_hz,
+                points: own.len(),
+                off_body: off,
+                largest_distance_m: own.iter().fold(0.0, |m, (_, away)| m.max(*away)),
+            },
         })
     }
 
     /// What is to be said of its points.
-    fn note(&self, shape: &MeasuredShape, size: f64) -> Option<String> {
-        (self.off > 0).then(|| {
+    fn note(&self, size: f64) -> Option<String> {
+        let MacShape { name, points, off_body, largest_distance_m: farthest, .. } = &self.shape;
+        (*off_body > 0).then(|| {
             format!(
-                "shape {}: {} of {} points lie off the body, up to {:.3e} m from it (more than \
-                {:.1e} m), and are left out",
-                shape.name,
-                self.off,
-                shape.points.len(),
-                self.farthest,
+                "shape {name}: {off_body} of {points} points lie off the body, up to \
+                 {farthest:.3e} m from it (more than {:.1e} m), and are left out",
                 FAR * size
             )
         })
