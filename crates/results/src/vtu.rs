@@ -185,11 +185,7 @@ impl Field {
 
     /// A plane vector of each node from its nodal frame, as Cartesian `(x, y, 0)`.
     pub fn vectors(name: &str, mesh: &Mesh, nodal: &[f64]) -> Self {
-        Self {
-            name: name.to_owned(),
-            components: 3,
-            values: Values::Real(cartesian_vectors(mesh, nodal)),
-        }
+        Self { components: 3, ..Self::scalars(name, cartesian_vectors(mesh, nodal)) }
     }
 }
 
