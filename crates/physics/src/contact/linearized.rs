@@ -7,23 +7,25 @@ use crate::linalg::FrictionWeights;
 /// Entries of one term from which on those of one place are summed at once: thousands of points share few nodes.
 const MANY_ENTRIES: usize = 1 << 18;
 
-/// A stretch of the points of a base state.
-#[derive(Clone, Copy, Debug)]
-pub struct PressedPoints<'a> {
-    /// Place of its first point among those of the state.
-    pub first: usize,
-    /// Whether each point of the state is pressed; the others are open.
-    pub is_pressed: &'a [bool],
-    /// Normal force `N_i(mu)` by power of `mu`, N (N/m in the plane); nothing where the state is free of stress.
-    pub normal_forces: &'a [Vec<f64>],
-    /// Stiffness `w k_n(mu)` at that force by power of `mu`, N/m, of contact that stiffens; nothing where it does not.
-    pub stiffnesses: &'a [Vec<f64>],
-    /// Friction coefficient `a` below which the state is frozen: forces and stiffnesses are then given by power of `mu - a`, and
-    /// what they add is in the terms of [`MatrixPolynomial::frozen_below`](crate::linalg::MatrixPolynomial::frozen_below).
+/// The bodies under one set of pressed points, as polynomials in `mu - a`, `mu` the friction coefficient and `a` where they begin,
+/// [`Self::frozen_below`].
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct PressedState {
+    /// Displacement of all dofs by power of `mu - a`, m.
+    pub displacements: Vec<Vec<f64>>,
+    /// Normal force on each contact point by power of `mu - a`, N (N/m in the plane).
+    pub normal_forces: Vec<Vec<f64>>,
+    /// Stiffness of each contact point at its force by power of `mu - a`, N/m; none where no contact stiffens.
+    pub stiffnesses: Vec<Vec<f64>>,
+    /// Whether each contact point is pressed; the others are open.
+    pub is_pressed: Vec<bool>,
+    /// Friction coefficient `a` below which the tangent keeps the state as it is there: the polynomials of contact that stiffens say
+    /// nothing beyond their range, and the eigenvalue analysis starts without friction. 0 where they hold from there on.
     pub frozen_below: f64,
 }
 
-/// What contact adds to the matrices of small motions over all dofs, by power of `mu`, or in the terms of a state that is frozen.
+/// What contact adds to the matrices of small motions over all dofs, by power of `mu`; of a state that is frozen in the terms of
+/// [`MatrixPolynomial::frozen_below`](crate::linalg::MatrixPolynomial::frozen_below).
 #[derive(Clone, Debug, Default)]
 pub struct ContactTerms {
     /// Penalty and the friction that follows it; nothing for rigid contact.
@@ -34,7 +36,8 @@ pub struct ContactTerms {
     pub structural: Vec<Triplets>,
 }
 
-/// Linearises contact and friction at `points` around `state`, moved to the left-hand side:
+/// Linearises contact and friction at `points` around `state`, among whose points they begin at `first`, moved to the left-hand
+/// side:
 ///
 /// ```text
 /// dN = -w (k_n n.u + c_n n.u')                                       (rigid contact: unknown, n.u = 0)
@@ -46,17 +49,16 @@ pub struct ContactTerms {
 /// base state turn with the surfaces beside ([`super::turned`]). Shape: sums over all dofs of both bodies, N/m and N s/m.
 pub fn linearized(
     points: &[Point],
-    state: &PressedPoints<'_>,
+    (state, first): (&PressedState, usize),
     stiffness: &ContactStiffness,
 ) -> ContactTerms {
     let mut terms = ContactTerms::default();
     let frozen = state.frozen_below;
-    let first = state.first;
     let pressed = || (0..points.len()).filter(|&i| state.is_pressed[first + i]);
     for point in pressed().map(|i| &points[i]) {
         let weight = point.weight;
         // Springs and dashpots of the contact itself.
-        if let (Some(normal), []) = (stiffness.normal_stiffness, state.stiffnesses) {
+        if let (Some(normal), []) = (stiffness.normal_stiffness, &state.stiffnesses[..]) {
             add_normal_law(&mut terms.stiffness, (0, frozen), point, weight * normal);
         }
         if stiffness.normal_damping != 0.0 {

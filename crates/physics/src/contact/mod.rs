@@ -39,7 +39,7 @@ pub use law::{
     ContactStatus, CoulombFriction, Friction, FrictionDecay, NodeFriction, PointFriction, Slipping,
     SlippingNode, SlippingPoint, SteadyFriction,
 };
-pub use linearized::{ContactTerms, PressedPoints, linearized};
+pub use linearized::{ContactTerms, PressedState, linearized};
 pub use mortar::{MortarNode, mortar_nodes};
 pub use normal_law::NormalLaw;
 pub use opposite::OppositeMotion;

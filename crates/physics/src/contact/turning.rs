@@ -1,7 +1,7 @@
 //! How the forces of the base state turn with the surfaces.
 
 use super::linearized::{add_product, alone, following, merge_many, power};
-use super::{ContactInterface, ContactSurface, Counterpart, Point, PressedPoints, Row, row_along};
+use super::{ContactInterface, ContactSurface, Counterpart, Point, PressedState, Row, row_along};
 use crate::fem::Triplets;
 use crate::mesh::Mesh;
 use nalgebra::Vector3;
@@ -24,7 +24,8 @@ pub struct Turning {
     pub curvature: [[f64; 2]; 2],
 }
 
-/// Forces of the base state at `points` that turn as `turnings` say, by power of `mu`, moved to the left-hand side.
+/// Forces at `points` of the base state, among whose points they begin at `first`, that turn as `turnings` say, by power of `mu`,
+/// moved to the left-hand side.
 ///
 /// The normal is that of the surface that the point meets, `theta` its turn there; with `w` the separation, `xi` the slip
 /// along and across, `delta` the turn of the sliding,
@@ -38,7 +39,11 @@ pub struct Turning {
 /// as products of a row and a column: the second derivatives of the separation, and the friction along the counterface and at
 /// its place. With the geometric stiffness they leave a rotation of everything, sliding included, without force. Shape: sums
 /// over all dofs of both bodies, N/m.
-pub fn turned(points: &[Point], turnings: &[Turning], state: &PressedPoints<'_>) -> Vec<Triplets> {
+pub fn turned(
+    points: &[Point],
+    turnings: &[Turning],
+    (state, first): (&PressedState, usize),
+) -> Vec<Triplets> {
     let mut terms = Vec::new();
     for (i, (point, turning)) in points.iter().zip(turnings).enumerate() {
         if i % POINTS_AT_A_TIME == 0 {
@@ -46,7 +51,7 @@ pub fn turned(points: &[Point], turnings: &[Turning], state: &PressedPoints<'_>)
         }
         let [normal, friction] = of_unit_force(point, turning);
         for (p, forces) in state.normal_forces.iter().enumerate() {
-            let (force, frozen) = (forces[state.first + i], state.frozen_below);
+            let (force, frozen) = (forces[first + i], state.frozen_below);
             let pressed = power(&mut terms, alone(p, frozen));
             normal.iter().for_each(|&(i, j, value)| pressed.push(i, j, force * value));
             for (term, factor) in following(p, frozen) {

@@ -4,12 +4,13 @@ use super::cholesky::CholeskySolver;
 use super::complementarity::PressedRange;
 use super::elimination::Elimination;
 use super::joint::{BaseChoice, SlidingSurfaces, TiedSurfaces};
-use super::pressed_state::{PressedState, Pressing};
+use super::pressed_state::Pressing;
 use super::rotation::{Rotation, grounded};
 use super::tangent::{BodyTerms, ContactDofs, ContactPart, SlidingTangent, geometric_stiffness};
 use super::{PrestressError, TangentOptions};
 use crate::contact::{
-    ContactSurface, Motion, PairError, Point, PointKind, SurfacePair, Turning, mortar_nodes,
+    ContactSurface, Motion, PairError, Point, PointKind, PressedState, SurfacePair, Turning,
+    mortar_nodes,
 };
 use crate::fem::{
     MaterialField, Triplets, assemble_pressures, assemble_stiffness, assemble_supports,
@@ -257,7 +258,8 @@ impl<'a> Assembly<'a> {
             let part = ContactPart {
                 points: &surface.points,
                 turnings,
-                state: state.points_from(first),
+                state,
+                first,
                 stiffness: contact.stiffness,
                 has_own_dofs: contact.stiffness.normal_stiffness.is_none(),
             };

@@ -1,9 +1,8 @@
 //! The contact state by complementarity: which points are pressed, over a range of friction coefficients.
 
 use super::PrestressError;
-use super::pressed_state::{
-    ContactState, LEAST_RANGE, PressedBodies, PressedState, polynomial_state,
-};
+use super::pressed_state::{ContactState, LEAST_RANGE, PressedBodies, polynomial_state};
+use crate::contact::PressedState;
 use std::ops::Range;
 
 /// Sets of pressed points that are tried at one friction coefficient before the state is called missing.

@@ -5,8 +5,10 @@ use super::SectorSliding;
 use super::complementarity::PressedRange;
 use super::elimination::Elimination;
 use super::full_sliding::{self, FullSliding};
-use super::pressed_state::{PressedState, Pressing};
-use crate::contact::{ContactInterface, NormalLaw, Point, SlidingContact, SteadyFriction};
+use super::pressed_state::Pressing;
+use crate::contact::{
+    ContactInterface, NormalLaw, Point, PressedState, SlidingContact, SteadyFriction,
+};
 use crate::fem::{Triplets, assemble_supports};
 use crate::mesh::{AnnulusMesh, Mesh, SectorMesh};
 use std::ops::Deref;

@@ -3,8 +3,7 @@
 use super::PrestressError;
 use super::cholesky::CholeskySolver;
 use super::elimination::Elimination;
-use super::pressed_state::PressedState;
-use crate::contact::{NormalLaw, Point};
+use crate::contact::{NormalLaw, Point, PressedState};
 use crate::fem::{DofMap, Triplets};
 use nalgebra::{DMatrix, DVector};
 

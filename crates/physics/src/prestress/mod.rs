@@ -39,6 +39,7 @@ mod wave_parts;
 mod wave_tangent;
 mod wave_terms;
 
+pub use crate::contact::PressedState;
 pub use assembly::{Assembly, Joined};
 pub use complementarity::PressedRange;
 pub use cyclic::CyclicTangent;
@@ -47,7 +48,7 @@ pub use equilibrium::{SlidingRange, SteadySliding};
 pub use error::PrestressError;
 pub use joint::{BaseChoice, SlidingSurfaces, TiedSurfaces};
 pub use options::{DampingModel, TangentOptions};
-pub use pressed_state::{PressedState, Pressing};
+pub use pressed_state::Pressing;
 pub use sector::SectorSliding;
 pub use solid::SolidSliding;
 pub use tabled::{LossGain, TabledGain, TabledStiffness};

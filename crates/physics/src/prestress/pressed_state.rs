@@ -4,7 +4,7 @@
 use super::PrestressError;
 use super::elimination::Elimination;
 use super::friction_polynomial::{evaluate, interpolated};
-use crate::contact::{NormalLaw, Point, PressedPoints};
+use crate::contact::{NormalLaw, Point, PressedState};
 use crate::fem::Triplets;
 
 /// Smallest range of friction coefficients of a polynomial: without friction the state needs none, but its tangent is
@@ -83,38 +83,11 @@ pub(super) struct ContactState {
     pub stiffnesses: Option<Vec<f64>>,
 }
 
-/// The bodies under one set of pressed points, as polynomials in `mu - a`, `mu` the friction coefficient and `a` where they begin,
-/// [`Self::frozen_below`].
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct PressedState {
-    /// Displacement of all dofs by power of `mu - a`, m.
-    pub displacements: Vec<Vec<f64>>,
-    /// Normal force on each contact point by power of `mu - a`, N (N/m in the plane).
-    pub normal_forces: Vec<Vec<f64>>,
-    /// Stiffness of each contact point at its force by power of `mu - a`, N/m; none where no contact stiffens.
-    pub stiffnesses: Vec<Vec<f64>>,
-    /// Whether each contact point is pressed; the others are open.
-    pub is_pressed: Vec<bool>,
-    /// Friction coefficient `a` below which the tangent keeps the state as it is there: the polynomials of contact that stiffens say
-    /// nothing beyond their range, and the eigenvalue analysis starts without friction. 0 where they hold from there on.
-    pub frozen_below: f64,
-}
-
+/// The values of its polynomials.
 impl PressedState {
     /// `mu - a`, and 0 below `a`.
     fn beyond(&self, friction_coefficient: f64) -> f64 {
         (friction_coefficient - self.frozen_below).max(0.0)
-    }
-
-    /// Its contact points from the `first` on.
-    pub(super) fn points_from(&self, first: usize) -> PressedPoints<'_> {
-        PressedPoints {
-            first,
-            is_pressed: &self.is_pressed,
-            normal_forces: &self.normal_forces,
-            stiffnesses: &self.stiffnesses,
-            frozen_below: self.frozen_below,
-        }
     }
 
     /// Displacement over all dofs at a friction coefficient, m.

@@ -1,10 +1,10 @@
 //! Pressed equilibrium of a body of revolution in steady sliding: rigid contact ring by ring, or springs over the face.
 
+use super::PrestressError;
 use super::elimination::Elimination;
 use super::full_sliding::FullSliding;
 use super::solid::{OverRings, SolidSliding, friction};
-use super::{PressedState, PrestressError};
-use crate::contact::{NormalLaw, Point, SlidingContact};
+use crate::contact::{NormalLaw, Point, PressedState, SlidingContact};
 use crate::fem::fold::SectorMatrix;
 use crate::fem::sector::supports;
 use crate::fem::solid::{FaceRule, FaceTerm, face_matrix, pressure_load};

@@ -3,8 +3,7 @@
 use super::PrestressError;
 use super::elimination::Elimination;
 use super::full_sliding::{FullSliding, check_pressed};
-use super::pressed_state::PressedState;
-use crate::contact::{NormalLaw, Point, Row, SlidingContact, SteadyFriction};
+use crate::contact::{NormalLaw, Point, PressedState, Row, SlidingContact, SteadyFriction};
 use crate::fem::fold::SectorMatrix;
 use crate::fem::sector::supports;
 use crate::mesh::SectorMesh;

@@ -68,7 +68,7 @@ impl Edge<'_> {
         let over_distance =
             |point: &Point| Point { normal: point.normal[..1].to_vec(), ..point.clone() };
         let points: Vec<Point> = self.base.points.iter().map(over_distance).collect();
-        let found = linearized(&points, &self.base.state.points_from(0), &options.contact);
+        let found = linearized(&points, (&self.base.state, 0), &options.contact);
         // What acts from one component to the other is odd.
         let part = |terms: &[Triplets], power: usize, is_odd: bool| {
             let own = terms.get(power).into_iter().flat_map(|own| &own.entries);

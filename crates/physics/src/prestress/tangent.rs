@@ -2,8 +2,8 @@
 
 use super::elimination::{Elimination, ProjectedPolynomial, RigidFriction};
 use super::tabled::{TabledGain, TabledStiffness};
-use super::{DampingModel, PressedState, PrestressError, SteadySliding, TangentOptions};
-use crate::contact::{ContactStiffness, Point, PressedPoints, Row, Turning, linearized, turned};
+use super::{DampingModel, PrestressError, SteadySliding, TangentOptions};
+use crate::contact::{ContactStiffness, Point, PressedState, Row, Turning, linearized, turned};
 use crate::fem::{
     DofMap, MaterialField, ModulusTable, RayleighDamping, Triplets, assemble_extra_damping,
     assemble_geometric_stiffness, assemble_losses, assemble_mass, assemble_supports,
@@ -147,7 +147,9 @@ pub struct ContactPart<'a> {
     /// How they turn; not read where nothing turns with the geometric stiffness.
     pub turnings: &'a [Turning],
     /// Which are pressed, with what forces.
-    pub state: PressedPoints<'a>,
+    pub state: &'a PressedState,
+    /// Place of its first point among those of the state.
+    pub first: usize,
     /// Penalty or rigid, and dashpots.
     pub stiffness: ContactStiffness,
     /// Whether each point has a dof of its own, in place of which its separation is an unknown: rigid contact needs it.
@@ -188,7 +190,8 @@ impl SlidingTangent {
         let part = ContactPart {
             points: &base.points,
             turnings: &turnings,
-            state: base.points_from(0),
+            state: &base.state,
+            first: 0,
             stiffness: options.contact,
             has_own_dofs: true,
         };
@@ -321,7 +324,7 @@ fn hold_rigid(
     let mut friction = Vec::new();
     for part in contacts.iter().filter(|part| part.has_own_dofs) {
         let is_rigid = part.stiffness.normal_stiffness.is_none();
-        let own = &part.state.is_pressed[part.state.first..];
+        let own = &part.state.is_pressed[part.first..];
         for (point, &is_pressed) in part.points.iter().zip(own) {
             let pivot = basis.require(&point.normal, "contact")?;
             if is_rigid && is_pressed {
@@ -342,12 +345,13 @@ fn tangent_terms(body: &BodyTerms, contacts: &[ContactPart<'_>]) -> [Vec<Triplet
     let mut losses: Vec<Triplets> = body.structural.iter().cloned().collect();
     add_powers(&mut stiffness, body.geometric.as_deref().unwrap_or_default());
     for part in contacts {
-        let terms = linearized(part.points, &part.state, &part.stiffness);
+        let state = (part.state, part.first);
+        let terms = linearized(part.points, state, &part.stiffness);
         add_powers(&mut stiffness, &terms.stiffness);
         add_powers(&mut dashpots, &terms.dashpots);
         add_powers(&mut losses, &terms.structural);
         if body.geometric.is_some() {
-            add_powers(&mut stiffness, &turned(part.points, part.turnings, &part.state));
+            add_powers(&mut stiffness, &turned(part.points, part.turnings, state));
         }
     }
     stiffness.iter_mut().chain(&mut dashpots).for_each(Triplets::merge);

@@ -394,8 +394,7 @@ impl WaveTangent {
     }
 }
 
-/// `T^T A T` with how far the nodes of each pair move apart in place of the first one's normal displacement, see
-/// [`crate::contact::ContactInterface::to_distances`].
+/// `T^T A T` with how far the nodes of each pair move apart in place of the first one's normal displacement.
 pub(super) fn to_distances(matrix: &mut BandedMatrix, pairs: impl IntoIterator<Item = [usize; 2]>) {
     for [from, to] in pairs {
         for other in matrix.columns(from) {

@@ -36,14 +36,8 @@ fn rigid_rotation_leaves_the_prestressed_edge_in_balance() {
         let (mesh, material) = disc(element);
         let elastic = assemble_stiffness(&mesh, &material);
         let base = SteadySliding::solve(&mesh, &elastic, &turning(-60.0)).unwrap();
-        let state = PressedPoints {
-            first: 0,
-            is_pressed: &base.is_pressed,
-            normal_forces: &base.normal_forces,
-            stiffnesses: &[],
-            frozen_below: 0.0,
-        };
-        let mut prestress = turned(&base.points, &base.interface.turnings(), &state);
+        let turnings = base.interface.turnings();
+        let mut prestress = turned(&base.points, &turnings, (&base.state, 0));
         for (terms, displacement) in prestress.iter_mut().zip(&base.displacements) {
             let stress = assemble_geometric_stiffness(&mesh, &material, displacement, None);
             terms.entries.extend(stress.entries);

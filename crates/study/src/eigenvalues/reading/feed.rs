@@ -18,7 +18,7 @@ use crate::eigenvalues::sliding::SlidingModel;
 use crate::eigenvalues::whole::BasePoint;
 use frictionsim_case::Case;
 use frictionsim_physics::cea::FrictionPoint;
-use frictionsim_physics::contact::{PressedPoints, linearized, turned};
+use frictionsim_physics::contact::{PressedState, linearized, turned};
 use frictionsim_physics::fem::Triplets;
 use frictionsim_physics::linalg::c64;
 use frictionsim_results::cea::{Feed, ModeFeed};
@@ -52,17 +52,14 @@ pub(super) fn feed(
     // Forces and springs at the friction coefficient are the only power of it.
     let state = whole.state();
     let only = |own: Vec<f64>| if own.is_empty() { Vec::new() } else { vec![own] };
-    let (forces, springs) = (only(state.normal_forces(friction)), only(state.springs(friction)));
-    let terms = pressed.iter().enumerate().map(|(first, own)| {
-        let state = PressedPoints {
-            first,
-            is_pressed: &state.is_pressed,
-            normal_forces: &forces,
-            stiffnesses: &springs,
-            frozen_below: 0.0,
-        };
-        terms(own, &state, friction)
-    });
+    let at_own = PressedState {
+        normal_forces: only(state.normal_forces(friction)),
+        stiffnesses: only(state.springs(friction)),
+        is_pressed: state.is_pressed.clone(),
+        ..PressedState::default()
+    };
+    let places = pressed.iter().enumerate();
+    let terms = places.map(|(first, own)| terms(own, (&at_own, first), friction));
     let terms: Vec<PointTerms> = terms.collect();
     let beta = parts.whole_beta();
     let balance = sums.balance.unwrap_or_default();
@@ -119,7 +116,7 @@ fn form(terms: &PointTerms, factors: [c64; 2], phi: &[c64]) -> c64 {
 }
 
 /// What one point adds to the stiffness and to the dashpots.
-fn terms(own: &BasePoint<'_>, state: &PressedPoints<'_>, friction: f64) -> PointTerms {
+fn terms(own: &BasePoint<'_>, state: (&PressedState, usize), friction: f64) -> PointTerms {
     let point = std::slice::from_ref(own.point);
     let found = linearized(point, state, &own.stiffness);
     let at = |powers: &[Triplets]| -> Vec<(usize, usize, f64)> {
