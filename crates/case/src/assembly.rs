@@ -5,7 +5,7 @@ use super::contacts::{NamedContact, contact, short_form, unit};
 use super::imported::{FileParts, ImportError, near_name};
 use super::tables::TableFiles;
 use super::value::quote;
-use super::{Case, Contact, Section, refuse};
+use super::{Case, Contact, Section, refuse_if};
 use frictionsim_physics::contact::{
     ContactStiffness, Counterpart, Motion, PointKind, RigidCounterface, RigidMotion, SlidingContact,
 };
@@ -136,12 +136,10 @@ pub(super) fn sections(root: &Section<'_>, tables: &TableFiles<'_>) -> (Assembly
         contacts.push(root.section("contact", true).closed(short_form));
     }
     let base = bases.first().copied().unwrap_or_default();
-    if bases.iter().any(|other| *other != base) {
-        refuse!(root, "contacts",
-            "contacts are \"solved\" and \"closed\" in one case: one that is free of stress and \
-             one that is not have no common equilibrium";
-            "one state for all"; "give every contact the same `state`");
-    }
+    refuse_if!(bases.iter().any(|other| *other != base); root, "contacts",
+        "contacts are \"solved\" and \"closed\" in one case: one that is free of stress and one \
+         that is not have no common equilibrium"; "one state for all";
+        "give every contact the same `state`");
     let first = contacts.first();
     let rigid = first.and_then(|contact| contact.surfaces.counter.rigid());
     let speed = rigid.map(|rigid| rigid.motion.speed());
@@ -180,10 +178,9 @@ fn inertia(section: &Section<'_>) -> Option<RotationFrame> {
     if section.flag("rotation_terms") {
         return Some(frame);
     }
-    if section.has("frame") {
-        refuse!(section, "frame" => "has no effect without the inertia of rotation";
-            "needs rotation_terms = true"; "give rotation_terms = true, or leave frame out");
-    }
+    refuse_if!(section.has("frame"); section, "frame" =>
+        "has no effect without the inertia of rotation"; "needs rotation_terms = true";
+        "give rotation_terms = true, or leave frame out");
     None
 }
 

@@ -2,7 +2,7 @@
 
 use super::modifications::{Misfit, Modification, reshaped};
 use super::node::Nodes;
-use super::{Annulus, Body, ImportedBody, Section, refuse};
+use super::{Annulus, Body, ImportedBody, Section, refuse_if};
 use frictionsim_physics::mesh::{
     Attachment, BodyError, BodySpecification, CounterfaceSpecification, DampedPatch, Mesh,
 };
@@ -68,10 +68,8 @@ pub(super) fn attach(
             continue;
         };
         let elements = mesh.elements_within(center, radius);
-        if elements.is_empty() {
-            refuse!(section, "radius" => "holds no element's middle"; "no element within it";
-                "center and radius are in metres");
-        }
+        refuse_if!(elements.is_empty(); section, "radius" => "holds no element's middle";
+            "no element within it"; "center and radius are in metres");
         patches.push(DampedPatch {
             elements,
             mass_coefficient: own.coefficients[0],

@@ -2,7 +2,7 @@
 
 use super::elastic::loss_factor;
 use super::words::{ConditionWord, HeldAxis};
-use super::{Section, refuse};
+use super::{Section, refuse, refuse_if};
 use frictionsim_physics::mesh::{BoundaryCondition, ElasticSupport};
 
 /// A boundary of the case with its condition.
@@ -25,10 +25,9 @@ fn condition(section: &Section<'_>) -> BoundaryCondition {
     };
     let has_springs =
         support.normal_stiffness + support.tangential_stiffness + support.axial_stiffness > 0.0;
-    if word == ConditionWord::Support && support.loss_factor > 0.0 && !has_springs {
-        refuse!(section, "loss_factor" => "has no effect on a support without springs";
-            "nothing is lost"; "give a stiffness, or leave loss_factor out");
-    }
+    refuse_if!(word == ConditionWord::Support && support.loss_factor > 0.0 && !has_springs; section,
+        "loss_factor" => "has no effect on a support without springs"; "nothing is lost";
+        "give a stiffness, or leave loss_factor out");
     let pressure = section.optional_number("pressure");
     let axes: Vec<HeldAxis> = section.choices("directions");
     // A value without effect is a mistake.

@@ -1,6 +1,6 @@
 //! `[cea]`: the complex eigenvalue analysis.
 
-use super::{Body, Case, CeaMethod, Section, refuse};
+use super::{Body, Case, CeaMethod, Section, refuse, refuse_if};
 use frictionsim_physics::cea::ModeLimit;
 use frictionsim_physics::fem::MassKind;
 
@@ -67,10 +67,9 @@ pub(super) fn cea(
 ) -> Cea {
     let friction_coefficients =
         section.rising("friction_coefficients").unwrap_or_else(|| vec![friction_coefficient]);
-    if friction_coefficients.is_empty() && section.is_empty_list("friction_coefficients") {
-        refuse!(section, "friction_coefficients", "cea.friction_coefficients is empty";
-            "at least one value");
-    }
+    refuse_if!(friction_coefficients.is_empty() && section.is_empty_list("friction_coefficients");
+        section, "friction_coefficients", "cea.friction_coefficients is empty";
+        "at least one value");
     let unknowns =
         body.map_or(0, |body| body.node_count().saturating_mul(body.dimension() as u128));
     let is_stressed = match section.has("geometric_stiffness") {
@@ -106,10 +105,9 @@ pub(super) fn mode_selection(section: &Section<'_>, unknowns: u128) -> ModeLimit
             // An override replaces what the file says in the other way.
             let keys = ["modes", "max_frequency_hz"];
             let [is_count, is_limit] = keys.map(|key| section.place(key).source > 0);
-            if is_count == is_limit {
-                refuse!(section, "modes", "cea.modes and cea.max_frequency_hz exclude each other";
-                    "give one of the two"; "keep one of the two");
-            }
+            refuse_if!(is_count == is_limit; section, "modes",
+                "cea.modes and cea.max_frequency_hz exclude each other"; "give one of the two";
+                "keep one of the two");
             let is_counted = is_count && !is_limit;
             if is_counted { ModeLimit::Lowest(modes) } else { ModeLimit::MaxFrequency(limit) }
         }

@@ -3,7 +3,7 @@
 use super::elastic::loss_factor;
 use super::value::quote;
 use super::words::{BaseContact, NormalLawWord, word_of};
-use super::{Case, Section, imported, refuse, solid};
+use super::{Case, Section, imported, refuse, refuse_if, solid};
 use frictionsim_physics::contact::{ContactStiffness, FrictionDecay, NormalLaw, SlidingContact};
 use frictionsim_physics::mesh::{AnnulusSpecification, BodySpecification, SolidContact};
 use frictionsim_physics::prestress::SlidingSurfaces;
@@ -112,15 +112,13 @@ pub(super) fn contact(
         plane_speed = None;
     }
     let interference = interference(&section);
-    if is_pressed && section.has("normal_force") {
-        refuse!(section, "normal_force", "contact.normal_force beside a boundary with a pressure";
-            "one of the two presses"; "leave the force out, or the pressure");
-    }
+    refuse_if!(is_pressed && section.has("normal_force"); section, "normal_force",
+        "contact.normal_force beside a boundary with a pressure"; "one of the two presses";
+        "leave the force out, or the pressure");
     // A pressure on a face may press a three-dimensional body; on a plane annulus it is an error of its own.
-    if !is_solid && interference == 0.0 && !is_pressed {
-        refuse!(section, "interference", "contact.interference = 0.0 must be positive and finite";
-            "must be positive and finite"; "without it nothing presses the body");
-    }
+    refuse_if!(!is_solid && interference == 0.0 && !is_pressed; section, "interference",
+        "contact.interference = 0.0 must be positive and finite"; "must be positive and finite";
+        "without it nothing presses the body");
     let rotation_speed = match plane_speed {
         Some(speed) => {
             let _ = section.optional_number("rotation_speed_rpm");
@@ -129,13 +127,11 @@ pub(super) fn contact(
         None => section.number("rotation_speed_rpm") * TAU / 60.0,
     };
     let is_at_rest = rotation_speed == 0.0 && !root.has("motion");
-    if is_solid && is_at_rest && section.has("rotation_speed_rpm") {
-        refuse!(section, "rotation_speed_rpm",
-            "contact.rotation_speed_rpm = 0: a counterface at rest has no steady sliding. Friction \
-             then holds a three-dimensional body across the sliding as an infinite dashpot (mu p / \
-             V) does";
-            "must not be zero in three dimensions"; "give a small positive speed instead");
-    }
+    refuse_if!(is_solid && is_at_rest && section.has("rotation_speed_rpm"); section,
+        "rotation_speed_rpm",
+        "contact.rotation_speed_rpm = 0: a counterface at rest has no steady sliding. Friction \
+         then holds a three-dimensional body across the sliding as an infinite dashpot (mu p / V) \
+         does"; "must not be zero in three dimensions"; "give a small positive speed instead");
     let is_compliant = section.choice::<BaseContact>("base_state") == BaseContact::Compliant;
     let stiffness = contact_stiffness(&section, is_compliant);
     let is_rigid = stiffness.normal_stiffness.is_none();
@@ -193,18 +189,14 @@ pub(super) fn friction_decay(section: &Section<'_>) -> Option<FrictionDecay> {
     let static_ratio = section.number("static_friction_ratio");
     let decay_speed = section.optional_number("decay_speed");
     let decay = decay_speed.map(|decay_speed| FrictionDecay { static_ratio, decay_speed });
-    if static_ratio > 1.0 && !section.has("decay_speed") {
-        refuse!(section, "static_friction_ratio" => "= {static_ratio} needs decay_speed";
-            "falls over no speed";
-            "give the speed over which friction falls, for example decay_speed = 0.2");
-    }
-    if decay.is_some() && !section.has("static_friction_ratio") {
-        refuse!(section, "decay_speed",
-            "contact.decay_speed has no effect without contact.static_friction_ratio";
-            "friction does not fall";
-            "give static friction over kinetic, for example static_friction_ratio = 1.4, or leave \
-             decay_speed out");
-    }
+    refuse_if!(static_ratio > 1.0 && !section.has("decay_speed"); section,
+        "static_friction_ratio" => "= {static_ratio} needs decay_speed"; "falls over no speed";
+        "give the speed over which friction falls, for example decay_speed = 0.2");
+    refuse_if!(decay.is_some() && !section.has("static_friction_ratio"); section, "decay_speed",
+        "contact.decay_speed has no effect without contact.static_friction_ratio";
+        "friction does not fall";
+        "give static friction over kinetic, for example static_friction_ratio = 1.4, or leave \
+         decay_speed out");
     decay.filter(|decay| decay.static_ratio > 1.0)
 }
 
@@ -248,11 +240,9 @@ pub(super) fn normal_law(
         if laws.contains(&word) && word != NormalLawWord::Linear {
             section.needs(key);
         }
-        if word == NormalLawWord::Cubic && section.is_text(key, "rigid") {
-            refuse!(section, key =>
-                "= \"rigid\" does not stiffen: normal_law = \"cubic\" is k g + c g^3, with k the \
-                 normal stiffness"; "needs a number"; "give k in Pa/m, or leave normal_law out");
-        }
+        refuse_if!(word == NormalLawWord::Cubic && section.is_text(key, "rigid"); section, key =>
+            "= \"rigid\" does not stiffen: normal_law = \"cubic\" is k g + c g^3, with k the \
+             normal stiffness"; "needs a number"; "give k in Pa/m, or leave normal_law out");
     }
     // What another law would take is told above, and read.
     let [cubic_stiffness, reference_pressure, height] =

@@ -3,7 +3,7 @@
 use super::contact::{contact_stiffness, friction_decay, interference};
 use super::tables::{TableFiles, topography};
 use super::words::{BaseContact, CounterfaceWord};
-use super::{Section, caution, refuse};
+use super::{Section, caution_if, refuse, refuse_if};
 use frictionsim_physics::contact::{
     Counterpart, PairFriction, RigidCounterface, RigidMotion, RigidShape, Topography,
 };
@@ -29,11 +29,9 @@ pub(super) fn short_form(section: &Section<'_>) -> NamedContact {
             "leave it out; surfaces that slide on each other are named under [contacts.NAME]");
     }
     let is_rigid_base = section.choice::<BaseContact>("base_state") == BaseContact::Rigid;
-    if section.has("base_state") && is_rigid_base {
-        refuse!(section, "base_state",
-            "contact.base_state = \"rigid\": the springs of a contact of solid bodies carry their \
-             base state"; "not of a body from a mesh of solid elements"; "leave it out");
-    }
+    refuse_if!(section.has("base_state") && is_rigid_base; section, "base_state",
+        "contact.base_state = \"rigid\": the springs of a contact of solid bodies carry their base \
+         state"; "not of a body from a mesh of solid elements"; "leave it out");
     let counterpart = Counterpart::Rigid(rigid_counterface(section));
     NamedContact {
         sides: [Some(section.text("boundary")), None],
@@ -55,10 +53,9 @@ pub(super) fn contact(
     let base = section.choice("state");
     bases.push(base);
     let topography = topography(section, tables);
-    if base == BaseChoice::Closed && topography.is_some() {
-        refuse!(section, "gap" => "has no effect on a contact that is closed and free of stress";
-            "beside state = \"closed\""; "leave one of the two out");
-    }
+    refuse_if!(base == BaseChoice::Closed && topography.is_some(); section, "gap" =>
+        "has no effect on a contact that is closed and free of stress"; "beside state = \"closed\"";
+        "leave one of the two out");
     let counter = section.optional_text("counter");
     let counterpart = match section.has("counterface") {
         true => Counterpart::Rigid(rigid_counterface(section)),
@@ -125,9 +122,8 @@ pub(super) fn rigid_counterface(section: &Section<'_>) -> RigidCounterface {
             RigidShape::Plane
         }
     };
-    if shape == RigidShape::Plane && radius.is_some() {
-        caution!(section, "radius" => "is not used: the counterface is a plane"; "no effect");
-    }
+    caution_if!(shape == RigidShape::Plane && radius.is_some(); section, "radius" =>
+        "is not used: the counterface is a plane"; "no effect");
     RigidCounterface {
         shape,
         center: section.vector("center"),

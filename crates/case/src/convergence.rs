@@ -1,7 +1,7 @@
 //! `[convergence]`: the same case on several meshes and with several time steps.
 
 use super::body::node_count;
-use super::{Analysis, Body, Revolution, Section, caution, refuse};
+use super::{Analysis, Body, Revolution, Section, caution_if, refuse, refuse_if};
 use frictionsim_physics::mesh::{
     AnnulusSpecification, BodyError, Mesh, ShaftSpecification, SolidSpecification,
 };
@@ -110,12 +110,10 @@ pub(super) fn read(
     body: Option<&Body>,
     has: [bool; 3],
 ) -> Convergence {
-    if root.has("modifications") {
-        refuse!(root, "modifications",
-            "[modifications] are places of one mesh: a finer one would have others";
-            "not beside [convergence]";
-            "leave one of the two sections out, and compare meshes by hand");
-    }
+    refuse_if!(root.has("modifications"); root, "modifications",
+        "[modifications] are places of one mesh: a finer one would have others";
+        "not beside [convergence]";
+        "leave one of the two sections out, and compare meshes by hand");
     let factors = match section.numbers("factors") {
         _ if body.is_some_and(|body| !body.has_sectors()) && !section.has("factors") => {
             SPLITS.to_vec()
@@ -141,21 +139,19 @@ pub(super) fn read(
     // Cycles of a body without symmetry have no name that two meshes share.
     let has_waves = body.is_none_or(|body| body.annulus().is_some());
     let analyses = analyses(section, is_linear, [has[0], has[1], has[2] && has_waves]);
-    if !time_step_factors.is_empty() && !analyses.contains(&Analysis::Transient) {
-        refuse!(section, "time_step_factors", "convergence.time_step_factors needs a [transient]";
-            "there is no transient in this case";
-            "add a [transient] section of quad4 elements, or leave time_step_factors out");
-    }
+    refuse_if!(!time_step_factors.is_empty() && !analyses.contains(&Analysis::Transient); section,
+        "time_step_factors", "convergence.time_step_factors needs a [transient]";
+        "there is no transient in this case";
+        "add a [transient] section of quad4 elements, or leave time_step_factors out");
     Convergence { factors, time_step_factors, analyses }
 }
 
 /// Refuses fewer than three values.
 fn has_enough(section: &Section<'_>, key: &'static str, values: &[f64]) -> bool {
     let is_enough = values.len() >= FEWEST;
-    if !is_enough {
-        refuse!(section, key => "has {} values; observing an order takes {FEWEST} or more",
-            values.len(); "at least {FEWEST} values");
-    }
+    refuse_if!(!is_enough; section, key =>
+        "has {} values; observing an order takes {FEWEST} or more", values.len();
+        "at least {FEWEST} values");
     is_enough
 }
 
@@ -187,11 +183,9 @@ fn check_splits(section: &Section<'_>, mesh: &Mesh, factors: &[f64]) {
     let finest = factors.last().copied().unwrap_or(1.0);
     let limit = f64::from(u32::MAX / mesh.dimension as u32);
     let nodes = mesh.node_count() as f64 * finest.powi(mesh.dimension as i32);
-    if nodes > limit {
-        refuse!(section, "factors",
-            "the mesh of convergence.factors = {finest} would have {nodes:.0} nodes, above the \
-             limit of {limit}"; "too many elements");
-    }
+    refuse_if!(nodes > limit; section, "factors",
+        "the mesh of convergence.factors = {finest} would have {nodes:.0} nodes, above the limit \
+         of {limit}"; "too many elements");
 }
 
 /// Refuses factors whose rounded meshes are none, too large, or not refinements of each other.
@@ -234,18 +228,14 @@ fn check_meshes(
             around as f64 / annulus.circumferential_elements as f64,
             radial as f64 / annulus.radial_elements as f64,
         ];
-        if (a / r - 1.0).abs() > UNEVEN {
-            caution!(section, "factors",
-                "{name}, refines by {a:.3} around and {r:.3} along the radius after rounding: the \
-                 observed order suffers from that"; "uneven after rounding");
-        }
+        caution_if!((a / r - 1.0).abs() > UNEVEN; section, "factors",
+            "{name}, refines by {a:.3} around and {r:.3} along the radius after rounding: the \
+             observed order suffers from that"; "uneven after rounding");
         let layers = solid.map_or(1, |solid| solid.axial_elements) as f64;
         let z = (layers * factor).round() / layers;
-        if solid.is_some() && (z / a - 1.0).abs() > UNEVEN {
-            caution!(section, "factors",
-                "{name}, refines by {a:.3} around and {z:.3} over the thickness after rounding: \
-                 the observed order suffers from that"; "uneven after rounding");
-        }
+        caution_if!(solid.is_some() && (z / a - 1.0).abs() > UNEVEN; section, "factors",
+            "{name}, refines by {a:.3} around and {z:.3} over the thickness after rounding: the \
+             observed order suffers from that"; "uneven after rounding");
         previous = Some((factor, mesh));
     }
 }
@@ -267,12 +257,10 @@ fn analyses(
     };
     if named.is_empty() {
         let all: Vec<Analysis> = all.into_iter().filter(|own| is_there(*own)).collect();
-        if all.is_empty() && !section.has("analyses") {
-            refuse!(section, "analyses",
-                "[convergence] has nothing to study: the case has neither [cea] nor a [transient] \
-                 or a [cycle] that its elements can run";
-                "no analysis in the case"; "add\n[cea]\nmax_frequency_hz = 17500.0");
-        }
+        refuse_if!(all.is_empty() && !section.has("analyses"); section, "analyses",
+            "[convergence] has nothing to study: the case has neither [cea] nor a [transient] or a \
+             [cycle] that its elements can run"; "no analysis in the case";
+            "add\n[cea]\nmax_frequency_hz = 17500.0");
         return all;
     }
     for analysis in all {

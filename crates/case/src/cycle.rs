@@ -2,7 +2,7 @@
 
 use super::{
     Body, Case, CaseErrors, OnsetChoice, Section, Spacing, StabilityChoice, keys, range_values,
-    refusal, refuse,
+    refusal, refuse, refuse_if,
 };
 use frictionsim_physics::cycle::{BasinRequest, Parameter};
 
@@ -137,16 +137,13 @@ pub(super) fn cycle(section: &Section<'_>, body: Option<&Body>) -> Cycle {
     }
     let stability = section.choice("stability");
     let two_frequencies = section.flag("two_frequencies");
-    if two_frequencies && stability == StabilityChoice::None {
-        refuse!(section, "two_frequencies",
-            "cycle.two_frequencies needs to know which cycles lose their stability";
-            "needs cycle.stability"; "cycle.stability = \"point\" or \"branch\"");
-    }
+    refuse_if!(two_frequencies && stability == StabilityChoice::None; section, "two_frequencies",
+        "cycle.two_frequencies needs to know which cycles lose their stability";
+        "needs cycle.stability"; "cycle.stability = \"point\" or \"branch\"");
     let continuation = section.read_section("continuation", continuation);
-    if stability == StabilityChoice::Branch && continuation.is_none() {
-        refuse!(section, "stability", "cycle.stability = \"branch\" needs [cycle.continuation]";
-            "needs [cycle.continuation]"; "add that table, or use \"point\"");
-    }
+    refuse_if!(stability == StabilityChoice::Branch && continuation.is_none(); section, "stability",
+        "cycle.stability = \"branch\" needs [cycle.continuation]"; "needs [cycle.continuation]";
+        "add that table, or use \"point\"");
     Cycle {
         harmonics,
         onsets,
@@ -183,10 +180,8 @@ fn continuation(section: &Section<'_>) -> Continuation {
             "cycle.continuation.spacing = \"log\" needs two positive ends, not {from} and {to}";
             "both ends must be positive"; "use \"linear\"");
     }
-    if from == to {
-        refuse!(section, "to", "cycle.continuation.to = {to} equals from";
-            "must differ from `from`");
-    }
+    refuse_if!(from == to; section, "to", "cycle.continuation.to = {to} equals from";
+        "must differ from `from`");
     continuation
 }
 
@@ -209,15 +204,12 @@ pub(super) fn basin(section: &Section<'_>, body: Option<&Body>) -> BasinRequest 
         tolerance: section.number("tolerance"),
         periods: section.count("periods"),
     };
-    if pair.len() != 2 || pair[0] == pair[1] {
-        refuse!(section, "harmonics", "basin.harmonics must name two different harmonics";
-            "{} of them, two are compared", pair.len());
-    }
+    refuse_if!(pair.len() != 2 || pair[0] == pair[1]; section, "harmonics",
+        "basin.harmonics must name two different harmonics"; "{} of them, two are compared",
+        pair.len());
     let [from, to] = request.seed_ratios;
-    if from >= to {
-        refuse!(section, "seed_ratio_from",
-            "basin.seed_ratio_from = {from:?} is not below basin.seed_ratio_to = {to:?}";
-            "below {to:?}");
-    }
+    refuse_if!(from >= to; section, "seed_ratio_from",
+        "basin.seed_ratio_from = {from:?} is not below basin.seed_ratio_to = {to:?}";
+        "below {to:?}");
     request
 }

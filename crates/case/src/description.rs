@@ -5,7 +5,7 @@ use super::elastic::elastic;
 use super::modifications::Modification;
 use super::tables::{TableFiles, modulus_table};
 use super::words::FilePart;
-use super::{Section, UnitsWord, boundaries, modifications, refuse};
+use super::{Section, UnitsWord, boundaries, modifications, refuse_if};
 use frictionsim_physics::fem::{
     ElasticMaterial, PlaneFormulation, RayleighDamping, RegionMaterial,
 };
@@ -88,10 +88,9 @@ fn length_factor(mesh: &Section<'_>) -> f64 {
     if !mesh.has("units") {
         return scale;
     }
-    if mesh.has("scale") {
-        refuse!(mesh, "scale", "mesh.units and mesh.scale both scale the coordinates";
-            "beside mesh.units"; "leave one of them out");
-    }
+    refuse_if!(mesh.has("scale"); mesh, "scale",
+        "mesh.units and mesh.scale both scale the coordinates"; "beside mesh.units";
+        "leave one of them out");
     10f64.powi(units.length())
 }
 

@@ -254,6 +254,15 @@ macro_rules! refuse {
     ($section:expr, $($said:tt)*) => { $crate::said!(reject, $section, $($said)*) };
 }
 
+/// Refuses a key where something holds: `refuse_if!(condition; section, key, what; label; remedy)`.
+macro_rules! refuse_if {
+    ($condition:expr; $($said:tt)*) => {
+        if $condition {
+            $crate::refuse!($($said)*);
+        }
+    };
+}
+
 /// Refuses what stands at a place: `refuse_at!(section, place, what; label; remedy)`.
 macro_rules! refuse_at {
     ($section:expr, $at:expr, $($said:tt)*) => {
@@ -271,4 +280,13 @@ macro_rules! caution {
         $section.findings.warn($crate::placed!($section.place($key), $($said)*))
     };
 }
-pub(super) use {caution, diagnosis, placed, refuse, refuse_at};
+
+/// As [`refuse_if!`] what is no error.
+macro_rules! caution_if {
+    ($condition:expr; $($said:tt)*) => {
+        if $condition {
+            $crate::caution!($($said)*);
+        }
+    };
+}
+pub(super) use {caution, caution_if, diagnosis, placed, refuse, refuse_at, refuse_if};

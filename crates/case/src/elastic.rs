@@ -1,7 +1,7 @@
 //! Elastic constants of a material, isotropic or orthotropic, and where its axes lie.
 
 use super::words::AxesWord;
-use super::{Section, refuse};
+use super::{Section, refuse, refuse_if};
 use frictionsim_physics::fem::{
     ElasticMaterial, MaterialAxes, ModulusTable, Orthotropy, PlaneFormulation, RATIOS,
 };
@@ -24,12 +24,10 @@ pub(super) enum Surroundings {
 /// The loss factor of a section, at most 1.
 pub(super) fn loss_factor(section: &Section<'_>) -> f64 {
     let loss_factor = section.number("loss_factor");
-    if loss_factor > 1.0 {
-        refuse!(section, "loss_factor" =>
-            "= {loss_factor} is beyond any material's: at 1 half of the strain energy is lost in a \
-             sixth of a cycle"; "at most 1";
-            "steel has about 0.001, cast iron 0.002, a lining 0.01 to 0.1, rubber 0.1 to 1");
-    }
+    refuse_if!(loss_factor > 1.0; section, "loss_factor" =>
+        "= {loss_factor} is beyond any material's: at 1 half of the strain energy is lost in a \
+         sixth of a cycle"; "at most 1";
+        "steel has about 0.001, cast iron 0.002, a lining 0.01 to 0.1, rubber 0.1 to 1");
     loss_factor
 }
 
@@ -51,11 +49,9 @@ pub(super) fn elastic(
     if ORTHOTROPIC.iter().any(|key| section.has(key)) {
         for key in ISOTROPIC {
             let _ = section.optional_number(key);
-            if section.has(key) {
-                refuse!(section, key => "beside the keys of an orthotropic material";
-                    "isotropic or orthotropic";
-                    "leave out the constants of the one or of the other");
-            }
+            refuse_if!(section.has(key); section, key =>
+                "beside the keys of an orthotropic material"; "isotropic or orthotropic";
+                "leave out the constants of the one or of the other");
         }
         let orthotropy = orthotropy(section);
         let [young_modulus, poisson_ratio] = orthotropy.mean_constants();
@@ -68,11 +64,9 @@ pub(super) fn elastic(
     }
     // Known keys of the section, though none is given.
     let _ = ORTHOTROPIC.map(|key| section.numbers(key));
-    if axes(section) != MaterialAxes::global() {
-        refuse!(section, "axes" => "is for an orthotropic material";
-            "an isotropic material has no axes";
-            "give young_moduli, poisson_ratios and shear_moduli, or leave it out");
-    }
+    refuse_if!(axes(section) != MaterialAxes::global(); section, "axes" =>
+        "is for an orthotropic material"; "an isotropic material has no axes";
+        "give young_moduli, poisson_ratios and shear_moduli, or leave it out");
     let [young_modulus, poisson_ratio] = ISOTROPIC.map(|key| section.number(key));
     ElasticMaterial { young_modulus, poisson_ratio, ..plain }
 }
@@ -102,9 +96,8 @@ fn orthotropy(section: &Section<'_>) -> Orthotropy {
         section.needs(key);
         let values = section.numbers(key)?;
         let given = section.list_length(key).unwrap_or(1);
-        if given != 3 {
-            refuse!(section, key => "has {given} of three numbers"; "one for each of three axes");
-        }
+        refuse_if!(given != 3; section, key => "has {given} of three numbers";
+            "one for each of three axes");
         values.try_into().ok()
     };
     let moduli = triple("young_moduli");

@@ -1,7 +1,7 @@
 //! `[frf]`: a frequency response of the model.
 
 use super::node::Nodes;
-use super::{FrfMethod, Section, caution, refuse};
+use super::{FrfMethod, Section, caution_if, refuse, refuse_if};
 use frictionsim_physics::fem::MassKind;
 use frictionsim_physics::frf::{Direction, FrfBoundary, Terminal};
 use frictionsim_signal::ResponseQuantity;
@@ -39,10 +39,8 @@ pub(super) fn read(section: &Section<'_>, nodes: &Nodes<'_>) -> Frf {
     let response_node = named[1].unwrap_or(force_node);
     let mut frequencies_hz = section.numbers("frequencies_hz").unwrap_or_default();
     // What is wrong with a range has been said.
-    if !section.has("frequencies_hz") || section.is_empty_list("frequencies_hz") {
-        refuse!(section, "frequencies_hz", "frf.frequencies_hz is missing or empty";
-            "at least one frequency");
-    }
+    refuse_if!(!section.has("frequencies_hz") || section.is_empty_list("frequencies_hz"); section,
+        "frequencies_hz", "frf.frequencies_hz is missing or empty"; "at least one frequency");
     frequencies_hz.sort_by(f64::total_cmp);
     frequencies_hz.dedup();
     let direction = |key| {
@@ -72,8 +70,7 @@ pub(super) fn read(section: &Section<'_>, nodes: &Nodes<'_>) -> Frf {
         noise: section.number("noise"),
         noise_seed: section.count("noise_seed"),
     };
-    if section.has("noise_seed") && frf.noise == 0.0 {
-        caution!(section, "noise_seed", "frf.noise_seed is not used: frf.noise is 0"; "no noise");
-    }
+    caution_if!(section.has("noise_seed") && frf.noise == 0.0; section, "noise_seed",
+        "frf.noise_seed is not used: frf.noise is 0"; "no noise");
     frf
 }

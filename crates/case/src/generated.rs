@@ -10,7 +10,7 @@ use super::modifications::Misfit;
 use super::whole_revolution::whole_revolution;
 use super::{
     Annulus, Body, Case, CaseErrors, Contact, Revolution, Section, assembly, attachments,
-    boundaries, imported, refusal, refuse, solid,
+    boundaries, imported, refusal, refuse, refuse_if, solid,
 };
 use frictionsim_physics::contact::Motion;
 use frictionsim_physics::fem::{RegionMaterial, RotationFrame};
@@ -130,19 +130,16 @@ fn annulus(own: &Description<'_>) -> (AnnulusSpecification, Option<RegionMateria
     let Description { root, geometry, mesh, conditions, .. } = own;
     let inner_radius = geometry.number("inner_radius");
     let outer_radius = geometry.number("outer_radius");
-    if outer_radius <= inner_radius {
-        refuse!(geometry, "outer_radius",
-            "geometry.outer_radius = {outer_radius} must be above geometry.inner_radius = \
-             {inner_radius}";
-            "must be above {inner_radius}"; "both are radii in metres; are they swapped?");
-    }
+    refuse_if!(outer_radius <= inner_radius; geometry, "outer_radius",
+        "geometry.outer_radius = {outer_radius} must be above geometry.inner_radius = \
+         {inner_radius}"; "must be above {inner_radius}";
+        "both are radii in metres; are they swapped?");
     let is_solid = own.is_solid();
     let shaft = if is_solid { None } else { shaft(own, inner_radius) };
     for (section, key) in [(geometry, "shaft_inner_radius"), (mesh, "shaft_radial_elements")] {
-        if is_solid && !section.refused(key).is_empty() {
-            refuse!(section, key, "a deformable shaft turns in a plane annulus only";
-                "the body is three-dimensional"; "leave the shaft out, or use a plane formulation");
-        }
+        refuse_if!(is_solid && !section.refused(key).is_empty(); section, key,
+            "a deformable shaft turns in a plane annulus only"; "the body is three-dimensional";
+            "leave the shaft out, or use a plane formulation");
     }
     let annulus = AnnulusSpecification {
         inner_radius,
@@ -164,11 +161,9 @@ fn annulus(own: &Description<'_>) -> (AnnulusSpecification, Option<RegionMateria
 fn check_mesh(mesh: &Section<'_>, annulus: &AnnulusSpecification) {
     // Node indices are 32 bits wide, with room for two unknowns at each node.
     let (nodes, limit) = (node_count(annulus), u128::from(u32::MAX / 2));
-    if nodes > limit {
-        refuse!(mesh, "circumferential_elements",
-            "the mesh would have {nodes} nodes, above the limit of {limit}"; "too many elements";
-            "lower mesh.circumferential_elements or mesh.radial_elements");
-    }
+    refuse_if!(nodes > limit; mesh, "circumferential_elements",
+        "the mesh would have {nodes} nodes, above the limit of {limit}"; "too many elements";
+        "lower mesh.circumferential_elements or mesh.radial_elements");
     // Sizes that differ by more than this leave elements without width in double precision.
     let ratio = annulus.radial_grading.ln() * (annulus.radial_elements as f64 - 1.0);
     if ratio.abs() > 1e6f64.ln() {
@@ -189,26 +184,20 @@ fn shaft(
     let elements = mesh.optional_count("shaft_radial_elements");
     let found = materials(own, bore.is_some());
     let Some(bore) = bore else {
-        if elements.is_some() {
-            refuse!(mesh, "shaft_radial_elements",
-                "mesh.shaft_radial_elements is for a deformable shaft, and the case has none";
-                "the cylinder is rigid";
-                "give geometry.shaft_inner_radius and [materials.shaft], or leave it out");
-        }
+        refuse_if!(elements.is_some(); mesh, "shaft_radial_elements",
+            "mesh.shaft_radial_elements is for a deformable shaft, and the case has none";
+            "the cylinder is rigid";
+            "give geometry.shaft_inner_radius and [materials.shaft], or leave it out");
         return None;
     };
-    if bore >= contact_radius {
-        refuse!(geometry, "shaft_inner_radius",
-            "geometry.shaft_inner_radius = {bore} must be below geometry.inner_radius = \
-             {contact_radius}: the shaft reaches from its bore to the contact";
-            "must be below {contact_radius}");
-    }
-    if found.is_none() {
-        refuse!(geometry, "shaft_inner_radius",
-            "the shaft of geometry.shaft_inner_radius has no material"; "needs [materials.shaft]";
-            "add [materials.shaft] with young_modulus, poisson_ratio and density, or leave \
-             shaft_inner_radius out for a rigid cylinder");
-    }
+    refuse_if!(bore >= contact_radius; geometry, "shaft_inner_radius",
+        "geometry.shaft_inner_radius = {bore} must be below geometry.inner_radius = \
+         {contact_radius}: the shaft reaches from its bore to the contact";
+        "must be below {contact_radius}");
+    refuse_if!(found.is_none(); geometry, "shaft_inner_radius",
+        "the shaft of geometry.shaft_inner_radius has no material"; "needs [materials.shaft]";
+        "add [materials.shaft] with young_modulus, poisson_ratio and density, or leave \
+         shaft_inner_radius out for a rigid cylinder");
     let shaft = ShaftSpecification {
         inner_radius: bore,
         radial_elements: elements.unwrap_or_else(|| mesh.count("shaft_radial_elements")),

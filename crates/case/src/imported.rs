@@ -7,7 +7,8 @@ use super::tables::{TableFiles, modulus_table};
 use super::value::quote;
 use super::words::CounterfaceWord;
 use super::{
-    Diagnostic, MeshBytes, RawCase, Section, caution, first_of, inclusion, refuse, suggestion,
+    Diagnostic, MeshBytes, RawCase, Section, caution, first_of, inclusion, refuse, refuse_if,
+    suggestion,
 };
 use frictionsim_physics::contact::ContactInterface;
 use frictionsim_physics::fem::{ElasticMaterial, RayleighDamping, RegionMaterial};
@@ -41,12 +42,9 @@ pub(super) fn contact_place(section: &Section<'_>) -> (BodySpecification, Option
     let speed = section.optional_number("speed");
     let word: CounterfaceWord = section.choice("counterface");
     let opposite = opposite_curve(section, word);
-    if word == CounterfaceWord::Sphere {
-        refuse!(section, "counterface",
-            "contact.counterface = \"sphere\" is for a mesh of solid elements";
-            "the body is plane"; "leave it out for a round contact curve; of a straight one \
-             give \"plane\" with `speed`");
-    }
+    refuse_if!(word == CounterfaceWord::Sphere; section, "counterface",
+        "contact.counterface = \"sphere\" is for a mesh of solid elements"; "the body is plane";
+        "leave it out for a round contact curve; of a straight one give \"plane\" with `speed`");
     let (counterface, plane_speed) = match word {
         CounterfaceWord::Body if speed.is_some() => {
             let along = section.has("direction").then_some(direction);
@@ -56,10 +54,8 @@ pub(super) fn contact_place(section: &Section<'_>) -> (BodySpecification, Option
             (CounterfaceSpecification::Cylinder { center, radius }, None)
         }
         CounterfaceWord::Plane => {
-            if direction == [0.0; 2] {
-                refuse!(section, "direction", "contact.direction = [0, 0] has no direction";
-                    "must not be zero");
-            }
+            refuse_if!(direction == [0.0; 2]; section, "direction",
+                "contact.direction = [0, 0] has no direction"; "must not be zero");
             let plane = CounterfaceSpecification::Plane { direction: Some(direction) };
             (plane, Some(speed.unwrap_or_else(|| section.number("speed"))))
         }
@@ -182,11 +178,9 @@ pub(super) fn mesh_bytes(raw: &RawCase, file: &str) -> Result<MeshBytes, String>
 
 /// Refuses `mesh.sectors` where there is no file.
 pub(super) fn refuse_sectors(mesh: &Section<'_>) {
-    if mesh.optional_count("sectors").is_some() {
-        refuse!(mesh, "sectors",
-            "mesh.sectors is for a mesh file (mesh.file) that has one sector of the body";
-            "a generated body is made of sectors anyway"; "leave it out");
-    }
+    refuse_if!(mesh.optional_count("sectors").is_some(); mesh, "sectors",
+        "mesh.sectors is for a mesh file (mesh.file) that has one sector of the body";
+        "a generated body is made of sectors anyway"; "leave it out");
 }
 
 /// The symmetry that `mesh.sectors` says, about an axis of some direction through a point (m).

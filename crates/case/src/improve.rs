@@ -1,6 +1,6 @@
 //! `[improve]`: which modes are to be silenced, and by what.
 
-use super::{ModificationKind, Section, refuse};
+use super::{ModificationKind, Section, refuse_if};
 
 /// `[improve]`; what is `None` follows from the body and its modes.
 #[derive(Clone, Debug, PartialEq)]
@@ -32,11 +32,9 @@ pub struct Improve {
 pub(super) fn improve(section: &Section<'_>) -> Improve {
     let ends = ["min_frequency_hz", "max_frequency_hz"].map(|key| section.optional_number(key));
     let frequencies_hz = [ends[0].unwrap_or(0.0), ends[1].unwrap_or(f64::INFINITY)];
-    if frequencies_hz[0] >= frequencies_hz[1] {
-        refuse!(section, "min_frequency_hz",
-            "improve.min_frequency_hz = {} is not below improve.max_frequency_hz = {}",
-            frequencies_hz[0], frequencies_hz[1]; "no mode lies between them");
-    }
+    refuse_if!(frequencies_hz[0] >= frequencies_hz[1]; section, "min_frequency_hz",
+        "improve.min_frequency_hz = {} is not below improve.max_frequency_hz = {}",
+        frequencies_hz[0], frequencies_hz[1]; "no mode lies between them");
     Improve {
         modifications: section.choices("modifications"),
         frequencies_hz,

@@ -62,7 +62,7 @@ pub use cost::{CeaCost, Cost, CycleCost, FrfCost, RunCost, StudyCost, TransientC
 pub use cycle::{Continuation, Cycle};
 pub use description::Damping;
 pub use diagnostic::{CaseErrors, Diagnostic, Location, Remedy, Source};
-use diagnostic::{caution, diagnosis, placed, refuse, refuse_at};
+use diagnostic::{caution, caution_if, diagnosis, placed, refuse, refuse_at, refuse_if};
 pub use file_sections::FileSection;
 pub use fit::{Fit, FitParameter};
 pub use frf::Frf;

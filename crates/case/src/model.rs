@@ -7,7 +7,8 @@ use super::elastic::{Surroundings, place_axes};
 use super::generated::generated;
 use super::imported::{FileParts, ImportError};
 use super::{
-    Body, Contact, MeshBytes, RawCase, Section, assembly, attachments, caution, imported, refuse,
+    Body, Contact, MeshBytes, RawCase, Section, assembly, attachments, caution, caution_if,
+    imported, refuse, refuse_if,
 };
 use frictionsim_physics::fem::RegionMaterial;
 use frictionsim_physics::mesh::{BodySpecification, CounterfaceSpecification};
@@ -92,13 +93,11 @@ fn of_file(
 /// `[contact]` of plane bodies of a mesh file.
 fn plane_joint(own: &Description<'_>) -> (BodySpecification, Contact) {
     let (contact, place, _) = contact(own.root, None, own.is_pressed());
-    if own.is_solid() {
-        refuse!(own.mesh, "file",
-            "mesh.file holds plane elements, and material.formulation is \"three-dimensional\"";
-            "triangles and quadrilaterals in the plane";
-            "give a plane formulation, a file with solid elements, or the radii of a body that is \
-             generated");
-    }
+    refuse_if!(own.is_solid(); own.mesh, "file",
+        "mesh.file holds plane elements, and material.formulation is \"three-dimensional\"";
+        "triangles and quadrilaterals in the plane";
+        "give a plane formulation, a file with solid elements, or the radii of a body that is \
+         generated");
     (place, contact)
 }
 
@@ -115,11 +114,10 @@ fn solid_joints(own: &Description<'_>, has_solids: bool) -> (AssemblyParts, Cont
     }
     let (parts, contact) = assembly::sections(root, own.tables);
     let cea = root.section("cea", false);
-    if cea.flag("geometric_stiffness") && parts.base == BaseChoice::Closed {
-        caution!(cea, "geometric_stiffness",
-            "bodies that are closed and free of stress have no geometric stiffness";
-            "no effect with base_state = \"closed\""; "leave one of the two out");
-    }
+    caution_if!(cea.flag("geometric_stiffness") && parts.base == BaseChoice::Closed; cea,
+        "geometric_stiffness",
+        "bodies that are closed and free of stress have no geometric stiffness";
+        "no effect with base_state = \"closed\""; "leave one of the two out");
     (parts, contact)
 }
 

@@ -1,7 +1,7 @@
 //! `[modifications.*]`: what is added to a body, or taken away from it.
 
 use super::reader::NodePlace;
-use super::{Location, Section, refuse};
+use super::{Location, Section, refuse, refuse_if};
 use frictionsim_physics::mesh::FileMesh;
 use nalgebra::Vector3;
 use std::sync::Arc;
@@ -86,10 +86,9 @@ fn check(section: &Section<'_>, own: &Modification) {
         needs(&IN_ELEMENTS, "`center` and `radius`", circles);
         needs(&["center", "radius"], "the other of the two", circles);
     }
-    if own.direction.is_some_and(|d| d.iter().all(|x| *x == 0.0)) {
-        refuse!(section, "direction" => "= 0 points nowhere"; "has no effect by itself";
-            "give a vector, or leave it out: every direction");
-    }
+    refuse_if!(own.direction.is_some_and(|d| d.iter().all(|x| *x == 0.0)); section, "direction" =>
+        "= 0 points nowhere"; "has no effect by itself";
+        "give a vector, or leave it out: every direction");
     let is_inert = own.mass == 0.0
         && own.stiffness == 0.0
         && own.damping == 0.0

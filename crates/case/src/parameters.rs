@@ -2,7 +2,7 @@
 
 use super::{
     Bound, CaseErrors, CaseKey, Kind, Location, RawEntry, RawTable, RawValue, Section, keys,
-    refuse, refuse_at,
+    refuse_at, refuse_if,
 };
 
 /// Sections that make the model.
@@ -81,9 +81,8 @@ pub(super) fn read_all<T>(
     let entries = entries(&table).into_iter();
     let found: Vec<T> = entries.map(|(own, entry)| read(&table, own, entry)).collect();
     refuse_twice(&table, found.iter().flat_map(|own| parameter_of(own).keys()));
-    if table.is_given() && table.remaining().is_empty() {
-        refuse!(section, key => "is empty"; "at least one parameter");
-    }
+    refuse_if!(table.is_given() && table.remaining().is_empty(); section, key => "is empty";
+        "at least one parameter");
     found
 }
 

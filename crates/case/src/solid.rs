@@ -2,7 +2,7 @@
 
 use super::boundaries::{NamedCondition, holds_tangentially};
 use super::description::Description;
-use super::{Case, CaseErrors, Section, imported, refusal, refuse, suggestion};
+use super::{Case, CaseErrors, Section, imported, refusal, refuse, refuse_if, suggestion};
 use frictionsim_physics::fem::RegionMaterial;
 use frictionsim_physics::mesh::{
     AnnulusSpecification, BoundaryCondition, SolidContact, SolidFace, SolidPart, SolidSpecification,
@@ -19,12 +19,10 @@ pub(super) fn axial_elements(own: &Description<'_>) -> Option<usize> {
         }
         return None;
     }
-    if !geometry.has("thickness") {
-        refuse!(geometry, "thickness",
-            "geometry.thickness is missing: a three-dimensional body needs one";
-            "no thickness to divide into mesh.axial_elements";
-            "give it in metres, for example thickness = 0.009");
-    }
+    refuse_if!(!geometry.has("thickness"); geometry, "thickness",
+        "geometry.thickness is missing: a three-dimensional body needs one";
+        "no thickness to divide into mesh.axial_elements";
+        "give it in metres, for example thickness = 0.009");
     Some(mesh.count("axial_elements"))
 }
 
@@ -49,18 +47,14 @@ pub(super) fn contact(section: &Section<'_>, annulus: &AnnulusSpecification) -> 
     let (low, high) = (annulus.inner_radius, annulus.outer_radius);
     let [inner, outer] = [radii[0].unwrap_or(low), radii[1].unwrap_or(high)];
     for (key, value) in [("ring_inner_radius", inner), ("ring_outer_radius", outer)] {
-        if !(value >= low && value <= high) && high > low {
-            refuse!(section, key,
-                "contact.{key} = {value} lies outside the face, which reaches from {low} to {high} \
-                 m"; "between {low} and {high}";
-                "a ring lies between geometry.inner_radius and geometry.outer_radius");
-        }
+        refuse_if!(!(value >= low && value <= high) && high > low; section, key,
+            "contact.{key} = {value} lies outside the face, which reaches from {low} to {high} m";
+            "between {low} and {high}";
+            "a ring lies between geometry.inner_radius and geometry.outer_radius");
     }
-    if inner >= outer {
-        refuse!(section, "ring_outer_radius",
-            "contact.ring_outer_radius = {outer} must be above contact.ring_inner_radius = {inner}";
-            "must be above {inner}"; "are they swapped?");
-    }
+    refuse_if!(inner >= outer; section, "ring_outer_radius",
+        "contact.ring_outer_radius = {outer} must be above contact.ring_inner_radius = {inner}";
+        "must be above {inner}"; "are they swapped?");
     SolidContact::Ring { inner_radius: inner, outer_radius: outer }
 }
 
@@ -73,11 +67,9 @@ pub(super) fn parts(
     let height = |layer: usize| body.thickness * layer as f64 / body.axial_elements as f64;
     let heights: Vec<f64> = (0..=body.axial_elements).map(height).collect();
     let found = imported::materials_and(own.root, &own.common.elastic, own.tables, |section| {
-        if !section.has("radii") && !section.has("heights") {
-            refuse!(section, "radii", "{} needs the radii or the heights between which it lies",
-                section.name("radii"); "lies nowhere";
-                "describe the rest of the body in [material]");
-        }
+        refuse_if!(!section.has("radii") && !section.has("heights"); section, "radii",
+            "{} needs the radii or the heights between which it lies", section.name("radii");
+            "lies nowhere"; "describe the rest of the body in [material]");
         let range = |key: &str, lines: &[f64]| {
             let whole = [lines.first(), lines.last()].map(|end| end.copied().unwrap_or(0.0));
             let given = section.numbers(key);
@@ -133,11 +125,10 @@ pub(super) fn conditions(
                 "it has \"inner\", \"outer\", \"top\" and \"bottom\""; "use one of these names");
             continue;
         };
-        if SolidFace::ALL[face] == contact.face() && *condition != BoundaryCondition::Free {
-            refuse!(section, name,
-                "boundaries.{name} is the face of contact: it can have no condition of its own";
-                "the contact is here"; "leave the section out");
-        }
+        refuse_if!(SolidFace::ALL[face] == contact.face() && *condition != BoundaryCondition::Free;
+            section, name,
+            "boundaries.{name} is the face of contact: it can have no condition of its own";
+            "the contact is here"; "leave the section out");
         if let BoundaryCondition::Support(support) = condition
             && SolidFace::ALL[face].normal_component() == 2
             && support.axial_stiffness > 0.0
@@ -148,12 +139,10 @@ pub(super) fn conditions(
         }
         conditions[face] = *condition;
     }
-    if !conditions.iter().any(holds_tangentially) {
-        refuse!(section, "outer", "nothing holds the body against the friction that turns it";
-            "must hold a face tangentially";
-            "use condition = \"clamped\" on a face, or \"support\" with tangential_stiffness above \
-             0");
-    }
+    refuse_if!(!conditions.iter().any(holds_tangentially); section, "outer",
+        "nothing holds the body against the friction that turns it";
+        "must hold a face tangentially";
+        "use condition = \"clamped\" on a face, or \"support\" with tangential_stiffness above 0");
     // A cylinder in the bore holds nothing along the axis; a ring on the top presses it.
     let holds_along = |(face, condition): (SolidFace, &BoundaryCondition)| match condition {
         BoundaryCondition::Clamped => true,
@@ -165,12 +154,10 @@ pub(super) fn conditions(
         _ => false,
     };
     let mut faces = SolidFace::ALL.into_iter().zip(&conditions);
-    if contact == SolidContact::Inner && !faces.any(holds_along) {
-        refuse!(section, "outer", "nothing holds the body along its axis";
-            "must hold a face axially";
-            "give the support axial_stiffness above 0, or hold the top or the bottom face along \
-             its normal");
-    }
+    refuse_if!(contact == SolidContact::Inner && !faces.any(holds_along); section, "outer",
+        "nothing holds the body along its axis"; "must hold a face axially";
+        "give the support axial_stiffness above 0, or hold the top or the bottom face along its \
+         normal");
     conditions
 }
 

@@ -2,7 +2,7 @@
 
 use super::cea::mode_selection;
 use super::raw::hex;
-use super::{CaseErrors, Findings, ModeLimit, RawCase, Section, refuse};
+use super::{CaseErrors, Findings, ModeLimit, RawCase, Section, refuse, refuse_if};
 use frictionsim_bounds::{MATRIX, SUPERELEMENT_UNKNOWNS};
 use frictionsim_physics::linalg::MarketMatrix;
 use sha2::{Digest, Sha256};
@@ -57,10 +57,9 @@ impl FreeSystem {
         let title = root.optional_text("title").unwrap_or_default();
         let all = root.section("superelements", true);
         let names: Vec<&str> = all.remaining().into_iter().map(|(name, _)| name).collect();
-        if names.len() > 1 {
-            refuse!(all, names[1], "several superelements without a body have nothing in common";
-                "the second one"; "give each a case of its own");
-        }
+        refuse_if!(names.len() > 1; all, names[1],
+            "several superelements without a body have nothing in common"; "the second one";
+            "give each a case of its own");
         let mut digest = Sha256::new_with_prefix(raw.canonical());
         let folder = Path::new(&raw.name).parent().unwrap_or(Path::new(""));
         let read = names.first().and_then(|name| {

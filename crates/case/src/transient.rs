@@ -2,8 +2,8 @@
 
 use super::node::Nodes;
 use super::{
-    AssemblyBody, Body, Case, CaseErrors, PlacedNode, Revolution, Section, caution, refusal,
-    refuse, refuse_at,
+    AssemblyBody, Body, Case, CaseErrors, PlacedNode, Revolution, Section, caution, caution_if,
+    refusal, refuse, refuse_at, refuse_if,
 };
 use frictionsim_physics::contact::SlidingContact;
 use frictionsim_physics::mesh::{Counterface, SolidContact};
@@ -122,11 +122,10 @@ pub(super) fn transient(
             "= {expansion_time:?} s{default} is above transient.duration = {duration:?} s: the \
              cylinder would never be fully expanded"; "at most the duration");
     }
-    if initial != InitialState::Rest && section.has("expansion_time") {
-        caution!(section, "expansion_time",
-            "transient.expansion_time is not used: the run starts with the cylinder fully expanded";
-            "only with initial = \"rest\"");
-    }
+    caution_if!(initial != InitialState::Rest && section.has("expansion_time"); section,
+        "expansion_time",
+        "transient.expansion_time is not used: the run starts with the cylinder fully expanded";
+        "only with initial = \"rest\"");
     Transient {
         duration,
         time_step,
@@ -173,26 +172,18 @@ fn perturbation(
     let unit = velocity_unit(section, body.map_or(1.0, |body| slip_speed(body, sliding)));
     let velocities = one_for_each(section, "velocity", &harmonics);
     let phases = one_for_each(section, "phase_deg", &harmonics);
-    if harmonics.is_empty() && section.has("phase_deg") {
-        refuse!(section, "phase_deg" => "is given without harmonics";
-            "needs transient.perturbation.harmonics");
-    }
+    refuse_if!(harmonics.is_empty() && section.has("phase_deg"); section, "phase_deg" =>
+        "is given without harmonics"; "needs transient.perturbation.harmonics");
     let noise = section.number("noise");
     let noise_seed = section.count("noise_seed");
-    if section.has("noise_seed") && noise == 0.0 {
-        refuse!(section, "noise_seed" => "is given without noise";
-            "needs transient.perturbation.noise");
-    }
+    refuse_if!(section.has("noise_seed") && noise == 0.0; section, "noise_seed" =>
+        "is given without noise"; "needs transient.perturbation.noise");
     let time = section.number("at");
-    if time > duration {
-        refuse!(section, "at" =>
-            "= {time:?} s is after the end of the run, transient.duration = {duration:?} s";
-            "must be within the run");
-    }
-    if time > 0.0 && harmonics.is_empty() && noise == 0.0 {
-        refuse!(section, "at" => "is given, but there is no velocity to add";
-            "needs harmonics or noise");
-    }
+    refuse_if!(time > duration; section, "at" =>
+        "= {time:?} s is after the end of the run, transient.duration = {duration:?} s";
+        "must be within the run");
+    refuse_if!(time > 0.0 && harmonics.is_empty() && noise == 0.0; section, "at" =>
+        "is given, but there is no velocity to add"; "needs harmonics or noise");
     let waves = harmonics.iter().zip(velocities.iter().zip(&phases));
     Perturbation {
         waves: waves
@@ -234,11 +225,9 @@ fn velocity_unit(section: &Section<'_>, slip_speed: f64) -> f64 {
     if !section.flag("relative") {
         return 1.0;
     }
-    if slip_speed == 0.0 {
-        refuse!(section, "relative" =>
-            "= true, but contact.rotation_speed_rpm = 0: there is no slip speed";
-            "needs a cylinder that turns");
-    }
+    refuse_if!(slip_speed == 0.0; section, "relative" =>
+        "= true, but contact.rotation_speed_rpm = 0: there is no slip speed";
+        "needs a cylinder that turns");
     slip_speed
 }
 
@@ -278,15 +267,11 @@ pub(super) fn output(
                 "output.snapshots: {time} s lies after the end of the run (transient.duration = \
                  {duration} s) and is left out"; "after the end");
         }
-        if further > 0 {
-            caution!(section, "snapshots",
-                "output.snapshots: {further} later times are left out, too"; "after the end");
-        }
-        if sample_interval > duration {
-            refuse!(section, "sample_interval" =>
-                "= {sample_interval:?} s is above transient.duration = {duration:?} s";
-                "a run has two samples at least");
-        }
+        caution_if!(further > 0; section, "snapshots",
+            "output.snapshots: {further} later times are left out, too"; "after the end");
+        refuse_if!(sample_interval > duration; section, "sample_interval" =>
+            "= {sample_interval:?} s is above transient.duration = {duration:?} s";
+            "a run has two samples at least");
     }
     let contact_interval = section.optional_number("contact_interval");
     if let Some(interval) = contact_interval.filter(|interval| *interval < sample_interval) {

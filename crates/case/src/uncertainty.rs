@@ -1,7 +1,9 @@
 //! `[uncertainty]`: parameters that are known but roughly.
 
 use super::parameters::{number, only, read_all};
-use super::{ModelParameter, RawEntry, RawValue, Section, caution, refuse, refuse_at};
+use super::{
+    ModelParameter, RawEntry, RawValue, Section, caution_if, refuse, refuse_at, refuse_if,
+};
 use frictionsim_physics::linalg::Distribution;
 
 /// Share of a distribution beyond what its key can take from which on it is refused.
@@ -62,14 +64,11 @@ pub(super) fn uncertainty(section: &Section<'_>) -> Uncertainty {
             "at most {MOST}"; "leave out those with little influence");
     }
     for (key, count) in [("samples", Some(samples)), ("index_samples", index_samples)] {
-        if count.is_some_and(|count| count > 1_000_000) {
-            refuse!(section, key, "uncertainty.{key} is above a million"; "at most 1000000");
-        }
+        refuse_if!(count.is_some_and(|count| count > 1_000_000); section, key,
+            "uncertainty.{key} is above a million"; "at most 1000000");
     }
-    if index_samples.is_some_and(|count| count > samples) {
-        refuse!(section, "index_samples", "uncertainty.index_samples is above uncertainty.samples";
-            "at most {samples}");
-    }
+    refuse_if!(index_samples.is_some_and(|count| count > samples); section, "index_samples",
+        "uncertainty.index_samples is above uncertainty.samples"; "at most {samples}");
     Uncertainty {
         samples,
         index_samples: index_samples.unwrap_or_else(|| samples.div_ceil(4)),
@@ -165,10 +164,8 @@ fn uncertain(
         return none;
     }
     // What a sample meets once in a million is not worth a word.
-    if beyond > 1e-6 {
-        caution!(section, key,
-            "{:.4} % of {word} = [{a}, {b}] of {key} lies where the key {rule}: samples are drawn \
-             from the rest", 100.0 * beyond; "reaches forbidden values");
-    }
+    caution_if!(beyond > 1e-6; section, key,
+        "{:.4} % of {word} = [{a}, {b}] of {key} lies where the key {rule}: samples are drawn from \
+         the rest", 100.0 * beyond; "reaches forbidden values");
     UncertainParameter { parameter, distribution, range }
 }

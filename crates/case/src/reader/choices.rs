@@ -2,15 +2,13 @@
 
 use super::Section;
 use crate::words::Choice;
-use crate::{CaseKey, RawItem, RawValue, keys, refuse, refuse_at, suggestion, words};
+use crate::{CaseKey, RawItem, RawValue, keys, refuse_at, refuse_if, suggestion, words};
 
 impl Section<'_> {
     /// A list of words out of a few; empty where it is not given.
     pub fn choices<T: Choice>(&self, key: &str) -> Vec<T> {
         let items = self.item(key).map_or(&[][..], RawItem::listed);
-        if self.is_empty_list(key) {
-            refuse!(self, key => "is an empty list"; "at least one word");
-        }
+        refuse_if!(self.is_empty_list(key); self, key => "is an empty list"; "at least one word");
         let words = items.iter();
         words.filter_map(|item| self.read_choice(key, item)).collect()
     }
