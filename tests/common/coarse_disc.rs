@@ -7,13 +7,10 @@ pub fn coarse_disc(sections: &str) -> String {
 
 /// The same on so many elements around and across.
 pub fn disc_of([around, across]: [usize; 2], sections: &str) -> String {
-    format!(
-        "title = \"Coarse disc\"
-[geometry]\ninner_radius = 0.0205\nouter_radius = 0.0905\nthickness = 0.009
-[mesh]\ncircumferential_elements = {around}\nradial_elements = {across}
-[material]\nyoung_modulus = 2.5e9\npoisson_ratio = 0.3805\ndensity = 1228.0
-[damping]\nmass_coefficient = 40.0\nstiffness_coefficient = 4.5e-7
-[contact]\nfriction_coefficient = 0.3\ninterference = 25e-6\nrotation_speed_rpm = 610.0\n\
-     {sections}"
-    )
+    let text = include_str!("../commands/refused/coarse-disc.toml");
+    let (disc, _) = text.split_once("[cea]").unwrap();
+    let around = format!("circumferential_elements = {around}");
+    let across = format!("radial_elements = {across}");
+    let disc = disc.replace("circumferential_elements = 36", &around);
+    disc.replace("radial_elements = 6", &across) + sections
 }

@@ -53,6 +53,11 @@ impl<S: Sectors, M: MaterialField + Clone> WaveModel<S, M> {
         self.sweep(&sweep_request(frictions, limit)).unwrap()
     }
 
+    /// The same at one.
+    pub fn modes(&self, friction: f64, limit: ModeLimit) -> Vec<ComplexMode> {
+        self.swept(&[friction], limit).sweep.points.remove(0).modes
+    }
+
     /// The same model with a change.
     pub fn with(&self, change: impl FnOnce(&mut Self)) -> Self {
         let mut changed = self.clone();

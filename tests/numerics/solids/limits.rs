@@ -10,8 +10,7 @@ fn plane(model: &SolidModel, formulation: PlaneFormulation, limit_hz: f64) -> Ve
         options: model.options,
         contact: model.contact,
     };
-    let found = plane.swept(&[0.3], ModeLimit::MaxFrequency(limit_hz));
-    found.sweep.points.into_iter().next().unwrap().modes
+    plane.modes(0.3, ModeLimit::MaxFrequency(limit_hz))
 }
 
 /// Eigenvalue of the given modes nearest to one of the plane.

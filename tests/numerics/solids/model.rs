@@ -51,8 +51,7 @@ pub fn disc(element: ElementKind, [around, radial, axial]: [usize; 3]) -> SolidM
 }
 
 pub fn modes(model: &SolidModel, friction: f64, limit_hz: f64) -> Vec<ComplexMode> {
-    let found = model.swept(&[friction], ModeLimit::MaxFrequency(limit_hz));
-    found.sweep.points.into_iter().next().unwrap().modes
+    model.modes(friction, ModeLimit::MaxFrequency(limit_hz))
 }
 
 pub fn body<'a>(model: &'a SolidModel, sector: &'a SolidSector) -> TransientModel<'a> {
