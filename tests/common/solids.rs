@@ -6,9 +6,14 @@ use frictionsim::mesh::{BoundaryCondition, FileMesh, Mesh};
 use frictionsim::prestress::{SlidingSurfaces, TiedSurfaces};
 
 pub fn mesh_of(bytes: &[u8], conditions: &[(&str, BoundaryCondition)]) -> Mesh {
+    solids_of(&FileMesh::read(bytes).unwrap(), conditions)
+}
+
+/// Solid bodies of a file in metres.
+pub fn solids_of(file: &FileMesh, conditions: &[(&str, BoundaryCondition)]) -> Mesh {
     let conditions: Vec<_> =
         conditions.iter().map(|&(name, condition)| (name.to_owned(), condition)).collect();
-    Mesh::from_solids(&FileMesh::read(bytes).unwrap(), 1.0, &conditions).unwrap()
+    Mesh::from_solids(file, 1.0, &conditions).unwrap()
 }
 
 pub fn boundary(mesh: &Mesh, name: &str) -> usize {

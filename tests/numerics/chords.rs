@@ -40,8 +40,7 @@ fn straighten(file: &mut FileMesh) {
 }
 
 fn solid(file: &FileMesh) -> Mesh {
-    let conditions = [("z1".to_owned(), BoundaryCondition::Clamped)];
-    Mesh::from_solids(file, 1.0, &conditions).unwrap()
+    solids_of(file, &[("z1", BoundaryCondition::Clamped)])
 }
 
 /// Largest pressure of a cup on the ball, and the force between them.

@@ -126,7 +126,7 @@ fn free_modes_of_an_orthotropic_cube_are_those_of_a_ritz_series() {
     near_each(&shorter[6..16], &series[6..16], 2e-4);
     let cube = |cells: usize, place: &dyn Fn([f64; 3]) -> [f64; 3]| {
         let file = block(ElementKind::Hex20, [cells; 3], |p| place(p.map(|x| SIDE * x)));
-        Mesh::from_solids(&file, 1.0, &[]).unwrap()
+        solids_of(&file, &[])
     };
     let turned = |cells: usize| {
         let mesh = cube(cells, &|p| (turn * Vector3::from(p)).into());
@@ -170,10 +170,10 @@ fn a_thin_orthotropic_plate_has_the_frequencies_of_kirchhoffs_theory() {
     let edges = ["x0", "x1", "y0", "y1"].map(|face| {
         let along_x = face.starts_with('x');
         let fixed = BoundaryCondition::Fixed([!along_x, along_x, true]);
-        (face.to_owned(), fixed)
+        (face, fixed)
     });
     let file = block(ElementKind::Hex20, [20, 16, 1], |[x, y, z]| [a * x, b * y, h * z]);
-    let mesh = Mesh::from_solids(&file, 1.0, &edges).unwrap();
+    let mesh = solids_of(&file, &edges);
     let found = Pencil::of_material(&mesh, &solid(orthotropy)).frequencies(4);
     // Shear and rotatory inertia lower them by about (pi h / a)^2 E / G.
     near_each(&found, &expected, 5e-3);
@@ -239,7 +239,7 @@ fn isotropic_constants_given_as_orthotropic_have_the_isotropic_stiffness() {
                 }
                 _ => {
                     let file = block(kind, [1; 3], |[x, y, z]| [x + 0.2 * y, y, 0.8 * z - 0.1 * x]);
-                    ElementGeometry::new(&Mesh::from_solids(&file, 1.0, &[]).unwrap(), 0)
+                    ElementGeometry::new(&solids_of(&file, &[]), 0)
                 }
             };
             let expected = geometry.stiffness(&plain);

@@ -39,7 +39,7 @@ fn row(is_quadratic: bool) -> FileMesh {
 #[test]
 fn bricks_pyramids_and_tetrahedra_in_one_body_pass_the_patch_test() {
     for is_quadratic in [false, true] {
-        let mesh = Mesh::from_solids(&row(is_quadratic), 1.0, &[]).unwrap();
+        let mesh = solids_of(&row(is_quadratic), &[]);
         let kinds: BTreeSet<ElementKind> =
             (0..mesh.element_count()).map(|e| mesh.element_kind(e)).collect();
         assert_eq!(kinds.len(), 3);
@@ -50,7 +50,7 @@ fn bricks_pyramids_and_tetrahedra_in_one_body_pass_the_patch_test() {
 #[test]
 fn bodies_of_mixed_shapes_are_refined_without_cracks() {
     for is_quadratic in [false, true] {
-        let coarse = Mesh::from_solids(&row(is_quadratic), 1.0, &[]).unwrap();
+        let coarse = solids_of(&row(is_quadratic), &[]);
         let fine = coarse.refined_solids().unwrap();
         assert_eq!(fine.element_count(), 8 + 7 * 10 + 10 * 8);
         assert_eq!(fine.outer_faces().len(), 4 * coarse.outer_faces().len());
@@ -73,7 +73,7 @@ fn pyramids_of_gmsh_are_read_in_the_order_of_its_manual() {
         let points: Vec<[f64; 3]> =
             corners.into_iter().chain(edges.map(middle)).take(count).collect();
         let bytes = mesh_text(&points, &[(3, "body")], &[(number, 0, (0..count).collect())]);
-        let mesh = Mesh::from_solids(&FileMesh::read(&bytes).unwrap(), 1.0, &[]).unwrap();
+        let mesh = mesh_of(&bytes, &[]);
         let kind = mesh.element_kind(0);
         assert_eq!(kind.node_count(), count);
         let nodes = mesh.element_nodes(0);

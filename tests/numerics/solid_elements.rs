@@ -208,7 +208,7 @@ fn every_kind_passes_the_patch_test_on_a_distorted_block() {
         // Curved inner edges too where the quadrature is exact on them.
         let bends = if kind == ElementKind::Tet10 { vec![0.0, 0.03] } else { vec![0.0] };
         for bend in bends {
-            let mesh = Mesh::from_solids(&distorted(kind, bend), 1.0, &[]).unwrap();
+            let mesh = solids_of(&distorted(kind, bend), &[]);
             passes_the_patch_test(&mesh, &format!("{kind:?} {bend}"));
         }
     }
@@ -218,7 +218,7 @@ fn every_kind_passes_the_patch_test_on_a_distorted_block() {
 #[test]
 fn free_blocks_of_every_kind_have_six_rigid_motions_and_no_other() {
     for kind in SOLIDS {
-        let mesh = Mesh::from_solids(&distorted(kind, 0.02), 1.0, &[]).unwrap();
+        let mesh = solids_of(&distorted(kind, 0.02), &[]);
         let stiffness = assemble_stiffness(&mesh, &STEEL);
         let largest = stiffness.entries.iter().fold(0.0_f64, |m, e| m.max(e.2.abs()));
         for motion in rigid_motions(&mesh) {
@@ -243,7 +243,7 @@ fn masses_have_the_volume_and_inertia_of_the_block() {
     let second = (second + offset * offset.transpose()) * volume;
     let inertia = Matrix3::identity() * second.trace() - second;
     for kind in SOLIDS {
-        let mesh = Mesh::from_solids(&distorted(kind, 0.0), 1.0, &[]).unwrap();
+        let mesh = solids_of(&distorted(kind, 0.0), &[]);
         assert!((mesh.region_measures()[0] / volume - 1.0).abs() < 1e-13, "{kind:?}");
         let mass = assemble_mass(&mesh, &STEEL, MassKind::Consistent);
         let motions = rigid_motions(&mesh);
@@ -276,10 +276,10 @@ fn the_lame_mode_of_a_cube_converges_with_the_order_of_the_kind() {
     let [_, shear] = STEEL.lame_constants();
     let exact = PI / SIDE * (shear / STEEL.density / 2.0).sqrt();
     // A quarter of the cube between its planes of symmetry: Lamé's mode stands alone there, on meshes without symmetry too.
-    let guided = ["x1", "y1", "z0", "z1"].map(|face| (face.to_owned(), BoundaryCondition::Guide));
+    let guided = ["x1", "y1", "z0", "z1"].map(|face| (face, BoundaryCondition::Guide));
     let error = |kind: ElementKind, cells: usize| {
         let file = block(kind, [cells; 3], |p| p.map(|x| SIDE * x));
-        let mesh = Mesh::from_solids(&file, 1.0, &guided).unwrap();
+        let mesh = solids_of(&file, &guided);
         let lame = sample(&mesh, |p| {
             let (x, y) = (FRAC_PI_2 * p.x / SIDE, FRAC_PI_2 * p.y / SIDE);
             Vector3::new(x.cos() * y.sin(), -x.sin() * y.cos(), 0.0)
@@ -307,13 +307,13 @@ fn the_lame_mode_of_a_cube_converges_with_the_order_of_the_kind() {
 /// Cross-method: bending, torsion and stretching of a clamped beam that is not symmetric.
 #[test]
 fn quadratic_kinds_and_incompatible_bricks_agree_on_a_clamped_beam() {
-    let clamped = [("x0".to_owned(), BoundaryCondition::Clamped)];
+    let clamped = [("x0", BoundaryCondition::Clamped)];
     let beam = |kind: ElementKind, cells: [usize; 3]| {
         let map = |[x, y, z]: [f64; 3]| {
             let taper = 1.0 - 0.3 * x;
             [0.12 * x, 0.02 * taper * y, 0.012 * taper * z + 0.02 * x * x]
         };
-        let mesh = Mesh::from_solids(&block(kind, cells, map), 1.0, &clamped).unwrap();
+        let mesh = solids_of(&block(kind, cells, map), &clamped);
         frequencies(&mesh, 6)
     };
     let reference = beam(ElementKind::Hex20, [8, 2, 2]);
@@ -341,13 +341,12 @@ fn pressure_guides_and_springs_on_faces_hold_a_uniform_stress_at_any_angle() {
         ("y0", BoundaryCondition::Guide),
         ("z0", BoundaryCondition::Guide),
     ];
-    let conditions = conditions.map(|(name, condition)| (name.to_owned(), condition));
     for kind in SOLIDS {
         let map = |[x, y, z]: [f64; 3]| {
             let place = turn * Vector3::new(0.1 * x, 0.05 * y, 0.04 * z);
             [place.x, place.y, place.z]
         };
-        let mesh = Mesh::from_solids(&block(kind, [2, 2, 1], map), 1.0, &conditions).unwrap();
+        let mesh = solids_of(&block(kind, [2, 2, 1], map), &conditions);
         let unknowns = DofMap::clamped(&mesh);
         let load = unknowns.restrict(&assemble_pressures(&mesh).unwrap());
         let pencil = Pencil::of(&mesh);
@@ -376,7 +375,7 @@ fn geometric_stiffness_of_rigid_rotations_is_the_work_of_the_stress() {
     let [lambda, shear] = STEEL.lame_constants();
     let stress = Matrix3::identity() * (lambda * gradient.trace()) + 2.0 * shear * gradient;
     for kind in SOLIDS {
-        let mesh = Mesh::from_solids(&distorted(kind, 0.0), 1.0, &[]).unwrap();
+        let mesh = solids_of(&distorted(kind, 0.0), &[]);
         let base = sample(&mesh, |p| gradient * p);
         let matrix = assemble_geometric_stiffness(&mesh, &STEEL, &base, None);
         let volume = mesh.region_measures()[0];
@@ -395,21 +394,21 @@ fn geometric_stiffness_of_rigid_rotations_is_the_work_of_the_stress() {
 #[test]
 fn a_turned_block_has_the_same_frequencies() {
     let turn = Rotation3::from_euler_angles(1.1, 0.4, -0.7);
-    let clamped = [("z0".to_owned(), BoundaryCondition::Clamped)];
+    let clamped = [("z0", BoundaryCondition::Clamped)];
     for kind in SOLIDS {
-        let plain = Mesh::from_solids(&distorted(kind, 0.02), 1.0, &clamped).unwrap();
+        let plain = solids_of(&distorted(kind, 0.02), &clamped);
         let mut file = distorted(kind, 0.02);
         for point in &mut file.points {
             let place = turn * Vector3::from(*point);
             *point = [place.x, place.y, place.z];
         }
-        let turned = Mesh::from_solids(&file, 1.0, &clamped).unwrap();
+        let turned = solids_of(&file, &clamped);
         near_each(&frequencies(&plain, 8), &frequencies(&turned, 8), 1e-10);
     }
 }
 
 fn measures(bytes: &[u8]) -> Vec<(String, f64)> {
-    let mesh = Mesh::from_solids(&FileMesh::read(bytes).unwrap(), 1.0, &[]).unwrap();
+    let mesh = mesh_of(bytes, &[]);
     let regions = mesh.regions.iter().cloned().zip(mesh.region_measures());
     let surfaces = mesh.boundaries.iter();
     let surfaces = surfaces.map(|b| (b.name.clone(), mesh.face_area(&b.faces)));

@@ -2,8 +2,6 @@
 
 use crate::prelude::*;
 
-const STEEL: ElasticMaterial = elastic(2e11, 0.3, 7850.0, PlaneFormulation::ThreeDimensional);
-
 fn barrel([x, y, z]: [f64; 3]) -> [f64; 3] {
     let bulge = 1.0 + 0.3 * z * (1.0 - z);
     [0.1 * bulge * (x - 0.5), 0.08 * bulge * (y - 0.4), 0.06 * z + 0.01 * x * y]
@@ -15,8 +13,7 @@ fn mesh(file: &FileMesh) -> Mesh {
         ("y0", BoundaryCondition::Guide),
         ("z1", BoundaryCondition::Pressure(2e6)),
     ];
-    let conditions = conditions.map(|(name, condition)| (name.to_owned(), condition));
-    Mesh::from_solids(file, 1.0, &conditions).unwrap()
+    solids_of(file, &conditions)
 }
 
 #[test]
@@ -76,8 +73,7 @@ fn nodes_between_those_of_a_held_edge_are_held_too() {
     let is_on_edge = |p: &[f64; 3]| p[0] == 0.0 && p[1] == 0.0;
     let nodes = (0..file.points.len() as u32).filter(|&k| is_on_edge(&file.points[k as usize]));
     file.node_sets.insert("edge".to_owned(), nodes.collect());
-    let conditions = [("edge".to_owned(), BoundaryCondition::Clamped)];
-    let mut mesh = Mesh::from_solids(&file, 1.0, &conditions).unwrap();
+    let mut mesh = solids_of(&file, &[("edge", BoundaryCondition::Clamped)]);
     for _ in 0..2 {
         mesh = mesh.refined_solids().unwrap();
         let boundary = mesh.boundaries.iter().find(|b| b.name == "edge").unwrap();

@@ -3,6 +3,7 @@
 
 use crate::matrices::lossy_eigenvalues;
 use crate::prelude::*;
+use crate::shaft::model::STEEL;
 use frictionsim::cea::sparse::mode_pairs;
 
 fn tangent(losses: [f64; 2], damping: RayleighDamping) -> SlidingTangent {
@@ -21,10 +22,9 @@ fn tangent_with(
     let mesh = AnnulusMesh::generate(&specification).unwrap().mesh;
     let lossy =
         |loss_factor: f64, elastic: ElasticMaterial| ElasticMaterial { loss_factor, ..elastic };
-    let steel = elastic(2.1e11, 0.3, 7850.0, PlaneFormulation::PlaneStrain);
     let materials = AnnulusMaterials {
         annulus: lossy(disc, POLYCARBONATE),
-        shaft: Some(lossy(shaft, steel).into()),
+        shaft: Some(lossy(shaft, STEEL).into()),
     };
     let options = TangentOptions { damping, contact: contact_stiffness, ..TANGENT };
     linearized(&mesh, &materials, &contact(610.0), &options)

@@ -22,8 +22,7 @@ fn rubber(scale: f64) -> Vec<[f64; 3]> {
 fn tangent(rows: Vec<[f64; 3]>, contact_stiffness: ContactStiffness) -> SlidingTangent {
     let specification = on_shaft(annulus(ElementKind::Quad4, 16, 3), 1);
     let mesh = AnnulusMesh::generate(&specification).unwrap().mesh;
-    let steel = elastic(2.1e11, 0.3, 7850.0, PlaneFormulation::PlaneStrain);
-    let steel = ElasticMaterial { loss_factor: 0.002, ..steel };
+    let steel = ElasticMaterial { loss_factor: 0.002, ..crate::shaft::model::STEEL };
     let table = ModulusTable::new("materials.disc.table", "rubber.csv", rows);
     let disc = ElasticMaterial { young_modulus: table.static_modulus(), ..POLYCARBONATE };
     let disc = RegionMaterial { table: Some(Arc::new(table)), ..disc.into() };
@@ -189,12 +188,12 @@ fn a_sandwich_beam_loses_what_ross_kerwin_and_ungar_say() {
     let sides = ["x0", "x1", "y0", "y1"].map(|side| {
         let is_end = side.starts_with('x');
         let held = BoundaryCondition::Fixed([false, !is_end, is_end]);
-        (side.to_owned(), held)
+        (side, held)
     });
     // Nothing else holds the beam along itself: at 70 Hz it moves as a whole.
     let soft = BoundaryCondition::Support(springs([0.0, 2e6, 0.0], [0.0, 0.0]));
-    let held = [&sides[..], &[("z1".to_owned(), soft)]].concat();
-    let mesh = Mesh::from_solids(&file, 1.0, &held).unwrap();
+    let held = [&sides[..], &[("z1", soft)]].concat();
+    let mesh = solids_of(&file, &held);
     let solid = |young_modulus: f64, poisson_ratio: f64, density: f64| {
         elastic(young_modulus, poisson_ratio, density, PlaneFormulation::ThreeDimensional)
     };
