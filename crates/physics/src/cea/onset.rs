@@ -203,13 +203,15 @@ impl<B: BranchSolver> Search<'_, B> {
                 (high, top) = (state.clone(), friction);
             }
             best = state;
-            // A branch whose slopes at both ends lead nowhere near zero jumps across it.
+            // A branch whose slopes at both ends lead nowhere near zero jumps across it; where it turns, as it may where the search
+            // began, they tell nothing.
             let reach = FAR * (top - bottom);
             let is_far = |state: &B::State| {
                 let point = self.solver.point(state);
                 Self::growth(&point).abs() > reach * point.rate.re.abs()
             };
-            if is_far(&low) && is_far(&high) {
+            let has_closed = first.friction_coefficient < bottom && top < last.friction_coefficient;
+            if has_closed && is_far(&low) && is_far(&high) {
                 break;
             }
             let newton = friction - Self::growth(&point) / point.rate.re;

@@ -17,8 +17,8 @@ use crate::linalg::gram::complement;
 use crate::linalg::{FrictionWeights, LinalgError, MatrixPolynomial};
 use crate::linalg::{Mat, MatRef, Scale, c64};
 use crate::prestress::{SlidingTangent, TabledGain};
-use parts::BasisParts;
 pub(super) use parts::inside;
+use parts::{BasisPart, BasisParts};
 
 /// Columns continued by zeros to `rows` entries.
 fn lengthened(columns: &Mat<f64>, rows: usize) -> Mat<f64> {
@@ -193,9 +193,17 @@ impl ReducedModel {
             let near = |other: &&c64| (**other - lambda).norm() <= MULTIPLE * lambda.norm();
             values.iter().filter(near).count() == 1
         };
+        let part = self.surroundings(mu);
+        let at = part.as_ref().map_or_else(|| self.at(mu), |part| part.model.at(mu));
         let single = modes.iter_mut().filter(|mode| is_single(mode.eigenvalue));
         crate::parallel::map::<_, _, ()>(single, |mode| {
-            if let Some(found) = self.mode_near(mu, mode) {
+            let found = match part.as_deref() {
+                Some(BasisPart { columns, .. }) => at
+                    .mode_near(&mode.map(|own| inside(columns, own)))
+                    .map(|found| found.map(|own| combined(columns, own))),
+                None => at.mode_near(mode),
+            };
+            if let Some(found) = found.filter(|found| found.eigenvalue.im > 0.0) {
                 mode.left = found.left;
             }
         });
