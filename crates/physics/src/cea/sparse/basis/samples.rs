@@ -20,7 +20,7 @@ const HISTORY: usize = 3;
 /// Unknowns up to which complex factors beside lossy modes cost less than the rounds by the factors at rest that they save, and rounds of
 /// corrections by them: each leaves a hundredth or less.
 const MOST_LIGHT: usize = 3000;
-const LIGHT_ROUNDS: usize = 2;
+const LIGHT_ROUNDS: usize = 3;
 /// Unknowns up to which a problem, of twice that size, is decomposed: where its modes are lossy or do not converge. That takes a
 /// second or two for each friction value.
 pub(super) const MOST_DENSE: usize = 300;
