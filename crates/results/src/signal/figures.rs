@@ -2,11 +2,10 @@
 
 use super::summary::{ChannelSummary, SignalSummary};
 use crate::charts::{ModeLine, run_axis, signal_panel, spectrogram_panels, spectrum_panel};
-use crate::drawing::{Declaration, declared};
 use frictionsim_chart::{Figure, literal};
+use frictionsim_physics::parallel::map;
 use frictionsim_signal::reader::{Channel, SignalFile};
 use frictionsim_signal::{AmplitudeSpectrum, SpectrogramOptions, spectrogram};
-use std::sync::Mutex;
 
 /// A signal, and how its figures show it.
 #[derive(Clone, Debug)]
@@ -25,23 +24,16 @@ pub struct SignalDrawing<'a> {
 
 /// Draws each channel over its spectrograms, then the spectra; beside the figures, why a spectrogram was left out.
 pub fn draw(drawing: &SignalDrawing<'_>, summary: &SignalSummary) -> (Vec<Figure>, Vec<String>) {
-    let left_out = Mutex::new(Vec::new());
-    let left_out = &left_out;
-    let mut figures: Vec<Declaration<'_>> = Vec::new();
-    for (index, channel) in drawing.file.channels.iter().enumerate() {
-        figures.push(Box::new(move || {
-            let (figure, reason) = drawing.course(channel, index + 1);
-            if let (Some(reason), Ok(mut left_out)) = (reason, left_out.lock()) {
-                left_out.push(reason);
-            }
-            Some(figure)
-        }));
-    }
-    for (index, channel) in summary.channels.iter().enumerate() {
-        figures.push(Box::new(move || Some(drawing.spectrum(channel, index))));
-    }
-    let figures = declared(figures);
-    let mut left_out = left_out.lock().map_or(Vec::new(), |reasons| reasons.clone());
+    let channels = drawing.file.channels.iter().enumerate();
+    let courses: Vec<(Figure, Option<String>)> =
+        map(channels, |(index, channel)| drawing.course(channel, index + 1));
+    let (mut figures, left_out): (Vec<Figure>, Vec<Option<String>>) = courses.into_iter().unzip();
+    let channels = summary.channels.iter().enumerate();
+    figures.extend(map::<_, _, Vec<Figure>>(channels, |(index, channel)| {
+        drawing.spectrum(channel, index)
+    }));
+    figures.retain(Figure::has_data);
+    let mut left_out: Vec<String> = left_out.into_iter().flatten().collect();
     left_out.sort();
     (figures, left_out)
 }
