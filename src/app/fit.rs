@@ -3,8 +3,9 @@
 use super::{Failure, RunOptions, Session, input_name, read_input};
 use crate::case::hash_of;
 use crate::results::fit::{BLOCK, FitSummary};
-use crate::signal::reader::{MeasuredShape, read_modes, read_shapes};
-use crate::study::fit::{MeasuredShapes, fit_case, refuse_too_few};
+use crate::signal::reader::{read_modes, read_shapes};
+use crate::study::fit::{fit_case, refuse_too_few};
+use crate::study::mac::MeasuredShapes;
 use clap::{Args, ValueHint};
 use frictionsim_bounds::MEASUREMENT;
 use std::path::{Path, PathBuf};
@@ -41,11 +42,10 @@ pub(super) fn run(asked: &Arguments) -> Result<(), Failure> {
     let shapes = asked.shapes.as_ref();
     let shapes = shapes.map(|path| measured_shapes(path, asked.scale, &mut session));
     let shapes = shapes.transpose()?;
-    let shapes = shapes.as_deref().map(|shapes| MeasuredShapes { shapes, scale: asked.scale });
     refuse_too_few(&session.case, &lines)?;
     let folder = session.begin()?;
 
-    let found = fit_case(&session.case, &lines, shapes)?;
+    let found = fit_case(&session.case, &lines, shapes.as_ref())?;
     let found = FitSummary { measurement: input_name(&asked.modes), ..found };
     for note in &found.notes {
         tracing::warn!("{note}");
@@ -59,12 +59,12 @@ pub(super) fn measured_shapes(
     path: &Path,
     scale: f64,
     session: &mut Session,
-) -> Result<Vec<MeasuredShape>, Failure> {
+) -> Result<MeasuredShapes, Failure> {
     if !(scale > 0.0 && scale.is_finite()) {
         return Err(Failure::usage(format!("--scale {scale} must be positive and finite")));
     }
     let bytes = read_input(path, MEASUREMENT)?;
     let identity = format!("{} {scale:?}", session.manifest.case_hash);
     session.manifest.case_hash = hash_of([identity.as_bytes(), &bytes]);
-    Ok(read_shapes(&bytes, &input_name(path))?)
+    Ok(MeasuredShapes { shapes: read_shapes(&bytes, &input_name(path))?, scale })
 }

@@ -29,7 +29,7 @@ pub(super) fn run(asked: &Arguments) -> Result<(), Failure> {
     let shapes = measured_shapes(&asked.shapes, asked.scale, &mut session)?;
     session.case.require_cea()?;
     let folder = session.begin()?;
-    let found = assurance(&session.case, &shapes, asked.scale)?;
+    let found = assurance(&session.case, &shapes)?;
     let summary = MacSummary { measurement: input_name(&asked.shapes), ..found };
     session.finish_finding(folder, &summary)
 }

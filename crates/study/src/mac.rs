@@ -17,6 +17,15 @@ const FAR: f64 = 0.05;
 const UNITS: [(f64, &str); 4] =
     [(1e-3, "millimetres"), (1e-2, "centimetres"), (0.0254, "inches"), (1e3, "kilometres")];
 
+/// Measured shapes, and the factor that takes their coordinates to metres.
+#[derive(Clone, Debug)]
+pub struct MeasuredShapes {
+    /// The shapes.
+    pub shapes: Vec<MeasuredShape>,
+    /// The factor.
+    pub scale: f64,
+}
+
 /// Modal assurance criterion
 ///
 /// ```text
@@ -24,19 +33,14 @@ const UNITS: [(f64, &str); 4] =
 /// ```
 ///
 /// of every measured shape `y` with every mode `phi` at the case's friction coefficient, over the measured points, each
-/// at its nearest node, and directions; each shape is paired with one mode so that the sum is largest. `scale` is the
-/// factor on the coordinates of the file. Points off the body are left out, and said. The source of the shapes is
-/// left open.
+/// at its nearest node, and directions; each shape is paired with one mode so that the sum is largest. Points off the body
+/// are left out, and said. The source of the shapes is left open.
 ///
 /// Source: R. J. Allemang, The modal assurance criterion: twenty years of use and abuse, Sound and Vibration 37 (2003).
 ///
 /// # Errors
 /// Points none of which lie on the body; those of the solver.
-pub fn assurance(
-    case: &Case,
-    shapes: &[MeasuredShape],
-    scale: f64,
-) -> Result<MacSummary, StudyError> {
+pub fn assurance(case: &Case, shapes: &MeasuredShapes) -> Result<MacSummary, StudyError> {
     let cea = case.require_cea()?;
     let mut notes = whole_mesh_note(case);
     let case = &*case.on_whole_mesh()?;
@@ -50,7 +54,7 @@ pub fn assurance(
     };
     let model = SlidingModel::new(case, &own)?;
     // Before anything is solved.
-    let placed = placed(case, &model.mesh, shapes, scale)?;
+    let placed = shapes.placed(case, &model.mesh)?;
     let solution = solve_modes(case, &own, &model)?;
     let modes: Vec<_> = solution
         .sweep
@@ -61,7 +65,7 @@ pub fn assurance(
         .collect();
 
     // The matrix and the pairs.
-    let matrix = criteria(&model.mesh, &modes, shapes, &placed);
+    let matrix = shapes.criteria(&model.mesh, &modes, &placed);
     notes.extend(placed.iter().filter_map(|own| own.note(case.body.size())));
     Ok(MacSummary {
         measurement: String::new(),
@@ -102,29 +106,25 @@ pub(crate) fn refuse_revolution(case: &Case) -> Result<(), StudyError> {
     .into())
 }
 
-/// The nodes of the points of some shapes.
-pub(crate) fn placed(
-    case: &Case,
-    mesh: &Mesh,
-    shapes: &[MeasuredShape],
-    scale: f64,
-) -> Result<Vec<Placed>, StudyError> {
-    let all = shapes.iter();
-    all.map(|shape| Placed::of(case, mesh, shape, scale)).collect()
-}
+impl MeasuredShapes {
+    /// The nodes of the points of each shape.
+    pub(crate) fn placed(&self, case: &Case, mesh: &Mesh) -> Result<Vec<Placed>, StudyError> {
+        self.shapes.iter().map(|shape| Placed::of(case, mesh, shape, self.scale)).collect()
+    }
 
-/// The criterion of every shape with every mode, `[shape][mode]`.
-pub(crate) fn criteria(
-    mesh: &Mesh,
-    modes: &[&ComplexMode],
-    shapes: &[MeasuredShape],
-    placed: &[Placed],
-) -> Vec<Vec<f64>> {
-    let row = |(shape, placed): (&MeasuredShape, &Placed)| -> Vec<f64> {
-        let shapes = modes.iter().map(|mode| mode.shape.as_deref().unwrap_or_default());
-        shapes.map(|phi| criterion(mesh, phi, shape, placed)).collect()
-    };
-    shapes.iter().zip(placed).map(row).collect()
+    /// The criterion of every shape with every mode, `[shape][mode]`.
+    pub(crate) fn criteria(
+        &self,
+        mesh: &Mesh,
+        modes: &[&ComplexMode],
+        placed: &[Placed],
+    ) -> Vec<Vec<f64>> {
+        let row = |(shape, placed): (&MeasuredShape, &Placed)| -> Vec<f64> {
+            let shapes = modes.iter().map(|mode| mode.shape.as_deref().unwrap_or_default());
+            shapes.map(|phi| criterion(mesh, phi, shape, placed)).collect()
+        };
+        self.shapes.iter().zip(placed).map(row).collect()
+    }
 }
 
 /// The nodes of a shape's points.

@@ -2,8 +2,9 @@
 
 use super::free_part::{STEP, free_part, rates};
 use super::notes::notes;
-use super::{BoundedParameter, FitError, FitProblem, MeasuredMode, MeasuredShapes, ModelMode, fit};
+use super::{BoundedParameter, FitError, FitProblem, MeasuredMode, ModelMode, fit};
 use crate::eigenvalues::{Solver, analysis, rates_of_waves};
+use crate::mac::MeasuredShapes;
 use crate::{StudyError, eigenvalues};
 use frictionsim_case::{Case, Cea, Fit, FitParameter, Spacing, find_key};
 use frictionsim_physics::cea::cyclic::{WavePair, WaveSweep, wave_pairs};
@@ -27,14 +28,14 @@ fn limit_hz(lines: &[MeasuredMode]) -> f64 {
 pub fn fit_case(
     case: &Case,
     lines: &[MeasuredMode],
-    shapes: Option<MeasuredShapes<'_>>,
+    shapes: Option<&MeasuredShapes>,
 ) -> Result<FitSummary, StudyError> {
     let wanted = case.require_fit()?;
     if let Some(cea) = &case.cea {
         // What every point would be refused for.
         Solver::of(case, cea.method)?;
     }
-    let shape_of = match &shapes {
+    let shape_of = match shapes {
         Some(shapes) => {
             shapes.check(case)?;
             shapes.of_lines(lines)?
@@ -130,7 +131,7 @@ fn bounded(parameter: &FitParameter) -> BoundedParameter {
 /// likeness to the measured shapes.
 fn modes(
     case: &Case,
-    (wanted, shapes): (&Fit, Option<MeasuredShapes<'_>>),
+    (wanted, shapes): (&Fit, Option<&MeasuredShapes>),
     values: &[f64],
     limit_hz: f64,
     with_rates: bool,

@@ -26,7 +26,6 @@ pub use case::{fit_case, refuse_too_few};
 pub use estimate::fit;
 pub use frictionsim_signal::reader::MeasuredMode;
 pub(crate) use matching::least_cost;
-pub use shapes::MeasuredShapes;
 
 use frictionsim_physics::cea::ComplexMode;
 use frictionsim_physics::linalg::c64;

@@ -2,7 +2,7 @@
 
 use super::{FitError, MeasuredMode};
 use crate::StudyError;
-use crate::mac::{criteria, placed, refuse_revolution};
+use crate::mac::{MeasuredShapes, refuse_revolution};
 use frictionsim_case::Case;
 use frictionsim_physics::cea::ComplexMode;
 use frictionsim_signal::reader::MeasuredShape;
@@ -10,16 +10,7 @@ use frictionsim_signal::reader::MeasuredShape;
 /// Distance of the frequency of a shape from that of its line, as a share of it.
 const WITHIN: f64 = 0.02;
 
-/// Shapes of a file, and the factor that takes their coordinates to metres.
-#[derive(Clone, Copy, Debug)]
-pub struct MeasuredShapes<'a> {
-    /// The shapes.
-    pub shapes: &'a [MeasuredShape],
-    /// The factor.
-    pub scale: f64,
-}
-
-impl MeasuredShapes<'_> {
+impl MeasuredShapes {
     /// The shape of each line: each shape goes to the line whose frequency is nearest, the nearest pairs first.
     pub(super) fn of_lines(&self, lines: &[MeasuredMode]) -> Result<Vec<Option<usize>>, FitError> {
         let refuse = |shape: &MeasuredShape, reason: String| {
@@ -58,7 +49,7 @@ impl MeasuredShapes<'_> {
     pub(super) fn check(&self, case: &Case) -> Result<(), StudyError> {
         refuse_revolution(case)?;
         let mesh = case.mesh()?;
-        placed(case, &mesh, self.shapes, self.scale)?;
+        self.placed(case, &mesh)?;
         Ok(())
     }
 
@@ -69,8 +60,8 @@ impl MeasuredShapes<'_> {
         modes: &[ComplexMode],
     ) -> Result<Vec<Vec<f64>>, StudyError> {
         let mesh = case.mesh()?;
-        let placed = placed(case, &mesh, self.shapes, self.scale)?;
-        let matrix = criteria(&mesh, &Vec::from_iter(modes), self.shapes, &placed);
+        let placed = self.placed(case, &mesh)?;
+        let matrix = self.criteria(&mesh, &Vec::from_iter(modes), &placed);
         let of = |mode: usize| matrix.iter().map(|row| row[mode]).collect();
         Ok((0..modes.len()).map(of).collect())
     }
