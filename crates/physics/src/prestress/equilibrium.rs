@@ -26,9 +26,7 @@ use std::ops::Deref;
 pub struct SteadySliding {
     /// Displacement, normal forces and springs of the contact nodes.
     pub state: PressedState,
-    /// Sense of the friction force `s`, +1 or -1.
-    pub sliding_direction: f64,
-    /// Friction at the sliding speed for each unit of friction coefficient and normal force.
+    /// Friction at the sliding speed for each unit of friction coefficient and normal force; its drag has the sense of sliding.
     pub friction: SteadyFriction,
     /// The contact edge.
     pub interface: ContactInterface,
@@ -76,7 +74,6 @@ impl SteadySliding {
     fn of(state: PressedState, interface: ContactInterface, contact: &SlidingContact) -> Self {
         Self {
             state,
-            sliding_direction: interface.sliding_direction(contact.rotation_speed),
             friction: interface.steady_friction(contact),
             points: interface.points(contact),
             interface,

@@ -108,7 +108,6 @@ fn press_rigidly(
         return Ok(SolidSliding {
             law: None,
             rule,
-            sliding_direction: contact.sliding_direction(),
             contact: *contact,
             normal_forces: nodes.into_iter().zip(normal_forces[0].iter().copied()).collect(),
             pressures: rings.iter().zip(&ring_forces).map(|(ring, f)| f / ring.area).collect(),
@@ -191,7 +190,6 @@ fn press_on_springs(
         return Ok(SolidSliding {
             law: Some(law),
             rule,
-            sliding_direction: contact.sliding_direction(),
             contact: *contact,
             sheared_displacement: sheared(sector, stiffness, contact, &normal_forces)?,
             normal_forces,

@@ -16,8 +16,6 @@ use crate::mesh::SectorMesh;
 pub struct SectorSliding {
     /// Displacement, normal forces and springs of the contact nodes of the sector.
     pub state: PressedState,
-    /// Sense of the friction force `s`, +1 or -1.
-    pub sliding_direction: f64,
     /// Friction at the sliding speed for each unit of friction coefficient and normal force.
     pub friction: SteadyFriction,
     /// The contact nodes of the sector as contact points.
@@ -37,9 +35,8 @@ impl SectorSliding {
         contact: &SlidingContact,
         law: Option<NormalLaw>,
     ) -> Result<Self, PrestressError> {
-        let sliding_direction = contact.sliding_direction();
         let surface_speed = sector.specification.inner_radius * contact.rotation_speed;
-        let friction = contact.steady_friction(sliding_direction, surface_speed);
+        let friction = contact.steady_friction(contact.sliding_direction(), surface_speed);
         let points = points(sector, friction);
         let [springs, _] = supports(sector);
         let stiffness = SectorMatrix::alike_in_all(&[elastic, &springs]);
@@ -52,7 +49,7 @@ impl SectorSliding {
             (sector.numbering[node] + 1, step * sector.half_step(node) as f64)
         };
         check_pressed(&points, (&state.normal_forces[0], sector.sector_count()), place)?;
-        Ok(Self { state, sliding_direction, friction, points })
+        Ok(Self { state, friction, points })
     }
 }
 

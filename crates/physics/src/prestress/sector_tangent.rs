@@ -31,7 +31,7 @@ impl WaveTangent {
             terms.turning = edge.turning();
         }
         terms.contact = edge.terms(options);
-        Ok(Self::new(sector, (terms, edge.dofs(options)), options, base.sliding_direction))
+        Ok(Self::new(sector, (terms, edge.dofs(options)), options, contact.sliding_direction()))
     }
 }
 

@@ -34,8 +34,6 @@ pub struct SolidSliding {
     pub law: Option<NormalLaw>,
     /// How linear elements of the face take contact along the normal.
     pub rule: FaceRule,
-    /// Sense of the friction force `s`, +1 or -1.
-    pub sliding_direction: f64,
     /// The rotor.
     pub contact: SlidingContact,
 }

@@ -33,7 +33,7 @@ impl WaveTangent {
         }
         terms.contact = contact_terms(&base, sector, &options.contact);
         let parts = (terms, rings(sector, &base, options));
-        Ok(Self::new(sector, parts, options, base.sliding_direction))
+        Ok(Self::new(sector, parts, options, contact.sliding_direction()))
     }
 }
 
@@ -119,7 +119,7 @@ fn contact_terms(
     let rule = if base.rule == FaceRule::Nodal { FaceRule::Lumped } else { base.rule };
     let mut friction_dashpots = term(side, side, rule, &|element, r, at| {
         let (speed, friction) = base.friction(r);
-        pressure(element, at) * friction.drag * base.sliding_direction / speed
+        pressure(element, at) * friction.drag * base.contact.sliding_direction() / speed
     });
     if base.contact.decay.is_some() {
         let slope = |r: f64| base.friction(r).1.slope;

@@ -203,7 +203,7 @@ impl SlidingTangent {
             normal: nodes.map(|i| interface.normal_dof(i)).collect(),
             opposite: opposite.map(|share| share.0).collect(),
             angles: if mesh.is_cyclic { interface.angles.clone() } else { Vec::new() },
-            sliding_direction: base.sliding_direction,
+            sliding_direction: base.friction.drag.signum(),
         };
         let basis = Elimination::holding(mesh.dof_count(), mesh.held_dofs());
         Self::assemble(&body, &[part], basis, dofs, options)
