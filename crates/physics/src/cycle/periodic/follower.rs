@@ -212,26 +212,22 @@ impl<'c, 'b, 'a> Follower<'c, 'b, 'a> {
         let from = self.here().value;
         let edge = next.value.clamp(least, most);
         if edge != next.value && (least..=most).contains(&from) {
-            let share = (edge - from) / (next.value - from);
-            let guess = self.here().towards(&next, share);
-            let here = self.here().clone();
-            if let Ok(last) = self.corrector.correct(&here, guess, &Goal::Value(edge)) {
-                self.points.push(last);
-            }
+            self.fill(&next, [edge]);
             return Ok(Some(BranchEnd::Range));
         }
         self.largest = self.largest.max(to[1]);
-        self.fill(&next);
+        let between = self.values.between(from, next.value, 0.0);
+        self.fill(&next, between);
         self.points.push(next);
         self.refine_fold();
         let is_born = self.place()[1] < BORN * self.largest;
         Ok(is_born.then_some(BranchEnd::Birth))
     }
 
-    /// The values asked for that lie between here and a point further on.
-    fn fill(&mut self, next: &Point) {
+    /// The points at values that lie between here and a point further on.
+    fn fill(&mut self, next: &Point, values: impl IntoIterator<Item = f64>) {
         let here = self.here().clone();
-        for value in self.values.between(here.value, next.value, 0.0) {
+        for value in values {
             let share = (value - here.value) / (next.value - here.value);
             let guess = here.towards(next, share);
             let found = self.corrector.correct(&here, guess, &Goal::Value(value));
