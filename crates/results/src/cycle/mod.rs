@@ -23,11 +23,11 @@ pub use branch::{
 pub use branches::draw_branches;
 pub use motions::{FoundCycle, MotionBody, PeriodicResult};
 pub use name::*;
+pub(super) use record::CONTACT_NODES;
 pub use record::{CycleMotion, SoundSummary, SteppedMotion};
 pub use summary::*;
 pub(super) use tables::{
-    BALANCE, CONTACT_NODES, ERRORS, HARMONICS, HISTORY, KNOWN, MOTION, NAMES, PATH, POWERS,
-    WAVE_PATH,
+    BALANCE, ERRORS, HARMONICS, HISTORY, KNOWN, MOTION, NAMES, PATH, POWERS, WAVE_PATH,
 };
 pub(super) use two_waves::TWO_WAVES;
 pub use two_waves::{TwoWaveRow, TwoWaveSummary};

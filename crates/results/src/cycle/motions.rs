@@ -165,20 +165,17 @@ impl FoundCycle {
     /// What the tables and figures show of it.
     fn record(self, name: CycleName, body: &MotionBody<'_>) -> MotionRecord {
         let motion = self.motion;
-        let nodes = body.interface.nodes.iter().enumerate().map(|(place, &node)| {
-            contact_node(&motion, place, (body.label(place), body.shown.position(node as usize)))
-        });
-        let first = motion.instants.first();
-        let edge = first.map_or_else(Vec::new, |first| {
-            (0..body.interface.len()).map(|node| point(&motion, first, node)).collect()
-        });
+        let contact = 0..body.interface.len();
+        let nodes = contact.clone().map(|node| contact_node(&motion, node, body));
+        let first = motion.instants.iter().take(1);
+        let edge = first.flat_map(|at| contact.clone().map(|node| point(&motion, at, node)));
         let exponents = known(&self.stability)
             .map(|found| found.multipliers.iter().map(|own| (None, perturbation(own))).collect());
         MotionRecord {
             name,
             frequency_hz: motion.frequency_hz,
             history: motion.instants.iter().map(|at| point(&motion, at, motion.node)).collect(),
-            edge,
+            edge: edge.collect(),
             node: motion.node,
             counterface_speed: motion.counterface_speed,
             friction_coefficient: motion.friction_coefficient,
@@ -233,7 +230,7 @@ fn point(motion: &PeriodicMotion, at: &ContactInstant, node: usize) -> PhasePoin
 }
 
 /// Means and amplitudes of a contact node, by its place among those of the contact.
-fn contact_node(motion: &PeriodicMotion, i: usize, node: (usize, [f64; 3])) -> ContactNode {
+fn contact_node(motion: &PeriodicMotion, i: usize, body: &MotionBody<'_>) -> ContactNode {
     let instants = &motion.instants;
     let mean = |values: &dyn Fn(&ContactInstant) -> f64| {
         instants.iter().map(values).sum::<f64>() / instants.len() as f64
@@ -242,13 +239,20 @@ fn contact_node(motion: &PeriodicMotion, i: usize, node: (usize, [f64; 3])) -> C
         let (low, high) = extremes(instants.iter().map(|at| at.displacement[i][component]));
         0.5 * (high - low)
     };
+    let [x_m, y_m, z_m] = body.shown.position(body.interface.nodes[i] as usize);
+    let [stick, slip, open] = motion.shares[i];
     ContactNode {
-        node: node.0,
-        place: node.1,
-        shares: motion.shares[i],
-        mean_pressure: mean(&|at| at.pressure[i]),
-        mean_shear: mean(&|at| at.shear[i]),
-        amplitude: [0, 1].map(half_range),
+        node: body.label(i),
+        x_m,
+        y_m,
+        z_m,
+        stick,
+        slip,
+        open,
+        mean_pressure_pa: mean(&|at| at.pressure[i]),
+        mean_shear_pa: mean(&|at| at.shear[i]),
+        amplitude_n_m: half_range(0),
+        amplitude_t_m: half_range(1),
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::name::CycleName;
 use super::verdicts::Perturbation;
+use crate::finding::finding;
 use crate::summary::{MeanPowers, StatusFractions};
 use frictionsim_output::Described;
 use frictionsim_physics::contact::ContactStatus;
@@ -102,16 +103,22 @@ pub(super) struct MotionRecord {
     pub exponents: Option<Vec<(Option<f64>, Perturbation)>>,
 }
 
-/// A contact node over the period.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) struct ContactNode {
-    pub node: usize,
-    pub place: [f64; 3],
-    pub shares: [f64; 3],
-    pub mean_pressure: f64,
-    pub mean_shear: f64,
-    /// Half the range of the displacement along the normal and along the counterface, m.
-    pub amplitude: [f64; 2],
+finding! {
+    /// A contact node over the period.
+    #[derive(Clone, Debug, PartialEq)]
+    ContactNode, CONTACT_NODES {
+        node: usize = "number of the node";
+        x_m: f64 = "its place";
+        y_m: f64 = "its place";
+        z_m: f64 = "its place, of bodies in three dimensions";
+        stick: f64 = "share of the period in which it sticks";
+        slip: f64 = "share in which it slips";
+        open: f64 = "share in which it is open";
+        mean_pressure_pa: f64 = "mean contact pressure";
+        mean_shear_pa: f64 = "mean contact shear";
+        amplitude_n_m: f64 = "half the range of its displacement along the normal";
+        amplitude_t_m: f64 = "half the range along the counterface";
+    }
 }
 
 impl MotionRecord {

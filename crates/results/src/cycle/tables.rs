@@ -1,7 +1,7 @@
 //! Columns of limit cycles, and the document of a search.
 
 use super::branch::{ALONG, BRANCH};
-use super::record::{ContactNode, CycleMotion};
+use super::record::{CONTACT_NODES, CycleMotion};
 use super::summary::{CycleSummary, SoughtCycle};
 use super::two_waves::{SHOWN, TwoWaveSummary};
 use super::verdicts::EXPONENTS;
@@ -124,22 +124,6 @@ columns! {
     u_t_m: "displacement along the counterface" = row.displacement[1];
     v_n_m_per_s: "velocity along the normal" = row.velocity[0];
     v_t_m_per_s: "velocity along the counterface" = row.velocity[1];
-}
-
-columns! {
-    /// A contact node over the period.
-    pub(crate) CONTACT_NODES: own as ContactNode;
-    node: "number of the node" = own.node;
-    x_m: "its place" = own.place[0];
-    y_m: "its place" = own.place[1];
-    z_m: "its place, of bodies in three dimensions" = own.place[2];
-    stick: "share of the period in which it sticks" = own.shares[0];
-    slip: "share in which it slips" = own.shares[1];
-    open: "share in which it is open" = own.shares[2];
-    mean_pressure_pa: "mean contact pressure" = own.mean_pressure;
-    mean_shear_pa: "mean contact shear" = own.mean_shear;
-    amplitude_n_m: "half the range of its displacement along the normal" = own.amplitude[0];
-    amplitude_t_m: "half the range along the counterface" = own.amplitude[1];
 }
 
 /// Number and frequency of a harmonic, and its motion.
