@@ -7,7 +7,6 @@ use frictionsim_physics::cea::{SweepProgress, SweepWatch};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 use std::fs;
-use std::io;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError};
 
@@ -91,8 +90,7 @@ impl SweepWatch for KeptSteps<'_> {
         let written = self.folder.write_bulk(&path, |out| {
             let step =
                 Step { program: env!("CARGO_PKG_VERSION").to_owned(), columns: columns.to_vec() };
-            let payload = postcard::to_stdvec(&step).map_err(io::Error::other)?;
-            framed::write(out, MAGIC, VERSION, &payload)
+            framed::write(out, MAGIC, VERSION, &step)
         });
         let mut names = self.names.lock().unwrap_or_else(PoisonError::into_inner);
         names.insert(path);

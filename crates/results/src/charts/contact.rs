@@ -1,16 +1,17 @@
 //! The contact over time and around the circle.
 
 use super::Disc;
-use super::bodies::{speeds_of_bodies, speeds_on_top};
 use super::palette::{
     OPEN, SLIP, STICK, centred, line_colour, status_ground, status_keys, status_ring, status_runs,
 };
+use super::solid::speeds_of_bodies;
 use crate::ShownBody;
 use frictionsim_chart::{
     Axis, ColourMap, Figure, Heat, INK, Label, Line, Palette, Panel, Rule, SERIES, Side,
 };
 use frictionsim_physics::contact::ContactStatus;
 use frictionsim_physics::fem::{MaterialField, nodal_stress};
+use frictionsim_physics::mesh::{SolidFace, SolidSector};
 use std::f64::consts::TAU;
 
 /// Columns of a status map: three for each point of a wide panel.
@@ -214,6 +215,17 @@ pub fn velocity_figure<'a>(
     let axis = Axis::new("velocity |*v*|", "m/s");
     let disc = Disc::new(body.mesh);
     field_figure(("velocity", &caption), &disc, &axis, ColourMap::Viridis, frames.collect())
+}
+
+/// Speed of the nodes of the top face of a body of revolution, m/s, in the order of the plane section: outwards first.
+fn speeds_on_top(sector: &SolidSector, velocity: &[f64]) -> Vec<f64> {
+    let mut top: Vec<usize> =
+        (0..sector.node_count()).filter(|&k| sector.is_on(k, SolidFace::Top)).collect();
+    top.sort_by_key(|&k| sector.nodes[k].place[0]);
+    let sheets = velocity.chunks_exact(3 * sector.node_count());
+    let speed =
+        |sheet: &[f64], k: usize| sheet[3 * k].hypot(sheet[3 * k + 1]).hypot(sheet[3 * k + 2]);
+    sheets.flat_map(|sheet| top.iter().map(move |&k| speed(sheet, k))).collect()
 }
 
 /// Fields side by side, each with its own scale of colours, as amplitudes may differ by decades, and with the contact

@@ -1,6 +1,5 @@
 //! Charts that several commands share, and what their colours mean.
 
-mod bodies;
 mod contact;
 mod course;
 mod disc;
@@ -8,7 +7,6 @@ mod motion;
 pub mod palette;
 mod solid;
 
-pub use bodies::contact_surfaces;
 pub use contact::{
     ContactInstant, ContactVelocity, contact_figure, place_axis, shear_stress_figure,
     status_curves, status_map, velocity_figure,
@@ -18,4 +16,4 @@ pub use course::{
 };
 pub use disc::Disc;
 pub use motion::MovingBody;
-pub use solid::SolidView;
+pub use solid::{SolidView, contact_surfaces};

@@ -1,6 +1,8 @@
 //! Solid bodies of a mesh file as pictures: their outer surface from one point of view.
 
-use frictionsim_chart::{Axis, ColourMap, Panel, Surface, SurfaceMesh, extremes};
+use frictionsim_chart::{
+    Axis, ColourMap, Figure, Line, Panel, Side, Surface, SurfaceMesh, extremes, literal,
+};
 use frictionsim_physics::mesh::{BoundaryFace, Mesh};
 use nalgebra::Vector3;
 use std::collections::BTreeMap;
@@ -127,6 +129,49 @@ impl<'a> SolidView<'a> {
         };
         (0..3).map(along).fold(f64::MIN_POSITIVE, f64::max)
     }
+}
+
+/// Values at nodes (NaN: grey) on each contact surface, seen from outside along its mean normal; `surfaces` has the
+/// name and the boundary of each, `axis` is common to all. `arrows` are ends of an arrow on the surface of the same
+/// place among them.
+pub fn contact_surfaces(
+    (name, caption): (&str, &str),
+    (mesh, surfaces): (&Mesh, &[(String, usize)]),
+    (values, arrows): (&[f64], &[[[f64; 3]; 2]]),
+    axis: &dyn Fn() -> Axis,
+) -> Figure {
+    let panels = surfaces.iter().enumerate().map(|(k, (name, boundary))| {
+        let view = SolidView::of_boundary(mesh, *boundary);
+        let arrows = arrows.get(k).map(|ends| {
+            let line = Line::through(ends.map(|end| view.at(end)));
+            line.solid("black", 1.2).arrows(1)
+        });
+        let panel = view.panel(values.to_vec(), axis(), ColourMap::Viridis, 0.05);
+        panel.caption(literal(name)).layers(arrows)
+    });
+    let columns = surfaces.len().clamp(1, 3);
+    let figure = Figure::new(name, caption).columns(columns).panels(panels);
+    figure.colour_foot(axis(), ColourMap::Viridis)
+}
+
+/// Speed over the surface of solid bodies in several frames, each a heading and a velocity field (nodal frames, m/s),
+/// each picture with colours of its own.
+pub fn speeds_of_bodies<'a>(
+    mesh: &Mesh,
+    caption: &str,
+    frames: impl Iterator<Item = (String, &'a [f64])>,
+) -> Figure {
+    let view = SolidView::new(mesh);
+    let panels = frames.map(|(heading, velocity)| {
+        let speeds = velocity.chunks_exact(3);
+        let speeds = speeds.map(|v| v[0].hypot(v[1]).hypot(v[2])).collect();
+        let axis = Axis::new("velocity |*v*|", "m/s");
+        let panel = view.panel(speeds, axis, ColourMap::Viridis, 0.04);
+        panel.heading(heading).colour_bar(Side::Below)
+    });
+    let panels: Vec<Panel> = panels.collect();
+    let columns = panels.len().clamp(1, 3);
+    Figure::new("velocity", caption).columns(columns).panels(panels)
 }
 
 /// The triangles between the nodes of a face.

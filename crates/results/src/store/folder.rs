@@ -5,7 +5,7 @@ use super::framed::write_sealed;
 use super::lock::{Company, LOCK, remove_remnants, try_lock};
 use super::manifest::Manifest;
 use super::reopening::{Contents, JOURNAL, MANIFEST, read_contents, read_manifest};
-use super::whole_file::{Fill, is_temporary, write_whole};
+use super::whole_file::{Fill, create_folder, is_temporary, write_whole};
 use crate::drawing::{FIGURES, REPORT};
 use frictionsim_bounds::{RESULT, read_file, read_text};
 use std::collections::BTreeMap;
@@ -59,10 +59,7 @@ impl OutputFolder {
     pub fn open(path: &Path, manifest: &Manifest, replace: Replace) -> Result<Self, FolderError> {
         // A folder that is refused stays as it is, without a lock file.
         Self::may_open(path, manifest, replace)?;
-        let create = |path: &Path| {
-            fs::create_dir_all(path).map_err(|e| FolderError::io("create folder", path, e))
-        };
-        create(path)?;
+        create_folder(path)?;
         let (lock, company) = try_lock(&path.join(LOCK))?;
         if company == Company::Others {
             return Err(FolderError::Busy(path.to_owned()));
@@ -75,7 +72,7 @@ impl OutputFolder {
             let _ = fs::remove_dir_all(&staging);
         }
         let path = if is_staged { &staging } else { destination };
-        create(path)?;
+        create_folder(path)?;
 
         let mut earlier = BTreeMap::new();
         let journal_path = path.join(JOURNAL);
@@ -191,11 +188,10 @@ impl OutputFolder {
 
     fn write_as(&self, name: &str, is_durable: bool, fill: Fill<'_>) -> Result<(), FolderError> {
         let path = self.path.join(name);
-        let failed = |error| FolderError::io("write", &path, error);
         if self.written().insert(name.to_owned(), None).is_none() {
-            writeln!(&self.journal, "{name}").map_err(failed)?;
+            writeln!(&self.journal, "{name}").map_err(|e| FolderError::io("write", &path, e))?;
         }
-        let checksum = write_whole(&path, is_durable, fill).map_err(failed)?;
+        let checksum = write_whole(&path, is_durable, fill)?;
         self.written().insert(name.to_owned(), Some(checksum));
         Ok(())
     }
@@ -250,7 +246,7 @@ impl OutputFolder {
         for name in written.keys() {
             let (from, to) = (self.path.join(name), destination.join(name));
             let parent = to.parent().unwrap_or(destination);
-            fs::create_dir_all(parent).map_err(|e| FolderError::io("create folder", parent, e))?;
+            create_folder(parent)?;
             fs::rename(&from, &to).map_err(|e| FolderError::io("write", &to, e))?;
         }
         let stale = replaced.keys().filter(|name| !written.contains_key(*name));
@@ -267,8 +263,7 @@ impl OutputFolder {
 
 pub(crate) fn write_contents(folder: &Path, contents: &Contents) -> Result<(), FolderError> {
     let path = folder.join(MANIFEST);
-    let written = write_whole(&path, true, Box::new(|out| write_sealed(out, contents)));
-    written.map(drop).map_err(|e| FolderError::io("write", &path, e))
+    write_whole(&path, true, Box::new(|out| write_sealed(out, contents))).map(drop)
 }
 
 /// Removes files that a manifest lists.

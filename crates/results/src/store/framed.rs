@@ -28,13 +28,19 @@ impl Defect {
     }
 }
 
-/// Writes header and payload.
-pub fn write(out: &mut dyn Write, magic: [u8; 8], version: u32, payload: &[u8]) -> io::Result<()> {
+/// Writes header and payload, the bytes of `data`.
+pub fn write(
+    out: &mut dyn Write,
+    magic: [u8; 8],
+    version: u32,
+    data: &impl Serialize,
+) -> io::Result<()> {
+    let payload = postcard::to_stdvec(data).map_err(io::Error::other)?;
     out.write_all(&magic)?;
     out.write_all(&version.to_le_bytes())?;
-    out.write_all(&crc32fast::hash(payload).to_le_bytes())?;
+    out.write_all(&crc32fast::hash(&payload).to_le_bytes())?;
     out.write_all(&(payload.len() as u64).to_le_bytes())?;
-    out.write_all(payload)
+    out.write_all(&payload)
 }
 
 /// The payload, if the file is whole and of this kind and version.

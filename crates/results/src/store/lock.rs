@@ -6,9 +6,11 @@ use std::io;
 use std::path::Path;
 
 pub(crate) const LOCK: &str = ".lock";
+/// Held for a moment by each of several processes that enter a folder.
+const DOOR: &str = ".door";
 
 /// Opens the file of a lock, which has nothing in it.
-pub(crate) fn open_lock(path: &Path) -> Result<File, FolderError> {
+fn open_lock(path: &Path) -> Result<File, FolderError> {
     let mut options = OpenOptions::new();
     options.create(true).truncate(false).write(true);
     options.open(path).map_err(|e| FolderError::io("open", path, e))
@@ -37,6 +39,41 @@ pub(crate) fn try_lock(path: &Path) -> Result<(File, Company), FolderError> {
         Err(TryLockError::Error(error)) => return Err(FolderError::io("lock", path, error)),
     };
     Ok((file, company))
+}
+
+/// Holds the folder's lock shared, after `enter` has run: under the exclusive lock if no other
+/// process is there.
+pub(crate) fn share(
+    path: &Path,
+    enter: impl FnOnce(Company) -> Result<(), FolderError>,
+) -> Result<File, FolderError> {
+    // One process enters at a time, which takes a moment; hundreds of them may start at once.
+    let door_path = path.join(DOOR);
+    let door = open_lock(&door_path)?;
+    match door.lock() {
+        Err(error) if error.kind() != io::ErrorKind::Unsupported => {
+            return Err(FolderError::io("lock", &door_path, error));
+        }
+        _ => {}
+    }
+    let lock_path = path.join(LOCK);
+    let (file, company) = try_lock(&lock_path)?;
+    let share = || {
+        file.try_lock_shared().map_err(|error| match error {
+            TryLockError::WouldBlock => FolderError::Busy(path.to_owned()),
+            TryLockError::Error(error) => FolderError::io("lock", &lock_path, error),
+        })
+    };
+    if company == Company::Others {
+        share()?;
+    }
+    enter(company)?;
+    if company == Company::None {
+        // Not every system turns one kind of lock into the other.
+        file.unlock().map_err(|error| FolderError::io("lock", &lock_path, error))?;
+        share()?;
+    }
+    Ok(file)
 }
 
 /// Removes what a killed run left, such as half-written files; this process holds the lock, so nobody uses them.

@@ -28,9 +28,8 @@ pub trait Record: Serialize + DeserializeOwned {
 /// # Errors
 /// Data that cannot be encoded.
 pub fn record_bytes<T: Record>(record: &T) -> io::Result<Vec<u8>> {
-    let payload = postcard::to_stdvec(record).map_err(io::Error::other)?;
     let mut bytes = Vec::new();
-    framed::write(&mut bytes, T::MAGIC, T::VERSION, &payload)?;
+    framed::write(&mut bytes, T::MAGIC, T::VERSION, record)?;
     Ok(bytes)
 }
 

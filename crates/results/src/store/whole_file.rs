@@ -1,5 +1,6 @@
 //! Files that appear under their name when they are whole.
 
+use super::error::FolderError;
 use std::fs;
 use std::io::{self, BufWriter, Write};
 use std::path::Path;
@@ -38,9 +39,23 @@ impl<W: Write> Write for Summing<W> {
 /// Writes what a file holds.
 pub(crate) type Fill<'a> = Box<dyn FnOnce(&mut dyn Write) -> io::Result<()> + 'a>;
 
+/// Creates a folder, and those above it.
+pub(crate) fn create_folder(path: &Path) -> Result<(), FolderError> {
+    fs::create_dir_all(path).map_err(|e| FolderError::io("create folder", path, e))
+}
+
+/// Writes a file whole or not at all, flushed to the disk if it is to be durable; gives the checksum of its bytes.
+pub(crate) fn write_whole(
+    path: &Path,
+    is_durable: bool,
+    fill: Fill<'_>,
+) -> Result<u32, FolderError> {
+    try_write(path, is_durable, fill).map_err(|e| FolderError::io("write", path, e))
+}
+
 /// Writes a file under a temporary name in the same folder and renames it, flushed to the disk before
 /// that if it is to be durable; gives the checksum of its bytes.
-pub(crate) fn write_whole(path: &Path, is_durable: bool, fill: Fill<'_>) -> io::Result<u32> {
+fn try_write(path: &Path, is_durable: bool, fill: Fill<'_>) -> io::Result<u32> {
     let parent = path.parent().unwrap_or(Path::new("."));
     fs::create_dir_all(parent)?;
     let mut builder = tempfile::Builder::new();

@@ -8,9 +8,8 @@ use super::super::framed::{Defect, write_json, write_sealed};
 use super::super::manifest::Manifest;
 use super::super::record::{Record, record_bytes};
 use super::super::reopening::{Contents, MANIFEST, own_value, read_contents, read_existing};
-use super::super::store::lock::{Company, remove_remnants, try_lock};
-use super::super::whole_file::{is_temporary, write_whole};
-use super::company::share;
+use super::super::store::lock::{Company, remove_remnants, share, try_lock};
+use super::super::whole_file::{create_folder, is_temporary, write_whole};
 use super::{PointClock, PointRecord};
 use frictionsim_bounds::{RESULT, read_file};
 use serde_json::Value;
@@ -129,12 +128,10 @@ impl SweepFolder {
     ) -> Result<Self, FolderError> {
         // A folder that is refused stays as it is, without lock files.
         OutputFolder::may_open(path, manifest, start.replace())?;
-        fs::create_dir_all(path).map_err(|e| FolderError::io("create folder", path, e))?;
+        create_folder(path)?;
         let lock = share(path, |company| {
             take_over(path, manifest, count, start, company)?;
-            let points_path = path.join(POINTS);
-            fs::create_dir_all(&points_path)
-                .map_err(|e| FolderError::io("create folder", &points_path, e))?;
+            create_folder(&path.join(POINTS))?;
             if company == Company::None {
                 remove_remnants(path, |name| is_temporary(name) || name.starts_with(CLAIM));
             }
@@ -247,10 +244,7 @@ impl SweepFolder {
         name: &str,
         fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
     ) -> Result<(), FolderError> {
-        let path = self.path.join(name);
-        write_whole(&path, true, Box::new(fill))
-            .map(drop)
-            .map_err(|e| FolderError::io("write", &path, e))
+        write_whole(&self.path.join(name), true, Box::new(fill)).map(drop)
     }
 
     /// Writes a page, its figures, and both as data.

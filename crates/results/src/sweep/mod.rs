@@ -1,6 +1,5 @@
 //! Results of a parameter study: a file for each finished point, one table over them.
 
-mod company;
 mod critical;
 mod folder;
 mod long;

@@ -71,8 +71,7 @@ pub fn write_checkpoint(
     // These are the bytes of a [`Checkpoint`], without a copy.
     let contents = (case_hash, &folder.manifest().simd, state, record);
     folder.write(CHECKPOINT, |out| {
-        let payload = postcard::to_stdvec(&contents).map_err(io::Error::other)?;
-        framed::write(out, Checkpoint::MAGIC, Checkpoint::VERSION, &payload)
+        framed::write(out, Checkpoint::MAGIC, Checkpoint::VERSION, &contents)
     })
 }
 
