@@ -8,8 +8,7 @@ use crate::case::Case;
 use crate::fem::operator::StiffnessOperator;
 use crate::linalg::interruption;
 use crate::results::transient::{
-    CHECKPOINT, Checkpoint, LinearStage, RecordedRun, RunFigures, document, draw, write,
-    write_checkpoint,
+    CHECKPOINT, Checkpoint, LinearStage, RecordedRun, document, draw, write, write_checkpoint,
 };
 use crate::results::{OutputFolder, read_record};
 use crate::study;
@@ -93,15 +92,11 @@ pub(super) fn run(asked: &Arguments) -> Result<(), Failure> {
     }
     let output = &asked.options.output;
     if let Some(options) = output.drawing() {
-        let run = RunFigures {
-            run: RecordedRun { material: study.case.materials(), ..report.run },
-            peripheral_speed: study.shown_speed(),
-            stage: linear_stage(study.case),
-        };
+        let (material, stage) = (study.case.materials(), linear_stage(study.case));
+        let run = RecordedRun { material, stage, ..report.run.clone() };
         draw(&folder, &run, report.title, &summary, &options)?;
     }
-    let state = solved.analysis.settling.state;
-    let document = document(&summary, state, None);
+    let document = document(&report.run, &summary);
     output.finish(folder, &document.titled(report.title).to_text(), &object)
 }
 

@@ -5,7 +5,7 @@ use crate::prelude::*;
 use frictionsim::chart::Figure;
 use frictionsim::results::ShownBody;
 use frictionsim::results::charts::ModeLine;
-use frictionsim::results::transient::{LinearStage, RecordedRun, RunFigures, draw_run};
+use frictionsim::results::transient::{LinearStage, RecordedRun, draw_run};
 
 #[test]
 fn a_run_gets_every_figure_of_its_record() {
@@ -32,16 +32,14 @@ fn a_run_gets_every_figure_of_its_record() {
         let stage = g.stage.as_ref().ok()?;
         Some((g.harmonic()?, stage.rate_per_s.value))
     });
-    let data = RunFigures {
-        run: RecordedRun {
-            record: &record,
-            analysis: &analysis,
-            body: ShownBody { mesh: &annulus.mesh, sector: None },
-            has_harmonics: true,
-            material: model.material,
-            thickness: 0.009,
-            extent: Extent::MetreOfThickness,
-        },
+    let data = RecordedRun {
+        record: &record,
+        analysis: &analysis,
+        body: ShownBody { mesh: &annulus.mesh, sector: None },
+        has_harmonics: true,
+        material: model.material,
+        thickness: 0.009,
+        extent: Extent::MetreOfThickness,
         peripheral_speed: rotation_speed * 0.0205,
         stage: LinearStage {
             references: vec![ModeLine { frequency_hz: 9901.0, label: "mode 5, *n* = 2".into() }],

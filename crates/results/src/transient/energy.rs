@@ -1,6 +1,6 @@
 //! The energy figure of a transient: where the power of the drive goes.
 
-use super::run::RunFigures;
+use super::run::RecordedRun;
 use crate::charts::palette::{
     CONTACT_DISSIPATION, EXTERNAL_POWER, MATERIAL_DISSIPATION, NORMAL_POWER, SLIDE_POWER, STATUSES,
     STICK_POWER,
@@ -47,9 +47,9 @@ fn moving_average(values: &[f64], window: usize) -> Vec<f64> {
 
 /// Acceleration, status, external power and its parts, power balance of the body, the external power as the sum of what
 /// contact and material dissipate, stored energy, balance residual, as figure 12 of the paper has them.
-pub(super) fn energy(run: &RunFigures<'_>) -> Figure {
-    let (rows, times) = (&run.run.record.rows, run.times());
-    let (thickness, extent) = (run.run.thickness, run.run.extent);
+pub(super) fn energy(run: &RecordedRun<'_>) -> Figure {
+    let (rows, times) = (&run.record.rows, run.times());
+    let (thickness, extent) = (run.thickness, run.extent);
     let step = (extremes(times.iter().copied()).1 - times.first().copied().unwrap_or(0.0))
         / times.len().max(2) as f64;
     let window = (AVERAGING_TIME / step.max(1e-300))
@@ -74,11 +74,11 @@ pub(super) fn energy(run: &RunFigures<'_>) -> Figure {
         course("total", INK, &|row| row.kinetic_energy + row.strain_energy + row.contact_energy);
     let strain = course("strain", SERIES[2], &|row| row.strain_energy);
     let kinetic = course("kinetic", SERIES[1], &|row| row.kinetic_energy);
-    let probes = run.run.record.probes.len();
+    let probes = run.record.probes.len();
     let inside = (0..probes).find(|&probe| !run.is_on_contact(probe)).or((probes > 0).then_some(0));
     let acceleration = inside.map(|probe| {
         let line = Line::new(&times, &run.acceleration(probe)).solid(SERIES[0], 0.45).whole();
-        let caption = format!("tangential acceleration, node {}", run.run.probe_label(probe));
+        let caption = format!("tangential acceleration, node {}", run.probe_label(probe));
         panel(&times, Axis::new("*a*_{θ}", "m/s²").symmetric(), 50.0, caption).layer(line)
     });
     let dissipated: Vec<f64> =

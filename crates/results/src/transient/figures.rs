@@ -1,6 +1,6 @@
 //! The figures of a transient, from its record.
 
-use super::run::RunFigures;
+use super::run::RecordedRun;
 use crate::charts::palette::status_of_code;
 use crate::charts::{
     ContactInstant, ContactVelocity, contact_figure, shear_stress_figure, status_curves,
@@ -18,9 +18,9 @@ const FIELD_LIMIT: usize = 8;
 const WHEN: &str = "at the snapshot times";
 
 /// Draws every figure that the record has data for.
-pub fn draw_run(run: &RunFigures<'_>) -> Vec<Figure> {
+pub fn draw_run(run: &RecordedRun<'_>) -> Vec<Figure> {
     let mut figures: Vec<Declaration<'_>> = Vec::new();
-    for probe in 0..run.run.record.probes.len() {
+    for probe in 0..run.record.probes.len() {
         figures.push(Box::new(move || Some(run.overview(probe))));
         figures.push(Box::new(move || Some(run.spectrum(probe))));
     }
@@ -33,9 +33,9 @@ pub fn draw_run(run: &RunFigures<'_>) -> Vec<Figure> {
     declared(figures)
 }
 
-impl RunFigures<'_> {
+impl RecordedRun<'_> {
     fn snapshots(&self) -> impl Iterator<Item = &Snapshot> {
-        self.run.record.snapshots.iter().take(FIELD_LIMIT)
+        self.record.snapshots.iter().take(FIELD_LIMIT)
     }
 
     fn velocity(&self) -> Figure {
@@ -45,39 +45,39 @@ impl RunFigures<'_> {
             let status = statuses(&snapshot.contact.status);
             (heading(snapshot), &snapshot.velocity[..], status)
         });
-        velocity_figure(&self.run.body, (WHEN, rest), fields)
+        velocity_figure(&self.body, (WHEN, rest), fields)
     }
 
     fn shear_stress(&self) -> Option<Figure> {
         let fields = self.snapshots();
         let fields = fields.map(|snapshot| (heading(snapshot), &snapshot.displacement[..]));
-        shear_stress_figure(&self.run.body, self.run.material, WHEN, fields)
+        shear_stress_figure(&self.body, self.material, WHEN, fields)
     }
 
     /// Whether a probe lies on the contact edge.
     pub(super) fn is_on_contact(&self, probe: usize) -> bool {
-        let node = self.run.record.probes[probe] as u32;
-        if let Some(sector) = self.run.body.sector {
+        let node = self.record.probes[probe] as u32;
+        if let Some(sector) = self.body.sector {
             return contact_nodes(sector).contains(&(node - 1));
         }
-        self.run.body.mesh.contact_edge().nodes.iter().any(|other| other + 1 == node)
+        self.body.mesh.contact_edge().nodes.iter().any(|other| other + 1 == node)
     }
 
     /// Phase plot of an internal node, and path of a contact node coloured by status over the last fifth.
     fn trajectories(&self) -> Option<Figure> {
-        let body = &self.run.body;
+        let body = &self.body;
         let has_edge = body
             .sector
             .is_none_or(|sector| sector.specification.contact.face() == SolidFace::Inner);
         if body.is_assembly() || !has_edge {
             return None;
         }
-        let probes = 0..self.run.record.probes.len();
+        let probes = 0..self.record.probes.len();
         let (edge, inside): (Vec<usize>, Vec<usize>) =
             probes.partition(|&probe| self.is_on_contact(probe));
         let (edge, inside) = (*edge.first()?, *inside.first()?);
         let pair = |probe: usize, x: usize, y: usize| -> Vec<(f64, f64)> {
-            self.run.record.probe_rows[probe].iter().map(|row| (row[x], row[y])).collect()
+            self.record.probe_rows[probe].iter().map(|row| (row[x], row[y])).collect()
         };
         let (phase, path) = (pair(inside, 1, 3), pair(edge, 1, 0));
         let start = path.len() - path.len().div_ceil(5);
@@ -89,16 +89,16 @@ impl RunFigures<'_> {
                 .caption(caption)
                 .layer(before.name("before"))
         };
-        let end = match self.run.analysis.settling.state {
+        let end = match self.analysis.settling.state {
             EndState::LimitCycle => "limit cycle",
             EndState::TwoFrequency(_) => "two frequencies",
             _ => "last fifth of the run",
         };
         let last = Line::through(phase[start..].iter().copied()).solid(SERIES[1], 0.8).name(end);
         let velocity = Axis::new("velocity *v*_{θ}", "m/s").prefixed();
-        let caption = format!("node {}, tangential", self.run.probe_label(inside));
+        let caption = format!("node {}, tangential", self.probe_label(inside));
         let phase_panel = panel(velocity, caption, &phase).layer(last);
-        let caption = format!("contact node {}", self.run.probe_label(edge));
+        let caption = format!("contact node {}", self.probe_label(edge));
         let path_panel = panel(metres("radial *u*_{r}"), caption, &path)
             .layers(status_curves(&path[start..], &self.traced_status(edge, start)));
         let caption = "Phase plot of an internal node (a) and path of a contact node (b), whose \
@@ -110,8 +110,8 @@ impl RunFigures<'_> {
     /// velocity it sticks. Finer in time than the contact frames; the node touches the cylinder at its smallest radial
     /// displacement.
     fn traced_status(&self, probe: usize, start: usize) -> Vec<ContactStatus> {
-        let rows = &self.run.record.probe_rows[probe][start..];
-        if self.run.body.mesh.opposite.is_some() {
+        let rows = &self.record.probe_rows[probe][start..];
+        if self.body.mesh.opposite.is_some() {
             return self.kept_status(probe, start);
         }
         let (low, high) = extremes(rows.iter().map(|row| row[0]));
@@ -131,11 +131,11 @@ impl RunFigures<'_> {
 
     /// Status of a contact node from a sample on, as the contact frames keep it: what it touches moves as well.
     fn kept_status(&self, probe: usize, start: usize) -> Vec<ContactStatus> {
-        let node = self.run.record.probes[probe] as u32 - 1;
-        let edge = ContactInterface::of(self.run.body.mesh).nodes;
+        let node = self.record.probes[probe] as u32 - 1;
+        let edge = ContactInterface::of(self.body.mesh).nodes;
         let place = edge.iter().position(|&other| other == node);
-        let (frames, stride) = (&self.run.record.frames, self.run.record.frame_stride as usize);
-        let samples = start..self.run.record.rows.len();
+        let (frames, stride) = (&self.record.frames, self.record.frame_stride as usize);
+        let samples = start..self.record.rows.len();
         let status = samples.map(|sample| {
             let frame = frames.get(sample / stride).or(frames.last());
             match (frame, place) {
@@ -148,8 +148,8 @@ impl RunFigures<'_> {
 
     /// The contact at the last snapshot.
     fn contact(&self) -> Option<Figure> {
-        let body = &self.run.body;
-        let snapshot = self.run.record.snapshots.last().filter(|_| !body.is_assembly())?;
+        let body = &self.body;
+        let snapshot = self.record.snapshots.last().filter(|_| !body.is_assembly())?;
         let frame = &snapshot.contact;
         let wide = |values: &[f32]| -> Vec<f64> {
             body.shown(values).into_iter().map(f64::from).collect()
@@ -159,7 +159,7 @@ impl RunFigures<'_> {
             name: "contact".to_owned(),
             subject: ["Contact at the last snapshot".to_owned(), String::new()],
             instant: format!("*t* = {:.3} ms", snapshot.time * 1e3),
-            first_angle: self.run.record.contact_angles.first().copied().unwrap_or(0.0),
+            first_angle: self.record.contact_angles.first().copied().unwrap_or(0.0),
             status: &statuses(&body.shown(&frame.status)),
             tractions: [&wide(&frame.pressure), &wide(frame.shear())],
             velocity: match body.mesh.opposite {
@@ -176,10 +176,10 @@ impl RunFigures<'_> {
             let place = |&node: &u32| snapshot.velocity[components * node as usize + 1];
             nodes.iter().map(place).collect()
         };
-        if let Some(sector) = self.run.body.sector {
+        if let Some(sector) = self.body.sector {
             return own(&contact_nodes(sector), 3);
         }
-        let interface = ContactInterface::of(self.run.body.mesh);
+        let interface = ContactInterface::of(self.body.mesh);
         let own = own(&interface.nodes, 2).into_iter().enumerate();
         let slip = |(i, velocity): (usize, f64)| {
             let Some(opposite) = interface.opposite.get(i) else {

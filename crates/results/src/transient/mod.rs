@@ -14,7 +14,7 @@ pub use checkpoint::{CHECKPOINT, Checkpoint, CheckpointError, read_checkpoint, w
 pub use figures::draw_run;
 pub use files::write;
 pub(super) use files::{ENERGY, STATUS};
-pub use run::{LinearStage, RecordedRun, RunFigures};
+pub use run::{LinearStage, RecordedRun};
 pub use summary::{TransientSummary, summary};
 pub use tables::{document, draw};
 

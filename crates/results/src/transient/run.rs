@@ -6,8 +6,8 @@ use crate::extent::Extent;
 use frictionsim_physics::fem::MaterialField;
 use frictionsim_physics::transient::{Recorder, TransientAnalysis};
 
-/// The record of a run, and the body that it is of.
-#[derive(Clone, Copy, Debug)]
+/// The record of a run, the body that it is of, and what its figures show besides.
+#[derive(Clone, Debug)]
 pub struct RecordedRun<'a> {
     /// What was recorded.
     pub record: &'a Recorder,
@@ -23,6 +23,10 @@ pub struct RecordedRun<'a> {
     pub thickness: f64,
     /// What forces, powers and energies are of.
     pub extent: Extent,
+    /// Peripheral speed of the cylinder, m/s.
+    pub peripheral_speed: f64,
+    /// What the eigenvalue analysis makes of its linear stage; nothing where it was not asked.
+    pub stage: LinearStage,
 }
 
 /// Unstable modes of steady sliding as the time loop has it: the same mesh and contact, lumped mass, small
@@ -37,28 +41,15 @@ pub struct LinearStage {
     pub mode_rates: Vec<(f64, f64)>,
 }
 
-/// A run and what its figures show besides.
-#[derive(Clone, Debug)]
-pub struct RunFigures<'a> {
-    /// The run.
-    pub run: RecordedRun<'a>,
-    /// Peripheral speed of the cylinder, m/s.
-    pub peripheral_speed: f64,
-    /// What the eigenvalue analysis makes of its linear stage.
-    pub stage: LinearStage,
-}
-
 impl RecordedRun<'_> {
     /// Number of a probe as the user knows it.
     pub(super) fn probe_label(&self, probe: usize) -> usize {
         self.body.mesh.node_label(self.record.probes[probe] - 1)
     }
-}
 
-impl RunFigures<'_> {
     /// What the components of a probe are along, the first, the second and the third.
     pub(super) fn directions(&self) -> [&'static str; 3] {
-        match self.run.body.is_assembly() {
+        match self.body.is_assembly() {
             true => ["acceleration along x", "acceleration along y", "acceleration along z"],
             false => ["radial acceleration", "tangential acceleration", "axial acceleration"],
         }
@@ -66,12 +57,12 @@ impl RunFigures<'_> {
 
     /// Times of all samples, s.
     pub(super) fn times(&self) -> Vec<f64> {
-        self.run.record.rows.iter().map(|row| row.time).collect()
+        self.record.rows.iter().map(|row| row.time).collect()
     }
 
     /// Time between samples, s; zero for fewer than two.
     pub(super) fn interval(&self) -> f64 {
-        let rows = &self.run.record.rows;
+        let rows = &self.record.rows;
         match (rows.first(), rows.last(), rows.len()) {
             (Some(first), Some(last), 2..) => (last.time - first.time) / (rows.len() - 1) as f64,
             _ => 0.0,
@@ -80,14 +71,14 @@ impl RunFigures<'_> {
 
     /// One column of a probe: displacements, velocities, accelerations, each radial and tangential.
     pub(super) fn column(&self, probe: usize, column: usize) -> Vec<f64> {
-        let rows = self.run.record.probe_rows[probe].iter();
+        let rows = self.record.probe_rows[probe].iter();
         rows.map(|row| row[column]).collect()
     }
 
     /// Which component of a probe is shown: the tangential one, which friction drives and over which runs are compared;
     /// of solid bodies of a mesh, which may lie anyhow, the strongest.
     pub(super) fn shown_component(&self, probe: usize) -> usize {
-        if !self.run.body.is_assembly() {
+        if !self.body.is_assembly() {
             return 1;
         }
         let size = |component: usize| -> f64 {
@@ -101,7 +92,7 @@ impl RunFigures<'_> {
     fn component(&self, probe: usize, component: usize) -> Vec<f64> {
         match component {
             2 => {
-                let rows = self.run.record.axial_rows[probe].iter();
+                let rows = self.record.axial_rows[probe].iter();
                 rows.map(|row| row[2]).collect()
             }
             _ => self.column(probe, 4 + component),
@@ -116,7 +107,7 @@ impl RunFigures<'_> {
     /// Frequency (Hz) and growth rate (1/s) of the unstable mode nearest to the vibration that grows on a body without
     /// symmetry, if one lies within 3 % of it.
     pub(super) fn growing_mode(&self) -> Option<(f64, f64)> {
-        let growth = self.run.analysis.growth.first()?;
+        let growth = self.analysis.growth.first()?;
         let frequency = growth.stage.as_ref().ok()?.frequency_hz.value.abs();
         let distance = |mode: &&(f64, f64)| (mode.0 / frequency - 1.0).abs();
         let nearest =
@@ -126,7 +117,7 @@ impl RunFigures<'_> {
 
     /// Highest frequency shown: three superharmonics, or all modes drawn.
     pub(super) fn highest_frequency(&self) -> f64 {
-        let main = self.run.analysis.last_fifth.main_frequency_hz.unwrap_or(0.0);
+        let main = self.analysis.last_fifth.main_frequency_hz.unwrap_or(0.0);
         let modes = self.stage.references.iter().map(|mode| mode.frequency_hz);
         let wanted = modes.fold(3.4 * main, |top, f| top.max(1.1 * f));
         let nyquist = 0.5 / self.interval().max(1e-12);

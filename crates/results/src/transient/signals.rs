@@ -1,6 +1,6 @@
 //! Figures of the probes' signals and of the harmonics of the contact edge.
 
-use super::run::RunFigures;
+use super::run::RecordedRun;
 use super::stages::stages;
 use crate::charts::{
     Stage, ends, place_axis, run_axis, signal_panel, spectrogram_panels, spectrum_panel,
@@ -30,24 +30,23 @@ fn meaning(stages: &[Stage]) -> String {
     stages.iter().map(words).collect::<Vec<_>>().join("; ")
 }
 
-impl RunFigures<'_> {
+impl RecordedRun<'_> {
     /// Acceleration, spectrograms and contact status on one time axis, with the end of the run enlarged at the right.
     pub(super) fn overview(&self, probe: usize) -> Figure {
         let (node, times, signal) =
-            (self.run.probe_label(probe), self.times(), self.acceleration(probe));
+            (self.probe_label(probe), self.times(), self.acceleration(probe));
         let (start, end) = ends(&times);
-        let periods =
-            self.run.analysis.last_fifth.main_frequency_hz.map(|frequency| 4.0 / frequency);
+        let periods = self.analysis.last_fifth.main_frequency_hz.map(|frequency| 4.0 / frequency);
         let enlarged =
             periods.filter(|length| *length < end - start).map(|length| (end - length, end));
         let axis = run_axis(&times);
         let top = self.highest_frequency();
         let component = self.shown_component(probe);
-        let unit = match self.run.body.is_assembly() {
+        let unit = match self.body.is_assembly() {
             true => (["*a*_{x}", "*a*_{y}", "*a*_{z}"][component], "m/s²"),
             false => ("*a*_{θ}", "m/s²"),
         };
-        let stages = stages(self.run.record, self.run.analysis);
+        let stages = stages(self.record, self.analysis);
         let largest = extremes(signal.iter().copied()).1;
         let whole = signal_panel(axis.clone(), &times, &signal, unit, 0.45);
         let whole = with_stages(
@@ -100,7 +99,7 @@ impl RunFigures<'_> {
 
     /// The status of all contact nodes over time; a map of some instants says so.
     fn status_panel(&self, time: Axis, range: (f64, f64), caption: &str) -> Option<Panel> {
-        let (body, record) = (&self.run.body, self.run.record);
+        let (body, record) = (&self.body, self.record);
         if body.is_assembly() {
             // Nodes of surfaces have no order along an edge.
             return None;
@@ -118,7 +117,7 @@ impl RunFigures<'_> {
 
     /// Spectra of both components over the last fifth of the run.
     pub(super) fn spectrum(&self, probe: usize) -> Figure {
-        let node = self.run.probe_label(probe);
+        let node = self.probe_label(probe);
         let spectrum_of = |signal: Vec<f64>| {
             let end = &signal[signal.len() - signal.len().div_ceil(5)..];
             let found =
@@ -127,15 +126,14 @@ impl RunFigures<'_> {
         };
         let [tangential, radial] = [5, 4].map(|column| spectrum_of(self.column(probe, column)));
         let [first, second, third] = self.directions();
-        let axial = self.run.record.axial_rows.get(probe);
+        let axial = self.record.axial_rows.get(probe);
         let axial = axial.map(|rows| spectrum_of(rows.iter().map(|row| row[2]).collect()));
         let mut spectra: Vec<(&str, &[f64], &[f64])> =
             vec![(second, &tangential.0, &tangential.1), (first, &radial.0, &radial.1)];
         spectra.extend(axial.iter().map(|(f, a)| (third, &f[..], &a[..])));
         let caption =
             format!("Spectra of the accelerations of node {node} over the last fifth of the run.");
-        let frequencies =
-            (self.highest_frequency(), self.run.analysis.last_fifth.main_frequency_hz);
+        let frequencies = (self.highest_frequency(), self.analysis.last_fifth.main_frequency_hz);
         let panel = spectrum_panel(&spectra, "m/s²", frequencies, &self.stage.references);
         Figure::new(format!("spectrum-{node}"), caption)
             .panel(panel.caption(format!("accelerations of node {node}")))
@@ -144,7 +142,7 @@ impl RunFigures<'_> {
     /// Growth of the contact edge's vibration, all of it, beside the rate of the mode at its frequency; about the mean
     /// over the linear stage, which is steady sliding, or over the end of the run where there is none.
     fn growth_of_edge(&self, times: &[f64], stage: Option<f64>, window: (f64, f64)) -> Vec<Line> {
-        let (record, count) = (self.run.record, times.len());
+        let (record, count) = (self.record, times.len());
         let linear = match stage {
             Some(stage) => 0..times.partition_point(|&t| t <= stage).max(1),
             None => count - count.div_ceil(5)..count,
@@ -172,7 +170,7 @@ impl RunFigures<'_> {
 
     /// Growth of the harmonics of the contact edge, beside the rates of the eigenvalue analysis.
     fn growth_of_harmonics(&self, times: &[f64], window: (f64, f64)) -> Vec<Line> {
-        let record = self.run.record;
+        let record = self.record;
         let amplitude = |n: usize| -> Vec<f64> {
             let parts = (0..times.len()).map(|sample| record.amplitude(sample, n));
             parts.map(|parts| parts.map_or(f64::NAN, |[a, b]| a.hypot(b))).collect()
@@ -193,11 +191,10 @@ impl RunFigures<'_> {
 
     /// Growth of the vibration of the contact edge over the linear stage; the whole run where there is none.
     pub(super) fn growth(&self) -> Figure {
-        let (times, has_harmonics) = (self.times(), self.run.has_harmonics);
+        let (times, has_harmonics) = (self.times(), self.has_harmonics);
         let (start, last) = ends(&times);
-        let has_stage =
-            has_harmonics || self.run.analysis.growth.iter().any(|own| own.stage.is_ok());
-        let linear_end = self.run.analysis.first_nonlinearity.filter(|_| has_stage);
+        let has_stage = has_harmonics || self.analysis.growth.iter().any(|own| own.stage.is_ok());
+        let linear_end = self.analysis.first_nonlinearity.filter(|_| has_stage);
         let end = linear_end.map_or(last, |end| last.min(start + SHOWN_STAGES * (end - start)));
         let stage = linear_end.unwrap_or(last);
         // What the start leaves behind has died out by a third of the stage.

@@ -1,7 +1,7 @@
 //! Tables and sentences of a transient, and its page.
 
 use super::summary::{GrowthSummary, TransientSummary};
-use super::{RunFigures, draw_run};
+use super::{RecordedRun, draw_run};
 use crate::drawing::{DrawingError, DrawingOptions};
 use crate::finding::write_page;
 use crate::folder::OutputFolder;
@@ -44,22 +44,17 @@ columns! {
 /// Draws every figure that the run has data for and writes the page.
 pub fn draw(
     folder: &OutputFolder,
-    run: &RunFigures<'_>,
+    run: &RecordedRun<'_>,
     title: &str,
     summary: &TransientSummary,
     options: &DrawingOptions,
 ) -> Result<(), DrawingError> {
-    let state = run.run.analysis.settling.state;
-    let document = document(summary, state, Some(run)).titled(title);
-    write_page(folder, document, draw_run(run), options)
+    write_page(folder, document(run, summary).titled(title), draw_run(run), options)
 }
 
 /// Tables and sentences of a run; beside its growth that of the eigenvalue analysis, where there is one.
-pub fn document(
-    summary: &TransientSummary,
-    state: EndState,
-    run: Option<&RunFigures<'_>>,
-) -> Document {
+pub fn document(run: &RecordedRun<'_>, summary: &TransientSummary) -> Document {
+    let state = run.analysis.settling.state;
     let heading = match state {
         EndState::LimitCycle => "Limit cycle",
         EndState::TwoFrequency(_) => "Vibration of two frequencies",
@@ -210,10 +205,10 @@ fn motions(summary: &TransientSummary) -> Table {
     Table::new("", "Accelerations over the last fifth of the run").columns(PROBES, &rows)
 }
 
-fn growth(summary: &TransientSummary, run: Option<&RunFigures<'_>>) -> Table {
+fn growth(summary: &TransientSummary, run: &RecordedRun<'_>) -> Table {
     let rate = |harmonic: Option<usize>| match harmonic {
-        Some(n) => run?.stage.growth_rates.iter().find(|own| own.0 == n).map(|own| own.1),
-        None => run?.growing_mode().map(|(_, rate)| rate),
+        Some(n) => run.stage.growth_rates.iter().find(|own| own.0 == n).map(|own| own.1),
+        None => run.growing_mode().map(|(_, rate)| rate),
     };
     let fitted = summary.growth.iter().map(|own| {
         let name = own.harmonic.map_or("strongest".to_owned(), |n| format!("n = {n}"));

@@ -35,7 +35,7 @@ use frictionsim_physics::transient::{
     CentralDifference, InitialState, Recorder, RecorderSettings, StepPlan, TransientAnalysis,
     TransientError, TransientModel, TransientSettings,
 };
-use frictionsim_results::transient::{RecordedRun, TransientReport};
+use frictionsim_results::transient::{LinearStage, RecordedRun, TransientReport};
 use std::time::Instant;
 
 /// A case made ready for the time loop.
@@ -225,6 +225,8 @@ impl<'a> TransientStudy<'a> {
                 has_harmonics: case.has_sectors(),
                 thickness: case.depth(),
                 extent: extent_of(case),
+                peripheral_speed: self.shown_speed(),
+                stage: LinearStage::default(),
             },
             contact_nodes: self.body().interface().nodes,
             friction_coefficient: case.contact.sliding.friction_coefficient,
