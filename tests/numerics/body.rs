@@ -3,7 +3,7 @@
 
 use crate::prelude::*;
 
-fn options(mass: MassKind, geometric_stiffness: bool) -> TangentOptions {
+pub fn options(mass: MassKind, geometric_stiffness: bool) -> TangentOptions {
     TangentOptions { mass, geometric_stiffness, ..TANGENT }
 }
 

@@ -4,7 +4,7 @@
 
 use crate::cea_sparse::bare;
 use crate::prelude::*;
-use crate::two_bodies::model::{held_blocks, one_material, rectangle, ring, rings, rings_of};
+use crate::two_bodies::model::{held_blocks, rectangle, ring, rings, rings_of};
 use frictionsim::cea::sparse::FrictionlessModes;
 
 /// `u = T y`: for each glued dof the dofs that it follows, with their weights.
@@ -49,8 +49,8 @@ fn frequencies(mesh: &Mesh, glue: &Glue, held: Vec<usize>, count: usize) -> Vec<
         let at = |dof: usize| unknowns.unknown_of[dof];
         entries.filter_map(|(row, column, value)| Some((at(row)?, at(column)?, value))).collect()
     };
-    let stiffness = free(&assemble_stiffness(mesh, one_material()));
-    let mass = free(&assemble_mass(mesh, one_material(), MassKind::Consistent));
+    let stiffness = free(&assemble_stiffness(mesh, &POLYCARBONATE));
+    let mass = free(&assemble_mass(mesh, &POLYCARBONATE, MassKind::Consistent));
     let positions = stiffness.iter().chain(&mass).map(|&(row, column, _)| (row, column));
     let pattern = Arc::new(SparsityPattern::from_positions(unknowns.len(), positions));
     let on_pattern = |terms| MatrixPolynomial::on_pattern(&pattern, &[terms]);

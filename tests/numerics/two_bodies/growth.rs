@@ -1,7 +1,8 @@
 //! The linear stage of the transient between meshes that do not match, against the eigenvalues of the same bodies.
 
+use crate::body::options;
 use crate::prelude::*;
-use crate::two_bodies::model::{contact, modes_of, options, rings};
+use crate::two_bodies::model::rings;
 
 /// Size of the seeded mode, m: a slip speed a thousandth of the sliding, and far above the short waves, which grow faster, out
 /// of round-off.
@@ -16,7 +17,10 @@ fn a_mode_of_two_bodies_whose_meshes_do_not_match_grows_as_its_eigenvalue_says()
         let materials = [POLYCARBONATE, shaft].map(RegionMaterial::from).to_vec();
         assert_eq!(mesh.regions, ["disc", "shaft"]);
         let options = options(MassKind::Lumped, false);
-        let found = modes_of(&mesh, &materials, &options, ModeLimit::Lowest(12), &[0.3]);
+        let tangent = linearized(&mesh, &materials, &contact(610.0), &options);
+        let limit = ModeLimit::Lowest(12);
+        let request = SweepRequest { shapes_at: &[0.3], ..sweep_request(&[0.3], limit) };
+        let found = sweep(&tangent, &request, &|_| {}).unwrap().points.remove(0).modes;
         let mode = found.iter().max_by(|a, b| a.eigenvalue.re.total_cmp(&b.eigenvalue.re)).unwrap();
         assert!(mode.eigenvalue.re > 0.0);
         let (record, harmonic) =
@@ -35,13 +39,13 @@ fn run(
     shape: &[c64],
 ) -> (Recorder, usize) {
     let body = SteppedBody::Plane { mesh, annulus: None };
-    let model = TransientModel::new(body, materials, DAMPING, contact());
+    let model = TransientModel::new(body, materials, DAMPING, contact(610.0));
     let operator = model.operator(OperatorChoice::Auto, SimdLevel::detect()).unwrap();
     let settings =
         transient_settings(0.004, 4e-6, 0.0, InitialState::SteadySliding, Perturbation::default());
     let step = model.plan(operator.as_ref(), &settings).unwrap().time_step;
     let elastic = assemble_stiffness(mesh, materials);
-    let base = SteadySliding::solve(mesh, &elastic, &contact()).unwrap();
+    let base = SteadySliding::solve(mesh, &elastic, &contact(610.0)).unwrap();
     let mut displacement = base.displacement(0.3);
     let pairs = displacement.iter_mut().zip(shape);
     pairs.for_each(|(u, phi)| *u += SEED * phi.re);

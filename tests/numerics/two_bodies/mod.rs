@@ -6,8 +6,9 @@ mod model;
 mod refusals;
 mod sweeps;
 
+use crate::body::options;
 use crate::prelude::*;
-use model::{contact, held_blocks, modes, one_material, options, rectangle, rings};
+use model::{held_blocks, rectangle, rings};
 
 /// Disc and shaft as built in, by sectors.
 fn built_in(
@@ -21,9 +22,16 @@ fn built_in(
         specification: on_shaft(annulus(element, around, radial[1]), radial[0]),
         material: POLYCARBONATE,
         options: options(MassKind::Consistent, geometric_stiffness),
-        contact: contact(),
+        contact: contact(610.0),
     };
     model.modes(0.3, ModeLimit::Lowest(count))
+}
+
+/// Both bodies from a file.
+fn modes(mesh: &Mesh, geometric_stiffness: bool, count: usize) -> Vec<ComplexMode> {
+    let options = options(MassKind::Consistent, geometric_stiffness);
+    let tangent = linearized(mesh, &POLYCARBONATE, &contact(610.0), &options);
+    modes_at(&tangent, 0.3, ModeLimit::Lowest(count))
 }
 
 /// Cross-method check: pairs of nodes in polar frames, and mortar weights in global axes.
@@ -31,8 +39,7 @@ fn built_in(
 fn matching_bodies_of_a_file_have_the_spectrum_of_the_built_in_shaft() {
     let mesh = rings([24, 24], [2, 5], 0.0);
     for (geometric_stiffness, tolerance) in [(false, 1e-9), (true, 3e-4)] {
-        let found =
-            modes(&mesh, one_material(), &options(MassKind::Consistent, geometric_stiffness), 8);
+        let found = modes(&mesh, geometric_stiffness, 8);
         let expected = built_in(ElementKind::Quad4, 24, [2, 5], geometric_stiffness, 10);
         let error = largest_error(&eigenvalues_of(&expected), &eigenvalues_of(&found));
         // Slopes of the edge are those of its chords, not of its polar components.
@@ -46,9 +53,7 @@ fn non_matching_meshes_keep_the_order_of_convergence() {
     let exact = eigenvalues_of(&built_in(ElementKind::Quad8, 120, [10, 24], false, 10));
     let error = |around: [usize; 2], k: usize| {
         let mesh = rings(around.map(|count| count * k), [k, 2 * k], 0.03);
-        let options = options(MassKind::Consistent, false);
-        let found = modes(&mesh, one_material(), &options, 6);
-        largest_error(&exact, &eigenvalues_of(&found))
+        largest_error(&exact, &eigenvalues_of(&modes(&mesh, false, 6)))
     };
     let levels = [2, 3, 4];
     let apart = levels.map(|k| error([10, 12], k));
@@ -154,7 +159,7 @@ fn run(
     let body = SteppedBody::Plane { mesh, annulus: None };
     let model = TransientModel {
         stiffness,
-        ..TransientModel::new(body, one_material(), DAMPING, contact())
+        ..TransientModel::new(body, &POLYCARBONATE, DAMPING, contact(610.0))
     };
     let settings =
         transient_settings(duration, 4e-6, 1e-4, initial, Perturbation::of(&[1, 2], velocity));

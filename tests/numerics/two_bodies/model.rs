@@ -99,41 +99,6 @@ pub fn ring(element: ElementKind, radii: [f64; 2], around: usize, radial: usize)
     AnnulusMesh::generate(&disc::ring(radii, element, around, radial)).unwrap().mesh
 }
 
-pub fn options(mass: MassKind, geometric_stiffness: bool) -> TangentOptions {
-    TangentOptions { mass, geometric_stiffness, ..TANGENT }
-}
-
-pub fn contact() -> SlidingContact {
-    disc::contact(610.0)
-}
-
-pub fn modes(
-    mesh: &Mesh,
-    material: &dyn MaterialField,
-    options: &TangentOptions,
-    count: usize,
-) -> Vec<ComplexMode> {
-    modes_of(mesh, material, options, ModeLimit::Lowest(count), &[])
-}
-
-/// Modes at friction 0.3, with their shapes if `shapes_at` asks for them.
-pub fn modes_of(
-    mesh: &Mesh,
-    material: &dyn MaterialField,
-    options: &TangentOptions,
-    limit: ModeLimit,
-    shapes_at: &[f64],
-) -> Vec<ComplexMode> {
-    let tangent = linearized(mesh, material, &contact(), options);
-    let request = SweepRequest { shapes_at, ..sweep_request(&[0.3], limit) };
-    let found = sweep(&tangent, &request, &|_| {}).unwrap();
-    found.points.into_iter().next().unwrap().modes
-}
-
-pub fn one_material() -> &'static dyn MaterialField {
-    &POLYCARBONATE
-}
-
 /// A rectangle of so many elements with its lower left corner at `corner`.
 pub fn rectangle(corner: [f64; 2], size: [f64; 2], count: [usize; 2]) -> Lines {
     [0, 1].map(|c| {
