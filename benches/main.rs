@@ -23,7 +23,6 @@ use std::ops::ControlFlow;
 mod prelude {
     pub use crate::common::prelude::*;
     pub use crate::common::waves::WaveModel;
-    pub use frictionsim::cea::sparse::sweep;
 }
 
 /// Benchmarks that print tables of their own; divan has the others.
