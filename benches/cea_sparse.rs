@@ -20,7 +20,8 @@ fn tangent(circumferential: usize, radial: usize) -> SlidingTangent {
     let mesh = AnnulusMesh::generate(&specification).expect("a valid annulus").mesh;
     let elastic = assemble_stiffness(&mesh, &POLYCARBONATE);
     let contact = contact(610.0);
-    let base = SteadySliding::solve(&mesh, &elastic, &contact).expect("the disc is in contact");
+    let base =
+        SteadySliding::solve(&mesh, &elastic, &contact, None).expect("the disc is in contact");
     let options = TangentOptions {
         mass: MassKind::Consistent,
         geometric_stiffness: false,

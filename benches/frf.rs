@@ -82,7 +82,7 @@ fn whole_system(boundary: &str) -> FrfSystem {
     let annulus = AnnulusMesh::generate(&specification()).expect("a valid mesh");
     if boundary == "sliding" {
         let stiffness = assemble_stiffness(&annulus.mesh, &MATERIAL);
-        let base = SteadySliding::solve(&annulus.mesh, &stiffness, &CONTACT)
+        let base = SteadySliding::solve(&annulus.mesh, &stiffness, &CONTACT, None)
             .expect("contact stays closed");
         let mesh = &annulus.mesh;
         let tangent = SlidingTangent::linearize(mesh, &MATERIAL, &stiffness, &base, &options());

@@ -40,7 +40,7 @@ pub fn main() -> Result<(), Box<dyn Error>> {
         rotation_speed: 63.9,
     };
     let stiffness = assemble_stiffness(&mesh, &polycarbonate);
-    let base = SteadySliding::solve(&mesh, &stiffness, &contact)?;
+    let base = SteadySliding::solve(&mesh, &stiffness, &contact, None)?;
     println!("torque {:.1} N m for each metre of thickness", base.torque(0.3));
     let options = TangentOptions {
         mass: MassKind::Consistent,

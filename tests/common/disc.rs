@@ -166,8 +166,7 @@ pub fn linearized(
     options: &TangentOptions,
 ) -> SlidingTangent {
     let elastic = assemble_stiffness(mesh, material);
-    let law = options.contact.law;
-    let base = SteadySliding::solve_with(mesh, &elastic, contact, law).unwrap();
+    let base = SteadySliding::solve(mesh, &elastic, contact, options.contact.law).unwrap();
     SlidingTangent::linearize(mesh, material, &elastic, &base, options)
 }
 

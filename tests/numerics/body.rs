@@ -150,9 +150,9 @@ fn a_pressed_block_is_in_balance() {
     let mesh = Mesh::from_gmsh(&file, &block_specification()).unwrap();
     let stiffness = assemble_stiffness(&mesh, &POLYCARBONATE);
     let frictions = [0.0, 0.1, 0.3, 0.6];
-    let range = SlidingRange::solve(&mesh, &stiffness, &plane(0.3), None, &frictions).unwrap();
+    let range = SteadySliding::range(&mesh, &stiffness, &plane(0.3), None, &frictions).unwrap();
     for (friction, &k) in frictions.iter().zip(&range.state_of) {
-        let state = &range.states[k];
+        let state = SteadySliding::of(&mesh, &plane(0.3), range.states[k].clone());
         let forces = state.normal_forces(*friction);
         let total: f64 = forces.iter().sum();
         assert!((total / (1e6 * width) - 1.0).abs() < 1e-8, "{friction} {total}");
@@ -178,10 +178,10 @@ fn a_block_on_an_elastic_mounting_lifts_a_corner_as_friction_rises() {
     let stiffness = assemble_stiffness(&mesh, &POLYCARBONATE);
     let contact = SlidingContact { interference: 1e-5, ..plane(0.5) };
     let frictions = [0.1, 0.3, 0.5];
-    let range = SlidingRange::solve(&mesh, &stiffness, &contact, None, &frictions).unwrap();
+    let range = SteadySliding::range(&mesh, &stiffness, &contact, None, &frictions).unwrap();
     let mut open = Vec::new();
     for (friction, &k) in frictions.iter().zip(&range.state_of) {
-        let state = &range.states[k];
+        let state = SteadySliding::of(&mesh, &contact, range.states[k].clone());
         let forces = state.normal_forces(*friction);
         let displacement = state.displacement(*friction);
         let total: f64 = forces.iter().sum();

@@ -93,7 +93,7 @@ fn contact_without_interference_is_reported_as_open_with_node_and_angle() {
     let mesh = annulus(ElementKind::Quad4, 24, 4);
     let stiffness = assemble_stiffness(&mesh, &material);
     let contact = SlidingContact { interference: -1e-6, ..contact(610.0) };
-    let error = SteadySliding::solve(&mesh, &stiffness, &contact).unwrap_err();
+    let error = SteadySliding::solve(&mesh, &stiffness, &contact, None).unwrap_err();
     assert!(matches!(error, PrestressError::Separation { count: 24, node: 1, .. }));
     assert!(error.to_string().contains("contact.interference"));
 }

@@ -39,7 +39,7 @@ fn the_frequency_of_a_block_follows_the_pressure_on_it() {
         let mesh = block(pressure);
         let elastic = assemble_stiffness(&mesh, &STEEL);
         let sliding = sliding_at(0.0, 0.0, 1.0);
-        let base = SteadySliding::solve_with(&mesh, &elastic, &sliding, Some(law)).unwrap();
+        let base = SteadySliding::solve(&mesh, &elastic, &sliding, Some(law)).unwrap();
         for found in base.pressures(0.0) {
             assert!((found / pressure - 1.0).abs() < 2e-3, "{found} {pressure}");
         }

@@ -176,7 +176,7 @@ impl Case {
             }
             Body::Imported(body) => {
                 let stiffness = assemble_stiffness(&body.mesh, &body.materials);
-                let base = SteadySliding::solve_with(&body.mesh, &stiffness, &contact, law);
+                let base = SteadySliding::solve(&body.mesh, &stiffness, &contact, law);
                 base.map(|base| vec![self.thickness * base.normal_forces(0.0).iter().sum::<f64>()])
             }
             Body::Assembly(body) => body.assembled().and_then(|assembly| {

@@ -98,7 +98,7 @@ fn steady_sliding_start_stays_in_equilibrium() {
         settings.initial = InitialState::SteadySliding;
         let mut run = started(model, OperatorChoice::Auto, &settings);
         let elastic = assemble_stiffness(&annulus.mesh, model.material);
-        let base = SteadySliding::solve_with(&annulus.mesh, &elastic, &contact, stiffness.law);
+        let base = SteadySliding::solve(&annulus.mesh, &elastic, &contact, stiffness.law);
         let base = base.unwrap();
         let (exact, power) = (base.normal_forces(0.3), base.torque(0.3) * contact.rotation_speed);
         run.run(&mut Watch(|sample: &Sample<'_>| {

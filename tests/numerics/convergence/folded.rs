@@ -22,7 +22,8 @@ pub const FORWARD: f64 = 60.0;
 pub fn base_state(mesh: &AnnulusMesh, annulus: &Annulus, rotation_speed: f64) -> SteadySliding {
     let sliding = sliding_at(0.3, INTERFERENCE, rotation_speed);
     let stiffness = assemble_stiffness(&mesh.mesh, &material(annulus));
-    SteadySliding::solve(&mesh.mesh, &stiffness, &sliding).expect("the disc is pressed everywhere")
+    SteadySliding::solve(&mesh.mesh, &stiffness, &sliding, None)
+        .expect("the disc is pressed everywhere")
 }
 
 /// What one convergence study covers: the two lowest branches of harmonics 0 to 4, both directions.

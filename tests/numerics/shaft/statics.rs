@@ -23,7 +23,7 @@ fn the_interference_is_shared_as_lame_says_at_the_order_of_the_element() {
         let specification = with_shaft(ElementKind::Quad8, around, radial);
         let mesh = AnnulusMesh::generate(&specification).unwrap().mesh;
         let elastic = assemble_stiffness(&mesh, &on(STEEL));
-        let base = SteadySliding::solve(&mesh, &elastic, &contact(610.0)).unwrap();
+        let base = SteadySliding::solve(&mesh, &elastic, &contact(610.0), None).unwrap();
         let force: f64 = base.normal_forces(0.3).iter().sum();
         let mean = force / (TAU * r);
         (mean / exact - 1.0).abs()

@@ -125,7 +125,7 @@ fn a_block_on_a_block_of_another_mesh_is_pressed_alike_everywhere() {
     assert_eq!(mesh.regions, ["lower", "upper"]);
     let stiffness = assemble_stiffness(&mesh, &materials);
     let sliding = sliding_at(0.0, 1e-5, 1.0);
-    let base = SteadySliding::solve(&mesh, &stiffness, &sliding).unwrap();
+    let base = SteadySliding::solve(&mesh, &stiffness, &sliding, None).unwrap();
     // Springs and block in a row: `delta = p (1 / k + h / E)`.
     let expected = 1e-5 / (1.0 / mounting().normal_stiffness + 0.03 / material.young_modulus);
     for pressure in base.pressures(0.0) {

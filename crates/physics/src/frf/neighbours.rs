@@ -169,7 +169,7 @@ mod tests {
             rotation_speed: 63.9,
         };
         let stiffness = assemble_stiffness(&mesh, &material);
-        let base = SteadySliding::solve(&mesh, &stiffness, &contact).unwrap();
+        let base = SteadySliding::solve(&mesh, &stiffness, &contact, None).unwrap();
         let options = TangentOptions {
             mass: MassKind::Consistent,
             geometric_stiffness: true,

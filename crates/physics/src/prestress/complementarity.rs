@@ -19,9 +19,9 @@ const ROUND_OFF: f64 = 1e-12;
 
 /// States over a range of friction coefficients.
 #[derive(Clone, Debug)]
-pub struct PressedRange<S = PressedState> {
+pub struct PressedRange {
     /// One state for each set of pressed points, in order of the friction coefficient.
-    pub states: Vec<S>,
+    pub states: Vec<PressedState>,
     /// Which state each friction coefficient has.
     pub state_of: Vec<usize>,
     /// Friction coefficients up to which each state but the last holds.
@@ -33,26 +33,15 @@ pub struct PressedRange<S = PressedState> {
     pub left_out: f64,
 }
 
-impl<S> PressedRange<S> {
+impl PressedRange {
     /// One state that holds at `count` friction coefficients.
-    pub(super) fn of_one(state: S, count: usize) -> Self {
+    pub(super) fn of_one(state: PressedState, count: usize) -> Self {
         Self {
             states: vec![state],
             state_of: vec![0; count],
             changes: Vec::new(),
             begins: Vec::new(),
             left_out: 0.0,
-        }
-    }
-
-    /// The same states in another form.
-    pub fn map<T>(self, form: impl FnMut(S) -> T) -> PressedRange<T> {
-        PressedRange {
-            states: self.states.into_iter().map(form).collect(),
-            state_of: self.state_of,
-            changes: self.changes,
-            begins: self.begins,
-            left_out: self.left_out,
         }
     }
 

@@ -64,20 +64,22 @@ impl Pressing<'_> {
             stiffnesses: firsts.clone().map(|i| self.stiffnesses[i]).collect(),
             laws: firsts.clone().map(|i| self.laws[i]).collect(),
         };
-        let range = own.states_of_all(friction_coefficients)?;
+        let mut range = own.states_of_all(friction_coefficients)?;
 
         // The state of the whole body.
         let firsts: Vec<usize> = firsts.collect();
         let copy_of = first_of.iter().map(|first| firsts.partition_point(|own| own < first));
         let repeated = |values: Vec<f64>| values.repeat(count);
         let spread = |values: Vec<f64>| copy_of.clone().map(|i| values[i]).collect();
-        Ok(range.map(|state| PressedState {
+        let whole = range.states.into_iter().map(|state| PressedState {
             displacements: state.displacements.into_iter().map(repeated).collect(),
             normal_forces: state.normal_forces.into_iter().map(spread).collect(),
             stiffnesses: state.stiffnesses.into_iter().map(spread).collect(),
             is_pressed: copy_of.clone().map(|i| state.is_pressed[i]).collect(),
             frozen_below: state.frozen_below,
-        }))
+        });
+        range.states = whole.collect();
+        Ok(range)
     }
 
     /// Points on springs leave the matrices sparse; rigid ones need the bodies' response to each.

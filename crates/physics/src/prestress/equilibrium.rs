@@ -42,12 +42,10 @@ impl Deref for SteadySliding {
     }
 }
 
-/// States of steady sliding over a range of friction coefficients.
-pub type SlidingRange = PressedRange<SteadySliding>;
-
 impl SteadySliding {
     /// Solves the equilibrium of `mesh` at the friction coefficient of `contact`; `stiffness` is that of the body (all
-    /// dofs, from [`crate::fem::assemble_stiffness`]), to which supports are added.
+    /// dofs, from [`crate::fem::assemble_stiffness`]), to which supports are added. Contact stiffens with pressure, if there is a
+    /// `law`.
     ///
     /// # Errors
     /// [`PrestressError::Separation`] where a node of an annulus would open; see there for the rest.
@@ -55,23 +53,17 @@ impl SteadySliding {
         mesh: &Mesh,
         stiffness: &Triplets,
         contact: &SlidingContact,
-    ) -> Result<Self, PrestressError> {
-        Self::solve_with(mesh, stiffness, contact, None)
-    }
-
-    /// [`Self::solve`] with a contact that stiffens with pressure, if there is a `law`.
-    pub fn solve_with(
-        mesh: &Mesh,
-        stiffness: &Triplets,
-        contact: &SlidingContact,
         law: Option<NormalLaw>,
     ) -> Result<Self, PrestressError> {
         let own = [contact.friction_coefficient];
-        let range = SlidingRange::solve(mesh, stiffness, contact, law, &own)?;
-        Ok(range.states.into_iter().next_back().expect("one state for each set"))
+        let range = Self::range(mesh, stiffness, contact, law, &own)?;
+        let state = range.states.into_iter().next_back().expect("one state for each set");
+        Ok(Self::of(mesh, contact, state))
     }
 
-    fn of(state: PressedState, interface: ContactInterface, contact: &SlidingContact) -> Self {
+    /// One of the states of [`Self::range`] with its contact edge.
+    pub fn of(mesh: &Mesh, contact: &SlidingContact, state: PressedState) -> Self {
+        let interface = ContactInterface::of(mesh);
         Self {
             state,
             friction: interface.steady_friction(contact),
@@ -98,19 +90,17 @@ impl SteadySliding {
             }
             values
         };
-        let interface = ContactInterface::of(&annulus.mesh);
         let state = &state.state;
-        let over_nodes = |values: &Vec<f64>| {
-            (0..interface.len()).map(|i| values[i % sector.contact_count]).collect()
-        };
+        let count = sector.sector_count();
+        let over_nodes = |values: &Vec<f64>| values.repeat(count);
         let state = PressedState {
             displacements: state.displacements.iter().map(|free| repeat(free)).collect(),
             normal_forces: state.normal_forces.iter().map(over_nodes).collect(),
             stiffnesses: state.stiffnesses.iter().map(over_nodes).collect(),
-            is_pressed: vec![true; interface.len()],
+            is_pressed: vec![true; count * sector.contact_count],
             frozen_below: 0.0,
         };
-        Self::of(state, interface, contact)
+        Self::of(&annulus.mesh, contact, state)
     }
 
     /// Contact pressure at each contact node `p_i = N_i / w_i`, Pa.
@@ -127,21 +117,19 @@ impl SteadySliding {
         let lever = self.interface.counterface.lever();
         self.friction.drag * friction_coefficient * lever * normal
     }
-}
 
-impl SlidingRange {
     /// States at every one of `friction_coefficients`; of a contact that stiffens with pressure, if there is a `law`, on the springs of
     /// its tangents.
     ///
     /// # Errors
-    /// As [`SteadySliding::solve`]; the first friction coefficient without a state.
-    pub fn solve(
+    /// As [`Self::solve`]; the first friction coefficient without a state.
+    pub fn range(
         mesh: &Mesh,
         stiffness: &Triplets,
         contact: &SlidingContact,
         law: Option<NormalLaw>,
         friction_coefficients: &[f64],
-    ) -> Result<Self, PrestressError> {
+    ) -> Result<PressedRange, PrestressError> {
         let mut supported = stiffness.clone();
         let [springs, _] = assemble_supports(mesh);
         supported.entries.extend(springs.entries);
@@ -149,13 +137,12 @@ impl SlidingRange {
         let points = interface.points(contact);
         let total = mesh.dof_count();
         let elimination = Elimination::holding(total, mesh.held_dofs());
-        let of_states = |state| SteadySliding::of(state, interface.clone(), contact);
         if mesh.is_cyclic && law.is_none() {
             // Full sliding on the annulus, whose normal forces do not depend on friction.
             let full = FullSliding::new(&supported, elimination, &points)?;
             let state = full.state(&vec![0.0; total], contact.interference, None)?;
             check_pressed(&interface, &points, &state.normal_forces[0])?;
-            return Ok(Self::of_one(of_states(state), friction_coefficients.len()));
+            return Ok(PressedRange::of_one(state, friction_coefficients.len()));
         }
         let pressing = Pressing {
             stiffness: &supported,
@@ -174,7 +161,7 @@ impl SlidingRange {
         if let Some(state) = found.states.iter().find(|_| mesh.is_cyclic) {
             check_pressed(&interface, &points, &state.normal_forces(friction_coefficients[0]))?;
         }
-        Ok(found.map(of_states))
+        Ok(found)
     }
 }
 

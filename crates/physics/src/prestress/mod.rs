@@ -44,7 +44,7 @@ pub use assembly::{Assembly, Joined};
 pub use complementarity::PressedRange;
 pub use cyclic::CyclicTangent;
 pub use elimination::{Elimination, RigidFriction};
-pub use equilibrium::{SlidingRange, SteadySliding};
+pub use equilibrium::SteadySliding;
 pub use error::PrestressError;
 pub use joint::{BaseChoice, SlidingSurfaces, TiedSurfaces};
 pub use options::{DampingModel, TangentOptions};

@@ -7,8 +7,8 @@ use frictionsim_physics::contact::{ContactStiffness, ContactSurface, Point, Turn
 use frictionsim_physics::fem::assemble_stiffness;
 use frictionsim_physics::mesh::{CyclicSymmetry, Mesh};
 use frictionsim_physics::prestress::{
-    Assembly, BaseChoice, PressedRange, PressedState, SlidingRange, SlidingSurfaces,
-    SlidingTangent, TangentOptions,
+    Assembly, BaseChoice, PressedRange, PressedState, SlidingSurfaces, SlidingTangent,
+    SteadySliding, TangentOptions,
 };
 use frictionsim_results::cea::ContactPlace;
 use std::borrow::Cow;
@@ -60,9 +60,10 @@ impl WholeMesh {
             _ => {
                 let stiffness = assemble_stiffness(&mesh, case.materials());
                 let (law, all) = (options.contact.law, [frictions, &own].concat());
-                let range = SlidingRange::solve(&mesh, &stiffness, contact, law, &all)?;
-                let base = Box::new(range.states[place_of_own(&range)].clone());
-                (range.map(|own| own.state), SteadyState::Plane(base))
+                let range = SteadySliding::range(&mesh, &stiffness, contact, law, &all)?;
+                let own = range.states[place_of_own(&range)].clone();
+                let base = SteadySliding::of(&mesh, contact, own);
+                (range, SteadyState::Plane(Box::new(base)))
             }
         };
         Ok(Self { symmetry: used_symmetry(case, &mesh), mesh, range, options, sliding })
@@ -184,7 +185,7 @@ impl WholeMesh {
 }
 
 /// Which state is that at the case's own friction coefficient.
-fn place_of_own<S>(range: &PressedRange<S>) -> usize {
+fn place_of_own(range: &PressedRange) -> usize {
     *range.state_of.last().expect("the case's own friction coefficient comes last")
 }
 

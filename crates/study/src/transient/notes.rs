@@ -75,7 +75,7 @@ impl TransientStudy<'_> {
         let stiffness = assemble_stiffness(&self.stepped.mesh, case.materials_in_time());
         let contact = &case.contact;
         let law = contact.stiffness.law;
-        let base = SteadySliding::solve_with(&self.stepped.mesh, &stiffness, &contact.sliding, law);
+        let base = SteadySliding::solve(&self.stepped.mesh, &stiffness, &contact.sliding, law);
         base.err().and_then(jams)
     }
 

@@ -35,7 +35,7 @@ fn rigid_rotation_leaves_the_prestressed_edge_in_balance() {
     for element in [ElementKind::Quad4, ElementKind::Quad8] {
         let (mesh, material) = disc(element);
         let elastic = assemble_stiffness(&mesh, &material);
-        let base = SteadySliding::solve(&mesh, &elastic, &turning(-60.0)).unwrap();
+        let base = SteadySliding::solve(&mesh, &elastic, &turning(-60.0), None).unwrap();
         let turnings = base.interface.turnings();
         let mut prestress = turned(&base.points, &turnings, (&base.state, 0));
         for (terms, displacement) in prestress.iter_mut().zip(&base.displacements) {
@@ -64,7 +64,7 @@ fn rigid_rotation_leaves_the_prestressed_edge_in_balance() {
 fn every_matrix_is_symmetric_without_friction() {
     let (mesh, material) = disc(ElementKind::Quad4);
     let elastic = assemble_stiffness(&mesh, &material);
-    let base = SteadySliding::solve(&mesh, &elastic, &turning(60.0)).unwrap();
+    let base = SteadySliding::solve(&mesh, &elastic, &turning(60.0), None).unwrap();
     for normal_stiffness in [None, Some(7.4e12)] {
         let tangent = SlidingTangent::linearize(
             &mesh,

@@ -77,7 +77,7 @@ impl TransientModel<'_> {
 
     fn sliding_edge(&self, mesh: &Mesh) -> Result<SteadySliding, PrestressError> {
         let elastic = assemble_stiffness(mesh, self.material);
-        SteadySliding::solve_with(mesh, &elastic, &self.contact, self.stiffness.law)
+        SteadySliding::solve(mesh, &elastic, &self.contact, self.stiffness.law)
     }
 
     fn sliding_face(&self, sector: &SolidSector) -> Result<SolidSliding, PrestressError> {
