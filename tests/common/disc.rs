@@ -158,7 +158,7 @@ pub fn sweep_request(friction_coefficients: &[f64], limit: ModeLimit) -> SweepRe
     SweepRequest::new(friction_coefficients, limit)
 }
 
-/// Small motions around steady sliding.
+/// Small motions around steady sliding, to friction coefficients of 0.4 where contact stiffens.
 pub fn linearized(
     mesh: &Mesh,
     material: &dyn MaterialField,
@@ -166,7 +166,9 @@ pub fn linearized(
     options: &TangentOptions,
 ) -> SlidingTangent {
     let elastic = assemble_stiffness(mesh, material);
-    let base = SteadySliding::solve(mesh, &elastic, contact, options.contact.law).unwrap();
+    let law = options.contact.law;
+    let range = SteadySliding::range(mesh, &elastic, contact, law, &[0.0, 0.4]).unwrap();
+    let base = SteadySliding::of(mesh, contact, range.states[0].clone());
     SlidingTangent::linearize(mesh, material, &elastic, &base, options)
 }
 
