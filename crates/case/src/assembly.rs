@@ -2,10 +2,10 @@
 
 use super::contact::section_of;
 use super::contacts::{NamedContact, contact, short_form, unit};
-use super::imported::{FileParts, ImportError, near_name};
+use super::imported::{FileParts, near_name};
 use super::tables::TableFiles;
 use super::value::quote;
-use super::{Case, Contact, Section, refuse_if};
+use super::{Case, Contact, Diagnostic, Section, refuse_if};
 use frictionsim_physics::contact::{
     ContactStiffness, Counterpart, Motion, PointKind, RigidCounterface, RigidMotion, SlidingContact,
 };
@@ -188,15 +188,28 @@ fn inertia(section: &Section<'_>) -> Option<RotationFrame> {
 pub(super) fn assemble(
     file: &FileParts<'_>,
     parts: AssemblyParts,
-) -> Result<AssemblyBody, ImportError> {
+) -> Result<AssemblyBody, Diagnostic> {
+    let own = file.own;
     let (read, _) = file.shaped("")?;
-    let mesh = Mesh::from_solids(&read, file.own.scale, &file.own.conditions);
-    let mesh = mesh.map_err(|error| file.unusable(error))?;
-    let region = |name: &str, key: &str| named(&mesh.regions, name, key, REGION);
+    let mesh = Mesh::from_solids(&read, own.scale, &own.conditions);
+    let mesh = mesh.map_err(|error| own.unusable(error))?;
+    let find = |known: &[String], what: &str, name: &str, key: &str| {
+        let place = known.iter().position(|other| other == name);
+        place.ok_or_else(|| {
+            let list: Vec<String> = known.iter().map(|name| format!("\"{name}\"")).collect();
+            let message = format!(
+                "{key}: the mesh file has no {what} \"{name}\"; it has {}{}",
+                list.join(", "),
+                near_name(name, known)
+            );
+            own.error(key, message, "names none of its parts")
+        })
+    };
+    let region = |name: &str, key: &str| find(&mesh.regions, "region (physical volume)", name, key);
     let boundaries: Vec<String> = mesh.boundaries.iter().map(|b| b.name.clone()).collect();
-    let surface = |name: &str, key: &str| named(&boundaries, name, key, "surface");
-    let unknown = |name: &str| absent(&mesh.regions, name, &format!("materials.{name}"), REGION);
-    let mut materials = file.materials_of(&mesh.regions, unknown)?;
+    let surface = |name: &str, key: &str| find(&boundaries, "surface", name, key);
+    let of_material = |name: &str| region(name, &format!("materials.{name}"));
+    let mut materials = file.materials_of(&mesh.regions, of_material)?;
     for material in &mut materials {
         material.elastic.formulation = PlaneFormulation::ThreeDimensional;
     }
@@ -205,9 +218,9 @@ pub(super) fn assemble(
         motions.push(Motion { regions: vec![region(&name, &format!("motion.{name}"))?], ..motion });
     }
     let mut ties = Vec::new();
-    for (name, [own, counter]) in parts.ties {
+    for (name, [side, counter]) in parts.ties {
         ties.push(TiedSurfaces {
-            surface: surface(&own, &format!("ties.{name}.surface"))?,
+            surface: surface(&side, &format!("ties.{name}.surface"))?,
             counter: surface(&counter, &format!("ties.{name}.counter"))?,
             name,
         });
@@ -215,13 +228,13 @@ pub(super) fn assemble(
     let reference = parts.contacts.first().map(|contact| contact.friction_coefficient);
     let mut contacts = Vec::new();
     for NamedContact {
-        sides: [own, counter],
-        keys: [own_key, counter_key],
+        sides: [side, counter],
+        keys: [side_key, counter_key],
         friction_coefficient,
         mut surfaces,
     } in parts.contacts
     {
-        surfaces.surface = surface(&own.unwrap_or_default(), &own_key)?;
+        surfaces.surface = surface(&side.unwrap_or_default(), &side_key)?;
         if let (Some(counter), None) = (counter, surfaces.counter.rigid()) {
             surfaces.counter = Counterpart::Surface(surface(&counter, &counter_key)?);
         }
@@ -232,26 +245,6 @@ pub(super) fn assemble(
         contacts.push(surfaces);
     }
     Ok(AssemblyBody { mesh: Arc::new(mesh), materials, ties, contacts, motions, base: parts.base })
-}
-
-/// What a mesh file calls a region.
-const REGION: &str = "region (physical volume)";
-
-/// Place of a name among those of a mesh file.
-fn named(known: &[String], name: &str, key: &str, what: &str) -> Result<usize, ImportError> {
-    let place = known.iter().position(|other| other == name);
-    place.ok_or_else(|| absent(known, name, key, what))
-}
-
-/// The error of a name that is none of a mesh file's.
-fn absent(known: &[String], name: &str, key: &str, what: &str) -> ImportError {
-    let list: Vec<String> = known.iter().map(|name| format!("\"{name}\"")).collect();
-    let message = format!(
-        "{key}: the mesh file has no {what} \"{name}\"; it has {}{}",
-        list.join(", "),
-        near_name(name, known)
-    );
-    ImportError::new(key, message, "names none of its parts")
 }
 
 impl Case {

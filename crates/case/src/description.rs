@@ -5,7 +5,7 @@ use super::elastic::elastic;
 use super::modifications::Modification;
 use super::tables::{TableFiles, modulus_table};
 use super::words::FilePart;
-use super::{Section, UnitsWord, boundaries, modifications, refuse_if};
+use super::{RawCase, Section, UnitsWord, boundaries, modifications, refuse_if};
 use frictionsim_physics::fem::{
     ElasticMaterial, PlaneFormulation, RayleighDamping, RegionMaterial,
 };
@@ -23,10 +23,11 @@ pub struct Damping {
 
 /// What describes the body of a case.
 pub(super) struct Description<'a> {
+    pub raw: &'a RawCase,
     pub root: &'a Section<'a>,
     pub geometry: Section<'a>,
     pub mesh: Section<'a>,
-    pub tables: &'a TableFiles<'a>,
+    pub tables: TableFiles<'a>,
     /// The mesh file, and the factor on its coordinates.
     pub file: Option<String>,
     pub scale: f64,
@@ -40,8 +41,9 @@ pub(super) struct Description<'a> {
 }
 
 impl<'a> Description<'a> {
-    pub fn read(root: &'a Section<'a>, tables: &'a TableFiles<'a>) -> Self {
-        let common = material(root, tables);
+    pub fn read(root: &'a Section<'a>, raw: &'a RawCase) -> Self {
+        let tables = TableFiles::of(raw);
+        let common = material(root, &tables);
         let modifications = modifications::sections(root);
         let conditions = boundaries::all(root);
         let mesh = root.section("mesh", true);
@@ -50,6 +52,7 @@ impl<'a> Description<'a> {
         let geometry = root.section("geometry", file.is_none());
         let thickness = geometry.number("thickness");
         let own = Self {
+            raw,
             root,
             geometry,
             mesh,

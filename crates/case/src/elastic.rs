@@ -12,13 +12,12 @@ const ISOTROPIC: [&str; 2] = ["young_modulus", "poisson_ratio"];
 const ORTHOTROPIC: [&str; 3] = ["young_moduli", "poisson_ratios", "shear_moduli"];
 
 /// About what the body is built, which decides where the axes of a material can lie.
-pub(super) enum Surroundings {
-    /// Equal sectors about z through the origin; in the plane or not.
-    Sectors { is_plane: bool },
-    /// A plane body, and the axis of its counterface.
-    Plane { center: Option<[f64; 2]> },
-    /// Solid bodies, and the axis of their motion; else why there is none.
-    Solids { axis: Result<[[f64; 3]; 2], &'static str> },
+pub(super) struct Surroundings {
+    /// Direction and a point of the axis of the body or of its motion; else why there is none.
+    pub axis: Result<[[f64; 3]; 2], &'static str>,
+    pub is_plane: bool,
+    /// Whether it consists of equal sectors about that axis.
+    pub has_sectors: bool,
 }
 
 /// The loss factor of a section, at most 1.
@@ -175,14 +174,7 @@ pub(super) fn place_axes(
         refuse!(section, key, "{}: {message}", section.name(key); "{label}"; "{help}");
     };
     if let MaterialAxes::Cylindrical { axis, center } = &mut orthotropy.axes {
-        let found = match body {
-            Surroundings::Sectors { .. } => Ok([[0.0, 0.0, 1.0], [0.0; 3]]),
-            Surroundings::Plane { center } => center
-                .map(|[x, y]| [[0.0, 0.0, 1.0], [x, y, 0.0]])
-                .ok_or("the counterface is a plane, which has no axis"),
-            Surroundings::Solids { axis } => *axis,
-        };
-        match found {
+        match body.axis {
             Ok(found) => [*axis, *center] = found,
             Err(reason) => reject(
                 format!("\"cylindrical\" axes lie about the axis of the motion: {reason}"),
@@ -191,19 +183,14 @@ pub(super) fn place_axes(
             ),
         }
     }
-    let is_plane = match body {
-        Surroundings::Sectors { is_plane } => *is_plane,
-        Surroundings::Plane { .. } => true,
-        Surroundings::Solids { .. } => false,
-    };
-    if is_plane && !orthotropy.is_symmetric_across_z() {
+    if body.is_plane && !orthotropy.is_symmetric_across_z() {
         reject(
             "motions in the plane would cause others across it: a plane body needs one axis of the material along z"
                 .to_owned(),
             "no plane of symmetry",
             "give two vectors in the plane, or one in it and [0, 0, 1]",
         );
-    } else if matches!(body, Surroundings::Sectors { .. }) && !orthotropy.is_invariant_about_z() {
+    } else if body.has_sectors && !orthotropy.is_invariant_about_z() {
         let [e, nu] = [orthotropy.young_moduli[0], orthotropy.poisson_ratios[0]];
         reject(
             "fixed axes make the sectors of a body of revolution differ from one another, and its motions have no \

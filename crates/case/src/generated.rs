@@ -23,7 +23,8 @@ pub(super) fn generated(own: &mut Description<'_>) -> (Option<Body>, Contact) {
     let (root, is_solid) = (own.root, own.is_solid());
     imported::refuse_sectors(&own.mesh);
     let axial = solid::axial_elements(own);
-    let sectors = Surroundings::Sectors { is_plane: !is_solid };
+    let axis = Ok([[0.0, 0.0, 1.0], [0.0; 3]]);
+    let sectors = Surroundings { axis, is_plane: !is_solid, has_sectors: true };
     place_axes(root, &["material"], &mut own.common.elastic, &sectors);
     let (mut annulus, mut shaft) = annulus(own);
     if let Some(shaft) = &mut shaft {
@@ -223,7 +224,7 @@ fn materials(own: &Description<'_>, has_shaft: bool) -> Option<RegionMaterial> {
                 "describe the disc in [material] and a shaft in [materials.shaft]"),
         }
     }
-    let read = imported::materials(own.root, &own.common.elastic, own.tables);
+    let read = imported::materials(own);
     let mut shafts = read.into_iter().filter(|(name, _)| name == "shaft");
     shafts.next().map(|(_, material)| material)
 }

@@ -3,7 +3,7 @@
 use super::description::{Description, has_common_constants};
 use super::elastic::elastic;
 use super::modifications::{Misfit, reshaped};
-use super::tables::{TableFiles, modulus_table};
+use super::tables::modulus_table;
 use super::value::quote;
 use super::words::CounterfaceWord;
 use super::{
@@ -11,7 +11,7 @@ use super::{
     suggestion,
 };
 use frictionsim_physics::contact::ContactInterface;
-use frictionsim_physics::fem::{ElasticMaterial, RayleighDamping, RegionMaterial};
+use frictionsim_physics::fem::{RayleighDamping, RegionMaterial};
 use frictionsim_physics::mesh::{
     BodyError, BodyPart, BodySpecification, CounterfaceSpecification, CyclicSymmetry, FileMesh,
     Mesh, refined_file, repeated_file,
@@ -76,12 +76,8 @@ pub(super) fn contact_place(section: &Section<'_>) -> (BodySpecification, Option
 }
 
 /// `[materials.*]`: elasticity in place of the common one, damping of its own, and tables over frequency.
-pub(super) fn materials(
-    root: &Section<'_>,
-    common: &ElasticMaterial,
-    files: &TableFiles<'_>,
-) -> Vec<(String, RegionMaterial)> {
-    let all = materials_and(root, common, files, |section| {
+pub(super) fn materials(own: &Description<'_>) -> Vec<(String, RegionMaterial)> {
+    let all = materials_and(own, |section| {
         for key in section.refused("radii heights") {
             refuse!(section, key => "is of a part of a generated three-dimensional body";
                 "of other bodies"; "leave it out");
@@ -92,16 +88,15 @@ pub(super) fn materials(
 
 /// [`materials`] with what else their sections hold.
 pub(super) fn materials_and<T>(
-    root: &Section<'_>,
-    common: &ElasticMaterial,
-    files: &TableFiles<'_>,
+    own: &Description<'_>,
     beside: impl Fn(&Section<'_>) -> T,
 ) -> Vec<(String, (RegionMaterial, T))> {
-    root.each("materials", |section| {
+    let formulation = own.common.elastic.formulation;
+    own.root.each("materials", |section| {
         let coefficients = ["mass_coefficient", "stiffness_coefficient"];
         let coefficients = coefficients.map(|key| section.optional_number(key));
-        let table = modulus_table(section, files);
-        let elastic = elastic(section, common.formulation, table.as_deref());
+        let table = modulus_table(section, &own.tables);
+        let elastic = elastic(section, formulation, table.as_deref());
         let damping = match coefficients {
             [None, None] => None,
             [mass, stiffness] => Some(RayleighDamping {
@@ -124,11 +119,6 @@ pub(super) struct FileParts<'a> {
 }
 
 impl FileParts<'_> {
-    /// The error of a file that makes no body.
-    pub(super) fn unusable(&self, error: BodyError) -> ImportError {
-        ImportError::of(error, &self.bytes.file)
-    }
-
     /// What the file has, or all the sectors of which it has one.
     fn whole(&self) -> Result<Arc<FileMesh>, BodyError> {
         let read = self.bytes.read()?;
@@ -140,27 +130,36 @@ impl FileParts<'_> {
     }
 
     /// The whole body with what modifications take away and move, and how far they move its counterface, m.
-    pub(super) fn shaped(&self, contact: &str) -> Result<(Arc<FileMesh>, [f64; 2]), ImportError> {
-        let whole = self.whole().map_err(|error| self.unusable(error))?;
-        reshaped(whole, self.own.scale, contact, &self.own.modifications)
-            .map_err(ImportError::misfit)
+    pub(super) fn shaped(&self, contact: &str) -> Result<(Arc<FileMesh>, [f64; 2]), Diagnostic> {
+        let own = self.own;
+        let whole = self.whole().map_err(|error| own.unusable(error))?;
+        let shaped = reshaped(whole, own.scale, contact, &own.modifications);
+        shaped.map_err(|misfit| own.misfit(misfit))
     }
 
-    /// The material of each region; `unknown` is the error of a name that none of them has.
+    /// The material of each region; `find` refuses a name that none of them has.
     pub(super) fn materials_of(
         &self,
         regions: &[String],
-        unknown: impl Fn(&str) -> ImportError,
-    ) -> Result<Vec<RegionMaterial>, ImportError> {
-        let mut names = self.materials.iter().map(|(name, _)| name);
-        if let Some(name) = names.find(|name| !regions.contains(name)) {
-            return Err(unknown(name));
+        find: impl Fn(&str) -> Result<usize, Diagnostic>,
+    ) -> Result<Vec<RegionMaterial>, Diagnostic> {
+        for (name, _) in &self.materials {
+            find(name)?;
         }
         let common = Some(&self.own.common).filter(|_| has_common_constants(self.own.root));
         let material = |region: &String| {
             let own = self.materials.iter().find(|(name, _)| name == region);
             let own = own.map(|(_, material)| material).or(common);
-            own.cloned().ok_or_else(|| ImportError::without_material(&self.bytes.file, region))
+            own.cloned().ok_or_else(|| {
+                let message =
+                    format!("{}: the region \"{region}\" has no material", self.bytes.file);
+                let help = format!(
+                    "give it a section [materials.{}], or [material] for all regions without one",
+                    quote(region)
+                );
+                let at = self.own.raw.place("materials");
+                Diagnostic::error(message, "no section for it", at, help)
+            })
         };
         regions.iter().map(material).collect()
     }
@@ -200,47 +199,24 @@ pub(super) fn symmetry(
     }
 }
 
-/// Why a mesh file does not describe the body, and the key of the case to blame.
-pub(super) struct ImportError {
-    pub key: String,
-    pub message: String,
-    pub label: String,
-    pub help: Option<String>,
-}
-
-impl ImportError {
-    /// What a modification or a motion asks for that the body does not have.
-    pub(super) fn misfit((key, why): Misfit) -> Self {
-        let message = format!("{key}: {why}");
-        Self::new(&key, message, "does not fit the body")
+impl Description<'_> {
+    /// An error at a key of the case, with the usage of the key as remedy.
+    pub(super) fn error(&self, key: &str, message: String, label: &str) -> Diagnostic {
+        Diagnostic::error(message, label, self.raw.place(key), suggestion::usage(key))
     }
 
-    pub(super) fn new(key: &str, message: String, label: &str) -> Self {
-        Self { key: key.to_owned(), message, label: label.to_owned(), help: suggestion::usage(key) }
+    /// What a modification asks for that the body does not have.
+    fn misfit(&self, (key, why): Misfit) -> Diagnostic {
+        self.error(&key, format!("{key}: {why}"), "does not fit the body")
     }
 
-    /// A region of the mesh file that no section gives a material.
-    pub(super) fn without_material(file: &str, region: &str) -> Self {
-        let message = format!("{file}: the region \"{region}\" has no material");
-        let help = format!(
-            "give it a section [materials.{}], or [material] for all regions without one",
-            quote(region)
-        );
-        Self { help: Some(help), ..Self::new("materials", message, "no section for it") }
-    }
-
-    /// Reports it at its key.
-    pub(super) fn report(self, raw: &RawCase, root: &Section<'_>) {
-        let at = raw.place(&self.key);
-        root.findings.push(Diagnostic::error(self.message, self.label, at, self.help));
-    }
-
-    /// An error of the mesh file `file`, at the key that asked for what the mesh does not have.
-    pub(super) fn of(error: BodyError, file: &str) -> Self {
-        let message = format!("{file}: {error}");
+    /// A mesh of which no body can be made, at the key that asked for what it does not have.
+    pub(super) fn unusable(&self, error: BodyError) -> Diagnostic {
+        let message = format!("{}: {error}", self.file.as_deref().unwrap_or_default());
         let BodyError::Request { part, .. } = error else {
             // What the key means is no remedy for what the file holds.
-            return Self { help: None, ..Self::new("mesh.file", message, "cannot be used") };
+            let at = self.raw.place("mesh.file");
+            return Diagnostic::error(message, "cannot be used", at, None);
         };
         let (key, label) = match part {
             BodyPart::Contact => ("contact.boundary".to_owned(), "the contact curve"),
@@ -253,7 +229,7 @@ impl ImportError {
             BodyPart::Scale => ("mesh.scale".to_owned(), "metres?"),
             BodyPart::Sectors => ("mesh.sectors".to_owned(), "the sector does not fit"),
         };
-        Self::new(&key, message, label)
+        self.error(&key, message, label)
     }
 }
 
@@ -268,29 +244,33 @@ pub(super) fn import(
     parts: &FileParts<'_>,
     place: BodySpecification,
     interference: f64,
-) -> Result<ImportedBody, ImportError> {
+) -> Result<ImportedBody, Diagnostic> {
+    let own = parts.own;
     let (read, way) = parts.shaped(&place.contact)?;
     let specification = BodySpecification {
-        scale: parts.own.scale,
-        counterface: moved(&place, way).map_err(ImportError::misfit)?,
-        conditions: parts.own.conditions.clone(),
+        scale: own.scale,
+        counterface: moved(&place, way).map_err(|misfit| own.misfit(misfit))?,
+        conditions: own.conditions.clone(),
         ..place
     };
-    let mesh = Mesh::from_gmsh(&read, &specification).map_err(|error| parts.unusable(error))?;
+    let mesh = Mesh::from_gmsh(&read, &specification).map_err(|error| own.unusable(error))?;
     check_meeting(&mesh, &specification, interference).map_err(|message| {
-        ImportError::new("contact.counter_boundary", message, "the bodies do not meet")
+        own.error("contact.counter_boundary", message, "the bodies do not meet")
     })?;
-    let unknown = |name: &str| {
-        let regions = mesh.regions.iter().map(|region| format!("\"{region}\""));
-        let message = format!(
-            "{}: no physical surface is called \"{name}\"; the file has {}{}",
-            parts.bytes.file,
-            first_of(regions, MOST_NAMES),
-            near_name(name, &mesh.regions)
-        );
-        ImportError::new(&format!("materials.{name}"), message, "no such surface")
+    let find = |name: &str| {
+        let place = mesh.regions.iter().position(|region| region == name);
+        place.ok_or_else(|| {
+            let regions = mesh.regions.iter().map(|region| format!("\"{region}\""));
+            let message = format!(
+                "{}: no physical surface is called \"{name}\"; the file has {}{}",
+                parts.bytes.file,
+                first_of(regions, MOST_NAMES),
+                near_name(name, &mesh.regions)
+            );
+            own.error(&format!("materials.{name}"), message, "no such surface")
+        })
     };
-    let materials = parts.materials_of(&mesh.regions, unknown)?;
+    let materials = parts.materials_of(&mesh.regions, find)?;
     Ok(ImportedBody::new(mesh, materials, read, specification))
 }
 

@@ -171,11 +171,10 @@ impl Case {
         let findings = Findings::of(&effective);
         let root = Section::root(&findings, &effective, raw.end());
         let title = title(&raw, root.optional_text("title").unwrap_or_default());
-        let tables = tables::TableFiles::of(&raw);
-        let mut described = description::Description::read(&root, &tables);
-        let (body, contact, mesh) = model::body(&mut described, &raw);
+        let mut described = description::Description::read(&root, &raw);
+        let (body, contact, mesh) = model::body(&mut described);
         let (material, thickness) = (described.common.elastic, described.thickness);
-        let tables = tables.read.into_inner();
+        let tables = described.tables.read.into_inner();
         let damping = root.section("damping", false).closed(description::damping);
         let own_friction = contact.sliding.friction_coefficient;
         let cea = root.read_section("cea", |own| cea::cea(own, &root, body.as_ref(), own_friction));

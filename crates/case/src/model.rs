@@ -5,10 +5,10 @@ use super::contact::contact;
 use super::description::{Description, has_common_constants};
 use super::elastic::{Surroundings, place_axes};
 use super::generated::generated;
-use super::imported::{FileParts, ImportError};
+use super::imported::FileParts;
 use super::{
-    Body, Contact, MeshBytes, RawCase, Section, assembly, attachments, caution, caution_if,
-    imported, refuse, refuse_if,
+    Body, Contact, MeshBytes, Section, assembly, attachments, caution, caution_if, imported,
+    refuse, refuse_if,
 };
 use frictionsim_physics::fem::RegionMaterial;
 use frictionsim_physics::mesh::{BodySpecification, CounterfaceSpecification};
@@ -16,23 +16,19 @@ use frictionsim_physics::prestress::BaseChoice;
 
 /// The body with its modifications, its contact, and the mesh file that it is of; no body where a mesh file makes none,
 /// which is an error already.
-pub(super) fn body(
-    own: &mut Description<'_>,
-    raw: &RawCase,
-) -> (Option<Body>, Contact, Option<MeshBytes>) {
+pub(super) fn body(own: &mut Description<'_>) -> (Option<Body>, Contact, Option<MeshBytes>) {
     let (mut body, contact, mesh) = match own.file.clone() {
         None => {
             let (body, contact) = generated(own);
             (body, contact, None)
         }
-        Some(file) => of_file(own, raw, &file),
+        Some(file) => of_file(own, &file),
     };
     if let Some(body) = &mut body {
         attachments::attach(own.root, &own.modifications, body, own.thickness);
         let held = body.imported().map_or(Ok(()), |own| own.mesh.check_held());
         if let Err(error) = held {
-            let file = mesh.as_ref().map_or("", |mesh| mesh.file.as_str());
-            ImportError::of(error, file).report(raw, own.root);
+            own.root.findings.push(own.unusable(error));
         }
     }
     (body, contact, mesh)
@@ -45,35 +41,33 @@ enum Joints {
 }
 
 /// The body of a mesh file with what modifications take away or move, its contact, and the file.
-fn of_file(
-    own: &mut Description<'_>,
-    raw: &RawCase,
-    file: &str,
-) -> (Option<Body>, Contact, Option<MeshBytes>) {
+fn of_file(own: &mut Description<'_>, file: &str) -> (Option<Body>, Contact, Option<MeshBytes>) {
     let root = own.root;
     ignore_generated(&own.geometry, &own.mesh);
     own.geometry.close();
-    let bytes = imported::mesh_bytes(raw, file);
+    let bytes = imported::mesh_bytes(own.raw, file);
     let read = bytes.as_ref().ok().and_then(|bytes| bytes.read().ok());
     let has_solids = read.is_some_and(|read| read.dimension == 3);
-    // What slides on what, and the axis that sectors and cylindrical axes lie about.
-    let (joints, contact, axis, surroundings) =
-        if root.has("contacts") || root.has("ties") || has_solids {
-            let (parts, contact) = solid_joints(own, has_solids);
-            let axis = if parts.turns() { parts.axis() } else { Ok([[0.0, 0.0, 1.0], [0.0; 3]]) };
-            let surroundings = Surroundings::Solids { axis: parts.axis() };
-            (Joints::Solids(parts), contact, axis, surroundings)
-        } else {
-            let (place, contact) = plane_joint(own);
-            let center = match place.counterface {
-                CounterfaceSpecification::Cylinder { center, .. } => Some(center),
-                CounterfaceSpecification::Plane { .. } => None,
-            };
-            let axis = center.map(|[x, y]| [[0.0, 0.0, 1.0], [x, y, 0.0]]);
-            let axis = axis.ok_or("the counterface is a plane");
-            (Joints::Plane(place), contact, axis, Surroundings::Plane { center })
+    // What slides on what, and the axes of sectors and of materials.
+    let (joints, contact, axes) = if root.has("contacts") || root.has("ties") || has_solids {
+        let (parts, contact) = solid_joints(own, has_solids);
+        let axis = if parts.turns() { parts.axis() } else { Ok([[0.0, 0.0, 1.0], [0.0; 3]]) };
+        let axes = [axis, parts.axis()];
+        (Joints::Solids(parts), contact, axes)
+    } else {
+        let (place, contact) = plane_joint(own);
+        let axis = match place.counterface {
+            CounterfaceSpecification::Cylinder { center: [x, y], .. } => {
+                Some([[0.0, 0.0, 1.0], [x, y, 0.0]])
+            }
+            CounterfaceSpecification::Plane { .. } => None,
         };
-    let symmetry = imported::symmetry(&own.mesh, axis);
+        let lacks = ["the counterface is a plane", "the counterface is a plane, which has no axis"];
+        (Joints::Plane(place), contact, lacks.map(|why| axis.ok_or(why)))
+    };
+    let is_plane = matches!(joints, Joints::Plane(_));
+    let surroundings = Surroundings { axis: axes[1], is_plane, has_sectors: false };
+    let symmetry = imported::symmetry(&own.mesh, axes[0]);
     let materials = materials(own, &surroundings);
     let reject = |message: String| own.mesh.reject("file", message, "not readable", None);
     let bytes = bytes.map_err(reject).ok();
@@ -84,7 +78,7 @@ fn of_file(
             Joints::Plane(place) => imported::import(&parts, place, pushed).map(Body::Imported),
             Joints::Solids(joints) => assembly::assemble(&parts, joints).map(Body::Assembly),
         };
-        body.map_err(|error| error.report(raw, root)).ok()
+        body.map_err(|error| root.findings.push(error)).ok()
     });
     own.mesh.close();
     (body, contact, bytes)
@@ -112,7 +106,7 @@ fn solid_joints(own: &Description<'_>, has_solids: bool) -> (AssemblyParts, Cont
             "[contact] is for a body with one contact: this case has [contacts.*] or [ties.*]";
             "beside the contacts of an assembly"; "describe it under [contacts.{name}]");
     }
-    let (parts, contact) = assembly::sections(root, own.tables);
+    let (parts, contact) = assembly::sections(root, &own.tables);
     let cea = root.section("cea", false);
     caution_if!(cea.flag("geometric_stiffness") && parts.base == BaseChoice::Closed; cea,
         "geometric_stiffness",
@@ -124,14 +118,14 @@ fn solid_joints(own: &Description<'_>, has_solids: bool) -> (AssemblyParts, Cont
 /// `[materials.*]` with their axes and those of `[material]` laid into the body. A case without `[material]` gets the
 /// constants of its first region for what asks for one.
 fn materials(own: &mut Description<'_>, body: &Surroundings) -> Vec<(String, RegionMaterial)> {
-    let (root, common) = (own.root, &mut own.common.elastic);
-    place_axes(root, &["material"], common, body);
-    let mut all = imported::materials(root, common, own.tables);
+    let root = own.root;
+    place_axes(root, &["material"], &mut own.common.elastic, body);
+    let mut all = imported::materials(own);
     for (name, material) in &mut all {
         place_axes(root, &["materials", name], &mut material.elastic, body);
     }
     if let Some((_, first)) = all.first().filter(|_| !has_common_constants(root)) {
-        *common = first.elastic;
+        own.common.elastic = first.elastic;
     }
     all
 }

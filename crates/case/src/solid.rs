@@ -66,7 +66,7 @@ pub(super) fn parts(
     let radii = body.corner_radii().unwrap_or_default();
     let height = |layer: usize| body.thickness * layer as f64 / body.axial_elements as f64;
     let heights: Vec<f64> = (0..=body.axial_elements).map(height).collect();
-    let found = imported::materials_and(own.root, &own.common.elastic, own.tables, |section| {
+    let found = imported::materials_and(own, |section| {
         refuse_if!(!section.has("radii") && !section.has("heights"); section, "radii",
             "{} needs the radii or the heights between which it lies", section.name("radii");
             "lies nowhere"; "describe the rest of the body in [material]");
