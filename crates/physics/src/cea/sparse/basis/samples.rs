@@ -8,7 +8,9 @@ use crate::cea::sparse::linearization::Linearization;
 use crate::cea::sparse::mode::ReducedMode;
 use crate::cea::sparse::packed::PackedModes;
 use crate::cea::sparse::structure::StructureMatrices;
-use crate::cea::sparse::{BESIDE, CHANGE_PLACES, GROUP_WIDTH, MOST_ATTEMPTS, SAME_SPACE};
+use crate::cea::sparse::{
+    BESIDE, CHANGE_PLACES, GROUP_WIDTH, MOST_ATTEMPTS, RESIDUAL_BOUND, SAME_SPACE,
+};
 use crate::linalg::dense::join_columns;
 use crate::linalg::{LinalgError, Mat, MatrixPolynomial, c64};
 use crate::prestress::SlidingTangent;
@@ -17,10 +19,8 @@ use crate::prestress::SlidingTangent;
 const MOST_SHIFTS: usize = 6;
 /// Refinements of lossy modes whose corrections are kept beside the modes: with none of them convergence is slow and uneven.
 const HISTORY: usize = 3;
-/// Unknowns up to which complex factors beside lossy modes cost less than the rounds by the factors at rest that they save, and rounds of
-/// corrections by them: each leaves a hundredth or less.
+/// Unknowns up to which complex factors beside lossy modes cost less than the rounds by the factors at rest that they save.
 const MOST_LIGHT: usize = 3000;
-const LIGHT_ROUNDS: usize = 3;
 /// Unknowns up to which a problem, of twice that size, is decomposed: where its modes are lossy or do not converge. That takes a
 /// second or two for each friction value.
 pub(super) const MOST_DENSE: usize = 300;
@@ -116,7 +116,7 @@ impl BasisBuilder<'_> {
     fn refine_lossy(&mut self, mu: f64, known: usize) -> Result<(), CeaError> {
         let is_light = self.tangent.stiffness.dimension() <= MOST_LIGHT;
         let mut modes = self.model.solve_two_sided(mu, self.count)?;
-        for round in 0..if is_light { LIGHT_ROUNDS } else { LOSSY_ROUNDS } {
+        for round in 0..if is_light { MOST_ATTEMPTS } else { LOSSY_ROUNDS } {
             if is_light || round % HISTORY == 0 {
                 self.hold_solved(mu, &modes);
             }
@@ -127,10 +127,19 @@ impl BasisBuilder<'_> {
             if !has_grown {
                 break;
             }
-            modes = match self.model.followed(mu, &modes) {
-                Some(modes) => modes,
+            let found = match self.model.followed(mu, &modes) {
+                Some(found) => found,
                 None => self.model.solve_two_sided(mu, self.count)?,
             };
+            let before = std::mem::replace(&mut modes, found);
+            // What this round moved, the next one would move by a hundredth of.
+            let moved = |(old, new): (&ReducedMode, &ReducedMode)| {
+                (old.eigenvalue - new.eigenvalue).norm() / new.eigenvalue.norm()
+            };
+            let moved = before.iter().zip(&modes).map(moved).fold(0.0, f64::max);
+            if is_light && moved <= RESIDUAL_BOUND {
+                break;
+            }
         }
         let modes = self.model.solve_right(mu, self.count)?;
         self.hold_solved(mu, &modes);
