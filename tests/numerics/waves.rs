@@ -42,8 +42,8 @@ pub struct Differences {
     pub factor: f64,
     /// Largest error relative to the change over the parameter's own size, or to a thousandth of `|lambda|` where that is less.
     pub tolerance: f64,
-    /// Largest error of derivatives by friction, relative to `|lambda|`.
-    pub by_friction: f64,
+    /// Step of differences by friction, and the largest error of these relative to `|lambda|`.
+    pub by_friction: [f64; 2],
 }
 
 /// Branch by harmonic, rank and direction.
@@ -176,9 +176,10 @@ impl Differences {
         }
         let own: Vec<c64> = all.iter().map(|pair| pair.derivative).collect();
         let at = |more: f64| self.eigenvalues(model, Self::FRICTION + more);
-        let (worst, largest) = self.worst((&all, &own), [Self::FRICTION, 2e-3], &at);
+        let [step, bound] = self.by_friction;
+        let (worst, largest) = self.worst((&all, &own), [Self::FRICTION, step], &at);
         assert!(worst.0 < self.tolerance, "{what}, friction: {worst:?}");
-        assert!(largest < self.by_friction, "{what}, friction: {largest:e}");
+        assert!(largest < bound, "{what}, friction: {largest:e}");
         all.len()
     }
 }

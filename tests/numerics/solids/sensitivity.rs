@@ -12,7 +12,7 @@ fn kinds() -> &'static [ElementKind] {
 
 fn hold(model: &SolidModel, what: &str) {
     let limits_hz = [9e3; 2];
-    let (tolerance, by_friction) = (1e-7, 1e-8);
+    let (tolerance, by_friction) = (1e-7, [2e-3, 1e-7]);
     Differences { limits_hz, is_whole: true, factor: 1.0, tolerance, by_friction }
         .hold(model, what);
 }
