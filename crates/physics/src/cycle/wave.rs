@@ -203,12 +203,10 @@ pub struct Linearization {
     pub first: Vec<FirstHarmonic>,
 }
 
-/// What a unit of both forces does at one harmonic, and its derivatives with the frequencies and the parameter.
+/// What a unit of both forces does at one harmonic, and its derivatives with both frequencies and the parameter.
 struct HarmonicResponse {
-    slip_rate: c64,
-    receptance: Receptance,
-    changes: [Receptance; 3],
-    slip_rate_changes: [c64; 3],
+    receptances: [Receptance; 4],
+    slip_rates: [c64; 4],
 }
 
 impl HarmonicResponse {
@@ -225,7 +223,7 @@ impl HarmonicResponse {
         }
         let none = c64::new(0.0, 0.0);
         let changes = [(first, &still), (second, &still), (none, &by_damping)];
-        let (receptance, changes) = wave.body.receptance(
+        let (receptance, [by_first, by_second, by_parameter]) = wave.body.receptance(
             k,
             DynamicCoefficients::new(rate, damping),
             changes.map(|(rate_change, damping_change)| {
@@ -234,18 +232,14 @@ impl HarmonicResponse {
         );
         let [first, second] = wave.contact_orders(k);
         Self {
-            slip_rate: wave.contact_rate(k, state.frequencies()),
-            receptance,
-            changes,
-            slip_rate_changes: [first, second, none],
+            receptances: [receptance, by_first, by_second, by_parameter],
+            slip_rates: [wave.contact_rate(k, state.frequencies()), first, second, none],
         }
     }
 
     /// Displacement of the edge, and its derivatives.
     fn displacement(&self, force: [c64; 2]) -> [[c64; 2]; 4] {
-        let [first, second, third] = &self.changes;
-        [&self.receptance, first, second, third]
-            .map(|m| [0, 1].map(|row| m[(row, 0)] * force[0] + m[(row, 1)] * force[1]))
+        self.receptances.map(|m| [0, 1].map(|row| m[(row, 0)] * force[0] + m[(row, 1)] * force[1]))
     }
 }
 
@@ -278,22 +272,22 @@ impl Linearization {
             .collect();
         let enumerated = || responses.iter().enumerate();
         let gap_column = |j: usize| {
-            wave.values(enumerated().map(|(k, r)| wave.look_ahead(k) * r.receptance[(0, j)]))
+            wave.values(enumerated().map(|(k, r)| wave.look_ahead(k) * r.receptances[0][(0, j)]))
         };
-        let slip_column =
-            |j: usize| wave.values(enumerated().map(|(_, r)| r.slip_rate * r.receptance[(1, j)]));
+        let slip_column = |j: usize| {
+            wave.values(enumerated().map(|(_, r)| r.slip_rates[0] * r.receptances[0][(1, j)]))
+        };
         let moved = displacements(wave, state, parameter, &responses);
         let gap_of = |which: usize| {
             wave.values(enumerated().map(|(k, _)| wave.look_ahead(k) * moved[k][which][0]))
         };
         let velocity_change = |which: usize| {
             wave.values(enumerated().map(|(k, r)| {
-                let change = r.slip_rate_changes[which];
-                r.slip_rate * moved[k][1 + which][1] + change * moved[k][0][1]
+                r.slip_rates[0] * moved[k][which][1] + r.slip_rates[which] * moved[k][0][1]
             }))
         };
         let mut gap = gap_of(0);
-        let mut slip = wave.values(enumerated().map(|(k, r)| r.slip_rate * moved[k][0][1]));
+        let mut slip = wave.values(enumerated().map(|(k, r)| r.slip_rates[0] * moved[k][0][1]));
         let contact = &state.point.contact;
         gap.iter_mut().for_each(|gap| *gap -= contact.interference);
         let surface_speed = contact.rotation_speed * wave.body.radius;
@@ -301,18 +295,16 @@ impl Linearization {
 
         // By each frequency and by the parameter.
         let phases = &state.phases;
-        let scalars: Vec<usize> = (0..phases.len()).chain([2]).collect();
-        let by = scalars.iter();
+        let scalars = || (1..=phases.len()).chain([3]);
         let mut by: Vec<[Vec<f64>; 2]> =
-            by.map(|&which| [gap_of(1 + which), velocity_change(which)]).collect();
+            scalars().map(|which| [gap_of(which), velocity_change(which)]).collect();
         let first = phases.iter().enumerate().map(|(number, phase)| {
             let k = wave.first(number);
             let share = c64::from_polar(2.0 / wave.points() as f64, -phase.origin);
-            let by = scalars.iter();
             FirstHarmonic {
                 value: share * moved[k][0][1],
-                row: [0, 1].map(|j| share * responses[k].receptance[(1, j)]),
-                by: by.map(|&which| share * moved[k][1 + which][1]).collect(),
+                row: [0, 1].map(|j| share * responses[k].receptances[0][(1, j)]),
+                by: scalars().map(|which| share * moved[k][which][1]).collect(),
             }
         });
         let [by_gap, by_slip] = &mut by[phases.len()];
