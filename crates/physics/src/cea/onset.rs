@@ -8,9 +8,6 @@ use std::f64::consts::TAU;
 /// for it, and nothing crosses zero.
 const JUMP: f64 = 1e-6;
 
-/// How many times farther than a bracket is wide its ends have to be from zero, by their slopes, for a jump.
-const FAR: f64 = 100.0;
-
 /// Solves for one branch between friction coefficients at which it is known.
 pub(super) trait BranchSolver {
     /// The branch at one friction coefficient, with whatever the solver needs to find it nearby.
@@ -203,17 +200,6 @@ impl<B: BranchSolver> Search<'_, B> {
                 (high, top) = (state.clone(), friction);
             }
             best = state;
-            // A branch whose slopes at both ends lead nowhere near zero jumps across it; where it turns, as it may where the search
-            // began, they tell nothing.
-            let reach = FAR * (top - bottom);
-            let is_far = |state: &B::State| {
-                let point = self.solver.point(state);
-                Self::growth(&point).abs() > reach * point.rate.re.abs()
-            };
-            let has_closed = first.friction_coefficient < bottom && top < last.friction_coefficient;
-            if has_closed && is_far(&low) && is_far(&high) {
-                break;
-            }
             let newton = friction - Self::growth(&point) / point.rate.re;
             let is_inside = newton > bottom && newton < top;
             let next = if is_inside { newton } else { 0.5 * (bottom + top) };

@@ -93,7 +93,7 @@ impl MotionBody<'_> {
 
     /// What a motion is, told in so many harmonics.
     fn motion(&self, motion: &PeriodicMotion, harmonic_count: usize) -> CycleMotion {
-        let told = motion.harmonics.iter().take(harmonic_count);
+        let mut told = motion.harmonics.iter().take(harmonic_count);
         CycleMotion {
             main_frequency_hz: motion.frequency_hz,
             status: StatusFractions::of(motion.fractions),
@@ -110,7 +110,7 @@ impl MotionBody<'_> {
                 kick_velocity: None,
                 sound: None,
                 harmonic_count,
-                harmonic_remainder: told.last().map_or(1.0, |last| last.remainder),
+                harmonic_remainder: told.next_back().map_or(1.0, |last| last.remainder),
                 harmonics_needed: motion.harmonics_within(REMAINDER),
             }),
         }

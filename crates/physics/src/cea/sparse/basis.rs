@@ -2,14 +2,13 @@
 
 mod samples;
 
-use super::factors::StiffnessFactors;
 use super::full_problem::SharedAnalysis;
 use super::linearization::Linearization;
 use super::mode::ReducedMode;
 use super::open_residuals::OpenResiduals;
 use super::packed::PackedModes;
 use super::reduced::ReducedModel;
-use super::structure::{ShiftInverted, StructureMatrices};
+use super::structure::{ShiftInverted, StiffnessFactors, StructureMatrices};
 use super::{CHANGE_PLACES, CONVERGED, GROUP_WIDTH, MOST_STEPS, SAME_SPACE, SEARCH_WIDTH};
 use crate::cea::{CeaError, SweepProgress, SweepStage, SweepWatch};
 use crate::linalg::dense::{

@@ -1,8 +1,8 @@
 //! The undamped modes without friction, and the proof that none is missing.
 
-use super::factors::StiffnessFactors;
 use super::inertia::{counted, gyroscopic_count};
 use super::linearization::Centre;
+use super::structure::StiffnessFactors;
 use super::{CONVERGED, GUARD_MODES, LOSSY_GUARD, MOST_ATTEMPTS};
 use crate::cea::{CeaError, ModeLimit, SweepWatch};
 use crate::linalg::dense::{column, column_mut, columns_of, dot, from_columns, norm, pick_columns};

@@ -21,7 +21,6 @@ mod basis;
 mod branches;
 mod count;
 mod edge;
-mod factors;
 #[cfg(test)]
 mod fixtures;
 mod frictionless;
@@ -47,7 +46,6 @@ pub use basis::BasisBuilder;
 pub use branches::{BranchLabel, TrackedBranch, label_first, track};
 pub use count::{ModeCounter, Winding};
 pub use edge::ContactEdge;
-pub use factors::StiffnessFactors;
 pub use frictionless::FrictionlessModes;
 pub use full_problem::FullProblem;
 pub use linearization::{Centre, Linearization};
@@ -58,7 +56,7 @@ pub use pairs::{ModePair, mode_pairs};
 pub use point::{ModeCheck, PointSolver, SolvedPoint};
 pub use projected::ProjectedMatrices;
 pub use reduced::ReducedModel;
-pub use structure::{ShiftInverted, StructureMatrices};
+pub use structure::{ShiftInverted, StiffnessFactors, StructureMatrices};
 pub use sweep::{SparseSweep, sweep};
 
 /// Modes beyond the wanted ones that are computed along, so that crossings at the upper end of the range

@@ -1,7 +1,5 @@
 //! All modes at one friction coefficient, each held to its residual in the full matrices.
 
-pub(super) mod kept;
-
 use super::basis::BasisBuilder;
 use super::edge::ContactEdge;
 use super::left::{OpenPair, correct_lefts};

@@ -216,12 +216,6 @@ impl ReducedModel {
         self.solve_in(self.span_of_nearest(mu, self.neighbours()), &at, count, false)
     }
 
-    /// The same with the left vectors of the span of the samples, without derivatives and scale.
-    pub fn solve_two_sided(&self, mu: f64, count: usize) -> Result<Vec<ReducedMode>, LinalgError> {
-        let at = self.at(mu);
-        self.solve_in(self.span_of_nearest(mu, self.neighbours()), &at, count, true)
-    }
-
     /// What `modes` at a sampled `mu` have become as the sample grew; nothing where one of them does not settle, or two become one.
     pub fn followed(&self, mu: f64, modes: &[ReducedMode]) -> Option<Vec<ReducedMode>> {
         let columns = self.span_of_nearest(mu, 1)?;

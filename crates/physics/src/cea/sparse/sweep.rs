@@ -2,7 +2,6 @@
 
 mod counts;
 mod divergence;
-mod held;
 mod ladder;
 mod results;
 
@@ -11,7 +10,8 @@ use super::branches::{BranchLabel, TrackedBranch, label_first, track};
 use super::edge::ContactEdge;
 use super::frictionless::FrictionlessModes;
 use super::linearization::Linearization;
-use super::point::{PointSolver, SolvedPoint, kept};
+use super::mode::{from_columns, to_columns};
+use super::point::{PointSolver, SolvedPoint};
 use super::{GUARD_MODES, MOST_ATTEMPTS, RESIDUAL_BOUND, TRACKING_MARGIN};
 use crate::cea::{
     CeaError, FrictionSweep, ModeLimit, PartWatch, SweepProgress, SweepRequest, SweepStage,
@@ -210,6 +210,28 @@ impl<'a> SparseSweep<'a> {
         self.grid.partition_point(|&mu| mu < self.lowest)
     }
 
+    /// Motions of the body that are not rigid.
+    fn elastic(&self) -> usize {
+        self.tangent.unknowns.len() - self.builder.rigid
+    }
+
+    /// Whether friction brings modes from above a limit in frequency: there may be more where all that are held lie below.
+    fn lacks_modes(&self) -> bool {
+        let held = self.builder.count;
+        let is_full = self.points.iter().any(|point| point.wanted >= held);
+        matches!(self.limit, ModeLimit::MaxFrequency(_)) && is_full && held < self.elastic()
+    }
+
+    /// Whether what grows without oscillating has taken the places of modes, of which a number is asked for.
+    fn lacks_places(&self, branches: &[TrackedBranch]) -> Result<bool, CeaError> {
+        let ModeLimit::Lowest(count) = self.limit else {
+            return Ok(false);
+        };
+        let is_short = self.points.iter().any(|point| point.wanted < count);
+        let may_hold_more = is_short && self.builder.count < self.elastic();
+        Ok(may_hold_more && self.divergence(branches)?.is_some())
+    }
+
     /// Solves all points that are not solved in the same space already, and grows the basis where a mode misses its residual.
     pub fn solve(&mut self) -> Result<(), CeaError> {
         let all: Vec<usize> = (0..self.grid.len()).collect();
@@ -268,11 +290,11 @@ impl<'a> SparseSweep<'a> {
         let name = format!("value-{steps:04}-of-{held}-{mu:?}{stage}");
         let (solver, model) = (self.point_solver(), &self.builder.model);
         let kept = self.watch.recall(&name);
-        let modes = match kept.and_then(|columns| kept::from_columns(&columns)) {
+        let modes = match kept.and_then(|columns| from_columns(&columns)) {
             Some(modes) => modes,
             None => {
                 let modes = solver.modes(model, mu, leaves_out)?;
-                self.watch.keep(&name, &kept::to_columns(&modes));
+                self.watch.keep(&name, &to_columns(&modes));
                 modes
             }
         };

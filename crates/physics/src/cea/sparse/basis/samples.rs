@@ -2,12 +2,11 @@
 
 use super::{BasisBuilder, LOSSY_ROUNDS, VECTOR_TOLERANCE, scale_to_unit_length, turn_to_real};
 use crate::cea::CeaError;
-use crate::cea::sparse::factors::StiffnessFactors;
 use crate::cea::sparse::full_problem::FullProblem;
 use crate::cea::sparse::linearization::Linearization;
 use crate::cea::sparse::mode::ReducedMode;
 use crate::cea::sparse::packed::PackedModes;
-use crate::cea::sparse::structure::StructureMatrices;
+use crate::cea::sparse::structure::{StiffnessFactors, StructureMatrices};
 use crate::cea::sparse::{
     BESIDE, CHANGE_PLACES, GROUP_WIDTH, MOST_ATTEMPTS, RESIDUAL_BOUND, SAME_SPACE,
 };
@@ -24,16 +23,8 @@ const MOST_LIGHT: usize = 3000;
 /// Unknowns up to which a problem, of twice that size, is decomposed: where its modes are lossy or do not converge. That takes a
 /// second or two for each friction value.
 pub(super) const MOST_DENSE: usize = 300;
-impl BasisBuilder<'_> {
-    /// Takes up the modes without friction, where branches begin: where stiffness depends on frequency, each at its own.
-    pub fn begin_at_rest(&mut self) -> Result<(), CeaError> {
-        match self.tangent.tabled.is_empty() {
-            true => self.hold_frictionless(),
-            false => self.improve_at(0.0).map(|_| ())?,
-        }
-        Ok(())
-    }
 
+impl BasisBuilder<'_> {
     /// Leading vectors of the basis that are motions without friction: rigid ones and modes.
     pub fn leading_count(&self) -> usize {
         self.rigid + self.count
@@ -49,13 +40,18 @@ impl BasisBuilder<'_> {
         }
     }
 
-    /// Branches begin without friction: the modes there, without damping too, are near enough, or those of proportional damping.
-    fn hold_frictionless(&mut self) {
+    /// Takes up the modes without friction, where branches begin: where stiffness depends on frequency, each at its own. Else those
+    /// without damping are near enough, or those of proportional damping.
+    pub fn begin_at_rest(&mut self) -> Result<(), CeaError> {
+        if !self.tangent.tabled.is_empty() {
+            return self.improve_at(0.0).map(|_| ());
+        }
         let modes = Mat::identity(self.model.dimension(), self.leading_count());
         self.model.hold_coordinates(0.0, modes);
         if let Linearization::Reduced(..) = self.linearization {
             self.sampled.push(0.0);
         }
+        Ok(())
     }
 
     /// Makes the basis hold the modes at `mu` better; whether it grew.
@@ -63,26 +59,24 @@ impl BasisBuilder<'_> {
     /// # Errors
     /// If `K(mu)` is singular, or an iteration or a dense decomposition fails.
     pub fn improve_at(&mut self, mu: f64) -> Result<bool, CeaError> {
-        match self.linearization {
-            _ if !self.is_sampling => Ok(self.refine_at(mu)?.is_some()),
-            _ if self.is_sampled(mu) => self.refine_sample(mu),
-            Linearization::Reduced(..) => {
-                self.begin_sample(mu);
-                self.sample(mu, self.leading_count(), None)
-            }
-            Linearization::Companion { .. } => {
-                self.begin_sample(mu);
-                // From combinations of the modes without friction, which the basis holds first.
-                let known = self.model.dimension();
-                let leading = self.leading_count().min(known);
-                let has_grown = self.sample(mu, self.leading_count(), Some(leading))?;
-                // The iteration leaves structural damping and tables out: its vectors are a start.
-                if self.tangent.is_lossy() {
-                    self.refine_lossy(mu, known)?;
-                }
-                Ok(has_grown)
-            }
+        if !self.is_sampling {
+            return Ok(self.refine_at(mu)?.is_some());
         }
+        if self.is_sampled(mu) {
+            let modes = self.model.solve_right(mu, self.count)?;
+            return self.refine_modes(mu, &modes);
+        }
+        self.begin_sample(mu);
+        // Of the quadratic problem from combinations of the modes without friction, which the basis holds first.
+        let known = self.model.dimension();
+        let is_companion = matches!(self.linearization, Linearization::Companion { .. });
+        let leading = is_companion.then(|| self.leading_count().min(known));
+        let has_grown = self.sample(mu, self.leading_count(), leading)?;
+        // The iteration leaves structural damping and tables out: its vectors are a start.
+        if self.tangent.is_lossy() {
+            self.refine_lossy(mu, known)?;
+        }
+        Ok(has_grown)
     }
 
     /// Whether the basis holds the modes at `mu` as such.
@@ -115,7 +109,7 @@ impl BasisBuilder<'_> {
     /// Refines the sample at `mu` round after round and keeps of what was added to the `known` first vectors of the basis only the modes.
     fn refine_lossy(&mut self, mu: f64, known: usize) -> Result<(), CeaError> {
         let is_light = self.tangent.stiffness.dimension() <= MOST_LIGHT;
-        let mut modes = self.model.solve_two_sided(mu, self.count)?;
+        let mut modes = self.model.solve_with_coarse_lefts(mu, self.count)?;
         for round in 0..if is_light { MOST_ATTEMPTS } else { LOSSY_ROUNDS } {
             if is_light || round % HISTORY == 0 {
                 self.hold_solved(mu, &modes);
@@ -129,7 +123,7 @@ impl BasisBuilder<'_> {
             }
             let found = match self.model.followed(mu, &modes) {
                 Some(found) => found,
-                None => self.model.solve_two_sided(mu, self.count)?,
+                None => self.model.solve_with_coarse_lefts(mu, self.count)?,
             };
             let before = std::mem::replace(&mut modes, found);
             // What this round moved, the next one would move by a hundredth of.
@@ -248,13 +242,7 @@ impl BasisBuilder<'_> {
         2 * below + usize::from(self.is_sampled(mu))
     }
 
-    /// Adds the corrections of the modes at a sampled `mu` to the basis and to the sample; whether there were any.
-    fn refine_sample(&mut self, mu: f64) -> Result<bool, CeaError> {
-        let modes = self.model.solve_right(mu, self.count)?;
-        self.refine_modes(mu, &modes)
-    }
-
-    /// The same of `modes`, those in the basis as it is.
+    /// Adds the corrections of `modes`, those at a sampled `mu`, to the basis and to the sample; whether there were any.
     fn refine_modes(&mut self, mu: f64, modes: &[ReducedMode]) -> Result<bool, CeaError> {
         let mut corrections =
             self.step(mu, |builder| Ok::<_, LinalgError>(builder.corrections(modes, mu)))?;

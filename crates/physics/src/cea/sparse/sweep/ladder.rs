@@ -68,7 +68,9 @@ impl SparseSweep<'_> {
             // The worst point between two that the basis holds: the others there gain from what it gets.
             let gaps: Vec<usize> = self.grid.iter().map(|&mu| self.builder.gap(mu)).collect();
             let mut treated: Vec<usize> = Vec::new();
-            for k in self.by_error(&missing) {
+            let mut order = missing.clone();
+            crate::order::sort_by_number(&mut order, |&k| -self.points[k].worst().1);
+            for k in order {
                 if !treated.contains(&gaps[k]) {
                     treated.push(gaps[k]);
                     let (residual, error) = self.points[k].worst();
@@ -146,14 +148,6 @@ impl SparseSweep<'_> {
             self.points.iter_mut().for_each(|p| p.restrict(&columns));
         }
         Ok(())
-    }
-
-    /// `points` by falling error.
-    fn by_error(&self, points: &[usize]) -> Vec<usize> {
-        let error = |k: usize| self.points[k].worst().1;
-        let mut order = points.to_vec();
-        crate::order::sort_by_number(&mut order, |&a| -error(a));
-        order
     }
 }
 
