@@ -32,9 +32,9 @@ pub struct MeasuredShapes {
 /// MAC = |phi^H y|^2 / (phi^H phi  y^H y)
 /// ```
 ///
-/// of every measured shape `y` with every mode `phi` at the case's friction coefficient, over the measured points, each
-/// at its nearest node, and directions; each shape is paired with one mode so that the sum is largest. Points off the body
-/// are left out, and said. The source of the shapes is left open.
+/// of every measured shape `y` with every mode `phi` at the case's friction coefficient, over the measured points,
+/// each at its nearest node, and directions; each shape is paired with one mode so that the sum is largest. Points
+/// off the body are left out, and said. The source of the shapes is left open.
 ///
 /// Source: R. J. Allemang, The modal assurance criterion: twenty years of use and abuse, Sound and Vibration 37 (2003).
 ///

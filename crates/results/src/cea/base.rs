@@ -60,8 +60,8 @@ impl BaseState {
     }
 }
 
-/// A place of the contact: a node of a plane edge, a ring of nodes of a body of revolution, or a point between the nodes
-/// of solid bodies.
+/// A place of the contact: a node of a plane edge, a ring of nodes of a body of revolution, or a point between the
+/// nodes of solid bodies.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ContactPlace {
     /// Name of its contact.

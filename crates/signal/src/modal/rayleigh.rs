@@ -47,10 +47,10 @@ pub struct RayleighFit {
 
 /// Fits `zeta = (alpha_R / omega + beta_R omega) / 2` with `alpha_R, beta_R >= 0`.
 ///
-/// Generalised least squares with the given covariance of the damping factors. Without one, errors are taken proportional
-/// to the factors and their size is found from the scatter. Intervals: 95 %, normal where the scatter agrees with the
-/// covariance, widened to Student's t of the scatter where it is larger (material that is not exactly Rayleigh). A
-/// coefficient that would be negative is set to zero, and its interval begins there.
+/// Generalised least squares with the given covariance of the damping factors. Without one, errors are taken
+/// proportional to the factors and their size is found from the scatter. Intervals: 95 %, normal where the scatter
+/// agrees with the covariance, widened to Student's t of the scatter where it is larger (material that is not exactly
+/// Rayleigh). A coefficient that would be negative is set to zero, and its interval begins there.
 ///
 /// # Errors
 /// [`SignalError::TooFewModes`] for fewer than 2 modes, or fewer than 3 without covariance;

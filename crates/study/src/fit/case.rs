@@ -20,8 +20,8 @@ fn limit_hz(lines: &[MeasuredMode]) -> f64 {
     MARGIN * lines.iter().map(|line| line.frequency_hz).fold(0.0, f64::max)
 }
 
-/// Fits the parameters of a case to measured modes, with measured shapes of some of the lines. The name of the measurement
-/// is left open.
+/// Fits the parameters of a case to measured modes, with measured shapes of some of the lines. The name of the
+/// measurement is left open.
 ///
 /// # Errors
 /// A case without `[fit]`; a fit that cannot be made; shapes that belong to no line, points off the body.

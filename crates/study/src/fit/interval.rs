@@ -13,8 +13,8 @@ const BLIND: f64 = 1e-6;
 /// The parameters by their keys, and their correlations by key and key.
 type Estimates = (BTreeMap<String, FittedParameter>, BTreeMap<String, BTreeMap<String, f64>>);
 
-/// Values, intervals and correlations from the derivatives at the minimum. A value on a bound has no interval, nor has any
-/// where no data are left to tell the scatter; one on its bound has no correlations.
+/// Values, intervals and correlations from the derivatives at the minimum. A value on a bound has no interval, nor
+/// has any where no data are left to tell the scatter; one on its bound has no correlations.
 pub fn estimates(
     squares: &Squares<'_>,
     best: &Trial,
