@@ -111,7 +111,7 @@ impl BasisBuilder<'_> {
         let is_light = self.tangent.stiffness.dimension() <= MOST_LIGHT;
         let mut modes = self.model.solve_with_coarse_lefts(mu, self.count)?;
         for round in 0..if is_light { MOST_ATTEMPTS } else { LOSSY_ROUNDS } {
-            if is_light || round % HISTORY == 0 {
+            if round % HISTORY == 0 {
                 self.hold_solved(mu, &modes);
             }
             let has_grown = match is_light {
