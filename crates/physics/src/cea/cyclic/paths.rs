@@ -140,7 +140,7 @@ fn follow_all(
                     return Ok(paths);
                 }
                 // In three dimensions smaller steps since the last value mostly do, where small ones all along cost many times more.
-                if problem.is_reduced() && control != StepControl::FINE {
+                if problem.is_solid() && control != StepControl::FINE {
                     let points = &mut paths[index].points;
                     points.truncate(reached[index]);
                     if follower.advance(points, friction, StepControl::FINE, &mut matrices) {

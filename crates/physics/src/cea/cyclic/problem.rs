@@ -249,7 +249,7 @@ impl HarmonicProblem {
     /// Largest row sum of `C`; in three dimensions each column counts as much as the vector has of it: the motion across the sliding
     /// is small where its dashpot is strong.
     fn damping_norm(&self, at: &Matrices, x: &[c64]) -> f64 {
-        let Some(damping) = self.damping(at).filter(|_| self.is_reduced()) else {
+        let Some(damping) = self.damping(at).filter(|_| self.is_solid()) else {
             return at.norms[1];
         };
         let h = self.half_bandwidth;
@@ -323,14 +323,14 @@ impl HarmonicProblem {
         if self.is_proportional() { self.tangent.rayleigh.kappa(lambda) } else { lambda }
     }
 
-    /// Whether the matrices are small full ones, of a harmonic in three dimensions.
-    pub fn is_reduced(&self) -> bool {
+    /// Whether it is a harmonic in three dimensions, whose matrices are small full ones.
+    pub fn is_solid(&self) -> bool {
         self.tangent.shares.is_some()
     }
 
     /// Whether a motion hardly oscillates any more under the dashpot across the sliding, on the way to where it does not at all.
     pub fn is_ending(&self, theta: c64) -> bool {
-        self.is_reduced() && theta.im.abs() < STANDSTILL * theta.norm()
+        self.is_solid() && theta.im.abs() < STANDSTILL * theta.norm()
     }
 
     /// An isolated `kappa` of a standing harmonic, whose spectrum is its own conjugate, is real if it is
@@ -359,7 +359,7 @@ impl HarmonicProblem {
             product(&band[first + h - row..last + h - row], &x[first..last])
         };
         // Long rows lose fewer digits in several sums.
-        let mut result: Vec<c64> = match self.is_reduced() && !adjoint {
+        let mut result: Vec<c64> = match self.is_solid() && !adjoint {
             true => values.chunks_exact(2 * h + 1).enumerate().map(row).collect(),
             false => multiply_band(values, h, x, adjoint),
         };

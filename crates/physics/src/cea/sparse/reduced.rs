@@ -216,6 +216,15 @@ impl ReducedModel {
         self.solve_in(self.span_of_nearest(mu, self.neighbours()), &at, count, false)
     }
 
+    /// The same for matching modes between solved points, with left vectors of the whole basis: in the span of the two nearest samples.
+    pub fn solve_between(&self, mu: f64, count: usize) -> Result<Vec<ReducedMode>, LinalgError> {
+        let at = self.at(mu);
+        let mut modes = self.solve_in(self.span_of_nearest(mu, 2), &at, count, true)?;
+        self.complete(&mut modes, &at, mu);
+        self.refine_lefts(&mut modes, mu);
+        Ok(modes)
+    }
+
     /// What `modes` at a sampled `mu` have become as the sample grew; nothing where one of them does not settle, or two become one.
     pub fn followed(&self, mu: f64, modes: &[ReducedMode]) -> Option<Vec<ReducedMode>> {
         let columns = self.span_of_nearest(mu, 1)?;
@@ -233,15 +242,6 @@ impl ReducedModel {
         crate::order::sort_by_number(&mut found, |own| own.eigenvalue.im);
         found.iter_mut().for_each(|own| *own = own.map(|own| combined(&columns, own)));
         Some(found)
-    }
-
-    /// The same for matching modes between solved points, with left vectors of the whole basis: in the span of the two nearest samples.
-    pub fn solve_between(&self, mu: f64, count: usize) -> Result<Vec<ReducedMode>, LinalgError> {
-        let at = self.at(mu);
-        let mut modes = self.solve_in(self.span_of_nearest(mu, 2), &at, count, true)?;
-        self.complete(&mut modes, &at, mu);
-        self.refine_lefts(&mut modes, mu);
-        Ok(modes)
     }
 
     /// Takes note that `vectors` are the modes at `mu`: the problem there is then solved in their span, and nearby in
