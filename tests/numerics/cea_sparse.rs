@@ -108,6 +108,37 @@ fn two_degrees_of_freedom_flutter_at_the_closed_form_friction() {
     }
 }
 
+/// `kappa_0 = 1 + mu` passes `kappa_1 = 1.1` and then `kappa_2 = 1.2`, coupled to each by `+-s mu`: a pair that would meet at `d` is
+/// unstable from `d / (1 + 2 s)` to `d / (1 - 2 s)`, and nothing grows at either of the friction values asked for.
+#[test]
+fn modes_that_grow_only_as_they_meet_between_two_values_are_found() {
+    let coupling = 0.01;
+    let size = 6;
+    let mut rate = vec![(0, 0, 1.0)];
+    rate.extend([1, 2].into_iter().flat_map(|i| [(0, i, coupling), (i, 0, -coupling)]));
+    let at_rest = [1.0, 1.1, 1.2, 4.0, 9.0, 16.0];
+    let diagonal = |values: &dyn Fn(usize) -> f64| (0..size).map(|i| (i, i, values(i))).collect();
+    let stiffness = vec![diagonal(&|i| at_rest[i]), rate];
+    let mass: Vec<Entries> = vec![diagonal(&|_| 1.0)];
+    for alpha in [0.0, 1e-5] {
+        let damping = RayleighDamping { mass_coefficient: alpha, stiffness_coefficient: 0.0 };
+        let parts = [mass.clone(), Vec::new(), stiffness.clone()];
+        let tangent = problem(size, parts, Some(damping));
+        let result = swept(&tangent, &[0.0, 0.3], ModeLimit::Lowest(3));
+        let mut found = result.intervals.clone();
+        found.sort_by(|a, b| a.critical_friction.total_cmp(&b.critical_friction));
+        assert_eq!(found.len(), 2, "{found:?}");
+        for (own, meeting) in found.iter().zip([0.1, 0.2]) {
+            let ends = [own.critical_friction, own.restabilized.unwrap().0];
+            for (end, sign) in ends.into_iter().zip([1.0, -1.0]) {
+                let exact = meeting / (1.0 + sign * 2.0 * coupling);
+                // The third mode of the three moves them by 2e-4.
+                assert!((end - exact).abs() < 5e-4 * exact, "{found:?}");
+            }
+        }
+    }
+}
+
 /// Every eigenvalue of a small unsymmetric problem with general damping, against the dense companion
 /// matrix at each friction coefficient.
 #[test]

@@ -314,7 +314,7 @@ impl<'a> BasisBuilder<'a> {
 }
 
 /// Scales columns to unit length, but for those of zeros.
-fn scale_to_unit_length(columns: &mut Mat<f64>) {
+pub(super) fn scale_to_unit_length(columns: &mut Mat<f64>) {
     let lengths = column_norms(columns.as_ref());
     for (j, length) in lengths.into_iter().enumerate().filter(|(_, l)| *l > 0.0) {
         column_mut(columns, j).iter_mut().for_each(|v| *v /= length);

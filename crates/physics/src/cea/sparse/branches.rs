@@ -1,18 +1,17 @@
 //! Continuation of mode branches over the friction coefficient.
 
 use super::edge::ContactEdge;
-use super::mode::ReducedMode;
+use super::meetings::grown_between;
+use super::mode::{ModeAt, ModesAt, ReducedMode};
 use super::point::SolvedPoint;
 use super::reduced::ReducedModel;
-use super::{CHANGE_PLACES, MULTIPLE, SAME_EIGENVALUE};
+use super::{CHANGE_PLACES, MULTIPLE, SAME, SAME_EIGENVALUE};
 use crate::cea::counted::NEARLY_CRITICAL;
 use crate::linalg::{ComplexDenseLu, LinalgError};
 use crate::linalg::{Mat, c64};
 
 /// Distance of an overlap from 1 within which two modes at neighbouring friction coefficients may be one.
 const ALIKE: f64 = 0.5;
-/// Distance within which they are one beyond doubt.
-const SAME: f64 = 0.1;
 /// Bisections of an interval, one within the other, before modes are matched by their extrapolated eigenvalue.
 const MAX_BISECTIONS: usize = 10;
 /// Bisections of an interval in all; a branch that these do not follow is lost.
@@ -36,6 +35,8 @@ pub struct TrackedBranch {
     pub label: BranchLabel,
     /// Its index among the modes of each point; `None` before it entered the range.
     pub modes: Vec<Option<usize>>,
+    /// What it was on its way between the points, where it began to grow or ceased to.
+    pub passed: Vec<ModeAt>,
     /// Where a branch of wanted modes ends.
     pub end: Option<BranchEnd>,
 }
@@ -47,10 +48,8 @@ pub struct BranchEnd {
     pub after: usize,
     /// Whether damping of friction takes it beyond the critical one; else it could not be told from others at the next point.
     pub is_damped: bool,
-    /// The mode where it was last seen, between that point and the next ...
-    pub mode: ReducedMode,
-    /// ... the friction coefficient there, and the next one, where it is none of the modes.
-    pub between: [f64; 2],
+    /// Where it was last seen, at that point or between it and the next.
+    pub seen: LastSeen,
     /// Friction coefficient at which the mode ceases to oscillate as steady sliding loses its static stability.
     pub diverges_at: Option<f64>,
 }
@@ -64,10 +63,11 @@ impl BranchEnd {
 
 /// A mode where its branch was last seen.
 #[derive(Clone, Debug)]
-struct LastSeen {
-    mode: ReducedMode,
+pub struct LastSeen {
+    /// The mode.
+    pub mode: ReducedMode,
     /// The friction coefficient there, and the next one, where it is none of the modes.
-    between: [f64; 2],
+    pub between: [f64; 2],
 }
 
 /// Whether a mode may cease to oscillate within a step of friction, as friction across slow sliding, a dashpot of `mu p / V`, damps it.
@@ -189,7 +189,12 @@ pub fn track(
     let mut branches: Vec<TrackedBranch> = labels
         .iter()
         .enumerate()
-        .map(|(i, &label)| TrackedBranch { label, modes: vec![Some(i)], end: None })
+        .map(|(i, &label)| TrackedBranch {
+            label,
+            modes: vec![Some(i)],
+            passed: Vec::new(),
+            end: None,
+        })
         .collect();
     for k in 1..points.len() {
         let (before, after) = (&points[k - 1], &points[k]);
@@ -206,7 +211,9 @@ pub fn track(
         )?;
         for branch in &mut branches {
             let last = branch.modes[k - 1];
-            let next = last.and_then(|i| links[i].as_ref().ok().copied());
+            let next = last.and_then(|i| links[i].as_ref().ok());
+            branch.passed.extend(next.iter().flat_map(|(_, passed)| passed.iter().cloned()));
+            let next = next.map(|(i, _)| *i);
             if let Some(i) = last
                 && let Err(seen) = &links[i]
                 && i < needed
@@ -214,10 +221,8 @@ pub fn track(
                 && let rest = after.friction_coefficient - seen.between[0]
                 && !leaves_range(&seen.mode, rest, after.range_end)
             {
-                let LastSeen { mode, between } = seen.clone();
-                let is_damped = may_vanish(&before.modes[i], step);
-                let end = BranchEnd { after: k - 1, is_damped, mode, between, diverges_at: None };
-                branch.end = Some(end);
+                let (seen, is_damped) = (seen.clone(), may_vanish(&before.modes[i], step));
+                branch.end = Some(BranchEnd { after: k - 1, is_damped, seen, diverges_at: None });
             }
             branch.modes.push(next);
         }
@@ -241,13 +246,12 @@ fn adopt_newcomers(
         let harmonic = edge.harmonic(&check.edge, check.peak);
         let label = label(edge, harmonic, branches.iter().map(|b| b.label.harmonic));
         let modes = [vec![None; k], vec![Some(i)]].concat();
-        branches.push(TrackedBranch { label, modes, end: None });
+        branches.push(TrackedBranch { label, modes, passed: Vec::new(), end: None });
     }
 }
 
-type ModesAt<'a> = (f64, &'a [ReducedMode]);
-/// The mode that continues another one, or where that was last seen.
-type Link = Result<usize, LastSeen>;
+/// The mode that continues another one, with what it was between (see [`TrackedBranch::passed`]), or where that was last seen.
+type Link = Result<(usize, Vec<ModeAt>), LastSeen>;
 
 /// For each mode of `from` the mode of `to` that continues it. The first `needed` modes must be matched
 /// beyond doubt, or the interval is halved.
@@ -268,17 +272,31 @@ fn match_modes(
         *solved += 1;
         let modes = model.solve_between(middle, from.1.len().max(to.1.len()))?;
         let first = match_modes(from, (middle, &modes), needed, model, (depth + 1, solved))?;
-        let reached = first.iter().take(needed).flatten().max().map_or(0, |&i| i + 1);
+        let reached = first.iter().take(needed).flatten().map(|(i, _)| i + 1).max().unwrap_or(0);
         let second = match_modes((middle, &modes), to, reached, model, (depth + 1, solved))?;
-        return Ok(first.into_iter().map(|link| link.and_then(|i| second[i].clone())).collect());
+        let links = first.into_iter().zip(from.1).map(|(link, own)| {
+            let (i, mut passed) = link?;
+            let (j, beyond) = second[i].clone()?;
+            if modes[i].is_growing() != own.is_growing() || !passed.is_empty() {
+                passed.push((middle, modes[i].clone()));
+            }
+            passed.extend(beyond);
+            Ok((j, passed))
+        });
+        return Ok(links.collect());
     }
     // Only over a step so short is the nearest eigenvalue the same branch; one that is lost is told.
     if !is_clear && depth == MAX_BISECTIONS {
         link_by_extrapolation(from, to, needed, &mut links);
     }
-    let last_seen = |mode: &ReducedMode| LastSeen { mode: mode.clone(), between: [from.0, to.0] };
-    let pairs = links.into_iter().zip(from.1);
-    Ok(pairs.map(|(link, mode)| link.ok_or_else(|| last_seen(mode))).collect())
+    let mut passed = grown_between((from, to), &links, needed, model)?;
+    let between = [from.0, to.0];
+    let pairs = links.into_iter().enumerate().zip(from.1);
+    let links = pairs.map(|((i, link), mode)| match link {
+        Some(next) => Ok((next, std::mem::take(&mut passed[i]))),
+        None => Err(LastSeen { mode: mode.clone(), between }),
+    });
+    Ok(links.collect())
 }
 
 /// The mode at `to`, on either side, that continues one, in steps over which it is the same beyond doubt; nothing where it is lost.

@@ -1,11 +1,12 @@
 //! The undamped modes without friction, and the proof that none is missing.
 
+use super::basis::scale_to_unit_length;
 use super::inertia::{counted, gyroscopic_count};
 use super::linearization::Centre;
 use super::structure::StiffnessFactors;
 use super::{CONVERGED, GUARD_MODES, LOSSY_GUARD, MOST_ATTEMPTS};
 use crate::cea::{CeaError, ModeLimit, SweepWatch};
-use crate::linalg::dense::{column, column_mut, columns_of, dot, from_columns, norm, pick_columns};
+use crate::linalg::dense::{column, columns_of, dot, from_columns, pick_columns};
 use crate::linalg::{
     LanczosPairs, LanczosSettings, LdlAnalysis, LinalgError, Mat, MatRef, MatrixPolynomial,
     SparseLdl, SymmetricPencil, block_lanczos,
@@ -261,12 +262,7 @@ impl<'a> Inertia<'a> {
     /// The `count` lowest motions, by an iteration on `K + shift M`. A shift that does not make it positive definite, or that leaves a
     /// pair short of its accuracy, is replaced by another.
     fn lowest(&self, count: usize, shift: &mut f64) -> Result<Lowest, LinalgError> {
-        let mut outcome = Err(LinalgError::NotConverged {
-            converged: 0,
-            wanted: count,
-            tolerance: CONVERGED,
-            applications: 0,
-        });
+        let mut converged = 0;
         for attempt in 0..MOST_ATTEMPTS {
             let factors = loop {
                 match SparseLdl::factorize(&self.analysis, &self.shifted(-*shift)) {
@@ -287,12 +283,7 @@ impl<'a> Inertia<'a> {
             if pairs.converged == count {
                 return Ok(self.told_apart(&pencil, pairs));
             }
-            outcome = Err(LinalgError::NotConverged {
-                converged: pairs.converged,
-                wanted: count,
-                tolerance: CONVERGED,
-                applications: MOST_ATTEMPTS * count,
-            });
+            converged = pairs.converged;
             // The highest pair is known well enough to place the shift by it.
             let placed = SHIFT * (pairs.values[count - 1].recip() - *shift);
             *shift = match attempt {
@@ -300,7 +291,8 @@ impl<'a> Inertia<'a> {
                 _ => FARTHER * *shift,
             };
         }
-        outcome
+        let (tolerance, applications) = (CONVERGED, MOST_ATTEMPTS * count);
+        Err(LinalgError::NotConverged { converged, wanted: count, tolerance, applications })
     }
 
     /// Rayleigh quotients of the vectors, and which are those of rigid motions: the energy `x^T K x` is a sum of rounding errors of
@@ -330,10 +322,7 @@ impl<'a> Inertia<'a> {
         let rounding = found[..rigid].iter().map(|own| own.1).fold(0.0, f64::max);
         let order: Vec<usize> = found.iter().map(|own| own.2).collect();
         vectors = pick_columns(&vectors, &order);
-        for j in 0..vectors.ncols() {
-            let length = norm(column(vectors.as_ref(), j));
-            column_mut(&mut vectors, j).iter_mut().for_each(|v| *v /= length);
-        }
+        scale_to_unit_length(&mut vectors);
         let kappas: Vec<f64> = found.iter().map(|own| own.0).collect();
         let unheld = kappas[rigid..].iter().filter(|kappa| **kappa < 0.0).count();
         Lowest { vectors, kappas, rigid, unheld, rounding }

@@ -28,6 +28,7 @@ mod full_problem;
 mod inertia;
 mod left;
 mod linearization;
+mod meetings;
 mod mode;
 mod nodal_diameters;
 mod onset;
@@ -72,6 +73,8 @@ const TRACKING_MARGIN: usize = 6;
 const MULTIPLE: f64 = 1e-7;
 /// Relative distance of eigenvalues up to which they are one where their vectors are, or where friction moves neither.
 const SAME_EIGENVALUE: f64 = 1e-6;
+/// Distance of the overlap of two modes from 1 within which they are one branch beyond doubt.
+const SAME: f64 = 0.1;
 /// Residual, relative to what it is one of, or length of a correction of a mode of unit length, at which it has converged: below that
 /// corrections are round-off.
 const CONVERGED: f64 = 1e-11;

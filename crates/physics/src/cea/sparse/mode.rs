@@ -1,6 +1,6 @@
 //! A mode in coordinates of the common basis.
 
-use super::SAME_EIGENVALUE;
+use super::{CONVERGED, SAME_EIGENVALUE};
 use crate::cea::counted::NEARLY_CRITICAL;
 use crate::cea::vectors::{dot, length};
 use crate::linalg::c64;
@@ -26,11 +26,21 @@ pub struct ReducedMode {
     pub left: Vec<c64>,
 }
 
+/// A friction coefficient and a mode there.
+pub type ModeAt = (f64, ReducedMode);
+/// A friction coefficient and its modes.
+pub type ModesAt<'a> = (f64, &'a [ReducedMode]);
+
 impl ReducedMode {
     /// The same with other coordinates of its vectors.
     pub fn map(&self, change: impl Fn(&[c64]) -> Vec<c64>) -> Self {
         let [right, left] = [&self.right, &self.left].map(|own| change(own));
         Self { right, left, ..*self }
+    }
+
+    /// Whether it grows by more than round-off.
+    pub fn is_growing(&self) -> bool {
+        self.eigenvalue.re > CONVERGED * self.eigenvalue.norm()
     }
 
     /// `-Re(lambda) / |lambda|`; 1 is critical.

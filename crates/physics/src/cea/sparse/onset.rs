@@ -4,7 +4,7 @@ use super::branches::{TrackedBranch, followed};
 use super::mode::ReducedMode;
 use super::point::{PointSolver, SolvedPoint};
 use super::reduced::ReducedModel;
-use super::{CONVERGED, RESIDUAL_BOUND};
+use super::{BESIDE, CONVERGED, RESIDUAL_BOUND, SAME, SAME_EIGENVALUE};
 use crate::cea::onset::{BranchSolver, Instability, instabilities};
 use crate::cea::vectors::length;
 use crate::cea::{BranchPoint, UnstableInterval};
@@ -23,6 +23,11 @@ pub struct State {
 }
 
 impl State {
+    /// Whether both are one mode at one friction coefficient.
+    pub fn is_same(&self, other: &Self) -> bool {
+        (self.mu - other.mu).abs() <= SAME_EIGENVALUE && self.mode.is_same(&other.mode)
+    }
+
     /// What round-off of its growth rate may move a crossing by: much where friction hardly feeds the mode.
     pub fn doubt(&self) -> f64 {
         OnsetFinder::ROUND_OFF * self.mode.eigenvalue.norm() / self.mode.derivative.re.abs()
@@ -83,10 +88,17 @@ impl OnsetFinder<'_> {
             mu: point.friction_coefficient,
             mode: point.modes[i].clone(),
         });
+        // What it was between them, as the basis has it now.
+        let passed = branch.passed.iter().map(|(mu, mode)| State {
+            mu: *mu,
+            mode: self.model.mode_near(*mu, mode).unwrap_or_else(|| mode.clone()),
+        });
         // Between the points it may be followed beyond the last that has it.
-        let last =
-            branch.end.iter().map(|end| State { mu: end.between[0], mode: end.mode.clone() });
+        let last = branch.end.iter().map(|end| &end.seen);
+        let last = last.map(|own| State { mu: own.between[0], mode: own.mode.clone() });
+        let states = states.chain(passed);
         let mut states: Vec<State> = states.filter(|state| state.mu >= self.lowest).collect();
+        crate::order::sort_by_number(&mut states, |state| state.mu);
         let end = states.last().map_or(self.lowest, |state| state.mu);
         states.extend(last.filter(|state| state.mu > end));
         let begin = states.first().map_or(self.lowest, |state| state.mu);
@@ -151,9 +163,6 @@ impl OnsetFinder<'_> {
     }
 }
 
-/// Overlap, 1 for equal modes, above which a mode found near both ends belongs to their branch.
-const SAME: f64 = 0.8;
-
 impl OnsetFinder<'_> {
     /// The branch at `guess` by an iteration from the nearer end, where what it finds overlaps with both.
     fn continued(&self, from: &State, to: &State, guess: BranchPoint) -> Option<ReducedMode> {
@@ -165,7 +174,7 @@ impl OnsetFinder<'_> {
         let others = ends.map(|end| end.mode.clone());
         let own = std::slice::from_ref(&mode);
         let [forward, backward] = self.model.overlaps_at(mu, own, &others);
-        let is_same = |j| (forward[(0, j)] * backward[(j, 0)]).norm() > SAME;
+        let is_same = |j| (forward[(0, j)] * backward[(j, 0)] - 1.0).norm() < 2.0 * SAME;
         [0, 1].into_iter().all(is_same).then_some(mode)
     }
 }
@@ -197,6 +206,11 @@ impl BranchSolver for OnsetFinder<'_> {
         if let Some(mode) = self.continued(from, to, guess) {
             return Ok(Some(State { mu, mode }));
         }
+        // As it grows or ceases to, step by step: of two that meet one grows.
+        let growing = if from.mode.is_growing() { from } else { to };
+        if let Some(mode) = followed(self.model, (growing.mu, &growing.mode), mu) {
+            return Ok(Some(State { mu, mode }));
+        }
         let mut modes = self.model.solve_between(mu, self.points[0].modes.len())?;
         let ends = [from, to].map(|end| end.mode.clone());
         let [overlaps, _] = self.model.overlaps_at(mu, &ends, &modes);
@@ -215,7 +229,10 @@ impl BranchSolver for OnsetFinder<'_> {
         Ok(best.map(|best| {
             // That was in the span of samples, if there are any: the whole basis knows better.
             let coarse = modes.swap_remove(best);
-            State { mu, mode: self.model.mode_near(mu, &coarse).unwrap_or(coarse) }
+            let found = self.model.mode_near(mu, &coarse);
+            let change = |own: &ReducedMode| (own.eigenvalue - coarse.eigenvalue).norm();
+            let found = found.filter(|own| change(own) <= BESIDE * coarse.eigenvalue.norm());
+            State { mu, mode: found.unwrap_or(coarse) }
         }))
     }
 }

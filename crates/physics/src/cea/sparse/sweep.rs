@@ -151,6 +151,7 @@ impl<'a> SparseSweep<'a> {
         }
         let highest = modes.frequencies.last().copied().unwrap_or(1.0);
         let linearization = Linearization::of(tangent, highest, modes.centre);
+        let leaves_out = vec![false; grid.len()];
         Ok(Self {
             tangent,
             linearization,
@@ -167,7 +168,7 @@ impl<'a> SparseSweep<'a> {
             lowest,
             is_continued,
             points: Vec::new(),
-            leaves_out: Vec::new(),
+            leaves_out,
             unconverged: Vec::new(),
             labels: Vec::new(),
             watch,
@@ -236,7 +237,6 @@ impl<'a> SparseSweep<'a> {
     pub fn solve(&mut self) -> Result<(), CeaError> {
         let all: Vec<usize> = (0..self.grid.len()).collect();
         if self.points.is_empty() {
-            self.leaves_out = vec![false; all.len()];
             self.points = self.solve_points(&all)?;
         } else {
             let is_stale = |k: &usize| {
@@ -350,7 +350,7 @@ impl<'a> SparseSweep<'a> {
             let ends = branches.iter().filter_map(|branch| branch.end.as_ref());
             let lost = ends.filter(|end| end.is_lost() && !searched.contains(&end.after));
             let mut open: Vec<(usize, [f64; 2])> =
-                lost.map(|end| (end.after, end.between)).collect();
+                lost.map(|end| (end.after, end.seen.between)).collect();
             open.sort_by_key(|(k, _)| *k);
             open.dedup_by_key(|(k, _)| *k);
             if open.is_empty() {

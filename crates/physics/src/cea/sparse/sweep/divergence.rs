@@ -46,11 +46,11 @@ impl SparseSweep<'_> {
         if !self.is_static() {
             return Ok(None);
         }
-        let [mut low, beyond] = end.between;
+        let [mut low, beyond] = end.seen.between;
         let size = self.ln_static(low)?.re;
         let mut before = self.static_determinant(low, size)?;
         // Near zero the square of an eigenvalue moves evenly: as far again. What is damped beyond the critical may come there later.
-        let ReducedMode { eigenvalue, derivative, .. } = end.mode;
+        let ReducedMode { eigenvalue, derivative, .. } = end.seen.mode;
         let next = self.grid[if end.is_damped { self.grid.len() - 1 } else { end.after + 1 }];
         let reach = low - (eigenvalue / derivative).re;
         let places = [beyond, reach.clamp(beyond, next)].into_iter();

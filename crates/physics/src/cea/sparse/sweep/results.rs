@@ -3,7 +3,7 @@
 use super::{SETTLED, SparseSweep};
 use crate::cea::sparse::branches::{BranchLabel, TrackedBranch};
 use crate::cea::sparse::onset::{FoundInterval, OnsetFinder, State};
-use crate::cea::sparse::{MOST_ATTEMPTS, RESIDUAL_BOUND};
+use crate::cea::sparse::{MOST_ATTEMPTS, RESIDUAL_BOUND, SAME_EIGENVALUE};
 use crate::cea::{BeyondMode, CeaError, ComplexMode, FrictionPoint, FrictionSweep, SweepRequest};
 use crate::cea::{EndedMode, UnconvergedMode};
 use crate::linalg::c64;
@@ -25,14 +25,21 @@ impl SparseSweep<'_> {
             })
             .collect();
         let mut found = self.intervals(branches)?;
-        // What grows from the start on, but no more than rounded matrices leave open wherever it was asked for, is not told.
+        // What grows by no more than rounded matrices leave open, wherever that was asked for, is told only where it sets in once and for
+        // all.
+        let highest = self.grid[self.grid.len() - 1];
         found.retain(|own| {
             let own = &own.interval;
+            let end = own.restabilized.map_or(f64::INFINITY, |(mu, _)| mu);
             let is_own =
                 |mode: &&ComplexMode| (mode.harmonic, mode.branch) == (own.harmonic, own.branch);
-            let mut modes = points.iter().flat_map(|point| &point.modes).filter(is_own).peekable();
+            let inside = points.iter().filter(|point| {
+                (own.critical_friction..=end).contains(&point.friction_coefficient)
+            });
+            let mut modes = inside.flat_map(|point| &point.modes).filter(is_own).peekable();
             let is_told = modes.peek().is_none() || modes.any(ComplexMode::is_unstable);
-            is_told || own.is_located() || own.restabilized.is_some()
+            let sets_in = own.critical_friction < (1.0 - SAME_EIGENVALUE) * highest;
+            is_told || own.is_located() && own.restabilized.is_none() && sets_in
         });
         let vectors = |own: &FoundInterval| {
             let State { mu, mode } = own.onset().filter(|_| !request.lefts_at.is_empty())?;
