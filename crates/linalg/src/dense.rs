@@ -3,7 +3,7 @@
 use super::gaussian_noise::splitmix64;
 use faer::linalg::matmul::matmul;
 use faer::prelude::{IntoConst, ReborrowMut};
-use faer::{Accum, ColRef, Mat, MatMut, MatRef, Par};
+use faer::{Accum, ColRef, Mat, MatMut, MatRef, Par, concat};
 
 /// `a b`.
 #[inline]
@@ -28,11 +28,7 @@ pub fn add_product(c: MatMut<'_, f64>, factor: f64, a: MatRef<'_, f64>, b: MatRe
 /// Columns `a` followed by columns `b`.
 #[inline]
 pub fn join_columns(a: MatRef<'_, f64>, b: MatRef<'_, f64>) -> Mat<f64> {
-    let mut joined = Mat::zeros(a.nrows(), a.ncols() + b.ncols());
-    let (mut left, mut right) = joined.as_mut().split_at_col_mut(a.ncols());
-    left.copy_from(a);
-    right.copy_from(b);
-    joined
+    concat![[a, b]]
 }
 
 /// Columns that grow in place, moved only when their room is used up.
@@ -105,11 +101,7 @@ pub fn combine(a: &mut Mat<f64>, coefficients: MatRef<'_, f64>) {
 /// Rows `a` above rows `b`.
 #[inline]
 pub fn join_rows(a: MatRef<'_, f64>, b: MatRef<'_, f64>) -> Mat<f64> {
-    let mut joined = Mat::zeros(a.nrows() + b.nrows(), a.ncols());
-    let (mut top, mut bottom) = joined.as_mut().split_at_row_mut(a.nrows());
-    top.copy_from(a);
-    bottom.copy_from(b);
-    joined
+    concat![[a], [b]]
 }
 
 /// Column `j` as a slice.

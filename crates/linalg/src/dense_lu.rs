@@ -1,10 +1,8 @@
 //! Dense LU factorization, sequential and instantiated once for each scalar.
 
 use super::interruption;
-use faer::dyn_stack::{MemBuffer, MemStack};
-use faer::linalg::lu::partial_pivoting::{factor, solve};
-use faer::perm::Perm;
-use faer::{Conj, Mat, MatMut, Par, c64};
+use faer::linalg::solvers::{PartialPivLu, Solve};
+use faer::{Mat, MatMut, c64};
 
 macro_rules! dense_lu {
     ($(#[$doc:meta])* $name:ident, $scalar:ty) => {
@@ -12,67 +10,23 @@ macro_rules! dense_lu {
         ///
         /// It does not report singularity: the solutions are then not finite, or huge.
         #[derive(Clone, Debug)]
-        pub struct $name {
-            factors: Mat<$scalar>,
-            rows: Perm<usize>,
-        }
+        pub struct $name(PartialPivLu<$scalar>);
 
         impl $name {
             /// Factorizes a square matrix with partial pivoting.
-            pub fn factorize(mut matrix: Mat<$scalar>) -> Self {
+            pub fn factorize(matrix: Mat<$scalar>) -> Self {
                 interruption::check();
-                let n = matrix.nrows();
-                let (mut forward, mut inverse) = (vec![0; n], vec![0; n]);
-                let scratch = factor::lu_in_place_scratch::<usize, $scalar>(
-                    n,
-                    n,
-                    Par::Seq,
-                    Default::default(),
-                );
-                factor::lu_in_place(
-                    matrix.as_mut(),
-                    &mut forward,
-                    &mut inverse,
-                    Par::Seq,
-                    MemStack::new(&mut MemBuffer::new(scratch)),
-                    Default::default(),
-                );
-                Self {
-                    factors: matrix,
-                    rows: Perm::new_checked(forward.into(), inverse.into(), n),
-                }
+                Self(PartialPivLu::new(matrix.as_ref()))
             }
 
             /// Solves `A x = b` for each column, in place.
             pub fn solve_in_place(&self, right_sides: MatMut<'_, $scalar>) {
-                let (n, width) = (self.factors.nrows(), right_sides.ncols());
-                let scratch =
-                    solve::solve_in_place_scratch::<usize, $scalar>(n, width, Par::Seq);
-                solve::solve_in_place_with_conj(
-                    self.factors.as_ref(),
-                    self.factors.as_ref(),
-                    self.rows.as_ref(),
-                    Conj::No,
-                    right_sides,
-                    Par::Seq,
-                    MemStack::new(&mut MemBuffer::new(scratch)),
-                );
+                self.0.solve_in_place(right_sides);
             }
 
             /// Solves `A^T x = b` for each column, in place.
             pub fn solve_transpose_in_place(&self, right_sides: MatMut<'_, $scalar>) {
-                let (n, width) = (self.factors.nrows(), right_sides.ncols());
-                let scratch =
-                    solve::solve_transpose_in_place_scratch::<usize, $scalar>(n, width, Par::Seq);
-                solve::solve_transpose_in_place_with_conj(
-                    self.factors.as_ref(),
-                    self.factors.as_ref(),
-                    self.rows.as_ref(),
-                    Conj::No,
-                    right_sides,
-                    Par::Seq,
-                    MemStack::new(&mut MemBuffer::new(scratch)),
-                );
+                self.0.solve_transpose_in_place(right_sides);
             }
         }
     };
