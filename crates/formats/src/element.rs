@@ -1,9 +1,9 @@
 //! Element kinds: nodes, edges, faces, shape functions, quadrature, and their numbers in file formats.
 //!
-//! Whatever depends on the kind of an element is said in the tables [`table`] and [`formats`], for plane and solid elements alike.
+//! Whatever depends on the kind of an element is said in the [`table`], for plane and solid elements alike.
 
 mod face;
-mod formats;
+mod listing;
 mod rule;
 mod shapes;
 mod table;
@@ -24,7 +24,7 @@ impl ElementKind {
     /// there; none for a kind that these files do not have.
     #[inline]
     pub fn universal(self, nodes: &[u32]) -> Option<(usize, Vec<u32>)> {
-        let listing = &self.formats().universal;
+        let listing = &self.row().universal;
         let in_plane = usize::from(self.dimension() == 2);
         let mut listed = nodes.to_vec();
         for (node, &place) in nodes.iter().zip(listing.order) {

@@ -21,7 +21,7 @@ pub(super) fn element_type(name: &str) -> Option<ElementType> {
     };
     let mut kinds = ElementKind::ALL.into_iter().filter(|kind| kind.dimension() == dimension);
     kinds.find_map(|kind| {
-        let mut own = kind.formats().abaqus.iter().filter(|(names, _)| names.contains(&&name[3..]));
+        let mut own = kind.row().abaqus.iter().filter(|(names, _)| names.contains(&&name[3..]));
         own.next().map(|&(_, difference)| ElementType { kind, is_plane_strain, difference })
     })
 }

@@ -1,7 +1,7 @@
-//! Table of element kinds: a new kind is a variant, a row, and its numbers in [`super::formats`].
+//! Table of element kinds: a new kind is a variant and a row.
 
 use super::face::FaceKind;
-use super::formats::{self, Formats};
+use super::listing::{BRICK, DISPLACEMENTS, FULL, Listing, listed};
 use super::rule::{self, GAUSS, QuadraturePoint};
 use super::shapes::{self, Shape};
 use std::sync::LazyLock;
@@ -19,7 +19,7 @@ macro_rules! kinds {
             pub const ALL: [Self; [$(stringify!($kind)),+].len()] = [$(Self::$kind),+];
 
             #[inline]
-            pub(super) fn row(self) -> &'static Row {
+            pub(crate) fn row(self) -> &'static Row {
                 match self {
                     $(Self::$kind => &$row,)+
                 }
@@ -65,7 +65,7 @@ kinds! {
 }
 
 /// One row of the table of kinds.
-pub(super) struct Row {
+pub(crate) struct Row {
     pub dimension: usize,
     /// Parent coordinates of the corners.
     pub corners: &'static [[f64; 3]],
@@ -80,9 +80,19 @@ pub(super) struct Row {
     /// Rule of the stiffness where it is not that of the mass.
     pub stiffness_quadrature: Option<fn() -> Vec<QuadraturePoint>>,
     pub superconvergent: fn() -> Vec<[f64; 3]>,
+    /// Its name in messages and tables, such as `tet10`.
     pub name: &'static str,
-    /// Its numbers, names and orders in the formats of mesh files.
-    pub formats: &'static Formats,
+    /// Cell type of VTK, which numbers its nodes as [`ElementKind`] does.
+    pub vtk: u8,
+    /// Element types of Gmsh's MSH format.
+    pub gmsh: Listing<u32>,
+    /// Descriptors of dataset 2412 of universal files, where corners and middles take turns around each face.
+    pub universal: Listing<usize>,
+    /// Cards of Nastran, where middles along the height come before those of the top.
+    pub nastran: Listing<&'static str>,
+    /// Element types of Abaqus and CalculiX behind `C3D`, or `CPE` and `CPS` in the plane, with what differs here from what
+    /// the name asks for, empty for nothing.
+    pub abaqus: &'static [(&'static [&'static str], &'static str)],
 }
 
 /// A face and its nodes.
@@ -128,7 +138,6 @@ const PYRAMID_EDGES: [[usize; 2]; 8] =
     [[0, 1], [1, 2], [2, 3], [3, 0], [0, 4], [1, 4], [2, 4], [3, 4]];
 
 const TRI3: Row = Row {
-    formats: &formats::TRI3,
     dimension: 2,
     corners: &shapes::TRIANGLE,
     is_quadratic: false,
@@ -139,9 +148,13 @@ const TRI3: Row = Row {
     stiffness_quadrature: None,
     superconvergent: || vec![[THIRD, THIRD, 0.0]],
     name: "tri3",
+    vtk: 5,
+    gmsh: listed(&[2]),
+    universal: listed(&[41, 51, 91]),
+    nastran: listed(&[]),
+    abaqus: &[(&["3", "3H"], "")],
 };
 const TRI6: Row = Row {
-    formats: &formats::TRI6,
     is_quadratic: true,
     shapes: |[xi, eta, _]| {
         shapes::quadratic_simplex(&shapes::triangle(xi, eta), &shapes::TRIANGLE_EDGES)
@@ -149,10 +162,13 @@ const TRI6: Row = Row {
     quadrature: rule::triangle_six,
     superconvergent: || vec![[0.5, 0.0, 0.0], [0.5, 0.5, 0.0], [0.0, 0.5, 0.0]],
     name: "tri6",
+    vtk: 22,
+    gmsh: listed(&[9]),
+    universal: Listing { names: &[42, 52, 92], order: &[0, 2, 4, 1, 3, 5] },
+    abaqus: &[(&["6"], ""), (&["6M", "6H", "6MH"], DISPLACEMENTS)],
     ..TRI3
 };
 const QUAD4: Row = Row {
-    formats: &formats::QUAD4,
     dimension: 2,
     corners: &shapes::SQUARE,
     is_quadratic: false,
@@ -163,9 +179,13 @@ const QUAD4: Row = Row {
     stiffness_quadrature: None,
     superconvergent: || vec![[0.0; 3]],
     name: "quad4",
+    vtk: 9,
+    gmsh: listed(&[3]),
+    universal: listed(&[44, 54, 94]),
+    nastran: listed(&[]),
+    abaqus: &[(&["4"], ""), (&["4R", "4I", "4H", "4RH", "4IH"], FULL)],
 };
 const QUAD8: Row = Row {
-    formats: &formats::QUAD8,
     is_quadratic: true,
     shapes: |[xi, eta, _]| shapes::serendipity(xi, eta),
     quadrature: || rule::square(&rule::THREE),
@@ -173,10 +193,13 @@ const QUAD8: Row = Row {
         vec![[-GAUSS, -GAUSS, 0.0], [GAUSS, -GAUSS, 0.0], [GAUSS, GAUSS, 0.0], [-GAUSS, GAUSS, 0.0]]
     },
     name: "quad8",
+    vtk: 23,
+    gmsh: listed(&[16]),
+    universal: Listing { names: &[45, 55, 95], order: &[0, 2, 4, 6, 1, 3, 5, 7] },
+    abaqus: &[(&["8"], ""), (&["8R", "8H", "8RH"], FULL)],
     ..QUAD4
 };
 const TET4: Row = Row {
-    formats: &formats::TET4,
     dimension: 3,
     corners: &shapes::TETRAHEDRON,
     is_quadratic: false,
@@ -187,19 +210,26 @@ const TET4: Row = Row {
     stiffness_quadrature: Some(rule::tetrahedron_one),
     superconvergent: || vec![[0.25; 3]],
     name: "tet4",
+    vtk: 10,
+    gmsh: listed(&[4]),
+    universal: listed(&[111]),
+    nastran: listed(&["CTETRA"]),
+    abaqus: &[(&["4"], ""), (&["4H"], DISPLACEMENTS)],
 };
 const TET10: Row = Row {
-    formats: &formats::TET10,
     is_quadratic: true,
     shapes: |at| shapes::quadratic_simplex(&shapes::tetrahedron(at), &TETRAHEDRON_EDGES),
     quadrature: rule::tetrahedron_fourteen,
     stiffness_quadrature: Some(rule::tetrahedron_four),
     superconvergent: || rule::places(rule::tetrahedron_four()),
     name: "tet10",
+    vtk: 24,
+    gmsh: Listing { names: &[11], order: &[0, 1, 2, 3, 4, 5, 6, 7, 9, 8] },
+    universal: Listing { names: &[118], order: &[0, 2, 4, 9, 1, 3, 5, 6, 7, 8] },
+    abaqus: &[(&["10"], ""), (&["10H", "10HS", "10M", "10MH", "10I", "10T"], DISPLACEMENTS)],
     ..TET4
 };
 const HEX8: Row = Row {
-    formats: &formats::HEX8,
     dimension: 3,
     corners: &shapes::BRICK,
     is_quadratic: false,
@@ -217,24 +247,41 @@ const HEX8: Row = Row {
     stiffness_quadrature: None,
     superconvergent: || vec![[0.0; 3]],
     name: "hex8",
+    vtk: 12,
+    gmsh: listed(&[5]),
+    universal: listed(&[115]),
+    nastran: listed(&["CHEXA"]),
+    abaqus: &[(&["8", "8R", "8H", "8RH"], BRICK), (&["8I", "8IH"], "")],
 };
 const HEX20: Row = Row {
-    formats: &formats::HEX20,
     is_quadratic: true,
     shapes: |at| shapes::brick(true, at),
     quadrature: || rule::cube(&rule::THREE),
     superconvergent: || rule::places(rule::cube(&rule::TWO)),
     name: "hex20",
+    vtk: 25,
+    gmsh: Listing {
+        names: &[17],
+        order: &[0, 1, 2, 3, 4, 5, 6, 7, 8, 11, 13, 9, 16, 18, 19, 17, 10, 12, 14, 15],
+    },
+    universal: Listing {
+        names: &[116],
+        order: &[0, 2, 4, 6, 12, 14, 16, 18, 1, 3, 5, 7, 13, 15, 17, 19, 8, 9, 10, 11],
+    },
+    nastran: Listing {
+        names: &["CHEXA"],
+        order: &[0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 16, 17, 18, 19, 12, 13, 14, 15],
+    },
+    abaqus: &[(&["20"], ""), (&["20H"], FULL)],
     ..HEX8
 };
 const HEX20R: Row = Row {
-    formats: &formats::HEX20R,
     quadrature: || rule::cube(&rule::TWO),
     name: "hex20r",
+    abaqus: &[(&["20R"], ""), (&["20RH"], DISPLACEMENTS)],
     ..HEX20
 };
 const WEDGE6: Row = Row {
-    formats: &formats::WEDGE6,
     dimension: 3,
     corners: &shapes::WEDGE,
     is_quadratic: false,
@@ -245,9 +292,13 @@ const WEDGE6: Row = Row {
     stiffness_quadrature: None,
     superconvergent: || vec![[THIRD, THIRD, 0.0]],
     name: "wedge6",
+    vtk: 13,
+    gmsh: listed(&[6]),
+    universal: listed(&[112]),
+    nastran: listed(&["CPENTA"]),
+    abaqus: &[(&["6"], ""), (&["6R", "6H"], FULL)],
 };
 const WEDGE15: Row = Row {
-    formats: &formats::WEDGE15,
     is_quadratic: true,
     shapes: shapes::quadratic_wedge,
     quadrature: || rule::wedge(&rule::triangle_six(), &rule::THREE),
@@ -256,10 +307,20 @@ const WEDGE15: Row = Row {
         triangle.flat_map(|([xi, eta, _], _)| [-GAUSS, GAUSS].map(|zeta| [xi, eta, zeta])).collect()
     },
     name: "wedge15",
+    vtk: 26,
+    gmsh: Listing { names: &[18], order: &[0, 1, 2, 3, 4, 5, 6, 9, 7, 12, 14, 13, 8, 10, 11] },
+    universal: Listing {
+        names: &[113],
+        order: &[0, 2, 4, 9, 11, 13, 1, 3, 5, 10, 12, 14, 6, 7, 8],
+    },
+    nastran: Listing {
+        names: &["CPENTA"],
+        order: &[0, 1, 2, 3, 4, 5, 6, 7, 8, 12, 13, 14, 9, 10, 11],
+    },
+    abaqus: &[(&["15"], ""), (&["15H"], FULL)],
     ..WEDGE6
 };
 const PYRAMID5: Row = Row {
-    formats: &formats::PYRAMID5,
     dimension: 3,
     corners: &shapes::PYRAMID,
     is_quadratic: false,
@@ -270,35 +331,37 @@ const PYRAMID5: Row = Row {
     stiffness_quadrature: None,
     superconvergent: || vec![[0.0, 0.0, 0.25]],
     name: "pyramid5",
+    vtk: 14,
+    gmsh: listed(&[7]),
+    universal: listed(&[]),
+    nastran: listed(&["CPYRAM", "CPYRA"]),
+    abaqus: &[(&["5"], ""), (&["5H"], DISPLACEMENTS)],
 };
 const PYRAMID13: Row = Row {
-    formats: &formats::PYRAMID13,
     is_quadratic: true,
     shapes: shapes::quadratic_pyramid,
     quadrature: || rule::pyramid(&rule::THREE, &rule::THREE_TO_APEX),
     superconvergent: || rule::places(rule::pyramid(&rule::TWO, &rule::TWO_TO_APEX)),
     name: "pyramid13",
+    vtk: 27,
+    gmsh: Listing { names: &[19], order: &[0, 1, 2, 3, 4, 5, 8, 10, 6, 7, 9, 11, 12] },
+    abaqus: &[(&["13"], ""), (&["13H"], DISPLACEMENTS)],
     ..PYRAMID5
 };
 
 impl ElementKind {
-    /// Its numbers, names and orders in the formats of mesh files.
-    pub(crate) fn formats(self) -> &'static Formats {
-        self.row().formats
-    }
-
     /// Element type of Gmsh's MSH format.
     pub fn gmsh_type(self) -> u32 {
-        self.formats().gmsh.names[0]
+        self.row().gmsh.names[0]
     }
 
     /// Cell type of VTK, which numbers its nodes as here.
     pub fn vtk_type(self) -> u8 {
-        self.formats().vtk
+        self.row().vtk
     }
 
-    /// The first kind that satisfies a condition on its formats.
-    pub(crate) fn listed(condition: impl Fn(&Formats) -> bool) -> Option<Self> {
-        Self::ALL.into_iter().find(|kind| condition(kind.formats()))
+    /// The first kind whose row satisfies a condition.
+    pub(crate) fn listed(condition: impl Fn(&Row) -> bool) -> Option<Self> {
+        Self::ALL.into_iter().find(|kind| condition(kind.row()))
     }
 }

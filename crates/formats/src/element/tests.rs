@@ -126,9 +126,9 @@ fn elements_written_to_universal_files_are_read_as_they_were() {
             assert!(kind.name().starts_with("pyramid"), "{kind:?}");
             continue;
         };
-        let found = ElementKind::listed(|formats| formats.universal.names.contains(&descriptor));
+        let found = ElementKind::listed(|row| row.universal.names.contains(&descriptor));
         let found = found.unwrap();
         assert_eq!(found.node_count(), kind.node_count(), "{kind:?}");
-        assert_eq!(found.formats().universal.arranged(&listed), nodes, "{kind:?}");
+        assert_eq!(found.row().universal.arranged(&listed), nodes, "{kind:?}");
     }
 }

@@ -123,28 +123,6 @@ struct Reader {
     surfaces: BTreeMap<String, Vec<SurfaceFace>>,
 }
 
-/// Dimension, node count and, for plane and solid elements, the kind of Gmsh's element types.
-fn element_type(number: i64) -> Option<(i64, usize, Option<ElementKind>)> {
-    let known = ElementKind::listed(|formats| {
-        let mut types = formats.gmsh.names.iter();
-        types.any(|&kind| i64::from(kind) == number)
-    });
-    if let Some(kind) = known {
-        return Some((kind.dimension() as i64, kind.node_count(), Some(kind)));
-    }
-    let (dimension, nodes) = match number {
-        1 => (1, 2),
-        8 => (1, 3),
-        15 => (0, 1),
-        10 => (2, 9),
-        12 => (3, 27),
-        13 => (3, 18),
-        14 => (3, 14),
-        _ => return None,
-    };
-    Some((dimension, nodes, None))
-}
-
 impl Reader {
     /// The file, of solid elements where there are any: plane ones are then faces of its physical surfaces.
     fn finished(self) -> FileMesh {
@@ -247,7 +225,7 @@ impl Reader {
                     kind,
                     region,
                     entity,
-                    nodes: kind.formats().gmsh.arranged(&nodes),
+                    nodes: kind.row().gmsh.arranged(&nodes),
                 };
                 if kind.dimension() == 3 {
                     self.solids.push(element);
@@ -268,24 +246,31 @@ impl Reader {
     }
 }
 
-/// Dimension, node count and kind of an element type that can be used.
+/// Dimension, node count and, for plane and solid elements, the kind of an element type that can be used.
 fn shape_of(
     cursor: &Cursor<'_>,
     number: i64,
     label: usize,
 ) -> Result<(i64, usize, Option<ElementKind>), MeshFileError> {
-    match element_type(number) {
-        Some((2, _, None)) => Err(cursor.error(format!(
+    let known =
+        ElementKind::listed(|row| row.gmsh.names.iter().any(|&kind| i64::from(kind) == number));
+    if let Some(kind) = known {
+        return Ok((kind.dimension() as i64, kind.node_count(), Some(kind)));
+    }
+    match number {
+        1 => Ok((1, 2, None)),
+        8 => Ok((1, 3, None)),
+        15 => Ok((0, 1, None)),
+        10 => Err(cursor.error(format!(
             "element {label} is a quadrilateral of nine nodes (type 10), which is not supported: set \
              Mesh.SecondOrderIncomplete = 1 for eight"
         ))),
-        Some((3, _, None)) => Err(cursor.error(format!(
+        12..=14 => Err(cursor.error(format!(
             "element {label} has nodes inside its faces (type {number}), which is not supported. \
              Set Mesh.SecondOrderIncomplete = 1 for bricks of 20, wedges of 15 and pyramids of 13 \
              nodes"
         ))),
-        Some(known) => Ok(known),
-        None => Err(cursor.error(format!(
+        _ => Err(cursor.error(format!(
             "element {label} has type {number}, which is not supported: triangles, quadrilaterals, {} of first and second \
              order are",
             ElementKind::SOLID_SHAPES

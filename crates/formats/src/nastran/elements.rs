@@ -19,7 +19,7 @@ impl Reader<'_, '_> {
             let of_order = |is_quadratic: bool| {
                 let mut kinds = ElementKind::ALL.into_iter();
                 kinds.find(|kind| {
-                    let cards = kind.formats().nastran.names;
+                    let cards = kind.row().nastran.names;
                     cards.contains(&&*card.name) && kind.is_quadratic() == is_quadratic
                 })
             };
@@ -63,7 +63,7 @@ impl Reader<'_, '_> {
         self.collection.elements.push(CollectedElement {
             label,
             kind,
-            nodes: kind.formats().nastran.arranged(&listed),
+            nodes: kind.row().nastran.arranged(&listed),
             region: Some(region.into()),
         });
         Ok(())

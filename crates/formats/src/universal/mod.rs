@@ -248,39 +248,38 @@ impl<'a> Reader<'_, 'a> {
         (label, descriptor): (usize, usize),
         nodes: &[u32],
     ) -> Result<(), MeshFileError> {
-        let entity =
-            match ElementKind::listed(|formats| formats.universal.names.contains(&descriptor)) {
-                Some(kind) => {
-                    if nodes.len() != kind.node_count() {
-                        refuse!(self.deck, place;
+        let entity = match ElementKind::listed(|row| row.universal.names.contains(&descriptor)) {
+            Some(kind) => {
+                if nodes.len() != kind.node_count() {
+                    refuse!(self.deck, place;
                         "element {label} has {} nodes, its kind {descriptor} ({}) has {}",
                         nodes.len(), kind.name(), kind.node_count());
-                    }
-                    self.collection.elements.push(CollectedElement {
-                        label,
-                        kind,
-                        nodes: kind.formats().universal.arranged(nodes),
-                        region: None,
-                    });
-                    Entity::Element(self.collection.elements.len() - 1)
                 }
-                None if (11..=32).contains(&descriptor) && nodes.len() >= 2 => {
-                    let mut all = nodes.to_vec();
-                    all.sort_unstable();
-                    Entity::Skin(all)
-                }
-                None if (101..121).contains(&descriptor) => {
-                    refuse!(self.deck, place;
+                self.collection.elements.push(CollectedElement {
+                    label,
+                    kind,
+                    nodes: kind.row().universal.arranged(nodes),
+                    region: None,
+                });
+                Entity::Element(self.collection.elements.len() - 1)
+            }
+            None if (11..=32).contains(&descriptor) && nodes.len() >= 2 => {
+                let mut all = nodes.to_vec();
+                all.sort_unstable();
+                Entity::Skin(all)
+            }
+            None if (101..121).contains(&descriptor) => {
+                refuse!(self.deck, place;
                     "element {label} is of kind {descriptor}, which is not supported: tetrahedra, \
                      bricks and wedges are");
-                }
-                None => {
-                    let keyword = format!("elements of kind {descriptor}");
-                    let reason = ("no solid or plane elements", JOINTS.contains(&descriptor));
-                    self.model.leave_out(&keyword, || self.deck.name(place), reason);
-                    Entity::Skin(Vec::new())
-                }
-            };
+            }
+            None => {
+                let keyword = format!("elements of kind {descriptor}");
+                let reason = ("no solid or plane elements", JOINTS.contains(&descriptor));
+                self.model.leave_out(&keyword, || self.deck.name(place), reason);
+                Entity::Skin(Vec::new())
+            }
+        };
         if self.entities.insert(label, entity).is_some() {
             refuse!(self.deck, place; "element {label} is given twice");
         }
