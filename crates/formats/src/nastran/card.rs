@@ -85,32 +85,22 @@ fn short_real(field: &str) -> Option<f64> {
     real(&format!("{digits}e{exponent}"))
 }
 
-/// A line as a card or the continuation of one: its first field, and its others.
-struct Line<'a> {
-    head: &'a str,
-    fields: Vec<&'a str>,
-    is_large: bool,
-}
-
-fn line_of(line: &str) -> Line<'_> {
+/// The first field of a line, which is a card or the continuation of one, and its others: eight, or four large ones.
+fn fields_of(line: &str) -> (&str, Vec<&str>) {
+    let is_large = |head: &str| head.ends_with('*') || head.starts_with('*');
     if line.contains(',') {
         let mut fields = line.split(',').map(str::trim);
         let head = fields.next().unwrap_or_default();
-        let is_large = head.ends_with('*') || head.starts_with('*');
-        let count = if is_large { 4 } else { 8 };
-        return Line { head, fields: fields.take(count).collect(), is_large };
+        let count = if is_large(head) { 4 } else { 8 };
+        return (head, fields.chain(std::iter::repeat("")).take(count).collect());
     }
     let column = |from: usize, to: usize| {
         let to = to.min(line.len());
         line.get(from.min(to)..to).unwrap_or_default().trim()
     };
     let head = column(0, 8);
-    let is_large = head.ends_with('*') || head.starts_with('*');
-    let fields = match is_large {
-        true => (0..4).map(|i| column(8 + 16 * i, 24 + 16 * i)).collect(),
-        false => (0..8).map(|i| column(8 + 8 * i, 16 + 8 * i)).collect(),
-    };
-    Line { head, fields, is_large }
+    let width = if is_large(head) { 16 } else { 8 };
+    (head, (8..72).step_by(width).map(|from| column(from, from + width)).collect())
 }
 
 /// The cards of a file and its case control.
@@ -136,12 +126,10 @@ pub(super) fn cards<'a>(deck: &'a Deck<'a>) -> Result<(Vec<Card<'a>>, Control), 
         if line.is_empty() {
             continue;
         }
-        let Line { head, mut fields, is_large } = line_of(line);
+        let (head, fields) = fields_of(line);
         if head.eq_ignore_ascii_case("ENDDATA") {
             break;
         }
-        // Every line has eight fields, one of large fields four.
-        fields.resize(if is_large { 4 } else { 8 }, "");
         if head.is_empty() || head.starts_with(['+', '*']) {
             let Some(card) = cards.last_mut() else {
                 refuse!(deck, place; "this line continues no card");
