@@ -1,8 +1,9 @@
 //! `*BOUNDARY`, `*DLOAD`, `*DSLOAD` and `*MOTION`, as the last step leaves them.
 
+use super::Reader;
 use super::block::{Block, fields};
 use super::interactions::unique;
-use super::{Placed, Reader};
+use crate::collection::{dimension, used_nodes};
 use crate::deck::{Place, quoted, real};
 use crate::file_mesh::MeshFileError;
 use crate::model_data::{FileCondition, FileConditionKind, FileMotion};
@@ -32,11 +33,11 @@ type Pressures = BTreeMap<String, (f64, Place)>;
 
 impl Reader<'_, '_> {
     /// Reads what holds, loads and turns the bodies. Steps follow each other: each changes what is there, `OP=NEW` begins anew.
-    pub(super) fn read_conditions(&mut self, blocks: &Placed<'_, '_>) -> Result<(), MeshFileError> {
+    pub(super) fn read_conditions(&mut self) -> Result<(), MeshFileError> {
         let (mut held, mut pressures) = (Held::new(), Pressures::new());
-        let transformed = self.transformed(blocks)?;
+        let transformed = self.transformed()?;
         let mut step = 0;
-        for &(scope, block) in blocks {
+        for &(scope, block) in self.blocks {
             match block.keyword.as_str() {
                 "STEP" => step += 1,
                 "BOUNDARY" => {
@@ -62,24 +63,24 @@ impl Reader<'_, '_> {
         }
         if step > 0 {
             let plural = if step == 1 { "step" } else { "steps" };
-            self.model.remarks.push(format!(
+            self.file.model.remarks.push(format!(
                 "conditions, pressures and friction are those at the end of {step} {plural}"
             ));
         }
-        let referred = self.read_equations(blocks, &held)?;
+        let referred = self.read_equations(&held)?;
         self.take_held(held, &transformed, &referred);
         for (boundary, (pressure, place)) in pressures {
             let place = self.deck.name(place);
             let kind = FileConditionKind::Pressure(pressure);
-            self.model.conditions.push(FileCondition { boundary, kind, place });
+            self.file.model.conditions.push(FileCondition { boundary, kind, place });
         }
         Ok(())
     }
 
     /// Nodes whose degrees of freedom are along axes of their own.
-    fn transformed(&mut self, blocks: &Placed<'_, '_>) -> Result<BTreeSet<u32>, MeshFileError> {
+    fn transformed(&mut self) -> Result<BTreeSet<u32>, MeshFileError> {
         let mut nodes = BTreeSet::new();
-        for &(scope, block) in blocks.iter().filter(|(_, b)| b.keyword == "TRANSFORM") {
+        for (scope, block) in self.blocks_of("TRANSFORM") {
             let name = block.required("NSET")?;
             let Some(set) = self.nodes.sets.get(&self.key(scope, name)) else {
                 return Err(self.unknown(block.place, "node set", name));
@@ -158,8 +159,8 @@ impl Reader<'_, '_> {
 
     /// Conditions of the sets that are held; what has no meaning here is left out.
     fn take_held(&mut self, held: Held, transformed: &BTreeSet<u32>, referred: &BTreeSet<u32>) {
-        let in_plane = self.collection.dimension() == 2;
-        let used = self.collection.used_nodes();
+        let in_plane = dimension(&self.collected) == 2;
+        let used = used_nodes(&self.collected);
         for (key, (mut axes, place)) in held {
             let Some(set) = self.nodes.sets.get(&key).cloned() else {
                 continue;
@@ -189,16 +190,16 @@ impl Reader<'_, '_> {
                 let reason = "its directions are those of *TRANSFORM: hold it in the case (condition = \"guide\" or \"fixed\")";
                 self.lose_part(&keyword, place, reason);
             } else {
-                let taken = &self.collection;
+                let taken = &self.file;
                 let is_other = |name: &str| taken.surfaces.contains_key(name);
                 let boundary = match is_other(&set.name) {
                     true => unique(&format!("{}_nodes", set.name), is_other),
                     false => set.name.clone(),
                 };
-                self.collection.node_sets.insert(boundary.clone(), nodes);
+                self.file.node_sets.insert(boundary.clone(), nodes);
                 let place = self.deck.name(place);
                 let kind = FileConditionKind::Fixed(axes);
-                self.model.conditions.push(FileCondition { boundary, kind, place });
+                self.file.model.conditions.push(FileCondition { boundary, kind, place });
             }
         }
     }
@@ -257,7 +258,7 @@ impl Reader<'_, '_> {
         };
         let faces: Result<Vec<_>, _> =
             elements.iter().map(|&e| self.side(e, side, place)).collect();
-        self.collection.surfaces.insert(full.clone(), faces?);
+        self.file.surfaces.insert(full.clone(), faces?);
         Ok(full)
     }
 
@@ -278,7 +279,7 @@ impl Reader<'_, '_> {
             let nodes = self.entry(&self.nodes, scope, place, target)?;
             let nodes = nodes.ok_or_else(|| self.unknown(place, "node set", target))?;
             let nodes: BTreeSet<u32> = nodes.into_iter().collect();
-            let elements = self.collection.elements.iter();
+            let elements = self.collected.iter();
             let is_inside = elements.map(|e| e.nodes.iter().all(|node| nodes.contains(node)));
             let is_inside: Vec<bool> = is_inside.collect();
             let axis = [[a, b, c], [d, e, f]];
@@ -299,13 +300,13 @@ impl Reader<'_, '_> {
         (axis, angular_velocity, is_load): ([[f64; 3]; 2], f64, bool),
     ) -> bool {
         let mut covers: BTreeMap<Option<Arc<str>>, bool> = BTreeMap::new();
-        for (element, is_inside) in self.collection.elements.iter().zip(is_inside) {
+        for (element, is_inside) in self.collected.iter().zip(is_inside) {
             *covers.entry(element.region.clone()).or_insert(true) &= is_inside;
         }
         let regions = covers.into_iter().filter(|c| c.1).filter_map(|c| c.0);
         let regions: Vec<Arc<str>> = regions.collect();
         for region in &regions {
-            let motions = &mut self.model.motions;
+            let motions = &mut self.file.model.motions;
             motions.retain(|motion| *motion.region != **region);
             let (region, place) = (region.to_string(), self.deck.name(place));
             motions.push(FileMotion { region, axis, angular_velocity, is_load, place });
@@ -328,7 +329,7 @@ impl Reader<'_, '_> {
         }
         let elements = self.entry(&self.elements, scope, place, target)?;
         let elements = elements.ok_or_else(|| self.unknown(place, "element set", target))?;
-        let mut is_inside = vec![false; self.collection.elements.len()];
+        let mut is_inside = vec![false; self.collected.len()];
         elements.into_iter().for_each(|e| is_inside[e] = true);
         let axis = [[a, b, c], [a + d, b + e, c + f]];
         if !self.turn_regions(&is_inside, place, (axis, square.sqrt(), true)) {

@@ -1,8 +1,9 @@
 //! `*EQUATION`: sums of displacements that vanish.
 
+use super::Reader;
 use super::block::{Block, fields};
 use super::conditions::Held;
-use super::{Placed, Reader};
+use crate::collection::{dimension, used_nodes};
 use crate::deck::{Place, real};
 use crate::file_mesh::MeshFileError;
 use std::collections::BTreeSet;
@@ -13,18 +14,14 @@ type Term = (Vec<u32>, usize, f64);
 impl Reader<'_, '_> {
     /// Reads the equations, and returns the nodes without elements that are part of them: such a node must be held, and takes no
     /// part then.
-    pub(super) fn read_equations(
-        &mut self,
-        blocks: &Placed<'_, '_>,
-        held: &Held,
-    ) -> Result<BTreeSet<u32>, MeshFileError> {
-        let used = self.collection.used_nodes();
+    pub(super) fn read_equations(&mut self, held: &Held) -> Result<BTreeSet<u32>, MeshFileError> {
+        let used = used_nodes(&self.collected);
         let is_held = |reader: &Self, node: u32, axis: usize| {
             let mut sets = held.iter().filter(|(_, (axes, _))| axes[axis]);
             sets.any(|(key, _)| reader.nodes.sets[key].items.contains(&node))
         };
         let mut referred = BTreeSet::new();
-        for &(scope, block) in blocks.iter().filter(|(_, b)| b.keyword == "EQUATION") {
+        for (scope, block) in self.blocks_of("EQUATION") {
             for (place, terms) in self.equation_terms(scope, block)? {
                 // Sets of as many nodes stand for as many equations; a single node is part of each.
                 let count = terms.iter().map(|term| term.0.len()).max().unwrap_or(0);
@@ -40,7 +37,7 @@ impl Reader<'_, '_> {
                     let (own, beside): (Vec<_>, Vec<_>) = all.partition(|t| used.contains(&t.0));
                     for (node, axis, _) in beside {
                         if !is_held(self, node, axis) {
-                            let label = self.collection.labels[node as usize];
+                            let label = self.file.labels[node as usize];
                             refuse!(self.deck, place;
                                 "*EQUATION: node {label} belongs to no element, and nothing holds \
                                  it along {}: a node that moves others freely is not supported",
@@ -48,13 +45,13 @@ impl Reader<'_, '_> {
                         }
                         referred.insert(node);
                     }
-                    self.collection.equations.push(own);
+                    self.file.equations.push(own);
                 }
             }
         }
-        if self.collection.dimension() == 2 && !self.collection.equations.is_empty() {
-            self.collection.equations.clear();
-            let first = blocks.iter().find(|(_, b)| b.keyword == "EQUATION");
+        if dimension(&self.collected) == 2 && !self.file.equations.is_empty() {
+            self.file.equations.clear();
+            let first = self.blocks_of("EQUATION").next();
             let place = first.map_or_else(|| self.deck.end(), |(_, block)| block.place);
             self.lose_part("*EQUATION", place, "plane bodies have no equations of nodes");
         }

@@ -1,7 +1,7 @@
 //! `*TIE`, `*CONTACT PAIR` and the friction of `*SURFACE INTERACTION`.
 
+use super::Reader;
 use super::block::{Block, fields};
-use super::{Placed, Reader};
 use crate::deck::{Place, quoted};
 use crate::file_mesh::MeshFileError;
 use crate::model_data::{FileContact, FileTie};
@@ -18,12 +18,9 @@ struct Interaction {
 
 impl Reader<'_, '_> {
     /// Reads ties and contact pairs.
-    pub(super) fn read_interactions(
-        &mut self,
-        blocks: &Placed<'_, '_>,
-    ) -> Result<(), MeshFileError> {
-        let interactions = self.interactions(blocks)?;
-        for &(scope, block) in blocks.iter().filter(|(_, b)| b.keyword == "TIE") {
+    pub(super) fn read_interactions(&mut self) -> Result<(), MeshFileError> {
+        let interactions = self.interactions()?;
+        for (scope, block) in self.blocks_of("TIE") {
             let name = block.parameter("NAME").filter(|name| !name.is_empty());
             if block.parameter("ADJUST").is_some_and(|value| !value.eq_ignore_ascii_case("NO")) {
                 let reason = "nodes stay where the file has them; a tie bridges a small gap";
@@ -31,21 +28,20 @@ impl Reader<'_, '_> {
             }
             for (place, [surface, counter]) in self.pairs(scope, block)? {
                 let wanted = name.map_or_else(|| surface.clone(), str::to_owned);
-                let name = unique(&wanted, |name| self.model.ties.iter().any(|t| t.name == name));
-                let place = self.deck.name(place);
-                self.model.ties.push(FileTie { name, surface, counter, place });
+                let (ties, place) = (&mut self.file.model.ties, self.deck.name(place));
+                let name = unique(&wanted, |name| ties.iter().any(|tie| tie.name == name));
+                ties.push(FileTie { name, surface, counter, place });
             }
         }
-        self.read_pairs(blocks, &interactions)
+        self.read_pairs(&interactions)
     }
 
     /// Contact pairs.
     fn read_pairs(
         &mut self,
-        blocks: &Placed<'_, '_>,
         interactions: &BTreeMap<String, Interaction>,
     ) -> Result<(), MeshFileError> {
-        for &(scope, block) in blocks.iter().filter(|(_, b)| b.keyword == "CONTACT PAIR") {
+        for (scope, block) in self.blocks_of("CONTACT PAIR") {
             let name = block.required("INTERACTION")?;
             let Some(interaction) = interactions.get(&name.to_uppercase()).cloned() else {
                 return Err(self.unknown(block.place, "surface interaction", name));
@@ -62,14 +58,14 @@ impl Reader<'_, '_> {
                 }
             }
             for (place, [surface, counter]) in self.pairs(scope, block)? {
-                let contacts = &self.model.contacts;
+                let contacts = &self.file.model.contacts;
                 let is_known = |c: &FileContact| c.surface == surface && c.counter == counter;
                 if contacts.iter().any(is_known) {
                     continue;
                 }
                 let name = unique(&surface, |name| contacts.iter().any(|c| c.name == name));
                 let Interaction { friction, decay, normal_stiffness } = interaction;
-                self.model.contacts.push(FileContact {
+                self.file.model.contacts.push(FileContact {
                     name,
                     surface,
                     counter,
@@ -101,7 +97,7 @@ impl Reader<'_, '_> {
                 [Some(first), Some(second)] => pairs.push((place, [first, second])),
                 _ => {
                     let missing = if found[0].is_none() { first } else { second };
-                    let is_left_out = self.model.left_out.iter().any(|left_out| {
+                    let is_left_out = self.file.model.left_out.iter().any(|left_out| {
                         let named = left_out.keyword.strip_prefix("*SURFACE, NAME=");
                         named.is_some_and(|named| {
                             let named = named.split(',').next().unwrap_or_default();
@@ -127,18 +123,15 @@ impl Reader<'_, '_> {
         }
         let set = self.nodes.sets.get(&key)?;
         let items = set.items.clone();
-        self.collection.node_sets.entry(set.name.clone()).or_insert(items);
+        self.file.node_sets.entry(set.name.clone()).or_insert(items);
         Some(set.name.clone())
     }
 
     /// Surface interactions by name, as the last step leaves them.
-    fn interactions(
-        &mut self,
-        blocks: &Placed<'_, '_>,
-    ) -> Result<BTreeMap<String, Interaction>, MeshFileError> {
+    fn interactions(&mut self) -> Result<BTreeMap<String, Interaction>, MeshFileError> {
         let mut found: BTreeMap<String, Interaction> = BTreeMap::new();
         let mut current = None;
-        for &(_, block) in blocks {
+        for &(_, block) in self.blocks {
             match block.keyword.as_str() {
                 "SURFACE INTERACTION" => {
                     let name = block.required("NAME")?.to_uppercase();

@@ -1,7 +1,7 @@
 //! `*MATERIAL`, `*SOLID SECTION` and `*ORIENTATION`: the material of each region.
 
+use super::Reader;
 use super::block::{Block, fields};
-use super::{Placed, Reader};
 use crate::deck::real;
 use crate::file_mesh::MeshFileError;
 use crate::model_data::{FileElasticity, FileMaterial, MaterialAxes};
@@ -11,18 +11,18 @@ use std::sync::Arc;
 
 impl Reader<'_, '_> {
     /// Reads materials and sections: each element gets its region, each region its material.
-    pub(super) fn read_materials(&mut self, blocks: &Placed<'_, '_>) -> Result<(), MeshFileError> {
-        let definitions = self.definitions(blocks)?;
-        let orientations = self.orientations(blocks)?;
-        let mut is_sectioned = vec![false; self.collection.elements.len()];
-        for &(scope, block) in blocks.iter().filter(|(_, b)| b.keyword == "SOLID SECTION") {
+    pub(super) fn read_materials(&mut self) -> Result<(), MeshFileError> {
+        let definitions = self.definitions()?;
+        let orientations = self.orientations()?;
+        let mut is_sectioned = vec![false; self.collected.len()];
+        for (scope, block) in self.blocks_of("SOLID SECTION") {
             let name = block.required("ELSET")?;
             let Some(set) = self.elements.sets.get(&self.key(scope, name)).cloned() else {
                 return Err(self.unknown(block.place, "element set", name));
             };
             let region: Arc<str> = set.name.as_str().into();
             for &element in &set.items.iter().copied().collect::<BTreeSet<usize>>() {
-                let known = &mut self.collection.elements[element];
+                let known = &mut self.collected[element];
                 if std::mem::replace(&mut is_sectioned[element], true) {
                     let label = known.label;
                     refuse!(block;
@@ -57,20 +57,17 @@ impl Reader<'_, '_> {
                 {
                     *own = axes;
                 }
-                self.model.materials.push(material);
+                self.file.model.materials.push(material);
             }
         }
         Ok(())
     }
 
     /// Materials by name, of no region yet.
-    fn definitions(
-        &mut self,
-        blocks: &Placed<'_, '_>,
-    ) -> Result<BTreeMap<String, FileMaterial>, MeshFileError> {
+    fn definitions(&mut self) -> Result<BTreeMap<String, FileMaterial>, MeshFileError> {
         let mut definitions: BTreeMap<String, FileMaterial> = BTreeMap::new();
         let mut current: Option<String> = None;
-        for &(_, block) in blocks {
+        for &(_, block) in self.blocks {
             let keyword = block.keyword.as_str();
             if keyword == "MATERIAL" {
                 let name = block.required("NAME")?;
@@ -108,12 +105,9 @@ impl Reader<'_, '_> {
     }
 
     /// `*ORIENTATION` by scope and name.
-    fn orientations(
-        &mut self,
-        blocks: &Placed<'_, '_>,
-    ) -> Result<BTreeMap<(usize, String), MaterialAxes>, MeshFileError> {
+    fn orientations(&mut self) -> Result<BTreeMap<(usize, String), MaterialAxes>, MeshFileError> {
         let mut found = BTreeMap::new();
-        for &(scope, block) in blocks.iter().filter(|(_, b)| b.keyword == "ORIENTATION") {
+        for (scope, block) in self.blocks_of("ORIENTATION") {
             let name = block.required("NAME")?;
             let wrong = |message: &str| fault!(block; "*ORIENTATION {name}: {message}");
             if block.parameter("DEFINITION").is_some_and(|d| !d.eq_ignore_ascii_case("COORDINATES"))

@@ -1,10 +1,11 @@
 //! Reader of the input files of Abaqus and CalculiX.
 //!
 //! Solid and plane elements of first and second order, parts and instances, sets, surfaces, and the
-//! model data around them ([`ModelData`]). A region is the element set of a `*SOLID SECTION`. Names
-//! of what lies in an instance get its name in front, `PAD-1_LINING`. Names are the same in any
-//! case of letters, as those programs have it, and keep the spelling of their definition. What has
-//! no meaning here is listed in [`ModelData::left_out`]; what would change the mesh is refused.
+//! model data around them ([`ModelData`](super::ModelData)). A region is the element set of a
+//! `*SOLID SECTION`. Names of what lies in an instance get its name in front, `PAD-1_LINING`. Names
+//! are the same in any case of letters, as those programs have it, and keep the spelling of their
+//! definition. What has no meaning here is listed in [`ModelData`](super::ModelData); what would
+//! change the mesh is refused.
 //!
 //! Source: Abaqus Keywords Reference Guide; CalculiX CrunchiX USER'S MANUAL.
 
@@ -19,18 +20,14 @@ mod scope;
 mod sets;
 mod surfaces;
 
-use super::collection::Collection;
+use super::collection::{CollectedElement, finished};
 use super::deck::{Deck, Place};
 use super::file_mesh::{FileMesh, MeshFileError};
-use super::model_data::ModelData;
 use block::{Block, blocks};
 use frictionsim_bounds::Budget;
 use scope::{Layout, Scope, layout};
 use std::collections::{BTreeMap, HashMap, HashSet};
 use std::hash::Hash;
-
-/// Blocks with the scopes that they belong to.
-type Placed<'b, 'a> = [(usize, &'b Block<'a>)];
 
 /// A set under the name with which it was defined.
 #[derive(Clone, Debug)]
@@ -81,13 +78,15 @@ impl<T: Copy + Eq + Hash> Numbered<T> {
 /// What is read so far. Names are keyed by scope and capitals.
 struct Reader<'d, 'a> {
     deck: &'d Deck<'a>,
+    /// Each with the scope that it belongs to.
+    blocks: &'d [(usize, &'d Block<'a>)],
     budget: Budget,
     scopes: Vec<Scope>,
-    collection: Collection,
-    model: ModelData,
+    file: FileMesh,
+    collected: Vec<CollectedElement>,
     nodes: Numbered<u32>,
     elements: Numbered<usize>,
-    /// Names of surfaces among those of the collection.
+    /// Names of surfaces among those of the mesh file.
     surfaces: BTreeMap<Key, String>,
 }
 
@@ -139,10 +138,11 @@ pub(super) fn read(bytes: &[u8]) -> Result<FileMesh, MeshFileError> {
     let Layout { scopes, blocks, unused_parts } = layout(&deck, &all)?;
     let mut reader = Reader {
         deck: &deck,
+        blocks: &blocks,
         budget: deck.budget.clone(),
         scopes,
-        collection: Collection::default(),
-        model: ModelData::default(),
+        file: FileMesh::default(),
+        collected: Vec::new(),
         nodes: Numbered::new("node"),
         elements: Numbered::new("element"),
         surfaces: BTreeMap::new(),
@@ -151,35 +151,43 @@ pub(super) fn read(bytes: &[u8]) -> Result<FileMesh, MeshFileError> {
         let keyword = format!("PART {name}");
         reader.leave_out(&keyword, place, "no instance of it is in the assembly");
     }
-    reader.refuse_and_list(&blocks)?;
-    reader.read_nodes(&blocks)?;
-    reader.read_elements(&blocks)?;
-    reader.read_sets(&blocks)?;
-    reader.read_surfaces(&blocks)?;
-    reader.read_materials(&blocks)?;
-    reader.read_interactions(&blocks)?;
-    reader.read_conditions(&blocks)?;
-    if reader.collection.elements.is_empty() {
+    reader.refuse_and_list()?;
+    reader.read_nodes()?;
+    reader.read_elements()?;
+    reader.read_sets()?;
+    reader.read_surfaces()?;
+    reader.read_materials()?;
+    reader.read_interactions()?;
+    reader.read_conditions()?;
+    if reader.collected.is_empty() {
         refuse!(deck, deck.end();
             "the file has no solid or plane elements (*ELEMENT, TYPE=C3D10, C3D8, CPE4, ...)");
     }
     reader.keep_node_sets();
-    Ok(reader.collection.finish(reader.model))
+    Ok(finished(reader.file, reader.collected))
 }
 
-impl Reader<'_, '_> {
+impl<'d, 'a> Reader<'d, 'a> {
+    /// Blocks of a keyword, each with its scope.
+    fn blocks_of(
+        &self,
+        keyword: &'static str,
+    ) -> impl Iterator<Item = (usize, &'d Block<'a>)> + use<'d, 'a> {
+        self.blocks.iter().copied().filter(move |(_, block)| block.keyword == keyword)
+    }
+
     fn leave_out(&mut self, keyword: &str, place: Place, reason: &str) {
-        self.model.leave_out(keyword, || self.deck.name(place), (reason, false));
+        self.file.model.leave_out(keyword, || self.deck.name(place), (reason, false));
     }
 
     /// Leaves out what would hold, load or join parts.
     fn lose_part(&mut self, keyword: &str, place: Place, reason: &str) {
-        self.model.leave_out(keyword, || self.deck.name(place), (reason, true));
+        self.file.model.leave_out(keyword, || self.deck.name(place), (reason, true));
     }
 
     /// Refuses what would change the mesh, and lists the keywords that are not used.
-    fn refuse_and_list(&mut self, blocks: &Placed<'_, '_>) -> Result<(), MeshFileError> {
-        for (_, block) in blocks {
+    fn refuse_and_list(&mut self) -> Result<(), MeshFileError> {
+        for (_, block) in self.blocks {
             let keyword = block.keyword.as_str();
             if GENERATORS.contains(&keyword) {
                 refuse!(block;
@@ -189,10 +197,9 @@ impl Reader<'_, '_> {
             if keyword == "INCLUDE" {
                 refuse!(block; "*INCLUDE needs INPUT= and a file beside this one");
             }
-            let expands = || blocks.iter().any(|(_, other)| other.keyword == "EXPANSION");
             let is_part = match keyword {
                 // Temperatures load what expands.
-                "TEMPERATURE" => expands(),
+                "TEMPERATURE" => self.blocks_of("EXPANSION").next().is_some(),
                 "INITIAL CONDITIONS" => block.is("TYPE", "STRESS"),
                 _ => PARTS.contains(&keyword),
             };
@@ -208,9 +215,8 @@ impl Reader<'_, '_> {
             };
             self.leave_out(&format!("*{keyword}"), block.place, reason);
         }
-        let heading = blocks.iter().find(|(_, block)| block.keyword == "HEADING");
-        let title = heading.and_then(|(_, block)| block.data.first());
-        self.model.title = title.map(|(_, line)| line.trim().to_owned());
+        let title = self.blocks_of("HEADING").next().and_then(|(_, block)| block.data.first());
+        self.file.model.title = title.map(|(_, line)| line.trim().to_owned());
         Ok(())
     }
 

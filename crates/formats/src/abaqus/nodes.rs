@@ -1,8 +1,8 @@
 //! `*NODE` and `*ELEMENT`.
 
+use super::Reader;
 use super::block::{Block, fields};
 use super::element::{ElementType, element_type};
-use super::{Placed, Reader};
 use crate::ElementKind;
 use crate::collection::CollectedElement;
 use crate::deck::{Place, quoted, real};
@@ -23,31 +23,31 @@ impl Reader<'_, '_> {
     }
 
     /// Reads all nodes. Numbers of each instance follow those of the instances before.
-    pub(super) fn read_nodes(&mut self, blocks: &Placed<'_, '_>) -> Result<(), MeshFileError> {
+    pub(super) fn read_nodes(&mut self) -> Result<(), MeshFileError> {
         let mut offset = 0;
         for scope in self.numbering() {
             let mut largest = 0;
-            for (_, block) in blocks.iter().filter(|(s, b)| *s == scope && b.keyword == "NODE") {
+            for (_, block) in self.blocks_of("NODE").filter(|placed| placed.0 == scope) {
                 if block.parameter("SYSTEM").is_some_and(|system| !system.eq_ignore_ascii_case("R"))
                 {
                     refuse!(block;
                         "*NODE, SYSTEM= other than R is not supported: write Cartesian \
                          coordinates");
                 }
-                let first = self.collection.points.len();
+                let first = self.file.points.len();
                 for &(place, line) in &block.data {
                     let label = self.node(scope, place, line, offset)?;
                     largest = largest.max(label);
                 }
                 if let Some(name) = block.parameter("NSET") {
-                    let items = (first..self.collection.points.len()).map(|node| node as u32);
+                    let items = (first..self.file.points.len()).map(|node| node as u32);
                     let set = items.collect();
                     let named = self.named(scope, name);
                     self.nodes.add(named, set, false);
                 }
             }
             if largest > 0 && offset > 0 && scope > 0 {
-                self.model.remarks.push(format!(
+                self.file.model.remarks.push(format!(
                     "nodes of instance {} are numbered from {} on: its node 1 is {}",
                     self.scopes[scope].name,
                     offset + 1,
@@ -78,29 +78,28 @@ impl Reader<'_, '_> {
             };
         }
         let point = self.scopes[scope].place(point);
-        let next = self.collection.points.len() as u32;
+        let next = self.file.points.len() as u32;
         if let Some(&known) = self.nodes.known.get(&(scope, label)) {
-            if self.collection.points[known as usize] != point {
+            if self.file.points[known as usize] != point {
                 refuse!(self.deck, place; "node {label} is given twice, at different places");
             }
             return Ok(label);
         }
         self.nodes.known.insert((scope, label), next);
-        self.collection.points.push(point);
-        self.collection.labels.push(label.saturating_add(offset));
+        self.file.points.push(point);
+        self.file.labels.push(label.saturating_add(offset));
         Ok(label)
     }
 
     /// Reads all elements; of types that have no counterpart here the numbers alone.
-    pub(super) fn read_elements(&mut self, blocks: &Placed<'_, '_>) -> Result<(), MeshFileError> {
-        let types = blocks.iter().filter(|(_, block)| block.keyword == "ELEMENT");
-        let known =
-            types.filter_map(|(_, block)| element_type(&block.parameter("TYPE")?.to_uppercase()));
+    pub(super) fn read_elements(&mut self) -> Result<(), MeshFileError> {
+        let types = self.blocks_of("ELEMENT").filter_map(|(_, block)| block.parameter("TYPE"));
+        let known = types.filter_map(|name| element_type(&name.to_uppercase()));
         let dimension = known.map(|known| known.kind.dimension()).max();
         let mut offset = 0;
         for scope in self.numbering() {
             let mut largest = 0;
-            for (_, block) in blocks.iter().filter(|(s, b)| *s == scope && b.keyword == "ELEMENT") {
+            for (_, block) in self.blocks_of("ELEMENT").filter(|placed| placed.0 == scope) {
                 let name = block.required("TYPE")?.to_uppercase();
                 let known = element_type(&name);
                 if known.is_none()
@@ -160,16 +159,16 @@ impl Reader<'_, '_> {
     ) -> Result<(), MeshFileError> {
         if !known.difference.is_empty() {
             let remark = format!("elements {name} are {}", known.difference);
-            if !self.model.remarks.contains(&remark) {
-                self.model.remarks.push(remark);
+            if !self.file.model.remarks.contains(&remark) {
+                self.file.model.remarks.push(remark);
             }
         }
         if let Some(is_strain) = known.is_plane_strain {
-            if self.model.is_plane_strain.is_some_and(|other| other != is_strain) {
+            if self.file.model.is_plane_strain.is_some_and(|other| other != is_strain) {
                 refuse!(block;
                     "elements of plane strain (CPE) and of plane stress (CPS) in one file");
             }
-            self.model.is_plane_strain = Some(is_strain);
+            self.file.model.is_plane_strain = Some(is_strain);
         }
         Ok(())
     }
@@ -186,7 +185,7 @@ impl Reader<'_, '_> {
         self.note_type(block, &name, known)?;
         let region = block.parameter("ELSET");
         let region: Option<Arc<str>> = region.map(|name| self.scopes[scope].full_name(name).into());
-        let first = self.collection.elements.len();
+        let first = self.collected.len();
         let count = 1 + known.kind.node_count();
         let mut largest = 0;
         let mut numbers = Vec::with_capacity(count);
@@ -214,7 +213,7 @@ impl Reader<'_, '_> {
                 "element {label} has too few nodes for {name}, which has {}", count - 1);
         }
         if let Some(name) = block.parameter("ELSET") {
-            let items = (first..self.collection.elements.len()).collect();
+            let items = (first..self.collected.len()).collect();
             let named = self.named(scope, name);
             self.elements.add(named, items, false);
         }
@@ -237,11 +236,11 @@ impl Reader<'_, '_> {
             };
             nodes.push(index);
         }
-        let next = self.collection.elements.len();
+        let next = self.collected.len();
         if self.elements.known.insert((scope, label), next).is_some() {
             refuse!(self.deck, place; "element {label} is given twice");
         }
-        self.collection.elements.push(CollectedElement {
+        self.collected.push(CollectedElement {
             label: label.saturating_add(offset),
             kind: known.kind,
             nodes,

@@ -1,7 +1,7 @@
 //! `*NSET` and `*ELSET`.
 
 use super::block::{Block, fields};
-use super::{Numbered, Placed, Reader};
+use super::{Numbered, Reader};
 use crate::deck::{Place, quoted};
 use crate::file_mesh::MeshFileError;
 use frictionsim_bounds::Budget;
@@ -15,10 +15,10 @@ type Members<T> = Result<Vec<T>, (Place, String)>;
 
 impl Reader<'_, '_> {
     /// Reads all sets; one may name sets that are defined after it.
-    pub(super) fn read_sets(&mut self, blocks: &Placed<'_, '_>) -> Result<(), MeshFileError> {
+    pub(super) fn read_sets(&mut self) -> Result<(), MeshFileError> {
         let is_set = |block: &Block<'_>| matches!(block.keyword.as_str(), "NSET" | "ELSET");
-        let sets = blocks.iter().filter(|(_, block)| is_set(block));
-        let mut open: Vec<(usize, &Block<'_>)> = sets.map(|&(s, block)| (s, block)).collect();
+        let sets = self.blocks.iter().copied().filter(|(_, block)| is_set(block));
+        let mut open: Vec<(usize, &Block<'_>)> = sets.collect();
         let mut depth = 0;
         while !open.is_empty() {
             depth += 1;
@@ -74,7 +74,7 @@ impl Reader<'_, '_> {
         let Some(elements) = self.elements.sets.get(&self.key(scope, set)) else {
             return Ok(Err((block.place, set.to_owned())));
         };
-        let nodes = elements.items.iter().flat_map(|&e| &self.collection.elements[e].nodes);
+        let nodes = elements.items.iter().flat_map(|&e| &self.collected[e].nodes);
         let nodes: BTreeSet<u32> = nodes.copied().collect();
         Ok(Ok(nodes.into_iter().collect()))
     }

@@ -1,15 +1,16 @@
 //! `*SURFACE`, and node sets as boundaries.
 
+use super::Reader;
 use super::block::{Block, fields};
-use super::{Placed, Reader};
 use crate::SurfaceFace;
+use crate::collection::free_faces;
 use crate::deck::{Place, quoted};
 use crate::file_mesh::MeshFileError;
 
 impl Reader<'_, '_> {
     /// Reads all surfaces: faces of elements, and sets of nodes.
-    pub(super) fn read_surfaces(&mut self, blocks: &Placed<'_, '_>) -> Result<(), MeshFileError> {
-        for &(scope, block) in blocks.iter().filter(|(_, block)| block.keyword == "SURFACE") {
+    pub(super) fn read_surfaces(&mut self) -> Result<(), MeshFileError> {
+        for (scope, block) in self.blocks_of("SURFACE") {
             let name = block.required("NAME")?.to_owned();
             let key = self.key(scope, &name);
             let full = self.scopes[key.0].full_name(&name);
@@ -27,11 +28,11 @@ impl Reader<'_, '_> {
                         self.leave_out(&keyword, block.place, reason);
                         continue;
                     }
-                    self.collection.surfaces.entry(full.clone()).or_default().extend(faces);
+                    self.file.surfaces.entry(full.clone()).or_default().extend(faces);
                 }
                 "NODE" => {
                     let nodes = self.surface_nodes(scope, block)?;
-                    self.collection.node_sets.entry(full.clone()).or_default().extend(nodes);
+                    self.file.node_sets.entry(full.clone()).or_default().extend(nodes);
                 }
                 _ => {
                     let keyword = format!("*SURFACE, NAME={name}, TYPE={kind}");
@@ -66,7 +67,7 @@ impl Reader<'_, '_> {
             let set = entry.next().unwrap_or_default();
             let side = entry.next().unwrap_or_default().to_uppercase();
             let elements = match set {
-                "" => (0..self.collection.elements.len()).collect(),
+                "" => (0..self.collected.len()).collect(),
                 _ => {
                     let found = self.entry(&self.elements, scope, place, set)?;
                     found.ok_or_else(|| self.unknown(place, "element set", set))?
@@ -74,7 +75,7 @@ impl Reader<'_, '_> {
             };
             match side.as_str() {
                 "" if elements.is_empty() => {}
-                "" => faces.extend(self.collection.free_faces(&elements)),
+                "" => faces.extend(free_faces(&self.collected, &elements)),
                 "SPOS" | "SNEG" if elements.is_empty() => {}
                 _ => {
                     for &element in &elements {
@@ -93,7 +94,7 @@ impl Reader<'_, '_> {
         side: &str,
         place: Place,
     ) -> Result<SurfaceFace, MeshFileError> {
-        let element = &self.collection.elements[element];
+        let element = &self.collected[element];
         let number = side.strip_prefix(['S', 'P']).and_then(|n| n.parse::<usize>().ok());
         let face = number.and_then(|number| element.faces().nth(number.checked_sub(1)?));
         face.ok_or_else(|| {
@@ -104,11 +105,11 @@ impl Reader<'_, '_> {
 
     /// Keeps sets of nodes that the user named as boundaries, where no surface has their name.
     pub(super) fn keep_node_sets(&mut self) {
-        let total = self.collection.points.len();
+        let total = self.file.points.len();
         for set in self.nodes.sets.values() {
             let is_kept = !set.is_internal && !set.items.is_empty() && set.items.len() < total;
-            if is_kept && !self.collection.surfaces.contains_key(&set.name) {
-                let kept = self.collection.node_sets.entry(set.name.clone());
+            if is_kept && !self.file.surfaces.contains_key(&set.name) {
+                let kept = self.file.node_sets.entry(set.name.clone());
                 kept.or_insert_with(|| set.items.clone());
             }
         }

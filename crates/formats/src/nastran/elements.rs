@@ -3,7 +3,7 @@
 use super::Reader;
 use super::card::Card;
 use crate::ElementKind;
-use crate::collection::{CollectedElement, corners_of};
+use crate::collection::{CollectedElement, outer_faces, sorted};
 use crate::file_mesh::{MeshFileError, SurfaceFace};
 use std::collections::{BTreeMap, HashMap};
 
@@ -55,12 +55,12 @@ impl Reader<'_, '_> {
         if beyond {
             refuse!(card; "{} {label} has more than {} nodes", card.name, kind.node_count());
         }
-        let index = self.collection.elements.len();
+        let index = self.collected.len();
         if self.elements.insert(label, index).is_some() {
             refuse!(card; "element {label} is given twice");
         }
         let region = self.region(property.unsigned_abs() as usize);
-        self.collection.elements.push(CollectedElement {
+        self.collected.push(CollectedElement {
             label,
             kind,
             nodes: kind.row().nastran.arranged(&listed),
@@ -77,14 +77,12 @@ impl Reader<'_, '_> {
 
     /// Shells and `BSURFS` that cover faces of solids become surfaces.
     pub(super) fn read_skins(&mut self) -> Result<(), MeshFileError> {
-        let mut faces: HashMap<Vec<u32>, SurfaceFace> = HashMap::new();
         let is_skin =
             |card: &&Card<'_>| card.name.starts_with("CTRIA") || card.name.starts_with("CQUAD");
-        if self.cards.iter().any(|card| is_skin(&card)) {
-            for face in self.collection.free_faces(&[]) {
-                faces.insert(corners_of(&face), face);
-            }
-        }
+        let faces = match self.cards.iter().any(|card| is_skin(&card)) {
+            true => outer_faces(&self.collected),
+            false => HashMap::new(),
+        };
         let mut skins: BTreeMap<usize, Vec<SurfaceFace>> = BTreeMap::new();
         for card in self.cards.iter().filter(is_skin) {
             let label = card.number(0)?;
@@ -95,8 +93,7 @@ impl Reader<'_, '_> {
                 let node = card.number(2 + place)?;
                 corners.push(self.node(node, &format!("{} {label}", card.name), card.place)?);
             }
-            corners.sort_unstable();
-            match faces.get(&corners) {
+            match faces.get(&sorted(&corners)) {
                 Some(face) => {
                     skins.entry(property).or_default().push(face.clone());
                     let reason = "read as a surface of the solids, without stiffness and mass";
@@ -108,7 +105,7 @@ impl Reader<'_, '_> {
         for (property, faces) in skins {
             let named = self.control.property_names.get(&property).cloned();
             let name = named.unwrap_or_else(|| format!("PSHELL_{property}"));
-            self.collection.surfaces.entry(name).or_default().extend(faces);
+            self.file.surfaces.entry(name).or_default().extend(faces);
         }
         self.read_bsurfs()
     }
@@ -127,11 +124,11 @@ impl Reader<'_, '_> {
                     let label = card.number(first + 1 + k)?;
                     *node = self.node(label, &name, card.place)?;
                 }
-                let face = self.collection.elements[element].face_with(&nodes);
+                let face = self.collected[element].face_with(&nodes);
                 let face = face.ok_or_else(
                     || fault!(card; "{name}: its nodes are on no face of the element"),
                 )?;
-                self.collection.surfaces.entry(name.clone()).or_default().push(face);
+                self.file.surfaces.entry(name.clone()).or_default().push(face);
             }
         }
         Ok(())

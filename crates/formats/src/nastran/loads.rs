@@ -2,7 +2,7 @@
 
 use super::Reader;
 use super::card::Card;
-use crate::collection::CollectedElement;
+use crate::collection::{CollectedElement, used_nodes};
 use crate::deck::{Place, quoted};
 use crate::file_mesh::{MeshFileError, SurfaceFace};
 use crate::model_data::{FileCondition, FileConditionKind};
@@ -106,7 +106,7 @@ impl Reader<'_, '_> {
     }
 
     fn take_held(&mut self, held: Held, active: Option<&BTreeSet<usize>>) {
-        let used = self.collection.used_nodes();
+        let used = used_nodes(&self.collected);
         for ((set, directions), (nodes, place)) in held {
             let nodes: Vec<u32> = nodes.into_iter().filter(|node| used.contains(node)).collect();
             let name = format!("SPC_{set}_{directions}");
@@ -123,7 +123,7 @@ impl Reader<'_, '_> {
                 "its directions are those of the nodes' own systems: hold it in the case"
             } else {
                 let axes = ['1', '2', '3'].map(|axis| directions.contains(axis));
-                self.model.conditions.push(FileCondition {
+                self.file.model.conditions.push(FileCondition {
                     boundary: name.clone(),
                     kind: FileConditionKind::Fixed(axes),
                     place: self.deck.name(place),
@@ -139,7 +139,7 @@ impl Reader<'_, '_> {
                 _ => self.leave_out(&keyword, place, reason),
             }
             if !nodes.is_empty() {
-                self.collection.node_sets.insert(name, nodes);
+                self.file.node_sets.insert(name, nodes);
             }
         }
     }
@@ -179,10 +179,10 @@ impl Reader<'_, '_> {
                     1 => format!("PLOAD4_{set}"),
                     _ => format!("PLOAD4_{set}_{}", number + 1),
                 };
-                self.collection.surfaces.insert(name.clone(), faces);
+                self.file.surfaces.insert(name.clone(), faces);
                 match &active {
                     Some(active) if active.contains(&set) => {
-                        self.model.conditions.push(FileCondition {
+                        self.file.model.conditions.push(FileCondition {
                             boundary: name,
                             kind: FileConditionKind::Pressure(pressure),
                             place: self.deck.name(place),
@@ -205,7 +205,7 @@ impl Reader<'_, '_> {
     /// The face that `G1` and `G3` or `G4` name: opposite corners of a quadrilateral; of a triangular face of a wedge `G1` alone,
     /// of a pyramid its two corners on the base; of a tetrahedron a corner of the face and the corner that is not on it.
     fn loaded_face(&self, card: &Card<'_>, element: usize) -> Result<SurfaceFace, MeshFileError> {
-        let element = &self.collection.elements[element];
+        let element = &self.collected[element];
         let first = self.node(card.number(6)?, "PLOAD4", card.place)?;
         let second = match card.optional_int(7)? {
             None => None,

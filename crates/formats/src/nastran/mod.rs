@@ -14,10 +14,9 @@ mod elements;
 mod loads;
 mod properties;
 
-use super::collection::Collection;
+use super::collection::{CollectedElement, finished};
 use super::deck::{Deck, Place};
 use super::file_mesh::{FileMesh, MeshFileError};
-use super::model_data::ModelData;
 use card::{Card, Control, cards};
 use coordinates::Coordinates;
 use std::collections::{BTreeSet, HashMap};
@@ -43,8 +42,8 @@ struct Reader<'d, 'a> {
     cards: &'d [Card<'a>],
     control: Control,
     coordinates: Coordinates<'d, 'a>,
-    collection: Collection,
-    model: ModelData,
+    file: FileMesh,
+    collected: Vec<CollectedElement>,
     nodes: HashMap<usize, u32>,
     elements: HashMap<usize, usize>,
     /// Nodes whose degrees of freedom are along axes of their own.
@@ -61,24 +60,24 @@ pub(super) fn read(bytes: &[u8]) -> Result<FileMesh, MeshFileError> {
         cards: &cards,
         control,
         coordinates: Coordinates::new(&deck, &cards)?,
-        collection: Collection::default(),
-        model: ModelData::default(),
+        file: FileMesh::default(),
+        collected: Vec::new(),
         nodes: HashMap::new(),
         elements: HashMap::new(),
         turned: BTreeSet::new(),
     };
-    reader.model.title = reader.control.title.clone();
+    reader.file.model.title = reader.control.title.clone();
     reader.list_unknown();
     reader.read_nodes()?;
     reader.read_elements()?;
-    if reader.collection.elements.is_empty() {
+    if reader.collected.is_empty() {
         refuse!(deck, deck.end(); "the file has no solid elements (CTETRA, CHEXA, CPENTA)");
     }
     reader.read_properties()?;
     reader.read_skins()?;
     reader.read_supports()?;
     reader.read_pressures()?;
-    Ok(reader.collection.finish(reader.model))
+    Ok(finished(reader.file, reader.collected))
 }
 
 /// The file that a line includes.
@@ -98,12 +97,12 @@ impl<'d, 'a> Reader<'d, 'a> {
     }
 
     fn leave_out(&mut self, keyword: &str, place: Place, reason: &str) {
-        self.model.leave_out(keyword, || self.deck.name(place), (reason, false));
+        self.file.model.leave_out(keyword, || self.deck.name(place), (reason, false));
     }
 
     /// Leaves out what would hold, load or join parts.
     fn lose_part(&mut self, keyword: &str, place: Place, reason: &str) {
-        self.model.leave_out(keyword, || self.deck.name(place), (reason, true));
+        self.file.model.leave_out(keyword, || self.deck.name(place), (reason, true));
     }
 
     fn list_unknown(&mut self) {
@@ -146,11 +145,11 @@ impl<'d, 'a> Reader<'d, 'a> {
         let grids: Vec<_> =
             self.coordinates.grids.iter().map(|(&label, &grid)| (label, grid)).collect();
         for (label, (system, point, place)) in grids {
-            let index = self.collection.points.len() as u32;
+            let index = self.file.points.len() as u32;
             let point = self.coordinates.point(system, point, place)?;
             self.nodes.insert(label, index);
-            self.collection.points.push(point);
-            self.collection.labels.push(label);
+            self.file.points.push(point);
+            self.file.labels.push(label);
         }
         for (label, is_turned, held, place) in held_nodes {
             let node = self.nodes[&label];

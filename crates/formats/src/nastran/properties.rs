@@ -13,7 +13,7 @@ impl Reader<'_, '_> {
             let property = card.number(0)?;
             let number = card.number(1)?;
             let region = self.region(property);
-            let elements = self.collection.elements.iter();
+            let elements = self.collected.iter();
             if !elements.filter_map(|e| e.region.as_deref()).any(|other| other == region) {
                 continue;
             }
@@ -49,7 +49,7 @@ impl Reader<'_, '_> {
                 "MAT1" => self.isotropic(material, region)?,
                 _ => self.anisotropic(material, region, axes)?,
             };
-            self.model.materials.push(material);
+            self.file.model.materials.push(material);
         }
         Ok(())
     }

@@ -56,7 +56,7 @@ impl Reader<'_, '_> {
                     Entity::Element(place) => {
                         is_region = true;
                         if self.is_grouped.insert(*place) {
-                            self.collection.elements[*place].region = Some(Arc::clone(&region));
+                            self.collected[*place].region = Some(Arc::clone(&region));
                         }
                     }
                     Entity::Skin(corners) => match outer.get(corners) {
@@ -70,25 +70,13 @@ impl Reader<'_, '_> {
         if lost > 0 {
             let keyword = format!("{lost} entities of group {}", group.name);
             let reason = "no nodes, solid elements or shells on the outside";
-            self.model.leave_out(&keyword, || self.deck.name(group.place), (reason, false));
+            self.file.model.leave_out(&keyword, || self.deck.name(group.place), (reason, false));
         }
         if !faces.is_empty() {
-            self.collection.surfaces.entry(group.name.clone()).or_default().extend(faces);
+            self.file.surfaces.entry(group.name.clone()).or_default().extend(faces);
         } else if !is_region && !nodes.is_empty() {
-            self.collection.node_sets.entry(group.name.clone()).or_default().extend(nodes);
+            self.file.node_sets.entry(group.name.clone()).or_default().extend(nodes);
         }
         Ok(())
-    }
-
-    /// Outer faces by what names them in the file: the corners of a shell, all nodes of a beam.
-    pub(super) fn outer_faces(&self) -> HashMap<Vec<u32>, SurfaceFace> {
-        let named = self.collection.free_faces(&[]).into_iter().map(|face| {
-            let count = face.0.corner_count();
-            let count = if count == 2 { face.1.len() } else { count };
-            let mut key = face.1[..count].to_vec();
-            key.sort_unstable();
-            (key, face)
-        });
-        named.collect()
     }
 }

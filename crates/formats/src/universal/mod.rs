@@ -8,10 +8,9 @@
 mod groups;
 
 use super::ElementKind;
-use super::collection::{CollectedElement, Collection};
+use super::collection::{CollectedElement, dimension, finished, outer_faces, sorted};
 use super::deck::{Deck, Place, quoted, real};
 use super::file_mesh::{FileMesh, MeshFileError};
-use super::model_data::ModelData;
 use std::collections::{BTreeSet, HashMap};
 
 /// Datasets of groups, by the entities that one line lists.
@@ -39,8 +38,8 @@ struct Reader<'d, 'a> {
     deck: &'d Deck<'a>,
     /// Position of the next line.
     at: usize,
-    collection: Collection,
-    model: ModelData,
+    file: FileMesh,
+    collected: Vec<CollectedElement>,
     nodes: HashMap<usize, u32>,
     entities: HashMap<usize, Entity>,
     /// Elements whose first group is known.
@@ -62,26 +61,26 @@ pub(super) fn read(bytes: &[u8]) -> Result<FileMesh, MeshFileError> {
     let mut reader = Reader {
         deck: &deck,
         at: 0,
-        collection: Collection::default(),
-        model: ModelData::default(),
+        file: FileMesh::default(),
+        collected: Vec::new(),
         nodes: HashMap::new(),
         entities: HashMap::new(),
         is_grouped: BTreeSet::new(),
         groups: Vec::new(),
     };
     reader.datasets()?;
-    let has_solids = reader.collection.dimension() == 3;
-    if reader.collection.elements.is_empty() {
+    let has_solids = dimension(&reader.collected) == 3;
+    if reader.collected.is_empty() {
         refuse!(deck, deck.end(); "the file has no solid or plane elements (dataset 2412)");
     }
     if has_solids {
         reader.shells_to_skins();
     }
-    let outer = reader.outer_faces();
+    let outer = outer_faces(&reader.collected);
     for group in std::mem::take(&mut reader.groups) {
         reader.group(&group, &outer)?;
     }
-    Ok(reader.collection.finish(reader.model))
+    Ok(finished(reader.file, reader.collected))
 }
 
 impl<'a> Reader<'_, 'a> {
@@ -141,7 +140,7 @@ impl<'a> Reader<'_, 'a> {
                     let shown: String = number.chars().take(20).collect();
                     let keyword = format!("dataset {shown}");
                     let is_part = PARTS.contains(&number);
-                    self.model.leave_out(&keyword, || self.deck.name(place), ("", is_part));
+                    self.file.model.leave_out(&keyword, || self.deck.name(place), ("", is_part));
                     while self.inner()?.is_some() {}
                 }
             }
@@ -155,7 +154,7 @@ impl<'a> Reader<'_, 'a> {
         if let Some((_, line)) = self.inner()? {
             let factor = line.split_whitespace().next().and_then(real);
             if let Some(factor) = factor.filter(|factor| *factor != 1.0) {
-                self.model.remarks.push(format!(
+                self.file.model.remarks.push(format!(
                     "the file says that its lengths are to be divided by {factor} for metres (dataset 164): mesh.scale does that"
                 ));
             }
@@ -168,12 +167,12 @@ impl<'a> Reader<'_, 'a> {
         let Some(&point) = point.first_chunk::<3>() else {
             refuse!(self.deck, place; "node {label} needs three coordinates");
         };
-        let next = self.collection.points.len() as u32;
+        let next = self.file.points.len() as u32;
         if self.nodes.insert(label, next).is_some() {
             refuse!(self.deck, place; "node {label} is given twice");
         }
-        self.collection.points.push(point);
-        self.collection.labels.push(label);
+        self.file.points.push(point);
+        self.file.labels.push(label);
         Ok(())
     }
 
@@ -255,18 +254,16 @@ impl<'a> Reader<'_, 'a> {
                         "element {label} has {} nodes, its kind {descriptor} ({}) has {}",
                         nodes.len(), kind.name(), kind.node_count());
                 }
-                self.collection.elements.push(CollectedElement {
+                self.collected.push(CollectedElement {
                     label,
                     kind,
                     nodes: kind.row().universal.arranged(nodes),
                     region: None,
                 });
-                Entity::Element(self.collection.elements.len() - 1)
+                Entity::Element(self.collected.len() - 1)
             }
             None if (11..=32).contains(&descriptor) && nodes.len() >= 2 => {
-                let mut all = nodes.to_vec();
-                all.sort_unstable();
-                Entity::Skin(all)
+                Entity::Skin(sorted(nodes))
             }
             None if (101..121).contains(&descriptor) => {
                 refuse!(self.deck, place;
@@ -276,7 +273,7 @@ impl<'a> Reader<'_, 'a> {
             None => {
                 let keyword = format!("elements of kind {descriptor}");
                 let reason = ("no solid or plane elements", JOINTS.contains(&descriptor));
-                self.model.leave_out(&keyword, || self.deck.name(place), reason);
+                self.file.model.leave_out(&keyword, || self.deck.name(place), reason);
                 Entity::Skin(Vec::new())
             }
         };
@@ -290,19 +287,16 @@ impl<'a> Reader<'_, 'a> {
     fn shells_to_skins(&mut self) {
         let mut moved = HashMap::new();
         let mut kept = Vec::new();
-        for (place, element) in
-            std::mem::take(&mut self.collection.elements).into_iter().enumerate()
-        {
+        for (place, element) in std::mem::take(&mut self.collected).into_iter().enumerate() {
             if element.kind.dimension() == 3 {
                 moved.insert(place, kept.len());
                 kept.push(element);
             } else {
-                let mut corners = element.nodes[..element.kind.corner_count()].to_vec();
-                corners.sort_unstable();
+                let corners = sorted(&element.nodes[..element.kind.corner_count()]);
                 self.entities.insert(element.label, Entity::Skin(corners));
             }
         }
-        self.collection.elements = kept;
+        self.collected = kept;
         for entity in self.entities.values_mut() {
             if let Entity::Element(place) = entity {
                 *place = moved.get(place).copied().unwrap_or(*place);
