@@ -117,7 +117,7 @@ pub struct FileTie {
 }
 
 /// Two surfaces that slide on each other.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct FileContact {
     /// Its name.
     pub name: String,

@@ -7,15 +7,6 @@ use crate::file_mesh::MeshFileError;
 use crate::model_data::{FileContact, FileTie};
 use std::collections::BTreeMap;
 
-/// Friction and stiffness of a contact.
-#[derive(Clone, Debug, Default)]
-struct Interaction {
-    friction: Option<f64>,
-    /// Static over kinetic friction, and the slip speed over which it falls.
-    decay: Option<(f64, f64)>,
-    normal_stiffness: Option<f64>,
-}
-
 impl Reader<'_, '_> {
     /// Reads ties and contact pairs.
     pub(super) fn read_interactions(&mut self) -> Result<(), MeshFileError> {
@@ -39,11 +30,11 @@ impl Reader<'_, '_> {
     /// Contact pairs.
     fn read_pairs(
         &mut self,
-        interactions: &BTreeMap<String, Interaction>,
+        interactions: &BTreeMap<String, FileContact>,
     ) -> Result<(), MeshFileError> {
         for (scope, block) in self.blocks_of("CONTACT PAIR") {
             let name = block.required("INTERACTION")?;
-            let Some(interaction) = interactions.get(&name.to_uppercase()).cloned() else {
+            let Some(interaction) = interactions.get(&name.to_uppercase()) else {
                 return Err(self.unknown(block.place, "surface interaction", name));
             };
             for parameter in ["ADJUST", "TIED", "TRACKING", "EXTENSION ZONE", "CPSET"] {
@@ -64,16 +55,9 @@ impl Reader<'_, '_> {
                     continue;
                 }
                 let name = unique(&surface, |name| contacts.iter().any(|c| c.name == name));
-                let Interaction { friction, decay, normal_stiffness } = interaction;
-                self.file.model.contacts.push(FileContact {
-                    name,
-                    surface,
-                    counter,
-                    friction_coefficient: friction,
-                    decay,
-                    normal_stiffness,
-                    place: self.deck.name(place),
-                });
+                let place = self.deck.name(place);
+                let pair = FileContact { name, surface, counter, place, ..interaction.clone() };
+                self.file.model.contacts.push(pair);
             }
         }
         Ok(())
@@ -127,9 +111,9 @@ impl Reader<'_, '_> {
         Some(set.name.clone())
     }
 
-    /// Surface interactions by name, as the last step leaves them.
-    fn interactions(&mut self) -> Result<BTreeMap<String, Interaction>, MeshFileError> {
-        let mut found: BTreeMap<String, Interaction> = BTreeMap::new();
+    /// Surface interactions by name, as the last step leaves them, of no surfaces yet.
+    fn interactions(&mut self) -> Result<BTreeMap<String, FileContact>, MeshFileError> {
+        let mut found: BTreeMap<String, FileContact> = BTreeMap::new();
         let mut current = None;
         for &(_, block) in self.blocks {
             match block.keyword.as_str() {
@@ -160,7 +144,7 @@ impl Reader<'_, '_> {
     fn friction(
         &mut self,
         block: &Block<'_>,
-        interaction: &mut Interaction,
+        interaction: &mut FileContact,
     ) -> Result<(), MeshFileError> {
         let numbers = block.first_numbers()?;
         let is_other = ["ROUGH", "USER", "ANISOTROPIC"].into_iter().any(|kind| block.has(kind));
@@ -177,11 +161,11 @@ impl Reader<'_, '_> {
             let &[high, low, decay, ..] = numbers.as_slice() else {
                 refuse!(block; "*FRICTION, EXPONENTIAL DECAY needs three numbers");
             };
-            interaction.friction = Some(low);
+            interaction.friction_coefficient = Some(low);
             let falls = low > 0.0 && decay > 0.0 && high > low;
             interaction.decay = falls.then(|| (high / low, 1.0 / decay));
         } else {
-            interaction.friction = Some(numbers.first().copied().unwrap_or(0.0));
+            interaction.friction_coefficient = Some(numbers.first().copied().unwrap_or(0.0));
             interaction.decay = None;
         }
         Ok(())
@@ -190,7 +174,7 @@ impl Reader<'_, '_> {
     fn behavior(
         &mut self,
         block: &Block<'_>,
-        interaction: &mut Interaction,
+        interaction: &mut FileContact,
     ) -> Result<(), MeshFileError> {
         let kind = block.parameter("PRESSURE-OVERCLOSURE").unwrap_or("HARD").to_uppercase();
         match kind.as_str() {

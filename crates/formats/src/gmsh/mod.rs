@@ -117,8 +117,6 @@ struct Reader {
     physical: BTreeMap<(i64, i64), Vec<i64>>,
     /// Index of each node number.
     index_of: BTreeMap<usize, u32>,
-    /// Solid elements.
-    solids: Vec<FileElement>,
     /// Plane elements and the physical surfaces that each belongs to: faces of a body if there are solid elements.
     surfaces: BTreeMap<String, Vec<SurfaceFace>>,
 }
@@ -127,13 +125,13 @@ impl Reader {
     /// The file, of solid elements where there are any: plane ones are then faces of its physical surfaces.
     fn finished(self) -> FileMesh {
         let mut file = self.file;
-        file.dimension = 2;
-        if !self.solids.is_empty() {
-            file.dimension = 3;
-            file.elements = self.solids;
+        let dimensions = file.elements.iter().map(|element| element.kind.dimension());
+        let dimension = dimensions.max().unwrap_or(2);
+        file.elements.retain(|element| element.kind.dimension() == dimension);
+        if dimension == 3 {
             file.surfaces = self.surfaces;
         }
-        file
+        FileMesh { dimension, ..file }
     }
 
     fn physical_names(&mut self, cursor: &mut Cursor<'_>) -> Result<(), MeshFileError> {
@@ -216,22 +214,9 @@ impl Reader {
                         self.surfaces.entry(name).or_default().push((face, nodes.clone()));
                     }
                 }
-                let region = match groups.first() {
-                    Some(&tag) => self.name(dimension, tag),
-                    None => self.name(dimension, NO_GROUP),
-                };
-                let element = FileElement {
-                    label,
-                    kind,
-                    region,
-                    entity,
-                    nodes: kind.row().gmsh.arranged(&nodes),
-                };
-                if kind.dimension() == 3 {
-                    self.solids.push(element);
-                } else {
-                    self.file.elements.push(element);
-                }
+                let region = self.name(dimension, groups.first().copied().unwrap_or(NO_GROUP));
+                let nodes = kind.row().gmsh.arranged(&nodes);
+                self.file.elements.push(FileElement { label, kind, region, entity, nodes });
             }
             (1, _) => {
                 let edge = (nodes[0], nodes[1], nodes.get(2).copied());

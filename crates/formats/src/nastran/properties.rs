@@ -115,10 +115,9 @@ impl Reader<'_, '_> {
             name: format!("{}_{}", card.name, card.field(0)),
             elasticity: Some(elasticity),
             density: card.optional_real(density)?,
-            mass_coefficient: None,
-            stiffness_coefficient: None,
             loss_factor: damping.filter(|&damping| damping != 0.0),
             place: self.deck.name(card.place),
+            ..FileMaterial::default()
         })
     }
 }
