@@ -44,22 +44,14 @@ pub(super) fn square(points: &[(f64, f64)]) -> Vec<QuadraturePoint> {
 /// Gauss points of a cube.
 #[inline]
 pub(super) fn cube(points: &[(f64, f64)]) -> Vec<QuadraturePoint> {
-    let mut all = Vec::with_capacity(points.len().pow(3));
-    for &(z, w) in points {
-        for &(y, v) in points {
-            for &(x, u) in points {
-                all.push(([x, y, z], u * v * w));
-            }
-        }
-    }
-    all
+    prism(&square(points), points)
 }
 
-/// A rule of the triangle times one of the line.
+/// A rule of the section times one of the line.
 #[inline]
-pub(super) fn wedge(triangle: &[QuadraturePoint], line: &[(f64, f64)]) -> Vec<QuadraturePoint> {
+pub(super) fn prism(section: &[QuadraturePoint], line: &[(f64, f64)]) -> Vec<QuadraturePoint> {
     line.iter()
-        .flat_map(|&(z, v)| triangle.iter().map(move |&([x, y, _], w)| ([x, y, z], w * v)))
+        .flat_map(|&(z, v)| section.iter().map(move |&([x, y, _], w)| ([x, y, z], w * v)))
         .collect()
 }
 

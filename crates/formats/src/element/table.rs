@@ -288,7 +288,7 @@ const WEDGE6: Row = Row {
     edges: &WEDGE_EDGES,
     faces: &[&[0, 2, 1], &[3, 4, 5], &[0, 1, 4, 3], &[1, 2, 5, 4], &[2, 0, 3, 5]],
     shapes: shapes::wedge,
-    quadrature: || rule::wedge(&rule::triangle_three(), &rule::TWO),
+    quadrature: || rule::prism(&rule::triangle_three(), &rule::TWO),
     stiffness_quadrature: None,
     superconvergent: || vec![[THIRD, THIRD, 0.0]],
     name: "wedge6",
@@ -301,7 +301,7 @@ const WEDGE6: Row = Row {
 const WEDGE15: Row = Row {
     is_quadratic: true,
     shapes: shapes::quadratic_wedge,
-    quadrature: || rule::wedge(&rule::triangle_six(), &rule::THREE),
+    quadrature: || rule::prism(&rule::triangle_six(), &rule::THREE),
     superconvergent: || {
         let triangle = rule::triangle_three().into_iter();
         triangle.flat_map(|([xi, eta, _], _)| [-GAUSS, GAUSS].map(|zeta| [xi, eta, zeta])).collect()
