@@ -115,10 +115,13 @@ impl Case {
     /// # Errors
     /// A deformable shaft, friction that falls with speed, a body that is no generated annulus.
     pub fn require_rotating_waves(&self) -> Result<(), CaseErrors> {
-        self.require_rigid_shaft("the search for rotating waves")?;
-        let (waves, search) =
-            ("limit cycles are rotating waves, which", "rotating waves are sought in");
-        self.require_annulus(waves, search)?;
+        if self.body.grid().is_some_and(|grid| grid.shaft.is_some()) {
+            let key = "geometry.shaft_inner_radius";
+            return Err(refusal!(self, key,
+                "the search for rotating waves takes the cylinder as rigid, and {key} gives a \
+                 deformable shaft"; "not with a deformable shaft"; "leave {key} out"));
+        }
+        self.require_annulus("rotating waves are sought in")?;
         self.require_constant_friction()
     }
 }

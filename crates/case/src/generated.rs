@@ -9,8 +9,8 @@ use super::elastic::{Surroundings, place_axes};
 use super::modifications::Misfit;
 use super::whole_revolution::whole_revolution;
 use super::{
-    Annulus, Body, Case, CaseErrors, Contact, Revolution, Section, assembly, attachments,
-    boundaries, imported, refusal, refuse, refuse_if, solid,
+    Annulus, Body, Contact, Revolution, Section, assembly, attachments, boundaries, imported,
+    refuse, refuse_if, solid,
 };
 use frictionsim_physics::contact::Motion;
 use frictionsim_physics::fem::{RegionMaterial, RotationFrame};
@@ -240,19 +240,5 @@ fn bore_condition(own: &Description<'_>) -> BoundaryCondition {
                 "use condition = \"clamped\", or \"support\" with tangential_stiffness above 0");
             BoundaryCondition::Clamped
         }
-    }
-}
-
-impl Case {
-    /// An analysis that a deformable shaft has no part in.
-    pub(super) fn require_rigid_shaft(&self, what: &str) -> Result<(), CaseErrors> {
-        let grid = self.body.grid();
-        if grid.is_none_or(|grid| grid.shaft.is_none()) {
-            return Ok(());
-        }
-        let key = "geometry.shaft_inner_radius";
-        Err(refusal!(self, key,
-            "{what} takes the cylinder as rigid, and {key} gives a deformable shaft";
-            "not with a deformable shaft"; "leave {key} out"))
     }
 }

@@ -136,17 +136,20 @@ impl Case {
         self.required(&self.uncertainty, "uncertainty", "uncertain parameter", &remedy)
     }
 
-    /// The plane annulus of an analysis that no other body has; `waves` says what needs its sectors, `search` what
-    /// takes plane bodies only.
+    /// The plane annulus, which alone has rotating waves; `search` says what takes plane bodies only.
     ///
     /// # Errors
     /// A body from a mesh file, and one in three dimensions.
-    pub fn require_annulus(&self, waves: &str, search: &str) -> Result<&Annulus, CaseErrors> {
+    pub fn require_annulus(&self, search: &str) -> Result<&Annulus, CaseErrors> {
         match &self.body {
             Body::Annulus(annulus) => Ok(annulus),
-            Body::Revolution(_) | Body::Assembly(_) => Err(self.not_plane(search)),
+            Body::Revolution(_) | Body::Assembly(_) => Err(refusal!(self, "material.formulation",
+                "material.formulation = \"three-dimensional\": {search} plane bodies only";
+                "a three-dimensional body";
+                "`cea`, `transient`, `cycle`, `basin`, `frf`, `sweep` and `convergence` take it; \
+                 else use \"plane-stress\" or \"plane-strain\"")),
             Body::Imported(_) => Err(refusal!(self, "mesh.file",
-                "{waves} need the rotational symmetry of the built-in annulus";
+                "limit cycles are rotating waves, which need the rotational symmetry of the built-in annulus";
                 "an imported mesh has no sectors";
                 "describe the disc by [geometry] and element counts instead of mesh.file")),
         }

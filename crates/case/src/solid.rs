@@ -2,7 +2,7 @@
 
 use super::boundaries::{NamedCondition, holds_tangentially};
 use super::description::Description;
-use super::{Case, CaseErrors, Section, imported, refusal, refuse, refuse_if, suggestion};
+use super::{Section, imported, refuse, refuse_if, suggestion};
 use frictionsim_physics::fem::RegionMaterial;
 use frictionsim_physics::mesh::{
     AnnulusSpecification, BoundaryCondition, SolidContact, SolidFace, SolidPart, SolidSpecification,
@@ -159,15 +159,4 @@ pub(super) fn conditions(
         "give the support axial_stiffness above 0, or hold the top or the bottom face along its \
          normal");
     conditions
-}
-
-impl Case {
-    /// The error of an analysis that takes plane bodies only.
-    pub(super) fn not_plane(&self, what: &str) -> CaseErrors {
-        refusal!(self, "material.formulation",
-            "material.formulation = \"three-dimensional\": {what} plane bodies only";
-            "a three-dimensional body";
-            "`cea`, `transient`, `cycle`, `basin`, `frf`, `sweep` and `convergence` take it; else \
-             use \"plane-stress\" or \"plane-strain\"")
-    }
 }

@@ -85,8 +85,7 @@ pub fn critical_value(case: &Case, parameter: Parameter, values: &[f64]) -> Opti
 /// # Errors
 /// A body that is no plane annulus.
 pub fn disc_model(case: &Case) -> Result<DiscModel, CaseErrors> {
-    let search = "limit cycles are sought in";
-    let annulus = case.require_annulus("limit cycles are rotating waves, which", search)?;
+    let annulus = case.require_annulus("limit cycles are sought in")?;
     Ok(DiscModel {
         specification: annulus.specification,
         material: annulus.materials[0].elastic,
