@@ -2,13 +2,13 @@
 
 use super::parameters::{number, only, read_all};
 use super::words::choice_of;
-use super::{ModelParameter, RawEntry, RawValue, Section, Spacing, refuse_at};
+use super::{RawEntry, RawValue, Section, Spacing, VariedKey, refuse_at};
 
 /// A parameter with the bounds between which it is sought.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FitParameter {
     /// The parameter.
-    pub parameter: ModelParameter,
+    pub parameter: VariedKey,
     /// Its smallest value.
     pub from: f64,
     /// Its largest value.
@@ -37,7 +37,7 @@ pub(super) fn fit(section: &Section<'_>) -> Fit {
 }
 
 /// `[from, to]` or `{ from, to, scale, also }`.
-fn bounds(section: &Section<'_>, parameter: ModelParameter, entry: &RawEntry) -> FitParameter {
+fn bounds(section: &Section<'_>, parameter: VariedKey, entry: &RawEntry) -> FitParameter {
     let key = &parameter.key;
     let at = &entry.item.at;
     let help = "bounds are [0.3, 0.45] or { from = 1e10, to = 1e13, scale = \"log\" }";
@@ -65,8 +65,8 @@ fn bounds(section: &Section<'_>, parameter: ModelParameter, entry: &RawEntry) ->
         }
     };
     for value in [from, to] {
-        if value.is_finite() && !parameter.bound.admits(value) {
-            refuse_at!(section, at, "{key} = {value} {}", parameter.bound.text();
+        if value.is_finite() && !parameter.bound().admits(value) {
+            refuse_at!(section, at, "{key} = {value} {}", parameter.bound().text();
                 "a bound outside what the key allows"; "choose narrower bounds");
         }
     }

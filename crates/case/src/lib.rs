@@ -74,7 +74,7 @@ pub use key::{Bound, CaseKey, Default, Kind};
 pub use keys::{KEYS, find as find_key};
 pub use node::PlacedNode;
 pub use overrides::unset;
-pub use parameters::ModelParameter;
+pub use parameters::VariedKey;
 pub use range::{Spacing, range_values};
 pub use raw::{MeshBytes, RawCase, TableBytes, hash_of};
 pub use shown::{first_of, shown, shown_json};

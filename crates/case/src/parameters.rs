@@ -19,40 +19,46 @@ const MODEL: &[&str] = &[
     "modifications",
 ];
 
-/// A continuous parameter of the model, and the keys that take the same value.
+/// A key that a study varies, and the keys that take the same value.
 #[derive(Clone, Debug, PartialEq)]
-pub struct ModelParameter {
-    /// Dotted case key.
+pub struct VariedKey {
+    /// Dotted case key; a continuous parameter of the model where it is fitted or uncertain.
     pub key: String,
     /// Further keys that are given the same value.
     pub also: Vec<String>,
-    /// Where its value may lie.
-    pub bound: Bound,
-    /// Where it is named.
+    /// Where it is named, or its values are given.
     pub at: Location,
 }
 
-impl ModelParameter {
-    /// The keys that take its value, each with the place of the first.
-    pub(super) fn keys(&self) -> impl Iterator<Item = (&String, &Location)> {
-        std::iter::once(&self.key).chain(&self.also).map(|key| (key, &self.at))
+impl VariedKey {
+    /// The key and those that go with it.
+    pub fn names(&self) -> impl Iterator<Item = &String> {
+        std::iter::once(&self.key).chain(&self.also)
     }
 
-    /// The overrides that give it a value.
-    pub fn overrides(&self, value: f64) -> impl Iterator<Item = String> + '_ {
-        self.keys().map(move |(key, _)| format!("{key}={value:?}"))
+    /// The overrides that give it a value, in TOML.
+    pub(super) fn overrides(&self, value: &str) -> Vec<String> {
+        self.names().map(|name| format!("{name}={value}")).collect()
+    }
+
+    /// Where the value of a continuous parameter may lie.
+    pub(super) fn bound(&self) -> Bound {
+        match keys::find(&self.key).map(|key| key.kind) {
+            Some(Kind::Number(bound) | Kind::NumberOr(bound, _)) => bound,
+            _ => Bound::Finite,
+        }
     }
 }
 
-/// Where a key's value may lie, if it is a continuous parameter of the model; else why not.
-fn bound_of(section: &Section<'_>, name: &str) -> Result<Bound, String> {
+/// Whether a key is a continuous parameter of the model; else why not.
+fn check(section: &Section<'_>, name: &str) -> Result<(), String> {
     let Some(key) = keys::find(name) else {
         let near = section.findings.scope.hint(name, CaseKey::is_numeric);
         return Err(near.unwrap_or_else(|| "must be a dotted case key in quotes".to_owned()));
     };
     let section = name.split('.').next().unwrap_or_default();
     match key.kind {
-        Kind::Number(bound) | Kind::NumberOr(bound, _) if MODEL.contains(&section) => Ok(bound),
+        Kind::Number(_) | Kind::NumberOr(..) if MODEL.contains(&section) => Ok(()),
         Kind::Number(_) | Kind::NumberOr(..) => {
             Err(format!("it is no parameter of the model, which has {}", MODEL.join(", ")))
         }
@@ -62,7 +68,7 @@ fn bound_of(section: &Section<'_>, name: &str) -> Result<Bound, String> {
 
 /// The entries of a table of the case by the keys that they name; tables that are no entry are dotted keys written
 /// without quotes.
-fn entries<'a>(section: &Section<'a>) -> Vec<(ModelParameter, &'a RawEntry)> {
+fn entries<'a>(section: &Section<'a>) -> Vec<(VariedKey, &'a RawEntry)> {
     let mut found = Vec::new();
     for (name, entry) in section.remaining() {
         collect(section, name.to_owned(), entry, &mut found);
@@ -74,13 +80,13 @@ fn entries<'a>(section: &Section<'a>) -> Vec<(ModelParameter, &'a RawEntry)> {
 pub(super) fn read_all<T>(
     section: &Section<'_>,
     key: &str,
-    read: impl Fn(&Section<'_>, ModelParameter, &RawEntry) -> T,
-    parameter_of: impl Fn(&T) -> &ModelParameter,
+    read: impl Fn(&Section<'_>, VariedKey, &RawEntry) -> T,
+    parameter_of: impl Fn(&T) -> &VariedKey,
 ) -> Vec<T> {
     let table = section.section(key, true);
     let entries = entries(&table).into_iter();
     let found: Vec<T> = entries.map(|(own, entry)| read(&table, own, entry)).collect();
-    refuse_twice(&table, found.iter().flat_map(|own| parameter_of(own).keys()));
+    refuse_twice(&table, found.iter().map(parameter_of));
     refuse_if!(table.is_given() && table.remaining().is_empty(); section, key => "is empty";
         "at least one parameter");
     found
@@ -90,18 +96,13 @@ fn collect<'a>(
     section: &Section<'a>,
     name: String,
     entry: &'a RawEntry,
-    found: &mut Vec<(ModelParameter, &'a RawEntry)>,
+    found: &mut Vec<(VariedKey, &'a RawEntry)>,
 ) {
-    match (&entry.item.value, bound_of(section, &name)) {
-        (_, Ok(bound)) => found.push((
-            ModelParameter {
-                also: also(section, &name, entry),
-                at: entry.key_at.clone(),
-                key: name,
-                bound,
-            },
-            entry,
-        )),
+    match (&entry.item.value, check(section, &name)) {
+        (_, Ok(())) => {
+            let also = also(section, &name, entry);
+            found.push((VariedKey { key: name, also, at: entry.key_at.clone() }, entry));
+        }
         (RawValue::Table(inner), Err(_)) if keys::is_section(&name) => {
             for (key, entry) in inner {
                 collect(section, format!("{name}.{key}"), entry, found);
@@ -114,20 +115,15 @@ fn collect<'a>(
 
 /// The keys that `also` names.
 fn also(section: &Section<'_>, name: &str, entry: &RawEntry) -> Vec<String> {
-    let RawValue::Table(table) = &entry.item.value else {
-        return Vec::new();
-    };
-    let Some(given) = table.get("also") else {
-        return Vec::new();
-    };
+    let given = entry.item.value.table().and_then(|table| table.get("also"));
     let mut keys = Vec::new();
-    for item in given.item.listed() {
+    for item in given.into_iter().flat_map(|given| given.item.listed()) {
         let refuse = |message: String, help: &str| {
             refuse_at!(section, &item.at, "{message}"; "not a key to tie"; "{help}");
         };
         match &item.value {
-            RawValue::String(key) => match bound_of(section, key) {
-                Ok(_) => keys.push(key.clone()),
+            RawValue::String(key) => match check(section, key) {
+                Ok(()) => keys.push(key.clone()),
                 Err(reason) => refuse(format!("{name} also sets \"{key}\""), &reason),
             },
             other => refuse(
@@ -159,14 +155,11 @@ pub(super) fn only(section: &Section<'_>, table: &RawTable, known: &[&str]) {
 }
 
 /// Reports keys that two entries set.
-pub(super) fn refuse_twice<'a>(
-    section: &Section<'_>,
-    keys: impl Iterator<Item = (&'a String, &'a Location)>,
-) {
+pub(super) fn refuse_twice<'a>(section: &Section<'_>, varied: impl Iterator<Item = &'a VariedKey>) {
     let mut seen: Vec<&str> = Vec::new();
-    for (key, at) in keys {
+    for (key, own) in varied.flat_map(|own| own.names().map(move |key| (key, own))) {
         if seen.contains(&key.as_str()) {
-            refuse_at!(section, at, "{key} is set twice"; "set by another entry already";
+            refuse_at!(section, &own.at, "{key} is set twice"; "set by another entry already";
                 "vary each key once");
         }
         seen.push(key);
@@ -200,10 +193,11 @@ impl super::Case {
     /// Values that do not go together, in one line.
     pub fn with_parameters<'a>(
         &self,
-        values: impl IntoIterator<Item = (&'a ModelParameter, f64)>,
+        values: impl IntoIterator<Item = (&'a VariedKey, f64)>,
     ) -> Result<Self, String> {
         let values = values.into_iter();
-        let overrides: Vec<String> = values.flat_map(|(p, v)| p.overrides(v)).collect();
+        let overrides: Vec<String> =
+            values.flat_map(|(own, value)| own.overrides(&format!("{value:?}"))).collect();
         self.with_keys(&overrides).map_err(|errors| errors.line())
     }
 

@@ -2,21 +2,17 @@
 
 use super::value::range_count;
 use super::{
-    Analysis, Bound, Case, CaseErrors, Combination, Location, RawEntry, RawValue, Section, keys,
+    Analysis, Bound, Case, CaseErrors, Combination, RawEntry, RawValue, Section, VariedKey, keys,
     parameters, refuse_at,
 };
 
 /// A swept key and its values.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SweptKey {
-    /// Dotted case key.
-    pub key: String,
-    /// Further keys that are given the same values.
-    pub also: Vec<String>,
+    /// The key.
+    pub varied: VariedKey,
     /// Values, as TOML.
     pub values: Vec<String>,
-    /// Where they are given.
-    pub at: Location,
 }
 
 /// `[sweep]`.
@@ -28,18 +24,6 @@ pub struct Sweep {
     pub combination: Combination,
     /// What runs at each point; empty if the case leaves that to the sections it has.
     pub analyses: Vec<Analysis>,
-}
-
-impl SweptKey {
-    /// The key and those that go with it.
-    pub fn names(&self) -> impl Iterator<Item = &String> {
-        std::iter::once(&self.key).chain(&self.also)
-    }
-
-    /// The overrides that give it one of its values.
-    fn overrides<'a>(&'a self, value: &'a str) -> impl Iterator<Item = String> + 'a {
-        self.names().map(move |name| format!("{name}={value}"))
-    }
 }
 
 impl Sweep {
@@ -70,7 +54,8 @@ impl Sweep {
             })
             .collect();
         places.reverse();
-        self.keys.iter().zip(places).flat_map(|(key, at)| key.overrides(&key.values[at])).collect()
+        let keys = self.keys.iter().zip(places);
+        keys.flat_map(|(key, at)| key.varied.overrides(&key.values[at])).collect()
     }
 }
 
@@ -91,8 +76,7 @@ pub(super) fn read(root: &Section<'_>) -> Option<Sweep> {
     }
     let keys: Vec<SweptKey> =
         entries.into_iter().map(|(name, entry)| values(&section, name, entry)).collect();
-    let set = keys.iter().flat_map(|key| key.names().map(move |name| (name, &key.at)));
-    parameters::refuse_twice(&section, set);
+    parameters::refuse_twice(&section, keys.iter().map(|key| &key.varied));
     if keys.is_empty() {
         refuse_at!(section, &section.place(""), "[sweep] sweeps nothing"; "no key with values";
             "add for example `\"contact.friction_coefficient\" = [0.2, 0.3, 0.4]`");
@@ -101,8 +85,8 @@ pub(super) fn read(root: &Section<'_>) -> Option<Sweep> {
         && let Some((first, rest)) = keys.split_first()
         && let Some(other) = rest.iter().find(|k| k.values.len() != first.values.len())
     {
-        refuse_at!(section, &other.at, "\"{}\" has {} values but \"{}\" has {}", other.key,
-            other.values.len(), first.key, first.values.len();
+        refuse_at!(section, &other.varied.at, "\"{}\" has {} values but \"{}\" has {}",
+            other.varied.key, other.values.len(), first.varied.key, first.values.len();
             "zipped keys need equally many values";
             "give them the same count, or combine = \"grid\"");
     }
@@ -140,10 +124,7 @@ const TIED: [&str; 2] = ["values", "also"];
 
 /// The values of an entry: its own, or those beside `also`.
 fn listed(entry: &RawEntry) -> &RawEntry {
-    match &entry.item.value {
-        RawValue::Table(table) => table.get("values").unwrap_or(entry),
-        _ => entry,
-    }
+    entry.item.value.table().and_then(|table| table.get("values")).unwrap_or(entry)
 }
 
 /// How many values an entry stands for.
@@ -176,12 +157,10 @@ fn fits(section: &Section<'_>, combination: Combination, entries: &[(String, &Ra
 
 /// The keys that `also` names.
 fn also(section: &Section<'_>, key: &str, entry: &RawEntry) -> Vec<String> {
-    let RawValue::Table(table) = &entry.item.value else {
+    let tied = entry.item.value.table().filter(|table| table.contains_key("values"));
+    let Some(table) = tied else {
         return Vec::new();
     };
-    if !table.contains_key("values") {
-        return Vec::new();
-    }
     parameters::only(section, table, &TIED);
     let given = table.get("also");
     let items = given.into_iter().flat_map(|given| given.item.listed());
@@ -219,7 +198,7 @@ fn values(section: &Section<'_>, key: String, entry: &RawEntry) -> SweptKey {
         refuse_at!(section, &entry.item.at, "\"{key}\" in [sweep] has no values";
             "at least one value"; "list its values or give a range {{ from, to, count }}");
     }
-    SweptKey { key, also, values, at: entry.item.at.clone() }
+    SweptKey { varied: VariedKey { key, also, at: entry.item.at.clone() }, values }
 }
 
 /// Tries each value of a study on its own, all others as the case has them, so that a bad one is
@@ -236,10 +215,10 @@ pub(super) fn check_values(case: &Case) -> Result<(), CaseErrors> {
         let last = key.values.len().saturating_sub(1);
         let tried = key.values.len().min(most);
         let tried = (0..tried).map(move |i| &key.values[i * last / tried.max(2).saturating_sub(1)]);
-        tried.map(|value| ("swept", key.overrides(value).collect::<Vec<_>>(), key.at.clone()))
+        tried.map(|value| ("swept", key.varied.overrides(value), key.varied.at.clone()))
     });
     let uncertain = case.uncertainty.iter().flat_map(|study| &study.parameters).map(|own| {
-        let overrides = own.parameter.overrides(own.value(0.5)).collect();
+        let overrides = own.parameter.overrides(&format!("{:?}", own.value(0.5)));
         ("uncertain", overrides, own.parameter.at.clone())
     });
     let mut errors = Vec::new();

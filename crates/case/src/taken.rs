@@ -158,11 +158,9 @@ fn entry_table<'t>(table: &'t mut RawTable, name: &str, at: &Location) -> Option
 
 /// Whether a contact or a tie of the case joins the same two surfaces.
 fn has_sides(entry: &RawEntry, section: &FileSection) -> bool {
-    let RawValue::Table(table) = &entry.item.value else {
-        return false;
-    };
     let sides = ["surface", "counter"];
-    let of_case = sides.map(|key| table.get(key).map(|entry| &entry.item.value));
+    let table = entry.item.value.table();
+    let of_case = sides.map(|key| Some(&table?.get(key)?.item.value));
     let of_file = sides.map(|key| section.keys.iter().find(|k| k.0 == key).map(|k| &k.1));
     of_case == of_file || of_case == [of_file[1], of_file[0]]
 }

@@ -1,9 +1,7 @@
 //! `[uncertainty]`: parameters that are known but roughly.
 
 use super::parameters::{number, only, read_all};
-use super::{
-    ModelParameter, RawEntry, RawValue, Section, caution_if, refuse, refuse_at, refuse_if,
-};
+use super::{RawEntry, RawValue, Section, VariedKey, caution_if, refuse, refuse_at, refuse_if};
 use frictionsim_physics::linalg::Distribution;
 
 /// Share of a distribution beyond what its key can take from which on it is refused.
@@ -17,7 +15,7 @@ const LARGEST_LOG_DEVIATION: f64 = 3.0;
 #[derive(Clone, Debug, PartialEq)]
 pub struct UncertainParameter {
     /// The parameter.
-    pub parameter: ModelParameter,
+    pub parameter: VariedKey,
     /// Its distribution.
     pub distribution: Distribution,
     /// Probabilities of the distribution between which samples are drawn: all but what its key cannot take.
@@ -78,11 +76,7 @@ pub(super) fn uncertainty(section: &Section<'_>) -> Uncertainty {
 }
 
 /// `{ normal = [mean, deviation] }`, `{ log_normal = [median, deviation] }` or `{ uniform = [from, to] }`.
-fn uncertain(
-    section: &Section<'_>,
-    parameter: ModelParameter,
-    entry: &RawEntry,
-) -> UncertainParameter {
+fn uncertain(section: &Section<'_>, parameter: VariedKey, entry: &RawEntry) -> UncertainParameter {
     let key = &parameter.key;
     let help = "a distribution is { normal = [mean, deviation] }, \
     { log_normal = [median, deviation of the logarithm] } \
@@ -152,10 +146,11 @@ fn uncertain(
              the key use normal");
         return none;
     }
-    let [least, most] = parameter.bound.ends();
+    let bound = parameter.bound();
+    let [least, most] = bound.ends();
     let range = [distribution.below(least), distribution.below(most)];
     let beyond = 1.0 - (range[1] - range[0]);
-    let rule = parameter.bound.text();
+    let rule = bound.text();
     if beyond > MOST_BEYOND || (beyond > 0.0 && word == "uniform") {
         refuse_at!(section, at,
             "{:.3} % of {word} = [{a}, {b}] of {key} lies where the key {rule}", 100.0 * beyond;

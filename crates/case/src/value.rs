@@ -37,10 +37,7 @@ pub type RawTable = BTreeMap<String, RawEntry>;
 
 /// The section of a name in a table.
 pub(super) fn table_of<'t>(table: &'t RawTable, name: &str) -> Option<&'t RawTable> {
-    match &table.get(name)?.item.value {
-        RawValue::Table(inner) => Some(inner),
-        _ => None,
-    }
+    table.get(name)?.item.value.table()
 }
 
 /// A TOML value.
@@ -82,6 +79,14 @@ impl RawValue {
         let mut errors = Vec::new();
         let value = convert(parsed.get_ref(), 0, 0..text.len(), &mut errors);
         errors.is_empty().then_some(value)
+    }
+
+    /// The table that it is.
+    pub(super) fn table(&self) -> Option<&RawTable> {
+        match self {
+            Self::Table(table) => Some(table),
+            _ => None,
+        }
     }
 
     /// The text that it is.

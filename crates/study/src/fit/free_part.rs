@@ -1,6 +1,6 @@
 //! Derivatives of the free modes of undamped parts.
 
-use frictionsim_case::{AssemblyBody, Case, ModelParameter};
+use frictionsim_case::{AssemblyBody, Case, VariedKey};
 use frictionsim_physics::cea::ComplexMode;
 use frictionsim_physics::fem::{MassKind, Triplets, assemble_mass, assemble_stiffness};
 use frictionsim_physics::linalg::c64;
@@ -33,7 +33,7 @@ pub(super) fn rates<'p>(
     case: &Case,
     kind: MassKind,
     modes: &[ComplexMode],
-    parameters: impl Iterator<Item = (&'p ModelParameter, f64)>,
+    parameters: impl Iterator<Item = (&'p VariedKey, f64)>,
 ) -> Vec<Vec<Option<c64>>> {
     let forms = |case: &Case, mode: &ComplexMode, [mass, stiffness]: &[Triplets; 2]| {
         let shape = mode.shape.as_ref()?;
