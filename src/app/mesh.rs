@@ -33,7 +33,7 @@ pub(super) fn run(options: &RunOptions) -> Result<(), Failure> {
     if let Some(sector) = &solid {
         statistics.turn(sector);
     }
-    let figures = || vec![plane_figure(&mesh, &case.title, &case.output.probes)];
+    let figures = || vec![plane_figure(&mesh, &case.title, &case.output.recorder.probes)];
     finish(&session, folder, (statistics, Vec::new()), figures)
 }
 

@@ -54,7 +54,7 @@ fn resume<'b>(
         Some(record) => record,
         None => read_record(folder)?,
     };
-    let record = study.told(record.resume(&run, &study.recorder_settings()))?;
+    let record = study.told(record.resume(&run, &study.case.output.recorder))?;
     Ok((run, record))
 }
 
@@ -65,7 +65,7 @@ pub(super) fn run(asked: &Arguments) -> Result<(), Failure> {
     let operator = study.operator()?;
     // Whatever is wrong with the case is said before the folder is touched.
     let fresh = study.start(operator.as_ref())?;
-    let recorder = study.told(Recorder::new(&fresh, &study.recorder_settings()))?;
+    let recorder = study.told(Recorder::new(&fresh, &study.case.output.recorder))?;
     let saved = if asked.resume { continuation::find(&session)? } else { None };
     let goes_on = saved.is_some();
     let (mut loop_, record) = match saved {

@@ -1,7 +1,6 @@
 //! What modifications attach to a body, and the annulus whose symmetry they break.
 
 use super::modifications::{Misfit, Modification, reshaped};
-use super::node::Nodes;
 use super::{Annulus, Body, ImportedBody, Section, refuse_if};
 use frictionsim_physics::mesh::{
     Attachment, BodyError, BodySpecification, CounterfaceSpecification, DampedPatch, Mesh,
@@ -56,10 +55,8 @@ pub(super) fn attach(
     for own in modifications {
         let section = all.section(&own.name, false);
         if let Some(place) = &own.at {
-            let nodes = Nodes { body: Some(&*body) };
-            if let Some((node, _)) = nodes.find(&section, "at", place) {
-                attachments.push(own.attachment(node, extent));
-            }
+            let found = body.find_node(&section, "at", place);
+            attachments.extend(found.map(|(node, _)| own.attachment(node, extent)));
         }
         if own.coefficients == [0.0; 2] {
             continue;
@@ -76,10 +73,12 @@ pub(super) fn attach(
             stiffness_coefficient: own.coefficients[1],
         });
     }
-    if let Some(mesh) = body.whole_mesh_mut() {
-        let mesh = Arc::make_mut(mesh);
-        (mesh.attachments, mesh.patches) = (attachments, patches);
-    }
+    let mesh = match body {
+        Body::Imported(own) => Arc::make_mut(&mut own.mesh),
+        Body::Assembly(own) => Arc::make_mut(&mut own.mesh),
+        Body::Annulus(_) | Body::Revolution(_) => return,
+    };
+    (mesh.attachments, mesh.patches) = (attachments, patches);
 }
 
 impl Modification {

@@ -105,16 +105,11 @@ impl Body {
 
     /// Elements, in a width that no input overflows.
     pub fn element_count(&self) -> u128 {
-        let around = |grid: &AnnulusSpecification| {
-            grid.circumferential_elements as u128 * grid.elements_per_sector() as u128
+        let Some(grid) = self.grid() else {
+            return self.whole_mesh().map_or(0, |mesh| mesh.element_count() as u128);
         };
-        match self {
-            Self::Annulus(annulus) => around(&annulus.specification),
-            Self::Revolution(Revolution { specification, .. }) => {
-                around(&specification.annulus) * specification.axial_elements as u128
-            }
-            _ => self.whole_mesh().map_or(0, |mesh| mesh.element_count() as u128),
-        }
+        let around = grid.circumferential_elements as u128 * grid.elements_per_sector() as u128;
+        around * self.revolution().map_or(1, |own| own.specification.axial_elements as u128)
     }
 
     /// Contact nodes, under a ring at most those of the whole face, in a width that no input overflows.
@@ -202,15 +197,6 @@ impl Body {
         match self {
             Self::Imported(imported) => Some(&imported.mesh),
             Self::Assembly(assembly) => Some(&assembly.mesh),
-            Self::Annulus(_) | Self::Revolution(_) => None,
-        }
-    }
-
-    /// As [`Self::whole_mesh`], to change it.
-    pub(super) fn whole_mesh_mut(&mut self) -> Option<&mut Arc<Mesh>> {
-        match self {
-            Self::Imported(imported) => Some(&mut imported.mesh),
-            Self::Assembly(assembly) => Some(&mut assembly.mesh),
             Self::Annulus(_) | Self::Revolution(_) => None,
         }
     }

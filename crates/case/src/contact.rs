@@ -169,7 +169,7 @@ pub(super) fn contact_stiffness(
         loss_factor: loss_factor(section),
         ..ContactStiffness::default()
     };
-    let (law, stiffness) = normal_law(section, stiffness);
+    let stiffness = with_law(section, stiffness);
     let idle = [
         ("normal_damping", stiffness.normal_damping, ""),
         ("loss_factor", stiffness.loss_factor, ", which stores no energy"),
@@ -181,7 +181,7 @@ pub(super) fn contact_stiffness(
                 "needs normal_stiffness"; "give normal_stiffness, or leave {key} out");
         }
     }
-    ContactStiffness { law, ..stiffness }
+    stiffness
 }
 
 /// How friction falls with the slip speed; a ratio of one is a constant coefficient.
@@ -226,11 +226,8 @@ const LAW_KEYS: [(&str, &[NormalLawWord]); 4] = [
     ("height", &[NormalLawWord::Exponential]),
 ];
 
-/// How a contact stiffens with pressure, and its stiffness without.
-pub(super) fn normal_law(
-    section: &Section<'_>,
-    stiffness: ContactStiffness,
-) -> (Option<NormalLaw>, ContactStiffness) {
+/// A contact with how it stiffens with pressure, and its stiffness without.
+fn with_law(section: &Section<'_>, stiffness: ContactStiffness) -> ContactStiffness {
     let word: NormalLawWord = section.choice("normal_law");
     for (key, laws) in LAW_KEYS {
         if !laws.contains(&word) && section.has(key) {
@@ -260,7 +257,5 @@ pub(super) fn normal_law(
         }
     };
     let at_rest = law.map(|law| law.stiffness(0.0));
-    let stiffness =
-        ContactStiffness { normal_stiffness: at_rest.or(stiffness.normal_stiffness), ..stiffness };
-    (law, stiffness)
+    ContactStiffness { normal_stiffness: at_rest.or(stiffness.normal_stiffness), law, ..stiffness }
 }

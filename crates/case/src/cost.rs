@@ -297,14 +297,15 @@ impl Case {
     /// What makes the record of a transient large: its length, its samples, or its snapshots.
     fn record_key(&self) -> &'static str {
         // Usual ones: 0.05 s and 2 us.
-        let length = self.transient.as_ref().map_or(0.0, |run| run.duration) / 0.05;
+        let length = self.transient.as_ref().map_or(0.0, |run| run.settings.duration) / 0.05;
         let density = 2e-6 / self.output.sample_interval;
         let samples = self.sample_bytes() + self.frame_bytes();
         let snapshots = self.snapshot_bytes();
         let body = 320.0 * self.body.node_count() as f64;
         if snapshots > samples.max(body) {
             "output.snapshots"
-        } else if self.output.contact_interval.is_some() && self.frame_bytes() > self.sample_bytes()
+        } else if self.output.recorder.contact_interval.is_some()
+            && self.frame_bytes() > self.sample_bytes()
         {
             "output.contact_interval"
         } else if length.max(density) < 10.0 {

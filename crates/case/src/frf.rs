@@ -1,7 +1,6 @@
 //! `[frf]`: a frequency response of the model.
 
-use super::node::Nodes;
-use super::{FrfMethod, Section, caution_if, refuse, refuse_if};
+use super::{Body, FrfMethod, Section, caution_if, refuse, refuse_if};
 use frictionsim_physics::fem::MassKind;
 use frictionsim_physics::frf::{Direction, FrfBoundary, Terminal};
 use frictionsim_signal::ResponseQuantity;
@@ -29,10 +28,10 @@ pub struct Frf {
     pub noise_seed: usize,
 }
 
-pub(super) fn read(section: &Section<'_>, nodes: &Nodes<'_>) -> Frf {
+pub(super) fn read(section: &Section<'_>, body: Option<&Body>) -> Frf {
     let named = ["force_node", "response_node"].map(|key| {
         let named = section.node(key)?;
-        nodes.find(section, key, &named).map(|found| found.0)
+        body?.find_node(section, key, &named).map(|found| found.0)
     });
     section.needs("force_node");
     let force_node = named[0].unwrap_or(0);
@@ -46,7 +45,7 @@ pub(super) fn read(section: &Section<'_>, nodes: &Nodes<'_>) -> Frf {
     let direction = |key| {
         let direction: Direction = section.choice(key);
         let is_along = matches!(direction, Direction::Axial | Direction::Z);
-        if is_along && nodes.body.is_some_and(|body| body.dimension() == 2) {
+        if is_along && body.is_some_and(|body| body.dimension() == 2) {
             let name = direction.name();
             refuse!(section, key,
                 "frf.{key} = \"{name}\": a plane body does not move along its axis";

@@ -178,12 +178,11 @@ impl Case {
         let damping = root.section("damping", false).closed(description::damping);
         let own_friction = contact.sliding.friction_coefficient;
         let cea = root.read_section("cea", |own| cea::cea(own, &root, body.as_ref(), own_friction));
-        let transient = root.read_section("transient", |own| {
+        let mut transient = root.read_section("transient", |own| {
             transient::transient(own, body.as_ref(), &contact.sliding)
         });
-        let nodes = node::Nodes { body: body.as_ref() };
         let output = root.section("output", false);
-        let output = output.closed(|own| transient::output(own, &nodes, transient.as_ref()));
+        let output = output.closed(|own| transient::output(own, body.as_ref(), transient.as_mut()));
         if transient.is_some() && body.as_ref().is_some_and(|body| !body.suits_transient()) {
             let mesh = root.section("mesh", false);
             caution!(mesh, "element",
@@ -192,7 +191,7 @@ impl Case {
         }
         let cycle = root.read_section("cycle", |own| cycle::cycle(own, body.as_ref()));
         let basin = root.read_section("basin", |own| cycle::basin(own, body.as_ref()));
-        let frf = root.read_section("frf", |own| frf::read(own, &nodes));
+        let frf = root.read_section("frf", |own| frf::read(own, body.as_ref()));
         let has = [cea.is_some(), transient.is_some(), cycle.is_some()];
         let convergence = root
             .read_section("convergence", |own| convergence::read(own, &root, body.as_ref(), has));

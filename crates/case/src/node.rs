@@ -29,58 +29,45 @@ impl PlacedNode {
     }
 }
 
-/// The nodes of the case's mesh.
-#[derive(Clone, Copy)]
-pub(super) struct Nodes<'a> {
-    /// None where a mesh file makes no body: nothing is known of its nodes.
-    pub body: Option<&'a Body>,
-}
-
 /// A node of the case, counted from 0, with its place where it was asked for by that.
 type Found = (usize, Option<PlacedNode>);
 
-impl Nodes<'_> {
-    /// Number of a node as the user knows it.
-    pub fn label(&self, node: usize) -> usize {
-        self.body.map_or(node + 1, |body| body.node_label(node))
-    }
-
+impl Body {
     /// The node that `named` means; what is wrong with it is reported at `key`.
-    pub fn find(
+    pub(super) fn find_node(
         &self,
         section: &Section<'_>,
         key: &'static str,
         (named, at): &(NodePlace, Location),
     ) -> Option<Found> {
-        let body = self.body?;
         let (asked, z) = match *named {
             NodePlace::Number(number) => {
-                return numbered(body, section, key, number, at).map(|n| (n, None));
+                return numbered(self, section, key, number, at).map(|n| (n, None));
             }
             NodePlace::Point(point, z) => (point, z),
             NodePlace::Polar { radius, angle, z } => {
-                let [x, y] = axis(body);
+                let [x, y] = axis(self);
                 ([x + radius * angle.cos(), y + radius * angle.sin()], z)
             }
         };
-        if let (2, Some(z)) = (body.dimension(), z) {
+        if let (2, Some(z)) = (self.dimension(), z) {
             refuse_at!(section, at, "{}: z = {z} of a plane body", section.name(key);
                 "the body is plane"; "leave z out");
             return None;
         }
-        let (node, point) = nearest(body, asked, z)?;
+        let (node, point) = nearest(self, asked, z)?;
         let placed = PlacedNode {
             node,
             // Without z the height is the node's.
             asked: [asked[0], asked[1], z.unwrap_or(point[2])],
             at: point,
         };
-        if placed.distance() > FAR * body.size() {
+        if placed.distance() > FAR * self.size() {
             let [asked, found] = [(&placed.asked, None), (&point, Some(6))]
-                .map(|(place, digits)| listed(&place[..body.dimension()], digits));
+                .map(|(place, digits)| listed(&place[..self.dimension()], digits));
             caution!(section, key,
                 "{}: the node nearest to {asked} m is node {} at {found} m, {:.1e} m away",
-                section.name(key), body.node_label(node), placed.distance();
+                section.name(key), self.node_label(node), placed.distance();
                 "places are in metres");
         }
         Some((node, Some(placed)))

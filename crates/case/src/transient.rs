@@ -1,6 +1,5 @@
 //! `[transient]` and `[output]`: the explicit transient and what it writes.
 
-use super::node::Nodes;
 use super::{
     AssemblyBody, Body, Case, CaseErrors, PlacedNode, Revolution, Section, caution, caution_if,
     refusal, refuse, refuse_at, refuse_if,
@@ -9,7 +8,8 @@ use frictionsim_physics::contact::SlidingContact;
 use frictionsim_physics::mesh::{Counterface, SolidContact};
 use frictionsim_physics::prestress::BaseChoice;
 use frictionsim_physics::transient::{
-    InitialState, OperatorChoice, Perturbation, StandingWave, TimeStep, whole_intervals,
+    InitialState, OperatorChoice, Perturbation, RecorderSettings, StandingWave, TimeStep,
+    TransientSettings, whole_intervals,
 };
 
 /// Snapshots after the end of a run that are named one by one.
@@ -18,37 +18,23 @@ const MOST_NAMED: usize = 4;
 /// `[transient]`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Transient {
-    /// Simulated time, s.
-    pub duration: f64,
-    /// Time step.
-    pub time_step: TimeStep,
-    /// Ramp of the interference, s.
-    pub expansion_time: f64,
-    /// Initial state.
-    pub initial: InitialState,
+    /// Times, start and perturbation of the run; the time between samples is that of `[output]`.
+    pub settings: TransientSettings,
     /// Operator.
     pub operator: OperatorChoice,
-    /// Whether the run ends where it has settled.
-    pub stop_when_settled: bool,
-    /// Initial perturbation.
-    pub perturbation: Perturbation,
+    /// For the recorder of `[output]`, which is read later.
+    stop_when_settled: bool,
 }
 
 /// `[output]`: what a transient writes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Output {
-    /// Nodes, counted from 1.
-    pub probes: Vec<usize>,
-    /// Those of them that were asked for by their place.
+    /// What a run keeps; its snapshots rise.
+    pub recorder: RecorderSettings,
+    /// Those of its probes that were asked for by their place.
     pub placed_probes: Vec<PlacedNode>,
     /// Time between samples, s.
     pub sample_interval: f64,
-    /// Time between contact frames, s; `None` where the length of the run decides.
-    pub contact_interval: Option<f64>,
-    /// Whether probes have the acceleration of the sampled step too.
-    pub raw_acceleration: bool,
-    /// Times of the field snapshots, s, rising.
-    pub snapshots: Vec<f64>,
     /// Wall time between checkpoints, s.
     pub checkpoint_interval: f64,
     /// Whether meshes, shapes and responses are written as universal files, too.
@@ -69,7 +55,7 @@ impl Case {
         // What no section would help against comes first.
         let remedy = "[transient]\nduration = 0.05";
         let transient = self.required(&self.transient, "transient", "transient", remedy)?;
-        if let InitialState::LimitCycle { .. } = transient.initial {
+        if let InitialState::LimitCycle { .. } = transient.settings.initial {
             self.refuse_losses_in_time("the search for the limit cycle that the run starts on")?;
             self.require_annulus("limit cycles are sought in")?;
         }
@@ -124,15 +110,19 @@ pub(super) fn transient(
         "transient.expansion_time is not used: the run starts with the cylinder fully expanded";
         "only with initial = \"rest\"");
     Transient {
-        duration,
-        time_step,
-        expansion_time,
-        initial,
         operator: section.choice("operator"),
         stop_when_settled: section.flag("stop_when_settled"),
-        perturbation: section
-            .section("perturbation", false)
-            .closed(|own| perturbation(own, body, sliding, duration)),
+        settings: TransientSettings {
+            duration,
+            time_step,
+            // Until `[output]` is read.
+            sample_interval: f64::NAN,
+            expansion_time,
+            initial,
+            perturbation: section
+                .section("perturbation", false)
+                .closed(|own| perturbation(own, body, sliding, duration)),
+        },
     }
 }
 
@@ -246,18 +236,19 @@ fn one_for_each(section: &Section<'_>, key: &'static str, harmonics: &[usize]) -
 
 pub(super) fn output(
     section: &Section<'_>,
-    nodes: &Nodes<'_>,
-    transient: Option<&Transient>,
+    body: Option<&Body>,
+    mut transient: Option<&mut Transient>,
 ) -> Output {
-    let (probes, placed_probes) = probes(section, nodes);
+    let (probes, placed_probes) = probes(section, body);
     let sample_interval = section.number("sample_interval");
     let mut snapshots = section.rising("snapshots").unwrap_or_default();
-    if let Some(transient) = transient {
-        let last = whole_intervals(transient.duration, sample_interval) as f64;
+    if let Some(transient) = &mut transient {
+        let duration = transient.settings.duration;
+        transient.settings.sample_interval = sample_interval;
+        let last = whole_intervals(duration, sample_interval) as f64;
         // They rise: those after the end stand last.
         let is_inside = |time: &f64| (time / sample_interval).round() <= last;
         let left_out = snapshots.split_off(snapshots.partition_point(is_inside));
-        let duration = transient.duration;
         let further = left_out.len().saturating_sub(MOST_NAMED);
         for time in left_out.iter().take(MOST_NAMED) {
             caution!(section, "snapshots",
@@ -277,26 +268,30 @@ pub(super) fn output(
             "at least the sample interval");
     }
     Output {
-        probes,
+        recorder: RecorderSettings {
+            probes,
+            snapshots,
+            contact_interval,
+            raw_acceleration: section.flag("raw_acceleration"),
+            stop_when_settled: transient.is_some_and(|own| own.stop_when_settled),
+        },
         placed_probes,
         sample_interval,
-        contact_interval,
-        raw_acceleration: section.flag("raw_acceleration"),
-        snapshots,
         checkpoint_interval: section.number("checkpoint_interval"),
         universal: section.flag("universal"),
     }
 }
 
 /// The probes, counted from 1, and those of them that were asked for by their place.
-fn probes(section: &Section<'_>, nodes: &Nodes<'_>) -> (Vec<usize>, Vec<PlacedNode>) {
+fn probes(section: &Section<'_>, body: Option<&Body>) -> (Vec<usize>, Vec<PlacedNode>) {
     let (mut probes, mut placed) = (Vec::new(), Vec::new());
     for named in section.nodes("probes") {
-        let Some((node, place)) = nodes.find(section, "probes", &named) else {
+        let found = body.and_then(|body| body.find_node(section, "probes", &named));
+        let (Some(body), Some((node, place))) = (body, found) else {
             continue;
         };
         if probes.contains(&(node + 1)) {
-            refuse_at!(section, &named.1, "output.probes names node {} twice", nodes.label(node);
+            refuse_at!(section, &named.1, "output.probes names node {} twice", body.node_label(node);
                 "must not be listed twice"; "leave one of them out");
         }
         probes.push(node + 1);

@@ -127,8 +127,8 @@ fn a_single_value_stands_for_a_list_of_one() {
          cea.shapes_at=0.2 ; cea.friction_coefficients=0.2 ; sweep.analyses=cea ; \
          sweep.\"contact.friction_coefficient\"=0.2 ; cycle.harmonics=2"];
     let case = valid(RUN, &given);
-    assert_eq!(case.output.probes, [7]);
-    assert_eq!(case.output.snapshots, [0.01]);
+    assert_eq!(case.output.recorder.probes, [7]);
+    assert_eq!(case.output.recorder.snapshots, [0.01]);
     assert_eq!(case.cycle.unwrap().harmonics, Some(vec![2]));
     assert_eq!(case.sweep.unwrap().point_count(), 1);
 }

@@ -204,7 +204,7 @@ fn a_missing_analysis_says_what_to_add() {
 fn snapshots_after_the_end_are_a_warning() {
     let case = valid(RUN, &["transient.duration=0.01"]);
     assert_eq!(case.warnings.len(), 2);
-    assert_eq!(case.transient.unwrap().time_step, TimeStep::Auto);
+    assert_eq!(case.transient.unwrap().settings.time_step, TimeStep::Auto);
 }
 
 #[test]
@@ -262,7 +262,7 @@ fn a_start_on_a_limit_cycle_names_its_harmonic_and_onset() {
     for (harmonic, onset, more) in [(2, 1, ""), (1, 2, " ; transient.limit_cycle_onset=2")] {
         let start = "transient.initial=\"limit-cycle\" ; transient.limit_cycle_harmonic";
         let case = valid(RUN, &[&format!("{start}={harmonic}{more}")]);
-        let initial = case.require_transient().unwrap().initial;
+        let initial = case.require_transient().unwrap().settings.initial;
         assert_eq!(initial, InitialState::LimitCycle { harmonic, onset });
     }
 }

@@ -130,7 +130,7 @@ fn relative_seeds_of_an_imported_body_are_shares_of_its_own_slip_speed() {
          contact.boundary=outer ; boundaries={ inner = { condition = \"clamped\" } }",
     ];
     let body = case(&folder(), "disc.msh", &set);
-    let perturbation = &body.transient.as_ref().unwrap().perturbation;
+    let perturbation = &body.transient.as_ref().unwrap().settings.perturbation;
     let expected = 0.5 * body.contact.sliding.rotation_speed * 0.0905;
     let found = perturbation.waves[0].velocity;
     assert!((found / expected - 1.0).abs() < 1e-9, "{found} {expected}");

@@ -15,7 +15,7 @@ const LARGEST_SEED: f64 = 0.01;
 
 /// A time step that is unstable, or longer than the samples.
 pub(super) fn time_step(case: &Case) -> Option<Diagnostic> {
-    let TimeStep::Seconds(step) = case.transient.as_ref()?.time_step else {
+    let TimeStep::Seconds(step) = case.transient.as_ref()?.settings.time_step else {
         return None;
     };
     let (stable, interval) = (case.cost().transient?.stable_step, case.output.sample_interval);
@@ -33,7 +33,7 @@ pub(super) fn time_step(case: &Case) -> Option<Diagnostic> {
 
 /// A run that no machine finishes.
 pub(super) fn duration(case: &Case) -> Option<Diagnostic> {
-    let duration = case.transient.as_ref()?.duration;
+    let duration = case.transient.as_ref()?.settings.duration;
     let steps = duration / case.cost().transient?.time_step.min(case.output.sample_interval);
     (steps > MOST_STEPS).then(|| {
         diagnosis!(case, "transient.duration",
@@ -44,7 +44,7 @@ pub(super) fn duration(case: &Case) -> Option<Diagnostic> {
 
 /// A start on a limit cycle that is no rotating wave.
 pub(super) fn start(case: &Case) -> Option<Diagnostic> {
-    let InitialState::LimitCycle { .. } = case.transient.as_ref()?.initial else {
+    let InitialState::LimitCycle { .. } = case.transient.as_ref()?.settings.initial else {
         return None;
     };
     let (what, label, remedy) = if case.contact.sliding.decay.is_some() {
@@ -63,7 +63,7 @@ pub(super) fn start(case: &Case) -> Option<Diagnostic> {
 
 /// Seeded velocities whose strain, `v / c`, is not small.
 pub(super) fn seeds(case: &Case) -> Option<Limit> {
-    let perturbation = &case.transient.as_ref()?.perturbation;
+    let perturbation = &case.transient.as_ref()?.settings.perturbation;
     let waves = perturbation.waves.iter().map(|wave| wave.velocity.abs());
     let wave = waves.fold(0.0, f64::max);
     let (key, largest) = match wave >= perturbation.noise {

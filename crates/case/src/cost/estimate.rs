@@ -57,19 +57,19 @@ const BASIN_STEPS: f64 = 8.0 * PERIOD_STEPS;
 
 impl Case {
     pub(super) fn samples(&self) -> f64 {
-        let duration = self.transient.as_ref().map_or(0.0, |run| run.duration);
+        let duration = self.transient.as_ref().map_or(0.0, |run| run.settings.duration);
         duration / self.output.sample_interval
     }
 
     /// Energies and harmonics, and the motion of each probe, of all samples.
     pub(super) fn sample_bytes(&self) -> f64 {
-        self.samples() * (400.0 + 48.0 * self.output.probes.len() as f64)
+        self.samples() * (400.0 + 48.0 * self.output.recorder.probes.len() as f64)
     }
 
     /// Status and two stresses of each contact node in all frames.
     pub(super) fn frame_bytes(&self) -> f64 {
-        let duration = self.transient.as_ref().map_or(0.0, |run| run.duration);
-        let frames = match self.output.contact_interval {
+        let duration = self.transient.as_ref().map_or(0.0, |run| run.settings.duration);
+        let frames = match self.output.recorder.contact_interval {
             Some(interval) => duration / interval,
             None => self.samples().min(10_000.0),
         };
@@ -81,7 +81,7 @@ impl Case {
     /// Displacements and velocities of all nodes at each snapshot.
     pub(super) fn snapshot_bytes(&self) -> f64 {
         let bytes = 16.0 * self.body.dimension() as f64 * self.body.node_count() as f64;
-        bytes * self.output.snapshots.len() as f64
+        bytes * self.output.recorder.snapshots.len() as f64
     }
 
     pub(super) fn cea_cost(&self, cea: &Cea, size: &Size) -> CeaCost {
@@ -210,11 +210,11 @@ impl Case {
 
     pub(super) fn transient_cost(&self, transient: &Transient, size: &Size) -> TransientCost {
         let stable_step = stable_step_limit(size.highest_frequency, &self.damping.rayleigh);
-        let time_step = match transient.time_step {
+        let time_step = match transient.settings.time_step {
             TimeStep::Seconds(step) => step,
             TimeStep::Auto => stable_step,
         };
-        let steps = (transient.duration / time_step).ceil();
+        let steps = (transient.settings.duration / time_step).ceil();
         let is_sparse = transient.operator == OperatorChoice::Sparse;
         let unknowns = self.unknowns(size);
         let (each, operator_bytes) = match &self.body {

@@ -118,7 +118,7 @@ pub fn solve(
 fn with_time_step(case: &Case, step: f64) -> Case {
     let mut case = case.clone();
     if let Some(transient) = &mut case.transient {
-        transient.time_step = TimeStep::Seconds(step);
+        transient.settings.time_step = TimeStep::Seconds(step);
     }
     case
 }

@@ -325,7 +325,7 @@ impl<'a> PeriodicStudy<'a> {
 
 /// The step that the case gives its transient, s.
 fn longest_step(case: &Case) -> Option<f64> {
-    match case.transient.as_ref()?.time_step {
+    match case.transient.as_ref()?.settings.time_step {
         TimeStep::Seconds(step) => Some(step),
         TimeStep::Auto => None,
     }

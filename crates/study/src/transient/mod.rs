@@ -82,32 +82,13 @@ impl<'a> TransientStudy<'a> {
             stepped: SteppedMesh::of(case)?,
             transient,
             simd,
-            settings: TransientSettings {
-                duration: transient.duration,
-                time_step: transient.time_step,
-                sample_interval: case.output.sample_interval,
-                expansion_time: transient.expansion_time,
-                initial: transient.initial,
-                perturbation: transient.perturbation.clone(),
-            },
+            settings: transient.settings.clone(),
         })
     }
 
     /// The body with its contact.
     pub fn body(&self) -> TransientModel<'_> {
         self.stepped.body(self.case)
-    }
-
-    /// What the case asks a run to keep.
-    pub fn recorder_settings(&self) -> RecorderSettings {
-        let output = &self.case.output;
-        RecorderSettings {
-            probes: output.probes.clone(),
-            snapshots: output.snapshots.clone(),
-            contact_interval: output.contact_interval,
-            raw_acceleration: output.raw_acceleration,
-            stop_when_settled: self.transient.stop_when_settled,
-        }
     }
 
     /// What applies the stiffness.
@@ -170,7 +151,7 @@ impl<'a> TransientStudy<'a> {
         let operator = self.operator()?;
         let mut run = self.start(operator.as_ref())?;
         let settings = RecorderSettings {
-            stop_when_settled: self.transient.stop_when_settled,
+            stop_when_settled: self.case.output.recorder.stop_when_settled,
             ..RecorderSettings::default()
         };
         let mut record = self.told(Recorder::new(&run, &settings))?;
@@ -207,7 +188,7 @@ impl<'a> TransientStudy<'a> {
         let settings = TransientSettings { initial, ..self.settings.clone() };
         let started = CentralDifference::start(self.body(), operator.as_ref(), &settings);
         let fresh = self.told(started)?;
-        self.told(Recorder::new(&fresh, &self.recorder_settings()))?;
+        self.told(Recorder::new(&fresh, &self.case.output.recorder))?;
         Ok(*fresh.plan())
     }
 
