@@ -227,24 +227,13 @@ impl FileSection {
     }
 }
 
-pub(super) fn item(value: RawValue, at: &Location) -> RawItem {
-    let value = match value {
-        RawValue::Array(items) => {
-            let items = items.into_iter().map(|inner| item(inner.value, at));
-            RawValue::Array(items.collect())
-        }
-        other => other,
-    };
-    RawItem { value, at: at.clone() }
-}
-
 fn text(text: &str) -> RawValue {
     RawValue::String(text.to_owned())
 }
 
 fn list(values: Vec<RawValue>) -> RawValue {
     let at = Location::default();
-    RawValue::Array(values.into_iter().map(|value| item(value, &at)).collect())
+    RawValue::Array(values.into_iter().map(|value| RawItem::at(value, &at)).collect())
 }
 
 fn numbers(values: &[f64]) -> RawValue {

@@ -75,7 +75,7 @@ pub use keys::{KEYS, find as find_key};
 pub use node::PlacedNode;
 pub use overrides::unset;
 pub use parameters::VariedKey;
-pub use range::{Spacing, range_values};
+pub use range::range_values;
 pub use raw::{MeshBytes, RawCase, TableBytes, hash_of};
 pub use shown::{first_of, shown, shown_json};
 pub use starting::case_from;
@@ -87,8 +87,8 @@ pub use transient::{Output, Transient};
 pub use uncertainty::{UncertainParameter, Uncertainty};
 pub use value::{RawEntry, RawItem, RawTable, RawValue};
 pub use words::{
-    Analysis, CeaMethod, Combination, FrfMethod, ModificationKind, OnsetChoice, StabilityChoice,
-    UnitsWord,
+    Analysis, CeaMethod, Combination, FrfMethod, ModificationKind, OnsetChoice, Spacing,
+    StabilityChoice, UnitsWord,
 };
 
 use frictionsim_physics::fem::{ElasticMaterial, MaterialField, RegionMaterial};

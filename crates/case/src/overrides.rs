@@ -123,9 +123,8 @@ fn parse(
     };
     errors.iter_mut().for_each(|error| error.at = value_at.clone());
     diagnostics.append(&mut errors);
-    let mut item = RawItem { value, at: value_at.clone() };
-    relocate(&mut item, &value_at);
-    Some((path, item))
+    // Values inside an override are short: every part of one points at the whole value.
+    Some((path, RawItem::at(value, &value_at)))
 }
 
 /// Position of the `=` between key and value: the first one outside quotes.
@@ -155,21 +154,6 @@ fn key_path(table: &DeTable<'_>, source: usize) -> KeyPath {
     path
 }
 
-/// Values inside an override are short: every part of one points at the whole value.
-fn relocate(item: &mut RawItem, at: &Location) {
-    item.at = at.clone();
-    match &mut item.value {
-        RawValue::Array(items) => items.iter_mut().for_each(|item| relocate(item, at)),
-        RawValue::Table(table) => {
-            for entry in table.values_mut() {
-                entry.key_at = at.clone();
-                relocate(&mut entry.item, at);
-            }
-        }
-        _ => {}
-    }
-}
-
 /// Puts a value at a path, making the tables on the way.
 fn insert(
     table: &mut RawTable,
@@ -185,10 +169,8 @@ fn insert(
         table.insert(key.clone(), RawEntry { key_at, item });
         return;
     }
-    let entry = table.entry(key.clone()).or_insert_with(|| RawEntry {
-        key_at: key_at.clone(),
-        item: RawItem { value: RawValue::Table(RawTable::new()), at: key_at.clone() },
-    });
+    let empty = || RawEntry::at(RawValue::Table(RawTable::new()), key_at);
+    let entry = table.entry(key.clone()).or_insert_with(empty);
     if let (RawValue::Array(items), [(part, _)]) = (&mut entry.item.value, rest)
         && let Some(place) = keys::list_place(part)
     {
@@ -203,7 +185,7 @@ fn insert(
     }
     if !matches!(entry.item.value, RawValue::Table(_)) {
         // A path through a plain value: the reader of that key reports the table it then finds.
-        entry.item = RawItem { value: RawValue::Table(RawTable::new()), at: key_at.clone() };
+        entry.item = empty().item;
     }
     if let RawValue::Table(inner) = &mut entry.item.value {
         insert(inner, rest, item, diagnostics);

@@ -1,16 +1,7 @@
 //! Lists of values, given one by one or as a range.
 
+use super::Spacing;
 use frictionsim_output::rounded;
-
-/// How the values of a range are spaced.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Spacing {
-    /// Equal differences.
-    #[default]
-    Linear,
-    /// Equal ratios.
-    Logarithmic,
-}
 
 /// `count` values from `from` to `to`, both included exactly.
 ///

@@ -6,7 +6,7 @@
 //! and for a motion whose axis it gives. Elastic constants are taken together, and so are the two
 //! coefficients of Rayleigh's damping.
 
-use super::file_sections::{item, sections};
+use super::file_sections::sections;
 use super::value::table_of;
 use super::words::{Choice, FilePart, choice_of};
 use super::{
@@ -138,18 +138,15 @@ fn merge(root: &mut RawTable, mut section: FileSection, at: &Location) -> Option
         table = entry_table(table, name, at)?;
     }
     for (key, value) in &section.keys {
-        let item = item(value.clone(), at);
-        table.insert((*key).to_owned(), RawEntry { key_at: at.clone(), item });
+        table.insert((*key).to_owned(), RawEntry::at(value.clone(), at));
     }
     Some(section)
 }
 
 /// The table of a name, made where there is none; none where the name stands for something else.
 fn entry_table<'t>(table: &'t mut RawTable, name: &str, at: &Location) -> Option<&'t mut RawTable> {
-    let entry = table.entry(name.to_owned()).or_insert_with(|| RawEntry {
-        key_at: at.clone(),
-        item: item(RawValue::Table(RawTable::new()), at),
-    });
+    let empty = || RawEntry::at(RawValue::Table(RawTable::new()), at);
+    let entry = table.entry(name.to_owned()).or_insert_with(empty);
     match &mut entry.item.value {
         RawValue::Table(inner) => Some(inner),
         _ => None,

@@ -1,6 +1,7 @@
 //! Values of a case as its TOML says them, each with its place.
 
 use super::{Diagnostic, Location, placed};
+use frictionsim_bounds::shortened;
 use std::collections::BTreeMap;
 use toml::de::{DeTable, DeValue};
 
@@ -14,6 +15,23 @@ pub struct RawItem {
 }
 
 impl RawItem {
+    /// A value all of whose parts stand at one place.
+    pub(super) fn at(value: RawValue, at: &Location) -> Self {
+        let value = match value {
+            RawValue::Array(items) => {
+                let items = items.into_iter().map(|item| Self::at(item.value, at));
+                RawValue::Array(items.collect())
+            }
+            RawValue::Table(table) => {
+                let entries = table.into_iter();
+                let entries = entries.map(|(key, own)| (key, RawEntry::at(own.item.value, at)));
+                RawValue::Table(entries.collect())
+            }
+            other => other,
+        };
+        Self { value, at: at.clone() }
+    }
+
     /// The items of a list; anything else is a list of itself alone.
     pub(super) fn listed(&self) -> &[Self] {
         match &self.value {
@@ -30,6 +48,13 @@ pub struct RawEntry {
     pub key_at: Location,
     /// Its value.
     pub item: RawItem,
+}
+
+impl RawEntry {
+    /// A key with its value, all at one place.
+    pub(super) fn at(value: RawValue, at: &Location) -> Self {
+        Self { key_at: at.clone(), item: RawItem::at(value, at) }
+    }
 }
 
 /// A TOML table in the order of its keys.
@@ -170,10 +195,7 @@ const LONGEST: usize = 60;
 
 /// A text no longer than messages and titles quote it.
 pub(super) fn cut(text: String) -> String {
-    match text.char_indices().nth(LONGEST) {
-        Some((end, _)) => format!("{}...", &text[..end]),
-        None => text,
-    }
+    shortened(&text, LONGEST)
 }
 
 /// The number that a text with a decimal comma means, with a point.

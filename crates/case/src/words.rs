@@ -1,6 +1,5 @@
 //! The choices that a case names by a word, and their words.
 
-use super::Spacing;
 use frictionsim_physics::fem::{MassKind, PlaneFormulation, RotationFrame};
 use frictionsim_physics::frf::{Direction, FrfBoundary};
 use frictionsim_physics::mesh::ElementKind;
@@ -201,6 +200,13 @@ words! {
         Basin "basin",
     }
 
+    /// How the values of a range are spaced.
+    pub Spacing {
+        /// Equal differences.
+        Linear "linear",
+        /// Equal ratios.
+        Logarithmic "log",
+    }
     /// How several swept keys combine.
     pub Combination {
         /// Every value of each with every value of the others, the last key fastest.
@@ -228,7 +234,6 @@ choices! {
         "three-dimensional" = Self::ThreeDimensional
     }
     MassKind { "consistent" = Self::Consistent, "lumped" = Self::Lumped }
-    Spacing { "linear" = Self::Linear, "log" = Self::Logarithmic }
     OperatorChoice { "auto" = Self::Auto, "cyclic" = Self::Cyclic, "sparse" = Self::Sparse }
     FrfBoundary { "free" = Self::Free, "clamped" = Self::Clamped, "sliding" = Self::Sliding }
     BaseChoice { "solved" = Self::Solved, "closed" = Self::Closed }
