@@ -194,9 +194,25 @@ pub fn shortened(text: &str, most: usize) -> String {
     }
 }
 
+/// The first `most` of `all`, and how many more there are: `a, b and 3 more`.
+pub fn first_of<T: std::fmt::Display>(all: impl IntoIterator<Item = T>, most: usize) -> String {
+    let mut rest = all.into_iter();
+    let first: Vec<String> = rest.by_ref().take(most).map(|item| item.to_string()).collect();
+    match rest.count() {
+        0 => first.join(", "),
+        more => format!("{} and {more} more", first.join(", ")),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn long_lists_show_the_first_and_count_the_rest() {
+        assert_eq!(first_of(["a", "b"], 2), "a, b");
+        assert_eq!(first_of(1..=12, 10), "1, 2, 3, 4, 5, 6, 7, 8, 9, 10 and 2 more");
+    }
 
     #[test]
     fn a_source_without_end_is_refused_at_the_limit() {

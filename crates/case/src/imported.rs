@@ -7,9 +7,9 @@ use super::tables::modulus_table;
 use super::value::quote;
 use super::words::CounterfaceWord;
 use super::{
-    Diagnostic, MeshBytes, RawCase, Section, caution, first_of, inclusion, refuse, refuse_if,
-    suggestion,
+    Diagnostic, MeshBytes, RawCase, Section, caution, inclusion, refuse, refuse_if, suggestion,
 };
+use frictionsim_bounds::first_of;
 use frictionsim_physics::contact::ContactInterface;
 use frictionsim_physics::fem::{RayleighDamping, RegionMaterial};
 use frictionsim_physics::mesh::{

@@ -77,7 +77,7 @@ pub use overrides::unset;
 pub use parameters::VariedKey;
 pub use range::range_values;
 pub use raw::{MeshBytes, RawCase, TableBytes, hash_of};
-pub use shown::{first_of, shown, shown_json};
+pub use shown::{shown, shown_json};
 pub use starting::case_from;
 pub use suggestion::nearest;
 pub use superelements::{FreeSystem, Superelement};

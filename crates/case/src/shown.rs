@@ -52,21 +52,6 @@ pub(super) fn shown_in_place(text: &str) -> Cow<'_, str> {
     })
 }
 
-/// The first `most` of `all`, and how many more there are: `a, b and 3 more`.
-pub fn first_of<T: std::fmt::Display>(all: impl IntoIterator<Item = T>, most: usize) -> String {
-    let mut rest = all.into_iter();
-    let mut out = String::new();
-    for item in rest.by_ref().take(most) {
-        let separator = if out.is_empty() { "" } else { ", " };
-        // Writing to a string cannot fail.
-        let _ = write!(out, "{separator}{item}");
-    }
-    match rest.count() {
-        0 => out,
-        more => format!("{out} and {more} more"),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -82,11 +67,5 @@ mod tests {
         assert!(!safe.chars().any(is_hidden), "{safe}");
         assert_eq!(serde_json::from_str::<String>(&safe).unwrap(), evil);
         assert_eq!(shown_in_place(evil).len(), evil.len());
-    }
-
-    #[test]
-    fn long_lists_show_the_first_and_count_the_rest() {
-        assert_eq!(first_of(["a", "b"], 2), "a, b");
-        assert_eq!(first_of(1..=12, 10), "1, 2, 3, 4, 5, 6, 7, 8, 9, 10 and 2 more");
     }
 }

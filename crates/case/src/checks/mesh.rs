@@ -1,6 +1,7 @@
 //! Lengths that are hardly meant, and meshes that are hardly what they should be.
 
-use crate::{Body, Case, Diagnostic, diagnosis, first_of};
+use crate::{Body, Case, Diagnostic, diagnosis};
+use frictionsim_bounds::first_of;
 
 /// Lengths that a case has, m.
 const LENGTHS: [f64; 2] = [1e-5, 10.0];

@@ -55,12 +55,6 @@ pub(super) fn shortened(field: &str) -> String {
 
 /// The first ten of some names, each shortened, and how many more there are.
 pub(super) fn first_of<T: AsRef<str>>(names: impl IntoIterator<Item = T>) -> String {
-    const MOST: usize = 10;
-    let mut rest = names.into_iter();
-    let shown = rest.by_ref().take(MOST).map(|name| shortened(name.as_ref()));
-    let shown: Vec<String> = shown.collect();
-    match rest.count() {
-        0 => shown.join(", "),
-        more => format!("{} and {more} more", shown.join(", ")),
-    }
+    let names = names.into_iter().map(|name| shortened(name.as_ref()));
+    frictionsim_bounds::first_of(names, 10)
 }
