@@ -313,11 +313,8 @@ impl ImportedBody {
         for _ in 1..times {
             fine = refined_file(&fine)?;
         }
-        Ok(Self {
-            mesh: Arc::new(Mesh::from_gmsh(&fine, specification)?),
-            materials: self.materials.clone(),
-            source: Arc::new((Arc::new(fine), specification.clone())),
-        })
+        let mesh = Mesh::from_gmsh(&fine, specification)?;
+        Ok(Self::new(mesh, self.materials.clone(), Arc::new(fine), specification.clone()))
     }
 }
 

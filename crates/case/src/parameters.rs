@@ -66,16 +66,6 @@ fn check(section: &Section<'_>, name: &str) -> Result<(), String> {
     }
 }
 
-/// The entries of a table of the case by the keys that they name; tables that are no entry are dotted keys written
-/// without quotes.
-fn entries<'a>(section: &Section<'a>) -> Vec<(VariedKey, &'a RawEntry)> {
-    let mut found = Vec::new();
-    for (name, entry) in section.remaining() {
-        collect(section, name.to_owned(), entry, &mut found);
-    }
-    found
-}
-
 /// What is read of each entry of a table of a section; refuses keys that two of them set, and a table without any.
 pub(super) fn read_all<T>(
     section: &Section<'_>,
@@ -84,7 +74,11 @@ pub(super) fn read_all<T>(
     parameter_of: impl Fn(&T) -> &VariedKey,
 ) -> Vec<T> {
     let table = section.section(key, true);
-    let entries = entries(&table).into_iter();
+    let mut entries = Vec::new();
+    for (name, entry) in table.remaining() {
+        collect(&table, name.to_owned(), entry, &mut entries);
+    }
+    let entries = entries.into_iter();
     let found: Vec<T> = entries.map(|(own, entry)| read(&table, own, entry)).collect();
     refuse_twice(&table, found.iter().map(parameter_of));
     refuse_if!(table.is_given() && table.remaining().is_empty(); section, key => "is empty";
@@ -92,6 +86,7 @@ pub(super) fn read_all<T>(
     found
 }
 
+/// Finds the keys that an entry names; a table that is no entry is dotted keys written without quotes.
 fn collect<'a>(
     section: &Section<'a>,
     name: String,

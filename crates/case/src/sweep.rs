@@ -40,22 +40,18 @@ impl Sweep {
     /// keys.
     pub fn overrides(&self, index: usize) -> Vec<String> {
         let mut rest = index;
-        let mut places: Vec<usize> = self
-            .keys
-            .iter()
-            .rev()
-            .map(|key| match self.combination {
-                Combination::Grid => {
-                    let at = rest % key.values.len();
-                    rest /= key.values.len();
-                    at
-                }
+        let of_key = |key: &SweptKey| {
+            let at = match self.combination {
+                Combination::Grid => rest % key.values.len(),
                 Combination::Zip => index,
-            })
-            .collect();
-        places.reverse();
-        let keys = self.keys.iter().zip(places);
-        keys.flat_map(|(key, at)| key.varied.overrides(&key.values[at])).collect()
+            };
+            rest /= key.values.len();
+            key.varied.overrides(&key.values[at])
+        };
+        // The last key is the fastest.
+        let mut each: Vec<Vec<String>> = self.keys.iter().rev().map(of_key).collect();
+        each.reverse();
+        each.concat()
     }
 }
 
