@@ -8,20 +8,16 @@ use divan::Bencher;
 use frictionsim::cea::sparse::{SparseSweep, StiffnessFactors, sweep};
 use frictionsim::cea::{ModeLimit, SweepRequest, Unwatched};
 use frictionsim::contact::ContactStiffness;
-use frictionsim::fem::{MassKind, assemble_stiffness};
+use frictionsim::fem::MassKind;
 use frictionsim::linalg::LuAnalysis;
 use frictionsim::mesh::{AnnulusMesh, ElementKind};
-use frictionsim::prestress::{DampingModel, SlidingTangent, SteadySliding, TangentOptions};
+use frictionsim::prestress::{Assembly, DampingModel, SlidingTangent, TangentOptions};
 
 /// Four times coarser where nothing is measured.
 fn tangent(circumferential: usize, radial: usize) -> SlidingTangent {
     let coarser = if is_measured() { 1 } else { 4 };
     let specification = annulus(ElementKind::Quad4, circumferential / coarser, radial / coarser);
     let mesh = AnnulusMesh::generate(&specification).expect("a valid annulus").mesh;
-    let elastic = assemble_stiffness(&mesh, &POLYCARBONATE);
-    let contact = contact(610.0);
-    let base =
-        SteadySliding::solve(&mesh, &elastic, &contact, None).expect("the disc is in contact");
     let options = TangentOptions {
         mass: MassKind::Consistent,
         geometric_stiffness: false,
@@ -29,7 +25,9 @@ fn tangent(circumferential: usize, radial: usize) -> SlidingTangent {
         damping_model: DampingModel::WholeTangent,
         contact: ContactStiffness::default(),
     };
-    SlidingTangent::linearize(&mesh, &POLYCARBONATE, &elastic, &base, &options)
+    let body = Assembly::of_edge(&mesh, &POLYCARBONATE, &contact(610.0), options.contact);
+    let tangent = body.and_then(|body| body.tangent(&body.state(0.3)?, &options));
+    tangent.expect("the disc is in contact")
 }
 
 fn request(friction_coefficients: &[f64]) -> SweepRequest<'_> {

@@ -6,9 +6,7 @@
 use crate::is_measured;
 use divan::Bencher;
 use frictionsim::contact::{ContactStiffness, SlidingContact};
-use frictionsim::fem::{
-    ElasticMaterial, MassKind, PlaneFormulation, RayleighDamping, assemble_stiffness,
-};
+use frictionsim::fem::{ElasticMaterial, MassKind, PlaneFormulation, RayleighDamping};
 use frictionsim::frf::{
     CyclicSystem, Direction, FrfSystem, ReductionSettings, Terminal, cyclic_response,
     direct_response, reduced_response,
@@ -16,9 +14,7 @@ use frictionsim::frf::{
 use frictionsim::mesh::{
     AnnulusMesh, AnnulusSpecification, BoundaryCondition, ElementKind, SectorMesh,
 };
-use frictionsim::prestress::{
-    DampingModel, SlidingTangent, SteadySliding, TangentOptions, WaveTangent,
-};
+use frictionsim::prestress::{Assembly, DampingModel, TangentOptions, WaveTangent};
 
 fn specification() -> AnnulusSpecification {
     let (circumferential_elements, radial_elements) =
@@ -81,11 +77,10 @@ fn cyclic_system(boundary: &str) -> CyclicSystem {
 fn whole_system(boundary: &str) -> FrfSystem {
     let annulus = AnnulusMesh::generate(&specification()).expect("a valid mesh");
     if boundary == "sliding" {
-        let stiffness = assemble_stiffness(&annulus.mesh, &MATERIAL);
-        let base = SteadySliding::solve(&annulus.mesh, &stiffness, &CONTACT, None)
-            .expect("contact stays closed");
-        let mesh = &annulus.mesh;
-        let tangent = SlidingTangent::linearize(mesh, &MATERIAL, &stiffness, &base, &options());
+        let options = options();
+        let body = Assembly::of_edge(&annulus.mesh, &MATERIAL, &CONTACT, options.contact);
+        let tangent = body.and_then(|body| body.tangent(&body.state(0.3)?, &options));
+        let tangent = tangent.expect("contact stays closed");
         return FrfSystem::sliding(&tangent, CONTACT.friction_coefficient);
     }
     let mass = MassKind::Consistent;

@@ -5,12 +5,10 @@
 
 use frictionsim::cea::sparse::sweep;
 use frictionsim::cea::{ModeLimit, SweepRequest};
-use frictionsim::contact::{ContactStiffness, SlidingContact};
-use frictionsim::fem::{
-    ElasticMaterial, MassKind, PlaneFormulation, RayleighDamping, assemble_stiffness,
-};
+use frictionsim::contact::{ContactInterface, ContactStiffness, SlidingContact};
+use frictionsim::fem::{ElasticMaterial, MassKind, PlaneFormulation, RayleighDamping};
 use frictionsim::mesh::{AnnulusMesh, AnnulusSpecification, BoundaryCondition, ElementKind};
-use frictionsim::prestress::{DampingModel, SlidingTangent, SteadySliding, TangentOptions};
+use frictionsim::prestress::{Assembly, DampingModel, TangentOptions};
 use std::error::Error;
 
 /// Solves and prints.
@@ -39,9 +37,6 @@ pub fn main() -> Result<(), Box<dyn Error>> {
         interference: 25e-6,
         rotation_speed: 63.9,
     };
-    let stiffness = assemble_stiffness(&mesh, &polycarbonate);
-    let base = SteadySliding::solve(&mesh, &stiffness, &contact, None)?;
-    println!("torque {:.1} N m for each metre of thickness", base.torque(0.3));
     let options = TangentOptions {
         mass: MassKind::Consistent,
         geometric_stiffness: true,
@@ -49,7 +44,11 @@ pub fn main() -> Result<(), Box<dyn Error>> {
         damping_model: DampingModel::WholeTangent,
         contact: ContactStiffness { normal_stiffness: Some(7.4e12), ..ContactStiffness::default() },
     };
-    let tangent = SlidingTangent::linearize(&mesh, &polycarbonate, &stiffness, &base, &options);
+    let body = Assembly::of_edge(&mesh, &polycarbonate, &contact, options.contact)?;
+    let base = body.state(0.3)?;
+    let torque = ContactInterface::of(&mesh).torque(&contact, 0.3, &base.normal_forces(0.3));
+    println!("torque {torque:.1} N m for each metre of thickness");
+    let tangent = body.tangent(&base, &options)?;
     let request = SweepRequest::new(&[0.0, 0.1, 0.2, 0.3], ModeLimit::Lowest(10));
     let found = sweep(&tangent, &request, &|_| {})?;
     for interval in &found.intervals {

@@ -46,7 +46,7 @@
 //! | (1) `M x'' + C x' + K x = 0` | [`fem::assemble_mass`], [`fem::assemble_stiffness`] |
 //! | (2), (3) Rayleigh damping, `zeta = (alpha_R/omega + beta_R omega)/2` | [`fem::RayleighDamping`] |
 //! | (4) `lambda = -zeta omega ± i omega sqrt(1 - zeta^2)` | [`cea::ComplexMode::damping_factor`] |
-//! | steady sliding, `u_n = delta`, `T = s mu N` | [`prestress::SteadySliding`], [`prestress::SectorSliding`] |
+//! | steady sliding, `u_n = delta`, `T = s mu N` | [`prestress::Assembly`], [`prestress::SectorSliding`] |
 //! | small motions around it, `M(mu) q'' + C(mu) q' + K_t(mu) q = 0` | [`prestress::SlidingTangent`], [`prestress::WaveTangent`] |
 //! | `(lambda^2 M + lambda C + K_t) phi = 0` | [`cea::sparse`], [`cea::cyclic`] |
 //! | `Re lambda(mu) = 0` | [`cea::UnstableInterval`] |

@@ -6,13 +6,13 @@ use frictionsim::contact::{ContactStiffness, FrictionDecay, NormalLaw, SlidingCo
 use frictionsim::fem::operator::SimdLevel;
 use frictionsim::fem::{
     ElasticMaterial, MassKind, MaterialField, MaxwellChain, ModulusTable, PlaneFormulation,
-    RayleighDamping, assemble_stiffness,
+    RayleighDamping,
 };
 use frictionsim::frf::{Direction, Terminal};
 use frictionsim::mesh::{
     AnnulusSpecification, BoundaryCondition, ElasticSupport, ElementKind, Mesh, ShaftSpecification,
 };
-use frictionsim::prestress::{DampingModel, SlidingTangent, SteadySliding, TangentOptions};
+use frictionsim::prestress::{Assembly, DampingModel, SlidingTangent, TangentOptions};
 use frictionsim::transient::{
     CentralDifference, InitialState, OperatorChoice, Perturbation, Recorder, RecorderSettings,
     TimeStep, TransientAnalysis, TransientModel, TransientSettings, TransientState,
@@ -165,11 +165,8 @@ pub fn linearized(
     contact: &SlidingContact,
     options: &TangentOptions,
 ) -> SlidingTangent {
-    let elastic = assemble_stiffness(mesh, material);
-    let law = options.contact.law;
-    let range = SteadySliding::range(mesh, &elastic, contact, law, &[0.0, 0.4]).unwrap();
-    let base = SteadySliding::of(mesh, contact, range.states[0].clone());
-    SlidingTangent::linearize(mesh, material, &elastic, &base, options)
+    let body = Assembly::of_edge(mesh, material, contact, options.contact).unwrap();
+    body.tangent(&body.range(&[0.0, 0.4]).unwrap().states[0], options).unwrap()
 }
 
 /// Eigenvalues over friction.

@@ -148,21 +148,23 @@ fn a_pressed_block_is_in_balance() {
     let (width, height) = (0.04, 0.06);
     let file = FileMesh::read(&rectangle(width, height, 20, 30)).unwrap();
     let mesh = Mesh::from_gmsh(&file, &block_specification()).unwrap();
-    let stiffness = assemble_stiffness(&mesh, &POLYCARBONATE);
+    let edge = ContactInterface::of(&mesh);
     let frictions = [0.0, 0.1, 0.3, 0.6];
-    let range = SteadySliding::range(&mesh, &stiffness, &plane(0.3), None, &frictions).unwrap();
+    let body = Assembly::of_edge(&mesh, &POLYCARBONATE, &plane(0.3), RIGID).unwrap();
+    let range = body.range(&frictions).unwrap();
     for (friction, &k) in frictions.iter().zip(&range.state_of) {
-        let state = SteadySliding::of(&mesh, &plane(0.3), range.states[k].clone());
+        let state = &range.states[k];
         let forces = state.normal_forces(*friction);
         let total: f64 = forces.iter().sum();
         assert!((total / (1e6 * width) - 1.0).abs() < 1e-8, "{friction} {total}");
         let displacement = state.displacement(*friction);
         for (i, force) in forces.iter().enumerate() {
-            let gap = displacement[state.interface.normal_dof(i)];
+            let gap = displacement[edge.normal_dof(i)];
             assert!(*force >= -1e-9 * total && gap >= -1e-15, "{friction} {i} {force} {gap}");
         }
         // The plane drags the block along its direction with the friction of the whole force.
-        assert!((state.torque(*friction) - friction * total).abs() < 1e-9 * total);
+        let torque = edge.torque(&plane(0.3), *friction, &forces);
+        assert!((torque - friction * total).abs() < 1e-9 * total);
     }
     assert!(range.states.iter().all(|state| state.is_pressed.iter().all(|is| *is)));
 }
@@ -175,18 +177,19 @@ fn a_block_on_an_elastic_mounting_lifts_a_corner_as_friction_rises() {
     let mounting = springs([1e12, 1e12, 0.0], [0.0, 0.0]);
     specification.conditions = vec![("top".to_owned(), BoundaryCondition::Support(mounting))];
     let mesh = Mesh::from_gmsh(&file, &specification).unwrap();
-    let stiffness = assemble_stiffness(&mesh, &POLYCARBONATE);
+    let edge = ContactInterface::of(&mesh);
     let contact = SlidingContact { interference: 1e-5, ..plane(0.5) };
     let frictions = [0.1, 0.3, 0.5];
-    let range = SteadySliding::range(&mesh, &stiffness, &contact, None, &frictions).unwrap();
+    let body = Assembly::of_edge(&mesh, &POLYCARBONATE, &contact, RIGID).unwrap();
+    let range = body.range(&frictions).unwrap();
     let mut open = Vec::new();
     for (friction, &k) in frictions.iter().zip(&range.state_of) {
-        let state = SteadySliding::of(&mesh, &contact, range.states[k].clone());
+        let state = &range.states[k];
         let forces = state.normal_forces(*friction);
         let displacement = state.displacement(*friction);
         let total: f64 = forces.iter().sum();
         for (i, force) in forces.iter().enumerate() {
-            let gap = displacement[state.interface.normal_dof(i)] - 1e-5;
+            let gap = displacement[edge.normal_dof(i)] - 1e-5;
             // Round-off of the interpolation in the friction coefficient.
             assert!(*force >= -1e-6 * total && gap >= -1e-11, "{friction} {i} {force} {gap}");
             assert!(*force <= 1e-6 * total || gap.abs() < 1e-11, "{friction} {i} {force} {gap}");

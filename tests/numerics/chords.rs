@@ -108,9 +108,8 @@ fn a_plane_ring_with_straight_edges_is_pressed_like_one_with_curved_edges() {
         let interface = ContactInterface::of(&mesh);
         let widest = interface.gaps.iter().fold(0.0_f64, |widest, gap| widest.max(gap.abs()));
         assert!(widest < 1e-12, "{widest:e}");
-        let stiffness = assemble_stiffness(&mesh, &POLYCARBONATE);
-        let state = SteadySliding::solve(&mesh, &stiffness, &contact(610.0), None).unwrap();
-        state.normal_forces(0.3).iter().sum::<f64>()
+        let body = Assembly::of_edge(&mesh, &POLYCARBONATE, &contact(610.0), RIGID).unwrap();
+        body.state(0.3).unwrap().normal_forces(0.3).iter().sum::<f64>()
     };
     let [straight, curved] = [true, false].map(force);
     assert!((straight / curved - 1.0).abs() < 0.01, "{straight} {curved}");

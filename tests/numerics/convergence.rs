@@ -160,9 +160,11 @@ fn steady_sliding_converges_to_lame_and_the_shear_field() {
             let mesh = AnnulusMesh::generate(&specification).expect("a valid mesh");
             let base = base_state(&mesh, &DISC, FORWARD);
             let [radial, tangential] = displacement_errors(&mesh, &base.displacement(0.3), &exact);
-            let force: f64 = base.normal_forces(0.3).iter().sum();
-            let length: f64 = base.interface.tributary_lengths.iter().sum();
-            let torque = base.torque(0.3) / exact.torque - 1.0;
+            let (edge, forces) = (ContactInterface::of(&mesh.mesh), base.normal_forces(0.3));
+            let force: f64 = forces.iter().sum();
+            let length: f64 = edge.tributary_lengths.iter().sum();
+            let sliding = sliding_at(0.3, INTERFERENCE, FORWARD);
+            let torque = edge.torque(&sliding, 0.3, &forces) / exact.torque - 1.0;
             let pressure = force / length / exact.pressure - 1.0;
             [radial / INTERFERENCE, tangential / INTERFERENCE, pressure, torque]
         });
@@ -197,8 +199,10 @@ fn nodal_pressure_converges_at_second_order_or_faster() {
     {
         let errors = refinements(element).map(|specification| {
             let mesh = AnnulusMesh::generate(&specification).expect("a valid mesh");
-            let pressures = base_state(&mesh, &DISC, FORWARD).pressures(0.3);
-            let errors = pressures.iter().map(|p| (p / exact - 1.0).abs());
+            let forces = base_state(&mesh, &DISC, FORWARD).normal_forces(0.3);
+            let lengths = ContactInterface::of(&mesh.mesh).tributary_lengths;
+            let pressures = forces.iter().zip(&lengths).map(|(force, length)| force / length);
+            let errors = pressures.map(|p| (p / exact - 1.0).abs());
             errors.fold(0.0, f64::max)
         });
         assert!(rate(errors) > slope && errors[0] < bound, "{errors:?}");

@@ -37,10 +37,11 @@ fn the_frequency_of_a_block_follows_the_pressure_on_it() {
     let law = NormalLaw::Exponential { reference_pressure: 1e5, height: 5e-4 };
     for pressure in [1e4, 1e5, 1e6] {
         let mesh = block(pressure);
-        let elastic = assemble_stiffness(&mesh, &STEEL);
         let sliding = sliding_at(0.0, 0.0, 1.0);
-        let base = SteadySliding::solve(&mesh, &elastic, &sliding, Some(law)).unwrap();
-        for found in base.pressures(0.0) {
+        let body = Assembly::of_edge(&mesh, &STEEL, &sliding, stiffening(law)).unwrap();
+        let base = body.state(0.0).unwrap();
+        for (force, point) in base.normal_forces(0.0).iter().zip(&body.contacts()[0].1.points) {
+            let found = force / point.weight;
             assert!((found / pressure - 1.0).abs() < 2e-3, "{found} {pressure}");
         }
         let options = TangentOptions {
@@ -48,7 +49,7 @@ fn the_frequency_of_a_block_follows_the_pressure_on_it() {
             contact: stiffening(law),
             ..TANGENT
         };
-        let tangent = SlidingTangent::linearize(&mesh, &STEEL, &elastic, &base, &options);
+        let tangent = body.tangent(&base, &options).unwrap();
         let modes = modes_at(&tangent, 0.0, ModeLimit::Lowest(3));
         let expected = ((pressure + 1e5) * WIDTH / (5e-4 * MASS)).sqrt();
         let apart = |mode: &ComplexMode| (mode.eigenvalue.im / expected - 1.0).abs();

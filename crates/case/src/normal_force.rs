@@ -7,9 +7,9 @@
 use super::contact::section_of;
 use super::{Body, Case, CaseErrors, Revolution, refusal};
 use frictionsim_physics::contact::{Counterpart, SlidingContact};
-use frictionsim_physics::fem::{MassKind, assemble_stiffness, sector};
+use frictionsim_physics::fem::{MassKind, sector};
 use frictionsim_physics::mesh::{SectorMesh, SolidSector};
-use frictionsim_physics::prestress::{PrestressError, SectorSliding, SolidSliding, SteadySliding};
+use frictionsim_physics::prestress::{Assembly, PrestressError, SectorSliding, SolidSliding};
 
 /// Factor of the steps up to an interference that presses enough.
 const STEP: f64 = 4.0;
@@ -175,13 +175,13 @@ impl Case {
                 base.map(|base| vec![whole * sum(base)])
             }
             Body::Imported(body) => {
-                let stiffness = assemble_stiffness(&body.mesh, &body.materials);
-                let base = SteadySliding::solve(&body.mesh, &stiffness, &contact, law);
-                base.map(|base| vec![self.thickness * base.normal_forces(0.0).iter().sum::<f64>()])
+                let stiffness = self.contact.stiffness;
+                let body = Assembly::of_edge(&body.mesh, &body.materials, &contact, stiffness);
+                let forces = body.and_then(|body| Ok(body.state(0.0)?.normal_forces(0.0)));
+                forces.map(|forces| vec![self.thickness * forces.iter().sum::<f64>()])
             }
             Body::Assembly(body) => body.assembled().and_then(|assembly| {
-                let range = assembly.range(&[0.0])?;
-                let mut rest = range.states[range.state_of[0]].normal_forces(0.0).into_iter();
+                let mut rest = assembly.state(0.0)?.normal_forces(0.0).into_iter();
                 let contacts = assembly.contacts().iter().map(|(_, surface)| surface.points.len());
                 Ok(contacts.map(|count| rest.by_ref().take(count).sum()).collect())
             }),

@@ -1,7 +1,7 @@
 //! The matrices that the eigenvalue analysis of a case solves, over the friction coefficient.
 
 use super::StudyError;
-use super::eigenvalues::{BasePoint, Solver, SteadyState, WholeMesh};
+use super::eigenvalues::{BasePoint, Solver, WholeMesh};
 use super::tangent_options;
 use frictionsim_case::{Case, CeaMethod};
 use frictionsim_physics::contact::Row;
@@ -183,7 +183,7 @@ fn exported(
     (i, own): (usize, &BasePoint<'_>),
     forces: &[f64],
 ) -> ExportedContactPoint {
-    let is_node = matches!(body.sliding, SteadyState::Plane(_));
+    let is_node = body.mesh.dimension == 2;
     let node = own.place.shares.first().filter(|_| is_node);
     ExportedContactPoint {
         node: node.map(|(node, _)| body.mesh.node_label(*node as usize)),

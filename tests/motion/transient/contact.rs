@@ -97,10 +97,11 @@ fn steady_sliding_start_stays_in_equilibrium() {
         let mut settings = settings(1e-3, &[]);
         settings.initial = InitialState::SteadySliding;
         let mut run = started(model, OperatorChoice::Auto, &settings);
-        let elastic = assemble_stiffness(&annulus.mesh, model.material);
-        let base = SteadySliding::solve(&annulus.mesh, &elastic, &contact, stiffness.law);
-        let base = base.unwrap();
-        let (exact, power) = (base.normal_forces(0.3), base.torque(0.3) * contact.rotation_speed);
+        let mesh = &annulus.mesh;
+        let body = Assembly::of_edge(mesh, model.material, &contact, stiffness).unwrap();
+        let exact = body.state(0.3).unwrap().normal_forces(0.3);
+        let torque = ContactInterface::of(mesh).torque(&contact, 0.3, &exact);
+        let power = torque * contact.rotation_speed;
         run.run(&mut Watch(|sample: &Sample<'_>| {
             for (found, exact) in sample.contact().normal_force.iter().zip(&exact) {
                 let error = (found / exact - 1.0).abs();

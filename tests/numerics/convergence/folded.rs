@@ -19,11 +19,10 @@ pub fn material(annulus: &Annulus) -> ElasticMaterial {
 pub const FORWARD: f64 = 60.0;
 
 /// Steady sliding of a rotor turning at `rotation_speed`.
-pub fn base_state(mesh: &AnnulusMesh, annulus: &Annulus, rotation_speed: f64) -> SteadySliding {
-    let sliding = sliding_at(0.3, INTERFERENCE, rotation_speed);
-    let stiffness = assemble_stiffness(&mesh.mesh, &material(annulus));
-    SteadySliding::solve(&mesh.mesh, &stiffness, &sliding, None)
-        .expect("the disc is pressed everywhere")
+pub fn base_state(mesh: &AnnulusMesh, annulus: &Annulus, rotation_speed: f64) -> PressedState {
+    let (material, sliding) = (material(annulus), sliding_at(0.3, INTERFERENCE, rotation_speed));
+    let body = Assembly::of_edge(&mesh.mesh, &material, &sliding, RIGID).unwrap();
+    body.state(0.3).expect("the disc is pressed everywhere")
 }
 
 /// What one convergence study covers: the two lowest branches of harmonics 0 to 4, both directions.
@@ -65,10 +64,11 @@ impl Discretisation {
             contact: ContactStiffness { normal_stiffness: contact.normal_stiffness, ..RIGID },
             ..TANGENT
         };
-        let base = base_state(&mesh, &annulus, rotation_speed);
-        let elastic = assemble_stiffness(&mesh.mesh, &material);
+        let sliding = sliding_at(0.3, INTERFERENCE, rotation_speed);
+        let body = Assembly::of_edge(&mesh.mesh, &material, &sliding, options.contact).unwrap();
+        let base = body.state(0.3).expect("the disc is pressed everywhere");
         Self {
-            tangent: SlidingTangent::linearize(&mesh.mesh, &material, &elastic, &base, &options),
+            tangent: body.tangent(&base, &options).unwrap(),
             friction_coefficient: contact.friction_coefficient,
             rayleigh,
             mesh,

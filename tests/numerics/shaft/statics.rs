@@ -22,9 +22,9 @@ fn the_interference_is_shared_as_lame_says_at_the_order_of_the_element() {
     let error = |around: usize, radial: [usize; 2]| {
         let specification = with_shaft(ElementKind::Quad8, around, radial);
         let mesh = AnnulusMesh::generate(&specification).unwrap().mesh;
-        let elastic = assemble_stiffness(&mesh, &on(STEEL));
-        let base = SteadySliding::solve(&mesh, &elastic, &contact(610.0), None).unwrap();
-        let force: f64 = base.normal_forces(0.3).iter().sum();
+        let materials = on(STEEL);
+        let body = Assembly::of_edge(&mesh, &materials, &contact(610.0), RIGID).unwrap();
+        let force: f64 = body.state(0.3).unwrap().normal_forces(0.3).iter().sum();
         let mean = force / (TAU * r);
         (mean / exact - 1.0).abs()
     };

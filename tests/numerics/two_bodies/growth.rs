@@ -44,9 +44,8 @@ fn run(
     let settings =
         transient_settings(0.004, 4e-6, 0.0, InitialState::SteadySliding, Perturbation::default());
     let step = model.plan(operator.as_ref(), &settings).unwrap().time_step;
-    let elastic = assemble_stiffness(mesh, materials);
-    let base = SteadySliding::solve(mesh, &elastic, &contact(610.0), None).unwrap();
-    let mut displacement = base.displacement(0.3);
+    let bodies = Assembly::of_edge(mesh, materials, &contact(610.0), RIGID).unwrap();
+    let mut displacement = bodies.state(0.3).unwrap().displacement(0.3);
     let pairs = displacement.iter_mut().zip(shape);
     pairs.for_each(|(u, phi)| *u += SEED * phi.re);
     // Half a step earlier.

@@ -1,17 +1,19 @@
-//! What a surface of solid bodies slides on: another of their surfaces, or a rigid counterface.
+//! What a surface slides on: another one, a rigid counterface, or what the mesh of a plane body has before its edge.
 
-use super::PairError;
+use super::{PairError, SlidingContact};
 use crate::mesh::{Boundary, BoundaryFace, Chord, Mesh};
 use nalgebra::Vector3;
 use std::collections::BTreeMap;
 
-/// What a surface of solid bodies slides on.
+/// What a surface slides on.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Counterpart {
     /// Another boundary of the mesh, by its index.
     Surface(usize),
     /// A rigid surface.
     Rigid(RigidCounterface),
+    /// Of the contact edge of a plane body: the counterface of its mesh, or the edge of the other body there.
+    Edge(SlidingContact),
 }
 
 impl Counterpart {
@@ -19,21 +21,25 @@ impl Counterpart {
     pub fn surface(&self) -> Option<usize> {
         match self {
             Self::Surface(boundary) => Some(*boundary),
-            Self::Rigid(_) => None,
+            Self::Rigid(_) | Self::Edge(_) => None,
         }
     }
 
     /// The rigid counterface, if it is one.
     pub fn rigid(&self) -> Option<&RigidCounterface> {
         match self {
-            Self::Surface(_) => None,
             Self::Rigid(rigid) => Some(rigid),
+            Self::Surface(_) | Self::Edge(_) => None,
         }
     }
 
-    /// How far it is pushed into the body, m; surfaces of bodies are pressed by loads alone.
+    /// How far it is pushed into the body, m; surfaces of solid bodies are pressed by loads alone.
     pub fn interference(&self) -> f64 {
-        self.rigid().map_or(0.0, |rigid| rigid.interference)
+        match self {
+            Self::Surface(_) => 0.0,
+            Self::Rigid(rigid) => rigid.interference,
+            Self::Edge(contact) => contact.interference,
+        }
     }
 }
 

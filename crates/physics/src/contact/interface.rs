@@ -133,6 +133,19 @@ impl ContactInterface {
         let speed = contact.rotation_speed;
         contact.steady_friction(self.sliding_direction(speed), self.surface_speed(speed))
     }
+
+    /// What friction asks of the counterface's drive for each metre of thickness, under the normal forces of the nodes: the
+    /// torque `s mu(V) a sum N_i` of a cylinder, N; the force of a plane, N/m.
+    pub fn torque(
+        &self,
+        contact: &SlidingContact,
+        friction_coefficient: f64,
+        normal_forces: &[f64],
+    ) -> f64 {
+        let normal: f64 = normal_forces.iter().sum();
+        let drag = self.steady_friction(contact).drag;
+        drag * friction_coefficient * self.counterface.lever() * normal
+    }
 }
 
 /// Angles about a cylinder as they are; distances along a plane as shares of the edge's extent.

@@ -3,11 +3,11 @@
 use super::mortar::mortar_nodes;
 use super::surface::{SegmentPoint, SurfacePair, SurfacePoint};
 use super::{
-    Counterpart, FrictionDecay, PairError, Point, RigidCounterface, Row, SteadyFriction,
-    Topography, row_along,
+    ContactInterface, Counterpart, FrictionDecay, PairError, Point, RigidCounterface, Row,
+    SlidingContact, SteadyFriction, Topography, row_along,
 };
 use crate::fem::{RotationFrame, Spin};
-use crate::mesh::{Boundary, Mesh};
+use crate::mesh::{Boundary, Counterface, Mesh};
 use nalgebra::Vector3;
 use std::collections::BTreeSet;
 
@@ -63,7 +63,7 @@ pub enum PointKind {
     Nodes,
 }
 
-/// Place and directions of a contact point of two surfaces, and the nodes around it.
+/// Place and directions of a contact point, and the nodes around it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ContactSite {
     /// Where it is on the own surface, m.
@@ -74,11 +74,12 @@ pub struct ContactSite {
     pub direction: [f64; 3],
     /// Nodes of the own surface that it is among, with their shares in it.
     pub shares: Vec<(u32, f64)>,
-    /// Nodes of the counter surface before it, with the slopes of their shares by arc, 1/m; none on a rigid one.
+    /// Nodes of the counter surface before it, with the slopes of their shares by arc, 1/m; none on a rigid one, nor in the plane,
+    /// where [`ContactInterface`] has them.
     pub slopes: Vec<(u32, Vector3<f64>)>,
 }
 
-/// The contact points of two surfaces.
+/// The contact points of two surfaces, in the plane of an edge.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ContactSurface {
     /// The points.
@@ -89,7 +90,7 @@ pub struct ContactSurface {
     pub spin: Vector3<f64>,
     /// Nodes of the own surface that have the other before them.
     pub nodes: Vec<u32>,
-    /// Area of the own surface, and how much of it is covered, m2.
+    /// Area of the own surface, and how much of it is covered, m2; lengths of an edge, m.
     pub area: f64,
     /// The covered part, m2.
     pub covered: f64,
@@ -120,6 +121,7 @@ impl ContactSurface {
                 SurfacePair::of(mesh, surface, &mesh.boundaries[*place])?
             }
             Counterpart::Rigid(rigid) => SurfacePair::on_rigid(mesh, surface, rigid)?,
+            Counterpart::Edge(contact) => return Ok(Self::of_edge(mesh, contact)),
         };
         if let Some(measured) = measured {
             measured.widen(&mut pair, &surface.name)?;
@@ -130,9 +132,9 @@ impl ContactSurface {
             let of = |motion: Option<&Motion>| {
                 motion.map_or(Vector3::zeros(), |own| own.velocity(position).into())
             };
-            let counter = match counterpart {
-                Counterpart::Surface(_) => of(counter_motion),
-                Counterpart::Rigid(rigid) => rigid.velocity(position).into(),
+            let counter = match counterpart.rigid() {
+                None => of(counter_motion),
+                Some(rigid) => rigid.velocity(position).into(),
             };
             counter - of(own_motion)
         };
@@ -170,6 +172,33 @@ impl ContactSurface {
             found.drop_held(mesh);
         }
         found.sliding(surface, counter)
+    }
+
+    /// The nodes of the contact edge of a plane body as points, for each metre of thickness.
+    pub fn of_edge(mesh: &Mesh, contact: &SlidingContact) -> Self {
+        let edge = ContactInterface::of(mesh);
+        let sense = edge.sliding_direction(contact.rotation_speed);
+        let site = |&node: &u32| {
+            let frame = mesh.frame(node as usize);
+            ContactSite {
+                position: mesh.nodes[node as usize],
+                normal: frame.column(0).into_owned().into(),
+                direction: (frame.column(1) * sense).into(),
+                shares: vec![(node, 1.0)],
+                slopes: Vec::new(),
+            }
+        };
+        Self {
+            points: edge.points(contact),
+            sites: edge.nodes.iter().map(site).collect(),
+            spin: match mesh.counterface {
+                Counterface::Cylinder { .. } => Vector3::z() * contact.rotation_speed,
+                Counterface::Plane { .. } => Vector3::zeros(),
+            },
+            area: mesh.contact_edge().tributary_lengths.iter().sum(),
+            covered: edge.tributary_lengths.iter().sum(),
+            nodes: edge.nodes,
+        }
     }
 
     /// Refuses points that are all held, or at rest.

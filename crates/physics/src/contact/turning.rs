@@ -108,6 +108,9 @@ impl ContactSurface {
     /// How its points turn on what they meet. A surface of a body has the curvature of its nodes' mean normals. Points that do
     /// not slide have no directions to turn.
     pub fn turnings(&self, mesh: &Mesh, counterpart: &Counterpart) -> Vec<Turning> {
+        if let Counterpart::Edge(_) = counterpart {
+            return ContactInterface::of(mesh).turnings();
+        }
         let counter = counterpart.surface().map(|place| &mesh.boundaries[place]);
         let normals = counter.map_or_else(BTreeMap::new, |own| mesh.nodal_normals(&own.faces));
         let turnings = self.sites.iter().zip(&self.points).map(|(site, point)| {

@@ -138,10 +138,10 @@ fn shift(rayleigh: RayleighDamping, frequency_hz: f64) -> c64 {
 mod tests {
     use super::*;
     use crate::contact::{ContactStiffness, SlidingContact};
-    use crate::fem::{ElasticMaterial, MassKind, PlaneFormulation, assemble_stiffness};
+    use crate::fem::{ElasticMaterial, MassKind, PlaneFormulation};
     use crate::frf::factors::factorized;
     use crate::mesh::{AnnulusMesh, AnnulusSpecification, BoundaryCondition, ElementKind};
-    use crate::prestress::{DampingModel, SlidingTangent, SteadySliding, TangentOptions};
+    use crate::prestress::{Assembly, DampingModel, TangentOptions};
 
     fn sliding(damping_model: DampingModel) -> FrfSystem {
         let specification = AnnulusSpecification {
@@ -168,8 +168,6 @@ mod tests {
             interference: 25e-6,
             rotation_speed: 63.9,
         };
-        let stiffness = assemble_stiffness(&mesh, &material);
-        let base = SteadySliding::solve(&mesh, &stiffness, &contact, None).unwrap();
         let options = TangentOptions {
             mass: MassKind::Consistent,
             geometric_stiffness: true,
@@ -177,7 +175,8 @@ mod tests {
             damping_model,
             contact: ContactStiffness::default(),
         };
-        let tangent = SlidingTangent::linearize(&mesh, &material, &stiffness, &base, &options);
+        let body = Assembly::of_edge(&mesh, &material, &contact, options.contact).unwrap();
+        let tangent = body.tangent(&body.state(0.3).unwrap(), &options).unwrap();
         FrfSystem::sliding(&tangent, contact.friction_coefficient)
     }
 

@@ -1,16 +1,17 @@
-//! Solid bodies that are tied together and slide on each other.
+//! Bodies of one mesh that slide: on each other or on a counterface, solid ones tied together.
 
 use super::cholesky::CholeskySolver;
 use super::complementarity::PressedRange;
 use super::elimination::Elimination;
+use super::full_sliding::{FullSliding, check_pressed};
 use super::joint::{BaseChoice, SlidingSurfaces, TiedSurfaces};
 use super::pressed_state::Pressing;
 use super::rotation::{Rotation, grounded};
 use super::tangent::{BodyTerms, ContactDofs, ContactPart, SlidingTangent, geometric_stiffness};
 use super::{PrestressError, TangentOptions};
 use crate::contact::{
-    ContactSurface, Motion, PairError, Point, PointKind, PressedState, SurfacePair, Turning,
-    mortar_nodes,
+    ContactInterface, ContactStiffness, ContactSurface, Motion, PairError, Point, PointKind,
+    PressedState, SlidingContact, SurfacePair, Turning, mortar_nodes,
 };
 use crate::fem::{
     MaterialField, Triplets, assemble_pressures, assemble_stiffness, assemble_supports,
@@ -18,7 +19,17 @@ use crate::fem::{
 use crate::mesh::Mesh;
 use std::sync::Arc;
 
-/// Solid bodies of one mesh with what ties them and what slides.
+/// Bodies of one mesh with what ties them and what slides.
+///
+/// In steady sliding every pressed contact point slips: with the push `p_i = delta - g_i` and the normal displacement `u_n` over
+/// what it meets,
+///
+/// ```text
+/// u_n = p_i,   T_i = s mu(V) N_i   at pressed points of rigid contact,   N_i = T_i = 0 at open ones,   K u = f elsewhere
+/// ```
+///
+/// with the boundary conditions; springs carry `N_i = w_i p(p_i - u_n)`. Under one set of pressed points the state is a smooth
+/// function of `mu`, kept as a polynomial. Vectors are over all dofs in nodal frames, of a plane body for each metre of thickness.
 ///
 /// Meshes stay where they are; the sliding is imposed as a relative velocity. Small motions have the geometric stiffness of the
 /// base state where [`TangentOptions::geometric_stiffness`] asks for it, and with it the turning of contact forces: of these one
@@ -44,12 +55,27 @@ pub struct Joined {
     /// Held dofs and ties.
     pub(crate) basis: Elimination,
     /// The contacts with their points.
-    pub contacts: Vec<(SlidingSurfaces, ContactSurface)>,
+    pub contacts: Arc<[(SlidingSurfaces, ContactSurface)]>,
     base: BaseChoice,
     rotation: Option<Rotation>,
 }
 
 impl<'a> Assembly<'a> {
+    /// A plane body, or two, that slides on its contact edge. The contact is rigid in the base state whatever constant stiffness it
+    /// has; one that stiffens with pressure carries that state too.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn of_edge(
+        mesh: &'a Mesh,
+        materials: &'a dyn MaterialField,
+        contact: &SlidingContact,
+        stiffness: ContactStiffness,
+    ) -> Result<Self, PrestressError> {
+        let edge = SlidingSurfaces::of_edge(mesh, contact, stiffness);
+        Self::new(mesh, materials, &[], &[edge], &[], BaseChoice::Solved)
+    }
+
     /// Pairs the surfaces of `ties` and `contacts`, and eliminates the ties.
     ///
     /// # Errors
@@ -93,7 +119,7 @@ impl<'a> Assembly<'a> {
                 basis.drop_unknown(pivot);
             }
         }
-        let found: Result<Vec<_>, PrestressError> = contacts
+        let found: Result<Arc<[_]>, PrestressError> = contacts
             .iter()
             .map(|contact| {
                 let sides = (&mesh.boundaries[contact.surface], &contact.counter);
@@ -144,10 +170,21 @@ impl<'a> Assembly<'a> {
             && self.joined.rotation.is_none()
     }
 
+    /// The base state at one friction coefficient.
+    ///
+    /// # Errors
+    /// As [`Self::range`].
+    pub fn state(&self, friction_coefficient: f64) -> Result<PressedState, PrestressError> {
+        let PressedRange { states, state_of, .. } = self.range(&[friction_coefficient])?;
+        let state = state_of.first().copied().and_then(|at| states.into_iter().nth(at));
+        state.ok_or(PrestressError::NoState { friction_coefficient })
+    }
+
     /// Base states at every one of `friction_coefficients`, over the points of all contacts in turn.
     ///
     /// # Errors
-    /// [`PrestressError::GapEverywhere`], [`PrestressError::NoState`], [`PrestressError::Singular`].
+    /// [`PrestressError::GapEverywhere`], [`PrestressError::NoState`], [`PrestressError::Singular`]; of an annulus
+    /// [`PrestressError::Separation`] where a node would open.
     pub fn range(&self, friction_coefficients: &[f64]) -> Result<PressedRange, PrestressError> {
         // The points of all contacts in turn, each with its contact.
         let contacts = self.contacts();
@@ -173,13 +210,14 @@ impl<'a> Assembly<'a> {
         if let Some(rotation) = &self.joined.rotation {
             load.iter_mut().zip(&rotation.centrifugal).for_each(|(load, own)| *load += own);
         }
-        if points.is_empty() {
+        if contacts.is_empty() {
             return self.without_contact(&stiffness, &load, friction_coefficients.len());
         }
-        let springs = of_points()
-            .map(|(own, point)| own.stiffness.normal_stiffness.map(|k| k * point.weight));
+        let springs =
+            of_points().map(|(own, point)| own.base_stiffness().map(|k| k * point.weight));
         let pushed = of_points().map(|(own, point)| own.counter.interference() - point.gap);
-        let named = contacts.iter();
+        // An edge is the only contact of its body, and has no section with a name.
+        let named = contacts.iter().filter(|(own, _)| !own.is_edge());
         let named = named.map(|(own, of)| (format!("contacts.{}", own.name), of.points.len()));
         let pressing = Pressing {
             laws: of_points().map(|(own, _)| own.stiffness.law).collect(),
@@ -191,7 +229,37 @@ impl<'a> Assembly<'a> {
             stiffnesses: springs.collect(),
             points: &points,
         };
-        pressing.states(self.mesh, friction_coefficients)
+        match self.mesh.is_cyclic {
+            true => self.round(&pressing, friction_coefficients),
+            false => pressing.states(self.mesh, friction_coefficients),
+        }
+    }
+
+    /// Those of an annulus, all of whose nodes must be pressed: then the normal forces of rigid contact do not depend on friction,
+    /// and `u(mu) = u_0 + mu u_1` exactly.
+    fn round(
+        &self,
+        pressing: &Pressing<'_>,
+        friction_coefficients: &[f64],
+    ) -> Result<PressedRange, PrestressError> {
+        let range = match pressing.laws.iter().any(Option::is_some) {
+            true => pressing.states(self.mesh, friction_coefficients)?,
+            false => {
+                let basis = self.joined.basis.clone();
+                let full = FullSliding::new(pressing.stiffness, basis, pressing.points)?;
+                let none = vec![0.0; self.mesh.dof_count()];
+                let interference = self.contacts()[0].0.counter.interference();
+                let state = full.state(&none, interference, None)?;
+                PressedRange::of_one(state, friction_coefficients.len())
+            }
+        };
+        let forces = range.states[0].normal_forces(friction_coefficients[0]);
+        let place = |i: usize| {
+            let edge = ContactInterface::of(self.mesh);
+            (edge.nodes[i] as usize + 1, edge.angles[i].to_degrees())
+        };
+        check_pressed(pressing.points, (&forces, 1), place)?;
+        Ok(range)
     }
 
     /// Bodies that are tied at most, under their loads.
@@ -261,21 +329,44 @@ impl<'a> Assembly<'a> {
                 state,
                 first,
                 stiffness: contact.stiffness,
-                has_own_dofs: contact.stiffness.normal_stiffness.is_none(),
+                has_own_dofs: contact.has_own_dofs(),
             };
             first += surface.points.len();
             part
         });
         let parts: Vec<ContactPart<'_>> = parts.collect();
-        let nodes = joined.contacts.iter().flat_map(|(_, surface)| &surface.nodes);
-        let dofs = ContactDofs {
+        let dofs = match self.mesh.dimension {
+            2 => self.edge_dofs(),
+            _ => self.surface_dofs(),
+        };
+        SlidingTangent::assemble(&body, &parts, joined.basis.clone(), dofs, options)
+    }
+
+    /// Dofs that the contact edge of a plane body touches.
+    fn edge_dofs(&self) -> ContactDofs {
+        let edge = ContactInterface::of(self.mesh);
+        let nodes = 0..edge.len();
+        let opposite = edge.opposite.iter().flat_map(|own| own.moves.iter().flatten());
+        let first = self.contacts().iter().find_map(|(_, surface)| surface.points.first());
+        ContactDofs {
+            tangential: nodes.clone().map(|i| edge.tangential_dof(i)).collect(),
+            normal: nodes.map(|i| edge.normal_dof(i)).collect(),
+            opposite: opposite.map(|share| share.0).collect(),
+            sliding_direction: first.map_or(1.0, |point| point.friction.drag.signum()),
+            angles: if self.mesh.is_cyclic { edge.angles } else { Vec::new() },
+        }
+    }
+
+    /// All dofs of the nodes on contact surfaces of solid bodies.
+    fn surface_dofs(&self) -> ContactDofs {
+        let nodes = self.contacts().iter().flat_map(|(_, surface)| &surface.nodes);
+        ContactDofs {
             tangential: nodes
                 .flat_map(|&node| (0..3).map(move |axis| 3 * node as usize + axis))
                 .collect(),
             sliding_direction: 1.0,
             ..ContactDofs::default()
-        };
-        SlidingTangent::assemble(&body, &parts, joined.basis.clone(), dofs, options)
+        }
     }
 
     /// How the points of each contact turn.

@@ -1,6 +1,7 @@
-//! What ties surfaces of solid bodies, and what slides on them.
+//! What ties surfaces of bodies, and what slides on them.
 
-use crate::contact::{ContactStiffness, Counterpart, PairFriction, Topography};
+use crate::contact::{ContactStiffness, Counterpart, PairFriction, SlidingContact, Topography};
+use crate::mesh::Mesh;
 use std::sync::Arc;
 
 /// Two boundaries of a mesh by their indices.
@@ -24,7 +25,7 @@ pub enum BaseChoice {
     Closed,
 }
 
-/// A boundary of a mesh, by its index, that slides on another one or on a rigid counterface.
+/// A boundary of a mesh, by its index, that slides on another one or on a counterface.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SlidingSurfaces {
     /// What the case calls the contact.
@@ -44,6 +45,37 @@ pub struct SlidingSurfaces {
 impl SlidingSurfaces {
     /// Name of the contact that a case describes as `[contact]`.
     pub const SHORT_FORM: &'static str = "contact";
+
+    /// The contact edge of a plane body.
+    pub fn of_edge(mesh: &Mesh, contact: &SlidingContact, stiffness: ContactStiffness) -> Self {
+        Self {
+            name: Self::SHORT_FORM.to_owned(),
+            surface: mesh.contact,
+            counter: Counterpart::Edge(*contact),
+            friction: PairFriction { ratio: 1.0, decay: contact.decay },
+            stiffness,
+            topography: None,
+        }
+    }
+
+    /// Whether it is the contact edge of a plane body.
+    pub fn is_edge(&self) -> bool {
+        matches!(self.counter, Counterpart::Edge(_))
+    }
+
+    /// Whether its points are nodes whose separations are unknowns: rigid contact needs it, and an edge has no other points.
+    pub(super) fn has_own_dofs(&self) -> bool {
+        self.is_edge() || self.stiffness.normal_stiffness.is_none()
+    }
+
+    /// Stiffness without pressure that carries the base state, Pa/m; `None` is rigid contact. That of an edge is rigid whatever
+    /// constant stiffness small motions have.
+    pub(super) fn base_stiffness(&self) -> Option<f64> {
+        match self.counter {
+            Counterpart::Edge(_) => self.stiffness.law.map(|law| law.stiffness(0.0)),
+            Counterpart::Surface(_) | Counterpart::Rigid(_) => self.stiffness.normal_stiffness,
+        }
+    }
 
     /// Whether the case describes it as `[contact]`.
     pub fn is_short_form(&self) -> bool {

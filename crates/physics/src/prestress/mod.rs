@@ -1,11 +1,11 @@
 //! Steady sliding equilibrium and the tangent around it.
 //!
-//! [`SteadySliding`] is the base state: the counterface pushed in by `delta`, every pressed contact node
+//! [`PressedState`] is the base state: the counterface pushed in by `delta`, every pressed contact node
 //! slipping, the others open. [`SlidingTangent`] holds the matrices of small motions around it,
 //! `M(mu) q'' + C(mu) q' + K_t(mu) q = 0`, as polynomials in the friction coefficient.
 //! Both stand on contact points with rows: [`Pressing`] finds the base state by complementarity, [`Elimination`] takes held
-//! dofs, ties and rigid contact out, and [`SlidingTangent::assemble`] puts the matrices together. [`Assembly`] is solid bodies
-//! that are tied and slide on each other.
+//! dofs, ties and rigid contact out, and [`SlidingTangent::assemble`] puts the matrices together. [`Assembly`] is the bodies of
+//! one mesh, plane or solid, that slide on a counterface or on each other.
 //! [`WaveTangent`] is the same of a body of equal sectors from one of them, harmonic by harmonic: of a plane annulus around
 //! [`SectorSliding`], of a body of revolution around [`SolidSliding`].
 
@@ -16,7 +16,6 @@ mod condensed;
 mod cyclic;
 mod cyclic_pressing;
 mod elimination;
-mod equilibrium;
 mod error;
 mod friction_polynomial;
 mod frozen;
@@ -44,7 +43,6 @@ pub use assembly::{Assembly, Joined};
 pub use complementarity::PressedRange;
 pub use cyclic::CyclicTangent;
 pub use elimination::{Elimination, RigidFriction};
-pub use equilibrium::SteadySliding;
 pub use error::PrestressError;
 pub use joint::{BaseChoice, SlidingSurfaces, TiedSurfaces};
 pub use options::{DampingModel, TangentOptions};

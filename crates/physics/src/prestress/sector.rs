@@ -6,11 +6,11 @@ use super::full_sliding::{FullSliding, check_pressed};
 use crate::contact::{NormalLaw, Point, PressedState, Row, SlidingContact, SteadyFriction};
 use crate::fem::fold::SectorMatrix;
 use crate::fem::sector::supports;
-use crate::mesh::SectorMesh;
+use crate::mesh::{AnnulusMesh, SectorMesh};
 
 /// The state of steady sliding of an annulus, the same in every sector.
 ///
-/// It is [`super::SteadySliding`] for the annulus: harmonic zero of the stiffness, whose radial and tangential
+/// It is the state of [`super::Assembly::of_edge`] for the annulus: harmonic zero of the stiffness, whose radial and tangential
 /// parts do not mix. Per metre of thickness; vectors hold `(u_r, u_theta)` of each sector node.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SectorSliding {
@@ -50,6 +50,29 @@ impl SectorSliding {
         };
         check_pressed(&points, (&state.normal_forces[0], sector.sector_count()), place)?;
         Ok(Self { state, friction, points })
+    }
+
+    /// The state of the whole annulus: the same in the polar frames of each sector.
+    pub fn repeated(&self, annulus: &AnnulusMesh, sector: &SectorMesh) -> PressedState {
+        let (per_sector, count) = (annulus.sector_node_count(), annulus.sector_count());
+        let repeat = |own: &Vec<f64>| {
+            let mut values = vec![0.0; annulus.mesh.dof_count()];
+            for (sector_node, pair) in own.chunks_exact(2).enumerate() {
+                let position = sector.numbering[sector_node];
+                for start in (0..count).map(|j| j * per_sector) {
+                    values[2 * (start + position)..][..2].copy_from_slice(pair);
+                }
+            }
+            values
+        };
+        let over_nodes = |values: &Vec<f64>| values.repeat(count);
+        PressedState {
+            displacements: self.state.displacements.iter().map(repeat).collect(),
+            normal_forces: self.state.normal_forces.iter().map(over_nodes).collect(),
+            stiffnesses: self.state.stiffnesses.iter().map(over_nodes).collect(),
+            is_pressed: self.state.is_pressed.repeat(count),
+            frozen_below: 0.0,
+        }
     }
 }
 

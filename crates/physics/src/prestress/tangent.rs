@@ -2,12 +2,11 @@
 
 use super::elimination::{Elimination, ProjectedPolynomial, RigidFriction};
 use super::tabled::{TabledGain, TabledStiffness};
-use super::{DampingModel, PrestressError, SteadySliding, TangentOptions};
+use super::{DampingModel, PrestressError, TangentOptions};
 use crate::contact::{ContactStiffness, Point, PressedState, Row, Turning, linearized, turned};
 use crate::fem::{
     DofMap, MaterialField, ModulusTable, RayleighDamping, Triplets, assemble_extra_damping,
-    assemble_geometric_stiffness, assemble_losses, assemble_mass, assemble_supports,
-    assemble_tabled,
+    assemble_geometric_stiffness, assemble_losses, assemble_mass, assemble_tabled,
 };
 use crate::linalg::{FrictionWeights, MatrixPolynomial, SparsityPattern, c64};
 use crate::mesh::Mesh;
@@ -173,43 +172,6 @@ pub struct ContactDofs {
 }
 
 impl SlidingTangent {
-    /// Linearises around `base`, whose stiffness `K_e` over all dofs is `elastic`.
-    pub fn linearize(
-        mesh: &Mesh,
-        material: &dyn MaterialField,
-        elastic: &Triplets,
-        base: &SteadySliding,
-        options: &TangentOptions,
-    ) -> Self {
-        let geometric = || geometric_stiffness((mesh, material), base);
-        let body = BodyTerms {
-            geometric: options.geometric_stiffness.then(geometric),
-            ..BodyTerms::of((mesh, material), elastic.clone(), assemble_supports(mesh), options)
-        };
-        let turnings = base.interface.turnings();
-        let part = ContactPart {
-            points: &base.points,
-            turnings: &turnings,
-            state: &base.state,
-            first: 0,
-            stiffness: options.contact,
-            has_own_dofs: true,
-        };
-        let interface = &base.interface;
-        let nodes = 0..interface.len();
-        let opposite = interface.opposite.iter().flat_map(|own| own.moves.iter().flatten());
-        let dofs = ContactDofs {
-            tangential: nodes.clone().map(|i| interface.tangential_dof(i)).collect(),
-            normal: nodes.map(|i| interface.normal_dof(i)).collect(),
-            opposite: opposite.map(|share| share.0).collect(),
-            angles: if mesh.is_cyclic { interface.angles.clone() } else { Vec::new() },
-            sliding_direction: base.friction.drag.signum(),
-        };
-        let basis = Elimination::holding(mesh.dof_count(), mesh.held_dofs());
-        Self::assemble(&body, &[part], basis, dofs, options)
-            .expect("each node of a plane contact edge has a free normal displacement")
-    }
-
     /// The matrices of `body` and its contacts over what `basis` (held dofs, ties) and rigid contact leave.
     ///
     /// # Errors

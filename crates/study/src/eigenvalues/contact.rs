@@ -1,9 +1,9 @@
 //! Steady sliding of a body, and the contact in it place by place.
 
 use frictionsim_case::Case;
-use frictionsim_physics::contact::Point;
+use frictionsim_physics::contact::{ContactInterface, ContactSurface, Point};
 use frictionsim_physics::mesh::{ContactRing, Mesh, SolidSector};
-use frictionsim_physics::prestress::{Joined, PressedState, SolidSliding, SteadySliding};
+use frictionsim_physics::prestress::{PressedState, SlidingSurfaces, SolidSliding};
 use frictionsim_results::cea::{ContactPlace, ContactState};
 use std::sync::Arc;
 
@@ -13,12 +13,15 @@ pub(super) const CONTACT: &str = "contact";
 /// What slides, in the base state at the case's own friction coefficient.
 #[derive(Clone)]
 pub enum SteadyState {
-    /// The contact edge of a plane body.
-    Plane(Box<SteadySliding>),
+    /// Contacts of bodies on a mesh, of a plane one its edge, and the state of their points.
+    Mesh {
+        /// The contacts with their points.
+        contacts: Arc<[(SlidingSurfaces, ContactSurface)]>,
+        /// Displacement and normal forces.
+        state: PressedState,
+    },
     /// A body of revolution in three dimensions.
     Solid(Box<SolidState>),
-    /// Solid bodies, with their surfaces paired.
-    Assembly(Arc<Joined>),
 }
 
 /// One sector of a body of revolution, and its base state.
@@ -30,58 +33,44 @@ pub struct SolidState {
     pub base: SolidSliding,
 }
 
-impl SteadyState {
-    /// The contact points with their places, in the order of the base states; a body of revolution has rings instead.
-    pub(super) fn points<'s>(&'s self, case: &Case, mesh: &Mesh) -> Vec<(ContactPlace, &'s Point)> {
-        match self {
-            Self::Plane(base) => {
-                let edge = &base.interface;
-                let nodes = edge.nodes.iter().zip(&edge.angles).zip(&base.points);
-                let place = |((&node, &angle), point): ((&u32, &f64), &'s Point)| {
-                    let place = ContactPlace {
-                        contact: CONTACT.to_owned(),
-                        position: mesh.nodes[node as usize],
-                        angle: Some(angle),
-                        area: point.weight * case.thickness,
-                        shares: vec![(node, 1.0)],
-                        ..ContactPlace::default()
-                    };
-                    (place, point)
-                };
-                nodes.map(place).collect()
-            }
-            Self::Assembly(joined) => {
-                let all = joined.contacts.iter().flat_map(|(contact, surface)| {
-                    let points = surface.points.iter().zip(&surface.sites);
-                    points.map(move |(point, site)| {
-                        let place = ContactPlace {
-                            contact: contact.name.clone(),
-                            position: site.position,
-                            direction: Some(site.direction),
-                            area: point.weight,
-                            shares: site.shares.clone(),
-                            ..ContactPlace::default()
-                        };
-                        (place, point)
-                    })
-                });
-                all.collect()
-            }
-            Self::Solid(_) => Vec::new(),
-        }
-    }
+/// The points of contacts with their places, in the order of the base states: those of a plane edge have angles, others a
+/// direction of sliding.
+pub(super) fn places<'s>(
+    case: &Case,
+    mesh: &Mesh,
+    contacts: &'s [(SlidingSurfaces, ContactSurface)],
+) -> Vec<(ContactPlace, &'s Point)> {
+    let depth = case.depth();
+    let all = contacts.iter().flat_map(|(contact, surface)| {
+        let is_edge = contact.is_edge();
+        let angles = if is_edge { ContactInterface::of(mesh).angles } else { Vec::new() };
+        let points = surface.points.iter().zip(&surface.sites).enumerate();
+        points.map(move |(i, (point, site))| {
+            let place = ContactPlace {
+                contact: contact.name.clone(),
+                position: site.position,
+                angle: angles.get(i).copied(),
+                direction: (!is_edge).then_some(site.direction),
+                area: point.weight * depth,
+                shares: site.shares.clone(),
+            };
+            (place, point)
+        })
+    });
+    all.collect()
+}
 
-    /// The contact points in a base state: pressure `p_i = N_i / w_i`, zero of a state that is free of stress, and
+impl SteadyState {
+    /// The contact place by place: pressure `p_i = N_i / w_i` of points, zero of a state that is free of stress, and
     /// friction traction `mu drag_i p_i`.
-    pub(super) fn contact(
-        &self,
-        case: &Case,
-        mesh: &Mesh,
-        state: &PressedState,
-    ) -> Vec<ContactState> {
+    pub(super) fn contact(&self, case: &Case, mesh: &Mesh) -> Vec<ContactState> {
         let friction = case.contact.sliding.friction_coefficient;
+        let (contacts, state) = match self {
+            Self::Solid(solid) => return solid.contact(friction),
+            Self::Mesh { contacts, state } => (contacts, state),
+        };
         let forces = state.normal_forces(friction);
-        let points = self.points(case, mesh).into_iter().enumerate();
+        let points = places(case, mesh, contacts).into_iter().enumerate();
         let states = points.map(|(i, (place, point))| {
             let pressure = forces.get(i).map_or(0.0, |force| force / point.weight);
             ContactState {
@@ -98,7 +87,7 @@ impl SteadyState {
 
 impl SolidState {
     /// The rings of contact nodes, each at angle 0 with the area of all its nodes.
-    pub(super) fn contact(&self, friction_coefficient: f64) -> Vec<ContactState> {
+    fn contact(&self, friction_coefficient: f64) -> Vec<ContactState> {
         let Self { sector, base } = self;
         let sectors = sector.sector_count();
         let state = |(i, ring): (usize, &ContactRing)| {

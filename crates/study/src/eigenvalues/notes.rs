@@ -6,6 +6,7 @@ use super::solid::{dashpot_across, mean_friction};
 use frictionsim_case::{Body, Case, Cea};
 use frictionsim_physics::cea::cyclic::{Coverage, Overdamped};
 use frictionsim_physics::cea::{BeyondMode, CeaError, FrictionSweep, ModeCount, UnstableInterval};
+use frictionsim_physics::contact::ContactInterface;
 use std::f64::consts::TAU;
 
 /// What the counts of modes say.
@@ -269,12 +270,13 @@ pub(super) fn friction_note(case: &Case, model: &SlidingModel) -> Option<String>
     let friction = case.contact.sliding.friction_coefficient;
     let (law, pressure) = match &model.state {
         SteadyState::Solid(solid) => mean_friction(solid),
-        // Each contact has its own.
-        SteadyState::Assembly(_) => return None,
-        SteadyState::Plane(base) => {
-            let pressures = base.pressures(friction);
-            let mean = pressures.iter().sum::<f64>() / pressures.len().max(1) as f64;
-            (base.friction, mean)
+        // Each contact of solid bodies has its own.
+        SteadyState::Mesh { .. } if model.mesh.dimension == 3 => return None,
+        SteadyState::Mesh { .. } => {
+            let pressures = model.contact.iter().map(|own| own.pressure);
+            let mean = pressures.sum::<f64>() / model.contact.len().max(1) as f64;
+            let edge = ContactInterface::of(&model.mesh);
+            (edge.steady_friction(&case.contact.sliding), mean)
         }
     };
     Some(format!(

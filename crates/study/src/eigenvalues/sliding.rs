@@ -6,10 +6,11 @@ use super::model::Model;
 use super::solid;
 use crate::extent_of;
 use frictionsim_case::{Annulus, AssemblyBody, Body, Case, Cea, Revolution, refusal};
+use frictionsim_physics::contact::{ContactInterface, ContactSurface};
 use frictionsim_physics::fem::sector;
 use frictionsim_physics::mesh::{AnnulusMesh, Mesh, SectorMesh};
 use frictionsim_physics::order::range;
-use frictionsim_physics::prestress::{BaseChoice, SectorSliding, SteadySliding, TangentOptions};
+use frictionsim_physics::prestress::{BaseChoice, SectorSliding, SlidingSurfaces, TangentOptions};
 use frictionsim_results::ShownBody;
 use frictionsim_results::cea::{BaseField, BaseState, ContactState};
 use std::sync::Arc;
@@ -29,30 +30,28 @@ pub struct SlidingModel {
     pub contact: Vec<ContactState>,
 }
 
-/// The mesh and the base state of a body of equal sectors, from one of them, and the contact in it.
+/// The mesh and the base state of a body of equal sectors, from one of them.
 fn sliding_sector(
     case: &Case,
     options: &TangentOptions,
-) -> Result<(Arc<Mesh>, SteadyState, Vec<ContactState>), StudyError> {
+) -> Result<(Arc<Mesh>, SteadyState), StudyError> {
     let sliding = &case.contact.sliding;
     Ok(match &case.body {
         Body::Annulus(Annulus { specification, materials }) => {
-            let mesh = AnnulusMesh::generate(specification)?;
+            let annulus = AnnulusMesh::generate(specification)?;
             let sector = SectorMesh::generate(specification)?;
             let stiffness = sector::stiffness(&sector, materials);
             let base = SectorSliding::solve(&sector, &stiffness, sliding, options.contact.law)?;
-            let base = SteadySliding::from_sector(&mesh, &sector, &base, sliding);
-            let mesh = mesh.mesh;
-            let (own, state) = (base.state.clone(), SteadyState::Plane(Box::new(base)));
-            let contact = state.contact(case, &mesh, &own);
-            (Arc::new(mesh), state, contact)
+            let (state, mesh) = (base.repeated(&annulus, &sector), annulus.mesh);
+            let edge = SlidingSurfaces::of_edge(&mesh, sliding, options.contact);
+            let contacts = Arc::new([(edge, ContactSurface::of_edge(&mesh, sliding))]);
+            (Arc::new(mesh), SteadyState::Mesh { contacts, state })
         }
         Body::Revolution(Revolution { specification, .. }) => {
             let solid = solid::solved(case, specification)?;
             let mut mesh = AnnulusMesh::generate(&specification.plane())?.mesh;
             mesh.regions = specification.region_names();
-            let contact = solid.contact(sliding.friction_coefficient);
-            (Arc::new(mesh), SteadyState::Solid(Box::new(solid)), contact)
+            (Arc::new(mesh), SteadyState::Solid(Box::new(solid)))
         }
         Body::Imported(_) | Body::Assembly(_) => unreachable!("a body of equal sectors has waves"),
     })
@@ -66,14 +65,14 @@ impl SlidingModel {
     /// symmetry which is not there.
     pub fn new(case: &Case, cea: &Cea) -> Result<Self, StudyError> {
         let model = Model::new(case, cea)?;
-        let (mesh, state, contact) = match &model {
+        let (mesh, state) = match &model {
             Model::Whole(whole) => {
-                let (mesh, state) = (Arc::clone(&whole.mesh), whole.sliding.clone());
-                let contact = state.contact(case, &mesh, whole.state());
-                (mesh, state, contact)
+                let (contacts, state) = (Arc::clone(&whole.joined.contacts), whole.state().clone());
+                (Arc::clone(&whole.mesh), SteadyState::Mesh { contacts, state })
             }
             Model::Waves(options) => sliding_sector(case, options)?,
         };
+        let contact = state.contact(case, &mesh);
         let model = Self { mesh, model, state, contact };
         model.refuse_no_pressure(case)?;
         Ok(model)
@@ -126,19 +125,21 @@ impl SlidingModel {
                 let torque = solid.base.torque(&solid.sector, friction);
                 [torque, torque * speed]
             }
-            SteadyState::Plane(base) => {
-                let torque = case.thickness * base.torque(friction);
+            SteadyState::Mesh { state, .. } if self.mesh.dimension == 2 => {
+                let edge = ContactInterface::of(&self.mesh);
+                let forces = state.normal_forces(friction);
+                let torque = case.thickness * edge.torque(sliding, friction, &forces);
                 [torque, torque * speed]
             }
-            SteadyState::Assembly(_) => {
+            SteadyState::Mesh { .. } => {
                 let power = contact().map(|own| own.shear * own.place.area * own.speed).sum();
                 [if speed == 0.0 { 0.0 } else { power / speed }, power]
             }
         };
-        // Solid bodies touch at points between their nodes.
+        // Points of a mesh lie at nodes or between them, a ring has many.
         let nodes = |own: &ContactState| match self.state {
-            SteadyState::Assembly(_) => 1,
-            _ => own.place.shares.len(),
+            SteadyState::Mesh { .. } => 1,
+            SteadyState::Solid(_) => own.place.shares.len(),
         };
         let count = |is_pressed: bool| {
             contact().filter(|own| own.is_pressed == is_pressed).map(nodes).sum()
@@ -166,19 +167,12 @@ impl SlidingModel {
     /// The base state place by place.
     pub fn base_field(&self, case: &Case) -> BaseField {
         let friction = case.contact.sliding.friction_coefficient;
-        let displacement = match (&self.model, &self.state) {
-            (Model::Whole(whole), _) => whole.state().displacement(friction),
-            (_, SteadyState::Plane(base)) => base.displacement(friction),
-            (_, SteadyState::Solid(solid)) => solid.base.displacement(friction),
-            (_, SteadyState::Assembly(_)) => unreachable!("solid bodies have no waves"),
+        let (displacement, contacts) = match &self.state {
+            SteadyState::Mesh { contacts, state } => (state.displacement(friction), &contacts[..]),
+            SteadyState::Solid(solid) => (solid.base.displacement(friction), &[][..]),
         };
-        let surfaces = match &self.state {
-            SteadyState::Assembly(joined) => {
-                let contacts = joined.contacts.iter();
-                contacts.map(|(own, _)| (own.name.clone(), own.surface)).collect()
-            }
-            _ => Vec::new(),
-        };
+        let surfaces = contacts.iter().filter(|(own, _)| !own.is_edge());
+        let surfaces = surfaces.map(|(own, _)| (own.name.clone(), own.surface)).collect();
         let sectors = self.solid().map_or(1, |own| own.sector.sector_count());
         BaseField {
             contact: self.contact.clone(),

@@ -1,17 +1,15 @@
 //! A body that is solved on its whole mesh, and its base states.
 
-use super::contact::SteadyState;
+use super::contact::places;
 use frictionsim_case::{AssemblyBody, Body, Case, Cea, CeaMethod};
 use frictionsim_physics::cea::CeaError;
 use frictionsim_physics::contact::{ContactStiffness, ContactSurface, Point, Turning};
-use frictionsim_physics::fem::assemble_stiffness;
 use frictionsim_physics::mesh::{CyclicSymmetry, Mesh};
 use frictionsim_physics::prestress::{
-    Assembly, BaseChoice, PressedRange, PressedState, SlidingSurfaces, SlidingTangent,
-    SteadySliding, TangentOptions,
+    Assembly, BaseChoice, Joined, PressedRange, PressedState, SlidingSurfaces, SlidingTangent,
+    TangentOptions,
 };
 use frictionsim_results::cea::ContactPlace;
-use std::borrow::Cow;
 use std::sync::Arc;
 
 /// A whole mesh and its base states.
@@ -24,8 +22,8 @@ pub struct WholeMesh {
     pub options: TangentOptions,
     /// The symmetry that the eigenvalue analysis uses.
     pub symmetry: Option<CyclicSymmetry>,
-    /// What slides on it.
-    pub sliding: SteadyState,
+    /// Its bodies with what slides.
+    pub joined: Arc<Joined>,
 }
 
 /// A contact point of a whole mesh.
@@ -47,26 +45,13 @@ impl WholeMesh {
         options: TangentOptions,
         frictions: &[f64],
     ) -> Result<Self, CeaError> {
-        let contact = &case.contact.sliding;
-        let own = [contact.friction_coefficient];
         let mesh = case.mesh()?;
-        let (range, sliding) = match &case.body {
-            Body::Assembly(body) => {
-                let assembly = body.assembled()?;
-                let start = start_of(assembly.contacts());
-                let range = assembly.range(&[frictions, start, &own].concat())?;
-                (range, SteadyState::Assembly(assembly.joined))
-            }
-            _ => {
-                let stiffness = assemble_stiffness(&mesh, case.materials());
-                let (law, all) = (options.contact.law, [frictions, &own].concat());
-                let range = SteadySliding::range(&mesh, &stiffness, contact, law, &all)?;
-                let own = range.states[place_of_own(&range)].clone();
-                let base = SteadySliding::of(&mesh, contact, own);
-                (range, SteadyState::Plane(Box::new(base)))
-            }
-        };
-        Ok(Self { symmetry: used_symmetry(case, &mesh), mesh, range, options, sliding })
+        let assembly = assembled(case, &mesh, &options)?;
+        let own = [case.contact.sliding.friction_coefficient];
+        let start = start_of(assembly.contacts());
+        let range = assembly.range(&[frictions, start, &own].concat())?;
+        let (symmetry, joined) = (used_symmetry(case, &mesh), assembly.joined);
+        Ok(Self { symmetry, mesh, range, options, joined })
     }
 
     /// Base states at some friction coefficients between those of this one, which come first.
@@ -75,32 +60,24 @@ impl WholeMesh {
         case: &Case,
         frictions: &[f64],
     ) -> Result<PressedRange, CeaError> {
-        match self.assembly(case) {
-            Some(assembly) => {
-                Ok(assembly.range(&[frictions, start_of(assembly.contacts())].concat())?)
-            }
-            None => Ok(Self::solve(case, self.options, frictions)?.range),
-        }
+        let (assembly, own) = (self.assembly(case), [case.contact.sliding.friction_coefficient]);
+        let further = match self.mesh.dimension {
+            2 => &own[..],
+            _ => start_of(assembly.contacts()),
+        };
+        Ok(assembly.range(&[frictions, further].concat())?)
     }
 
     /// The model of a case with the base states of this one: for a case that differs in nothing that these depend on.
     pub(super) fn with_its_states(&self, case: &Case, options: TangentOptions) -> Option<Self> {
-        let sliding = match &self.sliding {
-            SteadyState::Assembly(_) => {
-                // A centrifugal load depends on the density.
-                let body = case.body.assembly().filter(|body| body.rotors().next().is_none())?;
-                SteadyState::Assembly(body.assembled().ok()?.joined)
-            }
-            edge => edge.clone(),
-        };
-        Some(Self {
-            // Its boundaries have supports.
-            mesh: case.mesh().ok()?,
-            range: self.range.clone(),
-            symmetry: self.symmetry,
-            options,
-            sliding,
-        })
+        // A centrifugal load depends on the density.
+        if case.body.assembly().is_some_and(|body| body.rotors().next().is_some()) {
+            return None;
+        }
+        // Its boundaries have supports.
+        let mesh = case.mesh().ok()?;
+        let joined = assembled(case, &mesh, &options).ok()?.joined;
+        Some(Self { mesh, range: self.range.clone(), symmetry: self.symmetry, options, joined })
     }
 
     /// The state at the case's own friction coefficient.
@@ -108,14 +85,9 @@ impl WholeMesh {
         &self.range.states[place_of_own(&self.range)]
     }
 
-    /// The solid bodies with what ties them and what slides; `None` of a plane body.
-    pub fn assembly<'a>(&self, case: &'a Case) -> Option<Assembly<'a>> {
-        match (&self.sliding, &case.body) {
-            (SteadyState::Assembly(joined), Body::Assembly(body)) => {
-                Some(Assembly::of(&body.mesh, &body.materials, Arc::clone(joined)))
-            }
-            _ => None,
-        }
+    /// The bodies with what ties them and what slides.
+    pub fn assembly<'a>(&'a self, case: &'a Case) -> Assembly<'a> {
+        Assembly::of(&self.mesh, case.materials(), Arc::clone(&self.joined))
     }
 
     /// The tangent of one of the states.
@@ -123,16 +95,7 @@ impl WholeMesh {
     /// # Errors
     /// Those of [`Assembly::tangent`].
     pub fn tangent(&self, case: &Case, state: &PressedState) -> Result<SlidingTangent, CeaError> {
-        let (mesh, materials, options) = (&self.mesh, case.materials(), &self.options);
-        let SteadyState::Plane(base) = &self.sliding else {
-            let assembly = self.assembly(case);
-            let assembly = assembly.expect("paired surfaces are those of solid bodies");
-            return Ok(assembly.tangent(state, options)?);
-        };
-        let mut base = base.clone();
-        base.state.clone_from(state);
-        let stiffness = assemble_stiffness(mesh, materials);
-        Ok(SlidingTangent::linearize(mesh, materials, &stiffness, &base, options))
+        Ok(self.assembly(case).tangent(state, &self.options)?)
     }
 
     /// The tangent at the case's own friction coefficient.
@@ -143,36 +106,18 @@ impl WholeMesh {
         self.tangent(case, self.state())
     }
 
-    /// A state as far as its stress acts on small motions beside the terms of the rotation; `None` of one that is free
-    /// of stress.
-    pub fn stressing<'s>(
-        &self,
-        case: &Case,
-        state: &'s PressedState,
-    ) -> Option<Cow<'s, PressedState>> {
-        match self.assembly(case) {
-            Some(assembly) => assembly.stressing(state).map(Cow::Owned),
-            None => Some(Cow::Borrowed(state)),
-        }
-    }
-
     /// The contact points in the order of the base states, as they turn in that at the case's own friction coefficient.
     pub(crate) fn contact_points(&self, case: &Case) -> Vec<BasePoint<'_>> {
-        let is_stressed =
-            self.options.geometric_stiffness && self.stressing(case, self.state()).is_some();
         let assembly = self.assembly(case);
-        let turnings = match &self.sliding {
-            _ if !is_stressed => Vec::new(),
-            SteadyState::Plane(base) => base.interface.turnings(),
-            _ => assembly.iter().flat_map(Assembly::turnings).flatten().collect(),
-        };
-        // Each contact of solid bodies has its own stiffness, a plane edge that of the case.
-        let contacts = assembly.iter().flat_map(Assembly::contacts);
+        let is_stressed =
+            self.options.geometric_stiffness && assembly.stressing(self.state()).is_some();
+        let turnings = if is_stressed { assembly.turnings().concat() } else { Vec::new() };
+        // Each contact has its own stiffness.
+        let contacts = self.joined.contacts.iter();
         let stiffness = contacts.flat_map(|(contact, surface)| {
             std::iter::repeat_n(contact.stiffness, surface.points.len())
         });
-        let stiffness = stiffness.chain(std::iter::repeat(self.options.contact));
-        let points = self.sliding.points(case, &self.mesh).into_iter();
+        let points = places(case, &self.mesh, &self.joined.contacts).into_iter();
         let points = points.zip(stiffness).enumerate();
         let point = |(i, ((place, point), stiffness))| BasePoint {
             place,
@@ -189,9 +134,22 @@ fn place_of_own(range: &PressedRange) -> usize {
     *range.state_of.last().expect("the case's own friction coefficient comes last")
 }
 
-/// Where the base states begin: contact that stiffens depends on friction, and the analysis starts without.
+/// The bodies of a case on its whole mesh.
+fn assembled<'a>(
+    case: &'a Case,
+    mesh: &'a Mesh,
+    options: &TangentOptions,
+) -> Result<Assembly<'a>, CeaError> {
+    Ok(match &case.body {
+        Body::Assembly(body) => body.assembled()?,
+        _ => Assembly::of_edge(mesh, case.materials(), &case.contact.sliding, options.contact)?,
+    })
+}
+
+/// Where the base states of solid bodies begin: contact that stiffens depends on friction, and the analysis starts without.
 fn start_of(contacts: &[(SlidingSurfaces, ContactSurface)]) -> &'static [f64] {
-    let stiffens = contacts.iter().any(|(contact, _)| contact.stiffness.law.is_some());
+    let mut solid = contacts.iter().filter(|(contact, _)| !contact.is_edge());
+    let stiffens = solid.any(|(contact, _)| contact.stiffness.law.is_some());
     if stiffens { &[0.0] } else { &[] }
 }
 

@@ -133,7 +133,7 @@ impl<'a> Base<'a> {
             pair,
         });
         let modes: Vec<PairedMode> = modes.collect();
-        let stressing = whole.stressing(case, whole.state());
+        let stressing = whole.assembly(case).stressing(whole.state());
         Ok(Self {
             displacement: stressing.map(|state| state.displacement(friction)),
             mesh: case.mesh()?,

@@ -2,8 +2,7 @@
 
 use super::TransientStudy;
 use frictionsim_case::ModeLimit;
-use frictionsim_physics::fem::assemble_stiffness;
-use frictionsim_physics::prestress::{PrestressError, SteadySliding};
+use frictionsim_physics::prestress::{Assembly, PrestressError};
 use frictionsim_physics::transient::{InitialState, Recorder, TransientAnalysis};
 
 /// Largest displacement of the contact relative to the size of the body that is small.
@@ -72,10 +71,10 @@ impl TransientStudy<'_> {
         if !starts_at_rest || case.has_sectors() || case.contact.sliding.rotation_speed == 0.0 {
             return None;
         }
-        let stiffness = assemble_stiffness(&self.stepped.mesh, case.materials_in_time());
-        let contact = &case.contact;
-        let law = contact.stiffness.law;
-        let base = SteadySliding::solve(&self.stepped.mesh, &stiffness, &contact.sliding, law);
+        let (mesh, materials) = (&self.stepped.mesh, case.materials_in_time());
+        let (contact, stiffness) = (&case.contact.sliding, case.contact.stiffness);
+        let base = Assembly::of_edge(mesh, materials, contact, stiffness)
+            .and_then(|body| body.state(contact.friction_coefficient));
         base.err().and_then(jams)
     }
 

@@ -2,6 +2,7 @@ use super::*;
 use crate::contact::SlidingContact;
 use crate::fem::{ElasticMaterial, MassKind, PlaneFormulation, assemble_stiffness};
 use crate::mesh::{AnnulusMesh, AnnulusSpecification, BoundaryCondition, ElementKind};
+use crate::prestress::Assembly;
 
 fn turning(rotation_speed: f64) -> SlidingContact {
     SlidingContact { decay: None, friction_coefficient: 0.3, interference: 25e-6, rotation_speed }
@@ -35,10 +36,12 @@ fn rigid_rotation_leaves_the_prestressed_edge_in_balance() {
     for element in [ElementKind::Quad4, ElementKind::Quad8] {
         let (mesh, material) = disc(element);
         let elastic = assemble_stiffness(&mesh, &material);
-        let base = SteadySliding::solve(&mesh, &elastic, &turning(-60.0), None).unwrap();
-        let turnings = base.interface.turnings();
-        let mut prestress = turned(&base.points, &turnings, (&base.state, 0));
-        for (terms, displacement) in prestress.iter_mut().zip(&base.displacements) {
+        let rigid = ContactStiffness::default();
+        let body = Assembly::of_edge(&mesh, &material, &turning(-60.0), rigid).unwrap();
+        let state = body.state(0.3).unwrap();
+        let points = &body.contacts()[0].1.points;
+        let mut prestress = turned(points, &body.turnings()[0], (&state, 0));
+        for (terms, displacement) in prestress.iter_mut().zip(&state.displacements) {
             let stress = assemble_geometric_stiffness(&mesh, &material, displacement, None);
             terms.entries.extend(stress.entries);
         }
@@ -63,27 +66,21 @@ fn rigid_rotation_leaves_the_prestressed_edge_in_balance() {
 #[test]
 fn every_matrix_is_symmetric_without_friction() {
     let (mesh, material) = disc(ElementKind::Quad4);
-    let elastic = assemble_stiffness(&mesh, &material);
-    let base = SteadySliding::solve(&mesh, &elastic, &turning(60.0), None).unwrap();
     for normal_stiffness in [None, Some(7.4e12)] {
-        let tangent = SlidingTangent::linearize(
-            &mesh,
-            &material,
-            &elastic,
-            &base,
-            &TangentOptions {
-                mass: MassKind::Consistent,
-                geometric_stiffness: true,
-                damping: RayleighDamping { mass_coefficient: 40.0, stiffness_coefficient: 4.5e-7 },
-                damping_model: DampingModel::WholeTangent,
-                contact: ContactStiffness {
-                    normal_stiffness,
-                    normal_damping: 0.0,
-                    tangential_damping: 3.0,
-                    ..ContactStiffness::default()
-                },
+        let options = TangentOptions {
+            mass: MassKind::Consistent,
+            geometric_stiffness: true,
+            damping: RayleighDamping { mass_coefficient: 40.0, stiffness_coefficient: 4.5e-7 },
+            damping_model: DampingModel::WholeTangent,
+            contact: ContactStiffness {
+                normal_stiffness,
+                normal_damping: 0.0,
+                tangential_damping: 3.0,
+                ..ContactStiffness::default()
             },
-        );
+        };
+        let body = Assembly::of_edge(&mesh, &material, &turning(60.0), options.contact).unwrap();
+        let tangent = body.tangent(&body.state(0.3).unwrap(), &options).unwrap();
         for polynomial in [&tangent.mass, &tangent.damping, &tangent.stiffness] {
             let values = polynomial.evaluate(0.0);
             let pattern = polynomial.pattern();

@@ -3,11 +3,9 @@
 use super::{SteppedBody, TransientModel};
 use crate::contact::{ContactInterface, ContactSurface, CoulombFriction, Point, Row};
 use crate::fem::operator::StiffnessOperator;
-use crate::fem::{MassKind, assemble_stiffness, sector};
+use crate::fem::{MassKind, sector};
 use crate::mesh::{Counterface, Mesh, SolidSector};
-use crate::prestress::{
-    Assembly, PressedRange, PressedState, PrestressError, SolidSliding, SteadySliding,
-};
+use crate::prestress::{Assembly, PressedState, PrestressError, SolidSliding};
 use crate::transient::compliance::PressedPoint;
 use crate::transient::contact::ContactPart;
 use crate::transient::{LagrangeContact, TransientError};
@@ -70,27 +68,20 @@ impl TransientModel<'_> {
                 own.repeat(sector.sector_count())
             }
             SteppedBody::Assembly { assembly, .. } => {
-                self.sliding_pairs(assembly)?.displacement(friction)
+                assembly.state(friction)?.displacement(friction)
             }
         })
     }
 
-    fn sliding_edge(&self, mesh: &Mesh) -> Result<SteadySliding, PrestressError> {
-        let elastic = assemble_stiffness(mesh, self.material);
-        SteadySliding::solve(mesh, &elastic, &self.contact, self.stiffness.law)
+    fn sliding_edge(&self, mesh: &Mesh) -> Result<PressedState, PrestressError> {
+        let body = Assembly::of_edge(mesh, self.material, &self.contact, self.stiffness)?;
+        body.state(self.contact.friction_coefficient)
     }
 
     fn sliding_face(&self, sector: &SolidSector) -> Result<SolidSliding, PrestressError> {
         let elastic = sector::stiffness(sector, self.material);
         let law = self.stiffness.base_law();
         SolidSliding::solve(sector, &elastic, &self.contact, law, MassKind::Lumped)
-    }
-
-    fn sliding_pairs(&self, assembly: &Assembly<'_>) -> Result<PressedState, PrestressError> {
-        let friction_coefficient = self.contact.friction_coefficient;
-        let PressedRange { states, state_of, .. } = assembly.range(&[friction_coefficient])?;
-        let state = state_of.first().copied().and_then(|at| states.into_iter().nth(at));
-        state.ok_or(PrestressError::NoState { friction_coefficient })
     }
 
     /// The contact points, all open; `interface` are their nodes.
@@ -203,7 +194,7 @@ impl TransientModel<'_> {
                 Ok(point.collect())
             }
             SteppedBody::Assembly { assembly, .. } => {
-                let springs = self.sliding_pairs(assembly)?.springs(friction);
+                let springs = assembly.state(friction)?.springs(friction);
                 Ok(springs.into_iter().map(spring).collect())
             }
         }

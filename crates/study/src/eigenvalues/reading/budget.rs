@@ -2,7 +2,6 @@
 
 use super::parts::Parts;
 use super::shapes::Shapes;
-use crate::eigenvalues::sliding::SlidingModel;
 use frictionsim_physics::cea::ComplexMode;
 use frictionsim_physics::linalg::c64;
 use frictionsim_results::cea::{Contribution, ModeName, Source};
@@ -37,16 +36,11 @@ impl Sums {
 
 impl Parts<'_> {
     /// What each region, support and contact adds to each mode of one friction value.
-    pub fn contributions(
-        &self,
-        model: &SlidingModel,
-        shapes: &Shapes<'_>,
-        out: &mut Vec<Contribution>,
-    ) {
+    pub fn contributions(&self, shapes: &Shapes<'_>, out: &mut Vec<Contribution>) {
         // Only several contacts need the balance of forces dof by dof.
         let dofs = (self.contacts.len() > 1).then(|| self.mesh.dof_count());
         let mut sums = Sums::new(shapes.modes.len(), dofs);
-        let mut rows = self.of_regions(model, shapes, &mut sums);
+        let mut rows = self.of_regions(shapes, &mut sums);
         rows.extend(self.of_supports(shapes, &mut sums));
         rows.extend(self.of_rotation(shapes, &mut sums));
         for mode in 0..shapes.modes.len() {
@@ -59,12 +53,7 @@ impl Parts<'_> {
     }
 
     /// Energies and damping of every region.
-    pub fn of_regions(
-        &self,
-        model: &SlidingModel,
-        shapes: &Shapes<'_>,
-        sums: &mut Sums,
-    ) -> Vec<Row> {
+    pub fn of_regions(&self, shapes: &Shapes<'_>, sums: &mut Sums) -> Vec<Row> {
         let beta = self.whole_beta();
         let mut rows = Vec::new();
         for (region, own) in self.regions.iter().enumerate() {
@@ -72,7 +61,7 @@ impl Parts<'_> {
             let (m, k) = (shapes.forms(&mass), shapes.forms(&stiffness));
             // The prestress takes part in the damping, and in the balance of forces.
             let is_asked_for = beta != 0.0 || sums.balance.is_some();
-            let stressed = is_asked_for.then(|| self.geometric_image(model, shapes, region));
+            let stressed = is_asked_for.then(|| self.geometric_image(shapes, region));
             let stressed = stressed.flatten();
             let none = || vec![0.0; shapes.modes.len()];
             let g = stressed.as_ref().map_or_else(none, |image| shapes.forms(image));

@@ -13,10 +13,7 @@
 use super::budget::Sums;
 use super::parts::Parts;
 use super::shapes::Shapes;
-use crate::eigenvalues::model::Model;
-use crate::eigenvalues::sliding::SlidingModel;
 use crate::eigenvalues::whole::BasePoint;
-use frictionsim_case::Case;
 use frictionsim_physics::cea::FrictionPoint;
 use frictionsim_physics::contact::{PressedState, linearized, turned};
 use frictionsim_physics::fem::Triplets;
@@ -27,26 +24,19 @@ use frictionsim_results::cea::{Feed, ModeFeed};
 type PointTerms = [Vec<(usize, usize, f64)>; 2];
 
 /// The feed of every unstable mode at the case's own friction coefficient; `None` where there is none.
-pub(super) fn feed(
-    case: &Case,
-    model: &SlidingModel,
-    parts: &Parts<'_>,
-    points: &[&FrictionPoint],
-) -> Option<Feed> {
+pub(super) fn feed(parts: &Parts<'_>, points: &[&FrictionPoint]) -> Option<Feed> {
+    let (case, whole) = (parts.case, parts.whole);
     let friction = case.contact.sliding.friction_coefficient;
     let own = points.iter().find(|p| p.friction_coefficient == friction)?;
     let shapes = Shapes::of(own, case.has_sectors(), |mode| mode.is_unstable());
     if shapes.modes.is_empty() {
         return None;
     }
-    let Model::Whole(whole) = &model.model else {
-        return None;
-    };
     let pressed = whole.contact_points(case);
 
     // Forces of the bodies at every dof, those of the contact's own terms beside them.
     let mut sums = Sums::new(shapes.modes.len(), Some(parts.mesh.dof_count()));
-    parts.of_regions(model, &shapes, &mut sums);
+    parts.of_regions(&shapes, &mut sums);
     parts.of_supports(&shapes, &mut sums);
     parts.of_rotation(&shapes, &mut sums);
     // Forces and springs at the friction coefficient are the only power of it.

@@ -49,17 +49,17 @@ pub(super) fn shapes_needed(case: &Case, model: &Model, frictions: &[f64], modes
     }
 }
 
-/// Reads every mode that has a wave or a shape; `None` where there is none.
+/// Reads every mode that has a wave, of a model solved by them with its `tangent`, or a shape; `None` where there is none.
 pub(super) fn read(
     case: &Case,
     model: &SlidingModel,
     tangent: Option<&WaveTangent>,
     sweep: &FrictionSweep,
 ) -> Option<Reading> {
-    if let Some(tangent) = tangent {
-        return waves::read(case, model, tangent, sweep);
-    }
-    let parts = Parts::new(case, model)?;
+    let parts = match &model.model {
+        Model::Waves(_) => return waves::read(case, model, tangent?, sweep),
+        Model::Whole(whole) => Parts::new(case, whole),
+    };
     let mut reading = Reading::default();
     let shaped = |point: &&FrictionPoint| point.modes.iter().any(|mode| mode.shape.is_some());
     let points: Vec<&FrictionPoint> = sweep.points.iter().filter(shaped).collect();
@@ -71,12 +71,12 @@ pub(super) fn read(
         if shapes.modes.is_empty() {
             continue;
         }
-        parts.contributions(model, &shapes, &mut reading.contributions);
+        parts.contributions(&shapes, &mut reading.contributions);
         let own_images = parts.mass_image(shapes.columns.as_ref());
         let couplings = shapes.couplings(&own_images, (&references, &reference_images));
         reading.couplings.extend(couplings);
     }
-    reading.feed = feed::feed(case, model, &parts, &points);
+    reading.feed = feed::feed(&parts, &points);
     (reading.mesh_errors, reading.onset_errors) = mesh_error::mesh_errors(&parts, &points, sweep);
     Some(reading)
 }

@@ -1,9 +1,8 @@
 //! The bodies of a model as sums over regions and supports.
 
 use super::shapes::Shapes;
-use crate::eigenvalues::contact::{CONTACT, SteadyState};
-use crate::eigenvalues::model::Model;
-use crate::eigenvalues::sliding::SlidingModel;
+use crate::eigenvalues::contact::CONTACT;
+use crate::eigenvalues::whole::WholeMesh;
 use frictionsim_case::Case;
 use frictionsim_physics::fem::{
     ModulusTable, Triplets, assemble_geometric_stiffness, assemble_patch_damping,
@@ -11,8 +10,7 @@ use frictionsim_physics::fem::{
 };
 use frictionsim_physics::linalg::{Mat, MatRef, MatrixPolynomial, c64};
 use frictionsim_physics::mesh::{BoundaryCondition, Mesh};
-use frictionsim_physics::prestress::{Assembly, DampingModel, PressedState, TangentOptions};
-use std::borrow::Cow;
+use frictionsim_physics::prestress::{DampingModel, PressedState, TangentOptions};
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
@@ -63,6 +61,7 @@ impl Region {
 /// The bodies of a model as sums.
 pub(super) struct Parts<'a> {
     pub case: &'a Case,
+    pub whole: &'a WholeMesh,
     pub mesh: &'a Mesh,
     pub options: &'a TangentOptions,
     /// Each region with its name and its coefficients `alpha`, `beta`, `eta`, and the table that its stiffness follows.
@@ -80,14 +79,9 @@ pub(super) struct Parts<'a> {
 }
 
 impl<'a> Parts<'a> {
-    pub fn new(case: &'a Case, model: &'a SlidingModel) -> Option<Self> {
-        let mesh = &*model.mesh;
-        let (options, assembly) = match &model.model {
-            Model::Waves(_) if case.body.dimension() == 3 => return None,
-            Model::Waves(options) => (options, None),
-            Model::Whole(whole) => (&whole.options, whole.assembly(case)),
-        };
-        let pairs = assembly.iter().flat_map(Assembly::contacts).map(|(own, _)| {
+    pub fn new(case: &'a Case, whole: &'a WholeMesh) -> Self {
+        let (mesh, options, assembly) = (&*whole.mesh, &whole.options, whole.assembly(case));
+        let pairs = assembly.contacts().iter().map(|(own, _)| {
             let surfaces = std::iter::once(own.surface).chain(own.counter.surface());
             (own.name.clone(), surfaces.collect())
         });
@@ -114,11 +108,12 @@ impl<'a> Parts<'a> {
             let patches = assemble_patch_damping(mesh, materials, options.mass);
             supports.push(modifications(mesh, patches));
         }
-        let rotation = assembly.as_ref().and_then(|own| own.rotation_terms().cloned());
+        let rotation = assembly.rotation_terms().cloned();
         let rotation =
             rotation.map(|[transport, gyroscopic]| Pair::new(count, [gyroscopic, transport]));
-        Some(Self {
+        Self {
             case,
+            whole,
             mesh,
             options,
             regions,
@@ -130,7 +125,7 @@ impl<'a> Parts<'a> {
                 false => contacts,
             },
             geometric: RefCell::default(),
-        })
+        }
     }
 
     /// `M x` of all regions and point masses.
@@ -144,13 +139,8 @@ impl<'a> Parts<'a> {
     }
 
     /// `K_sigma phi` of a region for each shape; `None` where no stress of the base state acts on small motions.
-    pub fn geometric_image(
-        &self,
-        model: &SlidingModel,
-        shapes: &Shapes<'_>,
-        region: usize,
-    ) -> Option<Mat<f64>> {
-        let base = base_state(self.case, model, shapes.friction);
+    pub fn geometric_image(&self, shapes: &Shapes<'_>, region: usize) -> Option<Mat<f64>> {
+        let base = self.base_state(shapes.friction);
         let (place, state) = base.filter(|_| self.options.geometric_stiffness)?;
         // Linear in the displacement: assembled once for each state and power of the friction beyond its origin.
         let mut known = self.geometric.borrow_mut();
@@ -165,6 +155,17 @@ impl<'a> Parts<'a> {
         });
         let values = geometric.evaluate((shapes.friction - state.frozen_below).max(0.0));
         Some(geometric.pattern().multiply(&values, shapes.columns.as_ref()))
+    }
+
+    /// Number of the base state at a friction coefficient, and the state as far as its stress is not in the terms of the
+    /// rotation.
+    fn base_state(&self, friction: f64) -> Option<(usize, PressedState)> {
+        let solved = self.case.cea.as_ref()?.solved_friction_coefficients();
+        let place = solved.iter().position(|&mu| mu == friction)?;
+        let range = &self.whole.range;
+        let number = range.state_of[place];
+        let state = self.whole.assembly(self.case).stressing(&range.states[number])?;
+        Some((number, state))
     }
 
     /// What `beta_R` multiplies of the geometric stiffness and of contact.
@@ -207,27 +208,6 @@ fn contact_dofs(mesh: &Mesh, contacts: &[(String, Vec<usize>)]) -> Vec<(String, 
     }
     let names = contacts.iter().map(|(name, _)| name.clone());
     names.zip(dofs).collect()
-}
-
-/// Number of the base state at a friction coefficient, and the state as far as its stress is not in the terms of the
-/// rotation.
-fn base_state<'m>(
-    case: &Case,
-    model: &'m SlidingModel,
-    friction: f64,
-) -> Option<(usize, Cow<'m, PressedState>)> {
-    let place = || {
-        let solved = case.cea.as_ref()?.solved_friction_coefficients();
-        solved.iter().position(|&mu| mu == friction)
-    };
-    match (&model.model, &model.state) {
-        (Model::Whole(whole), _) => {
-            let state = whole.range.state_of[place()?];
-            Some((state, whole.stressing(case, &whole.range.states[state])?))
-        }
-        (_, SteadyState::Plane(base)) => Some((0, Cow::Borrowed(&base.state))),
-        (_, SteadyState::Solid(_) | SteadyState::Assembly(_)) => None,
-    }
 }
 
 /// Dashpots and springs of the modifications, with the damping of their patches.
