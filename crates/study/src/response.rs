@@ -274,10 +274,9 @@ fn held(case: &Case, frf: &Frf) -> Result<(FrfSystem, Arc<Mesh>), StudyError> {
             boundary.condition = BoundaryCondition::Free;
         }
     }
-    let mut tied = case.clone();
-    tied.body = Body::Assembly(apart);
-    let whole = WholeMesh::solve(&tied, options, &[])?;
-    Ok((FrfSystem::tied(&whole.own_tangent(&tied)?), Arc::clone(&body.mesh)))
+    let assembly = apart.assembled()?;
+    let tangent = assembly.tangent(&assembly.state(0.0)?, &options)?;
+    Ok((FrfSystem::tied(&tangent), Arc::clone(&body.mesh)))
 }
 
 /// A counterface at rest sticks: there is no steady sliding to respond around.

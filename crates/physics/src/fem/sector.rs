@@ -26,9 +26,6 @@ pub trait Sectored {
 
     /// Each supported boundary.
     fn supports(&self) -> Vec<SectorSupport>;
-
-    /// The same with nothing that holds it.
-    fn unheld(&self) -> Self;
 }
 
 /// A supported boundary of a sector.
@@ -72,15 +69,6 @@ impl Sectored for SectorMesh {
         };
         self.strip.boundaries.iter().filter_map(of).collect()
     }
-
-    fn unheld(&self) -> Self {
-        let mut free = Self { clamped_count: 0, ..self.clone() };
-        free.specification.outer = BoundaryCondition::Free;
-        for boundary in &mut free.strip.boundaries {
-            boundary.condition = BoundaryCondition::Free;
-        }
-        free
-    }
 }
 
 impl Sectored for SolidSector {
@@ -101,12 +89,6 @@ impl Sectored for SolidSector {
 
     fn supports(&self) -> Vec<SectorSupport> {
         supported_faces(self)
-    }
-
-    fn unheld(&self) -> Self {
-        let mut free = self.clone();
-        free.specification.conditions = [BoundaryCondition::Free; 4];
-        free
     }
 }
 

@@ -34,10 +34,7 @@ impl CyclicSystem {
         damping: RayleighDamping,
         is_held: bool,
     ) -> Self {
-        let tangent = match is_held {
-            true => WaveTangent::of_free(sector, material, mass, damping),
-            false => WaveTangent::of_free(&sector.unheld(), material, mass, damping),
-        };
+        let tangent = WaveTangent::of_free(sector, material, mass, damping, is_held);
         Self::sliding(&tangent, 0.0)
     }
 

@@ -5,6 +5,7 @@ use super::wave_terms::{ContactTerms, WaveTerms};
 use super::{PrestressError, SectorSliding, TangentOptions, WaveTangent};
 use crate::contact::{Point, SlidingContact, linearized};
 use crate::fem::fold::SectorMatrix;
+use crate::fem::sector::Sectored;
 use crate::fem::{MaterialField, Triplets};
 use crate::mesh::SectorMesh;
 use std::f64::consts::PI;
@@ -31,7 +32,8 @@ impl WaveTangent {
             terms.turning = edge.turning();
         }
         terms.contact = edge.terms(options);
-        Ok(Self::new(sector, (terms, edge.dofs(options)), options, contact.sliding_direction()))
+        let (own, parts) = ((sector, sector.wave_dofs()), (terms, edge.dofs(options)));
+        Ok(Self::new(own, parts, options, contact.sliding_direction()))
     }
 }
 

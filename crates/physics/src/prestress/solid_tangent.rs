@@ -6,6 +6,7 @@ use super::{PrestressError, SolidSliding, TangentOptions, WaveTangent};
 use crate::contact::{ContactStiffness, SlidingContact};
 use crate::fem::MaterialField;
 use crate::fem::fold::SectorMatrix;
+use crate::fem::sector::Sectored;
 use crate::fem::solid::{FaceRule, FaceTerm, face_matrix};
 use crate::mesh::{FaceElement, SolidSector};
 
@@ -32,8 +33,8 @@ impl WaveTangent {
             terms.turning = turning_forces(sector, &base);
         }
         terms.contact = contact_terms(&base, sector, &options.contact);
-        let parts = (terms, rings(sector, &base, options));
-        Ok(Self::new(sector, parts, options, contact.sliding_direction()))
+        let (own, parts) = ((sector, sector.wave_dofs()), (terms, rings(sector, &base, options)));
+        Ok(Self::new(own, parts, options, contact.sliding_direction()))
     }
 }
 

@@ -69,25 +69,30 @@ pub(super) struct WaveContact {
 }
 
 impl WaveTangent {
-    /// A body without contact and prestress, `C = alpha_R M + beta_R K` and the dashpots of its supports.
+    /// A body without contact and prestress, held by its supports or all of it free, `C = alpha_R M + beta_R K` and the dashpots
+    /// of its supports.
     pub fn of_free<S: Sectored>(
         sector: &S,
         material: &dyn MaterialField,
         mass: MassKind,
         damping: RayleighDamping,
+        is_held: bool,
     ) -> Self {
         let options = TangentOptions::of_free(mass, damping);
-        let terms = WaveTerms::of(sector, material, (mass, damping));
-        Self::new(sector, (terms, WaveContact::default()), &options, 1.0)
+        let mut terms = WaveTerms::of(sector, material, (mass, damping));
+        let mut dofs = sector.wave_dofs();
+        if !is_held {
+            (terms.supports, dofs) = (Vec::new(), dofs.unheld());
+        }
+        Self::new((sector, dofs), (terms, WaveContact::default()), &options, 1.0)
     }
 
     pub(super) fn new<S: Sectored>(
-        sector: &S,
+        (sector, dofs): (&S, WaveDofs),
         (terms, mut contact): (WaveTerms, WaveContact),
         options: &TangentOptions,
         sliding_direction: f64,
     ) -> Self {
-        let dofs = sector.wave_dofs();
         let place = |dof: usize| dofs.unknown_of[dof];
         let is_still = |dof: usize| contact.rigid.iter().any(|(normal, _)| *normal == dof);
         let total = dofs.unknown_of.len();

@@ -64,17 +64,16 @@ impl TransientStudy<'_> {
             // A gap closes as the run moves the body, and other faults stop the run itself.
             _ => None,
         };
-        if let Some(assembly) = &self.stepped.assembly {
-            let range = assembly.range(&[case.contact.sliding.friction_coefficient]);
-            return range.err().and_then(jams);
-        }
-        if !starts_at_rest || case.has_sectors() || case.contact.sliding.rotation_speed == 0.0 {
-            return None;
-        }
-        let (mesh, materials) = (&self.stepped.mesh, case.materials_in_time());
         let (contact, stiffness) = (&case.contact.sliding, case.contact.stiffness);
-        let base = Assembly::of_edge(mesh, materials, contact, stiffness)
-            .and_then(|body| body.state(contact.friction_coefficient));
+        let state = |body: &Assembly<'_>| body.state(contact.friction_coefficient);
+        let (mesh, materials) = (&self.stepped.mesh, case.materials_in_time());
+        let base = match &self.stepped.assembly {
+            Some(assembly) => state(assembly),
+            None if !starts_at_rest || case.has_sectors() || contact.rotation_speed == 0.0 => {
+                return None;
+            }
+            None => Assembly::of_edge(mesh, materials, contact, stiffness).and_then(|b| state(&b)),
+        };
         base.err().and_then(jams)
     }
 
