@@ -1,11 +1,11 @@
 //! `frictionsim cycle`: limit cycles found directly, and followed over a parameter.
 
 use super::session::{available_memory, gibibytes};
-use super::{Failure, ResumedRun, Session, terminal};
+use super::{Failure, ResumedRun, Session, Told, terminal};
 use crate::case::{Case, refusal};
-use crate::results::OutputFolder;
 use crate::results::cea::KeptSteps;
-use crate::results::cycle::{CycleReport, SoughtCycle};
+use crate::results::cycle::{CycleSummary, SoughtCycle};
+use crate::results::{OutputFolder, ShownBody};
 use crate::study::cycle::{CycleStudy, PeriodicStudy, refuse_nothing};
 use serde_json::Value;
 
@@ -43,8 +43,8 @@ fn waves(session: &Session, is_continued: bool) -> Result<(), Failure> {
     let results = study.run(study.choices.frames, &|| bar.inc(1));
     bar.finish_and_clear();
     let two_waves = study.two_waves(&results, &steps);
-    let report = study.report(results, two_waves, session.wall_seconds());
-    let (text, object) = written(session, &folder, &report)?;
+    let found = study.report(results, two_waves);
+    let (text, object) = written(session, &folder, &study.shown(), &found)?;
     steps.discard()?;
     session.options.output.finish(folder, &text, &object)
 }
@@ -60,7 +60,7 @@ fn motions(session: &Session, is_continued: bool) -> Result<(), Failure> {
     let kept_name = |own: &SoughtCycle| format!("done-{}.json", own.name.tag());
     let results = study.run(study.choices.frames, &steps, &|result| {
         bar.inc(1);
-        for own in study.report(vec![result.clone()], 0.0).cycles {
+        for own in study.report(vec![result.clone()]).cycles {
             let kept = folder
                 .write(&kept_name(&own), |out| Ok(serde_json::to_writer_pretty(&mut *out, &own)?));
             if let Err(error) = kept {
@@ -69,10 +69,9 @@ fn motions(session: &Session, is_continued: bool) -> Result<(), Failure> {
         }
     })?;
     bar.finish_and_clear();
-    let report = study.report(results, session.wall_seconds());
-    let kept: Vec<String> = report.cycles.iter().map(kept_name).collect();
-    let (text, object) = written(session, &folder, &report)?;
-    kept.iter().try_for_each(|name| folder.discard(name))?;
+    let found = study.report(results);
+    let (text, object) = written(session, &folder, &study.shown(), &found)?;
+    found.cycles.iter().try_for_each(|own| folder.discard(&kept_name(own)))?;
     steps.discard()?;
     session.options.output.finish(folder, &text, &object)
 }
@@ -81,20 +80,21 @@ fn motions(session: &Session, is_continued: bool) -> Result<(), Failure> {
 fn written(
     session: &Session,
     folder: &OutputFolder,
-    report: &CycleReport<'_>,
+    body: &ShownBody<'_>,
+    found: &CycleSummary,
 ) -> Result<(String, Value), Failure> {
-    refuse_nothing(report)?;
-    for doubt in report.doubts() {
+    let told = Told::of(session.head(), found.document());
+    refuse_nothing(found)?;
+    for doubt in found.doubts() {
         tracing::warn!("{doubt}");
     }
-    let (summary, object) = report.write(folder)?;
-    if let Some(drawing) = session.options.output.drawing() {
+    found.write(folder, body)?;
+    session.options.output.write_result(folder, told, found, || {
         let bodies = session.case.body.assembly().into_iter();
         let surfaces = bodies.flat_map(|body| &body.contacts);
         let surfaces = surfaces.map(|own| (own.name.clone(), own.surface)).collect();
-        report.draw(folder, surfaces, session.case.materials(), &drawing)?;
-    }
-    Ok((summary.document().titled(report.title).to_text(), object))
+        found.figures(body, surfaces, session.case.materials())
+    })
 }
 
 /// Refuses phases whose dense matrices do not fit the machine's memory.

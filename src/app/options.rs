@@ -208,7 +208,23 @@ impl OutputOptions {
         self.print(table, summary, &path)
     }
 
-    /// Writes the tables, the figures, the page and the summary of a result, completes the folder and prints.
+    /// Writes the tables, the figures, the page and the summary of a result; gives what is printed of it, for people
+    /// and as an object.
+    pub fn write_result(
+        &self,
+        folder: &OutputFolder,
+        told: Told<'_>,
+        summary: &impl Serialize,
+        figures: impl FnOnce() -> Vec<Figure>,
+    ) -> Result<(String, Value), Failure> {
+        write_tables(folder, &told.document)?;
+        if let Some(options) = self.drawing() {
+            write_page(folder, told.document, figures(), &options)?;
+        }
+        Ok((told.text, write_summary(folder, told.head, summary)?))
+    }
+
+    /// The same, completes the folder and prints.
     pub fn finish_result(
         &self,
         folder: OutputFolder,
@@ -216,12 +232,8 @@ impl OutputOptions {
         summary: &impl Serialize,
         figures: impl FnOnce() -> Vec<Figure>,
     ) -> Result<(), Failure> {
-        write_tables(&folder, &told.document)?;
-        if let Some(options) = self.drawing() {
-            write_page(&folder, told.document, figures(), &options)?;
-        }
-        let object = write_summary(&folder, told.head, summary)?;
-        self.finish(folder, &told.text, &object)
+        let (text, object) = self.write_result(&folder, told, summary, figures)?;
+        self.finish(folder, &text, &object)
     }
 
     /// Says what a run would do; the end of a dry run.

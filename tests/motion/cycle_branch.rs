@@ -83,9 +83,9 @@ fn cycles_beside_stable_sliding_are_found_from_where_a_mode_grows() {
     let results = study.run(0, &Unwatched, &|_| {}).unwrap();
     assert_eq!(results[0].name.sought_from, Some(0.2));
     let motion = &results[0].outcome.as_ref().unwrap().motion;
-    let report = study.report(results.clone(), 0.0);
-    assert!(report.is_stable() && report.stable_sliding().is_none());
-    has(&report.summary().notes[0], &["contact.speed = 0.2, since none grows"]);
+    let report = study.report(results.clone());
+    assert!(report.steady_sliding_stable && report.stable_sliding().is_none());
+    has(&report.notes[0], &["contact.speed = 0.2, since none grows"]);
     // Between the case's own speed and that at which a mode grows: the onset beside the branch.
     let critical = report.critical.unwrap();
     assert_eq!(critical.parameter, Parameter::Speed);

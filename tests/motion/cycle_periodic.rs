@@ -134,7 +134,7 @@ fn a_branch_of_cycles_goes_from_neighbour_to_neighbour() {
 fn below_the_onset_steady_sliding_is_said_to_be_stable() {
     let case = block(&["contact.friction_coefficient=0.5"]);
     let study = PeriodicStudy::new(&case, SimdLevel::detect()).unwrap();
-    let report = study.report(study.run(0, &Unwatched, &|_| {}).unwrap(), 0.0);
+    let report = study.report(study.run(0, &Unwatched, &|_| {}).unwrap());
     assert!(refuse_nothing(&report).is_ok());
     let text = report.stable_sliding().unwrap();
     has(&text, &["as far as 10 modes", "stable at friction 0.5"]);
@@ -164,7 +164,7 @@ fn the_critical_damping_of_stable_sliding_is_where_the_onset_is_the_friction() {
             ],
         );
         let study = CycleStudy::new(&case, SimdLevel::detect()).unwrap();
-        let report = study.report(Vec::new(), Vec::new(), 0.0);
+        let report = study.report(Vec::new(), Vec::new());
         let Origin::Waves { lowest_onset } = report.origin else {
             panic!("a disc");
         };

@@ -8,7 +8,7 @@ use super::{StudyError, basin};
 use frictionsim_case::{Analysis, Case};
 use frictionsim_physics::cea::Unwatched;
 use frictionsim_physics::fem::operator::SimdLevel;
-use frictionsim_results::cycle::{CycleReport, CycleSummary};
+use frictionsim_results::cycle::CycleSummary;
 use frictionsim_results::{self, Head, Manifest, object};
 use serde::Serialize;
 use serde_json::Value;
@@ -66,22 +66,19 @@ fn transient(case: &Case, manifest: &Manifest) -> Result<Value, StudyError> {
 pub(super) fn cycle(
     case: &Case,
     manifest: &Manifest,
-    judge: impl Fn(&CycleReport<'_>) -> Result<(), StudyError>,
+    judge: impl Fn(&CycleSummary) -> Result<(), StudyError>,
 ) -> Result<Value, StudyError> {
     let start = Instant::now();
     let simd = SimdLevel::choose(&manifest.simd)?;
-    let wall = || start.elapsed().as_secs_f64();
-    let told = |report: &CycleReport<'_>| -> Result<Value, StudyError> {
-        judge(report)?;
-        let curves = Some(report.curves());
-        let head = Head::of(report.title, report.wall_s);
-        told("cycle", head, &CycleSummary { curves, ..report.summary() })
-    };
-    if case.has_rotating_waves() {
+    let found = if case.has_rotating_waves() {
         let study = CycleStudy::new(case, simd)?;
-        let results = study.run(0, &|| {});
-        return told(&study.report(results, Vec::new(), wall()));
-    }
-    let study = PeriodicStudy::new(case, simd)?;
-    told(&study.report(study.run(0, &Unwatched, &|_| {})?, wall()))
+        study.report(study.run(0, &|| {}), Vec::new())
+    } else {
+        let study = PeriodicStudy::new(case, simd)?;
+        study.report(study.run(0, &Unwatched, &|_| {})?)
+    };
+    let head = Head::of(&case.title, start.elapsed().as_secs_f64());
+    judge(&found)?;
+    let curves = Some(found.families());
+    told("cycle", head, &CycleSummary { curves, ..found })
 }

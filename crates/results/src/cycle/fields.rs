@@ -1,46 +1,46 @@
 //! Whole fields of limit cycles, for ParaView.
 
-use super::CycleReport;
 use super::motions::encode_contact;
+use super::summary::CycleSummary;
+use crate::ShownBody;
 use crate::folder::{FolderError, OutputFolder};
 use crate::pvd::{PvdEntry, write_pvd};
 use crate::vtu::{EncodedMesh, Field, write_vtu};
+use frictionsim_physics::contact::ContactInterface;
 use frictionsim_physics::cycle::periodic::MotionFrame;
-use std::cell::LazyCell;
+use std::cell::OnceCell;
 use std::io;
-use std::ops::Deref;
 
 /// Writes each frame as a VTU file, `cycles.pvd` over the waves at time zero and, where there are several frames,
 /// `cycle-TAG.pvd` over the time; of a motion of two waves likewise `two-waves-nN-nM.vtu`, over one period of the
 /// first. Of a motion of the whole mesh its contact comes with them, `contact-TAG.npz`.
 pub(super) fn write_fields(
     folder: &OutputFolder,
-    report: &CycleReport<'_>,
+    body: &ShownBody<'_>,
+    found: &CycleSummary,
 ) -> Result<(), FolderError> {
-    let mesh = LazyCell::new(|| report.body.encoded());
-    let write = |stem: &str, group: &str, frames: &[MotionFrame]| {
-        report.write_frames(folder, &mesh, (stem, group), frames)
-    };
+    let fields = Fields { folder, body, interface: found.interface(), mesh: OnceCell::new() };
     let mut waves = Vec::new();
-    for (place, sought) in report.cycles.iter().enumerate() {
+    for (place, sought) in found.cycles.iter().enumerate() {
         let Some(own) = &sought.record else {
             continue;
         };
         let tag = own.name.tag();
-        if let Some(interface) = report.interface() {
+        if let Some(interface) = fields.interface {
             folder.write_bulk(&format!("contact-{tag}.npz"), |out| {
                 out.write_all(&encode_contact(interface, &own.instants)?)
             })?;
         }
         let group = format!("limit cycle of {}", own.whose());
-        let first = write(&format!("cycle-{tag}"), &group, &own.frames)?.filter(|_| own.is_wave());
+        let first = fields.write(&format!("cycle-{tag}"), &group, &own.frames)?;
+        let first = first.filter(|_| own.is_wave());
         waves.extend(first.map(|own| PvdEntry { time: (place + 1) as f64, ..own }));
     }
-    for own in &report.two_waves {
+    for own in &found.two_waves {
         let [first, second] = own.harmonics;
         let group = format!("waves of {first} and {second} nodal diameters together");
         let stem = format!("two-waves-n{first}-n{second}");
-        write(&stem, &group, &own.frames)?;
+        fields.write(&stem, &group, &own.frames)?;
     }
     if !waves.is_empty() {
         folder.write("cycles.pvd", |out| write_pvd(out, &waves))?;
@@ -48,14 +48,23 @@ pub(super) fn write_fields(
     Ok(())
 }
 
-impl CycleReport<'_> {
+/// The body whose fields go to a folder.
+struct Fields<'a> {
+    folder: &'a OutputFolder,
+    body: &'a ShownBody<'a>,
+    /// The contact of motions of the whole mesh.
+    interface: Option<&'a ContactInterface>,
+    /// Its mesh, once there is a field.
+    mesh: OnceCell<io::Result<EncodedMesh>>,
+}
+
+impl Fields<'_> {
     /// Writes the frames of one motion of the `group`, whose files begin with `stem`, and of several a list over the
     /// time; gives the first.
-    fn write_frames(
+    fn write(
         &self,
-        folder: &OutputFolder,
-        mesh: &dyn Deref<Target = io::Result<EncodedMesh>>,
-        (stem, group): (&str, &str),
+        stem: &str,
+        group: &str,
         frames: &[MotionFrame],
     ) -> Result<Option<PvdEntry>, FolderError> {
         let mut entries = Vec::new();
@@ -64,7 +73,8 @@ impl CycleReport<'_> {
                 0 => format!("{stem}.vtu"),
                 _ => format!("{stem}-{i:03}.vtu"),
             };
-            folder.write(&name, |out| {
+            self.folder.write(&name, |out| {
+                let mesh = self.mesh.get_or_init(|| self.body.encoded());
                 let mesh = mesh.as_ref().map_err(|error| io::Error::from(error.kind()))?;
                 let whole = [Field::number("time_s", frame.time)];
                 write_vtu(out, mesh, &whole, &self.frame_fields(frame), &[])
@@ -72,7 +82,7 @@ impl CycleReport<'_> {
             entries.push(PvdEntry { time: frame.time, group: group.to_owned(), file: name });
         }
         if entries.len() > 1 {
-            folder.write(&format!("{stem}.pvd"), |out| write_pvd(out, &entries))?;
+            self.folder.write(&format!("{stem}.pvd"), |out| write_pvd(out, &entries))?;
         }
         Ok(entries.into_iter().next())
     }
@@ -84,7 +94,7 @@ impl CycleReport<'_> {
             self.body.vectors("displacement_m", displacement),
             self.body.vectors("velocity_m_per_s", velocity),
         ];
-        if let (Some(contact), Some(interface)) = (&frame.contact, self.interface()) {
+        if let (Some(contact), Some(interface)) = (&frame.contact, self.interface) {
             let count = displacement.len() / if self.body.is_solid() { 3 } else { 2 };
             let tractions = [&contact.pressure[..], &contact.shear];
             let statuses = contact.status.iter().copied();

@@ -1,7 +1,8 @@
 //! The figures of limit cycles, from their record.
 
-use super::CycleReport;
+use super::CycleSummary;
 use super::record::MotionRecord;
+use crate::ShownBody;
 use crate::charts::palette::status_ground;
 use crate::charts::{
     ContactInstant, ContactVelocity, MovingBody, contact_figure, contact_surfaces, place_axis,
@@ -29,7 +30,9 @@ const ROUND_OFF: f64 = 1e-9;
 /// Limit cycles and what their figures show besides.
 pub(super) struct CycleFigures<'a> {
     /// What was found.
-    report: &'a CycleReport<'a>,
+    found: &'a CycleSummary,
+    /// The body that moves.
+    body: &'a ShownBody<'a>,
     /// What is shown of each cycle.
     cycles: Vec<&'a MotionRecord>,
     /// The contacts of an assembly, each with the boundary that has its points.
@@ -41,12 +44,14 @@ pub(super) struct CycleFigures<'a> {
 impl<'a> CycleFigures<'a> {
     /// Those of a search; `surfaces` are the contacts of an assembly, each with the boundary that has its points.
     pub(super) fn new(
-        report: &'a CycleReport<'a>,
+        found: &'a CycleSummary,
+        body: &'a ShownBody<'a>,
         surfaces: Vec<(String, usize)>,
         materials: &'a dyn MaterialField,
     ) -> Self {
-        let cycles = report.records().filter(|own| !own.frames.is_empty()).collect();
-        Self { report, cycles, surfaces, materials }
+        let cycles = found.cycles.iter().filter_map(|own| own.record.as_deref());
+        let cycles = cycles.filter(|own| !own.frames.is_empty()).collect();
+        Self { found, body, cycles, surfaces, materials }
     }
 
     /// Draws the cycles: contact over the period and at one instant, history, closed curves and harmonics of each, then
@@ -67,23 +72,23 @@ impl<'a> CycleFigures<'a> {
 
     /// Nodes of the contact of motions of the whole mesh, counted from 0.
     fn nodes(&self) -> &[u32] {
-        self.report.interface().map_or(&[], |interface| &interface.nodes)
+        self.found.interface().map_or(&[], |interface| &interface.nodes)
     }
 
     /// Where the shown contact nodes are.
     fn places(&self) -> Axis {
-        match self.report.body.is_assembly() {
+        match self.body.is_assembly() {
             true => {
                 Axis::new("contact nodes in their order", "%").times(100.0 / TAU).between(0.0, TAU)
             }
-            false => place_axis(self.report.body.mesh.has_round_contact()),
+            false => place_axis(self.body.mesh.has_round_contact()),
         }
     }
 
     /// The status of all contact nodes over one period; that of a wave is its history.
     fn status(&self, motion: &MotionRecord) -> Figure {
         let times = motion.over_time(|row| row.time);
-        let statuses = motion.instants.iter().flat_map(|at| self.report.body.shown(&at.status));
+        let statuses = motion.instants.iter().flat_map(|at| self.body.shown(&at.status));
         let codes: Vec<u8> = statuses.map(|own| own as u8).collect();
         let range = (times[0], times[times.len() - 1]);
         let map = status_map(&times, codes.len() / times.len(), &codes, range);
@@ -99,7 +104,7 @@ impl<'a> CycleFigures<'a> {
     /// The contact at time zero; of a wave around the whole circle, where a node at angle `theta` is in phase `n
     /// theta`.
     fn at_one_instant(&self, motion: &MotionRecord) -> Figure {
-        let body = &self.report.body;
+        let body = self.body;
         if body.is_assembly() {
             return self.on_surfaces(motion);
         }
@@ -110,7 +115,7 @@ impl<'a> CycleFigures<'a> {
         let turns = format!("; the pattern turns against the rotor at 1/{n} of the frequency");
         let (turns, wave) =
             if motion.is_wave() { (turns, ", wave ↻") } else { (String::new(), "") };
-        let angles = self.report.interface().map_or(&[][..], |interface| &interface.angles);
+        let angles = self.found.interface().map_or(&[][..], |interface| &interface.angles);
         let shown = ContactInstant {
             name: format!("contact-{}", motion.name.tag()),
             subject: [format!("Limit cycle of {} at one instant", motion.whose()), turns],
@@ -125,7 +130,7 @@ impl<'a> CycleFigures<'a> {
 
     /// Pressure on each contact surface at time zero, seen from outside along its mean normal; grey where it is open.
     fn on_surfaces(&self, motion: &MotionRecord) -> Figure {
-        let mut values = vec![f64::NAN; self.report.body.mesh.node_count()];
+        let mut values = vec![f64::NAN; self.body.mesh.node_count()];
         let closed = self.nodes().iter().zip(&motion.edge);
         for (&node, point) in closed.filter(|own| own.1.status != ContactStatus::Open) {
             values[node as usize] = point.pressure;
@@ -139,13 +144,13 @@ impl<'a> CycleFigures<'a> {
             motion.whose()
         );
         let name = format!("contact-{}", motion.name.tag());
-        let surfaces = (self.report.body.mesh, &self.surfaces[..]);
+        let surfaces = (self.body.mesh, &self.surfaces[..]);
         contact_surfaces((&name, &caption), surfaces, (&values, &[]), &axis)
     }
 
     /// Speed of the counterface at the shown contact nodes, m/s: it grows with the radius.
     fn shown_speed(&self, motion: &MotionRecord) -> f64 {
-        let Some(sector) = self.report.body.sector else {
+        let Some(sector) = self.body.sector else {
             return motion.counterface_speed;
         };
         let radius = |ring: usize| sector.rings[ring].radius;
@@ -158,7 +163,7 @@ impl<'a> CycleFigures<'a> {
         match self.nodes().get(motion.node) {
             None => "a contact node".to_owned(),
             Some(&node) => {
-                format!("contact node {}", self.report.body.mesh.node_label(node as usize))
+                format!("contact node {}", self.body.mesh.node_label(node as usize))
             }
         }
     }
@@ -175,7 +180,7 @@ impl<'a> CycleFigures<'a> {
             repeated.panel(metres, 62.0, caption).layer(line(of, INK))
         };
         // What a node that sticks moves with, and the limits of friction, where they are numbers.
-        let counterface = (self.report.body.mesh.opposite.is_none())
+        let counterface = (self.body.mesh.opposite.is_none())
             .then(|| Rule::horizontal(motion.counterface_speed).stretching().name("counterface"));
         let limit = |sign: f64| {
             let friction = sign * motion.friction_coefficient.unwrap_or(f64::NAN);
@@ -240,7 +245,7 @@ impl<'a> CycleFigures<'a> {
 
     /// Contact status at time zero of every node of the edge; of a wave that of the nearest phase.
     fn around(&self, motion: &MotionRecord) -> Vec<ContactStatus> {
-        let nodes = self.report.body.mesh.contact_edge().nodes.len();
+        let nodes = self.body.mesh.contact_edge().nodes.len();
         let points = motion.edge.len().max(1);
         let nearest =
             |node: usize| (2 * motion.diameters() * node * points + nodes) / (2 * nodes) % points;
@@ -257,7 +262,7 @@ impl<'a> CycleFigures<'a> {
 
     /// The waves in motion, without the steady state that they ride on.
     fn turning(&self) -> Motion {
-        let body = MovingBody::new(self.report.body.mesh);
+        let body = MovingBody::new(self.body.mesh);
         let states = self.shown_cycles().map(|wave| MotionState {
             name: plain(&wave.heading()),
             frequency_hz: wave.frequency_hz,
@@ -274,7 +279,7 @@ impl<'a> CycleFigures<'a> {
         let cycles = self.shown_cycles();
         let fields = cycles
             .map(|motion| (motion.heading(), &motion.frames[0].fields[1][..], self.around(motion)));
-        let figure = velocity_figure(&self.report.body, (WHEN, 0.0), fields);
+        let figure = velocity_figure(self.body, (WHEN, 0.0), fields);
         let is_wave = self.cycles.iter().any(|own| own.is_wave());
         if is_wave { figure.motion(self.turning()) } else { figure }
     }
@@ -282,7 +287,7 @@ impl<'a> CycleFigures<'a> {
     fn shear_stress(&self) -> Option<Figure> {
         let cycles = self.shown_cycles();
         let fields = cycles.map(|motion| (motion.heading(), &motion.frames[0].fields[0][..]));
-        shear_stress_figure(&self.report.body, self.materials, WHEN, fields)
+        shear_stress_figure(self.body, self.materials, WHEN, fields)
     }
 }
 

@@ -9,6 +9,7 @@ use crate::extent::Extent;
 use crate::summary::CriticalSummary;
 use frictionsim_output::Described;
 use frictionsim_physics::contact::ContactInterface;
+use frictionsim_physics::cycle::CriticalValue;
 use serde::Serialize;
 use std::sync::Arc;
 
@@ -36,6 +37,61 @@ pub struct CycleSummary {
     /// The branches, where no tables hold them: at a point of a study.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub curves: Option<Vec<FamilyRecord>>,
+    /// Friction coefficient of the case.
+    #[serde(skip)]
+    pub friction_coefficient: f64,
+    /// What `critical_value` tells.
+    #[serde(skip)]
+    pub critical: Option<CriticalValue>,
+}
+
+impl CycleSummary {
+    /// Of what a search has led to, with what is to be said of it.
+    pub fn new(
+        origin: Origin,
+        critical: Option<CriticalValue>,
+        (friction_coefficient, extent): (f64, Extent),
+        cycles: Vec<SoughtCycle>,
+        two_waves: Vec<TwoWaveSummary>,
+    ) -> Self {
+        let steady_sliding_stable = match &origin {
+            Origin::Waves { lowest_onset } => {
+                cycles.iter().all(|own| own.absent.is_some())
+                    && lowest_onset
+                        .is_none_or(|onset| onset.critical_friction >= friction_coefficient)
+            }
+            Origin::Modes { least_stable, .. } => {
+                least_stable.is_none_or(|mode| mode.growth_rate_per_s <= 0.0)
+            }
+        };
+        let own = Self {
+            steady_sliding_stable,
+            origin,
+            critical_value: critical.map(CriticalSummary::from),
+            extent,
+            cycles,
+            two_waves,
+            notes: Vec::new(),
+            curves: None,
+            friction_coefficient,
+            critical,
+        };
+        Self { notes: own.said(), ..own }
+    }
+
+    /// The branches, for a study that writes no tables of them.
+    pub fn families(&self) -> Vec<FamilyRecord> {
+        let families = self.cycles.iter().map(|own| own.family(self.extent));
+        families.filter(|own| own.mode.is_none() || own.branch.is_some()).collect()
+    }
+
+    /// The contact of motions of the whole mesh.
+    pub(super) fn interface(&self) -> Option<&ContactInterface> {
+        match &self.origin {
+            Origin::Modes { interface, .. } => Some(interface),
+            Origin::Waves { .. } => None,
+        }
+    }
 }
 
 /// What a search has started from.

@@ -2,9 +2,8 @@
 
 use super::branch::{BranchSummary, StabilityChangeSummary};
 use super::name::{ModeSummary, OnsetSummary};
-use super::summary::SoughtCycle;
+use super::summary::{CycleSummary, Origin, SoughtCycle};
 use super::verdicts::{ConfirmationSummary, StabilitySummary};
-use super::{CycleReport, Origin};
 use frictionsim_output::significant;
 use frictionsim_physics::cycle::periodic::ASTRAY;
 
@@ -13,9 +12,9 @@ fn listed(values: &[f64]) -> Vec<String> {
     values.iter().map(|&value| significant(value, 5)).collect()
 }
 
-impl CycleReport<'_> {
+impl CycleSummary {
     /// Where the cycles come from, or that steady sliding is stable, and what powers are of.
-    pub(super) fn notes(&self) -> Vec<String> {
+    pub(super) fn said(&self) -> Vec<String> {
         let critical = self.critical.filter(|_| !self.has_nothing());
         let critical = critical.map(|at| format!("Steady sliding loses its stability at {at}."));
         let extent = self.extent.note().map(|note| format!("{note}."));
@@ -38,7 +37,7 @@ impl CycleReport<'_> {
 
     /// Whether nothing was sought since steady sliding is stable.
     fn has_nothing(&self) -> bool {
-        self.is_stable()
+        self.steady_sliding_stable
             && match &self.origin {
                 Origin::Waves { .. } => true,
                 Origin::Modes { .. } => self.cycles.is_empty(),
@@ -47,7 +46,7 @@ impl CycleReport<'_> {
 
     fn of_waves(&self, lowest_onset: Option<&OnsetSummary>) -> String {
         let friction = self.friction_coefficient;
-        if !self.is_stable() {
+        if !self.steady_sliding_stable {
             return "Waves that turn against the rotor without changing their shape.".to_owned();
         }
         let Some(onset) = lowest_onset else {

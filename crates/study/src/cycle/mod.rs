@@ -37,7 +37,7 @@ use frictionsim_physics::fem::operator::SimdLevel;
 use frictionsim_physics::mesh::AnnulusMesh;
 use frictionsim_results::ShownBody;
 use frictionsim_results::cycle::{
-    Absence, CycleReport, CycleResult, FoundWave, OnsetSummary, Origin, SoughtCycle,
+    Absence, CycleResult, CycleSummary, FoundWave, OnsetSummary, Origin, SoughtCycle,
     TwoWaveSummary, WaveOfCycle, known,
 };
 use std::time::Instant;
@@ -130,26 +130,22 @@ impl<'a> CycleStudy<'a> {
         (sums[0] / sums[1]).sqrt()
     }
 
+    /// The body as results show it.
+    pub fn shown(&self) -> ShownBody<'_> {
+        ShownBody { mesh: &self.annulus.mesh, sector: None }
+    }
+
     /// Everything that there is to report of the results.
     pub fn report(
         &self,
         results: Vec<CycleResult>,
         two_waves: Vec<TwoWaveSummary>,
-        wall_s: f64,
-    ) -> CycleReport<'_> {
+    ) -> CycleSummary {
         let (thickness, radius) = (self.case.thickness, self.annulus.specification.inner_radius);
-        let cycles = results.into_iter().map(|own| own.sought(thickness, radius));
-        CycleReport {
-            title: &self.case.title,
-            body: ShownBody { mesh: &self.annulus.mesh, sector: None },
-            extent: extent_of(self.case),
-            friction_coefficient: self.point.contact.friction_coefficient,
-            critical: self.critical,
-            origin: Origin::Waves { lowest_onset: self.onsets.first().map(OnsetSummary::from) },
-            cycles: cycles.collect(),
-            two_waves,
-            wall_s,
-        }
+        let cycles = results.into_iter().map(|own| own.sought(thickness, radius)).collect();
+        let origin = Origin::Waves { lowest_onset: self.onsets.first().map(OnsetSummary::from) };
+        let own = (self.point.contact.friction_coefficient, extent_of(self.case));
+        CycleSummary::new(origin, self.critical, own, cycles, two_waves)
     }
 
     fn onsets_of(&self, harmonic: usize) -> Vec<Onset> {
@@ -231,9 +227,9 @@ pub fn limit_cycle(case: &Case, family: Family) -> Result<(CycleSolver, LimitCyc
 ///
 /// # Errors
 /// [`StudyError::NoCycle`].
-pub fn refuse_nothing(report: &CycleReport<'_>) -> Result<(), StudyError> {
-    let cycles = &report.cycles;
-    if report.is_stable() || cycles.iter().any(|own| own.cycle.is_some()) {
+pub fn refuse_nothing(found: &CycleSummary) -> Result<(), StudyError> {
+    let cycles = &found.cycles;
+    if found.steady_sliding_stable || cycles.iter().any(|own| own.cycle.is_some()) {
         return Ok(());
     }
     let reason = |own: &SoughtCycle| {

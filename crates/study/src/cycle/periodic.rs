@@ -19,8 +19,9 @@ use frictionsim_physics::cycle::periodic::{
 use frictionsim_physics::cycle::{Confirmation, CriticalValue, CycleError, Parameter};
 use frictionsim_physics::fem::operator::{SimdLevel, StiffnessOperator};
 use frictionsim_physics::transient::{OperatorChoice, TransientError, TransientModel};
+use frictionsim_results::ShownBody;
 use frictionsim_results::cycle::{
-    CycleReport, FoundCycle, ModeOfCycle, ModeSummary, MotionBody, Origin, PeriodicResult,
+    CycleSummary, FoundCycle, ModeOfCycle, ModeSummary, MotionBody, Origin, PeriodicResult,
 };
 use std::time::Instant;
 
@@ -298,28 +299,25 @@ impl<'a> PeriodicStudy<'a> {
     }
 
     /// Everything that there is to report of the results.
-    pub fn report(&self, results: Vec<PeriodicResult>, wall_s: f64) -> CycleReport<'_> {
+    pub fn report(&self, results: Vec<PeriodicResult>) -> CycleSummary {
         let interface = self.body().interface();
-        let (shown, thickness) = (self.stepped.shown(), self.case.depth());
+        let (shown, thickness) = (self.shown(), self.case.depth());
         let body = MotionBody { shown, interface: &interface, thickness };
         let cycles = results.into_iter().map(|own| own.sought(&body)).collect();
-        CycleReport {
-            title: &self.case.title,
-            body: shown,
-            extent: extent_of(self.case),
-            friction_coefficient: self.case.contact.sliding.friction_coefficient,
-            critical: self.critical,
-            origin: Origin::Modes {
-                modes: self.steady.modes.len(),
-                highest_hz: self.steady.modes.last().map_or(0.0, ComplexMode::frequency_hz),
-                least_stable: self.least_stable,
-                start: self.named_start(),
-                interface,
-            },
-            cycles,
-            two_waves: Vec::new(),
-            wall_s,
-        }
+        let origin = Origin::Modes {
+            modes: self.steady.modes.len(),
+            highest_hz: self.steady.modes.last().map_or(0.0, ComplexMode::frequency_hz),
+            least_stable: self.least_stable,
+            start: self.named_start(),
+            interface,
+        };
+        let own = (self.case.contact.sliding.friction_coefficient, extent_of(self.case));
+        CycleSummary::new(origin, self.critical, own, cycles, Vec::new())
+    }
+
+    /// The body as results show it.
+    pub fn shown(&self) -> ShownBody<'_> {
+        self.stepped.shown()
     }
 }
 
