@@ -17,7 +17,7 @@ use frictionsim_case::Case;
 use frictionsim_physics::cycle::BasinBoundary;
 use frictionsim_physics::fem::operator::SimdLevel;
 use frictionsim_results::Manifest;
-use frictionsim_results::basin::{BasinSummary, Rivals};
+use frictionsim_results::basin::BasinSummary;
 
 /// Bisects for the amplitude ratio at saturation that decides between the two rivals of `[basin]`.
 ///
@@ -28,19 +28,18 @@ pub fn boundary(case: &Case, simd: SimdLevel) -> Result<BasinBoundary, StudyErro
     Ok(contest(case, simd)?.1)
 }
 
-/// The rivals and the boundary between them.
-fn contest(case: &Case, simd: SimdLevel) -> Result<(Rivals, BasinBoundary), StudyError> {
+/// The rivals, nodal diameters of waves or numbers of modes, and the boundary between them.
+fn contest(case: &Case, simd: SimdLevel) -> Result<([usize; 2], BasinBoundary), StudyError> {
     let request = case.require_basin()?;
     if !case.has_rotating_waves() {
-        let (modes, found) = boundary_of_modes(case, request, simd)?;
-        return Ok((Rivals::Modes(modes), found));
+        return boundary_of_modes(case, request, simd);
     }
     let found = disc_model(case)?.basin(&operating_point(case), request, simd)?;
-    Ok((Rivals::Waves(request.harmonics), found))
+    Ok((request.harmonics, found))
 }
 
 /// As [`boundary`], in the words of its results.
 pub fn summary(case: &Case, manifest: &Manifest) -> Result<BasinSummary, StudyError> {
     let (rivals, found) = contest(case, SimdLevel::choose(&manifest.simd)?)?;
-    Ok(BasinSummary::new(rivals, &found))
+    Ok(BasinSummary::new(rivals, !case.has_rotating_waves(), found))
 }

@@ -12,15 +12,6 @@ use serde::Serialize;
 
 pub use map::basin_map;
 
-/// What competes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Rivals {
-    /// Two waves, by their nodal diameters.
-    Waves([usize; 2]),
-    /// Two modes of a body without symmetry by their numbers, 0 for steady sliding.
-    Modes([usize; 2]),
-}
-
 /// `summary.json` of a basin.
 #[derive(Clone, Debug, Described, Serialize)]
 pub struct BasinSummary {
@@ -40,22 +31,18 @@ pub struct BasinSummary {
 }
 
 impl BasinSummary {
-    /// The summary of a boundary.
-    pub fn new(rivals: Rivals, found: &BasinBoundary) -> Self {
+    /// The summary of the boundary between two rivals, which are waves or modes.
+    pub fn new(rivals: [usize; 2], of_modes: bool, found: BasinBoundary) -> Self {
         let winners = found.runs.iter().map(|run| run.winner);
         let first = found.runs.first().map(|run| run.winner);
         let alone = first.filter(|first| winners.clone().all(|winner| winner == *first));
-        let (harmonics, of_modes) = match rivals {
-            Rivals::Waves(harmonics) => (harmonics, false),
-            Rivals::Modes(modes) => (modes, true),
-        };
         Self {
-            harmonics,
+            harmonics: rivals,
             of_modes,
             winner: alone,
             boundary: Bounds { low: found.low, high: found.high },
             transients: found.runs.len(),
-            runs: found.runs.clone(),
+            runs: found.runs,
         }
     }
 
