@@ -114,16 +114,24 @@ fn powers<'a>(
 /// Node, direction and place of every unknown.
 fn unknowns(mesh: &Mesh, tangent: &SlidingTangent) -> Vec<ExportedUnknown> {
     let distances: BTreeSet<usize> = tangent.distances.iter().map(|own| own.0).collect();
-    let unknown = |&dof: &usize| {
+    let unknown = |(unknown, &dof): (usize, &usize)| {
         let (node, axis) = (dof / mesh.dimension, dof % mesh.dimension);
+        let direction: [f64; 3] = mesh.frame(node).column(axis).into_owned().into();
+        let ([direction_x, direction_y, direction_z], [x_m, y_m, z_m]) =
+            (direction, mesh.nodes[node]);
         ExportedUnknown {
+            unknown,
             node: mesh.node_label(node),
-            is_distance: distances.contains(&dof),
-            direction: mesh.frame(node).column(axis).into_owned().into(),
-            place: mesh.nodes[node],
+            kind: if distances.contains(&dof) { "distance" } else { "displacement" },
+            direction_x,
+            direction_y,
+            direction_z,
+            x_m,
+            y_m,
+            z_m,
         }
     };
-    tangent.unknowns.dofs.iter().map(unknown).collect()
+    tangent.unknowns.dofs.iter().enumerate().map(unknown).collect()
 }
 
 /// The contact points and their motion along the normal and along the sliding. In rigid contact the normal motion of a

@@ -4,6 +4,7 @@ mod spectrum;
 
 pub use spectrum::{FreeSpectrum, FreeSpectrumSummary};
 
+use super::finding::finding;
 use super::folder::{FolderError, OutputFolder};
 use super::framed::write_json;
 use super::npz::NpzArchive;
@@ -78,17 +79,20 @@ impl Described for MatrixRole {
     }
 }
 
-/// One unknown.
-#[derive(Clone, Debug, PartialEq)]
-pub struct ExportedUnknown {
-    /// Number of its node as the user knows it.
-    pub node: usize,
-    /// Whether it is the distance of the node from the opposite body, not its own displacement.
-    pub is_distance: bool,
-    /// Direction of the motion, global axes.
-    pub direction: [f64; 3],
-    /// Place of the node, m.
-    pub place: [f64; 3],
+finding! {
+    /// One unknown. Its node has the number that the user knows, its direction is along global axes.
+    #[derive(Clone, Debug, PartialEq)]
+    ExportedUnknown, UNKNOWN {
+        unknown: usize = "row and column of the matrices, from 0";
+        node: usize = "number of its node";
+        kind: &'static str = "displacement, or distance from the opposite body";
+        direction_x: f64 = "direction of the motion";
+        direction_y: f64 = "direction of the motion";
+        direction_z: f64 = "direction of the motion";
+        x_m: f64 = "place of the node";
+        y_m: f64 = "place of the node";
+        z_m: f64 = "place of the node";
+    }
 }
 
 /// One contact point.
@@ -275,7 +279,7 @@ pub fn write_matrices(
     if system.is_at_one_friction {
         return Ok(());
     }
-    let unknowns = system.unknowns.iter().cloned().enumerate();
+    let unknowns = system.unknowns.iter().cloned();
     folder.write(UNKNOWNS, |out| write_rows(out, UNKNOWN, unknowns))?;
     let points = if system.dimension == 3 { SOLID_POINT } else { PLANE_POINT };
     let contact = system.contact.iter().cloned().enumerate();
@@ -289,24 +293,6 @@ pub fn write_matrices(
         }
         write_json(out, &description)
     })
-}
-
-/// Its place among all, from 0, and an unknown.
-type UnknownRow = (usize, ExportedUnknown);
-
-columns! {
-    /// An unknown.
-    pub(super) UNKNOWN: row as UnknownRow;
-    unknown: "row and column of the matrices, from 0" = row.0;
-    node: "number of its node" = row.1.node;
-    kind: "displacement, or distance from the opposite body"
-        = if row.1.is_distance { "distance" } else { "displacement" };
-    direction_x: "direction of the motion" = row.1.direction[0];
-    direction_y: "direction of the motion" = row.1.direction[1];
-    direction_z: "direction of the motion" = row.1.direction[2];
-    x_m: "place of the node" = row.1.place[0];
-    y_m: "place of the node" = row.1.place[1];
-    z_m: "place of the node" = row.1.place[2];
 }
 
 /// Its place among all, from 0, and a contact point.
