@@ -30,7 +30,7 @@ fn the_cycle_of_a_pad_on_a_disc_is_that_of_its_transient() {
     assert!(motion.shares.iter().any(lifts), "{:?}", motion.shares);
     // Sound of the two faces of the disc and what is flat of the pad.
     let sound = cycle.sound.as_ref().unwrap();
-    assert!(sound.power() > 0.0 && sound.area > 0.02, "{sound:?}");
+    assert!(sound.power_w > 0.0 && sound.area_m2 > 0.02, "{sound:?}");
 }
 
 /// A body of revolution in three dimensions, whose friction is a vector on a ring: its transient grows into a rotating wave.

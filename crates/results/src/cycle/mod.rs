@@ -24,7 +24,7 @@ pub use branches::draw_branches;
 pub use motions::{FoundCycle, MotionBody, PeriodicResult};
 pub use name::*;
 pub(super) use record::CONTACT_NODES;
-pub use record::{CycleMotion, SoundSummary, SteppedMotion};
+pub use record::{CycleMotion, SteppedMotion};
 pub use summary::*;
 pub(super) use tables::{
     BALANCE, ERRORS, HARMONICS, HISTORY, KNOWN, MOTION, NAMES, PATH, POWERS, WAVE_PATH,

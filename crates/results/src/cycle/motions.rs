@@ -2,7 +2,7 @@
 
 use super::branch::{BranchRow, BranchSummary, MotionBranch, StabilityChangeSummary};
 use super::name::{CycleName, ModeOfCycle};
-use super::record::{ContactNode, CycleMotion, MotionRecord, SoundSummary, SteppedMotion};
+use super::record::{ContactNode, CycleMotion, MotionRecord, SteppedMotion};
 use super::summary::SoughtCycle;
 use super::verdicts::{ConfirmationSummary, KnownStability, Perturbation, StabilitySummary, known};
 use crate::ShownBody;
@@ -152,12 +152,7 @@ impl FoundCycle {
         let mut cycle = body.motion(&self.motion, self.harmonic_count);
         if let Some(stepped) = &mut cycle.stepped {
             stepped.kick_velocity = kick_velocity;
-            stepped.sound = self.sound.as_ref().map(|sound| SoundSummary {
-                power_w: sound.power(),
-                level_db: sound.level(),
-                area_m2: sound.area,
-                harmonics_w: sound.harmonics.clone(),
-            });
+            stepped.sound.clone_from(&self.sound);
         }
         cycle
     }

@@ -7,7 +7,7 @@ use crate::summary::{MeanPowers, StatusFractions};
 use frictionsim_output::Described;
 use frictionsim_physics::contact::ContactStatus;
 use frictionsim_physics::cycle::PhasePoint;
-use frictionsim_physics::cycle::periodic::{ContactInstant, MotionFrame, MotionHarmonic};
+use frictionsim_physics::cycle::periodic::{ContactInstant, MotionFrame, MotionHarmonic, Sound};
 use serde::Serialize;
 
 /// A limit cycle.
@@ -50,7 +50,7 @@ pub struct SteppedMotion {
     pub kick_velocity: Option<f64>,
     /// Estimate of the sound that it radiates, of a body with flat faces.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub sound: Option<SoundSummary>,
+    pub sound: Option<Sound>,
     /// Harmonics in which the motion is told.
     pub harmonic_count: usize,
     /// Share of the vibration of the contact nodes that these leave.
@@ -58,19 +58,6 @@ pub struct SteppedMotion {
     /// Harmonics that leave less than a thousandth.
     #[serde(skip)]
     pub harmonics_needed: usize,
-}
-
-/// Sound radiated into air, by the Rayleigh integral: each flat face in an infinite rigid baffle.
-#[derive(Clone, Debug, PartialEq, Described, Serialize)]
-pub struct SoundSummary {
-    /// Power of all harmonics up to 20 kHz, W.
-    pub power_w: f64,
-    /// Its level over 1e-12 W, dB.
-    pub level_db: f64,
-    /// Area of the faces, m2.
-    pub area_m2: f64,
-    /// Power of harmonics 1, 2, ..., W.
-    pub harmonics_w: Vec<f64>,
 }
 
 /// One limit cycle over its period.

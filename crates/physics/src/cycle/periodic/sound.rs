@@ -3,7 +3,9 @@
 use super::map::{PeriodMap, PeriodicState};
 use crate::linalg::{c64, interruption};
 use crate::mesh::{BoundaryFace, Mesh};
+use crate::output::Described;
 use nalgebra::Vector3;
+use serde::Serialize;
 use std::collections::BTreeMap;
 use std::f64::consts::{PI, TAU};
 
@@ -127,13 +129,17 @@ impl FlatFace {
     }
 }
 
-/// Sound of a periodic motion.
-#[derive(Clone, Debug, PartialEq)]
+/// Sound of a periodic motion, radiated into air: each flat face in an infinite rigid baffle.
+#[derive(Clone, Debug, PartialEq, Described, Serialize)]
 pub struct Sound {
-    /// Power of harmonics 1, 2, ..., W.
-    pub harmonics: Vec<f64>,
+    /// Power of all harmonics up to 20 kHz, W.
+    pub power_w: f64,
+    /// Its level over 1e-12 W, dB.
+    pub level_db: f64,
     /// Area of the faces, m2.
-    pub area: f64,
+    pub area_m2: f64,
+    /// Power of harmonics 1, 2, ..., W.
+    pub harmonics_w: Vec<f64>,
 }
 
 impl Sound {
@@ -174,17 +180,14 @@ impl Sound {
             });
             of_faces.sum()
         });
-        Self { harmonics: powers.collect(), area: faces.iter().map(FlatFace::area).sum() }
-    }
-
-    /// Power of all harmonics, W.
-    pub fn power(&self) -> f64 {
-        self.harmonics.iter().sum()
-    }
-
-    /// Its level over 1e-12 W, dB.
-    pub fn level(&self) -> f64 {
-        10.0 * (self.power() / REFERENCE_POWER).log10()
+        let harmonics_w: Vec<f64> = powers.collect();
+        let power_w: f64 = harmonics_w.iter().sum();
+        Self {
+            power_w,
+            level_db: 10.0 * (power_w / REFERENCE_POWER).log10(),
+            area_m2: faces.iter().map(FlatFace::area).sum(),
+            harmonics_w,
+        }
     }
 }
 
