@@ -6,7 +6,6 @@ mod summary;
 pub use figures::{SignalDrawing, draw};
 pub use summary::{
     ChannelSummary, MODE_TOLERANCE, ModeSummary, NearestMode, PeakSummary, SignalSummary,
-    Superharmonic,
 };
 
 use super::cea::{BRANCH, DIRECTION};
@@ -22,12 +21,12 @@ columns! {
     pub(super) PEAKS: row as Row;
     channel: "name of the channel" = row.0.clone();
     peak: "number of the peak, the strongest first, from 1" = row.1, Always "peak" Count;
-    frequency_hz: "frequency of the peak" = row.2.frequency_hz, Always "frequency" Fixed(2);
+    frequency_hz: "frequency of the peak" = row.2.line.frequency_hz, Always "frequency" Fixed(2);
     amplitude: "amplitude, in the unit of the signal"
-        = row.2.amplitude, Always "amplitude" Scientific(4);
+        = row.2.line.amplitude, Always "amplitude" Scientific(4);
     superharmonic_of_peak: "peak of which it is a multiple"
-        = row.2.superharmonic.as_ref().map(|line| line.of_peak);
-    order: "which multiple" = row.2.superharmonic.as_ref().map(|line| line.order);
+        = row.2.line.superharmonic.map(|own| own.of_peak);
+    order: "which multiple" = row.2.line.superharmonic.map(|own| own.order);
     nearest_mode: "number of the mode beside it, from 1"
         = row.2.nearest_mode.as_ref().map(|mode| mode.mode);
     mode_frequency_hz: "frequency of that mode"

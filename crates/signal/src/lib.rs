@@ -27,7 +27,7 @@ pub use growth::{
     ExponentialStage, NoGrowth, exponential_stage, harmonic_growth, round_off_floor,
     strongest_vibration,
 };
-pub use lines::{SpectralLine, SpectralResolution, main_frequency, spectral_lines};
+pub use lines::{SpectralLine, SpectralResolution, Superharmonic, main_frequency, spectral_lines};
 pub use modal::{
     Estimate, FittedMode, HalfPowerBand, Identification, IdentifiedMode, ModalFit, ModalModel,
     ModalShare, NoiseModel, Pole, RayleighFit, ResonanceNote, fit_modes, fit_rayleigh, half_power,

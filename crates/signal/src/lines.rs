@@ -4,6 +4,8 @@ use super::Window;
 use super::error::SignalError;
 use super::spectrum::{AmplitudeSpectrum, averaged_spectrum, check_signal, top_of};
 use super::statistics::{mean_power_exceeded, median, normal_exceeded};
+use frictionsim_output::Described;
+use serde::Serialize;
 
 /// Weakest line reported, relative to the strongest (-46 dB).
 const WEAKEST: f64 = 5e-3;
@@ -23,16 +25,24 @@ const LONGEST_BLOCK: f64 = 2.0;
 const PADDING: usize = 4;
 const WINDOW: Window = Window::BlackmanHarris;
 
-/// One line of a spectrum.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// One line of a spectrum: a sinusoid, located between the bins.
+#[derive(Clone, Copy, Debug, PartialEq, Described, Serialize)]
 pub struct SpectralLine {
-    /// Frequency, Hz, located between the bins.
+    /// Frequency, Hz.
     pub frequency_hz: f64,
-    /// Peak amplitude of the sinusoid, unit of the signal.
+    /// Amplitude, unit of the signal.
     pub amplitude: f64,
-    /// Position in the returned list of the fundamental of which this line is an integer multiple,
-    /// and the multiple; `None` for a line of its own.
-    pub superharmonic_of: Option<(usize, usize)>,
+    /// Of which other peak it is a multiple.
+    pub superharmonic: Option<Superharmonic>,
+}
+
+/// An integer multiple of a fundamental.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Described, Serialize)]
+pub struct Superharmonic {
+    /// Number of the fundamental's peak, from 1.
+    pub of_peak: usize,
+    /// The multiple.
+    pub order: usize,
 }
 
 /// How finely a spectrum tells lines apart, and over how many blocks it is a mean.
@@ -163,7 +173,7 @@ fn local_noise(amplitudes: &[f64], reach: usize) -> Vec<f64> {
 fn located(spectrum: &AmplitudeSpectrum, k: usize) -> SpectralLine {
     let (shift, amplitude) = top_of([k - 1, k, k + 1].map(|i| spectrum.amplitudes[i]));
     let frequency_hz = (k as f64 + shift) * spectrum.frequencies_hz[1];
-    SpectralLine { frequency_hz, amplitude, superharmonic_of: None }
+    SpectralLine { frequency_hz, amplitude, superharmonic: None }
 }
 
 /// Marks every line that is an integer multiple of a lower one.
@@ -173,18 +183,18 @@ fn name_superharmonics(lines: &mut [SpectralLine], bin: f64) {
     for (place, &q) in by_frequency.iter().enumerate() {
         let line = lines[q];
         let tolerance = (0.5 * bin).max(2e-3 * line.frequency_hz);
-        lines[q].superharmonic_of = by_frequency[..place].iter().find_map(|&p| {
+        lines[q].superharmonic = by_frequency[..place].iter().find_map(|&p| {
             let fundamental = lines[p];
             let order = (line.frequency_hz / fundamental.frequency_hz).round();
             let miss = (line.frequency_hz - order * fundamental.frequency_hz).abs();
             // A fundamental of a few tolerances has a multiple near any frequency: no evidence.
             let telling = fundamental.frequency_hz > 10.0 * tolerance;
-            (fundamental.superharmonic_of.is_none()
+            (fundamental.superharmonic.is_none()
                 && fundamental.amplitude >= FUNDAMENTAL_SHARE * line.amplitude
                 && (2.0..=HIGHEST_ORDER as f64).contains(&order)
                 && miss <= tolerance
                 && telling)
-                .then_some((p, order as usize))
+                .then_some(Superharmonic { of_peak: p + 1, order: order as usize })
         });
     }
 }
@@ -232,11 +242,11 @@ mod tests {
         let lines = lines(&x, rate, None);
         assert_eq!(lines.len(), 4);
         // Strongest is the first superharmonic; its fundamental stands second.
-        assert_eq!(lines[0].superharmonic_of, Some((1, 2)));
-        assert_eq!(lines[1].superharmonic_of, None);
-        assert_eq!(lines[2].superharmonic_of, None);
+        assert_eq!(lines[0].superharmonic, Some(Superharmonic { of_peak: 2, order: 2 }));
+        assert_eq!(lines[1].superharmonic, None);
+        assert_eq!(lines[2].superharmonic, None);
         assert!((lines[2].frequency_hz - 5856.0).abs() < 0.1);
-        assert_eq!(lines[3].superharmonic_of, Some((1, 3)));
+        assert_eq!(lines[3].superharmonic, Some(Superharmonic { of_peak: 2, order: 3 }));
     }
 
     #[test]

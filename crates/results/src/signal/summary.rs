@@ -52,26 +52,14 @@ pub struct ChannelSummary {
     pub nearest_unstable_mode: Option<NearestMode>,
 }
 
-/// A line of the spectrum.
+/// A line of the spectrum, and the mode beside it.
 #[derive(Clone, Debug, PartialEq, Described, Serialize)]
 pub struct PeakSummary {
-    /// Frequency, Hz.
-    pub frequency_hz: f64,
-    /// Amplitude, unit of the signal.
-    pub amplitude: f64,
-    /// Of which other peak it is a multiple.
-    pub superharmonic: Option<Superharmonic>,
+    /// The line.
+    #[serde(flatten)]
+    pub line: SpectralLine,
     /// Mode within the tolerance: an unstable one before a stable one.
     pub nearest_mode: Option<ModeSummary>,
-}
-
-/// A multiple of a fundamental.
-#[derive(Clone, Debug, PartialEq, Described, Serialize)]
-pub struct Superharmonic {
-    /// Number of the fundamental's peak, from 1.
-    pub of_peak: usize,
-    /// The multiple.
-    pub order: usize,
 }
 
 /// A mode of the case.
@@ -176,15 +164,8 @@ impl ChannelSummary {
         lines: &[SpectralLine],
         stage: Result<ExponentialStage, NoGrowth>,
     ) -> Self {
-        let main = lines.iter().find(|line| line.superharmonic_of.is_none());
-        let peaks = lines.iter().map(|line| PeakSummary {
-            frequency_hz: line.frequency_hz,
-            amplitude: line.amplitude,
-            superharmonic: line
-                .superharmonic_of
-                .map(|(p, order)| Superharmonic { of_peak: p + 1, order }),
-            nearest_mode: None,
-        });
+        let main = lines.iter().find(|line| line.superharmonic.is_none());
+        let peaks = lines.iter().map(|&line| PeakSummary { line, nearest_mode: None });
         let no_growth = stage.as_ref().err().map(ToString::to_string);
         Self {
             name: name.to_owned(),
@@ -207,8 +188,8 @@ impl ChannelSummary {
     /// Names the modes beside the peaks, and the one that the channel vibrates in: a mode that grows in the
     /// record, or else an unstable one beside the main line, within the tolerance.
     pub fn name_modes(&mut self, modes: &[ModeSummary]) {
-        for peak in self.peaks.iter_mut().filter(|p| p.superharmonic.is_none()) {
-            peak.nearest_mode = mode_beside(modes, peak.frequency_hz);
+        for peak in self.peaks.iter_mut().filter(|p| p.line.superharmonic.is_none()) {
+            peak.nearest_mode = mode_beside(modes, peak.line.frequency_hz);
         }
         let growing = self.grows().map(|g| g.frequency_hz.value);
         let Some(frequency_hz) = growing.or(self.main_frequency_hz) else {
@@ -270,7 +251,7 @@ impl ChannelSummary {
 
     /// The name of a peak: a superharmonic, or the mode beside it.
     pub fn peak_text(&self, peak: &PeakSummary) -> String {
-        match (&peak.superharmonic, &peak.nearest_mode) {
+        match (&peak.line.superharmonic, &peak.nearest_mode) {
             (Some(line), _) => format!("{} x peak {}", line.order, line.of_peak),
             (None, Some(mode)) => format!("near {}", mode.described()),
             (None, None) => String::new(),
