@@ -136,8 +136,8 @@ fn below_the_onset_steady_sliding_is_said_to_be_stable() {
     let study = PeriodicStudy::new(&case, SimdLevel::detect()).unwrap();
     let report = study.report(study.run(0, &Unwatched, &|_| {}).unwrap());
     assert!(refuse_nothing(&report).is_ok());
-    let text = report.stable_sliding().unwrap();
-    has(&text, &["as far as 10 modes", "stable at friction 0.5"]);
+    let text = &report.notes[0];
+    has(text, &["as far as 10 modes", "stable at friction 0.5"]);
     // The critical friction that it tells of: a mode grows above it, none below.
     let critical = report.critical.unwrap();
     assert_eq!(critical.parameter, Parameter::FrictionCoefficient);

@@ -1,8 +1,10 @@
-//! Whole fields of limit cycles, for ParaView.
+//! Files of limit cycles: their tables, and whole fields for ParaView.
 
 use super::motions::encode_contact;
 use super::summary::CycleSummary;
+use super::two_waves::TwoWaveSummary;
 use crate::ShownBody;
+use crate::finding::write_table;
 use crate::folder::{FolderError, OutputFolder};
 use crate::pvd::{PvdEntry, write_pvd};
 use crate::vtu::{EncodedMesh, Field, write_vtu};
@@ -11,41 +13,45 @@ use frictionsim_physics::cycle::periodic::MotionFrame;
 use std::cell::OnceCell;
 use std::io;
 
-/// Writes each frame as a VTU file, `cycles.pvd` over the waves at time zero and, where there are several frames,
-/// `cycle-TAG.pvd` over the time; of a motion of two waves likewise `two-waves-nN-nM.vtu`, over one period of the
-/// first. Of a motion of the whole mesh its contact comes with them, `contact-TAG.npz`.
-pub(super) fn write_fields(
-    folder: &OutputFolder,
-    body: &ShownBody<'_>,
-    found: &CycleSummary,
-) -> Result<(), FolderError> {
-    let fields = Fields { folder, body, interface: found.interface(), mesh: OnceCell::new() };
-    let mut waves = Vec::new();
-    for (place, sought) in found.cycles.iter().enumerate() {
-        let Some(own) = &sought.record else {
-            continue;
-        };
-        let tag = own.name.tag();
-        if let Some(interface) = fields.interface {
-            folder.write_bulk(&format!("contact-{tag}.npz"), |out| {
-                out.write_all(&encode_contact(interface, &own.instants)?)
-            })?;
+impl CycleSummary {
+    /// Writes what its document has no table of: each cycle over its period and along its branch, and whole fields of
+    /// the body.
+    ///
+    /// Each frame is a VTU file, with `cycles.pvd` over the waves at time zero and, where there are several frames,
+    /// `cycle-TAG.pvd` over the time; of a motion of two waves likewise `two-waves-nN-nM.vtu`, over one period of the
+    /// first. Of a motion of the whole mesh its contact comes with them, `contact-TAG.npz`.
+    pub fn write(&self, folder: &OutputFolder, body: &ShownBody<'_>) -> Result<(), FolderError> {
+        let tables = self.cycles.iter().flat_map(|own| own.tables(body.is_solid()));
+        let pairs = self.two_waves.iter().filter_map(TwoWaveSummary::table);
+        tables.chain(pairs).try_for_each(|table| write_table(folder, &table))?;
+        let fields = Fields { folder, body, interface: self.interface(), mesh: OnceCell::new() };
+        let mut waves = Vec::new();
+        for (place, sought) in self.cycles.iter().enumerate() {
+            let Some(own) = &sought.record else {
+                continue;
+            };
+            let tag = own.name.tag();
+            if let Some(interface) = fields.interface {
+                folder.write_bulk(&format!("contact-{tag}.npz"), |out| {
+                    out.write_all(&encode_contact(interface, &own.instants)?)
+                })?;
+            }
+            let group = format!("limit cycle of {}", own.whose());
+            let first = fields.write(&format!("cycle-{tag}"), &group, &own.frames)?;
+            let first = first.filter(|_| own.is_wave());
+            waves.extend(first.map(|own| PvdEntry { time: (place + 1) as f64, ..own }));
         }
-        let group = format!("limit cycle of {}", own.whose());
-        let first = fields.write(&format!("cycle-{tag}"), &group, &own.frames)?;
-        let first = first.filter(|_| own.is_wave());
-        waves.extend(first.map(|own| PvdEntry { time: (place + 1) as f64, ..own }));
+        for own in &self.two_waves {
+            let [first, second] = own.harmonics;
+            let group = format!("waves of {first} and {second} nodal diameters together");
+            let stem = format!("two-waves-n{first}-n{second}");
+            fields.write(&stem, &group, &own.frames)?;
+        }
+        if !waves.is_empty() {
+            folder.write("cycles.pvd", |out| write_pvd(out, &waves))?;
+        }
+        Ok(())
     }
-    for own in &found.two_waves {
-        let [first, second] = own.harmonics;
-        let group = format!("waves of {first} and {second} nodal diameters together");
-        let stem = format!("two-waves-n{first}-n{second}");
-        fields.write(&stem, &group, &own.frames)?;
-    }
-    if !waves.is_empty() {
-        folder.write("cycles.pvd", |out| write_pvd(out, &waves))?;
-    }
-    Ok(())
 }
 
 /// The body whose fields go to a folder.

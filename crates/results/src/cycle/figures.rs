@@ -1,7 +1,8 @@
 //! The figures of limit cycles, from their record.
 
-use super::CycleSummary;
+use super::branches::draw_branches;
 use super::record::MotionRecord;
+use super::summary::CycleSummary;
 use crate::ShownBody;
 use crate::charts::palette::status_ground;
 use crate::charts::{
@@ -28,7 +29,7 @@ const PERIODS: usize = 2;
 const ROUND_OFF: f64 = 1e-9;
 
 /// Limit cycles and what their figures show besides.
-pub(super) struct CycleFigures<'a> {
+struct CycleFigures<'a> {
     /// What was found.
     found: &'a CycleSummary,
     /// The body that moves.
@@ -41,35 +42,36 @@ pub(super) struct CycleFigures<'a> {
     materials: &'a dyn MaterialField,
 }
 
-impl<'a> CycleFigures<'a> {
-    /// Those of a search; `surfaces` are the contacts of an assembly, each with the boundary that has its points.
-    pub(super) fn new(
-        found: &'a CycleSummary,
-        body: &'a ShownBody<'a>,
+impl CycleSummary {
+    /// Every figure of the cycles: contact over the period and at one instant, history, closed curves and harmonics of
+    /// each, the fields of all, then their branches. `surfaces` are the contacts of an assembly, each with the boundary
+    /// that has its points, `materials` those of the stress fields.
+    pub fn figures(
+        &self,
+        body: &ShownBody<'_>,
         surfaces: Vec<(String, usize)>,
-        materials: &'a dyn MaterialField,
-    ) -> Self {
-        let cycles = found.cycles.iter().filter_map(|own| own.record.as_deref());
+        materials: &dyn MaterialField,
+    ) -> Vec<Figure> {
+        let cycles = self.cycles.iter().filter_map(|own| own.record.as_deref());
         let cycles = cycles.filter(|own| !own.frames.is_empty()).collect();
-        Self { found, body, cycles, surfaces, materials }
-    }
-
-    /// Draws the cycles: contact over the period and at one instant, history, closed curves and harmonics of each, then
-    /// the fields of all.
-    pub(super) fn draw(&self) -> Vec<Figure> {
+        let shown = &CycleFigures { found: self, body, cycles, surfaces, materials };
         let mut figures: Vec<Declaration<'_>> = Vec::new();
-        for &motion in &self.cycles {
-            figures.push(Box::new(move || Some(self.status(motion))));
-            figures.push(Box::new(move || Some(self.at_one_instant(motion))));
-            figures.push(Box::new(move || Some(self.history(motion))));
-            figures.push(Box::new(move || Some(self.orbit(motion))));
+        for &motion in &shown.cycles {
+            figures.push(Box::new(move || Some(shown.status(motion))));
+            figures.push(Box::new(move || Some(shown.at_one_instant(motion))));
+            figures.push(Box::new(move || Some(shown.history(motion))));
+            figures.push(Box::new(move || Some(shown.orbit(motion))));
             figures.push(Box::new(move || Some(harmonics(motion))));
         }
-        figures.push(Box::new(|| Some(self.velocity())));
-        figures.push(Box::new(|| self.shear_stress()));
-        declared(figures)
+        figures.push(Box::new(|| Some(shown.velocity())));
+        figures.push(Box::new(|| shown.shear_stress()));
+        let families = self.families().into_iter().map(|own| (String::new(), own));
+        let branches = draw_branches(&families.collect::<Vec<_>>(), &self.two_waves);
+        declared(figures).into_iter().chain(branches).collect()
     }
+}
 
+impl CycleFigures<'_> {
     /// Nodes of the contact of motions of the whole mesh, counted from 0.
     fn nodes(&self) -> &[u32] {
         self.found.interface().map_or(&[], |interface| &interface.nodes)

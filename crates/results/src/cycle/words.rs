@@ -30,11 +30,6 @@ impl CycleSummary {
         }
     }
 
-    /// That steady sliding is stable and nothing was sought, in words.
-    pub fn stable_sliding(&self) -> Option<String> {
-        self.has_nothing().then(|| self.origin())
-    }
-
     /// Whether nothing was sought since steady sliding is stable.
     fn has_nothing(&self) -> bool {
         self.steady_sliding_stable
