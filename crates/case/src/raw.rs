@@ -167,7 +167,10 @@ impl RawCase {
 
     /// Tables that the case names, each with the name under which it lies beside the results.
     pub fn table_files(&self) -> Vec<(String, String)> {
-        let mut found = Vec::new();
+        let own = table_of(&self.root, "material").and_then(|own| own.get("table"));
+        let own = own.and_then(|own| own.item.value.text());
+        let own = own.map(|file| ("material-table.csv".to_owned(), file.to_owned()));
+        let mut found: Vec<(String, String)> = own.into_iter().collect();
         for (group, key) in [("materials", "table"), ("contacts", "gap")] {
             let Some(sections) = table_of(&self.root, group) else {
                 continue;

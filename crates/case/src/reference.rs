@@ -202,7 +202,9 @@ fn node() -> Value {
     let place = |[a, b]: [&str; 2]| {
         json!({
             "type": "object",
-            "properties": { a: { "type": "number" }, b: { "type": "number" } },
+            "properties": {
+                a: { "type": "number" }, b: { "type": "number" }, "z": { "type": "number" },
+            },
             "required": [a, b],
             "additionalProperties": false,
         })
