@@ -2,7 +2,6 @@
 
 use crate::prelude::*;
 use frictionsim::results::cycle::{CycleSummary, Origin, TwoWaveSummary};
-use std::process::Command;
 
 fn waves(command: &str, out: &Path, set: &[&str]) -> Run {
     Run::of(command, shipped("limit-cycle.toml")).out(out).set(set)
@@ -131,20 +130,14 @@ fn an_interrupted_search_says_what_is_kept_and_can_be_started_again() {
     let out = folder.path().join("cycle");
     // Hours of work, if it were let.
     let long = waves("cycle", &out, &COARSE).set(&["cycle.continuation.count=100000"]);
-    let child = long.program().stderr(std::process::Stdio::piped()).spawn().unwrap();
-    let begin = Instant::now();
-    while !out.join("manifest.json").exists() {
-        assert!(begin.elapsed().as_secs() < 60);
-        std::thread::sleep(Duration::from_millis(20));
-    }
     // The handler is in place as soon as the folder is.
-    std::thread::sleep(Duration::from_millis(200));
-    let killed = Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
-    assert!(killed.success());
-    let output = child.wait_with_output().unwrap();
-    let text = String::from_utf8(output.stderr).unwrap();
-    assert_eq!(output.status.code(), Some(130), "{text}");
-    assert!(text.contains("interrupted; nothing of this run is kept"), "{text}");
+    let is_due = || {
+        let is_begun = out.join("manifest.json").exists();
+        std::thread::sleep(Duration::from_millis(if is_begun { 200 } else { 20 }));
+        is_begun
+    };
+    let said = "interrupted; nothing of this run is kept";
+    long.stopped(Some("INT"), is_due).code(130).warns(&[said]);
     let short = ["cycle.continuation.count=2", "cycle.stability=none"];
     waves("cycle", &out, &COARSE).set(&short).args(&["--force"]).done();
 }

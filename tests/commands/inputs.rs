@@ -243,12 +243,8 @@ fn files_of_others_that_look_unfinished_stay() {
 #[test]
 fn a_file_size_limit_of_the_shell_is_a_full_disk() {
     let folder = block_in(MESH, CASE);
-    let program = env!("CARGO_BIN_EXE_frictionsim");
-    let line = format!("ulimit -f 1; {program} mesh block.toml --no-figures -q -o out");
-    let mut shell = std::process::Command::new("sh");
-    let output = shell.current_dir(folder.path()).args(["-c", &line]).output().unwrap();
-    assert_eq!(output.status.code(), Some(1));
-    has(&String::from_utf8(output.stderr).unwrap(), &["file size limit"]);
+    let script = "ulimit -f 1; \"$0\" mesh block.toml --no-figures -q -o out";
+    shell(&folder, script, &[]).code(1).warns(&["file size limit"]);
 }
 
 #[cfg(unix)]

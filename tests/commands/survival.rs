@@ -3,10 +3,8 @@
 #![cfg(unix)]
 
 use crate::prelude::*;
-use std::process::{Child, Command, Stdio};
+use std::process::{Child, Stdio};
 use std::sync::OnceLock;
-
-const PROGRAM: &str = env!("CARGO_BIN_EXE_frictionsim");
 
 /// A coarse disc: thirty transients of some five milliseconds each.
 const STUDY: &str = "[transient]\nduration = 0.01
@@ -45,23 +43,11 @@ impl Study {
         assert!(table(&self.folder(folder)) == *expected, "{folder}");
         assert!(points(&self.folder(folder)) == *expected_points, "{folder}");
     }
-
-    /// Another program in the folder of the study.
-    fn shell(&self, script: &str, words: &[&str]) -> std::process::Output {
-        let mut shell = Command::new("sh");
-        shell.args(["-c", script, PROGRAM]).args(words).current_dir(&self.root);
-        shell.output().unwrap()
-    }
 }
 
-/// Stops a run, which must say how to go on.
-fn terminate(child: Child) {
-    let kill = Command::new("kill").arg(child.id().to_string()).status();
-    assert!(kill.unwrap().success());
-    let output = child.wait_with_output().unwrap();
-    let errors = String::from_utf8(output.stderr).unwrap();
-    assert_eq!(output.status.code(), Some(130), "{errors}");
-    has(&errors, &["--resume"]);
+/// Stops a run that has come so far, which must say how to go on.
+fn terminate(run: Run, is_due: impl Fn() -> bool) {
+    run.stopped(Some("TERM"), is_due).code(130).warns(&["--resume"]);
 }
 
 /// The finished points by file name, byte for byte.
@@ -160,10 +146,7 @@ fn a_full_disk_is_named_and_leaves_earlier_points_whole() {
     // ignored, so that writing fails as it does on a full disk.
     let script = "trap '' XFSZ; ulimit -f 1; exec \"$0\" \"$@\"";
     let words = ["sweep", "study.toml", "--quiet", "--out", "full", "--shard", "2/2"];
-    let output = study.shell(script, &words);
-    let errors = String::from_utf8(output.stderr).unwrap();
-    assert_eq!(output.status.code(), Some(1), "{errors}");
-    has(&errors, &["no room left", "point-"]);
+    shell(&study.root, script, &words).code(1).warns(&["no room left", "point-"]);
     assert_eq!(points(&study.folder("full")), before);
     study.sweep("full", &["--resume"]).done();
     study.is_whole("full");
@@ -188,10 +171,8 @@ fn a_shell_loop_over_transients_gives_what_the_sweep_gives() {
     let script = "for mu in 0.2 0.3; do \
          \"$0\" transient study.toml --set contact.friction_coefficient=$mu --json --quiet --no-figures \
          || exit; done";
-    let output = study.shell(script, &[]);
-    let errors = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success(), "{errors}");
-    let summaries = serde_json::Deserializer::from_slice(&output.stdout).into_iter::<Value>();
+    let printed = shell(&study.root, script, &[]).code(0).stdout;
+    let summaries = serde_json::Deserializer::from_str(&printed).into_iter::<Value>();
     let looped: Vec<Value> = summaries.map(Result::unwrap).collect();
     let set = "sweep={ \"contact.friction_coefficient\" = [0.2, 0.3] }";
     study.sweep("swept", &["--set", set]).done();
@@ -209,12 +190,8 @@ fn a_shell_loop_over_transients_gives_what_the_sweep_gives() {
 #[test]
 fn a_terminated_sweep_says_how_to_go_on() {
     let study = Study::new();
-    let mut command = study.sweep("stopped", &[]).program();
-    let child = command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
-    while points(&study.folder("stopped")).is_empty() {
-        std::thread::sleep(Duration::from_millis(5));
-    }
-    terminate(child);
+    let folder = study.folder("stopped");
+    terminate(study.sweep("stopped", &[]), || !points(&folder).is_empty());
 }
 
 /// Runs `cea` of a body without symmetry into a folder.
@@ -236,13 +213,7 @@ fn an_eigenvalue_sweep_stopped_twice_resumes_to_identical_tables() {
     for (options, wanted) in [(&[][..], 2), (&["--resume"], 4)] {
         // On a busy machine the first run may have come further than it was let.
         let wanted = wanted.max(steps(&stopped) + 1);
-        let mut command = cea(&stopped, options).program();
-        let mut child = command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
-        while steps(&stopped) < wanted {
-            assert!(child.try_wait().unwrap().is_none(), "over before it was stopped");
-            std::thread::sleep(Duration::from_millis(2));
-        }
-        terminate(child);
+        terminate(cea(&stopped, options), || steps(&stopped) >= wanted);
     }
     for (folder, options) in [(&stopped, &["--resume"][..]), (&whole, &[])] {
         cea(folder, options).done();

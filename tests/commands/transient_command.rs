@@ -1,7 +1,6 @@
 //! `frictionsim transient` as a user meets it: files, checkpoints, exit codes, and the shipped cases on coarse meshes.
 
 use crate::prelude::*;
-use std::process::{Child, Stdio};
 
 const BRICK: Block = brick("brick", [0.0; 3], [0.01; 3], [2, 1, 1]);
 
@@ -156,16 +155,9 @@ fn results_are_the_same_bytes_for_any_number_of_threads() {
     assert_same(&run("1"), &run("2"));
 }
 
-/// Starts a run that keeps its state often, and waits for its first checkpoint.
-fn start_until_checkpoint(out: &Path) -> Child {
-    let mut command = transient(out, &OFTEN).program();
-    let child = command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
-    let start = Instant::now();
-    while !out.join("checkpoint.bin").exists() {
-        assert!(start.elapsed() < Duration::from_secs(60), "no checkpoint after a minute");
-        std::thread::sleep(Duration::from_millis(2));
-    }
-    child
+/// Ends a run that keeps its state often behind its first checkpoint.
+fn stopped(out: &Path, signal: Option<&str>) -> Answer {
+    transient(out, &OFTEN).stopped(signal, || out.join("checkpoint.bin").exists())
 }
 
 const OFTEN: [&str; 2] = ["output.checkpoint_interval=0.02", "transient.duration=0.03"];
@@ -175,9 +167,7 @@ fn a_killed_run_resumes_to_the_bytes_of_an_uninterrupted_one() {
     let folder = folder();
     let (whole, killed) = (folder.path().join("whole"), folder.path().join("killed"));
     let whole = transient(&whole, &OFTEN).done();
-    let mut child = start_until_checkpoint(&killed);
-    child.kill().unwrap();
-    child.wait().unwrap();
+    stopped(&killed, None);
     let killed = resumed(&killed, &OFTEN).done();
     assert_same(&killed, &whole);
     let without_times = |mut summary: Value| {
@@ -194,20 +184,13 @@ fn a_killed_run_resumes_to_the_bytes_of_an_uninterrupted_one() {
 fn an_interrupted_run_keeps_what_it_has_and_says_how_to_go_on() {
     let folder = folder();
     let out = folder.path().join("out");
-    let child = start_until_checkpoint(&out);
-    let status =
-        std::process::Command::new("kill").args(["-INT", &child.id().to_string()]).status();
-    assert!(status.unwrap().success());
-    let output = child.wait_with_output().unwrap();
-    if output.status.code() == Some(0) {
+    let answer = stopped(&out, Some("INT"));
+    if answer.code == Some(0) {
         // The run ended before the signal came.
         return;
     }
-    assert_eq!(output.status.code(), Some(130));
-    has(&String::from_utf8(output.stderr).unwrap(), &["--resume"]);
-    let summary = fs::read(out.join("summary.json")).unwrap();
-    assert_eq!(serde_json::from_slice::<Value>(&summary).unwrap()["finished"], false);
-    assert!(out.join("energy.csv").exists());
+    let answer = answer.code(130).warns(&["--resume"]).wrote("energy.csv");
+    assert_eq!(answer.summary()["finished"], false);
     assert_eq!(resumed(&out, &OFTEN).done().summary()["finished"], true);
 }
 
@@ -289,9 +272,7 @@ fn no_number_that_is_none_is_printed_or_written() {
 fn a_damaged_checkpoint_is_refused_with_the_reason_and_left_alone() {
     let folder = folder();
     let out = folder.path().join("out");
-    let mut child = start_until_checkpoint(&out);
-    child.kill().unwrap();
-    child.wait().unwrap();
+    stopped(&out, None);
     let path = out.join("checkpoint.bin");
     let mut bytes = fs::read(&path).unwrap();
     let middle = bytes.len() / 2;

@@ -10,7 +10,9 @@ pub use super::disc::*;
 pub use super::kept::Kept;
 pub use super::mesh_text::*;
 pub use super::msh::*;
-pub use super::program::{Answer, Row, Run, folder, folder_with, has, names_in, rows, shipped};
+pub use super::program::{
+    Answer, Row, Run, folder, folder_with, has, names_in, rows, shell, shipped,
+};
 pub use super::solids::*;
 pub use super::spectra::*;
 pub use super::table_1::TABLE_1;

@@ -6,7 +6,8 @@ use std::ffi::OsStr;
 use std::io::Write;
 use std::ops::Index;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
+use std::process::{Command, Output, Stdio};
+use std::time::{Duration, Instant};
 
 /// A run that is being put together.
 pub struct Run {
@@ -42,6 +43,13 @@ pub fn folder_with(files: &[(&str, &[u8])]) -> tempfile::TempDir {
         std::fs::write(folder.path().join(name), bytes).unwrap();
     }
     folder
+}
+
+/// A script of the shell in a folder, whose `$0` is the program.
+pub fn shell(folder: impl AsRef<Path>, script: &str, words: &[&str]) -> Answer {
+    let mut shell = Command::new("sh");
+    shell.args(["-c", script, env!("CARGO_BIN_EXE_frictionsim")]).args(words);
+    Answer::of(shell.current_dir(&folder).output().unwrap(), folder.as_ref().to_owned())
 }
 
 /// The names in a folder, in their order.
@@ -115,10 +123,28 @@ impl Run {
         let mut child = self.program.stdin(input).stdout(output).stderr(errors).spawn().unwrap();
         // A run that refuses its case does not read on.
         let _ = child.stdin.take().unwrap().write_all(&self.input);
-        let output = child.wait_with_output().unwrap();
-        let [stdout, stderr] =
-            [output.stdout, output.stderr].map(|bytes| String::from_utf8(bytes).unwrap());
-        Answer { code: output.status.code(), stdout, stderr, out: self.within.join(self.out) }
+        Answer::of(child.wait_with_output().unwrap(), self.within.join(self.out))
+    }
+
+    /// Starts the run, waits until it has come so far, a minute at most, and ends it: by a signal, at once where there is none.
+    #[track_caller]
+    pub fn stopped(mut self, signal: Option<&str>, is_due: impl Fn() -> bool) -> Answer {
+        self.program.stdout(Stdio::null()).stderr(Stdio::piped());
+        let mut child = self.program.spawn().unwrap();
+        let start = Instant::now();
+        while !is_due() {
+            assert!(start.elapsed() < Duration::from_secs(60), "not so far after a minute");
+            std::thread::sleep(Duration::from_millis(2));
+        }
+        match signal {
+            Some(name) => {
+                let kill =
+                    Command::new("kill").args(["-s", name, &child.id().to_string()]).status();
+                assert!(kill.unwrap().success());
+            }
+            None => child.kill().unwrap(),
+        }
+        Answer::of(child.wait_with_output().unwrap(), self.within.join(self.out))
     }
 
     /// A run that must end well.
@@ -133,6 +159,12 @@ impl Run {
 }
 
 impl Answer {
+    fn of(output: Output, out: PathBuf) -> Self {
+        let [stdout, stderr] =
+            [output.stdout, output.stderr].map(|bytes| String::from_utf8(bytes).unwrap());
+        Self { code: output.status.code(), stdout, stderr, out }
+    }
+
     #[track_caller]
     pub fn code(self, code: i32) -> Self {
         assert_eq!(self.code, Some(code), "{}", self.said());
