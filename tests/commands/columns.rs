@@ -2,6 +2,7 @@
 
 use crate::prelude::*;
 use frictionsim::results::reference::{markdown, reference};
+use rayon::prelude::*;
 
 /// Holds a page of the guide to what the declarations say; `FRICTIONSIM_WRITE_TABLE=1` writes it.
 pub fn guide_has(name: &str, table: &str) {
@@ -107,46 +108,27 @@ fn check(command: &str, case: &str, set: &[&str]) {
     assert!(read > 0, "{command} wrote nothing that is declared");
 }
 
-const COARSE: [&str; 2] = ["mesh.circumferential_elements=24", "mesh.radial_elements=4"];
-
+/// A mesh held at its bore alone; cycles of waves and of a whole mesh.
 #[test]
-fn every_column_and_key_that_cea_writes_is_declared() {
-    let few = ["cea.friction_coefficients=[0.0,0.15,0.3]", "cea.sensitivities=true"];
-    check("cea", "polycarbonate-disc.toml", &[&COARSE[..], &few].concat());
-}
-
-#[test]
-fn every_key_that_mesh_writes_is_declared() {
-    check("mesh", "polycarbonate-disc.toml", &COARSE);
-    // Held at its bore alone.
-    check("mesh", "ring-on-disc.toml", &COARSE);
-}
-
-#[test]
-fn every_column_that_matrices_write_is_declared() {
-    check("matrices", "tread-block.toml", &[]);
-}
-
-#[test]
-fn every_column_and_key_that_uncertainty_writes_is_declared() {
-    let few =
-        ["cea.max_frequency_hz=14000", "uncertainty.samples=16", "uncertainty.index_samples=0"];
-    check("uncertainty", "squeal-probability.toml", &[&COARSE[..], &few].concat());
-}
-
-#[test]
-fn every_column_and_key_that_convergence_writes_is_declared() {
-    let few = ["convergence={factors=[0.5,0.75,1]}", "cea.friction_coefficients=[0.0,0.3]"];
-    check("convergence", "polycarbonate-disc.toml", &[&COARSE[..], &few].concat());
-}
-
-#[test]
-fn every_column_and_key_that_cycle_writes_is_declared() {
-    let short = ["cycle.continuation.count=3", "cycle.stability=point", "cycle.frames=1"];
-    let coarse = ["mesh.circumferential_elements=90", "mesh.radial_elements=18"];
-    check("cycle", "limit-cycle.toml", &[&coarse[..], &short].concat());
-    let few = ["contact.friction_coefficient=0.7", "cycle={}"];
-    check("cycle", "sliding-block.toml", &few);
+fn every_column_and_key_that_a_command_writes_is_declared() {
+    let coarse = "mesh.circumferential_elements=24 ; mesh.radial_elements=4";
+    let few = "cea.friction_coefficients=[0.0,0.15,0.3] ; cea.sensitivities=true";
+    let samples =
+        "cea.max_frequency_hz=14000 ; uncertainty.samples=16 ; uncertainty.index_samples=0";
+    let meshes = "convergence={factors=[0.5,0.75,1]} ; cea.friction_coefficients=[0.0,0.3]";
+    let cycle = "mesh.circumferential_elements=90 ; mesh.radial_elements=18 ; cycle.frames=1 ; \
+                 cycle.continuation.count=3 ; cycle.stability=point";
+    let rows: [(&str, &str, &[&str]); 8] = [
+        ("cea", "polycarbonate-disc.toml", &[coarse, few]),
+        ("mesh", "polycarbonate-disc.toml", &[coarse]),
+        ("mesh", "ring-on-disc.toml", &[coarse]),
+        ("matrices", "tread-block.toml", &[]),
+        ("uncertainty", "squeal-probability.toml", &[coarse, samples]),
+        ("convergence", "polycarbonate-disc.toml", &[coarse, meshes]),
+        ("cycle", "limit-cycle.toml", &[cycle]),
+        ("cycle", "sliding-block.toml", &["contact.friction_coefficient=0.7 ; cycle={}"]),
+    ];
+    rows.into_par_iter().for_each(|(command, case, set)| check(command, case, set));
 }
 
 #[test]
