@@ -151,47 +151,55 @@ fn the_response_with_loss_factors_is_that_of_the_dense_matrix() {
     }
 }
 
+/// Holds the derivatives of the modes at friction 0.4, by a parameter of which `with` has the tangent where it is so much more and by
+/// friction, to differences of whole solutions, within what a bound makes of the sizes of eigenvalue and difference; how many modes.
+pub fn follow_differences(
+    with: &dyn Fn(f64) -> SlidingTangent,
+    step: f64,
+    bounds: [fn(f64, f64) -> f64; 2],
+) -> usize {
+    let mu = 0.4;
+    let at = |tangent: &SlidingTangent, mu: f64| eigenvalues(&solved(tangent, &[mu]), 0);
+    let (own, beside) = (with(0.0), [with(step), with(-step)]);
+    let by_parameter = beside.each_ref().map(|tangent| at(tangent, mu));
+    let by_friction = [mu + step, mu - step].map(|mu| at(&own, mu));
+    let pairs = mode_pairs(&own, mu, &at(&own, mu));
+    // Pairs +n and -n that friction has not parted have no single vector.
+    for pair in pairs.iter().flatten() {
+        let value = pair.eigenvalue;
+        let frozen = beside.each_ref().map(|tangent| {
+            let there = tangent.at_frequency(value.im / TAU);
+            let lost = there.structural.as_ref().unwrap();
+            [&there.stiffness, &there.damping, &there.mass, lost].map(|matrix| matrix.evaluate(mu))
+        });
+        let [dk, dc, dm, dh] = [0, 1, 2, 3].map(|k| -> Vec<f64> {
+            let sides = frozen[0][k].iter().zip(&frozen[1][k]);
+            sides.map(|(a, b)| (a - b) / (2.0 * step)).collect()
+        });
+        let response = pair.response(own.stiffness.pattern(), [&dk, &dc, &dm], &dh);
+        let derivatives = [(response, &by_parameter), (pair.derivative, &by_friction)];
+        for ((derivative, sides), bound) in derivatives.into_iter().zip(bounds) {
+            let [above, below] =
+                sides.each_ref().map(|all| *nearest_by(all, |other| (**other - value).norm()));
+            let slope = (above - below) / (2.0 * step);
+            let error = (slope - derivative).norm();
+            assert!(error < bound(value.norm(), slope.norm()), "{value} {slope} {derivative}");
+            assert!(derivative.norm() > 0.0, "{value}");
+        }
+    }
+    pairs.iter().flatten().count()
+}
+
 /// Theory: a derivative by friction, and by the loss factors themselves, is that of the eigenvalue: differences of whole solutions.
 #[test]
 fn derivatives_with_loss_factors_are_differences_of_eigenvalues() {
-    let with = |eta: f64| {
-        let springs = ContactStiffness { normal_stiffness: Some(2e12), loss_factor: eta, ..RIGID };
+    let with = |more: f64| {
+        let loss_factor = 0.1 + more;
+        let springs = ContactStiffness { normal_stiffness: Some(2e12), loss_factor, ..RIGID };
         let held = BoundaryCondition::Clamped;
         tangent_with([0.02, 0.1], RayleighDamping::default(), springs, held)
     };
-    let (mu, eta, step) = (0.4, 0.1, 1e-4);
-    let tangent = with(eta);
-    let targets = eigenvalues(&solved(&tangent, &[mu]), 0);
-    let pairs = mode_pairs(&tangent, mu, &targets);
-    let [above, below] = [step, -step].map(|h| with(eta + h));
-    let values = |t: &SlidingTangent| t.structural.as_ref().unwrap().evaluate(mu);
-    let both = values(&above).into_iter().zip(values(&below));
-    let change: Vec<f64> = both.map(|(a, b)| (a - b) / (2.0 * step)).collect();
-    let none = vec![0.0; change.len()];
-    let pattern = tangent.stiffness.pattern();
-    let difference = |k: usize, sides: [c64; 2], own: c64| {
-        let slope = (sides[0] - sides[1]) / (2.0 * step);
-        // The second order of the differences, where branches bend.
-        assert!((slope - own).norm() < 1e-5 * targets[k].norm(), "{k} {slope} {own}");
-        assert!(own.norm() > 0.0);
-    };
-    let nearest = |all: &[c64], k: usize| {
-        let apart =
-            |a: &&c64, b: &&c64| (*a - targets[k]).norm().total_cmp(&(*b - targets[k]).norm());
-        *all.iter().min_by(apart).unwrap()
-    };
-    let at = |tangent: &SlidingTangent, mu: f64| eigenvalues(&solved(tangent, &[mu]), 0);
-    let by_eta = [at(&above, mu), at(&below, mu)];
-    let by_mu = [at(&tangent, mu + step), at(&tangent, mu - step)];
-    let mut count = 0;
-    for (k, pair) in pairs.iter().enumerate() {
-        // Pairs +n and -n that friction has not parted have no single vector.
-        let Some(pair) = pair else { continue };
-        count += 1;
-        let own = pair.response(pattern, [&none, &none, &none], &change);
-        difference(k, [nearest(&by_eta[0], k), nearest(&by_eta[1], k)], own);
-        let own = pair.derivative;
-        difference(k, [nearest(&by_mu[0], k), nearest(&by_mu[1], k)], own);
-    }
+    // The second order of the differences, where branches bend.
+    let count = follow_differences(&with, 1e-4, [|value, _| 1e-5 * value; 2]);
     assert!(count >= 4, "{count}");
 }
