@@ -3,8 +3,8 @@
 //! Independent check: `disk_brake100` of the NLEVP collection (licence beside the data) with eigenvalues computed to 40 digits elsewhere.
 //! Consistency check: the exported matrices of a body without symmetry, solved densely, have the eigenvalues of `cea`.
 
+use crate::cea_cyclic::dense::dense_quadratic;
 use crate::prelude::*;
-use faer::linalg::solvers::Solve;
 use std::io::Read;
 
 /// The eigenvalues published with the problem.
@@ -78,12 +78,7 @@ fn assembled(folder: &Path, friction: f64) -> [Mat<f64>; 4] {
         let roles = ["mass", "damping", "stiffness", "structural"];
         for (sum, role) in sums.iter_mut().zip(roles) {
             if let Some(power) = entry["role"][role]["friction_power"].as_i64() {
-                let factor = away.powi(power as i32);
-                for j in 0..size {
-                    for i in 0..size {
-                        sum[(i, j)] += factor * matrix[(i, j)];
-                    }
-                }
+                *sum += faer::Scale(away.powi(power as i32)) * &matrix;
             }
         }
     }
@@ -94,22 +89,9 @@ fn assembled(folder: &Path, friction: f64) -> [Mat<f64>; 4] {
 pub fn lossy_eigenvalues([mass, damping, stiffness, losses]: [&Mat<f64>; 4]) -> Vec<c64> {
     let size = mass.nrows();
     let scale = (stiffness.norm_l2() / mass.norm_l2()).sqrt();
-    let complex = |re: &Mat<f64>, im: Option<&Mat<f64>>, factor: f64| {
-        Mat::<c64>::from_fn(size, size, |i, j| {
-            c64::new(re[(i, j)] * factor, im.map_or(0.0, |im| im[(i, j)] * factor))
-        })
-    };
-    let lu = complex(mass, None, 1.0).partial_piv_lu();
-    let springs = lu.solve(complex(stiffness, Some(losses), scale.powi(-2)));
-    let dashpots = lu.solve(complex(damping, None, scale.recip()));
-    let companion = Mat::<c64>::from_fn(2 * size, 2 * size, |i, j| match (i < size, j < size) {
-        (true, true) => c64::new(0.0, 0.0),
-        (true, false) => c64::new(f64::from(u8::from(i + size == j)), 0.0),
-        (false, true) => -springs[(i - size, j)],
-        (false, false) => -dashpots[(i - size, j - size)],
-    });
-    let found = companion.eigenvalues().unwrap();
-    found.into_iter().map(|own| own * scale).collect()
+    let complex = |own: &Mat<f64>| Mat::from_fn(size, size, |i, j| c64::new(own[(i, j)], 0.0));
+    let elastic = Mat::from_fn(size, size, |i, j| c64::new(stiffness[(i, j)], losses[(i, j)]));
+    dense_quadratic(&complex(mass), &complex(damping), &elastic, scale)
 }
 
 /// Rigid contact, springs with dashpots, and losses of the block and of springs, which have a matrix of their own.

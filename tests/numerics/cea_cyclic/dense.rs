@@ -35,7 +35,7 @@ pub fn fold(
 }
 
 /// Every eigenvalue of `lambda^2 M + lambda C + K`, through the companion matrix scaled by `scale`.
-fn dense_quadratic(m: &Mat<c64>, c: &Mat<c64>, k: &Mat<c64>, scale: f64) -> Vec<c64> {
+pub fn dense_quadratic(m: &Mat<c64>, c: &Mat<c64>, k: &Mat<c64>, scale: f64) -> Vec<c64> {
     let n = m.nrows();
     let lu = m.partial_piv_lu();
     let (mk, mc) = (lu.solve(k), lu.solve(c));
