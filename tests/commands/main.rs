@@ -40,4 +40,4 @@ mod sweep;
 mod transient_command;
 mod uncertainty;
 
-use common::{disc, draws, prelude, program, table_1, tier};
+use common::{disc, draws, prelude, program, tier};

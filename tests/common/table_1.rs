@@ -1,36 +1,21 @@
 //! Table 1 of the paper: eigenvalues of the disc at friction coefficient 0.3.
 
-/// Real part and frequency, Hz, harmonic and branch of each row.
+use std::sync::LazyLock;
+
+/// Harmonic and branch of each row, a digit each.
 ///
-/// Harmonic and branch are not printed there but identified with the exact continuum model; of a pair the row with the
-/// larger real part travels backwards.
-pub const TABLE_1: [(f64, f64, usize, usize); 28] = [
-    (-51.7, 5857.0, 0, 1),
-    (-207.1, 7655.0, 1, 1),
-    (34.9, 7660.0, 1, 1),
-    (-438.6, 9884.0, 2, 1),
-    (155.7, 9901.0, 2, 1),
-    (-556.3, 10502.0, 1, 2),
-    (237.8, 10525.0, 1, 2),
-    (-176.7, 11077.0, 0, 2),
-    (-330.9, 11258.0, 3, 1),
-    (-34.1, 11268.0, 3, 1),
-    (-281.8, 11770.0, 2, 2),
-    (-116.5, 11775.0, 2, 2),
-    (-285.7, 12915.0, 4, 1),
-    (-192.6, 12918.0, 4, 1),
-    (-318.8, 14673.0, 5, 1),
-    (-296.7, 14674.0, 5, 1),
-    (-366.7, 14777.0, 3, 2),
-    (-257.5, 14781.0, 3, 2),
-    (-314.3, 14832.0, 0, 3),
-    (-726.9, 16345.0, 1, 3),
-    (-36.4, 16377.0, 1, 3),
-    (-387.3, 16433.0, 6, 1),
-    (-383.0, 16434.0, 6, 1),
-    (-394.9, 16641.0, 0, 4),
-    (-842.6, 17145.0, 2, 3),
-    (3.1, 17186.0, 2, 3),
-    (-500.1, 17444.0, 4, 2),
-    (-367.5, 17451.0, 4, 2),
-];
+/// They are not printed there but identified with the exact continuum model; of a pair the row with the larger real part travels
+/// backwards.
+const NAMES: &str =
+    "01 11 11 21 21 12 12 02 31 31 22 22 41 41 51 51 32 32 03 13 13 61 61 04 23 23 42 42";
+
+/// Real part and frequency, Hz, as the shipped table has them, harmonic and branch of each row.
+pub static TABLE_1: LazyLock<Vec<(f64, f64, usize, usize)>> = LazyLock::new(|| {
+    let rows = include_str!("../../cases/table-1.csv").lines().skip(2);
+    let rows = rows.zip(NAMES.split(' ')).map(|(row, name)| {
+        let (real, frequency) = row.split_once(',').unwrap();
+        let [harmonic, branch] = [0, 1].map(|digit| usize::from(name.as_bytes()[digit] - b'0'));
+        (real.parse().unwrap(), frequency.parse().unwrap(), harmonic, branch)
+    });
+    rows.collect()
+});

@@ -48,7 +48,7 @@ fn five_thousand_imported_elements_give_table_1_and_the_continuum() {
         let mesh = import(&mesh);
         assert!((4900..5100).contains(&mesh.element_count()));
         let found = modes(&mesh, TABLE_1.len());
-        for (i, (mode, row)) in found.iter().zip(&TABLE_1).enumerate() {
+        for (i, (mode, row)) in found.iter().zip(TABLE_1.iter()).enumerate() {
             let relative = (mode.frequency_hz() / row.1 - 1.0).abs();
             // What the fit of the material to the table leaves.
             assert!(relative < 3e-3, "mode {}: {relative}", i + 1);
