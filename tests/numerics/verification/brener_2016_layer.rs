@@ -68,16 +68,14 @@ fn closed_form(k: f64, guess: c64) -> [f64; 2] {
 
 /// The fastest growing waves of an annulus of inner radius `a` for `k H` of 0.5 and 1.
 fn annulus(a: f64) -> [[f64; 2]; 2] {
-    let case = format!(
-        "[geometry]\ninner_radius = {a:?}\nouter_radius = {:?}\n[mesh]\ncircumferential_elements = {}\n\
-         radial_elements = 6\nelement = \"quad8\"\n[material]\nyoung_modulus = {YOUNG:e}\n\
-         poisson_ratio = {POISSON}\ndensity = {DENSITY:?}\nformulation = \"plane-strain\"\n[contact]\n\
-         friction_coefficient = {FRICTION}\ninterference = 1e-9\nrotation_speed_rpm = 100.0\n[cea]\n\
-         friction_coefficients = [{FRICTION}]\nmax_frequency_hz = 26000.0\ngeometric_stiffness = false\n",
-        a + HEIGHT,
-        160.0 * a,
+    let case = include_str!("../../cases/brener-2016-layer.toml");
+    let (outer, around) = (a + HEIGHT, 160.0 * a);
+    let size = format!(
+        "geometry.inner_radius={a:?} ; geometry.outer_radius={outer:?} ; \
+         mesh.circumferential_elements={around}"
     );
-    let modes = table(&folder("brener_2016_layer", &[]), "cea", &case, "eigenvalues.csv");
+    let folder = folder("brener_2016_layer", &[]);
+    let modes = table(&folder, "cea", case, &size, "eigenvalues.csv");
     [0.5, 1.0].map(|k| {
         let n = (k * a / HEIGHT).round();
         let own = modes.iter().filter(|mode| mode["harmonic"] == n);

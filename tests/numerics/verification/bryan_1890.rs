@@ -68,15 +68,9 @@ fn ring(sectors: usize) -> [[f64; 2]; 2] {
     let size = [outer - inner, TAU / sectors as f64, 0.01];
     let block = brick("ring", [inner, 0.0, 0.0], size, [sectors / 12, 1, 1]);
     let mesh = file_of(&[block], polar);
-    let case = format!(
-        "[mesh]\nfile = \"body.msh\"\nsectors = {sectors}\n[material]\nyoung_modulus = {YOUNG:e}\n\
-         poisson_ratio = {POISSON}\ndensity = {DENSITY:?}\n[boundaries.ring_x0]\ncondition = \"support\"\n\
-         normal_stiffness = {SPRING:e}\ntangential_stiffness = {SPRING:e}\n[boundaries.ring_z0]\n\
-         condition = \"guide\"\n[boundaries.ring_z1]\ncondition = \"guide\"\n[motion.ring]\n\
-         axis = [0.0, 0.0, 1.0]\nrotation_speed_rpm = 600.0\nrotation_terms = true\nframe = \"turning\"\n\
-         [cea]\nmodes = 7\nfriction_coefficients = [0.0]\n"
-    );
-    let modes = table(&folder("bryan_1890", &mesh), "cea", &case, "eigenvalues.csv");
+    let case = include_str!("../../cases/bryan-1890.toml");
+    let (folder, set) = (folder("bryan_1890", &mesh), format!("mesh.sectors={sectors}"));
+    let modes = table(&folder, "cea", case, &set, "eigenvalues.csv");
     [2.0, 3.0].map(|n| {
         let own = modes.iter().filter(|mode| mode["harmonic"] == n);
         let found: Vec<f64> = own.map(|mode| mode["frequency_hz"]).collect();

@@ -26,7 +26,7 @@ fn duffour_woodhouse_critical_friction_is_a_root_of_two_responses() {
     let body = include_str!("../../cases/duffour-woodhouse.toml");
     let cea = "[cea]\nmodes = 6\nfriction_coefficients = { from = 0.0, to = 0.4, count = 5 }\n\
                geometric_stiffness = false\n";
-    let onsets = table(&folder, "cea", &format!("{body}{cea}"), "stability.csv");
+    let onsets = table(&folder, "cea", &format!("{body}{cea}"), "", "stability.csv");
     let pressed = super::rows(&folder.join("cea/prestress.csv"));
     assert_eq!(pressed.iter().filter(|node| node["pressure_pa"] > 0.0).count(), 1);
     assert!(!onsets.is_empty());
@@ -38,7 +38,7 @@ fn duffour_woodhouse_critical_friction_is_a_root_of_two_responses() {
                  method = \"direct\"\nfrequencies_hz = [{:?}]\n",
                 onset["frequency_hz"]
             );
-            let line = &table(&folder, "frf", &format!("{body}{frf}"), "frf.csv")[0];
+            let line = &table(&folder, "frf", &format!("{body}{frf}"), "", "frf.csv")[0];
             faer::c64::new(line["receptance_real"], line["receptance_imaginary"])
         };
         let (normal, along) = (response("y"), response("x"));

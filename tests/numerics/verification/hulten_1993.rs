@@ -25,21 +25,12 @@ fn block(young_modulus: f64) -> [f64; 3] {
     let mass = 7850.0 * size[0] * size[1] * size[2];
     let [wall, floor] = [(OWN[0], size[1]), (OWN[1], size[0])]
         .map(|(own, side)| own / side / size[2] * mass * TAU * TAU * own);
-    let contact = |name: &str, surface: &str, direction: &str, stiffness: f64| {
-        format!(
-            "[contacts.{name}]\nsurface = \"{surface}\"\ncounterface = \"plane\"\ndirection = {direction}\n\
-             speed = 1.0\nfriction_coefficient = 0.4\nnormal_stiffness = {stiffness:?}\nstate = \"closed\"\n"
-        )
-    };
-    let case = format!(
-        "[mesh]\nfile = \"body.msh\"\n[material]\nyoung_modulus = {young_modulus:e}\npoisson_ratio = 0.3\n\
-         density = 7850.0\n[boundaries.block_z0]\ncondition = \"guide\"\n[boundaries.block_z1]\n\
-         condition = \"guide\"\n{}{}[cea]\nfriction_coefficients = [0.0, 0.1, 0.2, 0.3, 0.4]\nmodes = 3\n\
-         geometric_stiffness = false\n",
-        contact("wall", "block_x0", "[0.0, -1.0, 0.0]", wall),
-        contact("floor", "block_y0", "[1.0, 0.0, 0.0]", floor),
+    let case = include_str!("../../cases/hulten-1993.toml");
+    let springs = format!(
+        "material.young_modulus={young_modulus:e} ; contacts.wall.normal_stiffness={wall:?} ; \
+         contacts.floor.normal_stiffness={floor:?}"
     );
-    let onsets = table(&folder, "cea", &case, "stability.csv");
+    let onsets = table(&folder, "cea", case, &springs, "stability.csv");
     assert_eq!(onsets.len(), 1);
     let growth = super::rows(&folder.join("cea/eigenvalues.csv"));
     let growth = growth.iter().map(|row| row["growth_rate_per_s"]).fold(0.0, f64::max);

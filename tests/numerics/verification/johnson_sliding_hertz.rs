@@ -44,7 +44,8 @@ fn errors(step: f64) -> [f64; 2] {
         [x, below + (HEIGHT - below) * y / HEIGHT]
     });
     let case = include_str!("../../cases/johnson-sliding-hertz.toml");
-    let mut nodes = table(&folder("johnson_sliding_hertz", &mesh), "cea", case, "prestress.csv");
+    let folder = folder("johnson_sliding_hertz", &mesh);
+    let mut nodes = table(&folder, "cea", case, "", "prestress.csv");
     nodes.sort_by(|a, b| a["x_m"].total_cmp(&b["x_m"]));
     let force: f64 = nodes
         .windows(2)

@@ -26,10 +26,11 @@ fn folder(name: &str, mesh: &[u8]) -> PathBuf {
     folder
 }
 
-/// Runs a command of the program on a case in a folder, and reads one table of its results.
-fn table(folder: &Path, command: &str, case: &str, file: &str) -> Vec<Row> {
+/// Runs a command of the program on a case under changes in a folder, and reads one table of its results.
+fn table(folder: &Path, command: &str, case: &str, changes: &str, file: &str) -> Vec<Row> {
     let run = Run::of_text(command, folder, case).args(&["-qq", "--force"]).out(command);
-    rows(&run.done().path(file))
+    let changes = (!changes.is_empty()).then_some(changes);
+    rows(&run.set(changes.as_slice()).done().path(file))
 }
 
 /// The rows of a table of results.

@@ -19,7 +19,7 @@ fn beam(elements: usize) -> [f64; 2] {
     };
     let mesh = file_of(&[layer("metal", 0.0, 1e-3, 1), layer("layer", 1e-3, 2e-3, 2)], |p| p);
     let case = include_str!("../../cases/oberst.toml");
-    let modes = table(&folder("oberst", &mesh), "cea", case, "eigenvalues.csv");
+    let modes = table(&folder("oberst", &mesh), "cea", case, "", "eigenvalues.csv");
     let lambda = c64::new(modes[0]["real_hz"], modes[0]["frequency_hz"]);
     // lambda^2 = -omega_0^2 (1 + i eta).
     let square = lambda * lambda;

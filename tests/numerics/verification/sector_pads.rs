@@ -64,25 +64,16 @@ fn plate(thickness: f64) -> Vec<u8> {
 
 /// Critical frictions of the waves of five and six nodal diameters.
 fn found(thickness: f64) -> [f64; 2] {
-    let pad = |surface: &str| {
-        format!(
-            "[contacts.{surface}]\nsurface = \"{surface}\"\ncounterface = \"plane\"\naxis = [0.0, 0.0, 1.0]\n\
-             rotation_speed_rpm = 60.0\nfriction_coefficient = 0.3\nnormal_stiffness = {:e}\n\
-             state = \"closed\"\n",
-            // As weak against the plate, whatever its thickness.
-            1e6 * (thickness / 4e-3).powi(3)
-        )
-    };
-    let case = format!(
-        "[mesh]\nfile = \"body.msh\"\n[material]\nyoung_modulus = 2.1e11\npoisson_ratio = 0.3\n\
-         density = 7850.0\n[boundaries.hub_x0]\ncondition = \"clamped\"\n{}{}[cea]\nmodes = 13\n\
-         friction_coefficients = [0.0, {:?}]\ngeometric_stiffness = false\n",
-        pad("pad_z1"),
-        pad("pad_z0"),
-        1.1 * closed_form(6.0, thickness),
+    // As weak against the plate, whatever its thickness.
+    let stiffness = 1e6 * (thickness / 4e-3).powi(3);
+    let last = 1.1 * closed_form(6.0, thickness);
+    let set = format!(
+        "contacts.pad_z0.normal_stiffness={stiffness:e} ; \
+         contacts.pad_z1.normal_stiffness={stiffness:e} ; cea.friction_coefficients=[0.0, {last:?}]"
     );
-    let mut onsets =
-        table(&folder("sector_pads", &plate(thickness)), "cea", &case, "stability.csv");
+    let case = include_str!("../../cases/sector-pads.toml");
+    let folder = folder("sector_pads", &plate(thickness));
+    let mut onsets = table(&folder, "cea", case, &set, "stability.csv");
     onsets.sort_by(|a, b| a["frequency_hz"].total_cmp(&b["frequency_hz"]));
     assert_eq!(onsets.len(), 2, "{onsets:?}");
     [0, 1].map(|k| onsets[k]["critical_friction"])
