@@ -78,11 +78,7 @@ fn structural_damping_has_its_meaning_or_is_refused() {
 }
 
 /// A ring whose layers are two regions, each with a section of its own.
-const TWO_REGIONS: &str = "[mesh]\nfile = \"ring.msh\"
-[materials.disc]\nyoung_modulus = 2.5e9\npoisson_ratio = 0.3805\ndensity = 1228.0
-[materials.rim]\nyoung_modulus = 2.1e11\npoisson_ratio = 0.3\ndensity = 7850.0
-[boundaries.outer]\ncondition = \"clamped\"
-[contact]\nfriction_coefficient = 0.3\ninterference = 25e-6\nrotation_speed_rpm = 610.0\n";
+const TWO_REGIONS: &str = include_str!("../cases/ring-of-two-regions.toml");
 
 #[test]
 fn a_common_material_is_asked_for_only_where_a_region_has_none() {

@@ -117,13 +117,7 @@ fn jaw() -> Vec<u8> {
 #[test]
 fn modes_near_jamming_are_listed_as_far_as_rounding_lets_them() {
     let folder = folder_with(&[("jaw.msh", &jaw())]);
-    let case = "[mesh]\nfile = \"jaw.msh\"\nunits = \"mm-t-s\"\n\
-        [material]\nyoung_modulus = 2.1e11\npoisson_ratio = 0.3\ndensity = 7850.0\n\
-        [boundaries.top]\ncondition = \"support\"\nnormal_stiffness = 1e12\n\
-        tangential_stiffness = 1e12\n\
-        [damping]\nstiffness_coefficient = 1e-8\n\
-        [contact]\nboundary = \"sole\"\ncounterface = \"plane\"\nspeed = 1.0\n\
-        friction_coefficient = 0.33\ninterference = 1e-6\n[cea]\nmodes = 20\n";
+    let case = include_str!("../cases/jaw.toml");
     let frequencies = |values: &str| -> Vec<f64> {
         let run = Run::of_text("cea", folder.path(), case).out(folder.path().join(values));
         let run = run.set(&[format!("cea.friction_coefficients=[{values}]")]);

@@ -2,28 +2,13 @@
 
 use crate::prelude::*;
 
-const MATERIAL: &str = "young_modulus = 2.5e9\npoisson_ratio = 0.38\ndensity = 1228.0\n";
-const CONTACT: &str = "friction_coefficient = 0.3\n";
-
-fn ring(further: &str) -> String {
-    format!(
-        "[geometry]\ninner_radius = 0.02\nouter_radius = 0.06\nthickness = 0.009\n\
-         [mesh]\ncircumferential_elements = 24\nradial_elements = 6\n{further}\n{MATERIAL}\
-         [contact]\nrotation_speed_rpm = 60.0\n{CONTACT}"
-    )
-}
-
-/// A block of `name` on a rigid plane, or two blocks beside each other.
-fn pads(contacts: &str) -> String {
-    format!(
-        "[mesh]\nfile = \"pads.msh\"\n[material]\n{MATERIAL}[boundaries.left_z1]\ncondition = \"clamped\"\n\
-         [boundaries.right_z1]\ncondition = \"clamped\"\n[ties.seam]\nsurface = \"left_x1\"\ncounter = \"right_x0\"\n{contacts}"
-    )
-}
-
-fn read(folder: &Path, text: &str) -> Result<Case, String> {
-    read_case(folder.join("case.toml"), text, AS_IT_IS)
-}
+const RING: &str = include_str!("../cases/pressed-ring.toml");
+const BLOCK: &str = include_str!("../cases/pressed-block.toml");
+/// Two blocks beside each other.
+const PADS: &str = include_str!("../cases/pressed-pads.toml");
+const SEAM: &str = "ties.seam={ surface=\"left_x1\", counter=\"right_x0\" }";
+const ON_PLANE: &str = "contact={ boundary=\"left_z0\", counterface=\"plane\", speed=1.5, \
+    direction=[1.0, 0.0, 0.0], friction_coefficient=0.3 }";
 
 fn folder() -> TempDir {
     let names = ["face", "back", "block"];
@@ -37,32 +22,29 @@ fn folder() -> TempDir {
 #[test]
 fn the_force_of_an_interference_gives_that_interference_back() {
     let folder = folder();
-    let plane = format!(
-        "[mesh]\nfile = \"block.msh\"\n[material]\n{MATERIAL}[boundaries.back]\ncondition = \"clamped\"\n\
-         [contact]\nboundary = \"face\"\ncounterface = \"plane\"\nspeed = 1.5\n{CONTACT}"
-    );
-    let stiffening = "normal_law = \"exponential\"\nreference_pressure = 2e5\nheight = 2e-6\n";
-    let solid = "axial_elements = 1\n[material]\nformulation = \"three-dimensional\"";
-    let under_ring = "boundary = \"top\"\nring_inner_radius = 0.03\nring_outer_radius = 0.05\n";
-    let guide = "[boundaries.bottom]\ncondition = \"guide\"\n";
-    let rigid = "counterface = \"plane\"\nspeed = 1.5\ndirection = [1.0, 0.0, 0.0]\n";
-    let short = format!("[contact]\nboundary = \"left_z0\"\n{rigid}{CONTACT}");
-    for (head, tail) in [
-        (ring("[material]"), ""),
-        (ring("[material]") + stiffening, ""),
-        (ring(solid), ""),
-        (ring(solid) + under_ring, guide),
-        (plane.clone(), ""),
-        (plane + stiffening, ""),
-        (pads(&short), ""),
-    ] {
-        let with = |line: &str| read(folder.path(), &format!("{head}{line}\n{tail}")).unwrap();
-        let pushed = with("interference = 2e-5");
+    let stiffening = "contact.normal_law=exponential ; contact.reference_pressure=2e5 ; \
+        contact.height=2e-6";
+    let solid = "mesh.axial_elements=1 ; material.formulation=three-dimensional";
+    let under_ring = "contact.boundary=top ; contact.ring_inner_radius=0.03 ; \
+        contact.ring_outer_radius=0.05 ; boundaries.bottom.condition=guide";
+    let cases: [(&str, &[&str]); 7] = [
+        (RING, &[]),
+        (RING, &[stiffening]),
+        (RING, &[solid]),
+        (RING, &[solid, under_ring]),
+        (BLOCK, &[]),
+        (BLOCK, &[stiffening]),
+        (PADS, &[SEAM, ON_PLANE]),
+    ];
+    for (text, own) in cases {
+        let path = folder.path().join("case.toml");
+        let with = |change: &str| case_of(&path, text, &[own, &[change]].concat());
+        let pushed = with("contact.interference=2e-5");
         let force = pushed.normal_forces().unwrap()[0];
-        assert!(force > 0.0, "{head}");
-        let pressed = with(&format!("normal_force = {force:?}"));
+        assert!(force > 0.0, "{own:?}");
+        let pressed = with(&format!("contact.normal_force={force:?}"));
         let found = pressed.contact.sliding.interference;
-        assert!((found / 2e-5 - 1.0).abs() < 1e-9, "{head}: {found:e}");
+        assert!((found / 2e-5 - 1.0).abs() < 1e-9, "{own:?}: {found:e}");
         assert!((pressed.normal_forces().unwrap()[0] / force - 1.0).abs() < 1e-9);
     }
 }
@@ -70,14 +52,16 @@ fn the_force_of_an_interference_gives_that_interference_back() {
 /// Two contacts of one body lean on each other through it, and each gets its own force.
 #[test]
 fn every_contact_gets_its_own_force() {
+    let folder = folder();
     let contact = |name: &str, force: f64| {
         format!(
-            "[contacts.{name}]\nsurface = \"{name}_z0\"\ncounterface = \"plane\"\nspeed = 1.5\n\
-             direction = [1.0, 0.0, 0.0]\nnormal_stiffness = 1e12\nnormal_force = {force:?}\n{CONTACT}"
+            "contacts.{name}={{ surface=\"{name}_z0\", counterface=\"plane\", speed=1.5, \
+             direction=[1.0, 0.0, 0.0], normal_stiffness=1e12, normal_force={force:?}, \
+             friction_coefficient=0.3 }}"
         )
     };
-    let both = contact("left", 200.0) + &contact("right", 300.0);
-    let case = read(folder().path(), &pads(&both)).unwrap();
+    let set = [SEAM.to_owned(), contact("left", 200.0), contact("right", 300.0)];
+    let case = case_of(folder.path().join("case.toml"), PADS, &set);
     let forces = case.normal_forces().unwrap();
     near_each(&forces, &[200.0, 300.0], 1e-9);
 }
@@ -85,14 +69,9 @@ fn every_contact_gets_its_own_force() {
 /// Closed form: a block without Poisson's ratio under a rigid plane is a spring `E A / h`.
 #[test]
 fn a_block_is_pushed_in_by_its_force_over_its_stiffness() {
-    let text = format!(
-        "[contact]\nboundary = \"left_z0\"\ncounterface = \"plane\"\nspeed = 1.5\ndirection = [1.0, 0.0, 0.0]\n\
-         normal_force = 1000.0\n{CONTACT}"
-    );
-    let text = pads(&text).replace("0.38", "0.0");
-    let (text, rest) = text.split_once("[ties.seam]").unwrap();
-    let (_, rest) = rest.split_once("[contact]").unwrap();
-    let case = read(folder().path(), &format!("{text}[contact]{rest}")).unwrap();
+    let folder = folder();
+    let set = [ON_PLANE, "contact.normal_force=1000.0 ; material.poisson_ratio=0.0"];
+    let case = case_of(folder.path().join("case.toml"), PADS, &set);
     let exact = 1000.0 * 0.01 / (2.5e9 * 0.02 * 0.02);
     let found = case.contact.sliding.interference;
     assert!((found / exact - 1.0).abs() < 1e-9, "{found:e} {exact:e}");

@@ -60,14 +60,9 @@ fn bodies_that_creep_on_cylinders_and_balls_have_every_mode_of_a_dense_decomposi
         let block = Block { name: "part", origin: [0.0; 3], size: [1.0; 3], counts: [3, 3, 1] };
         let mesh = file_of(&[block], |at| bent(counterface, at));
         let folder = folder_with(&[("part.msh", &mesh)]);
-        let text = format!(
-            "[mesh]\nfile = \"part.msh\"\n[boundaries.part_z1]\ncondition = \"clamped\"
-[material]\nyoung_modulus = 2.5e9\npoisson_ratio = 0.38\ndensity = 1228.0
-[damping]\nstiffness_coefficient = 1e-7\n[contact]\nboundary = \"part_z0\"
-counterface = \"{counterface}\"\naxis = [0.0, 0.0, 1.0]\nfriction_coefficient = 0.3
-interference = 2e-5\nrotation_speed_rpm = {rpm}\n[cea]\nfriction_coefficients = [0.0, 0.3]\nmodes = 6\n"
-        );
-        let run = |command| Run::of_text(command, folder.path(), &text).out(command);
+        let text = include_str!("../cases/creeping-part.toml");
+        let set = [format!("contact.counterface={counterface} ; contact.rotation_speed_rpm={rpm}")];
+        let run = |command| Run::of_text(command, folder.path(), text).set(&set).out(command);
         let answer = run("cea").done().says(&["mu p / V", "!not converged"]);
         let own = answer.modes("0.3");
         assert_eq!(own.len(), 6, "{}", answer.said());

@@ -227,10 +227,7 @@ fn a_refused_continuation_leaves_the_finished_folder_as_it_was() {
     let folder = folder();
     let path = folder.path().join("body.msh");
     fs::write(&path, file_of(&[BRICK], |point| point)).unwrap();
-    let case = "[mesh]\nfile = \"body.msh\"\n[material]\nyoung_modulus = 2.5e9\npoisson_ratio = 0.38\ndensity = 1228.0\n\
-         [boundaries.brick_z1]\ncondition = \"clamped\"\n[contact]\nboundary = \"brick_z0\"\ncounterface = \"plane\"\n\
-         direction = [1.0, 0.0, 0.0]\nspeed = 1.0\nfriction_coefficient = 0.3\ninterference = 1e-5\n\
-         normal_stiffness = 1e12\n[transient]\nduration = 4e-5\nexpansion_time = 1e-5\n";
+    let case = include_str!("../cases/short-transient.toml");
     let out = folder.path().join("out");
     let run =
         |further: &[&str]| Run::of_text("transient", folder.path(), case).out("out").args(further);

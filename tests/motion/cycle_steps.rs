@@ -4,9 +4,6 @@
 
 use crate::prelude::*;
 
-const MATERIAL: &str = "young_modulus = 2.5e9\npoisson_ratio = 0.38\ndensity = 1228.0\n";
-const CYCLE: &str = "[cycle]\nonsets = \"all\"\nconfirmation_periods = 0\nstability = \"none\"\n";
-
 /// A plane block of a size and so many squares, held at its back by springs `[normal, tangential]` (Pa/m) and pressed on a moving
 /// plane, with its damping by stiffness, the speed and the interference.
 struct PlaneBlock([f64; 2], [usize; 2], [f64; 2], [f64; 3]);
@@ -16,14 +13,14 @@ impl PlaneBlock {
         let Self(size, counts, [normal, tangential], [damping, speed, interference]) = *self;
         let [xs, ys] = [0, 1].map(|axis| even(size[axis], counts[axis]));
         let mesh = quadrilaterals(&xs, &ys, ["face", "back", "block"], |x, y| [x, y]);
-        let text = format!(
-            "[mesh]\nfile = \"body.msh\"\n[boundaries.back]\ncondition = \"support\"\nnormal_stiffness = {normal:?}\n\
-             tangential_stiffness = {tangential:?}\n[material]\nformulation = \"plane-strain\"\n{MATERIAL}[damping]\n\
-             mass_coefficient = 40.0\nstiffness_coefficient = {damping:?}\n[contact]\nboundary = \"face\"\n\
-             counterface = \"plane\"\ndirection = [1.0, 0.0]\nspeed = {speed:?}\nfriction_coefficient = 0.45\n\
-             interference = {interference:?}\n[cea]\nmodes = 12\n{CYCLE}[transient]\nduration = 0.01\n"
+        let own = format!(
+            "boundaries.back.normal_stiffness={normal:?} ; \
+             boundaries.back.tangential_stiffness={tangential:?} ; \
+             damping.stiffness_coefficient={damping:?} ; contact.speed={speed:?} ; \
+             contact.interference={interference:?}"
         );
-        cycles(&mesh, &text, overrides)
+        let text = include_str!("../cases/plane-block-on-springs.toml");
+        cycles(&mesh, text, &[&[own.as_str()], overrides].concat())
     }
 }
 
@@ -93,13 +90,7 @@ fn the_cycle_of_a_mode_does_not_depend_on_the_time_step() {
 #[test]
 fn a_cycle_under_falling_friction_is_found_at_the_automatic_step_where_the_transient_has_it() {
     let block = brick("block", [0.0; 3], [0.06, 0.04, 0.02], [6, 2, 2]);
-    let text = format!(
-        "[mesh]\nfile = \"body.msh\"\n[boundaries.block_z1]\ncondition = \"support\"\nnormal_stiffness = 1e11\n\
-         tangential_stiffness = 1e11\n[material]\n{MATERIAL}[damping]\nmass_coefficient = 40.0\n\
-         stiffness_coefficient = 4.5e-7\n[contact]\nboundary = \"block_z0\"\ncounterface = \"plane\"\n\
-         direction = [1.0, 0.0, 0.0]\nspeed = 1.0\nfriction_coefficient = 0.3\nstatic_friction_ratio = 1.3\n\
-         decay_speed = 0.5\ninterference = 1e-5\n[cea]\nmodes = 12\n{CYCLE}"
-    );
-    let found = frequency(&cycles(&file_of(&[block], |point| point), &text, &[]), 2);
+    let text = include_str!("../cases/block-under-falling-friction.toml");
+    let found = frequency(&cycles(&file_of(&[block], |point| point), text, &[]), 2);
     assert!((found / 7037.17 - 1.0).abs() < 1e-3, "{found}");
 }

@@ -211,10 +211,7 @@ fn sectors_that_do_not_meet_are_refused() {
 fn a_wrong_number_of_solid_sectors_is_reported_where_it_is_given() {
     let block = brick("ring", [0.07, 0.0, 0.0], [0.05, TAU / 6.0, 0.01], [2, 4, 1]);
     let mesh = file_of(&[block], polar);
-    let text = "[mesh]\nfile = \"sector.msh\"\nsectors = 5\n\
-                [material]\nyoung_modulus = 1.1e11\npoisson_ratio = 0.28\ndensity = 7200.0\n\
-                [damping]\nmass_coefficient = 0.0\nstiffness_coefficient = 1e-8\n\
-                [boundaries.ring_x0]\ncondition = \"clamped\"\n[cea]\nmodes = 4\n";
+    let text = include_str!("../cases/wrong-sectors.toml");
     let wrong = read("wrong-solid-count", &mesh, text, "auto").unwrap_err().to_string();
     has(&wrong, &["case.toml:3 ; the sector does not fit"]);
 }

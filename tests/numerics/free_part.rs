@@ -22,11 +22,7 @@ const CONSTANTS: [(&str, f64); 9] = [
 fn lining(name: &str, sections: &str, overrides: &[String]) -> Case {
     let block = brick("part", [0.0; 3], [0.05, 0.04, 0.02], [4, 3, 2]);
     let mesh = file_of(&[block], |point| point);
-    let text = format!(
-        "[mesh]\nfile = \"part.msh\"
-[material]\nyoung_moduli = [8e9, 7e9, 1.5e9]\npoisson_ratios = [0.25, 0.15, 0.2]\n\
-     shear_moduli = [3e9, 1.2e9, 1e9]\ndensity = 2500.0\n{sections}"
-    );
+    let text = format!("{}{sections}", include_str!("../cases/free-lining.toml"));
     case_beside(&format!("free-part-{name}"), &[("part.msh", &mesh)], &text, overrides)
 }
 

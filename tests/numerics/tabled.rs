@@ -211,13 +211,7 @@ fn a_sandwich_beam_loses_what_ross_kerwin_and_ungar_say() {
     }
 }
 
-const RUBBER: &str = "frequency_hz,young_modulus,loss_factor
-10,5e6,0.10
-100,8e6,0.25
-500,14e6,0.45
-1000,20e6,0.50
-3000,40e6,0.40
-";
+const RUBBER: &str = include_str!("../cases/rubber.csv");
 
 /// A block of steel on one of rubber that stands on the ground; both move along z alone.
 fn mount(name: &str, table: &str, sections: &str) -> Result<Case, String> {

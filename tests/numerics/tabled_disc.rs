@@ -3,29 +3,17 @@
 use crate::prelude::*;
 
 /// A lining whose modulus and losses rise over the modes of a disc.
-const LINING: &str = "\
-frequency_hz,young_modulus,loss_factor
-100,2.3e9,0.0004
-2000,2.4e9,0.0006
-6000,2.6e9,0.0008
-20000,2.9e9,0.0010
-";
+const LINING: &[u8] = include_bytes!("../cases/lining.csv");
 
 fn disc_of(material: &str, sections: &str) -> Case {
     disc_with(material, sections, &[])
 }
 
 fn disc_with(material: &str, sections: &str, set: &[&str]) -> Case {
-    let folder = folder_with(&[("lining.csv", LINING.as_bytes())]);
-    let flat = "frequency_hz,young_modulus,loss_factor\n0,3e9,0.1\n50000,3e9,0.1\n";
-    fs::write(folder.path().join("flat.csv"), flat).unwrap();
-    let text = format!(
-        "[geometry]\ninner_radius = 0.0205\nouter_radius = 0.0905\n{sections}
-[material]\n{material}\npoisson_ratio = 0.3805\ndensity = 1228.0
-[contact]\nfriction_coefficient = 0.3\ninterference = 25e-6\nrotation_speed_rpm = 610.0
-[cea]\nmax_frequency_hz = 12000.0\n\
-     friction_coefficients = {{ from = 0.0, to = 0.6, count = 7 }}\ngeometric_stiffness = false\n"
-    );
+    let flat = b"frequency_hz,young_modulus,loss_factor\n0,3e9,0.1\n50000,3e9,0.1\n";
+    let folder = folder_with(&[("lining.csv", LINING), ("flat.csv", flat)]);
+    let material = format!("[material]\n{material}\npoisson_ratio = 0.3805\ndensity = 1228.0\n");
+    let text = [include_str!("../cases/tabled-disc.toml"), sections, &material].concat();
     case_of(folder.path().join("disc.toml"), &text, set)
 }
 

@@ -9,14 +9,8 @@ use frictionsim::results::Finding;
 use frictionsim::study::fit::{fit_case, refuse_too_few};
 use frictionsim::study::uncertainty::{Sampler, summarize};
 
-pub const MODEL: &str = "[material]\nyoung_modulus = 2.5e9\npoisson_ratio = 0.3805\n\
-    density = 1228.0\n\
-    [damping]\nmass_coefficient = 40.0\nstiffness_coefficient = 4.5e-7\n\
-    [contact]\nfriction_coefficient = 0.3\ninterference = 25e-6\nrotation_speed_rpm = 610.0\n";
-const STUDIES: &str = "[cea]\nmodes = 6\nfriction_coefficients = [0.0, 0.5]\ngeometric_stiffness = false\n\
-    [uncertainty]\nsamples = 2\nindex_samples = 0\n\
-    [uncertainty.distributions]\n\"material.young_modulus\" = { uniform = [2.4e9, 2.6e9] }\n\
-    [fit]\nstarts = 1\n[fit.parameters]\n\"material.density\" = [800.0, 2000.0]\n";
+pub const MODEL: &str = include_str!("../../cases/imported-disc.toml");
+const STUDIES: &str = include_str!("../../cases/studies.toml");
 const GENERATED: &str = "[geometry]\ninner_radius = 0.0205\nouter_radius = 0.0905\n\
     [mesh]\ncircumferential_elements = 18\nradial_elements = 3\n";
 
