@@ -46,6 +46,12 @@ pub fn assert_same(
     }
 }
 
+/// Rows of numbers, which stand in one text with ` ; ` between.
+pub fn rows_of<const N: usize>(text: &str) -> Vec<[f64; N]> {
+    let row = |row: &str| row.split(' ').map(|word| word.parse().unwrap()).collect::<Vec<f64>>();
+    text.split(" ; ").map(|text| row(text).try_into().unwrap()).collect()
+}
+
 /// Largest relative distance of numbers from as many others, one by one.
 pub fn largest_difference(a: &[c64], b: &[c64]) -> f64 {
     assert_eq!(a.len(), b.len());

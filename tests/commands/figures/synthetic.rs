@@ -6,24 +6,10 @@ pub const MASS_COEFFICIENT: f64 = 40.0;
 pub const STIFFNESS_COEFFICIENT: f64 = 4.5e-7;
 
 /// Frequency (Hz), harmonic, branch, split of the real part at friction 0.3 (Hz).
-const PAIRS: [(f64, usize, usize, f64); 16] = [
-    (5857.0, 0, 0, 0.0),
-    (7657.0, 3, 0, 121.0),
-    (9892.0, 2, 0, 297.0),
-    (10513.0, 1, 0, 397.0),
-    (11077.0, 0, 1, 0.0),
-    (11263.0, 4, 0, 148.0),
-    (11772.0, 1, 1, 83.0),
-    (12916.0, 2, 1, 46.0),
-    (14673.0, 5, 0, 11.0),
-    (14779.0, 3, 1, 55.0),
-    (14832.0, 0, 2, 0.0),
-    (16361.0, 4, 1, 345.0),
-    (16433.0, 6, 0, 2.0),
-    (16641.0, 0, 3, 0.0),
-    (17165.0, 1, 2, 423.0),
-    (17447.0, 2, 2, 66.0),
-];
+const PAIRS: &str = "\
+    5857 0 0 0 ; 7657 3 0 121 ; 9892 2 0 297 ; 10513 1 0 397 ; 11077 0 1 0 ; \
+    11263 4 0 148 ; 11772 1 1 83 ; 12916 2 1 46 ; 14673 5 0 11 ; 14779 3 1 55 ; \
+    14832 0 2 0 ; 16361 4 1 345 ; 16433 6 0 2 ; 16641 0 3 0 ; 17165 1 2 423 ; 17447 2 2 66";
 
 pub fn mesh(circumferential_elements: usize, radial_elements: usize) -> Mesh {
     AnnulusMesh::generate(&crate::disc::annulus(
@@ -141,7 +127,8 @@ pub fn report<'a>(mesh: &'a Mesh, sweep: &'a FrictionSweep, field: &'a BaseField
 /// All modes at one friction value; pairs split symmetrically, the wave against the rotor gains.
 pub fn modes(friction: f64, mesh: Option<&Mesh>) -> Vec<ComplexMode> {
     let mut modes = Vec::new();
-    for (frequency, harmonic, branch, split) in PAIRS {
+    for [frequency, harmonic, branch, split] in rows_of(PAIRS) {
+        let (harmonic, branch) = (harmonic as usize, branch as usize);
         let directions: &[i8] = if harmonic == 0 { &[0] } else { &[1, -1] };
         for &direction in directions {
             let sign = -f64::from(direction);
@@ -169,7 +156,8 @@ pub fn sweep(count: usize) -> FrictionSweep {
         })
         .collect();
     let mut intervals = Vec::new();
-    for (frequency, harmonic, branch, split) in PAIRS {
+    for [frequency, harmonic, branch, split] in rows_of(PAIRS) {
+        let (harmonic, branch) = (harmonic as usize, branch as usize);
         let critical = -0.3 * rayleigh(TAU * frequency) / (TAU * split);
         if split > 0.0 && critical < 1.0 {
             intervals.push(UnstableInterval {
