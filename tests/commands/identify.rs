@@ -23,7 +23,7 @@ fn noisy(values: &[c64], relative: f64, seed: u64) -> Vec<c64> {
 fn free_disc(step_hz: f64) -> (Vec<f64>, Vec<c64>) {
     let specification = crate::disc::annulus(ElementKind::Quad4, 90, 18);
     let material = crate::disc::POLYCARBONATE;
-    let damping = RayleighDamping { mass_coefficient: ALPHA, stiffness_coefficient: BETA };
+    let damping = rayleigh_damping(ALPHA, BETA);
     let annulus = AnnulusMesh::generate(&specification).unwrap();
     let mass = MassKind::Consistent;
     let system = FrfSystem::body(&annulus.mesh, &material, mass, damping, false);

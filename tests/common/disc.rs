@@ -27,8 +27,7 @@ pub const POLYCARBONATE: ElasticMaterial = ElasticMaterial {
     ..ElasticMaterial::PLAIN
 };
 
-pub const DAMPING: RayleighDamping =
-    RayleighDamping { mass_coefficient: 40.0, stiffness_coefficient: 4.5e-7 };
+pub const DAMPING: RayleighDamping = rayleigh_damping(40.0, 4.5e-7);
 
 /// An even mesh of the disc.
 pub fn annulus(
@@ -126,6 +125,16 @@ pub const fn springs(stiffness: [f64; 3], dashpots: [f64; 2]) -> ElasticSupport 
         tangential_damping: dashpots[1],
         loss_factor: 0.0,
     }
+}
+
+/// A boundary on such springs.
+pub const fn support(stiffness: [f64; 3], dashpots: [f64; 2]) -> BoundaryCondition {
+    BoundaryCondition::Support(springs(stiffness, dashpots))
+}
+
+/// Damping of the mass, 1/s, and of the stiffness, s.
+pub const fn rayleigh_damping(mass: f64, stiffness: f64) -> RayleighDamping {
+    RayleighDamping { mass_coefficient: mass, stiffness_coefficient: stiffness }
 }
 
 /// The disc on a deformable shaft with a clamped bore of 6 mm.

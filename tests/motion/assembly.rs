@@ -2,8 +2,7 @@
 
 use crate::prelude::*;
 
-const DAMPING: RayleighDamping =
-    RayleighDamping { mass_coefficient: 50.0, stiffness_coefficient: 1e-7 };
+const DAMPING: RayleighDamping = rayleigh_damping(50.0, 1e-7);
 
 const FRICTION: f64 = 0.4;
 
@@ -187,8 +186,7 @@ fn heavy_dashpots_of_a_support_bound_the_step() {
     let mut mesh = mesh([4, 3, 1]);
     let held = boundary(&mesh, "plate_x0");
     let dashpot = 1e9;
-    mesh.boundaries[held].condition =
-        BoundaryCondition::Support(springs([1e10, 1e10, 0.0], [dashpot, dashpot]));
+    mesh.boundaries[held].condition = support([1e10, 1e10, 0.0], [dashpot, dashpot]);
     let assembly = assembly(&mesh, &STEEL, SPRINGS[0], None, 0.05);
     let operator = model(&assembly).operator(OperatorChoice::Auto, SimdLevel::Scalar).unwrap();
     let settings = settings(InitialState::Rest, 1e-4, 0.05);

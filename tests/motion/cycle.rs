@@ -220,10 +220,7 @@ fn reference_cycles_of_the_fine_mesh_have_the_transients_frequencies_and_statuse
 fn lightly_damped_cycle_has_the_transients_frequency_and_statuses() {
     // With so little damping a resonance takes the edge's response to a force at the same point through zero.
     // Explicit transient, 180 x 35, n = 1 seeded, last fifth of 60 ms, amplitudes constant to 1e-4.
-    let point = OperatingPoint {
-        damping: RayleighDamping { mass_coefficient: 40.0, stiffness_coefficient: 1.5e-7 },
-        ..operating(610.0)
-    };
+    let point = OperatingPoint { damping: rayleigh_damping(40.0, 1.5e-7), ..operating(610.0) };
     let specification = annulus(ElementKind::Quad4, 180, 35);
     let solver =
         CycleSolver::new(&specification, &POLYCARBONATE, &point.damping, Family::lowest(1), None)
@@ -298,7 +295,7 @@ fn number_of_phases_does_not_decide_what_is_found() {
 #[test]
 fn field_of_a_disc_with_a_supported_rim_has_the_nodes_of_its_mesh() {
     let mut specification = disc();
-    specification.outer = BoundaryCondition::Support(springs([2e12, 2e12, 0.0], [0.0, 0.0]));
+    specification.outer = support([2e12, 2e12, 0.0], [0.0, 0.0]);
     let solver = solver_of(&specification, 1);
     let cycle = solver.find(&operating(610.0)).unwrap();
     let [field, _] = solver.field(&cycle, 0.0);

@@ -18,7 +18,7 @@ fn aluminium(elements: [usize; 2]) -> (DiscModel, SlidingContact) {
     let model = DiscModel {
         specification: ring([0.03, 0.075], elements),
         material: metal(70e9, 0.33, 2700.0),
-        damping: RayleighDamping { mass_coefficient: 0.0, stiffness_coefficient: 1.5e-7 },
+        damping: rayleigh_damping(0.0, 1.5e-7),
     };
     let contact = sliding_at(0.35, 10e-6, 900.0 * TAU / 60.0);
     (model, contact)
@@ -32,7 +32,7 @@ fn steel(elements: [usize; 2]) -> (DiscModel, SlidingContact) {
             formulation: PlaneFormulation::PlaneStrain,
             ..metal(210e9, 0.3, 7850.0)
         },
-        damping: RayleighDamping { mass_coefficient: 100.0, stiffness_coefficient: 4e-7 },
+        damping: rayleigh_damping(100.0, 4e-7),
     };
     let contact = sliding_at(0.5, 40e-6, 750.0 * TAU / 60.0);
     (model, contact)

@@ -56,7 +56,7 @@ fn turned_renumbered_and_scaled_meshes_have_one_spectrum() {
 }
 
 fn supported(stiffness: f64) -> BoundaryCondition {
-    BoundaryCondition::Support(springs([stiffness, stiffness, 0.0], [0.0, 0.0]))
+    support([stiffness, stiffness, 0.0], [0.0, 0.0])
 }
 
 /// Unstable modes of the disc on an elastic rim, from a prototype with quadratic elements in the radius and exact
@@ -213,11 +213,10 @@ fn a_body_without_symmetry_grows_in_time_as_its_eigenvalue_says() {
 fn energy_closes_with_supports_pressure_and_partial_contact() {
     let file = FileMesh::read(&rectangle(0.04, 0.06, 8, 12)).unwrap();
     let mut specification = block_specification();
-    specification.conditions[0].1 =
-        BoundaryCondition::Support(springs([1e11, 1e10, 0.0], [3e4, 1e4]));
+    specification.conditions[0].1 = support([1e11, 1e10, 0.0], [3e4, 1e4]);
     let mesh = Mesh::from_gmsh(&file, &specification).unwrap();
     let body = SteppedBody::Plane { mesh: &mesh, annulus: None };
-    let damping = RayleighDamping { mass_coefficient: 40.0, stiffness_coefficient: 1e-7 };
+    let damping = rayleigh_damping(40.0, 1e-7);
     let model = TransientModel::new(body, &POLYCARBONATE, damping, plane(0.5));
     let settings =
         transient_settings(2e-3, 5e-6, 1e-4, InitialState::Rest, Perturbation::default());

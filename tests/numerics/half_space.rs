@@ -43,7 +43,7 @@ fn annulus_speed(n: usize) -> c64 {
     // Shear modulus and density one: speeds come in units of that of shear waves.
     let material =
         elastic(2.0 * (1.0 + POISSON_RATIO), POISSON_RATIO, 1.0, PlaneFormulation::PlaneStrain);
-    let undamped = RayleighDamping { mass_coefficient: 0.0, stiffness_coefficient: 0.0 };
+    let undamped = rayleigh_damping(0.0, 0.0);
     let options = TangentOptions { damping: undamped, ..TANGENT };
     let contact = sliding_at(FRICTION, 1e-6, 1.0);
     let sector = SectorMesh::generate(&specification).unwrap();

@@ -86,7 +86,7 @@ fn one_loss_factor_turns_every_undamped_eigenvalue_by_the_root_of_its_stiffness(
 /// no growth.
 #[test]
 fn loss_factors_of_disc_and_shaft_have_the_spectrum_of_the_dense_matrices() {
-    let viscous = RayleighDamping { mass_coefficient: 20.0, stiffness_coefficient: 1e-7 };
+    let viscous = rayleigh_damping(20.0, 1e-7);
     agrees_with_the_dense_matrices(&tangent([0.02, 0.2], viscous));
 }
 

@@ -30,7 +30,7 @@ fn tangent(rows: Vec<[f64; 3]>, contact_stiffness: ContactStiffness) -> SlidingT
     let materials = vec![disc, steel.into()];
     let options = TangentOptions {
         geometric_stiffness: true,
-        damping: RayleighDamping { mass_coefficient: 20.0, stiffness_coefficient: 1e-7 },
+        damping: rayleigh_damping(20.0, 1e-7),
         contact: contact_stiffness,
         ..TANGENT
     };
@@ -162,7 +162,7 @@ fn a_sandwich_beam_loses_what_ross_kerwin_and_ungar_say() {
         (side, held)
     });
     // Nothing else holds the beam along itself: at 70 Hz it moves as a whole.
-    let soft = BoundaryCondition::Support(springs([0.0, 2e6, 0.0], [0.0, 0.0]));
+    let soft = support([0.0, 2e6, 0.0], [0.0, 0.0]);
     let held = [&sides[..], &[("z1", soft)]].concat();
     let mesh = solids_of(&file, &held);
     let solid = |young_modulus: f64, poisson_ratio: f64, density: f64| {

@@ -73,7 +73,7 @@ fn drawn(report: &CeaReport<'_>, width_mm: Option<f64>) -> TempDir {
     let out = folder();
     let path = out.path().join("out");
     let folder = OutputFolder::open(&path, &Manifest::new("cea"), Replace::Anything).unwrap();
-    let one = RayleighDamping { mass_coefficient: 40.0, stiffness_coefficient: 4.5e-7 };
+    let one = rayleigh_damping(40.0, 4.5e-7);
     let other = RayleighDamping { mass_coefficient: 10.0, ..one };
     let dampings = [("damping of disc".to_owned(), one), ("damping of pad".to_owned(), other)];
     let options =

@@ -24,10 +24,7 @@ fn report_of_an_eigenvalue_analysis_holds_every_figure_table_and_the_case() {
     let frictions: Vec<f64> = sweep.points.iter().map(|p| p.friction_coefficient).collect();
     let report = synthetic::report(&mesh, &sweep, &field);
     let report = CeaReport { friction_coefficients: &frictions, ..report };
-    let damping = RayleighDamping {
-        mass_coefficient: synthetic::MASS_COEFFICIENT,
-        stiffness_coefficient: synthetic::STIFFNESS_COEFFICIENT,
-    };
+    let damping = rayleigh_damping(synthetic::MASS_COEFFICIENT, synthetic::STIFFNESS_COEFFICIENT);
     let dampings = [("damping *ζ*".to_owned(), damping)];
     let manifest = Manifest {
         case_text: "[mesh]\ncircumferential_elements = 180\n".into(),

@@ -12,10 +12,7 @@ use crate::prelude::*;
 use crate::structural_damping::dense;
 use BaseChoice::{Closed, Solved};
 
-const OPTIONS: TangentOptions = TangentOptions {
-    damping: RayleighDamping { mass_coefficient: 0.0, stiffness_coefficient: 0.0 },
-    ..TANGENT
-};
+const OPTIONS: TangentOptions = TangentOptions { damping: rayleigh_damping(0.0, 0.0), ..TANGENT };
 
 /// The lower side of `upper` slides on the upper side of `lower`.
 fn sliding(mesh: &Mesh, normal_stiffness: Option<f64>) -> SlidingSurfaces {

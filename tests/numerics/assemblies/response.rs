@@ -6,10 +6,7 @@ use crate::prelude::*;
 use crate::structural_damping::dense;
 use faer::linalg::solvers::Solve;
 
-const DAMPED: TangentOptions = TangentOptions {
-    damping: RayleighDamping { mass_coefficient: 30.0, stiffness_coefficient: 2e-8 },
-    ..OPTIONS
-};
+const DAMPED: TangentOptions = TangentOptions { damping: rayleigh_damping(30.0, 2e-8), ..OPTIONS };
 
 fn node_at(mesh: &Mesh, place: [f64; 3]) -> usize {
     nearest_by(0..mesh.node_count(), |&node| {

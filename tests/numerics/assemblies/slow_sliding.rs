@@ -25,10 +25,7 @@ fn lists_of_lossy_modes_have_no_gaps_however_slow_the_sliding() {
         let motion = Motion { rotation_speed, ..aside(&mesh) };
         let steel = ElasticMaterial { loss_factor: 0.3 * loss_factor, ..STEEL };
         let assembly = Assembly::new(&mesh, &steel, &[], &[contact], &[motion], Solved).unwrap();
-        let options = TangentOptions {
-            damping: RayleighDamping { mass_coefficient: 100.0, stiffness_coefficient: 1e-8 },
-            ..OPTIONS
-        };
+        let options = TangentOptions { damping: rayleigh_damping(100.0, 1e-8), ..OPTIONS };
         let tangent = tangent_at(&assembly, 0.5, &options);
         let exact = dense_eigenvalues(&tangent, 0.5);
         for count in 4..9 {

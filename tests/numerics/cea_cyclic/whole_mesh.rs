@@ -69,12 +69,10 @@ fn cyclic_and_sparse_spectra_of_two_bodies_are_the_same() {
     );
     let mut damped =
         on_shaft(with_shaft(ElementKind::Quad8, 12, [2, 4]), on(STEEL), rigid_contact(true));
-    damped.material.shaft.as_mut().unwrap().damping =
-        Some(RayleighDamping { mass_coefficient: 5.0, stiffness_coefficient: 1e-8 });
+    damped.material.shaft.as_mut().unwrap().damping = Some(rayleigh_damping(5.0, 1e-8));
     let mut supported = alike.clone();
     supported.specification.circumferential_elements = 18;
-    supported.specification.shaft.as_mut().unwrap().bore =
-        BoundaryCondition::Support(springs([1e13, 2e13, 0.0], [10.0, 0.0]));
+    supported.specification.shaft.as_mut().unwrap().bore = support([1e13, 2e13, 0.0], [10.0, 0.0]);
     supported.options.contact = compliant(7.4e12, [1e3, 2e3]);
     supported.options.damping_model = DampingModel::BodyOnly;
     supported.options.mass = MassKind::Lumped;

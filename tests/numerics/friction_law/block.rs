@@ -69,7 +69,7 @@ fn a_block_on_a_spring_turns_unstable_at_the_critical_speed_of_the_stick_slip_os
 /// Samples of a transient of forty periods that starts from a push.
 fn samples(mesh: &Mesh, speed: f64) -> Vec<SampleRow> {
     let body = SteppedBody::Plane { mesh, annulus: None };
-    let damping = RayleighDamping { mass_coefficient: 0.0, stiffness_coefficient: 3e-7 };
+    let damping = rayleigh_damping(0.0, 3e-7);
     let model = TransientModel::new(body, &STEEL, damping, contact(speed));
     let period = TAU * (MASS / SPRING).sqrt();
     let noise = Perturbation { noise: 1e-2 * speed, ..Perturbation::default() };

@@ -22,8 +22,7 @@ fn a_shaft_a_million_times_stiffer_is_the_rigid_cylinder() {
 fn sensitivities_of_two_bodies_are_those_of_each_bodys_own_parameters() {
     let mut own = model(with_shaft(ElementKind::Quad4, 24, [2, 4]), on(STEEL), rigid_contact(true));
     // So much that the little it does to a stiff shaft stands above round-off.
-    own.material.shaft.as_mut().unwrap().damping =
-        Some(RayleighDamping { mass_coefficient: 5e3, stiffness_coefficient: 1e-6 });
+    own.material.shaft.as_mut().unwrap().damping = Some(rayleigh_damping(5e3, 1e-6));
     let solve = |model: &AnnulusModel<AnnulusMaterials>| {
         model.swept(&[0.0, 0.3], ModeLimit::MaxFrequency(12e3)).branches
     };

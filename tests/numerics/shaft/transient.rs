@@ -24,8 +24,7 @@ fn a_wave_in_disc_and_shaft_grows_as_the_complex_eigenvalue_predicts() {
     let specification = with_shaft(ElementKind::Quad4, 48, [4, 10]);
     let annulus = AnnulusMesh::generate(&specification).unwrap();
     let mut steel = on(STEEL);
-    steel.shaft.as_mut().unwrap().damping =
-        Some(RayleighDamping { mass_coefficient: 20.0, stiffness_coefficient: 1e-8 });
+    steel.shaft.as_mut().unwrap().damping = Some(rayleigh_damping(20.0, 1e-8));
     let options = TangentOptions { mass: MassKind::Lumped, ..rigid_contact(false) };
     for (materials, n, duration) in [(on(POLYCARBONATE), 2, 0.006), (steel, 2, 0.006)] {
         let limit = ModeLimit::MaxFrequency(20e3);

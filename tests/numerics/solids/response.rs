@@ -105,7 +105,7 @@ fn a_body_on_springs_responds_like_the_whole_ring() {
     let mut model = small(ElementKind::Quad4);
     model.specification.conditions = [
         BoundaryCondition::Free,
-        BoundaryCondition::Support(springs([1e11, 3e10, 2e10], [0.0, 0.0])),
+        support([1e11, 3e10, 2e10], [0.0, 0.0]),
         BoundaryCondition::Free,
         BoundaryCondition::Guide,
     ];

@@ -71,8 +71,7 @@ fn sensitivities_on_springs_equal_finite_differences() {
         let mut model = strained(element, SPRINGS);
         model.contact.decay = None;
         // The base state of a body on springs changes with its stiffness even where it is pressed by a distance.
-        model.specification.conditions[1] =
-            BoundaryCondition::Support(springs([2e11, 1e11, 1e11], [1e4, 1e4]));
+        model.specification.conditions[1] = support([2e11, 1e11, 1e11], [1e4, 1e4]);
         model.options.damping_model = DampingModel::BodyOnly;
         hold(&model, &format!("springs, {element:?}"));
     }

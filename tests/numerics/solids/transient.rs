@@ -72,8 +72,7 @@ fn a_wave_under_a_ring_that_opens_in_part_grows_at_the_rate_of_the_eigenvalue_an
     model.material.young_modulus = 2.1e11;
     model.material.poisson_ratio = 0.3;
     model.material.density = 7850.0;
-    model.options.damping =
-        RayleighDamping { mass_coefficient: 20.0, stiffness_coefficient: 1.5e-7 };
+    model.options.damping = rayleigh_damping(20.0, 1.5e-7);
     model.options.damping_model = DampingModel::BodyOnly;
     model.options.contact.normal_stiffness = Some(1e11);
     model.options.contact.is_base_compliant = true;
@@ -162,8 +161,7 @@ fn a_compliant_ring_with_dashpots_on_supports_of_its_own_keeps_the_balance() {
     model.options.contact.normal_stiffness = Some(1e12);
     model.options.contact.normal_damping = 1e4;
     model.options.contact.tangential_damping = 1e4;
-    model.specification.conditions[1] =
-        BoundaryCondition::Support(springs([1e11, 1e11, 1e10], [1e4, 1e4]));
+    model.specification.conditions[1] = support([1e11, 1e11, 1e10], [1e4, 1e4]);
     let record = run(&model, &seeded(2, 0.5, 1e-3));
     let analysis = TransientAnalysis::of(&record, &[2]);
     assert!(analysis.largest_residual < 1e-10);
