@@ -21,11 +21,11 @@ fn noisy(values: &[c64], relative: f64, seed: u64) -> Vec<c64> {
 
 /// Driving-point accelerance of the free polycarbonate disc at its rim, up to 10 kHz.
 fn free_disc(step_hz: f64) -> (Vec<f64>, Vec<c64>) {
-    let specification = crate::disc::annulus(ElementKind::Quad4, 90, 18);
+    let specification = crate::disc::annulus(Quad4, 90, 18);
     let material = crate::disc::POLYCARBONATE;
     let damping = rayleigh_damping(ALPHA, BETA);
     let annulus = AnnulusMesh::generate(&specification).unwrap();
-    let mass = MassKind::Consistent;
+    let mass = Consistent;
     let system = FrfSystem::body(&annulus.mesh, &material, mass, damping, false);
     let rim = Terminal { node: 18, direction: Direction::Radial };
     let unknown = system.unknown(rim, "force_node").unwrap();

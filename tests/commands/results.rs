@@ -91,7 +91,7 @@ fn manifest(hash: &str) -> Manifest {
 
 #[test]
 fn tables_hold_one_row_for_each_mode_of_a_tabulated_friction_value() {
-    let (mesh, folder) = (annulus(ElementKind::Quad4), folder());
+    let (mesh, folder) = (annulus(Quad4), folder());
     let sweep = sweep(&mesh);
     let output = OutputFolder::open(folder.path(), &manifest("a"), Replace::SameCase).unwrap();
     let summary = write(&output, &report(&mesh, &sweep, &field(&mesh))).unwrap();
@@ -128,7 +128,7 @@ fn tables_hold_one_row_for_each_mode_of_a_tabulated_friction_value() {
 
 #[test]
 fn the_printed_table_tells_stable_ranges_from_unstable_modes() {
-    let mesh = annulus(ElementKind::Quad4);
+    let mesh = annulus(Quad4);
     let text = document(&report(&mesh, &sweep(&mesh), &field(&mesh)), View::Whole).to_text();
     has(
         &text,
@@ -180,7 +180,7 @@ fn floats(bytes: &[u8]) -> Vec<f64> {
 #[test]
 fn a_vtu_file_gives_back_mesh_and_fields_bit_for_bit() {
     // Enough nodes for arrays of several compressed blocks.
-    for (element, kind, count) in [(ElementKind::Quad4, 9u8, 200), (ElementKind::Quad8, 23, 5)] {
+    for (element, kind, count) in [(Quad4, 9u8, 200), (Quad8, 23, 5)] {
         let mut spec = annulus(element).specification;
         (spec.circumferential_elements, spec.radial_elements) = (count, count / 2);
         let mesh = AnnulusMesh::generate(&spec).unwrap().mesh;
@@ -207,7 +207,7 @@ fn a_vtu_file_gives_back_mesh_and_fields_bit_for_bit() {
 
 #[test]
 fn a_field_of_the_wrong_length_is_not_written() {
-    let mesh = annulus(ElementKind::Quad4).mesh;
+    let mesh = annulus(Quad4).mesh;
     let fields = [Field::scalars("short", vec![0.0; 3])];
     let encoded = EncodedMesh::new(&mesh).unwrap();
     assert!(write_vtu(&mut Vec::new(), &encoded, &[], &fields, &[]).is_err());
@@ -215,7 +215,7 @@ fn a_field_of_the_wrong_length_is_not_written() {
 
 #[test]
 fn a_rigid_translation_is_one_cartesian_vector_at_every_node() {
-    let mesh = annulus(ElementKind::Quad8).mesh;
+    let mesh = annulus(Quad8).mesh;
     let polar: Vec<f64> = mesh
         .frame_angles()
         .iter()
@@ -229,7 +229,7 @@ fn a_rigid_translation_is_one_cartesian_vector_at_every_node() {
 
 #[test]
 fn shapes_come_as_real_and_imaginary_fields_in_a_collection() {
-    let (mesh, folder) = (annulus(ElementKind::Quad8), folder());
+    let (mesh, folder) = (annulus(Quad8), folder());
     let sweep = sweep(&mesh);
     let output = OutputFolder::open(folder.path(), &manifest("a"), Replace::SameCase).unwrap();
     write(&output, &report(&mesh, &sweep, &field(&mesh))).unwrap();
@@ -265,7 +265,7 @@ fn the_area_of_a_quadratic_mesh_converges_with_the_fourth_power() {
         statistics.area_error.unwrap()
     };
     // A parabola through three points of a circle is off by the fourth power of the angle.
-    for (element, order) in [(ElementKind::Quad4, 2.0), (ElementKind::Quad8, 4.0)] {
+    for (element, order) in [(Quad4, 2.0), (Quad8, 4.0)] {
         let slope = (error(element, 12) / error(element, 24)).log2();
         assert!((slope - order).abs() < 0.1, "{element:?} {slope}");
     }

@@ -19,12 +19,8 @@ fn bodies([lower, upper, plate]: [[usize; 3]; 3], with_lower: bool) -> Mesh {
     let lower = block("lower", 0.0, 0.02, lower);
     let upper = [block("upper", 0.02, 0.015, upper), block("plate", 0.035, 0.005, plate)];
     let blocks: Vec<Block> = with_lower.then_some(lower).into_iter().chain(upper).collect();
-    let held = BoundaryCondition::Fixed([true, true, false]);
-    let conditions = [
-        ("plate_x0", held),
-        ("plate_z1", BoundaryCondition::Pressure(2e6)),
-        ("lower_z0", BoundaryCondition::Clamped),
-    ];
+    let held = Fixed([true, true, false]);
+    let conditions = [("plate_x0", held), ("plate_z1", Pressure(2e6)), ("lower_z0", Clamped)];
     let conditions = &conditions[..if with_lower { 3 } else { 2 }];
     mesh_of(&file_of(&blocks, |point| point), conditions)
 }
@@ -104,17 +100,13 @@ fn run(assembly: &Assembly<'_>, settings: &TransientSettings) -> (Recorder, f64)
 
 /// The modes of the eigenvalue analysis, with the lumped mass of the transient.
 fn modes(assembly: &Assembly<'_>, count: usize) -> Vec<ComplexMode> {
-    let options = TangentOptions {
-        mass: MassKind::Lumped,
-        damping: DAMPING,
-        damping_model: DampingModel::BodyOnly,
-        ..TANGENT
-    };
+    let options =
+        TangentOptions { mass: Lumped, damping: DAMPING, damping_model: BodyOnly, ..TANGENT };
     // The eigenvalue analysis starts without friction: stiffness that depends on friction is known there too.
     let range = assembly.range(&[FRICTION, 0.0]).unwrap();
     let state = &range.states[range.state_of[0]];
     let tangent = assembly.tangent(state, &options).unwrap();
-    modes_at(&tangent, FRICTION, ModeLimit::Lowest(count))
+    modes_at(&tangent, FRICTION, Lowest(count))
 }
 
 /// Rigid contact, constant springs, and springs that stiffen to about the same at the pressure of 2 MPa.

@@ -8,7 +8,7 @@ use crate::prelude::*;
 use std::sync::LazyLock;
 
 fn disc() -> AnnulusSpecification {
-    annulus(ElementKind::Quad4, 90, 18)
+    annulus(Quad4, 90, 18)
 }
 
 pub fn operating(rpm: f64) -> OperatingPoint {
@@ -164,7 +164,7 @@ fn branch_over_friction_is_born_at_the_onset_of_the_linear_theory() {
 /// The branch of the coarse disc turned back between 288 and 277 rpm on its own 91 phases; on 181 it does not.
 #[test]
 fn a_fold_that_a_finer_grid_of_phases_does_not_have_is_none() {
-    let coarse = annulus(ElementKind::Quad4, 72, 14);
+    let coarse = annulus(Quad4, 72, 14);
     let solver = solver_of(&coarse, 1);
     let cycle = solver.find(&operating(610.0)).unwrap();
     let values = [200.0, 260.0, 300.0, 500.0].map(|rpm: f64| rpm * TAU / 60.0);
@@ -197,7 +197,7 @@ fn reference_cycles_of_the_fine_mesh_have_the_transients_frequencies_and_statuse
         (2, 70.0, 9962.6, 0.362, 0.0, 14_894.0, 0.387),
         (1, 70.0, 10641.7, 0.411, 0.0, 15_030.0, 0.431),
     ];
-    let specification = annulus(ElementKind::Quad4, 180, 35);
+    let specification = annulus(Quad4, 180, 35);
     for &(harmonic, rpm, frequency, stick, open, external, share) in
         sized(&transients[..2], &transients)
     {
@@ -221,7 +221,7 @@ fn lightly_damped_cycle_has_the_transients_frequency_and_statuses() {
     // With so little damping a resonance takes the edge's response to a force at the same point through zero.
     // Explicit transient, 180 x 35, n = 1 seeded, last fifth of 60 ms, amplitudes constant to 1e-4.
     let point = OperatingPoint { damping: rayleigh_damping(40.0, 1.5e-7), ..operating(610.0) };
-    let specification = annulus(ElementKind::Quad4, 180, 35);
+    let specification = annulus(Quad4, 180, 35);
     let solver =
         CycleSolver::new(&specification, &POLYCARBONATE, &point.damping, Family::lowest(1), None)
             .unwrap();
@@ -238,7 +238,7 @@ fn lightly_damped_cycle_has_the_transients_frequency_and_statuses() {
 #[test]
 fn cycle_of_the_second_onset_is_the_transients_and_loses_stability_where_they_leave_it() {
     let family = Family { harmonic: 1, onset: 2 };
-    let specification = annulus(ElementKind::Quad4, 180, 35);
+    let specification = annulus(Quad4, 180, 35);
     let solver = CycleSolver::new(&specification, &POLYCARBONATE, &DAMPING, family, None).unwrap();
     // Transients that start on the cycle, 60 ms: constant at 610 and 1100 rpm, gone to 9.9 kHz at 1250 rpm.
     let cycle = solver.find(&operating(610.0)).unwrap();
@@ -332,7 +332,7 @@ fn impossible_requests_say_which_key_to_change() {
     let harmonic =
         CycleSolver::new(&disc(), &POLYCARBONATE, &DAMPING, Family::lowest(46), None).unwrap_err();
     assert!(matches!(harmonic, CycleError::Harmonic { limit: 45, .. }));
-    let quad8 = annulus(ElementKind::Quad8, 90, 18);
+    let quad8 = annulus(Quad8, 90, 18);
     let element =
         CycleSolver::new(&quad8, &POLYCARBONATE, &DAMPING, Family::lowest(1), None).unwrap_err();
     assert_eq!(element, CycleError::Element);

@@ -6,11 +6,11 @@
 use crate::prelude::*;
 
 fn ring(radii: [f64; 2], elements: [usize; 2]) -> AnnulusSpecification {
-    crate::disc::ring(radii, ElementKind::Quad4, elements[0], elements[1])
+    crate::disc::ring(radii, Quad4, elements[0], elements[1])
 }
 
 fn metal(young_modulus: f64, poisson_ratio: f64, density: f64) -> ElasticMaterial {
-    elastic(young_modulus, poisson_ratio, density, PlaneFormulation::PlaneStress)
+    elastic(young_modulus, poisson_ratio, density, PlaneStress)
 }
 
 /// Aluminium, 30 to 75 mm.
@@ -28,10 +28,7 @@ fn aluminium(elements: [usize; 2]) -> (DiscModel, SlidingContact) {
 fn steel(elements: [usize; 2]) -> (DiscModel, SlidingContact) {
     let model = DiscModel {
         specification: ring([0.1, 0.24], elements),
-        material: ElasticMaterial {
-            formulation: PlaneFormulation::PlaneStrain,
-            ..metal(210e9, 0.3, 7850.0)
-        },
+        material: ElasticMaterial { formulation: PlaneStrain, ..metal(210e9, 0.3, 7850.0) },
         damping: rayleigh_damping(100.0, 4e-7),
     };
     let contact = sliding_at(0.5, 40e-6, 750.0 * TAU / 60.0);
@@ -45,7 +42,7 @@ fn point(model: &DiscModel, contact: &SlidingContact) -> OperatingPoint {
 #[test]
 fn every_unstable_wave_of_the_eigenvalue_analysis_has_its_family() {
     let (model, contact) = aluminium([150, 24]);
-    let limit = ModeLimit::Lowest(40);
+    let limit = Lowest(40);
     let onsets = model.onsets(contact.friction_coefficient, limit).unwrap();
     // Up to 66 kHz, far above what a fixed grid of frequencies would cover.
     assert_eq!(onsets.len(), 7, "{onsets:?}");
@@ -77,7 +74,7 @@ fn scaled_lengths_moduli_densities_and_times_scale_the_results() {
         ..contact
     };
     let find = |model: &DiscModel, contact: &SlidingContact| {
-        let onset = model.onsets(0.35, ModeLimit::Lowest(20)).unwrap()[0];
+        let onset = model.onsets(0.35, Lowest(20)).unwrap()[0];
         let family = Family::lowest(onset.harmonic);
         let solver = CycleSolver::born_at(model, family, &onset, None).unwrap();
         let cycle = solver.find(&point(model, contact)).unwrap();
@@ -104,7 +101,7 @@ fn scaled_lengths_moduli_densities_and_times_scale_the_results() {
 #[test]
 fn leading_exponent_does_not_depend_on_the_number_of_phases_beyond_its_uncertainty() {
     let (model, contact) = steel([150, 24]);
-    let onset = model.onset_of(Family::lowest(1), ModeLimit::Lowest(20)).unwrap();
+    let onset = model.onset_of(Family::lowest(1), Lowest(20)).unwrap();
     let found: Vec<(usize, f64, f64)> = sized(&[81, 121][..], &[81, 99, 121, 141, 181])
         .iter()
         .copied()
@@ -130,7 +127,7 @@ fn external_power_is_the_transients_and_the_verdict_is_what_transients_do() {
     let (model, contact) = steel([150, 24]);
     for harmonic in [1, 2, 3] {
         let family = Family::lowest(harmonic);
-        let onset = model.onset_of(family, ModeLimit::Lowest(30)).unwrap();
+        let onset = model.onset_of(family, Lowest(30)).unwrap();
         let solver = CycleSolver::born_at(&model, family, &onset, None).unwrap();
         let cycle = solver.find(&point(&model, &contact)).unwrap();
         let stepping = solver.stepping(SimdLevel::detect()).unwrap();

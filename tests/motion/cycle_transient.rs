@@ -8,11 +8,11 @@ use crate::cycle::{operating, solver_of};
 use crate::prelude::*;
 
 fn fine() -> AnnulusSpecification {
-    annulus(ElementKind::Quad4, 180, 35)
+    annulus(Quad4, 180, 35)
 }
 
 fn coarse() -> AnnulusSpecification {
-    sized(annulus(ElementKind::Quad4, 120, 24), fine())
+    sized(annulus(Quad4, 120, 24), fine())
 }
 
 /// The record of a transient that starts on a cycle, its velocity perturbed in one harmonic.

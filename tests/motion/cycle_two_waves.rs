@@ -6,7 +6,7 @@ use crate::prelude::*;
 const FRICTION: f64 = 0.2;
 
 fn solver(elements: [usize; 2]) -> CycleSolver {
-    let disc = annulus(ElementKind::Quad4, elements[0], elements[1]);
+    let disc = annulus(Quad4, elements[0], elements[1]);
     crate::cycle::solver_of(&disc, 1)
 }
 

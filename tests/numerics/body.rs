@@ -9,19 +9,19 @@ pub fn options(mass: MassKind, geometric_stiffness: bool) -> TangentOptions {
 
 /// The disc of a file in units of `scale`.
 fn imported(bytes: &[u8], scale: f64) -> Mesh {
-    let held = [("outer", BoundaryCondition::Clamped)];
+    let held = [("outer", Clamped)];
     let specification = BodySpecification { scale, ..plane_body("inner", CYLINDER, None, &held) };
     Mesh::from_gmsh(&FileMesh::read(bytes).unwrap(), &specification).unwrap()
 }
 
 fn modes(mesh: &Mesh, options: &TangentOptions, contact: &SlidingContact) -> Vec<ComplexMode> {
     let tangent = linearized(mesh, &POLYCARBONATE, contact, options);
-    modes_at(&tangent, contact.friction_coefficient, ModeLimit::Lowest(8))
+    modes_at(&tangent, contact.friction_coefficient, Lowest(8))
 }
 
 #[test]
 fn every_form_of_the_file_reads_to_one_mesh() {
-    for element in [ElementKind::Quad4, ElementKind::Quad8] {
+    for element in [Quad4, Quad8] {
         let mesh = AnnulusMesh::generate(&annulus(element, 12, 3)).unwrap().mesh;
         let read = FORMS.map(|form| FileMesh::read(&write_msh(&mesh, form, &[], |p| p)).unwrap());
         for file in &read {
@@ -40,9 +40,9 @@ fn every_form_of_the_file_reads_to_one_mesh() {
 /// The imported disc has the spectrum of the generated one, also turned, renumbered and in millimetres.
 #[test]
 fn turned_renumbered_and_scaled_meshes_have_one_spectrum() {
-    let mesh = AnnulusMesh::generate(&annulus(ElementKind::Quad8, 24, 4)).unwrap().mesh;
+    let mesh = AnnulusMesh::generate(&annulus(Quad8, 24, 4)).unwrap().mesh;
     let contact = contact(610.0);
-    let options = options(MassKind::Consistent, true);
+    let options = options(Consistent, true);
     let eigenvalues = |mesh: &Mesh| eigenvalues_of(&modes(mesh, &options, &contact));
     let expected = eigenvalues(&mesh);
     let plain: Vec<usize> = (1..=mesh.node_count()).collect();
@@ -64,20 +64,20 @@ fn supported(stiffness: f64) -> BoundaryCondition {
 #[test]
 fn a_supported_rim_gives_the_sounds_of_the_prototype() {
     let rows = [
-        (BoundaryCondition::Clamped, "1 6883 110 ; 2 8761 93 ; 1 10314 173"),
+        (Clamped, "1 6883 110 ; 2 8761 93 ; 1 10314 173"),
         (supported(2.0e11), "1 6143 146 ; 2 7474 96 ; 1 9534 125 ; 1 15740 63 ; 2 16142 63"),
         (
             supported(1.5e11),
             "1 5942 151 ; 2 7168 95 ; 1 9305 114 ; 2 10359 4 ; 1 15468 82 ; 2 15841 67",
         ),
     ];
-    let material = ElasticMaterial { formulation: PlaneFormulation::PlaneStress, ..POLYCARBONATE };
+    let material = ElasticMaterial { formulation: PlaneStress, ..POLYCARBONATE };
     for (outer, expected) in rows {
-        let disc = annulus(ElementKind::Quad8, 96, 20);
+        let disc = annulus(Quad8, 96, 20);
         let specification = AnnulusSpecification { outer, ..disc };
-        let options = options(MassKind::Consistent, false);
+        let options = options(Consistent, false);
         let model = WaveModel { specification, material, options, contact: contact(610.0) };
-        let modes = model.modes(0.3, ModeLimit::MaxFrequency(17000.0));
+        let modes = model.modes(0.3, MaxFrequency(17000.0));
         for [harmonic, frequency, growth] in rows_of(expected) {
             let near = modes.iter().find(|mode| {
                 mode.harmonic as f64 == harmonic
@@ -116,7 +116,7 @@ fn block_specification() -> BodySpecification {
         "bottom",
         CounterfaceSpecification::Plane { direction: Some([1.0, 0.0]) },
         None,
-        &[("right", BoundaryCondition::Guide), ("top", BoundaryCondition::Pressure(1e6))],
+        &[("right", Guide), ("top", Pressure(1e6))],
     )
 }
 
@@ -158,7 +158,7 @@ fn a_block_on_an_elastic_mounting_lifts_a_corner_as_friction_rises() {
     let file = FileMesh::read(&rectangle(0.04, 0.06, 20, 30)).unwrap();
     let mut specification = block_specification();
     let mounting = springs([1e12, 1e12, 0.0], [0.0, 0.0]);
-    specification.conditions = vec![("top".to_owned(), BoundaryCondition::Support(mounting))];
+    specification.conditions = vec![("top".to_owned(), Support(mounting))];
     let mesh = Mesh::from_gmsh(&file, &specification).unwrap();
     let edge = ContactInterface::of(&mesh);
     let contact = SlidingContact { interference: 1e-5, ..plane(0.5) };
@@ -187,7 +187,7 @@ fn a_block_on_an_elastic_mounting_lifts_a_corner_as_friction_rises() {
 /// The eigenvalue's growth and frequency in the linear stage of a transient, on a disc whose hole is off centre.
 #[test]
 fn a_body_without_symmetry_grows_in_time_as_its_eigenvalue_says() {
-    let mesh = AnnulusMesh::generate(&annulus(ElementKind::Quad4, 60, 12)).unwrap().mesh;
+    let mesh = AnnulusMesh::generate(&annulus(Quad4, 60, 12)).unwrap().mesh;
     // The rim moves by 5 mm, the hole stays.
     let shift = |[x, y]: [f64; 2]| {
         let depth = (x.hypot(y) - 0.0205) / 0.07;
@@ -195,7 +195,7 @@ fn a_body_without_symmetry_grows_in_time_as_its_eigenvalue_says() {
     };
     let body = imported(&write_msh(&mesh, FORMS[0], &[], shift), 1.0);
     let contact = contact(610.0);
-    let found = modes(&body, &options(MassKind::Lumped, false), &contact);
+    let found = modes(&body, &options(Lumped, false), &contact);
     let exact = found.iter().max_by(|a, b| a.growth_rate().total_cmp(&b.growth_rate())).unwrap();
     let stepped = SteppedBody::Plane { mesh: &body, annulus: None };
     let model = TransientModel::new(stepped, &POLYCARBONATE, DAMPING, contact);

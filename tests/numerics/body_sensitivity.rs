@@ -105,7 +105,7 @@ pub fn oval([x, y]: [f64; 2]) -> [f64; 2] {
 
 /// Such a body on an elastic support.
 fn supported_oval(contact: &str) -> Body {
-    let mesh = AnnulusMesh::generate(&annulus(ElementKind::Quad4, 24, 4)).unwrap().mesh;
+    let mesh = AnnulusMesh::generate(&annulus(Quad4, 24, 4)).unwrap().mesh;
     let folder = folder_with(&[("oval.msh", &write_msh(&mesh, FORMS[2], &[], oval))]);
     let text = format!("{}{contact}", include_str!("../cases/supported-oval.toml"));
     Body { folder, text }

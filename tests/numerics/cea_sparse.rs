@@ -60,13 +60,13 @@ pub fn bare(
 
 /// The paper's disc on so many elements around and across.
 fn disc(around: usize, across: usize, damping_model: DampingModel) -> SlidingTangent {
-    let mut model = paper(ElementKind::Quad4, around, across);
+    let mut model = paper(Quad4, around, across);
     model.options.damping_model = damping_model;
     model.whole()
 }
 
 fn coarse_disc() -> SlidingTangent {
-    disc(48, 10, DampingModel::WholeTangent)
+    disc(48, 10, WholeTangent)
 }
 
 /// Consistency: what grows just above the modes asked for is told as a longer list has it, and nothing where nothing grows.
@@ -74,16 +74,16 @@ fn coarse_disc() -> SlidingTangent {
 fn an_unstable_mode_just_above_the_list_is_told() {
     let tangent = coarse_disc();
     let values = [0.0, 0.15, 0.3];
-    let all = swept(&tangent, &values, ModeLimit::Lowest(12));
+    let all = swept(&tangent, &values, Lowest(12));
     let last = &all.points[2].modes;
     assert!(!last[..2].iter().any(ComplexMode::is_unstable));
-    let beyond = swept(&tangent, &values, ModeLimit::Lowest(2)).beyond.unwrap();
+    let beyond = swept(&tangent, &values, Lowest(2)).beyond.unwrap();
     let listed = last.iter().find(|mode| {
         (mode.frequency_hz() - beyond.frequency_hz).abs() < 1e-6 * beyond.frequency_hz
     });
     assert_eq!(beyond.friction_coefficient, 0.3);
     assert!((listed.unwrap().growth_rate() - beyond.growth_rate).abs() < 1e-6 * beyond.growth_rate);
-    assert!(swept(&tangent, &[0.0], ModeLimit::Lowest(2)).beyond.is_none());
+    assert!(swept(&tangent, &[0.0], Lowest(2)).beyond.is_none());
 }
 
 /// `mu_c = (c^2 + ((A - B)/2)^2) / (c d)`: where the two eigenvalues of `K` meet.
@@ -96,7 +96,7 @@ fn two_degrees_of_freedom_flutter_at_the_closed_form_friction() {
         let undamped = Some(RayleighDamping::default());
         let tangent = problem(2, [mass, Vec::new(), stiffness], undamped);
         let values: Vec<f64> = (0..12).map(|i| f64::from(i) * critical / 7.3).collect();
-        let result = swept(&tangent, &values, ModeLimit::Lowest(2));
+        let result = swept(&tangent, &values, Lowest(2));
         assert_eq!(result.intervals.len(), 1, "{:?}", result.intervals);
         let found = &result.intervals[0];
         // At the double root the growth rate rises like the square root of the distance: 1e-6 in mu.
@@ -165,7 +165,7 @@ fn sweep_of_a_general_quadratic_problem_equals_a_dense_decomposition() {
     ];
     let tangent = problem(size, [mass, damping, stiffness], None);
     let values = [0.0, 0.2, 0.45, 0.8];
-    let result = swept(&tangent, &values, ModeLimit::Lowest(8));
+    let result = swept(&tangent, &values, Lowest(8));
     for point in &result.points {
         let dense = dense_eigenvalues(&tangent, point.friction_coefficient);
         near_each(&eigenvalues_of(&point.modes), &dense[..8], 1e-9);
@@ -204,7 +204,7 @@ fn exact_modes(
 fn sweep_agrees_with_krylov_schur_at_the_same_friction() {
     let tangent = coarse_disc();
     let mu = 0.6;
-    let result = swept(&tangent, &[mu], ModeLimit::Lowest(24));
+    let result = swept(&tangent, &[mu], Lowest(24));
     let linearization = Linearization::of(&tangent, 1e5, Centre::default());
     let exact = exact_modes(&tangent, linearization, mu, 30);
     let modes = &result.points[0].modes;
@@ -216,9 +216,9 @@ fn sweep_agrees_with_krylov_schur_at_the_same_friction() {
 /// Krylov-Schur iteration on vectors of full length at each of them.
 #[test]
 fn sweep_with_general_damping_agrees_with_krylov_schur_at_every_friction() {
-    let tangent = disc(48, 10, DampingModel::BodyOnly);
+    let tangent = disc(48, 10, BodyOnly);
     let values: Vec<f64> = (0..9).map(|i| f64::from(i) * 0.075).collect();
-    let result = swept(&tangent, &values, ModeLimit::Lowest(8));
+    let result = swept(&tangent, &values, Lowest(8));
     let linearization = Linearization::of(&tangent, 1e5, Centre::default());
     for point in &result.points[1..] {
         let mu = point.friction_coefficient;
@@ -232,10 +232,8 @@ fn sweep_with_general_damping_agrees_with_krylov_schur_at_every_friction() {
 fn sweep_is_bitwise_equal_on_one_and_two_threads() {
     let tangent = coarse_disc();
     let values: Vec<f64> = (0..9).map(|i| f64::from(i) * 0.1).collect();
-    let request = SweepRequest {
-        shapes_at: &[values[3]],
-        ..sweep_request(&values, ModeLimit::MaxFrequency(15_000.0))
-    };
+    let request =
+        SweepRequest { shapes_at: &[values[3]], ..sweep_request(&values, MaxFrequency(15_000.0)) };
     let solve = || sweep(&tangent, &request, &|_| {}).unwrap();
     let (one, two) = (on_threads(1, solve), on_threads(2, solve));
     assert!(one == two);
@@ -247,9 +245,9 @@ fn sweep_is_bitwise_equal_on_one_and_two_threads() {
 /// and with any damping, and does the other steps alone.
 #[test]
 fn sweep_goes_on_from_any_step_to_the_same_bits() {
-    for damping_model in [DampingModel::WholeTangent, DampingModel::BodyOnly] {
+    for damping_model in [WholeTangent, BodyOnly] {
         let tangent = disc(24, 6, damping_model);
-        let request = sweep_request(&[0.1, 0.2, 0.3], ModeLimit::Lowest(6));
+        let request = sweep_request(&[0.1, 0.2, 0.3], Lowest(6));
         let first = Kept::default();
         let whole = sweep(&tangent, &request, &first).unwrap();
         let steps = first.count();
@@ -266,8 +264,8 @@ fn sweep_goes_on_from_any_step_to_the_same_bits() {
 fn inertia_count_equals_the_number_of_modes_below_the_limit() {
     let tangent = coarse_disc();
     for hz in [8_000.0, 12_000.0, 17_000.0] {
-        let result = swept(&tangent, &[0.0], ModeLimit::MaxFrequency(hz));
-        let modes = FrictionlessModes::compute(&tangent, ModeLimit::Lowest(60)).unwrap();
+        let result = swept(&tangent, &[0.0], MaxFrequency(hz));
+        let modes = FrictionlessModes::compute(&tangent, Lowest(60)).unwrap();
         let below = modes.frequencies.iter().filter(|&&w| w < TAU * hz).count();
         // Damping lowers frequencies by parts in 1e4 only.
         assert_eq!(result.points[0].modes.len(), below);
@@ -282,13 +280,13 @@ fn bad_requests_are_refused_with_the_bound() {
         let request = sweep_request(values, limit);
         sweep(&tangent, &request, &|_| {}).unwrap_err()
     };
-    let none = ask(&[0.1], ModeLimit::MaxFrequency(1000.0));
+    let none = ask(&[0.1], MaxFrequency(1000.0));
     let is_lowest = |hz: f64| (hz - 5900.0).abs() < 200.0;
     assert!(matches!(none, CeaError::NoModes { lowest_hz, .. } if is_lowest(lowest_hz)));
     assert!(none.to_string().contains("cea.max_frequency_hz"));
-    let many = ask(&[0.1], ModeLimit::Lowest(1_000_000));
+    let many = ask(&[0.1], Lowest(1_000_000));
     assert!(many.is_usage() && many.to_string().starts_with("cea.modes = 1000000, but"));
-    let negative = ask(&[0.1, -0.2], ModeLimit::Lowest(4));
+    let negative = ask(&[0.1, -0.2], Lowest(4));
     assert!(negative.is_usage() && negative.to_string().contains("-0.2 is not a finite number"));
-    assert!(ask(&[], ModeLimit::Lowest(4)).to_string().contains("give at least one value"));
+    assert!(ask(&[], Lowest(4)).to_string().contains("give at least one value"));
 }

@@ -3,8 +3,7 @@
 use crate::assemblies::on_rigid;
 use crate::prelude::*;
 
-const RUBBER: ElasticMaterial =
-    ElasticMaterial { formulation: PlaneFormulation::ThreeDimensional, ..POLYCARBONATE };
+const RUBBER: ElasticMaterial = ElasticMaterial { formulation: ThreeDimensional, ..POLYCARBONATE };
 
 const BALL: f64 = 0.016;
 
@@ -40,7 +39,7 @@ fn straighten(file: &mut FileMesh) {
 }
 
 fn solid(file: &FileMesh) -> Mesh {
-    solids_of(file, &[("z1", BoundaryCondition::Clamped)])
+    solids_of(file, &[("z1", Clamped)])
 }
 
 /// Largest pressure of a cup on the ball, and the force between them.
@@ -58,9 +57,7 @@ fn pressed(file: &FileMesh, interference: f64) -> [f64; 2] {
 /// The chords of these edges lie up to 0.3 mm inside the ball, fifteen times the interference.
 #[test]
 fn a_cup_with_straight_edges_is_pressed_like_one_with_curved_edges() {
-    for (kind, linear) in
-        [(ElementKind::Tet10, ElementKind::Tet4), (ElementKind::Hex20, ElementKind::Hex8)]
-    {
+    for (kind, linear) in [(Tet10, Tet4), (Hex20, Hex8)] {
         let cells = [4, 4, 1];
         let curved = block(kind, cells, cup);
         let mut straight = curved.clone();
@@ -77,7 +74,7 @@ fn a_cup_with_straight_edges_is_pressed_like_one_with_curved_edges() {
 #[test]
 fn a_flat_face_keeps_its_distance_from_a_ball() {
     let flat = |[u, v, w]: [f64; 3]| [0.008 * (u - 0.5), 0.008 * (v - 0.5), BALL + 0.004 * w];
-    let mesh = solid(&block(ElementKind::Hex20, [3, 3, 1], flat));
+    let mesh = solid(&block(Hex20, [3, 3, 1], flat));
     let surface = mesh.boundary("z0").unwrap();
     let pair = SurfacePair::on_rigid(&mesh, surface, &ball(0.0)).unwrap();
     for point in &pair.points {
@@ -86,7 +83,7 @@ fn a_flat_face_keeps_its_distance_from_a_ball() {
         assert!((point.at.gap - exact).abs() < 1e-6, "{} {exact}", point.at.gap);
     }
     // A real overlap is one, whatever the edges: this cup has the radius of a smaller ball.
-    let mut small = block(ElementKind::Tet10, [4, 4, 1], |at| cup(at).map(|x| 0.99 * x));
+    let mut small = block(Tet10, [4, 4, 1], |at| cup(at).map(|x| 0.99 * x));
     straighten(&mut small);
     let small = solid(&small);
     let overlap = ball(0.0).overlap(&small, small.boundary("z0").unwrap()).unwrap();
@@ -98,7 +95,7 @@ fn a_flat_face_keeps_its_distance_from_a_ball() {
 #[test]
 fn a_plane_ring_with_straight_edges_is_pressed_like_one_with_curved_edges() {
     let force = |is_straight: bool| {
-        let mesh = AnnulusMesh::generate(&annulus(ElementKind::Quad8, 48, 3)).unwrap().mesh;
+        let mesh = AnnulusMesh::generate(&annulus(Quad8, 48, 3)).unwrap().mesh;
         let bytes = crate::msh::write_msh(&mesh, crate::msh::FORMS[3], &[], |p| p);
         let mut file = FileMesh::read(&bytes).unwrap();
         if is_straight {
@@ -119,7 +116,7 @@ fn a_plane_ring_with_straight_edges_is_pressed_like_one_with_curved_edges() {
 #[test]
 fn an_overlap_beyond_the_interference_is_told_with_its_depth() {
     let folder = folder();
-    let ring = AnnulusMesh::generate(&annulus(ElementKind::Quad4, 36, 3)).unwrap().mesh;
+    let ring = AnnulusMesh::generate(&annulus(Quad4, 36, 3)).unwrap().mesh;
     let ring = crate::msh::write_msh(&ring, crate::msh::FORMS[2], &[], |p| p);
     let block = brick("cup", [0.0; 3], [1.0; 3], [3, 3, 1]);
     for (mesh, held, contact, said) in [

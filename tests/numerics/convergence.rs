@@ -93,21 +93,20 @@ fn assert_studies(element: ElementKind) {
 
 #[test]
 fn eigenvalues_of_quad4_converge_with_the_square_of_the_mesh_size_whatever_the_mass() {
-    assert_studies(ElementKind::Quad4);
-    Study { mass: MassKind::Lumped, ..Study::of(Contact::rigid(0.3), RAYLEIGH) }
-        .assert_rates(ElementKind::Quad4);
+    assert_studies(Quad4);
+    Study { mass: Lumped, ..Study::of(Contact::rigid(0.3), RAYLEIGH) }.assert_rates(Quad4);
 }
 
 #[test]
 fn eigenvalues_of_quad8_converge_with_the_fourth_power_of_the_mesh_size() {
-    assert_studies(ElementKind::Quad8);
+    assert_studies(Quad8);
 }
 
 #[test]
 fn the_discrete_model_turns_unstable_where_the_continuum_does() {
     // Modes 7, 5 and 3 of the paper. Quad8, 64 x 16: frequencies are right to 1e-4, so the critical
     // friction is to about ten times that.
-    let [specification, ..] = refinements(ElementKind::Quad8);
+    let [specification, ..] = refinements(Quad8);
     for contact in [
         Contact::penalty(0.0, NORMAL_STIFFNESS),
         with_prestress(Contact::penalty(0.0, NORMAL_STIFFNESS)),
@@ -135,7 +134,7 @@ fn the_discrete_model_turns_unstable_where_the_continuum_does() {
 
 #[test]
 fn a_reversed_rotor_mirrors_the_spectrum() {
-    let [specification, ..] = refinements(ElementKind::Quad8);
+    let [specification, ..] = refinements(Quad8);
     for contact in [Contact::rigid(0.3), Contact::penalty(0.3, NORMAL_STIFFNESS)] {
         let study = Study::of(with_prestress(contact), RAYLEIGH);
         let spectra = [FORWARD, -FORWARD]
@@ -155,7 +154,7 @@ fn steady_sliding_converges_to_lame_and_the_shear_field() {
     let exact = DISC.prestress(INTERFERENCE, 0.3);
     const NAMES: [&str; 4] =
         ["radial displacement", "tangential displacement", "mean pressure", "torque"];
-    for element in [ElementKind::Quad4, ElementKind::Quad8] {
+    for element in [Quad4, Quad8] {
         let errors = refinements(element).map(|specification| {
             let mesh = AnnulusMesh::generate(&specification).expect("a valid mesh");
             let base = base_state(&mesh, &DISC, FORWARD);
@@ -194,9 +193,7 @@ fn nodal_pressure_converges_at_second_order_or_faster() {
     // of the mean, which converges with the fourth power.
     let exact = DISC.prestress(INTERFERENCE, 0.3).pressure;
     // Quad4: of the order of the squared angle of an element, (2 pi / 120)^2 = 2.7e-3.
-    for (element, slope, bound) in
-        [(ElementKind::Quad4, 1.9, 2.7e-3), (ElementKind::Quad8, 2.5, 1e-4)]
-    {
+    for (element, slope, bound) in [(Quad4, 1.9, 2.7e-3), (Quad8, 2.5, 1e-4)] {
         let errors = refinements(element).map(|specification| {
             let mesh = AnnulusMesh::generate(&specification).expect("a valid mesh");
             let forces = base_state(&mesh, &DISC, FORWARD).normal_forces(0.3);
@@ -213,7 +210,7 @@ fn nodal_pressure_converges_at_second_order_or_faster() {
 fn recovered_stress_converges_at_second_order_up_to_the_edges() {
     // The largest error over all nodes, the contact edge included.
     let exact = DISC.prestress(INTERFERENCE, 0.3);
-    for element in [ElementKind::Quad4, ElementKind::Quad8] {
+    for element in [Quad4, Quad8] {
         let errors = refinements(element).map(|specification| {
             let mesh = AnnulusMesh::generate(&specification).expect("a valid mesh");
             let displacement = base_state(&mesh, &DISC, FORWARD).displacement(0.3);

@@ -3,7 +3,7 @@
 use crate::prelude::*;
 use frictionsim::study::eigenvalues::SlidingModel;
 
-const ELEMENTS: [ElementKind; 2] = [ElementKind::Quad4, ElementKind::Quad8];
+const ELEMENTS: [ElementKind; 2] = [Quad4, Quad8];
 
 fn annulus(element: ElementKind, circumferential: usize, radial: usize) -> Mesh {
     let specification = AnnulusSpecification {
@@ -31,7 +31,7 @@ fn sample(mesh: &Mesh, field: impl Fn(f64, f64) -> [f64; 2]) -> Vec<f64> {
 #[test]
 fn linear_displacement_gives_constant_stress_and_no_interior_force() {
     for element in ELEMENTS {
-        for formulation in [PlaneFormulation::PlaneStrain, PlaneFormulation::PlaneStress] {
+        for formulation in [PlaneStrain, PlaneStress] {
             let (mesh, material) = (annulus(element, 17, 4), polycarbonate(formulation));
             let displacement = sample(&mesh, |x, y| [1e-3 * x + 4e-4 * y, -2e-4 * x + 5e-4 * y]);
             let stiffness = assemble_stiffness(&mesh, &material);
@@ -57,7 +57,7 @@ fn linear_displacement_gives_constant_stress_and_no_interior_force() {
 fn rigid_motions_cost_no_energy() {
     for element in ELEMENTS {
         let mesh = annulus(element, 17, 4);
-        let stiffness = assemble_stiffness(&mesh, &polycarbonate(PlaneFormulation::PlaneStrain));
+        let stiffness = assemble_stiffness(&mesh, &polycarbonate(PlaneStrain));
         let fields: [fn(f64, f64) -> [f64; 2]; 3] =
             [|_, _| [1.0, 0.0], |_, _| [0.0, 1.0], |x, y| [-y, x]];
         for field in fields {
@@ -73,15 +73,15 @@ fn rigid_motions_cost_no_energy() {
 fn both_mass_matrices_carry_the_mass_of_the_ring() {
     for element in ELEMENTS {
         let mesh = annulus(element, 180, 10);
-        let material = polycarbonate(PlaneFormulation::PlaneStrain);
+        let material = polycarbonate(PlaneStrain);
         let exact = material.density * PI * (0.0905_f64.powi(2) - 0.0205_f64.powi(2));
-        for kind in [MassKind::Consistent, MassKind::Lumped] {
+        for kind in [Consistent, Lumped] {
             let mass = assemble_mass(&mesh, &material, kind);
             let translation = sample(&mesh, |_, _| [1.0, 0.0]);
             let momentum = mass.multiply(2 * mesh.node_count(), &translation);
             let total: f64 = momentum.iter().zip(&translation).map(|(p, v)| p * v).sum();
             // A polygon of 180 sides lacks 2e-4 of its circle's area, parabolic sides far less.
-            let tolerance = if element == ElementKind::Quad4 { 3e-4 } else { 1e-7 };
+            let tolerance = if element == Quad4 { 3e-4 } else { 1e-7 };
             assert!((total / exact - 1.0).abs() < tolerance, "{element:?} {kind:?} {total}");
         }
     }
@@ -89,8 +89,8 @@ fn both_mass_matrices_carry_the_mass_of_the_ring() {
 
 #[test]
 fn contact_without_interference_is_reported_as_open_with_node_and_angle() {
-    let material = polycarbonate(PlaneFormulation::PlaneStrain);
-    let mesh = annulus(ElementKind::Quad4, 24, 4);
+    let material = polycarbonate(PlaneStrain);
+    let mesh = annulus(Quad4, 24, 4);
     let contact = SlidingContact { interference: -1e-6, ..contact(610.0) };
     let body = Assembly::of_edge(&mesh, &material, &contact, RIGID).unwrap();
     let error = body.state(0.3).unwrap_err();

@@ -36,7 +36,7 @@ fn dense(case: &Case) -> Vec<f64> {
         }
         matrix
     };
-    let mass = full(&assemble_mass(&body.mesh, &body.materials, MassKind::Consistent));
+    let mass = full(&assemble_mass(&body.mesh, &body.materials, Consistent));
     let stiffness = full(&assemble_stiffness(&body.mesh, &body.materials));
     let squares = crate::supported_bodies::squares(mass, &stiffness);
     // Six rigid motions of round-off.

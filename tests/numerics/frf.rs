@@ -5,11 +5,11 @@ use crate::prelude::*;
 const RADIAL: usize = 10;
 
 fn annulus() -> AnnulusMesh {
-    AnnulusMesh::generate(&crate::disc::annulus(ElementKind::Quad4, 48, RADIAL)).unwrap()
+    AnnulusMesh::generate(&crate::disc::annulus(Quad4, 48, RADIAL)).unwrap()
 }
 
 fn body(is_clamped: bool, damping: RayleighDamping) -> FrfSystem {
-    let mass = MassKind::Consistent;
+    let mass = Consistent;
     FrfSystem::body(&annulus().mesh, &POLYCARBONATE, mass, damping, is_clamped)
 }
 
@@ -41,12 +41,8 @@ fn free_disc_moves_as_a_rigid_body_far_below_its_first_resonance() {
 
 #[test]
 fn reduction_agrees_with_direct_solution_for_every_boundary() {
-    let systems = [
-        body(false, DAMPING),
-        body(true, DAMPING),
-        sliding(DampingModel::WholeTangent),
-        sliding(DampingModel::BodyOnly),
-    ];
+    let systems =
+        [body(false, DAMPING), body(true, DAMPING), sliding(WholeTangent), sliding(BodyOnly)];
     let f: Vec<f64> = (1..=300).map(|i| 33.3 * f64::from(i)).collect();
     for (k, system) in systems.iter().enumerate() {
         let (a, b) = (unknown(system, 0, true), unknown(system, 4 + 11 * 5, false));

@@ -6,12 +6,10 @@ use frictionsim::study::response::FrequencyStudy;
 
 /// Even and odd numbers of sectors differ in their last harmonic.
 fn meshes() -> [AnnulusSpecification; 3] {
-    [(24, ElementKind::Quad4), (25, ElementKind::Quad4), (16, ElementKind::Quad8)].map(
-        |(circumferential, element)| AnnulusSpecification {
-            radial_grading: 1.1,
-            ..annulus(element, circumferential, 6)
-        },
-    )
+    [(24, Quad4), (25, Quad4), (16, Quad8)].map(|(circumferential, element)| AnnulusSpecification {
+        radial_grading: 1.1,
+        ..annulus(element, circumferential, 6)
+    })
 }
 
 fn terminals(specification: &AnnulusSpecification, is_sliding: bool) -> Vec<[Terminal; 2]> {
@@ -63,7 +61,7 @@ fn harmonics_of_a_free_and_a_clamped_body_sum_to_the_response_of_the_whole_mesh(
         let mesh = AnnulusMesh::generate(specification).unwrap().mesh;
         let sector = SectorMesh::generate(specification).unwrap();
         for is_clamped in [false, true] {
-            for mass in [MassKind::Consistent, MassKind::Lumped] {
+            for mass in [Consistent, Lumped] {
                 let whole = FrfSystem::body(&mesh, &POLYCARBONATE, mass, DAMPING, is_clamped);
                 let cyclic = CyclicSystem::body(&sector, &POLYCARBONATE, mass, DAMPING, is_clamped);
                 let what = format!("{:?}, clamped {is_clamped}, {mass:?}", specification.element);
@@ -80,15 +78,15 @@ fn a_support_of_dashpots_alone_damps_the_response() {
     let response = |[spring, dashpot]: [f64; 2]| {
         let mut mesh = AnnulusMesh::generate(specification).unwrap().mesh;
         let mut edges = mesh.boundaries.iter_mut();
-        let edge = edges.find(|own| own.condition == BoundaryCondition::Free).unwrap();
-        edge.condition = BoundaryCondition::Support(ElasticSupport {
+        let edge = edges.find(|own| own.condition == Free).unwrap();
+        edge.condition = Support(ElasticSupport {
             normal_stiffness: spring,
             tangential_stiffness: spring,
             normal_damping: dashpot,
             tangential_damping: dashpot,
             ..ElasticSupport::default()
         });
-        let system = FrfSystem::body(&mesh, &POLYCARBONATE, MassKind::Consistent, DAMPING, true);
+        let system = FrfSystem::body(&mesh, &POLYCARBONATE, Consistent, DAMPING, true);
         let [force, seen] = terminals(specification, false)[1];
         let [force, seen] = [force, seen].map(|own| system.unknown(own, "node").unwrap());
         direct_response(&system, force, seen, &FREQUENCIES).unwrap()
@@ -103,11 +101,9 @@ fn a_support_of_dashpots_alone_damps_the_response() {
 #[test]
 fn harmonics_in_sliding_contact_sum_to_the_response_of_the_whole_mesh() {
     for specification in meshes() {
-        for (damping_model, contact) in [
-            (DampingModel::WholeTangent, contact(610.0)),
-            (DampingModel::BodyOnly, contact(610.0)),
-            (DampingModel::BodyOnly, falling(610.0)),
-        ] {
+        for (damping_model, contact) in
+            [(WholeTangent, contact(610.0)), (BodyOnly, contact(610.0)), (BodyOnly, falling(610.0))]
+        {
             for (normal_stiffness, loss_factor) in
                 [(None, 0.0), (Some(7.4e12), 0.0), (None, 0.02), (Some(7.4e12), 0.05)]
             {
@@ -139,7 +135,7 @@ fn harmonics_in_sliding_contact_sum_to_the_response_of_the_whole_mesh() {
 fn held_and_missing_nodes_and_negative_frequencies_are_refused_with_their_key() {
     let [specification, ..] = meshes();
     let sector = SectorMesh::generate(&specification).unwrap();
-    let mass = MassKind::Consistent;
+    let mass = Consistent;
     let system = CyclicSystem::body(&sector, &POLYCARBONATE, mass, DAMPING, true);
     let at = |node| at_node(node, false);
     let error = system.check(at(6), "force_node").unwrap_err();
@@ -157,7 +153,7 @@ fn held_and_missing_nodes_and_negative_frequencies_are_refused_with_their_key() 
 fn response_has_the_same_bits_for_any_number_of_threads() {
     let [specification, ..] = meshes();
     let sector = SectorMesh::generate(&specification).unwrap();
-    let mass = MassKind::Consistent;
+    let mass = Consistent;
     let system = CyclicSystem::body(&sector, &POLYCARBONATE, mass, DAMPING, false);
     let f: Vec<f64> = (1..=77).map(|line| 100.0 * f64::from(line)).collect();
     let [force, response] = terminals(&specification, false)[1];

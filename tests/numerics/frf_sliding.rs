@@ -10,7 +10,7 @@ const RADIAL: usize = 5;
 const OMEGA: f64 = TAU * 1e5;
 
 fn model(damping_model: DampingModel, stiffness: ContactStiffness) -> AnnulusModel {
-    let mut model = paper(ElementKind::Quad4, 18, RADIAL);
+    let mut model = paper(Quad4, 18, RADIAL);
     model.specification.radial_grading = 1.1;
     model.options.damping_model = damping_model;
     model.options.contact = stiffness;
@@ -101,11 +101,8 @@ fn responses_in_sliding_contact_are_the_sums_over_right_and_left_eigenvectors() 
     let penalty = compliant(7.4e12, [3e5, 2e5]);
     // Unstable modes included: the response is that of the equations, not of a steady state.
     let frequencies: Vec<f64> = (1..=40).map(|k| 431.7 * f64::from(k)).collect();
-    for (damping_model, contact) in [
-        (DampingModel::WholeTangent, rigid),
-        (DampingModel::BodyOnly, rigid),
-        (DampingModel::BodyOnly, penalty),
-    ] {
+    for (damping_model, contact) in [(WholeTangent, rigid), (BodyOnly, rigid), (BodyOnly, penalty)]
+    {
         let model = model(damping_model, contact);
         let tangent = model.whole();
         let modal = ModalForm::of(&tangent, 0.3);
@@ -139,10 +136,10 @@ fn responses_in_sliding_contact_are_the_sums_over_right_and_left_eigenvectors() 
 
 #[test]
 fn at_a_critical_friction_of_the_eigenvalue_analysis_the_response_grows_as_one_over_the_distance() {
-    let model = model(DampingModel::WholeTangent, ContactStiffness::default());
+    let model = model(WholeTangent, ContactStiffness::default());
     let tangent = model.whole();
     let values: Vec<f64> = (0..=10).map(|k| 0.05 * f64::from(k)).collect();
-    let found = swept(&tangent, &values, ModeLimit::MaxFrequency(17_500.0));
+    let found = swept(&tangent, &values, MaxFrequency(17_500.0));
     let onsets: Vec<_> =
         found.intervals.iter().filter(|interval| !interval.unstable_from_start).collect();
     assert!(onsets.len() >= 2, "{onsets:?}");

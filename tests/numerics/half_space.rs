@@ -39,10 +39,9 @@ const START: f64 = -1.4;
 
 /// Speed of the fastest growing wave of `n` lengths on the inner edge of the annulus from 1 to 1.5.
 fn annulus_speed(n: usize) -> c64 {
-    let specification = ring([1.0, 1.5], ElementKind::Quad8, 200, 40);
+    let specification = ring([1.0, 1.5], Quad8, 200, 40);
     // Shear modulus and density one: speeds come in units of that of shear waves.
-    let material =
-        elastic(2.0 * (1.0 + POISSON_RATIO), POISSON_RATIO, 1.0, PlaneFormulation::PlaneStrain);
+    let material = elastic(2.0 * (1.0 + POISSON_RATIO), POISSON_RATIO, 1.0, PlaneStrain);
     let undamped = rayleigh_damping(0.0, 0.0);
     let options = TangentOptions { damping: undamped, ..TANGENT };
     let contact = sliding_at(FRICTION, 1e-6, 1.0);

@@ -144,7 +144,7 @@ fn brick_volume(mesh: &Mesh, element: usize) -> f64 {
 
 /// A disc as a mesh file, some of whose elements are the region `patch`; its points moved by `place`.
 fn disc(place: impl Fn([f64; 2]) -> [f64; 2], rest: &str) -> Body {
-    let mut mesh = AnnulusMesh::generate(&annulus(ElementKind::Quad4, 24, 4)).unwrap().mesh;
+    let mut mesh = AnnulusMesh::generate(&annulus(Quad4, 24, 4)).unwrap().mesh;
     mesh.regions.push("patch".to_owned());
     // Two elements on one ray, away from both edges.
     for element in [4 * 5 + 1, 4 * 5 + 2] {

@@ -44,7 +44,7 @@ fn estimates_of_frequencies_are_within_a_factor_of_two_of_the_error_by_refinemen
         bricks(&format!("mesh-error-{fineness}"), [0.05, 0.04, 0.02], counts, text)
     };
     let disc = {
-        let specification = crate::disc::annulus(ElementKind::Quad4, 48, 8);
+        let specification = crate::disc::annulus(Quad4, 48, 8);
         let mesh = crate::triangles::triangles(&specification, true);
         let mesh = write_msh(&mesh, FORMS[0], &[], |point| point);
         let shipped = fs::read_to_string(crate::program::shipped("disc-triangles.toml")).unwrap();

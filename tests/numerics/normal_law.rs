@@ -12,7 +12,7 @@ pub const LAWS: [NormalLaw; 2] = [
 /// disc, `p(g) = p_0 (delta - g) / delta`.
 #[test]
 fn disc_and_interface_share_the_interference() {
-    let specification = annulus(ElementKind::Quad4, 48, 12);
+    let specification = annulus(Quad4, 48, 12);
     let sector = SectorMesh::generate(&specification).unwrap();
     let stiffness = sector::stiffness(&sector, &POLYCARBONATE);
     let sliding = contact(610.0);
@@ -50,7 +50,7 @@ fn the_frequency_of_a_block_follows_the_pressure_on_it() {
             ..TANGENT
         };
         let tangent = body.tangent(&base, &options).unwrap();
-        let modes = modes_at(&tangent, 0.0, ModeLimit::Lowest(3));
+        let modes = modes_at(&tangent, 0.0, Lowest(3));
         let expected = ((pressure + 1e5) * WIDTH / (5e-4 * MASS)).sqrt();
         let apart = |mode: &ComplexMode| (mode.eigenvalue.im / expected - 1.0).abs();
         let nearest = modes.iter().map(apart).fold(f64::MAX, f64::min);

@@ -20,7 +20,7 @@ fn lining(axes: MaterialAxes) -> Orthotropy {
 fn solid(orthotropy: Orthotropy) -> ElasticMaterial {
     ElasticMaterial {
         density: 2500.0,
-        formulation: PlaneFormulation::ThreeDimensional,
+        formulation: ThreeDimensional,
         orthotropy: Some(orthotropy),
         ..ElasticMaterial::PLAIN
     }
@@ -125,7 +125,7 @@ fn free_modes_of_an_orthotropic_cube_are_those_of_a_ritz_series() {
     let shorter = ritz(&straight, 2500.0, [SIDE; 3], 11);
     near_each(&shorter[6..16], &series[6..16], 2e-4);
     let cube = |cells: usize, place: &dyn Fn([f64; 3]) -> [f64; 3]| {
-        let file = block(ElementKind::Hex20, [cells; 3], |p| place(p.map(|x| SIDE * x)));
+        let file = block(Hex20, [cells; 3], |p| place(p.map(|x| SIDE * x)));
         solids_of(&file, &[])
     };
     let turned = |cells: usize| {
@@ -169,10 +169,10 @@ fn a_thin_orthotropic_plate_has_the_frequencies_of_kirchhoffs_theory() {
     expected.sort_by(f64::total_cmp);
     let edges = ["x0", "x1", "y0", "y1"].map(|face| {
         let along_x = face.starts_with('x');
-        let fixed = BoundaryCondition::Fixed([!along_x, along_x, true]);
+        let fixed = Fixed([!along_x, along_x, true]);
         (face, fixed)
     });
-    let file = block(ElementKind::Hex20, [20, 16, 1], |[x, y, z]| [a * x, b * y, h * z]);
+    let file = block(Hex20, [20, 16, 1], |[x, y, z]| [a * x, b * y, h * z]);
     let mesh = solids_of(&file, &edges);
     let found = Pencil::of_material(&mesh, &solid(orthotropy)).frequencies(4);
     // Shear and rotatory inertia lower them by about (pi h / a)^2 E / G.
@@ -202,16 +202,12 @@ fn isotropic_constants_given_as_orthotropic_have_the_isotropic_stiffness() {
             center: [0.3, -0.1, 0.2],
         },
     ];
-    let formulations = [
-        PlaneFormulation::PlaneStrain,
-        PlaneFormulation::PlaneStress,
-        PlaneFormulation::ThreeDimensional,
-    ];
-    let flat = [ElementKind::Tri3, ElementKind::Quad8];
+    let formulations = [PlaneStrain, PlaneStress, ThreeDimensional];
+    let flat = [Tri3, Quad8];
     for formulation in formulations {
         let plain = ElasticMaterial { formulation, ..POLYCARBONATE };
         let kinds: &[ElementKind] = match formulation {
-            PlaneFormulation::ThreeDimensional => &SOLIDS,
+            ThreeDimensional => &SOLIDS,
             _ => &flat,
         };
         for (&kind, axes) in kinds.iter().flat_map(|kind| all_axes.map(|axes| (kind, axes))) {
@@ -275,7 +271,7 @@ fn plane_formulations_reduce_the_compliance_of_the_solid() {
     };
     let s66 = 1.0 / constants.shear_moduli[0];
     let stress = along_x(1.0 / e1, 1.0 / e2, -n12 / e1, s66);
-    let found = in_plane(PlaneFormulation::PlaneStress)[(0, 0)];
+    let found = in_plane(PlaneStress)[(0, 0)];
     assert!((found / stress - 1.0).abs() < 1e-12, "{found} {stress}");
     let [s13, s23] = [-n13 / e1, -n23 / e2];
     let strain = along_x(
@@ -284,7 +280,7 @@ fn plane_formulations_reduce_the_compliance_of_the_solid() {
         -n12 / e1 - s13 * s23 * e3,
         s66,
     );
-    let found = in_plane(PlaneFormulation::PlaneStrain)[(0, 0)];
+    let found = in_plane(PlaneStrain)[(0, 0)];
     assert!((found / strain - 1.0).abs() < 1e-12, "{found} {strain}");
 }
 

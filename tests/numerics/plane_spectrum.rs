@@ -18,7 +18,7 @@ fn modes(mesh: &Mesh, count: usize) -> Vec<ComplexMode> {
     };
     let contact = contact(610.0);
     let tangent = linearized(mesh, &POLYCARBONATE, &contact, &options);
-    modes_at(&tangent, contact.friction_coefficient, ModeLimit::Lowest(count))
+    modes_at(&tangent, contact.friction_coefficient, Lowest(count))
 }
 
 fn exact(names: &[(usize, usize, i8)]) -> Vec<c64> {
@@ -42,8 +42,8 @@ fn import(mesh: &Mesh) -> Mesh {
 
 #[test]
 fn five_thousand_imported_elements_give_table_1_and_the_continuum() {
-    let triangles = triangles(&annulus(ElementKind::Quad4, 120, 21), true);
-    let quads = AnnulusMesh::generate(&annulus(ElementKind::Quad8, 160, 31)).unwrap().mesh;
+    let triangles = triangles(&annulus(Quad4, 120, 21), true);
+    let quads = AnnulusMesh::generate(&annulus(Quad8, 160, 31)).unwrap().mesh;
     for mesh in [triangles, quads] {
         let mesh = import(&mesh);
         assert!((4900..5100).contains(&mesh.element_count()));
@@ -66,10 +66,8 @@ fn five_thousand_imported_elements_give_table_1_and_the_continuum() {
 /// Slopes of the mean error of the lowest eigenvalues over three meshes, each split from the one before.
 #[test]
 fn eigenvalues_on_unstructured_meshes_converge_with_orders_two_and_four() {
-    for (kind, around, radial, order) in
-        [(ElementKind::Tri3, 48, 9, 2.0), (ElementKind::Tri6, 24, 4, 4.0)]
-    {
-        let mesh = triangles(&annulus(ElementKind::Quad4, around, radial), kind.is_quadratic());
+    for (kind, around, radial, order) in [(Tri3, 48, 9, 2.0), (Tri6, 24, 4, 4.0)] {
+        let mesh = triangles(&annulus(Quad4, around, radial), kind.is_quadratic());
         let bytes = write_msh(&mesh, FORMS[3], &[], |p| p);
         let mut file = FileMesh::read(&bytes).unwrap();
         let mut errors = Vec::new();

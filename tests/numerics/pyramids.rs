@@ -27,7 +27,7 @@ fn row(is_quadratic: bool) -> FileMesh {
             }
         }
     }
-    let kind = |corners: &Vec<u32>| ElementKind::Tet4.with_corners(corners.len(), is_quadratic);
+    let kind = |corners: &Vec<u32>| Tet4.with_corners(corners.len(), is_quadratic);
     let mut file = meshed(places, elements.into_iter().map(|corners| (kind(&corners), corners)));
     // A map of all that is linear, so that edges stay straight.
     let skewed = |[x, y, z]: [f64; 3]| [0.05 * x + 0.01 * y, 0.06 * y + 0.008 * z, 0.04 * z];

@@ -19,7 +19,7 @@ fn sliding() -> SlidingContact {
 }
 
 fn disc() -> AnnulusMesh {
-    AnnulusMesh::generate(&annulus(ElementKind::Quad4, 60, 12)).unwrap()
+    AnnulusMesh::generate(&annulus(Quad4, 60, 12)).unwrap()
 }
 
 fn settings(duration: f64, at: f64) -> TransientSettings {
@@ -34,11 +34,9 @@ fn eigenvalue() -> f64 {
     let table = Some(Arc::new(table));
     let materials = vec![RegionMaterial { table, ..elastic.into() }];
     let mesh = disc().mesh;
-    let options =
-        TangentOptions { mass: MassKind::Lumped, damping: RayleighDamping::default(), ..TANGENT };
+    let options = TangentOptions { mass: Lumped, damping: RayleighDamping::default(), ..TANGENT };
     let tangent = linearized(&mesh, &materials, &sliding(), &options);
-    let modes =
-        modes_at(&tangent, sliding().friction_coefficient, ModeLimit::Lowest(8)).into_iter();
+    let modes = modes_at(&tangent, sliding().friction_coefficient, Lowest(8)).into_iter();
     let own = modes.filter(|mode| mode.harmonic == HARMONIC);
     own.map(|mode| mode.growth_rate()).fold(f64::NEG_INFINITY, f64::max)
 }

@@ -99,7 +99,7 @@ impl Pencil {
         stiffness.entries.extend(assemble_supports(mesh)[0].entries.iter());
         Self {
             stiffness: free(&stiffness),
-            mass: free(&assemble_mass(mesh, material, MassKind::Consistent)),
+            mass: free(&assemble_mass(mesh, material, Consistent)),
             unknowns,
         }
     }
@@ -206,7 +206,7 @@ pub fn passes_the_patch_test(mesh: &Mesh, what: &str) {
 fn every_kind_passes_the_patch_test_on_a_distorted_block() {
     for kind in SOLIDS {
         // Curved inner edges too where the quadrature is exact on them.
-        let bends = if kind == ElementKind::Tet10 { vec![0.0, 0.03] } else { vec![0.0] };
+        let bends = if kind == Tet10 { vec![0.0, 0.03] } else { vec![0.0] };
         for bend in bends {
             let mesh = solids_of(&distorted(kind, bend), &[]);
             passes_the_patch_test(&mesh, &format!("{kind:?} {bend}"));
@@ -245,7 +245,7 @@ fn masses_have_the_volume_and_inertia_of_the_block() {
     for kind in SOLIDS {
         let mesh = solids_of(&distorted(kind, 0.0), &[]);
         assert!((mesh.region_measures()[0] / volume - 1.0).abs() < 1e-13, "{kind:?}");
-        let mass = assemble_mass(&mesh, &STEEL, MassKind::Consistent);
+        let mass = assemble_mass(&mesh, &STEEL, Consistent);
         let motions = rigid_motions(&mesh);
         let energy = |i: usize, j: usize| -> f64 {
             let momentum = mass.multiply(mesh.dof_count(), &motions[j]);
@@ -276,7 +276,7 @@ fn the_lame_mode_of_a_cube_converges_with_the_order_of_the_kind() {
     let [_, shear] = STEEL.lame_constants();
     let exact = PI / SIDE * (shear / STEEL.density / 2.0).sqrt();
     // A quarter of the cube between its planes of symmetry: Lamé's mode stands alone there, on meshes without symmetry too.
-    let guided = ["x1", "y1", "z0", "z1"].map(|face| (face, BoundaryCondition::Guide));
+    let guided = ["x1", "y1", "z0", "z1"].map(|face| (face, Guide));
     let error = |kind: ElementKind, cells: usize| {
         let file = block(kind, [cells; 3], |p| p.map(|x| SIDE * x));
         let mesh = solids_of(&file, &guided);
@@ -297,7 +297,7 @@ fn the_lame_mode_of_a_cube_converges_with_the_order_of_the_kind() {
         // Split cells have not lost their next term yet (1.60 and 3.62 here, 1.76 with 8 and 14 cells, 1.37 and 3.2 with half as
         // many); bricks have.
         let shortfall = match kind {
-            ElementKind::Hex8 | ElementKind::Hex20 => 0.02,
+            Hex8 | Hex20 => 0.02,
             _ => 0.4,
         };
         assert!(order > expected - shortfall, "{kind:?} {errors:?} order {order}");
@@ -307,7 +307,7 @@ fn the_lame_mode_of_a_cube_converges_with_the_order_of_the_kind() {
 /// Cross-method: bending, torsion and stretching of a clamped beam that is not symmetric.
 #[test]
 fn quadratic_kinds_and_incompatible_bricks_agree_on_a_clamped_beam() {
-    let clamped = [("x0", BoundaryCondition::Clamped)];
+    let clamped = [("x0", Clamped)];
     let beam = |kind: ElementKind, cells: [usize; 3]| {
         let map = |[x, y, z]: [f64; 3]| {
             let taper = 1.0 - 0.3 * x;
@@ -316,12 +316,12 @@ fn quadratic_kinds_and_incompatible_bricks_agree_on_a_clamped_beam() {
         let mesh = solids_of(&block(kind, cells, map), &clamped);
         frequencies(&mesh, 6)
     };
-    let reference = beam(ElementKind::Hex20, [8, 2, 2]);
+    let reference = beam(Hex20, [8, 2, 2]);
     for (kind, cells, tolerance) in [
-        (ElementKind::Tet10, [10, 2, 2], 0.01),
-        (ElementKind::Wedge15, [8, 2, 2], 0.005),
-        (ElementKind::Pyramid13, [8, 2, 2], 0.005),
-        (ElementKind::Hex8, [16, 4, 4], 0.02),
+        (Tet10, [10, 2, 2], 0.01),
+        (Wedge15, [8, 2, 2], 0.005),
+        (Pyramid13, [8, 2, 2], 0.005),
+        (Hex8, [16, 4, 4], 0.02),
     ] {
         let found = beam(kind, cells);
         near_each(&found, &reference, tolerance);
@@ -335,12 +335,8 @@ fn pressure_guides_and_springs_on_faces_hold_a_uniform_stress_at_any_angle() {
     const SPRING: f64 = 2e11;
     let turn = Rotation3::from_euler_angles(0.3, -0.5, 0.8);
     let support = ElasticSupport { normal_stiffness: SPRING, ..ElasticSupport::default() };
-    let conditions = [
-        ("x0", BoundaryCondition::Support(support)),
-        ("x1", BoundaryCondition::Pressure(PRESSURE)),
-        ("y0", BoundaryCondition::Guide),
-        ("z0", BoundaryCondition::Guide),
-    ];
+    let conditions =
+        [("x0", Support(support)), ("x1", Pressure(PRESSURE)), ("y0", Guide), ("z0", Guide)];
     for kind in SOLIDS {
         let map = |[x, y, z]: [f64; 3]| {
             let place = turn * Vector3::new(0.1 * x, 0.05 * y, 0.04 * z);
@@ -394,7 +390,7 @@ fn geometric_stiffness_of_rigid_rotations_is_the_work_of_the_stress() {
 #[test]
 fn a_turned_block_has_the_same_frequencies() {
     let turn = Rotation3::from_euler_angles(1.1, 0.4, -0.7);
-    let clamped = [("z0", BoundaryCondition::Clamped)];
+    let clamped = [("z0", Clamped)];
     for kind in SOLIDS {
         let plain = solids_of(&distorted(kind, 0.02), &clamped);
         let mut file = distorted(kind, 0.02);

@@ -8,11 +8,7 @@ fn barrel([x, y, z]: [f64; 3]) -> [f64; 3] {
 }
 
 fn mesh(file: &FileMesh) -> Mesh {
-    let conditions = [
-        ("x0", BoundaryCondition::Clamped),
-        ("y0", BoundaryCondition::Guide),
-        ("z1", BoundaryCondition::Pressure(2e6)),
-    ];
+    let conditions = [("x0", Clamped), ("y0", Guide), ("z1", Pressure(2e6))];
     solids_of(file, &conditions)
 }
 
@@ -53,7 +49,7 @@ fn refined_solids_fit_together_and_keep_volume_surfaces_and_conditions() {
 #[test]
 fn a_refined_block_is_the_block_meshed_finer() {
     let straight = |[x, y, z]: [f64; 3]| [0.1 * x + 0.01 * z, 0.08 * y, 0.06 * z];
-    for kind in [ElementKind::Hex8, ElementKind::Hex20] {
+    for kind in [Hex8, Hex20] {
         let split = mesh(&block(kind, [2, 2, 1], straight)).refined_solids().unwrap();
         let meshed = mesh(&block(kind, [4, 4, 2], straight));
         let sorted = |mesh: &Mesh| {
@@ -69,11 +65,11 @@ fn a_refined_block_is_the_block_meshed_finer() {
 
 #[test]
 fn nodes_between_those_of_a_held_edge_are_held_too() {
-    let mut file = block(ElementKind::Tet10, [2, 2, 2], |place| place.map(|x| 0.1 * x));
+    let mut file = block(Tet10, [2, 2, 2], |place| place.map(|x| 0.1 * x));
     let is_on_edge = |p: &[f64; 3]| p[0] == 0.0 && p[1] == 0.0;
     let nodes = (0..file.points.len() as u32).filter(|&k| is_on_edge(&file.points[k as usize]));
     file.node_sets.insert("edge".to_owned(), nodes.collect());
-    let mut mesh = solids_of(&file, &[("edge", BoundaryCondition::Clamped)]);
+    let mut mesh = solids_of(&file, &[("edge", Clamped)]);
     for _ in 0..2 {
         mesh = mesh.refined_solids().unwrap();
         let boundary = mesh.boundaries.iter().find(|b| b.name == "edge").unwrap();

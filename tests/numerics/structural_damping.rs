@@ -7,7 +7,7 @@ use crate::shaft::model::STEEL;
 use frictionsim::cea::sparse::mode_pairs;
 
 fn tangent(losses: [f64; 2], damping: RayleighDamping) -> SlidingTangent {
-    let (rigid, held) = (ContactStiffness::default(), BoundaryCondition::Clamped);
+    let (rigid, held) = (ContactStiffness::default(), Clamped);
     tangent_with(losses, damping, rigid, held)
 }
 
@@ -17,8 +17,7 @@ fn tangent_with(
     contact_stiffness: ContactStiffness,
     outer: BoundaryCondition,
 ) -> SlidingTangent {
-    let specification =
-        AnnulusSpecification { outer, ..on_shaft(annulus(ElementKind::Quad4, 16, 3), 1) };
+    let specification = AnnulusSpecification { outer, ..on_shaft(annulus(Quad4, 16, 3), 1) };
     let mesh = AnnulusMesh::generate(&specification).unwrap().mesh;
     let lossy =
         |loss_factor: f64, elastic: ElasticMaterial| ElasticMaterial { loss_factor, ..elastic };
@@ -31,7 +30,7 @@ fn tangent_with(
 }
 
 pub fn solved(tangent: &SlidingTangent, frictions: &[f64]) -> FrictionSweep {
-    swept(tangent, frictions, ModeLimit::Lowest(8))
+    swept(tangent, frictions, Lowest(8))
 }
 
 pub fn eigenvalues(sweep: &FrictionSweep, point: usize) -> Vec<c64> {
@@ -94,7 +93,7 @@ fn loss_factors_of_disc_and_shaft_have_the_spectrum_of_the_dense_matrices() {
 #[test]
 fn loss_factors_of_contact_and_support_have_the_spectrum_of_the_dense_matrices() {
     let springs = ContactStiffness { normal_stiffness: Some(2e12), loss_factor: 0.15, ..RIGID };
-    let mounting = BoundaryCondition::Support(ElasticSupport {
+    let mounting = Support(ElasticSupport {
         normal_stiffness: 1e11,
         tangential_stiffness: 2e11,
         loss_factor: 0.05,
@@ -196,7 +195,7 @@ fn derivatives_with_loss_factors_are_differences_of_eigenvalues() {
     let with = |more: f64| {
         let loss_factor = 0.1 + more;
         let springs = ContactStiffness { normal_stiffness: Some(2e12), loss_factor, ..RIGID };
-        let held = BoundaryCondition::Clamped;
+        let held = Clamped;
         tangent_with([0.02, 0.1], RayleighDamping::default(), springs, held)
     };
     // The second order of the differences, where branches bend.

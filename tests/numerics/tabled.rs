@@ -21,7 +21,7 @@ fn rubber(scale: f64) -> Vec<[f64; 3]> {
 
 /// The disc, whose modulus depends on frequency, on a deformable shaft of steel.
 fn tangent(rows: Vec<[f64; 3]>, contact_stiffness: ContactStiffness) -> SlidingTangent {
-    let specification = on_shaft(annulus(ElementKind::Quad4, 16, 3), 1);
+    let specification = on_shaft(annulus(Quad4, 16, 3), 1);
     let mesh = AnnulusMesh::generate(&specification).unwrap().mesh;
     let steel = ElasticMaterial { loss_factor: 0.002, ..crate::shaft::model::STEEL };
     let table = ModulusTable::new("materials.disc.table", "rubber.csv", rows);
@@ -45,7 +45,7 @@ fn every_mode_has_the_stiffness_of_its_own_frequency() {
     for contact_stiffness in [ContactStiffness::default(), springs] {
         let tangent = tangent(rubber(1e9), contact_stiffness);
         let (frictions, limit_hz) = ([0.0, 0.3, 0.6, 0.9], 11000.0);
-        let found = swept(&tangent, &frictions, ModeLimit::MaxFrequency(limit_hz));
+        let found = swept(&tangent, &frictions, MaxFrequency(limit_hz));
         for (point, &mu) in frictions.iter().enumerate() {
             let own = eigenvalues(&found, point);
             for lambda in &own {
@@ -112,7 +112,7 @@ fn a_line_of_the_response_has_the_stiffness_of_its_frequency() {
 fn a_mode_beyond_the_table_is_refused_with_its_frequency() {
     let short = vec![[100.0, 2e9, 0.1], [3000.0, 2.5e9, 0.1]];
     let tangent = tangent(short, ContactStiffness::default());
-    let request = sweep_request(&[0.0, 0.3], ModeLimit::Lowest(8));
+    let request = sweep_request(&[0.0, 0.3], Lowest(8));
     let error = sweep(&tangent, &request, &|_| {}).unwrap_err();
     let CeaError::BeyondTable { range_hz, frequency_hz, .. } = &error else {
         panic!("{error}");
@@ -144,7 +144,7 @@ fn a_sandwich_beam_loses_what_ross_kerwin_and_ungar_say() {
     let table = ModulusTable::new("materials.core.table", "core.csv", rows);
 
     // Three layers of 20-node bricks; faces without Poisson's contraction are a beam.
-    let mut file = block(ElementKind::Hex20, [40, 1, 3], |[x, y, z]| {
+    let mut file = block(Hex20, [40, 1, 3], |[x, y, z]| {
         let layers = [0.0, FACE, FACE + CORE, 2.0 * FACE + CORE];
         let (layer, share) = ((3.0 * z) as usize, (3.0 * z).fract());
         let top = layers[(layer + 1).min(3)];
@@ -158,7 +158,7 @@ fn a_sandwich_beam_loses_what_ross_kerwin_and_ungar_say() {
     }
     let sides = ["x0", "x1", "y0", "y1"].map(|side| {
         let is_end = side.starts_with('x');
-        let held = BoundaryCondition::Fixed([false, !is_end, is_end]);
+        let held = Fixed([false, !is_end, is_end]);
         (side, held)
     });
     // Nothing else holds the beam along itself: at 70 Hz it moves as a whole.
@@ -166,7 +166,7 @@ fn a_sandwich_beam_loses_what_ross_kerwin_and_ungar_say() {
     let held = [&sides[..], &[("z1", soft)]].concat();
     let mesh = solids_of(&file, &held);
     let solid = |young_modulus: f64, poisson_ratio: f64, density: f64| {
-        elastic(young_modulus, poisson_ratio, density, PlaneFormulation::ThreeDimensional)
+        elastic(young_modulus, poisson_ratio, density, ThreeDimensional)
     };
     let poisson_ratio = 0.3;
     let core = RegionMaterial {
@@ -182,7 +182,7 @@ fn a_sandwich_beam_loses_what_ross_kerwin_and_ungar_say() {
     let state = assembly.range(&[0.0]).unwrap();
     let options = TangentOptions { damping: RayleighDamping::default(), ..TANGENT };
     let tangent = assembly.tangent(&state.states[0], &options).unwrap();
-    let found = eigenvalues_of(&modes_at(&tangent, 0.0, ModeLimit::Lowest(5)));
+    let found = eigenvalues_of(&modes_at(&tangent, 0.0, Lowest(5)));
 
     let mass = 2.0 * FACE * 2700.0 + CORE * 1000.0;
     for n in 1..=3 {

@@ -111,7 +111,7 @@ impl Differences {
 
     /// Eigenvalues of all branches at a friction coefficient.
     fn eigenvalues<S: Sectors>(&self, model: &WaveModel<S>, friction: f64) -> BTreeMap<Name, c64> {
-        let limit = ModeLimit::MaxFrequency(self.limits_hz[1]);
+        let limit = MaxFrequency(self.limits_hz[1]);
         let branches = model.swept(&[friction], limit).branches;
         if self.is_whole {
             let own = pairs(&model.tangent(), &branches, friction).into_iter();
@@ -158,7 +158,7 @@ impl Differences {
     /// Holds the derivatives of every branch, by every parameter that the model has and by friction, to differences of whole
     /// analyses, base state included, so that the step may stay far above round-off. How many branches there are.
     pub fn hold<S: Sectors>(&self, model: &WaveModel<S>, what: &str) -> usize {
-        let limit = ModeLimit::MaxFrequency(self.limits_hz[0]);
+        let limit = MaxFrequency(self.limits_hz[0]);
         let found = model.swept(&[0.0, Self::FRICTION], limit);
         let all = pairs(&model.tangent(), &found.branches, Self::FRICTION);
         assert!(all.len() >= 5, "{what}: {}", all.len());

@@ -8,7 +8,7 @@ mod sizes;
 mod suggestions;
 
 use crate::prelude::*;
-use frictionsim::case::{CeaMethod, ModeLimit, RawCase, Spacing, TimeStep, range_values};
+use frictionsim::case::{CeaMethod, RawCase, Spacing, TimeStep, range_values};
 use proptest::prelude::*;
 
 const DISC: &str = include_str!("../../../cases/polycarbonate-disc.toml");
@@ -44,12 +44,12 @@ fn disc_with(key: &str, line: &str) -> String {
 fn the_disc_case_holds_the_model_of_the_paper() {
     let case = valid(DISC, &[]);
     let cea = case.require_cea().unwrap();
-    assert_eq!(case.body.grid().unwrap().element, ElementKind::Quad8);
+    assert_eq!(case.body.grid().unwrap().element, Quad8);
     assert_eq!(case.body.grid().unwrap().circumferential_elements, 150);
     assert_eq!(cea.friction_coefficients.len(), 51);
     assert!(cea.friction_coefficients.contains(&0.3));
     assert_eq!(cea.shapes_at, [0.3]);
-    assert_eq!(cea.modes, ModeLimit::MaxFrequency(17500.0));
+    assert_eq!(cea.modes, MaxFrequency(17500.0));
     assert_eq!(cea.method, CeaMethod::Auto);
     assert_eq!(case.contact.stiffness.normal_stiffness, Some(7.4e12));
     // 610 revolutions a minute.
@@ -119,7 +119,7 @@ fn overrides_change_exactly_their_key() {
              cea.friction_coefficients={ from = 0, to = 0.6, count = 3 }"],
     );
     assert_eq!(case.contact.sliding.friction_coefficient, 0.45);
-    assert_eq!(case.body.grid().unwrap().element, ElementKind::Quad4);
+    assert_eq!(case.body.grid().unwrap().element, Quad4);
     assert_eq!(case.body.grid().unwrap().radial_elements, 12);
     assert_eq!(case.body.grid().unwrap().circumferential_elements, 150);
     assert_eq!(case.cea.unwrap().friction_coefficients, [0.0, 0.3, 0.6]);
@@ -127,7 +127,7 @@ fn overrides_change_exactly_their_key() {
     let case = valid(DISC, &["cea.friction_coefficients.count=101"]);
     assert_eq!(case.cea.unwrap().friction_coefficients.len(), 101);
     let case = valid(DISC, &["cea.modes=28"]);
-    assert_eq!(case.cea.unwrap().modes, ModeLimit::Lowest(28));
+    assert_eq!(case.cea.unwrap().modes, Lowest(28));
     let case = valid(DISC, &["contact.normal_stiffness=rigid"]);
     assert_eq!(case.contact.stiffness.normal_stiffness, None);
 }

@@ -9,7 +9,7 @@ use frictionsim::results::transient::{LinearStage, RecordedRun, draw_run};
 
 #[test]
 fn a_run_gets_every_figure_of_its_record() {
-    let annulus = AnnulusMesh::generate(&annulus(ElementKind::Quad4, 60, 12)).unwrap();
+    let annulus = AnnulusMesh::generate(&annulus(Quad4, 60, 12)).unwrap();
     let contact = SlidingContact { decay: None, friction_coefficient: 0.4, ..contact(610.0) };
     let rotation_speed = contact.rotation_speed;
     let model = TransientModel::of_annulus(&annulus, &POLYCARBONATE, DAMPING, contact);

@@ -12,13 +12,9 @@ const PAIRS: &str = "\
     14832 0 2 0 ; 16361 4 1 345 ; 16433 6 0 2 ; 16641 0 3 0 ; 17165 1 2 423 ; 17447 2 2 66";
 
 pub fn mesh(circumferential_elements: usize, radial_elements: usize) -> Mesh {
-    AnnulusMesh::generate(&crate::disc::annulus(
-        ElementKind::Quad4,
-        circumferential_elements,
-        radial_elements,
-    ))
-    .unwrap()
-    .mesh
+    AnnulusMesh::generate(&crate::disc::annulus(Quad4, circumferential_elements, radial_elements))
+        .unwrap()
+        .mesh
 }
 
 fn rayleigh(omega: f64) -> f64 {

@@ -120,7 +120,7 @@ fn steady_sliding_start_stays_in_equilibrium() {
 #[test]
 fn bar_rebounds_from_a_rigid_wall_as_one_dimensional_theory_says() {
     let (inner, length, speed) = (10.0, 0.02, 1.0);
-    let specification = crate::disc::ring([inner, inner + length], ElementKind::Quad4, 360, 200);
+    let specification = crate::disc::ring([inner, inner + length], Quad4, 360, 200);
     let annulus = AnnulusMesh::generate(&specification).unwrap();
     let mut model = model(&annulus, 0.0);
     model.damping = RayleighDamping::default();

@@ -6,9 +6,9 @@ use frictionsim::cea::cyclic::sweep;
 
 /// Eigenvalue of a harmonic with the largest real part as the time loop has it: lumped mass, no geometric stiffness.
 fn least_stable(contact: &SlidingContact, stiffness: ContactStiffness, harmonic: usize) -> c64 {
-    let options = TangentOptions { mass: MassKind::Lumped, contact: stiffness, ..TANGENT };
+    let options = TangentOptions { mass: Lumped, contact: stiffness, ..TANGENT };
     let at = [contact.friction_coefficient];
-    let request = sweep_request(&at, ModeLimit::Lowest(40));
+    let request = sweep_request(&at, Lowest(40));
     let specification = disc(60, 12).specification;
     let found = sweep(&specification, &POLYCARBONATE, &options, contact, &request).unwrap();
     let modes = found.sweep.points[0].modes.iter();

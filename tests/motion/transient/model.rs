@@ -3,7 +3,7 @@
 use crate::prelude::*;
 
 pub fn disc(circumferential_elements: usize, radial_elements: usize) -> AnnulusMesh {
-    let specification = annulus(ElementKind::Quad4, circumferential_elements, radial_elements);
+    let specification = annulus(Quad4, circumferential_elements, radial_elements);
     AnnulusMesh::generate(&specification).unwrap()
 }
 

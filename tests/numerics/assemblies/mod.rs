@@ -44,12 +44,12 @@ fn stacked(gap: f64) -> [Block; 2] {
 
 /// Symmetry planes on three sides leave a stack free to contract; the top is pressed.
 const PRESSED: [(&str, BoundaryCondition); 6] = [
-    ("lower_z0", BoundaryCondition::Fixed([false, false, true])),
-    ("lower_x0", BoundaryCondition::Fixed([true, false, false])),
-    ("upper_x0", BoundaryCondition::Fixed([true, false, false])),
-    ("lower_y0", BoundaryCondition::Fixed([false, true, false])),
-    ("upper_y0", BoundaryCondition::Fixed([false, true, false])),
-    ("upper_z1", BoundaryCondition::Pressure(1e8)),
+    ("lower_z0", Fixed([false, false, true])),
+    ("lower_x0", Fixed([true, false, false])),
+    ("upper_x0", Fixed([true, false, false])),
+    ("lower_y0", Fixed([false, true, false])),
+    ("upper_y0", Fixed([false, true, false])),
+    ("upper_z1", Pressure(1e8)),
 ];
 
 /// Largest error of the displacement of a bar under the pressure 1e8 Pa along z, m; the upper part moved on by `jump`.
@@ -133,7 +133,7 @@ fn constant_pressure_passes_a_tie_between_meshes_that_do_not_match() {
 
 fn eigenvalues(assembly: &Assembly<'_>, friction: f64, count: usize) -> Vec<c64> {
     let tangent = tangent_at(assembly, friction, &OPTIONS);
-    eigenvalues_of(&modes_at(&tangent, friction, ModeLimit::Lowest(count)))
+    eigenvalues_of(&modes_at(&tangent, friction, Lowest(count)))
 }
 
 /// Coefficients of the powers of `x - origin` from those of the powers of `x`, by repeated division.
@@ -180,7 +180,7 @@ fn a_frozen_state_has_the_same_tangent_above() {
 
 #[test]
 fn a_tie_of_two_halves_has_the_spectrum_of_the_whole() {
-    let clamped = [("whole_z0", BoundaryCondition::Clamped)];
+    let clamped = [("whole_z0", Clamped)];
     let whole = [brick("whole", [0.0; 3], [0.05, 0.04, 0.04], [4, 3, 4])];
     let whole = mesh_of(&file_of(&whole, |point| point), &clamped);
     let expected = Assembly::new(&whole, &STEEL, &[], &[], &[], Closed).unwrap();
@@ -188,7 +188,7 @@ fn a_tie_of_two_halves_has_the_spectrum_of_the_whole() {
         brick(name, [0.0, 0.0, height], [0.05, 0.04, 0.02], [4, 3, 2])
     };
     let halves = file_of(&[half("lower", 0.0), half("upper", 0.02)], |point| point);
-    let halves = mesh_of(&halves, &[("lower_z0", BoundaryCondition::Clamped)]);
+    let halves = mesh_of(&halves, &[("lower_z0", Clamped)]);
     let glue = tie(&halves, "upper_z0", "lower_z1");
     let tied = Assembly::new(&halves, &STEEL, &[glue], &[], &[], Closed).unwrap();
     let [whole, halves] = [&expected, &tied].map(|own| eigenvalues(own, 0.0, 8));
@@ -213,7 +213,7 @@ fn an_assembly_turned_in_space_keeps_its_spectrum() {
     // A pad that covers part of the lower block, held on its top.
     blocks[1].origin = [0.012, 0.007, 0.02];
     blocks[1].size = [0.03, 0.025, 0.012];
-    let held = [("lower_z0", BoundaryCondition::Clamped), ("upper_x0", BoundaryCondition::Clamped)];
+    let held = [("lower_z0", Clamped), ("upper_x0", Clamped)];
     let center = [0.3, 0.01, 0.0];
     // Quadratic faces are not integrated exactly: their points must lie where they lay.
     for (order, normal_stiffness) in [(1, Some(1e14)), (1, None), (2, Some(1e14)), (2, None)] {

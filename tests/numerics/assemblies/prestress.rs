@@ -32,7 +32,7 @@ fn forces_of_a_rotation(mesh: &Mesh, contact: SlidingSurfaces, motions: &[Motion
     let rotation: Vec<f64> = rotation.collect();
 
     // Springs and loads stay where they are: their nodes are left out, and those that move them through rigid contact.
-    let bound = mesh.boundaries.iter().filter(|own| own.condition != BoundaryCondition::Free);
+    let bound = mesh.boundaries.iter().filter(|own| own.condition != Free);
     let loaded: BTreeSet<usize> =
         bound.flat_map(|own| own.nodes.iter().map(|&node| node as usize)).collect();
     let rows = tangent.distances.iter().filter(|(dof, _)| loaded.contains(&(dof / 3)));
@@ -89,10 +89,10 @@ fn bent(is_bent: bool) -> impl Fn([f64; 3]) -> [f64; 3] {
 #[test]
 fn a_rotation_of_everything_costs_no_force() {
     let conditions = [
-        ("lower_z0", BoundaryCondition::Support(SPRINGS)),
-        ("upper_x0", BoundaryCondition::Support(SPRINGS)),
-        ("upper_x1", BoundaryCondition::Support(SPRINGS)),
-        ("upper_z1", BoundaryCondition::Pressure(1e8)),
+        ("lower_z0", Support(SPRINGS)),
+        ("upper_x0", Support(SPRINGS)),
+        ("upper_x1", Support(SPRINGS)),
+        ("upper_z1", Pressure(1e8)),
     ];
     let bodies = [(false, 1, 1e-8), (false, 2, 1e-8), (true, 1, 3e-2), (true, 2, 3e-2)];
     for (is_bent, order, bound) in bodies {
@@ -125,10 +125,7 @@ fn a_rotation_about_a_rigid_counterface_costs_no_force() {
     for (shape, is_bent, center) in shapes {
         let [_, upper] = stacked(0.0);
         let bytes = file_of(&[upper], bent(is_bent));
-        let conditions = [
-            ("upper_x0", BoundaryCondition::Support(SPRINGS)),
-            ("upper_z1", BoundaryCondition::Support(SPRINGS)),
-        ];
+        let conditions = [("upper_x0", Support(SPRINGS)), ("upper_z1", Support(SPRINGS))];
         let mesh = mesh_of(&bytes, &conditions);
         let motion = RigidMotion::Turning(10.0);
         let rigid = RigidCounterface { shape, interference: 2e-4, ..plane(motion, center) };
@@ -149,12 +146,12 @@ fn a_column_buckles_under_the_load_of_euler() {
     let inertia = side.powi(4) / 12.0;
     let euler = PI.powi(2) * STEEL.young_modulus * inertia / (4.0 * length * length);
     let stiffness = [0.9, 0.95].map(|share| {
-        let pressure = BoundaryCondition::Pressure(share * euler / (side * side));
-        let conditions = [("column_z0", BoundaryCondition::Clamped), ("column_z1", pressure)];
+        let pressure = Pressure(share * euler / (side * side));
+        let conditions = [("column_z0", Clamped), ("column_z1", pressure)];
         let mesh = mesh_of(&bytes, &conditions);
         let assembly = Assembly::new(&mesh, &STEEL, &[], &[], &[], Solved).unwrap();
         let tangent = tangent_at(&assembly, 0.0, &STRESSED);
-        let modes = modes_at(&tangent, 0.0, ModeLimit::Lowest(2));
+        let modes = modes_at(&tangent, 0.0, Lowest(2));
         modes[0].eigenvalue.im.powi(2)
     });
     // The square of the frequency falls almost in proportion to the load there.

@@ -38,7 +38,7 @@ fn the_response_of_a_sliding_assembly_has_the_poles_of_its_eigenvalue_analysis()
         let assembly = assembled(&mesh, contact, motions).unwrap();
         for friction in [0.2, 0.5] {
             let tangent = tangent_at(&assembly, friction, &DAMPED);
-            let lambda = modes_at(&tangent, friction, ModeLimit::Lowest(2))[0].eigenvalue;
+            let lambda = modes_at(&tangent, friction, Lowest(2))[0].eigenvalue;
             let system = FrfSystem::sliding(&tangent, friction);
             let port = |place, direction, key| {
                 let terminal = terminal(node_at(&mesh, place), direction);
@@ -58,7 +58,7 @@ fn the_response_of_a_sliding_assembly_has_the_poles_of_its_eigenvalue_analysis()
 /// Cross-method: two tied halves respond like the whole, and a node that follows another can be observed, not excited.
 #[test]
 fn tied_halves_respond_like_the_whole() {
-    let clamped = |name| [(name, BoundaryCondition::Clamped)];
+    let clamped = |name| [(name, Clamped)];
     let whole = [brick("bar", [0.0; 3], [0.12, 0.02, 0.02], [6, 2, 2])];
     let halves = [
         brick("left", [0.0; 3], [0.06, 0.02, 0.02], [3, 2, 2]),
@@ -99,7 +99,7 @@ fn tied_halves_respond_like_the_whole() {
 #[test]
 fn a_turning_ring_responds_like_the_dense_system_of_its_matrices() {
     for frame in [RotationFrame::Rest, RotationFrame::Turning] {
-        let (mesh, seam) = ring([2, 24, 1], BoundaryCondition::Clamped);
+        let (mesh, seam) = ring([2, 24, 1], Clamped);
         let motion = spinning(300.0, [0.0; 3], frame);
         let (ties, motions, closed) = ([seam], [motion], BaseChoice::Closed);
         let assembly = Assembly::new(&mesh, &STEEL, &ties, &[], &motions, closed).unwrap();

@@ -8,10 +8,10 @@ const INTERFERENCE: f64 = 2e-6;
 
 /// The lower block held at every node, the upper one pressed and held at a side.
 const HELD: [(&str, BoundaryCondition); 4] = [
-    ("lower_z0", BoundaryCondition::Clamped),
-    ("lower_z1", BoundaryCondition::Clamped),
-    ("upper_x0", BoundaryCondition::Fixed([true, true, false])),
-    ("upper_z1", BoundaryCondition::Pressure(3e5)),
+    ("lower_z0", Clamped),
+    ("lower_z1", Clamped),
+    ("upper_x0", Fixed([true, true, false])),
+    ("upper_z1", Pressure(3e5)),
 ];
 
 /// Two blocks, the lower one flat as a sheet so that all its nodes lie on held sides.
@@ -88,7 +88,7 @@ fn a_shaft_presses_a_bush_evenly_whatever_its_axis() {
         std::array::from_fn(|k| center[k] + r * (cos * e[k] + sin * f[k]) + 0.02 * along * axis[k])
     };
     let bytes = file_of(&[block], place);
-    let mesh = mesh_of(&bytes, &[("bush_x1", BoundaryCondition::Clamped)]);
+    let mesh = mesh_of(&bytes, &[("bush_x1", Clamped)]);
     for shape in [RigidShape::Cylinder(None), RigidShape::Cylinder(Some(radius))] {
         let rigid = RigidCounterface {
             shape,

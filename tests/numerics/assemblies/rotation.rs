@@ -33,8 +33,8 @@ fn frequencies(mesh: &Mesh, seam: &TiedSurfaces, speed: f64, count: usize) -> Ve
 /// translations whatever the speed. Coriolis, transport and the centrifugal stress hold each other in balance there.
 #[test]
 fn a_rotor_on_soft_springs_tilts_as_a_rigid_gyroscope() {
-    let (mesh, seam) = ring([4, 40, 1], BoundaryCondition::Support(SOFT));
-    let mass = assemble_mass(&mesh, &STEEL, MassKind::Consistent);
+    let (mesh, seam) = ring([4, 40, 1], Support(SOFT));
+    let mass = assemble_mass(&mesh, &STEEL, Consistent);
     let [springs, _] = assemble_supports(&mesh);
     let form = |matrix: &frictionsim::fem::Triplets, motion: fn([f64; 3]) -> [f64; 3]| -> f64 {
         let x: Vec<f64> = mesh.nodes.iter().flat_map(|&node| motion(node)).collect();
@@ -68,14 +68,14 @@ fn a_rotor_on_soft_springs_tilts_as_a_rigid_gyroscope() {
 /// that turns with the ring travels at `omega -+ 2 Omega` in the frame at rest, and nothing grows.
 #[test]
 fn a_free_ring_turns_and_both_frames_tell_the_same_of_its_waves() {
-    let (mesh, seam) = ring([2, 40, 1], BoundaryCondition::Free);
+    let (mesh, seam) = ring([2, 40, 1], Free);
     let speed = 60.0;
     let lowest = |frame: RotationFrame| -> [f64; 2] {
         let motion = turning(speed, [0.0; 3], frame);
         let ties = std::slice::from_ref(&seam);
         let assembly = Assembly::new(&mesh, &STEEL, ties, &[], &[motion], Closed).unwrap();
         let tangent = tangent_at(&assembly, 0.0, &OPTIONS);
-        let found = swept(&tangent, &[0.0], ModeLimit::Lowest(8));
+        let found = swept(&tangent, &[0.0], Lowest(8));
         assert!(found.intervals.is_empty(), "{:?}", found.intervals);
         let own = found.points[0].modes.iter().map(|mode| mode.eigenvalue.im);
         // Rigid motions go round at the speed of the frame.
@@ -90,7 +90,7 @@ fn a_free_ring_turns_and_both_frames_tell_the_same_of_its_waves() {
 
 #[test]
 fn a_body_that_is_none_of_revolution_about_the_axis_has_no_rotation_terms() {
-    let (mesh, seam) = ring([4, 40, 1], BoundaryCondition::Clamped);
+    let (mesh, seam) = ring([4, 40, 1], Clamped);
     let (ties, motion) = ([seam], turning(60.0, [0.03, 0.0, 0.0], RotationFrame::Rest));
     let found = Assembly::new(&mesh, &STEEL, &ties, &[], &[motion], Closed);
     let error = found.err().unwrap();

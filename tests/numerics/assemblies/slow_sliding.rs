@@ -29,7 +29,7 @@ fn lists_of_lossy_modes_have_no_gaps_however_slow_the_sliding() {
         let tangent = tangent_at(&assembly, 0.5, &options);
         let exact = dense_eigenvalues(&tangent, 0.5);
         for count in 4..9 {
-            let listed = eigenvalues_of(&modes_at(&tangent, 0.5, ModeLimit::Lowest(count)));
+            let listed = eigenvalues_of(&modes_at(&tangent, 0.5, Lowest(count)));
             let named = format!("{rotation_speed} rad/s, loss factor {loss_factor}, {count} modes");
             assert!(listed.len() >= count, "{named}: {listed:?}");
             assert!(listed.iter().all(|own| holds(&exact, own)), "{named}: {listed:?}");

@@ -71,7 +71,7 @@ fn dense_eigenvalues(tangent: &SlidingTangent, mesh: &AnnulusMesh, mu: f64, n: i
 /// Largest relative distance of the cyclic modes to the dense ones of their signed harmonic; panics unless
 /// both have equally many modes below the limit, for every harmonic of the mesh.
 fn worst_difference(model: &AnnulusModel, frictions: &[f64], limit_hz: f64) -> f64 {
-    let cyclic = model.swept(frictions, ModeLimit::MaxFrequency(limit_hz));
+    let cyclic = model.swept(frictions, MaxFrequency(limit_hz));
     let mesh = AnnulusMesh::generate(&model.specification).unwrap();
     let tangent = model.whole();
     let sectors = mesh.sector_count() as i32;
@@ -103,10 +103,8 @@ fn worst_difference(model: &AnnulusModel, frictions: &[f64], limit_hz: f64) -> f
 /// Independent check: dense solution of every harmonic, folded from the matrices of the full mesh.
 #[test]
 fn spectrum_equals_dense_solution_of_every_harmonic_of_the_full_mesh() {
-    for (element, n_theta) in
-        [(ElementKind::Quad4, 24), (ElementKind::Quad4, 17), (ElementKind::Quad8, 12)]
-    {
-        for mass in [MassKind::Consistent, MassKind::Lumped] {
+    for (element, n_theta) in [(Quad4, 24), (Quad4, 17), (Quad8, 12)] {
+        for mass in [Consistent, Lumped] {
             for normal_stiffness in [None, Some(7.4e12)] {
                 for geometric_stiffness in [false, true] {
                     let mut model = paper(element, n_theta, 6);
@@ -130,11 +128,11 @@ fn spectrum_equals_dense_solution_of_every_harmonic_of_the_full_mesh() {
 /// Independent check: companion matrix of the quadratic problem, damping that is not proportional.
 #[test]
 fn quadratic_problem_equals_dense_companion_solution() {
-    for damping_model in [DampingModel::WholeTangent, DampingModel::BodyOnly] {
+    for damping_model in [WholeTangent, BodyOnly] {
         for (normal_stiffness, normal_damping, tangential_damping) in
             [(None, 0.0, 1e4), (Some(7.4e12), 2e6, 3e4), (Some(7.4e12), 0.0, 0.0)]
         {
-            for element in [ElementKind::Quad4, ElementKind::Quad8] {
+            for element in [Quad4, Quad8] {
                 let mut model = paper(element, 14, 5);
                 model.options.damping_model = damping_model;
                 model.options.contact = ContactStiffness {
@@ -162,12 +160,11 @@ fn random_models_lose_no_mode_and_gain_none() {
     };
     for index in 0..40 {
         let mut choose = |count: usize| (random() * count as f64) as usize;
-        let element = [ElementKind::Quad4, ElementKind::Quad8][choose(2)];
+        let element = [Quad4, Quad8][choose(2)];
         let mut model = paper(element, 11 + choose(12), 2 + choose(5));
         let AnnulusModel { specification, material, options, contact } = &mut model;
-        material.formulation =
-            [PlaneFormulation::PlaneStrain, PlaneFormulation::PlaneStress][choose(2)];
-        options.mass = [MassKind::Consistent, MassKind::Lumped][choose(2)];
+        material.formulation = [PlaneStrain, PlaneStress][choose(2)];
+        options.mass = [Consistent, Lumped][choose(2)];
         options.geometric_stiffness = choose(3) > 0;
         let is_penalty = choose(5) > 1;
         let has_dashpots = choose(3) == 0;
@@ -192,19 +189,19 @@ fn random_models_lose_no_mode_and_gain_none() {
 /// Two real eigenvalues of the shortest wave of a coarse mesh meet and go on as a conjugate pair.
 #[test]
 fn branches_of_a_standing_harmonic_that_meet_are_followed_beyond() {
-    let mut model = paper(ElementKind::Quad8, 10, 4);
-    model.options.mass = MassKind::Lumped;
+    let mut model = paper(Quad8, 10, 4);
+    model.options.mass = Lumped;
     model.options.damping.stiffness_coefficient = 3.195e-6;
     model.options.contact.normal_stiffness = Some(3e11);
     model.contact.interference = 9.876e-5;
     model.material.poisson_ratio = 0.266;
-    model.material.formulation = PlaneFormulation::PlaneStress;
+    model.material.formulation = PlaneStress;
     model.specification.inner_radius = 0.0387;
     model.specification.radial_grading = 1.09;
     let frictions = [0.0, 0.1, 0.2, 0.25, 0.3, 0.5, 0.7];
     let worst = worst_difference(&model, &frictions, 19585.0);
     assert!(worst < 1e-9, "{worst:e}");
     let plain = WaveModel { material: POLYCARBONATE, contact: contact(610.0), ..model };
-    let found = plain.swept(&frictions, ModeLimit::MaxFrequency(19585.0));
+    let found = plain.swept(&frictions, MaxFrequency(19585.0));
     assert_eq!(found.coverage.largest_harmonic, 5);
 }

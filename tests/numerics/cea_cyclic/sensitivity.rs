@@ -20,12 +20,12 @@ fn strained(element: ElementKind, [around, across]: [usize; 2]) -> AnnulusModel 
 #[test]
 fn sensitivities_equal_finite_differences() {
     let size = sized([20, 4], [24, 6]);
-    let springs = strained(ElementKind::Quad4, size);
-    let mut rigid = strained(ElementKind::Quad8, size);
+    let springs = strained(Quad4, size);
+    let mut rigid = strained(Quad8, size);
     rigid.options.contact.normal_stiffness = None;
-    rigid.material.formulation = PlaneFormulation::PlaneStress;
+    rigid.material.formulation = PlaneStress;
     let mut dashpots = springs.clone();
-    dashpots.options.damping_model = DampingModel::BodyOnly;
+    dashpots.options.damping_model = BodyOnly;
     dashpots.options.contact.normal_damping = 1e5;
     for (model, what) in [(springs, "springs"), (rigid, "rigid"), (dashpots, "dashpots")] {
         hold(&model, [2.5, 2e-7], what);
@@ -39,7 +39,7 @@ fn sensitivities_of_stiffening_contact_equal_finite_differences() {
         NormalLaw::Exponential { reference_pressure: 2e5, height: 4e-6 },
         NormalLaw::Cubic { stiffness: 8e11, cubic_stiffness: 5e22 },
     ];
-    for (law, element) in laws.into_iter().zip([ElementKind::Quad8, ElementKind::Quad4]) {
+    for (law, element) in laws.into_iter().zip([Quad8, Quad4]) {
         let model = strained(element, [24, 6]).with(|own| own.options.contact = stiffening(law));
         hold(&model, [2.5, 1e-6], &format!("{law:?}"));
     }
@@ -49,7 +49,7 @@ fn sensitivities_of_stiffening_contact_equal_finite_differences() {
 #[test]
 fn sensitivities_to_a_falling_law_equal_finite_differences() {
     for normal_stiffness in [None, Some(7.4e12)] {
-        let mut model = strained(ElementKind::Quad4, [24, 6]);
+        let mut model = strained(Quad4, [24, 6]);
         model.options.contact.normal_stiffness = normal_stiffness;
         model.contact = SlidingContact { interference: 3e-4, ..falling(300.0) };
         hold(&model, [1.5, 1e-6], &format!("falling friction, {normal_stiffness:?}"));

@@ -5,7 +5,7 @@ use crate::prelude::*;
 
 #[test]
 fn eigenvalues_equal_table_1_of_the_paper() {
-    let found = paper(ElementKind::Quad8, 180, 35).swept(&[0.3], ModeLimit::Lowest(28));
+    let found = paper(Quad8, 180, 35).swept(&[0.3], Lowest(28));
     let rows = TABLE_1.iter().zip(&found.sweep.points[0].modes).zip(1..);
     for (((real, frequency, harmonic, branch), mode), row) in rows {
         assert_eq!((mode.harmonic, mode.branch), (*harmonic, *branch), "{mode:?}");
@@ -23,8 +23,8 @@ fn eigenvalues_equal_table_1_of_the_paper() {
 /// Onsets of the exact continuum model with the paper's data: 0.1224 (n = 1), 0.1382 (n = 2), 0.2121 (n = 1).
 #[test]
 fn critical_frictions_equal_those_of_the_continuum() {
-    let model = paper(ElementKind::Quad8, 120, 24);
-    let found = model.swept(&[0.0, 0.5, 1.0], ModeLimit::Lowest(28));
+    let model = paper(Quad8, 120, 24);
+    let found = model.swept(&[0.0, 0.5, 1.0], Lowest(28));
     let onsets = [(0.1224, 1, 2), (0.1382, 2, 1), (0.2121, 1, 1)];
     for ((critical, harmonic, branch), own) in onsets.iter().zip(&found.sweep.intervals) {
         assert_eq!((own.harmonic, own.branch, own.direction), (*harmonic, *branch, -1));
@@ -37,11 +37,11 @@ fn critical_frictions_equal_those_of_the_continuum() {
 /// between 0.0077 and 0.0142, and at each end the branch neither grows nor decays.
 #[test]
 fn unstable_intervals_do_not_depend_on_the_grid() {
-    let mut model = paper(ElementKind::Quad4, 40, 10);
+    let mut model = paper(Quad4, 40, 10);
     model.options.contact.normal_stiffness = Some(1e11);
     model.options.damping.stiffness_coefficient = 0.0;
     model.material.poisson_ratio = 0.45;
-    let solve = |frictions: &[f64]| model.swept(frictions, ModeLimit::MaxFrequency(20000.0));
+    let solve = |frictions: &[f64]| model.swept(frictions, MaxFrequency(20000.0));
     let steps: Vec<f64> = (0..=1250).map(|i| 0.004 * f64::from(i)).collect();
     let (fine, coarse) = (solve(&steps).sweep.intervals, solve(&[5.0]));
     let narrow = |i: &&UnstableInterval| i.restabilized.is_some_and(|(end, _)| end < 0.02);
@@ -72,9 +72,9 @@ fn unstable_intervals_do_not_depend_on_the_grid() {
 #[test]
 fn every_other_harmonic_is_proven_to_hold_no_mode_of_the_range() {
     for normal_stiffness in [Some(7.4e12), None] {
-        let mut model = paper(ElementKind::Quad4, 180, 35);
+        let mut model = paper(Quad4, 180, 35);
         model.options.contact.normal_stiffness = normal_stiffness;
-        let coverage = model.swept(&[0.0, 1.0], ModeLimit::Lowest(30)).coverage;
+        let coverage = model.swept(&[0.0, 1.0], Lowest(30)).coverage;
         assert_eq!(coverage.followed, (0..=8).collect::<Vec<_>>());
         assert_eq!(coverage.proven_empty, (9..=90).collect::<Vec<_>>());
         assert!(coverage.counted_empty.is_empty());
@@ -83,10 +83,8 @@ fn every_other_harmonic_is_proven_to_hold_no_mode_of_the_range() {
 
 #[test]
 fn results_are_the_same_to_the_last_bit_on_any_number_of_threads() {
-    let model = paper(ElementKind::Quad4, 40, 8);
-    let solve = |threads: usize| {
-        on_threads(threads, || model.swept(&[0.0, 0.3, 0.7], ModeLimit::Lowest(30)))
-    };
+    let model = paper(Quad4, 40, 8);
+    let solve = |threads: usize| on_threads(threads, || model.swept(&[0.0, 0.3, 0.7], Lowest(30)));
     let (one, four) = (solve(1), solve(4));
     assert_eq!(one.sweep, four.sweep);
     assert_eq!(one.branches, four.branches);
@@ -94,13 +92,13 @@ fn results_are_the_same_to_the_last_bit_on_any_number_of_threads() {
 
 #[test]
 fn impossible_requests_name_their_key() {
-    let model = paper(ElementKind::Quad4, 12, 2);
+    let model = paper(Quad4, 12, 2);
     for (frictions, limit, key) in [
-        (vec![], ModeLimit::Lowest(3), "cea.friction_coefficients"),
-        (vec![-0.1], ModeLimit::Lowest(3), "cea.friction_coefficients"),
-        (vec![0.1], ModeLimit::Lowest(0), "cea.modes"),
-        (vec![0.1], ModeLimit::Lowest(1000), "cea.modes"),
-        (vec![0.1], ModeLimit::MaxFrequency(-5.0), "cea.max_frequency_hz"),
+        (vec![], Lowest(3), "cea.friction_coefficients"),
+        (vec![-0.1], Lowest(3), "cea.friction_coefficients"),
+        (vec![0.1], Lowest(0), "cea.modes"),
+        (vec![0.1], Lowest(1000), "cea.modes"),
+        (vec![0.1], MaxFrequency(-5.0), "cea.max_frequency_hz"),
     ] {
         let outcome = model.sweep(&sweep_request(&frictions, limit));
         assert!(outcome.unwrap_err().to_string().contains(key));
@@ -114,11 +112,11 @@ fn branches_are_followed_past_an_eigenvalue_predicted_to_the_last_bit() {
     let intervals = |young_modulus: f64| {
         let model = WaveModel {
             material: ElasticMaterial { young_modulus, ..POLYCARBONATE },
-            options: TangentOptions { mass: MassKind::Lumped, ..TANGENT },
+            options: TangentOptions { mass: Lumped, ..TANGENT },
             contact: contact(1000.0),
-            ..paper(ElementKind::Quad4, 90, 18)
+            ..paper(Quad4, 90, 18)
         };
-        model.swept(&frictions, ModeLimit::MaxFrequency(17_500.0)).sweep.intervals
+        model.swept(&frictions, MaxFrequency(17_500.0)).sweep.intervals
     };
     let [exact, beside] = [2_540_479_684.482_66, 2_540_479_684.482_67].map(intervals);
     assert_eq!(exact.len(), beside.len());

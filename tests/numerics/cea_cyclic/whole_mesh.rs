@@ -10,7 +10,7 @@ fn agree<M: MaterialField + Clone>(
     tolerances: [f64; 2],
     what: &str,
 ) {
-    let limit = ModeLimit::Lowest(count);
+    let limit = Lowest(count);
     let cyclic = model.swept(frictions, limit).sweep;
     let sparse = swept(&model.whole(), frictions, limit);
     assert_same(&cyclic, &sparse, tolerances, what);
@@ -32,15 +32,15 @@ fn agree<M: MaterialField + Clone>(
 /// friction that falls with speed at both senses of rotation.
 #[test]
 fn spectrum_branches_and_onsets_equal_those_of_the_sparse_solver() {
-    let (quad4, quad8) = ((ElementKind::Quad4, 36), (ElementKind::Quad8, 18));
+    let (quad4, quad8) = ((Quad4, 36), (Quad8, 18));
     let springs = Some(7.4e12);
     for ((element, sectors), mass, normal_stiffness, contact) in [
-        (quad4, MassKind::Consistent, springs, contact(610.0)),
-        (quad4, MassKind::Lumped, None, contact(610.0)),
-        (quad8, MassKind::Consistent, None, contact(610.0)),
-        (quad8, MassKind::Lumped, springs, contact(610.0)),
-        (quad4, MassKind::Consistent, None, falling(610.0)),
-        (quad8, MassKind::Consistent, springs, falling(-300.0)),
+        (quad4, Consistent, springs, contact(610.0)),
+        (quad4, Lumped, None, contact(610.0)),
+        (quad8, Consistent, None, contact(610.0)),
+        (quad8, Lumped, springs, contact(610.0)),
+        (quad4, Consistent, None, falling(610.0)),
+        (quad8, Consistent, springs, falling(-300.0)),
     ] {
         let mut model = WaveModel { contact, ..paper(element, sectors, 6) };
         model.options.mass = mass;
@@ -53,7 +53,7 @@ fn spectrum_branches_and_onsets_equal_those_of_the_sparse_solver() {
 /// The same of contact that stiffens with pressure, whose base state the whole mesh solves by complementarity.
 #[test]
 fn spectrum_of_contact_that_stiffens_equals_that_of_the_sparse_solver() {
-    for (law, element) in LAWS.into_iter().zip([ElementKind::Quad4, ElementKind::Quad8]) {
+    for (law, element) in LAWS.into_iter().zip([Quad4, Quad8]) {
         let model = paper(element, 24, 5).with(|own| own.options.contact = stiffening(law));
         agree(&model, (&[0.0, 0.4], 12), [1e-8, 1e-8], &format!("{law:?}"));
     }
@@ -62,20 +62,15 @@ fn spectrum_of_contact_that_stiffens_equals_that_of_the_sparse_solver() {
 /// The same of two bodies, whose damping and support are their own.
 #[test]
 fn cyclic_and_sparse_spectra_of_two_bodies_are_the_same() {
-    let alike = on_shaft(
-        with_shaft(ElementKind::Quad4, 20, [2, 4]),
-        on(POLYCARBONATE),
-        rigid_contact(true),
-    );
-    let mut damped =
-        on_shaft(with_shaft(ElementKind::Quad8, 12, [2, 4]), on(STEEL), rigid_contact(true));
+    let alike = on_shaft(with_shaft(Quad4, 20, [2, 4]), on(POLYCARBONATE), rigid_contact(true));
+    let mut damped = on_shaft(with_shaft(Quad8, 12, [2, 4]), on(STEEL), rigid_contact(true));
     damped.material.shaft.as_mut().unwrap().damping = Some(rayleigh_damping(5.0, 1e-8));
     let mut supported = alike.clone();
     supported.specification.circumferential_elements = 18;
     supported.specification.shaft.as_mut().unwrap().bore = support([1e13, 2e13, 0.0], [10.0, 0.0]);
     supported.options.contact = compliant(7.4e12, [1e3, 2e3]);
-    supported.options.damping_model = DampingModel::BodyOnly;
-    supported.options.mass = MassKind::Lumped;
+    supported.options.damping_model = BodyOnly;
+    supported.options.mass = Lumped;
     for (k, model) in [alike, damped, supported].iter().enumerate() {
         agree(model, (&[0.0, 0.3, 0.6], 12), [1e-9, 1e-7], &format!("case {k}"));
     }
@@ -84,9 +79,9 @@ fn cyclic_and_sparse_spectra_of_two_bodies_are_the_same() {
 /// Consistency check: without friction every mode but those of `n = 0` is double, and no count cuts a pair.
 #[test]
 fn a_cut_through_a_pair_keeps_both_members_in_both_solvers() {
-    let model = paper(ElementKind::Quad4, 24, 5);
+    let model = paper(Quad4, 24, 5);
     for asked in 2..6 {
-        let limit = ModeLimit::Lowest(asked);
+        let limit = Lowest(asked);
         let cyclic = model.swept(&[0.0, 0.4], limit).sweep;
         let sparse = swept(&model.whole(), &[0.0, 0.4], limit);
         for found in [cyclic, sparse] {
@@ -104,9 +99,9 @@ fn a_cut_through_a_pair_keeps_both_members_in_both_solvers() {
 #[test]
 fn solvers_differ_by_no_more_than_the_uncertainty_that_they_state() {
     for penalty in [7.4e12, 7.4e18, 7.4e24] {
-        let mut model = paper(ElementKind::Quad4, 24, 5);
+        let mut model = paper(Quad4, 24, 5);
         model.options.contact.normal_stiffness = Some(penalty);
-        let request = sweep_request(&[0.4], ModeLimit::Lowest(8));
+        let request = sweep_request(&[0.4], Lowest(8));
         let cyclic = model.sweep(&request).unwrap().sweep;
         let Ok(sparse) = sparse::sweep(&model.whole(), &request, &|_| {}) else {
             assert!(penalty > 1e20, "{penalty:e}");
@@ -125,13 +120,10 @@ fn solvers_differ_by_no_more_than_the_uncertainty_that_they_state() {
 /// Consistency check on the whole mesh: shapes expanded from one sector satisfy the full problem.
 #[test]
 fn expanded_shapes_are_eigenvectors_of_the_full_mesh() {
-    for (element, normal_stiffness) in
-        [(ElementKind::Quad4, Some(7.4e12)), (ElementKind::Quad8, None)]
-    {
+    for (element, normal_stiffness) in [(Quad4, Some(7.4e12)), (Quad8, None)] {
         let mut model = paper(element, 24, 6);
         model.options.contact.normal_stiffness = normal_stiffness;
-        let request =
-            SweepRequest { shapes_at: &[0.6], ..sweep_request(&[0.6, 0.0], ModeLimit::Lowest(20)) };
+        let request = SweepRequest { shapes_at: &[0.6], ..sweep_request(&[0.6, 0.0], Lowest(20)) };
         let found = model.sweep(&request).unwrap();
         let tangent = model.whole();
         let multiply = |p: &MatrixPolynomial, x: &[c64]| {

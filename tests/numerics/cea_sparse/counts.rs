@@ -91,7 +91,7 @@ fn counts_are_those_of_a_dense_spectrum() {
 /// The determinant of the tangent of a disc with friction is that of dense elimination.
 #[test]
 fn determinant_of_a_disc_is_that_of_dense_elimination() {
-    let tangent = disc(24, 4, DampingModel::BodyOnly);
+    let tangent = disc(24, 4, BodyOnly);
     let counter = ModeCounter::new(&tangent).unwrap();
     let (mu, size) = (0.6, tangent.mass.dimension());
     let dense = [&tangent.mass, &tangent.damping, &tangent.stiffness]
@@ -129,10 +129,10 @@ fn determinant_of_a_disc_is_that_of_dense_elimination() {
 /// those below a limit.
 #[test]
 fn sweep_of_a_disc_is_complete_by_count() {
-    for damping_model in [DampingModel::WholeTangent, DampingModel::BodyOnly] {
+    for damping_model in [WholeTangent, BodyOnly] {
         let [circumferential, radial] = sized([32, 6], [48, 10]);
         let tangent = disc(circumferential, radial, damping_model);
-        for limit in [ModeLimit::Lowest(13), ModeLimit::MaxFrequency(15_000.0)] {
+        for limit in [Lowest(13), MaxFrequency(15_000.0)] {
             let request =
                 SweepRequest { count_modes: true, ..sweep_request(&[0.0, 0.3, 0.7], limit) };
             let result = sweep(&tangent, &request, &|_| {}).unwrap();
@@ -144,7 +144,7 @@ fn sweep_of_a_disc_is_complete_by_count() {
             assert!(result.points[2].modes.iter().any(|mode| mode.is_unstable()));
 
             // Without one of the unstable modes one is missing; those above the region are known as well.
-            let more = SweepRequest { limit: ModeLimit::Lowest(40), ..request };
+            let more = SweepRequest { limit: Lowest(40), ..request };
             let all = sweep(&tangent, &more, &|_| {}).unwrap();
             let modes = all.points[2].modes.iter();
             let known: Vec<c64> = modes.map(|mode| mode.eigenvalue).collect();

@@ -9,8 +9,8 @@ pub const INTERFERENCE: f64 = 25e-6;
 
 pub fn material(annulus: &Annulus) -> ElasticMaterial {
     let formulation = match annulus.plane_strain {
-        true => PlaneFormulation::PlaneStrain,
-        false => PlaneFormulation::PlaneStress,
+        true => PlaneStrain,
+        false => PlaneStress,
     };
     elastic(annulus.young_modulus, annulus.poisson_ratio, annulus.density, formulation)
 }
@@ -35,7 +35,7 @@ pub struct Study {
 
 impl Study {
     pub fn of(contact: Contact, rayleigh: Rayleigh) -> Self {
-        Self { annulus: super::rates::DISC, contact, mass: MassKind::Consistent, rayleigh }
+        Self { annulus: super::rates::DISC, contact, mass: Consistent, rayleigh }
     }
 }
 

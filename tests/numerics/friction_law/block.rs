@@ -6,7 +6,7 @@ use crate::body::rectangle;
 use crate::prelude::*;
 
 /// So stiff that the block moves as one: its own modes lie above 30 kHz.
-pub const STEEL: ElasticMaterial = elastic(2.1e11, 0.3, 7850.0, PlaneFormulation::PlaneStrain);
+pub const STEEL: ElasticMaterial = elastic(2.1e11, 0.3, 7850.0, PlaneStrain);
 pub const WIDTH: f64 = 0.04;
 const HEIGHT: f64 = 0.03;
 pub const MASS: f64 = 7850.0 * WIDTH * HEIGHT;
@@ -31,10 +31,7 @@ pub fn block(pressure: f64) -> Mesh {
         "bottom",
         CounterfaceSpecification::Plane { direction: Some([1.0, 0.0]) },
         None,
-        &[
-            ("right", BoundaryCondition::Support(mounting)),
-            ("top", BoundaryCondition::Pressure(pressure)),
-        ],
+        &[("right", Support(mounting)), ("top", Pressure(pressure))],
     );
     Mesh::from_gmsh(&FileMesh::read(&rectangle(0.04, 0.03, 4, 3)).unwrap(), &specification).unwrap()
 }
@@ -43,7 +40,7 @@ pub fn block(pressure: f64) -> Mesh {
 fn growth_rate(mesh: &Mesh, speed: f64) -> f64 {
     let options = TangentOptions { damping: RayleighDamping::default(), ..TANGENT };
     let tangent = linearized(mesh, &STEEL, &contact(speed), &options);
-    let mode = &modes_at(&tangent, 0.3, ModeLimit::Lowest(1))[0];
+    let mode = &modes_at(&tangent, 0.3, Lowest(1))[0];
     // The block on its spring.
     let expected = (SPRING / MASS).sqrt();
     assert!((mode.eigenvalue.norm() / expected - 1.0).abs() < 0.02);

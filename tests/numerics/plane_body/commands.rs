@@ -6,7 +6,7 @@ use crate::prelude::*;
 /// A folder with the same coarse disc twice: `annulus.toml`, and `body.toml` with a mesh file in millimetres whose node
 /// numbers begin at 1001.
 fn folder() -> TempDir {
-    let mesh = AnnulusMesh::generate(&annulus(ElementKind::Quad4, 24, 4)).unwrap().mesh;
+    let mesh = AnnulusMesh::generate(&annulus(Quad4, 24, 4)).unwrap().mesh;
     let numbers: Vec<usize> = (1001..=1000 + mesh.node_count()).collect();
     let bytes = write_msh(&mesh, FORMS[2], &numbers, |[x, y]| [1e3 * x, 1e3 * y]);
     let run = "[cea]\nmodes = 6\ngeometric_stiffness = false\n[transient]\nduration = 2e-4\nexpansion_time = 1e-4\n\

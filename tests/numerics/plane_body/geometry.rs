@@ -3,13 +3,12 @@
 use crate::prelude::*;
 use crate::triangles::triangles;
 
-const KINDS: [ElementKind; 4] =
-    [ElementKind::Quad4, ElementKind::Quad8, ElementKind::Tri3, ElementKind::Tri6];
+const KINDS: [ElementKind; 4] = [Quad4, Quad8, Tri3, Tri6];
 
 fn file(kind: ElementKind, around: usize, radial: usize) -> FileMesh {
     let is_quadratic = kind.is_quadratic();
     let mesh = match kind.corner_count() {
-        3 => triangles(&annulus(ElementKind::Quad4, around, radial), is_quadratic),
+        3 => triangles(&annulus(Quad4, around, radial), is_quadratic),
         _ => AnnulusMesh::generate(&annulus(kind, around, radial)).unwrap().mesh,
     };
     FileMesh::read(&write_msh(&mesh, FORMS[3], &[], |p| p)).unwrap()

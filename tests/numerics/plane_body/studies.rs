@@ -15,7 +15,7 @@ const GENERATED: &str = "[geometry]\ninner_radius = 0.0205\nouter_radius = 0.090
     [mesh]\ncircumferential_elements = 18\nradial_elements = 3\n";
 
 fn folder() -> TempDir {
-    let mesh = AnnulusMesh::generate(&annulus(ElementKind::Quad4, 18, 3)).unwrap().mesh;
+    let mesh = AnnulusMesh::generate(&annulus(Quad4, 18, 3)).unwrap().mesh;
     let disc = write_msh(&mesh, FORMS[2], &[], |point| point);
     let oval = write_msh(&mesh, FORMS[2], &[], oval);
     folder_with(&[("disc.msh", &disc), ("oval.msh", &oval)])

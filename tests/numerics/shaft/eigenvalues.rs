@@ -7,9 +7,9 @@ use crate::waves::{STEP, is_of, pairs, rates};
 /// Limit: a shaft whose modulus is beyond all others is the rigid cylinder.
 #[test]
 fn a_shaft_a_million_times_stiffer_is_the_rigid_cylinder() {
-    for element in [ElementKind::Quad4, ElementKind::Quad8] {
+    for element in [Quad4, Quad8] {
         let options = rigid_contact(true);
-        let (frictions, limit) = ([0.0, 0.3, 0.6], ModeLimit::Lowest(16));
+        let (frictions, limit) = ([0.0, 0.3, 0.6], Lowest(16));
         let stiff = model(with_shaft(element, 24, [2, 5]), stiffer(1e6), options);
         let rigid = model(annulus(element, 24, 5), POLYCARBONATE.into(), options);
         let [stiff, rigid] = [stiff, rigid].map(|own| own.swept(&frictions, limit).sweep);
@@ -20,11 +20,11 @@ fn a_shaft_a_million_times_stiffer_is_the_rigid_cylinder() {
 /// Consistency check: derivatives by central differences of whole analyses.
 #[test]
 fn sensitivities_of_two_bodies_are_those_of_each_bodys_own_parameters() {
-    let mut own = model(with_shaft(ElementKind::Quad4, 24, [2, 4]), on(STEEL), rigid_contact(true));
+    let mut own = model(with_shaft(Quad4, 24, [2, 4]), on(STEEL), rigid_contact(true));
     // So much that the little it does to a stiff shaft stands above round-off.
     own.material.shaft.as_mut().unwrap().damping = Some(rayleigh_damping(5e3, 1e-6));
     let solve = |model: &AnnulusModel<AnnulusMaterials>| {
-        model.swept(&[0.0, 0.3], ModeLimit::MaxFrequency(12e3)).branches
+        model.swept(&[0.0, 0.3], MaxFrequency(12e3)).branches
     };
     let found = pairs(&own.tangent(), &solve(&own), 0.3);
     type Change = fn(&mut AnnulusModel<AnnulusMaterials>, f64);

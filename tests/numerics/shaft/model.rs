@@ -28,7 +28,7 @@ impl MaterialField for AnnulusMaterials {
     }
 }
 
-pub const STEEL: ElasticMaterial = elastic(2.1e11, 0.3, 7850.0, PlaneFormulation::PlaneStrain);
+pub const STEEL: ElasticMaterial = elastic(2.1e11, 0.3, 7850.0, PlaneStrain);
 
 /// The disc with a bore of 6 mm in its shaft.
 pub fn with_shaft(element: ElementKind, around: usize, radial: [usize; 2]) -> AnnulusSpecification {

@@ -20,7 +20,7 @@ fn the_interference_is_shared_as_lame_says_at_the_order_of_the_element() {
     let whole = compliance(&POLYCARBONATE, r, 0.0905) + compliance(&STEEL, r, 0.006);
     let exact = delta / whole;
     let error = |around: usize, radial: [usize; 2]| {
-        let specification = with_shaft(ElementKind::Quad8, around, radial);
+        let specification = with_shaft(Quad8, around, radial);
         let mesh = AnnulusMesh::generate(&specification).unwrap().mesh;
         let materials = on(STEEL);
         let body = Assembly::of_edge(&mesh, &materials, &contact(610.0), RIGID).unwrap();

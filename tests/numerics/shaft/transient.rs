@@ -21,13 +21,13 @@ fn run(
 /// Cross-method check: the eigenvalue analysis of both bodies.
 #[test]
 fn a_wave_in_disc_and_shaft_grows_as_the_complex_eigenvalue_predicts() {
-    let specification = with_shaft(ElementKind::Quad4, 48, [4, 10]);
+    let specification = with_shaft(Quad4, 48, [4, 10]);
     let annulus = AnnulusMesh::generate(&specification).unwrap();
     let mut steel = on(STEEL);
     steel.shaft.as_mut().unwrap().damping = Some(rayleigh_damping(20.0, 1e-8));
-    let options = TangentOptions { mass: MassKind::Lumped, ..rigid_contact(false) };
+    let options = TangentOptions { mass: Lumped, ..rigid_contact(false) };
     for (materials, n, duration) in [(on(POLYCARBONATE), 2, 0.006), (steel, 2, 0.006)] {
-        let limit = ModeLimit::MaxFrequency(20e3);
+        let limit = MaxFrequency(20e3);
         let found = model(specification, materials.clone(), options).swept(&[0.0, 0.3], limit);
         let modes = &found.sweep.points[1].modes;
         let of_harmonic = modes.iter().filter(|mode| mode.harmonic == n);
@@ -44,7 +44,7 @@ fn a_wave_in_disc_and_shaft_grows_as_the_complex_eigenvalue_predicts() {
 /// Theory: the discrete energy identity holds for both bodies through stick, slip and opening; both operators agree.
 #[test]
 fn every_joule_of_both_bodies_is_accounted_for() {
-    let specification = with_shaft(ElementKind::Quad4, 36, [3, 6]);
+    let specification = with_shaft(Quad4, 36, [3, 6]);
     let annulus = AnnulusMesh::generate(&specification).unwrap();
     let mut settings = settings(3e-3, Perturbation::of(&[1, 2], 3.0));
     settings.initial = InitialState::Rest;

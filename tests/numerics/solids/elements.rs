@@ -16,7 +16,7 @@ fn bricks_hold_every_constant_strain() {
         (1, |node| [node.height, node.height, 0.0]),
         (0, |node| [0.0, 0.0, node.height]),
     ];
-    for element in [ElementKind::Quad4, ElementKind::Quad8] {
+    for element in [Quad4, Quad8] {
         let model = disc(element, [12, 3, 3]);
         let sector = SolidSector::generate(&model.specification).unwrap();
         let elastic = stiffness(&sector, &model.material);
@@ -47,7 +47,7 @@ fn bricks_hold_every_constant_strain() {
 #[test]
 fn rigid_rotation_leaves_the_prestressed_body_in_balance() {
     let ring = SolidContact::Ring { inner_radius: 0.04, outer_radius: 0.07 };
-    for element in [ElementKind::Quad4, ElementKind::Quad8] {
+    for element in [Quad4, Quad8] {
         for contact in [SolidContact::Inner, ring] {
             let mut model = disc(element, [12, 6, 2]);
             model.options.geometric_stiffness = true;
@@ -90,9 +90,7 @@ fn rigid_rotation_leaves_the_prestressed_body_in_balance() {
 /// Poisson's ratio 1/3) gives `omega b^2 sqrt(rho h / D) = 17.715` for n = 0 and 22.015 for n = 1.
 #[test]
 fn bricks_of_8_and_20_nodes_bend_like_a_thin_plate() {
-    for (element, divisions) in
-        [(ElementKind::Quad4, [48, 16, 1]), (ElementKind::Quad8, [36, 14, 1])]
-    {
+    for (element, divisions) in [(Quad4, [48, 16, 1]), (Quad8, [36, 14, 1])] {
         let mut model = disc(element, divisions);
         let (outer, thickness) = (0.1, 0.001);
         model.specification.annulus.inner_radius = 0.5 * outer;
@@ -118,7 +116,7 @@ fn bricks_of_8_and_20_nodes_bend_like_a_thin_plate() {
 /// `k` of `J_2(ka) Y_1(kb) = Y_2(ka) J_1(kb)`.
 #[test]
 fn frequencies_converge_with_the_order_of_the_bricks() {
-    let base = disc(ElementKind::Quad8, [12, 2, 1]);
+    let base = disc(Quad8, [12, 2, 1]);
     let [a, b] = [base.specification.annulus.inner_radius, base.specification.annulus.outer_radius];
     let residual =
         |k: f64| libm::jn(2, k * a) * libm::yn(1, k * b) - libm::yn(2, k * a) * libm::jn(1, k * b);
@@ -135,7 +133,7 @@ fn frequencies_converge_with_the_order_of_the_bricks() {
     let modulus = base.material.young_modulus / (2.0 * (1.0 + base.material.poisson_ratio));
     let exact = low * (modulus / base.material.density).sqrt() / TAU;
     assert!((exact - 5855.0).abs() < 5.0, "{exact}");
-    for (element, order) in [(ElementKind::Quad8, 4.0), (ElementKind::Quad4, 2.0)] {
+    for (element, order) in [(Quad8, 4.0), (Quad4, 2.0)] {
         let errors = [1, 2, 4].map(|refined| {
             let mut model = disc(element, [12 * refined, 2 * refined, 1]);
             model.options.damping = RayleighDamping::default();
@@ -153,7 +151,7 @@ fn frequencies_converge_with_the_order_of_the_bricks() {
 
 #[test]
 fn corner_nodes_are_known_without_the_sector() {
-    for element in [ElementKind::Quad4, ElementKind::Quad8] {
+    for element in [Quad4, Quad8] {
         for divisions in [[12, 5, 3], [12, 2, 4]] {
             let sector = SolidSector::generate(&disc(element, divisions).specification).unwrap();
             for (node, found) in sector.nodes.iter().enumerate() {

@@ -10,7 +10,7 @@ fn plane(model: &SolidModel, formulation: PlaneFormulation, limit_hz: f64) -> Ve
         options: model.options,
         contact: model.contact,
     };
-    plane.modes(0.3, ModeLimit::MaxFrequency(limit_hz))
+    plane.modes(0.3, MaxFrequency(limit_hz))
 }
 
 /// Eigenvalue of the given modes nearest to one of the plane.
@@ -22,12 +22,12 @@ fn nearest<'a>(modes: &'a [ComplexMode], wanted: &ComplexMode) -> &'a ComplexMod
 #[test]
 fn guided_faces_give_plane_strain() {
     for geometric_stiffness in [false, true] {
-        let mut model = disc(ElementKind::Quad8, [24, 5, 1]);
+        let mut model = disc(Quad8, [24, 5, 1]);
         model.options.geometric_stiffness = geometric_stiffness;
-        model.specification.conditions[2] = BoundaryCondition::Guide;
-        model.specification.conditions[3] = BoundaryCondition::Guide;
+        model.specification.conditions[2] = Guide;
+        model.specification.conditions[3] = Guide;
         let solid = modes(&model, 0.3, 11_500.0);
-        for mode in plane(&model, PlaneFormulation::PlaneStrain, 11_000.0) {
+        for mode in plane(&model, PlaneStrain, 11_000.0) {
             let found = nearest(&solid, &mode);
             // A 20-node brick has no node at mid-thickness between its sides, a plane quadrilateral has: 0.3 Hz at 11 kHz.
             let error = (found.eigenvalue - mode.eigenvalue).norm() / mode.eigenvalue.norm();
@@ -39,8 +39,8 @@ fn guided_faces_give_plane_strain() {
 /// Self-consistency: the space of a limit twice as high leaves out next to nothing.
 #[test]
 fn the_estimate_of_what_the_small_space_of_a_harmonic_leaves_out_is_what_it_leaves_out() {
-    let model = disc(ElementKind::Quad8, [24, 5, 1]);
-    let up_to = |limit_hz: f64| model.swept(&[0.3], ModeLimit::MaxFrequency(limit_hz));
+    let model = disc(Quad8, [24, 5, 1]);
+    let up_to = |limit_hz: f64| model.swept(&[0.3], MaxFrequency(limit_hz));
     let (small, large) = (up_to(9000.0), up_to(18_000.0));
     let left_out = small.sweep.points[0].modes.iter().map(|mode| {
         let better = nearest(&large.sweep.points[0].modes, mode);
@@ -53,12 +53,12 @@ fn the_estimate_of_what_the_small_space_of_a_harmonic_leaves_out_is_what_it_leav
 
 #[test]
 fn a_thin_disc_has_the_modes_of_plane_stress() {
-    let mut model = disc(ElementKind::Quad8, [24, 8, 1]);
+    let mut model = disc(Quad8, [24, 8, 1]);
     model.specification.thickness = 2e-4;
     let solid = modes(&model, 0.3, 9000.0);
     let in_plane: Vec<ComplexMode> =
         solid.into_iter().filter(|mode| mode.axial_share.unwrap() < 0.1).collect();
-    let reference = plane(&model, PlaneFormulation::PlaneStress, 8900.0);
+    let reference = plane(&model, PlaneStress, 8900.0);
     assert!(reference.len() > 3);
     for mode in reference {
         let error = (nearest(&in_plane, &mode).eigenvalue - mode.eigenvalue).norm()
@@ -99,12 +99,12 @@ fn the_stress_of_a_stretched_tube_is_that_of_the_theory() {
         }
         worst
     };
-    for kind in [ElementKind::Quad4, ElementKind::Quad8] {
+    for kind in [Quad4, Quad8] {
         assert!(worst(kind, [24, 4, 2], 0.0) < 1e-9);
     }
     // b / r^2 is 1e-4 inside.
-    let inner = disc(ElementKind::Quad4, [24, 4, 1]).specification.annulus.inner_radius;
+    let inner = disc(Quad4, [24, 4, 1]).specification.annulus.inner_radius;
     let b = 1e-4 * inner * inner;
-    let [coarse, fine] = [1, 2].map(|k| worst(ElementKind::Quad4, [48 * k, 12 * k, 1], b));
+    let [coarse, fine] = [1, 2].map(|k| worst(Quad4, [48 * k, 12 * k, 1], b));
     assert!(fine < 0.1 && fine < 0.35 * coarse, "{coarse:.4} {fine:.4}");
 }

@@ -22,8 +22,8 @@ pub fn bending(element: ElementKind, divisions: [usize; 3]) -> SolidModel {
     specification.annulus.outer_radius = 0.12;
     specification.thickness = 0.008;
     specification.contact = SolidContact::Ring { inner_radius: 0.075, outer_radius: 0.11 };
-    specification.conditions = [BoundaryCondition::Free; 4];
-    specification.conditions[0] = BoundaryCondition::Clamped;
+    specification.conditions = [Free; 4];
+    specification.conditions[0] = Clamped;
     model.contact.interference = 1e-5;
     model
 }
@@ -36,22 +36,17 @@ pub fn disc(element: ElementKind, [around, radial, axial]: [usize; 3]) -> SolidM
             thickness: 0.009,
             axial_elements: axial,
             contact: SolidContact::Inner,
-            conditions: [
-                BoundaryCondition::Free,
-                BoundaryCondition::Clamped,
-                BoundaryCondition::Free,
-                BoundaryCondition::Free,
-            ],
+            conditions: [Free, Clamped, Free, Free],
             parts: Vec::new(),
         },
-        material: elastic(2.5e9, 0.3805, 1228.0, PlaneFormulation::ThreeDimensional),
+        material: elastic(2.5e9, 0.3805, 1228.0, ThreeDimensional),
         options: TANGENT,
         contact: contact(610.0),
     }
 }
 
 pub fn modes(model: &SolidModel, friction: f64, limit_hz: f64) -> Vec<ComplexMode> {
-    model.modes(friction, ModeLimit::MaxFrequency(limit_hz))
+    model.modes(friction, MaxFrequency(limit_hz))
 }
 
 pub fn body<'a>(model: &'a SolidModel, sector: &'a SolidSector) -> TransientModel<'a> {

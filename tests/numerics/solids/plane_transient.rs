@@ -43,18 +43,18 @@ fn settings() -> TransientSettings {
 }
 
 fn thick(divisions: [usize; 2]) -> Course {
-    let mut model = disc(ElementKind::Quad4, [divisions[0], divisions[1], 1]);
-    model.specification.conditions[2] = BoundaryCondition::Guide;
-    model.specification.conditions[3] = BoundaryCondition::Guide;
+    let mut model = disc(Quad4, [divisions[0], divisions[1], 1]);
+    model.specification.conditions[2] = Guide;
+    model.specification.conditions[3] = Guide;
     let sector = SolidSector::generate(&model.specification).unwrap();
     course(body(&model, &sector), true)
 }
 
 fn flat(divisions: [usize; 2]) -> Course {
-    let model = disc(ElementKind::Quad4, [divisions[0], divisions[1], 1]);
+    let model = disc(Quad4, [divisions[0], divisions[1], 1]);
     let annulus = AnnulusMesh::generate(&model.specification.annulus).unwrap();
     let mut material = model.material;
-    material.formulation = PlaneFormulation::PlaneStrain;
+    material.formulation = PlaneStrain;
     let damping = model.options.damping;
     course(TransientModel::of_annulus(&annulus, &material, damping, model.contact), false)
 }

@@ -47,7 +47,7 @@ fn pole_beside(
 
 /// Where branches below 12 kHz turn unstable.
 fn onsets(model: &SolidModel) -> Vec<UnstableInterval> {
-    let limit = ModeLimit::MaxFrequency(12e3);
+    let limit = MaxFrequency(12e3);
     let found = model.swept(&[0.0, 0.1, 0.2, 0.3, 0.4, 0.5], limit).sweep;
     let onsets = found.intervals.into_iter();
     onsets.filter(|i| !i.unstable_from_start).collect()
@@ -69,8 +69,8 @@ fn has_poles_at_onsets(model: &SolidModel) {
 /// carries it too and whose tangent has the stiffness at the pressure there.
 #[test]
 fn the_response_has_its_pole_on_the_axis_at_every_critical_friction_of_the_eigenvalue_analysis() {
-    let hex8 = (ElementKind::Quad4, [24, 6, 2]);
-    let both = [hex8, (ElementKind::Quad8, [16, 4, 1])];
+    let hex8 = (Quad4, [24, 6, 2]);
+    let both = [hex8, (Quad8, [16, 4, 1])];
     let springs =
         ContactStiffness { normal_stiffness: Some(1e12), is_base_compliant: true, ..RIGID };
     let law = NormalLaw::Exponential { reference_pressure: 2e5, height: 2e-6 };
@@ -87,8 +87,7 @@ fn the_response_has_its_pole_on_the_axis_at_every_critical_friction_of_the_eigen
 /// Around, bricks of 20 nodes have the traction of a point act along the normals of nodes beside it: a term of `mu^2`.
 #[test]
 fn friction_that_falls_with_speed_gives_the_response_the_poles_of_the_eigenvalue_analysis() {
-    for (element, divisions) in [(ElementKind::Quad4, [16, 3, 2]), (ElementKind::Quad8, [8, 3, 1])]
-    {
+    for (element, divisions) in [(Quad4, [16, 3, 2]), (Quad8, [8, 3, 1])] {
         let mut model = disc(element, divisions);
         model.contact.decay = Some(FrictionDecay { static_ratio: 2.0, decay_speed: 1.0 });
         let friction = 0.8;

@@ -18,11 +18,11 @@ pub fn sliding(model: &SolidModel, friction: f64) -> CyclicSystem {
 
 fn small(element: ElementKind) -> SolidModel {
     let mut model = match element {
-        ElementKind::Quad4 => disc(element, [11, 3, 2]),
+        Quad4 => disc(element, [11, 3, 2]),
         _ => disc(element, [8, 2, 1]),
     };
-    if element == ElementKind::Quad4 {
-        model.options.mass = MassKind::Lumped;
+    if element == Quad4 {
+        model.options.mass = Lumped;
     }
     model.specification.annulus.radial_grading = 1.2;
     model
@@ -86,7 +86,7 @@ fn agrees(
 /// Independent check: no harmonics, other elements or another operator, dense factorization.
 #[test]
 fn harmonics_of_a_free_and_a_held_body_sum_to_the_response_of_a_whole_ring_of_bricks() {
-    for element in [ElementKind::Quad4, ElementKind::Quad8] {
+    for element in [Quad4, Quad8] {
         let model = small(element);
         for is_free in [true, false] {
             let whole = WholeRing::new(&model, is_free);
@@ -102,13 +102,8 @@ fn harmonics_of_a_free_and_a_held_body_sum_to_the_response_of_a_whole_ring_of_br
 
 #[test]
 fn a_body_on_springs_responds_like_the_whole_ring() {
-    let mut model = small(ElementKind::Quad4);
-    model.specification.conditions = [
-        BoundaryCondition::Free,
-        support([1e11, 3e10, 2e10], [0.0, 0.0]),
-        BoundaryCondition::Free,
-        BoundaryCondition::Guide,
-    ];
+    let mut model = small(Quad4);
+    model.specification.conditions = [Free, support([1e11, 3e10, 2e10], [0.0, 0.0]), Free, Guide];
     // The operator's stiffness has the springs in it, on which beta_R does not act.
     model.options.damping.stiffness_coefficient = 0.0;
     let whole = WholeRing::new(&model, false);
@@ -122,7 +117,7 @@ fn harmonics_in_sliding_contact_sum_to_the_response_of_a_whole_ring_of_bricks() 
     let rigid = ContactStiffness::default();
     let springs = compliant(1e12, [3e4, 2e4]);
     let ring = SolidContact::Ring { inner_radius: 0.03, outer_radius: 0.06 };
-    let (hex8, hex20) = (ElementKind::Quad4, ElementKind::Quad8);
+    let (hex8, hex20) = (Quad4, Quad8);
     for (element, contact, place) in [
         (hex8, rigid, SolidContact::Inner),
         (hex20, rigid, SolidContact::Inner),
@@ -132,10 +127,10 @@ fn harmonics_in_sliding_contact_sum_to_the_response_of_a_whole_ring_of_bricks() 
     ] {
         let mut model = small(element);
         model.options.contact = contact;
-        model.options.damping_model = DampingModel::BodyOnly;
+        model.options.damping_model = BodyOnly;
         model.specification.contact = place;
         if place != SolidContact::Inner {
-            model.specification.conditions[3] = BoundaryCondition::Guide;
+            model.specification.conditions[3] = Guide;
         }
         let whole = WholeRing::sliding(&model, 0.3);
         let system = sliding(&model, 0.3);
@@ -153,7 +148,7 @@ fn harmonics_in_sliding_contact_sum_to_the_response_of_a_whole_ring_of_bricks() 
 
 #[test]
 fn the_response_has_the_same_bits_on_any_number_of_threads() {
-    let model = disc(ElementKind::Quad4, [12, 3, 2]);
+    let model = disc(Quad4, [12, 3, 2]);
     let system = sliding(&model, 0.3);
     let sector = SolidSector::generate(&model.specification).unwrap();
     let (a, b) = (at(&sector, 1, [0, 0], 0, Axial), at(&sector, 5, [2, 4], 0, Radial));
@@ -164,7 +159,7 @@ fn the_response_has_the_same_bits_on_any_number_of_threads() {
 
 #[test]
 fn held_directions_missing_nodes_and_axial_motion_in_the_plane_are_refused_with_their_key() {
-    let model = disc(ElementKind::Quad4, [12, 3, 2]);
+    let model = disc(Quad4, [12, 3, 2]);
     let sector = SolidSector::generate(&model.specification).unwrap();
     let system = sliding(&model, 0.3);
     let held = at(&sector, 0, [0, 2], 0, Radial);
@@ -180,9 +175,9 @@ fn held_directions_missing_nodes_and_axial_motion_in_the_plane_are_refused_with_
 
     let plane = SectorMesh::generate(&model.specification.annulus).unwrap();
     let mut material = model.material;
-    material.formulation = PlaneFormulation::PlaneStrain;
+    material.formulation = PlaneStrain;
     let damping = model.options.damping;
-    let flat = CyclicSystem::body(&plane, &material, MassKind::Consistent, damping, true);
+    let flat = CyclicSystem::body(&plane, &material, Consistent, damping, true);
     let axial = Terminal { node: 0, direction: Axial };
     let error = flat.check(axial, "force_node").unwrap_err();
     assert!(matches!(error, FrfError::Node { node: 1, fault: NodeFault::InPlane, .. }));

@@ -8,14 +8,14 @@ use frictionsim::frf::Direction::{Axial, Radial, Tangential};
 /// Responses of plane strain for each metre and of the guided body times its thickness to a force along the inner edge, at places
 /// of a sixteenth of the circle: `(plane, solid)`, line by line.
 fn plane_and_guided(around: usize, is_sliding: bool) -> Vec<(c64, c64)> {
-    let mut model = disc(ElementKind::Quad8, [around, 5, 1]);
-    model.specification.conditions[2] = BoundaryCondition::Guide;
-    model.specification.conditions[3] = BoundaryCondition::Guide;
+    let mut model = disc(Quad8, [around, 5, 1]);
+    model.specification.conditions[2] = Guide;
+    model.specification.conditions[3] = Guide;
     model.options.geometric_stiffness = true;
     let solid = SolidSector::generate(&model.specification).unwrap();
     let plane = SectorMesh::generate(&model.specification.annulus).unwrap();
     let mut material = model.material;
-    material.formulation = PlaneFormulation::PlaneStrain;
+    material.formulation = PlaneStrain;
     let options = &model.options;
     let (flat, thick) = if is_sliding {
         let tangent = WaveTangent::of_annulus(&plane, &material, options, &model.contact);
@@ -73,7 +73,7 @@ fn guided_faces_respond_as_plane_strain_does() {
 /// Independent check: far below its first resonance a free disc translates, and tilts under an axial force at its rim.
 #[test]
 fn a_free_disc_moves_as_a_rigid_body_with_the_mass_of_its_true_thickness() {
-    let model = disc(ElementKind::Quad8, [24, 4, 2]);
+    let model = disc(Quad8, [24, 4, 2]);
     let system = body(&model, false);
     let sector = SolidSector::generate(&model.specification).unwrap();
     let (a, b, t) = (0.0205_f64, 0.0905_f64, 0.009_f64);

@@ -15,27 +15,22 @@ fn ringed(element: ElementKind, divisions: [usize; 3]) -> SolidModel {
 fn layer(element: ElementKind) -> SolidModel {
     let mut model = ringed(element, [24, 4, 2]);
     model.specification.contact = SolidContact::Ring { inner_radius: 0.0205, outer_radius: 0.0905 };
-    model.specification.conditions = [
-        BoundaryCondition::Guide,
-        BoundaryCondition::Guide,
-        BoundaryCondition::Free,
-        BoundaryCondition::Clamped,
-    ];
+    model.specification.conditions = [Guide, Guide, Free, Clamped];
     model
 }
 
 /// Theory: soft springs all have the pressure `k delta`, those on a clamped edge too.
 #[test]
 fn soft_springs_press_on_a_clamped_edge_too() {
-    for element in [ElementKind::Quad4, ElementKind::Quad8] {
+    for element in [Quad4, Quad8] {
         let mut model = layer(element);
-        model.specification.conditions[0] = BoundaryCondition::Clamped;
+        model.specification.conditions[0] = Clamped;
         compliant(&mut model, 1e9);
         let (_, base) = base(&model).unwrap();
         let force: f64 = base.normal_forces.iter().map(|(_, force)| force).sum();
         let area = TAU / 48.0 * (0.0905_f64.powi(2) - 0.0205_f64.powi(2));
         let chord = (TAU / 24.0).powi(2) / 6.0;
-        let tolerance = 4e-3 + if element == ElementKind::Quad4 { chord } else { 0.0 };
+        let tolerance = 4e-3 + if element == Quad4 { chord } else { 0.0 };
         assert!((force / (1e9 * 5e-6 * area) - 1.0).abs() < tolerance, "{force}");
     }
 }
@@ -50,7 +45,7 @@ fn a_layer_shares_the_distance_with_the_contact_that_presses_it() {
     let (chord, parabola) = (angle.powi(2) / 6.0, angle.powi(4));
     // Of the layer alone, on springs, and on laws.
     for (element, [rigid, spring, law]) in
-        [(ElementKind::Quad4, [chord; 3]), (ElementKind::Quad8, [1e-4, parabola / 2.0, parabola])]
+        [(Quad4, [chord; 3]), (Quad8, [1e-4, parabola / 2.0, parabola])]
     {
         let model = layer(element);
         let [lambda, shear] = model.material.lame_constants();
@@ -92,7 +87,7 @@ fn a_layer_shares_the_distance_with_the_contact_that_presses_it() {
 /// Theory: contact that hardly stiffens is the linear one, in the base state and in its spectrum.
 #[test]
 fn a_law_that_hardly_stiffens_is_springs() {
-    let mut linear = ringed(ElementKind::Quad8, [24, 7, 1]);
+    let mut linear = ringed(Quad8, [24, 7, 1]);
     compliant(&mut linear, 3e11);
     let mut own = linear.clone();
     own.options.contact.law = Some(NormalLaw::Cubic { stiffness: 3e11, cubic_stiffness: 1e8 });
@@ -110,7 +105,7 @@ fn compliant(model: &mut SolidModel, stiffness: f64) {
 #[test]
 fn springs_that_carry_the_base_state_give_a_contact_that_opens_a_width_of_its_own() {
     let found = [14, 28, 56].map(|radial| {
-        let mut model = ringed(ElementKind::Quad8, [24, radial, 2]);
+        let mut model = ringed(Quad8, [24, radial, 2]);
         compliant(&mut model, 3e11);
         let (sector, base) = base(&model).unwrap();
         assert!(base.is_pressed.contains(&true) && base.is_pressed.contains(&false));
@@ -128,7 +123,7 @@ fn springs_that_carry_the_base_state_give_a_contact_that_opens_a_width_of_its_ow
 
 #[test]
 fn a_ring_on_a_bending_plate_opens_and_keeps_the_contact_conditions() {
-    for element in [ElementKind::Quad4, ElementKind::Quad8] {
+    for element in [Quad4, Quad8] {
         let (sector, base) = base(&ringed(element, [24, 14, 2])).unwrap();
         assert!(base.is_pressed.contains(&true) && base.is_pressed.contains(&false));
         for ((ring, &pressed), pressure) in
@@ -146,7 +141,7 @@ fn a_ring_on_a_bending_plate_opens_and_keeps_the_contact_conditions() {
 /// Independent check: the torque of friction is that of the ground.
 #[test]
 fn reaction_of_the_ground_balances_the_friction_of_the_ring() {
-    let (sector, base) = base(&ringed(ElementKind::Quad8, [24, 14, 2])).unwrap();
+    let (sector, base) = base(&ringed(Quad8, [24, 14, 2])).unwrap();
     let torque = base.torque(&sector, 0.3);
     let forces = base.normal_forces.iter().map(|(node, n)| 0.3 * n * sector.nodes[*node].radius);
     assert!((torque / (24.0 * forces.sum::<f64>()) - 1.0).abs() < 1e-12);
@@ -155,9 +150,9 @@ fn reaction_of_the_ground_balances_the_friction_of_the_ring() {
 
 #[test]
 fn a_pressure_that_lifts_the_disc_off_leaves_no_contact() {
-    let mut model = ringed(ElementKind::Quad4, [24, 8, 2]);
+    let mut model = ringed(Quad4, [24, 8, 2]);
     model.contact.interference = 0.0;
-    model.specification.conditions[3] = BoundaryCondition::Pressure(-1e5);
+    model.specification.conditions[3] = Pressure(-1e5);
     let error = base(&model).unwrap_err();
     assert!(matches!(error, PrestressError::GapEverywhere { .. }), "{error}");
 }
@@ -175,8 +170,8 @@ fn bricks_of_8_and_20_nodes_agree_on_a_disc_under_a_ring() {
         found.sort_by(|a, b| a[0].total_cmp(&b[0]));
         found
     };
-    let fine = unstable(&ringed(ElementKind::Quad8, [36, 14, 2]));
-    let other = unstable(&ringed(ElementKind::Quad4, [72, 28, 4]));
+    let fine = unstable(&ringed(Quad8, [36, 14, 2]));
+    let other = unstable(&ringed(Quad4, [72, 28, 4]));
     assert_eq!(fine.len(), other.len());
     for (a, b) in fine.iter().zip(&other) {
         assert!((a[0] / b[0] - 1.0).abs() < 0.01, "{a:?} {b:?}");

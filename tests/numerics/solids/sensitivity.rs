@@ -6,7 +6,7 @@ use crate::waves::{Differences, STEP, pairs, rates};
 
 /// Linear elements in the first tier; quadratic ones stay there under a ring in rigid contact and where a ring is pressed in part.
 fn kinds() -> &'static [ElementKind] {
-    let both = &[ElementKind::Quad4, ElementKind::Quad8];
+    let both = &[Quad4, Quad8];
     sized(&both[..1], both)
 }
 
@@ -35,7 +35,7 @@ const LAWS: [NormalLaw; 2] = [
 /// A strong prestress, so that its share cannot hide, and friction that falls with the speed.
 fn strained(element: ElementKind, contact: ContactStiffness) -> SolidModel {
     let divisions = match element {
-        ElementKind::Quad4 => [8, 3, 2],
+        Quad4 => [8, 3, 2],
         _ => [6, 2, 1],
     };
     let mut model = disc(element, divisions);
@@ -56,11 +56,11 @@ fn sensitivities_in_rigid_contact_equal_finite_differences() {
 /// The slip speed and the drag change along the face.
 #[test]
 fn sensitivities_under_a_ring_in_rigid_contact_equal_finite_differences() {
-    let mut model = strained(ElementKind::Quad8, ContactStiffness::default());
+    let mut model = strained(Quad8, ContactStiffness::default());
     model.specification.contact = SolidContact::Ring { inner_radius: 0.03, outer_radius: 0.06 };
     // One element under the ring and one on either side; the pressure keeps off the values at which two eigenvalues meet.
     model.specification.annulus.radial_elements = 3;
-    model.specification.conditions[3] = BoundaryCondition::Guide;
+    model.specification.conditions[3] = Guide;
     model.contact.interference = 1e-5;
     hold(&model, "ring");
 }
@@ -72,7 +72,7 @@ fn sensitivities_on_springs_equal_finite_differences() {
         model.contact.decay = None;
         // The base state of a body on springs changes with its stiffness even where it is pressed by a distance.
         model.specification.conditions[1] = support([2e11, 1e11, 1e11], [1e4, 1e4]);
-        model.options.damping_model = DampingModel::BodyOnly;
+        model.options.damping_model = BodyOnly;
         hold(&model, &format!("springs, {element:?}"));
     }
 }
@@ -106,8 +106,7 @@ const SOFT: NormalLaw = NormalLaw::Cubic { stiffness: 2e9, cubic_stiffness: 2e18
 /// A plate bends away under the ring that presses it: the end of the pressed part moves with every parameter.
 #[test]
 fn sensitivities_follow_the_end_of_what_is_pressed() {
-    let all =
-        [None, Some(SOFT)].map(|law| [ElementKind::Quad8, ElementKind::Quad4].map(|e| (e, law)));
+    let all = [None, Some(SOFT)].map(|law| [Quad8, Quad4].map(|e| (e, law)));
     let all = all.concat();
     for &(element, law) in sized(&all[1..3], &all) {
         let mut model = strained(element, COMPLIANT);
@@ -128,7 +127,7 @@ fn sensitivities_follow_the_end_of_what_is_pressed() {
 /// derivative is the same for another step, and for a modulus that differs in its last digits.
 #[test]
 fn a_derivative_by_the_interference_is_that_of_the_pressure_not_of_round_off() {
-    let mut model = bending(ElementKind::Quad8, [24, 8, 2]);
+    let mut model = bending(Quad8, [24, 8, 2]);
     model.options.geometric_stiffness = true;
     model.options.contact = ContactStiffness {
         normal_stiffness: Some(1e11),
@@ -137,8 +136,8 @@ fn a_derivative_by_the_interference_is_that_of_the_pressure_not_of_round_off() {
     };
     let own_rates = |modulus: f64, step: f64| -> Vec<f64> {
         let mut model = model.clone();
-        model.material = elastic(modulus, 0.3, 7850.0, PlaneFormulation::ThreeDimensional);
-        let found = model.swept(&[0.0, 0.4], ModeLimit::MaxFrequency(3e3));
+        model.material = elastic(modulus, 0.3, 7850.0, ThreeDimensional);
+        let found = model.swept(&[0.0, 0.4], MaxFrequency(3e3));
         let all = pairs(&model.tangent(), &found.branches, Differences::FRICTION);
         let changed = |offset: f64| model.with(|own| own.contact.interference += offset).tangent();
         rates(&all, step * 1e-5, &changed).iter().map(|rate| rate.im).collect()

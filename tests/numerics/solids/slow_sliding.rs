@@ -19,7 +19,7 @@ fn turning(element: ElementKind, divisions: [usize; 3], rpm: f64) -> SolidModel 
 }
 
 fn solved<M: MaterialField + Clone>(model: &SolidModel<M>) -> WaveSweep {
-    model.swept(&[FRICTION], ModeLimit::MaxFrequency(LIMIT))
+    model.swept(&[FRICTION], MaxFrequency(LIMIT))
 }
 
 /// Listed eigenvalues of harmonic `n`.
@@ -109,8 +109,7 @@ fn assert_equal(found: &WaveSweep, n: usize, exact: &[c64], what: &str) {
 
 #[test]
 fn slow_sliding_has_the_eigenvalues_of_a_dense_solution_of_the_whole_harmonic() {
-    for (element, divisions) in [(ElementKind::Quad4, [24, 6, 2]), (ElementKind::Quad8, [24, 4, 1])]
-    {
+    for (element, divisions) in [(Quad4, [24, 6, 2]), (Quad8, [24, 4, 1])] {
         for (rpm, loss_factor) in
             [(0.1, 0.0), (1.0, 0.0), (10.0, 0.0), (100.0, 0.0), (10.0, 0.1), (100.0, 0.05)]
         {
@@ -132,7 +131,7 @@ fn slow_sliding_with_a_table_has_the_eigenvalues_of_dense_solutions_at_their_fre
     let rows = vec![[0.0, 1e9, 0.05], [4000.0, 2e9, 0.2], [20000.0, 5e9, 0.1]];
     for rpm in [10.0, 1e4] {
         let SolidModel { specification, material, options, contact } =
-            turning(ElementKind::Quad4, [24, 6, 2], rpm);
+            turning(Quad4, [24, 6, 2], rpm);
         let table = Some(Arc::new(ModulusTable::new("material.table", "rubber.csv", rows.clone())));
         let elastic = ElasticMaterial { young_modulus: 1e9, ..material };
         let material = vec![RegionMaterial { table, ..elastic.into() }];
@@ -154,9 +153,9 @@ fn slow_sliding_with_a_table_has_the_eigenvalues_of_dense_solutions_at_their_fre
 #[test]
 fn a_ring_on_a_penalty_contact_has_the_eigenvalues_of_a_dense_solution_when_it_turns_slowly() {
     for rpm in [0.1, 10.0] {
-        let mut model = turning(ElementKind::Quad8, [24, 7, 1], rpm);
+        let mut model = turning(Quad8, [24, 7, 1], rpm);
         model.specification.contact = SolidContact::Ring { inner_radius: 0.03, outer_radius: 0.07 };
-        model.specification.conditions[3] = BoundaryCondition::Guide;
+        model.specification.conditions[3] = Guide;
         model.contact.interference = 5e-6;
         model.options.contact.normal_stiffness = Some(1e12);
         let found = solved(&model);
@@ -190,7 +189,7 @@ fn creep_without_vectors_of_its_own_leaves_the_other_modes() {
 
 #[test]
 fn sliding_that_comes_to_rest_has_the_spectrum_with_the_motion_across_it_held() {
-    let model = turning(ElementKind::Quad4, [24, 6, 2], 1e-7);
+    let model = turning(Quad4, [24, 6, 2], 1e-7);
     let across = model.tangent().sideways_unknowns();
     let found = solved(&model);
     for n in [0, 2] {

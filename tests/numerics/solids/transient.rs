@@ -17,15 +17,15 @@ fn seeded(harmonic: usize, velocity: f64, duration: f64) -> TransientSettings {
 
 fn lumped(element: ElementKind, divisions: [usize; 3]) -> SolidModel {
     let mut model = disc(element, divisions);
-    model.options.mass = MassKind::Lumped;
+    model.options.mass = Lumped;
     model
 }
 
 /// A ring on a layer whose bottom slides on the ground: all of it is pressed.
 fn ringed(divisions: [usize; 3]) -> SolidModel {
-    let mut model = lumped(ElementKind::Quad4, divisions);
+    let mut model = lumped(Quad4, divisions);
     model.specification.contact = SolidContact::Ring { inner_radius: 0.03, outer_radius: 0.07 };
-    model.specification.conditions[3] = BoundaryCondition::Guide;
+    model.specification.conditions[3] = Guide;
     model.contact.interference = 5e-6;
     model
 }
@@ -43,7 +43,7 @@ fn grows_as_predicted(model: &SolidModel, harmonic: usize, limit_hz: f64, durati
 
 #[test]
 fn a_wave_on_the_inner_edge_grows_at_the_rate_of_the_eigenvalue_analysis() {
-    let model = lumped(ElementKind::Quad4, [32, 6, 2]);
+    let model = lumped(Quad4, [32, 6, 2]);
     grows_as_predicted(&model, 2, 12e3, 0.02);
 }
 
@@ -52,7 +52,7 @@ fn fast() -> SolidModel {
     let mut model = ringed([24, 7, 2]);
     model.contact.friction_coefficient = 0.1;
     model.contact.rotation_speed = 6000.0 * TAU / 60.0;
-    model.options.damping_model = DampingModel::BodyOnly;
+    model.options.damping_model = BodyOnly;
     model
 }
 
@@ -67,13 +67,13 @@ fn a_wave_under_a_ring_grows_at_the_rate_of_the_eigenvalue_analysis() {
 /// A steel disc clamped at its bore, under a ring with a lining from which it bends away.
 #[test]
 fn a_wave_under_a_ring_that_opens_in_part_grows_at_the_rate_of_the_eigenvalue_analysis() {
-    let mut model = bending(ElementKind::Quad4, [24, 8, 2]);
-    model.options.mass = MassKind::Lumped;
+    let mut model = bending(Quad4, [24, 8, 2]);
+    model.options.mass = Lumped;
     model.material.young_modulus = 2.1e11;
     model.material.poisson_ratio = 0.3;
     model.material.density = 7850.0;
     model.options.damping = rayleigh_damping(20.0, 1.5e-7);
-    model.options.damping_model = DampingModel::BodyOnly;
+    model.options.damping_model = BodyOnly;
     model.options.contact.normal_stiffness = Some(1e11);
     model.options.contact.is_base_compliant = true;
     model.contact.friction_coefficient = 0.4;
@@ -123,10 +123,10 @@ impl Observer for Cone {
 #[test]
 fn energy_is_balanced_through_stick_slip_and_separation() {
     for contact in [SolidContact::Inner, ringed([24, 4, 2]).specification.contact] {
-        let mut model = lumped(ElementKind::Quad4, [24, 4, 2]);
+        let mut model = lumped(Quad4, [24, 4, 2]);
         model.specification.contact = contact;
         if contact != SolidContact::Inner {
-            model.specification.conditions[3] = BoundaryCondition::Guide;
+            model.specification.conditions[3] = Guide;
         }
         let sector = SolidSector::generate(&model.specification).unwrap();
         let body = body(&model, &sector);
@@ -145,7 +145,7 @@ fn energy_is_balanced_through_stick_slip_and_separation() {
 /// Nodes stick, slip and lift in every period: 200,000 steps, half a million in the long tier.
 #[test]
 fn energy_is_balanced_over_long_squeal() {
-    let model = lumped(ElementKind::Quad4, [24, 4, 2]);
+    let model = lumped(Quad4, [24, 4, 2]);
     let mut settings = seeded(1, 1.0, sized(0.2, 0.5));
     settings.time_step = TimeStep::Seconds(1e-6);
     settings.sample_interval = 1e-4;
@@ -179,7 +179,7 @@ fn a_resumed_run_has_the_bits_of_one_that_was_never_stopped() {
 
 #[test]
 fn what_a_transient_cannot_take_is_said_with_its_key_and_its_remedy() {
-    let quadratic = lumped(ElementKind::Quad8, [24, 4, 2]);
+    let quadratic = lumped(Quad8, [24, 4, 2]);
     let sector = SolidSector::generate(&quadratic.specification).unwrap();
     let refused = |choice| {
         let found = body(&quadratic, &sector).operator(choice, SimdLevel::Scalar);
@@ -193,7 +193,7 @@ fn what_a_transient_cannot_take_is_said_with_its_key_and_its_remedy() {
 
     let mut lifted = ringed([24, 4, 2]);
     lifted.contact.interference = 0.0;
-    lifted.specification.conditions[3] = BoundaryCondition::Pressure(-1e5);
+    lifted.specification.conditions[3] = Pressure(-1e5);
     let sector = SolidSector::generate(&lifted.specification).unwrap();
     let lifted = body(&lifted, &sector);
     let operator = lifted.operator(OperatorChoice::Auto, SimdLevel::detect()).unwrap();

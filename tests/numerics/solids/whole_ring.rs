@@ -18,7 +18,7 @@ impl WholeRing {
     pub fn new(model: &SolidModel, is_free: bool) -> Self {
         let mut specification = model.specification.clone();
         if is_free {
-            specification.conditions = [BoundaryCondition::Free; 4];
+            specification.conditions = [Free; 4];
         }
         let sector = SolidSector::generate(&specification).unwrap();
         let [mass, stiffness] = match sector.is_quadratic() {
@@ -135,7 +135,7 @@ fn global(sector: &SolidSector, s: usize, node: usize, half: usize) -> usize {
 
 /// `M` and `K` column by column.
 fn operated(sector: &SolidSector, model: &SolidModel) -> [Mat<f64>; 2] {
-    assert_eq!(model.options.mass, MassKind::Lumped);
+    assert_eq!(model.options.mass, Lumped);
     let body = body(model, sector);
     let operator = body.operator(OperatorChoice::Auto, SimdLevel::Scalar).unwrap();
     let count = operator.dof_count();
@@ -157,7 +157,7 @@ fn operated(sector: &SolidSector, model: &SolidModel) -> [Mat<f64>; 2] {
 
 /// Consistent `M` and `K` of bricks of 20 nodes in global coordinates, turned into nodal frames at the end.
 fn assembled(sector: &SolidSector, model: &SolidModel) -> [Mat<f64>; 2] {
-    assert_eq!(model.options.mass, MassKind::Consistent);
+    assert_eq!(model.options.mass, Consistent);
     let [lambda, shear] = model.material.lame_constants();
     let nodes = sector.node_count() * sector.sector_count();
     let mut result = [0, 1].map(|_| Mat::<f64>::zeros(3 * nodes, 3 * nodes));
@@ -182,8 +182,8 @@ fn assembled(sector: &SolidSector, model: &SolidModel) -> [Mat<f64>; 2] {
                     [[cos, sin, 0.0], [-sin, cos, 0.0], [0.0, 0.0, 1.0]]
                 })
                 .collect();
-            for (at, weight) in ElementKind::Hex20.quadrature() {
-                let shapes = ElementKind::Hex20.shape_functions(at);
+            for (at, weight) in Hex20.quadrature() {
+                let shapes = Hex20.shape_functions(at);
                 let jacobian = nalgebra::Matrix3::from_fn(|i, j| {
                     let pairs = places.iter().zip(&shapes);
                     pairs.map(|(x, shape)| x[i] * shape.1[j]).sum::<f64>()

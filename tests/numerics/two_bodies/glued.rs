@@ -50,14 +50,14 @@ fn frequencies(mesh: &Mesh, glue: &Glue, held: Vec<usize>, count: usize) -> Vec<
         entries.filter_map(|(row, column, value)| Some((at(row)?, at(column)?, value))).collect()
     };
     let stiffness = free(&assemble_stiffness(mesh, &POLYCARBONATE));
-    let mass = free(&assemble_mass(mesh, &POLYCARBONATE, MassKind::Consistent));
+    let mass = free(&assemble_mass(mesh, &POLYCARBONATE, Consistent));
     let positions = stiffness.iter().chain(&mass).map(|&(row, column, _)| (row, column));
     let pattern = Arc::new(SparsityPattern::from_positions(unknowns.len(), positions));
     let on_pattern = |terms| MatrixPolynomial::on_pattern(&pattern, &[terms]);
     let (stiffness, mass) = (on_pattern(stiffness), on_pattern(mass));
     let damping = MatrixPolynomial::combination(0.0, &mass, 0.0, &stiffness);
     let structure = bare([mass, damping, stiffness], None, unknowns);
-    let modes = FrictionlessModes::compute(&structure, ModeLimit::Lowest(count)).unwrap();
+    let modes = FrictionlessModes::compute(&structure, Lowest(count)).unwrap();
     modes.frequencies[..count].to_vec()
 }
 
@@ -87,7 +87,7 @@ fn largest(errors: &[f64]) -> f64 {
 fn glued_bodies_whose_meshes_match_have_the_spectrum_of_one_body() {
     // Elements of one size on both sides, as in the one body.
     let (outer, radial) = (0.0205 + 9.0 * 0.00725, [2, 9]);
-    for element in [ElementKind::Quad4, ElementKind::Quad8] {
+    for element in [Quad4, Quad8] {
         let two = pair(&rings_of(element, outer, [24, 24], radial, 0.0), 12);
         let one = one(&ring(element, [0.006, outer], 24, 11), 12);
         // Residuals of the iteration, 1e-11.
@@ -98,7 +98,7 @@ fn glued_bodies_whose_meshes_match_have_the_spectrum_of_one_body() {
 /// Theory: glue between meshes that do not match costs no order; the reference is one body of fine quadratic elements.
 #[test]
 fn glued_bodies_whose_meshes_do_not_match_converge_to_one_body_at_second_order() {
-    let exact = one(&ring(ElementKind::Quad8, [0.006, 0.0905], 120, 30), 8);
+    let exact = one(&ring(Quad8, [0.006, 0.0905], 120, 30), 8);
     let of = |k: usize| {
         let mesh = rings([10 * k, 12 * k], [k, 3 * k], 0.05);
         errors(&pair(&mesh, 8), &exact)
@@ -112,7 +112,7 @@ fn glued_bodies_whose_meshes_do_not_match_converge_to_one_body_at_second_order()
 fn blocks(along: [usize; 2]) -> Mesh {
     let lower = rectangle([0.0, -0.02], [0.04, 0.02], [along[0], 3]);
     let upper = rectangle([0.0, 0.0], [0.04, 0.03], [along[1], 4]);
-    held_blocks([lower, upper], BoundaryCondition::Clamped).unwrap()
+    held_blocks([lower, upper], Clamped).unwrap()
 }
 
 /// Patch test: every state of constant strain passes glue between any two meshes: it is continuous, and with what it

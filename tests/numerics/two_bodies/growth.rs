@@ -11,14 +11,14 @@ const SEED: f64 = 1e-8;
 /// Cross-method check: a mode that is seeded as the eigenvalue analysis has it grows as that says.
 #[test]
 fn a_mode_of_two_bodies_whose_meshes_do_not_match_grows_as_its_eigenvalue_says() {
-    let brass = elastic(1e11, 0.35, 8500.0, PlaneFormulation::PlaneStrain);
+    let brass = elastic(1e11, 0.35, 8500.0, PlaneStrain);
     let mesh = rings([40, 48], [3, 9], 0.05);
     for shaft in [POLYCARBONATE, brass] {
         let materials = [POLYCARBONATE, shaft].map(RegionMaterial::from).to_vec();
         assert_eq!(mesh.regions, ["disc", "shaft"]);
-        let options = options(MassKind::Lumped, false);
+        let options = options(Lumped, false);
         let tangent = linearized(&mesh, &materials, &contact(610.0), &options);
-        let limit = ModeLimit::Lowest(12);
+        let limit = Lowest(12);
         let request = SweepRequest { shapes_at: &[0.3], ..sweep_request(&[0.3], limit) };
         let found = sweep(&tangent, &request, &|_| {}).unwrap().points.remove(0).modes;
         let mode = found.iter().max_by(|a, b| a.eigenvalue.re.total_cmp(&b.eigenvalue.re)).unwrap();

@@ -21,17 +21,17 @@ fn built_in(
     let model = WaveModel {
         specification: on_shaft(annulus(element, around, radial[1]), radial[0]),
         material: POLYCARBONATE,
-        options: options(MassKind::Consistent, geometric_stiffness),
+        options: options(Consistent, geometric_stiffness),
         contact: contact(610.0),
     };
-    model.modes(0.3, ModeLimit::Lowest(count))
+    model.modes(0.3, Lowest(count))
 }
 
 /// Both bodies from a file.
 fn modes(mesh: &Mesh, geometric_stiffness: bool, count: usize) -> Vec<ComplexMode> {
-    let options = options(MassKind::Consistent, geometric_stiffness);
+    let options = options(Consistent, geometric_stiffness);
     let tangent = linearized(mesh, &POLYCARBONATE, &contact(610.0), &options);
-    modes_at(&tangent, 0.3, ModeLimit::Lowest(count))
+    modes_at(&tangent, 0.3, Lowest(count))
 }
 
 /// Cross-method check: pairs of nodes in polar frames, and mortar weights in global axes.
@@ -40,7 +40,7 @@ fn matching_bodies_of_a_file_have_the_spectrum_of_the_built_in_shaft() {
     let mesh = rings([24, 24], [2, 5], 0.0);
     for (geometric_stiffness, tolerance) in [(false, 1e-9), (true, 3e-4)] {
         let found = modes(&mesh, geometric_stiffness, 8);
-        let expected = built_in(ElementKind::Quad4, 24, [2, 5], geometric_stiffness, 10);
+        let expected = built_in(Quad4, 24, [2, 5], geometric_stiffness, 10);
         let error = largest_error(&eigenvalues_of(&expected), &eigenvalues_of(&found));
         // Slopes of the edge are those of its chords, not of its polar components.
         assert!(error < tolerance, "{geometric_stiffness} {error:e}");
@@ -50,7 +50,7 @@ fn matching_bodies_of_a_file_have_the_spectrum_of_the_built_in_shaft() {
 /// Order of convergence: that of the elements, whether nodes lie opposite or not, and errors of one size.
 #[test]
 fn non_matching_meshes_keep_the_order_of_convergence() {
-    let exact = eigenvalues_of(&built_in(ElementKind::Quad8, 120, [10, 24], false, 10));
+    let exact = eigenvalues_of(&built_in(Quad8, 120, [10, 24], false, 10));
     let error = |around: [usize; 2], k: usize| {
         let mesh = rings(around.map(|count| count * k), [k, 2 * k], 0.03);
         largest_error(&exact, &eigenvalues_of(&modes(&mesh, false, 6)))
@@ -77,7 +77,7 @@ fn mounting() -> ElasticSupport {
 fn blocks(along: [usize; 2]) -> Result<Mesh, BodyError> {
     let lower = rectangle([-0.01, -0.02], [0.06, 0.02], [along[0], 3]);
     let upper = rectangle([0.0, 0.0], [0.04, 0.03], [along[1], 4]);
-    held_blocks([lower, upper], BoundaryCondition::Support(mounting()))
+    held_blocks([lower, upper], Support(mounting()))
 }
 
 /// Patch test: through meshes of any two fineness a constant pressure passes as it is.

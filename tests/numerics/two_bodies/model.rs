@@ -65,14 +65,14 @@ pub fn blocks_of(blocks: [Lines; 2]) -> Vec<u8> {
 /// The same read, the lower one held at its floor, the upper one at its top.
 pub fn held_blocks(blocks: [Lines; 2], top: BoundaryCondition) -> Result<Mesh, BodyError> {
     let plane = CounterfaceSpecification::Plane { direction: None };
-    let held = [("floor", BoundaryCondition::Clamped), ("top", top)];
+    let held = [("floor", Clamped), ("top", top)];
     let specification = plane_body("sole", plane, Some("track"), &held);
     Mesh::from_gmsh(&FileMesh::read(&blocks_of(blocks)).unwrap(), &specification)
 }
 
 /// Disc and shaft as rings of `around` elements (shaft, disc); the shaft is turned by `turn`.
 pub fn rings(around: [usize; 2], radial: [usize; 2], turn: f64) -> Mesh {
-    rings_of(ElementKind::Quad4, 0.0905, around, radial, turn)
+    rings_of(Quad4, 0.0905, around, radial, turn)
 }
 
 /// The same of any element, with the outer radius of the disc.
@@ -89,7 +89,7 @@ pub fn rings_of(
         Part { mesh: disc, region: "disc", names: ["inner", "outer"], turn: 0.0 },
         Part { mesh: shaft, region: "shaft", names: ["bore", "journal"], turn },
     ];
-    let held = ["outer", "bore"].map(|name| (name, BoundaryCondition::Clamped));
+    let held = ["outer", "bore"].map(|name| (name, Clamped));
     let specification = plane_body("inner", CYLINDER, Some("journal"), &held);
     Mesh::from_gmsh(&FileMesh::read(&file_of(&parts)).unwrap(), &specification).unwrap()
 }

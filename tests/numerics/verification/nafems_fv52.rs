@@ -18,7 +18,7 @@ const TARGETS: [f64; 7] = [45.897, 109.44, 109.44, 167.89, 193.59, 206.19, 206.1
 /// The plate of `n` x `n` x 1 bricks of 20 nodes, as an input file.
 fn plate(n: usize) -> String {
     // The nodes of a brick come in the order of the file.
-    let file = block(ElementKind::Hex20, [n, n, 1], |[x, y, z]| [10.0 * x, 10.0 * y, z]);
+    let file = block(Hex20, [n, n, 1], |[x, y, z]| [10.0 * x, 10.0 * y, z]);
     let (mut nodes, mut elements, mut edges) = (String::new(), String::new(), Vec::new());
     for (number, [x, y, z]) in file.labels.iter().zip(&file.points) {
         writeln!(nodes, "{number}, {x:?}, {y:?}, {z:?}").unwrap();

@@ -5,7 +5,7 @@ use crate::prelude::*;
 
 #[test]
 fn no_mesh_file_makes_its_reader_panic() {
-    let meshes = [ElementKind::Quad4, ElementKind::Quad8]
+    let meshes = [Quad4, Quad8]
         .map(|element| AnnulusMesh::generate(&ring([0.02, 0.09], element, 5, 2)).unwrap().mesh);
     let files = meshes
         .iter()
@@ -13,8 +13,7 @@ fn no_mesh_file_makes_its_reader_panic() {
     let (binaries, texts): (Vec<_>, Vec<_>) = files.partition(|(form, _)| form.is_binary);
     let [binaries, texts] =
         [binaries, texts].map(|files| files.into_iter().map(|file| file.1).collect::<Vec<_>>());
-    let specification =
-        plane_body("inner", CYLINDER, None, &[("outer", BoundaryCondition::Clamped)]);
+    let specification = plane_body("inner", CYLINDER, None, &[("outer", Clamped)]);
     hold(
         "mesh",
         |random: &mut Random| match random.below(2) {

@@ -100,7 +100,7 @@ fn bdf(file: &FileMesh) -> String {
         for (element, corners, nodes) in faces_of(file, side) {
             let label = |node: u32| file.labels[node as usize];
             let (first, second) = match (kind, corners.len()) {
-                (ElementKind::Tet4 | ElementKind::Tet10, _) => {
+                (Tet4 | Tet10, _) => {
                     let apex = (0..4).find(|corner| !corners.contains(corner)).unwrap();
                     (label(nodes[0]), label(file.elements[element - 1].nodes[apex]).to_string())
                 }

@@ -46,9 +46,9 @@ fn a_file_in_millimetres_gives_a_case_in_si_units() {
     assert!((motion.rotation_speed - TAU).abs() < 1e-12);
     assert_eq!((motion.axis, motion.center), ([0.0, 0.0, 1.0], [0.1, 0.0, 0.0]));
     let condition = |name: &str| body.mesh.boundary(name).unwrap().condition;
-    assert_eq!(condition("Back"), BoundaryCondition::Pressure(1.5e6));
-    assert_eq!(condition("Back_nodes"), BoundaryCondition::Fixed([true, false, false]));
-    assert_eq!(condition("Ground"), BoundaryCondition::Clamped);
+    assert_eq!(condition("Back"), Pressure(1.5e6));
+    assert_eq!(condition("Back_nodes"), Fixed([true, false, false]));
+    assert_eq!(condition("Ground"), Clamped);
     assert_eq!(case.number("materials.Lower.young_modulus"), Some(1.1e11));
     // Everything taken is said.
     let materials = "materials taken from bricks.inp: Lower (Iron), Upper (Lining)";
@@ -65,7 +65,7 @@ fn sections_of_the_case_win_over_those_of_the_file() {
     let body = case.body.assembly().unwrap();
     let upper = &body.materials[body.mesh.regions.iter().position(|r| r == "Upper").unwrap()];
     assert_eq!([upper.elastic.young_modulus, upper.elastic.density], [8e9, 2500.0]);
-    assert_eq!(body.mesh.boundary("Back").unwrap().condition, BoundaryCondition::Free);
+    assert_eq!(body.mesh.boundary("Back").unwrap().condition, Free);
     assert_eq!(case.contact.sliding.friction_coefficient, 0.1);
     // A contact of the same surfaces under another name replaces that of the file.
     let own = CASE.to_owned()
