@@ -28,8 +28,12 @@ fn double_wave() -> &'static LimitCycle {
     &OWN
 }
 
+fn made(disc: &AnnulusSpecification, family: Family) -> Result<CycleSolver, CycleError> {
+    CycleSolver::new(disc, &POLYCARBONATE, &DAMPING, family, None)
+}
+
 pub fn solver_of(disc: &AnnulusSpecification, harmonic: usize) -> CycleSolver {
-    CycleSolver::new(disc, &POLYCARBONATE, &DAMPING, Family::lowest(harmonic), None).unwrap()
+    made(disc, Family::lowest(harmonic)).unwrap()
 }
 
 fn count(cycle: &LimitCycle, status: ContactStatus) -> usize {
@@ -239,7 +243,7 @@ fn lightly_damped_cycle_has_the_transients_frequency_and_statuses() {
 fn cycle_of_the_second_onset_is_the_transients_and_loses_stability_where_they_leave_it() {
     let family = Family { harmonic: 1, onset: 2 };
     let specification = annulus(Quad4, 180, 35);
-    let solver = CycleSolver::new(&specification, &POLYCARBONATE, &DAMPING, family, None).unwrap();
+    let solver = made(&specification, family).unwrap();
     // Transients that start on the cycle, 60 ms: constant at 610 and 1100 rpm, gone to 9.9 kHz at 1250 rpm.
     let cycle = solver.find(&operating(610.0)).unwrap();
     assert!((cycle.frequency_hz() / 7666.9 - 1.0).abs() < 5e-4);
@@ -256,7 +260,7 @@ fn cycle_of_the_second_onset_is_the_transients_and_loses_stability_where_they_le
         assert_ne!(verdict, wrong, "{rpm} rpm");
     }
     let third = Family { harmonic: 1, onset: 30 };
-    let none = CycleSolver::new(&specification, &POLYCARBONATE, &DAMPING, third, None).unwrap_err();
+    let none = made(&specification, third).unwrap_err();
     assert!(none.to_string().starts_with("n = 1, onset 30: steady sliding has no such"));
 }
 
@@ -264,15 +268,9 @@ fn cycle_of_the_second_onset_is_the_transients_and_loses_stability_where_they_le
 fn number_of_phases_does_not_decide_what_is_found() {
     for (harmonic, rpm) in [(2, 610.0), (1, 300.0)] {
         let with = |phases: Option<usize>| {
-            let solver = CycleSolver::new(
-                &disc(),
-                &POLYCARBONATE,
-                &DAMPING,
-                Family::lowest(harmonic),
-                phases,
-            )
-            .unwrap();
-            solver.find(&operating(rpm)).unwrap()
+            let family = Family::lowest(harmonic);
+            let solver = CycleSolver::new(&disc(), &POLYCARBONATE, &DAMPING, family, phases);
+            solver.unwrap().find(&operating(rpm)).unwrap()
         };
         let reference = with(None);
         for phases in sized(&[81, 121][..], &[81, 101, 111, 121, 135]).iter().copied() {
@@ -329,12 +327,9 @@ fn wave_travels_against_the_rotor_without_changing_its_shape() {
 fn impossible_requests_say_which_key_to_change() {
     let standing = solver(1).find(&operating(0.0)).unwrap_err();
     assert!(standing.to_string().contains("rotation_speed_rpm"));
-    let harmonic =
-        CycleSolver::new(&disc(), &POLYCARBONATE, &DAMPING, Family::lowest(46), None).unwrap_err();
+    let harmonic = made(&disc(), Family::lowest(46)).unwrap_err();
     assert!(matches!(harmonic, CycleError::Harmonic { limit: 45, .. }));
-    let quad8 = annulus(Quad8, 90, 18);
-    let element =
-        CycleSolver::new(&quad8, &POLYCARBONATE, &DAMPING, Family::lowest(1), None).unwrap_err();
+    let element = made(&annulus(Quad8, 90, 18), Family::lowest(1)).unwrap_err();
     assert_eq!(element, CycleError::Element);
     let mut weak = operating(610.0);
     weak.contact.friction_coefficient = 0.05;
