@@ -104,6 +104,14 @@ pub const fn compliant(normal_stiffness: f64, [normal, tangential]: [f64; 2]) ->
     }
 }
 
+pub const fn exponential(reference_pressure: f64, height: f64) -> NormalLaw {
+    NormalLaw::Exponential { reference_pressure, height }
+}
+
+pub const fn cubic(stiffness: f64, cubic_stiffness: f64) -> NormalLaw {
+    NormalLaw::Cubic { stiffness, cubic_stiffness }
+}
+
 /// Contact that stiffens with pressure.
 pub fn stiffening(law: NormalLaw) -> ContactStiffness {
     ContactStiffness { normal_stiffness: Some(law.stiffness(0.0)), law: Some(law), ..RIGID }

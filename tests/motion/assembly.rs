@@ -110,11 +110,8 @@ fn modes(assembly: &Assembly<'_>, count: usize) -> Vec<ComplexMode> {
 }
 
 /// Rigid contact, constant springs, and springs that stiffen to about the same at the pressure of 2 MPa.
-const SPRINGS: [(Option<f64>, Option<NormalLaw>); 3] = [
-    (None, None),
-    (Some(5e12), None),
-    (Some(1e6 / 6e-7), Some(NormalLaw::Exponential { reference_pressure: 1e6, height: 6e-7 })),
-];
+const SPRINGS: [(Option<f64>, Option<NormalLaw>); 3] =
+    [(None, None), (Some(5e12), None), (Some(1e6 / 6e-7), Some(exponential(1e6, 6e-7)))];
 
 /// Independent: the base state of the eigenvalue analysis, through a tie and a contact whose meshes do not match, is at rest.
 #[test]

@@ -3,10 +3,7 @@
 use crate::friction_law::block::{MASS, STEEL, WIDTH, block};
 use crate::prelude::*;
 
-pub const LAWS: [NormalLaw; 2] = [
-    NormalLaw::Exponential { reference_pressure: 2e5, height: 4e-6 },
-    NormalLaw::Cubic { stiffness: 2e11, cubic_stiffness: 1e22 },
-];
+pub const LAWS: [NormalLaw; 2] = [exponential(2e5, 4e-6), cubic(2e11, 1e22)];
 
 /// Closed form: disc and interface share the interference, so that the pressure is that of rigid contact in the share of the
 /// disc, `p(g) = p_0 (delta - g) / delta`.
@@ -34,7 +31,7 @@ fn disc_and_interface_share_the_interference() {
 /// `(p + p_r) A / (h m)` of the exponential law.
 #[test]
 fn the_frequency_of_a_block_follows_the_pressure_on_it() {
-    let law = NormalLaw::Exponential { reference_pressure: 1e5, height: 5e-4 };
+    let law = exponential(1e5, 5e-4);
     for pressure in [1e4, 1e5, 1e6] {
         let mesh = block(pressure);
         let sliding = sliding_at(0.0, 0.0, 1.0);

@@ -30,10 +30,7 @@ pub fn free(annulus: &AnnulusMesh) -> TransientModel<'_> {
 }
 
 /// Contact that stiffens with pressure.
-pub const LAWS: [NormalLaw; 2] = [
-    NormalLaw::Exponential { reference_pressure: 2e5, height: 2e-6 },
-    NormalLaw::Cubic { stiffness: 5e11, cubic_stiffness: 2e23 },
-];
+pub const LAWS: [NormalLaw; 2] = [exponential(2e5, 2e-6), cubic(5e11, 2e23)];
 
 pub fn settings(duration: f64, harmonics: &[usize]) -> TransientSettings {
     transient_settings(duration, 4e-6, 1e-4, InitialState::Rest, Perturbation::of(harmonics, 1e-3))

@@ -3,10 +3,7 @@
 use super::{aside, assembled, bar, eigenvalues, patch_error, sliding};
 use crate::prelude::*;
 
-const LAWS: [NormalLaw; 2] = [
-    NormalLaw::Exponential { reference_pressure: 2e6, height: 5e-6 },
-    NormalLaw::Cubic { stiffness: 1e12, cubic_stiffness: 4e22 },
-];
+const LAWS: [NormalLaw; 2] = [exponential(2e6, 5e-6), cubic(1e12, 4e22)];
 
 fn stiffening(mesh: &Mesh, law: NormalLaw) -> SlidingSurfaces {
     let linear = sliding(mesh, Some(law.stiffness(0.0)));
@@ -61,7 +58,7 @@ fn small_motions_are_those_of_the_stiffness_at_the_pressure() {
 #[test]
 fn a_law_that_hardly_stiffens_is_linear_contact() {
     let mesh = bar();
-    let law = NormalLaw::Cubic { stiffness: 1e13, cubic_stiffness: 1e8 };
+    let law = cubic(1e13, 1e8);
     let linear = solved(&mesh, sliding(&mesh, Some(1e13)));
     let own = solved(&mesh, stiffening(&mesh, law));
     let error = largest_difference(&eigenvalues(&linear, 0.4, 6), &eigenvalues(&own, 0.4, 6));

@@ -35,10 +35,7 @@ fn sensitivities_equal_finite_differences() {
 /// The same of contact that stiffens with pressure, whose base state moves with every number.
 #[test]
 fn sensitivities_of_stiffening_contact_equal_finite_differences() {
-    let laws = [
-        NormalLaw::Exponential { reference_pressure: 2e5, height: 4e-6 },
-        NormalLaw::Cubic { stiffness: 8e11, cubic_stiffness: 5e22 },
-    ];
+    let laws = [exponential(2e5, 4e-6), cubic(8e11, 5e22)];
     for (law, element) in laws.into_iter().zip([Quad8, Quad4]) {
         let model = strained(element, [24, 6]).with(|own| own.options.contact = stiffening(law));
         hold(&model, [2.5, 1e-6], &format!("{law:?}"));

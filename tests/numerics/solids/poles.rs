@@ -73,7 +73,7 @@ fn the_response_has_its_pole_on_the_axis_at_every_critical_friction_of_the_eigen
     let both = [hex8, (Quad8, [16, 4, 1])];
     let springs =
         ContactStiffness { normal_stiffness: Some(1e12), is_base_compliant: true, ..RIGID };
-    let law = NormalLaw::Exponential { reference_pressure: 2e5, height: 2e-6 };
+    let law = exponential(2e5, 2e-6);
     for (contact, bricks) in [(RIGID, &both[..1]), (springs, &both), (stiffening(law), &both)] {
         for &(element, divisions) in bricks {
             let mut model = disc(element, divisions);

@@ -54,11 +54,8 @@ fn a_layer_shares_the_distance_with_the_contact_that_presses_it() {
         let mut springs = model.clone();
         compliant(&mut springs, 3e11);
         let laws = [
-            NormalLaw::Exponential { reference_pressure: half / f64::exp_m1(5.0), height: 5e-7 },
-            NormalLaw::Cubic {
-                stiffness: 0.1 * half / 2.5e-6,
-                cubic_stiffness: 0.9 * half / 2.5e-6_f64.powi(3),
-            },
+            exponential(half / f64::exp_m1(5.0), 5e-7),
+            cubic(0.1 * half / 2.5e-6, 0.9 * half / 2.5e-6_f64.powi(3)),
         ];
         let stiffens = laws.map(|own_law| {
             let mut own = model.clone();
@@ -90,7 +87,7 @@ fn a_law_that_hardly_stiffens_is_springs() {
     let mut linear = ringed(Quad8, [24, 7, 1]);
     compliant(&mut linear, 3e11);
     let mut own = linear.clone();
-    own.options.contact.law = Some(NormalLaw::Cubic { stiffness: 3e11, cubic_stiffness: 1e8 });
+    own.options.contact.law = Some(cubic(3e11, 1e8));
     let [linear, own] = [linear, own].map(|model| modes(&model, 0.5, 4000.0));
     assert_eq!(linear.len(), own.len());
     near_each(&eigenvalues_of(&own), &eigenvalues_of(&linear), 1e-8);

@@ -27,10 +27,7 @@ const COMPLIANT: ContactStiffness = ContactStiffness {
 };
 
 /// Of about the stiffness of the body where it is pressed.
-const LAWS: [NormalLaw; 2] = [
-    NormalLaw::Exponential { reference_pressure: 2e6, height: 4e-5 },
-    NormalLaw::Cubic { stiffness: 1e11, cubic_stiffness: 1e19 },
-];
+const LAWS: [NormalLaw; 2] = [exponential(2e6, 4e-5), cubic(1e11, 1e19)];
 
 /// A strong prestress, so that its share cannot hide, and friction that falls with the speed.
 fn strained(element: ElementKind, contact: ContactStiffness) -> SolidModel {
@@ -101,7 +98,7 @@ fn sensitivities_of_a_contact_that_stiffens_equal_finite_differences() {
 }
 
 /// As stiff at rest as the springs of a body that is partly open.
-const SOFT: NormalLaw = NormalLaw::Cubic { stiffness: 2e9, cubic_stiffness: 2e18 };
+const SOFT: NormalLaw = cubic(2e9, 2e18);
 
 /// A plate bends away under the ring that presses it: the end of the pressed part moves with every parameter.
 #[test]

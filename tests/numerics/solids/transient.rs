@@ -86,7 +86,7 @@ fn a_wave_under_a_ring_that_opens_in_part_grows_at_the_rate_of_the_eigenvalue_an
 #[test]
 fn a_wave_on_a_contact_that_stiffens_grows_at_the_rate_of_the_eigenvalue_analysis() {
     let mut model = fast();
-    let law = NormalLaw::Exponential { reference_pressure: 1e5, height: 1e-6 };
+    let law = exponential(1e5, 1e-6);
     model.options.contact.law = Some(law);
     model.options.contact.normal_stiffness = Some(law.stiffness(0.0));
     grows_as_predicted(&model, 1, 7e3, 0.01);
