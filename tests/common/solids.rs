@@ -2,6 +2,7 @@
 
 use super::disc::RIGID;
 use frictionsim::contact::{ContactStiffness, Counterpart, PairFriction};
+use frictionsim::contact::{RigidCounterface, RigidMotion, RigidShape};
 use frictionsim::mesh::{BoundaryCondition, FileMesh, Mesh};
 use frictionsim::prestress::{SlidingSurfaces, TiedSurfaces};
 
@@ -35,6 +36,12 @@ pub fn contact_of(
         stiffness: ContactStiffness { normal_stiffness, ..RIGID },
         topography: None,
     }
+}
+
+/// A rigid plane across z.
+pub const fn flat(motion: RigidMotion, center: [f64; 3], interference: f64) -> RigidCounterface {
+    let (shape, axis) = (RigidShape::Plane, [0.0, 0.0, 1.0]);
+    RigidCounterface { shape, center, axis, motion, interference }
 }
 
 pub fn tie(mesh: &Mesh, surface: &str, counter: &str) -> TiedSurfaces {

@@ -31,13 +31,7 @@ fn on_rigid_plane<'a>(
     springs: (Option<f64>, Option<NormalLaw>),
     speed: f64,
 ) -> Assembly<'a> {
-    let plane = RigidCounterface {
-        shape: RigidShape::Plane,
-        center: [0.02, -0.2, 0.0],
-        axis: [0.0, 0.0, 1.0],
-        motion: RigidMotion::Turning(speed),
-        interference: 5e-7,
-    };
+    let plane = flat(RigidMotion::Turning(speed), [0.02, -0.2, 0.0], 5e-7);
     between(mesh, &STEEL, Counterpart::Rigid(plane), springs, (None, &[]))
 }
 

@@ -184,11 +184,9 @@ fn exact_modes(
     let factors = StiffnessFactors::general(&tangent.stiffness, &analysis, mu).unwrap();
     let operator = ShiftInverted::new(&matrices, &factors);
     let settings = KrylovSchurSettings {
-        wanted,
-        tie: 1.0,
         tolerance: 1e-11,
         max_applications: 5000,
-        dense_up_to: 0,
+        ..crate::eigen_linear_algebra::settings(wanted)
     };
     let start = random_columns(operator.dimension(), 3, 0x5eed);
     let pairs = krylov_schur(&operator, start, &|_| true, &settings).unwrap();

@@ -8,13 +8,8 @@ const RUBBER: ElasticMaterial = ElasticMaterial { formulation: ThreeDimensional,
 const BALL: f64 = 0.016;
 
 fn ball(interference: f64) -> RigidCounterface {
-    RigidCounterface {
-        shape: RigidShape::Sphere(Some(BALL)),
-        center: [0.0; 3],
-        axis: [0.0, 0.0, 1.0],
-        motion: RigidMotion::Turning(10.0),
-        interference,
-    }
+    let turning = flat(RigidMotion::Turning(10.0), [0.0; 3], interference);
+    RigidCounterface { shape: RigidShape::Sphere(Some(BALL)), ..turning }
 }
 
 /// A cup of 4 mm on the ball, wide open.

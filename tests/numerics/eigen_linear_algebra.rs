@@ -47,14 +47,9 @@ fn inverse_of(p: &MatrixPolynomial) -> Inverse {
     Inverse(SparseLu::factorize(&analysis, p.evaluate(0.0)).unwrap())
 }
 
-fn settings(wanted: usize) -> KrylovSchurSettings {
-    KrylovSchurSettings {
-        wanted,
-        tie: 1.0,
-        tolerance: 1e-12,
-        max_applications: 2000,
-        dense_up_to: 0,
-    }
+pub fn settings(wanted: usize) -> KrylovSchurSettings {
+    let (tolerance, max_applications) = (1e-12, 2000);
+    KrylovSchurSettings { wanted, tie: 1.0, tolerance, max_applications, dense_up_to: 0 }
 }
 
 fn largest(p: &MatrixPolynomial, wanted: usize) -> RealPairs {

@@ -79,13 +79,7 @@ fn a_support_of_dashpots_alone_damps_the_response() {
         let mut mesh = AnnulusMesh::generate(specification).unwrap().mesh;
         let mut edges = mesh.boundaries.iter_mut();
         let edge = edges.find(|own| own.condition == Free).unwrap();
-        edge.condition = Support(ElasticSupport {
-            normal_stiffness: spring,
-            tangential_stiffness: spring,
-            normal_damping: dashpot,
-            tangential_damping: dashpot,
-            ..ElasticSupport::default()
-        });
+        edge.condition = support([spring, spring, 0.0], [dashpot, dashpot]);
         let system = FrfSystem::body(&mesh, &POLYCARBONATE, Consistent, DAMPING, true);
         let [force, seen] = terminals(specification, false)[1];
         let [force, seen] = [force, seen].map(|own| system.unknown(own, "node").unwrap());

@@ -22,7 +22,7 @@ fn a_run_gets_every_figure_of_its_record() {
         &RecorderSettings {
             probes: vec![196, 203],
             snapshots: vec![0.001, 0.006, 0.0195],
-            ..RecorderSettings::default()
+            ..Default::default()
         },
     )
     .unwrap();

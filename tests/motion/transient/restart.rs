@@ -36,11 +36,8 @@ fn restarted_run_equals_uninterrupted_run_bitwise() {
     ] {
         let operator = model.operator(choice, SimdLevel::detect()).unwrap();
         let settings = kicked(4e-3, &[1, 2], 2.0);
-        let wanted = RecorderSettings {
-            probes: vec![1, 17],
-            snapshots: vec![1e-3, 3e-3],
-            ..RecorderSettings::default()
-        };
+        let (probes, snapshots) = (vec![1, 17], vec![1e-3, 3e-3]);
+        let wanted = RecorderSettings { probes, snapshots, ..Default::default() };
         let start = || CentralDifference::start(model, operator.as_ref(), &settings).unwrap();
 
         let mut run = start();

@@ -37,11 +37,8 @@ fn a_probe_or_snapshot_that_does_not_exist_is_named_with_its_bound() {
     let model = model(&annulus, 600.0);
     let run = started(model, OperatorChoice::Auto, &settings(1e-3, &[1]));
     let failure = |probes: &[usize], snapshots: &[f64]| {
-        let wanted = RecorderSettings {
-            probes: probes.to_vec(),
-            snapshots: snapshots.to_vec(),
-            ..RecorderSettings::default()
-        };
+        let (probes, snapshots) = (probes.to_vec(), snapshots.to_vec());
+        let wanted = RecorderSettings { probes, snapshots, ..Default::default() };
         Recorder::new(&run, &wanted).unwrap_err().to_string()
     };
     assert!(failure(&[169], &[]).contains("holds 169: the mesh has nodes 1 to 168"));

@@ -79,7 +79,7 @@ fn a_growing_vibration_is_no_limit_cycle_and_a_saturated_one_is() {
 fn a_run_that_stops_where_it_has_settled_is_the_beginning_of_the_longer_one() {
     let settings = seeded(0.05, 0.5);
     let (whole, _) = run(610.0, &settings, &RecorderSettings::default());
-    let wanted = RecorderSettings { stop_when_settled: true, ..RecorderSettings::default() };
+    let wanted = RecorderSettings { stop_when_settled: true, ..Default::default() };
     let (stopped, end) = run(610.0, &settings, &wanted);
     assert_eq!(end, RunEnd::Stopped);
     assert!(stopped.has_stopped);
@@ -113,11 +113,8 @@ fn steady_sliding_rest_and_separation_are_ends_of_their_own() {
 
 #[test]
 fn a_snapshot_has_the_contact_of_its_own_step() {
-    let wanted = RecorderSettings {
-        snapshots: vec![0.0101],
-        contact_interval: Some(1e-4),
-        ..RecorderSettings::default()
-    };
+    let (snapshots, contact_interval) = (vec![0.0101], Some(1e-4));
+    let wanted = RecorderSettings { snapshots, contact_interval, ..Default::default() };
     let (record, _) = run(610.0, &seeded(0.0102, 0.5), &wanted);
     let surface = record.surface_speed;
     let snapshot = &record.snapshots[0];
@@ -156,11 +153,8 @@ fn frames_of_a_run_are_those_of_a_longer_one_up_to_its_end() {
 
 #[test]
 fn the_acceleration_of_a_probe_is_the_change_of_its_velocity_over_the_interval() {
-    let wanted = RecorderSettings {
-        probes: vec![1, 17],
-        raw_acceleration: true,
-        ..RecorderSettings::default()
-    };
+    let wanted =
+        RecorderSettings { probes: vec![1, 17], raw_acceleration: true, ..Default::default() };
     let (record, _) = run(610.0, &seeded(0.01, 0.5), &wanted);
     for rows in &record.probe_rows {
         for pair in rows.windows(2) {

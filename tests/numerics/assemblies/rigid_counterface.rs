@@ -22,13 +22,7 @@ fn sheet() -> [Block; 2] {
 }
 
 pub(super) fn plane(motion: RigidMotion, center: [f64; 3]) -> RigidCounterface {
-    RigidCounterface {
-        shape: RigidShape::Plane,
-        center,
-        axis: [0.0, 0.0, 1.0],
-        motion,
-        interference: INTERFERENCE,
-    }
+    flat(motion, center, INTERFERENCE)
 }
 
 /// Independent check: a body all of whose nodes are held, of which gaps say how far it is pushed in.
@@ -90,13 +84,8 @@ fn a_shaft_presses_a_bush_evenly_whatever_its_axis() {
     let bytes = file_of(&[block], place);
     let mesh = mesh_of(&bytes, &[("bush_x1", Clamped)]);
     for shape in [RigidShape::Cylinder(None), RigidShape::Cylinder(Some(radius))] {
-        let rigid = RigidCounterface {
-            shape,
-            center,
-            axis,
-            motion: RigidMotion::Turning(-3.0),
-            interference: 1e-6,
-        };
+        let turning = flat(RigidMotion::Turning(-3.0), center, 1e-6);
+        let rigid = RigidCounterface { shape, axis, ..turning };
         let assembly = assembled(&mesh, on_rigid(&mesh, "bush_x0", rigid, None), &[]).unwrap();
         let (_, surface) = &assembly.contacts()[0];
         for (point, site) in surface.points.iter().zip(&surface.sites) {

@@ -163,7 +163,7 @@ fn matlab_responses_are_complex_columns_beside_a_frequency() {
     let options = ResponseOptions {
         quantity: Some(ResponseQuantity::Mobility),
         columns: ["f", "re", "im"].map(String::from).to_vec(),
-        ..ResponseOptions::default()
+        ..Default::default()
     };
     let read = reader::read_response(&matrix, "x", &options).unwrap();
     assert_eq!(read.responses[0].response, want);

@@ -84,7 +84,7 @@ fn responses_of_one_table_are_all_read_and_one_is_picked_by_name_or_number() {
         let file = read(&text, &[], &[wanted]);
         assert_eq!((file.responses.len(), file.responses[0].name.as_str()), (1, "H21"));
     }
-    let options = ResponseOptions { channels: vec!["H31".into()], ..ResponseOptions::default() };
+    let options = ResponseOptions { channels: vec!["H31".into()], ..Default::default() };
     let error = reader::read_response(text.as_bytes(), "x", &options);
     has(&error.unwrap_err().to_string(), &["--channel H31: the file has H11, H21"]);
 }
@@ -110,8 +110,7 @@ fn frequencies_that_look_like_kilohertz_are_doubted_where_no_unit_is_written() {
 fn columns_without_names_ask_for_them_and_a_wrong_number_of_names_is_refused() {
     let doubtful: String = (1..12).map(|i| format!("{i} {i} {i}\n")).collect();
     has(&message(&doubtful), &["--columns f,re,im"]);
-    let options =
-        ResponseOptions { columns: vec!["f".into(), "re".into()], ..ResponseOptions::default() };
+    let options = ResponseOptions { columns: vec!["f".into(), "re".into()], ..Default::default() };
     let complex = rows(",", ".", "\n");
     let error = reader::read_response(complex.as_bytes(), "x", &options);
     has(&error.unwrap_err().to_string(), &["names 2 columns, the table has 3"]);

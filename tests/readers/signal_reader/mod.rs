@@ -19,7 +19,7 @@ fn read_response(
     source: &str,
     quantity: Option<ResponseQuantity>,
 ) -> Result<Read, ReadError> {
-    let options = ResponseOptions { quantity, ..ResponseOptions::default() };
+    let options = ResponseOptions { quantity, ..Default::default() };
     let file = reader::read_response(bytes, source, &options)?;
     Ok(Read { response: file.responses[0].response.clone(), notes: file.notes })
 }
