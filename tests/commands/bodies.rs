@@ -67,16 +67,10 @@ impl Bench {
     }
 
     /// Runs `command` on `inputs` alone; `figures` is the option that tells what is drawn.
-    pub fn run_on(
-        &self,
-        command: &str,
-        inputs: &[&Path],
-        overrides: &[&str],
-        figures: &str,
-    ) -> Answer {
+    pub fn run_on(&self, command: &str, inputs: &[&Path], set: &[&str], figures: &str) -> Answer {
         let out =
             tempfile::Builder::new().prefix("run").tempdir_in(self.folder.path()).unwrap().keep();
-        let mut run = Run::new(&[command, "--json"]).args(inputs).set(overrides);
+        let mut run = Run::new(&[command, "--json"]).args(inputs).set(set);
         if command != "check" {
             run = run.args(&["-qq", figures, "--force"]).out(&out);
         }

@@ -5,6 +5,9 @@ use super::mesh_text::{Listed, mesh_text};
 use frictionsim::mesh::ElementKind;
 use std::collections::BTreeMap;
 
+/// A place, or a size along each axis, m.
+pub type Place = [f64; 3];
+
 /// A block of bricks; its sides are the surfaces `NAME_x0`, `NAME_x1`, `NAME_y0` ... of the file.
 pub struct Block {
     pub name: &'static str,
@@ -13,17 +16,12 @@ pub struct Block {
     pub counts: [usize; 3],
 }
 
-pub const fn brick(
-    name: &'static str,
-    origin: [f64; 3],
-    size: [f64; 3],
-    counts: [usize; 3],
-) -> Block {
+pub const fn brick(name: &'static str, origin: Place, size: Place, counts: [usize; 3]) -> Block {
     Block { name, origin, size, counts }
 }
 
 /// The blocks as a file in MSH 2.2, every point moved by `place`. Nodes of different blocks are different nodes.
-pub fn file_of(blocks: &[Block], place: impl Fn([f64; 3]) -> [f64; 3]) -> Vec<u8> {
+pub fn file_of(blocks: &[Block], place: impl Fn(Place) -> Place) -> Vec<u8> {
     file_of_order(blocks, 1, place)
 }
 
@@ -37,27 +35,19 @@ pub fn polar([radius, angle, z]: [f64; 3]) -> [f64; 3] {
 }
 
 /// The same of bricks with 8 nodes (`order` 1) or 20 nodes (`order` 2).
-pub fn file_of_order(
-    blocks: &[Block],
-    order: usize,
-    place: impl Fn([f64; 3]) -> [f64; 3],
-) -> Vec<u8> {
+pub fn file_of_order(blocks: &[Block], order: usize, place: impl Fn(Place) -> Place) -> Vec<u8> {
     write(blocks, order, place, false)
 }
 
 /// The same, nodes of all blocks that lie at one place being one node.
-pub fn welded_file_of(
-    blocks: &[Block],
-    order: usize,
-    place: impl Fn([f64; 3]) -> [f64; 3],
-) -> Vec<u8> {
+pub fn welded_file_of(blocks: &[Block], order: usize, place: impl Fn(Place) -> Place) -> Vec<u8> {
     write(blocks, order, place, true)
 }
 
 fn write(
     blocks: &[Block],
     order: usize,
-    place: impl Fn([f64; 3]) -> [f64; 3],
+    place: impl Fn(Place) -> Place,
     is_welded: bool,
 ) -> Vec<u8> {
     let kind = [ElementKind::Hex8, ElementKind::Hex20][order - 1];

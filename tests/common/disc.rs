@@ -30,12 +30,8 @@ pub const POLYCARBONATE: ElasticMaterial = ElasticMaterial {
 pub const DAMPING: RayleighDamping = rayleigh_damping(40.0, 4.5e-7);
 
 /// An even mesh of the disc.
-pub fn annulus(
-    element: ElementKind,
-    circumferential: usize,
-    radial: usize,
-) -> AnnulusSpecification {
-    ring([0.0205, 0.0905], element, circumferential, radial)
+pub fn annulus(element: ElementKind, around: usize, radial: usize) -> AnnulusSpecification {
+    ring([0.0205, 0.0905], element, around, radial)
 }
 
 pub fn ring(

@@ -22,12 +22,7 @@ pub fn largest_error(found: &[c64], expected: &[c64]) -> f64 {
 
 /// Holds two sweeps to as many modes, each of the harmonic, branch, direction and eigenvalue of one of the other, and to the same
 /// onsets: to a tolerance relative to the eigenvalue, and to one of friction.
-pub fn assert_same(
-    ours: &FrictionSweep,
-    theirs: &FrictionSweep,
-    [modes, onsets]: [f64; 2],
-    what: &str,
-) {
+pub fn assert_same(ours: &FrictionSweep, theirs: &FrictionSweep, bounds: [f64; 2], what: &str) {
     for (ours, theirs) in ours.points.iter().zip(&theirs.points) {
         assert_eq!(ours.modes.len(), theirs.modes.len(), "{what}");
         let name = |mode: &ComplexMode| (mode.harmonic, mode.branch, mode.direction);
@@ -35,14 +30,14 @@ pub fn assert_same(
             let same = theirs.modes.iter().filter(|other| name(other) == name(mode));
             let same: Vec<c64> = same.map(|other| other.eigenvalue).collect();
             let error = largest_error(&same, &[mode.eigenvalue]);
-            assert!(error < modes, "{what}: {mode:?} {error:e}");
+            assert!(error < bounds[0], "{what}: {mode:?} {error:e}");
         }
     }
     assert_eq!(ours.intervals.len(), theirs.intervals.len(), "{what}");
     for (ours, theirs) in ours.intervals.iter().zip(&theirs.intervals) {
         assert_eq!((ours.harmonic, ours.direction), (theirs.harmonic, theirs.direction));
         let apart = (ours.critical_friction - theirs.critical_friction).abs();
-        assert!(apart < onsets, "{what}: {ours:?} {theirs:?}");
+        assert!(apart < bounds[1], "{what}: {ours:?} {theirs:?}");
     }
 }
 

@@ -173,13 +173,8 @@ fn sweep_of_a_general_quadratic_problem_equals_a_dense_decomposition() {
 }
 
 /// Modes by rising frequency from the `wanted` largest eigenvalues of the operator with the factors of `K(mu)`.
-fn exact_modes(
-    tangent: &SlidingTangent,
-    linearization: Linearization,
-    mu: f64,
-    wanted: usize,
-) -> Vec<c64> {
-    let matrices = StructureMatrices::at(tangent, linearization, mu);
+fn exact_modes(tangent: &SlidingTangent, of: Linearization, mu: f64, wanted: usize) -> Vec<c64> {
+    let matrices = StructureMatrices::at(tangent, of, mu);
     let analysis = LuAnalysis::new(tangent.stiffness.pattern()).unwrap();
     let factors = StiffnessFactors::general(&tangent.stiffness, &analysis, mu).unwrap();
     let operator = ShiftInverted::new(&matrices, &factors);
@@ -192,7 +187,7 @@ fn exact_modes(
     let pairs = krylov_schur(&operator, start, &|_| true, &settings).unwrap();
     assert!(pairs.residuals.iter().all(|residual| *residual <= 1e-11));
     let found = pairs.values.iter();
-    let mut exact: Vec<c64> = found.filter_map(|&s| linearization.eigenvalue(s)).collect();
+    let mut exact: Vec<c64> = found.filter_map(|&s| of.eigenvalue(s)).collect();
     exact.sort_by(|a, b| a.im.total_cmp(&b.im));
     exact
 }

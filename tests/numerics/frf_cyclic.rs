@@ -32,12 +32,7 @@ fn terminals(specification: &AnnulusSpecification, is_sliding: bool) -> Vec<[Ter
 const FREQUENCIES: [f64; 11] =
     [100.0, 777.0, 1500.0, 2345.0, 2800.0, 3456.0, 4321.0, 5678.0, 7000.0, 8765.0, 10_000.0];
 
-fn assert_agreement(
-    whole: &FrfSystem,
-    cyclic: &CyclicSystem,
-    terminals: &[[Terminal; 2]],
-    what: &str,
-) {
+fn agree(whole: &FrfSystem, cyclic: &CyclicSystem, terminals: &[[Terminal; 2]], what: &str) {
     assert_eq!(whole.dimension(), cyclic.dimension());
     for [force, response] in terminals {
         let unknowns = [force, response].map(|t| whole.unknown(*t, "node").unwrap());
@@ -65,7 +60,7 @@ fn harmonics_of_a_free_and_a_clamped_body_sum_to_the_response_of_the_whole_mesh(
                 let whole = FrfSystem::body(&mesh, &POLYCARBONATE, mass, DAMPING, is_clamped);
                 let cyclic = CyclicSystem::body(&sector, &POLYCARBONATE, mass, DAMPING, is_clamped);
                 let what = format!("{:?}, clamped {is_clamped}, {mass:?}", specification.element);
-                assert_agreement(&whole, &cyclic, &terminals(specification, false), &what);
+                agree(&whole, &cyclic, &terminals(specification, false), &what);
             }
         }
     }
@@ -114,7 +109,7 @@ fn harmonics_in_sliding_contact_sum_to_the_response_of_the_whole_mesh() {
                     "{:?}, {damping_model:?}, {contact:?}, {normal_stiffness:?}, {loss_factor}",
                     specification.element
                 );
-                assert_agreement(
+                agree(
                     &FrfSystem::sliding(&model.whole(), 0.3),
                     &CyclicSystem::sliding(&model.tangent(), 0.3),
                     &terminals(&specification, true),

@@ -40,17 +40,13 @@ pub fn mode(eigenvalue: c64, harmonic: usize, direction: i8) -> ComplexMode {
 }
 
 /// Where a wave against the rotor begins to grow.
-pub fn onset(
-    (harmonic, branch): (usize, usize),
-    critical_friction: f64,
-    frequency_hz: f64,
-) -> UnstableInterval {
+pub fn onset((n, branch): (usize, usize), critical: f64, frequency_hz: f64) -> UnstableInterval {
     UnstableInterval {
-        harmonic,
+        harmonic: n,
         nodal_diameters: None,
         branch,
         direction: -1,
-        critical_friction,
+        critical_friction: critical,
         frequency_hz,
         restabilized: None,
         unstable_from_start: false,
@@ -167,19 +163,13 @@ pub fn sweep(count: usize) -> FrictionSweep {
 }
 
 /// A wave of one harmonic, clamped outside, with an arbitrary solver phase; friction shears it.
-pub fn shape(
-    mesh: &Mesh,
-    harmonic: usize,
-    branch: usize,
-    direction: i8,
-    friction: f64,
-) -> Vec<c64> {
+pub fn shape(mesh: &Mesh, harmonic: usize, branch: usize, direction: i8, mu: f64) -> Vec<c64> {
     let mut out = Vec::with_capacity(2 * mesh.node_count());
     let phase = c64::new(0.3, 0.9);
     for (&[x, y, _], &angle) in mesh.nodes.iter().zip(mesh.frame_angles()) {
         let s = ((x.hypot(y) - 0.0205) / 0.07).clamp(0.0, 1.0);
         let profile = (PI * (branch as f64 + 0.5) * s).cos() * (1.0 - s);
-        let swirl = if direction == 0 { 0.0 } else { 1.2 * friction };
+        let swirl = if direction == 0 { 0.0 } else { 1.2 * mu };
         let argument =
             f64::from(direction) * harmonic as f64 * angle + f64::from(direction) * swirl * s * 3.0;
         let wave = c64::new(argument.cos(), -argument.sin()) * phase;

@@ -37,15 +37,10 @@ fn gap(spectrum: &[c64], places: std::ops::Range<usize>) -> f64 {
 }
 
 /// What is counted beyond `known` of the modes below `top`.
-fn missing(
-    tangent: &SlidingTangent,
-    mu: f64,
-    known: &[c64],
-    top: f64,
-) -> (i64, Option<c64>, usize) {
+fn missing(of: &SlidingTangent, mu: f64, known: &[c64], top: f64) -> (i64, Option<c64>, usize) {
     let inside: Vec<c64> = known.iter().copied().filter(|own| own.im < top).collect();
     let region = CountedRegion::about(&inside, top, 1.0);
-    let counter = ModeCounter::new(tangent).unwrap();
+    let counter = ModeCounter::new(of).unwrap();
     let found = counter.count(mu, known, &region).unwrap();
     (found.missing, found.near, found.determinants)
 }

@@ -112,13 +112,8 @@ impl Annulus {
 
     /// The pencil of the sliding state over the free unknowns, per radian: trial space without the
     /// clamped edge and, in rigid contact, without `U(a)`; friction row in the test space.
-    fn sliding_pencil(
-        &self,
-        harmonic: usize,
-        contact: &Contact,
-        degree: usize,
-    ) -> (Mat<c64>, Mat<c64>) {
-        let (mut stiffness, mut mass) = self.unconstrained_pencil(harmonic, contact, degree);
+    fn sliding_pencil(&self, n: usize, contact: &Contact, degree: usize) -> (Mat<c64>, Mat<c64>) {
+        let (mut stiffness, mut mass) = self.unconstrained_pencil(n, contact, degree);
         let friction = c64::new(0.0, contact.friction_coefficient);
         let first = match contact.normal_stiffness {
             Some(k_n) => {
@@ -211,13 +206,8 @@ impl Annulus {
     /// `lambda^2 + alpha lambda + (1 + beta lambda) kappa = 0`. The field `e^{i n theta + lambda t}`
     /// travels against the rotor where `Im(lambda) > 0`; a root with `Im(lambda) < 0` is the
     /// conjugate of a wave that travels with it.
-    pub fn eigenvalues(
-        &self,
-        harmonic: usize,
-        contact: &Contact,
-        rayleigh: Rayleigh,
-    ) -> Vec<Eigenvalue> {
-        damped(&self.kappas(harmonic, contact), rayleigh, harmonic)
+    pub fn eigenvalues(&self, n: usize, contact: &Contact, rayleigh: Rayleigh) -> Vec<Eigenvalue> {
+        damped(&self.kappas(n, contact), rayleigh, n)
     }
 
     /// Eigenvalue of one branch (1 = lowest of its harmonic) and travelling direction.

@@ -10,19 +10,14 @@ use frictionsim::frf::Direction::Tangential;
 ///
 /// Beside `poles` poles `h q(x) = p(x)`, `x = i (f - f_0)`, with `q` of that degree and leading one, `p` of that degree: as many
 /// equations as lines.
-fn pole_beside(
-    model: &SolidModel,
-    friction: f64,
-    lambda: c64,
-    (poles, range): (usize, f64),
-) -> c64 {
+fn pole_beside(model: &SolidModel, mu: f64, lambda: c64, (poles, range): (usize, f64)) -> c64 {
     let sector = SolidSector::generate(&model.specification).unwrap();
     let [_, nz] = sector.divisions();
     let node = at(&sector, 2, [0, 2 * nz], 0, Tangential);
     let count = 2 * poles + 1;
     let steps: Vec<f64> = (0..count).map(|k| k as f64 / poles as f64 - 1.0).collect();
     let lines: Vec<f64> = steps.iter().map(|d| lambda.im / TAU + d * range).collect();
-    let h = cyclic_response(&sliding(model, friction), node, node, &lines).unwrap();
+    let h = cyclic_response(&sliding(model, mu), node, node, &lines).unwrap();
     let largest = h.receptance.iter().fold(0.0_f64, |m, h| m.max(h.norm()));
     let h: Vec<c64> = h.receptance.iter().map(|h| h * largest.recip()).collect();
     let power = |k: usize, j: usize| c64::new(0.0, steps[k]).powu(j as u32);

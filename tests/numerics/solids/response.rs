@@ -45,13 +45,7 @@ pub const FREQUENCIES: [f64; 6] = [700.0, 1999.0, 4321.0, 7000.0, 9100.0, 15_000
 
 /// One force and several motions by harmonics and by a dense solution of the whole ring; of those on the top only those that it
 /// leaves free.
-fn agrees(
-    cyclic: &CyclicSystem,
-    whole: &WholeRing,
-    force: Terminal,
-    is_top_free: bool,
-    what: &str,
-) {
+fn agrees(cyclic: &CyclicSystem, whole: &WholeRing, force: Terminal, is_free: bool, what: &str) {
     let sector = &whole.sector;
     let quadratic = usize::from(sector.is_quadratic());
     let [_, nz] = sector.divisions();
@@ -66,7 +60,7 @@ fn agrees(
         at(sector, 2, [2 - quadratic, 2], 0, Axial),
         at(sector, 6, [0, 0], 0, Tangential),
     ];
-    let responses = [&responses, &top[..if is_top_free { 3 } else { 0 }]].concat();
+    let responses = [&responses, &top[..if is_free { 3 } else { 0 }]].concat();
     let dof = |t: &Terminal| 3 * t.node + t.direction.component().unwrap();
     let dofs: Vec<usize> = responses.iter().map(dof).collect();
     let dense = FREQUENCIES.map(|f| whole.respond(f, dof(&force), &dofs));
