@@ -96,30 +96,7 @@ fn what_is_not_used_is_listed_with_its_line_and_count() {
 
 #[test]
 fn wrong_input_files_are_told_by_line_and_name() {
-    check_errors(
-        "bricks.inp",
-        ASSEMBLY,
-        r#"
-1, 1, 2, 3, 4, 5, 6, 7, 8 => 1, 1, 2, 3, 4, 5, 6, 7, 88 => line 15: element 1 names node 88
-1, 1, 2, 3, 4, 5, 6, 7, 8 => 1, 1, 2, 3, 4, 5, 6, 7 => line 15: element 1 has too few nodes
-1, 1, 2, 3, 4, 5, 6, 7, 8 => 1, 1, 2, 3, 4, 5, 6, 7, 8, 8 => line 15: element 1 has 9 nodes
-TYPE=C3D8R => TYPE=C3D27 => line 14: elements of type C3D27 are not supported
-3, 1, 2, 0 => 3, 1, 2.x, 0 => line 7: a coordinate expected, found "2.x"
-One.Foot, Two.Foot => One.Foot, Two.Foo => line 34: no node set is called "Two.Foo"
-One.Foot, Two.Foot => One.Foot, Two.All => no node set is called "Two.All"; an element set is: *NSET
-2, 3\n*TIE => 2, 33\n*TIE => line 36: no node has the number "33"
-All, S2 => All, S7 => line 19: element 1 (hex8) has no face "S7"
-One.Top, Two.Top => One.Top, Two.Tip => no surface is called "Two.Tip"
-MATERIAL=Mat => MATERIAL=Met => no material is called "Met"
-ORIENTATION=Fibre => ORIENTATION=Fibra => no orientation is called "Fibra"
-PART=BRICK => PART=BLOCK => no part is called "BLOCK"
-8000., 8000., 1500. => 8000., x, 1500. => a number of *ELASTIC expected
-INTERACTION=RUB => INTERACTION=ROB => no surface interaction is called "ROB"
-*END PART => *NCOPY => *END PART of part "BRICK" is missing
-One.Foot, PINNED => One.Foot, PIND => a direction 1 to 6 or a word such as ENCASTRE
-*STATIC => *NGEN => *NGEN is not supported
-"#,
-    );
+    check_errors("bricks.inp", ASSEMBLY, include_str!("../meshes/wrong-abaqus.txt"));
     has(&error("a.inp", "*NODE\n1, 0, 0, 0\n"), &["no solid or plane elements"]);
     has(&error("a.inp", "\u{1}\u{2}garbage"), &["line 1: a keyword such as *NODE"]);
 }

@@ -68,21 +68,6 @@ fn an_orthotropic_stiffness_gives_engineering_constants() {
 
 #[test]
 fn wrong_bulk_data_is_told_by_line_and_name() {
-    check_errors(
-        "brick.bdf",
-        BRICK,
-        r#"
-+E      7       8 => +E      7       88 => line 21: CHEXA 10 names node 88
-+E      7       8 => +E      7 => CHEXA 10 lacks node 8
-GRID,7,1,1.,2.,3. => GRID,7,3,1.,2.,3. => line 19: no coordinate system has the number 3
-CORD2C,2,1 => CORD2C,2,2 => coordinate system 2 is defined by itself
-GRID,7,1,1.,2.,3. => GRID,7,1,1.,2.a,3. => GRID: a number expected in field 5, found "2.a"
-PSOLID  1       7 => PSOLID  1       8 => names material 8, which is no MAT1 or MAT9
-10      2.5 => 11      2.5 => PLOAD4 names element 11
-5       7\nCQUAD4 => 5       6\nCQUAD4 => name no face of element 10
-SPC1    20      123 => SPC1    20      12x => directions 1 to 6 expected, found "12x"
-CHEXA   10 => CPYRAM  10 => CPYRAM 10 lacks node 9
-"#,
-    );
+    check_errors("brick.bdf", BRICK, include_str!("../meshes/wrong-nastran.txt"));
     has(&error("a.bdf", "GRID,1,,0.,0.,0.\n"), &["no solid elements"]);
 }

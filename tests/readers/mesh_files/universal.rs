@@ -20,18 +20,7 @@ fn groups_are_regions_surfaces_and_sets_of_nodes() {
 
 #[test]
 fn wrong_universal_files_are_told_by_line() {
-    check_errors(
-        "brick.unv",
-        BRICK,
-        r#"
-         5         6         7         8\n         3 =>          5         6         7         9\n         3 => element 2 names node 9
-  2467\n =>   2411\n => line 43: a coordinate expected
-         7         3         0         0 =>          7        33         0         0 => group foot names node 33
-         8         2         0         0 =>          8        22         0         0 => group head names element 22
-         1       115  =>          1       114  => of kind 114, which is not supported
-   1.0D+00   2.0D+00   3.0D+00 =>    1.0D+00   2.0D+00   3.x => a coordinate expected, found "3.x"
-"#,
-    );
+    check_errors("brick.unv", BRICK, include_str!("../meshes/wrong-universal.txt"));
     // Truncated behind any line.
     let lines: Vec<&str> = BRICK.lines().collect();
     for count in 11..lines.len() {
