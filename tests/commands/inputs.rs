@@ -43,48 +43,27 @@ fn a_mesh_that_is_not_whole_is_said_with_numbers_and_places() {
     };
     // The same element from another corner on.
     let again = ("$EndElements", "25 3 2 3 3 13 12 7 8\n$EndElements");
+    let count = ("$Elements\n24\n", "$Elements\n25\n");
+    let inwards = ("\n7 0.001 0.001 0\n", "\n7 0.00051 0.00051 0\n");
+    let (cracked, parts) = (cut("29", "11", ""), cut("30", "30", "30 0 0.002 0\n"));
     for (mesh, code, said) in [
-        (MESH.to_owned(), 0, "!another one lies"),
+        (MESH, 0, "!another one lies"),
         // 4 edges on either side of the crack are free, and 4 + 4 of the two vertical sides.
-        (
-            cut("29", "11", ""),
-            0,
-            "4 nodes lie where another one lies ; 12 and 26 at (0.001000, 0.002000) m ; \
-             16 free edges are in no physical curve",
-        ),
-        (
-            cut("30", "30", "30 0 0.002 0\n"),
-            2,
-            "a part of the body that touches no other ; 5 nodes lie where another one lies ; \
-             merge the parts",
-        ),
-        (
-            edited(&[("$Elements\n24\n", "$Elements\n25\n"), again]),
-            2,
-            "1 element is given twice (elements 14 and 25 at",
-        ),
+        (&cracked, 0, "4 nodes lie where another one lies ; 12 and 26 at (0.001000, 0.002000) m"),
+        (&cracked, 0, "16 free edges are in no physical curve"),
+        (&parts, 2, "a part of the body that touches no other ; merge the parts"),
+        (&parts, 2, "5 nodes lie where another one lies"),
+        (&edited(&[count, again]), 2, "1 element is given twice (elements 14 and 25 at"),
         // The inner node of the lower left element, all but on its diagonal.
-        (
-            edited(&[("\n7 0.001 0.001 0\n", "\n7 0.00051 0.00051 0\n")]),
-            0,
-            "that of nodes 1, 2, 7, 6 at (0.000",
-        ),
-        (edited(&[("\n25 0.004 ", "\n25 1e300 ")]), 2, "node 25 lies at [1e300"),
+        (&edited(&[inwards]), 0, "that of nodes 1, 2, 7, 6 at (0.000"),
+        (&edited(&[("\n25 0.004 ", "\n25 1e300 ")]), 2, "node 25 lies at [1e300"),
         // Meshes of other programs, told by their content whatever their name.
-        (
-            "*Heading\n test\n*Node\n1, 0., 0.\n".to_owned(),
-            2,
-            "no solid or plane elements (*ELEMENT",
-        ),
-        ("$ comment\nBEGIN BULK\nGRID,1,,0.,0.,0.\n".to_owned(), 2, "no solid elements (CTETRA"),
-        ("    -1\n  2411\n".to_owned(), 2, "it is truncated (-1 expected)"),
-        (
-            "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n".to_owned(),
-            2,
-            "meshio leaves such files",
-        ),
+        ("*Heading\n test\n*Node\n1, 0., 0.\n", 2, "no solid or plane elements (*ELEMENT"),
+        ("$ comment\nBEGIN BULK\nGRID,1,,0.,0.,0.\n", 2, "no solid elements (CTETRA"),
+        ("    -1\n  2411\n", 2, "it is truncated (-1 expected)"),
+        ("$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n", 2, "meshio leaves such files"),
     ] {
-        let answer = on_block(&mesh, CASE).code(code);
+        let answer = on_block(mesh, CASE).code(code);
         has(if code == 0 { &answer.stdout } else { &answer.stderr }, &[said]);
     }
 }

@@ -55,11 +55,7 @@ fn five_thousand_imported_elements_give_table_1_and_the_continuum() {
             let real = (mode.real_hz() - row.0).abs();
             assert!(real < 10.0, "mode {}: {real} Hz", i + 1);
         }
-        below(
-            largest_error(&eigenvalues_of(&found), &exact(&EXACT)),
-            1e-4,
-            "of the exact continuum",
-        );
+        below(largest_error(&eigenvalues_of(&found), &exact(&EXACT)), 1e-4, "of the continuum");
     }
 }
 

@@ -403,12 +403,18 @@ fn a_turned_block_has_the_same_frequencies() {
     }
 }
 
-fn measures(bytes: &[u8]) -> Vec<(String, f64)> {
+/// Holds a mesh to the volumes of its regions and the areas of its surfaces, each to a share of its own.
+fn measures(bytes: &[u8], exact: &[(&str, f64)], tolerance: impl Fn(&str) -> f64) {
     let mesh = mesh_of(bytes, &[]);
     let regions = mesh.regions.iter().cloned().zip(mesh.region_measures());
     let surfaces = mesh.boundaries.iter();
     let surfaces = surfaces.map(|b| (b.name.clone(), mesh.face_area(&b.faces)));
-    regions.chain(surfaces).collect()
+    let found: Vec<(String, f64)> = regions.chain(surfaces).collect();
+    assert_eq!(found.len(), exact.len());
+    for ((name, found), (expected, exact)) in found.iter().zip(exact) {
+        assert_eq!(name, expected);
+        assert!((found / exact - 1.0).abs() < tolerance(name), "{name} {found} {exact}");
+    }
 }
 
 /// Independent check: volumes and areas of a quarter ring of curved bricks and wedges, whose nodes Gmsh numbers in its own way.
@@ -424,20 +430,14 @@ fn curved_bricks_and_wedges_of_gmsh_have_the_volume_and_surfaces_of_their_ring()
         &include_bytes!("meshes/ring-hex20.msh")[..],
         &include_bytes!("meshes/ring-wedge15.msh")[..],
     ] {
-        let found = measures(bytes);
-        assert_eq!(found.len(), 3);
-        for ((name, found), (expected, exact)) in found.iter().zip(exact) {
-            assert_eq!(name, expected);
-            // Parabolas for arcs of 22.5 degrees: 2e-5 of the area beneath.
-            assert!((found / exact - 1.0).abs() < 1e-4, "{name} {found} {exact}");
-        }
+        // Parabolas for arcs of 22.5 degrees: 2e-5 of the area beneath.
+        measures(bytes, &exact, |_| 1e-4);
     }
 }
 
 /// Independent check: the volumes that the geometry kernel gives for the parts of the ventilated disc, pads in closed form.
 #[test]
 fn the_ventilated_disc_has_the_volumes_and_pad_faces_of_its_geometry() {
-    let found = measures(include_bytes!("../../cases/meshes/ventilated-disc.msh"));
     let pad = PI / 6.0 * (0.1675_f64.powi(2) - 0.13_f64.powi(2));
     // At the bottom the hat is flush with the cheek: one face.
     let ring = PI * (0.175_f64.powi(2) - 0.105_f64.powi(2));
@@ -453,11 +453,7 @@ fn the_ventilated_disc_has_the_volumes_and_pad_faces_of_its_geometry() {
         ("lining_bottom", pad),
         ("lining_top", pad),
     ];
-    assert_eq!(found.len(), exact.len());
-    for ((name, found), (expected, exact)) in found.iter().zip(exact) {
-        assert_eq!(name, expected);
-        // Quadratic edges of 25 mm on circles of 10 mm and more.
-        let tolerance = if name == "bolts" { 2e-2 } else { 2e-3 };
-        assert!((found / exact - 1.0).abs() < tolerance, "{name} {found} {exact}");
-    }
+    // Quadratic edges of 25 mm on circles of 10 mm and more.
+    let tolerance = |name: &str| if name == "bolts" { 2e-2 } else { 2e-3 };
+    measures(include_bytes!("../../cases/meshes/ventilated-disc.msh"), &exact, tolerance);
 }
