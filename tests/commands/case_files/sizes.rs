@@ -14,28 +14,22 @@ fn seconds_to_read(text: &str, overrides: &[&str]) -> Duration {
 fn no_override_is_costly() {
     let long = "{ from = 1, to = 2, count = 100000 }";
     let nested = format!("{}=1", vec!["a"; 20_000].join("."));
+    let swept = |key: &str| format!("sweep.\"{key}\"={long}");
+    let speeds = swept("contact.rotation_speed_rpm");
+    let others = [swept("contact.interference"), swept("material.density")];
+    let snapshots = format!("output.snapshots={long}");
+    let brackets = "[".repeat(50_000);
     for overrides in [
-        vec![
-            "sweep.\"contact.rotation_speed_rpm\"={ from = 1, to = 2, count = 1000000000000 }"
-                .to_owned(),
-        ],
-        vec![format!("sweep.\"contact.rotation_speed_rpm\"={long}")],
-        vec![
-            format!("sweep.\"contact.rotation_speed_rpm\"={long}"),
-            format!("sweep.\"contact.interference\"={long}"),
-            format!("sweep.\"material.density\"={long}"),
-        ],
-        vec![
-            format!("sweep.\"contact.rotation_speed_rpm\"={long}"),
-            format!("output.snapshots={long}"),
-        ],
-        vec!["output.snapshots={ from = 0, to = 1, count = 9000000000000000000 }".to_owned()],
-        vec![format!("{}=1", "[".repeat(50_000))],
-        vec![format!("a={}", "[".repeat(50_000))],
-        vec![nested],
+        &[&*speeds.replace("100000", "1000000000000")][..],
+        &[&speeds],
+        &[&speeds, &others[0], &others[1]],
+        &[&speeds, &snapshots],
+        &["output.snapshots={ from = 0, to = 1, count = 9000000000000000000 }"],
+        &[&format!("{brackets}=1")],
+        &[&format!("a={brackets}")],
+        &[&nested],
     ] {
-        let overrides: Vec<&str> = overrides.iter().map(String::as_str).collect();
-        let seconds = seconds_to_read(STUDY, &overrides);
+        let seconds = seconds_to_read(STUDY, overrides);
         // Milliseconds where nobody else is at work; hours where the numbers themselves are made.
         assert!(seconds < Duration::from_secs(30), "{seconds:?}: {:.80}", overrides[0]);
     }
@@ -44,15 +38,11 @@ fn no_override_is_costly() {
 #[test]
 fn memory_is_refused_at_the_key_that_asks_for_it() {
     const CYCLES: &str = include_str!("../../../cases/limit-cycle.toml");
+    let fine = ["mesh.circumferential_elements=100000", "mesh.radial_elements=10000"];
     for (text, overrides, command, key) in [
         (RUN, vec!["output.sample_interval=1e-12"], "transient", "output.sample_interval"),
         (RUN, vec!["transient.duration=1e4"], "transient", "transient.duration"),
-        (
-            RUN,
-            vec!["mesh.circumferential_elements=100000", "mesh.radial_elements=10000"],
-            "transient",
-            "mesh.circumferential_elements",
-        ),
+        (RUN, fine.to_vec(), "transient", "mesh.circumferential_elements"),
         (CYCLES, vec!["cycle.phases=100001"], "cycle", "cycle.phases"),
     ] {
         let case = valid(text, &overrides);
