@@ -134,15 +134,12 @@ fn external_power_is_the_transients_and_the_verdict_is_what_transients_do() {
         let settled = stepping.settle(&cycle, None).unwrap();
         // A hundred periods and more, seeded in the leading harmonic.
         let run = stepping.confirm(&settled.cycle, Some(&settled.stability), 100).unwrap();
-        println!(
-            "{family}: {:?} {run:?} {}",
-            settled.stability.leading(),
-            settled.cycle.powers.contact.external
-        );
+        let external = settled.cycle.powers.contact.external;
+        println!("{family}: {:?} {run:?} {external}", settled.stability.leading());
         match settled.stability.verdict() {
             Verdict::Stable => {
                 assert!(run.agrees(&settled.cycle), "{family}: {run:?}");
-                let ratio = settled.cycle.powers.contact.external / run.external_power;
+                let ratio = external / run.external_power;
                 assert!((ratio - 1.0).abs() < 7e-3, "{family}: {ratio}");
             }
             Verdict::Unstable => assert!(!run.agrees(&settled.cycle), "{family}: {run:?}"),

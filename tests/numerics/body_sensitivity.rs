@@ -51,33 +51,22 @@ impl Body {
             let (value, step) = (report.values[at], step_of(key) * report.values[at]);
             let sides =
                 [1.0, -1.0].map(|sign| self.solve(&[format!("{key}={:?}", value + sign * step)]));
-            for row in &report.rows {
-                let [above, below] = sides.each_ref().map(|s| nearest(s, row.eigenvalue));
+            let hold = |own: c64, derivative: c64, [above, below]: [c64; 2], rounding: f64| {
                 let difference = (above - below) / (2.0 * step);
-                let error = (row.derivatives[at].unwrap() - difference).norm();
-                let unit = row.eigenvalue.norm() / value;
-                assert!(
-                    error < TOLERANCE * difference.norm() + 5e-7 * unit,
-                    "{key}, {}: {:?} {difference} ({:.1e} {:.1e})",
-                    row.eigenvalue,
-                    row.derivatives[at],
-                    error / difference.norm(),
-                    error / unit,
-                );
+                let error = (derivative - difference).norm();
+                let bound = TOLERANCE * difference.norm() + rounding * own.norm() / value;
+                assert!(error < bound, "{key}, {own}: {derivative} {difference} {error:.1e}");
+            };
+            for row in &report.rows {
+                let found = sides.each_ref().map(|s| nearest(s, row.eigenvalue));
+                hold(row.eigenvalue, row.derivatives[at].unwrap(), found, 5e-7);
                 let Some(onset) = &row.onset else {
                     continue;
                 };
                 onsets += 1;
-                let critical =
-                    sides.each_ref().map(|s| nearest_onset(&s.1, onset.critical_friction));
-                let difference = (critical[0] - critical[1]) / (2.0 * step);
-                let error = (onset.derivatives[at].unwrap() - difference).abs();
-                assert!(
-                    error < TOLERANCE * difference.abs() + 1e-5 * onset.critical_friction / value,
-                    "{key}, onset {}: {:?} {difference}",
-                    onset.critical_friction,
-                    onset.derivatives[at],
-                );
+                let friction = onset.critical_friction;
+                let found = sides.each_ref().map(|s| nearest_onset(&s.1, friction).into());
+                hold(friction.into(), onset.derivatives[at].unwrap().into(), found, 1e-5);
             }
         }
         onsets
