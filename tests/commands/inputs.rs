@@ -1,7 +1,6 @@
 //! What is said of bad meshes, bad names and dangerous files, and that nothing of the user's is replaced.
 
 use crate::prelude::*;
-use std::fmt::Write as _;
 
 /// A block of 4 x 4 mm on a plane, clamped at the top.
 const CASE: &str = include_str!("refused/block.toml");

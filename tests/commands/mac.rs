@@ -3,8 +3,6 @@
 use crate::prelude::*;
 use frictionsim::signal::reader::{ResponseOptions, read_response, read_shapes};
 use frictionsim::study::eigenvalues::{SlidingModel, solve_modes};
-use std::fmt::Write;
-use std::sync::LazyLock;
 
 const CEA: &str = "[cea]\nmodes = 8";
 

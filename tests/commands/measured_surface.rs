@@ -1,7 +1,6 @@
 //! `contacts.*.gap`: a measured surface beside a case.
 
 use crate::prelude::*;
-use std::fmt::Write;
 
 fn brake(folder: &TempDir) {
     fs::create_dir(folder.path().join("meshes")).unwrap();

@@ -1,7 +1,6 @@
 //! Bodies that turn as a user meets them: input files of CalculiX with a centrifugal load, both frames.
 
 use crate::prelude::*;
-use std::fmt::Write as _;
 
 /// A grid of cells between radii and heights, revolved into bricks of 20 nodes with reduced integration.
 struct Revolved {

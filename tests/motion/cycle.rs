@@ -5,7 +5,6 @@
 //! the element matrices. The others are theory.
 
 use crate::prelude::*;
-use std::sync::LazyLock;
 
 fn disc() -> AnnulusSpecification {
     annulus(Quad4, 90, 18)

@@ -3,9 +3,7 @@
 
 mod counts;
 
-use crate::cea_cyclic::model::paper;
 use crate::prelude::*;
-use crate::structural_damping::dense_eigenvalues;
 use frictionsim::cea::sparse::{
     Centre, FrictionlessModes, Linearization, ShiftInverted, StiffnessFactors, StructureMatrices,
 };

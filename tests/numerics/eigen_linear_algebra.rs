@@ -2,7 +2,6 @@
 //! checks).
 
 use crate::prelude::*;
-use crate::structural_damping::dense;
 use faer::{MatMut, MatRef};
 use frictionsim::linalg::banded::{BandedMatrix, CompactRows};
 use frictionsim::linalg::dense::{GrowingColumns, column, product};

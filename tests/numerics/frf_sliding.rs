@@ -1,9 +1,7 @@
 //! Frequency responses in sliding contact against eigenvalues and eigenvectors: of a dense
 //! decomposition, and of the eigenvalue analysis (other equations, other solvers: independent checks).
 
-use crate::cea_cyclic::model::paper;
 use crate::prelude::*;
-use crate::structural_damping::dense;
 
 const RADIAL: usize = 5;
 /// Scale between displacement and velocity in the state, rad/s: balances the companion matrix.

@@ -5,7 +5,6 @@
 //! them as their number grows.
 
 use crate::prelude::*;
-use faer::linalg::solvers::Solve;
 use frictionsim::linalg::banded::BandedMatrix;
 
 const POISSON_RATIO: f64 = 0.3;

@@ -2,10 +2,8 @@
 //! checks): these know one contact state each, and follow no branch.
 
 use crate::body::rectangle;
-use crate::matrices::lossy_eigenvalues;
 use crate::prelude::*;
 use crate::sliding_bodies::sums;
-use frictionsim::study::matrices::matrices;
 
 /// A block on an elastic mounting, which the drag tilts: between friction 0.2 and 0.66 six of its nine contact nodes lift.
 const CASE: &str = include_str!("../cases/mounted-block.toml");

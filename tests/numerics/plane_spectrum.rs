@@ -3,7 +3,6 @@
 use crate::continuum::Contact;
 use crate::convergence::rates::DISC;
 use crate::prelude::*;
-use crate::triangles::triangles;
 
 const NORMAL_STIFFNESS: f64 = 7.4e12;
 

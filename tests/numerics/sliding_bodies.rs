@@ -5,14 +5,10 @@
 //! Independent check: a dense decomposition of the exported matrices at each friction coefficient. Every mode damped by less than
 //! half of critical that lies below the highest one listed is listed, and what is listed is an eigenvalue.
 
-use crate::matrices::lossy_eigenvalues;
 use crate::prelude::*;
-use faer::linalg::solvers::Solve;
 use frictionsim::results::matrices::{ExportedSystem, MatrixRole};
-use frictionsim::study::matrices::matrices;
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
-use std::fmt::Write as _;
 
 #[derive(Clone, Debug)]
 struct Slider {

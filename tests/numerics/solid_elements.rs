@@ -1,7 +1,6 @@
 //! Solid elements of every kind against theory and against each other.
 
 use crate::prelude::*;
-use faer::linalg::solvers::Solve;
 use faer::sparse::{SparseColMat, Triplet};
 use nalgebra::{Matrix3, Rotation3, SymmetricEigen, Vector3};
 use std::f64::consts::FRAC_PI_2;

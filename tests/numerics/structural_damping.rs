@@ -1,7 +1,6 @@
 //! Structural damping `K (1 + i eta)`: closed form where one loss factor holds for the whole body, dense complex matrices where
 //! disc and shaft have their own.
 
-use crate::matrices::lossy_eigenvalues;
 use crate::prelude::*;
 use crate::shaft::model::STEEL;
 use frictionsim::cea::sparse::mode_pairs;

@@ -6,10 +6,8 @@
 use crate::prelude::*;
 use crate::sliding_bodies::sums;
 use frictionsim::results::matrices::ExportedSystem;
-use frictionsim::study::matrices::matrices;
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
-use std::fmt::Write as _;
 
 #[derive(Clone, Debug)]
 enum Hold {

@@ -1,9 +1,7 @@
 //! Modulus and loss factor over frequency: every mode at its own frequency, against dense matrices frozen there.
 
 use crate::prelude::*;
-use crate::structural_damping::{
-    dense_eigenvalues, eigenvalues, follow_differences, solved, two_unknowns,
-};
+use crate::structural_damping::{eigenvalues, follow_differences, solved, two_unknowns};
 use frictionsim::study::eigenvalues::preflight;
 use frictionsim::study::response::FrequencyStudy;
 

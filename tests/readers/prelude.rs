@@ -6,4 +6,3 @@ pub use crate::fuzz::mutation::{Random, binary, text};
 pub use frictionsim::case::case_from;
 pub use frictionsim::signal::reader::{self, ResponseOptions, SignalOptions};
 pub use frictionsim::signal::{FrequencyResponse, ResponseQuantity};
-pub use std::fmt::Write as _;

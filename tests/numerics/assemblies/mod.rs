@@ -9,7 +9,6 @@ mod slow_sliding;
 mod topography;
 
 use crate::prelude::*;
-use crate::structural_damping::dense;
 use BaseChoice::{Closed, Solved};
 
 const OPTIONS: TangentOptions = TangentOptions { damping: rayleigh_damping(0.0, 0.0), ..TANGENT };

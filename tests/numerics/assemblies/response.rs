@@ -3,8 +3,6 @@
 use super::rotation::{ring, turning as spinning};
 use super::{OPTIONS, aside, assembled, bar, sliding, tangent_at};
 use crate::prelude::*;
-use crate::structural_damping::dense;
-use faer::linalg::solvers::Solve;
 
 const DAMPED: TangentOptions = TangentOptions { damping: rayleigh_damping(30.0, 2e-8), ..OPTIONS };
 

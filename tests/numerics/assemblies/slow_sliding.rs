@@ -3,7 +3,6 @@
 
 use super::*;
 use crate::prelude::*;
-use crate::structural_damping::dense_eigenvalues;
 
 /// Damping factor below which no mode may be missing.
 const LIGHT: f64 = 0.5;

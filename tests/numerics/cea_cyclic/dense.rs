@@ -1,8 +1,6 @@
 //! Independent checks: dense solutions of harmonics folded from the matrices of the full mesh.
 
-use crate::cea_cyclic::model::paper;
 use crate::prelude::*;
-use faer::linalg::solvers::Solve;
 
 /// Harmonic `n` of a matrix of the full mesh: couplings of the first sector's unknowns with everything,
 /// weighted with the wave's phase. Exact, because in polar frames every sector has the same rows.

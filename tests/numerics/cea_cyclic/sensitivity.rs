@@ -1,6 +1,5 @@
 //! Independent check: sensitivities against finite differences of the whole analysis.
 
-use crate::cea_cyclic::model::paper;
 use crate::prelude::*;
 use crate::waves::Differences;
 

@@ -1,6 +1,5 @@
 //! Onsets, intervals, completeness and maps, against the paper, the continuum and each other.
 
-use crate::cea_cyclic::model::paper;
 use crate::prelude::*;
 
 #[test]

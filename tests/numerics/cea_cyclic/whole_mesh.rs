@@ -1,4 +1,3 @@
-use crate::cea_cyclic::model::paper;
 use crate::normal_law::LAWS;
 use crate::prelude::*;
 use crate::shaft::model::{STEEL, model as on_shaft, on, rigid_contact, with_shaft};

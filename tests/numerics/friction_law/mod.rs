@@ -2,7 +2,6 @@
 //! speeds far above. Independent checks (closed forms, finite differences, the other half of the program), unless a
 //! test says otherwise.
 
-use crate::cea_cyclic::model::paper;
 use crate::prelude::*;
 pub mod block;
 mod node;

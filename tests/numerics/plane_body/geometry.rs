@@ -1,7 +1,6 @@
 //! Splitting of elements: arcs and nodes (independent checks).
 
 use crate::prelude::*;
-use crate::triangles::triangles;
 
 const KINDS: [ElementKind; 4] = [Quad4, Quad8, Tri3, Tri6];
 

@@ -10,7 +10,6 @@
 
 use super::{folder, table};
 use crate::prelude::*;
-use std::fmt::Write;
 
 /// The targets above the rigid motions, Hz.
 const TARGETS: [f64; 7] = [45.897, 109.44, 109.44, 167.89, 193.59, 206.19, 206.19];
