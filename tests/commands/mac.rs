@@ -167,10 +167,7 @@ fn a_table_has_shapes_by_their_names_in_any_columns() {
 
 #[test]
 fn a_universal_file_has_nodes_and_complex_shapes() {
-    let text = "    -1\n    15\n         1         0         0        11  1.00000E+00  2.00000E+00  3.00000E+00\n    -1\n\
-                \x20   -1\n    55\na\nb\nc\nd\ne\n         1         3         2         8         5         3\n\
-                \x20        2         6         1         4\n -1.0E+00  6.28318530717959E+03  0. 0. 0. 0.\n\
-                \x20        1\n  1.0E+00  2.0E+00  3.0E+00  4.0E+00  5.0E+00  6.0E+00\n    -1\n";
+    let text = include_str!("../cases/shape.unv");
     let shapes = read_shapes(text.as_bytes(), "s.unv").unwrap();
     assert_eq!(shapes[0].name, "4");
     assert!((shapes[0].frequency_hz.unwrap() - 1000.0).abs() < 1e-9);

@@ -7,11 +7,7 @@ use std::process::{Child, Stdio};
 use std::sync::OnceLock;
 
 /// A coarse disc: thirty transients of some five milliseconds each.
-const STUDY: &str = "[transient]\nduration = 0.01
-[transient.perturbation]\nharmonics = [1, 2]\nvelocity = 1e-3
-[output]\nsample_interval = 4e-6
-[sweep]\n\"contact.friction_coefficient\" = [0.2, 0.3, 0.4]\n\
-     \"contact.rotation_speed_rpm\" = { from = 10, to = 6000, count = 10, spacing = \"log\" }\n";
+const STUDY: &str = include_str!("../cases/sweep-of-short-runs.toml");
 
 struct Study {
     root: TempDir,

@@ -9,8 +9,7 @@ fn folder() -> TempDir {
     let mesh = AnnulusMesh::generate(&annulus(Quad4, 24, 4)).unwrap().mesh;
     let numbers: Vec<usize> = (1001..=1000 + mesh.node_count()).collect();
     let bytes = write_msh(&mesh, FORMS[2], &numbers, |[x, y]| [1e3 * x, 1e3 * y]);
-    let run = "[cea]\nmodes = 6\ngeometric_stiffness = false\n[transient]\nduration = 2e-4\nexpansion_time = 1e-4\n\
-        [transient.perturbation]\nharmonics = [2]\n[output]\nsample_interval = 2e-6\nsnapshots = [1e-4]\n";
+    let run = include_str!("../../cases/short-run.toml");
     let generated = "[geometry]\ninner_radius = 0.0205\nouter_radius = 0.0905\n\
         [mesh]\ncircumferential_elements = 24\nradial_elements = 4\n";
     let imported =
