@@ -55,7 +55,7 @@
 //! | (7) central differences | [`transient::CentralDifference`] |
 //! | (8) to (12) energy and powers | [`transient::Sample`] |
 //! | rotating wave `u = U(r, n theta + omega t)` | [`cycle::LimitCycle`], [`cycle::CycleSolver`] |
-//! | its perturbations `e^{lambda t} e^{i p theta} W(r, n theta + omega t)` | [`cycle::FloquetExponent`] |
+//! | its perturbations `e^{lambda t} e^{i p theta} W(r, n theta + omega t)` | [`cycle::RidingMode`] |
 //! | frequency response `(K + i omega C - omega^2 M) u = f` | [`frf`] |
 //! | half-power damping, fit of equation (3) | [`signal`] |
 //!

@@ -3,7 +3,7 @@
 use super::field::{amplitude, slips};
 use super::limit_cycle::LimitCycle;
 use super::stepping::MeshStepping;
-use super::{CycleError, CycleStability, Verdict};
+use super::{CycleError, FloquetMultiplier, FloquetMultipliers, Verdict};
 use crate::linalg::{c64, interruption};
 use std::f64::consts::TAU;
 
@@ -65,11 +65,16 @@ impl Confirmation {
     }
 }
 
-/// Periods that tell: `least`, or as many as a perturbation that may grow, at a rate with its uncertainty (1/s), needs for so many
-/// e-folds, `e_folds` divided by the period.
-pub(super) fn telling_periods(growth: Option<[f64; 2]>, e_folds: f64, least: usize) -> usize {
-    let growing = growth.filter(|&[rate, open]| Verdict::of_rate(rate, open) != Verdict::Stable);
-    let wanted = growing.map_or(0, |[rate, open]| (e_folds / rate.abs().max(open)).ceil() as usize);
+/// Periods that tell: `least`, or as many as the leading perturbation, where it may grow, needs for so many e-folds, `e_folds`
+/// divided by the period.
+pub(super) fn telling_periods(
+    leading: Option<&FloquetMultiplier>,
+    e_folds: f64,
+    least: usize,
+) -> usize {
+    let growing = leading.filter(|own| own.verdict() != Verdict::Stable);
+    let rate = growing.map(|own| own.growth_rate.abs().max(own.uncertainty));
+    let wanted = rate.map_or(0, |rate| (e_folds / rate).ceil() as usize);
     least.max(wanted.min(MOST_PERIODS))
 }
 
@@ -87,14 +92,14 @@ impl MeshStepping<'_> {
     pub fn confirm(
         &self,
         cycle: &LimitCycle,
-        stability: Option<&CycleStability>,
+        stability: Option<&FloquetMultipliers>,
         periods: usize,
     ) -> Result<Confirmation, CycleError> {
-        let leading = stability.and_then(CycleStability::leading);
-        let growth = leading.map(|found| [found.exponent.re, found.uncertainty]);
-        let periods = telling_periods(growth, E_FOLDS * cycle.frequency_hz(), periods);
+        let leading = stability.and_then(FloquetMultipliers::leading);
+        let periods = telling_periods(leading, E_FOLDS * cycle.frequency_hz(), periods);
         let surface_speed = cycle.state.point.contact.rotation_speed * self.solver.body.radius;
-        let seed = leading.map(|found| (found.harmonic, SEED * surface_speed));
+        let mode = leading.and_then(|found| found.mode);
+        let seed = mode.map(|mode| (mode.harmonic, SEED * surface_speed));
         let (mut run, steps) = self.start(cycle, seed)?;
         let look_every = (steps / LOOKS).max(1);
         let first = (periods - periods / 5) * steps;
@@ -134,7 +139,7 @@ impl MeshStepping<'_> {
             status: counts.fractions(),
             external_power: powers.external / counted as f64,
             e_folds: leading
-                .map_or(0.0, |found| found.exponent.re * periods as f64 / cycle.frequency_hz()),
+                .map_or(0.0, |found| found.growth_rate * periods as f64 / cycle.frequency_hz()),
         })
     }
 }

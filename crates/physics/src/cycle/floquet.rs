@@ -1,13 +1,13 @@
-//! Leading Floquet exponents of a limit cycle, from the map of perturbations over one period.
+//! Leading multipliers of a rotating wave, from the map of perturbations over one period.
 
 use super::CycleError;
 use super::arnoldi::{MultiplierSearch, Ritz, unit};
-use super::stability::{CycleStability, FloquetExponent};
+use super::stability::{FloquetMultiplier, FloquetMultipliers, RidingMode};
 use super::stepping::Period;
 use crate::linalg::c64;
 use std::f64::consts::TAU;
 
-/// Exponents kept, and the residual of a multiplier that is worth listing.
+/// Multipliers kept, and the residual of one that is worth listing.
 const LISTED: (usize, f64) = (4, 0.2);
 /// The leading ones that must have converged, and the residual of a converged multiplier, relative to it.
 const CONVERGED: (usize, f64) = (2, 4e-3);
@@ -22,7 +22,7 @@ const START_HARMONICS: usize = 13;
 /// Share of a known start that such a one adds, lest a mode that comes up between two cycles is missed.
 const UNKNOWN_SHARE: f64 = 0.1;
 
-/// The leading exponents of a cycle, and the sum of their modes, of unit length: a start for those of its neighbours.
+/// The leading multipliers of a cycle, and the sum of their modes, of unit length: a start for those of its neighbours.
 ///
 /// Arnoldi's process on the map of one period, until the leading multipliers have converged.
 ///
@@ -32,10 +32,10 @@ const UNKNOWN_SHARE: f64 = 0.1;
 ///
 /// # Errors
 /// [`CycleError::NotFound`] where the leading multipliers do not converge.
-pub(super) fn leading_exponents(
+pub(super) fn leading_multipliers(
     period: &Period<'_>,
     known: Option<&[f64]>,
-) -> Result<(CycleStability, Vec<f64>), CycleError> {
+) -> Result<(FloquetMultipliers, Vec<f64>), CycleError> {
     let mut start = unit(unknown_start(period));
     if let Some(known) = known.filter(|known| known.len() == start.len()) {
         for (x, k) in start.iter_mut().zip(known) {
@@ -49,7 +49,11 @@ pub(super) fn leading_exponents(
         listed: LISTED,
         is_shift: &|own| own.value.ln().norm() < reach * TAU && own.along > least,
     };
-    let found = search.run(&start, period.shift(), |direction| period.map(direction));
+    let mut periods = 0;
+    let found = search.run(&start, period.shift(), |direction| {
+        periods += 1;
+        period.map(direction)
+    });
     let found = found.map_err(|dimension| {
         CycleError::NotFound(format!(
             "the stability of this limit cycle cannot be told: no exponent has converged after \
@@ -58,24 +62,24 @@ pub(super) fn leading_exponents(
     })?;
     let neutral = found.shift.map(|shift| shift.ln() / period.duration);
     let mut modes = vec![0.0; period.dimension()];
-    let mut exponents = Vec::new();
+    let mut multipliers = Vec::new();
     for ritz in &found.listed {
         let vector = found.vector(ritz);
         modes.iter_mut().zip(&vector).for_each(|(x, v)| *x += v.re + v.im);
-        exponents.push(exponent(period, ritz, &vector, neutral));
+        multipliers.push(multiplier(period, ritz, &vector, neutral));
     }
-    Ok((CycleStability { exponents }, unit(modes)))
+    Ok((FloquetMultipliers { multipliers, shift: found.shift, periods }, unit(modes)))
 }
 
-/// A multiplier as an exponent, with the circumferential harmonic that moves the edge most and its frequency.
-fn exponent(
+/// A multiplier with the circumferential harmonic that moves the edge most and its frequency.
+fn multiplier(
     period: &Period<'_>,
-    multiplier: &Ritz,
+    ritz: &Ritz,
     vector: &[c64],
     neutral: Option<c64>,
-) -> FloquetExponent {
+) -> FloquetMultiplier {
     let omega = period.frequency();
-    let exponent = multiplier.value.ln() / period.duration;
+    let turning = ritz.value.arg() / period.duration;
     let (sectors, per) = (period.sectors() as isize, period.sector_dofs());
     let half = vector.len() / 2;
     // Amplitude of e^{i m theta} in one dof of the edge, of displacement or velocity.
@@ -96,21 +100,25 @@ fn exponent(
     let dof = usize::from(amplitude(harmonic, 0, 1).norm() > amplitude(harmonic, 0, 0).norm());
     // v / (omega u) of that harmonic tells its frequency, which the multiplier knows up to multiples of omega.
     let ratio = amplitude(harmonic, half, dof) / amplitude(harmonic, 0, dof);
-    let whole = (ratio.im - exponent.im / omega).round();
-    let fixed = exponent.im + whole * omega;
+    let whole = (ratio.im - turning / omega).round();
+    let fixed = turning + whole * omega;
     // In the frame of the wave, harmonic p + k n has the frequency Im lambda + k omega.
     let (n, count) = (period.harmonic, period.harmonic.abs());
     let rest = harmonic.rem_euclid(count);
     let signed = if 2 * rest > count { rest - count } else { rest };
     let turns = (harmonic - signed) / n;
-    let residual = multiplier.residual / period.duration;
+    let residual = ritz.residual / period.duration;
     let shift = neutral.map_or(NEUTRAL[0] * omega, |neutral| 0.5 * neutral.norm());
-    FloquetExponent {
-        exponent: c64::new(exponent.re, fixed - turns as f64 * omega),
-        uncertainty: FLOOR * omega + shift + residual + 0.01 * exponent.re.abs(),
+    let mode = RidingMode {
+        frequency: fixed - turns as f64 * omega,
         class: signed.unsigned_abs(),
         harmonic: harmonic.unsigned_abs(),
         frequency_hz: fixed.abs() / TAU,
+    };
+    let open = FLOOR * omega + shift + residual;
+    FloquetMultiplier {
+        mode: Some(mode),
+        ..FloquetMultiplier::new(ritz.value, period.duration, open)
     }
 }
 

@@ -55,7 +55,9 @@ pub use onset::{DiscModel, MODES, Onset};
 pub use parameter::{CriticalValue, OperatingPoint, Parameter};
 pub use solver::CycleSolver;
 pub use solver_stability::SteppedCycle;
-pub use stability::{CycleStability, FloquetExponent, StabilityChange, Verdict, differing};
+pub use stability::{
+    FloquetMultiplier, FloquetMultipliers, RidingMode, StabilityChange, Verdict, differing,
+};
 pub use state::{PointState, WaveState};
 pub use stepping::{MeshStepping, Period};
 pub use two_waves::{Measured, TwoWaveBranch, TwoWaveMotion, TwoWaveSearch, TwoWaves};

@@ -1,9 +1,9 @@
 //! Stability of cycles, and where a branch changes it.
 
-use super::floquet::leading_exponents;
+use super::floquet::leading_multipliers;
 use super::limit_cycle::LimitCycle;
 use super::parameter::Parameter;
-use super::stability::{CycleStability, StabilityChange, crossing};
+use super::stability::{FloquetMultipliers, StabilityChange, crossing};
 use super::stepping::MeshStepping;
 use super::{CycleError, CycleSolver};
 use crate::fem::operator::SimdLevel;
@@ -17,7 +17,7 @@ pub struct SteppedCycle {
     /// The cycle, its powers and fractions those of the transient.
     pub cycle: LimitCycle,
     /// Its stability.
-    pub stability: CycleStability,
+    pub stability: FloquetMultipliers,
     /// Sum of its leading modes: where to begin with those of a neighbour.
     modes: Vec<f64>,
 }
@@ -33,7 +33,7 @@ impl SteppedCycle {
 
 impl CycleSolver {
     /// Growth of small perturbations of a cycle.
-    pub fn stability(&self, cycle: &LimitCycle) -> Result<CycleStability, CycleError> {
+    pub fn stability(&self, cycle: &LimitCycle) -> Result<FloquetMultipliers, CycleError> {
         Ok(self.stepping(SimdLevel::detect())?.settle(cycle, None)?.stability)
     }
 }
@@ -52,7 +52,7 @@ impl MeshStepping<'_> {
     ) -> Result<SteppedCycle, CycleError> {
         let period = self.period(cycle)?;
         let known = neighbour.map(|own| own.modes.as_slice());
-        let (stability, modes) = leading_exponents(&period, known)?;
+        let (stability, modes) = leading_multipliers(&period, known)?;
         Ok(SteppedCycle { cycle: period.stepped(cycle), stability, modes })
     }
 
@@ -78,11 +78,11 @@ impl MeshStepping<'_> {
             };
             let settled = self.settle(&cycle, Some(&ends[1]))?;
             let leading = settled.stability.leading();
-            let side = usize::from(leading.is_some_and(|found| found.exponent.re > 0.0));
+            let side = usize::from(leading.is_some_and(|found| found.growth_rate > 0.0));
             ends[side] = settled;
         }
-        let growing = ends[1].stability.leading();
-        let rate = |end: &SteppedCycle| end.stability.leading().map(|found| found.exponent.re);
+        let growing = ends[1].stability.leading().and_then(|found| found.mode);
+        let rate = |end: &SteppedCycle| end.stability.leading().map(|found| found.growth_rate);
         Ok(StabilityChange {
             value: crossing(ends.each_ref().map(|end| (at(end), rate(end)))),
             harmonic: growing.map_or(0, |found| found.harmonic),

@@ -1,14 +1,30 @@
 //! Stability of limit cycles: growth of small perturbations that ride on the wave.
 
 use crate::linalg::c64;
+use std::f64::consts::TAU;
 
-/// One exponent of a small perturbation of a limit cycle, and the mode that has it.
+/// A small perturbation of a limit cycle, by what it is a period later.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FloquetExponent {
-    /// `lambda` in the frame of the wave: growth rate in 1/s and frequency in rad/s.
-    pub exponent: c64,
-    /// What its growth rate may be wrong by, 1/s.
+pub struct FloquetMultiplier {
+    /// `rho = e^{lambda T}`: the perturbation is `rho` times as large after a period.
+    pub multiplier: c64,
+    /// `Re lambda = ln |rho| / T`, 1/s.
+    pub growth_rate: f64,
+    /// What that may be wrong by, 1/s.
     pub uncertainty: f64,
+    /// `|arg rho| / 2 pi T`: distance of its frequency from the nearest harmonic of the cycle, Hz.
+    pub beat_hz: f64,
+    /// What it is around a disc, where it rides on a rotating wave.
+    pub mode: Option<RidingMode>,
+}
+
+/// A mode that rides on a rotating wave, `e^{lambda t} e^{i p theta} W(r, n theta + omega t)`.
+///
+/// It holds the circumferential harmonics `p + k n`, each with the frequency `Im lambda + k omega`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RidingMode {
+    /// `Im lambda`, its frequency in the frame of the wave, rad/s.
+    pub frequency: f64,
     /// Class `p`, `0 <= p <= n / 2`: the mode holds harmonics that differ from `+-p` by a multiple of `n`.
     pub class: usize,
     /// Circumferential harmonic at which the mode moves the edge most.
@@ -29,22 +45,6 @@ pub enum Verdict {
 }
 
 impl Verdict {
-    /// What a growth rate says for sure.
-    pub(super) fn of_rate(rate: f64, uncertainty: f64) -> Self {
-        match rate {
-            rate if rate > uncertainty => Self::Unstable,
-            rate if rate < -uncertainty => Self::Stable,
-            _ => Self::Undecided,
-        }
-    }
-
-    /// What all perturbations together say.
-    pub(super) fn of_all(all: impl Iterator<Item = Self> + Clone) -> Self {
-        let has = |wanted: Self| all.clone().any(|found| found == wanted);
-        let known = [Self::Unstable, Self::Undecided].into_iter().find(|&wanted| has(wanted));
-        known.unwrap_or(Self::Stable)
-    }
-
     /// Whether all decay, where that is known for sure.
     pub fn is_stable(self) -> Option<bool> {
         (self != Self::Undecided).then_some(self == Self::Stable)
@@ -60,15 +60,16 @@ impl Verdict {
     }
 }
 
-/// Stability of a limit cycle to every perturbation that its mesh can carry.
-///
-/// A perturbation `e^{lambda t} e^{i p theta} W(r, n theta + omega t)` holds the circumferential harmonics `p + k n`, each
-/// with the frequency `Im lambda + k omega`.
+/// The leading multipliers of a limit cycle: its stability to every perturbation that its mesh can carry.
 #[derive(Clone, Debug, PartialEq)]
-pub struct CycleStability {
-    /// Leading exponents, by falling growth rate. The wave's own shift in phase, which neither grows nor decays, is left
-    /// out; of each conjugate pair one is kept.
-    pub exponents: Vec<FloquetExponent>,
+pub struct FloquetMultipliers {
+    /// By falling modulus, one of each conjugate pair, without the shift in phase, which neither grows nor decays.
+    pub multipliers: Vec<FloquetMultiplier>,
+    /// That of the shift in phase, which is 1 but for the steps in which nodes change their status; none where no direction was
+    /// told to be it.
+    pub shift: Option<c64>,
+    /// Periods spent.
+    pub periods: usize,
 }
 
 /// Where a branch of limit cycles changes its stability.
@@ -110,22 +111,51 @@ impl StabilityChange {
     }
 }
 
-impl FloquetExponent {
+impl FloquetMultiplier {
+    /// That of a direction which the map of a period (s) multiplies; `open` is what its growth rate may be wrong by (1/s) besides a
+    /// hundredth of itself.
+    pub(super) fn new(multiplier: c64, period: f64, open: f64) -> Self {
+        let growth_rate = multiplier.norm().ln() / period;
+        Self {
+            multiplier,
+            growth_rate,
+            uncertainty: open + 0.01 * growth_rate.abs(),
+            beat_hz: multiplier.arg().abs() / (TAU * period),
+            mode: None,
+        }
+    }
+
+    /// Where it leaves the unit circle, in words: a pair at an angle brings a second frequency, one at -1 twice the period, one at 1 a
+    /// neighbouring cycle.
+    pub fn kind(&self) -> &'static str {
+        match self.multiplier {
+            own if own.im != 0.0 => "a Neimark-Sacker bifurcation, to two frequencies",
+            own if own.re < 0.0 => "a period doubling",
+            _ => "a fold or a branching to another cycle",
+        }
+    }
+
     /// What its growth rate says for sure.
     pub fn verdict(&self) -> Verdict {
-        Verdict::of_rate(self.exponent.re, self.uncertainty)
+        match self.growth_rate {
+            rate if rate > self.uncertainty => Verdict::Unstable,
+            rate if rate < -self.uncertainty => Verdict::Stable,
+            _ => Verdict::Undecided,
+        }
     }
 }
 
-impl CycleStability {
-    /// The exponent that grows fastest or decays slowest; `None` if all decay too fast to be found.
-    pub fn leading(&self) -> Option<&FloquetExponent> {
-        self.exponents.first()
+impl FloquetMultipliers {
+    /// The multiplier of the fastest growth or slowest decay.
+    pub fn leading(&self) -> Option<&FloquetMultiplier> {
+        self.multipliers.first()
     }
 
-    /// What the exponents say for sure.
+    /// What all of them together say for sure.
     pub fn verdict(&self) -> Verdict {
-        Verdict::of_all(self.exponents.iter().map(FloquetExponent::verdict))
+        let has = |wanted: Verdict| self.multipliers.iter().any(|own| own.verdict() == wanted);
+        let known = [Verdict::Unstable, Verdict::Undecided].into_iter().find(|&wanted| has(wanted));
+        known.unwrap_or(Verdict::Stable)
     }
 
     /// Whether every perturbation decays for sure.
@@ -133,10 +163,11 @@ impl CycleStability {
         self.verdict() == Verdict::Stable
     }
 
-    /// Circumferential harmonics of the modes that grow for sure, rising.
+    /// Circumferential harmonics of the modes that grow for sure, rising; of a rotating wave.
     pub fn growing_harmonics(&self) -> Vec<usize> {
-        let growing = self.exponents.iter().filter(|e| e.verdict() == Verdict::Unstable);
-        let mut harmonics: Vec<usize> = growing.map(|found| found.harmonic).collect();
+        let growing = self.multipliers.iter().filter(|own| own.verdict() == Verdict::Unstable);
+        let mut harmonics: Vec<usize> =
+            growing.filter_map(|own| Some(own.mode?.harmonic)).collect();
         harmonics.sort_unstable();
         harmonics.dedup();
         harmonics

@@ -26,7 +26,7 @@ pub use record::{CycleMotion, SteppedMotion};
 pub use summary::*;
 pub use two_waves::{TwoWaveRow, TwoWaveSummary};
 pub use verdicts::*;
-pub use waves::{Absence, CycleResult, Finding, FoundWave};
+pub use waves::{Absence, CycleResult, FoundWave};
 
 pub(super) use branch::{ALONG, BRANCH};
 pub(super) use record::CONTACT_NODES;

@@ -4,17 +4,16 @@ use super::branch::{BranchRow, BranchSummary, MotionBranch, StabilityChangeSumma
 use super::name::{CycleName, ModeOfCycle};
 use super::record::{ContactNode, CycleMotion, MotionRecord, SteppedMotion};
 use super::summary::SoughtCycle;
-use super::verdicts::{ConfirmationSummary, KnownStability, Perturbation, StabilitySummary, known};
+use super::verdicts::{ConfirmationSummary, Finding, Perturbation, StabilitySummary, known};
 use crate::ShownBody;
 use crate::npz::NpzArchive;
-use crate::summary::{MeanPowers, StatusFractions, present};
+use crate::summary::{MeanPowers, StatusFractions};
 use frictionsim_chart::extremes;
 use frictionsim_physics::contact::ContactInterface;
 use frictionsim_physics::cycle::periodic::{
-    ContactInstant, FloquetMultiplier, FloquetMultipliers, PeriodicBranch, PeriodicMotion,
-    REMAINDER, Sound, velocity_level,
+    ContactInstant, PeriodicBranch, PeriodicMotion, REMAINDER, Sound, velocity_level,
 };
-use frictionsim_physics::cycle::{Confirmation, CyclePowers, PhasePoint, Verdict};
+use frictionsim_physics::cycle::{Confirmation, CyclePowers, FloquetMultipliers, PhasePoint};
 use std::f64::consts::TAU;
 use std::io;
 use std::sync::Arc;
@@ -29,7 +28,7 @@ pub struct FoundCycle {
     /// Harmonics in which it is told.
     pub harmonic_count: usize,
     /// Its multipliers, where they were asked for, or why there are none.
-    pub stability: Option<Result<FloquetMultipliers, String>>,
+    pub stability: Finding,
     /// A transient that started beside it, where one was asked for.
     pub confirmation: Option<Confirmation>,
     /// The branch through it over the parameter of the case, where one was asked for.
@@ -51,27 +50,6 @@ pub struct PeriodicResult {
 pub(super) fn mean_powers(powers: &CyclePowers, thickness: f64) -> MeanPowers {
     let powers = powers.scaled(thickness);
     MeanPowers::of(&powers.contact, powers.material_damping)
-}
-
-/// What a multiplier is.
-fn perturbation(own: &FloquetMultiplier) -> Perturbation {
-    Perturbation {
-        growth_rate_per_s: own.growth_rate,
-        beat_hz: Some(own.beat_hz),
-        modulus: Some(own.multiplier.norm()),
-        argument_rad: Some(own.multiplier.arg()),
-        leads_to: (own.verdict() == Verdict::Unstable).then(|| own.kind().to_owned()),
-        uncertainty_per_s: present(own.uncertainty),
-        ..Perturbation::default()
-    }
-}
-
-/// What the multipliers say.
-fn stability(found: &FloquetMultipliers) -> KnownStability {
-    KnownStability {
-        shift: found.shift.map(|shift| shift.norm()),
-        ..KnownStability::new(found.verdict(), found.leading().map(perturbation))
-    }
 }
 
 /// The body that the motions are of.
@@ -164,8 +142,9 @@ impl FoundCycle {
         let nodes = contact.clone().map(|node| contact_node(&motion, node, body));
         let first = motion.instants.iter().take(1);
         let edge = first.flat_map(|at| contact.clone().map(|node| point(&motion, at, node)));
-        let exponents = known(&self.stability)
-            .map(|found| found.multipliers.iter().map(|own| (None, perturbation(own))).collect());
+        let exponents = known(&self.stability).map(|found| {
+            found.multipliers.iter().map(|own| (None, Perturbation::of(own))).collect()
+        });
         MotionRecord {
             name,
             frequency_hz: motion.frequency_hz,
@@ -201,7 +180,7 @@ impl PeriodicResult {
                         let agrees = run.agrees_with(&found.motion);
                         ConfirmationSummary::ran(run, agrees, body.thickness)
                     }),
-                    stability: StabilitySummary::of(&found.stability, stability),
+                    stability: StabilitySummary::of(&found.stability),
                     branch,
                     record: Some(Arc::new(found.record(name, body))),
                     ..sought

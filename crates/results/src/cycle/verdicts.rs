@@ -3,11 +3,14 @@
 use crate::finding::finding;
 use crate::summary::{StatusFractions, present};
 use frictionsim_output::Described;
-use frictionsim_physics::cycle::{Confirmation, Verdict};
+use frictionsim_physics::cycle::{Confirmation, FloquetMultiplier, FloquetMultipliers, Verdict};
 use serde::Serialize;
 
+/// What is known of the stability of a cycle, where it was asked for, or why there is nothing.
+pub type Finding = Option<Result<FloquetMultipliers, String>>;
+
 /// The analysis of a cycle, where there is one.
-pub fn known<T>(finding: &Option<Result<T, String>>) -> Option<&T> {
+pub fn known(finding: &Finding) -> Option<&FloquetMultipliers> {
     finding.as_ref().and_then(|finding| finding.as_ref().ok())
 }
 
@@ -83,12 +86,9 @@ pub enum StabilitySummary {
 
 impl StabilitySummary {
     /// Of an analysis, where it was asked for.
-    pub(super) fn of<T>(
-        finding: &Option<Result<T, String>>,
-        known: impl Fn(&T) -> KnownStability,
-    ) -> Option<Self> {
+    pub(super) fn of(finding: &Finding) -> Option<Self> {
         Some(match finding.as_ref()? {
-            Ok(found) => Self::Known(Box::new(known(found))),
+            Ok(found) => Self::Known(Box::new(KnownStability::of(found))),
             Err(error) => Self::Failed { error: error.clone() },
         })
     }
@@ -112,14 +112,16 @@ pub struct KnownStability {
 }
 
 impl KnownStability {
-    /// Of a verdict and the leading perturbation.
-    pub(super) fn new(verdict: Verdict, leading: Option<Perturbation>) -> Self {
+    /// What the multipliers of a cycle say; the shift of a wave only goes into their uncertainty.
+    fn of(found: &FloquetMultipliers) -> Self {
+        let (verdict, leading) = (found.verdict(), found.leading());
+        let is_wave = leading.is_some_and(|own| own.mode.is_some());
         Self {
             verdict: verdict.word().to_owned(),
             is_stable: verdict.is_stable(),
-            growing_harmonics: None,
-            leading,
-            shift: None,
+            growing_harmonics: is_wave.then(|| found.growing_harmonics()),
+            leading: leading.map(Perturbation::of),
+            shift: found.shift.filter(|_| !is_wave).map(|shift| shift.norm()),
         }
     }
 }
@@ -149,5 +151,32 @@ finding! {
         #[serde(skip_serializing_if = "Option::is_none")]
         leads_to: Option<String>;
         uncertainty_per_s: Option<f64> = "uncertainty of the growth rate";
+    }
+}
+
+impl Perturbation {
+    /// What is told of a multiplier: where it rides on a wave its mode, else the multiplier itself.
+    pub(super) fn of(own: &FloquetMultiplier) -> Self {
+        let known = Self {
+            growth_rate_per_s: own.growth_rate,
+            uncertainty_per_s: present(own.uncertainty),
+            ..Self::default()
+        };
+        match own.mode {
+            Some(mode) => Self {
+                class: Some(mode.class),
+                wave_frequency_rad_per_s: Some(mode.frequency),
+                harmonic: Some(mode.harmonic),
+                frequency_hz: Some(mode.frequency_hz),
+                ..known
+            },
+            None => Self {
+                beat_hz: Some(own.beat_hz),
+                modulus: Some(own.multiplier.norm()),
+                argument_rad: Some(own.multiplier.arg()),
+                leads_to: (own.verdict() == Verdict::Unstable).then(|| own.kind().to_owned()),
+                ..known
+            },
+        }
     }
 }

@@ -5,12 +5,12 @@ use super::motions::mean_powers;
 use super::name::{CycleName, WaveOfCycle};
 use super::record::{CycleMotion, MotionRecord};
 use super::summary::SoughtCycle;
-use super::verdicts::{ConfirmationSummary, KnownStability, Perturbation, StabilitySummary, known};
+use super::verdicts::{ConfirmationSummary, Finding, Perturbation, StabilitySummary, known};
 use crate::summary::{StatusFractions, present};
 use frictionsim_chart::extremes;
 use frictionsim_physics::cycle::periodic::{MotionFrame, velocity_level};
 use frictionsim_physics::cycle::{
-    Confirmation, CycleBranch, CycleStability, FloquetExponent, LimitCycle, StabilityChange,
+    Confirmation, CycleBranch, FloquetMultipliers, LimitCycle, StabilityChange,
 };
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -23,9 +23,6 @@ pub struct Absence {
     /// Whether that is so because steady sliding is stable against its wave.
     pub is_stable: bool,
 }
-
-/// What is known of the stability of a cycle.
-pub type Finding = Option<Result<CycleStability, String>>;
 
 /// What the search for the limit cycle of one family has led to.
 #[derive(Clone, Debug)]
@@ -90,27 +87,6 @@ fn value(branch: &CycleBranch, cycle: &LimitCycle) -> f64 {
     branch.parameter.in_key_units(branch.parameter.of(&cycle.state.point))
 }
 
-/// What an exponent is.
-fn perturbation(own: &FloquetExponent) -> Perturbation {
-    Perturbation {
-        growth_rate_per_s: own.exponent.re,
-        class: Some(own.class),
-        wave_frequency_rad_per_s: Some(own.exponent.im),
-        harmonic: Some(own.harmonic),
-        frequency_hz: Some(own.frequency_hz),
-        uncertainty_per_s: present(own.uncertainty),
-        ..Perturbation::default()
-    }
-}
-
-/// What the exponents say.
-fn stability(found: &CycleStability) -> KnownStability {
-    KnownStability {
-        growing_harmonics: Some(found.growing_harmonics()),
-        ..KnownStability::new(found.verdict(), found.leading().map(perturbation))
-    }
-}
-
 impl CycleResult {
     /// What is reported of it, on a disc of such a thickness and radius of the contact edge.
     pub fn sought(self, thickness: f64, inner_radius: f64) -> SoughtCycle {
@@ -127,7 +103,7 @@ impl CycleResult {
                     ..motion(&found.cycle, thickness)
                 }),
                 confirmation: found.confirmed(thickness),
-                stability: StabilitySummary::of(&found.stability, stability),
+                stability: StabilitySummary::of(&found.stability),
                 branch: found.branch(thickness, inner_radius),
                 record: Some(Arc::new(found.record(name, inner_radius))),
                 ..sought
@@ -164,8 +140,8 @@ impl FoundWave {
                 value: value(branch, cycle),
                 harmonic: Some(cycle.harmonic),
                 motion: motion(cycle, thickness),
-                growth_rate: found.and_then(CycleStability::leading).map(|own| own.exponent.re),
-                verdict: found.map(CycleStability::verdict),
+                growth_rate: found.and_then(FloquetMultipliers::leading).map(|own| own.growth_rate),
+                verdict: found.map(FloquetMultipliers::verdict),
                 is_fold: None,
             }
         });
@@ -191,8 +167,8 @@ impl FoundWave {
             findings.extend(along.zip(&self.branch_stability));
         }
         let rows = findings.into_iter().flat_map(|(at, finding)| {
-            let exponents = known(finding).into_iter().flat_map(|found| &found.exponents);
-            exponents.map(move |own| (Some(at), perturbation(own)))
+            let all = known(finding).into_iter().flat_map(|found| &found.multipliers);
+            all.map(move |own| (Some(at), Perturbation::of(own)))
         });
         rows.collect()
     }

@@ -29,7 +29,7 @@ use families::{Sought, continuation, critical_value, next_onset, solvers};
 use frictionsim_case::{Case, Cycle, StabilityChoice};
 use frictionsim_physics::cycle::periodic::MotionFrame;
 use frictionsim_physics::cycle::{
-    CriticalValue, CycleError, CycleSolver, CycleStability, Family, LimitCycle, MODES,
+    CriticalValue, CycleError, CycleSolver, Family, FloquetMultipliers, LimitCycle, MODES,
     MeshStepping, Onset, OperatingPoint, Parameter,
 };
 use frictionsim_physics::fem::lumped_masses;
@@ -246,7 +246,10 @@ pub fn operating_point(case: &Case) -> OperatingPoint {
 }
 
 /// Stability of a cycle; its powers and fractions become those of the transient.
-fn settle(stepping: &MeshStepping<'_>, cycle: &mut LimitCycle) -> Result<CycleStability, String> {
+fn settle(
+    stepping: &MeshStepping<'_>,
+    cycle: &mut LimitCycle,
+) -> Result<FloquetMultipliers, String> {
     let settled = stepping.settle(cycle, None).map_err(|e| e.to_string())?;
     *cycle = settled.cycle;
     Ok(settled.stability)

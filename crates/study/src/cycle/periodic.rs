@@ -13,10 +13,12 @@ pub use basin::boundary_of_modes;
 use frictionsim_case::{Case, Cycle, OnsetChoice, StabilityChoice, TimeStep};
 use frictionsim_physics::cea::{ComplexMode, PartWatch, SweepWatch};
 use frictionsim_physics::cycle::periodic::{
-    BranchRequest, FloquetMultipliers, Found, MotionRequest, PeriodMap, PeriodicBranch,
-    PeriodicMotion, Point, REMAINDER, Sound, find_from,
+    BranchRequest, Found, MotionRequest, PeriodMap, PeriodicBranch, PeriodicMotion, Point,
+    REMAINDER, Sound, find_from,
 };
-use frictionsim_physics::cycle::{Confirmation, CriticalValue, CycleError, Parameter};
+use frictionsim_physics::cycle::{
+    Confirmation, CriticalValue, CycleError, FloquetMultipliers, Parameter,
+};
 use frictionsim_physics::fem::operator::{SimdLevel, StiffnessOperator};
 use frictionsim_physics::transient::{OperatorChoice, TransientError, TransientModel};
 use frictionsim_results::ShownBody;

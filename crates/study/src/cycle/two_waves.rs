@@ -78,7 +78,8 @@ fn loses_to_another(result: &CycleResult) -> Option<(&LimitCycle, usize)> {
     let along = branch.zip(&found.branch_stability);
     [(&found.cycle, &found.stability)].into_iter().chain(along).find_map(|(cycle, finding)| {
         let leading = known(finding)?.leading()?;
-        let is_other = leading.harmonic != result.name.harmonic && leading.harmonic > 0;
-        (leading.verdict() == Verdict::Unstable && is_other).then_some((cycle, leading.harmonic))
+        let other = leading.mode?.harmonic;
+        let is_other = other != result.name.harmonic && other > 0;
+        (leading.verdict() == Verdict::Unstable && is_other).then_some((cycle, other))
     })
 }

@@ -4,12 +4,12 @@ use super::corrector::{Corrector, Point};
 use super::follower::Follower;
 use super::map::PeriodMap;
 use super::motion::PeriodicMotion;
-use super::multipliers::{COLUMNS, FloquetMultipliers, from_columns, to_columns};
+use super::multipliers::{COLUMNS, from_columns, to_columns};
 use super::search::Found;
 use crate::cea::SweepWatch;
 use crate::cycle::continuation::{Values, both_halves, joined};
 use crate::cycle::stability::{crossing, differing};
-use crate::cycle::{BranchEnd, Parameter};
+use crate::cycle::{BranchEnd, FloquetMultipliers, Parameter};
 use crate::transient::TransientError;
 
 /// Motions whose stability is worked out with one map; the groups run in parallel.
@@ -222,8 +222,7 @@ impl BranchRequest<'_, '_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::cycle::CyclePowers;
-    use crate::cycle::periodic::FloquetMultiplier;
+    use crate::cycle::{CyclePowers, FloquetMultiplier};
     use crate::linalg::c64;
 
     fn motion(value: f64, growth_rate: f64) -> BranchMotion {
@@ -233,6 +232,7 @@ mod tests {
                 growth_rate,
                 uncertainty: 1.0,
                 beat_hz: 0.0,
+                mode: None,
             }],
             shift: None,
             periods: 0,

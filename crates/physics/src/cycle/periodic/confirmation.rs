@@ -2,7 +2,7 @@
 
 use super::map::{PeriodMap, PeriodicState};
 use super::motion::PeriodicMotion;
-use super::multipliers::FloquetMultiplier;
+use crate::cycle::FloquetMultiplier;
 use crate::cycle::confirmation::{Confirmation, telling_periods, turned};
 use crate::cycle::field::slips;
 use crate::linalg::{GaussianNoise, c64, interruption};
@@ -32,8 +32,7 @@ impl Confirmation {
         leading: Option<&FloquetMultiplier>,
         least: usize,
     ) -> Self {
-        let growth = leading.map(|found| [found.growth_rate, found.uncertainty]);
-        let periods = telling_periods(growth, E_FOLDS / state.period, least);
+        let periods = telling_periods(leading, E_FOLDS / state.period, least);
         let start = perturbed(map, state);
         map.place(&start);
         // The last fifth: its first harmonic period by period, its powers and statuses.

@@ -14,7 +14,7 @@
 //! no derivative. Source: Lust, Roose, Spence and Champneys, An adaptive Newton-Picard algorithm
 //! with subspace iteration, SIAM J. Sci. Comput. 19 (1998). It starts on the shape of a growing
 //! mode, at the amplitude at which friction stops to feed it ([`balanced_start`]). Floquet
-//! multipliers come from Arnoldi's process on differences of the map ([`FloquetMultipliers`]). What
+//! multipliers come from Arnoldi's process on differences of the map ([`super::FloquetMultipliers`]). What
 //! is tried where the first start leads nowhere or to the cycle of another mode says [`find_from`].
 //!
 //! Along a parameter `p` ([`BranchRequest`]) motion, period and `p` are found together, `P(x, T, p)
@@ -52,7 +52,6 @@ pub use motion::{
     ContactInstant, MotionFrame, MotionRequest, PeriodicMotion, REFERENCE_VELOCITY, REMAINDER,
     velocity_level,
 };
-pub use multipliers::{FloquetMultiplier, FloquetMultipliers};
 pub use search::{ACCEPTED, Found, TOLERANCE, find};
 pub use secants::{Change, SecantSpace};
 pub use sound::{AIR, FlatFace, REFERENCE_POWER, Sound};

@@ -1,12 +1,10 @@
 //! Floquet multipliers of a periodic motion.
 
 use super::map::{PeriodMap, PeriodicState};
-use crate::cycle::CycleError;
-use crate::cycle::Verdict;
-use crate::cycle::arnoldi::{LeadingMultipliers, MultiplierSearch, Ritz, unit};
+use crate::cycle::arnoldi::{MultiplierSearch, Ritz, unit};
 use crate::cycle::vector::{difference, norm};
+use crate::cycle::{CycleError, FloquetMultiplier, FloquetMultipliers};
 use crate::linalg::{GaussianNoise, c64};
-use std::f64::consts::TAU;
 
 /// Multipliers kept, and the residual of one that is worth listing.
 const LISTED: (usize, f64) = (6, 0.1);
@@ -19,48 +17,6 @@ const DIMENSIONS: [usize; 3] = [16, 100, 4];
 const PERTURBATION: f64 = 3e-3;
 /// A multiplier within this of 1 whose direction has this share along the motion is the shift in phase.
 const NEUTRAL: [f64; 2] = [0.1, 0.7];
-
-/// A multiplier of small perturbations over one period.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FloquetMultiplier {
-    /// `rho`: a perturbation is `rho` times as large after a period.
-    pub multiplier: c64,
-    /// `ln |rho| / T`, 1/s.
-    pub growth_rate: f64,
-    /// What that may be wrong by, 1/s.
-    pub uncertainty: f64,
-    /// `|arg rho| / 2 pi T`: distance of its frequency from the nearest harmonic of the cycle, Hz.
-    pub beat_hz: f64,
-}
-
-impl FloquetMultiplier {
-    /// Where it leaves the unit circle, in words: a pair at an angle brings a second frequency, one at -1 twice the period, one at 1 a
-    /// neighbouring cycle.
-    pub fn kind(&self) -> &'static str {
-        match self.multiplier {
-            own if own.im != 0.0 => "a Neimark-Sacker bifurcation, to two frequencies",
-            own if own.re < 0.0 => "a period doubling",
-            _ => "a fold or a branching to another cycle",
-        }
-    }
-
-    /// What its growth rate says for sure.
-    pub fn verdict(&self) -> Verdict {
-        Verdict::of_rate(self.growth_rate, self.uncertainty)
-    }
-}
-
-/// The leading multipliers of a periodic motion.
-#[derive(Clone, Debug, PartialEq)]
-pub struct FloquetMultipliers {
-    /// By falling modulus, one of each conjugate pair, without the shift in phase.
-    pub multipliers: Vec<FloquetMultiplier>,
-    /// That of the shift in phase, which is 1 but for the steps in which nodes change their status; none where no direction was
-    /// told to be it.
-    pub shift: Option<c64>,
-    /// Periods spent.
-    pub periods: usize,
-}
 
 impl FloquetMultipliers {
     /// Arnoldi's process on differences of the period map at a periodic motion, until the leading multipliers have converged.
@@ -96,7 +52,7 @@ impl FloquetMultipliers {
                  after {dimension} periods; let a transient tell (cycle.confirmation_periods)"
             ))
         })?;
-        // What nodes that change their status at another step leave of linearity.
+        // Nodes change their status at whole steps, so that differences of the map in opposite directions are not quite opposite: a bend.
         let first_listed = &found.listed[0];
         let along = unit(found.vector(first_listed).iter().map(|value| value.re).collect());
         let against: Vec<f64> = along.iter().map(|value| -value).collect();
@@ -104,34 +60,14 @@ impl FloquetMultipliers {
         let sums: Vec<f64> = sums.map(|(one, other)| 0.5 * (one + other)).collect();
         let bend = norm(&sums) / first_listed.value.norm();
         let periods = map.periods() - first;
-        Ok(Self::assessed(&found, (state.period, bend), periods))
-    }
-
-    /// With what the residuals, the shift's distance from 1, a hundredth of each rate and the `bend` leave open: nodes change their
-    /// status at whole steps, so that differences of the map in opposite directions are not quite opposite.
-    fn assessed(found: &LeadingMultipliers, (period, bend): (f64, f64), periods: usize) -> Self {
+        // What is open of every rate: how far the shift is from 1, the residual, and the bend.
         let shift = found.shift;
         let off = shift.map_or(NEUTRAL[0], |shift| shift.norm().ln().abs());
         let of = |ritz: &Ritz| {
-            let growth_rate = ritz.value.norm().ln() / period;
-            FloquetMultiplier {
-                multiplier: ritz.value,
-                growth_rate,
-                uncertainty: (ritz.residual + off + bend) / period + 0.01 * growth_rate.abs(),
-                beat_hz: ritz.value.arg().abs() / (TAU * period),
-            }
+            let open = (ritz.residual + off + bend) / state.period;
+            FloquetMultiplier::new(ritz.value, state.period, open)
         };
-        Self { multipliers: found.listed.iter().map(of).collect(), shift, periods }
-    }
-
-    /// The multiplier of the fastest growth or slowest decay.
-    pub fn leading(&self) -> Option<&FloquetMultiplier> {
-        self.multipliers.first()
-    }
-
-    /// Whether small perturbations decay.
-    pub fn verdict(&self) -> Verdict {
-        Verdict::of_all(self.multipliers.iter().map(FloquetMultiplier::verdict))
+        Ok(Self { multipliers: found.listed.iter().map(of).collect(), shift, periods })
     }
 }
 
@@ -164,6 +100,7 @@ pub(super) fn from_columns(columns: &[Vec<f64>]) -> Result<FloquetMultipliers, S
         growth_rate: own[2],
         uncertainty: own[3],
         beat_hz: own[4],
+        mode: None,
     });
     Ok(FloquetMultipliers {
         multipliers: multipliers.collect(),
@@ -178,15 +115,7 @@ mod tests {
 
     #[test]
     fn a_multiplier_tells_what_becomes_of_the_cycle() {
-        let kind = |re: f64, im: f64| {
-            let multiplier = FloquetMultiplier {
-                multiplier: c64::new(re, im),
-                growth_rate: 1.0,
-                uncertainty: 0.1,
-                beat_hz: 0.0,
-            };
-            multiplier.kind()
-        };
+        let kind = |re: f64, im: f64| FloquetMultiplier::new(c64::new(re, im), 1.0, 0.1).kind();
         assert!(kind(0.6, 0.9).contains("Neimark-Sacker"));
         assert!(kind(-1.1, 0.0).contains("doubling"));
         assert!(kind(1.1, 0.0).contains("fold"));
@@ -200,6 +129,7 @@ mod tests {
                 growth_rate: -3.0,
                 uncertainty: 0.3,
                 beat_hz: 12.5,
+                mode: None,
             }],
             shift: Some(c64::new(0.999, 0.0)),
             periods: 17,
