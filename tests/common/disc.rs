@@ -212,7 +212,7 @@ pub fn recorded(
     let mut run = started(model, choice, settings);
     let mut record = Recorder::new(&run, &RecorderSettings::default()).unwrap();
     run.run(&mut record).unwrap();
-    (record, run.largest_residual())
+    (record, run.state().account.largest_residual)
 }
 
 /// Moduli and loss factors of a chain over a band, as a table has them.

@@ -2,15 +2,20 @@
 
 use super::field::{amplitude, slips};
 use super::limit_cycle::LimitCycle;
+use super::periodic::{PeriodMap, PeriodicMotion, PeriodicState};
 use super::stepping::MeshStepping;
 use super::{CycleError, FloquetMultiplier, FloquetMultipliers, Verdict};
-use crate::linalg::{c64, interruption};
+use crate::linalg::{GaussianNoise, c64, interruption};
 use std::f64::consts::TAU;
 
-/// Velocity of the seed in the harmonic of the leading perturbation, in units of the slip speed.
+/// Velocity of the seed in the harmonic of the leading perturbation of a wave, in units of the slip speed.
 const SEED: f64 = 0.01;
-/// E-folds of the leading perturbation over which the transient runs: by them it grows from the seed beyond the wave.
+/// Length of the random perturbation of a motion of the whole mesh, relative to its amplitude.
+const RANDOM_SEED: f64 = 0.01;
+/// E-folds of the leading perturbation over which the transient runs: by them it grows from the seed beyond the wave; of a random start
+/// it is a small part.
 const E_FOLDS: f64 = 5.0;
+const E_FOLDS_OF_RANDOM: f64 = 8.0;
 /// Most periods that are spent on a slow perturbation.
 const MOST_PERIODS: usize = 200;
 /// Looks at the edge in each period.
@@ -18,10 +23,12 @@ const LOOKS: usize = 16;
 /// Harmonics of the edge that are looked at, besides the wave's own.
 const HARMONICS: usize = 8;
 
-/// Largest difference between a cycle and a transient that stays on it: of the frequency and of the external power,
+/// Largest difference between a wave and a transient that stays on it: of the frequency and of the external power,
 /// relative, and of the fractions of contact nodes. On the coarsest meshes that carry waves of the disc (60 x 14) the
 /// three are at most 0.003, 0.016 and 0.034; a wave that is no motion of the disc is left within a few periods.
-const TOLERANCE: [f64; 3] = [0.01, 0.05, 0.1];
+const NEAR_WAVE: [f64; 3] = [0.01, 0.05, 0.1];
+/// The same of a motion of the whole mesh, which the transient itself has.
+const NEAR_MOTION: [f64; 3] = [1e-3, 0.02, 0.02];
 
 /// The last fifth of a short transient that started beside a limit cycle, a wave or a motion of the whole mesh; for each metre of
 /// thickness.
@@ -42,15 +49,21 @@ pub struct Confirmation {
 }
 
 impl Confirmation {
-    /// Whether the transient still is on the cycle.
+    /// Whether the transient still is on the wave.
     pub fn agrees(&self, cycle: &LimitCycle) -> bool {
         let wanted = [cycle.frequency_hz(), cycle.powers.contact.external];
         self.main_harmonic == Some(cycle.harmonic)
-            && self.is_within(wanted, cycle.fractions, TOLERANCE)
+            && self.is_within(wanted, cycle.fractions, NEAR_WAVE)
+    }
+
+    /// Whether the transient still is on the motion.
+    pub fn agrees_with(&self, motion: &PeriodicMotion) -> bool {
+        let wanted = [motion.frequency_hz, motion.powers.contact.external];
+        self.is_within(wanted, motion.fractions, NEAR_MOTION)
     }
 
     /// Whether it has the `[frequency, power]` that are wanted, within bounds relative to them, and the fractions of contact nodes.
-    pub(super) fn is_within(
+    fn is_within(
         &self,
         wanted: [f64; 2],
         fractions: [f64; 3],
@@ -67,11 +80,7 @@ impl Confirmation {
 
 /// Periods that tell: `least`, or as many as the leading perturbation, where it may grow, needs for so many e-folds, `e_folds`
 /// divided by the period.
-pub(super) fn telling_periods(
-    leading: Option<&FloquetMultiplier>,
-    e_folds: f64,
-    least: usize,
-) -> usize {
+fn telling_periods(leading: Option<&FloquetMultiplier>, e_folds: f64, least: usize) -> usize {
     let growing = leading.filter(|own| own.verdict() != Verdict::Stable);
     let rate = growing.map(|own| own.growth_rate.abs().max(own.uncertainty));
     let wanted = rate.map_or(0, |rate| (e_folds / rate).ceil() as usize);
@@ -79,7 +88,7 @@ pub(super) fn telling_periods(
 }
 
 /// Angle that an amplitude turns through, rad.
-pub(super) fn turned(amplitudes: &[c64]) -> f64 {
+fn turned(amplitudes: &[c64]) -> f64 {
     amplitudes.windows(2).map(|pair| (pair[1] * pair[0].conj()).arg()).sum()
 }
 
@@ -142,4 +151,75 @@ impl MeshStepping<'_> {
                 .map_or(0.0, |found| found.growth_rate * periods as f64 / cycle.frequency_hz()),
         })
     }
+}
+
+impl Confirmation {
+    /// Steps the body through `least` periods or more from a cycle that is perturbed by a hundredth of its amplitude at random,
+    /// and reads the last fifth.
+    pub fn beside(
+        map: &mut PeriodMap<'_>,
+        state: &PeriodicState,
+        leading: Option<&FloquetMultiplier>,
+        least: usize,
+    ) -> Self {
+        let periods = telling_periods(leading, E_FOLDS_OF_RANDOM / state.period, least);
+        let start = perturbed(map, state);
+        map.place(&start);
+        // The last fifth: its first harmonic period by period, its powers and statuses.
+        let first = periods - periods / 5;
+        let mut turns: Vec<c64> = Vec::new();
+        let mut weights: Vec<c64> = Vec::new();
+        for period in 0..periods {
+            interruption::check();
+            if period == first {
+                map.run.take_sums();
+            }
+            let amplitudes = first_harmonic(map);
+            if period < first {
+                continue;
+            }
+            // How far the motion has turned against that of the first period looked at.
+            if weights.is_empty() {
+                weights = amplitudes.iter().map(|a| a.conj()).collect();
+            }
+            turns.push(amplitudes.iter().zip(&weights).map(|(a, w)| a * w).sum());
+        }
+        // What the first harmonic turns by from period to period is the difference of the frequencies.
+        let (powers, _, counts) = map.run.take_sums();
+        let share = turned(&turns) / TAU / (turns.len() - 1).max(1) as f64;
+        let steps = (periods - first) * map.steps();
+        Self {
+            periods,
+            main_frequency_hz: Some((1.0 + share) / state.period),
+            main_harmonic: None,
+            status: counts.fractions(),
+            external_power: powers.external / steps as f64,
+            e_folds: leading.map_or(0.0, |found| found.growth_rate * periods as f64 * state.period),
+        }
+    }
+}
+
+/// A state with a random velocity of a hundredth of its amplitude; a first period damps what the body damps fast.
+fn perturbed(map: &mut PeriodMap<'_>, state: &PeriodicState) -> PeriodicState {
+    let vibration = map.image(state).vibration;
+    let mut noise = GaussianNoise::new(2);
+    let half = state.motion.len() / 2;
+    let scale = RANDOM_SEED * vibration / (half as f64).sqrt();
+    let mut start = state.clone();
+    for value in &mut start.motion[half..] {
+        *value += scale * noise.draw().re;
+    }
+    start
+}
+
+/// First harmonic over one period of the displacement of each contact node along the counterface.
+fn first_harmonic(map: &mut PeriodMap<'_>) -> Vec<c64> {
+    let mut sums = vec![c64::new(0.0, 0.0); map.run.interface().len()];
+    let steps = map.steps();
+    for step in 0..steps {
+        map.run.advance();
+        let turn = c64::from_polar(1.0, -TAU * step as f64 / steps as f64);
+        sums.iter_mut().zip(slips(&map.run)).for_each(|(sum, slip)| *sum += slip * turn);
+    }
+    sums
 }

@@ -91,6 +91,42 @@ impl Values {
     }
 }
 
+/// The places where a branch turns back, told from the steps back that single points of the grid make as their contact
+/// changes.
+#[derive(Clone, Debug)]
+pub(super) struct Turning {
+    /// Sense of the parameter, +1 or -1.
+    direction: f64,
+    /// Farthest value in that sense.
+    farthest: f64,
+    /// Share of a value that a turning branch goes back by.
+    share: f64,
+    /// Where it has turned.
+    pub folds: Vec<f64>,
+}
+
+impl Turning {
+    /// A branch on a grid of so many points that leaves `value` in a sense of the parameter.
+    ///
+    /// The boundaries of stick, slip and opening move from point to point: a grid of `N` points knows the parameter to
+    /// `1 / N` of its value.
+    pub fn new(value: f64, direction: f64, points: usize) -> Self {
+        Self { direction, farthest: value, share: 1.0 / points as f64, folds: Vec::new() }
+    }
+
+    /// The next value along the branch.
+    pub fn follow(&mut self, value: f64) {
+        let ahead = (value - self.farthest) * self.direction;
+        if ahead >= 0.0 {
+            self.farthest = value;
+        } else if -ahead > self.share * self.farthest.abs() {
+            self.folds.push(self.farthest);
+            self.direction = -self.direction;
+            self.farthest = value;
+        }
+    }
+}
+
 /// A half of a branch on its way to its end.
 pub(super) trait Way {
     /// What ends the whole search.
@@ -178,5 +214,18 @@ mod tests {
         assert!(values.end_at(4.0, true) && values.end_at(0.5, false));
         assert!(!values.end_at(4.0, false));
         assert_eq!(joined(vec![2, 1], Some(3), vec![4, 5]), [1, 2, 3, 4, 5]);
+    }
+
+    #[test]
+    fn a_branch_folds_where_it_turns_back_by_more_than_a_point_of_its_grid() {
+        let followed = |values: &[f64]| {
+            let mut turning = Turning::new(values[0], 1.0, 100);
+            values.iter().for_each(|value| turning.follow(*value));
+            turning.folds
+        };
+        // Steps back of a thousandth on the way up are those of single points.
+        assert!(followed(&[1.0, 1.2, 1.1988, 1.3, 1.2987, 1.4]).is_empty());
+        // An S: up to 1.5, back to 1.1 with a step of its own, and up again.
+        assert_eq!(followed(&[1.0, 1.5, 1.4, 1.4007, 1.1, 1.2, 1.8]), [1.5, 1.1]);
     }
 }

@@ -1,9 +1,14 @@
-//! Leading multipliers of a rotating wave, from the map of perturbations over one period.
+//! Stability of rotating waves: leading multipliers, from the map of perturbations over one period, and where a branch changes it.
 
-use super::CycleError;
 use super::arnoldi::{MultiplierSearch, Ritz, unit};
-use super::stability::{FloquetMultiplier, FloquetMultipliers, RidingMode};
-use super::stepping::Period;
+use super::limit_cycle::LimitCycle;
+use super::parameter::Parameter;
+use super::stability::{
+    FloquetMultiplier, FloquetMultipliers, RidingMode, StabilityChange, crossing,
+};
+use super::stepping::{MeshStepping, Period};
+use super::{CycleError, CycleSolver};
+use crate::fem::operator::SimdLevel;
 use crate::linalg::c64;
 use std::f64::consts::TAU;
 
@@ -21,6 +26,88 @@ const FLOOR: f64 = 2e-4;
 const START_HARMONICS: usize = 13;
 /// Share of a known start that such a one adds, lest a mode that comes up between two cycles is missed.
 const UNKNOWN_SHARE: f64 = 0.1;
+/// Halvings of the interval in which a branch changes its stability.
+const HALVINGS: usize = 5;
+
+/// A limit cycle as the mesh's own time stepping has it.
+#[derive(Clone, Debug)]
+pub struct SteppedCycle {
+    /// The cycle, its powers and fractions those of the transient.
+    pub cycle: LimitCycle,
+    /// Its stability.
+    pub stability: FloquetMultipliers,
+    /// Sum of its leading modes: where to begin with those of a neighbour.
+    modes: Vec<f64>,
+}
+
+impl SteppedCycle {
+    /// A cycle of the same wave, larger or smaller: its exponents are the same. Its powers are its own, since they grow
+    /// partly with the amplitude and partly with its square.
+    #[must_use]
+    pub fn scaled_to(&self, cycle: &LimitCycle) -> Self {
+        Self { cycle: cycle.clone(), ..self.clone() }
+    }
+}
+
+impl CycleSolver {
+    /// Growth of small perturbations of a cycle.
+    pub fn stability(&self, cycle: &LimitCycle) -> Result<FloquetMultipliers, CycleError> {
+        Ok(self.stepping(SimdLevel::detect())?.settle(cycle, None)?.stability)
+    }
+}
+
+impl MeshStepping<'_> {
+    /// Settles a cycle in the transient of its mesh, and finds its leading Floquet exponents there.
+    ///
+    /// `neighbour` is a cycle nearby, whose modes are a start.
+    ///
+    /// # Errors
+    /// [`CycleError::Stepping`] if the transient cannot start, [`CycleError::NotFound`] if the exponents do not converge.
+    pub fn settle(
+        &self,
+        cycle: &LimitCycle,
+        neighbour: Option<&SteppedCycle>,
+    ) -> Result<SteppedCycle, CycleError> {
+        let period = self.period(cycle)?;
+        let known = neighbour.map(|own| own.modes.as_slice());
+        let (stability, modes) = leading_multipliers(&period, known)?;
+        Ok(SteppedCycle { cycle: period.stepped(cycle), stability, modes })
+    }
+
+    /// Value of `parameter` (SI) at which the branch from one cycle to another, of different stability, changes it.
+    ///
+    /// The interval is halved five times, then the growth rate is interpolated. It ends early where the branch does not
+    /// lead straight from one to the other.
+    ///
+    /// # Errors
+    /// Those of [`Self::settle`].
+    pub fn stability_change(
+        &self,
+        parameter: Parameter,
+        stable: &SteppedCycle,
+        unstable: &SteppedCycle,
+    ) -> Result<StabilityChange, CycleError> {
+        let mut ends = [stable.clone(), unstable.clone()];
+        let at = |end: &SteppedCycle| parameter.of(&end.cycle.state.point);
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (at(&ends[0]) + at(&ends[1]));
+            let Ok(cycle) = self.solver.continue_to(&ends[0].cycle, parameter, middle) else {
+                break;
+            };
+            let settled = self.settle(&cycle, Some(&ends[1]))?;
+            let leading = settled.stability.leading();
+            let side = usize::from(leading.is_some_and(|found| found.growth_rate > 0.0));
+            ends[side] = settled;
+        }
+        let growing = ends[1].stability.leading().and_then(|found| found.mode);
+        let rate = |end: &SteppedCycle| end.stability.leading().map(|found| found.growth_rate);
+        Ok(StabilityChange {
+            value: crossing(ends.each_ref().map(|end| (at(end), rate(end)))),
+            harmonic: growing.map_or(0, |found| found.harmonic),
+            frequency_hz: growing.map_or(0.0, |found| found.frequency_hz),
+        })
+    }
+}
 
 /// The leading multipliers of a cycle, and the sum of their modes, of unit length: a start for those of its neighbours.
 ///
@@ -32,7 +119,7 @@ const UNKNOWN_SHARE: f64 = 0.1;
 ///
 /// # Errors
 /// [`CycleError::NotFound`] where the leading multipliers do not converge.
-pub(super) fn leading_multipliers(
+fn leading_multipliers(
     period: &Period<'_>,
     known: Option<&[f64]>,
 ) -> Result<(FloquetMultipliers, Vec<f64>), CycleError> {

@@ -1,8 +1,7 @@
 //! Limit cycles of one harmonic: from birth to an operating point, and along a parameter.
 
 use super::branch::{Branch, Step};
-use super::continuation::{BranchEnd, Values, Way, both_halves, joined};
-use super::cycle_branch::{CycleBranch, Turning};
+use super::continuation::{BranchEnd, Turning, Values, Way, both_halves, joined};
 use super::field::{field, start_of};
 use super::grid::PhaseGrid;
 use super::limit_cycle::LimitCycle;
@@ -35,6 +34,21 @@ const FOLD_APART: f64 = 4.0;
 /// Where the wave lies on the grid of phases, in steps: where one curve closes on itself near its birth, because the
 /// grid pins the wave, another leads away.
 const ORIGINS: [f64; 4] = [0.0, 0.5, 0.25, 0.75];
+
+/// Limit cycles along a parameter.
+#[derive(Clone, Debug)]
+pub struct CycleBranch {
+    /// The parameter.
+    pub parameter: Parameter,
+    /// Cycles in the order of the branch; neighbours may lie on both sides of a fold.
+    pub cycles: Vec<LimitCycle>,
+    /// Parameter values, SI, at which the branch turns back by more than what one point of the grid is worth.
+    pub folds: Vec<f64>,
+    /// Why it ends, at its first and at its last cycle.
+    pub ends: [BranchEnd; 2],
+    /// Dense factorizations spent.
+    pub factorizations: usize,
+}
 
 /// Limit cycles of one family.
 #[derive(Clone, Debug)]

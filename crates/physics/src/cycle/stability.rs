@@ -100,17 +100,6 @@ pub(super) fn crossing([(from, one), (to, other)]: [(f64, Option<f64>); 2]) -> f
     from + share * (to - from)
 }
 
-impl StabilityChange {
-    /// In words, of a wave of harmonic `n`: a mode of another harmonic turns at a frequency of its own, so that its multiplier
-    /// leaves the unit circle at an angle.
-    pub fn kind(&self, n: usize) -> &'static str {
-        match self.harmonic == n {
-            true => "of its own wave",
-            false => "a Neimark-Sacker bifurcation, to two frequencies",
-        }
-    }
-}
-
 impl FloquetMultiplier {
     /// That of a direction which the map of a period (s) multiplies; `open` is what its growth rate may be wrong by (1/s) besides a
     /// hundredth of itself.

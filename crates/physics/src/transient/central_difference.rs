@@ -263,9 +263,4 @@ impl<'a> CentralDifference<'a> {
     pub fn steps_done(&self) -> u64 {
         self.next_step
     }
-
-    /// Largest balance residual so far.
-    pub fn largest_residual(&self) -> f64 {
-        self.account.largest_residual
-    }
 }

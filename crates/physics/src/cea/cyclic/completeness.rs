@@ -19,17 +19,6 @@ const SLOWEST: f64 = 0.0202;
 /// Points on the edge of the range at which phases are taken before halving starts.
 const EDGE_POINTS: usize = 8;
 
-/// What is known about the harmonics that were not followed.
-#[derive(Default)]
-pub(super) struct Verdict {
-    /// Proven empty for every friction coefficient of the range.
-    pub proven: Vec<usize>,
-    /// Counted empty at the friction coefficients checked.
-    pub counted: Vec<usize>,
-    /// A harmonic with a mode in the range that no path stands for.
-    pub missed: Option<usize>,
-}
-
 /// Friction values, out of a rising grid, at which modes are counted: the quarters of the range.
 fn quarters(grid: &[f64]) -> Vec<f64> {
     let last = grid.len() - 1;
@@ -41,12 +30,18 @@ fn quarters(grid: &[f64]) -> Vec<f64> {
 /// Looks for modes below `limit` (rad/s) that no path stands for: in the followed harmonics by counting at
 /// the quarters of the friction values of `grid`, in all others by proof, or by counting where the
 /// proof does not reach.
+///
+/// Returns the harmonics, among those that were not followed, which are proven empty for every friction coefficient of the range, and
+/// those counted empty at the friction coefficients checked.
+///
+/// # Errors
+/// A harmonic with a mode in the range that no path stands for.
 pub(super) fn verify(
     tangent: &WaveTangent,
     followed: &[HarmonicPaths],
     limit: f64,
     grid: &[f64],
-) -> Verdict {
+) -> Result<[Vec<usize>; 2], usize> {
     let checks = quarters(grid);
     let region = region(tangent, limit);
     let friction = checks.iter().copied().fold(0.0, f64::max);
@@ -75,10 +70,9 @@ pub(super) fn verify(
         chosen.map(|v| v.0).collect()
     };
     let empty_handed = verdicts.iter().find(|v| !v.2).map(|v| v.0);
-    Verdict {
-        proven: pick(true),
-        counted: pick(false),
-        missed: gaps.into_iter().flatten().next().or(empty_handed),
+    match gaps.into_iter().flatten().next().or(empty_handed) {
+        Some(missed) => Err(missed),
+        None => Ok([true, false].map(pick)),
     }
 }
 

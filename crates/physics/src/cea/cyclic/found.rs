@@ -1,7 +1,6 @@
 //! What is asked of a sweep, and what it finds.
 
 use super::branch::branches_of;
-use super::completeness::Verdict;
 use super::paths::{HarmonicPaths, Overdamped};
 use crate::cea::{CeaError, ComplexMode, FrictionPoint, FrictionSweep, ModeBranch, SweepRequest};
 use crate::prestress::WaveTangent;
@@ -84,20 +83,20 @@ pub(super) struct Found {
 }
 
 impl Found {
-    /// The sweep of what was found over friction coefficients `grid`, with what is known about the other harmonics.
+    /// The sweep of what was found over friction coefficients `grid`, with the other harmonics that are proven and counted empty.
     pub fn sweep(
         self,
         tangent: WaveTangent,
         grid: &[f64],
-        verdict: Verdict,
+        [proven_empty, counted_empty]: [Vec<usize>; 2],
         is_verified: bool,
     ) -> WaveSweep {
         let Self { followed, points, limit, margin } = self;
         let coverage = Coverage {
             largest_harmonic: tangent.largest_harmonic(),
             followed: followed.iter().map(|paths| paths.problem.tangent.harmonic).collect(),
-            proven_empty: verdict.proven,
-            counted_empty: verdict.counted,
+            proven_empty,
+            counted_empty,
             limit_hz: limit / TAU,
             margin_hz: margin / TAU,
             factorizations: followed.iter().map(|paths| paths.factorizations).sum(),

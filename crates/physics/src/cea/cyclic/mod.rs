@@ -28,7 +28,6 @@ mod pencil;
 mod problem;
 mod reduced;
 mod reduction;
-mod refined;
 mod sensitivity;
 mod sweep;
 

@@ -1,6 +1,6 @@
 //! A sweep over the friction coefficient.
 
-use super::completeness::{Verdict, verify};
+use super::completeness::verify;
 use super::found::{Found, Wanted, WaveSweep};
 use super::modes::points;
 use super::modes_below::{self, at_rest, modes_below};
@@ -56,14 +56,14 @@ pub fn wave_sweep(
     for _ in 0..if is_direct { MARGIN_ATTEMPTS } else { 1 } {
         match follow(&mut tangent, &wanted, margin, None) {
             Ok((found, counted)) => {
-                let verdict = match is_verified {
+                let empty = match is_verified {
                     true => verify(&tangent, &found.followed, found.limit, &wanted.grid),
-                    false => Verdict { counted, ..Verdict::default() },
+                    false => Ok([Vec::new(), counted]),
                 };
-                let Some(harmonic) = verdict.missed else {
-                    return Ok(found.sweep(tangent, &wanted.grid, verdict, is_verified));
-                };
-                failure = Some(CeaError::Unproven { harmonic, margin });
+                match empty {
+                    Ok(empty) => return Ok(found.sweep(tangent, &wanted.grid, empty, is_verified)),
+                    Err(harmonic) => failure = Some(CeaError::Unproven { harmonic, margin }),
+                }
             }
             // The branch that it meets may lie above the margin.
             Err(error @ CeaError::LostHarmonic { .. }) => failure = Some(error),
@@ -89,7 +89,7 @@ pub fn onsets(
     }
     let wanted = Wanted::new(request, &[])?;
     let (found, _) = follow(&mut tangent, &wanted, MARGIN, Some(harmonics))?;
-    Ok(Some(found.sweep(tangent, &wanted.grid, Verdict::default(), false).sweep))
+    Ok(Some(found.sweep(tangent, &wanted.grid, [Vec::new(), Vec::new()], false).sweep))
 }
 
 /// Whether harmonics are followed as they stand: their bands are narrow, and the waves `+n` and `-n` are of one real problem.
@@ -223,7 +223,7 @@ mod tests {
             let (found, _) = follow(&mut tangent, &wanted, MARGIN, None).unwrap();
             let (mut followed, limit) = (found.followed, found.limit);
             let missed =
-                |followed: &[HarmonicPaths]| verify(&tangent, followed, limit, &grid).missed;
+                |followed: &[HarmonicPaths]| verify(&tangent, followed, limit, &grid).err();
             assert_eq!(missed(&followed), None);
             let mut directions = [0; 2];
             for h in 0..followed.len() {

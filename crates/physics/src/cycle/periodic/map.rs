@@ -72,7 +72,7 @@ impl PeriodImage {
 /// The map is that of the time loop itself ([`CentralDifference`]), continuous in state and period, with a kink wherever a node
 /// changes its status at another step. For each metre of thickness, of a body in three dimensions for the whole.
 pub struct PeriodMap<'a> {
-    pub(super) run: CentralDifference<'a>,
+    pub(in crate::cycle) run: CentralDifference<'a>,
     moving: MovingDofs,
     longest_step: f64,
     fewest_steps: usize,
@@ -172,7 +172,7 @@ impl<'a> PeriodMap<'a> {
     }
 
     /// Puts the time loop at the start of a period.
-    pub(super) fn place(&mut self, state: &PeriodicState) {
+    pub(in crate::cycle) fn place(&mut self, state: &PeriodicState) {
         let time_step = state.period / self.steps as f64;
         self.run.restart(time_step, |fields| self.moving.place(&state.motion, fields));
     }

@@ -27,7 +27,6 @@
 //! cycle is tells [`Sound`], and which of two wins from which start [`ModeContest`].
 
 mod branch;
-mod confirmation;
 mod contest;
 mod corrector;
 mod folds;
