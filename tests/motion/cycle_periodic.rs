@@ -105,9 +105,9 @@ fn energy_of_a_cycle_closes_and_its_parts_add_up() {
     assert!(told.last().unwrap().remainder <= 1e-3);
     assert!(told.len() < motion.harmonics.len() && told.len() > 1);
     // Time begins where the node that moves most is farthest ahead.
-    let ahead = motion.instants.iter().map(|at| at.displacement[motion.node][1]);
+    let ahead = motion.instants.iter().map(|at| at[motion.node].displacement[1]);
     let farthest = ahead.fold(f64::NEG_INFINITY, f64::max);
-    let first = motion.instants[0].displacement[motion.node][1];
+    let first = motion.instants[0][motion.node].displacement[1];
     assert!((farthest - first).abs() < 1e-3 * motion.amplitude);
 }
 

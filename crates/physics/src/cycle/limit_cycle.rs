@@ -54,7 +54,8 @@ pub struct PhasePoint {
     pub pressure: f64,
     /// Contact shear, Pa, positive along the rotation.
     pub shear: f64,
-    /// `u_r, u_theta`, m; on other bodies than discs along the normal and along the counterface.
+    /// `u_r, u_theta`, m; on other bodies than discs along the normal and along the counterface, between solid bodies that of the one
+    /// relative to the other.
     pub displacement: [f64; 2],
     /// `v_r, v_theta`, m/s.
     pub velocity: [f64; 2],

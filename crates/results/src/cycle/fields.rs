@@ -9,6 +9,7 @@ use crate::folder::{FolderError, OutputFolder};
 use crate::pvd::{PvdEntry, write_pvd};
 use crate::vtu::{EncodedMesh, Field, write_vtu};
 use frictionsim_physics::contact::ContactInterface;
+use frictionsim_physics::cycle::PhasePoint;
 use frictionsim_physics::cycle::periodic::MotionFrame;
 use std::cell::OnceCell;
 use std::io;
@@ -102,8 +103,9 @@ impl Fields<'_> {
         ];
         if let (Some(contact), Some(interface)) = (&frame.contact, self.interface) {
             let count = displacement.len() / if self.body.is_solid() { 3 } else { 2 };
-            let tractions = [&contact.pressure[..], &contact.shear];
-            let statuses = contact.status.iter().copied();
+            let all = |of: fn(&PhasePoint) -> f64| contact.iter().map(of).collect::<Vec<f64>>();
+            let tractions = [&all(|own| own.pressure)[..], &all(|own| own.shear)];
+            let statuses = contact.iter().map(|own| own.status);
             fields.extend(Field::contact(count, &interface.nodes, statuses, tractions));
         }
         fields

@@ -90,8 +90,8 @@ impl CycleFigures<'_> {
     /// The status of all contact nodes over one period; that of a wave is its history.
     fn status(&self, motion: &MotionRecord) -> Figure {
         let times = motion.over_time(|row| row.time);
-        let statuses = motion.instants.iter().flat_map(|at| self.body.shown(&at.status));
-        let codes: Vec<u8> = statuses.map(|own| own as u8).collect();
+        let statuses = motion.instants.iter().flat_map(|at| self.body.shown(at));
+        let codes: Vec<u8> = statuses.map(|own| own.status as u8).collect();
         let range = (times[0], times[times.len() - 1]);
         let map = status_map(&times, codes.len() / times.len(), &codes, range);
         let caption = format!(

@@ -11,10 +11,9 @@ use crate::summary::{MeanPowers, StatusFractions};
 use frictionsim_chart::extremes;
 use frictionsim_physics::contact::ContactInterface;
 use frictionsim_physics::cycle::periodic::{
-    ContactInstant, PeriodicBranch, PeriodicMotion, REMAINDER, Sound, velocity_level,
+    PeriodicBranch, PeriodicMotion, REMAINDER, Sound, velocity_level,
 };
 use frictionsim_physics::cycle::{Confirmation, CyclePowers, FloquetMultipliers, PhasePoint};
-use std::f64::consts::TAU;
 use std::io;
 use std::sync::Arc;
 
@@ -138,18 +137,15 @@ impl FoundCycle {
     /// What the tables and figures show of it.
     fn record(self, name: CycleName, body: &MotionBody<'_>) -> MotionRecord {
         let motion = self.motion;
-        let contact = 0..body.interface.len();
-        let nodes = contact.clone().map(|node| contact_node(&motion, node, body));
-        let first = motion.instants.iter().take(1);
-        let edge = first.flat_map(|at| contact.clone().map(|node| point(&motion, at, node)));
+        let nodes = (0..body.interface.len()).map(|node| contact_node(&motion, node, body));
         let exponents = known(&self.stability).map(|found| {
             found.multipliers.iter().map(|own| (None, Perturbation::of(own))).collect()
         });
         MotionRecord {
             name,
             frequency_hz: motion.frequency_hz,
-            history: motion.instants.iter().map(|at| point(&motion, at, motion.node)).collect(),
-            edge: edge.collect(),
+            history: motion.instants.iter().map(|at| at[motion.node]).collect(),
+            edge: motion.instants.first().cloned().unwrap_or_default(),
             node: motion.node,
             counterface_speed: motion.counterface_speed,
             friction_coefficient: motion.friction_coefficient,
@@ -190,27 +186,12 @@ impl PeriodicResult {
     }
 }
 
-/// Contact and motion of a contact node at one instant, by its place among those of the contact.
-fn point(motion: &PeriodicMotion, at: &ContactInstant, node: usize) -> PhasePoint {
-    PhasePoint {
-        phase: TAU * at.time * motion.frequency_hz,
-        time: at.time,
-        status: at.status[node],
-        pressure: at.pressure[node],
-        shear: at.shear[node],
-        displacement: at.displacement[node],
-        velocity: at.velocity[node],
-    }
-}
-
 /// Means and amplitudes of a contact node, by its place among those of the contact.
 fn contact_node(motion: &PeriodicMotion, i: usize, body: &MotionBody<'_>) -> ContactNode {
-    let instants = &motion.instants;
-    let mean = |values: &dyn Fn(&ContactInstant) -> f64| {
-        instants.iter().map(values).sum::<f64>() / instants.len() as f64
-    };
+    let own = || motion.instants.iter().map(|at| &at[i]);
+    let mean = |of: fn(&PhasePoint) -> f64| own().map(of).sum::<f64>() / own().len() as f64;
     let half_range = |component: usize| {
-        let (low, high) = extremes(instants.iter().map(|at| at.displacement[i][component]));
+        let (low, high) = extremes(own().map(|at| at.displacement[component]));
         0.5 * (high - low)
     };
     let [x_m, y_m, z_m] = body.shown.position(body.interface.nodes[i] as usize);
@@ -223,8 +204,8 @@ fn contact_node(motion: &PeriodicMotion, i: usize, body: &MotionBody<'_>) -> Con
         stick,
         slip,
         open,
-        mean_pressure_pa: mean(&|at| at.pressure[i]),
-        mean_shear_pa: mean(&|at| at.shear[i]),
+        mean_pressure_pa: mean(|at| at.pressure),
+        mean_shear_pa: mean(|at| at.shear),
         amplitude_n_m: half_range(0),
         amplitude_t_m: half_range(1),
     }
@@ -235,21 +216,19 @@ fn contact_node(motion: &PeriodicMotion, i: usize, body: &MotionBody<'_>) -> Con
 /// transient.
 pub(super) fn encode_contact(
     interface: &ContactInterface,
-    instants: &[ContactInstant],
+    instants: &[Vec<PhasePoint>],
 ) -> io::Result<Vec<u8>> {
     let shape = [instants.len(), interface.len()];
     let mut archive = NpzArchive::default();
-    archive.array("time_s", &shape[..1], instants.iter().map(|at| at.time))?;
+    let times = instants.iter().filter_map(|at| Some(at.first()?.time));
+    archive.array("time_s", &shape[..1], times)?;
     archive.array("angle_rad", &shape[1..], interface.angles.iter().copied())?;
-    let status = instants.iter().flat_map(|at| &at.status);
-    archive.array("status", &shape, status.map(|status| *status as u8))?;
-    let pressure = instants.iter().flat_map(|at| at.pressure.iter().copied());
-    archive.array("pressure_pa", &shape, pressure)?;
-    let shear = instants.iter().flat_map(|at| at.shear.iter().copied());
-    archive.array("shear_pa", &shape, shear)?;
+    let points = || instants.iter().flatten();
+    archive.array("status", &shape, points().map(|own| own.status as u8))?;
+    archive.array("pressure_pa", &shape, points().map(|own| own.pressure))?;
+    archive.array("shear_pa", &shape, points().map(|own| own.shear))?;
     for (component, name) in ["u_n_m", "u_t_m"].into_iter().enumerate() {
-        let displacement = instants.iter().flat_map(|at| &at.displacement);
-        archive.array(name, &shape, displacement.map(|u| u[component]))?;
+        archive.array(name, &shape, points().map(|own| own.displacement[component]))?;
     }
     archive.status_codes()?;
     archive.finish()

@@ -7,7 +7,7 @@ use crate::summary::{MeanPowers, StatusFractions};
 use frictionsim_output::Described;
 use frictionsim_physics::contact::ContactStatus;
 use frictionsim_physics::cycle::PhasePoint;
-use frictionsim_physics::cycle::periodic::{ContactInstant, MotionFrame, MotionHarmonic, Sound};
+use frictionsim_physics::cycle::periodic::{MotionFrame, MotionHarmonic, Sound};
 use serde::Serialize;
 
 /// A limit cycle.
@@ -72,7 +72,7 @@ pub(super) struct MotionRecord {
     /// All contact nodes at time zero, of a wave along the phase.
     pub edge: Vec<PhasePoint>,
     /// All contact nodes over the period; none of a wave.
-    pub instants: Vec<ContactInstant>,
+    pub instants: Vec<Vec<PhasePoint>>,
     /// Contact node that moves most, among those of the edge.
     pub node: usize,
     /// Speed of the counterface there, m/s.

@@ -48,8 +48,7 @@ pub use corrector::Point;
 pub use ladder::{ASTRAY, find_from};
 pub use map::{PeriodImage, PeriodMap, PeriodicState};
 pub use motion::{
-    ContactInstant, MotionFrame, MotionRequest, PeriodicMotion, REFERENCE_VELOCITY, REMAINDER,
-    velocity_level,
+    MotionFrame, MotionRequest, PeriodicMotion, REFERENCE_VELOCITY, REMAINDER, velocity_level,
 };
 pub use search::{ACCEPTED, Found, TOLERANCE, find};
 pub use secants::{Change, SecantSpace};

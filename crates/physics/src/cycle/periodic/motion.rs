@@ -4,9 +4,10 @@ use super::map::{PeriodMap, PeriodicState};
 use super::search::Found;
 use super::spectrum::{MotionHarmonic, harmonics};
 use crate::contact::ContactStatus;
-use crate::cycle::CyclePowers;
+use crate::cycle::{CyclePowers, PhasePoint};
 use crate::fem::operator::gather;
 use crate::transient::StatusCounts;
+use std::f64::consts::TAU;
 
 /// Share of the motion that the harmonics in which it is told may leave, where nobody says how many.
 pub const REMAINDER: f64 = 1e-3;
@@ -18,23 +19,6 @@ const SAME_STEPS: f64 = 100.0;
 
 /// Reference of velocity levels, m/s.
 pub const REFERENCE_VELOCITY: f64 = 5e-8;
-
-/// The contact at one instant, node by node.
-#[derive(Clone, Debug, PartialEq)]
-pub struct ContactInstant {
-    /// Time, s.
-    pub time: f64,
-    /// Status.
-    pub status: Vec<ContactStatus>,
-    /// Contact pressure, Pa.
-    pub pressure: Vec<f64>,
-    /// Contact shear along the sliding, Pa.
-    pub shear: Vec<f64>,
-    /// Displacement along the normal and along the counterface, between solid bodies that of the one relative to the other, m.
-    pub displacement: Vec<[f64; 2]>,
-    /// Velocity, m/s.
-    pub velocity: Vec<[f64; 2]>,
-}
 
 /// How much of a motion is kept.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -52,8 +36,8 @@ pub struct MotionFrame {
     pub time: f64,
     /// Displacement (m) and velocity (m/s) over all dofs in nodal frames.
     pub fields: [Vec<f64>; 2],
-    /// Contact, where the motion was stepped in time.
-    pub contact: Option<ContactInstant>,
+    /// Each contact node, where the motion was stepped in time.
+    pub contact: Option<Vec<PhasePoint>>,
 }
 
 /// A periodic motion of a body and its contact. For each metre of thickness, of a body in three dimensions for the whole.
@@ -84,8 +68,8 @@ pub struct PeriodicMotion {
     pub amplitude: f64,
     /// Root mean square of the velocity over the period and the mass of the body, m/s.
     pub velocity: f64,
-    /// The contact over the period.
-    pub instants: Vec<ContactInstant>,
+    /// Each contact node at times over the period.
+    pub instants: Vec<Vec<PhasePoint>>,
     /// Harmonics 1, 2, ... of the motion of the contact nodes.
     pub harmonics: Vec<MotionHarmonic>,
     /// The whole body, evenly spaced in time from zero on.
@@ -95,7 +79,7 @@ pub struct PeriodicMotion {
 impl PeriodicMotion {
     /// `2 pi f` times the amplitude: the velocity of a kick along the counterface that reaches it, m/s.
     pub fn kick_velocity(&self) -> f64 {
-        std::f64::consts::TAU * self.frequency_hz * self.amplitude
+        TAU * self.frequency_hz * self.amplitude
     }
 
     /// Steps once more through a period that was found, from where the contact node that moves most is farthest ahead.
@@ -140,6 +124,7 @@ impl PeriodicMotion {
         let mut counts = vec![StatusCounts::default(); nodes];
         for step in 0..steps {
             let time = step as f64 * from.period / steps as f64;
+            let at = [TAU * time * self.frequency_hz, time];
             let before = contact_motion(map);
             let fields = is_one_of(step, steps, request.frames).then(|| {
                 let (fields, operator) = (map.run.fields(), map.run.operator());
@@ -155,11 +140,11 @@ impl PeriodicMotion {
                 self.frames.push(MotionFrame {
                     time,
                     fields: [displacement, velocity],
-                    contact: Some(instant(map, time, &before)),
+                    contact: Some(instant(map, at, &before)),
                 });
             }
             if is_one_of(step, steps, request.instants) {
-                self.instants.push(instant(map, time, &before));
+                self.instants.push(instant(map, at, &before));
             }
         }
         self.shares = counts.iter().map(StatusCounts::fractions).collect();
@@ -206,21 +191,25 @@ fn contact_motion(map: &PeriodMap<'_>) -> [Vec<[f64; 2]>; 2] {
         .map(|field| nodes.clone().map(|i| law.relative(i, field)).collect())
 }
 
-/// The contact at the step that has just been done, from the motion before it.
-fn instant(map: &PeriodMap<'_>, time: f64, before: &[Vec<[f64; 2]>; 2]) -> ContactInstant {
+/// The contact nodes at the step that has just been done, at its phase and time, from the motion before it.
+fn instant(
+    map: &PeriodMap<'_>,
+    [phase, time]: [f64; 2],
+    [displacement, earlier]: &[Vec<[f64; 2]>; 2],
+) -> Vec<PhasePoint> {
     let law = map.run.contact();
-    let [_, after] = contact_motion(map);
-    let lengths = &map.run.interface().tributary_lengths;
-    let stress = |forces: &[f64]| forces.iter().zip(lengths).map(|(f, w)| f / w).collect();
-    let mean = |(a, b): (&[f64; 2], &[f64; 2])| [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])];
-    ContactInstant {
+    let [_, later] = contact_motion(map);
+    let lengths = map.run.interface().tributary_lengths.iter().enumerate();
+    let point = |(i, length): (usize, &f64)| PhasePoint {
+        phase,
         time,
-        status: law.status.clone(),
-        pressure: stress(&law.normal_force),
-        shear: stress(&law.tangential_force),
-        displacement: before[0].clone(),
-        velocity: before[1].iter().zip(&after).map(mean).collect(),
-    }
+        status: law.status[i],
+        pressure: law.normal_force[i] / length,
+        shear: law.tangential_force[i] / length,
+        displacement: displacement[i],
+        velocity: [0, 1].map(|c| 0.5 * (earlier[i][c] + later[i][c])),
+    };
+    lengths.map(point).collect()
 }
 
 /// Displacements of the contact nodes at every step of a period, and which of them touch at some time.
