@@ -29,7 +29,7 @@ fn a_run_gets_every_figure_of_its_record() {
     let analysis = TransientAnalysis::of(&record, &[2]);
     let growth = analysis.growth.iter().filter_map(|g| {
         let stage = g.stage.as_ref().ok()?;
-        Some((g.harmonic()?, stage.rate_per_s.value))
+        Some((g.harmonic?, stage.rate_per_s.value))
     });
     let data = RecordedRun {
         record: &record,

@@ -1,7 +1,7 @@
 //! Frequencies, growth rates and mean powers of a recorded run.
 
 use super::recorder::HARMONIC_COUNT;
-use super::settling::{Settling, Unsettled, Vibration};
+use super::settling::{Settling, Unsettled};
 use super::vibration::{amplitudes, last_fifth, main_vibration, rms, series};
 use super::{ContactPowers, Recorder, SampleRow, StatusCounts};
 use crate::signal::{ExponentialStage, NoGrowth, harmonic_growth, strongest_vibration};
@@ -16,8 +16,8 @@ const POWER_FREQUENCY: f64 = 1e-3;
 /// Growth (or decay) of one vibration of the contact edge in the linear stage.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Growth {
-    /// What vibrates.
-    pub vibration: Vibration,
+    /// Circumferential harmonic; none of the strongest vibration of a body without symmetry, whose modes are no harmonics.
+    pub harmonic: Option<usize>,
     /// Rate (1/s) and signed frequency (Hz) with their 95 % intervals, or why there are none.
     pub stage: Result<ExponentialStage, NoGrowth>,
     /// Sense of rotation of the cylinder, +1 counter-clockwise.
@@ -25,19 +25,11 @@ pub struct Growth {
 }
 
 impl Growth {
-    /// Circumferential harmonic; `None` for a body without symmetry.
-    pub fn harmonic(&self) -> Option<usize> {
-        match self.vibration {
-            Vibration::Harmonic(harmonic) => Some(harmonic),
-            Vibration::Strongest => None,
-        }
-    }
-
     /// +1 travels with the rotor, -1 against it; 0 without a stage, and on a body without symmetry.
     pub fn direction(&self) -> i8 {
         // exp(i (n theta + omega t)) travels towards negative angles.
         match &self.stage {
-            _ if self.vibration == Vibration::Strongest => 0,
+            _ if self.harmonic.is_none() => 0,
             Ok(stage) if stage.frequency_hz.value * self.rotation_direction > 0.0 => -1,
             Ok(_) => 1,
             Err(_) => 0,
@@ -124,10 +116,9 @@ impl TransientAnalysis {
         let sensor = sizes.max_by(|a, b| a.1.total_cmp(&b.1));
         let strongest = sensor.and_then(|(n, _)| growth(record, stage, n));
         analysis.growth = strongest.into_iter().collect();
-        let of_modes = |vibration: &mut Vibration| *vibration = Vibration::Strongest;
-        analysis.growth.iter_mut().for_each(|growth| of_modes(&mut growth.vibration));
-        if let Some(Unsettled::Growing { vibration, .. }) = &mut analysis.settling.reason {
-            of_modes(vibration);
+        analysis.growth.iter_mut().for_each(|growth| growth.harmonic = None);
+        if let Some(Unsettled::Growing { harmonic, .. }) = &mut analysis.settling.reason {
+            *harmonic = None;
         }
         analysis.last_fifth.main_harmonic = None;
         analysis.last_fifth.significant = Vec::new();
@@ -171,12 +162,12 @@ fn refuse_powers(growths: &mut [Growth]) {
         .filter_map(|growth| {
             let stage = growth.stage.as_ref().ok()?;
             let (rate, frequency) = (stage.rate_per_s.value, stage.frequency_hz.value);
-            Some((growth.harmonic()?, rate, frequency))
+            Some((growth.harmonic?, rate, frequency))
         })
         .filter(|wave| wave.1 > 0.0 && wave.0 > 0)
         .collect();
     for growth in growths {
-        let (Some(own), Ok(stage)) = (growth.harmonic(), &growth.stage) else {
+        let (Some(own), Ok(stage)) = (growth.harmonic, &growth.stage) else {
             continue;
         };
         let is_near = |value: f64, expected: f64, share: f64| {
@@ -303,7 +294,7 @@ fn growth(record: &Recorder, stage: Range<usize>, harmonic: usize) -> Option<Gro
     let series = amplitudes(record, stage.clone(), harmonic)?;
     let motion = record.largest_motion(stage);
     Some(Growth {
-        vibration: Vibration::Harmonic(harmonic),
+        harmonic: Some(harmonic),
         stage: harmonic_growth(&series, 1.0 / record.sample_interval, motion),
         rotation_direction: record.rotation_direction,
     })
@@ -318,7 +309,7 @@ mod tests {
     fn the_square_of_a_growing_wave_is_no_stage_of_twice_its_harmonic() {
         let exactly = |value: f64| Estimate { value, low: value, high: value };
         let growth = |harmonic: usize, rate: f64, frequency: f64| Growth {
-            vibration: Vibration::Harmonic(harmonic),
+            harmonic: Some(harmonic),
             stage: Ok(ExponentialStage {
                 start_s: 0.0,
                 end_s: 1.0,

@@ -35,4 +35,4 @@ pub use settings::{
     InitialState, OperatorChoice, SAFETY, StepPlan, TimeStep, TransientSettings, stable_step_limit,
     whole_intervals,
 };
-pub use settling::{Drift, EndState, Settling, Unsettled, Vibration};
+pub use settling::{Drift, EndState, Settling, Unsettled};

@@ -7,7 +7,6 @@ use super::vibration::{dies_out, last_fifth, main_vibration, quarters, rms, seri
 use crate::linalg::c64;
 use crate::signal::round_off_floor;
 use std::f64::consts::TAU;
-use std::fmt;
 use std::ops::Range;
 
 /// Drift below which a run has settled.
@@ -91,24 +90,6 @@ impl Drift {
     }
 }
 
-/// A vibration of the contact edge.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Vibration {
-    /// A circumferential harmonic.
-    Harmonic(usize),
-    /// The strongest one of a body without symmetry, whose modes are no harmonics.
-    Strongest,
-}
-
-impl fmt::Display for Vibration {
-    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Harmonic(harmonic) => write!(out, "harmonic {harmonic}"),
-            Self::Strongest => out.write_str("a vibration"),
-        }
-    }
-}
-
 /// Why a run has not settled.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum Unsettled {
@@ -137,11 +118,12 @@ pub enum Unsettled {
     Drifting(Drift),
     /// A small vibration that will be large.
     #[error(
-        "{vibration} still grows, from {from:.1e} to {to:.1e} m over the last fifth of the run"
+        "{} still grows, from {from:.1e} to {to:.1e} m over the last fifth of the run",
+        what_vibrates(*.harmonic)
     )]
     Growing {
-        /// What vibrates.
-        vibration: Vibration,
+        /// Its circumferential harmonic; none on a body without symmetry.
+        harmonic: Option<usize>,
         /// Its amplitude in the first quarter of that, m.
         from: f64,
         /// In the last quarter, m.
@@ -297,6 +279,11 @@ fn stationary(
     }
 }
 
+/// A vibration of a harmonic, or of a body without symmetry, whose modes are no harmonics.
+fn what_vibrates(harmonic: Option<usize>) -> String {
+    harmonic.map_or_else(|| "a vibration".to_owned(), |n| format!("harmonic {n}"))
+}
+
 /// A time to four digits, and not less.
 fn rounded_up(time: f64) -> f64 {
     let unit = 10.0_f64.powf(time.log10().floor() - 3.0);
@@ -322,11 +309,7 @@ fn growing(record: &Recorder, fifth: &Range<usize>) -> Option<Unsettled> {
         let sizes = quarters(record, fifth, harmonic);
         let is_rising = sizes.windows(2).all(|pair| pair[1] > pair[0]);
         (is_rising && sizes[3] > GROWTH * sizes[0] && sizes[3] > floor).then_some(
-            Unsettled::Growing {
-                vibration: Vibration::Harmonic(harmonic),
-                from: sizes[0],
-                to: sizes[3],
-            },
+            Unsettled::Growing { harmonic: Some(harmonic), from: sizes[0], to: sizes[3] },
         )
     })
 }

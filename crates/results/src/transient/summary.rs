@@ -5,7 +5,7 @@ use crate::extent::Extent;
 use crate::summary::{MeanPowers, StatusFractions, present};
 use frictionsim_output::Described;
 use frictionsim_physics::transient::{
-    Drift, EndState, Growth, Perturbation, ProbeMotion, TransientAnalysis, Vibration,
+    Drift, EndState, Growth, Perturbation, ProbeMotion, TransientAnalysis,
 };
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -225,22 +225,19 @@ pub fn summary(report: &TransientReport<'_>) -> TransientSummary {
 fn growth(growth: &Growth) -> Option<GrowthSummary> {
     let stage = growth.stage.as_ref().ok()?;
     Some(GrowthSummary {
-        harmonic: growth.harmonic(),
+        harmonic: growth.harmonic,
         rate_per_s: stage.rate_per_s.value,
         rate_low_per_s: stage.rate_per_s.low,
         rate_high_per_s: stage.rate_per_s.high,
         frequency_hz: stage.frequency_hz.value.abs(),
-        direction: growth.harmonic().map(|_| growth.direction()),
+        direction: growth.harmonic.map(|_| growth.direction()),
     })
 }
 
 fn no_growth(analysis: &TransientAnalysis) -> BTreeMap<String, String> {
     let reasons = analysis.growth.iter().filter_map(|growth| {
         let reason = growth.stage.as_ref().err()?;
-        let name = match growth.vibration {
-            Vibration::Harmonic(harmonic) => format!("n{harmonic}"),
-            Vibration::Strongest => "strongest".to_owned(),
-        };
+        let name = growth.harmonic.map_or_else(|| "strongest".to_owned(), |n| format!("n{n}"));
         Some((name, reason.to_string()))
     });
     reasons.collect()
