@@ -1,6 +1,5 @@
 //! The time loop.
 
-mod breakdown;
 mod energy;
 mod start;
 

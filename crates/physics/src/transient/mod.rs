@@ -13,7 +13,6 @@ mod compliance;
 mod contact;
 mod error;
 mod model;
-mod motion;
 mod perturbation;
 mod recorder;
 mod relaxation;
@@ -27,7 +26,6 @@ pub use central_difference::{CentralDifference, EnergyAccount, RunEnd, Transient
 pub use contact::{ContactPowers, LagrangeContact, StatusCounts};
 pub use error::{Breakdown, TransientError};
 pub use model::{SteppedBody, TransientModel};
-pub use motion::{TwoFrequencies, WEAKEST_LINE, strongest_two};
 pub use perturbation::{Perturbation, StandingWave};
 pub use recorder::{ContactFrame, Recorder, RecorderSettings, SampleRow, Snapshot};
 pub use sample::{Observer, Sample};
@@ -36,3 +34,4 @@ pub use settings::{
     whole_intervals,
 };
 pub use settling::{Drift, EndState, Settling, Unsettled};
+pub use vibration::{TwoFrequencies, WEAKEST_LINE, strongest_two};

@@ -1,9 +1,10 @@
 //! End state of a run, and the time from which it holds.
 
 use super::StatusCounts;
-use super::motion::TwoFrequencies;
 use super::recorder::{Recorder, SampleRow};
-use super::vibration::{dies_out, last_fifth, main_vibration, quarters, rms, series};
+use super::vibration::{
+    TwoFrequencies, dies_out, last_fifth, main_vibration, quarters, rms, series,
+};
 use crate::linalg::c64;
 use crate::signal::round_off_floor;
 use std::f64::consts::TAU;

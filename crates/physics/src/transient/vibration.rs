@@ -1,8 +1,9 @@
-//! Vibrations of the harmonics that a record follows.
+//! Vibrations of the harmonics that a record follows, and whether they are of one frequency or of two.
 
 use super::Recorder;
 use crate::linalg::c64;
-use crate::signal::{centred, strongest_vibration};
+use crate::order::range as range_of;
+use crate::signal::{RotatingLine, centred, rotating_lines, strongest_vibration};
 use std::ops::Range;
 
 /// Fewest samples that a vibration is read from.
@@ -15,6 +16,19 @@ const REMNANT: f64 = 1e-6;
 /// shares differ by at most: a cycle that is approached from above lets them fall.
 const LOSS: f64 = 0.05;
 const SAME_LOSS: f64 = 0.1;
+
+/// A line weaker than this share of the strongest makes no motion of two frequencies.
+const SECOND: f64 = 0.05;
+
+/// Lines weaker than this share of the vibration are not looked at.
+pub const WEAKEST_LINE: f64 = 0.02;
+
+/// Periods after which a periodic motion repeats itself at the latest: subharmonics of that order are of one frequency.
+const LONGEST_REPETITION: usize = 3;
+
+/// Distance of two frequencies that are one and the same, in lines of the spectrum and relative.
+const LINES_APART: f64 = 0.3;
+const RELATIVELY_APART: f64 = 1e-3;
 
 /// Samples of the last fifth of a record.
 pub(super) fn last_fifth(record: &Recorder) -> Range<usize> {
@@ -74,8 +88,106 @@ pub(super) fn dies_out(record: &Recorder, fifth: &Range<usize>, share: f64) -> b
         return false;
     };
     let losses: [f64; 3] = std::array::from_fn(|k| 1.0 - sizes[k + 1] / sizes[k]);
-    let [least, most] = crate::order::range(losses);
+    let [least, most] = range_of(losses);
     sizes[0] < share * record.largest_motion(fifth.clone())
         && least >= LOSS
         && most - least <= SAME_LOSS * most
+}
+
+/// A stationary motion of two frequencies that no common fundamental has.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TwoFrequencies {
+    /// That of the strongest line and that of the strongest one that is neither a multiple of it nor a harmonic of its
+    /// wave, Hz.
+    pub frequencies_hz: [f64; 2],
+    /// Largest over smallest envelope: half the range of the tangential displacement of the first contact node over a period
+    /// of the first frequency.
+    pub envelope_ratio: f64,
+}
+
+impl TwoFrequencies {
+    /// Frequency at which the envelope swings: distance of the second frequency from the nearest multiple of the first, Hz.
+    pub(super) fn beat_hz(&self) -> f64 {
+        let [first, second] = self.frequencies_hz;
+        (second - (second / first).round() * first).abs()
+    }
+
+    /// The two frequencies of a motion whose strongest vibration is `main` (harmonic, signed frequency in Hz); `None` for one
+    /// that is periodic.
+    ///
+    /// A periodic motion has lines at multiples of its frequency `f` alone (or of `f/2`, `f/3`), and a wave of `n_0` periods
+    /// around the contact that turns as a whole moves harmonic `n` at `f n / n_0`. Any other line above a twentieth of the
+    /// strongest is the second frequency. Lines nearer to each other than four over the length of `range` are not told apart.
+    pub(super) fn of(record: &Recorder, range: &Range<usize>, main: (usize, f64)) -> Option<Self> {
+        let rate = 1.0 / record.sample_interval;
+        let (wave, _) = main;
+        let largest = rms(&series(record, range.clone(), wave)?);
+        let lines: Vec<(usize, RotatingLine)> = record
+            .followed_harmonics()
+            .filter_map(|n| Some((n, series(record, range.clone(), n)?)))
+            .flat_map(|(n, series)| {
+                let lines = rotating_lines(&series, rate, WEAKEST_LINE * largest);
+                lines.into_iter().map(move |line| (n, line))
+            })
+            .collect();
+        let (first, second) = strongest_two(&lines, wave, rate / range.len() as f64)?;
+        let frequencies_hz = [first, second?].map(|line| line.frequency_hz.abs());
+        let envelope_ratio = envelope_ratio(record, range, frequencies_hz[0]);
+        Some(Self { frequencies_hz, envelope_ratio })
+    }
+}
+
+/// The strongest of the lines of harmonic `wave`, and the strongest of all that is foreign to it, as [`TwoFrequencies`] has them;
+/// `lines` come with their harmonics, `width` is that of a line of the spectrum, Hz.
+pub fn strongest_two(
+    lines: &[(usize, RotatingLine)],
+    wave: usize,
+    width: f64,
+) -> Option<(RotatingLine, Option<RotatingLine>)> {
+    let strongest = |lines: &mut dyn Iterator<Item = &(usize, RotatingLine)>| {
+        lines.max_by(|a, b| a.1.amplitude.total_cmp(&b.1.amplitude)).map(|line| line.1)
+    };
+    let first = strongest(&mut lines.iter().filter(|(n, _)| *n == wave))?;
+    let frequency = first.frequency_hz;
+    let is_at = |line: f64, expected: f64| {
+        (line - expected).abs() < LINES_APART * width + RELATIVELY_APART * expected.abs()
+    };
+
+    // What neither repeats itself with the strongest line nor turns with its wave.
+    let is_foreign = |(n, line): &&(usize, RotatingLine), repetition: usize| {
+        let fundamental = frequency / repetition as f64;
+        let multiple = (line.frequency_hz / fundamental).round();
+        let turning = frequency * *n as f64 / wave as f64;
+        line.amplitude >= SECOND * first.amplitude
+            && !is_at(line.frequency_hz, multiple * fundamental)
+            && !(wave > 0 && is_at(line.frequency_hz, turning))
+    };
+    let foreign = |repetition: usize| {
+        strongest(&mut lines.iter().filter(|line| is_foreign(line, repetition)))
+    };
+    let found: Option<Vec<_>> = (1..=LONGEST_REPETITION).map(foreign).collect();
+    Some((first, found.and_then(|lines| lines.first().copied())))
+}
+
+/// Largest over smallest half range over a period of the tangential displacement of the first contact node.
+fn envelope_ratio(record: &Recorder, range: &Range<usize>, frequency: f64) -> f64 {
+    let angle = record.contact_angles.first().copied().unwrap_or(0.0);
+    let displacement: Vec<f64> = range
+        .clone()
+        .map(|sample| {
+            let parts = record.followed_harmonics().map(|n| {
+                let amplitude = record.amplitude(sample, n).unwrap_or_default();
+                let turned = c64::from_polar(1.0, n as f64 * angle);
+                (c64::new(amplitude[0], amplitude[1]) * turned).re
+            });
+            parts.sum()
+        })
+        .collect();
+    let period = ((1.0 / (frequency * record.sample_interval)).round() as usize).max(2);
+    let sizes = displacement.windows(period + 1).map(|window| {
+        let [low, high] = range_of(window.iter().copied());
+        0.5 * (high - low)
+    });
+    let [smallest, largest] = range_of(sizes);
+    largest / smallest
 }

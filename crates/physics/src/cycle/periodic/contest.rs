@@ -1,7 +1,7 @@
 //! Which of two motions wins on a body without symmetry: transients from steady sliding with modes seeded.
 
+use super::ladder::GrowingMode;
 use super::map::PeriodMap;
-use super::start::GrowingMode;
 use crate::contact::ContactStatus;
 use crate::cycle::basin::{AGREEING_WINDOWS, CONSTANT, LOOKS, LOST, SEED, WINDOW, is_final};
 use crate::cycle::vector::{add, difference, dot, norm};

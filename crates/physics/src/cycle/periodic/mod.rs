@@ -38,20 +38,17 @@ mod multipliers;
 mod search;
 mod secants;
 mod sound;
-mod spectrum;
-mod start;
 mod two_frequencies;
 
 pub use branch::{BranchMotion, BranchRequest, PeriodicBranch};
 pub use contest::ModeContest;
 pub use corrector::Point;
-pub use ladder::{ASTRAY, find_from};
+pub use ladder::{ASTRAY, GrowingMode, balanced_start, find_from};
 pub use map::{PeriodImage, PeriodMap, PeriodicState};
 pub use motion::{
-    MotionFrame, MotionRequest, PeriodicMotion, REFERENCE_VELOCITY, REMAINDER, velocity_level,
+    MotionFrame, MotionHarmonic, MotionRequest, PeriodicMotion, REFERENCE_VELOCITY, REMAINDER,
+    velocity_level,
 };
 pub use search::{ACCEPTED, Found, TOLERANCE, find};
 pub use secants::{Change, SecantSpace};
 pub use sound::{AIR, FlatFace, REFERENCE_POWER, Sound};
-pub use spectrum::MotionHarmonic;
-pub use start::{GrowingMode, balanced_start};
