@@ -212,7 +212,7 @@ fn analyse(
     channel: &Channel,
 ) -> Result<(ChannelSummary, AmplitudeSpectrum), Failure> {
     let rate = file.sampling_rate;
-    let stage = exponential_stage(&channel.samples, rate, None);
+    let stage = exponential_stage(&channel.samples, rate);
     // Of a record that grows and then settles the lines are those of its end.
     let end = channel.samples.len() as f64 / rate;
     let settles = |end_of_stage: f64| end_of_stage < (1.0 - LAST_SHARE) * end;

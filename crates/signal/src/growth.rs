@@ -103,9 +103,8 @@ pub enum NoGrowth {
 
 /// Finds the exponential stage of a signal and fits its rate and frequency.
 ///
-/// The signal is demodulated at `frequency_hz` (left out: the strongest line, then the strongest
-/// within the stage found), `z(t) = sum_j w_j x_j e^{-2 pi i f t_j}` over 12 periods; for a pure
-/// exponential the filter is exact. The stage is the interval over which `ln |z|` changes most while
+/// The signal is demodulated at its strongest line, then at the strongest within the stage found,
+/// `z(t) = sum_j w_j x_j e^{-2 pi i f t_j}` over 12 periods; for a pure exponential the filter is exact. The stage is the interval over which `ln |z|` changes most while
 /// it deviates from a line by no more than 1 % rms (then 3, 10, 20 %) and stays above 1024 eps of the
 /// largest sample; a growing stage is preferred to a decaying one. A tenth at each end is cut off, where
 /// saturation would bias the slope. Rate and frequency are least-squares slopes of `ln |z|` and of the
@@ -119,20 +118,13 @@ pub enum NoGrowth {
 pub fn exponential_stage(
     samples: &[f64],
     sampling_rate: f64,
-    frequency_hz: Option<f64>,
 ) -> Result<ExponentialStage, NoGrowth> {
     check_signal(samples, sampling_rate, 16)?;
-    let mut frequency = match frequency_hz {
-        Some(f) => f,
-        None => match main_frequency(samples, sampling_rate) {
-            Err(SignalError::NoResonance { .. }) => return Err(NoGrowth::NoLine),
-            line => line?.frequency_hz,
-        },
+    let mut frequency = match main_frequency(samples, sampling_rate) {
+        Err(SignalError::NoResonance { .. }) => return Err(NoGrowth::NoLine),
+        line => line?.frequency_hz,
     };
     let mut stage = search(samples, sampling_rate, frequency)?;
-    if frequency_hz.is_some() {
-        return Ok(stage);
-    }
     // The stage may vibrate elsewhere than the limit cycle that dominates the record.
     for _ in 0..2 {
         let range = |t: f64| ((t * sampling_rate) as usize).min(samples.len());
@@ -259,7 +251,7 @@ mod tests {
     #[test]
     fn rate_and_frequency_of_the_linear_stage_are_found_before_a_limit_cycle() {
         for sigma in [300.0, 700.0, 1500.0] {
-            let stage = exponential_stage(&squeal(sigma, 9870.0, 9440.0), 5e5, None).unwrap();
+            let stage = exponential_stage(&squeal(sigma, 9870.0, 9440.0), 5e5).unwrap();
             // The stage is cut where the envelope deviates by 1 %: the slope keeps 1 %.
             assert!((stage.rate_per_s.value / sigma - 1.0).abs() < 0.01, "{stage:?}");
             assert!((stage.frequency_hz.value / 9870.0 - 1.0).abs() < 1e-3, "{stage:?}");
@@ -294,12 +286,9 @@ mod tests {
                 })
                 .collect()
         };
-        let stage = exponential_stage(&tone(-80.0), rate, None).unwrap();
+        let stage = exponential_stage(&tone(-80.0), rate).unwrap();
         assert!((stage.rate_per_s.value + 80.0).abs() < 0.5, "{stage:?}");
-        assert!(matches!(
-            exponential_stage(&tone(0.0), rate, None),
-            Err(NoGrowth::NotExponential(_))
-        ));
+        assert!(matches!(exponential_stage(&tone(0.0), rate), Err(NoGrowth::NotExponential(_))));
     }
 
     #[test]

@@ -4,17 +4,16 @@ use super::Window;
 use super::error::{SignalError, check_positive, too_short};
 use super::spectrum::{BlockTransform, check_signal};
 
-/// How a [`spectrogram`] cuts the signal.
+/// The transform is zero-padded to at least this many window lengths (then to a power of two).
+const PADDING: usize = 4;
+
+/// How a [`spectrogram`] cuts the signal, into Hann windows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SpectrogramOptions {
     /// Window length, s.
     pub window_length: f64,
     /// Distance of successive windows, s.
     pub hop: f64,
-    /// The transform is zero-padded to at least this many window lengths (then to a power of two).
-    pub padding: usize,
-    /// Taper.
-    pub window: Window,
     /// Frequencies above are left out, Hz.
     pub max_frequency_hz: f64,
     /// At most this many rows: where there are more windows, each row is the largest of several.
@@ -24,14 +23,7 @@ pub struct SpectrogramOptions {
 impl Default for SpectrogramOptions {
     /// Windows of 0.5 ms, as in figures 8 and 11 of the paper, with three quarters overlap.
     fn default() -> Self {
-        Self {
-            window_length: 5e-4,
-            hop: 1.25e-4,
-            padding: 4,
-            window: Window::Hann,
-            max_frequency_hz: f64::INFINITY,
-            most_rows: 4000,
-        }
+        Self { window_length: 5e-4, hop: 1.25e-4, max_frequency_hz: f64::INFINITY, most_rows: 4000 }
     }
 }
 
@@ -71,8 +63,8 @@ pub fn spectrogram(
     let hop = ((options.hop * sampling_rate).round() as usize).max(1);
     let windows = (samples.len() - block) / hop + 1;
     let together = windows.div_ceil(options.most_rows.max(1));
-    let length = (block * options.padding.max(1)).next_power_of_two();
-    let taper = options.window.coefficients(block);
+    let length = (block * PADDING).next_power_of_two();
+    let taper = Window::Hann.coefficients(block);
     let weight: f64 = taper.iter().sum();
     let mut transform = BlockTransform::new(taper.clone(), length);
     let mut frequencies_hz = transform.frequencies_hz(sampling_rate);
