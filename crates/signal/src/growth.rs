@@ -221,7 +221,7 @@ fn longest_line(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::statistics::gaussian_sequence;
+    use crate::fixtures::gaussian_sequence;
     use std::f64::consts::TAU;
 
     /// Rate and frequency over the whole record, without search or cut.

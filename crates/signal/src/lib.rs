@@ -10,6 +10,8 @@
 //! [`reader`] turns files into either kind. Nothing here touches a file.
 
 mod error;
+#[cfg(test)]
+mod fixtures;
 mod growth;
 mod lines;
 mod modal;

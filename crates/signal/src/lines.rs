@@ -202,7 +202,7 @@ fn name_superharmonics(lines: &mut [SpectralLine], bin: f64) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::statistics::gaussian_sequence;
+    use crate::fixtures::gaussian_sequence;
     use std::f64::consts::TAU;
 
     fn lines(samples: &[f64], rate: f64, asked_hz: Option<f64>) -> Vec<SpectralLine> {

@@ -163,7 +163,7 @@ pub(super) fn check_signal(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::statistics::gaussian_sequence;
+    use crate::fixtures::gaussian_sequence;
     use std::f64::consts::TAU;
 
     fn tone(count: usize, rate: f64, frequency: f64, amplitude: f64) -> Vec<f64> {

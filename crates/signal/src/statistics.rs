@@ -47,19 +47,6 @@ pub(super) fn median(values: &[f64]) -> f64 {
     if sorted.len() % 2 == 1 { sorted[half] } else { 0.5 * (sorted[half - 1] + sorted[half]) }
 }
 
-/// Standard normal numbers from sums of twelve uniform ones, for tests.
-#[cfg(test)]
-pub(super) fn gaussian_sequence(seed: u64) -> impl FnMut() -> f64 {
-    let mut state = seed;
-    move || {
-        let uniform = || {
-            state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-            (state >> 11) as f64 / (1u64 << 53) as f64
-        };
-        std::iter::repeat_with(uniform).take(12).sum::<f64>() - 6.0
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
