@@ -54,15 +54,15 @@ fn free_disc_with_one_percent_noise_gives_back_its_coefficients_at_1_hz() {
     assert!((alpha.value / ALPHA - 1.0).abs() < 0.1, "{alpha:?}");
     assert!((beta.value / BETA - 1.0).abs() < 0.03, "{beta:?}");
     // The tails of neighbours spoil the half-power factors, not those of the fit.
-    for mode in found.modes.iter().filter(|m| m.is_used) {
-        let omega = TAU * mode.fitted.frequency_hz.value;
+    for mode in found.fit.modes.iter().filter(|m| m.is_used()) {
+        let omega = TAU * mode.frequency_hz.value;
         let exact = 0.5 * (ALPHA / omega + BETA * omega);
-        let miss = (mode.fitted.damping_factor.value - exact).abs();
+        let miss = (mode.damping_factor.value - exact).abs();
         // Five standard errors, which one mode in two million exceeds by chance.
-        assert!(miss < 5.0 * mode.fitted.standard_error, "{mode:?} {exact}");
+        assert!(miss < 5.0 * mode.standard_error, "{mode:?} {exact}");
     }
     assert!((found.fit.noise[0].relative / 0.01 - 1.0).abs() < 0.05);
-    assert!(found.modes.len() >= 6);
+    assert!(found.fit.modes.len() >= 6);
 }
 
 fn moments(values: &[f64]) -> (f64, f64) {
@@ -97,13 +97,13 @@ fn over_noise_seeds_the_errors_are_as_large_as_stated_and_the_intervals_hold_the
     // The same mode by mode. Of 100 independent pulls the mean is known to 0.1 and the standard
     // deviation to 0.07: four of those.
     // Correlated noise would move the mean (the same error 100 times) and shrink the deviation.
-    let modes = found[0].modes.len();
-    assert!(found.iter().all(|r| r.modes.len() == modes));
+    let modes = found[0].fit.modes.len();
+    assert!(found.iter().all(|r| r.fit.modes.len() == modes));
     for k in 0..modes {
         let pulls: Vec<f64> = found
             .iter()
             .map(|r| {
-                let fitted = r.modes[k].fitted;
+                let fitted = r.fit.modes[k];
                 let omega = TAU * fitted.frequency_hz.value;
                 pull(fitted.damping_factor, 0.5 * (ALPHA / omega + BETA * omega))
             })
@@ -143,15 +143,16 @@ fn a_close_pair_under_one_peak_is_found_as_two_and_flagged() {
     modes.push((3125.0, 0.0062, 0.7));
     let (f, h) = modal_sum(&modes, 1.0, 5000.0);
     let found = identified(&f, noisy(&h, 0.005, 3));
-    assert_eq!(found.modes.len(), 5);
+    assert_eq!(found.fit.modes.len(), 5);
     for (index, frequency, zeta) in [(2, 3100.0, 0.006), (3, 3125.0, 0.0062)] {
-        let fitted = found.modes[index].fitted;
+        let fitted = found.fit.modes[index];
         assert!((fitted.frequency_hz.value - frequency).abs() < 1.0, "{fitted:?}");
         // Two modes a bandwidth apart share their information: 5 % is three standard errors.
         assert!((fitted.damping_factor.value / zeta - 1.0).abs() < 0.05, "{fitted:?}");
         assert!(fitted.overlaps_hz.is_some());
     }
     let doubtful = found
+        .fit
         .modes
         .iter()
         .filter_map(|m| m.half_power)
@@ -167,11 +168,11 @@ fn a_response_without_phase_gives_the_same_damping() {
     let response =
         FrequencyResponse::measured(f, moduli, ResponseQuantity::Accelerance, false).unwrap();
     let found = poles(&response).unwrap();
-    assert_eq!(found.modes.len(), 4);
-    for (mode, (frequency, zeta, _)) in found.modes.iter().zip(SEPARATE) {
-        assert!((mode.fitted.frequency_hz.value / frequency - 1.0).abs() < 1e-3);
+    assert_eq!(found.fit.modes.len(), 4);
+    for (mode, (frequency, zeta, _)) in found.fit.modes.iter().zip(SEPARATE) {
+        assert!((mode.frequency_hz.value / frequency - 1.0).abs() < 1e-3);
         // 0.5 % noise over some ten lines of each band.
-        assert!((mode.fitted.damping_factor.value / zeta - 1.0).abs() < 0.02, "{mode:?}");
+        assert!((mode.damping_factor.value / zeta - 1.0).abs() < 0.02, "{mode:?}");
     }
 }
 
@@ -184,10 +185,10 @@ fn identification_does_not_depend_on_the_quantity_measured() {
     for quantity in [ResponseQuantity::Mobility, ResponseQuantity::Receptance] {
         let converted = response.converted(quantity).unwrap();
         let got = poles(&converted).unwrap();
-        for (a, b) in got.modes.iter().zip(&want.modes) {
-            let miss = a.fitted.damping_factor.value - b.fitted.damping_factor.value;
+        for (a, b) in got.fit.modes.iter().zip(&want.fit.modes) {
+            let miss = a.damping_factor.value - b.damping_factor.value;
             // Same data, same relative noise; the additive part of the noise model may differ.
-            assert!(miss.abs() < b.fitted.standard_error, "{a:?} {b:?}");
+            assert!(miss.abs() < b.standard_error, "{a:?} {b:?}");
         }
     }
 }
@@ -205,13 +206,14 @@ fn two_responses_of_one_body_have_common_poles_with_smaller_errors() {
     let both = [response(&first, 11), response(&second, 12)];
     let alone = identify(&both[..1], None).unwrap();
     let joint = identify(&both, None).unwrap();
-    assert_eq!(joint.modes.len(), 4);
-    for ((a, b), (frequency, zeta, _)) in joint.modes.iter().zip(&alone.modes).zip(SEPARATE) {
-        let miss = (a.fitted.damping_factor.value - zeta).abs();
-        assert!(miss < 5.0 * a.fitted.standard_error, "{a:?}");
-        assert!((a.fitted.frequency_hz.value / frequency - 1.0).abs() < 1e-4);
+    assert_eq!(joint.fit.modes.len(), 4);
+    for ((a, b), (frequency, zeta, _)) in joint.fit.modes.iter().zip(&alone.fit.modes).zip(SEPARATE)
+    {
+        let miss = (a.damping_factor.value - zeta).abs();
+        assert!(miss < 5.0 * a.standard_error, "{a:?}");
+        assert!((a.frequency_hz.value / frequency - 1.0).abs() < 1e-4);
         // Twice the data: 0.707 of the error; the noise of each is known to a few per cent.
-        let ratio = a.fitted.standard_error / b.fitted.standard_error;
+        let ratio = a.standard_error / b.standard_error;
         assert!((0.65..0.77).contains(&ratio), "{ratio}");
     }
 }

@@ -31,9 +31,8 @@ pub use growth::{
 };
 pub use lines::{SpectralLine, SpectralResolution, Superharmonic, main_frequency, spectral_lines};
 pub use modal::{
-    Estimate, FittedMode, HalfPowerBand, Identification, IdentifiedMode, ModalFit, ModalModel,
-    ModalShare, NoiseModel, Pole, RayleighFit, ResonanceNote, fit_modes, fit_rayleigh, half_power,
-    identify,
+    Estimate, FittedMode, HalfPowerBand, Identification, ModalFit, ModalModel, ModalShare,
+    NoiseModel, Pole, RayleighFit, ResonanceNote, fit_modes, fit_rayleigh, half_power, identify,
 };
 pub use response::{FrequencyResponse, ResponseQuantity};
 pub use rotating::{RotatingLine, rotating_lines};

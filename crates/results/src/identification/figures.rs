@@ -6,7 +6,7 @@ use frictionsim_chart::{
     significant,
 };
 use frictionsim_signal::{
-    Estimate, FrequencyResponse, Identification, IdentifiedMode, ResponseQuantity,
+    Estimate, FittedMode, FrequencyResponse, Identification, ResponseQuantity,
 };
 use std::f64::consts::TAU;
 
@@ -32,15 +32,14 @@ pub fn identification(response: &FrequencyResponse, found: &Identification) -> F
         let index = frequencies.partition_point(|&f| f < frequency);
         magnitude.get(index).or(magnitude.last()).copied().unwrap_or(f64::NAN)
     };
-    let bands = found.modes.iter().filter_map(|mode| mode.half_power);
+    let bands = found.fit.modes.iter().filter_map(|mode| mode.half_power);
     let halves = bands.filter_map(|band| Some((band.frequency_hz, band.band_hz?)));
     let halves = halves.flat_map(|(peak, [low, high])| {
         // By definition they lie a factor sqrt(2) below the peak.
         [low, high].map(|f| (f, at(peak) / std::f64::consts::SQRT_2))
     });
-    let place =
-        |mode: &IdentifiedMode| (mode.fitted.frequency_hz.value, mode.fitted.damping_factor.value);
-    let tick = |mode: &IdentifiedMode| {
+    let place = |mode: &FittedMode| (mode.frequency_hz.value, mode.damping_factor.value);
+    let tick = |mode: &FittedMode| {
         Rule::vertical(place(mode).0).stroke(Stroke::dotted(INK, 0.5)).name("fitted mode")
     };
     let response = Panel::new(
@@ -48,7 +47,7 @@ pub fn identification(response: &FrequencyResponse, found: &Identification) -> F
         Axis::new("|*H*|", unit_of(response.quantity())).logarithmic(),
     )
     .height(150.0)
-    .layers(found.modes.iter().map(tick))
+    .layers(found.fit.modes.iter().map(tick))
     .layer(Line::new(frequencies, &magnitude).solid(SERIES[0], 0.9).name("measured"))
     .layer(Line::new(frequencies, &fitted).stroke(Stroke::dashed(SERIES[6], 0.7)).name("fitted"))
     .layer(Points::new(halves).marker(Marker::Diamond, 1.3, UNSTABLE).name("half-power points"));
@@ -60,10 +59,10 @@ pub fn identification(response: &FrequencyResponse, found: &Identification) -> F
     };
     let hertz: Vec<f64> = omegas.clone().map(|omega| omega / TAU).collect();
     let line = |mass: f64, stiffness: f64| Line::new(&hertz, &curve(mass, stiffness));
-    let used = |is_used: bool| found.modes.iter().filter(move |mode| mode.is_used == is_used);
-    let top = 1.35 * extremes(found.modes.iter().map(|mode| place(mode).1)).1;
+    let used = |is_used: bool| found.fit.modes.iter().filter(move |mode| mode.is_used() == is_used);
+    let top = 1.35 * extremes(found.fit.modes.iter().map(|mode| place(mode).1)).1;
     let bars = used(true).map(|mode| {
-        let ((f, factor), reach) = (place(mode), 1.96 * mode.fitted.standard_error);
+        let ((f, factor), reach) = (place(mode), 1.96 * mode.standard_error);
         Line::through([(f, factor - reach), (f, factor + reach)]).solid(INK, 0.7)
     });
     let (low, high) = (curve(alpha.low, beta.low), curve(alpha.high, beta.high));

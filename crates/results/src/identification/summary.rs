@@ -3,7 +3,7 @@
 use frictionsim_output::{Described, rounded};
 use frictionsim_signal::reader::NamedResponse;
 use frictionsim_signal::{
-    Estimate, HalfPowerBand, Identification, IdentifiedMode, RayleighFit, ResonanceNote,
+    Estimate, FittedMode, HalfPowerBand, Identification, RayleighFit, ResonanceNote,
 };
 use serde::Serialize;
 
@@ -117,7 +117,7 @@ impl IdentificationSummary {
             rayleigh: found.rayleigh,
             reduced_chi_square: found.rayleigh.reduced_chi_square,
             half_power: found.half_power_rayleigh,
-            modes: found.modes.iter().map(ModeSummary::of).collect(),
+            modes: fit.modes.iter().map(ModeSummary::of).collect(),
             unmatched_peaks_hz: found.unmatched.iter().map(|b| b.frequency_hz).collect(),
             fit: FitSummary {
                 range_hz: [fit.range_hz.0, fit.range_hz.1],
@@ -146,24 +146,24 @@ impl IdentificationSummary {
 }
 
 impl ModeSummary {
-    fn of(mode: &IdentifiedMode) -> Self {
-        let (f, zeta) = (mode.fitted.frequency_hz, mode.fitted.damping_factor);
+    fn of(mode: &FittedMode) -> Self {
+        let (f, zeta) = (mode.frequency_hz, mode.damping_factor);
         Self {
             frequency_hz: f.value,
             damping_factor: zeta.value,
             frequency_interval_hz: [f.low, f.high],
             damping_factor_interval: [zeta.low, zeta.high],
             half_power: mode.half_power,
-            used: mode.is_used,
+            used: mode.is_used(),
             flag: flag(mode),
         }
     }
 }
 
 /// What a user should know of a mode, or nothing.
-fn flag(mode: &IdentifiedMode) -> Option<String> {
+fn flag(mode: &FittedMode) -> Option<String> {
     let note = mode.half_power.and_then(|b| b.note);
-    Some(match (mode.fitted.overlaps_hz, note) {
+    Some(match (mode.overlaps_hz, note) {
         (Some(other), _) => format!("close: overlaps the mode at {other:.1} Hz"),
         (None, Some(ResonanceNote::Overlaps(other))) => {
             format!("close: half-power band reaches that at {other:.1} Hz")

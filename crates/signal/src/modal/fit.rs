@@ -2,7 +2,7 @@
 
 use super::basis::{ModalModel, Pole};
 use super::least_squares::{Fitted, Problem};
-use super::{Estimate, NoiseModel};
+use super::{Estimate, HalfPowerBand, NoiseModel};
 use crate::error::too_short;
 use crate::statistics::{NORMAL_95, median};
 use crate::{FrequencyResponse, SignalError};
@@ -21,6 +21,8 @@ const MOST_DAMPED: f64 = 0.3;
 /// The fit begins at this share of the first resonance: below, a suspension or the damping of
 /// rigid-body motion bends the response.
 const BELOW_FIRST: f64 = 0.5;
+/// Largest relative standard error of a damping factor that still enters the Rayleigh fit.
+const LARGEST_RELATIVE_ERROR: f64 = 0.1;
 
 /// A mode of the fitted model within the frequency range.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,9 +35,16 @@ pub struct FittedMode {
     pub standard_error: f64,
     /// Frequency of another mode whose half-power band overlaps this one's, Hz.
     pub overlaps_hz: Option<f64>,
+    /// From the half-power points, where the mode shows a peak and those were looked for.
+    pub half_power: Option<HalfPowerBand>,
 }
 
 impl FittedMode {
+    /// Whether the damping factor enters the Rayleigh coefficients: its standard error is below 10 %.
+    pub fn is_used(&self) -> bool {
+        self.standard_error < LARGEST_RELATIVE_ERROR * self.damping_factor.value
+    }
+
     /// Frequency and damping factor without their intervals.
     pub fn pole(&self) -> Pole {
         let (frequency_hz, damping_factor) = (self.frequency_hz.value, self.damping_factor.value);
@@ -291,6 +300,7 @@ fn summarised(
                 damping_factor: estimate(pole.damping_factor, error(2 * k + 1)),
                 standard_error: pole.damping_factor * error(2 * k + 1),
                 overlaps_hz: overlapping(pole, others),
+                half_power: None,
             }
         })
         .collect();

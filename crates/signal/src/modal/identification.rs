@@ -7,26 +7,9 @@ use super::rayleigh::{RayleighFit, fit_rayleigh};
 use crate::{FrequencyResponse, SignalError};
 use faer::Mat;
 
-/// Largest relative standard error of a damping factor that still enters the Rayleigh fit.
-const LARGEST_RELATIVE_ERROR: f64 = 0.1;
-
-/// One mode with both estimates of its damping.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct IdentifiedMode {
-    /// From the fit of the whole response.
-    pub fitted: FittedMode,
-    /// From the half-power points, where the mode shows a peak.
-    pub half_power: Option<HalfPowerBand>,
-    /// Whether the fitted damping factor enters the Rayleigh coefficients: its standard error is
-    /// below 10 %.
-    pub is_used: bool,
-}
-
 /// Modes, Rayleigh coefficients and the evidence for them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Identification {
-    /// Modes by frequency.
-    pub modes: Vec<IdentifiedMode>,
     /// Coefficients from the fitted damping factors.
     pub rayleigh: RayleighFit,
     /// Coefficients from the half-power factors alone, where at least three modes have one that is
@@ -34,7 +17,7 @@ pub struct Identification {
     pub half_power_rayleigh: Option<RayleighFit>,
     /// Peaks of which the fit made no mode.
     pub unmatched: Vec<HalfPowerBand>,
-    /// The fit.
+    /// The fit, each of its modes with its half-power band.
     pub fit: ModalFit,
 }
 
@@ -59,31 +42,21 @@ pub fn identify(
     let bands = peaks(&cut)?;
     let resolution_hz = cut.iter().map(|r| r.resolution_hz()).fold(0.0, f64::max);
     refuse_coarse(resolution_hz, &bands)?;
-    let fit = fit_modes(&cut, &starts(&bands))?;
-    let mut modes: Vec<IdentifiedMode> = fit
-        .modes
-        .iter()
-        .map(|fitted| IdentifiedMode {
-            fitted: *fitted,
-            half_power: None,
-            is_used: fitted.standard_error < LARGEST_RELATIVE_ERROR * fitted.damping_factor.value,
-        })
-        .collect();
+    let mut fit = fit_modes(&cut, &starts(&bands))?;
     let mut unmatched = Vec::new();
-    for band in &bands {
-        match nearest(&modes, band.frequency_hz) {
-            Some(k) => modes[k].half_power = Some(with_hidden_neighbour(*band, &fit.modes[k])),
-            None => unmatched.push(*band),
+    for band in bands {
+        match nearest(&fit.modes, band.frequency_hz) {
+            Some(k) => fit.modes[k].half_power = Some(with_hidden_neighbour(band, &fit.modes[k])),
+            None => unmatched.push(band),
         }
     }
-    let used: Vec<usize> = (0..modes.len()).filter(|&k| modes[k].is_used).collect();
-    let samples: Vec<Pole> = used.iter().map(|&k| modes[k].fitted.pole()).collect();
+    let used: Vec<usize> = (0..fit.modes.len()).filter(|&k| fit.modes[k].is_used()).collect();
+    let samples: Vec<Pole> = used.iter().map(|&k| fit.modes[k].pole()).collect();
     let covariance =
         Mat::from_fn(used.len(), used.len(), |i, j| fit.damping_covariance[(used[i], used[j])]);
     Ok(Identification {
         rayleigh: fit_rayleigh(&samples, Some(&covariance))?,
-        half_power_rayleigh: half_power_rayleigh(&modes),
-        modes,
+        half_power_rayleigh: half_power_rayleigh(&fit.modes),
         unmatched,
         fit,
     })
@@ -118,7 +91,7 @@ fn peaks(responses: &[FrequencyResponse]) -> Result<Vec<HalfPowerBand>, SignalEr
 }
 
 /// Coefficients from half-power factors that carry no doubt.
-fn half_power_rayleigh(modes: &[IdentifiedMode]) -> Option<RayleighFit> {
+fn half_power_rayleigh(modes: &[FittedMode]) -> Option<RayleighFit> {
     let bands = modes.iter().filter_map(|m| m.half_power).filter(|b| b.note.is_none());
     let samples = bands.filter_map(|HalfPowerBand { frequency_hz, damping_factor, .. }| {
         Some(Pole { frequency_hz, damping_factor: damping_factor? })
@@ -154,12 +127,12 @@ fn starts(bands: &[HalfPowerBand]) -> Vec<Pole> {
 }
 
 /// The mode whose fitted frequency is nearest to a peak, within its bandwidth.
-fn nearest(modes: &[IdentifiedMode], frequency_hz: f64) -> Option<usize> {
-    let miss = |k: usize| (modes[k].fitted.frequency_hz.value - frequency_hz).abs();
+fn nearest(modes: &[FittedMode], frequency_hz: f64) -> Option<usize> {
+    let miss = |k: usize| (modes[k].frequency_hz.value - frequency_hz).abs();
     let k = (0..modes.len())
         .filter(|&k| modes[k].half_power.is_none())
         .min_by(|i, j| miss(*i).total_cmp(&miss(*j)))?;
-    (miss(k) <= modes[k].fitted.pole().bandwidth_hz()).then_some(k)
+    (miss(k) <= modes[k].pole().bandwidth_hz()).then_some(k)
 }
 
 /// A single peak over two modes looks sound to the half-power method; the fit knows better.
