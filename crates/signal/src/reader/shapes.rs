@@ -49,80 +49,60 @@ pub fn read_shapes(bytes: &[u8], source: &str) -> Result<Vec<MeasuredShape>, Rea
     }
 }
 
-/// Names of the columns: places, then displacements whole, real, imaginary.
-const PLACES: [[&str; 2]; 3] = [["x", "x_m"], ["y", "y_m"], ["z", "z_m"]];
-const WHOLE: [&str; 3] = ["ux", "uy", "uz"];
-
-/// Where each column of a table stands.
-struct Columns {
-    places: [Option<usize>; 3],
-    /// Real or whole, and imaginary part of each direction.
-    motion: [[Option<usize>; 2]; 3],
-    mode: Option<usize>,
-    frequency: Option<usize>,
-}
-
-impl Columns {
-    fn of(names: &[String], source: &str) -> Result<Self, ReadError> {
-        let place = |known: &[String]| names.iter().position(|name| known.contains(name));
-        let one = |known: &[&str]| {
-            let known: Vec<String> = known.iter().map(|name| (*name).to_owned()).collect();
-            place(&known)
-        };
-        let parts = |name: &str| {
-            let with = |ends: [&str; 2]| ends.map(|end| format!("{name}{end}"));
-            let [re, real] = with(["_re", "_real"]);
-            [place(&[name.to_owned(), re, real]), place(&with(["_im", "_imag"]))]
-        };
-        let columns = Self {
-            places: PLACES.map(|known| one(&known)),
-            motion: WHOLE.map(parts),
-            mode: one(&["mode", "shape"]),
-            frequency: one(&["frequency_hz", "frequency", "f_hz"]),
-        };
-        let has_motion = columns.motion.iter().any(|parts| parts[0].is_some());
-        if columns.places[0].is_none() || columns.places[1].is_none() || !has_motion {
-            let remedy = "the first line names the columns: x, y, z in metres, and of ux, uy, uz \
-                those measured. Complex ones are 0.1+0.2j, or two columns ux_re, ux_im. Several \
-                shapes have mode and frequency_hz";
-            let wanted = "points and displacements";
-            let problem = missing_column(wanted, &first_of(names), remedy);
-            return Err(ReadError::whole(source, problem));
-        }
-        Ok(columns)
-    }
-}
+/// What each column may be called: places, displacements along each axis (whole or real,
+/// imaginary), the mode and its frequency.
+const COLUMNS: [&[&str]; 11] = [
+    &["x", "x_m"],
+    &["y", "y_m"],
+    &["z", "z_m"],
+    &["ux", "ux_re", "ux_real"],
+    &["ux_im", "ux_imag"],
+    &["uy", "uy_re", "uy_real"],
+    &["uy_im", "uy_imag"],
+    &["uz", "uz_re", "uz_real"],
+    &["uz_im", "uz_imag"],
+    &["mode", "shape"],
+    &["frequency_hz", "frequency", "f_hz"],
+];
 
 /// The shapes of a table, in the order in which their names come.
 fn table(bytes: &[u8], source: &str) -> Result<Vec<MeasuredShape>, ReadError> {
     let text = decode(bytes);
     let (names, rows) = headed(&text, source)?;
-    let columns = Columns::of(&names, source)?;
+    let place = |known: &&[&str]| names.iter().position(|name| known.contains(&name.as_str()));
+    let [x, y, z, ux, ux_im, uy, uy_im, uz, uz_im, mode, frequency] = COLUMNS.each_ref().map(place);
+    if x.is_none() || y.is_none() || ux.or(uy).or(uz).is_none() {
+        let remedy = "the first line names the columns: x, y, z in metres, and of ux, uy, uz \
+            those measured. Complex ones are 0.1+0.2j, or two columns ux_re, ux_im. Several \
+            shapes have mode and frequency_hz";
+        let problem = missing_column("points and displacements", &first_of(&names), remedy);
+        return Err(ReadError::whole(source, problem));
+    }
     let mut shapes: Vec<MeasuredShape> = Vec::new();
     let mut known: BTreeMap<String, usize> = BTreeMap::new();
     for row in rows {
-        let name = row.cell(columns.mode).unwrap_or("1").to_owned();
+        let name = row.cell(mode).unwrap_or("1").to_owned();
         let count = shapes.len();
         let place = *known.entry(name.clone()).or_insert(count);
         if place == count {
             shapes.push(MeasuredShape {
                 name,
-                frequency_hz: row.number(columns.frequency, "frequency_hz")?,
+                frequency_hz: row.number(frequency, "frequency_hz")?,
                 points: Vec::new(),
                 motion: Vec::new(),
             });
         }
         let mut point = [0.0; 3];
-        for (axis, value) in point.iter_mut().enumerate() {
-            if columns.places[axis].is_some() {
-                let own = row.number(columns.places[axis], PLACES[axis][0])?;
-                *value = own.ok_or_else(|| row.missing(PLACES[axis][0]))?;
+        for (value, (column, name)) in point.iter_mut().zip([(x, "x"), (y, "y"), (z, "z")]) {
+            if column.is_some() {
+                *value = row.number(column, name)?.ok_or_else(|| row.missing(name))?;
             }
         }
-        let mut motion = [None; 3];
-        for (axis, value) in motion.iter_mut().enumerate() {
-            *value = row.complex(columns.motion[axis], WHOLE[axis])?;
-        }
+        let motion = [
+            row.complex([ux, ux_im], "ux")?,
+            row.complex([uy, uy_im], "uy")?,
+            row.complex([uz, uz_im], "uz")?,
+        ];
         shapes[place].points.push(point);
         shapes[place].motion.push(motion);
     }
