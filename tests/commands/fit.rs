@@ -128,7 +128,7 @@ fn a_fit_on_its_bound_says_so() {
 /// frequencies, and only the shapes tell which. They mix a little where the modes are close.
 #[test]
 fn shapes_tell_modes_apart_that_cross() {
-    use frictionsim::study::fit::{BoundedParameter, FitProblem, ModelMode, fit};
+    use frictionsim::study::fit::{FitProblem, ModelMode, fit};
     let truth = 1.2996_f64;
     let frequencies = |p: f64| [1000.0 * p.sqrt(), 1000.0 * (2.4 - p).sqrt()];
     let model = |values: &[f64], _: bool| -> Result<Vec<ModelMode>, String> {
@@ -136,30 +136,28 @@ fn shapes_tell_modes_apart_that_cross() {
         let mixed = 0.1 * (-((values[0] - 1.2) / 0.05).powi(2)).exp();
         let modes = frequencies(values[0]).into_iter().enumerate();
         let modes = modes.map(|(k, frequency)| ModelMode {
-            eigenvalue: c64::new(-10.0, TAU * frequency),
-            harmonic: None,
-            branch: k,
-            direction: 0,
             rates: vec![None],
             assurances: match k {
                 0 => vec![1.0 - mixed, mixed],
                 _ => vec![mixed, 1.0 - mixed],
             },
+            ..ModelMode::new(c64::new(-10.0, TAU * frequency), None, k, 0)
         });
         Ok(modes.collect())
     };
     let lines = frequencies(truth).into_iter().enumerate();
     let lines: Vec<_> = lines.map(|(k, own)| measured_mode(k + 2, own, None)).collect();
-    let parameters =
-        [BoundedParameter { name: "p".to_owned(), from: 0.8, to: 1.6, is_logarithmic: false }];
+    let key = "material.young_modulus";
+    let bounds = format!("fit.parameters={{ \"{key}\" = [0.8, 1.6] }}");
+    let changes = [bounds.as_str(), "fit.starts=8", "fit.shape_weight=0.1"];
+    let case = shipped_case("fit-table-1.toml", &changes);
+    let wanted = case.require_fit().unwrap();
     let with = |shape_of: [Option<usize>; 2]| {
         let problem = FitProblem {
             model: &model,
-            parameters: &parameters,
+            wanted,
             lines: &lines,
             shape_of: shape_of.to_vec(),
-            shape_weight: 0.1,
-            starts: 8,
             // Where the frequencies alone are matched, by the wrong modes.
             own: Some(vec![1.1]),
         };
@@ -170,7 +168,7 @@ fn shapes_tell_modes_apart_that_cross() {
     let swapped = [Some(1), Some(0)];
     for (shape_of, expected) in [([Some(0), Some(1)], truth), (swapped, 2.4 - truth)] {
         let fitted = with(shape_of);
-        let value = fitted.parameters["p"].value;
+        let value = fitted.parameters[key].value;
         assert!((value - expected).abs() < 1e-3, "{value} {expected}");
         assert!(fitted.other_minima.is_empty(), "{:?}", fitted.other_minima);
         let assured = fitted.residuals.iter().map(|line| line.mac.unwrap());

@@ -17,6 +17,34 @@ pub struct FitParameter {
     pub scale: Spacing,
 }
 
+impl FitParameter {
+    /// The value at a place, 0 at the lower and 1 at the upper bound.
+    pub fn value(&self, place: f64) -> f64 {
+        match (place, self.scale) {
+            (0.0, _) => self.from,
+            (1.0, _) => self.to,
+            (_, Spacing::Logarithmic) => self.from * (self.to / self.from).powf(place),
+            (_, Spacing::Linear) => self.from + (self.to - self.from) * place,
+        }
+    }
+
+    /// The place of a value.
+    pub fn place(&self, value: f64) -> f64 {
+        match self.scale {
+            Spacing::Logarithmic => (value / self.from).ln() / (self.to / self.from).ln(),
+            Spacing::Linear => (value - self.from) / (self.to - self.from),
+        }
+    }
+
+    /// `d value / d place`.
+    pub fn slope(&self, place: f64) -> f64 {
+        match self.scale {
+            Spacing::Logarithmic => self.value(place) * (self.to / self.from).ln(),
+            Spacing::Linear => self.to - self.from,
+        }
+    }
+}
+
 /// `[fit]`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Fit {

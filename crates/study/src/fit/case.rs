@@ -2,11 +2,11 @@
 
 use super::free_part::{STEP, free_part, rates};
 use super::notes::notes;
-use super::{BoundedParameter, FitError, FitProblem, MeasuredMode, ModelMode, fit};
+use super::{FitError, FitProblem, MeasuredMode, ModelMode, fit};
 use crate::eigenvalues::{Solver, analysis, rates_of_waves};
 use crate::mac::MeasuredShapes;
 use crate::{StudyError, eigenvalues};
-use frictionsim_case::{Case, Cea, Fit, FitParameter, Spacing, find_key};
+use frictionsim_case::{Case, Cea, Fit};
 use frictionsim_physics::cea::cyclic::{WavePair, WaveSweep, wave_pairs};
 use frictionsim_physics::cea::{ComplexMode, ModeBranch};
 use frictionsim_physics::linalg::c64;
@@ -46,29 +46,13 @@ pub fn fit_case(
     let model = |values: &[f64], with_rates: bool| {
         modes(case, (wanted, shapes), values, limit_hz, with_rates)
     };
-    let parameters: Vec<BoundedParameter> = wanted.parameters.iter().map(bounded).collect();
     let own = wanted.parameters.iter().map(|parameter| case.number(&parameter.parameter.key));
-    let problem = FitProblem {
-        model: &model,
-        parameters: &parameters,
-        lines,
-        shape_of,
-        shape_weight: wanted.shape_weight,
-        starts: wanted.starts,
-        own: own.collect(),
-    };
+    let problem = FitProblem { model: &model, wanted, lines, shape_of, own: own.collect() };
     let mut found = fit(&problem)?;
 
-    // What the case says of the parameters.
-    for FitParameter { parameter, .. } in &wanted.parameters {
-        if let Some(fitted) = found.parameters.get_mut(&parameter.key) {
-            fitted.also.clone_from(&parameter.also);
-            fitted.unit = find_key(&parameter.key).map_or("", |known| known.unit).to_owned();
-        }
-    }
     // The case as it is written need not have a solution.
     let before = eigenvalues::modes_below(case, limit_hz).unwrap_or_default();
-    let told = |mode: &ComplexMode| ModelMode::of(mode, case.has_sectors()).told();
+    let told = |mode: &ComplexMode| ModelMode::of(mode, case.has_sectors()).told;
     found.modes_of_case = before.iter().map(told).collect();
     found.friction_coefficient = case.contact.sliding.friction_coefficient;
     found.notes = notes(case, wanted, &found);
@@ -116,15 +100,6 @@ pub fn refuse_too_few(case: &Case, lines: &[MeasuredMode]) -> Result<(), StudyEr
     let label = format!("{data} numbers are measured");
     let errors = case.error_at("fit.parameters", message, label, None);
     Err(errors.into())
-}
-
-fn bounded(parameter: &FitParameter) -> BoundedParameter {
-    BoundedParameter {
-        name: parameter.parameter.key.clone(),
-        from: parameter.from,
-        to: parameter.to,
-        is_logarithmic: parameter.scale == Spacing::Logarithmic,
-    }
 }
 
 /// The modes of the case with its parameters at some values, with their derivatives by each parameter and their

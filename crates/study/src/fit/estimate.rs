@@ -21,7 +21,7 @@ const LARGEST_DIFFERENCE: f64 = 0.25;
 /// Distance of two minima, in units of the bounds, from which on they are two.
 const DISTINCT: f64 = 0.02;
 
-/// Fits the parameters. What only a case can tell (its friction, units, modes as it is written, notes) is left out.
+/// Fits the parameters. What only a case can tell (its friction, modes as it is written, notes) is left out.
 ///
 /// Without `sigma_hz` differences weigh as shares of the frequency; frequencies and real parts scatter each by their
 /// own measure where there are eight of each or more, so that the weight between the two is the data's own. Intervals
@@ -30,7 +30,7 @@ const DISTINCT: f64 = 0.02;
 /// # Errors
 /// [`FitError`].
 pub fn fit(problem: &FitProblem<'_>) -> Result<FitSummary, FitError> {
-    let (data, count) = (problem.data_count(), problem.parameters.len());
+    let (data, count) = (problem.data_count(), problem.wanted.parameters.len());
     if data < count {
         return Err(FitError::too_few_data(count, data));
     }
@@ -72,7 +72,7 @@ pub fn fit(problem: &FitProblem<'_>) -> Result<FitSummary, FitError> {
         real_scatter,
         other_minima: other_minima(problem, &minima),
         search: SearchSummary { starts: points.len(), searches: searched, arrived: here },
-        modes: best.modes.iter().map(ModelMode::told).collect(),
+        modes: best.modes.iter().map(|mode| mode.told.clone()).collect(),
         ..FitSummary::default()
     })
 }
@@ -92,15 +92,15 @@ fn by_squares(trials: Vec<Result<Trial, String>>, reason: &mut String) -> Vec<Tr
 
 /// The case's own values where they lie within the bounds, then points that fill the bounds evenly.
 fn starting_points(problem: &FitProblem<'_>) -> Vec<Vec<f64>> {
-    let count = problem.parameters.len();
+    let count = problem.wanted.parameters.len();
     let own = problem.own.iter().map(|values| {
-        let pairs = problem.parameters.iter().zip(values);
+        let pairs = problem.wanted.parameters.iter().zip(values);
         pairs.map(|(parameter, value)| parameter.place(*value)).collect::<Vec<f64>>()
     });
     let inside = |places: &Vec<f64>| places.iter().all(|p| (0.0..=1.0).contains(p));
     let mut points: Vec<Vec<f64>> = own.filter(inside).collect();
     let sequence = ScrambledSobol::new(count.min(ScrambledSobol::LARGEST_DIMENSION), 1);
-    let further = problem.starts.saturating_sub(points.len());
+    let further = problem.wanted.starts.saturating_sub(points.len());
     points.extend((0..further as u32).map(|i| {
         let mut point = sequence.point(i);
         point.resize(count, 0.5);
@@ -120,7 +120,8 @@ fn weights(problem: &FitProblem<'_>) -> Vec<Weights> {
         Weights {
             frequency: weight,
             real: if line.real_hz.is_some() { weight } else { 0.0 },
-            shape: shape.map(|shape| (shape, problem.shape_weight * weight * line.frequency_hz)),
+            shape: shape
+                .map(|shape| (shape, problem.wanted.shape_weight * weight * line.frequency_hz)),
         }
     };
     lines.iter().zip(&problem.shape_of).map(of).collect()
@@ -130,7 +131,7 @@ fn weights(problem: &FitProblem<'_>) -> Vec<Weights> {
 /// kind that has fewer.
 fn reweighted(squares: &mut Squares<'_>, mut best: Trial) -> Result<(Trial, f64), String> {
     let lines = squares.problem.lines;
-    let all = squares.problem.data_count() as f64 - squares.problem.parameters.len() as f64;
+    let all = squares.problem.data_count() as f64 - squares.problem.wanted.parameters.len() as f64;
     let reals = lines.iter().filter(|line| line.real_hz.is_some()).count();
     if reals < OWN_SCATTER || lines.len() < OWN_SCATTER {
         return Ok((best, all));
@@ -189,7 +190,7 @@ fn distance(a: &[f64], b: &[f64]) -> f64 {
 
 /// Minima whose sum of squares lies within the joint 95 % region of the best one, each once.
 fn other_minima(problem: &FitProblem<'_>, minima: &[Trial]) -> Vec<BTreeMap<String, f64>> {
-    let count = problem.parameters.len() as f64;
+    let count = problem.wanted.parameters.len() as f64;
     let degrees = problem.data_count() as f64 - count;
     if degrees < 1.0 || minima.is_empty() {
         return Vec::new();
@@ -207,11 +208,10 @@ fn other_minima(problem: &FitProblem<'_>, minima: &[Trial]) -> Vec<BTreeMap<Stri
 fn refuse_unmatched(problem: &FitProblem<'_>, best: &Trial) -> Result<(), FitError> {
     for (line, mode) in problem.lines.iter().zip(best.of_lines()) {
         let fits = |mode: &&ModelMode| {
-            let is_near = (mode.frequency_hz() - line.frequency_hz).abs()
+            let is_near = (mode.told.frequency_hz - line.frequency_hz).abs()
                 <= LARGEST_DIFFERENCE * line.frequency_hz;
             let is_heard = !line.is_unstable || mode.eigenvalue.re > 0.0;
-            let is_other = |n: usize| mode.harmonic.is_some_and(|own| own != n);
-            is_near && is_heard && !line.harmonic.is_some_and(is_other)
+            is_near && is_heard && mode.may_be(line)
         };
         if mode.filter(fits).is_some() {
             continue;
@@ -229,16 +229,16 @@ fn refuse_unmatched(problem: &FitProblem<'_>, best: &Trial) -> Result<(), FitErr
     Ok(())
 }
 
-fn described(mode: &ModelMode) -> String {
+fn described(ModelMode { told: mode, .. }: &ModelMode) -> String {
     let harmonic = mode.harmonic.map_or(String::new(), |n| format!("n = {n}, "));
-    format!("{harmonic}{:.0} Hz, growth {:+.1} Hz", mode.frequency_hz(), mode.real_hz())
+    format!("{harmonic}{:.0} Hz, growth {:+.1} Hz", mode.frequency_hz, mode.real_hz)
 }
 
 /// Each line with its mode.
 fn lines(problem: &FitProblem<'_>, best: &Trial) -> Vec<LineSummary> {
     let lines = problem.lines.iter().zip(best.of_lines()).zip(&problem.shape_of);
     let matched = lines.filter_map(|((measured, mode), shape)| {
-        let own = mode?.told();
+        let own = mode?.told.clone();
         let difference_hz = own.frequency_hz - measured.frequency_hz;
         Some(LineSummary {
             line: measured.line,

@@ -1,7 +1,8 @@
 //! Intervals and correlations of fitted parameters, and the direction that the data do not see.
 
+use super::FitError;
 use super::levenberg_marquardt::{Squares, Trial};
-use super::{BoundedParameter, FitError};
+use frictionsim_case::{FitParameter, find_key};
 use frictionsim_results::fit::FittedParameter;
 use frictionsim_signal::student_95;
 use nalgebra::DMatrix;
@@ -20,7 +21,7 @@ pub fn estimates(
     best: &Trial,
     most_degrees: f64,
 ) -> Result<Result<Estimates, FitError>, String> {
-    let (problem, parameters) = (squares.problem, squares.problem.parameters);
+    let (problem, parameters) = (squares.problem, &squares.problem.wanted.parameters);
     let is_on_bound = |place: f64| place == 0.0 || place == 1.0;
     let free: Vec<usize> =
         (0..parameters.len()).filter(|&k| !is_on_bound(best.places[k])).collect();
@@ -37,10 +38,12 @@ pub fn estimates(
         let quantile = student_95(degrees.min(most_degrees));
         Some(quantile * (variance * covariance[(k, k)]).sqrt())
     };
-    let at_place = |(parameter, &place): (&BoundedParameter, &f64)| FittedParameter {
+    let at_place = |(parameter, &place): (&FitParameter, &f64)| FittedParameter {
         value: parameter.value(place),
         bounds: [parameter.from, parameter.to],
         at_bound: is_on_bound(place).then(|| parameter.value(place)),
+        also: parameter.parameter.also.clone(),
+        unit: find_key(&parameter.parameter.key).map_or("", |known| known.unit).to_owned(),
         ..FittedParameter::default()
     };
     let mut all: Vec<FittedParameter> = parameters.iter().zip(&best.places).map(at_place).collect();
@@ -65,7 +68,7 @@ pub fn estimates(
 /// The direction in which no measured number changes, in words.
 fn blind_direction(
     jacobian: &DMatrix<f64>,
-    parameters: &[BoundedParameter],
+    parameters: &[FitParameter],
     free: &[usize],
     best: &Trial,
 ) -> Option<String> {
@@ -94,7 +97,8 @@ fn blind_direction(
     let largest = relative.iter().fold(0.0_f64, |m, (_, change)| m.max(change.abs()));
     let sign = relative.iter().find(|(_, c)| c.abs() == largest).map_or(1.0, |(_, c)| c.signum());
     let named = relative.iter().filter(|(_, change)| change.abs() > 0.02 * largest);
-    let named = named
-        .map(|(k, change)| format!("{} {:+.2} %", parameters[*k].name, sign * change / largest));
+    let named = named.map(|(k, change)| {
+        format!("{} {:+.2} %", parameters[*k].parameter.key, sign * change / largest)
+    });
     Some(named.collect::<Vec<_>>().join(", "))
 }

@@ -61,7 +61,7 @@ impl Squares<'_> {
 
     /// Derivatives of [`Self::residuals`] by the places; `trial` has the rates that the model gives.
     pub fn jacobian(&self, trial: &Trial) -> Result<DMatrix<f64>, String> {
-        let (lines, parameters) = (self.problem.lines, self.problem.parameters);
+        let (lines, parameters) = (self.problem.lines, &self.problem.wanted.parameters);
         let mut jacobian = DMatrix::zeros(KINDS * lines.len(), parameters.len());
         for (column, parameter) in parameters.iter().enumerate() {
             let slope = parameter.slope(trial.places[column]);
@@ -170,7 +170,8 @@ fn same<'m>(mode: &ModelMode, weights: &Weights, modes: &'m [ModelMode]) -> Opti
         away + strange
     };
     let nearest = |a: &&ModelMode, b: &&ModelMode| distance(a).total_cmp(&distance(b));
-    let named = modes.iter().filter(|other| mode.harmonic.is_some() && other.name() == mode.name());
+    let named =
+        modes.iter().filter(|other| mode.told.harmonic.is_some() && other.name() == mode.name());
     let found = named.min_by(nearest);
     found.or_else(|| modes.iter().min_by(nearest))
 }

@@ -64,8 +64,7 @@ fn cost(line: &MeasuredMode, weights: Weights, mode: &ModelMode) -> f64 {
     if line.is_unstable && mode.eigenvalue.re <= 0.0 {
         cost += penalty;
     }
-    let is_other = |n: usize| mode.harmonic.is_some_and(|own| own != n);
-    if line.harmonic.is_some_and(is_other) {
+    if !mode.may_be(line) {
         cost += 1e3 * penalty;
     }
     cost
@@ -73,8 +72,8 @@ fn cost(line: &MeasuredMode, weights: Weights, mode: &ModelMode) -> f64 {
 
 /// Measured less computed frequency and real part, Hz; the second 0 where it was not measured.
 pub(super) fn differences(line: &MeasuredMode, mode: &ModelMode) -> [f64; 2] {
-    let real = line.real_hz.map_or(0.0, |real| real - mode.real_hz());
-    [line.frequency_hz - mode.frequency_hz(), real]
+    let real = line.real_hz.map_or(0.0, |real| real - mode.told.real_hz);
+    [line.frequency_hz - mode.told.frequency_hz, real]
 }
 
 /// The column of each row, all different, at the smallest sum of costs; no more rows than columns. A cost that is no

@@ -27,6 +27,7 @@ pub use estimate::fit;
 pub use frictionsim_signal::reader::MeasuredMode;
 pub(crate) use matching::least_cost;
 
+use frictionsim_case::Fit;
 use frictionsim_physics::cea::ComplexMode;
 use frictionsim_physics::linalg::c64;
 use frictionsim_results::fit::ModeSummary;
@@ -38,12 +39,8 @@ use std::f64::consts::TAU;
 pub struct ModelMode {
     /// Eigenvalue, rad/s.
     pub eigenvalue: c64,
-    /// Nodal diameters, where the body has the symmetry.
-    pub harmonic: Option<usize>,
-    /// Rank within the harmonic.
-    pub branch: usize,
-    /// +1 with the rotor, -1 against it, 0 standing.
-    pub direction: i8,
+    /// Its name, and the same in hertz, in the words of the results.
+    pub told: ModeSummary,
     /// Derivative of the eigenvalue by each parameter, where the model gives it.
     pub rates: Vec<Option<c64>>,
     /// Modal assurance criterion with each measured shape; empty without shapes.
@@ -51,82 +48,26 @@ pub struct ModelMode {
 }
 
 impl ModelMode {
-    /// A mode, without derivatives and shapes.
+    /// A mode by its nodal diameters, where the body has the symmetry, its rank among them and its direction (+1 with
+    /// the rotor, -1 against it, 0 standing), without derivatives and shapes.
+    pub fn new(eigenvalue: c64, harmonic: Option<usize>, branch: usize, direction: i8) -> Self {
+        let [frequency_hz, real_hz] = [eigenvalue.im / TAU, eigenvalue.re / TAU];
+        let told = ModeSummary { harmonic, branch, direction, frequency_hz, real_hz };
+        Self { eigenvalue, told, rates: Vec::new(), assurances: Vec::new() }
+    }
+
     fn of(mode: &ComplexMode, has_harmonics: bool) -> Self {
-        Self {
-            eigenvalue: mode.eigenvalue,
-            harmonic: has_harmonics.then_some(mode.harmonic),
-            branch: mode.branch,
-            direction: mode.direction,
-            rates: Vec::new(),
-            assurances: Vec::new(),
-        }
+        let harmonic = has_harmonics.then_some(mode.harmonic);
+        Self::new(mode.eigenvalue, harmonic, mode.branch, mode.direction)
     }
 
-    /// `Im(lambda) / 2 pi`, Hz.
-    pub fn frequency_hz(&self) -> f64 {
-        self.eigenvalue.im / TAU
-    }
-
-    /// `Re(lambda) / 2 pi`, Hz.
-    pub fn real_hz(&self) -> f64 {
-        self.eigenvalue.re / TAU
-    }
-
-    /// The mode in the words of the results.
-    fn told(&self) -> ModeSummary {
-        ModeSummary {
-            harmonic: self.harmonic,
-            branch: self.branch,
-            direction: self.direction,
-            frequency_hz: self.frequency_hz(),
-            real_hz: self.real_hz(),
-        }
+    /// Whether a line of known harmonic may be this mode.
+    fn may_be(&self, line: &MeasuredMode) -> bool {
+        line.harmonic.zip(self.told.harmonic).is_none_or(|(measured, own)| measured == own)
     }
 
     fn name(&self) -> (Option<usize>, usize, i8) {
-        (self.harmonic, self.branch, self.direction)
-    }
-}
-
-/// A parameter between its bounds.
-#[derive(Clone, Debug, PartialEq)]
-pub struct BoundedParameter {
-    /// Its key, in results and messages.
-    pub name: String,
-    /// Lower bound.
-    pub from: f64,
-    /// Upper bound.
-    pub to: f64,
-    /// Whether its logarithm is sought.
-    pub is_logarithmic: bool,
-}
-
-impl BoundedParameter {
-    /// The value at a place, 0 at the lower and 1 at the upper bound.
-    pub fn value(&self, place: f64) -> f64 {
-        match place {
-            0.0 => self.from,
-            1.0 => self.to,
-            _ if self.is_logarithmic => self.from * (self.to / self.from).powf(place),
-            _ => self.from + (self.to - self.from) * place,
-        }
-    }
-
-    /// The place of a value.
-    pub fn place(&self, value: f64) -> f64 {
-        match self.is_logarithmic {
-            true => (value / self.from).ln() / (self.to / self.from).ln(),
-            false => (value - self.from) / (self.to - self.from),
-        }
-    }
-
-    /// `d value / d place`.
-    fn slope(&self, place: f64) -> f64 {
-        match self.is_logarithmic {
-            true => self.value(place) * (self.to / self.from).ln(),
-            false => self.to - self.from,
-        }
+        (self.told.harmonic, self.told.branch, self.told.direction)
     }
 }
 
@@ -137,16 +78,12 @@ pub type Model<'a> = dyn Fn(&[f64], bool) -> Result<Vec<ModelMode>, String> + Sy
 pub struct FitProblem<'a> {
     /// The model.
     pub model: &'a Model<'a>,
-    /// Its parameters.
-    pub parameters: &'a [BoundedParameter],
+    /// Its parameters, and how they are sought.
+    pub wanted: &'a Fit,
     /// The measurement.
     pub lines: &'a [MeasuredMode],
     /// The measured shape of each line, if there are some.
     pub shape_of: Vec<Option<usize>>,
-    /// What a shape without anything of its line's mode counts, as a share of the frequency.
-    pub shape_weight: f64,
-    /// Points looked at first.
-    pub starts: usize,
     /// A point to begin with, where it lies within the bounds.
     pub own: Option<Vec<f64>>,
 }
@@ -169,13 +106,14 @@ impl FitError {
 impl FitProblem<'_> {
     /// Values of the parameters at their places.
     fn values(&self, places: &[f64]) -> Vec<f64> {
-        let pairs = self.parameters.iter().zip(places);
+        let pairs = self.wanted.parameters.iter().zip(places);
         pairs.map(|(parameter, place)| parameter.value(*place)).collect()
     }
 
     /// What the parameters have, by their keys.
     fn by_key<T>(&self, each: impl IntoIterator<Item = T>) -> BTreeMap<String, T> {
-        self.parameters.iter().map(|parameter| parameter.name.clone()).zip(each).collect()
+        let keys = self.wanted.parameters.iter().map(|own| own.parameter.key.clone());
+        keys.zip(each).collect()
     }
 
     /// Real numbers measured.
