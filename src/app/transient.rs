@@ -8,11 +8,12 @@ use crate::case::Case;
 use crate::fem::operator::StiffnessOperator;
 use crate::linalg::interruption;
 use crate::results::transient::{
-    CHECKPOINT, Checkpoint, LinearStage, RecordedRun, document, draw, write, write_checkpoint,
+    CHECKPOINT, Checkpoint, LinearStage, RecordedRun, SolvedTransient, document, draw, write,
+    write_checkpoint,
 };
 use crate::results::{OutputFolder, read_record};
 use crate::study;
-use crate::study::transient::{SolvedTransient, TransientStudy};
+use crate::study::transient::TransientStudy;
 use crate::transient::{CentralDifference, Recorder, RunEnd};
 use clap::Args;
 use std::path::Path;

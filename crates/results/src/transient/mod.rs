@@ -18,7 +18,28 @@ pub use run::{LinearStage, RecordedRun};
 pub use summary::{TransientSummary, summary};
 pub use tables::{document, draw};
 
-use frictionsim_physics::transient::{Perturbation, StepPlan};
+use frictionsim_physics::transient::{Perturbation, Recorder, StepPlan, TransientAnalysis};
+
+/// What came of a run.
+#[derive(Clone, Debug)]
+pub struct SolvedTransient {
+    /// What was recorded.
+    pub record: Recorder,
+    /// What it says.
+    pub analysis: TransientAnalysis,
+    /// Time step and samples.
+    pub plan: StepPlan,
+    /// Name of the operator.
+    pub operator: &'static str,
+    /// Steps done since the start, those before a resume included.
+    pub steps: u64,
+    /// Steps done by this process.
+    pub steps_timed: u64,
+    /// Wall time of those steps, s.
+    pub stepping_s: f64,
+    /// Whether the run reached its end, or where it settles.
+    pub is_finished: bool,
+}
 
 /// Everything a transient reports. Forces, powers and energies of the record are for one metre of thickness;
 /// tables and summary scale them by the thickness.
@@ -26,7 +47,9 @@ use frictionsim_physics::transient::{Perturbation, StepPlan};
 pub struct TransientReport<'a> {
     /// Title of the case.
     pub title: &'a str,
-    /// The record, and the body that it is of.
+    /// What came of the run.
+    pub solved: &'a SolvedTransient,
+    /// Its record, and the body that it is of.
     pub run: RecordedRun<'a>,
     /// Contact nodes in the order of the record, counted from 0.
     pub contact_nodes: Vec<u32>,
@@ -38,20 +61,8 @@ pub struct TransientReport<'a> {
     pub perturbation: &'a Perturbation,
     /// Probes that were asked for by their place: node, counted from 0, and place, m.
     pub places: Vec<(usize, [f64; 2])>,
-    /// Name of the operator.
-    pub operator: &'a str,
-    /// Time step and samples.
-    pub plan: StepPlan,
-    /// Steps done since the start, those before a resume included.
-    pub steps: u64,
-    /// Steps done by this process.
-    pub steps_timed: u64,
-    /// Wall time of those steps, s.
-    pub stepping_s: f64,
     /// Wall time of the run, s.
     pub wall_s: f64,
-    /// Whether the run reached its end.
-    pub is_finished: bool,
     /// What to know before its numbers are used.
     pub notes: Vec<String>,
 }
@@ -62,7 +73,8 @@ impl TransientReport<'_> {
         let body = &self.run.body;
         let layers = body.sector.map_or(1, |sector| sector.divisions()[1]);
         let elements = (layers * body.mesh.element_count()) as f64;
-        elements * self.steps_timed as f64 / self.stepping_s.max(f64::MIN_POSITIVE)
+        let stepping_s = self.solved.stepping_s.max(f64::MIN_POSITIVE);
+        elements * self.solved.steps_timed as f64 / stepping_s
     }
 
     /// Sine and cosine of the angle of a probe's axes, of a plane body that is no annulus about the origin.

@@ -172,7 +172,7 @@ pub struct PlaceSummary {
 
 /// The summary of a run.
 pub fn summary(report: &TransientReport<'_>) -> TransientSummary {
-    let (plan, analysis) = (&report.plan, report.run.analysis);
+    let (solved, plan, analysis) = (report.solved, &report.solved.plan, report.run.analysis);
     let (end, settling) = (&analysis.last_fifth, &analysis.settling);
     let body = end.material_damping * report.run.thickness;
     let damping = Some(report.run.thickness * end.powers.damping);
@@ -182,13 +182,13 @@ pub fn summary(report: &TransientReport<'_>) -> TransientSummary {
     };
     let significant = end.significant.iter().map(|(n, size)| (format!("n{n}"), *size));
     TransientSummary {
-        finished: report.is_finished,
-        steps: report.steps,
+        finished: solved.is_finished,
+        steps: solved.steps,
         time_step_s: plan.time_step,
-        end_time_s: report.steps.saturating_sub(1) as f64 * plan.time_step,
+        end_time_s: solved.steps.saturating_sub(1) as f64 * plan.time_step,
         stability_limit_s: plan.limit,
         largest_frequency_rad_per_s: plan.largest_frequency,
-        operator: report.operator.to_owned(),
+        operator: solved.operator.to_owned(),
         initial: report.initial.to_owned(),
         perturbation: PerturbationSummary::of(report.perturbation),
         element_steps_per_s: report.element_steps_per_second(),

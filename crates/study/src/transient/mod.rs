@@ -35,7 +35,7 @@ use frictionsim_physics::transient::{
     CentralDifference, InitialState, Recorder, RecorderSettings, StepPlan, TransientAnalysis,
     TransientError, TransientModel, TransientSettings,
 };
-use frictionsim_results::transient::{LinearStage, RecordedRun, TransientReport};
+use frictionsim_results::transient::{LinearStage, RecordedRun, SolvedTransient, TransientReport};
 use std::time::Instant;
 
 /// A case made ready for the time loop.
@@ -48,26 +48,6 @@ pub struct TransientStudy<'a> {
     simd: SimdLevel,
     /// Choices of the run.
     pub settings: TransientSettings,
-}
-
-/// What came of a run.
-pub struct SolvedTransient {
-    /// What was recorded.
-    pub record: Recorder,
-    /// What it says.
-    pub analysis: TransientAnalysis,
-    /// Time step and samples.
-    pub plan: StepPlan,
-    /// Name of the operator.
-    pub operator: &'static str,
-    /// Steps done since the start, those before a resume included.
-    pub steps: u64,
-    /// Steps done by this process.
-    pub steps_timed: u64,
-    /// Wall time of those steps, s.
-    pub stepping_s: f64,
-    /// Whether the run reached its end, or where it settles.
-    pub is_finished: bool,
 }
 
 impl<'a> TransientStudy<'a> {
@@ -198,6 +178,7 @@ impl<'a> TransientStudy<'a> {
         let places = case.output.placed_probes.iter();
         TransientReport {
             title: &case.title,
+            solved,
             run: RecordedRun {
                 record: &solved.record,
                 analysis: &solved.analysis,
@@ -214,13 +195,7 @@ impl<'a> TransientStudy<'a> {
             initial: settings.initial.name(),
             perturbation: &settings.perturbation,
             places: places.map(|place| (place.node, [place.asked[0], place.asked[1]])).collect(),
-            operator: solved.operator,
-            plan: solved.plan,
-            steps: solved.steps,
-            steps_timed: solved.steps_timed,
-            stepping_s: solved.stepping_s,
             wall_s,
-            is_finished: solved.is_finished,
             notes: self.notes(&solved.record, &solved.analysis, solved.plan.time_step),
         }
     }
