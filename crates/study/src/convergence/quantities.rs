@@ -45,17 +45,7 @@ pub fn of_sweeps(
         }
     };
     let modes: Vec<&[ComplexMode]> = sweeps.iter().map(|sweep| sweep.modes_at(friction)).collect();
-    let finest = modes.last().copied().unwrap_or_default();
-    let everywhere: Vec<Vec<&ComplexMode>> = finest
-        .iter()
-        .filter_map(|mode| {
-            let same = |level: &&'_ [ComplexMode]| -> Option<usize> {
-                level.iter().position(|other| key_of(other) == key_of(mode))
-            };
-            let found = modes.iter().map(|level| Some(&level[same(level)?]));
-            found.collect()
-        })
-        .collect();
+    let everywhere = everywhere(&modes, key_of);
     let mut quantities = Vec::new();
     let parts: [(&str, PartOf); 2] =
         [("frequency", ComplexMode::frequency_hz), ("real part", ComplexMode::real_hz)];
@@ -136,33 +126,30 @@ fn likeness(x: &[c64], y: &[c64]) -> f64 {
     product.norm_sqr() / (sizes.0 * sizes.1).max(f64::MIN_POSITIVE)
 }
 
+/// What each entry of the finest level is on all levels, by key; of several of one key the first.
+fn everywhere<'a, T>(levels: &[&'a [T]], key: impl Fn(&T) -> ModeKey) -> Vec<Vec<&'a T>> {
+    let finest = levels.last().copied().unwrap_or_default();
+    let same = |own: &T| {
+        let found = levels.iter().map(|level| level.iter().find(|other| key(other) == key(own)));
+        found.collect::<Option<Vec<&T>>>()
+    };
+    finest.iter().filter_map(same).collect()
+}
+
 /// Critical friction of every branch that turns unstable within the range of every level.
 fn onsets(sizes: &[f64], sweeps: &[FrictionSweep], has_harmonics: bool) -> Vec<Quantity> {
-    let mut quantities: Vec<Quantity> = Vec::new();
-    let Some(finest) = sweeps.last() else {
-        return quantities;
-    };
+    let levels: Vec<&[UnstableInterval]> =
+        sweeps.iter().map(|sweep| &sweep.intervals[..]).collect();
+    let mut found = everywhere(&levels, interval_key);
+    found.retain(|levels| levels.iter().all(|own| own.is_located()));
     let mut seen: BTreeSet<ModeKey> = BTreeSet::new();
-    for interval in finest.intervals.iter().filter(|i| i.is_located()) {
-        let key = interval_key(interval);
-        if !seen.insert(key) {
-            continue;
-        }
-        let values: Option<Vec<f64>> = sweeps
-            .iter()
-            .map(|sweep| {
-                let mut all = sweep.intervals.iter();
-                all.find(|other| interval_key(other) == key)
-                    .filter(|other| other.is_located())
-                    .map(|other| other.critical_friction)
-            })
-            .collect();
-        if let Some(values) = values {
-            let name = format!("critical friction, {}", name_of(key, has_harmonics));
-            quantities.push(Quantity::new(name, "", sizes, values));
-        }
-    }
-    quantities
+    found.retain(|levels| seen.insert(interval_key(levels[0])));
+    let quantity = |levels: &Vec<&UnstableInterval>| {
+        let name = name_of(interval_key(levels[0]), has_harmonics);
+        let values = levels.iter().map(|own| own.critical_friction);
+        Quantity::new(format!("critical friction, {name}"), "", sizes, values.collect())
+    };
+    found.iter().map(quantity).collect()
 }
 
 /// A number of a summary; `NaN` where there is none.
