@@ -9,8 +9,6 @@ pub(super) fn run(options: &RunOptions) -> Result<(), Failure> {
     session.case.require_cea()?;
     let folder = session.begin()?;
     let found = improve(&session.case)?;
-    let summary = found.summary;
-    write(&folder, &summary, &found.mesh, &found.fields)?;
-    let figures = || figures(&summary, &found.mesh, &found.fields);
-    session.finish_result(folder, document(&summary), &summary, figures)
+    write(&folder, &found)?;
+    session.finish_result(folder, document(&found.summary), &found.summary, || figures(&found))
 }

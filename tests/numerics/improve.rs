@@ -3,8 +3,8 @@
 
 use crate::body_sensitivity::{Body, nearest};
 use crate::prelude::*;
-use frictionsim::results::improve::TargetFields;
-use frictionsim::study::improve::{Improvement, improve};
+use frictionsim::results::improve::{Improvement, TargetFields};
+use frictionsim::study::improve::improve;
 
 /// What differences of second order leave, relative to the largest derivative of a kind over the body.
 const TOLERANCE: f64 = 0.01;

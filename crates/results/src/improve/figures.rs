@@ -1,6 +1,6 @@
 //! `figures/improve-mode-N`: where each kind of modification feeds or damps a mode, with the candidates.
 
-use super::{ImproveSummary, Sizes, TargetFields};
+use super::{ImproveSummary, Improvement, Sizes, TargetFields};
 use crate::charts::{Disc, SolidView};
 use crate::drawing::{Declaration, declared};
 use frictionsim_chart::{Axis, ColourMap, Figure, INK, Marker, Points, Side, significant};
@@ -11,11 +11,11 @@ use std::f64::consts::PI;
 const MOST: usize = 4;
 
 /// A figure for each target, the fastest first.
-pub fn figures(summary: &ImproveSummary, mesh: &Mesh, fields: &[TargetFields]) -> Vec<Figure> {
-    let mut order: Vec<&TargetFields> = fields.iter().collect();
+pub fn figures(found: &Improvement) -> Vec<Figure> {
+    let mut order: Vec<&TargetFields> = found.fields.iter().collect();
     frictionsim_physics::order::sort_by_number(&mut order, |a| -a.mode.growth_rate_per_s);
     let figures = order.into_iter().take(MOST).map(|own| -> Declaration<'_> {
-        Box::new(move || Some(target_figure(summary, mesh, own)))
+        Box::new(move || Some(target_figure(&found.summary, &found.mesh, own)))
     });
     declared(figures.collect())
 }

@@ -1,19 +1,13 @@
 //! `improve.vtu` and `improved.toml`.
 
-use super::{ImproveSummary, TargetFields};
+use super::Improvement;
 use crate::vtu::{EncodedMesh, Field, write_vtu};
 use crate::{FolderError, OutputFolder};
-use frictionsim_physics::mesh::Mesh;
 
 /// Writes the fields over the mesh, and the keys of the best candidate.
-pub fn write(
-    folder: &OutputFolder,
-    summary: &ImproveSummary,
-    mesh: &Mesh,
-    fields: &[TargetFields],
-) -> Result<(), FolderError> {
-    write_fields(folder, mesh, fields)?;
-    if let Some(best) = summary.best() {
+pub fn write(folder: &OutputFolder, found: &Improvement) -> Result<(), FolderError> {
+    write_fields(folder, found)?;
+    if let Some(best) = found.summary.best() {
         folder.write("improved.toml", |out| {
             writeln!(out, "# {}", best.place())?;
             best.keys.iter().try_for_each(|key| writeln!(out, "{}", key.replacen('=', " = ", 1)))
@@ -23,14 +17,10 @@ pub fn write(
 }
 
 /// Writes the derivatives of each target as fields.
-fn write_fields(
-    folder: &OutputFolder,
-    mesh: &Mesh,
-    targets: &[TargetFields],
-) -> Result<(), FolderError> {
-    let power = if mesh.dimension == 2 { "m2" } else { "m3" };
+fn write_fields(folder: &OutputFolder, found: &Improvement) -> Result<(), FolderError> {
+    let power = if found.mesh.dimension == 2 { "m2" } else { "m3" };
     let (mut nodal, mut in_elements) = (Vec::new(), Vec::new());
-    for own in targets {
+    for own in &found.fields {
         let field = |what: &str, unit: &str, values: &[f64]| {
             let name = format!("mode_{}_growth_by_{what}_{unit}", own.mode.mode);
             Field::scalars(&name, values.to_vec())
@@ -46,6 +36,6 @@ fn write_fields(
         ]);
     }
     folder.write_bulk("improve.vtu", |out| {
-        write_vtu(out, &EncodedMesh::new(mesh)?, &[], &nodal, &in_elements)
+        write_vtu(out, &EncodedMesh::new(&found.mesh)?, &[], &nodal, &in_elements)
     })
 }

@@ -7,12 +7,24 @@ mod tables;
 use super::Extent;
 use super::finding::finding;
 use frictionsim_output::{Column, Described, parted};
+use frictionsim_physics::mesh::Mesh;
 use serde::Serialize;
+use std::sync::Arc;
 
 pub use figures::figures;
 pub use files::write;
 pub use tables::document;
 pub(super) use tables::{CANDIDATES, EFFECTS, VERDICTS};
+
+/// What `improve` finds.
+pub struct Improvement {
+    /// What there is to say of it.
+    pub summary: ImproveSummary,
+    /// The mesh of the fields.
+    pub mesh: Arc<Mesh>,
+    /// Derivatives of each target over the mesh.
+    pub fields: Vec<TargetFields>,
+}
 
 /// Fields over the mesh of one target.
 #[derive(Clone, Debug, PartialEq)]

@@ -38,7 +38,7 @@ impl Derivatives {
         let elements = 0..base.mesh.element_count();
         let each: Vec<[c64; 2]> = frictionsim_physics::parallel::map(elements, |element| {
             let [mass, damping, stiffness] = element_terms(base, element);
-            let dofs = element_dofs(base, element);
+            let dofs: Vec<usize> = base.mesh.element_dofs(element).collect();
             let [m, c, k] = [&mass, &damping, &stiffness].map(|p| form(mode, &dofs, p));
             let [_, elastic] = matrices(base, element);
             let lambda = mode.eigenvalue();
@@ -90,13 +90,6 @@ fn product(base: &Base<'_>, mode: &PairedMode, node: usize) -> Product {
     };
     let (left, right) = (global(&mode.left), global(&mode.right));
     left.map(|w| right.map(|x| w * x))
-}
-
-/// The dofs of an element in the order of its matrices.
-pub(super) fn element_dofs(base: &Base<'_>, element: usize) -> Vec<usize> {
-    let d = base.mesh.dimension;
-    let nodes = base.mesh.element_nodes(element).iter();
-    nodes.flat_map(|&node| (0..d).map(move |axis| d * node as usize + axis)).collect()
 }
 
 /// `w^T P x` over some dofs.

@@ -27,29 +27,18 @@ use super::{StudyError, extent_of};
 pub(super) use base::refuse_bodies;
 use base::{Base, target_modes};
 use confirm::{keys_of, run_again, verdict};
-use fields::{Derivatives, element_dofs, element_terms, matrices};
+use fields::{Derivatives, element_terms, matrices};
 use frictionsim_case::{Case, ModificationKind};
 use frictionsim_output::rounded;
 use frictionsim_physics::cea::CeaError;
 use frictionsim_physics::fem::lumped_masses;
-use frictionsim_physics::mesh::Mesh;
-use frictionsim_results::improve::{Candidate, ImproveSummary, Sizes, State, TargetFields};
+use frictionsim_results::improve::{Candidate, ImproveSummary, Improvement, Sizes, State};
 use modal::{Change, ModalModel};
 use nalgebra::DMatrix;
 use places::Places;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 use trial::{Search, Target, Trial};
-
-/// What `improve` finds.
-pub struct Improvement {
-    /// What there is to say of it.
-    pub summary: ImproveSummary,
-    /// The mesh of the fields.
-    pub mesh: Arc<Mesh>,
-    /// Derivatives of each target over the mesh.
-    pub fields: Vec<TargetFields>,
-}
 
 /// Removals that are looked at closely, for each one that is listed.
 const SHORTLISTED: usize = 2;
@@ -274,7 +263,7 @@ fn patch_matrices(
     kind: ModificationKind,
     beta: f64,
 ) -> (Vec<usize>, [DMatrix<f64>; 3]) {
-    let all = elements.iter().map(|&e| element_dofs(base, e as usize));
+    let all = elements.iter().map(|&e| base.mesh.element_dofs(e as usize).collect());
     let all: Vec<Vec<usize>> = all.collect();
     let own: BTreeSet<usize> = all.iter().flatten().copied().collect();
     let own: Vec<usize> = own.into_iter().collect();
