@@ -6,7 +6,7 @@ use frictionsim_results::uncertainty::{
     CriticalFriction, FamilySummary, Index, Onset, Sample, UncertaintySummary,
 };
 use frictionsim_signal::{Estimate, student_95};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Parts of the sequence whose scatter tells how sure a mean is.
 const PARTS: usize = 16;
@@ -215,13 +215,9 @@ fn beyond_note(families: &[FamilySummary]) -> Option<String> {
 /// Modes followed across samples by harmonic, rank and direction.
 fn families(solved: &[&Sample], most: f64) -> Vec<FamilySummary> {
     let name_of = |onset: &Onset| (onset.harmonic, onset.branch, onset.direction);
-    let mut names: Vec<(Option<usize>, usize, i8)> = Vec::new();
-    for onset in solved.iter().flat_map(|sample| &sample.onsets) {
-        let name = name_of(onset);
-        if onset.critical_friction <= most && !names.contains(&name) {
-            names.push(name);
-        }
-    }
+    let within = solved.iter().flat_map(|sample| &sample.onsets);
+    let within = within.filter(|onset| onset.critical_friction <= most);
+    let names: BTreeSet<(Option<usize>, usize, i8)> = within.map(name_of).collect();
     let count = solved.len().max(1) as f64;
     let mut found: Vec<FamilySummary> = names
         .into_iter()
@@ -259,11 +255,10 @@ fn families(solved: &[&Sample], most: f64) -> Vec<FamilySummary> {
             }
         })
         .collect();
+    // Equal ones stay in the order of their names.
     found.sort_by(|a, b| {
         let by_range = b.probability_in_range.total_cmp(&a.probability_in_range);
-        let by_name =
-            || (a.harmonic, a.branch, a.direction).cmp(&(b.harmonic, b.branch, b.direction));
-        b.probability.total_cmp(&a.probability).then(by_range).then_with(by_name)
+        b.probability.total_cmp(&a.probability).then(by_range)
     });
     found
 }
