@@ -33,9 +33,6 @@ pub enum ResonanceNote {
 pub struct HalfPowerBand {
     /// Peak, Hz.
     pub frequency_hz: f64,
-    /// Largest modulus, in the quantity of the response given.
-    #[serde(skip)]
-    pub magnitude: f64,
     /// Damping factor, where the band can be trusted.
     pub damping_factor: Option<f64>,
     /// Half-power frequencies, Hz.
@@ -82,9 +79,7 @@ pub fn half_power(response: &FrequencyResponse) -> Result<Vec<HalfPowerBand>, Si
             // The band must end before the valley towards the next resonance.
             let left = if k > 0 { valley(&y, tops[k - 1], top) } else { 0 };
             let right = tops.get(k + 1).map_or(y.len() - 1, |next| valley(&y, top, *next));
-            let mut band = measure(&f[left..=right], &y[left..=right], top - left);
-            band.magnitude = response.values()[top + offset].norm();
-            band
+            measure(&f[left..=right], &y[left..=right], top - left)
         })
         .collect();
     mark_overlaps(&mut bands);
@@ -149,7 +144,6 @@ fn measure(f: &[f64], y: &[f64], top: usize) -> HalfPowerBand {
     let high = crossing(f, top, 1, least, inverse);
     let mut band = HalfPowerBand {
         frequency_hz: f0,
-        magnitude: y[top],
         band_hz: None,
         damping_factor: None,
         note: Some(ResonanceNote::OneSided),
