@@ -77,12 +77,14 @@ impl<'a> ModalModel<'a> {
             base,
         };
         let tangent = &base.tangent;
-        let all = [&tangent.mass, &tangent.damping, &tangent.stiffness];
-        let powers = all.map(|p| p.coefficients().len());
-        let highest = powers.into_iter().max().unwrap_or(1);
-        model.friction =
-            (1..highest).map(|power| model.projected(all.map(|p| coefficient(p, power)))).collect();
+        model.friction = model.by_power([&tangent.mass, &tangent.damping, &tangent.stiffness], 1);
         Ok(model)
+    }
+
+    /// [`Self::projected`] of the coefficient of each power of friction from the `first` on.
+    fn by_power(&self, all: [&MatrixPolynomial; 3], first: usize) -> Vec<Projected> {
+        let highest = all.iter().map(|p| p.coefficients().len()).max().unwrap_or(first);
+        (first..highest).map(|power| self.projected(all.map(|p| coefficient(p, power)))).collect()
     }
 
     /// `w_i^T A x_j` for matrices over the unknowns; none is zero.
@@ -243,28 +245,19 @@ impl<'a> ModalModel<'a> {
         if !is_like(own, other) || own.stiffness.weights() != other.stiffness.weights() {
             return None;
         }
-        let pattern = own.stiffness.pattern();
+        // Both have the same nonzeros, of which there is one pattern for each.
+        let shared = |p: &MatrixPolynomial| {
+            let coefficients = p.coefficients().to_vec();
+            MatrixPolynomial::from_coefficients(own.stiffness.pattern(), coefficients)
+        };
         let pairs = [
             (&own.mass, &other.mass),
             (&own.damping, &other.damping),
             (&own.stiffness, &other.stiffness),
         ];
-        let counts = pairs.map(|(a, b)| a.coefficients().len().max(b.coefficients().len()));
-        let powers = 0..counts.into_iter().max().unwrap_or(0);
-        let by_power = powers.map(|power| {
-            let differences = pairs.map(|(a, b)| {
-                let part = |p: &MatrixPolynomial, k: usize| {
-                    let values = p.coefficients().get(power);
-                    values.map_or(0.0, |values| values[k])
-                };
-                let count = pattern.nonzero_count();
-                let difference = (0..count).map(|k| part(b, k) - part(a, k));
-                difference.collect::<Vec<f64>>()
-            });
-            let [m, c, k] = &differences;
-            self.projected([m, c, k].map(|values| Some((&**pattern, values.as_slice()))))
-        });
-        Some(Change { projected: by_power.collect(), attached: None })
+        let changes =
+            pairs.map(|(a, b)| MatrixPolynomial::combination(1.0, &shared(b), -1.0, &shared(a)));
+        Some(Change { projected: self.by_power(changes.each_ref(), 0), attached: None })
     }
 
     /// Eigenvalues with `Im > 0` at a friction coefficient.
