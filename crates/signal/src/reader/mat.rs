@@ -2,9 +2,8 @@
 //!
 //! Source: The MathWorks, "MAT-file format", version 5.
 
-use super::column::Column;
 use super::error::{ReadError, column_count};
-use super::table::Table;
+use super::table::{Column, Table};
 use flate2::read::ZlibDecoder;
 use std::io::Read;
 

@@ -9,16 +9,13 @@
 //! name of the source, line, column and what to do. The reader never touches a file: it is given
 //! bytes and the name to use in messages.
 
-mod column;
 mod columns;
 mod contents;
 mod error;
 mod field;
-mod gaps;
 mod headed;
 mod mat;
 mod modes;
-mod moduli;
 mod named_columns;
 mod response;
 mod separator;
@@ -33,9 +30,8 @@ mod wav;
 
 pub use contents::{Channel, NamedResponse, ResponseFile, SignalFile};
 pub use error::ReadError;
-pub use gaps::read_gaps;
 pub use modes::{MeasuredMode, read_modes};
-pub use moduli::{ModulusRow, read_moduli};
+pub use named_columns::{ModulusRow, read_gaps, read_moduli};
 pub use response::{ResponseOptions, read_response};
 pub use shapes::{MeasuredShape, read_shapes};
 pub use time_signal::{SignalOptions, read_signal};
