@@ -26,7 +26,7 @@ fn an_onset_has_the_modulus_of_its_own_frequency() {
     let case = disc_of("table = \"lining.csv\"", GRID);
     let table = case.materials().table(0).unwrap();
     // The table lies beside the results, which are drawn again without it in its place.
-    assert_eq!(case.raw.kept_tables()[0].1.bytes[..], *LINING.as_bytes());
+    assert_eq!(case.raw.kept_tables()[0].1.bytes[..], *LINING);
     let found = modes_and_onsets(&case).unwrap().intervals;
     let crossed = found.iter().filter(|own| !own.unstable_from_start);
     let crossed: Vec<_> = crossed.collect();

@@ -33,8 +33,8 @@ pub struct SolidState {
     pub base: SolidSliding,
 }
 
-/// The points of contacts with their places, in the order of the base states: those of a plane edge have angles, others a
-/// direction of sliding.
+/// The points of contacts with their places, in the order of the base states: those of a plane edge have angles,
+/// others a direction of sliding.
 pub(super) fn places<'s>(
     case: &Case,
     mesh: &Mesh,

@@ -49,7 +49,8 @@ pub(super) fn shapes_needed(case: &Case, model: &Model, frictions: &[f64], modes
     }
 }
 
-/// Reads every mode that has a wave, of a model solved by them with its `tangent`, or a shape; `None` where there is none.
+/// Reads every mode that has a wave, of a model solved by them with its `tangent`, or a shape; `None` where there is
+/// none.
 pub(super) fn read(
     case: &Case,
     model: &SlidingModel,

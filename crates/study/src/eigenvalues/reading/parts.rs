@@ -157,8 +157,8 @@ impl<'a> Parts<'a> {
         Some(geometric.pattern().multiply(&values, shapes.columns.as_ref()))
     }
 
-    /// Number of the base state at a friction coefficient, and the state as far as its stress is not in the terms of the
-    /// rotation.
+    /// Number of the base state at a friction coefficient, and the state as far as its stress is not in the terms of
+    /// the rotation.
     fn base_state(&self, friction: f64) -> Option<(usize, PressedState)> {
         let solved = self.case.cea.as_ref()?.solved_friction_coefficients();
         let place = solved.iter().position(|&mu| mu == friction)?;
