@@ -36,6 +36,7 @@ mod vtu;
 use distinct::distinct;
 use store::{folder, framed, manifest, record, reopening, whole_file};
 
+pub use distinct::number_ranges;
 pub use drawing::{DOTS_PER_INCH, DrawingError, DrawingOptions, Format, Page, declared};
 pub use extent::Extent;
 pub use finding::{Finding, write_page, write_table, write_tables};

@@ -4,6 +4,7 @@ use super::PointRecord;
 use super::matrix::OperatingMatrix;
 use super::swept::{heads, of_points};
 use super::table::cell;
+use crate::distinct::number_ranges;
 use frictionsim_chart::extremes;
 use frictionsim_output::{Cell, Described, Document, Format, Section, Table, columns, significant};
 use serde::Serialize;
@@ -282,16 +283,6 @@ fn points_table(report: &SweepReport<'_>) -> Table {
         "outcome",
         records.iter().map(|record| record.error.as_ref().map(|_| "failed")),
     )
-}
-
-/// Ascending numbers with runs drawn together: `1-4, 7`.
-fn number_ranges(numbers: &[usize]) -> String {
-    let runs = numbers.chunk_by(|number, next| number + 1 == *next);
-    let texts = runs.map(|run| match run {
-        [first, .., last] => format!("{first}-{last}"),
-        one => one[0].to_string(),
-    });
-    texts.collect::<Vec<_>>().join(", ")
 }
 
 #[cfg(test)]

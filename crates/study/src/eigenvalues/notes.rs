@@ -7,6 +7,7 @@ use frictionsim_case::{Body, Case, Cea};
 use frictionsim_physics::cea::cyclic::{Coverage, Overdamped};
 use frictionsim_physics::cea::{BeyondMode, CeaError, FrictionSweep, ModeCount, UnstableInterval};
 use frictionsim_physics::contact::ContactInterface;
+use frictionsim_results::number_ranges;
 use std::f64::consts::TAU;
 
 /// What the counts of modes say.
@@ -295,7 +296,7 @@ pub(super) fn coverage_note(coverage: &Coverage) -> String {
         false => format!(
             "harmonics {} hold modes at rest (by inertia counts, up to {} of {}) and were followed \
             from {:.0} Hz downwards",
-            ranges(&coverage.followed),
+            number_ranges(&coverage.followed),
             coverage.counted_empty.last().unwrap_or(&coverage.largest_harmonic),
             coverage.largest_harmonic,
             coverage.margin_hz,
@@ -308,7 +309,7 @@ fn proof_note(coverage: &Coverage) -> String {
     let mut note = format!(
         "harmonics 0 to {}: {} hold modes and were followed from {:.0} Hz downwards",
         coverage.largest_harmonic,
-        ranges(&coverage.followed),
+        number_ranges(&coverage.followed),
         coverage.margin_hz,
     );
     for (harmonics, why) in [
@@ -316,23 +317,8 @@ fn proof_note(coverage: &Coverage) -> String {
         (&coverage.counted_empty, "hold none by count at quarters of the friction range"),
     ] {
         if !harmonics.is_empty() {
-            note += &format!("; {} {why}", ranges(harmonics));
+            note += &format!("; {} {why}", number_ranges(harmonics));
         }
     }
     note + &format!(" below {:.0} Hz", coverage.limit_hz)
-}
-
-/// Rising numbers with neighbours drawn together: `0-4, 7`.
-fn ranges(numbers: &[usize]) -> String {
-    let mut groups: Vec<(usize, usize)> = Vec::new();
-    for &number in numbers {
-        match groups.last_mut() {
-            Some((_, last)) if *last + 1 == number => *last = number,
-            _ => groups.push((number, number)),
-        }
-    }
-    let texts = groups.iter().map(|&(first, last)| {
-        if first == last { first.to_string() } else { format!("{first}-{last}") }
-    });
-    texts.collect::<Vec<_>>().join(", ")
 }
