@@ -1,7 +1,7 @@
 //! `frictionsim collect`: the table over the points that a sweep has finished so far.
 
 use super::options::FigureOptions;
-use super::sweep::{SweepPlan, drawing, finished, gather};
+use super::sweep::{SweepPlan, figures, finished, gather};
 use super::{Failure, OutputOptions, start_threads, terminal};
 use crate::case::{Case, MeshBytes, RawCase, RawValue, TableBytes};
 use crate::results::sweep::{SweepFolder, SweepReport, document};
@@ -37,15 +37,16 @@ pub(super) fn run(asked: &Arguments) -> Result<(), Failure> {
     let start = Instant::now();
     terminal::start_log(asked.quiet, 0);
     start_threads(None);
-    let (folder, manifest) = SweepFolder::find(&asked.folder, "sweep")?;
-    let case = recorded_case(&asked.folder, &manifest)?;
+    let folder = SweepFolder::find(&asked.folder, "sweep")?;
+    let case = recorded_case(&asked.folder, folder.output().manifest())?;
     let plan = SweepPlan::new(&case)?;
     let found = finished(&case, &plan, &folder)?;
     let report = SweepReport { wall_s: start.elapsed().as_secs_f64(), ..found };
-    let drawing = (!asked.no_figures).then(|| drawing(&case, &plan, &asked.figures.drawing()));
-    let summary = gather(&folder, &report, &manifest, drawing.as_ref())?;
+    let figures = || figures(&case, &plan, &report);
+    let drawn = (!asked.no_figures).then(|| (figures(), asked.figures.drawing()));
+    let summary = gather(&folder, &report, drawn)?;
     let output = OutputOptions { json: asked.json, quiet: asked.quiet, ..Default::default() };
-    output.print(&document(&report, false).to_text(), &summary, folder.path())?;
+    output.print(&document(&report, false).to_text(), &summary, folder.output().path())?;
     match report.missing().len() {
         0 => Ok(()),
         missing => Err(Failure::run(format!(

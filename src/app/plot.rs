@@ -62,7 +62,7 @@ pub fn redraw(path: &Path, manifest: &Manifest, options: &DrawingOptions) -> Res
     }
     let page: Page = read_record(path)?;
     if let command @ ("sweep" | "uncertainty") = manifest.command.as_str() {
-        return Ok(SweepFolder::find(path, command)?.0.draw(&page, options)?);
+        return Ok(page.draw(SweepFolder::find(path, command)?.output(), options)?);
     }
     // A run that is not finished has no summary.
     let _: Value = read_summary(path)?;

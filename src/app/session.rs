@@ -5,7 +5,7 @@ use crate::case::{Case, RawCase};
 use crate::chart::Figure;
 use crate::fem::operator::SimdLevel;
 use crate::output::Document;
-use crate::results::{Finding, FolderError, Head, MESH, Manifest, OutputFolder, declared};
+use crate::results::{Finding, Head, MESH, Manifest, OutputFolder, declared};
 use crate::study::refuse_memory;
 use frictionsim_bounds::CASE;
 use serde::Serialize;
@@ -81,10 +81,8 @@ impl Session {
     }
 
     /// Puts the mesh file and the tables beside the results: they can be drawn again without the files in their places.
-    pub fn keep_inputs(
-        &self,
-        write: impl Fn(&str, &[u8]) -> Result<(), FolderError>,
-    ) -> Result<(), Failure> {
+    pub fn keep_inputs(&self, folder: &OutputFolder) -> Result<(), Failure> {
+        let write = |name: &str, bytes: &[u8]| folder.write(name, |out| out.write_all(bytes));
         self.case.raw.mesh.iter().try_for_each(|mesh| write(MESH, &mesh.bytes))?;
         let mut tables = self.case.raw.kept_tables().into_iter();
         Ok(tables.try_for_each(|(name, table)| write(&name, &table.bytes))?)
@@ -92,7 +90,7 @@ impl Session {
 
     /// The same of an output folder.
     pub fn keep_mesh(&self, folder: OutputFolder) -> Result<OutputFolder, Failure> {
-        self.keep_inputs(|name, bytes| folder.write(name, |out| out.write_all(bytes)))?;
+        self.keep_inputs(&folder)?;
         Ok(folder)
     }
 

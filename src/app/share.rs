@@ -45,7 +45,7 @@ impl ShareOptions {
             return Err(output.dry_run_at(&path, &session.manifest));
         }
         let folder = SweepFolder::open(&path, &session.manifest, count, pieces, start)?;
-        session.keep_inputs(|name, bytes| folder.write(name, |out| out.write_all(bytes)))?;
+        session.keep_inputs(folder.output())?;
         Ok(folder)
     }
 }

@@ -9,10 +9,13 @@ use super::share::ShareOptions;
 use super::transient::linear_stage;
 use super::{Failure, RunOptions, Session, cycle, terminal};
 use crate::case::{Analysis, Case};
+use crate::chart::Figure;
 use crate::results::sweep::{Found, PointRecord, SweepFolder, SweepReport, SweepSummary};
 use crate::results::sweep::{document, tables};
-use crate::results::sweep_figures::{SweepDrawing, draw};
-use crate::results::{DrawingOptions, Head, Manifest, summary_of};
+use crate::results::sweep_figures::draw_sweep;
+use crate::results::{
+    DrawingOptions, Head, Manifest, summary_of, write_page, write_summary, write_table,
+};
 use crate::study::summarize;
 use clap::Args;
 use serde_json::{Map, Value};
@@ -54,13 +57,14 @@ pub(super) fn run(asked: &Arguments) -> Result<(), Failure> {
     let found = finished(&session.case, &plan, &folder)?;
     let report = SweepReport { ran: Some(ran), wall_s: session.wall_seconds(), ..found };
     let summary = if report.missing().is_empty() {
-        let options = output.drawing();
-        let drawing = options.map(|options| drawing(&session.case, &plan, &options));
-        gather(&folder, &report, &session.manifest, drawing.as_ref())?
+        let figures = || figures(&session.case, &plan, &report);
+        let drawn = output.drawing().map(|options| (figures(), options));
+        gather(&folder, &report, drawn)?
     } else {
-        summary_object(&report, &session.manifest)?
+        let head = Head::of(report.title, report.wall_s);
+        summary_of(&session.manifest, head, &SweepSummary::of(&report)).map_err(Failure::run)?
     };
-    output.print(&document(&report, false).to_text(), &summary, folder.path())?;
+    output.print(&document(&report, false).to_text(), &summary, folder.output().path())?;
     let of_these = |record: &&PointRecord| points.binary_search(&record.point).is_ok();
     match report.failed().filter(of_these).count() {
         0 => Ok(()),
@@ -102,7 +106,6 @@ pub fn finished<'a>(
     }
     Ok(SweepReport {
         title: &case.title,
-        friction_coefficient: case.contact.sliding.friction_coefficient,
         keys: plan.keys(),
         analyses: plan.analysis_names(),
         count: plan.count(),
@@ -113,44 +116,33 @@ pub fn finished<'a>(
     })
 }
 
-/// What the figures of a study need besides its points: the modes of the case at its own friction, if
-/// the points are transients that differ in speed or friction alone, and its range of friction.
-pub fn drawing(case: &Case, plan: &SweepPlan<'_>, options: &DrawingOptions) -> SweepDrawing {
+/// The figures of a study, with the modes of the case at its own friction, if the points are transients that differ in
+/// speed or friction alone, and its range of friction.
+pub fn figures(case: &Case, plan: &SweepPlan<'_>, report: &SweepReport<'_>) -> Vec<Figure> {
     let is_same_body = |key: &String| key.starts_with("contact.");
     let has_modes =
         plan.analyses.contains(&Analysis::Transient) && plan.keys().iter().all(is_same_body);
     let own = case.contact.sliding.friction_coefficient;
     let cea = case.cea.as_ref().map(|cea| &cea.friction_coefficients);
-    SweepDrawing {
-        references: if has_modes { linear_stage(case).references } else { Vec::new() },
-        highest_friction: cea.into_iter().flatten().copied().fold(own, f64::max),
-        options: options.clone(),
-    }
+    let highest = cea.into_iter().flatten().copied().fold(own, f64::max);
+    let modes = if has_modes { linear_stage(case).references } else { Vec::new() };
+    draw_sweep(&report.records, (own, highest), &modes)
 }
 
-/// The summary of a sweep as the object that is printed and written.
-fn summary_object(report: &SweepReport<'_>, manifest: &Manifest) -> Result<Value, Failure> {
-    let head = Head::of(report.title, report.wall_s);
-    summary_of(manifest, head, &SweepSummary::of(report)).map_err(Failure::run)
-}
-
-/// Writes the table, the summary and, if asked, the figures of the finished points, and returns the
-/// summary.
+/// Writes the tables, the summary and, if they are `drawn`, the figures of the finished points, and returns the summary.
 pub fn gather(
     folder: &SweepFolder,
     report: &SweepReport<'_>,
-    manifest: &Manifest,
-    drawing: Option<&SweepDrawing>,
+    drawn: Option<(Vec<Figure>, DrawingOptions)>,
 ) -> Result<Value, Failure> {
-    if let Some(drawing) = drawing {
-        draw(folder, report, manifest, drawing)?;
+    let output = folder.output();
+    if let Some((figures, options)) = drawn {
+        write_page(output, document(report, true), figures, &options)?;
     }
-    for table in tables(&report.keys, &report.analyses, &report.records) {
-        folder.write(&table.file, |out| table.write_csv(out))?;
-    }
-    let summary = summary_object(report, manifest)?;
-    folder.write_summary(&summary)?;
-    Ok(summary)
+    let tables = tables(&report.keys, &report.analyses, &report.records);
+    tables.iter().try_for_each(|table| write_table(output, table))?;
+    let head = Head::of(report.title, report.wall_s);
+    Ok(write_summary(output, head, &SweepSummary::of(report))?)
 }
 
 /// Runs the analyses of one point up to the first that fails, and gives the summary of each by its name.

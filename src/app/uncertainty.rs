@@ -5,7 +5,9 @@ use super::{Failure, RunOptions, Session, terminal};
 use crate::case::{Case, find_key};
 use crate::results::sweep::{Found, PointClock, PointRecord, SweepFolder};
 use crate::results::uncertainty::{Sample, samples_table};
-use crate::results::{Finding, Manifest, Page, declared, summary_of};
+use crate::results::{
+    Finding, Manifest, declared, summary_of, write_page, write_summary, write_table,
+};
 use crate::study::uncertainty::{BLOCK, Design, Sampler, curves, summarize};
 use clap::Args;
 use serde_json::Map;
@@ -79,25 +81,25 @@ pub(super) fn run(asked: &Arguments) -> Result<(), Failure> {
         tracing::warn!("{note}");
     }
     let manifest = &session.manifest;
-    let object = summary_of(manifest, session.head(), &summary).map_err(Failure::run)?;
+    let head = session.head();
+    let object = summary_of(manifest, head, &summary).map_err(Failure::run)?;
     let document = summary.document().titled(&case.title);
     let text = document.to_text();
     if missing == 0 {
         let largest = summary.largest_friction;
         let table = samples_table(&uncertainty.keys(), &samples, largest);
-        folder.write(&table.file, |out| table.write_csv(out))?;
+        write_table(folder.output(), &table)?;
         let mut failed = samples.iter().filter_map(|sample| sample.error.as_deref());
         if failed.clone().count() == samples.len() {
             let first = failed.next().unwrap_or_default();
             return Err(Failure::run(format!("no sample could be solved; the first: {first}")));
         }
-        folder.write_summary(&object)?;
+        write_summary(folder.output(), head, &summary)?;
         if let Some(drawing) = output.drawing() {
-            let page = Page::new(document, declared(summary.figures()), manifest);
-            folder.write_page(&page, &drawing)?;
+            write_page(folder.output(), document, declared(summary.figures()), &drawing)?;
         }
     }
-    output.print(&text, &object, folder.path())
+    output.print(&text, &object, folder.output().path())
 }
 
 /// The finished samples in their order, and how many blocks are missing.

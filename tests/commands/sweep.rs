@@ -104,7 +104,7 @@ fn sweep(
 fn write_table(case: &Case, folder: &SweepFolder) {
     let plan = SweepPlan::new(case).unwrap();
     let report = finished(case, &plan, folder).unwrap();
-    gather(folder, &report, &manifest(case), None).unwrap();
+    gather(folder, &report, None).unwrap();
 }
 
 fn table(folder: &Path) -> String {

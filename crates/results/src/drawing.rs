@@ -98,21 +98,13 @@ impl Page {
         Self { document, figures, manifest: manifest.clone() }
     }
 
-    /// Draws into a folder.
+    /// Draws every figure in every format asked for, `figures/NAME.svg` and so on, and `report.html`.
     pub fn draw(
         &self,
         folder: &OutputFolder,
         options: &DrawingOptions,
     ) -> Result<(), DrawingError> {
-        self.write(options, |name, bytes| folder.write_bulk(name, |out| out.write_all(bytes)))
-    }
-
-    /// Gives `write` every figure in every format asked for, `figures/NAME.svg` and so on, and `report.html`.
-    pub fn write(
-        &self,
-        options: &DrawingOptions,
-        write: impl Fn(&str, &[u8]) -> Result<(), FolderError>,
-    ) -> Result<(), DrawingError> {
+        let write = |name: &str, bytes: &[u8]| folder.write_bulk(name, |out| out.write_all(bytes));
         let drawn = |figure: &Figure| {
             let svg = figure.to_svg(options.width_mm)?;
             let (name, caption) = (figure.name.clone(), figure.caption.clone());

@@ -45,7 +45,7 @@ pub use response::{ResponseSummary, response_figure, write_response, write_unive
 pub use shown_body::{BodyStress, ShownBody};
 pub use store::{
     FolderError, MESH, Manifest, OutputFolder, Record, Replace, is_result, read_manifest,
-    read_record, record_bytes,
+    read_record,
 };
 pub use summary::{Head, object, read_summary, summary_of, write_summary};
 pub use universal::{write_universal_mesh, write_universal_mode};

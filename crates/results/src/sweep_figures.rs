@@ -7,10 +7,9 @@ use super::cycle::{FamilyRecord, draw_branches};
 use super::drawing::{Declaration, declared};
 use super::parameter::{parameter_axis, parameter_name};
 use super::sweep::{
-    PointRecord, SweepFolder, SweepReport, TWO_FREQUENCY, UNSETTLED, by_other_keys,
-    critical_friction, document, listed, operating_matrix, printed,
+    PointRecord, TWO_FREQUENCY, UNSETTLED, by_other_keys, critical_friction, listed,
+    operating_matrix, printed,
 };
-use super::{DrawingError, DrawingOptions, Manifest, Page};
 use frictionsim_chart::{
     Axis, Figure, Fill, INK, Line, Marker, Panel, Points, Rule, Scale, Stroke, literal, look, plain,
 };
@@ -23,29 +22,6 @@ const FRICTION: &str = "contact.friction_coefficient";
 const MOST_SERIES: usize = 12;
 /// Fraction of sticking nodes below which none is said to stick.
 const NO_STICK: f64 = 0.005;
-
-/// What the figures of a study need besides its points.
-#[derive(Clone, Debug)]
-pub struct SweepDrawing {
-    /// Unstable modes of the case, drawn across its frequencies.
-    pub references: Vec<ModeLine>,
-    /// Largest friction coefficient of its eigenvalue analyses.
-    pub highest_friction: f64,
-    /// How they are drawn.
-    pub options: DrawingOptions,
-}
-
-/// Draws what the study has points for into `figures/`, each as SVG and PNG, and writes `report.html`.
-pub fn draw(
-    folder: &SweepFolder,
-    report: &SweepReport<'_>,
-    manifest: &Manifest,
-    drawing: &SweepDrawing,
-) -> Result<(), DrawingError> {
-    let frictions = (report.friction_coefficient, drawing.highest_friction);
-    let figures = draw_sweep(&report.records, frictions, &drawing.references);
-    folder.write_page(&Page::new(document(report, true), figures, manifest), &drawing.options)
-}
 
 /// Draws what a study has points for: main frequency and contact status over the rotation speed, or else over another
 /// swept key; critical friction if one key besides friction was swept through eigenvalue analyses; the operating matrix

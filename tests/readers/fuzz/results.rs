@@ -150,7 +150,7 @@ fn a_damaged_manifest_or_summary_is_never_used() {
 fn a_damaged_point_counts_as_missing() {
     let scratch = folder();
     let path = finished(scratch.path(), "sweep");
-    let (folder, _) = SweepFolder::find(&path, "sweep").unwrap();
+    let folder = SweepFolder::find(&path, "sweep").unwrap();
     let file = folder.point_path(1);
     let original = fs::read(&file).unwrap();
     let value: Value = serde_json::from_slice(&original).unwrap();

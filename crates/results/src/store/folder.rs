@@ -46,7 +46,8 @@ pub struct OutputFolder {
     earlier: BTreeMap<String, Option<u32>>,
     /// Files of this run and theirs.
     written: Mutex<BTreeMap<String, Option<u32>>>,
-    journal: File,
+    /// Names of the files of this run until it has ended; a folder that processes share lists all its files from the start.
+    journal: Option<File>,
     _lock: File,
 }
 
@@ -100,7 +101,7 @@ impl OutputFolder {
         let folder = Self {
             path: path.to_owned(),
             destination: destination.to_owned(),
-            journal,
+            journal: Some(journal),
             manifest: manifest.clone(),
             earlier,
             written: Mutex::default(),
@@ -108,6 +109,19 @@ impl OutputFolder {
         };
         folder.write_manifest(&folder.earlier)?;
         Ok(folder)
+    }
+
+    /// A folder that processes share, whose manifest lists its files already; `lock` keeps other commands out.
+    pub(crate) fn shared(path: &Path, manifest: &Manifest, lock: File) -> Self {
+        Self {
+            path: path.to_owned(),
+            destination: path.to_owned(),
+            journal: None,
+            manifest: manifest.clone(),
+            earlier: BTreeMap::new(),
+            written: Mutex::default(),
+            _lock: lock,
+        }
     }
 
     /// Whether [`OutputFolder::open`] would take a folder, which is left as it is.
@@ -188,8 +202,9 @@ impl OutputFolder {
 
     fn write_as(&self, name: &str, is_durable: bool, fill: Fill<'_>) -> Result<(), FolderError> {
         let path = self.path.join(name);
-        if self.written().insert(name.to_owned(), None).is_none() {
-            writeln!(&self.journal, "{name}").map_err(|e| FolderError::io("write", &path, e))?;
+        let is_new = self.written().insert(name.to_owned(), None).is_none();
+        if let Some(mut journal) = self.journal.as_ref().filter(|_| is_new) {
+            writeln!(journal, "{name}").map_err(|e| FolderError::io("write", &path, e))?;
         }
         let checksum = write_whole(&path, is_durable, fill)?;
         self.written().insert(name.to_owned(), Some(checksum));

@@ -12,5 +12,5 @@ pub(crate) mod whole_file;
 pub use error::FolderError;
 pub use folder::{MESH, OutputFolder, Replace};
 pub use manifest::Manifest;
-pub use record::{Record, read_record, record_bytes};
+pub use record::{Record, read_record};
 pub use reopening::{is_result, read_manifest};

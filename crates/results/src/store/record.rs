@@ -6,7 +6,6 @@ use super::framed::{self, Defect};
 use super::reopening::read_existing;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
-use std::io;
 use std::path::Path;
 
 /// Data that a command keeps bit by bit.
@@ -23,19 +22,9 @@ pub trait Record: Serialize + DeserializeOwned {
     fn inconsistency(&self) -> Option<&'static str>;
 }
 
-/// The bytes of the file.
-///
-/// # Errors
-/// Data that cannot be encoded.
-pub fn record_bytes<T: Record>(record: &T) -> io::Result<Vec<u8>> {
-    let mut bytes = Vec::new();
-    framed::write(&mut bytes, T::MAGIC, T::VERSION, record)?;
-    Ok(bytes)
-}
-
 /// Writes the record of a run.
 pub fn write_record<T: Record>(folder: &OutputFolder, record: &T) -> Result<(), FolderError> {
-    folder.write_bulk(T::FILE, |out| out.write_all(&record_bytes(record)?))
+    folder.write_bulk(T::FILE, |out| framed::write(out, T::MAGIC, T::VERSION, record))
 }
 
 /// The record that the bytes of its file hold.

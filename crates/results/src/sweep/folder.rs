@@ -1,21 +1,17 @@
 //! The results folder of a sweep, which several processes may share.
 
-use super::super::drawing::{DrawingError, DrawingOptions, Page};
 use super::super::folder::{
     FolderError, OutputFolder, Replace, check_owner, refuse_foreign, remove_files, write_contents,
 };
-use super::super::framed::{Defect, write_json, write_sealed};
+use super::super::framed::{Defect, write_sealed};
 use super::super::manifest::Manifest;
-use super::super::record::{Record, record_bytes};
 use super::super::reopening::{Contents, MANIFEST, own_value, read_contents, read_existing};
 use super::super::store::lock::{Company, remove_remnants, share, try_lock};
-use super::super::whole_file::{create_folder, is_temporary, write_whole};
+use super::super::whole_file::{create_folder, is_temporary};
 use super::{PointClock, PointRecord};
 use frictionsim_bounds::{RESULT, read_file};
-use serde_json::Value;
 use std::collections::BTreeMap;
 use std::fs::{self, File};
-use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 /// Files over all points.
@@ -79,11 +75,9 @@ impl Start {
 /// processes that run the same points to do them twice, with one result.
 #[derive(Debug)]
 pub struct SweepFolder {
-    path: PathBuf,
-    sweep_hash: String,
+    output: OutputFolder,
     /// Whether the points carry checksums; those of versions before them do not.
     is_sealed: bool,
-    _lock: File,
 }
 
 /// What there is of a point.
@@ -141,19 +135,18 @@ impl SweepFolder {
             Ok(())
         })?;
         let is_sealed = read_contents(path)?.is_none_or(|contents| contents.is_sealed);
-        let folder = Self::of(path, manifest, is_sealed, lock);
+        let folder = Self { output: OutputFolder::shared(path, manifest, lock), is_sealed };
         if start == Start::Fresh {
             folder.refuse_started(points)?;
         }
         Ok(folder)
     }
 
-    /// Opens the folder that processes of a command share (`sweep`, `uncertainty`) once it has been started, and gives
-    /// its manifest.
+    /// Opens the folder that processes of a command share (`sweep`, `uncertainty`) once it has been started.
     ///
     /// # Errors
     /// [`FolderError::Unusable`]; [`FolderError::Busy`]; those of the file system.
-    pub fn find(path: &Path, command: &str) -> Result<(Self, Manifest), FolderError> {
+    pub fn find(path: &Path, command: &str) -> Result<Self, FolderError> {
         let not_a_sweep = |reason: String| {
             FolderError::unusable(path, format!("is not the results folder of a sweep: {reason}"))
         };
@@ -167,22 +160,17 @@ impl SweepFolder {
             return Err(not_a_sweep(format!("it belongs to frictionsim {}", manifest.command)));
         }
         let lock = share(path, |_| Ok(()))?;
-        Ok((Self::of(path, &manifest, is_sealed, lock), manifest))
+        Ok(Self { output: OutputFolder::shared(path, &manifest, lock), is_sealed })
     }
 
-    fn of(path: &Path, manifest: &Manifest, is_sealed: bool, lock: File) -> Self {
-        let sweep_hash = manifest.case_hash.clone();
-        Self { path: path.to_owned(), sweep_hash, is_sealed, _lock: lock }
-    }
-
-    /// The folder's path.
-    pub fn path(&self) -> &Path {
-        &self.path
+    /// What holds the files over all points.
+    pub fn output(&self) -> &OutputFolder {
+        &self.output
     }
 
     /// Where a point's file is.
     pub fn point_path(&self, point: usize) -> PathBuf {
-        self.path.join(point_name(point))
+        self.output.path().join(point_name(point))
     }
 
     /// Reads a finished point.
@@ -192,10 +180,11 @@ impl SweepFolder {
         };
         let record = own_value(&bytes, !self.is_sealed)
             .and_then(|value| serde_json::from_value::<PointRecord>(value).map_err(Defect::damage));
+        let sweep_hash = &self.output.manifest().case_hash;
         Ok(match record {
             Err(defect) => Found::Damaged(defect.to_string()),
-            Ok(record) if record.point == point && record.sweep_hash == self.sweep_hash => {
-                Found::Point(Box::new(record))
+            Ok(own) if own.point == point && own.sweep_hash == *sweep_hash => {
+                Found::Point(Box::new(own))
             }
             Ok(_) => Found::Nothing,
         })
@@ -204,7 +193,8 @@ impl SweepFolder {
     /// What the clock said of a finished point; nothing where its file is missing or damaged, which no result depends
     /// on.
     pub fn read_clock(&self, point: usize) -> PointClock {
-        let bytes = read_file(&self.path.join(clock_name(point)), RESULT).unwrap_or_default();
+        let bytes =
+            read_file(&self.output.path().join(clock_name(point)), RESULT).unwrap_or_default();
         let value = own_value(&bytes, false).ok();
         let clock = value.and_then(|value| serde_json::from_value(value).ok());
         clock.unwrap_or_default()
@@ -217,7 +207,7 @@ impl SweepFolder {
         if is_finished()? {
             return Ok(None);
         }
-        let path = self.path.join(POINTS).join(format!("{CLAIM}{point:06}"));
+        let path = self.output.path().join(POINTS).join(format!("{CLAIM}{point:06}"));
         let (lock, company) = try_lock(&path)?;
         let claim = (company != Company::Others).then(|| Claim { path, _lock: lock });
         // Another process may have finished it between the look and the claim.
@@ -226,36 +216,8 @@ impl SweepFolder {
 
     /// Writes a finished point, whole or not at all, and before it what the clock says of it.
     pub fn write_point(&self, record: &PointRecord, clock: &PointClock) -> Result<(), FolderError> {
-        self.write(&clock_name(record.point), |out| write_sealed(out, clock))?;
-        self.write(&point_name(record.point), |out| write_sealed(out, record))
-    }
-
-    /// Writes `summary.json`.
-    pub fn write_summary(&self, summary: &Value) -> Result<(), FolderError> {
-        self.write("summary.json", |out| write_json(out, summary))
-    }
-
-    /// Writes one file whole or not at all.
-    ///
-    /// # Errors
-    /// [`FolderError::DiskFull`] or [`FolderError::Io`] with the file's path.
-    pub fn write(
-        &self,
-        name: &str,
-        fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
-    ) -> Result<(), FolderError> {
-        write_whole(&self.path.join(name), true, Box::new(fill)).map(drop)
-    }
-
-    /// Writes a page, its figures, and both as data.
-    pub fn write_page(&self, page: &Page, options: &DrawingOptions) -> Result<(), DrawingError> {
-        self.write(Page::FILE, |out| out.write_all(&record_bytes(page)?))?;
-        self.draw(page, options)
-    }
-
-    /// Draws a page.
-    pub fn draw(&self, page: &Page, options: &DrawingOptions) -> Result<(), DrawingError> {
-        page.write(options, |name, bytes| self.write(name, |out| out.write_all(bytes)))
+        self.output.write(&clock_name(record.point), |out| write_sealed(out, clock))?;
+        self.output.write(&point_name(record.point), |out| write_sealed(out, record))
     }
 
     fn refuse_started(&self, points: &[usize]) -> Result<(), FolderError> {
@@ -271,7 +233,7 @@ impl SweepFolder {
             "already holds {found} of the {asked} points asked for: go on with --resume, start \
              over with --force, or choose another folder with --out"
         );
-        Err(FolderError::unusable(&self.path, reason))
+        Err(FolderError::unusable(self.output.path(), reason))
     }
 }
 

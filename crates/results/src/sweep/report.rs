@@ -69,8 +69,6 @@ const MOST_ROWS: usize = 200;
 pub struct SweepReport<'a> {
     /// Title of the case.
     pub title: &'a str,
-    /// Friction coefficient where it is not swept.
-    pub friction_coefficient: f64,
     /// Swept keys.
     pub keys: Vec<String>,
     /// Names of the analyses at each point.
@@ -309,7 +307,6 @@ mod tests {
         };
         let report = SweepReport {
             title: "",
-            friction_coefficient: 0.3,
             keys: Vec::new(),
             analyses: Vec::new(),
             count: 5,
