@@ -60,13 +60,14 @@ fn run_on_mesh(arguments: &ResumedRun) -> Result<(), Failure> {
     bar.finish_and_clear();
     let field = model.base_field(case);
     let wall_s = session.wall_seconds();
-    let report = eigenvalues::report(case, cea, &model, &solution, &field, wall_s);
-    let summary = write(&folder, &report)?;
+    let report = eigenvalues::report(case, cea, &model, &solution, wall_s);
+    let summary = write(&folder, &report, &field)?;
     if case.output.universal {
         write_universal(&folder, &report)?;
     }
     if let Some(drawing) = session.options.output.drawing() {
-        draw(&folder, &report, &eigenvalues::dampings(case, &model), &drawing)?;
+        let dampings = eigenvalues::dampings(case, &model);
+        draw(&folder, &report, &field, &dampings, &drawing)?;
     }
     steps.discard()?;
     let view = if session.options.output.verbose > 0 { View::Whole } else { View::Short };

@@ -2,7 +2,7 @@
 
 use crate::prelude::*;
 use frictionsim::signal::reader::{ResponseOptions, read_response, read_shapes};
-use frictionsim::study::eigenvalues::{SlidingModel, solve_modes};
+use frictionsim::study::eigenvalues::{SlidingModel, solve};
 
 const CEA: &str = "[cea]\nmodes = 8";
 
@@ -14,7 +14,7 @@ static MEASURED: LazyLock<Vec<(f64, Motion)>> = LazyLock::new(|| {
     let case = case_of("case.toml", &coarse_disc(CEA), AS_IT_IS);
     let cea = case.require_cea().unwrap();
     let model = SlidingModel::new(&case, cea).unwrap();
-    let solution = solve_modes(&case, cea, &model).unwrap();
+    let solution = solve(&case, cea, &model, None).unwrap();
     let mut draw = crate::draws::draws(12345);
     let mut noise = || 2.0 * draw() - 1.0;
     let modes = solution.sweep.points[0].modes.iter().rev();

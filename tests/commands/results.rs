@@ -3,7 +3,7 @@
 use crate::figures::synthetic;
 use crate::prelude::*;
 use flate2::read::ZlibDecoder;
-use frictionsim::results::cea::{View, document, write};
+use frictionsim::results::cea::{Solution, View, document, write};
 use frictionsim::results::mesh::MeshStatistics;
 use frictionsim::results::{EncodedMesh, Field, FolderError, cartesian_vectors, write_vtu};
 use std::io::Read;
@@ -18,7 +18,7 @@ fn mode(real_hz: f64, frequency_hz: f64, harmonic: usize, direction: i8) -> Comp
     synthetic::mode(c64::new(TAU * real_hz, TAU * frequency_hz), harmonic, direction)
 }
 
-fn sweep(mesh: &AnnulusMesh) -> FrictionSweep {
+fn solution(mesh: &AnnulusMesh) -> Solution {
     let mut shaped = mode(12.5, 9900.0, 2, -1);
     // One travelling wave: cos and sin parts a quarter period apart.
     let angles = mesh.mesh.frame_angles();
@@ -33,7 +33,7 @@ fn sweep(mesh: &AnnulusMesh) -> FrictionSweep {
         above: Vec::new(),
     };
     let stable = [mode(-20.0, 7600.0, 1, 1), mode(-30.0, 9890.0, 2, -1)];
-    FrictionSweep {
+    let sweep = FrictionSweep {
         points: vec![
             point(0.0, &stable),
             point(0.1, &stable),
@@ -46,7 +46,9 @@ fn sweep(mesh: &AnnulusMesh) -> FrictionSweep {
         }],
         crossings: Vec::new(),
         ..FrictionSweep::default()
-    }
+    };
+    let notes = vec!["harmonics above 6 do not exist on this mesh".to_owned()];
+    Solution { notes, ..synthetic::solution(sweep) }
 }
 
 fn field(mesh: &AnnulusMesh) -> BaseField {
@@ -59,11 +61,7 @@ fn field(mesh: &AnnulusMesh) -> BaseField {
     }
 }
 
-fn report<'a>(
-    mesh: &'a AnnulusMesh,
-    sweep: &'a FrictionSweep,
-    field: &'a BaseField,
-) -> CeaReport<'a> {
+fn report<'a>(mesh: &'a AnnulusMesh, solution: &'a Solution) -> CeaReport<'a> {
     CeaReport {
         title: "made up",
         selection: "below 10000 Hz".to_owned(),
@@ -75,8 +73,7 @@ fn report<'a>(
             shear_pa: [0.84e6, 0.849e6],
             ..synthetic::SLIDING
         },
-        notes: vec!["harmonics above 6 do not exist on this mesh".to_owned()],
-        ..synthetic::report(&mesh.mesh, sweep, field)
+        ..synthetic::report(&mesh.mesh, solution)
     }
 }
 
@@ -92,9 +89,9 @@ fn manifest(hash: &str) -> Manifest {
 #[test]
 fn tables_hold_one_row_for_each_mode_of_a_tabulated_friction_value() {
     let (mesh, folder) = (annulus(Quad4), folder());
-    let sweep = sweep(&mesh);
+    let solution = solution(&mesh);
     let output = OutputFolder::open(folder.path(), &manifest("a"), Replace::SameCase).unwrap();
-    let summary = write(&output, &report(&mesh, &sweep, &field(&mesh))).unwrap();
+    let summary = write(&output, &report(&mesh, &solution), &field(&mesh)).unwrap();
     let eigenvalues = fs::read_to_string(folder.path().join("eigenvalues.csv")).unwrap();
     let mut lines = eigenvalues.lines();
     assert_eq!(
@@ -129,7 +126,8 @@ fn tables_hold_one_row_for_each_mode_of_a_tabulated_friction_value() {
 #[test]
 fn the_printed_table_tells_stable_ranges_from_unstable_modes() {
     let mesh = annulus(Quad4);
-    let text = document(&report(&mesh, &sweep(&mesh), &field(&mesh)), View::Whole).to_text();
+    let solution = solution(&mesh);
+    let text = document(&report(&mesh, &solution), View::Whole).to_text();
     has(
         &text,
         &["friction 0: stable up to 0.1 ; 9900.00 ; 0.138200 ; 0.900000 ; 9950.00 ; \
@@ -137,7 +135,7 @@ fn the_printed_table_tells_stable_ranges_from_unstable_modes() {
          12 contact nodes slipping, 0 sticking, 0 open ; \
          pressure 2.8000 to 2.8300 MPa; torque 20.1500 N m ; harmonics above 6"],
     );
-    let short = document(&report(&mesh, &sweep(&mesh), &field(&mesh)), View::Short).to_text();
+    let short = document(&report(&mesh, &solution), View::Short).to_text();
     has(&short, &["friction 0.3: 2 modes, 1 unstable ; !stable up to"]);
     let last = short.lines().last().unwrap();
     assert!(last.contains("0.138200"), "the answer stands last\n{short}");
@@ -230,9 +228,9 @@ fn a_rigid_translation_is_one_cartesian_vector_at_every_node() {
 #[test]
 fn shapes_come_as_real_and_imaginary_fields_in_a_collection() {
     let (mesh, folder) = (annulus(Quad8), folder());
-    let sweep = sweep(&mesh);
+    let solution = solution(&mesh);
     let output = OutputFolder::open(folder.path(), &manifest("a"), Replace::SameCase).unwrap();
-    write(&output, &report(&mesh, &sweep, &field(&mesh))).unwrap();
+    write(&output, &report(&mesh, &solution), &field(&mesh)).unwrap();
     let collection = fs::read_to_string(folder.path().join("modes.pvd")).unwrap();
     let mut entries = collection.lines().filter(|line| line.contains("<DataSet"));
     let entry = entries.clone().next().unwrap();
@@ -240,13 +238,13 @@ fn shapes_come_as_real_and_imaginary_fields_in_a_collection() {
     // ParaView animates modes by time: the frequency, no two the same.
     let times = entries.by_ref().map(|line| attribute(line, "timestep").parse().unwrap());
     let mut times: Vec<f64> = times.collect();
-    let frequency = sweep.points[3].modes[1].frequency_hz();
+    let frequency = solution.sweep.points[3].modes[1].frequency_hz();
     assert!((times[0] - frequency).abs() <= 1e-10 * frequency, "{times:?} {frequency}");
     let count = times.len();
     times.sort_by(f64::total_cmp);
     times.dedup();
     assert_eq!(times.len(), count);
-    let shape = sweep.points[3].modes[1].shape.as_ref().unwrap();
+    let shape = solution.sweep.points[3].modes[1].shape.as_ref().unwrap();
     let real: Vec<f64> = shape.iter().map(|value| value.re).collect();
     let written = floats(&decode(&bytes, "displacement_real"));
     assert_eq!(written, cartesian_vectors(&mesh.mesh, &real));

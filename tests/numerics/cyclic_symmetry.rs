@@ -1,7 +1,7 @@
 //! Bodies from a mesh of one of their sectors, solved by waves around them, against their whole mesh.
 
 use crate::prelude::*;
-use frictionsim::results::cea::{self, Reading, View};
+use frictionsim::results::cea::{self, View};
 use frictionsim::results::report::Report;
 use frictionsim::study::eigenvalues::{self, Solution};
 use frictionsim::study::uncertainty::Sampler;
@@ -87,11 +87,10 @@ fn assert_same(name: &str, mesh: &[u8], text: &str) {
     let mut worst = [0.0_f64; 3];
     for (a, b) in waves.sweep.points.iter().zip(&whole.sweep.points) {
         worst[0] = worst[0].max(distance(&a.modes, &b.modes));
-        let [of_waves, of_whole] = [&waves, &whole].map(|own| own.reading.as_ref().unwrap());
         // Pairs without friction have no vectors of their own.
-        for mode in (1..=a.modes.len()).filter(|_| a.friction_coefficient > 0.0) {
-            let at = |own: &Reading| own.mesh_error(a.friction_coefficient, mode).unwrap();
-            let [own, other] = [at(of_waves), at(of_whole)];
+        let modes = a.modes.iter().zip(&b.modes).filter(|_| a.friction_coefficient > 0.0);
+        for (one, other) in modes {
+            let [own, other] = [one, other].map(|mode| mode.mesh_error.unwrap());
             worst[2] = worst[2].max((own - other).abs() / other.abs());
         }
     }
@@ -226,8 +225,8 @@ fn every_table_of_a_body_of_sectors_has_its_nodal_diameters_and_samples_have_its
     let case = read("tables", &mesh, &screwed_disc(4, more), "auto");
     let case = case.unwrap_or_else(|e| panic!("{e}"));
     let (model, solution) = solution(&case);
-    let (cea, field) = (case.cea.as_ref().unwrap(), model.base_field(&case));
-    let report = eigenvalues::report(&case, cea, &model, &solution, &field, 0.0);
+    let cea = case.cea.as_ref().unwrap();
+    let report = eigenvalues::report(&case, cea, &model, &solution, 0.0);
     let manifest = Manifest::new("cea");
     let told = cea::summary(&report);
     let own = |modes: &[ComplexMode]| modes.iter().map(|m| m.nodal_diameters).collect::<Vec<_>>();

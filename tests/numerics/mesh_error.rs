@@ -17,14 +17,7 @@ fn bricks(name: &str, size: [f64; 3], counts: [usize; 3], text: &str) -> Case {
 /// Frequencies at the last friction value with their estimates, Hz.
 fn estimates(solution: &Solution) -> Vec<[f64; 2]> {
     let point = solution.sweep.points.last().unwrap();
-    let reading = solution.reading.as_ref().unwrap();
-    let numbered = point.modes.iter().enumerate();
-    numbered
-        .map(|(i, mode)| {
-            let error = reading.mesh_error(point.friction_coefficient, i + 1);
-            [mode.frequency_hz(), error.unwrap()]
-        })
-        .collect()
+    point.modes.iter().map(|mode| [mode.frequency_hz(), mode.mesh_error.unwrap()]).collect()
 }
 
 /// What the estimates say of the difference of two meshes, over that difference, by mode.
@@ -100,11 +93,8 @@ fn estimates_of_critical_friction_follow_the_error_by_refinement() {
     let fine = coarse.refined(2.0).unwrap();
     let onsets = |case: &Case| -> Vec<[f64; 2]> {
         let (_, solution) = solution(case);
-        let reading = solution.reading.as_ref().unwrap();
-        let pairs = solution.sweep.intervals.iter().zip(&reading.onset_errors);
-        pairs
-            .filter_map(|(interval, error)| Some([interval.critical_friction, (*error)?]))
-            .collect()
+        let intervals = solution.sweep.intervals.iter();
+        intervals.filter_map(|own| Some([own.critical_friction, own.mesh_error?])).collect()
     };
     let [coarse, fine] = [coarse, fine].map(|case| onsets(&case));
     assert_eq!(coarse.len(), 3, "{coarse:?}");

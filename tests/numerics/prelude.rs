@@ -18,6 +18,6 @@ pub use frictionsim::study::matrices::matrices;
 pub fn solution(case: &Case) -> (SlidingModel, Solution) {
     let cea = case.cea.as_ref().unwrap();
     let model = SlidingModel::new(case, cea).unwrap();
-    let found = solve(case, cea, &model, &Unwatched).unwrap();
+    let found = solve(case, cea, &model, Some(&Unwatched)).unwrap();
     (model, found)
 }

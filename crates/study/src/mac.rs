@@ -1,7 +1,7 @@
 //! Modal assurance of measured shapes against the modes of a case.
 
 use super::StudyError;
-use super::eigenvalues::{SlidingModel, solve_modes};
+use super::eigenvalues::{SlidingModel, solve};
 use super::fit::least_cost;
 use frictionsim_case::{Body, Case, Cea, refusal};
 use frictionsim_physics::cea::ComplexMode;
@@ -55,7 +55,7 @@ pub fn assurance(case: &Case, shapes: &MeasuredShapes) -> Result<MacSummary, Stu
     let model = SlidingModel::new(case, &own)?;
     // Before anything is solved.
     let placed = shapes.placed(case, &model.mesh)?;
-    let solution = solve_modes(case, &own, &model)?;
+    let solution = solve(case, &own, &model, None)?;
     let modes: Vec<_> = solution
         .sweep
         .points

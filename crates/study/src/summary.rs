@@ -46,9 +46,8 @@ fn cea(case: &Case) -> Result<Value, StudyError> {
     let cea = case.require_cea()?.of_tables();
     let Solved { case, model, solution } = eigenvalues::solved(case, &cea, None)?;
     eigenvalues::refuse_no_modes(&case, &cea, &solution.sweep)?;
-    let field = model.base_field(&case);
     let wall_s = start.elapsed().as_secs_f64();
-    let report = eigenvalues::report(&case, &cea, &model, &solution, &field, wall_s);
+    let report = eigenvalues::report(&case, &cea, &model, &solution, wall_s);
     told("cea", Head::of(report.title, wall_s), &frictionsim_results::cea::summary(&report))
 }
 

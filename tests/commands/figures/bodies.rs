@@ -4,7 +4,7 @@
 
 use crate::figures::{check_texts, synthetic, texts};
 use crate::prelude::*;
-use frictionsim::results::cea::{View, document, draw, write_base};
+use frictionsim::results::cea::{Solution, View, document, draw, write_base};
 use frictionsim::results::{DrawingOptions, Format};
 
 /// A body whose mesh is no annulus to the program, though its hole is round.
@@ -15,7 +15,7 @@ fn body() -> Mesh {
 }
 
 /// Modes of that body at five friction coefficients, two of which couple.
-fn sweep() -> FrictionSweep {
+fn solution() -> Solution {
     let mut sweep = synthetic::sweep(5);
     for point in &mut sweep.points {
         for (rank, mode) in point.modes.iter_mut().enumerate() {
@@ -28,7 +28,7 @@ fn sweep() -> FrictionSweep {
     };
     // The waves of a pair that travel against the rotor grow.
     sweep.intervals = vec![interval(4, 0.3), interval(6, 0.6)];
-    sweep
+    synthetic::solution(sweep)
 }
 
 /// The contact of the hole as an imported edge lists it: angles up to half a turn, then on from minus half a turn.
@@ -46,12 +46,7 @@ fn field(mesh: &Mesh) -> BaseField {
     synthetic::field(mesh, &angles, tractions, vec![stress; mesh.node_count()])
 }
 
-fn report<'a>(
-    mesh: &'a Mesh,
-    sweep: &'a FrictionSweep,
-    field: &'a BaseField,
-    extent: Extent,
-) -> CeaReport<'a> {
+fn report<'a>(mesh: &'a Mesh, solution: &'a Solution, extent: Extent) -> CeaReport<'a> {
     CeaReport {
         title: "A body of its own",
         has_harmonics: false,
@@ -65,11 +60,11 @@ fn report<'a>(
             extent,
             ..synthetic::SLIDING
         },
-        ..synthetic::report(mesh, sweep, field)
+        ..synthetic::report(mesh, solution)
     }
 }
 
-fn drawn(report: &CeaReport<'_>, width_mm: Option<f64>) -> TempDir {
+fn drawn(report: &CeaReport<'_>, field: &BaseField, width_mm: Option<f64>) -> TempDir {
     let out = folder();
     let path = out.path().join("out");
     let folder = OutputFolder::open(&path, &Manifest::new("cea"), Replace::Anything).unwrap();
@@ -78,7 +73,7 @@ fn drawn(report: &CeaReport<'_>, width_mm: Option<f64>) -> TempDir {
     let dampings = [("damping of disc".to_owned(), one), ("damping of pad".to_owned(), other)];
     let options =
         DrawingOptions { width_mm, formats: vec![Format::Svg], ..DrawingOptions::default() };
-    draw(&folder, report, &dampings, &options).unwrap();
+    draw(&folder, report, field, &dampings, &options).unwrap();
     folder.finish().unwrap();
     out
 }
@@ -89,11 +84,11 @@ fn read(folder: &TempDir, name: &str) -> String {
 
 #[test]
 fn modes_of_a_body_without_symmetry_have_numbers_and_no_harmonic() {
-    let (mesh, sweep) = (body(), sweep());
+    let (mesh, solution) = (body(), solution());
     let field = field(&mesh);
-    let report = report(&mesh, &sweep, &field, Extent::WholeBody);
+    let report = report(&mesh, &solution, Extent::WholeBody);
     for width in [None, Some(85.0)] {
-        let folder = drawn(&report, width);
+        let folder = drawn(&report, &field, width);
         for name in ["locus", "pairs", "prestress"] {
             let svg = read(&folder, &format!("figures/{name}.svg"));
             let words = texts(&svg);
@@ -116,13 +111,13 @@ fn modes_of_a_body_without_symmetry_have_numbers_and_no_harmonic() {
 
 #[test]
 fn contact_around_an_imported_hole_is_drawn_and_listed_over_rising_angles() {
-    let (mesh, sweep) = (body(), sweep());
+    let (mesh, solution) = (body(), solution());
     let field = field(&mesh);
     let places = field.along_contact(&mesh);
     assert!(places.windows(2).all(|pair| pair[0].1 < pair[1].1));
     assert!(places[0].1 >= 0.0 && places[39].1 < 2.0 * PI && places[39].1 > 1.9 * PI);
-    let report = report(&mesh, &sweep, &field, Extent::WholeBody);
-    let folder = drawn(&report, None);
+    let report = report(&mesh, &solution, Extent::WholeBody);
+    let folder = drawn(&report, &field, None);
     let data = read(&folder, "report.html");
     assert!(data.contains("Figure"));
     // One curve from end to end of its frame: its abscissae rise, and it never crosses the panel backwards.
@@ -145,7 +140,7 @@ fn contact_around_an_imported_hole_is_drawn_and_listed_over_rising_angles() {
     assert!(steps.len() > 30 && steps.iter().all(|step| *step > 0.0), "{curve}");
     let path = folder.path().join("base");
     let out = OutputFolder::open(&path, &Manifest::new("cea"), Replace::Anything).unwrap();
-    write_base(&out, &report).unwrap();
+    write_base(&out, &report, &field).unwrap();
     let table = fs::read_to_string(path.join("prestress.csv")).unwrap();
     let angles = table.lines().skip(1).map(|line| line.split(',').nth(1).unwrap());
     let angles: Vec<f64> = angles.map(|angle| angle.parse().unwrap()).collect();
@@ -158,12 +153,12 @@ fn contact_around_an_imported_hole_is_drawn_and_listed_over_rising_angles() {
 
 #[test]
 fn torque_and_power_of_a_body_without_a_thickness_are_for_each_metre() {
-    let (mesh, sweep) = (body(), sweep());
+    let (mesh, solution) = (body(), solution());
     let field = field(&mesh);
-    let of = |extent| report(&mesh, &sweep, &field, extent);
+    let of = |extent| report(&mesh, &solution, extent);
     let metre = document(&of(Extent::MetreOfThickness), View::Short).to_text();
     has(&metre, &["2014.0000 N m/m ; 9600.0 W/m ; for each metre of thickness"]);
-    let html = read(&drawn(&of(Extent::MetreOfThickness), None), "report.html");
+    let html = read(&drawn(&of(Extent::MetreOfThickness), &field, None), "report.html");
     assert!(html.contains("2014.0000 N m/m") && html.contains("9600.0 W/m"));
     let whole = document(&of(Extent::WholeBody), View::Short).to_text();
     assert!(whole.contains("2014.0000 N m,") && !whole.contains("W/m"), "{whole}");

@@ -22,7 +22,8 @@ fn report_of_an_eigenvalue_analysis_holds_every_figure_table_and_the_case() {
     });
     let field = synthetic::field(&mesh, &angles, |_| [2.827e6, 0.848e6], stress.collect());
     let frictions: Vec<f64> = sweep.points.iter().map(|p| p.friction_coefficient).collect();
-    let report = synthetic::report(&mesh, &sweep, &field);
+    let solution = synthetic::solution(sweep);
+    let report = synthetic::report(&mesh, &solution);
     let report = CeaReport { friction_coefficients: &frictions, ..report };
     let damping = rayleigh_damping(synthetic::MASS_COEFFICIENT, synthetic::STIFFNESS_COEFFICIENT);
     let dampings = [("damping *ζ*".to_owned(), damping)];
@@ -33,7 +34,7 @@ fn report_of_an_eigenvalue_analysis_holds_every_figure_table_and_the_case() {
     };
     let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("report");
     let folder = OutputFolder::open(&path, &manifest, Replace::Anything).unwrap();
-    draw(&folder, &report, &dampings, &DrawingOptions::default()).unwrap();
+    draw(&folder, &report, &field, &dampings, &DrawingOptions::default()).unwrap();
     folder.finish().unwrap();
     for width in [85.0, 178.0] {
         let options = DrawingOptions {
@@ -46,7 +47,7 @@ fn report_of_an_eigenvalue_analysis_holds_every_figure_table_and_the_case() {
             OutputFolder::open(&folder.path().join("out"), &manifest, Replace::Anything).unwrap();
         // How long the run took is no matter of its report: the same bytes another day.
         let slower = CeaReport { wall_s: 77.7, ..report.clone() };
-        draw(&folder, &slower, &dampings, &options).unwrap();
+        draw(&folder, &slower, &field, &dampings, &options).unwrap();
         let read = |name: &str| fs::read_to_string(folder.path().join(name)).unwrap();
         assert!(!read("report.html").contains("77.70 s"));
         for entry in fs::read_dir(folder.path().join("figures")).unwrap() {

@@ -1,6 +1,7 @@
 //! Analytic stand-ins for solver results: waves on an annulus.
 
 use crate::prelude::*;
+use frictionsim::results::cea::Solution;
 
 pub const MASS_COEFFICIENT: f64 = 40.0;
 pub const STIFFNESS_COEFFICIENT: f64 = 4.5e-7;
@@ -32,6 +33,7 @@ pub fn mode(eigenvalue: c64, harmonic: usize, direction: i8) -> ComplexMode {
         uncertainty: 1e-12,
         contact_share: 0.2,
         axial_share: None,
+        mesh_error: None,
         shape: None,
         left: None,
         nodal_diameters: None,
@@ -51,6 +53,7 @@ pub fn onset((n, branch): (usize, usize), critical: f64, frequency_hz: f64) -> U
         restabilized: None,
         unstable_from_start: false,
         lost_after: None,
+        mesh_error: None,
     }
 }
 
@@ -95,23 +98,22 @@ pub fn field(
     }
 }
 
+/// A sweep as a solver gives it back.
+pub fn solution(sweep: FrictionSweep) -> Solution {
+    Solution { sweep, dofs: 12_420, method: "cyclic", ..Solution::default() }
+}
+
 /// A report of the disc with such a state.
-pub fn report<'a>(mesh: &'a Mesh, sweep: &'a FrictionSweep, field: &'a BaseField) -> CeaReport<'a> {
+pub fn report<'a>(mesh: &'a Mesh, solution: &'a Solution) -> CeaReport<'a> {
     CeaReport {
         title: "Polycarbonate disc",
         body: ShownBody { mesh, sector: None },
         has_harmonics: true,
-        dofs: 12_420,
-        method: "cyclic",
         selection: "below 17500 Hz".to_owned(),
         friction_coefficients: &[],
-        sweep,
+        solution,
         contact_changes: &[],
         base: SLIDING,
-        field,
-        sensitivities: None,
-        reading: None,
-        notes: Vec::new(),
         wall_s: 1.2,
     }
 }

@@ -65,6 +65,7 @@ impl<S> Instability<S> {
             restabilized: self.restabilized.as_ref().map(place),
             unstable_from_start: self.from_start,
             lost_after: self.lost_after,
+            mesh_error: None,
         }
     }
 }

@@ -33,6 +33,8 @@ pub struct ComplexMode {
     pub contact_share: f64,
     /// Kinetic energy of motion along the axis over the whole, 0 to 1; `None` in the plane.
     pub axial_share: Option<f64>,
+    /// Estimate of the frequency less that on an ever finer mesh of the same outline, Hz, where it was made.
+    pub mesh_error: Option<f64>,
     /// Displacement shape over all nodes in nodal frames, two values a node (three in three dimensions) with
     /// `max |u| = 1`, where it was asked for.
     pub shape: Option<Vec<c64>>,
@@ -163,6 +165,8 @@ pub struct UnstableInterval {
     pub unstable_from_start: bool,
     /// Where it could not be followed to its onset, the last friction coefficient below at which it was not seen to grow.
     pub lost_after: Option<f64>,
+    /// Estimate of the critical friction less that on an ever finer mesh of the same outline, where it was made.
+    pub mesh_error: Option<f64>,
 }
 
 impl UnstableInterval {

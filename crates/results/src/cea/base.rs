@@ -54,6 +54,12 @@ impl BaseState {
         ]
     }
 
+    /// Whether nothing presses: the closed state of an analysis without prestress, or no contact at all.
+    pub(super) fn is_free_of_stress(&self) -> bool {
+        let [low, high] = self.pressure_pa;
+        low >= 0.0 && high <= 0.0
+    }
+
     /// Its power with the unit.
     pub(super) fn power(&self) -> String {
         format!("{:.1} {}", self.power_w, self.extent.unit("W"))
@@ -234,11 +240,6 @@ impl BaseField {
         };
         let tractions = [&of(|own| own.pressure)[..], &of(|own| own.shear)];
         Field::contact(count, &nodes, statuses, tractions)
-    }
-
-    /// Whether nothing presses: the closed state of an analysis without prestress.
-    pub(super) fn is_free_of_stress(&self) -> bool {
-        self.contact.iter().all(|own| own.pressure == 0.0)
     }
 
     /// Mean over the contact points around each node, weighted by area and share.

@@ -77,6 +77,7 @@ mod tests {
             uncertainty: 0.0,
             contact_share: 0.0,
             axial_share: None,
+            mesh_error: None,
             shape: None,
             left: None,
             nodal_diameters: None,

@@ -15,7 +15,7 @@ const NEAR: f64 = 0.05;
 /// body the partner is the mode nearest in frequency, within 5 %, at the first friction value at which the branch is
 /// unstable, whose real part has fallen since the lowest friction while that of the branch rose.
 pub(super) fn sentences(report: &CeaReport<'_>) -> Vec<String> {
-    let intervals = &report.sweep.intervals;
+    let intervals = &report.solution.sweep.intervals;
     let sentence = |branch: Branch| match report.has_harmonics {
         true => of_pair(branch),
         false => of_modes(report, intervals.iter().find(|own| branch_of(own) == branch)?),
@@ -36,14 +36,14 @@ fn of_pair((harmonic, branch, direction): Branch) -> Option<String> {
 
 fn of_modes(report: &CeaReport<'_>, interval: &UnstableInterval) -> Option<String> {
     let branch = branch_of(interval);
-    let all = branches(report.sweep);
+    let all = branches(&report.solution.sweep);
     let numbers = report.mode_numbers();
     let is_here = |mode: &&ComplexMode| mode.branch == interval.branch;
     let is_behind = |point: &&FrictionPoint| {
         point.friction_coefficient >= interval.critical_friction
             && point.modes.iter().any(|mode| is_here(&mode) && mode.is_unstable())
     };
-    let point = report.sweep.points.iter().find(is_behind)?;
+    let point = report.solution.sweep.points.iter().find(is_behind)?;
     let own = point.modes.iter().find(is_here)?;
     let start = |mode: &ComplexMode| {
         let points = all.get(&branch_of_mode(mode))?;

@@ -82,7 +82,7 @@ impl Feed {
     /// The modes that grow fastest.
     fn fastest(&self, report: &CeaReport<'_>) -> Vec<&ModeFeed> {
         let friction = self.modes.first().map(|own| own.mode.friction_coefficient);
-        let mut points = report.sweep.points.iter();
+        let mut points = report.solution.sweep.points.iter();
         let point = points.find(|point| Some(point.friction_coefficient) == friction);
         let growth = |own: &ModeFeed| {
             let mode = point.and_then(|point| point.modes.get(own.mode.mode - 1));
@@ -93,8 +93,12 @@ impl Feed {
         modes
     }
 
-    /// Growth for each area of the contact: lines along a plane edge, pictures of the surfaces of solid bodies.
-    pub(super) fn figure(&self, report: &CeaReport<'_>) -> Option<Figure> {
+    /// Growth for each area of the contact: lines along a plane edge, pictures of the `surfaces` of solid bodies.
+    pub(super) fn figure(
+        &self,
+        report: &CeaReport<'_>,
+        surfaces: &[(String, usize)],
+    ) -> Option<Figure> {
         let modes = self.fastest(report);
         let friction = modes.first()?.mode.friction_coefficient;
         let caption = format!(
@@ -103,7 +107,7 @@ impl Feed {
              feeds, blue takes. The sum over the surface is the contact's part in the budget."
         );
         Some(match report.body.is_assembly() {
-            true => self.pictures(report.body.mesh, &modes, &report.field.surfaces, caption),
+            true => self.pictures(report.body.mesh, &modes, surfaces, caption),
             false => self.lines(report, &modes, caption),
         })
     }

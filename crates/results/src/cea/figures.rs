@@ -5,7 +5,7 @@ use super::locus::{NamedDamping, locus};
 use super::reading::budget;
 use super::shape::{Body, ModeShape, moving};
 use super::tables::{View, document};
-use super::{CeaReport, direction_name, prestress};
+use super::{BaseField, CeaReport, direction_name, prestress};
 use crate::charts::palette::{STABLE, UNSTABLE};
 use crate::distinct;
 use crate::drawing::{Declaration, DrawingError, DrawingOptions, declared};
@@ -22,40 +22,41 @@ const FOLLOWED_BRANCHES: usize = 4;
 
 /// Draws every figure that the report has data for into `figures/`, and writes `report.html`: eigenvalue locus with
 /// stability bars, pairs that turn unstable, base state, mode shapes, the branches that turn unstable at every friction
-/// value that has shapes. `dampings` are those that regions of the body have.
+/// value that has shapes. `field` is the base state place by place, `dampings` are those that regions of the body have.
 pub fn draw(
     folder: &OutputFolder,
     report: &CeaReport<'_>,
+    field: &BaseField,
     dampings: &[NamedDamping],
     options: &DrawingOptions,
 ) -> Result<(), DrawingError> {
     let mut figures: Vec<Declaration<'_>> =
         vec![Box::new(move || Some(locus(report, dampings))), Box::new(move || pairs(report))];
-    let (body, field) = (report.body, report.field);
+    let body = report.body;
     match body.sector {
         Some(sector) => {
             figures.push(Box::new(move || Some(prestress::revolution(sector, field))));
         }
         None if body.is_assembly() => {
-            let of = move |names, value| prestress::surfaces(body.mesh, field, names, value);
+            let of = move |names, value| prestress::surfaces(report, field, names, value);
             let pressure = ("prestress", "contact pressure");
             figures.push(Box::new(move || of(pressure, |own| own.pressure)));
             let shear = ("shear", "friction traction");
             figures.push(Box::new(move || of(shear, |own| own.shear)));
         }
-        None => figures.push(Box::new(move || prestress::plane(report))),
+        None => figures.push(Box::new(move || prestress::plane(body.mesh, field))),
     }
-    for point in &report.sweep.points {
+    for point in &report.solution.sweep.points {
         let friction = point.friction_coefficient;
         figures.push(Box::new(move || Some(shapes(report, friction))));
     }
     for branch in followed_branches(report) {
         figures.push(Box::new(move || Some(branch_shapes(report, branch))));
     }
-    if let Some(reading) = report.reading {
+    if let Some(reading) = &report.solution.reading {
         figures.push(Box::new(move || budget(report, reading)));
         if let Some(feed) = &reading.feed {
-            figures.push(Box::new(move || feed.figure(report)));
+            figures.push(Box::new(move || feed.figure(report, &field.surfaces)));
         }
     }
     write_page(folder, document(report, View::Page), declared(figures), options)
@@ -64,7 +65,7 @@ pub fn draw(
 /// Frequency and damping factor over friction of each pair of waves that turns unstable, that with the rotor and that
 /// against it as two lines; without symmetry of each mode.
 fn pairs(report: &CeaReport<'_>) -> Option<Figure> {
-    let sweep = report.sweep;
+    let sweep = &report.solution.sweep;
     if sweep.points.len() < 2 {
         return None;
     }
@@ -188,7 +189,7 @@ fn shapes(report: &CeaReport<'_>, friction: f64) -> Figure {
 
 /// The first branches that turn unstable and have several shapes.
 fn followed_branches(report: &CeaReport<'_>) -> Vec<Branch> {
-    let branches = distinct(report.sweep.intervals.iter().map(branch_of)).into_iter();
+    let branches = distinct(report.solution.sweep.intervals.iter().map(branch_of)).into_iter();
     let followed = branches.filter(|branch| branch_points(report, *branch).len() > 1);
     followed.take(FOLLOWED_BRANCHES).collect()
 }

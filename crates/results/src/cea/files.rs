@@ -1,10 +1,10 @@
 //! `eigenvalues.csv`, `stability.csv`, `summary.json`, mode shapes.
 
-use super::CeaReport;
 use super::shape::ModeShape;
 use super::solid::size;
 use super::summary::summary;
 use super::tables::{eigenvalues, stability};
+use super::{BaseField, CeaReport};
 use crate::finding::write_table;
 use crate::folder::{FolderError, OutputFolder};
 use crate::pvd::{PvdEntry, write_pvd};
@@ -18,28 +18,36 @@ use serde_json::Value;
 use std::io;
 
 /// Writes all files of the analysis and returns the summary.
-pub fn write(folder: &OutputFolder, report: &CeaReport<'_>) -> Result<Value, FolderError> {
+pub fn write(
+    folder: &OutputFolder,
+    report: &CeaReport<'_>,
+    field: &BaseField,
+) -> Result<Value, FolderError> {
     write_table(folder, &eigenvalues(report))?;
     write_table(folder, &stability(report))?;
-    if let Some(sensitivities) = report.sensitivities {
+    if let Some(sensitivities) = &report.solution.sensitivities {
         write_table(folder, &sensitivities.table())?;
     }
-    if let Some(reading) = report.reading {
+    if let Some(reading) = &report.solution.reading {
         write_table(folder, &reading.contributions())?;
         write_table(folder, &reading.couplings())?;
         if let Some(feed) = &reading.feed {
             feed.write(folder, report)?;
         }
     }
-    write_base(folder, report)?;
+    write_base(folder, report, field)?;
     write_shapes(folder, report)?;
     write_summary(folder, Head::of(report.title, report.wall_s), &summary(report))
 }
 
 /// Writes the base state: `prestress.csv` (its contact) and `prestress.vtu` (its fields; of a body that no mesh file
 /// gives in three dimensions also friction coefficient and power of the whole).
-pub fn write_base(folder: &OutputFolder, report: &CeaReport<'_>) -> Result<(), FolderError> {
-    let (body, field, state) = (&report.body, report.field, report.base.whole());
+pub fn write_base(
+    folder: &OutputFolder,
+    report: &CeaReport<'_>,
+    field: &BaseField,
+) -> Result<(), FolderError> {
+    let (body, state) = (&report.body, report.base.whole());
     let whole = if body.is_assembly() { &[][..] } else { &state[..] };
     write_table(folder, &field.table(body, report.has_harmonics))?;
     folder.write_bulk("prestress.vtu", |out| {

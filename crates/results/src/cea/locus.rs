@@ -58,7 +58,7 @@ fn damping_curves(dampings: &[NamedDamping], highest_hz: f64) -> Vec<Line> {
 /// The eigenvalues in the complex plane as friction rises, with the curves of Rayleigh damping on which they start, and
 /// beside it the friction intervals in which each branch grows.
 pub(super) fn locus(report: &CeaReport<'_>, dampings: &[NamedDamping]) -> Figure {
-    let sweep = report.sweep;
+    let sweep = &report.solution.sweep;
     let place = |mode: &ComplexMode| (mode.real_hz(), mode.frequency_hz());
     let all = || {
         let points = sweep.points.iter();
@@ -129,7 +129,7 @@ pub(super) fn locus(report: &CeaReport<'_>, dampings: &[NamedDamping]) -> Figure
 
 /// The plane, and beside it the bars of instability where there are any.
 fn figure_of(report: &CeaReport<'_>, plane: Panel, numbers: &BTreeMap<Branch, usize>) -> Figure {
-    if report.sweep.intervals.is_empty() {
+    if report.solution.sweep.intervals.is_empty() {
         let caption =
             "Eigenvalues in the complex plane as friction rises; no branch turns unstable.";
         return Figure::new("locus", caption).panel(plane);
@@ -195,7 +195,7 @@ fn steps(report: &CeaReport<'_>) -> Steps {
             is_listed: mode.is_unstable(),
         }
     };
-    let points = &report.sweep.points;
+    let points = &report.solution.sweep.points;
     let marks = points.iter().map(|point| point.modes.iter().map(mark).collect());
     Steps {
         quantity: "friction coefficient".into(),
@@ -205,7 +205,7 @@ fn steps(report: &CeaReport<'_>) -> Steps {
 }
 
 fn stability_bars(report: &CeaReport<'_>, numbers: &BTreeMap<Branch, usize>) -> Panel {
-    let sweep = report.sweep;
+    let sweep = &report.solution.sweep;
     let (low, high) = extremes(sweep.points.iter().map(|p| p.friction_coefficient));
     let rows = interval_rows(sweep);
     let names = rows.iter().enumerate().map(|(row, (branch, intervals))| {

@@ -29,7 +29,7 @@ pub use mode_name::ModeName;
 pub use mode_name::mode_name;
 pub(super) use mode_name::{BRANCH, DIRECTION, HARMONIC, NAMES, NUMBERS, SHORT_NAMES, arrow};
 pub(super) use reading::{CONTRIBUTIONS, COUPLINGS};
-pub use reading::{Contribution, Coupling, MeshError, Reading, Source};
+pub use reading::{Contribution, Coupling, Reading, Source};
 pub(super) use sensitivity::{EIGENVALUES, ROWS};
 pub use sensitivity::{OnsetRates, SensitivityReport, SensitivityRow};
 pub use summary::{
@@ -44,7 +44,24 @@ use branches::{Branch, branch_of_mode};
 use frictionsim_physics::cea::{FrictionPoint, FrictionSweep};
 use std::collections::BTreeMap;
 
-/// Everything a complex eigenvalue analysis reports.
+/// What a solver gives back.
+#[derive(Clone, Debug, Default)]
+pub struct Solution {
+    /// Modes at every friction value, and where branches turn unstable.
+    pub sweep: FrictionSweep,
+    /// Unknowns of the eigenproblem.
+    pub dofs: usize,
+    /// Which solver: `cyclic`, of a body made of one sector too that was solved by waves around it, or `sparse`.
+    pub method: &'static str,
+    /// Derivatives of the eigenvalues at the case's own friction coefficient, where they were asked for.
+    pub sensitivities: Option<SensitivityReport>,
+    /// Where growth comes from and which modes couple; none without mode shapes.
+    pub reading: Option<Reading>,
+    /// What it has to say: lost branches, harmonics left out, and why.
+    pub notes: Vec<String>,
+}
+
+/// Everything a complex eigenvalue analysis reports, but for the fields of its base state.
 #[derive(Clone, Debug)]
 pub struct CeaReport<'a> {
     /// Title of the case.
@@ -53,28 +70,16 @@ pub struct CeaReport<'a> {
     pub body: ShownBody<'a>,
     /// Whether modes have a circumferential harmonic and a direction; else they are named by rank.
     pub has_harmonics: bool,
-    /// Unknowns of the eigenproblem.
-    pub dofs: usize,
-    /// Solver: `"cyclic"` or `"sparse"`.
-    pub method: &'a str,
     /// What was asked for, in words: `"below 17500 Hz"`.
     pub selection: String,
     /// Friction coefficients of the tables, rising. The sweep may hold more, for the shapes.
     pub friction_coefficients: &'a [f64],
     /// The modes.
-    pub sweep: &'a FrictionSweep,
+    pub solution: &'a Solution,
     /// Friction coefficients at which contact nodes open or close, rising: no branch goes on smoothly across them.
     pub contact_changes: &'a [f64],
     /// The state of steady sliding at the case's own friction coefficient.
     pub base: BaseState,
-    /// The same place by place.
-    pub field: &'a BaseField,
-    /// Which parameter decides, where the solver knows.
-    pub sensitivities: Option<&'a SensitivityReport>,
-    /// Where growth comes from and which modes couple, where the solver knows.
-    pub reading: Option<&'a Reading>,
-    /// Anything the solver has to say: lost branches, harmonics left out, and why.
-    pub notes: Vec<String>,
     /// Wall time of the run, s.
     pub wall_s: f64,
 }
@@ -84,7 +89,7 @@ impl CeaReport<'_> {
     fn own_point(&self) -> Option<&FrictionPoint> {
         let own = self.base.friction_coefficient;
         let distance = |point: &&FrictionPoint| (point.friction_coefficient - own).abs();
-        let points = self.sweep.points.iter();
+        let points = self.solution.sweep.points.iter();
         points.min_by(|a, b| distance(a).total_cmp(&distance(b)))
     }
 
@@ -112,7 +117,8 @@ impl CeaReport<'_> {
 
     /// The friction values of the tables.
     pub fn tabulated(&self) -> impl Iterator<Item = &FrictionPoint> {
-        self.sweep
+        self.solution
+            .sweep
             .points
             .iter()
             .filter(|point| self.friction_coefficients.contains(&point.friction_coefficient))
@@ -120,7 +126,7 @@ impl CeaReport<'_> {
 
     /// Largest relative residual of any eigenpair, that of the quadratic problem.
     pub fn largest_residual(&self) -> f64 {
-        let modes = self.sweep.points.iter().flat_map(|point| &point.modes);
+        let modes = self.solution.sweep.points.iter().flat_map(|point| &point.modes);
         modes.map(|mode| mode.residual).fold(0.0, f64::max)
     }
 

@@ -16,11 +16,10 @@ use std::f64::consts::TAU;
 const ARROW: f64 = 0.15;
 
 /// Contact pressure and friction traction around a plane edge, and the von Mises stress field.
-pub(super) fn plane(report: &CeaReport<'_>) -> Option<Figure> {
-    let BodyStress::Plane(stress) = &report.field.stress else {
+pub(super) fn plane(mesh: &Mesh, field: &BaseField) -> Option<Figure> {
+    let BodyStress::Plane(stress) = &field.stress else {
         return None;
     };
-    let (field, mesh) = (report.field, report.body.mesh);
     let disc = Disc::new(mesh);
     let von_mises = stress.iter().map(NodalStress::von_mises).collect();
     let stress = Axis::new("von Mises stress", "Pa").prefixed();
@@ -99,14 +98,15 @@ pub(super) fn revolution(sector: &SolidSector, field: &BaseField) -> Figure {
 /// A traction on each contact surface of solid bodies, seen from outside along its mean normal, with the sliding over
 /// it; grey where it is open.
 pub(super) fn surfaces(
-    mesh: &Mesh,
+    report: &CeaReport<'_>,
     field: &BaseField,
     (name, what): (&str, &'static str),
     value: fn(&ContactState) -> f64,
 ) -> Option<Figure> {
-    if field.is_free_of_stress() {
+    if report.base.is_free_of_stress() {
         return None;
     }
+    let mesh = report.body.mesh;
     let [tractions, closed] =
         [value, closed_share].map(|value| field.around_nodes(mesh.node_count(), value));
     let nodes = tractions.iter().zip(&closed);

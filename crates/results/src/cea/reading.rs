@@ -60,19 +60,6 @@ pub struct Coupling {
     pub share: f64,
 }
 
-/// What the mesh makes of the frequency of a mode.
-#[derive(Clone, Debug, PartialEq)]
-pub struct MeshError {
-    /// Friction coefficient.
-    pub friction_coefficient: f64,
-    /// Number by frequency, from 1.
-    pub mode: usize,
-    /// Its frequency, Hz.
-    pub of_hz: f64,
-    /// Estimate of the frequency less that on an ever finer mesh of the same outline, Hz.
-    pub frequency_hz: f64,
-}
-
 /// Where growth comes from, and which modes couple.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Reading {
@@ -82,10 +69,6 @@ pub struct Reading {
     pub couplings: Vec<Coupling>,
     /// Where the contacts feed the unstable modes at the case's own friction coefficient.
     pub feed: Option<Feed>,
-    /// What the mesh makes of frequencies, where the left vectors are known.
-    pub mesh_errors: Vec<MeshError>,
-    /// What it makes of each critical friction of the sweep: estimate less that on an ever finer mesh.
-    pub onset_errors: Vec<Option<f64>>,
 }
 
 columns! {
@@ -100,13 +83,6 @@ columns! {
 }
 
 impl Reading {
-    /// The estimate of a mode's frequency error, Hz.
-    pub fn mesh_error(&self, friction_coefficient: f64, mode: usize) -> Option<f64> {
-        let mut all = self.mesh_errors.iter();
-        let own = all.find(|e| e.mode == mode && e.friction_coefficient == friction_coefficient);
-        own.map(|own| own.frequency_hz)
-    }
-
     /// `contributions.csv`: a row for each mode, friction value and part, support or contact.
     pub(super) fn contributions(&self) -> Table {
         let rows = &self.contributions;

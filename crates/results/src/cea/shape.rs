@@ -32,7 +32,7 @@ impl<'a> ModeShape<'a> {
     /// All modes of a report that carry shapes, by rising friction.
     pub fn all(report: &CeaReport<'a>) -> impl Iterator<Item = Self> {
         let has_harmonics = report.has_harmonics;
-        let shapes = report.sweep.points.iter().flat_map(move |point| {
+        let shapes = report.solution.sweep.points.iter().flat_map(move |point| {
             let friction = point.friction_coefficient;
             let modes = (1..).zip(&point.modes);
             modes.map(move |(number, mode)| Self { number, friction, has_harmonics, mode })

@@ -1,7 +1,7 @@
 //! `summary.json` of a complex eigenvalue analysis.
 
 use super::branches::{branch_of, branch_of_mode};
-use super::{BaseState, CeaReport};
+use super::{BaseState, CeaReport, Solution};
 use crate::finding::finding;
 use crate::summary::present;
 use frictionsim_output::{Column, Described, parted};
@@ -153,22 +153,18 @@ finding! {
 pub(crate) const SWEPT_MODES: &[Column<ModeSummary>] = parted(OWN_MODES, "axial_share").0;
 
 impl ModeSummary {
-    /// That of a number at a friction coefficient.
-    pub(super) fn of(
-        report: &CeaReport<'_>,
-        (friction, number): (f64, usize),
-        mode: &ComplexMode,
-    ) -> Self {
+    /// That of a mode.
+    pub(super) fn of(mode: &ComplexMode, has_harmonics: bool) -> Self {
         Self {
-            harmonic: mode.diameters(report.has_harmonics),
+            harmonic: mode.diameters(has_harmonics),
             branch: mode.branch,
-            direction: report.has_harmonics.then_some(mode.direction),
+            direction: has_harmonics.then_some(mode.direction),
             real_hz: mode.real_hz(),
             frequency_hz: mode.frequency_hz(),
             unstable: mode.is_unstable(),
             contact_share: present(mode.contact_share),
             axial_share: mode.axial_share,
-            mesh_error: report.reading.and_then(|own| own.mesh_error(friction, number)),
+            mesh_error: mode.mesh_error,
         }
     }
 }
@@ -206,7 +202,7 @@ impl UnstableMode {
         let own = |interval: &&UnstableInterval| {
             branch_of(interval) == branch_of_mode(mode) && interval.critical_friction <= friction
         };
-        let crossings = report.sweep.intervals.iter().filter(own);
+        let crossings = report.solution.sweep.intervals.iter().filter(own);
         let last = crossings.max_by(|a, b| a.critical_friction.total_cmp(&b.critical_friction));
         Self {
             friction_coefficient: friction,
@@ -231,8 +227,7 @@ pub(super) fn friction_values(count: usize) -> String {
 
 /// The crossings into instability.
 pub(super) fn onsets(report: &CeaReport<'_>) -> Vec<CriticalFriction> {
-    let errors = report.reading.map_or(&[][..], |own| own.onset_errors.as_slice());
-    let onset = |(k, interval): (usize, &UnstableInterval)| CriticalFriction {
+    let onset = |interval: &UnstableInterval| CriticalFriction {
         harmonic: interval.diameters(report.has_harmonics),
         branch: interval.branch,
         direction: report.has_harmonics.then_some(interval.direction),
@@ -242,9 +237,9 @@ pub(super) fn onsets(report: &CeaReport<'_>) -> Vec<CriticalFriction> {
         restabilized_frequency_hz: interval.restabilized.map(|end| end.1),
         unstable_from_start: interval.unstable_from_start,
         lost_after: interval.lost_after,
-        mesh_error: errors.get(k).copied().flatten(),
+        mesh_error: interval.mesh_error,
     };
-    report.sweep.intervals.iter().enumerate().map(onset).collect()
+    report.solution.sweep.intervals.iter().map(onset).collect()
 }
 
 /// The summary of an analysis.
@@ -256,17 +251,17 @@ pub fn summary(report: &CeaReport<'_>) -> CeaSummary {
     };
     let base = report.base;
     let own = |point: &&FrictionPoint| point.friction_coefficient == base.friction_coefficient;
-    let own = report.sweep.points.iter().find(own);
+    let Solution { sweep, dofs, method, notes, .. } = report.solution;
+    let own = sweep.points.iter().find(own);
     let modes_at = |point: &FrictionPoint| -> Vec<ModeSummary> {
-        let friction = point.friction_coefficient;
-        let own = |(number, mode)| ModeSummary::of(report, (friction, number), mode);
-        (1..).zip(&point.modes).map(own).collect()
+        let modes = point.modes.iter();
+        modes.map(|mode| ModeSummary::of(mode, report.has_harmonics)).collect()
     };
     let may_open = !report.has_harmonics || report.body.sector.is_some();
     let nodes = (base.slipping + base.sticking + base.open).max(1);
     CeaSummary {
-        dofs: report.dofs,
-        method: report.method.to_owned(),
+        dofs: *dofs,
+        method: (*method).to_owned(),
         selection: report.selection.clone(),
         modes: report.mode_counts().1,
         friction_values: report.friction_coefficients.len(),
@@ -276,8 +271,8 @@ pub fn summary(report: &CeaReport<'_>) -> CeaSummary {
         modes_at_friction: own.map(modes_at),
         unstable_modes: UnstableMode::all(report),
         base_state: base,
-        notes: report.notes.clone(),
+        notes: notes.clone(),
         contact_open_fraction: may_open.then(|| base.open as f64 / nodes as f64),
-        mode_counts: report.sweep.counts.iter().map(CountSummary::of).collect(),
+        mode_counts: sweep.counts.iter().map(CountSummary::of).collect(),
     }
 }

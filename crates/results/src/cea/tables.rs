@@ -2,7 +2,7 @@
 
 use super::coupling::sentences;
 use super::summary::{CriticalFriction, ModeSummary, ONSETS, friction_values, onsets};
-use super::{BRANCH, CeaReport, DIRECTION, HARMONIC, MeshError, direction_name};
+use super::{BRANCH, CeaReport, DIRECTION, HARMONIC, SensitivityReport, direction_name};
 use frictionsim_output::{Document, Section, Table, columns, fixed};
 use frictionsim_physics::cea::{ComplexMode, FrictionPoint};
 use std::f64::consts::TAU;
@@ -33,7 +33,7 @@ impl ModeRow {
         let row = |(number, mode): (usize, &ComplexMode)| Self {
             friction,
             number,
-            own: ModeSummary::of(report, (friction, number), mode),
+            own: ModeSummary::of(mode, report.has_harmonics),
             damping_factor: mode.damping_factor(),
             growth_rate: mode.growth_rate(),
             residual: mode.residual,
@@ -117,7 +117,7 @@ pub(super) fn eigenvalues(report: &CeaReport<'_>) -> Table {
         report.friction_coefficients.contains(&friction)
             || friction == report.base.friction_coefficient
     };
-    let points = report.sweep.points.iter().filter(is_listed);
+    let points = report.solution.sweep.points.iter().filter(is_listed);
     let rows: Vec<ModeRow> = points.flat_map(|point| ModeRow::all(report, point)).collect();
     let table = Table::new("eigenvalues.csv", "").columns(PLACES, &rows).columns(MODES, &rows);
     if report.body.sector.is_some() { table.columns(AXIAL, &rows) } else { table }
@@ -126,7 +126,7 @@ pub(super) fn eigenvalues(report: &CeaReport<'_>) -> Table {
 /// `stability.csv`: one row for each crossing into instability.
 pub(super) fn stability(report: &CeaReport<'_>) -> Table {
     let numbers = report.mode_numbers();
-    let number = report.sweep.intervals.iter().map(|interval| {
+    let number = report.solution.sweep.intervals.iter().map(|interval| {
         let own = numbers.get(&super::branches::branch_of(interval)).copied();
         own.filter(|_| !report.has_harmonics)
     });
@@ -146,7 +146,7 @@ fn modes(caption: String, rows: &[ModeRow], with_friction: bool) -> Table {
 
 /// All modes at the friction values that have shapes, or at the last value of the sweep.
 fn page_modes(report: &CeaReport<'_>) -> Vec<Table> {
-    let points = &report.sweep.points;
+    let points = &report.solution.sweep.points;
     let with_shapes = |point: &&FrictionPoint| point.modes.iter().any(|m| m.shape.is_some());
     let mut chosen: Vec<&FrictionPoint> = points.iter().filter(with_shapes).collect();
     if chosen.is_empty() {
@@ -211,7 +211,7 @@ pub fn document(report: &CeaReport<'_>, view: View) -> Document {
         .section(Section::new("Stability of steady sliding").figures([""]))
         .section(decisive(report, view))
         .section(modes)
-        .notes(&report.notes)
+        .notes(&report.solution.notes)
 }
 
 /// What was solved, and the base state.
@@ -223,11 +223,11 @@ fn words(report: &CeaReport<'_>, view: View) -> Vec<String> {
         "{count} modes ({}) at {}, {} unknowns, {} method; largest residual {:.1e}.",
         report.selection,
         friction_values(report.friction_coefficients.len()),
-        report.dofs,
-        report.method,
+        report.solution.dofs,
+        report.solution.method,
         report.largest_residual(),
     );
-    let free = report.body.is_assembly() && report.field.is_free_of_stress();
+    let free = report.body.is_assembly() && base.is_free_of_stress();
     let [low, high] = base.pressure_pa.map(|pressure| fixed(1e-6 * pressure, 4));
     let state = match free {
         true => "free of stress".to_owned(),
@@ -243,11 +243,11 @@ fn words(report: &CeaReport<'_>, view: View) -> Vec<String> {
         base.open,
     );
     let note = base.extent.note().map(|note| format!("{note}."));
-    let none = report.sweep.intervals.is_empty().then(|| {
+    let none = report.solution.sweep.intervals.is_empty().then(|| {
         let values = report.friction_coefficients;
         let [first, last] = [values.first(), values.last()].map(|v| v.copied().unwrap_or(0.0));
         let range = format!("turns unstable for friction from {first} to {last}.");
-        if report.sweep.unconverged.is_empty() {
+        if report.solution.sweep.unconverged.is_empty() {
             format!("No mode {range}")
         } else {
             format!("No mode that converged {range} What did not converge may.")
@@ -261,24 +261,28 @@ fn words(report: &CeaReport<'_>, view: View) -> Vec<String> {
 
 /// The largest error of the mesh in a frequency, and that of the lowest critical friction, where they were estimated.
 fn mesh_errors(report: &CeaReport<'_>) -> Option<String> {
-    let reading = report.reading?;
-    let share = |own: &&MeshError| (own.frequency_hz / own.of_hz).abs();
-    let worst = reading.mesh_errors.iter().max_by(|a, b| share(a).total_cmp(&share(b)))?;
+    let sweep = &report.solution.sweep;
+    let points = sweep.points.iter();
+    let numbered = points.flat_map(|point| (1..).zip(&point.modes).map(move |own| (point, own)));
+    let known = numbered.filter_map(|(point, (number, mode))| {
+        let error = mode.mesh_error?;
+        let share = (error / mode.frequency_hz()).abs();
+        Some((share, error, number, point.friction_coefficient))
+    });
+    let (share, error, number, friction) = known.max_by(|a, b| a.0.total_cmp(&b.0))?;
     let text = format!(
-        "Error of the mesh, estimated: frequencies up to {:+.2} Hz ({:.2} %, mode {} at friction {})",
-        worst.frequency_hz,
-        100.0 * share(&worst),
-        worst.mode,
-        worst.friction_coefficient,
+        "Error of the mesh, estimated: frequencies up to {error:+.2} Hz ({:.2} %, mode {number} at \
+         friction {friction})",
+        100.0 * share,
     );
-    if share(&worst) > COARSE {
+    if share > COARSE {
         return Some(text + ": too coarse for more than an order of magnitude of it.");
     }
-    let first = report.sweep.intervals.iter().zip(&reading.onset_errors);
-    let mut first = first.filter_map(|(interval, error)| Some((interval, (*error)?)));
-    Some(match first.next() {
-        Some((interval, error)) => {
-            format!("{text}, critical friction {error:+.1e} of {:.6}.", interval.critical_friction)
+    let first =
+        sweep.intervals.iter().find_map(|own| Some((own.critical_friction, own.mesh_error?)));
+    Some(match first {
+        Some((critical, error)) => {
+            format!("{text}, critical friction {error:+.1e} of {critical:.6}.")
         }
         None => text + ".",
     })
@@ -288,17 +292,18 @@ fn mesh_errors(report: &CeaReport<'_>) -> Option<String> {
 fn decisive(report: &CeaReport<'_>, view: View) -> Section {
     let own = report.base.friction_coefficient;
     let most = if view == View::Page { READ_MODES } else { 1 };
-    let read = report.reading.map_or(Vec::new(), |reading| reading.sentences(own, most));
+    let (reading, sensitivities) = (&report.solution.reading, &report.solution.sensitivities);
+    let read = reading.as_ref().map_or(Vec::new(), |reading| reading.sentences(own, most));
     let section = Section::new("What couples, and what decides");
     if view != View::Page {
-        return section.text(report.sensitivities.map(|all| all.print())).text(read);
+        return section.text(sensitivities.as_ref().map(SensitivityReport::print)).text(read);
     }
     // Waves of a pair are one mode without friction: that they couple is told apart.
     let coupled = match read.is_empty() || report.has_harmonics {
         true => sentences(report),
         false => Vec::new(),
     };
-    let tables = report.sensitivities.map_or(Vec::new(), |all| all.tables(SENSITIVE_MODES));
+    let tables = sensitivities.as_ref().map_or(Vec::new(), |all| all.tables(SENSITIVE_MODES));
     let explained = (!tables.is_empty()).then(|| {
         "Sensitivities: a positive change of the growth rate brings a mode nearer to squeal or \
          makes it grow faster. A negative one holds it back. They hold for small changes; \
@@ -310,20 +315,23 @@ fn decisive(report: &CeaReport<'_>, view: View) -> Section {
 
 /// What decides: where stability ends, and what grows at the case's own friction.
 fn facts(report: &CeaReport<'_>) -> Vec<(String, String)> {
-    let intervals = &report.sweep.intervals;
+    let intervals = &report.solution.sweep.intervals;
     let lowest =
         intervals.iter().min_by(|a, b| a.critical_friction.total_cmp(&b.critical_friction));
     let onset = match lowest {
         Some(own) if !own.is_located() => format!("below {}", own.critical_friction),
         Some(interval) => fixed(interval.critical_friction, 6),
-        None if report.sweep.unconverged.is_empty() => "none: stable throughout".to_owned(),
+        None if report.solution.sweep.unconverged.is_empty() => {
+            "none: stable throughout".to_owned()
+        }
         None => "none of the modes that converged".to_owned(),
     };
     let hertz = |frequency: f64| format!("{} Hz", fixed(frequency, 2));
     let mut rows = vec![("lowest critical friction".to_owned(), onset)];
     rows.extend(lowest.map(|own| ("its frequency".to_owned(), hertz(own.frequency_hz))));
     let own = report.base.friction_coefficient;
-    let at_own = report.sweep.points.iter().find(|point| point.friction_coefficient == own);
+    let at_own =
+        report.solution.sweep.points.iter().find(|point| point.friction_coefficient == own);
     if let Some(point) = at_own {
         let unstable = point.modes.iter().filter(|mode| mode.is_unstable());
         let name = format!("unstable modes at friction {own}");

@@ -27,11 +27,11 @@ mod whole;
 
 pub use contact::{SolidState, SteadyState};
 pub use dampings::dampings;
-pub use model::{Model, Solver, Spectrum, asked_modes, wave_tangent};
+pub use model::{Model, Solver, asked_modes, wave_tangent};
 pub(super) use sensitivity::rates::{is_like, rates_of_waves};
 pub use sensitivity::{BodySensitivities, body_sensitivities};
 pub use sliding::SlidingModel;
-pub use solve::{Solved, solve, solve_modes, solved};
+pub use solve::{Solved, solve, solved};
 pub(super) use spectrum::analysis;
 pub use spectrum::{
     OnsetSearch, modes_at_own_friction, modes_below, modes_with_waves_below, unstable_intervals,
@@ -45,28 +45,13 @@ use frictionsim_physics::cea::sparse::FrictionlessModes;
 use frictionsim_physics::cea::{CeaError, FrictionSweep, SweepRequest, SweepWatch};
 use frictionsim_physics::linalg::banded::BandedFactor;
 use frictionsim_physics::linalg::{LdlAnalysis, SparseLdl};
-use frictionsim_results::cea::{BaseField, CeaReport, Reading, SensitivityReport};
+use frictionsim_results::cea::CeaReport;
+pub use frictionsim_results::cea::Solution;
 use solve::at_key;
 use std::f64::consts::TAU;
 
 /// Hears of every friction value that is solved, and may keep what took long to find.
 pub type Progress<'a> = dyn SweepWatch + 'a;
-
-/// What a solver gives back.
-pub struct Solution {
-    /// Modes at every friction value, and where branches turn unstable.
-    pub sweep: FrictionSweep,
-    /// Unknowns of the eigenproblem.
-    pub dofs: usize,
-    /// Which solver.
-    pub method: &'static str,
-    /// Derivatives of the eigenvalues at the case's own friction coefficient.
-    pub sensitivities: Option<SensitivityReport>,
-    /// Where growth comes from and which modes couple; none without mode shapes.
-    pub reading: Option<Reading>,
-    /// What it has to say.
-    pub notes: Vec<String>,
-}
 
 /// Modes at the case's own friction coefficient and the onsets over its sweep; mode shapes only of a body without
 /// symmetry, whose modes are recognised by nothing else.
@@ -105,7 +90,7 @@ pub fn preflight(case: &Case, cea: &Cea) -> Result<(), StudyError> {
         // Tables hold the frequencies of all modes, or not.
         let one =
             Cea { friction_coefficients: vec![cea.friction_coefficients[0]], ..cea.of_tables() };
-        let solution = solve_modes(case, &one, &SlidingModel::new(case, &one)?)?;
+        let solution = solve(case, &one, &SlidingModel::new(case, &one)?, None)?;
         return refuse_no_modes(case, &one, &solution.sweep);
     }
     let ModeLimit::MaxFrequency(limit_hz) = cea.modes else {
@@ -171,27 +156,20 @@ pub fn report<'a>(
     cea: &'a Cea,
     model: &'a SlidingModel,
     solution: &'a Solution,
-    field: &'a BaseField,
     wall_s: f64,
 ) -> CeaReport<'a> {
     CeaReport {
         title: &case.title,
         body: model.body(),
         has_harmonics: case.has_sectors(),
-        dofs: solution.dofs,
-        method: solution.method,
         selection: match cea.modes {
             ModeLimit::MaxFrequency(limit) => format!("below {limit} Hz"),
             ModeLimit::Lowest(count) => format!("the {count} lowest"),
         },
         friction_coefficients: &cea.friction_coefficients,
-        sweep: &solution.sweep,
+        solution,
         contact_changes: model.contact_changes(),
         base: model.base_state(case),
-        field,
-        sensitivities: solution.sensitivities.as_ref(),
-        reading: solution.reading.as_ref(),
-        notes: solution.notes.clone(),
         wall_s,
     }
 }

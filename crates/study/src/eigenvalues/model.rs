@@ -1,11 +1,11 @@
 //! Models of the eigenvalue solvers, and the choice of the solver for a body.
 
 use super::whole::WholeMesh;
-use super::{Progress, StudyError};
+use super::{Progress, Solution, StudyError};
 use crate::tangent_options;
 use frictionsim_case::{Annulus, Body, Case, CaseErrors, Cea, CeaMethod, Revolution, refusal};
 use frictionsim_physics::cea::cyclic::{self, WaveSweep};
-use frictionsim_physics::cea::{CeaError, FrictionSweep, ModeLimit, SweepRequest, Unwatched};
+use frictionsim_physics::cea::{CeaError, ModeLimit, SweepRequest, Unwatched};
 use frictionsim_physics::mesh::{SectorMesh, SolidSector};
 use frictionsim_physics::prestress::{TangentOptions, WaveTangent};
 
@@ -87,21 +87,6 @@ pub enum Model {
     Whole(Box<WholeMesh>),
 }
 
-/// The spectrum of a model over friction coefficients.
-#[derive(Default)]
-pub struct Spectrum {
-    /// Modes at each of them, and where branches turn unstable.
-    pub sweep: FrictionSweep,
-    /// Unknowns of the eigenproblem.
-    pub dofs: usize,
-    /// What the solver has to say of the spectrum.
-    pub notes: Vec<String>,
-    /// What the symmetry of sectors reveals, but for the sweep; none of a body solved on its whole mesh.
-    pub waves: Option<WaveSweep>,
-    /// Name of the solver: `cyclic`, of a body made of one sector too that was solved by waves around it, or `sparse`.
-    pub method: &'static str,
-}
-
 impl Model {
     /// The model of a case for its eigenvalue analysis.
     ///
@@ -131,33 +116,35 @@ impl Model {
     }
 
     /// The spectrum at the friction coefficients that the model was made for.
-    pub fn spectrum(&self, case: &Case, request: &SweepRequest<'_>) -> Result<Spectrum, CeaError> {
-        self.spectrum_with_waves(case, (request, &[]), &Unwatched)
+    pub fn spectrum(&self, case: &Case, request: &SweepRequest<'_>) -> Result<Solution, CeaError> {
+        Ok(self.spectrum_with_waves(case, (request, &[]), &Unwatched)?.0)
     }
 
-    /// [`Self::spectrum`] that keeps the waves of one sector at some of the friction coefficients, where there are
-    /// sectors; `progress` hears of every friction coefficient that is solved.
+    /// [`Self::spectrum`] that keeps the waves of one sector at some of the friction coefficients, beside what else the
+    /// symmetry of sectors reveals, where there are sectors; `progress` hears of every friction coefficient that is
+    /// solved.
     pub fn spectrum_with_waves(
         &self,
         case: &Case,
         (request, waves_at): (&SweepRequest<'_>, &[f64]),
         progress: &Progress<'_>,
-    ) -> Result<Spectrum, CeaError> {
+    ) -> Result<(Solution, Option<WaveSweep>), CeaError> {
         match self {
             Self::Waves(options) => {
                 let tangent = wave_tangent(case, options)?.expect("a body of sectors has waves");
                 let mut found = cyclic::wave_sweep(tangent, request, waves_at)?;
                 let is_reduced = found.reduction_error > 0.0;
                 let notes = is_reduced.then(|| reduction_note(&found, request));
-                Ok(Spectrum {
+                let solution = Solution {
                     sweep: std::mem::take(&mut found.sweep),
                     dofs: found.dofs,
                     notes: notes.into_iter().collect(),
-                    waves: Some(found),
                     method: "cyclic",
-                })
+                    ..Solution::default()
+                };
+                Ok((solution, Some(found)))
             }
-            Self::Whole(whole) => whole.sweep(case, request, progress),
+            Self::Whole(whole) => Ok((whole.sweep(case, request, progress)?, None)),
         }
     }
 }

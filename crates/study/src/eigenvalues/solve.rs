@@ -1,6 +1,6 @@
 //! Solution of the eigenvalue analysis of a case, and the notes on its results.
 
-use super::model::{Model, Spectrum};
+use super::model::Model;
 use super::notes::{
     MISSING_SHOWN, count_notes, coverage_note, damping_note, ended_notes, friction_note,
     instead_note, overdamped_note, table_notes, uncertainty_note, weak_note,
@@ -10,32 +10,21 @@ use super::sensitivity::body_sensitivities;
 use super::solid;
 use super::{Progress, SlidingModel, Solution, StudyError, no_modes};
 use frictionsim_case::{Case, Cea, CeaMethod};
-use frictionsim_physics::cea::{CeaError, SweepRequest, Unwatched};
+use frictionsim_physics::cea::cyclic::WaveSweep;
+use frictionsim_physics::cea::{CeaError, FrictionSweep, SweepRequest, Unwatched};
 use frictionsim_physics::prestress::PrestressError;
 use frictionsim_results::cea::SensitivityReport;
 use std::borrow::Cow;
 
-/// Solves the case's eigenproblems with its method; `progress` hears of every friction value solved.
+/// Solves the case's eigenproblems with its method; `progress` hears of every friction value solved. Without one there
+/// are no sensitivities, and nothing is read from the modes.
 pub fn solve(
     case: &Case,
     cea: &Cea,
     model: &SlidingModel,
-    progress: &Progress<'_>,
+    progress: Option<&Progress<'_>>,
 ) -> Result<Solution, StudyError> {
-    solve_with(case, cea, model, (true, progress))
-}
-
-/// [`solve`] without the sensitivities.
-pub fn solve_modes(case: &Case, cea: &Cea, model: &SlidingModel) -> Result<Solution, StudyError> {
-    solve_with(case, cea, model, (false, &Unwatched))
-}
-
-fn solve_with(
-    case: &Case,
-    cea: &Cea,
-    model: &SlidingModel,
-    (with_reading, progress): (bool, &Progress<'_>),
-) -> Result<Solution, StudyError> {
+    let with_reading = progress.is_some();
     // Branches are known up to the largest friction coefficient of the sweep.
     let friction = case.contact.sliding.friction_coefficient;
     let frictions = cea.solved_friction_coefficients();
@@ -52,21 +41,22 @@ fn solve_with(
         count_modes: cea.count_modes && with_reading,
         ..SweepRequest::new(&frictions, cea.modes)
     };
+    let progress = progress.unwrap_or(&Unwatched);
     let found = model.model.spectrum_with_waves(case, (&request, waves_at), progress);
-    let mut found = found.map_err(|error| at_key(case, &error))?;
+    let (mut found, waves) = found.map_err(|error| at_key(case, &error))?;
+    let waves = waves.as_ref();
     // Those of waves cost next to nothing.
-    let is_asked = cea.sensitivities.unwrap_or(found.waves.is_some());
+    let is_asked = cea.sensitivities.unwrap_or(waves.is_some());
     let is_asked = is_asked && with_reading && frictions.iter().any(|&mu| mu >= friction);
-    let (sensitivities, rate_note) = match is_asked {
-        true => body_rates(case, cea, &found),
-        false => (None, None),
-    };
+    let mut rate_note = None;
+    if is_asked {
+        (found.sensitivities, rate_note) = body_rates(case, cea, &found.sweep, waves);
+    }
 
-    let waves = found.waves.as_ref();
     let mut notes: Vec<String> =
         waves.map(|waves| coverage_note(&waves.coverage)).into_iter().collect();
     notes.extend(count_notes(cea, &found.sweep, waves.is_some()));
-    notes.extend(found.notes);
+    notes.append(&mut found.notes);
     notes.extend(waves.and_then(|waves| overdamped_note(case, model, &waves.overdamped)));
     notes.extend(model.solid().and_then(solid::note));
     notes.extend(table_notes(case));
@@ -76,10 +66,10 @@ fn solve_with(
     notes.extend(ended_notes(&found.sweep));
     notes.extend(weak_note(&found.sweep));
     notes.extend(friction_note(case, model));
-    let reading = match with_reading {
-        true => read(case, model, waves.map(|waves| &waves.tangent), &found.sweep),
-        false => None,
-    };
+    found.notes = notes;
+    if with_reading {
+        found.reading = read(case, model, waves.map(|waves| &waves.tangent), &mut found.sweep);
+    }
     // Shapes and waves that only the reading needed.
     for point in &mut found.sweep.points {
         point.modes.iter_mut().for_each(|mode| mode.wave = None);
@@ -87,24 +77,17 @@ fn solve_with(
             point.modes.iter_mut().for_each(|mode| mode.shape = None);
         }
     }
-    Ok(Solution {
-        reading,
-        dofs: found.dofs,
-        method: found.method,
-        sensitivities,
-        notes,
-        sweep: found.sweep,
-    })
+    Ok(found)
 }
 
 /// Sensitivities of a body; why there are none, or what is missing of them.
 fn body_rates(
     case: &Case,
     cea: &Cea,
-    found: &Spectrum,
+    sweep: &FrictionSweep,
+    waves: Option<&WaveSweep>,
 ) -> (Option<SensitivityReport>, Option<String>) {
     let friction = case.contact.sliding.friction_coefficient;
-    let (sweep, waves) = (&found.sweep, found.waves.as_ref());
     if waves.is_none() && sweep.modes_at(friction).is_empty() {
         let note = format!(
             "no sensitivities: there are no modes at contact.friction_coefficient = {friction}; name it in \
@@ -150,8 +133,8 @@ pub struct Solved<'a> {
     pub solution: Solution,
 }
 
-/// [`SlidingModel::new`] and [`solve`], or [`solve_modes`] without a `progress`. Where `auto` chose
-/// the harmonics of a body and a branch of them cannot be followed, its whole mesh is solved.
+/// [`SlidingModel::new`] and [`solve`]. Where `auto` chose the harmonics of a body and a branch of them cannot be
+/// followed, its whole mesh is solved.
 ///
 /// # Errors
 /// Those of both.
@@ -160,14 +143,13 @@ pub fn solved<'a>(
     cea: &Cea,
     progress: Option<&Progress<'_>>,
 ) -> Result<Solved<'a>, StudyError> {
-    let how = (progress.is_some(), progress.unwrap_or(&Unwatched));
     let model = SlidingModel::new(case, cea)?;
     let has_whole = cea.method == CeaMethod::Auto && matches!(model.model, Model::Waves(_));
-    let error = match solve_with(case, cea, &model, how) {
+    let error = match solve(case, cea, &model, progress) {
         Err(StudyError::Eigenvalues(error)) if has_whole && is_lost(&error) => error,
         other => return Ok(Solved { case: Cow::Borrowed(case), solution: other?, model }),
     };
-    on_whole_mesh(case, cea, error, how)
+    on_whole_mesh(case, cea, error, progress)
 }
 
 /// The case's whole mesh solved, after its harmonics ended in `error`.
@@ -175,7 +157,7 @@ fn on_whole_mesh<'a>(
     case: &'a Case,
     cea: &Cea,
     error: CeaError,
-    how: (bool, &Progress<'_>),
+    progress: Option<&Progress<'_>>,
 ) -> Result<Solved<'a>, StudyError> {
     let Ok(case) = case.on_whole_mesh() else {
         return Err(error.into());
@@ -184,7 +166,7 @@ fn on_whole_mesh<'a>(
     // Nor waves around it.
     case.cea = case.cea.map(|own| Cea { method: CeaMethod::Sparse, ..own });
     let model = SlidingModel::new(&case, &whole)?;
-    let mut solution = solve_with(&case, &whole, &model, how)?;
+    let mut solution = solve(&case, &whole, &model, progress)?;
     solution.notes.insert(0, instead_note(&error));
     Ok(Solved { case: Cow::Owned(case), model, solution })
 }
@@ -221,7 +203,7 @@ mod tests {
         let cea = case.require_cea().unwrap();
         let waves = solved(&case, cea, None).unwrap();
         let error = CeaError::LostHarmonic { harmonic: 3, friction: 0.3 };
-        let whole = on_whole_mesh(&case, cea, error, (false, &Unwatched)).unwrap();
+        let whole = on_whole_mesh(&case, cea, error, None).unwrap();
         assert_eq!((waves.solution.method, whole.solution.method), ("cyclic", "sparse"));
         let note = "a branch of harmonic 3 could not be followed up to friction 0.3: \
                     the whole mesh was solved instead";

@@ -6,7 +6,7 @@ use crate::tangent_options;
 use frictionsim_case::{Case, Cea, CeaMethod};
 use frictionsim_physics::cea::cyclic::{self, WaveSweep};
 use frictionsim_physics::cea::{
-    CeaError, ComplexMode, FrictionSweep, ModeLimit, SweepRequest, UnstableInterval,
+    CeaError, ComplexMode, FrictionSweep, ModeLimit, SweepRequest, UnstableInterval, Unwatched,
 };
 use frictionsim_physics::fem::MassKind;
 use frictionsim_physics::prestress::TangentOptions;
@@ -49,8 +49,8 @@ pub fn modes_with_waves_below(
     let model = Model::new(case, &cea)?;
     let request =
         SweepRequest { shapes_at, ..SweepRequest::new(&cea.friction_coefficients, cea.modes) };
-    let found = model.spectrum(case, &request)?;
-    Ok((found.sweep.into_first_modes(), found.waves))
+    let (found, waves) = model.spectrum_with_waves(case, (&request, &[]), &Unwatched)?;
+    Ok((found.sweep.into_first_modes(), waves))
 }
 
 /// The modes of a case at its own friction coefficient, by frequency; no shapes. With all the symmetry that the body
@@ -122,9 +122,9 @@ pub fn unstable_intervals(
     {
         return Ok(OnsetSearch::of(found, Vec::new()));
     }
-    let found = model.spectrum(case, &request)?;
+    let (found, waves) = model.spectrum_with_waves(case, (&request, &[]), &Unwatched)?;
     super::refuse_no_modes(case, &cea, &found.sweep)?;
-    let waves = found.waves.filter(|_| case.body.dimension() == 2);
+    let waves = waves.filter(|_| case.body.dimension() == 2);
     let followed = waves.map(|waves| waves.coverage.followed);
     Ok(OnsetSearch::of(found.sweep, followed.unwrap_or_default()))
 }

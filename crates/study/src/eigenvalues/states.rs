@@ -2,9 +2,8 @@
 
 mod joining;
 
-use super::Progress;
-use super::model::Spectrum;
 use super::whole::{WholeMesh, notes};
+use super::{Progress, Solution};
 use frictionsim_case::Case;
 use frictionsim_physics::cea::sparse;
 use frictionsim_physics::cea::{CeaError, FrictionSweep, PartWatch, SweepRequest};
@@ -41,7 +40,7 @@ impl WholeMesh {
         case: &Case,
         request: &SweepRequest<'_>,
         progress: &Progress<'_>,
-    ) -> Result<Spectrum, CeaError> {
+    ) -> Result<Solution, CeaError> {
         let mut frictions = request.friction_coefficients.to_vec();
         // The base states of this round and of the last one.
         let (mut refined, mut earlier): (Option<PressedRange>, Option<PressedRange>) = (None, None);
@@ -72,12 +71,12 @@ impl WholeMesh {
                     )
                 }));
                 all.extend(contact_notes(&self.range, &parts));
-                return Ok(Spectrum {
+                return Ok(Solution {
                     sweep: joined(parts, request.friction_coefficients),
                     dofs: common.dofs,
                     notes: all,
                     method: if is_by_waves { "cyclic" } else { "sparse" },
-                    ..Spectrum::default()
+                    ..Solution::default()
                 });
             }
             let more = [frictions.as_slice(), &open].concat();

@@ -77,6 +77,7 @@ fn mode(
         contact_share: pair.contact_share,
         axial_share: Some(pair.axial_share).filter(|_| tangent.components == 3),
         shape: wants_shape.then(|| expand(tangent, harmonic, waves, &paths.unknowns(&pair.x))),
+        mesh_error: None,
         left: None,
         nodal_diameters: None,
         wave: wants_wave.then(|| ModeWave {

@@ -14,10 +14,9 @@
 
 use super::parts::Parts;
 use frictionsim_case::Case;
-use frictionsim_physics::cea::{FrictionPoint, FrictionSweep, ModeVectors};
+use frictionsim_physics::cea::{ComplexMode, FrictionSweep};
 use frictionsim_physics::fem::{DiscretizationError, MassKind};
 use frictionsim_physics::linalg::c64;
-use frictionsim_results::cea::MeshError;
 use std::f64::consts::TAU;
 
 /// Damping factor from which on a frequency says little of a mode.
@@ -42,14 +41,10 @@ pub fn lefts_needed(case: &Case, mass: MassKind, shown: &[f64], modes: f64) -> V
     wanted.collect()
 }
 
-/// The errors of the modes that have both vectors, and of each critical friction of the sweep.
-pub(super) fn mesh_errors(
-    parts: &Parts<'_>,
-    points: &[&FrictionPoint],
-    sweep: &FrictionSweep,
-) -> (Vec<MeshError>, Vec<Option<f64>>) {
+/// Gives its error to each mode that has both vectors, and to each critical friction of the sweep.
+pub(super) fn estimate(parts: &Parts<'_>, sweep: &mut FrictionSweep) {
     if !is_made(parts.case, parts.options.mass) {
-        return (Vec::new(), Vec::new());
+        return;
     }
     let estimate = DiscretizationError::new(parts.mesh, parts.case.materials());
     let error = |lambda: c64, forms: &[c64]| -> c64 {
@@ -60,34 +55,26 @@ pub(super) fn mesh_errors(
     };
 
     // Of modes and of onsets, all at once.
-    let numbered = points.iter().flat_map(|point| {
-        let modes = point.modes.iter().enumerate();
-        let modes = modes.filter(|(_, mode)| mode.damping_factor() < MOST_DAMPED);
-        modes.filter_map(|(i, mode)| {
-            let pair = [mode.left.as_deref()?, mode.shape.as_deref()?];
-            Some(((point.friction_coefficient, i + 1, mode), pair))
-        })
-    });
-    let (modes, mut pairs): (Vec<_>, Vec<_>) = numbered.unzip();
-    let crossings: Vec<&ModeVectors> = sweep.crossings.iter().flatten().collect();
-    pairs.extend(crossings.iter().map(|own| [&*own.left, &*own.right]));
-    let forms = estimate.forms(&pairs);
-    let (forms, at_onsets) = forms.split_at(modes.len());
+    let is_wanted = |mode: &ComplexMode| {
+        mode.damping_factor() < MOST_DAMPED && mode.left.is_some() && mode.shape.is_some()
+    };
+    let modes = sweep.points.iter().flat_map(|point| &point.modes);
+    let pairs = modes.filter(|mode| is_wanted(mode));
+    let pairs = pairs.filter_map(|mode| Some([mode.left.as_deref()?, mode.shape.as_deref()?]));
+    let crossings = sweep.crossings.iter().flatten();
+    let pairs = pairs.chain(crossings.map(|own| [&*own.left, &*own.right]));
+    let pairs: Vec<[&[c64]; 2]> = pairs.collect();
+    let mut forms = estimate.forms(&pairs).into_iter();
 
-    let rows = modes.iter().zip(forms);
-    let rows = rows.map(|(&(friction_coefficient, mode, own), forms)| MeshError {
-        friction_coefficient,
-        mode,
-        of_hz: own.frequency_hz(),
-        frequency_hz: error(own.eigenvalue, forms).im / TAU,
-    });
-    let of_modes = rows.filter(|row| row.frequency_hz.is_finite()).collect();
-
-    let mut of_crossings = crossings.iter().zip(at_onsets).map(|(own, forms)| {
-        let change = -error(own.eigenvalue, forms).re / own.rate.re;
-        change.is_finite().then_some(change)
-    });
-    let onsets = sweep.crossings.iter();
-    let onsets = onsets.map(|own| own.as_ref().and_then(|_| of_crossings.next().flatten()));
-    (of_modes, onsets.collect())
+    let modes = sweep.points.iter_mut().flat_map(|point| &mut point.modes);
+    let modes = modes.filter(|mode| is_wanted(mode));
+    for (mode, forms) in modes.zip(forms.by_ref()) {
+        let change = error(mode.eigenvalue, &forms).im / TAU;
+        mode.mesh_error = change.is_finite().then_some(change);
+    }
+    for (interval, crossing) in sweep.intervals.iter_mut().zip(&sweep.crossings) {
+        let found = crossing.as_ref().and_then(|own| Some((own, forms.next()?)));
+        let change = found.map(|(own, forms)| -error(own.eigenvalue, &forms).re / own.rate.re);
+        interval.mesh_error = change.filter(|change| change.is_finite());
+    }
 }

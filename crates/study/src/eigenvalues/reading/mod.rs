@@ -49,13 +49,13 @@ pub(super) fn shapes_needed(case: &Case, model: &Model, frictions: &[f64], modes
     }
 }
 
-/// Reads every mode that has a wave, of a model solved by them with its `tangent`, or a shape; `None` where there is
-/// none.
+/// Reads every mode that has a wave or a shape, and gives modes and critical frictions the error of the mesh; `None`
+/// where there is none.
 pub(super) fn read(
     case: &Case,
     model: &SlidingModel,
     tangent: Option<&WaveTangent>,
-    sweep: &FrictionSweep,
+    sweep: &mut FrictionSweep,
 ) -> Option<Reading> {
     let parts = match &model.model {
         Model::Waves(_) => return waves::read(case, model, tangent?, sweep),
@@ -78,6 +78,6 @@ pub(super) fn read(
         reading.couplings.extend(couplings);
     }
     reading.feed = feed::feed(&parts, &points);
-    (reading.mesh_errors, reading.onset_errors) = mesh_error::mesh_errors(&parts, &points, sweep);
+    mesh_error::estimate(&parts, sweep);
     Some(reading)
 }

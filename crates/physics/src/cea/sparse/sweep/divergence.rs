@@ -38,6 +38,7 @@ impl SparseSweep<'_> {
             restabilized: None,
             unstable_from_start: critical_friction == first,
             lost_after: None,
+            mesh_error: None,
         }))
     }
 

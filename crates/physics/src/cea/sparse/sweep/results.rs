@@ -199,6 +199,7 @@ impl SparseSweep<'_> {
                 uncertainty: check.uncertainty,
                 contact_share: check.contact_share,
                 axial_share: None,
+                mesh_error: None,
                 shape,
                 left,
                 wave: None,
