@@ -47,11 +47,11 @@ pub(super) fn run(asked: &Arguments) -> Result<(), Failure> {
     let summary = gather(&folder, &report, drawn)?;
     let output = OutputOptions { json: asked.json, quiet: asked.quiet, ..Default::default() };
     output.print(&document(&report, false).to_text(), &summary, folder.output().path())?;
-    match report.missing().len() {
+    match report.summary.missing.len() {
         0 => Ok(()),
         missing => Err(Failure::run(format!(
             "{missing} of {} points are missing: run the sweep again with --resume",
-            report.count
+            report.summary.points
         ))),
     }
 }

@@ -10,7 +10,7 @@ use super::transient::linear_stage;
 use super::{Failure, RunOptions, Session, cycle, terminal};
 use crate::case::{Analysis, Case};
 use crate::chart::Figure;
-use crate::results::sweep::{Found, PointRecord, SweepFolder, SweepReport, SweepSummary};
+use crate::results::sweep::{FailedPoint, Found, SweepFolder, SweepReport, SweepSummary};
 use crate::results::sweep::{document, tables};
 use crate::results::sweep_figures::draw_sweep;
 use crate::results::{
@@ -55,18 +55,19 @@ pub(super) fn run(asked: &Arguments) -> Result<(), Failure> {
     let ran = outcome?;
 
     let found = finished(&session.case, &plan, &folder)?;
-    let report = SweepReport { ran: Some(ran), wall_s: session.wall_seconds(), ..found };
-    let summary = if report.missing().is_empty() {
+    let mut report = SweepReport { wall_s: session.wall_seconds(), ..found };
+    report.summary.ran = Some(ran);
+    let summary = if report.summary.missing.is_empty() {
         let figures = || figures(&session.case, &plan, &report);
         let drawn = output.drawing().map(|options| (figures(), options));
         gather(&folder, &report, drawn)?
     } else {
         let head = Head::of(report.title, report.wall_s);
-        summary_of(&session.manifest, head, &SweepSummary::of(&report)).map_err(Failure::run)?
+        summary_of(&session.manifest, head, &report.summary).map_err(Failure::run)?
     };
     output.print(&document(&report, false).to_text(), &summary, folder.output().path())?;
-    let of_these = |record: &&PointRecord| points.binary_search(&record.point).is_ok();
-    match report.failed().filter(of_these).count() {
+    let of_these = |own: &&FailedPoint| points.binary_search(&own.point).is_ok();
+    match report.summary.failed.iter().filter(of_these).count() {
         0 => Ok(()),
         failed => Err(Failure::run(format!(
             "{failed} of {} points failed; the results of the others are kept",
@@ -104,16 +105,10 @@ pub fn finished<'a>(
             Found::Nothing => {}
         }
     }
-    Ok(SweepReport {
-        title: &case.title,
-        keys: plan.keys(),
-        analyses: plan.analysis_names(),
-        count: plan.count(),
-        core_s: records.iter().map(|record| folder.read_clock(record.point).core_s).sum(),
-        records,
-        ran: None,
-        wall_s: 0.0,
-    })
+    let core_s = records.iter().map(|record| folder.read_clock(record.point).core_s).sum();
+    let (keys, analyses) = (plan.keys(), plan.analysis_names());
+    let summary = SweepSummary::of(keys, analyses, plan.count(), &records, core_s);
+    Ok(SweepReport { title: &case.title, records, summary, wall_s: 0.0 })
 }
 
 /// The figures of a study, with the modes of the case at its own friction, if the points are transients that differ in
@@ -139,10 +134,11 @@ pub fn gather(
     if let Some((figures, options)) = drawn {
         write_page(output, document(report, true), figures, &options)?;
     }
-    let tables = tables(&report.keys, &report.analyses, &report.records);
+    let SweepReport { records, summary, .. } = report;
+    let tables = tables(&summary.swept, &summary.analyses, records);
     tables.iter().try_for_each(|table| write_table(output, table))?;
     let head = Head::of(report.title, report.wall_s);
-    Ok(write_summary(output, head, &SweepSummary::of(report))?)
+    Ok(write_summary(output, head, summary)?)
 }
 
 /// Runs the analyses of one point up to the first that fails, and gives the summary of each by its name.

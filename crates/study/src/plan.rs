@@ -88,8 +88,8 @@ impl<'a> SweepPlan<'a> {
     }
 
     /// Names of the analyses.
-    pub fn analysis_names(&self) -> Vec<&'static str> {
-        self.analyses.iter().map(|analysis| analysis.word()).collect()
+    pub fn analysis_names(&self) -> Vec<String> {
+        self.analyses.iter().map(|analysis| analysis.word().to_owned()).collect()
     }
 
     /// Swept keys and their values at a point.

@@ -35,9 +35,14 @@ columns! {
 }
 
 /// The tables of a sweep with these analyses: its points, and the long tables, in which failed points have no rows.
-pub fn tables(keys: &[String], analyses: &[&str], records: &[PointRecord]) -> Vec<Table> {
+pub fn tables(
+    keys: &[String],
+    analyses: &[impl AsRef<str>],
+    records: &[PointRecord],
+) -> Vec<Table> {
+    let has = |name: &str| analyses.iter().any(|own| own.as_ref() == name);
     let mut tables = vec![points(keys, records)];
-    if analyses.contains(&"cea") {
+    if has("cea") {
         let of = ("stability.csv", "cea", "critical_frictions");
         tables.push(long(of, keys, records, SWEPT_ONSETS, |own| vec![own]));
         let of = ("unstable_modes.csv", "cea", "unstable_modes");
@@ -45,7 +50,7 @@ pub fn tables(keys: &[String], analyses: &[&str], records: &[PointRecord]) -> Ve
         let of = ("modes.csv", "cea", "modes_at_friction");
         tables.push(long(of, keys, records, SWEPT_MODES, |own| vec![own]));
     }
-    if analyses.contains(&"cycle") {
+    if has("cycle") {
         let cycles = |family: FamilyRecord| -> Vec<BranchPoint> {
             let count = family.branch.as_ref().map_or(0, |branch| branch.values.len());
             (0..count).map(|place| (family.clone(), place)).collect()

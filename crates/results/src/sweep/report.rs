@@ -69,97 +69,12 @@ const MOST_ROWS: usize = 200;
 pub struct SweepReport<'a> {
     /// Title of the case.
     pub title: &'a str,
-    /// Swept keys.
-    pub keys: Vec<String>,
-    /// Names of the analyses at each point.
-    pub analyses: Vec<&'static str>,
-    /// Number of points of the whole sweep.
-    pub count: usize,
     /// Finished points in their order.
     pub records: Vec<PointRecord>,
-    /// Time that they kept cores busy, s.
-    pub core_s: f64,
-    /// Points that this process ran, or none if it only collects.
-    pub ran: Option<usize>,
+    /// What they come to.
+    pub summary: SweepSummary,
     /// Wall time of this process, s.
     pub wall_s: f64,
-}
-
-impl SweepReport<'_> {
-    /// Numbers of the points that are not finished, ascending.
-    pub fn missing(&self) -> Vec<usize> {
-        let mut finished = self.records.iter().map(|record| record.point).peekable();
-        (1..=self.count).filter(|point| finished.next_if_eq(point).is_none()).collect()
-    }
-
-    /// Failed points.
-    pub fn failed(&self) -> impl Iterator<Item = &PointRecord> {
-        self.records.iter().filter(|record| record.error.is_some())
-    }
-
-    /// Points done in an hour of one core; failed ones cost time but do not count.
-    fn points_per_core_hour(&self) -> Option<f64> {
-        let done = self.records.len() - self.failed().count();
-        (done > 0 && self.core_s > 0.0).then(|| done as f64 * 3600.0 / self.core_s)
-    }
-
-    /// Errors in the order of their first points, each with the numbers of all points that have it.
-    fn errors(&self) -> Vec<(&str, Vec<usize>)> {
-        let mut errors: Vec<(&str, Vec<usize>)> = Vec::new();
-        for record in self.failed() {
-            let text = record.error.as_deref().unwrap_or_default();
-            match errors.iter_mut().find(|(known, _)| *known == text) {
-                Some((_, points)) => points.push(record.point),
-                None => errors.push((text, vec![record.point])),
-            }
-        }
-        errors
-    }
-
-    /// What to know before points are compared: they were not all made alike.
-    pub(super) fn notes(&self) -> Vec<String> {
-        let mut makers: Vec<String> = self
-            .records
-            .iter()
-            .map(|record| format!("version {}, SIMD {}", record.version, record.simd))
-            .collect();
-        makers.sort();
-        makers.dedup();
-        let mut notes = Vec::new();
-        if makers.len() > 1 {
-            notes.push(format!(
-                "the points were not all made alike, so their last digits may differ: {}",
-                makers.join("; ")
-            ));
-        }
-        let two = "their numbers are of no limit cycle";
-        let unsettled = "these are not limit cycles; raise transient.duration";
-        for (end, how, so) in [
-            (TWO_FREQUENCY, "in a vibration of two frequencies", two),
-            (UNSETTLED, "before it has settled", unsettled),
-        ] {
-            let points = self.ending_in(end);
-            if !points.is_empty() {
-                notes.push(format!(
-                    "the transient ends {how} at {} of {} points ({}): {so}",
-                    points.len(),
-                    self.records.len(),
-                    number_ranges(&points)
-                ));
-            }
-        }
-        notes
-    }
-
-    /// Points whose transient ends in a state.
-    fn ending_in(&self, end: &str) -> Vec<usize> {
-        let ends_so = |record: &&PointRecord| {
-            let mut summaries = record.summaries.values();
-            summaries.any(|summary| summary["end_state"].as_str() == Some(end))
-        };
-        let points = self.records.iter().filter(ends_so);
-        points.map(|record| record.point).collect()
-    }
 }
 
 /// `summary.json` of `frictionsim sweep`.
@@ -199,61 +114,132 @@ pub struct FailedPoint {
 }
 
 impl SweepSummary {
-    /// The summary of a report.
-    pub fn of(report: &SweepReport<'_>) -> Self {
-        let failed = report.failed().map(|record| FailedPoint {
+    /// What finished points of `count` come to, in their order, which kept cores busy for `core_s`, s; who asks adds how
+    /// many it ran.
+    pub fn of(
+        swept: Vec<String>,
+        analyses: Vec<String>,
+        count: usize,
+        records: &[PointRecord],
+        core_s: f64,
+    ) -> Self {
+        let failed = records.iter().filter(|record| record.error.is_some());
+        let failed = failed.map(|record| FailedPoint {
             point: record.point,
             swept: record.swept.clone(),
             error: record.error.clone(),
         });
+        let failed: Vec<FailedPoint> = failed.collect();
+        let mut finished = records.iter().map(|record| record.point).peekable();
+        let missing = (1..=count).filter(|point| finished.next_if_eq(point).is_none()).collect();
+        // Failed points cost time but do not count.
+        let done = records.len() - failed.len();
+        let rate = (done > 0 && core_s > 0.0).then(|| done as f64 * 3600.0 / core_s);
         Self {
-            swept: report.keys.clone(),
-            analyses: report.analyses.iter().map(|&name| name.to_owned()).collect(),
-            points: report.count,
-            finished: report.records.len(),
-            ran: report.ran,
-            failed: failed.collect(),
-            missing: report.missing(),
-            core_s: report.core_s,
-            points_per_core_hour: report.points_per_core_hour(),
-            notes: report.notes(),
+            swept,
+            analyses,
+            points: count,
+            finished: records.len(),
+            ran: None,
+            failed,
+            missing,
+            core_s,
+            points_per_core_hour: rate,
+            notes: notes(records),
         }
     }
+
+    /// Errors in the order of their first points, each with the numbers of all points that have it.
+    fn errors(&self) -> Vec<(&str, Vec<usize>)> {
+        let mut errors: Vec<(&str, Vec<usize>)> = Vec::new();
+        for own in &self.failed {
+            let text = own.error.as_deref().unwrap_or_default();
+            match errors.iter_mut().find(|(known, _)| *known == text) {
+                Some((_, points)) => points.push(own.point),
+                None => errors.push((text, vec![own.point])),
+            }
+        }
+        errors
+    }
+}
+
+/// What to know before points are compared: they were not all made alike.
+fn notes(records: &[PointRecord]) -> Vec<String> {
+    let mut makers: Vec<String> = records
+        .iter()
+        .map(|record| format!("version {}, SIMD {}", record.version, record.simd))
+        .collect();
+    makers.sort();
+    makers.dedup();
+    let mut notes = Vec::new();
+    if makers.len() > 1 {
+        notes.push(format!(
+            "the points were not all made alike, so their last digits may differ: {}",
+            makers.join("; ")
+        ));
+    }
+    let two = "their numbers are of no limit cycle";
+    let unsettled = "these are not limit cycles; raise transient.duration";
+    for (end, how, so) in [
+        (TWO_FREQUENCY, "in a vibration of two frequencies", two),
+        (UNSETTLED, "before it has settled", unsettled),
+    ] {
+        let points = ending_in(records, end);
+        if !points.is_empty() {
+            notes.push(format!(
+                "the transient ends {how} at {} of {} points ({}): {so}",
+                points.len(),
+                records.len(),
+                number_ranges(&points)
+            ));
+        }
+    }
+    notes
+}
+
+/// Points whose transient ends in a state.
+fn ending_in(records: &[PointRecord], end: &str) -> Vec<usize> {
+    let ends_so = |record: &&PointRecord| {
+        let mut summaries = record.summaries.values();
+        summaries.any(|summary| summary["end_state"].as_str() == Some(end))
+    };
+    records.iter().filter(ends_so).map(|record| record.point).collect()
 }
 
 /// Tables and sentences of a sweep: what failed, what is missing, what a person wants first of every point.
 pub fn document(report: &SweepReport<'_>, is_page: bool) -> Document {
-    let matrix = OperatingMatrix::of(&report.records);
-    let errors = report.errors();
+    let SweepReport { records, summary, .. } = report;
+    let matrix = OperatingMatrix::of(records);
+    let errors = summary.errors();
     let errors =
         errors.iter().map(|(error, points)| format!("failed: {}: {error}", number_ranges(points)));
-    let missing = report.missing();
-    let missing = (!missing.is_empty()).then(|| format!("missing: {}", number_ranges(&missing)));
+    let missing = &summary.missing;
+    let missing = (!missing.is_empty()).then(|| format!("missing: {}", number_ranges(missing)));
     // Pages of the same points are the same bytes.
-    let rate = report.points_per_core_hour().filter(|_| !is_page);
+    let rate = summary.points_per_core_hour.filter(|_| !is_page);
     let rate = rate.map(|rate| ("points per core-hour", format!("{rate:.0}")));
     let results = Section::new("Results")
-        .text([format!("{} at each point.", report.analyses.join(" and "))])
+        .text([format!("{} at each point.", summary.analyses.join(" and "))])
         .text(matrix.sentence())
         .text(errors)
         .text(missing)
         .facts(ranges(report))
         .facts(rate);
-    let modes = Some(matrix.table(&report.keys)).filter(|_| is_page);
-    let points =
-        Some(points_table(report)).filter(|_| is_page || report.records.len() <= MOST_ROWS);
+    let modes = Some(matrix.table(&summary.swept)).filter(|_| is_page);
+    let points = Some(points_table(report)).filter(|_| is_page || records.len() <= MOST_ROWS);
     Document::new("Study")
         .titled(report.title)
         .section(results)
         .section(Section::new("Study").figures([""]))
         .section(Section::new("Points").tables(modes).tables(points))
-        .notes(&report.notes())
+        .notes(&summary.notes)
 }
 
 /// How far the study is, and the range of every quantity that a person wants first.
 fn ranges(report: &SweepReport<'_>) -> Vec<(String, String)> {
-    let finished = format!("{} of {}", report.records.len(), report.count);
-    let failed = report.failed().count().to_string();
+    let SweepReport { records, summary, .. } = report;
+    let finished = format!("{} of {}", records.len(), summary.points);
+    let failed = summary.failed.len().to_string();
     let mut out = vec![("points".to_owned(), finished), ("failed".to_owned(), failed)];
     let mut add = |head: String, numbers: Vec<f64>| {
         if let (false, (low, high)) = (numbers.is_empty(), extremes(numbers.iter().copied())) {
@@ -261,12 +247,12 @@ fn ranges(report: &SweepReport<'_>) -> Vec<(String, String)> {
             out.push((head, if low == high { low } else { format!("{low} to {high}") }));
         }
     };
-    for (key, head) in heads(&report.keys.iter().collect::<Vec<_>>()) {
-        let values = report.records.iter().filter_map(|record| record.swept.get(key)?.as_f64());
+    for (key, head) in heads(&summary.swept.iter().collect::<Vec<_>>()) {
+        let values = records.iter().filter_map(|record| record.swept.get(key)?.as_f64());
         add(head.to_owned(), values.collect());
     }
     for column in FIRST {
-        let values = report.records.iter().filter_map(|record| (column.cell)(record).number());
+        let values = records.iter().filter_map(|record| (column.cell)(record).number());
         add(column.heading(), values.collect());
     }
     out
@@ -274,9 +260,9 @@ fn ranges(report: &SweepReport<'_>) -> Vec<(String, String)> {
 
 /// What a person wants first of every point; `points.csv` has all.
 fn points_table(report: &SweepReport<'_>) -> Table {
-    let records = &report.records;
+    let SweepReport { records, summary, .. } = report;
     let points = records.iter().map(|record| (record.point, &record.swept));
-    let table = of_points("Finished points (every quantity: points.csv)", &report.keys, points);
+    let table = of_points("Finished points (every quantity: points.csv)", &summary.swept, points);
     table.columns(FIRST, records).columns(ENDS, records).shown_column(
         "outcome",
         records.iter().map(|record| record.error.as_ref().map(|_| "failed")),
@@ -305,17 +291,9 @@ mod tests {
             version: "1".into(),
             simd: "scalar".into(),
         };
-        let report = SweepReport {
-            title: "",
-            keys: Vec::new(),
-            analyses: Vec::new(),
-            count: 5,
-            records: vec![record(2), record(3), record(5)],
-            core_s: 6.0,
-            ran: None,
-            wall_s: 0.0,
-        };
-        assert_eq!(report.missing(), [1, 4]);
-        assert_eq!(report.points_per_core_hour(), Some(1800.0));
+        let records = [record(2), record(3), record(5)];
+        let summary = SweepSummary::of(Vec::new(), Vec::new(), 5, &records, 6.0);
+        assert_eq!(summary.missing, [1, 4]);
+        assert_eq!(summary.points_per_core_hour, Some(1800.0));
     }
 }
