@@ -2,7 +2,7 @@
 
 use super::SlidingModel;
 use super::contact::SteadyState;
-use super::solid::{dashpot_across, mean_friction};
+use super::solid::mean_friction;
 use frictionsim_case::{Body, Case, Cea};
 use frictionsim_physics::cea::cyclic::{Coverage, Overdamped};
 use frictionsim_physics::cea::{BeyondMode, CeaError, FrictionSweep, ModeCount, UnstableInterval};
@@ -252,6 +252,7 @@ pub(super) fn overdamped_note(
     let (most, solid) = (most.filter(|own| own.count > 0)?, model.solid()?);
     let [slowest, fastest] = most.decay;
     let friction = most.friction_coefficient;
+    let (speed, law, pressure) = mean_friction(solid);
     Some(format!(
         "at friction {friction} {} motions (each wave of a pair counted) hardly oscillate. They \
          decay at {slowest:.3e} to {fastest:.3e} 1/s, and are not listed. Friction across \
@@ -259,7 +260,7 @@ pub(super) fn overdamped_note(
          pressure and radius. It grows as contact.rotation_speed_rpm = {} falls, and holds that \
          motion in the limit",
         most.count,
-        dashpot_across(solid, friction),
+        friction * law.drag.abs() * pressure / speed,
         case.number("contact.rotation_speed_rpm")
             .unwrap_or(case.contact.sliding.rotation_speed * 60.0 / TAU),
     ))
@@ -270,7 +271,10 @@ pub(super) fn friction_note(case: &Case, model: &SlidingModel) -> Option<String>
     case.contact.sliding.decay?;
     let friction = case.contact.sliding.friction_coefficient;
     let (law, pressure) = match &model.state {
-        SteadyState::Solid(solid) => mean_friction(solid),
+        SteadyState::Solid(solid) => {
+            let (_, law, pressure) = mean_friction(solid);
+            (law, pressure)
+        }
         // Each contact of solid bodies has its own.
         SteadyState::Mesh { .. } if model.mesh.dimension == 3 => return None,
         SteadyState::Mesh { .. } => {

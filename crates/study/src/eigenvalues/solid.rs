@@ -24,25 +24,13 @@ pub(super) fn solved(
     Ok(SolidState { sector, base })
 }
 
-/// Friction at the mean radius of the contact, and the mean pressure there, Pa.
-pub(super) fn mean_friction(solid: &SolidState) -> (SteadyFriction, f64) {
-    let friction = solid.base.friction(mean_radius(solid)).1;
-    (friction, solid.base.mean_pressure(&solid.sector))
-}
-
-/// The dashpot `mu p / V` of friction across the sliding, Pa s/m, at the mean radius and pressure.
-pub(super) fn dashpot_across(solid: &SolidState, friction_coefficient: f64) -> f64 {
-    let (speed, friction) = solid.base.friction(mean_radius(solid));
-    let pressure = solid.base.mean_pressure(&solid.sector);
-    friction_coefficient * friction.drag.abs() * pressure / speed
-}
-
-/// Mean radius of the contact, m.
-fn mean_radius(solid: &SolidState) -> f64 {
+/// Sliding speed (m/s) and friction at the mean radius of the contact, and the mean pressure there, Pa.
+pub(super) fn mean_friction(solid: &SolidState) -> (f64, SteadyFriction, f64) {
     let rings = || solid.sector.rings.iter();
     let area: f64 = rings().map(|ring| ring.area).sum();
     let moment: f64 = rings().map(|ring| ring.area * ring.radius).sum();
-    moment / area
+    let (speed, friction) = solid.base.friction(moment / area);
+    (speed, friction, solid.base.mean_pressure(&solid.sector))
 }
 
 /// What an open part of the contact means.
