@@ -38,14 +38,13 @@ impl Parts<'_> {
     /// What each region, support and contact adds to each mode of one friction value.
     pub fn contributions(&self, shapes: &Shapes<'_>, out: &mut Vec<Contribution>) {
         // Only several contacts need the balance of forces dof by dof.
-        let dofs = (self.contacts.len() > 1).then(|| self.mesh.dof_count());
+        let dofs = (self.contacts.len() > 1).then(|| self.whole.mesh.dof_count());
         let mut sums = Sums::new(shapes.modes.len(), dofs);
         let mut rows = self.of_regions(shapes, &mut sums);
         rows.extend(self.of_supports(shapes, &mut sums));
         rows.extend(self.of_rotation(shapes, &mut sums));
         for mode in 0..shapes.modes.len() {
-            let (number, own) = shapes.modes[mode];
-            let name = shapes.name(number, own);
+            let (name, own) = (shapes.name(mode), shapes.modes[mode].1);
             let contacts = |fed: f64| self.contact_rates(shapes, (mode, own), &sums, fed);
             let rows = rows.iter().map(|row| (&row.name, row.source, row.forms[mode]));
             write((name, own), rows, [sums.kinetic[mode], sums.strain[mode]], &contacts, out);
@@ -92,7 +91,7 @@ impl Parts<'_> {
 
     /// Energies and damping of every support, with point masses those of the modifications, which come last.
     pub fn of_supports(&self, shapes: &Shapes<'_>, sums: &mut Sums) -> Vec<Row> {
-        let alpha = self.options.damping.mass_coefficient;
+        let alpha = self.whole.options.damping.mass_coefficient;
         let mut rows = Vec::new();
         for (place, (name, pair, eta)) in self.supports.iter().enumerate() {
             let [dashpots, springs] = pair.multiply(shapes.columns.as_ref());

@@ -35,7 +35,7 @@ pub(super) fn feed(parts: &Parts<'_>, points: &[&FrictionPoint]) -> Option<Feed>
     let pressed = whole.contact_points(case);
 
     // Forces of the bodies at every dof, those of the contact's own terms beside them.
-    let mut sums = Sums::new(shapes.modes.len(), Some(parts.mesh.dof_count()));
+    let mut sums = Sums::new(shapes.modes.len(), Some(whole.mesh.dof_count()));
     parts.of_regions(&shapes, &mut sums);
     parts.of_supports(&shapes, &mut sums);
     parts.of_rotation(&shapes, &mut sums);
@@ -54,8 +54,7 @@ pub(super) fn feed(parts: &Parts<'_>, points: &[&FrictionPoint]) -> Option<Feed>
     let beta = parts.whole_beta();
     let balance = sums.balance.unwrap_or_default();
     let modes = balance.into_iter().enumerate().map(|(i, mut forces)| {
-        let (number, mode) = shapes.modes[i];
-        let (lambda, phi) = (mode.eigenvalue, shapes.column(i));
+        let (lambda, phi) = (shapes.modes[i].1.eigenvalue, shapes.column(i));
         // beta_R multiplies stiffness of prestress and contact too, where the damping has them.
         let of_stiffness = c64::ONE + lambda * beta;
         let factors = [of_stiffness, lambda];
@@ -72,7 +71,7 @@ pub(super) fn feed(parts: &Parts<'_>, points: &[&FrictionPoint]) -> Option<Feed>
             let held = if *is_pressed { held(own, friction, &phi, &forces) } else { 0.0 };
             scale * (held - form(terms, factors, &phi).im)
         });
-        ModeFeed { mode: shapes.name(number, mode), rates: rates.collect() }
+        ModeFeed { mode: shapes.name(i), rates: rates.collect() }
     });
     Some(Feed {
         modes: modes.collect(),

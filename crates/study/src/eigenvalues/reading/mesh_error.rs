@@ -43,10 +43,10 @@ pub fn lefts_needed(case: &Case, mass: MassKind, shown: &[f64], modes: f64) -> V
 
 /// Gives its error to each mode that has both vectors, and to each critical friction of the sweep.
 pub(super) fn estimate(parts: &Parts<'_>, sweep: &mut FrictionSweep) {
-    if !is_made(parts.case, parts.options.mass) {
+    if !is_made(parts.case, parts.whole.options.mass) {
         return;
     }
-    let estimate = DiscretizationError::new(parts.mesh, parts.case.materials());
+    let estimate = DiscretizationError::new(&parts.whole.mesh, parts.case.materials());
     let error = |lambda: c64, forms: &[c64]| -> c64 {
         let regions = parts.regions.iter().zip(forms);
         -regions

@@ -1,4 +1,4 @@
-//! The bodies of a model as sums over regions and supports.
+//! The bodies of a whole mesh as sums over regions and supports.
 
 use super::shapes::Shapes;
 use crate::eigenvalues::contact::CONTACT;
@@ -10,7 +10,7 @@ use frictionsim_physics::fem::{
 };
 use frictionsim_physics::linalg::{Mat, MatRef, MatrixPolynomial, c64};
 use frictionsim_physics::mesh::{BoundaryCondition, Mesh};
-use frictionsim_physics::prestress::{DampingModel, PressedState, TangentOptions};
+use frictionsim_physics::prestress::{DampingModel, PressedState};
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
@@ -58,12 +58,10 @@ impl Region {
     }
 }
 
-/// The bodies of a model as sums.
+/// The bodies of a whole mesh as sums.
 pub(super) struct Parts<'a> {
     pub case: &'a Case,
     pub whole: &'a WholeMesh,
-    pub mesh: &'a Mesh,
-    pub options: &'a TangentOptions,
     /// Each region with its name and its coefficients `alpha`, `beta`, `eta`, and the table that its stiffness follows.
     pub regions: Vec<Region>,
     /// Dashpots and springs of each support with its `eta`, and last of the modifications.
@@ -114,8 +112,6 @@ impl<'a> Parts<'a> {
         Self {
             case,
             whole,
-            mesh,
-            options,
             regions,
             supports,
             attached: has_masses.then(|| Pair::new(count, [masses, Triplets::default()])),
@@ -140,18 +136,18 @@ impl<'a> Parts<'a> {
 
     /// `K_sigma phi` of a region for each shape; `None` where no stress of the base state acts on small motions.
     pub fn geometric_image(&self, shapes: &Shapes<'_>, region: usize) -> Option<Mat<f64>> {
+        let WholeMesh { mesh, options, .. } = self.whole;
         let base = self.base_state(shapes.friction);
-        let (place, state) = base.filter(|_| self.options.geometric_stiffness)?;
+        let (place, state) = base.filter(|_| options.geometric_stiffness)?;
         // Linear in the displacement: assembled once for each state and power of the friction beyond its origin.
         let mut known = self.geometric.borrow_mut();
         let geometric = known.entry((place, region)).or_insert_with(|| {
             let materials = self.case.materials();
             let terms = state.displacements.iter().map(|displacement| {
-                assemble_geometric_stiffness(self.mesh, materials, displacement, Some(region))
-                    .entries
+                assemble_geometric_stiffness(mesh, materials, displacement, Some(region)).entries
             });
             let terms: Vec<_> = terms.collect();
-            MatrixPolynomial::from_triplets(self.mesh.dof_count(), &terms)
+            MatrixPolynomial::from_triplets(mesh.dof_count(), &terms)
         });
         let values = geometric.evaluate((shapes.friction - state.frozen_below).max(0.0));
         Some(geometric.pattern().multiply(&values, shapes.columns.as_ref()))
@@ -170,8 +166,9 @@ impl<'a> Parts<'a> {
 
     /// What `beta_R` multiplies of the geometric stiffness and of contact.
     pub fn whole_beta(&self) -> f64 {
-        match self.options.damping_model {
-            DampingModel::WholeTangent => self.options.damping.stiffness_coefficient,
+        let options = &self.whole.options;
+        match options.damping_model {
+            DampingModel::WholeTangent => options.damping.stiffness_coefficient,
             DampingModel::BodyOnly => 0.0,
         }
     }

@@ -23,11 +23,23 @@ pub(super) fn name_of(
     }
 }
 
-/// The shares that count, the largest first.
-pub(super) fn strongest(mut shares: Vec<Coupling>) -> Vec<Coupling> {
-    shares.retain(|row| row.share >= LEAST_SHARE);
-    frictionsim_physics::order::sort_by_number(&mut shares, |a| -a.share);
-    shares
+/// The modes of the lowest friction value in an unstable one by their shares in it, the largest first; small ones are
+/// left out.
+pub(super) fn couplings(
+    mode: ModeName,
+    growth_rate: f64,
+    shares: impl Iterator<Item = (ModeName, f64)>,
+) -> Vec<Coupling> {
+    let rows = shares.filter(|own| own.1 >= LEAST_SHARE);
+    let rows = rows.map(|(reference, share)| Coupling { mode, growth_rate, reference, share });
+    let mut rows: Vec<Coupling> = rows.collect();
+    frictionsim_physics::order::sort_by_number(&mut rows, |a| -a.share);
+    rows
+}
+
+/// `a^T b`.
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(x, y)| x * y).sum()
 }
 
 /// The shapes of one friction value, real and imaginary part of each in two columns.
@@ -62,24 +74,22 @@ impl<'a> Shapes<'a> {
         Self { friction: point.friction_coefficient, has_harmonics, modes, columns }
     }
 
-    pub fn name(&self, number: usize, mode: &ComplexMode) -> ModeName {
-        name_of(self.friction, (number, mode), self.has_harmonics)
+    /// The name of a mode.
+    pub fn name(&self, i: usize) -> ModeName {
+        name_of(self.friction, self.modes[i], self.has_harmonics)
     }
 
     /// `phi^H A phi` of each mode, from the product of a symmetric `A` with the columns.
     pub fn forms(&self, image: &Mat<f64>) -> Vec<f64> {
-        let product = |column: usize| -> f64 {
-            let pairs = self.columns.col_as_slice(column).iter().zip(image.col_as_slice(column));
-            pairs.map(|(x, y)| x * y).sum()
-        };
+        let product =
+            |column: usize| dot(self.columns.col_as_slice(column), image.col_as_slice(column));
         (0..self.modes.len()).map(|i| product(2 * i) + product(2 * i + 1)).collect()
     }
 
     /// `Im(phi^H G phi)` of each mode, from the product of a skew `G` with the columns.
     pub fn skew_forms(&self, image: &Mat<f64>) -> Vec<f64> {
-        let product = |left: usize, right: usize| -> f64 {
-            let own = self.columns.col_as_slice(left).iter();
-            own.zip(image.col_as_slice(right)).map(|(x, y)| x * y).sum()
+        let product = |left: usize, right: usize| {
+            dot(self.columns.col_as_slice(left), image.col_as_slice(right))
         };
         let form = |i: usize| product(2 * i, 2 * i + 1) - product(2 * i + 1, 2 * i);
         (0..self.modes.len()).map(form).collect()
@@ -118,24 +128,16 @@ impl<'a> Shapes<'a> {
     ) -> Vec<Coupling> {
         let (own, of_references) = (self.forms(own_images), references.forms(images));
         let mut all = Vec::new();
-        for (i, (number, mode)) in
-            self.modes.iter().enumerate().filter(|(_, (_, mode))| mode.is_unstable())
-        {
+        let modes = self.modes.iter().enumerate();
+        for (i, (_, mode)) in modes.filter(|(_, (_, mode))| mode.is_unstable()) {
             let phi = [2 * i, 2 * i + 1].map(|column| self.columns.col_as_slice(column));
-            let mut shares: Vec<Coupling> = Vec::new();
-            for (j, (reference, other)) in references.modes.iter().enumerate() {
+            let shares = (0..references.modes.len()).map(|j| {
                 let image = [2 * j, 2 * j + 1].map(|column| images.col_as_slice(column));
-                let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(x, y)| x * y).sum::<f64>();
                 let re = dot(image[0], phi[0]) + dot(image[1], phi[1]);
                 let im = dot(image[0], phi[1]) - dot(image[1], phi[0]);
-                shares.push(Coupling {
-                    mode: self.name(*number, mode),
-                    growth_rate: mode.growth_rate(),
-                    reference: references.name(*reference, other),
-                    share: (re * re + im * im) / (own[i] * of_references[j]),
-                });
-            }
-            all.extend(strongest(shares));
+                (references.name(j), (re * re + im * im) / (own[i] * of_references[j]))
+            });
+            all.extend(couplings(self.name(i), mode.growth_rate(), shares));
         }
         all
     }

@@ -1,7 +1,7 @@
 //! The same of a body solved harmonic by harmonic, from the matrices of one sector: every sector has an equal share.
 
 use super::budget::write;
-use super::shapes::{name_of, strongest};
+use super::shapes::{couplings, name_of};
 use crate::eigenvalues::contact::CONTACT;
 use crate::eigenvalues::sliding::SlidingModel;
 use frictionsim_case::Case;
@@ -152,14 +152,9 @@ impl Waving<'_> {
         };
         let shares = references.iter().filter(is_alike).map(|other| {
             let overlap = product(&other.wave.unknowns, &self.momentum).norm_sqr();
-            Coupling {
-                mode: self.name,
-                growth_rate: self.mode.growth_rate(),
-                reference: other.name,
-                share: overlap / (self.mass * other.mass),
-            }
+            (other.name, overlap / (self.mass * other.mass))
         });
-        strongest(shares.collect())
+        couplings(self.name, self.mode.growth_rate(), shares)
     }
 }
 
