@@ -124,7 +124,7 @@ pub fn figures(case: &Case, plan: &SweepPlan<'_>, report: &SweepReport<'_>) -> V
     draw_sweep(&report.records, (own, highest), &modes)
 }
 
-/// Writes the tables, the summary and, if they are `drawn`, the figures of the finished points, and returns the summary.
+/// Writes the tables, the summary and, if they are `drawn`, the figures of the finished points; gives the summary.
 pub fn gather(
     folder: &SweepFolder,
     report: &SweepReport<'_>,

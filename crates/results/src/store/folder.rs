@@ -46,7 +46,7 @@ pub struct OutputFolder {
     earlier: BTreeMap<String, Option<u32>>,
     /// Files of this run and theirs.
     written: Mutex<BTreeMap<String, Option<u32>>>,
-    /// Names of the files of this run until it has ended; a folder that processes share lists all its files from the start.
+    /// Names of the files of this run until it has ended; none of a folder that processes share.
     journal: Option<File>,
     _lock: File,
 }

@@ -114,8 +114,8 @@ pub struct FailedPoint {
 }
 
 impl SweepSummary {
-    /// What finished points of `count` come to, in their order, which kept cores busy for `core_s`, s; who asks adds how
-    /// many it ran.
+    /// What finished points of `count` come to, in their order, which kept cores busy for `core_s`, s. Who runs points
+    /// adds how many.
     pub fn of(
         swept: Vec<String>,
         analyses: Vec<String>,
