@@ -1,8 +1,8 @@
 //! Where on the contact surfaces friction feeds the unstable modes: `feed.csv`, `feed.vtu` and a figure.
 
-use super::CeaReport;
 use super::base::{ContactPlace, sums_around};
 use super::mode_name::{ModeName, NUMBERS};
+use super::{BaseField, CeaReport};
 use crate::charts::SolidView;
 use crate::finding::write_table;
 use crate::folder::{FolderError, OutputFolder};
@@ -21,17 +21,8 @@ const PICTURES: usize = 2;
 pub struct ModeFeed {
     /// The mode.
     pub mode: ModeName,
-    /// Of each point, 1/s; they add up to what the contacts feed in `contributions.csv`.
+    /// Of each contact point of the base state, 1/s; they add up to what the contacts feed in `contributions.csv`.
     pub rates: Vec<f64>,
-}
-
-/// The feed of all unstable modes over the contact points.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Feed {
-    /// The modes.
-    pub modes: Vec<ModeFeed>,
-    /// The contact points.
-    pub places: Vec<ContactPlace>,
 }
 
 /// A contact point, and what it adds to the growth rate of a mode, 1/s.
@@ -49,138 +40,141 @@ columns! {
     growth_rate_per_s_m2: "the same over its area" = row.1 / row.0.area;
 }
 
-impl Feed {
-    /// Writes `feed.csv`, a row for each unstable mode and contact point, and `feed.vtu`, growth for each area of the
-    /// contact surfaces, the mean of the points around each node, 0 elsewhere.
-    pub fn write(&self, folder: &OutputFolder, report: &CeaReport<'_>) -> Result<(), FolderError> {
-        let modes = self.modes.iter();
-        let names = modes.clone().flat_map(|own| self.places.iter().map(|_| own.mode));
-        let rows = modes.flat_map(|own| self.places.iter().cloned().zip(own.rates.iter().copied()));
-        let table = Table::new("feed.csv", "").columns(NUMBERS, names).columns(FEED, rows);
-        write_table(folder, &table)?;
-        let whole = report.body.whole();
-        let fields = self.modes.iter().map(|own| {
-            let name = format!("mode_{}_growth_rate_per_s_m2", own.mode.mode);
-            let mut values = self.around_nodes(whole.node_count(), own);
-            values.iter_mut().filter(|v| v.is_nan()).for_each(|v| *v = 0.0);
-            Field::scalars(&name, values)
-        });
-        let fields: Vec<Field> = fields.collect();
-        folder.write_bulk("feed.vtu", |out| {
-            write_vtu(out, &EncodedMesh::new(&whole)?, &[], &fields, &[])
-        })
-    }
+/// Writes `feed.csv`, a row for each unstable mode and contact point, and `feed.vtu`, growth for each area of the
+/// contact surfaces, the mean of the points around each node, 0 elsewhere.
+pub(super) fn write(
+    folder: &OutputFolder,
+    report: &CeaReport<'_>,
+    field: &BaseField,
+    modes: &[ModeFeed],
+) -> Result<(), FolderError> {
+    let places = || field.contact.iter().map(|own| own.place.clone());
+    let names = modes.iter().flat_map(|own| field.contact.iter().map(|_| own.mode));
+    let rows = modes.iter().flat_map(|own| places().zip(own.rates.iter().copied()));
+    let table = Table::new("feed.csv", "").columns(NUMBERS, names).columns(FEED, rows);
+    write_table(folder, &table)?;
+    let whole = report.body.whole();
+    let fields = modes.iter().map(|own| {
+        let name = format!("mode_{}_growth_rate_per_s_m2", own.mode.mode);
+        let mut values = own.around_nodes(field, whole.node_count());
+        values.iter_mut().filter(|v| v.is_nan()).for_each(|v| *v = 0.0);
+        Field::scalars(&name, values)
+    });
+    let fields: Vec<Field> = fields.collect();
+    folder
+        .write_bulk("feed.vtu", |out| write_vtu(out, &EncodedMesh::new(&whole)?, &[], &fields, &[]))
+}
 
+impl ModeFeed {
     /// Growth for each area around each node; NaN where there is no contact point.
-    fn around_nodes(&self, count: usize, own: &ModeFeed) -> Vec<f64> {
-        let points = self.places.iter().zip(own.rates.iter().copied());
+    fn around_nodes(&self, field: &BaseField, count: usize) -> Vec<f64> {
+        let places = field.contact.iter().map(|own| &own.place);
+        let points = places.zip(self.rates.iter().copied());
         let sums = sums_around(count, points, |rate, _, share| rate * share);
         let mean = |[sum, area]: [f64; 2]| if area > 0.0 { sum / area } else { f64::NAN };
         sums.into_iter().map(mean).collect()
     }
-
-    /// The modes that grow fastest.
-    fn fastest(&self, report: &CeaReport<'_>) -> Vec<&ModeFeed> {
-        let friction = self.modes.first().map(|own| own.mode.friction_coefficient);
-        let mut points = report.solution.sweep.points.iter();
-        let point = points.find(|point| Some(point.friction_coefficient) == friction);
-        let growth = |own: &ModeFeed| {
-            let mode = point.and_then(|point| point.modes.get(own.mode.mode - 1));
-            mode.map_or(0.0, |mode| mode.growth_rate())
-        };
-        let mut modes: Vec<&ModeFeed> = self.modes.iter().collect();
-        frictionsim_physics::order::sort_by_number(&mut modes, |a| -growth(a));
-        modes
-    }
-
-    /// Growth for each area of the contact: lines along a plane edge, pictures of the `surfaces` of solid bodies.
-    pub(super) fn figure(
-        &self,
-        report: &CeaReport<'_>,
-        surfaces: &[(String, usize)],
-    ) -> Option<Figure> {
-        let modes = self.fastest(report);
-        let friction = modes.first()?.mode.friction_coefficient;
-        let caption = format!(
-            "Where the contact feeds the unstable modes at friction {friction}: growth rate for \
-            each area of the surface; red \
-             feeds, blue takes. The sum over the surface is the contact's part in the budget."
-        );
-        Some(match report.body.is_assembly() {
-            true => self.pictures(report.body.mesh, &modes, surfaces, caption),
-            false => self.lines(report, &modes, caption),
-        })
-    }
-
-    fn lines(&self, report: &CeaReport<'_>, modes: &[&ModeFeed], caption: String) -> Figure {
-        // Across the rings of a body of revolution; along an edge by angle about the cylinder, or along the plane.
-        let face = report.body.sector.map(|sector| sector.specification.contact.face());
-        let across = |name: &str| Axis::new(name, "mm").times(1e3).tight();
-        type Along<'a> = Box<dyn Fn([f64; 3]) -> f64 + 'a>;
-        let (x, along): (Axis, Along<'_>) = match (face, &report.body.mesh.counterface) {
-            (Some(SolidFace::Inner | SolidFace::Outer), _) => {
-                (across("height *z*"), Box::new(|[_, _, z]: [f64; 3]| z))
-            }
-            (Some(SolidFace::Top | SolidFace::Bottom), _) => {
-                (across("radius *r*"), Box::new(|[x, _, _]: [f64; 3]| x))
-            }
-            (None, Counterface::Cylinder { center, .. }) => (
-                Axis::degrees().tight(),
-                Box::new(move |[x, y, _]: [f64; 3]| {
-                    (y - center[1]).atan2(x - center[0]).rem_euclid(TAU)
-                }),
-            ),
-            (None, Counterface::Plane { point, direction }) => (
-                across("along the contact"),
-                Box::new(move |[x, y, _]: [f64; 3]| {
-                    (x - point[0]) * direction[0] + (y - point[1]) * direction[1]
-                }),
-            ),
-        };
-        let along = |place: &ContactPlace| along(place.position);
-        let mut order: Vec<usize> = (0..self.places.len()).collect();
-        frictionsim_physics::order::sort_by_number(&mut order, |&a| along(&self.places[a]));
-        let y = Axis::new("feed", "1/(s cm²)").times(1e-4);
-        let mut panel = Panel::new(x, y)
-            .height(150.0)
-            .layer(Rule::horizontal(0.0).stroke(Stroke::solid(INK, 0.6)));
-        for (index, own) in modes.iter().take(LINES).enumerate() {
-            let points = order.iter().map(|&i| {
-                let place = &self.places[i];
-                (along(place), own.rates[i] / place.area)
-            });
-            panel = panel.layer(Line::through(points).nth(index).name(name(own)));
-        }
-        Figure::new("feed", caption).panel(panel)
-    }
-
-    fn pictures(
-        &self,
-        mesh: &Mesh,
-        modes: &[&ModeFeed],
-        surfaces: &[(String, usize)],
-        caption: String,
-    ) -> Figure {
-        let shown = modes.iter().take(PICTURES);
-        let panels = shown.flat_map(|own| {
-            let values = self.around_nodes(mesh.node_count(), own);
-            let numbers = values.iter().copied().filter(|value| value.is_finite());
-            let largest = numbers.map(f64::abs).fold(f64::MIN_POSITIVE, f64::max);
-            surfaces.iter().map(move |(contact, boundary)| {
-                let axis = Axis::new("feed", "1/(s cm²)").times(1e-4).between(-largest, largest);
-                let view = SolidView::of_boundary(mesh, *boundary);
-                view.panel(values.clone(), axis, ColourMap::Diverging, 0.05)
-                    .height(140.0)
-                    .caption(literal(contact))
-                    .heading(name(own))
-                    .colour_bar(frictionsim_chart::Side::Right)
-            })
-        });
-        let panels: Vec<Panel> = panels.collect();
-        Figure::new("feed", caption).columns(surfaces.len().clamp(1, 2)).panels(panels)
-    }
 }
 
+/// The modes that grow fastest.
+fn fastest<'a>(report: &CeaReport<'_>, all: &'a [ModeFeed]) -> Vec<&'a ModeFeed> {
+    let friction = all.first().map(|own| own.mode.friction_coefficient);
+    let mut points = report.solution.sweep.points.iter();
+    let point = points.find(|point| Some(point.friction_coefficient) == friction);
+    let growth = |own: &ModeFeed| {
+        let mode = point.and_then(|point| point.modes.get(own.mode.mode - 1));
+        mode.map_or(0.0, |mode| mode.growth_rate())
+    };
+    let mut modes: Vec<&ModeFeed> = all.iter().collect();
+    frictionsim_physics::order::sort_by_number(&mut modes, |a| -growth(a));
+    modes
+}
+
+/// Growth for each area of the contact: lines along a plane edge, pictures of the surfaces of solid bodies.
+pub(super) fn figure(
+    report: &CeaReport<'_>,
+    field: &BaseField,
+    all: &[ModeFeed],
+) -> Option<Figure> {
+    let modes = fastest(report, all);
+    let friction = modes.first()?.mode.friction_coefficient;
+    let caption = format!(
+        "Where the contact feeds the unstable modes at friction {friction}: growth rate for \
+        each area of the surface; red \
+         feeds, blue takes. The sum over the surface is the contact's part in the budget."
+    );
+    Some(match report.body.is_assembly() {
+        true => pictures(report.body.mesh, field, &modes, caption),
+        false => lines(report, field, &modes, caption),
+    })
+}
+
+fn lines(
+    report: &CeaReport<'_>,
+    field: &BaseField,
+    modes: &[&ModeFeed],
+    caption: String,
+) -> Figure {
+    // Across the rings of a body of revolution; along an edge by angle about the cylinder, or along the plane.
+    let face = report.body.sector.map(|sector| sector.specification.contact.face());
+    let across = |name: &str| Axis::new(name, "mm").times(1e3).tight();
+    type Along<'a> = Box<dyn Fn([f64; 3]) -> f64 + 'a>;
+    let (x, along): (Axis, Along<'_>) = match (face, &report.body.mesh.counterface) {
+        (Some(SolidFace::Inner | SolidFace::Outer), _) => {
+            (across("height *z*"), Box::new(|[_, _, z]: [f64; 3]| z))
+        }
+        (Some(SolidFace::Top | SolidFace::Bottom), _) => {
+            (across("radius *r*"), Box::new(|[x, _, _]: [f64; 3]| x))
+        }
+        (None, Counterface::Cylinder { center, .. }) => (
+            Axis::degrees().tight(),
+            Box::new(move |[x, y, _]: [f64; 3]| {
+                (y - center[1]).atan2(x - center[0]).rem_euclid(TAU)
+            }),
+        ),
+        (None, Counterface::Plane { point, direction }) => (
+            across("along the contact"),
+            Box::new(move |[x, y, _]: [f64; 3]| {
+                (x - point[0]) * direction[0] + (y - point[1]) * direction[1]
+            }),
+        ),
+    };
+    let along = |place: &ContactPlace| along(place.position);
+    let mut order: Vec<usize> = (0..field.contact.len()).collect();
+    frictionsim_physics::order::sort_by_number(&mut order, |&a| along(&field.contact[a].place));
+    let y = Axis::new("feed", "1/(s cm²)").times(1e-4);
+    let mut panel =
+        Panel::new(x, y).height(150.0).layer(Rule::horizontal(0.0).stroke(Stroke::solid(INK, 0.6)));
+    for (index, own) in modes.iter().take(LINES).enumerate() {
+        let points = order.iter().map(|&i| {
+            let place = &field.contact[i].place;
+            (along(place), own.rates[i] / place.area)
+        });
+        panel = panel.layer(Line::through(points).nth(index).name(name(own)));
+    }
+    Figure::new("feed", caption).panel(panel)
+}
+
+fn pictures(mesh: &Mesh, field: &BaseField, modes: &[&ModeFeed], caption: String) -> Figure {
+    let surfaces = &field.surfaces;
+    let shown = modes.iter().take(PICTURES);
+    let panels = shown.flat_map(|own| {
+        let values = own.around_nodes(field, mesh.node_count());
+        let numbers = values.iter().copied().filter(|value| value.is_finite());
+        let largest = numbers.map(f64::abs).fold(f64::MIN_POSITIVE, f64::max);
+        surfaces.iter().map(move |(contact, boundary)| {
+            let axis = Axis::new("feed", "1/(s cm²)").times(1e-4).between(-largest, largest);
+            let view = SolidView::of_boundary(mesh, *boundary);
+            view.panel(values.clone(), axis, ColourMap::Diverging, 0.05)
+                .height(140.0)
+                .caption(literal(contact))
+                .heading(name(own))
+                .colour_bar(frictionsim_chart::Side::Right)
+        })
+    });
+    let panels: Vec<Panel> = panels.collect();
+    Figure::new("feed", caption).columns(surfaces.len().clamp(1, 2)).panels(panels)
+}
 /// A mode for people.
 fn name(own: &ModeFeed) -> String {
     let frequency = fixed(1e-3 * own.mode.frequency_hz, 3);

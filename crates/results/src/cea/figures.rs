@@ -5,7 +5,7 @@ use super::locus::{NamedDamping, locus};
 use super::reading::budget;
 use super::shape::{Body, ModeShape, moving};
 use super::tables::{View, document};
-use super::{BaseField, CeaReport, direction_name, prestress};
+use super::{BaseField, CeaReport, direction_name, feed, prestress};
 use crate::charts::palette::{STABLE, UNSTABLE};
 use crate::distinct;
 use crate::drawing::{Declaration, DrawingError, DrawingOptions, declared};
@@ -55,9 +55,7 @@ pub fn draw(
     }
     if let Some(reading) = &report.solution.reading {
         figures.push(Box::new(move || budget(report, reading)));
-        if let Some(feed) = &reading.feed {
-            figures.push(Box::new(move || feed.figure(report, &field.surfaces)));
-        }
+        figures.push(Box::new(move || feed::figure(report, field, &reading.feed)));
     }
     write_page(folder, document(report, View::Page), declared(figures), options)
 }

@@ -4,7 +4,7 @@ use super::shape::ModeShape;
 use super::solid::size;
 use super::summary::summary;
 use super::tables::{eigenvalues, stability};
-use super::{BaseField, CeaReport};
+use super::{BaseField, CeaReport, feed};
 use crate::finding::write_table;
 use crate::folder::{FolderError, OutputFolder};
 use crate::pvd::{PvdEntry, write_pvd};
@@ -31,8 +31,8 @@ pub fn write(
     if let Some(reading) = &report.solution.reading {
         write_table(folder, &reading.contributions())?;
         write_table(folder, &reading.couplings())?;
-        if let Some(feed) = &reading.feed {
-            feed.write(folder, report)?;
+        if !reading.feed.is_empty() {
+            feed::write(folder, report, field, &reading.feed)?;
         }
     }
     write_base(folder, report, field)?;

@@ -20,7 +20,7 @@ mod tables;
 pub use base::{BaseField, BaseState, ContactPlace, ContactState};
 pub(super) use base::{NODES, PLANE, POINTS, RINGS, STATUS, TRACTIONS};
 pub(super) use feed::FEED;
-pub use feed::{Feed, ModeFeed};
+pub use feed::ModeFeed;
 pub use figures::draw;
 pub use files::{write, write_base, write_universal};
 pub use kept::KeptSteps;

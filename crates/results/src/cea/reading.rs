@@ -2,7 +2,7 @@
 
 use super::branches::Branch;
 use super::mode_name::{ModeName, NAMES, SHORT_NAMES};
-use super::{CeaReport, Feed};
+use super::{CeaReport, ModeFeed};
 use crate::distinct;
 use crate::finding::finding;
 use frictionsim_chart::{Axis, Figure, INK, Line, Panel, Rule, Stroke, literal};
@@ -68,7 +68,7 @@ pub struct Reading {
     /// Every unstable one of them with the modes that it consists of, the largest share first.
     pub couplings: Vec<Coupling>,
     /// Where the contacts feed the unstable modes at the case's own friction coefficient.
-    pub feed: Option<Feed>,
+    pub feed: Vec<ModeFeed>,
 }
 
 columns! {

@@ -18,20 +18,20 @@ use frictionsim_physics::cea::FrictionPoint;
 use frictionsim_physics::contact::{PressedState, linearized, turned};
 use frictionsim_physics::fem::Triplets;
 use frictionsim_physics::linalg::c64;
-use frictionsim_results::cea::{Feed, ModeFeed};
+use frictionsim_results::cea::ModeFeed;
 
 /// Stiffness and dashpots of one point over all dofs at a friction coefficient.
 type PointTerms = [Vec<(usize, usize, f64)>; 2];
 
-/// The feed of every unstable mode at the case's own friction coefficient; `None` where there is none.
-pub(super) fn feed(parts: &Parts<'_>, points: &[&FrictionPoint]) -> Option<Feed> {
+/// The feed of every unstable mode at the case's own friction coefficient.
+pub(super) fn feed(parts: &Parts<'_>, points: &[&FrictionPoint]) -> Vec<ModeFeed> {
     let (case, whole) = (parts.case, parts.whole);
     let friction = case.contact.sliding.friction_coefficient;
-    let own = points.iter().find(|p| p.friction_coefficient == friction)?;
-    let shapes = Shapes::of(own, case.has_sectors(), |mode| mode.is_unstable());
-    if shapes.modes.is_empty() {
-        return None;
-    }
+    let own = points.iter().find(|p| p.friction_coefficient == friction);
+    let shapes = own.map(|own| Shapes::of(own, case.has_sectors(), |mode| mode.is_unstable()));
+    let Some(shapes) = shapes.filter(|own| !own.modes.is_empty()) else {
+        return Vec::new();
+    };
     let pressed = whole.contact_points(case);
 
     // Forces of the bodies at every dof, those of the contact's own terms beside them.
@@ -73,10 +73,7 @@ pub(super) fn feed(parts: &Parts<'_>, points: &[&FrictionPoint]) -> Option<Feed>
         });
         ModeFeed { mode: shapes.name(i), rates: rates.collect() }
     });
-    Some(Feed {
-        modes: modes.collect(),
-        places: pressed.into_iter().map(|own| own.place).collect(),
-    })
+    modes.collect()
 }
 
 /// `Im(conj(n.phi + mu drag t.phi) dN)` of a point that is pressed and rigid; 0 of one that has springs.

@@ -8,9 +8,7 @@ use frictionsim_case::Case;
 use frictionsim_physics::cea::{ComplexMode, FrictionPoint, FrictionSweep, ModeWave};
 use frictionsim_physics::linalg::c64;
 use frictionsim_physics::prestress::{HarmonicParts, PartForms, WaveTangent};
-use frictionsim_results::cea::{
-    ContactPlace, Contribution, Coupling, Feed, ModeFeed, ModeName, Reading, Source,
-};
+use frictionsim_results::cea::{Contribution, Coupling, ModeFeed, ModeName, Reading, Source};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A body taken apart, and its harmonics as far as they were needed.
@@ -53,9 +51,7 @@ pub(super) fn read(
     let own = waving.iter().flatten();
     let own = own.filter(|own| own.name.friction_coefficient == friction);
     let unstable: Vec<&Waving<'_>> = own.filter(|own| own.mode.is_unstable()).collect();
-    if !unstable.is_empty() {
-        reading.feed = Some(apart.feed(model, &unstable, &reading.contributions));
-    }
+    reading.feed = apart.feed(model, &unstable, &reading.contributions);
     Some(reading)
 }
 
@@ -115,30 +111,30 @@ impl<'t> Apart<'t> {
         model: &SlidingModel,
         unstable: &[&Waving<'_>],
         contributions: &[Contribution],
-    ) -> Feed {
-        let places: Vec<ContactPlace> = model.contact.iter().map(|own| own.place.clone()).collect();
-        let area: f64 = places.iter().map(|place| place.area).sum();
+    ) -> Vec<ModeFeed> {
+        let contact = &model.contact;
+        let area: f64 = contact.iter().map(|own| own.place.area).sum();
         let modes = unstable.iter().map(|own| {
             let root = own.wave.root(own.mode.eigenvalue);
             let parts = &self.harmonics[&own.mode.harmonic];
             let friction = own.name.friction_coefficient;
             // Of the contact nodes of one sector, or of rings, which are of all sectors.
             let works = parts.works_at_contact(root, friction, &own.wave.unknowns);
-            let repeats = places.len() / works.len();
+            let repeats = contact.len() / works.len();
             let scale = 1.0 / (2.0 * root.im * own.mass * repeats as f64);
             let is_own = |row: &&Contribution| row.mode == own.name && row.kind == Source::Contact;
             let fed = contributions.iter().find(is_own);
             let fed = fed.map_or(0.0, |row| row.growth_rate_per_s);
-            let rates = works.iter().cycle().take(places.len()).map(|work| scale * work);
+            let rates = works.iter().cycle().take(contact.len()).map(|work| scale * work);
             let rates: Vec<f64> = rates.collect();
             let left = (fed - rates.iter().sum::<f64>()) / area;
-            let pairs = rates.iter().zip(&places);
+            let pairs = rates.iter().zip(contact);
             ModeFeed {
                 mode: own.name,
-                rates: pairs.map(|(rate, place)| rate + left * place.area).collect(),
+                rates: pairs.map(|(rate, own)| rate + left * own.place.area).collect(),
             }
         });
-        Feed { modes: modes.collect(), places }
+        modes.collect()
     }
 }
 
