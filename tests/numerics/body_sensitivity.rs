@@ -36,8 +36,7 @@ impl Body {
 
     fn sensitivities(&self) -> (SensitivityReport, Vec<String>) {
         let (case, (_, sweep)) = (self.case(AS_IT_IS), self.solve(&[]));
-        let found = body_sensitivities(&case, case.require_cea().unwrap(), &sweep, None).unwrap();
-        (found.report, found.missing)
+        body_sensitivities(&case, case.require_cea().unwrap(), &sweep, None).unwrap()
     }
 
     /// Holds the derivatives by some keys, named as in the table, to differences; how many onsets were among them.
@@ -46,9 +45,10 @@ impl Body {
         assert_eq!(missing, Vec::<String>::new());
         let mut onsets = 0;
         for (key, name) in keys {
-            let at = report.parameters.iter().position(|own| own == name);
+            let at = report.parameters.iter().position(|own| own.0 == *name);
             let at = at.unwrap_or_else(|| panic!("no {name} in {:?}", report.parameters));
-            let (value, step) = (report.values[at], step_of(key) * report.values[at]);
+            let value = report.parameters[at].1;
+            let step = step_of(key) * value;
             let sides =
                 [1.0, -1.0].map(|sign| self.solve(&[format!("{key}={:?}", value + sign * step)]));
             let hold = |own: c64, derivative: c64, [above, below]: [c64; 2], rounding: f64| {

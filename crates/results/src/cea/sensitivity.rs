@@ -10,10 +10,8 @@ use std::fmt::Write as _;
 /// Derivatives of the eigenvalues at one friction coefficient, and the values of the parameters there.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SensitivityReport {
-    /// Names of the parameters, the friction coefficient first.
-    pub parameters: Vec<String>,
-    /// Their values; that of the friction coefficient is each row's own.
-    pub values: Vec<f64>,
+    /// Names and values of the parameters, the friction coefficient first.
+    pub parameters: Vec<(String, f64)>,
     /// One for each branch.
     pub rows: Vec<SensitivityRow>,
 }
@@ -55,11 +53,9 @@ pub struct OnsetRates {
 impl SensitivityReport {
     /// Change of the eigenvalue, 1/s, for one per cent more of each parameter, that of the growth rate largest first.
     fn per_cent<'a>(&'a self, row: &'a SensitivityRow) -> Vec<(&'a str, c64)> {
-        let own = [row.friction_coefficient];
-        let values = own.iter().chain(self.values.iter().skip(1));
-        let given = row.derivatives.iter().zip(values).zip(&self.parameters);
+        let given = row.derivatives.iter().zip(&self.parameters);
         let mut changes: Vec<(&str, c64)> = given
-            .filter_map(|((derivative, value), name)| {
+            .filter_map(|(derivative, (name, value))| {
                 Some((name.as_str(), (*derivative)? * (0.01 * value)))
             })
             .collect();
@@ -74,7 +70,7 @@ impl SensitivityReport {
         let rows = || self.rows.iter();
         let mut table =
             Table::new("sensitivities.csv", "").columns(ROWS, rows()).columns(EIGENVALUES, rows());
-        for (at, name) in self.parameters.iter().enumerate() {
+        for (at, (name, _)) in self.parameters.iter().enumerate() {
             let part = |of: fn(c64) -> f64| rows().map(move |row| row.derivatives[at].map(of));
             table = table.column(&format!("growth_rate_per_{name}"), None, part(|d| d.re)).column(
                 &format!("frequency_hz_per_{name}"),
@@ -88,7 +84,7 @@ impl SensitivityReport {
             None,
             onsets().map(|own| Some(own?.critical_friction)),
         );
-        for (at, name) in self.parameters.iter().enumerate().skip(1) {
+        for (at, (name, _)) in self.parameters.iter().enumerate().skip(1) {
             let rates = onsets().map(|own| own.and_then(|own| own.derivatives[at]));
             table = table.column(&format!("critical_friction_per_{name}"), None, rates);
         }

@@ -12,14 +12,6 @@ use frictionsim_physics::linalg::c64;
 use frictionsim_results::cea::{OnsetRates, SensitivityReport, SensitivityRow};
 use std::f64::consts::TAU;
 
-/// Sensitivities of a body.
-pub struct BodySensitivities {
-    /// What is reported.
-    pub report: SensitivityReport,
-    /// What is missing, and why.
-    pub missing: Vec<String>,
-}
-
 /// A mode, or the onset of one: what is differentiated.
 #[derive(Clone, Copy)]
 struct Target {
@@ -55,7 +47,7 @@ struct Place {
 /// with right and left vectors of the full problem, or of one harmonic of a body that has `waves`, and differences of
 /// the assembled matrices, for which the case is read, its base state solved and its tangent taken with the parameter a
 /// little larger and smaller: pressure, prestress and dashpots of friction follow. Where contact points open or close
-/// within that step, or where modes coincide, there is no derivative.
+/// within that step, or where modes coincide, there is no derivative: what is missing, and why, comes beside them.
 ///
 /// Source: H. M. Adelman, R. T. Haftka, Sensitivity analysis of discrete structural systems, AIAA Journal 24 (1986),
 /// section on the semi-analytical method.
@@ -67,7 +59,7 @@ pub fn body_sensitivities(
     cea: &Cea,
     sweep: &FrictionSweep,
     waves: Option<&WaveSweep>,
-) -> Result<BodySensitivities, StudyError> {
+) -> Result<(SensitivityReport, Vec<String>), StudyError> {
     let friction = case.contact.sliding.friction_coefficient;
 
     // The targets: the modes at the own friction coefficient, then the onsets of those that have one.
@@ -127,17 +119,10 @@ pub fn body_sensitivities(
             onset,
         });
     }
-    let names = parameters.iter().map(|(key, _)| short_name(key));
-    Ok(BodySensitivities {
-        report: SensitivityReport {
-            parameters: std::iter::once("friction_coefficient".to_owned()).chain(names).collect(),
-            values: std::iter::once(f64::NAN)
-                .chain(parameters.iter().map(|(_, value)| *value))
-                .collect(),
-            rows,
-        },
-        missing,
-    })
+    let own = ("friction_coefficient".to_owned(), friction);
+    let others = parameters.iter().map(|(key, value)| (short_name(key), *value));
+    let parameters = std::iter::once(own).chain(others).collect();
+    Ok((SensitivityReport { parameters, rows }, missing))
 }
 
 /// A mode at the case's own friction coefficient.

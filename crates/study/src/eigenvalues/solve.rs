@@ -96,15 +96,14 @@ fn body_rates(
         return (None, Some(note));
     }
     match body_sensitivities(case, cea, sweep, waves) {
-        Ok(found) => {
-            let missing = found.missing.iter().take(MISSING_SHOWN).cloned();
-            let mut missing: Vec<String> = missing.collect();
-            if found.missing.len() > MISSING_SHOWN {
+        Ok((report, mut missing)) => {
+            let has_gaps = !missing.is_empty();
+            if missing.len() > MISSING_SHOWN {
+                missing.truncate(MISSING_SHOWN);
                 missing.push("...".to_owned());
             }
             let note = format!("sensitivities.csv has gaps: {}", missing.join("; "));
-            let has_gaps = !found.missing.is_empty();
-            (Some(found.report), has_gaps.then_some(note))
+            (Some(report), has_gaps.then_some(note))
         }
         // The spectrum is there all the same.
         Err(error) => (None, Some(format!("no sensitivities: {}", error.line()))),
