@@ -46,7 +46,6 @@ pub(super) fn run(asked: &Arguments) -> Result<(), Failure> {
     let run = SweepRun {
         plan: &plan,
         folder: &folder,
-        manifest: &session.manifest,
         progress: &progress,
         runner: &|case| run_point(case, &plan.analyses, &session.manifest),
     };

@@ -5,9 +5,7 @@ use super::{Failure, RunOptions, Session, terminal};
 use crate::case::{Case, find_key};
 use crate::results::sweep::{Found, PointClock, PointRecord, SweepFolder};
 use crate::results::uncertainty::{Sample, samples_table};
-use crate::results::{
-    Finding, Manifest, declared, summary_of, write_page, write_summary, write_table,
-};
+use crate::results::{Finding, declared, summary_of, write_page, write_summary, write_table};
 use crate::study::uncertainty::{BLOCK, Design, Sampler, curves, summarize};
 use clap::Args;
 use serde_json::Map;
@@ -60,7 +58,7 @@ pub(super) fn run(asked: &Arguments) -> Result<(), Failure> {
     let count_asked = (blocks.len() * BLOCK) as u64;
     let bar = terminal::progress(output.is_quiet(), count_asked, "samples");
     for &block in &blocks {
-        run_block(&sampler, &folder, &session.manifest, block)?;
+        run_block(&sampler, &folder, block)?;
         bar.inc(BLOCK as u64);
     }
     bar.finish_and_clear();
@@ -118,17 +116,13 @@ fn finished(folder: &SweepFolder, count: usize) -> Result<(Vec<Sample>, usize), 
 }
 
 /// Runs one block and keeps it, unless it is finished or another process has it.
-fn run_block(
-    sampler: &Sampler<'_>,
-    folder: &SweepFolder,
-    manifest: &Manifest,
-    block: usize,
-) -> Result<(), Failure> {
+fn run_block(sampler: &Sampler<'_>, folder: &SweepFolder, block: usize) -> Result<(), Failure> {
     let Some(_claim) = folder.take(block)? else {
         return Ok(());
     };
     let start = Instant::now();
     let samples = serde_json::to_value(sampler.block(block)).map_err(Failure::run)?;
+    let manifest = folder.output().manifest();
     let record = PointRecord {
         point: block,
         swept: Map::new(),

@@ -92,7 +92,6 @@ fn sweep(
     let run = SweepRun {
         plan: &plan,
         folder: &folder,
-        manifest: &manifest,
         progress: &SweepProgress::new(true, points.len()),
         runner,
     };

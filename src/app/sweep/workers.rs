@@ -3,7 +3,6 @@
 use crate::app::terminal::progress_in;
 use crate::app::{Failure, embedded};
 use crate::case::Case;
-use crate::results::Manifest;
 use crate::results::sweep::{PointClock, PointRecord, SweepFolder, swept_text};
 use crate::study::{SweepPlan, one_line};
 use indicatif::ProgressBar;
@@ -29,8 +28,6 @@ pub struct SweepRun<'a> {
     pub plan: &'a SweepPlan<'a>,
     /// Where they go.
     pub folder: &'a SweepFolder,
-    /// What they are made from.
-    pub manifest: &'a Manifest,
     /// What is told of them on the way.
     pub progress: &'a SweepProgress,
     /// What makes them.
@@ -107,15 +104,16 @@ impl SweepRun<'_> {
             Err(error) => (Map::new(), Some(error)),
         };
         let clock = PointClock::taken_from(wall_s, core_s, &mut summaries);
+        let manifest = self.folder.output().manifest();
         let record = PointRecord {
             point,
             swept,
             error,
             summaries,
             case_hash,
-            sweep_hash: self.manifest.case_hash.clone(),
-            version: self.manifest.version.clone(),
-            simd: self.manifest.simd.clone(),
+            sweep_hash: manifest.case_hash.clone(),
+            version: manifest.version.clone(),
+            simd: manifest.simd.clone(),
         };
         self.folder.write_point(&record, &clock)?;
         self.progress.end(&record, clock.wall_s);
