@@ -20,13 +20,6 @@ pub struct ContactEdge {
     rotor: f64,
 }
 
-/// Amplitudes of the waves `e^{-i n theta}` and `e^{+i n theta}` of a mode's edge.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Waves {
-    forward: f64,
-    backward: f64,
-}
-
 impl ContactEdge {
     /// The contact edge of `tangent`.
     pub fn of(tangent: &SlidingTangent) -> Self {
@@ -61,10 +54,10 @@ impl ContactEdge {
         let mut phases = vec![c64::new(1.0, 0.0); turns.len()];
         let mut best = (0, -1.0);
         for n in 0..=self.angles.len() / 2 {
-            let waves = self.waves(edge, &phases);
+            let [forward, backward] = self.waves(edge, &phases);
             // e^{-i n theta} and e^{+i n theta} are one wave for n = 0 and at the Nyquist harmonic.
             let share = if self.is_paired(n) { 1.0 } else { 0.5 };
-            let energy = share * (waves.forward.powi(2) + waves.backward.powi(2));
+            let energy = share * (forward.powi(2) + backward.powi(2));
             if energy > best.1 {
                 best = (n, energy);
             }
@@ -80,10 +73,10 @@ impl ContactEdge {
         }
         let angles = self.angles.iter().map(|angle| harmonic as f64 * angle);
         let phases: Vec<c64> = angles.map(|angle| c64::new(angle.cos(), angle.sin())).collect();
-        let waves = self.waves(edge, &phases);
-        let sense = if waves.forward > STANDING * waves.backward {
+        let [forward, backward] = self.waves(edge, &phases);
+        let sense = if forward > STANDING * backward {
             1.0
-        } else if waves.backward > STANDING * waves.forward {
+        } else if backward > STANDING * forward {
             -1.0
         } else {
             0.0
@@ -96,8 +89,8 @@ impl ContactEdge {
         harmonic > 0 && 2 * harmonic != self.angles.len()
     }
 
-    /// Amplitudes of the waves whose `e^{i n theta}` at the nodes are `phases`.
-    fn waves(&self, edge: &[c64], phases: &[c64]) -> Waves {
+    /// Amplitudes of the waves `e^{-i n theta}` and `e^{+i n theta}` of a mode's edge, whose `e^{i n theta}` at the nodes are `phases`.
+    fn waves(&self, edge: &[c64], phases: &[c64]) -> [f64; 2] {
         let (mut forward, mut backward) = (0.0, 0.0);
         for component in edge.chunks(phases.len().max(1)) {
             let (mut f, mut b) = (c64::new(0.0, 0.0), c64::new(0.0, 0.0));
@@ -108,6 +101,6 @@ impl ContactEdge {
             forward += f.norm_sqr();
             backward += b.norm_sqr();
         }
-        Waves { forward: forward.sqrt(), backward: backward.sqrt() }
+        [forward.sqrt(), backward.sqrt()]
     }
 }

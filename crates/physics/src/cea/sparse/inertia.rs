@@ -10,15 +10,11 @@ pub(super) fn counted(
     frequency: f64,
     factorize: impl Fn(f64) -> Result<SparseLdl, LinalgError>,
 ) -> Result<usize, LinalgError> {
-    let mut outcome = Ok(0);
-    for attempt in 0..5 {
+    let count = |attempt: i32| {
         let moved = frequency * (1.0 + 1e-8 * f64::from(attempt));
-        outcome = factorize(moved).map(|ldl| ldl.negative_count());
-        if outcome.is_ok() {
-            break;
-        }
-    }
-    outcome
+        factorize(moved).map(|ldl| ldl.negative_count())
+    };
+    (1..5).fold(count(0), |outcome, attempt| outcome.or_else(|_| count(attempt)))
 }
 
 /// Number of modes without friction and damping below an angular frequency `omega`, rad/s, less the motions that `K` does not hold.

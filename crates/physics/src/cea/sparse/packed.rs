@@ -164,15 +164,8 @@ impl PackedVector<'_> {
 
     /// Largest modulus of an entry.
     pub fn peak(&self) -> f64 {
-        let squares = |v: &f64| v * v;
-        let largest = match self.imaginary {
-            None => self.real.iter().map(squares).fold(0.0, f64::max),
-            Some(imaginary) => {
-                let parts = self.real.iter().zip(imaginary);
-                parts.map(|(p, q)| p * p + q * q).fold(0.0, f64::max)
-            }
-        };
-        largest.sqrt()
+        let squares = (0..self.real.len()).map(|i| self.at(i).norm_sqr());
+        squares.fold(0.0, f64::max).sqrt()
     }
 
     /// Entry `i`.
