@@ -1,7 +1,7 @@
 //! Eigenvalues in a part of the upper half plane, counted by the argument principle.
 
 use super::full_problem::{FullProblem, SharedAnalysis};
-use crate::cea::{CeaError, CountedRegion};
+use crate::cea::{CeaError, CountedRegion, ModeCount};
 use crate::linalg::{LinalgError, c64};
 use crate::prestress::SlidingTangent;
 use std::f64::consts::{PI, TAU};
@@ -16,17 +16,6 @@ const SHORTEST: f64 = 20.0;
 const AGREEMENT: f64 = 0.25;
 /// Pieces of the edge beyond which the count is given up.
 const MOST_PIECES: usize = 600;
-
-/// How many eigenvalues a region holds beyond those known.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Winding {
-    /// Eigenvalues that none of the known ones is; negative where known ones are none.
-    pub missing: i64,
-    /// Their mean, to some parts in a thousand of the highest frequency.
-    pub near: Option<c64>,
-    /// Determinants that were taken.
-    pub determinants: usize,
-}
 
 /// Counts eigenvalues of `T(lambda; mu) = lambda^2 M + lambda C + K + i H` of a tangent.
 ///
@@ -68,30 +57,35 @@ impl<'a> ModeCounter<'a> {
         FullProblem::at(self.tangent, mu).sharing(&self.analysis).ln_determinant(lambda)
     }
 
-    /// Eigenvalues of `region` at friction `mu` that are none of the `known`, of which those outside only smooth the way.
-    ///
-    /// # Errors
-    /// Where one lies on the edge.
-    pub fn count(
-        &self,
-        mu: f64,
-        known: &[c64],
-        region: &CountedRegion,
-    ) -> Result<Winding, CeaError> {
+    /// Eigenvalues of `region` at friction `mu` that are none of the `known`, of which those outside only smooth the way: none are
+    /// counted where one lies on the edge.
+    pub fn count(&self, mu: f64, known: &[c64], region: &CountedRegion) -> ModeCount {
         let problem = FullProblem::at(self.tangent, mu).sharing(&self.analysis);
         let problem = Reduced { problem, known };
         let mut edge =
             Edge { problem: &problem, scale: TAU * region.frequencies_hz[1], determinants: 0 };
-        let [winding, moment] = edge.integrate(&corners(region))?.map(|sum| {
-            // Of an integral over 2 pi i.
-            c64::new(sum.im, -sum.re) / TAU
-        });
-        let missing = winding.re.round();
-        Ok(Winding {
-            missing: missing as i64,
-            near: (missing != 0.0).then(|| moment / missing),
-            determinants: edge.determinants,
-        })
+        let mut count = ModeCount {
+            friction_coefficient: mu,
+            region: *region,
+            known: known.iter().filter(|own| region.holds(**own)).count(),
+            recovered: 0,
+            missing: Ok(0),
+            near: None,
+            determinants: 0,
+        };
+        match edge.integrate(&corners(region)) {
+            Ok(sums) => {
+                // Of an integral over 2 pi i.
+                let [winding, moment] = sums.map(|sum| c64::new(sum.im, -sum.re) / TAU);
+                let missing = winding.re.round();
+                count.missing = Ok(missing as i64);
+                // Their mean, to some parts in a thousand of the highest frequency.
+                count.near = (missing != 0.0).then(|| moment / missing);
+                count.determinants = edge.determinants;
+            }
+            Err(error) => count.missing = Err(error.to_string()),
+        }
+        count
     }
 }
 

@@ -45,7 +45,7 @@ mod term;
 
 pub use basis::BasisBuilder;
 pub use branches::{BranchLabel, TrackedBranch, label_first, track};
-pub use count::{ModeCounter, Winding};
+pub use count::ModeCounter;
 pub use edge::ContactEdge;
 pub use frictionless::FrictionlessModes;
 pub use full_problem::FullProblem;

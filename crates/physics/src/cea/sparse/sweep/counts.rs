@@ -2,7 +2,7 @@
 
 use super::SparseSweep;
 use crate::cea::sparse::branches::TrackedBranch;
-use crate::cea::sparse::count::{ModeCounter, Winding};
+use crate::cea::sparse::count::ModeCounter;
 use crate::cea::sparse::point::SolvedPoint;
 use crate::cea::sparse::{MOST_ATTEMPTS, RESIDUAL_BOUND, TRACKING_MARGIN};
 use crate::cea::{CeaError, CountedRegion, ModeCount, ModeLimit, SweepRequest};
@@ -108,27 +108,17 @@ fn count_below(
     top: f64,
 ) -> ModeCount {
     let inside: Vec<c64> = known.iter().copied().filter(|own| own.im < top).collect();
-    let mut outcome = Err(String::new());
-    let mut region = CountedRegion::about(&inside, top, FARTHER[0]);
-    for factor in FARTHER {
-        region = CountedRegion::about(&inside, top, factor);
-        let found = counter.count(point.friction_coefficient, known, &region);
-        let is_final = found.is_ok();
-        outcome = found.map_err(|error| error.to_string());
-        if is_final {
-            break;
+    let count = |factor: f64| {
+        let region = CountedRegion::about(&inside, top, factor);
+        counter.count(point.friction_coefficient, known, &region)
+    };
+    let mut found = count(FARTHER[0]);
+    for factor in &FARTHER[1..] {
+        if found.missing.is_err() {
+            found = count(*factor);
         }
     }
-    let winding = outcome.as_ref().ok();
-    ModeCount {
-        friction_coefficient: point.friction_coefficient,
-        region,
-        known: inside.iter().filter(|own| region.holds(**own)).count(),
-        recovered: 0,
-        near: winding.and_then(|own| own.near),
-        determinants: winding.map_or(0, |own| own.determinants),
-        missing: outcome.map(|Winding { missing, .. }| missing),
-    }
+    found
 }
 
 /// Highest angular frequency among the modes wanted.
