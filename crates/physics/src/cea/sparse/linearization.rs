@@ -67,17 +67,6 @@ impl Linearization {
         !tangent.is_gyroscopic || self.centre().shift == 0.0 || matches!(self, Self::Reduced(..))
     }
 
-    /// Residual force relative to inertia force above which a point is improved.
-    ///
-    /// The real problem's bases aim lower anyway. Of the quadratic one an eigenvalue is wrong by the product of the
-    /// errors of its right and left vectors: this keeps it below 1e-9.
-    pub fn force_residual_goal(self) -> f64 {
-        match self {
-            Self::Reduced(..) => 1e-10,
-            Self::Companion { .. } => 1e-7,
-        }
-    }
-
     /// `kappa`, or `lambda`, that belongs to the eigenvalue `s` of the shift-inverted operator: `kappa = 1/s - c^2`,
     /// `lambda = c + omega/s`.
     pub fn value(self, s: c64) -> c64 {

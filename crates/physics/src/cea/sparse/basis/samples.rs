@@ -141,12 +141,6 @@ impl BasisBuilder<'_> {
         Ok(())
     }
 
-    /// Corrects `modes`, those that the basis holds at `mu` or nearly so; whether there was anything to correct.
-    pub fn correct_at(&mut self, mu: f64, modes: &[ReducedMode]) -> Result<bool, CeaError> {
-        self.take_up(mu, modes);
-        self.refine_modes(mu, modes)
-    }
-
     /// Lets `modes` stand for a sample at `mu`, if there is none and the basis is made of samples.
     pub fn take_up(&mut self, mu: f64, modes: &[ReducedMode]) {
         if self.is_sampling && !self.is_sampled(mu) {
@@ -242,8 +236,8 @@ impl BasisBuilder<'_> {
         2 * below + usize::from(self.is_sampled(mu))
     }
 
-    /// Adds the corrections of `modes`, those at a sampled `mu`, to the basis and to the sample; whether there were any.
-    fn refine_modes(&mut self, mu: f64, modes: &[ReducedMode]) -> Result<bool, CeaError> {
+    /// Adds the corrections of `modes`, those at a sampled `mu` or nearly so, to the basis and to the sample; whether there were any.
+    pub fn refine_modes(&mut self, mu: f64, modes: &[ReducedMode]) -> Result<bool, CeaError> {
         let mut corrections =
             self.step(mu, |builder| Ok::<_, LinalgError>(builder.corrections(modes, mu)))?;
         scale_to_unit_length(&mut corrections);
