@@ -1,5 +1,6 @@
 //! The full problem at one friction coefficient, with complex factors of its own.
 
+use super::pencil::Pencil;
 use crate::linalg::{
     ComplexSparseLu, LinalgError, LuAnalysis, Mat, MatRef, MatrixPolynomial, SparsityPattern, c64,
 };
@@ -17,15 +18,12 @@ impl SharedAnalysis {
     }
 }
 
-/// What a matrix of `T(lambda)` is multiplied by.
-pub type Factor<'a> = Arc<dyn Fn(c64) -> c64 + Send + Sync + 'a>;
-
 /// `T(lambda) = K + lambda C + lambda^2 M + i H + sum_p g_p K_p` at one friction coefficient, `g_p` at the frequency of `lambda`.
 pub struct FullProblem<'a> {
     pattern: &'a Arc<SparsityPattern>,
     analysis: SharedAnalysis,
-    /// Nonzero values of the matrices, in this order, with their factors.
-    terms: Vec<(Factor<'a>, Vec<f64>)>,
+    /// Nonzero values of the matrices.
+    values: Pencil<Vec<f64>>,
 }
 
 impl<'a> FullProblem<'a> {
@@ -41,17 +39,11 @@ impl<'a> FullProblem<'a> {
 
     /// That of the values that are taken of each matrix: its derivatives by friction, too.
     pub fn of(tangent: &'a SlidingTangent, values: impl Fn(&MatrixPolynomial) -> Vec<f64>) -> Self {
-        let mut terms: Vec<(Factor<'a>, Vec<f64>)> = vec![
-            (Arc::new(|_| c64::new(1.0, 0.0)), values(&tangent.stiffness)),
-            (Arc::new(|lambda| lambda), values(&tangent.damping)),
-            (Arc::new(|lambda| lambda * lambda), values(&tangent.mass)),
-        ];
-        let lost: Factor<'a> = Arc::new(|_| c64::new(0.0, 1.0));
-        terms.extend(tangent.structural.iter().map(|own| (Arc::clone(&lost), values(own))));
-        terms.extend(tangent.tabled.iter().map(|part| -> (Factor<'a>, Vec<f64>) {
-            (Arc::new(|lambda| part.gain.at(lambda)), values(&part.stiffness))
-        }));
-        Self { pattern: tangent.stiffness.pattern(), analysis: SharedAnalysis::default(), terms }
+        Self {
+            pattern: tangent.stiffness.pattern(),
+            analysis: SharedAnalysis::default(),
+            values: Pencil::of(tangent, values),
+        }
     }
 
     /// Number of unknowns.
@@ -62,8 +54,7 @@ impl<'a> FullProblem<'a> {
     /// Nonzero values of `T(lambda)`.
     fn pencil(&self, lambda: c64) -> Vec<c64> {
         let mut pencil = vec![c64::new(0.0, 0.0); self.pattern.nonzero_count()];
-        for (factor, values) in &self.terms {
-            let factor = factor(lambda);
+        for (factor, values) in self.values.terms(lambda) {
             pencil.iter_mut().zip(values).for_each(|(sum, value)| *sum += factor * *value);
         }
         pencil
@@ -79,22 +70,23 @@ impl<'a> FullProblem<'a> {
         self.analysis.of(self.pattern)?.ln_determinant(&self.pencil(lambda))
     }
 
-    /// `P^T w` of each matrix, with its factor.
-    pub fn transposed_images(&self, w: MatRef<'_, f64>) -> Vec<(Factor<'a>, Mat<f64>)> {
-        let [elastic, damped, inert] = [0, 1, 2].map(|i| &self.terms[i].1[..]);
-        let viscous = self.pattern.multiply_transpose_each([elastic, damped, inert], w);
-        let others = self.terms[3..].iter();
-        let others = others.map(|(_, values)| self.pattern.multiply_transpose(values, w));
-        let factors = self.terms.iter().map(|(factor, _)| Arc::clone(factor));
-        factors.zip(viscous.into_iter().chain(others)).collect()
+    /// `P^T w` of each matrix.
+    pub fn transposed_images(&self, w: MatRef<'_, f64>) -> Pencil<Mat<f64>> {
+        let Pencil { stiffness, damping, mass, structural, tabled } = &self.values;
+        let image = |values: &Vec<f64>| self.pattern.multiply_transpose(values, w);
+        let tabled = tabled.iter().map(|(gain, values)| (gain.clone(), image(values)));
+        let [stiffness, damping, mass] =
+            self.pattern.multiply_transpose_each([stiffness, damping, mass], w);
+        let structural = structural.as_ref().map(image);
+        Pencil { stiffness, damping, mass, structural, tabled: tabled.collect() }
     }
 
     /// `T(lambda)^T w` of each of `values` with its two columns of `w`, real and imaginary part.
     pub fn transposed_times(&self, values: &[c64], w: MatRef<'_, f64>) -> Mat<f64> {
         let mut sum = Mat::zeros(w.nrows(), w.ncols());
-        for (factor, image) in self.transposed_images(w) {
-            for (k, own) in values.iter().enumerate() {
-                let factor = factor(*own);
+        let images = self.transposed_images(w);
+        for (k, own) in values.iter().enumerate() {
+            for (factor, image) in images.terms(*own) {
                 for i in 0..image.nrows() {
                     let value = factor * c64::new(image[(i, 2 * k)], image[(i, 2 * k + 1)]);
                     sum[(i, 2 * k)] += value.re;
@@ -107,14 +99,21 @@ impl<'a> FullProblem<'a> {
 
     /// `w^T T(lambda) x`.
     pub fn form(&self, lambda: c64, w: &[c64], x: &[c64]) -> c64 {
-        let forms = self.terms.iter();
-        forms.map(|(factor, values)| factor(lambda) * form(self.pattern, values, w, x)).sum()
+        let terms = self.values.terms(lambda).into_iter();
+        terms.map(|(factor, values)| factor * form(self.pattern, values, w, x)).sum()
     }
 
     /// `w^T (2 lambda M + C) x`.
     pub fn slope(&self, lambda: c64, w: &[c64], x: &[c64]) -> c64 {
-        let [damped, inert] = [1, 2].map(|i| form(self.pattern, &self.terms[i].1, w, x));
+        let viscous = [&self.values.damping, &self.values.mass];
+        let [damped, inert] = viscous.map(|values| form(self.pattern, values, w, x));
         2.0 * lambda * inert + damped
+    }
+
+    /// `w^T (dK/d omega) x` of stiffness that depends on frequency, at that of `lambda`.
+    pub fn own_slope(&self, lambda: c64, w: &[c64], x: &[c64]) -> c64 {
+        let tabled = self.values.tabled.iter();
+        tabled.map(|(gain, k)| gain.slope(lambda) * form(self.pattern, k, w, x)).sum()
     }
 }
 

@@ -1,8 +1,9 @@
 //! Left vectors that a basis of right ones does not hold.
 
 use super::StiffnessFactors;
-use super::full_problem::{Factor, FullProblem};
+use super::full_problem::FullProblem;
 use super::packed::{joined, side_by_side};
+use super::pencil::Pencil;
 use super::{BESIDE, GROUP_WIDTH, MOST_STEPS};
 use crate::cea::vectors::{dot, length};
 use crate::linalg::dense::{product, transpose_product};
@@ -63,28 +64,25 @@ pub fn correct_lefts(
     })
 }
 
-/// The problem among some motions `Z`: `P^T Z` and `Z^T P^T Z` of the matrices of which `T(lambda) = sum f(lambda) P`.
-struct AmongModes<'a> {
+/// The problem among some motions `Z`: `P^T Z` and `Z^T P^T Z` of the matrices of `T(lambda)`.
+struct AmongModes {
     modes: Mat<f64>,
-    terms: Vec<(Factor<'a>, Mat<f64>, Mat<f64>)>,
+    images: Pencil<Mat<f64>>,
+    small: Pencil<Mat<f64>>,
 }
 
-impl<'a> AmongModes<'a> {
-    fn of(problem: &FullProblem<'a>, modes: Mat<f64>) -> Self {
-        let images = problem.transposed_images(modes.as_ref()).into_iter();
-        let terms = images.map(|(factor, image)| {
-            let small = transpose_product(modes.as_ref(), image.as_ref());
-            (factor, image, small)
-        });
-        Self { terms: terms.collect(), modes }
+impl AmongModes {
+    fn of(problem: &FullProblem<'_>, modes: Mat<f64>) -> Self {
+        let images = problem.transposed_images(modes.as_ref());
+        let small = images.map(|image| transpose_product(modes.as_ref(), image.as_ref()));
+        Self { modes, images, small }
     }
 
     /// Factors of `Z^T T(lambda)^T Z`.
     fn factors(&self, lambda: c64) -> ComplexDenseLu {
         let size = self.modes.ncols();
         let mut sum = Mat::zeros(size, size);
-        for (factor, _, small) in &self.terms {
-            let factor = factor(lambda);
+        for (factor, small) in self.small.terms(lambda) {
             sum += Mat::from_fn(size, size, |i, j| factor * small[(i, j)]);
         }
         ComplexDenseLu::factorize(sum)
@@ -110,7 +108,8 @@ impl<'a> AmongModes<'a> {
             to.iter_mut().zip(own).for_each(|(to, own)| *to += factor * own);
         };
         add(vector, c64::new(1.0, 0.0), &self.modes);
-        self.terms.iter().for_each(|(factor, columns, _)| add(image, factor(lambda), columns));
+        let terms = self.images.terms(lambda).into_iter();
+        terms.for_each(|(factor, columns)| add(image, factor, columns));
     }
 }
 
@@ -120,7 +119,7 @@ type Mapped = [Vec<c64>; 3];
 /// Corrects some modes together.
 fn correct_group(
     problem: &FullProblem<'_>,
-    (factors, modes): (&StiffnessFactors, &AmongModes<'_>),
+    (factors, modes): (&StiffnessFactors, &AmongModes),
     pairs: &mut [OpenPair],
 ) {
     let eigenvalues: Vec<c64> = pairs.iter().map(|pair| pair.eigenvalue).collect();

@@ -36,6 +36,7 @@ mod open_residuals;
 mod own_frequency;
 mod packed;
 mod pairs;
+mod pencil;
 mod point;
 mod projected;
 mod reduced;

@@ -66,8 +66,6 @@ impl ModePair {
 pub fn mode_pairs(tangent: &SlidingTangent, mu: f64, targets: &[c64]) -> Vec<Option<ModePair>> {
     let problem = FullProblem::at(tangent, mu);
     let rate = FullProblem::of(tangent, |matrix| matrix.derivative(mu));
-    let tabled = tangent.tabled.iter();
-    let tabled: Vec<_> = tabled.map(|part| (&part.gain, part.stiffness.evaluate(mu))).collect();
     let pair = |target: &c64| {
         let [right, mut left] = inverse_iterations(&problem, *target)?;
         let scale = problem.slope(*target, &left, &right);
@@ -76,13 +74,10 @@ pub fn mode_pairs(tangent: &SlidingTangent, mu: f64, targets: &[c64]) -> Vec<Opt
             friction_coefficient: mu,
             eigenvalue: *target,
             derivative: c64::new(0.0, 0.0),
+            own_slope: problem.own_slope(*target, &left, &right),
             right,
             left,
-            own_slope: c64::new(0.0, 0.0),
         };
-        let (w, x, pattern) = (&pair.left, &pair.right, tangent.stiffness.pattern());
-        let own = tabled.iter();
-        pair.own_slope = own.map(|(gain, k)| gain.slope(*target) * form(pattern, k, w, x)).sum();
         pair.derivative = pair.followed(-rate.form(*target, &pair.left, &pair.right));
         Some(pair)
     };

@@ -2,12 +2,12 @@
 
 use super::mode::ReducedMode;
 use super::packed::forms;
+use super::pencil::Pencil;
 use super::term::{Term, projected};
 use super::{LITTLE, MOST_STEPS};
 use crate::fem::own_frequency_step;
 use crate::linalg::dense::{column, column_mut, product, transpose_product};
 use crate::linalg::{ComplexDenseLu, FrictionWeights, Mat, Scale, c64};
-use crate::prestress::TabledGain;
 use std::f64::consts::TAU;
 
 /// Relative change of the eigenvalue that ends the iteration by factors at it: the error left is about the cube of that.
@@ -16,39 +16,20 @@ const QUOTIENT_TOLERANCE: f64 = 1e-8;
 /// residual inverse iteration.
 const VECTOR_TOLERANCE: f64 = 1e-10;
 
-/// `K`, `C` and `M` (or their derivatives) projected, at one friction coefficient.
-pub struct ProjectedMatrices {
-    /// `V^T K V`.
-    pub stiffness: Mat<f64>,
-    /// `V^T C V`.
-    pub damping: Mat<f64>,
-    /// `V^T M V`.
-    pub mass: Mat<f64>,
-    /// `V^T H V` of structural damping.
-    pub structural: Option<Mat<f64>>,
-    /// `V^T K_p V` of parts whose stiffness depends on frequency.
-    pub tabled: Vec<(TabledGain, Mat<f64>)>,
-}
+/// `V^T P V` of the matrices `P`, or of their derivatives, at one friction coefficient.
+pub type ProjectedMatrices = Pencil<Mat<f64>>;
 
 impl ProjectedMatrices {
     /// The matrices projected once more, on orthonormal `columns` of coordinates.
     pub fn within(&self, columns: &Mat<f64>) -> Self {
-        let within = |p: &Mat<f64>| projected(p, columns);
-        let [stiffness, damping, mass] = [&self.stiffness, &self.damping, &self.mass].map(within);
-        Self {
-            stiffness,
-            damping,
-            mass,
-            structural: self.structural.as_ref().map(within),
-            tabled: self.tabled.iter().map(|(gain, k)| (gain.clone(), within(k))).collect(),
-        }
+        self.map(|p| projected(p, columns))
     }
 
     /// `T(lambda) = lambda^2 M + lambda C + K + i H + sum_p g_p K_p`, `Im lambda > 0`, the last at the frequency of `lambda`.
     pub fn pencil(&self, lambda: c64) -> Mat<c64> {
         let m = self.mass.nrows();
         let mut pencil = Mat::zeros(m, m);
-        for (factor, p) in self.terms(lambda) {
+        for (factor, p) in self.inert_first(lambda) {
             for j in 0..m {
                 let entries = pencil.col_mut(j).iter_mut().zip(column(p.as_ref(), j));
                 entries.for_each(|(t, p): (&mut c64, _)| *t += factor * *p);
@@ -93,7 +74,7 @@ impl ProjectedMatrices {
             let is_reused = factors.is_some();
             let lu = factors.get_or_insert_with(|| ComplexDenseLu::factorize(self.pencil(lambda)));
             let terms = match is_reused {
-                true => self.terms(lambda),
+                true => self.inert_first(lambda),
                 false => vec![(2.0 * lambda, &self.mass), (c64::new(1.0, 0.0), &self.damping)],
             };
             let mut moved = 0.0_f64;
@@ -141,19 +122,16 @@ impl ProjectedMatrices {
         None
     }
 
-    /// The matrices of which `T(lambda)` is the sum, with their factors.
-    fn terms(&self, lambda: c64) -> Vec<(c64, &Mat<f64>)> {
-        let (one, lost) = (c64::new(1.0, 0.0), c64::new(0.0, 1.0));
-        let mut terms =
-            vec![(lambda * lambda, &self.mass), (lambda, &self.damping), (one, &self.stiffness)];
-        terms.extend(self.structural.iter().map(|h| (lost, h)));
-        terms.extend(self.tabled.iter().map(|(gain, k)| (gain.at(lambda), k)));
+    /// The matrices with their factors, in the order of falling powers of `lambda`.
+    fn inert_first(&self, lambda: c64) -> Vec<(c64, &Mat<f64>)> {
+        let mut terms = self.terms(lambda);
+        terms.swap(0, 2);
         terms
     }
 
     /// `w_i^T T(lambda_j) x_j`, or with the derivatives by friction `w_i^T T'(lambda_j) x_j`.
     pub fn pencil_forms(&self, lefts: &[ReducedMode], rights: &[ReducedMode]) -> Mat<c64> {
-        let terms: Vec<_> = rights.iter().map(|mode| self.terms(mode.eigenvalue)).collect();
+        let terms: Vec<_> = rights.iter().map(|mode| self.inert_first(mode.eigenvalue)).collect();
         let mut sum = Mat::zeros(lefts.len(), rights.len());
         for k in 0..terms.first().map_or(0, Vec::len) {
             let own = forms(lefts, terms[0][k].1, rights);

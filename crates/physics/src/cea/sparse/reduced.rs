@@ -6,6 +6,7 @@ mod parts;
 use super::NEIGHBOURS;
 use super::linearization::Linearization;
 use super::mode::ReducedMode;
+use super::pencil::Pencil;
 use super::projected::{ProjectedMatrices, summed};
 use super::term::Term;
 use super::{MULTIPLE, SAME_SPACE};
@@ -16,7 +17,7 @@ use crate::linalg::dense::{
 use crate::linalg::gram::complement;
 use crate::linalg::{FrictionWeights, LinalgError, MatrixPolynomial};
 use crate::linalg::{Mat, MatRef, Scale, c64};
-use crate::prestress::{SlidingTangent, TabledGain};
+use crate::prestress::SlidingTangent;
 pub(super) use parts::inside;
 use parts::{BasisPart, BasisParts};
 
@@ -59,10 +60,8 @@ fn combined(columns: &Mat<f64>, coordinates: &[c64]) -> Vec<c64> {
 /// is compressed.
 pub struct ReducedModel {
     linearization: Linearization,
-    /// Coefficients of `P = K, C, M, H` by power of `mu`; `C` only where it is not proportional, `H` where there is structural damping.
-    terms: [Vec<Term>; 4],
-    /// The same of the stiffness of each part that depends on frequency.
-    tabled: Vec<(TabledGain, Vec<Term>)>,
+    /// Coefficients of each matrix by power of `mu`; of `C` only where it is not proportional.
+    terms: Pencil<Vec<Term>>,
     /// What they weigh.
     weights: FrictionWeights,
     /// `V`, `unknowns x m`.
@@ -72,15 +71,6 @@ pub struct ReducedModel {
     /// Coordinates of corrections between samples, and where they were made.
     corrections: Vec<(f64, Mat<f64>)>,
     parts: BasisParts,
-}
-
-/// All terms.
-fn all<'t>(
-    terms: &'t mut [Vec<Term>],
-    tabled: &'t mut [(TabledGain, Vec<Term>)],
-) -> impl Iterator<Item = &'t mut Term> {
-    let tabled = tabled.iter_mut().flat_map(|(_, terms)| terms);
-    terms.iter_mut().flatten().chain(tabled)
 }
 
 impl ReducedModel {
@@ -96,18 +86,19 @@ impl ReducedModel {
             Linearization::Reduced(..) => Vec::new(),
             Linearization::Companion { .. } => terms(&tangent.damping, !tangent.is_gyroscopic),
         };
-        let structural = tangent.structural.as_ref();
-        let structural = structural.map_or_else(Vec::new, |p| terms(p, true));
         let tabled = tangent.tabled.iter();
-        let tabled = tabled.map(|part| (part.gain.clone(), terms(&part.stiffness, true))).collect();
-        let terms =
-            [terms(&tangent.stiffness, true), damping, terms(&tangent.mass, true), structural];
+        let terms = Pencil {
+            stiffness: terms(&tangent.stiffness, true),
+            damping,
+            mass: terms(&tangent.mass, true),
+            structural: tangent.structural.as_ref().map(|p| terms(p, true)),
+            tabled: tabled.map(|part| (part.gain.clone(), terms(&part.stiffness, true))).collect(),
+        };
         Self {
             linearization,
             basis: GrowingColumns::new(tangent.stiffness.dimension()),
             terms,
             weights: tangent.stiffness.weights(),
-            tabled,
             samples: Vec::new(),
             corrections: Vec::new(),
             parts: BasisParts::default(),
@@ -127,14 +118,14 @@ impl ReducedModel {
             return new;
         }
         let basis = self.basis.columns();
-        all(&mut self.terms, &mut self.tabled).for_each(|term| term.grow(basis, &new));
+        self.terms.each_mut().flatten().for_each(|term| term.grow(basis, &new));
         self.basis.append(new.as_ref());
         new
     }
 
     /// Restricts the basis to the span of the orthonormal `columns` of coordinates.
     pub fn compress(&mut self, columns: &Mat<f64>) {
-        all(&mut self.terms, &mut self.tabled).for_each(|term| term.compress(columns));
+        self.terms.each_mut().flatten().for_each(|term| term.compress(columns));
         self.basis.combine(columns.as_ref());
         self.parts = BasisParts::default();
     }
@@ -150,19 +141,16 @@ impl ReducedModel {
     }
 
     fn combine(&self, evaluate: impl Fn(&[Term]) -> Mat<f64>) -> ProjectedMatrices {
-        let [stiffness, damping, mass, structural] = &self.terms;
-        let structural = (!structural.is_empty()).then(|| evaluate(structural));
-        let (stiffness, mass) = (evaluate(stiffness), evaluate(mass));
-        let damping = match self.linearization {
-            Linearization::Reduced(coefficients, _) => {
-                Scale(coefficients.mass_coefficient) * &mass
-                    + Scale(coefficients.stiffness_coefficient) * &stiffness
-            }
-            Linearization::Companion { .. } => evaluate(damping),
-        };
-        let tabled = self.tabled.iter();
-        let tabled = tabled.map(|(gain, terms)| (gain.clone(), evaluate(terms)));
-        ProjectedMatrices { stiffness, damping, mass, structural, tabled: tabled.collect() }
+        let mut all = self.terms.map(|terms| match terms[..] {
+            // Proportional damping has none.
+            [] => Mat::zeros(0, 0),
+            _ => evaluate(terms),
+        });
+        if let Linearization::Reduced(coefficients, _) = self.linearization {
+            all.damping = Scale(coefficients.mass_coefficient) * &all.mass
+                + Scale(coefficients.stiffness_coefficient) * &all.stiffness;
+        }
+        all
     }
 
     /// The `count` modes of largest `|s|` that oscillate, by rising frequency; overdamped ones are left out. Left vectors, and so

@@ -2,10 +2,11 @@
 
 use super::linearization::Linearization;
 use super::packed::PackedEntry;
+use super::pencil::Pencil;
 use crate::linalg::dense::{column, column_mut, join_rows};
 use crate::linalg::{BlockOperator, LinalgError, MatrixPolynomial, SparsityPattern};
 use crate::linalg::{LdlAnalysis, LuAnalysis, Mat, MatRef, SparseLdl, SparseLu, c64};
-use crate::prestress::{SlidingTangent, TabledStiffness};
+use crate::prestress::SlidingTangent;
 use std::sync::Arc;
 
 /// Terms of a matrix, over their sum, from which on their rounding shows in residuals.
@@ -14,12 +15,8 @@ const CANCELLING: f64 = 1e3;
 /// `K`, `C` and `M` at one friction coefficient, or their coefficients of one power of it.
 pub struct StructureMatrices<'a> {
     pattern: &'a Arc<SparsityPattern>,
-    /// Nonzero values of `[K, C, M]` by rows; empty where a matrix vanishes or is not needed.
-    values: [Vec<f64>; 3],
-    /// Nonzero values of the structural damping `H` by rows, of the general problem.
-    structural: Option<Vec<f64>>,
-    /// Parts whose stiffness depends on frequency, with its nonzero values by rows.
-    tabled: Vec<(&'a TabledStiffness, Vec<f64>)>,
+    /// Nonzero values by rows; of the reduced problem `K` and `M` alone, others are empty.
+    values: Pencil<Vec<f64>>,
     linearization: Linearization,
     /// What they are evaluated from, and where.
     source: (&'a SlidingTangent, f64),
@@ -29,18 +26,18 @@ impl<'a> StructureMatrices<'a> {
     /// The matrices of `tangent` at friction coefficient `mu`.
     pub fn at(tangent: &'a SlidingTangent, linearization: Linearization, mu: f64) -> Self {
         let of = |p: &MatrixPolynomial| p.pattern().by_rows(&p.evaluate(mu));
-        let is_general = matches!(linearization, Linearization::Companion { .. });
-        let damping = if is_general { of(&tangent.damping) } else { Vec::new() };
-        let structural = tangent.structural.as_ref().filter(|_| is_general);
-        let tabled = tangent.tabled.iter().filter(|_| is_general);
-        Self {
-            pattern: tangent.stiffness.pattern(),
-            values: [of(&tangent.stiffness), damping, of(&tangent.mass)],
-            structural: structural.map(of),
-            tabled: tabled.map(|part| (part, of(&part.stiffness))).collect(),
-            linearization,
-            source: (tangent, mu),
-        }
+        let values = match linearization {
+            Linearization::Companion { .. } => Pencil::of(tangent, of),
+            Linearization::Reduced(..) => Pencil {
+                stiffness: of(&tangent.stiffness),
+                damping: Vec::new(),
+                mass: of(&tangent.mass),
+                structural: None,
+                tabled: Vec::new(),
+            },
+        };
+        let pattern = tangent.stiffness.pattern();
+        Self { pattern, values, linearization, source: (tangent, mu) }
     }
 
     /// Number of unknowns.
@@ -55,7 +52,7 @@ impl<'a> StructureMatrices<'a> {
         entries: &[PackedEntry],
         x: MatRef<'_, f64>,
     ) -> (Mat<f64>, Mat<f64>) {
-        let [stiffness, damping, mass] = &self.values;
+        let Pencil { stiffness, damping, mass, structural, tabled } = &self.values;
         let add = |sum: &mut Mat<f64>, image: &Mat<f64>, factor: &dyn Fn(c64) -> c64| {
             for entry in entries {
                 let value = self.linearization.value(entry.inverse_value);
@@ -71,13 +68,13 @@ impl<'a> StructureMatrices<'a> {
         let [mut residual, damped, inert] = self.pattern.multiply_sorted(all, x);
         add(&mut residual, &inert, &|lambda| lambda * lambda);
         add(&mut residual, &damped, &|lambda| lambda);
-        if let Some(structural) = &self.structural {
+        if let Some(structural) = structural {
             let [lost] = self.pattern.multiply_sorted([structural], x);
             add(&mut residual, &lost, &|_| c64::new(0.0, 1.0));
         }
-        for (part, values) in &self.tabled {
+        for (gain, values) in tabled {
             let [image] = self.pattern.multiply_sorted([values], x);
-            add(&mut residual, &image, &|lambda| part.gain.at(lambda));
+            add(&mut residual, &image, &|lambda| gain.at(lambda));
         }
         (residual, inert)
     }
@@ -111,10 +108,13 @@ impl<'a> StructureMatrices<'a> {
             };
             (0..self.pattern.dimension()).map(row_sum).fold(0.0, f64::max)
         };
-        let (tangent, mu) = self.source;
-        let terms = [&tangent.stiffness, &tangent.damping, &tangent.mass];
-        let rounding = terms.map(|p| (p.cancellation(mu) / CANCELLING).max(1.0));
-        let [stiff, damped, inert] = [0, 1, 2].map(|i| rounding[i] * norm(&self.values[i]));
+        let ((tangent, mu), own) = (self.source, &self.values);
+        let [stiff, damped, inert] = [
+            (&tangent.stiffness, &own.stiffness),
+            (&tangent.damping, &own.damping),
+            (&tangent.mass, &own.mass),
+        ]
+        .map(|(p, values)| (p.cancellation(mu) / CANCELLING).max(1.0) * norm(values));
         let damped = match self.linearization {
             Linearization::Reduced(damping, _) => {
                 damping.mass_coefficient * inert + damping.stiffness_coefficient * stiff
@@ -202,7 +202,7 @@ pub struct ShiftInverted<'a> {
 impl<'a> ShiftInverted<'a> {
     /// The operator of `matrices` at the friction coefficient of the `factors` of what takes the place of `K`.
     pub fn new(matrices: &'a StructureMatrices<'a>, factors: &'a StiffnessFactors) -> Self {
-        let [_, damping, mass] = &matrices.values;
+        let Pencil { damping, mass, .. } = &matrices.values;
         let values = match matrices.linearization {
             Linearization::Reduced(..) => vec![mass.clone()],
             Linearization::Companion { frequency_scale: omega, centre } => {

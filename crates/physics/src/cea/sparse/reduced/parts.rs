@@ -43,7 +43,7 @@ impl ReducedModel {
     /// The problem in the span of the modes at the samples nearest to `mu` and of the corrections among these: of a wide
     /// basis of matrices that do not depend on frequency.
     pub(super) fn surroundings(&self, mu: f64) -> Option<Arc<BasisPart>> {
-        if self.samples.len() < 2 * NEIGHBOURS || !self.tabled.is_empty() {
+        if self.samples.len() < 2 * NEIGHBOURS || !self.terms.tabled.is_empty() {
             return None;
         }
         let mut nearest: Vec<&(f64, Mat<f64>)> = self.samples.iter().collect();
@@ -88,10 +88,9 @@ impl ReducedModel {
         let within = |terms: &Vec<Term>| terms.iter().map(|term| term.within(columns)).collect();
         Self {
             linearization: self.linearization,
-            terms: self.terms.each_ref().map(within),
+            terms: self.terms.map(within),
             weights: self.weights,
             basis: GrowingColumns::new(0),
-            tabled: Vec::new(),
             samples: Vec::new(),
             corrections: Vec::new(),
             parts: BasisParts::default(),
