@@ -278,7 +278,7 @@ fn match_modes(
             let (i, mut passed) = link?;
             let (j, beyond) = second[i].clone()?;
             if modes[i].is_growing() != own.is_growing() || !passed.is_empty() {
-                passed.push((middle, modes[i].clone()));
+                passed.push(ModeAt { mu: middle, mode: modes[i].clone() });
             }
             passed.extend(beyond);
             Ok((j, passed))

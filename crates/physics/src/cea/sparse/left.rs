@@ -5,6 +5,7 @@ use super::full_problem::FullProblem;
 use super::packed::{joined, side_by_side};
 use super::pencil::Pencil;
 use super::{BESIDE, GROUP_WIDTH, MOST_STEPS};
+use crate::cea::ModeVectors;
 use crate::cea::vectors::{dot, length};
 use crate::linalg::dense::{product, transpose_product};
 use crate::linalg::{ComplexDenseLu, Mat, c64};
@@ -15,26 +16,15 @@ const NEGLIGIBLE: f64 = 1e-8;
 /// Modes that are corrected together: each is worked on by three vectors.
 const PAIRS_AT_A_TIME: usize = GROUP_WIDTH / 3;
 
-/// A mode over the unknowns.
-pub struct OpenPair {
-    /// Eigenvalue, rad/s.
-    pub eigenvalue: c64,
-    /// Right vector `x`.
-    pub right: Vec<c64>,
-    /// Left vector `w`.
-    pub left: Vec<c64>,
+/// About twice the elastic energy of the left vector of a mode: `w^T (2 lambda M + C) x` is 1.
+fn left_energy(ModeVectors { eigenvalue, right, left, .. }: &ModeVectors) -> f64 {
+    let square: f64 = left.iter().map(|v| v.norm_sqr()).sum();
+    let product: c64 = left.iter().zip(right).map(|(w, x)| w * x).sum();
+    0.5 * eigenvalue.norm() * square / product.norm()
 }
 
-impl OpenPair {
-    /// About twice the elastic energy of the left vector: `w^T (2 lambda M + C) x` is 1.
-    fn left_energy(&self) -> f64 {
-        let square: f64 = self.left.iter().map(|v| v.norm_sqr()).sum();
-        let product: c64 = self.left.iter().zip(&self.right).map(|(w, x)| w * x).sum();
-        0.5 * self.eigenvalue.norm() * square / product.norm()
-    }
-}
-
-/// Corrects left vectors by the stiffness without friction, `P`, and the modes without friction, `Z`: the least `P^-1 T(lambda)^T w` over
+/// Corrects left vectors of modes over the unknowns, by the stiffness without friction, `P`, and the modes without friction, `Z`: the
+/// least `P^-1 T(lambda)^T w` over
 ///
 /// ```text
 /// w = w_0 + span { t_0, t_1, .. },    t_k = p + Z E^-1 Z^T (r - T(lambda)^T p),    p = P^-1 r,    r = T(lambda)^T w_k
@@ -51,13 +41,13 @@ pub fn correct_lefts(
     tangent: &SlidingTangent,
     (factors, modes): (&StiffnessFactors, Mat<f64>),
     mu: f64,
-    pairs: &mut [OpenPair],
+    pairs: &mut [ModeVectors],
 ) {
     let problem = FullProblem::at(tangent, mu);
     let modes = AmongModes::of(&problem, modes);
     crate::parallel::map(pairs.chunks_mut(PAIRS_AT_A_TIME), |group| {
         correct_group(&problem, (factors, &modes), group);
-        for OpenPair { eigenvalue, right, left } in group {
+        for ModeVectors { eigenvalue, right, left, .. } in group {
             let scale = problem.slope(*eigenvalue, left, right);
             left.iter_mut().for_each(|w| *w /= scale);
         }
@@ -120,7 +110,7 @@ type Mapped = [Vec<c64>; 3];
 fn correct_group(
     problem: &FullProblem<'_>,
     (factors, modes): (&StiffnessFactors, &AmongModes),
-    pairs: &mut [OpenPair],
+    pairs: &mut [ModeVectors],
 ) {
     let eigenvalues: Vec<c64> = pairs.iter().map(|pair| pair.eigenvalue).collect();
     let images = |of: &[usize], vectors: &[&[c64]]| -> Vec<Vec<c64>> {
@@ -138,7 +128,7 @@ fn correct_group(
     };
     let among: Vec<ComplexDenseLu> =
         eigenvalues.iter().map(|lambda| modes.factors(lambda * (1.0 + BESIDE))).collect();
-    let goals: Vec<f64> = pairs.iter().map(OpenPair::left_energy).collect();
+    let goals: Vec<f64> = pairs.iter().map(left_energy).collect();
     let mut open: Vec<usize> = (0..pairs.len()).collect();
     let starts: Vec<&[c64]> = pairs.iter().map(|pair| &pair.left[..]).collect();
     let starts = images(&open, &starts).into_iter().zip(starts);
@@ -205,12 +195,13 @@ mod tests {
         let exact: Vec<ModePair> =
             mode_pairs(&tangent, mu[0], &values).into_iter().flatten().collect();
         assert_eq!(exact.len(), values.len());
-        let open = |own: &ModePair| OpenPair {
+        let open = |own: &ModePair| ModeVectors {
             eigenvalue: own.eigenvalue,
+            rate: own.derivative,
             right: own.right.clone(),
             left: own.right.clone(),
         };
-        let mut pairs: Vec<OpenPair> = exact.iter().map(open).collect();
+        let mut pairs: Vec<ModeVectors> = exact.iter().map(open).collect();
         let problem = FullProblem::at(&tangent, mu[0]);
         let modes = AmongModes::of(&problem, rest.vectors);
         let groups = pairs.chunks_mut(PAIRS_AT_A_TIME);

@@ -70,7 +70,7 @@ fn alone(
         let middle = 0.5 * (mu + start);
         let [forward, backward] = model.overlaps_at(middle, from_ref(&mode), from_ref(end));
         let is_same = (forward[(0, 0)] * backward[(0, 0)] - 1.0).norm() < SAME;
-        (is_same && !mode.is_growing()).then_some((mu, mode))
+        (is_same && !mode.is_growing()).then_some(ModeAt { mu, mode })
     })
 }
 
@@ -130,12 +130,9 @@ pub fn grown_between(
                 alone(model, (mu[end], ends[end]), inside)
             };
             grown[own].extend(beside(-1.0, 0));
-            grown[own].push((place, modes[growing].clone()));
+            grown[own].push(ModeAt { mu: place, mode: modes[growing].clone() });
             grown[own].extend(beside(1.0, 1));
         }
-    }
-    for passed in &mut grown {
-        crate::order::sort_by_number(passed, |own| own.0);
     }
     Ok(grown)
 }

@@ -5,13 +5,13 @@
 //! 2. [`BasisBuilder`]: one basis that holds the modes of all friction coefficients. Where damping is proportional it
 //!    grows by residuals. Otherwise it takes up the modes at a few friction coefficients, chosen where residuals are
 //!    largest, each from a Krylov iteration ([`crate::linalg::krylov_schur`]).
-//! 3. [`PointSolver`]: the projected problem at each friction coefficient, in parallel; every mode is
+//! 3. [`SparseSweep::solve`]: the projected problem at each friction coefficient, in parallel; every mode is
 //!    held to its residual in the full matrices. Where one fails a ladder is climbed: corrections by the factors
 //!    without friction, then by factors of the full problem beside the modes ([`FullProblem`]). Strongly damped
 //!    motions that fail then take no places.
 //! 4. [`track`]: branches continued from `mu = 0`, so that none is lost on the way.
 //! 5. [`ModeCounter`], where asked for: eigenvalues counted by the argument principle.
-//! 6. [`OnsetFinder`]: critical friction coefficients by root finding on the branches.
+//! 6. [`SparseSweep::finish`]: critical friction coefficients by root finding on the branches.
 //!
 //! [`sweep`] does all of this; [`sweep_by_diameters`] does it for a body with cyclic symmetry, by waves around it.
 //! Where stiffness depends on frequency every mode is solved at its own, in the projected problem and in its
@@ -31,7 +31,6 @@ mod linearization;
 mod meetings;
 mod mode;
 mod nodal_diameters;
-mod onset;
 mod open_residuals;
 mod own_frequency;
 mod packed;
@@ -53,9 +52,8 @@ pub use full_problem::FullProblem;
 pub use linearization::{Centre, Linearization};
 pub use mode::ReducedMode;
 pub use nodal_diameters::sweep_by_diameters;
-pub use onset::{FoundInterval, OnsetFinder};
 pub use pairs::{ModePair, mode_pairs};
-pub use point::{ModeCheck, PointSolver, SolvedPoint};
+pub use point::{ModeCheck, SolvedPoint};
 pub use projected::ProjectedMatrices;
 pub use reduced::ReducedModel;
 pub use structure::{ShiftInverted, StiffnessFactors, StructureMatrices};

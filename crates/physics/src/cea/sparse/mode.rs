@@ -26,8 +26,15 @@ pub struct ReducedMode {
     pub left: Vec<c64>,
 }
 
-/// A friction coefficient and a mode there.
-pub type ModeAt = (f64, ReducedMode);
+/// A mode and its friction coefficient.
+#[derive(Clone, Debug)]
+pub struct ModeAt {
+    /// Friction coefficient.
+    pub mu: f64,
+    /// Mode there.
+    pub mode: ReducedMode,
+}
+
 /// A friction coefficient and its modes.
 pub type ModesAt<'a> = (f64, &'a [ReducedMode]);
 

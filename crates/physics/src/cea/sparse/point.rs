@@ -1,22 +1,14 @@
 //! All modes at one friction coefficient, each held to its residual in the full matrices.
 
-use super::basis::BasisBuilder;
-use super::edge::ContactEdge;
-use super::left::{OpenPair, correct_lefts};
-use super::linearization::Linearization;
+use super::RESIDUAL_BOUND;
 use super::mode::ReducedMode;
-use super::packed::{PackedModes, PackedVector, joined, side_by_side};
 use super::reduced::{ReducedModel, inside};
-use super::structure::StructureMatrices;
-use super::{GROUP_WIDTH, RESIDUAL_BOUND, TRACKING_MARGIN};
 use crate::cea::vectors::length;
-use crate::cea::{ModeLimit, ModeVectors, keeping_ties};
-use crate::linalg::{LinalgError, Mat, c64};
-use crate::prestress::SlidingTangent;
-use std::f64::consts::TAU;
+use crate::linalg::{Mat, c64};
 
 /// Residual relative to the matrices below which there is only round-off.
 const ROUND_OFF: f64 = 1e-15;
+
 /// What the full matrices say about one mode.
 #[derive(Clone, Debug)]
 pub struct ModeCheck {
@@ -50,7 +42,7 @@ pub struct SolvedPoint {
     /// Columns of the sample that it was solved in, where there is one of its own.
     pub solved_in: Option<usize>,
     /// Whether left vectors are coarse still.
-    has_coarse_lefts: bool,
+    pub has_coarse_lefts: bool,
 }
 
 impl SolvedPoint {
@@ -113,174 +105,6 @@ impl SolvedPoint {
                 *vector = inside(columns, vector);
             }
         }
-    }
-}
-
-/// What every point of a sweep needs.
-pub struct PointSolver<'a> {
-    /// The matrices.
-    pub tangent: &'a SlidingTangent,
-    /// How their eigenproblem is solved.
-    pub linearization: Linearization,
-    /// The contact edge.
-    pub edge: &'a ContactEdge,
-    /// Which modes are wanted.
-    pub limit: ModeLimit,
-    /// Modes tracked.
-    pub count: usize,
-}
-
-impl PointSolver<'_> {
-    /// The modes of the projected problem at `mu`. Left vectors are coarse ones, until [`SolvedPoint::refine_lefts`]. With `leaves_out`
-    /// motions near critical damping that have not converged take no places: combinations of what the basis does not hold.
-    pub fn modes(
-        &self,
-        model: &ReducedModel,
-        mu: f64,
-        leaves_out: bool,
-    ) -> Result<Vec<ReducedMode>, LinalgError> {
-        let mut modes = model.solve_with_coarse_lefts(mu, self.count + TRACKING_MARGIN)?;
-        if leaves_out {
-            let checks = self.check(model, mu, &modes);
-            let mut converged = checks.iter().map(|check| check.residual <= RESIDUAL_BOUND);
-            modes.retain(|mode| converged.next() == Some(true) || !mode.is_nearly_critical());
-        }
-        Ok(modes)
-    }
-
-    /// The point of these modes at `mu`, with their checks in the full matrices.
-    pub fn checked(&self, model: &ReducedModel, mu: f64, modes: Vec<ReducedMode>) -> SolvedPoint {
-        let wanted = self.wanted(&modes);
-        let range_end = match self.limit {
-            ModeLimit::Lowest(_) => modes[..wanted].last().map_or(0.0, |m| m.eigenvalue.im),
-            ModeLimit::MaxFrequency(hz) => TAU * hz,
-        };
-        let checked = self.count.max(wanted).min(modes.len());
-        let checks = self.check(model, mu, &modes[..checked]);
-        SolvedPoint {
-            friction_coefficient: mu,
-            modes,
-            wanted,
-            checks,
-            range_end,
-            solved_in: model.sample_width(mu),
-            has_coarse_lefts: true,
-        }
-    }
-
-    /// How many of `modes`, by rising frequency, are wanted.
-    pub fn wanted(&self, modes: &[ReducedMode]) -> usize {
-        let frequencies = modes.iter().map(|mode| mode.eigenvalue.im);
-        match self.limit {
-            ModeLimit::Lowest(count) => keeping_ties(frequencies, count),
-            ModeLimit::MaxFrequency(hz) => frequencies.take_while(|own| *own < TAU * hz).count(),
-        }
-    }
-
-    /// Residuals and edge displacements of `modes` in the full matrices at `mu`.
-    pub fn check(&self, model: &ReducedModel, mu: f64, modes: &[ReducedMode]) -> Vec<ModeCheck> {
-        let matrices = StructureMatrices::at(self.tangent, self.linearization, mu);
-        let packed = PackedModes::of(modes, model.dimension());
-        let norms = matrices.norms();
-        let mut checks: Vec<(usize, ModeCheck)> = Vec::with_capacity(modes.len());
-        for group in packed.groups(GROUP_WIDTH) {
-            let x = model.expand(packed.coordinates.get(.., group.columns.clone()));
-            let (residuals, momenta) = matrices.residuals_and_momenta(&group.entries, x.as_ref());
-            for &j in &group.modes {
-                let lambda = modes[j].eigenvalue;
-                let modulus = lambda.norm();
-                let [residual, momentum, shape] =
-                    [&residuals, &momenta, &x].map(|mapped| packed.vector(j, &group, mapped));
-                let force = matrices.residual_factor(lambda) * residual.norm();
-                let inertia = self.linearization.inertia(lambda) * momentum.norm();
-                let scale = modulus * modulus * norms[2] + modulus * norms[1] + norms[0];
-                let check = ModeCheck {
-                    residual: force / (scale * shape.norm()),
-                    force_residual: force / inertia,
-                    uncertainty: f64::EPSILON * scale * length(&modes[j].left) / modulus,
-                    contact_share: self.contact_share(shape, momentum),
-                    edge: self.edge.restrict(|unknown| shape.at(unknown)),
-                    peak: shape.peak(),
-                };
-                checks.push((j, check));
-            }
-        }
-        checks.sort_by_key(|(j, _)| *j);
-        checks.into_iter().map(|(_, check)| check).collect()
-    }
-
-    /// Kinetic energy of the contact edge's nodes over the whole. `momentum` is `M(mu) x`, which differs from
-    /// that of the body alone, `M(0) x`, in the rows of these nodes.
-    fn contact_share(&self, x: PackedVector<'_>, momentum: PackedVector<'_>) -> f64 {
-        let mass = &self.tangent.mass;
-        let (pattern, values) = (mass.pattern(), &mass.coefficients()[0]);
-        let along = |i: usize, p: c64| x.at(i).re * p.re + x.at(i).im * p.im;
-        let (mut edge, mut friction) = (0.0, 0.0);
-        let contact = &self.tangent.contact;
-        let touched = [&contact.tangential, &contact.normal, &contact.opposite];
-        for &i in touched.into_iter().flatten() {
-            let row = pattern.row(i);
-            let own: c64 = row.map(|(position, j)| x.at(j) * values[position]).sum();
-            edge += along(i, own);
-            friction += along(i, momentum.at(i) - own);
-        }
-        let whole: f64 = (0..pattern.dimension()).map(|i| along(i, momentum.at(i))).sum();
-        edge / (whole - friction)
-    }
-
-    /// Right and, `with_lefts`, left vectors of `modes` at `mu` over all nodal dofs, see [`ModeVectors`]; left ones are corrected by
-    /// the stiffness and the modes without friction.
-    pub fn vectors(
-        &self,
-        basis: &BasisBuilder<'_>,
-        (mu, with_lefts): (f64, bool),
-        modes: &[ReducedMode],
-    ) -> Vec<ModeVectors> {
-        let model = &basis.model;
-        let rights = self.expanded(model, modes, |mode| &mode.right);
-        let lefts = match with_lefts {
-            true => self.expanded(model, modes, |mode| &mode.left),
-            false => vec![Vec::new(); modes.len()],
-        };
-        let own = |((mode, right), left): ((&ReducedMode, _), _)| OpenPair {
-            eigenvalue: mode.eigenvalue,
-            right,
-            left,
-        };
-        let mut pairs: Vec<OpenPair> = modes.iter().zip(rights).zip(lefts).map(own).collect();
-        if with_lefts {
-            let leading = basis.leading_count().min(model.dimension());
-            let leading = model.expand(Mat::identity(leading, leading).as_ref());
-            correct_lefts(self.tangent, (&basis.factors, leading), mu, &mut pairs);
-        }
-        let pairs = modes.iter().zip(pairs);
-        pairs
-            .map(|(mode, pair)| {
-                let mut right = self.tangent.displacement(&pair.right);
-                let scale = normalize(&mut right);
-                let mut left = match with_lefts {
-                    true => self.tangent.left_displacement(&pair.left, mu),
-                    false => Vec::new(),
-                };
-                left.iter_mut().for_each(|v| *v *= scale);
-                ModeVectors { eigenvalue: mode.eigenvalue, rate: mode.derivative, right, left }
-            })
-            .collect()
-    }
-
-    /// Vectors of `modes` over the unknowns, of their coordinates as they are.
-    fn expanded(
-        &self,
-        model: &ReducedModel,
-        modes: &[ReducedMode],
-        of: impl Fn(&ReducedMode) -> &Vec<c64>,
-    ) -> Vec<Vec<c64>> {
-        let groups = modes.chunks(GROUP_WIDTH / 2).flat_map(|group| {
-            let coordinates: Vec<&Vec<c64>> = group.iter().map(&of).collect();
-            let x = model.expand(side_by_side(model.dimension(), &coordinates).as_ref());
-            (0..group.len()).map(move |j| joined(&x, j))
-        });
-        groups.collect()
     }
 }
 

@@ -3,6 +3,8 @@
 mod counts;
 mod divergence;
 mod ladder;
+mod onset;
+mod points;
 mod results;
 
 use super::basis::BasisBuilder;
@@ -10,18 +12,14 @@ use super::branches::{BranchLabel, TrackedBranch, label_first, track};
 use super::edge::ContactEdge;
 use super::frictionless::FrictionlessModes;
 use super::linearization::Linearization;
-use super::mode::{from_columns, to_columns};
-use super::point::{PointSolver, SolvedPoint};
+use super::point::SolvedPoint;
 use super::{GUARD_MODES, MOST_ATTEMPTS, RESIDUAL_BOUND, TRACKING_MARGIN};
 use crate::cea::{
-    CeaError, FrictionSweep, ModeLimit, PartWatch, SweepProgress, SweepRequest, SweepStage,
-    SweepWatch, UnconvergedMode,
+    CeaError, FrictionSweep, ModeLimit, PartWatch, SweepRequest, SweepWatch, UnconvergedMode,
 };
-use crate::linalg::LinalgError;
 use crate::prestress::SlidingTangent;
 use std::borrow::Cow;
 use std::f64::consts::TAU;
-use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Friction values at which the basis is refined, at least, over a range.
 const MIN_SAMPLES: usize = 6;
@@ -260,55 +258,6 @@ impl<'a> SparseSweep<'a> {
         self.labels =
             label_first(&mut self.points[0], &self.builder.model, &self.edge, self.builder.count)?;
         Ok(())
-    }
-
-    fn solve_anew(&mut self, indices: &[usize]) -> Result<(), LinalgError> {
-        for (k, point) in indices.iter().zip(self.solve_points(indices)?) {
-            self.points[*k] = point;
-        }
-        Ok(())
-    }
-
-    fn solve_points(&self, indices: &[usize]) -> Result<Vec<SolvedPoint>, LinalgError> {
-        let solved = AtomicUsize::new(0);
-        crate::parallel::map(indices, |&k| {
-            let point = self.solve_point(k);
-            self.watch.reached(SweepProgress {
-                stage: SweepStage::Values,
-                solved: solved.fetch_add(1, Ordering::Relaxed) + 1,
-                total: indices.len(),
-            });
-            point
-        })
-    }
-
-    /// Point `k` in the basis as it is, or what an earlier run of the same sweep found there.
-    fn solve_point(&self, k: usize) -> Result<SolvedPoint, LinalgError> {
-        let (mu, leaves_out) = (self.grid[k], self.leaves_out[k]);
-        let stage = if leaves_out { "-left-out" } else { "" };
-        let (steps, held) = (self.builder.steps, self.builder.count);
-        let name = format!("value-{steps:04}-of-{held}-{mu:?}{stage}");
-        let (solver, model) = (self.point_solver(), &self.builder.model);
-        let kept = self.watch.recall(&name);
-        let modes = match kept.and_then(|columns| from_columns(&columns)) {
-            Some(modes) => modes,
-            None => {
-                let modes = solver.modes(model, mu, leaves_out)?;
-                self.watch.keep(&name, &to_columns(&modes));
-                modes
-            }
-        };
-        Ok(solver.checked(model, mu, modes))
-    }
-
-    fn point_solver(&self) -> PointSolver<'_> {
-        PointSolver {
-            tangent: self.tangent,
-            linearization: self.linearization,
-            edge: &self.edge,
-            limit: self.limit,
-            count: self.builder.count,
-        }
     }
 
     /// Refuses modes whose stiffness follows from a table that does not reach them, or that changes too fast for them.

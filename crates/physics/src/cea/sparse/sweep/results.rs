@@ -1,13 +1,19 @@
 //! What a sweep found: points, unstable intervals, shapes.
 
+use super::onset::FoundInterval;
 use super::{SETTLED, SparseSweep};
 use crate::cea::sparse::branches::{BranchLabel, TrackedBranch};
-use crate::cea::sparse::onset::{FoundInterval, OnsetFinder, State};
-use crate::cea::sparse::{MOST_ATTEMPTS, RESIDUAL_BOUND, SAME_EIGENVALUE};
+use crate::cea::sparse::mode::ModeAt;
+use crate::cea::sparse::{CONVERGED, MOST_ATTEMPTS, RESIDUAL_BOUND, SAME_EIGENVALUE};
 use crate::cea::{BeyondMode, CeaError, ComplexMode, FrictionPoint, FrictionSweep, SweepRequest};
 use crate::cea::{EndedMode, UnconvergedMode};
-use crate::linalg::c64;
+use crate::linalg::{LinalgError, c64};
 use std::f64::consts::TAU;
+
+/// What round-off of a mode's growth rate may move a crossing by: much where friction hardly feeds the mode.
+fn doubt(ModeAt { mode, .. }: &ModeAt) -> f64 {
+    CONVERGED * mode.eigenvalue.norm() / mode.derivative.re.abs()
+}
 
 impl SparseSweep<'_> {
     /// The result, with shapes and critical friction coefficients.
@@ -42,9 +48,9 @@ impl SparseSweep<'_> {
             is_told || own.is_located() && own.restabilized.is_none() && sets_in
         });
         let vectors = |own: &FoundInterval| {
-            let State { mu, mode } = own.onset().filter(|_| !request.lefts_at.is_empty())?;
+            let ModeAt { mu, mode } = own.onset().filter(|_| !request.lefts_at.is_empty())?;
             let own = std::slice::from_ref(mode);
-            self.point_solver().vectors(&self.builder, (*mu, true), own).pop()
+            self.vectors((*mu, true), own).pop()
         };
         let found = found.iter().map(|own| (own.interval.clone(), vectors(own)));
         let found = found.chain(self.divergence(branches)?.map(|own| (own, None)));
@@ -94,19 +100,20 @@ impl SparseSweep<'_> {
         let mut before: Vec<Vec<f64>> = vec![Vec::new(); branches.len()];
         let mut sought = all();
         for round in 0.. {
-            for (&i, own) in sought.iter().zip(self.find_intervals(branches, &sought)?) {
-                found[i] = own;
-            }
+            let own: Result<Vec<_>, LinalgError> =
+                crate::parallel::map(&sought, |&i| self.intervals_of(&branches[i]));
+            sought.iter().zip(own?).for_each(|(&i, own)| found[i] = own);
             // Crossings that moved since the last round, all in the first one.
-            let mut open: Vec<&State> = Vec::new();
+            let mut open: Vec<&ModeAt> = Vec::new();
             let mut moved: Vec<usize> = Vec::new();
             for &i in sought.iter().filter(|_| self.builder.is_sampling) {
-                let own: Vec<&State> = found[i].iter().flat_map(FoundInterval::crossings).collect();
+                let own: Vec<&ModeAt> =
+                    found[i].iter().flat_map(FoundInterval::crossings).collect();
                 let places: Vec<f64> = own.iter().map(|state| state.mu).collect();
                 let before = std::mem::replace(&mut before[i], places);
                 let is_same = round > 0 && before.len() == own.len();
                 let moving = own.into_iter().enumerate().filter(|(k, state)| {
-                    !is_same || (state.mu - before[*k]).abs() > SETTLED.max(state.doubt())
+                    !is_same || (state.mu - before[*k]).abs() > SETTLED.max(doubt(state))
                 });
                 let known = open.len();
                 open.extend(moving.map(|(_, state)| state));
@@ -124,7 +131,7 @@ impl SparseSweep<'_> {
                 open.clear();
             }
             let mut has_grown = false;
-            for State { mu, mode } in open {
+            for ModeAt { mu, mode } in open {
                 has_grown |= self.builder.shift(*mu, std::slice::from_ref(mode))?;
             }
             if !has_grown {
@@ -137,20 +144,6 @@ impl SparseSweep<'_> {
         unreachable!("rounds end")
     }
 
-    /// The intervals of each of the branches `sought` in the basis as it is.
-    fn find_intervals(
-        &self,
-        branches: &[TrackedBranch],
-        sought: &[usize],
-    ) -> Result<Vec<Vec<FoundInterval>>, CeaError> {
-        let (solver, model, points) = (&self.point_solver(), &self.builder.model, &self.points);
-        let of_branch = |&i: &usize| {
-            OnsetFinder { solver, model, points, lowest: self.lowest }.intervals(&branches[i])
-        };
-        let found: Result<Vec<_>, _> = crate::parallel::map(sought, of_branch);
-        Ok(found?)
-    }
-
     fn friction_point(
         &self,
         k: usize,
@@ -159,9 +152,9 @@ impl SparseSweep<'_> {
     ) -> FrictionPoint {
         let point = &self.points[k];
         let wanted = &point.modes[..point.wanted];
-        let (solver, mu) = (self.point_solver(), point.friction_coefficient);
+        let mu = point.friction_coefficient;
         let vectors = match with_shapes {
-            true => solver.vectors(&self.builder, (mu, with_lefts), wanted),
+            true => self.vectors((mu, with_lefts), wanted),
             false => Vec::new(),
         };
         let mut vectors = vectors.into_iter();
@@ -176,7 +169,7 @@ impl SparseSweep<'_> {
                 |b| b.label,
             );
             // Without friction any combination of a degenerate pair is a mode: it has no direction.
-            let direction = match point.friction_coefficient {
+            let direction = match mu {
                 0.0 => 0,
                 _ => self.edge.direction(&check.edge, label.harmonic),
             };
@@ -208,6 +201,6 @@ impl SparseSweep<'_> {
         let mut modes: Vec<ComplexMode> = modes.collect();
         let mut above = modes.split_off(point.wanted);
         above.retain(|mode| mode.residual <= RESIDUAL_BOUND);
-        FrictionPoint { friction_coefficient: point.friction_coefficient, modes, above }
+        FrictionPoint { friction_coefficient: mu, modes, above }
     }
 }

@@ -1,0 +1,187 @@
+//! Modes at the friction coefficients of a sweep, each held to its residual in the full matrices, and their vectors.
+
+use super::SparseSweep;
+use crate::cea::sparse::left::correct_lefts;
+use crate::cea::sparse::mode::{ReducedMode, from_columns, to_columns};
+use crate::cea::sparse::packed::{PackedModes, PackedVector, joined, side_by_side};
+use crate::cea::sparse::point::{ModeCheck, SolvedPoint, normalize};
+use crate::cea::sparse::structure::StructureMatrices;
+use crate::cea::sparse::{GROUP_WIDTH, RESIDUAL_BOUND, TRACKING_MARGIN};
+use crate::cea::vectors::length;
+use crate::cea::{ModeLimit, ModeVectors, SweepProgress, SweepStage, keeping_ties};
+use crate::linalg::{LinalgError, Mat, c64};
+use std::f64::consts::TAU;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+impl SparseSweep<'_> {
+    pub(super) fn solve_anew(&mut self, indices: &[usize]) -> Result<(), LinalgError> {
+        for (k, point) in indices.iter().zip(self.solve_points(indices)?) {
+            self.points[*k] = point;
+        }
+        Ok(())
+    }
+
+    pub(super) fn solve_points(&self, indices: &[usize]) -> Result<Vec<SolvedPoint>, LinalgError> {
+        let solved = AtomicUsize::new(0);
+        crate::parallel::map(indices, |&k| {
+            let point = self.solve_point(k);
+            self.watch.reached(SweepProgress {
+                stage: SweepStage::Values,
+                solved: solved.fetch_add(1, Ordering::Relaxed) + 1,
+                total: indices.len(),
+            });
+            point
+        })
+    }
+
+    /// Point `k` in the basis as it is, or what an earlier run of the same sweep found there.
+    fn solve_point(&self, k: usize) -> Result<SolvedPoint, LinalgError> {
+        let (mu, leaves_out) = (self.grid[k], self.leaves_out[k]);
+        let stage = if leaves_out { "-left-out" } else { "" };
+        let (steps, held) = (self.builder.steps, self.builder.count);
+        let name = format!("value-{steps:04}-of-{held}-{mu:?}{stage}");
+        let kept = self.watch.recall(&name);
+        let modes = match kept.and_then(|columns| from_columns(&columns)) {
+            Some(modes) => modes,
+            None => {
+                let modes = self.modes(mu, leaves_out)?;
+                self.watch.keep(&name, &to_columns(&modes));
+                modes
+            }
+        };
+
+        // What they are in the full matrices.
+        let frequencies = modes.iter().map(|mode| mode.eigenvalue.im);
+        let (wanted, range_end) = match self.limit {
+            ModeLimit::Lowest(count) => {
+                let wanted = keeping_ties(frequencies, count);
+                (wanted, modes[..wanted].last().map_or(0.0, |mode| mode.eigenvalue.im))
+            }
+            ModeLimit::MaxFrequency(hz) => {
+                (frequencies.take_while(|own| *own < TAU * hz).count(), TAU * hz)
+            }
+        };
+        let checked = self.builder.count.max(wanted).min(modes.len());
+        let checks = self.check(mu, &modes[..checked]);
+        Ok(SolvedPoint {
+            friction_coefficient: mu,
+            modes,
+            wanted,
+            checks,
+            range_end,
+            solved_in: self.builder.model.sample_width(mu),
+            has_coarse_lefts: true,
+        })
+    }
+
+    /// The modes of the projected problem at `mu`. Left vectors are coarse ones, until [`SolvedPoint::refine_lefts`]. With `leaves_out`
+    /// motions near critical damping that have not converged take no places: combinations of what the basis does not hold.
+    fn modes(&self, mu: f64, leaves_out: bool) -> Result<Vec<ReducedMode>, LinalgError> {
+        let count = self.builder.count + TRACKING_MARGIN;
+        let mut modes = self.builder.model.solve_with_coarse_lefts(mu, count)?;
+        if leaves_out {
+            let checks = self.check(mu, &modes);
+            let mut converged = checks.iter().map(|check| check.residual <= RESIDUAL_BOUND);
+            modes.retain(|mode| converged.next() == Some(true) || !mode.is_nearly_critical());
+        }
+        Ok(modes)
+    }
+
+    /// Residuals and edge displacements of `modes` in the full matrices at `mu`.
+    pub(super) fn check(&self, mu: f64, modes: &[ReducedMode]) -> Vec<ModeCheck> {
+        let model = &self.builder.model;
+        let matrices = StructureMatrices::at(self.tangent, self.linearization, mu);
+        let packed = PackedModes::of(modes, model.dimension());
+        let norms = matrices.norms();
+        let mut checks: Vec<(usize, ModeCheck)> = Vec::with_capacity(modes.len());
+        for group in packed.groups(GROUP_WIDTH) {
+            let x = model.expand(packed.coordinates.get(.., group.columns.clone()));
+            let (residuals, momenta) = matrices.residuals_and_momenta(&group.entries, x.as_ref());
+            for &j in &group.modes {
+                let lambda = modes[j].eigenvalue;
+                let modulus = lambda.norm();
+                let [residual, momentum, shape] =
+                    [&residuals, &momenta, &x].map(|mapped| packed.vector(j, &group, mapped));
+                let force = matrices.residual_factor(lambda) * residual.norm();
+                let inertia = self.linearization.inertia(lambda) * momentum.norm();
+                let scale = modulus * modulus * norms[2] + modulus * norms[1] + norms[0];
+                let check = ModeCheck {
+                    residual: force / (scale * shape.norm()),
+                    force_residual: force / inertia,
+                    uncertainty: f64::EPSILON * scale * length(&modes[j].left) / modulus,
+                    contact_share: self.contact_share(shape, momentum),
+                    edge: self.edge.restrict(|unknown| shape.at(unknown)),
+                    peak: shape.peak(),
+                };
+                checks.push((j, check));
+            }
+        }
+        checks.sort_by_key(|(j, _)| *j);
+        checks.into_iter().map(|(_, check)| check).collect()
+    }
+
+    /// Kinetic energy of the contact edge's nodes over the whole. `momentum` is `M(mu) x`, which differs from
+    /// that of the body alone, `M(0) x`, in the rows of these nodes.
+    fn contact_share(&self, x: PackedVector<'_>, momentum: PackedVector<'_>) -> f64 {
+        let mass = &self.tangent.mass;
+        let (pattern, values) = (mass.pattern(), &mass.coefficients()[0]);
+        let along = |i: usize, p: c64| x.at(i).re * p.re + x.at(i).im * p.im;
+        let (mut edge, mut friction) = (0.0, 0.0);
+        let contact = &self.tangent.contact;
+        let touched = [&contact.tangential, &contact.normal, &contact.opposite];
+        for &i in touched.into_iter().flatten() {
+            let row = pattern.row(i);
+            let own: c64 = row.map(|(position, j)| x.at(j) * values[position]).sum();
+            edge += along(i, own);
+            friction += along(i, momentum.at(i) - own);
+        }
+        let whole: f64 = (0..pattern.dimension()).map(|i| along(i, momentum.at(i))).sum();
+        edge / (whole - friction)
+    }
+
+    /// Right and, `with_lefts`, left vectors of `modes` at `mu` over all nodal dofs, see [`ModeVectors`]; left ones are corrected by
+    /// the stiffness and the modes without friction.
+    pub(super) fn vectors(
+        &self,
+        (mu, with_lefts): (f64, bool),
+        modes: &[ReducedMode],
+    ) -> Vec<ModeVectors> {
+        let model = &self.builder.model;
+        let expanded = |of: fn(&ReducedMode) -> &Vec<c64>| -> Vec<Vec<c64>> {
+            let groups = modes.chunks(GROUP_WIDTH / 2).flat_map(|group| {
+                let coordinates: Vec<&Vec<c64>> = group.iter().map(of).collect();
+                let x = model.expand(side_by_side(model.dimension(), &coordinates).as_ref());
+                (0..group.len()).map(move |j| joined(&x, j))
+            });
+            groups.collect()
+        };
+        let rights = expanded(|mode| &mode.right);
+        let lefts = match with_lefts {
+            true => expanded(|mode| &mode.left),
+            false => vec![Vec::new(); modes.len()],
+        };
+        // Over the unknowns.
+        let own = |((mode, right), left): ((&ReducedMode, _), _)| ModeVectors {
+            eigenvalue: mode.eigenvalue,
+            rate: mode.derivative,
+            right,
+            left,
+        };
+        let mut all: Vec<ModeVectors> = modes.iter().zip(rights).zip(lefts).map(own).collect();
+        if with_lefts {
+            let leading = self.builder.leading_count().min(model.dimension());
+            let leading = model.expand(Mat::identity(leading, leading).as_ref());
+            correct_lefts(self.tangent, (&self.builder.factors, leading), mu, &mut all);
+        }
+        // Over all nodal dofs.
+        for ModeVectors { right, left, .. } in &mut all {
+            *right = self.tangent.displacement(right);
+            let scale = normalize(right);
+            if with_lefts {
+                *left = self.tangent.left_displacement(left, mu);
+            }
+            left.iter_mut().for_each(|v| *v *= scale);
+        }
+        all
+    }
+}
