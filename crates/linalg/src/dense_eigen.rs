@@ -1,6 +1,7 @@
 //! Eigenvalue decomposition of dense real matrices.
 
 use super::dense::{column, column_mut, product, random_columns};
+use super::vectors::{dot, length};
 use super::{ComplexDenseLu, LinalgError, interruption};
 use faer::diag::Diag;
 use faer::dyn_stack::{MemBuffer, MemStack};
@@ -313,7 +314,7 @@ fn orthonormal(vectors: Vec<Vec<c64>>) -> Vec<Vec<c64>> {
 
 fn project_out(vector: &mut [c64], basis: &[Vec<c64>]) {
     for direction in basis {
-        let overlap: c64 = direction.iter().zip(vector.iter()).map(|(d, v)| d.conj() * v).sum();
+        let overlap = dot(direction, vector);
         vector.iter_mut().zip(direction).for_each(|(v, d)| *v -= overlap * d);
     }
 }
@@ -322,10 +323,6 @@ fn normalized(mut vector: Vec<c64>) -> Vec<c64> {
     let norm = length(&vector);
     vector.iter_mut().for_each(|v| *v /= norm);
     vector
-}
-
-fn length(vector: &[c64]) -> f64 {
-    vector.iter().map(|v| v.norm_sqr()).sum::<f64>().sqrt()
 }
 
 #[cfg(test)]

@@ -20,6 +20,7 @@ mod sparse_cholesky;
 mod sparse_ldl;
 mod sparse_lu;
 mod sparse_product;
+pub mod vectors;
 
 pub use faer::{Mat, MatMut, MatRef, Scale, c64};
 

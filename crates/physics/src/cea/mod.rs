@@ -13,7 +13,6 @@ mod quadratic;
 mod request;
 pub mod sparse;
 mod spectrum;
-mod vectors;
 mod watch;
 
 pub use branch::{BranchPoint, ModeBranch};

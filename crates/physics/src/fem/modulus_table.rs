@@ -26,11 +26,6 @@ impl ModulusTable {
         Self { key: key.to_owned(), file: file.to_owned(), rows }
     }
 
-    /// Its rows.
-    pub fn rows(&self) -> &[[f64; 3]] {
-        &self.rows
-    }
-
     /// Lowest and highest frequency, Hz.
     pub fn range_hz(&self) -> [f64; 2] {
         [self.rows[0][0], self.rows[self.rows.len() - 1][0]]

@@ -84,11 +84,6 @@ impl HarmonicParts<'_> {
         self.supports.iter().map(of).collect()
     }
 
-    /// Contact nodes, or rings of them, of one sector.
-    pub fn contact_count(&self) -> usize {
-        self.contact.len()
-    }
-
     /// `M x` of all regions.
     pub fn momentum(&self, x: &[c64]) -> Vec<c64> {
         let mut sum = vec![c64::new(0.0, 0.0); x.len()];

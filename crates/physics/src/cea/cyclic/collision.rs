@@ -7,8 +7,8 @@
 use super::follow::Follower;
 use super::path::{Eigenpair, Path};
 use super::problem::Matrices;
-use crate::cea::vectors::{dot, normalize};
 use crate::linalg::c64;
+use crate::linalg::vectors::{dot, normalize};
 
 /// Two branches closer than this, relative, may be about to meet.
 const NEAR: f64 = 1e-2;

@@ -10,8 +10,8 @@ use super::paths::{HarmonicPaths, Overdamped, Range, describe, start};
 use super::problem::{HarmonicProblem, Matrices};
 use crate::cea::CeaError;
 use crate::cea::counted::NEARLY_CRITICAL;
-use crate::cea::vectors::dot;
 use crate::linalg::dense_eigen::complex_eigenvalues;
+use crate::linalg::vectors::dot;
 use crate::linalg::{ComplexDenseLu, Mat, c64};
 use std::rc::Rc;
 

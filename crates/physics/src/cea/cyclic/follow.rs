@@ -2,9 +2,9 @@
 
 use super::path::Eigenpair;
 use super::problem::{HarmonicProblem, Matrices};
-use crate::cea::vectors::{dot, normalize};
 use crate::linalg::banded::BandedLu;
 use crate::linalg::c64;
+use crate::linalg::vectors::{dot, normalize};
 use std::rc::Rc;
 
 /// How far apart two successive points of a path may lie.

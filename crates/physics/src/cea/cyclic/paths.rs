@@ -6,8 +6,8 @@ use super::path::{Eigenpair, Path, Waves};
 use super::problem::{HarmonicProblem, Matrices};
 use super::reduction::Reduction;
 use crate::cea::CeaError;
-use crate::cea::vectors::{dot, normalize};
 use crate::linalg::c64;
+use crate::linalg::vectors::{dot, normalize};
 use std::rc::Rc;
 
 /// The followed branches of one harmonic.

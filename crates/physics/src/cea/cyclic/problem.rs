@@ -2,9 +2,9 @@
 
 use super::path::Eigenpair;
 use crate::cea::counted::STANDSTILL;
-use crate::cea::vectors::{ZERO, add, dot, largest, product};
 use crate::fem::own_frequency_step;
 use crate::linalg::banded::{BandedLu, BandedMatrix, multiply_band};
+use crate::linalg::vectors::{ZERO, add, dot, largest, product};
 use crate::linalg::{Mat, c64};
 use crate::prestress::{
     FrictionPolynomial, HarmonicTangent, MovingHarmonic, WaveTangent, evaluate,

@@ -3,10 +3,10 @@
 use super::across::Across;
 use super::path::Eigenpair;
 use super::pencil::{Modes, Pencil};
-use crate::cea::vectors;
 use crate::linalg::banded::{BandedMatrix, CompactRows};
 use crate::linalg::dense::{dot, product, transpose_product};
 use crate::linalg::dense_eigen::symmetric_eigen;
+use crate::linalg::vectors;
 use crate::linalg::{Mat, c64};
 use crate::prestress::{FrictionPolynomial, HarmonicTangent};
 

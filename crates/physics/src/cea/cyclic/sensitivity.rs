@@ -4,10 +4,10 @@ use super::branch::point_of;
 use super::follow::Follower;
 use super::path::Waves;
 use super::problem::HarmonicProblem;
-use crate::cea::vectors::{ZERO, dot};
 use crate::cea::{BranchPoint, ModeBranch};
 use crate::fem::own_frequency_step;
 use crate::linalg::c64;
+use crate::linalg::vectors::{ZERO, dot};
 use crate::prestress::{HarmonicTangent, MovingHarmonic, WaveTangent};
 use std::collections::{BTreeMap, BTreeSet};
 

@@ -49,7 +49,9 @@ pub struct BranchEnd {
     /// Whether damping of friction takes it beyond the critical one; else it could not be told from others at the next point.
     pub is_damped: bool,
     /// Where it was last seen, at that point or between it and the next.
-    pub seen: LastSeen,
+    pub seen: ModeAt,
+    /// Friction coefficient from which on it is none of the modes.
+    pub lost_at: f64,
     /// Friction coefficient at which the mode ceases to oscillate as steady sliding loses its static stability.
     pub diverges_at: Option<f64>,
 }
@@ -59,15 +61,6 @@ impl BranchEnd {
     pub fn is_lost(&self) -> bool {
         !self.is_damped && self.diverges_at.is_none()
     }
-}
-
-/// A mode where its branch was last seen.
-#[derive(Clone, Debug)]
-pub struct LastSeen {
-    /// The mode.
-    pub mode: ReducedMode,
-    /// The friction coefficient there, and the next one, where it is none of the modes.
-    pub between: [f64; 2],
 }
 
 /// Whether a mode may cease to oscillate within a step of friction, as friction across slow sliding, a dashpot of `mu p / V`, damps it.
@@ -215,14 +208,19 @@ pub fn track(
             branch.passed.extend(next.iter().flat_map(|(_, passed)| passed.iter().cloned()));
             let next = next.map(|(i, _)| *i);
             if let Some(i) = last
-                && let Err(seen) = &links[i]
+                && let Err((seen, lost_at)) = &links[i]
                 && i < needed
                 && stays(&before.modes[i])
-                && let rest = after.friction_coefficient - seen.between[0]
+                && let rest = after.friction_coefficient - seen.mu
                 && !leaves_range(&seen.mode, rest, after.range_end)
             {
-                let (seen, is_damped) = (seen.clone(), may_vanish(&before.modes[i], step));
-                branch.end = Some(BranchEnd { after: k - 1, is_damped, seen, diverges_at: None });
+                branch.end = Some(BranchEnd {
+                    after: k - 1,
+                    is_damped: may_vanish(&before.modes[i], step),
+                    seen: seen.clone(),
+                    lost_at: *lost_at,
+                    diverges_at: None,
+                });
             }
             branch.modes.push(next);
         }
@@ -250,8 +248,8 @@ fn adopt_newcomers(
     }
 }
 
-/// The mode that continues another one, with what it was between (see [`TrackedBranch::passed`]), or where that was last seen.
-type Link = Result<(usize, Vec<ModeAt>), LastSeen>;
+/// The mode that continues another one, with what it was between (see [`TrackedBranch::passed`]), or where that was last seen and the next place.
+type Link = Result<(usize, Vec<ModeAt>), (ModeAt, f64)>;
 
 /// For each mode of `from` the mode of `to` that continues it. The first `needed` modes must be matched
 /// beyond doubt, or the interval is halved.
@@ -290,11 +288,10 @@ fn match_modes(
         link_by_extrapolation(from, to, needed, &mut links);
     }
     let mut passed = grown_between((from, to), &links, needed, model)?;
-    let between = [from.0, to.0];
     let pairs = links.into_iter().enumerate().zip(from.1);
     let links = pairs.map(|((i, link), mode)| match link {
         Some(next) => Ok((next, std::mem::take(&mut passed[i]))),
-        None => Err(LastSeen { mode: mode.clone(), between }),
+        None => Err((ModeAt { mu: from.0, mode: mode.clone() }, to.0)),
     });
     Ok(links.collect())
 }

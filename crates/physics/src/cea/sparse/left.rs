@@ -6,8 +6,8 @@ use super::packed::{joined, side_by_side};
 use super::pencil::Pencil;
 use super::{BESIDE, GROUP_WIDTH, MOST_STEPS};
 use crate::cea::ModeVectors;
-use crate::cea::vectors::{dot, length};
 use crate::linalg::dense::{product, transpose_product};
+use crate::linalg::vectors::{dot, length};
 use crate::linalg::{ComplexDenseLu, Mat, c64};
 use crate::prestress::SlidingTangent;
 

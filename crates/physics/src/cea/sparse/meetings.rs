@@ -110,12 +110,11 @@ pub fn grown_between(
             // It is said to the branch that grows at an end, or that it has more of.
             let parts = parts(growing);
             let is_held = |i: &usize| pair[*i].0 < needed && parts[*i] > 0.5 * MIXED;
-            let mut held: Vec<usize> = [0, 1].into_iter().filter(is_held).collect();
-            crate::order::sort_by_number(&mut held, |&i| {
-                let grows = pair[i].1.iter().any(|mode| mode.is_growing());
-                -parts[i] - if grows { f64::INFINITY } else { 0.0 }
+            let held = [0, 1].into_iter().filter(is_held).max_by(|&a, &b| {
+                let grows = |i: usize| pair[i].1.iter().any(|mode| mode.is_growing());
+                grows(a).cmp(&grows(b)).then(parts[a].total_cmp(&parts[b]))
             });
-            let Some(&i) = held.first().filter(|_| grows(modes[growing].eigenvalue)) else {
+            let Some(i) = held.filter(|_| grows(modes[growing].eigenvalue)) else {
                 continue;
             };
             // The two are apart where they are farther from one another than here.

@@ -50,12 +50,9 @@ pub use edge::ContactEdge;
 pub use frictionless::FrictionlessModes;
 pub use full_problem::FullProblem;
 pub use linearization::{Centre, Linearization};
-pub use mode::ReducedMode;
 pub use nodal_diameters::sweep_by_diameters;
 pub use pairs::{ModePair, mode_pairs};
 pub use point::{ModeCheck, SolvedPoint};
-pub use projected::ProjectedMatrices;
-pub use reduced::ReducedModel;
 pub use structure::{ShiftInverted, StiffnessFactors, StructureMatrices};
 pub use sweep::{SparseSweep, sweep};
 

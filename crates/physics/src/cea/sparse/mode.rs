@@ -2,8 +2,8 @@
 
 use super::{CONVERGED, SAME_EIGENVALUE};
 use crate::cea::counted::NEARLY_CRITICAL;
-use crate::cea::vectors::{dot, length};
 use crate::linalg::c64;
+use crate::linalg::vectors::{dot, length};
 
 /// Damping factor, of decay or of growth, from which on a motion may as well be one of those that do not oscillate.
 const HARDLY_OSCILLATING: f64 = 0.95;

@@ -1,8 +1,8 @@
 //! Complex vectors of modes in real matrices, for real arithmetic.
 
 use super::mode::ReducedMode;
-use crate::cea::vectors::length;
 use crate::linalg::dense::{column, dot, product, transpose_product};
+use crate::linalg::vectors::length;
 use crate::linalg::{Mat, c64};
 
 /// `w_i^T P x_j` of the left vectors of some modes and the right ones of others, by one product of real matrices.

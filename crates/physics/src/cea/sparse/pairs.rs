@@ -1,9 +1,9 @@
 //! Right and left vectors of modes in the full problem, and what small changes of the matrices do to their eigenvalues.
 
 use super::full_problem::{FullProblem, form};
-use crate::cea::vectors::dot;
 use crate::fem::own_frequency_step;
 use crate::linalg::dense::random_columns;
+use crate::linalg::vectors::dot;
 use crate::linalg::{ComplexSparseLu, Mat, SparsityPattern, c64};
 use crate::prestress::SlidingTangent;
 
@@ -18,8 +18,6 @@ const ALIKE: f64 = 1e-5;
 /// An eigenvalue with its vectors over the unknowns of a tangent.
 #[derive(Clone, Debug)]
 pub struct ModePair {
-    /// Friction coefficient.
-    pub friction_coefficient: f64,
     /// Eigenvalue `lambda`, rad/s.
     pub eigenvalue: c64,
     /// `d lambda / d mu`, rad/s, the base state following.
@@ -71,7 +69,6 @@ pub fn mode_pairs(tangent: &SlidingTangent, mu: f64, targets: &[c64]) -> Vec<Opt
         let scale = problem.slope(*target, &left, &right);
         left.iter_mut().for_each(|v| *v /= scale);
         let mut pair = ModePair {
-            friction_coefficient: mu,
             eigenvalue: *target,
             derivative: c64::new(0.0, 0.0),
             own_slope: problem.own_slope(*target, &left, &right),

@@ -3,7 +3,7 @@
 use super::RESIDUAL_BOUND;
 use super::mode::ReducedMode;
 use super::reduced::{ReducedModel, inside};
-use crate::cea::vectors::length;
+use crate::linalg::vectors::length;
 use crate::linalg::{Mat, c64};
 
 /// Residual relative to the matrices below which there is only round-off.

@@ -10,11 +10,11 @@ use super::pencil::Pencil;
 use super::projected::{ProjectedMatrices, summed};
 use super::term::Term;
 use super::{MULTIPLE, SAME_SPACE};
-use crate::cea::vectors::length;
 use crate::linalg::dense::{
     GrowingColumns, column, join_columns, orthonormal_complement, product, transpose_product,
 };
 use crate::linalg::gram::complement;
+use crate::linalg::vectors::length;
 use crate::linalg::{FrictionWeights, LinalgError, MatrixPolynomial};
 use crate::linalg::{Mat, MatRef, Scale, c64};
 use crate::prestress::SlidingTangent;

@@ -299,7 +299,7 @@ impl<'a> SparseSweep<'a> {
             let ends = branches.iter().filter_map(|branch| branch.end.as_ref());
             let lost = ends.filter(|end| end.is_lost() && !searched.contains(&end.after));
             let mut open: Vec<(usize, [f64; 2])> =
-                lost.map(|end| (end.after, end.seen.between)).collect();
+                lost.map(|end| (end.after, [end.seen.mu, end.lost_at])).collect();
             open.sort_by_key(|(k, _)| *k);
             open.dedup_by_key(|(k, _)| *k);
             if open.is_empty() {

@@ -47,7 +47,7 @@ impl SparseSweep<'_> {
         if !self.is_static() {
             return Ok(None);
         }
-        let [mut low, beyond] = end.seen.between;
+        let (mut low, beyond) = (end.seen.mu, end.lost_at);
         let size = self.ln_static(low)?.re;
         let mut before = self.static_determinant(low, size)?;
         // Near zero the square of an eigenvalue moves evenly: as far again. What is damped beyond the critical may come there later.

@@ -5,9 +5,9 @@ use crate::cea::onset::{BranchSolver, Instability, instabilities};
 use crate::cea::sparse::branches::{TrackedBranch, followed};
 use crate::cea::sparse::mode::{ModeAt, ReducedMode};
 use crate::cea::sparse::{BESIDE, CONVERGED, RESIDUAL_BOUND, SAME};
-use crate::cea::vectors::length;
 use crate::cea::{BranchPoint, UnstableInterval};
 use crate::linalg::LinalgError;
+use crate::linalg::vectors::length;
 
 /// Steps over the whole range, at least, in which a branch is led back: a crossing lies between two of them.
 const STEPS_BACK: usize = 8;
@@ -58,13 +58,11 @@ impl SparseSweep<'_> {
             mode: point.modes[i].clone(),
         });
         // What it was between them, as the basis has it now.
-        let passed = branch.passed.iter().map(|own| {
-            let mode = self.builder.model.mode_near(own.mu, &own.mode);
-            mode.map_or_else(|| own.clone(), |mode| ModeAt { mode, ..*own })
+        let passed = branch.passed.iter().filter_map(|ModeAt { mu, mode }| {
+            Some(ModeAt { mu: *mu, mode: self.builder.model.mode_near(*mu, mode)? })
         });
         // Between the points it may be followed beyond the last that has it.
-        let last = branch.end.iter().map(|end| &end.seen);
-        let last = last.map(|own| ModeAt { mu: own.between[0], mode: own.mode.clone() });
+        let last = branch.end.iter().map(|end| end.seen.clone());
         let states = states.chain(passed);
         let mut states: Vec<ModeAt> = states.filter(|state| state.mu >= self.lowest).collect();
         crate::order::sort_by_number(&mut states, |state| state.mu);

@@ -7,8 +7,8 @@ use crate::cea::sparse::packed::{PackedModes, PackedVector, joined, side_by_side
 use crate::cea::sparse::point::{ModeCheck, SolvedPoint, normalize};
 use crate::cea::sparse::structure::StructureMatrices;
 use crate::cea::sparse::{GROUP_WIDTH, RESIDUAL_BOUND, TRACKING_MARGIN};
-use crate::cea::vectors::length;
 use crate::cea::{ModeLimit, ModeVectors, SweepProgress, SweepStage, keeping_ties};
+use crate::linalg::vectors::length;
 use crate::linalg::{LinalgError, Mat, c64};
 use std::f64::consts::TAU;
 use std::sync::atomic::{AtomicUsize, Ordering};

@@ -31,20 +31,18 @@ impl SparseSweep<'_> {
             })
             .collect();
         let mut found = self.intervals(branches)?;
-        // What grows by no more than rounded matrices leave open, wherever that was asked for, is told only where it sets in once and for
-        // all.
-        let highest = self.grid[self.grid.len() - 1];
-        found.retain(|own| {
-            let own = &own.interval;
+        // What grows by no more than rounded matrices leave open, wherever that was asked for, is told where it goes on alone.
+        found.retain(|FoundInterval { interval: own, .. }| {
             let end = own.restabilized.map_or(f64::INFINITY, |(mu, _)| mu);
-            let is_own =
-                |mode: &&ComplexMode| (mode.harmonic, mode.branch) == (own.harmonic, own.branch);
-            let inside = points.iter().filter(|point| {
-                (own.critical_friction..=end).contains(&point.friction_coefficient)
-            });
-            let mut modes = inside.flat_map(|point| &point.modes).filter(is_own).peekable();
+            let inside = points.iter().map(|point| (point.friction_coefficient, &point.modes));
+            let inside = inside.filter(|(mu, _)| (own.critical_friction..=end).contains(mu));
+            let modes = inside.flat_map(|(_, modes)| modes);
+            let mut modes = modes
+                .filter(|mode| (mode.harmonic, mode.branch) == (own.harmonic, own.branch))
+                .peekable();
             let is_told = modes.peek().is_none() || modes.any(ComplexMode::is_unstable);
-            let sets_in = own.critical_friction < (1.0 - SAME_EIGENVALUE) * highest;
+            let sets_in =
+                own.critical_friction < (1.0 - SAME_EIGENVALUE) * self.grid[self.grid.len() - 1];
             is_told || own.is_located() && own.restabilized.is_none() && sets_in
         });
         let vectors = |own: &FoundInterval| {

@@ -1,16 +1,17 @@
 //! Sums over short complex vectors.
 
-use crate::linalg::c64;
+use crate::c64;
 
-pub(super) const ZERO: c64 = c64::new(0.0, 0.0);
+/// Zero.
+pub const ZERO: c64 = c64::new(0.0, 0.0);
 
 /// `y^H x`.
-pub(super) fn dot(y: &[c64], x: &[c64]) -> c64 {
+pub fn dot(y: &[c64], x: &[c64]) -> c64 {
     y.iter().zip(x).map(|(y, x)| y.conj() * x).sum()
 }
 
 /// `a^T x` in four fixed sums, which do not wait for one another.
-pub(super) fn product(a: &[c64], x: &[c64]) -> c64 {
+pub fn product(a: &[c64], x: &[c64]) -> c64 {
     let mut sums = [ZERO; 4];
     let (a_chunks, x_chunks) = (a.chunks_exact(4), x.chunks_exact(4));
     let rest = a_chunks.remainder().iter().zip(x_chunks.remainder());
@@ -24,24 +25,24 @@ pub(super) fn product(a: &[c64], x: &[c64]) -> c64 {
 }
 
 /// Adds a vector to another.
-pub(super) fn add(sum: &mut [c64], term: &[c64]) {
+pub fn add(sum: &mut [c64], term: &[c64]) {
     for (s, t) in sum.iter_mut().zip(term) {
         *s += t;
     }
 }
 
 /// Largest modulus.
-pub(super) fn largest(x: &[c64]) -> f64 {
+pub fn largest(x: &[c64]) -> f64 {
     x.iter().fold(0.0, |m, v| v.norm().max(m))
 }
 
 /// Euclidean length.
-pub(super) fn length(x: &[c64]) -> f64 {
+pub fn length(x: &[c64]) -> f64 {
     x.iter().map(|v| v.norm_sqr()).sum::<f64>().sqrt()
 }
 
 /// Scales to unit Euclidean length; returns the length before.
-pub(super) fn normalize(x: &mut [c64]) -> f64 {
+pub fn normalize(x: &mut [c64]) -> f64 {
     let norm = length(x);
     x.iter_mut().for_each(|v| *v *= 1.0 / norm);
     norm
