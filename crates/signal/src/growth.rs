@@ -106,11 +106,11 @@ pub enum NoGrowth {
 /// The signal is demodulated at its strongest line, then at the strongest within the stage found,
 /// `z(t) = sum_j w_j x_j e^{-2 pi i f t_j}` over 12 periods; for a pure exponential the filter is exact. The stage is
 /// the interval over which `ln |z|` changes most while it deviates from a line by no more than 1 % rms (then 3, 10,
-/// 20 %) and stays above 1024 eps of the largest sample; a growing stage is preferred to a decaying one. A tenth at each end is cut off, where
-/// saturation would bias the slope. Rate and frequency are least-squares slopes of `ln |z|` and of the
-/// phase; their intervals count one independent value for each window length. A stage lasts 24 periods at
-/// least, and its rate's interval leaves out zero. Does not separate two modes closer than a third of the
-/// frequency: they beat, and the stage found is one where they do not.
+/// 20 %) and stays above 1024 eps of the largest sample; a growing stage is preferred to a decaying one. A tenth at
+/// each end is cut off, where saturation would bias the slope. Rate and frequency are least-squares slopes of `ln |z|`
+/// and of the phase; their intervals count one independent value for each window length. A stage lasts 24 periods at
+/// least, and its rate's interval leaves out zero. Does not separate two modes closer than a third of the frequency:
+/// they beat, and the stage found is one where they do not.
 ///
 /// # Errors
 /// [`NoGrowth`]: a record under 36 periods, nothing above round-off, no such interval, samples that are

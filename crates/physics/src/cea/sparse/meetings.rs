@@ -67,9 +67,8 @@ fn alone(
     places.find_map(|mu| {
         let eigenvalue = end.eigenvalue + end.derivative * (mu - start);
         let mode = model.mode_near(mu, &ReducedMode { eigenvalue, ..end.clone() })?;
-        let middle = 0.5 * (mu + start);
-        let [forward, backward] = model.overlaps_at(middle, from_ref(&mode), from_ref(end));
-        let is_same = (forward[(0, 0)] * backward[(0, 0)] - 1.0).norm() < SAME;
+        let [a, b] = model.overlaps_at(0.5 * (mu + start), from_ref(&mode), from_ref(end));
+        let is_same = (a[(0, 0)] * b[(0, 0)] - 1.0).norm() < SAME;
         (is_same && !mode.is_growing()).then_some(ModeAt { mu, mode })
     })
 }
@@ -81,8 +80,7 @@ pub fn grown_between(
     needed: usize,
     model: &ReducedModel,
 ) -> Result<Vec<Vec<ModeAt>>, LinalgError> {
-    let mut grown = vec![Vec::new(); links.len()];
-    let mu = [from.0, to.0];
+    let (mu, mut grown) = ([from.0, to.0], vec![Vec::new(); links.len()]);
     let rates = mu.map(|mu| model.derivative_at(mu));
     // Branches that do not grow all the way.
     let linked = links.iter().enumerate();
@@ -96,8 +94,7 @@ pub fn grown_between(
             };
             // Of the two modes that are combinations of both there, nearest to the mean, one may grow.
             let modes = model.solve_between(place, from.1.len().max(to.1.len()))?;
-            let ends = pair.map(|own| own.1[0].clone());
-            let [overlaps, _] = model.overlaps_at(place, &ends, &modes);
+            let [overlaps, _] = model.overlaps_at(place, &pair.map(|own| own.1[0].clone()), &modes);
             let parts = |j: usize| [0, 1].map(|i| overlaps[(i, j)].norm_sqr());
             let mut mixed: Vec<usize> =
                 (0..modes.len()).filter(|&j| parts(j).iter().sum::<f64>() > MIXED).collect();
@@ -120,8 +117,8 @@ pub fn grown_between(
             // The two are apart where they are farther from one another than here.
             let rates = [0, 1].map(|end| pair.map(|own| own.1[end].derivative));
             let [a, b] = rates.map(|[a, b]| (a - b).norm());
-            let split = modes[growing].eigenvalue - modes[decaying].eigenvalue;
-            let reach = split.norm() / a.min(b);
+            let [p, q] = [growing, decaying].map(|j| modes[j].eigenvalue);
+            let reach = (p - q).norm() / a.min(b);
             let (own, ends) = pair[i];
             let beside = |sign: f64, end: usize| {
                 let places = (1..=MOST_ATTEMPTS).map(|k| place + sign * reach * (1 << k) as f64);

@@ -4,7 +4,7 @@ use super::SparseSweep;
 use crate::cea::onset::{BranchSolver, Instability, instabilities};
 use crate::cea::sparse::branches::{TrackedBranch, followed};
 use crate::cea::sparse::mode::{ModeAt, ReducedMode};
-use crate::cea::sparse::{BESIDE, CONVERGED, RESIDUAL_BOUND, SAME};
+use crate::cea::sparse::{CONVERGED, RESIDUAL_BOUND, SAME};
 use crate::cea::{BranchPoint, UnstableInterval};
 use crate::linalg::LinalgError;
 use crate::linalg::vectors::length;
@@ -58,8 +58,9 @@ impl SparseSweep<'_> {
             mode: point.modes[i].clone(),
         });
         // What it was between them, as the basis has it now.
-        let passed = branch.passed.iter().filter_map(|ModeAt { mu, mode }| {
-            Some(ModeAt { mu: *mu, mode: self.builder.model.mode_near(*mu, mode)? })
+        let passed = branch.passed.iter().map(|ModeAt { mu, mode }| {
+            let found = self.builder.model.mode_near(*mu, mode);
+            ModeAt { mu: *mu, mode: found.unwrap_or_else(|| mode.clone()) }
         });
         // Between the points it may be followed beyond the last that has it.
         let last = branch.end.iter().map(|end| end.seen.clone());
@@ -194,10 +195,7 @@ impl BranchSolver for &SparseSweep<'_> {
         Ok(best.map(|best| {
             // That was in the span of samples, if there are any: the whole basis knows better.
             let coarse = modes.swap_remove(best);
-            let found = self.builder.model.mode_near(mu, &coarse);
-            let change = |own: &ReducedMode| (own.eigenvalue - coarse.eigenvalue).norm();
-            let found = found.filter(|own| change(own) <= BESIDE * coarse.eigenvalue.norm());
-            ModeAt { mu, mode: found.unwrap_or(coarse) }
+            ModeAt { mu, mode: self.builder.model.mode_near(mu, &coarse).unwrap_or(coarse) }
         }))
     }
 }

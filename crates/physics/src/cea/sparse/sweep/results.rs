@@ -6,7 +6,7 @@ use crate::cea::sparse::branches::{BranchLabel, TrackedBranch};
 use crate::cea::sparse::mode::ModeAt;
 use crate::cea::sparse::{CONVERGED, MOST_ATTEMPTS, RESIDUAL_BOUND, SAME_EIGENVALUE};
 use crate::cea::{BeyondMode, CeaError, ComplexMode, FrictionPoint, FrictionSweep, SweepRequest};
-use crate::cea::{EndedMode, UnconvergedMode};
+use crate::cea::{EndedMode, UnconvergedMode, UnstableInterval};
 use crate::linalg::{LinalgError, c64};
 use std::f64::consts::TAU;
 
@@ -31,19 +31,24 @@ impl SparseSweep<'_> {
             })
             .collect();
         let mut found = self.intervals(branches)?;
-        // What grows by no more than rounded matrices leave open, wherever that was asked for, is told where it goes on alone.
+        // What grows by no more than rounded matrices leave open, wherever that was asked for, is told where it goes on alone: two branches
+        // that meet may have one onset, and one of them no end.
+        let ended = found.iter().filter(|own| own.interval.restabilized.is_some());
+        let onset = |own: &UnstableInterval| [own.critical_friction, own.frequency_hz];
+        let ended: Vec<[f64; 2]> = ended.map(|own| onset(&own.interval)).collect();
+        let highest = self.grid[self.grid.len() - 1];
         found.retain(|FoundInterval { interval: own, .. }| {
             let end = own.restabilized.map_or(f64::INFINITY, |(mu, _)| mu);
-            let inside = points.iter().map(|point| (point.friction_coefficient, &point.modes));
-            let inside = inside.filter(|(mu, _)| (own.critical_friction..=end).contains(mu));
-            let modes = inside.flat_map(|(_, modes)| modes);
-            let mut modes = modes
-                .filter(|mode| (mode.harmonic, mode.branch) == (own.harmonic, own.branch))
-                .peekable();
+            let (range, name) = (own.critical_friction..=end, (own.harmonic, own.branch));
+            let inside = points.iter().filter(|point| range.contains(&point.friction_coefficient));
+            let modes = inside.flat_map(|point| &point.modes);
+            let mut modes = modes.filter(|mode| (mode.harmonic, mode.branch) == name).peekable();
             let is_told = modes.peek().is_none() || modes.any(ComplexMode::is_unstable);
-            let sets_in =
-                own.critical_friction < (1.0 - SAME_EIGENVALUE) * self.grid[self.grid.len() - 1];
-            is_told || own.is_located() && own.restabilized.is_none() && sets_in
+            let is_near = |(a, b): (&f64, &f64)| (a - b).abs() <= SAME_EIGENVALUE * b;
+            let mut others = ended.iter().map(|other| other.iter().zip(&onset(own)).all(is_near));
+            let goes_on = own.is_located() && own.restabilized.is_none();
+            let is_alone = own.critical_friction * (1.0 + SAME_EIGENVALUE) < highest;
+            is_told || goes_on && is_alone && !others.any(|is_same| is_same)
         });
         let vectors = |own: &FoundInterval| {
             let ModeAt { mu, mode } = own.onset().filter(|_| !request.lefts_at.is_empty())?;
