@@ -26,6 +26,13 @@ pub struct ModeCheck {
     pub peak: f64,
 }
 
+impl ModeCheck {
+    /// Relative error of the eigenvalue that the residual leaves open.
+    fn error(&self) -> f64 {
+        self.residual / f64::EPSILON * self.uncertainty
+    }
+}
+
 /// The modes at one friction coefficient.
 #[derive(Clone, Debug)]
 pub struct SolvedPoint {
@@ -59,19 +66,19 @@ impl SolvedPoint {
         let pairs = self.modes.iter().zip(&self.checks).take(self.wanted);
         let open = pairs.filter(move |(_, check)| {
             // A residual of round-off is no excuse where the mode answers to it.
-            let error = check.residual / f64::EPSILON * check.uncertainty;
-            let is_round_off = check.residual <= ROUND_OFF && error <= RESIDUAL_BOUND;
+            let is_round_off = check.residual <= ROUND_OFF && check.error() <= RESIDUAL_BOUND;
             let is_fine = check.force_residual <= goal && check.residual <= RESIDUAL_BOUND;
             !is_fine && !is_round_off
         });
         open.map(|(mode, _)| mode)
     }
 
-    /// Takes out the modes that have not converged; their frequencies, rad/s.
+    /// Takes out the modes that have not converged, or whose eigenvalue their residual leaves open; their frequencies, rad/s.
     pub fn drop_unconverged(&mut self) -> Vec<f64> {
         let mut dropped = Vec::new();
         for i in (0..self.wanted.min(self.checks.len())).rev() {
-            if !(self.checks[i].residual <= RESIDUAL_BOUND) {
+            let check = &self.checks[i];
+            if !(check.residual <= RESIDUAL_BOUND && check.error() < 1.0) {
                 self.checks.remove(i);
                 dropped.push(self.modes.remove(i).eigenvalue.im);
                 self.wanted -= 1;
@@ -118,4 +125,42 @@ pub fn normalize(shape: &mut [c64]) -> c64 {
     }
     shape.iter_mut().for_each(|v| *v /= largest);
     largest
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Exact: neither what has not converged is a mode, nor what its residual leaves open by its own size.
+    #[test]
+    fn eigenvalues_that_residuals_leave_open_are_no_modes() {
+        let mode = |k: usize| ReducedMode {
+            eigenvalue: c64::new(-0.1, k as f64),
+            inverse_value: c64::new(0.0, 0.0),
+            derivative: c64::new(0.0, 0.0),
+            right: Vec::new(),
+            left: Vec::new(),
+        };
+        let check = |(residual, uncertainty)| ModeCheck {
+            residual,
+            force_residual: 0.0,
+            uncertainty,
+            contact_share: 0.0,
+            edge: Vec::new(),
+            peak: 1.0,
+        };
+        let mut point = SolvedPoint {
+            friction_coefficient: 0.3,
+            modes: (1..=4).map(mode).collect(),
+            wanted: 4,
+            checks: [(1e-16, 1e-5), (2e-9, 1e-15), (2e-10, 1e-5), (2e-10, 1e-12)].map(check).into(),
+            range_end: 5.0,
+            solved_in: None,
+            has_coarse_lefts: false,
+        };
+        assert_eq!(point.drop_unconverged(), [3.0, 2.0]);
+        assert_eq!((point.wanted, point.checks.len()), (2, 2));
+        let left: Vec<f64> = point.modes.iter().map(|own| own.eigenvalue.im).collect();
+        assert_eq!(left, [1.0, 4.0]);
+    }
 }
