@@ -26,7 +26,12 @@ fn sensitivities_equal_finite_differences() {
     let mut dashpots = springs.clone();
     dashpots.options.damping_model = BodyOnly;
     dashpots.options.contact.normal_damping = 1e5;
-    for (model, what) in [(springs, "springs"), (rigid, "rigid"), (dashpots, "dashpots")] {
+    let mut lossy = springs.clone();
+    lossy.material.loss_factor = 0.02;
+    lossy.options.contact.loss_factor = 0.1;
+    let models =
+        [(springs, "springs"), (rigid, "rigid"), (dashpots, "dashpots"), (lossy, "losses")];
+    for (model, what) in models {
         hold(&model, [2.5, 2e-7], what);
     }
 }

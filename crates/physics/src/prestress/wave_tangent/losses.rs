@@ -37,16 +37,19 @@ impl WaveTangent {
         let even = |own: &SectorMatrix| self.wave(n, MirrorParity::Even, &[own]);
         let of_regions = regions.iter().map(|own| (own.loss_factor, &own.elastic));
         let of_supports = supports.iter().map(|own| (own.loss_factor, &own.terms[0]));
-        let lossy = of_regions.chain(of_supports).filter(|(eta, _)| *eta != 0.0);
+        let lossy: Vec<_> = of_regions.chain(of_supports).filter(|(eta, _)| *eta != 0.0).collect();
         let eta = self.options.contact.loss_factor;
+        // Of a difference of tangents too, whose matrices may be zero: all terms of a quotient have the same parts.
+        let is_structural = eta != 0.0 || !lossy.is_empty();
         let mut lost = [(MirrorParity::Even, 0), (MirrorParity::Odd, 1)].map(|(parity, part)| {
             let mut own = self.dofs.fold(n, parity, &[&contact.penalty[part]]);
             own.scale(eta);
             own
         });
-        lossy.for_each(|(eta, own)| lost[0].add_scaled(eta, &even(own)));
-        let structural = lost.iter().any(|own| own.values().iter().any(|value| *value != 0.0));
-        let structural = structural.then(|| (LossGain(None), self.project(lost.into())));
+        for (eta, own) in lossy {
+            lost[0].add_scaled(eta, &even(own));
+        }
+        let structural = is_structural.then(|| (LossGain(None), self.project(lost.into())));
         let tabled = regions.iter().filter_map(|own| {
             Some((LossGain(Some(own.table.clone()?)), self.project(vec![even(&own.elastic)])))
         });
