@@ -119,12 +119,12 @@ pub fn at_node(node: usize, is_tangential: bool) -> Terminal {
     Terminal { node, direction }
 }
 
-/// Springs along the normal, the edge and the axis; dashpots along the normal and the edge.
+/// Springs along the normal, the edge and the axis, of zero there those of the edge; dashpots along the normal and the edge.
 pub const fn springs(stiffness: [f64; 3], dashpots: [f64; 2]) -> ElasticSupport {
     ElasticSupport {
         normal_stiffness: stiffness[0],
         tangential_stiffness: stiffness[1],
-        axial_stiffness: stiffness[2],
+        axial_stiffness: if stiffness[2] > 0.0 { Some(stiffness[2]) } else { None },
         normal_damping: dashpots[0],
         tangential_damping: dashpots[1],
         loss_factor: 0.0,

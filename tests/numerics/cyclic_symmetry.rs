@@ -341,3 +341,23 @@ fn a_disc_that_bends_away_from_its_ring_is_the_same_by_waves_and_as_a_whole() {
         assert!((own / other - 1.0).abs() < tolerance, "{own} {other}");
     }
 }
+
+/// Cross-method: what a support of the outer face has around the axis, its dashpot too, does not act along it. There it has a stiffness
+/// of its own. Waves have round faces, the whole mesh those of its bricks.
+#[test]
+fn a_disc_on_a_support_with_a_stiffness_along_the_axis_is_its_whole_mesh() {
+    let support = "boundaries.outer={ condition = \"support\", normal_stiffness = 1e11, \
+                   tangential_stiffness = 5e10, axial_stiffness = 2e10, tangential_damping = 2e5 }";
+    let size = "mesh.circumferential_elements=36 ; mesh.element=quad8 ; cea.modes=8 ; \
+                cea.friction_coefficients=[0.0] ; contact.friction_coefficient=0.0";
+    let text = include_str!("../cases/solid-disc.toml");
+    let [waves, whole] = ["cyclic", "sparse"].map(|method| {
+        let sets = [support, size, &format!("cea.method={method}")];
+        let modes = solution(&case_beside("sectors-support", &[], text, &sets)).1.sweep.points;
+        modes[0].modes.iter().map(|m| [m.frequency_hz(), m.growth_rate()]).collect::<Vec<_>>()
+    });
+    assert_eq!(waves.len(), whole.len());
+    for (own, other) in waves.iter().flatten().zip(whole.iter().flatten()) {
+        assert!((own / other - 1.0).abs() < 0.01, "{waves:?} {whole:?}");
+    }
+}

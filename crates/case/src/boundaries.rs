@@ -18,13 +18,13 @@ fn condition(section: &Section<'_>) -> BoundaryCondition {
     let support = ElasticSupport {
         normal_stiffness: section.number("normal_stiffness"),
         tangential_stiffness: section.number("tangential_stiffness"),
-        axial_stiffness: section.number("axial_stiffness"),
+        axial_stiffness: section.optional_number("axial_stiffness"),
         normal_damping: section.number("normal_damping"),
         tangential_damping: section.number("tangential_damping"),
         loss_factor: loss_factor(section),
     };
-    let has_springs =
-        support.normal_stiffness + support.tangential_stiffness + support.axial_stiffness > 0.0;
+    let tangents = support.tangential_stiffness + support.axial_stiffness.unwrap_or(0.0);
+    let has_springs = support.normal_stiffness + tangents > 0.0;
     refuse_if!(word == ConditionWord::Support && support.loss_factor > 0.0 && !has_springs; section,
         "loss_factor" => "has no effect on a support without springs"; "nothing is lost";
         "give a stiffness, or leave loss_factor out");
@@ -62,16 +62,28 @@ fn condition(section: &Section<'_>) -> BoundaryCondition {
     }
 }
 
-/// Support along the axis is for bodies of revolution.
-pub(super) fn no_axial_support(root: &Section<'_>, boundaries: &[NamedCondition]) {
+/// Support along the axis is for bodies of revolution; others have a plane, or no axis.
+pub(super) fn no_axial_support(
+    root: &Section<'_>,
+    boundaries: &mut [NamedCondition],
+    is_plane: bool,
+) {
     let section = root.section("boundaries", false);
+    let [body, label, help] = match is_plane {
+        true => ["a plane body", "the body is plane", "leave axial_stiffness out"],
+        false => [
+            "a body from a mesh file",
+            "for generated bodies",
+            "leave axial_stiffness out: tangential_stiffness acts along all tangents",
+        ],
+    };
     for (name, condition) in boundaries {
-        if matches!(condition, BoundaryCondition::Support(support) if support.axial_stiffness > 0.0)
-        {
-            refuse!(section, name,
-                "boundaries.{name}.axial_stiffness has no effect on a plane body";
-                "the body is plane"; "leave axial_stiffness out");
-        }
+        let BoundaryCondition::Support(support) = condition else {
+            continue;
+        };
+        refuse_if!(support.axial_stiffness.is_some_and(|own| own > 0.0); section, name,
+            "boundaries.{name}.axial_stiffness has no effect on {body}"; "{label}"; "{help}");
+        support.axial_stiffness = None;
     }
 }
 

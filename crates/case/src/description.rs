@@ -51,7 +51,7 @@ impl<'a> Description<'a> {
         let scale = length_factor(&mesh);
         let geometry = root.section("geometry", file.is_none());
         let thickness = geometry.number("thickness");
-        let own = Self {
+        let mut own = Self {
             raw,
             root,
             geometry,
@@ -64,8 +64,9 @@ impl<'a> Description<'a> {
             modifications,
             thickness,
         };
-        if !own.is_solid() {
-            boundaries::no_axial_support(root, &own.conditions);
+        let is_plane = !own.is_solid();
+        if is_plane || own.file.is_some() {
+            boundaries::no_axial_support(root, &mut own.conditions, is_plane);
         }
         own
     }

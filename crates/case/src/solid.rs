@@ -129,15 +129,15 @@ pub(super) fn conditions(
             section, name,
             "boundaries.{name} is the face of contact: it can have no condition of its own";
             "the contact is here"; "leave the section out");
-        if let BoundaryCondition::Support(support) = condition
+        conditions[face] = *condition;
+        if let BoundaryCondition::Support(support) = &mut conditions[face]
             && SolidFace::ALL[face].normal_component() == 2
-            && support.axial_stiffness > 0.0
         {
-            refuse!(section, name,
+            refuse_if!(support.axial_stiffness.is_some_and(|own| own > 0.0); section, name,
                 "boundaries.{name}.axial_stiffness: along the axis a flat face has its normal";
                 "has no effect on a flat face"; "give it as normal_stiffness");
+            support.axial_stiffness = None;
         }
-        conditions[face] = *condition;
     }
     refuse_if!(!conditions.iter().any(holds_tangentially); section, "outer",
         "nothing holds the body against the friction that turns it";
@@ -150,7 +150,7 @@ pub(super) fn conditions(
         BoundaryCondition::Support(support) if face.normal_component() == 2 => {
             support.normal_stiffness > 0.0
         }
-        BoundaryCondition::Support(support) => support.axial_stiffness > 0.0,
+        BoundaryCondition::Support(support) => support.axial_stiffness.is_some_and(|own| own > 0.0),
         _ => false,
     };
     let mut faces = SolidFace::ALL.into_iter().zip(&conditions);

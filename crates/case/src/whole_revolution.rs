@@ -47,12 +47,8 @@ pub(super) fn whole_revolution(
     let sector = SolidSector::generate(specification).map_err(|e| of_mesh(e.to_string()))?;
     let conditions = SolidFace::ALL.into_iter().zip(specification.conditions);
     let conditions = conditions.filter(|(_, condition)| *condition != BoundaryCondition::Free);
-    let conditions: Vec<_> = conditions
-        .map(|(face, condition)| {
-            check_support(face, &condition)?;
-            Ok((face.name().to_owned(), condition))
-        })
-        .collect::<Result<_, Misfit>>()?;
+    let conditions: Vec<_> =
+        conditions.map(|(face, condition)| (face.name().to_owned(), condition)).collect();
     let mut file = Arc::new(sector.file());
     if !modifications.is_empty() {
         (file, _) = reshaped(file, 1.0, "", modifications)?;
@@ -101,20 +97,5 @@ fn sliding_surfaces(place: SolidContact, surface: usize, contact: &Contact) -> S
         friction: PairFriction { ratio: 1.0, decay: sliding.decay },
         stiffness: contact.stiffness,
         topography: None,
-    }
-}
-
-/// The springs of a support act alike along all tangents of the whole mesh.
-fn check_support(face: SolidFace, condition: &BoundaryCondition) -> Result<(), Misfit> {
-    match condition {
-        BoundaryCondition::Support(own)
-            if face.normal_component() == 0 && own.axial_stiffness != own.tangential_stiffness =>
-        {
-            let key = format!("boundaries.{}.axial_stiffness", face.name());
-            let why = "the springs of a support of the whole mesh act alike around and along the axis: give \
-                       axial_stiffness the value of tangential_stiffness";
-            Err((key, why.to_owned()))
-        }
-        _ => Ok(()),
     }
 }

@@ -271,7 +271,7 @@ pub fn assemble_support_losses(mesh: &Mesh) -> Option<Triplets> {
             *support = ElasticSupport {
                 normal_stiffness: eta * support.normal_stiffness,
                 tangential_stiffness: eta * support.tangential_stiffness,
-                axial_stiffness: eta * support.axial_stiffness,
+                axial_stiffness: support.axial_stiffness.map(|own| eta * own),
                 ..ElasticSupport::default()
             };
         }

@@ -21,26 +21,33 @@ fn at_points(
     }
 }
 
-/// Springs and dashpots of the supports, `∫ N_I N_J F_I^T (k_n n n^T + k_t (1 - n n^T)) F_J dA`.
+/// Springs and dashpots of the supports, `∫ N_I N_J F_I^T (k_n n n^T + k_t (1 - n n^T)) F_J dA`; where a face has a stiffness `k_z` of
+/// its own along the axis, that is `k_n n n^T + k_t (1 - n n^T - e_z e_z^T) + k_z e_z e_z^T`.
 pub(super) fn supports(mesh: &Mesh) -> [Triplets; 2] {
     let mut both = [Triplets::default(), Triplets::default()];
     for boundary in &mesh.boundaries {
         let BoundaryCondition::Support(support) = boundary.condition else {
             continue;
         };
+        let [spring, dashpot] = [support.tangential_stiffness, support.tangential_damping];
+        // Along the axis there is no dashpot.
+        let [axial, axial_damping] =
+            support.axial_stiffness.map_or([spring, dashpot], |axial| [axial, 0.0]);
         let laws = [
-            [support.normal_stiffness, support.tangential_stiffness],
-            [support.normal_damping, support.tangential_damping],
+            [support.normal_stiffness, spring, axial],
+            [support.normal_damping, dashpot, axial_damping],
         ];
         at_points(mesh, &boundary.faces, |point, nodes| {
             let vector = Vector3::from(point.area);
             let area = vector.norm();
             let across = vector * vector.transpose() / (area * area);
-            for (triplets, [normal, tangential]) in both.iter_mut().zip(laws) {
-                if normal == 0.0 && tangential == 0.0 {
+            for (triplets, law) in both.iter_mut().zip(laws) {
+                if law == [0.0; 3] {
                     continue;
                 }
-                let law = across * (normal - tangential) + Matrix3::identity() * tangential;
+                let [normal, tangential, axial] = law;
+                let mut law = across * (normal - tangential) + Matrix3::identity() * tangential;
+                law[(2, 2)] += axial - tangential;
                 for (&(row, row_frame), p) in nodes.iter().zip(&point.values) {
                     for (&(column, column_frame), q) in nodes.iter().zip(&point.values) {
                         let block = row_frame.transpose() * law * column_frame * (area * p * q);

@@ -198,8 +198,8 @@ fn supported_faces(sector: &SolidSector) -> Vec<SectorSupport> {
         };
         let elements = sector.face_elements(face);
         // Across, a face is tangential like around; a cylinder has its own word for it.
-        let [axial, axial_damping] = match face.normal_component() {
-            0 => [own.axial_stiffness, 0.0],
+        let [axial, axial_damping] = match (face.normal_component(), own.axial_stiffness) {
+            (0, Some(axial)) => [axial, 0.0],
             _ => [own.tangential_stiffness, own.tangential_damping],
         };
         let rows = [face.normal_component(), 1, face.across_component()];

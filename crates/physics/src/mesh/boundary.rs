@@ -12,8 +12,9 @@ pub struct ElasticSupport {
     pub normal_stiffness: f64,
     /// `k_t`, Pa/m.
     pub tangential_stiffness: f64,
-    /// Along the axis of a body of revolution, on its inner and outer face, Pa/m.
-    pub axial_stiffness: f64,
+    /// Along the z axis, on the inner and outer face of a body of revolution, Pa/m: what is tangential acts around the axis
+    /// alone. `None` where it acts along all tangents.
+    pub axial_stiffness: Option<f64>,
     /// `c_n`, Pa s/m.
     pub normal_damping: f64,
     /// `c_t`, Pa s/m.
