@@ -175,6 +175,12 @@ impl UnstableInterval {
         !self.unstable_from_start && self.lost_after.is_none()
     }
 
+    /// Whether it may be of the branch of a mode: both waves of a pair have one name, and opposite directions.
+    pub fn is_of(&self, mode: &ComplexMode) -> bool {
+        (self.harmonic, self.branch) == (mode.harmonic, mode.branch)
+            && self.direction * mode.direction >= 0
+    }
+
     /// As [`ComplexMode::diameters`].
     pub fn diameters(&self, has_harmonics: bool) -> Option<usize> {
         has_harmonics.then_some(self.harmonic).or(self.nodal_diameters)

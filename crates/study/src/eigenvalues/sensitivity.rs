@@ -164,9 +164,7 @@ fn waves_at(branches: &[ModeBranch], friction: f64) -> Vec<Listed<'_>> {
 /// The modes of a sweep over a whole mesh at a friction coefficient.
 fn modes_at(sweep: &FrictionSweep, friction: f64, has_harmonics: bool) -> Vec<Listed<'_>> {
     let listed = sweep.modes_at(friction).iter().map(|mode: &ComplexMode| {
-        let own = |interval: &&UnstableInterval| {
-            (interval.harmonic, interval.branch) == (mode.harmonic, mode.branch)
-        };
+        let own = |interval: &&UnstableInterval| interval.is_of(mode);
         Listed {
             diameters: mode.diameters(has_harmonics),
             branch: mode.branch,
