@@ -24,8 +24,8 @@ pub trait Sectored {
     /// The dofs that nothing holds.
     fn wave_dofs(&self) -> WaveDofs;
 
-    /// Each supported boundary.
-    fn supports(&self) -> Vec<SectorSupport>;
+    /// Each supported boundary. Linear bricks carry springs at their nodes where the mass is lumped, as in a time step.
+    fn supports(&self, mass: MassKind) -> Vec<SectorSupport>;
 }
 
 /// A supported boundary of a sector.
@@ -57,7 +57,7 @@ impl Sectored for SectorMesh {
         WaveDofs::new(dofs, |dof| dof >= free, of_one_body + pair, sectors)
     }
 
-    fn supports(&self) -> Vec<SectorSupport> {
+    fn supports(&self, _: MassKind) -> Vec<SectorSupport> {
         let of = |own: &Boundary| {
             let BoundaryCondition::Support(support) = own.condition else {
                 return None;
@@ -87,8 +87,8 @@ impl Sectored for SolidSector {
         WaveDofs::new(dofs, |dof| self.is_held(dof), half_bandwidth, sectors)
     }
 
-    fn supports(&self) -> Vec<SectorSupport> {
-        supported_faces(self)
+    fn supports(&self, mass: MassKind) -> Vec<SectorSupport> {
+        supported_faces(self, mass)
     }
 }
 
@@ -112,8 +112,8 @@ fn folded<S: Sectored>(sector: &S, matrix: &Triplets) -> SectorMatrix {
 }
 
 /// Springs and dashpots of all supports of a sector together.
-pub fn supports<S: Sectored>(sector: &S) -> [SectorMatrix; 2] {
-    let all = sector.supports();
+pub fn supports<S: Sectored>(sector: &S, mass: MassKind) -> [SectorMatrix; 2] {
+    let all = sector.supports(mass);
     [0, 1].map(|part| {
         let own = all.iter().map(|own| &own.terms[part]);
         own.fold(SectorMatrix::default(), |sum, own| sum.plus(own))
@@ -190,7 +190,11 @@ pub fn geometric_stiffness<S: Sectored>(
 }
 
 /// Each supported face.
-fn supported_faces(sector: &SolidSector) -> Vec<SectorSupport> {
+fn supported_faces(sector: &SolidSector, mass: MassKind) -> Vec<SectorSupport> {
+    let rule = match mass {
+        MassKind::Consistent => FaceRule::Integrated,
+        MassKind::Lumped => FaceRule::Lumped,
+    };
     let conditions = SolidFace::ALL.into_iter().zip(&sector.specification.conditions);
     let supported = conditions.filter_map(|(face, condition)| {
         let BoundaryCondition::Support(own) = condition else {
@@ -208,7 +212,7 @@ fn supported_faces(sector: &SolidSector) -> Vec<SectorSupport> {
         let terms = [springs, dashpots].map(|values| {
             let along = rows.into_iter().zip(values).filter(|(_, value)| *value != 0.0);
             let matrices = along.map(|(row, value)| {
-                let (weight, rule) = (&|_: &_, _, _| value, FaceRule::Lumped);
+                let weight = &|_: &_, _, _| value;
                 let term = FaceTerm { row, column: row, weight, span: &whole_element, rule };
                 face_matrix(sector, &elements, &term)
             });

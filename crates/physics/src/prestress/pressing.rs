@@ -40,7 +40,7 @@ impl SolidSliding {
             true => FaceRule::Integrated,
             false => FaceRule::Nodal,
         };
-        let [springs, _] = supports(sector);
+        let [springs, _] = supports(sector, mass);
         let stiffness = SectorMatrix::alike_in_all(&[elastic, &springs]);
         let state = match law {
             None => press_rigidly(sector, &stiffness, (contact, rule))?,

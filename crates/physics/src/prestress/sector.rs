@@ -4,6 +4,7 @@ use super::PrestressError;
 use super::elimination::Elimination;
 use super::full_sliding::{FullSliding, check_pressed};
 use crate::contact::{NormalLaw, Point, PressedState, Row, SlidingContact, SteadyFriction};
+use crate::fem::MassKind;
 use crate::fem::fold::SectorMatrix;
 use crate::fem::sector::supports;
 use crate::mesh::{AnnulusMesh, SectorMesh};
@@ -38,7 +39,7 @@ impl SectorSliding {
         let surface_speed = sector.specification.inner_radius * contact.rotation_speed;
         let friction = contact.steady_friction(contact.sliding_direction(), surface_speed);
         let points = points(sector, friction);
-        let [springs, _] = supports(sector);
+        let [springs, _] = supports(sector, MassKind::Consistent);
         let stiffness = SectorMatrix::alike_in_all(&[elastic, &springs]);
         let (free, dofs) = (2 * sector.free_node_count(), 2 * sector.node_count());
         let full = FullSliding::new(&stiffness, Elimination::holding(dofs, free..dofs), &points)?;

@@ -77,7 +77,7 @@ impl WaveTerms {
         };
         Self {
             regions: (0..sector::region_count(sector)).map(region).collect(),
-            supports: sector.supports(),
+            supports: sector.supports(kind),
             extra_damping: sector::extra_damping(sector, material, kind, damping),
             ..Self::default()
         }

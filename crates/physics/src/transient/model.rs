@@ -115,7 +115,7 @@ impl<'a> TransientModel<'a> {
         match self.body {
             SteppedBody::Plane { mesh, .. } => assemble_supports(mesh),
             SteppedBody::Revolution(sector) => {
-                supports(sector).map(|matrix| everywhere(sector, &matrix))
+                supports(sector, MassKind::Lumped).map(|matrix| everywhere(sector, &matrix))
             }
             SteppedBody::Assembly { assembly, .. } => assembly.joined.supports.clone(),
         }

@@ -1,11 +1,11 @@
 //! The stiffness operator of a body.
 
 use super::{SteppedBody, TransientModel};
-use crate::fem::lumped_masses;
 use crate::fem::operator::{
     OperatorError, SectorStencil, SimdLevel, SparseOperator, StiffnessOperator,
 };
 use crate::fem::sector::supports;
+use crate::fem::{MassKind, lumped_masses};
 use crate::prestress::Assembly;
 use crate::transient::{OperatorChoice, TransientError};
 use std::collections::BTreeMap;
@@ -37,7 +37,7 @@ impl TransientModel<'_> {
                 Err(OperatorError::NotPlane.into())
             }
             (SteppedBody::Revolution(sector), _) => {
-                let [springs, _] = supports(sector);
+                let [springs, _] = supports(sector, MassKind::Lumped);
                 let material = self.material;
                 Ok(Box::new(SectorStencil::of_revolution(sector, material, &springs, simd)?))
             }
