@@ -342,22 +342,38 @@ fn a_disc_that_bends_away_from_its_ring_is_the_same_by_waves_and_as_a_whole() {
     }
 }
 
-/// Cross-method: what a support of the outer face has around the axis, its dashpot too, does not act along it. There it has a stiffness
-/// of its own. Waves have round faces, the whole mesh those of its bricks.
-#[test]
-fn a_disc_on_a_support_with_a_stiffness_along_the_axis_is_its_whole_mesh() {
-    let support = "boundaries.outer={ condition = \"support\", normal_stiffness = 1e11, \
-                   tangential_stiffness = 5e10, axial_stiffness = 2e10, tangential_damping = 2e5 }";
-    let size = "mesh.circumferential_elements=36 ; mesh.element=quad8 ; cea.modes=8 ; \
-                cea.friction_coefficients=[0.0] ; contact.friction_coefficient=0.0";
+/// A disc on a cylinder that turns, without friction, with some changes.
+fn on_a_cylinder(name: &str, change: &str, method: &str) -> Solution {
+    let still = "cea.friction_coefficients=[0.0] ; contact.friction_coefficient=0.0";
+    let sets = [change, still, &format!("cea.method={method}")];
     let text = include_str!("../cases/solid-disc.toml");
-    let [waves, whole] = ["cyclic", "sparse"].map(|method| {
-        let sets = [support, size, &format!("cea.method={method}")];
-        let modes = solution(&case_beside("sectors-support", &[], text, &sets)).1.sweep.points;
-        modes[0].modes.iter().map(|m| [m.frequency_hz(), m.growth_rate()]).collect::<Vec<_>>()
-    });
-    assert_eq!(waves.len(), whole.len());
-    for (own, other) in waves.iter().flatten().zip(whole.iter().flatten()) {
-        assert!((own / other - 1.0).abs() < 0.01, "{waves:?} {whole:?}");
+    solution(&case_beside(&format!("sectors-{name}"), &[], text, &sets)).1
+}
+
+/// Cross-method: what a support of the outer face has around the axis, its dashpot too, does not act along it. There it has a stiffness
+/// of its own. A flat face has all of it along both tangents.
+#[test]
+fn a_disc_on_supports_is_its_whole_mesh() {
+    let outer = "boundaries.outer={ condition = \"support\", normal_stiffness = 1e11, \
+                 tangential_stiffness = 5e10, axial_stiffness = 2e10, tangential_damping = 2e5 }";
+    let bottom = "boundaries.bottom={ condition = \"support\", normal_stiffness = 1e10, \
+                  tangential_stiffness = 3e10, normal_damping = 1e4, tangential_damping = 2e4 }";
+    for support in [outer, bottom] {
+        let [waves, whole] =
+            ["cyclic", "sparse"].map(|method| on_a_cylinder("support", support, method));
+        assert_equal(&waves, &whole, 1e-9);
+    }
+}
+
+/// A face that is held along the axis, or across it, is so in every sector; one that is held along x alone makes the sectors differ.
+#[test]
+fn a_disc_with_a_face_held_along_some_axes_is_its_whole_mesh() {
+    for directions in ["\"z\"", "\"x\", \"y\"", "\"x\""] {
+        let held =
+            format!("boundaries.bottom={{ condition = \"fixed\", directions = [{directions}] }}");
+        let [own, whole] = ["auto", "sparse"].map(|method| on_a_cylinder("held", &held, method));
+        let method = if directions == "\"x\"" { "sparse" } else { "cyclic" };
+        assert_eq!([own.method, whole.method], [method, "sparse"]);
+        assert_equal(&own, &whole, 1e-9);
     }
 }

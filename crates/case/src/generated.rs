@@ -86,8 +86,8 @@ fn motion(root: &Section<'_>, is_solid: bool) -> Option<Motion> {
     motions.into_iter().next().map(|own| own.1)
 }
 
-/// A body of revolution, as a whole mesh where it turns, where modifications break its symmetry, where its losses have
-/// a chain of dashpots in time, and where that is asked for.
+/// A body of revolution, as a whole mesh where it turns, where modifications or a face that is held along x or y alone
+/// break its symmetry, where its losses have a chain of dashpots in time, and where that is asked for.
 fn revolution_body(
     own: &Description<'_>,
     revolution: Revolution,
@@ -100,7 +100,11 @@ fn revolution_body(
     let body = Body::Revolution(revolution.clone());
     let is_lossy = body.has_structural_damping() || contact.stiffness.loss_factor > 0.0;
     let is_chained = is_lossy && root.has("transient");
-    if own.modifications.is_empty() && motion.is_none() && !is_asked_for && !is_chained {
+    let is_one_sided =
+        |own: &BoundaryCondition| matches!(own, BoundaryCondition::Fixed([x, y, _]) if x != y);
+    let is_uneven = revolution.specification.conditions.iter().any(is_one_sided);
+    let is_whole = is_uneven || is_asked_for || is_chained;
+    if own.modifications.is_empty() && motion.is_none() && !is_whole {
         return Some(body);
     }
     let whole = whole_revolution(&revolution, contact, motion, &own.modifications);

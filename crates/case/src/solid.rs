@@ -129,7 +129,10 @@ pub(super) fn conditions(
             section, name,
             "boundaries.{name} is the face of contact: it can have no condition of its own";
             "the contact is here"; "leave the section out");
-        conditions[face] = *condition;
+        conditions[face] = match *condition {
+            BoundaryCondition::Fixed([true, true, true]) => BoundaryCondition::Clamped,
+            other => other,
+        };
         if let BoundaryCondition::Support(support) = &mut conditions[face]
             && SolidFace::ALL[face].normal_component() == 2
         {
@@ -139,7 +142,10 @@ pub(super) fn conditions(
             support.axial_stiffness = None;
         }
     }
-    refuse_if!(!conditions.iter().any(holds_tangentially); section, "outer",
+    let holds_around = |own: &BoundaryCondition| {
+        holds_tangentially(own) || matches!(own, BoundaryCondition::Fixed([x, y, _]) if *x || *y)
+    };
+    refuse_if!(!conditions.iter().any(holds_around); section, "outer",
         "nothing holds the body against the friction that turns it";
         "must hold a face tangentially";
         "use condition = \"clamped\" on a face, or \"support\" with tangential_stiffness above 0");
@@ -147,6 +153,7 @@ pub(super) fn conditions(
     let holds_along = |(face, condition): (SolidFace, &BoundaryCondition)| match condition {
         BoundaryCondition::Clamped => true,
         BoundaryCondition::Guide => face.normal_component() == 2,
+        BoundaryCondition::Fixed([.., z]) => *z,
         BoundaryCondition::Support(support) if face.normal_component() == 2 => {
             support.normal_stiffness > 0.0
         }

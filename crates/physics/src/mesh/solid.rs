@@ -207,6 +207,8 @@ impl SolidSector {
             match condition {
                 BoundaryCondition::Clamped => true,
                 BoundaryCondition::Guide => dof % 3 == face.normal_component(),
+                // In every sector alike: across the axis both directions or none.
+                BoundaryCondition::Fixed([x, y, z]) => [*x && *y, *x && *y, *z][dof % 3],
                 _ => false,
             }
         })
