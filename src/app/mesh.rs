@@ -19,7 +19,7 @@ pub(super) fn run(options: &RunOptions) -> Result<(), Failure> {
         return run_solid(&session, folder, assembly);
     }
     let mesh = case.mesh().map_err(Failure::usage)?;
-    let revolution = case.body.revolution().map(|body| &body.specification);
+    let revolution = case.body.revolution();
     let grid = revolution.map(|own| own.plane()).or(case.body.grid().copied());
     let annulus = grid.map(|grid| AnnulusMesh::generate(&grid).map_err(Failure::usage));
     let annulus = annulus.transpose()?;
@@ -46,8 +46,8 @@ fn run_solid(
     let case = &session.case;
     let mesh = &assembly.mesh;
     let roles = roles(assembly);
-    let densities = (0..mesh.regions.len()).map(|region| case.materials().of(region).density);
-    let densities: Vec<f64> = densities.collect();
+    let materials = case.body.materials.iter();
+    let densities: Vec<f64> = materials.map(|material| material.elastic.density).collect();
     let contacts = roles.iter().filter(|role| *role.1 == "contact");
     let contact_nodes = contacts.flat_map(|role| mesh.boundaries[*role.0].nodes.iter().copied());
     write_mesh(&folder, mesh, contact_nodes)?;
@@ -85,10 +85,10 @@ fn shortest_wave(case: &Case) -> Option<f64> {
     let ModeLimit::MaxFrequency(frequency) = case.cea.as_ref()?.modes else {
         return None;
     };
-    let speed = |region: usize| {
-        let material = case.materials().of(region);
+    let speeds = case.body.materials.iter().map(|material| {
+        let material = &material.elastic;
         (material.lame_constants()[1] / material.density).sqrt()
-    };
-    let slowest = (0..case.body.region_count()).map(speed).fold(f64::INFINITY, f64::min);
+    });
+    let slowest = speeds.fold(f64::INFINITY, f64::min);
     Some(slowest / frequency)
 }

@@ -36,8 +36,8 @@ fn dense(case: &Case) -> Vec<f64> {
         }
         matrix
     };
-    let mass = full(&assemble_mass(&body.mesh, &body.materials, Consistent));
-    let stiffness = full(&assemble_stiffness(&body.mesh, &body.materials));
+    let mass = full(&assemble_mass(&body.mesh, case.materials(), Consistent));
+    let stiffness = full(&assemble_stiffness(&body.mesh, case.materials()));
     let squares = crate::supported_bodies::squares(mass, &stiffness);
     // Six rigid motions of round-off.
     assert!(squares[5].abs() < 1e-6 * squares[6]);

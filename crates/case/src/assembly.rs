@@ -22,8 +22,6 @@ use std::sync::Arc;
 pub struct AssemblyBody {
     /// The mesh of all bodies.
     pub mesh: Arc<Mesh>,
-    /// The material of each of its regions.
-    pub materials: Vec<RegionMaterial>,
     /// Surfaces that are glued.
     pub ties: Vec<TiedSurfaces>,
     /// Surfaces that slide on each other.
@@ -35,16 +33,19 @@ pub struct AssemblyBody {
 }
 
 impl AssemblyBody {
-    /// The bodies with their surfaces paired.
+    /// The bodies of some materials with their surfaces paired.
     ///
     /// # Errors
     /// [`PrestressError::Pair`] names the tie or contact whose surfaces do not meet.
-    pub fn assembled(&self) -> Result<Assembly<'_>, PrestressError> {
+    pub fn assembled<'a>(
+        &'a self,
+        materials: &'a dyn MaterialField,
+    ) -> Result<Assembly<'a>, PrestressError> {
         let (mesh, ties, contacts) = (&self.mesh, &self.ties, &self.contacts);
-        Assembly::new(mesh, &self.materials, ties, contacts, &self.motions, self.base)
+        Assembly::new(mesh, materials, ties, contacts, &self.motions, self.base)
     }
 
-    /// The same with all contact points at nodes, for steps in time, of the materials that it has there.
+    /// The same with all contact points at nodes, for steps in time.
     ///
     /// # Errors
     /// As [`Self::assembled`].
@@ -184,11 +185,11 @@ fn inertia(section: &Section<'_>) -> Option<RotationFrame> {
     None
 }
 
-/// The solid bodies of a mesh file.
+/// The solid bodies of a mesh file, and their materials.
 pub(super) fn assemble(
     file: &FileParts<'_>,
     parts: AssemblyParts,
-) -> Result<AssemblyBody, Diagnostic> {
+) -> Result<(Vec<RegionMaterial>, AssemblyBody), Diagnostic> {
     let own = file.own;
     let (read, _) = file.shaped("")?;
     let mesh = Mesh::from_solids(&read, own.scale, &own.conditions);
@@ -244,7 +245,8 @@ pub(super) fn assemble(
         };
         contacts.push(surfaces);
     }
-    Ok(AssemblyBody { mesh: Arc::new(mesh), materials, ties, contacts, motions, base: parts.base })
+    let (mesh, base) = (Arc::new(mesh), parts.base);
+    Ok((materials, AssemblyBody { mesh, ties, contacts, motions, base }))
 }
 
 impl Case {

@@ -1,21 +1,21 @@
 //! What modifications attach to a body, and the annulus whose symmetry they break.
 
 use super::modifications::{Misfit, Modification, reshaped};
-use super::{Annulus, Body, ImportedBody, Section, refuse_if};
+use super::{Body, BodyKind, ImportedBody, Section, refuse_if};
 use frictionsim_physics::mesh::{
-    Attachment, BodyError, BodySpecification, CounterfaceSpecification, DampedPatch, Mesh,
+    AnnulusSpecification, Attachment, BodyError, BodySpecification, CounterfaceSpecification,
+    DampedPatch, Mesh,
 };
 use nalgebra::{Matrix3, Vector3};
 use std::sync::Arc;
 
 /// A built-in annulus with modifications: no symmetry is left, and it is what a mesh file of it would be.
 pub(super) fn reshaped_annulus(
-    annulus: &Annulus,
+    spec: &AnnulusSpecification,
     modifications: &[Modification],
 ) -> Result<ImportedBody, Misfit> {
     let first = modifications.first();
     let key = first.map_or_else(String::new, |own| format!("modifications.{}", own.name));
-    let spec = &annulus.specification;
     if spec.shaft.is_some() {
         let why = "modifications are for one body on a rigid cylinder; give a disc with a \
         deformable shaft as a mesh file";
@@ -35,8 +35,7 @@ pub(super) fn reshaped_annulus(
     };
     let body = Mesh::from_gmsh(&file, &specification);
     let body = body.map_err(|error: BodyError| (key, error.to_string()))?;
-    let materials = vec![annulus.materials[0].clone()];
-    Ok(ImportedBody::new(body, materials, file, specification))
+    Ok(ImportedBody::new(body, file, specification))
 }
 
 /// Attaches masses, springs, dashpots and damped patches to the mesh of a body; `thickness` is that of a plane body, m.
@@ -73,10 +72,10 @@ pub(super) fn attach(
             stiffness_coefficient: own.coefficients[1],
         });
     }
-    let mesh = match body {
-        Body::Imported(own) => Arc::make_mut(&mut own.mesh),
-        Body::Assembly(own) => Arc::make_mut(&mut own.mesh),
-        Body::Annulus(_) | Body::Revolution(_) => return,
+    let mesh = match &mut body.kind {
+        BodyKind::Imported(own) => Arc::make_mut(&mut own.mesh),
+        BodyKind::Assembly(own) => Arc::make_mut(&mut own.mesh),
+        BodyKind::Annulus(_) | BodyKind::Revolution(_) => return,
     };
     (mesh.attachments, mesh.patches) = (attachments, patches);
 }

@@ -1,4 +1,4 @@
-//! Kinds of body that a case can have, each with its own data.
+//! The body of a case: what it is made of, and its kinds, each with data of its own.
 
 use super::{AssemblyBody, ImportedBody};
 use frictionsim_physics::contact::RigidMotion;
@@ -10,31 +10,22 @@ use frictionsim_physics::mesh::{
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-/// A plane annulus that is generated from radii and element counts, with or without a deformable shaft in it.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Annulus {
-    /// Radii, element counts, and what holds the outer edge.
-    pub specification: AnnulusSpecification,
-    /// The materials of the disc and, where there is one, of its shaft.
-    pub materials: Vec<RegionMaterial>,
-}
-
-/// A body of revolution in three dimensions that is generated from radii, thickness and element counts.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Revolution {
-    /// Radii, thickness, element counts, contact, and what holds each face.
-    pub specification: Box<SolidSpecification>,
-    /// The material of each of its regions.
-    pub materials: Vec<RegionMaterial>,
-}
-
 /// The body of a case.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Body {
-    /// A plane annulus.
-    Annulus(Annulus),
-    /// A body of revolution in three dimensions.
-    Revolution(Revolution),
+pub struct Body {
+    /// The material of each region of the mesh; of an annulus those of the disc and of its shaft.
+    pub materials: Vec<RegionMaterial>,
+    /// What it is.
+    pub kind: BodyKind,
+}
+
+/// What a body is.
+#[derive(Clone, Debug, PartialEq)]
+pub enum BodyKind {
+    /// A plane annulus that is generated from radii and element counts, with or without a deformable shaft in it.
+    Annulus(AnnulusSpecification),
+    /// A body of revolution in three dimensions that is generated from radii, thickness and element counts.
+    Revolution(Box<SolidSpecification>),
     /// A plane body from a mesh file.
     Imported(ImportedBody),
     /// Solid bodies from a mesh file.
@@ -43,32 +34,28 @@ pub enum Body {
 
 impl Body {
     /// The plane annulus, if it is one.
-    pub fn annulus(&self) -> Option<&Annulus> {
-        if let Self::Annulus(own) = self { Some(own) } else { None }
+    pub fn annulus(&self) -> Option<&AnnulusSpecification> {
+        if let BodyKind::Annulus(own) = &self.kind { Some(own) } else { None }
     }
 
     /// The body of revolution in three dimensions, if it is one.
-    pub fn revolution(&self) -> Option<&Revolution> {
-        if let Self::Revolution(own) = self { Some(own) } else { None }
+    pub fn revolution(&self) -> Option<&SolidSpecification> {
+        if let BodyKind::Revolution(own) = &self.kind { Some(own) } else { None }
     }
 
     /// The body from a mesh file, if it is one.
     pub fn imported(&self) -> Option<&ImportedBody> {
-        if let Self::Imported(own) = self { Some(own) } else { None }
+        if let BodyKind::Imported(own) = &self.kind { Some(own) } else { None }
     }
 
     /// The solid bodies from a mesh file, if it is some.
     pub fn assembly(&self) -> Option<&AssemblyBody> {
-        if let Self::Assembly(own) = self { Some(own) } else { None }
+        if let BodyKind::Assembly(own) = &self.kind { Some(own) } else { None }
     }
 
     /// Radii and element counts across the axis, of a generated body.
     pub fn grid(&self) -> Option<&AnnulusSpecification> {
-        match self {
-            Self::Annulus(annulus) => Some(&annulus.specification),
-            Self::Revolution(revolution) => Some(&revolution.specification.annulus),
-            Self::Imported(_) | Self::Assembly(_) => None,
-        }
+        self.annulus().or(self.revolution().map(|solid| &solid.annulus))
     }
 
     /// Whether the body consists of equal sectors, so that its motions have harmonics.
@@ -88,17 +75,17 @@ impl Body {
 
     /// Components of a displacement.
     pub fn dimension(&self) -> usize {
-        match self {
-            Self::Revolution(_) | Self::Assembly(_) => 3,
-            Self::Annulus(_) | Self::Imported(_) => 2,
+        match self.kind {
+            BodyKind::Revolution(_) | BodyKind::Assembly(_) => 3,
+            BodyKind::Annulus(_) | BodyKind::Imported(_) => 2,
         }
     }
 
     /// Nodes, in a width that no input overflows.
     pub fn node_count(&self) -> u128 {
-        match self {
-            Self::Annulus(annulus) => node_count(&annulus.specification),
-            Self::Revolution(revolution) => solid_node_count(&revolution.specification),
+        match &self.kind {
+            BodyKind::Annulus(annulus) => node_count(annulus),
+            BodyKind::Revolution(solid) => solid_node_count(solid),
             _ => self.whole_mesh().map_or(0, |mesh| mesh.node_count() as u128),
         }
     }
@@ -109,7 +96,7 @@ impl Body {
             return self.whole_mesh().map_or(0, |mesh| mesh.element_count() as u128);
         };
         let around = grid.circumferential_elements as u128 * grid.elements_per_sector() as u128;
-        around * self.revolution().map_or(1, |own| own.specification.axial_elements as u128)
+        around * self.revolution().map_or(1, |own| own.axial_elements as u128)
     }
 
     /// Contact nodes, under a ring at most those of the whole face, in a width that no input overflows.
@@ -118,17 +105,17 @@ impl Body {
             let per_element = if grid.element.is_quadratic() { 2 } else { 1 };
             per_element * grid.circumferential_elements as u128
         };
-        match self {
-            Self::Annulus(annulus) => around(&annulus.specification),
-            Self::Revolution(Revolution { specification, .. }) => {
-                let rings = match specification.contact {
-                    SolidContact::Inner => specification.axial_elements + 1,
-                    SolidContact::Ring { .. } => specification.annulus.radial_elements + 1,
+        match &self.kind {
+            BodyKind::Annulus(annulus) => around(annulus),
+            BodyKind::Revolution(solid) => {
+                let rings = match solid.contact {
+                    SolidContact::Inner => solid.axial_elements + 1,
+                    SolidContact::Ring { .. } => solid.annulus.radial_elements + 1,
                 };
-                rings as u128 * around(&specification.annulus)
+                rings as u128 * around(&solid.annulus)
             }
-            Self::Imported(imported) => imported.mesh.contact_edge().nodes.len() as u128,
-            Self::Assembly(assembly) => assembly.contact_node_count() as u128,
+            BodyKind::Imported(imported) => imported.mesh.contact_edge().nodes.len() as u128,
+            BodyKind::Assembly(assembly) => assembly.contact_node_count() as u128,
         }
     }
 
@@ -184,36 +171,26 @@ impl Body {
     pub fn mesh(&self) -> Result<Arc<Mesh>, MeshError> {
         let generate =
             |grid: &AnnulusSpecification| Ok(Arc::new(AnnulusMesh::generate(grid)?.mesh));
-        match self {
-            Self::Annulus(annulus) => generate(&annulus.specification),
-            Self::Revolution(revolution) => generate(&revolution.specification.plane()),
-            Self::Imported(imported) => Ok(Arc::clone(&imported.mesh)),
-            Self::Assembly(assembly) => Ok(Arc::clone(&assembly.mesh)),
+        match &self.kind {
+            BodyKind::Annulus(annulus) => generate(annulus),
+            BodyKind::Revolution(solid) => generate(&solid.plane()),
+            BodyKind::Imported(imported) => Ok(Arc::clone(&imported.mesh)),
+            BodyKind::Assembly(assembly) => Ok(Arc::clone(&assembly.mesh)),
         }
     }
 
     /// The mesh of a body from a mesh file, which is whole.
     pub(super) fn whole_mesh(&self) -> Option<&Arc<Mesh>> {
-        match self {
-            Self::Imported(imported) => Some(&imported.mesh),
-            Self::Assembly(assembly) => Some(&assembly.mesh),
-            Self::Annulus(_) | Self::Revolution(_) => None,
-        }
-    }
-
-    /// The material of each region of the mesh.
-    pub fn materials(&self) -> &Vec<RegionMaterial> {
-        match self {
-            Self::Annulus(annulus) => &annulus.materials,
-            Self::Revolution(revolution) => &revolution.materials,
-            Self::Imported(imported) => &imported.materials,
-            Self::Assembly(assembly) => &assembly.materials,
+        match &self.kind {
+            BodyKind::Imported(imported) => Some(&imported.mesh),
+            BodyKind::Assembly(assembly) => Some(&assembly.mesh),
+            BodyKind::Annulus(_) | BodyKind::Revolution(_) => None,
         }
     }
 
     /// The tables over frequency that moduli follow, region by region.
     pub fn tables(&self) -> impl Iterator<Item = &ModulusTable> {
-        self.materials().iter().filter_map(|material| material.table.as_deref())
+        self.materials.iter().filter_map(|material| material.table.as_deref())
     }
 
     /// Whether a material or the springs of a support have structural damping.
@@ -224,7 +201,7 @@ impl Body {
     /// Whether a material has a loss factor or a table.
     pub(super) fn has_lossy_materials(&self) -> bool {
         let is_lossy = |m: &RegionMaterial| m.table.is_some() || m.elastic.loss_factor != 0.0;
-        self.materials().iter().any(is_lossy)
+        self.materials.iter().any(is_lossy)
     }
 
     /// Whether the springs of a support have structural damping.
@@ -233,21 +210,16 @@ impl Body {
             BoundaryCondition::Support(own) => own.loss_factor != 0.0,
             _ => false,
         };
-        match self {
-            Self::Annulus(annulus) => {
-                let (outer, shaft) = (&annulus.specification.outer, annulus.specification.shaft);
-                is_lossy(outer) || shaft.is_some_and(|shaft| is_lossy(&shaft.bore))
+        match &self.kind {
+            BodyKind::Annulus(own) => {
+                is_lossy(&own.outer) || own.shaft.is_some_and(|shaft| is_lossy(&shaft.bore))
             }
-            Self::Revolution(own) => own.specification.conditions.iter().any(is_lossy),
-            Self::Imported(_) | Self::Assembly(_) => self.whole_mesh().is_some_and(|mesh| {
-                mesh.boundaries.iter().any(|boundary| is_lossy(&boundary.condition))
-            }),
+            BodyKind::Revolution(own) => own.conditions.iter().any(is_lossy),
+            BodyKind::Imported(_) | BodyKind::Assembly(_) => {
+                let boundaries = self.whole_mesh().into_iter().flat_map(|mesh| &mesh.boundaries);
+                boundaries.into_iter().any(|boundary| is_lossy(&boundary.condition))
+            }
         }
-    }
-
-    /// Number of materials.
-    pub fn region_count(&self) -> usize {
-        self.materials().len()
     }
 
     /// Number of a node, counted from 0, as the user knows it: that of the mesh file, or counted from 1.

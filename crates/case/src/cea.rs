@@ -47,7 +47,7 @@ impl Cea {
 /// Whether the prestress acts on small motions where nothing is said: studies of solid parts of a file are linear about
 /// the undeformed bodies.
 fn is_stressed_by_default(body: Option<&Body>, is_file: bool) -> bool {
-    !(is_file && matches!(body, Some(Body::Assembly(_))))
+    !(is_file && body.is_some_and(|body| body.assembly().is_some()))
 }
 
 impl Case {

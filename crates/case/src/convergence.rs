@@ -1,7 +1,7 @@
 //! `[convergence]`: the same case on several meshes and with several time steps.
 
 use super::body::node_count;
-use super::{Analysis, Body, Revolution, Section, caution_if, refuse, refuse_if};
+use super::{Analysis, Body, BodyKind, Section, caution_if, refuse, refuse_if};
 use frictionsim_physics::mesh::{
     AnnulusSpecification, BodyError, Mesh, ShaftSpecification, SolidSpecification,
 };
@@ -55,27 +55,24 @@ impl super::Case {
     /// An imported mesh that cannot be refined.
     pub fn refined(&self, factor: f64) -> Result<Self, super::CaseErrors> {
         let mut body = self.body.clone();
-        match &mut body {
-            Body::Annulus(annulus) => {
-                annulus.specification = Convergence::refined(&annulus.specification, factor);
-            }
-            Body::Revolution(Revolution { specification, .. }) => {
-                specification.annulus = Convergence::refined(&specification.annulus, factor);
-                specification.axial_elements =
-                    (specification.axial_elements as f64 * factor).round() as usize;
+        match &mut body.kind {
+            BodyKind::Annulus(annulus) => *annulus = Convergence::refined(annulus, factor),
+            BodyKind::Revolution(solid) => {
+                solid.annulus = Convergence::refined(&solid.annulus, factor);
+                solid.axial_elements = (solid.axial_elements as f64 * factor).round() as usize;
             }
             // A generated body on its whole mesh stays as round as it is.
-            Body::Assembly(_) if self.raw.find("mesh.file").is_none() => {
+            BodyKind::Assembly(_) if self.raw.find("mesh.file").is_none() => {
                 body = self.with_counts_times(factor)?.body;
             }
-            Body::Assembly(assembly) => {
+            BodyKind::Assembly(assembly) => {
                 for _ in 0..factor.log2() as u32 {
                     let finer = assembly.mesh.refined_solids();
                     let finer = finer.map_err(|error| self.no_refinement(factor, &error))?;
                     assembly.mesh = Arc::new(finer);
                 }
             }
-            Body::Imported(imported) => {
+            BodyKind::Imported(imported) => {
                 let finer = imported.refined(factor.log2() as u32);
                 *imported = finer.map_err(|error| self.no_refinement(factor, &error))?;
             }
@@ -121,7 +118,7 @@ pub(super) fn read(
         given => given.unwrap_or_default(),
     };
     if has_enough(section, "factors", &factors) && is_ordered(section, "factors", &factors, 1.0) {
-        let solid = body.and_then(Body::revolution).map(|own| &*own.specification);
+        let solid = body.and_then(Body::revolution);
         match (body.and_then(Body::whole_mesh), body.and_then(Body::grid)) {
             (Some(mesh), _) => check_splits(section, mesh, &factors),
             (None, Some(grid)) => check_meshes(section, grid, solid, &factors),

@@ -105,7 +105,7 @@ impl Case {
     /// motions of the whole mesh.
     pub fn has_rotating_waves(&self) -> bool {
         let annulus = self.body.annulus();
-        annulus.is_some_and(|annulus| annulus.specification.shaft.is_none())
+        annulus.is_some_and(|annulus| annulus.shaft.is_none())
             && self.contact.sliding.decay.is_none()
             && self.contact.stiffness.law.is_none()
     }

@@ -9,8 +9,8 @@ use super::elastic::{Surroundings, place_axes};
 use super::modifications::Misfit;
 use super::whole_revolution::whole_revolution;
 use super::{
-    Annulus, Body, Contact, Revolution, Section, assembly, attachments, boundaries, imported,
-    refuse, refuse_if, solid,
+    Body, BodyKind, Contact, Section, assembly, attachments, boundaries, imported, refuse,
+    refuse_if, solid,
 };
 use frictionsim_physics::contact::Motion;
 use frictionsim_physics::fem::{RegionMaterial, RotationFrame};
@@ -38,7 +38,7 @@ pub(super) fn generated(own: &mut Description<'_>) -> (Option<Body>, Contact) {
     let body = match axial {
         None => {
             let materials = std::iter::once(own.common.clone()).chain(shaft).collect();
-            plane_annulus(own, Annulus { specification: annulus, materials })
+            plane_annulus(own, annulus, materials)
         }
         Some(axial_elements) => {
             let conditions = solid::conditions(root, &own.conditions, face);
@@ -57,8 +57,8 @@ pub(super) fn generated(own: &mut Description<'_>) -> (Option<Body>, Contact) {
                 specification.parts.push(part);
                 materials.push(material);
             }
-            let specification = Box::new(specification);
-            revolution_body(own, Revolution { specification, materials }, &contact, motion)
+            let kind = BodyKind::Revolution(Box::new(specification));
+            revolution_body(own, Body { materials, kind }, &contact, motion)
         }
     };
     // Friction knows the relative speed.
@@ -90,14 +90,13 @@ fn motion(root: &Section<'_>, is_solid: bool) -> Option<Motion> {
 /// break its symmetry, where its losses have a chain of dashpots in time, and where that is asked for.
 fn revolution_body(
     own: &Description<'_>,
-    revolution: Revolution,
+    body: Body,
     contact: &Contact,
     motion: Option<Motion>,
 ) -> Option<Body> {
     let root = own.root;
     let is_asked_for = root.section("cea", false).is_text("method", "sparse")
         || root.section("transient", false).is_text("operator", "sparse");
-    let body = Body::Revolution(revolution.clone());
     let is_lossy = body.has_structural_damping() || contact.stiffness.loss_factor > 0.0;
     let is_chained = is_lossy && root.has("transient");
     let is_one_sided =
@@ -107,18 +106,24 @@ fn revolution_body(
     if own.modifications.is_empty() && motion.is_none() && !is_whole {
         return Some(body);
     }
-    let whole = whole_revolution(&revolution, contact, motion, &own.modifications);
-    fitting(root, whole, "the whole mesh").map(Body::Assembly)
+    let whole =
+        whole_revolution(body.revolution()?, &body.materials, contact, motion, &own.modifications);
+    fitting(root, whole, "the whole mesh")
 }
 
 /// A plane annulus, as a whole mesh where modifications break its symmetry.
-fn plane_annulus(own: &Description<'_>, annulus: Annulus) -> Option<Body> {
+fn plane_annulus(
+    own: &Description<'_>,
+    annulus: AnnulusSpecification,
+    materials: Vec<RegionMaterial>,
+) -> Option<Body> {
     // What is wrong with the counts is said elsewhere.
-    if own.modifications.is_empty() || node_count(&annulus.specification) > 1 << 24 {
-        return Some(Body::Annulus(annulus));
+    if own.modifications.is_empty() || node_count(&annulus) > 1 << 24 {
+        return Some(Body { materials, kind: BodyKind::Annulus(annulus) });
     }
     let whole = attachments::reshaped_annulus(&annulus, &own.modifications);
-    fitting(own.root, whole, "the disc").map(Body::Imported)
+    let kind = fitting(own.root, whole, "the disc").map(BodyKind::Imported)?;
+    Some(Body { materials, kind })
 }
 
 /// A whole mesh; what of the case does not fit it is an error at its section.

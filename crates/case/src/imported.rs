@@ -27,8 +27,6 @@ const MOST_NAMES: usize = 10;
 pub struct ImportedBody {
     /// Its mesh with boundaries and what holds them.
     pub mesh: Arc<Mesh>,
-    /// The material of each of its regions.
-    pub materials: Vec<RegionMaterial>,
     /// What the mesh was made of, for its refinements.
     source: Arc<(Arc<FileMesh>, BodySpecification)>,
 }
@@ -239,12 +237,12 @@ pub(super) fn near_name(name: &str, known: &[String]) -> String {
     near.map_or_else(String::new, |near| format!("; did you mean \"{near}\"?"))
 }
 
-/// The plane body that a mesh file describes, with its contact curves and counterface at `place`.
+/// The plane body that a mesh file describes, with its contact curves and counterface at `place`, and its materials.
 pub(super) fn import(
     parts: &FileParts<'_>,
     place: BodySpecification,
     interference: f64,
-) -> Result<ImportedBody, Diagnostic> {
+) -> Result<(Vec<RegionMaterial>, ImportedBody), Diagnostic> {
     let own = parts.own;
     let (read, way) = parts.shaped(&place.contact)?;
     let specification = BodySpecification {
@@ -271,7 +269,7 @@ pub(super) fn import(
         })
     };
     let materials = parts.materials_of(&mesh.regions, find)?;
-    Ok(ImportedBody::new(mesh, materials, read, specification))
+    Ok((materials, ImportedBody::new(mesh, read, specification)))
 }
 
 /// The counterface of a body whose contact curve is moved.
@@ -291,13 +289,8 @@ fn moved(place: &BodySpecification, way: [f64; 2]) -> Result<CounterfaceSpecific
 
 impl ImportedBody {
     /// A body of a mesh that was made of a file.
-    pub(super) fn new(
-        mesh: Mesh,
-        materials: Vec<RegionMaterial>,
-        file: Arc<FileMesh>,
-        specification: BodySpecification,
-    ) -> Self {
-        Self { mesh: Arc::new(mesh), materials, source: Arc::new((file, specification)) }
+    pub(super) fn new(mesh: Mesh, file: Arc<FileMesh>, specification: BodySpecification) -> Self {
+        Self { mesh: Arc::new(mesh), source: Arc::new((file, specification)) }
     }
 
     /// The same body with every element split into four, `times` over.
@@ -314,7 +307,7 @@ impl ImportedBody {
             fine = refined_file(&fine)?;
         }
         let mesh = Mesh::from_gmsh(&fine, specification)?;
-        Ok(Self::new(mesh, self.materials.clone(), Arc::new(fine), specification.clone()))
+        Ok(Self::new(mesh, Arc::new(fine), specification.clone()))
     }
 }
 

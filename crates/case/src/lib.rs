@@ -54,7 +54,7 @@ mod whole_revolution;
 mod words;
 
 pub use assembly::AssemblyBody;
-pub use body::{Annulus, Body, Revolution};
+pub use body::{Body, BodyKind};
 pub use cea::Cea;
 pub use contact::Contact;
 pub use convergence::Convergence;
@@ -285,7 +285,7 @@ impl Case {
 
     /// The material of each region of the mesh.
     pub fn materials(&self) -> &dyn MaterialField {
-        self.body.materials()
+        &self.body.materials
     }
 
     /// Whether the body consists of equal sectors, so that its motions have harmonics.

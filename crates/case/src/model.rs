@@ -7,8 +7,8 @@ use super::elastic::{Surroundings, place_axes};
 use super::generated::generated;
 use super::imported::FileParts;
 use super::{
-    Body, Contact, MeshBytes, Section, assembly, attachments, caution, caution_if, imported,
-    refuse, refuse_if,
+    Body, BodyKind, Contact, MeshBytes, Section, assembly, attachments, caution, caution_if,
+    imported, refuse, refuse_if,
 };
 use frictionsim_physics::fem::RegionMaterial;
 use frictionsim_physics::mesh::{BodySpecification, CounterfaceSpecification};
@@ -74,11 +74,13 @@ fn of_file(own: &mut Description<'_>, file: &str) -> (Option<Body>, Contact, Opt
     let body = bytes.as_ref().and_then(|bytes| {
         let parts = FileParts { bytes, own, symmetry, materials };
         let pushed = contact.sliding.interference;
-        let body = match joints {
-            Joints::Plane(place) => imported::import(&parts, place, pushed).map(Body::Imported),
-            Joints::Solids(joints) => assembly::assemble(&parts, joints).map(Body::Assembly),
+        let made = match joints {
+            Joints::Plane(place) => imported::import(&parts, place, pushed)
+                .map(|(materials, own)| Body { materials, kind: BodyKind::Imported(own) }),
+            Joints::Solids(joints) => assembly::assemble(&parts, joints)
+                .map(|(materials, own)| Body { materials, kind: BodyKind::Assembly(own) }),
         };
-        body.map_err(|error| root.findings.push(error)).ok()
+        made.map_err(|error| root.findings.push(error)).ok()
     });
     own.mesh.close();
     (body, contact, bytes)

@@ -2,7 +2,7 @@
 
 use super::body::solid_node_count;
 use super::reader::NodePlace;
-use super::{Body, Location, Section, caution, refuse_at};
+use super::{Body, BodyKind, Location, Section, caution, refuse_at};
 use frictionsim_physics::mesh::{
     AnnulusSpecification, Counterface, SectorMesh, SolidSpecification,
 };
@@ -136,18 +136,18 @@ fn axis(body: &Body) -> [f64; 2] {
 /// The node nearest to a point, and where it is; none where the mesh makes none.
 fn nearest(body: &Body, point: [f64; 2], z: Option<f64>) -> Option<(usize, [f64; 3])> {
     let [x, y] = point;
-    match body {
-        Body::Annulus(annulus) => {
-            let (node, [x, y]) = nearest_in_sectors(&annulus.specification, point)?;
+    match &body.kind {
+        BodyKind::Annulus(annulus) => {
+            let (node, [x, y]) = nearest_in_sectors(annulus, point)?;
             Some((node, [x, y, 0.0]))
         }
-        Body::Revolution(revolution) => nearest_corner(&revolution.specification, point, z),
-        Body::Assembly(assembly) => {
+        BodyKind::Revolution(solid) => nearest_corner(solid, point, z),
+        BodyKind::Assembly(assembly) => {
             let asked = [x, y, z.unwrap_or(0.0)];
             let nodes = assembly.mesh.nodes.iter().copied().enumerate();
             nodes.min_by(|a, b| distance(a.1, asked).total_cmp(&distance(b.1, asked)))
         }
-        Body::Imported(imported) => {
+        BodyKind::Imported(imported) => {
             let (node, _) = imported.mesh.nearest_node(point)?;
             Some((node, imported.mesh.nodes[node]))
         }

@@ -5,7 +5,7 @@
 //! difference.
 
 use super::contact::section_of;
-use super::{Body, Case, CaseErrors, Revolution, refusal};
+use super::{BodyKind, Case, CaseErrors, refusal};
 use frictionsim_physics::contact::{Counterpart, SlidingContact};
 use frictionsim_physics::fem::{MassKind, sector};
 use frictionsim_physics::mesh::{SectorMesh, SolidSector};
@@ -128,7 +128,7 @@ fn interference_of(case: &Case, contact: usize) -> f64 {
 }
 
 fn set_interference(case: &mut Case, contact: usize, interference: f64) {
-    if let Body::Assembly(body) = &mut case.body
+    if let BodyKind::Assembly(body) = &mut case.body.kind
         && let Some(own) = body.contacts.get_mut(contact)
         && let Counterpart::Rigid(rigid) = &mut own.counter
     {
@@ -156,15 +156,16 @@ impl Case {
     pub fn normal_forces(&self) -> Result<Vec<f64>, String> {
         let contact = SlidingContact { friction_coefficient: 0.0, ..self.contact.sliding };
         let law = self.contact.stiffness.law;
-        let pressed = match &self.body {
-            Body::Annulus(annulus) => {
-                let mesh = SectorMesh::generate(&annulus.specification).map_err(in_words)?;
-                let elastic = sector::stiffness(&mesh, &annulus.materials);
+        let materials = &self.body.materials;
+        let pressed = match &self.body.kind {
+            BodyKind::Annulus(annulus) => {
+                let mesh = SectorMesh::generate(annulus).map_err(in_words)?;
+                let elastic = sector::stiffness(&mesh, materials);
                 let base = SectorSliding::solve(&mesh, &elastic, &contact, law);
                 let whole = self.thickness * mesh.sector_count() as f64;
                 base.map(|base| vec![whole * base.state.normal_forces[0].iter().sum::<f64>()])
             }
-            Body::Revolution(Revolution { specification, materials }) => {
+            BodyKind::Revolution(specification) => {
                 let mesh = SolidSector::generate(specification).map_err(in_words)?;
                 let elastic = sector::stiffness(&mesh, materials);
                 let law = self.contact.stiffness.base_law();
@@ -174,13 +175,13 @@ impl Case {
                     |base: SolidSliding| base.normal_forces.iter().map(|own| own.1).sum::<f64>();
                 base.map(|base| vec![whole * sum(base)])
             }
-            Body::Imported(body) => {
+            BodyKind::Imported(body) => {
                 let stiffness = self.contact.stiffness;
-                let body = Assembly::of_edge(&body.mesh, &body.materials, &contact, stiffness);
+                let body = Assembly::of_edge(&body.mesh, materials, &contact, stiffness);
                 let forces = body.and_then(|body| Ok(body.state(0.0)?.normal_forces(0.0)));
                 forces.map(|forces| vec![self.thickness * forces.iter().sum::<f64>()])
             }
-            Body::Assembly(body) => body.assembled().and_then(|assembly| {
+            BodyKind::Assembly(body) => body.assembled(materials).and_then(|assembly| {
                 let mut rest = assembly.state(0.0)?.normal_forces(0.0).into_iter();
                 let contacts = assembly.contacts().iter().map(|(_, surface)| surface.points.len());
                 Ok(contacts.map(|count| rest.by_ref().take(count).sum()).collect())

@@ -12,7 +12,7 @@ const LOWEST_OF_TABLE: f64 = 1e-5;
 /// The materials of a case in time; none where they are what they are in any case, and where there is no band to fit
 /// them to.
 pub(super) fn relaxed(case: &Case) -> Option<Vec<RegionMaterial>> {
-    let (materials, count) = (case.materials(), case.body.region_count());
+    let (materials, count) = (case.materials(), case.body.materials.len());
     if case.transient.is_none() || !case.body.has_lossy_materials() {
         return None;
     }

@@ -3,9 +3,10 @@
 use super::checks::material_key;
 use super::value::table_of;
 use super::{
-    Analysis, Annulus, Body, Case, CaseErrors, Cea, Convergence, Fit, Frf, Sweep, Uncertainty,
-    placed, refusal,
+    Analysis, BodyKind, Case, CaseErrors, Cea, Convergence, Fit, Frf, Sweep, Uncertainty, placed,
+    refusal,
 };
+use frictionsim_physics::mesh::AnnulusSpecification;
 
 impl Case {
     /// Whether it has the section of an analysis.
@@ -74,11 +75,11 @@ impl Case {
 
     /// A body that the explicit transient can step; `plane` and `solid` say who needs linear elements of it.
     pub(super) fn require_steps(&self, plane: &str, solid: &str) -> Result<(), CaseErrors> {
-        let label = match &self.body {
-            Body::Annulus(_) => plane,
-            Body::Revolution(_) => solid,
-            Body::Imported(_) => return Ok(()),
-            Body::Assembly(assembly) => return self.check_stepped(assembly),
+        let label = match &self.body.kind {
+            BodyKind::Annulus(_) => plane,
+            BodyKind::Revolution(_) => solid,
+            BodyKind::Imported(_) => return Ok(()),
+            BodyKind::Assembly(assembly) => return self.check_stepped(assembly),
         };
         if !self.body.is_quadratic() {
             return Ok(());
@@ -140,15 +141,17 @@ impl Case {
     ///
     /// # Errors
     /// A body from a mesh file, and one in three dimensions.
-    pub fn require_annulus(&self, search: &str) -> Result<&Annulus, CaseErrors> {
-        match &self.body {
-            Body::Annulus(annulus) => Ok(annulus),
-            Body::Revolution(_) | Body::Assembly(_) => Err(refusal!(self, "material.formulation",
+    pub fn require_annulus(&self, search: &str) -> Result<&AnnulusSpecification, CaseErrors> {
+        match &self.body.kind {
+            BodyKind::Annulus(annulus) => Ok(annulus),
+            BodyKind::Revolution(_) | BodyKind::Assembly(_) => {
+                Err(refusal!(self, "material.formulation",
                 "material.formulation = \"three-dimensional\": {search} plane bodies only";
                 "a three-dimensional body";
                 "`cea`, `transient`, `cycle`, `basin`, `frf`, `sweep` and `convergence` take it; \
-                 else use \"plane-stress\" or \"plane-strain\"")),
-            Body::Imported(_) => Err(refusal!(self, "mesh.file",
+                 else use \"plane-stress\" or \"plane-strain\""))
+            }
+            BodyKind::Imported(_) => Err(refusal!(self, "mesh.file",
                 "limit cycles are rotating waves, which need the rotational symmetry of the built-in annulus";
                 "an imported mesh has no sectors";
                 "describe the disc by [geometry] and element counts instead of mesh.file")),
@@ -165,10 +168,8 @@ impl Case {
         let own = ["materials", "boundaries", "contacts"].map(keys);
         let mut keys = shared.into_iter().chain(own.into_iter().flatten());
         let is_lossy = |key: &String| self.number(key).is_some_and(|value| value > 0.0);
-        let mut regions = 0..self.body.region_count();
-        let table = regions.find_map(|region| self.materials().table(region));
         let key = keys.find(is_lossy);
-        let key = key.or_else(|| table.map(|table| table.key.clone()));
+        let key = key.or_else(|| self.body.tables().next().map(|table| table.key.clone()));
         let key = key.unwrap_or_else(|| "material.loss_factor".to_owned());
         let message = format!("{key}: {message}");
         self.error_at(&key, message, label, help)

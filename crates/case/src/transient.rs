@@ -1,7 +1,7 @@
 //! `[transient]` and `[output]`: the explicit transient and what it writes.
 
 use super::{
-    AssemblyBody, Body, Case, CaseErrors, PlacedNode, Revolution, Section, caution, caution_if,
+    AssemblyBody, Body, BodyKind, Case, CaseErrors, PlacedNode, Section, caution, caution_if,
     refusal, refuse, refuse_at, refuse_if,
 };
 use frictionsim_physics::contact::SlidingContact;
@@ -188,17 +188,17 @@ fn perturbation(
 
 /// `|Omega| a`, under a ring `|Omega|` times its mean radius, on a plane its speed, m/s.
 fn slip_speed(body: &Body, sliding: &SlidingContact) -> f64 {
-    let radius = match body {
-        Body::Annulus(annulus) => annulus.specification.inner_radius,
-        Body::Revolution(Revolution { specification, .. }) => match specification.contact {
+    let radius = match &body.kind {
+        BodyKind::Annulus(annulus) => annulus.inner_radius,
+        BodyKind::Revolution(solid) => match solid.contact {
             SolidContact::Ring { inner_radius, outer_radius } => {
                 0.5 * (inner_radius + outer_radius)
             }
-            SolidContact::Inner => specification.annulus.inner_radius,
+            SolidContact::Inner => solid.annulus.inner_radius,
         },
         // Where it turns, the slip speed differs from point to point.
-        Body::Assembly(_) => 1.0,
-        Body::Imported(imported) => match imported.mesh.counterface {
+        BodyKind::Assembly(_) => 1.0,
+        BodyKind::Imported(imported) => match imported.mesh.counterface {
             Counterface::Cylinder { radius, .. } => radius,
             // What turns is a speed, m/s, there.
             Counterface::Plane { .. } => 1.0,

@@ -2,11 +2,14 @@
 //! harmonics are solved by.
 
 use super::modifications::{Misfit, Modification, reshaped};
-use super::{AssemblyBody, Body, Case, CaseErrors, Contact, Revolution};
+use super::{AssemblyBody, Body, BodyKind, Case, CaseErrors, Contact};
 use frictionsim_physics::contact::{
     Counterpart, Motion, PairFriction, RigidCounterface, RigidMotion, RigidShape,
 };
-use frictionsim_physics::mesh::{BoundaryCondition, Mesh, SolidContact, SolidFace, SolidSector};
+use frictionsim_physics::fem::RegionMaterial;
+use frictionsim_physics::mesh::{
+    BoundaryCondition, Mesh, SolidContact, SolidFace, SolidSector, SolidSpecification,
+};
 use frictionsim_physics::prestress::{BaseChoice, SlidingSurfaces};
 use std::borrow::Cow;
 use std::sync::Arc;
@@ -17,26 +20,27 @@ impl Case {
     /// # Errors
     /// What the whole mesh does not have, at its key.
     pub fn on_whole_mesh(&self) -> Result<Cow<'_, Self>, CaseErrors> {
-        let Body::Revolution(revolution) = &self.body else {
+        let BodyKind::Revolution(specification) = &self.body.kind else {
             return Ok(Cow::Borrowed(self));
         };
-        let body = whole_revolution(revolution, &self.contact, None, &[]);
+        let materials = &self.body.materials;
+        let body = whole_revolution(specification, materials, &self.contact, None, &[]);
         let body = body.map_err(|(key, why)| {
             let label = "does not fit the whole mesh";
             self.error_at(&key, format!("{key}: {why}"), label, None::<String>)
         })?;
-        Ok(Cow::Owned(Self { body: Body::Assembly(body), ..self.clone() }))
+        Ok(Cow::Owned(Self { body, ..self.clone() }))
     }
 }
 
 /// The whole mesh of a body of revolution on its rigid cylinder, or under its rigid ring. It turns as one.
 pub(super) fn whole_revolution(
-    revolution: &Revolution,
+    specification: &SolidSpecification,
+    materials: &[RegionMaterial],
     contact: &Contact,
     motion: Option<Motion>,
     modifications: &[Modification],
-) -> Result<AssemblyBody, Misfit> {
-    let specification = &revolution.specification;
+) -> Result<Body, Misfit> {
     let stiffness = &contact.stiffness;
     let has_springs = stiffness.law.is_none() && stiffness.normal_stiffness.is_some();
     if has_springs && !stiffness.is_base_compliant {
@@ -65,16 +69,17 @@ pub(super) fn whole_revolution(
     let names = specification.region_names();
     let materials = mesh.regions.iter().map(|name| {
         let own = names.iter().position(|own| own == name);
-        revolution.materials[own.unwrap_or(0)].clone()
+        materials[own.unwrap_or(0)].clone()
     });
-    Ok(AssemblyBody {
-        materials: materials.collect(),
+    let materials = materials.collect();
+    let kind = BodyKind::Assembly(AssemblyBody {
         ties: Vec::new(),
         contacts: vec![sliding_surfaces(specification.contact, surface, contact)],
         motions: motion.map(|own| Motion { regions, ..own }).into_iter().collect(),
         base: BaseChoice::Solved,
         mesh: Arc::new(mesh),
-    })
+    });
+    Ok(Body { materials, kind })
 }
 
 /// The contact with the cylinder or the ring.

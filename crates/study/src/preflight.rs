@@ -5,9 +5,7 @@ use super::improve;
 use super::response::FrequencyStudy;
 use super::transient::TransientStudy;
 use super::{StudyError, eigenvalues};
-use frictionsim_case::{
-    Body, Case, CaseErrors, Cea, CeaMethod, Cost, Diagnostic, Location, StudyCost,
-};
+use frictionsim_case::{Case, CaseErrors, Cea, CeaMethod, Cost, Diagnostic, Location, StudyCost};
 use frictionsim_physics::fem::operator::SimdLevel;
 use frictionsim_physics::mesh::SolidSector;
 
@@ -66,10 +64,10 @@ pub fn preflight(case: &Case, available: f64) -> Result<Preflight, StudyError> {
     }
     let is_small = found.cost.nodes <= MOST_NODES;
     let is_solved = found.cost.dofs <= MOST_SOLVED;
-    if let Body::Revolution(revolution) = &case.body
+    if let Some(specification) = case.body.revolution()
         && is_small
     {
-        SolidSector::generate(&revolution.specification)?;
+        SolidSector::generate(specification)?;
     }
     if case.raw.root.contains_key("improve") {
         improve::refuse_bodies(case)?;

@@ -13,7 +13,7 @@
 
 use super::eigenvalues::{WholeMesh, wave_tangent};
 use super::{StudyError, tangent_options};
-use frictionsim_case::{AssemblyBody, Body, Case, CaseErrors, Frf, FrfMethod, refusal};
+use frictionsim_case::{AssemblyBody, BodyKind, Case, CaseErrors, Frf, FrfMethod, refusal};
 use frictionsim_physics::fem::sector::Sectored;
 use frictionsim_physics::frf::{
     Axis, CyclicSystem, FrfBoundary, FrfError, FrfSystem, Port, ReductionSettings, Terminal,
@@ -201,8 +201,8 @@ fn refuse_beyond_tables(case: &Case, frf: &Frf) -> Result<(), CaseErrors> {
 
 /// The harmonics of an annulus, or of a body of revolution in three dimensions.
 fn cyclic(case: &Case, frf: &Frf) -> Result<System, StudyError> {
-    let system = match (&case.body, frf.boundary) {
-        (Body::Imported(_) | Body::Assembly(_), _) => {
+    let system = match (&case.body.kind, frf.boundary) {
+        (BodyKind::Imported(_) | BodyKind::Assembly(_), _) => {
             return Err(StudyError::Case(refusal!(case, "frf.method",
                 "frf.method = \"cyclic\" needs the symmetry of the built-in annulus";
                 "an imported mesh has no sectors"; "use \"auto\", \"direct\" or \"reduced\"")));
@@ -213,10 +213,8 @@ fn cyclic(case: &Case, frf: &Frf) -> Result<System, StudyError> {
             let waves = waves.expect("a body of equal sectors has waves");
             CyclicSystem::sliding(&waves, case.contact.sliding.friction_coefficient)
         }
-        (Body::Annulus(body), _) => apart(case, frf, &SectorMesh::generate(&body.specification)?),
-        (Body::Revolution(body), _) => {
-            apart(case, frf, &SolidSector::generate(&body.specification)?)
-        }
+        (BodyKind::Annulus(own), _) => apart(case, frf, &SectorMesh::generate(own)?),
+        (BodyKind::Revolution(own), _) => apart(case, frf, &SolidSector::generate(own)?),
     };
     for (terminal, key) in [(frf.force, "force_node"), (frf.response, "response_node")] {
         let checked = system.check(terminal, key);
@@ -261,7 +259,7 @@ fn held(case: &Case, frf: &Frf) -> Result<(FrfSystem, Arc<Mesh>), StudyError> {
         let friction = case.contact.sliding.friction_coefficient;
         return Ok((FrfSystem::sliding(&whole.own_tangent(case)?, friction), whole.mesh));
     }
-    let Body::Assembly(body) = &case.body else {
+    let Some(body) = case.body.assembly() else {
         let (mesh, is_clamped) = (case.mesh()?, frf.boundary == FrfBoundary::Clamped);
         let (materials, rayleigh) = (case.materials(), case.damping.rayleigh);
         return Ok((FrfSystem::body(&mesh, materials, frf.mass, rayleigh, is_clamped), mesh));
@@ -274,7 +272,7 @@ fn held(case: &Case, frf: &Frf) -> Result<(FrfSystem, Arc<Mesh>), StudyError> {
             boundary.condition = BoundaryCondition::Free;
         }
     }
-    let assembly = apart.assembled()?;
+    let assembly = apart.assembled(case.materials())?;
     let tangent = assembly.tangent(&assembly.state(0.0)?, &options)?;
     Ok((FrfSystem::tied(&tangent), Arc::clone(&body.mesh)))
 }

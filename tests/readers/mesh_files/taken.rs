@@ -34,10 +34,10 @@ fn a_file_in_millimetres_gives_a_case_in_si_units() {
     let case = taken(folder.path(), CASE);
     let body = case.body.assembly().unwrap();
     let region = |name: &str| body.mesh.regions.iter().position(|r| r == name).unwrap();
-    let lower = &body.materials[region("Lower")];
+    let lower = &case.body.materials[region("Lower")];
     assert_eq!(lower.elastic.young_modulus, 1.1e11);
     assert_eq!(lower.elastic.density, 7200.0);
-    let upper = &body.materials[region("Upper")];
+    let upper = &case.body.materials[region("Upper")];
     assert_eq!(upper.damping.unwrap().mass_coefficient, 40.0);
     assert!((body.mesh.region_measures()[region("Lower")] / 1e-6 - 1.0).abs() < 1e-12);
     assert_eq!(body.contacts[0].stiffness.normal_stiffness, Some(2e13));
@@ -63,7 +63,8 @@ fn sections_of_the_case_win_over_those_of_the_file() {
         + "[materials.Upper]\nyoung_modulus = 8e9\n[boundaries.Back]\ncondition = \"free\"\n[contacts.Under]\nfriction_coefficient = 0.1\n";
     let case = taken(folder.path(), &text);
     let body = case.body.assembly().unwrap();
-    let upper = &body.materials[body.mesh.regions.iter().position(|r| r == "Upper").unwrap()];
+    let region = body.mesh.regions.iter().position(|r| r == "Upper").unwrap();
+    let upper = &case.body.materials[region];
     assert_eq!([upper.elastic.young_modulus, upper.elastic.density], [8e9, 2500.0]);
     assert_eq!(body.mesh.boundary("Back").unwrap().condition, Free);
     assert_eq!(case.contact.sliding.friction_coefficient, 0.1);

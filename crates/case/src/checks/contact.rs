@@ -4,7 +4,7 @@ use super::Limit;
 use super::material::modulus_key;
 use super::mesh::lengths;
 use crate::contact::{Springs, section_of};
-use crate::{Body, Case, Diagnostic, diagnosis};
+use crate::{BodyKind, Case, Diagnostic, diagnosis};
 use frictionsim_physics::prestress::{BaseChoice, SlidingSurfaces};
 
 /// Sliding speed of dry contacts, m/s: that of brakes of racing cars and trains lies below.
@@ -100,14 +100,14 @@ pub(super) fn interference(case: &Case) -> Option<Diagnostic> {
 
 /// A surface that stands deeper inside its rigid counterface than this is pushed in.
 pub(super) fn overlap(case: &Case) -> Option<Diagnostic> {
-    let found: Vec<(String, f64, f64)> = match &case.body {
-        Body::Imported(body) if body.mesh.opposite.is_none() => {
+    let found: Vec<(String, f64, f64)> = match &case.body.kind {
+        BodyKind::Imported(body) if body.mesh.opposite.is_none() => {
             let distances = body.mesh.distances_from_counterface(body.mesh.contact_edge());
             let depth = distances.into_values().map(|distance| -distance).reduce(f64::max)?;
             let pushed = case.contact.sliding.interference;
             vec![("contact.interference".to_owned(), depth, pushed)]
         }
-        Body::Assembly(body) if body.base == BaseChoice::Solved => {
+        BodyKind::Assembly(body) if body.base == BaseChoice::Solved => {
             let overlap = |own: &SlidingSurfaces| {
                 // A measured surface says itself where it stands.
                 let rigid = own.counter.rigid().filter(|_| own.topography.is_none())?;

@@ -1,6 +1,6 @@
 //! Lengths that are hardly meant, and meshes that are hardly what they should be.
 
-use crate::{Body, Case, Diagnostic, diagnosis};
+use crate::{Case, Diagnostic, diagnosis};
 use frictionsim_bounds::first_of;
 
 /// Lengths that a case has, m.
@@ -18,7 +18,7 @@ pub(super) fn lengths(case: &Case) -> Option<Diagnostic> {
         Some(_) => "mesh.scale makes metres of coordinates: of millimetres it is 0.001",
         None => "metres are read: of millimetres set mesh.units = \"mm-t-s\"",
     };
-    let is_read = matches!(case.body, Body::Imported(_) | Body::Assembly(_));
+    let is_read = !case.body.has_sectors();
     let width = is_read.then(|| ("mesh.scale", 2.0 * case.body.size(), most, of_file));
     let radii = case.body.grid().into_iter().flat_map(|grid| {
         let keys = ["geometry.inner_radius", "geometry.outer_radius"];

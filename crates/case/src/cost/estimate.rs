@@ -3,11 +3,11 @@
 use super::size::Size;
 use super::{CeaCost, CycleCost, FrfCost, RunCost, TransientCost};
 use crate::{
-    AssemblyBody, Body, Case, Cea, CeaMethod, Cycle, Frf, FrfMethod, ModeLimit, Revolution,
-    StabilityChoice, TimeStep, Transient,
+    BodyKind, Case, Cea, CeaMethod, Cycle, Frf, FrfMethod, ModeLimit, StabilityChoice, TimeStep,
+    Transient,
 };
 use frictionsim_physics::cycle::BasinRequest;
-use frictionsim_physics::fem::ElasticMaterial;
+use frictionsim_physics::fem::{ElasticMaterial, RegionMaterial};
 use frictionsim_physics::frf::FrfBoundary;
 use frictionsim_physics::linalg::{LdlAnalysis, SparsityPattern};
 use frictionsim_physics::mesh::{Mesh, SolidSpecification};
@@ -93,25 +93,24 @@ impl Case {
         let pairs = friction_values as f64 * modes as f64;
         let shapes = (modes * cea.shapes_at.len()) as f64;
         let unknowns = self.unknowns(size);
-        let (memory_bytes, operations) = match (&self.body, cea.method) {
-            (Body::Revolution(Revolution { specification, .. }), _) => {
-                let sectors = specification.annulus.circumferential_elements.max(1);
-                let (unknowns, band) =
-                    (unknowns / sectors as f64, solid_half_bandwidth(specification));
+        let (memory_bytes, operations) = match (&self.body.kind, cea.method) {
+            (BodyKind::Revolution(solid), _) => {
+                let sectors = solid.annulus.circumferential_elements.max(1);
+                let (unknowns, band) = (unknowns / sectors as f64, solid_half_bandwidth(solid));
                 let waves = (modes as f64 / 4.0).max(3.0);
                 let factorization = 5.0 * unknowns * band * band;
                 (SOLID_BYTES * waves * unknowns * band, pairs * (HARMONIC_PAIR + factorization))
             }
-            (Body::Annulus(annulus), CeaMethod::Auto | CeaMethod::Cyclic) => {
-                let sectors = annulus.specification.circumferential_elements.max(1);
+            (BodyKind::Annulus(annulus), CeaMethod::Auto | CeaMethod::Cyclic) => {
+                let sectors = annulus.circumferential_elements.max(1);
                 let sector = unknowns / sectors as f64;
                 let bytes = 100.0 * sector * sector.min(200.0) + 16.0 * shapes * unknowns;
                 (bytes + pairs * (16.0 * sector + 600.0), pairs * HARMONIC_PAIR)
             }
             _ => {
                 let (vectors, values) = (unknowns * modes as f64, friction_values as f64);
-                let (bytes, factors) = match &self.body {
-                    Body::Assembly(own) => {
+                let (bytes, factors) = match &self.body.kind {
+                    BodyKind::Assembly(own) => {
                         let entries = factor_entries(&own.mesh, unknowns);
                         let bytes = FACTOR_BYTES[0] * entries + FACTOR_BYTES[1] * vectors;
                         (bytes, FACTORS * values * entries.powf(1.5))
@@ -167,8 +166,8 @@ impl Case {
     pub(super) fn frf_cost(&self, frf: &Frf, size: &Size) -> FrfCost {
         let dofs = self.unknowns(size);
         let lines = frf.frequencies_hz.len();
-        if let Body::Revolution(Revolution { specification, .. }) = &self.body {
-            return solid_frf_cost(frf, specification, dofs);
+        if let Some(solid) = self.body.revolution() {
+            return solid_frf_cost(frf, solid, dofs);
         }
         let sectors = self.body.sector_count();
         let sectors = sectors.filter(|_| self.responds_by_harmonics(frf));
@@ -196,11 +195,10 @@ impl Case {
     /// Weyl's estimate of the number of modes below a frequency, see [`weyl`].
     fn modes_below(&self, limit_hz: f64, size: &Size) -> usize {
         let omega = TAU * limit_hz;
-        let count = match &self.body {
-            Body::Assembly(assembly) => solid_modes(assembly, omega),
-            Body::Annulus(_) | Body::Imported(_) | Body::Revolution(_) => {
-                let solid = self.body.revolution();
-                let thickness = solid.map(|body| body.specification.thickness);
+        let count = match self.body.assembly() {
+            Some(own) => solid_modes(&own.mesh, &self.body.materials, omega),
+            None => {
+                let thickness = self.body.revolution().map(|solid| solid.thickness);
                 weyl(&self.material, omega, self.body.area(), thickness)
             }
         };
@@ -217,9 +215,9 @@ impl Case {
         let steps = (transient.settings.duration / time_step).ceil();
         let is_sparse = transient.operator == OperatorChoice::Sparse;
         let unknowns = self.unknowns(size);
-        let (each, operator_bytes) = match &self.body {
-            Body::Revolution(_) => (STEP[1], 0.0),
-            Body::Annulus(_) if !is_sparse => (STEP[0], 0.0),
+        let (each, operator_bytes) = match self.body.kind {
+            BodyKind::Revolution(_) => (STEP[1], 0.0),
+            BodyKind::Annulus(_) if !is_sparse => (STEP[0], 0.0),
             _ => (STEP[1], STEPPED_BYTES * unknowns),
         };
         let run = RunCost {
@@ -285,14 +283,13 @@ fn weyl(material: &ElasticMaterial, omega: f64, area: f64, thickness: Option<f64
 
 /// The same of solid bodies: each region as a plate of half its surface that has its volume, and with
 /// `V omega^3 / 6 pi^2 (1 / c_p^3 + 2 / c_s^3)` as a piece of space.
-fn solid_modes(assembly: &AssemblyBody, omega: f64) -> f64 {
-    let mesh = &assembly.mesh;
+fn solid_modes(mesh: &Mesh, materials: &[RegionMaterial], omega: f64) -> f64 {
     let mut surfaces = vec![Vec::new(); mesh.regions.len()];
     for face in mesh.outer_faces() {
         surfaces[mesh.region(face.element as usize)].push(face);
     }
     let volumes = mesh.region_measures();
-    let regions = volumes.iter().zip(&surfaces).zip(&assembly.materials);
+    let regions = volumes.iter().zip(&surfaces).zip(materials);
     let each = regions.map(|((volume, faces), material)| {
         let material = &material.elastic;
         // A region within others has no surface of its own.

@@ -1,6 +1,6 @@
 //! Size of a mesh, as the cost estimates need it.
 
-use crate::{Body, Case, Revolution};
+use crate::{BodyKind, Case};
 use frictionsim_physics::fem::{ElasticMaterial, MaterialField, RegionMaterial};
 use frictionsim_physics::mesh::{AnnulusSpecification, Mesh};
 use std::f64::consts::TAU;
@@ -23,23 +23,21 @@ pub(super) struct Size {
 impl Size {
     /// The size of the case's own mesh.
     pub fn of(case: &Case) -> Self {
-        let body = &case.body;
-        let highest_frequency = match body {
-            Body::Annulus(annulus) => {
-                let grid = &annulus.specification;
-                let of_disc = grid_frequency(grid, annulus.materials.of(0), 0.0);
-                let shaft = annulus.materials.get(1).map(|shaft| &shaft.elastic);
+        let (body, materials) = (&case.body, &case.body.materials);
+        let highest_frequency = match &body.kind {
+            BodyKind::Annulus(grid) => {
+                let of_disc = grid_frequency(grid, materials.of(0), 0.0);
+                let shaft = materials.get(1).map(|shaft| &shaft.elastic);
                 of_disc.max(shaft_frequency(grid, shaft))
             }
-            Body::Revolution(Revolution { specification, materials }) => {
-                let through = specification.axial_elements as f64 / specification.thickness;
-                let of = |own: &RegionMaterial| {
-                    grid_frequency(&specification.annulus, &own.elastic, through)
-                };
+            BodyKind::Revolution(solid) => {
+                let through = solid.axial_elements as f64 / solid.thickness;
+                let of =
+                    |own: &RegionMaterial| grid_frequency(&solid.annulus, &own.elastic, through);
                 materials.iter().map(of).fold(0.0, f64::max)
             }
-            Body::Imported(own) => highest(&own.mesh, &own.materials, element_frequency),
-            Body::Assembly(own) => highest(&own.mesh, &own.materials, solid_frequency),
+            BodyKind::Imported(own) => highest(&own.mesh, materials, element_frequency),
+            BodyKind::Assembly(own) => highest(&own.mesh, materials, solid_frequency),
         };
         Self { nodes: body.node_count(), elements: body.element_count(), highest_frequency }
     }

@@ -216,6 +216,6 @@ fn mesh_level(case: &Case) -> (f64, String) {
     };
     let (around, radial) = (grid.circumferential_elements, grid.radial_elements);
     let size = (body.area() / (around as f64 * radial as f64)).sqrt();
-    let layers = body.revolution().map(|own| format!(" x {}", own.specification.axial_elements));
+    let layers = body.revolution().map(|own| format!(" x {}", own.axial_elements));
     (size, format!("{around} x {radial}{}", layers.unwrap_or_default()))
 }

@@ -87,8 +87,8 @@ pub fn critical_value(case: &Case, parameter: Parameter, values: &[f64]) -> Opti
 pub fn disc_model(case: &Case) -> Result<DiscModel, CaseErrors> {
     let annulus = case.require_annulus("limit cycles are sought in")?;
     Ok(DiscModel {
-        specification: annulus.specification,
-        material: annulus.materials[0].elastic,
+        specification: *annulus,
+        material: case.body.materials[0].elastic,
         damping: case.damping.rayleigh,
     })
 }

@@ -3,7 +3,7 @@
 use super::whole::WholeMesh;
 use super::{Progress, Solution, StudyError};
 use crate::tangent_options;
-use frictionsim_case::{Annulus, Body, Case, CaseErrors, Cea, CeaMethod, Revolution, refusal};
+use frictionsim_case::{BodyKind, Case, CaseErrors, Cea, CeaMethod, refusal};
 use frictionsim_physics::cea::cyclic::{self, WaveSweep};
 use frictionsim_physics::cea::{CeaError, ModeLimit, SweepRequest, Unwatched};
 use frictionsim_physics::mesh::{SectorMesh, SolidSector};
@@ -26,8 +26,8 @@ impl Solver {
     /// A method that the body does not have; a counterface at rest, on which the body sticks.
     pub fn of(case: &Case, method: CeaMethod) -> Result<Self, CaseErrors> {
         refuse_rest(case)?;
-        match (&case.body, method) {
-            (Body::Imported(_) | Body::Assembly(_), CeaMethod::Cyclic)
+        match (&case.body.kind, method) {
+            (BodyKind::Imported(_) | BodyKind::Assembly(_), CeaMethod::Cyclic)
                 if !case.body.is_of_sectors() =>
             {
                 Err(refusal!(case, "cea.method",
@@ -35,7 +35,7 @@ impl Solver {
                     "the mesh file has the whole body";
                     "give a mesh of one sector with mesh.sectors, or use \"auto\" or \"sparse\""))
             }
-            (Body::Annulus(_), CeaMethod::Sparse) => Ok(Self::WholeMesh),
+            (BodyKind::Annulus(_), CeaMethod::Sparse) => Ok(Self::WholeMesh),
             (_, _) => Ok(Self::by_symmetry(case)),
         }
     }
@@ -57,10 +57,7 @@ impl Solver {
 
     /// The solver that uses all the symmetry of the body of a case.
     pub fn by_symmetry(case: &Case) -> Self {
-        match &case.body {
-            Body::Annulus(_) | Body::Revolution(_) => Self::Waves,
-            Body::Imported(_) | Body::Assembly(_) => Self::WholeMesh,
-        }
+        if case.has_sectors() { Self::Waves } else { Self::WholeMesh }
     }
 }
 
@@ -157,17 +154,17 @@ pub fn wave_tangent(
     case: &Case,
     options: &TangentOptions,
 ) -> Result<Option<WaveTangent>, CeaError> {
-    let sliding = &case.contact.sliding;
-    Ok(match &case.body {
-        Body::Annulus(Annulus { specification, materials }) => {
+    let (sliding, materials) = (&case.contact.sliding, &case.body.materials);
+    Ok(match &case.body.kind {
+        BodyKind::Annulus(specification) => {
             let sector = SectorMesh::generate(specification)?;
             Some(WaveTangent::of_annulus(&sector, materials, options, sliding)?)
         }
-        Body::Revolution(Revolution { specification, materials }) => {
+        BodyKind::Revolution(specification) => {
             let sector = SolidSector::generate(specification)?;
             Some(WaveTangent::of_revolution(&sector, materials, options, sliding)?)
         }
-        Body::Imported(_) | Body::Assembly(_) => None,
+        BodyKind::Imported(_) | BodyKind::Assembly(_) => None,
     })
 }
 

@@ -3,7 +3,7 @@
 use super::SlidingModel;
 use super::contact::SteadyState;
 use super::solid::mean_friction;
-use frictionsim_case::{Body, Case, Cea};
+use frictionsim_case::{BodyKind, Case, Cea};
 use frictionsim_physics::cea::cyclic::{Coverage, Overdamped};
 use frictionsim_physics::cea::{BeyondMode, CeaError, FrictionSweep, ModeCount, UnstableInterval};
 use frictionsim_physics::contact::ContactInterface;
@@ -93,9 +93,9 @@ pub(super) fn uncertainty_note(case: &Case, sweep: &FrictionSweep) -> Option<Str
     }
     let penalty = case.contact.stiffness.normal_stiffness.map_or_else(String::new, |stiffness| {
         let size = stiffness * case.body.contact_length() / case.material.young_modulus;
-        let length = match &case.body {
-            Body::Imported(_) | Body::Assembly(_) => "the size of the contact",
-            Body::Annulus(_) | Body::Revolution(_) => "geometry.inner_radius",
+        let length = match case.has_sectors() {
+            true => "geometry.inner_radius",
+            false => "the size of the contact",
         };
         format!(
             "contact.normal_stiffness times {length} is {size:.1e} times \
@@ -124,12 +124,12 @@ pub(super) fn damping_note(case: &Case, sweep: &FrictionSweep) -> Option<String>
     if largest.max(at_limit) <= 0.5 {
         return None;
     }
-    let (factor, cause) = match case.body {
-        Body::Revolution(_) if at_limit <= 0.5 => (
+    let (factor, cause) = match case.body.kind {
+        BodyKind::Revolution(_) if at_limit <= 0.5 => (
             largest,
             "the dashpot of friction across the sliding, mu p / V, causes it, and grows as the sliding slows down",
         ),
-        Body::Assembly(_) if at_limit <= 0.5 => (
+        BodyKind::Assembly(_) if at_limit <= 0.5 => (
             largest,
             "damping of regions, losses, dashpots, or friction across a slow sliding \
              (a dashpot of mu p / V) causes it",

@@ -5,7 +5,7 @@ use super::contact::{SolidState, SteadyState};
 use super::model::Model;
 use super::solid;
 use crate::extent_of;
-use frictionsim_case::{Annulus, AssemblyBody, Body, Case, Cea, Revolution, refusal};
+use frictionsim_case::{AssemblyBody, BodyKind, Case, Cea, refusal};
 use frictionsim_physics::contact::{ContactInterface, ContactSurface};
 use frictionsim_physics::fem::sector;
 use frictionsim_physics::mesh::{AnnulusMesh, Mesh, SectorMesh};
@@ -36,24 +36,26 @@ fn sliding_sector(
     options: &TangentOptions,
 ) -> Result<(Arc<Mesh>, SteadyState), StudyError> {
     let sliding = &case.contact.sliding;
-    Ok(match &case.body {
-        Body::Annulus(Annulus { specification, materials }) => {
+    Ok(match &case.body.kind {
+        BodyKind::Annulus(specification) => {
             let annulus = AnnulusMesh::generate(specification)?;
             let sector = SectorMesh::generate(specification)?;
-            let stiffness = sector::stiffness(&sector, materials);
+            let stiffness = sector::stiffness(&sector, &case.body.materials);
             let base = SectorSliding::solve(&sector, &stiffness, sliding, options.contact.law)?;
             let (state, mesh) = (base.repeated(&annulus, &sector), annulus.mesh);
             let edge = SlidingSurfaces::of_edge(&mesh, sliding, options.contact);
             let contacts = Arc::new([(edge, ContactSurface::of_edge(&mesh, sliding))]);
             (Arc::new(mesh), SteadyState::Mesh { contacts, state })
         }
-        Body::Revolution(Revolution { specification, .. }) => {
+        BodyKind::Revolution(specification) => {
             let solid = solid::solved(case, specification)?;
             let mut mesh = AnnulusMesh::generate(&specification.plane())?.mesh;
             mesh.regions = specification.region_names();
             (Arc::new(mesh), SteadyState::Solid(Box::new(solid)))
         }
-        Body::Imported(_) | Body::Assembly(_) => unreachable!("a body of equal sectors has waves"),
+        BodyKind::Imported(_) | BodyKind::Assembly(_) => {
+            unreachable!("a body of equal sectors has waves")
+        }
     })
 }
 

@@ -1,7 +1,7 @@
 //! A body that is solved on its whole mesh, and its base states.
 
 use super::contact::places;
-use frictionsim_case::{AssemblyBody, Body, Case, Cea, CeaMethod};
+use frictionsim_case::{AssemblyBody, Case, Cea, CeaMethod};
 use frictionsim_physics::cea::CeaError;
 use frictionsim_physics::contact::{ContactStiffness, ContactSurface, Point, Turning};
 use frictionsim_physics::mesh::{CyclicSymmetry, Mesh};
@@ -140,9 +140,9 @@ fn assembled<'a>(
     mesh: &'a Mesh,
     options: &TangentOptions,
 ) -> Result<Assembly<'a>, CeaError> {
-    Ok(match &case.body {
-        Body::Assembly(body) => body.assembled()?,
-        _ => Assembly::of_edge(mesh, case.materials(), &case.contact.sliding, options.contact)?,
+    Ok(match case.body.assembly() {
+        Some(body) => body.assembled(case.materials())?,
+        None => Assembly::of_edge(mesh, case.materials(), &case.contact.sliding, options.contact)?,
     })
 }
 

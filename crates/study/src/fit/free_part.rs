@@ -13,11 +13,11 @@ pub(super) fn free_part(case: &Case) -> Option<&AssemblyBody> {
     let body = case.body.assembly()?;
     let rayleigh = case.damping.rayleigh;
     let is_damped = rayleigh.mass_coefficient != 0.0 || rayleigh.stiffness_coefficient != 0.0;
-    let mut own = body.materials.iter().map(|material| material.damping);
+    let mut own = case.body.materials.iter().map(|material| material.damping);
     let is_plain = !is_damped && own.all(|damping| damping.is_none());
     let is_plain = is_plain && !case.has_structural_damping();
     let is_plain = is_plain && body.mesh.attachments.is_empty() && body.mesh.patches.is_empty();
-    let is_free = is_plain && body.assembled().is_ok_and(|assembly| assembly.is_free());
+    let is_free = is_plain && body.assembled(case.materials()).is_ok_and(|own| own.is_free());
     is_free.then_some(body)
 }
 
@@ -46,8 +46,7 @@ pub(super) fn rates<'p>(
         Some([form(mass), form(stiffness)])
     };
     let matrices = |case: &Case| -> Option<[Triplets; 2]> {
-        let body = case.body.assembly()?;
-        let (mesh, materials) = (&body.mesh, &body.materials);
+        let (mesh, materials) = (&case.body.assembly()?.mesh, case.materials());
         Some([assemble_mass(mesh, materials, kind), assemble_stiffness(mesh, materials)])
     };
     let own = matrices(case);

@@ -194,7 +194,7 @@ pub(crate) fn refuse_bodies(case: &Case) -> Result<(), CaseErrors> {
         ));
     }
     match case.body.annulus() {
-        Some(annulus) if annulus.specification.shaft.is_some() => {
+        Some(annulus) if annulus.shaft.is_some() => {
             Err(refusal!(case, "geometry.shaft_inner_radius",
                 "improve adds to, or takes from, one place of a body, which breaks the symmetry \
                  that disc and shaft are solved by";

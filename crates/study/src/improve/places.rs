@@ -1,7 +1,7 @@
 //! Where a body may be modified: not at its contacts, not where the case forbids it, not where nothing moves.
 
 use super::base::Base;
-use frictionsim_case::{Body, CaseErrors, refusal};
+use frictionsim_case::{CaseErrors, refusal};
 use frictionsim_physics::mesh::{Counterface, Mesh};
 use std::collections::BTreeSet;
 
@@ -84,15 +84,15 @@ impl Places {
 /// Nodes of all surfaces in contact or tied.
 fn contact_nodes(base: &Base<'_>) -> BTreeSet<u32> {
     let mesh = &base.mesh;
-    let boundaries: Vec<usize> = match &base.case.body {
-        Body::Assembly(assembly) => {
+    let boundaries: Vec<usize> = match base.case.body.assembly() {
+        Some(assembly) => {
             let contacts = assembly.contacts.iter();
             let contacts =
                 contacts.flat_map(|own| std::iter::once(own.surface).chain(own.counter.surface()));
             let ties = assembly.ties.iter();
             contacts.chain(ties.flat_map(|own| [own.surface, own.counter])).collect()
         }
-        _ => std::iter::once(mesh.contact).chain(mesh.opposite).collect(),
+        None => std::iter::once(mesh.contact).chain(mesh.opposite).collect(),
     };
     let nodes = boundaries.iter().flat_map(|&b| &mesh.boundaries[b].nodes);
     nodes.copied().collect()

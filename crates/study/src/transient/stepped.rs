@@ -2,7 +2,7 @@
 
 use crate::StudyError;
 use crate::cycle::operating_point;
-use frictionsim_case::{Annulus, AssemblyBody, Body, Case, Revolution};
+use frictionsim_case::{AssemblyBody, BodyKind, Case};
 use frictionsim_physics::cycle::OperatingPoint;
 use frictionsim_physics::mesh::{AnnulusMesh, Mesh, SolidSector};
 use frictionsim_physics::prestress::Assembly;
@@ -29,21 +29,21 @@ impl<'a> SteppedMesh<'a> {
     /// A mesh that cannot be built; surfaces that do not meet.
     pub fn of(case: &'a Case) -> Result<Self, StudyError> {
         let (mut annulus, mut sector, mut assembly) = (None, None, None);
-        let mesh = match &case.body {
-            Body::Annulus(Annulus { specification, .. }) => {
+        let mesh = match &case.body.kind {
+            BodyKind::Annulus(specification) => {
                 let generated = AnnulusMesh::generate(specification)?;
                 let mesh = Arc::new(generated.mesh.clone());
                 annulus = Some(generated);
                 mesh
             }
-            Body::Revolution(Revolution { specification, .. }) => {
+            BodyKind::Revolution(specification) => {
                 let generated = SolidSector::generate(specification)?;
                 let mesh = Arc::new(generated.section()?);
                 sector = Some(generated);
                 mesh
             }
-            Body::Imported(imported) => Arc::clone(&imported.mesh),
-            Body::Assembly(body) => {
+            BodyKind::Imported(imported) => Arc::clone(&imported.mesh),
+            BodyKind::Assembly(body) => {
                 assembly = Some(body.stepped_as(case.materials_in_time())?);
                 Arc::clone(&body.mesh)
             }

@@ -5,7 +5,7 @@ use crate::StudyError;
 use crate::eigenvalues::{Model, Solver, asked_modes};
 use crate::tangent::{MODES_IN_TIME, options_in_time};
 use crate::transient::SteppedMesh;
-use frictionsim_case::{Body, Case};
+use frictionsim_case::Case;
 use frictionsim_physics::cea::{ComplexMode, FrictionSweep, SweepRequest, Unwatched, sparse};
 use frictionsim_physics::cycle::Parameter;
 use frictionsim_physics::cycle::periodic::GrowingMode;
@@ -128,9 +128,9 @@ fn sweep_in_time(
     frictions: &[f64],
     shapes_at: &[f64],
 ) -> Result<(Model, FrictionSweep), StudyError> {
-    let solver = match &case.body {
-        Body::Revolution(_) => Solver::by_symmetry(case),
-        _ => Solver::WholeMesh,
+    let solver = match case.body.revolution() {
+        Some(_) => Solver::Waves,
+        None => Solver::WholeMesh,
     };
     let request = SweepRequest {
         shapes_at,
