@@ -65,26 +65,9 @@ pub enum Refusal {
         /// Whether files include others.
         is_sum: bool,
     },
-    /// Too many files.
-    #[error("more than {most} files are included")]
-    Files {
-        /// Files at most.
-        most: usize,
-    },
-    /// Files in files, or sets in sets.
-    #[error("more than {most} {what} name each other")]
-    Depth {
-        /// Depth at most.
-        most: usize,
-        /// What is nested.
-        what: &'static str,
-    },
-    /// Lines or members of sets.
-    #[error("the file has more than {most} lines and members of sets")]
-    Members {
-        /// Members at most.
-        most: usize,
-    },
+    /// Too many files, files in files, or members of sets, in words.
+    #[error("{0}")]
+    Many(String),
 }
 
 /// What was read so far of one input, against its limits.
@@ -109,7 +92,8 @@ impl Budget {
     pub fn read(&mut self, path: &Path) -> Result<Vec<u8>, Refusal> {
         self.files += 1;
         if self.files > self.limits.files {
-            return Err(Refusal::Files { most: self.limits.files });
+            let most = self.limits.files;
+            return Err(Refusal::Many(format!("more than {most} files are included")));
         }
         // Before it is opened: a pipe without a writer keeps whoever opens it.
         if !std::fs::metadata(path)?.is_file() {
@@ -137,24 +121,22 @@ impl Budget {
     /// Takes lines or members of sets.
     ///
     /// # Errors
-    /// [`Refusal::Members`].
+    /// [`Refusal::Many`].
     pub fn take_members(&mut self, count: usize) -> Result<(), Refusal> {
         self.members = self.members.saturating_add(count);
-        match self.members <= self.limits.members {
-            true => Ok(()),
-            false => Err(Refusal::Members { most: self.limits.members }),
-        }
+        let most = self.limits.members;
+        let what = || format!("the file has more than {most} lines and members of sets");
+        if self.members <= most { Ok(()) } else { Err(Refusal::Many(what())) }
     }
 
     /// Refuses a depth beyond the limit.
     ///
     /// # Errors
-    /// [`Refusal::Depth`].
-    pub fn descend(&self, depth: usize, what: &'static str) -> Result<(), Refusal> {
-        match depth <= self.limits.depth {
-            true => Ok(()),
-            false => Err(Refusal::Depth { most: self.limits.depth, what }),
-        }
+    /// [`Refusal::Many`].
+    pub fn descend(&self, depth: usize, what: &str) -> Result<(), Refusal> {
+        let most = self.limits.depth;
+        let what = || format!("more than {most} {what} name each other");
+        if depth <= most { Ok(()) } else { Err(Refusal::Many(what())) }
     }
 }
 
