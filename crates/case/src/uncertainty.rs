@@ -77,42 +77,46 @@ pub(super) fn uncertainty(section: &Section<'_>) -> Uncertainty {
 
 /// `{ normal = [mean, deviation] }`, `{ log_normal = [median, deviation] }` or `{ uniform = [from, to] }`.
 fn uncertain(section: &Section<'_>, parameter: VariedKey, entry: &RawEntry) -> UncertainParameter {
+    let found = distribution(section, &parameter, entry);
+    let harmless = (Distribution::Uniform { from: 0.0, to: 1.0 }, [0.0, 1.0]);
+    let (distribution, range) = found.unwrap_or(harmless);
+    UncertainParameter { parameter, distribution, range }
+}
+
+/// The distribution of a parameter, and its probabilities that samples are drawn between; `None` where something is
+/// wrong with it, which is reported.
+fn distribution(
+    section: &Section<'_>,
+    parameter: &VariedKey,
+    entry: &RawEntry,
+) -> Option<(Distribution, [f64; 2])> {
     let key = &parameter.key;
     let help = "a distribution is { normal = [mean, deviation] }, \
     { log_normal = [median, deviation of the logarithm] } \
                 or { uniform = [from, to] }";
     let at = &entry.item.at;
-    let words = ["normal", "log_normal", "uniform"];
-    let mut given = None;
-    match &entry.item.value {
-        RawValue::Table(table) => {
-            only(section, table, &["normal", "log_normal", "uniform", "also"]);
-            let mut found = words.iter().filter_map(|word| Some((*word, table.get(*word)?)));
-            given = found.next();
-            if found.next().is_some() {
-                refuse_at!(section, at, "{key} has two distributions"; "one of them"; "{help}");
-            } else if given.is_none() {
-                refuse_at!(section, at, "{key} has no distribution"; "none of the three"; "{help}");
-            }
-        }
-        other => refuse_at!(section, at, "{key} is {}", other.kind(); "no distribution"; "{help}"),
+    let refuse = |what: String, label: &str| {
+        refuse_at!(section, at, "{what}"; "{label}"; "{help}");
+        None
+    };
+    // One of the three, with a list of two numbers.
+    let Some(table) = entry.item.value.table() else {
+        return refuse(format!("{key} is {}", entry.item.value.kind()), "no distribution");
+    };
+    only(section, table, &["normal", "log_normal", "uniform", "also"]);
+    let words = ["normal", "log_normal", "uniform"].into_iter();
+    let mut given = words.filter_map(|word| Some((word, table.get(word)?)));
+    let Some((word, inner)) = given.next() else {
+        return refuse(format!("{key} has no distribution"), "none of the three");
+    };
+    if given.next().is_some() {
+        refuse(format!("{key} has two distributions"), "one of them");
     }
-    let none = UncertainParameter {
-        distribution: Distribution::Uniform { from: 0.0, to: 1.0 },
-        range: [0.0, 1.0],
-        parameter: parameter.clone(),
-    };
-    let Some((word, inner)) = given else {
-        return none;
-    };
     let RawValue::Array(items) = &inner.item.value else {
-        refuse_at!(section, at, "{word} of {key} is no list"; "two numbers"; "{help}");
-        return none;
+        return refuse(format!("{word} of {key} is no list"), "two numbers");
     };
     if items.len() != 2 {
-        refuse_at!(section, at, "{word} of {key} has {} numbers", items.len(); "two numbers";
-            "{help}");
-        return none;
+        return refuse(format!("{word} of {key} has {} numbers", items.len()), "two numbers");
     }
     let [a, b] = [0, 1].map(|i| number(section, inner, items.get(i).map(|item| &item.value)));
     let (distribution, is_valid, needs) = match word {
@@ -130,12 +134,12 @@ fn uncertain(section: &Section<'_>, parameter: VariedKey, entry: &RawEntry) -> U
             (Distribution::Uniform { from, to }, a < b, "two rising ends")
         }
     };
-    if !is_valid {
+    if !(a.is_finite() && b.is_finite()) {
         // What is no number has been reported.
-        if a.is_finite() && b.is_finite() {
-            refuse_at!(section, at, "{word} = [{a}, {b}] of {key}"; "{needs}"; "{help}");
-        }
-        return none;
+        return None;
+    }
+    if !is_valid {
+        return refuse(format!("{word} = [{a}, {b}] of {key}"), needs);
     }
     if word == "log_normal" && b > LARGEST_LOG_DEVIATION {
         refuse_at!(section, at,
@@ -144,7 +148,7 @@ fn uncertain(section: &Section<'_>, parameter: VariedKey, entry: &RawEntry) -> U
             "at most 3";
             "a scatter of 10 % is {{ log_normal = [median, 0.1] }}; for a deviation in the unit of \
              the key use normal");
-        return none;
+        return None;
     }
     let bound = parameter.bound();
     let [least, most] = bound.ends();
@@ -156,11 +160,11 @@ fn uncertain(section: &Section<'_>, parameter: VariedKey, entry: &RawEntry) -> U
             "{:.3} % of {word} = [{a}, {b}] of {key} lies where the key {rule}", 100.0 * beyond;
             "reaches forbidden values";
             "make it narrower, or use log_normal, which stays positive");
-        return none;
+        return None;
     }
     // What a sample meets once in a million is not worth a word.
     caution_if!(beyond > 1e-6; section, key,
         "{:.4} % of {word} = [{a}, {b}] of {key} lies where the key {rule}: samples are drawn from \
          the rest", 100.0 * beyond; "reaches forbidden values");
-    UncertainParameter { parameter, distribution, range }
+    Some((distribution, range))
 }
