@@ -1,6 +1,5 @@
 //! Assemblies of solid bodies: `[motion.*]`, `[contacts.*]`, `[ties.*]`.
 
-use super::contact::section_of;
 use super::contacts::{NamedContact, contact, short_form, unit};
 use super::imported::{FileParts, near_name};
 use super::tables::TableFiles;
@@ -126,8 +125,7 @@ impl AssemblyParts {
 pub(super) fn sections(root: &Section<'_>, tables: &TableFiles<'_>) -> (AssemblyParts, Contact) {
     let motions = root.each("motion", motion);
     let ties = root.each("ties", |section| [section.text("surface"), section.text("counter")]);
-    let mut bases = Vec::new();
-    let contacts = root.each("contacts", |section| contact(section, &mut bases, tables));
+    let contacts = root.each("contacts", |section| contact(section, tables));
     let named = |(name, mut contact): (String, NamedContact)| {
         contact.surfaces.name = name;
         contact
@@ -136,12 +134,12 @@ pub(super) fn sections(root: &Section<'_>, tables: &TableFiles<'_>) -> (Assembly
     if root.has("contact") && !root.has("contacts") {
         contacts.push(root.section("contact", true).closed(short_form));
     }
-    let base = bases.first().copied().unwrap_or_default();
-    refuse_if!(bases.iter().any(|other| *other != base); root, "contacts",
+    let first = contacts.first();
+    let base = first.map_or_else(BaseChoice::default, |contact| contact.base);
+    refuse_if!(contacts.iter().any(|other| other.base != base); root, "contacts",
         "contacts are \"solved\" and \"closed\" in one case: one that is free of stress and one \
          that is not have no common equilibrium"; "one state for all";
         "give every contact the same `state`");
-    let first = contacts.first();
     let rigid = first.and_then(|contact| contact.surfaces.counter.rigid());
     let speed = rigid.map(|rigid| rigid.motion.speed());
     let common = Contact {
@@ -233,6 +231,7 @@ pub(super) fn assemble(
         keys: [side_key, counter_key],
         friction_coefficient,
         mut surfaces,
+        ..
     } in parts.contacts
     {
         surfaces.surface = surface(&side.unwrap_or_default(), &side_key)?;
@@ -252,8 +251,8 @@ pub(super) fn assemble(
 impl Case {
     /// A key of the first contact, by its full name.
     pub(super) fn contact_key(&self, key: &str) -> String {
-        let first = self.body.assembly().and_then(|body| body.contacts.first());
-        format!("{}.{key}", first.map_or_else(|| "contact".to_owned(), section_of))
+        let first = self.contact_sections().into_iter().next();
+        format!("{}.{key}", first.map_or_else(|| "contact".to_owned(), |own| own.0))
     }
 
     /// The key that says how fast the first contact slides; the section of all motions where nothing moves.

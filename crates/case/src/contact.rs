@@ -55,16 +55,23 @@ impl Springs {
 }
 
 impl Case {
+    /// The section of each contact, and its stiffness.
+    pub(super) fn contact_sections(&self) -> Vec<(String, ContactStiffness)> {
+        match self.body.assembly() {
+            None => vec![("contact".to_owned(), self.contact.stiffness)],
+            Some(body) => {
+                body.contacts.iter().map(|own| (section_of(own), own.stiffness)).collect()
+            }
+        }
+    }
+
     /// The springs of each contact that has them.
     pub(super) fn springs(&self) -> Vec<Springs> {
-        let of = |section: String, own: &ContactStiffness| {
+        let contacts = self.contact_sections().into_iter();
+        let springs = contacts.filter_map(|(section, own)| {
             Some(Springs { section, stiffness: own.normal_stiffness?, law: own.law })
-        };
-        let Some(body) = self.body.assembly() else {
-            return of("contact".to_owned(), &self.contact.stiffness).into_iter().collect();
-        };
-        let contacts = body.contacts.iter();
-        contacts.filter_map(|own| of(section_of(own), &own.stiffness)).collect()
+        });
+        springs.collect()
     }
 
     /// How a contact does without its springs: what needs them goes with them.

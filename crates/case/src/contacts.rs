@@ -19,6 +19,7 @@ pub(super) struct NamedContact {
     /// The keys that have these.
     pub keys: [String; 2],
     pub friction_coefficient: f64,
+    pub base: BaseChoice,
     pub surfaces: SlidingSurfaces,
 }
 
@@ -37,6 +38,7 @@ pub(super) fn short_form(section: &Section<'_>) -> NamedContact {
         sides: [Some(section.text("boundary")), None],
         keys: ["contact.boundary".to_owned(), String::new()],
         friction_coefficient: section.number("friction_coefficient"),
+        base: BaseChoice::default(),
         surfaces: SlidingSurfaces {
             name: SlidingSurfaces::SHORT_FORM.to_owned(),
             ..sliding_surfaces(section, counterpart, None)
@@ -45,13 +47,8 @@ pub(super) fn short_form(section: &Section<'_>) -> NamedContact {
 }
 
 /// One contact, without its name and its place in the mesh.
-pub(super) fn contact(
-    section: &Section<'_>,
-    bases: &mut Vec<BaseChoice>,
-    tables: &TableFiles<'_>,
-) -> NamedContact {
+pub(super) fn contact(section: &Section<'_>, tables: &TableFiles<'_>) -> NamedContact {
     let base = section.choice("state");
-    bases.push(base);
     let topography = topography(section, tables);
     refuse_if!(base == BaseChoice::Closed && topography.is_some(); section, "gap" =>
         "has no effect on a contact that is closed and free of stress"; "beside state = \"closed\"";
@@ -75,6 +72,7 @@ pub(super) fn contact(
         sides: [Some(section.text("surface")), counter],
         keys: ["surface", "counter"].map(|key| section.name(key)),
         friction_coefficient: section.number("friction_coefficient"),
+        base,
         surfaces: sliding_surfaces(section, counterpart, topography),
     }
 }

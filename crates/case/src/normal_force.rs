@@ -4,7 +4,6 @@
 //! pieces where contact is rigid. The interference that belongs to a force is the one root of their
 //! difference.
 
-use super::contact::section_of;
 use super::{BodyKind, Case, CaseErrors, refusal};
 use frictionsim_physics::contact::{Counterpart, SlidingContact};
 use frictionsim_physics::fem::{MassKind, sector};
@@ -51,11 +50,8 @@ pub(super) fn press(case: &mut Case) -> Result<(), CaseErrors> {
 }
 
 fn wanted(case: &Case) -> Vec<Wanted> {
-    let sections = match case.body.assembly() {
-        None => vec!["contact".to_owned()],
-        Some(body) => body.contacts.iter().map(section_of).collect(),
-    };
-    let keys = sections.into_iter().map(|section| format!("{section}.normal_force"));
+    let sections = case.contact_sections().into_iter();
+    let keys = sections.map(|(section, _)| format!("{section}.normal_force"));
     let found = keys.enumerate().filter_map(|(contact, key)| {
         let force = case.number(&key)?;
         Some(Wanted { key, contact, force })
