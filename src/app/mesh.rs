@@ -18,7 +18,7 @@ pub(super) fn run(options: &RunOptions) -> Result<(), Failure> {
     if let Some(assembly) = case.body.assembly() {
         return run_solid(&session, folder, assembly);
     }
-    let mesh = case.mesh().map_err(Failure::usage)?;
+    let mesh = case.body.mesh().map_err(Failure::usage)?;
     let revolution = case.body.revolution();
     let grid = revolution.map(|own| own.plane()).or(case.body.grid().copied());
     let annulus = grid.map(|grid| AnnulusMesh::generate(&grid).map_err(Failure::usage));

@@ -111,7 +111,7 @@ pub(super) fn run(asked: &Arguments) -> Result<(), Failure> {
     let highest = main.fold(0.0, f64::max);
     let modes = match &case {
         Some(case) if highest > 0.0 => {
-            ModeSummary::all(&modes_below(case, 1.3 * highest)?, case.has_sectors())
+            ModeSummary::all(&modes_below(case, 1.3 * highest)?, case.body.has_sectors())
         }
         _ => Vec::new(),
     };

@@ -43,7 +43,7 @@ pub type Motion = [f64; 4];
 impl EventDriven {
     /// The oscillator of a case.
     pub fn new(case: &Case) -> Self {
-        let mesh = case.mesh().unwrap();
+        let mesh = case.body.mesh().unwrap();
         let interface = ContactInterface::of(&mesh);
         let contact = case.contact.sliding;
         let masses = lumped_masses(&mesh, case.materials());

@@ -187,7 +187,7 @@ fn fields_of_an_assembly_are_differences_of_its_spectra() {
     let folder = folder_with(&[("pads.msh", &file_of(&blocks, |point| point))]);
     let text = include_str!("../cases/pad-on-a-slab.toml").to_owned();
     let body = Body { folder, text };
-    let mesh = body.case(AS_IT_IS).mesh().unwrap();
+    let mesh = body.case(AS_IT_IS).body.mesh().unwrap();
     let node = mesh.nearest_node([0.005, 0.005]).unwrap().0;
     let free = (0..mesh.node_count()).find(|&n| {
         let [x, y, z] = mesh.nodes[n];

@@ -67,9 +67,8 @@ pub(super) fn cea(
 ) -> Cea {
     let friction_coefficients =
         section.rising("friction_coefficients").unwrap_or_else(|| vec![friction_coefficient]);
-    refuse_if!(friction_coefficients.is_empty() && section.is_empty_list("friction_coefficients");
-        section, "friction_coefficients", "cea.friction_coefficients is empty";
-        "at least one value");
+    refuse_if!(section.list_length("friction_coefficients") == Some(0); section,
+        "friction_coefficients", "cea.friction_coefficients is empty"; "at least one value");
     let unknowns =
         body.map_or(0, |body| body.node_count().saturating_mul(body.dimension() as u128));
     let is_stressed = match section.has("geometric_stiffness") {

@@ -49,39 +49,15 @@ pub struct Diagnostic {
     pub help: Option<String>,
 }
 
-/// What to do about an error, if anything.
-pub trait Remedy {
-    /// In words.
-    fn remedy(self) -> Option<String>;
-}
-
-impl Remedy for &str {
-    fn remedy(self) -> Option<String> {
-        Some(self.to_owned())
-    }
-}
-
-impl Remedy for String {
-    fn remedy(self) -> Option<String> {
-        Some(self)
-    }
-}
-
-impl Remedy for Option<String> {
-    fn remedy(self) -> Option<String> {
-        self
-    }
-}
-
 impl Diagnostic {
     /// An error at a place.
     pub fn error(
         message: impl Into<String>,
         label: impl Into<String>,
         at: Location,
-        help: impl Remedy,
+        help: Option<String>,
     ) -> Self {
-        Self { message: message.into(), label: label.into(), at, help: help.remedy() }
+        Self { message: message.into(), label: label.into(), at, help }
     }
 }
 
@@ -215,7 +191,7 @@ macro_rules! said {
         )
     };
     () => { None };
-    ($help:literal $(, $by:expr)*) => { format!($help $(, $by)*) };
+    ($help:literal $(, $by:expr)*) => { Some(format!($help $(, $by)*)) };
 }
 
 /// The error of a case at one of its keys: `refusal!(case, key, what; label; remedy)`.

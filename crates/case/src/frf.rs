@@ -38,8 +38,8 @@ pub(super) fn read(section: &Section<'_>, body: Option<&Body>) -> Frf {
     let response_node = named[1].unwrap_or(force_node);
     let mut frequencies_hz = section.numbers("frequencies_hz").unwrap_or_default();
     // What is wrong with a range has been said.
-    refuse_if!(!section.has("frequencies_hz") || section.is_empty_list("frequencies_hz"); section,
-        "frequencies_hz", "frf.frequencies_hz is missing or empty"; "at least one frequency");
+    let key = "frequencies_hz";
+    refuse_if!(!section.has(key) || section.list_length(key) == Some(0); section, key, "frf.frequencies_hz is missing or empty"; "at least one frequency");
     frequencies_hz.sort_by(f64::total_cmp);
     frequencies_hz.dedup();
     let direction = |key| {

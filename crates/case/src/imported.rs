@@ -7,7 +7,8 @@ use super::tables::modulus_table;
 use super::value::quote;
 use super::words::CounterfaceWord;
 use super::{
-    Diagnostic, MeshBytes, RawCase, Section, caution, inclusion, refuse, refuse_if, suggestion,
+    Diagnostic, MeshBytes, RawCase, Section, caution, inclusion, placed, refuse, refuse_if,
+    suggestion,
 };
 use frictionsim_bounds::first_of;
 use frictionsim_physics::contact::ContactInterface;
@@ -149,14 +150,11 @@ impl FileParts<'_> {
             let own = self.materials.iter().find(|(name, _)| name == region);
             let own = own.map(|(_, material)| material).or(common);
             own.cloned().ok_or_else(|| {
-                let message =
-                    format!("{}: the region \"{region}\" has no material", self.bytes.file);
-                let help = format!(
+                placed!(self.own.raw.place("materials"),
+                    "{}: the region \"{region}\" has no material", self.bytes.file;
+                    "no section for it";
                     "give it a section [materials.{}], or [material] for all regions without one",
-                    quote(region)
-                );
-                let at = self.own.raw.place("materials");
-                Diagnostic::error(message, "no section for it", at, help)
+                    quote(region))
             })
         };
         regions.iter().map(material).collect()

@@ -175,6 +175,8 @@ pub struct CaseKey {
     /// What holds where `cycle` and `basin` seek rotating waves, which do not use it; empty of a key that every command
     /// uses.
     pub of_waves: &'static str,
+    /// Names that other programs and papers have for it, apart by commas.
+    pub(super) called: &'static str,
 }
 
 impl CaseKey {
@@ -184,6 +186,7 @@ impl CaseKey {
         let [name, declared, unit, default, example] = fields[..] else {
             return None;
         };
+        let (text, called) = text.split_once(" also called: ").unwrap_or((text, ""));
         let (meaning, of_waves) = text.split_once(" of waves: ").unwrap_or((text, ""));
         let default = match default.strip_prefix("= ") {
             Some(value) => Default::Value(value),
@@ -192,7 +195,7 @@ impl CaseKey {
             None => Default::Otherwise(default),
         };
         let (kind, unit) = (Kind::read(declared)?, if unit == "-" { "" } else { unit });
-        Some(Self { name, declared, kind, unit, default, example, meaning, of_waves })
+        Some(Self { name, declared, kind, unit, default, example, meaning, of_waves, called })
     }
 
     /// Whether the value is a single number, as a parameter study or a branch varies it.
@@ -227,6 +230,11 @@ impl CaseKey {
             || self.name.contains('*')
                 && own.clone().count() == given.clone().count()
                 && own.zip(given).all(|(own, given)| own == "*" || own == given)
+    }
+
+    /// Whether others call it by this word.
+    pub(super) fn is_called(&self, word: &str) -> bool {
+        self.called.split_terminator(", ").any(|own| own == word)
     }
 
     /// What it is, with its unit.

@@ -61,7 +61,7 @@ pub use convergence::Convergence;
 pub use cost::{CeaCost, Cost, CycleCost, FrfCost, RunCost, StudyCost, TransientCost};
 pub use cycle::{Continuation, Cycle};
 pub use description::Damping;
-pub use diagnostic::{CaseErrors, Diagnostic, Location, Remedy, Source};
+pub use diagnostic::{CaseErrors, Diagnostic, Location, Source};
 use diagnostic::{caution, caution_if, diagnosis, placed, refuse, refuse_at, refuse_if};
 pub use file_sections::FileSection;
 pub use fit::{Fit, FitParameter};
@@ -92,9 +92,7 @@ pub use words::{
 };
 
 use frictionsim_physics::fem::{ElasticMaterial, MaterialField, RegionMaterial};
-use frictionsim_physics::mesh::{Mesh, MeshError};
 use reader::{Findings, Section};
-use std::sync::Arc;
 
 /// A validated case, in SI units (the rotation speed in rad/s).
 #[derive(Clone, Debug, PartialEq)]
@@ -272,25 +270,12 @@ impl Case {
     pub fn responds_by_harmonics(&self, frf: &Frf) -> bool {
         let has_shaft = self.body.grid().is_some_and(|grid| grid.shaft.is_some());
         let is_apart = frf.boundary != frictionsim_physics::frf::FrfBoundary::Sliding;
-        self.has_sectors() && !(has_shaft && is_apart)
-    }
-
-    /// The body's mesh, of one in three dimensions that of its section across the axis.
-    ///
-    /// # Errors
-    /// [`MeshError`] of a mesh that cannot be generated.
-    pub fn mesh(&self) -> Result<Arc<Mesh>, MeshError> {
-        self.body.mesh()
+        self.body.has_sectors() && !(has_shaft && is_apart)
     }
 
     /// The material of each region of the mesh.
     pub fn materials(&self) -> &dyn MaterialField {
         &self.body.materials
-    }
-
-    /// Whether the body consists of equal sectors, so that its motions have harmonics.
-    pub fn has_sectors(&self) -> bool {
-        self.body.has_sectors()
     }
 
     /// What forces, powers and energies of the mesh are multiplied by, m: the thickness of a plane body.
@@ -305,9 +290,7 @@ impl Case {
     }
 
     fn has_lossy_contacts(&self) -> bool {
-        let contacts = self.body.assembly().map_or(&[][..], |body| &body.contacts);
-        self.contact.stiffness.loss_factor != 0.0
-            || contacts.iter().any(|own| own.stiffness.loss_factor != 0.0)
+        self.contact_sections().iter().any(|(_, own)| own.loss_factor != 0.0)
     }
 
     /// An error at a dotted key: at its value where the case gives one, else at its section.
@@ -316,9 +299,9 @@ impl Case {
         key: &str,
         message: impl Into<String>,
         label: impl Into<String>,
-        help: impl Remedy,
+        help: Option<String>,
     ) -> CaseErrors {
-        let help = help.remedy().or_else(|| suggestion::usage(key));
+        let help = help.or_else(|| suggestion::usage(key));
         self.raw.errors(vec![Diagnostic::error(message, label, self.raw.place(key), help)])
     }
 }

@@ -6,18 +6,14 @@ use super::{
 };
 
 /// Sections that make the model.
-const MODEL: &[&str] = &[
-    "geometry",
-    "mesh",
-    "boundaries",
-    "material",
-    "materials",
-    "damping",
-    "contact",
-    "contacts",
-    "motion",
-    "modifications",
-];
+const MODEL: &str = "geometry, mesh, boundaries, material, materials, damping, contact, contacts, \
+                     motion, modifications";
+
+/// Whether a dotted name is one of those sections.
+fn is_of_model(name: &str) -> bool {
+    let section = name.split('.').next().unwrap_or_default();
+    MODEL.split(", ").any(|own| own == section)
+}
 
 /// A key that a study varies, and the keys that take the same value.
 #[derive(Clone, Debug, PartialEq)]
@@ -56,11 +52,10 @@ fn check(section: &Section<'_>, name: &str) -> Result<(), String> {
         let near = section.findings.scope.hint(name, CaseKey::is_numeric);
         return Err(near.unwrap_or_else(|| "must be a dotted case key in quotes".to_owned()));
     };
-    let section = name.split('.').next().unwrap_or_default();
     match key.kind {
-        Kind::Number(_) | Kind::NumberOr(..) if MODEL.contains(&section) => Ok(()),
+        Kind::Number(_) | Kind::NumberOr(..) if is_of_model(name) => Ok(()),
         Kind::Number(_) | Kind::NumberOr(..) => {
-            Err(format!("it is no parameter of the model, which has {}", MODEL.join(", ")))
+            Err(format!("it is no parameter of the model, which has {MODEL}"))
         }
         _ => Err(format!("its values are {}: it must be a number", key.values())),
     }
@@ -168,10 +163,9 @@ fn collect_numbers(prefix: &str, table: &RawTable, found: &mut Vec<(String, f64)
             "" => name.clone(),
             _ => format!("{prefix}.{name}"),
         };
-        let section = key.split('.').next().unwrap_or_default();
         match &entry.item.value {
             RawValue::Table(inner) => collect_numbers(&key, inner, found),
-            value if MODEL.contains(&section) => {
+            value if is_of_model(&key) => {
                 let kind = keys::find(&key).map(|key| &key.kind);
                 let is_continuous = matches!(kind, Some(Kind::Number(_) | Kind::NumberOr(..)));
                 found.extend(value.number().filter(|_| is_continuous).map(|v| (key, v)));

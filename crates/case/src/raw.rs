@@ -275,7 +275,7 @@ fn readable_text(bytes: &[u8]) -> Result<&str, (Diagnostic, String)> {
     let refuse = |message: &str, at: std::ops::Range<usize>, shown: String| {
         let label = if at.is_empty() { "" } else { "the first invalid byte" };
         let at = Location::new(0, at);
-        Err((Diagnostic::error(message, label, at, "save the file as UTF-8 text"), shown))
+        Err((placed!(at, "{message}"; "{label}"; "save the file as UTF-8 text"), shown))
     };
     if bytes.starts_with(&[0xff, 0xfe]) || bytes.starts_with(&[0xfe, 0xff]) {
         return refuse("the case file is UTF-16 text, not UTF-8", 0..0, String::new());

@@ -8,10 +8,11 @@ mod lists;
 use super::value::{cut, with_point};
 use super::{
     Bound, CaseKey, Default, Diagnostic, Kind, Location, RawEntry, RawItem, RawTable, RawValue,
-    Remedy, keys, refuse_at, suggestion,
+    keys, refuse_at, suggestion,
 };
 pub(super) use findings::Findings;
 pub(super) use lists::NodePlace;
+use std::borrow::Cow;
 use std::cell::RefCell;
 use std::collections::BTreeSet;
 
@@ -75,6 +76,14 @@ impl<'a> Section<'a> {
         self.table?.get(key).map(|entry| &entry.item)
     }
 
+    /// What holds for a key: as given, else its default.
+    fn held(&self, key: &str) -> Option<Cow<'a, RawItem>> {
+        self.item(key).map(Cow::Borrowed).or_else(|| {
+            let default = self.declared(key).default_value()?;
+            Some(Cow::Owned(RawItem::at(default, &self.place(key))))
+        })
+    }
+
     /// Where a key's value is written; the section's head where it is not.
     pub fn place(&self, key: &str) -> Location {
         self.table
@@ -106,19 +115,14 @@ impl<'a> Section<'a> {
         key: &str,
         message: impl Into<String>,
         label: impl Into<String>,
-        help: impl Remedy,
+        help: Option<String>,
     ) {
         let (name, message) = (self.name(key), message.into());
-        let help = help.remedy().or_else(|| suggestion::usage(&name));
+        let help = help.or_else(|| suggestion::usage(&name));
         if !self.has(key) {
             self.findings.absent.borrow_mut().push((name, message.clone()));
         }
         self.findings.push(Diagnostic::error(message, label, self.place(key), help));
-    }
-
-    /// Whether a key is given as an empty list.
-    pub fn is_empty_list(&self, key: &str) -> bool {
-        matches!(self.given(key), Some(RawValue::Array(items)) if items.is_empty())
     }
 
     /// Length of a key that is given as a list.
@@ -186,10 +190,15 @@ impl<'a> Section<'a> {
                 key,
                 format!("missing section [{}]", section.path),
                 "the case ends without it",
-                match key {
-                    "contact" => "a plane body needs it; `frictionsim init` writes a complete case",
-                    _ => "`frictionsim init` writes a complete case to start from",
-                },
+                Some(
+                    match key {
+                        "contact" => {
+                            "a plane body needs it; `frictionsim init` writes a complete case"
+                        }
+                        _ => "`frictionsim init` writes a complete case to start from",
+                    }
+                    .to_owned(),
+                ),
             ),
             None => {}
         }
@@ -208,10 +217,7 @@ impl<'a> Section<'a> {
         };
         for (key, entry) in unknown.by_ref().take(MOST_UNKNOWN) {
             let help = match self.declarations {
-                Some(own) => {
-                    let parts: Vec<&str> = own.iter().map(|part| part.name).collect();
-                    suggestion::suggest_part(key, &parts)
-                }
+                Some(own) => suggestion::suggest_part(key, own),
                 None => {
                     let word = (key.as_str(), &entry.item.value);
                     self.findings.scope.suggest(&self.path, word, &names)
@@ -222,7 +228,7 @@ impl<'a> Section<'a> {
             }
             let message = format!("unknown key `{}`", cut(self.name(key)));
             let at = entry.key_at.clone();
-            self.findings.push(Diagnostic::error(message, place.clone(), at, help));
+            self.findings.push(Diagnostic::error(message, place.clone(), at, Some(help)));
         }
         if let Some((_, first)) = unknown.next() {
             let count = 1 + unknown.count();
@@ -316,13 +322,8 @@ impl<'a> Section<'a> {
 
     /// A whole number: as given (0 where that is wrong), else its default, else none.
     pub fn optional_count(&self, key: &str) -> Option<usize> {
-        match self.item(key) {
-            Some(item) => Some(self.read_count(key, item, self.least(key)).unwrap_or(0)),
-            None => match self.declared(key).default_value()? {
-                RawValue::Integer(value) => usize::try_from(value).ok(),
-                _ => None,
-            },
-        }
+        let item = self.held(key)?;
+        Some(self.read_count(key, &item, self.least(key)).unwrap_or(0))
     }
 
     /// A whole number that is given or has a default; 0 where it is missing.
@@ -348,17 +349,11 @@ impl<'a> Section<'a> {
 
     /// Text: as given, else its default, else none.
     pub fn optional_text(&self, key: &str) -> Option<String> {
-        match self.item(key) {
-            Some(RawItem { value: RawValue::String(text), .. }) => Some(text.clone()),
-            Some(item) => {
-                self.reject_at(item, key, "must be a string");
-                None
-            }
-            None => match self.declared(key).default_value()? {
-                RawValue::String(text) => Some(text),
-                _ => None,
-            },
+        let item = self.held(key)?;
+        if item.value.text().is_none() {
+            self.reject_at(&item, key, "must be a string");
         }
+        item.value.text().map(str::to_owned)
     }
 
     /// Text that is given or has a default.

@@ -47,10 +47,10 @@ impl Case {
                 "name one or two modes by basin.modes, as `cycle` numbers them",
             ),
         };
-        let message = format!("{key} is not used: the limit cycles of this {why}");
         match self.raw.find(key) {
             None => Ok(found),
-            Some(_) => Err(self.error_at(key, message, "not used", remedy)),
+            Some(_) => Err(refusal!(self, key,
+                "{key} is not used: the limit cycles of this {why}"; "not used"; "{remedy}")),
         }
     }
 
@@ -171,8 +171,7 @@ impl Case {
         let key = keys.find(is_lossy);
         let key = key.or_else(|| self.body.tables().next().map(|table| table.key.clone()));
         let key = key.unwrap_or_else(|| "material.loss_factor".to_owned());
-        let message = format!("{key}: {message}");
-        self.error_at(&key, message, label, help)
+        refusal!(self, &key, "{key}: {message}"; "{label}"; "{help}")
     }
 
     /// Refuses structural damping in an analysis over time.

@@ -6,37 +6,11 @@ use super::{CaseKey, KEYS, RawTable, RawValue};
 use std::cell::RefCell;
 use std::collections::BTreeSet;
 
-/// Names that other programs and papers use, and what sections of a case call them, likelier first.
-#[rustfmt::skip]
-const SYNONYMS: &[(&str, &str)] = &[
-    ("a", "inner_radius"), ("alpha", "mass_coefficient"), ("alpha_r", "mass_coefficient"),
-    ("angular_velocity", "rotation_speed_rpm"), ("b", "outer_radius"),
-    ("beta", "stiffness_coefficient"), ("beta_r", "stiffness_coefficient"), ("dt", "time_step"),
-    ("e", "young_modulus"), ("elastic_modulus", "young_modulus"), ("end_time", "duration"),
-    ("force", "normal_force"), ("friction", "friction_coefficient"), ("height", "thickness"),
-    ("max_frequency", "max_frequency_hz"), ("mu", "friction_coefficient"),
-    ("normal_load", "normal_force"), ("nu", "poisson_ratio"), ("number_of_modes", "modes"),
-    ("omega", "rotation_speed_rpm"), ("omega", "speed"), ("penalty", "normal_stiffness"),
-    ("pressure", "normal_force"), ("r_i", "inner_radius"), ("r_o", "outer_radius"),
-    ("rho", "density"), ("rotation_speed", "rotation_speed_rpm"), ("rpm", "rotation_speed_rpm"),
-    ("rpm", "speed"), ("speed", "rotation_speed_rpm"), ("step", "time_step"), ("t_end", "duration"),
-    ("timestep", "time_step"), ("youngs_modulus", "young_modulus"),
-];
-
-/// What other people call the parts of a range and of a place.
-#[rustfmt::skip]
-const PART_SYNONYMS: &[(&str, &str)] = &[
-    ("angle", "angle_deg"), ("begin", "from"), ("end", "to"), ("number", "count"), ("num", "count"),
-    ("n", "count"), ("phi", "angle_deg"), ("points", "count"), ("r", "radius"),
-    ("scale", "spacing"), ("start", "from"), ("step", "count"), ("steps", "count"), ("stop", "to"),
-    ("theta", "angle_deg"), ("x1", "x"), ("x2", "y"),
-];
-
-/// A hint for an unknown part of a range or of a place, which have the parts `known`.
-pub(super) fn suggest_part(word: &str, known: &[&str]) -> String {
+/// A hint for an unknown part of a range or of a place, which have these parts.
+pub(super) fn suggest_part(word: &str, parts: &[CaseKey]) -> String {
     let plain = word.to_lowercase();
-    let synonym = PART_SYNONYMS.iter().find(|pair| pair.0 == plain);
-    let synonym = synonym.map(|pair| pair.1).filter(|meant| known.contains(meant));
+    let known: Vec<&str> = parts.iter().map(|part| part.name).collect();
+    let synonym = parts.iter().find(|part| part.is_called(&plain)).map(|part| part.name);
     let far = |near: &&str| near.len() > 1 || plain.len() > 1 && plain.starts_with(*near);
     let near = synonym.or_else(|| nearest(&plain, known.iter().copied()).filter(far));
     match near {
@@ -88,10 +62,10 @@ pub(super) fn nearest_word<'a>(word: &str, words: &[&'a str]) -> Option<&'a str>
     exact.copied().or_else(|| nearest(&plain, words.iter().copied()))
 }
 
-/// What other people mean by `word`.
+/// What other people mean by `word`, likelier first.
 fn synonyms(word: &str) -> Vec<&'static str> {
     let plain = word.to_lowercase().replace([' ', '-'], "_");
-    SYNONYMS.iter().filter(|pair| pair.0 == plain).map(|pair| pair.1).collect()
+    KEYS.iter().filter(|key| key.is_called(&plain)).map(CaseKey::short).collect()
 }
 
 /// The candidate that `word` is, else that others call so.

@@ -101,38 +101,34 @@ fn sound(rows: &[ModulusRow]) -> Result<(), (usize, String, &'static str)> {
     let mut before = f64::NEG_INFINITY;
     for row in rows {
         let ModulusRow { line, frequency_hz, young_modulus, loss_factor } = *row;
-        if frequency_hz < 0.0 {
-            let what = format!("the frequency {frequency_hz} Hz is below zero");
-            return Err((line, what, "frequencies begin at 0 or above it"));
-        }
-        if frequency_hz <= before {
+        let (what, help) = if frequency_hz < 0.0 {
+            let what = format!("frequency {frequency_hz} Hz is below zero");
+            (what, "frequencies begin at 0 or above it")
+        } else if frequency_hz <= before {
+            let what =
+                format!("frequency {frequency_hz} Hz does not lie above the {before} Hz before it");
+            (what, "sort the rows by frequency and leave repeated ones out")
+        } else if young_modulus <= 0.0 {
+            let what = format!("modulus {young_modulus} Pa is not above zero");
+            (what, "a modulus is positive at every frequency")
+        } else if young_modulus < SOFTEST {
+            let what = format!("modulus {young_modulus} Pa is below that of any solid");
+            (what, "at least 100 Pa; a soft gel has 1000. Is it in GPa?")
+        } else if loss_factor < 0.0 {
+            let what =
+                format!("loss factor {loss_factor} is below zero: the material would give energy");
+            (what, "a loss factor is zero or positive")
+        } else if loss_factor > 1.0 {
             let what = format!(
-                "the frequency {frequency_hz} Hz does not lie above the {before} Hz before it"
-            );
-            return Err((line, what, "sort the rows by frequency and leave repeated ones out"));
-        }
-        if young_modulus > 0.0 && young_modulus < SOFTEST {
-            let what = format!("the modulus {young_modulus} Pa is below that of any solid");
-            return Err((line, what, "at least 100 Pa; a soft gel has 1000. Is it in GPa?"));
-        }
-        if young_modulus <= 0.0 {
-            let what = format!("the modulus {young_modulus} Pa is not above zero");
-            return Err((line, what, "a modulus is positive at every frequency"));
-        }
-        if loss_factor < 0.0 {
-            let what = format!(
-                "the loss factor {loss_factor} is below zero: the material would give energy"
-            );
-            return Err((line, what, "a loss factor is zero or positive"));
-        }
-        if loss_factor > 1.0 {
-            let what = format!(
-                "the loss factor {loss_factor} is beyond 1, where half of the strain energy is \
+                "loss factor {loss_factor} is beyond 1, where half of the strain energy is \
                 lost in a sixth of a cycle"
             );
-            return Err((line, what, "at most 1; rubber has 0.1 to 1. Is it in percent?"));
-        }
-        before = frequency_hz;
+            (what, "at most 1; rubber has 0.1 to 1. Is it in percent?")
+        } else {
+            before = frequency_hz;
+            continue;
+        };
+        return Err((line, format!("the {what}"), help));
     }
     Ok(())
 }

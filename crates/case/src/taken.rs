@@ -11,7 +11,7 @@ use super::value::table_of;
 use super::words::{Choice, FilePart, choice_of};
 use super::{
     Diagnostic, FileSection, Location, RawCase, RawEntry, RawItem, RawTable, RawValue, UnitsWord,
-    imported,
+    imported, placed,
 };
 use frictionsim_physics::mesh::LeftOut;
 use std::fmt::Write as _;
@@ -256,17 +256,11 @@ impl Taken {
         if let more @ 1.. = self.missing_parts.len().saturating_sub(MOST_NAMED) {
             let _ = write!(named, "; {more} more");
         }
-        let message = format!(
+        Some(placed!(at.clone(),
             "{} holds, loads or joins parts by what is not understood: {named}; the answer would \
-            be that of another structure",
-            self.file
-        );
-        let help = format!(
+             be that of another structure", self.file; "parts would be missing";
             "say the same in the case (boundaries, ties, contacts, modifications), and what may be \
-            left out in [mesh]: {}",
-            drop_key(&self.missing_parts)
-        );
-        Some(Diagnostic::error(message, "parts would be missing", at.clone(), help))
+             left out in [mesh]: {}", drop_key(&self.missing_parts)))
     }
 
     /// A warning that names what of the file is not used; none where all is.
@@ -285,8 +279,8 @@ impl Taken {
         if more > 0 {
             let _ = write!(message, "; {more} more (`frictionsim mesh` lists them all)");
         }
-        let help = "put what matters of it into the case";
-        Some(Diagnostic::error(message, "not all of it is used", at.clone(), help))
+        Some(placed!(at.clone(), "{message}"; "not all of it is used";
+            "put what matters of it into the case"))
     }
 
     /// Adds to errors about what was taken the line of the file that says it.

@@ -27,7 +27,7 @@ impl Case {
         let body = whole_revolution(specification, materials, &self.contact, None, &[]);
         let body = body.map_err(|(key, why)| {
             let label = "does not fit the whole mesh";
-            self.error_at(&key, format!("{key}: {why}"), label, None::<String>)
+            self.error_at(&key, format!("{key}: {why}"), label, None)
         })?;
         Ok(Cow::Owned(Self { body, ..self.clone() }))
     }

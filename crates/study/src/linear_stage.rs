@@ -36,7 +36,7 @@ pub fn linear_stage(case: &Case) -> Result<LinearStage, LinearStageError> {
     let unstable = || modes.iter().enumerate().filter(|(_, m)| m.is_unstable());
     let mut growth_rates: BTreeMap<usize, f64> = BTreeMap::new();
     // A body without symmetry has no harmonics that its waves belong to.
-    for (_, mode) in unstable().filter(|_| case.has_sectors()) {
+    for (_, mode) in unstable().filter(|_| case.body.has_sectors()) {
         let largest = growth_rates.entry(mode.harmonic).or_insert(f64::NEG_INFINITY);
         *largest = largest.max(mode.growth_rate());
     }
@@ -44,7 +44,7 @@ pub fn linear_stage(case: &Case) -> Result<LinearStage, LinearStageError> {
         references: unstable()
             .map(|(index, mode)| ModeLine {
                 frequency_hz: mode.frequency_hz(),
-                label: match case.has_sectors() {
+                label: match case.body.has_sectors() {
                     true => format!("mode {}, *n* = {}", index + 1, mode.harmonic),
                     false => format!("mode {}", index + 1),
                 },

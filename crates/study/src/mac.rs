@@ -79,7 +79,7 @@ pub fn assurance(case: &Case, shapes: &MeasuredShapes) -> Result<MacSummary, Stu
                 mode: index + 1,
                 frequency_hz: mode.frequency_hz(),
                 real_hz: mode.real_hz(),
-                harmonic: mode.diameters(case.has_sectors()),
+                harmonic: mode.diameters(case.body.has_sectors()),
             })
             .collect(),
         mac: matrix,

@@ -79,7 +79,7 @@ impl<'a> FrequencyStudy<'a> {
                 return Err(refusal.into());
             }
             FrfMethod::Auto if case.responds_by_harmonics(frf) => cyclic(case, frf)?,
-            FrfMethod::Cyclic if case.has_sectors() && !case.responds_by_harmonics(frf) => {
+            FrfMethod::Cyclic if case.body.has_sectors() && !case.responds_by_harmonics(frf) => {
                 // Without contact a disc and its shaft are two bodies.
                 return Err(StudyError::Case(refusal!(case, "frf.method",
                     "frf.method = \"cyclic\" takes one body, and without contact disc and shaft \
@@ -260,7 +260,7 @@ fn held(case: &Case, frf: &Frf) -> Result<(FrfSystem, Arc<Mesh>), StudyError> {
         return Ok((FrfSystem::sliding(&whole.own_tangent(case)?, friction), whole.mesh));
     }
     let Some(body) = case.body.assembly() else {
-        let (mesh, is_clamped) = (case.mesh()?, frf.boundary == FrfBoundary::Clamped);
+        let (mesh, is_clamped) = (case.body.mesh()?, frf.boundary == FrfBoundary::Clamped);
         let (materials, rayleigh) = (case.materials(), case.damping.rayleigh);
         return Ok((FrfSystem::body(&mesh, materials, frf.mass, rayleigh, is_clamped), mesh));
     };

@@ -14,7 +14,7 @@ fn a_case_describes_disc_and_shaft() {
     let shaft = case.body.grid().unwrap().shaft.unwrap();
     assert_eq!((shaft.inner_radius, shaft.radial_elements), (0.006, 2));
     assert_eq!(case.materials().of(1).young_modulus, 2.1e11);
-    assert_eq!(case.mesh().unwrap().regions, ["disc", "shaft"]);
+    assert_eq!(case.body.mesh().unwrap().regions, ["disc", "shaft"]);
     assert_eq!(case.cost().nodes, 24 * 9);
     assert!(case.require_cea().is_ok());
 }

@@ -52,13 +52,10 @@ impl<'a> Section<'a> {
     /// A list of whole numbers without repetition, each with its place, or the default.
     pub fn counts(&self, key: &str) -> Option<Vec<(usize, Location)>> {
         let least = self.least(key);
-        let items = match self.item(key) {
-            Some(item) => item.listed().to_vec(),
-            None => self.default_items(key)?,
-        };
+        let listed = self.held(key)?;
         let mut values: Vec<(usize, Location)> = Vec::new();
         let mut seen = std::collections::BTreeSet::new();
-        for item in &items {
+        for item in listed.listed() {
             let Some(value) = self.read_count(key, item, least) else {
                 continue;
             };
@@ -103,30 +100,16 @@ impl<'a> Section<'a> {
             Kind::Numbers(bound) => bound,
             _ => Bound::Finite,
         };
-        let Some(item) = self.item(key) else {
-            let items = self.default_items(key)?.into_iter();
-            return Some(items.filter_map(|item| self.read_number(key, &item, bound)).collect());
-        };
+        let item = self.held(key)?;
         if let RawValue::Table(table) = &item.value {
-            return Some(self.range(key, table, item, bound));
+            return Some(self.range(key, table, &item, bound));
         }
         if self.is_some_text(key) {
-            self.reject_at(item, key, "must be a list of numbers or a range { from, to, count }");
+            self.reject_at(&item, key, "must be a list of numbers or a range { from, to, count }");
             return Some(Vec::new());
         }
         let values = item.listed().iter();
         Some(values.filter_map(|item| self.read_number(key, item, bound)).collect())
-    }
-
-    /// The list that stands for a key that is left out.
-    fn default_items(&self, key: &str) -> Option<Vec<RawItem>> {
-        match self.declared(key).default_value()? {
-            RawValue::Array(items) => {
-                let at = |item| RawItem { at: self.place(key), ..item };
-                Some(items.into_iter().map(at).collect())
-            }
-            _ => None,
-        }
     }
 
     /// So many numbers: as given, else the default, with 0 where that is shorter.
@@ -163,7 +146,7 @@ impl<'a> Section<'a> {
     }
 
     /// The values of `{ from, to, count, spacing }`; none where something is wrong with it.
-    pub fn range(&self, key: &str, table: &'a RawTable, item: &RawItem, bound: Bound) -> Vec<f64> {
+    pub fn range(&self, key: &str, table: &RawTable, item: &RawItem, bound: Bound) -> Vec<f64> {
         let mut range = Section::new(self.findings, self.name(key), Some(table), item.at.clone());
         range.declarations = Some(&keys::RANGE);
         let [from, to] = ["from", "to"].map(|end| {

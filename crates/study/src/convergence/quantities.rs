@@ -36,7 +36,7 @@ pub fn of_sweeps(
 ) -> (Vec<Quantity>, Vec<String>) {
     let friction = case.contact.sliding.friction_coefficient;
     let mut named = Vec::new();
-    let sweeps = match case.has_sectors() {
+    let sweeps = match case.body.has_sectors() {
         true => sweeps,
         false => {
             named.extend_from_slice(sweeps);
@@ -51,7 +51,7 @@ pub fn of_sweeps(
         [("frequency", ComplexMode::frequency_hz), ("real part", ComplexMode::real_hz)];
     for (part, value) in parts {
         for levels in &everywhere {
-            let name = format!("{part}, {}", name_of(key_of(levels[0]), case.has_sectors()));
+            let name = format!("{part}, {}", name_of(key_of(levels[0]), case.body.has_sectors()));
             let values = levels.iter().map(|mode| value(mode)).collect();
             quantities.push(Quantity {
                 is_minor: !levels.last().is_some_and(|finest| finest.is_unstable()),
@@ -59,7 +59,7 @@ pub fn of_sweeps(
             });
         }
     }
-    quantities.extend(onsets(sizes, sweeps, case.has_sectors()));
+    quantities.extend(onsets(sizes, sweeps, case.body.has_sectors()));
     let mut notes = vec![format!("{} modes at friction coefficient {friction}", everywhere.len())];
     let most = modes.iter().map(|level| level.len()).max().unwrap_or(0);
     if most > everywhere.len() {

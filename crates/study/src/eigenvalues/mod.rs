@@ -143,7 +143,7 @@ fn no_modes(case: &Case, message: String) -> StudyError {
         message,
         "below the first mode",
         case.raw.place("cea.max_frequency_hz"),
-        "raise it, or ask for the lowest ones with `modes = 10` instead",
+        Some("raise it, or ask for the lowest ones with `modes = 10` instead".to_owned()),
     );
     // A slip of units comes first: the missing modes are its consequence.
     let all = [case.warnings.as_slice(), &[error]].concat();
@@ -161,7 +161,7 @@ pub fn report<'a>(
     CeaReport {
         title: &case.title,
         body: model.body(),
-        has_harmonics: case.has_sectors(),
+        has_harmonics: case.body.has_sectors(),
         selection: match cea.modes {
             ModeLimit::MaxFrequency(limit) => format!("below {limit} Hz"),
             ModeLimit::Lowest(count) => format!("the {count} lowest"),

@@ -57,7 +57,7 @@ impl Solver {
 
     /// The solver that uses all the symmetry of the body of a case.
     pub fn by_symmetry(case: &Case) -> Self {
-        if case.has_sectors() { Self::Waves } else { Self::WholeMesh }
+        if case.body.has_sectors() { Self::Waves } else { Self::WholeMesh }
     }
 }
 

@@ -93,7 +93,7 @@ pub(super) fn uncertainty_note(case: &Case, sweep: &FrictionSweep) -> Option<Str
     }
     let penalty = case.contact.stiffness.normal_stiffness.map_or_else(String::new, |stiffness| {
         let size = stiffness * case.body.contact_length() / case.material.young_modulus;
-        let length = match case.has_sectors() {
+        let length = match case.body.has_sectors() {
             true => "geometry.inner_radius",
             false => "the size of the contact",
         };

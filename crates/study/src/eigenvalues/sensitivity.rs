@@ -65,7 +65,7 @@ pub fn body_sensitivities(
     // The targets: the modes at the own friction coefficient, then the onsets of those that have one.
     let modes = match waves {
         Some(waves) => waves_at(&waves.branches, friction),
-        None => modes_at(sweep, friction, case.has_sectors()),
+        None => modes_at(sweep, friction, case.body.has_sectors()),
     };
     let own = modes.iter().map(|m| (Target { friction, eigenvalue: m.eigenvalue }, m.of));
     let onsets = modes.iter().filter_map(|mode| Some((mode.onset?, mode.of)));
@@ -113,7 +113,7 @@ pub fn body_sensitivities(
             friction_coefficient: friction,
             harmonic: mode.diameters,
             branch: mode.branch,
-            direction: case.has_sectors().then_some(mode.direction),
+            direction: case.body.has_sectors().then_some(mode.direction),
             eigenvalue,
             derivatives: std::iter::once(Some(by_friction)).chain(by_keys).collect(),
             onset,

@@ -9,7 +9,7 @@ use super::reading::{lefts_needed, read, shapes_needed};
 use super::sensitivity::body_sensitivities;
 use super::solid;
 use super::{Progress, SlidingModel, Solution, StudyError, no_modes};
-use frictionsim_case::{Case, Cea, CeaMethod};
+use frictionsim_case::{Case, Cea, CeaMethod, refusal};
 use frictionsim_physics::cea::cyclic::WaveSweep;
 use frictionsim_physics::cea::{CeaError, FrictionSweep, SweepRequest, Unwatched};
 use frictionsim_physics::prestress::PrestressError;
@@ -114,8 +114,9 @@ fn body_rates(
 pub(super) fn at_key(case: &Case, error: &CeaError) -> StudyError {
     match error {
         CeaError::BeyondTable { key, .. } => {
-            let help = "extend the table, or lower cea.max_frequency_hz or cea.modes";
-            case.error_at(key, error.to_string(), "does not cover the modes", help).into()
+            refusal!(case, key, "{error}"; "does not cover the modes";
+                "extend the table, or lower cea.max_frequency_hz or cea.modes")
+            .into()
         }
         CeaError::NoModes { .. } => no_modes(case, error.to_string()),
         other => other.clone().into(),

@@ -45,7 +45,7 @@ impl WholeMesh {
         options: TangentOptions,
         frictions: &[f64],
     ) -> Result<Self, CeaError> {
-        let mesh = case.mesh()?;
+        let mesh = case.body.mesh()?;
         let assembly = assembled(case, &mesh, &options)?;
         let own = [case.contact.sliding.friction_coefficient];
         let start = start_of(assembly.contacts());
@@ -75,7 +75,7 @@ impl WholeMesh {
             return None;
         }
         // Its boundaries have supports.
-        let mesh = case.mesh().ok()?;
+        let mesh = case.body.mesh().ok()?;
         let joined = assembled(case, &mesh, &options).ok()?.joined;
         Some(Self { mesh, range: self.range.clone(), symmetry: self.symmetry, options, joined })
     }

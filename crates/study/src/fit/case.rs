@@ -52,7 +52,7 @@ pub fn fit_case(
 
     // The case as it is written need not have a solution.
     let before = eigenvalues::modes_below(case, limit_hz).unwrap_or_default();
-    let told = |mode: &ComplexMode| ModelMode::of(mode, case.has_sectors()).told;
+    let told = |mode: &ComplexMode| ModelMode::of(mode, case.body.has_sectors()).told;
     found.modes_of_case = before.iter().map(told).collect();
     found.friction_coefficient = case.contact.sliding.friction_coefficient;
     found.notes = notes(case, wanted, &found);
@@ -132,7 +132,7 @@ fn modes(
     let of = |(i, (mode, assurances)): (usize, (&ComplexMode, Vec<f64>))| ModelMode {
         rates: by_parameter.iter().map(|rates| rates[i]).collect(),
         assurances,
-        ..ModelMode::of(mode, case.has_sectors())
+        ..ModelMode::of(mode, case.body.has_sectors())
     };
     Ok(modes.iter().zip(assurances).enumerate().map(of).collect())
 }

@@ -36,7 +36,7 @@ pub fn notes(case: &Case, wanted: &Fit, found: &FitSummary) -> Vec<String> {
         ));
     }
     let has_harmonic = |line: &LineSummary| line.harmonic.is_some();
-    if !case.has_sectors() && found.residuals.iter().any(has_harmonic) {
+    if !case.body.has_sectors() && found.residuals.iter().any(has_harmonic) {
         notes.push("modes of an imported body have no harmonic: the column is not used".to_owned());
     }
     if found.residuals.iter().any(|line| line.unstable) {

@@ -48,7 +48,7 @@ impl MeasuredShapes {
     /// Refuses a body without a whole mesh, and points off it.
     pub(super) fn check(&self, case: &Case) -> Result<(), StudyError> {
         refuse_revolution(case)?;
-        let mesh = case.mesh()?;
+        let mesh = case.body.mesh()?;
         self.placed(case, &mesh)?;
         Ok(())
     }
@@ -59,7 +59,7 @@ impl MeasuredShapes {
         case: &Case,
         modes: &[ComplexMode],
     ) -> Result<Vec<Vec<f64>>, StudyError> {
-        let mesh = case.mesh()?;
+        let mesh = case.body.mesh()?;
         let placed = self.placed(case, &mesh)?;
         let matrix = self.criteria(&mesh, &Vec::from_iter(modes), &placed);
         let of = |mode: usize| matrix.iter().map(|row| row[mode]).collect();

@@ -136,7 +136,7 @@ impl<'a> Base<'a> {
         let stressing = whole.assembly(case).stressing(whole.state());
         Ok(Self {
             displacement: stressing.map(|state| state.displacement(friction)),
-            mesh: case.mesh()?,
+            mesh: case.body.mesh()?,
             options: tangent_options(case, cea.mass),
             state: State { critical_friction: lowest_onset(&sweep, window), ..outlook },
             case,

@@ -111,7 +111,7 @@ impl<'a> TransientStudy<'a> {
     /// Reads a record.
     pub fn analyse(&self, record: &Recorder) -> TransientAnalysis {
         let perturbation = &self.settings.perturbation;
-        let analysis = match (self.case.has_sectors(), perturbation.noise) {
+        let analysis = match (self.case.body.has_sectors(), perturbation.noise) {
             (false, _) => TransientAnalysis::without_symmetry(record),
             (true, 0.0) => TransientAnalysis::of(record, &perturbation.harmonics()),
             // Noise seeds every harmonic.
@@ -184,7 +184,7 @@ impl<'a> TransientStudy<'a> {
                 analysis: &solved.analysis,
                 body: self.stepped.shown(),
                 material: case.materials_in_time(),
-                has_harmonics: case.has_sectors(),
+                has_harmonics: case.body.has_sectors(),
                 thickness: case.depth(),
                 extent: extent_of(case),
                 peripheral_speed: self.shown_speed(),

@@ -69,7 +69,7 @@ impl TransientStudy<'_> {
         let (mesh, materials) = (&self.stepped.mesh, case.materials_in_time());
         let base = match &self.stepped.assembly {
             Some(assembly) => state(assembly),
-            None if !starts_at_rest || case.has_sectors() || contact.rotation_speed == 0.0 => {
+            None if !starts_at_rest || case.body.has_sectors() || contact.rotation_speed == 0.0 => {
                 return None;
             }
             None => Assembly::of_edge(mesh, materials, contact, stiffness).and_then(|b| state(&b)),

@@ -86,10 +86,10 @@ impl<'a> Sampler<'a> {
         let found = eigenvalues::unstable_intervals(&case, &frictions, harmonics);
         let found = found.map_err(|failure| failure.line())?;
         let onset = |interval: &UnstableInterval| Onset {
-            harmonic: interval.diameters(case.has_sectors()),
+            harmonic: interval.diameters(case.body.has_sectors()),
             branch: interval.branch,
             // Which way a wave turns is for harmonics.
-            direction: if case.has_sectors() { interval.direction } else { 0 },
+            direction: if case.body.has_sectors() { interval.direction } else { 0 },
             critical_friction: interval.critical_friction,
             restabilized: interval.restabilized.map(|end| end.0),
             frequency_hz: interval.frequency_hz,

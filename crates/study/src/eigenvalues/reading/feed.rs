@@ -28,7 +28,7 @@ pub(super) fn feed(parts: &Parts<'_>, points: &[&FrictionPoint]) -> Vec<ModeFeed
     let (case, whole) = (parts.case, parts.whole);
     let friction = case.contact.sliding.friction_coefficient;
     let own = points.iter().find(|p| p.friction_coefficient == friction);
-    let shapes = own.map(|own| Shapes::of(own, case.has_sectors(), |mode| mode.is_unstable()));
+    let shapes = own.map(|own| Shapes::of(own, case.body.has_sectors(), |mode| mode.is_unstable()));
     let Some(shapes) = shapes.filter(|own| !own.modes.is_empty()) else {
         return Vec::new();
     };

@@ -65,10 +65,10 @@ pub(super) fn read(
     let shaped = |point: &&FrictionPoint| point.modes.iter().any(|mode| mode.shape.is_some());
     let points: Vec<&FrictionPoint> = sweep.points.iter().filter(shaped).collect();
     let lowest = points.first()?;
-    let references = Shapes::of(lowest, case.has_sectors(), |_| true);
+    let references = Shapes::of(lowest, case.body.has_sectors(), |_| true);
     let reference_images = parts.mass_image(references.columns.as_ref());
     for point in &points {
-        let shapes = Shapes::of(point, case.has_sectors(), |_| true);
+        let shapes = Shapes::of(point, case.body.has_sectors(), |_| true);
         if shapes.modes.is_empty() {
             continue;
         }
