@@ -35,36 +35,21 @@ pub(super) fn shown(text: &str) -> String {
 }
 
 /// Lays one override over a case: `KEY=VALUE`, or what [`unset`] gives.
-pub(super) fn lay(
-    root: &mut RawTable,
-    text: &str,
-    source: usize,
-    diagnostics: &mut Vec<Diagnostic>,
-) {
+pub(super) fn lay(root: &mut RawTable, text: &str, source: usize) -> Result<(), Vec<Diagnostic>> {
     if let Some(key) = text.strip_prefix(UNSET) {
-        if let Some(path) = path(key, source, "--unset needs a dotted key", diagnostics) {
-            remove(root, &path, source, diagnostics);
-        }
-    } else if let Some((path, item)) = parse(text, source, diagnostics) {
-        insert(root, &path, item, diagnostics);
+        return remove(root, &path(key, source, "--unset needs a dotted key")?, source);
     }
+    let (path, item) = parse(text, source)?;
+    insert(root, &path, item)
 }
 
 /// Parses a dotted key.
-fn path(
-    text: &str,
-    source: usize,
-    help: &str,
-    diagnostics: &mut Vec<Diagnostic>,
-) -> Option<KeyPath> {
+fn path(text: &str, source: usize, help: &str) -> Result<KeyPath, Vec<Diagnostic>> {
     // The key alone tells how deep the path goes; an inline table as value is not part of it.
     match DeTable::parse(&format!("{}=0", keys::dotted(text))) {
-        Ok(table) if table.get_ref().len() == 1 => Some(key_path(table.get_ref(), source)),
-        _ => {
-            diagnostics.push(placed!(Location::new(source, 0..text.len()),
-                "`{text}` is not a key"; "expected a dotted key"; "{help}"));
-            None
-        }
+        Ok(table) if table.get_ref().len() == 1 => Ok(key_path(table.get_ref(), source)),
+        _ => Err(vec![placed!(Location::new(source, 0..text.len()),
+            "`{text}` is not a key"; "expected a dotted key"; "{help}")]),
     }
 }
 
@@ -73,8 +58,7 @@ fn remove(
     root: &mut RawTable,
     path: &[(String, Location)],
     source: usize,
-    diagnostics: &mut Vec<Diagnostic>,
-) {
+) -> Result<(), Vec<Diagnostic>> {
     let parts: Vec<&str> = path.iter().map(|part| part.0.as_str()).collect();
     let mut table = Some(&mut *root);
     for part in &parts[..parts.len() - 1] {
@@ -85,46 +69,37 @@ fn remove(
     }
     let taken = table.and_then(|table| table.remove(parts[parts.len() - 1]));
     let name = parts.join(".");
-    if taken.is_none() && keys::find(&name).is_none() && !keys::is_section(&name) {
-        diagnostics.push(Diagnostic::error(
-            format!("unknown key `{name}`"),
-            "nothing to remove",
-            Location::new(source, 0..name.len()),
-            Scope::of(root).hint(&name, |_| true),
-        ));
+    if taken.is_some() || keys::find(&name).is_some() || keys::is_section(&name) {
+        return Ok(());
     }
+    let (at, hint) = (Location::new(source, 0..name.len()), Scope::of(root).hint(&name, |_| true));
+    let message = format!("unknown key `{name}`");
+    Err(vec![Diagnostic::error(message, "nothing to remove", at, hint)])
 }
 
 /// Parses one `KEY=VALUE`.
-fn parse(
-    text: &str,
-    source: usize,
-    diagnostics: &mut Vec<Diagnostic>,
-) -> Option<(KeyPath, RawItem)> {
+fn parse(text: &str, source: usize) -> Result<(KeyPath, RawItem), Vec<Diagnostic>> {
     let help = "an override is KEY=VALUE with a dotted key and a TOML value, \
                 for example --set contact.friction_coefficient=0.4";
     let Some(equals) = assignment(text) else {
-        diagnostics.push(placed!(Location::new(source, 0..text.len()),
-            "the override has no `=`"; "expected KEY=VALUE"; "{help}"));
-        return None;
+        return Err(vec![placed!(Location::new(source, 0..text.len()),
+            "the override has no `=`"; "expected KEY=VALUE"; "{help}")]);
     };
-    let path = path(&text[..equals], source, help, diagnostics)?;
+    let path = path(&text[..equals], source, help)?;
     let value_text = &text[equals + 1..];
     let value_at = Location::new(source, equals + 1..text.len());
     let mut errors = Vec::new();
     let value = match DeValue::parse(value_text.trim()) {
         Ok(value) => convert(value.get_ref(), source, value_at.span.clone(), &mut errors),
         Err(error) if value_text.trim_start().starts_with(['[', '{', '"', '\'']) => {
-            errors.push(placed!(value_at.clone(), "the value is not TOML: {}", error.message();
-                ""; "{help}"));
-            RawValue::Boolean(false)
+            return Err(vec![placed!(value_at, "the value is not TOML: {}", error.message(); "";
+                "{help}")]);
         }
         Err(_) => RawValue::String(value_text.trim().to_owned()),
     };
-    errors.iter_mut().for_each(|error| error.at = value_at.clone());
-    diagnostics.append(&mut errors);
     // Values inside an override are short: every part of one points at the whole value.
-    Some((path, RawItem::at(value, &value_at)))
+    errors.iter_mut().for_each(|error| error.at = value_at.clone());
+    if errors.is_empty() { Ok((path, RawItem::at(value, &value_at))) } else { Err(errors) }
 }
 
 /// Position of the `=` between key and value: the first one outside quotes.
@@ -159,15 +134,14 @@ fn insert(
     table: &mut RawTable,
     path: &[(String, Location)],
     item: RawItem,
-    diagnostics: &mut Vec<Diagnostic>,
-) {
+) -> Result<(), Vec<Diagnostic>> {
     let Some(((key, key_at), rest)) = path.split_first() else {
-        return;
+        return Ok(());
     };
     if rest.is_empty() {
         let key_at = key_at.clone();
         table.insert(key.clone(), RawEntry { key_at, item });
-        return;
+        return Ok(());
     }
     let empty = || RawEntry::at(RawValue::Table(RawTable::new()), key_at);
     let entry = table.entry(key.clone()).or_insert_with(empty);
@@ -175,19 +149,20 @@ fn insert(
         && let Some(place) = keys::list_place(part)
     {
         let count = items.len();
-        match items.get_mut(place) {
-            Some(slot) => *slot = item,
-            None => diagnostics.push(placed!(item.at,
+        let slot = items.get_mut(place).ok_or_else(|| {
+            vec![placed!(item.at.clone(),
                 "{key}[{part}] is beyond the {count} numbers of the case's {key}";
-                "no such place in the list"; "places are counted from 1: [1] to [{count}]")),
-        }
-        return;
+                "no such place in the list"; "places are counted from 1: [1] to [{count}]")]
+        })?;
+        *slot = item;
+        return Ok(());
     }
     if !matches!(entry.item.value, RawValue::Table(_)) {
         // A path through a plain value: the reader of that key reports the table it then finds.
         entry.item = empty().item;
     }
-    if let RawValue::Table(inner) = &mut entry.item.value {
-        insert(inner, rest, item, diagnostics);
+    match &mut entry.item.value {
+        RawValue::Table(inner) => insert(inner, rest, item),
+        _ => Ok(()),
     }
 }

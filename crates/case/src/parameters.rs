@@ -1,5 +1,6 @@
 //! Tables whose keys are dotted case keys of the model: what is fitted, what is uncertain.
 
+use super::value::collect_leaves;
 use super::{
     Bound, CaseErrors, CaseKey, Kind, Location, RawEntry, RawTable, RawValue, Section, keys,
     refuse_at, refuse_if,
@@ -156,25 +157,6 @@ pub(super) fn refuse_twice<'a>(section: &Section<'_>, varied: impl Iterator<Item
     }
 }
 
-/// Adds the numbers below a table whose keys are continuous parameters of the model.
-fn collect_numbers(prefix: &str, table: &RawTable, found: &mut Vec<(String, f64)>) {
-    for (name, entry) in table {
-        let key = match prefix {
-            "" => name.clone(),
-            _ => format!("{prefix}.{name}"),
-        };
-        match &entry.item.value {
-            RawValue::Table(inner) => collect_numbers(&key, inner, found),
-            value if is_of_model(&key) => {
-                let kind = keys::find(&key).map(|key| &key.kind);
-                let is_continuous = matches!(kind, Some(Kind::Number(_) | Kind::NumberOr(..)));
-                found.extend(value.number().filter(|_| is_continuous).map(|v| (key, v)));
-            }
-            _ => {}
-        }
-    }
-}
-
 impl super::Case {
     /// The case with parameters of the model at other values, and without what is studied of it.
     ///
@@ -206,14 +188,19 @@ impl super::Case {
     /// coefficient of `[contact]`, which sweeps vary, and the thickness of a plane body, which scales results alone,
     /// are left out.
     pub fn model_numbers(&self) -> Vec<(String, f64)> {
-        let mut found = Vec::new();
-        collect_numbers("", &self.raw.root, &mut found);
+        let mut leaves = Vec::new();
+        collect_leaves(&self.raw.root, "", str::to_owned, &mut leaves);
         let is_left_out = |key: &str| {
             key == "contact.friction_coefficient"
                 || (key == "geometry.thickness" && self.body.dimension() == 2)
         };
-        found.retain(|(key, _)| !is_left_out(key));
-        found
+        let numbers = leaves.into_iter().filter_map(|(key, value)| {
+            let kind = keys::find(&key).map(|known| known.kind);
+            let is_continuous = matches!(kind, Some(Kind::Number(_) | Kind::NumberOr(..)));
+            let is_varied = is_continuous && is_of_model(&key) && !is_left_out(&key);
+            value.number().filter(|_| is_varied).map(|number| (key, number))
+        });
+        numbers.collect()
     }
 
     /// The number that the case, or its mesh file, gives a key, if one does.

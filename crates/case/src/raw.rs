@@ -1,13 +1,12 @@
 //! The case exactly as its TOML says it: a tree of values that know where they were written.
 
-use super::value::{convert_table, quote, table_of, with_point};
+use super::value::{collect_leaves, convert_table, quote, table_of, with_point};
 use super::{
     CaseErrors, Diagnostic, Location, RawItem, RawTable, RawValue, Source, keys, overrides, placed,
 };
 use frictionsim_physics::mesh::{FileMesh, MeshFileError};
 use sha2::{Digest, Sha256};
 use std::collections::HashSet;
-use std::fmt::Write as _;
 use std::sync::{Arc, OnceLock};
 use toml::de::DeTable;
 
@@ -118,7 +117,8 @@ impl RawCase {
     ) -> Result<Self, CaseErrors> {
         for text in overrides {
             self.overrides.push(text.clone());
-            overrides::lay(&mut self.root, text, self.overrides.len(), &mut diagnostics);
+            let laid = overrides::lay(&mut self.root, text, self.overrides.len());
+            diagnostics.extend(laid.err().into_iter().flatten());
         }
         if diagnostics.is_empty() { Ok(self) } else { Err(self.errors(diagnostics)) }
     }
@@ -139,22 +139,9 @@ impl RawCase {
     /// The effective case as canonical TOML, one `section.key = value` line for each key: comments,
     /// white space and the way a number is written leave no trace.
     pub fn canonical(&self) -> String {
-        fn walk(table: &RawTable, prefix: &str, out: &mut String) {
-            for (key, entry) in table {
-                let path = format!("{prefix}{}", quote(key));
-                match &entry.item.value {
-                    RawValue::Table(inner) if !inner.is_empty() => {
-                        walk(inner, &format!("{path}."), out);
-                    }
-                    value => {
-                        let _ = writeln!(out, "{path} = {value}");
-                    }
-                }
-            }
-        }
-        let mut out = String::new();
-        walk(&self.root, "", &mut out);
-        out
+        let mut leaves = Vec::new();
+        collect_leaves(&self.root, "", quote, &mut leaves);
+        leaves.iter().map(|(path, value)| format!("{path} = {value}\n")).collect()
     }
 
     /// SHA-256 of [`RawCase::canonical`], and of the mesh file and tables where there are any, in hexadecimal.
@@ -167,8 +154,7 @@ impl RawCase {
 
     /// Tables that the case names, each with the name under which it lies beside the results.
     pub fn table_files(&self) -> Vec<(String, String)> {
-        let own = table_of(&self.root, "material").and_then(|own| own.get("table"));
-        let own = own.and_then(|own| own.item.value.text());
+        let own = self.find("material.table").and_then(|item| item.value.text());
         let own = own.map(|file| ("material-table.csv".to_owned(), file.to_owned()));
         let mut found: Vec<(String, String)> = own.into_iter().collect();
         for (group, key) in [("materials", "table"), ("contacts", "gap")] {

@@ -65,6 +65,24 @@ pub(super) fn table_of<'t>(table: &'t RawTable, name: &str) -> Option<&'t RawTab
     table.get(name)?.item.value.table()
 }
 
+/// Adds the values below a table that hold no further ones, with their dotted names, whose parts `name` writes.
+pub(super) fn collect_leaves<'t>(
+    table: &'t RawTable,
+    prefix: &str,
+    name: fn(&str) -> String,
+    found: &mut Vec<(String, &'t RawValue)>,
+) {
+    for (key, entry) in table {
+        let path = format!("{prefix}{}", name(key));
+        match &entry.item.value {
+            RawValue::Table(inner) if !inner.is_empty() => {
+                collect_leaves(inner, &format!("{path}."), name, found);
+            }
+            value => found.push((path, value)),
+        }
+    }
+}
+
 /// A TOML value.
 #[derive(Clone, Debug, PartialEq)]
 pub enum RawValue {
