@@ -2,7 +2,6 @@
 //! instead of stopping at one.
 
 mod choices;
-mod findings;
 mod lists;
 
 use super::value::{cut, with_point};
@@ -10,8 +9,8 @@ use super::{
     Bound, CaseKey, Default, Diagnostic, Kind, Location, RawEntry, RawItem, RawTable, RawValue,
     keys, refuse_at, suggestion,
 };
-pub(super) use findings::Findings;
 pub(super) use lists::NodePlace;
+pub use lists::range_values;
 use std::borrow::Cow;
 use std::cell::RefCell;
 use std::collections::BTreeSet;
@@ -21,6 +20,46 @@ const MOST_UNKNOWN: usize = 10;
 
 /// Largest whole number that a key takes: products of two are safe in 64 bits.
 const LARGEST_COUNT: usize = u32::MAX as usize;
+
+/// Errors and warnings found so far, and what the case may have.
+#[derive(Debug)]
+pub(crate) struct Findings<'a> {
+    pub scope: suggestion::Scope<'a>,
+    errors: RefCell<Vec<Diagnostic>>,
+    warnings: RefCell<Vec<Diagnostic>>,
+    /// Keys and sections that are not there, each with an error about that.
+    absent: RefCell<Vec<(String, String)>>,
+}
+
+impl<'a> Findings<'a> {
+    /// Nothing found so far in a case.
+    pub fn of(root: &'a RawTable) -> Self {
+        let (errors, warnings, absent) = std::default::Default::default();
+        Self { scope: suggestion::Scope::of(root), errors, warnings, absent }
+    }
+
+    /// Takes note of an error.
+    pub fn push(&self, error: Diagnostic) {
+        self.errors.borrow_mut().push(error);
+    }
+
+    /// Takes note of what is no error but what the user should hear of.
+    pub fn warn(&self, warning: Diagnostic) {
+        self.warnings.borrow_mut().push(warning);
+    }
+
+    /// Takes back what was said of a key or section that is not there: it is, by another name.
+    fn take_back(&self, name: &str) {
+        let absent = self.absent.borrow();
+        let is_of_it = |own: &Diagnostic| absent.contains(&(name.to_owned(), own.message.clone()));
+        self.errors.borrow_mut().retain(|own| !is_of_it(own));
+    }
+
+    /// All errors and all warnings, each in the order found.
+    pub fn into_parts(self) -> (Vec<Diagnostic>, Vec<Diagnostic>) {
+        (self.errors.into_inner(), self.warnings.into_inner())
+    }
+}
 
 /// One section of the case. Getters record what is wrong and then return a harmless value (NaN or
 /// zero), which later comparisons must not mistake for input: they ask in the form that NaN fails.
