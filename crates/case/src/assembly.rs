@@ -83,12 +83,6 @@ impl AssemblyBody {
             turns.then_some([rigid.center, rigid.axis])
         })
     }
-
-    /// Nodes of the contact surfaces.
-    pub fn contact_node_count(&self) -> usize {
-        let surfaces = self.contacts.iter().map(|contact| contact.surface);
-        surfaces.map(|place| self.mesh.boundaries[place].nodes.len()).sum()
-    }
 }
 
 /// `[motion.*]`, `[contacts.*]` and `[ties.*]` as the case names regions and surfaces.

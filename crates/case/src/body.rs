@@ -115,7 +115,10 @@ impl Body {
                 rings as u128 * around(&solid.annulus)
             }
             BodyKind::Imported(imported) => imported.mesh.contact_edge().nodes.len() as u128,
-            BodyKind::Assembly(assembly) => assembly.contact_node_count() as u128,
+            BodyKind::Assembly(own) => {
+                let surfaces = own.contacts.iter().map(|contact| contact.surface);
+                surfaces.map(|place| own.mesh.boundaries[place].nodes.len() as u128).sum()
+            }
         }
     }
 

@@ -21,7 +21,9 @@ use frictionsim_physics::mesh::{
 /// The generated body with what its modifications take away or move, and its contact. Closes both sections.
 pub(super) fn generated(own: &mut Description<'_>) -> (Option<Body>, Contact) {
     let (root, is_solid) = (own.root, own.is_solid());
-    imported::refuse_sectors(&own.mesh);
+    refuse_if!(own.mesh.optional_count("sectors").is_some(); own.mesh, "sectors",
+        "mesh.sectors is for a mesh file (mesh.file) that has one sector of the body";
+        "a generated body is made of sectors anyway"; "leave it out");
     let axial = solid::axial_elements(own);
     let axis = Ok([[0.0, 0.0, 1.0], [0.0; 3]]);
     let sectors = Surroundings { axis, is_plane: !is_solid, has_sectors: true };

@@ -171,13 +171,6 @@ pub(super) fn mesh_bytes(raw: &RawCase, file: &str) -> Result<MeshBytes, String>
     Ok(MeshBytes::new(file.to_owned(), bytes))
 }
 
-/// Refuses `mesh.sectors` where there is no file.
-pub(super) fn refuse_sectors(mesh: &Section<'_>) {
-    refuse_if!(mesh.optional_count("sectors").is_some(); mesh, "sectors",
-        "mesh.sectors is for a mesh file (mesh.file) that has one sector of the body";
-        "a generated body is made of sectors anyway"; "leave it out");
-}
-
 /// The symmetry that `mesh.sectors` says, about an axis of some direction through a point (m).
 pub(super) fn symmetry(
     mesh: &Section<'_>,

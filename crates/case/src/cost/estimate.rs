@@ -133,7 +133,12 @@ impl Case {
 
     pub(super) fn cycle_cost(&self, cycle: &Cycle, size: &Size) -> CycleCost {
         let followed = cycle.continuation.as_ref().map_or(0, |range| range.count);
-        let analysed = stable_cycles(cycle.stability, followed) as f64;
+        // Cycles whose stability is worked out, of one and those that follow it along a branch.
+        let analysed = match cycle.stability {
+            StabilityChoice::None => 0,
+            StabilityChoice::Point => 1,
+            StabilityChoice::Branch => 1 + followed,
+        } as f64;
         let (unknowns, confirmed) = (self.unknowns(size), cycle.confirmation_periods as f64);
         let (families, bytes, operations) = if self.has_rotating_waves() {
             let families = cycle.harmonics.as_ref().map_or(2, Vec::len);
@@ -230,15 +235,6 @@ impl Case {
             operations: each * unknowns * steps,
         };
         TransientCost { time_step, stable_step, steps, run }
-    }
-}
-
-/// How many cycles' stability is worked out, of one and those that follow it along a branch.
-fn stable_cycles(choice: StabilityChoice, followed: usize) -> usize {
-    match choice {
-        StabilityChoice::None => 0,
-        StabilityChoice::Point => 1,
-        StabilityChoice::Branch => 1 + followed,
     }
 }
 
