@@ -143,10 +143,8 @@ impl Kind {
 /// What holds where a key is left out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Default {
-    /// Nothing: its section needs the key.
-    Required,
-    /// Nothing: its section needs the key, or what these words say.
-    RequiredUnless(&'static str),
+    /// Nothing: its section needs the key, or what these words say in its place.
+    Required(&'static str),
     /// This value, in TOML.
     Value(&'static str),
     /// What these words say.
@@ -190,8 +188,7 @@ impl CaseKey {
         let (meaning, of_waves) = text.split_once(" of waves: ").unwrap_or((text, ""));
         let default = match default.strip_prefix("= ") {
             Some(value) => Default::Value(value),
-            None if default == "required" => Default::Required,
-            None if default.starts_with("required, or ") => Default::RequiredUnless(default),
+            None if default.starts_with("required") => Default::Required(default),
             None => Default::Otherwise(default),
         };
         let (kind, unit) = (Kind::read(declared)?, if unit == "-" { "" } else { unit });
@@ -260,8 +257,7 @@ impl CaseKey {
     /// What holds where it is left out, in words.
     pub fn default_text(&self) -> &'static str {
         match self.default {
-            Default::Required => "required",
-            Default::Value(text) | Default::Otherwise(text) | Default::RequiredUnless(text) => text,
+            Default::Value(text) | Default::Otherwise(text) | Default::Required(text) => text,
         }
     }
 

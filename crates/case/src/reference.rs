@@ -69,11 +69,11 @@ pub fn template() -> String {
         }
         for key in keys_of(section) {
             let (value, note) = match key.default {
-                Default::Required | Default::RequiredUnless(_) => (key.example, String::new()),
+                Default::Required(_) => (key.example, String::new()),
                 Default::Value(value) => (value, String::new()),
                 Default::Otherwise(words) => (key.example, format!("; left out: {words}")),
             };
-            let is_required = matches!(key.default, Default::Required | Default::RequiredUnless(_));
+            let is_required = matches!(key.default, Default::Required(_));
             let comment = if needed && is_required { "" } else { "# " };
             let line = format!("{comment}{} = {value}", key.short());
             let unit = match key.unit {
@@ -93,7 +93,7 @@ pub fn object(key: &CaseKey) -> Value {
         "values": key.values(),
         "unit": key.unit,
         "default": key.default_text(),
-        "required": key.default == Default::Required,
+        "required": key.default_text() == "required",
         "example": key.example,
         "meaning": key.meaning,
         "of_rotating_waves": Some(key.of_waves).filter(|words| !words.is_empty()),
@@ -109,7 +109,7 @@ pub fn schema() -> Value {
         for part in key.section().split('.').filter(|part| !part.is_empty()) {
             place = child(place, part, object_schema);
         }
-        if key.default == Default::Required
+        if key.default_text() == "required"
             && let Some(required) = place["required"].as_array_mut()
         {
             required.push(json!(key.short()));
@@ -190,9 +190,9 @@ fn key_schema(key: &CaseKey) -> Value {
         "{} ({}; {})",
         key.meaning_with_unit(),
         key.values(),
-        match key.default {
-            Default::Required => "required".to_owned(),
-            _ => format!("default {}", key.default_text()),
+        match key.default_text() {
+            "required" => "required".to_owned(),
+            text => format!("default {text}"),
         }
     ));
     schema
