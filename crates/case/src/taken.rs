@@ -8,7 +8,7 @@
 
 use super::file_sections::sections;
 use super::value::table_of;
-use super::words::{Choice, FilePart, choice_of};
+use super::words::choice_of;
 use super::{
     Diagnostic, FileSection, Location, RawCase, RawEntry, RawItem, RawTable, RawValue, UnitsWord,
     imported, placed,
@@ -57,7 +57,6 @@ pub(super) fn effective(raw: &mut RawCase) -> (RawTable, Taken) {
         return (table, unread);
     };
     let at = raw.place("mesh.file");
-    let parts = parts_taken(raw);
     let mut taken = Taken {
         file: name,
         left_out: file.model.left_out.clone(),
@@ -65,10 +64,13 @@ pub(super) fn effective(raw: &mut RawCase) -> (RawTable, Taken) {
         ..Taken::default()
     };
     let sections = sections(&file, units.unwrap_or(UnitsWord::MKgS), &mut taken.left_out);
+    let (takes_all, parts) = (raw.find("mesh.take").is_none(), texts(raw, "mesh.take"));
     let mut merged = table;
     for section in sections {
         let is_named = section.path.0 != "material";
-        if !parts.contains(&part_of(&section)) {
+        // A part is called as its sections are; the common material is one of the materials.
+        let part = if is_named { section.path.0 } else { "materials" };
+        if !takes_all && !parts.iter().any(|own| own == part) {
             if !is_named {
                 continue;
             }
@@ -87,24 +89,6 @@ pub(super) fn effective(raw: &mut RawCase) -> (RawTable, Taken) {
 fn texts(raw: &RawCase, key: &str) -> Vec<String> {
     let items = raw.find(key).map_or(&[][..], RawItem::listed);
     items.iter().filter_map(|item| item.value.text().map(str::to_owned)).collect()
-}
-
-/// Which parts of the file the case takes: `mesh.take`, or all.
-fn parts_taken(raw: &RawCase) -> Vec<FilePart> {
-    let Some(item) = raw.find("mesh.take") else {
-        return FilePart::WORDS.iter().map(|pair| pair.1).collect();
-    };
-    item.listed().iter().filter_map(|item| choice_of(item.value.text()?)).collect()
-}
-
-fn part_of(section: &FileSection) -> FilePart {
-    match section.path.0 {
-        "material" | "materials" => FilePart::Materials,
-        "ties" => FilePart::Ties,
-        "contacts" => FilePart::Contacts,
-        "motion" => FilePart::Motion,
-        _ => FilePart::Boundaries,
-    }
 }
 
 /// Adds to the case what it does not give itself; what was added.
