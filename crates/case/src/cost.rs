@@ -242,13 +242,12 @@ impl Case {
     pub fn memory(&self, command: &str) -> (f64, &'static str) {
         let cost = self.cost();
         let mesh = self.larger_count();
-        let phases = self.cycle.as_ref().and_then(|cycle| cycle.phases);
+        let has_phases = self.cycle.as_ref().is_some_and(|cycle| cycle.phases.is_some());
+        let of_phases = has_phases && self.has_rotating_waves();
         let (run, key) = match command {
             "cea" | "improve" | "mac" => (cost.cea.map(|own| own.run), mesh),
             "transient" => (cost.transient.map(|own| own.run), self.record_key()),
-            "cycle" if phases.is_some() && self.has_rotating_waves() => {
-                (cost.cycle.map(|own| own.run), "cycle.phases")
-            }
+            "cycle" if of_phases => (cost.cycle.map(|own| own.run), "cycle.phases"),
             "cycle" => (cost.cycle.map(|own| own.run), mesh),
             "frf" => (cost.frf.map(|own| own.run), mesh),
             "sweep" => (self.sweep_cost().map(|own| own.run), mesh),
@@ -299,14 +298,11 @@ impl Case {
         // Usual ones: 0.05 s and 2 us.
         let length = self.transient.as_ref().map_or(0.0, |run| run.settings.duration) / 0.05;
         let density = 2e-6 / self.output.sample_interval;
-        let samples = self.sample_bytes() + self.frame_bytes();
-        let snapshots = self.snapshot_bytes();
+        let [samples, frames, snapshots] = self.record_bytes();
         let body = 320.0 * self.body.node_count() as f64;
-        if snapshots > samples.max(body) {
+        if snapshots > (samples + frames).max(body) {
             "output.snapshots"
-        } else if self.output.recorder.contact_interval.is_some()
-            && self.frame_bytes() > self.sample_bytes()
-        {
+        } else if self.output.recorder.contact_interval.is_some() && frames > samples {
             "output.contact_interval"
         } else if length.max(density) < 10.0 {
             self.larger_count()

@@ -56,32 +56,24 @@ const STEP: [f64; 2] = [1.0, 13.0];
 const BASIN_STEPS: f64 = 8.0 * PERIOD_STEPS;
 
 impl Case {
-    pub(super) fn samples(&self) -> f64 {
+    /// Bytes of the record of a transient: of all samples, of all frames of the contact, of all snapshots.
+    pub(super) fn record_bytes(&self) -> [f64; 3] {
         let duration = self.transient.as_ref().map_or(0.0, |run| run.settings.duration);
-        duration / self.output.sample_interval
-    }
-
-    /// Energies and harmonics, and the motion of each probe, of all samples.
-    pub(super) fn sample_bytes(&self) -> f64 {
-        self.samples() * (400.0 + 48.0 * self.output.recorder.probes.len() as f64)
-    }
-
-    /// Status and two stresses of each contact node in all frames.
-    pub(super) fn frame_bytes(&self) -> f64 {
-        let duration = self.transient.as_ref().map_or(0.0, |run| run.settings.duration);
-        let frames = match self.output.recorder.contact_interval {
+        let samples = duration / self.output.sample_interval;
+        let recorder = &self.output.recorder;
+        let frames = match recorder.contact_interval {
             Some(interval) => duration / interval,
-            None => self.samples().min(10_000.0),
+            None => samples.min(10_000.0),
         };
-        // A status, and a normal stress and those along the contact in single precision.
-        let each = 4.0 * self.body.dimension() as f64 + 1.0;
-        frames * (100.0 + each * self.body.contact_node_count() as f64)
-    }
-
-    /// Displacements and velocities of all nodes at each snapshot.
-    pub(super) fn snapshot_bytes(&self) -> f64 {
-        let bytes = 16.0 * self.body.dimension() as f64 * self.body.node_count() as f64;
-        bytes * self.output.recorder.snapshots.len() as f64
+        let dimension = self.body.dimension() as f64;
+        // Energies and harmonics, and the motion of each probe.
+        let sample = 400.0 + 48.0 * recorder.probes.len() as f64;
+        // Of a contact node a status, and a normal stress and those along the contact in single precision.
+        let each = 4.0 * dimension + 1.0;
+        let frame = 100.0 + each * self.body.contact_node_count() as f64;
+        // Displacements and velocities of all nodes.
+        let snapshot = 16.0 * dimension * self.body.node_count() as f64;
+        [samples * sample, frames * frame, snapshot * recorder.snapshots.len() as f64]
     }
 
     pub(super) fn cea_cost(&self, cea: &Cea, size: &Size) -> CeaCost {
@@ -225,13 +217,14 @@ impl Case {
             BodyKind::Annulus(_) if !is_sparse => (STEP[0], 0.0),
             _ => (STEP[1], STEPPED_BYTES * unknowns),
         };
+        let [samples, frames, snapshots] = self.record_bytes();
         let run = RunCost {
             // Ten nodal vectors and the record, which a checkpoint holds once more.
             memory_bytes: PROGRAM_BYTES
                 + 160.0 * size.nodes as f64
                 + operator_bytes
-                + self.snapshot_bytes()
-                + 2.0 * (self.sample_bytes() + self.frame_bytes()),
+                + snapshots
+                + 2.0 * (samples + frames),
             operations: each * unknowns * steps,
         };
         TransientCost { time_step, stable_step, steps, run }
