@@ -190,19 +190,14 @@ impl std::fmt::Display for RawValue {
             Self::Boolean(value) => write!(f, "{value}"),
             Self::Datetime(value) => write!(f, "{value}"),
             Self::Array(items) => {
-                write!(f, "[")?;
-                for (i, item) in items.iter().enumerate() {
-                    write!(f, "{}{}", if i > 0 { ", " } else { "" }, item.value)?;
-                }
-                write!(f, "]")
+                let items: Vec<String> = items.iter().map(|item| item.value.to_string()).collect();
+                write!(f, "[{}]", items.join(", "))
             }
             Self::Table(table) => {
-                write!(f, "{{ ")?;
-                for (i, (key, entry)) in table.iter().enumerate() {
-                    let separator = if i > 0 { ", " } else { "" };
-                    write!(f, "{separator}{} = {}", quote(key), entry.item.value)?;
-                }
-                write!(f, " }}")
+                let entries = table.iter();
+                let entries =
+                    entries.map(|(key, own)| format!("{} = {}", quote(key), own.item.value));
+                write!(f, "{{ {} }}", entries.collect::<Vec<_>>().join(", "))
             }
         }
     }
