@@ -95,7 +95,7 @@ fn length_factor(mesh: &Section<'_>) -> f64 {
     refuse_if!(mesh.has("scale"); mesh, "scale",
         "mesh.units and mesh.scale both scale the coordinates"; "beside mesh.units";
         "leave one of them out");
-    10f64.powi(units.length())
+    10f64.powi(units.power("m"))
 }
 
 /// Whether `[material]` has the constants of regions without a section of their own; a formulation alone gives them

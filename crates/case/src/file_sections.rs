@@ -51,7 +51,7 @@ pub(super) fn sections(
             let rpm = rounded(motion.angular_velocity * 60.0 / std::f64::consts::TAU, 9);
             let mut keys = vec![
                 ("axis", numbers(&axis)),
-                ("center", numbers(&from.map(|x| scaled(x, units.length())))),
+                ("center", numbers(&from.map(|x| scaled(x, units.power("m"))))),
                 ("rotation_speed_rpm", RawValue::Float(rpm)),
             ];
             if motion.is_load {
@@ -65,7 +65,7 @@ pub(super) fn sections(
         let keys = match condition.kind {
             FileConditionKind::Pressure(pressure) => vec![
                 ("condition", text("pressure")),
-                ("pressure", RawValue::Float(scaled(pressure, units.stress()))),
+                ("pressure", RawValue::Float(scaled(pressure, units.power("Pa")))),
             ],
             FileConditionKind::Fixed(axes) => held(axes, file.dimension),
         };
@@ -103,8 +103,8 @@ fn contact_keys(contact: &FileContact, units: UnitsWord) -> Vec<(&'static str, R
     };
     number("friction_coefficient", contact.friction_coefficient);
     number("static_friction_ratio", contact.decay.map(|decay| decay.0));
-    number("decay_speed", contact.decay.map(|decay| scaled(decay.1, units.length())));
-    let stiffness = |value| scaled(value, units.stress() - units.length());
+    number("decay_speed", contact.decay.map(|decay| scaled(decay.1, units.power("m/s"))));
+    let stiffness = |value| scaled(value, units.power("Pa/m"));
     number("normal_stiffness", contact.normal_stiffness.map(stiffness));
     keys
 }
@@ -132,7 +132,7 @@ fn material_section(
     units: UnitsWord,
     left_out: &mut Vec<LeftOut>,
 ) -> FileSection {
-    let stress = |value: f64| RawValue::Float(scaled(value, units.stress()));
+    let stress = |value: f64| RawValue::Float(scaled(value, units.power("Pa")));
     let mut keys = Vec::new();
     match &material.elasticity {
         Some(FileElasticity::Isotropic { young_modulus, poisson_ratio }) => {
@@ -163,7 +163,7 @@ fn material_section(
         }
         None => {}
     }
-    let density = |value| RawValue::Float(scaled(value, units.density()));
+    let density = |value| RawValue::Float(scaled(value, units.power("kg/m3")));
     keys.extend(material.density.map(|value| ("density", density(value))));
     let plain = [
         ("mass_coefficient", material.mass_coefficient),

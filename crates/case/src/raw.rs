@@ -87,25 +87,16 @@ impl RawCase {
     /// # Errors
     /// [`CaseErrors`] with every syntax error of the file and of the overrides.
     pub fn parse(name: &str, bytes: &[u8], overrides: &[String]) -> Result<Self, CaseErrors> {
-        let mut case = Self {
-            name: name.to_owned(),
-            text: String::new(),
-            overrides: Vec::new(),
-            root: RawTable::new(),
-            mesh: None,
-            tables: Vec::new(),
-        };
-        let mut diagnostics = Vec::new();
-        match readable_text(bytes) {
-            Ok(text) => {
-                case.root = parse_document(text, 0, &mut diagnostics);
-                case.text = text.to_owned();
-            }
+        let (name, mut diagnostics) = (name.to_owned(), Vec::new());
+        let (text, root) = match readable_text(bytes) {
+            Ok(text) => (text.to_owned(), parse_document(text, 0, &mut diagnostics)),
             Err((error, text)) => {
                 diagnostics.push(error);
-                case.text = text;
+                (text, RawTable::new())
             }
-        }
+        };
+        let (mesh, tables) = (None, Vec::new());
+        let case = Self { name, text, overrides: Vec::new(), root, mesh, tables };
         case.lay(overrides, diagnostics)
     }
 
@@ -180,14 +171,12 @@ impl RawCase {
         kept.collect()
     }
 
-    /// This case without some keys of its sections, `section.key`.
+    /// This case without some of its keys.
     pub fn without(&self, keys: &[&str]) -> Self {
         let mut case = self.clone();
-        for (section, key) in keys.iter().filter_map(|key| key.split_once('.')) {
-            let entry = case.root.get_mut(section);
-            if let Some(RawValue::Table(table)) = entry.map(|entry| &mut entry.item.value) {
-                table.remove(key);
-            }
+        for key in keys {
+            // One that is not there may go, too.
+            let _ = overrides::lay(&mut case.root, &overrides::unset(key), 0);
         }
         case
     }

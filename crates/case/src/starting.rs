@@ -179,7 +179,7 @@ fn proposed_motion(file: &FileMesh, units: UnitsWord, sections: &[FileSection], 
         own.flat_map(|e| e.nodes.iter().copied()).collect();
     let sum: Vector3<f64> =
         nodes.iter().map(|&node| Vector3::from(file.points[node as usize])).sum();
-    let center = sum / nodes.len() as f64 * 10f64.powi(units.length());
+    let center = sum / nodes.len() as f64 * 10f64.powi(units.power("m"));
     let _ = write!(
         out,
         "\n[motion.{}]    # CHOOSE: the file has none; about the mean normal of {}, through the \

@@ -55,19 +55,15 @@ macro_rules! listed {
 listed!(ModificationKind, Analysis);
 
 impl UnitsWord {
-    /// Power of ten that takes a length or a speed to SI units.
-    pub(super) fn length(self) -> i32 {
-        [0, -3][usize::from(self == Self::MmTS)]
-    }
-
-    /// The same for a stress: t / (mm s2) = 1e6 Pa.
-    pub(super) fn stress(self) -> i32 {
-        [0, 6][usize::from(self == Self::MmTS)]
-    }
-
-    /// The same for a density: t / mm3 = 1e12 kg / m3.
-    pub(super) fn density(self) -> i32 {
-        [0, 12][usize::from(self == Self::MmTS)]
+    /// Power of ten that takes numbers to an SI unit: t / (mm s2) = 1e6 Pa, t / mm3 = 1e12 kg / m3.
+    pub(super) fn power(self, unit: &str) -> i32 {
+        match (self, unit) {
+            (Self::MmTS, "m" | "m/s") => -3,
+            (Self::MmTS, "Pa") => 6,
+            (Self::MmTS, "Pa/m") => 9,
+            (Self::MmTS, "kg/m3") => 12,
+            _ => 0,
+        }
     }
 }
 
