@@ -32,28 +32,18 @@ pub struct AssemblyBody {
 }
 
 impl AssemblyBody {
-    /// The bodies of some materials with their surfaces paired.
+    /// The bodies of some materials with their surfaces paired, all contact points of one kind where that is given: steps
+    /// in time need them at nodes.
     ///
     /// # Errors
     /// [`PrestressError::Pair`] names the tie or contact whose surfaces do not meet.
     pub fn assembled<'a>(
         &'a self,
         materials: &'a dyn MaterialField,
+        points: Option<PointKind>,
     ) -> Result<Assembly<'a>, PrestressError> {
-        let (mesh, ties, contacts) = (&self.mesh, &self.ties, &self.contacts);
-        Assembly::new(mesh, materials, ties, contacts, &self.motions, self.base)
-    }
-
-    /// The same with all contact points at nodes, for steps in time.
-    ///
-    /// # Errors
-    /// As [`Self::assembled`].
-    pub fn stepped_as<'a>(
-        &'a self,
-        materials: &'a dyn MaterialField,
-    ) -> Result<Assembly<'a>, PrestressError> {
-        let (surfaces, at_nodes) = ((&self.ties[..], &self.contacts[..]), Some(PointKind::Nodes));
-        Assembly::with_points(&self.mesh, materials, surfaces, (&self.motions, self.base), at_nodes)
+        let surfaces = (&self.ties[..], &self.contacts[..]);
+        Assembly::with_points(&self.mesh, materials, surfaces, (&self.motions, self.base), points)
     }
 
     /// Regions whose rotation has its inertia.

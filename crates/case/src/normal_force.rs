@@ -177,7 +177,7 @@ impl Case {
                 let forces = body.and_then(|body| Ok(body.state(0.0)?.normal_forces(0.0)));
                 forces.map(|forces| vec![self.thickness * forces.iter().sum::<f64>()])
             }
-            BodyKind::Assembly(body) => body.assembled(materials).and_then(|assembly| {
+            BodyKind::Assembly(body) => body.assembled(materials, None).and_then(|assembly| {
                 let mut rest = assembly.state(0.0)?.normal_forces(0.0).into_iter();
                 let contacts = assembly.contacts().iter().map(|(_, surface)| surface.points.len());
                 Ok(contacts.map(|count| rest.by_ref().take(count).sum()).collect())

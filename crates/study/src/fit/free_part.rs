@@ -17,8 +17,8 @@ pub(super) fn free_part(case: &Case) -> Option<&AssemblyBody> {
     let is_plain = !is_damped && own.all(|damping| damping.is_none());
     let is_plain = is_plain && !case.has_structural_damping();
     let is_plain = is_plain && body.mesh.attachments.is_empty() && body.mesh.patches.is_empty();
-    let is_free = is_plain && body.assembled(case.materials()).is_ok_and(|own| own.is_free());
-    is_free.then_some(body)
+    let assembled = || body.assembled(case.materials(), None);
+    (is_plain && assembled().is_ok_and(|own| own.is_free())).then_some(body)
 }
 
 /// Derivatives of the eigenvalues of modes with shapes by each parameter,

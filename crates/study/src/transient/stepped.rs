@@ -3,6 +3,7 @@
 use crate::StudyError;
 use crate::cycle::operating_point;
 use frictionsim_case::{AssemblyBody, BodyKind, Case};
+use frictionsim_physics::contact::PointKind;
 use frictionsim_physics::cycle::OperatingPoint;
 use frictionsim_physics::mesh::{AnnulusMesh, Mesh, SolidSector};
 use frictionsim_physics::prestress::Assembly;
@@ -44,7 +45,7 @@ impl<'a> SteppedMesh<'a> {
             }
             BodyKind::Imported(imported) => Arc::clone(&imported.mesh),
             BodyKind::Assembly(body) => {
-                assembly = Some(body.stepped_as(case.materials_in_time())?);
+                assembly = Some(body.assembled(case.materials_in_time(), Some(PointKind::Nodes))?);
                 Arc::clone(&body.mesh)
             }
         };
