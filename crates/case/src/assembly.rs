@@ -32,8 +32,8 @@ pub struct AssemblyBody {
 }
 
 impl AssemblyBody {
-    /// The bodies of some materials with their surfaces paired, all contact points of one kind where that is given: steps
-    /// in time need them at nodes.
+    /// The bodies of some materials with their surfaces paired. All contact points are of one kind where that is given:
+    /// steps in time need them at nodes.
     ///
     /// # Errors
     /// [`PrestressError::Pair`] names the tie or contact whose surfaces do not meet.

@@ -39,7 +39,8 @@ pub(super) fn read(section: &Section<'_>, body: Option<&Body>) -> Frf {
     let mut frequencies_hz = section.numbers("frequencies_hz").unwrap_or_default();
     // What is wrong with a range has been said.
     let key = "frequencies_hz";
-    refuse_if!(!section.has(key) || section.list_length(key) == Some(0); section, key, "frf.frequencies_hz is missing or empty"; "at least one frequency");
+    refuse_if!(!section.has(key) || section.list_length(key) == Some(0); section, key,
+        "frf.frequencies_hz is missing or empty"; "at least one frequency");
     frequencies_hz.sort_by(f64::total_cmp);
     frequencies_hz.dedup();
     let direction = |key| {

@@ -225,20 +225,14 @@ impl<'a> Section<'a> {
                         "write its keys below [{}]", section.path),
                 }
             }
-            None if required => self.reject(
-                key,
-                format!("missing section [{}]", section.path),
-                "the case ends without it",
-                Some(
-                    match key {
-                        "contact" => {
-                            "a plane body needs it; `frictionsim init` writes a complete case"
-                        }
-                        _ => "`frictionsim init` writes a complete case to start from",
-                    }
-                    .to_owned(),
-                ),
-            ),
+            None if required => {
+                let help = match key {
+                    "contact" => "a plane body needs it; `frictionsim init` writes a complete case",
+                    _ => "`frictionsim init` writes a complete case to start from",
+                };
+                let message = format!("missing section [{}]", section.path);
+                self.reject(key, message, "the case ends without it", Some(help.to_owned()));
+            }
             None => {}
         }
         section

@@ -8,7 +8,8 @@ impl Section<'_> {
     /// A list of words out of a few; empty where it is not given.
     pub fn choices<T: Choice>(&self, key: &str) -> Vec<T> {
         let items = self.item(key).map_or(&[][..], RawItem::listed);
-        refuse_if!(self.list_length(key) == Some(0); self, key => "is an empty list"; "at least one word");
+        refuse_if!(self.list_length(key) == Some(0); self, key => "is an empty list";
+            "at least one word");
         let words = items.iter();
         words.filter_map(|item| self.read_choice(key, item)).collect()
     }
