@@ -294,7 +294,6 @@ fn motions_of_two_frequencies_are_told_with_their_numbers() {
         notes: Vec::new(),
         curves: None,
         friction_coefficient: 0.3,
-        critical: None,
     };
     // The page and the terminal show one document.
     let text = summary.document().to_text();

@@ -87,8 +87,8 @@ fn cycles_beside_stable_sliding_are_found_from_where_a_mode_grows() {
     assert!(report.steady_sliding_stable);
     has(&report.notes[0], &["contact.speed = 0.2, since none grows"]);
     // Between the case's own speed and that at which a mode grows: the onset beside the branch.
-    let critical = report.critical.unwrap();
-    assert_eq!(critical.parameter, Parameter::Speed);
+    let critical = report.critical_value.unwrap();
+    assert_eq!(critical.key, Parameter::Speed.key());
     assert!((critical.value / onset - 1.0).abs() < 1e-3, "{critical}");
     // The large one of both cycles, as integration has it.
     let reference = EventDriven::new(&case);

@@ -139,8 +139,8 @@ fn below_the_onset_steady_sliding_is_said_to_be_stable() {
     let text = &report.notes[0];
     has(text, &["as far as 10 modes", "stable at friction 0.5"]);
     // The critical friction that it tells of: a mode grows above it, none below.
-    let critical = report.critical.unwrap();
-    assert_eq!(critical.parameter, Parameter::FrictionCoefficient);
+    let critical = report.critical_value.unwrap();
+    assert_eq!(critical.key, Parameter::FrictionCoefficient.key());
     assert!(text.contains(&critical.to_string()), "{text}");
     for (factor, growing) in [(0.998, 0), (1.002, 1)] {
         let friction = factor * critical.value;
@@ -168,7 +168,7 @@ fn the_critical_damping_of_stable_sliding_is_where_the_onset_is_the_friction() {
         let Origin::Waves { lowest_onset } = report.origin else {
             panic!("a disc");
         };
-        (report.critical, lowest_onset.unwrap())
+        (report.critical_value, lowest_onset.unwrap())
     };
     let (critical, onset) = at(4.5e-7);
     let critical = critical.unwrap();

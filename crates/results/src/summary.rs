@@ -9,20 +9,34 @@ use super::framed::write_json;
 use super::manifest::Manifest;
 use super::reopening::{SUMMARY, read_own};
 use frictionsim_output::Described;
-use frictionsim_physics::cycle::CriticalValue;
+use frictionsim_physics::cycle::Parameter;
 use frictionsim_physics::transient::ContactPowers;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use serde_json::Value;
+use std::fmt;
 use std::path::Path;
 
 /// Where along a parameter steady sliding loses its stability.
 #[derive(Clone, Debug, PartialEq, Described, Serialize)]
-pub struct CriticalSummary {
+pub struct CriticalValue {
     /// Key of the case.
     pub key: String,
     /// Value, in its units.
     pub value: f64,
+}
+
+impl CriticalValue {
+    /// Of a parameter, at a value in SI units.
+    pub fn of(parameter: Parameter, value: f64) -> Self {
+        Self { key: parameter.key().to_owned(), value: parameter.in_key_units(value) }
+    }
+}
+
+impl fmt::Display for CriticalValue {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} = {:.5}", self.key, self.value)
+    }
 }
 
 finding! {
@@ -40,12 +54,6 @@ impl StatusFractions {
     pub fn of(fractions: [f64; 3]) -> Self {
         let [stick, slip, open] = fractions.map(present);
         Self { stick, slip, open }
-    }
-}
-
-impl From<CriticalValue> for CriticalSummary {
-    fn from(own: CriticalValue) -> Self {
-        Self { key: own.parameter.key().to_owned(), value: own.parameter.in_key_units(own.value) }
     }
 }
 

@@ -50,7 +50,7 @@ pub use floquet::SteppedCycle;
 pub use grid::PhaseGrid;
 pub use limit_cycle::{CyclePowers, LimitCycle, PhasePoint};
 pub use onset::{DiscModel, MODES, Onset};
-pub use parameter::{CriticalValue, OperatingPoint, Parameter};
+pub use parameter::{OperatingPoint, Parameter};
 pub use solver::{CycleBranch, CycleSolver};
 pub use stability::{
     FloquetMultiplier, FloquetMultipliers, RidingMode, StabilityChange, Verdict, differing,

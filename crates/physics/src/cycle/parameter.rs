@@ -113,19 +113,3 @@ impl Parameter {
         }
     }
 }
-
-/// Where along a parameter steady sliding loses its stability.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct CriticalValue {
-    /// The parameter.
-    pub parameter: Parameter,
-    /// Its value, SI.
-    pub value: f64,
-}
-
-impl std::fmt::Display for CriticalValue {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let value = self.parameter.in_key_units(self.value);
-        write!(f, "{} = {value:.5}", self.parameter.key())
-    }
-}

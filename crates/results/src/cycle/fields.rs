@@ -22,23 +22,24 @@ impl CycleSummary {
     /// `cycle-TAG.pvd` over the time; of a motion of two waves likewise `two-waves-nN-nM.vtu`, over one period of the
     /// first. Of a motion of the whole mesh its contact comes with them, `contact-TAG.npz`.
     pub fn write(&self, folder: &OutputFolder, body: &ShownBody<'_>) -> Result<(), FolderError> {
-        let tables = self.cycles.iter().flat_map(|own| own.tables(body.is_solid()));
+        let interface = self.interface();
+        let tables = self.cycles.iter().flat_map(|own| own.tables(body, interface));
         let pairs = self.two_waves.iter().filter_map(TwoWaveSummary::table);
         tables.chain(pairs).try_for_each(|table| write_table(folder, &table))?;
-        let fields = Fields { folder, body, interface: self.interface(), mesh: OnceCell::new() };
+        let fields = Fields { folder, body, interface, mesh: OnceCell::new() };
         let mut waves = Vec::new();
         for (place, sought) in self.cycles.iter().enumerate() {
-            let Some(own) = &sought.record else {
+            let Some(own) = sought.shown() else {
                 continue;
             };
             let tag = own.name.tag();
-            if let Some(interface) = fields.interface {
+            if let Some(interface) = interface {
                 folder.write_bulk(&format!("contact-{tag}.npz"), |out| {
-                    out.write_all(&encode_contact(interface, &own.instants)?)
+                    out.write_all(&encode_contact(interface, &own.motion.instants)?)
                 })?;
             }
             let group = format!("limit cycle of {}", own.whose());
-            let first = fields.write(&format!("cycle-{tag}"), &group, &own.frames)?;
+            let first = fields.write(&format!("cycle-{tag}"), &group, &own.motion.frames)?;
             let first = first.filter(|_| own.is_wave());
             waves.extend(first.map(|own| PvdEntry { time: (place + 1) as f64, ..own }));
         }

@@ -1,8 +1,8 @@
 //! The figures of limit cycles, from their record.
 
 use super::branches::draw_branches;
-use super::record::MotionRecord;
-use super::summary::CycleSummary;
+use super::record::ShownCycle;
+use super::summary::{CycleSummary, SoughtCycle};
 use crate::ShownBody;
 use crate::charts::palette::status_ground;
 use crate::charts::{
@@ -28,6 +28,9 @@ const PERIODS: usize = 2;
 /// Amplitude along the normal, over that along the contact, below which it is round-off.
 const ROUND_OFF: f64 = 1e-9;
 
+/// A quantity of a contact node at one instant.
+type Of = fn(&PhasePoint) -> f64;
+
 /// Limit cycles and what their figures show besides.
 struct CycleFigures<'a> {
     /// What was found.
@@ -35,7 +38,7 @@ struct CycleFigures<'a> {
     /// The body that moves.
     body: &'a ShownBody<'a>,
     /// What is shown of each cycle.
-    cycles: Vec<&'a MotionRecord>,
+    cycles: Vec<ShownCycle<'a>>,
     /// The contacts of an assembly, each with the boundary that has its points.
     surfaces: Vec<(String, usize)>,
     /// The materials, for the stress fields.
@@ -52,16 +55,16 @@ impl CycleSummary {
         surfaces: Vec<(String, usize)>,
         materials: &dyn MaterialField,
     ) -> Vec<Figure> {
-        let cycles = self.cycles.iter().filter_map(|own| own.record.as_deref());
-        let cycles = cycles.filter(|own| !own.frames.is_empty()).collect();
+        let cycles = self.cycles.iter().filter_map(SoughtCycle::shown);
+        let cycles = cycles.filter(|own| !own.motion.frames.is_empty()).collect();
         let shown = &CycleFigures { found: self, body, cycles, surfaces, materials };
         let mut figures: Vec<Declaration<'_>> = Vec::new();
-        for &motion in &shown.cycles {
-            figures.push(Box::new(move || Some(shown.status(motion))));
-            figures.push(Box::new(move || Some(shown.at_one_instant(motion))));
-            figures.push(Box::new(move || Some(shown.history(motion))));
-            figures.push(Box::new(move || Some(shown.orbit(motion))));
-            figures.push(Box::new(move || Some(harmonics(motion))));
+        for &own in &shown.cycles {
+            figures.push(Box::new(move || shown.status(own)));
+            figures.push(Box::new(move || Some(shown.at_one_instant(own))));
+            figures.push(Box::new(move || Some(shown.history(own))));
+            figures.push(Box::new(move || Some(shown.orbit(own))));
+            figures.push(Box::new(move || Some(harmonics(own))));
         }
         figures.push(Box::new(|| Some(shown.velocity())));
         figures.push(Box::new(|| shown.shear_stress()));
@@ -88,40 +91,42 @@ impl CycleFigures<'_> {
     }
 
     /// The status of all contact nodes over one period; that of a wave is its history.
-    fn status(&self, motion: &MotionRecord) -> Figure {
-        let times = motion.over_time(|row| row.time);
-        let statuses = motion.instants.iter().flat_map(|at| self.body.shown(at));
+    fn status(&self, own: ShownCycle<'_>) -> Option<Figure> {
+        if own.is_wave() {
+            return None;
+        }
+        let times: Vec<f64> = own.history().iter().map(|row| row.time).collect();
+        let statuses = own.motion.instants.iter().flat_map(|at| self.body.shown(at));
         let codes: Vec<u8> = statuses.map(|own| own.status as u8).collect();
         let range = (times[0], times[times.len() - 1]);
         let map = status_map(&times, codes.len() / times.len(), &codes, range);
         let caption = format!(
             "Contact status of every contact node over one period of the limit cycle of {}.",
-            motion.whose()
+            own.whose()
         );
         let panel = Panel::new(Axis::time(), self.places()).plain().height(120.0);
         let panel = panel.layers(map.map(|own| own.0)).legend();
-        Figure::new(format!("status-{}", motion.name.tag()), caption).panel(panel)
+        Some(Figure::new(format!("status-{}", own.name.tag()), caption).panel(panel))
     }
 
     /// The contact at time zero; of a wave around the whole circle, where a node at angle `theta` is in phase `n
     /// theta`.
-    fn at_one_instant(&self, motion: &MotionRecord) -> Figure {
+    fn at_one_instant(&self, own: ShownCycle<'_>) -> Figure {
         let body = self.body;
         if body.is_assembly() {
-            return self.on_surfaces(motion);
+            return self.on_surfaces(own);
         }
-        let n = motion.diameters().max(1);
-        let edge = body.shown(&motion.edge.repeat(n));
+        let n = own.diameters().max(1);
+        let edge = body.shown(&own.edge().repeat(n));
         let all = |of: fn(&PhasePoint) -> f64| -> Vec<f64> { edge.iter().map(of).collect() };
-        let speed = if body.mesh.opposite.is_some() { f64::NAN } else { self.shown_speed(motion) };
+        let speed = if body.mesh.opposite.is_some() { f64::NAN } else { self.shown_speed(own) };
         let turns = format!("; the pattern turns against the rotor at 1/{n} of the frequency");
-        let (turns, wave) =
-            if motion.is_wave() { (turns, ", wave ↻") } else { (String::new(), "") };
+        let (turns, wave) = if own.is_wave() { (turns, ", wave ↻") } else { (String::new(), "") };
         let angles = self.found.interface().map_or(&[][..], |interface| &interface.angles);
         let shown = ContactInstant {
-            name: format!("contact-{}", motion.name.tag()),
-            subject: [format!("Limit cycle of {} at one instant", motion.whose()), turns],
-            instant: motion.heading() + wave,
+            name: format!("contact-{}", own.name.tag()),
+            subject: [format!("Limit cycle of {} at one instant", own.whose()), turns],
+            instant: own.heading() + wave,
             first_angle: angles.first().copied().unwrap_or(0.0),
             status: &edge.iter().map(|point| point.status).collect::<Vec<_>>(),
             tractions: [&all(|point| point.pressure), &all(|point| point.shear)],
@@ -131,29 +136,29 @@ impl CycleFigures<'_> {
     }
 
     /// Pressure on each contact surface at time zero, seen from outside along its mean normal; grey where it is open.
-    fn on_surfaces(&self, motion: &MotionRecord) -> Figure {
+    fn on_surfaces(&self, own: ShownCycle<'_>) -> Figure {
         let mut values = vec![f64::NAN; self.body.mesh.node_count()];
-        let closed = self.nodes().iter().zip(&motion.edge);
+        let closed = self.nodes().iter().zip(own.edge());
         for (&node, point) in closed.filter(|own| own.1.status != ContactStatus::Open) {
             values[node as usize] = point.pressure;
         }
-        let pressures = motion.edge.iter().map(|point| point.pressure);
+        let pressures = own.edge().iter().map(|point| point.pressure);
         let largest = pressures.fold(f64::MIN_POSITIVE, f64::max);
         let axis = || Axis::new("contact pressure", "Pa").prefixed().between(0.0, largest);
         let caption = format!(
             "Limit cycle of {} at one instant: contact pressure on each contact surface, seen from \
             outside; grey where it is open.",
-            motion.whose()
+            own.whose()
         );
-        let name = format!("contact-{}", motion.name.tag());
+        let name = format!("contact-{}", own.name.tag());
         let surfaces = (self.body.mesh, &self.surfaces[..]);
         contact_surfaces((&name, &caption), surfaces, (&values, &[]), &axis)
     }
 
     /// Speed of the counterface at the shown contact nodes, m/s: it grows with the radius.
-    fn shown_speed(&self, motion: &MotionRecord) -> f64 {
-        let Some(sector) = self.body.sector else {
-            return motion.counterface_speed;
+    fn shown_speed(&self, own: ShownCycle<'_>) -> f64 {
+        let (motion, Some(sector)) = (own.motion, self.body.sector) else {
+            return own.motion.counterface_speed;
         };
         let radius = |ring: usize| sector.rings[ring].radius;
         let rings = sector.rings.len();
@@ -161,8 +166,8 @@ impl CycleFigures<'_> {
     }
 
     /// The contact node of the history in words.
-    fn node(&self, motion: &MotionRecord) -> String {
-        match self.nodes().get(motion.node) {
+    fn node(&self, own: ShownCycle<'_>) -> String {
+        match self.nodes().get(own.motion.node) {
             None => "a contact node".to_owned(),
             Some(&node) => {
                 format!("contact node {}", self.body.mesh.node_label(node as usize))
@@ -171,41 +176,50 @@ impl CycleFigures<'_> {
     }
 
     /// What the node goes through in two periods, on a ground coloured by its status.
-    fn history(&self, motion: &MotionRecord) -> Figure {
-        let repeated = Repeated::new(motion);
-        let [normal, along] = directions(motion);
-        let line = |of: fn(&PhasePoint) -> f64, colour| {
-            Line::through(repeated.curve(&motion.over_time(of))).solid(colour, 1.1)
+    fn history(&self, own: ShownCycle<'_>) -> Figure {
+        let (motion, period) = (own.motion, own.history());
+        let interval = 1.0 / (motion.frequency_hz * period.len() as f64);
+        let count = PERIODS * period.len() + 1;
+        let rows: Vec<PhasePoint> = period.into_iter().cycle().take(count).collect();
+        let status: Vec<ContactStatus> = rows.iter().map(|row| row.status).collect();
+        let panel = |y: Axis, height: f64, caption: &str| {
+            let time = Axis::time().between(0.0, (count - 1) as f64 * interval);
+            // A sample stands for half an interval on either side.
+            let ground = status_ground(&status, |i| (i as f64 - 0.5) * interval);
+            Panel::new(time, y).plain().height(height).caption(caption).layer(ground)
         };
-        let displacement = |direction: &str, of, caption: &str| {
+        let curve = |of: &dyn Fn(&PhasePoint) -> f64| {
+            let timed = rows.iter().enumerate();
+            Line::through(timed.map(|(i, row)| (i as f64 * interval, of(row))))
+        };
+        let line = |of: Of, colour| curve(&of).solid(colour, 1.1);
+        let [normal, along] = directions(own);
+        let displacement = |direction: &str, of: Of, caption: &str| {
             let metres = Axis::new(&format!("*u*_{{{direction}}}"), "m").prefixed();
-            repeated.panel(metres, 62.0, caption).layer(line(of, INK))
+            panel(metres, 62.0, caption).layer(line(of, INK))
         };
         // What a node that sticks moves with, and the limits of friction, where they are numbers.
         let counterface = (self.body.mesh.opposite.is_none())
             .then(|| Rule::horizontal(motion.counterface_speed).stretching().name("counterface"));
         let limit = |sign: f64| {
             let friction = sign * motion.friction_coefficient.unwrap_or(f64::NAN);
-            let limit = motion.over_time(|row| friction * row.pressure);
-            Line::through(repeated.curve(&limit)).stroke(Stroke::dashed(MUTED, 0.9))
+            curve(&|row| friction * row.pressure).stroke(Stroke::dashed(MUTED, 0.9))
         };
         let law = [limit(1.0).name("Coulomb limit ±*μp*"), limit(-1.0)].into_iter();
         let law = law.filter(|_| motion.friction_coefficient.is_some());
-        let velocity = repeated
-            .panel(Axis::new("*v*", "m/s"), 78.0, "velocity")
+        let velocity = panel(Axis::new("*v*", "m/s"), 78.0, "velocity")
             .layers(counterface)
             .layer(line(|row| row.velocity[0], SERIES[2]).name(format!("normal *v*_{{{normal}}}")))
             .layer(
                 line(|row| row.velocity[1], SERIES[0]).name(format!("tangential *v*_{{{along}}}")),
             );
-        let tractions = repeated
-            .panel(Axis::new("traction", "Pa").prefixed(), 90.0, "tractions")
+        let tractions = panel(Axis::new("traction", "Pa").prefixed(), 90.0, "tractions")
             .layers(law)
             .layer(line(|row| row.pressure, INK).name("pressure *p*"))
             .layer(line(|row| row.shear, SERIES[1]).name("friction traction *τ*"));
-        let (node, whose) = (self.node(motion), motion.whose());
-        let caption = format!("Two periods of {node} in the limit cycle of {whose}.");
-        Figure::new(format!("history-{}", motion.name.tag()), caption)
+        let caption =
+            format!("Two periods of {} in the limit cycle of {}.", self.node(own), own.whose());
+        Figure::new(format!("history-{}", own.name.tag()), caption)
             .shared_x()
             .panel(displacement(along, |row| row.displacement[1], "displacement along the contact"))
             .panel(displacement(normal, |row| row.displacement[0], "normal displacement"))
@@ -214,31 +228,29 @@ impl CycleFigures<'_> {
     }
 
     /// The closed curves of the node: velocity over displacement, along the contact and normal, and its path.
-    fn orbit(&self, motion: &MotionRecord) -> Figure {
-        let [normal, along] = directions(motion);
-        let statuses = motion.node_statuses();
-        let status: Vec<ContactStatus> = statuses.iter().chain(statuses.first()).copied().collect();
-        type Of = fn(&PhasePoint) -> f64;
+    fn orbit(&self, own: ShownCycle<'_>) -> Figure {
+        let period = own.history();
+        let closed = || period.iter().chain(period.first());
+        let status: Vec<ContactStatus> = closed().map(|row| row.status).collect();
         let loop_of = |caption: &str, x: (String, Of), y: (String, &str, Of)| {
-            let (xs, ys) = (motion.over_time(x.1), motion.over_time(y.2));
-            let points = || xs.iter().copied().zip(ys.iter().copied());
-            let closed: Vec<(f64, f64)> = points().chain(points().next()).collect();
+            let points: Vec<(f64, f64)> = closed().map(|row| (x.1(row), y.2(row))).collect();
             Panel::new(Axis::new(&x.0, "m").prefixed(), Axis::new(&y.0, y.1).prefixed())
                 .height(128.0)
                 .caption(caption)
-                .layers(status_curves(&closed, &status))
-                .layer(Line::through(closed).solid(INK, 0.0).arrows(3))
+                .layers(status_curves(&points, &status))
+                .layer(Line::through(points).solid(INK, 0.0).arrows(3))
         };
         let caption = format!(
             "Phase plots, along the contact (a) and normal to it (b), and path (c) of {} in the limit cycle of {}.",
-            self.node(motion),
-            motion.whose()
+            self.node(own),
+            own.whose()
         );
+        let [normal, along] = directions(own);
         let moved = |way: &str| format!("displacement *u*_{{{way}}}");
         let speed = |way: &str| format!("velocity *v*_{{{way}}}");
         let (u_n, u_t): (Of, Of) = (|row| row.displacement[0], |row| row.displacement[1]);
         let (v_n, v_t): (Of, Of) = (|row| row.velocity[0], |row| row.velocity[1]);
-        Figure::new(format!("orbit-{}", motion.name.tag()), caption)
+        Figure::new(format!("orbit-{}", own.name.tag()), caption)
             .columns(3)
             .panel(loop_of("along the contact", (moved(along), u_t), (speed(along), "m/s", v_t)))
             .panel(loop_of("normal", (moved(normal), u_n), (speed(normal), "m/s", v_n)))
@@ -246,32 +258,32 @@ impl CycleFigures<'_> {
     }
 
     /// Contact status at time zero of every node of the edge; of a wave that of the nearest phase.
-    fn around(&self, motion: &MotionRecord) -> Vec<ContactStatus> {
-        let nodes = self.body.mesh.contact_edge().nodes.len();
-        let points = motion.edge.len().max(1);
+    fn around(&self, own: ShownCycle<'_>) -> Vec<ContactStatus> {
+        let (nodes, edge) = (self.body.mesh.contact_edge().nodes.len(), own.edge());
+        let points = edge.len().max(1);
         let nearest =
-            |node: usize| (2 * motion.diameters() * node * points + nodes) / (2 * nodes) % points;
+            |node: usize| (2 * own.diameters() * node * points + nodes) / (2 * nodes) % points;
         let shown = |point: &PhasePoint| point.status;
-        match motion.diameters() {
-            0 => motion.edge.iter().map(shown).collect(),
-            _ => (0..nodes).filter_map(|node| motion.edge.get(nearest(node)).map(shown)).collect(),
+        match own.diameters() {
+            0 => edge.iter().map(shown).collect(),
+            _ => (0..nodes).filter_map(|node| edge.get(nearest(node)).map(shown)).collect(),
         }
     }
 
-    fn shown_cycles(&self) -> impl Iterator<Item = &MotionRecord> {
+    fn shown_cycles(&self) -> impl Iterator<Item = ShownCycle<'_>> {
         self.cycles.iter().copied().take(FIELD_LIMIT)
     }
 
     /// The waves in motion, without the steady state that they ride on.
     fn turning(&self) -> Motion {
         let body = MovingBody::new(self.body.mesh);
-        let states = self.shown_cycles().map(|wave| MotionState {
-            name: plain(&wave.heading()),
-            frequency_hz: wave.frequency_hz,
+        let states = self.shown_cycles().map(|own| MotionState {
+            name: plain(&own.heading()),
+            frequency_hz: own.motion.frequency_hz,
             kind: MotionKind::Turning {
-                displacement: body.wave(&wave.frames[0].fields[0]),
-                turn: -wave.counterface_speed.signum() * TAU / wave.diameters() as f64,
-                status: self.around(wave).into_iter().map(|status| status as u8).collect(),
+                displacement: body.wave(&own.motion.frames[0].fields[0]),
+                turn: -own.motion.counterface_speed.signum() * TAU / own.diameters() as f64,
+                status: self.around(own).into_iter().map(|status| status as u8).collect(),
             },
         });
         Motion { states: states.collect(), ..body.at_rest() }
@@ -280,7 +292,7 @@ impl CycleFigures<'_> {
     fn velocity(&self) -> Figure {
         let cycles = self.shown_cycles();
         let fields = cycles
-            .map(|motion| (motion.heading(), &motion.frames[0].fields[1][..], self.around(motion)));
+            .map(|own| (own.heading(), &own.motion.frames[0].fields[1][..], self.around(own)));
         let figure = velocity_figure(self.body, (WHEN, 0.0), fields);
         let is_wave = self.cycles.iter().any(|own| own.is_wave());
         if is_wave { figure.motion(self.turning()) } else { figure }
@@ -288,61 +300,24 @@ impl CycleFigures<'_> {
 
     fn shear_stress(&self) -> Option<Figure> {
         let cycles = self.shown_cycles();
-        let fields = cycles.map(|motion| (motion.heading(), &motion.frames[0].fields[0][..]));
+        let fields = cycles.map(|own| (own.heading(), &own.motion.frames[0].fields[0][..]));
         shear_stress_figure(self.body, self.materials, WHEN, fields)
     }
 }
 
 /// Names of the directions normal to the contact and along it: radius and angle of the disc of a wave.
-fn directions(motion: &MotionRecord) -> [&'static str; 2] {
-    if motion.is_wave() { ["r", "θ"] } else { ["n", "t"] }
-}
-
-/// A few periods of the node of the history.
-struct Repeated {
-    interval: f64,
-    samples: usize,
-    status: Vec<ContactStatus>,
-}
-
-impl Repeated {
-    fn new(motion: &MotionRecord) -> Self {
-        let count = motion.history.len();
-        let samples = PERIODS * count + 1;
-        let own = motion.node_statuses().into_iter().cycle().take(samples);
-        Self {
-            interval: 1.0 / (motion.frequency_hz * count as f64),
-            samples,
-            status: own.collect(),
-        }
-    }
-
-    /// Values of one period again and again, over the time.
-    fn curve(&self, values: &[f64]) -> Vec<(f64, f64)> {
-        let values = values.iter().copied().cycle().take(self.samples);
-        let timed = values.enumerate();
-        timed.map(|(i, v)| (i as f64 * self.interval, v)).collect()
-    }
-
-    /// A panel over the time on a ground coloured by status; a sample stands for half an interval on either side.
-    fn panel(&self, y: Axis, height: f64, caption: &str) -> Panel {
-        let end = (self.samples - 1) as f64 * self.interval;
-        let ground = status_ground(&self.status, |i| (i as f64 - 0.5) * self.interval);
-        Panel::new(Axis::time().between(0.0, end), y)
-            .plain()
-            .height(height)
-            .caption(caption)
-            .layer(ground)
-    }
+fn directions(own: ShownCycle<'_>) -> [&'static str; 2] {
+    if own.is_wave() { ["r", "θ"] } else { ["n", "t"] }
 }
 
 /// Amplitudes of the harmonics in time of a motion of the whole mesh.
-fn harmonics(motion: &MotionRecord) -> Figure {
+fn harmonics(own: ShownCycle<'_>) -> Figure {
+    let motion = own.motion;
     let amplitudes = |c: usize| motion.harmonics.iter().map(|own| own.amplitude[c]).collect();
     let [normal, along]: [Vec<f64>; 2] = [0, 1].map(amplitudes);
     let caption = format!(
         "Harmonics of the motion of the contact nodes in the limit cycle of {}: root mean square over the nodes.",
-        motion.whose()
+        own.whose()
     );
     let line = |values: &[f64], colour, name: &str| {
         let frequencies = (1..=values.len()).map(|k| k as f64 * motion.frequency_hz);
@@ -358,5 +333,5 @@ fn harmonics(motion: &MotionRecord) -> Figure {
     let largest = |values: &[f64]| values.iter().copied().fold(0.0, f64::max);
     let has_normal = largest(&normal) > ROUND_OFF * largest(&along);
     let normal = has_normal.then(|| line(&normal, SERIES[2], "normal"));
-    Figure::new(format!("harmonics-{}", motion.name.tag()), caption).panel(panel.layers(normal))
+    Figure::new(format!("harmonics-{}", own.name.tag()), caption).panel(panel.layers(normal))
 }

@@ -2,20 +2,16 @@
 
 use super::branch::{BranchRow, BranchSummary, MotionBranch, StabilityChangeSummary};
 use super::name::{CycleName, ModeOfCycle};
-use super::record::{ContactNode, CycleMotion, MotionRecord, SteppedMotion};
+use super::record::{ContactNode, CycleMotion, SteppedMotion};
 use super::summary::SoughtCycle;
 use super::verdicts::{ConfirmationSummary, Finding, Perturbation, StabilitySummary, known};
 use crate::ShownBody;
 use crate::npz::NpzArchive;
-use crate::summary::{MeanPowers, StatusFractions};
 use frictionsim_chart::extremes;
 use frictionsim_physics::contact::ContactInterface;
-use frictionsim_physics::cycle::periodic::{
-    PeriodicBranch, PeriodicMotion, REMAINDER, Sound, velocity_level,
-};
-use frictionsim_physics::cycle::{Confirmation, CyclePowers, FloquetMultipliers, PhasePoint};
+use frictionsim_physics::cycle::periodic::{PeriodicBranch, PeriodicMotion, REMAINDER, Sound};
+use frictionsim_physics::cycle::{Confirmation, FloquetMultipliers, PhasePoint};
 use std::io;
-use std::sync::Arc;
 
 /// A limit cycle and what is known of it.
 #[derive(Clone, Debug)]
@@ -45,12 +41,6 @@ pub struct PeriodicResult {
     pub wall_s: f64,
 }
 
-/// The powers of a body of such a thickness, W.
-pub(super) fn mean_powers(powers: &CyclePowers, thickness: f64) -> MeanPowers {
-    let powers = powers.scaled(thickness);
-    MeanPowers::of(&powers.contact, powers.material_damping)
-}
-
 /// The body that the motions are of.
 #[derive(Clone, Copy, Debug)]
 pub struct MotionBody<'a> {
@@ -63,33 +53,23 @@ pub struct MotionBody<'a> {
 }
 
 impl MotionBody<'_> {
-    /// Label of a contact node, by its place among those of the contact.
-    fn label(&self, node: usize) -> usize {
-        self.shown.mesh.node_label(self.interface.nodes[node] as usize)
-    }
-
     /// What a motion is, told in so many harmonics.
     fn motion(&self, motion: &PeriodicMotion, harmonic_count: usize) -> CycleMotion {
         let mut told = motion.harmonics.iter().take(harmonic_count);
         CycleMotion {
-            main_frequency_hz: motion.frequency_hz,
-            status: StatusFractions::of(motion.fractions),
-            power_w: mean_powers(&motion.powers, self.thickness),
-            balance_residual: motion.powers.balance_residual(),
-            amplitude_m: Some(motion.amplitude),
-            velocity_level_db: Some(velocity_level(motion.velocity)),
             harmonics: told.clone().map(|harmonic| harmonic.amplitude[1]).collect(),
             stepped: Some(SteppedMotion {
                 residual: motion.residual,
                 periods: motion.periods,
                 steps: motion.steps,
-                contact_node: self.label(motion.node),
+                contact_node: label(&self.shown, self.interface, motion.node),
                 kick_velocity: None,
                 sound: None,
                 harmonic_count,
                 harmonic_remainder: told.next_back().map_or(1.0, |last| last.remainder),
                 harmonics_needed: motion.harmonics_within(REMAINDER),
             }),
+            ..CycleMotion::of(motion, self.thickness)
         }
     }
 
@@ -123,81 +103,71 @@ impl MotionBody<'_> {
     }
 }
 
-impl FoundCycle {
-    /// What it is, with the kick that tips stable sliding into it.
-    fn summary(&self, body: &MotionBody<'_>, kick_velocity: Option<f64>) -> CycleMotion {
-        let mut cycle = body.motion(&self.motion, self.harmonic_count);
-        if let Some(stepped) = &mut cycle.stepped {
-            stepped.kick_velocity = kick_velocity;
-            stepped.sound.clone_from(&self.sound);
-        }
-        cycle
-    }
-
-    /// What the tables and figures show of it.
-    fn record(self, name: CycleName, body: &MotionBody<'_>) -> MotionRecord {
-        let motion = self.motion;
-        let nodes = (0..body.interface.len()).map(|node| contact_node(&motion, node, body));
-        let exponents = known(&self.stability).map(|found| {
-            found.multipliers.iter().map(|own| (None, Perturbation::of(own))).collect()
-        });
-        MotionRecord {
-            name,
-            frequency_hz: motion.frequency_hz,
-            history: motion.instants.iter().map(|at| at[motion.node]).collect(),
-            edge: motion.instants.first().cloned().unwrap_or_default(),
-            node: motion.node,
-            counterface_speed: motion.counterface_speed,
-            friction_coefficient: motion.friction_coefficient,
-            nodes: nodes.collect(),
-            harmonics: motion.harmonics.iter().take(self.harmonic_count).copied().collect(),
-            instants: motion.instants,
-            frames: motion.frames,
-            exponents,
-        }
-    }
+/// Label of a contact node, by its place among those of the contact.
+fn label(body: &ShownBody<'_>, interface: &ContactInterface, node: usize) -> usize {
+    body.mesh.node_label(interface.nodes[node] as usize)
 }
 
 impl PeriodicResult {
     /// What is reported of it.
     pub fn sought(self, body: &MotionBody<'_>) -> SoughtCycle {
         let same_as = self.name.same_as;
-        let name = CycleName::Mode(self.name);
-        let sought = SoughtCycle::new(name.clone(), self.wall_s);
+        let sought = SoughtCycle::new(CycleName::Mode(self.name), self.wall_s);
         match (self.outcome, same_as) {
             (Err(error), _) => SoughtCycle { error: Some(error), ..sought },
             (Ok(_), Some(_)) => sought,
-            (Ok(found), None) => {
-                let branch = found.branch.as_ref().map(|branch| body.branch(branch));
-                let kick = branch.as_ref().and_then(|branch| Some(branch.threshold?[1]));
-                SoughtCycle {
-                    cycle: Some(found.summary(body, kick)),
-                    confirmation: found.confirmation.as_ref().map(|run| {
-                        let agrees = run.agrees_with(&found.motion);
-                        ConfirmationSummary::ran(run, agrees, body.thickness)
-                    }),
-                    stability: StabilitySummary::of(&found.stability),
-                    branch,
-                    record: Some(Arc::new(found.record(name, body))),
-                    ..sought
-                }
-            }
+            (Ok(found), None) => found.told(body, sought),
+        }
+    }
+}
+
+impl FoundCycle {
+    /// What is reported of it, with the kick that tips stable sliding into it.
+    fn told(self, body: &MotionBody<'_>, sought: SoughtCycle) -> SoughtCycle {
+        let branch = self.branch.as_ref().map(|branch| body.branch(branch));
+        let mut cycle = body.motion(&self.motion, self.harmonic_count);
+        if let Some(stepped) = &mut cycle.stepped {
+            stepped.kick_velocity = branch.as_ref().and_then(|branch| Some(branch.threshold?[1]));
+            stepped.sound = self.sound;
+        }
+        let confirmation = self.confirmation.as_ref().map(|run| {
+            let agrees = run.agrees_with(&self.motion);
+            ConfirmationSummary::ran(run, agrees, body.thickness)
+        });
+        let exponents = known(&self.stability).map(|found| {
+            found.multipliers.iter().map(|own| (None, Perturbation::of(own))).collect()
+        });
+        let mut motion = self.motion;
+        motion.harmonics.truncate(self.harmonic_count);
+        SoughtCycle {
+            cycle: Some(cycle),
+            confirmation,
+            stability: StabilitySummary::of(&self.stability),
+            branch,
+            motion: Some(motion),
+            exponents,
+            ..sought
         }
     }
 }
 
 /// Means and amplitudes of a contact node, by its place among those of the contact.
-fn contact_node(motion: &PeriodicMotion, i: usize, body: &MotionBody<'_>) -> ContactNode {
+pub(super) fn contact_node(
+    motion: &PeriodicMotion,
+    i: usize,
+    body: &ShownBody<'_>,
+    interface: &ContactInterface,
+) -> ContactNode {
     let own = || motion.instants.iter().map(|at| &at[i]);
     let mean = |of: fn(&PhasePoint) -> f64| own().map(of).sum::<f64>() / own().len() as f64;
     let half_range = |component: usize| {
         let (low, high) = extremes(own().map(|at| at.displacement[component]));
         0.5 * (high - low)
     };
-    let [x_m, y_m, z_m] = body.shown.position(body.interface.nodes[i] as usize);
+    let [x_m, y_m, z_m] = body.position(interface.nodes[i] as usize);
     let [stick, slip, open] = motion.shares[i];
     ContactNode {
-        node: body.label(i),
+        node: label(body, interface, i),
         x_m,
         y_m,
         z_m,

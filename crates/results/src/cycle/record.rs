@@ -3,11 +3,10 @@
 use super::name::CycleName;
 use super::verdicts::Perturbation;
 use crate::finding::finding;
-use crate::summary::{MeanPowers, StatusFractions};
+use crate::summary::{MeanPowers, StatusFractions, present};
 use frictionsim_output::Described;
-use frictionsim_physics::contact::ContactStatus;
 use frictionsim_physics::cycle::PhasePoint;
-use frictionsim_physics::cycle::periodic::{MotionFrame, MotionHarmonic, Sound};
+use frictionsim_physics::cycle::periodic::{PeriodicMotion, Sound, velocity_level};
 use serde::Serialize;
 
 /// A limit cycle.
@@ -60,35 +59,8 @@ pub struct SteppedMotion {
     pub harmonics_needed: usize,
 }
 
-/// One limit cycle over its period.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct MotionRecord {
-    /// What leads to it.
-    pub name: CycleName,
-    /// Frequency, Hz.
-    pub frequency_hz: f64,
-    /// Contact and motion over the period: of the contact node that moves most, of a wave of any.
-    pub history: Vec<PhasePoint>,
-    /// All contact nodes at time zero, of a wave along the phase.
-    pub edge: Vec<PhasePoint>,
-    /// All contact nodes over the period; none of a wave.
-    pub instants: Vec<Vec<PhasePoint>>,
-    /// Contact node that moves most, among those of the edge.
-    pub node: usize,
-    /// Speed of the counterface there, m/s.
-    pub counterface_speed: f64,
-    /// Friction coefficient there; none where it falls with the slip speed.
-    pub friction_coefficient: Option<f64>,
-    /// What each contact node does over the period; none of a wave.
-    pub nodes: Vec<ContactNode>,
-    /// The harmonics in time in which it is told; none of a wave.
-    pub harmonics: Vec<MotionHarmonic>,
-    /// The whole body at times over the period, from zero on, where it is known.
-    pub frames: Vec<MotionFrame>,
-    /// Its exponents or multipliers, where they are known; those of waves with the value of the parameter of the
-    /// branch.
-    pub exponents: Option<Vec<(Option<f64>, Perturbation)>>,
-}
+/// A perturbation, of a wave with the value of the parameter of its branch.
+pub(super) type Exponent = (Option<f64>, Perturbation);
 
 finding! {
     /// A contact node over the period.
@@ -108,41 +80,68 @@ finding! {
     }
 }
 
-impl MotionRecord {
+impl CycleMotion {
+    /// What a motion is on a body of such a thickness, m: what depends on its solver is left out.
+    pub(super) fn of(motion: &PeriodicMotion, thickness: f64) -> Self {
+        let powers = motion.powers.scaled(thickness);
+        Self {
+            main_frequency_hz: motion.frequency_hz,
+            status: StatusFractions::of(motion.fractions),
+            power_w: MeanPowers::of(&powers.contact, powers.material_damping),
+            balance_residual: motion.powers.balance_residual(),
+            amplitude_m: present(motion.amplitude),
+            velocity_level_db: present(velocity_level(motion.velocity)),
+            harmonics: Vec::new(),
+            stepped: None,
+        }
+    }
+}
+
+/// A limit cycle as tables and figures show it: what leads to it, and its motion.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct ShownCycle<'a> {
+    pub name: &'a CycleName,
+    pub motion: &'a PeriodicMotion,
+}
+
+impl<'a> ShownCycle<'a> {
     /// Whether it is a wave of a disc.
-    pub(super) fn is_wave(&self) -> bool {
+    pub(super) fn is_wave(self) -> bool {
         self.name.wave().is_some()
     }
 
     /// Nodal diameters of a wave; 0 of a motion of the whole mesh.
-    pub(super) fn diameters(&self) -> usize {
+    pub(super) fn diameters(self) -> usize {
         self.name.wave().map_or(0, |wave| wave.harmonic)
     }
 
     /// Whose it is: `2 nodal diameters`, or its frequency.
-    pub(super) fn whose(&self) -> String {
-        match &self.name {
+    pub(super) fn whose(self) -> String {
+        match self.name {
             CycleName::Wave(wave) => format!("{} nodal diameters", wave.harmonic),
-            CycleName::Mode(_) => format!("{:.2} Hz", self.frequency_hz),
+            CycleName::Mode(_) => format!("{:.2} Hz", self.motion.frequency_hz),
         }
     }
 
     /// The heading of its pictures.
-    pub(super) fn heading(&self) -> String {
-        let name = match &self.name {
+    pub(super) fn heading(self) -> String {
+        let name = match self.name {
             CycleName::Wave(wave) => format!("*n* = {}", wave.harmonic),
             CycleName::Mode(own) => own.mode.to_string(),
         };
-        format!("{name}, {:.2} kHz", self.frequency_hz * 1e-3)
+        format!("{name}, {:.2} kHz", self.motion.frequency_hz * 1e-3)
     }
 
-    /// Status of the node of the history, over time.
-    pub(super) fn node_statuses(&self) -> Vec<ContactStatus> {
-        self.history.iter().map(|row| row.status).collect()
+    /// All contact nodes at time zero, of a wave along the phase.
+    pub(super) fn edge(self) -> &'a [PhasePoint] {
+        self.motion.instants.first().map_or(&[], Vec::as_slice)
     }
 
-    /// One quantity of the history.
-    pub(super) fn over_time(&self, of: impl Fn(&PhasePoint) -> f64) -> Vec<f64> {
-        self.history.iter().map(of).collect()
+    /// Contact and motion over the period: of the contact node that moves most, of a wave of any.
+    pub(super) fn history(self) -> Vec<PhasePoint> {
+        match self.is_wave() {
+            true => self.edge().to_vec(),
+            false => self.motion.instants.iter().map(|at| at[self.motion.node]).collect(),
+        }
     }
 }

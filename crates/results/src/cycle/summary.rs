@@ -2,16 +2,15 @@
 
 use super::branch::{BranchRecord, BranchSummary, FamilyRecord};
 use super::name::{CycleName, ModeSummary, OnsetSummary};
-use super::record::{CycleMotion, MotionRecord};
+use super::record::{CycleMotion, Exponent, ShownCycle};
 use super::two_waves::TwoWaveSummary;
 use super::verdicts::{ConfirmationRun, ConfirmationSummary, KnownStability, StabilitySummary};
 use crate::extent::Extent;
-use crate::summary::CriticalSummary;
+use crate::summary::CriticalValue;
 use frictionsim_output::Described;
 use frictionsim_physics::contact::ContactInterface;
-use frictionsim_physics::cycle::CriticalValue;
+use frictionsim_physics::cycle::periodic::PeriodicMotion;
 use serde::Serialize;
-use std::sync::Arc;
 
 /// `summary.json` of `frictionsim cycle`.
 #[derive(Clone, Debug, Described, Serialize)]
@@ -24,7 +23,7 @@ pub struct CycleSummary {
     /// Where along the parameter of the case sliding loses its stability, where it is stable at its own operating
     /// point.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub critical_value: Option<CriticalSummary>,
+    pub critical_value: Option<CriticalValue>,
     /// What powers are of, in the tables too.
     pub extent: Extent,
     /// The cycles that were sought, each with its motion or why there is none.
@@ -40,16 +39,13 @@ pub struct CycleSummary {
     /// Friction coefficient of the case.
     #[serde(skip)]
     pub friction_coefficient: f64,
-    /// What `critical_value` tells.
-    #[serde(skip)]
-    pub critical: Option<CriticalValue>,
 }
 
 impl CycleSummary {
     /// Of what a search has led to, with what is to be said of it.
     pub fn new(
         origin: Origin,
-        critical: Option<CriticalValue>,
+        critical_value: Option<CriticalValue>,
         (friction_coefficient, extent): (f64, Extent),
         cycles: Vec<SoughtCycle>,
         two_waves: Vec<TwoWaveSummary>,
@@ -67,14 +63,13 @@ impl CycleSummary {
         let own = Self {
             steady_sliding_stable,
             origin,
-            critical_value: critical.map(CriticalSummary::from),
+            critical_value,
             extent,
             cycles,
             two_waves,
             notes: Vec::new(),
             curves: None,
             friction_coefficient,
-            critical,
         };
         Self { notes: own.said(), ..own }
     }
@@ -145,9 +140,12 @@ pub struct SoughtCycle {
     /// Its branch over the case's parameter.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub branch: Option<BranchSummary>,
-    /// What tables and figures show of it.
+    /// Its motion, which tables and figures show.
     #[serde(skip)]
-    pub(super) record: Option<Arc<MotionRecord>>,
+    pub(super) motion: Option<PeriodicMotion>,
+    /// Its exponents or multipliers, where they are known.
+    #[serde(skip)]
+    pub(super) exponents: Option<Vec<Exponent>>,
 }
 
 impl SoughtCycle {
@@ -162,8 +160,14 @@ impl SoughtCycle {
             confirmation: None,
             stability: None,
             branch: None,
-            record: None,
+            motion: None,
+            exponents: None,
         }
+    }
+
+    /// The cycle with its motion, where there is one.
+    pub(super) fn shown(&self) -> Option<ShownCycle<'_>> {
+        Some(ShownCycle { name: &self.name, motion: self.motion.as_ref()? })
     }
 
     /// Its stability, where it is known.

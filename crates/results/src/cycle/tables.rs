@@ -1,12 +1,15 @@
 //! Columns of limit cycles, and the document of a search.
 
 use super::branch::{ALONG, BRANCH};
-use super::record::{CONTACT_NODES, CycleMotion};
+use super::motions::contact_node;
+use super::record::{CONTACT_NODES, ContactNode, CycleMotion};
 use super::summary::{CycleSummary, SoughtCycle};
 use super::two_waves::{SHOWN, TwoWaveSummary};
 use super::verdicts::EXPONENTS;
+use crate::ShownBody;
 use crate::summary::{MeanPowers, STATUS};
 use frictionsim_output::{Document, Section, Table, columns, fixed, parted};
+use frictionsim_physics::contact::ContactInterface;
 use frictionsim_physics::cycle::PhasePoint;
 use frictionsim_physics::cycle::periodic::MotionHarmonic;
 
@@ -141,31 +144,39 @@ columns! {
 }
 
 impl SoughtCycle {
-    /// Its tables; none where there is no cycle.
-    pub(super) fn tables(&self, is_solid: bool) -> Vec<Table> {
-        let Some(own) = &self.record else {
+    /// Its tables; none where there is no cycle. `interface` is the contact of a motion of the whole mesh.
+    pub(super) fn tables(
+        &self,
+        body: &ShownBody<'_>,
+        interface: Option<&ContactInterface>,
+    ) -> Vec<Table> {
+        let Some(own) = self.shown() else {
             return Vec::new();
         };
         let table = |what: &str| Table::new(format!("{what}-{}.csv", self.name.tag()), "");
         let key = self.branch.as_ref().map(|branch| branch.key.as_str());
         let mut tables = Vec::new();
-        if !own.history.is_empty() {
+        let (history, motion) = (own.history(), own.motion);
+        if !history.is_empty() {
             let path = if own.is_wave() { WAVE_PATH } else { PATH };
-            let table = table("cycle").columns(HISTORY, &own.history);
-            tables.push(table.columns(path, &own.history));
+            let table = table("cycle").columns(HISTORY, &history);
+            tables.push(table.columns(path, &history));
         }
-        if !own.nodes.is_empty() {
+        if let Some(interface) = interface {
+            let nodes = 0..interface.len();
+            let nodes = nodes.map(|node| contact_node(motion, node, body, interface));
+            let nodes: Vec<ContactNode> = nodes.collect();
             let (plane, solid) = const { parted(CONTACT_NODES, "z_m") };
-            let rest = if is_solid { solid } else { const { parted(CONTACT_NODES, "stick").1 } };
-            let table = table("contact").columns(plane, &own.nodes);
-            tables.push(table.columns(rest, &own.nodes));
+            let flat = const { parted(CONTACT_NODES, "stick").1 };
+            let rest = if body.is_solid() { solid } else { flat };
+            tables.push(table("contact").columns(plane, &nodes).columns(rest, &nodes));
         }
-        if !own.harmonics.is_empty() {
-            let numbered = own.harmonics.iter().zip(1..);
-            let rows = numbered.map(|(row, k)| (k, k as f64 * own.frequency_hz, *row));
+        if !motion.harmonics.is_empty() {
+            let numbered = motion.harmonics.iter().zip(1..);
+            let rows = numbered.map(|(row, k)| (k, k as f64 * motion.frequency_hz, *row));
             tables.push(table("harmonics").columns(HARMONICS, rows));
         }
-        if let Some(exponents) = &own.exponents {
+        if let Some(exponents) = &self.exponents {
             let mut table = table("stability");
             if own.is_wave() {
                 let values = exponents.iter().map(|row| row.0);

@@ -1,19 +1,16 @@
 //! Rotating waves of a disc as limit cycles.
 
 use super::branch::{BranchRow, BranchSummary, ModeOfChange, StabilityChangeSummary, WaveBranch};
-use super::motions::mean_powers;
 use super::name::{CycleName, WaveOfCycle};
-use super::record::{CycleMotion, MotionRecord};
+use super::record::{CycleMotion, Exponent};
 use super::summary::SoughtCycle;
 use super::verdicts::{ConfirmationSummary, Finding, Perturbation, StabilitySummary, known};
-use crate::summary::{StatusFractions, present};
 use frictionsim_chart::extremes;
-use frictionsim_physics::cycle::periodic::{MotionFrame, velocity_level};
+use frictionsim_physics::cycle::periodic::{MotionFrame, PeriodicMotion};
 use frictionsim_physics::cycle::{
     Confirmation, CycleBranch, FloquetMultipliers, LimitCycle, StabilityChange,
 };
 use std::f64::consts::TAU;
-use std::sync::Arc;
 
 /// Why a family has no cycle at the case's own operating point.
 #[derive(Clone, Debug, PartialEq)]
@@ -68,17 +65,18 @@ fn amplitude(cycle: &LimitCycle) -> f64 {
     }
 }
 
-/// What a wave on a disc of such a thickness is.
-fn motion(cycle: &LimitCycle, thickness: f64) -> CycleMotion {
-    CycleMotion {
-        main_frequency_hz: cycle.frequency_hz(),
-        status: StatusFractions::of(cycle.fractions),
-        power_w: mean_powers(&cycle.powers, thickness),
-        balance_residual: cycle.powers.balance_residual(),
-        amplitude_m: present(amplitude(cycle)),
-        velocity_level_db: None,
-        harmonics: cycle.harmonics.to_vec(),
-        stepped: None,
+/// A wave as a motion over its period, without its histories and its velocity; `inner_radius` (m) is that of the
+/// contact edge.
+fn periodic(cycle: &LimitCycle, inner_radius: f64) -> PeriodicMotion {
+    let contact = cycle.state.point.contact;
+    PeriodicMotion {
+        frequency_hz: cycle.frequency_hz(),
+        powers: cycle.powers,
+        fractions: cycle.fractions,
+        counterface_speed: contact.rotation_speed * inner_radius,
+        friction_coefficient: Some(contact.friction_coefficient),
+        amplitude: amplitude(cycle),
+        ..PeriodicMotion::default()
     }
 }
 
@@ -90,29 +88,46 @@ fn value(branch: &CycleBranch, cycle: &LimitCycle) -> f64 {
 impl CycleResult {
     /// What is reported of it, on a disc of such a thickness and radius of the contact edge.
     pub fn sought(self, thickness: f64, inner_radius: f64) -> SoughtCycle {
-        let name = CycleName::Wave(self.name);
-        let sought = SoughtCycle::new(name.clone(), self.wall_s);
+        let sought = SoughtCycle::new(CycleName::Wave(self.name), self.wall_s);
         match self.outcome {
             Err(Absence { reason, is_stable: true }) => {
                 SoughtCycle { absent: Some(reason), ..sought }
             }
             Err(Absence { reason, .. }) => SoughtCycle { error: Some(reason), ..sought },
-            Ok(found) => SoughtCycle {
-                cycle: Some(CycleMotion {
-                    velocity_level_db: Some(velocity_level(found.velocity)),
-                    ..motion(&found.cycle, thickness)
-                }),
-                confirmation: found.confirmed(thickness),
-                stability: StabilitySummary::of(&found.stability),
-                branch: found.branch(thickness, inner_radius),
-                record: Some(Arc::new(found.record(name, inner_radius))),
-                ..sought
-            },
+            Ok(found) => found.told(sought, thickness, inner_radius),
         }
     }
 }
 
 impl FoundWave {
+    /// What is reported of it.
+    fn told(self, sought: SoughtCycle, thickness: f64, inner_radius: f64) -> SoughtCycle {
+        let (confirmation, branch) =
+            (self.confirmed(thickness), self.branch(thickness, inner_radius));
+        let stability = StabilitySummary::of(&self.stability);
+        let exponents = self.stability.is_some().then(|| self.exponents());
+        let motion = PeriodicMotion {
+            velocity: self.velocity,
+            frames: self.frames,
+            ..periodic(&self.cycle, inner_radius)
+        };
+        let cycle = CycleMotion {
+            harmonics: self.cycle.harmonics.to_vec(),
+            ..CycleMotion::of(&motion, thickness)
+        };
+        // Every node of the edge goes through the same, a phase apart.
+        let motion = PeriodicMotion { instants: vec![self.cycle.points], ..motion };
+        SoughtCycle {
+            cycle: Some(cycle),
+            confirmation,
+            stability,
+            branch,
+            motion: Some(motion),
+            exponents,
+            ..sought
+        }
+    }
+
     /// What a transient that started on the cycle says.
     fn confirmed(&self, thickness: f64) -> Option<ConfirmationSummary> {
         Some(match self.confirmation.as_ref()? {
@@ -139,7 +154,7 @@ impl FoundWave {
             BranchRow {
                 value: value(branch, cycle),
                 harmonic: Some(cycle.harmonic),
-                motion: motion(cycle, thickness),
+                motion: CycleMotion::of(&periodic(cycle, inner_radius), thickness),
                 growth_rate: found.and_then(FloquetMultipliers::leading).map(|own| own.growth_rate),
                 verdict: found.map(FloquetMultipliers::verdict),
                 is_fold: None,
@@ -159,7 +174,7 @@ impl FoundWave {
 
     /// The exponents of the cycle at the case's own operating point, then along the branch, each with the value of its
     /// parameter.
-    fn exponents(&self) -> Vec<(Option<f64>, Perturbation)> {
+    fn exponents(&self) -> Vec<Exponent> {
         let mut findings = vec![(0.0, &self.stability)];
         if let Some(branch) = &self.branch {
             findings[0].0 = value(branch, &self.cycle);
@@ -171,24 +186,5 @@ impl FoundWave {
             all.map(move |own| (Some(at), Perturbation::of(own)))
         });
         rows.collect()
-    }
-
-    /// What the tables and figures show of it.
-    fn record(self, name: CycleName, inner_radius: f64) -> MotionRecord {
-        let contact = self.cycle.state.point.contact;
-        MotionRecord {
-            name,
-            frequency_hz: self.cycle.frequency_hz(),
-            exponents: self.stability.is_some().then(|| self.exponents()),
-            history: self.cycle.points.clone(),
-            edge: self.cycle.points,
-            instants: Vec::new(),
-            node: 0,
-            counterface_speed: contact.rotation_speed * inner_radius,
-            friction_coefficient: Some(contact.friction_coefficient),
-            nodes: Vec::new(),
-            harmonics: Vec::new(),
-            frames: self.frames,
-        }
     }
 }

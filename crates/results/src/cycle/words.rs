@@ -15,7 +15,7 @@ fn listed(values: &[f64]) -> Vec<String> {
 impl CycleSummary {
     /// Where the cycles come from, or that steady sliding is stable, and what powers are of.
     pub(super) fn said(&self) -> Vec<String> {
-        let critical = self.critical.filter(|_| !self.has_nothing());
+        let critical = self.critical_value.as_ref().filter(|_| !self.has_nothing());
         let critical = critical.map(|at| format!("Steady sliding loses its stability at {at}."));
         let extent = self.extent.note().map(|note| format!("{note}."));
         [Some(self.origin()), critical, extent].into_iter().flatten().collect()
@@ -50,7 +50,7 @@ impl CycleSummary {
             );
         };
         let critical = onset.critical_friction;
-        let advice = match self.critical {
+        let advice = match &self.critical_value {
             Some(at) => format!("sliding loses its stability at {at}"),
             None => format!("raise contact.friction_coefficient above {critical:.4}"),
         };
@@ -82,7 +82,7 @@ impl CycleSummary {
             let (frequency, rate) = (mode.mode_frequency_hz, mode.growth_rate_per_s);
             format!("; the slowest to decay is {mode}, {frequency:.2} Hz, at {rate:.1} 1/s")
         });
-        let advice = self.critical.map_or_else(
+        let advice = self.critical_value.as_ref().map_or_else(
             || {
                 "raise the friction coefficient, or cea.modes; `cea` over cea.friction_coefficients finds the onsets"
                     .to_owned()

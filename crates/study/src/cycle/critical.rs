@@ -1,7 +1,5 @@
 //! Where along a parameter steady sliding loses its stability.
 
-use frictionsim_physics::cycle::{CriticalValue, Parameter};
-
 /// Growth rates spent on an onset.
 const SPECTRA: usize = 14;
 /// Share of the interval that an onset is known to.
@@ -26,13 +24,12 @@ pub(super) fn candidates(values: &[f64], here: f64) -> Vec<f64> {
     [ends, between].concat()
 }
 
-/// The value of a parameter between one at which steady sliding is stable and one at which it is not: where its largest
+/// The value of a parameter, SI, between one at which steady sliding is stable and one at which it is not: where its largest
 /// `growth` rate vanishes, by false position; none where it is not stable at the first.
 pub(super) fn critical(
-    parameter: Parameter,
     mut growth: impl FnMut(f64) -> Option<f64>,
     [stable, growing]: [f64; 2],
-) -> Option<CriticalValue> {
+) -> Option<f64> {
     let (mut low, mut high) = ((stable, growth(stable)?), (growing, growth(growing)?));
     if low.1 > 0.0 || high.1 <= 0.0 {
         return None;
@@ -58,7 +55,7 @@ pub(super) fn critical(
             break;
         }
     }
-    Some(CriticalValue { parameter, value })
+    Some(value)
 }
 
 #[cfg(test)]
@@ -69,10 +66,10 @@ mod tests {
     fn the_value_at_which_growth_vanishes_is_found_from_either_side() {
         let growth = |value: f64| Some(value.powi(3) - 8.0);
         for ends in [[0.5, 7.0], [-3.0, 2.5]] {
-            let found = critical(Parameter::Speed, growth, ends).unwrap();
-            assert!((found.value - 2.0).abs() < 1e-4, "{found}");
+            let found = critical(growth, ends).unwrap();
+            assert!((found - 2.0).abs() < 1e-4, "{found}");
         }
-        assert_eq!(critical(Parameter::Speed, growth, [3.0, 4.0]), None);
+        assert_eq!(critical(growth, [3.0, 4.0]), None);
     }
 
     #[test]

@@ -6,8 +6,7 @@ use crate::StudyError;
 use crate::eigenvalues::asked_modes;
 use frictionsim_case::{Case, CaseErrors, Cycle, OnsetChoice, refusal};
 use frictionsim_physics::cycle::{
-    CriticalValue, CycleError, CycleSolver, DiscModel, Family, LARGEST_FRICTION, MODES, Onset,
-    Parameter,
+    CycleError, CycleSolver, DiscModel, Family, LARGEST_FRICTION, MODES, Onset, Parameter,
 };
 use std::collections::BTreeSet;
 
@@ -54,15 +53,14 @@ pub fn next_onset(case: &Case, friction: f64) -> Option<Onset> {
     None
 }
 
-/// The value of a parameter towards its range at which the lowest onset comes down to the case's friction coefficient;
+/// The value of a parameter, SI, towards its range at which the lowest onset comes down to the case's friction coefficient;
 /// none of parameters that no onset depends on: sliding at constant friction knows neither speed nor interference.
-pub fn critical_value(case: &Case, parameter: Parameter, values: &[f64]) -> Option<CriticalValue> {
+pub fn critical_value(case: &Case, parameter: Parameter, values: &[f64]) -> Option<f64> {
     let mut point = operating_point(case);
     let (model, here) = (disc_model(case).ok()?, parameter.of(&point));
     let friction = point.contact.friction_coefficient;
     if parameter == Parameter::FrictionCoefficient {
-        let onset = next_onset(case, friction)?;
-        return Some(CriticalValue { parameter, value: onset.friction_coefficient });
+        return Some(next_onset(case, friction)?.friction_coefficient);
     }
     if parameter.is_of_contact() {
         return None;
@@ -77,7 +75,7 @@ pub fn critical_value(case: &Case, parameter: Parameter, values: &[f64]) -> Opti
     };
     let growing = candidates(values, here);
     let growing = growing.into_iter().find(|&value| growth(value).is_some_and(|own| own > 0.0))?;
-    critical(parameter, growth, [here, growing])
+    critical(growth, [here, growing])
 }
 
 /// The disc of a case as its limit cycles see it.

@@ -29,8 +29,8 @@ use families::{Sought, continuation, critical_value, next_onset, solvers};
 use frictionsim_case::{Case, Cycle, StabilityChoice};
 use frictionsim_physics::cycle::periodic::MotionFrame;
 use frictionsim_physics::cycle::{
-    CriticalValue, CycleError, CycleSolver, Family, FloquetMultipliers, LimitCycle, MODES,
-    MeshStepping, Onset, OperatingPoint, Parameter,
+    CycleError, CycleSolver, Family, FloquetMultipliers, LimitCycle, MODES, MeshStepping, Onset,
+    OperatingPoint, Parameter,
 };
 use frictionsim_physics::fem::lumped_masses;
 use frictionsim_physics::fem::operator::SimdLevel;
@@ -40,6 +40,7 @@ use frictionsim_results::cycle::{
     Absence, CycleResult, CycleSummary, FoundWave, OnsetSummary, Origin, SoughtCycle,
     TwoWaveSummary, WaveOfCycle, known,
 };
+use frictionsim_results::summary::CriticalValue;
 use std::time::Instant;
 
 /// What a case asks for: cycles of which harmonics, where, and followed over what.
@@ -75,9 +76,10 @@ impl<'a> CycleStudy<'a> {
         let mut critical = None;
         let solvers = solvers(case, choices, &onsets)?;
         if onsets.is_empty() {
-            let along = continuation.as_ref();
-            critical =
-                along.and_then(|(parameter, values)| critical_value(case, *parameter, values));
+            critical = continuation.as_ref().and_then(|(parameter, values)| {
+                let value = critical_value(case, *parameter, values)?;
+                Some(CriticalValue::of(*parameter, value))
+            });
             onsets = solvers.iter().flatten().map(|s| s.onset).collect();
             onsets.extend(next_onset(case, friction));
             frictionsim_physics::order::sort_by_number(&mut onsets, |a| a.friction_coefficient);
@@ -145,7 +147,7 @@ impl<'a> CycleStudy<'a> {
         let cycles = results.into_iter().map(|own| own.sought(thickness, radius)).collect();
         let origin = Origin::Waves { lowest_onset: self.onsets.first().map(OnsetSummary::from) };
         let own = (self.point.contact.friction_coefficient, extent_of(self.case));
-        CycleSummary::new(origin, self.critical, own, cycles, two_waves)
+        CycleSummary::new(origin, self.critical.clone(), own, cycles, two_waves)
     }
 
     fn onsets_of(&self, harmonic: usize) -> Vec<Onset> {

@@ -16,15 +16,14 @@ use frictionsim_physics::cycle::periodic::{
     BranchRequest, Found, MotionRequest, PeriodMap, PeriodicBranch, PeriodicMotion, Point,
     REMAINDER, Sound, find_from,
 };
-use frictionsim_physics::cycle::{
-    Confirmation, CriticalValue, CycleError, FloquetMultipliers, Parameter,
-};
+use frictionsim_physics::cycle::{Confirmation, CycleError, FloquetMultipliers, Parameter};
 use frictionsim_physics::fem::operator::{SimdLevel, StiffnessOperator};
 use frictionsim_physics::transient::{OperatorChoice, TransientError, TransientModel};
 use frictionsim_results::ShownBody;
 use frictionsim_results::cycle::{
     CycleSummary, FoundCycle, ModeOfCycle, ModeSummary, MotionBody, Origin, PeriodicResult,
 };
+use frictionsim_results::summary::CriticalValue;
 use std::time::Instant;
 
 use faces::faces_in_air;
@@ -75,15 +74,15 @@ impl<'a> PeriodicStudy<'a> {
                 let here = parameter.of(&operating_point(case));
                 let of = (case, &stepped);
                 if let Some((value, other)) = first_growing(of, *parameter, values, here)? {
-                    critical = onset(of, *parameter, [here, value]);
+                    let onset = onset(of, *parameter, [here, value]);
+                    critical = onset.map(|value| CriticalValue::of(*parameter, value));
                     (start, steady) = (Some(value), other);
                 }
             }
             (true, None) => {
-                critical = Steady::critical_friction(case, &stepped).map(|value| CriticalValue {
-                    parameter: Parameter::FrictionCoefficient,
-                    value,
-                });
+                let friction = Steady::critical_friction(case, &stepped);
+                critical =
+                    friction.map(|value| CriticalValue::of(Parameter::FrictionCoefficient, value));
             }
             (false, _) => {}
         }
@@ -168,7 +167,6 @@ impl<'a> PeriodicStudy<'a> {
         let onsets = branch.beyond(growing).into_iter().flatten();
         branch.onsets = onsets
             .filter_map(|stable| onset((self.case, &self.stepped), parameter, [stable, growing]))
-            .map(|found| found.value)
             .collect();
         branch
     }
@@ -314,7 +312,7 @@ impl<'a> PeriodicStudy<'a> {
             interface,
         };
         let own = (self.case.contact.sliding.friction_coefficient, extent_of(self.case));
-        CycleSummary::new(origin, self.critical, own, cycles, Vec::new())
+        CycleSummary::new(origin, self.critical.clone(), own, cycles, Vec::new())
     }
 
     /// The body as results show it.
@@ -357,15 +355,11 @@ fn first_growing(
     Ok(None)
 }
 
-/// The value of a parameter between one at which steady sliding is stable and one at which a mode grows, where it does
+/// The value of a parameter, SI, between one at which steady sliding is stable and one at which a mode grows, where it does
 /// neither.
-fn onset(
-    of: (&Case, &SteppedMesh<'_>),
-    parameter: Parameter,
-    ends: [f64; 2],
-) -> Option<CriticalValue> {
+fn onset(of: (&Case, &SteppedMesh<'_>), parameter: Parameter, ends: [f64; 2]) -> Option<f64> {
     let growth = |value: f64| Some(Steady::at(of, parameter, value).ok()?.growth_rate());
-    critical(parameter, growth, ends)
+    critical(growth, ends)
 }
 
 /// Names the cycle that another mode has led to before.

@@ -51,7 +51,7 @@ pub struct MotionHarmonic {
 }
 
 /// A periodic motion of a body and its contact. For each metre of thickness, of a body in three dimensions for the whole.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct PeriodicMotion {
     /// `1 / T`, Hz.
     pub frequency_hz: f64,
