@@ -8,10 +8,10 @@ use crate::case::Case;
 use crate::fem::operator::StiffnessOperator;
 use crate::linalg::interruption;
 use crate::results::transient::{
-    CHECKPOINT, Checkpoint, LinearStage, RecordedRun, SolvedTransient, document, draw, write,
+    CHECKPOINT, Checkpoint, LinearStage, RecordedRun, SolvedTransient, document, draw_run, write,
     write_checkpoint,
 };
-use crate::results::{OutputFolder, read_record};
+use crate::results::{OutputFolder, read_record, write_page};
 use crate::study;
 use crate::study::transient::TransientStudy;
 use crate::transient::{CentralDifference, Recorder, RunEnd};
@@ -91,14 +91,15 @@ pub(super) fn run(asked: &Arguments) -> Result<(), Failure> {
     if !solved.is_finished {
         return Err(stopped(folder, &loop_));
     }
-    let output = &asked.options.output;
+    let (output, title) = (&asked.options.output, &study.case.title);
     if let Some(options) = output.drawing() {
         let (material, stage) = (study.case.materials(), linear_stage(study.case));
         let run = RecordedRun { material, stage, ..report.run.clone() };
-        draw(&folder, &run, report.title, &summary, &options)?;
+        let document = document(&run, &summary).titled(title);
+        write_page(&folder, document, draw_run(&run), &options)?;
     }
     let document = document(&report.run, &summary);
-    output.finish(folder, &document.titled(report.title).to_text(), &object)
+    output.finish(folder, &document.titled(title).to_text(), &object)
 }
 
 /// The modes that the figures mark; where there are none to be had, the log says why.

@@ -8,7 +8,7 @@ use std::iter::Sum;
 use std::ops::{Div, Sub};
 
 /// One-sided amplitude spectrum: a sinusoid `A cos(2 pi f t + phi)` on a bin reads `A`.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct AmplitudeSpectrum {
     /// Frequencies, Hz, from 0 to half the sampling rate.
     pub frequencies_hz: Vec<f64>,

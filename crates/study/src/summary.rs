@@ -56,8 +56,7 @@ fn transient(case: &Case, manifest: &Manifest) -> Result<Value, StudyError> {
     let study = TransientStudy::new(case, SimdLevel::choose(&manifest.simd)?)?;
     let solved = study.solve()?;
     let report = study.report(&solved, start.elapsed().as_secs_f64());
-    let head = Head::of(report.title, report.wall_s);
-    told("transient", head, &frictionsim_results::transient::summary(&report))
+    told("transient", report.head, &frictionsim_results::transient::summary(&report))
 }
 
 /// The limit cycles with their branches as `curves`, of which the command itself writes tables; `judge` may refuse what

@@ -35,6 +35,7 @@ fn a_run_gets_every_figure_of_its_record() {
         record: &record,
         analysis: &analysis,
         body: ShownBody { mesh: &annulus.mesh, sector: None },
+        interface: model.interface(),
         has_harmonics: true,
         material: model.material,
         thickness: 0.009,

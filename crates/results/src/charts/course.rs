@@ -5,7 +5,7 @@ use frictionsim_chart::{
     Axis, ColourMap, GRID, Heat, Label, Line, MUTED, Panel, Rule, SERIES, Shapes, Side, Stroke,
     extremes,
 };
-use frictionsim_signal::Spectrogram;
+use frictionsim_signal::{AmplitudeSpectrum, Spectrogram};
 
 /// A mode of the eigenvalue analysis, drawn as a line over what a signal contains.
 #[derive(Clone, Debug, PartialEq)]
@@ -19,8 +19,8 @@ pub struct ModeLine {
 /// Start of a named stage of a run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stage {
-    /// A letter or a short word.
-    pub name: &'static str,
+    /// A letter and what it stands for, as `A: rest`.
+    pub meaning: &'static str,
     /// Start, s.
     pub start: f64,
 }
@@ -58,12 +58,12 @@ pub fn signal_panel(
     Panel::new(time, y).height(78.0).layer(Line::new(times, signal).solid(SERIES[0], width).whole())
 }
 
-/// Lines at the starts of stages, and their names in the middle of each along the top of a panel.
+/// Lines at the starts of stages, and their letters in the middle of each along the top of a panel.
 pub fn with_stages(panel: Panel, stages: &[Stage], (start, end): (f64, f64), top: f64) -> Panel {
     let ends = stages.iter().skip(1).map(|next| next.start).chain([end]);
     let names = stages.iter().zip(ends).map(|(stage, end)| {
         let middle = 0.5 * (stage.start.max(start) + end);
-        Label::new((middle, top), stage.name).style(centred(7.5).bold()).moved(0.0, 9.0)
+        Label::new((middle, top), &stage.meaning[..1]).style(centred(7.5).bold()).moved(0.0, 9.0)
     });
     let starts = stages.iter().filter(|stage| stage.start > start);
     panel
@@ -131,7 +131,7 @@ pub fn spectrogram_panels(
 /// Spectra of several components on one logarithmic axis, with the modes named above, and the main frequency of the
 /// first component (its strongest where none is given) and its multiples marked where they stand out.
 pub fn spectrum_panel(
-    spectra: &[(&str, &[f64], &[f64])],
+    spectra: &[(&str, &AmplitudeSpectrum)],
     unit: &str,
     (highest_hz, main_hz): (f64, Option<f64>),
     modes: &[ModeLine],
@@ -144,26 +144,22 @@ pub fn spectrum_panel(
             .at_rim(name)
             .name("mode of the eigenvalue analysis")
     });
-    let lines = spectra.iter().enumerate().rev().map(|(index, (name, frequencies, amplitudes))| {
-        let line = Line::new(frequencies, amplitudes).name(*name);
+    let lines = spectra.iter().enumerate().rev().map(|(index, (name, spectrum))| {
+        let line = Line::new(&spectrum.frequencies_hz, &spectrum.amplitudes).name(*name);
         line.solid(SERIES[index], if index == 0 { 0.8 } else { 0.5 })
     });
     let panel = Panel::new(
         Axis::kilohertz().between(0.0, highest_hz),
         Axis::new("amplitude", unit).room(0.05).decades(6.0),
     );
-    let peaks = spectra.first().map(|first| multiples(first.1, first.2, highest_hz, main_hz));
+    let peaks = spectra.first().map(|first| multiples(first.1, highest_hz, main_hz));
     panel.height(150.0).layers(rules).layers(lines).layers(peaks.unwrap_or_default())
 }
 
 /// Labels at a main frequency and at its whole multiples, where they stand out of what lies around them: at the tops of
 /// the lines, with the frequency given, or with that of the strongest line between the values of the spectrum.
-fn multiples(
-    frequencies: &[f64],
-    amplitudes: &[f64],
-    highest_hz: f64,
-    main_hz: Option<f64>,
-) -> Vec<Label> {
+fn multiples(spectrum: &AmplitudeSpectrum, highest_hz: f64, main_hz: Option<f64>) -> Vec<Label> {
+    let (frequencies, amplitudes) = (&spectrum.frequencies_hz, &spectrum.amplitudes);
     let count = frequencies.partition_point(|&f| f <= highest_hz).min(amplitudes.len());
     let (frequencies, amplitudes) = (&frequencies[..count], &amplitudes[..count]);
     let largest = |from: usize, to: usize| {
@@ -225,9 +221,7 @@ mod tests {
     /// Main frequency that a drawn spectrum names, kHz.
     fn named(samples: &[f64], rate: f64, main_hz: Option<f64>) -> f64 {
         let spectrum = amplitude_spectrum(samples, rate, Window::Hann, 2).unwrap();
-        let series: [(&str, &[f64], &[f64]); 1] =
-            [("signal", &spectrum.frequencies_hz, &spectrum.amplitudes)];
-        let panel = spectrum_panel(&series, "", (3e4, main_hz), &[]);
+        let panel = spectrum_panel(&[("signal", &spectrum)], "", (3e4, main_hz), &[]);
         let svg = Figure::new("spectrum", "Spectrum.").panel(panel).to_svg(None);
         let svg = svg.unwrap();
         let after = svg.split(" = ").nth(1).unwrap();

@@ -70,17 +70,11 @@ impl SignalDrawing<'_> {
     /// The spectrum that the peaks are taken from.
     fn spectrum(&self, channel: &ChannelSummary, index: usize) -> Figure {
         let [from, to] = channel.interval_s;
-        let (name, spectrum) = (literal(&channel.name), &self.spectra[index]);
-        let spectra: [(&str, &[f64], &[f64]); 1] =
-            [(&name, &spectrum.frequencies_hz, &spectrum.amplitudes)];
+        let spectra = [(&literal(&channel.name)[..], &self.spectra[index])];
         let caption = format!("Spectrum of {} from {from:.4} to {to:.4} s.", channel.name);
         let frequencies = (self.highest(), channel.main_frequency_hz);
-        Figure::new(format!("spectrum-{}", index + 1), caption).panel(spectrum_panel(
-            &spectra,
-            "",
-            frequencies,
-            &self.modes,
-        ))
+        let panel = spectrum_panel(&spectra, "", frequencies, &self.modes);
+        Figure::new(format!("spectrum-{}", index + 1), caption).panel(panel)
     }
 
     fn highest(&self) -> f64 {

@@ -8,8 +8,8 @@ use crate::charts::{
 };
 use crate::drawing::{Declaration, declared};
 use frictionsim_chart::{Axis, Figure, Line, Panel, SERIES, extremes};
-use frictionsim_physics::contact::{ContactInterface, ContactStatus};
-use frictionsim_physics::mesh::{SolidFace, SolidSector};
+use frictionsim_physics::contact::ContactStatus;
+use frictionsim_physics::mesh::SolidFace;
 use frictionsim_physics::transient::{EndState, Snapshot};
 
 /// Whole-field pictures of one kind, at most.
@@ -56,11 +56,11 @@ impl RecordedRun<'_> {
 
     /// Whether a probe lies on the contact edge.
     pub(super) fn is_on_contact(&self, probe: usize) -> bool {
-        let node = self.record.probes[probe] as u32;
-        if let Some(sector) = self.body.sector {
-            return contact_nodes(sector).contains(&(node - 1));
+        let node = self.record.probes[probe] as u32 - 1;
+        match self.body.sector {
+            Some(_) => self.interface.nodes.contains(&node),
+            None => self.body.mesh.contact_edge().nodes.contains(&node),
         }
-        self.body.mesh.contact_edge().nodes.iter().any(|other| other + 1 == node)
     }
 
     /// Phase plot of an internal node, and path of a contact node coloured by status over the last fifth.
@@ -132,8 +132,7 @@ impl RecordedRun<'_> {
     /// Status of a contact node from a sample on, as the contact frames keep it: what it touches moves as well.
     fn kept_status(&self, probe: usize, start: usize) -> Vec<ContactStatus> {
         let node = self.record.probes[probe] as u32 - 1;
-        let edge = ContactInterface::of(self.body.mesh).nodes;
-        let place = edge.iter().position(|&other| other == node);
+        let place = self.interface.nodes.iter().position(|&other| other == node);
         let (frames, stride) = (&self.record.frames, self.record.frame_stride as usize);
         let samples = start..self.record.rows.len();
         let status = samples.map(|sample| {
@@ -172,24 +171,17 @@ impl RecordedRun<'_> {
 
     /// Tangential velocity of each contact node, m/s: before another body that of what it meets less its own, the slip.
     fn contact_velocity(&self, snapshot: &Snapshot) -> Vec<f64> {
-        let own = |nodes: &[u32], components: usize| -> Vec<f64> {
-            let place = |&node: &u32| snapshot.velocity[components * node as usize + 1];
-            nodes.iter().map(place).collect()
-        };
-        if let Some(sector) = self.body.sector {
-            return own(&contact_nodes(sector), 3);
-        }
-        let interface = ContactInterface::of(self.body.mesh);
-        let own = own(&interface.nodes, 2).into_iter().enumerate();
-        let slip = |(i, velocity): (usize, f64)| {
-            let Some(opposite) = interface.opposite.get(i) else {
+        let components = if self.body.is_solid() { 3 } else { 2 };
+        let slip = |(i, &node): (usize, &u32)| {
+            let velocity = snapshot.velocity[components * node as usize + 1];
+            let Some(opposite) = self.interface.opposite.get(i) else {
                 return velocity;
             };
             let met = opposite.moves[1].iter();
             let met: f64 = met.map(|&(dof, share)| share * snapshot.velocity[dof]).sum();
             self.peripheral_speed + met - velocity
         };
-        own.map(slip).collect()
+        self.interface.nodes.iter().enumerate().map(slip).collect()
     }
 }
 
@@ -199,11 +191,4 @@ fn statuses(codes: &[u8]) -> Vec<ContactStatus> {
 
 fn heading(snapshot: &Snapshot) -> String {
     format!("*t* = {:.2} ms", snapshot.time * 1e3)
-}
-
-/// Contact nodes of a body of revolution in the order of the record, counted from 0.
-fn contact_nodes(sector: &SolidSector) -> Vec<u32> {
-    let rings = || sector.rings.iter().flat_map(|ring| &ring.nodes);
-    let sectors = 0..sector.sector_count();
-    sectors.flat_map(|s| rings().map(move |node| (s * sector.node_count() + node) as u32)).collect()
 }

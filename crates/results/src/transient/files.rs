@@ -6,7 +6,7 @@ use crate::folder::{FolderError, OutputFolder};
 use crate::npz::NpzArchive;
 use crate::pvd::{PvdEntry, write_pvd};
 use crate::record::write_record;
-use crate::summary::{Head, write_summary};
+use crate::summary::write_summary;
 use crate::vtu::{Field, write_vtu};
 use frictionsim_output::csv::{self, format_number};
 use frictionsim_output::{columns, parted, write_rows};
@@ -41,7 +41,7 @@ pub fn write(
     write_snapshots(folder, report)?;
     write_record(folder, record)?;
     let summary = summary(report);
-    let object = write_summary(folder, Head::of(report.title, report.wall_s), &summary)?;
+    let object = write_summary(folder, report.head, &summary)?;
     Ok((summary, object))
 }
 
@@ -229,7 +229,7 @@ fn snapshot_fields(report: &TransientReport<'_>, snapshot: &Snapshot) -> Vec<Fie
     ];
     fields.extend(body.stress_fields(&body.stress(report.run.material, displacement)));
     let count = displacement.len() / if body.is_solid() { 3 } else { 2 };
-    let (edge, contact) = (&report.contact_nodes, &snapshot.contact);
+    let (edge, contact) = (&report.run.interface.nodes, &snapshot.contact);
     let wide = |values: &[f32]| -> Vec<f64> { values.iter().copied().map(f64::from).collect() };
     let codes = contact.status.iter().map(|&code| status_of_code(code));
     let tractions = [&wide(&contact.pressure)[..], &wide(contact.shear())];

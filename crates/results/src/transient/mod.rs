@@ -16,9 +16,10 @@ pub use files::write;
 pub(super) use files::{ENERGY, STATUS};
 pub use run::{LinearStage, RecordedRun};
 pub use summary::{TransientSummary, summary};
-pub use tables::{document, draw};
+pub use tables::document;
 
-use frictionsim_physics::transient::{Perturbation, Recorder, StepPlan, TransientAnalysis};
+use crate::summary::Head;
+use frictionsim_physics::transient::{Recorder, StepPlan, TransientAnalysis, TransientSettings};
 
 /// What came of a run.
 #[derive(Clone, Debug)]
@@ -45,24 +46,18 @@ pub struct SolvedTransient {
 /// tables and summary scale them by the thickness.
 #[derive(Clone, Debug)]
 pub struct TransientReport<'a> {
-    /// Title of the case.
-    pub title: &'a str,
+    /// Title of the case, and wall time of the run.
+    pub head: Head<'a>,
     /// What came of the run.
     pub solved: &'a SolvedTransient,
     /// Its record, and the body that it is of.
     pub run: RecordedRun<'a>,
-    /// Contact nodes in the order of the record, counted from 0.
-    pub contact_nodes: Vec<u32>,
     /// Friction coefficient, for the snapshots.
     pub friction_coefficient: f64,
-    /// State at the start: `"rest"` or `"steady-sliding"`.
-    pub initial: &'a str,
-    /// Initial velocity.
-    pub perturbation: &'a Perturbation,
+    /// Choices of the run.
+    pub settings: &'a TransientSettings,
     /// Probes that were asked for by their place: node, counted from 0, and place, m.
     pub places: Vec<(usize, [f64; 2])>,
-    /// Wall time of the run, s.
-    pub wall_s: f64,
     /// What to know before its numbers are used.
     pub notes: Vec<String>,
 }

@@ -3,6 +3,7 @@
 use crate::ShownBody;
 use crate::charts::ModeLine;
 use crate::extent::Extent;
+use frictionsim_physics::contact::ContactInterface;
 use frictionsim_physics::fem::MaterialField;
 use frictionsim_physics::transient::{Recorder, TransientAnalysis};
 
@@ -15,6 +16,8 @@ pub struct RecordedRun<'a> {
     pub analysis: &'a TransientAnalysis,
     /// The body.
     pub body: ShownBody<'a>,
+    /// The contact nodes, in the order of the record.
+    pub interface: ContactInterface,
     /// Its material, for the stresses.
     pub material: &'a dyn MaterialField,
     /// Whether its vibrations have circumferential harmonics: it has the symmetry of the built-in annulus.

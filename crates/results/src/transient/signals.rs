@@ -3,8 +3,8 @@
 use super::run::RecordedRun;
 use super::stages::stages;
 use crate::charts::{
-    Stage, ends, place_axis, run_axis, signal_panel, spectrogram_panels, spectrum_panel,
-    status_map, with_stages,
+    ends, place_axis, run_axis, signal_panel, spectrogram_panels, spectrum_panel, status_map,
+    with_stages,
 };
 use frictionsim_chart::{
     Axis, Figure, INK, Line, MUTED, Panel, Rule, SERIES, Stroke, extremes, look, significant,
@@ -18,17 +18,6 @@ const GROWTH_DECADES: f64 = 7.0;
 const SMALL_HARMONIC: f64 = 1e-3;
 /// Lengths of the linear stage over which growth is shown: behind it nothing grows for long.
 const SHOWN_STAGES: f64 = 3.0;
-
-/// What the letters of stages stand for.
-fn meaning(stages: &[Stage]) -> String {
-    let words = |stage: &Stage| match stage.name {
-        "A" => "A: vibrations of the start die out",
-        "B" => "B: exponential growth",
-        "C" => "C: stick and separation set in",
-        _ => "D: limit cycle",
-    };
-    stages.iter().map(words).collect::<Vec<_>>().join("; ")
-}
 
 impl RecordedRun<'_> {
     /// Acceleration, spectrograms and contact status on one time axis, with the end of the run enlarged at the right.
@@ -83,7 +72,8 @@ impl RecordedRun<'_> {
             .panel(whole)
             .panel_or_gap(detail);
         if !stages.is_empty() {
-            figure = figure.note(meaning(&stages));
+            let meanings: Vec<&str> = stages.iter().map(|stage| stage.meaning).collect();
+            figure = figure.note(meanings.join("; "));
         }
         for panel in spectrograms {
             figure = figure.panel(panel).panel_or_gap(None);
@@ -120,17 +110,15 @@ impl RecordedRun<'_> {
         let node = self.probe_label(probe);
         let spectrum_of = |signal: Vec<f64>| {
             let end = &signal[signal.len() - signal.len().div_ceil(5)..];
-            let found =
-                amplitude_spectrum(end, 1.0 / self.interval().max(1e-12), Window::Hann, 2).ok();
-            found.map_or((Vec::new(), Vec::new()), |found| (found.frequencies_hz, found.amplitudes))
+            let rate = 1.0 / self.interval().max(1e-12);
+            amplitude_spectrum(end, rate, Window::Hann, 2).unwrap_or_default()
         };
         let [tangential, radial] = [5, 4].map(|column| spectrum_of(self.column(probe, column)));
         let [first, second, third] = self.directions();
         let axial = self.record.axial_rows.get(probe);
         let axial = axial.map(|rows| spectrum_of(rows.iter().map(|row| row[2]).collect()));
-        let mut spectra: Vec<(&str, &[f64], &[f64])> =
-            vec![(second, &tangential.0, &tangential.1), (first, &radial.0, &radial.1)];
-        spectra.extend(axial.iter().map(|(f, a)| (third, &f[..], &a[..])));
+        let mut spectra = vec![(second, &tangential), (first, &radial)];
+        spectra.extend(axial.iter().map(|axial| (third, axial)));
         let caption =
             format!("Spectra of the accelerations of node {node} over the last fifth of the run.");
         let frequencies = (self.highest_frequency(), self.analysis.last_fifth.main_frequency_hz);

@@ -52,12 +52,12 @@ pub(super) fn stages(record: &Recorder, analysis: &TransientAnalysis) -> Vec<Sta
         return Vec::new();
     }
     let spans = [
-        ("A", rows[0].time, growth),
-        ("B", growth, nonlinear),
-        ("C", nonlinear, cycle),
-        ("D", cycle, last.time),
+        ("A: vibrations of the start die out", rows[0].time, growth),
+        ("B: exponential growth", growth, nonlinear),
+        ("C: stick and separation set in", nonlinear, cycle),
+        ("D: limit cycle", cycle, last.time),
     ];
     let shortest = SHORTEST * (last.time - rows[0].time);
     let present = spans.into_iter().filter(|(_, start, end)| end - start > shortest);
-    present.map(|(name, start, _)| Stage { name, start }).collect()
+    present.map(|(meaning, start, _)| Stage { meaning, start }).collect()
 }

@@ -1,10 +1,7 @@
-//! Tables and sentences of a transient, and its page.
+//! Tables and sentences of a transient.
 
+use super::RecordedRun;
 use super::summary::{GrowthSummary, TransientSummary};
-use super::{RecordedRun, draw_run};
-use crate::drawing::{DrawingError, DrawingOptions};
-use crate::finding::write_page;
-use crate::folder::OutputFolder;
 use frictionsim_output::{Document, Format, Section, Table, columns, fixed};
 use frictionsim_physics::transient::{EndState, ProbeMotion};
 
@@ -39,17 +36,6 @@ columns! {
             .map(|way| if way > 0 { "with the rotor" } else { "against the rotor" }),
         IfAny "travels" Plain;
     reason = row.1.as_ref().err().cloned(), IfAny "why there is none" Plain;
-}
-
-/// Draws every figure that the run has data for and writes the page.
-pub fn draw(
-    folder: &OutputFolder,
-    run: &RecordedRun<'_>,
-    title: &str,
-    summary: &TransientSummary,
-    options: &DrawingOptions,
-) -> Result<(), DrawingError> {
-    write_page(folder, document(run, summary).titled(title), draw_run(run), options)
 }
 
 /// Tables and sentences of a run; beside its growth that of the eigenvalue analysis, where there is one.

@@ -35,6 +35,7 @@ use frictionsim_physics::transient::{
     CentralDifference, InitialState, Recorder, RecorderSettings, StepPlan, TransientAnalysis,
     TransientError, TransientModel, TransientSettings,
 };
+use frictionsim_results::Head;
 use frictionsim_results::transient::{LinearStage, RecordedRun, SolvedTransient, TransientReport};
 use std::time::Instant;
 
@@ -174,15 +175,16 @@ impl<'a> TransientStudy<'a> {
 
     /// What there is to report of a run that took so long altogether, s.
     pub fn report<'b>(&'b self, solved: &'b SolvedTransient, wall_s: f64) -> TransientReport<'b> {
-        let (case, settings) = (self.case, &self.settings);
+        let case = self.case;
         let places = case.output.placed_probes.iter();
         TransientReport {
-            title: &case.title,
+            head: Head::of(&case.title, wall_s),
             solved,
             run: RecordedRun {
                 record: &solved.record,
                 analysis: &solved.analysis,
                 body: self.stepped.shown(),
+                interface: self.body().interface(),
                 material: case.materials_in_time(),
                 has_harmonics: case.body.has_sectors(),
                 thickness: case.depth(),
@@ -190,12 +192,9 @@ impl<'a> TransientStudy<'a> {
                 peripheral_speed: self.shown_speed(),
                 stage: LinearStage::default(),
             },
-            contact_nodes: self.body().interface().nodes,
             friction_coefficient: case.contact.sliding.friction_coefficient,
-            initial: settings.initial.name(),
-            perturbation: &settings.perturbation,
+            settings: &self.settings,
             places: places.map(|place| (place.node, [place.asked[0], place.asked[1]])).collect(),
-            wall_s,
             notes: self.notes(&solved.record, &solved.analysis, solved.plan.time_step),
         }
     }
