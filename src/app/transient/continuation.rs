@@ -2,7 +2,7 @@
 
 use crate::app::{Failure, Session};
 use crate::case::RawCase;
-use crate::results::transient::{Checkpoint, CheckpointError, read_checkpoint};
+use crate::results::transient::{CHECKPOINT, Checkpoint, read_checkpoint};
 use crate::results::{OutputFolder, Replace, read_manifest};
 use std::path::{Path, PathBuf};
 
@@ -57,16 +57,15 @@ fn refuse_other_case(session: &Session, path: &Path) -> Result<(), Failure> {
 /// The checkpoint to go on from, if there is one; nothing is written.
 ///
 /// # Errors
-/// A folder of another run, with the key that differs; [`CheckpointError`] for a checkpoint that cannot be used.
+/// A folder of another run, with the key that differs; a checkpoint that cannot be used.
 pub fn find(session: &Session) -> Result<Option<Checkpoint>, Failure> {
     let path = place(session);
     refuse_other_case(session, &path)?;
-    match read_checkpoint(&path, &run_hash(session), &session.manifest.simd) {
-        Ok(checkpoint) => Ok(Some(checkpoint)),
-        Err(CheckpointError::Missing(path)) => {
-            tracing::warn!("{} does not exist: starting from the beginning", path.display());
-            Ok(None)
-        }
-        Err(error) => Err(Failure::usage(error)),
+    let found = read_checkpoint(&path, &run_hash(session), &session.manifest.simd);
+    let found = found.map_err(Failure::usage)?;
+    if found.is_none() {
+        let missing = path.join(CHECKPOINT);
+        tracing::warn!("{} does not exist: starting from the beginning", missing.display());
     }
+    Ok(found)
 }

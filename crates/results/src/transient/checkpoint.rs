@@ -3,28 +3,13 @@
 use crate::folder::{FolderError, OutputFolder};
 use crate::framed::{self, Defect};
 use crate::record::{Record, decoded};
-use frictionsim_bounds::{RESULT, read_file};
+use crate::reopening::read_existing;
 use frictionsim_physics::transient::{Recorder, TransientState};
 use serde::{Deserialize, Serialize};
-use std::io;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// Name of the checkpoint in its folder.
 pub const CHECKPOINT: &str = "checkpoint.bin";
-
-/// A checkpoint that cannot be used.
-#[derive(Debug, thiserror::Error)]
-pub enum CheckpointError {
-    /// None there.
-    #[error(
-        "{} does not exist: there is nothing to resume (run without --resume)",
-        .0.display()
-    )]
-    Missing(PathBuf),
-    /// It cannot be read, is damaged, or belongs to another run or version: the file, why, and the remedy.
-    #[error("{0}")]
-    Unusable(String),
-}
 
 /// Everything that a run needs to go on to the same bytes as one that was never stopped.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -75,23 +60,21 @@ pub fn write_checkpoint(
     })
 }
 
-/// Reads the checkpoint of a folder, if it is whole and of this run.
+/// Reads the checkpoint of a folder, if there is one.
 ///
 /// # Errors
-/// [`CheckpointError`] says why it cannot be used; the file is left as it is.
+/// [`FolderError::Unusable`] for one that is damaged, or of another run or version; the file is left as it is.
 pub fn read_checkpoint(
     folder: &Path,
     case_hash: &str,
     simd: &str,
-) -> Result<Checkpoint, CheckpointError> {
+) -> Result<Option<Checkpoint>, FolderError> {
     let path = folder.join(CHECKPOINT);
-    let file = path.display();
-    let unusable = |why: String| CheckpointError::Unusable(format!("{file} {why}"));
+    let unusable = |why: String| FolderError::unusable(&path, why);
     let again = "run without --resume to start over";
-    let bytes = read_file(&path, RESULT).map_err(|error| match error.kind() {
-        io::ErrorKind::NotFound => CheckpointError::Missing(path.clone()),
-        _ => CheckpointError::Unusable(format!("cannot read {file}: {error}")),
-    })?;
+    let Some(bytes) = read_existing(&path)? else {
+        return Ok(None);
+    };
     let checkpoint: Checkpoint = decoded(&bytes).map_err(|defect| {
         unusable(match defect {
             Defect::Version(found) => format!(
@@ -113,5 +96,5 @@ pub fn read_checkpoint(
             )));
         }
     }
-    Ok(checkpoint)
+    Ok(Some(checkpoint))
 }

@@ -10,7 +10,7 @@ mod stages;
 mod summary;
 mod tables;
 
-pub use checkpoint::{CHECKPOINT, Checkpoint, CheckpointError, read_checkpoint, write_checkpoint};
+pub use checkpoint::{CHECKPOINT, Checkpoint, read_checkpoint, write_checkpoint};
 pub use figures::draw_run;
 pub use files::write;
 pub(super) use files::{ENERGY, STATUS};
