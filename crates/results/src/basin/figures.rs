@@ -12,20 +12,18 @@ pub(super) fn search(summary: &BasinSummary) -> Figure {
         Some((run.saturation_ratio?, at))
     };
     let shown = |rival: usize| summary.name(rival).replace("n = ", "*n* = ");
-    let points = |winner: usize, is_settled: bool| {
+    let wins = |rival: usize| format!("{} wins", shown(rival));
+    let kinds = [
+        (first, true, Marker::Disc, SERIES[0], wins(first)),
+        (second, true, Marker::Square, SERIES[1], wins(second)),
+        (first, false, Marker::Circle, INK, "not settled".to_owned()),
+        (second, false, Marker::Circle, INK, "not settled".to_owned()),
+    ];
+    let points = kinds.map(|(winner, is_settled, marker, colour, name)| {
         let own = summary.runs.iter();
-        let own = own.filter(move |run| run.winner == winner && run.is_settled == is_settled);
-        let (marker, colour) = match (is_settled, winner == first) {
-            (false, _) => (Marker::Circle, INK),
-            (true, true) => (Marker::Disc, SERIES[0]),
-            (true, false) => (Marker::Square, SERIES[1]),
-        };
-        let name = match is_settled {
-            true => format!("{} wins", shown(winner)),
-            false => "not settled".to_owned(),
-        };
+        let own = own.filter(|run| run.winner == winner && run.is_settled == is_settled);
         Points::new(own.filter_map(place)).marker(marker, 2.6, colour).name(name)
-    };
+    });
     let bounds = [summary.boundary.low, summary.boundary.high];
     let bounds = bounds.into_iter().flatten().map(|ratio| {
         Rule::vertical(ratio).stroke(Stroke::dashed(INK, 0.8)).name("bounds of the boundary")
@@ -38,10 +36,7 @@ pub(super) fn search(summary: &BasinSummary) -> Figure {
     )
     .height(90.0)
     .layers(bounds)
-    .layer(points(first, true))
-    .layer(points(second, true))
-    .layer(points(first, false))
-    .layer(points(second, false));
+    .layers(points);
     Figure::new(
         "basin",
         match summary.of_modes {

@@ -72,12 +72,6 @@ impl RecordedRun<'_> {
         }
     }
 
-    /// One column of a probe: displacements, velocities, accelerations, each radial and tangential.
-    pub(super) fn column(&self, probe: usize, column: usize) -> Vec<f64> {
-        let rows = self.record.probe_rows[probe].iter();
-        rows.map(|row| row[column]).collect()
-    }
-
     /// Which component of a probe is shown: the tangential one, which friction drives and over which runs are compared;
     /// of solid bodies of a mesh, which may lie anyhow, the strongest.
     pub(super) fn shown_component(&self, probe: usize) -> usize {
@@ -92,13 +86,10 @@ impl RecordedRun<'_> {
     }
 
     /// Acceleration of a probe along one of its directions.
-    fn component(&self, probe: usize, component: usize) -> Vec<f64> {
+    pub(super) fn component(&self, probe: usize, component: usize) -> Vec<f64> {
         match component {
-            2 => {
-                let rows = self.record.axial_rows[probe].iter();
-                rows.map(|row| row[2]).collect()
-            }
-            _ => self.column(probe, 4 + component),
+            2 => self.record.axial_rows[probe].iter().map(|row| row[2]).collect(),
+            _ => self.record.probe_rows[probe].iter().map(|row| row[4 + component]).collect(),
         }
     }
 

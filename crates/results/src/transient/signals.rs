@@ -108,17 +108,16 @@ impl RecordedRun<'_> {
     /// Spectra of both components over the last fifth of the run.
     pub(super) fn spectrum(&self, probe: usize) -> Figure {
         let node = self.probe_label(probe);
-        let spectrum_of = |signal: Vec<f64>| {
+        let spectrum_of = |component: usize| {
+            let signal = self.component(probe, component);
             let end = &signal[signal.len() - signal.len().div_ceil(5)..];
             let rate = 1.0 / self.interval().max(1e-12);
-            amplitude_spectrum(end, rate, Window::Hann, 2).unwrap_or_default()
+            let spectrum = amplitude_spectrum(end, rate, Window::Hann, 2).unwrap_or_default();
+            (self.directions()[component], spectrum)
         };
-        let [tangential, radial] = [5, 4].map(|column| spectrum_of(self.column(probe, column)));
-        let [first, second, third] = self.directions();
-        let axial = self.record.axial_rows.get(probe);
-        let axial = axial.map(|rows| spectrum_of(rows.iter().map(|row| row[2]).collect()));
-        let mut spectra = vec![(second, &tangential), (first, &radial)];
-        spectra.extend(axial.iter().map(|axial| (third, axial)));
+        let axial = self.record.axial_rows.get(probe).map(|_| 2);
+        let spectra: Vec<_> = [1, 0].into_iter().chain(axial).map(spectrum_of).collect();
+        let spectra: Vec<_> = spectra.iter().map(|(name, own)| (*name, own)).collect();
         let caption =
             format!("Spectra of the accelerations of node {node} over the last fifth of the run.");
         let frequencies = (self.highest_frequency(), self.analysis.last_fifth.main_frequency_hz);

@@ -41,8 +41,8 @@ pub struct PeriodicStudy<'a> {
     simd: SimdLevel,
     /// The mode that grows fastest or decays slowest at the case's own operating point.
     least_stable: Option<ModeSummary>,
-    /// Value of the parameter at which the search starts, where no mode grows at the case's own.
-    start: Option<f64>,
+    /// Parameter and value at which the search starts, where no mode grows at the case's own.
+    start: Option<(Parameter, f64)>,
     /// Where sliding loses its stability, where it is stable at the case's own operating point.
     critical: Option<CriticalValue>,
     /// Steady sliding where the search starts.
@@ -76,7 +76,7 @@ impl<'a> PeriodicStudy<'a> {
                 if let Some((value, other)) = first_growing(of, *parameter, values, here)? {
                     let onset = onset(of, *parameter, [here, value]);
                     critical = onset.map(|value| CriticalValue::of(*parameter, value));
-                    (start, steady) = (Some(value), other);
+                    (start, steady) = (Some((*parameter, value)), other);
                 }
             }
             (true, None) => {
@@ -155,7 +155,7 @@ impl<'a> PeriodicStudy<'a> {
             watch,
             tune: &tune,
         };
-        let start = self.start.unwrap_or(own);
+        let start = self.start.map_or(own, |start| start.1);
         let branch = request.follow(start, found, steps);
         Some(branch.map(|branch| self.with_onsets(branch, start)))
     }
@@ -206,8 +206,7 @@ impl<'a> PeriodicStudy<'a> {
 
     /// The parameter and its value, in units of its key, at which the search starts where that is not the case's own.
     fn named_start(&self) -> Option<(&'static str, f64)> {
-        let (parameter, _) = self.continuation.as_ref()?;
-        Some((parameter.key(), parameter.in_key_units(self.start?)))
+        self.start.map(|(parameter, value)| (parameter.key(), parameter.in_key_units(value)))
     }
 
     /// The cycle of one mode, its stability, and what a transient says of it.
@@ -220,10 +219,8 @@ impl<'a> PeriodicStudy<'a> {
     ) -> Result<FoundCycle, CycleError> {
         let mode = &self.steady.modes[place];
         // Where sliding is stable at the case's own value of the parameter, another one starts the search.
-        let body = match (self.start, &self.continuation) {
-            (Some(value), Some((parameter, _))) => self.body_at(*parameter, value),
-            _ => self.body(),
-        };
+        let start = self.start;
+        let body = start.map_or_else(|| self.body(), |(key, value)| self.body_at(key, value));
         let mut map = self.map(body, operator, mode)?;
         // From the growing mode to the motion that repeats itself, and along the parameter.
         let watch =
