@@ -5,7 +5,6 @@ use super::two_waves::TwoWaveSummary;
 use crate::charts::palette::{
     CONTACT_DISSIPATION, MATERIAL_DISSIPATION, NORMAL_POWER, SLIDE_POWER, STATUSES, STICK_POWER,
 };
-use crate::drawing::{Declaration, declared};
 use crate::extent::Extent;
 use crate::parameter::parameter_axis;
 use frictionsim_chart::{
@@ -38,9 +37,8 @@ pub fn draw_branches(
         .filter(|curve| curve.branch.values.len() > 1)
         .collect();
     let curves = &curves[..];
-    let figures: Vec<Declaration<'_>> =
-        vec![Box::new(|| Some(frequencies(curves, two_waves))), Box::new(|| Some(shares(curves)))];
-    declared(figures)
+    let figures = [frequencies(curves, two_waves), shares(curves)].into_iter();
+    figures.filter(Figure::has_data).collect()
 }
 
 /// The branch of one family.

@@ -20,17 +20,9 @@ pub fn write(
     report: &TransientReport<'_>,
 ) -> Result<(TransientSummary, Value), FolderError> {
     let record = report.run.record;
-    let raw = record.raw_accelerations.as_ref();
-    for (index, rows) in record.probe_rows.iter().enumerate() {
-        let probe = ProbeRows {
-            rows,
-            axial: record.axial_rows.get(index).map(Vec::as_slice),
-            raw: raw.map(|raw| raw[index].as_slice()),
-            is_cartesian: report.run.body.is_assembly(),
-            turn: report.turn_of_probe(index),
-        };
-        let name = format!("probe-{}.csv", report.run.probe_label(index));
-        folder.write(&name, |out| write_probe(out, &record.rows, &probe))?;
+    for probe in 0..record.probe_rows.len() {
+        let name = format!("probe-{}.csv", report.run.probe_label(probe));
+        folder.write(&name, |out| write_probe(out, report, probe))?;
     }
     folder.write("energy.csv", |out| write_energy(out, report))?;
     folder.write("contact.csv", |out| write_rows(out, STATUS, record.rows.iter().copied()))?;
@@ -45,65 +37,45 @@ pub fn write(
     Ok((summary, object))
 }
 
-/// What is recorded of one probe, sample by sample.
-struct ProbeRows<'a> {
-    /// In the axes of its node.
-    rows: &'a [[f64; 6]],
-    /// Along the axis, in three dimensions.
-    axial: Option<&'a [[f64; 4]]>,
-    /// Accelerations of the sampled step alone, where they are kept.
-    raw: Option<&'a [[f64; 2]]>,
-    /// Whether its axes are x, y and z.
-    is_cartesian: bool,
-    /// Sine and cosine of the angle of its node's axes, of a body that is no annulus about the origin.
-    turn: Option<(f64, f64)>,
-}
+/// Names of columns, and their numbers at a sample.
+type Group<'a> = (Vec<String>, Box<dyn Fn(usize) -> Vec<f64> + 'a>);
 
 /// Motion of a probe; the accelerations are means since the last sample, those of the sampled step alone come behind
 /// them where they are kept, and motions along `x` and `y` last.
-fn write_probe(
-    out: &mut dyn Write,
-    samples: &[SampleRow],
-    probe: &ProbeRows<'_>,
-) -> io::Result<()> {
-    let ProbeRows { rows, axial, raw, turn, is_cartesian } = *probe;
+fn write_probe(out: &mut dyn Write, report: &TransientReport<'_>, probe: usize) -> io::Result<()> {
+    let record = report.run.record;
+    let (rows, axial) = (&record.probe_rows[probe], record.axial_rows.get(probe));
     let motions = |axes: &[&str]| -> Vec<String> {
         let kinds = [("u", "m"), ("v", "m_per_s"), ("a", "m_per_s2")].iter();
         kinds
             .flat_map(|(kind, unit)| axes.iter().map(move |axis| format!("{kind}_{axis}_{unit}")))
             .collect()
     };
-    let axes = if is_cartesian { ["x", "y"] } else { ["r", "theta"] };
-    let mut columns = vec!["time_s".to_owned()];
-    columns.extend(motions(&axes));
-    if axial.is_some() {
-        columns.extend(motions(&["z"]));
+    let axes = if report.run.body.is_assembly() { ["x", "y"] } else { ["r", "theta"] };
+    let mut groups: Vec<Group<'_>> = vec![
+        (vec!["time_s".to_owned()], Box::new(|i| vec![record.rows[i].time])),
+        (motions(&axes), Box::new(|i| rows[i].to_vec())),
+    ];
+    if let Some(axial) = axial {
+        groups.push((motions(&["z"]), Box::new(|i| axial[i][..3].to_vec())));
     }
-    if raw.is_some() {
+    if let Some(raw) = &record.raw_accelerations {
         let axes = axes.into_iter().chain(axial.map(|_| "z"));
-        columns.extend(axes.map(|axis| format!("a_{axis}_step_m_per_s2")));
+        let names = axes.map(|axis| format!("a_{axis}_step_m_per_s2")).collect();
+        let step = move |i: usize| raw[probe][i].into_iter().chain(axial.map(|rows| rows[i][3]));
+        groups.push((names, Box::new(move |i| step(i).collect())));
     }
-    if turn.is_some() {
-        columns.extend(motions(&["x", "y"]));
+    if let Some((sin, cos)) = report.turn_of_probe(probe) {
+        let along = move |i: usize, k: usize| {
+            let [own, other] = [rows[i][k], rows[i][k + 1]];
+            [cos * own - sin * other, sin * own + cos * other]
+        };
+        let turned = move |i: usize| [0, 2, 4].map(|k| along(i, k)).as_flattened().to_vec();
+        groups.push((motions(&["x", "y"]), Box::new(turned)));
     }
-    let columns: Vec<&str> = columns.iter().map(String::as_str).collect();
-    let cells = |(index, (sample, row)): (usize, (&SampleRow, &[f64; 6]))| {
-        let mut numbers = vec![sample.time];
-        numbers.extend(row);
-        let axial = axial.map(|rows| rows[index]);
-        numbers.extend(axial.iter().flat_map(|row| &row[..3]));
-        if let Some(raw) = raw {
-            numbers.extend(raw[index]);
-            numbers.extend(axial.map(|row| row[3]));
-        }
-        if let Some((sin, cos)) = turn {
-            let along =
-                |k: usize| [cos * row[k] - sin * row[k + 1], sin * row[k] + cos * row[k + 1]];
-            numbers.extend([0, 2, 4].map(along).as_flattened());
-        }
-        numbers.into_iter().map(format_number).collect::<Vec<_>>()
-    };
-    csv::write(out, &columns, samples.iter().zip(rows).enumerate().map(cells))
+    let names: Vec<&str> = groups.iter().flat_map(|own| &own.0).map(String::as_str).collect();
+    let cells = |i: usize| groups.iter().flat_map(move |own| own.1(i)).map(format_number);
+    csv::write(out, &names, (0..rows.len()).map(cells))
 }
 
 columns! {
