@@ -94,11 +94,11 @@ pub(super) fn run(asked: &Arguments) -> Result<(), Failure> {
     let (output, title) = (&asked.options.output, &study.case.title);
     if let Some(options) = output.drawing() {
         let (material, stage) = (study.case.materials(), linear_stage(study.case));
-        let run = RecordedRun { material, stage, ..report.run.clone() };
+        let run = RecordedRun { material, stage, ..report.clone() };
         let document = document(&run, &summary).titled(title);
         write_page(&folder, document, draw_run(&run), &options)?;
     }
-    let document = document(&report.run, &summary);
+    let document = document(&report, &summary);
     output.finish(folder, &document.titled(title).to_text(), &object)
 }
 

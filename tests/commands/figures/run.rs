@@ -3,8 +3,9 @@
 use crate::figures::check;
 use crate::prelude::*;
 use frictionsim::chart::Figure;
+use frictionsim::results::Head;
 use frictionsim::results::charts::ModeLine;
-use frictionsim::results::transient::{LinearStage, RecordedRun, draw_run};
+use frictionsim::results::transient::{LinearStage, RecordedRun, SolvedTransient, draw_run};
 
 #[test]
 fn a_run_gets_every_figure_of_its_record() {
@@ -27,13 +28,31 @@ fn a_run_gets_every_figure_of_its_record() {
     .unwrap();
     run.run(&mut record).unwrap();
     let analysis = TransientAnalysis::of(&record, &[2]);
-    let growth = analysis.growth.iter().filter_map(|g| {
-        let stage = g.stage.as_ref().ok()?;
-        Some((g.harmonic?, stage.rate_per_s.value))
-    });
+    let growth: Vec<(usize, f64)> = analysis
+        .growth
+        .iter()
+        .filter_map(|g| {
+            let stage = g.stage.as_ref().ok()?;
+            Some((g.harmonic?, stage.rate_per_s.value))
+        })
+        .collect();
+    let solved = SolvedTransient {
+        record,
+        analysis,
+        plan: *run.plan(),
+        operator: "cyclic",
+        steps: run.steps_done(),
+        steps_timed: run.steps_done(),
+        stepping_s: 1.0,
+        is_finished: true,
+    };
     let data = RecordedRun {
-        record: &record,
-        analysis: &analysis,
+        head: Head::default(),
+        solved: &solved,
+        settings: &settings,
+        friction_coefficient: contact.friction_coefficient,
+        places: Vec::new(),
+        notes: Vec::new(),
         body: ShownBody { mesh: &annulus.mesh, sector: None },
         interface: model.interface(),
         has_harmonics: true,
@@ -43,7 +62,7 @@ fn a_run_gets_every_figure_of_its_record() {
         peripheral_speed: rotation_speed * 0.0205,
         stage: LinearStage {
             references: vec![ModeLine { frequency_hz: 9901.0, label: "mode 5, *n* = 2".into() }],
-            growth_rates: growth.collect(),
+            growth_rates: growth,
             mode_rates: Vec::new(),
         },
     };

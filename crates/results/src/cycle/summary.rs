@@ -188,10 +188,8 @@ impl SoughtCycle {
 
     /// Whether a transient that started on it has stayed there.
     pub(super) fn agrees(&self) -> Option<bool> {
-        Some(match self.confirmation.as_ref()? {
-            ConfirmationSummary::Ran(run) => run.agrees,
-            ConfirmationSummary::Failed { agrees, .. } => *agrees,
-        })
+        self.confirmation.as_ref()?;
+        Some(self.run().is_some_and(|run| run.agrees))
     }
 
     /// Its family, and the columns of its branch.

@@ -48,7 +48,7 @@ fn moving_average(values: &[f64], window: usize) -> Vec<f64> {
 /// Acceleration, status, external power and its parts, power balance of the body, the external power as the sum of what
 /// contact and material dissipate, stored energy, balance residual, as figure 12 of the paper has them.
 pub(super) fn energy(run: &RecordedRun<'_>) -> Figure {
-    let (rows, times) = (&run.record.rows, run.times());
+    let (rows, times) = (&run.solved.record.rows, run.times());
     let (thickness, extent) = (run.thickness, run.extent);
     let step = (extremes(times.iter().copied()).1 - times.first().copied().unwrap_or(0.0))
         / times.len().max(2) as f64;
@@ -74,7 +74,7 @@ pub(super) fn energy(run: &RecordedRun<'_>) -> Figure {
         course("total", INK, &|row| row.kinetic_energy + row.strain_energy + row.contact_energy);
     let strain = course("strain", SERIES[2], &|row| row.strain_energy);
     let kinetic = course("kinetic", SERIES[1], &|row| row.kinetic_energy);
-    let probes = run.record.probes.len();
+    let probes = run.solved.record.probes.len();
     let inside = (0..probes).find(|&probe| !run.is_on_contact(probe)).or((probes > 0).then_some(0));
     let acceleration = inside.map(|probe| {
         let line = Line::new(&times, &run.acceleration(probe)).solid(SERIES[0], 0.45).whole();

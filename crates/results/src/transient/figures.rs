@@ -20,7 +20,7 @@ const WHEN: &str = "at the snapshot times";
 /// Draws every figure that the record has data for.
 pub fn draw_run(run: &RecordedRun<'_>) -> Vec<Figure> {
     let mut figures: Vec<Declaration<'_>> = Vec::new();
-    for probe in 0..run.record.probes.len() {
+    for probe in 0..run.solved.record.probes.len() {
         figures.push(Box::new(move || Some(run.overview(probe))));
         figures.push(Box::new(move || Some(run.spectrum(probe))));
     }
@@ -35,7 +35,7 @@ pub fn draw_run(run: &RecordedRun<'_>) -> Vec<Figure> {
 
 impl RecordedRun<'_> {
     fn snapshots(&self) -> impl Iterator<Item = &Snapshot> {
-        self.record.snapshots.iter().take(FIELD_LIMIT)
+        self.solved.record.snapshots.iter().take(FIELD_LIMIT)
     }
 
     fn velocity(&self) -> Figure {
@@ -56,7 +56,7 @@ impl RecordedRun<'_> {
 
     /// Whether a probe lies on the contact edge.
     pub(super) fn is_on_contact(&self, probe: usize) -> bool {
-        let node = self.record.probes[probe] as u32 - 1;
+        let node = self.solved.record.probes[probe] as u32 - 1;
         match self.body.sector {
             Some(_) => self.interface.nodes.contains(&node),
             None => self.body.mesh.contact_edge().nodes.contains(&node),
@@ -72,12 +72,12 @@ impl RecordedRun<'_> {
         if body.is_assembly() || !has_edge {
             return None;
         }
-        let probes = 0..self.record.probes.len();
+        let probes = 0..self.solved.record.probes.len();
         let (edge, inside): (Vec<usize>, Vec<usize>) =
             probes.partition(|&probe| self.is_on_contact(probe));
         let (edge, inside) = (*edge.first()?, *inside.first()?);
         let pair = |probe: usize, x: usize, y: usize| -> Vec<(f64, f64)> {
-            self.record.probe_rows[probe].iter().map(|row| (row[x], row[y])).collect()
+            self.solved.record.probe_rows[probe].iter().map(|row| (row[x], row[y])).collect()
         };
         let (phase, path) = (pair(inside, 1, 3), pair(edge, 1, 0));
         let start = path.len() - path.len().div_ceil(5);
@@ -89,7 +89,7 @@ impl RecordedRun<'_> {
                 .caption(caption)
                 .layer(before.name("before"))
         };
-        let end = match self.analysis.settling.state {
+        let end = match self.solved.analysis.settling.state {
             EndState::LimitCycle => "limit cycle",
             EndState::TwoFrequency(_) => "two frequencies",
             _ => "last fifth of the run",
@@ -110,7 +110,7 @@ impl RecordedRun<'_> {
     /// velocity it sticks. Finer in time than the contact frames; the node touches the cylinder at its smallest radial
     /// displacement.
     fn traced_status(&self, probe: usize, start: usize) -> Vec<ContactStatus> {
-        let rows = &self.record.probe_rows[probe][start..];
+        let rows = &self.solved.record.probe_rows[probe][start..];
         if self.body.mesh.opposite.is_some() {
             return self.kept_status(probe, start);
         }
@@ -131,10 +131,11 @@ impl RecordedRun<'_> {
 
     /// Status of a contact node from a sample on, as the contact frames keep it: what it touches moves as well.
     fn kept_status(&self, probe: usize, start: usize) -> Vec<ContactStatus> {
-        let node = self.record.probes[probe] as u32 - 1;
+        let node = self.solved.record.probes[probe] as u32 - 1;
         let place = self.interface.nodes.iter().position(|&other| other == node);
-        let (frames, stride) = (&self.record.frames, self.record.frame_stride as usize);
-        let samples = start..self.record.rows.len();
+        let (frames, stride) =
+            (&self.solved.record.frames, self.solved.record.frame_stride as usize);
+        let samples = start..self.solved.record.rows.len();
         let status = samples.map(|sample| {
             let frame = frames.get(sample / stride).or(frames.last());
             match (frame, place) {
@@ -148,7 +149,7 @@ impl RecordedRun<'_> {
     /// The contact at the last snapshot.
     fn contact(&self) -> Option<Figure> {
         let body = &self.body;
-        let snapshot = self.record.snapshots.last().filter(|_| !body.is_assembly())?;
+        let snapshot = self.solved.record.snapshots.last().filter(|_| !body.is_assembly())?;
         let frame = &snapshot.contact;
         let wide = |values: &[f32]| -> Vec<f64> {
             body.shown(values).into_iter().map(f64::from).collect()
@@ -158,7 +159,7 @@ impl RecordedRun<'_> {
             name: "contact".to_owned(),
             subject: ["Contact at the last snapshot".to_owned(), String::new()],
             instant: format!("*t* = {:.3} ms", snapshot.time * 1e3),
-            first_angle: self.record.contact_angles.first().copied().unwrap_or(0.0),
+            first_angle: self.solved.record.contact_angles.first().copied().unwrap_or(0.0),
             status: &statuses(&body.shown(&frame.status)),
             tractions: [&wide(&frame.pressure), &wide(frame.shear())],
             velocity: match body.mesh.opposite {

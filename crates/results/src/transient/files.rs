@@ -1,6 +1,6 @@
 //! Probes, energies, contact, snapshots, summary.
 
-use super::{TransientReport, TransientSummary, summary};
+use super::{RecordedRun, TransientSummary, summary};
 use crate::charts::palette::status_of_code;
 use crate::folder::{FolderError, OutputFolder};
 use crate::npz::NpzArchive;
@@ -17,23 +17,23 @@ use std::io::{self, Write};
 /// Writes all files of the transient and gives the summary, as it is and as an object.
 pub fn write(
     folder: &OutputFolder,
-    report: &TransientReport<'_>,
+    run: &RecordedRun<'_>,
 ) -> Result<(TransientSummary, Value), FolderError> {
-    let record = report.run.record;
+    let record = &run.solved.record;
     for probe in 0..record.probe_rows.len() {
-        let name = format!("probe-{}.csv", report.run.probe_label(probe));
-        folder.write(&name, |out| write_probe(out, report, probe))?;
+        let name = format!("probe-{}.csv", run.probe_label(probe));
+        folder.write(&name, |out| write_probe(out, run, probe))?;
     }
-    folder.write("energy.csv", |out| write_energy(out, report))?;
+    folder.write("energy.csv", |out| write_energy(out, run))?;
     folder.write("contact.csv", |out| write_rows(out, STATUS, record.rows.iter().copied()))?;
-    if report.run.has_harmonics {
+    if run.has_harmonics {
         folder.write("harmonics.csv", |out| write_harmonics(out, record))?;
     }
     folder.write("contact.npz", |out| out.write_all(&encode_contact(record)?))?;
-    write_snapshots(folder, report)?;
+    write_snapshots(folder, run)?;
     write_record(folder, record)?;
-    let summary = summary(report);
-    let object = write_summary(folder, report.head, &summary)?;
+    let summary = summary(run);
+    let object = write_summary(folder, run.head, &summary)?;
     Ok((summary, object))
 }
 
@@ -42,8 +42,8 @@ type Group<'a> = (Vec<String>, Box<dyn Fn(usize) -> Vec<f64> + 'a>);
 
 /// Motion of a probe; the accelerations are means since the last sample, those of the sampled step alone come behind
 /// them where they are kept, and motions along `x` and `y` last.
-fn write_probe(out: &mut dyn Write, report: &TransientReport<'_>, probe: usize) -> io::Result<()> {
-    let record = report.run.record;
+fn write_probe(out: &mut dyn Write, run: &RecordedRun<'_>, probe: usize) -> io::Result<()> {
+    let record = &run.solved.record;
     let (rows, axial) = (&record.probe_rows[probe], record.axial_rows.get(probe));
     let motions = |axes: &[&str]| -> Vec<String> {
         let kinds = [("u", "m"), ("v", "m_per_s"), ("a", "m_per_s2")].iter();
@@ -51,7 +51,7 @@ fn write_probe(out: &mut dyn Write, report: &TransientReport<'_>, probe: usize) 
             .flat_map(|(kind, unit)| axes.iter().map(move |axis| format!("{kind}_{axis}_{unit}")))
             .collect()
     };
-    let axes = if report.run.body.is_assembly() { ["x", "y"] } else { ["r", "theta"] };
+    let axes = if run.body.is_assembly() { ["x", "y"] } else { ["r", "theta"] };
     let mut groups: Vec<Group<'_>> = vec![
         (vec!["time_s".to_owned()], Box::new(|i| vec![record.rows[i].time])),
         (motions(&axes), Box::new(|i| rows[i].to_vec())),
@@ -65,7 +65,7 @@ fn write_probe(out: &mut dyn Write, report: &TransientReport<'_>, probe: usize) 
         let step = move |i: usize| raw[probe][i].into_iter().chain(axial.map(|rows| rows[i][3]));
         groups.push((names, Box::new(move |i| step(i).collect())));
     }
-    if let Some((sin, cos)) = report.turn_of_probe(probe) {
+    if let Some((sin, cos)) = run.turn_of_probe(probe) {
         let along = move |i: usize, k: usize| {
             let [own, other] = [rows[i][k], rows[i][k + 1]];
             [cos * own - sin * other, sin * own + cos * other]
@@ -97,8 +97,8 @@ columns! {
     contact_damping_w: "power lost in the dashpots of the contact" = row.powers.damping;
 }
 
-fn write_energy(out: &mut dyn Write, report: &TransientReport<'_>) -> io::Result<()> {
-    let (record, thickness) = (report.run.record, report.run.thickness);
+fn write_energy(out: &mut dyn Write, run: &RecordedRun<'_>) -> io::Result<()> {
+    let (record, thickness) = (&run.solved.record, run.thickness);
     let of_whole_thickness = |row: &SampleRow| SampleRow {
         kinetic_energy: thickness * row.kinetic_energy,
         strain_energy: thickness * row.strain_energy,
@@ -170,20 +170,20 @@ fn encode_contact(record: &Recorder) -> io::Result<Vec<u8>> {
 }
 
 /// One VTU for each snapshot and `snapshots.pvd` over them.
-fn write_snapshots(folder: &OutputFolder, report: &TransientReport<'_>) -> Result<(), FolderError> {
-    let snapshots = &report.run.record.snapshots;
+fn write_snapshots(folder: &OutputFolder, run: &RecordedRun<'_>) -> Result<(), FolderError> {
+    let snapshots = &run.solved.record.snapshots;
     if snapshots.is_empty() {
         return Ok(());
     }
-    let mesh = report.run.body.encoded();
+    let mesh = run.body.encoded();
     let mesh = mesh.map_err(|error| FolderError::io("write", folder.path(), error))?;
     let mut entries = Vec::new();
     for (index, snapshot) in snapshots.iter().enumerate() {
         let file = format!("snapshots/snapshot-{:03}.vtu", index + 1);
-        let fields = snapshot_fields(report, snapshot);
+        let fields = snapshot_fields(run, snapshot);
         let whole = [
             Field::number("time_s", snapshot.time),
-            Field::number("friction_coefficient", report.friction_coefficient),
+            Field::number("friction_coefficient", run.friction_coefficient),
         ];
         folder.write(&file, |out| write_vtu(out, &mesh, &whole, &fields, &[]))?;
         entries.push(PvdEntry { time: snapshot.time, group: String::new(), file });
@@ -193,15 +193,15 @@ fn write_snapshots(folder: &OutputFolder, report: &TransientReport<'_>) -> Resul
 
 /// Motion and stress of all nodes, and the contact at the same step: status (0 open, 1 stick, 2 slip; -1 off the
 /// contact edge), pressure, shear and gap (zero off the contact edge).
-fn snapshot_fields(report: &TransientReport<'_>, snapshot: &Snapshot) -> Vec<Field> {
-    let (body, displacement) = (&report.run.body, &snapshot.displacement);
+fn snapshot_fields(run: &RecordedRun<'_>, snapshot: &Snapshot) -> Vec<Field> {
+    let (body, displacement) = (&run.body, &snapshot.displacement);
     let mut fields = vec![
         body.vectors("displacement_m", displacement),
         body.vectors("velocity_m_per_s", &snapshot.velocity),
     ];
-    fields.extend(body.stress_fields(&body.stress(report.run.material, displacement)));
+    fields.extend(body.stress_fields(&body.stress(run.material, displacement)));
     let count = displacement.len() / if body.is_solid() { 3 } else { 2 };
-    let (edge, contact) = (&report.run.interface.nodes, &snapshot.contact);
+    let (edge, contact) = (&run.interface.nodes, &snapshot.contact);
     let wide = |values: &[f32]| -> Vec<f64> { values.iter().copied().map(f64::from).collect() };
     let codes = contact.status.iter().map(|&code| status_of_code(code));
     let tractions = [&wide(&contact.pressure)[..], &wide(contact.shear())];

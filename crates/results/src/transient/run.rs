@@ -1,19 +1,30 @@
-//! A recorded run as its report and its figures see it.
+//! A recorded run as its files, its report and its figures see it.
 
+use super::SolvedTransient;
 use crate::ShownBody;
 use crate::charts::ModeLine;
 use crate::extent::Extent;
+use crate::summary::Head;
 use frictionsim_physics::contact::ContactInterface;
 use frictionsim_physics::fem::MaterialField;
-use frictionsim_physics::transient::{Recorder, TransientAnalysis};
+use frictionsim_physics::transient::TransientSettings;
 
-/// The record of a run, the body that it is of, and what its figures show besides.
+/// What came of a run, the body that it is of, and what its figures show besides. Forces, powers and energies of the
+/// record are for one metre of thickness; tables and summary scale them by the thickness.
 #[derive(Clone, Debug)]
 pub struct RecordedRun<'a> {
-    /// What was recorded.
-    pub record: &'a Recorder,
-    /// What it says.
-    pub analysis: &'a TransientAnalysis,
+    /// Title of the case, and wall time of the run.
+    pub head: Head<'a>,
+    /// Record, analysis and steps.
+    pub solved: &'a SolvedTransient,
+    /// Choices of the run.
+    pub settings: &'a TransientSettings,
+    /// Friction coefficient, for the snapshots.
+    pub friction_coefficient: f64,
+    /// Probes that were asked for by their place: node, counted from 0, and place, m.
+    pub places: Vec<(usize, [f64; 2])>,
+    /// What to know before its numbers are used.
+    pub notes: Vec<String>,
     /// The body.
     pub body: ShownBody<'a>,
     /// The contact nodes, in the order of the record.
@@ -45,9 +56,26 @@ pub struct LinearStage {
 }
 
 impl RecordedRun<'_> {
+    /// Elements times steps for each second of stepping.
+    pub(super) fn element_steps_per_second(&self) -> f64 {
+        let (body, solved) = (&self.body, self.solved);
+        let layers = body.sector.map_or(1, |sector| sector.divisions()[1]);
+        let elements = (layers * body.mesh.element_count()) as f64;
+        let stepping_s = solved.stepping_s.max(f64::MIN_POSITIVE);
+        elements * solved.steps_timed as f64 / stepping_s
+    }
+
+    /// Sine and cosine of the angle of a probe's axes, of a plane body that is no annulus about the origin.
+    pub(super) fn turn_of_probe(&self, probe: usize) -> Option<(f64, f64)> {
+        let body = &self.body;
+        let has_axes = !body.is_solid() && !body.mesh.is_cyclic;
+        let node = self.solved.record.probes[probe] - 1;
+        has_axes.then(|| body.mesh.frame_angles()[node].sin_cos())
+    }
+
     /// Number of a probe as the user knows it.
     pub(super) fn probe_label(&self, probe: usize) -> usize {
-        self.body.mesh.node_label(self.record.probes[probe] - 1)
+        self.body.mesh.node_label(self.solved.record.probes[probe] - 1)
     }
 
     /// What the components of a probe are along, the first, the second and the third.
@@ -60,12 +88,12 @@ impl RecordedRun<'_> {
 
     /// Times of all samples, s.
     pub(super) fn times(&self) -> Vec<f64> {
-        self.record.rows.iter().map(|row| row.time).collect()
+        self.solved.record.rows.iter().map(|row| row.time).collect()
     }
 
     /// Time between samples, s; zero for fewer than two.
     pub(super) fn interval(&self) -> f64 {
-        let rows = &self.record.rows;
+        let rows = &self.solved.record.rows;
         match (rows.first(), rows.last(), rows.len()) {
             (Some(first), Some(last), 2..) => (last.time - first.time) / (rows.len() - 1) as f64,
             _ => 0.0,
@@ -88,8 +116,10 @@ impl RecordedRun<'_> {
     /// Acceleration of a probe along one of its directions.
     pub(super) fn component(&self, probe: usize, component: usize) -> Vec<f64> {
         match component {
-            2 => self.record.axial_rows[probe].iter().map(|row| row[2]).collect(),
-            _ => self.record.probe_rows[probe].iter().map(|row| row[4 + component]).collect(),
+            2 => self.solved.record.axial_rows[probe].iter().map(|row| row[2]).collect(),
+            _ => {
+                self.solved.record.probe_rows[probe].iter().map(|row| row[4 + component]).collect()
+            }
         }
     }
 
@@ -101,7 +131,7 @@ impl RecordedRun<'_> {
     /// Frequency (Hz) and growth rate (1/s) of the unstable mode nearest to the vibration that grows on a body without
     /// symmetry, if one lies within 3 % of it.
     pub(super) fn growing_mode(&self) -> Option<(f64, f64)> {
-        let growth = self.analysis.growth.first()?;
+        let growth = self.solved.analysis.growth.first()?;
         let frequency = growth.stage.as_ref().ok()?.frequency_hz.value.abs();
         let distance = |mode: &&(f64, f64)| (mode.0 / frequency - 1.0).abs();
         let nearest =
@@ -111,7 +141,7 @@ impl RecordedRun<'_> {
 
     /// Highest frequency shown: three superharmonics, or all modes drawn.
     pub(super) fn highest_frequency(&self) -> f64 {
-        let main = self.analysis.last_fifth.main_frequency_hz.unwrap_or(0.0);
+        let main = self.solved.analysis.last_fifth.main_frequency_hz.unwrap_or(0.0);
         let modes = self.stage.references.iter().map(|mode| mode.frequency_hz);
         let wanted = modes.fold(3.4 * main, |top, f| top.max(1.1 * f));
         let nyquist = 0.5 / self.interval().max(1e-12);

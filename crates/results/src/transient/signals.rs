@@ -25,7 +25,8 @@ impl RecordedRun<'_> {
         let (node, times, signal) =
             (self.probe_label(probe), self.times(), self.acceleration(probe));
         let (start, end) = ends(&times);
-        let periods = self.analysis.last_fifth.main_frequency_hz.map(|frequency| 4.0 / frequency);
+        let periods =
+            self.solved.analysis.last_fifth.main_frequency_hz.map(|frequency| 4.0 / frequency);
         let enlarged =
             periods.filter(|length| *length < end - start).map(|length| (end - length, end));
         let axis = run_axis(&times);
@@ -35,7 +36,7 @@ impl RecordedRun<'_> {
             true => (["*a*_{x}", "*a*_{y}", "*a*_{z}"][component], "m/s²"),
             false => ("*a*_{θ}", "m/s²"),
         };
-        let stages = stages(self.record, self.analysis);
+        let stages = stages(self.solved);
         let largest = extremes(signal.iter().copied()).1;
         let whole = signal_panel(axis.clone(), &times, &signal, unit, 0.45);
         let whole = with_stages(
@@ -89,7 +90,7 @@ impl RecordedRun<'_> {
 
     /// The status of all contact nodes over time; a map of some instants says so.
     fn status_panel(&self, time: Axis, range: (f64, f64), caption: &str) -> Option<Panel> {
-        let (body, record) = (&self.body, self.record);
+        let (body, record) = (&self.body, &self.solved.record);
         if body.is_assembly() {
             // Nodes of surfaces have no order along an edge.
             return None;
@@ -115,12 +116,13 @@ impl RecordedRun<'_> {
             let spectrum = amplitude_spectrum(end, rate, Window::Hann, 2).unwrap_or_default();
             (self.directions()[component], spectrum)
         };
-        let axial = self.record.axial_rows.get(probe).map(|_| 2);
+        let axial = self.solved.record.axial_rows.get(probe).map(|_| 2);
         let spectra: Vec<_> = [1, 0].into_iter().chain(axial).map(spectrum_of).collect();
         let spectra: Vec<_> = spectra.iter().map(|(name, own)| (*name, own)).collect();
         let caption =
             format!("Spectra of the accelerations of node {node} over the last fifth of the run.");
-        let frequencies = (self.highest_frequency(), self.analysis.last_fifth.main_frequency_hz);
+        let frequencies =
+            (self.highest_frequency(), self.solved.analysis.last_fifth.main_frequency_hz);
         let panel = spectrum_panel(&spectra, "m/s²", frequencies, &self.stage.references);
         Figure::new(format!("spectrum-{node}"), caption)
             .panel(panel.caption(format!("accelerations of node {node}")))
@@ -129,7 +131,7 @@ impl RecordedRun<'_> {
     /// Growth of the contact edge's vibration, all of it, beside the rate of the mode at its frequency; about the mean
     /// over the linear stage, which is steady sliding, or over the end of the run where there is none.
     fn growth_of_edge(&self, times: &[f64], stage: Option<f64>, window: (f64, f64)) -> Vec<Line> {
-        let (record, count) = (self.record, times.len());
+        let (record, count) = (&self.solved.record, times.len());
         let linear = match stage {
             Some(stage) => 0..times.partition_point(|&t| t <= stage).max(1),
             None => count - count.div_ceil(5)..count,
@@ -157,7 +159,7 @@ impl RecordedRun<'_> {
 
     /// Growth of the harmonics of the contact edge, beside the rates of the eigenvalue analysis.
     fn growth_of_harmonics(&self, times: &[f64], window: (f64, f64)) -> Vec<Line> {
-        let record = self.record;
+        let record = &self.solved.record;
         let amplitude = |n: usize| -> Vec<f64> {
             let parts = (0..times.len()).map(|sample| record.amplitude(sample, n));
             parts.map(|parts| parts.map_or(f64::NAN, |[a, b]| a.hypot(b))).collect()
@@ -180,8 +182,9 @@ impl RecordedRun<'_> {
     pub(super) fn growth(&self) -> Figure {
         let (times, has_harmonics) = (self.times(), self.has_harmonics);
         let (start, last) = ends(&times);
-        let has_stage = has_harmonics || self.analysis.growth.iter().any(|own| own.stage.is_ok());
-        let linear_end = self.analysis.first_nonlinearity.filter(|_| has_stage);
+        let has_stage =
+            has_harmonics || self.solved.analysis.growth.iter().any(|own| own.stage.is_ok());
+        let linear_end = self.solved.analysis.first_nonlinearity.filter(|_| has_stage);
         let end = linear_end.map_or(last, |end| last.min(start + SHOWN_STAGES * (end - start)));
         let stage = linear_end.unwrap_or(last);
         // What the start leaves behind has died out by a third of the stage.

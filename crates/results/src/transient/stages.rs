@@ -1,8 +1,9 @@
 //! The stages of a run.
 
+use super::SolvedTransient;
 use crate::charts::Stage;
 use frictionsim_chart::extremes;
-use frictionsim_physics::transient::{EndState, Recorder, SampleRow, TransientAnalysis};
+use frictionsim_physics::transient::{EndState, SampleRow};
 
 /// Part of a run below which a stage is none, as the instant before the first node of pressed pads sticks.
 const SHORTEST: f64 = 2e-3;
@@ -13,8 +14,8 @@ const SHORTEST: f64 = 2e-3;
 /// B begins where the strongest harmonic other than zero overtakes the vibration of harmonic zero (half its range over
 /// 0.5 ms), D where it stays within 2 % of its last value for good. A run that ends before a stage has the letters up
 /// to it; one without growth has none.
-pub(super) fn stages(record: &Recorder, analysis: &TransientAnalysis) -> Vec<Stage> {
-    let rows = &record.rows;
+pub(super) fn stages(run: &SolvedTransient) -> Vec<Stage> {
+    let (rows, analysis) = (&run.record.rows, &run.analysis);
     let size = |row: &SampleRow, n: usize| row.harmonics[n][0].hypot(row.harmonics[n][1]);
     let Some(last) = rows.last() else {
         return Vec::new();

@@ -1,6 +1,6 @@
 //! `summary.json` of a transient.
 
-use super::TransientReport;
+use super::RecordedRun;
 use crate::extent::Extent;
 use crate::summary::{MeanPowers, StatusFractions, present};
 use frictionsim_output::Described;
@@ -171,11 +171,11 @@ pub struct PlaceSummary {
 }
 
 /// The summary of a run.
-pub fn summary(report: &TransientReport<'_>) -> TransientSummary {
-    let (solved, plan, analysis) = (report.solved, &report.solved.plan, report.run.analysis);
+pub fn summary(run: &RecordedRun<'_>) -> TransientSummary {
+    let (solved, plan, analysis) = (run.solved, &run.solved.plan, &run.solved.analysis);
     let (end, settling) = (&analysis.last_fifth, &analysis.settling);
-    let body = end.material_damping * report.run.thickness;
-    let damping = Some(report.run.thickness * end.powers.damping);
+    let body = end.material_damping * run.thickness;
+    let damping = Some(run.thickness * end.powers.damping);
     let two = match settling.state {
         EndState::TwoFrequency(two) => Some(two),
         _ => None,
@@ -189,9 +189,9 @@ pub fn summary(report: &TransientReport<'_>) -> TransientSummary {
         stability_limit_s: plan.limit,
         largest_frequency_rad_per_s: plan.largest_frequency,
         operator: solved.operator.to_owned(),
-        initial: report.settings.initial.name().to_owned(),
-        perturbation: PerturbationSummary::of(&report.settings.perturbation),
-        element_steps_per_s: report.element_steps_per_second(),
+        initial: run.settings.initial.name().to_owned(),
+        perturbation: PerturbationSummary::of(&run.settings.perturbation),
+        element_steps_per_s: run.element_steps_per_second(),
         max_balance_residual: analysis.largest_residual,
         settled: settling.is_settled(),
         settled_from_s: settling.from,
@@ -205,20 +205,20 @@ pub fn summary(report: &TransientReport<'_>) -> TransientSummary {
         main_amplitude_m: end.main_amplitude,
         status: StatusFractions::of(end.status),
         power_w: MeanPowers {
-            contact_damping: damping.filter(|_| report.run.record.has_contact_springs()),
-            ..MeanPowers::of(&end.powers.scaled(report.run.thickness), body)
+            contact_damping: damping.filter(|_| run.solved.record.has_contact_springs()),
+            ..MeanPowers::of(&end.powers.scaled(run.thickness), body)
         },
-        extent: report.run.extent,
-        ambiguous_friction: report.run.record.ambiguous_share(),
-        unconverged_steps: Some(report.run.record.unconverged_steps).filter(|steps| *steps > 0),
-        harmonics: if report.run.has_harmonics { end.harmonics.to_vec() } else { Vec::new() },
+        extent: run.extent,
+        ambiguous_friction: run.solved.record.ambiguous_share(),
+        unconverged_steps: Some(run.solved.record.unconverged_steps).filter(|steps| *steps > 0),
+        harmonics: if run.has_harmonics { end.harmonics.to_vec() } else { Vec::new() },
         significant_harmonics_m: significant.collect(),
         growth: analysis.growth.iter().filter_map(growth).collect(),
         no_growth: no_growth(analysis),
         first_nonlinearity_s: analysis.first_nonlinearity,
-        probes: probes(report),
-        contact_interval_s: report.run.record.frame_stride as f64 * plan.sample_interval,
-        notes: report.notes.clone(),
+        probes: probes(run),
+        contact_interval_s: run.solved.record.frame_stride as f64 * plan.sample_interval,
+        notes: run.notes.clone(),
     }
 }
 
@@ -243,14 +243,14 @@ fn no_growth(analysis: &TransientAnalysis) -> BTreeMap<String, String> {
     reasons.collect()
 }
 
-fn probes(report: &TransientReport<'_>) -> BTreeMap<String, ProbeSummary> {
-    let motions = report.run.analysis.last_fifth.probes.iter().enumerate();
+fn probes(run: &RecordedRun<'_>) -> BTreeMap<String, ProbeSummary> {
+    let motions = run.solved.analysis.last_fifth.probes.iter().enumerate();
     motions
         .map(|(probe, motion)| {
-            let node = report.run.record.probes[probe] - 1;
-            let mut places = report.places.iter();
+            let node = run.solved.record.probes[probe] - 1;
+            let mut places = run.places.iter();
             let place = places.find(|place| place.0 == node).map(|&(_, asked_m)| {
-                let [x, y, _] = report.run.body.position(node);
+                let [x, y, _] = run.body.position(node);
                 PlaceSummary { asked_m, at_m: [x, y] }
             });
             let summary = ProbeSummary {
@@ -259,7 +259,7 @@ fn probes(report: &TransientReport<'_>) -> BTreeMap<String, ProbeSummary> {
                 tangential: motion[1],
                 axial: motion.get(2).copied(),
             };
-            (report.run.probe_label(probe).to_string(), summary)
+            (run.probe_label(probe).to_string(), summary)
         })
         .collect()
 }

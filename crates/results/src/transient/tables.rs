@@ -40,7 +40,7 @@ columns! {
 
 /// Tables and sentences of a run; beside its growth that of the eigenvalue analysis, where there is one.
 pub fn document(run: &RecordedRun<'_>, summary: &TransientSummary) -> Document {
-    let state = run.analysis.settling.state;
+    let state = run.solved.analysis.settling.state;
     let heading = match state {
         EndState::LimitCycle => "Limit cycle",
         EndState::TwoFrequency(_) => "Vibration of two frequencies",

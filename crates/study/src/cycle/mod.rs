@@ -29,8 +29,8 @@ use families::{Sought, continuation, critical_value, next_onset, solvers};
 use frictionsim_case::{Case, Cycle, StabilityChoice};
 use frictionsim_physics::cycle::periodic::MotionFrame;
 use frictionsim_physics::cycle::{
-    CycleError, CycleSolver, Family, FloquetMultipliers, LimitCycle, MODES, MeshStepping, Onset,
-    OperatingPoint, Parameter,
+    CycleError, CycleSolver, Family, LimitCycle, MODES, MeshStepping, Onset, OperatingPoint,
+    Parameter,
 };
 use frictionsim_physics::fem::lumped_masses;
 use frictionsim_physics::fem::operator::SimdLevel;
@@ -198,7 +198,12 @@ impl<'a> CycleStudy<'a> {
     fn step(&self, stepping: &MeshStepping<'_>, found: &mut FoundWave) {
         let (choice, periods) = (self.choices.stability, self.choices.confirmation_periods);
         if choice != StabilityChoice::None {
-            found.stability = Some(settle(stepping, &mut found.cycle));
+            let settled = stepping.settle(&found.cycle, None).map_err(|error| error.to_string());
+            // The powers and fractions of the cycle become those of the transient.
+            found.stability = Some(settled.map(|settled| {
+                found.cycle = settled.cycle;
+                settled.stability
+            }));
         }
         let known = known(&found.stability);
         found.confirmation = (periods > 0)
@@ -245,16 +250,6 @@ pub fn refuse_nothing(found: &CycleSummary) -> Result<(), StudyError> {
 /// Where a case stands among the limit cycles of its disc.
 pub fn operating_point(case: &Case) -> OperatingPoint {
     OperatingPoint { contact: case.contact.sliding, damping: case.damping.rayleigh }
-}
-
-/// Stability of a cycle; its powers and fractions become those of the transient.
-fn settle(
-    stepping: &MeshStepping<'_>,
-    cycle: &mut LimitCycle,
-) -> Result<FloquetMultipliers, String> {
-    let settled = stepping.settle(cycle, None).map_err(|e| e.to_string())?;
-    *cycle = settled.cycle;
-    Ok(settled.stability)
 }
 
 /// The whole field, given for a time, at `count` times over one period (s).

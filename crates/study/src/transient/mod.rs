@@ -36,7 +36,7 @@ use frictionsim_physics::transient::{
     TransientError, TransientModel, TransientSettings,
 };
 use frictionsim_results::Head;
-use frictionsim_results::transient::{LinearStage, RecordedRun, SolvedTransient, TransientReport};
+use frictionsim_results::transient::{LinearStage, RecordedRun, SolvedTransient};
 use std::time::Instant;
 
 /// A case made ready for the time loop.
@@ -174,24 +174,20 @@ impl<'a> TransientStudy<'a> {
     }
 
     /// What there is to report of a run that took so long altogether, s.
-    pub fn report<'b>(&'b self, solved: &'b SolvedTransient, wall_s: f64) -> TransientReport<'b> {
+    pub fn report<'b>(&'b self, solved: &'b SolvedTransient, wall_s: f64) -> RecordedRun<'b> {
         let case = self.case;
         let places = case.output.placed_probes.iter();
-        TransientReport {
+        RecordedRun {
             head: Head::of(&case.title, wall_s),
             solved,
-            run: RecordedRun {
-                record: &solved.record,
-                analysis: &solved.analysis,
-                body: self.stepped.shown(),
-                interface: self.body().interface(),
-                material: case.materials_in_time(),
-                has_harmonics: case.body.has_sectors(),
-                thickness: case.depth(),
-                extent: extent_of(case),
-                peripheral_speed: self.shown_speed(),
-                stage: LinearStage::default(),
-            },
+            body: self.stepped.shown(),
+            interface: self.body().interface(),
+            material: case.materials_in_time(),
+            has_harmonics: case.body.has_sectors(),
+            thickness: case.depth(),
+            extent: extent_of(case),
+            peripheral_speed: self.shown_speed(),
+            stage: LinearStage::default(),
             friction_coefficient: case.contact.sliding.friction_coefficient,
             settings: &self.settings,
             places: places.map(|place| (place.node, [place.asked[0], place.asked[1]])).collect(),
