@@ -1,6 +1,6 @@
 //! Branches of limit cycles over a parameter: their rows, what is kept of them for figures, and what is said of them.
 
-use super::record::{CycleMotion, SteppedMotion};
+use super::record::CycleMotion;
 use crate::extent::Extent;
 use crate::summary::MeanPowers;
 use frictionsim_chart::extremes;
@@ -16,17 +16,14 @@ pub(crate) struct BranchRow {
     /// Circumferential harmonic of a wave.
     pub harmonic: Option<usize>,
     pub motion: CycleMotion,
+    /// What a motion of the whole mesh misses its start by, and periods stepped to find it.
+    pub residual: Option<f64>,
+    pub periods: Option<usize>,
     /// Growth rate of the leading perturbation, 1/s, where it is known.
     pub growth_rate: Option<f64>,
     pub verdict: Option<Verdict>,
     /// Whether the branch turns back here, of motions of the whole mesh.
     pub is_fold: Option<bool>,
-}
-
-impl BranchRow {
-    fn stepped(&self) -> Option<&SteppedMotion> {
-        self.motion.stepped.as_ref()
-    }
 }
 
 columns! {
@@ -49,9 +46,9 @@ columns! {
     stability: "stable, unstable or undecided, where it was asked for"
         = row.verdict.map(Verdict::word);
     residual: "what the motion misses its start by, of motions of the whole mesh"
-        = row.stepped().map(|own| own.residual);
+        = row.residual;
     periods: "periods stepped to find it, of motions of the whole mesh"
-        = row.stepped().map(|own| own.periods);
+        = row.periods;
     fold: "whether the branch turns back here, of motions of the whole mesh"
         = row.is_fold;
 }

@@ -53,26 +53,6 @@ pub struct MotionBody<'a> {
 }
 
 impl MotionBody<'_> {
-    /// What a motion is, told in so many harmonics.
-    fn motion(&self, motion: &PeriodicMotion, harmonic_count: usize) -> CycleMotion {
-        let mut told = motion.harmonics.iter().take(harmonic_count);
-        CycleMotion {
-            harmonics: told.clone().map(|harmonic| harmonic.amplitude[1]).collect(),
-            stepped: Some(SteppedMotion {
-                residual: motion.residual,
-                periods: motion.periods,
-                steps: motion.steps,
-                contact_node: label(&self.shown, self.interface, motion.node),
-                kick_velocity: None,
-                sound: None,
-                harmonic_count,
-                harmonic_remainder: told.next_back().map_or(1.0, |last| last.remainder),
-                harmonics_needed: motion.harmonics_within(REMAINDER),
-            }),
-            ..CycleMotion::of(motion, self.thickness)
-        }
-    }
-
     fn branch(&self, branch: &PeriodicBranch) -> BranchSummary {
         let in_units = |value: f64| branch.parameter.in_key_units(value);
         let coexistence = branch.coexistence().into_iter();
@@ -80,11 +60,12 @@ impl MotionBody<'_> {
         let rows = branch.motions.iter().map(|own| BranchRow {
             value: in_units(own.value),
             harmonic: None,
-            // The histories and harmonics of a branch are not kept.
             motion: CycleMotion {
                 balance_residual: own.motion.powers.scaled(self.thickness).balance_residual(),
-                ..self.motion(&own.motion, 0)
+                ..CycleMotion::of(&own.motion, self.thickness)
             },
+            residual: Some(own.motion.residual),
+            periods: Some(own.motion.periods),
             growth_rate: own.growth_rate(),
             verdict: known(&own.stability).map(FloquetMultipliers::verdict),
             is_fold: Some(own.is_fold),
@@ -125,11 +106,6 @@ impl FoundCycle {
     /// What is reported of it, with the kick that tips stable sliding into it.
     fn told(self, body: &MotionBody<'_>, sought: SoughtCycle) -> SoughtCycle {
         let branch = self.branch.as_ref().map(|branch| body.branch(branch));
-        let mut cycle = body.motion(&self.motion, self.harmonic_count);
-        if let Some(stepped) = &mut cycle.stepped {
-            stepped.kick_velocity = branch.as_ref().and_then(|branch| Some(branch.threshold?[1]));
-            stepped.sound = self.sound;
-        }
         let confirmation = self.confirmation.as_ref().map(|run| {
             let agrees = run.agrees_with(&self.motion);
             ConfirmationSummary::ran(run, agrees, body.thickness)
@@ -138,7 +114,25 @@ impl FoundCycle {
             found.multipliers.iter().map(|own| (None, Perturbation::of(own))).collect()
         });
         let mut motion = self.motion;
+        let harmonics_needed = motion.harmonics_within(REMAINDER);
+        // What is left are the harmonics in which it is told.
         motion.harmonics.truncate(self.harmonic_count);
+        let stepped = SteppedMotion {
+            residual: motion.residual,
+            periods: motion.periods,
+            steps: motion.steps,
+            contact_node: label(&body.shown, body.interface, motion.node),
+            kick_velocity: branch.as_ref().and_then(|branch| Some(branch.threshold?[1])),
+            sound: self.sound,
+            harmonic_count: self.harmonic_count,
+            harmonic_remainder: motion.harmonics.last().map_or(1.0, |last| last.remainder),
+            harmonics_needed,
+        };
+        let cycle = CycleMotion {
+            harmonics: motion.harmonics.iter().map(|own| own.amplitude[1]).collect(),
+            stepped: Some(stepped),
+            ..CycleMotion::of(&motion, body.thickness)
+        };
         SoughtCycle {
             cycle: Some(cycle),
             confirmation,
