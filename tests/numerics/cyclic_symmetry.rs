@@ -1,8 +1,8 @@
 //! Bodies from a mesh of one of their sectors, solved by waves around them, against their whole mesh.
 
 use crate::prelude::*;
+use frictionsim::results::Page;
 use frictionsim::results::cea::{self, View};
-use frictionsim::results::report::Report;
 use frictionsim::study::eigenvalues::{self, Solution};
 use frictionsim::study::uncertainty::Sampler;
 
@@ -241,7 +241,7 @@ fn every_table_of_a_body_of_sectors_has_its_nodal_diameters_and_samples_have_its
     let reading = solution.reading.as_ref().unwrap();
     assert!(reading.contributions.iter().all(|row| row.mode.harmonic.is_some()));
     // The page says what the terminal says.
-    let page = Report::of(cea::document(&report, View::Page), Vec::new(), &manifest).to_html();
+    let page = Page::new(cea::document(&report, View::Page), Vec::new(), &manifest).to_html(&[]);
     assert_eq!(page.matches(">n</th>").count(), 2, "{page}");
     // Samples.
     let lowest = intervals.iter().map(|own| (own.critical_friction, own.nodal_diameters));

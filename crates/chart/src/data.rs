@@ -1,56 +1,22 @@
 //! The numbers behind a figure, for readers who can do more than look: zoom, values under the pointer, tables, motion.
 
 use super::colour::Colour;
-use super::motion::Motion;
 use super::ruler::Ruler;
-use super::text::plain;
 use serde::{Deserialize, Serialize};
 
-/// Everything of a figure that a page with scripts can show besides the drawing.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct FigureData {
-    /// Its panels, in reading order.
-    pub panels: Vec<PanelData>,
-    /// A body that moves.
-    pub motion: Option<Motion>,
-    /// A parameter that moves points of the first panel.
-    pub steps: Option<Steps>,
-}
-
 /// The numbers of a panel.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct PanelData {
     /// What it shows, in plain text.
     pub caption: String,
     /// Horizontal and vertical axis.
-    pub axes: [AxisData; 2],
+    pub axes: [Ruler; 2],
     /// Curves, points, fields in the order of their layers.
     pub series: Vec<Series>,
     /// Lines across the panel: whether each lies at an ordinate, else at an abscissa, and where.
     pub rules: Vec<(bool, f64)>,
     /// Texts at places, plain.
     pub labels: Vec<(f64, f64, String)>,
-}
-
-/// An axis as it is drawn.
-#[derive(Clone, Debug, PartialEq)]
-pub struct AxisData {
-    /// Quantity and unit, in plain text.
-    pub title: String,
-    /// Whether it is logarithmic.
-    pub is_logarithmic: bool,
-    /// Its ends in the unit shown.
-    pub ends: [f64; 2],
-}
-
-impl AxisData {
-    pub(super) fn of(ruler: &Ruler) -> Self {
-        Self {
-            title: plain(&ruler.title),
-            is_logarithmic: ruler.is_logarithmic(),
-            ends: [ruler.low, ruler.high],
-        }
-    }
 }
 
 /// How a series is shown.
@@ -99,13 +65,6 @@ impl Series {
         let (xs, ys) = points.into_iter().unzip();
         let (name, rows, tips) = (String::new(), Vec::new(), Vec::new());
         Self { name, kind, colour, xs, ys, values: None, rows, tips, is_whole: false }
-    }
-}
-
-/// By what its numbers say: gaps, which are not numbers, equal each other.
-impl PartialEq for Series {
-    fn eq(&self, other: &Self) -> bool {
-        format!("{self:?}") == format!("{other:?}")
     }
 }
 

@@ -50,7 +50,7 @@ mod text;
 
 pub use axis::Axis;
 pub use colour::{Colour, ColourMap, GRID, INK, MUTED, SERIES};
-pub use data::{AxisData, FigureData, Mark, PanelData, Series, SeriesKind, Steps};
+pub use data::{Mark, PanelData, Series, SeriesKind, Steps};
 pub use decimation::{WIDEST, keep_extremes};
 pub use field::{Cell, Field, Mesh};
 pub use figure::Figure;

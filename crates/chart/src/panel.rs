@@ -3,7 +3,7 @@
 use super::axis::Axis;
 use super::colour::{Colour, INK, MUTED};
 use super::colour_bar::{Colours, FLAT_BAR_HEIGHT};
-use super::data::{AxisData, PanelData, Series};
+use super::data::{PanelData, Series};
 use super::frame::{
     Frame, LABEL_SIZE, TICK, TITLE_SIZE, draw_grid, draw_x_axis, draw_y_axis, vertical_count,
 };
@@ -163,13 +163,8 @@ impl Panel {
                 _ => {}
             }
         }
-        PanelData {
-            caption: title.join(", "),
-            axes: [AxisData::of(&x), AxisData::of(&y)],
-            series: self.layers.iter().flat_map(|layer| layer.series()).map(shown).collect(),
-            rules,
-            labels,
-        }
+        let series = self.layers.iter().flat_map(|layer| layer.series()).map(shown).collect();
+        PanelData { caption: title.join(", "), series, rules, labels, axes: [x, y] }
     }
 
     /// Legend entries of what is seen in a frame.

@@ -17,11 +17,15 @@ pub struct Tick {
 /// An axis with its title, which states the unit, and its range in that unit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Ruler {
-    pub(super) title: String,
-    pub(super) scale: Scale,
+    /// Quantity and unit, in mark-up.
+    pub title: String,
+    /// Whether equal steps are equal ratios.
+    pub scale: Scale,
     factor: f64,
-    pub(super) low: f64,
-    pub(super) high: f64,
+    /// Its lower end in the unit shown.
+    pub low: f64,
+    /// Its upper end.
+    pub high: f64,
     fixed_ticks: Option<Vec<Tick>>,
 }
 
@@ -55,12 +59,8 @@ impl Ruler {
     }
 
     /// A value in the unit shown.
-    pub(super) fn shown(&self, value: f64) -> f64 {
+    pub fn shown(&self, value: f64) -> f64 {
         value * self.factor
-    }
-
-    pub(super) fn is_logarithmic(&self) -> bool {
-        self.scale == Scale::Logarithmic
     }
 
     /// The ends in the unit of the data.

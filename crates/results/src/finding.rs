@@ -1,7 +1,8 @@
 //! What a command found: its document and figures become the files of its folder.
 
-use super::drawing::{Declaration, DrawingError, DrawingOptions, Page};
+use super::drawing::{Declaration, DrawingError, DrawingOptions};
 use super::record::write_record;
+use super::report::Page;
 use super::{FolderError, OutputFolder};
 use frictionsim_chart::Figure;
 use frictionsim_output::{Document, Table};

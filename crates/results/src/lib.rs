@@ -20,7 +20,7 @@ mod npz;
 mod parameter;
 mod pvd;
 pub mod reference;
-pub mod report;
+mod report;
 mod response;
 mod shown_body;
 pub mod signal;
@@ -37,10 +37,11 @@ use distinct::distinct;
 use store::{folder, framed, manifest, record, reopening, whole_file};
 
 pub use distinct::number_ranges;
-pub use drawing::{DOTS_PER_INCH, DrawingError, DrawingOptions, Format, Page, declared};
+pub use drawing::{DOTS_PER_INCH, DrawingError, DrawingOptions, Format, declared};
 pub use extent::Extent;
 pub use finding::{Finding, write_page, write_table, write_tables};
 pub use pvd::{PvdEntry, write_pvd};
+pub use report::Page;
 pub use response::{ResponseSummary, response_figure, write_response, write_universal_response};
 pub use shown_body::{BodyStress, ShownBody};
 pub use store::{

@@ -4,8 +4,8 @@ use super::ComparedRun;
 use crate::distinct;
 use crate::drawing::{Declaration, declared};
 use frictionsim_chart::{
-    Axis, Figure, INK, Line, Marker, Panel, PanelData, Points, Scale, Series, SeriesKind, Stroke,
-    literal, look,
+    Axis, Figure, INK, Line, Marker, Panel, PanelData, Points, Series, SeriesKind, Stroke, literal,
+    look, plain,
 };
 
 /// Most curves of one panel that are told apart.
@@ -26,7 +26,7 @@ pub fn overlaid(runs: &[ComparedRun]) -> Vec<Figure> {
     let figures = runs.iter().enumerate().flat_map(|(run, own)| {
         let figures = own.page.iter().flat_map(|page| &page.figures);
         figures.map(move |figure| {
-            let mut panels = figure.data().panels;
+            let mut panels = figure.numbers();
             panels.iter_mut().for_each(|panel| panel.series.retain(is_curve));
             Curves { run, title: &own.name, name: &figure.name, panels }
         })
@@ -63,16 +63,17 @@ fn figure_of(name: &str, figures: &[Curves<'_>]) -> Option<Figure> {
 }
 
 fn is_alike(one: &PanelData, other: &PanelData) -> bool {
-    let titles = |panel: &PanelData| panel.axes.clone().map(|axis| axis.title);
+    let titles = |panel: &PanelData| [0, 1].map(|k| plain(&panel.axes[k].title));
     titles(one) == titles(other) && !one.series.is_empty()
 }
 
 fn panel_of(panel: &PanelData, runs: &[(usize, &str, &PanelData)]) -> Panel {
     let axis = |k: usize| {
-        let ends = runs.iter().map(|(_, _, own)| own.axes[k].ends);
-        let ends = ends.reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])]).unwrap_or([0.0, 1.0]);
-        let scale = if panel.axes[k].is_logarithmic { Scale::Logarithmic } else { Scale::Linear };
-        Axis::new(&literal(&panel.axes[k].title), "").scaled(scale).between(ends[0], ends[1])
+        let ruler = &panel.axes[k];
+        let ends = runs.iter().map(|(_, _, own)| (own.axes[k].low, own.axes[k].high));
+        let ends = ends.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)));
+        let (low, high) = ends.unwrap_or((0.0, 1.0));
+        Axis::new(&literal(&plain(&ruler.title)), "").scaled(ruler.scale).between(low, high)
     };
     let mut out = Panel::new(axis(0), axis(1)).height(150.0).legend();
     if !panel.caption.is_empty() {

@@ -1,7 +1,7 @@
 //! The report as an HTML document.
 
-use super::{NamedFigure, Report, script};
-use frictionsim_chart::{ID_PREFIX, escape};
+use super::{Page, script};
+use frictionsim_chart::{Figure, ID_PREFIX, escape};
 use frictionsim_output::{Section, Table};
 use std::fmt::Write;
 
@@ -11,10 +11,20 @@ const STYLE: &str = include_str!("style.css");
 const POLICY: &str = "default-src 'none'; img-src data:; media-src data:; style-src 'unsafe-inline'; \
                       script-src 'unsafe-inline'";
 
-impl Report {
-    /// The report as one HTML document.
-    pub fn to_html(&self) -> String {
-        let title = if self.title.is_empty() { &self.manifest.case_file } else { &self.title };
+/// A part of the page, and its figures with their drawings.
+type Part<'a> = (Section, Vec<(&'a Figure, &'a String)>);
+
+impl Page {
+    /// The page as one HTML document, with the drawings of its figures.
+    ///
+    /// It needs no network and no other file: drawings are inline, and so are the scripts that let a reader zoom, sort,
+    /// animate and listen. Every number and every drawing is there without them.
+    pub fn to_html(&self, drawings: &[String]) -> String {
+        let title = match self.document.title.as_str() {
+            "" => self.manifest.case_file.as_str(),
+            title => title,
+        };
+        let parts = self.parts(drawings);
         let mut out = String::new();
         let _ = write!(
             out,
@@ -33,18 +43,41 @@ impl Report {
                 self.manifest.case_file
             ))
         );
-        self.write_contents(&mut out);
+        self.write_contents(&mut out, &parts);
         out.push_str("<main>\n");
         let mut figures = 0;
-        for (index, section) in self.sections.iter().enumerate() {
-            write_section(&mut out, (index, &section.0), &section.1, &mut figures);
+        for (index, part) in parts.iter().enumerate() {
+            write_section(&mut out, index, part, &mut figures);
         }
         self.write_origin(&mut out);
         out.push_str("</main>\n");
-        let figures = self.sections.iter().flat_map(|section| &section.1);
-        script::write(&mut out, figures);
+        script::write(&mut out, parts.iter().flat_map(|part| &part.1).map(|own| own.0));
         out.push_str("</body>\n</html>\n");
         out
+    }
+
+    /// The parts that say something: each figure stands in the first one that names the beginning of its name, notes
+    /// in the first.
+    fn parts<'a>(&'a self, drawings: &'a [String]) -> Vec<Part<'a>> {
+        let mut figures: Vec<_> = self.figures.iter().zip(drawings).collect();
+        let mut notes = self.document.notes.clone();
+        let part = |section: &Section| {
+            let mut section = section.clone();
+            let is_own = |(figure, _): &(&Figure, &String)| {
+                section.figures.iter().any(|name| figure.name.starts_with(name))
+            };
+            let (own, others) = std::mem::take(&mut figures).into_iter().partition(is_own);
+            figures = others;
+            section.text.append(&mut notes);
+            section.text.append(&mut section.aside);
+            (section, own)
+        };
+        let says = |(section, own): &Part<'_>| {
+            let has_rows = section.tables.iter().any(|table| !table.shown().1.is_empty());
+            let has_words = !section.text.is_empty() || !section.facts.is_empty();
+            has_words || has_rows || !own.is_empty()
+        };
+        self.document.sections.iter().map(part).filter(says).collect()
     }
 
     /// Whether it is made from a case, or else from a table of measurements.
@@ -61,10 +94,10 @@ impl Report {
         }
     }
 
-    fn write_contents(&self, out: &mut String) {
+    fn write_contents(&self, out: &mut String, parts: &[Part<'_>]) {
         out.push_str("<nav aria-label=\"Contents\">\n<ul>\n");
-        for (index, section) in self.sections.iter().enumerate() {
-            let heading = escape(&section.0.heading);
+        for (index, (section, _)) in parts.iter().enumerate() {
+            let heading = escape(&section.heading);
             let _ = writeln!(out, "<li><a href=\"#section-{}\">{heading}</a></li>", index + 1);
         }
         if self.has_case() {
@@ -119,12 +152,7 @@ fn write_paragraph(out: &mut String, text: &str) {
     };
 }
 
-fn write_section(
-    out: &mut String,
-    (index, section): (usize, &Section),
-    drawn: &[NamedFigure],
-    figures: &mut usize,
-) {
+fn write_section(out: &mut String, index: usize, (section, drawn): &Part<'_>, figures: &mut usize) {
     // The numbers that decide are set as a box.
     let is_box = !section.facts.is_empty();
     let _ = write!(
@@ -149,9 +177,9 @@ fn write_section(
     if is_first {
         section.tables.iter().for_each(|table| write_table(out, table));
     }
-    for figure in drawn {
+    for (figure, drawing) in drawn {
         *figures += 1;
-        write_figure(out, *figures, figure);
+        write_figure(out, *figures, figure, drawing);
     }
     if !is_first {
         section.tables.iter().for_each(|table| write_table(out, table));
@@ -159,7 +187,7 @@ fn write_section(
     out.push_str("</section>\n");
 }
 
-fn write_figure(out: &mut String, number: usize, figure: &NamedFigure) {
+fn write_figure(out: &mut String, number: usize, figure: &Figure, drawing: &str) {
     // Two drawings of one kind carry the same ids; on one page each needs its own.
     let own = format!("{ID_PREFIX}{number}-");
     let _ = write!(
@@ -168,7 +196,7 @@ fn write_figure(out: &mut String, number: usize, figure: &NamedFigure) {
         {number}\" tabindex=\"0\">\n{}</div>\n\
          <figcaption><b>Figure {number}.</b> {}</figcaption>\n</figure>\n",
         escape(&figure.name),
-        figure.svg.replace(ID_PREFIX, &own),
+        drawing.replace(ID_PREFIX, &own),
         escape(&figure.caption)
     );
 }

@@ -1,9 +1,9 @@
 //! Data of the report's scripts: the numbers of every figure as JSON and one packed block.
 
-use super::NamedFigure;
 use super::numbers::Numbers;
 use frictionsim_chart::{
-    AxisData, Mark, Motion, MotionKind, PanelData, Series, SeriesKind, Steps, keep_extremes,
+    Figure, Mark, Motion, MotionKind, PanelData, Ruler, Scale, Series, SeriesKind, Steps,
+    keep_extremes, plain,
 };
 use serde_json::{Value, json};
 use std::fmt::Write;
@@ -25,7 +25,7 @@ const LONGEST_SIGNAL: usize = 1 << 14;
 const LONGEST_HEARD: usize = 1 << 16;
 
 /// Writes the numbers of the figures and the scripts.
-pub fn write<'a>(out: &mut String, figures: impl Iterator<Item = &'a NamedFigure>) {
+pub fn write<'a>(out: &mut String, figures: impl Iterator<Item = &'a Figure>) {
     let mut numbers = Numbers::default();
     let figures: Vec<Value> = figures.map(|figure| of_figure(figure, &mut numbers)).collect();
     let (arrays, block) = numbers.finish();
@@ -42,20 +42,24 @@ pub fn write<'a>(out: &mut String, figures: impl Iterator<Item = &'a NamedFigure
     out.push_str("</script>\n");
 }
 
-fn of_figure(figure: &NamedFigure, numbers: &mut Numbers) -> Value {
-    let data = &figure.data;
-    let panels = data.panels.iter().map(|panel| of_panel(panel, numbers));
-    let panels: Vec<Value> = panels.collect();
+fn of_figure(figure: &Figure, numbers: &mut Numbers) -> Value {
+    let shown = figure.numbers();
+    let panels: Vec<Value> = shown.iter().map(|panel| of_panel(panel, numbers)).collect();
+    let steps = figure.steps.as_ref().zip(shown.first());
     json!({
         "name": figure.name,
         "panels": panels,
-        "motion": data.motion.as_ref().map(|motion| of_motion(motion, numbers)),
-        "steps": data.steps.as_ref().map(of_steps),
+        "motion": figure.motion.as_ref().map(|motion| of_motion(motion, numbers)),
+        "steps": steps.map(|(steps, panel)| of_steps(steps, &panel.axes)),
     })
 }
 
 fn of_panel(panel: &PanelData, numbers: &mut Numbers) -> Value {
-    let axis = |axis: &AxisData| json!({ "title": axis.title, "log": axis.is_logarithmic, "ends": axis.ends });
+    let axis = |ruler: &Ruler| {
+        let is_logarithmic = ruler.scale == Scale::Logarithmic;
+        let ends = [ruler.low, ruler.high];
+        json!({ "title": plain(&ruler.title), "log": is_logarithmic, "ends": ends })
+    };
     let series = panel.series.iter().map(|series| of_series(series, numbers));
     let series: Vec<Value> = series.collect();
     let [x, y] = &panel.axes;
@@ -130,8 +134,11 @@ fn thinned(series: &Series) -> ((Vec<f64>, Vec<f64>), bool) {
     (strided(count.div_ceil(MOST_POINTS)), false)
 }
 
-fn of_steps(steps: &Steps) -> Value {
-    let of = |mark: &Mark| json!([mark.place.0, mark.place.1, mark.name, mark.is_listed]);
+fn of_steps(steps: &Steps, [x, y]: &[Ruler; 2]) -> Value {
+    let of = |mark: &Mark| {
+        let place = [x.shown(mark.place.0), y.shown(mark.place.1)];
+        json!([place[0], place[1], mark.name, mark.is_listed])
+    };
     let marks: Vec<Vec<Value>> =
         steps.marks.iter().map(|marks| marks.iter().map(of).collect()).collect();
     json!({ "quantity": steps.quantity, "values": steps.values, "marks": marks })
