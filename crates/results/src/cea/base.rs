@@ -213,7 +213,7 @@ impl BaseField {
         let mut fields = vec![body.vectors("displacement_m", &self.displacement)];
         if body.is_assembly() {
             let around = |name: &str, value| {
-                Field::scalars(name, self.around_nodes(body.mesh.node_count(), value))
+                Field::scalars(name, or_zero(self.around_nodes(body.mesh.node_count(), value)))
             };
             fields.push(around("pressure_pa", |own| own.pressure));
             fields.push(around("shear_pa", |own| own.shear));
@@ -242,12 +242,10 @@ impl BaseField {
         Field::contact(count, &nodes, statuses, tractions)
     }
 
-    /// Mean over the contact points around each node, weighted by area and share.
+    /// Mean over the contact points around each node, weighted by area and share; NaN where there is none.
     pub(super) fn around_nodes(&self, count: usize, value: fn(&ContactState) -> f64) -> Vec<f64> {
         let all = self.contact.iter().map(|own| (&own.place, value(own)));
-        let sums = sums_around(count, all, |value, area, share| area * share * value);
-        let mean = |[sum, area]: [f64; 2]| if area > 0.0 { sum / area } else { 0.0 };
-        sums.into_iter().map(mean).collect()
+        means_around(count, all, |value, area, share| area * share * value)
     }
 }
 
@@ -256,12 +254,18 @@ pub(super) fn closed_share(own: &ContactState) -> f64 {
     f64::from(u8::from(own.is_pressed))
 }
 
-/// Sums over the contact points around each node, of what each has there by its value, area and share, and of the area.
-pub(super) fn sums_around<'a>(
+/// Zero where there is no contact point.
+pub(super) fn or_zero(means: Vec<f64>) -> Vec<f64> {
+    means.into_iter().map(|mean| if mean.is_nan() { 0.0 } else { mean }).collect()
+}
+
+/// Sums over the contact points around each node, of what each has there by its value, area and share, over that of the
+/// area; NaN where there is none.
+pub(super) fn means_around<'a>(
     count: usize,
     points: impl Iterator<Item = (&'a ContactPlace, f64)>,
     term: fn(f64, f64, f64) -> f64,
-) -> Vec<[f64; 2]> {
+) -> Vec<f64> {
     let mut sums = vec![[0.0; 2]; count];
     for (place, value) in points {
         for &(node, share) in &place.shares {
@@ -271,5 +275,6 @@ pub(super) fn sums_around<'a>(
             sum[1] += place.area * share.abs();
         }
     }
-    sums
+    let mean = |[sum, area]: [f64; 2]| if area > 0.0 { sum / area } else { f64::NAN };
+    sums.into_iter().map(mean).collect()
 }

@@ -37,7 +37,6 @@ fn of_pair((harmonic, branch, direction): Branch) -> Option<String> {
 fn of_modes(report: &CeaReport<'_>, interval: &UnstableInterval) -> Option<String> {
     let branch = branch_of(interval);
     let all = branches(&report.solution.sweep);
-    let numbers = report.mode_numbers();
     let is_here = |mode: &&ComplexMode| mode.branch == interval.branch;
     let is_behind = |point: &&FrictionPoint| {
         point.friction_coefficient >= interval.critical_friction
@@ -60,11 +59,11 @@ fn of_modes(report: &CeaReport<'_>, interval: &UnstableInterval) -> Option<Strin
     rises(own).filter(|rise| *rise > 0.0)?;
     let name = |mode: &ComplexMode| {
         let frequency = fixed(mode.frequency_hz(), 1);
-        format!("{} ({frequency} Hz)", report.branch_name(branch_of_mode(mode), &numbers))
+        format!("{} ({frequency} Hz)", report.branch_name(branch_of_mode(mode)))
     };
     Some(format!(
         "{}: at friction {} it lies beside {}, which loses what it gains: these two couple.",
-        report.branch_name(branch, &numbers),
+        report.branch_name(branch),
         point.friction_coefficient,
         name(partner)
     ))

@@ -1,6 +1,6 @@
 //! Where on the contact surfaces friction feeds the unstable modes: `feed.csv`, `feed.vtu` and a figure.
 
-use super::base::{ContactPlace, sums_around};
+use super::base::{ContactPlace, means_around, or_zero};
 use super::mode_name::{ModeName, NUMBERS};
 use super::{BaseField, CeaReport};
 use crate::charts::SolidView;
@@ -56,9 +56,7 @@ pub(super) fn write(
     let whole = report.body.whole();
     let fields = modes.iter().map(|own| {
         let name = format!("mode_{}_growth_rate_per_s_m2", own.mode.mode);
-        let mut values = own.around_nodes(field, whole.node_count());
-        values.iter_mut().filter(|v| v.is_nan()).for_each(|v| *v = 0.0);
-        Field::scalars(&name, values)
+        Field::scalars(&name, or_zero(own.around_nodes(field, whole.node_count())))
     });
     let fields: Vec<Field> = fields.collect();
     folder
@@ -70,9 +68,7 @@ impl ModeFeed {
     fn around_nodes(&self, field: &BaseField, count: usize) -> Vec<f64> {
         let places = field.contact.iter().map(|own| &own.place);
         let points = places.zip(self.rates.iter().copied());
-        let sums = sums_around(count, points, |rate, _, share| rate * share);
-        let mean = |[sum, area]: [f64; 2]| if area > 0.0 { sum / area } else { f64::NAN };
-        sums.into_iter().map(mean).collect()
+        means_around(count, points, |rate, _, share| rate * share)
     }
 }
 
@@ -118,28 +114,23 @@ fn lines(
     // Across the rings of a body of revolution; along an edge by angle about the cylinder, or along the plane.
     let face = report.body.sector.map(|sector| sector.specification.contact.face());
     let across = |name: &str| Axis::new(name, "mm").times(1e3).tight();
-    type Along<'a> = Box<dyn Fn([f64; 3]) -> f64 + 'a>;
-    let (x, along): (Axis, Along<'_>) = match (face, &report.body.mesh.counterface) {
-        (Some(SolidFace::Inner | SolidFace::Outer), _) => {
-            (across("height *z*"), Box::new(|[_, _, z]: [f64; 3]| z))
-        }
-        (Some(SolidFace::Top | SolidFace::Bottom), _) => {
-            (across("radius *r*"), Box::new(|[x, _, _]: [f64; 3]| x))
-        }
-        (None, Counterface::Cylinder { center, .. }) => (
-            Axis::degrees().tight(),
-            Box::new(move |[x, y, _]: [f64; 3]| {
-                (y - center[1]).atan2(x - center[0]).rem_euclid(TAU)
-            }),
-        ),
-        (None, Counterface::Plane { point, direction }) => (
-            across("along the contact"),
-            Box::new(move |[x, y, _]: [f64; 3]| {
-                (x - point[0]) * direction[0] + (y - point[1]) * direction[1]
-            }),
-        ),
+    let way = (face, &report.body.mesh.counterface);
+    let x = match way {
+        (Some(SolidFace::Inner | SolidFace::Outer), _) => across("height *z*"),
+        (Some(SolidFace::Top | SolidFace::Bottom), _) => across("radius *r*"),
+        (None, Counterface::Cylinder { .. }) => Axis::degrees().tight(),
+        (None, Counterface::Plane { .. }) => across("along the contact"),
     };
-    let along = |place: &ContactPlace| along(place.position);
+    let along = |&ContactPlace { position: [x, y, z], .. }: &ContactPlace| match way {
+        (Some(SolidFace::Inner | SolidFace::Outer), _) => z,
+        (Some(SolidFace::Top | SolidFace::Bottom), _) => x,
+        (None, Counterface::Cylinder { center, .. }) => {
+            (y - center[1]).atan2(x - center[0]).rem_euclid(TAU)
+        }
+        (None, Counterface::Plane { point, direction }) => {
+            (x - point[0]) * direction[0] + (y - point[1]) * direction[1]
+        }
+    };
     let mut order: Vec<usize> = (0..field.contact.len()).collect();
     frictionsim_physics::order::sort_by_number(&mut order, |&a| along(&field.contact[a].place));
     let y = Axis::new("feed", "1/(s cm²)").times(1e-4);

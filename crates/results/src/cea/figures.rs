@@ -67,7 +67,7 @@ fn pairs(report: &CeaReport<'_>) -> Option<Figure> {
     if sweep.points.len() < 2 {
         return None;
     }
-    let (all, numbers) = (branches(sweep), report.mode_numbers());
+    let all = branches(sweep);
     let pairs = distinct(interval_rows(sweep).iter().map(|(branch, _)| (branch.0, branch.1)));
     let height = (620.0 / pairs.len().max(1) as f64 - 14.0).clamp(40.0, 92.0);
     type Quantity = fn(&ComplexMode) -> f64;
@@ -78,7 +78,7 @@ fn pairs(report: &CeaReport<'_>) -> Option<Figure> {
     let panels = pairs.iter().flat_map(|&(harmonic, branch)| {
         let caption = match report.has_harmonics {
             true => format!("*n* = {harmonic}, branch {branch}"),
-            false => report.branch_name((harmonic, branch, 0), &numbers),
+            false => report.branch_name((harmonic, branch, 0)),
         };
         let of = |direction: i8| all.get(&(harmonic, branch, direction));
         let other = partner(&all, (harmonic, branch, 0)).filter(|_| !report.has_harmonics);
@@ -171,17 +171,12 @@ fn shapes(report: &CeaReport<'_>, friction: f64) -> Figure {
         "Mode shapes at friction coefficient {friction}: the deformed body, coloured by \
         displacement amplitude; unstable modes in red."
     );
-    let body = Body::new(report, if columns < 6 { 24 } else { 12 });
-    let panels = shapes.iter().map(|shape| {
+    let figure = Figure::new(format!("modes-mu-{friction}"), caption).columns(columns);
+    let rays = if columns < 6 { 24 } else { 12 };
+    let figure = multiples(report, figure, rays, &shapes, |shape| {
         let first = format!("{}: {} Hz", shape.number, signed(shape.mode.frequency_hz(), 0));
-        let lines = [first, format!("Re {} Hz", signed(shape.mode.real_hz(), 1)), shape.harmonic()];
-        body.panel(shape, &lines)
+        [first, format!("Re {} Hz", signed(shape.mode.real_hz(), 1)), shape.harmonic()]
     });
-    let figure = multiples(
-        Figure::new(format!("modes-mu-{friction}"), caption).columns(columns),
-        panels,
-        report.has_harmonics,
-    );
     if shapes.is_empty() { figure } else { figure.motion(moving(report, &shapes)) }
 }
 
@@ -228,24 +223,29 @@ fn branch_shapes(report: &CeaReport<'_>, branch: Branch) -> Figure {
         ),
     };
     let shapes = branch_points(report, branch);
-    let body = Body::new(report, 24);
-    let panels = shapes.iter().map(|shape| {
+    let columns = if shapes.len() == 6 { 3 } else { shapes.len().clamp(2, 5) };
+    let figure = Figure::new(name, caption).columns(columns);
+    multiples(report, figure, 24, &shapes, |shape| {
         let mode = shape.mode;
         let values =
             format!("{} Hz, Re {} Hz", signed(mode.frequency_hz(), 0), signed(mode.real_hz(), 1));
-        let lines = [format!("*μ* = {}", signed(shape.friction, 3)), values, shape.harmonic()];
-        body.panel(shape, &lines)
-    });
-    let columns = shapes.len().clamp(2, 5);
-    let columns = if shapes.len() == 6 { 3 } else { columns };
-    multiples(Figure::new(name, caption).columns(columns), panels, report.has_harmonics)
+        [format!("*μ* = {}", signed(shape.friction, 3)), values, shape.harmonic()]
+    })
 }
 
-/// Small multiples of mode shapes with what their colours and arrows mean.
-fn multiples(figure: Figure, panels: impl Iterator<Item = Panel>, has_harmonics: bool) -> Figure {
+/// Small multiples of mode shapes under their lines, with what their colours and arrows mean.
+fn multiples(
+    report: &CeaReport<'_>,
+    figure: Figure,
+    rays: usize,
+    shapes: &[ModeShape<'_>],
+    lines: impl Fn(&ModeShape<'_>) -> [String; 3],
+) -> Figure {
+    let body = Body::new(report, rays);
+    let panels = shapes.iter().map(|shape| body.panel(shape, &lines(shape)));
     let amplitude = Axis::new("displacement amplitude |*u*| / max |*u*|", "–").between(0.0, 1.0);
     let figure = figure.unlettered().panels(panels).colour_foot(amplitude, ColourMap::Viridis);
-    match has_harmonics {
+    match report.has_harmonics {
         true => figure
             .note("↺ travels with the rotor, ↻ against it")
             .note("Re: real part of the eigenvalue / 2π; *n*: harmonic (nodal diameters)"),

@@ -9,7 +9,7 @@ use frictionsim_chart::{
 };
 use frictionsim_physics::cea::ComplexMode;
 use frictionsim_physics::fem::RayleighDamping;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 use std::f64::consts::TAU;
 
 /// Damping that regions of a body have, with the mark-up that names it.
@@ -60,24 +60,15 @@ fn damping_curves(dampings: &[NamedDamping], highest_hz: f64) -> Vec<Line> {
 pub(super) fn locus(report: &CeaReport<'_>, dampings: &[NamedDamping]) -> Figure {
     let sweep = &report.solution.sweep;
     let place = |mode: &ComplexMode| (mode.real_hz(), mode.frequency_hz());
-    let all = || {
-        let points = sweep.points.iter();
-        points.flat_map(|point| {
-            let friction = point.friction_coefficient;
-            point.modes.iter().map(move |mode| (friction, mode))
-        })
-    };
-    let reals: Vec<f64> = all().map(|(_, mode)| mode.real_hz()).collect();
+    let reals: Vec<f64> = report.modes().map(|(.., mode)| mode.real_hz()).collect();
     let (left, right, hidden) = real_ends(&reals);
-    let frequencies = all().map(|(_, mode)| mode.frequency_hz());
-    let (lowest, highest) = extremes(frequencies);
+    let (lowest, highest) = extremes(report.modes().map(|(.., mode)| mode.frequency_hz()));
     let points = sweep.points.iter();
     let first = points.map(|p| p.friction_coefficient);
     let first = first.fold(f64::INFINITY, f64::min);
 
     // Branches with their numbers at the ends of those that turn unstable.
-    let numbers = report.mode_numbers();
-    let unstable: Vec<Branch> = sweep.intervals.iter().map(branch_of).collect();
+    let unstable: BTreeSet<Branch> = sweep.intervals.iter().map(branch_of).collect();
     let all_branches = branches(sweep);
     let curves = all_branches.iter().flat_map(|(branch, points)| {
         let turns = unstable.contains(branch) && points.len() > 2;
@@ -90,18 +81,17 @@ pub(super) fn locus(report: &CeaReport<'_>, dampings: &[NamedDamping]) -> Figure
             }
         })
     });
-    let labelled: BTreeSet<Branch> = unstable.iter().copied().collect();
-    let labels = labelled.iter().filter_map(|branch| {
+    let labels = unstable.iter().filter_map(|branch| {
         let (_, mode) = all_branches.get(branch)?.last()?;
         let style = TextStyle::new(7.0).bold().with_halo();
-        Some(Label::new(place(mode), numbers.get(branch)?.to_string()).style(style))
+        Some(Label::new(place(mode), report.mode_number(*branch)?.to_string()).style(style))
     });
 
     // The eigenvalues, each with what it is.
     let marked = |is_own: &dyn Fn(f64, &ComplexMode) -> bool| {
-        let own: Vec<_> = all().filter(|(mu, mode)| is_own(*mu, mode)).collect();
-        let tips = own.iter().map(|(mu, mode)| tip(report, *mu, mode));
-        Points::new(own.iter().map(|(_, mode)| place(mode))).tips(tips.collect())
+        let own = || report.modes().filter(|(mu, _, mode)| is_own(*mu, mode));
+        let tips = own().map(|(mu, _, mode)| tip(report, mu, mode));
+        Points::new(own().map(|(.., mode)| place(mode))).tips(tips.collect())
     };
     let imaginary = Axis::new("Im(*λ*) / 2π", "kHz").times(1e-3);
     let plane = Panel::new(
@@ -124,11 +114,11 @@ pub(super) fn locus(report: &CeaReport<'_>, dampings: &[NamedDamping]) -> Figure
             .name(format!("lowest friction, *μ* = {}", signed(first, 2))),
     )
     .layers(labels);
-    with_notes(figure_of(report, plane, &numbers).steps(steps(report)), report, hidden)
+    with_notes(figure_of(report, plane).steps(steps(report)), report, hidden)
 }
 
 /// The plane, and beside it the bars of instability where there are any.
-fn figure_of(report: &CeaReport<'_>, plane: Panel, numbers: &BTreeMap<Branch, usize>) -> Figure {
+fn figure_of(report: &CeaReport<'_>, plane: Panel) -> Figure {
     if report.solution.sweep.intervals.is_empty() {
         let caption =
             "Eigenvalues in the complex plane as friction rises; no branch turns unstable.";
@@ -137,10 +127,7 @@ fn figure_of(report: &CeaReport<'_>, plane: Panel, numbers: &BTreeMap<Branch, us
     let caption = "Eigenvalues in the complex plane as friction rises (a); branches that turn \
         unstable have the number of their mode. The friction interval in which each of them is \
         unstable, from its critical friction (b).";
-    Figure::new("locus", caption)
-        .weighted(&[1.35, 1.0])
-        .panel(plane)
-        .panel(stability_bars(report, numbers))
+    Figure::new("locus", caption).weighted(&[1.35, 1.0]).panel(plane).panel(stability_bars(report))
 }
 
 fn with_notes(figure: Figure, report: &CeaReport<'_>, hidden: usize) -> Figure {
@@ -204,12 +191,13 @@ fn steps(report: &CeaReport<'_>) -> Steps {
     }
 }
 
-fn stability_bars(report: &CeaReport<'_>, numbers: &BTreeMap<Branch, usize>) -> Panel {
+fn stability_bars(report: &CeaReport<'_>) -> Panel {
     let sweep = &report.solution.sweep;
     let (low, high) = extremes(sweep.points.iter().map(|p| p.friction_coefficient));
     let rows = interval_rows(sweep);
     let names = rows.iter().enumerate().map(|(row, (branch, intervals))| {
-        let number = numbers.get(branch).map_or(String::new(), |number| format!("{number}: "));
+        let number = report.mode_number(*branch);
+        let number = number.map_or(String::new(), |number| format!("{number}: "));
         let frequency = signed(intervals[0].frequency_hz * 1e-3, 2);
         let harmonic = match report.has_harmonics {
             true => format!(", *n* = {}", branch.0),

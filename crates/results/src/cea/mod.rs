@@ -41,8 +41,7 @@ pub use tables::{View, document};
 
 use crate::ShownBody;
 use branches::{Branch, branch_of_mode};
-use frictionsim_physics::cea::{FrictionPoint, FrictionSweep};
-use std::collections::BTreeMap;
+use frictionsim_physics::cea::{ComplexMode, FrictionPoint, FrictionSweep};
 
 /// What a solver gives back.
 #[derive(Clone, Debug, Default)]
@@ -84,7 +83,21 @@ pub struct CeaReport<'a> {
     pub wall_s: f64,
 }
 
-impl CeaReport<'_> {
+impl<'a> CeaReport<'a> {
+    /// Every mode with its friction coefficient and its number there, by frequency from 1.
+    fn modes(&self) -> impl Iterator<Item = (f64, usize, &'a ComplexMode)> {
+        self.solution.sweep.points.iter().flat_map(|point| {
+            let friction = point.friction_coefficient;
+            (1..).zip(&point.modes).map(move |(number, mode)| (friction, number, mode))
+        })
+    }
+
+    /// The modes at the case's own friction coefficient, where it is one of those solved.
+    fn solved_point(&self) -> Option<&'a FrictionPoint> {
+        let own = self.base.friction_coefficient;
+        self.solution.sweep.points.iter().find(|point| point.friction_coefficient == own)
+    }
+
     /// The modes at the solved friction value nearest to the case's own.
     fn own_point(&self) -> Option<&FrictionPoint> {
         let own = self.base.friction_coefficient;
@@ -93,16 +106,16 @@ impl CeaReport<'_> {
         points.min_by(|a, b| distance(a).total_cmp(&distance(b)))
     }
 
-    /// Number of each branch's mode at that friction value, by frequency from 1.
-    fn mode_numbers(&self) -> BTreeMap<Branch, usize> {
-        let modes = self.own_point().into_iter().flat_map(|point| &point.modes);
-        modes.map(branch_of_mode).zip(1..).collect()
+    /// Number of a branch's mode at that friction value, by frequency from 1.
+    fn mode_number(&self, branch: Branch) -> Option<usize> {
+        let modes = &self.own_point()?.modes;
+        modes.iter().rposition(|mode| branch_of_mode(mode) == branch).map(|at| at + 1)
     }
 
     /// A branch as figures and tables name it: by harmonic, rank and sense of travel, or without symmetry by the number
     /// that its mode has at the case's own friction, after its nodal diameters on a body of one sector.
-    fn branch_name(&self, branch: Branch, numbers: &BTreeMap<Branch, usize>) -> String {
-        match (self.has_harmonics, numbers.get(&branch)) {
+    fn branch_name(&self, branch: Branch) -> String {
+        match (self.has_harmonics, self.mode_number(branch)) {
             (true, _) => mode_name(Some(branch.0), branch.1, branch.2),
             (false, Some(number)) => {
                 let own = self.own_point().map(|point| &point.modes[number - 1]);
@@ -126,8 +139,7 @@ impl CeaReport<'_> {
 
     /// Largest relative residual of any eigenpair, that of the quadratic problem.
     pub fn largest_residual(&self) -> f64 {
-        let modes = self.solution.sweep.points.iter().flat_map(|point| &point.modes);
-        modes.map(|mode| mode.residual).fold(0.0, f64::max)
+        self.modes().map(|own| own.2.residual).fold(0.0, f64::max)
     }
 
     /// Fewest and most modes found at one friction value.

@@ -34,27 +34,32 @@ pub(super) fn plane(mesh: &Mesh, field: &BaseField) -> Option<Figure> {
         // A pad is looked at from end to end.
         Counterface::Cylinder { .. } => Axis::degrees(),
     };
-    let around = |name: &str, value: fn(&ContactState) -> f64, colour| {
-        let axis = Axis::new(name, "Pa").prefixed().including(0.0).room(0.15);
+    let around = |value: fn(&ContactState) -> f64| {
         let points = places.iter().map(|&(i, angle)| (angle, value(&field.contact[i])));
-        Panel::new(place.clone(), axis)
-            .height(86.0)
-            .layer(Line::through(wrapped(points.collect(), is_closed)).solid(colour, 1.2))
+        Line::through(wrapped(points.collect(), is_closed))
     };
-    let stressed = disc.field(von_mises, stress, ColourMap::Viridis);
-    let stressed = disc.panel(0.01).beside(2).height(190.0).layer(stressed);
-    let figure = Figure::new(
-        "prestress",
-        "Steady sliding: von Mises stress (a), contact pressure (b) and friction traction (c) around the contact edge.",
-    );
-    Some(
-        figure
-            .weighted(&[1.0, 1.15])
-            .shared_x()
-            .panel(stressed.colour_bar(Side::Right))
-            .panel(around("pressure *p*", |own| own.pressure, SERIES[0]))
-            .panel(around("traction *τ*", |own| own.shear, SERIES[1])),
-    )
+    let caption = "Steady sliding: von Mises stress (a), contact pressure (b) and friction traction (c) around the \
+        contact edge.";
+    let stressed = disc.panel(0.01).layer(disc.field(von_mises, stress, ColourMap::Viridis));
+    Some(with_tractions(caption, stressed, (place, 86.0), around).shared_x())
+}
+
+/// A picture of the state, and pressure and traction along the contact beside it, over an axis and so high.
+fn with_tractions(
+    caption: &str,
+    state: Panel,
+    (place, height): (Axis, f64),
+    along: impl Fn(fn(&ContactState) -> f64) -> Line,
+) -> Figure {
+    let panel = |name: &str, line: Line, colour: &str| {
+        let axis = Axis::new(name, "Pa").prefixed().including(0.0).room(0.15);
+        Panel::new(place.clone(), axis).height(height).layer(line.solid(colour, 1.2))
+    };
+    Figure::new("prestress", caption)
+        .weighted(&[1.0, 1.15])
+        .panel(state.height(190.0).beside(2).colour_bar(Side::Right))
+        .panel(panel("pressure *p*", along(|own| own.pressure), SERIES[0]))
+        .panel(panel("traction *τ*", along(|own| own.shear), SERIES[1]))
 }
 
 /// Points over rising angles; around a whole circle the first and the last are repeated a turn away, so that the curve
@@ -72,27 +77,17 @@ fn wrapped(points: Vec<(f64, f64)>, is_closed: bool) -> Vec<(f64, f64)> {
 pub(super) fn revolution(sector: &SolidSector, field: &BaseField) -> Figure {
     let is_cylinder = sector.specification.contact.face() == SolidFace::Inner;
     let (name, coordinate) = if is_cylinder { ("height *z*", 2) } else { ("radius *r*", 0) };
-    let along = |quantity: &str, value: fn(&ContactState) -> f64, colour| {
-        let axis = Axis::new(quantity, "Pa").prefixed().including(0.0).room(0.15);
+    let along = |value: fn(&ContactState) -> f64| {
         let points = field.contact.iter().map(|own| (own.place.position[coordinate], value(own)));
-        Panel::new(Axis::new(name, "mm").times(1e3), axis)
-            .height(100.0)
-            .layer(Line::through(points).solid(colour, 1.2).marked(Marker::Disc, 1.4))
+        Line::through(points).marked(Marker::Disc, 1.4)
     };
     let shape: Vec<c64> = field.displacement.iter().map(|&v| c64::new(v, 0.0)).collect();
     let largest = shape.chunks_exact(3).map(size).fold(0.0, f64::max);
     let axis = Axis::new("displacement |*u*|", "m").prefixed().between(0.0, largest);
-    let state = Picture::new(sector).panel(&shape, axis).height(190.0);
-    Figure::new(
-        "prestress",
-        "Steady sliding: the body from above and its section through the axis, deformed and \
-         coloured by displacement (a). Contact pressure (b) and friction traction (c) along \
-         the contact.",
-    )
-    .weighted(&[1.0, 1.15])
-    .panel(state.beside(2).colour_bar(Side::Right))
-    .panel(along("pressure *p*", |own| own.pressure, SERIES[0]))
-    .panel(along("traction *τ*", |own| own.shear, SERIES[1]))
+    let caption = "Steady sliding: the body from above and its section through the axis, deformed and \
+        coloured by displacement (a). Contact pressure (b) and friction traction (c) along the contact.";
+    let place = Axis::new(name, "mm").times(1e3);
+    with_tractions(caption, Picture::new(sector).panel(&shape, axis), (place, 100.0), along)
 }
 
 /// A traction on each contact surface of solid bodies, seen from outside along its mean normal, with the sliding over

@@ -198,11 +198,9 @@ pub(super) fn budget(report: &CeaReport<'_>, reading: &Reading) -> Option<Figure
     for row in &reading.contributions {
         rows.entry(branch_of_mode(&row.mode)).or_default().push(row);
     }
-    // As tables and other figures name them.
-    let numbers = report.mode_numbers();
     let panels = reading.fastest().into_iter().take(PANELS).map(|branch| {
-        let name = report.branch_name(branch, &numbers);
-        budget_panel(name, &rows[&branch], &frictions)
+        // As tables and other figures name it.
+        budget_panel(report.branch_name(branch), &rows[&branch], &frictions)
     });
     let caption = "Growth rate of the fastest modes over friction, and what each part, support and contact adds to it.";
     Some(Figure::new("budget", caption).columns(2).shared_x().panels(panels))

@@ -32,12 +32,8 @@ impl<'a> ModeShape<'a> {
     /// All modes of a report that carry shapes, by rising friction.
     pub fn all(report: &CeaReport<'a>) -> impl Iterator<Item = Self> {
         let has_harmonics = report.has_harmonics;
-        let shapes = report.solution.sweep.points.iter().flat_map(move |point| {
-            let friction = point.friction_coefficient;
-            let modes = (1..).zip(&point.modes);
-            modes.map(move |(number, mode)| Self { number, friction, has_harmonics, mode })
-        });
-        shapes.filter(|own| own.mode.shape.is_some())
+        let shapes = report.modes().filter(|(.., mode)| mode.shape.is_some());
+        shapes.map(move |(friction, number, mode)| Self { number, friction, has_harmonics, mode })
     }
 
     /// Colour of its headings.

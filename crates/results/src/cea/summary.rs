@@ -250,9 +250,7 @@ pub fn summary(report: &CeaReport<'_>) -> CeaSummary {
         unstable: point.modes.iter().filter(|mode| mode.is_unstable()).count(),
     };
     let base = report.base;
-    let own = |point: &&FrictionPoint| point.friction_coefficient == base.friction_coefficient;
     let Solution { sweep, dofs, method, notes, .. } = report.solution;
-    let own = sweep.points.iter().find(own);
     let modes_at = |point: &FrictionPoint| -> Vec<ModeSummary> {
         let modes = point.modes.iter();
         modes.map(|mode| ModeSummary::of(mode, report.has_harmonics)).collect()
@@ -268,7 +266,7 @@ pub fn summary(report: &CeaReport<'_>) -> CeaSummary {
         unstable_counts: report.tabulated().map(of_point).collect(),
         critical_frictions: onsets(report),
         largest_residual: present(report.largest_residual()),
-        modes_at_friction: own.map(modes_at),
+        modes_at_friction: report.solved_point().map(modes_at),
         unstable_modes: UnstableMode::all(report),
         base_state: base,
         notes: notes.clone(),

@@ -1,5 +1,6 @@
 //! Tables and sentences of an eigenvalue analysis.
 
+use super::branches::branch_of;
 use super::coupling::sentences;
 use super::summary::{CriticalFriction, ModeSummary, ONSETS, friction_values, onsets};
 use super::{BRANCH, CeaReport, DIRECTION, HARMONIC, SensitivityReport, direction_name};
@@ -125,11 +126,8 @@ pub(super) fn eigenvalues(report: &CeaReport<'_>) -> Table {
 
 /// `stability.csv`: one row for each crossing into instability.
 pub(super) fn stability(report: &CeaReport<'_>) -> Table {
-    let numbers = report.mode_numbers();
-    let number = report.solution.sweep.intervals.iter().map(|interval| {
-        let own = numbers.get(&super::branches::branch_of(interval)).copied();
-        own.filter(|_| !report.has_harmonics)
-    });
+    let intervals = report.solution.sweep.intervals.iter();
+    let number = intervals.map(|own| report.mode_number(branch_of(own)));
     let rows = onsets(report);
     let table = Table::new("stability.csv", "Critical friction of each branch that turns unstable")
         .columns(ONSETS, &rows)
@@ -261,13 +259,9 @@ fn words(report: &CeaReport<'_>, view: View) -> Vec<String> {
 
 /// The largest error of the mesh in a frequency, and that of the lowest critical friction, where they were estimated.
 fn mesh_errors(report: &CeaReport<'_>) -> Option<String> {
-    let sweep = &report.solution.sweep;
-    let points = sweep.points.iter();
-    let numbered = points.flat_map(|point| (1..).zip(&point.modes).map(move |own| (point, own)));
-    let known = numbered.filter_map(|(point, (number, mode))| {
+    let known = report.modes().filter_map(|(friction, number, mode)| {
         let error = mode.mesh_error?;
-        let share = (error / mode.frequency_hz()).abs();
-        Some((share, error, number, point.friction_coefficient))
+        Some(((error / mode.frequency_hz()).abs(), error, number, friction))
     });
     let (share, error, number, friction) = known.max_by(|a, b| a.0.total_cmp(&b.0))?;
     let text = format!(
@@ -278,8 +272,8 @@ fn mesh_errors(report: &CeaReport<'_>) -> Option<String> {
     if share > COARSE {
         return Some(text + ": too coarse for more than an order of magnitude of it.");
     }
-    let first =
-        sweep.intervals.iter().find_map(|own| Some((own.critical_friction, own.mesh_error?)));
+    let mut intervals = report.solution.sweep.intervals.iter();
+    let first = intervals.find_map(|own| Some((own.critical_friction, own.mesh_error?)));
     Some(match first {
         Some((critical, error)) => {
             format!("{text}, critical friction {error:+.1e} of {critical:.6}.")
@@ -330,9 +324,7 @@ fn facts(report: &CeaReport<'_>) -> Vec<(String, String)> {
     let mut rows = vec![("lowest critical friction".to_owned(), onset)];
     rows.extend(lowest.map(|own| ("its frequency".to_owned(), hertz(own.frequency_hz))));
     let own = report.base.friction_coefficient;
-    let at_own =
-        report.solution.sweep.points.iter().find(|point| point.friction_coefficient == own);
-    if let Some(point) = at_own {
+    if let Some(point) = report.solved_point() {
         let unstable = point.modes.iter().filter(|mode| mode.is_unstable());
         let name = format!("unstable modes at friction {own}");
         let of_all = format!("{} of {}", unstable.clone().count(), point.modes.len());
