@@ -148,34 +148,25 @@ pub(super) fn wrapped(markup: &str, (size, bold): (f64, bool), most: f64) -> Vec
     lines
 }
 
-/// The words of mark-up, each with marks of its own.
+/// The words of mark-up, each with marks of its own; spaces in sub- and superscripts part none.
 fn words(markup: &str) -> Vec<String> {
-    let mut words = Vec::new();
-    let (mut current, mut italic, mut script) = (String::new(), false, false);
-    let mut chars = markup.chars().peekable();
-    while let Some(c) = chars.next() {
-        match c {
-            ' ' if !script => {
-                // A break amid oblique text ends it here and takes it up again.
-                let mark = if italic { "*" } else { "" };
-                current.push_str(mark);
-                words.push(std::mem::replace(&mut current, mark.to_owned()));
-                continue;
+    let mut words = vec![String::new()];
+    for Run { text, italic, shift } in parse(markup) {
+        let mark = if italic { "*" } else { "" };
+        for (index, part) in text.split(|c| c == ' ' && shift == 0).enumerate() {
+            if index > 0 {
+                words.push(String::new());
             }
-            '\\' => {
-                current.push(c);
-                current.extend(chars.next());
-                continue;
-            }
-            '*' => italic = !italic,
-            '_' | '^' if chars.peek() == Some(&'{') => script = true,
-            '}' => script = false,
-            _ => {}
+            let (part, last) = (literal(part), words.len() - 1);
+            words[last] += &match shift {
+                _ if part.is_empty() => continue,
+                0 => format!("{mark}{part}{mark}"),
+                1.. => format!("{mark}^{{{part}}}{mark}"),
+                ..0 => format!("{mark}_{{{part}}}{mark}"),
+            };
         }
-        current.push(c);
     }
-    words.push(current);
-    words.retain(|word| !word.is_empty() && word != "**");
+    words.retain(|word| !word.is_empty());
     words
 }
 

@@ -33,17 +33,6 @@ pub struct FileReference {
     pub entries: Vec<Entry>,
 }
 
-impl FileReference {
-    /// Whether it has a column or key of this name.
-    pub fn knows(&self, name: &str) -> bool {
-        let is_own = |entry: &Entry| match entry.key.split_once("KEY") {
-            Some((start, end)) => name.starts_with(start) && name.ends_with(end),
-            None => entry.key == name,
-        };
-        self.entries.iter().any(is_own)
-    }
-}
-
 /// What has entries: columns, or entries themselves.
 trait Listed {
     fn listed(self) -> Vec<Entry>;

@@ -5,7 +5,6 @@ use crate::finding::finding;
 use frictionsim_output::{Format, Table, columns, fixed};
 use frictionsim_physics::linalg::c64;
 use std::f64::consts::TAU;
-use std::fmt::Write as _;
 
 /// Derivatives of the eigenvalues at one friction coefficient, and the values of the parameters there.
 #[derive(Clone, Debug, PartialEq)]
@@ -136,17 +135,15 @@ impl SensitivityReport {
         let Some(row) = fastest else {
             return String::new();
         };
-        let mut text = format!(
-            "at friction {} mode {} {} at {:.1} 1/s; change of the growth rate when a parameter rises by 1 %:",
+        let changes = self.per_cent(row).into_iter();
+        let changes = changes.map(|(name, change)| format!(" {name} {:+.2}", change.re));
+        format!(
+            "at friction {} mode {} {} at {:.1} 1/s; change of the growth rate when a parameter rises by 1 %:{} 1/s",
             row.friction_coefficient,
             self.name(row),
             if row.eigenvalue.re > 0.0 { "grows" } else { "decays" },
             row.eigenvalue.re.abs(),
-        );
-        for (index, (name, change)) in self.per_cent(row).into_iter().enumerate() {
-            let separator = if index == 0 { "" } else { "," };
-            let _ = write!(text, "{separator} {name} {:+.2}", change.re);
-        }
-        text + " 1/s"
+            changes.collect::<Vec<_>>().join(","),
+        )
     }
 }

@@ -99,13 +99,10 @@ impl OutputFolder {
             .open(&journal_path)
             .map_err(|e| FolderError::io("open", &journal_path, e))?;
         let folder = Self {
-            path: path.to_owned(),
             destination: destination.to_owned(),
             journal: Some(journal),
-            manifest: manifest.clone(),
             earlier,
-            written: Mutex::default(),
-            _lock: lock,
+            ..Self::shared(path, manifest, lock)
         };
         folder.write_manifest(&folder.earlier)?;
         Ok(folder)

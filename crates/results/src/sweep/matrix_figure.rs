@@ -259,14 +259,14 @@ fn dimensions(conditions: &[Condition<'_>]) -> Vec<Dimension> {
             None => {
                 let texts: Vec<String> = values.iter().map(|value| printed(value)).collect();
                 let name = (parameter_name(key), String::new());
-                let ranked = ranked(&texts, &distinct(texts.clone()), String::clone);
-                add(&mut found, Role::Other, name, ranked);
+                let values = (&texts[..], &distinct(texts.clone())[..]);
+                add(&mut found, Role::Other, name, values, String::clone);
             }
         }
     }
     let name = ("friction coefficient *μ*".to_owned(), String::new());
     let label = |friction: &f64| literal(&friction.to_string());
-    add(&mut found, Role::Friction, name, ranked(&frictions, &rising(&frictions), label));
+    add(&mut found, Role::Friction, name, (&frictions, &rising(&frictions)), label);
     found.retain(|own| own.labels.len() > 1);
     found
 }
@@ -283,14 +283,14 @@ fn of_numbers(key: &str, numbers: &[f64], found: &mut Vec<Dimension>) {
             false => "forward, speed > 0".to_owned(),
         };
         let name = (parameter_name(key), String::new());
-        add(found, Role::Direction, name, ranked(&is_reverse, &[false, true], way));
+        add(found, Role::Direction, name, (&is_reverse, &[false, true]), way);
     }
     let sizes = numbers.iter().map(|v| if is_both_ways { v.abs() } else { *v });
     let sizes: Vec<f64> = sizes.collect();
     let (factor, unit) = shared_unit(key, low.abs().max(high.abs()));
     let role = if key.ends_with("pressure") { Role::Pressure } else { Role::Other };
-    let ranked = ranked(&sizes, &rising(&sizes), |value| in_unit(*value, factor));
-    add(found, role, (parameter_name(key), unit), ranked);
+    let name = (parameter_name(key), unit);
+    add(found, role, name, (&sizes, &rising(&sizes)), |value| in_unit(*value, factor));
 }
 
 /// The distinct ones of some numbers, rising.
@@ -301,23 +301,18 @@ fn rising(numbers: &[f64]) -> Vec<f64> {
     distinct
 }
 
-/// The labels of distinct values, and which of them each value is.
-fn ranked<T: PartialEq>(
-    values: &[T],
-    distinct: &[T],
-    label: impl Fn(&T) -> String,
-) -> (Vec<String>, Vec<usize>) {
-    let rank = |value: &T| distinct.iter().position(|own| own == value).unwrap_or(0);
-    (distinct.iter().map(label).collect(), values.iter().map(rank).collect())
-}
-
-/// Adds a dimension, or its name to one that takes its values at the same conditions.
-fn add(
+/// Adds a dimension with the labels of its distinct values, or its name to one that takes its values at the same
+/// conditions.
+fn add<T: PartialEq>(
     found: &mut Vec<Dimension>,
     role: Role,
     (name, unit): (String, String),
-    (labels, at): (Vec<String>, Vec<usize>),
+    (values, distinct): (&[T], &[T]),
+    label: impl Fn(&T) -> String,
 ) {
+    let rank = |value: &T| distinct.iter().position(|own| own == value).unwrap_or(0);
+    let at: Vec<usize> = values.iter().map(rank).collect();
+    let labels: Vec<String> = distinct.iter().map(label).collect();
     let same = |own: &&mut Dimension| own.at == at && own.role == role && labels.len() > 1;
     if let Some(known) = found.iter_mut().find(same) {
         known.name = joined(&known.name, &name);
