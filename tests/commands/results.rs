@@ -44,7 +44,6 @@ fn solution(mesh: &AnnulusMesh) -> Solution {
             restabilized: Some((0.9, 9950.0)),
             ..synthetic::onset((2, 0), 0.138_2, 9893.0)
         }],
-        crossings: Vec::new(),
         ..FrictionSweep::default()
     };
     let notes = vec!["harmonics above 6 do not exist on this mesh".to_owned()];

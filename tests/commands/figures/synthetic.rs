@@ -45,15 +45,11 @@ pub fn mode(eigenvalue: c64, harmonic: usize, direction: i8) -> ComplexMode {
 pub fn onset((n, branch): (usize, usize), critical: f64, frequency_hz: f64) -> UnstableInterval {
     UnstableInterval {
         harmonic: n,
-        nodal_diameters: None,
         branch,
         direction: -1,
         critical_friction: critical,
         frequency_hz,
-        restabilized: None,
-        unstable_from_start: false,
-        lost_after: None,
-        mesh_error: None,
+        ..UnstableInterval::default()
     }
 }
 
@@ -161,7 +157,7 @@ pub fn sweep(count: usize) -> FrictionSweep {
         }
     }
     intervals.sort_by(|a, b| a.critical_friction.total_cmp(&b.critical_friction));
-    FrictionSweep { points, intervals, crossings: Vec::new(), ..FrictionSweep::default() }
+    FrictionSweep { points, intervals, ..FrictionSweep::default() }
 }
 
 /// A wave of one harmonic, clamped outside, with an arbitrary solver phase; friction shears it.

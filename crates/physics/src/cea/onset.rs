@@ -57,7 +57,6 @@ impl<S> Instability<S> {
         let (critical_friction, frequency_hz) = place(&self.onset);
         UnstableInterval {
             harmonic,
-            nodal_diameters: None,
             branch,
             direction,
             critical_friction,
@@ -65,7 +64,7 @@ impl<S> Instability<S> {
             restabilized: self.restabilized.as_ref().map(place),
             unstable_from_start: self.from_start,
             lost_after: self.lost_after,
-            mesh_error: None,
+            ..UnstableInterval::default()
         }
     }
 }

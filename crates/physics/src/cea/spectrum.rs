@@ -144,7 +144,7 @@ pub fn keeping_ties(frequencies: impl Iterator<Item = f64>, count: usize) -> usi
 }
 
 /// A range of friction coefficients over which one branch grows, located by root finding.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct UnstableInterval {
     /// Circumferential harmonic.
     pub harmonic: usize,
@@ -167,6 +167,9 @@ pub struct UnstableInterval {
     pub lost_after: Option<f64>,
     /// Estimate of the critical friction less that on an ever finer mesh of the same outline, where it was made.
     pub mesh_error: Option<f64>,
+    /// The mode at the critical friction, where a whole mesh was solved and shapes were asked for; none of one that is unstable from the
+    /// start.
+    pub crossing: Option<ModeVectors>,
 }
 
 impl UnstableInterval {
@@ -194,9 +197,6 @@ pub struct FrictionSweep {
     pub points: Vec<FrictionPoint>,
     /// Every unstable interval, sorted by critical friction.
     pub intervals: Vec<UnstableInterval>,
-    /// The mode at the critical friction of each interval, where a whole mesh was solved and shapes were asked for; `None` for one
-    /// that is unstable from the start.
-    pub crossings: Vec<Option<ModeVectors>>,
     /// Modes of a whole mesh whose branches end, by rising friction.
     pub ended: Vec<EndedMode>,
     /// Modes of a whole mesh that did not converge at a friction value, and are not listed there.
@@ -210,17 +210,15 @@ pub struct FrictionSweep {
 }
 
 impl FrictionSweep {
-    /// A sweep put together of parts: intervals with the modes where they begin in order of critical friction, ended modes in order of
-    /// friction.
+    /// A sweep put together of parts: intervals in order of critical friction, ended modes in order of friction.
     pub fn joined(
         points: Vec<FrictionPoint>,
-        mut found: Vec<(UnstableInterval, Option<ModeVectors>)>,
+        mut intervals: Vec<UnstableInterval>,
         mut ended: Vec<EndedMode>,
     ) -> Self {
-        crate::order::sort_by_number(&mut found, |(a, _)| a.critical_friction);
+        crate::order::sort_by_number(&mut intervals, |a| a.critical_friction);
         crate::order::sort_by_number(&mut ended, |a| a.friction_coefficient);
-        let (intervals, crossings) = found.into_iter().unzip();
-        Self { points, intervals, crossings, ended, ..Self::default() }
+        Self { points, intervals, ended, ..Self::default() }
     }
 
     /// The modes at a friction coefficient; none where it was not solved.

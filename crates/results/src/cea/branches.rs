@@ -95,8 +95,6 @@ mod tests {
                 point(0.3, &[0]),
                 point(0.4, &[0, 1]),
             ],
-            intervals: Vec::new(),
-            crossings: Vec::new(),
             ..FrictionSweep::default()
         };
         let all = branches(&sweep);

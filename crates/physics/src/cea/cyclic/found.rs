@@ -141,11 +141,5 @@ fn together(
     let branches: Vec<ModeBranch> = branches.into_iter().flatten().filter(occurs).collect();
     let mut intervals: Vec<_> = branches.iter().flat_map(|b| b.intervals.clone()).collect();
     crate::order::sort_by_number(&mut intervals, |a| a.critical_friction);
-    let sweep = FrictionSweep {
-        crossings: vec![None; intervals.len()],
-        points,
-        intervals,
-        ..FrictionSweep::default()
-    };
-    (sweep, branches)
+    (FrictionSweep { points, intervals, ..FrictionSweep::default() }, branches)
 }

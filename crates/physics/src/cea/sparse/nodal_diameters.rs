@@ -191,10 +191,9 @@ fn expanded(
             }
         }
     }
-    let crossings = part.intervals.iter_mut().zip(&mut part.crossings);
-    for (interval, crossing) in crossings {
+    for interval in &mut part.intervals {
         interval.nodal_diameters = Some(n);
-        if let Some(ModeVectors { right, left, .. }) = crossing {
+        if let Some(ModeVectors { right, left, .. }) = &mut interval.crossing {
             let own = vectors(right, Some(left), interval.critical_friction);
             *right = own.0;
             *left = own.1.expect("there is a left vector where one was given");
@@ -237,7 +236,7 @@ fn merged(mut parts: Vec<FrictionSweep>, limit: ModeLimit) -> FrictionSweep {
     for (part, sweep) in parts.into_iter().enumerate() {
         ended.extend(sweep.ended);
         unconverged.extend(sweep.unconverged);
-        for (mut interval, crossing) in sweep.intervals.into_iter().zip(sweep.crossings) {
+        for mut interval in sweep.intervals {
             // Static instability has no modes.
             if interval.branch > 0 {
                 let rank = rank_of.get(&(part, interval.branch));
@@ -246,7 +245,7 @@ fn merged(mut parts: Vec<FrictionSweep>, limit: ModeLimit) -> FrictionSweep {
                 };
                 interval.branch = *rank;
             }
-            found.push((interval, crossing));
+            found.push(interval);
         }
     }
     let joined = FrictionSweep::joined(points, found, ended);

@@ -61,7 +61,7 @@ pub(super) fn estimate(parts: &Parts<'_>, sweep: &mut FrictionSweep) {
     let modes = sweep.points.iter().flat_map(|point| &point.modes);
     let pairs = modes.filter(|mode| is_wanted(mode));
     let pairs = pairs.filter_map(|mode| Some([mode.left.as_deref()?, mode.shape.as_deref()?]));
-    let crossings = sweep.crossings.iter().flatten();
+    let crossings = sweep.intervals.iter().filter_map(|own| own.crossing.as_ref());
     let pairs = pairs.chain(crossings.map(|own| [&*own.left, &*own.right]));
     let pairs: Vec<[&[c64]; 2]> = pairs.collect();
     let mut forms = estimate.forms(&pairs).into_iter();
@@ -72,8 +72,8 @@ pub(super) fn estimate(parts: &Parts<'_>, sweep: &mut FrictionSweep) {
         let change = error(mode.eigenvalue, &forms).im / TAU;
         mode.mesh_error = change.is_finite().then_some(change);
     }
-    for (interval, crossing) in sweep.intervals.iter_mut().zip(&sweep.crossings) {
-        let found = crossing.as_ref().and_then(|own| Some((own, forms.next()?)));
+    for interval in &mut sweep.intervals {
+        let found = interval.crossing.as_ref().and_then(|own| Some((own, forms.next()?)));
         let change = found.map(|(own, forms)| -error(own.eigenvalue, &forms).re / own.rate.re);
         interval.mesh_error = change.filter(|change| change.is_finite());
     }

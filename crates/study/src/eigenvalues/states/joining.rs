@@ -1,7 +1,7 @@
 //! One sweep from those of its base states.
 
 use frictionsim_physics::cea::{
-    BeyondMode, ComplexMode, FrictionPoint, FrictionSweep, ModeCount, ModeVectors, UnstableInterval,
+    BeyondMode, ComplexMode, FrictionPoint, FrictionSweep, ModeCount, UnstableInterval,
 };
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -150,40 +150,35 @@ pub fn joined(mut parts: Vec<Part>, frictions: &[f64]) -> FrictionSweep {
 }
 
 /// Unstable intervals over all parts: those that go on across a change are one, and growth may jump across zero at it.
-fn joined_intervals(
-    parts: &mut [Part],
-    frictions: &[f64],
-) -> Vec<(UnstableInterval, Option<ModeVectors>)> {
-    let mut found: Vec<(UnstableInterval, Option<ModeVectors>)> = Vec::new();
+fn joined_intervals(parts: &mut [Part], frictions: &[f64]) -> Vec<UnstableInterval> {
+    let mut found: Vec<UnstableInterval> = Vec::new();
     let is_open =
         |own: &UnstableInterval, name: Name| name_of(own) == name && own.restabilized.is_none();
     for k in 0..parts.len() {
         let (before, rest) = parts.split_at_mut(k);
         let part = &mut rest[0];
         let intervals = std::mem::take(&mut part.sweep.intervals);
-        let crossings = std::mem::take(&mut part.sweep.crossings);
         let jumps = before.last().map(|before| jumps_between(before, part));
         let jumps: Vec<Jump<'_>> = jumps.into_iter().flatten().collect();
         // Where growth jumps to decay an interval ends.
         for jump in jumps.iter().filter(|jump| !jump.mode.is_unstable()) {
-            let own = found.iter_mut().rev().find(|(known, _)| is_open(known, jump.name));
-            if let Some((known, _)) = own {
+            let own = found.iter_mut().rev().find(|known| is_open(known, jump.name));
+            if let Some(known) = own {
                 known.restabilized = Some((jump.friction_coefficient, jump.mode.frequency_hz()));
             }
         }
         // So does one of static instability where the next state is stable.
         let is_static = |own: &UnstableInterval| own.branch == 0 && own.unstable_from_start;
         if !intervals.iter().any(is_static)
-            && let Some((known, _)) = found.iter_mut().find(|(own, _)| is_open(own, STATIC))
+            && let Some(known) = found.iter_mut().find(|own| is_open(own, STATIC))
         {
             known.restabilized = part.first().map(|first| (first.friction_coefficient, 0.0));
         }
-        for (mut interval, crossing) in intervals.into_iter().zip(crossings) {
+        for mut interval in intervals {
             if interval.unstable_from_start {
                 // A branch that is unstable on both sides of a change goes on.
                 let own = name_of(&interval);
-                let same = found.iter_mut().find(|(known, _)| is_open(known, own));
-                if let Some((known, _)) = same {
+                if let Some(known) = found.iter_mut().find(|known| is_open(known, own)) {
                     known.restabilized = interval.restabilized;
                     continue;
                 }
@@ -197,7 +192,7 @@ fn joined_intervals(
                 interval.lost_after = earlier.max_by(f64::total_cmp).filter(|_| !is_known);
                 interval.unstable_from_start = before.is_empty();
             }
-            found.push((interval, crossing));
+            found.push(interval);
         }
     }
     found

@@ -29,16 +29,9 @@ impl SparseSweep<'_> {
         let ends = branches.iter().filter_map(|branch| branch.end.as_ref()?.diverges_at);
         let places = ends.chain(is_unstable.then_some(first)).map(|mu| mu.max(first));
         Ok(places.min_by(f64::total_cmp).map(|critical_friction| UnstableInterval {
-            harmonic: 0,
-            nodal_diameters: None,
-            branch: 0,
-            direction: 0,
             critical_friction,
-            frequency_hz: 0.0,
-            restabilized: None,
             unstable_from_start: critical_friction == first,
-            lost_after: None,
-            mesh_error: None,
+            ..UnstableInterval::default()
         }))
     }
 

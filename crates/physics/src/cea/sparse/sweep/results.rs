@@ -55,8 +55,11 @@ impl SparseSweep<'_> {
             let own = std::slice::from_ref(mode);
             self.vectors((*mu, true), own).pop()
         };
-        let found = found.iter().map(|own| (own.interval.clone(), vectors(own)));
-        let found = found.chain(self.divergence(branches)?.map(|own| (own, None)));
+        let crossed = |own: &FoundInterval| UnstableInterval {
+            crossing: vectors(own),
+            ..own.interval.clone()
+        };
+        let found = found.iter().map(crossed).chain(self.divergence(branches)?);
         Ok(FrictionSweep {
             unconverged: self.unconverged.clone(),
             beyond: self.beyond(),
