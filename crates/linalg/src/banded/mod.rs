@@ -130,10 +130,10 @@ impl BandedMatrix {
         }
     }
 
-    /// Multiplies every entry.
+    /// Whether all entries vanish.
     #[inline]
-    pub fn scale(&mut self, factor: f64) {
-        self.values.iter_mut().for_each(|value| *value *= factor);
+    pub fn is_zero(&self) -> bool {
+        self.values.iter().all(|value| *value == 0.0)
     }
 
     /// Rows and columns `kept` (ascending) alone.

@@ -164,30 +164,27 @@ impl WaveDofs {
     /// by `i` for odd parity. Harmonics `n` and `N - n` are mirror images, so `n <= N / 2` is all there is.
     pub fn fold(&self, n: usize, parity: MirrorParity, terms: &[&SectorMatrix]) -> BandedMatrix {
         let mut sum = self.zeros();
-        self.add(&mut sum, n, parity, terms);
+        terms.iter().for_each(|term| self.add(&mut sum, n, parity, (1.0, term)));
         sum
     }
 
-    /// Adds [`Self::fold`] to a matrix.
+    /// Adds [`Self::fold`] of a term times a factor to a matrix.
     pub fn add(
         &self,
         sum: &mut BandedMatrix,
         n: usize,
         parity: MirrorParity,
-        terms: &[&SectorMatrix],
+        (factor, term): (f64, &SectorMatrix),
     ) {
-        let turns = self.turns(n, parity);
-        for term in terms {
-            for (row, ends) in term.starts.windows(2).enumerate() {
-                let Some(i) = self.unknown_of[row] else {
-                    continue;
-                };
-                let band = sum.row_mut(i);
-                for entry in &term.entries[ends[0]..ends[1]] {
-                    if let Some(j) = self.unknown_of[entry.column as usize] {
-                        band[j + self.half_bandwidth - i] +=
-                            turns[entry.turn as usize] * entry.value;
-                    }
+        let turns = self.turns(n, parity).map(|turn| factor * turn);
+        for (row, ends) in term.starts.windows(2).enumerate() {
+            let Some(i) = self.unknown_of[row] else {
+                continue;
+            };
+            let band = sum.row_mut(i);
+            for entry in &term.entries[ends[0]..ends[1]] {
+                if let Some(j) = self.unknown_of[entry.column as usize] {
+                    band[j + self.half_bandwidth - i] += turns[entry.turn as usize] * entry.value;
                 }
             }
         }

@@ -29,6 +29,14 @@ pub struct TangentOptions {
 }
 
 impl TangentOptions {
+    /// The coefficients of the whole tangent, of which that of the stiffness multiplies prestress and contact.
+    pub fn damping_of_tangent(&self) -> RayleighDamping {
+        match self.damping_model {
+            DampingModel::WholeTangent => self.damping,
+            DampingModel::BodyOnly => RayleighDamping::default(),
+        }
+    }
+
     /// Those of bodies without contact and stress, `C = alpha_R M + beta_R K`.
     pub fn of_free(mass: MassKind, damping: RayleighDamping) -> Self {
         Self {

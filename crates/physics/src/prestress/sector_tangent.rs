@@ -1,7 +1,7 @@
 //! The terms of a plane annulus in steady sliding.
 
 use super::wave_tangent::WaveContact;
-use super::wave_terms::{ContactTerms, WaveTerms};
+use super::wave_terms::{Kind, Part, WaveTerms};
 use super::{PrestressError, SectorSliding, TangentOptions, WaveTangent};
 use crate::contact::{Point, SlidingContact, linearized};
 use crate::fem::fold::SectorMatrix;
@@ -24,14 +24,14 @@ impl WaveTangent {
         options: &TangentOptions,
         contact: &SlidingContact,
     ) -> Result<Self, PrestressError> {
-        let mut terms = WaveTerms::of(sector, material, (options.mass, options.damping));
+        let mut terms = WaveTerms::of(sector, material, options, sector.supports(options.mass));
         let base = SectorSliding::solve(sector, &terms.elastic(), contact, options.contact.law)?;
         let edge = Edge { sector, base: &base };
         if options.geometric_stiffness {
             terms.take_stress(sector, material, [0, 1].map(|p| &base.state.displacements[p][..]));
-            terms.turning = edge.turning();
+            terms.add(Part::Contact, Kind::Prestress, edge.turning());
         }
-        terms.contact = edge.terms(options);
+        edge.add_terms(options, &mut terms);
         let (own, parts) = ((sector, sector.wave_dofs()), (terms, edge.dofs(options)));
         Ok(Self::new(own, parts, options, contact.sliding_direction()))
     }
@@ -65,8 +65,8 @@ impl Edge<'_> {
         }
     }
 
-    /// The contact over the distances across it: of a pair that of the annulus's node stands for its separation.
-    fn terms(&self, options: &TangentOptions) -> ContactTerms {
+    /// Adds the contact over the distances across it: of a pair that of the annulus's node stands for its separation.
+    fn add_terms(&self, options: &TangentOptions, terms: &mut WaveTerms) {
         let over_distance =
             |point: &Point| Point { normal: point.normal[..1].to_vec(), ..point.clone() };
         let points: Vec<Point> = self.base.points.iter().map(over_distance).collect();
@@ -78,11 +78,9 @@ impl Edge<'_> {
             SectorMatrix::of_entries(2, own.map(|&(row, column, value)| (row, column, 0, value)))
         };
         let both = |terms: &[Triplets]| [part(terms, 0, false), part(terms, 1, true)];
-        ContactTerms {
-            penalty: both(&found.stiffness),
-            dashpots: both(&found.dashpots),
-            friction_dashpots: part(&found.dashpots, 1, false),
-        }
+        terms.add(Part::Contact, Kind::Stiffness, both(&found.stiffness));
+        terms.add(Part::Contact, Kind::Dashpots, both(&found.dashpots));
+        terms.add(Part::Contact, Kind::FrictionDashpots, [part(&found.dashpots, 1, false)]);
     }
 
     /// What the normal forces of the base state, and the friction `T = s mu N`, add to the stiffness as they turn and move with

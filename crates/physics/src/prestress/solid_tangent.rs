@@ -1,7 +1,7 @@
 //! The terms of a body of revolution in three dimensions in steady sliding.
 
 use super::wave_tangent::WaveContact;
-use super::wave_terms::{ContactTerms, WaveTerms};
+use super::wave_terms::{Kind, Part, WaveTerms};
 use super::{PrestressError, SolidSliding, TangentOptions, WaveTangent};
 use crate::contact::{ContactStiffness, SlidingContact};
 use crate::fem::MaterialField;
@@ -24,15 +24,15 @@ impl WaveTangent {
         if contact.rotation_speed == 0.0 {
             return Err(PrestressError::AtRest);
         }
-        let mut terms = WaveTerms::of(sector, material, (options.mass, options.damping));
+        let mut terms = WaveTerms::of(sector, material, options, sector.supports(options.mass));
         let law = options.contact.base_law();
         let base = SolidSliding::solve(sector, &terms.elastic(), contact, law, options.mass)?;
         if options.geometric_stiffness {
             let displacements = [&base.pressed_displacement[..], &base.sheared_displacement];
             terms.take_stress(sector, material, displacements);
-            terms.turning = turning_forces(sector, &base);
+            terms.add(Part::Contact, Kind::Prestress, turning_forces(sector, &base));
         }
-        terms.contact = contact_terms(&base, sector, &options.contact);
+        add_contact(&base, sector, &options.contact, &mut terms);
         let (own, parts) = ((sector, sector.wave_dofs()), (terms, rings(sector, &base, options)));
         Ok(Self::new(own, parts, options, contact.sliding_direction()))
     }
@@ -76,12 +76,13 @@ fn turning_forces(sector: &SolidSector, base: &SolidSliding) -> [SectorMatrix; 2
 /// A weight from the element, the radius (m) and the place along the element.
 type Weight<'a> = &'a dyn Fn(&FaceElement, f64, f64) -> f64;
 
-/// The matrices of the contact of a state.
-fn contact_terms(
+/// Adds the matrices of the contact of a state.
+fn add_contact(
     base: &SolidSliding,
     sector: &SolidSector,
     contact: &ContactStiffness,
-) -> ContactTerms {
+    terms: &mut WaveTerms,
+) {
     let face = sector.specification.contact.face();
     let (normal, side) = (face.normal_component(), face.across_component());
     let faces = sector.contact_elements();
@@ -127,15 +128,14 @@ fn contact_terms(
         let along = term(1, 1, rule, &|element, r, at| pressure(element, at) * slope(r));
         friction_dashpots = friction_dashpots.plus(&along);
     }
-    ContactTerms {
-        penalty: match (base.law, contact.normal_stiffness) {
-            (Some(law), _) => normal_and_drag(&|element, _, at| {
-                law.stiffness(base.approach_along(sector, element, at))
-            }),
-            (None, Some(own)) => normal_and_drag(&|_, _, _| own),
-            (None, None) => Default::default(),
-        },
-        dashpots,
-        friction_dashpots,
-    }
+    let penalty = match (base.law, contact.normal_stiffness) {
+        (Some(law), _) => normal_and_drag(&|element, _, at| {
+            law.stiffness(base.approach_along(sector, element, at))
+        }),
+        (None, Some(own)) => normal_and_drag(&|_, _, _| own),
+        (None, None) => Default::default(),
+    };
+    terms.add(Part::Contact, Kind::Stiffness, penalty);
+    terms.add(Part::Contact, Kind::Dashpots, dashpots);
+    terms.add(Part::Contact, Kind::FrictionDashpots, [friction_dashpots]);
 }

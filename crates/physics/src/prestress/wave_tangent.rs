@@ -2,9 +2,9 @@
 
 mod losses;
 
-use super::wave_terms::WaveTerms;
+use super::wave_terms::{Kind, Part, Term, WaveTerms};
 use super::{DampingModel, FrictionPolynomial, HarmonicTangent, TangentOptions};
-use crate::fem::fold::{MirrorParity, SectorMatrix, WaveDofs};
+use crate::fem::fold::{MirrorParity, WaveDofs};
 use crate::fem::sector::Sectored;
 use crate::fem::{DofMap, MassKind, MaterialField, RayleighDamping};
 use crate::linalg::banded::BandedMatrix;
@@ -79,11 +79,11 @@ impl WaveTangent {
         is_held: bool,
     ) -> Self {
         let options = TangentOptions::of_free(mass, damping);
-        let mut terms = WaveTerms::of(sector, material, (mass, damping));
-        let mut dofs = sector.wave_dofs();
-        if !is_held {
-            (terms.supports, dofs) = (Vec::new(), dofs.unheld());
-        }
+        let (supports, dofs) = match is_held {
+            true => (sector.supports(), sector.wave_dofs()),
+            false => (Vec::new(), sector.wave_dofs().unheld()),
+        };
+        let terms = WaveTerms::of(sector, material, &options, supports);
         Self::new((sector, dofs), (terms, WaveContact::default()), &options, 1.0)
     }
 
@@ -124,8 +124,8 @@ impl WaveTangent {
     /// in a difference quotient. `None` where they differ in more.
     pub fn less(&self, other: &Self) -> Option<Self> {
         let factors = |own: &Self| {
-            let TangentOptions { damping, damping_model, contact, .. } = own.options;
-            (damping, damping_model, contact.loss_factor, own.sliding_direction)
+            let TangentOptions { damping, damping_model, .. } = own.options;
+            (damping, damping_model, own.sliding_direction)
         };
         let is_alike = factors(self) == factors(other)
             && (&self.contact, &self.dofs) == (&other.contact, &other.dofs);
@@ -230,32 +230,32 @@ impl WaveTangent {
 
     /// Whether `C = alpha_R M + beta_R K_t` exactly.
     pub fn is_proportional(&self) -> bool {
-        let WaveTerms { supports, contact, extra_damping, .. } = &self.terms;
         let is_whole = self.options.damping_model == DampingModel::WholeTangent;
-        let mut further = supports.iter().flat_map(|own| &own.terms);
-        let mut dashpots = contact.dashpots.iter().chain([&contact.friction_dashpots]);
-        is_whole
-            && !self.is_lossy()
-            && extra_damping.is_empty()
-            && further.all(SectorMatrix::is_empty)
-            && dashpots.all(SectorMatrix::is_empty)
+        let regions = self.terms.regions().len();
+        let is_support = |term: &Term| matches!(term.part, Part::Body(own) if own >= regions);
+        let is_dashpot = |term: &Term| matches!(term.kind, Kind::Dashpots | Kind::FrictionDashpots);
+        let mut terms = self.terms.all.iter();
+        let has_further = terms.any(|term| is_support(term) || is_dashpot(term));
+        is_whole && !self.is_lossy() && !self.has_own_damping() && !has_further
+    }
+
+    /// Whether regions have viscous damping other than that of the whole body.
+    pub fn has_own_damping(&self) -> bool {
+        self.terms.regions().iter().any(|law| law.damping != self.options.damping)
     }
 
     /// Matrices of harmonic `n`.
     pub fn harmonic(&self, n: usize) -> HarmonicTangent {
-        let mass = self.mass(n);
-        let mut stiffness = [MirrorParity::Even, MirrorParity::Odd].map(|p| self.stiffness(n, p));
-        let damping = (!self.is_proportional()).then(|| self.damping(n, &mass, &stiffness));
-        self.add_undamped(n, &mut stiffness[0]);
-        let dashpots = &self.terms.contact.friction_dashpots;
-        let dashpots = (!dashpots.is_empty())
-            .then(|| vec![self.dofs.fold(n, MirrorParity::Even, &[dashpots])]);
+        let of = |factor: usize| self.polynomial(n, |term| self.terms.factors(term)[factor]);
+        let of_kind = |kind: Kind| self.polynomial(n, of_kind(kind));
+        let mut kinds = self.terms.all.iter().map(|term| term.kind);
+        let has_dashpots = kinds.any(|kind| kind == Kind::FrictionDashpots);
         HarmonicTangent {
             harmonic: n,
-            mass: self.project(vec![mass]),
-            stiffness: self.project(stiffness.into()),
-            damping: damping.map(|damping| self.project(damping.into())),
-            friction_dashpots: dashpots.map(|dashpots| self.project(dashpots)),
+            mass: of_kind(Kind::Mass),
+            stiffness: of(0),
+            damping: (!self.is_proportional()).then(|| of(1)),
+            friction_dashpots: has_dashpots.then(|| of_kind(Kind::FrictionDashpots)),
             losses: self.losses(n),
             shares: None,
             rayleigh: self.options.damping,
@@ -280,32 +280,31 @@ impl WaveTangent {
 
     /// `M_n` and `K_n` without friction, the normals in rigid contact included.
     fn all_at_rest(&self, n: usize) -> [BandedMatrix; 2] {
-        let mut stiffness = self.stiffness(n, MirrorParity::Even);
-        self.add_undamped(n, &mut stiffness);
-        [self.mass(n), stiffness]
+        let sum = |factor: &dyn Fn(&Term) -> f64| self.sum(n, MirrorParity::Even, factor);
+        [sum(&of_kind(Kind::Mass)), sum(&|term| self.terms.factors(term)[0])]
     }
 
-    /// Adds the stiffness that `beta_R` does not multiply: springs, and what tables have at their reference.
-    fn add_undamped(&self, n: usize, stiffness: &mut BandedMatrix) {
-        stiffness.add_scaled(1.0, &self.of_supports(n, 0));
-        for region in &self.terms.regions {
-            if let Some(table) = &region.table {
-                let elastic = self.wave(n, MirrorParity::Even, &[&region.elastic]);
-                stiffness.add_scaled(table.reference() - 1.0, &elastic);
-            }
-        }
-    }
-
-    /// Harmonic `n` of a sum of terms over displacements, with distances across the contact.
-    pub(super) fn wave(
+    /// Harmonic `n` of the terms of a parity, each times its factor, with distances across the contact.
+    pub(super) fn sum(
         &self,
         n: usize,
         parity: MirrorParity,
-        terms: &[&SectorMatrix],
+        factor: &dyn Fn(&Term) -> f64,
     ) -> BandedMatrix {
-        let mut matrix = self.dofs.fold(n, parity, terms);
-        to_distances(&mut matrix, self.contact.pairs.iter().copied());
-        matrix
+        let mut sum = self.dofs.zeros();
+        let terms = self.terms.all.iter().filter(|own| own.parity == parity);
+        let terms = terms.map(|own| (own, factor(own))).filter(|(_, own)| *own != 0.0);
+        // The contact acts on distances already, but for its forces that turn.
+        let is_across = |own: &Term| own.part == Part::Contact && own.kind != Kind::Prestress;
+        let (across, bodies): (Vec<_>, Vec<_>) = terms.partition(|(own, _)| is_across(own));
+        for (own, factor) in bodies {
+            self.dofs.add(&mut sum, n, parity, (factor, &own.matrix));
+        }
+        to_distances(&mut sum, self.contact.pairs.iter().copied());
+        for (own, factor) in across {
+            self.dofs.add(&mut sum, n, parity, (factor, &own.matrix));
+        }
+        sum
     }
 
     /// Over the unknowns alone.
@@ -313,67 +312,17 @@ impl WaveTangent {
         if self.contact.rigid.is_empty() { matrix } else { matrix.restricted_to(&self.moving) }
     }
 
-    fn mass(&self, n: usize) -> BandedMatrix {
-        let regions = self.terms.regions.iter().map(|region| &region.mass);
-        self.wave(n, MirrorParity::Even, &regions.collect::<Vec<_>>())
-    }
-
-    /// Springs (0) or dashpots (1) of all supports.
-    fn of_supports(&self, n: usize, part: usize) -> BandedMatrix {
-        let own = self.terms.supports.iter().map(|own| &own.terms[part]);
-        self.wave(n, MirrorParity::Even, &own.collect::<Vec<_>>())
-    }
-
-    /// Bodies, prestress, contact forces that turn and the normal law: what `beta_R` multiplies, all but the supports. The odd
-    /// part, `i` times this, is the coefficient of `i mu`.
-    fn stiffness(&self, n: usize, parity: MirrorParity) -> BandedMatrix {
-        let WaveTerms { regions, turning, contact, .. } = &self.terms;
-        let (part, is_even) = (parity as usize, parity == MirrorParity::Even);
-        let elastic = regions.iter().filter(|_| is_even).map(|region| &region.elastic);
-        let stress = regions.iter().map(|region| &region.stress[part]);
-        let terms: Vec<_> = elastic.chain(stress).chain([&turning[part]]).collect();
-        let mut stiffness = self.wave(n, parity, &terms);
-        self.dofs.add(&mut stiffness, n, parity, &[&contact.penalty[part]]);
-        stiffness
-    }
-
-    /// `alpha_R M + beta_R K` with the options' damping model, what regions have of their own, and dashpots.
-    fn damping(
-        &self,
-        n: usize,
-        mass: &BandedMatrix,
-        stiffness: &[BandedMatrix; 2],
-    ) -> [BandedMatrix; 2] {
-        let common = self.options.damping;
-        let elastic = self.terms.regions.iter().map(|region| &region.elastic);
-        let mut damping = match self.options.damping_model {
-            DampingModel::WholeTangent => stiffness.clone(),
-            DampingModel::BodyOnly => {
-                let elastic = elastic.collect::<Vec<_>>();
-                [self.wave(n, MirrorParity::Even, &elastic), self.dofs.zeros()]
-            }
-        };
-        for matrix in &mut damping {
-            matrix.scale(common.stiffness_coefficient);
-        }
-        let [rest, sheared] = &mut damping;
-        rest.add_scaled(common.mass_coefficient, mass);
-        rest.add_scaled(1.0, &self.wave(n, MirrorParity::Even, &[&self.terms.extra_damping]));
-        rest.add_scaled(1.0, &self.of_supports(n, 1));
-        let [even, odd] = &self.terms.contact.dashpots;
-        self.dofs.add(rest, n, MirrorParity::Even, &[even]);
-        self.dofs.add(sheared, n, MirrorParity::Odd, &[odd]);
-        damping
-    }
-
-    /// Whether regions have viscous damping other than that of the whole body.
-    pub fn has_own_damping(&self) -> bool {
-        !self.terms.extra_damping.is_empty()
+    /// Harmonic `n` of the terms, each times its factor, over the unknowns; the odd part, `i` times this, is the coefficient
+    /// of `i mu`.
+    fn polynomial(&self, n: usize, factor: impl Fn(&Term) -> f64) -> FrictionPolynomial {
+        let parities = [MirrorParity::Even, MirrorParity::Odd];
+        self.project(parities.map(|parity| self.sum(n, parity, &factor)).into())
     }
 
     /// Onto the unknowns; for rigid contact each normal row is added to its tangential rows with the
     /// factor `-s mu`, which is `s (i mu)` once the tangential row is multiplied by `-i`.
     fn project(&self, mut full: Vec<BandedMatrix>) -> FrictionPolynomial {
+        trim(&mut full);
         if !self.contact.rigid.is_empty() {
             full.push(self.dofs.zeros());
         }
@@ -391,11 +340,20 @@ impl WaveTangent {
             }
         }
         let mut full: Vec<_> = full.into_iter().map(|matrix| self.restricted(matrix)).collect();
-        let is_zero = |m: &BandedMatrix| m.values().iter().all(|v| *v == 0.0);
-        while full.len() > 1 && is_zero(&full[full.len() - 1]) {
-            full.pop();
-        }
+        trim(&mut full);
         full
+    }
+}
+
+/// One for the terms of a kind, zero for all others.
+fn of_kind(kind: Kind) -> impl Fn(&Term) -> f64 {
+    move |term| f64::from(u8::from(term.kind == kind))
+}
+
+/// Drops powers of friction that vanish from behind the others.
+fn trim(powers: &mut Vec<BandedMatrix>) {
+    while powers.len() > 1 && powers.last().is_some_and(BandedMatrix::is_zero) {
+        powers.pop();
     }
 }
 

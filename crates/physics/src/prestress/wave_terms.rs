@@ -1,52 +1,54 @@
-//! The matrices of one sector that the tangent of its waves is made of.
+//! The matrices of one sector that the tangent of its waves is made of, each with what it stands for.
 
-use super::{LossGain, TabledGain};
-use crate::fem::fold::SectorMatrix;
+use super::{LossGain, TabledGain, TangentOptions};
+use crate::fem::fold::{MirrorParity, SectorMatrix};
 use crate::fem::sector::{self, SectorSupport, Sectored};
-use crate::fem::{MassKind, MaterialField, RayleighDamping};
+use crate::fem::{MaterialField, RayleighDamping};
 use crate::linalg::c64;
 use std::sync::Arc;
 
-/// What the matrices are made of.
-#[derive(Clone, Debug, Default)]
-pub(super) struct WaveTerms {
-    pub regions: Vec<RegionTerms>,
-    pub supports: Vec<SectorSupport>,
-    /// Contact forces that turn with their nodes, without friction and for each unit of it.
-    pub turning: [SectorMatrix; 2],
-    /// Damping of regions beyond that of the whole body.
-    pub extra_damping: SectorMatrix,
-    /// Over the distances across the contact where that joins two bodies.
-    pub contact: ContactTerms,
+/// What a matrix belongs to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Part {
+    /// A region, or after these a support.
+    Body(usize),
+    Contact,
 }
 
-/// Matrices of the contact.
-#[derive(Clone, Debug, Default)]
-pub(super) struct ContactTerms {
-    /// Penalty stiffness at rest and its friction; empty for rigid contact.
-    pub penalty: [SectorMatrix; 2],
-    /// Contact dashpots at rest and their friction.
-    pub dashpots: [SectorMatrix; 2],
+/// What a matrix does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Kind {
+    Mass,
+    /// Elasticity of a region, springs of a support, the normal law of the contact.
+    Stiffness,
+    /// Stress of the base state in a region; forces of the contact that turn with their nodes.
+    Prestress,
+    Dashpots,
     /// `p_0 / V` across the sliding, and `p_0 mu'(V) / mu` along it where friction falls with the speed.
-    pub friction_dashpots: SectorMatrix,
+    FrictionDashpots,
 }
 
-/// Matrices of one region.
+/// One matrix; of odd parity it is what comes with each unit of friction.
 #[derive(Clone, Debug)]
-pub(super) struct RegionTerms {
-    pub mass: SectorMatrix,
-    pub elastic: SectorMatrix,
-    /// Stress of the pressed state and, for each unit of friction, of the sheared state; empty where it does not act back.
-    pub stress: [SectorMatrix; 2],
-    /// Rayleigh coefficients of its own, else those of the whole body.
-    pub damping: Option<RayleighDamping>,
+pub(super) struct Term {
+    pub part: Part,
+    pub kind: Kind,
+    pub parity: MirrorParity,
+    pub matrix: SectorMatrix,
+}
+
+/// What the matrices of a part are multiplied by.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct PartLaw {
+    /// Rayleigh coefficients; none of a support.
+    pub damping: RayleighDamping,
     /// Structural damping `eta`.
     pub loss_factor: f64,
     /// Modulus over frequency; the elastic stiffness has that of the lowest.
     pub table: Option<TabledGain>,
 }
 
-impl RegionTerms {
+impl PartLaw {
     /// What its stiffness is multiplied by at an eigenvalue of the wave `+n`.
     pub fn ratio(&self, root: c64) -> c64 {
         let gain = LossGain(self.table.clone());
@@ -57,36 +59,98 @@ impl RegionTerms {
     }
 }
 
+/// What the matrices are made of.
+#[derive(Clone, Debug)]
+pub(super) struct WaveTerms {
+    /// One of each part, kind and parity, none of them empty.
+    pub all: Vec<Term>,
+    /// Regions, then supports.
+    pub bodies: Vec<PartLaw>,
+    /// Names of the latter.
+    pub supports: Vec<String>,
+    /// Its stiffness coefficient is that of all prestress.
+    pub contact: PartLaw,
+}
+
 impl WaveTerms {
-    /// Regions without stress and supports of a sector.
+    /// Regions without stress, and supports of a sector.
     pub fn of<S: Sectored>(
         sector: &S,
         material: &dyn MaterialField,
-        (kind, damping): (MassKind, RayleighDamping),
+        options: &TangentOptions,
+        supports: Vec<SectorSupport>,
     ) -> Self {
-        let region = |region: usize| RegionTerms {
-            mass: sector::mass_of(sector, material, kind, Some(region)),
-            elastic: sector::stiffness_of(sector, material, Some(region)),
-            stress: Default::default(),
-            damping: material.own_damping(region),
-            loss_factor: material.of(region).loss_factor,
-            table: material.table(region).map(|table| TabledGain {
-                table: Arc::clone(table),
-                reference_hz: table.range_hz()[0],
-            }),
+        let damping = RayleighDamping { mass_coefficient: 0.0, ..options.damping_of_tangent() };
+        let loss_factor = options.contact.loss_factor;
+        let mut own = Self {
+            all: Vec::new(),
+            bodies: Vec::new(),
+            supports: Vec::new(),
+            contact: PartLaw { damping, loss_factor, table: None },
         };
-        Self {
-            regions: (0..sector::region_count(sector)).map(region).collect(),
-            supports: sector.supports(kind),
-            extra_damping: sector::extra_damping(sector, material, kind, damping),
-            ..Self::default()
+        for region in 0..sector::region_count(sector) {
+            let mass = sector::mass_of(sector, material, options.mass, Some(region));
+            let elastic = sector::stiffness_of(sector, material, Some(region));
+            own.add(Part::Body(region), Kind::Mass, [mass]);
+            own.add(Part::Body(region), Kind::Stiffness, [elastic]);
+            let table =
+                |table| TabledGain { table: Arc::clone(table), reference_hz: table.range_hz()[0] };
+            own.bodies.push(PartLaw {
+                damping: material.own_damping(region).unwrap_or(options.damping),
+                loss_factor: material.of(region).loss_factor,
+                table: material.table(region).map(table),
+            });
+        }
+        for SectorSupport { name, terms: [springs, dashpots], loss_factor } in supports {
+            let part = Part::Body(own.bodies.len());
+            own.add(part, Kind::Stiffness, [springs]);
+            own.add(part, Kind::Dashpots, [dashpots]);
+            own.bodies.push(PartLaw { loss_factor, ..PartLaw::default() });
+            own.supports.push(name);
+        }
+        own
+    }
+
+    /// Adds what acts without friction, and what does for each unit of it.
+    pub fn add<const N: usize>(&mut self, part: Part, kind: Kind, matrices: [SectorMatrix; N]) {
+        let parities = [MirrorParity::Even, MirrorParity::Odd].into_iter().zip(matrices);
+        let terms = parities.map(|(parity, matrix)| Term { part, kind, parity, matrix });
+        self.all.extend(terms.filter(|term| !term.matrix.is_empty()));
+    }
+
+    /// The factors of regions.
+    pub fn regions(&self) -> &[PartLaw] {
+        &self.bodies[..self.bodies.len() - self.supports.len()]
+    }
+
+    /// The factors of a part.
+    pub fn law(&self, part: Part) -> &PartLaw {
+        match part {
+            Part::Body(body) => &self.bodies[body],
+            Part::Contact => &self.contact,
+        }
+    }
+
+    /// The factors of a term in `K`, tables at their reference, in `C` and in the structural damping.
+    pub fn factors(&self, term: &Term) -> [f64; 3] {
+        let PartLaw { damping, loss_factor, table } = self.law(term.part);
+        let reference = table.as_ref().map_or(1.0, TabledGain::reference);
+        match term.kind {
+            Kind::Mass => [0.0, damping.mass_coefficient, 0.0],
+            Kind::Stiffness => [reference, damping.stiffness_coefficient, *loss_factor],
+            Kind::Prestress => [1.0, self.contact.damping.stiffness_coefficient, 0.0],
+            Kind::Dashpots => [0.0, 1.0, 0.0],
+            Kind::FrictionDashpots => [0.0; 3],
         }
     }
 
     /// Elastic stiffness of all regions.
     pub fn elastic(&self) -> SectorMatrix {
-        let (first, others) = self.regions.split_first().expect("a body has a region");
-        others.iter().fold(first.elastic.clone(), |sum, own| sum.plus(&own.elastic))
+        let regions = (0..self.regions().len()).map(Part::Body);
+        let regions: Vec<Part> = regions.collect();
+        let elastic = self.all.iter().filter(|own| own.kind == Kind::Stiffness);
+        let elastic = elastic.filter(|own| regions.contains(&own.part));
+        elastic.fold(SectorMatrix::default(), |sum, own| sum.plus(&own.matrix))
     }
 
     /// Takes up the stress of the displacements without friction and for each unit of it.
@@ -96,39 +160,27 @@ impl WaveTerms {
         material: &dyn MaterialField,
         states: [&[f64]; 2],
     ) {
-        for (region, own) in self.regions.iter_mut().enumerate() {
-            own.stress = states.map(|u| sector::geometric_stiffness(sector, material, region, u));
+        for region in 0..self.regions().len() {
+            let stress = states.map(|u| sector::geometric_stiffness(sector, material, region, u));
+            self.add(Part::Body(region), Kind::Prestress, stress);
         }
     }
 
-    /// [`super::WaveTangent::less`] of every matrix.
+    /// [`super::WaveTangent::less`] of every matrix; `None` where factors differ.
     pub fn less(&self, other: &Self) -> Option<Self> {
-        let factors = |own: &Self| {
-            let regions = own.regions.iter();
-            let regions = regions.map(|own| (own.damping, own.loss_factor, own.table.clone()));
-            let supports = own.supports.iter().map(|own| own.loss_factor);
-            (regions.collect::<Vec<_>>(), supports.collect::<Vec<_>>())
-        };
-        let (mut own, mut other) = (self.clone(), other.clone());
-        let is_alike = factors(&own) == factors(&other);
-        for (own, other) in own.matrices().into_iter().zip(other.matrices()) {
-            *own = match *own == *other {
-                true => SectorMatrix::default(),
-                false => own.plus(&other.scaled(-1.0)),
-            };
+        if (&self.bodies, &self.contact) != (&other.bodies, &other.contact) {
+            return None;
         }
-        is_alike.then_some(own)
-    }
-
-    fn matrices(&mut self) -> Vec<&mut SectorMatrix> {
-        let regions = self.regions.iter_mut().flat_map(|own| {
-            let [pressed, sheared] = &mut own.stress;
-            [&mut own.mass, &mut own.elastic, pressed, sheared]
-        });
-        let supports = self.supports.iter_mut().flat_map(|own| &mut own.terms);
-        let ContactTerms { penalty, dashpots, friction_dashpots } = &mut self.contact;
-        let contact = penalty.iter_mut().chain(dashpots).chain([friction_dashpots]);
-        let others = self.turning.iter_mut().chain([&mut self.extra_damping]);
-        regions.chain(supports).chain(contact).chain(others).collect()
+        let mut own = self.clone();
+        for term in &other.all {
+            let name = |own: &Term| (own.part, own.kind, own.parity);
+            match own.all.iter_mut().find(|own| name(own) == name(term)) {
+                Some(own) if own.matrix == term.matrix => own.matrix = SectorMatrix::default(),
+                Some(own) => own.matrix = own.matrix.plus(&term.matrix.scaled(-1.0)),
+                None => own.all.push(Term { matrix: term.matrix.scaled(-1.0), ..*term }),
+            }
+        }
+        own.all.retain(|term| !term.matrix.is_empty());
+        Some(own)
     }
 }

@@ -53,7 +53,7 @@ impl Parts<'_> {
 
     /// Energies and damping of every region.
     pub fn of_regions(&self, shapes: &Shapes<'_>, sums: &mut Sums) -> Vec<Row> {
-        let beta = self.whole_beta();
+        let beta = self.whole.options.damping_of_tangent().stiffness_coefficient;
         let mut rows = Vec::new();
         for (region, own) in self.regions.iter().enumerate() {
             let [mass, stiffness] = own.pair.multiply(shapes.columns.as_ref());

@@ -51,7 +51,7 @@ pub(super) fn feed(parts: &Parts<'_>, points: &[&FrictionPoint]) -> Vec<ModeFeed
     let places = pressed.iter().enumerate();
     let terms = places.map(|(first, own)| terms(own, (&at_own, first), friction));
     let terms: Vec<PointTerms> = terms.collect();
-    let beta = parts.whole_beta();
+    let beta = parts.whole.options.damping_of_tangent().stiffness_coefficient;
     let balance = sums.balance.unwrap_or_default();
     let modes = balance.into_iter().enumerate().map(|(i, mut forces)| {
         let (lambda, phi) = (shapes.modes[i].1.eigenvalue, shapes.column(i));

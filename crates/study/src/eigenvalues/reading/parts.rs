@@ -10,7 +10,7 @@ use frictionsim_physics::fem::{
 };
 use frictionsim_physics::linalg::{Mat, MatRef, MatrixPolynomial, c64};
 use frictionsim_physics::mesh::{BoundaryCondition, Mesh};
-use frictionsim_physics::prestress::{DampingModel, PressedState};
+use frictionsim_physics::prestress::PressedState;
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
@@ -162,15 +162,6 @@ impl<'a> Parts<'a> {
         let number = range.state_of[place];
         let state = self.whole.assembly(self.case).stressing(&range.states[number])?;
         Some((number, state))
-    }
-
-    /// What `beta_R` multiplies of the geometric stiffness and of contact.
-    pub fn whole_beta(&self) -> f64 {
-        let options = &self.whole.options;
-        match options.damping_model {
-            DampingModel::WholeTangent => options.damping.stiffness_coefficient,
-            DampingModel::BodyOnly => 0.0,
-        }
     }
 }
 

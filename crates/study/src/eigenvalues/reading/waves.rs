@@ -7,14 +7,14 @@ use crate::eigenvalues::sliding::SlidingModel;
 use frictionsim_case::Case;
 use frictionsim_physics::cea::{ComplexMode, FrictionPoint, FrictionSweep, ModeWave};
 use frictionsim_physics::linalg::c64;
-use frictionsim_physics::prestress::{HarmonicParts, PartForms, WaveTangent};
+use frictionsim_physics::prestress::{HarmonicParts, WaveTangent};
 use frictionsim_results::cea::{Contribution, Coupling, ModeFeed, ModeName, Reading, Source};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A body taken apart, and its harmonics as far as they were needed.
 struct Apart<'a> {
-    regions: Vec<String>,
-    supports: Vec<String>,
+    /// Regions, then supports.
+    parts: Vec<(String, Source)>,
     harmonics: BTreeMap<usize, HarmonicParts<'a>>,
 }
 
@@ -60,9 +60,10 @@ impl<'t> Apart<'t> {
         let modes = sweep.points.iter().flat_map(|point| &point.modes);
         let numbers: BTreeSet<usize> =
             modes.filter(|mode| mode.wave.is_some()).map(|mode| mode.harmonic).collect();
-        let supports = tangent.support_names().map(str::to_owned).collect();
+        let regions = model.mesh.regions.iter().map(|name| (name.clone(), Source::Part));
+        let supports = tangent.support_names().map(|name| (name.to_owned(), Source::Support));
         let harmonics = numbers.into_iter().map(|n| (n, tangent.parts(n))).collect();
-        Self { regions: model.mesh.regions.clone(), supports, harmonics }
+        Self { parts: regions.chain(supports).collect(), harmonics }
     }
 
     fn waving<'a>(&self, point: &'a FrictionPoint) -> Vec<Waving<'a>> {
@@ -85,21 +86,15 @@ impl<'t> Apart<'t> {
     fn contributions(&self, own: &Waving<'_>, out: &mut Vec<Contribution>) {
         let parts = &self.harmonics[&own.mode.harmonic];
         let (x, root) = (&own.wave.unknowns, own.wave.root(own.mode.eigenvalue));
-        let regions = parts.of_regions(root, own.name.friction_coefficient, x);
-        let supports = parts.of_supports(root, x);
-        let strain = |forms: &[PartForms]| -> f64 { forms.iter().map(|own| own.stiffness).sum() };
-        let energies = [own.mass, strain(&regions) + strain(&supports)];
-        let forms = |own: &PartForms| [own.mass, own.stiffness, own.damping];
-        let regions = self.regions.iter().zip(&regions);
-        let regions = regions.map(|(name, own)| (name, Source::Part, forms(own)));
-        // A support has no mass.
-        let supports = self
-            .supports
-            .iter()
-            .zip(&supports)
-            .map(|(name, own)| (name, Source::Support, [f64::NAN, own.stiffness, own.damping]));
+        let forms = parts.forms(root, own.name.friction_coefficient, x);
+        let energies = [own.mass, forms.iter().map(|own| own.stiffness).sum()];
+        let rows = self.parts.iter().zip(&forms).map(|((name, source), own)| {
+            // A support has no mass.
+            let mass = if *source == Source::Support { f64::NAN } else { own.mass };
+            (name, *source, [mass, own.stiffness, own.damping])
+        });
         let contact = |fed: f64| vec![(CONTACT.to_owned(), fed)];
-        write((own.name, own.mode), regions.chain(supports), energies, &contact, out);
+        write((own.name, own.mode), rows, energies, &contact, out);
     }
 
     /// The feed of the unstable modes at the case's own friction coefficient.
