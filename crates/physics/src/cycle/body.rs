@@ -3,7 +3,7 @@
 use super::CycleError;
 use crate::fem::fold::{MirrorParity, SectorMatrix};
 use crate::fem::sector::{self, Sectored};
-use crate::fem::{ElasticMaterial, MassKind, RayleighDamping};
+use crate::fem::{ElasticMaterial, MassKind, RayleighDamping, Triplets, assemble_supports};
 use crate::linalg::banded::BandedMatrix;
 use crate::linalg::c64;
 use crate::mesh::{AnnulusSpecification, BoundaryCondition, ElementKind, SectorMesh};
@@ -109,8 +109,13 @@ impl WaveBody {
         let dofs = mesh.wave_dofs();
         let fold = |n: usize, matrix: &SectorMatrix| dofs.fold(n, MirrorParity::Even, &[matrix]);
         let mass = fold(0, &sector::mass(&mesh, material, MassKind::Lumped));
+        let block = |matrix: Triplets| {
+            let mut block = Matrix2::zeros();
+            matrix.entries.iter().for_each(|&(i, j, value)| block[(i % 2, j % 2)] = value);
+            block
+        };
         let support = match specification.outer {
-            BoundaryCondition::Support(_) => mesh.strip.nodal_supports().first().copied(),
+            BoundaryCondition::Support(_) => Some(assemble_supports(&mesh.strip).map(block)),
             _ => None,
         };
         let sectors = mesh.sector_count() as isize;
@@ -124,7 +129,7 @@ impl WaveBody {
         Ok(Self {
             harmonics,
             masses: (0..mesh.free_node_count()).map(|i| mass.get(2 * i, 2 * i)).collect(),
-            support: support.map(|s| [s.stiffness, s.damping]),
+            support,
             harmonic,
             sector_count: mesh.sector_count(),
             rays: specification.radial_elements + 1,

@@ -1,8 +1,8 @@
-//! Assembly of element matrices and supports, and the dofs that boundary conditions hold.
+//! Assembly of element matrices.
 
 use super::element::{self, ElementGeometry};
-use super::{MaterialField, ModulusTable, RayleighDamping, Triplets, face};
-use crate::mesh::{Boundary, BoundaryCondition, ElasticSupport, Mesh};
+use super::{MaterialField, ModulusTable, RayleighDamping, Triplets, assemble_support_losses};
+use crate::mesh::Mesh;
 use nalgebra::DMatrix;
 use std::sync::Arc;
 
@@ -173,33 +173,6 @@ fn sum_of_elements(
     sum.finish()
 }
 
-/// Springs and dashpots of the supports over all dofs, N/m and N s/m, in the plane for each metre of thickness; empty where
-/// nothing is supported.
-///
-/// In the plane lumped at the nodes; of a solid `∫ N_I N_J (k_n n n^T + k_t (1 - n n^T)) dA`.
-pub fn assemble_supports(mesh: &Mesh) -> [Triplets; 2] {
-    if mesh.dimension == 3 {
-        return face::supports(mesh);
-    }
-    let mut both = [Triplets::default(), Triplets::default()];
-    for support in mesh.nodal_supports() {
-        let matrices = [support.stiffness, support.damping];
-        for (triplets, matrix) in both.iter_mut().zip(matrices) {
-            triplets.push_block([2 * support.node; 2], &matrix);
-        }
-    }
-    both
-}
-
-/// Forces of every boundary pressure over all dofs in nodal frames, N, in the plane for each metre of thickness; `None` where
-/// there is none.
-pub fn assemble_pressures(mesh: &Mesh) -> Option<Vec<f64>> {
-    match mesh.dimension {
-        2 => mesh.pressure_forces(),
-        _ => face::pressures(mesh),
-    }
-}
-
 /// What damping coefficients of their own, of regions and of patches, add to `alpha_R M + beta_R K_e` of the whole body, Pa s,
 /// over all dofs; `None` where nothing has its own.
 ///
@@ -253,31 +226,6 @@ pub fn assemble_structural_damping(mesh: &Mesh, material: &dyn MaterialField) ->
     let lossy = |e: usize| element_stiffness(mesh, material, e) * loss(e);
     let has_losses = (0..mesh.element_count()).any(is_lossy);
     has_losses.then(|| sum_of_elements(mesh, &is_lossy, lossy))
-}
-
-/// Structural damping `sum_b eta_b K_b` of the springs of supports over all dofs, as [`assemble_structural_damping`]; `None` where no
-/// support has any.
-pub fn assemble_support_losses(mesh: &Mesh) -> Option<Triplets> {
-    let is_lossy = |boundary: &Boundary| matches!(boundary.condition, BoundaryCondition::Support(support) if support.loss_factor != 0.0);
-    if !mesh.boundaries.iter().any(is_lossy) {
-        return None;
-    }
-    // The same supports with `eta` times their springs.
-    let mut own = mesh.clone();
-    own.attachments.clear();
-    for boundary in &mut own.boundaries {
-        if let BoundaryCondition::Support(support) = &mut boundary.condition {
-            let eta = support.loss_factor;
-            *support = ElasticSupport {
-                normal_stiffness: eta * support.normal_stiffness,
-                tangential_stiffness: eta * support.tangential_stiffness,
-                axial_stiffness: support.axial_stiffness.map(|own| eta * own),
-                ..ElasticSupport::default()
-            };
-        }
-    }
-    let [losses, _] = assemble_supports(&own);
-    Some(losses)
 }
 
 /// Stiffness over all dofs of each region whose modulus depends on frequency, at its lowest frequency, with its table.

@@ -9,7 +9,6 @@ mod assembly;
 mod discretization;
 mod dof_map;
 pub mod element;
-mod face;
 pub mod fold;
 mod material;
 mod maxwell;
@@ -21,14 +20,14 @@ mod rotation;
 pub mod sector;
 pub mod solid;
 mod stress;
+mod support;
 mod triplets;
 
 pub use assembly::{
     MassKind, assemble_displacement_stiffness, assemble_extra_damping,
     assemble_geometric_stiffness, assemble_losses, assemble_mass, assemble_patch_damping,
-    assemble_point_masses, assemble_pressures, assemble_region, assemble_stiffness,
-    assemble_structural_damping, assemble_support_losses, assemble_supports, assemble_tabled,
-    element_mass, element_matrices, element_stiffness, lumped_masses,
+    assemble_point_masses, assemble_region, assemble_stiffness, assemble_structural_damping,
+    assemble_tabled, element_mass, element_matrices, element_stiffness, lumped_masses,
 };
 pub use discretization::DiscretizationError;
 pub use dof_map::DofMap;
@@ -40,4 +39,8 @@ pub use modulus_table::{ModulusTable, own_frequency_step};
 pub use orthotropy::{Elasticity, Indefinite, MaterialAxes, Orthotropy, RATIOS};
 pub use rotation::{RotationFrame, RotationTerms, Spin, assemble_rotation};
 pub use stress::{NodalStress, SolidStress, nodal_stress, revolved_stress, solid_stress};
+pub use support::{
+    assemble_attachments, assemble_pressures, assemble_support, assemble_support_losses,
+    assemble_supports,
+};
 pub use triplets::Triplets;

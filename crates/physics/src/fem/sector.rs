@@ -8,7 +8,7 @@ use super::fold::{SectorMatrix, WaveDofs};
 use super::solid::{FaceRule, FaceTerm, face_matrix, whole_element};
 use super::{
     MassKind, MaterialField, RayleighDamping, Triplets, assemble_extra_damping,
-    assemble_geometric_stiffness, assemble_supports, element_mass, element_stiffness,
+    assemble_geometric_stiffness, assemble_support, element_mass, element_stiffness,
 };
 use crate::mesh::{Boundary, BoundaryCondition, Mesh, SectorMesh, SolidFace, SolidSector};
 use nalgebra::DMatrix;
@@ -59,13 +59,9 @@ impl Sectored for SectorMesh {
 
     fn supports(&self, _: MassKind) -> Vec<SectorSupport> {
         let of = |own: &Boundary| {
-            let BoundaryCondition::Support(support) = own.condition else {
-                return None;
-            };
-            // The sector with this support alone.
-            let alone = Mesh { boundaries: vec![own.clone()], ..self.strip.clone() };
-            let terms = assemble_supports(&alone).map(|own| folded(self, &own));
-            Some(SectorSupport { name: own.name.clone(), terms, loss_factor: support.loss_factor })
+            let (terms, loss_factor) = assemble_support(&self.strip, own)?;
+            let terms = terms.map(|own| folded(self, &own));
+            Some(SectorSupport { name: own.name.clone(), terms, loss_factor })
         };
         self.strip.boundaries.iter().filter_map(of).collect()
     }

@@ -1,7 +1,6 @@
 //! Named boundaries of a body, and what holds them.
 
 use super::{Counterface, FaceKind, Mesh};
-use nalgebra::Matrix2;
 use std::collections::BTreeSet;
 use std::f64::consts::FRAC_PI_2;
 
@@ -84,6 +83,11 @@ pub struct Boundary {
 }
 
 impl Boundary {
+    /// What supports it, if springs and dashpots do.
+    pub fn support(&self) -> Option<&ElasticSupport> {
+        if let BoundaryCondition::Support(own) = &self.condition { Some(own) } else { None }
+    }
+
     /// Whether each of its nodes is a node of one of its faces: a set of nodes need not be a surface.
     pub fn is_covered(&self) -> bool {
         let faces = self.faces.iter();
@@ -123,79 +127,7 @@ impl Boundary {
     }
 }
 
-/// A spring and dashpot matrix at one node, in the node's frame.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct NodalSupport {
-    /// 0-based node.
-    pub node: usize,
-    /// Stiffness over `(e_1, e_2)`, N/m for each metre of thickness.
-    pub stiffness: Matrix2<f64>,
-    /// Damping over `(e_1, e_2)`, N s/m for each metre of thickness.
-    pub damping: Matrix2<f64>,
-}
-
 impl Mesh {
-    /// Springs and dashpots of every support, node by node, `w_i (k_n n n^T + k_t t t^T)`: the integral over the
-    /// boundary with its tributary lengths as weights; and those attached to single nodes.
-    pub fn nodal_supports(&self) -> Vec<NodalSupport> {
-        let mut supports = Vec::new();
-        for boundary in &self.boundaries {
-            let BoundaryCondition::Support(support) = boundary.condition else {
-                continue;
-            };
-            let nodes = boundary.nodes.iter().zip(&boundary.tributary_lengths);
-            for ((&node, &length), &normal) in nodes.zip(&boundary.normal_angles) {
-                let node = node as usize;
-                // A multiple of a quarter turn leaves the matrix exactly diagonal.
-                let turn = normal - self.frame_angles()[node];
-                let is_straight = turn.sin().abs() < 1e-12;
-                let (sin, cos) = if is_straight { (0.0, 1.0) } else { turn.sin_cos() };
-                let of = |along: f64, across: f64| {
-                    let coupling = length * (along - across) * sin * cos;
-                    let first = length * (along * cos * cos + across * sin * sin);
-                    let second = length * (along * sin * sin + across * cos * cos);
-                    Matrix2::new(first, coupling, coupling, second)
-                };
-                supports.push(NodalSupport {
-                    node,
-                    stiffness: of(support.normal_stiffness, support.tangential_stiffness),
-                    damping: of(support.normal_damping, support.tangential_damping),
-                });
-            }
-        }
-        // Springs and dashpots at single nodes.
-        for attachment in &self.attachments {
-            let block = |matrix| {
-                self.in_frame(attachment.node, matrix).fixed_view::<2, 2>(0, 0).into_owned()
-            };
-            let [stiffness, damping] = [&attachment.stiffness, &attachment.damping].map(block);
-            if stiffness != Matrix2::zeros() || damping != Matrix2::zeros() {
-                supports.push(NodalSupport { node: attachment.node, stiffness, damping });
-            }
-        }
-        supports
-    }
-
-    /// Forces of every boundary pressure over all dofs in nodal frames, N for each metre of thickness; `None`
-    /// where there is none.
-    pub fn pressure_forces(&self) -> Option<Vec<f64>> {
-        let mut forces: Option<Vec<f64>> = None;
-        for boundary in &self.boundaries {
-            let BoundaryCondition::Pressure(pressure) = boundary.condition else {
-                continue;
-            };
-            let forces = forces.get_or_insert_with(|| vec![0.0; 2 * self.node_count()]);
-            let nodes = boundary.nodes.iter().zip(&boundary.tributary_lengths);
-            for ((&node, &length), &normal) in nodes.zip(&boundary.normal_angles) {
-                let node = node as usize;
-                let (sin, cos) = (normal - self.frame_angles()[node]).sin_cos();
-                forces[2 * node] -= pressure * length * cos;
-                forces[2 * node + 1] -= pressure * length * sin;
-            }
-        }
-        forces
-    }
-
     /// Dofs that boundary conditions hold at zero.
     ///
     /// A guide holds the axis of the node's frame along its normal; both where neither axis is. A fixed direction of the plane

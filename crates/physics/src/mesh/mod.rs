@@ -27,7 +27,7 @@ mod splitting;
 
 pub use annulus::AnnulusMesh;
 pub use body::{BodySpecification, CounterfaceSpecification};
-pub use boundary::{Boundary, BoundaryCondition, BoundaryFace, ElasticSupport, NodalSupport};
+pub use boundary::{Boundary, BoundaryCondition, BoundaryFace, ElasticSupport};
 pub use chord::Chord;
 pub use coincidence::{UnmergedNodes, coincident_nodes};
 pub use counterface::Counterface;

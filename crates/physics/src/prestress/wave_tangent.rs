@@ -80,7 +80,7 @@ impl WaveTangent {
     ) -> Self {
         let options = TangentOptions::of_free(mass, damping);
         let (supports, dofs) = match is_held {
-            true => (sector.supports(), sector.wave_dofs()),
+            true => (sector.supports(mass), sector.wave_dofs()),
             false => (Vec::new(), sector.wave_dofs().unheld()),
         };
         let terms = WaveTerms::of(sector, material, &options, supports);

@@ -5,11 +5,11 @@ use crate::eigenvalues::contact::CONTACT;
 use crate::eigenvalues::whole::WholeMesh;
 use frictionsim_case::Case;
 use frictionsim_physics::fem::{
-    ModulusTable, Triplets, assemble_geometric_stiffness, assemble_patch_damping,
-    assemble_point_masses, assemble_region, assemble_supports,
+    ModulusTable, Triplets, assemble_attachments, assemble_geometric_stiffness,
+    assemble_patch_damping, assemble_point_masses, assemble_region, assemble_support,
 };
 use frictionsim_physics::linalg::{Mat, MatRef, MatrixPolynomial, c64};
-use frictionsim_physics::mesh::{BoundaryCondition, Mesh};
+use frictionsim_physics::mesh::{Boundary, Mesh};
 use frictionsim_physics::prestress::PressedState;
 use std::cell::RefCell;
 use std::collections::BTreeMap;
@@ -200,9 +200,7 @@ fn contact_dofs(mesh: &Mesh, contacts: &[(String, Vec<usize>)]) -> Vec<(String, 
 
 /// Dashpots and springs of the modifications, with the damping of their patches.
 fn modifications(mesh: &Mesh, patches: Triplets) -> (String, Pair, f64) {
-    let mut own = mesh.clone();
-    own.boundaries.iter_mut().for_each(|own| own.condition = BoundaryCondition::Free);
-    let [springs, mut dashpots] = assemble_supports(&own);
+    let [springs, mut dashpots] = assemble_attachments(mesh);
     dashpots.entries.extend(patches.entries);
     let pair = Pair::new(mesh.dof_count(), [dashpots, springs]);
     ("modifications".to_owned(), pair, 0.0)
@@ -210,21 +208,10 @@ fn modifications(mesh: &Mesh, patches: Triplets) -> (String, Pair, f64) {
 
 /// Dashpots and springs of each supported boundary, with its loss factor.
 fn supports(mesh: &Mesh) -> Vec<(String, Pair, f64)> {
-    let of = |boundary: usize| {
-        let BoundaryCondition::Support(support) = &mesh.boundaries[boundary].condition else {
-            return None;
-        };
-        // The mesh with this support alone.
-        let mut own = mesh.clone();
-        own.attachments.clear();
-        for (other, free) in own.boundaries.iter_mut().enumerate() {
-            if other != boundary {
-                free.condition = BoundaryCondition::Free;
-            }
-        }
-        let [springs, dashpots] = assemble_supports(&own);
+    let of = |boundary: &Boundary| {
+        let ([springs, dashpots], loss_factor) = assemble_support(mesh, boundary)?;
         let pair = Pair::new(mesh.dof_count(), [dashpots, springs]);
-        Some((mesh.boundaries[boundary].name.clone(), pair, support.loss_factor))
+        Some((boundary.name.clone(), pair, loss_factor))
     };
-    (0..mesh.boundaries.len()).filter_map(of).collect()
+    mesh.boundaries.iter().filter_map(of).collect()
 }
