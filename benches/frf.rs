@@ -8,8 +8,8 @@ use divan::Bencher;
 use frictionsim::contact::{ContactStiffness, SlidingContact};
 use frictionsim::fem::{ElasticMaterial, MassKind, PlaneFormulation, RayleighDamping};
 use frictionsim::frf::{
-    CyclicSystem, Direction, FrfSystem, ReductionSettings, Terminal, cyclic_response,
-    direct_response, reduced_response,
+    CyclicSystem, Direction, FrfSystem, Port, Terminal, cyclic_response, direct_response,
+    reduced_response,
 };
 use frictionsim::mesh::{
     AnnulusMesh, AnnulusSpecification, BoundaryCondition, ElementKind, SectorMesh,
@@ -87,6 +87,11 @@ fn whole_system(boundary: &str) -> FrfSystem {
     FrfSystem::body(&annulus.mesh, &MATERIAL, mass, DAMPING, boundary == "clamped")
 }
 
+fn ports(system: &FrfSystem) -> [Port; 2] {
+    let mesh = AnnulusMesh::generate(&specification()).expect("a valid mesh").mesh;
+    [FORCE, response()].map(|own| system.port(&mesh, None, own, "node").expect("a free node"))
+}
+
 fn frequencies() -> Vec<f64> {
     let count = if is_measured() { 1000 } else { 50 };
     (1..=count).map(|line| 10.0 * f64::from(line)).collect()
@@ -108,17 +113,16 @@ fn cyclic(bencher: Bencher<'_, '_>, boundary: &str) {
 #[divan::bench(args = ["free", "clamped", "sliding"], sample_count = 1)]
 fn direct(bencher: Bencher<'_, '_>, boundary: &str) {
     let (system, f) = (whole_system(boundary), frequencies());
-    let [force, response] = [FORCE, response()].map(|t| system.unknown(t, "node").unwrap());
-    bencher.bench(|| on_one_thread(|| direct_response(&system, force, response, &f).unwrap()));
+    let [force, response] = ports(&system);
+    bencher.bench(|| {
+        on_one_thread(|| direct_response(&system, &force, &response, &f, &|_| {}).unwrap())
+    });
 }
 
 /// Rational Krylov reduction.
 #[divan::bench(args = ["free", "clamped", "sliding"], max_time = 4)]
 fn reduced(bencher: Bencher<'_, '_>, boundary: &str) {
     let (system, f) = (whole_system(boundary), frequencies());
-    let [force, response] = [FORCE, response()].map(|t| system.unknown(t, "node").unwrap());
-    let settings = ReductionSettings::default();
-    bencher.bench(|| {
-        on_one_thread(|| reduced_response(&system, force, response, &f, &settings).unwrap())
-    });
+    let [force, response] = ports(&system);
+    bencher.bench(|| on_one_thread(|| reduced_response(&system, &force, &response, &f).unwrap()));
 }

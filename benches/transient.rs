@@ -173,7 +173,7 @@ fn report(model: TransientModel<'_>, choice: OperatorChoice, level: SimdLevel, p
     println!(
         "{:8}  {:7} {:8.2} {:12.3} {:15.1} %",
         operator.name(),
-        operator.simd(),
+        level.min(SimdLevel::detect()),
         1e6 * best,
         1e9 * best / mesh.element_count() as f64,
         100.0 * operations * nodes / best / peak,

@@ -28,10 +28,9 @@ fn free_disc(step_hz: f64) -> (Vec<f64>, Vec<c64>) {
     let mass = Consistent;
     let system = FrfSystem::body(&annulus.mesh, &material, mass, damping, false);
     let rim = Terminal { node: 18, direction: Direction::Radial };
-    let unknown = system.unknown(rim, "force_node").unwrap();
+    let port = system.port(&annulus.mesh, None, rim, "force_node").unwrap();
     let f: Vec<f64> = (1..=(1e4 / step_hz) as usize).map(|i| i as f64 * step_hz).collect();
-    let settings = ReductionSettings::default();
-    let found = reduced_response(&system, unknown, unknown, &f, &settings).unwrap();
+    let found = reduced_response(&system, &port, &port, &f).unwrap();
     let accelerance =
         f.iter().zip(&found.receptance).map(|(f, h)| -h * (TAU * f).powi(2)).collect();
     (f, accelerance)

@@ -19,8 +19,9 @@ fn sliding(damping_model: DampingModel) -> FrfSystem {
     FrfSystem::sliding(&tangent, 0.3)
 }
 
-fn unknown(system: &FrfSystem, node: usize, is_tangential: bool) -> usize {
-    system.unknown(at_node(node, is_tangential), "force_node").unwrap()
+fn port(system: &FrfSystem, node: usize, is_tangential: bool) -> Port {
+    let terminal = at_node(node, is_tangential);
+    system.port(&annulus().mesh, None, terminal, "force_node").unwrap()
 }
 
 #[test]
@@ -28,9 +29,9 @@ fn free_disc_moves_as_a_rigid_body_far_below_its_first_resonance() {
     let undamped = RayleighDamping::default();
     let system = body(false, undamped);
     // A radial force passes through the centre: no rotation, acceleration F / m.
-    let rim = unknown(&system, RADIAL, false);
+    let rim = port(&system, RADIAL, false);
     let frequency = 20.0;
-    let h = direct_response(&system, rim, rim, &[frequency]).unwrap()[0];
+    let h = direct_response(&system, &rim, &rim, &[frequency], &|_| {}).unwrap()[0];
     // Mass of the polygonal mesh: that of the polygon with 48 corners.
     let polygon = 48.0 / 2.0 * (TAU / 48.0).sin();
     let mass = 1228.0 * polygon * (0.0905f64.powi(2) - 0.0205f64.powi(2));
@@ -45,10 +46,10 @@ fn reduction_agrees_with_direct_solution_for_every_boundary() {
         [body(false, DAMPING), body(true, DAMPING), sliding(WholeTangent), sliding(BodyOnly)];
     let f: Vec<f64> = (1..=300).map(|i| 33.3 * f64::from(i)).collect();
     for (k, system) in systems.iter().enumerate() {
-        let (a, b) = (unknown(system, 0, true), unknown(system, 4 + 11 * 5, false));
-        let reduced = reduced_response(system, a, b, &f, &ReductionSettings::default()).unwrap();
+        let (a, b) = (port(system, 0, true), port(system, 4 + 11 * 5, false));
+        let reduced = reduced_response(system, &a, &b, &f).unwrap();
         assert!(reduced.largest_error <= 1e-6);
-        let direct = direct_response(system, a, b, &f).unwrap();
+        let direct = direct_response(system, &a, &b, &f, &|_| {}).unwrap();
         let top = direct.iter().map(|h| h.norm()).fold(0.0, f64::max);
         for (x, y) in reduced.receptance.iter().zip(&direct) {
             // Between the check lines the stated error is an estimate: ten times it, and at an
@@ -61,13 +62,18 @@ fn reduction_agrees_with_direct_solution_for_every_boundary() {
 #[test]
 fn a_clamped_node_and_a_missing_one_are_refused_with_their_key() {
     let system = body(true, DAMPING);
-    let error = system.unknown(at_node(RADIAL, false), "force_node").unwrap_err();
+    let mesh = annulus().mesh;
+    let refused = |node: usize, key: &'static str| {
+        system.port(&mesh, None, at_node(node, false), key).unwrap_err()
+    };
+    let error = refused(RADIAL, "force_node");
     assert!(
         matches!(error, FrfError::Node { node: 11, fault: NodeFault::Constrained(_), .. }),
         "{error}"
     );
-    let error = system.unknown(at_node(100_000, false), "response_node").unwrap_err();
+    let error = refused(100_000, "response_node");
     assert!(error.to_string().contains("frf.response_node = 100001"), "{error}");
-    let error = direct_response(&system, 0, 0, &[-1.0]).unwrap_err();
+    let own = port(&system, 0, false);
+    let error = direct_response(&system, &own, &own, &[-1.0], &|_| {}).unwrap_err();
     assert!(matches!(error, FrfError::Frequency { value: -1.0 }));
 }

@@ -32,11 +32,16 @@ fn terminals(specification: &AnnulusSpecification, is_sliding: bool) -> Vec<[Ter
 const FREQUENCIES: [f64; 11] =
     [100.0, 777.0, 1500.0, 2345.0, 2800.0, 3456.0, 4321.0, 5678.0, 7000.0, 8765.0, 10_000.0];
 
-fn agree(whole: &FrfSystem, cyclic: &CyclicSystem, terminals: &[[Terminal; 2]], what: &str) {
+fn agree(
+    (mesh, whole): (&Mesh, &FrfSystem),
+    cyclic: &CyclicSystem,
+    terminals: &[[Terminal; 2]],
+    what: &str,
+) {
     assert_eq!(whole.dimension(), cyclic.dimension());
     for [force, response] in terminals {
-        let unknowns = [force, response].map(|t| whole.unknown(*t, "node").unwrap());
-        let direct = direct_response(whole, unknowns[0], unknowns[1], &FREQUENCIES).unwrap();
+        let [at, seen] = [force, response].map(|t| whole.port(mesh, None, *t, "node").unwrap());
+        let direct = direct_response(whole, &at, &seen, &FREQUENCIES, &|_| {}).unwrap();
         let solved = cyclic_response(cyclic, *force, *response, &FREQUENCIES).unwrap();
         assert!(solved.backward_error <= 1e-14);
         let top = direct.iter().map(|h| h.norm()).fold(0.0, f64::max);
@@ -60,7 +65,7 @@ fn harmonics_of_a_free_and_a_clamped_body_sum_to_the_response_of_the_whole_mesh(
                 let whole = FrfSystem::body(&mesh, &POLYCARBONATE, mass, DAMPING, is_clamped);
                 let cyclic = CyclicSystem::body(&sector, &POLYCARBONATE, mass, DAMPING, is_clamped);
                 let what = format!("{:?}, clamped {is_clamped}, {mass:?}", specification.element);
-                agree(&whole, &cyclic, &terminals(specification, false), &what);
+                agree((&mesh, &whole), &cyclic, &terminals(specification, false), &what);
             }
         }
     }
@@ -77,8 +82,8 @@ fn a_support_of_dashpots_alone_damps_the_response() {
         edge.condition = support([spring, spring, 0.0], [dashpot, dashpot]);
         let system = FrfSystem::body(&mesh, &POLYCARBONATE, Consistent, DAMPING, true);
         let [force, seen] = terminals(specification, false)[1];
-        let [force, seen] = [force, seen].map(|own| system.unknown(own, "node").unwrap());
-        direct_response(&system, force, seen, &FREQUENCIES).unwrap()
+        let port = |own: Terminal| system.port(&mesh, None, own, "node").unwrap();
+        direct_response(&system, &port(force), &port(seen), &FREQUENCIES, &|_| {}).unwrap()
     };
     let [alone, beside, none] = [[0.0, 1e4], [1e-3, 1e4], [1e-3, 0.0]].map(response);
     for ((alone, beside), none) in alone.iter().zip(&beside).zip(&none) {
@@ -109,8 +114,9 @@ fn harmonics_in_sliding_contact_sum_to_the_response_of_the_whole_mesh() {
                     "{:?}, {damping_model:?}, {contact:?}, {normal_stiffness:?}, {loss_factor}",
                     specification.element
                 );
+                let mesh = AnnulusMesh::generate(&specification).unwrap().mesh;
                 agree(
-                    &FrfSystem::sliding(&model.whole(), 0.3),
+                    (&mesh, &FrfSystem::sliding(&model.whole(), 0.3)),
                     &CyclicSystem::sliding(&model.tangent(), 0.3),
                     &terminals(&specification, true),
                     &what,

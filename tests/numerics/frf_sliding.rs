@@ -106,6 +106,7 @@ fn responses_in_sliding_contact_are_the_sums_over_right_and_left_eigenvectors() 
         let modal = ModalForm::of(&tangent, 0.3);
         let unstable = modal.poles.iter().filter(|p| p.re > 0.0).count();
         assert!(unstable >= 2, "{unstable}");
+        let mesh = AnnulusMesh::generate(&model.specification).unwrap().mesh;
         let whole = FrfSystem::sliding(&tangent, 0.3);
         let cyclic = CyclicSystem::sliding(&model.tangent(), 0.3);
         for [force, response] in [
@@ -113,8 +114,13 @@ fn responses_in_sliding_contact_are_the_sums_over_right_and_left_eigenvectors() 
             [at(3, 0, true), at(11, 2, false)],
             [at(7, 3, false), at(2, 0, true)],
         ] {
-            let unknowns = [force, response].map(|t| whole.unknown(t, "node").unwrap());
-            let direct = direct_response(&whole, unknowns[0], unknowns[1], &frequencies).unwrap();
+            let unknowns = [force, response].map(|own| {
+                let component = own.direction.component().unwrap();
+                tangent.unknowns.unknown_of[2 * own.node + component].unwrap()
+            });
+            let [from, to] =
+                [force, response].map(|own| whole.port(&mesh, None, own, "node").unwrap());
+            let direct = direct_response(&whole, &from, &to, &frequencies, &|_| {}).unwrap();
             let waves = cyclic_response(&cyclic, force, response, &frequencies).unwrap();
             let top = direct.iter().map(|h| h.norm()).fold(0.0, f64::max);
             for (k, f) in frequencies.iter().enumerate() {

@@ -86,7 +86,7 @@ impl Pencil {
     }
 
     pub fn of_material(mesh: &Mesh, material: &ElasticMaterial) -> Self {
-        let unknowns = DofMap::clamped(mesh);
+        let unknowns = DofMap::excluding(mesh.dof_count(), mesh.held_dofs());
         let free = |matrix: &Triplets| {
             let entries = matrix.entries.iter();
             let at = |dof: usize| unknowns.unknown_of[dof];
@@ -342,7 +342,7 @@ fn pressure_guides_and_springs_on_faces_hold_a_uniform_stress_at_any_angle() {
             [place.x, place.y, place.z]
         };
         let mesh = solids_of(&block(kind, [2, 2, 1], map), &conditions);
-        let unknowns = DofMap::clamped(&mesh);
+        let unknowns = DofMap::excluding(mesh.dof_count(), mesh.held_dofs());
         let load = unknowns.restrict(&assemble_pressures(&mesh).unwrap());
         let pencil = Pencil::of(&mesh);
         let load = DMatrix::from_vec(load.len(), 1, load);

@@ -42,12 +42,16 @@ pub fn dense(polynomial: &MatrixPolynomial, mu: f64) -> Mat<f64> {
     polynomial.pattern().multiply(&polynomial.evaluate(mu), identity.as_ref())
 }
 
-/// Two unknowns of a response that move along the radius.
-pub fn two_unknowns(system: &FrfSystem) -> [usize; 2] {
-    let terminal = |node: usize| Terminal { node, direction: Direction::Radial };
-    let free = (0..60).filter_map(|node| system.unknown(terminal(node), "force_node").ok());
-    let free: Vec<usize> = free.collect();
-    [free[2], free[9]]
+/// Two unknowns of a response that move along the radius, with their ports.
+pub fn two_unknowns(system: &FrfSystem, tangent: &SlidingTangent) -> [(usize, Port); 2] {
+    let mesh = AnnulusMesh::generate(&on_shaft(annulus(Quad4, 16, 3), 1)).unwrap().mesh;
+    let of_node = |node: usize| {
+        let terminal = Terminal { node, direction: Direction::Radial };
+        let unknown = tangent.unknowns.unknown_of[2 * node]?;
+        Some((unknown, system.port(&mesh, None, terminal, "force_node").unwrap()))
+    };
+    let free: Vec<(usize, Port)> = (0..60).filter_map(of_node).collect();
+    [free[2].clone(), free[9].clone()]
 }
 
 /// Eigenvalues with `Im > 0` of `lambda^2 M + lambda C + K + i H`, by rising frequency.
@@ -124,9 +128,9 @@ fn agrees_with_the_dense_matrices(tangent: &SlidingTangent) {
 fn the_response_with_loss_factors_is_that_of_the_dense_matrix() {
     let tangent = tangent([0.02, 0.2], RayleighDamping::default());
     let system = FrfSystem::sliding(&tangent, 0.3);
-    let [force, response] = two_unknowns(&system);
+    let [(force, at), (response, seen)] = two_unknowns(&system, &tangent);
     let lines = [500.0, 4000.0, 7000.0];
-    let found = direct_response(&system, force, response, &lines).unwrap();
+    let found = direct_response(&system, &at, &seen, &lines, &|_| {}).unwrap();
     let [mass, stiffness, lost] =
         [&tangent.mass, &tangent.stiffness, tangent.structural.as_ref().unwrap()]
             .map(|p| dense(p, 0.3));

@@ -16,8 +16,8 @@ use super::{StudyError, tangent_options};
 use frictionsim_case::{AssemblyBody, BodyKind, Case, CaseErrors, Frf, FrfMethod, refusal};
 use frictionsim_physics::fem::sector::Sectored;
 use frictionsim_physics::frf::{
-    Axis, CyclicSystem, FrfBoundary, FrfError, FrfSystem, Port, ReductionSettings, Terminal,
-    cyclic_response, direct_response_with, reduced_response,
+    Axis, CyclicSystem, FrfBoundary, FrfError, FrfSystem, Port, Terminal, cyclic_response,
+    direct_response, reduced_response,
 };
 use frictionsim_physics::linalg::{GaussianNoise, c64};
 use frictionsim_physics::mesh::{BoundaryCondition, Mesh, SectorMesh, SolidSector};
@@ -115,10 +115,8 @@ impl<'a> FrequencyStudy<'a> {
             }
             System::Whole { system, ports, method } => {
                 let [force, response] = &**ports;
-                let settings = ReductionSettings::default();
-                let reduced = (*method != FrfMethod::Direct).then(|| {
-                    reduced_response(system, force.clone(), response.clone(), lines, &settings)
-                });
+                let reduced = (*method != FrfMethod::Direct)
+                    .then(|| reduced_response(system, force, response, lines));
                 found.dofs = system.dimension();
                 let reduced = match reduced {
                     // A reduction that misses its tolerance is no answer; each line for itself is.
@@ -131,7 +129,7 @@ impl<'a> FrequencyStudy<'a> {
                         found.basis_vectors = Some(solved.vectors);
                         ("reduced", solved.receptance)
                     }
-                    None => ("direct", direct_response_with(system, force, response, lines, done)?),
+                    None => ("direct", direct_response(system, force, response, lines, done)?),
                 }
             }
         };

@@ -45,7 +45,7 @@ fn the_response_of_a_sliding_assembly_has_the_poles_of_its_eigenvalue_analysis()
             let force = port([0.05, 0.04, 0.035], Direction::Tangential, "force_node");
             let response = port([0.05, 0.04, 0.0], Direction::X, "response_node");
             let lines = [-1e-4, 0.0, 1e-4].map(|shift| lambda.im / TAU * (1.0 + shift));
-            let h = direct_response(&system, force, response, &lines).unwrap();
+            let h = direct_response(&system, &force, &response, &lines, &|_| {}).unwrap();
             let found = pole(lines, [h[0], h[1], h[2]]);
             // The other modes are a constant beside it to the square of the lines' distance, relative to theirs.
             assert!((found - lambda).norm() < 1e-6 * lambda.norm(), "{lambda} {found}");
@@ -83,10 +83,10 @@ fn tied_halves_respond_like_the_whole() {
                 "{refused}"
             );
             let observed = system.port(&mesh, None, glued, "response_node").unwrap();
-            let there = direct_response(&system, force.clone(), observed, &lines);
+            let there = direct_response(&system, &force, &observed, &lines, &|_| {});
             assert!(there.unwrap().iter().all(|h| h.norm() > 0.0));
         }
-        direct_response(&system, force, response, &lines).unwrap()
+        direct_response(&system, &force, &response, &lines, &|_| {}).unwrap()
     });
     near_each(&responses[1], &responses[0], 1e-9);
 }
@@ -117,8 +117,7 @@ fn a_turning_ring_responds_like_the_dense_system_of_its_matrices() {
                 let exact = unknowns.map(|unknown| exact[unknown]);
                 let largest = exact[0].norm().max(exact[1].norm());
                 for ((observed, exact), place) in ports.iter().zip(exact).zip(row) {
-                    let response =
-                        direct_response(&system, force.clone(), observed.clone(), &[line]);
+                    let response = direct_response(&system, force, observed, &[line], &|_| {});
                     *place = response.unwrap()[0];
                     let error = (*place - exact).norm() / largest;
                     below(error, 1e-9, format!("{frame:?} {line} Hz: {place} {exact}"));

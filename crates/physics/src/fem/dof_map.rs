@@ -1,6 +1,5 @@
 //! The unknowns of a problem among the degrees of freedom of a mesh.
 
-use crate::mesh::Mesh;
 use std::collections::BTreeSet;
 
 /// Which dofs are unknowns of a problem and where each stands among them.
@@ -30,11 +29,6 @@ impl DofMap {
             unknown_of[dof] = Some(unknown);
         }
         Self { unknown_of, dofs }
-    }
-
-    /// All dofs of the mesh but those that its boundary conditions hold.
-    pub fn clamped(mesh: &Mesh) -> Self {
-        Self::excluding(mesh.dof_count(), mesh.held_dofs())
     }
 
     /// Number of unknowns.

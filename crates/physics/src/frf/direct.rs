@@ -11,7 +11,7 @@ const LINES_AT_ONCE: usize = 8;
 /// ... and one complex factorization, which costs several times as much.
 const GENERAL_LINES_AT_ONCE: usize = 16;
 
-/// Receptance `u / f` for each frequency, m/N for each metre of thickness, between two ports, unknowns mostly:
+/// Receptance `u / f` for each frequency, m/N for each metre of thickness, between two ports:
 /// `h = e_response^T (K + i omega C - omega^2 M)^{-1} e_force`.
 ///
 /// Neighbouring lines share one sparse factorization, real with proportional damping and complex with
@@ -20,19 +20,11 @@ const GENERAL_LINES_AT_ONCE: usize = 16;
 /// own, with one step of refinement. Frequencies in parallel, the result
 /// independent of the number of threads. For a body of thickness `b` divide by `b`.
 ///
+/// `done` hears how many lines are solved, a few at a time, from any thread.
+///
 /// # Errors
 /// [`FrfError::Frequency`]; [`FrfError::Factorization`] where an undamped system is at resonance.
 pub fn direct_response(
-    system: &FrfSystem,
-    force: impl Into<Port>,
-    response: impl Into<Port>,
-    frequencies_hz: &[f64],
-) -> Result<Vec<c64>, FrfError> {
-    direct_response_with(system, &force.into(), &response.into(), frequencies_hz, &|_| {})
-}
-
-/// As [`direct_response`]; `done` hears how many lines are solved, a few at a time, from any thread.
-pub fn direct_response_with(
     system: &FrfSystem,
     force: &Port,
     response: &Port,

@@ -23,9 +23,9 @@ mod terminal;
 
 pub use cyclic::{CyclicResponse, cyclic_response};
 pub use cyclic_system::CyclicSystem;
-pub use direct::{direct_response, direct_response_with};
+pub use direct::direct_response;
 pub use error::{FrfError, NodeFault};
 pub use port::Port;
-pub use reduction::{ReducedResponse, ReductionSettings, reduced_response};
+pub use reduction::{ReducedResponse, reduced_response};
 pub use system::FrfSystem;
 pub use terminal::{Axis, Direction, FrfBoundary, Terminal};

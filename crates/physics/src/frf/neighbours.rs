@@ -188,10 +188,10 @@ mod tests {
             // Two of the lines lie within the bandwidth of unstable modes (9.9 and 10.5 kHz).
             for first in [500.0, 5000.0, 9850.0, 10_450.0] {
                 let lines: Vec<f64> = (0..16).map(|k| first + 10.0 * f64::from(k)).collect();
-                let shared = solve_together(&system, &analyses, &5.into(), &200.into(), &lines);
+                let [from, to] = [5, 200].map(|unknown| Port(vec![(unknown, 1.0)]));
+                let shared = solve_together(&system, &analyses, &from, &to, &lines);
                 for (f, found) in lines.iter().zip(shared) {
-                    let own =
-                        factorized(&system, &analyses.lu, &5.into(), &200.into(), *f).unwrap();
+                    let own = factorized(&system, &analyses.lu, &from, &to, *f).unwrap();
                     // Backward errors of 1e-14 times condition numbers of 1e4 or less.
                     let found = found.expect("solved together");
                     assert!((found - own).norm() < 1e-10 * own.norm(), "{f}: {found} {own}");

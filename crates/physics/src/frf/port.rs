@@ -37,9 +37,3 @@ impl Port {
         (0..basis.ncols()).map(entry).collect()
     }
 }
-
-impl From<usize> for Port {
-    fn from(unknown: usize) -> Self {
-        Self(vec![(unknown, 1.0)])
-    }
-}

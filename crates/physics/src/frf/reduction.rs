@@ -12,22 +12,11 @@ const MOMENTS: usize = 6;
 /// A vector that keeps less than this share of its length adds nothing.
 const DROP: f64 = 1e-10;
 
-/// How far a reduction goes.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ReductionSettings {
-    /// Largest relative error at the check lines.
-    pub tolerance: f64,
-    /// Shifts to begin with.
-    pub shifts: usize,
-    /// Most shifts.
-    pub most_shifts: usize,
-}
-
-impl Default for ReductionSettings {
-    fn default() -> Self {
-        Self { tolerance: 1e-6, shifts: 3, most_shifts: 12 }
-    }
-}
+/// Largest relative error at the check lines.
+const TOLERANCE: f64 = 1e-6;
+/// Shifts to begin with, and at most.
+const SHIFTS: usize = 3;
+const MOST_SHIFTS: usize = 12;
 
 /// A response of a reduced model and its error.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -43,7 +32,7 @@ pub struct ReducedResponse {
     pub vectors: usize,
 }
 
-/// Receptance between two ports, unknowns mostly, by a rational Krylov reduction.
+/// Receptance between two ports, by a rational Krylov reduction.
 ///
 /// At real shifts `sigma_j = omega_j^2` spread over the range, one basis `V` collects
 /// `((K - sigma_j M)^{-1} M)^k (K - sigma_j M)^{-1} e_force` and the same of the transposed system from
@@ -58,12 +47,10 @@ pub struct ReducedResponse {
 /// Source: E. J. Grimme, "Krylov projection methods for model reduction", thesis, Urbana (1997).
 pub fn reduced_response(
     system: &FrfSystem,
-    force: impl Into<Port>,
-    response: impl Into<Port>,
+    force: &Port,
+    response: &Port,
     frequencies_hz: &[f64],
-    settings: &ReductionSettings,
 ) -> Result<ReducedResponse, FrfError> {
-    let (force, response) = (&force.into(), &response.into());
     check_frequencies(frequencies_hz)?;
     let (low, high) = range(frequencies_hz);
     if frequencies_hz.is_empty() {
@@ -71,9 +58,8 @@ pub fn reduced_response(
     }
     let analysis = LuAnalysis::new(&system.pattern)
         .map_err(|source| FrfError::Factorization { frequency_hz: low, source })?;
-    let mut shifts: Vec<f64> = (0..settings.shifts.max(1))
-        .map(|j| low + (high - low) * (j as f64 + 0.5) / settings.shifts.max(1) as f64)
-        .collect();
+    let mut shifts: Vec<f64> =
+        (0..SHIFTS).map(|j| low + (high - low) * (j as f64 + 0.5) / SHIFTS as f64).collect();
     let mut basis = Mat::<f64>::zeros(system.dimension(), 0);
     for shift in &shifts {
         basis = extended(system, &analysis, basis, force, response, *shift)?;
@@ -95,7 +81,7 @@ pub fn reduced_response(
             .max_by(|a, b| error(a).total_cmp(&error(b)))
             .expect("both ends of the range are checked");
         let largest_error = error(worst);
-        if largest_error <= settings.tolerance {
+        if largest_error <= TOLERANCE {
             let mut checked_hz: Vec<f64> = checks.iter().map(|(f, _)| *f).collect();
             checked_hz.sort_by(f64::total_cmp);
             return Ok(ReducedResponse {
@@ -105,10 +91,10 @@ pub fn reduced_response(
                 vectors: basis.ncols(),
             });
         }
-        if shifts.len() >= settings.most_shifts {
+        if shifts.len() >= MOST_SHIFTS {
             return Err(FrfError::NotReduced {
                 error: largest_error,
-                bound: settings.tolerance,
+                bound: TOLERANCE,
                 vectors: basis.ncols(),
             });
         }

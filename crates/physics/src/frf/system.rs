@@ -152,21 +152,6 @@ impl FrfSystem {
         Ok(Port(shares))
     }
 
-    /// Unknown of a terminal of a plane body along its nodal frame; `key` is the case key of its node.
-    ///
-    /// # Errors
-    /// [`FrfError::Node`].
-    pub fn unknown(&self, terminal: Terminal, key: &'static str) -> Result<usize, FrfError> {
-        let component = terminal.direction.component().filter(|&k| k < 2);
-        let component = component.ok_or_else(|| terminal.refused(key, NodeFault::InPlane))?;
-        let unknown_of = &self.unknowns.unknown_of;
-        match unknown_of.get(2 * terminal.node + component) {
-            None => Err(terminal.refused(key, NodeFault::Missing(unknown_of.len() / 2))),
-            Some(None) => Err(terminal.constrained(key)),
-            Some(Some(unknown)) => Ok(*unknown),
-        }
-    }
-
     /// Nonzeros of `M`, `C`, `K`.
     pub(super) fn matrices(&self) -> [&[f64]; 3] {
         [&self.mass, &self.damping, &self.stiffness]

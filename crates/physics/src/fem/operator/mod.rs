@@ -84,9 +84,6 @@ pub trait StiffnessOperator: Send + Sync {
     /// `"sparse"` or `"cyclic"`.
     fn name(&self) -> &'static str;
 
-    /// Instruction set of the kernels.
-    fn simd(&self) -> SimdLevel;
-
     /// Number of dofs, clamped ones included.
     fn dof_count(&self) -> usize;
 

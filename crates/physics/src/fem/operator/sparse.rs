@@ -103,13 +103,6 @@ impl<const D: usize> SparseOperator<D> {
         })
     }
 
-    /// Bytes that a step reads and writes where nothing stays in a cache: the blocks with their columns once; displacement,
-    /// velocity, `M^-1 K u` and its rate read and written, the masses read.
-    pub fn bytes_per_step(&self) -> usize {
-        let block = 8 * D * D + 4;
-        block * self.rows.blocks.len() + 4 * self.rows.starts.len() + 8 * 9 * self.masses.len()
-    }
-
     fn is_divided(&self) -> bool {
         self.places.len() > Self::UNDIVIDED
     }
@@ -181,10 +174,6 @@ pub(super) fn free_masses(
 impl<const D: usize> StiffnessOperator for SparseOperator<D> {
     fn name(&self) -> &'static str {
         "sparse"
-    }
-
-    fn simd(&self) -> SimdLevel {
-        self.simd
     }
 
     fn dof_count(&self) -> usize {

@@ -52,10 +52,6 @@ impl StiffnessOperator for SectorStencil {
         "cyclic"
     }
 
-    fn simd(&self) -> SimdLevel {
-        self.simd
-    }
-
     fn dof_count(&self) -> usize {
         self.layout.components * self.per_sector * self.layout.count
     }
