@@ -61,7 +61,7 @@ fn rigid_rotation_leaves_the_prestressed_body_in_balance() {
             let without = of(TangentOptions { geometric_stiffness: false, ..model.options });
             let without = without.harmonic(0).stiffness;
             let mut rotation = vec![0.0; without[0].dimension()];
-            for (dof, unknown) in with.unknowns().unknown_of.iter().enumerate() {
+            for (dof, unknown) in with.unknowns.unknown_of.iter().enumerate() {
                 if let (Some(unknown), 1) = (unknown, dof % 3) {
                     rotation[*unknown] = sector.nodes[dof / 3].radius;
                 }
@@ -74,7 +74,7 @@ fn rigid_rotation_leaves_the_prestressed_body_in_balance() {
                 let mut difference = after.clone();
                 difference.add_scaled(-1.0, before);
                 let scale = difference.values().iter().fold(0.0_f64, |m, v| m.max(v.abs())) * 0.09;
-                for (dof, unknown) in with.unknowns().unknown_of.iter().enumerate() {
+                for (dof, unknown) in with.unknowns.unknown_of.iter().enumerate() {
                     if let (Some(unknown), false) = (unknown, outermost(dof)) {
                         // Each row sums a hundred terms of that size.
                         let is_balanced = change[*unknown].abs() < 1e-10 * scale;

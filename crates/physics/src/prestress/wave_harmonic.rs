@@ -32,6 +32,8 @@ pub fn evaluate(polynomial: &[BandedMatrix], z: c64) -> Vec<c64> {
 pub struct HarmonicTangent {
     /// Circumferential harmonic `n >= 0`.
     pub harmonic: usize,
+    /// `+n` and `-n` are the same wave.
+    pub is_standing: bool,
     /// `M_n(mu)`, kg.
     pub mass: FrictionPolynomial,
     /// `K_n(mu)`, N/m.

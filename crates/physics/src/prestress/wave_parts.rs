@@ -110,7 +110,7 @@ impl WaveTangent {
             let matrix = self.restricted(self.sum(n, term.parity, &is_it));
             Some((body, term, CompactRows::new(&matrix)))
         });
-        let place = |dof: &usize| self.unknowns().unknown_of[*dof];
+        let place = |dof: &usize| self.unknowns.unknown_of[*dof];
         let contact = self.contact.places.iter();
         HarmonicParts {
             terms: &self.terms,

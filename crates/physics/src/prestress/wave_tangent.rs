@@ -40,13 +40,14 @@ pub struct WaveTangent {
     pub nodes: Vec<(usize, usize)>,
     /// Sense of the friction force, +1 or -1.
     pub sliding_direction: f64,
-    pub(super) options: TangentOptions,
+    /// Choices of the linearisation.
+    pub options: TangentOptions,
     pub(super) terms: WaveTerms,
     pub(super) contact: WaveContact,
     /// Dofs that nothing holds.
-    dofs: WaveDofs,
-    /// Those of them that move: all but the normals in rigid contact.
-    unknowns: DofMap,
+    pub dofs: WaveDofs,
+    /// Those of them that move, the unknowns of a harmonic: all but the normals in rigid contact.
+    pub unknowns: DofMap,
     /// Their places among the former.
     moving: Vec<usize>,
 }
@@ -133,21 +134,6 @@ impl WaveTangent {
         Some(Self { terms, ..self.clone() })
     }
 
-    /// Unknowns of a harmonic among the dofs of a sector.
-    pub fn unknowns(&self) -> &DofMap {
-        &self.unknowns
-    }
-
-    /// Number of dofs of a sector that nothing holds.
-    pub fn dof_count(&self) -> usize {
-        self.dofs.count
-    }
-
-    /// Number of sectors.
-    pub fn sector_count(&self) -> usize {
-        self.dofs.sectors
-    }
-
     /// The largest harmonic, half the number of sectors.
     pub fn largest_harmonic(&self) -> usize {
         self.dofs.sectors / 2
@@ -156,11 +142,6 @@ impl WaveTangent {
     /// Whether harmonic `n` stands: `+n` and `-n` are one and the same.
     pub fn is_standing(&self, n: usize) -> bool {
         n == 0 || 2 * n == self.dofs.sectors
-    }
-
-    /// Rayleigh coefficients.
-    pub fn rayleigh(&self) -> RayleighDamping {
-        self.options.damping
     }
 
     /// Whether each node, or ring, of the contact is pressed.
@@ -252,6 +233,7 @@ impl WaveTangent {
         let has_dashpots = kinds.any(|kind| kind == Kind::FrictionDashpots);
         HarmonicTangent {
             harmonic: n,
+            is_standing: self.is_standing(n),
             mass: of_kind(Kind::Mass),
             stiffness: of(0),
             damping: (!self.is_proportional()).then(|| of(1)),

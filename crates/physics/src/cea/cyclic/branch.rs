@@ -30,7 +30,7 @@ pub(super) fn branches_of(paths: &HarmonicPaths, sliding_direction: f64) -> Vec<
 pub(super) fn direction_of(problem: &HarmonicProblem, waves: Waves, sliding_direction: f64) -> i8 {
     let with_rotor: i8 = if sliding_direction > 0.0 { 1 } else { -1 };
     match waves {
-        _ if problem.is_standing => 0,
+        _ if problem.tangent.is_standing => 0,
         Waves::Backward => with_rotor,
         _ => -with_rotor,
     }

@@ -55,13 +55,13 @@ pub(super) fn verify(
         let harmonic = tangent.harmonic(n);
         let is_proven = tangent.is_proportional()
             && definite::is_empty(&harmonic, &tangential, friction, region);
-        let problem = HarmonicProblem::new(harmonic, tangent.is_standing(n));
+        let problem = HarmonicProblem::new(harmonic);
         (n, is_proven, is_proven || is_complete(&problem, None))
     });
     let gaps: Vec<Option<usize>> = crate::parallel::map(followed, |paths| {
         // A small space has not the determinant of the harmonic.
         let n = paths.problem.tangent.harmonic;
-        let whole = paths.space.as_ref().map(|_| HarmonicProblem::of(tangent, n));
+        let whole = paths.space.as_ref().map(|_| HarmonicProblem::new(tangent.harmonic(n)));
         let problem = whole.as_ref().unwrap_or(&paths.problem);
         (!is_complete(problem, Some(paths))).then_some(n)
     });
@@ -79,7 +79,7 @@ pub(super) fn verify(
 /// `kappa` of every `lambda` with `0 <= Im <= limit` and `|Re| <= WIDEST_GROWTH limit`, from points along
 /// the edge of that rectangle.
 fn region(tangent: &WaveTangent, limit: f64) -> Region {
-    let rayleigh = tangent.rayleigh();
+    let rayleigh = tangent.options.damping;
     let mut region = Region { real: 0.0, imaginary: 0.0 };
     for lambda in rectangle(0.0, limit, WIDEST_GROWTH * limit, 64) {
         let kappa = rayleigh.kappa(lambda);
@@ -133,7 +133,7 @@ fn missed(
     let upper = rectangle(SLOWEST * limit, limit, WIDEST_GROWTH * limit, 2 * EDGE_POINTS);
     let lower = upper.iter().map(|point| -point).collect();
     let ahead = search.winding(upper)?;
-    if problem.is_standing { Some(ahead) } else { Some(ahead + search.winding(lower)?) }
+    if problem.tangent.is_standing { Some(ahead) } else { Some(ahead + search.winding(lower)?) }
 }
 
 /// Known eigenvalues of the problem's `theta` at rest (undamped) and at `mu`.

@@ -116,7 +116,7 @@ impl Course<'_> {
             }
         }
         let is_wanted = |value: &c64| {
-            let is_own = value.im > 0.0 || !self.problem.is_standing;
+            let is_own = value.im > 0.0 || !self.problem.tangent.is_standing;
             is_own && value.norm() <= self.largest && !self.is_overdamped(value)
         };
         let mut missing: Vec<c64> = all

@@ -208,6 +208,7 @@ mod tests {
         HarmonicTangent {
             contact: vec![0],
             harmonic: 1,
+            is_standing: false,
             mass: vec![mass],
             stiffness: vec![stiffness, friction],
             damping: None,

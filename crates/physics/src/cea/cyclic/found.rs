@@ -104,14 +104,14 @@ impl Found {
         };
         let (sweep, branches) = together(points, &followed, tangent.sliding_direction);
         let (dofs, overdamped) = match tangent.components {
-            2 => (tangent.unknowns().len(), Vec::new()),
-            _ => (tangent.dof_count(), grid.iter().map(|mu| overdamped(&followed, *mu)).collect()),
+            2 => (tangent.unknowns.len(), Vec::new()),
+            _ => (tangent.dofs.count, grid.iter().map(|mu| overdamped(&followed, *mu)).collect()),
         };
         WaveSweep {
             sweep,
             branches,
             coverage,
-            dofs: dofs * tangent.sector_count(),
+            dofs: dofs * tangent.dofs.sectors,
             reduction_error: followed.iter().map(|paths| paths.reduction_error).fold(0.0, f64::max),
             overdamped,
             tangent,

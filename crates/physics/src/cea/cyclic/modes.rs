@@ -91,7 +91,7 @@ fn mode(
 /// largest nodal `|u|` one and real in its largest component.
 fn expand(tangent: &WaveTangent, harmonic: usize, waves: Waves, x: &[c64]) -> Vec<c64> {
     let is_backward = waves == Waves::Backward;
-    let (components, sectors) = (tangent.components, tangent.sector_count());
+    let (components, sectors) = (tangent.components, tangent.dofs.sectors);
     let mut wave = tangent.displacement(x);
     for (dof, u) in wave.iter_mut().enumerate() {
         if dof % components == 1 {

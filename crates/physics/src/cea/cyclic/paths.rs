@@ -153,7 +153,7 @@ fn follow_all(
                 let approach = |follower: &mut Follower<'_>, points: &mut Vec<_>, target: f64| {
                     follower.advance(points, target, control, &mut matrices);
                 };
-                let may_meet = problem.is_standing && problem.is_proportional();
+                let may_meet = problem.tangent.is_standing && problem.is_proportional();
                 let passed = may_meet
                     .then(|| collision::pass(follower, &mut paths, index, friction, approach));
                 passed.flatten().ok_or_else(|| lost(friction))?;
@@ -205,7 +205,7 @@ pub(super) fn start(
     normalize(&mut x);
     let path = |waves: Waves, point: Eigenpair| Path { branch, waves, points: vec![point] };
     if problem.is_proportional() {
-        let waves = if problem.is_standing { Waves::Forward } else { Waves::Both };
+        let waves = if problem.tangent.is_standing { Waves::Forward } else { Waves::Both };
         let point = follower.at_rest(at_rest, c64::new(kappa, 0.0), x);
         return Some(vec![path(waves, point)]);
     }
@@ -221,7 +221,7 @@ pub(super) fn start(
     let (theta, x) = (last.theta, last.x);
     let mirrored = follower.at_rest(at_rest, theta.conj(), conjugate(&x));
     let mut paths = vec![path(Waves::Forward, follower.at_rest(at_rest, theta, x))];
-    if !problem.is_standing {
+    if !problem.tangent.is_standing {
         paths.push(path(Waves::Backward, mirrored));
     }
     Some(paths)

@@ -6,9 +6,7 @@ use crate::fem::own_frequency_step;
 use crate::linalg::banded::{BandedLu, BandedMatrix, multiply_band};
 use crate::linalg::vectors::{ZERO, add, dot, largest, product};
 use crate::linalg::{Mat, c64};
-use crate::prestress::{
-    FrictionPolynomial, HarmonicTangent, MovingHarmonic, WaveTangent, evaluate,
-};
+use crate::prestress::{FrictionPolynomial, HarmonicTangent, MovingHarmonic, evaluate};
 
 pub(super) const I: c64 = c64::new(0.0, 1.0);
 
@@ -20,8 +18,6 @@ pub(super) const I: c64 = c64::new(0.0, 1.0);
 /// `sum_p g_p(lambda) K_p` beside it: `i eta K_p` for the wave `+n`, the conjugate for `-n`.
 pub(super) struct HarmonicProblem {
     pub tangent: HarmonicTangent,
-    /// `+n` and `-n` are the same wave.
-    pub is_standing: bool,
     pub dimension: usize,
     pub half_bandwidth: usize,
 }
@@ -47,18 +43,12 @@ impl Matrices {
 }
 
 impl HarmonicProblem {
-    pub fn new(tangent: HarmonicTangent, is_standing: bool) -> Self {
+    pub fn new(tangent: HarmonicTangent) -> Self {
         Self {
-            is_standing,
             dimension: tangent.mass[0].dimension(),
             half_bandwidth: tangent.mass[0].half_bandwidth(),
             tangent,
         }
-    }
-
-    /// That of harmonic `n` of a body, over all its unknowns.
-    pub fn of(tangent: &WaveTangent, n: usize) -> Self {
-        Self::new(tangent.harmonic(n), tangent.is_standing(n))
     }
 
     pub fn is_proportional(&self) -> bool {
@@ -337,7 +327,7 @@ impl HarmonicProblem {
     /// real to round-off.
     pub fn without_round_off(&self, theta: c64) -> c64 {
         let is_real = theta.im.abs() <= 1e-10 * theta.norm();
-        if self.is_standing && self.is_proportional() && is_real {
+        if self.tangent.is_standing && self.is_proportional() && is_real {
             return c64::new(theta.re, 0.0);
         }
         theta

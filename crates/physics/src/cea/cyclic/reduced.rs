@@ -41,10 +41,7 @@ pub(super) fn follow(
     let reduction = if is_damped { reduction.turned(&across) } else { reduction };
 
     // Branches in the small space.
-    let problem = || {
-        let reduced = reduction.tangent(&harmonic, &across, &axial);
-        HarmonicProblem::new(reduced, tangent.is_standing(n))
-    };
+    let problem = || HarmonicProblem::new(reduction.tangent(&harmonic, &across, &axial));
     let followed = reduction.kappas.iter().take_while(|kappa| **kappa < range.margin);
     let pairs: Modes = followed.enumerate().map(|(k, &kappa)| (kappa, reduction.mode(k))).collect();
     let oscillating = match is_damped {
@@ -56,7 +53,7 @@ pub(super) fn follow(
 
     // Over all unknowns, or what the small space leaves out.
     if tangent.is_lossy() {
-        return refined(paths, of_all_unknowns(harmonic, &axial, tangent.is_standing(n)), range);
+        return refined(paths, of_all_unknowns(harmonic, &axial), range);
     }
     let added = range.highest_friction() * range.margin.sqrt();
     let damped = is_damped.then(|| pencil.stiffened(added, &across.dashpots)).flatten();
@@ -97,11 +94,7 @@ fn largest_error(
 }
 
 /// A harmonic over all its unknowns; modes have shares of the kinetic energy of the contact's and of the `axial` ones.
-fn of_all_unknowns(
-    harmonic: HarmonicTangent,
-    axial: &[usize],
-    is_standing: bool,
-) -> HarmonicProblem {
+fn of_all_unknowns(harmonic: HarmonicTangent, axial: &[usize]) -> HarmonicProblem {
     let mass = &harmonic.mass[0];
     let rows = |unknowns: &[usize]| {
         let mut own = BandedMatrix::zeros(mass.dimension(), mass.half_bandwidth());
@@ -111,7 +104,7 @@ fn of_all_unknowns(
         own
     };
     let shares = Some([rows(&harmonic.contact), rows(axial)]);
-    HarmonicProblem::new(HarmonicTangent { shares, ..harmonic }, is_standing)
+    HarmonicProblem::new(HarmonicTangent { shares, ..harmonic })
 }
 
 /// Every point of the branches that come below the margin of the range, solved in `problem`: losses of one part excite what the small

@@ -159,6 +159,7 @@ impl Reduction {
         HarmonicTangent {
             losses: losses.collect(),
             harmonic: harmonic.harmonic,
+            is_standing: harmonic.is_standing,
             shares: Some([share(&harmonic.contact), share(axial)]),
             mass: self.project(&harmonic.mass),
             stiffness: self.project(&harmonic.stiffness),

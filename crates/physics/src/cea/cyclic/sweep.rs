@@ -145,7 +145,8 @@ fn follow(
                 return reduced::follow(tangent, found, &range);
             }
             found.modes.retain(|(kappa, _)| *kappa < margin);
-            follow_pairs(HarmonicProblem::of(tangent, found.harmonic), &found.modes, &range)
+            let problem = HarmonicProblem::new(tangent.harmonic(found.harmonic));
+            follow_pairs(problem, &found.modes, &range)
         });
     let followed = followed?;
     let points = points(tangent, &followed, asked);
