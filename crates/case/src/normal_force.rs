@@ -6,7 +6,7 @@
 
 use super::{BodyKind, Case, CaseErrors, refusal};
 use frictionsim_physics::contact::{Counterpart, SlidingContact};
-use frictionsim_physics::fem::{MassKind, sector};
+use frictionsim_physics::fem::MassKind;
 use frictionsim_physics::mesh::{SectorMesh, SolidSector};
 use frictionsim_physics::prestress::{Assembly, PrestressError, SectorSliding, SolidSliding};
 
@@ -156,16 +156,14 @@ impl Case {
         let pressed = match &self.body.kind {
             BodyKind::Annulus(annulus) => {
                 let mesh = SectorMesh::generate(annulus).map_err(in_words)?;
-                let elastic = sector::stiffness(&mesh, materials);
-                let base = SectorSliding::solve(&mesh, &elastic, &contact, law);
+                let base = SectorSliding::solve(&mesh, materials, &contact, law);
                 let whole = self.thickness * mesh.sector_count() as f64;
                 base.map(|base| vec![whole * base.state.normal_forces[0].iter().sum::<f64>()])
             }
             BodyKind::Revolution(specification) => {
                 let mesh = SolidSector::generate(specification).map_err(in_words)?;
-                let elastic = sector::stiffness(&mesh, materials);
-                let law = self.contact.stiffness.base_law();
-                let base = SolidSliding::solve(&mesh, &elastic, &contact, law, self.mass());
+                let stiffness = &self.contact.stiffness;
+                let base = SolidSliding::solve(&mesh, materials, &contact, stiffness, self.mass());
                 let whole = mesh.sector_count() as f64;
                 let sum =
                     |base: SolidSliding| base.normal_forces.iter().map(|own| own.1).sum::<f64>();

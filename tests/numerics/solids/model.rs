@@ -1,16 +1,15 @@
 //! The polycarbonate disc in three dimensions.
 
 use crate::prelude::*;
-use frictionsim::fem::sector;
 
 pub type SolidModel<M = ElasticMaterial> = WaveModel<SolidSpecification, M>;
 
 /// Its base state, with the sector that it is solved on.
 pub fn base(model: &SolidModel) -> Result<(SolidSector, SolidSliding), PrestressError> {
     let sector = SolidSector::generate(&model.specification).unwrap();
-    let elastic = sector::stiffness(&sector, &model.material);
-    let law = model.options.contact.base_law();
-    let base = SolidSliding::solve(&sector, &elastic, &model.contact, law, model.options.mass)?;
+    let (material, options) = (&model.material, &model.options);
+    let base =
+        SolidSliding::solve(&sector, material, &model.contact, &options.contact, options.mass)?;
     Ok((sector, base))
 }
 

@@ -40,9 +40,8 @@ impl WholeRing {
     pub fn sliding(model: &SolidModel, friction: f64) -> Self {
         let mut ring = Self::new(model, false);
         let sector = ring.sector.clone();
-        let elastic = frictionsim::fem::sector::stiffness(&sector, &model.material);
-        let base = SolidSliding::solve(&sector, &elastic, &model.contact, None, model.options.mass)
-            .unwrap();
+        let (material, contact, mass) = (&model.material, &model.contact, model.options.mass);
+        let base = SolidSliding::solve(&sector, material, contact, &RIGID, mass).unwrap();
         let face = sector.specification.contact.face();
         let (normal, across) = (face.normal_component(), face.across_component());
         // T = mu N along +e_theta for a rotor that turns counter-clockwise.

@@ -107,6 +107,16 @@ fn folded<S: Sectored>(sector: &S, matrix: &Triplets) -> SectorMatrix {
     SectorMatrix::of_entries(components, entries)
 }
 
+/// Stiffness over all dofs, springs included, that motions which are the same in every sector see.
+pub fn stiffness_alike<S: Sectored>(
+    sector: &S,
+    material: &dyn MaterialField,
+    mass: MassKind,
+) -> Triplets {
+    let [springs, _] = supports(sector, mass);
+    SectorMatrix::alike_in_all(&[&stiffness(sector, material), &springs])
+}
+
 /// Springs and dashpots of all supports of a sector together.
 pub fn supports<S: Sectored>(sector: &S, mass: MassKind) -> [SectorMatrix; 2] {
     let all = sector.supports(mass);

@@ -4,11 +4,11 @@ use super::PrestressError;
 use super::elimination::Elimination;
 use super::full_sliding::FullSliding;
 use super::solid::{OverRings, SolidSliding, friction};
-use crate::contact::{NormalLaw, Point, PressedState, SlidingContact};
+use crate::contact::{ContactStiffness, NormalLaw, Point, PressedState, SlidingContact};
 use crate::fem::fold::SectorMatrix;
-use crate::fem::sector::supports;
+use crate::fem::sector::stiffness_alike;
 use crate::fem::solid::{FaceRule, FaceTerm, face_matrix, pressure_load};
-use crate::fem::{MassKind, Triplets};
+use crate::fem::{MassKind, MaterialField, Triplets};
 use crate::mesh::{ContactRing, FaceElement, SolidSector};
 
 /// Choices of what is pressed that are tried before the search is given up.
@@ -21,27 +21,26 @@ const LEAST_APPROACH: f64 = 1e-9;
 const SETTLED: f64 = 1e-10;
 
 impl SolidSliding {
-    /// Solves the equilibrium with the elastic stiffness of one sector, to which supports and face pressures are added, with springs
-    /// of a `law` between face and rotor, where there are some: integrated over the face, at
-    /// the nodes of linear elements with lumped mass, as in a time step.
+    /// Solves the equilibrium of one sector under its face pressures, with springs between face and rotor where these carry the
+    /// base state: integrated over the face, at the nodes of linear elements with lumped mass, as in a time step.
     ///
     /// # Errors
     /// [`PrestressError::Singular`] where nothing holds the body, [`PrestressError::GapEverywhere`] where no ring is pressed,
     /// [`PrestressError::NoState`] where no set of pressed rings is found.
     pub fn solve(
         sector: &SolidSector,
-        elastic: &SectorMatrix,
+        material: &dyn MaterialField,
         contact: &SlidingContact,
-        law: Option<NormalLaw>,
+        stiffness: &ContactStiffness,
         mass: MassKind,
     ) -> Result<Self, PrestressError> {
+        let law = stiffness.base_law();
         let is_integrated = law.is_some() && mass == MassKind::Consistent;
         let rule = match sector.is_quadratic() || is_integrated {
             true => FaceRule::Integrated,
             false => FaceRule::Nodal,
         };
-        let [springs, _] = supports(sector, mass);
-        let stiffness = SectorMatrix::alike_in_all(&[elastic, &springs]);
+        let stiffness = stiffness_alike(sector, material, mass);
         let state = match law {
             None => press_rigidly(sector, &stiffness, (contact, rule))?,
             Some(law) => press_on_springs(sector, &stiffness, (contact, law, rule))?,

@@ -4,9 +4,8 @@ use super::PrestressError;
 use super::elimination::Elimination;
 use super::full_sliding::{FullSliding, check_pressed};
 use crate::contact::{NormalLaw, Point, PressedState, Row, SlidingContact, SteadyFriction};
-use crate::fem::MassKind;
-use crate::fem::fold::SectorMatrix;
-use crate::fem::sector::supports;
+use crate::fem::{MassKind, MaterialField};
+use crate::fem::sector::stiffness_alike;
 use crate::mesh::{AnnulusMesh, SectorMesh};
 
 /// The state of steady sliding of an annulus, the same in every sector.
@@ -24,23 +23,21 @@ pub struct SectorSliding {
 }
 
 impl SectorSliding {
-    /// Solves the equilibrium with the elastic stiffness of one sector, to which it adds supports,
-    /// on contact that stiffens with pressure, if there is a `law`.
+    /// Solves the equilibrium of one sector, on contact that stiffens with pressure, if there is a `law`.
     ///
     /// # Errors
     /// [`PrestressError::Separation`] where a node would open, [`PrestressError::Singular`] for a
     /// stiffness that is not positive definite.
     pub fn solve(
         sector: &SectorMesh,
-        elastic: &SectorMatrix,
+        material: &dyn MaterialField,
         contact: &SlidingContact,
         law: Option<NormalLaw>,
     ) -> Result<Self, PrestressError> {
         let surface_speed = sector.specification.inner_radius * contact.rotation_speed;
         let friction = contact.steady_friction(contact.sliding_direction(), surface_speed);
         let points = points(sector, friction);
-        let [springs, _] = supports(sector, MassKind::Consistent);
-        let stiffness = SectorMatrix::alike_in_all(&[elastic, &springs]);
+        let stiffness = stiffness_alike(sector, material, MassKind::Consistent);
         let (free, dofs) = (2 * sector.free_node_count(), 2 * sector.node_count());
         let full = FullSliding::new(&stiffness, Elimination::holding(dofs, free..dofs), &points)?;
         let state = full.state(&vec![0.0; dofs], contact.interference, law)?;

@@ -25,8 +25,8 @@ impl WaveTangent {
             return Err(PrestressError::AtRest);
         }
         let mut terms = WaveTerms::of(sector, material, options, sector.supports(options.mass));
-        let law = options.contact.base_law();
-        let base = SolidSliding::solve(sector, &terms.elastic(), contact, law, options.mass)?;
+        let stiffness = &options.contact;
+        let base = SolidSliding::solve(sector, material, contact, stiffness, options.mass)?;
         if options.geometric_stiffness {
             let displacements = [&base.pressed_displacement[..], &base.sheared_displacement];
             terms.take_stress(sector, material, displacements);

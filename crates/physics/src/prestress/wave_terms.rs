@@ -144,15 +144,6 @@ impl WaveTerms {
         }
     }
 
-    /// Elastic stiffness of all regions.
-    pub fn elastic(&self) -> SectorMatrix {
-        let regions = (0..self.regions().len()).map(Part::Body);
-        let regions: Vec<Part> = regions.collect();
-        let elastic = self.all.iter().filter(|own| own.kind == Kind::Stiffness);
-        let elastic = elastic.filter(|own| regions.contains(&own.part));
-        elastic.fold(SectorMatrix::default(), |sum, own| sum.plus(&own.matrix))
-    }
-
     /// Takes up the stress of the displacements without friction and for each unit of it.
     pub fn take_stress<S: Sectored>(
         &mut self,

@@ -7,7 +7,6 @@ use super::solid;
 use crate::extent_of;
 use frictionsim_case::{AssemblyBody, BodyKind, Case, Cea, refusal};
 use frictionsim_physics::contact::{ContactInterface, ContactSurface};
-use frictionsim_physics::fem::sector;
 use frictionsim_physics::mesh::{AnnulusMesh, Mesh, SectorMesh};
 use frictionsim_physics::order::range;
 use frictionsim_physics::prestress::{BaseChoice, SectorSliding, SlidingSurfaces, TangentOptions};
@@ -40,8 +39,8 @@ fn sliding_sector(
         BodyKind::Annulus(specification) => {
             let annulus = AnnulusMesh::generate(specification)?;
             let sector = SectorMesh::generate(specification)?;
-            let stiffness = sector::stiffness(&sector, &case.body.materials);
-            let base = SectorSliding::solve(&sector, &stiffness, sliding, options.contact.law)?;
+            let materials = &case.body.materials;
+            let base = SectorSliding::solve(&sector, materials, sliding, options.contact.law)?;
             let (state, mesh) = (base.repeated(&annulus, &sector), annulus.mesh);
             let edge = SlidingSurfaces::of_edge(&mesh, sliding, options.contact);
             let contacts = Arc::new([(edge, ContactSurface::of_edge(&mesh, sliding))]);

@@ -4,7 +4,6 @@ use super::StudyError;
 use super::contact::SolidState;
 use frictionsim_case::Case;
 use frictionsim_physics::contact::SteadyFriction;
-use frictionsim_physics::fem::sector;
 use frictionsim_physics::mesh::{ContactRing, SolidSector, SolidSpecification};
 use frictionsim_physics::order::range;
 use frictionsim_physics::prestress::SolidSliding;
@@ -18,9 +17,9 @@ pub(super) fn solved(
     specification: &SolidSpecification,
 ) -> Result<SolidState, StudyError> {
     let sector = SolidSector::generate(specification)?;
-    let elastic = sector::stiffness(&sector, case.materials());
-    let law = case.contact.stiffness.base_law();
-    let base = SolidSliding::solve(&sector, &elastic, &case.contact.sliding, law, case.mass())?;
+    let (materials, contact) = (case.materials(), &case.contact);
+    let (sliding, stiffness) = (&contact.sliding, &contact.stiffness);
+    let base = SolidSliding::solve(&sector, materials, sliding, stiffness, case.mass())?;
     Ok(SolidState { sector, base })
 }
 

@@ -2,8 +2,8 @@
 
 use super::{SteppedBody, TransientModel};
 use crate::contact::{ContactInterface, ContactSurface, CoulombFriction, Point, Row};
+use crate::fem::MassKind;
 use crate::fem::operator::StiffnessOperator;
-use crate::fem::{MassKind, sector};
 use crate::mesh::{Counterface, Mesh, SolidSector};
 use crate::prestress::{Assembly, PressedState, PrestressError, SolidSliding};
 use crate::transient::compliance::PressedPoint;
@@ -79,9 +79,8 @@ impl TransientModel<'_> {
     }
 
     fn sliding_face(&self, sector: &SolidSector) -> Result<SolidSliding, PrestressError> {
-        let elastic = sector::stiffness(sector, self.material);
-        let law = self.stiffness.base_law();
-        SolidSliding::solve(sector, &elastic, &self.contact, law, MassKind::Lumped)
+        let (contact, stiffness) = (&self.contact, &self.stiffness);
+        SolidSliding::solve(sector, self.material, contact, stiffness, MassKind::Lumped)
     }
 
     /// The contact points, all open; `interface` are their nodes.
