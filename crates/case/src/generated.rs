@@ -103,7 +103,7 @@ fn revolution_body(
     let is_chained = is_lossy && root.has("transient");
     let is_one_sided =
         |own: &BoundaryCondition| matches!(own, BoundaryCondition::Fixed([x, y, _]) if x != y);
-    let is_uneven = revolution.specification.conditions.iter().any(is_one_sided);
+    let is_uneven = body.revolution()?.conditions.iter().any(is_one_sided);
     let is_whole = is_uneven || is_asked_for || is_chained;
     if own.modifications.is_empty() && motion.is_none() && !is_whole {
         return Some(body);

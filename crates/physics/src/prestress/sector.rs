@@ -4,8 +4,8 @@ use super::PrestressError;
 use super::elimination::Elimination;
 use super::full_sliding::{FullSliding, check_pressed};
 use crate::contact::{NormalLaw, Point, PressedState, Row, SlidingContact, SteadyFriction};
-use crate::fem::{MassKind, MaterialField};
 use crate::fem::sector::stiffness_alike;
+use crate::fem::{MassKind, MaterialField};
 use crate::mesh::{AnnulusMesh, SectorMesh};
 
 /// The state of steady sliding of an annulus, the same in every sector.

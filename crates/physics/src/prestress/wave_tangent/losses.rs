@@ -2,7 +2,6 @@
 
 use super::WaveTangent;
 use crate::fem::ModulusTable;
-use crate::linalg::banded::BandedMatrix;
 use crate::prestress::wave_terms::{Kind, Part, Term};
 use crate::prestress::{FrictionPolynomial, LossGain, TabledGain};
 
