@@ -2,9 +2,6 @@
 
 use proc_macro::{Delimiter, TokenStream, TokenTree};
 use std::fmt::Write;
-use std::iter::Peekable;
-
-type Tokens = Peekable<proc_macro::token_stream::IntoIter>;
 
 /// Implements `frictionsim_output::Described`. An untagged enum has the keys of its variants, another one is a value without keys.
 #[proc_macro_derive(Described)]
@@ -60,53 +57,47 @@ fn describe_variant(token: &TokenTree, calls: &mut String) {
     }
 }
 
-/// Adds the calls that describe fields.
+/// Adds the calls that describe fields, which commas outside of angle brackets part.
 fn describe_fields(fields: TokenStream, calls: &mut String) {
-    let mut tokens = fields.into_iter().peekable();
-    while tokens.peek().is_some() {
-        describe_field(&mut tokens, calls);
-    }
-}
-
-/// Takes one field off the tokens of a struct and adds the call that describes it.
-fn describe_field(tokens: &mut Tokens, calls: &mut String) {
-    let (mut docs, mut name) = (Vec::new(), String::new());
-    let (mut is_flat, mut is_skipped) = (false, false);
-    // Attributes, `pub`, the name, and a colon.
-    for token in tokens.by_ref() {
-        match token {
-            TokenTree::Group(group) if group.delimiter() == Delimiter::Bracket => {
-                let mut inside = group.stream().into_iter();
-                let attribute = inside.next().map_or_else(String::new, |a| a.to_string());
-                match attribute.as_str() {
-                    "doc" => docs.extend(inside.nth(1).map(|text| text.to_string())),
-                    "serde" => {
-                        is_flat |= group.to_string().contains("flatten");
-                        // `skip` alone: other attributes skip a key under a condition.
-                        is_skipped |= group.to_string().contains("skip)");
-                    }
-                    _ => {}
-                }
-            }
-            TokenTree::Ident(ident) => name = ident.to_string(),
-            TokenTree::Punct(punct) if punct.as_char() == ':' => break,
-            _ => {}
-        }
-    }
-    // Its type, up to a comma outside of angle brackets.
-    let (mut of_type, mut depth) = (TokenStream::new(), 0);
-    for token in tokens.by_ref() {
+    let (mut field, mut depth) = (Vec::new(), 0);
+    for token in fields {
         match token.to_string().as_str() {
             "<" => depth += 1,
             ">" => depth -= 1,
-            "," if depth == 0 => break,
+            "," if depth == 0 => {
+                describe_field(&field, calls);
+                field.clear();
+                continue;
+            }
             _ => {}
         }
-        of_type.extend([token]);
+        field.push(token);
+    }
+    describe_field(&field, calls);
+}
+
+/// Adds the call that describes a field: attributes, `pub`, its name, a colon, and its type.
+fn describe_field(tokens: &[TokenTree], calls: &mut String) {
+    let Some(colon) = tokens.iter().position(|token| token.to_string() == ":") else { return };
+    let (mut docs, mut is_flat, mut is_skipped) = (Vec::new(), false, false);
+    for token in &tokens[..colon] {
+        let TokenTree::Group(group) = token else { continue };
+        let mut inside = group.stream().into_iter();
+        match inside.next().map(|name| name.to_string()).as_deref() {
+            Some("doc") => docs.extend(inside.nth(1).map(|text| text.to_string())),
+            Some("serde") => {
+                is_flat |= group.to_string().contains("flatten");
+                // `skip` alone: other attributes skip a key under a condition.
+                is_skipped |= group.to_string().contains("skip)");
+            }
+            _ => {}
+        }
     }
     if is_skipped {
         return;
     }
+    let name = &tokens[colon - 1];
+    let of_type: TokenStream = tokens[colon + 1..].iter().cloned().collect();
     let _ = writeln!(
         calls,
         "::frictionsim_output::describe_field(<{of_type} as ::frictionsim_output::Described>::describe, path,
