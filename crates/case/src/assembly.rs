@@ -84,23 +84,15 @@ pub(super) struct AssemblyParts {
 }
 
 impl AssemblyParts {
-    /// Direction and a point of the axis of what turns, bodies and rigid counterfaces, where all have the same.
-    pub(super) fn axis(&self) -> Result<[[f64; 3]; 2], &'static str> {
-        let mut axes = self.axes();
-        let first = axes.next().ok_or("nothing of the case turns")?;
-        if axes.any(|other| other != first) { Err("what turns has several") } else { Ok(first) }
-    }
-
-    /// Whether something turns.
-    pub(super) fn turns(&self) -> bool {
-        self.axes().next().is_some()
-    }
-
-    fn axes(&self) -> impl Iterator<Item = [[f64; 3]; 2]> {
+    /// Direction and a point of the axis of what turns, bodies and rigid counterfaces, where all have the same; none
+    /// where nothing turns.
+    pub(super) fn axis(&self) -> Option<Result<[[f64; 3]; 2], &'static str>> {
         let rigid = self.contacts.iter().filter_map(|contact| contact.surfaces.counter.rigid());
         let turning = rigid.filter(|rigid| matches!(rigid.motion, RigidMotion::Turning(_)));
         let motions = self.motions.iter().map(|(_, motion)| [motion.axis, motion.center]);
-        motions.chain(turning.map(|rigid| [rigid.axis, rigid.center]))
+        let mut axes = motions.chain(turning.map(|rigid| [rigid.axis, rigid.center]));
+        let first = axes.next()?;
+        Some(if axes.any(|own| own != first) { Err("what turns has several") } else { Ok(first) })
     }
 }
 

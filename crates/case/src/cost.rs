@@ -32,6 +32,14 @@ impl RunCost {
         self.operations / RATE
     }
 
+    /// That of two runs, one after the other.
+    fn and(self, next: Self) -> Self {
+        Self {
+            memory_bytes: self.memory_bytes.max(next.memory_bytes),
+            operations: self.operations + next.operations,
+        }
+    }
+
     /// The same in words.
     pub fn time(&self) -> &'static str {
         match self.seconds() {
@@ -193,18 +201,11 @@ impl Case {
             let named = &sweep.analyses;
             let is_run = |of: &Analysis| case.has(*of) && (named.is_empty() || named.contains(of));
             let runs = Analysis::all().filter(is_run).map(|of| cost.run_of(of));
-            Some(runs.fold(RunCost::default(), |all, run| RunCost {
-                memory_bytes: all.memory_bytes.max(run.memory_bytes),
-                operations: all.operations + run.operations,
-            }))
+            Some(runs.fold(RunCost::default(), RunCost::and))
         });
-        let costs: Vec<RunCost> = costs.map(Option::unwrap_or_default).collect();
-        let operations: f64 = costs.iter().map(|cost| cost.operations).sum();
-        let run = RunCost {
-            memory_bytes: costs.iter().fold(0.0, |most, cost| cost.memory_bytes.max(most)),
-            operations: operations * runs as f64 / tried.max(1) as f64,
-        };
-        Some(StudyCost { runs, run })
+        let all = costs.flatten().fold(RunCost::default(), RunCost::and);
+        let operations = all.operations * runs as f64 / tried.max(1) as f64;
+        Some(StudyCost { runs, run: RunCost { operations, ..all } })
     }
 
     /// Estimates what the samples of `[uncertainty]` cost: the onsets of each, and what the indices take.

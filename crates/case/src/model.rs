@@ -51,8 +51,8 @@ fn of_file(own: &mut Description<'_>, file: &str) -> (Option<Body>, Contact, Opt
     // What slides on what, and the axes of sectors and of materials.
     let (joints, contact, axes) = if root.has("contacts") || root.has("ties") || has_solids {
         let (parts, contact) = solid_joints(own, has_solids);
-        let axis = if parts.turns() { parts.axis() } else { Ok([[0.0, 0.0, 1.0], [0.0; 3]]) };
-        let axes = [axis, parts.axis()];
+        let still = [Ok([[0.0, 0.0, 1.0], [0.0; 3]]), Err("nothing of the case turns")];
+        let axes = still.map(|axis| parts.axis().unwrap_or(axis));
         (Joints::Solids(parts), contact, axes)
     } else {
         let (place, contact) = plane_joint(own);

@@ -12,27 +12,27 @@ const LOWEST_OF_TABLE: f64 = 1e-5;
 /// The materials of a case in time; none where they are what they are in any case, and where there is no band to fit
 /// them to.
 pub(super) fn relaxed(case: &Case) -> Option<Vec<RegionMaterial>> {
-    let (materials, count) = (case.materials(), case.body.materials.len());
+    let materials = &case.body.materials;
     if case.transient.is_none() || !case.body.has_lossy_materials() {
         return None;
     }
     let band = constant_band(case);
-    let needs_band = (0..count).any(|region| materials.of(region).loss_factor != 0.0);
+    let needs_band = materials.iter().any(|own| own.elastic.loss_factor != 0.0);
     if needs_band && band.is_none() {
         return None;
     }
-    let chain = |region: usize| {
-        if let Some(table) = materials.table(region) {
+    let chain = |own: &RegionMaterial| {
+        if let Some(table) = &own.table {
             let [low, high] = table.range_hz();
             let ratio = |frequency_hz: f64| table.ratio(frequency_hz);
             return Some(MaxwellChain::fit(&ratio, [low.max(LOWEST_OF_TABLE * high), high]));
         }
-        let eta = materials.of(region).loss_factor;
+        let eta = own.elastic.loss_factor;
         let band = band.filter(|_| eta != 0.0)?;
         Some(MaxwellChain::fit(&|_| c64::new(1.0, eta), band))
     };
-    let in_time = |region| RegionMaterial::in_time(materials, region, chain(region));
-    Some((0..count).map(in_time).collect())
+    let each = materials.iter().enumerate();
+    Some(each.map(|(k, own)| RegionMaterial::in_time(materials, k, chain(own))).collect())
 }
 
 /// The band over which a constant loss factor is kept, Hz.

@@ -35,7 +35,10 @@ impl<'a> TableFiles<'a> {
             Some(table) => Arc::clone(&table.bytes),
             None => {
                 let folder = Path::new(&self.raw.name).parent().unwrap_or(Path::new(""));
-                read_file(&folder.join(file))?
+                let path = folder.join(file);
+                let bytes = frictionsim_bounds::read(&path, TABLE);
+                let fail = |why| format!("cannot read the table {}: {why}", path.display());
+                bytes.map_err(fail)?.into()
             }
         };
         if !read.iter().any(|table| table.file == file) {
@@ -43,12 +46,6 @@ impl<'a> TableFiles<'a> {
         }
         Ok(bytes)
     }
-}
-
-fn read_file(path: &Path) -> Result<Arc<[u8]>, String> {
-    let bytes = frictionsim_bounds::read(path, TABLE);
-    let fail = |reason| format!("cannot read the table {}: {reason}", path.display());
-    bytes.map(Into::into).map_err(fail)
 }
 
 /// The table of `[material]` or of a section of `[materials.*]`, where it has one.
