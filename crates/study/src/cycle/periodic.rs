@@ -73,10 +73,15 @@ impl<'a> PeriodicStudy<'a> {
             (true, Some((parameter, values))) => {
                 let here = parameter.of(&operating_point(case));
                 let of = (case, &stepped);
-                if let Some((value, other)) = first_growing(of, *parameter, values, here)? {
-                    let onset = onset(of, *parameter, [here, value]);
-                    critical = onset.map(|value| CriticalValue::of(*parameter, value));
-                    (start, steady) = (Some((*parameter, value)), other);
+                // Both ends of the range before what lies between.
+                for value in candidates(values, here) {
+                    let other = Steady::at(of, *parameter, value)?;
+                    if !other.growing().is_empty() {
+                        let onset = onset(of, *parameter, [here, value]);
+                        critical = onset.map(|value| CriticalValue::of(*parameter, value));
+                        (start, steady) = (Some((*parameter, value)), other);
+                        break;
+                    }
                 }
             }
             (true, None) => {
@@ -334,22 +339,6 @@ fn sought(steady: &Steady, place: usize) -> ModeSummary {
         mode_frequency_hz: mode.frequency_hz(),
         growth_rate_per_s: mode.growth_rate(),
     }
-}
-
-/// The first value of a range of a parameter, both ends before what lies between, at which a mode grows.
-fn first_growing(
-    of: (&Case, &SteppedMesh<'_>),
-    parameter: Parameter,
-    values: &[f64],
-    here: f64,
-) -> Result<Option<(f64, Steady)>, StudyError> {
-    for value in candidates(values, here) {
-        let steady = Steady::at(of, parameter, value)?;
-        if !steady.growing().is_empty() {
-            return Ok(Some((value, steady)));
-        }
-    }
-    Ok(None)
 }
 
 /// The value of a parameter, SI, between one at which steady sliding is stable and one at which a mode grows, where it does

@@ -83,12 +83,4 @@ impl<'a> SteppedMesh<'a> {
     pub fn shown(&self) -> ShownBody<'_> {
         ShownBody { mesh: &self.mesh, sector: self.sector.as_ref() }
     }
-
-    /// Nodes of the whole body.
-    pub fn node_count(&self) -> usize {
-        match &self.sector {
-            Some(sector) => sector.node_count() * sector.sector_count(),
-            None => self.mesh.node_count(),
-        }
-    }
 }
