@@ -16,8 +16,9 @@ pub(crate) struct BranchRow {
     /// Circumferential harmonic of a wave.
     pub harmonic: Option<usize>,
     pub motion: CycleMotion,
-    /// What a motion of the whole mesh misses its start by, and periods stepped to find it.
+    /// What a motion of the whole mesh misses its start by.
     pub residual: Option<f64>,
+    /// Periods stepped to find it.
     pub periods: Option<usize>,
     /// Growth rate of the leading perturbation, 1/s, where it is known.
     pub growth_rate: Option<f64>,

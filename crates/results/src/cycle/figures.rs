@@ -1,4 +1,4 @@
-//! The figures of limit cycles, from their record.
+//! The figures of limit cycles, from their motions.
 
 use super::branches::draw_branches;
 use super::record::ShownCycle;
@@ -157,8 +157,9 @@ impl CycleFigures<'_> {
 
     /// Speed of the counterface at the shown contact nodes, m/s: it grows with the radius.
     fn shown_speed(&self, own: ShownCycle<'_>) -> f64 {
-        let (motion, Some(sector)) = (own.motion, self.body.sector) else {
-            return own.motion.counterface_speed;
+        let motion = own.motion;
+        let Some(sector) = self.body.sector else {
+            return motion.counterface_speed;
         };
         let radius = |ring: usize| sector.rings[ring].radius;
         let rings = sector.rings.len();

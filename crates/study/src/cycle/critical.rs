@@ -24,8 +24,8 @@ pub(super) fn candidates(values: &[f64], here: f64) -> Vec<f64> {
     [ends, between].concat()
 }
 
-/// The value of a parameter, SI, between one at which steady sliding is stable and one at which it is not: where its largest
-/// `growth` rate vanishes, by false position; none where it is not stable at the first.
+/// The value of a parameter, SI, between one at which steady sliding is stable and one at which it is not: where its
+/// largest `growth` rate vanishes, by false position; none where it is not stable at the first.
 pub(super) fn critical(
     mut growth: impl FnMut(f64) -> Option<f64>,
     [stable, growing]: [f64; 2],

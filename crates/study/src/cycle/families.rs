@@ -53,8 +53,9 @@ pub fn next_onset(case: &Case, friction: f64) -> Option<Onset> {
     None
 }
 
-/// The value of a parameter, SI, towards its range at which the lowest onset comes down to the case's friction coefficient;
-/// none of parameters that no onset depends on: sliding at constant friction knows neither speed nor interference.
+/// The value of a parameter, SI, towards its range at which the lowest onset comes down to the case's friction
+/// coefficient; none of parameters that no onset depends on: sliding at constant friction knows neither speed nor
+/// interference.
 pub fn critical_value(case: &Case, parameter: Parameter, values: &[f64]) -> Option<f64> {
     let mut point = operating_point(case);
     let (model, here) = (disc_model(case).ok()?, parameter.of(&point));

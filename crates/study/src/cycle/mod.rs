@@ -50,7 +50,6 @@ pub struct CycleStudy<'a> {
     pub choices: &'a Cycle,
     annulus: AnnulusMesh,
     simd: SimdLevel,
-    point: OperatingPoint,
     continuation: Option<(Parameter, Vec<f64>)>,
     /// Every onset below the case's friction coefficient; where there is none, those of the harmonics sought.
     onsets: Vec<Onset>,
@@ -69,8 +68,7 @@ impl<'a> CycleStudy<'a> {
         let choices = case.require_cycle()?;
         case.require_rotating_waves()?;
         let model = disc_model(case)?;
-        let point = operating_point(case);
-        let friction = point.contact.friction_coefficient;
+        let friction = case.contact.sliding.friction_coefficient;
         let mut onsets = model.onsets(friction, asked_modes(case, MODES))?;
         let continuation = continuation(case, choices, true)?;
         let mut critical = None;
@@ -89,7 +87,6 @@ impl<'a> CycleStudy<'a> {
             choices,
             annulus: AnnulusMesh::generate(&model.specification)?,
             simd,
-            point,
             continuation,
             critical,
             solvers,
@@ -146,7 +143,7 @@ impl<'a> CycleStudy<'a> {
         let (thickness, radius) = (self.case.thickness, self.annulus.specification.inner_radius);
         let cycles = results.into_iter().map(|own| own.sought(thickness, radius)).collect();
         let origin = Origin::Waves { lowest_onset: self.onsets.first().map(OnsetSummary::from) };
-        let own = (self.point.contact.friction_coefficient, extent_of(self.case));
+        let own = (self.case.contact.sliding.friction_coefficient, extent_of(self.case));
         CycleSummary::new(origin, self.critical.clone(), own, cycles, two_waves)
     }
 
@@ -156,8 +153,8 @@ impl<'a> CycleStudy<'a> {
 
     /// Why a family whose onset is known has no cycle.
     fn absence(&self, solver: &CycleSolver, error: &CycleError) -> Absence {
-        let (friction, onset) =
-            (self.point.contact.friction_coefficient, solver.onset.friction_coefficient);
+        let friction = self.case.contact.sliding.friction_coefficient;
+        let onset = solver.onset.friction_coefficient;
         let is_stable = friction < onset;
         Absence {
             reason: match is_stable {
@@ -172,7 +169,7 @@ impl<'a> CycleStudy<'a> {
 
     /// The cycle of a family with everything asked for: branch, stability, confirmation, fields.
     fn solve(&self, solver: &CycleSolver, frame_count: usize) -> Result<FoundWave, Absence> {
-        let found = solver.find(&self.point);
+        let found = solver.find(&operating_point(self.case));
         let cycle = found.map_err(|error| self.absence(solver, &error))?;
         let continuation = self.continuation.as_ref();
         let field = |time| solver.field(&cycle, time);

@@ -341,8 +341,8 @@ fn sought(steady: &Steady, place: usize) -> ModeSummary {
     }
 }
 
-/// The value of a parameter, SI, between one at which steady sliding is stable and one at which a mode grows, where it does
-/// neither.
+/// The value of a parameter, SI, between one at which steady sliding is stable and one at which a mode grows, where it
+/// does neither.
 fn onset(of: (&Case, &SteppedMesh<'_>), parameter: Parameter, ends: [f64; 2]) -> Option<f64> {
     let growth = |value: f64| Some(Steady::at(of, parameter, value).ok()?.growth_rate());
     critical(growth, ends)
