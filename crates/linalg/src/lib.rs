@@ -6,6 +6,7 @@ pub mod banded;
 pub mod dense;
 pub mod dense_eigen;
 mod dense_lu;
+mod dissection;
 mod distribution;
 mod error;
 mod gaussian_noise;

@@ -1,12 +1,17 @@
 //! Positions of the nonzeros of sparse matrices.
 
 use super::LinalgError;
+use super::dissection::nested_dissection;
 use faer::Side;
+use faer::perm::PermRef;
 use faer::sparse::linalg::SupernodalThreshold;
 use faer::sparse::linalg::cholesky::{
     CholeskySymbolicParams, SymbolicCholesky, SymmetricOrdering, factorize_symbolic_cholesky,
 };
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMat};
+
+/// Entries of factors from which on nested dissection saves more than it takes.
+const LARGE: usize = 2_000_000;
 
 /// Structural positions of the nonzeros of a square sparse matrix, column by column.
 ///
@@ -132,19 +137,31 @@ impl SparsityPattern {
         self.row_indices()[start..end].binary_search(&row).ok().map(|offset| start + offset)
     }
 
-    /// Order of elimination (approximate minimum degree) and structure of the Cholesky factors, neighbours of alike structure
-    /// in one block; only the upper triangle counts.
+    /// Order of elimination and structure of the Cholesky factors, neighbours of alike structure in one block; only the upper triangle
+    /// counts. The order is that of approximate minimum degree or, of large factors, of nested dissection if that leaves fewer entries.
     ///
     /// # Errors
     /// If the analysis runs out of memory or index range.
     pub(super) fn symbolic_cholesky(&self) -> Result<SymbolicCholesky<usize>, LinalgError> {
-        let parameters = CholeskySymbolicParams {
-            supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
-            ..Default::default()
+        let n = self.dimension();
+        let analysed = |order: SymmetricOrdering<'_, usize>| {
+            let parameters = CholeskySymbolicParams {
+                supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
+                ..Default::default()
+            };
+            factorize_symbolic_cholesky(self.symbolic.as_ref(), Side::Upper, order, parameters)
+                .map_err(|error| LinalgError::factorization(n, error))
         };
-        let (symbolic, order) = (self.symbolic.as_ref(), SymmetricOrdering::Amd);
-        factorize_symbolic_cholesky(symbolic, Side::Upper, order, parameters)
-            .map_err(|error| LinalgError::factorization(self.dimension(), error))
+        let by_degree = analysed(SymmetricOrdering::Amd)?;
+        if by_degree.len_val() < LARGE {
+            return Ok(by_degree);
+        }
+        let Some([unknowns, places]) = nested_dissection(self) else {
+            return Ok(by_degree);
+        };
+        let order = PermRef::new_checked(&unknowns, &places, n);
+        let dissected = analysed(SymmetricOrdering::Custom(order))?;
+        Ok(if dissected.len_val() < by_degree.len_val() { dissected } else { by_degree })
     }
 
     /// A matrix of this pattern with `values`, one for each nonzero.

@@ -20,7 +20,7 @@ pub struct LdlAnalysis {
 }
 
 impl LdlAnalysis {
-    /// Analyses a pattern (approximate minimum degree); only its upper triangle counts.
+    /// Analyses a pattern; only its upper triangle counts.
     ///
     /// # Errors
     /// If the analysis runs out of memory or index range.

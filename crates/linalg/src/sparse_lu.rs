@@ -66,7 +66,7 @@ struct Order {
 }
 
 impl Order {
-    /// Approximate minimum degree of the symmetric hull of a pattern, neighbours of alike structure in one front.
+    /// That of the Cholesky factors of the symmetric hull of a pattern, neighbours of alike structure in one front.
     fn of(pattern: &SparsityPattern) -> Result<Self, LinalgError> {
         let n = pattern.dimension();
         let nonzeros = (0..n).flat_map(|j| pattern.column(j).map(move |(_, i)| (i, j)));
