@@ -42,9 +42,9 @@ pub fn direct_response(
     let solved =
         crate::parallel::map::<_, _, Result<Vec<_>, _>>(frequencies_hz.chunks(at_once), |lines| {
             // A stiffness of each line's own leaves nothing to share.
-            let shared = match system.tabled.is_empty() {
-                true => solve_together(system, &analyses, force, response, lines),
-                false => vec![None; lines.len()],
+            let shared = match system.is_tabled() {
+                true => vec![None; lines.len()],
+                false => solve_together(system, &analyses, force, response, lines),
             };
             let solved = lines
                 .iter()

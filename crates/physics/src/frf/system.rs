@@ -9,7 +9,7 @@ use crate::fem::{
 use crate::linalg::{SparsityPattern, c64};
 use crate::mesh::Mesh;
 use crate::prestress::{
-    BodyTerms, ContactDofs, Elimination, SlidingTangent, TabledGain, TangentOptions,
+    BodyTerms, ContactDofs, Elimination, LossGain, SlidingTangent, TangentOptions,
 };
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -30,10 +30,8 @@ pub struct FrfSystem {
     mass: Vec<f64>,
     damping: Vec<f64>,
     stiffness: Vec<f64>,
-    /// Structural damping `H`; empty without.
-    structural: Vec<f64>,
-    /// Parts whose stiffness depends on frequency, with its nonzeros.
-    pub(super) tabled: Vec<(TabledGain, Vec<f64>)>,
+    /// What structural damping `H` and tables over frequency add to the stiffness, with its nonzeros.
+    losses: Vec<(LossGain, Vec<f64>)>,
     /// Coefficients of `C = alpha_R M + beta_R K`; `None` for any other damping.
     pub(super) proportional: Option<RayleighDamping>,
     /// Whether `M` and `K` are known to be symmetric.
@@ -72,20 +70,16 @@ impl FrfSystem {
     /// With rigid contact the normal displacement of the contact nodes is no unknown; the force of
     /// excitation acts on the body, not through the contact.
     pub fn sliding(tangent: &SlidingTangent, friction_coefficient: f64) -> Self {
+        let structural = tangent.structural.iter().map(|own| (LossGain(None), own));
+        let tabled = tangent.tabled.iter();
+        let tabled = tabled.map(|part| (LossGain(Some(part.gain.clone())), &part.stiffness));
+        let losses = structural.chain(tabled);
         Self {
             pattern: Arc::clone(tangent.stiffness.pattern()),
             mass: tangent.mass.evaluate(friction_coefficient),
             damping: tangent.damping.evaluate(friction_coefficient),
             stiffness: tangent.stiffness.evaluate(friction_coefficient),
-            structural: match &tangent.structural {
-                Some(structural) => structural.evaluate(friction_coefficient),
-                None => Vec::new(),
-            },
-            tabled: tangent
-                .tabled
-                .iter()
-                .map(|part| (part.gain.clone(), part.stiffness.evaluate(friction_coefficient)))
-                .collect(),
+            losses: losses.map(|(gain, own)| (gain, own.evaluate(friction_coefficient))).collect(),
             proportional: tangent.proportional,
             is_symmetric: false,
             unknowns: tangent.unknowns.clone(),
@@ -177,9 +171,9 @@ impl FrfSystem {
         (if is_finite { residual } else { f64::INFINITY }, size)
     }
 
-    /// Nonzero `k` of the structural damping.
-    fn lost(&self, k: usize) -> f64 {
-        self.structural.get(k).copied().unwrap_or(0.0)
+    /// Whether stiffness depends on frequency.
+    pub(super) fn is_tabled(&self) -> bool {
+        self.losses.iter().any(|(gain, _)| gain.0.is_some())
     }
 
     /// Nonzeros of `K + i H + i omega C - omega^2 M`, with what tables add at that frequency.
@@ -188,10 +182,10 @@ impl FrfSystem {
         let mut matrix: Vec<c64> = (0..self.mass.len())
             .map(|k| {
                 let real = self.stiffness[k] - omega * omega * self.mass[k];
-                c64::new(real, omega * self.damping[k] + self.lost(k))
+                c64::new(real, omega * self.damping[k])
             })
             .collect();
-        for (gain, stiffness) in &self.tabled {
+        for (gain, stiffness) in &self.losses {
             let factor = gain.at(c64::new(0.0, omega));
             let entries = matrix.iter_mut().zip(stiffness);
             entries.for_each(|(value, k)| *value += factor * *k);
