@@ -3,6 +3,7 @@
 //! The only crate that calls faer: its algorithms are compiled here once, for every crate above.
 
 pub mod banded;
+mod contour;
 pub mod dense;
 pub mod dense_eigen;
 mod dense_lu;
@@ -25,6 +26,7 @@ pub mod vectors;
 
 pub use faer::{Mat, MatMut, MatRef, Scale, c64};
 
+pub use contour::{Uncounted, ZeroCount, count_zeros};
 pub use dense_lu::{ComplexDenseLu, DenseLu};
 pub use distribution::Distribution;
 pub use error::LinalgError;

@@ -3,10 +3,9 @@
 use super::definite::{self, Region};
 use super::paths::HarmonicPaths;
 use super::problem::{HarmonicProblem, I, Matrices};
-use crate::linalg::banded::BandedLu;
-use crate::linalg::c64;
+use crate::linalg::{c64, count_zeros};
 use crate::prestress::WaveTangent;
-use std::f64::consts::{FRAC_PI_3, PI, TAU};
+use std::convert::Infallible;
 
 /// Largest `|Re(lambda)|` of the modes that completeness speaks of, as a share of the frequency limit
 /// (rad/s).
@@ -16,8 +15,11 @@ pub(super) const WIDEST_GROWTH: f64 = 0.2;
 /// there motions within [`WIDEST_GROWTH`] need not oscillate, see `STANDSTILL`.
 const SLOWEST: f64 = 0.0202;
 
-/// Points on the edge of the range at which phases are taken before halving starts.
-const EDGE_POINTS: usize = 8;
+/// Distance of the two determinants that a slope is taken from, relative to the size of the range.
+const STEP: f64 = 1e-4;
+
+/// Points on each side of the range from which the extent of `kappa` is taken.
+const SIDE_POINTS: usize = 16;
 
 /// Friction values, out of a rising grid, at which modes are counted: the quarters of the range.
 fn quarters(grid: &[f64]) -> Vec<f64> {
@@ -81,32 +83,28 @@ pub(super) fn verify(
 fn region(tangent: &WaveTangent, limit: f64) -> Region {
     let rayleigh = tangent.options.damping;
     let mut region = Region { real: 0.0, imaginary: 0.0 };
-    for lambda in rectangle(0.0, limit, WIDEST_GROWTH * limit, 64) {
-        let kappa = rayleigh.kappa(lambda);
-        region.real = region.real.max(1.001 * kappa.re);
-        region.imaginary = region.imaginary.max(1.001 * kappa.im.abs());
+    let corners = corners([0.0, limit], WIDEST_GROWTH * limit);
+    for (from, to) in (0..4).map(|side| (corners[side], corners[(side + 1) % 4])) {
+        for i in 0..SIDE_POINTS {
+            let kappa = rayleigh.kappa(from + (to - from) * (i as f64 / SIDE_POINTS as f64));
+            region.real = region.real.max(1.001 * kappa.re);
+            region.imaginary = region.imaginary.max(1.001 * kappa.im.abs());
+        }
     }
     region
 }
 
-/// Points on the edge of `|Re| <= half_width`, `low <= Im <= high`, counter-clockwise.
-fn rectangle(low: f64, high: f64, half_width: f64, count: usize) -> Vec<c64> {
-    let corners = [(-half_width, low), (half_width, low), (half_width, high), (-half_width, high)]
-        .map(|(re, im)| c64::new(re, im));
-    let per_side = count / 4;
-    (0..4)
-        .flat_map(|side| {
-            let (from, to) = (corners[side], corners[(side + 1) % 4]);
-            (0..per_side).map(move |i| from + (to - from) * (i as f64 / per_side as f64))
-        })
-        .collect()
+/// Corners of `|Re| <= half_width`, `low <= Im <= high`, counter-clockwise.
+fn corners([low, high]: [f64; 2], half_width: f64) -> [c64; 4] {
+    [(-half_width, low), (half_width, low), (half_width, high), (-half_width, high)]
+        .map(|(re, im)| c64::new(re, im))
 }
 
 /// Eigenvalues in the range at friction `mu` that no path stands for, by the argument principle; `None`
-/// where the phase cannot be followed.
+/// where one lies on the edge.
 ///
 /// The determinant divided by that at rest and by the factors of the known eigenvalues has neither zeros
-/// nor poles left inside unless one was missed, so its phase changes little along the edge. The
+/// nor poles left inside unless one was missed, so it changes little along the edge. The
 /// lower half of the plane has the conjugates of the wave `-n`; losses are analytic in each.
 fn missed(
     problem: &HarmonicProblem,
@@ -116,24 +114,34 @@ fn missed(
     mu: f64,
 ) -> Option<i64> {
     let (known_at_rest, known) = paths.map_or((Vec::new(), Vec::new()), |paths| known(paths, mu));
-    let mut search = Search {
-        problem,
-        at_rest: problem.at_damping(0.0),
-        now: problem.at(mu),
-        known_at_rest,
-        known,
-        lu: problem.workspace(),
-        values: Vec::new(),
+    let (rest, now) = (problem.at_damping(0.0), problem.at(mu));
+    let (mut lu, mut values) = (problem.workspace(), Vec::new());
+    let mut ln_at = |theta: c64| -> c64 {
+        let mut ln_determinant = |at: &Matrices| {
+            problem.assemble(at, theta, &mut values);
+            lu.factorize(&values);
+            lu.ln_determinant()
+        };
+        let factors = |known: &[c64]| known.iter().map(|k| (theta - k).ln()).sum::<c64>();
+        ln_determinant(&now) - ln_determinant(&rest) - factors(&known) + factors(&known_at_rest)
+    };
+    let mut missing = |corners: [c64; 4], size: f64| -> Option<i64> {
+        let found = count_zeros(&corners, &|_| STEP * size, &mut |points| {
+            Ok::<_, Infallible>(points.into_iter().map(&mut ln_at).collect())
+        });
+        Some(found.ok()?.count)
     };
     if problem.is_proportional() {
         // Turned by a right angle: the rectangle's "height" is Re(kappa).
-        let edge = rectangle(-1e-3 * region.real, region.real, region.imaginary, EDGE_POINTS);
-        return search.winding(edge.into_iter().map(|p| c64::new(p.im, -p.re)).collect());
+        let upright = corners([-1e-3 * region.real, region.real], region.imaginary);
+        return missing(upright.map(|p| c64::new(p.im, -p.re)), region.real);
     }
-    let upper = rectangle(SLOWEST * limit, limit, WIDEST_GROWTH * limit, 2 * EDGE_POINTS);
-    let lower = upper.iter().map(|point| -point).collect();
-    let ahead = search.winding(upper)?;
-    if problem.tangent.is_standing { Some(ahead) } else { Some(ahead + search.winding(lower)?) }
+    let upper = corners([SLOWEST * limit, limit], WIDEST_GROWTH * limit);
+    let ahead = missing(upper, limit)?;
+    match problem.tangent.is_standing {
+        true => Some(ahead),
+        false => Some(ahead + missing(upper.map(|point| -point), limit)?),
+    }
 }
 
 /// Known eigenvalues of the problem's `theta` at rest (undamped) and at `mu`.
@@ -149,56 +157,4 @@ fn known(paths: &HarmonicPaths, mu: f64) -> (Vec<c64>, Vec<c64>) {
     let points = paths.paths.iter().flat_map(|path| &path.points);
     let now = points.filter(|point| point.parameter == mu).map(|point| point.theta);
     (at_rest, now.collect())
-}
-
-struct Search<'a> {
-    problem: &'a HarmonicProblem,
-    at_rest: Matrices,
-    now: Matrices,
-    known_at_rest: Vec<c64>,
-    known: Vec<c64>,
-    lu: BandedLu,
-    values: Vec<c64>,
-}
-
-impl Search<'_> {
-    /// Phase of the reduced determinant at `theta`, up to full turns.
-    fn phase(&mut self, theta: c64) -> f64 {
-        self.problem.assemble(&self.now, theta, &mut self.values);
-        self.lu.factorize(&self.values);
-        let mut phase = self.lu.determinant_argument();
-        self.problem.assemble(&self.at_rest, theta, &mut self.values);
-        self.lu.factorize(&self.values);
-        phase -= self.lu.determinant_argument();
-        phase -= self.known.iter().map(|k| (theta - k).arg()).sum::<f64>();
-        phase + self.known_at_rest.iter().map(|k| (theta - k).arg()).sum::<f64>()
-    }
-
-    fn winding(&mut self, edge: Vec<c64>) -> Option<i64> {
-        let phases: Vec<f64> = edge.iter().map(|&theta| self.phase(theta)).collect();
-        let mut total = 0.0;
-        for i in 0..edge.len() {
-            let j = (i + 1) % edge.len();
-            total += self.turn((edge[i], phases[i]), (edge[j], phases[j]), 12)?;
-        }
-        Some((total / TAU).round() as i64)
-    }
-
-    /// Change of phase along a straight line, halved until each half turns little and both agree with the
-    /// whole.
-    fn turn(&mut self, from: (c64, f64), to: (c64, f64), depth: usize) -> Option<f64> {
-        let change = |a: f64, b: f64| (b - a + PI).rem_euclid(TAU) - PI;
-        let middle = 0.5 * (from.0 + to.0);
-        let middle = (middle, self.phase(middle));
-        let halves = [change(from.1, middle.1), change(middle.1, to.1)];
-        let whole = change(from.1, to.1);
-        let is_smooth = halves.iter().all(|half| half.abs() < FRAC_PI_3);
-        if is_smooth && (halves[0] + halves[1] - whole).abs() < FRAC_PI_3 {
-            return Some(whole);
-        }
-        if depth == 0 {
-            return None;
-        }
-        Some(self.turn(from, middle, depth - 1)? + self.turn(middle, to, depth - 1)?)
-    }
 }
