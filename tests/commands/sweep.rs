@@ -232,28 +232,6 @@ fn points_of_another_case_are_refused_and_replaced_only_by_force() {
 }
 
 #[test]
-fn two_runs_on_one_folder_share_the_points() {
-    let case = study(GRID);
-    let folder = folder();
-    let calls = AtomicUsize::new(0);
-    let runner = |point: &Case| {
-        calls.fetch_add(1, Ordering::Relaxed);
-        std::thread::sleep(Duration::from_millis(5));
-        formula(point)
-    };
-    std::thread::scope(|scope| {
-        for _ in 0..4 {
-            scope.spawn(|| sweep(&case, folder.path(), None, 2, Start::Resume, &runner).unwrap());
-        }
-    });
-    assert_eq!(calls.into_inner(), 15, "each point once");
-    sweep(&case, folder.path(), None, 2, Start::Resume, &formula).unwrap();
-    let alone = TempDir::new().unwrap();
-    sweep(&case, alone.path(), None, 2, Start::Fresh, &formula).unwrap();
-    assert_eq!(table(folder.path()), table(alone.path()));
-}
-
-#[test]
 fn sweeps_and_other_commands_keep_out_of_each_others_folder() {
     let case = study(GRID);
     let plan = SweepPlan::new(&case).unwrap();
