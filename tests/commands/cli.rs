@@ -143,17 +143,6 @@ fn a_pipe_gets_no_progress_and_no_colours() {
 }
 
 #[test]
-fn a_named_folder_of_another_case_is_refused_unless_forced() {
-    let folder = folder();
-    let mesh = |more: &[&str]| on_disc(&folder, "mesh", more).out("here");
-    mesh(&[]).done();
-    mesh(&[]).done();
-    let other = ["--set", "mesh.radial_elements=4"];
-    mesh(&other).refused(&["another case", "--force"]);
-    has(&mesh(&other).args(&["--force"]).done().words(), &["elements 64"]);
-}
-
-#[test]
 fn no_run_replaces_the_results_of_another_one_in_silence() {
     let folder = folder();
     for elements in ["3", "4", "5", "3"] {

@@ -231,38 +231,6 @@ fn a_case_without_end_is_refused_at_the_limit() {
     run(&folder(), &["check", "/dev/zero"]).refused(&["larger than 16 MiB"]);
 }
 
-/// A MATLAB file of one compressed variable: `count` bytes that are all zero.
-fn bomb(count: u32) -> Vec<u8> {
-    let mut plain = Vec::new();
-    let mut tag = |kind: u32, data: &[u8], length: u32| {
-        plain.extend(kind.to_le_bytes());
-        plain.extend(length.to_le_bytes());
-        plain.extend(data);
-    };
-    tag(14, &[], 56 + count);
-    tag(6, &[9, 0, 0, 0, 0, 0, 0, 0], 8);
-    tag(5, &[count.to_le_bytes(), 1u32.to_le_bytes()].concat(), 8);
-    tag(1, b"zeros\0\0\0", 5);
-    tag(2, &vec![0; count as usize], count);
-    let mut packed = flate2::write::ZlibEncoder::new(Vec::new(), flate2::Compression::best());
-    std::io::Write::write_all(&mut packed, &plain).unwrap();
-    let packed = packed.finish().unwrap();
-    let mut file = vec![b' '; 124];
-    file.extend([0, 1, b'I', b'M']);
-    file.extend(15u32.to_le_bytes());
-    file.extend((packed.len() as u32).to_le_bytes());
-    file.extend(packed);
-    file
-}
-
-#[test]
-fn a_small_file_that_inflates_to_a_huge_one_is_refused() {
-    let bytes = bomb(100 << 20);
-    assert!(bytes.len() < 1 << 20);
-    run(&folder_with(&[("bomb.mat", &bytes)]), &["signal", "bomb.mat", "--rate", "1000"])
-        .refused(&["MATLAB file", "million numbers, the limit"]);
-}
-
 #[test]
 fn a_run_that_was_interrupted_while_it_replaces_others_goes_on_where_it_was() {
     let manifest =

@@ -20,7 +20,7 @@ fn plane_and_solid_discs_and_basins_take_a_law() {
     assert!(basin.require_basin().is_ok());
 }
 
-/// Cross-method: harmonic by harmonic and over the whole mesh, eigenvalues, derivatives by the law's numbers and responses agree.
+/// Cross-method: harmonic by harmonic and over the whole mesh, eigenvalues and derivatives by the law's numbers agree.
 #[test]
 fn both_methods_have_the_same_tables() {
     let folder = folder();
@@ -55,21 +55,6 @@ fn both_methods_have_the_same_tables() {
         }
     }
     assert!(compared > 6);
-    let response = |method: &str| {
-        let out = folder.path().join(format!("frf-{method}"));
-        let method = format!("frf.method={method}");
-        run("frf", &case, &out, &[&method]).text("frf.csv")
-    };
-    let numbers = |text: String| -> Vec<f64> {
-        let all = text.split([',', '\n']).filter_map(|cell| cell.parse().ok());
-        all.collect()
-    };
-    let [a, b] = ["cyclic", "direct"].map(|method| numbers(response(method)));
-    assert!(a.len() == b.len() && a.len() > 5);
-    let largest = |v: &[f64]| v.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
-    for (a, b) in a.iter().zip(&b) {
-        assert!((a - b).abs() < 1e-7 * b.abs().max(1e-12 * largest(&[*b])), "{a} {b}");
-    }
 }
 
 /// The law of a case stands in place of the constant stiffness that an input file gives.

@@ -232,16 +232,6 @@ fn folders_that_cannot_be_drawn_are_bad_usage_with_a_reason() {
 }
 
 #[test]
-fn plot_draws_the_picture_of_a_mesh_again_to_the_same_bytes() {
-    let folder = folder();
-    run(&folder, "mesh", "polycarbonate-disc.toml", &COARSE).done();
-    let before = files(&folder.path().join("out"));
-    assert!(before.contains_key("report.html"));
-    plot(&folder, &[]).done();
-    assert_eq!(files(&folder.path().join("out")), before);
-}
-
-#[test]
 fn the_picture_of_an_imported_mesh_names_boundaries_regions_and_normals() {
     let folder = folder();
     let answer = run(&folder, "mesh", "pad-on-disc.toml", &[]).done();

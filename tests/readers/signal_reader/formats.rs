@@ -182,3 +182,19 @@ fn a_file_of_another_format_is_named_with_the_formats_that_are_read() {
     let error = read_response(&wave(&[0.0; 20]), "x", None).err().unwrap().to_string();
     has(&error, &["frictionsim signal"]);
 }
+
+/// A compressed array of zeros, a byte each.
+#[test]
+fn a_small_file_that_inflates_to_a_huge_one_is_refused() {
+    let count = 100 << 20;
+    let parts = [
+        element(6, &[9, 0, 0, 0, 0, 0, 0, 0]),
+        element(5, &[count, 1].map(u32::to_le_bytes).concat()),
+        element(1, b"zeros"),
+        element(2, &vec![0; count as usize]),
+    ];
+    let bytes = matlab_file(&[element(14, &parts.concat())], true);
+    assert!(bytes.len() < 1 << 20);
+    let error = read_signal(&bytes, "bomb.mat", Some(1e3)).unwrap_err().to_string();
+    has(&error, &["MATLAB file ; million numbers, the limit"]);
+}
