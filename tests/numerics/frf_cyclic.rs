@@ -126,36 +126,6 @@ fn harmonics_in_sliding_contact_sum_to_the_response_of_the_whole_mesh() {
     }
 }
 
-#[test]
-fn held_and_missing_nodes_and_negative_frequencies_are_refused_with_their_key() {
-    let [specification, ..] = meshes();
-    let sector = SectorMesh::generate(&specification).unwrap();
-    let mass = Consistent;
-    let system = CyclicSystem::body(&sector, &POLYCARBONATE, mass, DAMPING, true);
-    let at = |node| at_node(node, false);
-    let error = system.check(at(6), "force_node").unwrap_err();
-    assert!(
-        matches!(error, FrfError::Node { node: 7, fault: NodeFault::Constrained(_), .. }),
-        "{error}"
-    );
-    let error = system.check(at(7 * 24), "response_node").unwrap_err();
-    assert!(error.to_string().contains("frf.response_node = 169"), "{error}");
-    let error = cyclic_response(&system, at(0), at(0), &[-1.0]).unwrap_err();
-    assert!(matches!(error, FrfError::Frequency { value: -1.0 }));
-}
-
-#[test]
-fn response_has_the_same_bits_for_any_number_of_threads() {
-    let [specification, ..] = meshes();
-    let sector = SectorMesh::generate(&specification).unwrap();
-    let mass = Consistent;
-    let system = CyclicSystem::body(&sector, &POLYCARBONATE, mass, DAMPING, false);
-    let f: Vec<f64> = (1..=77).map(|line| 100.0 * f64::from(line)).collect();
-    let [force, response] = terminals(&specification, false)[1];
-    let work = || cyclic_response(&system, force, response, &f).unwrap();
-    assert_eq!(on_threads(1, work), on_threads(3, work));
-}
-
 /// Without contact a shaft is a body of its own: the disc answers as it does without one, whose response another solver gives.
 #[test]
 fn a_disc_on_a_shaft_responds_without_contact_as_the_disc_alone() {

@@ -1,7 +1,7 @@
 //! Saved and restored states.
 
 use crate::prelude::*;
-use crate::transient::model::{Watch, disc, kicked, model, settings};
+use crate::transient::model::{disc, kicked, model, settings};
 
 struct StopAt {
     record: Recorder,
@@ -58,20 +58,6 @@ fn restarted_run_equals_uninterrupted_run_bitwise() {
         assert_eq!(second.state(), end);
         assert_eq!(record, whole);
     }
-}
-
-#[test]
-fn runs_are_bitwise_equal_inside_thread_pools_of_any_size() {
-    let annulus = disc(30, 6);
-    let end = |threads: usize| {
-        on_threads(threads, || {
-            let model = model(&annulus, 610.0);
-            let mut run = started(model, OperatorChoice::Auto, &settings(1e-3, &[1]));
-            run.run(&mut Watch(|_: &Sample<'_>| {})).unwrap();
-            run.state()
-        })
-    };
-    assert_eq!(end(1), end(2));
 }
 
 #[test]

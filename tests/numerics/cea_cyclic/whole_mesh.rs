@@ -125,18 +125,7 @@ fn expanded_shapes_are_eigenvectors_of_the_full_mesh() {
         let request = SweepRequest { shapes_at: &[0.6], ..sweep_request(&[0.6, 0.0], Lowest(20)) };
         let found = model.sweep(&request).unwrap();
         let tangent = model.whole();
-        let multiply = |p: &MatrixPolynomial, x: &[c64]| {
-            let (values, pattern) = (p.evaluate(0.6), p.pattern());
-            let mut y = vec![c64::new(0.0, 0.0); x.len()];
-            for (column, x) in x.iter().enumerate() {
-                for place in
-                    pattern.column_pointers()[column]..pattern.column_pointers()[column + 1]
-                {
-                    y[pattern.row_indices()[place]] += values[place] * x;
-                }
-            }
-            y
-        };
+        let matrices = [&tangent.mass, &tangent.damping, &tangent.stiffness].map(|p| dense(p, 0.6));
         assert!(found.sweep.points[1].modes.iter().all(|mode| mode.shape.is_none()));
         for mode in &found.sweep.points[0].modes {
             let shape = mode.shape.as_ref().unwrap();
@@ -144,8 +133,10 @@ fn expanded_shapes_are_eigenvectors_of_the_full_mesh() {
                 shape.chunks(2).map(|u| u[0].norm().hypot(u[1].norm())).fold(0.0, f64::max);
             assert!((largest - 1.0).abs() < 1e-12);
             let x = tangent.unknowns.restrict(shape);
-            let [m, c, k] = [&tangent.mass, &tangent.damping, &tangent.stiffness]
-                .map(|matrix| multiply(matrix, &x));
+            let [m, c, k] = matrices.each_ref().map(|matrix| -> Vec<c64> {
+                let row = |i: usize| x.iter().enumerate().map(|(j, x)| matrix[(i, j)] * x).sum();
+                (0..x.len()).map(row).collect()
+            });
             let lambda = mode.eigenvalue;
             let scale = k.iter().map(|v| v.norm()).fold(0.0, f64::max);
             for i in 0..x.len() {

@@ -159,7 +159,10 @@ fn held_directions_missing_nodes_and_axial_motion_in_the_plane_are_refused_with_
     let held = at(&sector, 0, [0, 2], 0, Radial);
     let error = system.check(held, "force_node").unwrap_err();
     assert!(matches!(error, FrfError::Node { fault: NodeFault::Constrained("radial"), .. }));
-    assert!(system.check(at(&sector, 0, [0, 2], 0, Axial), "force_node").is_ok());
+    let free = at(&sector, 0, [0, 2], 0, Axial);
+    assert!(system.check(free, "force_node").is_ok());
+    let error = cyclic_response(&system, free, free, &[-1.0]).unwrap_err();
+    assert!(matches!(error, FrfError::Frequency { value: -1.0 }));
     let clamped = at(&sector, 0, [6, 2], 0, Axial);
     let error = system.check(clamped, "response_node").unwrap_err();
     assert!(error.to_string().contains("cannot move in axial direction"));
