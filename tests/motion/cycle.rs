@@ -41,19 +41,6 @@ fn count(cycle: &LimitCycle, status: ContactStatus) -> usize {
 }
 
 #[test]
-fn external_power_leaves_as_heat_of_body_and_contact() {
-    for (harmonic, rpm) in [(1, 70.0), (1, 250.0), (2, 70.0), (2, 610.0)] {
-        let cycle = solver(harmonic).find(&operating(rpm)).unwrap();
-        // The identity is exact; what remains is round-off of the linear systems.
-        assert!(cycle.powers.balance_residual() < 1e-8);
-        let p = &cycle.powers.contact;
-        let parts = p.stick + p.slide + p.contact_dissipated;
-        assert!((parts / p.external - 1.0).abs() < 1e-12);
-        assert!(p.contact_dissipated > 0.0 && cycle.powers.material_damping > 0.0);
-    }
-}
-
-#[test]
 fn cycles_along_a_branch_have_the_powers_of_each_alone() {
     let overrides =
         ["mesh.circumferential_elements=90 ; mesh.radial_elements=18 ; cycle.harmonics=[1] ; \
@@ -66,7 +53,7 @@ fn cycles_along_a_branch_have_the_powers_of_each_alone() {
     let solver = solver(1);
     assert!(branch.cycles.len() >= 3);
     for cycle in &branch.cycles {
-        // As in `external_power_leaves_as_heat_of_body_and_contact`: round-off of the linear systems.
+        // The identity is exact; what remains is round-off of the linear systems.
         assert!(cycle.powers.balance_residual() < 1e-8);
         let rpm = cycle.state.point.contact.rotation_speed * 60.0 / TAU;
         let alone = solver.find(&operating(rpm)).unwrap();
@@ -214,8 +201,13 @@ fn reference_cycles_of_the_fine_mesh_have_the_transients_frequencies_and_statuse
         assert!((cycle.fractions[2] - open).abs() < 0.0126, "{label}");
         // The landing time takes out twice the energy of an impact, which is 0.4 % of the external power.
         assert!((cycle.powers.contact.external / external - 1.0).abs() < 0.008, "{label}");
-        let found = cycle.powers.contact.stick / cycle.powers.contact.external;
+        let powers = &cycle.powers.contact;
+        let found = powers.stick / powers.external;
         assert!((found - share).abs() < 0.0126, "{label} {found}");
+        // External power leaves as heat of body and contact.
+        let parts = powers.stick + powers.slide + powers.contact_dissipated;
+        assert!((parts / powers.external - 1.0).abs() < 1e-12, "{label}");
+        assert!(powers.contact_dissipated > 0.0 && cycle.powers.material_damping > 0.0, "{label}");
     }
 }
 

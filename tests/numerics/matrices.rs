@@ -247,13 +247,14 @@ fn at_friction(folder: &TempDir, friction: f64, set: &[&str]) -> [Mat<f64>; 4] {
 }
 
 /// Independent: contact that stiffens, whose points open within the sweep. The polynomials of each state hold in its own range only: the
-/// analysis starts without friction from another one, and reports and exported matrices are those of the case's own friction.
+/// analysis starts without friction from another one, and reports and exported matrices are those of the case's own friction. Modes
+/// there are the same whichever other friction coefficients are asked for, between which other points touch.
 #[test]
 fn exported_matrices_hold_where_contact_that_stiffens_has_opened() {
     let folder = folder();
     let law = "normal_law = \"exponential\"\nreference_pressure = 1e5\nheight = 1e-6";
     tall_block(&folder, law, "[0.1, 0.8]");
-    for turning in ["100.0", "-100.0"] {
+    for turning in ["-100.0", "100.0"] {
         let turning = format!("motion.low.rotation_speed_rpm={turning}");
         solved(&folder, &[&turning]);
         assert_eq!(listed_modes_found(&folder, 0.8), 6);
@@ -264,17 +265,7 @@ fn exported_matrices_hold_where_contact_that_stiffens_has_opened() {
         assert!(base["open"].as_u64().unwrap() > sized(50, 100), "{base}");
         assert!(base["pressure_pa"][0].as_f64().unwrap() >= 0.0, "{base}");
     }
-}
-
-/// Consistency check: where contact stiffens and opens, modes at one friction coefficient are the same whichever others are asked for,
-/// between which other points touch.
-#[test]
-fn modes_do_not_depend_on_the_other_friction_values_asked_for() {
-    let folder = folder();
-    let law = "normal_law = \"exponential\"\nreference_pressure = 1e5\nheight = 1e-6";
-    tall_block(&folder, law, "[0.8]");
-    run(&folder, "matrices", &[]).done();
-    for others in ["", "0.1, ", "0.7, ", "0.1, 0.5, 0.7, "] {
+    for others in ["", "0.7, ", "0.1, 0.5, 0.7, "] {
         let frictions = format!("cea.friction_coefficients=[{others}0.8]");
         run(&folder, "cea", &[&frictions]).done();
         assert_eq!(listed_modes_found(&folder, 0.8), 6);

@@ -8,7 +8,7 @@ mod sizes;
 mod suggestions;
 
 use crate::prelude::*;
-use frictionsim::case::{CeaMethod, RawCase, Spacing, TimeStep, range_values};
+use frictionsim::case::{CeaMethod, RawCase, Spacing, range_values};
 use proptest::prelude::*;
 
 const DISC: &str = include_str!("../../../cases/polycarbonate-disc.toml");
@@ -190,32 +190,6 @@ fn a_quadratic_mesh_runs_no_transient() {
 }
 
 #[test]
-fn a_missing_analysis_says_what_to_add() {
-    // What its section would not help against is said first.
-    let quadratic = valid(DISC, &[]).require_transient().unwrap_err();
-    has(&quadratic.to_string(), &["mesh.element", "quad4"]);
-    let case = valid(DISC, &["mesh.element=quad4"]);
-    let missing = case.require_transient().unwrap_err().to_string();
-    has(&missing, &["no [transient] section", "duration"]);
-    assert!(case.require_sweep().is_err());
-}
-
-#[test]
-fn snapshots_after_the_end_are_a_warning() {
-    let case = valid(RUN, &["transient.duration=0.01"]);
-    assert_eq!(case.warnings.len(), 2);
-    assert_eq!(case.transient.unwrap().settings.time_step, TimeStep::Auto);
-}
-
-#[test]
-fn cycles_and_their_continuation_are_read() {
-    let cycle = "cycle={ harmonics = [1, 2], continuation = { key = \"contact.rotation_speed_rpm\", from = 10, to = 6000 } }";
-    let cycle = valid(DISC, &[cycle]).cycle.unwrap();
-    assert_eq!(cycle.harmonics, Some(vec![1, 2]));
-    assert_eq!(cycle.continuation.unwrap().to, 6000.0);
-}
-
-#[test]
 fn shapes_are_solved_for_beside_the_values_of_the_tables() {
     let overrides = ["cea.friction_coefficients=[0.5, 0.1]", "cea.shapes_at=[0.3, 0.5]"];
     let cea = valid(DISC, &overrides).cea.unwrap();
@@ -265,13 +239,4 @@ fn a_start_on_a_limit_cycle_names_its_harmonic_and_onset() {
         let initial = case.require_transient().unwrap().settings.initial;
         assert_eq!(initial, InitialState::LimitCycle { harmonic, onset });
     }
-}
-
-#[test]
-fn stability_along_a_branch_is_read() {
-    use frictionsim::case::StabilityChoice;
-    const CYCLES: &str = include_str!("../../../cases/limit-cycle.toml");
-    let case = valid(CYCLES, &["cycle.stability=\"branch\"", "cycle.phases=151"]);
-    let cycle = case.require_cycle().unwrap();
-    assert_eq!((cycle.stability, cycle.phases), (StabilityChoice::Branch, Some(151)));
 }

@@ -123,29 +123,6 @@ fn spectrum_equals_dense_solution_of_every_harmonic_of_the_full_mesh() {
     }
 }
 
-/// Independent check: companion matrix of the quadratic problem, damping that is not proportional.
-#[test]
-fn quadratic_problem_equals_dense_companion_solution() {
-    for damping_model in [WholeTangent, BodyOnly] {
-        for (normal_stiffness, normal_damping, tangential_damping) in
-            [(None, 0.0, 1e4), (Some(7.4e12), 2e6, 3e4), (Some(7.4e12), 0.0, 0.0)]
-        {
-            for element in [Quad4, Quad8] {
-                let mut model = paper(element, 14, 5);
-                model.options.damping_model = damping_model;
-                model.options.contact = ContactStiffness {
-                    normal_stiffness,
-                    normal_damping,
-                    tangential_damping,
-                    ..RIGID
-                };
-                let worst = worst_difference(&model, &[0.0, 0.4, 1.0], 15000.0);
-                below(worst, 1e-9, format_args!("{damping_model:?} {element:?}"));
-            }
-        }
-    }
-}
-
 /// Independent check: models drawn from wide ranges, each against dense solutions of all its harmonics.
 #[test]
 fn random_models_lose_no_mode_and_gain_none() {
