@@ -163,7 +163,7 @@ fn a_failed_point_ends_in_exit_code_1_after_all_others_are_done() {
     assert_eq!(table(&study.folder("failing")).lines().count(), 61);
 }
 
-/// The README's way without a sweep: one run after the other, each printing its summary.
+/// Without a sweep: one run after the other, each printing its summary.
 #[test]
 fn a_shell_loop_over_transients_gives_what_the_sweep_gives() {
     let study = Study::new();

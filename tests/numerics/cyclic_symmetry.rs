@@ -154,14 +154,12 @@ fn waves_around_solid_bodies_have_the_spectrum_of_their_whole_mesh() {
     }
 }
 
-/// The same of a ring that turns with the inertia of its rotation, in both frames. In the frame at rest the waves of `n` diameters stand
-/// `n Omega` beside those of the turning frame, but for what linear elements of 9 degrees make of the transport.
+/// The same of a ring that turns with the inertia of its rotation, in both frames.
 #[test]
 fn waves_around_a_turning_ring_have_the_spectrum_of_its_whole_mesh() {
     let ring = brick("ring", [0.05, 0.0, -0.005], [0.1, TAU / 20.0, 0.01], [3, 2, 1]);
     let mesh = file_of(&[ring], polar);
     let text = include_str!("../cases/turning-ring.toml");
-    let mut of_frame = Vec::new();
     for frame in ["rest", "turning"] {
         let [waves, whole] = ["cyclic", "sparse"].map(|method| {
             let text = text.replace("\"rest\"", &format!("{frame:?}"));
@@ -169,15 +167,6 @@ fn waves_around_a_turning_ring_have_the_spectrum_of_its_whole_mesh() {
             found.sweep.points[0].modes.clone()
         });
         assert!(distance(&waves, &whole) < 1e-9, "{waves:?} {whole:?}");
-        of_frame.push(waves);
-    }
-    for n in 0..=2 {
-        let lowest = |modes: &[ComplexMode]| {
-            let mut own = modes.iter().filter(|m| m.nodal_diameters == Some(n));
-            own.next().unwrap().frequency_hz()
-        };
-        let [rest, turning] = [&of_frame[0], &of_frame[1]].map(|modes| lowest(modes));
-        assert!((turning - rest - 100.0 * n as f64).abs() < 0.5 * (1 + n) as f64);
     }
 }
 
@@ -253,15 +242,6 @@ fn every_table_of_a_body_of_sectors_has_its_nodal_diameters_and_samples_have_its
         assert_eq!((onset.harmonic, onset.unstable_from_start), (diameters, false));
         assert!(sample.is_unstable(0.4));
     }
-}
-
-#[test]
-fn a_contact_without_pressure_is_refused() {
-    let text =
-        screwed_disc(4, "[cea]\nmodes = 4\n").replace("interference = 25e-6", "interference = 0.0");
-    let mesh = disc_sector(4, [8, 5], 0.0);
-    let refused = read("no-pressure", &mesh, &text, "auto").unwrap_err().to_string();
-    has(&refused, &["contact.interference = 0.0 ; nothing presses"]);
 }
 
 /// A built-in disc of 20 bricks around under a ring on the whole of its top face, clamped at its bore, with some changes.

@@ -92,19 +92,6 @@ fn a_line_of_the_response_has_the_stiffness_of_its_frequency() {
     }
 }
 
-#[test]
-fn a_mode_beyond_the_table_is_refused_with_its_frequency() {
-    let short = vec![[100.0, 2e9, 0.1], [3000.0, 2.5e9, 0.1]];
-    let tangent = tangent(short, ContactStiffness::default());
-    let request = sweep_request(&[0.0, 0.3], Lowest(8));
-    let error = sweep(&tangent, &request, &|_| {}).unwrap_err();
-    let CeaError::BeyondTable { range_hz, frequency_hz, .. } = &error else {
-        panic!("{error}");
-    };
-    assert_eq!(*range_hz, [100.0, 3000.0]);
-    assert!(*frequency_hz > 3000.0 && error.is_usage(), "{error}");
-}
-
 /// Theory (D. Ross, E. E. Ungar, E. M. Kerwin, in: Structural Damping, ASME 1959): a simply supported beam of two elastic faces `h` on
 /// a viscoelastic core `c`, which shears alone,
 ///

@@ -11,12 +11,8 @@ fn point(number: usize, swept: Value, summaries: Value) -> PointRecord {
     PointRecord {
         point: number,
         swept: object(swept),
-        error: None,
         summaries: object(summaries),
-        case_hash: String::new(),
-        sweep_hash: String::new(),
-        version: String::new(),
-        simd: String::new(),
+        ..PointRecord::default()
     }
 }
 

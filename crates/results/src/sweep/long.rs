@@ -90,12 +90,8 @@ mod tests {
         PointRecord {
             point,
             swept: Map::from_iter([("geometry.inner_radius".to_owned(), json!(radius))]),
-            error: None,
             summaries: Map::from_iter([(analysis.to_owned(), summary)]),
-            case_hash: String::new(),
-            sweep_hash: String::new(),
-            version: String::new(),
-            simd: String::new(),
+            ..PointRecord::default()
         }
     }
 

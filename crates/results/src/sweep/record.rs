@@ -7,7 +7,7 @@ use serde_json::{Map, Value};
 ///
 /// Holds no case text: the folder's manifest has it once, and `swept` is all that a point changes. Holds nothing that
 /// the clock says either: the same point has the same bytes whoever computed it.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct PointRecord {
     /// Number of the point, from 1.
     pub point: usize,

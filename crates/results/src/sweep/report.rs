@@ -281,16 +281,7 @@ mod tests {
 
     #[test]
     fn points_without_a_record_are_missing() {
-        let record = |point| PointRecord {
-            point,
-            swept: Map::new(),
-            error: None,
-            summaries: Map::new(),
-            case_hash: String::new(),
-            sweep_hash: String::new(),
-            version: "1".into(),
-            simd: "scalar".into(),
-        };
+        let record = |point| PointRecord { point, ..PointRecord::default() };
         let records = [record(2), record(3), record(5)];
         let summary = SweepSummary::of(Vec::new(), Vec::new(), 5, &records, 6.0);
         assert_eq!(summary.missing, [1, 4]);

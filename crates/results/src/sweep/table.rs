@@ -189,12 +189,8 @@ mod tests {
         PointRecord {
             point,
             swept: object(json!({ "contact.friction_coefficient": 0.3 })),
-            error: None,
             summaries: object(json!({ "transient": summary })),
-            case_hash: String::new(),
-            sweep_hash: String::new(),
-            version: String::new(),
-            simd: String::new(),
+            ..PointRecord::default()
         }
     }
 
@@ -265,18 +261,6 @@ mod tests {
         assert_eq!(
             table(&[short, long]),
             "contact.friction_coefficient,z,point,error\n0.3,2,1,\n0.3,2,2,\n"
-        );
-    }
-
-    #[test]
-    fn a_failed_point_is_a_row_with_its_error_quoted() {
-        let mut failed = record(2, Value::Null);
-        failed.summaries.clear();
-        failed.error = Some("step 3, node 4: \"open\"".into());
-        assert_eq!(
-            table(&[record(1, json!({ "a": 1 })), failed]),
-            "contact.friction_coefficient,a,point,error\n\
-             0.3,1,1,\n0.3,,2,\"step 3, node 4: \"\"open\"\"\"\n"
         );
     }
 }
