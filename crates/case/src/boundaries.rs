@@ -66,12 +66,12 @@ fn condition(section: &Section<'_>) -> BoundaryCondition {
 pub(super) fn no_axial_support(
     root: &Section<'_>,
     boundaries: &mut [NamedCondition],
-    is_plane: bool,
+    is_file: bool,
 ) {
     let section = root.section("boundaries", false);
-    let [body, label, help] = match is_plane {
-        true => ["a plane body", "the body is plane", "leave axial_stiffness out"],
-        false => [
+    let [body, label, help] = match is_file {
+        false => ["a plane body", "the body is plane", "leave axial_stiffness out"],
+        true => [
             "a body from a mesh file",
             "for generated bodies",
             "leave axial_stiffness out: tangential_stiffness acts along all tangents",
@@ -84,15 +84,6 @@ pub(super) fn no_axial_support(
         refuse_if!(support.axial_stiffness.is_some_and(|own| own > 0.0); section, name,
             "boundaries.{name}.axial_stiffness has no effect on {body}"; "{label}"; "{help}");
         support.axial_stiffness = None;
-    }
-}
-
-/// Whether a condition holds a body against the friction that turns it.
-pub(super) fn holds_tangentially(condition: &BoundaryCondition) -> bool {
-    match condition {
-        BoundaryCondition::Clamped => true,
-        BoundaryCondition::Support(support) => support.tangential_stiffness > 0.0,
-        _ => false,
     }
 }
 
@@ -115,7 +106,7 @@ pub(super) fn outer_edge(
                  its own"; "the contact is here";
                 "leave the section out; what holds the shaft is boundaries.bore"),
             ("bore", _) if has_shaft => {}
-            ("outer", _) if holds_tangentially(condition) => outer = *condition,
+            ("outer", _) if condition.holds_turning() => outer = *condition,
             ("outer", _) => refuse!(section, name,
                 "nothing holds the disc against the friction that turns it";
                 "must hold the edge tangentially";

@@ -64,9 +64,9 @@ impl<'a> Description<'a> {
             modifications,
             thickness,
         };
-        let is_plane = !own.is_solid();
-        if is_plane || own.file.is_some() {
-            boundaries::no_axial_support(root, &mut own.conditions, is_plane);
+        let is_file = own.file.is_some();
+        if is_file || !own.is_solid() {
+            boundaries::no_axial_support(root, &mut own.conditions, is_file);
         }
         own
     }

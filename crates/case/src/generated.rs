@@ -2,7 +2,6 @@
 //! the annulus (`[materials.shaft]`, `[boundaries.bore]`).
 
 use super::body::node_count;
-use super::boundaries::holds_tangentially;
 use super::contact::contact;
 use super::description::Description;
 use super::elastic::{Surroundings, place_axes};
@@ -243,7 +242,7 @@ fn materials(own: &Description<'_>, has_shaft: bool) -> Option<RegionMaterial> {
 fn bore_condition(own: &Description<'_>) -> BoundaryCondition {
     let given = own.conditions.iter().find(|(name, _)| name == "bore");
     match given.map_or(BoundaryCondition::Clamped, |own| own.1) {
-        condition if holds_tangentially(&condition) => condition,
+        condition if condition.holds_turning() => condition,
         _ => {
             refuse!(own.root.section("boundaries", false), "bore",
                 "nothing holds the shaft against the friction that turns it";

@@ -1,6 +1,6 @@
 //! Bodies of revolution in three dimensions: `material.formulation = "three-dimensional"`.
 
-use super::boundaries::{NamedCondition, holds_tangentially};
+use super::boundaries::NamedCondition;
 use super::description::Description;
 use super::{Section, imported, refuse, refuse_if, suggestion};
 use frictionsim_physics::fem::RegionMaterial;
@@ -143,7 +143,7 @@ pub(super) fn conditions(
         }
     }
     let holds_around = |own: &BoundaryCondition| {
-        holds_tangentially(own) || matches!(own, BoundaryCondition::Fixed([x, y, _]) if *x || *y)
+        own.holds_turning() || matches!(own, BoundaryCondition::Fixed([x, y, _]) if *x || *y)
     };
     refuse_if!(!conditions.iter().any(holds_around); section, "outer",
         "nothing holds the body against the friction that turns it";

@@ -40,6 +40,17 @@ pub enum BoundaryCondition {
     Free,
 }
 
+impl BoundaryCondition {
+    /// Whether springs or a clamp keep a body from turning with the friction on it.
+    pub fn holds_turning(&self) -> bool {
+        match self {
+            Self::Clamped => true,
+            Self::Support(support) => support.tangential_stiffness > 0.0,
+            _ => false,
+        }
+    }
+}
+
 /// A face of an element on the surface of a solid body, or an edge on the rim of a plane one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BoundaryFace {

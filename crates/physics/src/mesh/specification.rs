@@ -149,7 +149,7 @@ pub(super) fn validate(spec: &AnnulusSpecification) -> Result<(), MeshError> {
     if spec.element.corner_count() != 4 {
         return Err(MeshError::Triangles);
     }
-    if !holds_turning(spec.outer) {
+    if !spec.outer.holds_turning() {
         return Err(MeshError::NotHeld);
     }
     if let Some(shaft) = spec.shaft {
@@ -177,14 +177,5 @@ fn validate_shaft(
         let (key, count) = ("shaft_radial_elements", shaft.radial_elements);
         return Err(MeshError::TooFewElements { key, count, minimum: 1 });
     }
-    if holds_turning(shaft.bore) { Ok(()) } else { Err(MeshError::ShaftNotHeld) }
-}
-
-/// Whether an edge keeps a body from turning about its axis.
-fn holds_turning(condition: BoundaryCondition) -> bool {
-    match condition {
-        BoundaryCondition::Clamped => true,
-        BoundaryCondition::Support(support) => support.tangential_stiffness > 0.0,
-        _ => false,
-    }
+    if shaft.bore.holds_turning() { Ok(()) } else { Err(MeshError::ShaftNotHeld) }
 }
