@@ -20,7 +20,8 @@ pub struct PanelData {
 }
 
 /// How a series is shown.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
 pub enum SeriesKind {
     /// A curve.
     Line,

@@ -25,7 +25,7 @@ pub trait Layer: Send + Sync {
     fn extent(&self, _see: &mut dyn FnMut(f64, f64)) {}
 
     /// Draws what is cut at the frame.
-    fn draw(&self, svg: &mut Svg, frame: &Frame);
+    fn draw(&self, _svg: &mut Svg, _frame: &Frame) {}
 
     /// Draws what stands over the frame, such as points and labels.
     fn draw_over(&self, _svg: &mut Svg, _frame: &Frame) {}

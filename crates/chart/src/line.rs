@@ -237,8 +237,6 @@ impl Layer for Points {
         self.points.iter().for_each(|&(x, y)| see(x, y));
     }
 
-    fn draw(&self, _svg: &mut Svg, _frame: &Frame) {}
-
     fn draw_over(&self, svg: &mut Svg, frame: &Frame) {
         let places = frame.inside(self.points.iter().copied());
         self.marker.draw(svg, places, self.radius, self.colour);

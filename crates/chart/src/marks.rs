@@ -154,8 +154,6 @@ changed! { Label:
 }
 
 impl Layer for Label {
-    fn draw(&self, _svg: &mut Svg, _frame: &Frame) {}
-
     fn draw_over(&self, svg: &mut Svg, frame: &Frame) {
         for (x, y) in frame.inside([self.place]) {
             let (x, y) = self.inside(frame, (x + self.offset.0, y + self.offset.1));

@@ -33,7 +33,7 @@ pub mod uncertainty;
 mod universal;
 mod vtu;
 
-use distinct::distinct;
+use distinct::{distinct, grouped};
 use store::{folder, framed, manifest, record, reopening, whole_file};
 
 pub use distinct::number_ranges;

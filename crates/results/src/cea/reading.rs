@@ -3,8 +3,8 @@
 use super::branches::Branch;
 use super::mode_name::{ModeName, NAMES, SHORT_NAMES};
 use super::{CeaReport, ModeFeed};
-use crate::distinct;
 use crate::finding::finding;
+use crate::{distinct, grouped};
 use frictionsim_chart::{Axis, Figure, INK, Line, Panel, Rule, Stroke, literal};
 use frictionsim_output::{Cell, Table, columns, fixed};
 use std::collections::BTreeMap;
@@ -102,22 +102,17 @@ impl Reading {
     /// The unstable modes at a friction coefficient in a sentence each, the fastest first: which modes couple, what
     /// feeds and what takes.
     pub(super) fn sentences(&self, friction: f64, most: usize) -> Vec<String> {
-        let mut unstable: Vec<&Coupling> = Vec::new();
-        for coupling in &self.couplings {
-            let is_new = unstable.iter().all(|known| known.mode != coupling.mode);
-            if coupling.mode.friction_coefficient == friction && is_new {
-                unstable.push(coupling);
-            }
-        }
-        frictionsim_physics::order::sort_by_number(&mut unstable, |a| -a.growth_rate);
+        let own = self.couplings.iter().filter(|row| row.mode.friction_coefficient == friction);
+        let mut unstable = grouped(own.map(|row| (row.mode, row)));
+        frictionsim_physics::order::sort_by_number(&mut unstable, |(_, own)| -own[0].growth_rate);
         let modes = unstable.iter().take(most);
-        modes.map(|first| self.sentence(first)).collect()
+        modes.map(|(mode, own)| self.sentence(mode, own)).collect()
     }
 
-    fn sentence(&self, first: &Coupling) -> String {
-        let mode = &first.mode;
-        let own = self.couplings.iter().filter(|row| row.mode == *mode);
+    /// An unstable mode, and what it consists of.
+    fn sentence(&self, mode: &ModeName, own: &[&Coupling]) -> String {
         let partners: Vec<String> = own
+            .iter()
             .take_while(|row| row.share >= NOTABLE)
             .take(2)
             .map(|row| {
@@ -149,22 +144,18 @@ impl Reading {
             "mode {} ({}) {partners} of friction {}: {}",
             mode.mode,
             kilohertz(mode),
-            first.reference.friction_coefficient,
+            own[0].reference.friction_coefficient,
             budget.join(", ")
         )
     }
 
     /// The branches that reach the largest growth rates, the fastest first.
     fn fastest(&self) -> Vec<Branch> {
-        let mut fastest: Vec<(Branch, f64)> = Vec::new();
-        for coupling in &self.couplings {
-            let (branch, rate) = (branch_of_mode(&coupling.mode), coupling.growth_rate);
-            match fastest.iter_mut().find(|(known, _)| *known == branch) {
-                Some((_, largest)) => *largest = largest.max(rate),
-                None => fastest.push((branch, rate)),
-            }
-        }
-        frictionsim_physics::order::sort_by_number(&mut fastest, |a| -a.1);
+        let couplings = self.couplings.iter();
+        let mut fastest =
+            grouped(couplings.map(|own| (branch_of_mode(&own.mode), own.growth_rate)));
+        let largest = |rates: &[f64]| rates.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        frictionsim_physics::order::sort_by_number(&mut fastest, |(_, rates)| -largest(rates));
         fastest.into_iter().map(|(branch, _)| branch).collect()
     }
 }

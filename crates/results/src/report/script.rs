@@ -77,21 +77,15 @@ fn of_panel(panel: &PanelData, numbers: &mut Numbers) -> Value {
 }
 
 fn of_series(series: &Series, numbers: &mut Numbers) -> Value {
-    let kind = match series.kind {
-        SeriesKind::Line => "line",
-        SeriesKind::Dashed => "dashed",
-        SeriesKind::Points => "points",
-        SeriesKind::Field => "field",
-    };
     if let Some((name, values)) = &series.values {
         let [x, y] = [&series.xs, &series.ys].map(|places| numbers.levels(places));
         let values = numbers.levels(values);
-        return json!({ "name": name, "kind": kind, "x": x, "y": y, "value": values });
+        return json!({ "name": name, "kind": series.kind, "x": x, "y": y, "value": values });
     }
     let ((xs, ys), is_even) = thinned(series);
     let mut out = json!({
         "name": series.name,
-        "kind": kind,
+        "kind": series.kind,
         "colour": series.colour.to_string(),
         "x": numbers.floats(&xs),
         "y": numbers.floats(&ys),

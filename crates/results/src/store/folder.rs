@@ -104,7 +104,7 @@ impl OutputFolder {
             earlier,
             ..Self::shared(path, manifest, lock)
         };
-        folder.write_manifest(&folder.earlier)?;
+        write_manifest(path, manifest, &folder.earlier)?;
         Ok(folder)
     }
 
@@ -236,7 +236,7 @@ impl OutputFolder {
         let written = self.written();
         let stale = self.earlier.keys().filter(|name| !written.contains_key(*name));
         remove_files(&self.path, stale)?;
-        self.write_manifest(&written)?;
+        write_manifest(&self.path, &self.manifest, &written)?;
         let journal = self.path.join(JOURNAL);
         fs::remove_file(&journal).map_err(|e| FolderError::io("remove", &journal, e))
     }
@@ -254,7 +254,7 @@ impl OutputFolder {
         fs::write(&journal_path, names).map_err(|e| FolderError::io("write", &journal_path, e))?;
         let both = replaced.keys().chain(written.keys());
         let both = both.map(|name| (name.clone(), None)).collect();
-        write_contents(destination, &Contents::new(&self.manifest, &both))?;
+        write_manifest(destination, &self.manifest, &both)?;
         for name in written.keys() {
             let (from, to) = (self.path.join(name), destination.join(name));
             let parent = to.parent().unwrap_or(destination);
@@ -263,19 +263,21 @@ impl OutputFolder {
         }
         let stale = replaced.keys().filter(|name| !written.contains_key(*name));
         remove_files(destination, stale)?;
-        write_contents(destination, &Contents::new(&self.manifest, &written))?;
+        write_manifest(destination, &self.manifest, &written)?;
         let _ = fs::remove_dir_all(&self.path);
         fs::remove_file(&journal_path).map_err(|e| FolderError::io("remove", &journal_path, e))
     }
-
-    fn write_manifest(&self, files: &BTreeMap<String, Option<u32>>) -> Result<(), FolderError> {
-        write_contents(&self.path, &Contents::new(&self.manifest, files))
-    }
 }
 
-pub(crate) fn write_contents(folder: &Path, contents: &Contents) -> Result<(), FolderError> {
+/// Writes the manifest of a folder with its files.
+pub(crate) fn write_manifest(
+    folder: &Path,
+    manifest: &Manifest,
+    files: &BTreeMap<String, Option<u32>>,
+) -> Result<(), FolderError> {
+    let contents = Contents::new(manifest, files);
     let path = folder.join(MANIFEST);
-    write_whole(&path, true, Box::new(|out| write_sealed(out, contents))).map(drop)
+    write_whole(&path, true, Box::new(|out| write_sealed(out, &contents))).map(drop)
 }
 
 /// Removes files that a manifest lists.

@@ -1,7 +1,7 @@
 //! The results folder of a sweep, which several processes may share.
 
 use super::super::folder::{
-    FolderError, OutputFolder, Replace, check_owner, refuse_foreign, remove_files, write_contents,
+    FolderError, OutputFolder, Replace, check_owner, refuse_foreign, remove_files, write_manifest,
 };
 use super::super::framed::{Defect, write_sealed};
 use super::super::manifest::Manifest;
@@ -278,7 +278,7 @@ fn take_over(
     }
     let files: BTreeMap<String, Option<u32>> =
         names_of(1..=count).map(|name| (name, None)).collect();
-    write_contents(path, &Contents::new(manifest, &files))
+    write_manifest(path, manifest, &files)
 }
 
 /// Removes the points that are to be run over again, and the table that has them.

@@ -4,11 +4,12 @@ use super::PointRecord;
 use super::matrix::OperatingMatrix;
 use super::swept::{heads, of_points};
 use super::table::cell;
-use crate::distinct::number_ranges;
+use crate::{grouped, number_ranges};
 use frictionsim_chart::extremes;
 use frictionsim_output::{Cell, Described, Document, Format, Section, Table, columns, significant};
 use serde::Serialize;
 use serde_json::{Map, Value};
+use std::collections::BTreeSet;
 
 /// What the first summary of a point says that has it; nothing of a point that failed.
 fn first(point: &PointRecord, path: &str) -> Cell {
@@ -151,31 +152,20 @@ impl SweepSummary {
 
     /// Errors in the order of their first points, each with the numbers of all points that have it.
     fn errors(&self) -> Vec<(&str, Vec<usize>)> {
-        let mut errors: Vec<(&str, Vec<usize>)> = Vec::new();
-        for own in &self.failed {
-            let text = own.error.as_deref().unwrap_or_default();
-            match errors.iter_mut().find(|(known, _)| *known == text) {
-                Some((_, points)) => points.push(own.point),
-                None => errors.push((text, vec![own.point])),
-            }
-        }
-        errors
+        let failed = self.failed.iter();
+        grouped(failed.map(|own| (own.error.as_deref().unwrap_or_default(), own.point)))
     }
 }
 
 /// What to know before points are compared: they were not all made alike.
 fn notes(records: &[PointRecord]) -> Vec<String> {
-    let mut makers: Vec<String> = records
-        .iter()
-        .map(|record| format!("version {}, SIMD {}", record.version, record.simd))
-        .collect();
-    makers.sort();
-    makers.dedup();
+    let maker = |own: &PointRecord| format!("version {}, SIMD {}", own.version, own.simd);
+    let makers: BTreeSet<String> = records.iter().map(maker).collect();
     let mut notes = Vec::new();
     if makers.len() > 1 {
         notes.push(format!(
             "the points were not all made alike, so their last digits may differ: {}",
-            makers.join("; ")
+            Vec::from_iter(makers).join("; ")
         ));
     }
     let two = "their numbers are of no limit cycle";

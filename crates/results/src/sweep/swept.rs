@@ -2,6 +2,7 @@
 
 use super::PointRecord;
 use super::table::cell;
+use crate::grouped;
 use frictionsim_output::{Format, Table, rounded};
 use serde_json::{Map, Value};
 
@@ -46,17 +47,11 @@ pub(crate) fn by_other_keys<'a, T>(
     key: &str,
     label: impl Fn(&Map<String, Value>) -> String,
 ) -> Vec<(String, Vec<T>)> {
-    let mut lists: Vec<(String, Vec<T>)> = Vec::new();
-    for (record, own) in points {
+    grouped(points.map(|(record, own)| {
         let mut rest = record.swept.clone();
         rest.remove(key);
-        let name = label(&rest);
-        match lists.iter_mut().find(|(known, _)| *known == name) {
-            Some((_, list)) => list.push(own),
-            None => lists.push((name, vec![own])),
-        }
-    }
-    lists
+        (label(&rest), own)
+    }))
 }
 
 /// `friction_coefficient = 0.3, rotation_speed_rpm = 610`; keys of one name and value once.
