@@ -104,7 +104,7 @@ impl Figure {
     /// [`ChartError::Empty`] if no panel has data.
     pub fn to_svg(&self, width_mm: Option<f64>) -> Result<String, ChartError> {
         if !self.has_data() {
-            return Err(ChartError::empty(&self.name));
+            return Err(ChartError::Empty(self.name.clone()));
         }
         let width_mm = width_mm.unwrap_or(self.grid.width_mm);
         let mut svg = Svg::new(&self.name, width_mm * POINTS_PER_MM, 100.0);

@@ -39,11 +39,6 @@ impl Palette {
             && image.pixels.iter().all(|&pixel| usize::from(pixel) < self.0.len())
     }
 
-    /// The transparent index.
-    pub(super) fn transparent(&self) -> u8 {
-        (self.0.len() - 1) as u8
-    }
-
     /// Index of the colour of a value between the ends; of one that is not finite, the transparent one.
     pub(super) fn level_of(&self, value: f64, (low, high): (f64, f64)) -> u8 {
         let levels = self.0.len() - 1;
@@ -72,7 +67,8 @@ impl IndexedImage {
     pub fn over(area: &Rect, most: f64, palette: &Palette) -> Self {
         let size = |points: f64| (points * PIXELS_PER_POINT).round().clamp(1.0, most) as usize;
         let (width, height) = (size(area.width), size(area.height));
-        Self { width, height, pixels: vec![palette.transparent(); width * height] }
+        let transparent = (palette.0.len() - 1) as u8;
+        Self { width, height, pixels: vec![transparent; width * height] }
     }
 
     /// Where a point of the data lies in an image over the area of a frame, pixels to the right and downwards.

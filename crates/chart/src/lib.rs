@@ -96,10 +96,3 @@ pub enum ChartError {
         height: f64,
     },
 }
-
-impl ChartError {
-    /// That `what` has nothing to draw.
-    pub fn empty(what: &str) -> Self {
-        Self::Empty(what.into())
-    }
-}

@@ -83,47 +83,39 @@ pub struct Run {
 /// Splits mark-up into runs: `*x*` is oblique, `_{..}` a subscript, `^{..}` a superscript, and a
 /// backslash takes the next character literally.
 pub fn parse(markup: &str) -> Vec<Run> {
-    let mut runs = Vec::new();
-    let (mut italic, mut shift, mut current) = (false, 0i8, String::new());
+    let mut runs: Vec<Run> = Vec::new();
+    let (mut italic, mut shift) = (false, 0i8);
     let mut chars = markup.chars().peekable();
-    let flush = |current: &mut String, italic: bool, shift: i8, runs: &mut Vec<Run>| {
-        if !current.is_empty() {
-            runs.push(Run { text: std::mem::take(current), italic, shift });
-        }
-    };
     while let Some(c) = chars.next() {
-        match c {
-            '\\' => current.extend(chars.next()),
+        let shown = match c {
+            '\\' => chars.next(),
             '*' => {
-                flush(&mut current, italic, shift, &mut runs);
                 italic = !italic;
+                None
             }
-            '_' | '^' if chars.peek() == Some(&'{') => {
-                chars.next();
-                flush(&mut current, italic, shift, &mut runs);
+            '_' | '^' if chars.next_if_eq(&'{').is_some() => {
                 shift = if c == '^' { 1 } else { -1 };
+                None
             }
             '}' if shift != 0 => {
-                flush(&mut current, italic, shift, &mut runs);
                 shift = 0;
+                None
             }
-            c => current.push(c),
+            c => Some(c),
+        };
+        let Some(c) = shown else { continue };
+        match runs.last_mut() {
+            Some(run) if (run.italic, run.shift) == (italic, shift) => run.text.push(c),
+            _ => runs.push(Run { text: c.into(), italic, shift }),
         }
     }
-    flush(&mut current, italic, shift, &mut runs);
     runs
 }
 
 /// Mark-up that shows `text` literally.
 pub fn literal(text: &str) -> String {
-    let mut out = String::with_capacity(text.len());
-    for c in text.chars() {
-        if matches!(c, '\\' | '*' | '_' | '^' | '}') {
-            out.push('\\');
-        }
-        out.push(c);
-    }
-    out
+    let mark = |c: char| matches!(c, '\\' | '*' | '_' | '^' | '}').then_some('\\');
+    text.chars().flat_map(|c| mark(c).into_iter().chain([c])).collect()
 }
 
 /// Mark-up without its marks.

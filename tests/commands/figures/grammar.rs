@@ -142,7 +142,7 @@ fn legend_names_only_what_is_seen() {
 #[test]
 fn figures_without_data_say_so_and_panels_without_data_are_marked() {
     let empty = Figure::new("nothing", "Nothing.").panel(plot());
-    assert_eq!(empty.to_svg(None), Err(ChartError::empty("nothing")));
+    assert_eq!(empty.to_svg(None), Err(ChartError::Empty("nothing".into())));
     let half = Figure::new("half", "Half.")
         .columns(2)
         .panel(plot())
