@@ -3,12 +3,14 @@
 
 use super::limits::STANDARD_INPUT;
 use super::{
-    Failure, ResumedRun, RunOptions, Session, input_name, read_input, start_threads, terminal,
+    Failure, ResumedRun, RunOptions, Session, Told, input_name, read_input, start_threads, terminal,
 };
 use crate::case::{FreeSystem, RawCase};
 use crate::cea::{SweepProgress, SweepStage};
-use crate::results::Manifest;
-use crate::results::cea::{KeptSteps, View, document, draw, write, write_universal};
+use crate::results::cea::{
+    KeptSteps, View, document, figures, page, summary, write_fields, write_universal,
+};
+use crate::results::{Head, Manifest};
 use crate::study::eigenvalues::{self, Solved, Solver, refuse_no_modes};
 use crate::study::superelement::free_spectrum;
 use frictionsim_bounds::CASE;
@@ -61,17 +63,20 @@ fn run_on_mesh(arguments: &ResumedRun) -> Result<(), Failure> {
     let field = model.base_field(case);
     let wall_s = session.wall_seconds();
     let report = eigenvalues::report(case, cea, &model, &solution, wall_s);
-    let summary = write(&folder, &report, &field)?;
+    write_fields(&folder, &report, &field)?;
     if case.output.universal {
         write_universal(&folder, &report)?;
     }
-    if let Some(drawing) = session.options.output.drawing() {
-        let dampings = eigenvalues::dampings(case, &model);
-        draw(&folder, &report, &field, &dampings, &drawing)?;
-    }
+    let output = &session.options.output;
+    let view = if output.verbose > 0 { View::Whole } else { View::Short };
+    let told = Told {
+        text: document(&report, view).to_text(),
+        ..Told::of(Head::of(report.title, wall_s), page(&report, &field))
+    };
+    let drawn = || figures(&report, &field, &eigenvalues::dampings(case, &model));
+    let (text, object) = output.write_result(&folder, told, &summary(&report), drawn)?;
     steps.discard()?;
-    let view = if session.options.output.verbose > 0 { View::Whole } else { View::Short };
-    session.options.output.finish(folder, &document(&report, view).to_text(), &summary)
+    output.finish(folder, &text, &object)
 }
 
 /// The superelement that a case describes, where it describes no body. Its files are relative to the case, so it cannot

@@ -3,9 +3,10 @@
 use crate::figures::synthetic;
 use crate::prelude::*;
 use flate2::read::ZlibDecoder;
-use frictionsim::results::cea::{Solution, View, document, write};
+use frictionsim::results::cea::{Solution, View, document, page, summary, write_fields};
 use frictionsim::results::mesh::MeshStatistics;
-use frictionsim::results::{EncodedMesh, Field, FolderError, cartesian_vectors, write_vtu};
+use frictionsim::results::{EncodedMesh, Field, FolderError, Head, cartesian_vectors, write_vtu};
+use frictionsim::results::{write_summary, write_tables};
 use std::io::Read;
 
 fn annulus(element: ElementKind) -> AnnulusMesh {
@@ -90,7 +91,10 @@ fn tables_hold_one_row_for_each_mode_of_a_tabulated_friction_value() {
     let (mesh, folder) = (annulus(Quad4), folder());
     let solution = solution(&mesh);
     let output = OutputFolder::open(folder.path(), &manifest("a"), Replace::SameCase).unwrap();
-    let summary = write(&output, &report(&mesh, &solution), &field(&mesh)).unwrap();
+    let report = report(&mesh, &solution);
+    write_tables(&output, &page(&report, &field(&mesh))).unwrap();
+    let head = Head::of(report.title, report.wall_s);
+    let summary = write_summary(&output, head, &summary(&report)).unwrap();
     let eigenvalues = fs::read_to_string(folder.path().join("eigenvalues.csv")).unwrap();
     let mut lines = eigenvalues.lines();
     assert_eq!(
@@ -229,7 +233,7 @@ fn shapes_come_as_real_and_imaginary_fields_in_a_collection() {
     let (mesh, folder) = (annulus(Quad8), folder());
     let solution = solution(&mesh);
     let output = OutputFolder::open(folder.path(), &manifest("a"), Replace::SameCase).unwrap();
-    write(&output, &report(&mesh, &solution), &field(&mesh)).unwrap();
+    write_fields(&output, &report(&mesh, &solution), &field(&mesh)).unwrap();
     let collection = fs::read_to_string(folder.path().join("modes.pvd")).unwrap();
     let mut entries = collection.lines().filter(|line| line.contains("<DataSet"));
     let entry = entries.clone().next().unwrap();

@@ -4,8 +4,8 @@
 
 use crate::figures::{check_texts, synthetic, texts};
 use crate::prelude::*;
-use frictionsim::results::cea::{Solution, View, document, draw, write_base};
-use frictionsim::results::{DrawingOptions, Format};
+use frictionsim::results::cea::{Solution, View, document, figures, page, write_fields};
+use frictionsim::results::{DrawingOptions, Format, write_page, write_tables};
 
 /// A body whose mesh is no annulus to the program, though its hole is round.
 fn body() -> Mesh {
@@ -73,7 +73,8 @@ fn drawn(report: &CeaReport<'_>, field: &BaseField, width_mm: Option<f64>) -> Te
     let dampings = [("damping of disc".to_owned(), one), ("damping of pad".to_owned(), other)];
     let options =
         DrawingOptions { width_mm, formats: vec![Format::Svg], ..DrawingOptions::default() };
-    draw(&folder, report, field, &dampings, &options).unwrap();
+    let figures = figures(report, field, &dampings);
+    write_page(&folder, page(report, field), figures, &options).unwrap();
     folder.finish().unwrap();
     out
 }
@@ -140,7 +141,8 @@ fn contact_around_an_imported_hole_is_drawn_and_listed_over_rising_angles() {
     assert!(steps.len() > 30 && steps.iter().all(|step| *step > 0.0), "{curve}");
     let path = folder.path().join("base");
     let out = OutputFolder::open(&path, &Manifest::new("cea"), Replace::Anything).unwrap();
-    write_base(&out, &report, &field).unwrap();
+    write_tables(&out, &page(&report, &field)).unwrap();
+    write_fields(&out, &report, &field).unwrap();
     let table = fs::read_to_string(path.join("prestress.csv")).unwrap();
     let angles = table.lines().skip(1).map(|line| line.split(',').nth(1).unwrap());
     let angles: Vec<f64> = angles.map(|angle| angle.parse().unwrap()).collect();

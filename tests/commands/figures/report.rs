@@ -2,8 +2,8 @@
 
 use crate::figures::{check_texts, synthetic};
 use crate::prelude::*;
-use frictionsim::results::cea::draw;
-use frictionsim::results::{DrawingOptions, Format};
+use frictionsim::results::cea::{figures, page};
+use frictionsim::results::{DrawingOptions, Format, write_page};
 
 #[test]
 fn report_of_an_eigenvalue_analysis_holds_every_figure_table_and_the_case() {
@@ -34,7 +34,11 @@ fn report_of_an_eigenvalue_analysis_holds_every_figure_table_and_the_case() {
     };
     let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("report");
     let folder = OutputFolder::open(&path, &manifest, Replace::Anything).unwrap();
-    draw(&folder, &report, &field, &dampings, &DrawingOptions::default()).unwrap();
+    let draw = |folder: &OutputFolder, report: &CeaReport<'_>, options: &DrawingOptions| {
+        let figures = figures(report, &field, &dampings);
+        write_page(folder, page(report, &field), figures, options).unwrap();
+    };
+    draw(&folder, &report, &DrawingOptions::default());
     folder.finish().unwrap();
     for width in [85.0, 178.0] {
         let options = DrawingOptions {
@@ -47,7 +51,7 @@ fn report_of_an_eigenvalue_analysis_holds_every_figure_table_and_the_case() {
             OutputFolder::open(&folder.path().join("out"), &manifest, Replace::Anything).unwrap();
         // How long the run took is no matter of its report: the same bytes another day.
         let slower = CeaReport { wall_s: 77.7, ..report.clone() };
-        draw(&folder, &slower, &field, &dampings, &options).unwrap();
+        draw(&folder, &slower, &options);
         let read = |name: &str| fs::read_to_string(folder.path().join(name)).unwrap();
         assert!(!read("report.html").contains("77.70 s"));
         for entry in fs::read_dir(folder.path().join("figures")).unwrap() {

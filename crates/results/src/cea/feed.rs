@@ -4,7 +4,6 @@ use super::base::{ContactPlace, means_around, or_zero};
 use super::mode_name::{ModeName, NUMBERS};
 use super::{BaseField, CeaReport};
 use crate::charts::SolidView;
-use crate::finding::write_table;
 use crate::folder::{FolderError, OutputFolder};
 use crate::vtu::{EncodedMesh, Field, write_vtu};
 use frictionsim_chart::{Axis, ColourMap, Figure, INK, Line, Panel, Rule, Stroke, literal};
@@ -40,19 +39,22 @@ columns! {
     growth_rate_per_s_m2: "the same over its area" = row.1 / row.0.area;
 }
 
-/// Writes `feed.csv`, a row for each unstable mode and contact point, and `feed.vtu`, growth for each area of the
-/// contact surfaces, the mean of the points around each node, 0 elsewhere.
-pub(super) fn write(
+/// `feed.csv`: a row for each unstable mode and contact point.
+pub(super) fn table(field: &BaseField, modes: &[ModeFeed]) -> Table {
+    let places = || field.contact.iter().map(|own| own.place.clone());
+    let names = modes.iter().flat_map(|own| field.contact.iter().map(|_| own.mode));
+    let rows = modes.iter().flat_map(|own| places().zip(own.rates.iter().copied()));
+    Table::new("feed.csv", "").columns(NUMBERS, names).columns(FEED, rows)
+}
+
+/// Writes `feed.vtu`, growth for each area of the contact surfaces, the mean of the points around each node, 0
+/// elsewhere.
+pub(super) fn write_fields(
     folder: &OutputFolder,
     report: &CeaReport<'_>,
     field: &BaseField,
     modes: &[ModeFeed],
 ) -> Result<(), FolderError> {
-    let places = || field.contact.iter().map(|own| own.place.clone());
-    let names = modes.iter().flat_map(|own| field.contact.iter().map(|_| own.mode));
-    let rows = modes.iter().flat_map(|own| places().zip(own.rates.iter().copied()));
-    let table = Table::new("feed.csv", "").columns(NUMBERS, names).columns(FEED, rows);
-    write_table(folder, &table)?;
     let whole = report.body.whole();
     let fields = modes.iter().map(|own| {
         let name = format!("mode_{}_growth_rate_per_s_m2", own.mode.mode);

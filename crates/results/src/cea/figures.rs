@@ -4,13 +4,10 @@ use super::branches::{Branch, branch_of, branches, interval_rows, pieces};
 use super::locus::{NamedDamping, locus};
 use super::reading::budget;
 use super::shape::{Body, ModeShape, moving};
-use super::tables::{View, document};
 use super::{BaseField, CeaReport, direction_name, feed, prestress};
 use crate::charts::palette::{STABLE, UNSTABLE};
 use crate::distinct;
-use crate::drawing::{Declaration, DrawingError, DrawingOptions, declared};
-use crate::folder::OutputFolder;
-use crate::write_page;
+use crate::drawing::{Declaration, declared};
 use frictionsim_chart::{
     Axis, ColourMap, Figure, INK, Line, Marker, Panel, Points, Rule, Stroke, signed,
 };
@@ -20,16 +17,14 @@ use std::collections::BTreeMap;
 /// Branches whose shape is followed over friction, at most.
 const FOLLOWED_BRANCHES: usize = 4;
 
-/// Draws every figure that the report has data for into `figures/`, and writes `report.html`: eigenvalue locus with
-/// stability bars, pairs that turn unstable, base state, mode shapes, the branches that turn unstable at every friction
-/// value that has shapes. `field` is the base state place by place, `dampings` are those that regions of the body have.
-pub fn draw(
-    folder: &OutputFolder,
+/// Every figure that the report has data for: eigenvalue locus with stability bars, pairs that turn unstable, base
+/// state, mode shapes, the branches that turn unstable at every friction value that has shapes. `field` is the base
+/// state place by place, `dampings` are those that regions of the body have.
+pub fn figures(
     report: &CeaReport<'_>,
     field: &BaseField,
     dampings: &[NamedDamping],
-    options: &DrawingOptions,
-) -> Result<(), DrawingError> {
+) -> Vec<Figure> {
     let mut figures: Vec<Declaration<'_>> =
         vec![Box::new(move || Some(locus(report, dampings))), Box::new(move || pairs(report))];
     let body = report.body;
@@ -57,7 +52,7 @@ pub fn draw(
         figures.push(Box::new(move || budget(report, reading)));
         figures.push(Box::new(move || feed::figure(report, field, &reading.feed)));
     }
-    write_page(folder, document(report, View::Page), declared(figures), options)
+    declared(figures)
 }
 
 /// Frequency and damping factor over friction of each pair of waves that turns unstable, that with the rotor and that

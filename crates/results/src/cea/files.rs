@@ -1,58 +1,33 @@
-//! `eigenvalues.csv`, `stability.csv`, `summary.json`, mode shapes.
+//! Fields of the base state, of the feed and of mode shapes.
 
 use super::shape::ModeShape;
 use super::solid::size;
-use super::summary::summary;
-use super::tables::{eigenvalues, stability};
 use super::{BaseField, CeaReport, feed};
-use crate::finding::write_table;
 use crate::folder::{FolderError, OutputFolder};
 use crate::pvd::{PvdEntry, write_pvd};
-use crate::summary::{Head, write_summary};
 use crate::universal::{write_universal_mesh, write_universal_mode};
 use crate::vtu::{EncodedMesh, Field, write_vtu};
 use frictionsim_output::rounded;
 use frictionsim_physics::cea::ComplexMode;
 use frictionsim_physics::linalg::c64;
-use serde_json::Value;
 use std::io;
 
-/// Writes all files of the analysis and returns the summary.
-pub fn write(
-    folder: &OutputFolder,
-    report: &CeaReport<'_>,
-    field: &BaseField,
-) -> Result<Value, FolderError> {
-    write_table(folder, &eigenvalues(report))?;
-    write_table(folder, &stability(report))?;
-    if let Some(sensitivities) = &report.solution.sensitivities {
-        write_table(folder, &sensitivities.table())?;
-    }
-    if let Some(reading) = &report.solution.reading {
-        write_table(folder, &reading.contributions())?;
-        write_table(folder, &reading.couplings())?;
-        if !reading.feed.is_empty() {
-            feed::write(folder, report, field, &reading.feed)?;
-        }
-    }
-    write_base(folder, report, field)?;
-    write_shapes(folder, report)?;
-    write_summary(folder, Head::of(report.title, report.wall_s), &summary(report))
-}
-
-/// Writes the base state: `prestress.csv` (its contact) and `prestress.vtu` (its fields; of a body that no mesh file
-/// gives in three dimensions also friction coefficient and power of the whole).
-pub fn write_base(
+/// Writes `prestress.vtu` (of a body that no mesh file gives in three dimensions also with friction coefficient and
+/// power of the whole), `feed.vtu` and the mode shapes.
+pub fn write_fields(
     folder: &OutputFolder,
     report: &CeaReport<'_>,
     field: &BaseField,
 ) -> Result<(), FolderError> {
     let (body, state) = (&report.body, report.base.whole());
     let whole = if body.is_assembly() { &[][..] } else { &state[..] };
-    write_table(folder, &field.table(body, report.has_harmonics))?;
     folder.write_bulk("prestress.vtu", |out| {
         write_vtu(out, &body.encoded()?, whole, &field.fields(body), &[])
-    })
+    })?;
+    if let Some(reading) = report.solution.reading.as_ref().filter(|own| !own.feed.is_empty()) {
+        feed::write_fields(folder, report, field, &reading.feed)?;
+    }
+    write_shapes(folder, report)
 }
 
 /// Writes the shapes that the modes carry: one VTU each with the real and the imaginary part of the

@@ -21,8 +21,8 @@ pub use base::{BaseField, BaseState, ContactPlace, ContactState};
 pub(super) use base::{NODES, PLANE, POINTS, RINGS, STATUS, TRACTIONS};
 pub(super) use feed::FEED;
 pub use feed::ModeFeed;
-pub use figures::draw;
-pub use files::{write, write_base, write_universal};
+pub use figures::figures;
+pub use files::{write_fields, write_universal};
 pub use kept::KeptSteps;
 pub use locus::NamedDamping;
 pub use mode_name::ModeName;
@@ -37,7 +37,7 @@ pub use summary::{
 };
 pub(super) use summary::{ONSETS, SWEPT_MODES, SWEPT_ONSETS, UNSTABLE};
 pub(super) use tables::{AXIAL, MODES, PLACES};
-pub use tables::{View, document};
+pub use tables::{View, document, page};
 
 use crate::ShownBody;
 use branches::{Branch, branch_of_mode};

@@ -3,7 +3,8 @@
 use super::branches::branch_of;
 use super::coupling::sentences;
 use super::summary::{CriticalFriction, ModeSummary, ONSETS, friction_values, onsets};
-use super::{BRANCH, CeaReport, DIRECTION, HARMONIC, SensitivityReport, direction_name};
+use super::{BRANCH, BaseField, CeaReport, DIRECTION, HARMONIC, SensitivityReport, Solution};
+use super::{direction_name, feed};
 use frictionsim_output::{Document, Section, Table, columns, fixed};
 use frictionsim_physics::cea::{ComplexMode, FrictionPoint};
 use std::f64::consts::TAU;
@@ -111,7 +112,7 @@ pub enum View {
 }
 
 /// `eigenvalues.csv`: one row for each mode and friction value, sorted by frequency within a value.
-pub(super) fn eigenvalues(report: &CeaReport<'_>) -> Table {
+fn eigenvalues(report: &CeaReport<'_>) -> Table {
     // The case's own friction beside those of the sweep.
     let is_listed = |point: &&FrictionPoint| {
         let friction = point.friction_coefficient;
@@ -125,7 +126,7 @@ pub(super) fn eigenvalues(report: &CeaReport<'_>) -> Table {
 }
 
 /// `stability.csv`: one row for each crossing into instability.
-pub(super) fn stability(report: &CeaReport<'_>) -> Table {
+fn stability(report: &CeaReport<'_>) -> Table {
     let intervals = report.solution.sweep.intervals.iter();
     let number = intervals.map(|own| report.mode_number(branch_of(own)));
     let rows = onsets(report);
@@ -210,6 +211,18 @@ pub fn document(report: &CeaReport<'_>, view: View) -> Document {
         .section(decisive(report, view))
         .section(modes)
         .notes(&report.solution.notes)
+}
+
+/// The page of an analysis, with the tables that are files.
+pub fn page(report: &CeaReport<'_>, field: &BaseField) -> Document {
+    let Solution { sensitivities, reading, .. } = report.solution;
+    let read = reading.iter().flat_map(|own| {
+        let feed = (!own.feed.is_empty()).then(|| feed::table(field, &own.feed));
+        [own.contributions(), own.couplings()].into_iter().chain(feed)
+    });
+    let solved = [eigenvalues(report), field.table(&report.body, report.has_harmonics)];
+    let files = solved.into_iter().chain(sensitivities.iter().map(SensitivityReport::table));
+    files.chain(read).fold(document(report, View::Page), Document::file)
 }
 
 /// What was solved, and the base state.
