@@ -18,7 +18,7 @@ use crate::transient::{CentralDifference, Recorder, RunEnd};
 use clap::Args;
 use std::path::Path;
 use std::time::Instant;
-use watch::{Checkpoints, Watch};
+use watch::Watch;
 
 /// How the vibration grows and saturates, step by step in time
 ///
@@ -119,15 +119,8 @@ fn step(
     record: Recorder,
 ) -> Result<SolvedTransient, Failure> {
     let first_step = run.steps_done();
-    let case_hash = continuation::run_hash(session);
-    let checkpoints = Checkpoints {
-        folder,
-        case_hash: &case_hash,
-        interval_s: session.case.output.checkpoint_interval,
-    };
     let is_over = record.has_stopped;
-    let is_quiet = session.options.output.is_quiet();
-    let mut watch = Watch::new(record, run.plan(), is_quiet, checkpoints);
+    let mut watch = Watch::new(session, folder, run.plan(), record);
     watch::catch_signals();
     let clock = Instant::now();
     let end = match is_over {

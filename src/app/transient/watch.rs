@@ -1,6 +1,7 @@
 //! Progress, checkpoints and signals beside the time loop.
 
-use crate::app::{Failure, embedded, terminal};
+use super::continuation::run_hash;
+use crate::app::{Failure, Session, embedded, terminal};
 use crate::results::transient::write_checkpoint;
 use crate::results::{FolderError, OutputFolder};
 use crate::transient::{Observer, Recorder, Sample, StepPlan};
@@ -26,20 +27,13 @@ pub fn catch_signals() {
     });
 }
 
-/// Where and how often checkpoints are written.
-#[derive(Clone, Copy)]
-pub struct Checkpoints<'a> {
-    pub folder: &'a OutputFolder,
-    /// Hash that the run is known by.
-    pub case_hash: &'a str,
-    /// Wall time between two, s.
-    pub interval_s: f64,
-}
-
 /// Records, and looks after the run.
 pub struct Watch<'a> {
     record: Recorder,
-    checkpoints: Checkpoints<'a>,
+    session: &'a Session,
+    folder: &'a OutputFolder,
+    /// Hash that checkpoints of the run are known by.
+    case_hash: String,
     bar: ProgressBar,
     end_time: f64,
     last_message: Instant,
@@ -48,19 +42,23 @@ pub struct Watch<'a> {
 }
 
 impl<'a> Watch<'a> {
+    /// For a run of a session, which keeps its checkpoints in a folder.
     pub fn new(
-        record: Recorder,
+        session: &'a Session,
+        folder: &'a OutputFolder,
         plan: &StepPlan,
-        quiet: bool,
-        checkpoints: Checkpoints<'a>,
+        record: Recorder,
     ) -> Self {
-        let bar = terminal::progress(quiet, plan.samples, "transient");
+        let is_quiet = session.options.output.is_quiet();
+        let bar = terminal::progress(is_quiet, plan.samples, "transient");
         let now = Instant::now();
         bar.set_position(record.rows.len() as u64);
         bar.reset_eta();
         Self {
             record,
-            checkpoints,
+            session,
+            folder,
+            case_hash: run_hash(session),
             bar,
             end_time: plan.end_time(),
             last_message: now,
@@ -92,11 +90,11 @@ impl<'a> Watch<'a> {
     }
 
     fn save(&mut self, sample: &Sample<'_>) -> Result<(), FolderError> {
-        let Checkpoints { folder, case_hash, interval_s } = self.checkpoints;
+        let interval_s = self.session.case.output.checkpoint_interval;
         if self.last_checkpoint.elapsed().as_secs_f64() < interval_s {
             return Ok(());
         }
-        write_checkpoint(folder, case_hash, &sample.state(), Some(&self.record))?;
+        write_checkpoint(self.folder, &self.case_hash, &sample.state(), Some(&self.record))?;
         self.last_checkpoint = Instant::now();
         Ok(())
     }
