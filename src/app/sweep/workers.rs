@@ -46,41 +46,29 @@ impl SweepRun<'_> {
     /// fails is no error: its record says so.
     pub fn run(&self, points: &[usize], threads: usize) -> Result<usize, Failure> {
         let workers = threads.clamp(1, points.len().max(1));
-        let (next, ran) = (AtomicUsize::new(0), AtomicUsize::new(0));
-        let stop = AtomicBool::new(false);
-        let failure = Mutex::new(None);
+        let (next, is_stopped) = (AtomicUsize::new(0), AtomicBool::new(false));
         let work = || {
-            while !stop.load(Ordering::Relaxed) {
+            let mut ran = 0;
+            while !is_stopped.load(Ordering::Relaxed) {
                 let Some(&point) = points.get(next.fetch_add(1, Ordering::Relaxed)) else {
-                    return;
+                    break;
                 };
-                match self.run_point(point) {
-                    Ok(is_new) => {
-                        ran.fetch_add(usize::from(is_new), Ordering::Relaxed);
-                    }
-                    Err(error) => {
-                        stop.store(true, Ordering::Relaxed);
-                        if let Ok(mut failure) = failure.lock() {
-                            failure.get_or_insert(error);
-                        }
-                    }
-                }
+                let is_new = self.run_point(point);
+                ran +=
+                    usize::from(is_new.inspect_err(|_| is_stopped.store(true, Ordering::Relaxed))?);
             }
+            Ok(ran)
         };
         let pools = (0..workers)
             .map(|_| embedded::inherited_pool((threads / workers).max(1)))
             .collect::<Result<Vec<_>, _>>()
             .map_err(Failure::run)?;
         std::thread::scope(|scope| {
-            for pool in &pools {
-                scope.spawn(|| pool.install(work));
-            }
-        });
-        match failure.into_inner() {
-            Ok(None) => Ok(ran.into_inner()),
-            Ok(Some(error)) => Err(error),
-            Err(_) => Err(Failure::run("a worker of the sweep stopped")),
-        }
+            let started = pools.iter().map(|pool| scope.spawn(move || pool.install(work)));
+            let started: Vec<_> = started.collect();
+            let stopped = |_| Err(Failure::run("a worker of the sweep stopped"));
+            started.into_iter().map(|worker| worker.join().unwrap_or_else(stopped)).sum()
+        })
     }
 
     /// Runs one point and keeps it, unless it is finished or another process has it.
