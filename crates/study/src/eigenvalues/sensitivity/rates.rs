@@ -159,12 +159,10 @@ pub(super) fn rates_of(case: &Case, cea: &Cea, pairs: &Pairs, (key, value): (&st
         Case::read(raw).map_err(|errors| errors.line())
     };
     let step = step_of(key, value);
-    let (rates, reason) = match pairs {
+    let found = match pairs {
         Pairs::Waves(all, pressed) => {
-            match rates_of_waves((case, cea), (all, pressed), step, &moved) {
-                Ok(found) => (found, None),
-                Err(reason) => (vec![None; all.len()], Some(reason)),
-            }
+            let found = rates_of_waves((case, cea), (all, pressed), step, &moved);
+            found.map(|rates| (rates, None))
         }
         Pairs::Whole(base, places) => {
             let last = key.rsplit('.').next().unwrap_or(key);
@@ -177,15 +175,11 @@ pub(super) fn rates_of(case: &Case, cea: &Cea, pairs: &Pairs, (key, value): (&st
                 let own = Linearized::of(&moved, cea, &frictions, like);
                 own.map_err(|error| error.to_string())
             };
-            match quotient(step, beside) {
-                Ok(terms) => whole_rates(base, places, &terms),
-                Err(reason) => {
-                    let count = places.iter().map(|place| place.targets.len()).sum();
-                    (vec![None; count], Some(reason))
-                }
-            }
+            quotient(step, beside).map(|terms| whole_rates(base, places, &terms))
         }
     };
+    let none = |reason| (vec![None; pairs.each().len()], Some(reason));
+    let (rates, reason) = found.unwrap_or_else(none);
     (rates, reason.map(|reason| format!("{key}: {reason}")))
 }
 
