@@ -48,6 +48,9 @@ pub enum StudyError {
     /// The first sample of a design, `key = value`, cannot be solved: why not.
     #[error("{0}")]
     Design(String),
+    /// The modes of a linear stage would take too long: nodes that a mesh may have for them.
+    #[error("more than {0} nodes")]
+    TooManyNodes(usize),
     /// There is no frequency response.
     #[error(transparent)]
     Response(#[from] FrfError),

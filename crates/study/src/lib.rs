@@ -33,7 +33,7 @@ pub mod uncertainty;
 pub use eigenvalues::modes_at_own_friction;
 pub use error::StudyError;
 pub use extent::extent_of;
-pub use linear_stage::{LinearStageError, linear_stage};
+pub use linear_stage::linear_stage;
 pub use plan::{Shard, SweepPlan, one_line};
 pub use preflight::{Preflight, preflight, refuse_memory};
 pub use sobol::ScrambledSobol;

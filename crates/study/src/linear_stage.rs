@@ -1,5 +1,6 @@
 //! The modes that a transient has in its linear stage.
 
+use super::StudyError;
 use super::eigenvalues::{asked_modes, modes_at_own_friction};
 use super::tangent::{MODES_IN_TIME, options_in_time};
 use frictionsim_case::Case;
@@ -12,25 +13,14 @@ use std::collections::BTreeMap;
 /// Nodes of an imported mesh beyond which its modes would take longer than a figure is worth.
 const MOST_NODES: usize = 30_000;
 
-/// Why figures go without the modes of a linear stage.
-#[derive(Debug, thiserror::Error)]
-pub enum LinearStageError {
-    /// They would take too long.
-    #[error("more than {MOST_NODES} nodes")]
-    TooManyNodes,
-    /// There is no steady sliding, or no spectrum.
-    #[error(transparent)]
-    Eigenvalues(#[from] CeaError),
-}
-
 /// Unstable modes of steady sliding at the case's own friction coefficient, as the time loop has it.
 ///
 /// # Errors
-/// [`LinearStageError::TooManyNodes`]; those of steady sliding, which would open, say, and of the solver.
-pub fn linear_stage(case: &Case) -> Result<LinearStage, LinearStageError> {
+/// [`StudyError::TooManyNodes`]; those of steady sliding, which would open, say, and of the solver.
+pub fn linear_stage(case: &Case) -> Result<LinearStage, StudyError> {
     let imported = case.body.imported();
     if imported.is_some_and(|imported| imported.mesh.node_count() > MOST_NODES) {
-        return Err(LinearStageError::TooManyNodes);
+        return Err(StudyError::TooManyNodes(MOST_NODES));
     }
     let modes = modes(case)?;
     let unstable = || modes.iter().enumerate().filter(|(_, m)| m.is_unstable());
