@@ -35,11 +35,7 @@ pub(super) fn keys_of(search: &Search<'_>, trial: &Trial) -> Vec<String> {
     match &trial.target {
         Target::Hole(way) => vec![key("offset", list(way))],
         Target::Node(node, direction) => {
-            let (name, amount) = match trial.kind {
-                ModificationKind::Mass => ("mass", sizes.mass_kg),
-                ModificationKind::Spring => ("stiffness", sizes.stiffness_n_per_m),
-                _ => ("damping", sizes.damping_n_s_per_m),
-            };
+            let (name, amount) = search.attached(trial.kind);
             let mut keys = vec![
                 key("at", base.mesh.node_label(*node).to_string()),
                 key(name, format!("{amount:?}")),

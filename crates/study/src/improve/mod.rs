@@ -184,18 +184,16 @@ fn change(search: &Search<'_>, modal: &ModalModel<'_>, trial: &Trial) -> Result<
             let dofs: Vec<usize> = (0..d).map(|axis| d * node + axis).collect();
             let law = confirm::law(*direction);
             let own = base.mesh.in_frame(*node, &law);
-            let matrix = |amount: f64| {
-                DMatrix::from_fn(d, d, |i, j| amount * own[(i, j)] / base.case.depth())
-            };
+            let (_, amount) = search.attached(kind);
+            let matrix = DMatrix::from_fn(d, d, |i, j| amount * own[(i, j)] / base.case.depth());
             let none = || DMatrix::<f64>::zeros(d, d);
             let matrices = match kind {
                 ModificationKind::Mass => {
-                    let mass = matrix(sizes.mass_kg);
-                    let damping = &mass * base.options.damping.mass_coefficient;
-                    [mass, damping, none()]
+                    let damping = &matrix * base.options.damping.mass_coefficient;
+                    [matrix, damping, none()]
                 }
-                ModificationKind::Spring => [none(), none(), matrix(sizes.stiffness_n_per_m)],
-                _ => [none(), matrix(sizes.damping_n_s_per_m), none()],
+                ModificationKind::Spring => [none(), none(), matrix],
+                _ => [none(), matrix, none()],
             };
             Ok(modal.attached(&dofs, matrices.each_ref()))
         }

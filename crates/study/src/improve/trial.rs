@@ -73,23 +73,28 @@ impl Search<'_> {
             .expect("there are targets, or nothing would be improved")
     }
 
+    /// The key of what a kind attaches to a node, and its size: kg, N/m, N s/m.
+    pub fn attached(&self, kind: ModificationKind) -> (&'static str, f64) {
+        match kind {
+            ModificationKind::Mass => ("mass", self.sizes.mass_kg),
+            ModificationKind::Spring => ("stiffness", self.sizes.stiffness_n_per_m),
+            _ => ("damping", self.sizes.damping_n_s_per_m),
+        }
+    }
+
     fn at_nodes(&self, kind: ModificationKind) -> Vec<Trial> {
         let alpha = self.base.options.damping.mass_coefficient;
-        let extent = self.base.case.depth();
+        let amount = self.attached(kind).1 / self.base.case.depth();
+        let of: Blocks = match kind {
+            ModificationKind::Spring => Derivatives::by_spring,
+            _ => Derivatives::by_dashpot,
+        };
         let trial = |&node: &usize| {
             let (direction, first_order) = match kind {
                 ModificationKind::Mass => {
-                    let mass = self.sizes.mass_kg / extent;
-                    (None, self.growth(&|own| own.by_mass(node, alpha) * mass))
+                    (None, self.growth(&|own| own.by_mass(node, alpha) * amount))
                 }
                 _ => {
-                    let (of, size): (Blocks, f64) = match kind {
-                        ModificationKind::Spring => {
-                            (Derivatives::by_spring, self.sizes.stiffness_n_per_m)
-                        }
-                        _ => (Derivatives::by_dashpot, self.sizes.damping_n_s_per_m),
-                    };
-                    let amount = size / extent;
                     let along = steepest(&of(self.fastest(), node), self.base.mesh.dimension);
                     let change = |own: &Derivatives| {
                         let rate = along.dot(&(of(own, node) * along));
