@@ -29,9 +29,9 @@ impl WaveTangent {
     pub(super) fn losses(&self, n: usize) -> Vec<(LossGain, FrictionPolynomial)> {
         // Of a difference of tangents too, whose matrices may be zero: all terms of a quotient have the same parts.
         let mut laws = self.terms.bodies.iter().chain([&self.terms.contact]);
-        let structural = laws.any(|law| law.loss_factor != 0.0).then(|| {
-            (LossGain(None), self.polynomial(n, |term| self.terms.factors(term)[2]))
-        });
+        let structural = laws
+            .any(|law| law.loss_factor != 0.0)
+            .then(|| (LossGain(None), self.polynomial(n, |term| self.terms.factors(term)[2])));
         let tabled = self.terms.bodies.iter().enumerate().filter_map(|(body, law)| {
             let table = LossGain(Some(law.table.clone()?));
             let own = |term: &Term| (term.part, term.kind) == (Part::Body(body), Kind::Stiffness);
