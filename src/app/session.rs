@@ -66,7 +66,8 @@ impl Session {
     /// Those of [`OutputOptions::open_folder`](super::options::OutputOptions::open_folder).
     pub fn open_folder(&self, is_continued: bool) -> Result<OutputFolder, Failure> {
         let folder = self.options.output.open_folder(&self.manifest, is_continued)?;
-        self.keep_mesh(folder)
+        self.keep_inputs(&folder)?;
+        Ok(folder)
     }
 
     /// Takes the folder of a run that keeps nothing when it is interrupted, where the machine has the memory for it.
@@ -86,12 +87,6 @@ impl Session {
         self.case.raw.mesh.iter().try_for_each(|mesh| write(MESH, &mesh.bytes))?;
         let mut tables = self.case.raw.kept_tables().into_iter();
         Ok(tables.try_for_each(|(name, table)| write(&name, &table.bytes))?)
-    }
-
-    /// The same of an output folder.
-    pub fn keep_mesh(&self, folder: OutputFolder) -> Result<OutputFolder, Failure> {
-        self.keep_inputs(&folder)?;
-        Ok(folder)
     }
 
     /// As [`OutputOptions::finish_result`](super::options::OutputOptions::finish_result), under the title of the case.

@@ -32,7 +32,9 @@ pub fn reopen(session: &Session, goes_on: bool) -> Result<OutputFolder, Failure>
     if session.options.output.dry_run {
         return Err(session.options.output.dry_run_at(&path, ours));
     }
-    session.keep_mesh(OutputFolder::open(&path, ours, Replace::Continued)?)
+    let folder = OutputFolder::open(&path, ours, Replace::Continued)?;
+    session.keep_inputs(&folder)?;
+    Ok(folder)
 }
 
 /// Refuses to go on with a run whose case differs in more than its end.
