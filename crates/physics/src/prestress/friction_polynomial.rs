@@ -1,8 +1,8 @@
 //! Vectors that are polynomials in the friction coefficient.
 
 /// Coefficients by power of the polynomial through `values` at `points` (Newton's divided differences), without
-/// trailing ones that are round-off over `[0, upper]`.
-pub(super) fn interpolated(points: &[f64], mut values: Vec<Vec<f64>>, upper: f64) -> Vec<Vec<f64>> {
+/// trailing ones that are round-off within the `reach` of zero.
+pub(super) fn interpolated(points: &[f64], mut values: Vec<Vec<f64>>, reach: f64) -> Vec<Vec<f64>> {
     let count = points.len();
     let size = |values: &Vec<f64>| values.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
     let scale = values.iter().map(size).fold(0.0_f64, f64::max);
@@ -31,7 +31,7 @@ pub(super) fn interpolated(points: &[f64], mut values: Vec<Vec<f64>>, upper: f64
     }
     while powers.len() > 1 {
         let last = powers.len() - 1;
-        if size(&powers[last]) * upper.powi(last as i32) > 1e-11 * scale {
+        if size(&powers[last]) * reach.powi(last as i32) > 1e-11 * scale {
             break;
         }
         powers.pop();

@@ -216,9 +216,11 @@ impl EstimatedState {
         let left_out = FOLLOWING * last_terms(&normal_forces);
         let origin = origins[usize::from(!stiffnesses.is_empty())];
         let beyond: Vec<f64> = nodes.iter().map(|mu| mu - origin).collect();
+        // The origin may be either end of the interval.
+        let reach = interval.iter().map(|mu| (mu - origin).abs()).fold(0.0, f64::max);
         let through = |values: Vec<Vec<f64>>| match values.is_empty() {
             true => values,
-            false => interpolated(&beyond, values, interval[1] - origin),
+            false => interpolated(&beyond, values, reach),
         };
         let state = PressedState {
             displacements: through(displacements),
@@ -336,5 +338,18 @@ mod tests {
                 assert!(error < bound, "{jam} {friction} {error:e}");
             }
         }
+    }
+
+    /// Closed form: of one friction coefficient alone, at the end of the range of its state, the force has its slope too.
+    #[test]
+    fn forces_of_one_friction_coefficient_follow_it() {
+        let (jam, asked) = (0.75, 0.6);
+        let own = |_: &mut Jamming, _: &[bool]| Ok([0.3, asked]);
+        let (bodies, range) = (&mut Jamming { jam }, ([asked; 2], &own as &OwnRange<'_, _>));
+        let EstimatedState { state, .. } =
+            polynomial_state(bodies, &[true], range, &[asked]).unwrap();
+        let [force, next] = [asked, asked + 1e-6].map(|friction| state.normal_forces(friction)[0]);
+        let slope = (next - force) / 1e-6;
+        assert!((slope * (jam - asked).powi(2) - 1.0).abs() < 1e-3, "{slope}");
     }
 }
