@@ -34,16 +34,27 @@ impl SolidSliding {
         stiffness: &ContactStiffness,
         mass: MassKind,
     ) -> Result<Self, PrestressError> {
+        let elastic = stiffness_alike(sector, material, mass);
+        Self::of(sector, &elastic, contact, stiffness, mass)
+    }
+
+    /// [`Self::solve`] with the stiffness of a sector that moves like all others.
+    pub(super) fn of(
+        sector: &SolidSector,
+        elastic: &Triplets,
+        contact: &SlidingContact,
+        stiffness: &ContactStiffness,
+        mass: MassKind,
+    ) -> Result<Self, PrestressError> {
         let law = stiffness.base_law();
         let is_integrated = law.is_some() && mass == MassKind::Consistent;
         let rule = match sector.is_quadratic() || is_integrated {
             true => FaceRule::Integrated,
             false => FaceRule::Nodal,
         };
-        let stiffness = stiffness_alike(sector, material, mass);
         let state = match law {
-            None => press_rigidly(sector, &stiffness, (contact, rule))?,
-            Some(law) => press_on_springs(sector, &stiffness, (contact, law, rule))?,
+            None => press_rigidly(sector, elastic, (contact, rule))?,
+            Some(law) => press_on_springs(sector, elastic, (contact, law, rule))?,
         };
         if state.is_pressed.contains(&true) {
             return Ok(state);

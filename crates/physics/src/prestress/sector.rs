@@ -5,7 +5,7 @@ use super::elimination::Elimination;
 use super::full_sliding::{FullSliding, check_pressed};
 use crate::contact::{NormalLaw, Point, PressedState, Row, SlidingContact, SteadyFriction};
 use crate::fem::sector::stiffness_alike;
-use crate::fem::{MassKind, MaterialField};
+use crate::fem::{MassKind, MaterialField, Triplets};
 use crate::mesh::{AnnulusMesh, SectorMesh};
 
 /// The state of steady sliding of an annulus, the same in every sector.
@@ -34,12 +34,22 @@ impl SectorSliding {
         contact: &SlidingContact,
         law: Option<NormalLaw>,
     ) -> Result<Self, PrestressError> {
+        let stiffness = stiffness_alike(sector, material, MassKind::Consistent);
+        Self::of(sector, &stiffness, contact, law)
+    }
+
+    /// [`Self::solve`] with the stiffness of a sector that moves like all others.
+    pub(super) fn of(
+        sector: &SectorMesh,
+        stiffness: &Triplets,
+        contact: &SlidingContact,
+        law: Option<NormalLaw>,
+    ) -> Result<Self, PrestressError> {
         let surface_speed = sector.specification.inner_radius * contact.rotation_speed;
         let friction = contact.steady_friction(contact.sliding_direction(), surface_speed);
         let points = points(sector, friction);
-        let stiffness = stiffness_alike(sector, material, MassKind::Consistent);
         let (free, dofs) = (2 * sector.free_node_count(), 2 * sector.node_count());
-        let full = FullSliding::new(&stiffness, Elimination::holding(dofs, free..dofs), &points)?;
+        let full = FullSliding::new(stiffness, Elimination::holding(dofs, free..dofs), &points)?;
         let state = full.state(&vec![0.0; dofs], contact.interference, law)?;
         let step = 180.0 / sector.sector_count() as f64;
         let place = |i: usize| {

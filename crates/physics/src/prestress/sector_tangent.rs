@@ -25,7 +25,7 @@ impl WaveTangent {
         contact: &SlidingContact,
     ) -> Result<Self, PrestressError> {
         let mut terms = WaveTerms::of(sector, material, options, sector.supports(options.mass));
-        let base = SectorSliding::solve(sector, material, contact, options.contact.law)?;
+        let base = SectorSliding::of(sector, &terms.alike(), contact, options.contact.law)?;
         let edge = Edge { sector, base: &base };
         if options.geometric_stiffness {
             terms.take_stress(sector, material, [0, 1].map(|p| &base.state.displacements[p][..]));

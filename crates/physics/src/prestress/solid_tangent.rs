@@ -26,7 +26,7 @@ impl WaveTangent {
         }
         let mut terms = WaveTerms::of(sector, material, options, sector.supports(options.mass));
         let stiffness = &options.contact;
-        let base = SolidSliding::solve(sector, material, contact, stiffness, options.mass)?;
+        let base = SolidSliding::of(sector, &terms.alike(), contact, stiffness, options.mass)?;
         if options.geometric_stiffness {
             let displacements = [&base.pressed_displacement[..], &base.sheared_displacement];
             terms.take_stress(sector, material, displacements);

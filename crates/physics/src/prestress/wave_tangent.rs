@@ -297,8 +297,11 @@ impl WaveTangent {
     /// Harmonic `n` of the terms, each times its factor, over the unknowns; the odd part, `i` times this, is the coefficient
     /// of `i mu`.
     fn polynomial(&self, n: usize, factor: impl Fn(&Term) -> f64) -> FrictionPolynomial {
-        let parities = [MirrorParity::Even, MirrorParity::Odd];
-        self.project(parities.map(|parity| self.sum(n, parity, &factor)).into())
+        let mut odd = self.terms.all.iter().filter(|own| own.parity == MirrorParity::Odd);
+        let is_odd = odd.any(|own| factor(own) != 0.0);
+        let parities =
+            [MirrorParity::Even, MirrorParity::Odd].into_iter().take(1 + usize::from(is_odd));
+        self.project(parities.map(|parity| self.sum(n, parity, &factor)).collect())
     }
 
     /// Onto the unknowns; for rigid contact each normal row is added to its tangential rows with the

@@ -3,7 +3,7 @@
 use super::{LossGain, TabledGain, TangentOptions};
 use crate::fem::fold::{MirrorParity, SectorMatrix};
 use crate::fem::sector::{self, SectorSupport, Sectored};
-use crate::fem::{MaterialField, RayleighDamping};
+use crate::fem::{MaterialField, RayleighDamping, Triplets};
 use crate::linalg::c64;
 use std::sync::Arc;
 
@@ -109,6 +109,13 @@ impl WaveTerms {
             own.supports.push(name);
         }
         own
+    }
+
+    /// Stiffness of regions and supports over all dofs that motions which are the same in every sector see.
+    pub fn alike(&self) -> Triplets {
+        let own = self.all.iter().filter(|own| own.kind == Kind::Stiffness);
+        let bodies = own.filter(|own| own.part != Part::Contact).map(|own| &own.matrix);
+        SectorMatrix::alike_in_all(&bodies.collect::<Vec<_>>())
     }
 
     /// Adds what acts without friction, and what does for each unit of it.
