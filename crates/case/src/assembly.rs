@@ -2,6 +2,7 @@
 
 use super::contacts::{NamedContact, contact, short_form, unit};
 use super::imported::{FileParts, near_name};
+use super::modifications::Misfit;
 use super::tables::TableFiles;
 use super::value::quote;
 use super::{Case, Contact, Diagnostic, Section, refuse_if};
@@ -200,7 +201,8 @@ pub(super) fn assemble(
             name,
         });
     }
-    let reference = parts.contacts.first().map(|contact| contact.friction_coefficient);
+    let first = parts.contacts.first();
+    let first = first.map(|first| (first.surfaces.name.clone(), first.friction_coefficient));
     let mut contacts = Vec::new();
     for NamedContact {
         sides: [side, counter],
@@ -214,14 +216,35 @@ pub(super) fn assemble(
         if let (Some(counter), None) = (counter, surfaces.counter.rigid()) {
             surfaces.counter = Counterpart::Surface(surface(&counter, &counter_key)?);
         }
-        surfaces.friction.ratio = match reference {
-            Some(reference) if reference > 0.0 => friction_coefficient / reference,
-            _ => 1.0,
-        };
+        if let Some(first) = &first {
+            let ratio = friction_ratio(first, (&surfaces.name, friction_coefficient));
+            surfaces.friction.ratio =
+                ratio.map_err(|(key, why)| own.error(&key, why, "no ratio to it"))?;
+        }
         contacts.push(surfaces);
     }
     let (mesh, base) = (Arc::new(mesh), parts.base);
     Ok((materials, AssemblyBody { mesh, ties, contacts, motions, base }))
+}
+
+/// Friction of a contact over that of the first one, with which it is varied; each with its name.
+fn friction_ratio(
+    (first, reference): &(String, f64),
+    (name, friction_coefficient): (&str, f64),
+) -> Result<f64, Misfit> {
+    if *reference > 0.0 {
+        return Ok(friction_coefficient / reference);
+    }
+    if friction_coefficient > 0.0 {
+        let key = format!("contacts.{}.friction_coefficient", quote(first));
+        let why = format!(
+            "{key} = 0 beside {friction_coefficient} of contacts.{}: friction is varied with that \
+             of the first contact, and the others keep their ratio to it",
+            quote(name)
+        );
+        return Err((key, why));
+    }
+    Ok(1.0)
 }
 
 impl Case {

@@ -1,7 +1,7 @@
 //! What modifications attach to a body, and the annulus whose symmetry they break.
 
 use super::modifications::{Misfit, Modification, reshaped};
-use super::{Body, BodyKind, ImportedBody, Section, refuse_if};
+use super::{Body, BodyKind, ImportedBody, Section, refuse, refuse_if};
 use frictionsim_physics::mesh::{
     AnnulusSpecification, Attachment, BodyError, BodySpecification, CounterfaceSpecification,
     DampedPatch, Mesh,
@@ -49,10 +49,16 @@ pub(super) fn attach(
         return;
     }
     let all = root.section("modifications", false);
-    let extent = if body.dimension() == 2 { thickness } else { 1.0 };
+    let is_plane = body.dimension() == 2;
+    let extent = if is_plane { thickness } else { 1.0 };
     let (mut attachments, mut patches) = (Vec::new(), Vec::new());
     for own in modifications {
         let section = all.section(&own.name, false);
+        let leaves = |vector: Option<[f64; 3]>| vector.is_some_and(|[.., z]| z != 0.0);
+        let vectors = [("direction", own.direction), ("center", own.within.map(|own| own.0))];
+        for (key, _) in vectors.into_iter().filter(|own| is_plane && leaves(own.1)) {
+            refuse!(section, key => "leaves the plane"; "the body is plane"; "leave z out");
+        }
         if let Some(place) = &own.at {
             let found = body.find_node(&section, "at", place);
             attachments.extend(found.map(|(node, _)| own.attachment(node, extent)));

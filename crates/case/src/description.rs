@@ -68,6 +68,9 @@ impl<'a> Description<'a> {
         if is_file || !own.is_solid() {
             boundaries::no_axial_support(root, &mut own.conditions, is_file);
         }
+        if !is_file && !own.is_solid() {
+            boundaries::clamp_held_in_plane(&mut own.conditions);
+        }
         own
     }
 

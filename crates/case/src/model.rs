@@ -108,6 +108,17 @@ fn solid_joints(own: &Description<'_>, has_solids: bool) -> (AssemblyParts, Cont
             "[contact] is for a body with one contact: this case has [contacts.*] or [ties.*]";
             "beside the contacts of an assembly"; "describe it under [contacts.{name}]");
     }
+    if has_solids {
+        let material = root.section("material", false);
+        let is_plane = material.has("formulation") && !own.is_solid();
+        let idle = [
+            (&own.geometry, "thickness", own.geometry.has("thickness")),
+            (&material, "formulation", is_plane),
+        ];
+        for (section, key, _) in idle.into_iter().filter(|own| own.2) {
+            caution!(section, key => "is not used: the mesh is of solid elements"; "no effect");
+        }
+    }
     let (parts, contact) = assembly::sections(root, &own.tables);
     let cea = root.section("cea", false);
     caution_if!(cea.flag("geometric_stiffness") && parts.base == BaseChoice::Closed; cea,

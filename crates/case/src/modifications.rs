@@ -9,6 +9,16 @@ use std::sync::Arc;
 /// Keys that need a node, and keys that need elements.
 const AT_NODES: [&str; 4] = ["mass", "stiffness", "damping", "direction"];
 const IN_ELEMENTS: [&str; 3] = ["remove", "mass_coefficient", "stiffness_coefficient"];
+/// Keys that change a body: at a node, in elements, or as a whole.
+const EFFECTS: [&str; 7] = [
+    "mass",
+    "stiffness",
+    "damping",
+    "remove",
+    "mass_coefficient",
+    "stiffness_coefficient",
+    "offset",
+];
 
 /// One modification as the case gives it.
 #[derive(Clone, Debug)]
@@ -86,21 +96,26 @@ fn check(section: &Section<'_>, own: &Modification) {
         needs(&IN_ELEMENTS, "`center` and `radius`", circles);
         needs(&["center", "radius"], "the other of the two", circles);
     }
+    let has_any = |keys: &[&str]| keys.iter().any(|key| section.has(key));
+    let acts = has_any(&EFFECTS);
+    if acts && section.has("at") {
+        if !has_any(&EFFECTS[..3]) {
+            needs(&["at"], "`mass`, `stiffness` or `damping`", "give one of them, or leave it out");
+        }
+        if !has_any(&EFFECTS[1..3]) {
+            needs(&["direction"], "`stiffness` or `damping`", "a mass acts in every direction");
+        }
+    }
+    if acts && !has_any(&IN_ELEMENTS) {
+        let help = "give remove or a damping coefficient, or leave it out";
+        needs(&["center", "radius"], "a change of elements", help);
+    }
     refuse_if!(own.direction.is_some_and(|d| d.iter().all(|x| *x == 0.0)); section, "direction" =>
         "= 0 points nowhere"; "has no effect by itself";
         "give a vector, or leave it out: every direction");
-    let is_inert = own.mass == 0.0
-        && own.stiffness == 0.0
-        && own.damping == 0.0
-        && own.coefficients == [0.0; 2]
-        && !own.is_removed
-        && own.offset.is_none();
-    let known = AT_NODES.iter().chain(&IN_ELEMENTS).chain(&["offset"]);
-    if is_inert && known.into_iter().all(|key| !section.has(key)) {
-        refuse!(section, "at", "{} changes nothing", section.name("").trim_end_matches('.');
-            "has no effect by itself";
-            "give mass, stiffness, damping, remove, a damping coefficient or offset");
-    }
+    refuse_if!(!acts; section, "at", "{} changes nothing", section.name("").trim_end_matches('.');
+        "has no effect by itself";
+        "give mass, stiffness, damping, remove, a damping coefficient or offset");
 }
 
 /// The mesh file with what the modifications take away and move, and how far they move the counterface, m.

@@ -5,7 +5,9 @@ use super::material::modulus_key;
 use super::mesh::lengths;
 use crate::contact::{Springs, section_of};
 use crate::{BodyKind, Case, Diagnostic, diagnosis};
+use frictionsim_physics::mesh::{Counterface, SolidContact};
 use frictionsim_physics::prestress::{BaseChoice, SlidingSurfaces};
+use nalgebra::Vector3;
 
 /// Sliding speed of dry contacts, m/s: that of brakes of racing cars and trains lies below.
 const LARGEST_SPEED: f64 = 200.0;
@@ -27,11 +29,7 @@ const STIFFNESS_RATIOS: [f64; 3] = [1e-5, 1e8, 1e14];
 /// A sliding speed that no dry contact has.
 pub(super) fn speed(case: &Case) -> Option<Diagnostic> {
     let own = case.contact.sliding.rotation_speed.abs();
-    let radius = match (case.body.slides_straight(), case.body.grid()) {
-        (true, _) => 1.0,
-        (false, Some(grid)) => grid.inner_radius,
-        (false, None) => case.body.size(),
-    };
+    let radius = if case.body.slides_straight() { 1.0 } else { sliding_radius(case) };
     let speed = own * radius;
     // A radius in millimetres is the reason, which is said.
     (speed > LARGEST_SPEED && lengths(case).is_none()).then(|| {
@@ -40,6 +38,33 @@ pub(super) fn speed(case: &Case) -> Option<Diagnostic> {
             "{key}: the contact slides at {speed:.4} m/s, faster than {LARGEST_SPEED} m/s";
             "metres per second?"; "speeds are in m/s, rotation speeds in 1/min")
     })
+}
+
+/// How far from the axis of what turns the contact reaches, m.
+fn sliding_radius(case: &Case) -> f64 {
+    match &case.body.kind {
+        BodyKind::Annulus(annulus) => annulus.inner_radius,
+        BodyKind::Revolution(solid) => match solid.contact {
+            SolidContact::Inner => solid.annulus.inner_radius,
+            SolidContact::Ring { outer_radius, .. } => outer_radius,
+        },
+        BodyKind::Imported(own) => match own.mesh.counterface {
+            Counterface::Cylinder { radius, .. } => radius,
+            Counterface::Plane { .. } => case.body.size(),
+        },
+        BodyKind::Assembly(own) => {
+            let Some([point, direction]) = own.axis() else {
+                return case.body.size();
+            };
+            let first = own.contacts.first();
+            let nodes = first.map_or(&[][..], |first| &own.mesh.boundaries[first.surface].nodes);
+            let away = |&node: &u32| {
+                let from = Vector3::from(own.mesh.nodes[node as usize]) - Vector3::from(point);
+                from.cross(&Vector3::from(direction)).norm()
+            };
+            nodes.iter().map(away).fold(0.0, f64::max)
+        }
+    }
 }
 
 /// A friction coefficient of the contact or of a sweep that no pair of materials has.
