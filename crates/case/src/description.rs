@@ -5,7 +5,7 @@ use super::elastic::elastic;
 use super::modifications::Modification;
 use super::tables::{TableFiles, modulus_table};
 use super::words::FilePart;
-use super::{RawCase, Section, UnitsWord, boundaries, modifications, refuse_if};
+use super::{RawCase, Section, UnitsWord, boundaries, modifications, refuse, refuse_if};
 use frictionsim_physics::fem::{
     ElasticMaterial, PlaneFormulation, RayleighDamping, RegionMaterial,
 };
@@ -49,6 +49,11 @@ impl<'a> Description<'a> {
         let mesh = root.section("mesh", true);
         let file = mesh.optional_text("file");
         let scale = length_factor(&mesh);
+        let of_file = if file.is_none() { mesh.refused("units scale take drop") } else { vec![] };
+        for key in of_file {
+            refuse!(mesh, key => "is for a mesh file (mesh.file)"; "the body is generated";
+                "leave it out: the lengths of a generated body are in metres");
+        }
         let geometry = root.section("geometry", file.is_none());
         let thickness = geometry.number("thickness");
         let mut own = Self {

@@ -165,6 +165,10 @@ fn perturbation(
     let noise_seed = section.count("noise_seed");
     refuse_if!(section.has("noise_seed") && noise == 0.0; section, "noise_seed" =>
         "is given without noise"; "needs transient.perturbation.noise");
+    caution_if!(harmonics.is_empty() && section.has("velocity"); section, "velocity" =>
+        "is not used: there are no harmonics"; "no effect");
+    caution_if!(harmonics.is_empty() && noise == 0.0 && section.flag("relative"); section,
+        "relative" => "is not used: there is no velocity to add"; "no effect");
     let time = section.number("at");
     refuse_if!(time > duration; section, "at" =>
         "= {time:?} s is after the end of the run, transient.duration = {duration:?} s";
