@@ -216,8 +216,8 @@ pub(super) fn assemble(
         if let (Some(counter), None) = (counter, surfaces.counter.rigid()) {
             surfaces.counter = Counterpart::Surface(surface(&counter, &counter_key)?);
         }
-        if let Some(first) = &first {
-            let ratio = friction_ratio(first, (&surfaces.name, friction_coefficient));
+        if let Some((first, reference)) = &first {
+            let ratio = friction_ratio(first, *reference, &surfaces.name, friction_coefficient);
             surfaces.friction.ratio =
                 ratio.map_err(|(key, why)| own.error(&key, why, "no ratio to it"))?;
         }
@@ -227,12 +227,14 @@ pub(super) fn assemble(
     Ok((materials, AssemblyBody { mesh, ties, contacts, motions, base }))
 }
 
-/// Friction of a contact over that of the first one, with which it is varied; each with its name.
+/// Friction of a contact over that of the first one, `reference`, with which it is varied.
 fn friction_ratio(
-    (first, reference): &(String, f64),
-    (name, friction_coefficient): (&str, f64),
+    first: &str,
+    reference: f64,
+    name: &str,
+    friction_coefficient: f64,
 ) -> Result<f64, Misfit> {
-    if *reference > 0.0 {
+    if reference > 0.0 {
         return Ok(friction_coefficient / reference);
     }
     if friction_coefficient > 0.0 {
