@@ -110,10 +110,13 @@ fn check_goes_on_after_a_bad_case() {
 }
 
 #[test]
-fn mesh_writes_into_the_default_folder_and_prints_statistics() {
+fn mesh_writes_into_the_default_folder_and_prints_statistics_without_progress_or_colours() {
     let folder = folder();
+    let answer = on_disc(&folder, "mesh", &[]).done();
+    // A pipe takes what is printed.
+    assert!(answer.stderr.is_empty() && !answer.stdout.contains('\u{1b}'), "{}", answer.stderr);
     // 16 sectors of 3 x 3 + 2 nodes.
-    has(&on_disc(&folder, "mesh", &[]).done().words(), &["nodes 176 elements 48 unknowns 352"]);
+    has(&answer.words(), &["nodes 176 elements 48 unknowns 352"]);
     let results = folder.path().join("results/polycarbonate-disc/mesh");
     let figures = ["figures/mesh.svg", "figures/mesh.png"];
     for name in ["mesh.vtu", "summary.json", "manifest.json"].iter().chain(&figures) {
@@ -134,12 +137,6 @@ fn json_is_the_summary_alone_with_its_manifest() {
     assert_eq!(manifest["case_text"], fs::read_to_string(disc()).unwrap());
     assert_eq!(manifest["overrides"][1], "mesh.radial_elements=3");
     assert_eq!((&manifest["threads"], &manifest["simd"]), (&1.into(), &"scalar".into()));
-}
-
-#[test]
-fn a_pipe_gets_no_progress_and_no_colours() {
-    let answer = on_disc(&folder(), "mesh", &[]).done();
-    assert!(answer.stderr.is_empty() && !answer.stdout.contains('\u{1b}'), "{}", answer.stderr);
 }
 
 #[test]

@@ -40,6 +40,7 @@ fn shards_are_disjoint_and_cover_every_point() {
     assert!("4/4".parse::<Shard>().is_ok());
 }
 
+/// Its hash is that of a case without a study: it stays when the study grows.
 #[test]
 fn a_point_is_the_case_with_the_swept_values_as_overrides() {
     let swept = study(SEVEN);

@@ -84,17 +84,11 @@ fn one_loss_factor_turns_every_undamped_eigenvalue_by_the_root_of_its_stiffness(
     }
 }
 
-/// Independent check: the dense companion matrix, with viscous damping beside; at the critical friction the dense eigenvalue has
-/// no growth.
+/// Independent check: the dense companion matrix, of losses in disc and shaft with viscous damping beside, and of those in the springs
+/// of a contact, which friction follows, and of a support; at the critical friction the dense eigenvalue has no growth.
 #[test]
-fn loss_factors_of_disc_and_shaft_have_the_spectrum_of_the_dense_matrices() {
-    let viscous = rayleigh_damping(20.0, 1e-7);
-    agrees_with_the_dense_matrices(&tangent([0.02, 0.2], viscous));
-}
-
-/// Independent check: the same of the springs of a contact, which friction follows, and of a support.
-#[test]
-fn loss_factors_of_contact_and_support_have_the_spectrum_of_the_dense_matrices() {
+fn loss_factors_have_the_spectrum_of_the_dense_matrices() {
+    agrees_with_the_dense_matrices(&tangent([0.02, 0.2], rayleigh_damping(20.0, 1e-7)));
     let lossy = ContactStiffness { normal_stiffness: Some(2e12), loss_factor: 0.15, ..RIGID };
     let mounting = springs([1e11, 2e11, 0.0], [0.0; 2]);
     let mounting = Support(ElasticSupport { loss_factor: 0.05, ..mounting });

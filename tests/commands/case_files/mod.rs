@@ -84,17 +84,6 @@ fn the_swept_points_are_the_grid_in_order_with_the_last_key_fastest() {
 }
 
 #[test]
-fn a_point_keeps_its_hash_when_the_study_grows() {
-    let point = |text: &str, overrides: &[&str]| {
-        let raw = valid(text, overrides).raw;
-        let at = ["contact.friction_coefficient=0.4".to_owned()];
-        raw.sweep_point(&at).unwrap().hash()
-    };
-    let grown = ["sweep.\"contact.friction_coefficient\"=[0.1, 0.2, 0.3, 0.4]"];
-    assert_eq!(point(STUDY, &[]), point(STUDY, &grown));
-}
-
-#[test]
 fn zipped_keys_run_side_by_side() {
     let zipped =
         valid(STUDY, &["sweep.combine=zip", "sweep.\"contact.rotation_speed_rpm\"=[70, 300, 610]"]);

@@ -99,9 +99,9 @@ fn tangent_at(assembly: &Assembly<'_>, friction: f64, options: &TangentOptions) 
     assembly.tangent(&range.states[0], options).unwrap()
 }
 
-/// Theory: a bar under pressure, through a contact whose meshes do not match, rigid and on springs.
+/// Theory: a bar under pressure, through a contact whose meshes do not match, rigid and on springs, and through a tie.
 #[test]
-fn constant_pressure_passes_a_contact_between_meshes_that_do_not_match() {
+fn constant_pressure_passes_a_contact_and_a_tie_between_meshes_that_do_not_match() {
     let mesh = bar();
     for normal_stiffness in [None, Some(1e14)] {
         let assembly = pressed(&mesh, normal_stiffness);
@@ -117,12 +117,6 @@ fn constant_pressure_passes_a_contact_between_meshes_that_do_not_match() {
         }
         assert!(state.is_pressed.iter().all(|is_pressed| *is_pressed));
     }
-}
-
-/// Theory: the same bar through a tie.
-#[test]
-fn constant_pressure_passes_a_tie_between_meshes_that_do_not_match() {
-    let mesh = bar();
     let glue = tie(&mesh, "upper_z0", "lower_z1");
     let assembly = Assembly::new(&mesh, &STEEL, &[glue], &[], &[], Solved).unwrap();
     let range = assembly.range(&[0.0]).unwrap();
