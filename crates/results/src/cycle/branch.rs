@@ -9,7 +9,7 @@ use frictionsim_physics::cycle::{BranchEnd, Family, Parameter, Verdict};
 use serde::{Deserialize, Serialize};
 
 /// A cycle of a branch.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct BranchRow {
     /// The parameter, in units of its key.
     pub value: f64,
@@ -163,7 +163,7 @@ impl BranchRecord {
 }
 
 /// A branch of limit cycles.
-#[derive(Clone, Debug, PartialEq, Described, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Described, Serialize)]
 pub struct BranchSummary {
     /// Case key of the parameter.
     pub key: String,
@@ -207,14 +207,10 @@ impl BranchSummary {
             key: parameter.key().to_owned(),
             cycles: rows.len(),
             range: (!rows.is_empty()).then_some([low, high]),
-            folds: Vec::new(),
             ends: ends.map(|end| end.describe().to_owned()),
-            stability_changes: Vec::new(),
-            waves: None,
-            motions: None,
             own_value,
-            threshold: None,
             rows,
+            ..Self::default()
         }
     }
 }

@@ -10,7 +10,7 @@ use frictionsim_physics::cycle::periodic::{PeriodicMotion, Sound, velocity_level
 use serde::Serialize;
 
 /// A limit cycle.
-#[derive(Clone, Debug, PartialEq, Described, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Described, Serialize)]
 pub struct CycleMotion {
     /// Frequency, Hz.
     pub main_frequency_hz: f64,
@@ -91,8 +91,7 @@ impl CycleMotion {
             balance_residual: motion.powers.balance_residual(),
             amplitude_m: present(motion.amplitude),
             velocity_level_db: present(velocity_level(motion.velocity)),
-            harmonics: Vec::new(),
-            stepped: None,
+            ..Self::default()
         }
     }
 }

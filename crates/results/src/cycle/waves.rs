@@ -155,11 +155,9 @@ impl FoundWave {
                 value: value(branch, cycle),
                 harmonic: Some(cycle.harmonic),
                 motion: CycleMotion::of(&periodic(cycle, inner_radius), thickness),
-                residual: None,
-                periods: None,
                 growth_rate: found.and_then(FloquetMultipliers::leading).map(|own| own.growth_rate),
                 verdict: found.map(FloquetMultipliers::verdict),
-                is_fold: None,
+                ..BranchRow::default()
             }
         });
         let own_value = value(branch, &self.cycle);
