@@ -68,7 +68,7 @@ fn rust_files(folder: &Path, files: &mut Vec<PathBuf>) {
 /// after a merge that conflicts here, the failure names the numbers to write.
 const BUDGETS: &[(&str, usize)] = &[
     ("crates/bounds", 188),
-    ("crates/case", 10_833),
+    ("crates/case", 10_936),
     ("crates/chart", 4_722),
     ("crates/described", 107),
     ("crates/formats", 6_271),
@@ -83,9 +83,9 @@ const BUDGETS: &[(&str, usize)] = &[
     ("crates/physics/src/mesh", 4_245),
     ("crates/physics/src/order.rs", 34),
     ("crates/physics/src/parallel.rs", 26),
-    ("crates/physics/src/prestress", 4_861),
+    ("crates/physics/src/prestress", 4_894),
     ("crates/physics/src/transient", 4_740),
-    ("crates/results", 18_150),
+    ("crates/results", 18_143),
     ("crates/signal", 6_072),
     ("crates/study", 10_889),
     ("src/app", 4_585),
