@@ -2,7 +2,7 @@
 
 pub(crate) use super::error::FolderError;
 use super::framed::write_sealed;
-use super::lock::{Company, LOCK, remove_remnants, try_lock};
+use super::lock::{Company, LOCK, Lock, remove_remnants, try_lock};
 use super::manifest::Manifest;
 use super::reopening::{Contents, JOURNAL, MANIFEST, read_contents, read_manifest};
 use super::whole_file::{Fill, create_folder, is_temporary, write_whole};
@@ -48,7 +48,7 @@ pub struct OutputFolder {
     written: Mutex<BTreeMap<String, Option<u32>>>,
     /// Names of the files of this run until it has ended; none of a folder that processes share.
     journal: Option<File>,
-    _lock: File,
+    _lock: Lock,
 }
 
 impl OutputFolder {
@@ -109,7 +109,7 @@ impl OutputFolder {
     }
 
     /// A folder that processes share, whose manifest lists its files already; `lock` keeps other commands out.
-    pub(crate) fn shared(path: &Path, manifest: &Manifest, lock: File) -> Self {
+    pub(crate) fn shared(path: &Path, manifest: &Manifest, lock: Lock) -> Self {
         Self {
             path: path.to_owned(),
             destination: path.to_owned(),

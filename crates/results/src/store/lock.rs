@@ -9,6 +9,16 @@ pub(crate) const LOCK: &str = ".lock";
 /// Held for a moment by each of several processes that enter a folder.
 const DOOR: &str = ".door";
 
+/// The file of a lock, which ends with it: a process that starts meanwhile may hold the file a moment longer.
+#[derive(Debug)]
+pub(crate) struct Lock(File);
+
+impl Drop for Lock {
+    fn drop(&mut self) {
+        let _ = self.0.unlock();
+    }
+}
+
 /// Opens the file of a lock, which has nothing in it.
 fn open_lock(path: &Path) -> Result<File, FolderError> {
     let mut options = OpenOptions::new();
@@ -28,7 +38,7 @@ pub enum Company {
 }
 
 /// Takes a lock for this process alone, if no other holds it.
-pub(crate) fn try_lock(path: &Path) -> Result<(File, Company), FolderError> {
+pub(crate) fn try_lock(path: &Path) -> Result<(Lock, Company), FolderError> {
     let file = open_lock(path)?;
     let company = match file.try_lock() {
         Ok(()) => Company::None,
@@ -38,7 +48,7 @@ pub(crate) fn try_lock(path: &Path) -> Result<(File, Company), FolderError> {
         }
         Err(TryLockError::Error(error)) => return Err(FolderError::io("lock", path, error)),
     };
-    Ok((file, company))
+    Ok((Lock(file), company))
 }
 
 /// Holds the folder's lock shared, after `enter` has run: under the exclusive lock if no other
@@ -46,7 +56,7 @@ pub(crate) fn try_lock(path: &Path) -> Result<(File, Company), FolderError> {
 pub(crate) fn share(
     path: &Path,
     enter: impl FnOnce(Company) -> Result<(), FolderError>,
-) -> Result<File, FolderError> {
+) -> Result<Lock, FolderError> {
     // One process enters at a time, which takes a moment; hundreds of them may start at once.
     let door_path = path.join(DOOR);
     let door = open_lock(&door_path)?;
@@ -57,7 +67,8 @@ pub(crate) fn share(
         _ => {}
     }
     let lock_path = path.join(LOCK);
-    let (file, company) = try_lock(&lock_path)?;
+    let (lock, company) = try_lock(&lock_path)?;
+    let file = &lock.0;
     let share = || {
         file.try_lock_shared().map_err(|error| match error {
             TryLockError::WouldBlock => FolderError::Busy(path.to_owned()),
@@ -73,7 +84,7 @@ pub(crate) fn share(
         file.unlock().map_err(|error| FolderError::io("lock", &lock_path, error))?;
         share()?;
     }
-    Ok(file)
+    Ok(lock)
 }
 
 /// Removes what a killed run left, such as half-written files; this process holds the lock, so nobody uses them.

@@ -6,12 +6,12 @@ use super::super::folder::{
 use super::super::framed::{Defect, write_sealed};
 use super::super::manifest::Manifest;
 use super::super::reopening::{Contents, MANIFEST, own_value, read_contents, read_existing};
-use super::super::store::lock::{Company, remove_remnants, share, try_lock};
+use super::super::store::lock::{Company, Lock, remove_remnants, share, try_lock};
 use super::super::whole_file::{create_folder, is_temporary};
 use super::{PointClock, PointRecord};
 use frictionsim_bounds::{RESULT, read_file};
 use std::collections::BTreeMap;
-use std::fs::{self, File};
+use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Files over all points.
@@ -95,7 +95,7 @@ pub enum Found {
 #[derive(Debug)]
 pub struct Claim {
     path: PathBuf,
-    _lock: File,
+    _lock: Lock,
 }
 
 impl Drop for Claim {
