@@ -59,12 +59,10 @@ pub fn count_zeros<E>(
     while !open.is_empty() {
         let mut rough = Vec::new();
         for piece in open {
-            let Some(own) = integral(&piece) else {
-                rough.push(piece);
-                continue;
-            };
-            sums[0] += own[0];
-            sums[1] += own[1];
+            match integral(&piece) {
+                Some(own) => sums.iter_mut().zip(own).for_each(|(sum, own)| *sum += own),
+                None => rough.push(piece),
+            }
         }
 
         // Halves of the rest, all new points at once: until the phase of each half is that which the slopes predict.
@@ -148,4 +146,36 @@ fn integral(piece: &[Sample; 3]) -> Option<[c64; 2]> {
             0.5 * (near.at + far.at) * change - length * length * (near.slope - far.slope) / 12.0;
     }
     Some(sums)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::convert::Infallible;
+
+    /// Exact: of a rational function the zeros less the poles within a rectangle and the sum of their places; one on the edge is told.
+    #[test]
+    fn zeros_and_poles_of_a_rational_function_are_counted() {
+        let zeros =
+            [c64::new(0.1, 2.0), c64::new(-0.2, 3.0), c64::new(-0.2, 3.01), c64::new(0.0, 9.0)];
+        let pole = c64::new(0.3, 1.5);
+        let count = |half_width: f64| {
+            let corners =
+                [(-half_width, 1.0), (half_width, 1.0), (half_width, 5.0), (-half_width, 5.0)]
+                    .map(|(re, im)| c64::new(re, im));
+            count_zeros(&corners, &|_| 1e-4, &mut |points| {
+                let ln =
+                    |z: c64| zeros.iter().map(|own| (z - own).ln()).sum::<c64>() - (z - pole).ln();
+                Ok::<_, Infallible>(points.into_iter().map(ln).collect())
+            })
+        };
+        let found = count(1.0).unwrap();
+        assert_eq!(found.count, 2);
+        let sum = zeros[..3].iter().sum::<c64>() - pole;
+        assert!((found.sum - sum).norm() < 0.05, "{}", found.sum);
+        let Err(Uncounted::OnEdge(at)) = count(0.2) else {
+            panic!("two zeros lie on the edge");
+        };
+        assert!((at - zeros[1]).norm() < 0.1, "{at}");
+    }
 }
