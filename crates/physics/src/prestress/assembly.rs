@@ -175,17 +175,22 @@ impl<'a> Assembly<'a> {
     /// # Errors
     /// As [`Self::range`].
     pub fn state(&self, friction_coefficient: f64) -> Result<PressedState, PrestressError> {
-        let PressedRange { states, state_of, .. } = self.range(&[friction_coefficient])?;
+        let PressedRange { states, state_of, .. } = self.range(&[friction_coefficient], None)?;
         let state = state_of.first().copied().and_then(|at| states.into_iter().nth(at));
         state.ok_or(PrestressError::NoState { friction_coefficient })
     }
 
-    /// Base states at every one of `friction_coefficients`, over the points of all contacts in turn.
+    /// Base states at every one of `friction_coefficients`, over the points of all contacts in turn: what is `known` of them from
+    /// fewer friction coefficients is not computed again.
     ///
     /// # Errors
     /// [`PrestressError::GapEverywhere`], [`PrestressError::NoState`], [`PrestressError::Singular`]; of an annulus
     /// [`PrestressError::Separation`] where a node would open.
-    pub fn range(&self, friction_coefficients: &[f64]) -> Result<PressedRange, PrestressError> {
+    pub fn range(
+        &self,
+        friction_coefficients: &[f64],
+        known: Option<&PressedRange>,
+    ) -> Result<PressedRange, PrestressError> {
         // The points of all contacts in turn, each with its contact.
         let contacts = self.contacts();
         let of_points = || {
@@ -200,7 +205,7 @@ impl<'a> Assembly<'a> {
                     is_pressed: vec![true; points.len()],
                     ..PressedState::default()
                 },
-                friction_coefficients.len(),
+                friction_coefficients,
             ));
         }
         let mut stiffness = self.joined.elastic.clone();
@@ -211,7 +216,7 @@ impl<'a> Assembly<'a> {
             load.iter_mut().zip(&rotation.centrifugal).for_each(|(load, own)| *load += own);
         }
         if contacts.is_empty() {
-            return self.without_contact(&stiffness, &load, friction_coefficients.len());
+            return self.without_contact(&stiffness, &load, friction_coefficients);
         }
         let springs =
             of_points().map(|(own, point)| own.base_stiffness().map(|k| k * point.weight));
@@ -228,6 +233,7 @@ impl<'a> Assembly<'a> {
             pushed: pushed.collect(),
             stiffnesses: springs.collect(),
             points: &points,
+            known,
         };
         match self.mesh.is_cyclic {
             true => self.round(&pressing, friction_coefficients),
@@ -250,7 +256,7 @@ impl<'a> Assembly<'a> {
                 let none = vec![0.0; self.mesh.dof_count()];
                 let interference = self.contacts()[0].0.counter.interference();
                 let state = full.state(&none, interference, None)?;
-                PressedRange::of_one(state, friction_coefficients.len())
+                PressedRange::of_one(state, friction_coefficients)
             }
         };
         let forces = range.states[0].normal_forces(friction_coefficients[0]);
@@ -267,7 +273,7 @@ impl<'a> Assembly<'a> {
         &self,
         stiffness: &Triplets,
         load: &[f64],
-        count: usize,
+        friction_coefficients: &[f64],
     ) -> Result<PressedRange, PrestressError> {
         // Without a load there is nothing to hold, in part or at all.
         let displacement = if load.iter().all(|force| *force == 0.0) {
@@ -292,7 +298,8 @@ impl<'a> Assembly<'a> {
             basis.displacement(&unknowns.expand(&solver.solve(right)))
         };
         let displacements = vec![displacement];
-        Ok(PressedRange::of_one(PressedState { displacements, ..PressedState::default() }, count))
+        let state = PressedState { displacements, ..PressedState::default() };
+        Ok(PressedRange::of_one(state, friction_coefficients))
     }
 
     /// Stiffness and gyroscopic matrix of regions that turn with the inertia of their rotation.

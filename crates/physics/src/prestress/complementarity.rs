@@ -1,7 +1,7 @@
 //! The contact state by complementarity: which points are pressed, over a range of friction coefficients.
 
 use super::PrestressError;
-use super::pressed_state::{ContactState, LEAST_RANGE, PressedBodies, polynomial_state};
+use super::pressed_state::{ContactState, LEAST_RANGE, PressedBodies, RESOLVED, polynomial_state};
 use crate::contact::PressedState;
 use std::ops::Range;
 
@@ -22,7 +22,9 @@ const ROUND_OFF: f64 = 1e-12;
 pub struct PressedRange {
     /// One state for each set of pressed points, in order of the friction coefficient.
     pub states: Vec<PressedState>,
-    /// Which state each friction coefficient has.
+    /// The friction coefficients asked for.
+    pub friction_coefficients: Vec<f64>,
+    /// Which state each of them has.
     pub state_of: Vec<usize>,
     /// Friction coefficients up to which each state but the last holds.
     pub changes: Vec<f64>,
@@ -34,11 +36,12 @@ pub struct PressedRange {
 }
 
 impl PressedRange {
-    /// One state that holds at `count` friction coefficients.
-    pub(super) fn of_one(state: PressedState, count: usize) -> Self {
+    /// One state that holds at some friction coefficients.
+    pub(super) fn of_one(state: PressedState, friction_coefficients: &[f64]) -> Self {
         Self {
             states: vec![state],
-            state_of: vec![0; count],
+            friction_coefficients: friction_coefficients.to_vec(),
+            state_of: vec![0; friction_coefficients.len()],
             changes: Vec::new(),
             begins: Vec::new(),
             left_out: 0.0,
@@ -51,6 +54,43 @@ impl PressedRange {
         let (end, begin) = (self.changes[before], self.begins[before]);
         let is_empty = begin - end <= 4.0 * CHANGE_WIDTH;
         end..if is_empty { end } else { begin }
+    }
+
+    /// The pressed points at a friction coefficient of these.
+    fn set_at(&self, friction_coefficient: f64) -> Option<&[bool]> {
+        let place =
+            self.friction_coefficients.iter().position(|own| *own == friction_coefficient)?;
+        Some(&self.states[self.state_of[place]].is_pressed)
+    }
+
+    /// Where a set that holds at `inside` ends on the way up to `outside`, if it does before.
+    fn end_of(&self, set: &[bool], [inside, outside]: [f64; 2]) -> Option<f64> {
+        let mut ends = self.changes.iter().zip(&self.states);
+        let is_between = |end: f64| (inside..outside).contains(&end);
+        ends.find(|(end, own)| is_between(**end) && own.is_pressed == set).map(|(end, _)| *end)
+    }
+
+    /// Where it begins on the way down to `outside`, if it does before.
+    fn begin_of(&self, set: &[bool], [inside, outside]: [f64; 2]) -> Option<f64> {
+        let mut begins = self.begins.iter().zip(&self.states[1..]);
+        let is_between = |begin: f64| (outside..=inside).contains(&begin);
+        begins
+            .find(|(begin, own)| is_between(**begin) && own.is_pressed == set)
+            .map(|(own, _)| *own)
+    }
+
+    /// The state of a set whose polynomials hold over a range with all their digits.
+    fn state_over(&self, set: &[bool], [lower, upper]: [f64; 2]) -> Option<&PressedState> {
+        let all = || self.friction_coefficients.iter().copied();
+        let (first, last) = (all().fold(f64::INFINITY, f64::min), all().fold(0.0, f64::max));
+        let holds = |k: usize| {
+            let own_lower = k.checked_sub(1).map_or(first, |before| self.changes[before]);
+            let own_upper = self.changes.get(k).copied().unwrap_or(last);
+            own_lower <= lower && upper <= own_upper && self.states[k].is_pressed == set
+        };
+        (0..self.states.len())
+            .find(|&k| self.left_out <= RESOLVED && holds(k))
+            .map(|k| &self.states[k])
     }
 }
 
@@ -67,14 +107,21 @@ pub(super) fn range(
     let mut start = vec![true; bodies.pressing().points.len()];
     for (rank, &i) in order.iter().enumerate() {
         let friction = friction_coefficients[i];
-        let set = pressed_points(bodies, friction, &start)?;
+        let known = bodies.pressing().known.and_then(|known| known.set_at(friction));
+        let set = match known.map(<[bool]>::to_vec) {
+            Some(set) => set,
+            None => pressed_points(bodies, friction, &start)?,
+        };
         if !set.contains(&true) {
             return Err(bodies.pressing().gap_everywhere());
         }
         if sets.last().is_none_or(|last| *last != set) {
             if rank > 0 {
                 let before = friction_coefficients[order[rank - 1]];
-                changes.push(end_between(bodies, &start, [before, friction])?);
+                let known = bodies.pressing().known;
+                let known = known.and_then(|known| known.end_of(&start, [before, friction]));
+                let end = known.map_or_else(|| end_between(bodies, &start, [before, friction]), Ok);
+                changes.push(end?);
             }
             sets.push(set.clone());
         }
@@ -89,8 +136,9 @@ pub(super) fn range(
     };
     let lowest = |asked: &[f64]| asked.iter().copied().fold(f64::INFINITY, f64::min);
     let begins = changes.iter().enumerate().map(|(k, &change)| {
-        let begin = end_between(bodies, &sets[k + 1], [lowest(&asked_of(k + 1)), change])?;
-        Ok(begin.max(change))
+        let (set, between) = (&sets[k + 1], [lowest(&asked_of(k + 1)), change]);
+        let known = bodies.pressing().known.and_then(|known| known.begin_of(set, between));
+        Ok(known.map_or_else(|| end_between(bodies, set, between), Ok)?.max(change))
     });
     let begins = begins.collect::<Result<Vec<f64>, PrestressError>>()?;
     let end = |rank: Option<&usize>| rank.map_or(0.0, |&i| friction_coefficients[i]);
@@ -100,6 +148,11 @@ pub(super) fn range(
         let asked = asked_of(k);
         let lower = k.checked_sub(1).map_or(first, |before| changes[before]);
         let upper = changes.get(k).copied().unwrap_or(last);
+        let known = bodies.pressing().known;
+        if let Some(state) = known.and_then(|known| known.state_over(&set, [lower, upper])) {
+            left_out = left_out.max(known.map_or(0.0, |known| known.left_out));
+            return Ok(state.clone());
+        }
         let own_range = |bodies: &mut _, set: &[bool]| {
             let begin = match k.checked_sub(1) {
                 Some(before) => begins[before],
@@ -115,7 +168,8 @@ pub(super) fn range(
         Ok(found.state)
     });
     let states = states.collect::<Result<Vec<_>, PrestressError>>()?;
-    Ok(PressedRange { states, state_of, changes, begins, left_out })
+    let friction_coefficients = friction_coefficients.to_vec();
+    Ok(PressedRange { states, friction_coefficients, state_of, changes, begins, left_out })
 }
 
 /// The pressed points at one friction coefficient, by the primal-dual active set (a semismooth Newton iteration on

@@ -63,6 +63,7 @@ impl Pressing<'_> {
             pushed: firsts.clone().map(|i| self.pushed[i]).collect(),
             stiffnesses: firsts.clone().map(|i| self.stiffnesses[i]).collect(),
             laws: firsts.clone().map(|i| self.laws[i]).collect(),
+            known: None,
         };
         let mut range = own.states_of_all(friction_coefficients)?;
 

@@ -2,6 +2,7 @@
 //! coefficient.
 
 use super::PrestressError;
+use super::complementarity::PressedRange;
 use super::elimination::Elimination;
 use super::friction_polynomial::{evaluate, interpolated};
 use crate::contact::{NormalLaw, Point, PressedState};
@@ -12,7 +13,7 @@ use crate::fem::Triplets;
 pub(super) const LEAST_RANGE: f64 = 0.05;
 
 /// Share of the largest force that the polynomial of a state may leave out.
-const RESOLVED: f64 = 1e-8;
+pub(super) const RESOLVED: f64 = 1e-8;
 
 /// What follows the last two terms of a series that falls by a factor of three or more from one to the next, beside the larger of them.
 const FOLLOWING: f64 = 0.2;
@@ -48,6 +49,8 @@ pub struct Pressing<'a> {
     pub stiffnesses: Vec<Option<f64>>,
     /// Contact that stiffens, of each point; `None` is linear or rigid.
     pub laws: Vec<Option<NormalLaw>>,
+    /// Their states at some friction coefficients, as found before.
+    pub known: Option<&'a PressedRange>,
 }
 
 impl Pressing<'_> {

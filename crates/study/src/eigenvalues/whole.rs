@@ -49,23 +49,24 @@ impl WholeMesh {
         let assembly = assembled(case, &mesh, &options)?;
         let own = [case.contact.sliding.friction_coefficient];
         let start = start_of(assembly.contacts());
-        let range = assembly.range(&[frictions, start, &own].concat())?;
+        let range = assembly.range(&[frictions, start, &own].concat(), None)?;
         let (symmetry, joined) = (used_symmetry(case, &mesh), assembly.joined);
         Ok(Self { symmetry, mesh, range, options, joined })
     }
 
-    /// Base states at some friction coefficients between those of this one, which come first.
+    /// Base states at the friction coefficients of those `known` and at some between, which come first.
     pub(super) fn states_at(
         &self,
         case: &Case,
         frictions: &[f64],
+        known: &PressedRange,
     ) -> Result<PressedRange, CeaError> {
         let (assembly, own) = (self.assembly(case), [case.contact.sliding.friction_coefficient]);
         let further = match self.mesh.dimension {
             2 => &own[..],
             _ => start_of(assembly.contacts()),
         };
-        Ok(assembly.range(&[frictions, further].concat())?)
+        Ok(assembly.range(&[frictions, further].concat(), Some(known))?)
     }
 
     /// The model of a case with the base states of this one: for a case that differs in nothing that these depend on.
