@@ -37,7 +37,7 @@ const CHEBYSHEV_POINTS: usize = 5;
 /// Residual of the iteration whose vectors the basis takes up, relative to the shift-inverted operator. The ladder improves what is
 /// left of it where damping is not proportional; where it is, [`CONVERGED`] leaves nothing.
 const SAMPLE_RESIDUAL: f64 = 1e-8;
-/// Unknowns up to which a dense decomposition is as cheap as that iteration.
+/// Unknowns up to which dense decompositions cost no more than that iteration and what follows it.
 const DENSE_UP_TO: usize = 150;
 /// Start vectors of an iteration from the modes without friction: modes may come in pairs of equal eigenvalue, and factors are read once
 /// for both.
@@ -68,6 +68,8 @@ pub struct BasisBuilder<'a> {
     pub count: usize,
     /// Rigid motions, which the basis holds before the modes.
     pub rigid: usize,
+    /// Whether the basis spans all motions, those of a small body: nothing is left to search for.
+    pub(super) is_whole: bool,
     /// Whether the basis is made of the modes at a few friction coefficients, each from an iteration of its own. Else, where damping is
     /// proportional and the contact alike all around, it grows by residuals: friction couples few modes, and a block holds all values.
     pub(super) is_sampling: bool,
@@ -94,6 +96,11 @@ impl<'a> BasisBuilder<'a> {
         model.extend(first.to_owned(), 1e-8);
         model.extend(others.to_owned(), 1e-8);
         let has_symmetry = !tangent.contact.angles.is_empty();
+        let unknowns = tangent.stiffness.dimension();
+        let is_whole = unknowns <= DENSE_UP_TO && tangent.tabled.is_empty();
+        if is_whole {
+            model.extend(Mat::identity(unknowns, unknowns), SAME_SPACE);
+        }
         Self {
             tangent,
             linearization,
@@ -103,7 +110,9 @@ impl<'a> BasisBuilder<'a> {
             model,
             count: modes.ncols() - rigid,
             rigid,
-            is_sampling: !(matches!(linearization, Linearization::Reduced(..)) && has_symmetry),
+            is_whole,
+            is_sampling: !is_whole
+                && !(matches!(linearization, Linearization::Reduced(..)) && has_symmetry),
             sampled: Vec::new(),
             watch,
             steps: 0,

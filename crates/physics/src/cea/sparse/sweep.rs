@@ -175,6 +175,9 @@ impl<'a> SparseSweep<'a> {
 
     /// Grows the basis over the whole range of friction coefficients.
     pub fn cover(&mut self) -> Result<(), CeaError> {
+        if self.builder.is_whole {
+            return Ok(());
+        }
         if self.builder.is_sampling {
             let first = self.first_asked();
             // Over a short range the modes at its middle are corrected to those at its ends.
@@ -302,7 +305,7 @@ impl<'a> SparseSweep<'a> {
                 lost.map(|end| (end.after, [end.seen.mu, end.lost_at])).collect();
             open.sort_by_key(|(k, _)| *k);
             open.dedup_by_key(|(k, _)| *k);
-            if open.is_empty() {
+            if open.is_empty() || self.builder.is_whole {
                 return Ok(branches);
             }
             for (k, [seen_at, lost_at]) in open {
