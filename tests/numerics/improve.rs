@@ -94,7 +94,7 @@ impl Body {
         let region = mesh.regions.iter().position(|name| name == "patch").unwrap();
         let own = || (0..mesh.element_count()).filter(|&e| mesh.region(e) == region);
         let size = |e: usize| match mesh.dimension {
-            2 => mesh.element_area(e),
+            2 => mesh.element_measure(e),
             _ => brick_volume(mesh, e),
         };
         let sum = |field: &[f64]| own().map(|e| field[e] * size(e)).sum::<f64>();

@@ -102,7 +102,7 @@ fn element_frequency(mesh: &Mesh, element: usize, speed: f64) -> f64 {
         (to_x - x).hypot(to_y - y)
     };
     let long = (0..corners.len()).map(side).fold(0.0, f64::max);
-    let short = mesh.element_area(element) / long;
+    let short = mesh.element_measure(element) / long;
     let order = if kind.is_quadratic() { QUADRATIC } else { 1.0 };
     2.0 * order * speed * (1.0 / short).hypot(1.0 / long)
 }

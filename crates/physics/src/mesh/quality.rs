@@ -45,11 +45,8 @@ impl Mesh {
         if high > 0.0 { low / high } else { 0.0 }
     }
 
-    /// Volume of an element of a solid body, m3; area of a plane element, m2.
+    /// Volume of an element of a solid body, m3; area of a plane element, m2, whose quadratic edges are parabolas.
     pub fn element_measure(&self, element: usize) -> f64 {
-        if self.dimension == 2 {
-            return self.element_area(element);
-        }
         let points = self.element_kind(element).quadrature().into_iter();
         points.map(|(place, weight)| weight * self.jacobian(element, place)).sum()
     }
@@ -73,29 +70,9 @@ impl Mesh {
         measures
     }
 
-    /// Area of an element, m2; quadratic edges are parabolas.
-    pub fn element_area(&self, element: usize) -> f64 {
-        let outline = self.element_outline(element).into_iter();
-        let points: Vec<[f64; 2]> = outline.map(|node| self.plane_node(node as usize)).collect();
-        let cross = |p: [f64; 2], q: [f64; 2]| p[0] * q[1] - p[1] * q[0];
-        let count = points.len();
-        if !self.element_kind(element).is_quadratic() {
-            let sum: f64 = (0..count).map(|i| cross(points[i], points[(i + 1) % count])).sum();
-            return 0.5 * sum;
-        }
-        // Green's theorem on a parabola through p, m, q: (4 p x m + 4 m x q - p x q) / 6.
-        (0..count)
-            .step_by(2)
-            .map(|i| {
-                let (p, m, q) = (points[i], points[i + 1], points[(i + 2) % count]);
-                (4.0 * cross(p, m) + 4.0 * cross(m, q) - cross(p, q)) / 6.0
-            })
-            .sum()
-    }
-
     /// Area of the body, m2.
     pub fn area(&self) -> f64 {
-        (0..self.element_count()).map(|e| self.element_area(e)).sum()
+        (0..self.element_count()).map(|e| self.element_measure(e)).sum()
     }
 
     /// Quality of all elements.

@@ -85,7 +85,7 @@ impl Mesh {
         for (name, nodes) in &file.node_sets {
             let nodes = nodes.iter().filter_map(|&node| index_of[node as usize]);
             let nodes: BTreeSet<u32> = nodes.collect();
-            if nodes.is_empty() || self.boundaries.iter().any(|b| b.name == *name) {
+            if nodes.is_empty() || self.boundary(name).is_some() {
                 continue;
             }
             let faces = outer.values();

@@ -131,7 +131,7 @@ impl MeshStatistics {
         for element in 0..mesh.element_count() {
             let region = &mut regions[mesh.region(element)];
             region.elements += 1;
-            region.area_m2 += mesh.element_area(element);
+            region.area_m2 += mesh.element_measure(element);
         }
         let area: f64 = regions.iter().map(|region| region.area_m2).sum();
         let exact = |annulus: &AnnulusMesh| {

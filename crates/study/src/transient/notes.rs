@@ -90,15 +90,9 @@ impl TransientStudy<'_> {
 
         // From the strain energy U: the uniform strain that the body would store it with, U = 1/2 (sum E A) strain^2.
         let materials = self.case.materials();
-        let stiffness: f64 = match mesh.dimension {
-            3 => {
-                let volumes = mesh.region_measures().into_iter().enumerate();
-                volumes.map(|(region, volume)| volume * materials.of(region).young_modulus).sum()
-            }
-            _ => (0..mesh.element_count())
-                .map(|e| mesh.element_area(e) * materials.of(mesh.region(e)).young_modulus)
-                .sum(),
-        };
+        let sizes = mesh.region_measures().into_iter().enumerate();
+        let stiffness: f64 =
+            sizes.map(|(region, size)| size * materials.of(region).young_modulus).sum();
         let depth = self.stepped.sector.as_ref().map_or(1.0, |_| self.case.thickness);
         let energies = record.rows.iter().map(|row| row.strain_energy);
         let energy = energies.fold(0.0, f64::max);

@@ -6,8 +6,6 @@ use super::{SolidFace, SolidSector};
 /// One element's part of a face, in sector 0.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FaceElement {
-    /// The face.
-    pub face: SolidFace,
     /// Sector nodes with their angle in halves of a sector.
     pub nodes: Vec<(usize, usize)>,
 }
@@ -79,7 +77,7 @@ impl SolidSector {
                     };
                     (find(place, half), half)
                 };
-                FaceElement { face, nodes: places.iter().map(node).collect() }
+                FaceElement { nodes: places.iter().map(node).collect() }
             })
             .collect()
     }
