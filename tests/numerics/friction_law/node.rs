@@ -6,8 +6,8 @@ const DECAY: FrictionDecay = FrictionDecay { static_ratio: 1.4, decay_speed: 0.2
 
 const LAW: CoulombFriction = CoulombFriction { friction_coefficient: 0.3, decay: Some(DECAY) };
 
-fn resolve(inertia: f64, free_slip: f64, slip_before: f64, normal: f64) -> NodeFriction {
-    let node = SlippingNode { inertia, free_slip, slip_before };
+fn resolve(inertia: f64, free_slip: f64, slip_before: f64, normal: f64) -> Friction<f64> {
+    let node = Slipping { inertia, free_slip, slip_before };
     LAW.resolve(&node, normal)
 }
 

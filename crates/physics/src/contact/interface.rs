@@ -153,8 +153,7 @@ fn phases(counterface: &Counterface, places: Vec<f64>) -> Vec<f64> {
     if let Counterface::Cylinder { .. } = counterface {
         return places;
     }
-    let low = places.iter().copied().fold(f64::INFINITY, f64::min);
-    let high = places.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let [low, high] = crate::order::range(places.iter().copied());
     let scale = std::f64::consts::TAU / (high - low).max(f64::MIN_POSITIVE);
     places.iter().map(|place| scale * (place - low)).collect()
 }

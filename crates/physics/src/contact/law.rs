@@ -88,11 +88,6 @@ pub struct Slipping<V> {
     pub slip_before: V,
 }
 
-/// A node of an edge.
-pub type SlippingNode = Slipping<f64>;
-/// A node of a surface.
-pub type SlippingPoint = Slipping<[f64; 2]>;
-
 /// What friction does to a contact node within one time step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Friction<V> {
@@ -103,11 +98,6 @@ pub struct Friction<V> {
     /// Whether both would have obeyed the law: friction falls faster than the node's inertia allows.
     pub is_ambiguous: bool,
 }
-
-/// Of a node of an edge.
-pub type NodeFriction = Friction<f64>;
-/// Of a node of a surface.
-pub type PointFriction = Friction<[f64; 2]>;
 
 impl<V> Friction<V> {
     /// The same with another force.
@@ -146,12 +136,12 @@ impl CoulombFriction {
     /// `w* = free_slip`. With `c = N mu dt / m` slip solves `w + c (1 + (q - 1) e^{-v / v_c}) = |w*|`, convex in `w`:
     /// monotone, with one root at most, where `N |mu'(0)| < m / dt`. Beyond that a node can obey the law in stick and
     /// in slip at once; it keeps to the side that it is on, and says so.
-    pub fn resolve(&self, node: &SlippingNode, normal: f64) -> NodeFriction {
+    pub fn resolve(&self, node: &Slipping<f64>, normal: f64) -> Friction<f64> {
         let (inertia, free) = (node.inertia, node.free_slip.abs());
         let sense = node.free_slip.signum();
         let Some(decay) = self.decay else {
             let (force, status) = self.project(inertia * node.free_slip, normal);
-            return NodeFriction { force, status, is_ambiguous: false };
+            return Friction { force, status, is_ambiguous: false };
         };
         let pull = self.cone(normal) / inertia;
         let v_c = decay.decay_speed;
@@ -163,7 +153,7 @@ impl CoulombFriction {
         let may_slip = !may_stick || (least > 0.0 && value(least) < 0.0);
         let is_slipping = node.slip_before * sense > least;
         if may_stick && !(may_slip && is_slipping) {
-            return NodeFriction {
+            return Friction {
                 force: inertia * node.free_slip,
                 status: ContactStatus::Stick,
                 is_ambiguous: may_slip,
@@ -190,7 +180,7 @@ impl CoulombFriction {
                 break;
             }
         }
-        NodeFriction {
+        Friction {
             force: sense * inertia * (free - slip),
             status: ContactStatus::Slip,
             is_ambiguous: may_stick,

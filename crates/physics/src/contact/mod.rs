@@ -35,10 +35,7 @@ mod turning;
 
 pub use counterpart::{Counterpart, RigidCounterface, RigidMotion, RigidShape};
 pub use interface::ContactInterface;
-pub use law::{
-    ContactStatus, CoulombFriction, Friction, FrictionDecay, NodeFriction, PointFriction, Slipping,
-    SlippingNode, SlippingPoint, SteadyFriction,
-};
+pub use law::{ContactStatus, CoulombFriction, Friction, FrictionDecay, Slipping, SteadyFriction};
 pub use linearized::{ContactTerms, PressedState, linearized};
 pub use mortar::{MortarNode, mortar_nodes};
 pub use normal_law::NormalLaw;

@@ -1,6 +1,6 @@
 //! Coulomb's law over a surface that a node can slide over in two directions.
 
-use super::{ContactStatus, CoulombFriction, PointFriction, SlippingNode, SlippingPoint};
+use super::{ContactStatus, CoulombFriction, Friction, Slipping};
 
 impl CoulombFriction {
     /// The tangential force under the normal force `normal`, N: within the disc of radius `mu(0) N` where the node sticks, on the
@@ -15,13 +15,13 @@ impl CoulombFriction {
     /// so that what it dissipates, `T . v`, is the law's, and a small motion across fast sliding has the dashpot `mu N / V` of the
     /// linearised law to second order in time. Along that direction [`Self::resolve`] has the size; where the slip turns round
     /// within the step, the direction is that of `w*`.
-    pub fn resolve_point(&self, point: &SlippingPoint, normal: f64) -> PointFriction {
-        let SlippingPoint { inertia, free_slip: free, slip_before: before } = *point;
-        let along = |[a, b]: [f64; 2], inertia: f64| -> Option<PointFriction> {
+    pub fn resolve_point(&self, point: &Slipping<[f64; 2]>, normal: f64) -> Friction<[f64; 2]> {
+        let Slipping { inertia, free_slip: free, slip_before: before } = *point;
+        let along = |[a, b]: [f64; 2], inertia: f64| -> Option<Friction<[f64; 2]>> {
             let length = a.hypot(b);
             let [a, b] = if length > 0.0 { [a / length, b / length] } else { [1.0, 0.0] };
             let part = |[x, y]: [f64; 2]| a * x + b * y;
-            let node = SlippingNode {
+            let node = Slipping {
                 inertia: point.inertia,
                 free_slip: part(free),
                 slip_before: part(before),
@@ -32,7 +32,7 @@ impl CoulombFriction {
                 .then_some(found.with([found.force * a, found.force * b]))
         };
         let size = free[0].hypot(free[1]);
-        let whole = SlippingNode {
+        let whole = Slipping {
             inertia,
             free_slip: size,
             slip_before: (before[0] * free[0] + before[1] * free[1]) / size.max(f64::MIN_POSITIVE),
@@ -56,8 +56,8 @@ mod tests {
 
     const LAW: CoulombFriction = CoulombFriction { friction_coefficient: 0.4, decay: None };
 
-    fn point(free_slip: [f64; 2], slip_before: [f64; 2]) -> SlippingPoint {
-        SlippingPoint { inertia: 10.0, free_slip, slip_before }
+    fn point(free_slip: [f64; 2], slip_before: [f64; 2]) -> Slipping<[f64; 2]> {
+        Slipping { inertia: 10.0, free_slip, slip_before }
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! The laws of normal contact and friction at one point.
 
 use super::{ContactPoint, PointForces, Step, TouchingSurfaces};
-use crate::contact::{ContactStatus, SlippingNode, SlippingPoint};
+use crate::contact::{ContactStatus, Slipping};
 use crate::transient::compliance::CompressedNode;
 
 /// A point before its forces are known.
@@ -99,11 +99,11 @@ impl TouchingSurfaces {
         let slip_before = [0, 1].map(|c| speed[c] - before[c]);
         let friction = if TANGENTS == 1 {
             let [free_slip, _] = free_slip;
-            let node = SlippingNode { inertia: damped, free_slip, slip_before: slip_before[0] };
+            let node = Slipping { inertia: damped, free_slip, slip_before: slip_before[0] };
             let own = self.law.resolve(&node, normal);
             own.with([own.force, 0.0])
         } else {
-            let node = SlippingPoint { inertia: damped, free_slip, slip_before };
+            let node = Slipping { inertia: damped, free_slip, slip_before };
             self.law.resolve_point(&node, normal)
         };
         for c in 0..TANGENTS {
