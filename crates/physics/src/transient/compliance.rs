@@ -1,11 +1,11 @@
-//! Springs and dashpots of a contact edge that is not rigid.
+//! Springs and dashpots of a contact that is not rigid.
 
 use crate::contact::{ContactStiffness, NormalLaw};
 
 /// Newton steps and halvings of one node at most: an interval of the largest numbers is halved away by then.
 const NEWTON_STEPS: usize = 200;
 
-/// The interface between edge and counterface as springs that push but never pull, with dashpots beside them.
+/// The interface between edge and counterface at a point: a spring that pushes but never pulls, with a dashpot beside it.
 ///
 /// ```text
 /// N = max(0, k w p + c w p'),   p = s (delta + N_0 / (k w)) - g_0 - u_n
@@ -27,18 +27,17 @@ const NEWTON_STEPS: usize = 200;
 /// further by), a scalar equation for each node, implicit in `p_+ = p* - dt^2 N / 2m` and in closed form (by Newton's
 /// method for a law). It is stable for any
 /// stiffness, second order in time, and adds no damping of its own.
-#[derive(Clone, Debug)]
-pub(super) struct CompliantContact {
-    /// `k w` of each node, Pa.
-    stiffness: Vec<f64>,
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Spring {
+    /// The law of a unit of the share; of linear contact that of `k w` itself, with a share of one.
+    law: NormalLaw,
+    share: f64,
     /// `c w`, Pa s.
-    damping: Vec<f64>,
-    /// What the interface gives way under the base state's force at each node, `N_0 / (k w)`, m.
-    pub compression: Vec<f64>,
-    /// Contact that stiffens with pressure, and the nodes' shares of it; in place of `stiffness`.
-    law: Option<(NormalLaw, Vec<f64>)>,
-    /// Power of each node's dashpot in the last step, W/m.
-    pub dissipation: Vec<f64>,
+    damping: f64,
+    /// What the interface gives way under the base state's force, `N_0 / (k w)`, m.
+    pub compression: f64,
+    /// Power of the dashpot in the last step, W/m.
+    pub dissipation: f64,
 }
 
 /// Steady sliding at a contact point; nothing where its springs need none.
@@ -63,83 +62,55 @@ pub(super) struct CompressedNode {
     pub free: f64,
 }
 
-impl CompliantContact {
-    /// Springs and dashpots of points with these `weights` over their `base` state; `None` is rigid contact.
-    pub fn of(contact: &ContactStiffness, weights: &[f64], base: &[PressedPoint]) -> Option<Self> {
-        let linear = contact.normal_stiffness.filter(|_| contact.law.is_none());
-        if linear.is_none() && contact.law.is_none() {
-            return None;
-        }
-        let stiffness: Vec<f64> =
-            linear.iter().flat_map(|k| weights.iter().map(move |w| k * w)).collect();
-        let mut compression = vec![0.0; weights.len()];
-        for ((own, k), point) in compression.iter_mut().zip(&stiffness).zip(base) {
-            if point.force > 0.0 {
-                *own = point.force / k - point.given_way;
+impl Spring {
+    /// That of a point of such a weight over its base state; `None` is rigid contact.
+    pub fn of(contact: &ContactStiffness, weight: f64, base: &PressedPoint) -> Option<Self> {
+        let (mut compression, damping) = (0.0, contact.normal_damping * weight);
+        let (law, share) = match (contact.law, contact.normal_stiffness) {
+            (Some(law), _) => (law, weight),
+            (None, Some(stiffness)) => {
+                let stiffness = stiffness * weight;
+                if base.force > 0.0 {
+                    compression = base.force / stiffness - base.given_way;
+                }
+                (NormalLaw::linear(stiffness), 1.0)
             }
-        }
-        let dashpot = |(w, point): (&f64, &PressedPoint)| {
-            contact.normal_damping * w + contact.law_damping * point.spring
+            (None, None) => return None,
         };
-        Some(Self {
-            stiffness,
-            damping: weights.iter().zip(base).map(dashpot).collect(),
-            compression,
-            law: contact.law.map(|law| (law, weights.to_vec())),
-            dissipation: vec![0.0; weights.len()],
-        })
+        let damping = damping + contact.law_damping * base.spring;
+        Some(Self { law, share, damping, compression, dissipation: 0.0 })
     }
 
-    /// Energy of node `i` at the mean compression `p`, J/m.
-    pub fn energy(&self, i: usize, compression: f64) -> f64 {
-        match &self.law {
-            Some((law, shares)) => shares[i] * law.energy(compression),
-            None => 0.5 * self.stiffness[i] * compression.max(0.0).powi(2),
-        }
+    /// Energy at the mean compression `p`, J/m.
+    pub fn energy(&self, compression: f64) -> f64 {
+        self.share * self.law.energy(compression)
     }
 
-    /// Normal force on node `i`, N/m; keeps what its dashpot dissipates.
-    pub fn force(&mut self, i: usize, node: &CompressedNode, dt: f64) -> f64 {
-        let c = self.damping[i] / dt;
-        let yielding = 0.5 * dt * dt / node.mass;
-        let (after, spring) = match &self.law {
-            Some((law, shares)) => {
-                let after = stiffening_after(node, (*law, shares[i]), c, yielding);
-                (after, shares[i] * law.mean_pressure(node.before, after))
+    /// Normal force, N/m; keeps what the dashpot dissipates.
+    pub fn force(&mut self, node: &CompressedNode, dt: f64) -> f64 {
+        let (c, yielding) = (self.damping / dt, 0.5 * dt * dt / node.mass);
+        let after = match self.law {
+            NormalLaw::Cubic { stiffness, cubic_stiffness: 0.0 } => {
+                compression_after(node, self.share * stiffness, c, yielding)
             }
-            None => {
-                let k = self.stiffness[i];
-                let after = compression_after(node, k, c, yielding);
-                (after, mean_force(k, node.before, after))
-            }
+            law => stiffening_after(node, (law, self.share), c, yielding),
         };
+        let spring = self.share * self.law.mean_pressure(node.before, after);
         let change = after - node.before;
         let dashpot = c * (after.max(0.0) - node.before.max(0.0));
         // The interface does not stick to the body: a dashpot that would pull lets it go.
         let force = (spring + dashpot).max(0.0);
-        self.dissipation[i] = (force - spring) * change / dt;
+        self.dissipation = (force - spring) * change / dt;
         force
     }
-}
-
-/// `(U_+ - U_-) / (p_+ - p_-)` of the spring, N/m.
-fn mean_force(k: f64, before: f64, after: f64) -> f64 {
-    let sum = before.max(0.0) + after.max(0.0);
-    if before >= 0.0 && after >= 0.0 {
-        return 0.5 * k * sum;
-    }
-    if sum == 0.0 {
-        return 0.0;
-    }
-    // One of both is open: the difference of the squares is the square of the other.
-    0.5 * k * sum * sum / (after - before).abs()
 }
 
 /// The root `p_+` of `p_+ + a max(0, N(p_+)) = p*`, `a = dt^2 / 2m`: unique, since `N` never falls with `p_+`.
 fn compression_after(node: &CompressedNode, k: f64, c: f64, yielding: f64) -> f64 {
     let (before, free) = (node.before, node.free);
     let closed = before.max(0.0);
-    if mean_force(k, before, free) + c * (free.max(0.0) - closed) <= 0.0 {
+    let spring = NormalLaw::linear(k).mean_pressure(before, free);
+    if spring + c * (free.max(0.0) - closed) <= 0.0 {
         return free;
     }
     let (k, c) = (yielding * k, yielding * c);
@@ -222,6 +193,10 @@ fn stiffening_after(
 mod tests {
     use super::*;
 
+    fn spring(law: NormalLaw, share: f64, damping: f64) -> Spring {
+        Spring { law, share, damping, compression: 0.0, dissipation: 0.0 }
+    }
+
     /// Theory: the force obeys its own equation, and spring, dashpot and work of the force close their balance, through
     /// closing, opening and dashpots that let go.
     #[test]
@@ -230,21 +205,15 @@ mod tests {
         let mut seen = [false; 5];
         for stiffness in [1e8, 5e9, 1e13] {
             for damping in [0.0, 2e3] {
-                let mut contact = CompliantContact {
-                    stiffness: vec![stiffness],
-                    damping: vec![damping],
-                    compression: vec![0.0],
-                    dissipation: vec![0.0],
-                    law: None,
-                };
+                let mut contact = spring(NormalLaw::linear(stiffness), 1.0, damping);
                 for before in [-1e-6, -1e-8, 0.0, 1e-8, 1e-6] {
                     for free in [-2e-6, -1e-8, 1e-9, 3e-8, 2e-6] {
                         let node = CompressedNode { mass, before, free };
-                        let force = contact.force(0, &node, dt);
+                        let force = contact.force(&node, dt);
                         let after = free - 0.5 * dt * dt / mass * force;
-                        let energy = contact.energy(0, after) - contact.energy(0, before);
+                        let energy = contact.energy(after) - contact.energy(before);
                         let work = force * (after - before);
-                        let lost = dt * contact.dissipation[0];
+                        let lost = dt * contact.dissipation;
                         // A few roundings of positions of the size of both.
                         let size = before.abs().max(free.abs());
                         let scale = work.abs() + stiffness * size * size * 1e-2;
@@ -275,21 +244,15 @@ mod tests {
         let (dt, mass, share) = (1e-7, 1e-3, 7e-4);
         for law in laws {
             for damping in [0.0, 2e3] {
-                let mut contact = CompliantContact {
-                    stiffness: Vec::new(),
-                    damping: vec![damping],
-                    compression: vec![0.0],
-                    dissipation: vec![0.0],
-                    law: Some((law, vec![share])),
-                };
+                let mut contact = spring(law, share, damping);
                 for before in [-1e-6, -1e-8, 0.0, 1e-8, 3e-7, 1e-6] {
                     for free in [-2e-6, -1e-8, 1e-9, 3e-8, 2e-6, 1e-3] {
                         let node = CompressedNode { mass, before, free };
-                        let force = contact.force(0, &node, dt);
+                        let force = contact.force(&node, dt);
                         let after = free - 0.5 * dt * dt / mass * force;
-                        let energy = contact.energy(0, after) - contact.energy(0, before);
+                        let energy = contact.energy(after) - contact.energy(before);
                         let work = force * (after - before);
-                        let lost = dt * contact.dissipation[0];
+                        let lost = dt * contact.dissipation;
                         // Positions are rounded by the size of both, energies by the stiffness there.
                         let size = before.abs().max(free.abs());
                         let spring = share * law.stiffness(before.max(after).max(0.0));

@@ -11,7 +11,7 @@ mod sweeps;
 pub(super) use set_up::ContactPart;
 pub use sums::{ContactPowers, StatusCounts};
 
-use super::compliance::CompliantContact;
+use super::compliance::Spring;
 use crate::contact::{ContactStatus, CoulombFriction};
 use crate::fem::operator::{MotionFields, StepCoefficients};
 use std::ops::Range;
@@ -100,8 +100,8 @@ struct TouchingSurfaces {
     law: CoulombFriction,
     /// How far the counterface is pushed in at the end, m.
     interference: f64,
-    /// `None` is rigid.
-    springs: Option<CompliantContact>,
+    /// One for each point; `None` is rigid.
+    springs: Option<Vec<Spring>>,
     /// Whether friction is constant and there are no tangential dashpots.
     is_plain: bool,
 }
@@ -172,7 +172,7 @@ impl LagrangeContact {
                 let mean = self.along(i, 0, |dof| {
                     fields.displacement[dof.place] - 0.5 * dt * fields.velocity[dof.place]
                 });
-                energy += springs.energy(k, 0.5 * (pushed[0] + pushed[1]) - mean);
+                energy += springs[k].energy(0.5 * (pushed[0] + pushed[1]) - mean);
             }
         }
         energy

@@ -20,7 +20,7 @@ impl TouchingSurfaces {
     /// How far the counterface is pushed in at point `place` of these, less its gap, m; a compliant contact gives way by
     /// its compression in the base state.
     pub(super) fn pushed(&self, place: usize, point: &ContactPoint, share: f64) -> f64 {
-        let compression = self.springs.as_ref().map_or(0.0, |law| law.compression[place]);
+        let compression = self.springs.as_ref().map_or(0.0, |own| own[place].compression);
         (self.interference + compression) * share - point.gap
     }
 
@@ -63,7 +63,7 @@ impl TouchingSurfaces {
             free: 0.5 * (now + later) - free.separation - 0.5 * dt * free.free[0],
         };
         let springs = self.springs.as_mut();
-        springs.map_or(0.0, |springs| springs.force(free.place, &node, dt))
+        springs.map_or(0.0, |springs| springs[free.place].force(&node, dt))
     }
 
     /// Friction under the `normal` force, and what it makes with the tangential dashpot.

@@ -28,7 +28,7 @@ impl Account {
     ) {
         let (powers, counts) = (&mut self.powers, &mut self.counts);
         if let Some(springs) = &surfaces.springs {
-            powers.damping += springs.dissipation[place];
+            powers.damping += springs[place].dissipation;
         }
         let mut power = along * mean[1];
         if TANGENTS > 1 {

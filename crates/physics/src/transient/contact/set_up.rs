@@ -3,7 +3,7 @@
 use super::{ContactPoint, LagrangeContact, PointTurn, TouchedDof, TouchingSurfaces};
 use crate::contact::{ContactStatus, ContactStiffness, CoulombFriction, Point, Row};
 use crate::fem::operator::StiffnessOperator;
-use crate::transient::compliance::{CompliantContact, PressedPoint};
+use crate::transient::compliance::{PressedPoint, Spring};
 use std::collections::BTreeMap;
 
 /// Points of one law, and the nodes that the record shows of them.
@@ -33,8 +33,10 @@ impl LagrangeContact {
         let mut touched = BTreeMap::new();
         for part in parts {
             let first = contact.points.len();
-            let weights: Vec<f64> = part.points.iter().map(|point| point.weight).collect();
-            let springs = CompliantContact::of(&part.stiffness, &weights, &part.base);
+            let pairs = part.points.iter().zip(&part.base);
+            let springs =
+                pairs.map(|(point, base)| Spring::of(&part.stiffness, point.weight, base));
+            let springs: Option<Vec<Spring>> = springs.collect();
             let tangential_damping = part.stiffness.tangential_damping;
             for point in &part.points {
                 for row in &[&point.normal, &point.slip, &point.across][..=tangents] {
