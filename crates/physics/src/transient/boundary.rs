@@ -2,7 +2,6 @@
 
 use crate::fem::Triplets;
 use crate::fem::operator::{MotionFields, StiffnessOperator};
-use std::collections::BTreeMap;
 
 /// Rows that are summed side by side.
 const SIDE_BY_SIDE: usize = 4;
@@ -36,21 +35,17 @@ struct Row {
 
 impl BoundaryForces {
     /// From the entries of `D` and the forces of the full pressure over all dofs; no forces for no pressure.
-    pub fn of(damping: &Triplets, pressure: &[f64], operator: &dyn StiffnessOperator) -> Self {
-        let mut rows: BTreeMap<usize, BTreeMap<usize, f64>> = BTreeMap::new();
-        for &(row, column, value) in &damping.entries {
-            *rows.entry(row).or_default().entry(column).or_default() += value;
-        }
-        for (dof, _) in pressure.iter().enumerate().filter(|(_, force)| **force != 0.0) {
-            rows.entry(dof).or_default();
-        }
+    pub fn of(mut damping: Triplets, pressure: &[f64], operator: &dyn StiffnessOperator) -> Self {
+        let pressed = (0..pressure.len()).filter(|&dof| pressure[dof] != 0.0);
+        damping.entries.extend(pressed.map(|dof| (dof, dof, 0.0)));
+        damping.merge();
         let mut forces = Self { rows: Vec::new(), entries: Vec::new() };
-        for (dof, columns) in rows {
+        for row in damping.entries.chunk_by(|a, b| a.0 == b.0) {
+            let dof = row[0].0;
             let place = operator.position(dof);
             let mass = operator.masses()[place];
             if mass > 0.0 {
-                let entries =
-                    columns.into_iter().map(|(dof, value)| (operator.position(dof), value));
+                let entries = row.iter().map(|&(_, dof, value)| (operator.position(dof), value));
                 forces.entries.extend(entries);
                 forces.rows.push(Row {
                     place,

@@ -238,7 +238,7 @@ impl<'a> TransientModel<'a> {
             SteppedBody::Assembly { assembly, .. } => assemble_pressures(assembly.mesh)
                 .map(|load| assembly.joined.basis.transposed_forces(&load)),
         };
-        BoundaryForces::of(&self.bound(damping), &pressure.unwrap_or_default(), operator)
+        BoundaryForces::of(self.bound(damping), &pressure.unwrap_or_default(), operator)
     }
 
     /// Maxwell elements of its regions.

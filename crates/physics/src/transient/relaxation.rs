@@ -67,7 +67,7 @@ impl Relaxation {
         let parts = regions.filter_map(|region| {
             let chain = materials.chain(region)?;
             let [_, stiffness] = assemble_region(mesh, materials, MassKind::Lumped, region);
-            let mut part = Part::new(&bound(stiffness), operator);
+            let mut part = Part::new(bound(stiffness), operator);
             let still = vec![0.0; part.places.len()];
             let elements = chain.elements.iter().map(|own| Element {
                 time: own.time,
@@ -180,19 +180,16 @@ impl Element {
 
 impl Part {
     /// The dofs of a matrix that have a mass, without elements.
-    fn new(stiffness: &Triplets, operator: &dyn StiffnessOperator) -> Self {
-        let mut rows: BTreeMap<usize, BTreeMap<usize, f64>> = BTreeMap::new();
+    fn new(mut stiffness: Triplets, operator: &dyn StiffnessOperator) -> Self {
         let mass = |dof: usize| operator.masses()[operator.position(dof)];
-        for &(row, column, value) in &stiffness.entries {
-            if mass(row) > 0.0 && mass(column) > 0.0 {
-                *rows.entry(row).or_default().entry(column).or_default() += value;
-            }
-        }
-        let number: BTreeMap<usize, usize> = rows.keys().copied().zip(0..).collect();
+        stiffness.entries.retain(|&(row, column, _)| mass(row) > 0.0 && mass(column) > 0.0);
+        stiffness.merge();
+        let rows = || stiffness.entries.chunk_by(|a, b| a.0 == b.0);
+        let number: BTreeMap<usize, usize> = rows().map(|row| row[0].0).zip(0..).collect();
         let (mut ends, mut entries) = (Vec::new(), Vec::new());
-        for columns in rows.values() {
-            let known = columns.iter();
-            entries.extend(known.filter_map(|(dof, value)| Some((*number.get(dof)?, *value))));
+        for row in rows() {
+            let known = row.iter();
+            entries.extend(known.filter_map(|(_, dof, value)| Some((*number.get(dof)?, *value))));
             ends.push(entries.len());
         }
         let dofs = || number.keys().copied();
