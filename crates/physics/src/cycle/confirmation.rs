@@ -2,7 +2,7 @@
 
 use super::field::{amplitude, slips};
 use super::limit_cycle::LimitCycle;
-use super::periodic::{PeriodMap, PeriodicMotion, PeriodicState};
+use super::periodic::{Found, PeriodMap, PeriodicState};
 use super::stepping::MeshStepping;
 use super::{CycleError, FloquetMultiplier, FloquetMultipliers, Verdict};
 use crate::linalg::{GaussianNoise, c64, interruption};
@@ -46,35 +46,27 @@ pub struct Confirmation {
     pub external_power: f64,
     /// E-folds of the leading perturbation over the run; negative where it decays, 0 where it is not known.
     pub e_folds: f64,
+    /// Whether the transient still is on the cycle.
+    pub agrees: bool,
 }
 
 impl Confirmation {
-    /// Whether the transient still is on the wave.
-    pub fn agrees(&self, cycle: &LimitCycle) -> bool {
-        let wanted = [cycle.frequency_hz(), cycle.powers.contact.external];
-        self.main_harmonic == Some(cycle.harmonic)
-            && self.is_within(wanted, cycle.fractions, NEAR_WAVE)
-    }
-
-    /// Whether the transient still is on the motion.
-    pub fn agrees_with(&self, motion: &PeriodicMotion) -> bool {
-        let wanted = [motion.frequency_hz, motion.powers.contact.external];
-        self.is_within(wanted, motion.fractions, NEAR_MOTION)
-    }
-
-    /// Whether it has the `[frequency, power]` that are wanted, within bounds relative to them, and the fractions of contact nodes.
-    fn is_within(
-        &self,
+    /// With whether the transient still is on a cycle of this harmonic, `[frequency (Hz), power of the counterface (W/m)]` and
+    /// fractions of contact nodes, within bounds to each.
+    fn held_to(
+        self,
+        harmonic: Option<usize>,
         wanted: [f64; 2],
         fractions: [f64; 3],
-        [frequency_bound, power_bound, status_bound]: [f64; 3],
-    ) -> bool {
+        bounds: [f64; 3],
+    ) -> Self {
         let found = [self.main_frequency_hz.unwrap_or(0.0), self.external_power];
-        let near = |i: usize, bound: f64| (found[i] / wanted[i] - 1.0).abs() <= bound;
+        let is_near = |i: usize| (found[i] / wanted[i] - 1.0).abs() <= bounds[i];
         let mut statuses = self.status.iter().zip(fractions);
-        near(0, frequency_bound)
-            && near(1, power_bound)
-            && statuses.all(|(found, wanted)| (found - wanted).abs() <= status_bound)
+        let agrees = self.main_harmonic == harmonic
+            && (0..2).all(is_near)
+            && statuses.all(|(found, wanted)| (found - wanted).abs() <= bounds[2]);
+        Self { agrees, ..self }
     }
 }
 
@@ -141,7 +133,7 @@ impl MeshStepping<'_> {
         let main = harmonics.max_by(|a, b| size(&a.1).total_cmp(&size(&b.1)));
         let least = 1e-4 * cycle.state.point.contact.interference;
         let main = main.filter(|(_, own)| size(own) > least);
-        Ok(Confirmation {
+        let found = Confirmation {
             periods,
             main_frequency_hz: main.as_ref().map(|(_, own)| turned(own).abs() / TAU / duration),
             main_harmonic: main.map(|(harmonic, _)| harmonic),
@@ -149,7 +141,10 @@ impl MeshStepping<'_> {
             external_power: powers.external / counted as f64,
             e_folds: leading
                 .map_or(0.0, |found| found.growth_rate * periods as f64 / cycle.frequency_hz()),
-        })
+            agrees: false,
+        };
+        let wanted = [cycle.frequency_hz(), cycle.powers.contact.external];
+        Ok(found.held_to(Some(cycle.harmonic), wanted, cycle.fractions, NEAR_WAVE))
     }
 }
 
@@ -158,10 +153,11 @@ impl Confirmation {
     /// and reads the last fifth.
     pub fn beside(
         map: &mut PeriodMap<'_>,
-        state: &PeriodicState,
+        found: &Found,
         leading: Option<&FloquetMultiplier>,
         least: usize,
     ) -> Self {
+        let (state, image) = (&found.state, &found.image);
         let periods = telling_periods(leading, E_FOLDS_OF_RANDOM / state.period, least);
         let start = perturbed(map, state);
         map.place(&start);
@@ -188,14 +184,17 @@ impl Confirmation {
         let (powers, _, counts) = map.run.take_sums();
         let share = turned(&turns) / TAU / (turns.len() - 1).max(1) as f64;
         let steps = (periods - first) * map.steps();
-        Self {
+        let found = Self {
             periods,
             main_frequency_hz: Some((1.0 + share) / state.period),
             main_harmonic: None,
             status: counts.fractions(),
             external_power: powers.external / steps as f64,
             e_folds: leading.map_or(0.0, |found| found.growth_rate * periods as f64 * state.period),
-        }
+            agrees: false,
+        };
+        let wanted = [1.0 / state.period, image.powers.contact.external];
+        found.held_to(None, wanted, image.counts.fractions(), NEAR_MOTION)
     }
 }
 

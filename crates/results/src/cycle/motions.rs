@@ -106,10 +106,8 @@ impl FoundCycle {
     /// What is reported of it, with the kick that tips stable sliding into it.
     fn told(self, body: &MotionBody<'_>, sought: SoughtCycle) -> SoughtCycle {
         let branch = self.branch.as_ref().map(|branch| body.branch(branch));
-        let confirmation = self.confirmation.as_ref().map(|run| {
-            let agrees = run.agrees_with(&self.motion);
-            ConfirmationSummary::ran(run, agrees, body.thickness)
-        });
+        let ran = |run: &Confirmation| ConfirmationSummary::ran(run, body.thickness);
+        let confirmation = self.confirmation.as_ref().map(ran);
         let exponents = known(&self.stability).map(|found| {
             found.multipliers.iter().map(|own| (None, Perturbation::of(own))).collect()
         });

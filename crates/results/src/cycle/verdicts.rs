@@ -51,10 +51,10 @@ pub struct ConfirmationRun {
 
 impl ConfirmationSummary {
     /// Of a run, and whether that still is on the cycle.
-    pub(super) fn ran(run: &Confirmation, agrees: bool, thickness: f64) -> Self {
+    pub(super) fn ran(run: &Confirmation, thickness: f64) -> Self {
         Self::Ran(ConfirmationRun {
             periods: run.periods,
-            agrees,
+            agrees: run.agrees,
             main_frequency_hz: run.main_frequency_hz.and_then(present),
             main_harmonic: run.main_harmonic,
             status: StatusFractions::of(run.status),

@@ -131,7 +131,7 @@ impl FoundWave {
     /// What a transient that started on the cycle says.
     fn confirmed(&self, thickness: f64) -> Option<ConfirmationSummary> {
         Some(match self.confirmation.as_ref()? {
-            Ok(run) => ConfirmationSummary::ran(run, run.agrees(&self.cycle), thickness),
+            Ok(run) => ConfirmationSummary::ran(run, thickness),
             Err(error) => ConfirmationSummary::Failed { agrees: false, error: error.clone() },
         })
     }

@@ -255,7 +255,7 @@ impl<'a> PeriodicStudy<'a> {
         let leading = known.and_then(FloquetMultipliers::leading).copied();
         let periods = self.choices.confirmation_periods;
         let confirmation = (periods > 0)
-            .then(|| Confirmation::beside(&mut map, &found.state, leading.as_ref(), periods));
+            .then(|| Confirmation::beside(&mut map, &found, leading.as_ref(), periods));
         let faces = faces_in_air(self.case, &self.stepped);
         let sound = (!faces.is_empty()).then(|| Sound::of(&mut map, &found.state, &faces));
         let count = self.choices.harmonic_count;
