@@ -135,7 +135,7 @@ impl<'a> PeriodicStudy<'a> {
         &'b self,
         operator: &'b dyn StiffnessOperator,
         mode: &ComplexMode,
-        (found, steps): (&Found, usize),
+        found: &Found,
         watch: &dyn SweepWatch,
     ) -> Option<Result<PeriodicBranch, TransientError>> {
         let (parameter, values) = self.continuation.as_ref()?;
@@ -161,7 +161,7 @@ impl<'a> PeriodicStudy<'a> {
             tune: &tune,
         };
         let start = self.start.map_or(own, |start| start.1);
-        let branch = request.follow(start, found, steps);
+        let branch = request.follow(start, found);
         Some(branch.map(|branch| self.with_onsets(branch, start)))
     }
 
@@ -235,9 +235,8 @@ impl<'a> PeriodicStudy<'a> {
             Some(found) => found,
             None => find_from(&mut map, &self.steady.mode(place))?,
         };
-        watch.keep("cycle", &found.columns(map.steps()));
-        let steps = map.steps();
-        let branch = self.branch(operator, mode, (&found, steps), &watch);
+        watch.keep("cycle", &found.columns());
+        let branch = self.branch(operator, mode, &found, &watch);
         let mut branch = branch.transpose()?;
         if self.start.is_some() {
             (map, found) = self.here(operator, mode, branch.as_mut())?;
@@ -283,7 +282,7 @@ impl<'a> PeriodicStudy<'a> {
         let largest = kept
             .into_iter()
             .max_by(|a, b| a.found.image.amplitude.total_cmp(&b.found.image.amplitude));
-        let Some(Point { found, steps, .. }) = largest else {
+        let Some(Point { found, .. }) = largest else {
             let parameter = branch.parameter;
             let value = |value: f64| parameter.in_key_units(value);
             let [least, most] = branch.range().unwrap_or([f64::NAN; 2]).map(value);
@@ -296,7 +295,7 @@ impl<'a> PeriodicStudy<'a> {
             )));
         };
         let mut map = self.map(self.body(), operator, mode)?;
-        map.step_in(steps);
+        map.step_in(found.steps);
         Ok((map, found))
     }
 

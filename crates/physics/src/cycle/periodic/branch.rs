@@ -151,12 +151,7 @@ impl BranchRequest<'_, '_> {
     ///
     /// # Errors
     /// A body that the time loop cannot take.
-    pub fn follow(
-        &self,
-        start: f64,
-        found: &Found,
-        steps: usize,
-    ) -> Result<PeriodicBranch, TransientError> {
+    pub fn follow(&self, start: f64, found: &Found) -> Result<PeriodicBranch, TransientError> {
         let mut values = Values::new(self.values);
         let [least, most] = values.range();
         if self.kept > least && self.kept < most {
@@ -165,8 +160,8 @@ impl BranchRequest<'_, '_> {
         let scales = [most - least, found.image.amplitude];
         let half = |direction: f64| {
             let mut corrector = Corrector::new((self.map)()?, self.tune, scales);
-            corrector.map.step_in(steps);
-            let first = Point { value: start, steps, found: found.clone(), is_fold: false };
+            corrector.map.step_in(found.steps);
+            let first = Point { value: start, found: found.clone(), is_fold: false };
             Ok(Follower::new(corrector, &values, first, direction))
         };
         let [(down, low_end), (mut up, high_end)] = both_halves(&values, start, self.watch, half)?;
@@ -195,7 +190,7 @@ impl BranchRequest<'_, '_> {
                 let mut map = (self.map)()?;
                 let motions = group.iter().enumerate().map(|(i, point)| {
                     (self.tune)(&mut map, point.value)?;
-                    map.step_in(point.steps);
+                    map.step_in(point.found.steps);
                     let motion = PeriodicMotion::brief(&mut map, &point.found).0;
                     let stability = self.with_stability.then(|| match known.get(i) {
                         Some(known) => known.clone(),
@@ -222,7 +217,7 @@ impl BranchRequest<'_, '_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::cycle::{CyclePowers, FloquetMultiplier};
+    use crate::cycle::FloquetMultiplier;
     use crate::linalg::c64;
 
     fn motion(value: f64, growth_rate: f64) -> BranchMotion {
@@ -240,23 +235,7 @@ mod tests {
         BranchMotion {
             value,
             is_fold: false,
-            motion: PeriodicMotion {
-                frequency_hz: 1.0,
-                steps: 1,
-                residual: 0.0,
-                periods: 0,
-                powers: CyclePowers::default(),
-                fractions: [0.0; 3],
-                shares: Vec::new(),
-                node: 0,
-                counterface_speed: 0.0,
-                friction_coefficient: None,
-                amplitude: 0.0,
-                velocity: 0.0,
-                instants: Vec::new(),
-                harmonics: Vec::new(),
-                frames: Vec::new(),
-            },
+            motion: PeriodicMotion::default(),
             stability: Some(Ok(multipliers)),
         }
     }

@@ -81,8 +81,6 @@ pub struct Point {
     pub value: f64,
     /// The motion.
     pub found: Found,
-    /// Steps of its period.
-    pub steps: usize,
     /// Whether the branch turns back here.
     pub is_fold: bool,
 }
@@ -95,7 +93,7 @@ impl Point {
 
     /// What it is found again from: those of its motion, the value, and whether it is a fold.
     pub(super) fn columns(&self) -> Vec<Vec<f64>> {
-        let mut columns = self.found.columns(self.steps);
+        let mut columns = self.found.columns();
         columns.push(vec![self.value, f64::from(u8::from(self.is_fold))]);
         columns
     }
@@ -170,7 +168,7 @@ impl<'b, 'a> Corrector<'b, 'a> {
         let [value, is_fold] = last[..].try_into().ok()?;
         (self.tune)(&mut self.map, value).ok()?;
         let found = Found::recalled(&mut self.map, found)?;
-        Some(Point { value, steps: self.map.steps(), found, is_fold: is_fold > 0.0 })
+        Some(Point { value, found, is_fold: is_fold > 0.0 })
     }
 
     /// A point's motion with its vibration about its mean so many times as large, at another value.
@@ -184,7 +182,7 @@ impl<'b, 'a> Corrector<'b, 'a> {
         value: f64,
     ) -> Result<Guess, TransientError> {
         (self.tune)(&mut self.map, point.value)?;
-        self.map.step_in(point.steps);
+        self.map.step_in(point.found.steps);
         let mut motion = self.map.mean(&point.found.state);
         let vibration = difference(&point.found.state.motion, &motion);
         add(&mut motion, factor, &vibration);
@@ -312,13 +310,13 @@ impl<'b, 'a> Corrector<'b, 'a> {
     fn point(&self, guess: &Guess, image: &PeriodImage, missed: f64, periods: usize) -> Point {
         Point {
             value: guess.value,
-            steps: self.map.steps(),
             is_fold: false,
             found: Found {
                 state: guess.state.clone(),
                 image: image.clone(),
                 residual: missed,
                 periods,
+                steps: self.map.steps(),
             },
         }
     }

@@ -114,15 +114,13 @@ impl PeriodicMotion {
             periods: found.periods,
             powers: found.image.powers,
             fractions: found.image.counts.fractions(),
-            shares: Vec::new(),
             node,
             counterface_speed: map.run.contact().counterface_speed(node),
             friction_coefficient: map.run.contact().friction_coefficient(node),
             amplitude,
             velocity: found.image.amplitude / map.mass().sqrt(),
-            instants: Vec::new(),
             harmonics: harmonics(&samples),
-            frames: Vec::new(),
+            ..Self::default()
         };
         (motion, first)
     }

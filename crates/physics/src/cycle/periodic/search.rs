@@ -47,6 +47,8 @@ pub struct Found {
     pub residual: f64,
     /// Periods stepped for it.
     pub periods: usize,
+    /// Steps of its period.
+    pub steps: usize,
 }
 
 impl Found {
@@ -59,9 +61,9 @@ impl Found {
         CycleError::not_converged(self.periods, self.residual, self.state.period)
     }
 
-    /// What it is found again from, with the steps of its period: the motion, and its numbers.
-    pub fn columns(&self, steps: usize) -> Vec<Vec<f64>> {
-        let [steps, periods] = [steps as f64, self.periods as f64];
+    /// What it is found again from: the motion, and its numbers.
+    pub fn columns(&self) -> Vec<Vec<f64>> {
+        let [steps, periods] = [self.steps, self.periods].map(|count| count as f64);
         let numbers = vec![self.state.period, steps, self.residual, periods];
         vec![self.state.motion.clone(), numbers]
     }
@@ -73,9 +75,10 @@ impl Found {
         if motion.len() != map.unknowns() || !(period > 0.0 && steps >= 1.0) {
             return None;
         }
-        map.step_in(steps as usize);
+        let (steps, periods) = (steps as usize, periods as usize);
+        map.step_in(steps);
         let state = PeriodicState { motion: motion.clone(), period };
-        Some(Self { image: map.image(&state), state, residual, periods: periods as usize })
+        Some(Self { image: map.image(&state), state, residual, periods, steps })
     }
 }
 
@@ -151,13 +154,14 @@ fn attempt(
         }
         let image = map.image(&search.state);
         search.spent = map.periods() - first;
-        search.judge(&image)?;
+        search.judge(&image, map.steps())?;
         let is_stuck = !search.is_plain && search.spent >= search.improved.0 + PATIENCE;
         let is_spent = search.spent >= MOST + least || is_stuck;
         if search.best_residual() < TOLERANCE || is_spent {
             let (best, periods) = (search.best, search.spent);
             let best = best.ok_or_else(|| CycleError::unbounded(periods))?;
-            return Ok(Found { periods, ..best });
+            // In the steps that the map is left with.
+            return Ok(Found { periods, steps: map.steps(), ..best });
         }
         let is_far = image.relative_residual() > NEAR && search.is_plain;
         search.is_plain = search.spent <= least || (is_far && search.spent <= most);
@@ -195,7 +199,7 @@ impl Search {
     }
 
     /// Keeps the image if it is the best, and refuses motions that lead nowhere.
-    fn judge(&mut self, image: &PeriodImage) -> Result<(), CycleError> {
+    fn judge(&mut self, image: &PeriodImage, steps: usize) -> Result<(), CycleError> {
         let periods = self.spent;
         let first = *self.first.get_or_insert(image.vibration);
         if !image.is_finite() || image.vibration > UNBOUNDED * first {
@@ -217,8 +221,8 @@ impl Search {
             self.improved = (self.spent, residual);
         }
         if residual < self.best_residual() {
-            self.best =
-                Some(Found { state: self.state.clone(), image: image.clone(), residual, periods });
+            let (state, image) = (self.state.clone(), image.clone());
+            self.best = Some(Found { state, image, residual, periods, steps });
         }
         Ok(())
     }
