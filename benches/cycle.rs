@@ -8,9 +8,9 @@
 
 use crate::is_measured;
 use frictionsim::case::Case;
-use frictionsim::cea::Unwatched;
+use frictionsim::cea::{ModeLimit, Unwatched};
 use frictionsim::contact::SlidingContact;
-use frictionsim::cycle::{CycleSolver, Family, OperatingPoint, Parameter};
+use frictionsim::cycle::{CycleSolver, DiscModel, Family, MODES, OperatingPoint, Parameter};
 use frictionsim::fem::operator::SimdLevel;
 use frictionsim::fem::{ElasticMaterial, PlaneFormulation, RayleighDamping};
 use frictionsim::mesh::{AnnulusSpecification, BoundaryCondition, ElementKind};
@@ -50,16 +50,12 @@ pub fn run() {
         },
         damping: RayleighDamping { mass_coefficient: 40.0, stiffness_coefficient: 4.5e-7 },
     };
+    let model = DiscModel { specification, material, damping: point.damping };
     println!("n  from birth  +2 %  -20 %  stability  61 speeds  factorizations");
     for harmonic in [1, 2] {
-        let solver = CycleSolver::new(
-            &specification,
-            &material,
-            &point.damping,
-            Family::lowest(harmonic),
-            None,
-        )
-        .expect("a valid mesh");
+        let family = Family::lowest(harmonic);
+        let onset = model.onset_of(family, ModeLimit::Lowest(MODES)).expect("an onset");
+        let solver = CycleSolver::born_at(&model, family, &onset, None).expect("a valid mesh");
         let start = Instant::now();
         let cycle = solver.find(&point).expect("a limit cycle");
         let birth = start.elapsed();
@@ -72,7 +68,9 @@ pub fn run() {
         };
         let (near, far) = (neighbour(1.02), neighbour(0.8));
         let stability = fastest(|| {
-            solver.stability(&cycle).expect("exponents");
+            let stepping =
+                solver.stepping(SimdLevel::detect()).expect("a mesh of one element kind");
+            stepping.settle(&cycle, None).expect("exponents");
         });
         let speeds: Vec<f64> = (61 - counted(61, 3)..61)
             .map(|i| 10.0 * 600f64.powf(i as f64 / 60.0) * TAU / 60.0)

@@ -112,7 +112,7 @@ fn leading_exponent_does_not_depend_on_the_number_of_phases_beyond_its_uncertain
             let solver =
                 CycleSolver::born_at(&model, Family::lowest(1), &onset, Some(phases)).unwrap();
             let cycle = solver.find(&point(&model, &contact)).unwrap();
-            let stability = solver.stability(&cycle).unwrap();
+            let stability = crate::cycle::stability_of(&solver, &cycle);
             let leading = stability.leading().unwrap();
             (phases, leading.growth_rate, leading.uncertainty)
         })

@@ -1,5 +1,6 @@
 //! Stability of rotating waves: leading multipliers, from the map of perturbations over one period, and where a branch changes it.
 
+use super::CycleError;
 use super::arnoldi::{MultiplierSearch, Ritz, unit};
 use super::limit_cycle::LimitCycle;
 use super::parameter::Parameter;
@@ -7,8 +8,6 @@ use super::stability::{
     FloquetMultiplier, FloquetMultipliers, RidingMode, StabilityChange, crossing,
 };
 use super::stepping::{MeshStepping, Period};
-use super::{CycleError, CycleSolver};
-use crate::fem::operator::SimdLevel;
 use crate::linalg::c64;
 use std::f64::consts::TAU;
 
@@ -46,13 +45,6 @@ impl SteppedCycle {
     #[must_use]
     pub fn scaled_to(&self, cycle: &LimitCycle) -> Self {
         Self { cycle: cycle.clone(), ..self.clone() }
-    }
-}
-
-impl CycleSolver {
-    /// Growth of small perturbations of a cycle.
-    pub fn stability(&self, cycle: &LimitCycle) -> Result<FloquetMultipliers, CycleError> {
-        Ok(self.stepping(SimdLevel::detect())?.settle(cycle, None)?.stability)
     }
 }
 

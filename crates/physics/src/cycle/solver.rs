@@ -5,13 +5,12 @@ use super::continuation::{BranchEnd, Turning, Values, Way, both_halves, joined};
 use super::field::{field, start_of};
 use super::grid::PhaseGrid;
 use super::limit_cycle::LimitCycle;
-use super::onset::{DiscModel, MODES, largest_linear_wave, refined};
+use super::onset::{DiscModel, largest_linear_wave, refined};
 use super::parameter::{OperatingPoint, Parameter};
 use super::state::PointState;
 use super::wave::Wave;
 use super::{CycleError, Family, Onset, WaveBody};
-use crate::cea::{ModeLimit, Unwatched};
-use crate::fem::{ElasticMaterial, RayleighDamping};
+use crate::cea::Unwatched;
 use crate::mesh::{AnnulusSpecification, ElementKind};
 use std::convert::Infallible;
 use std::f64::consts::TAU;
@@ -66,24 +65,6 @@ pub struct CycleSolver {
 }
 
 impl CycleSolver {
-    /// As [`Self::born_at`], at the onset of `family` among the lowest modes, found for `damping`.
-    ///
-    /// # Errors
-    /// As [`Self::born_at`]; [`CycleError::NoOnset`] where there is no such onset.
-    pub fn new(
-        specification: &AnnulusSpecification,
-        material: &ElasticMaterial,
-        damping: &RayleighDamping,
-        family: Family,
-        points: Option<usize>,
-    ) -> Result<Self, CycleError> {
-        check_mesh(specification, family.harmonic)?;
-        let model =
-            DiscModel { specification: *specification, material: *material, damping: *damping };
-        let onset = model.onset_of(family, ModeLimit::Lowest(MODES))?;
-        Self::born_at(&model, family, &onset, points)
-    }
-
     /// The solver of the waves of `family`, born at `onset`, on a mesh of Quad4 elements, with `points` phases (odd; the
     /// next odd number is taken) or as many as the mesh asks for, see [`PhaseGrid`].
     ///
