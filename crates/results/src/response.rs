@@ -7,7 +7,7 @@ use frictionsim_chart::{Axis, Figure, INK, Line, Marker, Panel, Points, SERIES};
 use frictionsim_output::{Described, Document, Section, Table};
 use frictionsim_physics::linalg::c64;
 use frictionsim_signal::reader::{self, NamedResponse};
-use frictionsim_signal::{FrequencyResponse, ResponseQuantity};
+use frictionsim_signal::{FrequencyResponse, ResponseQuantity, prominence};
 use serde::Serialize;
 use std::io;
 
@@ -106,32 +106,26 @@ fn followed_phase(frequencies: &[f64], values: &[c64]) -> Vec<(f64, f64)> {
 
 /// Places of the maxima that rise out of their surroundings by more than the noise does, highest rise first.
 ///
-/// The rise of a maximum is the smaller of the two depths to which the logarithm of the magnitude falls on its sides
-/// before it climbs higher again. The noise is the median distance of neighbouring logarithms over 0.95, which of
-/// independent normal values is their standard deviation.
+/// The rise of a maximum is its [`prominence`]. The noise is the median distance of neighbouring logarithms over 0.95,
+/// which of independent normal values is their standard deviation.
 fn maxima(magnitude: &[f64]) -> Vec<usize> {
     let logs: Vec<f64> = magnitude.iter().map(|m| m.max(1e-300).ln()).collect();
     let mut steps: Vec<f64> = logs.windows(2).map(|pair| (pair[1] - pair[0]).abs()).collect();
     steps.sort_by(f64::total_cmp);
     let noise = steps.get(steps.len() / 2).copied().unwrap_or(0.0) / 0.95;
     let least = PROMINENCE.0.max(PROMINENCE.1 * noise);
-    let depth = |top: f64, side: &mut dyn Iterator<Item = &f64>| {
-        let until = side.take_while(|value| **value <= top);
-        top - until.copied().fold(top, f64::min)
-    };
     let peaks = (1..logs.len().saturating_sub(1))
         .filter(|&i| logs[i] > logs[i - 1] && logs[i] >= logs[i + 1]);
-    let rise = |i: usize| {
-        let before = depth(logs[i], &mut logs[..i].iter().rev());
-        before.min(depth(logs[i], &mut logs[i + 1..].iter()))
-    };
     // A look at the nearest values spares most of the noise the long way.
     let is_high = |i: &usize| {
         let near = &logs[i.saturating_sub(3)..(i + 4).min(logs.len())];
         near.iter().all(|value| *value <= logs[*i])
     };
-    let mut found: Vec<(f64, usize)> =
-        peaks.filter(is_high).map(|i| (rise(i), i)).filter(|(rise, _)| *rise > least).collect();
+    let mut found: Vec<(f64, usize)> = peaks
+        .filter(is_high)
+        .map(|i| (prominence(magnitude, i), i))
+        .filter(|(rise, _)| *rise > least)
+        .collect();
     frictionsim_physics::order::sort_by_number(&mut found, |a| -a.0);
     found.truncate(MOST_MAXIMA);
     found.into_iter().map(|(_, place)| place).collect()

@@ -33,11 +33,12 @@ pub use lines::{SpectralLine, SpectralResolution, Superharmonic, main_frequency,
 pub use modal::{
     Estimate, FittedMode, HalfPowerBand, Identification, ModalFit, ModalModel, ModalShare,
     NoiseModel, Pole, RayleighFit, ResonanceNote, fit_modes, fit_rayleigh, half_power, identify,
+    prominence,
 };
 pub use response::{FrequencyResponse, ResponseQuantity};
 pub use rotating::{RotatingLine, rotating_lines};
 pub use spectrogram::{Spectrogram, SpectrogramOptions, spectrogram};
-pub use spectrum::{AmplitudeSpectrum, amplitude_spectrum, averaged_spectrum, centred};
+pub use spectrum::{AmplitudeSpectrum, amplitude_spectrum, averaged_spectrum, centred, top_of};
 pub use statistics::student_95;
 pub use transform::{Fft, forward_transform, inverse_transform};
 pub use window::Window;

@@ -16,7 +16,7 @@ mod rayleigh;
 
 pub use basis::{ModalModel, ModalShare, Pole};
 pub use fit::{FittedMode, ModalFit, fit_modes};
-pub use half_power::{HalfPowerBand, ResonanceNote, half_power};
+pub use half_power::{HalfPowerBand, ResonanceNote, half_power, prominence};
 pub use identification::{Identification, identify};
 pub use noise::NoiseModel;
 pub use rayleigh::{Estimate, RayleighFit, fit_rayleigh};

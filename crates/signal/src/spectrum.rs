@@ -124,7 +124,7 @@ impl BlockTransform {
 
 /// Offset, bins, and height of the top of the parabola through the logarithms of three amplitudes around a
 /// maximum: the main lobe of a window is nearly Gaussian.
-pub(super) fn top_of(amplitudes: [f64; 3]) -> (f64, f64) {
+pub fn top_of(amplitudes: [f64; 3]) -> (f64, f64) {
     let [left, middle, right] = amplitudes.map(|a| a.max(f64::MIN_POSITIVE).ln());
     let bend = left - 2.0 * middle + right;
     let shift = if bend < 0.0 { (0.5 * (left - right) / bend).clamp(-0.5, 0.5) } else { 0.0 };

@@ -5,7 +5,7 @@ use frictionsim_chart::{
     Axis, ColourMap, GRID, Heat, Label, Line, MUTED, Panel, Rule, SERIES, Shapes, Side, Stroke,
     extremes,
 };
-use frictionsim_signal::{AmplitudeSpectrum, Spectrogram};
+use frictionsim_signal::{AmplitudeSpectrum, Spectrogram, top_of};
 
 /// A mode of the eigenvalue analysis, drawn as a line over what a signal contains.
 #[derive(Clone, Debug, PartialEq)]
@@ -168,7 +168,9 @@ fn multiples(spectrum: &AmplitudeSpectrum, highest_hz: f64, main_hz: Option<f64>
     };
     let strongest = || {
         let peak = largest(1, count).filter(|&peak| amplitudes[peak] > 0.0)?;
-        Some(between_lines(frequencies, amplitudes, peak))
+        let near = amplitudes.get(peak - 1..peak + 2).and_then(|near| near.try_into().ok());
+        let shift = near.map_or(0.0, |near| top_of(near).0);
+        Some(frequencies[peak] + shift * (frequencies[peak] - frequencies[peak - 1]))
     };
     let Some(main) = main_hz.or_else(strongest).filter(|main| *main > 0.0) else {
         return Vec::new();
@@ -195,21 +197,6 @@ fn multiples(spectrum: &AmplitudeSpectrum, highest_hz: f64, main_hz: Option<f64>
         }
     }
     labels
-}
-
-/// The frequency of a line by the parabola through the logarithms of its largest value and of the two beside it.
-fn between_lines(frequencies: &[f64], amplitudes: &[f64], peak: usize) -> f64 {
-    let near = peak.checked_sub(1).zip(amplitudes.get(peak + 1));
-    let Some((before, &after)) = near else {
-        return frequencies[peak];
-    };
-    let [low, middle, high] = [amplitudes[before], amplitudes[peak], after].map(f64::ln);
-    let bend = low - 2.0 * middle + high;
-    if !(bend < 0.0) {
-        return frequencies[peak];
-    }
-    let shift = 0.5 * (low - high) / bend;
-    frequencies[peak] + shift.clamp(-0.5, 0.5) * (frequencies[peak] - frequencies[before])
 }
 
 #[cfg(test)]

@@ -104,8 +104,9 @@ fn valley(y: &[f64], first: usize, last: usize) -> usize {
     (first..=last).fold(first, |lowest, i| if y[i] < y[lowest] { i } else { lowest })
 }
 
-/// Logarithmic height of a maximum above the higher of the two lowest passes to higher ground.
-fn prominence(y: &[f64], top: usize) -> f64 {
+/// Height of the maximum at `top` above the higher of the two lowest passes to higher ground, neper:
+/// `ln(y_top / max(y_left, y_right))`.
+pub fn prominence(y: &[f64], top: usize) -> f64 {
     let descent = |walk: &mut dyn Iterator<Item = usize>| {
         walk.map(|i| y[i]).take_while(|own| *own <= y[top]).fold(y[top], f64::min)
     };
