@@ -1,6 +1,6 @@
 //! A mode shape as a picture of the deformed body.
 
-use super::solid::Picture;
+use super::solid::{DEFLECTION, Picture};
 use super::{CeaReport, arrow};
 use crate::charts::palette::UNSTABLE;
 use crate::charts::{Disc, MovingBody, SolidView};
@@ -11,9 +11,6 @@ use frictionsim_chart::{
 use frictionsim_physics::cea::ComplexMode;
 use frictionsim_physics::linalg::c64;
 use frictionsim_physics::mesh::Mesh;
-
-/// Largest displacement drawn, as a fraction of the half width of the mesh.
-const DEFLECTION: f64 = 0.07;
 
 /// One mode to draw.
 #[derive(Clone, Copy, Debug)]

@@ -5,8 +5,8 @@ use frictionsim_physics::linalg::c64;
 use frictionsim_physics::mesh::{SheetNode, SolidSector};
 use std::sync::Arc;
 
-/// Largest displacement drawn, as a fraction of the outer radius.
-const DEFLECTION: f64 = 0.07;
+/// Largest displacement drawn, as a fraction of the outer radius or of the half width of a mesh.
+pub(super) const DEFLECTION: f64 = 0.07;
 
 /// Amplitude of the displacement of a node.
 pub(super) fn size(u: &[c64]) -> f64 {
