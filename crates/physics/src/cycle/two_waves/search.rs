@@ -29,6 +29,8 @@ pub struct TwoWaveSearch {
     pub motion: TwoWaveMotion,
     /// What a transient that started on it has after some hundred periods, where both waves still live.
     pub confirmation: Option<Measured>,
+    /// What the transient from the cycle has settled on.
+    pub settled: Measured,
 }
 
 impl TwoWaveSearch {
@@ -71,6 +73,7 @@ impl MeshStepping<'_> {
             return Ok(TwoWaveSearch {
                 motion: waves.motion(state),
                 confirmation: Measured::from_numbers(confirmation),
+                settled,
                 waves,
             });
         }
@@ -97,7 +100,7 @@ impl MeshStepping<'_> {
         let mut columns = numbers.map(Option::unwrap_or_default).to_vec();
         columns.extend(motion.state.columns());
         watch.keep("found", &columns);
-        Ok(TwoWaveSearch { waves, motion, confirmation })
+        Ok(TwoWaveSearch { waves, motion, confirmation, settled })
     }
 
     /// What a transient from a cycle, seeded with a second wave, settles on.
