@@ -32,8 +32,6 @@ pub struct ContactTerms {
     pub stiffness: Vec<Triplets>,
     /// Dashpots of contact and friction.
     pub dashpots: Vec<Triplets>,
-    /// Structural damping of the penalty, whose force is `i` times it; nothing where it has none.
-    pub structural: Vec<Triplets>,
 }
 
 /// Linearises contact and friction at `points` around `state`, among whose points they begin at `first`, moved to the left-hand
@@ -77,11 +75,6 @@ pub fn linearized(
             add_normal_law(&mut terms.stiffness, (p, frozen), &points[i], springs[first + i]);
         }
         merge_many(&mut terms.stiffness);
-    }
-    if stiffness.loss_factor != 0.0 {
-        terms.structural = terms.stiffness.clone();
-        let entries = terms.structural.iter_mut().flat_map(|t| &mut t.entries);
-        entries.for_each(|entry| entry.2 *= stiffness.loss_factor);
     }
     // What the forces of the base state do.
     for (p, forces) in state.normal_forces.iter().enumerate() {

@@ -1,10 +1,9 @@
 //! Assembly of element matrices.
 
 use super::element::{self, ElementGeometry};
-use super::{MaterialField, ModulusTable, RayleighDamping, Triplets, assemble_support_losses};
+use super::{MaterialField, RayleighDamping, Triplets};
 use crate::mesh::Mesh;
 use nalgebra::DMatrix;
-use std::sync::Arc;
 
 /// Consistent or lumped mass.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -75,16 +74,20 @@ pub fn element_mass(
     }
 }
 
-/// Mass and stiffness of the elements of one region alone, over all dofs: kg and N/m, in the plane for each metre of thickness.
-pub fn assemble_region(
+/// Stiffness of the elements of one region alone, over all dofs: N/m, in the plane for each metre of thickness.
+pub fn region_stiffness(mesh: &Mesh, material: &dyn MaterialField, region: usize) -> Triplets {
+    let is_own = |e: usize| mesh.region(e) == region;
+    assemble_congruent(mesh, &is_own, |e| element_stiffness(mesh, material, e))
+}
+
+/// Mass of the elements of one region alone, over all dofs: kg, in the plane for each metre of thickness.
+pub fn region_mass(
     mesh: &Mesh,
     material: &dyn MaterialField,
     kind: MassKind,
     region: usize,
-) -> [Triplets; 2] {
-    let is_own = |e: usize| mesh.region(e) == region;
-    let stiffness = assemble_congruent(mesh, &is_own, |e| element_stiffness(mesh, material, e));
-    [mass_of(mesh, material, kind, &is_own), stiffness]
+) -> Triplets {
+    mass_of(mesh, material, kind, &|e| mesh.region(e) == region)
 }
 
 /// Mass of some elements without point masses.
@@ -216,39 +219,6 @@ pub fn assemble_patch_damping(
         }
     }
     triplets
-}
-
-/// Structural damping `sum_e eta_e K_e` over all dofs, N/m, in the plane for each metre of thickness; `None` where no material
-/// has any. The force on a motion `x e^{lambda t}` with `Im lambda > 0` is `i` times it.
-pub fn assemble_structural_damping(mesh: &Mesh, material: &dyn MaterialField) -> Option<Triplets> {
-    let loss = |e: usize| material.of(mesh.region(e)).loss_factor;
-    let is_lossy = |e: usize| loss(e) != 0.0;
-    let lossy = |e: usize| element_stiffness(mesh, material, e) * loss(e);
-    let has_losses = (0..mesh.element_count()).any(is_lossy);
-    has_losses.then(|| sum_of_elements(mesh, &is_lossy, lossy))
-}
-
-/// Stiffness over all dofs of each region whose modulus depends on frequency, at its lowest frequency, with its table.
-pub fn assemble_tabled(
-    mesh: &Mesh,
-    material: &dyn MaterialField,
-) -> Vec<(Arc<ModulusTable>, Triplets)> {
-    let regions = 0..mesh.regions.len().max(1);
-    let tabled = regions.filter_map(|region| {
-        let table = material.table(region)?;
-        let [_, stiffness] = assemble_region(mesh, material, MassKind::Lumped, region);
-        Some((Arc::clone(table), stiffness))
-    });
-    tabled.collect()
-}
-
-/// Structural damping of materials and supports together.
-pub fn assemble_losses(mesh: &Mesh, material: &dyn MaterialField) -> Option<Triplets> {
-    let parts = [assemble_structural_damping(mesh, material), assemble_support_losses(mesh)];
-    parts.into_iter().flatten().reduce(|mut sum, part| {
-        sum.entries.extend(part.entries);
-        sum
-    })
 }
 
 /// Sums the element matrices of those that are kept, each kind of them computed once.

@@ -25,9 +25,9 @@ mod triplets;
 
 pub use assembly::{
     MassKind, assemble_displacement_stiffness, assemble_extra_damping,
-    assemble_geometric_stiffness, assemble_losses, assemble_mass, assemble_patch_damping,
-    assemble_point_masses, assemble_region, assemble_stiffness, assemble_structural_damping,
-    assemble_tabled, element_mass, element_matrices, element_stiffness, lumped_masses,
+    assemble_geometric_stiffness, assemble_mass, assemble_patch_damping, assemble_point_masses,
+    assemble_stiffness, element_mass, element_matrices, element_stiffness, lumped_masses,
+    region_mass, region_stiffness,
 };
 pub use discretization::DiscretizationError;
 pub use dof_map::DofMap;
@@ -39,8 +39,5 @@ pub use modulus_table::{ModulusTable, own_frequency_step};
 pub use orthotropy::{Elasticity, Indefinite, MaterialAxes, Orthotropy, RATIOS};
 pub use rotation::{RotationFrame, RotationTerms, Spin, assemble_rotation};
 pub use stress::{NodalStress, SolidStress, nodal_stress, revolved_stress, solid_stress};
-pub use support::{
-    assemble_attachments, assemble_pressures, assemble_support, assemble_support_losses,
-    assemble_supports,
-};
+pub use support::{assemble_attachments, assemble_pressures, assemble_support, assemble_supports};
 pub use triplets::Triplets;

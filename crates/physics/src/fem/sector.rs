@@ -88,11 +88,6 @@ impl Sectored for SolidSector {
     }
 }
 
-/// Regions of a sector, with a material each.
-pub fn region_count<S: Sectored>(sector: &S) -> usize {
-    sector.strip().regions.len().max(1)
-}
-
 /// What a matrix of the strip is over the dofs of the sector, whose images its nodes are.
 fn folded<S: Sectored>(sector: &S, matrix: &Triplets) -> SectorMatrix {
     let components = sector.strip().dimension;

@@ -48,27 +48,6 @@ pub fn assemble_attachments(mesh: &Mesh) -> [Triplets; 2] {
     both
 }
 
-/// Structural damping `sum_b eta_b K_b` of the springs of supports over all dofs, N/m, as
-/// [`super::assemble_structural_damping`]; `None` where no support has any.
-pub fn assemble_support_losses(mesh: &Mesh) -> Option<Triplets> {
-    let mut both = <[Triplets; 2]>::default();
-    let supports = mesh.boundaries.iter().filter_map(|own| Some((own, own.support()?)));
-    let mut lossy = supports.filter(|(_, support)| support.loss_factor != 0.0).peekable();
-    lossy.peek()?;
-    for (boundary, support) in lossy {
-        let eta = support.loss_factor;
-        let lost = ElasticSupport {
-            normal_stiffness: eta * support.normal_stiffness,
-            tangential_stiffness: eta * support.tangential_stiffness,
-            axial_stiffness: support.axial_stiffness.map(|own| eta * own),
-            ..ElasticSupport::default()
-        };
-        add_support(mesh, (boundary, &lost), &mut both);
-    }
-    let [losses, _] = both;
-    Some(losses)
-}
-
 /// Adds springs and dashpots of a boundary: of a solid `∫ N_I N_J F_I^T (k_n n n^T + k_t (1 - n n^T)) F_J dA`, in the plane node by
 /// node with its tributary lengths as weights, `w_i (k_n n n^T + k_t t t^T)`.
 ///

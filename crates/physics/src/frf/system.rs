@@ -2,15 +2,10 @@
 
 use super::{Axis, Direction, FrfError, NodeFault, Port, Terminal};
 use crate::contact::Row;
-use crate::fem::{
-    DofMap, MassKind, MaterialField, RayleighDamping, assemble_stiffness,
-    assemble_structural_damping, assemble_supports,
-};
+use crate::fem::{DofMap, MassKind, MaterialField, RayleighDamping, region_stiffness};
 use crate::linalg::{SparsityPattern, c64};
 use crate::mesh::Mesh;
-use crate::prestress::{
-    BodyTerms, ContactDofs, Elimination, LossGain, SlidingTangent, TangentOptions,
-};
+use crate::prestress::{ContactDofs, Elimination, LossGain, SlidingTangent, TangentOptions, Terms};
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
@@ -52,16 +47,13 @@ impl FrfSystem {
         is_clamped: bool,
     ) -> Self {
         let options = TangentOptions::of_free(mass, damping);
-        let supports = if is_clamped { assemble_supports(mesh) } else { Default::default() };
-        let elastic = assemble_stiffness(mesh, material);
-        let mut body = BodyTerms::of((mesh, material), elastic, supports, &options);
-        if !is_clamped {
-            body.structural = assemble_structural_damping(mesh, material);
-        }
+        let regions = 0..mesh.region_count();
+        let elastic = regions.map(|region| region_stiffness(mesh, material, region)).collect();
+        let terms = Terms::of_mesh((mesh, material), elastic, !is_clamped, &options);
         let held = mesh.held_dofs().filter(|_| is_clamped);
         let basis = Elimination::holding(mesh.dof_count(), held);
         let none = ContactDofs::default();
-        let tangent = SlidingTangent::assemble(&body, &[], basis, none, &options);
+        let tangent = SlidingTangent::assemble(terms, &[], basis, none, &options);
         Self::tied(&tangent.expect("bodies without contact are held once"))
     }
 

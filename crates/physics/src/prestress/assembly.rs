@@ -7,14 +7,15 @@ use super::full_sliding::{FullSliding, check_pressed};
 use super::joint::{BaseChoice, SlidingSurfaces, TiedSurfaces};
 use super::pressed_state::Pressing;
 use super::rotation::{Rotation, grounded};
-use super::tangent::{BodyTerms, ContactDofs, ContactPart, SlidingTangent, geometric_stiffness};
+use super::tangent::{ContactDofs, ContactPart, SlidingTangent, geometric_stiffness};
+use super::terms::{Kind, Part, PartLaw, Terms};
 use super::{PrestressError, TangentOptions};
 use crate::contact::{
     ContactInterface, ContactStiffness, ContactSurface, Motion, PairError, Point, PointKind,
     PressedState, SlidingContact, SurfacePair, Turning, mortar_nodes,
 };
 use crate::fem::{
-    MaterialField, Triplets, assemble_pressures, assemble_stiffness, assemble_supports,
+    MaterialField, Triplets, assemble_pressures, assemble_supports, region_stiffness,
 };
 use crate::mesh::Mesh;
 use std::sync::Arc;
@@ -48,8 +49,8 @@ pub struct Assembly<'a> {
 /// What a mesh, its materials and the pairs of its surfaces give: the costly part of an [`Assembly`], made once.
 #[derive(Debug)]
 pub struct Joined {
-    /// Stiffness of the bodies, N/m.
-    pub(crate) elastic: Triplets,
+    /// Stiffness of each region, N/m.
+    elastic: Vec<Triplets>,
     /// Springs (N/m) and dashpots (N s/m) of the supports.
     pub(crate) supports: [Triplets; 2],
     /// Held dofs and ties.
@@ -58,6 +59,14 @@ pub struct Joined {
     pub contacts: Arc<[(SlidingSurfaces, ContactSurface)]>,
     base: BaseChoice,
     rotation: Option<Rotation>,
+}
+
+impl Joined {
+    /// Stiffness of bodies and supports over all dofs.
+    pub(crate) fn stiffness(&self) -> Triplets {
+        let own = self.elastic.iter().chain([&self.supports[0]]);
+        Triplets { entries: own.flat_map(|own| &own.entries).copied().collect() }
+    }
 }
 
 impl<'a> Assembly<'a> {
@@ -137,16 +146,15 @@ impl<'a> Assembly<'a> {
                 Ok((contact.clone(), surface))
             })
             .collect();
-        let elastic = assemble_stiffness(mesh, materials);
+        let regions = 0..mesh.region_count();
+        let elastic = regions.map(|region| region_stiffness(mesh, materials, region)).collect();
         let supports = assemble_supports(mesh);
+        let contacts = found?;
+        let mut joined = Joined { contacts, rotation: None, elastic, supports, basis, base };
         let seams: Vec<usize> = ties.iter().flat_map(|t| [t.surface, t.counter]).collect();
-        let held = || {
-            let mut held = elastic.clone();
-            held.entries.extend_from_slice(&supports[0].entries);
-            basis.congruent(&held)
-        };
-        let rotation = Rotation::of(mesh, materials, motions, (&basis, &seams), held)?;
-        let joined = Joined { contacts: found?, rotation, elastic, supports, basis, base };
+        let held = || joined.basis.congruent(&joined.stiffness());
+        let rotation = Rotation::of(mesh, materials, motions, (&joined.basis, &seams), held)?;
+        joined.rotation = rotation;
         Ok(Self::of(mesh, materials, Arc::new(joined)))
     }
 
@@ -208,8 +216,7 @@ impl<'a> Assembly<'a> {
                 friction_coefficients,
             ));
         }
-        let mut stiffness = self.joined.elastic.clone();
-        stiffness.entries.extend_from_slice(&self.joined.supports[0].entries);
+        let stiffness = self.joined.stiffness();
         let none = || vec![0.0; self.mesh.dof_count()];
         let mut load = assemble_pressures(self.mesh).unwrap_or_else(none);
         if let Some(rotation) = &self.joined.rotation {
@@ -302,9 +309,24 @@ impl<'a> Assembly<'a> {
         Ok(PressedRange::of_one(state, friction_coefficients))
     }
 
-    /// Stiffness and gyroscopic matrix of regions that turn with the inertia of their rotation.
-    pub fn rotation_terms(&self) -> Option<&[Triplets; 2]> {
-        self.joined.rotation.as_ref().map(|own| &own.terms)
+    /// The matrices of the bodies without stress and contact over all dofs.
+    pub fn terms(&self, options: &TangentOptions) -> Terms<Triplets> {
+        let (bodies, elastic) = ((self.mesh, self.materials), self.joined.elastic.clone());
+        let mut terms = Terms::of_mesh(bodies, elastic, false, options);
+        if let Some(Rotation { terms: [transport, gyroscopic], .. }) = self.joined.rotation.clone()
+        {
+            let own = [(Kind::Transport, transport), (Kind::Gyroscopic, gyroscopic)];
+            terms.add_other("rotation".into(), PartLaw::default(), own);
+        }
+        terms
+    }
+
+    /// Geometric stiffness of the stress of a base state for each region, by power of friction in the terms of a state that is frozen;
+    /// `None` of a state that is free of stress.
+    pub fn stress(&self, state: &PressedState) -> Option<Vec<Vec<Triplets>>> {
+        let (state, bodies) = (self.stressing(state)?, (self.mesh, self.materials));
+        let regions = 0..self.mesh.region_count();
+        Some(regions.map(|region| geometric_stiffness(bodies, &state, region)).collect())
     }
 
     /// Mass, damping and stiffness of small motions around `state`.
@@ -316,17 +338,13 @@ impl<'a> Assembly<'a> {
         state: &PressedState,
         options: &TangentOptions,
     ) -> Result<SlidingTangent, PrestressError> {
-        let joined = &self.joined;
-        let (elastic, supports) = (joined.elastic.clone(), joined.supports.clone());
-        let stressing = options.geometric_stiffness.then(|| self.stressing(state)).flatten();
-        let geometric = stressing.map(|own| geometric_stiffness((self.mesh, self.materials), &own));
+        let (joined, mut terms) = (&self.joined, self.terms(options));
+        let stress = options.geometric_stiffness.then(|| self.stress(state)).flatten();
         let none = || vec![Vec::new(); joined.contacts.len()];
-        let turnings = geometric.as_ref().map_or_else(none, |_| self.turnings());
-        let body = BodyTerms {
-            geometric,
-            rotation: joined.rotation.as_ref().map(|own| own.terms.clone()),
-            ..BodyTerms::of((self.mesh, self.materials), elastic, supports, options)
-        };
+        let turnings = stress.as_ref().map_or_else(none, |_| self.turnings());
+        for (region, powers) in stress.into_iter().flatten().enumerate() {
+            terms.add(Part::Body(region), Kind::Prestress, powers);
+        }
         // Each contact has its stretch of the state's points.
         let mut first = 0;
         let parts = joined.contacts.iter().zip(&turnings).map(|((contact, surface), turnings)| {
@@ -346,7 +364,7 @@ impl<'a> Assembly<'a> {
             2 => self.edge_dofs(),
             _ => self.surface_dofs(),
         };
-        SlidingTangent::assemble(&body, &parts, joined.basis.clone(), dofs, options)
+        SlidingTangent::assemble(terms, &parts, joined.basis.clone(), dofs, options)
     }
 
     /// Dofs that the contact edge of a plane body touches.

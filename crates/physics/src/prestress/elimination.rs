@@ -190,11 +190,12 @@ impl Elimination {
         Triplets { entries }
     }
 
-    /// The matrices of small motions over the unknowns: `T^T A T` without what vanishes, where `friction` adds `-mu` times the
-    /// work of a lift, the normal force of rigid contact, to the rows of its slip. Coefficients have the given weights.
+    /// A matrix of small motions that comes with a power of `mu` over the unknowns: `T^T A T` without what vanishes, where `friction`
+    /// adds `-mu` times the work of a lift, the normal force of rigid contact, to the rows of its slip. Coefficients have the given
+    /// weights.
     pub(super) fn project(
         &self,
-        full: &[Triplets],
+        (power, full): (usize, &Triplets),
         unknowns: &DofMap,
         (friction, weights): (&[RigidFriction], FrictionWeights),
     ) -> ProjectedPolynomial {
@@ -206,35 +207,31 @@ impl Elimination {
                 lifts[dof].push((i, value));
             }
         }
-        let last = match friction.is_empty() {
-            true => full.len() - 1,
-            false => weights.times_mu(full.len() - 1).fold(0, |last, (at, _)| last.max(at)),
-        };
+        let powers = weights.times_mu(power).filter(|_| !friction.is_empty());
+        let last = powers.fold(power, |last, (at, _)| last.max(at));
         let mut projected = vec![Vec::new(); last + 1];
-        for (power, terms) in full.iter().enumerate() {
-            for (row, column, value) in self.congruent(terms).entries {
-                let [row, column] = [row, column].map(|dof| unknowns.unknown_of[dof]);
-                if let (Some(row), Some(column)) = (row, column) {
-                    projected[power].push((row, column, value));
-                }
+        for (row, column, value) in self.congruent(full).entries {
+            let [row, column] = [row, column].map(|dof| unknowns.unknown_of[dof]);
+            if let (Some(row), Some(column)) = (row, column) {
+                projected[power].push((row, column, value));
             }
-            // The normal force is the work of the lift, taken over all dofs.
-            for &(row, column, value) in &terms.entries {
-                let lifted = &lifts[row];
-                if lifted.is_empty() {
+        }
+        // The normal force is the work of the lift, taken over all dofs.
+        for &(row, column, value) in &full.entries {
+            let lifted = &lifts[row];
+            if lifted.is_empty() {
+                continue;
+            }
+            for (dof, across) in self.transposed(&[(column, 1.0)]) {
+                let Some(unknown) = unknowns.unknown_of[dof] else {
                     continue;
-                }
-                for (dof, across) in self.transposed(&[(column, 1.0)]) {
-                    let Some(unknown) = unknowns.unknown_of[dof] else {
-                        continue;
-                    };
-                    for &(i, along) in lifted {
-                        let force = -along * value * across;
-                        for (at, factor) in weights.times_mu(power) {
-                            let force = factor * force;
-                            let moved = slips[i].iter().map(|&(row, a)| (row, unknown, a * force));
-                            projected[at].extend(moved);
-                        }
+                };
+                for &(i, along) in lifted {
+                    let force = -along * value * across;
+                    for (at, factor) in weights.times_mu(power) {
+                        let force = factor * force;
+                        let moved = slips[i].iter().map(|&(row, a)| (row, unknown, a * force));
+                        projected[at].extend(moved);
                     }
                 }
             }

@@ -20,7 +20,7 @@ const MOST_ACROSS: f64 = 0.1;
 const GROUND: f64 = 1e-12;
 
 /// The inertia of all regions that turn with their rotation terms.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Rotation {
     /// Stiffness (transport, centrifugal stress and the strain that comes with it) and gyroscopic matrix over all dofs.
     pub terms: [Triplets; 2],

@@ -1,7 +1,8 @@
 //! The terms of a plane annulus in steady sliding.
 
+use super::terms::{Kind, Part};
 use super::wave_tangent::WaveContact;
-use super::wave_terms::{Kind, Part, WaveTerms};
+use super::wave_terms::WaveTerms;
 use super::{PrestressError, SectorSliding, TangentOptions, WaveTangent};
 use crate::contact::{Point, SlidingContact, linearized};
 use crate::fem::fold::SectorMatrix;
@@ -24,12 +25,13 @@ impl WaveTangent {
         options: &TangentOptions,
         contact: &SlidingContact,
     ) -> Result<Self, PrestressError> {
-        let mut terms = WaveTerms::of(sector, material, options, sector.supports(options.mass));
+        let mut terms =
+            WaveTerms::of_sector(sector, material, options, sector.supports(options.mass));
         let base = SectorSliding::of(sector, &terms.alike(), contact, options.contact.law)?;
         let edge = Edge { sector, base: &base };
         if options.geometric_stiffness {
             terms.take_stress(sector, material, [0, 1].map(|p| &base.state.displacements[p][..]));
-            terms.add(Part::Contact, Kind::Prestress, edge.turning());
+            terms.add(Part::Contact(0), Kind::Prestress, edge.turning());
         }
         edge.add_terms(options, &mut terms);
         let (own, parts) = ((sector, sector.wave_dofs()), (terms, edge.dofs(options)));
@@ -78,9 +80,9 @@ impl Edge<'_> {
             SectorMatrix::of_entries(2, own.map(|&(row, column, value)| (row, column, 0, value)))
         };
         let both = |terms: &[Triplets]| [part(terms, 0, false), part(terms, 1, true)];
-        terms.add(Part::Contact, Kind::Stiffness, both(&found.stiffness));
-        terms.add(Part::Contact, Kind::Dashpots, both(&found.dashpots));
-        terms.add(Part::Contact, Kind::FrictionDashpots, [part(&found.dashpots, 1, false)]);
+        terms.add(Part::Contact(0), Kind::Stiffness, both(&found.stiffness));
+        terms.add(Part::Contact(0), Kind::Dashpots, both(&found.dashpots));
+        terms.add(Part::Contact(0), Kind::FrictionDashpots, [part(&found.dashpots, 1, false)]);
     }
 
     /// What the normal forces of the base state, and the friction `T = s mu N`, add to the stiffness as they turn and move with

@@ -1,7 +1,8 @@
 //! The terms of a body of revolution in three dimensions in steady sliding.
 
+use super::terms::{Kind, Part};
 use super::wave_tangent::WaveContact;
-use super::wave_terms::{Kind, Part, WaveTerms};
+use super::wave_terms::WaveTerms;
 use super::{PrestressError, SolidSliding, TangentOptions, WaveTangent};
 use crate::contact::{ContactStiffness, SlidingContact};
 use crate::fem::MaterialField;
@@ -24,13 +25,14 @@ impl WaveTangent {
         if contact.rotation_speed == 0.0 {
             return Err(PrestressError::AtRest);
         }
-        let mut terms = WaveTerms::of(sector, material, options, sector.supports(options.mass));
+        let mut terms =
+            WaveTerms::of_sector(sector, material, options, sector.supports(options.mass));
         let stiffness = &options.contact;
         let base = SolidSliding::of(sector, &terms.alike(), contact, stiffness, options.mass)?;
         if options.geometric_stiffness {
             let displacements = [&base.pressed_displacement[..], &base.sheared_displacement];
             terms.take_stress(sector, material, displacements);
-            terms.add(Part::Contact, Kind::Prestress, turning_forces(sector, &base));
+            terms.add(Part::Contact(0), Kind::Prestress, turning_forces(sector, &base));
         }
         add_contact(&base, sector, &options.contact, &mut terms);
         let (own, parts) = ((sector, sector.wave_dofs()), (terms, rings(sector, &base, options)));
@@ -135,7 +137,7 @@ fn add_contact(
         (None, Some(own)) => normal_and_drag(&|_, _, _| own),
         (None, None) => Default::default(),
     };
-    terms.add(Part::Contact, Kind::Stiffness, penalty);
-    terms.add(Part::Contact, Kind::Dashpots, dashpots);
-    terms.add(Part::Contact, Kind::FrictionDashpots, [friction_dashpots]);
+    terms.add(Part::Contact(0), Kind::Stiffness, penalty);
+    terms.add(Part::Contact(0), Kind::Dashpots, dashpots);
+    terms.add(Part::Contact(0), Kind::FrictionDashpots, [friction_dashpots]);
 }

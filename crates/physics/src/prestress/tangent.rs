@@ -1,13 +1,11 @@
 //! The matrices of small motions around steady sliding.
 
 use super::elimination::{Elimination, ProjectedPolynomial, RigidFriction};
-use super::tabled::{TabledGain, TabledStiffness};
-use super::{DampingModel, PrestressError, TangentOptions};
+use super::tabled::TabledStiffness;
+use super::terms::{Kind, Part, Term, Terms, of_kind};
+use super::{PrestressError, TangentOptions};
 use crate::contact::{ContactStiffness, Point, PressedState, Row, Turning, linearized, turned};
-use crate::fem::{
-    DofMap, MaterialField, ModulusTable, RayleighDamping, Triplets, assemble_extra_damping,
-    assemble_geometric_stiffness, assemble_losses, assemble_mass, assemble_tabled,
-};
+use crate::fem::{DofMap, MaterialField, RayleighDamping, Triplets, assemble_geometric_stiffness};
 use crate::linalg::{FrictionWeights, MatrixPolynomial, SparsityPattern, c64};
 use crate::mesh::Mesh;
 use std::sync::Arc;
@@ -96,48 +94,6 @@ impl SlidingTangent {
     }
 }
 
-/// The matrices of the bodies of one model without contact, over all dofs.
-#[derive(Clone, Debug)]
-pub struct BodyTerms {
-    /// Mass.
-    pub mass: Triplets,
-    /// Elastic stiffness.
-    pub elastic: Triplets,
-    /// Geometric stiffness of the base state by power of `mu`, with which contact forces turn; `None` without both.
-    pub geometric: Option<Vec<Triplets>>,
-    /// Springs and dashpots of supports.
-    pub supports: [Triplets; 2],
-    /// What regions with damping of their own add.
-    pub extra_damping: Option<Triplets>,
-    /// Structural damping of materials and supports.
-    pub structural: Option<Triplets>,
-    /// Stiffness, within `elastic`, of parts whose modulus depends on frequency.
-    pub tabled: Vec<(Arc<ModulusTable>, Triplets)>,
-    /// Stiffness and gyroscopic matrix of regions that turn, which `alpha_R` and `beta_R` do not multiply.
-    pub rotation: Option<[Triplets; 2]>,
-}
-
-impl BodyTerms {
-    /// Those of bodies that neither carry stress nor turn.
-    pub fn of(
-        (mesh, material): (&Mesh, &dyn MaterialField),
-        elastic: Triplets,
-        supports: [Triplets; 2],
-        options: &TangentOptions,
-    ) -> Self {
-        Self {
-            mass: assemble_mass(mesh, material, options.mass),
-            elastic,
-            geometric: None,
-            supports,
-            extra_damping: assemble_extra_damping(mesh, material, options.mass, options.damping),
-            structural: assemble_losses(mesh, material),
-            tabled: assemble_tabled(mesh, material),
-            rotation: None,
-        }
-    }
-}
-
 /// The surfaces of one contact and their state.
 #[derive(Clone, Copy, Debug)]
 pub struct ContactPart<'a> {
@@ -172,12 +128,12 @@ pub struct ContactDofs {
 }
 
 impl SlidingTangent {
-    /// The matrices of `body` and its contacts over what `basis` (held dofs, ties) and rigid contact leave.
+    /// The matrices of bodies, `terms` over all dofs, and their contacts over what `basis` (held dofs, ties) and rigid contact leave.
     ///
     /// # Errors
     /// [`PrestressError::Overconstrained`] where a rigid contact has no free dof to hold.
     pub fn assemble(
-        body: &BodyTerms,
+        mut terms: Terms<Triplets>,
         contacts: &[ContactPart<'_>],
         mut basis: Elimination,
         dofs: ContactDofs,
@@ -185,49 +141,38 @@ impl SlidingTangent {
     ) -> Result<Self, PrestressError> {
         // Separations as unknowns; those of rigid contact vanish, and their forces follow the slip.
         let friction = hold_rigid(contacts, &mut basis)?;
+        contacts.iter().for_each(|part| part.add_to(&mut terms));
+
+        // Every term over the unknowns, on one pattern for all.
         let unknowns = basis.unknowns();
         let frozen = contacts.iter().map(|part| part.state.frozen_below).fold(0.0, f64::max);
-        let projected = |terms: &[Triplets]| -> ProjectedPolynomial {
-            basis.project(terms, &unknowns, (&friction, FrictionWeights::frozen_below(frozen)))
-        };
-
-        // The terms; what beta_R does not multiply are supports, rotation, regions with damping of their own.
-        let [stiffness, dashpots, losses] = tangent_terms(body, contacts);
-        let mass = projected(std::slice::from_ref(&body.mass));
-        let (stiffness, damped) = with_springs(&stiffness, body, options, &projected);
-        let has_supports = body.supports.iter().any(|own| !own.entries.is_empty());
-        let has_dashpots = dashpots.iter().any(|terms| !terms.entries.is_empty());
-
-        // One pattern for all; C = alpha_R M + beta_R K (2) and the rest.
-        let dashpots = projected(&dashpots);
-        let entries = [&mass, &stiffness, &dashpots].into_iter().flatten().flatten();
+        let follows = (&friction[..], FrictionWeights::frozen_below(frozen));
+        let terms = terms.map(|power, own| basis.project((power, &own), &unknowns, follows));
+        let entries = terms.all.iter().flat_map(|term| &term.matrix).flatten();
         let positions = entries.map(|&(row, column, _)| (row, column));
         let pattern = Arc::new(SparsityPattern::from_positions(unknowns.len(), positions));
-        let on_pattern = |terms: &ProjectedPolynomial| {
-            MatrixPolynomial::on_pattern(&pattern, terms).frozen_below(frozen)
+        let terms = terms.map(|_, own| placed(&pattern, own));
+
+        // The sums.
+        let sum = |factor: &dyn Fn(&Term<Placed>) -> f64| {
+            let all = terms.all.iter().map(|term| (factor(term), &term.matrix));
+            MatrixPolynomial::from_coefficients(&pattern, summed(pattern.nonzero_count(), all))
+                .frozen_below(frozen)
         };
-        let (mass, stiffness) = (on_pattern(&mass), on_pattern(&stiffness));
-        let damped = damped.map(|own| on_pattern(&own));
-        let damped = [&mass, damped.as_ref().unwrap_or(&stiffness)];
-        let dashpots = has_dashpots.then(|| on_pattern(&dashpots));
-        let damping = damping_matrix(options.damping, damped, dashpots);
-        // Its entries are those of the stiffness.
-        let structural = (!losses.is_empty()).then(|| on_pattern(&projected(&losses)));
-        let tabled = body.tabled.iter().map(|(table, stiffness)| TabledStiffness {
-            gain: TabledGain { table: Arc::clone(table), reference_hz: 0.0 },
-            stiffness: on_pattern(&projected(std::slice::from_ref(stiffness))),
+        let has_losses = terms.laws().any(|law| law.loss_factor != 0.0);
+        let tabled = terms.bodies.iter().enumerate().filter_map(|(body, law)| {
+            let stiffness =
+                |own: &Term<_>| f64::from(u8::from(own.is(Part::Body(body), Kind::Stiffness)));
+            Some(TabledStiffness { gain: law.table.clone()?, stiffness: sum(&stiffness) })
         });
-        let is_viscous = structural.is_none() && body.tabled.is_empty();
-        let is_whole = options.damping_model == DampingModel::WholeTangent && !has_supports;
-        let is_proportional = is_whole && !has_dashpots && is_viscous;
         Ok(Self {
-            mass,
-            damping,
-            stiffness,
-            proportional: is_proportional.then_some(options.damping),
-            structural,
+            mass: sum(&of_kind(Kind::Mass)),
+            damping: sum(&|term| terms.factors(term)[1]),
+            stiffness: sum(&|term| terms.factors(term)[0]),
+            structural: has_losses.then(|| sum(&|term| terms.factors(term)[2])),
             tabled: tabled.collect(),
-            is_gyroscopic: body.rotation.is_some(),
+            proportional: terms.is_proportional(options).then_some(options.damping),
+            is_gyroscopic: terms.all.iter().any(|term| term.kind == Kind::Gyroscopic),
             contact: ContactDofs {
                 tangential: unknowns.among(&dofs.tangential),
                 normal: unknowns.among(&dofs.normal),
@@ -241,41 +186,38 @@ impl SlidingTangent {
     }
 }
 
-/// `C = alpha_R M + beta_R K` of mass and stiffness, and the dashpots.
-fn damping_matrix(
-    rayleigh: RayleighDamping,
-    [mass, stiffness]: [&MatrixPolynomial; 2],
-    dashpots: Option<MatrixPolynomial>,
-) -> MatrixPolynomial {
-    let (alpha, beta) = (rayleigh.mass_coefficient, rayleigh.stiffness_coefficient);
-    let own = MatrixPolynomial::combination(alpha, mass, beta, stiffness);
-    match dashpots {
-        Some(dashpots) => MatrixPolynomial::combination(1.0, &own, 1.0, &dashpots),
-        None => own,
+impl ContactPart<'_> {
+    /// Adds what it does around its state.
+    fn add_to(&self, terms: &mut Terms<Triplets>) {
+        let state = (self.state, self.first);
+        let own = linearized(self.points, state, &self.stiffness);
+        let part = terms.add_contact(self.stiffness.loss_factor);
+        terms.add(part, Kind::Stiffness, own.stiffness);
+        terms.add(part, Kind::Dashpots, own.dashpots);
+        terms.add(part, Kind::Prestress, turned(self.points, self.turnings, state));
     }
 }
 
-/// The stiffness over the unknowns, with the springs of supports and of the rotation, and what `beta_R` multiplies where that is not all
-/// of it: body, prestress and contact, or the body alone.
-fn with_springs(
-    stiffness: &[Triplets],
-    body: &BodyTerms,
-    options: &TangentOptions,
-    projected: &dyn Fn(&[Triplets]) -> ProjectedPolynomial,
-) -> (ProjectedPolynomial, Option<ProjectedPolynomial>) {
-    let mut stiffness = projected(stiffness);
-    let is_unsupported = body.supports[0].entries.is_empty() && body.rotation.is_none();
-    let damped = match options.damping_model {
-        DampingModel::WholeTangent if is_unsupported => None,
-        DampingModel::WholeTangent => Some(stiffness.clone()),
-        DampingModel::BodyOnly => Some(projected(std::slice::from_ref(&body.elastic))),
+/// Nonzeros of a term by power of friction: their places on the pattern, and values.
+type Placed = Vec<Vec<(usize, f64)>>;
+
+fn placed(pattern: &SparsityPattern, polynomial: ProjectedPolynomial) -> Placed {
+    let place = |(row, column, value)| {
+        (pattern.position(row, column).expect("the pattern has all entries"), value)
     };
-    for [springs, _] in std::iter::once(&body.supports).chain(&body.rotation) {
-        let held = projected(std::slice::from_ref(springs));
-        stiffness.resize(stiffness.len().max(held.len()), Vec::new());
-        stiffness.iter_mut().zip(held).for_each(|(sum, entries)| sum.extend(entries));
+    polynomial.into_iter().map(|own| own.into_iter().map(place).collect()).collect()
+}
+
+/// The sum of terms, each times its factor, by power of friction.
+fn summed<'a>(nonzeros: usize, terms: impl Iterator<Item = (f64, &'a Placed)>) -> Vec<Vec<f64>> {
+    let mut sums = vec![vec![0.0; nonzeros]];
+    for (factor, powers) in terms.filter(|(factor, _)| *factor != 0.0) {
+        sums.resize(sums.len().max(powers.len()), vec![0.0; nonzeros]);
+        for (sum, own) in sums.iter_mut().zip(powers) {
+            own.iter().for_each(|&(place, value)| sum[place] += factor * value);
+        }
     }
-    (stiffness, damped)
+    sums
 }
 
 /// Takes separations for unknowns and drops those of rigid contact; the friction of its forces.
@@ -300,47 +242,14 @@ fn hold_rigid(
     Ok(friction)
 }
 
-/// Stiffness, dashpots and structural damping of body and contacts by power of friction, over all dofs.
-fn tangent_terms(body: &BodyTerms, contacts: &[ContactPart<'_>]) -> [Vec<Triplets>; 3] {
-    let mut stiffness = vec![body.elastic.clone()];
-    let mut dashpots = vec![Triplets::default()];
-    let mut losses: Vec<Triplets> = body.structural.iter().cloned().collect();
-    add_powers(&mut stiffness, body.geometric.as_deref().unwrap_or_default());
-    for part in contacts {
-        let state = (part.state, part.first);
-        let terms = linearized(part.points, state, &part.stiffness);
-        add_powers(&mut stiffness, &terms.stiffness);
-        add_powers(&mut dashpots, &terms.dashpots);
-        add_powers(&mut losses, &terms.structural);
-        if body.geometric.is_some() {
-            add_powers(&mut stiffness, &turned(part.points, part.turnings, state));
-        }
-    }
-    stiffness.iter_mut().chain(&mut dashpots).for_each(Triplets::merge);
-    for [_, own] in std::iter::once(&body.supports).chain(&body.rotation) {
-        add_powers(&mut dashpots, std::slice::from_ref(own));
-    }
-    add_powers(&mut dashpots, body.extra_damping.as_slice());
-    [stiffness, dashpots, losses]
-}
-
-/// Adds the coefficients of one polynomial to those of another.
-fn add_powers(sum: &mut Vec<Triplets>, terms: &[Triplets]) {
-    if sum.len() < terms.len() {
-        sum.resize_with(terms.len(), Triplets::default);
-    }
-    for (sum, terms) in sum.iter_mut().zip(terms) {
-        sum.entries.extend_from_slice(&terms.entries);
-    }
-}
-
-/// Geometric stiffness of the stress of a state by power of `mu - a`, N/m, in the terms of one that is frozen below `a`.
+/// Geometric stiffness of the stress of a state in a region by power of `mu - a`, N/m, in the terms of one that is frozen below `a`.
 pub(super) fn geometric_stiffness(
     (mesh, material): (&Mesh, &dyn MaterialField),
     state: &PressedState,
+    region: usize,
 ) -> Vec<Triplets> {
     let powers = state.displacements.iter();
-    let powers = powers.map(|own| assemble_geometric_stiffness(mesh, material, own, None));
+    let powers = powers.map(|own| assemble_geometric_stiffness(mesh, material, own, Some(region)));
     let mut powers: Vec<Triplets> = powers.collect();
     if state.frozen_below > 0.0 && powers.len() > 1 {
         powers.insert(1, Triplets::default());

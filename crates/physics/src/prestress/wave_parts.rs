@@ -10,8 +10,9 @@
 //! is that of the whole tangent. Everything is of one sector, in the unknowns of the harmonic.
 
 use super::WaveTangent;
-use super::wave_terms::{Kind, Part, Term, WaveTerms};
-use crate::fem::fold::MirrorParity;
+use super::terms::{Kind, Part, PartForms, Term};
+use super::wave_terms::WaveTerms;
+use crate::fem::fold::{MirrorParity, SectorMatrix};
 use crate::linalg::banded::CompactRows;
 use crate::linalg::c64;
 
@@ -19,25 +20,14 @@ use crate::linalg::c64;
 pub struct HarmonicParts<'a> {
     terms: &'a WaveTerms,
     /// The terms of regions and supports, with the place of these.
-    bodies: Vec<(usize, &'a Term, CompactRows)>,
+    bodies: Vec<(usize, &'a Term<SectorMatrix>, CompactRows)>,
     /// Unknowns of each contact node, or ring of them, of one sector.
     contact: Vec<Vec<usize>>,
 }
 
-/// Quadratic forms of a wave in a region or support: `x^H M x`, `x^H K x`, `x^H C x`.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct PartForms {
-    /// Twice the kinetic energy over `|lambda|^2`; none of a support.
-    pub mass: f64,
-    /// Twice the strain energy.
-    pub stiffness: f64,
-    /// What the damping takes, over `|lambda|^2`; a loss factor takes like a dashpot `eta k / omega`.
-    pub damping: f64,
-}
-
 /// What friction multiplies a term by.
-fn power(term: &Term, friction: f64) -> c64 {
-    match term.parity {
+fn power(term: &Term<SectorMatrix>, friction: f64) -> c64 {
+    match term.parity() {
         MirrorParity::Even => c64::new(1.0, 0.0),
         MirrorParity::Odd => c64::new(0.0, friction),
     }
@@ -49,17 +39,8 @@ impl HarmonicParts<'_> {
     pub fn forms(&self, root: c64, friction: f64, x: &[c64]) -> Vec<PartForms> {
         let mut forms = vec![PartForms::default(); self.terms.bodies.len()];
         for (body, term, matrix) in &self.bodies {
-            let (own, law) = (&mut forms[*body], &self.terms.bodies[*body]);
-            let form = (power(term, friction) * matrix.form(x, x)).re;
-            own.damping += self.terms.factors(term)[1] * form;
-            match term.kind {
-                Kind::Mass => own.mass += form,
-                Kind::Stiffness => {
-                    own.stiffness += law.ratio(root).re * form;
-                    own.damping += law.ratio(root).im / root.im * form;
-                }
-                _ => {}
-            }
+            let form = power(term, friction) * matrix.form(x, x);
+            self.terms.add_form(term, root, form, &mut forms[*body]);
         }
         forms
     }
@@ -77,15 +58,9 @@ impl HarmonicParts<'_> {
     /// contact's forces on that node do. `root` is the eigenvalue of the wave `+n`.
     pub fn works_at_contact(&self, root: c64, friction: f64, x: &[c64]) -> Vec<f64> {
         let mut forces = vec![c64::new(0.0, 0.0); x.len()];
-        for (body, term, matrix) in &self.bodies {
-            let own = match term.kind {
-                Kind::Mass => root * root,
-                Kind::Stiffness => self.terms.bodies[*body].ratio(root),
-                Kind::Prestress => c64::new(1.0, 0.0),
-                Kind::Dashpots | Kind::FrictionDashpots => c64::new(0.0, 0.0),
-            };
-            let factor = own + root * self.terms.factors(term)[1];
-            matrix.add_product(factor * power(term, friction), x, &mut forces);
+        for (_, term, matrix) in &self.bodies {
+            let factor = self.terms.dynamic(term, root) * power(term, friction);
+            matrix.add_product(factor, x, &mut forces);
         }
         let work = |unknowns: &Vec<usize>| -> f64 {
             unknowns.iter().map(|&k| (x[k].conj() * forces[k]).im).sum()
@@ -97,7 +72,7 @@ impl HarmonicParts<'_> {
 impl WaveTangent {
     /// Names of the supported boundaries.
     pub fn support_names(&self) -> impl Iterator<Item = &str> {
-        self.terms.supports.iter().map(String::as_str)
+        self.terms.others.iter().map(String::as_str)
     }
 
     /// All parts in the unknowns of harmonic `n`.
@@ -106,8 +81,8 @@ impl WaveTangent {
             let Part::Body(body) = term.part else {
                 return None;
             };
-            let is_it = |own: &Term| f64::from(u8::from(std::ptr::eq(own, term)));
-            let matrix = self.restricted(self.sum(n, term.parity, &is_it));
+            let is_it = |own: &Term<_>| f64::from(u8::from(std::ptr::eq(own, term)));
+            let matrix = self.restricted(self.sum(n, term.parity(), &is_it));
             Some((body, term, CompactRows::new(&matrix)))
         });
         let place = |dof: &usize| self.unknowns.unknown_of[*dof];

@@ -2,9 +2,10 @@
 
 mod losses;
 
-use super::wave_terms::{Kind, Part, Term, WaveTerms};
-use super::{DampingModel, FrictionPolynomial, HarmonicTangent, TangentOptions};
-use crate::fem::fold::{MirrorParity, WaveDofs};
+use super::terms::{Kind, Part, Term, of_kind};
+use super::wave_terms::WaveTerms;
+use super::{FrictionPolynomial, HarmonicTangent, TangentOptions};
+use crate::fem::fold::{MirrorParity, SectorMatrix, WaveDofs};
 use crate::fem::sector::Sectored;
 use crate::fem::{DofMap, MassKind, MaterialField, RayleighDamping};
 use crate::linalg::banded::BandedMatrix;
@@ -84,7 +85,7 @@ impl WaveTangent {
             true => (sector.supports(mass), sector.wave_dofs()),
             false => (Vec::new(), sector.wave_dofs().unheld()),
         };
-        let terms = WaveTerms::of(sector, material, &options, supports);
+        let terms = WaveTerms::of_sector(sector, material, &options, supports);
         Self::new((sector, dofs), (terms, WaveContact::default()), &options, 1.0)
     }
 
@@ -211,13 +212,7 @@ impl WaveTangent {
 
     /// Whether `C = alpha_R M + beta_R K_t` exactly.
     pub fn is_proportional(&self) -> bool {
-        let is_whole = self.options.damping_model == DampingModel::WholeTangent;
-        let regions = self.terms.regions().len();
-        let is_support = |term: &Term| matches!(term.part, Part::Body(own) if own >= regions);
-        let is_dashpot = |term: &Term| matches!(term.kind, Kind::Dashpots | Kind::FrictionDashpots);
-        let mut terms = self.terms.all.iter();
-        let has_further = terms.any(|term| is_support(term) || is_dashpot(term));
-        is_whole && !self.is_lossy() && !self.has_own_damping() && !has_further
+        self.terms.is_proportional(&self.options)
     }
 
     /// Whether regions have viscous damping other than that of the whole body.
@@ -262,7 +257,8 @@ impl WaveTangent {
 
     /// `M_n` and `K_n` without friction, the normals in rigid contact included.
     fn all_at_rest(&self, n: usize) -> [BandedMatrix; 2] {
-        let sum = |factor: &dyn Fn(&Term) -> f64| self.sum(n, MirrorParity::Even, factor);
+        let sum =
+            |factor: &dyn Fn(&Term<SectorMatrix>) -> f64| self.sum(n, MirrorParity::Even, factor);
         [sum(&of_kind(Kind::Mass)), sum(&|term| self.terms.factors(term)[0])]
     }
 
@@ -271,13 +267,14 @@ impl WaveTangent {
         &self,
         n: usize,
         parity: MirrorParity,
-        factor: &dyn Fn(&Term) -> f64,
+        factor: &dyn Fn(&Term<SectorMatrix>) -> f64,
     ) -> BandedMatrix {
         let mut sum = self.dofs.zeros();
-        let terms = self.terms.all.iter().filter(|own| own.parity == parity);
+        let terms = self.terms.all.iter().filter(|own| own.parity() == parity);
         let terms = terms.map(|own| (own, factor(own))).filter(|(_, own)| *own != 0.0);
         // The contact acts on distances already, but for its forces that turn.
-        let is_across = |own: &Term| own.part == Part::Contact && own.kind != Kind::Prestress;
+        let is_across =
+            |own: &Term<_>| matches!(own.part, Part::Contact(_)) && own.kind != Kind::Prestress;
         let (across, bodies): (Vec<_>, Vec<_>) = terms.partition(|(own, _)| is_across(own));
         for (own, factor) in bodies {
             self.dofs.add(&mut sum, n, parity, (factor, &own.matrix));
@@ -296,8 +293,12 @@ impl WaveTangent {
 
     /// Harmonic `n` of the terms, each times its factor, over the unknowns; the odd part, `i` times this, is the coefficient
     /// of `i mu`.
-    fn polynomial(&self, n: usize, factor: impl Fn(&Term) -> f64) -> FrictionPolynomial {
-        let mut odd = self.terms.all.iter().filter(|own| own.parity == MirrorParity::Odd);
+    fn polynomial(
+        &self,
+        n: usize,
+        factor: impl Fn(&Term<SectorMatrix>) -> f64,
+    ) -> FrictionPolynomial {
+        let mut odd = self.terms.all.iter().filter(|own| own.parity() == MirrorParity::Odd);
         let is_odd = odd.any(|own| factor(own) != 0.0);
         let parities =
             [MirrorParity::Even, MirrorParity::Odd].into_iter().take(1 + usize::from(is_odd));
@@ -328,11 +329,6 @@ impl WaveTangent {
         trim(&mut full);
         full
     }
-}
-
-/// One for the terms of a kind, zero for all others.
-fn of_kind(kind: Kind) -> impl Fn(&Term) -> f64 {
-    move |term| f64::from(u8::from(term.kind == kind))
 }
 
 /// Drops powers of friction that vanish from behind the others.

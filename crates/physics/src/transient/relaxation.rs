@@ -2,7 +2,7 @@
 
 use super::TransientError;
 use crate::fem::operator::{MotionFields, StiffnessOperator};
-use crate::fem::{MassKind, MaterialField, Triplets, assemble_region};
+use crate::fem::{MaterialField, Triplets, region_stiffness};
 use crate::mesh::Mesh;
 use std::collections::BTreeMap;
 
@@ -63,10 +63,10 @@ impl Relaxation {
         operator: &dyn StiffnessOperator,
         bound: &dyn Fn(Triplets) -> Triplets,
     ) -> Self {
-        let regions = 0..mesh.regions.len().max(1);
+        let regions = 0..mesh.region_count();
         let parts = regions.filter_map(|region| {
             let chain = materials.chain(region)?;
-            let [_, stiffness] = assemble_region(mesh, materials, MassKind::Lumped, region);
+            let stiffness = region_stiffness(mesh, materials, region);
             let mut part = Part::new(bound(stiffness), operator);
             let still = vec![0.0; part.places.len()];
             let elements = chain.elements.iter().map(|own| Element {

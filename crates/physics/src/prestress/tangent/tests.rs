@@ -2,7 +2,7 @@ use super::*;
 use crate::contact::SlidingContact;
 use crate::fem::{ElasticMaterial, MassKind, PlaneFormulation, assemble_stiffness};
 use crate::mesh::{AnnulusMesh, AnnulusSpecification, BoundaryCondition, ElementKind};
-use crate::prestress::Assembly;
+use crate::prestress::{Assembly, DampingModel};
 
 fn turning(rotation_speed: f64) -> SlidingContact {
     SlidingContact { decay: None, friction_coefficient: 0.3, interference: 25e-6, rotation_speed }

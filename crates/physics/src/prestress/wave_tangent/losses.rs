@@ -2,14 +2,13 @@
 
 use super::WaveTangent;
 use crate::fem::ModulusTable;
-use crate::prestress::wave_terms::{Kind, Part, Term};
+use crate::prestress::terms::{Kind, Part, Term};
 use crate::prestress::{FrictionPolynomial, LossGain, TabledGain};
 
 impl WaveTangent {
     /// Whether the stiffness has losses, or depends on frequency.
     pub fn is_lossy(&self) -> bool {
-        let mut laws = self.terms.bodies.iter().chain([&self.terms.contact]);
-        laws.any(|law| law.loss_factor != 0.0 || law.table.is_some())
+        self.terms.is_lossy()
     }
 
     /// Moduli over frequency of regions.
@@ -28,13 +27,14 @@ impl WaveTangent {
     /// `sum eta K` of regions, supports, and the normal law of the contact, which friction follows; and regions with tables.
     pub(super) fn losses(&self, n: usize) -> Vec<(LossGain, FrictionPolynomial)> {
         // Of a difference of tangents too, whose matrices may be zero: all terms of a quotient have the same parts.
-        let mut laws = self.terms.bodies.iter().chain([&self.terms.contact]);
-        let structural = laws
+        let structural = self
+            .terms
+            .laws()
             .any(|law| law.loss_factor != 0.0)
             .then(|| (LossGain(None), self.polynomial(n, |term| self.terms.factors(term)[2])));
         let tabled = self.terms.bodies.iter().enumerate().filter_map(|(body, law)| {
             let table = LossGain(Some(law.table.clone()?));
-            let own = |term: &Term| (term.part, term.kind) == (Part::Body(body), Kind::Stiffness);
+            let own = |term: &Term<_>| term.is(Part::Body(body), Kind::Stiffness);
             Some((table, self.polynomial(n, |term| f64::from(u8::from(own(term))))))
         });
         structural.into_iter().chain(tabled).collect()

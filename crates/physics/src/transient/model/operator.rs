@@ -79,9 +79,7 @@ fn assembled(assembly: &Assembly<'_>, simd: SimdLevel) -> Result<SparseOperator<
         }
     }
 
-    let mut stiffness = assembly.joined.elastic.clone();
-    let [springs, _] = &assembly.joined.supports;
-    stiffness.entries.extend_from_slice(&springs.entries);
+    let stiffness = assembly.joined.stiffness();
     let followers = followers.into_iter().map(|(dof, shares)| (dof as u32, shares));
     SparseOperator::new(&basis.congruent(&stiffness), own, followers.collect(), simd)
 }

@@ -4,6 +4,7 @@ use super::parts::Parts;
 use super::shapes::Shapes;
 use frictionsim_physics::cea::ComplexMode;
 use frictionsim_physics::linalg::c64;
+use frictionsim_physics::prestress::{Kind, Part, PartForms};
 use frictionsim_results::cea::{Contribution, ModeName, Source};
 
 /// Forms of each mode of one friction value in one region or support: `phi^H M phi` (NaN without mass), `phi^H K phi`,
@@ -40,9 +41,7 @@ impl Parts<'_> {
         // Only several contacts need the balance of forces dof by dof.
         let dofs = (self.contacts.len() > 1).then(|| self.whole.mesh.dof_count());
         let mut sums = Sums::new(shapes.modes.len(), dofs);
-        let mut rows = self.of_regions(shapes, &mut sums);
-        rows.extend(self.of_supports(shapes, &mut sums));
-        rows.extend(self.of_rotation(shapes, &mut sums));
+        let rows = self.of_bodies(shapes, &mut sums);
         for mode in 0..shapes.modes.len() {
             let (name, own) = (shapes.name(mode), shapes.modes[mode].1);
             let contacts = |fed: f64| self.contact_rates(shapes, (mode, own), &sums, fed);
@@ -51,91 +50,51 @@ impl Parts<'_> {
         }
     }
 
-    /// Energies and damping of every region.
-    pub fn of_regions(&self, shapes: &Shapes<'_>, sums: &mut Sums) -> Vec<Row> {
+    /// Energies and damping of every region and support, and of the inertia of rotation.
+    pub fn of_bodies(&self, shapes: &Shapes<'_>, sums: &mut Sums) -> Vec<Row> {
+        let (terms, modes) = (&self.terms, || shapes.modes.iter().map(|(_, mode)| mode.eigenvalue));
+        // The prestress takes part in the damping, and in the balance of forces.
         let beta = self.whole.options.damping_of_tangent().stiffness_coefficient;
-        let mut rows = Vec::new();
-        for (region, own) in self.regions.iter().enumerate() {
-            let [mass, stiffness] = own.pair.multiply(shapes.columns.as_ref());
-            let (m, k) = (shapes.forms(&mass), shapes.forms(&stiffness));
-            // The prestress takes part in the damping, and in the balance of forces.
-            let is_asked_for = beta != 0.0 || sums.balance.is_some();
-            let stressed = is_asked_for.then(|| self.geometric_image(shapes, region));
-            let stressed = stressed.flatten();
-            let none = || vec![0.0; shapes.modes.len()];
-            let g = stressed.as_ref().map_or_else(none, |image| shapes.forms(image));
-            let each = (0..shapes.modes.len()).map(|i| {
-                let lambda = shapes.modes[i].1.eigenvalue;
-                let ratio = own.ratio(lambda);
-                let strain = ratio.re * k[i];
-                sums.kinetic[i] += m[i];
-                sums.strain[i] += strain;
-                // A loss factor takes like a dashpot `eta k / omega`.
-                let loss = ratio.im * k[i] / lambda.im;
-                let damping = own.alpha * m[i] + own.beta * k[i] + beta * g[i] + loss;
-                [m[i], strain, damping]
-            });
-            rows.push(Row { name: own.name.clone(), source: Source::Part, forms: each.collect() });
+        let is_asked_for = beta != 0.0 || sums.balance.is_some();
+        let stress = is_asked_for.then(|| self.stress(shapes.friction)).unwrap_or_default();
+        let mut forms = vec![vec![PartForms::default(); shapes.modes.len()]; terms.bodies.len()];
+        for term in terms.all.iter().chain(&*stress) {
+            let image = self.image(term, shapes);
+            if let Part::Body(body) = term.part {
+                let own = forms[body].iter_mut().zip(shapes.forms_of(term.kind, &image));
+                let own = modes().zip(own);
+                own.for_each(|(lambda, (sum, form))| terms.add_form(term, lambda, form, sum));
+            }
             if let Some(balance) = &mut sums.balance {
-                let factors = |lambda: c64| {
-                    [lambda * lambda + lambda * own.alpha, lambda * own.beta + own.ratio(lambda)]
-                };
-                shapes.add(balance, [&mass, &stiffness], factors);
-                if let Some(image) = &stressed {
-                    shapes.add(balance, [image], |lambda| [c64::ONE + lambda * beta]);
-                }
+                shapes.add(balance, &image, |lambda| terms.dynamic(term, lambda));
             }
         }
-        rows
-    }
-
-    /// Energies and damping of every support, with point masses those of the modifications, which come last.
-    pub fn of_supports(&self, shapes: &Shapes<'_>, sums: &mut Sums) -> Vec<Row> {
-        let alpha = self.whole.options.damping.mass_coefficient;
-        let mut rows = Vec::new();
-        for (place, (name, pair, eta)) in self.supports.iter().enumerate() {
-            let [dashpots, springs] = pair.multiply(shapes.columns.as_ref());
-            let (c, k) = (shapes.forms(&dashpots), shapes.forms(&springs));
-            let attached = self.attached.as_ref();
-            let attached = attached.filter(|_| place + 1 == self.supports.len());
-            let masses = attached.map(|own| own.multiply(shapes.columns.as_ref()));
-            let m = masses.as_ref().map(|[mass, _]| shapes.forms(mass));
-            let each = (0..shapes.modes.len()).map(|i| {
-                sums.strain[i] += k[i];
-                let c = c[i] + eta * k[i] / shapes.modes[i].1.eigenvalue.im;
-                let Some(m) = &m else {
-                    return [f64::NAN, k[i], c];
-                };
-                sums.kinetic[i] += m[i];
-                [m[i], k[i], c + alpha * m[i]]
-            });
-            rows.push(Row { name: name.clone(), source: Source::Support, forms: each.collect() });
-            let Some(balance) = &mut sums.balance else {
-                continue;
-            };
-            shapes.add(balance, [&dashpots, &springs], |lambda| [lambda, c64::new(1.0, *eta)]);
-            if let Some([mass, none]) = &masses {
-                let factors = |lambda: c64| [lambda * lambda + lambda * alpha, c64::ZERO];
-                shapes.add(balance, [mass, none], factors);
+        let bodies = forms.iter().enumerate();
+        let rows = bodies.map(|(body, forms)| {
+            for (mode, own) in forms.iter().enumerate() {
+                sums.kinetic[mode] += own.mass;
+                sums.strain[mode] += own.stiffness;
             }
-        }
-        rows
-    }
-
-    /// What the gyroscopic forces `lambda G` of regions that turn add: `G` is skew, `phi^H G phi = i g`, and takes no
-    /// power of a motion that neither grows nor decays; of one that does `-sigma g / (2 omega m)`.
-    pub fn of_rotation(&self, shapes: &Shapes<'_>, sums: &mut Sums) -> Option<Row> {
-        let [gyroscopic, transport] = self.rotation.as_ref()?.multiply(shapes.columns.as_ref());
-        let skew = shapes.skew_forms(&gyroscopic);
-        let modes = shapes.modes.iter().zip(skew);
-        let forms = modes.map(|((_, mode), skew)| {
-            let lambda = mode.eigenvalue;
-            [f64::NAN, f64::NAN, lambda.re * skew / lambda.im]
+            self.row(body, forms)
         });
-        if let Some(balance) = &mut sums.balance {
-            shapes.add(balance, [&gyroscopic, &transport], |lambda| [lambda, c64::ONE]);
-        }
-        Some(Row { name: "rotation".to_owned(), source: Source::Rotation, forms: forms.collect() })
+        rows.collect()
+    }
+
+    /// The row of a body. Only what has inertia has a kinetic energy, and a rotation has no energy of its own.
+    fn row(&self, body: usize, forms: &[PartForms]) -> Row {
+        let has = |kind| self.terms.all.iter().any(|term| term.is(Part::Body(body), kind));
+        let regions = self.terms.regions().len();
+        let (name, source) = match body.checked_sub(regions) {
+            None => (&self.whole.mesh.regions[body], Source::Part),
+            Some(other) if has(Kind::Transport) => (&self.terms.others[other], Source::Rotation),
+            Some(other) => (&self.terms.others[other], Source::Support),
+        };
+        let known = |is_known: bool, value: f64| if is_known { value } else { f64::NAN };
+        let (has_mass, has_strain) = (has(Kind::Mass), source != Source::Rotation);
+        let forms = forms
+            .iter()
+            .map(|own| [known(has_mass, own.mass), known(has_strain, own.stiffness), own.damping]);
+        Row { name: name.clone(), source, forms: forms.collect() }
     }
 
     /// What each contact feeds of their sum `fed`.

@@ -36,9 +36,7 @@ pub(super) fn feed(parts: &Parts<'_>, points: &[&FrictionPoint]) -> Vec<ModeFeed
 
     // Forces of the bodies at every dof, those of the contact's own terms beside them.
     let mut sums = Sums::new(shapes.modes.len(), Some(whole.mesh.dof_count()));
-    parts.of_regions(&shapes, &mut sums);
-    parts.of_supports(&shapes, &mut sums);
-    parts.of_rotation(&shapes, &mut sums);
+    parts.of_bodies(&shapes, &mut sums);
     // Forces and springs at the friction coefficient are the only power of it.
     let state = whole.state();
     let only = |own: Vec<f64>| if own.is_empty() { Vec::new() } else { vec![own] };

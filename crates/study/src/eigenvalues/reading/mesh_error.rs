@@ -17,6 +17,7 @@ use frictionsim_case::Case;
 use frictionsim_physics::cea::{ComplexMode, FrictionSweep};
 use frictionsim_physics::fem::{DiscretizationError, MassKind};
 use frictionsim_physics::linalg::c64;
+use frictionsim_physics::prestress::PartLaw;
 use std::f64::consts::TAU;
 
 /// Damping factor from which on a frequency says little of a mode.
@@ -48,10 +49,9 @@ pub(super) fn estimate(parts: &Parts<'_>, sweep: &mut FrictionSweep) {
     }
     let estimate = DiscretizationError::new(&parts.whole.mesh, parts.case.materials());
     let error = |lambda: c64, forms: &[c64]| -> c64 {
-        let regions = parts.regions.iter().zip(forms);
-        -regions
-            .map(|(region, form)| (region.ratio(lambda) + lambda * region.beta) * form)
-            .sum::<c64>()
+        let regions = parts.terms.regions().iter().zip(forms);
+        let beta = |own: &PartLaw| own.damping.stiffness_coefficient;
+        -regions.map(|(own, form)| (own.ratio(lambda) + lambda * beta(own)) * form).sum::<c64>()
     };
 
     // Of modes and of onsets, all at once.

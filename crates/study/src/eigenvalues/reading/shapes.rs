@@ -2,6 +2,7 @@
 
 use frictionsim_physics::cea::{ComplexMode, FrictionPoint};
 use frictionsim_physics::linalg::{Mat, c64};
+use frictionsim_physics::prestress::Kind;
 use frictionsim_results::cea::{Coupling, ModeName};
 
 /// Share below which a mode of the lowest friction value is left out of the couplings.
@@ -86,13 +87,16 @@ impl<'a> Shapes<'a> {
         (0..self.modes.len()).map(|i| product(2 * i) + product(2 * i + 1)).collect()
     }
 
-    /// `Im(phi^H G phi)` of each mode, from the product of a skew `G` with the columns.
-    pub fn skew_forms(&self, image: &Mat<f64>) -> Vec<f64> {
+    /// `phi^H A phi` of each mode for a matrix of some kind: `i g` of a skew one, real of all others.
+    pub fn forms_of(&self, kind: Kind, image: &Mat<f64>) -> Vec<c64> {
+        if kind != Kind::Gyroscopic {
+            return self.forms(image).into_iter().map(c64::from).collect();
+        }
         let product = |left: usize, right: usize| {
             dot(self.columns.col_as_slice(left), image.col_as_slice(right))
         };
         let form = |i: usize| product(2 * i, 2 * i + 1) - product(2 * i + 1, 2 * i);
-        (0..self.modes.len()).map(form).collect()
+        (0..self.modes.len()).map(|i| c64::new(0.0, form(i))).collect()
     }
 
     /// A mode over all dofs.
@@ -102,19 +106,13 @@ impl<'a> Shapes<'a> {
         parts.map(|(&re, &im)| c64::new(re, im)).collect()
     }
 
-    /// Adds `sum_k factors_k A_k phi` of each mode to its balance.
-    pub fn add<const N: usize>(
-        &self,
-        balance: &mut [Vec<c64>],
-        images: [&Mat<f64>; N],
-        factors: impl Fn(c64) -> [c64; N],
-    ) {
+    /// Adds `factor A phi` of each mode to its balance.
+    pub fn add(&self, balance: &mut [Vec<c64>], image: &Mat<f64>, factor: impl Fn(c64) -> c64) {
         for (i, ((_, mode), sum)) in self.modes.iter().zip(balance).enumerate() {
-            for (image, factor) in images.into_iter().zip(factors(mode.eigenvalue)) {
-                let (re, im) = (image.col_as_slice(2 * i), image.col_as_slice(2 * i + 1));
-                for (sum, (re, im)) in sum.iter_mut().zip(re.iter().zip(im)) {
-                    *sum += factor * c64::new(*re, *im);
-                }
+            let factor = factor(mode.eigenvalue);
+            let (re, im) = (image.col_as_slice(2 * i), image.col_as_slice(2 * i + 1));
+            for (sum, (re, im)) in sum.iter_mut().zip(re.iter().zip(im)) {
+                *sum += factor * c64::new(*re, *im);
             }
         }
     }
