@@ -1,10 +1,11 @@
 //! The matrices that small motions are the sum of, each with what it stands for: of a whole mesh or of one sector.
 //!
 //! ```text
-//! M = sum_r M_r,   C = sum_r (alpha_r M_r + beta_r K_r) + beta_R G + sum_s C_s,   K = sum_r K_r + sum_s K_s + G,   H = sum_p eta_p K_p
+//! M = sum_r M_r,   C = sum_r (alpha_r M_r + beta_r K_r) + beta_R (G + sum_c K_c) + sum_s C_s
+//! K = sum_r K_r + sum_s K_s + sum_c K_c + G,   H = sum eta K
 //! ```
 //!
-//! over regions `r`, supports and contacts `s` and both `p`, with the stiffness `G` of the base state's stress and forces.
+//! over regions `r`, contacts `c`, supports and contacts `s`, with the stiffness `G` of the base state's stress and forces.
 
 use super::{DampingModel, LossGain, TabledGain, TangentOptions};
 use crate::fem::fold::SectorMatrix;

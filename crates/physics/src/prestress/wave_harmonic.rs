@@ -4,7 +4,11 @@ use super::LossGain;
 use crate::fem::RayleighDamping;
 use crate::linalg::banded::{BandedMatrix, multiply_band};
 use crate::linalg::c64;
+use crate::linalg::vectors::product;
 use std::borrow::Cow;
+
+/// Entries of a row from which on it loses fewer digits in several sums.
+const LONG_ROW: usize = 32;
 
 /// A matrix that depends on the friction coefficient, `P(mu) = sum_p P_p (i mu)^p` with real `P_p`.
 pub type FrictionPolynomial = Vec<BandedMatrix>;
@@ -119,19 +123,32 @@ impl MovingHarmonic {
         self.combine([(lambda + lambda, &self.mass[..]), (one, &self.damping)], x, adjoint)
     }
 
-    fn combine<const N: usize>(
+    /// `sum factor A x` of matrices laid out like these, or the adjoint's product.
+    pub fn combine<const N: usize>(
         &self,
         terms: [(c64, &[c64]); N],
         x: &[c64],
         adjoint: bool,
     ) -> Vec<c64> {
         let mut sum = vec![c64::ZERO; x.len()];
-        for (factor, band) in terms {
+        for (factor, band) in terms.into_iter().filter(|own| own.0 != c64::ZERO) {
             let factor = if adjoint { factor.conj() } else { factor };
-            let image = multiply_band(band, self.half_bandwidth, x, adjoint);
+            let image = self.image(band, x, adjoint);
             sum.iter_mut().zip(image).for_each(|(sum, value)| *sum += factor * value);
         }
         sum
+    }
+
+    fn image(&self, band: &[c64], x: &[c64], adjoint: bool) -> Vec<c64> {
+        let (h, width) = (self.half_bandwidth, 2 * self.half_bandwidth + 1);
+        if adjoint || width < LONG_ROW {
+            return multiply_band(band, h, x, adjoint);
+        }
+        let row = |(row, band): (usize, &[c64])| {
+            let (first, last) = (row.saturating_sub(h), (row + h + 1).min(x.len()));
+            product(&band[first + h - row..last + h - row], &x[first..last])
+        };
+        band.chunks_exact(width).enumerate().map(row).collect()
     }
 
     /// A sum of matrices of the same unknowns, each with its weight; `None` where the unknowns differ.

@@ -3,8 +3,8 @@
 use super::path::Eigenpair;
 use crate::cea::counted::STANDSTILL;
 use crate::fem::own_frequency_step;
-use crate::linalg::banded::{BandedLu, BandedMatrix, multiply_band};
-use crate::linalg::vectors::{ZERO, add, dot, largest, product};
+use crate::linalg::banded::{BandedLu, BandedMatrix};
+use crate::linalg::vectors::{ZERO, add, dot, largest};
 use crate::linalg::{Mat, c64};
 use crate::prestress::{FrictionPolynomial, HarmonicTangent, MovingHarmonic, evaluate};
 
@@ -131,18 +131,13 @@ impl HarmonicProblem {
     /// `T'(theta) x` or its adjoint.
     pub fn apply_slope(&self, at: &Matrices, theta: c64, x: &[c64], adjoint: bool) -> Vec<c64> {
         let [_, _, a, b] = self.factors(theta);
-        let mut result = self.multiply(&at.now.mass, a, x, adjoint);
-        if let Some(damping) = self.damping(at) {
-            add(&mut result, &self.multiply(damping, b, x, adjoint));
-        }
-        result
+        at.now.combine([(a, &at.now.mass[..]), (b, &at.now.damping)], x, adjoint)
     }
 
     /// Two-sided Rayleigh functional: the root nearest to `theta` of `y^H T(.) x = 0`, and `y^H T' x`
     /// there.
     pub fn rayleigh_quotient(&self, at: &Matrices, theta: c64, x: &[c64], y: &[c64]) -> (c64, c64) {
-        let one = c64::new(1.0, 0.0);
-        let form = |values: &[c64]| dot(y, &self.multiply(values, one, x, false));
+        let form = |values: &[c64]| dot(y, &at.now.combine([(c64::ONE, values)], x, false));
         let (m, k) = (form(&at.now.mass), form(&at.now.stiffness_at(theta)));
         let Some(damping) = self.damping(at) else {
             return (k / m, -m);
@@ -174,21 +169,20 @@ impl HarmonicProblem {
     pub fn own_slope(&self, at: &Matrices, theta: c64, [x, y]: [&[c64]; 2]) -> Option<c64> {
         let tabled = at.now.losses.iter().map(|(gain, own)| (gain.slope(theta), own));
         let tabled = tabled.filter(|(rate, _)| *rate != ZERO);
-        let own = tabled.map(|(rate, values)| dot(y, &self.multiply(values, rate, x, false)));
+        let own = tabled.map(|(rate, values)| dot(y, &at.now.combine([(rate, values)], x, false)));
         own.reduce(|sum, own| sum + own)
     }
 
     /// `d theta / d parameter = -y^H (dT) x / y^H T' x`.
     pub fn rate_of(&self, at: &Matrices, theta: c64, x: &[c64], y: &[c64], slope: c64) -> c64 {
         let [a, b, _, _] = self.factors(theta);
-        let one = c64::new(1.0, 0.0);
-        let terms = [a, b, one].into_iter().zip(&at.rates);
+        let terms = [a, b, c64::ONE].into_iter().zip(&at.rates);
         let gains = at.now.losses.iter().map(|(gain, _)| gain.at(theta));
         let losses = gains.zip(&at.loss_rates);
         let change: c64 = terms
             .chain(losses)
             .filter_map(|(factor, values)| values.as_ref().map(|v| (factor, v)))
-            .map(|(factor, values)| dot(y, &self.multiply(values, factor, x, false)))
+            .map(|(factor, values)| dot(y, &at.now.combine([(factor, values)], x, false)))
             .sum();
         let step = -change / slope;
         self.own_step(at, theta, [x, y], (step, slope)).unwrap_or(step)
@@ -197,12 +191,9 @@ impl HarmonicProblem {
     /// `T(theta) x`.
     pub fn apply(&self, at: &Matrices, theta: c64, x: &[c64]) -> Vec<c64> {
         let [a, b, _, _] = self.factors(theta);
-        let mut force = self.multiply(&at.now.stiffness_at(theta), c64::new(1.0, 0.0), x, false);
-        add(&mut force, &self.multiply(&at.now.mass, a, x, false));
-        if let Some(damping) = self.damping(at) {
-            add(&mut force, &self.multiply(damping, b, x, false));
-        }
-        force
+        let stiffness = at.now.stiffness_at(theta);
+        let terms = [(c64::ONE, &stiffness[..]), (a, &at.now.mass), (b, &at.now.damping)];
+        at.now.combine(terms, x, false)
     }
 
     /// Residual of the quadratic problem in the largest-entry norm, see [`crate::cea::ComplexMode`].
@@ -339,23 +330,6 @@ impl HarmonicProblem {
             return c64::new(1.0, 0.0);
         }
         self.tangent.rayleigh.eigenvalue_slope(self.eigenvalue(theta), theta)
-    }
-
-    /// `factor A x` or `factor A^H x` of a band of values.
-    fn multiply(&self, values: &[c64], factor: c64, x: &[c64], adjoint: bool) -> Vec<c64> {
-        let h = self.half_bandwidth;
-        let row = |(row, band): (usize, &[c64])| {
-            let (first, last) = (row.saturating_sub(h), (row + h + 1).min(self.dimension));
-            product(&band[first + h - row..last + h - row], &x[first..last])
-        };
-        // Long rows lose fewer digits in several sums.
-        let mut result: Vec<c64> = match self.is_solid() && !adjoint {
-            true => values.chunks_exact(2 * h + 1).enumerate().map(row).collect(),
-            false => multiply_band(values, h, x, adjoint),
-        };
-        let factor = if adjoint { factor.conj() } else { factor };
-        result.iter_mut().for_each(|value| *value *= factor);
-        result
     }
 
     /// Space for the factorization of `T`.
