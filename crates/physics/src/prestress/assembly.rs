@@ -321,8 +321,8 @@ impl<'a> Assembly<'a> {
         terms
     }
 
-    /// Geometric stiffness of the stress of a base state for each region, by power of friction in the terms of a state that is frozen;
-    /// `None` of a state that is free of stress.
+    /// Geometric stiffness of the stress of a base state for each region, N/m, by power of friction in the terms of a state
+    /// that is frozen; `None` of a state that is free of stress.
     pub fn stress(&self, state: &PressedState) -> Option<Vec<Vec<Triplets>>> {
         let (state, bodies) = (self.stressing(state)?, (self.mesh, self.materials));
         let regions = 0..self.mesh.region_count();

@@ -190,23 +190,15 @@ impl Elimination {
         Triplets { entries }
     }
 
-    /// A matrix of small motions that comes with a power of `mu` over the unknowns: `T^T A T` without what vanishes, where `friction`
-    /// adds `-mu` times the work of a lift, the normal force of rigid contact, to the rows of its slip. Coefficients have the given
-    /// weights.
+    /// A matrix of small motions that comes with a power of `mu` over the unknowns: `T^T A T` without what vanishes, where
+    /// `friction` adds `-mu` times the work of a lift, the normal force of rigid contact, to the rows of its slip.
+    /// Coefficients have the given weights.
     pub(super) fn project(
         &self,
         (power, full): (usize, &Triplets),
         unknowns: &DofMap,
         (friction, weights): (&[RigidFriction], FrictionWeights),
     ) -> ProjectedPolynomial {
-        let slips = friction.iter().map(|rigid| self.over(unknowns, &rigid.slip));
-        let slips: Vec<Row> = slips.collect();
-        let mut lifts: Vec<Row> = vec![Row::new(); self.is_dropped.len()];
-        for (i, rigid) in friction.iter().enumerate() {
-            for &(dof, value) in &rigid.lift {
-                lifts[dof].push((i, value));
-            }
-        }
         let powers = weights.times_mu(power).filter(|_| !friction.is_empty());
         let last = powers.fold(power, |last, (at, _)| last.max(at));
         let mut projected = vec![Vec::new(); last + 1];
@@ -216,7 +208,18 @@ impl Elimination {
                 projected[power].push((row, column, value));
             }
         }
+        if friction.is_empty() {
+            return projected;
+        }
         // The normal force is the work of the lift, taken over all dofs.
+        let slips = friction.iter().map(|rigid| self.over(unknowns, &rigid.slip));
+        let slips: Vec<Row> = slips.collect();
+        let mut lifts: Vec<Row> = vec![Row::new(); self.is_dropped.len()];
+        for (i, rigid) in friction.iter().enumerate() {
+            for &(dof, value) in &rigid.lift {
+                lifts[dof].push((i, value));
+            }
+        }
         for &(row, column, value) in &full.entries {
             let lifted = &lifts[row];
             if lifted.is_empty() {

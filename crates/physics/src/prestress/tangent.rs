@@ -128,7 +128,8 @@ pub struct ContactDofs {
 }
 
 impl SlidingTangent {
-    /// The matrices of bodies, `terms` over all dofs, and their contacts over what `basis` (held dofs, ties) and rigid contact leave.
+    /// The matrices of bodies, `terms` over all dofs, and their contacts over what `basis` (held dofs, ties) and rigid
+    /// contact leave.
     ///
     /// # Errors
     /// [`PrestressError::Overconstrained`] where a rigid contact has no free dof to hold.
@@ -242,7 +243,8 @@ fn hold_rigid(
     Ok(friction)
 }
 
-/// Geometric stiffness of the stress of a state in a region by power of `mu - a`, N/m, in the terms of one that is frozen below `a`.
+/// Geometric stiffness of the stress of a state in a region by power of `mu - a`, N/m, in the terms of one that is frozen
+/// below `a`.
 pub(super) fn geometric_stiffness(
     (mesh, material): (&Mesh, &dyn MaterialField),
     state: &PressedState,

@@ -1,11 +1,11 @@
 //! The matrices that small motions are the sum of, each with what it stands for: of a whole mesh or of one sector.
 //!
 //! ```text
-//! M = sum_r M_r,   C = sum_r (alpha_r M_r + beta_r K_r) + beta_R (G + sum_c K_c) + sum_s C_s
-//! K = sum_r K_r + sum_s K_s + sum_c K_c + G,   H = sum eta K
+//! M = sum_r M_r,   C = sum_r (alpha_r M_r + beta_r K_r) + beta_R (G + sum_c K_c) + D
+//! K = sum_r K_r + sum_s K_s + sum_c K_c + G,   H = sum_r eta_r K_r + sum_s eta_s K_s + sum_c eta_c K_c
 //! ```
 //!
-//! over regions `r`, contacts `c`, supports and contacts `s`, with the stiffness `G` of the base state's stress and forces.
+//! over regions `r`, supports `s` and contacts `c`, with their dashpots `D` and the stiffness `G` of the base state.
 
 use super::{DampingModel, LossGain, TabledGain, TangentOptions};
 use crate::fem::fold::SectorMatrix;
@@ -45,7 +45,7 @@ pub enum Kind {
     FrictionDashpots,
 }
 
-/// One matrix: what comes with a power of the friction coefficient. Of waves that of power one changes its sign in a mirror.
+/// One matrix: what comes with a power of the friction coefficient; of waves a mirror turns that of power one over.
 #[derive(Clone, Debug)]
 pub struct Term<M> {
     /// What it belongs to.
@@ -143,7 +143,7 @@ pub struct Terms<M> {
     pub others: Vec<String>,
     /// Of each contact.
     pub contacts: Vec<PartLaw>,
-    /// What multiplies contact and prestress in the damping: the stiffness coefficient of the whole tangent, else nothing.
+    /// Its stiffness coefficient multiplies contact and prestress in the damping.
     tangent_damping: RayleighDamping,
 }
 
@@ -199,8 +199,9 @@ impl<M> Terms<M> {
         own + root * self.factors(term)[1]
     }
 
-    /// Adds `x^H A x` of a term's matrix to the forms of its part. Stress has a part in the damping alone. Gyroscopic forces, of
-    /// which `x^H G x = i g`, take no power of a motion that neither grows nor decays; of one that does `sigma g / omega`.
+    /// Adds `x^H A x` of a term's matrix to the forms of its part. Stress has a part in the damping alone. Gyroscopic
+    /// forces, of which `x^H G x = i g`, take no power of a motion that neither grows nor decays; of one that does
+    /// `sigma g / omega`.
     pub fn add_form<N>(&self, term: &Term<N>, root: c64, form: c64, sum: &mut PartForms) {
         if term.kind == Kind::Gyroscopic {
             sum.damping += root.re * form.im / root.im;
@@ -289,8 +290,8 @@ impl<M: Entries> Terms<M> {
 }
 
 impl Terms<Triplets> {
-    /// Those of a mesh over all its dofs without stress and rotation: regions, of which the stiffness is given, supports unless all of it
-    /// is free, and modifications.
+    /// Those of a mesh over all its dofs without stress and rotation: regions, of which the stiffness is given, supports
+    /// unless all of it is free, and modifications.
     pub fn of_mesh(
         (mesh, material): (&Mesh, &dyn MaterialField),
         elastic: Vec<Triplets>,

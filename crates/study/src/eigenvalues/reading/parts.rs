@@ -62,8 +62,8 @@ impl<'a> Parts<'a> {
         term.matrix.pattern().multiply(&values, shapes.columns.as_ref())
     }
 
-    /// Geometric stiffness of the regions at a friction coefficient; none where no stress of the base state acts on small
-    /// motions beside that of the rotation.
+    /// Geometric stiffness of the regions at a friction coefficient; none where no stress of the base state acts on
+    /// small motions beside that of the rotation.
     pub fn stress(&self, friction: f64) -> Rc<[PartTerm]> {
         let WholeMesh { mesh, options, range, .. } = self.whole;
         let cea = self.case.cea.as_ref().filter(|_| options.geometric_stiffness);
