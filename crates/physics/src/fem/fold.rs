@@ -61,6 +61,9 @@ impl SectorMatrix {
 
     /// From entries whose columns are `STEPS` times those of the matrix, plus the difference of angles.
     fn merged(components: usize, mut terms: Triplets) -> Self {
+        if terms.entries.is_empty() {
+            return Self::default();
+        }
         terms.merge();
         let mut starts = vec![0];
         let mut entries = Vec::with_capacity(terms.entries.len());

@@ -35,7 +35,6 @@ mod tabled;
 mod tangent;
 mod terms;
 mod wave_harmonic;
-mod wave_parts;
 mod wave_tangent;
 mod wave_terms;
 
@@ -52,7 +51,6 @@ pub use sector::SectorSliding;
 pub use solid::SolidSliding;
 pub use tabled::{LossGain, TabledGain, TabledStiffness};
 pub use tangent::{ContactDofs, ContactPart, SlidingTangent};
-pub use terms::{Entries, Kind, Part, PartForms, PartLaw, Term, Terms};
+pub use terms::{Kind, Part, PartForms, PartLaw, Term, Terms};
 pub use wave_harmonic::{FrictionPolynomial, HarmonicTangent, MovingHarmonic, evaluate};
-pub use wave_parts::HarmonicParts;
 pub use wave_tangent::WaveTangent;

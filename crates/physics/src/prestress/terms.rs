@@ -8,7 +8,6 @@
 //! over regions `r`, supports `s` and contacts `c`, with their dashpots `D` and the stiffness `G` of the base state.
 
 use super::{DampingModel, LossGain, TabledGain, TangentOptions};
-use crate::fem::fold::SectorMatrix;
 use crate::fem::{
     MaterialField, RayleighDamping, Triplets, assemble_attachments, assemble_patch_damping,
     assemble_point_masses, assemble_support, region_mass,
@@ -63,6 +62,12 @@ impl<M> Term<M> {
     pub fn is(&self, part: Part, kind: Kind) -> bool {
         (self.part, self.kind) == (part, kind)
     }
+
+    /// The same with another matrix.
+    pub fn with<N>(&self, matrix: N) -> Term<N> {
+        let Self { part, kind, power, .. } = *self;
+        Term { part, kind, power, matrix }
+    }
 }
 
 /// One for the terms of a kind, zero for all others.
@@ -112,24 +117,6 @@ pub struct PartForms {
     pub stiffness: f64,
     /// What the damping takes, over `|lambda|^2`; a loss factor takes like a dashpot `eta k / omega`.
     pub damping: f64,
-}
-
-/// A matrix that may have no entry.
-pub trait Entries {
-    /// Whether it has none.
-    fn is_empty(&self) -> bool;
-}
-
-impl Entries for Triplets {
-    fn is_empty(&self) -> bool {
-        self.entries.is_empty()
-    }
-}
-
-impl Entries for SectorMatrix {
-    fn is_empty(&self) -> bool {
-        self.is_empty()
-    }
 }
 
 /// What the matrices are made of.
@@ -251,12 +238,12 @@ impl<M> Terms<M> {
     }
 }
 
-impl<M: Entries> Terms<M> {
-    /// Adds what acts with each power of friction.
+impl<M: Default + PartialEq> Terms<M> {
+    /// Adds what acts with each power of friction; a matrix without entries is the default one.
     pub fn add(&mut self, part: Part, kind: Kind, powers: impl IntoIterator<Item = M>) {
         let powers = powers.into_iter().enumerate();
         let terms = powers.map(|(power, matrix)| Term { part, kind, power, matrix });
-        self.all.extend(terms.filter(|term| !term.matrix.is_empty()));
+        self.all.extend(terms.filter(|term| term.matrix != M::default()));
     }
 
     /// Adds mass and stiffness of the next region; regions come before all other bodies.

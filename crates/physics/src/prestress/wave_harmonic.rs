@@ -150,30 +150,4 @@ impl MovingHarmonic {
         };
         band.chunks_exact(width).enumerate().map(row).collect()
     }
-
-    /// A sum of matrices of the same unknowns, each with its weight; `None` where the unknowns differ.
-    pub fn combined(terms: &[(f64, Self)]) -> Option<Self> {
-        let (weight, first) = terms.first()?;
-        let shape = |own: &Self| (own.half_bandwidth, own.mass.len(), own.losses.len());
-        if !terms.iter().all(|(_, own)| shape(own) == shape(first)) {
-            return None;
-        }
-        let sum = |of: &dyn for<'a> Fn(&'a Self) -> &'a Vec<c64>| {
-            let mut sum: Vec<c64> = of(first).iter().map(|v| v * *weight).collect();
-            for (weight, term) in &terms[1..] {
-                sum.iter_mut().zip(of(term)).for_each(|(sum, v)| *sum += v * *weight);
-            }
-            sum
-        };
-        Some(Self {
-            half_bandwidth: first.half_bandwidth,
-            mass: sum(&|own| &own.mass),
-            damping: sum(&|own| &own.damping),
-            stiffness: sum(&|own| &own.stiffness),
-            losses: {
-                let gains = first.losses.iter().map(|(gain, _)| gain.clone()).enumerate();
-                gains.map(|(part, gain)| (gain, sum(&|own| &own.losses[part].1))).collect()
-            },
-        })
-    }
 }

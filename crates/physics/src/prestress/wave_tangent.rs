@@ -2,13 +2,13 @@
 
 mod losses;
 
-use super::terms::{Kind, Part, Term, of_kind};
+use super::terms::{Kind, Part, Term, Terms, of_kind};
 use super::wave_terms::WaveTerms;
 use super::{FrictionPolynomial, HarmonicTangent, TangentOptions};
 use crate::fem::fold::{MirrorParity, SectorMatrix, WaveDofs};
 use crate::fem::sector::Sectored;
 use crate::fem::{DofMap, MassKind, MaterialField, RayleighDamping};
-use crate::linalg::banded::BandedMatrix;
+use crate::linalg::banded::{BandedMatrix, CompactRows};
 use crate::linalg::c64;
 
 /// [`super::SlidingTangent`] of a body of equal sectors that are their own mirror images, from the matrices of one of them.
@@ -43,7 +43,8 @@ pub struct WaveTangent {
     pub sliding_direction: f64,
     /// Choices of the linearisation.
     pub options: TangentOptions,
-    pub(super) terms: WaveTerms,
+    /// The matrices of one sector.
+    pub terms: Terms<SectorMatrix>,
     pub(super) contact: WaveContact,
     /// Dofs that nothing holds.
     pub dofs: WaveDofs,
@@ -197,6 +198,24 @@ impl WaveTangent {
         self.ascending((0..self.unknowns.unknown_of.len()).filter(|dof| dof % self.components == 2))
     }
 
+    /// Unknowns of each contact node, or ring of them, of one sector.
+    pub fn contact_unknowns(&self) -> Vec<Vec<usize>> {
+        let place = |dof: &usize| self.unknowns.unknown_of[*dof];
+        let contact = self.contact.places.iter();
+        contact.map(|dofs| dofs.iter().filter_map(place).collect()).collect()
+    }
+
+    /// The terms of regions and supports in the unknowns of harmonic `n`; those of power one come with `i mu`.
+    pub fn body_terms(&self, n: usize) -> Vec<Term<CompactRows>> {
+        let bodies = self.terms.all.iter().filter(|own| matches!(own.part, Part::Body(_)));
+        let folded = bodies.map(|term| {
+            let is_it = |own: &Term<_>| f64::from(u8::from(std::ptr::eq(own, term)));
+            let matrix = self.restricted(self.sum(n, term.parity(), &is_it));
+            term.with(CompactRows::new(&matrix))
+        });
+        folded.collect()
+    }
+
     /// Along the sliding, and in space across it.
     fn tangential_components(&self) -> impl Iterator<Item = usize> + use<> {
         [1].into_iter().chain((self.components == 3).then_some(2 - self.contact.normal))
@@ -263,7 +282,7 @@ impl WaveTangent {
     }
 
     /// Harmonic `n` of the terms of a parity, each times its factor, with distances across the contact.
-    pub(super) fn sum(
+    fn sum(
         &self,
         n: usize,
         parity: MirrorParity,
@@ -287,7 +306,7 @@ impl WaveTangent {
     }
 
     /// Over the unknowns alone.
-    pub(super) fn restricted(&self, matrix: BandedMatrix) -> BandedMatrix {
+    fn restricted(&self, matrix: BandedMatrix) -> BandedMatrix {
         if self.contact.rigid.is_empty() { matrix } else { matrix.restricted_to(&self.moving) }
     }
 

@@ -68,7 +68,7 @@ impl WaveTerms {
             match own.all.iter_mut().find(|own| name(own) == name(term)) {
                 Some(own) if own.matrix == term.matrix => own.matrix = SectorMatrix::default(),
                 Some(own) => own.matrix = own.matrix.plus(&term.matrix.scaled(-1.0)),
-                None => own.all.push(Term { matrix: term.matrix.scaled(-1.0), ..*term }),
+                None => own.all.push(term.with(term.matrix.scaled(-1.0))),
             }
         }
         own.all.retain(|term| !term.matrix.is_empty());

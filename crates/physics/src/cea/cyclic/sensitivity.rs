@@ -96,7 +96,7 @@ pub fn wave_responses(pairs: &[&WavePair], quotient: &[Beside]) -> Option<Vec<c6
             let terms = quotient.iter().zip(&sides);
             let terms =
                 terms.map(|(own, side)| (own.weight, side.at(friction + own.friction_shift)));
-            let change = MovingHarmonic::combined(&terms.collect::<Vec<_>>())?;
+            let change = combined(&terms.collect::<Vec<_>>())?;
             for &i in alike {
                 responses[i] = pairs[i].response(&change)?;
             }
@@ -120,6 +120,32 @@ impl WavePair {
         let own = self.own_slope.map(|own| own_frequency_step(step, own));
         Some(self.waves.own(own.unwrap_or(step)))
     }
+}
+
+/// A sum of matrices of the same unknowns, each with its weight; `None` where the unknowns differ.
+fn combined(terms: &[(f64, MovingHarmonic)]) -> Option<MovingHarmonic> {
+    let (weight, first) = terms.first()?;
+    let shape = |own: &MovingHarmonic| (own.half_bandwidth, own.mass.len(), own.losses.len());
+    if !terms.iter().all(|(_, own)| shape(own) == shape(first)) {
+        return None;
+    }
+    let sum = |of: &dyn for<'a> Fn(&'a MovingHarmonic) -> &'a Vec<c64>| {
+        let mut sum: Vec<c64> = of(first).iter().map(|v| v * *weight).collect();
+        for (weight, term) in &terms[1..] {
+            sum.iter_mut().zip(of(term)).for_each(|(sum, v)| *sum += v * *weight);
+        }
+        sum
+    };
+    Some(MovingHarmonic {
+        half_bandwidth: first.half_bandwidth,
+        mass: sum(&|own| &own.mass),
+        damping: sum(&|own| &own.damping),
+        stiffness: sum(&|own| &own.stiffness),
+        losses: {
+            let gains = first.losses.iter().map(|(gain, _)| gain.clone()).enumerate();
+            gains.map(|(part, gain)| (gain, sum(&|own| &own.losses[part].1))).collect()
+        },
+    })
 }
 
 /// `y^H A x` of a band; changes are zero in most of it.

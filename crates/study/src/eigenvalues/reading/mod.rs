@@ -15,6 +15,7 @@
 
 mod budget;
 mod feed;
+mod harmonic;
 mod mesh_error;
 mod parts;
 mod shapes;

@@ -1,13 +1,14 @@
 //! The same of a body solved harmonic by harmonic, from the matrices of one sector: every sector has an equal share.
 
 use super::budget::write;
+use super::harmonic::Harmonic;
 use super::shapes::{couplings, name_of};
 use crate::eigenvalues::contact::CONTACT;
 use crate::eigenvalues::sliding::SlidingModel;
 use frictionsim_case::Case;
 use frictionsim_physics::cea::{ComplexMode, FrictionPoint, FrictionSweep, ModeWave};
 use frictionsim_physics::linalg::c64;
-use frictionsim_physics::prestress::{HarmonicParts, WaveTangent};
+use frictionsim_physics::prestress::WaveTangent;
 use frictionsim_results::cea::{Contribution, Coupling, ModeFeed, ModeName, Reading, Source};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -15,7 +16,7 @@ use std::collections::{BTreeMap, BTreeSet};
 struct Apart<'a> {
     /// Regions, then supports.
     parts: Vec<(String, Source)>,
-    harmonics: BTreeMap<usize, HarmonicParts<'a>>,
+    harmonics: BTreeMap<usize, Harmonic<'a>>,
 }
 
 /// A mode with its wave, and `M x` of it.
@@ -61,8 +62,8 @@ impl<'t> Apart<'t> {
         let numbers: BTreeSet<usize> =
             modes.filter(|mode| mode.wave.is_some()).map(|mode| mode.harmonic).collect();
         let regions = model.mesh.regions.iter().map(|name| (name.clone(), Source::Part));
-        let supports = tangent.support_names().map(|name| (name.to_owned(), Source::Support));
-        let harmonics = numbers.into_iter().map(|n| (n, tangent.parts(n))).collect();
+        let supports = tangent.terms.others.iter().map(|name| (name.clone(), Source::Support));
+        let harmonics = numbers.into_iter().map(|n| (n, Harmonic::new(tangent, n))).collect();
         Self { parts: regions.chain(supports).collect(), harmonics }
     }
 
