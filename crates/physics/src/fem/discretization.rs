@@ -61,7 +61,7 @@ impl<'a> DiscretizationError<'a> {
         // The error of each element's strain at the points of its stiffness, and its energy.
         let energies: Vec<Vec<c64>> =
             crate::parallel::map(elements, |e| self.element_energies(e, &columns, &recovered));
-        let regions = self.mesh.region_count();
+        let regions = self.mesh.regions.len().max(1);
         let mut forms = vec![vec![c64::new(0.0, 0.0); regions]; pairs.len()];
         for (e, energy) in energies.iter().enumerate() {
             for (form, energy) in forms.iter_mut().zip(energy) {

@@ -10,6 +10,7 @@ mod discretization;
 mod dof_map;
 pub mod element;
 pub mod fold;
+mod gain;
 mod material;
 mod maxwell;
 mod modulus_table;
@@ -31,6 +32,7 @@ pub use assembly::{
 };
 pub use discretization::DiscretizationError;
 pub use dof_map::DofMap;
+pub use gain::{LossGain, TabledGain};
 pub use material::{
     ElasticMaterial, MaterialField, PlaneFormulation, RayleighDamping, RegionMaterial,
 };

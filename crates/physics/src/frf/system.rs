@@ -47,7 +47,7 @@ impl FrfSystem {
         is_clamped: bool,
     ) -> Self {
         let options = TangentOptions::of_free(mass, damping);
-        let regions = 0..mesh.region_count();
+        let regions = 0..mesh.regions.len().max(1);
         let elastic = regions.map(|region| region_stiffness(mesh, material, region)).collect();
         let terms = Terms::of_mesh((mesh, material), elastic, !is_clamped, &options);
         let held = mesh.held_dofs().filter(|_| is_clamped);

@@ -163,11 +163,6 @@ impl Mesh {
         self.element_kinds[element]
     }
 
-    /// Regions, one where none has a name.
-    pub fn region_count(&self) -> usize {
-        self.regions.len().max(1)
-    }
-
     /// Region of element `element`.
     pub fn region(&self, element: usize) -> usize {
         usize::from(self.element_regions[element])

@@ -146,7 +146,7 @@ impl<'a> Assembly<'a> {
                 Ok((contact.clone(), surface))
             })
             .collect();
-        let regions = 0..mesh.region_count();
+        let regions = 0..mesh.regions.len().max(1);
         let elastic = regions.map(|region| region_stiffness(mesh, materials, region)).collect();
         let supports = assemble_supports(mesh);
         let contacts = found?;
@@ -325,7 +325,7 @@ impl<'a> Assembly<'a> {
     /// that is frozen; `None` of a state that is free of stress.
     pub fn stress(&self, state: &PressedState) -> Option<Vec<Vec<Triplets>>> {
         let (state, bodies) = (self.stressing(state)?, (self.mesh, self.materials));
-        let regions = 0..self.mesh.region_count();
+        let regions = 0..self.mesh.regions.len().max(1);
         Some(regions.map(|region| geometric_stiffness(bodies, &state, region)).collect())
     }
 

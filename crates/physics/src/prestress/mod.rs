@@ -39,6 +39,7 @@ mod wave_tangent;
 mod wave_terms;
 
 pub use crate::contact::PressedState;
+pub use crate::fem::{LossGain, TabledGain};
 pub use assembly::{Assembly, Joined};
 pub use complementarity::PressedRange;
 pub use cyclic::CyclicTangent;
@@ -49,7 +50,7 @@ pub use options::{DampingModel, TangentOptions};
 pub use pressed_state::Pressing;
 pub use sector::SectorSliding;
 pub use solid::SolidSliding;
-pub use tabled::{LossGain, TabledGain, TabledStiffness};
+pub use tabled::TabledStiffness;
 pub use tangent::{ContactDofs, ContactPart, SlidingTangent};
 pub use terms::{Kind, Part, PartForms, PartLaw, Term, Terms};
 pub use wave_harmonic::{FrictionPolynomial, HarmonicTangent, MovingHarmonic, evaluate};

@@ -25,7 +25,7 @@ impl WaveTerms {
         supports: Vec<SectorSupport>,
     ) -> Self {
         let mut own = Self::new(options);
-        for region in 0..sector.strip().region_count() {
+        for region in 0..sector.strip().regions.len().max(1) {
             let mass = sector::mass_of(sector, material, options.mass, Some(region));
             let elastic = sector::stiffness_of(sector, material, Some(region));
             own.add_region(PartLaw::of(material, region, options.damping), [mass, elastic]);

@@ -63,7 +63,7 @@ impl Relaxation {
         operator: &dyn StiffnessOperator,
         bound: &dyn Fn(Triplets) -> Triplets,
     ) -> Self {
-        let regions = 0..mesh.region_count();
+        let regions = 0..mesh.regions.len().max(1);
         let parts = regions.filter_map(|region| {
             let chain = materials.chain(region)?;
             let stiffness = region_stiffness(mesh, materials, region);

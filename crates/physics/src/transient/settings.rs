@@ -229,7 +229,7 @@ pub(super) fn check_times(settings: &TransientSettings) -> Result<(), TransientE
 /// Square root of the largest stiffness at once over that at rest of the regions of a mesh: Maxwell elements stiffen a body that
 /// moves fast.
 pub(super) fn stiffening(mesh: &Mesh, materials: &dyn MaterialField) -> f64 {
-    let regions = 0..mesh.region_count();
+    let regions = 0..mesh.regions.len().max(1);
     let chains = regions.filter_map(|region| materials.chain(region));
     chains.map(MaxwellChain::glassy).fold(1.0, f64::max).sqrt()
 }

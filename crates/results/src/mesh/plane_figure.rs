@@ -60,7 +60,7 @@ fn outline(mesh: &Mesh, element: usize) -> Vec<[f64; 2]> {
 
 /// The edges of the elements, region by region.
 fn elements(mesh: &Mesh) -> Vec<Line> {
-    let counts = (0..mesh.region_count()).map(|region| {
+    let counts = (0..mesh.regions.len().max(1)).map(|region| {
         let own = (0..mesh.element_count()).filter(move |&element| mesh.region(element) == region);
         let count = own.clone().count();
         let rings = own.flat_map(|element| {
