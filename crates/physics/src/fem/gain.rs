@@ -6,11 +6,9 @@ use std::f64::consts::TAU;
 use std::sync::Arc;
 
 /// What a table of modulus over frequency makes of the stiffness `K_p` of its part: the whole has `r_0 K_p` of it, and
-///
 /// ```text
 /// g(f) K_p,   g(f) = E(f) (1 + i eta(f)) / E_s - r_0,   r_0 = E(f_0) / E_s
 /// ```
-///
 /// comes to it at the frequency `f`; `E_s` is the modulus of the base state, with which `K_p` is assembled.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TabledGain {
