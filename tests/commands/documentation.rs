@@ -317,14 +317,6 @@ fn sentences_of_messages_have_under_25_words() {
     assert!(long.is_empty(), "{long}");
 }
 
-#[test]
-fn texts_between_quotes_are_found() {
-    let code = r###"f('"', "a \
-        b", '\'', x: &'a str); // "none"
-        g(r#"raw "own" text"#, "\"said\"\n", "");"###;
-    assert_eq!(literals(code), ["a b", "raw \"own\" text", "\"said\"\n", ""]);
-}
-
 /// Pages that the README and the instructions link to are there.
 #[test]
 fn links_of_readme_and_instructions_lead_somewhere() {

@@ -18,58 +18,9 @@ fn on_block(mesh: &str, case: &str) -> Answer {
     run(&block_in(mesh, case), &["check", "block.toml"]).end()
 }
 
-/// The mesh with other lines, each old one there once.
-fn edited(lines: &[(&str, &str)]) -> String {
-    lines.iter().fold(MESH.to_owned(), |mesh, (old, new)| {
-        assert_eq!(mesh.matches(old).count(), 1, "{old}");
-        mesh.replace(old, new)
-    })
-}
-
-#[test]
-fn a_mesh_that_is_not_whole_is_said_with_numbers_and_places() {
-    // Columns 1 to 4 of the middle row of nodes are doubled, or all five.
-    let twins = "26 0.001 0.002 0\n27 0.002 0.002 0\n28 0.003 0.002 0\n29 0.004 0.002 0\n";
-    let cut = |count: &str, left: &str, last: &str| {
-        edited(&[
-            ("$Nodes\n25\n", &format!("$Nodes\n{count}\n")),
-            ("$EndNodes", &format!("{twins}{last}$EndNodes")),
-            ("11 12 17 16", &format!("{left} 26 17 16")),
-            ("12 13 18 17", "26 27 18 17"),
-            ("13 14 19 18", "27 28 19 18"),
-            ("14 15 20 19", "28 29 20 19"),
-        ])
-    };
-    // The same element from another corner on.
-    let again = ("$EndElements", "25 3 2 3 3 13 12 7 8\n$EndElements");
-    let count = ("$Elements\n24\n", "$Elements\n25\n");
-    let inwards = ("\n7 0.001 0.001 0\n", "\n7 0.00051 0.00051 0\n");
-    let (cracked, parts) = (cut("29", "11", ""), cut("30", "30", "30 0 0.002 0\n"));
-    for (mesh, code, said) in [
-        (MESH, 0, "!another one lies"),
-        // 4 edges on either side of the crack are free, and 4 + 4 of the two vertical sides.
-        (&cracked, 0, "4 nodes lie where another one lies ; 12 and 26 at (0.001000, 0.002000) m"),
-        (&cracked, 0, "16 free edges are in no physical curve"),
-        (&parts, 2, "a part of the body that touches no other ; merge the parts"),
-        (&parts, 2, "5 nodes lie where another one lies"),
-        (&edited(&[count, again]), 2, "1 element is given twice (elements 14 and 25 at"),
-        // The inner node of the lower left element, all but on its diagonal.
-        (&edited(&[inwards]), 0, "that of nodes 1, 2, 7, 6 at (0.000"),
-        (&edited(&[("\n25 0.004 ", "\n25 1e300 ")]), 2, "node 25 lies at [1e300"),
-        // Meshes of other programs, told by their content whatever their name.
-        ("*Heading\n test\n*Node\n1, 0., 0.\n", 2, "no solid or plane elements (*ELEMENT"),
-        ("$ comment\nBEGIN BULK\nGRID,1,,0.,0.,0.\n", 2, "no solid elements (CTETRA"),
-        ("    -1\n  2411\n", 2, "it is truncated (-1 expected)"),
-        ("$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n", 2, "meshio leaves such files"),
-    ] {
-        let answer = on_block(mesh, CASE).code(code);
-        has(if code == 0 { &answer.stdout } else { &answer.stderr }, &[said]);
-    }
-}
-
 #[test]
 fn long_names_and_many_unknown_keys_are_bounded_in_time_and_in_what_is_said() {
-    let mesh = edited(&[("\"block\"", &format!("\"{}\"", "b".repeat(1 << 20)))]);
+    let mesh = MESH.replace("\"block\"", &format!("\"{}\"", "b".repeat(1 << 20)));
     on_block(&mesh, CASE).code(2).warns(&["the name of a physical group has 1048576 bytes"]);
 
     let mut case = CASE.to_owned();

@@ -43,18 +43,6 @@ fn one_number_of_a_list_is_set_by_its_place_counted_from_one() {
 }
 
 #[test]
-fn a_material_that_is_the_same_across_z_may_have_global_axes() {
-    // Turning the body changes nothing, with axes that do not turn.
-    let around = [
-        "material.young_moduli=[2e9, 2e9, 5e9]",
-        "material.poisson_ratios=[0.25, 0.1, 0.1]",
-        "material.shear_moduli=[0.8e9, 1e9, 1e9]",
-        "material.axes=global",
-    ];
-    read(&around).unwrap();
-}
-
-#[test]
 fn structural_damping_has_its_meaning_or_is_refused() {
     let run = "transient={ duration=1e-4, expansion_time=5e-5 }";
     let case = read(&["material.loss_factor=0.1", "mesh.element=\"quad4\"", run]).unwrap();

@@ -29,15 +29,6 @@ fn counts_are_printed_and_summed_up() {
     }
 }
 
-#[test]
-fn what_cannot_be_counted_is_refused() {
-    counted("brake-lining.toml", &[], 2).0.warns(&["is a table over frequency"]);
-    let coarse = ["mesh.circumferential_elements=24", "mesh.radial_elements=4"];
-    let (answer, _folder) = counted("polycarbonate-disc.toml", &coarse, 0);
-    assert!(answer.said().contains("harmonics are counted at quarters"));
-    assert!(answer.summary()["mode_counts"].is_null());
-}
-
 /// Harmonics with losses, and those of a body of revolution.
 #[test]
 fn harmonics_hold_as_many_modes_as_the_whole_mesh() {

@@ -8,18 +8,6 @@ fn run(command: &str, case: &Path, out: &Path, set: &[&str]) -> Answer {
     Run::of(command, case).args(&["--force"]).out(out).set(set).done()
 }
 
-#[test]
-fn plane_and_solid_discs_and_basins_take_a_law() {
-    case_of("disc.toml", DISC, AS_IT_IS);
-    let solid = DISC
-        .replace("plane-strain", "three-dimensional")
-        .replace("[mesh]", "thickness = 0.009\n[mesh]\naxial_elements = 2");
-    case_of("disc.toml", &solid, AS_IT_IS);
-    let basin = case_of("disc.toml", DISC, &["basin={}", "cycle={}"]);
-    assert!(!basin.has_rotating_waves());
-    assert!(basin.require_basin().is_ok());
-}
-
 /// Cross-method: harmonic by harmonic and over the whole mesh, eigenvalues and derivatives by the law's numbers agree.
 #[test]
 fn both_methods_have_the_same_tables() {

@@ -8,32 +8,56 @@ fn place_of(name: &str) -> String {
     if fs::exists(&own).unwrap() { own } else { shipped(name) }
 }
 
-/// A case with changes: its text, its overrides, and the number of the line where an error must stand.
-fn changed(name: &str, changes: &str) -> (String, Vec<String>, Option<usize>) {
+/// A text with one part replaced, or all of it where that is `*`.
+fn edited(text: &str, change: &str) -> String {
+    let (old, new) = change.split_once(" -> ").unwrap();
+    let [old, new] = [old, new].map(|part| part.replace("\\n", "\n"));
+    assert!(old == "*" || text.contains(&old), "{old}");
+    if old == "*" { new } else { text.replace(&old, &new) }
+}
+
+/// A case with changes: its text, its overrides, the number of the line where an error must stand, and the files beside it that change.
+type Changed = (String, Vec<String>, Option<usize>, BTreeMap<String, String>);
+
+fn changed(name: &str, changes: &str) -> Changed {
     let mut text = fs::read_to_string(place_of(name)).unwrap();
-    let (mut overrides, mut place) = (Vec::new(), None);
+    let (mut overrides, mut place, mut files) = (Vec::new(), None, BTreeMap::new());
+    let is_file =
+        |(file, _): &(&str, &str)| fs::metadata(place_of(file)).is_ok_and(|f| f.is_file());
     for change in changes.split(" ; ").filter(|change| !["", "(none)"].contains(change)) {
-        if let Some((key, line)) = change.split_once(" := ") {
+        if let Some((file, change)) = change.split_once(": ").filter(is_file) {
+            let own = || fs::read_to_string(place_of(file)).unwrap();
+            let own = files.remove(file).unwrap_or_else(own);
+            files.insert(file.to_owned(), edited(&own, change));
+        } else if let Some((key, line)) = change.split_once(" := ") {
             let mut lines: Vec<&str> = text.lines().collect();
             let is_key = |text: &&str| text.split('=').next().map(str::trim) == Some(key);
             let at = lines.iter().position(is_key).expect(key);
             assert_eq!(lines.iter().filter(|line| is_key(line)).count(), 1, "{key}");
             lines[at] = line;
             (text, place) = (lines.join("\n"), Some(at + 1));
-        } else if let Some((old, new)) = change.split_once(" -> ") {
-            let [old, new] = [old, new].map(|part| part.replace("\\n", "\n"));
-            assert!(text.contains(&old), "{old}");
-            text = text.replace(&old, &new);
+        } else if change.contains(" -> ") {
+            text = edited(&text, change);
         } else {
             overrides.push(change.strip_prefix('-').map_or_else(|| change.to_owned(), unset));
         }
     }
-    (text, overrides, place)
+    (text, overrides, place, files)
 }
 
 fn read(name: &str, changes: &str) -> (Result<Case, String>, Option<usize>) {
-    let (text, overrides, place) = changed(name, changes);
-    let case = Case::parse(&place_of(name), text.as_bytes(), &overrides);
+    let (text, overrides, place, files) = changed(name, changes);
+    let (own, folder) = (PathBuf::from(place_of(name)), folder());
+    // Beside files that change all of those that are there.
+    for entry in fs::read_dir(own.parent().unwrap()).unwrap().filter(|_| !files.is_empty()) {
+        let file = entry.unwrap().path();
+        let _ = fs::copy(&file, folder.path().join(file.file_name().unwrap()));
+    }
+    for (file, text) in &files {
+        fs::write(folder.path().join(file), text).unwrap();
+    }
+    let path = if files.is_empty() { own } else { folder.path().join(name) };
+    let case = Case::parse(path.to_str().unwrap(), text.as_bytes(), &overrides);
     (case.map_err(|errors| errors.to_string()), place)
 }
 
@@ -69,7 +93,7 @@ fn said(head: &[&str], changes: &str) -> Result<String, String> {
             let mut words: Vec<String> = head.iter().map(|word| (*word).to_owned()).collect();
             let (mut overrides, mut files) = (Vec::new(), 0);
             if let Some(at) = head.iter().position(|word| fs::exists(place_of(word)).unwrap()) {
-                let (text, own, _) = changed(head[at], changes);
+                let (text, own, ..) = changed(head[at], changes);
                 overrides = own;
                 words[at] = place_of(head[at]);
                 if text != fs::read_to_string(&words[at]).unwrap() {

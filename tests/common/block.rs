@@ -1,42 +1,20 @@
 //! Blocks of solid elements of every kind, as a mesh file holds them.
 
-use frictionsim::mesh::{ElementKind, FileElement, FileMesh};
-use std::collections::BTreeMap;
+use super::prelude::*;
 
-pub const SOLIDS: [ElementKind; 8] = [
-    ElementKind::Tet4,
-    ElementKind::Tet10,
-    ElementKind::Hex8,
-    ElementKind::Hex20,
-    ElementKind::Wedge6,
-    ElementKind::Wedge15,
-    ElementKind::Pyramid5,
-    ElementKind::Pyramid13,
-];
+pub const SOLIDS: [ElementKind; 8] =
+    [Tet4, Tet10, Hex8, Hex20, Wedge6, Wedge15, Pyramid5, Pyramid13];
 
 /// Corners of the linear elements that make up a cell whose corners are numbered as those of a brick, its middle being 8.
-fn parts(kind: ElementKind) -> &'static [&'static [usize]] {
-    match kind {
-        ElementKind::Hex8 | ElementKind::Hex20 => &[&[0, 1, 2, 3, 4, 5, 6, 7]],
-        ElementKind::Wedge6 | ElementKind::Wedge15 => &[&[0, 1, 2, 4, 5, 6], &[0, 2, 3, 4, 6, 7]],
-        ElementKind::Pyramid5 | ElementKind::Pyramid13 => &[
-            &[0, 1, 2, 3, 8],
-            &[4, 7, 6, 5, 8],
-            &[0, 4, 5, 1, 8],
-            &[1, 5, 6, 2, 8],
-            &[2, 6, 7, 3, 8],
-            &[3, 7, 4, 0, 8],
-        ],
+fn parts(kind: ElementKind) -> impl Iterator<Item = Vec<usize>> {
+    let parts = match kind.corner_count() {
+        8 => "01234567",
+        6 => "012456 023467",
+        5 => "01238 47658 04518 15628 26738 37408",
         // Six tetrahedra about the diagonal from corner 0 to corner 6: neighbouring cells match.
-        _ => &[
-            &[0, 1, 2, 6],
-            &[0, 2, 3, 6],
-            &[0, 3, 7, 6],
-            &[0, 7, 4, 6],
-            &[0, 4, 5, 6],
-            &[0, 5, 1, 6],
-        ],
-    }
+        _ => "0126 0236 0376 0746 0456 0516",
+    };
+    parts.split(' ').map(|part| part.bytes().map(|digit| usize::from(digit - b'0')).collect())
 }
 
 /// Linear elements over places as the mesh of a file, `body` its region; quadratic kinds get nodes in the middles of their edges.

@@ -20,11 +20,6 @@ pub const fn brick(name: &'static str, origin: Place, size: Place, counts: [usiz
     Block { name, origin, size, counts }
 }
 
-/// The blocks as a file in MSH 2.2, every point moved by `place`. Nodes of different blocks are different nodes.
-pub fn file_of(blocks: &[Block], place: impl Fn(Place) -> Place) -> Vec<u8> {
-    file_of_order(blocks, 1, place)
-}
-
 /// Edges of a brick in the order of Gmsh, by their ends.
 const EDGES: [usize; 24] = [0, 1, 0, 3, 0, 4, 1, 2, 1, 5, 2, 3, 2, 6, 3, 7, 4, 5, 4, 7, 5, 6, 6, 7];
 
@@ -32,6 +27,11 @@ const EDGES: [usize; 24] = [0, 1, 0, 3, 0, 4, 1, 2, 1, 5, 2, 3, 2, 6, 3, 7, 4, 5
 pub fn polar([radius, angle, z]: [f64; 3]) -> [f64; 3] {
     let (sin, cos) = angle.sin_cos();
     [radius * cos, radius * sin, z]
+}
+
+/// The blocks as a file in MSH 2.2, every point moved by `place`. Nodes of different blocks are different nodes.
+pub fn file_of(blocks: &[Block], place: impl Fn(Place) -> Place) -> Vec<u8> {
+    file_of_order(blocks, 1, place)
 }
 
 /// The same of bricks with 8 nodes (`order` 1) or 20 nodes (`order` 2).
@@ -44,12 +44,7 @@ pub fn welded_file_of(blocks: &[Block], order: usize, place: impl Fn(Place) -> P
     write(blocks, order, place, true)
 }
 
-fn write(
-    blocks: &[Block],
-    order: usize,
-    place: impl Fn(Place) -> Place,
-    is_welded: bool,
-) -> Vec<u8> {
+fn write(blocks: &[Block], order: usize, place: impl Fn(Place) -> Place, weld_it: bool) -> Vec<u8> {
     let kind = [ElementKind::Hex8, ElementKind::Hex20][order - 1];
     let middle_of = |ends: &[usize; 2]| {
         let same = |edge: &[usize; 2]| ends.iter().all(|end| edge.contains(end));
@@ -76,23 +71,20 @@ fn write(
         }
         points.extend(file.points);
     }
-    if is_welded {
-        weld(&mut points, &mut elements);
+    if weld_it {
+        // Nodes at one place, to a millionth of a metre, get one number.
+        let (mut numbers, mut own) = (BTreeMap::new(), Vec::new());
+        let number = points.iter().map(|point: &Place| {
+            *numbers.entry(point.map(|x| (1e6 * x).round() as i64)).or_insert_with(|| {
+                own.push(*point);
+                own.len() - 1
+            })
+        });
+        let number: Vec<usize> = number.collect();
+        let nodes = elements.iter_mut().flat_map(|own: &mut Listed| &mut own.2);
+        nodes.for_each(|node| *node = number[*node]);
+        points = own;
     }
     let groups: Vec<(u32, &str)> = groups.iter().map(|(d, name)| (*d, name.as_str())).collect();
     mesh_text(&points, &groups, &elements)
-}
-
-/// Gives nodes at one place, to a millionth of a metre, one number.
-fn weld(points: &mut Vec<[f64; 3]>, elements: &mut [Listed]) {
-    let (mut numbers, mut own) = (BTreeMap::new(), Vec::new());
-    let number = points.iter().map(|point| {
-        *numbers.entry(point.map(|x| (1e6 * x).round() as i64)).or_insert_with(|| {
-            own.push(*point);
-            own.len() - 1
-        })
-    });
-    let number: Vec<usize> = number.collect();
-    elements.iter_mut().flat_map(|own| &mut own.2).for_each(|node| *node = number[*node]);
-    *points = own;
 }

@@ -1,23 +1,6 @@
 //! The paper's disc: geometry, material, damping and contact. Poisson's ratio and density are a fit to its Table 1.
 
-use faer::c64;
-use frictionsim::cea::{ComplexMode, FrictionSweep, ModeLimit, SweepRequest, sparse};
-use frictionsim::contact::{ContactStiffness, FrictionDecay, NormalLaw, SlidingContact};
-use frictionsim::fem::operator::SimdLevel;
-use frictionsim::fem::{
-    ElasticMaterial, MassKind, MaterialField, MaxwellChain, ModulusTable, PlaneFormulation,
-    RayleighDamping,
-};
-use frictionsim::frf::{Direction, Terminal};
-use frictionsim::mesh::{
-    AnnulusSpecification, BoundaryCondition, ElasticSupport, ElementKind, Mesh, ShaftSpecification,
-};
-use frictionsim::prestress::{Assembly, DampingModel, SlidingTangent, TangentOptions};
-use frictionsim::transient::{
-    CentralDifference, InitialState, OperatorChoice, Perturbation, Recorder, RecorderSettings,
-    TimeStep, TransientAnalysis, TransientModel, TransientSettings, TransientState,
-};
-use std::f64::consts::{PI, TAU};
+use super::prelude::*;
 
 pub const POLYCARBONATE: ElasticMaterial = ElasticMaterial {
     young_modulus: 2.5e9,
@@ -47,7 +30,7 @@ pub fn ring(
         radial_elements: radial,
         radial_grading: 1.0,
         element,
-        outer: BoundaryCondition::Clamped,
+        outer: Clamped,
         shaft: None,
     }
 }
@@ -143,8 +126,7 @@ pub const fn rayleigh_damping(mass: f64, stiffness: f64) -> RayleighDamping {
 
 /// The disc on a deformable shaft with a clamped bore of 6 mm.
 pub fn on_shaft(disc: AnnulusSpecification, radial_elements: usize) -> AnnulusSpecification {
-    let bore = BoundaryCondition::Clamped;
-    let shaft = ShaftSpecification { inner_radius: 0.006, radial_elements, bore };
+    let shaft = ShaftSpecification { inner_radius: 0.006, radial_elements, bore: Clamped };
     AnnulusSpecification { shaft: Some(shaft), ..disc }
 }
 
@@ -254,15 +236,14 @@ pub fn grows_as(record: &Recorder, harmonic: usize, expected: c64, tolerance: f6
     assert!(analysis.largest_residual < 1e-10, "{what}, {:e}", analysis.largest_residual);
 }
 
-/// A transient with the step that its model has.
+/// A transient with the step that its model has: duration, interval of samples, time of the expansion.
 pub fn transient_settings(
-    duration: f64,
-    sample_interval: f64,
-    expansion_time: f64,
+    times: [f64; 3],
     initial: InitialState,
     perturbation: Perturbation,
 ) -> TransientSettings {
     let time_step = TimeStep::Auto;
+    let [duration, sample_interval, expansion_time] = times;
     TransientSettings {
         duration,
         time_step,

@@ -1,6 +1,8 @@
 //! Meshes written as Gmsh files: what the reader is held to.
 
 use frictionsim::mesh::{BodySpecification, BoundaryCondition, CounterfaceSpecification, Mesh};
+use std::fmt::{Debug, Display};
+use std::io::Write;
 
 /// A plane body of a mesh file in metres.
 pub fn plane_body(
@@ -30,32 +32,25 @@ const fn form(is_new: bool, is_binary: bool) -> Form {
     Form { is_new, is_binary }
 }
 
+/// A file, and whether its numbers are bytes.
 struct Out(Vec<u8>, bool);
 
 impl Out {
-    fn line(&mut self, text: &str) {
-        self.0.extend(text.as_bytes());
-        self.0.push(b'\n');
+    fn line(&mut self, text: impl Display) {
+        writeln!(self.0, "{text}").unwrap();
     }
-    fn int(&mut self, value: i32) {
-        self.put(&value.to_le_bytes(), value.to_string());
+    fn ints(&mut self, values: &[i32]) {
+        values.iter().for_each(|value| self.put(&value.to_le_bytes(), value));
     }
-    fn size(&mut self, value: usize) {
-        self.put(&(value as u64).to_le_bytes(), value.to_string());
+    fn sizes(&mut self, values: &[usize]) {
+        values.iter().for_each(|value| self.put(&(*value as u64).to_le_bytes(), value));
     }
-    fn number(&mut self, value: f64) {
-        self.put(&value.to_le_bytes(), format!("{value:?}"));
+    fn numbers(&mut self, values: &[f64]) {
+        values.iter().for_each(|value| self.put(&value.to_le_bytes(), value));
     }
-    fn put(&mut self, bytes: &[u8], text: String) {
-        if self.1 {
-            self.0.extend(bytes);
-        } else {
-            self.0.extend(text.as_bytes());
-            self.0.push(b' ');
-        }
-    }
-    fn end(&mut self) {
-        self.0.push(b'\n');
+    fn put(&mut self, bytes: &[u8], value: &dyn Debug) {
+        let text = format!("{value:?} ");
+        self.0.extend(if self.1 { bytes } else { text.as_bytes() });
     }
 }
 
@@ -68,40 +63,32 @@ pub fn write_msh(
     place: impl Fn([f64; 2]) -> [f64; 2],
 ) -> Vec<u8> {
     let mut out = Out(Vec::new(), form.is_binary);
+    let [curves, regions] = [mesh.boundaries.len(), mesh.regions.len()];
     let version = if form.is_new { "4.1" } else { "2.2" };
-    out.line("$MeshFormat");
-    out.line(&format!("{version} {} 8", u8::from(form.is_binary)));
+    out.line(format_args!("$MeshFormat\n{version} {} 8", u8::from(form.is_binary)));
     if form.is_binary {
-        out.int(1);
-        out.end();
+        out.ints(&[1]);
+        out.line("");
     }
-    out.line("$EndMeshFormat");
-    let curves = mesh.boundaries.len();
-    out.line("$PhysicalNames");
-    out.line(&(curves + mesh.regions.len()).to_string());
-    for (b, boundary) in mesh.boundaries.iter().enumerate() {
-        out.line(&format!("1 {} \"{}\"", b + 1, boundary.name));
+    out.line(format_args!("$EndMeshFormat\n$PhysicalNames\n{}", curves + regions));
+    for (boundary, b) in mesh.boundaries.iter().zip(1..) {
+        out.line(format_args!("1 {b} \"{}\"", boundary.name));
     }
-    for (r, region) in mesh.regions.iter().enumerate() {
-        out.line(&format!("2 {} \"{region}\"", r + 1));
+    for (region, r) in mesh.regions.iter().zip(1..) {
+        out.line(format_args!("2 {r} \"{region}\""));
     }
     out.line("$EndPhysicalNames");
     if form.is_new {
         out.line("$Entities");
-        for count in [0, curves, mesh.regions.len(), 0] {
-            out.size(count);
+        out.sizes(&[0, curves, regions, 0]);
+        for tag in (1..=curves).chain(1..=regions) {
+            out.ints(&[tag as i32]);
+            out.numbers(&[0.0; 6]);
+            out.sizes(&[1]);
+            out.ints(&[tag as i32]);
+            out.sizes(&[0]);
         }
-        for count in [curves, mesh.regions.len()] {
-            for tag in 1..=count as i32 {
-                out.int(tag);
-                (0..6).for_each(|_| out.number(0.0));
-                out.size(1);
-                out.int(tag);
-                out.size(0);
-            }
-        }
-        out.end();
-        out.line("$EndEntities");
+        out.line("\n$EndEntities");
     }
     let plain: Vec<usize> = (1..=mesh.node_count()).collect();
     let numbers = if numbers.is_empty() { &plain } else { numbers };
@@ -123,75 +110,57 @@ fn write_nodes(
     order.sort_by_key(|&node| numbers[node]);
     out.line("$Nodes");
     if form.is_new {
-        for value in [1, count, 1, count] {
-            out.size(value);
-        }
-        out.int(2);
-        out.int(1);
-        out.int(0);
-        out.size(count);
-        order.iter().for_each(|&node| out.size(numbers[node]));
+        out.sizes(&[1, count, 1, count]);
+        out.ints(&[2, 1, 0]);
+        out.sizes(&[count]);
+        order.iter().for_each(|&node| out.sizes(&[numbers[node]]));
     } else {
-        out.line(&count.to_string());
+        out.line(count);
     }
     for &node in &order {
         if !form.is_new {
-            out.int(numbers[node] as i32);
+            out.ints(&[numbers[node] as i32]);
         }
         let [x, y] = place(mesh.plane_node(node));
-        [x, y, 0.0].into_iter().for_each(|value| out.number(value));
+        out.numbers(&[x, y, 0.0]);
     }
-    out.end();
-    out.line("$EndNodes");
+    out.line("\n$EndNodes");
 }
 
 fn write_elements(out: &mut Out, mesh: &Mesh, form: Form, numbers: &[usize]) {
     let mut all: Vec<(i32, i32, Vec<usize>)> = Vec::new();
     let number = |node: u32| numbers[node as usize];
-    let outline = mesh.outline_edges();
-    for (b, boundary) in mesh.boundaries.iter().enumerate() {
-        for &(p, q, middle) in &outline {
-            if boundary.nodes.contains(&p) && boundary.nodes.contains(&q) {
-                let nodes = [p, q].into_iter().chain(middle).map(number).collect();
-                all.push((if middle.is_some() { 8 } else { 1 }, b as i32 + 1, nodes));
-            }
+    for (boundary, tag) in mesh.boundaries.iter().zip(1..) {
+        let is_own = |node: &u32| boundary.nodes.contains(node);
+        for &(p, q, middle) in mesh.outline_edges().iter().filter(|e| is_own(&e.0) && is_own(&e.1))
+        {
+            let nodes = [p, q].into_iter().chain(middle).map(number).collect();
+            all.push((if middle.is_some() { 8 } else { 1 }, tag, nodes));
         }
     }
     for e in 0..mesh.element_count() {
         let nodes = mesh.element_nodes(e).iter().map(|&node| number(node)).collect();
-        let kind = mesh.element_kind(e).gmsh_type() as i32;
-        all.push((kind, mesh.region(e) as i32 + 1, nodes));
+        all.push((mesh.element_kind(e).gmsh_type() as i32, mesh.region(e) as i32 + 1, nodes));
     }
     out.line("$Elements");
-    if form.is_new {
-        for value in [all.len(), all.len(), 1, all.len()] {
-            out.size(value);
-        }
-    } else {
-        out.line(&all.len().to_string());
+    match form.is_new {
+        true => out.sizes(&[all.len(), all.len(), 1, all.len()]),
+        false => out.line(all.len()),
     }
-    for (i, (kind, tag, nodes)) in all.iter().enumerate() {
-        match (form.is_new, form.is_binary) {
-            (true, _) => {
-                out.int(if matches!(kind, 1 | 8) { 1 } else { 2 });
-                out.int(*tag);
-                out.int(*kind);
-                out.size(1);
-                out.size(i + 1);
-                nodes.iter().for_each(|&node| out.size(node));
+    for ((kind, tag, nodes), label) in all.iter().zip(1..) {
+        if form.is_new {
+            out.ints(&[if matches!(kind, 1 | 8) { 1 } else { 2 }, *tag, *kind]);
+            out.sizes(&[1, label]);
+            out.sizes(nodes);
+        } else {
+            let label = label as i32;
+            match form.is_binary {
+                true => out.ints(&[*kind, 1, 2, label]),
+                false => out.ints(&[label, *kind, 2]),
             }
-            (false, is_binary) => {
-                if is_binary {
-                    [*kind, 1, 2, i as i32 + 1].into_iter().for_each(|value| out.int(value));
-                } else {
-                    [i as i32 + 1, *kind, 2].into_iter().for_each(|value| out.int(value));
-                }
-                out.int(*tag);
-                out.int(*tag);
-                nodes.iter().for_each(|&node| out.int(node as i32));
-            }
+            out.ints(&[*tag, *tag]);
+            nodes.iter().for_each(|&node| out.ints(&[node as i32]));
         }
     }
-    out.end();
-    out.line("$EndElements");
+    out.line("\n$EndElements");
 }

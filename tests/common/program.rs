@@ -1,7 +1,7 @@
 //! The program as a user starts it: a command, its case and overrides, and what it says and leaves.
 
 use serde_json::Value;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::ffi::OsStr;
 use std::io::Write;
 use std::ops::Index;
@@ -23,6 +23,8 @@ pub struct Answer {
     pub stdout: String,
     pub stderr: String,
     pub out: PathBuf,
+    /// The folder of a run that was given none.
+    own: Option<tempfile::TempDir>,
 }
 
 /// A row of a table, its words by column.
@@ -49,16 +51,14 @@ pub fn folder_with(files: &[(&str, &[u8])]) -> tempfile::TempDir {
 pub fn shell(folder: impl AsRef<Path>, script: &str, words: &[&str]) -> Answer {
     let mut shell = Command::new("sh");
     shell.args(["-c", script, env!("CARGO_BIN_EXE_frictionsim")]).args(words);
-    Answer::of(shell.current_dir(&folder).output().unwrap(), folder.as_ref().to_owned())
+    Answer::of(shell.current_dir(&folder).output().unwrap(), folder.as_ref().to_owned(), None)
 }
 
 /// The names in a folder, in their order.
 pub fn names_in(folder: &Path) -> Vec<String> {
     let entries = std::fs::read_dir(folder).unwrap().map(Result::unwrap);
     let names = entries.map(|entry| entry.file_name().into_string().unwrap());
-    let mut names: Vec<String> = names.collect();
-    names.sort();
-    names
+    BTreeSet::from_iter(names).into_iter().collect()
 }
 
 impl Run {
@@ -117,13 +117,17 @@ impl Run {
         self.program
     }
 
+    /// Runs it to its end, in a temporary folder of its own where it was given none.
     pub fn end(mut self) -> Answer {
-        let pipes = [Stdio::piped(), Stdio::piped(), Stdio::piped()];
-        let [input, output, errors] = pipes;
+        let own = self.within.as_os_str().is_empty().then(folder);
+        if let Some(own) = &own {
+            self = self.within(own);
+        }
+        let [input, output, errors] = [(); 3].map(|()| Stdio::piped());
         let mut child = self.program.stdin(input).stdout(output).stderr(errors).spawn().unwrap();
         // A run that refuses its case does not read on.
         let _ = child.stdin.take().unwrap().write_all(&self.input);
-        Answer::of(child.wait_with_output().unwrap(), self.within.join(self.out))
+        Answer::of(child.wait_with_output().unwrap(), self.within.join(self.out), own)
     }
 
     /// Starts the run, waits until it has come so far, a minute at most, and ends it: by a signal, at once where there is none.
@@ -136,15 +140,14 @@ impl Run {
             assert!(start.elapsed() < Duration::from_secs(60), "not so far after a minute");
             std::thread::sleep(Duration::from_millis(2));
         }
+        let id = child.id().to_string();
         match signal {
             Some(name) => {
-                let kill =
-                    Command::new("kill").args(["-s", name, &child.id().to_string()]).status();
-                assert!(kill.unwrap().success());
+                assert!(Command::new("kill").args(["-s", name, &id]).status().unwrap().success());
             }
             None => child.kill().unwrap(),
         }
-        Answer::of(child.wait_with_output().unwrap(), self.within.join(self.out))
+        Answer::of(child.wait_with_output().unwrap(), self.within.join(self.out), None)
     }
 
     /// A run that must end well.
@@ -159,10 +162,10 @@ impl Run {
 }
 
 impl Answer {
-    fn of(output: Output, out: PathBuf) -> Self {
+    fn of(output: Output, out: PathBuf, own: Option<tempfile::TempDir>) -> Self {
         let [stdout, stderr] =
             [output.stdout, output.stderr].map(|bytes| String::from_utf8(bytes).unwrap());
-        Self { code: output.status.code(), stdout, stderr, out }
+        Self { code: output.status.code(), stdout, stderr, out, own }
     }
 
     #[track_caller]

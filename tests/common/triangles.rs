@@ -1,10 +1,6 @@
 //! Unstructured triangle meshes of the disc, and the disc as the body of a file.
 
-use super::msh::{CYLINDER, plane_body};
-use frictionsim::mesh::{
-    AnnulusMesh, AnnulusSpecification, BoundaryCondition, ElementKind, FileMesh, Mesh,
-};
-use std::collections::BTreeMap;
+use super::prelude::*;
 
 /// The annulus of triangles: every quadrilateral of `specification` is cut along one diagonal or the other, and inner
 /// nodes are moved by up to a quarter of an element, both as a fixed sequence of numbers has it.
@@ -17,9 +13,7 @@ pub fn triangles(specification: &AnnulusSpecification, is_quadratic: bool) -> Me
     for [x, y, _] in &mut mesh.nodes {
         let radius = x.hypot(*y);
         if radius > inner * 1.000_01 && radius < outer * 0.999_99 {
-            let size = step.min(
-                std::f64::consts::TAU * radius / specification.circumferential_elements as f64,
-            );
+            let size = step.min(TAU * radius / specification.circumferential_elements as f64);
             *x += 0.5 * size * (draw() - 0.5);
             *y += 0.5 * size * (draw() - 0.5);
         }
@@ -62,10 +56,7 @@ pub fn triangles(specification: &AnnulusSpecification, is_quadratic: bool) -> Me
         let own: Vec<u32> = own.map(|(_, &middle)| middle).collect();
         boundary.nodes.extend(own);
     }
-    let (kind, per_element) = match is_quadratic {
-        true => (ElementKind::Tri6, 6),
-        false => (ElementKind::Tri3, 3),
-    };
+    let (kind, per_element) = if is_quadratic { (Tri6, 6) } else { (Tri3, 3) };
     let count = corners.len();
     Mesh {
         element_kinds: vec![kind; count],
@@ -79,6 +70,5 @@ pub fn triangles(specification: &AnnulusSpecification, is_quadratic: bool) -> Me
 
 /// The disc of a file, clamped at its rim.
 pub fn body(file: &FileMesh) -> Mesh {
-    let held = [("outer", BoundaryCondition::Clamped)];
-    Mesh::from_gmsh(file, &plane_body("inner", CYLINDER, None, &held)).unwrap()
+    Mesh::from_gmsh(file, &plane_body("inner", CYLINDER, None, &[("outer", Clamped)])).unwrap()
 }

@@ -79,7 +79,7 @@ fn model<'a>(assembly: &'a Assembly<'a>) -> TransientModel<'a> {
 
 fn settings(initial: InitialState, duration: f64, noise: f64) -> TransientSettings {
     let perturbation = Perturbation { noise, ..Perturbation::default() };
-    transient_settings(duration, 2e-6, 1e-4, initial, perturbation)
+    transient_settings([duration, 2e-6, 1e-4], initial, perturbation)
 }
 
 fn run(assembly: &Assembly<'_>, settings: &TransientSettings) -> (Recorder, f64) {

@@ -326,16 +326,7 @@ fn wave_travels_against_the_rotor_without_changing_its_shape() {
 }
 
 #[test]
-fn impossible_requests_say_which_key_to_change() {
-    let standing = solver(1).find(&operating(0.0)).unwrap_err();
-    assert!(standing.to_string().contains("rotation_speed_rpm"));
-    let refused = |specification: AnnulusSpecification, harmonic: usize| {
-        let model = DiscModel { specification, material: POLYCARBONATE, damping: DAMPING };
-        let onset = &solver(1).onset;
-        CycleSolver::born_at(&model, Family::lowest(harmonic), onset, None).unwrap_err()
-    };
-    assert!(matches!(refused(disc(), 46), CycleError::Harmonic { limit: 45, .. }));
-    assert_eq!(refused(annulus(Quad8, 90, 18), 1), CycleError::Element);
+fn friction_that_the_branch_does_not_come_down_to_is_told_with_how_far_it_came() {
     let mut weak = operating(610.0);
     weak.contact.friction_coefficient = 0.05;
     // The branch rises from its birth at 0.12, which is told where it has come to twice that: 0.05 is not on it.

@@ -21,9 +21,7 @@ fn run(solver: &CycleSolver, cycle: &LimitCycle, perturbed: usize, duration: f64
     let model =
         TransientModel::of_annulus(&annulus, &POLYCARBONATE, DAMPING, cycle.state.point.contact);
     let settings = transient_settings(
-        duration,
-        2e-6,
-        0.0,
+        [duration, 2e-6, 0.0],
         InitialState::LimitCycle { harmonic: cycle.harmonic, onset: 1 },
         Perturbation::of(&[perturbed], 1e-3),
     );

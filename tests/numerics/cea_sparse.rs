@@ -242,21 +242,3 @@ fn sweep_goes_on_from_any_step_to_the_same_bits() {
         }
     }
 }
-
-#[test]
-fn bad_requests_are_refused_with_the_bound() {
-    let tangent = coarse_disc();
-    let ask = |values: &[f64], limit| {
-        let request = sweep_request(values, limit);
-        sweep(&tangent, &request, &|_| {}).unwrap_err()
-    };
-    let none = ask(&[0.1], MaxFrequency(1000.0));
-    let is_lowest = |hz: f64| (hz - 5900.0).abs() < 200.0;
-    assert!(matches!(none, CeaError::NoModes { lowest_hz, .. } if is_lowest(lowest_hz)));
-    assert!(none.to_string().contains("cea.max_frequency_hz"));
-    let many = ask(&[0.1], Lowest(1_000_000));
-    assert!(many.is_usage() && many.to_string().starts_with("cea.modes = 1000000, but"));
-    let negative = ask(&[0.1, -0.2], Lowest(4));
-    assert!(negative.is_usage() && negative.to_string().contains("-0.2 is not a finite number"));
-    assert!(ask(&[], Lowest(4)).to_string().contains("give at least one value"));
-}

@@ -7,8 +7,8 @@ use frictionsim::study::eigenvalues::{self, Solution};
 use frictionsim::study::uncertainty::Sampler;
 
 /// One of `count` sectors of a disc as a file in MSH 2.2: bent cut faces, uneven elements, and a hole, the boundary "screw", off the
-/// middle. Nodes within the second cut face lie `shift` elements farther out than those of the first.
-fn disc_sector(count: usize, [around, radial]: [usize; 2], shift: f64) -> Vec<u8> {
+/// middle.
+fn disc_sector(count: usize, [around, radial]: [usize; 2]) -> Vec<u8> {
     let [inner, outer] = [0.0205, 0.0905];
     let node = |i: usize, j: usize| i * (radial + 1) + j;
     let (mut points, mut elements) = (Vec::new(), Vec::new());
@@ -19,13 +19,9 @@ fn disc_sector(count: usize, [around, radial]: [usize; 2], shift: f64) -> Vec<u8
     for i in 0..=around {
         for j in 0..=radial {
             let (mut t, mut r) = (i as f64, j as f64);
-            let is_within = 0 < j && j < radial;
-            if is_within && 0 < i && i < around {
+            if 0 < j && j < radial && 0 < i && i < around {
                 t += 0.15 * (7.0 * t + 3.0 * r).sin();
                 r += 0.15 * (5.0 * t - 2.0 * r).cos();
-            }
-            if is_within && i == around {
-                r += shift;
             }
             let share = r / radial as f64;
             let angle = TAU / count as f64 * (t / around as f64 + 0.15 * share * share);
@@ -55,12 +51,9 @@ fn disc_sector(count: usize, [around, radial]: [usize; 2], shift: f64) -> Vec<u8
     mesh_text(&points, &[(1, "inner"), (2, "disc"), (1, "screw")], &elements)
 }
 
-fn read(name: &str, mesh: &[u8], text: &str, method: &str) -> Result<Case, CaseErrors> {
-    let folder = kept(&format!("sectors-{name}"));
-    fs::write(folder.join("sector.msh"), mesh).unwrap();
-    let path = folder.join("case.toml");
-    let method = format!("cea.method={method}");
-    Case::parse(path.to_str().unwrap(), text.as_bytes(), &[method])
+fn read(name: &str, mesh: &[u8], text: &str, method: &str) -> Case {
+    let (name, method) = (format!("sectors-{name}"), format!("cea.method={method}"));
+    case_beside(&name, &[("sector.msh", mesh)], text, &[method])
 }
 
 /// A disc of so many sectors, with more of its contact, and further sections.
@@ -70,7 +63,7 @@ fn screwed_disc(sectors: usize, more: &str) -> String {
 }
 
 fn solved(name: &str, mesh: &[u8], text: &str, method: &str) -> Solution {
-    solution(&read(name, mesh, text, method).unwrap_or_else(|e| panic!("{e}"))).1
+    solution(&read(name, mesh, text, method)).1
 }
 
 /// Largest error of as many modes.
@@ -110,7 +103,7 @@ fn waves_around_a_plane_body_have_the_spectrum_of_its_whole_mesh() {
     let analysis = "[cea]\nmodes = 20\nfriction_coefficients = [0.0, 0.2, 0.4, 0.6]\n";
     let cases = [(3, "", [20, 8]), (4, "normal_stiffness = 7.4e12\n", [14, 8])];
     for (count, contact, size) in cases {
-        let mesh = disc_sector(count, size, 0.0);
+        let mesh = disc_sector(count, size);
         let text = screwed_disc(count, &format!("{contact}{analysis}"));
         assert_same(&format!("disc-{count}"), &mesh, &text);
     }
@@ -173,7 +166,7 @@ fn waves_around_a_turning_ring_have_the_spectrum_of_its_whole_mesh() {
 #[test]
 fn a_body_with_one_mass_is_solved_whole() {
     let more = "[cea]\nmodes = 6\nfriction_coefficients = [0.0, 0.4]\n[modifications.lump]\nat = { x = 0.0905, y = 0.0 }\nmass = 0.5\n";
-    let mesh = disc_sector(3, [14, 6], 0.0);
+    let mesh = disc_sector(3, [14, 6]);
     let text = screwed_disc(3, more);
     let [auto, whole] = ["auto", "sparse"].map(|method| solved("mass", &mesh, &text, method));
     assert_eq!(auto.sweep, whole.sweep);
@@ -182,37 +175,13 @@ fn a_body_with_one_mass_is_solved_whole() {
     assert!(note.unwrap().contains("mass of sector"), "{note:?}");
 }
 
-#[test]
-fn sectors_that_do_not_meet_are_refused() {
-    let refused = |name: &str, sectors: usize, shift: f64| {
-        let mesh = disc_sector(3, [14, 6], shift);
-        let text = screwed_disc(sectors, "[cea]\nmodes = 6\n");
-        let case = read(name, &mesh, &text, "auto");
-        case.unwrap_err().to_string()
-    };
-    let wrong = refused("wrong-count", 5, 0.0);
-    has(&wrong, &["mesh.sectors ; 72.000000 degrees ; 138.000000 degrees"]);
-    has(&refused("other-nodes", 3, 0.3), &["with other nodes ; Periodic Curve"]);
-}
-
-#[test]
-fn a_wrong_number_of_solid_sectors_is_reported_where_it_is_given() {
-    let block = brick("ring", [0.07, 0.0, 0.0], [0.05, TAU / 6.0, 0.01], [2, 4, 1]);
-    let mesh = file_of(&[block], polar);
-    let text = include_str!("../cases/wrong-sectors.toml");
-    let wrong = read("wrong-solid-count", &mesh, text, "auto").unwrap_err().to_string();
-    has(&wrong, &["case.toml:3 ; the sector does not fit"]);
-}
-
 /// A body of sectors says its nodal diameters in every table, and its samples have the onset of the analysis although the case's own
 /// friction lies above it.
 #[test]
 fn every_table_of_a_body_of_sectors_has_its_nodal_diameters_and_samples_have_its_onsets() {
     let more = "[cea]\nmodes = 8\nfriction_coefficients = [0.0, 0.2, 0.4]\n[uncertainty]\nsamples = 2\nindex_samples = 0\n\
         [uncertainty.distributions]\n\"material.density\" = { uniform = [1227.999999, 1228.000001] }\n";
-    let mesh = disc_sector(4, [8, 5], 0.0);
-    let case = read("tables", &mesh, &screwed_disc(4, more), "auto");
-    let case = case.unwrap_or_else(|e| panic!("{e}"));
+    let case = read("tables", &disc_sector(4, [8, 5]), &screwed_disc(4, more), "auto");
     let (model, solution) = solution(&case);
     let cea = case.cea.as_ref().unwrap();
     let report = eigenvalues::report(&case, cea, &model, &solution, 0.0);

@@ -58,22 +58,3 @@ fn reduction_agrees_with_direct_solution_for_every_boundary() {
         }
     }
 }
-
-#[test]
-fn a_clamped_node_and_a_missing_one_are_refused_with_their_key() {
-    let system = body(true, DAMPING);
-    let mesh = annulus().mesh;
-    let refused = |node: usize, key: &'static str| {
-        system.port(&mesh, None, at_node(node, false), key).unwrap_err()
-    };
-    let error = refused(RADIAL, "force_node");
-    assert!(
-        matches!(error, FrfError::Node { node: 11, fault: NodeFault::Constrained(_), .. }),
-        "{error}"
-    );
-    let error = refused(100_000, "response_node");
-    assert!(error.to_string().contains("frf.response_node = 100001"), "{error}");
-    let own = port(&system, 0, false);
-    let error = direct_response(&system, &own, &own, &[-1.0], &|_| {}).unwrap_err();
-    assert!(matches!(error, FrfError::Frequency { value: -1.0 }));
-}

@@ -24,7 +24,7 @@ fn disc() -> AnnulusMesh {
 
 fn settings(duration: f64, at: f64) -> TransientSettings {
     let kick = Perturbation { time: at, ..Perturbation::of(&[HARMONIC], 1e-8) };
-    transient_settings(duration, 4e-6, 1e-4, InitialState::SteadySliding, kick)
+    transient_settings([duration, 4e-6, 1e-4], InitialState::SteadySliding, kick)
 }
 
 /// The largest growth rate of the body (1/s), its modulus a table that the chain fills, lumped as the time loop has it.

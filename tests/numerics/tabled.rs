@@ -2,8 +2,6 @@
 
 use crate::prelude::*;
 use crate::structural_damping::{eigenvalues, follow_differences, two_unknowns};
-use frictionsim::study::eigenvalues::preflight;
-use frictionsim::study::response::FrequencyStudy;
 
 /// A modulus that rises fivefold over the modes of the disc, with much damping.
 fn rubber(scale: f64) -> Vec<[f64; 3]> {
@@ -182,25 +180,23 @@ fn a_sandwich_beam_loses_what_ross_kerwin_and_ungar_say() {
     }
 }
 
-const RUBBER: &str = include_str!("../cases/rubber.csv");
+const RUBBER: &str = include_str!("../commands/refused/rubber.csv");
 
 /// A block of steel on one of rubber that stands on the ground; both move along z alone.
-fn mount(name: &str, table: &str, sections: &str) -> Result<Case, String> {
-    let folder = kept(&format!("mount-{name}"));
+fn mount(name: &str, table: &str) -> Case {
     let block =
         |name, z: f64, height: f64| brick(name, [0.0, 0.0, z], [0.02, 0.02, height], [2, 2, 2]);
-    let blocks = [block("rubber", 0.0, 0.01), block("mass", 0.01, 0.02)];
-    fs::write(folder.join("mount.msh"), file_of(&blocks, |point| point)).unwrap();
-    fs::write(folder.join("rubber.csv"), table).unwrap();
-    let text = format!("{}{sections}", include_str!("../cases/rubber-mount.toml"));
-    read_case(folder.join("mount.toml"), &text, AS_IT_IS)
+    let mesh = file_of(&[block("rubber", 0.0, 0.01), block("mass", 0.01, 0.02)], |point| point);
+    let files = [("mount.msh", &mesh[..]), ("rubber.csv", table.as_bytes())];
+    case_beside(name, &files, include_str!("../commands/refused/mount.toml"), AS_IT_IS)
 }
 
 /// Closed form: `lambda^2 m + k(f) (1 + i eta(f)) = 0` with `k = E A / h` and a third of the rubber's mass, from a file; its hash
 /// follows the file.
 #[test]
 fn a_rubber_mounted_mass_moves_at_the_modulus_of_its_own_frequency() {
-    let case = mount("scalar", RUBBER, "[cea]\nmodes = 1\n").unwrap();
+    let case = mount("mount", RUBBER);
+    assert!(case.warnings.is_empty(), "{:?}", case.warnings);
     let found = modes_and_onsets(&case).unwrap().points[0].modes[0].eigenvalue;
     let table = case.materials().table(case.body.materials.len() - 1);
     let table = table.or_else(|| case.materials().table(0)).unwrap();
@@ -214,41 +210,5 @@ fn a_rubber_mounted_mass_moves_at_the_modulus_of_its_own_frequency() {
     }
     // The steel gives way by a ten-thousandth.
     assert!((found - lambda).norm() < 2e-4 * lambda.norm(), "{found} {lambda}");
-    let other = mount("other", &RUBBER.replace("0.45", "0.46"), "[cea]\nmodes = 1\n").unwrap();
-    assert_ne!(case.raw.hash(), other.raw.hash());
-}
-
-#[test]
-fn tables_that_no_material_has_are_refused_with_file_line_and_remedy() {
-    let head = "frequency_hz,young_modulus,loss_factor\n";
-    for (rows, parts) in [
-        ("100,5e6,0.1\n50,6e6,0.1\n", ["rubber.csv:3", "does not lie above", "sort the rows"]),
-        ("10,5e6,0.1\n100,-1,0.1\n", ["rubber.csv:3", "not above zero", "positive"]),
-        ("10,0,0.1\n100,5e6,0.1\n", ["rubber.csv:2", "not above zero", "positive"]),
-        ("10,5e6,0.1\n100,6e6,1.2\n", ["rubber.csv:3", "beyond 1", "percent"]),
-        ("10,5e6,-0.1\n100,6e6,0.2\n", ["rubber.csv:2", "below zero", "zero or positive"]),
-        ("10,5e6,0.1\n", ["rubber.csv:2", "one row", "more rows"]),
-        ("10,5e6,x\n100,5e6,0.1\n", ["rubber.csv:2", "not a number", "loss_factor"]),
-    ] {
-        let message = mount("bad", &format!("{head}{rows}"), "[cea]\nmodes = 1\n").unwrap_err();
-        has(&message, &parts);
-        has(&message, &["materials.rubber.table", "!missing key"]);
-    }
-    let lost = mount("lost", RUBBER, "[cea]\nmodes = 1\n").unwrap();
-    assert!(lost.warnings.is_empty(), "{:?}", lost.warnings);
-    // A modulus that falls is no passive material's: said, not refused.
-    let falling = format!("{head}10,9e6,0.1\n3000,5e6,0.1\n");
-    let case = mount("falling", &falling, "[cea]\nmodes = 1\n").unwrap();
-    let warning = &case.warnings.first().unwrap().message;
-    assert!(warning.contains("rises with the frequency"), "{warning}");
-    // Beyond the table: the key, the frequency and the range.
-    let short = format!("{head}10,5e6,0.1\n200,6e6,0.2\n");
-    let case = mount("short", &short, "[cea]\nmodes = 1\n").unwrap();
-    let cea = case.require_cea().unwrap();
-    let error = preflight(&case, cea).unwrap_err().to_string();
-    has(&error, &["materials.rubber.table", "10 to 200 Hz", "Hz. A modulus beyond a table"]);
-    let frf = "[frf]\nforce_node = 1\nresponse_node = 1\nboundary = \"clamped\"\nfrequencies_hz = [100.0, 5000.0]\n";
-    let case = mount("frf", RUBBER, frf);
-    let error = FrequencyStudy::new(&case.unwrap()).err().unwrap().to_string();
-    has(&error, &["10 to 3000 Hz", "5000"]);
+    assert_ne!(case.raw.hash(), mount("another-mount", &RUBBER.replace("0.45", "0.46")).raw.hash());
 }

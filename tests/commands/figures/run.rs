@@ -14,7 +14,7 @@ fn a_run_gets_every_figure_of_its_record() {
     let rotation_speed = contact.rotation_speed;
     let model = TransientModel::of_annulus(&annulus, &POLYCARBONATE, DAMPING, contact);
     let settings =
-        transient_settings(0.02, 2e-6, 5e-4, InitialState::Rest, Perturbation::of(&[2], 1e-2));
+        transient_settings([0.02, 2e-6, 5e-4], InitialState::Rest, Perturbation::of(&[2], 1e-2));
     let mut run = started(model, OperatorChoice::Auto, &settings);
     // Node 1 + 15 * 13 lies on the contact edge at 90 degrees, seven nodes further out on its ray.
     let mut record = Recorder::new(

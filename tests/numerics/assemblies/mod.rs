@@ -129,48 +129,6 @@ fn eigenvalues(assembly: &Assembly<'_>, friction: f64, count: usize) -> Vec<c64>
     eigenvalues_of(&modes_at(&tangent, friction, Lowest(count)))
 }
 
-/// Coefficients of the powers of `x - origin` from those of the powers of `x`, by repeated division.
-fn shift(coefficients: &mut [Vec<f64>], origin: f64) {
-    let count = coefficients.len();
-    for first in 0..count {
-        for p in (first..count.saturating_sub(1)).rev() {
-            let (lower, upper) = coefficients.split_at_mut(p + 1);
-            for (value, above) in lower[p].iter_mut().zip(&upper[0]) {
-                *value += origin * above;
-            }
-        }
-    }
-}
-
-/// Consistency check: above the friction coefficient below which a state is frozen its tangent is that of the same state, which holds
-/// everywhere, on springs and rigid.
-#[test]
-fn a_frozen_state_has_the_same_tangent_above() {
-    let mesh = bar();
-    for normal_stiffness in [None, Some(1e14)] {
-        let assembly = pressed(&mesh, normal_stiffness);
-        let mut state = assembly.range(&[0.3]).unwrap().states.remove(0);
-        let whole = assembly.tangent(&state, &OPTIONS).unwrap();
-        state.frozen_below = 0.2;
-        for powers in [&mut state.displacements, &mut state.normal_forces] {
-            shift(powers, state.frozen_below);
-        }
-        let frozen = assembly.tangent(&state, &OPTIONS).unwrap();
-        for friction in [0.2, 0.3, 0.5] {
-            for matrix in [0, 1, 2] {
-                let values = |tangent: &SlidingTangent| {
-                    let all = [&tangent.stiffness, &tangent.damping, &tangent.mass];
-                    dense(all[matrix], friction)
-                };
-                let (expected, found) = (values(&whole), values(&frozen));
-                let error = (&found - &expected).norm_max() / expected.norm_max();
-                let named = format!("{normal_stiffness:?} {friction} {matrix}");
-                assert!(error < 1e-13, "{named}: {error:e}");
-            }
-        }
-    }
-}
-
 #[test]
 fn a_tie_of_two_halves_has_the_spectrum_of_the_whole() {
     let clamped = [("whole_z0", Clamped)];
@@ -224,46 +182,5 @@ fn an_assembly_turned_in_space_keeps_its_spectrum() {
         let error = largest_difference(&straight, &turned);
         below(error, 1e-9, format!("{order} {normal_stiffness:?} {:?}", straight[0]));
         assert!(straight.iter().any(|lambda| lambda.re.abs() > 1e-6 * lambda.im));
-    }
-}
-
-fn refusal(blocks: &[Block], sides: [&str; 2]) -> String {
-    let mesh = mesh_of(&file_of(blocks, |point| point), &[]);
-    let contact = SlidingSurfaces {
-        surface: boundary(&mesh, sides[0]),
-        counter: Counterpart::Surface(boundary(&mesh, sides[1])),
-        ..sliding(&mesh, Some(1e14))
-    };
-    let motion = aside(&mesh);
-    let found = Assembly::new(&mesh, &STEEL, &[], &[contact], &[motion], Closed);
-    found.unwrap_err().to_string()
-}
-
-#[test]
-fn surfaces_that_make_no_contact_are_named_with_the_remedy() {
-    let near = stacked(0.0);
-    let cases = [
-        (refusal(&stacked(0.03), ["upper_z0", "lower_z1"]), "3.000e-2 m apart"),
-        (refusal(&near, ["upper_z0", "lower_x1"]), "never meet"),
-        (refusal(&near, ["upper_z1", "lower_z1"]), "point the same way"),
-    ];
-    for (message, wanted) in &cases {
-        has(message, &["contacts.pad: ", wanted]);
-        assert!(message.contains("Name") || message.contains("Move"), "{message}");
-    }
-}
-
-#[test]
-fn a_motion_that_leaves_surfaces_at_rest_is_refused() {
-    let mesh = mesh_of(&file_of(&stacked(0.0), |point| point), &[]);
-    let still = Motion { rotation_speed: 0.0, ..aside(&mesh) };
-    let contact = sliding(&mesh, Some(1e14));
-    let found = Assembly::new(&mesh, &STEEL, &[], &[contact], &[still], Closed);
-    match found.unwrap_err() {
-        PrestressError::Pair { name, error } => {
-            assert_eq!(name, "contacts.pad");
-            assert!(matches!(*error, PairError::NoSliding(_)));
-        }
-        other => panic!("{other}"),
     }
 }

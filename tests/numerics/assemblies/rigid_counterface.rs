@@ -103,27 +103,3 @@ fn a_shaft_presses_a_bush_evenly_whatever_its_axis() {
         assert!(pressures.iter().all(|pressure| *pressure > 1e6), "{pressures:?}");
     }
 }
-
-fn refusal(rigid: RigidCounterface) -> PairError {
-    let mesh = mesh_of(&file_of(&sheet(), |point| point), &HELD);
-    let contact = SlidingSurfaces { counter: Counterpart::Rigid(rigid), ..sliding(&mesh, None) };
-    match assembled(&mesh, contact, &[]).unwrap_err() {
-        PrestressError::Pair { error, .. } => *error,
-        other => panic!("{other}"),
-    }
-}
-
-#[test]
-fn a_rigid_counterface_that_does_not_fit_the_surface_is_refused() {
-    use RigidMotion::{Sliding, Turning};
-    let plane = |motion| plane(motion, [1.0, 0.3, 0.0]);
-    let found = refusal(plane(Sliding([1.0, 0.0, 0.2])));
-    assert!(matches!(found, PairError::LeavesPlane { is_turning: false, .. }), "{found}");
-    let found = refusal(RigidCounterface { axis: [0.0, 0.6, 0.8], ..plane(Turning(1.0)) });
-    assert!(matches!(found, PairError::LeavesPlane { is_turning: true, .. }), "{found}");
-    let found = refusal(plane(Sliding([0.0; 3])));
-    assert!(matches!(found, PairError::AtRest(_)), "{found}");
-    let (shape, center) = (RigidShape::Cylinder(None), [0.0; 3]);
-    let found = refusal(RigidCounterface { shape, center, ..plane(Turning(1.0)) });
-    assert!(matches!(found, PairError::NotRound { .. }), "{found}");
-}

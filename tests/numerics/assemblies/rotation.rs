@@ -87,13 +87,3 @@ fn a_free_ring_turns_and_both_frames_tell_the_same_of_its_waves() {
     // 40 elements around carry a wave of two diameters to (2 / 40)^2 of the shift.
     within(&at_rest, &expected, 0.01 * 2.0 * speed);
 }
-
-#[test]
-fn a_body_that_is_none_of_revolution_about_the_axis_has_no_rotation_terms() {
-    let (mesh, seam) = ring([4, 40, 1], Clamped);
-    let (ties, motion) = ([seam], turning(60.0, [0.03, 0.0, 0.0], RotationFrame::Rest));
-    let found = Assembly::new(&mesh, &STEEL, &ties, &[], &[motion], Closed);
-    let error = found.err().unwrap();
-    assert!(matches!(error, PrestressError::NotOfRevolution { .. }));
-    has(&error.to_string(), &["motion.ring.rotation_terms"]);
-}

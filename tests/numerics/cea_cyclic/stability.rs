@@ -76,21 +76,6 @@ fn results_are_the_same_to_the_last_bit_on_any_number_of_threads() {
     assert_eq!(one.branches, four.branches);
 }
 
-#[test]
-fn impossible_requests_name_their_key() {
-    let model = paper(Quad4, 12, 2);
-    for (frictions, limit, key) in [
-        (vec![], Lowest(3), "cea.friction_coefficients"),
-        (vec![-0.1], Lowest(3), "cea.friction_coefficients"),
-        (vec![0.1], Lowest(0), "cea.modes"),
-        (vec![0.1], Lowest(1000), "cea.modes"),
-        (vec![0.1], MaxFrequency(-5.0), "cea.max_frequency_hz"),
-    ] {
-        let outcome = model.sweep(&sweep_request(&frictions, limit));
-        assert!(outcome.unwrap_err().to_string().contains(key));
-    }
-}
-
 /// Where an eigenvalue is predicted exact to the last bit, `T(theta)` has a pivot of zero: 4 of 1000 random moduli have one.
 #[test]
 fn branches_are_followed_past_an_eigenvalue_predicted_to_the_last_bit() {

@@ -71,7 +71,8 @@ fn samples(mesh: &Mesh, speed: f64) -> Vec<SampleRow> {
     let period = TAU * (MASS / SPRING).sqrt();
     let noise = Perturbation { noise: 1e-2 * speed, ..Perturbation::default() };
     let [duration, interval] = [40.0, 0.02].map(|periods| periods * period);
-    let settings = transient_settings(duration, interval, 0.0, InitialState::SteadySliding, noise);
+    let settings =
+        transient_settings([duration, interval, 0.0], InitialState::SteadySliding, noise);
     let (record, residual) = recorded(model, OperatorChoice::Auto, &settings);
     assert!(residual < 1e-10, "{:e}", residual);
     record.rows

@@ -60,12 +60,3 @@ fn a_law_too_steep_for_the_inertia_is_reported_and_keeps_stick_and_slip_apart() 
         assert!(!found.is_ambiguous);
     }
 }
-
-#[test]
-fn the_slope_of_the_law_equals_finite_differences() {
-    let step = 1e-5;
-    for speed in [0.0, 0.05, 0.3, 1.0] {
-        let slope = (DECAY.share(speed + step) - DECAY.share(speed)) / step;
-        assert!((slope - DECAY.slope(speed + 0.5 * step)).abs() < 1e-8);
-    }
-}

@@ -60,23 +60,6 @@ fn a_probe_by_place_is_that_of_the_nearest_node_on_either_kind_of_mesh() {
 }
 
 #[test]
-fn bad_places_are_refused_with_the_remedy_and_far_ones_are_said() {
-    let folder = folder();
-    for (case, probe, words) in [
-        ("body.toml", "[{ x = 0.0 }]", "{ radius, angle_deg }"),
-        ("annulus.toml", "[{ x = 0.0, angle_deg = 3 }]", "{ x, y }"),
-        ("body.toml", "[{ x = 0.0, y = 0.05, z = 0.0 }]", "z"),
-        ("body.toml", "[5]", "numbered 1001 to 1120"),
-        ("body.toml", "[1034, { x = 0.0, y = 0.073 }]", "node 1034 twice"),
-    ] {
-        let text = format!("output.probes={probe}");
-        run(&folder, "check", case, &[&text]).refused(&[words]);
-    }
-    let far = "output.probes=[{ x = 0.0, y = 73.0 }]";
-    Run::new(&["check", "body.toml"]).within(&folder).set(&[far]).done().says(&["m away"]);
-}
-
-#[test]
 fn figures_of_a_body_are_drawn_again_without_its_mesh_file() {
     let folder = folder();
     let path = folder.path();

@@ -6,7 +6,7 @@
 use crate::body_sensitivity::oval;
 use crate::prelude::*;
 use frictionsim::results::Finding;
-use frictionsim::study::fit::{fit_case, refuse_too_few};
+use frictionsim::study::fit::refuse_too_few;
 use frictionsim::study::uncertainty::{Sampler, summarize};
 
 pub const MODEL: &str = include_str!("../../cases/imported-disc.toml");
@@ -79,43 +79,6 @@ fn uncertainty_finds_the_lowest_critical_friction_of_an_imported_body() {
     }
 }
 
-#[test]
-fn no_study_solves_an_imported_body_by_sectors() {
-    let body = case(&folder(), "oval.msh", &["cea.method=cyclic"]);
-    let refused = [
-        modes_and_onsets(&body).unwrap_err(),
-        Sampler::new(&body).map(|_| ()).unwrap_err(),
-        fit_case(&body, &[measured_mode(2, 1e4, None)], None).unwrap_err(),
-    ];
-    for error in refused {
-        has(&error.messages().join("; "), &["needs a body of equal sectors"]);
-    }
-}
-
-#[test]
-fn rotating_waves_are_sought_in_no_imported_body() {
-    let set = ["basin={ harmonics = [1, 2] } ; cycle={ confirmation_periods = 0 } ; \
-         transient={ duration = 1e-4, initial = \"limit-cycle\", limit_cycle_harmonic = 1 }"];
-    let body = case(&folder(), "disc.msh", &set);
-    for error in [body.require_rotating_waves().err(), body.require_transient().err()] {
-        has(&error.unwrap().to_string(), &["rotational symmetry of the built-in annulus"]);
-    }
-    // Its limit cycles are periodic motions of the whole mesh, and its modes compete.
-    has(&body.require_basin().unwrap_err().to_string(), &["basin.harmonics is not used"]);
-    assert!(body.require_cycle().is_ok() && !body.has_rotating_waves());
-}
-
-/// Warnings and limits compare an imported body with its own size, and name keys that the case has.
-#[test]
-fn warnings_name_no_radius_that_an_imported_body_does_not_have() {
-    let folder = folder();
-    let body = case(&folder, "oval.msh", &["contact.interference=0.02"]);
-    let radii = "!geometry.inner_radius ; !geometry.outer_radius";
-    has(&warnings(&body), &["contact.interference", radii]);
-    let large = case(&folder, "oval.msh", &["mesh.scale=1000", "contact.interference=0.1"]);
-    has(&warnings(&large), &["m wide", radii]);
-}
-
 /// On a cylinder outside the body, and on a plane, the slip speed is not that of a cylinder within.
 #[test]
 fn relative_seeds_of_an_imported_body_are_shares_of_its_own_slip_speed() {
@@ -128,16 +91,6 @@ fn relative_seeds_of_an_imported_body_are_shares_of_its_own_slip_speed() {
     let expected = 0.5 * body.contact.sliding.rotation_speed * 0.0905;
     let found = perturbation.waves[0].velocity;
     assert!((found / expected - 1.0).abs() < 1e-9, "{found} {expected}");
-}
-
-#[test]
-fn keys_that_have_no_effect_beside_a_mesh_file_are_said() {
-    let set = ["mesh.circumferential_elements=10", "geometry.inner_radius=0.02"];
-    let body = case(&folder(), "disc.msh", &set);
-    for key in ["mesh.circumferential_elements", "geometry.inner_radius"] {
-        let expected = format!("{key} is not used: mesh.file describes the body");
-        has(&warnings(&body), &[&expected]);
-    }
 }
 
 /// Contact around a hole holds a disc but for its turning, which sliding friction does not stop: a spring at a node of the rim does.
@@ -153,18 +106,6 @@ fn a_spring_at_a_node_holds_a_body_that_no_boundary_holds() {
     has(&held("damping = 1e3").unwrap_err(), &["nothing holds the body"]);
     let sweep = modes_and_onsets(&held("stiffness = 1e9").unwrap()).unwrap();
     assert_eq!(sweep.points[0].modes.len(), 6);
-}
-
-/// A contact at rest sticks: no study takes it for one that slides.
-#[test]
-fn no_study_takes_a_contact_at_rest_for_one_that_slides() {
-    let folder = folder();
-    for mesh in ["", "disc.msh"] {
-        let still = case(&folder, mesh, &["contact.rotation_speed_rpm=0"]);
-        for error in [modes_and_onsets(&still).err(), Sampler::new(&still).err()] {
-            has(&error.unwrap().messages().join("; "), &["the contact sticks at rest"]);
-        }
-    }
 }
 
 /// A check solves no base state: it says what it knows at once.

@@ -12,7 +12,7 @@ fn a_wave_in_disc_and_shaft_grows_as_the_complex_eigenvalue_predicts() {
     steel.shaft.as_mut().unwrap().damping = Some(rayleigh_damping(20.0, 1e-8));
     let options = TangentOptions { mass: Lumped, ..rigid_contact(false) };
     let (n, start) = (2, InitialState::SteadySliding);
-    let settings = transient_settings(0.006, 4e-6, 1e-4, start, Perturbation::of(&[n], 1e-8));
+    let settings = transient_settings([0.006, 4e-6, 1e-4], start, Perturbation::of(&[n], 1e-8));
     for materials in [on(POLYCARBONATE), steel] {
         let limit = MaxFrequency(20e3);
         let found = model(specification, materials.clone(), options).swept(&[0.0, 0.3], limit);

@@ -148,19 +148,3 @@ fn frequencies_converge_with_the_order_of_the_bricks() {
         assert!(orders[1] > order - 0.2, "{element:?}: {errors:?}, {orders:?}");
     }
 }
-
-#[test]
-fn corner_nodes_are_known_without_the_sector() {
-    for element in [Quad4, Quad8] {
-        for divisions in [[12, 5, 3], [12, 2, 4]] {
-            let sector = SolidSector::generate(&disc(element, divisions).specification).unwrap();
-            for (node, found) in sector.nodes.iter().enumerate() {
-                let [i, j] = found.place;
-                if found.half_step == 0 && i % 2 == 0 && j % 2 == 0 {
-                    let known = sector.specification.corner_node([i / 2, j / 2]);
-                    assert_eq!(known, node, "{element:?} {divisions:?}");
-                }
-            }
-        }
-    }
-}

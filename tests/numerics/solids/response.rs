@@ -150,32 +150,3 @@ fn the_response_has_the_same_bits_on_any_number_of_threads() {
     let work = || cyclic_response(&system, a, b, &f).unwrap();
     assert_eq!(on_threads(1, work), on_threads(3, work));
 }
-
-#[test]
-fn held_directions_missing_nodes_and_axial_motion_in_the_plane_are_refused_with_their_key() {
-    let model = disc(Quad4, [12, 3, 2]);
-    let sector = SolidSector::generate(&model.specification).unwrap();
-    let system = sliding(&model, 0.3);
-    let held = at(&sector, 0, [0, 2], 0, Radial);
-    let error = system.check(held, "force_node").unwrap_err();
-    assert!(matches!(error, FrfError::Node { fault: NodeFault::Constrained("radial"), .. }));
-    let free = at(&sector, 0, [0, 2], 0, Axial);
-    assert!(system.check(free, "force_node").is_ok());
-    let error = cyclic_response(&system, free, free, &[-1.0]).unwrap_err();
-    assert!(matches!(error, FrfError::Frequency { value: -1.0 }));
-    let clamped = at(&sector, 0, [6, 2], 0, Axial);
-    let error = system.check(clamped, "response_node").unwrap_err();
-    assert!(error.to_string().contains("cannot move in axial direction"));
-    let missing = Terminal { node: 12 * sector.node_count(), direction: Axial };
-    let error = system.check(missing, "response_node").unwrap_err();
-    assert!(error.to_string().contains("frf.response_node = 145"), "{error}");
-
-    let plane = SectorMesh::generate(&model.specification.annulus).unwrap();
-    let mut material = model.material;
-    material.formulation = PlaneStrain;
-    let damping = model.options.damping;
-    let flat = CyclicSystem::body(&plane, &material, Consistent, damping, true);
-    let axial = Terminal { node: 0, direction: Axial };
-    let error = flat.check(axial, "force_node").unwrap_err();
-    assert!(matches!(error, FrfError::Node { node: 1, fault: NodeFault::InPlane, .. }));
-}

@@ -2,7 +2,6 @@
 
 use crate::prelude::*;
 use crate::solids::model::{base, bending, body, disc, modes};
-use frictionsim::fem::operator::OperatorError;
 
 /// A run of a model, recorded.
 fn run(model: &SolidModel, settings: &TransientSettings) -> Recorder {
@@ -12,7 +11,7 @@ fn run(model: &SolidModel, settings: &TransientSettings) -> Recorder {
 
 fn seeded(harmonic: usize, velocity: f64, duration: f64) -> TransientSettings {
     let seed = Perturbation::of(&[harmonic], velocity);
-    transient_settings(duration, 1e-5, 0.0, InitialState::SteadySliding, seed)
+    transient_settings([duration, 1e-5, 0.0], InitialState::SteadySliding, seed)
 }
 
 fn lumped(element: ElementKind, divisions: [usize; 3]) -> SolidModel {
@@ -169,29 +168,4 @@ fn a_resumed_run_has_the_bits_of_one_that_was_never_stopped() {
     let whole = seeded(2, 1.0, 4e-4);
     let half = TransientSettings { duration: 2e-4, ..whole.clone() };
     goes_on(body(&model, &sector), OperatorChoice::Auto, [&half, &whole]);
-}
-
-#[test]
-fn what_a_transient_cannot_take_is_said_with_its_key_and_its_remedy() {
-    let quadratic = lumped(Quad8, [24, 4, 2]);
-    let sector = SolidSector::generate(&quadratic.specification).unwrap();
-    let refused = |choice| {
-        let found = body(&quadratic, &sector).operator(choice, SimdLevel::Scalar);
-        found.err().unwrap()
-    };
-    let error = refused(OperatorChoice::Auto);
-    assert_eq!(error, TransientError::Operator(OperatorError::NotBrick8));
-    assert!(error.to_string().contains("mesh.element = \"quad4\""));
-    let error = refused(OperatorChoice::Sparse);
-    assert_eq!(error, TransientError::Operator(OperatorError::NotPlane));
-
-    let mut lifted = ringed([24, 4, 2]);
-    lifted.contact.interference = 0.0;
-    lifted.specification.conditions[3] = Pressure(-1e5);
-    let sector = SolidSector::generate(&lifted.specification).unwrap();
-    let lifted = body(&lifted, &sector);
-    let operator = lifted.operator(OperatorChoice::Auto, SimdLevel::detect()).unwrap();
-    let refused = CentralDifference::start(lifted, operator.as_ref(), &seeded(2, 0.0, 1e-3));
-    let Some(TransientError::Prestress(error)) = refused.err() else { panic!("no base state") };
-    assert!(matches!(error, PrestressError::GapEverywhere { .. }), "{error}");
 }

@@ -41,8 +41,11 @@ fn run(
     let body = SteppedBody::Plane { mesh, annulus: None };
     let model = TransientModel::new(body, materials, DAMPING, contact(610.0));
     let operator = model.operator(OperatorChoice::Auto, SimdLevel::detect()).unwrap();
-    let settings =
-        transient_settings(0.004, 4e-6, 0.0, InitialState::SteadySliding, Perturbation::default());
+    let settings = transient_settings(
+        [0.004, 4e-6, 0.0],
+        InitialState::SteadySliding,
+        Perturbation::default(),
+    );
     let step = model.plan(operator.as_ref(), &settings).unwrap().time_step;
     let bodies = Assembly::of_edge(mesh, materials, &contact(610.0), RIGID).unwrap();
     let mut displacement = bodies.state(0.3).unwrap().displacement(0.3);

@@ -3,7 +3,6 @@
 mod glued;
 mod growth;
 mod model;
-mod refusals;
 mod sweeps;
 
 use crate::body::options;
@@ -163,7 +162,7 @@ fn run(
         ..TransientModel::new(body, &POLYCARBONATE, DAMPING, contact(610.0))
     };
     let settings =
-        transient_settings(duration, 4e-6, 1e-4, initial, Perturbation::of(&[1, 2], velocity));
+        transient_settings([duration, 4e-6, 1e-4], initial, Perturbation::of(&[1, 2], velocity));
     let (record, _) = recorded(model, OperatorChoice::Auto, &settings);
     record
 }
