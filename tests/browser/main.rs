@@ -48,7 +48,6 @@ fn eigenvalues_move_with_friction_and_modes_with_time() {
     let browser = Browser::open(WIDE);
     browser.visit_ready(&report);
     check_text_stays_text(&browser);
-
     press(&browser, "locus", "Move friction");
     let shown = || {
         browser.run(
@@ -64,7 +63,6 @@ fn eigenvalues_move_with_friction_and_modes_with_time() {
     let said = format!("friction coefficient = 0.6: {unstable} unstable");
     assert_eq!(shown(), json!([said, unstable]));
     assert_ne!(browser.run("return document.querySelector('#locus input[type=range]').getAttribute('aria-valuetext')"), Value::Null);
-
     press(&browser, "modes-mu-0.3", "Animate");
     let figure = "modes-mu-0.3";
     let phase = || canvas(&browser, figure, "dataset.phase");
@@ -76,14 +74,12 @@ fn eigenvalues_move_with_friction_and_modes_with_time() {
     std::thread::sleep(std::time::Duration::from_millis(150));
     assert_eq!(phase(), still);
     keep_screenshot(&browser, "motion-1280.png");
-
     check_page(&browser);
 }
 
 fn solid_bodies_are_turned_and_their_modes_move() {
     let browser = Browser::open(WIDE);
     let canvas = |figure: &str, what: &str| canvas(&browser, figure, what);
-
     // A mesh: its regions and boundaries from every side.
     let mesh_file = format!("mesh.file={:?}", shipped("meshes/brake.inp"));
     let (_folder, report) = report_of("mesh", "brake.toml", &[&mesh_file]);
@@ -102,7 +98,6 @@ fn solid_bodies_are_turned_and_their_modes_move() {
         assert!(legend.as_str().unwrap().contains(word), "{legend}");
     }
     check_accessibility(&browser);
-
     // Modes of an assembly and of a body of revolution: they move, from the side that was chosen.
     let assembly = [
         mesh_file.as_str(),
@@ -179,7 +174,6 @@ fn a_run_is_zoomed_read_heard_and_taken_along() {
     browser.visit_ready(&report);
     check_text_stays_text(&browser);
     keep_screenshot(&browser, "run-1280.png");
-
     press(&browser, "overview-5", "Zoom");
     let plot = "document.querySelector('#overview-5 .plot').plot";
     let view = || -> [f64; 2] {
@@ -204,7 +198,6 @@ fn a_run_is_zoomed_read_heard_and_taken_along() {
     browser.send("#overview-5 .plot", ".");
     let read = browser.run("return document.querySelector('#overview-5 .readout').textContent");
     assert!(read.as_str().unwrap().contains("time t (ms)"), "{read}");
-
     // The samples, against the table of the run.
     let taken = data_of(&browser, "overview-5");
     assert_eq!(taken[0][..2], ["time t (ms)", "tangential acceleration, node 5: aθ (m/s²)"]);
@@ -217,7 +210,6 @@ fn a_run_is_zoomed_read_heard_and_taken_along() {
         assert!((number(&own[0]) - 1e3 * number(&row[0])).abs() < 1e-6);
         assert!((number(&own[1]) - number(&row[6])).abs() < 1e-6 * largest);
     }
-
     // Series off and on.
     press(&browser, "energy", "Zoom");
     let pressed = "return document.querySelector('#energy .series').getAttribute('aria-pressed')";
@@ -234,7 +226,6 @@ fn a_run_is_zoomed_read_heard_and_taken_along() {
     assert_ne!(picture(), whole);
     browser.run("document.querySelector('#energy .series').click()");
     assert_eq!(picture(), whole);
-
     // The sound holds the main frequency.
     press(&browser, "overview-5", "Listen");
     press(&browser, "overview-5", "Play sound");
@@ -258,7 +249,6 @@ fn a_run_is_zoomed_read_heard_and_taken_along() {
     let multiple = 1e3 * said / main;
     let off = (multiple - multiple.round()).abs();
     assert!(multiple > 0.9 && off < 0.05, "{heard} {main}");
-
     check_page(&browser);
 }
 

@@ -1,5 +1,4 @@
-//! `frictionsim convergence`: observed orders against the theory of the elements, the table of a transient, and what
-//! it refuses.
+//! `frictionsim convergence`: observed orders against the theory of the elements, the table of a transient, and what it refuses.
 
 use crate::prelude::*;
 

@@ -54,7 +54,6 @@ fn shipped_case_follows_both_waves_over_the_speed_and_says_where_the_single_one_
     let ratio = changes[0]["at"].as_f64().unwrap()
         / two["branch"]["saturation_speed_rpm"].as_f64().unwrap();
     assert!((ratio - 1.0).abs() < 0.02, "{ratio}");
-
     has(&answer.text("cycle-n2.pvd"), &["cycle-n2.vtu", "cycle-n2-002.vtu"]);
     let exists = |name: &str| answer.path(name).exists();
     assert!(exists("cycle-n1-001.vtu") && !exists("cycle-n1-003.vtu"));

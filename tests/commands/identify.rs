@@ -93,8 +93,7 @@ fn over_noise_seeds_the_errors_are_as_large_as_stated_and_the_intervals_hold_the
     let near_beta = share(&|r| (r.rayleigh.stiffness_coefficient.value / BETA - 1.0).abs() < 0.03);
     assert!(alpha >= covered && beta >= covered, "{alpha} {beta}");
     assert!(near_alpha >= near && near_beta >= near, "{near_alpha} {near_beta}");
-    // The same mode by mode. Of 100 independent pulls the mean is known to 0.1 and the standard
-    // deviation to 0.07: four of those.
+    // The same mode by mode. Of 100 independent pulls the mean is known to 0.1 and the standard deviation to 0.07: four of those.
     // Correlated noise would move the mean (the same error 100 times) and shrink the deviation.
     let modes = found[0].fit.modes.len();
     assert!(found.iter().all(|r| r.fit.modes.len() == modes));

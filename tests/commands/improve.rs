@@ -95,9 +95,8 @@ fn contributions_of_a_modified_disc_are_its_growth_rates() {
     run(folder.path(), "cea", &["material.loss_factor=0.01"]).done();
 }
 
-/// A mass of several per cent of the disc and a stiff spring, attached to a node, are predicted as they run: at the case's own friction
-/// to round-off of two eigenproblems, since the small problem has the compliance of the whole there; the onset by vectors of that
-/// friction.
+/// A mass of several per cent of the disc and a stiff spring, attached to a node, are predicted as they run: at the case's own friction to
+/// round-off of two eigenproblems, since the small problem has the compliance of the whole there; the onset by vectors of that friction.
 #[test]
 fn what_is_attached_to_a_node_is_predicted_however_large() {
     let set = ["improve.modifications=[\"mass\", \"spring\"] ; improve.mass=0.003 ; \

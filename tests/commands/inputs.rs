@@ -22,7 +22,6 @@ fn on_block(mesh: &str, case: &str) -> Answer {
 fn long_names_and_many_unknown_keys_are_bounded_in_time_and_in_what_is_said() {
     let mesh = MESH.replace("\"block\"", &format!("\"{}\"", "b".repeat(1 << 20)));
     on_block(&mesh, CASE).code(2).warns(&["the name of a physical group has 1048576 bytes"]);
-
     let mut case = CASE.to_owned();
     for i in 0..30_000 {
         writeln!(case, "unknown_key_{i} = 1").unwrap();
@@ -32,7 +31,6 @@ fn long_names_and_many_unknown_keys_are_bounded_in_time_and_in_what_is_said() {
     assert!(said.len() < 10_000, "{} bytes", said.len());
     // 52 s before; the limit leaves room for a busy machine.
     assert!(start.elapsed().as_secs() < 20);
-
     let long = format!("{CASE}{} = 1\n", "k".repeat(1 << 20));
     assert!(on_block(MESH, &long).code(2).stderr.len() < 10_000);
 }
@@ -124,7 +122,6 @@ fn results_outlive_a_forced_run_that_fails_and_are_replaced_by_one_that_ends() {
     };
     let first = onto("mesh", &[]).done();
     let (before, bytes) = (listing(), first.bytes("summary.json"));
-
     // Refused: another command without --force; nothing is left behind.
     onto("cea", &[]).refused(&["--force"]);
     assert_eq!(listing(), before);
@@ -193,7 +190,6 @@ fn a_run_that_was_interrupted_while_it_replaces_others_goes_on_where_it_was() {
     old.write("table.csv", |out| out.write_all(b"old")).unwrap();
     old.finish().unwrap();
     assert!(open("transient", Replace::SameCase).is_err());
-
     let begun = open("transient", Replace::Anything).unwrap();
     begun.write("checkpoint.bin", |out| out.write_all(b"state")).unwrap();
     begun.suspend().unwrap();
@@ -201,7 +197,6 @@ fn a_run_that_was_interrupted_while_it_replaces_others_goes_on_where_it_was() {
     assert!(OutputFolder::begun(folder.path(), &manifest("transient")).is_some());
     // Killed before its end once more.
     drop(open("transient", Replace::SameCase).unwrap());
-
     let again = open("transient", Replace::SameCase).unwrap();
     assert_eq!(fs::read(again.path().join("checkpoint.bin")).unwrap(), b"state");
     again.write("energy.csv", |out| out.write_all(b"new")).unwrap();

@@ -144,7 +144,6 @@ fn points_off_the_body_are_counted_and_wrong_units_recognised() {
     let millimetres = table(&shapes, 1e3);
     run(folder.path(), &millimetres, &[]).refused(&["millimetres: add --scale 0.001"]);
     run(folder.path(), &millimetres, &["--scale", "0.001"]).done();
-
     shapes[0][3].0 = [0.5, 0.5];
     let said = "1 of 51 points lie off the body";
     // Decay has one unit everywhere.
@@ -216,7 +215,6 @@ fn measured_shapes_are_data_of_a_fit() {
     };
     let rows: String = frequencies.iter().map(|f| format!("{f}\n")).collect();
     fs::write(folder.path().join("modes.csv"), format!("frequency_hz\n{rows}")).unwrap();
-
     let answer = fit_with(folder.path(), &named(1.0), &[]).done();
     let summary = answer.summary();
     let modulus = summary["parameters"]["material.young_modulus"]["value"].as_f64();
@@ -225,7 +223,6 @@ fn measured_shapes_are_data_of_a_fit() {
         assert!(line["mac"].as_f64().unwrap() > 0.97, "{line}");
     }
     assert!(answer.header("fit.csv").ends_with(",mac"));
-
     fit_with(folder.path(), &named(1000.0), &[]).refused(&["--scale 0.001"]);
     fit_with(folder.path(), &named(1.0), &["fit.shape_weight=0"]).refused(&["fit.shape_weight"]);
     fit_with(folder.path(), &table(&measured(), 1.0), &[]).refused(&["belongs to no line"]);

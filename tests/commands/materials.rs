@@ -78,7 +78,6 @@ fn a_common_material_is_asked_for_only_where_a_region_has_none() {
     // A formulation alone is no material.
     let formulation = format!("{TWO_REGIONS}[material]\nformulation = \"plane-stress\"\n");
     read(&formulation).unwrap();
-
     let (text, rest) = TWO_REGIONS.split_once("[materials.rim]").unwrap();
     let (_, rest) = rest.split_once("[boundaries").unwrap();
     let bare = read(&format!("{text}[boundaries{rest}")).unwrap_err().to_string();

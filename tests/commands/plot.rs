@@ -53,7 +53,6 @@ fn check_redrawn(folder: &TempDir, expected: &str) {
         let rows = table.split("<tr>").filter(|row| row.contains("<td"));
         assert!(rows.into_iter().all(|row| columns == 0 || row.matches("<td").count() == columns));
     }
-
     for lost in first.keys().filter(|name| name.ends_with(".svg") || *name == "report.html") {
         fs::remove_file(out.join(lost)).unwrap();
     }
@@ -62,7 +61,6 @@ fn check_redrawn(folder: &TempDir, expected: &str) {
     assert_same(&first, &files(&out));
     fs::remove_dir_all(out.join("figures")).unwrap();
     fs::remove_file(out.join("report.html")).unwrap();
-
     plot(folder, &["--dpi", "25"]).done();
     let second = files(&out);
     assert!(first.keys().eq(second.keys()), "{:?}", second.keys());
@@ -113,12 +111,10 @@ drawn_again! {
         "cea.friction_coefficients={from=0.0,to=0.4,count=5} ; cea.shapes_at=[0.2,0.3]",
     ];
     "locus pairs prestress modes-mu-0.3 branch-n1-2-against", of which "locus" says &[];
-
     // The modes are those of the run's own linear stage: lumped mass, rigid contact.
     transient_figures_are_drawn_again: "transient" on "polycarbonate-610rpm.toml" with SHORT;
     "overview-1 overview-200 spectrum-200 growth velocity shear-stress trajectories contact energy",
         of which "growth" says &["rate of the eigenvalue analysis"];
-
     study_figures_are_drawn_again: "sweep" on "speed-friction-study.toml" with [
         COARSE[0],
         COARSE[1],
@@ -127,13 +123,11 @@ drawn_again! {
         "sweep.\"contact.friction_coefficient\"=[0.3]",
     ];
     "frequencies status", of which "frequencies" says &["unstable mode of the eigenvalue analysis"];
-
     limit_cycle_figures_are_drawn_again: "cycle" on "limit-cycle.toml" with
         [CYCLE_MESH, "cycle.continuation.count=5"];
     "contact-n1 history-n1 orbit-n1 contact-n2 history-n2 orbit-n2 velocity shear-stress \
      branch-frequencies branch-shares",
         of which "branch-frequencies" says &["rotation speed", "onset of the instability"];
-
     figures_of_cycles_of_a_whole_mesh_are_drawn_again: "cycle" on "sliding-block.toml" with [
         "contact.friction_coefficient=0.7 ; cycle.stability=\"branch\"",
         "cycle.continuation={ key = \"contact.friction_coefficient\", from = 0.69, to = 0.71, \
@@ -142,7 +136,6 @@ drawn_again! {
     "status-mode7 contact-mode7 history-mode7 orbit-mode7 harmonics-mode7 branch-frequencies \
      branch-shares velocity shear-stress",
         of which "velocity" says &[];
-
     figures_of_a_study_of_limit_cycles_are_drawn_again: "sweep" on "limit-cycle.toml" with [
         CYCLE_MESH,
         "cycle.continuation.count=5 ; cycle.stability=none ; cycle.confirmation_periods=0",
@@ -150,7 +143,6 @@ drawn_again! {
     ];
     "branch-frequencies branch-shares", of which "branch-shares" says
         &["n</tspan> = 1", "n</tspan> = 2", "μ</tspan> = 0.2", "μ</tspan> = 0.3"];
-
     convergence_figures_are_drawn_again: "convergence" on "convergence.toml" with [
         "mesh.circumferential_elements=36 ; mesh.radial_elements=8 ; transient.duration=0.002",
         "cea.max_frequency_hz=9000.0",

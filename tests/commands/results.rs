@@ -110,7 +110,6 @@ fn tables_hold_one_row_for_each_mode_of_a_tabulated_friction_value() {
     // zeta = -Re / |lambda|, and growth rate = 2 pi Re.
     assert!((number(last[4]) + 12.5 / 12.5f64.hypot(9900.0)).abs() < 1e-15);
     assert!((number(last[5]) / (TAU * 12.5) - 1.0).abs() < 1e-15);
-
     let stability = fs::read_to_string(folder.path().join("stability.csv")).unwrap();
     assert_eq!(
         stability.lines().collect::<Vec<_>>(),

@@ -126,7 +126,6 @@ fn a_rotor_above_its_critical_speed_has_the_published_frequencies_in_its_turning
     let folder = folder();
     let (nodes, mesh) = rotor().text();
     let load = turning("3.0853e8");
-
     // Held at middles of edges on both ends, but for those at right angles.
     let held = nodes.iter().filter(|((radius, angle, height), _)| {
         *radius == 750 && angle % 2 == 0 && angle % 8 != 0 && [0, 100_250].contains(height)
@@ -138,7 +137,6 @@ fn a_rotor_above_its_critical_speed_has_the_published_frequencies_in_its_turning
     let published =
         [5.089832, 11737.65, 14535.82, 23381.42, 34851.37, 38368.38, 45038.27, 49577.86];
     near_each(&found[..published.len()], &published, 5e-3);
-
     // The mean displacement of the bore's nodes at each end vanishes; weak springs hold the turn about the axis.
     let mut text = mesh;
     hold_ends(&mut text, &nodes);
@@ -157,10 +155,9 @@ fn a_rotor_above_its_critical_speed_has_the_published_frequencies_in_its_turning
 /// 8 points, on the deck's own mesh). The shaft is out of balance and bends, which moves the resonance at 236 Hz by 5e-4 between
 /// base states of first and of second order, and this figure by 3e-3.
 ///
-/// Undamped, its dynamic stiffness is Hermitian: a node moves in phase with the force on it, and two ports answer each other with
-/// conjugate figures. The published response (`test/rotor3.dat.ref`: 0.21704 - 0.03626i) is none of such a system:
-/// `steadystate.c` multiplies the stored half of the skew Coriolis matrix as if it were symmetric, which the same program confirms
-/// (0.21700 - 0.03623i).
+/// Undamped, its dynamic stiffness is Hermitian: a node moves in phase with the force on it, and two ports answer each other with conjugate
+/// figures. The published response (`test/rotor3.dat.ref`: 0.21704 - 0.03626i) is none of such a system: `steadystate.c` multiplies the
+/// stored half of the skew Coriolis matrix as if it were symmetric, which the same program confirms (0.21700 - 0.03623i).
 #[test]
 fn an_undamped_rotor_answers_a_force_in_its_turning_frame_by_a_hermitian_matrix() {
     let folder = folder();

@@ -83,7 +83,6 @@ fn killed_sweeps_resume_to_identical_results() {
     let (whole_time, expected, expected_points) = whole();
     assert_eq!(expected_points.len(), 30);
     assert!(!expected.contains("failed"));
-
     let (mut draw, mut kills, mut round) = (crate::draws::draws(2), 0, 0);
     while kills < sized(4, 40) {
         let name = format!("killed-{round}");

@@ -123,7 +123,6 @@ fn the_table_is_the_same_bytes_for_any_threads_shards_and_restarts() {
         "contact.friction_coefficient,contact.rotation_speed_rpm,main_frequency_hz,status.stick,\
          point,error\n0.2,10,"
     ));
-
     for threads in [2, 7, 40] {
         let folder = root.path().join(format!("{threads}-threads"));
         sweep(&case, &folder, None, threads, Start::Fresh, &formula).unwrap();
@@ -262,7 +261,6 @@ fn the_operating_matrix_lists_every_unstable_mode_and_reversed_rotation_mirrors_
     let folder = folder_with(&[("case.toml", coarse_disc(sections).as_bytes())]);
     let run = Run::new(&["sweep", "case.toml"]).within(&folder).out("out");
     let answer = run.done().says(&["of 8 operating conditions (4 points)"]);
-
     // Every row of the modes of the points that grows is in the table, at both frictions.
     let unstable = answer.rows("unstable_modes.csv");
     let at = |friction: &str, modulus: &str, speed: &str| -> Vec<[f64; 3]> {
@@ -291,7 +289,6 @@ fn the_operating_matrix_lists_every_unstable_mode_and_reversed_rotation_mirrors_
             assert!(a[1] > 0.0 && a[2] < 0.3, "{a:?}");
         }
     }
-
     // The figure has a panel for each direction, the report its table.
     has(&answer.text("report.html"), &["unstable_modes.csv", "forward, speed", "reverse, speed"]);
     assert!(answer.path("figures/operating-matrix.png").exists());

@@ -132,7 +132,6 @@ fn samples_of_solid_bodies_beyond_their_onset_have_the_onset_of_an_analysis() {
     let onset = samples[0].lowest(0.6).unwrap();
     assert!((onset.critical_friction - known).abs() < 1e-6, "{onset:?} {known}");
     assert!(!onset.unstable_from_start && samples[0].is_unstable(0.6));
-
     let out = folder();
     let set = ["cea.friction_coefficients=[0.6] ; cea.modes=1 ; \
          sweep={ \"material.density\" = [1150.0], analyses = [\"cea\"] }"];

@@ -4,8 +4,7 @@ use std::sync::LazyLock;
 
 /// Harmonic and branch of each row, a digit each.
 ///
-/// They are not printed there but identified with the exact continuum model; of a pair the row with the larger real part travels
-/// backwards.
+/// They are not printed there but identified with the exact continuum model; of a pair the row with the larger real part travels backwards.
 const NAMES: &str =
     "01 11 11 21 21 12 12 02 31 31 22 22 41 41 51 51 32 32 03 13 13 61 61 04 23 23 42 42";
 

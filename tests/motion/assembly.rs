@@ -266,7 +266,6 @@ fn losses_of_an_assembly_slow_its_growth_as_the_eigenvalue_says() {
     let [without, _] = nearest(&lossless, frequency);
     println!("{rate} 1/s, {without} 1/s without losses");
     assert!(without > 1.02 * rate, "{rate} {without}");
-
     let half = goes_on_to_the_same_bits(&stepped, InitialState::SteadySliding);
     assert!(half.relaxation.iter().flatten().any(|z| *z != 0.0));
 }

@@ -1,7 +1,6 @@
 //! Branches of periodic motions of bodies without symmetry: through folds, beside stable sliding, interrupted and gone on with.
 //!
-//! Independent: integration from event to event on both sides of a fold; the spectrum of steady sliding. The others are
-//! identities.
+//! Independent: integration from event to event on both sides of a fold; the spectrum of steady sliding. The others are identities.
 
 use crate::oscillator::{EventDriven, oscillator};
 use crate::prelude::*;
@@ -43,7 +42,6 @@ fn a_branch_bends_back_at_the_speed_at_which_integration_from_event_to_event_los
     assert_eq!(folds.len(), 1, "{folds:?} {:?}", branch.ends);
     let (fold, onset) = (folds[0], branch.onsets[0]);
     assert!(fold > 1.02 * onset, "{fold} {onset}");
-
     // From a large start the motion goes on for hundreds of periods below the fold, and dies above it; just below it few starts
     // end on the cycle.
     let lives = |speed: f64| {
@@ -53,7 +51,6 @@ fn a_branch_bends_back_at_the_speed_at_which_integration_from_event_to_event_los
     assert!(lives(1.02 * fold).is_none());
     let (frequency, stick) = lives(0.9 * fold).expect("a cycle below the fold");
     assert!(stick > 0.0 && frequency > 0.0);
-
     // Stable before the fold, unstable after it, down to the onset, where the cycle shrinks into steady sliding.
     let at = branch.motions.iter().position(|own| own.is_fold).unwrap();
     let known = |own: &[frictionsim::cycle::periodic::BranchMotion], wanted: bool| {

@@ -94,7 +94,6 @@ fn energy_of_a_cycle_closes_and_its_parts_add_up() {
     let contact = motion.powers.contact;
     let parts = contact.stick + contact.slide + contact.contact_dissipated;
     assert!((parts / contact.external - 1.0).abs() < 1e-12);
-
     // Statuses are those of the nodes, harmonics those of the motion, both sum to the whole.
     let mean = |k: usize| {
         let shares = motion.shares.iter().map(|share| share[k]);
@@ -217,7 +216,6 @@ fn rotating_waves_are_periodic_motions_of_the_whole_mesh() {
     let (own, other) = (motion.powers.contact, wave.powers.contact);
     near(own.external, other.external, 0.01);
     within(&[own.stick, own.slide], &[other.stick, other.slide], 0.01 * other.external);
-
     // Floquet exponents of the wave, from linearized contact, and multipliers, from differences of the motion.
     let own = found(nearest).stability.as_ref().unwrap().as_ref();
     let own = own.unwrap().leading().unwrap();

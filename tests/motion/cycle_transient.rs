@@ -63,7 +63,6 @@ fn transient_started_on_a_stable_cycle_stays_and_forgets_other_harmonics_at_the_
     assert!(stability.growing_harmonics().is_empty());
     let odd = stability.multipliers.iter().find(|e| e.mode.unwrap().class == 1).unwrap();
     let record = run(&solver, &cycle, 1, 8e-3);
-
     // The wave of two nodal diameters keeps its amplitude from the first sample on.
     let own = amplitudes(&record, 2, 0.0, 1.0);
     let (first, last) = (own[0].1, own[own.len() - 1].1);
@@ -71,7 +70,6 @@ fn transient_started_on_a_stable_cycle_stays_and_forgets_other_harmonics_at_the_
     let analysis = TransientAnalysis::of(&record, &[2]);
     let frequency = analysis.last_fifth.main_frequency_hz.unwrap();
     assert!((frequency / cycle.frequency_hz() - 1.0).abs() < 5e-4, "{frequency}");
-
     // Perturbed in harmonic 1, it decays as the leading exponent of the odd class says.
     let measured = rate(&amplitudes(&record, 1, 2e-3, 8e-3));
     assert!((measured / odd.growth_rate - 1.0).abs() < 0.1, "{measured} {odd:?}");

@@ -33,7 +33,6 @@ fn two_waves_that_live_together_have_the_frequencies_of_a_transient() {
     assert!(found.agrees(), "{:?}", found.confirmation);
     // The identity is exact; what remains is round-off of the linear systems.
     assert!(found.motion.powers.balance_residual() < 1e-9);
-
     // Signorini and Coulomb hold at every point of both phases.
     let state = &found.motion.state;
     let mean = state.normal.iter().sum::<f64>() / state.normal.len() as f64;

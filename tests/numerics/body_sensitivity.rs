@@ -8,14 +8,6 @@ use frictionsim::study::eigenvalues::body_sensitivities;
 /// What differences leave, relative: the square of their step where modes are about to meet, and the round-off of spectra over it.
 const TOLERANCE: f64 = 1e-3;
 
-/// Step of a parameter, relative to its value; moduli run away with Poisson's ratio.
-fn step_of(key: &str) -> f64 {
-    match key.ends_with("poisson_ratio") {
-        true => 2e-4,
-        false => 2e-3,
-    }
-}
-
 /// A case beside its files.
 pub struct Body {
     pub folder: TempDir,
@@ -48,7 +40,8 @@ impl Body {
             let at = report.parameters.iter().position(|own| own.0 == *name);
             let at = at.unwrap_or_else(|| panic!("no {name} in {:?}", report.parameters));
             let value = report.parameters[at].1;
-            let step = step_of(key) * value;
+            // Moduli run away with Poisson's ratio.
+            let step = if key.ends_with("poisson_ratio") { 2e-4 } else { 2e-3 } * value;
             let sides =
                 [1.0, -1.0].map(|sign| self.solve(&[format!("{key}={:?}", value + sign * step)]));
             let hold = |own: c64, derivative: c64, [above, below]: [c64; 2], rounding: f64| {

@@ -91,8 +91,7 @@ fn a_flat_face_keeps_its_distance_from_a_ball() {
 fn a_plane_ring_with_straight_edges_is_pressed_like_one_with_curved_edges() {
     let force = |is_straight: bool| {
         let mesh = AnnulusMesh::generate(&annulus(Quad8, 48, 3)).unwrap().mesh;
-        let bytes = crate::msh::write_msh(&mesh, crate::msh::FORMS[3], &[], |p| p);
-        let mut file = FileMesh::read(&bytes).unwrap();
+        let mut file = FileMesh::read(&write_msh(&mesh, FORMS[3], &[], |p| p)).unwrap();
         if is_straight {
             straighten(&mut file);
         }
@@ -110,31 +109,25 @@ fn a_plane_ring_with_straight_edges_is_pressed_like_one_with_curved_edges() {
 /// A shaft of 20.6 mm in a hole of 20.5 mm, and a cup of 16 mm on a ball of 16.2 mm, both pushed in by 20 um.
 #[test]
 fn an_overlap_beyond_the_interference_is_told_with_its_depth() {
-    let folder = folder();
     let ring = AnnulusMesh::generate(&annulus(Quad4, 36, 3)).unwrap().mesh;
-    let ring = crate::msh::write_msh(&ring, crate::msh::FORMS[2], &[], |p| p);
-    let block = brick("cup", [0.0; 3], [1.0; 3], [3, 3, 1]);
-    for (mesh, held, contact, said) in [
-        (ring, "outer", "radius = 0.0206\n", "by 1.00e-4 m, 5.0 times contact.interference"),
-        (
-            file_of(&[block], cup),
-            "cup_z1",
-            "boundary = \"cup_z0\"\ncounterface = \"sphere\"\nradius = 0.0162\n",
-            "by 2.00e-4 m, 10.0 times contact.interference",
-        ),
+    let ring = write_msh(&ring, FORMS[2], &[], |p| p);
+    let cup = file_of(&[brick("cup", [0.0; 3], [1.0; 3], [3, 3, 1])], cup);
+    let sphere = "contact.boundary=cup_z0 ; contact.counterface=sphere";
+    for (mesh, held, contact, radius, said) in [
+        (ring, "outer", "contact.interference=2e-5", 0.0206, "by 1.00e-4 m, 5.0 times"),
+        (cup, "cup_z1", sphere, 0.0162, "by 2.00e-4 m, 10.0 times"),
     ] {
-        fs::write(folder.path().join("body.msh"), mesh).unwrap();
-        let told_of = |contact: &str| {
-            let text = format!(
-                "[mesh]\nfile = \"body.msh\"\n[boundaries.{held}]\ncondition = \"clamped\"\n[material]\n\
-                 young_modulus = 2.5e9\npoisson_ratio = 0.38\ndensity = 1228.0\n[contact]\n{contact}\
-                 friction_coefficient = 0.3\ninterference = 2e-5\nrotation_speed_rpm = 100.0\n"
-            );
-            let case = case_of(folder.path().join("case.toml"), &text, AS_IT_IS);
-            warnings(&case)
+        let told_of = |radius: &str| {
+            let held = format!("boundaries.{held}={{ condition = \"clamped\" }}");
+            let text = include_str!("../cases/pushed-in.toml");
+            warnings(&case_beside(
+                "chords",
+                &[("body.msh", &mesh)],
+                text,
+                &[&held, contact, radius],
+            ))
         };
-        has(&told_of(contact), &[said]);
-        let fits = contact.replace("radius = 0.0162\n", "").replace("radius = 0.0206\n", "");
-        has(&told_of(&fits), &["!enters"]);
+        has(&told_of(&format!("contact.radius={radius}")), &[said, "contact.interference"]);
+        has(&told_of("contact.friction_coefficient=0.3"), &["!enters"]);
     }
 }

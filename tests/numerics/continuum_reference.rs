@@ -1,6 +1,5 @@
-//! The continuum reference against independent knowledge: Bessel functions,
-//! rigid rotation, and the published Table 1 (Brunetti, Massi, Saulot, Renouf,
-//! D'Ambrogio, "System dynamic instabilities induced by sliding contact").
+//! The continuum reference against independent knowledge: Bessel functions, rigid rotation, and the published Table 1 (Brunetti, Massi,
+//! Saulot, Renouf, D'Ambrogio, "System dynamic instabilities induced by sliding contact").
 
 use crate::continuum;
 use crate::continuum::bessel::{determinant, of_real_argument, root_near};
@@ -193,9 +192,8 @@ fn exact_steady_state_is_the_static_solution_of_the_spectral_element() {
 
 #[test]
 fn a_rigid_rotation_leaves_the_prestressed_inner_edge_in_balance() {
-    // Objectivity: u_theta = r turns body, pressure and traction together; only the rows of the
-    // clamped outer edge may see a force. Without the turning of the contact forces the residual
-    // would be p itself.
+    // Objectivity: u_theta = r turns body, pressure and traction together; only the rows of the clamped outer edge may see a force. Without
+    // the turning of the contact forces the residual would be p itself.
     let contact = Contact { prestress_interference: Some(25e-6), ..Contact::rigid(0.3) };
     let degree = continuum::DEGREE;
     let (stiffness, _) = DISC.unconstrained_pencil(0, &contact, degree);

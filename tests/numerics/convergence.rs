@@ -44,12 +44,10 @@ impl Study {
         assert!(cancelled <= 2, "{cancelled} parts cancelled");
     }
 
-    /// Asserts the rate of `|lambda_h - lambda|`, of the frequency and, with damping, of the real
-    /// part.
+    /// Asserts the rate of `|lambda_h - lambda|`, of the frequency and, with damping, of the real part.
     ///
-    /// Where a branch's contributions to one part cancel to less than a hundredth of the whole error
-    /// on each mesh, the rate of the whole bounds that part, and its own would be that of the next
-    /// order. Returns the number of such parts.
+    /// Where a branch's contributions to one part cancel to less than a hundredth of the whole error on each mesh, the rate of the whole
+    /// bounds that part, and its own would be that of the next order. Returns the number of such parts.
     fn assert_rates_of_one(&self, element: ElementKind, what: &str, errors: [c64; 3]) -> usize {
         let whole = errors.map(|error| error.norm());
         assert_rate(element, &format!("eigenvalue, {what}"), whole);
@@ -104,8 +102,7 @@ fn eigenvalues_of_quad8_converge_with_the_fourth_power_of_the_mesh_size() {
 
 #[test]
 fn the_discrete_model_turns_unstable_where_the_continuum_does() {
-    // Modes 7, 5 and 3 of the paper. Quad8, 64 x 16: frequencies are right to 1e-4, so the critical
-    // friction is to about ten times that.
+    // Modes 7, 5 and 3 of the paper. Quad8, 64 x 16: frequencies are right to 1e-4, so the critical friction is to about ten times that.
     let [specification, ..] = refinements(Quad8);
     for contact in [
         Contact::penalty(0.0, NORMAL_STIFFNESS),

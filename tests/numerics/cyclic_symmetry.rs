@@ -127,7 +127,6 @@ fn waves_around_solid_bodies_have_the_spectrum_of_their_whole_mesh() {
     let text = include_str!("../cases/ring-between-linings.toml");
     let own = mesh(sized([2, 2, 1], [3, 4, 2]));
     assert_same("ring", &own, text);
-
     // Pressed a hundred times as much, motions damped by friction across the sliding lie among the modes, two of which are at one
     // frequency: all that are asked for converge. More come into range as others cease to oscillate: three of them grow by then, and
     // have the onsets that waves around the body have.

@@ -1,5 +1,4 @@
-//! Sparse factorizations and the Krylov-Schur iteration against dense decompositions (independent
-//! checks).
+//! Sparse factorizations and the Krylov-Schur iteration against dense decompositions (independent checks).
 
 use crate::prelude::*;
 use faer::{MatMut, MatRef};
@@ -64,7 +63,6 @@ fn one_analysis_solves_real_complex_and_transposed_systems() {
     let analysis = LuAnalysis::new(p.pattern()).unwrap();
     let values = p.evaluate(0.0);
     let exact = random_columns(n, 19, 5);
-
     let lu = SparseLu::factorize(&analysis, values.clone()).unwrap();
     let mut x = p.pattern().multiply(&values, exact.as_ref());
     lu.solve_in_place(x.as_mut());
@@ -73,7 +71,6 @@ fn one_analysis_solves_real_complex_and_transposed_systems() {
     let mut x = p.pattern().multiply_transpose(&values, exact.as_ref());
     lu.solve_transpose_in_place(x.as_mut());
     assert!((&x - &exact).norm_max() < 1e-12);
-
     let rotated: Vec<c64> = values.iter().map(|v| c64::new(*v, 0.2 * v)).collect();
     let complex = ComplexSparseLu::factorize(&analysis, rotated).unwrap();
     let b = p.pattern().multiply(&values, exact.as_ref());

@@ -46,9 +46,8 @@ fn agree(
         assert!(solved.backward_error <= 1e-14);
         let top = direct.iter().map(|h| h.norm()).fold(0.0, f64::max);
         for ((f, x), y) in FREQUENCIES.iter().zip(&solved.receptance).zip(&direct) {
-            // Backward errors of at most 1e-14 and condition numbers up to 1e5, that of the rigid motion
-            // of the free body at 100 Hz; far from the force relative to a thousandth of the largest
-            // response.
+            // Backward errors of at most 1e-14 and condition numbers up to 1e5, that of the rigid motion of the free body at 100 Hz; far
+            // from the force relative to a thousandth of the largest response.
             let is_same = (x - y).norm() < 1e-9 * y.norm().max(1e-3 * top);
             assert!(is_same, "{what}, {force:?} to {response:?}, {f} Hz: {x} {y}");
         }

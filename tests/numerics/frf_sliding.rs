@@ -19,8 +19,7 @@ fn at(sector: usize, ring: usize, is_tangential: bool) -> Terminal {
     at_node(sector * (RADIAL + 1) + ring, is_tangential)
 }
 
-/// Poles, right vectors, left vectors and defect of the first-order form
-/// `z' = A z + b f`, `z = (OMEGA u, u')`.
+/// Poles, right vectors, left vectors and defect of the first-order form `z' = A z + b f`, `z = (OMEGA u, u')`.
 struct ModalForm {
     poles: Vec<c64>,
     right: Mat<c64>,

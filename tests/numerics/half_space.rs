@@ -1,8 +1,7 @@
 //! Independent check far from the disc: waves on a sliding half-space, in closed form.
 //!
-//! Source: J. A. C. Martins, J. Guimaraes, L. O. Faria, Dynamic surface solutions in linear elasticity and viscoelasticity
-//! with frictional boundary conditions, J. Vib. Acoust. 117 (1995) 445. Short waves on the inner edge of an annulus tend to
-//! them as their number grows.
+//! Source: J. A. C. Martins, J. Guimaraes, L. O. Faria, Dynamic surface solutions in linear elasticity and viscoelasticity with frictional
+//! boundary conditions, J. Vib. Acoust. 117 (1995) 445. Short waves on the inner edge of an annulus tend to them as their number grows.
 
 use crate::prelude::*;
 use frictionsim::linalg::banded::BandedMatrix;
@@ -12,8 +11,7 @@ const FRICTION: f64 = 2.0;
 
 /// Speed over that of shear waves of `e^{ik(x - ct)}` on the half-space with `u_n = 0`, `T = mu N`.
 ///
-/// With `p^2 = 1 - c^2 / c_p^2`, `q^2 = 1 - c^2`: `-i p c^2 = mu (2 nu / (1 - 2 nu) (p^2 - 1) + 2 p^2 - 2 p q)`, by
-/// Newton's method.
+/// With `p^2 = 1 - c^2 / c_p^2`, `q^2 = 1 - c^2`: `-i p c^2 = mu (2 nu / (1 - 2 nu) (p^2 - 1) + 2 p^2 - 2 p q)`, by Newton's method.
 fn half_space_speed() -> c64 {
     let nu = POISSON_RATIO;
     let residual = |c: c64| {

@@ -1,6 +1,5 @@
-//! What the eigenvalue analysis promises of bodies that slide: random blocks of quadrilaterals and bricks on a plane, on springs
-//! from 1e5 to 1e13 Pa/m, with viscous and structural damping that follow neither mass nor stiffness, at three friction
-//! coefficients.
+//! What the eigenvalue analysis promises of bodies that slide: random blocks of quadrilaterals and bricks on a plane, on springs from 1e5
+//! to 1e13 Pa/m, with viscous and structural damping that follow neither mass nor stiffness, at three friction coefficients.
 //!
 //! Independent check: a dense decomposition of the exported matrices at each friction coefficient. Every mode damped by less than
 //! half of critical that lies below the highest one listed is listed, and what is listed is an eigenvalue.

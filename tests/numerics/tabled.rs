@@ -111,7 +111,6 @@ fn a_sandwich_beam_loses_what_ross_kerwin_and_ungar_say() {
         [5000.0, 60e6, 0.7],
     ];
     let table = ModulusTable::new("materials.core.table", "core.csv", rows);
-
     // Three layers of 20-node bricks; faces without Poisson's contraction are a beam.
     let mut file = block(Hex20, [40, 1, 3], |[x, y, z]| {
         let layers = [0.0, FACE, FACE + CORE, 2.0 * FACE + CORE];
@@ -152,7 +151,6 @@ fn a_sandwich_beam_loses_what_ross_kerwin_and_ungar_say() {
     let options = TangentOptions { damping: RayleighDamping::default(), ..TANGENT };
     let tangent = assembly.tangent(&state.states[0], &options).unwrap();
     let found = eigenvalues_of(&modes_at(&tangent, 0.0, Lowest(5)));
-
     let mass = 2.0 * FACE * 2700.0 + CORE * 1000.0;
     for n in 1..=3 {
         let wave = f64::from(n) * PI / LENGTH;

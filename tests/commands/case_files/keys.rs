@@ -1,5 +1,4 @@
-//! Consistency checks of the declarations of keys: what readers, messages, schema and template make
-//! of them is one and the same.
+//! Consistency checks of the declarations of keys: what readers, messages, schema and template make of them is one and the same.
 
 use super::{DISC, RUN, parse, report, valid};
 use crate::prelude::*;

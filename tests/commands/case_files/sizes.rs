@@ -61,7 +61,6 @@ fn the_cost_of_studies_counts_every_run() {
     let all = study.sweep_cost().unwrap();
     assert_eq!(all.runs, 72);
     assert!((all.run.operations / (72.0 * one) - 1.0).abs() < 1e-9);
-
     let meshes = valid(include_str!("../../../cases/convergence.toml"), &[]);
     let (one, all) = (meshes.cost(), meshes.convergence_cost().unwrap());
     // Three analyses on three meshes, and three time steps.
@@ -71,7 +70,6 @@ fn the_cost_of_studies_counts_every_run() {
         one.transient.unwrap().run.operations * (1.0 + 1.5f64.powi(3) + 8.0 + 1.0 + 2.0 + 4.0);
     let all = all.run.operations;
     assert!(all > 0.95 * transients, "{all} {transients}");
-
     // A solid mesh twice as fine has eight times the elements: beside the first, 8 and 64 times what grows least.
     let solid = shipped("tread-block.toml");
     let text = fs::read_to_string(&solid).unwrap();

@@ -134,7 +134,6 @@ fn bar_rebounds_from_a_rigid_wall_as_one_dimensional_theory_says() {
     settings.sample_interval = crossing / 400.0;
     settings.expansion_time = 0.0;
     settings.time_step = TimeStep::Auto;
-
     // Every node but the clamped ones moves inwards.
     let mut state = CentralDifference::start(model, operator.as_ref(), &settings).unwrap().state();
     let masses = lumped_masses(&annulus.mesh, model.material);

@@ -39,12 +39,10 @@ fn restarted_run_equals_uninterrupted_run_bitwise() {
         let (probes, snapshots) = (vec![1, 17], vec![1e-3, 3e-3]);
         let wanted = RecorderSettings { probes, snapshots, ..Default::default() };
         let start = || CentralDifference::start(model, operator.as_ref(), &settings).unwrap();
-
         let mut run = start();
         let mut whole = Recorder::new(&run, &wanted).unwrap();
         assert_eq!(run.run(&mut whole).unwrap(), RunEnd::Finished);
         let end = run.state();
-
         let mut first = start();
         let mut stop =
             StopAt { record: Recorder::new(&first, &wanted).unwrap(), index: 617, saved: None };
@@ -54,7 +52,6 @@ fn restarted_run_equals_uninterrupted_run_bitwise() {
         let mut second =
             CentralDifference::resume(model, operator.as_ref(), &settings, &state).unwrap();
         assert_eq!(second.run(&mut record).unwrap(), RunEnd::Finished);
-
         assert_eq!(second.state(), end);
         assert_eq!(record, whole);
     }

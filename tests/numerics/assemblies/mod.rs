@@ -54,16 +54,11 @@ const PRESSED: [(&str, BoundaryCondition); 6] = [
 /// Largest error of the displacement of a bar under the pressure 1e8 Pa along z, m; the upper part moved on by `jump`.
 fn patch_error(mesh: &Mesh, displacement: &[f64], jump: f64) -> f64 {
     let strain = 1e8 / STEEL.young_modulus;
-    let bodies = mesh.bodies();
-    (0..mesh.node_count())
-        .flat_map(|node| {
-            let [x, y, z] = mesh.nodes[node];
-            let lateral = STEEL.poisson_ratio * strain;
-            let sunk = if bodies[node] == 1 { jump } else { 0.0 };
-            let exact = [lateral * x, lateral * y, -strain * z - sunk];
-            (0..3).map(move |axis| (displacement[3 * node + axis] - exact[axis]).abs())
-        })
-        .fold(0.0, f64::max)
+    let lateral = STEEL.poisson_ratio * strain;
+    let exact = mesh.nodes.iter().zip(mesh.bodies()).flat_map(|([x, y, z], body)| {
+        [lateral * x, lateral * y, -strain * z - if body == 1 { jump } else { 0.0 }]
+    });
+    displacement.iter().zip(exact).map(|(found, exact)| (found - exact).abs()).fold(0.0, f64::max)
 }
 
 /// Steel bodies with a contact, in the base state of their loads.
@@ -146,24 +141,19 @@ fn a_tie_of_two_halves_has_the_spectrum_of_the_whole() {
     below(largest_difference(&whole, &halves), 1e-9, "tied halves");
 }
 
-/// Rodrigues' rotation about an axis of no symmetry.
-fn turned([x, y, z]: [f64; 3]) -> [f64; 3] {
-    let axis = [2.0 / 7.0, 3.0 / 7.0, 6.0 / 7.0];
-    let (sin, cos) = 0.83_f64.sin_cos();
-    let along = axis[0] * x + axis[1] * y + axis[2] * z;
-    let cross = [axis[1] * z - axis[2] * y, axis[2] * x - axis[0] * z, axis[0] * y - axis[1] * x];
-    let point = [x, y, z];
-    std::array::from_fn(|c| cos * point[c] + sin * cross[c] + (1.0 - cos) * along * axis[c])
+/// A rotation about an axis of no symmetry.
+fn turned(place: [f64; 3]) -> [f64; 3] {
+    let turn = nalgebra::Vector3::new(2.0, 3.0, 6.0) * (0.83 / 7.0);
+    (nalgebra::Rotation3::new(turn) * nalgebra::Vector3::from(place)).into()
 }
 
 #[test]
 fn an_assembly_turned_in_space_keeps_its_spectrum() {
-    let mut blocks = stacked(0.0);
-    blocks[0].counts = [3, 2, 1];
-    blocks[1].counts = [2, 2, 1];
     // A pad that covers part of the lower block, held on its top.
-    blocks[1].origin = [0.012, 0.007, 0.02];
-    blocks[1].size = [0.03, 0.025, 0.012];
+    let blocks = [
+        brick("lower", [0.0; 3], [0.05, 0.04, 0.02], [3, 2, 1]),
+        brick("upper", [0.012, 0.007, 0.02], [0.03, 0.025, 0.012], [2, 2, 1]),
+    ];
     let held = [("lower_z0", Clamped), ("upper_x0", Clamped)];
     let center = [0.3, 0.01, 0.0];
     // Quadratic faces are not integrated exactly: their points must lie where they lay.

@@ -24,13 +24,9 @@ fn forces_of_a_rotation(mesh: &Mesh, contact: SlidingSurfaces, motions: &[Motion
     let [without, tangent] =
         [OPTIONS, STRESSED].map(|own| assembly.tangent(&range.states[0], &own).unwrap());
     let (axis, center) = (Vector3::from(axis.0), Vector3::from(axis.1));
-    let rotation = (0..mesh.node_count()).flat_map(|node| {
-        let arm = Vector3::from(mesh.nodes[node]) - center;
-        let moved = axis.cross(&arm);
-        [moved.x, moved.y, moved.z]
-    });
-    let rotation: Vec<f64> = rotation.collect();
-
+    let rotation = mesh.nodes.iter();
+    let rotation = rotation.map(|&node| axis.cross(&(Vector3::from(node) - center)).into());
+    let rotation: Vec<f64> = rotation.flat_map(|moved: [f64; 3]| moved).collect();
     // Springs and loads stay where they are: their nodes are left out, and those that move them through rigid contact.
     let bound = mesh.boundaries.iter().filter(|own| own.condition != Free);
     let loaded: BTreeSet<usize> =
@@ -75,13 +71,8 @@ fn forces_of_a_rotation(mesh: &Mesh, contact: SlidingSurfaces, motions: &[Motion
 
 /// Blocks as they are, or bent around the axis z at a radius of 50 mm.
 fn bent(is_bent: bool) -> impl Fn([f64; 3]) -> [f64; 3] {
-    move |[x, y, z]| match is_bent {
-        false => [x, y, z],
-        true => {
-            let (sin, cos) = (x / 0.05).sin_cos();
-            [(0.05 + z) * sin, -(0.05 + z) * cos, y]
-        }
-    }
+    let turned = |[x, y, z]: [f64; 3]| polar([0.05 + z, x / 0.05 - 0.5 * PI, y]);
+    move |place| if is_bent { turned(place) } else { place }
 }
 
 /// Independent check (objectivity): bodies that turn with everything about the axis of the sliding cost no force, flat ones to
@@ -99,9 +90,7 @@ fn a_rotation_of_everything_costs_no_force() {
         let mut blocks = stacked(0.0);
         // Flat faces meet on any mesh.
         let along = if is_bent { [5, 4] } else { sized([3, 2], [5, 4]) };
-        for (own, along) in blocks.iter_mut().zip(along) {
-            own.counts = [along, 2, 2];
-        }
+        blocks.iter_mut().zip(along).for_each(|(own, along)| own.counts = [along, 2, 2]);
         let bytes = file_of_order(&blocks, order, bent(is_bent));
         let mesh = mesh_of(&bytes, &conditions);
         let center = if is_bent { [0.0; 3] } else { [1.0, 0.3, 0.0] };

@@ -70,12 +70,8 @@ fn a_shaft_presses_a_bush_evenly_whatever_its_axis() {
     let block = brick("bush", [0.0; 3], [1.0; 3], [2, 24, 2]);
     let (radius, wall, center) = (0.02, 0.01, [0.3, -0.2, 0.5]);
     // The axis lies along (2, 2, 1) / 3.
-    let [e, f, axis] = [[1.0, 0.0, -2.0], [-4.0, 5.0, -2.0], [2.0, 2.0, 1.0]];
-    let unit = |v: [f64; 3]| {
-        let length = v.iter().map(|x| x * x).sum::<f64>().sqrt();
-        v.map(|x| x / length)
-    };
-    let [e, f, axis] = [e, f, axis].map(unit);
+    let [e, f, axis] = [[1.0, 0.0, -2.0], [-4.0, 5.0, -2.0], [2.0, 2.0, 1.0]]
+        .map(|v| -> [f64; 3] { nalgebra::Vector3::from(v).normalize().into() });
     let place = |[r, turn, along]: [f64; 3]| {
         let (sin, cos) = (TAU * turn).sin_cos();
         let r = radius + wall * r;
@@ -97,9 +93,8 @@ fn a_shaft_presses_a_bush_evenly_whatever_its_axis() {
         }
         let range = assembly.range(&[0.0]).unwrap();
         let forces = range.states[0].normal_forces(0.0);
-        let pressures =
-            forces.iter().zip(&surface.points).map(|(force, point)| force / point.weight);
-        let pressures: Vec<f64> = pressures.collect();
-        assert!(pressures.iter().all(|pressure| *pressure > 1e6), "{pressures:?}");
+        for (force, point) in forces.iter().zip(&surface.points) {
+            assert!(force / point.weight > 1e6, "{force}");
+        }
     }
 }

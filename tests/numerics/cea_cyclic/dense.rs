@@ -46,8 +46,7 @@ pub fn dense_quadratic(m: &Mat<c64>, c: &Mat<c64>, k: &Mat<c64>, scale: f64) -> 
     companion.eigenvalues().unwrap()
 }
 
-/// Every `lambda` with `Im > 0` of one signed harmonic, by dense linear algebra on the folded matrices of
-/// the full mesh.
+/// Every `lambda` with `Im > 0` of one signed harmonic, by dense linear algebra on the folded matrices of the full mesh.
 fn dense_eigenvalues(tangent: &SlidingTangent, mesh: &AnnulusMesh, mu: f64, n: i32) -> Vec<c64> {
     let folded = |p: &MatrixPolynomial| fold(tangent, mesh, p, mu, n);
     let (m, k) = (folded(&tangent.mass), folded(&tangent.stiffness));
@@ -126,13 +125,7 @@ fn spectrum_equals_dense_solution_of_every_harmonic_of_the_full_mesh() {
 /// Independent check: models drawn from wide ranges, each against dense solutions of all its harmonics.
 #[test]
 fn random_models_lose_no_mode_and_gain_none() {
-    let mut state = 1_234_567_891_234_567_u64;
-    let mut random = move || {
-        state ^= state << 13;
-        state ^= state >> 7;
-        state ^= state << 17;
-        (state >> 11) as f64 / (1_u64 << 53) as f64
-    };
+    let mut random = crate::draws::draws(1_234_567_891_234_567);
     for index in 0..40 {
         let mut choose = |count: usize| (random() * count as f64) as usize;
         let element = [Quad4, Quad8][choose(2)];

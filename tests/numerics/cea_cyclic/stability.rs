@@ -34,20 +34,18 @@ fn unstable_intervals_do_not_depend_on_the_grid() {
     assert_eq!(fine.iter().filter(narrow).count(), 1);
     let mut compared = 0;
     for a in &coarse.sweep.intervals {
+        let name = (a.harmonic, a.branch, a.direction);
         let is_same = |b: &&UnstableInterval| {
-            (b.harmonic, b.branch, b.direction) == (a.harmonic, a.branch, a.direction)
-                && (b.critical_friction - a.critical_friction).abs() < 1e-10
+            let apart = (b.critical_friction - a.critical_friction).abs();
+            (b.harmonic, b.branch, b.direction) == name && apart < 1e-10
         };
         let b = fine.iter().find(is_same).unwrap();
         assert_eq!(a.restabilized.is_some(), b.restabilized.is_some());
         let ends = [Some(a.critical_friction), a.restabilized.map(|r| r.0)];
         for end in ends.into_iter().flatten() {
-            let is_branch = |b: &&ModeBranch| {
-                (b.harmonic, b.branch, b.direction) == (a.harmonic, a.branch, a.direction)
-            };
-            let at = solve(&[end]);
-            let lambda = at.branches.iter().find(is_branch).map(|b| b.interpolate(end).unwrap());
-            let lambda = lambda.unwrap();
+            let branches = solve(&[end]).branches;
+            let mut own = branches.iter().filter(|b| (b.harmonic, b.branch, b.direction) == name);
+            let lambda = own.next().unwrap().interpolate(end).unwrap();
             assert!(lambda.re.abs() < 1e-10 * lambda.norm(), "{lambda}");
             compared += 1;
         }

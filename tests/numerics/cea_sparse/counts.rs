@@ -18,14 +18,9 @@ fn chain(count: usize) -> [Vec<Entries>; 3] {
 
 /// `count` of the chain beside itself: every eigenvalue twice.
 fn twice(count: usize) -> [Vec<Entries>; 3] {
-    chain(count).map(|powers| {
-        let doubled = powers.into_iter().map(|own| {
-            let copy = own.iter().map(|&(i, j, v)| (i + count, j + count, v));
-            let copy: Entries = copy.collect();
-            [own, copy].concat()
-        });
-        doubled.collect()
-    })
+    let copies = |&(i, j, v): &(usize, usize, f64)| [(i, j, v), (i + count, j + count, v)];
+    chain(count)
+        .map(|powers| powers.iter().map(|own| own.iter().flat_map(copies).collect()).collect())
 }
 
 /// Middle of the widest gap of the spectrum between two places.
@@ -61,7 +56,6 @@ fn counts_are_those_of_a_dense_spectrum() {
             let (none, near, determinants) = missing(&tangent, mu, &spectrum, top);
             assert_eq!((none, near), (0, None), "{size} {mu}");
             assert!(determinants < 200, "{size} {mu} {determinants}");
-
             // Any one of them, and three; of double eigenvalues one of the two.
             let growing = |&k: &usize| below[k].re > 1e-3;
             let first_growing = (0..below.len()).find(growing).unwrap_or(7);
@@ -75,7 +69,6 @@ fn counts_are_those_of_a_dense_spectrum() {
                 let mean = sum / dropped.len() as f64;
                 assert!((near.unwrap() - mean).norm() < 5e-3 * top, "{near:?} {mean}");
             }
-
             // What is no eigenvalue counts against the list.
             let strange = [spectrum.as_slice(), &[c64::new(-0.01, 0.4 * top)]].concat();
             assert_eq!(missing(&tangent, mu, &strange, top).0, -1);
@@ -137,7 +130,6 @@ fn sweep_of_a_disc_is_complete_by_count() {
                 assert_eq!(count.counted(), Some(point.modes.len() as i64));
             }
             assert!(result.points[2].modes.iter().any(|mode| mode.is_unstable()));
-
             // Without one of the unstable modes one is missing; those above the region are known as well.
             let more = SweepRequest { limit: Lowest(40), ..request };
             let all = sweep(&tangent, &more, &|_| {}).unwrap();

@@ -42,9 +42,8 @@ pub fn of_complex_argument(order: usize, z: c64) -> [c64; 2] {
 
 /// Determinant whose roots are the undamped `omega` (`kappa = omega^2`) of one harmonic.
 ///
-/// `u = grad(phi) + curl(psi)` with `phi` of wave number `omega / c_l` and `psi = i chi` of
-/// `omega / c_t`: `U = phi' - n chi / r`, `W = n phi / r - chi'`. Conditions: `U = W = 0` at `b`;
-/// at `a` `U = 0` (or `sigma_rr = k_n U`) and `sigma_r theta = mu sigma_rr`.
+/// `u = grad(phi) + curl(psi)` with `phi` of wave number `omega / c_l` and `psi = i chi` of `omega / c_t`: `U = phi' - n chi / r`, `W = n
+/// phi / r - chi'`. Conditions: `U = W = 0` at `b`; at `a` `U = 0` (or `sigma_rr = k_n U`) and `sigma_r theta = mu sigma_rr`.
 pub fn determinant(
     annulus: &Annulus,
     harmonic: usize,

@@ -1,10 +1,8 @@
-//! Exact continuum reference of the annulus in sliding contact, against which the finite elements
-//! must converge.
+//! Exact continuum reference of the annulus in sliding contact, against which the finite elements must converge.
 //!
-//! With `u = (U(r) e_r + i W(r) e_theta) e^{i n theta + lambda t}` the linearised problem is exact
-//! in `theta`; in `r` the weak form is solved by one spectral element of polynomial degree
-//! [`DEGREE`], whose error is near round-off. No mesh, shape function or assembly of the program is
-//! used: the only thing shared with it is the theory.
+//! With `u = (U(r) e_r + i W(r) e_theta) e^{i n theta + lambda t}` the linearised problem is exact in `theta`; in `r` the weak form is
+//! solved by one spectral element of polynomial degree [`DEGREE`], whose error is near round-off. No mesh, shape function or assembly of
+//! the program is used: the only thing shared with it is the theory.
 
 // Each test file that includes this module uses its own part of it.
 #![allow(dead_code)]
@@ -46,8 +44,7 @@ pub struct Contact {
     pub friction_coefficient: f64,
     /// Normal stiffness `k_n`, Pa/m; `None` is rigid contact, `Some(0.0)` a free edge.
     pub normal_stiffness: Option<f64>,
-    /// Interference `delta`, m, whose prestress enters the tangent with the turning of the contact
-    /// forces; `None` leaves the prestress out.
+    /// Interference `delta`, m, whose prestress enters the tangent with the turning of the contact forces; `None` leaves the prestress out.
     pub prestress_interference: Option<f64>,
 }
 
@@ -117,8 +114,7 @@ impl Annulus {
         let friction = c64::new(0.0, contact.friction_coefficient);
         let first = match contact.normal_stiffness {
             Some(k_n) => {
-                // p' = -k_n U acts with the virtual work a (p' v_r^* + mu p' v_theta^*), and
-                // v_theta = i w.
+                // p' = -k_n U acts with the virtual work a (p' v_r^* + mu p' v_theta^*), and v_theta = i w.
                 let spring = c64::new(self.inner_radius * k_n, 0.0);
                 stiffness[(0, 0)] += spring;
                 stiffness[(1, 0)] -= friction * spring;
@@ -143,9 +139,8 @@ impl Annulus {
         (restrict(&stiffness), restrict(&mass))
     }
 
-    /// Stiffness (elastic, and geometric with the turning of the contact forces if there is
-    /// prestress) and mass over all unknowns `(U_0, W_0, U_1, W_1, ...)` from the inner edge
-    /// outwards, per radian.
+    /// Stiffness (elastic, and geometric with the turning of the contact forces if there is prestress) and mass over all unknowns `(U_0,
+    /// W_0, U_1, W_1, ...)` from the inner edge outwards, per radian.
     pub fn unconstrained_pencil(
         &self,
         harmonic: usize,
@@ -200,12 +195,10 @@ impl Annulus {
         (stiffness, mass)
     }
 
-    /// Eigenvalues with `Im(lambda) > 0` by rising frequency; for `n > 0` both members of each
-    /// pair.
+    /// Eigenvalues with `Im(lambda) > 0` by rising frequency; for `n > 0` both members of each pair.
     ///
-    /// `lambda^2 + alpha lambda + (1 + beta lambda) kappa = 0`. The field `e^{i n theta + lambda t}`
-    /// travels against the rotor where `Im(lambda) > 0`; a root with `Im(lambda) < 0` is the
-    /// conjugate of a wave that travels with it.
+    /// `lambda^2 + alpha lambda + (1 + beta lambda) kappa = 0`. The field `e^{i n theta + lambda t}` travels against the rotor where
+    /// `Im(lambda) > 0`; a root with `Im(lambda) < 0` is the conjugate of a wave that travels with it.
     pub fn eigenvalues(&self, n: usize, contact: &Contact, rayleigh: Rayleigh) -> Vec<Eigenvalue> {
         damped(&self.kappas(n, contact), rayleigh, n)
     }
@@ -281,8 +274,7 @@ fn geometric(sigma: &Stress, v: &[f64; 4], u: &[f64; 4]) -> c64 {
     c64::new(normal, mixed)
 }
 
-/// All eigenvalues of `K x = kappa M x`, as inverses of those of `K^-1 M`, whose round-off favours
-/// the small `kappa` wanted here.
+/// All eigenvalues of `K x = kappa M x`, as inverses of those of `K^-1 M`, whose round-off favours the small `kappa` wanted here.
 pub fn smallest_first(stiffness: &Mat<c64>, mass: &Mat<c64>) -> Vec<c64> {
     let flexibility = stiffness.partial_piv_lu().solve(mass);
     let mut kappas: Vec<c64> = flexibility

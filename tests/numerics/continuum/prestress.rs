@@ -55,8 +55,7 @@ impl Annulus {
 }
 
 impl SteadyState {
-    /// `[u_r, u_theta]` at radius `r`, m:
-    /// `u_theta = tau a^2 r / (2 G) (1 / r^2 - 1 / b^2)`.
+    /// `[u_r, u_theta]` at radius `r`, m: `u_theta = tau a^2 r / (2 G) (1 / r^2 - 1 / b^2)`.
     pub fn displacement(&self, r: f64) -> [f64; 2] {
         let (a, b) = (self.inner_radius, self.outer_radius);
         let twist = self.shear * a * a / (2.0 * self.lame_constants[1]);

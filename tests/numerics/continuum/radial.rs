@@ -1,5 +1,4 @@
-//! One spectral element along the radius: Lagrange polynomials through Chebyshev points, integrated
-//! by a Gauss rule.
+//! One spectral element along the radius: Lagrange polynomials through Chebyshev points, integrated by a Gauss rule.
 
 use std::f64::consts::PI;
 

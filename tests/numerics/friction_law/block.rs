@@ -78,8 +78,7 @@ fn samples(mesh: &Mesh, speed: f64) -> Vec<SampleRow> {
     record.rows
 }
 
-/// Theory: below the critical speed the oscillation grows until the block sticks to the plane once in each period;
-/// above it dies out.
+/// Theory: below the critical speed the oscillation grows until the block sticks to the plane once in each period; above it dies out.
 #[test]
 fn a_block_sticks_and_slips_below_its_critical_speed_and_slides_above() {
     let mesh = block(1e6);

@@ -1,6 +1,5 @@
-//! Friction that falls with the slip speed: the law at one node, the classical stick-slip oscillator, the disc at
-//! speeds far above. Independent checks (closed forms, finite differences, the other half of the program), unless a
-//! test says otherwise.
+//! Friction that falls with the slip speed: the law at one node, the classical stick-slip oscillator, the disc at speeds far above.
+//! Independent checks (closed forms, finite differences, the other half of the program), unless a test says otherwise.
 
 use crate::prelude::*;
 pub mod block;

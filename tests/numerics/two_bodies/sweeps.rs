@@ -32,7 +32,6 @@ fn steps_whose_sweeps_end_early_are_counted_and_said_where_there_are_any() {
     has(&answer.stdout, &[&sentence, "Exchange the two sides of the contact"]);
     // The energy of a step closes whatever its forces are.
     assert!(summary["max_balance_residual"].as_f64().unwrap() < 1e-10);
-
     let matching = TempDir::new().unwrap();
     write_case(matching.path(), [10, 10]);
     let answer = run(matching.path(), &[]).says(&["!converged"]);

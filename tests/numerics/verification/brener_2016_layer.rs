@@ -1,11 +1,10 @@
 //! An elastic layer that slides on a rigid flat. Independent check: closed form.
 //!
-//! Source: E. A. Brener, M. Weikamp, R. Spatschek, Y. Bar-Sinai, E. Bouchbinder, Dynamic instabilities of frictional sliding at
-//! a bimaterial interface, J. Mech. Phys. Solids 89 (2016) 149; there for two bodies, here on a rigid one. A layer of
-//! thickness `H` with its far side clamped and `u_y = 0`, `sigma_xy = -f sigma_yy` on its near side carries waves
-//! `e^{ikx + lambda t}`; with `alpha^2 = k^2 + lambda^2 / c_p^2`, `beta^2 = k^2 + lambda^2 / c_s^2` they are sums of
-//! `cosh`, `sinh` of `alpha y` and `beta y`, and a determinant of four conditions vanishes. Without damping some wave grows
-//! at every friction: an undamped disc is never stable.
+//! Source: E. A. Brener, M. Weikamp, R. Spatschek, Y. Bar-Sinai, E. Bouchbinder, Dynamic instabilities of frictional sliding at a
+//! bimaterial interface, J. Mech. Phys. Solids 89 (2016) 149; there for two bodies, here on a rigid one. A layer of thickness `H` with its
+//! far side clamped and `u_y = 0`, `sigma_xy = -f sigma_yy` on its near side carries waves `e^{ikx + lambda t}`; with `alpha^2 = k^2 +
+//! lambda^2 / c_p^2`, `beta^2 = k^2 + lambda^2 / c_s^2` they are sums of `cosh`, `sinh` of `alpha y` and `beta y`, and a determinant of
+//! four conditions vanishes. Without damping some wave grows at every friction: an undamped disc is never stable.
 //!
 //! nu 0.3, f 0.3, H 50 mm, steel; as the layer of an annulus with radius `a`, `n = k a`, errors fall with `H / a`.
 

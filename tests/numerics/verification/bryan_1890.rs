@@ -61,8 +61,7 @@ fn closed_form(n: f64) -> [f64; 2] {
     [square.sqrt() / TAU, (coupled / whole).abs()]
 }
 
-/// The same of a ring of so many equal sectors, for two and three nodal diameters: half the distance of the two waves over the
-/// speed.
+/// The same of a ring of so many equal sectors, for two and three nodal diameters: half the distance of the two waves over the speed.
 fn ring(sectors: usize) -> [[f64; 2]; 2] {
     let [inner, outer] = RADII;
     let size = [outer - inner, TAU / sectors as f64, 0.01];

@@ -1,8 +1,7 @@
 //! The verification room: closed forms that were not made for this program, each against a case as a user writes one.
 //!
-//! A test has the name of its source, and its header has formula, data and what is found; the guide's page
-//! `src/guide/verification.md` shows them side by side. One command runs them all:
-//! `cargo test --profile iterate --test numerics verification::`.
+//! A test has the name of its source, and its header has formula, data and what is found; the guide's page `src/guide/verification.md`
+//! shows them side by side. One command runs them all: `cargo test --profile iterate --test numerics verification::`.
 
 mod brener_2016_layer;
 mod bryan_1890;

@@ -5,8 +5,7 @@
 //! thickness `h`. In the two waves `W(r) cos n theta`, `W(r) sin n theta` friction couples what the springs part:
 //!
 //! ```text
-//! mu_c = 2 / (h n) (I_r / I_0) |S| / sqrt(t_0^2 - S^2),   S = sin(2 n t_0) / (2 n)
-//! I_r = int W^2 r dr,  I_0 = int W^2 dr over the pad
+//! mu_c = 2 / (h n) (I_r / I_0) |S| / sqrt(t_0^2 - S^2),   S = sin(2 n t_0) / (2 n) I_r = int W^2 r dr,  I_0 = int W^2 dr over the pad
 //! ```
 //!
 //! whatever `k`, the material and the number of faces are. r 50 to 100 mm, bore clamped, pads from 75 mm on, +-37.5 degrees, steel:

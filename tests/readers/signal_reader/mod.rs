@@ -1,5 +1,4 @@
-//! The readers: what they understand, what they refuse and with which words, and that no bytes make
-//! them or the analyses behind them panic.
+//! The readers: what they understand, what they refuse and with which words, and that no bytes make them or the analyses behind them panic.
 
 mod formats;
 mod measured;

@@ -1,5 +1,4 @@
-//! No bytes make a reader or an analysis panic: tables of random pieces, and mutations of whole files of each
-//! format.
+//! No bytes make a reader or an analysis panic: tables of random pieces, and mutations of whole files of each format.
 
 use super::formats::{matlab, signal, wave};
 use super::{read_response, read_signal};
