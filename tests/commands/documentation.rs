@@ -2,7 +2,6 @@
 //! lines have the length of the house.
 
 use crate::prelude::*;
-use assert_cmd::Command;
 
 /// README, instructions and guide; the pages of keys and columns are made from the declarations.
 fn pages() -> Vec<(String, String)> {
@@ -98,12 +97,7 @@ fn commands(block: &Block) -> Vec<String> {
 fn run_page(name: &str) {
     let (_, text) = pages().into_iter().find(|(page, _)| page == name).unwrap();
     let folder = folder();
-    let program = || {
-        let mut command = Command::cargo_bin("frictionsim").unwrap();
-        command.current_dir(folder.path());
-        command
-    };
-    program().args(["init", "--all"]).assert().success();
+    Run::new(&["init", "--all"]).within(&folder).done();
     let mut printed = String::new();
     for block in parts(&text).0 {
         if block.language == "sh" {
@@ -113,16 +107,14 @@ fn run_page(name: &str) {
                 printed.clear();
             }
             for line in commands {
-                let dry: &[&str] = if is_dry { &["--dry-run"] } else { &[] };
-                let shipped = line.starts_with("frictionsim init --all");
-                let force: &[&str] = if shipped { &["--force"] } else { &[] };
                 let is_plain = line.starts_with("frictionsim cea ") && !text.contains("plot ");
-                let plain: &[&str] = if is_plain { &["--no-figures"] } else { &[] };
-                let given: Vec<&str> = line.split(' ').skip(1).collect();
-                let ran = program().args(given).args(dry).args(plain).args(force).output().unwrap();
-                let said = String::from_utf8_lossy(&ran.stderr).into_owned();
-                assert!(ran.status.success(), "{name}: {line}\n{said}");
-                printed.push_str(&String::from_utf8_lossy(&ran.stdout));
+                let mut given: Vec<&str> = line.split(' ').skip(1).collect();
+                given.extend(is_dry.then_some("--dry-run"));
+                given.extend(is_plain.then_some("--no-figures"));
+                given.extend(line.starts_with("frictionsim init --all").then_some("--force"));
+                let ran = Run::new(&given).within(&folder).end();
+                assert_eq!(ran.code, Some(0), "{name}: {line}\n{}", ran.stderr);
+                printed += &ran.stdout;
                 printed.push('\n');
             }
         } else if block.language == "text" && !printed.is_empty() {
@@ -182,8 +174,7 @@ fn modules() -> Vec<(String, String)> {
     let mut folders = vec![root.join("src"), root.join("crates")];
     let mut modules = Vec::new();
     while let Some(folder) = folders.pop() {
-        for entry in fs::read_dir(folder).unwrap() {
-            let path = entry.unwrap().path();
+        for path in names_in(&folder).iter().map(|name| folder.join(name)) {
             if path.is_dir() {
                 folders.push(path);
             } else if path.extension().is_some_and(|end| end == "rs") {

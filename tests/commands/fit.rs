@@ -90,9 +90,8 @@ fn intervals_of_three_parameters_hold_the_truth_in_95_of_100_noisy_spectra() {
 fn what_the_data_cannot_tell_apart_is_named() {
     let set = ["fit.parameters.\"material.density\"=[1000, 1500]", "fit.starts=2"];
     let set = [COARSE_DISC.as_slice(), &set].concat();
-    fitted("fit-table-1.toml", &disc_table(), &set).code(1).warns(&[
-        "cannot tell ; material.young_modulus ; material.density ; contact.normal_stiffness",
-    ]);
+    let said = "cannot tell ; material.young_modulus ; material.density ; contact.normal_stiffness";
+    fitted("fit-table-1.toml", &disc_table(), &set).code(1).warns(&[said]);
 }
 
 #[test]
@@ -137,10 +136,7 @@ fn shapes_tell_modes_apart_that_cross() {
         let modes = frequencies(values[0]).into_iter().enumerate();
         let modes = modes.map(|(k, frequency)| ModelMode {
             rates: vec![None],
-            assurances: match k {
-                0 => vec![1.0 - mixed, mixed],
-                _ => vec![mixed, 1.0 - mixed],
-            },
+            assurances: [0, 1].map(|i| if i == k { 1.0 - mixed } else { mixed }).to_vec(),
             ..ModelMode::new(c64::new(-10.0, TAU * frequency), None, k, 0)
         });
         Ok(modes.collect())
@@ -165,13 +161,11 @@ fn shapes_tell_modes_apart_that_cross() {
     };
     let alone = with([None, None]);
     assert!(!alone.other_minima.is_empty(), "{alone:?}");
-    let swapped = [Some(1), Some(0)];
-    for (shape_of, expected) in [([Some(0), Some(1)], truth), (swapped, 2.4 - truth)] {
-        let fitted = with(shape_of);
+    for (shape_of, expected) in [([0, 1], truth), ([1, 0], 2.4 - truth)] {
+        let fitted = with(shape_of.map(Some));
         let value = fitted.parameters[key].value;
         assert!((value - expected).abs() < 1e-3, "{value} {expected}");
         assert!(fitted.other_minima.is_empty(), "{:?}", fitted.other_minima);
-        let assured = fitted.residuals.iter().map(|line| line.mac.unwrap());
-        assert!(assured.clone().all(|mac| mac > 0.9));
+        assert!(fitted.residuals.iter().all(|line| line.mac.unwrap() > 0.9));
     }
 }

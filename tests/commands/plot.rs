@@ -157,8 +157,7 @@ fn response_and_identification_are_drawn_again_to_the_same_bytes() {
          frf.response_node=13 ; frf.frequencies_hz={from=4.0,to=10000.0,count=2500}"];
     run(&folder, "frf", "hammer-test.toml", &set).args(&FEW_DOTS).done();
     check_redrawn(&folder, "response");
-    let table = folder.path().join("response.csv");
-    fs::rename(folder.path().join("out/frf.csv"), &table).unwrap();
+    fs::rename(folder.path().join("out/frf.csv"), folder.path().join("response.csv")).unwrap();
     // The tables are not needed.
     plot(&folder, &FEW_DOTS).done();
     fs::remove_dir_all(folder.path().join("out")).unwrap();
@@ -227,11 +226,9 @@ fn folders_that_cannot_be_drawn_are_bad_usage_with_a_reason() {
 fn the_picture_of_an_imported_mesh_names_boundaries_regions_and_normals() {
     let folder = folder();
     let answer = run(&folder, "mesh", "pad-on-disc.toml", &[]).done();
-    has(
-        &answer.text("figures/mesh.svg"),
-        &[">lining< ; >rim< ; >hub< ; pad:  ; counterface edge ; \
-             outward normal of the contact edge"],
-    );
+    let words =
+        ">lining< ; >rim< ; >hub< ; pad:  ; counterface edge ; outward normal of the contact edge";
+    has(&answer.text("figures/mesh.svg"), &[words]);
     let summary = answer.summary();
     let boundaries = summary["mesh"]["boundaries"].as_array().unwrap();
     let rim = boundaries.iter().find(|b| b["name"] == "rim").unwrap();

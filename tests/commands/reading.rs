@@ -222,9 +222,7 @@ fn sectors_tell_the_same_budget_as_the_whole_mesh() {
             let feed = answer.rows("feed.csv");
             found.push((budget, sums, feed));
         }
-        let [(budget, sums, feed), (whole, whole_sums, whole_feed)] = &found[..] else {
-            unreachable!()
-        };
+        let ((budget, sums, feed), (whole, whole_sums, whole_feed)) = (&found[0], &found[1]);
         assert_eq!(budget.keys().collect::<Vec<_>>(), whole.keys().collect::<Vec<_>>());
         for (key, row) in budget {
             let omega = TAU * row.number("frequency_hz");
@@ -300,12 +298,9 @@ fn a_guided_body_of_revolution_has_the_budget_of_the_plane_disc() {
         let sum: f64 = own.iter().map(|row| row[1]).sum();
         assert!((sum / flat - 1.0).abs() < 1e-3, "mode {mode}: {sum} {flat}");
         // Both ends alike; the middle differs by what a quadratic face makes of a wave along it.
-        let ends = own[own.len() - 1][2] / own[0][2];
-        assert!((ends - 1.0).abs() < 1e-6, "mode {mode}: {own:?}");
-        for row in &own {
-            let even = row[2] / own[0][2];
-            assert!((even - 1.0).abs() < 0.05, "mode {mode}: {own:?}");
-        }
+        let off = |row: &[f64; 3]| (row[2] / own[0][2] - 1.0).abs();
+        assert!(off(&own[own.len() - 1]) < 1e-6, "mode {mode}: {own:?}");
+        assert!(own.iter().all(|row| off(row) < 0.05), "mode {mode}: {own:?}");
     }
     assert!(is_found, "no unstable mode without axial motion");
 }
@@ -338,10 +333,8 @@ fn gyroscopic_forces_have_their_own_row_in_the_budget() {
         let turned = own.iter().find(|(kind, _)| *kind == "rotation").unwrap();
         largest = largest.max(turned.1.abs() / growth.abs());
         if mode.number("friction_coefficient") == 0.0 {
-            let fed = own.iter().filter(|(kind, _)| *kind == "contact");
-            for (_, rate) in fed {
-                assert!(rate.abs() < 1e-8 * omega, "{own:?}");
-            }
+            let mut fed = own.iter().filter(|(kind, _)| *kind == "contact");
+            assert!(fed.all(|(_, rate)| rate.abs() < 1e-8 * omega), "{own:?}");
         }
     }
     assert!(largest > 1e-3, "rotation matters: {largest}");

@@ -96,26 +96,18 @@ fn turning(speed_squared: &str) -> String {
     )
 }
 
-/// Runs `init --from` on an input file, and a command on the case that it writes with keys added; the columns of a table.
-fn columns_of<const N: usize>(
-    folder: &Path,
-    deck: &str,
-    more: &str,
-    [command, table]: [&str; 2],
-    columns: [&str; N],
-) -> Vec<[f64; N]> {
-    fs::write(folder.join("rotor.inp"), deck).unwrap();
-    Run::new(&["init", "--from", "rotor.inp", "--force"]).within(folder).done();
-    let case = fs::read_to_string(folder.join("rotor.toml")).unwrap();
-    fs::write(folder.join("rotor.toml"), format!("{case}\n{more}")).unwrap();
-    let run = Run::of(command, "rotor.toml").within(folder).args(&["--force"]).out("out");
-    run.done().rows(table).iter().map(|row| row.numbers(columns)).collect()
+/// Runs `init --from` on an input file, and a command on the case that it writes with keys added; a table.
+fn rows_of(deck: &str, more: &str, command: &str, table: &str) -> Vec<Row> {
+    let folder = folder_with(&[("rotor.inp", deck.as_bytes())]);
+    Run::new(&["init", "--from", "rotor.inp"]).within(&folder).done();
+    let case = fs::read_to_string(folder.path().join("rotor.toml")).unwrap();
+    Run::of_text(command, folder.path(), &format!("{case}\n{more}")).out("out").done().rows(table)
 }
 
 /// Frequencies of an input file with `cea` keys added, rad/s.
-fn modes_of(folder: &Path, deck: &str, more: &str) -> Vec<f64> {
-    let found = columns_of(folder, deck, more, ["cea", "eigenvalues.csv"], ["frequency_hz"]);
-    found.iter().map(|[frequency]| TAU * frequency).collect()
+fn modes_of(deck: &str, more: &str) -> Vec<f64> {
+    let rows = rows_of(deck, more, "cea", "eigenvalues.csv");
+    rows.iter().map(|row| TAU * row.number("frequency_hz")).collect()
 }
 
 /// Published values: the decks `rotor` and `rotor2` of CalculiX' test set (`test/rotor.dat.ref`, `rotor2.dat.ref`, step 3), in a
@@ -123,7 +115,6 @@ fn modes_of(folder: &Path, deck: &str, more: &str) -> Vec<f64> {
 /// highest it lists are not converged in that (`rotor` modes 9 and 10 are 14 and 13 % above those of all unknowns), and are left out.
 #[test]
 fn a_rotor_above_its_critical_speed_has_the_published_frequencies_in_its_turning_frame() {
-    let folder = folder();
     let (nodes, mesh) = rotor().text();
     let load = turning("3.0853e8");
     // Held at middles of edges on both ends, but for those at right angles.
@@ -133,7 +124,7 @@ fn a_rotor_above_its_critical_speed_has_the_published_frequencies_in_its_turning
     let held: Vec<String> = held.map(|(_, number)| number.to_string()).collect();
     assert_eq!(held.len(), 24);
     let set = format!("*NSET, NSET=Nfix\n{}\n*BOUNDARY\nNfix, 1, 3\n", held.join(",\n"));
-    let found = modes_of(folder.path(), &(mesh.clone() + &set + &load), "[cea]\nmodes = 10\n");
+    let found = modes_of(&(mesh.clone() + &set + &load), "[cea]\nmodes = 10\n");
     let published =
         [5.089832, 11737.65, 14535.82, 23381.42, 34851.37, 38368.38, 45038.27, 49577.86];
     near_each(&found[..published.len()], &published, 5e-3);
@@ -142,7 +133,7 @@ fn a_rotor_above_its_critical_speed_has_the_published_frequencies_in_its_turning
     hold_ends(&mut text, &nodes);
     text += "*SURFACE, NAME=skin\nEall,\n";
     let weak = "[boundaries.skin]\ncondition = \"support\"\nnormal_stiffness = 1e4\ntangential_stiffness = 1e4\n[cea]\nmodes = 11\n";
-    let found = modes_of(folder.path(), &(text + &load), weak);
+    let found = modes_of(&(text + &load), weak);
     let published = [
         6128.151, 6351.323, 14905.19, 20215.56, 27483.61, 28809.47, 41398.47, 48544.58, 60801.77,
         71798.82,
@@ -160,7 +151,6 @@ fn a_rotor_above_its_critical_speed_has_the_published_frequencies_in_its_turning
 /// stored half of the skew Coriolis matrix as if it were symmetric, which the same program confirms (0.21700 - 0.03623i).
 #[test]
 fn an_undamped_rotor_answers_a_force_in_its_turning_frame_by_a_hermitian_matrix() {
-    let folder = folder();
     let holes = [15, 0, 1, 2, 3, 4].map(|sector| [11, sector]).to_vec();
     let (nodes, mut text) = Revolved { holes, ..rotor() }.text();
     hold_ends(&mut text, &nodes);
@@ -172,9 +162,8 @@ fn an_undamped_rotor_answers_a_force_in_its_turning_frame_by_a_hermitian_matrix(
             "[frf]\nboundary = \"sliding\"\nforce_node = {rim}\nforce_direction = \"{force}\"\nresponse_direction = \"{observed}\"\n\
              quantity = \"receptance\"\nfrequencies_hz = [200.0]\n"
         );
-        let columns = ["receptance_real", "receptance_imaginary"];
-        let found = columns_of(folder.path(), &text, &keys, ["frf", "frf.csv"], columns);
-        found[0].map(|part| 1e3 * part)
+        let row = &rows_of(&text, &keys, "frf", "frf.csv")[0];
+        row.numbers(["receptance_real", "receptance_imaginary"]).map(|part| 1e3 * part)
     };
     let expected = [[0.55149, 0.0], [0.11340, -0.37617], [0.11340, 0.37617]];
     for ([force, observed], expected) in [["x", "x"], ["x", "y"], ["y", "x"]].iter().zip(expected) {
@@ -189,7 +178,6 @@ fn an_undamped_rotor_answers_a_force_in_its_turning_frame_by_a_hermitian_matrix(
 /// the frame at rest, with Coriolis forces, centrifugal stress and all; and so for springs that are alike in every direction.
 #[test]
 fn frequencies_of_a_turning_ring_in_both_frames_differ_by_multiples_of_its_speed() {
-    let folder = folder();
     let ring = Revolved {
         around: 64,
         cells: vec![[60.0, 80.0, 0.0, 8.0], [80.0, 100.0, 0.0, 8.0]],
@@ -204,7 +192,7 @@ fn frequencies_of_a_turning_ring_in_both_frames_differ_by_multiples_of_its_speed
         let motion = format!(
             "[motion.Eall]\naxis = [0.0, 0.0, 1.0]\nrotation_speed_rpm = {rpm:?}\nrotation_terms = true\nframe = \"{frame}\"\n"
         );
-        modes_of(folder.path(), &deck, &format!("{motion}{springs}[cea]\nmodes = 20\n"))
+        modes_of(&deck, &format!("{motion}{springs}[cea]\nmodes = 20\n"))
     };
     let (turning, rest) = (modes("turning"), modes("rest"));
     // Each mode at rest is one of the turning frame, of some number of nodal diameters.

@@ -25,11 +25,8 @@ const SEVEN: &str = "\n[sweep]\nanalyses = [\"cea\"]\n\
 
 #[test]
 fn shards_are_disjoint_and_cover_every_point() {
-    let case = study(SEVEN);
-    let plan = SweepPlan::new(&case).unwrap();
     for count in 1..=9 {
-        let shards = (1..=count)
-            .map(|number| Shard::points(format!("{number}/{count}").parse().ok(), plan.count()));
+        let shards = (1..=count).map(|own| Shard::points(format!("{own}/{count}").parse().ok(), 7));
         let mut all: Vec<usize> = shards.flatten().collect();
         all.sort_unstable();
         assert_eq!(all, [1, 2, 3, 4, 5, 6, 7]);
@@ -97,14 +94,8 @@ fn sweep(
         runner,
     };
     let ran = run.run(&points, threads).unwrap();
-    write_table(case, &folder);
+    gather(&folder, &finished(case, &plan, &folder).unwrap(), None).unwrap();
     Ok(ran)
-}
-
-fn write_table(case: &Case, folder: &SweepFolder) {
-    let plan = SweepPlan::new(case).unwrap();
-    let report = finished(case, &plan, folder).unwrap();
-    gather(folder, &report, None).unwrap();
 }
 
 fn table(folder: &Path) -> String {
@@ -191,8 +182,7 @@ fn finished_points_are_kept_unless_asked_otherwise() {
     // Another shard is not in its way; the same one, or the whole, is.
     assert_eq!(run(Some("2/3"), Start::Fresh).unwrap(), 5);
     let refused = run(Some("1/3"), Start::Fresh).unwrap_err();
-    assert!(refused.is_usage());
-    assert!(refused.to_string().contains("--resume"), "{refused}");
+    assert!(refused.is_usage() && refused.to_string().contains("--resume"), "{refused}");
     assert!(run(None, Start::Fresh).is_err());
     assert_eq!(run(None, Start::Resume).unwrap(), 5);
     assert_eq!(run(None, Start::Resume).unwrap(), 0);
@@ -210,8 +200,7 @@ fn a_damaged_point_is_run_again() {
     let whole = fs::read_to_string(path(4)).unwrap();
     fs::write(path(4), &whole[..whole.len() / 2]).unwrap();
     fs::copy(path(7), path(8)).unwrap();
-    let ran = sweep(&case, folder.path(), None, 2, Start::Resume, &formula).unwrap();
-    assert_eq!(ran, 2);
+    assert_eq!(sweep(&case, folder.path(), None, 2, Start::Resume, &formula).unwrap(), 2);
     assert_eq!(table(folder.path()), expected);
 }
 
@@ -226,8 +215,7 @@ fn points_of_another_case_are_refused_and_replaced_only_by_force() {
         assert!(matches!(refused, FolderError::OtherCase { .. }));
     }
     assert_eq!(table(folder.path()), expected);
-    let ran = sweep(&other, folder.path(), None, 2, Start::Over, &formula).unwrap();
-    assert_eq!(ran, 15);
+    assert_eq!(sweep(&other, folder.path(), None, 2, Start::Over, &formula).unwrap(), 15);
     assert!(table(folder.path()).contains("\n0.5,"));
 }
 

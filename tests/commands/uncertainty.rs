@@ -14,31 +14,29 @@ const COARSE: [&str; 5] = [
     "uncertainty.index_samples=64",
 ];
 
-fn uncertainty(out: &Path, set: &[&str]) -> Run {
+fn uncertainty(set: &[&str]) -> Run {
     let run = Run::of("uncertainty", shipped("squeal-probability.toml")).args(&["--json"]);
-    run.out(out).set(&COARSE).set(set)
+    run.set(&COARSE).set(set)
 }
 
-fn found(out: &Path, set: &[&str], further: &[&str]) -> Value {
-    uncertainty(out, set).args(further).done().value()
+fn found(set: &[&str]) -> Value {
+    uncertainty(set).done().value()
 }
 
 /// With rigid contact, a clamped rim and the modulus alone uncertain `kappa` scales with `E`: the onset of each branch is one curve over `E`, and quantiles of the modulus are quantiles of the onset.
 #[test]
 fn the_distribution_of_onsets_is_that_of_the_modulus_seen_through_one_curve() {
-    let folder = folder();
     let rigid = [
         "boundaries={ outer = { condition = \"clamped\" } }",
         "contact.normal_stiffness=\"rigid\"",
         "uncertainty.distributions={ \"material.young_modulus\" = { normal = [2.5e9, 1e8] } }",
     ];
-    let found = found(&folder.path().join("out"), &rigid, &[]);
+    let found = found(&rigid);
     let at = |modulus: f64| {
         let modulus = format!("material.young_modulus={modulus:?}");
         let run = Run::of("cea", shipped("squeal-probability.toml"));
-        let run = run.args(&["--json", "--unset", "uncertainty"]).out(folder.path().join(&modulus));
-        let run = run.set(&COARSE[..3]).set(&rigid[..2]).set(&[&modulus]);
-        let summary = run.end().value();
+        let run = run.args(&["--json", "--unset", "uncertainty"]);
+        let summary = run.set(&COARSE[..3]).set(&rigid[..2]).set(&[&modulus]).end().value();
         let onsets = summary["critical_frictions"].as_array().unwrap().iter();
         let onsets = onsets.map(|onset| onset["critical_friction"].as_f64().unwrap());
         onsets.fold(f64::INFINITY, f64::min)
@@ -49,9 +47,10 @@ fn the_distribution_of_onsets_is_that_of_the_modulus_seen_through_one_curve() {
     let (low, middle, high) = (at(2.5e9 - 1.644854e8), at(2.5e9), at(2.5e9 + 1.644854e8));
     let (least, most) = (low.min(high), low.max(high));
     let spread = most - least;
-    assert!((number("median") - middle).abs() < 0.03 * spread, "{critical} {middle}");
-    assert!((number("p05") - least).abs() < 0.05 * spread, "{critical} {least}");
-    assert!((number("p95") - most).abs() < 0.05 * spread, "{critical} {most}");
+    for (key, exact, part) in [("median", middle, 0.03), ("p05", least, 0.05), ("p95", most, 0.05)]
+    {
+        below((number(key) - exact).abs(), part * spread, format!("{critical} {exact}"));
+    }
     assert!(number("mean_low") < number("mean") && number("mean") < number("mean_high"));
     let index = &found["sobol"]["material.young_modulus"];
     for order in ["first", "total"] {
@@ -63,17 +62,17 @@ fn the_distribution_of_onsets_is_that_of_the_modulus_seen_through_one_curve() {
 fn threads_shards_and_interruptions_leave_the_same_bytes() {
     let folder = folder();
     let (one, two) = (folder.path().join("one"), folder.path().join("two"));
-    let summary = found(&one, &[], &["--threads", "1"]);
+    let run = |out: &Path, words: &[&str]| uncertainty(&[]).out(out).args(words);
+    let whole = run(&one, &["--threads", "1"]).done();
     // The second half first; then the first, which finds the other there.
-    found(&two, &[], &["--threads", "2", "--shard", "2/2"]);
+    run(&two, &["--threads", "2", "--shard", "2/2"]).done();
     assert!(!two.join("samples.csv").exists());
-    found(&two, &[], &["--threads", "2", "--resume"]);
-    let bytes = |folder: &Path, name: &str| fs::read(folder.join(name)).unwrap();
+    let parts = run(&two, &["--threads", "2", "--resume"]).done();
     for name in ["samples.csv", "points/point-000001.json", "points/point-000003.json"] {
-        assert!(bytes(&one, name) == bytes(&two, name), "{name}");
+        assert!(whole.bytes(name) == parts.bytes(name), "{name}");
     }
-    let table = String::from_utf8(bytes(&one, "samples.csv")).unwrap();
-    assert_eq!(table.lines().count(), 161);
+    assert_eq!(whole.text("samples.csv").lines().count(), 161);
+    let summary = whole.value();
     let p = &summary["probability_unstable"];
     let [value, low, high] = ["value", "low", "high"].map(|key| p[key].as_f64().unwrap());
     assert!(0.0 <= low && low <= value && value <= high && high <= 1.0);
@@ -82,16 +81,15 @@ fn threads_shards_and_interruptions_leave_the_same_bytes() {
     }
     assert_eq!(summary["sobol"].as_object().unwrap().len(), 4);
     // A finished run is not repeated in silence.
-    uncertainty(&one, &[]).refused(&[]);
+    run(&one, &[]).refused(&[]);
 }
 
 #[test]
 fn a_design_is_named_that_brings_the_probability_below_a_bound() {
-    let folder = folder();
     let few = ["uncertainty.samples=32", "uncertainty.index_samples=0"];
     let idle = ["--robust", "transient.duration=0.1:0.3:2"];
     let design = ["--robust", "contact.friction_coefficient=0.02:0.3:5", "--bound", "0.2"];
-    let found = found(&folder.path().join("out"), &few, &[&design[..], &idle].concat());
+    let found = uncertainty(&few).args(&design).args(&idle).done().value();
     // A key that moves no onset is said to have no effect.
     assert_eq!(found["robust"]["curves"][1]["has_effect"], false);
     let curve = &found["robust"]["curves"][0];
@@ -108,13 +106,11 @@ fn a_design_is_named_that_brings_the_probability_below_a_bound() {
 
 #[test]
 fn a_distribution_whose_tail_is_forbidden_is_drawn_without_it() {
-    let folder = folder();
     let tail =
         ["uncertainty.distributions.\"material.poisson_ratio\"={ normal = [0.44, 0.02] } ; \
          uncertainty.samples=2 ; uncertainty.index_samples=0"];
     // One in a thousand is left out, and said.
-    let run = uncertainty(folder.path(), &tail).args(&["--dry-run"]);
-    run.done().warns(&["drawn from the rest"]);
+    uncertainty(&tail).args(&["--dry-run"]).done().warns(&["drawn from the rest"]);
 }
 
 /// The block of the shipped case slides with a friction far above its onset: samples have the onset that `cea` finds, and where the
@@ -132,28 +128,20 @@ fn samples_of_solid_bodies_beyond_their_onset_have_the_onset_of_an_analysis() {
     let onset = samples[0].lowest(0.6).unwrap();
     assert!((onset.critical_friction - known).abs() < 1e-6, "{onset:?} {known}");
     assert!(!onset.unstable_from_start && samples[0].is_unstable(0.6));
-    let out = folder();
     let set = ["cea.friction_coefficients=[0.6] ; cea.modes=1 ; \
          sweep={ \"material.density\" = [1150.0], analyses = [\"cea\"] }"];
-    Run::of("sweep", shipped("tread-block.toml"))
-        .args(&["-q"])
-        .out(out.path())
-        .set(&set)
-        .done()
-        .says(&["<=0.600000"]);
+    let sweep = Run::of("sweep", shipped("tread-block.toml")).args(&["-q"]).set(&set);
+    sweep.done().says(&["<=0.600000"]);
 }
 
 #[test]
 fn uncertain_friction_is_no_single_value() {
-    let folder = folder();
     let set = [
         "uncertainty.distributions={ \"contact.friction_coefficient\" = { uniform = [0.05, 0.3] } }",
-        "uncertainty.samples=8",
-        "uncertainty.index_samples=0",
+        "uncertainty.samples=8 ; uncertainty.index_samples=0",
     ];
-    let scattered = found(&folder.path().join("out"), &set, &[]);
+    let scattered = found(&set);
     assert!(scattered["friction_coefficient"].is_null(), "{scattered}");
-    let certain = [set[1].replace('8', "2"), set[2].to_owned()];
-    let known = uncertainty(&folder.path().join("known"), &[]).set(&certain).done().value();
+    let known = found(&["uncertainty.samples=2 ; uncertainty.index_samples=0"]);
     assert!(known["friction_coefficient"].is_number(), "{known}");
 }

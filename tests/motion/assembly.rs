@@ -43,13 +43,9 @@ fn assembly<'a>(
     speed: f64,
 ) -> Assembly<'a> {
     let region = mesh.regions.iter().position(|name| name == "lower");
-    let motion = Motion {
-        regions: vec![region.unwrap()],
-        axis: [0.0, 0.0, 1.0],
-        center: [0.02, -0.2, 0.0],
-        rotation_speed: speed,
-        inertia: None,
-    };
+    let (axis, center) = ([0.0, 0.0, 1.0], [0.02, -0.2, 0.0]);
+    let regions = vec![region.unwrap()];
+    let motion = Motion { regions, axis, center, rotation_speed: speed, inertia: None };
     let lower = Counterpart::Surface(boundary(mesh, "lower_z1"));
     between(mesh, materials, lower, (normal_stiffness, law), (decay, &[motion]))
 }
@@ -83,9 +79,7 @@ fn settings(initial: InitialState, duration: f64, noise: f64) -> TransientSettin
 }
 
 fn run(assembly: &Assembly<'_>, settings: &TransientSettings) -> (Recorder, f64) {
-    let body = model(assembly);
-    let operator = body.operator(OperatorChoice::Auto, SimdLevel::Scalar).unwrap();
-    let mut run = CentralDifference::start(body, operator.as_ref(), settings).unwrap();
+    let mut run = started(model(assembly), OperatorChoice::Auto, settings);
     let mut record = Recorder::new(&run, &RecorderSettings::default()).unwrap();
     run.run(&mut record).unwrap();
     let speeds = run.fields().velocity.iter().map(|v| v.abs());

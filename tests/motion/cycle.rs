@@ -50,8 +50,7 @@ pub fn stability_of(solver: &CycleSolver, cycle: &LimitCycle) -> FloquetMultipli
 }
 
 fn count(cycle: &LimitCycle, status: ContactStatus) -> usize {
-    let points = cycle.points.iter().filter(|point| point.status == status);
-    points.count()
+    cycle.points.iter().filter(|point| point.status == status).count()
 }
 
 #[test]
@@ -71,11 +70,9 @@ fn cycles_along_a_branch_have_the_powers_of_each_alone() {
         assert!(cycle.powers.balance_residual() < 1e-8);
         let rpm = cycle.state.point.contact.rotation_speed * 60.0 / TAU;
         let alone = solver.find(&operating(rpm)).unwrap();
-        let share = |cycle: &LimitCycle| {
-            cycle.powers.contact.contact_dissipated / cycle.powers.contact.external
-        };
         // Two ways to one solution of equations that are solved to 1e-9.
-        let [own, other] = [share(cycle), share(&alone)];
+        let [own, other] = [cycle, &alone].map(|own| own.powers.contact);
+        let [own, other] = [own, other].map(|own| own.contact_dissipated / own.external);
         assert!((own - other).abs() < 1e-6, "{rpm}: {own} {other}");
     }
 }
@@ -143,8 +140,7 @@ fn cycle_without_stick_does_not_depend_on_the_speed() {
     near(faster.powers.contact.external, 1.2 * fast.powers.contact.external, 1e-9);
     // Just below that speed points stick, just above none does.
     let at = |factor: f64| {
-        let value = factor * saturation;
-        let cycle = solver.continue_to(&fast, Parameter::RotationSpeed, value);
+        let cycle = solver.continue_to(&fast, Parameter::RotationSpeed, factor * saturation);
         count(&cycle.unwrap(), ContactStatus::Stick)
     };
     assert_eq!((at(1.001), at(0.98) > 0), (0, true));
@@ -184,10 +180,9 @@ fn a_branch_visits_every_value() {
     let values: Vec<f64> = (0..9).map(|i| (200.0 + 100.0 * i as f64) * TAU / 60.0).collect();
     let branch = solver.follow(&start, Parameter::RotationSpeed, &values);
     assert_eq!(branch.ends, [BranchEnd::Range; 2]);
-    for value in &values {
-        let found = branch.cycles.iter().any(|c| c.state.point.contact.rotation_speed == *value);
-        assert!(found, "{value}");
-    }
+    let visited = branch.cycles.iter().map(|own| own.state.point.contact.rotation_speed);
+    let visited: Vec<f64> = visited.collect();
+    assert!(values.iter().all(|value| visited.contains(value)), "{visited:?}");
 }
 
 #[test]
@@ -255,10 +250,7 @@ fn cycle_of_the_second_onset_is_the_transients_and_loses_stability_where_they_le
     for &(rpm, is_stable) in sized(&speeds[..2], &speeds) {
         let cycle = solver.find(&operating(rpm)).unwrap();
         // Close to the change the verdict may be left open, but not be wrong.
-        let wrong = match is_stable {
-            true => Verdict::Unstable,
-            false => Verdict::Stable,
-        };
+        let wrong = if is_stable { Verdict::Unstable } else { Verdict::Stable };
         let verdict = stability_of(&solver, &cycle).verdict();
         assert_ne!(verdict, wrong, "{rpm} rpm");
     }
@@ -278,10 +270,7 @@ fn number_of_phases_does_not_decide_what_is_found() {
         for phases in sized(&[81, 121][..], &[81, 101, 111, 121, 135]).iter().copied() {
             let cycle = with(Some(phases));
             // A few times what two ends of an arc can move within one phase of 81.
-            for i in 0..3 {
-                let difference = cycle.fractions[i] - reference.fractions[i];
-                assert!(difference.abs() < 0.05, "{phases}: {difference}");
-            }
+            within(&cycle.fractions, &reference.fractions, 0.05);
             let frequency = cycle.frequency_hz() / reference.frequency_hz() - 1.0;
             assert!(frequency.abs() < 1e-3, "{phases}: {frequency}");
             let power = cycle.powers.contact.external / reference.powers.contact.external - 1.0;
@@ -316,12 +305,10 @@ fn wave_travels_against_the_rotor_without_changing_its_shape() {
     let passing = TAU * 2.0 / sectors as f64 / cycle.state.frequency();
     let (now, later) = (solver.field(cycle, 0.0), solver.field(cycle, passing));
     for (now, later) in now.iter().zip(&later) {
-        let per_sector = now.len() / sectors;
+        let mut next = now.clone();
+        next.rotate_left(now.len() / sectors);
         let largest = now.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
-        for i in 0..now.len() {
-            let next = now[(i + per_sector) % now.len()];
-            assert!((later[i] - next).abs() < 1e-12 * largest, "{i}");
-        }
+        within(later, &next, 1e-12 * largest);
     }
 }
 

@@ -44,20 +44,16 @@ fn a_branch_bends_back_at_the_speed_at_which_integration_from_event_to_event_los
     assert!(fold > 1.02 * onset, "{fold} {onset}");
     // From a large start the motion goes on for hundreds of periods below the fold, and dies above it; just below it few starts
     // end on the cycle.
-    let lives = |speed: f64| {
-        let reference = at_speed(folder.path(), speed);
-        reference.run(LARGE, 1.2e-8, 300, 20)
-    };
+    let lives = |speed: f64| at_speed(folder.path(), speed).run(LARGE, 1.2e-8, 300, 20);
     assert!(lives(1.02 * fold).is_none());
     let (frequency, stick) = lives(0.9 * fold).expect("a cycle below the fold");
     assert!(stick > 0.0 && frequency > 0.0);
     // Stable before the fold, unstable after it, down to the onset, where the cycle shrinks into steady sliding.
     let at = branch.motions.iter().position(|own| own.is_fold).unwrap();
     let known = |own: &[frictionsim::cycle::periodic::BranchMotion], wanted: bool| {
-        let verdicts = own.iter().filter_map(|own| own.is_stable());
-        let (right, all) = verdicts
-            .fold((0, 0), |(right, all), stable| (right + usize::from(stable == wanted), all + 1));
-        assert!(all > 0 && right == all, "{right} of {all}, wanted {wanted}");
+        let verdicts: Vec<bool> = own.iter().filter_map(|own| own.is_stable()).collect();
+        let is_right = !verdicts.is_empty() && !verdicts.contains(&!wanted);
+        assert!(is_right, "{verdicts:?}, wanted {wanted}");
     };
     known(&branch.motions[..at], true);
     known(&branch.motions[at + 1..], false);
@@ -106,9 +102,9 @@ fn a_branch_that_goes_on_after_an_interruption_is_the_same_bit_by_bit() {
     let whole = searched(&case, &kept);
     assert!(kept.count() > 4);
     // As an interruption leaves it after two and four steps.
+    let whole = format!("{whole:?}");
     for count in [2, 4] {
-        let again = searched(&case, &kept.after(count));
-        assert_eq!(format!("{again:?}"), format!("{whole:?}"));
+        assert_eq!(format!("{:?}", searched(&case, &kept.after(count))), whole);
     }
 }
 

@@ -15,24 +15,17 @@ fn metal(young_modulus: f64, poisson_ratio: f64, density: f64) -> ElasticMateria
 
 /// Aluminium, 30 to 75 mm.
 fn aluminium(elements: [usize; 2]) -> (DiscModel, SlidingContact) {
-    let model = DiscModel {
-        specification: ring([0.03, 0.075], elements),
-        material: metal(70e9, 0.33, 2700.0),
-        damping: rayleigh_damping(0.0, 1.5e-7),
-    };
-    let contact = sliding_at(0.35, 10e-6, 900.0 * TAU / 60.0);
-    (model, contact)
+    let (material, damping) = (metal(70e9, 0.33, 2700.0), rayleigh_damping(0.0, 1.5e-7));
+    let model = DiscModel { specification: ring([0.03, 0.075], elements), material, damping };
+    (model, sliding_at(0.35, 10e-6, 900.0 * TAU / 60.0))
 }
 
 /// Steel, 100 to 240 mm.
 fn steel(elements: [usize; 2]) -> (DiscModel, SlidingContact) {
-    let model = DiscModel {
-        specification: ring([0.1, 0.24], elements),
-        material: ElasticMaterial { formulation: PlaneStrain, ..metal(210e9, 0.3, 7850.0) },
-        damping: rayleigh_damping(100.0, 4e-7),
-    };
-    let contact = sliding_at(0.5, 40e-6, 750.0 * TAU / 60.0);
-    (model, contact)
+    let material = elastic(210e9, 0.3, 7850.0, PlaneStrain);
+    let damping = rayleigh_damping(100.0, 4e-7);
+    let model = DiscModel { specification: ring([0.1, 0.24], elements), material, damping };
+    (model, sliding_at(0.5, 40e-6, 750.0 * TAU / 60.0))
 }
 
 fn point(model: &DiscModel, contact: &SlidingContact) -> OperatingPoint {
@@ -105,23 +98,19 @@ fn scaled_lengths_moduli_densities_and_times_scale_the_results() {
 fn leading_exponent_does_not_depend_on_the_number_of_phases_beyond_its_uncertainty() {
     let (model, contact) = steel([150, 24]);
     let onset = model.onset_of(Family::lowest(1), Lowest(20)).unwrap();
-    let found: Vec<(usize, f64, f64)> = sized(&[81, 121][..], &[81, 99, 121, 141, 181])
-        .iter()
-        .copied()
-        .map(|phases| {
-            let solver =
-                CycleSolver::born_at(&model, Family::lowest(1), &onset, Some(phases)).unwrap();
-            let cycle = solver.find(&point(&model, &contact)).unwrap();
-            let stability = crate::cycle::stability_of(&solver, &cycle);
-            let leading = stability.leading().unwrap();
-            (phases, leading.growth_rate, leading.uncertainty)
-        })
-        .collect();
-    println!("{found:?}");
-    for (_, a, doubt) in &found {
-        for (_, b, other) in &found {
-            assert!((a - b).abs() <= doubt + other, "{found:?}");
-        }
+    let phases = sized(&[81, 121][..], &[81, 99, 121, 141, 181]).iter();
+    let found = phases.map(|&phases| {
+        let family = Family::lowest(1);
+        let solver = CycleSolver::born_at(&model, family, &onset, Some(phases)).unwrap();
+        let cycle = solver.find(&point(&model, &contact)).unwrap();
+        let stability = crate::cycle::stability_of(&solver, &cycle);
+        let leading = stability.leading().unwrap();
+        (leading.growth_rate, leading.uncertainty)
+    });
+    let found: Vec<(f64, f64)> = found.collect();
+    for (a, doubt) in &found {
+        let is_one = |(b, other): &(f64, f64)| (a - b).abs() <= doubt + other;
+        assert!(found.iter().all(is_one), "{found:?}");
     }
 }
 
@@ -139,14 +128,14 @@ fn external_power_is_the_transients_and_the_verdict_is_what_transients_do() {
         let run = stepping.confirm(&settled.cycle, Some(&settled.stability), 100).unwrap();
         let external = settled.cycle.powers.contact.external;
         println!("{family}: {:?} {run:?} {external}", settled.stability.leading());
-        match settled.stability.verdict() {
-            Verdict::Stable => {
-                assert!(run.agrees, "{family}: {run:?}");
-                let ratio = external / run.external_power;
-                assert!((ratio - 1.0).abs() < 7e-3, "{family}: {ratio}");
-            }
-            Verdict::Unstable => assert!(!run.agrees, "{family}: {run:?}"),
-            Verdict::Undecided => {}
+        let verdict = settled.stability.verdict();
+        let agrees = run.agrees;
+        assert!(
+            verdict == Verdict::Undecided || agrees == (verdict == Verdict::Stable),
+            "{family}"
+        );
+        if verdict == Verdict::Stable {
+            near(external, run.external_power, 7e-3);
         }
     }
 }

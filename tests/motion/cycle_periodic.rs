@@ -95,11 +95,9 @@ fn energy_of_a_cycle_closes_and_its_parts_add_up() {
     let parts = contact.stick + contact.slide + contact.contact_dissipated;
     assert!((parts / contact.external - 1.0).abs() < 1e-12);
     // Statuses are those of the nodes, harmonics those of the motion, both sum to the whole.
-    let mean = |k: usize| {
-        let shares = motion.shares.iter().map(|share| share[k]);
-        shares.sum::<f64>() / motion.shares.len() as f64
-    };
-    within(&[0, 1, 2].map(mean), &motion.fractions, 1e-12);
+    let sum = |k: usize| motion.shares.iter().map(|share| share[k]).sum::<f64>();
+    let means = [0, 1, 2].map(|k| sum(k) / motion.shares.len() as f64);
+    within(&means, &motion.fractions, 1e-12);
     let told = &motion.harmonics[..cycle.harmonic_count];
     assert!(told.last().unwrap().remainder <= 1e-3);
     assert!(told.len() < motion.harmonics.len() && told.len() > 1);
@@ -153,15 +151,11 @@ fn below_the_onset_steady_sliding_is_said_to_be_stable() {
 #[test]
 fn the_critical_damping_of_stable_sliding_is_where_the_onset_is_the_friction() {
     let at = |damping: f64| {
-        let case = shipped_case(
-            "limit-cycle.toml",
-            &[
-                "mesh.circumferential_elements=45 ; mesh.radial_elements=9 ; \
-                 contact.friction_coefficient=0.05",
-                &format!("damping.stiffness_coefficient={damping:e}"),
-                "cycle={ continuation = { key = \"damping.stiffness_coefficient\", from = 0.0, to = 4.5e-7, count = 5 } }",
-            ],
-        );
+        let coarse = "mesh.circumferential_elements=45 ; mesh.radial_elements=9";
+        let own = format!("damping.stiffness_coefficient={damping:e}");
+        let over = "contact.friction_coefficient=0.05 ; cycle={ continuation = { key = \
+            \"damping.stiffness_coefficient\", from = 0.0, to = 4.5e-7, count = 5 } }";
+        let case = shipped_case("limit-cycle.toml", &[coarse, &own, over]);
         let study = CycleStudy::new(&case, SimdLevel::detect()).unwrap();
         let report = study.report(Vec::new(), Vec::new());
         let Origin::Waves { lowest_onset } = report.origin else {
@@ -180,12 +174,9 @@ fn the_critical_damping_of_stable_sliding_is_where_the_onset_is_the_friction() {
 /// of a transient of 0.1 s (15368.5 Hz, stick 0.375).
 #[test]
 fn the_cycle_of_a_pad_in_slow_sliding_is_that_of_its_transient() {
-    let case = shipped_case(
-        "pad-on-disc.toml",
-        &["contact.rotation_speed_rpm=5.0 ; \
-             cycle={ onsets = \"lowest\", confirmation_periods = 0, stability = \"none\" }"],
-    );
-    let results = cycles(&case);
+    let slow = "contact.rotation_speed_rpm=5.0 ; \
+        cycle={ onsets = \"lowest\", confirmation_periods = 0, stability = \"none\" }";
+    let results = cycles(&shipped_case("pad-on-disc.toml", &[slow]));
     let motion = &found(&results[0]).motion;
     assert!(motion.residual < 1e-4, "{}", motion.residual);
     assert!((motion.frequency_hz / 15_368.5 - 1.0).abs() < 1e-3, "{}", motion.frequency_hz);
@@ -199,8 +190,7 @@ fn rotating_waves_are_periodic_motions_of_the_whole_mesh() {
                cea={ modes = 8, friction_coefficients = [0.3], geometric_stiffness = false }";
     let disc = |cycle: &str| shipped_case("limit-cycle.toml", &[own, cycle]);
     let case = disc("cycle={ harmonics = [2], onsets = \"lowest\", confirmation_periods = 0 }");
-    let waves = CycleStudy::new(&case, SimdLevel::detect()).unwrap();
-    let waves = waves.run(0, &|| {});
+    let waves = CycleStudy::new(&case, SimdLevel::detect()).unwrap().run(0, &|| {});
     let found_wave = waves[0].outcome.as_ref().unwrap();
     let wave = &found_wave.cycle;
     let all = cycles(&disc("cycle={ confirmation_periods = 0 }"));
@@ -217,10 +207,8 @@ fn rotating_waves_are_periodic_motions_of_the_whole_mesh() {
     near(own.external, other.external, 0.01);
     within(&[own.stick, own.slide], &[other.stick, other.slide], 0.01 * other.external);
     // Floquet exponents of the wave, from linearized contact, and multipliers, from differences of the motion.
-    let own = found(nearest).stability.as_ref().unwrap().as_ref();
-    let own = own.unwrap().leading().unwrap();
-    let other = found_wave.stability.as_ref().unwrap().as_ref();
-    let other = other.unwrap().leading().unwrap();
+    let own = found(nearest).stability.as_ref().unwrap().as_ref().unwrap().leading().unwrap();
+    let other = found_wave.stability.as_ref().unwrap().as_ref().unwrap().leading().unwrap();
     let bound = own.uncertainty + other.uncertainty;
     assert!((own.growth_rate - other.growth_rate).abs() < bound, "{own:?} {other:?}");
 }

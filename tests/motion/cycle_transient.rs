@@ -101,17 +101,15 @@ fn single_wave_loses_stability_to_a_double_one_far_from_its_own_frequency() {
     assert_eq!(leading.mode.unwrap().harmonic, 2);
     let record = run(&solver, &cycle, 2, 10e-3);
     // What the cycle has of harmonic 2 is constant: the scatter over half a millisecond is the perturbation.
-    let scatter: Vec<(f64, f64)> = (8..20)
-        .map(|i| {
-            let start = 5e-4 * f64::from(i);
-            let values = amplitudes(&record, 2, start, start + 5e-4);
-            let count = values.len() as f64;
-            let mean = values.iter().map(|v| v.1).sum::<f64>() / count;
-            let square = values.iter().map(|v| (v.1 - mean).powi(2)).sum::<f64>() / count;
-            (start, square.sqrt())
-        })
-        .collect();
-    let measured = rate(&scatter);
+    let scatter = (8..20).map(|i| {
+        let start = 5e-4 * f64::from(i);
+        let values = amplitudes(&record, 2, start, start + 5e-4);
+        let count = values.len() as f64;
+        let mean = values.iter().map(|v| v.1).sum::<f64>() / count;
+        let square = values.iter().map(|v| (v.1 - mean).powi(2)).sum::<f64>() / count;
+        (start, square.sqrt())
+    });
+    let measured = rate(&scatter.collect::<Vec<_>>());
     assert!((measured / leading.growth_rate - 1.0).abs() < 0.1, "{measured} {leading:?}");
     // Transients leave the cycle at 650 rpm and stay at 620.
     for (rpm, is_stable) in [(620.0, true), (650.0, false)] {
@@ -132,9 +130,8 @@ fn single_wave_loses_stability_to_the_double_one_between_speeds_where_the_transi
     // Close to the change the verdict may be left open, but not be wrong.
     assert_ne!(verdict(1200.0), Verdict::Unstable);
     assert_eq!(verdict(1500.0), Verdict::Unstable);
-    for (rpm, expected) in
-        sized(&[][..], &[(610.0, Verdict::Stable), (3000.0, Verdict::Unstable)]).iter()
-    {
+    let far = [(610.0, Verdict::Stable), (3000.0, Verdict::Unstable)];
+    for (rpm, expected) in sized(&[][..], &far) {
         assert_eq!(verdict(*rpm), *expected);
     }
 }

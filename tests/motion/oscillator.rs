@@ -59,17 +59,14 @@ impl EventDriven {
             [0, 1].map(|i| [0, 1].map(|j| dense[row(i)][column(j)]))
         };
         let (normal, cross) = (block(&n, &n), block(&t, &n));
-        let decay = contact.decay.unwrap();
+        let (decay, damping) = (contact.decay.unwrap(), case.damping.rayleigh);
         Self {
             masses: both(&|i| masses[interface.nodes[i] as usize]),
             stiffness: block(&t, &t),
             load: both(&|i| cross[i][0] * pushed(0) + cross[i][1] * pushed(1)),
             preload: both(&|i| normal[i][0] * pushed(0) + normal[i][1] * pushed(1)),
             pressing: block(&n, &t),
-            damping: [
-                case.damping.rayleigh.mass_coefficient,
-                case.damping.rayleigh.stiffness_coefficient,
-            ],
+            damping: [damping.mass_coefficient, damping.stiffness_coefficient],
             speed: interface.surface_speed(contact.rotation_speed),
             friction: [contact.friction_coefficient, decay.static_ratio, decay.decay_speed],
         }
@@ -95,12 +92,9 @@ impl EventDriven {
 
     /// Rates in given states: 0 sticks, else the sign of the friction force.
     fn rate(&self, x: &Motion, states: [f64; 2]) -> Motion {
-        let acceleration = |i: usize| match states[i] {
-            0.0 => 0.0,
-            sign => {
-                let friction = sign * self.limit(i, x, self.speed - x[2 + i]);
-                (friction - self.holding(i, x)) / self.masses[i]
-            }
+        let acceleration = |i: usize| {
+            let friction = states[i] * self.limit(i, x, self.speed - x[2 + i]);
+            states[i].abs() * (friction - self.holding(i, x)) / self.masses[i]
         };
         [x[2], x[3], acceleration(0), acceleration(1)]
     }
@@ -143,10 +137,8 @@ impl EventDriven {
                 for _ in 0..60 {
                     h = 0.5 * (low + high);
                     let middle = self.step(&x, states, h);
-                    match (0..2).any(|i| leaves(i, &middle)) {
-                        true => high = h,
-                        false => low = h,
-                    }
+                    let is_beyond = (0..2).any(|i| leaves(i, &middle));
+                    (low, high) = if is_beyond { (low, h) } else { (h, high) };
                 }
                 h = high;
             }

@@ -25,20 +25,14 @@ const NORMAL_STIFFNESS: f64 = 7.4e12;
 const RAYLEIGH: Rayleigh = (40.0, 4.5e-7);
 
 fn table_1_reference(annulus: &Annulus, contact: &Contact) -> Vec<Eigenvalue> {
-    (0..TABLE_1.len())
-        .map(|row| {
-            let (real, _, harmonic, branch) = TABLE_1[row];
-            let partner = TABLE_1
-                .iter()
-                .find(|other| (other.2, other.3) == (harmonic, branch) && other.0 != real);
-            let direction = match partner {
-                None => 0,
-                Some(other) if real > other.0 => -1,
-                Some(_) => 1,
-            };
-            annulus.branch(harmonic, branch, direction, contact, RAYLEIGH)
-        })
-        .collect()
+    let of_row = |&(real, _, harmonic, branch): &(f64, f64, usize, usize)| {
+        let is_partner =
+            |own: &&(f64, f64, usize, usize)| (own.2, own.3) == (harmonic, branch) && own.0 != real;
+        let partner = TABLE_1.iter().find(is_partner);
+        let direction = partner.map_or(0, |other| if real > other.0 { -1 } else { 1 });
+        annulus.branch(harmonic, branch, direction, contact, RAYLEIGH)
+    };
+    TABLE_1.iter().map(of_row).collect()
 }
 
 fn undamped_hz(annulus: &Annulus, harmonic: usize, contact: &Contact) -> Vec<f64> {
@@ -168,12 +162,8 @@ fn exact_steady_state_is_the_static_solution_of_the_spectral_element() {
     let state = DISC.prestress(25e-6, 0.3);
     let degree = continuum::DEGREE;
     let (stiffness, _) = DISC.unconstrained_pencil(0, &Contact::rigid(0.0), degree);
-    let field: Vec<c64> = (0..=degree)
-        .flat_map(|i| {
-            let [radial, tangential] = state.displacement(radius(i));
-            [c64::new(radial, 0.0), c64::new(0.0, -tangential)]
-        })
-        .collect();
+    let field = (0..=degree).map(|i| state.displacement(radius(i)));
+    let field: Vec<c64> = field.flat_map(|[u, w]| [c64::new(u, 0.0), c64::new(0.0, -w)]).collect();
     let force = |row: usize| -> c64 {
         (0..field.len()).map(|column| stiffness[(row, column)] * field[column]).sum()
     };

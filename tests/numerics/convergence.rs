@@ -32,10 +32,8 @@ impl Study {
                     let mut same = modes.iter().filter(|mode| mode.direction == direction);
                     same.nth(branch).expect("enough branches").lambda
                 };
-                let what = format!(
-                    "{:?}, n = {harmonic}, branch {branch}, direction {direction:+}",
-                    self.contact
-                );
+                let what = format!("n = {harmonic}, branch {branch}, direction {direction:+}");
+                let what = format!("{:?}, {what}", self.contact);
                 let errors = [0, 1, 2].map(|level| pick(&computed[level]) - pick(&exact));
                 cancelled += self.assert_rates_of_one(element, &what, errors);
             }
@@ -112,19 +110,16 @@ fn the_discrete_model_turns_unstable_where_the_continuum_does() {
         let study = Study::of(contact, RAYLEIGH);
         let mut discrete = Discretisation::new(&specification, &study, FORWARD);
         for (harmonic, branch) in [(1, 2), (2, 1), (1, 1)] {
-            let critical = DISC
-                .critical_friction(harmonic, branch, &contact, RAYLEIGH, 1.0)
-                .expect("an unstable branch");
-            let [before, after] = [0.999, 1.001].map(|factor| {
+            let critical = DISC.critical_friction(harmonic, branch, &contact, RAYLEIGH, 1.0);
+            let critical = critical.expect("an unstable branch");
+            let growth = [0.999, 1.001].map(|factor| {
                 discrete.friction_coefficient = factor * critical;
                 let modes = discrete.eigenvalues(harmonic);
                 let mut backward = modes.iter().filter(|mode| mode.direction == -1);
                 backward.nth(branch - 1).expect("enough branches").lambda.re
             });
-            assert!(
-                before < 0.0 && after > 0.0,
-                "n = {harmonic}, branch {branch}, mu_c = {critical}: {before} {after}"
-            );
+            let turns = growth[0] < 0.0 && growth[1] > 0.0;
+            assert!(turns, "n = {harmonic}, branch {branch}, mu_c = {critical}: {growth:?}");
         }
     }
 }
@@ -216,12 +211,10 @@ fn recovered_stress_converges_at_second_order_up_to_the_edges() {
             for (node, stress) in recovered.iter().enumerate().take(mesh.sector_node_count()) {
                 let [x, y] = mesh.mesh.plane_node(node);
                 let state = exact.stress(x.hypot(y));
-                for (worst, error) in largest.iter_mut().zip([
-                    stress.radial - state.radial,
-                    stress.hoop - state.circumferential,
-                    stress.shear - state.shear,
-                ]) {
-                    *worst = worst.max(error.abs() / exact.pressure);
+                let found = [stress.radial, stress.hoop, stress.shear];
+                let state = [state.radial, state.circumferential, state.shear];
+                for (i, worst) in largest.iter_mut().enumerate() {
+                    *worst = worst.max((found[i] - state[i]).abs() / exact.pressure);
                 }
             }
             largest

@@ -59,13 +59,13 @@ fn harmonics_of_a_free_and_a_clamped_body_sum_to_the_response_of_the_whole_mesh(
     for specification in &meshes() {
         let mesh = AnnulusMesh::generate(specification).unwrap().mesh;
         let sector = SectorMesh::generate(specification).unwrap();
-        for is_clamped in [false, true] {
-            for mass in [Consistent, Lumped] {
-                let whole = FrfSystem::body(&mesh, &POLYCARBONATE, mass, DAMPING, is_clamped);
-                let cyclic = CyclicSystem::body(&sector, &POLYCARBONATE, mass, DAMPING, is_clamped);
-                let what = format!("{:?}, clamped {is_clamped}, {mass:?}", specification.element);
-                agree((&mesh, &whole), &cyclic, &terminals(specification, false), &what);
-            }
+        for (is_clamped, mass) in
+            [(false, Consistent), (false, Lumped), (true, Consistent), (true, Lumped)]
+        {
+            let whole = FrfSystem::body(&mesh, &POLYCARBONATE, mass, DAMPING, is_clamped);
+            let cyclic = CyclicSystem::body(&sector, &POLYCARBONATE, mass, DAMPING, is_clamped);
+            let what = format!("{:?}, clamped {is_clamped}, {mass:?}", specification.element);
+            agree((&mesh, &whole), &cyclic, &terminals(specification, false), &what);
         }
     }
 }
@@ -109,17 +109,12 @@ fn harmonics_in_sliding_contact_sum_to_the_response_of_the_whole_mesh() {
                     ..TANGENT
                 };
                 let model = WaveModel { specification, material, options, contact };
-                let what = format!(
-                    "{:?}, {damping_model:?}, {contact:?}, {normal_stiffness:?}, {loss_factor}",
-                    specification.element
-                );
+                let what = format!("{damping_model:?}, {contact:?}, {normal_stiffness:?}");
+                let what = format!("{:?}, {what}, {loss_factor}", specification.element);
                 let mesh = AnnulusMesh::generate(&specification).unwrap().mesh;
-                agree(
-                    (&mesh, &FrfSystem::sliding(&model.whole(), 0.3)),
-                    &CyclicSystem::sliding(&model.tangent(), 0.3),
-                    &terminals(&specification, true),
-                    &what,
-                );
+                let whole = FrfSystem::sliding(&model.whole(), 0.3);
+                let cyclic = CyclicSystem::sliding(&model.tangent(), 0.3);
+                agree((&mesh, &whole), &cyclic, &terminals(&specification, true), &what);
             }
         }
     }
@@ -130,16 +125,12 @@ fn harmonics_in_sliding_contact_sum_to_the_response_of_the_whole_mesh() {
 fn a_disc_on_a_shaft_responds_without_contact_as_the_disc_alone() {
     let text = include_str!("../../cases/deformable-shaft.toml");
     let respond = |boundary: &str, changes: &[&str]| {
-        let mut set = vec![
-            "mesh.circumferential_elements=24".to_owned(),
-            "mesh.radial_elements=5".to_owned(),
-            format!(
-                "frf={{boundary=\"{boundary}\",force_node={{x=0.05,y=0.0}},response_node={{x=0.0,y=-0.07}},\
-                 frequencies_hz=[900.0,4321.0,8765.0]}}"
-            ),
-        ];
-        set.extend(changes.iter().map(|change| (*change).to_owned()));
-        let case = Case::parse("shaft.toml", text.as_bytes(), &set).unwrap();
+        let frf = format!(
+            "frf={{boundary=\"{boundary}\",force_node={{x=0.05,y=0.0}},response_node={{x=0.0,y=-0.07}},\
+             frequencies_hz=[900.0,4321.0,8765.0]}}"
+        );
+        let coarse = ["mesh.circumferential_elements=24", "mesh.radial_elements=5", &frf];
+        let case = case_of("shaft.toml", text, &[&coarse[..], changes].concat());
         let solved = FrequencyStudy::new(&case).unwrap().solve(&|_| {}).unwrap();
         (solved.summary.method.clone(), solved.receptance())
     };

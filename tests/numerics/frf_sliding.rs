@@ -51,13 +51,8 @@ impl ModalForm {
         let left = faer::linalg::solvers::Solve::solve(&right.partial_piv_lu(), &unit);
         let scaled = Mat::from_fn(2 * size, 2 * size, |i, k| right[(i, k)] * poles[k]);
         let again = &scaled * &left;
-        let mut square = 0.0;
-        for j in 0..2 * size {
-            for i in 0..2 * size {
-                square += (again[(i, j)] - companion[(i, j)]).norm_sqr();
-            }
-        }
-        Self { poles, right, left, mass, defect: square.sqrt() }
+        let apart = Mat::from_fn(2 * size, 2 * size, |i, j| again[(i, j)] - companion[(i, j)]);
+        Self { poles, right, left, mass, defect: apart.norm_l2() }
     }
 
     /// `sum_k r_k l_k^T b / (i omega - lambda_k)` of the response, and a bound of its error.
@@ -70,25 +65,15 @@ impl ModalForm {
         input[(force, 0)] = 1.0;
         self.mass.solve_in_place(input.as_mut());
         let s = c64::new(0.0, TAU * frequency_hz);
-        let amplitude: Vec<c64> = (0..2 * size)
-            .map(|k| {
-                let sum: c64 = (0..size).map(|i| self.left[(k, size + i)] * input[(i, 0)]).sum();
-                sum / (s - self.poles[k])
-            })
-            .collect();
-        let state: Vec<c64> = (0..2 * size)
-            .map(|i| (0..2 * size).map(|k| self.right[(i, k)] * amplitude[k]).sum())
-            .collect();
-        let row: Vec<c64> = (0..2 * size)
-            .map(|j| {
-                (0..2 * size)
-                    .map(|k| self.right[(response, k)] / (s - self.poles[k]) * self.left[(k, j)])
-                    .sum()
-            })
-            .collect();
-        let norm = |v: &[c64]| v.iter().map(|z| z.norm_sqr()).sum::<f64>().sqrt();
-        let bound = norm(&row) * self.defect * norm(&state) / OMEGA;
-        (state[response] / OMEGA, bound)
+        let all = 2 * size;
+        let amplitude = Mat::from_fn(all, 1, |k, _| {
+            let sum: c64 = (0..size).map(|i| self.left[(k, size + i)] * input[(i, 0)]).sum();
+            sum / (s - self.poles[k])
+        });
+        let state = &self.right * amplitude;
+        let seen = Mat::from_fn(1, all, |_, k| self.right[(response, k)] / (s - self.poles[k]));
+        let bound = (seen * &self.left).norm_l2() * self.defect * state.norm_l2() / OMEGA;
+        (state[(response, 0)] / OMEGA, bound)
     }
 }
 

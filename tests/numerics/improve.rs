@@ -34,10 +34,9 @@ impl Body {
     /// stiffness, N/m, and damping, N s/m.
     fn check_fields(&self, nodes: &[usize], [mass, spring, dashpot]: [f64; 3]) {
         let found = self.improved();
-        let fastest = found.summary.modes.iter().enumerate();
-        let fastest =
-            fastest.max_by(|a, b| a.1.growth_rate_per_s.total_cmp(&b.1.growth_rate_per_s));
-        let (k, mode) = fastest.unwrap();
+        let modes = found.summary.modes.iter().enumerate();
+        let faster = modes.max_by(|a, b| a.1.growth_rate_per_s.total_cmp(&b.1.growth_rate_per_s));
+        let (k, mode) = faster.unwrap();
         let own = c64::new(mode.growth_rate_per_s, TAU * mode.frequency_hz);
         let eigenvalue = self.nearest(&[], own);
         let (mesh, fields) = (&*found.mesh, &found.fields[k]);
@@ -93,10 +92,8 @@ impl Body {
     fn check_patch(&self, eigenvalue: c64, mesh: &Mesh, fields: &TargetFields) {
         let region = mesh.regions.iter().position(|name| name == "patch").unwrap();
         let own = || (0..mesh.element_count()).filter(|&e| mesh.region(e) == region);
-        let size = |e: usize| match mesh.dimension {
-            2 => mesh.element_measure(e),
-            _ => brick_volume(mesh, e),
-        };
+        let size = if mesh.dimension == 2 { Mesh::element_measure } else { brick_volume };
+        let size = |e: usize| size(mesh, e);
         let sum = |field: &[f64]| own().map(|e| field[e] * size(e)).sum::<f64>();
         let case = self.case(AS_IT_IS);
         let elastic = *case.materials().of(region);

@@ -12,31 +12,23 @@ fn block() -> TempDir {
     folder_with(&[("block.msh", &rectangle(0.04, 0.06, 8, 12))])
 }
 
-fn sweep(folder: &TempDir, frictions: &[f64]) -> FrictionSweep {
-    sweep_of(CASE, folder, frictions)
-}
-
 fn sweep_of(text: &str, folder: &TempDir, frictions: &[f64]) -> FrictionSweep {
     let name = folder.path().join("case.toml").display().to_string();
     // The case's own friction value is solved, too.
     let own = frictions[frictions.len() - 1];
-    let set = [
-        format!("cea.friction_coefficients={frictions:?}"),
-        format!("contact.friction_coefficient={own:?}"),
-    ];
-    let case = case_of(name, text, &set);
-    modes_and_onsets(&case).unwrap()
+    let all = format!("cea.friction_coefficients={frictions:?}");
+    let set = [all, format!("contact.friction_coefficient={own:?}")];
+    modes_and_onsets(&case_of(name, text, &set)).unwrap()
 }
 
 /// Intervals that do not begin beyond the wanted modes.
 fn located(sweep: &FrictionSweep) -> Vec<&UnstableInterval> {
-    let own = sweep.intervals.iter();
-    own.filter(|interval| !interval.unstable_from_start).collect()
+    sweep.intervals.iter().filter(|own| !own.unstable_from_start).collect()
 }
 
 /// The growth rate at a friction value of the mode nearest to a frequency, over that in rad/s.
 fn growth(folder: &TempDir, friction: f64, frequency_hz: f64) -> f64 {
-    let sweep = sweep(folder, &[friction]);
+    let sweep = sweep_of(CASE, folder, &[friction]);
     let distance = |mode: &&ComplexMode| (mode.frequency_hz() / frequency_hz - 1.0).abs();
     let nearest = nearest_by(&sweep.points[0].modes, distance);
     nearest.growth_rate() / nearest.eigenvalue.norm()
@@ -46,7 +38,7 @@ fn growth(folder: &TempDir, friction: f64, frequency_hz: f64) -> f64 {
 #[test]
 fn critical_friction_is_that_of_the_contact_state_there() {
     let folder = block();
-    let coarse = sweep(&folder, &[0.1, 0.8]);
+    let coarse = sweep_of(CASE, &folder, &[0.1, 0.8]);
     let found = located(&coarse);
     assert_eq!([found.len(), coarse.intervals.len()], [3; 2], "{:?}", coarse.intervals);
     for interval in &found {
@@ -65,10 +57,10 @@ fn critical_friction_is_that_of_the_contact_state_there() {
 #[test]
 fn critical_friction_does_not_depend_on_the_friction_values_asked_for() {
     let folder = block();
-    let coarse = sweep(&folder, &[0.1, 0.8]);
+    let coarse = sweep_of(CASE, &folder, &[0.1, 0.8]);
     let all = [&[0.1, 0.4, 0.8][..], &[0.1, 0.3, 0.35, 0.6, 0.7, 0.8]];
     for frictions in sized(&all[..1], &all) {
-        let other = sweep(&folder, frictions);
+        let other = sweep_of(CASE, &folder, frictions);
         let pairs = located(&coarse).into_iter().zip(located(&other));
         assert_eq!(located(&coarse).len(), located(&other).len(), "{frictions:?}");
         for (a, b) in pairs {

@@ -31,10 +31,8 @@ fn legendre(degree: usize, x: f64) -> Vec<[f64; 2]> {
     let mut found = vec![[1.0, 0.0], [x, 1.0]];
     for n in 1..degree {
         let (a, b, n) = (found[n], found[n - 1], n as f64);
-        found.push([
-            ((2.0 * n + 1.0) * x * a[0] - n * b[0]) / (n + 1.0),
-            (2.0 * n + 1.0) * a[0] + b[1],
-        ]);
+        let twice = 2.0 * n + 1.0;
+        found.push([(twice * x * a[0] - n * b[0]) / (n + 1.0), twice * a[0] + b[1]]);
     }
     found
 }
@@ -83,24 +81,20 @@ fn ritz(orthotropy: &Orthotropy, density: f64, size: [f64; 3], degree: usize) ->
             let parity = |axis: usize| (class >> axis & 1) + usize::from(axis == i);
             (0..3).all(|axis| (function[axis] + parity(axis)).is_multiple_of(2))
         };
-        let own: Vec<(usize, [usize; 3])> = (0..3)
-            .flat_map(|i| functions.iter().map(move |function| (i, *function)))
-            .filter(|(i, function)| is_own(*i, function))
-            .collect();
+        let all = (0..3).flat_map(|i| functions.iter().map(move |function| (i, *function)));
+        let own: Vec<(usize, [usize; 3])> = all.filter(|(i, own)| is_own(*i, own)).collect();
         // Legendre's polynomials are orthogonal: the mass is diagonal.
         let scale: Vec<f64> =
             own.iter().map(|(_, a)| 1.0 / (density * integral(a, a, 3, 3)).sqrt()).collect();
         let entry = |at: usize, beside: usize| {
             let ((i, a), (j, b)) = (own[at], own[beside]);
             // c_iijj, and c_ijij = c_ijji = G_ij.
-            let mut sum = normal[(i, j)] * integral(&a, &b, i, j);
-            if i == j {
-                let others = (0..3).filter(|&k| k != i);
-                let sheared = others.map(|k| shear(i, k) * integral(&a, &b, k, k));
-                sum += sheared.sum::<f64>();
-            } else {
-                sum += shear(i, j) * integral(&a, &b, j, i);
-            }
+            let others = (0..3).filter(|&k| k != i && (i == j || k == j));
+            let sheared = others.map(|k| {
+                let (p, q) = if i == j { (k, k) } else { (j, i) };
+                shear(i, k) * integral(&a, &b, p, q)
+            });
+            let sum = normal[(i, j)] * integral(&a, &b, i, j) + sheared.sum::<f64>();
             sum * scale[at] * scale[beside]
         };
         let scaled = DMatrix::from_fn(own.len(), own.len(), entry);
@@ -167,11 +161,8 @@ fn a_thin_orthotropic_plate_has_the_frequencies_of_kirchhoffs_theory() {
     let mut expected: Vec<f64> =
         [(1.0, 1.0), (2.0, 1.0), (1.0, 2.0), (2.0, 2.0)].map(|(m, n)| exact(m, n)).to_vec();
     expected.sort_by(f64::total_cmp);
-    let edges = ["x0", "x1", "y0", "y1"].map(|face| {
-        let along_x = face.starts_with('x');
-        let fixed = Fixed([!along_x, along_x, true]);
-        (face, fixed)
-    });
+    let edges = [("x0", true), ("x1", true), ("y0", false), ("y1", false)];
+    let edges = edges.map(|(face, along_x)| (face, Fixed([!along_x, along_x, true])));
     let file = block(Hex20, [20, 16, 1], |[x, y, z]| [a * x, b * y, h * z]);
     let mesh = solids_of(&file, &edges);
     let found = Pencil::of_material(&mesh, &solid(orthotropy)).frequencies(4);
@@ -181,14 +172,28 @@ fn a_thin_orthotropic_plate_has_the_frequencies_of_kirchhoffs_theory() {
 
 fn as_nine(material: &ElasticMaterial, axes: MaterialAxes) -> ElasticMaterial {
     let (e, nu) = (material.young_modulus, material.poisson_ratio);
-    ElasticMaterial {
-        orthotropy: Some(Orthotropy {
-            young_moduli: [e; 3],
-            poisson_ratios: [nu; 3],
-            shear_moduli: [e / (2.0 * (1.0 + nu)); 3],
-            axes,
-        }),
-        ..*material
+    let (young_moduli, shear_moduli) = ([e; 3], [e / (2.0 * (1.0 + nu)); 3]);
+    let nine = Orthotropy { young_moduli, poisson_ratios: [nu; 3], shear_moduli, axes };
+    ElasticMaterial { orthotropy: Some(nine), ..*material }
+}
+
+/// One plane element about the origin, sheared.
+fn flat_element(kind: ElementKind) -> Mesh {
+    let (nodes, corners) = (kind.node_count(), kind.corner_count());
+    let turn = 2.0 * PI / corners as f64;
+    let around = |i: usize| {
+        let (half, radius) = if i < corners { (0.0, 1.0) } else { (0.5, (0.5 * turn).cos()) };
+        let (sin, cos) = (turn * ((i % corners) as f64 + half)).sin_cos();
+        [radius * cos, 1.2 * radius * sin + 0.1 * radius * cos, 0.0]
+    };
+    Mesh {
+        dimension: 2,
+        nodes: (0..nodes).map(around).collect(),
+        frames: NodalFrames::global(2, nodes),
+        element_kinds: vec![kind],
+        element_starts: vec![0, nodes as u32],
+        elements: (0..nodes as u32).collect(),
+        ..Mesh::default()
     }
 }
 
@@ -202,42 +207,18 @@ fn isotropic_constants_given_as_orthotropic_have_the_isotropic_stiffness() {
             center: [0.3, -0.1, 0.2],
         },
     ];
-    let formulations = [PlaneStrain, PlaneStress, ThreeDimensional];
-    let flat = [Tri3, Quad8];
-    for formulation in formulations {
+    for formulation in [PlaneStrain, PlaneStress, ThreeDimensional] {
         let plain = ElasticMaterial { formulation, ..POLYCARBONATE };
-        let kinds: &[ElementKind] = match formulation {
-            ThreeDimensional => &SOLIDS,
-            _ => &flat,
-        };
+        let is_flat = formulation != ThreeDimensional;
+        let kinds: &[ElementKind] = if is_flat { &[Tri3, Quad8] } else { &SOLIDS };
         for (&kind, axes) in kinds.iter().flat_map(|kind| all_axes.map(|axes| (kind, axes))) {
-            let nodes = kind.node_count();
-            let geometry = match kind.dimension() {
-                2 => {
-                    let around = |i: usize| {
-                        let corners = kind.corner_count();
-                        let turn = 2.0 * PI / corners as f64;
-                        let half = if i < corners { 0.0 } else { 0.5 };
-                        let (sin, cos) = (turn * ((i % corners) as f64 + half)).sin_cos();
-                        let radius = if i < corners { 1.0 } else { (0.5 * turn).cos() };
-                        [radius * cos, 1.2 * radius * sin + 0.1 * radius * cos, 0.0]
-                    };
-                    let mesh = Mesh {
-                        dimension: 2,
-                        nodes: (0..nodes).map(around).collect(),
-                        frames: NodalFrames::global(2, nodes),
-                        element_kinds: vec![kind],
-                        element_starts: vec![0, nodes as u32],
-                        elements: (0..nodes as u32).collect(),
-                        ..Mesh::default()
-                    };
-                    ElementGeometry::new(&mesh, 0)
-                }
-                _ => {
-                    let file = block(kind, [1; 3], |[x, y, z]| [x + 0.2 * y, y, 0.8 * z - 0.1 * x]);
-                    ElementGeometry::new(&solids_of(&file, &[]), 0)
-                }
+            let mesh = if is_flat {
+                flat_element(kind)
+            } else {
+                let file = block(kind, [1; 3], |[x, y, z]| [x + 0.2 * y, y, 0.8 * z - 0.1 * x]);
+                solids_of(&file, &[])
             };
+            let geometry = ElementGeometry::new(&mesh, 0);
             let expected = geometry.stiffness(&plain);
             let found = geometry.stiffness(&as_nine(&plain, axes));
             let error = (&found - &expected).amax() / expected.amax();
@@ -274,12 +255,8 @@ fn plane_formulations_reduce_the_compliance_of_the_solid() {
     let found = in_plane(PlaneStress)[(0, 0)];
     assert!((found / stress - 1.0).abs() < 1e-12, "{found} {stress}");
     let [s13, s23] = [-n13 / e1, -n23 / e2];
-    let strain = along_x(
-        1.0 / e1 - s13 * s13 * e3,
-        1.0 / e2 - s23 * s23 * e3,
-        -n12 / e1 - s13 * s23 * e3,
-        s66,
-    );
+    let (s11, s22) = (1.0 / e1 - s13 * s13 * e3, 1.0 / e2 - s23 * s23 * e3);
+    let strain = along_x(s11, s22, -n12 / e1 - s13 * s23 * e3, s66);
     let found = in_plane(PlaneStrain)[(0, 0)];
     assert!((found / strain - 1.0).abs() < 1e-12, "{found} {strain}");
 }

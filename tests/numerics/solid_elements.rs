@@ -26,10 +26,8 @@ fn distorted(kind: ElementKind, bend: f64) -> FileMesh {
     for element in &file.elements {
         element.nodes[..corners].iter().for_each(|&node| is_corner[node as usize] = true);
     }
-    for (node, point) in file.points.iter_mut().enumerate() {
-        if is_corner[node] && is_inner(&before[node]) {
-            point.iter_mut().for_each(|x| *x += 0.1 * draw());
-        }
+    for node in (0..before.len()).filter(|&node| is_corner[node] && is_inner(&before[node])) {
+        file.points[node].iter_mut().for_each(|x| *x += 0.1 * draw());
     }
     let mut is_done = vec![false; before.len()];
     for element in &file.elements {
@@ -52,25 +50,16 @@ fn distorted(kind: ElementKind, bend: f64) -> FileMesh {
 
 /// A displacement field sampled in nodal frames.
 fn sample(mesh: &Mesh, field: impl Fn(Vector3<f64>) -> Vector3<f64>) -> Vec<f64> {
-    let nodes = mesh.nodes.iter().enumerate();
-    nodes
-        .flat_map(|(node, &place)| {
-            let u = mesh.frame(node).transpose() * field(Vector3::from(place));
-            [u.x, u.y, u.z]
-        })
-        .collect()
+    let at = |(node, &place)| mesh.frame(node).transpose() * field(Vector3::from(place));
+    mesh.nodes.iter().enumerate().map(at).flat_map(|u| [u.x, u.y, u.z]).collect()
 }
 
 /// The six rigid motions about a point inside.
 fn rigid_motions(mesh: &Mesh) -> Vec<Vec<f64>> {
     let center = Vector3::new(0.05, 0.04, 0.03);
-    let mut motions: Vec<Vec<f64>> =
-        (0..3).map(|axis| sample(mesh, |_| Vector3::ith(axis, 1.0))).collect();
-    for axis in 0..3 {
-        let turn = |p: Vector3<f64>| Vector3::ith(axis, 1.0).cross(&(p - center));
-        motions.push(sample(mesh, turn));
-    }
-    motions
+    let moved = (0..3).map(|axis| sample(mesh, |_| Vector3::ith(axis, 1.0)));
+    let turned = (0..3).map(|axis| sample(mesh, |p| Vector3::ith(axis, 1.0).cross(&(p - center))));
+    moved.chain(turned).collect()
 }
 
 /// Stiffness with supports and consistent mass over the free dofs of a mesh.
@@ -286,19 +275,13 @@ fn the_lame_mode_of_a_cube_converges_with_the_order_of_the_kind() {
         (Pencil::of(&mesh).like(&lame).sqrt() / exact - 1.0).abs()
     };
     for kind in SOLIDS {
-        let cells = match kind {
-            _ if kind.is_quadratic() => [4, 6],
-            _ => sized([6, 10], [8, 14]),
-        };
+        let linear = sized([6, 10], [8, 14]);
+        let (cells, expected) = if kind.is_quadratic() { ([4, 6], 4.0) } else { (linear, 2.0) };
         let errors = cells.map(|cells| error(kind, cells));
         let order = (errors[0] / errors[1]).ln() / (cells[1] as f64 / cells[0] as f64).ln();
-        let expected = if kind.is_quadratic() { 4.0 } else { 2.0 };
         // Split cells have not lost their next term yet (1.60 and 3.62 here, 1.76 with 8 and 14 cells, 1.37 and 3.2 with half as
         // many); bricks have.
-        let shortfall = match kind {
-            Hex8 | Hex20 => 0.02,
-            _ => 0.4,
-        };
+        let shortfall = if [Hex8, Hex20].contains(&kind) { 0.02 } else { 0.4 };
         assert!(order > expected - shortfall, "{kind:?} {errors:?} order {order}");
     }
 }
@@ -322,8 +305,7 @@ fn quadratic_kinds_and_incompatible_bricks_agree_on_a_clamped_beam() {
         (Pyramid13, [8, 2, 2], 0.005),
         (Hex8, [16, 4, 4], 0.02),
     ] {
-        let found = beam(kind, cells);
-        near_each(&found, &reference, tolerance);
+        near_each(&beam(kind, cells), &reference, tolerance);
     }
 }
 
@@ -337,10 +319,7 @@ fn pressure_guides_and_springs_on_faces_hold_a_uniform_stress_at_any_angle() {
     let conditions =
         [("x0", Support(support)), ("x1", Pressure(PRESSURE)), ("y0", Guide), ("z0", Guide)];
     for kind in SOLIDS {
-        let map = |[x, y, z]: [f64; 3]| {
-            let place = turn * Vector3::new(0.1 * x, 0.05 * y, 0.04 * z);
-            [place.x, place.y, place.z]
-        };
+        let map = |[x, y, z]: [f64; 3]| (turn * Vector3::new(0.1 * x, 0.05 * y, 0.04 * z)).into();
         let mesh = solids_of(&block(kind, [2, 2, 1], map), &conditions);
         let unknowns = DofMap::excluding(mesh.dof_count(), mesh.held_dofs());
         let load = unknowns.restrict(&assemble_pressures(&mesh).unwrap());
@@ -377,10 +356,8 @@ fn geometric_stiffness_of_rigid_rotations_is_the_work_of_the_stress() {
         for (k, motion) in rigid_motions(&mesh).iter().enumerate() {
             let force = matrix.multiply(mesh.dof_count(), motion);
             let work: f64 = force.iter().zip(motion).map(|(f, u)| f * u).sum();
-            let exact = match k.checked_sub(3) {
-                None => 0.0,
-                Some(axis) => volume * (stress.trace() - stress[(axis, axis)]),
-            };
+            let of_axis = |axis: usize| volume * (stress.trace() - stress[(axis, axis)]);
+            let exact = k.checked_sub(3).map_or(0.0, of_axis);
             assert!((work - exact).abs() < 1e-11 * volume * stress.amax(), "{kind:?} {k}");
         }
     }
@@ -393,10 +370,7 @@ fn a_turned_block_has_the_same_frequencies() {
     for kind in SOLIDS {
         let plain = solids_of(&distorted(kind, 0.02), &clamped);
         let mut file = distorted(kind, 0.02);
-        for point in &mut file.points {
-            let place = turn * Vector3::from(*point);
-            *point = [place.x, place.y, place.z];
-        }
+        file.points.iter_mut().for_each(|p| *p = (turn * Vector3::from(*p)).into());
         let turned = solids_of(&file, &clamped);
         near_each(&frequencies(&plain, 8), &frequencies(&turned, 8), 1e-10);
     }
@@ -425,13 +399,9 @@ fn curved_bricks_and_wedges_of_gmsh_have_the_volume_and_surfaces_of_their_ring()
         ("inner", PI / 2.0 * inner * height),
         ("outer", PI / 2.0 * outer * height),
     ];
-    for bytes in [
-        &include_bytes!("meshes/ring-hex20.msh")[..],
-        &include_bytes!("meshes/ring-wedge15.msh")[..],
-    ] {
-        // Parabolas for arcs of 22.5 degrees: 2e-5 of the area beneath.
-        measures(bytes, &exact, |_| 1e-4);
-    }
+    // Parabolas for arcs of 22.5 degrees: 2e-5 of the area beneath.
+    measures(include_bytes!("meshes/ring-hex20.msh"), &exact, |_| 1e-4);
+    measures(include_bytes!("meshes/ring-wedge15.msh"), &exact, |_| 1e-4);
 }
 
 /// Independent check: the volumes that the geometry kernel gives for the parts of the ventilated disc, pads in closed form.

@@ -6,8 +6,7 @@ use crate::shaft::model::STEEL;
 use frictionsim::cea::sparse::mode_pairs;
 
 fn tangent(losses: [f64; 2], damping: RayleighDamping) -> SlidingTangent {
-    let (rigid, held) = (ContactStiffness::default(), Clamped);
-    tangent_with(losses, damping, rigid, held)
+    tangent_with(losses, damping, ContactStiffness::default(), Clamped)
 }
 
 fn tangent_with(
@@ -18,12 +17,9 @@ fn tangent_with(
 ) -> SlidingTangent {
     let specification = AnnulusSpecification { outer, ..on_shaft(annulus(Quad4, 16, 3), 1) };
     let mesh = AnnulusMesh::generate(&specification).unwrap().mesh;
-    let lossy =
-        |loss_factor: f64, elastic: ElasticMaterial| ElasticMaterial { loss_factor, ..elastic };
-    let materials = AnnulusMaterials {
-        annulus: lossy(disc, POLYCARBONATE),
-        shaft: Some(lossy(shaft, STEEL).into()),
-    };
+    let annulus = ElasticMaterial { loss_factor: disc, ..POLYCARBONATE };
+    let shaft = ElasticMaterial { loss_factor: shaft, ..STEEL };
+    let materials = AnnulusMaterials { annulus, shaft: Some(shaft.into()) };
     let options = TangentOptions { damping, contact: contact_stiffness, ..TANGENT };
     linearized(&mesh, &materials, &contact(610.0), &options)
 }
@@ -188,8 +184,7 @@ fn derivatives_with_loss_factors_are_differences_of_eigenvalues() {
     let with = |more: f64| {
         let loss_factor = 0.1 + more;
         let springs = ContactStiffness { normal_stiffness: Some(2e12), loss_factor, ..RIGID };
-        let held = Clamped;
-        tangent_with([0.02, 0.1], RayleighDamping::default(), springs, held)
+        tangent_with([0.02, 0.1], RayleighDamping::default(), springs, Clamped)
     };
     // The second order of the differences, where branches bend.
     let count = follow_differences(&with, 1e-4, [|value, _| 1e-5 * value; 2]);

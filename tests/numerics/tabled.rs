@@ -5,14 +5,8 @@ use crate::structural_damping::{eigenvalues, follow_differences, two_unknowns};
 
 /// A modulus that rises fivefold over the modes of the disc, with much damping.
 fn rubber(scale: f64) -> Vec<[f64; 3]> {
-    let rows = [
-        [100.0, 1.0, 0.05],
-        [2000.0, 1.6, 0.3],
-        [5000.0, 2.8, 0.5],
-        [9000.0, 4.0, 0.4],
-        [30000.0, 5.5, 0.2],
-    ];
-    rows.map(|[f, e, eta]| [f, scale * e, eta]).to_vec()
+    let rows = [[100.0, 1.0, 0.05], [2e3, 1.6, 0.3], [5e3, 2.8, 0.5], [9e3, 4.0, 0.4]];
+    rows.into_iter().chain([[3e4, 5.5, 0.2]]).map(|[f, e, eta]| [f, scale * e, eta]).collect()
 }
 
 /// The disc, whose modulus depends on frequency, on a deformable shaft of steel.
@@ -124,11 +118,8 @@ fn a_sandwich_beam_loses_what_ross_kerwin_and_ungar_say() {
         let is_core = middle > FACE && middle < FACE + CORE;
         element.region = if is_core { "core" } else { "faces" }.into();
     }
-    let sides = ["x0", "x1", "y0", "y1"].map(|side| {
-        let is_end = side.starts_with('x');
-        let held = Fixed([false, !is_end, is_end]);
-        (side, held)
-    });
+    let sides = [("x0", true), ("x1", true), ("y0", false), ("y1", false)];
+    let sides = sides.map(|(side, is_end)| (side, Fixed([false, !is_end, is_end])));
     // Nothing else holds the beam along itself: at 70 Hz it moves as a whole.
     let soft = support([0.0, 2e6, 0.0], [0.0, 0.0]);
     let held = [&sides[..], &[("z1", soft)]].concat();
@@ -168,13 +159,12 @@ fn a_sandwich_beam_loses_what_ross_kerwin_and_ungar_say() {
                 c64::new(0.0, 1.0) * (rigidity(lambda.im / TAU) * (wave.powi(4) / mass)).sqrt();
         }
         let own = *nearest_by(&found, |own| (**own - lambda).norm());
-        let loss = |lambda: c64| {
-            let square = lambda * lambda;
-            square.im.abs() / square.re.abs()
-        };
+        let [found, expected] = [own, lambda].map(|value| {
+            let square = value * value;
+            [value.im, square.im.abs() / square.re.abs()]
+        });
         // The theory leaves out shear of the faces, rotatory inertia and stretch of the core.
-        assert!((loss(own) / loss(lambda) - 1.0).abs() < 0.01, "{n} {own} {lambda}");
-        assert!((own.im / lambda.im - 1.0).abs() < 0.01, "{n} {own} {lambda}");
+        near_each(&found, &expected, 0.01);
     }
 }
 

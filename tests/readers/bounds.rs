@@ -131,11 +131,9 @@ fn what_joins_parts_and_is_not_understood_is_an_error_unless_the_case_drops_it()
     let case = "[mesh]\nfile = \"a.bdf\"\n";
     let errors = parsed(folder.path(), case).unwrap_err();
     let line = 1 + deck.lines().position(|line| line.starts_with("RBE2,90")).unwrap();
-    let listed = format!(
-        "FORCE (line {} ; RBE2 (line {line}, 2 times) ; CONM2 (line {})",
-        line - 1,
-        line + 2
-    );
+    let [before, after] = [line - 1, line + 2];
+    let listed =
+        format!("FORCE (line {before} ; RBE2 (line {line}, 2 times) ; CONM2 (line {after})");
     let whole = "a.bdf holds, loads or joins parts by what is not understood: FORCE (line ; \
                  the answer would be that of another structure";
     has(&errors.messages().join("\n"), &[&listed, whole]);

@@ -14,19 +14,9 @@ use std::sync::Arc;
 
 /// Numbers that a result may hold when something went wrong, and ordinary ones.
 fn number() -> impl Strategy<Value = f64> {
-    let odd = [
-        0.0,
-        -0.0,
-        f64::NAN,
-        f64::INFINITY,
-        f64::NEG_INFINITY,
-        f64::MAX,
-        f64::MIN_POSITIVE,
-        5e-324,
-        -1e300,
-    ];
+    let odd = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, f64::MAX, f64::MIN_POSITIVE];
     prop_oneof![
-        prop::sample::select(odd.to_vec()),
+        prop::sample::select([&odd[..], &[0.0, -0.0, 5e-324, -1e300]].concat()),
         -1e3..1e3f64,
         (-300.0..300.0f64).prop_map(|e| 10f64.powf(e))
     ]
@@ -73,13 +63,8 @@ fn figure(xs: &[f64], ys: &[f64], zs: &[f64], axes: (u8, u8), value: f64) -> Fig
     let ring = (0..nodes.len() as u32 + 1).collect();
     let mesh = Mesh { cells: vec![Cell { ring, is_quadratic: false }], ..Mesh::default() };
     let window = Field::window(&nodes, 0.1);
-    let field = Field::new(
-        Arc::new(mesh),
-        nodes,
-        zs.to_vec(),
-        Axis::new("field", "Pa"),
-        ColourMap::Diverging,
-    );
+    let (name, map) = (Axis::new("field", "Pa"), ColourMap::Diverging);
+    let field = Field::new(Arc::new(mesh), nodes, zs.to_vec(), name, map);
     let picture = Panel::plane(window).layer(field).colour_bar(Side::Below);
     let colours = (Axis::new("level", "dB"), ColourMap::Inferno);
     let at = |column: usize, row: usize| zs.get(column + row).copied().unwrap_or(f64::NAN);
@@ -134,19 +119,15 @@ fn legend_names_only_what_is_seen() {
         .layer(line(&[1e-9, 1e-9], "far below"))
         .layer(line(&[f64::NAN; 2], "missing"));
     let svg = Figure::new("legend", "Legend.").panel(panel).to_svg(None).unwrap();
-    let words = texts(&svg);
-    assert!(words.iter().any(|word| word == "alive"));
-    assert!(!words.iter().any(|word| word == "far below" || word == "missing"), "{words:?}");
+    has(&texts(&svg).join("\n"), &["alive ; !far below ; !missing"]);
 }
 
 #[test]
 fn figures_without_data_say_so_and_panels_without_data_are_marked() {
     let empty = Figure::new("nothing", "Nothing.").panel(plot());
     assert_eq!(empty.to_svg(None), Err(ChartError::Empty("nothing".into())));
-    let half = Figure::new("half", "Half.")
-        .columns(2)
-        .panel(plot())
-        .panel(plot().layer(line(&[1.0, 2.0], "line")));
+    let half = Figure::new("half", "Half.").columns(2).panel(plot());
+    let half = half.panel(plot().layer(line(&[1.0, 2.0], "line")));
     check("half-empty", &half.to_svg(None).unwrap(), &["no data", "(a)", "(b)", "line"]);
 }
 
@@ -157,10 +138,9 @@ fn narrow_pages_stack_panels_and_keep_the_width_asked_for() {
     });
     let size = |width: Option<f64>| {
         let svg = figure.to_svg(width).unwrap();
-        let view =
-            svg.split("viewBox=\"0 0 ").nth(1).unwrap().split('"').next().unwrap().to_owned();
-        let mut parts = view.split(' ').map(|part| part.parse::<f64>().unwrap());
-        (parts.next().unwrap(), parts.next().unwrap())
+        let view = svg.split("viewBox=\"0 0 ").nth(1).unwrap().split('"').next().unwrap();
+        let (width, height) = view.split_once(' ').unwrap();
+        (width.parse::<f64>().unwrap(), height.parse::<f64>().unwrap())
     };
     let ((wide, low), (narrow, high)) = (size(None), size(Some(85.0)));
     // 178 and 85 mm in points.
@@ -182,31 +162,25 @@ fn shared_axes_have_one_range_and_one_row_of_labels() {
 #[test]
 fn markers_at_the_end_of_an_axis_are_whole() {
     let panel = Panel::new(Axis::new("x", "").tight(), Axis::new("y", "").tight());
-    let svg = Figure::new("ends", "Ends.")
-        .panel(panel.layer(Points::new([(0.0, 0.0), (1.0, 1.0)])))
-        .to_svg(None)
-        .unwrap();
-    let clipped =
-        svg.split("<g clip-path").nth(1).unwrap().split("</g>").next().unwrap().to_owned();
-    assert!(!clipped.contains("<path"), "{clipped}");
+    let panel = panel.layer(Points::new([(0.0, 0.0), (1.0, 1.0)]));
+    let svg = Figure::new("ends", "Ends.").panel(panel).to_svg(None).unwrap();
+    let clipped = svg.split("<g clip-path").nth(1).unwrap().split("</g>").next().unwrap();
+    has(clipped, &["!<path"]);
 }
 
 #[test]
 fn texts_of_any_length_stay_on_the_sheet_at_every_width() {
     let long = "a *quantity* with a name that is a good deal longer than any column of a page is wide, as users write them";
     let panel = |name: &str| {
-        Panel::new(
-            Axis::new("time *t* since the beginning of the record", "s").tight(),
-            Axis::new("amplitude", "m"),
-        )
-        .caption(long)
-        .heading(long)
-        .legend()
-        .layer(line(&[1.0, 2.0], long))
-        .layer(line(&[2.0, 1.0], name))
-        .layer(Rule::horizontal(1.5).at_rim("10.51 kHz, mode 5, *n* = 2"))
-        .layer(Rule::vertical(0.98).at_rim("mode 5"))
-        .layer(Label::new((0.99, 1.99), "label at the rim"))
+        let time = Axis::new("time *t* since the beginning of the record", "s").tight();
+        let panel = Panel::new(time, Axis::new("amplitude", "m"));
+        let panel = panel.caption(long).heading(long).legend();
+        panel
+            .layer(line(&[1.0, 2.0], long))
+            .layer(line(&[2.0, 1.0], name))
+            .layer(Rule::horizontal(1.5).at_rim("10.51 kHz, mode 5, *n* = 2"))
+            .layer(Rule::vertical(0.98).at_rim("mode 5"))
+            .layer(Label::new((0.99, 1.99), "label at the rim"))
     };
     let figure =
         Figure::new("long", "Long.").columns(2).note(long).panel(panel("one")).panel(panel("two"));

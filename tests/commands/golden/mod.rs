@@ -37,13 +37,11 @@ impl Numbers {
             return Some(format!("{} numbers instead of {}", now.count, self.count));
         }
         let scale = self.largest.max(f64::MIN_POSITIVE);
-        let sums =
-            (self.sum_of_magnitudes - now.sum_of_magnitudes).abs() / self.count.max(1) as f64;
-        let worst = [(self.first - now.first).abs(), (self.last - now.last).abs(), sums]
-            .into_iter()
-            .fold(0.0, f64::max);
-        (worst > tolerance * scale)
-            .then(|| format!("differs by {:.1e} of its scale", worst / scale))
+        let sums = (self.sum_of_magnitudes - now.sum_of_magnitudes) / self.count.max(1) as f64;
+        let all = [self.first - now.first, self.last - now.last, sums];
+        let worst = all.into_iter().map(f64::abs).fold(0.0, f64::max);
+        let far = worst > tolerance * scale;
+        far.then(|| format!("differs by {:.1e} of its scale", worst / scale))
     }
 }
 
@@ -85,10 +83,7 @@ fn run(binary: &Path, [name, command, input, changes]: [&str; 4], folder: &Path)
 }
 
 fn read_folder(root: &Path, folder: &Path, result: &mut Result) {
-    let mut entries: Vec<PathBuf> =
-        fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
-    entries.sort();
-    for path in entries {
+    for path in names_in(folder).iter().map(|name| folder.join(name)) {
         let name = path.strip_prefix(root).unwrap().to_string_lossy().replace('\\', "/");
         if path.is_dir() {
             read_folder(root, &path, result);
@@ -100,9 +95,8 @@ fn read_folder(root: &Path, folder: &Path, result: &mut Result) {
             }
             Some("json") if !name.contains("manifest") => {
                 let text = fs::read_to_string(&path).unwrap();
-                let mut keys = BTreeMap::new();
-                read_value("", &serde_json::from_str(&text).unwrap(), &mut keys);
-                result.insert(name, keys);
+                let keys = result.entry(name).or_default();
+                read_value("", &serde_json::from_str(&text).unwrap(), keys);
             }
             _ => {}
         }
@@ -139,12 +133,9 @@ fn read_value(path: &str, value: &Value, keys: &mut BTreeMap<String, Numbers>) {
                 read_value(&format!("{path}[]"), value, keys);
             }
         }
-        Value::Number(number) => {
-            let numbers = keys.entry(path.to_owned()).or_default();
-            numbers.add(number.as_f64().unwrap());
-        }
         _ => {
-            keys.entry(path.to_owned()).or_default();
+            let numbers = keys.entry(path.to_owned()).or_default();
+            value.as_f64().into_iter().for_each(|number| numbers.add(number));
         }
     }
 }
@@ -182,8 +173,7 @@ fn every_command_gives_the_keys_columns_and_numbers_of_version_0_1_0() {
     let folder = folder();
     let frozen_path = repository().join("tests/commands/golden/frozen.json");
     let freezing = std::env::var_os("GOLDEN_FREEZE").map(PathBuf::from);
-    let binary =
-        freezing.clone().unwrap_or_else(|| PathBuf::from(env!("CARGO_BIN_EXE_frictionsim")));
+    let binary = freezing.clone().unwrap_or_else(|| env!("CARGO_BIN_EXE_frictionsim").into());
     let with_slow = freezing.is_some() || std::env::var_os("GOLDEN_SLOW").is_some();
     let mut now = BTreeMap::new();
     let (usual, slow) = include_str!("cases.txt").split_once("[slow]").unwrap();

@@ -75,13 +75,10 @@ fn tied_halves_respond_like_the_whole() {
         let force = system.port(&mesh, None, tip, "force_node").unwrap();
         let response = system.port(&mesh, None, middle, "response_node").unwrap();
         if let [tie] = ties.as_slice() {
-            let glued = mesh.boundaries[tie.surface].nodes[0] as usize;
-            let glued = terminal(glued, Direction::Z);
+            let glued = terminal(mesh.boundaries[tie.surface].nodes[0] as usize, Direction::Z);
             let refused = system.port(&mesh, None, glued, "force_node").unwrap_err();
-            assert!(
-                matches!(refused, FrfError::Node { fault: NodeFault::Follows, .. }),
-                "{refused}"
-            );
+            let follows = matches!(refused, FrfError::Node { fault: NodeFault::Follows, .. });
+            assert!(follows, "{refused}");
             let observed = system.port(&mesh, None, glued, "response_node").unwrap();
             let there = direct_response(&system, &force, &observed, &lines, &|_| {});
             assert!(there.unwrap().iter().all(|h| h.norm() > 0.0));

@@ -51,10 +51,7 @@ pub fn determinant(
     omega: c64,
     bessel: BesselPair,
 ) -> c64 {
-    assert!(
-        contact.prestress_interference.is_none(),
-        "Bessel functions solve the problem without prestress only"
-    );
+    assert!(contact.prestress_interference.is_none(), "no Bessel functions with prestress");
     let [lambda, shear] = annulus.lame_constants();
     let pressure_speed = ((lambda + 2.0 * shear) / annulus.density).sqrt();
     let shear_speed = (shear / annulus.density).sqrt();
@@ -64,8 +61,7 @@ pub fn determinant(
     let functions = |speed: f64, r: f64| {
         let k = omega / speed;
         let z = k * r;
-        let here = bessel(harmonic, z);
-        let above = bessel(harmonic + 1, z);
+        let (here, above) = (bessel(harmonic, z), bessel(harmonic + 1, z));
         [0, 1].map(|kind| {
             let value = here[kind];
             let slope = value * (n / r) - k * above[kind];
@@ -77,23 +73,15 @@ pub fn determinant(
     let fields = |r: f64| {
         let [pj, py] = functions(pressure_speed, r);
         let [sj, sy] = functions(shear_speed, r);
-        let dilatational = |f: [c64; 3]| {
-            let (u, w) = (f[1], f[0] * (n / r));
-            let (du, dw) = (f[2], (f[1] - f[0] / r) * (n / r));
-            [u, w, du, dw]
-        };
-        let rotational = |f: [c64; 3]| {
-            let (u, w) = (f[0] * (-n / r), -f[1]);
-            let (du, dw) = ((f[1] - f[0] / r) * (-n / r), -f[2]);
-            [u, w, du, dw]
-        };
-        [dilatational(pj), dilatational(py), rotational(sj), rotational(sy)].map(
-            |[u, w, du, dw]| {
-                let radial = du * (lambda + 2.0 * shear) + (u - w * n) * (lambda / r);
-                let tangential = ((u * n - w) / r + dw) * shear;
-                [u, w, radial, tangential]
-            },
-        )
+        // Displacements and their slopes.
+        let dilatational = |f: [c64; 3]| [f[1], f[0] * (n / r), f[2], (f[1] - f[0] / r) * (n / r)];
+        let rotational =
+            |f: [c64; 3]| [f[0] * (-n / r), -f[1], (f[1] - f[0] / r) * (-n / r), -f[2]];
+        let all = [dilatational(pj), dilatational(py), rotational(sj), rotational(sy)];
+        all.map(|[u, w, du, dw]| {
+            let radial = du * (lambda + 2.0 * shear) + (u - w * n) * (lambda / r);
+            [u, w, radial, ((u * n - w) / r + dw) * shear]
+        })
     };
     let (a, b) = (annulus.inner_radius, annulus.outer_radius);
     let (inner, outer) = (fields(a), fields(b));

@@ -125,17 +125,14 @@ impl Annulus {
                 // tangential residual minus mu times the normal one; mass and stiffness alike.
                 for matrix in [&mut stiffness, &mut mass] {
                     for column in 0..matrix.ncols() {
-                        let normal = matrix[(0, column)];
-                        matrix[(1, column)] += friction * normal;
+                        matrix[(1, column)] = matrix[(1, column)] + friction * matrix[(0, column)];
                     }
                 }
                 1
             }
         };
-        let free = 2 * degree;
-        let restrict = |m: &Mat<c64>| {
-            Mat::from_fn(free - first, free - first, |i, j| m[(i + first, j + first)])
-        };
+        let free = 2 * degree - first;
+        let restrict = |m: &Mat<c64>| Mat::from_fn(free, free, |i, j| m[(i + first, j + first)]);
         (restrict(&stiffness), restrict(&mass))
     }
 
@@ -149,9 +146,8 @@ impl Annulus {
     ) -> (Mat<c64>, Mat<c64>) {
         let element = RadialElement::new(self.inner_radius, self.outer_radius, degree);
         let [lambda, shear] = self.lame_constants();
-        let stress = contact
-            .prestress_interference
-            .map(|delta| self.prestress(delta, contact.friction_coefficient));
+        let (delta, mu) = (contact.prestress_interference, contact.friction_coefficient);
+        let stress = delta.map(|delta| self.prestress(delta, mu));
         let n = harmonic as f64;
         let size = 2 * (degree + 1);
         let mut stiffness = Mat::<c64>::zeros(size, size);
@@ -215,11 +211,9 @@ impl Annulus {
         contact: &Contact,
         rayleigh: Rayleigh,
     ) -> Eigenvalue {
-        self.eigenvalues(harmonic, contact, rayleigh)
-            .into_iter()
-            .filter(|mode| mode.direction == direction)
-            .nth(branch - 1)
-            .expect("the spectral element has far more branches than any test asks for")
+        let all = self.eigenvalues(harmonic, contact, rayleigh).into_iter();
+        let own = all.filter(|mode| mode.direction == direction).nth(branch - 1);
+        own.expect("the spectral element has far more branches than any test asks for")
     }
 
     /// Lowest friction coefficient in `(0, limit)` at which the backward wave of a branch turns
@@ -234,8 +228,7 @@ impl Annulus {
     ) -> Option<f64> {
         let growth = |friction_coefficient: f64| {
             let contact = Contact { friction_coefficient, ..*contact };
-            let mode = self.branch(harmonic, branch, -1, &contact, rayleigh);
-            mode.lambda.re
+            self.branch(harmonic, branch, -1, &contact, rayleigh).lambda.re
         };
         let step = 0.01;
         let mut stable = 0.0;
@@ -248,11 +241,7 @@ impl Annulus {
         let (mut low, mut high) = (stable, stable + step);
         for _ in 0..40 {
             let middle = 0.5 * (low + high);
-            if growth(middle) > 0.0 {
-                high = middle;
-            } else {
-                low = middle;
-            }
+            (low, high) = if growth(middle) > 0.0 { (low, middle) } else { (middle, high) };
         }
         Some(0.5 * (low + high))
     }
@@ -276,13 +265,9 @@ fn geometric(sigma: &Stress, v: &[f64; 4], u: &[f64; 4]) -> c64 {
 
 /// All eigenvalues of `K x = kappa M x`, as inverses of those of `K^-1 M`, whose round-off favours the small `kappa` wanted here.
 pub fn smallest_first(stiffness: &Mat<c64>, mass: &Mat<c64>) -> Vec<c64> {
-    let flexibility = stiffness.partial_piv_lu().solve(mass);
-    let mut kappas: Vec<c64> = flexibility
-        .eigenvalues()
-        .expect("the dense eigenvalue iteration converges")
-        .into_iter()
-        .map(|value| c64::new(1.0, 0.0) / value)
-        .collect();
+    let flexibility = stiffness.partial_piv_lu().solve(mass).eigenvalues();
+    let values = flexibility.expect("the dense eigenvalue iteration converges").into_iter();
+    let mut kappas: Vec<c64> = values.map(|value| c64::new(1.0, 0.0) / value).collect();
     kappas.sort_by(|x, y| x.re.total_cmp(&y.re));
     kappas
 }

@@ -28,20 +28,16 @@ impl RadialElement {
             (0..=degree).map(|i| -(PI * i as f64 / degree as f64).cos()).collect();
         let differentiation = differentiation_matrix(&nodes);
         let half = 0.5 * (outer - inner);
-        let points = gauss_legendre(2 * degree)
-            .into_iter()
-            .map(|(x, w)| {
-                let values = lagrange(&nodes, x);
-                let slopes = (0..=degree)
-                    .map(|j| {
-                        let at_nodes = values.iter().zip(&differentiation);
-                        at_nodes.map(|(value, row)| value * row[j]).sum::<f64>() / half
-                    })
-                    .collect();
-                RadialPoint { radius: inner + half * (1.0 + x), weight: half * w, values, slopes }
-            })
-            .collect();
-        Self { points }
+        let points = gauss_legendre(2 * degree).into_iter().map(|(x, w)| {
+            let values = lagrange(&nodes, x);
+            let slope = |j: usize| {
+                let at_nodes = values.iter().zip(&differentiation);
+                at_nodes.map(|(value, row)| value * row[j]).sum::<f64>() / half
+            };
+            let slopes = (0..=degree).map(slope).collect();
+            RadialPoint { radius: inner + half * (1.0 + x), weight: half * w, values, slopes }
+        });
+        Self { points: points.collect() }
     }
 }
 
@@ -54,11 +50,8 @@ fn barycentric_weight(i: usize, degree: usize) -> f64 {
 /// Lagrange polynomials at `x`, which is none of the nodes.
 fn lagrange(nodes: &[f64], x: f64) -> Vec<f64> {
     let degree = nodes.len() - 1;
-    let terms: Vec<f64> = nodes
-        .iter()
-        .enumerate()
-        .map(|(i, node)| barycentric_weight(i, degree) / (x - node))
-        .collect();
+    let term = |(i, node): (usize, &f64)| barycentric_weight(i, degree) / (x - node);
+    let terms: Vec<f64> = nodes.iter().enumerate().map(term).collect();
     let sum: f64 = terms.iter().sum();
     terms.into_iter().map(|term| term / sum).collect()
 }
@@ -66,41 +59,34 @@ fn lagrange(nodes: &[f64], x: f64) -> Vec<f64> {
 /// Derivative of Lagrange polynomial `j` at node `i`, in `[i][j]`.
 fn differentiation_matrix(nodes: &[f64]) -> Vec<Vec<f64>> {
     let degree = nodes.len() - 1;
-    (0..=degree)
-        .map(|i| {
-            let mut row: Vec<f64> = (0..=degree)
-                .map(|j| {
-                    if i == j {
-                        return 0.0;
-                    }
-                    let ratio = barycentric_weight(j, degree) / barycentric_weight(i, degree);
-                    ratio / (nodes[i] - nodes[j])
-                })
-                .collect();
-            // The derivative of a constant is zero to round-off this way.
-            row[i] = -row.iter().sum::<f64>();
-            row
-        })
-        .collect()
+    let row = |i: usize| {
+        let entry = |j: usize| {
+            let ratio = barycentric_weight(j, degree) / barycentric_weight(i, degree);
+            if i == j { 0.0 } else { ratio / (nodes[i] - nodes[j]) }
+        };
+        let mut row: Vec<f64> = (0..=degree).map(entry).collect();
+        // The derivative of a constant is zero to round-off this way.
+        row[i] = -row.iter().sum::<f64>();
+        row
+    };
+    (0..=degree).map(row).collect()
 }
 
 /// Gauss-Legendre points and weights on `[-1, 1]` by Newton's method on the Legendre polynomial.
 pub fn gauss_legendre(count: usize) -> Vec<(f64, f64)> {
-    (0..count)
-        .map(|i| {
-            let mut x = -(PI * (i as f64 + 0.75) / (count as f64 + 0.5)).cos();
-            let mut slope = 1.0;
-            for _ in 0..20 {
-                let (mut previous, mut value) = (1.0, x);
-                for k in 2..=count {
-                    let k = k as f64;
-                    (previous, value) =
-                        (value, ((2.0 * k - 1.0) * x * value - (k - 1.0) * previous) / k);
-                }
-                slope = count as f64 * (previous - x * value) / (1.0 - x * x);
-                x -= value / slope;
+    let point = |i: usize| {
+        let mut x = -(PI * (i as f64 + 0.75) / (count as f64 + 0.5)).cos();
+        let mut slope = 1.0;
+        for _ in 0..20 {
+            let (mut previous, mut value) = (1.0, x);
+            for k in (2..=count).map(|k| k as f64) {
+                let next = ((2.0 * k - 1.0) * x * value - (k - 1.0) * previous) / k;
+                (previous, value) = (value, next);
             }
-            (x, 2.0 / ((1.0 - x * x) * slope * slope))
-        })
-        .collect()
+            slope = count as f64 * (previous - x * value) / (1.0 - x * x);
+            x -= value / slope;
+        }
+        (x, 2.0 / ((1.0 - x * x) * slope * slope))
+    };
+    (0..count).map(point).collect()
 }

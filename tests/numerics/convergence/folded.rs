@@ -8,10 +8,7 @@ use crate::prelude::*;
 pub const INTERFERENCE: f64 = 25e-6;
 
 pub fn material(annulus: &Annulus) -> ElasticMaterial {
-    let formulation = match annulus.plane_strain {
-        true => PlaneStrain,
-        false => PlaneStress,
-    };
+    let formulation = if annulus.plane_strain { PlaneStrain } else { PlaneStress };
     elastic(annulus.young_modulus, annulus.poisson_ratio, annulus.density, formulation)
 }
 

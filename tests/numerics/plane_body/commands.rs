@@ -50,11 +50,10 @@ fn a_probe_by_place_is_that_of_the_nearest_node_on_either_kind_of_mesh() {
     for (name, found) in &all {
         assert_eq!(found.len(), expected.len(), "{name}");
         for (row, other) in found.iter().zip(expected) {
-            for column in 0..7 {
-                // Sparse and cyclic sums differ in their last digits; accelerations are their differences.
-                let bound = 1e-6 * largest(column);
-                assert!((row[column] - other[column]).abs() <= bound, "{name} {column}");
-            }
+            // Sparse and cyclic sums differ in their last digits; accelerations are their differences.
+            let near =
+                |column: usize| (row[column] - other[column]).abs() <= 1e-6 * largest(column);
+            assert!((0..7).all(near), "{name} {row:?} {other:?}");
         }
     }
 }
@@ -62,21 +61,20 @@ fn a_probe_by_place_is_that_of_the_nearest_node_on_either_kind_of_mesh() {
 #[test]
 fn figures_of_a_body_are_drawn_again_without_its_mesh_file() {
     let folder = folder();
-    let path = folder.path();
-    for command in ["transient", "cea", "mesh"] {
-        let probe = "output.probes=[{ x = 0.0, y = 0.0205 }, { x = 0.0, y = 0.073 }]";
+    let probe = "output.probes=[{ x = 0.0, y = 0.0205 }, { x = 0.0, y = 0.073 }]";
+    let commands = ["transient", "cea", "mesh"];
+    let answers = commands.map(|command| {
         let words = [command, "body.toml", "--quiet"];
-        Run::new(&words).within(&folder).out(command).set(&[probe]).done();
-    }
-    fs::remove_file(path.join("disc.msh")).unwrap();
-    for command in ["transient", "cea", "mesh"] {
-        let figures = path.join(command).join("figures");
-        let bytes = |name: &fs::DirEntry| (name.path(), fs::read(name.path()).unwrap());
-        let all = || fs::read_dir(&figures).unwrap().map(|entry| bytes(&entry.unwrap()));
-        let before: BTreeMap<_, _> = all().collect();
-        assert!(!before.is_empty());
-        Run::new(&["plot", command]).within(path).done();
-        assert!(all().collect::<BTreeMap<_, _>>() == before, "{command}");
+        Run::new(&words).within(&folder).out(command).set(&[probe]).done()
+    });
+    fs::remove_file(folder.path().join("disc.msh")).unwrap();
+    for (command, answer) in commands.iter().zip(answers) {
+        let names = names_in(&answer.path("figures"));
+        assert!(!names.is_empty());
+        let all = || names.iter().map(|name| answer.bytes(&format!("figures/{name}")));
+        let before: Vec<_> = all().collect();
+        Run::new(&["plot", command]).within(&folder).done();
+        assert!(all().eq(before), "{command}");
     }
 }
 
@@ -106,11 +104,10 @@ fn convergence_of_an_imported_body_splits_its_elements() {
     let series = &summary["series"][0];
     assert_eq!(series["levels"][2], "1536 elements");
     let quantities = series["quantities"].as_array().unwrap();
-    let orders = quantities.iter().filter_map(|quantity| {
-        let name = quantity["name"].as_str()?;
-        name.starts_with("frequency, mode").then(|| quantity["order"].as_f64())?
-    });
-    let orders: Vec<f64> = orders.collect();
+    let name =
+        |of: &Value| of["name"].as_str().is_some_and(|own| own.starts_with("frequency, mode"));
+    let orders = quantities.iter().filter(|own| name(own));
+    let orders: Vec<f64> = orders.filter_map(|own| own["order"].as_f64()).collect();
     assert!(orders.len() >= 3, "{orders:?}");
     // The start of 24 by 4 elements is coarse: only the lowest modes show the order within a twentieth.
     assert!(orders[..3].iter().all(|order| (order - 2.0).abs() < 0.1), "{orders:?}");

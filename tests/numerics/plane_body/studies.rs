@@ -38,9 +38,8 @@ fn case(folder: &TempDir, mesh: &str, set: &[&str]) -> Case {
 
 /// Critical friction and frequency of every onset that the eigenvalue analysis of a case has.
 fn onsets(case: &Case) -> Vec<[f64; 2]> {
-    let found = modes_and_onsets(case).unwrap().intervals;
-    let onsets = found.iter();
-    onsets.map(|i| [i.critical_friction, i.frequency_hz]).collect()
+    let found = modes_and_onsets(case).unwrap().intervals.into_iter();
+    found.map(|i| [i.critical_friction, i.frequency_hz]).collect()
 }
 
 /// Onsets are located to 1e-8 by either solver.
@@ -64,9 +63,8 @@ fn uncertainty_finds_the_lowest_critical_friction_of_an_imported_body() {
             assert_eq!(sample.error, None);
             let set = format!("material.young_modulus={:?}", sample.values[0]);
             let expected = onsets(&case(&folder, mesh, &[&set]));
-            let own = sample.onsets.iter();
-            let own: Vec<[f64; 2]> =
-                own.map(|onset| [onset.critical_friction, onset.frequency_hz]).collect();
+            let own = sample.onsets.iter().map(|own| [own.critical_friction, own.frequency_hz]);
+            let own: Vec<[f64; 2]> = own.collect();
             near_each(own.as_flattened(), expected.as_flattened(), 1e-6);
             assert!((own[0][0] - 0.3).abs() > 0.01, "{own:?}");
             assert!(sample.onsets.iter().all(|onset| onset.harmonic.is_none()));
@@ -74,8 +72,7 @@ fn uncertainty_finds_the_lowest_critical_friction_of_an_imported_body() {
         let summary = summarize(&body, &samples);
         let median = summary.critical_friction.median.unwrap();
         assert!((median - 0.3).abs() > 0.01, "{median}");
-        let text = summary.document().to_text();
-        assert!(!text.contains("n ="), "{text}");
+        has(&summary.document().to_text(), &["!n ="]);
     }
 }
 
@@ -113,9 +110,8 @@ fn a_spring_at_a_node_holds_a_body_that_no_boundary_holds() {
 fn a_check_of_an_imported_body_estimates_its_own_size() {
     let folder = folder();
     let [disc, body] = ["", "disc.msh"].map(|mesh| case(&folder, mesh, &[]).cost());
-    assert_eq!(body.nodes, disc.nodes);
-    assert_eq!(body.elements, disc.elements);
-    assert_eq!(body.dofs, disc.dofs);
+    let sizes = [&disc, &body].map(|own| [own.nodes, own.elements, own.dofs]);
+    assert_eq!(sizes[0], sizes[1]);
     // The whole mesh costs more than its harmonics.
     let [cyclic, sparse] = [disc, body].map(|cost| cost.cea.unwrap().run.operations);
     assert!(sparse > cyclic, "{sparse} {cyclic}");

@@ -1,7 +1,7 @@
 //! Three dimensions where the plane program knows the answer.
 
 use crate::prelude::*;
-use crate::solids::model::{disc, modes};
+use crate::solids::model::{disc, guided, modes};
 
 fn plane(model: &SolidModel, formulation: PlaneFormulation, limit_hz: f64) -> Vec<ComplexMode> {
     let plane = WaveModel {
@@ -22,10 +22,8 @@ fn nearest<'a>(modes: &'a [ComplexMode], wanted: &ComplexMode) -> &'a ComplexMod
 #[test]
 fn guided_faces_give_plane_strain() {
     for geometric_stiffness in [false, true] {
-        let mut model = disc(Quad8, [24, 5, 1]);
+        let mut model = guided(Quad8, [24, 5, 1]);
         model.options.geometric_stiffness = geometric_stiffness;
-        model.specification.conditions[2] = Guide;
-        model.specification.conditions[3] = Guide;
         let solid = modes(&model, 0.3, 11_500.0);
         for mode in plane(&model, PlaneStrain, 11_000.0) {
             let found = nearest(&solid, &mode);

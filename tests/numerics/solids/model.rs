@@ -44,6 +44,13 @@ pub fn disc(element: ElementKind, [around, radial, axial]: [usize; 3]) -> SolidM
     }
 }
 
+/// Its faces held along the axis.
+pub fn guided(element: ElementKind, divisions: [usize; 3]) -> SolidModel {
+    let mut model = disc(element, divisions);
+    model.specification.conditions = [Free, Clamped, Guide, Guide];
+    model
+}
+
 pub fn modes(model: &SolidModel, friction: f64, limit_hz: f64) -> Vec<ComplexMode> {
     model.modes(friction, MaxFrequency(limit_hz))
 }

@@ -1,7 +1,7 @@
 //! The transient of a guided body, `u_z = 0` at every node, beside that of plane strain.
 
 use crate::prelude::*;
-use crate::solids::model::{body, disc};
+use crate::solids::model::{body, guided};
 
 /// Statuses, tangential displacements and normal forces of the contact nodes at every sample.
 #[derive(Default)]
@@ -30,47 +30,36 @@ impl Observer for Course {
     }
 }
 
+/// The course of a guided body, and that of plane strain.
+fn courses([around, radial]: [usize; 2]) -> [Course; 2] {
+    let model = guided(Quad4, [around, radial, 1]);
+    let sector = SolidSector::generate(&model.specification).unwrap();
+    let annulus = AnnulusMesh::generate(&model.specification.annulus).unwrap();
+    let material = ElasticMaterial { formulation: PlaneStrain, ..model.material };
+    let damping = model.options.damping;
+    let flat = TransientModel::of_annulus(&annulus, &material, damping, model.contact);
+    [course(body(&model, &sector), true), course(flat, false)]
+}
+
 /// Three periods of a wave strong enough that nodes stick and lift.
-fn settings() -> TransientSettings {
-    TransientSettings {
+fn course(body: TransientModel<'_>, is_solid: bool) -> Course {
+    let settings = TransientSettings {
         duration: 3e-4,
         time_step: TimeStep::Seconds(1e-7),
         sample_interval: 5e-6,
         expansion_time: 0.0,
         initial: InitialState::SteadySliding,
         perturbation: Perturbation::of(&[2], 8.0),
-    }
-}
-
-fn thick(divisions: [usize; 2]) -> Course {
-    let mut model = disc(Quad4, [divisions[0], divisions[1], 1]);
-    model.specification.conditions[2] = Guide;
-    model.specification.conditions[3] = Guide;
-    let sector = SolidSector::generate(&model.specification).unwrap();
-    course(body(&model, &sector), true)
-}
-
-fn flat(divisions: [usize; 2]) -> Course {
-    let model = disc(Quad4, [divisions[0], divisions[1], 1]);
-    let annulus = AnnulusMesh::generate(&model.specification.annulus).unwrap();
-    let mut material = model.material;
-    material.formulation = PlaneStrain;
-    let damping = model.options.damping;
-    course(TransientModel::of_annulus(&annulus, &material, damping, model.contact), false)
-}
-
-fn course(body: TransientModel<'_>, is_solid: bool) -> Course {
-    let operator = body.operator(OperatorChoice::Auto, SimdLevel::Scalar).unwrap();
-    let mut run = CentralDifference::start(body, operator.as_ref(), &settings()).unwrap();
+    };
     let mut course = Course { is_solid, ..Course::default() };
-    run.run(&mut course).unwrap();
+    started(body, OperatorChoice::Auto, &settings).run(&mut course).unwrap();
     course
 }
 
 /// Share of statuses that differ, and the largest differences of displacement, normal force and kinetic energy, relative to the
 /// largest values.
 fn differences(divisions: [usize; 2]) -> [f64; 4] {
-    let (thick, flat) = (thick(divisions), flat(divisions));
+    let [thick, flat] = courses(divisions);
     assert_eq!(thick.largest_axial, 0.0);
     assert_eq!(thick.status.len(), flat.status.len());
     let thickness = 0.009;

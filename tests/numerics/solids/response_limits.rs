@@ -1,21 +1,18 @@
 //! Frequency responses of bodies of revolution where theory or the plane program knows the answer.
 
 use crate::prelude::*;
-use crate::solids::model::disc;
+use crate::solids::model::{disc, guided};
 use crate::solids::response::{FREQUENCIES, at, body, sliding};
 use frictionsim::frf::Direction::{Axial, Radial, Tangential};
 
 /// Responses of plane strain for each metre and of the guided body times its thickness to a force along the inner edge, at places
 /// of a sixteenth of the circle: `(plane, solid)`, line by line.
 fn plane_and_guided(around: usize, is_sliding: bool) -> Vec<(c64, c64)> {
-    let mut model = disc(Quad8, [around, 5, 1]);
-    model.specification.conditions[2] = Guide;
-    model.specification.conditions[3] = Guide;
+    let mut model = guided(Quad8, [around, 5, 1]);
     model.options.geometric_stiffness = true;
     let solid = SolidSector::generate(&model.specification).unwrap();
     let plane = SectorMesh::generate(&model.specification.annulus).unwrap();
-    let mut material = model.material;
-    material.formulation = PlaneStrain;
+    let material = ElasticMaterial { formulation: PlaneStrain, ..model.material };
     let options = &model.options;
     let (flat, thick) = if is_sliding {
         let tangent = WaveTangent::of_annulus(&plane, &material, options, &model.contact);

@@ -11,8 +11,8 @@ const COARSE: [&str; 1] =
 
 const DISC: &str = "disc-three-dimensions.toml";
 
-fn run(command: &str, out: &Path, set: &[&str]) -> Answer {
-    Run::of(command, shipped(DISC)).out(out).set(&COARSE).set(set).done()
+fn run(command: &str, set: &[&str]) -> Answer {
+    Run::of(command, shipped(DISC)).out("out").set(&COARSE).set(set).done()
 }
 
 /// Cross-method: what `fit` and `uncertainty` ask for is what `cea` finds of the same body, not of its plane section.
@@ -52,9 +52,7 @@ fn modes_for_a_fit_and_onsets_of_a_sample_are_those_of_the_body_with_its_thickne
 #[test]
 fn friction_that_falls_with_the_speed_is_said_and_destabilizes_a_body_with_thickness() {
     let lowest = |law: &[&str]| {
-        let folder = folder();
-        let answer = run("cea", folder.path(), law);
-        assert!(answer.path("sensitivities.csv").exists());
+        let answer = run("cea", law).wrote("sensitivities.csv");
         let onset = answer.summary()["critical_frictions"][0]["critical_friction"].as_f64();
         (answer, onset.unwrap())
     };
@@ -68,10 +66,9 @@ fn friction_that_falls_with_the_speed_is_said_and_destabilizes_a_body_with_thick
 
 /// Names and NumPy headers of the arrays of `contact.npz` of a short run.
 fn contact_arrays() -> Vec<(String, String)> {
-    let folder = folder();
     let transient =
         ["mesh.element=quad4", "transient.duration=2e-5", "transient.initial=steady-sliding"];
-    let answer = run("transient", folder.path(), &transient);
+    let answer = run("transient", &transient);
     let file = File::open(answer.path("contact.npz")).unwrap();
     let mut archive = zip::ZipArchive::new(file).unwrap();
     let mut found = Vec::new();

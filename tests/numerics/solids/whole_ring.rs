@@ -21,10 +21,8 @@ impl WholeRing {
             specification.conditions = [Free; 4];
         }
         let sector = SolidSector::generate(&specification).unwrap();
-        let [mass, stiffness] = match sector.is_quadratic() {
-            true => assembled(&sector, model),
-            false => operated(&sector, model),
-        };
+        let of = if sector.is_quadratic() { assembled } else { operated };
+        let [mass, stiffness] = of(&sector, model);
         let rayleigh = model.options.damping;
         let damping = Mat::from_fn(mass.nrows(), mass.nrows(), |i, j| {
             let (m, k) = (mass[(i, j)], stiffness[(i, j)]);
@@ -92,16 +90,16 @@ impl WholeRing {
                 let pressure = base.pressure_along(&sector, &element, point.0[1]);
                 let weight = factor * area * pressure / element.radius_at(&sector, point.0);
                 for s in 0..sector.sector_count() {
-                    let dof = |(node, half): &(usize, usize)| {
-                        3 * global(&sector, s, *node, *half) + across
-                    };
-                    for (a, from) in element.nodes.iter().enumerate() {
+                    let nodes = element.nodes.iter();
+                    let dofs = nodes.map(|own| 3 * global(&sector, s, own.0, own.1) + across);
+                    let dofs: Vec<usize> = dofs.collect();
+                    for (a, &from) in dofs.iter().enumerate() {
                         if !sector.is_quadratic() {
-                            self.damping[(dof(from), dof(from))] += weight * values[a];
+                            self.damping[(from, from)] += weight * values[a];
                             continue;
                         }
-                        for (b, to) in element.nodes.iter().enumerate() {
-                            self.damping[(dof(from), dof(to))] += weight * values[a] * values[b];
+                        for (b, &to) in dofs.iter().enumerate() {
+                            self.damping[(from, to)] += weight * values[a] * values[b];
                         }
                     }
                 }
@@ -154,6 +152,11 @@ fn operated(sector: &SolidSector, model: &SolidModel) -> [Mat<f64>; 2] {
     [mass, stiffness]
 }
 
+/// Two nodes of an element and a direction of each.
+fn pairs_of_directions(nodes: usize) -> impl Iterator<Item = (usize, usize, usize, usize)> {
+    (0..9 * nodes * nodes).map(move |k| (k / 9 / nodes, k / 9 % nodes, k / 3 % 3, k % 3))
+}
+
 /// Consistent `M` and `K` of bricks of 20 nodes in global coordinates, turned into nodal frames at the end.
 fn assembled(sector: &SolidSector, model: &SolidModel) -> [Mat<f64>; 2] {
     assert_eq!(model.options.mass, Consistent);
@@ -162,25 +165,19 @@ fn assembled(sector: &SolidSector, model: &SolidModel) -> [Mat<f64>; 2] {
     let mut result = [0, 1].map(|_| Mat::<f64>::zeros(3 * nodes, 3 * nodes));
     for s in 0..sector.sector_count() {
         for element in &sector.elements {
-            let angle = |half: usize| sector.half_angle() * (2 * s + half) as f64;
-            let places: Vec<[f64; 3]> = element
-                .iter()
-                .map(|&(node, half)| {
-                    let (sin, cos) = angle(half).sin_cos();
-                    let node = &sector.nodes[node];
-                    [node.radius * cos, node.radius * sin, node.height]
-                })
-                .collect();
             let numbers = element.iter();
             let numbers: Vec<usize> = numbers.map(|&(n, h)| global(sector, s, n, h)).collect();
             // Unit vectors of each node's frame.
-            let frames: Vec<[[f64; 3]; 3]> = element
-                .iter()
-                .map(|&(_, half)| {
-                    let (sin, cos) = angle(half).sin_cos();
-                    [[cos, sin, 0.0], [-sin, cos, 0.0], [0.0, 0.0, 1.0]]
-                })
-                .collect();
+            let frames = element.iter().map(|&(_, half)| {
+                let (sin, cos) = (sector.half_angle() * (2 * s + half) as f64).sin_cos();
+                [[cos, sin, 0.0], [-sin, cos, 0.0], [0.0, 0.0, 1.0]]
+            });
+            let frames: Vec<[[f64; 3]; 3]> = frames.collect();
+            let places = element.iter().zip(&frames).map(|(&(node, _), [out, ..])| {
+                let node = &sector.nodes[node];
+                [node.radius * out[0], node.radius * out[1], node.height]
+            });
+            let places: Vec<[f64; 3]> = places.collect();
             for (at, weight) in Hex20.quadrature() {
                 let shapes = Hex20.shape_functions(at);
                 let jacobian = nalgebra::Matrix3::from_fn(|i, j| {
@@ -189,34 +186,19 @@ fn assembled(sector: &SolidSector, model: &SolidModel) -> [Mat<f64>; 2] {
                 });
                 let volume = weight * jacobian.determinant();
                 let inverse = jacobian.try_inverse().unwrap();
-                let gradients: Vec<[f64; 3]> = shapes
-                    .iter()
-                    .map(|(_, slope)| {
-                        [0, 1, 2].map(|i| (0..3).map(|j| inverse[(j, i)] * slope[j]).sum())
-                    })
-                    .collect();
-                for (a, (row, d)) in numbers.iter().zip(&frames).enumerate() {
-                    for (b, (column, e)) in numbers.iter().zip(&frames).enumerate() {
-                        let (g, h) = (gradients[a], gradients[b]);
-                        let dot =
-                            |x: [f64; 3], y: [f64; 3]| -> f64 { (0..3).map(|i| x[i] * y[i]).sum() };
-                        for c in 0..3 {
-                            for f in 0..3 {
-                                // sigma(h, e) : grad(g d) of an isotropic body.
-                                let value = lambda * dot(g, d[c]) * dot(h, e[f])
-                                    + shear
-                                        * (dot(g, h) * dot(d[c], e[f])
-                                            + dot(g, e[f]) * dot(h, d[c]));
-                                let at = (3 * row + c, 3 * column + f);
-                                result[1][at] += volume * value;
-                                result[0][at] += volume
-                                    * model.material.density
-                                    * shapes[a].0
-                                    * shapes[b].0
-                                    * dot(d[c], e[f]);
-                            }
-                        }
-                    }
+                let gradients = shapes.iter().map(|(_, slope)| {
+                    [0, 1, 2].map(|i| (0..3).map(|j| inverse[(j, i)] * slope[j]).sum())
+                });
+                let gradients: Vec<[f64; 3]> = gradients.collect();
+                let dot = |x: [f64; 3], y: [f64; 3]| -> f64 { (0..3).map(|i| x[i] * y[i]).sum() };
+                let mass = volume * model.material.density;
+                for (a, b, c, f) in pairs_of_directions(numbers.len()) {
+                    let (g, h, d, e) = (gradients[a], gradients[b], frames[a][c], frames[b][f]);
+                    // sigma(h, e) : grad(g d) of an isotropic body.
+                    let turned = dot(g, h) * dot(d, e) + dot(g, e) * dot(h, d);
+                    let at = (3 * numbers[a] + c, 3 * numbers[b] + f);
+                    result[1][at] += volume * (lambda * dot(g, d) * dot(h, e) + shear * turned);
+                    result[0][at] += mass * shapes[a].0 * shapes[b].0 * dot(d, e);
                 }
             }
         }

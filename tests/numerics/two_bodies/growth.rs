@@ -23,8 +23,8 @@ fn a_mode_of_two_bodies_whose_meshes_do_not_match_grows_as_its_eigenvalue_says()
         let found = sweep(&tangent, &request, &|_| {}).unwrap().points.remove(0).modes;
         let mode = found.iter().max_by(|a, b| a.eigenvalue.re.total_cmp(&b.eigenvalue.re)).unwrap();
         assert!(mode.eigenvalue.re > 0.0);
-        let (record, harmonic) =
-            run(&mesh, &materials, mode.eigenvalue, mode.shape.as_ref().unwrap());
+        let shape = mode.shape.as_ref().unwrap();
+        let (record, harmonic) = run(&mesh, &materials, mode.eigenvalue, shape);
         let analysis = TransientAnalysis::of(&record, &[harmonic]);
         assert_eq!(analysis.first_nonlinearity, None);
         grows_as(&record, harmonic, mode.eigenvalue, 1e-3);
@@ -33,7 +33,7 @@ fn a_mode_of_two_bodies_whose_meshes_do_not_match_grows_as_its_eigenvalue_says()
 
 /// A transient from steady sliding and `Re(shape e^(lambda t))`, with the harmonic of the edge in which it moves most.
 fn run(
-    mesh: &frictionsim::mesh::Mesh,
+    mesh: &Mesh,
     materials: &Vec<RegionMaterial>,
     eigenvalue: c64,
     shape: &[c64],
@@ -41,11 +41,8 @@ fn run(
     let body = SteppedBody::Plane { mesh, annulus: None };
     let model = TransientModel::new(body, materials, DAMPING, contact(610.0));
     let operator = model.operator(OperatorChoice::Auto, SimdLevel::detect()).unwrap();
-    let settings = transient_settings(
-        [0.004, 4e-6, 0.0],
-        InitialState::SteadySliding,
-        Perturbation::default(),
-    );
+    let (initial, none) = (InitialState::SteadySliding, Perturbation::default());
+    let settings = transient_settings([0.004, 4e-6, 0.0], initial, none);
     let step = model.plan(operator.as_ref(), &settings).unwrap().time_step;
     let bodies = Assembly::of_edge(mesh, materials, &contact(610.0), RIGID).unwrap();
     let mut displacement = bodies.state(0.3).unwrap().displacement(0.3);

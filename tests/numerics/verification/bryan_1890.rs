@@ -25,19 +25,15 @@ fn closed_form(n: f64) -> [f64; 2] {
     let [inner, outer] = RADII;
     let at = |r: f64| (r - inner) / (outer - inner);
     let value = |j: usize, r: f64| at(r).powi(j as i32);
-    let slope = |j: usize, r: f64| match j {
-        0 => 0.0,
-        j => j as f64 * at(r).powi(j as i32 - 1) / (outer - inner),
-    };
+    let slope = |j: usize, r: f64| j as f64 * at(r).powi(j.max(1) as i32 - 1) / (outer - inner);
     let shear = YOUNG / (2.0 * (1.0 + POISSON));
     let lame = shear * 2.0 * POISSON / (1.0 - 2.0 * POISSON);
     // Strains rr, tt, rt of U alone or V alone.
     let strains = |k: usize, r: f64| {
         let (j, f) = (k % TERMS, value(k % TERMS, r));
-        match k < TERMS {
-            true => [slope(j, r), f / r, -n * f / r],
-            false => [0.0, n * f / r, slope(j, r) - f / r],
-        }
+        let (out, around) =
+            ([slope(j, r), f / r, -n * f / r], [0.0, n * f / r, slope(j, r) - f / r]);
+        if k < TERMS { out } else { around }
     };
     let stiffness = DMatrix::from_fn(2 * TERMS, 2 * TERMS, |a, b| {
         let energy = |r: f64| {
@@ -48,9 +44,9 @@ fn closed_form(n: f64) -> [f64; 2] {
         let held = value(a % TERMS, inner) * value(b % TERMS, inner) * inner * SPRING;
         integral(inner, outer, energy) + if is_same { held } else { 0.0 }
     });
-    let mass = DMatrix::from_fn(2 * TERMS, 2 * TERMS, |a, b| match (a < TERMS) == (b < TERMS) {
-        true => integral(inner, outer, |r| DENSITY * r * value(a % TERMS, r) * value(b % TERMS, r)),
-        false => 0.0,
+    let mass = DMatrix::from_fn(2 * TERMS, 2 * TERMS, |a, b| {
+        let own = f64::from(u8::from((a < TERMS) == (b < TERMS)));
+        own * integral(inner, outer, |r| DENSITY * r * value(a % TERMS, r) * value(b % TERMS, r))
     });
     let (square, shape) = ritz(&stiffness, &mass);
     let part =

@@ -43,11 +43,8 @@ fn hulten_1993_a_block_in_a_corner_flutters_where_two_degrees_of_freedom_do() {
     let critical = (w1 * w1 - w2 * w2) / (2.0 * w1 * w2);
     let frequency = (0.5 * (w1 * w1 + w2 * w2)).sqrt() / TAU;
     // kappa = -lambda^2 has the imaginary part w_1 w_2 sqrt(mu^2 - mu_c^2).
-    let growth = {
-        let imaginary = w1 * w2 * (0.4_f64.powi(2) - critical * critical).sqrt();
-        let kappa = c64::new(0.5 * (w1 * w1 + w2 * w2), imaginary);
-        kappa.sqrt().im
-    };
+    let imaginary = w1 * w2 * (0.4_f64.powi(2) - critical * critical).sqrt();
+    let growth = c64::new(0.5 * (w1 * w1 + w2 * w2), imaginary).sqrt().im;
     let expected = [critical, frequency, growth];
     let errors = [2.1e11, 2.1e12].map(|modulus| {
         let found = block(modulus);

@@ -47,13 +47,11 @@ fn errors(step: f64) -> [f64; 2] {
     let folder = folder("johnson_sliding_hertz", &mesh);
     let mut nodes = table(&folder, "cea", case, "", "prestress.csv");
     nodes.sort_by(|a, b| a["x_m"].total_cmp(&b["x_m"]));
-    let force: f64 = nodes
-        .windows(2)
-        .map(|pair| {
-            let width = pair[1]["x_m"] - pair[0]["x_m"];
-            0.5 * width * (pair[0]["pressure_pa"] + pair[1]["pressure_pa"])
-        })
-        .sum();
+    let between = nodes.windows(2).map(|pair| {
+        let width = pair[1]["x_m"] - pair[0]["x_m"];
+        0.5 * width * (pair[0]["pressure_pa"] + pair[1]["pressure_pa"])
+    });
+    let force: f64 = between.sum();
     // The closed form under this force; friction pulls the body along +x, the patch lies behind.
     let (poisson, friction) = (0.3_f64, 0.5);
     let modulus = 2.1e11 / (1.0 - poisson * poisson);

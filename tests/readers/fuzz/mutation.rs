@@ -46,29 +46,20 @@ pub fn text(random: &mut Random, corpus: &[Vec<u8>]) -> Vec<u8> {
         match random.below(8) {
             0..=2 => replace_token(random, &mut bytes),
             3 => {
-                let lines = lines(&bytes);
-                let at = random.below(lines.len());
-                let change = random.below(3);
-                let mut lines: Vec<Vec<u8>> = lines.into_iter().map(<[u8]>::to_vec).collect();
-                if lines.is_empty() {
-                    continue;
-                }
+                let mut own = lines(&bytes);
+                let [at, change, other] =
+                    [own.len(), 3, own.len()].map(|count| random.below(count));
                 match change {
-                    0 => drop(lines.remove(at)),
-                    1 => lines.insert(at, lines[at].clone()),
-                    _ => {
-                        let other = random.below(lines.len());
-                        lines.swap(at, other);
-                    }
+                    0 => drop(own.remove(at)),
+                    1 => own.insert(at, own[at]),
+                    _ => own.swap(at, other),
                 }
-                bytes = lines.join(&b'\n');
+                bytes = own.join(&b'\n');
             }
             4 => {
-                let other = random.pick(corpus).clone();
-                let other = lines(&other);
-                let line = other[random.below(other.len())].to_vec();
-                let mut own: Vec<Vec<u8>> = lines(&bytes).iter().map(|l| l.to_vec()).collect();
-                own.insert(random.below(own.len()), line);
+                let other = lines(random.pick::<Vec<u8>>(corpus));
+                let mut own = lines(&bytes);
+                own.insert(random.below(own.len()), other[random.below(other.len())]);
                 bytes = own.join(&b'\n');
             }
             5 => {
@@ -89,24 +80,29 @@ fn lines(bytes: &[u8]) -> Vec<&[u8]> {
 
 fn replace_token(random: &mut Random, bytes: &mut Vec<u8>) {
     let is_part = |byte: u8| byte.is_ascii_alphanumeric() || b"+-._".contains(&byte);
-    let starts: Vec<usize> = (0..bytes.len())
-        .filter(|&i| is_part(bytes[i]) && (i == 0 || !is_part(bytes[i - 1])))
-        .collect();
+    let is_start = |i: &usize| is_part(bytes[*i]) && (*i == 0 || !is_part(bytes[i - 1]));
+    let starts: Vec<usize> = (0..bytes.len()).filter(is_start).collect();
     if starts.is_empty() {
         return;
     }
-    let start = *random.pick(&starts);
-    let length = bytes[start..].iter().take_while(|&&b| is_part(b)).count();
+    let length = |start: usize| bytes[start..].iter().take_while(|&&b| is_part(b)).count();
+    let [start, other] = [0, 1].map(|_| *random.pick(&starts));
+    let place = start..start + length(start);
     let new: Vec<u8> = match random.below(4) {
-        0 => {
-            let other = *random.pick(&starts);
-            let end = bytes[other..].iter().take_while(|&&b| is_part(b)).count();
-            bytes[other..other + end].to_vec()
-        }
+        0 => bytes[other..other + length(other)].to_vec(),
         1 => format!("{:e}", f64::from_bits(random.next())).into_bytes(),
         _ => random.pick(&NUMBERS.split(" ; ").collect::<Vec<&str>>()).as_bytes().to_vec(),
     };
-    bytes.splice(start..start + length, new);
+    bytes.splice(place, new);
+}
+
+/// A changed text or a changed file of bytes.
+pub fn either(random: &mut Random, texts: &[Vec<u8>], binaries: &[Vec<u8>]) -> Vec<u8> {
+    if random.below(2) == 0 {
+        return text(random, texts);
+    }
+    let file = random.below(binaries.len());
+    binary(random, &binaries[file])
 }
 
 /// Bytes with one to six changes: set, flipped, put in, taken out, ranges copied.
@@ -124,10 +120,7 @@ fn binary_change(random: &mut Random, bytes: &mut Vec<u8>) {
         return;
     }
     // Lengths and counts stand near the beginning: half of the changes go there.
-    let reach = match random.below(2) {
-        0 => bytes.len().min(64),
-        _ => bytes.len(),
-    };
+    let reach = if random.below(2) == 0 { bytes.len().min(64) } else { bytes.len() };
     let at = random.below(reach);
     match random.below(6) {
         0 => bytes[at] = random.next() as u8,

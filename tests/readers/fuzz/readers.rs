@@ -34,9 +34,6 @@ fn no_override_makes_its_reader_panic_or_cost_much() {
     ]
     .map(|text| text.as_bytes().to_vec())
     .to_vec();
-    hold(
-        "set",
-        |random| text(random, &corpus),
-        |bytes| parse(&case, &[String::from_utf8_lossy(bytes).into_owned()]),
-    );
+    let set = |bytes: &[u8]| parse(&case, &[String::from_utf8_lossy(bytes).into_owned()]);
+    hold("set", |random| text(random, &corpus), set);
 }

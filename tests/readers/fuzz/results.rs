@@ -49,10 +49,7 @@ fn with_right_checksum(mut bytes: Vec<u8>) -> Vec<u8> {
 fn record_of(random: &mut Random, original: &[u8]) -> Vec<u8> {
     let (header, payload) = original.split_at(24);
     let changed = [header, &binary(random, payload)].concat();
-    match random.below(4) {
-        0 => changed,
-        _ => with_right_checksum(changed),
-    }
+    if random.below(4) == 0 { changed } else { with_right_checksum(changed) }
 }
 
 fn plot(folder: &Path) -> bool {
@@ -66,14 +63,11 @@ fn hold_figures(command: &str) {
     let folder = finished(scratch.path(), command);
     let original = fs::read(folder.join("figures.bin")).unwrap();
     assert!(plot(&folder), "{command}: the folder as it was written");
-    hold(
-        &format!("figures-{command}"),
-        |random| record_of(random, &original),
-        |bytes| {
-            fs::write(folder.join("figures.bin"), bytes).unwrap();
-            plot(&folder);
-        },
-    );
+    let make = |random: &mut Random| record_of(random, &original);
+    hold(&format!("figures-{command}"), make, |bytes| {
+        fs::write(folder.join("figures.bin"), bytes).unwrap();
+        plot(&folder);
+    });
 }
 
 #[test]
@@ -109,16 +103,19 @@ fn no_checkpoint_makes_its_reader_panic() {
     let read = || read_checkpoint(folder, "hash", &manifest.simd);
     let original = fs::read(&file).unwrap();
     assert!(read().unwrap().is_some());
-    hold(
-        "checkpoint",
-        |random| record_of(random, &original),
-        |bytes| {
-            fs::write(&file, bytes).unwrap();
-            if let Some(record) = read().ok().flatten().and_then(|own| own.record) {
-                drop(TransientAnalysis::of(&record, &[2]));
-            }
-        },
-    );
+    let make = |random: &mut Random| record_of(random, &original);
+    hold("checkpoint", make, |bytes| {
+        fs::write(&file, bytes).unwrap();
+        if let Some(record) = read().ok().flatten().and_then(|own| own.record) {
+            drop(TransientAnalysis::of(&record, &[2]));
+        }
+    });
+}
+
+/// Whether a changed file holds the value of the one that was written.
+fn says_the_same(bytes: &[u8], original: &[u8]) -> bool {
+    let [own, before] = [bytes, original].map(|own| serde_json::from_slice::<Value>(own).ok());
+    own == before
 }
 
 #[test]
@@ -129,18 +126,12 @@ fn a_damaged_manifest_or_summary_is_never_used() {
         [(&mesh, "manifest.json"), (&mesh, "summary.json"), (&convergence, "summary.json")]
     {
         let original = fs::read(folder.join(name)).unwrap();
-        let value: Value = serde_json::from_slice(&original).unwrap();
-        hold(
-            name,
-            |random| text(random, std::slice::from_ref(&original)),
-            |bytes| {
-                fs::write(folder.join(name), bytes).unwrap();
-                let same: Option<Value> = serde_json::from_slice(bytes).ok();
-                if same.as_ref() != Some(&value) {
-                    assert!(!plot(folder), "used although it was changed");
-                }
-            },
-        );
+        let make = |random: &mut Random| text(random, std::slice::from_ref(&original));
+        hold(name, make, |bytes| {
+            fs::write(folder.join(name), bytes).unwrap();
+            let is_same = says_the_same(bytes, &original);
+            assert!(is_same || !plot(folder), "used although it was changed");
+        });
         fs::write(folder.join(name), &original).unwrap();
         assert!(plot(folder));
     }
@@ -153,15 +144,10 @@ fn a_damaged_point_counts_as_missing() {
     let folder = SweepFolder::find(&path, "sweep").unwrap();
     let file = folder.point_path(1);
     let original = fs::read(&file).unwrap();
-    let value: Value = serde_json::from_slice(&original).unwrap();
-    hold(
-        "point",
-        |random| text(random, std::slice::from_ref(&original)),
-        |bytes| {
-            fs::write(&file, bytes).unwrap();
-            let is_used = matches!(folder.read(1).unwrap(), Found::Point(_));
-            let same: Option<Value> = serde_json::from_slice(bytes).ok();
-            assert!(!is_used || same.as_ref() == Some(&value));
-        },
-    );
+    let make = |random: &mut Random| text(random, std::slice::from_ref(&original));
+    hold("point", make, |bytes| {
+        fs::write(&file, bytes).unwrap();
+        let is_used = matches!(folder.read(1).unwrap(), Found::Point(_));
+        assert!(!is_used || says_the_same(bytes, &original));
+    });
 }

@@ -6,11 +6,9 @@ use frictionsim::signal::reader::ResponseFile;
 
 fn read(text: &str, columns: &[&str], channels: &[&str]) -> ResponseFile {
     let owned = |names: &[&str]| names.iter().map(ToString::to_string).collect();
-    let options = ResponseOptions {
-        quantity: Some(ResponseQuantity::Accelerance),
-        columns: owned(columns),
-        channels: owned(channels),
-    };
+    let (columns, channels) = (owned(columns), owned(channels));
+    let quantity = Some(ResponseQuantity::Accelerance);
+    let options = ResponseOptions { quantity, columns, channels };
     let file = reader::read_response(text.as_bytes(), "x", &options);
     file.unwrap_or_else(|error| panic!("{error}\n{text}"))
 }
@@ -140,10 +138,8 @@ fn time_stamps_are_seconds_from_the_first_also_past_midnight() {
 
 #[test]
 fn a_rounded_time_column_asks_for_the_rate_and_is_overruled_by_it() {
-    let rows: String = (0..400)
-        .map(|k| format!("{:.4},{}\n", f64::from(k) / 51_200.0, (TAU * 0.1 * f64::from(k)).sin()))
-        .collect();
-    let text = format!("t,x\n{rows}");
+    let row = |k: f64| format!("{:.4},{}\n", k / 51_200.0, (TAU * 0.1 * k).sin());
+    let text = format!("t,x\n{}", (0..400).map(|k| row(f64::from(k))).collect::<String>());
     let error = read_signal(text.as_bytes(), "x", None).unwrap_err().to_string();
     has(&error, &["rounded to 0.0001 s ; --rate HZ"]);
     let file = read_signal(text.as_bytes(), "x", Some(51_200.0)).unwrap();
@@ -156,10 +152,8 @@ fn a_rounded_time_column_asks_for_the_rate_and_is_overruled_by_it() {
 #[test]
 fn signal_columns_are_named_and_skipped_on_request() {
     let rows: String = (0..40).map(|k| format!("{k},{},{}\n", 2 * k, 3 * k)).collect();
-    let options = SignalOptions {
-        columns: ["t_ms", "-", "mic"].map(String::from).to_vec(),
-        ..SignalOptions::default()
-    };
+    let columns = ["t_ms", "-", "mic"].map(String::from).to_vec();
+    let options = SignalOptions { columns, ..SignalOptions::default() };
     let file = reader::read_signal(rows.as_bytes(), "x", &options).unwrap();
     assert_eq!(file.sampling_rate, 1e3);
     assert_eq!((file.channels.len(), file.channels[0].name.as_str()), (1, "mic"));

@@ -30,14 +30,11 @@ fn read_signal(bytes: &[u8], source: &str, rate: Option<f64>) -> Result<SignalFi
 
 /// Ten rows `f, re, im` with a given field separator, decimal sign and line end.
 fn rows(separator: &str, decimal: &str, end: &str) -> String {
-    (1..=10)
-        .map(|i| {
-            let x = f64::from(i);
-            let fields = [10.0 * x, 0.5 - 0.1 * x, 0.25 * x - 1.0];
-            let fields = fields.map(|v| format!("{v:.4}").replace('.', decimal));
-            fields.join(separator) + end
-        })
-        .collect()
+    let row = |x: f64| {
+        let fields = [10.0 * x, 0.5 - 0.1 * x, 0.25 * x - 1.0];
+        fields.map(|v| format!("{v:.4}").replace('.', decimal)).join(separator) + end
+    };
+    (1..=10).map(|i| row(f64::from(i))).collect()
 }
 
 fn message(text: &str) -> String {
@@ -84,9 +81,8 @@ fn decibel_with_degrees_and_kilohertz_equal_real_with_imaginary() {
     let read = |t: &str| read_response(t.as_bytes(), "x", None).unwrap().response;
     let (a, b, c) = (read(&polar), read(&radians), read(&parts));
     within(a.frequencies_hz(), c.frequencies_hz(), 1e-9);
-    for i in 0..12 {
-        assert!((a.values()[i] - c.values()[i]).norm() < 1e-12);
-        assert!((b.values()[i] - c.values()[i]).norm() < 1e-12);
+    for (own, wanted) in a.values().iter().chain(b.values()).zip(c.values().iter().cycle()) {
+        assert!((own - wanted).norm() < 1e-12);
     }
 }
 
@@ -185,9 +181,8 @@ fn signals_are_read_with_time_column_or_rate() {
     let file =
         read_signal(format!("time_s,a_r_m_per_s2,other\n{timed}").as_bytes(), "x", None).unwrap();
     assert!((file.sampling_rate / 5e5 - 1.0).abs() < 1e-9);
-    assert_eq!(file.channels.len(), 2);
-    assert_eq!(file.channels[0].name, "a_r_m_per_s2");
-    assert_eq!(file.channels[1].samples[39], 39.0);
+    let [first, second] = &file.channels[..] else { panic!("two channels") };
+    assert_eq!((first.name.as_str(), second.samples[39]), ("a_r_m_per_s2", 39.0));
     // Without names: the first column advances evenly, so it is the time.
     let file = read_signal(timed.as_bytes(), "x", None).unwrap();
     assert!((file.sampling_rate / 5e5 - 1.0).abs() < 1e-9);
