@@ -32,10 +32,8 @@ fn predicted_candidates_are_those_that_run_again() {
         let [predicted, confirmed] = ["predicted", "confirmed"]
             .map(|state| own[state]["growth_rate_per_s"].as_f64().unwrap());
         // Modes beyond the ten listed ones give way too.
-        assert!(
-            (predicted - confirmed).abs() < 0.15 * (base - confirmed).abs() + 0.02 * base,
-            "{own}"
-        );
+        let bound = 0.15 * (base - confirmed).abs() + 0.02 * base;
+        assert!((predicted - confirmed).abs() < bound, "{own}");
     }
     assert_eq!(answer.text("candidates.csv").lines().count(), 1 + candidates.len());
     let rows = answer.rows("candidates.csv");
@@ -51,11 +49,9 @@ fn predicted_candidates_are_those_that_run_again() {
     }
     // The block is a case key for each line.
     let best = answer.text("improved.toml");
-    let keys = best.lines().filter(|line| !line.starts_with('#'));
-    assert!(
-        keys.clone().count() > 0
-            && keys.into_iter().all(|line| line.starts_with("modifications.improve."))
-    );
+    let keys: Vec<&str> = best.lines().filter(|line| !line.starts_with('#')).collect();
+    let is_own = |line: &&str| line.starts_with("modifications.improve.");
+    assert!(!keys.is_empty() && keys.iter().all(is_own), "{best}");
 }
 
 /// Sums over parts hold with modifications: masses, springs and dashpots at nodes, patches, less material.
@@ -73,10 +69,8 @@ fn contributions_of_a_modified_disc_are_its_growth_rates() {
     let answer = run(folder.path(), "cea", &set).done();
     let rows = answer.rows("contributions.csv");
     for mode in answer.rows("eigenvalues.csv") {
-        let own = rows.iter().filter(|row| {
-            row["mode"] == mode["mode"]
-                && row["friction_coefficient"] == mode["friction_coefficient"]
-        });
+        let keys = ["mode", "friction_coefficient"];
+        let own = rows.iter().filter(|row| keys.iter().all(|key| row[*key] == mode[*key]));
         let number = |text: &String| text.parse::<f64>().unwrap_or(0.0);
         let (mut growth, mut kinetic) = (0.0, 0.0);
         for row in own {

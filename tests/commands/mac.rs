@@ -25,9 +25,8 @@ static MEASURED: LazyLock<Vec<(f64, Motion)>> = LazyLock::new(|| {
         let motion = nodes.map(|node| {
             let frame = model.mesh.frame(node);
             let global = [0, 1].map(|axis| {
-                let own =
-                    shape[2 * node] * frame[(axis, 0)] + shape[2 * node + 1] * frame[(axis, 1)];
-                turn * (own + c64::new(noise(), noise()) * 0.03)
+                let [u, v] = [0, 1].map(|k| shape[2 * node + k] * frame[(axis, k)]);
+                turn * (u + v + c64::new(noise(), noise()) * 0.03)
             });
             (model.mesh.plane_node(node), global)
         });
@@ -44,9 +43,8 @@ fn table(shapes: &[Motion], scale: f64) -> String {
     let mut text = "mode,frequency_hz,x,y,ux_re,ux_im,uy\n".to_owned();
     for (k, shape) in shapes.iter().enumerate() {
         for ([x, y], [u, v]) in shape {
-            let (x, y) = (scale * x, scale * y);
-            writeln!(text, "s{k},{}.5,{x},{y},{},{},{}{:+}j", 1000 + k, u.re, u.im, v.re, v.im)
-                .unwrap();
+            let (head, x, y) = (1000 + k, scale * x, scale * y);
+            text += &format!("s{k},{head}.5,{x},{y},{},{},{}{:+}j\n", u.re, u.im, v.re, v.im);
         }
     }
     text
@@ -185,8 +183,7 @@ fn what_is_no_shape_is_named_with_its_place() {
         ("x,y,ux\n1,2,0\n", "no row of numbers"),
         ("-1\n55\na\n-1\n", "header"),
     ] {
-        let error = read_shapes(text.as_bytes(), "s.csv").unwrap_err().to_string();
-        assert!(error.contains(part), "{text:?}: {error}");
+        has(&read_shapes(text.as_bytes(), "s.csv").unwrap_err().to_string(), &[part]);
     }
 }
 
@@ -207,11 +204,9 @@ fn measured_shapes_are_data_of_a_fit() {
     let folder = folder();
     let frequencies: Vec<f64> = MEASURED.iter().map(|(frequency, _)| *frequency).collect();
     let named = |scale: f64| {
-        let mut text = table(&measured(), scale);
-        for (k, frequency) in frequencies.iter().enumerate() {
-            text = text.replace(&format!(",{}.5,", 1000 + k), &format!(",{frequency},"));
-        }
-        text
+        frequencies.iter().enumerate().fold(table(&measured(), scale), |text, (k, own)| {
+            text.replace(&format!(",{}.5,", 1000 + k), &format!(",{own},"))
+        })
     };
     let rows: String = frequencies.iter().map(|f| format!("{f}\n")).collect();
     fs::write(folder.path().join("modes.csv"), format!("frequency_hz\n{rows}")).unwrap();

@@ -17,17 +17,14 @@ fn both_methods_have_the_same_tables() {
     let sensitivities = |method: &str| -> Vec<[f64; 5]> {
         let set = [&format!("cea.method={method}"), "cea.sensitivities=true"];
         let answer = run("cea", &case, &folder.path().join(method), &set);
-        let rows = answer.rows("sensitivities.csv").into_iter();
-        let numbers = rows.map(|row| {
-            row.numbers([
-                "growth_rate_per_s",
-                "frequency_hz",
-                "growth_rate_per_height",
-                "frequency_hz_per_height",
-                "frequency_hz_per_reference_pressure",
-            ])
-        });
-        numbers.collect()
+        let columns = [
+            "growth_rate_per_s",
+            "frequency_hz",
+            "growth_rate_per_height",
+            "frequency_hz_per_height",
+            "frequency_hz_per_reference_pressure",
+        ];
+        answer.rows("sensitivities.csv").iter().map(|row| row.numbers(columns)).collect()
     };
     let (cyclic, sparse) = (sensitivities("cyclic"), sensitivities("sparse"));
     let mut compared = 0;
@@ -90,10 +87,7 @@ fn critical_friction_of_the_shipped_case_depends_on_the_brake_pressure() {
     let lines = text.lines().map(|line| match line.split(' ').next() {
         Some("normal_law") => "normal_stiffness = 5e11".to_owned(),
         Some("reference_pressure" | "height") => String::new(),
-        Some("file") => {
-            let mesh = shipped("meshes/pressed-pad.msh");
-            format!("file = {mesh:?}")
-        }
+        Some("file") => format!("file = {:?}", shipped("meshes/pressed-pad.msh")),
         _ => line.to_owned(),
     });
     let constant = folder.path().join("constant.toml");

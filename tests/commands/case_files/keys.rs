@@ -45,14 +45,9 @@ fn a_default_written_out_changes_nothing() {
                 continue;
             }
         };
-        let same = Case {
-            raw: plain.raw.clone(),
-            title: plain.title.clone(),
-            // A seed without noise is said to be of no use.
-            warnings: plain.warnings.clone(),
-            ..written
-        };
-        assert_eq!(same, plain, "{}", key.name);
+        // A seed without noise is said to be of no use.
+        let Case { raw, title, warnings, .. } = plain.clone();
+        assert_eq!(Case { raw, title, warnings, ..written }, plain, "{}", key.name);
     }
 }
 
@@ -76,10 +71,8 @@ fn a_template_with_every_key_holds_no_key_that_is_unknown() {
     let template = reference::template();
     assert!(parse(&template, &[]).is_ok(), "{}", report(&template, &[]));
     let is_comment = |line: &str| line.starts_with("# ") && !line.ends_with('.');
-    let lines = template.lines();
-    let all: Vec<&str> =
-        lines.map(|line| if is_comment(line) { &line[2..] } else { line }).collect();
-    let all = all.join("\n");
+    let bare = |line| if is_comment(line) { &line[2..] } else { line };
+    let all = template.lines().map(bare).collect::<Vec<&str>>().join("\n");
     if let Err(errors) = parse(&all, &[]) {
         for error in &errors.diagnostics {
             has(&error.message, &["!unknown", "!missing", "! must be "]);

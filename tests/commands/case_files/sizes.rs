@@ -71,10 +71,8 @@ fn the_cost_of_studies_counts_every_run() {
     let all = all.run.operations;
     assert!(all > 0.95 * transients, "{all} {transients}");
     // A solid mesh twice as fine has eight times the elements: beside the first, 8 and 64 times what grows least.
-    let solid = shipped("tread-block.toml");
-    let text = fs::read_to_string(&solid).unwrap();
-    let set = "convergence={factors=[1,2,4],analyses=[\"cea\"]}".to_owned();
-    let solid = Case::parse(&solid, text.as_bytes(), &[set]).unwrap();
+    let set = ["convergence={factors=[1,2,4],analyses=[\"cea\"]}"];
+    let solid = shipped_case("tread-block.toml", &set);
     let (one, all) = (solid.cost().cea.unwrap().run, solid.convergence_cost().unwrap().run);
     assert!(all.operations > 73.0 * one.operations, "{one:?} {all:?}");
     assert!(all.memory_bytes > 73.0 * one.memory_bytes, "{one:?} {all:?}");
@@ -89,10 +87,8 @@ fn the_cost_of_a_solid_case_is_that_of_its_run() {
     let folder = folder_with(&[("block.msh", &file_of_order(&[block], 2, place))]);
     let text = include_str!("../../cases/rubber-block.toml");
     let stiffer = ["material.young_modulus=5e9", "contact.interference=2e-5"];
-    let run = |command| {
-        let run = Run::of_text(command, folder.path(), text).args(&["--unset", "damping"]);
-        run.set(&stiffer)
-    };
+    let own = |command| Run::of_text(command, folder.path(), text).set(&stiffer);
+    let run = |command| own(command).args(&["--unset", "damping"]);
     let told = run("check").args(&["--json"]).done().value()["cases"][0].clone();
     let unknowns = run("mesh").out("mesh").done().summary()["mesh"]["dofs"].clone();
     assert_eq!(told["dofs"], unknowns);
@@ -102,9 +98,8 @@ fn the_cost_of_a_solid_case_is_that_of_its_run() {
     while child.try_wait().unwrap().is_none() {
         let text = fs::read_to_string(&status).unwrap_or_default();
         let line = text.lines().find_map(|line| line.strip_prefix("VmHWM:"));
-        let kibibytes =
-            line.map_or(0.0, |line| line.trim_end_matches("kB").trim().parse().unwrap());
-        peak = peak.max(1024.0 * kibibytes);
+        let number = |line: &str| line.trim_end_matches("kB").trim().parse::<f64>().unwrap();
+        peak = peak.max(1024.0 * line.map_or(0.0, number));
         std::thread::sleep(Duration::from_millis(2));
     }
     let announced = told["memory_bytes"].as_f64().unwrap();

@@ -36,10 +36,9 @@ fn text_boxes(svg: &str) -> (Vec<TextBox>, [f64; 2]) {
                 Node::Group(group) => visit(group, out),
                 Node::Text(text) => {
                     let words: String = text.chunks().iter().map(|chunk| chunk.text()).collect();
-                    let spans = text.chunks().iter().flat_map(|chunk| chunk.spans());
-                    let has_halo = spans
-                        .into_iter()
-                        .any(|span| span.paint_order() == PaintOrder::StrokeAndFill);
+                    let mut spans = text.chunks().iter().flat_map(|chunk| chunk.spans());
+                    let halo = PaintOrder::StrokeAndFill;
+                    let has_halo = spans.any(|span| span.paint_order() == halo);
                     let place = text.abs_bounding_box();
                     let ends = [place.left(), place.top(), place.right(), place.bottom()];
                     out.push((words, ends.map(f64::from), has_halo));
@@ -64,13 +63,10 @@ fn text_boxes(svg: &str) -> (Vec<TextBox>, [f64; 2]) {
 /// Holds the texts of a drawing to the sheet, and those without a ground of their own apart from each other.
 fn check_texts(name: &str, svg: &str) {
     let (boxes, [width, height]) = text_boxes(svg);
-    for (words, [left, top, right, bottom], _) in &boxes {
-        let is_inside =
-            *left > -0.5 && *top > -0.5 && *right < width + 0.5 && *bottom < height + 0.5;
-        assert!(
-            is_inside,
-            "{name}: '{words}' at {left:.1} to {right:.1}, {top:.1} to {bottom:.1} leaves {width:.1} x {height:.1}"
-        );
+    for (words, place, _) in &boxes {
+        let [left, top, right, bottom] = *place;
+        let is_inside = left.min(top) > -0.5 && right < width + 0.5 && bottom < height + 0.5;
+        assert!(is_inside, "{name}: '{words}' at {place:.1?} leaves {width:.1} x {height:.1}");
     }
     let plain: Vec<_> = boxes.iter().filter(|text| !text.2).collect();
     for (at, (words, a, _)) in plain.iter().enumerate() {

@@ -41,23 +41,18 @@ fn report_of_an_eigenvalue_analysis_holds_every_figure_table_and_the_case() {
     draw(&folder, &report, &DrawingOptions::default());
     folder.finish().unwrap();
     for width in [85.0, 178.0] {
-        let options = DrawingOptions {
-            width_mm: Some(width),
-            formats: vec![Format::Svg],
-            ..DrawingOptions::default()
-        };
+        let (width_mm, formats) = (Some(width), vec![Format::Svg]);
+        let options = DrawingOptions { width_mm, formats, ..DrawingOptions::default() };
         let folder = TempDir::new().unwrap();
-        let folder =
-            OutputFolder::open(&folder.path().join("out"), &manifest, Replace::Anything).unwrap();
+        let out = folder.path().join("out");
+        let folder = OutputFolder::open(&out, &manifest, Replace::Anything).unwrap();
         // How long the run took is no matter of its report: the same bytes another day.
         let slower = CeaReport { wall_s: 77.7, ..report.clone() };
         draw(&folder, &slower, &options);
         let read = |name: &str| fs::read_to_string(folder.path().join(name)).unwrap();
         assert!(!read("report.html").contains("77.70 s"));
-        for entry in fs::read_dir(folder.path().join("figures")).unwrap() {
-            let path = entry.unwrap().path();
-            let name = format!("{} at {width} mm", path.display());
-            check_texts(&name, &fs::read_to_string(path).unwrap());
+        for name in names_in(&folder.path().join("figures")) {
+            check_texts(&format!("{name} at {width} mm"), &read(&format!("figures/{name}")));
         }
     }
     let text = fs::read_to_string(path.join("report.html")).unwrap();

@@ -17,25 +17,15 @@ fn a_run_gets_every_figure_of_its_record() {
         transient_settings([0.02, 2e-6, 5e-4], InitialState::Rest, Perturbation::of(&[2], 1e-2));
     let mut run = started(model, OperatorChoice::Auto, &settings);
     // Node 1 + 15 * 13 lies on the contact edge at 90 degrees, seven nodes further out on its ray.
-    let mut record = Recorder::new(
-        &run,
-        &RecorderSettings {
-            probes: vec![196, 203],
-            snapshots: vec![0.001, 0.006, 0.0195],
-            ..Default::default()
-        },
-    )
-    .unwrap();
+    let (probes, snapshots) = (vec![196, 203], vec![0.001, 0.006, 0.0195]);
+    let wanted = RecorderSettings { probes, snapshots, ..RecorderSettings::default() };
+    let mut record = Recorder::new(&run, &wanted).unwrap();
     run.run(&mut record).unwrap();
     let analysis = TransientAnalysis::of(&record, &[2]);
-    let growth: Vec<(usize, f64)> = analysis
-        .growth
-        .iter()
-        .filter_map(|g| {
-            let stage = g.stage.as_ref().ok()?;
-            Some((g.harmonic?, stage.rate_per_s.value))
-        })
-        .collect();
+    let growth = analysis.growth.iter();
+    let growth =
+        growth.filter_map(|g| Some((g.harmonic?, g.stage.as_ref().ok()?.rate_per_s.value)));
+    let growth: Vec<(usize, f64)> = growth.collect();
     let solved = SolvedTransient {
         record,
         analysis,

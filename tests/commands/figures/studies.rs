@@ -28,17 +28,14 @@ fn transient(value: f64, change: f64) -> Value {
 
 #[test]
 fn points_over_speed_show_harmonics_selection_and_end_of_stick() {
-    let grid = [0.2, 0.4]
-        .iter()
-        .flat_map(|mu| [10.0, 30.0, 100.0, 300.0, 1000.0, 3000.0].map(|rpm| (*mu, rpm)));
-    let records: Vec<PointRecord> = grid
-        .enumerate()
-        .map(|(index, (mu, rpm))| {
-            let swept =
-                json!({ "contact.friction_coefficient": mu, "contact.rotation_speed_rpm": rpm });
-            point(index + 1, swept, transient(rpm, 100.0))
-        })
-        .collect();
+    let speeds = [10.0, 30.0, 100.0, 300.0, 1000.0, 3000.0];
+    let grid = [0.2, 0.4].iter().flat_map(|mu| speeds.map(|rpm| (*mu, rpm)));
+    let records = grid.enumerate().map(|(index, (mu, rpm))| {
+        let swept =
+            json!({ "contact.friction_coefficient": mu, "contact.rotation_speed_rpm": rpm });
+        point(index + 1, swept, transient(rpm, 100.0))
+    });
+    let records: Vec<PointRecord> = records.collect();
     let modes = [(9901.0, "mode 5, *n* = 2"), (7660.0, "mode 3, *n* = 1")];
     let modes = modes.map(|(frequency_hz, label)| ModeLine { frequency_hz, label: label.into() });
     let figures = draw_sweep(&records, (0.3, 1.0), &modes);
@@ -55,16 +52,12 @@ fn points_over_speed_show_harmonics_selection_and_end_of_stick() {
 
 #[test]
 fn points_over_any_key_have_frequencies_and_status_too() {
-    let records: Vec<PointRecord> = (0..4)
-        .map(|i| {
-            let interference = 1e-5 * f64::from(i + 1);
-            point(
-                i as usize + 1,
-                json!({ "contact.interference": interference }),
-                transient(interference, 2.5e-5),
-            )
-        })
-        .collect();
+    let records = (1..5).map(|i| {
+        let interference = 1e-5 * f64::from(i);
+        let swept = json!({ "contact.interference": interference });
+        point(i as usize, swept, transient(interference, 2.5e-5))
+    });
+    let records: Vec<PointRecord> = records.collect();
     let figures = draw_sweep(&records, (0.3, 1.0), &[]);
     assert_eq!(figures.len(), 2);
     let svg = figures[0].to_svg(None).unwrap();
@@ -73,24 +66,18 @@ fn points_over_any_key_have_frequencies_and_status_too() {
 
 #[test]
 fn eigenvalue_analyses_over_one_key_become_a_critical_friction_line_for_each_branch() {
-    let records: Vec<PointRecord> = (0..8)
-        .map(|i| {
-            let damping = 1e-7 * 1.8f64.powi(i);
-            let entry = |harmonic: usize, factor: f64| {
-                json!({ "harmonic": harmonic, "branch": 0, "direction": -1, "unstable_from_start": false,
-                        "critical_friction": factor * (damping * 1e7).sqrt() })
-            };
-            let mut found = vec![entry(1, 0.06)];
-            if i < 5 {
-                found.push(entry(2, 0.1));
-            }
-            point(
-                i as usize + 1,
-                json!({ "damping.stiffness_coefficient": damping }),
-                json!({ "cea": { "critical_frictions": found } }),
-            )
-        })
-        .collect();
+    let records = (0..8).map(|i| {
+        let damping = 1e-7 * 1.8f64.powi(i);
+        let entry = |harmonic: usize, factor: f64| {
+            json!({ "harmonic": harmonic, "branch": 0, "direction": -1, "unstable_from_start": false,
+                    "critical_friction": factor * (damping * 1e7).sqrt() })
+        };
+        let mut found = vec![entry(1, 0.06), entry(2, 0.1)];
+        found.truncate(if i < 5 { 2 } else { 1 });
+        let swept = json!({ "damping.stiffness_coefficient": damping });
+        point(i as usize + 1, swept, json!({ "cea": { "critical_frictions": found } }))
+    });
+    let records: Vec<PointRecord> = records.collect();
     let figures = draw_sweep(&records, (0.3, 1.0), &[]);
     assert_eq!(figures.len(), 1);
     let svg = figures[0].to_svg(None).unwrap();

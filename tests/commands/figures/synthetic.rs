@@ -13,9 +13,8 @@ const PAIRS: &str = "\
     14832 0 2 0 ; 16361 4 1 345 ; 16433 6 0 2 ; 16641 0 3 0 ; 17165 1 2 423 ; 17447 2 2 66";
 
 pub fn mesh(circumferential_elements: usize, radial_elements: usize) -> Mesh {
-    AnnulusMesh::generate(&crate::disc::annulus(Quad4, circumferential_elements, radial_elements))
-        .unwrap()
-        .mesh
+    let disc = annulus(Quad4, circumferential_elements, radial_elements);
+    AnnulusMesh::generate(&disc).unwrap().mesh
 }
 
 fn rayleigh(omega: f64) -> f64 {
@@ -138,13 +137,12 @@ pub fn modes(friction: f64, mesh: Option<&Mesh>) -> Vec<ComplexMode> {
 }
 
 pub fn sweep(count: usize) -> FrictionSweep {
-    let points = (0..count)
-        .map(|i| {
-            let friction_coefficient = i as f64 / (count - 1) as f64;
-            let modes = modes(friction_coefficient, None);
-            FrictionPoint { friction_coefficient, modes, above: Vec::new() }
-        })
-        .collect();
+    let points = (0..count).map(|i| {
+        let friction_coefficient = i as f64 / (count - 1) as f64;
+        let modes = modes(friction_coefficient, None);
+        FrictionPoint { friction_coefficient, modes, above: Vec::new() }
+    });
+    let points = points.collect();
     let mut intervals = Vec::new();
     for [frequency, harmonic, branch, split] in rows_of(PAIRS) {
         let (harmonic, branch) = (harmonic as usize, branch as usize);
@@ -168,8 +166,7 @@ pub fn shape(mesh: &Mesh, harmonic: usize, branch: usize, direction: i8, mu: f64
         let s = ((x.hypot(y) - 0.0205) / 0.07).clamp(0.0, 1.0);
         let profile = (PI * (branch as f64 + 0.5) * s).cos() * (1.0 - s);
         let swirl = if direction == 0 { 0.0 } else { 1.2 * mu };
-        let argument =
-            f64::from(direction) * harmonic as f64 * angle + f64::from(direction) * swirl * s * 3.0;
+        let argument = f64::from(direction) * (harmonic as f64 * angle + swirl * s * 3.0);
         let wave = c64::new(argument.cos(), -argument.sin()) * phase;
         let radial = if harmonic == 0 { 0.0 } else { 0.5 * s * profile };
         out.push(wave * c64::new(0.0, radial));
