@@ -100,10 +100,8 @@ fn solid_bodies_are_turned_and_their_modes_move() {
     check_accessibility(&browser);
     // Modes of an assembly and of a body of revolution: they move, from the side that was chosen.
     let assembly = [
-        mesh_file.as_str(),
-        "cea.friction_coefficients=[0.0,0.4]",
-        "cea.shapes_at=[0.4]",
-        "cea.max_frequency_hz=3000.0",
+        &*mesh_file,
+        "cea.friction_coefficients=[0.0,0.4] ; cea.shapes_at=[0.4] ; cea.max_frequency_hz=3000.0",
     ];
     let revolution =
         ["mesh.circumferential_elements=24 ; mesh.radial_elements=3 ; mesh.axial_elements=2 ; \
@@ -149,19 +147,14 @@ fn tables_are_sorted_and_filtered() {
     assert!(rising.is_sorted() && !before.is_sorted() && rising.len() == before.len());
     sort();
     assert!(column().iter().rev().is_sorted());
-    assert_eq!(
-        browser.run(&format!("return {head}.getAttribute('aria-sort')")),
-        json!("descending")
-    );
-    browser.run(&format!(
-        "{table}.parentElement.previousElementSibling.querySelector('input').id = 'filter'"
-    ));
+    let order = browser.run(&format!("return {head}.getAttribute('aria-sort')"));
+    assert_eq!(order, json!("descending"));
+    let above = format!("{table}.parentElement.previousElementSibling");
+    browser.run(&format!("{above}.querySelector('input').id = 'filter'"));
     browser.send("#filter", "unstable");
     let left = column();
-    assert!(
-        !left.is_empty() && left.len() < before.len() && left.iter().all(|&real| real > 0.0),
-        "{left:?}"
-    );
+    let is_part = !left.is_empty() && left.len() < before.len();
+    assert!(is_part && left.iter().all(|&real| real > 0.0), "{left:?}");
     // Nothing but a table or a picture, each in its own frame, is wider than the phone.
     let width = browser.run("return document.documentElement.scrollWidth");
     assert!(width.as_u64().unwrap() <= PHONE[0] as u64, "{width}");
@@ -239,14 +232,8 @@ fn a_run_is_zoomed_read_heard_and_taken_along() {
     assert!((heard[0].as_f64().unwrap_or(0.0) - 2.0).abs() < 1e-3, "{heard}");
     let main = summary_of(&folder)["main_frequency_hz"].as_f64().unwrap();
     // "loudest at 19.2 kHz, ...": a contact that opens may be loudest at a multiple of its main frequency.
-    let said: f64 = heard[1]
-        .as_str()
-        .unwrap()
-        .split(' ')
-        .nth(2)
-        .and_then(|number| number.parse().ok())
-        .unwrap_or_else(|| panic!("no tone is named: {heard}"));
-    let multiple = 1e3 * said / main;
+    let said = heard[1].as_str().and_then(|text| text.split(' ').nth(2)?.parse::<f64>().ok());
+    let multiple = 1e3 * said.unwrap_or_else(|| panic!("no tone is named: {heard}")) / main;
     let off = (multiple - multiple.round()).abs();
     assert!(multiple > 0.9 && off < 0.05, "{heard} {main}");
     check_page(&browser);
@@ -308,9 +295,8 @@ fn two_runs_are_compared_number_by_number_and_curve_over_curve() {
     let row = rows.iter().find(|row| row[0].ends_with(".critical_friction")).unwrap();
     let number = |at: usize| row[at].parse::<f64>().unwrap();
     assert_eq!((number(2), number(3)), (one, two), "{row:?}");
-    assert!(
-        (number(4) - (two - one)).abs() < 1e-15 && (number(5) - (two - one) / one).abs() < 1e-12
-    );
+    let apart = two - one;
+    assert!((number(4) - apart).abs() < 1e-15 && (number(5) - apart / one).abs() < 1e-12);
     let browser = Browser::open(WIDE);
     browser.visit_ready(&folder.path().join("both/report.html"));
     keep_screenshot(&browser, "compare-1280.png");

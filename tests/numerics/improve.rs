@@ -42,9 +42,8 @@ impl Body {
         let (mesh, fields) = (&*found.mesh, &found.fields[k]);
         for &node in nodes {
             let label = mesh.node_label(node);
-            let with_mass = |p: f64| {
-                vec![format!("modifications.t.at={label}"), format!("modifications.t.mass={p:?}")]
-            };
+            let at = format!("modifications.t.at={label}");
+            let with_mass = |p: f64| vec![format!("{at} ; modifications.t.mass={p:?}")];
             let by_mass = self.difference(eigenvalue, mass, &with_mass);
             near("mass", fields.mass[node], by_mass, &fields.mass);
             self.check_direction(eigenvalue, ("stiffness", spring), (mesh, node), &fields.spring);
@@ -64,13 +63,10 @@ impl Body {
         let label = mesh.node_label(node);
         let along = |direction: [f64; 3]| {
             let listed = &direction[..mesh.dimension];
-            self.difference(eigenvalue, step, &|p| {
-                vec![
-                    format!("modifications.t.at={label}"),
-                    format!("modifications.t.{key}={p:?}"),
-                    format!("modifications.t.direction={listed:?}"),
-                ]
-            })
+            let place =
+                format!("modifications.t.at={label} ; modifications.t.direction={listed:?}");
+            let with = |p| vec![format!("{place} ; modifications.t.{key}={p:?}")];
+            self.difference(eigenvalue, step, &with)
         };
         // The quadratic form from its values along the axes and between them.
         let d = mesh.dimension;
@@ -98,23 +94,17 @@ impl Body {
         let case = self.case(AS_IT_IS);
         let elastic = *case.materials().of(region);
         let weaker = |p: f64| {
-            vec![
-                format!("materials.patch.young_modulus={:?}", elastic.young_modulus * (1.0 - p)),
-                format!("materials.patch.density={:?}", elastic.density * (1.0 - p)),
-            ]
+            let [e, rho] = [elastic.young_modulus, elastic.density].map(|own| own * (1.0 - p));
+            vec![format!("materials.patch.young_modulus={e:?} ; materials.patch.density={rho:?}")]
         };
         let by_removal = self.difference(eigenvalue, 2e-3, &weaker);
         let removal = sum(&fields.removal);
         near("removal", removal, by_removal, &[by_removal]);
         let middle = own().map(|e| mesh.element_middle(e)).next().unwrap();
         let listed = &middle[..mesh.dimension];
-        let damped = |p: f64| {
-            vec![
-                format!("modifications.t.center={listed:?}"),
-                "modifications.t.radius=1e-6".to_owned(),
-                format!("modifications.t.stiffness_coefficient={p:?}"),
-            ]
-        };
+        let place = format!("modifications.t.center={listed:?} ; modifications.t.radius=1e-6");
+        let damped =
+            |p: f64| vec![format!("{place} ; modifications.t.stiffness_coefficient={p:?}")];
         let by_damping = self.difference(eigenvalue, 1e-8, &damped);
         let first = own().next().unwrap();
         near("damping", fields.damping[first] * size(first), by_damping, &[by_damping]);
@@ -163,15 +153,13 @@ fn fields_of_the_disc_are_differences_of_its_spectra() {
 /// An oval on springs and dashpots under a compliant contact: nothing is proportional.
 #[test]
 fn fields_of_an_oval_on_supports_are_differences_of_its_spectra() {
-    let body = disc(
-        |[x, y]: [f64; 2]| {
-            let outwards = (x.hypot(y) - 0.0205) / 0.07;
-            [x * (1.0 + 0.1 * outwards) + 0.004 * outwards, y]
-        },
-        "normal_stiffness = 1e14\n[boundaries.outer]\ncondition = \"support\"\n\
-         normal_stiffness = 2e13\ntangential_stiffness = 2e13\nnormal_damping = 2e3\n",
-    );
-    body.check_fields(&[7], [1e-5, 1e3, 1e-2]);
+    let place = |[x, y]: [f64; 2]| {
+        let outwards = (x.hypot(y) - 0.0205) / 0.07;
+        [x * (1.0 + 0.1 * outwards) + 0.004 * outwards, y]
+    };
+    let rest = "normal_stiffness = 1e14\n[boundaries.outer]\ncondition = \"support\"\n\
+        normal_stiffness = 2e13\ntangential_stiffness = 2e13\nnormal_damping = 2e3\n";
+    disc(place, rest).check_fields(&[7], [1e-5, 1e3, 1e-2]);
 }
 
 /// A pad on a slab of bricks, free of stress.

@@ -33,11 +33,8 @@ pub fn free(annulus: &AnnulusMesh) -> TransientModel<'_> {
 pub const LAWS: [NormalLaw; 2] = [exponential(2e5, 2e-6), cubic(5e11, 2e23)];
 
 pub fn settings(duration: f64, harmonics: &[usize]) -> TransientSettings {
-    transient_settings(
-        [duration, 4e-6, 1e-4],
-        InitialState::Rest,
-        Perturbation::of(harmonics, 1e-3),
-    )
+    let seeds = Perturbation::of(harmonics, 1e-3);
+    transient_settings([duration, 4e-6, 1e-4], InitialState::Rest, seeds)
 }
 
 /// The same, the body kicked with a velocity of its own.

@@ -43,10 +43,8 @@ fn noise_has_its_standard_deviation_in_both_directions_and_spares_the_clamped_ed
     let clamped =
         |node: usize| annulus.mesh.boundary("outer").unwrap().nodes.contains(&(node as u32));
     for component in 0..2 {
-        let values: Vec<f64> = (0..annulus.mesh.node_count())
-            .filter(|&node| !clamped(node))
-            .map(|node| field[2 * node + component])
-            .collect();
+        let free = (0..annulus.mesh.node_count()).filter(|&node| !clamped(node));
+        let values: Vec<f64> = free.map(|node| field[2 * node + component]).collect();
         let count = values.len() as f64;
         let mean = values.iter().sum::<f64>() / count;
         let square = values.iter().map(|v| v * v).sum::<f64>() / count;
