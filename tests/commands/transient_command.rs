@@ -35,8 +35,7 @@ fn assert_same(found: &Answer, expected: &Answer) {
 
 #[test]
 fn every_promised_file_column_and_summary_key_is_there() {
-    let folder = folder();
-    let answer = transient(folder.path(), &[]).done().says(&["over the last fifth"]);
+    let answer = transient("out".as_ref(), &[]).done().says(&["over the last fifth"]);
     assert_eq!(
         answer.header("probe-200.csv"),
         "time_s,u_r_m,u_theta_m,v_r_m_per_s,v_theta_m_per_s,a_r_m_per_s2,a_theta_m_per_s2"
@@ -80,10 +79,9 @@ fn a_vibration_of_two_frequencies_is_named_with_both_and_its_envelope() {
 
 #[test]
 fn a_sweep_marks_points_that_are_no_limit_cycles_in_table_report_and_figures() {
-    let folder = folder();
     let swept = "sweep={\"contact.rotation_speed_rpm\"=[1000.0, 10.0]}";
     let case = "polycarbonate-610rpm.toml";
-    let run = coarse("sweep", case, folder.path(), &TWO_FREQUENCIES).set(&[swept]);
+    let run = coarse("sweep", case, "out".as_ref(), &TWO_FREQUENCIES).set(&[swept]);
     let answer = run.done().says(&["ends in", "two-frequency", "at 1 of 2 points (1)"]);
     has(&answer.text("report.html"), &["two-frequency"]);
     for figure in ["figures/frequencies.svg", "figures/status.svg"] {
@@ -93,9 +91,8 @@ fn a_sweep_marks_points_that_are_no_limit_cycles_in_table_report_and_figures() {
 
 #[test]
 fn a_jammed_block_is_said_to_jam_and_to_leave_small_displacements() {
-    let folder = folder();
     let jams = ["contact.friction_coefficient=0.9", "transient.duration=0.002"];
-    let run = Run::of("transient", shipped("sliding-block.toml")).out(folder.path()).set(&jams);
+    let run = Run::of("transient", shipped("sliding-block.toml")).out("out").set(&jams);
     // A body without symmetry has no harmonic anywhere.
     let answer = run.done().says(&["the body jams: there is no state of steady sliding ; \
          leaves the theory of small displacements ; !harmonic ; !nodal"]);
@@ -111,9 +108,8 @@ fn a_jammed_block_is_said_to_jam_and_to_leave_small_displacements() {
 /// The slowest mode of the stable block decays by 220 1/s here: the run ends at a hundredth of the deformation, far above round-off.
 #[test]
 fn a_vibration_that_decays_ends_in_steady_sliding() {
-    let folder = folder();
     let decays = ["damping.mass_coefficient=400.0", "transient.duration=0.04"];
-    let run = Run::of("transient", shipped("sliding-block.toml")).out(folder.path()).set(&decays);
+    let run = Run::of("transient", shipped("sliding-block.toml")).out("out").set(&decays);
     let answer = run.done().says(&["The run ends in steady sliding"]);
     assert_eq!(answer.summary()["end_state"], "steady-sliding");
 }
@@ -134,10 +130,9 @@ fn a_run_from_a_limit_cycle_has_no_linear_stage() {
 
 #[test]
 fn results_scale_with_the_thickness_and_nothing_else_does() {
-    let folder = folder();
     let power = |thickness: &str| {
         let set = format!("geometry.thickness={thickness}");
-        let summary = transient(&folder.path().join(thickness), &[&set]).done().summary();
+        let summary = transient("out".as_ref(), &[&set]).done().summary();
         ["/power_w/external", "/harmonics/0"]
             .map(|at| summary.pointer(at).unwrap().as_f64().unwrap())
     };
@@ -148,10 +143,7 @@ fn results_scale_with_the_thickness_and_nothing_else_does() {
 
 #[test]
 fn results_are_the_same_bytes_for_any_number_of_threads() {
-    let folder = folder();
-    let run = |threads: &str| {
-        transient(&folder.path().join(threads), &[]).args(&["--threads", threads]).done()
-    };
+    let run = |threads| transient("out".as_ref(), &[]).args(&["--threads", threads]).done();
     assert_same(&run("1"), &run("2"));
 }
 
@@ -247,11 +239,10 @@ fn a_refused_continuation_leaves_the_finished_folder_as_it_was() {
 
 #[test]
 fn no_number_that_is_none_is_printed_or_written() {
-    let folder = folder();
     for (name, set) in
         [("still", "contact.rotation_speed_rpm=0"), ("short", "transient.duration=0.0006")]
     {
-        let answer = transient(&folder.path().join(name), &[set]).done();
+        let answer = transient("out".as_ref(), &[set]).done();
         let files = ["summary.json", "energy.csv", "contact.csv", "harmonics.csv", "probe-1.csv"];
         for text in files.map(|file| answer.text(file)).iter().chain([&answer.stdout]) {
             let words = text.split(|c: char| c.is_whitespace() || ",:(".contains(c));
@@ -286,12 +277,10 @@ fn a_damaged_checkpoint_is_refused_with_the_reason_and_left_alone() {
 
 #[test]
 fn shipped_cases_end_in_the_limit_cycles_that_their_titles_say() {
-    let folder = folder();
     for (name, harmonic, lifts_off) in
         [("polycarbonate-610rpm.toml", 2, true), ("polycarbonate-70rpm.toml", 1, false)]
     {
-        let out = folder.path().join(name);
-        let run = coarse("transient", name, &out, &["transient.duration=0.04"]);
+        let run = coarse("transient", name, "out".as_ref(), &["transient.duration=0.04"]);
         let summary = run.args(&["--no-figures"]).done().summary();
         assert_eq!(summary["main_harmonic"], harmonic, "{name}");
         let open = summary["status"]["open"].as_f64().unwrap();

@@ -47,19 +47,20 @@ fn sliders() -> impl Strategy<Value = Slider> {
             speed,
             modes,
         )| {
-            let normal = 10_f64.powf(support[0]);
+            let [normal, ratio, dashpot] = support.map(|power: f64| 10_f64.powf(power));
+            let [young_modulus, speed] = [modulus, speed].map(|power: f64| 10_f64.powf(power));
             Slider {
                 is_plane,
                 counts,
                 size,
-                young_modulus: 10_f64.powf(modulus),
+                young_modulus,
                 poisson_ratio,
                 rayleigh,
-                support: [normal, normal * 10_f64.powf(support[1]), 10_f64.powf(support[2])],
+                support: [normal, normal * ratio, dashpot],
                 contact_stiffness: springs.map(|power| 10_f64.powf(power)),
                 loss_factor,
                 friction,
-                speed: 10_f64.powf(speed),
+                speed,
                 modes,
             }
         },
@@ -189,12 +190,9 @@ fn check(slider: &Slider, is_polished: bool) -> Result<(), TestCaseError> {
         let highest = listed.iter().map(|own| own.im).fold(0.0, f64::max);
         let promised = exact.iter().filter(|own| own.im > 0.0 && -own.re < PROMISED * own.norm());
         for own in promised.filter(|own| own.im < (1.0 - 1e-6) * highest) {
-            let error = nearest(*own, &listed);
-            prop_assert!(
-                error <= tolerance(*own),
-                "{} Hz at friction {friction} is missing among {listed:?}",
-                own.im / TAU
-            );
+            let (error, hz) = (nearest(*own, &listed), own.im / TAU);
+            let said = format!("{hz} Hz at friction {friction} is missing among {listed:?}");
+            prop_assert!(error <= tolerance(*own), "{said}");
         }
     }
     Ok(())
@@ -202,11 +200,18 @@ fn check(slider: &Slider, is_polished: bool) -> Result<(), TestCaseError> {
 
 #[test]
 fn bodies_that_slide_have_every_mode_below_half_of_critical_damping() {
-    let rng = TestRng::from_seed(RngAlgorithm::ChaCha, &[11; 32]);
-    let cases = sized(12, 200);
-    let config = Config { cases, failure_persistence: None, ..Config::default() };
-    let outcome =
-        TestRunner::new_with_rng(config, rng).run(&sliders(), |slider| check(&slider, false));
+    holds_for_all(11, &sliders(), |slider| check(&slider, false));
+}
+
+/// Draws bodies, always the same of a seed, and holds each to a check.
+pub fn holds_for_all<S: Strategy>(
+    seed: u8,
+    bodies: &S,
+    check: impl Fn(S::Value) -> Result<(), TestCaseError>,
+) {
+    let rng = TestRng::from_seed(RngAlgorithm::ChaCha, &[seed; 32]);
+    let config = Config { cases: sized(12, 200), failure_persistence: None, ..Config::default() };
+    let outcome = TestRunner::new_with_rng(config, rng).run(bodies, check);
     outcome.unwrap_or_else(|error| panic!("{error}"));
 }
 

@@ -4,10 +4,9 @@
 //! that much a frequency may differ.
 
 use crate::prelude::*;
-use crate::sliding_bodies::sums;
+use crate::sliding_bodies::{holds_for_all, sums};
 use frictionsim::results::matrices::ExportedSystem;
 use proptest::prelude::*;
-use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
 
 #[derive(Clone, Debug)]
 enum Hold {
@@ -38,15 +37,11 @@ fn bodies() -> impl Strategy<Value = Body> {
     ];
     let counts = [2_usize..4, 2..4, 2..4];
     let size = [5e-3..0.1, 5e-3..0.1, 5e-3..0.1];
-    (counts, size, 7.0..13.0_f64, hold, 1_usize..24).prop_map(
-        |(counts, size, modulus, hold, modes)| Body {
-            counts,
-            size,
-            young_modulus: 10_f64.powf(modulus),
-            hold,
-            modes,
-        },
-    )
+    let all = (counts, size, 7.0..13.0_f64, hold, 1_usize..24);
+    all.prop_map(|(counts, size, modulus, hold, modes)| {
+        let young_modulus = 10_f64.powf(modulus);
+        Body { counts, size, young_modulus, hold, modes }
+    })
 }
 
 fn part(body: &Body, folder: &str) -> Case {
@@ -113,12 +108,7 @@ fn check_case(case: &Case, count: usize) -> Result<(), TestCaseError> {
 
 #[test]
 fn bodies_held_in_any_way_have_the_modes_of_a_dense_decomposition() {
-    let count = sized(12, 200);
-    let rng = TestRng::from_seed(RngAlgorithm::ChaCha, &[7; 32]);
-    let config = Config { cases: count, failure_persistence: None, ..Config::default() };
-    let mut runner = TestRunner::new_with_rng(config, rng);
-    let outcome = runner.run(&bodies(), |body| check(&body, "supported-body"));
-    outcome.unwrap_or_else(|error| panic!("{error}"));
+    holds_for_all(7, &bodies(), |body| check(&body, "supported-body"));
 }
 
 #[test]
