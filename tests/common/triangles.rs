@@ -23,10 +23,8 @@ pub fn triangles(specification: &AnnulusSpecification, is_quadratic: bool) -> Me
         let &[a, b, c, d] = mesh.element_nodes(element) else {
             unreachable!("four-node quadrilaterals");
         };
-        corners.extend(match draw() < 0.5 {
-            true => [[a, b, c], [a, c, d]],
-            false => [[a, b, d], [b, c, d]],
-        });
+        let (one, other) = ([[a, b, c], [a, c, d]], [[a, b, d], [b, c, d]]);
+        corners.extend(if draw() < 0.5 { one } else { other });
     }
     let mut middles: BTreeMap<(u32, u32), u32> = BTreeMap::new();
     let mut elements = Vec::new();

@@ -127,10 +127,8 @@ fn a_ring_on_a_bending_plate_opens_and_keeps_the_contact_conditions() {
             sector.rings.iter().zip(&base.is_pressed).zip(&base.pressures)
         {
             let depth = -base.pressed_displacement[3 * ring.nodes[0] + 2];
-            match pressed {
-                true => assert!(*pressure > 0.0 && (depth - 5e-6).abs() < 1e-18),
-                false => assert!(*pressure == 0.0 && depth >= 5e-6),
-            }
+            let is_held = *pressure > 0.0 && (depth - 5e-6).abs() < 1e-18;
+            assert!(if pressed { is_held } else { *pressure == 0.0 && depth >= 5e-6 });
         }
     }
 }

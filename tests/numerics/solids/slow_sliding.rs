@@ -51,10 +51,8 @@ fn dense_at<M: MaterialField + Clone>(
     let full = |band: &[c64]| {
         Mat::from_fn(size, size, |i, j| {
             let (row, column) = (kept[i], kept[j]);
-            match row.abs_diff(column) <= h {
-                true => band[row * (2 * h + 1) + column + h - row],
-                false => ZERO,
-            }
+            let is_in = row.abs_diff(column) <= h;
+            if is_in { band[row * (2 * h + 1) + column + h - row] } else { ZERO }
         })
     };
     // Losses are the conjugates for the other half of the plane.
@@ -64,15 +62,12 @@ fn dense_at<M: MaterialField + Clone>(
         values.into_iter().filter(move |value| value.im * sign > 0.0)
     });
     let is_standing = tangent.is_standing(n);
-    halves
-        .into_iter()
-        .flatten()
-        .filter(|value| value.im > 0.0 || !is_standing)
-        .map(|value| c64::new(value.re, value.im.abs()))
-        .filter(|value| value.im < TAU * LIMIT && value.norm() < 1.19 * TAU * LIMIT)
-        // Slower motions are creep of the contact against its dashpots.
-        .filter(|value| value.im > 0.1 * value.norm() && value.norm() > 1.2e-3 * TAU * LIMIT)
-        .collect()
+    let own = halves.into_iter().flatten().filter(|value| value.im > 0.0 || !is_standing);
+    let own = own.map(|value| c64::new(value.re, value.im.abs()));
+    let own = own.filter(|value| value.im < TAU * LIMIT && value.norm() < 1.19 * TAU * LIMIT);
+    // Slower motions are creep of the contact against its dashpots.
+    let is_slow = |own: &c64| own.im <= 0.1 * own.norm() || own.norm() <= 1.2e-3 * TAU * LIMIT;
+    own.filter(|own| !is_slow(own)).collect()
 }
 
 /// Eigenvalues of `M`, `C`, `K` from those of the inverse at a shift.
