@@ -135,3 +135,11 @@ fn what_free_modes_cannot_tell_apart_is_named() {
     };
     constants.iter().for_each(|(key, _)| has(direction, &[key]));
 }
+
+#[test]
+fn pressure_on_a_part_that_nothing_holds_is_refused() {
+    let sections =
+        "[boundaries.part_z1]\ncondition = \"pressure\"\npressure = 1e5\n[cea]\nmodes = 4\n";
+    let error = modes_and_onsets(&lining("pressed", sections, &[])).unwrap_err().to_string();
+    has(&error, &["nothing holds the bodies"]);
+}
