@@ -78,8 +78,10 @@ pub(super) fn energy(run: &RecordedRun<'_>) -> Figure {
     let inside = (0..probes).find(|&probe| !run.is_on_contact(probe)).or((probes > 0).then_some(0));
     let acceleration = inside.map(|probe| {
         let line = Line::new(&times, &run.acceleration(probe)).solid(SERIES[0], 0.45).whole();
-        let caption = format!("tangential acceleration, node {}", run.probe_label(probe));
-        panel(&times, Axis::new("*a*_{θ}", "m/s²").symmetric(), 50.0, caption).layer(line)
+        let [along, symbol] = run.directions()[run.shown_component(probe)];
+        let caption = format!("{along} acceleration, node {}", run.probe_label(probe));
+        let axis = Axis::new(&format!("*a*_{{{symbol}}}"), "m/s²").symmetric();
+        panel(&times, axis, 50.0, caption).layer(line)
     });
     let dissipated: Vec<f64> =
         contact.mean.iter().zip(&material.mean).map(|(a, b)| a + b).collect();

@@ -81,10 +81,13 @@ impl RecordedRun<'_> {
         };
         let (phase, path) = (pair(inside, 1, 3), pair(edge, 1, 0));
         let start = path.len() - path.len().div_ceil(5);
-        let metres = |name: &str| Axis::new(name, "m").prefixed();
+        let [normal, tangential, _] = self.directions();
+        let metres = |[along, symbol]: [&str; 2]| {
+            Axis::new(&format!("{along} *u*_{{{symbol}}}"), "m").prefixed()
+        };
         let panel = |y: Axis, caption: String, points: &[(f64, f64)]| {
             let before = Line::through(points[..start].iter().copied()).solid("#d0d0d0", 0.3);
-            Panel::new(metres("tangential *u*_{θ}"), y)
+            Panel::new(metres(tangential), y)
                 .height(172.0)
                 .caption(caption)
                 .layer(before.name("before"))
@@ -95,11 +98,11 @@ impl RecordedRun<'_> {
             _ => "last fifth of the run",
         };
         let last = Line::through(phase[start..].iter().copied()).solid(SERIES[1], 0.8).name(end);
-        let velocity = Axis::new("velocity *v*_{θ}", "m/s").prefixed();
+        let velocity = Axis::new(&format!("velocity *v*_{{{}}}", tangential[1]), "m/s").prefixed();
         let caption = format!("node {}, tangential", self.probe_label(inside));
         let phase_panel = panel(velocity, caption, &phase).layer(last);
         let caption = format!("contact node {}", self.probe_label(edge));
-        let path_panel = panel(metres("radial *u*_{r}"), caption, &path)
+        let path_panel = panel(metres(normal), caption, &path)
             .layers(status_curves(&path[start..], &self.traced_status(edge, start)));
         let caption = "Phase plot of an internal node (a) and path of a contact node (b), whose \
         last fifth is coloured by contact status.";

@@ -7,6 +7,7 @@ use crate::extent::Extent;
 use crate::summary::Head;
 use frictionsim_physics::contact::ContactInterface;
 use frictionsim_physics::fem::MaterialField;
+use frictionsim_physics::mesh::Counterface;
 use frictionsim_physics::transient::TransientSettings;
 
 /// What came of a run, the body that it is of, and what its figures show besides. Forces, powers and energies of the
@@ -78,11 +79,14 @@ impl RecordedRun<'_> {
         self.body.mesh.node_label(self.solved.record.probes[probe] - 1)
     }
 
-    /// What the components of a probe are along, the first, the second and the third.
-    pub(super) fn directions(&self) -> [&'static str; 3] {
-        match self.body.is_assembly() {
-            true => ["acceleration along x", "acceleration along y", "acceleration along z"],
-            false => ["radial acceleration", "tangential acceleration", "axial acceleration"],
+    /// Names and symbols of what the components of a probe are along: nothing is radial about a plane.
+    pub(super) fn directions(&self) -> [[&'static str; 2]; 3] {
+        match (self.body.is_assembly(), self.body.mesh.counterface) {
+            (true, _) => [["x", "x"], ["y", "y"], ["z", "z"]],
+            (_, Counterface::Plane { .. }) => {
+                [["normal", "n"], ["tangential", "t"], ["axial", "z"]]
+            }
+            _ => [["radial", "r"], ["tangential", "θ"], ["axial", "z"]],
         }
     }
 

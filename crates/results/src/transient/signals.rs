@@ -32,19 +32,13 @@ impl RecordedRun<'_> {
         let axis = run_axis(&times);
         let top = self.highest_frequency();
         let component = self.shown_component(probe);
-        let unit = match self.body.is_assembly() {
-            true => (["*a*_{x}", "*a*_{y}", "*a*_{z}"][component], "m/s²"),
-            false => ("*a*_{θ}", "m/s²"),
-        };
+        let [along, symbol] = self.directions()[component];
+        let unit = (&format!("*a*_{{{symbol}}}")[..], "m/s²");
         let stages = stages(self.solved);
         let largest = extremes(signal.iter().copied()).1;
         let whole = signal_panel(axis.clone(), &times, &signal, unit, 0.45);
-        let whole = with_stages(
-            whole.caption(format!("{}, node {node}", self.directions()[component])),
-            &stages,
-            (start, end),
-            largest,
-        );
+        let whole = whole.caption(format!("{along} acceleration, node {node}"));
+        let whole = with_stages(whole, &stages, (start, end), largest);
         let detail = enlarged.map(|(from, to)| {
             let first = times.partition_point(|&t| t < from);
             let axis = Axis::time().between(from, to);
@@ -114,11 +108,11 @@ impl RecordedRun<'_> {
             let end = &signal[signal.len() - signal.len().div_ceil(5)..];
             let rate = 1.0 / self.interval().max(1e-12);
             let spectrum = amplitude_spectrum(end, rate, Window::Hann, 2).unwrap_or_default();
-            (self.directions()[component], spectrum)
+            (format!("{} acceleration", self.directions()[component][0]), spectrum)
         };
         let axial = self.solved.record.axial_rows.get(probe).map(|_| 2);
         let spectra: Vec<_> = [1, 0].into_iter().chain(axial).map(spectrum_of).collect();
-        let spectra: Vec<_> = spectra.iter().map(|(name, own)| (*name, own)).collect();
+        let spectra: Vec<_> = spectra.iter().map(|(name, own)| (&name[..], own)).collect();
         let caption =
             format!("Spectra of the accelerations of node {node} over the last fifth of the run.");
         let frequencies =

@@ -60,7 +60,7 @@ pub fn document(run: &RecordedRun<'_>, summary: &TransientSummary) -> Document {
                 .text(places(summary))
                 .figures([""]),
         )
-        .section(Section::new(heading).tables([motions(summary), growth(summary, run)]))
+        .section(Section::new(heading).tables([motions(summary, run), growth(summary, run)]))
         .notes(&summary.notes)
 }
 
@@ -178,14 +178,11 @@ fn facts(summary: &TransientSummary) -> Vec<(String, String)> {
 }
 
 /// Accelerations of the probes over the last fifth of the run.
-fn motions(summary: &TransientSummary) -> Table {
+fn motions(summary: &TransientSummary, run: &RecordedRun<'_>) -> Table {
     let rows = summary.probes.iter().flat_map(|(node, motion)| {
-        let directions = [
-            ("radial", Some(motion.radial)),
-            ("tangential", Some(motion.tangential)),
-            ("axial", motion.axial),
-        ];
-        directions.into_iter().filter_map(|(name, motion)| Some((node.clone(), name, motion?)))
+        let motions = [Some(motion.radial), Some(motion.tangential), motion.axial];
+        let along = run.directions().into_iter().zip(motions);
+        along.filter_map(|(along, motion)| Some((node.clone(), along[0], motion?)))
     });
     let rows: Vec<ProbeRow> = rows.collect();
     Table::new("", "Accelerations over the last fifth of the run").columns(PROBES, &rows)
