@@ -130,6 +130,12 @@ impl SharedQuantity {
         (first != 0.0).then(|| self.difference(run) / first.abs())
     }
 
+    /// The largest of them, infinite where the first is zero.
+    fn largest_relative(&self) -> f64 {
+        let off = |run| self.relative(run).map_or(f64::INFINITY, f64::abs);
+        (1..self.values.len()).map(off).fold(0.0, f64::max)
+    }
+
     fn last_key(&self) -> &str {
         self.path.rsplit('.').next().unwrap_or(&self.path)
     }
@@ -189,6 +195,8 @@ pub fn file(runs: &[ComparedRun], quantities: &[SharedQuantity]) -> Table {
 
 /// Most lines of the table for the terminal.
 const MOST_PRINTED: usize = 30;
+/// Relative difference that is round-off.
+const ROUND_OFF: f64 = 1e-9;
 
 /// The numbers that differ, but for costs: what a person asks first, then the others, the largest relative difference
 /// first.
@@ -197,23 +205,20 @@ fn differing(quantities: &[SharedQuantity]) -> Vec<&SharedQuantity> {
     let differs = |shared: &&SharedQuantity| !shared.is_equal() && !is_cost(shared);
     let mut found: Vec<&SharedQuantity> =
         first_of(quantities).into_iter().filter(differs).collect();
-    let size = |shared: &SharedQuantity| {
-        let relative = (1..shared.values.len()).filter_map(|run| shared.relative(run));
-        relative.map(f64::abs).fold(0.0, f64::max)
-    };
     let mut others: Vec<&SharedQuantity> = quantities
         .iter()
         .filter(|shared| found.iter().all(|known| known.path != shared.path))
         .filter(differs)
         .collect();
-    frictionsim_physics::order::sort_by_number(&mut others, |a| -size(a));
+    frictionsim_physics::order::sort_by_number(&mut others, |a| -a.largest_relative());
     found.extend(others);
     found
 }
 
-/// The table for the terminal: the numbers that differ, what a person asks first above.
+/// The table for the terminal: the numbers that differ by more than round-off, what a person asks first above.
 pub fn print(runs: &[ComparedRun], quantities: &[SharedQuantity]) -> String {
-    let differing = differing(quantities);
+    let (round_off, differing): (Vec<_>, Vec<_>) =
+        differing(quantities).into_iter().partition(|own| own.largest_relative() < ROUND_OFF);
     let shown = &differing[..differing.len().min(MOST_PRINTED)];
     let mut out = table_of(("", ""), runs, shown).text();
     let costs = quantities.iter();
@@ -223,6 +228,9 @@ pub fn print(runs: &[ComparedRun], quantities: &[SharedQuantity]) -> String {
         0 => String::new(),
         more => format!("; {more} more are in compare.csv"),
     };
+    if !round_off.is_empty() {
+        out.push_str(&format!("{} of {total} differ by round-off alone\n", round_off.len()));
+    }
     out.push_str(&format!("{} of {total} shared numbers differ{beyond}\n", differing.len()));
     out
 }
@@ -302,6 +310,12 @@ mod tests {
             assert!(!text.contains(equal), "{equal}: {text}");
         }
         assert!(text.contains("1 of 6 shared numbers differ"), "{text}");
+
+        // Round-off is counted and not listed.
+        let runs = [of("a", 7e3, 1.0), of("b", 7e3 * (1.0 + 1e-14), 2.0)];
+        let text = print(&runs, &shared(&runs));
+        assert!(!text.contains("branch=1"), "{text}");
+        assert!(text.contains("1 of 6 differ by round-off"), "{text}");
     }
 
     #[test]
