@@ -70,7 +70,7 @@ pub fn document(summary: &IdentificationSummary) -> Document {
     let of_response = |own: &ResponseSummary| {
         let [from, to] = own.range_hz;
         format!(
-            "{}: {} {}, {} lines from {from} to {to} Hz.",
+            "{}: response \"{}\" ({}), {} lines from {from} to {to} Hz.",
             summary.source, own.name, own.quantity, own.lines
         )
     };

@@ -3,6 +3,7 @@
 use super::summary::{ChannelSummary, SignalSummary};
 use crate::charts::{ModeLine, run_axis, signal_panel, spectrogram_panels, spectrum_panel};
 use frictionsim_chart::{Figure, literal};
+use frictionsim_output::unit_of;
 use frictionsim_physics::parallel::map;
 use frictionsim_signal::reader::{Channel, SignalFile};
 use frictionsim_signal::{AmplitudeSpectrum, SpectrogramOptions, spectrogram};
@@ -58,7 +59,8 @@ impl SignalDrawing<'_> {
                 (Vec::new(), Some(format!("no spectrogram of {name}: {error}; try --window")))
             }
         };
-        let signal = signal_panel(axis, &times, &channel.samples, ("signal", ""), 0.45);
+        let quantity = ("signal", unit_of(&channel.name).1);
+        let signal = signal_panel(axis, &times, &channel.samples, quantity, 0.45);
         let caption = format!("Signal and spectrograms of {}.", channel.name);
         let figure = Figure::new(format!("signal-{number}"), caption)
             .shared_x()
@@ -73,7 +75,7 @@ impl SignalDrawing<'_> {
         let spectra = [(&literal(&channel.name)[..], &self.spectra[index])];
         let caption = format!("Spectrum of {} from {from:.4} to {to:.4} s.", channel.name);
         let frequencies = (self.highest(), channel.main_frequency_hz);
-        let panel = spectrum_panel(&spectra, "", frequencies, &self.modes);
+        let panel = spectrum_panel(&spectra, unit_of(&channel.name).1, frequencies, &self.modes);
         Figure::new(format!("spectrum-{}", index + 1), caption).panel(panel)
     }
 
