@@ -101,9 +101,10 @@ pub struct ContactState {
 
 columns! {
     /// A contact node and its angle, rad.
-    pub(crate) NODES: row as (usize, f64);
+    pub(crate) NODES: row as (usize, Option<f64>);
     node: "number of the contact node" = row.0;
-    angle_degrees: "its angle about the axis; along a straight edge its place" = row.1.to_degrees();
+    angle_degrees: "its angle about the axis; none along a straight edge"
+        = row.1.map(f64::to_degrees);
 }
 
 columns! {
@@ -127,7 +128,8 @@ columns! {
     /// Pressure and traction.
     pub(crate) TRACTIONS: own as ContactState;
     pressure_pa: "contact pressure" = own.pressure;
-    shear_pa: "friction traction" = own.shear;
+    shear_pa: "friction traction on the body, along `u_theta`; of solid bodies of a mesh along the sliding"
+        = own.shear;
 }
 
 columns! {
@@ -201,7 +203,10 @@ impl BaseField {
         let along = self.along_contact(body.mesh);
         let all = || along.iter().map(|own| &all[own.0]);
         let label = |own: &ContactState| body.mesh.node_label(own.place.shares[0].0 as usize);
-        let nodes = all().map(label).zip(along.iter().map(|own| own.1));
+        // The places along a straight edge are no angles.
+        let is_round = !matches!(body.mesh.counterface, Counterface::Plane { .. });
+        let angles = along.iter().map(|own| is_round.then_some(own.1));
+        let nodes = all().map(label).zip(angles);
         let table = table.columns(NODES, nodes).columns(TRACTIONS, all());
         // On an annulus every node slips, at its angle.
         if has_harmonics { table } else { table.columns(STATUS, all()).columns(PLANE, all()) }

@@ -39,7 +39,7 @@ pub(super) fn plane(mesh: &Mesh, field: &BaseField) -> Option<Figure> {
         Line::through(wrapped(points.collect(), is_closed))
     };
     let caption = "Steady sliding: von Mises stress (a), contact pressure (b) and friction traction (c) around the \
-        contact edge.";
+        contact edge. Positive traction acts counter-clockwise around a shaft and against the direction of a plane.";
     let stressed = disc.panel(0.01).layer(disc.field(von_mises, stress, ColourMap::Viridis));
     Some(with_tractions(caption, stressed, (place, 86.0), around).shared_x())
 }
