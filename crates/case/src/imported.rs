@@ -55,7 +55,9 @@ pub(super) fn contact_place(section: &Section<'_>) -> (BodySpecification, Option
         CounterfaceWord::Plane => {
             refuse_if!(direction == [0.0; 2]; section, "direction",
                 "contact.direction = [0, 0] has no direction"; "must not be zero");
-            let plane = CounterfaceSpecification::Plane { direction: Some(direction) };
+            // Without a direction of its own it lies along the contact curve.
+            let direction = Some(direction).filter(|along| *along != [0.0; 2]);
+            let plane = CounterfaceSpecification::Plane { direction };
             (plane, Some(speed.unwrap_or_else(|| section.number("speed"))))
         }
     };

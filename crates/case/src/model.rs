@@ -47,7 +47,7 @@ fn of_file(own: &mut Description<'_>, file: &str) -> (Option<Body>, Contact, Opt
     own.geometry.close();
     let bytes = imported::mesh_bytes(own.raw, file);
     let read = bytes.as_ref().ok().and_then(|bytes| bytes.read().ok());
-    let has_solids = read.is_some_and(|read| read.dimension == 3);
+    let has_solids = read.map_or(own.is_solid(), |read| read.dimension == 3);
     // What slides on what, and the axes of sectors and of materials.
     let (joints, contact, axes) = if root.has("contacts") || root.has("ties") || has_solids {
         let (parts, contact) = solid_joints(own, has_solids);

@@ -39,7 +39,8 @@ pub(super) fn usage(name: &str) -> Option<String> {
     ))
 }
 
-/// The candidate nearest to `word`, if it is near enough to be a slip of the keyboard.
+/// The candidate nearest to `word`, if it is near enough to be a slip of the keyboard; of two that are equally near
+/// the one that `word` is the beginning of.
 pub fn nearest<'a>(word: &str, candidates: impl Iterator<Item = &'a str>) -> Option<&'a str> {
     candidates
         // The distance is at least the difference of the lengths, and takes their product to find.
@@ -49,7 +50,7 @@ pub fn nearest<'a>(word: &str, candidates: impl Iterator<Item = &'a str>) -> Opt
         })
         .map(|candidate| (strsim::damerau_levenshtein(word, candidate), candidate))
         .filter(|(distance, candidate)| 3 * distance <= word.len().max(candidate.len()) + 2)
-        .min_by_key(|(distance, _)| *distance)
+        .min_by_key(|(distance, candidate)| (*distance, !candidate.starts_with(word)))
         .map(|(_, candidate)| candidate)
 }
 

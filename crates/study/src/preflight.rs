@@ -2,6 +2,7 @@
 
 use super::eigenvalues::Solver;
 use super::improve;
+use super::plan::SweepPlan;
 use super::response::FrequencyStudy;
 use super::transient::TransientStudy;
 use super::{StudyError, eigenvalues};
@@ -61,6 +62,9 @@ pub fn preflight(case: &Case, available: f64) -> Result<Preflight, StudyError> {
     }
     if commands.contains(&"cycle") {
         case.require_cycle()?;
+    }
+    if commands.contains(&"sweep") {
+        SweepPlan::new(case)?;
     }
     let is_small = found.cost.nodes <= MOST_NODES;
     let is_solved = found.cost.dofs <= MOST_SOLVED;

@@ -105,7 +105,7 @@ pub(super) fn interference(case: &Case) -> Option<Diagnostic> {
     let (what, label) = if delta > LARGEST_INTERFERENCE * a {
         let share = delta / a;
         let what = format!(
-            "is {share:.3} of {name} = {a} m: a model of small displacements holds below \
+            "is {share:.3} times {name} = {a} m: a model of small displacements holds below \
              {LARGEST_INTERFERENCE}"
         );
         (what, "more than 5 %")
@@ -119,8 +119,14 @@ pub(super) fn interference(case: &Case) -> Option<Diagnostic> {
         );
         (what, "a large pressure")
     };
-    Some(diagnosis!(case, key, "{key} = {delta} m {what}";
-        "{label}"; "is it in metres? 25 micrometres are 25e-6"))
+    let force = case.contact_key("normal_force");
+    Some(match case.number(&force) {
+        Some(own) => diagnosis!(case, &force,
+            "{force} = {own} N pushes the counterface in by {delta:.3e} m, which {what}";
+            "{label}"; "is it in newtons, and for each metre where geometry.thickness is left out?"),
+        None => diagnosis!(case, key, "{key} = {delta} m {what}";
+            "{label}"; "is it in metres? 25 micrometres are 25e-6"),
+    })
 }
 
 /// A surface that stands deeper inside its rigid counterface than this is pushed in.

@@ -1,8 +1,9 @@
 //! Materials that hardly any solid has.
 
 use super::Limit;
-use crate::{Case, Diagnostic, ModeLimit, RawValue, diagnosis};
-use frictionsim_physics::fem::PlaneFormulation;
+use crate::value::quote;
+use crate::{Case, Diagnostic, ModeLimit, diagnosis};
+use frictionsim_physics::fem::{ElasticMaterial, PlaneFormulation};
 use std::ops::RangeInclusive;
 
 /// Speeds of waves in a bar, m/s: soft rubber to ceramics.
@@ -19,17 +20,10 @@ pub(super) fn bar_wave_speed(case: &Case) -> f64 {
     (case.material.young_modulus / case.material.density).sqrt()
 }
 
-/// A key of `[material]`, or of the first region where every region has a section of its own.
+/// A key of the material of the first region.
 pub(crate) fn material_key(case: &Case, key: &str) -> String {
-    let common = format!("material.{key}");
-    let regions = case.raw.find("materials").map(|item| &item.value);
-    match (case.raw.find(&common), regions) {
-        (None, Some(RawValue::Table(regions))) => {
-            let region = regions.keys().next().map(|name| format!("materials.{name}.{key}"));
-            region.filter(|own| case.raw.find(own).is_some()).unwrap_or(common)
-        }
-        _ => common,
-    }
+    let first = regions(case).into_iter().next();
+    format!("{}.{key}", first.map_or_else(|| "material".to_owned(), |own| own.0))
 }
 
 /// The key that sets the modulus of that material: of an orthotropic one the list, of whose values the mean is judged.
@@ -40,15 +34,34 @@ pub(super) fn modulus_key(case: &Case) -> String {
     }
 }
 
-/// Speed of waves in a bar, `sqrt(E / rho)`.
+/// The material of each region with the section that gives it.
+fn regions(case: &Case) -> Vec<(String, &ElasticMaterial)> {
+    // Of an annulus there are the disc and the shaft in it.
+    let generated = || vec![String::new(), "shaft".to_owned()];
+    let names = case.body.whole_mesh().map_or_else(generated, |mesh| mesh.regions.clone());
+    let section = |name: String| {
+        let own = format!("materials.{}", quote(&name));
+        let is_given = case.number(&format!("{own}.density")).is_some();
+        if is_given { own } else { "material".to_owned() }
+    };
+    names.into_iter().map(section).zip(case.body.materials.iter().map(|own| &own.elastic)).collect()
+}
+
+/// Speed of waves in a bar of the material of each region, `sqrt(E / rho)`: what is least possible first.
 pub(super) fn wave_speed(case: &Case) -> Option<Limit> {
-    let (modulus, density) = (case.material.young_modulus, case.material.density);
-    let speed = bar_wave_speed(case);
+    let found = regions(case).into_iter().filter_map(|own| wave_speed_in(case, own));
+    found.min_by_key(|limit| limit.is_possible)
+}
+
+fn wave_speed_in(case: &Case, (section, own): (String, &ElasticMaterial)) -> Option<Limit> {
+    let (modulus, density) = (own.young_modulus, own.density);
+    let speed = (modulus / density).sqrt();
     if WAVE_SPEEDS.contains(&speed) {
         return None;
     }
     // The one that no solid has; rigid ones are within a factor of ten.
-    let [modulus_key, density_key] = [modulus_key(case), material_key(case, "density")];
+    let name = if own.orthotropy.is_some() { "young_moduli" } else { "young_modulus" };
+    let [modulus_key, density_key] = [name, "density"].map(|key| format!("{section}.{key}"));
     let (key, label) = match DENSITIES.contains(&density) {
         true => (&modulus_key, "pascals?"),
         false => (&density_key, "kg/m3?"),
@@ -65,7 +78,7 @@ pub(super) fn density(case: &Case) -> Option<Diagnostic> {
     let parameters = case.model_numbers();
     let densities = parameters.into_iter().filter(|(key, _)| key.ends_with(".density"));
     let (key, value) = densities.into_iter().find(|(_, value)| !DENSITIES.contains(value))?;
-    let is_said = wave_speed(case).is_some() && key == material_key(case, "density");
+    let is_said = wave_speed(case).is_some_and(|limit| limit.said.message.contains(&key));
     (!is_said).then(|| {
         let [least, most] = [DENSITIES.start(), DENSITIES.end()];
         diagnosis!(case, &key, "{key} = {value:?} kg/m3 is outside {least} to {most} kg/m3";
@@ -75,12 +88,12 @@ pub(super) fn density(case: &Case) -> Option<Diagnostic> {
 
 /// A ratio at which elements lock.
 pub(super) fn poisson_ratio(case: &Case) -> Option<Diagnostic> {
-    let ratio = case.material.poisson_ratio;
-    let is_plane_stress = case.material.formulation == PlaneFormulation::PlaneStress;
-    if ratio <= LARGEST_POISSON_RATIO || is_plane_stress || case.material.orthotropy.is_some() {
-        return None;
-    }
-    let key = material_key(case, "poisson_ratio");
+    let locks = |own: &ElasticMaterial| {
+        let is_plane_stress = own.formulation == PlaneFormulation::PlaneStress;
+        own.poisson_ratio > LARGEST_POISSON_RATIO && !is_plane_stress && own.orthotropy.is_none()
+    };
+    let (section, own) = regions(case).into_iter().find(|own| locks(own.1))?;
+    let (key, ratio) = (format!("{section}.poisson_ratio"), own.poisson_ratio);
     // c_p grows with sqrt((1 - nu) / ((1 + nu) (1 - 2 nu))).
     let shrinks = 0.55 / (1.45 * 0.1) / ((1.0 - ratio) / ((1.0 + ratio) * (1.0 - 2.0 * ratio)));
     Some(diagnosis!(case, &key,
@@ -94,7 +107,7 @@ pub(super) fn poisson_ratio(case: &Case) -> Option<Diagnostic> {
 pub(super) fn overdamping(case: &Case) -> Option<Diagnostic> {
     let limit = match case.cea.as_ref().map(|cea| cea.modes) {
         Some(ModeLimit::MaxFrequency(limit)) => limit,
-        _ => (bar_wave_speed(case) / (4.0 * case.body.size())).round(),
+        _ => (bar_wave_speed(case) / (4.0 * case.body.size())).round().max(1.0),
     };
     let zeta = case.damping.rayleigh.damping_factor(std::f64::consts::TAU * limit);
     (zeta > 1.0).then(|| {

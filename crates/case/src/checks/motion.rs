@@ -75,7 +75,7 @@ pub(super) fn seeds(case: &Case) -> Option<Limit> {
     (share > LARGEST_SEED).then(|| {
         let said = diagnosis!(case, key,
             "{key}: a seed of {largest:e} m/s is {share:.1e} times the speed of waves in the \
-             material, {speed:.0} m/s: its strains are not small"; "metres per second?";
+             material, {speed:.1e} m/s: its strains are not small"; "metres per second?";
             "seeds of a linear stage are about 1e-3 m/s, or with relative = true a small share of \
              the slip speed");
         Limit { is_possible: share <= 1.0, said }

@@ -68,10 +68,13 @@ fn refuse_rest(case: &Case) -> Result<(), CaseErrors> {
     if case.contact.sliding.rotation_speed != 0.0 || !has_contact {
         return Ok(());
     }
-    let key = case.speed_key();
+    let (key, why) = match case.speed_key() {
+        none if none == "motion" => ("contacts".to_owned(), "no [motion.REGION] moves a body".into()),
+        key => (key.clone(), format!("{key} = 0")),
+    };
     Err(refusal!(case, &key,
-        "{key} = 0: the contact sticks at rest, and there is no steady sliding whose eigenvalues \
-         could be solved";
+        "{why}: the contact sticks at rest, and there is no steady sliding whose eigenvalues could \
+         be solved";
         "must not be zero for an eigenvalue analysis";
         "give a speed, however small; its sign is the sense of the sliding"))
 }
