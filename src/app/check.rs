@@ -81,13 +81,12 @@ fn check(path: &Path, name: &str, changes: &CaseChanges) -> Result<(String, Valu
     }
     let case = read_case(path, &overrides)?;
     let found = preflight(&case, machine_memory());
-    if found.is_err() {
+    let found = found.map_err(Failure::from).inspect_err(|failure| {
         // An implausible value is often the cause of what cannot run.
-        for warning in &case.warnings {
-            terminal::warn(warning);
-        }
-    }
-    let found = found?;
+        let said = failure.messages().join("\n");
+        let unsaid = case.warnings.iter().filter(|warning| !said.contains(&warning.message));
+        unsaid.for_each(terminal::warn);
+    })?;
     if changes.deny_warnings {
         case.deny_warnings(&found.warnings)?;
     }
