@@ -69,7 +69,7 @@ fn refuse_rest(case: &Case) -> Result<(), CaseErrors> {
         return Ok(());
     }
     let (key, why) = match case.speed_key() {
-        none if none == "motion" => ("contacts".to_owned(), "no [motion.REGION] moves a body".into()),
+        none if none == "motion" => ("contacts".to_owned(), "no [motion.*] moves a body".into()),
         key => (key.clone(), format!("{key} = 0")),
     };
     Err(refusal!(case, &key,
