@@ -1,7 +1,6 @@
 //! Materials that hardly any solid has.
 
 use super::Limit;
-use crate::value::quote;
 use crate::{Case, Diagnostic, ModeLimit, diagnosis};
 use frictionsim_physics::fem::{ElasticMaterial, PlaneFormulation};
 use std::ops::RangeInclusive;
@@ -40,7 +39,7 @@ fn regions(case: &Case) -> Vec<(String, &ElasticMaterial)> {
     let generated = || vec![String::new(), "shaft".to_owned()];
     let names = case.body.whole_mesh().map_or_else(generated, |mesh| mesh.regions.clone());
     let section = |name: String| {
-        let own = format!("materials.{}", quote(&name));
+        let own = format!("materials.{name}");
         let is_given = case.number(&format!("{own}.density")).is_some();
         if is_given { own } else { "material".to_owned() }
     };
