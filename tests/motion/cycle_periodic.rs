@@ -60,6 +60,25 @@ fn the_cycle_of_a_block_is_that_of_its_transient() {
     assert!((shift.re - 1.0).abs() < 0.01 && shift.im.abs() < 1e-9, "{shift}");
 }
 
+/// Nodes that set out at whole steps under falling friction take the shift in phase as far as 1.5 from 1: no perturbation that
+/// grows. A transient of a hundred periods is the judge.
+#[test]
+fn a_cycle_on_which_a_transient_stays_is_not_called_unstable() {
+    let cycle = "cycle={ onsets = \"lowest\", confirmation_periods = 100 }";
+    for [decay_speed, speed] in [[0.63, 1.5], [0.3, 3.0]] {
+        let law = format!(
+            "contact.static_friction_ratio=1.4 ; contact.decay_speed={decay_speed:?} ; \
+             contact.speed={speed:?}"
+        );
+        let result = cycles(&block(&[&law, cycle])).remove(0);
+        let cycle = found(&result);
+        let confirmation = cycle.confirmation.as_ref().unwrap();
+        assert!(confirmation.agrees_with(&cycle.motion), "{confirmation:?}");
+        let multipliers = cycle.stability.as_ref().unwrap().as_ref().unwrap();
+        assert_ne!(multipliers.verdict(), Verdict::Unstable, "{multipliers:?}");
+    }
+}
+
 #[test]
 fn springs_and_dashpots_of_the_contact_are_those_of_the_transient() {
     let springs = ["contact.normal_stiffness=2e13", "contact.tangential_damping=1e3"];

@@ -15,8 +15,9 @@ const DIMENSIONS: [usize; 3] = [16, 100, 4];
 /// Length of a perturbation, relative to the amplitude: so large that some nodes change their status at another step, whose kinks
 /// then count as they do in the motion.
 const PERTURBATION: f64 = 3e-3;
-/// A multiplier within this of 1 whose direction has this share along the motion is the shift in phase.
-const NEUTRAL: [f64; 2] = [0.1, 0.7];
+/// A multiplier whose logarithm is within this of 0 and whose direction has this share along the motion is the shift in phase. A
+/// node that starts to slip where friction falls with speed, at a whole step, takes it as far from 1 as 1.5.
+const NEUTRAL: [f64; 2] = [0.5, 0.7];
 
 impl FloquetMultipliers {
     /// Arnoldi's process on differences of the period map at a periodic motion, until the leading multipliers have converged.
@@ -43,7 +44,7 @@ impl FloquetMultipliers {
             dimensions: DIMENSIONS,
             converged: CONVERGED,
             listed: LISTED,
-            is_shift: &|own| (own.value - 1.0).norm() < reach && own.along > least,
+            is_shift: &|own| own.value.ln().norm() < reach && own.along > least,
         };
         let found = search.run(&unit(start), image.rate.clone(), &mut apply);
         let found = found.map_err(|dimension| {
@@ -52,12 +53,13 @@ impl FloquetMultipliers {
                  after {dimension} periods; let a transient tell (cycle.confirmation_periods)"
             ))
         })?;
-        // Nodes change their status at whole steps, so that differences of the map in opposite directions are not quite opposite: a bend.
+        // A node that changes its status bends the map: it has another slope along a direction than against it, and a
+        // perturbation may meet either of them. Known is the one along; the other is smaller by as much as this at most.
         let first_listed = &found.listed[0];
         let along = unit(found.vector(first_listed).iter().map(|value| value.re).collect());
         let against: Vec<f64> = along.iter().map(|value| -value).collect();
         let sums = apply(&along).into_iter().zip(apply(&against));
-        let sums: Vec<f64> = sums.map(|(one, other)| 0.5 * (one + other)).collect();
+        let sums: Vec<f64> = sums.map(|(one, other)| one + other).collect();
         let bend = norm(&sums) / first_listed.value.norm();
         let periods = map.periods() - first;
         // What is open of every rate: how far the shift is from 1, the residual, and the bend.
