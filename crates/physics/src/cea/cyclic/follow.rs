@@ -36,6 +36,9 @@ pub(super) struct Follower<'a> {
 /// Largest number of Rayleigh quotient iterations for one point.
 const ITERATIONS: usize = 8;
 
+/// Distance of two points of a path below which their difference tells nothing of its curvature.
+const CLOSE: f64 = 1e-6;
+
 /// How far a shift is moved off an eigenvalue, relative to it: well within the reach of the iteration.
 const MOVED: f64 = 1e-9;
 
@@ -187,15 +190,16 @@ fn is_continuation(last: &Eigenpair, next: &Eigenpair, control: StepControl) -> 
         && defect <= control.largest_defect * next.theta.norm()
 }
 
-/// Cubic through the last two points and slopes, or the tangent of the only one.
+/// Cubic through the last two points and slopes; the tangent of the last where it is alone, or the one before so close that their
+/// difference is round-off, as of 0.35 and 0.35 from a sum.
 fn extrapolate(path: &[Eigenpair], goal: f64) -> c64 {
     let last = &path[path.len() - 1];
     let ahead = goal - last.parameter;
-    if path.len() < 2 {
+    let before = &path[path.len().saturating_sub(2)];
+    let h = last.parameter - before.parameter;
+    if h.abs() < CLOSE {
         return last.theta + last.rate * ahead;
     }
-    let before = &path[path.len() - 2];
-    let h = last.parameter - before.parameter;
     let secant = (last.theta - before.theta) / h;
     let curvature = (last.rate - secant) / h;
     let twist = (last.rate + before.rate - secant * 2.0) / (h * h);
