@@ -35,7 +35,7 @@ pub struct TrackedBranch {
     pub label: BranchLabel,
     /// Its index among the modes of each point; `None` before it entered the range.
     pub modes: Vec<Option<usize>>,
-    /// What it was on its way between the points, where it began to grow or ceased to.
+    /// What it was on its way between the points, where it began to grow or ceased to, or may have done both.
     pub passed: Vec<ModeAt>,
     /// Where a branch of wanted modes ends.
     pub end: Option<BranchEnd>,
@@ -67,6 +67,11 @@ impl BranchEnd {
 fn may_vanish(mode: &ReducedMode, step: f64) -> bool {
     let decay = -(mode.eigenvalue.re + mode.derivative.re * step);
     decay > NEARLY_CRITICAL * mode.eigenvalue.norm()
+}
+
+/// Whether the growth of a mode may change its sign within a step of friction, either way.
+fn may_turn(mode: &ReducedMode, step: f64) -> bool {
+    mode.eigenvalue.re.abs() < mode.derivative.re.abs() * step
 }
 
 /// Whether a mode lies above what is wanted at the next friction coefficient, by more than it may be wrong there: of the lowest ones
@@ -275,8 +280,10 @@ fn match_modes(
         let links = first.into_iter().zip(from.1).map(|(link, own)| {
             let (i, mut passed) = link?;
             let (j, beyond) = second[i].clone()?;
-            if modes[i].is_growing() != own.is_growing() || !passed.is_empty() {
-                passed.push(ModeAt { mu: middle, mode: modes[i].clone() });
+            let mode = &modes[i];
+            let changes = mode.is_growing() != own.is_growing() || !passed.is_empty();
+            if changes || may_turn(mode, middle - from.0) {
+                passed.push(ModeAt { mu: middle, mode: mode.clone() });
             }
             passed.extend(beyond);
             Ok((j, passed))
