@@ -95,3 +95,17 @@ fn branches_are_followed_past_an_eigenvalue_predicted_to_the_last_bit() {
         assert!((a.critical_friction - b.critical_friction).abs() < 1e-8, "{a:?} {b:?}");
     }
 }
+
+/// Of 0.35 and the number before it a cubic through both is noise.
+#[test]
+fn branches_are_followed_past_two_friction_values_a_rounding_apart() {
+    let model = paper(Quad4, 40, 8);
+    let intervals = |frictions: &[f64]| model.swept(frictions, MaxFrequency(12e3)).sweep.intervals;
+    let once = intervals(&[0.0, 0.1, 0.35, 0.4, 0.7]);
+    let twice = intervals(&[0.0, 0.1, 0.35_f64.next_down(), 0.35, 0.4, 0.7]);
+    assert!(!once.is_empty());
+    assert_eq!(once.len(), twice.len());
+    for (a, b) in once.iter().zip(&twice) {
+        assert!((a.critical_friction - b.critical_friction).abs() < 1e-9, "{a:?} {b:?}");
+    }
+}
