@@ -183,21 +183,28 @@ impl<'a> Assembly<'a> {
     /// # Errors
     /// As [`Self::range`].
     pub fn state(&self, friction_coefficient: f64) -> Result<PressedState, PrestressError> {
-        let PressedRange { states, state_of, .. } = self.range(&[friction_coefficient], None)?;
+        let PressedRange { states, state_of, .. } = self.range(&[friction_coefficient])?;
         let state = state_of.first().copied().and_then(|at| states.into_iter().nth(at));
         state.ok_or(PrestressError::NoState { friction_coefficient })
     }
 
-    /// Base states at every one of `friction_coefficients`, over the points of all contacts in turn: what is `known` of them from
-    /// fewer friction coefficients is not computed again.
+    /// Base states at every one of `friction_coefficients`, over the points of all contacts in turn.
     ///
     /// # Errors
     /// [`PrestressError::GapEverywhere`], [`PrestressError::NoState`], [`PrestressError::Singular`]; of an annulus
     /// [`PrestressError::Separation`] where a node would open.
-    pub fn range(
+    pub fn range(&self, friction_coefficients: &[f64]) -> Result<PressedRange, PrestressError> {
+        self.range_beyond(None, friction_coefficients)
+    }
+
+    /// [`Self::range`] without computing again what is `known` from fewer friction coefficients.
+    ///
+    /// # Errors
+    /// As [`Self::range`].
+    pub fn range_beyond(
         &self,
-        friction_coefficients: &[f64],
         known: Option<&PressedRange>,
+        friction_coefficients: &[f64],
     ) -> Result<PressedRange, PrestressError> {
         // The points of all contacts in turn, each with its contact.
         let contacts = self.contacts();

@@ -49,7 +49,7 @@ impl WholeMesh {
         let assembly = assembled(case, &mesh, &options)?;
         let own = [case.contact.sliding.friction_coefficient];
         let start = start_of(assembly.contacts());
-        let range = assembly.range(&[frictions, start, &own].concat(), None)?;
+        let range = assembly.range(&[frictions, start, &own].concat())?;
         let (symmetry, joined) = (used_symmetry(case, &mesh), assembly.joined);
         Ok(Self { symmetry, mesh, range, options, joined })
     }
@@ -66,7 +66,7 @@ impl WholeMesh {
             2 => &own[..],
             _ => start_of(assembly.contacts()),
         };
-        Ok(assembly.range(&[frictions, further].concat(), Some(known))?)
+        Ok(assembly.range_beyond(Some(known), &[frictions, further].concat())?)
     }
 
     /// The model of a case with the base states of this one: for a case that differs in nothing that these depend on.
