@@ -130,7 +130,7 @@ fn an_unstable_mode_consists_of_the_modes_without_friction() {
 }
 
 /// Exact identities, whatever presses: the growth that the contact points feed adds up to what the contacts feed in the budget, on
-/// springs and rigid, in the plane and in space, friction constant and falling.
+/// springs with losses and rigid, in the plane and in space, friction constant and falling.
 #[test]
 fn the_feed_over_the_contact_points_adds_up_to_that_of_the_contacts() {
     let text = coarse_disc("[cea]\nmodes = 10\n");
@@ -138,7 +138,8 @@ fn the_feed_over_the_contact_points_adds_up_to_that_of_the_contacts() {
     let brake = &shipped("operating-matrix.toml");
     let soft = ["cea.max_frequency_hz=2800 ; cea.friction_coefficients=[0.4] ; \
          materials.Outer_Lining.young_modulus=3e9 ; materials.Inner_Lining.young_modulus=3e9"];
-    let compliant = ["contact.normal_stiffness=7.4e12", "cea.method=\"sparse\""];
+    let compliant =
+        ["contact.normal_stiffness=7.4e12 ; contact.loss_factor=0.02", "cea.method=\"sparse\""];
     let falling = ["contact.static_friction_ratio=1.3", "contact.decay_speed=1.0"];
     let disc = "disc.toml";
     // Contact that opens: each state is a polynomial of its own in friction.

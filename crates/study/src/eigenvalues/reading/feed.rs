@@ -1,11 +1,12 @@
 //! Where on the contact surfaces friction feeds the unstable modes, point by point.
 //!
-//! The forces of the bodies are `f = sum_i dN_i (n_i + mu drag_i t_i) - sum_i (lambda C_i + K_i)
-//! phi` over the contact points `i`. A rigid one has an unknown `dN_i = lift_i . (f + sum_j (lambda
-//! C_j + K_j) phi)`. The growth rate that a point feeds is
+//! The forces of the bodies are `f = sum_i dN_i (n_i + mu drag_i t_i) - sum_i D_i phi` over the
+//! contact points `i`, with `D_i = lambda C_i + K_i + i H_i` of dashpots, stiffness and structural
+//! damping. A rigid one has an unknown `dN_i = lift_i . (f + sum_j D_j phi)`. The growth rate that a
+//! point feeds is
 //!
 //! ```text
-//! sigma_i = Im(conj(n_i.phi + mu drag_i t_i.phi) dN_i - phi^H (lambda C_i + K_i) phi) / (2 omega m)
+//! sigma_i = Im(conj(n_i.phi + mu drag_i t_i.phi) dN_i - phi^H D_i phi) / (2 omega m)
 //! ```
 //!
 //! and their sum what the contact feeds in the budget, without a remainder.
@@ -20,8 +21,8 @@ use frictionsim_physics::fem::Triplets;
 use frictionsim_physics::linalg::c64;
 use frictionsim_results::cea::ModeFeed;
 
-/// Stiffness and dashpots of one point over all dofs at a friction coefficient.
-type PointTerms = [Vec<(usize, usize, f64)>; 2];
+/// Stiffness, dashpots and structural damping of one point over all dofs at a friction coefficient.
+type PointTerms = [Vec<(usize, usize, f64)>; 3];
 
 /// The feed of every unstable mode at the case's own friction coefficient.
 pub(super) fn feed(parts: &Parts<'_>, points: &[&FrictionPoint]) -> Vec<ModeFeed> {
@@ -55,7 +56,7 @@ pub(super) fn feed(parts: &Parts<'_>, points: &[&FrictionPoint]) -> Vec<ModeFeed
         let (lambda, phi) = (shapes.modes[i].1.eigenvalue, shapes.column(i));
         // beta_R multiplies stiffness of prestress and contact too, where the damping has them.
         let of_stiffness = c64::ONE + lambda * beta;
-        let factors = [of_stiffness, lambda];
+        let factors = [of_stiffness, lambda, c64::I];
         for own in &terms {
             for (entries, factor) in own.iter().zip(factors) {
                 for &(row, column, value) in entries {
@@ -88,8 +89,8 @@ fn held(own: &BasePoint<'_>, friction: f64, phi: &[c64], forces: &[c64]) -> f64 
     (moved.conj() * normal).im
 }
 
-/// `phi^H (f_K K_i + f_C C_i) phi`.
-fn form(terms: &PointTerms, factors: [c64; 2], phi: &[c64]) -> c64 {
+/// `phi^H (f_K K_i + f_C C_i + f_H H_i) phi`.
+fn form(terms: &PointTerms, factors: [c64; 3], phi: &[c64]) -> c64 {
     let mut sum = c64::ZERO;
     for (entries, factor) in terms.iter().zip(factors) {
         let own = entries.iter();
@@ -99,7 +100,7 @@ fn form(terms: &PointTerms, factors: [c64; 2], phi: &[c64]) -> c64 {
     sum
 }
 
-/// What one point adds to the stiffness and to the dashpots.
+/// What one point adds to the stiffness, to the dashpots and to the structural damping.
 fn terms(own: &BasePoint<'_>, state: (&PressedState, usize), friction: f64) -> PointTerms {
     let point = std::slice::from_ref(own.point);
     let found = linearized(point, state, &own.stiffness);
@@ -113,5 +114,5 @@ fn terms(own: &BasePoint<'_>, state: (&PressedState, usize), friction: f64) -> P
     };
     let mut stiffness = at(&found.stiffness);
     stiffness.extend(at(&turned(point, own.turning.as_slice(), state)));
-    [stiffness, at(&found.dashpots)]
+    [stiffness, at(&found.dashpots), at(&found.structural)]
 }
