@@ -120,3 +120,23 @@ fn modes_near_jamming_are_listed_as_far_as_rounding_lets_them() {
         assert!((beside / alone - 1.0).abs() < 1e-3, "{beside} {alone}");
     }
 }
+
+/// Independent: the whole mesh. Friction that falls steeply ends the oscillation of the lowest mode, and the third lowest
+/// comes from far above those at rest.
+#[test]
+fn the_lowest_modes_are_as_many_where_one_stops_oscillating() {
+    let folder = folder_with(&[("disc.toml", disc_of([18, 3], "[cea]\nmodes = 3\n").as_bytes())]);
+    let steep = "contact.static_friction_ratio=4.0 ; contact.decay_speed=0.4 ; \
+         contact.rotation_speed_rpm=200 ; contact.normal_stiffness=1e12 ; \
+         boundaries.outer={condition=\"support\",normal_stiffness=2e12,tangential_stiffness=1e7}";
+    let [cyclic, sparse] = ["cyclic", "sparse"].map(|method| {
+        let method = format!("cea.method=\"{method}\"");
+        let run = Run::of("cea", "disc.toml").within(folder.path()).out("out").args(&["--force"]);
+        let set = [steep, "material.loss_factor=0.01", "cea.friction_coefficients=[0.0, 0.3]"];
+        run.set(&set).set(&[method.as_str()]).done().modes("0.3")
+    });
+    assert_eq!([cyclic.len(), sparse.len()], [3, 3]);
+    for (a, b) in cyclic.iter().zip(&sparse) {
+        assert!((a[0] - b[0]).abs() < 1e-8 * b[0], "{a:?} {b:?}");
+    }
+}

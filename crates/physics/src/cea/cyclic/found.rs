@@ -2,7 +2,9 @@
 
 use super::branch::branches_of;
 use super::paths::{HarmonicPaths, Overdamped};
-use crate::cea::{CeaError, ComplexMode, FrictionPoint, FrictionSweep, ModeBranch, SweepRequest};
+use crate::cea::{
+    CeaError, ComplexMode, FrictionPoint, FrictionSweep, ModeBranch, ModeLimit, SweepRequest,
+};
 use crate::prestress::WaveTangent;
 use std::f64::consts::TAU;
 
@@ -83,6 +85,14 @@ pub(super) struct Found {
 }
 
 impl Found {
+    /// Whether a friction value has fewer modes than the lowest asked for.
+    pub fn is_short_of(&self, limit: ModeLimit) -> bool {
+        let ModeLimit::Lowest(asked) = limit else {
+            return false;
+        };
+        self.points.iter().any(|point| point.modes.len() < asked)
+    }
+
     /// The sweep of what was found over friction coefficients `grid`, with the other harmonics that are proven and counted empty.
     pub fn sweep(
         self,

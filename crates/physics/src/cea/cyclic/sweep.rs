@@ -17,7 +17,8 @@ use std::f64::consts::TAU;
 /// Branches are followed from this much above the highest frequency wanted: friction may carry a mode down into the range.
 const MARGIN: f64 = 1.2;
 
-/// How often the margin is raised, by its own factor, where a branch comes from above it.
+/// How often the margin is raised, by its own factor, where a branch comes from above it, or too few
+/// modes are found.
 const MARGIN_ATTEMPTS: usize = 4;
 
 /// Eigenvalues of steady sliding of a plane annulus over a range of friction coefficients.
@@ -53,8 +54,10 @@ pub fn wave_sweep(
     let is_verified = is_direct || request.count_modes && tangent.tables().next().is_none();
     let mut margin = MARGIN;
     let mut failure = None;
-    for _ in 0..if is_direct { MARGIN_ATTEMPTS } else { 1 } {
-        match follow(&mut tangent, &wanted, margin, None) {
+    for attempt in 1..=MARGIN_ATTEMPTS {
+        let error = match follow(&mut tangent, &wanted, margin, None) {
+            // Where modes stop to oscillate, others from above the margin are among the lowest.
+            Ok((found, _)) if attempt < MARGIN_ATTEMPTS && found.is_short_of(request.limit) => None,
             Ok((found, counted)) => {
                 let empty = match is_verified {
                     true => verify(&tangent, &found.followed, found.limit, &wanted.grid),
@@ -62,12 +65,16 @@ pub fn wave_sweep(
                 };
                 match empty {
                     Ok(empty) => return Ok(found.sweep(tangent, &wanted.grid, empty, is_verified)),
-                    Err(harmonic) => failure = Some(CeaError::Unproven { harmonic, margin }),
+                    Err(harmonic) => Some(CeaError::Unproven { harmonic, margin }),
                 }
             }
             // The branch that it meets may lie above the margin.
-            Err(error @ CeaError::LostHarmonic { .. }) => failure = Some(error),
+            Err(error @ CeaError::LostHarmonic { .. }) => Some(error),
             Err(error) => return Err(error),
+        };
+        match error {
+            Some(error) if !is_direct => return Err(error),
+            error => failure = error.or(failure),
         }
         margin *= MARGIN;
     }
