@@ -358,5 +358,5 @@ fn a_failed_write_leaves_the_earlier_file_whole() {
     assert!(matches!(error, FolderError::DiskFull(_)), "{error}");
     has(&error.to_string(), &["table.csv"]);
     assert_eq!(fs::read(folder.path().join("table.csv")).unwrap(), b"whole");
-    assert_eq!(names_in(folder.path()), [".lock", "manifest.json", "table.csv"]);
+    assert_eq!(names_in(folder.path()), [".lock", ".written", "manifest.json", "table.csv"]);
 }

@@ -1,10 +1,10 @@
 //! Bodies of one mesh that slide: on each other or on a counterface, solid ones tied together.
 
 use super::cholesky::CholeskySolver;
-use super::complementarity::PressedRange;
 use super::elimination::Elimination;
 use super::full_sliding::{FullSliding, check_pressed};
 use super::joint::{BaseChoice, SlidingSurfaces, TiedSurfaces};
+use super::pressed_range::PressedRange;
 use super::pressed_state::Pressing;
 use super::rotation::{Rotation, grounded};
 use super::tangent::{ContactDofs, ContactPart, SlidingTangent, geometric_stiffness};

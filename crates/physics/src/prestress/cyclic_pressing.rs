@@ -1,11 +1,12 @@
 //! The pressed equilibrium of a body whose sectors are alike, from one of them.
 
 use super::PrestressError;
-use super::complementarity::{PressedRange, range};
+use super::complementarity::range;
 use super::condensed::CondensedContact;
 use super::cyclic::without_symmetry;
 use super::elimination::Elimination;
 use super::penalty::PenaltyContact;
+use super::pressed_range::PressedRange;
 use super::pressed_state::Pressing;
 use crate::contact::{Point, PressedState, Row};
 use crate::fem::Triplets;

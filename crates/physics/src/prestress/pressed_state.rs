@@ -2,18 +2,15 @@
 //! coefficient.
 
 use super::PrestressError;
-use super::complementarity::PressedRange;
 use super::elimination::Elimination;
 use super::friction_polynomial::{evaluate, interpolated};
+use super::pressed_range::{PressedRange, RESOLVED};
 use crate::contact::{NormalLaw, Point, PressedState};
 use crate::fem::Triplets;
 
 /// Smallest range of friction coefficients of a polynomial: without friction the state needs none, but its tangent is
 /// followed from there.
 pub(super) const LEAST_RANGE: f64 = 0.05;
-
-/// Share of the largest force that the polynomial of a state may leave out.
-pub(super) const RESOLVED: f64 = 1e-8;
 
 /// What follows the last two terms of a series that falls by a factor of three or more from one to the next, beside the larger of them.
 const FOLLOWING: f64 = 0.2;

@@ -113,6 +113,8 @@ fn terms(own: &BasePoint<'_>, state: (&PressedState, usize), friction: f64) -> P
         each.collect()
     };
     let mut stiffness = at(&found.stiffness);
+    let lost = |(row, column, value): &_| (*row, *column, own.stiffness.loss_factor * value);
+    let structural = stiffness.iter().map(lost).collect();
     stiffness.extend(at(&turned(point, own.turning.as_slice(), state)));
-    [stiffness, at(&found.dashpots), at(&found.structural)]
+    [stiffness, at(&found.dashpots), structural]
 }

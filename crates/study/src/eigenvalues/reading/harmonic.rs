@@ -1,6 +1,6 @@
 //! The matrices of one harmonic of a body of equal sectors, region by region and support by support.
 //!
-//! Everything is of one sector, in the unknowns of the harmonic; a term that comes with friction is `i mu` times its
+//! Everything is of one sector, in the unknowns of the harmonic. A term that comes with friction is `i mu` times its
 //! matrix, Hermitian as a whole.
 
 use frictionsim_physics::linalg::banded::CompactRows;
@@ -48,8 +48,8 @@ impl<'a> Harmonic<'a> {
         sum
     }
 
-    /// `Im(x_i^H f_i)` of the forces `f = (lambda^2 M + lambda C + K) x` of bodies and supports on each contact node: what
-    /// the contact's forces on that node do. `root` is the eigenvalue of the wave `+n`.
+    /// `Im(x_i^H f_i)` of the forces `f = (lambda^2 M + lambda C + K) x` of bodies and supports on each contact node:
+    /// what the contact's forces on that node do. `root` is the eigenvalue of the wave `+n`.
     pub fn works_at_contact(&self, root: c64, friction: f64, x: &[c64]) -> Vec<f64> {
         let mut forces = vec![c64::ZERO; x.len()];
         for term in &self.bodies {

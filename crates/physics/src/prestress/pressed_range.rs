@@ -1,0 +1,91 @@
+//! Base states over a range of friction coefficients.
+
+use crate::contact::PressedState;
+use std::ops::Range;
+
+/// Width to which a friction coefficient is located at which contact points open or close.
+pub(super) const CHANGE_WIDTH: f64 = 1e-9;
+
+/// Share of the largest force that the polynomial of a state may leave out.
+pub(super) const RESOLVED: f64 = 1e-8;
+
+/// States over a range of friction coefficients.
+#[derive(Clone, Debug)]
+pub struct PressedRange {
+    /// One state for each set of pressed points, in order of the friction coefficient.
+    pub states: Vec<PressedState>,
+    /// The friction coefficients asked for.
+    pub friction_coefficients: Vec<f64>,
+    /// Which state each of them has.
+    pub state_of: Vec<usize>,
+    /// Friction coefficients up to which each state but the last holds.
+    pub changes: Vec<f64>,
+    /// Friction coefficients from which each state but the first holds: above the change before it where other sets of pressed points hold
+    /// between, none of them at a friction coefficient that was asked for.
+    pub begins: Vec<f64>,
+    /// Share of the largest contact force that the polynomials of the states leave out at most, estimated.
+    pub left_out: f64,
+}
+
+impl PressedRange {
+    /// One state that holds at some friction coefficients.
+    pub(super) fn of_one(state: PressedState, friction_coefficients: &[f64]) -> Self {
+        Self {
+            states: vec![state],
+            friction_coefficients: friction_coefficients.to_vec(),
+            state_of: vec![0; friction_coefficients.len()],
+            changes: Vec::new(),
+            begins: Vec::new(),
+            left_out: 0.0,
+        }
+    }
+
+    /// Friction coefficients between the state `before` and the next one at which neither is known to hold; empty where one gives way to
+    /// the other.
+    pub fn unknown_between(&self, before: usize) -> Range<f64> {
+        let (end, begin) = (self.changes[before], self.begins[before]);
+        let is_empty = begin - end <= 4.0 * CHANGE_WIDTH;
+        end..if is_empty { end } else { begin }
+    }
+
+    /// The pressed points at a friction coefficient of these.
+    pub(super) fn set_at(&self, friction_coefficient: f64) -> Option<&[bool]> {
+        let place =
+            self.friction_coefficients.iter().position(|own| *own == friction_coefficient)?;
+        Some(&self.states[self.state_of[place]].is_pressed)
+    }
+
+    /// Where a set that holds at `inside` ends on the way up to `outside`, if it does before.
+    pub(super) fn end_of(&self, set: &[bool], [inside, outside]: [f64; 2]) -> Option<f64> {
+        let mut ends = self.changes.iter().zip(&self.states);
+        let is_between = |end: f64| (inside..outside).contains(&end);
+        ends.find(|(end, own)| is_between(**end) && own.is_pressed == set).map(|(end, _)| *end)
+    }
+
+    /// Where it begins on the way down to `outside`, if it does before.
+    pub(super) fn begin_of(&self, set: &[bool], [inside, outside]: [f64; 2]) -> Option<f64> {
+        let mut begins = self.begins.iter().zip(&self.states[1..]);
+        let is_between = |begin: f64| (outside..=inside).contains(&begin);
+        begins
+            .find(|(begin, own)| is_between(**begin) && own.is_pressed == set)
+            .map(|(own, _)| *own)
+    }
+
+    /// The state of a set whose polynomials hold over a range with all their digits.
+    pub(super) fn state_over(
+        &self,
+        set: &[bool],
+        [lower, upper]: [f64; 2],
+    ) -> Option<&PressedState> {
+        let all = || self.friction_coefficients.iter().copied();
+        let (first, last) = (all().fold(f64::INFINITY, f64::min), all().fold(0.0, f64::max));
+        let holds = |k: usize| {
+            let own_lower = k.checked_sub(1).map_or(first, |before| self.changes[before]);
+            let own_upper = self.changes.get(k).copied().unwrap_or(last);
+            own_lower <= lower && upper <= own_upper && self.states[k].is_pressed == set
+        };
+        (0..self.states.len())
+            .find(|&k| self.left_out <= RESOLVED && holds(k))
+            .map(|k| &self.states[k])
+    }
+}
