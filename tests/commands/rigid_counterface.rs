@@ -41,8 +41,8 @@ fn distance(a: &[[f64; 3]], b: &[[f64; 3]]) -> f64 {
     a.iter().map(nearest).fold(0.0, f64::max)
 }
 
-/// Independent: the harmonics of a body of revolution have assembly, base state and contact of their own. At this speed the dashpot
-/// of friction across the sliding, which the one spreads over elements and the other has at nodes, is small.
+/// Independent: the harmonics of a body of revolution have assembly, base state and contact of their own, and in rigid contact both
+/// have friction across the sliding at the nodes.
 #[test]
 fn the_whole_mesh_of_a_body_of_revolution_has_the_spectrum_of_its_harmonics() {
     let folder = folder();
@@ -50,8 +50,9 @@ fn the_whole_mesh_of_a_body_of_revolution_has_the_spectrum_of_its_harmonics() {
         "contact.boundary=\"top\" ; contact.ring_inner_radius=0.04 ; contact.ring_outer_radius=0.07",
         "boundaries.bottom={condition=\"guide\"}",
     ];
-    for sets in [&[][..], &ring] {
-        let [cyclic, whole] = by_both(folder.path(), CEA, sets, |answer| modes(&answer));
+    for contact in [&[][..], &ring] {
+        let sets = [contact, &["contact.rotation_speed_rpm=6000"]].concat();
+        let [cyclic, whole] = by_both(folder.path(), CEA, &sets, |answer| modes(&answer));
         let at_rest = |all: &[[f64; 3]]| -> Vec<[f64; 3]> {
             all.iter().filter(|mode| mode[0] == 0.0).copied().collect()
         };
@@ -59,6 +60,26 @@ fn the_whole_mesh_of_a_body_of_revolution_has_the_spectrum_of_its_harmonics() {
         let sliding = distance(&whole, &cyclic);
         assert!(still < 1e-10, "{still:e}");
         assert!(sliding < 1e-7, "{sliding:e}");
+    }
+}
+
+/// Steady sliding is the same all around: a quarter of a turn on, the probe of a node moves along the other axis.
+#[test]
+fn probes_of_a_whole_mesh_move_along_x_y_and_z() {
+    let sets = [
+        "transient={duration=1e-6,initial=\"steady-sliding\",operator=\"sparse\"}",
+        "output={sample_interval=1e-6,probes=[6,38]}",
+    ];
+    let folder = folder();
+    let answer = run(folder.path(), "transient", DISC, "probes", &sets).code(0);
+    let start = |node| {
+        let rows = answer.rows(&format!("probe-{node}.csv"));
+        rows[0].numbers(["u_x_m", "u_y_m", "u_z_m"])
+    };
+    let [[x, y, z], [ahead_x, ahead_y, ahead_z]] = [start(6), start(38)];
+    assert!(x > 1e-6 && y > 1e-8, "{x:e} {y:e}");
+    for [a, b] in [[ahead_x, -y], [ahead_y, x], [ahead_z, z]] {
+        assert!((a - b).abs() < 1e-9 * x, "{a:e} {b:e}");
     }
 }
 
@@ -218,7 +239,7 @@ fn a_generated_body_of_revolution_takes_what_breaks_its_symmetry() {
     assert_eq!(mac["modes"][best - 1]["harmonic"], 0, "{mac}");
     let springs = ["contact.normal_stiffness=1e12"];
     let refused = run(folder.path(), "matrices", DISC, "refused", &springs);
-    refused.code(2).warns(&["contact.base_state", "\"compliant\""]);
+    refused.code(2).warns(&["contact.base_state", "write base_state = \"compliant\""]);
 }
 
 /// Numbers by LAPACK: the dense eigenvalues of the exported matrices at this friction have a mode at 1424.66 Hz with growth 0.0 1/s.

@@ -27,7 +27,11 @@ impl Case {
         let body = whole_revolution(specification, materials, &self.contact, None, &[]);
         let body = body.map_err(|(key, why)| {
             let label = "does not fit the whole mesh";
-            self.error_at(&key, format!("{key}: {why}"), label, None)
+            // The example of the key is the value that does not fit.
+            let help = (key == "contact.base_state").then(|| {
+                "write base_state = \"compliant\", or leave normal_stiffness out".to_owned()
+            });
+            self.error_at(&key, format!("{key}: {why}"), label, help)
         })?;
         Ok(Cow::Owned(Self { body, ..self.clone() }))
     }
@@ -44,7 +48,7 @@ pub(super) fn whole_revolution(
     let stiffness = &contact.stiffness;
     let has_springs = stiffness.law.is_none() && stiffness.normal_stiffness.is_some();
     if has_springs && !stiffness.is_base_compliant {
-        let why = "on the whole mesh the springs of the contact carry the base state: give it as \"compliant\"";
+        let why = "on the whole mesh the springs of the contact carry the base state, too, which \"compliant\" says";
         return Err(("contact.base_state".to_owned(), why.to_owned()));
     }
     let of_mesh = |error: String| ("mesh".to_owned(), error);

@@ -66,6 +66,26 @@ fn a_wave_under_a_ring_grows_at_the_rate_of_the_eigenvalue_analysis() {
     }
 }
 
+/// Independent: a time step has friction `mu N / V` across the sliding at each node; so has lumped contact in the tangent of its waves.
+#[test]
+fn friction_across_the_sliding_is_that_of_each_node() {
+    let mut model = ringed([12, 6, 1]);
+    model.options.damping = rayleigh_damping(0.0, 0.0);
+    let (sector, base) = base(&model).unwrap();
+    let wave = model.tangent().harmonic(1).at(0.3);
+    let diagonal = wave.damping.chunks_exact(2 * wave.half_bandwidth + 1);
+    let mut found: Vec<f64> = diagonal.map(|row| row[wave.half_bandwidth].re).collect();
+    found.retain(|own| *own != 0.0);
+    found.sort_by(f64::total_cmp);
+    let nodes = base.normal_forces.iter().map(|&(node, force)| {
+        0.3 * force / (model.contact.rotation_speed * sector.nodes[node].radius)
+    });
+    let mut exact: Vec<f64> = nodes.collect();
+    exact.sort_by(f64::total_cmp);
+    assert!(exact.len() > 2);
+    near_each(&found, &exact, 1e-12);
+}
+
 /// A steel disc clamped at its bore, under a ring with a lining from which it bends away.
 #[test]
 fn a_wave_under_a_ring_that_opens_in_part_grows_at_the_rate_of_the_eigenvalue_analysis() {

@@ -194,7 +194,7 @@ pub fn geometric_stiffness<S: Sectored>(
 fn supported_faces(sector: &SolidSector, mass: MassKind) -> Vec<SectorSupport> {
     let rule = match mass {
         MassKind::Consistent => FaceRule::Integrated,
-        MassKind::Lumped => FaceRule::Lumped,
+        MassKind::Lumped => FaceRule::Nodal,
     };
     let conditions = SolidFace::ALL.into_iter().zip(&sector.specification.conditions);
     let supported = conditions.filter_map(|(face, condition)| {

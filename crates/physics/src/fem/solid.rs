@@ -23,8 +23,6 @@ pub struct FaceTerm<'a> {
 pub enum FaceRule {
     /// Consistent, over the plane face that its nodes span: what the whole mesh has.
     Integrated,
-    /// Lumped at the nodes, with the weight of the Gauss points.
-    Lumped,
     /// Lumped at the nodes, with the weight there: what a time step has.
     Nodal,
 }
@@ -68,24 +66,22 @@ pub fn face_matrix(
         for ([x, y], share) in face_quadrature(sector.is_quadratic()) {
             let point = ([x, middle + half * y], half * share);
             let (values, area) = face.values_at(sector, point);
-            let on_arc = [1.0, face.radius_at(sector, point.0), sector.half_angle() * point.0[0]];
-            let is_flat = is_integrated && !sector.is_quadratic();
-            let [share, radius, angle] =
-                if is_flat { face.on_chord(sector, point.0) } else { on_arc };
-            let weight = |along: f64| area * share * (term.weight)(face, radius, along);
             if !is_integrated {
                 for (a, value) in values.iter().enumerate() {
                     // Corners 0 and 1 lie at the beginning of the element.
                     let end = [-1.0, 1.0][a / 2];
                     if span[a / 2].abs() == 1.0 {
-                        let is_nodal = term.rule == FaceRule::Nodal;
-                        let weight = weight(if is_nodal { end } else { point.0[1] });
+                        let radius = face.radius_at(sector, [0.0, end]);
+                        let weight = area * (term.weight)(face, radius, end);
                         matrix[(3 * a + term.row, 3 * a + term.column)] += weight * value;
                     }
                 }
                 continue;
             }
-            let weight = weight(point.0[1]);
+            let on_arc = [1.0, face.radius_at(sector, point.0), sector.half_angle() * point.0[0]];
+            let [share, radius, angle] =
+                if sector.is_quadratic() { on_arc } else { face.on_chord(sector, point.0) };
+            let weight = area * share * (term.weight)(face, radius, point.0[1]);
             let ahead = angles_ahead(sector, face, angle);
             let [rows, columns] = [term.row, term.column].map(|c| along(&values, &ahead, c));
             for (j, column) in columns.iter().enumerate() {

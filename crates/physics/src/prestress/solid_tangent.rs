@@ -8,7 +8,7 @@ use crate::contact::{ContactStiffness, SlidingContact};
 use crate::fem::MaterialField;
 use crate::fem::fold::SectorMatrix;
 use crate::fem::sector::Sectored;
-use crate::fem::solid::{FaceRule, FaceTerm, face_matrix};
+use crate::fem::solid::{FaceTerm, face_matrix};
 use crate::mesh::{FaceElement, SolidSector};
 
 impl WaveTangent {
@@ -89,13 +89,13 @@ fn add_contact(
     let (normal, side) = (face.normal_component(), face.across_component());
     let faces = sector.contact_elements();
     let span = |element: &FaceElement| base.pressed_span(sector, element);
-    let term = |row, column, rule, weight: Weight<'_>| {
-        let term = FaceTerm { row, column, weight, span: &span, rule };
+    let term = |row, column, weight: Weight<'_>| {
+        let term = FaceTerm { row, column, weight, span: &span, rule: base.rule };
         face_matrix(sector, &faces, &term)
     };
     let pressure = |element: &FaceElement, at| base.pressure_along(sector, element, at);
     let pressed = |row, column, weight: Weight<'_>| {
-        term(row, column, base.rule, &|element, r, at| match pressure(element, at) > 0.0 {
+        term(row, column, &|element, r, at| match pressure(element, at) > 0.0 {
             true => weight(element, r, at),
             false => 0.0,
         })
@@ -119,15 +119,13 @@ fn add_contact(
     }
 
     // Coulomb's law as a vector, and its slope over the speed.
-    // Traction of lumped contact is that along the elements.
-    let rule = if base.rule == FaceRule::Nodal { FaceRule::Lumped } else { base.rule };
-    let mut friction_dashpots = term(side, side, rule, &|element, r, at| {
+    let mut friction_dashpots = term(side, side, &|element, r, at| {
         let (speed, friction) = base.friction(r);
         pressure(element, at) * friction.drag * base.contact.sliding_direction() / speed
     });
     if base.contact.decay.is_some() {
         let slope = |r: f64| base.friction(r).1.slope;
-        let along = term(1, 1, rule, &|element, r, at| pressure(element, at) * slope(r));
+        let along = term(1, 1, &|element, r, at| pressure(element, at) * slope(r));
         friction_dashpots = friction_dashpots.plus(&along);
     }
     let penalty = match (base.law, contact.normal_stiffness) {

@@ -100,13 +100,16 @@ impl ContactFrame {
     }
 }
 
+/// Of a probe whose frame has the axes of its report.
+const UNTURNED: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+
 /// Keeps samples, probes, contact frames and snapshots in memory; can be saved and loaded with the state.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Recorder {
     /// Probe nodes, 1-based.
     pub probes: Vec<usize>,
-    /// Cosine and sine of the angle from the axes of each probe's report to its frame.
-    probe_turns: Vec<[f64; 2]>,
+    /// From each probe's frame to the axes of its report, row by row.
+    probe_turns: Vec<[[f64; 3]; 3]>,
     /// One row for each sample.
     pub rows: Vec<SampleRow>,
     /// For each probe and sample `u_r, u_t` (m), `v_r, v_t` (m/s), and the mean of `a_r, a_t` (m/s2) since the last
@@ -315,15 +318,16 @@ impl Recorder {
     }
 }
 
-/// How each probe's frame is turned against the axes of its report.
-fn probe_turns(model: &TransientModel<'_>, probes: &[usize]) -> Vec<[f64; 2]> {
-    let SteppedBody::Plane { mesh, .. } = model.body else {
-        return vec![[1.0, 0.0]; probes.len()];
-    };
-    let turn = |&probe: &usize| {
-        let (frame, reported) = (mesh.frame_angles()[probe - 1], mesh.reported_angle(probe - 1));
-        let (sin, cos) = (frame - reported).sin_cos();
-        [cos, sin]
+/// What takes each probe's motion from its frame to the axes of its report: of solid bodies x, y, z.
+fn probe_turns(model: &TransientModel<'_>, probes: &[usize]) -> Vec<[[f64; 3]; 3]> {
+    let turn = |&probe: &usize| match &model.body {
+        SteppedBody::Plane { mesh, .. } => {
+            let reported = mesh.reported_angle(probe - 1);
+            let (sin, cos) = (mesh.frame_angles()[probe - 1] - reported).sin_cos();
+            [[cos, -sin, 0.0], [sin, cos, 0.0], [0.0, 0.0, 1.0]]
+        }
+        SteppedBody::Revolution(_) => UNTURNED,
+        SteppedBody::Assembly { assembly, .. } => assembly.mesh.frame(probe - 1).transpose().into(),
     };
     probes.iter().map(turn).collect()
 }

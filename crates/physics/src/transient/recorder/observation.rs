@@ -1,6 +1,6 @@
 //! The part of a sample that is kept.
 
-use super::{ContactFrame, HARMONIC_COUNT, Recorder, SampleRow, Snapshot};
+use super::{ContactFrame, HARMONIC_COUNT, Recorder, SampleRow, Snapshot, UNTURNED};
 use crate::linalg::interruption;
 use crate::transient::{Observer, Sample, Settling};
 use std::ops::ControlFlow;
@@ -71,34 +71,35 @@ impl Recorder {
     }
 
     fn observe_probes(&mut self, sample: &Sample<'_>) {
-        let turned = |place: usize, [a, b]: [f64; 2]| match self.probe_turns[place] {
-            // Equal frames leave every bit as it is.
-            [1.0, 0.0] => [a, b],
-            [cos, sin] => [cos * a - sin * b, sin * a + cos * b],
-        };
+        let components = if self.axial_rows.is_empty() { 2 } else { 3 };
         for (place, &node) in self.probes.iter().enumerate() {
-            let components = if self.axial_rows.is_empty() { 2 } else { 3 };
-            let first = components * (node - 1);
-            let dofs = [first, first + 1];
-            let rows = &mut self.probe_rows[place];
-            let velocity = turned(place, dofs.map(|dof| sample.velocity_at(dof)));
-            let step = turned(place, dofs.map(|dof| sample.acceleration_at(dof)));
+            let turn = self.probe_turns[place];
+            let reported = |of: &dyn Fn(usize) -> f64| {
+                let mut own = [0.0; 3];
+                (0..components).for_each(|c| own[c] = of(components * (node - 1) + c));
+                // Equal frames leave every bit as it is.
+                match turn == UNTURNED {
+                    true => own,
+                    false => turn.map(|[a, b, c]| a * own[0] + b * own[1] + c * own[2]),
+                }
+            };
+            let [u_r, u_t, u_z] = reported(&|dof| sample.displacement_at(dof));
+            let [v_r, v_t, v_z] = reported(&|dof| sample.velocity_at(dof));
+            let step = reported(&|dof| sample.acceleration_at(dof));
+            let mean = |before: f64, after: f64| (after - before) / self.sample_interval;
             // The first sample has only its own step to be a mean of.
-            let acceleration = rows.last().map_or(step, |last| {
-                [0, 1].map(|c| (velocity[c] - last[2 + c]) / self.sample_interval)
-            });
-            let [u_r, u_t] = turned(place, dofs.map(|dof| sample.displacement_at(dof)));
-            let ([v_r, v_t], [a_r, a_t]) = (velocity, acceleration);
+            let rows = &mut self.probe_rows[place];
+            let [a_r, a_t] = match rows.last() {
+                Some(last) => [mean(last[2], v_r), mean(last[3], v_t)],
+                None => [step[0], step[1]],
+            };
             rows.push([u_r, u_t, v_r, v_t, a_r, a_t]);
             if let Some(rows) = self.axial_rows.get_mut(place) {
-                let (v, step) = (sample.velocity_at(first + 2), sample.acceleration_at(first + 2));
-                let mean = rows
-                    .last()
-                    .map_or(step, |last: &[f64; 4]| (v - last[1]) / self.sample_interval);
-                rows.push([sample.displacement_at(first + 2), v, mean, step]);
+                let a_z = rows.last().map_or(step[2], |last| mean(last[1], v_z));
+                rows.push([u_z, v_z, a_z, step[2]]);
             }
             if let Some(raw) = &mut self.raw_accelerations {
-                raw[place].push(step);
+                raw[place].push([step[0], step[1]]);
             }
         }
     }
