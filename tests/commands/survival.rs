@@ -173,6 +173,14 @@ fn a_shell_loop_over_transients_gives_what_the_sweep_gives() {
     }
 }
 
+#[test]
+fn a_terminated_sweep_says_how_to_go_on() {
+    let study = Study::new();
+    let folder = study.folder("stopped");
+    let ended = study.sweep("stopped", &[]).stopped(Some("TERM"), || !points(&folder).is_empty());
+    ended.code(130).warns(&["--resume"]);
+}
+
 /// Runs `cea` of a body without symmetry into a folder.
 fn cea(folder: &Path, options: &[&str]) -> Run {
     Run::of("cea", shipped("sliding-block.toml")).args(&["--quiet"]).out(folder).args(options)

@@ -111,8 +111,8 @@ impl<'a> BasisBuilder<'a> {
             count: modes.ncols() - rigid,
             rigid,
             is_whole,
-            is_sampling: !is_whole
-                && !(matches!(linearization, Linearization::Reduced(..)) && has_symmetry),
+            is_sampling: !(is_whole
+                || matches!(linearization, Linearization::Reduced(..)) && has_symmetry),
             sampled: Vec::new(),
             watch,
             steps: 0,

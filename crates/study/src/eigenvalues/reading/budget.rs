@@ -56,7 +56,7 @@ impl Parts<'_> {
         // The prestress takes part in the damping, and in the balance of forces.
         let beta = self.whole.options.damping_of_tangent().stiffness_coefficient;
         let is_asked_for = beta != 0.0 || sums.balance.is_some();
-        let stress = is_asked_for.then(|| self.stress(shapes.friction)).unwrap_or_default();
+        let stress = if is_asked_for { self.stress(shapes.friction) } else { Default::default() };
         let mut forms = vec![vec![PartForms::default(); shapes.modes.len()]; terms.bodies.len()];
         for term in terms.all.iter().chain(&*stress) {
             let image = self.image(term, shapes);
