@@ -81,25 +81,29 @@ impl WholeRing {
         ring
     }
 
-    /// `∫ c p / r dA` across the sliding: lumped for 8 nodes, consistent for 20.
+    /// `∫ c p / r dA` across the sliding: at the nodes for 8, consistent for 20.
     fn add_dashpots(&mut self, base: &SolidSliding, across: usize, factor: f64) {
         let sector = self.sector.clone();
         for element in sector.contact_elements() {
             for point in face_quadrature(sector.is_quadratic()) {
                 let (values, area) = element.values_at(&sector, point);
-                let pressure = base.pressure_along(&sector, &element, point.0[1]);
-                let weight = factor * area * pressure / element.radius_at(&sector, point.0);
+                let weight = |[around, along]: [f64; 2]| {
+                    let pressure = base.pressure_along(&sector, &element, along);
+                    factor * area * pressure / element.radius_at(&sector, [around, along])
+                };
                 for s in 0..sector.sector_count() {
                     let nodes = element.nodes.iter();
                     let dofs = nodes.map(|own| 3 * global(&sector, s, own.0, own.1) + across);
                     let dofs: Vec<usize> = dofs.collect();
                     for (a, &from) in dofs.iter().enumerate() {
                         if !sector.is_quadratic() {
-                            self.damping[(from, from)] += weight * values[a];
+                            // Corners 0 and 1 lie at the beginning of the element.
+                            let node = [0.0, [-1.0, 1.0][a / 2]];
+                            self.damping[(from, from)] += weight(node) * values[a];
                             continue;
                         }
                         for (b, &to) in dofs.iter().enumerate() {
-                            self.damping[(from, to)] += weight * values[a] * values[b];
+                            self.damping[(from, to)] += weight(point.0) * values[a] * values[b];
                         }
                     }
                 }
