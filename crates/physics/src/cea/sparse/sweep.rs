@@ -378,8 +378,8 @@ mod tests {
         {
             assert!((found.eigenvalue - exact.eigenvalue).norm() < 1e-9 * exact.eigenvalue.norm());
         }
-        assert!(
-            (before[1].eigenvalue - after[1].eigenvalue).norm() > 0.01 * after[1].eigenvalue.norm()
-        );
+        // It was another one, not that with an error.
+        let [old, new, next] = [&before[1], &after[1], &after[2]].map(|mode| mode.eigenvalue);
+        assert!((old - new).norm() > 0.5 * (next - new).norm());
     }
 }
