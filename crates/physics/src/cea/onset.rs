@@ -15,13 +15,14 @@ pub(super) trait BranchSolver {
     /// Why it could not be solved for.
     type Error;
 
-    /// Growth relative to `|lambda|` that is round-off of a neutral mode.
-    const ROUND_OFF: f64;
     /// Newton steps of the friction coefficient shorter than this end the search.
     const TOLERANCE: f64;
 
     /// Eigenvalue and slope.
     fn point(&self, state: &Self::State) -> BranchPoint;
+
+    /// Growth relative to `|lambda|` that is round-off where the mode is neutral.
+    fn round_off(&self, state: &Self::State) -> f64;
 
     /// The branch at `guess.friction_coefficient` between two states, where it is expected near
     /// `guess.eigenvalue`; `None` where it is not found.
@@ -80,8 +81,7 @@ pub(super) fn instabilities<B: BranchSolver>(
     let Some(first) = states.first() else {
         return Ok(found);
     };
-    let point = search.solver.point(first);
-    let mut was_growing = search.is_growing(first) || Search::<B>::grows_from_zero(&point);
+    let mut was_growing = search.is_growing(first) || search.grows_from_zero(first);
     if was_growing {
         let onset = first.clone();
         found.push(Instability { onset, restabilized: None, from_start: true, lost_after: None });
@@ -114,20 +114,25 @@ struct Search<'a, B: BranchSolver> {
 }
 
 impl<B: BranchSolver> Search<'_, B> {
+    /// Growth rate that round-off may be of, rad/s.
+    fn round_off(&self, state: &B::State) -> f64 {
+        self.solver.round_off(state) * self.solver.point(state).eigenvalue.norm()
+    }
+
     /// Growth rate beyond round-off, 1/s.
-    fn growth(point: &BranchPoint) -> f64 {
-        point.eigenvalue.re - B::ROUND_OFF * point.eigenvalue.norm()
+    fn growth(&self, state: &B::State) -> f64 {
+        self.solver.point(state).eigenvalue.re - self.round_off(state)
     }
 
     fn is_growing(&self, state: &B::State) -> bool {
-        Self::growth(&self.solver.point(state)) > 0.0
+        self.growth(state) > 0.0
     }
 
     /// Whether a branch without any damping starts to grow with the first friction.
-    fn grows_from_zero(point: &BranchPoint) -> bool {
-        let (size, growth) = (point.eigenvalue.norm(), Self::growth(point));
-        let is_neutral = growth <= 0.0 && growth > -1e2 * B::ROUND_OFF * size;
-        is_neutral && point.rate.re > 1e-9 * size
+    fn grows_from_zero(&self, state: &B::State) -> bool {
+        let (point, growth) = (self.solver.point(state), self.growth(state));
+        let is_neutral = growth <= 0.0 && growth > -1e2 * self.round_off(state);
+        is_neutral && point.rate.re > 1e-9 * point.eigenvalue.norm()
     }
 
     fn solve(
@@ -164,7 +169,7 @@ impl<B: BranchSolver> Search<'_, B> {
             let changes_sign = value.signum() != a.signum() || value.signum() != b.signum();
             // What turns by round-off alone, as a branch that stays neutral does, comes no nearer to zero than the ends.
             let turn = (value - a).abs().min((value - b).abs());
-            let is_turn = turn > B::ROUND_OFF * last.eigenvalue.norm();
+            let is_turn = turn > self.round_off(end);
             if is_turn && (value.abs() < doubt || changes_sign) {
                 let origin = first.friction_coefficient;
                 let friction = origin + t * cubic.width;
@@ -199,8 +204,9 @@ impl<B: BranchSolver> Search<'_, B> {
             } else {
                 (high, top) = (state.clone(), friction);
             }
+            let growth = self.growth(&state);
             best = state;
-            let newton = friction - Self::growth(&point) / point.rate.re;
+            let newton = friction - growth / point.rate.re;
             let is_inside = newton > bottom && newton < top;
             let next = if is_inside { newton } else { 0.5 * (bottom + top) };
             if (next - friction).abs() <= B::TOLERANCE * (1.0 + friction) {
@@ -210,7 +216,7 @@ impl<B: BranchSolver> Search<'_, B> {
         }
         let point = self.solver.point(&best);
         let steep = 10.0 * B::TOLERANCE * (1.0 + point.friction_coefficient) * point.rate.re.abs();
-        let has_root = Self::growth(&point).abs() <= steep.max(JUMP * point.eigenvalue.norm());
+        let has_root = self.growth(&best).abs() <= steep.max(JUMP * point.eigenvalue.norm());
         Ok(has_root.then_some(best))
     }
 }

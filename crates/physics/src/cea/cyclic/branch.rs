@@ -71,11 +71,14 @@ impl BranchSolver for WaveSolver<'_> {
     type State = BranchPoint;
     type Error = Infallible;
 
-    const ROUND_OFF: f64 = 1e-13;
     const TOLERANCE: f64 = 1e-13;
 
     fn point(&self, state: &BranchPoint) -> BranchPoint {
         *state
+    }
+
+    fn round_off(&self, _: &BranchPoint) -> f64 {
+        Self::TOLERANCE
     }
 
     /// The branch at a friction coefficient, from a good guess of `lambda`.

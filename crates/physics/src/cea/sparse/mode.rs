@@ -3,7 +3,7 @@
 use super::{CONVERGED, SAME_EIGENVALUE};
 use crate::cea::counted::NEARLY_CRITICAL;
 use crate::linalg::c64;
-use crate::linalg::vectors::{dot, length};
+use crate::linalg::vectors::{dot, length, product};
 
 /// Damping factor, of decay or of growth, from which on a motion may as well be one of those that do not oscillate.
 const HARDLY_OSCILLATING: f64 = 0.95;
@@ -45,9 +45,17 @@ impl ReducedMode {
         Self { right, left, ..*self }
     }
 
+    /// Part of its eigenvalue that is round-off: that of a lone mode times the condition `|w| |x| / |w^T x|`, which rises without bound
+    /// where two modes become one. Below that place neutral ones would else grow by round-off.
+    pub fn round_off(&self) -> f64 {
+        let condition =
+            length(&self.left) * length(&self.right) / product(&self.left, &self.right).norm();
+        CONVERGED * condition.max(1.0)
+    }
+
     /// Whether it grows by more than round-off.
     pub fn is_growing(&self) -> bool {
-        self.eigenvalue.re > CONVERGED * self.eigenvalue.norm()
+        self.eigenvalue.re > self.round_off() * self.eigenvalue.norm()
     }
 
     /// `-Re(lambda) / |lambda|`; 1 is critical.

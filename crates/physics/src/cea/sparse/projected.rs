@@ -85,12 +85,13 @@ impl ProjectedMatrices {
                     true => lu.solve_transpose_in_place(new.as_mut()),
                     false => lu.solve_in_place(new.as_mut()),
                 }
+                // Along the vector a change is none.
+                let along = (own.adjoint() * &new)[(0, 0)] / own.squared_norm_l2();
+                let across = &new - Mat::from_fn(m, 1, |i, _| along * own[(i, 0)]);
+                let of = if is_reused { own.norm_l2() } else { new.norm_l2() };
+                moved = moved.max(across.norm_l2() / of);
                 if is_reused {
-                    // Along the vector a change is none.
-                    let along = (own.adjoint() * &new)[(0, 0)] / own.squared_norm_l2();
-                    new -= Mat::from_fn(m, 1, |i, _| along * own[(i, 0)]);
-                    moved = moved.max(new.norm_l2() / own.norm_l2());
-                    new = own - new;
+                    new = own - across;
                 }
                 let length = new.norm_l2();
                 new.col(0).iter().map(|v| v / length).collect()
@@ -108,7 +109,11 @@ impl ProjectedMatrices {
             }
             let is_settled = match is_reused {
                 true => moved <= VECTOR_TOLERANCE,
-                false => step.norm() <= QUOTIENT_TOLERANCE * mode.eigenvalue.norm(),
+                // Of two modes as close as that a combination passes for one, until its vectors stay.
+                false => {
+                    let is_near = step.norm() <= QUOTIENT_TOLERANCE * mode.eigenvalue.norm();
+                    is_near && moved <= QUOTIENT_TOLERANCE.sqrt()
+                }
             };
             if is_settled {
                 return Some(mode);

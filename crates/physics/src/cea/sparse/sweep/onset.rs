@@ -4,7 +4,7 @@ use super::SparseSweep;
 use crate::cea::onset::{BranchSolver, Instability, instabilities};
 use crate::cea::sparse::branches::{TrackedBranch, followed};
 use crate::cea::sparse::mode::{ModeAt, ReducedMode};
-use crate::cea::sparse::{CONVERGED, RESIDUAL_BOUND, SAME};
+use crate::cea::sparse::{RESIDUAL_BOUND, SAME};
 use crate::cea::{BranchPoint, UnstableInterval};
 use crate::linalg::LinalgError;
 use crate::linalg::vectors::length;
@@ -149,7 +149,6 @@ impl BranchSolver for &SparseSweep<'_> {
     type State = ModeAt;
     type Error = LinalgError;
 
-    const ROUND_OFF: f64 = CONVERGED;
     const TOLERANCE: f64 = RESIDUAL_BOUND;
 
     fn point(&self, state: &ModeAt) -> BranchPoint {
@@ -159,6 +158,10 @@ impl BranchSolver for &SparseSweep<'_> {
             rate: state.mode.derivative,
             residual: f64::NAN,
         }
+    }
+
+    fn round_off(&self, state: &ModeAt) -> f64 {
+        state.mode.round_off()
     }
 
     /// The mode that overlaps most with both ends.

@@ -4,7 +4,7 @@ use super::onset::FoundInterval;
 use super::{SETTLED, SparseSweep};
 use crate::cea::sparse::branches::{BranchLabel, TrackedBranch};
 use crate::cea::sparse::mode::ModeAt;
-use crate::cea::sparse::{CONVERGED, MOST_ATTEMPTS, RESIDUAL_BOUND, SAME_EIGENVALUE};
+use crate::cea::sparse::{MOST_ATTEMPTS, RESIDUAL_BOUND, SAME_EIGENVALUE};
 use crate::cea::{BeyondMode, CeaError, ComplexMode, FrictionPoint, FrictionSweep, SweepRequest};
 use crate::cea::{EndedMode, UnconvergedMode, UnstableInterval};
 use crate::linalg::{LinalgError, c64};
@@ -12,7 +12,7 @@ use std::f64::consts::TAU;
 
 /// What round-off of a mode's growth rate may move a crossing by: much where friction hardly feeds the mode.
 fn doubt(ModeAt { mode, .. }: &ModeAt) -> f64 {
-    CONVERGED * mode.eigenvalue.norm() / mode.derivative.re.abs()
+    mode.round_off() * mode.eigenvalue.norm() / mode.derivative.re.abs()
 }
 
 impl SparseSweep<'_> {
