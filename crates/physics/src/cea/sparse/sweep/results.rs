@@ -32,23 +32,26 @@ impl SparseSweep<'_> {
             .collect();
         let mut found = self.intervals(branches)?;
         // What grows by no more than rounded matrices leave open, wherever that was asked for, is told where it goes on alone: two branches
-        // that meet may have one onset, and one of them no end.
-        let ended = found.iter().filter(|own| own.interval.restabilized.is_some());
-        let onset = |own: &UnstableInterval| [own.critical_friction, own.frequency_hz];
-        let ended: Vec<[f64; 2]> = ended.map(|own| onset(&own.interval)).collect();
-        let highest = self.grid[self.grid.len() - 1];
-        found.retain(|FoundInterval { interval: own, .. }| {
+        // that meet may have one onset, of which one grows on, or one of them has no end.
+        let is_told = |own: &UnstableInterval| {
             let end = own.restabilized.map_or(f64::INFINITY, |(mu, _)| mu);
             let (range, name) = (own.critical_friction..=end, (own.harmonic, own.branch));
             let inside = points.iter().filter(|point| range.contains(&point.friction_coefficient));
             let modes = inside.flat_map(|point| &point.modes);
             let mut modes = modes.filter(|mode| (mode.harmonic, mode.branch) == name).peekable();
-            let is_told = modes.peek().is_none() || modes.any(ComplexMode::is_unstable);
+            modes.peek().is_none() || modes.any(ComplexMode::is_unstable)
+        };
+        let onset = |own: &UnstableInterval| [own.critical_friction, own.frequency_hz];
+        let known = found.iter().map(|own| &own.interval);
+        let known = known.filter(|own| own.restabilized.is_some() || is_told(own));
+        let known: Vec<[f64; 2]> = known.map(onset).collect();
+        let highest = self.grid[self.grid.len() - 1];
+        found.retain(|FoundInterval { interval: own, .. }| {
             let is_near = |(a, b): (&f64, &f64)| (a - b).abs() <= SAME_EIGENVALUE * b;
-            let mut others = ended.iter().map(|other| other.iter().zip(&onset(own)).all(is_near));
+            let mut others = known.iter().map(|other| other.iter().zip(&onset(own)).all(is_near));
             let goes_on = own.is_located() && own.restabilized.is_none();
             let is_alone = own.critical_friction * (1.0 + SAME_EIGENVALUE) < highest;
-            is_told || goes_on && is_alone && !others.any(|is_same| is_same)
+            is_told(own) || goes_on && is_alone && !others.any(|is_same| is_same)
         });
         let vectors = |own: &FoundInterval| {
             let ModeAt { mu, mode } = own.onset().filter(|_| !request.lefts_at.is_empty())?;
