@@ -273,6 +273,18 @@ fn a_mode_that_grows_before_it_nearly_meets_another_has_its_own_onset() {
     }
 }
 
+/// Bending of a block about its two sides, which differ by 1e-3, under a turning plane: friction couples the two, and one grows from
+/// where they meet. The other one decays from there on, and was given the same onset.
+#[test]
+fn of_two_modes_that_meet_one_has_an_onset() {
+    let block = brick("part", [-0.02, -0.02, 0.0], [0.04004, 0.04, 0.05], [3; 3]);
+    let text = include_str!("../cases/nearly-square-block.toml");
+    let found = modes_and_onsets(&of_file(&file_of(&[block], |point| point), text)).unwrap();
+    let last = found.points.last().unwrap();
+    let growing = last.modes.iter().filter(|mode| mode.is_unstable());
+    assert_eq!(growing.count(), found.intervals.len(), "{:?}", found.intervals);
+}
+
 /// A plane block of four contact nodes, three of which have lifted: the eighth mode comes from above the limit in frequency as friction rises.
 /// The dense decomposition has it at 148.3 kHz.
 #[test]
