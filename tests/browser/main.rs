@@ -44,9 +44,9 @@ fn main() {
 }
 
 fn eigenvalues_move_with_friction_and_modes_with_time() {
-    let (folder, report) = eigenvalue_report();
+    let (_folder, run) = eigenvalue_report();
     let browser = Browser::open(WIDE);
-    browser.visit_ready(&report);
+    browser.visit_ready(&run.path("report.html"));
     check_text_stays_text(&browser);
     press(&browser, "locus", "Move friction");
     let shown = || {
@@ -57,8 +57,9 @@ fn eigenvalues_move_with_friction_and_modes_with_time() {
     };
     assert_eq!(shown(), json!(["friction coefficient = 0: no unstable", 0]));
     browser.send("#locus input[type=range]", "\u{E010}");
-    let rows = rows_of(&folder.path().join("out/eigenvalues.csv"));
-    let unstable = rows.iter().filter(|row| row[0] == "0.6" && row[9] == "true").count() as u64;
+    let rows = run.rows("eigenvalues.csv").into_iter();
+    let rows = rows.filter(|row| row["friction_coefficient"] == "0.6" && row["unstable"] == "true");
+    let unstable = rows.count() as u64;
     assert!(unstable > 0);
     let said = format!("friction coefficient = 0.6: {unstable} unstable");
     assert_eq!(shown(), json!([said, unstable]));
@@ -82,8 +83,8 @@ fn solid_bodies_are_turned_and_their_modes_move() {
     let canvas = |figure: &str, what: &str| canvas(&browser, figure, what);
     // A mesh: its regions and boundaries from every side.
     let mesh_file = format!("mesh.file={:?}", shipped("meshes/brake.inp"));
-    let (_folder, report) = report_of("mesh", "brake.toml", &[&mesh_file]);
-    browser.visit_ready(&report);
+    let (_folder, run) = report_of("mesh", "brake.toml", &[&mesh_file]);
+    browser.visit_ready(&run.path("report.html"));
     press(&browser, "mesh", "Look around");
     let regions = canvas("mesh", "toDataURL()");
     browser.send("#mesh canvas", "\u{E014}");
@@ -108,8 +109,8 @@ fn solid_bodies_are_turned_and_their_modes_move() {
          cea.friction_coefficients=[0.4] ; cea.shapes_at=[0.4]"];
     let cases = [("brake.toml", &assembly[..]), ("disc-three-dimensions.toml", &revolution[..])];
     for (name, set) in cases {
-        let (_folder, report) = report_of("cea", name, set);
-        browser.visit_ready(&report);
+        let (_folder, run) = report_of("cea", name, set);
+        browser.visit_ready(&run.path("report.html"));
         let figure = "modes-mu-0.4";
         press(&browser, figure, "Animate");
         let first = canvas(figure, "toDataURL()");
@@ -127,9 +128,9 @@ fn solid_bodies_are_turned_and_their_modes_move() {
 }
 
 fn tables_are_sorted_and_filtered() {
-    let (_folder, report) = eigenvalue_report();
+    let (_folder, run) = eigenvalue_report();
     let browser = Browser::open(PHONE);
-    browser.visit_ready(&report);
+    browser.visit_ready(&run.path("report.html"));
     keep_screenshot(&browser, "eigenvalues-400.png");
     let table = "[...document.querySelectorAll('table')].find(t => t.caption?.textContent.startsWith('Eigenvalues'))";
     let column = || -> Vec<f64> {
@@ -162,9 +163,13 @@ fn tables_are_sorted_and_filtered() {
 }
 
 fn a_run_is_zoomed_read_heard_and_taken_along() {
-    let (folder, report) = transient_report("transient.duration=0.012");
+    let set =
+        ["mesh.circumferential_elements=48 ; mesh.radial_elements=7 ; output.probes=[1,5] ; \
+         output.snapshots=[0.005] ; transient.perturbation.velocity=3e-2 ; \
+         transient.duration=0.012"];
+    let (_folder, run) = report_of("transient", "polycarbonate-610rpm.toml", &set);
     let browser = Browser::open(WIDE);
-    browser.visit_ready(&report);
+    browser.visit_ready(&run.path("report.html"));
     check_text_stays_text(&browser);
     keep_screenshot(&browser, "run-1280.png");
     press(&browser, "overview-5", "Zoom");
@@ -194,14 +199,16 @@ fn a_run_is_zoomed_read_heard_and_taken_along() {
     // The samples, against the table of the run.
     let taken = data_of(&browser, "overview-5");
     assert_eq!(taken[0][..2], ["time t (ms)", "tangential acceleration, node 5: aθ (m/s²)"]);
-    let rows = rows_of(&folder.path().join("out/probe-5.csv"));
+    let rows = run.rows("probe-5.csv");
+    let rows: Vec<[f64; 2]> =
+        rows.iter().map(|row| row.numbers(["time_s", "a_theta_m_per_s2"])).collect();
     assert_eq!(taken.len() - 1, rows.len());
     let number = |text: &str| text.parse::<f64>().unwrap();
-    let largest = rows.iter().map(|row| number(&row[6]).abs()).fold(0.0, f64::max);
+    let largest = rows.iter().map(|row| row[1].abs()).fold(0.0, f64::max);
     for (own, row) in taken[1..].iter().zip(&rows) {
         // Single precision, eight digits.
-        assert!((number(&own[0]) - 1e3 * number(&row[0])).abs() < 1e-6);
-        assert!((number(&own[1]) - number(&row[6])).abs() < 1e-6 * largest);
+        assert!((number(&own[0]) - 1e3 * row[0]).abs() < 1e-6);
+        assert!((number(&own[1]) - row[1]).abs() < 1e-6 * largest);
     }
     // Series off and on.
     press(&browser, "energy", "Zoom");
@@ -230,7 +237,7 @@ fn a_run_is_zoomed_read_heard_and_taken_along() {
          return [audio.duration, audio.previousElementSibling.textContent]",
     );
     assert!((heard[0].as_f64().unwrap_or(0.0) - 2.0).abs() < 1e-3, "{heard}");
-    let main = summary_of(&folder)["main_frequency_hz"].as_f64().unwrap();
+    let main = run.summary()["main_frequency_hz"].as_f64().unwrap();
     // "loudest at 19.2 kHz, ...": a contact that opens may be loudest at a multiple of its main frequency.
     let said = heard[1].as_str().and_then(|text| text.split(' ').nth(2)?.parse::<f64>().ok());
     let multiple = 1e3 * said.unwrap_or_else(|| panic!("no tone is named: {heard}")) / main;
@@ -244,9 +251,9 @@ fn a_click_on_a_point_of_a_study_shows_the_numbers_of_its_run() {
          output.sample_interval=1e-5 ; transient.duration=0.008 ; \
          transient.perturbation.velocity=0.1 ; sweep.\"contact.friction_coefficient\"=[0.3,0.4] ; \
          sweep.\"contact.rotation_speed_rpm\"=[610.0,2000.0]"];
-    let (_folder, report) = report_of("sweep", "speed-friction-study.toml", &set);
+    let (_folder, run) = report_of("sweep", "speed-friction-study.toml", &set);
     let browser = Browser::open(WIDE);
-    browser.visit_ready(&report);
+    browser.visit_ready(&run.path("report.html"));
     check_text_stays_text(&browser);
     press(&browser, "frequencies", "Zoom");
     let row = "[...document.querySelectorAll('table')].find(t => t.tHead?.rows[0].cells[0].textContent === 'point').tBodies[0].rows[0]";
@@ -265,10 +272,10 @@ fn a_click_on_a_point_of_a_study_shows_the_numbers_of_its_run() {
 }
 
 fn without_scripts_numbers_and_pictures_are_there() {
-    let (_folder, report) = eigenvalue_report();
-    let html = std::fs::read_to_string(&report).unwrap();
+    let (_folder, run) = eigenvalue_report();
+    let html = run.text("report.html");
     // The same page, its scripts as text.
-    let silent = report.with_file_name("silent.html");
+    let silent = run.path("silent.html");
     std::fs::write(&silent, html.replace("<script>", "<script type=\"text/plain\">")).unwrap();
     let browser = Browser::open(WIDE);
     browser.visit(&silent);
@@ -282,23 +289,22 @@ fn without_scripts_numbers_and_pictures_are_there() {
 }
 
 fn two_runs_are_compared_number_by_number_and_curve_over_curve() {
-    let (folder, _) = eigenvalue_report();
-    let (other, _) = eigenvalue_report();
-    let again = Run::new(&["cea", "case.toml", "-qq", "--force"]).within(&other).out("out");
-    again.set(&[EIGENVALUE_SET, "material.poisson_ratio=0.36"]).done();
-    let paths = [&folder, &other].map(|f| f.path().join("out").display().to_string());
-    let compare = Run::new(&["compare", &paths[0], &paths[1], "-qq"]).within(&folder).out("both");
-    let rows = rows_of(&compare.done().path("compare.csv"));
-    let [one, two] = [&folder, &other].map(|folder| {
-        summary_of(folder)["critical_frictions"][0]["critical_friction"].as_f64().unwrap()
+    let set = [EIGENVALUE_SET, "material.poisson_ratio=0.36"];
+    let runs = [eigenvalue_report(), report_of("cea", "polycarbonate-disc.toml", &set)];
+    let [a, b] = runs.each_ref().map(|(_, run)| run.out.to_str().unwrap());
+    let both = Run::new(&["compare", a, b, "-qq"]).within(&runs[0].0).out("both").done();
+    let [one, two] = runs.each_ref().map(|(_, run)| {
+        run.summary()["critical_frictions"][0]["critical_friction"].as_f64().unwrap()
     });
-    let row = rows.iter().find(|row| row[0].ends_with(".critical_friction")).unwrap();
-    let number = |at: usize| row[at].parse::<f64>().unwrap();
-    assert_eq!((number(2), number(3)), (one, two), "{row:?}");
+    let table = both.text("compare.csv");
+    let row = table.lines().find(|row| row.contains(".critical_friction,")).unwrap();
+    let numbers = row.rsplit(',').take(4).map(|cell| cell.parse::<f64>().unwrap());
+    let [relative, difference, b, a]: [f64; 4] = numbers.collect::<Vec<_>>().try_into().unwrap();
+    assert_eq!((a, b), (one, two), "{row}");
     let apart = two - one;
-    assert!((number(4) - apart).abs() < 1e-15 && (number(5) - apart / one).abs() < 1e-12);
+    assert!((difference - apart).abs() < 1e-15 && (relative - apart / one).abs() < 1e-12);
     let browser = Browser::open(WIDE);
-    browser.visit_ready(&folder.path().join("both/report.html"));
+    browser.visit_ready(&both.path("report.html"));
     keep_screenshot(&browser, "compare-1280.png");
     // Curves of both runs in one panel.
     press(&browser, "pairs", "Zoom");

@@ -1,9 +1,9 @@
 //! Reports to look at, and what is checked on every page.
 
 use super::driver::Browser;
-use crate::program::{Run, folder_with, shipped};
+use crate::common::cases::kept;
+use crate::program::{Answer, Run, folder_with, shipped};
 use serde_json::{Value, json};
-use std::path::{Path, PathBuf};
 use tempfile::TempDir;
 
 /// Text that would become an element if it were not escaped.
@@ -12,28 +12,21 @@ pub const MARKUP: &str = "</script><img src=x onerror=document.title='broken'>&a
 pub const WIDE: [usize; 2] = [1280, 900];
 pub const PHONE: [usize; 2] = [400, 800];
 
-/// A case of the collection in `folder`, with a title that has markup in it, and its report.
-pub fn report_of(command: &str, name: &str, set: &[&str]) -> (TempDir, PathBuf) {
+/// A run of a case of the collection, with a title that has markup in it, in a folder.
+pub fn report_of(command: &str, name: &str, set: &[&str]) -> (TempDir, Answer) {
     let text = std::fs::read_to_string(shipped(name)).unwrap();
     let title = text.lines().find(|line| line.starts_with("title")).unwrap();
     let text = text.replace(title, &format!("title = \"{MARKUP}\""));
     let folder = folder_with(&[("case.toml", text.as_bytes())]);
-    let run = Run::new(&[command, "case.toml", "-qq"]).within(&folder).out("out").set(set);
-    let report = run.done().path("report.html");
-    (folder, report)
+    let run = Run::new(&[command, "case.toml", "-qq"]).within(&folder).out("out").set(set).done();
+    (folder, run)
 }
 
 pub const EIGENVALUE_SET: &str = "mesh.circumferential_elements=36 ; mesh.radial_elements=5 ; \
      cea.friction_coefficients={from=0.0,to=0.6,count=13} ; cea.max_frequency_hz=13000.0";
 
-pub fn eigenvalue_report() -> (TempDir, PathBuf) {
+pub fn eigenvalue_report() -> (TempDir, Answer) {
     report_of("cea", "polycarbonate-disc.toml", &[EIGENVALUE_SET])
-}
-
-pub fn transient_report(duration: &str) -> (TempDir, PathBuf) {
-    let set = "mesh.circumferential_elements=48 ; mesh.radial_elements=7 ; output.probes=[1,5] ; \
-         output.snapshots=[0.005] ; transient.perturbation.velocity=3e-2";
-    report_of("transient", "polycarbonate-610rpm.toml", &[set, duration])
 }
 
 /// Presses the button of a figure whose text begins so.
@@ -52,8 +45,8 @@ pub fn data_of(browser: &Browser, figure: &str) -> Vec<Vec<String>> {
     browser.wait("return window.taken !== null");
     assert_eq!(browser.run("return window.takenName"), json!(format!("{figure}.csv")));
     let text = browser.run("return window.taken");
-    let mut reader =
-        csv::ReaderBuilder::new().has_headers(false).from_reader(text.as_str().unwrap().as_bytes());
+    let bytes = text.as_str().unwrap().as_bytes();
+    let mut reader = csv::ReaderBuilder::new().has_headers(false).from_reader(bytes);
     reader.records().map(|row| row.unwrap().iter().map(str::to_owned).collect()).collect()
 }
 
@@ -83,9 +76,8 @@ pub fn canvas(browser: &Browser, figure: &str, what: &str) -> Value {
 pub fn play(browser: &Browser, figure: &str) {
     press(browser, figure, "Play");
     let name = figure.replace('.', "\\\\.");
-    browser.wait(&format!(
-        "return Number(document.querySelector('#{name} canvas').dataset.phase) > 0.05"
-    ));
+    let phase = format!("Number(document.querySelector('#{name} canvas').dataset.phase)");
+    browser.wait(&format!("return {phase} > 0.05"));
     press(browser, figure, "Pause");
 }
 
@@ -102,17 +94,5 @@ pub fn check_text_stays_text(browser: &Browser) {
 }
 
 pub fn keep_screenshot(browser: &Browser, name: &str) {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("reports");
-    std::fs::create_dir_all(&folder).unwrap();
-    std::fs::write(folder.join(name), browser.screenshot()).unwrap();
-}
-
-pub fn summary_of(folder: &TempDir) -> Value {
-    let text = std::fs::read_to_string(folder.path().join("out/summary.json")).unwrap();
-    serde_json::from_str(&text).unwrap()
-}
-
-pub fn rows_of(path: &Path) -> Vec<Vec<String>> {
-    let mut reader = csv::Reader::from_path(path).unwrap();
-    reader.records().map(|row| row.unwrap().iter().map(str::to_owned).collect()).collect()
+    std::fs::write(kept("reports").join(name), browser.screenshot()).unwrap();
 }

@@ -2,7 +2,6 @@
 //! name each other in a circle, and no room has more lines than its budget.
 
 use crate::prelude::*;
-use std::collections::BTreeSet;
 
 /// Modules by floor, lowest first.
 const FLOORS: [&[&str]; 10] = [
@@ -33,35 +32,16 @@ const TREES: [(&str, &str); 5] = [
     ("crates/study/src", "study"),
 ];
 
-/// The Rust files of the tree of modules, each with its path in the tree.
-fn module_files() -> Vec<(PathBuf, PathBuf)> {
-    let mut all = Vec::new();
-    for (tree, module) in TREES {
-        let source = Path::new(env!("CARGO_MANIFEST_DIR")).join(tree);
-        let mut files = Vec::new();
-        rust_files(&source, &mut files);
-        all.extend(files.into_iter().map(|path| {
-            let relative = Path::new(module).join(path.strip_prefix(&source).unwrap());
-            (path, relative)
-        }));
-    }
-    all
-}
-
 /// Whether a module is a crate: `crate::` is what lies in it.
 fn is_crate(module: &str) -> bool {
     TREES.iter().any(|(_, own)| *own == module)
 }
 
-fn rust_files(folder: &Path, files: &mut Vec<PathBuf>) {
-    for entry in fs::read_dir(folder).unwrap() {
-        let path = entry.unwrap().path();
-        if path.is_dir() {
-            rust_files(&path, files);
-        } else if path.extension().is_some_and(|extension| extension == "rs") {
-            files.push(path);
-        }
-    }
+/// The Rust files below a folder of the repository.
+pub fn rust_files(folder: impl AsRef<Path>) -> Vec<PathBuf> {
+    let mut files = files_below(&repository().join(folder));
+    files.retain(|path| path.extension().is_some_and(|extension| extension == "rs"));
+    files
 }
 
 /// Lines of Rust that each room may have, tests not counted: budgets only fall. A change that makes a room smaller lowers its line;
@@ -109,14 +89,9 @@ fn lines_without_tests(path: &Path) -> usize {
 
 /// Lines of each room: a folder of `src`, of the physics or of `crates`, or a file of `src`.
 fn lines_of_rooms() -> BTreeMap<String, usize> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let mut files = Vec::new();
-    for home in ["src", "crates"].map(|home| root.join(home)).iter().filter(|home| home.exists()) {
-        rust_files(home, &mut files);
-    }
     let mut rooms = BTreeMap::new();
-    for path in files {
-        let relative = path.strip_prefix(root).unwrap();
+    for path in ["src", "crates"].into_iter().flat_map(rust_files) {
+        let relative = path.strip_prefix(repository()).unwrap();
         let depth = if relative.starts_with(PHYSICS) { 4 } else { 2 };
         let room: PathBuf = relative.iter().take(depth).collect();
         let room = room.to_str().unwrap().replace('\\', "/");
@@ -156,14 +131,9 @@ fn no_room_has_more_lines_than_its_budget() {
 /// Texts and comments too, which the formatter leaves as they are.
 #[test]
 fn lines_of_the_upper_rooms_have_120_columns_at_most() {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let mut files = Vec::new();
     let crates = ["case", "chart", "output", "results", "signal", "study"];
-    let crates = crates.map(|name| format!("crates/{name}"));
-    for room in crates.iter().map(String::as_str).chain(["src/app"]) {
-        rust_files(&root.join(room), &mut files);
-    }
-    for path in files {
+    let rooms = crates.map(|name| format!("crates/{name}")).into_iter().chain(["src/app".into()]);
+    for path in rooms.flat_map(rust_files) {
         let code = fs::read_to_string(&path).unwrap();
         let long = code.lines().position(|line| line.chars().count() > 120);
         assert_eq!(long, None, "{}, counted from 0", path.display());
@@ -175,26 +145,6 @@ fn without_comments(code: &str) -> String {
     let lines = code.lines();
     let stripped = lines.map(|line| line.split("//").next().unwrap_or(""));
     stripped.collect::<Vec<_>>().join("\n")
-}
-
-/// Top-level modules that code names through `crate::`, brace groups included, with the line of each.
-fn named_modules(code: &str) -> Vec<(usize, String)> {
-    let stripped = without_comments(code);
-    let mut named = Vec::new();
-    for (at, pattern) in stripped.match_indices("crate::") {
-        let line = stripped[..at].matches('\n').count() + 1;
-        let rest = &stripped[at + pattern.len()..];
-        let paths = match rest.strip_prefix('{') {
-            Some(group) => top_level_items(group),
-            None => vec![rest],
-        };
-        for path in paths {
-            let path = path.trim_start();
-            let end = path.find(|c: char| !c.is_alphanumeric() && c != '_');
-            named.push((line, path[..end.unwrap_or(path.len())].to_string()));
-        }
-    }
-    named
 }
 
 /// Items of a `use` group up to its closing brace, nested groups left whole.
@@ -219,28 +169,18 @@ fn top_level_items(group: &str) -> Vec<&str> {
 
 #[test]
 fn every_module_names_only_lower_floors() {
-    let files = module_files();
-    assert!(files.len() > 10, "the source tree was not found");
+    let modules = modules();
+    assert!(modules.len() > 10, "the source tree was not found");
     let mut broken = Vec::new();
-    for (path, relative) in files {
-        let home = relative.iter().next().unwrap().to_str().unwrap();
-        // What a crate names stands in its `Cargo.toml`.
-        if is_crate(home) {
-            continue;
-        }
-        let Some(floor) = floor_of(home.trim_end_matches(".rs")) else {
-            assert!(
-                matches!(home, "lib.rs" | "main.rs"),
-                "{} stands on no floor",
-                relative.display()
-            );
-            continue;
-        };
-        for (line, module) in named_modules(&fs::read_to_string(&path).unwrap()) {
-            let goes_up = floor_of(&module).is_some_and(|other| other >= floor);
-            if module != home && goes_up {
-                let place = format!("{}:{line}", relative.display());
-                broken.push(format!("{place} names crate::{module}"));
+    // What a crate names stands in its `Cargo.toml`.
+    for (module, code) in modules.iter().filter(|(module, _)| !is_crate(&module[0])) {
+        let home = floor_of(&module[0]);
+        let home = home.unwrap_or_else(|| panic!("{} stands on no floor", module.join("::")));
+        for path in named_paths(code, module) {
+            let floor =
+                path.first().filter(|name| **name != module[0]).and_then(|own| floor_of(own));
+            if floor.is_some_and(|floor| floor >= home) {
+                broken.push(format!("{} names {}", module.join("::"), path.join("::")));
             }
         }
     }
@@ -250,10 +190,8 @@ fn every_module_names_only_lower_floors() {
 /// The producers of eigenproblems stand side by side on one theory, which knows neither; faer is the affair of `linalg`.
 #[test]
 fn the_eigenvalue_theory_names_none_of_its_producers_and_they_not_each_other() {
-    let home = Path::new(env!("CARGO_MANIFEST_DIR")).join(PHYSICS).join("cea");
-    let mut files = Vec::new();
-    rust_files(&home, &mut files);
-    for path in files {
+    let home = repository().join(PHYSICS).join("cea");
+    for path in rust_files(&home) {
         let place = path.strip_prefix(&home).unwrap().to_str().unwrap();
         let code = without_comments(&fs::read_to_string(&path).unwrap());
         let forbidden: &[&str] = match place {
@@ -271,9 +209,9 @@ fn the_eigenvalue_theory_names_none_of_its_producers_and_they_not_each_other() {
 #[test]
 fn every_way_to_name_a_module_is_seen() {
     let code = "use crate::cea::{A, B}; // crate::app\nuse crate::{fem::{X, y}, mesh};\ncrate::linalg::z()";
-    let named = named_modules(code);
-    let expected = [(1, "cea"), (2, "fem"), (2, "mesh"), (3, "linalg")];
-    assert_eq!(named, expected.map(|(line, name)| (line, name.to_string())));
+    let named = named_paths(&without_comments(code), &["frf".to_owned()]);
+    let named: Vec<String> = named.iter().map(|path| path.join("::")).collect();
+    assert_eq!(named, ["cea::A", "cea::B", "fem::X", "fem::y", "mesh", "linalg::z"]);
 }
 
 /// A path in the module tree: `["results", "cea", "Branch"]`.
@@ -319,16 +257,21 @@ fn paths_of(tree: &str, mut prefix: Names, paths: &mut Vec<Names>) {
     }
 }
 
-/// The modules of the tree, each with its code.
+/// The modules of the tree, each with its code; the roots are none.
 fn modules() -> BTreeMap<Names, String> {
-    let module = |(path, relative): (PathBuf, PathBuf)| {
-        let relative = relative.with_extension("");
-        let mut names: Names =
-            relative.iter().map(|name| name.to_str().unwrap().to_owned()).collect();
-        names.retain(|name| !["mod", "lib", "main"].contains(&name.as_str()));
-        (names, without_comments(&fs::read_to_string(path).unwrap()))
-    };
-    module_files().into_iter().map(module).filter(|(names, _)| !names.is_empty()).collect()
+    let mut all = BTreeMap::new();
+    for (tree, module) in TREES {
+        for path in rust_files(tree) {
+            let relative = path.strip_prefix(repository().join(tree)).unwrap();
+            let relative = Path::new(module).join(relative).with_extension("");
+            let names = relative.iter().map(|name| name.to_str().unwrap().to_owned());
+            let names: Names =
+                names.filter(|own| !["mod", "lib", "main"].contains(&&**own)).collect();
+            all.insert(names, without_comments(&fs::read_to_string(path).unwrap()));
+        }
+    }
+    all.remove(&Names::new());
+    all
 }
 
 /// The module that defines what a path names, through the `pub use` of the faces of folders.

@@ -1,18 +1,18 @@
 //! README and guide: every command that they show runs, every printed result that they show is printed, and sentences and
 //! lines have the length of the house.
 
+use crate::architecture::rust_files;
 use crate::prelude::*;
 
 /// README, instructions and guide; the pages of keys and columns are made from the declarations.
 fn pages() -> Vec<(String, String)> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let guide = fs::read_dir(root.join("src/guide")).unwrap().map(|entry| entry.unwrap().path());
+    let guide = files_below(&repository().join("src/guide")).into_iter();
     let is_written = |path: &PathBuf| {
         path.extension().is_some_and(|end| end == "md")
             && !["keys.md", "columns.md"].iter().any(|page| path.ends_with(page))
     };
     let mut paths: Vec<PathBuf> = guide.filter(is_written).collect();
-    paths.extend(["README.md", "CONTRIBUTING.md"].map(|name| root.join(name)));
+    paths.extend(["README.md", "CONTRIBUTING.md"].map(|name| repository().join(name)));
     paths.sort();
     let page = |path: &PathBuf| {
         let name = path.file_name().unwrap().to_string_lossy().into_owned();
@@ -170,19 +170,8 @@ fn the_readme_is_short_and_pages_keep_within_100_columns() {
 
 /// The modules of the program and its crates: path and code.
 fn modules() -> Vec<(String, String)> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let mut folders = vec![root.join("src"), root.join("crates")];
-    let mut modules = Vec::new();
-    while let Some(folder) = folders.pop() {
-        for path in names_in(&folder).iter().map(|name| folder.join(name)) {
-            if path.is_dir() {
-                folders.push(path);
-            } else if path.extension().is_some_and(|end| end == "rs") {
-                modules.push((path.display().to_string(), fs::read_to_string(&path).unwrap()));
-            }
-        }
-    }
-    modules
+    let files = ["src", "crates"].into_iter().flat_map(rust_files);
+    files.map(|path| (path.display().to_string(), fs::read_to_string(path).unwrap())).collect()
 }
 
 /// What modules and crates say of themselves at their heads.
@@ -311,14 +300,14 @@ fn sentences_of_messages_have_under_25_words() {
 /// Pages that the README and the instructions link to are there.
 #[test]
 fn links_of_readme_and_instructions_lead_somewhere() {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     for name in ["README.md", "CONTRIBUTING.md"] {
-        let text = fs::read_to_string(root.join(name)).unwrap();
+        let text = fs::read_to_string(repository().join(name)).unwrap();
         let inline = text.split("](").skip(1).filter_map(|rest| rest.split(')').next());
         let listed = text.lines().filter_map(|line| line.strip_prefix('[')?.split_once("]: "));
         for link in inline.chain(listed.map(|(_, link)| link)) {
             let path = link.split('#').next().unwrap_or(link);
-            assert!(link.starts_with("http") || root.join(path).exists(), "{name}: {link}");
+            let is_there = link.starts_with("http") || repository().join(path).exists();
+            assert!(is_there, "{name}: {link}");
         }
     }
 }

@@ -6,7 +6,7 @@ use frictionsim::study::eigenvalues::Solver;
 
 const DISC: &str = include_str!("refused/orthotropic.toml");
 
-fn read(overrides: &[&str]) -> Result<Case, String> {
+fn read(overrides: &[&str]) -> Result<Case, CaseErrors> {
     read_case("disc.toml", DISC, overrides)
 }
 
@@ -70,8 +70,7 @@ fn a_common_material_is_asked_for_only_where_a_region_has_none() {
     let region = |layer| if layer < 2 { "disc" } else { "rim" };
     let ring = ring_grid([0.0205, 0.0905], [16, 4], ["inner", "outer"], &region);
     let folder = folder_with(&[("ring.msh", &grids(&[ring]))]);
-    let path = folder.path().join("case.toml");
-    let read = |text: &str| Case::parse(path.to_str().unwrap(), text.as_bytes(), &[]);
+    let read = |text: &str| read_case(folder.path().join("case.toml"), text, AS_IT_IS);
     let case = read(TWO_REGIONS).unwrap();
     // What asks for one material gets that of the first region.
     assert_eq!([case.material.young_modulus, case.material.density], [2.5e9, 1228.0]);

@@ -47,7 +47,7 @@ fn both_methods_have_the_same_tables() {
 fn a_law_of_the_case_replaces_the_stiffness_of_an_input_file() {
     let path = shipped("brake.toml");
     let own = fs::read_to_string(&path).unwrap();
-    let read = |text: &str| Case::parse(&path, text.as_bytes(), &[]).unwrap();
+    let read = |text: &str| case_of(&path, text, AS_IT_IS);
     let law = "normal_law = \"exponential\"\nreference_pressure = 1e5\nheight = 1e-6\n";
     let sections = ["Outer", "Inner"].map(|pad| format!("[contacts.{pad}_Friction_face]\n{law}"));
     let (plain, stiffening) = (read(&own), read(&(own.clone() + &sections.concat())));

@@ -17,20 +17,10 @@ fn plot(folder: &TempDir, more: &[&str]) -> Run {
 
 /// Every file below a folder with its bytes; locks and the manifest, whose file list grows, left out.
 fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
-    let mut found = BTreeMap::new();
-    let mut folders = vec![folder.to_owned()];
-    while let Some(at) = folders.pop() {
-        for entry in fs::read_dir(at).unwrap() {
-            let path = entry.unwrap().path();
-            let name = path.strip_prefix(folder).unwrap().display().to_string();
-            if path.is_dir() {
-                folders.push(path);
-            } else if !name.starts_with('.') && name != "manifest.json" {
-                found.insert(name, fs::read(&path).unwrap());
-            }
-        }
-    }
-    found
+    let name = |path: &PathBuf| path.strip_prefix(folder).unwrap().display().to_string();
+    let files = files_below(folder).into_iter().map(|path| (name(&path), path));
+    let files = files.filter(|(name, _)| !name.starts_with('.') && name != "manifest.json");
+    files.map(|(name, path)| (name, fs::read(path).unwrap())).collect()
 }
 
 /// Holds a run to its figures, and `plot` to the same bytes, over them and where they are lost; and to fewer dots, where all are.

@@ -18,9 +18,25 @@ fn cea(folder: &Path, case: impl AsRef<Path>, set: &[&str]) -> Answer {
     Run::of("cea", case.as_ref()).within(folder).out("out").args(&["--force"]).set(set).done()
 }
 
-/// Whether two rows are about one mode at one friction value.
-fn same_mode(row: &Row, other: &Row) -> bool {
-    ["mode", "friction_coefficient"].iter().all(|name| row[*name] == other[*name])
+/// Every mode of the budget: whether friction acts, growth rate, circular frequency and the rows about it, whose growth rates are held
+/// to add up to that of the mode, to a share of the frequency.
+fn budget(answer: &Answer, tolerance: f64) -> Vec<(bool, f64, f64, Vec<Row>)> {
+    let rows = answer.rows("contributions.csv");
+    let of_mode = |mode: Row| {
+        let is_own = |row: &Row| {
+            ["mode", "friction_coefficient"].iter().all(|name| row[*name] == mode[*name])
+        };
+        let own: Vec<Row> = rows.iter().filter(|row| is_own(row)).cloned().collect();
+        let [growth, hz] = mode.numbers(["growth_rate_per_s", "frequency_hz"]);
+        let (omega, sum) = (TAU * hz, own.iter().map(rate).sum::<f64>());
+        assert!((sum - growth).abs() < tolerance * omega, "{sum} {growth}");
+        (mode.number("friction_coefficient") > 0.0, growth, omega, own)
+    };
+    answer.rows("eigenvalues.csv").into_iter().map(of_mode).collect()
+}
+
+fn rate(row: &Row) -> f64 {
+    row.number("growth_rate_per_s")
 }
 
 /// Exact identities: what parts, supports and two contacts add is the growth rate; without friction the contacts add nothing,
@@ -29,32 +45,26 @@ fn same_mode(row: &Row, other: &Row) -> bool {
 fn what_parts_supports_and_contacts_add_is_the_growth_rate() {
     let folder = folder_with(&[("pads.msh", &pads()), ("case.toml", CASE.as_bytes())]);
     let answer = cea(folder.path(), "case.toml", &[]);
-    let rows = answer.rows("contributions.csv");
     let coefficients =
         BTreeMap::from([("slab", [10.0, 1e-7]), ("left", [5.0, 2e-7]), ("right", [40.0, 4.5e-7])]);
     let mut is_fed = false;
-    for mode in answer.rows("eigenvalues.csv") {
-        let own: Vec<_> = rows.iter().filter(|row| same_mode(row, &mode)).collect();
+    // Contacts are found from their forces, which a residual of 1e-12 of the eigenproblem carries.
+    for (has_friction, _, omega, own) in budget(&answer, 1e-8) {
         assert_eq!(own.len(), 6, "three parts, a support, two contacts");
-        let (growth, omega) = (mode.number("growth_rate_per_s"), TAU * mode.number("frequency_hz"));
-        let sum: f64 = own.iter().map(|row| row.number("growth_rate_per_s")).sum();
-        // Contacts are found from their forces, which a residual of 1e-12 of the eigenproblem carries.
-        assert!((sum - growth).abs() < 1e-8 * omega, "{sum} {growth}");
         for share in ["kinetic_share", "strain_share"] {
             let shares = own.iter().map(|row| row.number(share)).filter(|share| share.is_finite());
             assert!((shares.sum::<f64>() - 1.0).abs() < 1e-12);
         }
         let fed = own.iter().filter(|row| row["kind"] == "contact");
-        let fed: Vec<f64> = fed.map(|row| row.number("growth_rate_per_s")).collect();
-        if mode.number("friction_coefficient") == 0.0 {
+        let fed: Vec<f64> = fed.map(rate).collect();
+        if !has_friction {
             assert!(fed.iter().all(|fed| fed.abs() < 1e-8 * omega), "{fed:?} without friction");
             // `-2 g_r = alpha_r T_r + beta_r U_r`: every region tells the same strain energy of the whole.
             let parts = own.iter().filter(|row| row["kind"] == "part");
             let whole: Vec<f64> = parts
                 .map(|row| {
                     let [alpha, beta] = coefficients[row["name"].as_str()];
-                    let damped = -2.0 * row.number("growth_rate_per_s");
-                    let rest = damped - alpha * row.number("kinetic_share");
+                    let rest = -2.0 * rate(row) - alpha * row.number("kinetic_share");
                     rest / (beta * row.number("strain_share"))
                 })
                 .collect();
@@ -85,17 +95,10 @@ fn loss_factors_of_supports_and_contacts_are_told_where_they_act() {
         ("contacts.first.loss_factor=0.1", "first"),
     ] {
         let answer = cea(folder.path(), "case.toml", &[lossy]);
-        let rows = answer.rows("contributions.csv");
         let mut largest = 0.0_f64;
-        for mode in answer.rows("eigenvalues.csv") {
-            let own = || rows.iter().filter(|row| same_mode(row, &mode));
-            let growth = mode.number("growth_rate_per_s");
-            let omega = TAU * mode.number("frequency_hz");
-            let rate = |row: &Row| row.number("growth_rate_per_s");
-            let sum: f64 = own().map(rate).sum();
-            assert!((sum - growth).abs() < 1e-8 * omega, "{name} {sum} {growth}");
-            if mode.number("friction_coefficient") == 0.0 {
-                let taken = own().find(|row| row["name"] == name).map(rate).unwrap();
+        for (has_friction, growth, omega, own) in budget(&answer, 1e-8) {
+            if !has_friction {
+                let taken = own.iter().find(|row| row["name"] == name).map(rate).unwrap();
                 assert!((taken - growth).abs() < 1e-8 * omega, "{name} {taken} {growth}");
                 assert!(growth <= 0.0);
                 largest = largest.max(-growth / omega);
@@ -161,16 +164,15 @@ fn the_feed_over_the_contact_points_adds_up_to_that_of_the_contacts() {
         assert!(!own.is_empty(), "{set:?}: no unstable mode");
         let friction = feed[0].number("friction_coefficient");
         for mode in own {
-            let points = feed.iter().filter(|row| row["mode"] == **mode);
-            let sum: f64 = points.clone().map(|row| row.number("growth_rate_per_s")).sum();
-            let size: f64 = points.map(|row| row.number("growth_rate_per_s").abs()).sum();
+            let points = feed.iter().filter(|row| row["mode"] == **mode).map(rate);
+            let sum: f64 = points.clone().sum();
+            let size: f64 = points.map(f64::abs).sum();
             let is_contact = |row: &&Row| {
                 row["mode"] == **mode
                     && row["kind"] == "contact"
                     && row.number("friction_coefficient") == friction
             };
-            let contacts = rows.iter().filter(is_contact);
-            let fed: f64 = contacts.map(|row| row.number("growth_rate_per_s")).sum();
+            let fed: f64 = rows.iter().filter(is_contact).map(rate).sum();
             let omega = TAU * rows.iter().find(is_contact).unwrap().number("frequency_hz");
             // What is left is the residual of the eigenpair, 1e-12 of the forces of inertia and less.
             assert!((sum - fed).abs() < 1e-9 * (omega + size), "{set:?}: {sum} {fed}");
@@ -243,11 +245,10 @@ fn sectors_tell_the_same_budget_as_the_whole_mesh() {
             assert!((sum - whole_sums[key]).abs() < 1e-6, "{set:?} {key:?}");
         }
         assert!(!feed.is_empty() && feed.len() == whole_feed.len());
-        let size = feed.iter().map(|row| row.number("growth_rate_per_s").abs());
-        let size = size.fold(0.0, f64::max);
+        let size = feed.iter().map(|row| rate(row).abs()).fold(0.0, f64::max);
         for (own, other) in feed.iter().zip(whole_feed) {
             assert_eq!((&own["x_m"], &own["mode"]), (&other["x_m"], &other["mode"]));
-            let [a, b] = [own, other].map(|row| row.number("growth_rate_per_s"));
+            let [a, b] = [own, other].map(rate);
             assert!((a - b).abs() < 1e-6 * size, "{set:?}: {a} {b}");
         }
     }
@@ -277,7 +278,7 @@ fn a_guided_body_of_revolution_has_the_budget_of_the_plane_disc() {
         };
         let other = solids.iter().find(same);
         let other = other.unwrap_or_else(|| panic!("no solid mode like {row:?}"));
-        let [own, other] = [row, other].map(|row| row.number("growth_rate_per_s"));
+        let [own, other] = [row, other].map(rate);
         // Bricks of 20 nodes are integrated in another way than the plane's elements.
         let close = 1e-3 * own.abs() + 1e-6 * TAU * frequency;
         assert!((own - other).abs() < close, "{row:?}: {own} {other}");
@@ -290,8 +291,7 @@ fn a_guided_body_of_revolution_has_the_budget_of_the_plane_disc() {
         let columns = ["frequency_hz", "growth_rate_per_s", "growth_rate_per_s_m2"];
         let own: Vec<[f64; 3]> = own.map(|row| row.numbers(columns)).collect();
         let is_it = |row: &&Row| (row.number("frequency_hz") / own[0][0] - 1.0).abs() < 1e-4;
-        let flat = feed.iter().filter(is_it);
-        let flat: f64 = flat.map(|row| row.number("growth_rate_per_s")).sum();
+        let flat: f64 = feed.iter().filter(is_it).map(rate).sum();
         if flat == 0.0 {
             continue;
         }
@@ -321,22 +321,13 @@ fn gyroscopic_forces_have_their_own_row_in_the_budget() {
     let file = file_of(&blocks, polar);
     let folder = folder_with(&[("rotor.msh", &file), ("case.toml", ROTOR.as_bytes())]);
     let answer = cea(folder.path(), "case.toml", &[]);
-    let rows = answer.rows("contributions.csv");
     let mut largest = 0.0_f64;
-    for mode in answer.rows("eigenvalues.csv") {
-        let own = rows.iter().filter(|row| same_mode(row, &mode));
-        let own: Vec<(&str, f64)> =
-            own.map(|row| (row["kind"].as_str(), row.number("growth_rate_per_s"))).collect();
-        let omega = TAU * mode.number("frequency_hz");
-        let sum: f64 = own.iter().map(|(_, rate)| rate).sum();
-        let growth = mode.number("growth_rate_per_s");
-        assert!((sum - growth).abs() < 1e-9 * omega, "{sum} {growth}");
-        let turned = own.iter().find(|(kind, _)| *kind == "rotation").unwrap();
-        largest = largest.max(turned.1.abs() / growth.abs());
-        if mode.number("friction_coefficient") == 0.0 {
-            let mut fed = own.iter().filter(|(kind, _)| *kind == "contact");
-            assert!(fed.all(|(_, rate)| rate.abs() < 1e-8 * omega), "{own:?}");
-        }
+    for (has_friction, growth, omega, own) in budget(&answer, 1e-9) {
+        let of_kind = |kind: &'static str| own.iter().filter(move |row| row["kind"] == kind);
+        let turned = of_kind("rotation").map(rate).next().unwrap();
+        largest = largest.max(turned.abs() / growth.abs());
+        let mut fed = of_kind("contact").map(rate);
+        assert!(has_friction || fed.all(|rate| rate.abs() < 1e-8 * omega), "{own:?}");
     }
     assert!(largest > 1e-3, "rotation matters: {largest}");
 }

@@ -16,8 +16,7 @@ const GRID: &str = "\n[sweep]\n\"contact.friction_coefficient\" = [0.2, 0.3, 0.4
 
 fn study(sweep: &str) -> Case {
     let file = include_str!("../../cases/polycarbonate-disc.toml");
-    let text = format!("{file}{sweep}");
-    Case::parse("study.toml", text.as_bytes(), &[]).unwrap()
+    case_of("study.toml", &format!("{file}{sweep}"), AS_IT_IS)
 }
 
 const SEVEN: &str = "\n[sweep]\nanalyses = [\"cea\"]\n\
@@ -42,9 +41,8 @@ fn shards_are_disjoint_and_cover_every_point() {
 fn a_point_is_the_case_with_the_swept_values_as_overrides() {
     let swept = study(SEVEN);
     let point = SweepPlan::new(&swept).unwrap().point_case(3).unwrap();
-    let set = ["contact.friction_coefficient=0.3".to_owned()];
-    let file = include_bytes!("../../cases/polycarbonate-disc.toml");
-    let plain = Case::parse("case.toml", file, &set).unwrap();
+    let set = ["contact.friction_coefficient=0.3"];
+    let plain = shipped_case("polycarbonate-disc.toml", &set);
     assert_eq!(point.raw.hash(), plain.raw.hash());
     assert_eq!(point.contact.sliding.friction_coefficient, 0.3);
 }

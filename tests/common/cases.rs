@@ -1,6 +1,6 @@
 //! Cases that are read from a text, under changes of which several stand in one with ` ; ` between.
 
-use frictionsim::case::Case;
+use frictionsim::case::{Case, CaseErrors};
 use frictionsim::signal::reader::MeasuredMode;
 use std::path::{Path, PathBuf};
 
@@ -9,11 +9,10 @@ pub fn read_case<S: AsRef<str>>(
     path: impl AsRef<Path>,
     text: &str,
     changes: &[S],
-) -> Result<Case, String> {
+) -> Result<Case, CaseErrors> {
     let changes = changes.iter().flat_map(|text| text.as_ref().split(" ; "));
     let changes: Vec<String> = changes.map(str::to_owned).collect();
-    let case = Case::parse(path.as_ref().to_str().unwrap(), text.as_bytes(), &changes);
-    case.map_err(|errors| errors.to_string())
+    Case::parse(path.as_ref().to_str().unwrap(), text.as_bytes(), &changes)
 }
 
 /// A case that must be valid.

@@ -11,7 +11,8 @@ pub use super::kept::Kept;
 pub use super::mesh_text::*;
 pub use super::msh::*;
 pub use super::program::{
-    Answer, Row, Run, folder, folder_with, has, names_in, rows, shell, shipped,
+    Answer, Row, Run, files_below, folder, folder_with, has, names_in, repository, rows, shell,
+    shipped,
 };
 pub use super::solids::*;
 pub use super::spectra::*;

@@ -6,6 +6,16 @@ pub fn eigenvalues_of(modes: &[ComplexMode]) -> Vec<c64> {
     modes.iter().map(|mode| mode.eigenvalue).collect()
 }
 
+/// Critical frictions of onsets.
+pub fn criticals<'a>(onsets: impl IntoIterator<Item = &'a UnstableInterval>) -> Vec<f64> {
+    onsets.into_iter().map(|own| own.critical_friction).collect()
+}
+
+/// The mode that grows fastest.
+pub fn fastest<'a>(modes: impl IntoIterator<Item = &'a ComplexMode>) -> &'a ComplexMode {
+    modes.into_iter().max_by(|a, b| a.growth_rate().total_cmp(&b.growth_rate())).unwrap()
+}
+
 /// What some work gives on so many threads.
 pub fn on_threads<T: Send>(count: usize, work: impl FnOnce() -> T + Send) -> T {
     rayon::ThreadPoolBuilder::new().num_threads(count).build().unwrap().install(work)

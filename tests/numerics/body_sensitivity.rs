@@ -75,8 +75,7 @@ pub fn nearest((friction, sweep): &(f64, FrictionSweep), eigenvalue: c64) -> c64
 }
 
 fn nearest_onset(sweep: &FrictionSweep, friction: f64) -> f64 {
-    let all = sweep.intervals.iter().map(|i| i.critical_friction);
-    nearest_by(all, |other| (other - friction).abs())
+    nearest_by(criticals(&sweep.intervals), |other| (other - friction).abs())
 }
 
 /// Takes a disc to a body without symmetry: its hub stays round, its outer edge is an oval about another centre.

@@ -42,8 +42,7 @@ fn pressed(file: &FileMesh, interference: f64) -> [f64; 2] {
     let mesh = solid(file);
     let contact = on_rigid(&mesh, "z0", ball(interference), Some(1e13));
     let assembly = Assembly::new(&mesh, &RUBBER, &[], &[contact], &[], BaseChoice::Solved).unwrap();
-    let range = assembly.range(&[0.0]).unwrap();
-    let forces = range.states[0].normal_forces(0.0);
+    let forces = assembly.state(0.0).unwrap().normal_forces(0.0);
     let points = &assembly.contacts()[0].1.points;
     let pressures = forces.iter().zip(points).map(|(force, point)| force / point.weight);
     [pressures.fold(0.0, f64::max), forces.iter().sum()]
@@ -119,13 +118,8 @@ fn an_overlap_beyond_the_interference_is_told_with_its_depth() {
     ] {
         let told_of = |radius: &str| {
             let held = format!("boundaries.{held}={{ condition = \"clamped\" }}");
-            let text = include_str!("../cases/pushed-in.toml");
-            warnings(&case_beside(
-                "chords",
-                &[("body.msh", &mesh)],
-                text,
-                &[&held, contact, radius],
-            ))
+            let (text, set) = (include_str!("../cases/pushed-in.toml"), [&*held, contact, radius]);
+            warnings(&case_beside("chords", &[("body.msh", &mesh)], text, &set))
         };
         has(&told_of(&format!("contact.radius={radius}")), &[said, "contact.interference"]);
         has(&told_of("contact.friction_coefficient=0.3"), &["!enters"]);

@@ -281,11 +281,8 @@ fn a_disc_that_bends_away_from_its_ring_is_the_same_by_waves_and_as_a_whole() {
             sweep.points[1].modes.iter().map(ComplexMode::frequency_hz).collect()
         });
         near_each(&own, &other, tolerance);
-        let critical = |sweep: &FrictionSweep| {
-            let all = sweep.intervals.iter().map(|own| own.critical_friction);
-            all.fold(f64::INFINITY, f64::min)
-        };
-        let [own, other] = [critical(&waves), critical(&whole)];
+        let [own, other] = [&waves, &whole]
+            .map(|sweep| criticals(&sweep.intervals).into_iter().fold(f64::INFINITY, f64::min));
         assert!((own / other - 1.0).abs() < tolerance, "{own} {other}");
     }
 }

@@ -27,18 +27,7 @@ fn lining(name: &str, sections: &str, overrides: &[String]) -> Case {
 }
 
 fn dense(case: &Case) -> Vec<f64> {
-    let body = case.body.assembly().unwrap();
-    let count = body.mesh.dof_count();
-    let full = |triplets: &Triplets| {
-        let mut matrix = DMatrix::zeros(count, count);
-        for &(row, column, value) in &triplets.entries {
-            matrix[(row, column)] += value;
-        }
-        matrix
-    };
-    let mass = full(&assemble_mass(&body.mesh, case.materials(), Consistent));
-    let stiffness = full(&assemble_stiffness(&body.mesh, case.materials()));
-    let squares = crate::supported_bodies::squares(mass, &stiffness);
+    let squares = crate::supported_bodies::dense(case);
     // Six rigid motions of round-off.
     assert!(squares[5].abs() < 1e-6 * squares[6]);
     squares[6..].iter().map(|square| square.sqrt()).collect()

@@ -61,14 +61,11 @@ fn critical_friction_does_not_depend_on_the_friction_values_asked_for() {
     let all = [&[0.1, 0.4, 0.8][..], &[0.1, 0.3, 0.35, 0.6, 0.7, 0.8]];
     for frictions in sized(&all[..1], &all) {
         let other = sweep_of(CASE, &folder, frictions);
-        let pairs = located(&coarse).into_iter().zip(located(&other));
-        assert_eq!(located(&coarse).len(), located(&other).len(), "{frictions:?}");
-        for (a, b) in pairs {
-            let difference = (a.critical_friction - b.critical_friction).abs();
-            // To 1e-9 a change of the contact state is located; the base state is known to 1e-8.
-            assert!(difference < 1e-8, "{frictions:?} {difference:e} {a:?} {b:?}");
-            assert!((a.frequency_hz / b.frequency_hz - 1.0).abs() < 1e-8, "{a:?} {b:?}");
-        }
+        let [a, b] = [&coarse, &other].map(located);
+        // To 1e-9 a change of the contact state is located; the base state is known to 1e-8.
+        within(&criticals(a.clone()), &criticals(b.clone()), 1e-8);
+        let [a, b] = [a, b].map(|all| all.iter().map(|own| own.frequency_hz).collect::<Vec<_>>());
+        near_each(&a, &b, 1e-8);
     }
 }
 
@@ -85,10 +82,8 @@ fn a_branch_that_leaves_the_list_as_contact_opens_keeps_its_name() {
     let listed = sweep_of(STRIP, &folder, &frictions);
     let longer = STRIP.replace("modes = 11", "modes = 12");
     let all = sweep_of(&longer, &folder, &frictions);
-    let [found, expected] = [listed, all].map(|sweep| -> Vec<f64> {
-        assert_eq!(sweep.intervals.len(), 2, "{:?}", sweep.intervals);
-        sweep.intervals.iter().map(|own| own.critical_friction).collect()
-    });
+    let [found, expected] = [listed, all].map(|sweep| criticals(&sweep.intervals));
+    assert_eq!(found.len(), 2, "{found:?}");
     within(&found, &expected, 1e-8);
     assert!((found[1] - 0.2268).abs() < 1e-4, "{found:?}");
 }

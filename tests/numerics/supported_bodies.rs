@@ -5,7 +5,6 @@
 
 use crate::prelude::*;
 use crate::sliding_bodies::{holds_for_all, sums};
-use frictionsim::results::matrices::ExportedSystem;
 use proptest::prelude::*;
 
 #[derive(Clone, Debug)]
@@ -66,17 +65,12 @@ fn part(body: &Body, folder: &str) -> Case {
     case_beside(folder, &[("part.msh", &mesh)], &text, AS_IT_IS)
 }
 
-/// Squares of all angular frequencies by a dense decomposition, ascending.
-fn dense(system: &ExportedSystem) -> Vec<f64> {
-    let [mass, _, stiffness, _] = sums(system);
+/// Squares of all angular frequencies by a dense decomposition of the exported matrices, ascending.
+pub fn dense(case: &Case) -> Vec<f64> {
+    let [mass, _, stiffness, _] = sums(&matrices(case, None).unwrap());
     let full = |own: Mat<f64>| DMatrix::from_fn(own.nrows(), own.nrows(), |i, j| own[(i, j)]);
-    squares(full(mass), &full(stiffness))
-}
-
-/// Eigenvalues of a symmetric pencil, ascending.
-pub fn squares(mass: DMatrix<f64>, stiffness: &DMatrix<f64>) -> Vec<f64> {
-    let factor = mass.cholesky().unwrap().l();
-    let half = factor.solve_lower_triangular(stiffness).unwrap();
+    let factor = full(mass).cholesky().unwrap().l();
+    let half = factor.solve_lower_triangular(&full(stiffness)).unwrap();
     let scaled = factor.solve_lower_triangular(&half.transpose()).unwrap();
     let symmetric = (&scaled + scaled.transpose()) * 0.5;
     let mut squares: Vec<f64> = symmetric.symmetric_eigenvalues().iter().copied().collect();
@@ -89,7 +83,7 @@ fn check(body: &Body, folder: &str) -> Result<(), TestCaseError> {
 }
 
 fn check_case(case: &Case, count: usize) -> Result<(), TestCaseError> {
-    let expected = dense(&matrices(case, None).unwrap());
+    let expected = dense(case);
     let found = modes_and_onsets(case).map_err(|error| TestCaseError::fail(error.to_string()))?;
     let modes = &found.points[0].modes;
     prop_assert!(modes.len() >= count, "{} modes of {count}", modes.len());

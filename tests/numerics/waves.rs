@@ -52,6 +52,18 @@ type Name = (usize, usize, i8);
 /// A parameter's name, its own size, the step of a difference, and the change of a model by so much.
 type Parameter<S> = (&'static str, Option<f64>, f64, fn(&mut WaveModel<S>, f64));
 
+/// Adds to both numbers of the law of a contact that stiffens.
+fn add_to_law<S>(model: &mut WaveModel<S>, more: [f64; 2]) {
+    if let Some(
+        NormalLaw::Cubic { stiffness: first, cubic_stiffness: second }
+        | NormalLaw::Exponential { reference_pressure: first, height: second },
+    ) = &mut model.options.contact.law
+    {
+        *first += more[0];
+        *second += more[1];
+    }
+}
+
 /// The parameters that a model may have; of Poisson's ratio the size is about what is left to 1/2.
 fn parameters<S: Sectors>(model: &WaveModel<S>) -> [Parameter<S>; 11] {
     let WaveModel { material, options, contact, .. } = model;
@@ -76,26 +88,11 @@ fn parameters<S: Sectors>(model: &WaveModel<S>) -> [Parameter<S>; 11] {
             if let Some(k) = &mut m.options.contact.normal_stiffness {
                 *k += h;
             }
-            if let Some(NormalLaw::Cubic { stiffness, .. }) = &mut m.options.contact.law {
-                *stiffness += h;
-            }
+            add_to_law(m, [h, 0.0]);
         }),
-        ("c", cubic, share(cubic, 0.004), |m, h| {
-            if let Some(NormalLaw::Cubic { cubic_stiffness, .. }) = &mut m.options.contact.law {
-                *cubic_stiffness += h;
-            }
-        }),
-        ("p_r", p_r, share(p_r, 0.004), |m, h| {
-            let law = &mut m.options.contact.law;
-            if let Some(NormalLaw::Exponential { reference_pressure, .. }) = law {
-                *reference_pressure += h;
-            }
-        }),
-        ("h", height, share(height, 0.002), |m, h| {
-            if let Some(NormalLaw::Exponential { height, .. }) = &mut m.options.contact.law {
-                *height += h;
-            }
-        }),
+        ("c", cubic, share(cubic, 0.004), |m, h| add_to_law(m, [0.0, h])),
+        ("p_r", p_r, share(p_r, 0.004), |m, h| add_to_law(m, [h, 0.0])),
+        ("h", height, share(height, 0.002), |m, h| add_to_law(m, [0.0, h])),
         ("q", contact.decay.map(|d| d.static_ratio), 5e-3, |m, h| {
             m.contact.decay.as_mut().unwrap().static_ratio += h;
         }),

@@ -1,16 +1,8 @@
 //! Bounds on what is read: input that is small to write and had no end, or ended in an abort or a panic.
 
-use crate::mesh_files::{ASSEMBLY, BULK_DATA, error};
+use crate::mesh_files::{ASSEMBLY, BULK_DATA, error, said_of};
 use crate::prelude::*;
 use frictionsim::signal::reader::read_shapes;
-
-fn parsed(folder: &Path, case: &str) -> Result<Case, CaseErrors> {
-    Case::parse(&folder.join("case.toml").display().to_string(), case.as_bytes(), &[])
-}
-
-fn said_of(folder: &Path, case: &str) -> String {
-    parsed(folder, case).unwrap_err().messages().join("\n")
-}
 
 const MESH: &str = "[mesh]\nfile = \"a.inp\"\n[cea]\nmodes = 3\n";
 
@@ -129,7 +121,8 @@ fn what_joins_parts_and_is_not_understood_is_an_error_unless_the_case_drops_it()
     let deck = BULK_DATA.replace("ENDDATA", cards);
     let folder = folder_with(&[("a.bdf", deck.as_bytes())]);
     let case = "[mesh]\nfile = \"a.bdf\"\n";
-    let errors = parsed(folder.path(), case).unwrap_err();
+    let path = folder.path().join("case.toml");
+    let errors = read_case(&path, case, AS_IT_IS).unwrap_err();
     let line = 1 + deck.lines().position(|line| line.starts_with("RBE2,90")).unwrap();
     let [before, after] = [line - 1, line + 2];
     let listed =
@@ -143,7 +136,7 @@ fn what_joins_parts_and_is_not_understood_is_an_error_unless_the_case_drops_it()
     has(&said_of(folder.path(), &some), &["CONM2 ; !RBE2"]);
     // What is dropped is listed.
     let all = format!("{case}drop = [\"RBE2\", \"FORCE\", \"conm2\"]\n");
-    let case = parsed(folder.path(), &all).unwrap_or_else(|errors| panic!("{errors}"));
+    let case = case_of(path, &all, AS_IT_IS);
     let dropped = format!("RBE2 (line {line}, 2 times): mesh.drop leaves it out");
     has(&case.taken.not_used().join("\n"), &[&dropped]);
     // `init --from` proposes no silent drop.

@@ -16,20 +16,15 @@ const RUN: &str = include_str!("../../../cases/polycarbonate-610rpm.toml");
 const STUDY: &str = include_str!("../../../cases/speed-friction-study.toml");
 
 fn parse(text: &str, overrides: &[&str]) -> Result<Case, CaseErrors> {
-    let overrides = overrides.iter().flat_map(|text| text.split(" ; ")).map(str::to_owned);
-    let overrides: Vec<String> = overrides.collect();
-    Case::parse("case.toml", text.as_bytes(), &overrides)
+    read_case("case.toml", text, overrides)
 }
 
 fn valid(text: &str, overrides: &[&str]) -> Case {
-    parse(text, overrides).unwrap_or_else(|errors| panic!("{errors}"))
+    case_of("case.toml", text, overrides)
 }
 
 fn report(text: &str, overrides: &[&str]) -> String {
-    match parse(text, overrides) {
-        Ok(_) => panic!("valid under {overrides:?}"),
-        Err(errors) => errors.to_string(),
-    }
+    parse(text, overrides).expect_err("a valid case").to_string()
 }
 
 fn disc_with(key: &str, line: &str) -> String {

@@ -57,10 +57,6 @@ fn rows(table: &str) -> impl Iterator<Item = [&str; 4]> {
     })
 }
 
-fn repository() -> &'static Path {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
-}
-
 fn run(binary: &Path, [name, command, input, changes]: [&str; 4], folder: &Path) -> Result {
     let out = folder.join(name);
     let mut program = Command::new(binary);
@@ -77,18 +73,13 @@ fn run(binary: &Path, [name, command, input, changes]: [&str; 4], folder: &Path)
     }
     let output = program.output().expect("the program starts");
     assert!(output.status.success(), "{name}: {}", String::from_utf8_lossy(&output.stderr));
-    let mut result = Result::new();
-    read_folder(&out, &out, &mut result);
-    result
+    read_folder(&out)
 }
 
-fn read_folder(root: &Path, folder: &Path, result: &mut Result) {
-    for path in names_in(folder).iter().map(|name| folder.join(name)) {
-        let name = path.strip_prefix(root).unwrap().to_string_lossy().replace('\\', "/");
-        if path.is_dir() {
-            read_folder(root, &path, result);
-            continue;
-        }
+fn read_folder(folder: &Path) -> Result {
+    let mut result = Result::new();
+    for path in files_below(folder) {
+        let name = path.strip_prefix(folder).unwrap().to_string_lossy().replace('\\', "/");
         match path.extension().and_then(|extension| extension.to_str()) {
             Some("csv") => {
                 result.insert(name, read_table(&path));
@@ -101,6 +92,7 @@ fn read_folder(root: &Path, folder: &Path, result: &mut Result) {
             _ => {}
         }
     }
+    result
 }
 
 fn read_table(path: &Path) -> BTreeMap<String, Numbers> {

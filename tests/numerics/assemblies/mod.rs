@@ -89,9 +89,12 @@ fn bar() -> Mesh {
 }
 
 /// Small motions at a friction coefficient.
-fn tangent_at(assembly: &Assembly<'_>, friction: f64, options: &TangentOptions) -> SlidingTangent {
-    let range = assembly.range(&[friction]).unwrap();
-    assembly.tangent(&range.states[0], options).unwrap()
+pub fn tangent_at(
+    assembly: &Assembly<'_>,
+    friction: f64,
+    options: &TangentOptions,
+) -> SlidingTangent {
+    assembly.tangent(&assembly.state(friction).unwrap(), options).unwrap()
 }
 
 /// Theory: a bar under pressure, through a contact whose meshes do not match, rigid and on springs, and through a tie.
@@ -100,8 +103,7 @@ fn constant_pressure_passes_a_contact_and_a_tie_between_meshes_that_do_not_match
     let mesh = bar();
     for normal_stiffness in [None, Some(1e14)] {
         let assembly = pressed(&mesh, normal_stiffness);
-        let range = assembly.range(&[0.0]).unwrap();
-        let state = &range.states[0];
+        let state = assembly.state(0.0).unwrap();
         let jump = normal_stiffness.map_or(0.0, |stiffness| 1e8 / stiffness);
         let error = patch_error(&mesh, &state.displacements[0], jump);
         below(error / SHORTER, 1e-11, format!("{normal_stiffness:?}"));
@@ -114,8 +116,7 @@ fn constant_pressure_passes_a_contact_and_a_tie_between_meshes_that_do_not_match
     }
     let glue = tie(&mesh, "upper_z0", "lower_z1");
     let assembly = Assembly::new(&mesh, &STEEL, &[glue], &[], &[], Solved).unwrap();
-    let range = assembly.range(&[0.0]).unwrap();
-    let error = patch_error(&mesh, &range.states[0].displacements[0], 0.0);
+    let error = patch_error(&mesh, &assembly.state(0.0).unwrap().displacements[0], 0.0);
     below(error / SHORTER, 1e-11, "tied");
 }
 

@@ -20,9 +20,8 @@ fn forces_of_a_rotation(mesh: &Mesh, contact: SlidingSurfaces, motions: &[Motion
         (_, motions) => (motions[0].axis, motions[0].center),
     };
     let assembly = assembled(mesh, contact, motions).unwrap();
-    let range = assembly.range(&[friction]).unwrap();
-    let [without, tangent] =
-        [OPTIONS, STRESSED].map(|own| assembly.tangent(&range.states[0], &own).unwrap());
+    let state = assembly.state(friction).unwrap();
+    let [without, tangent] = [OPTIONS, STRESSED].map(|own| assembly.tangent(&state, &own).unwrap());
     let (axis, center) = (Vector3::from(axis.0), Vector3::from(axis.1));
     let rotation = mesh.nodes.iter();
     let rotation = rotation.map(|&node| axis.cross(&(Vector3::from(node) - center)).into());
@@ -62,7 +61,7 @@ fn forces_of_a_rotation(mesh: &Mesh, contact: SlidingSurfaces, motions: &[Motion
         own.stiffness.pattern().multiply(&values, unknowns.as_ref())
     });
     let whole = whole - elastic;
-    let displacement = range.states[0].displacement(friction);
+    let displacement = state.displacement(friction);
     let stress = assemble_geometric_stiffness(mesh, &STEEL, &displacement, None);
     let alone = stress.multiply(mesh.dof_count(), &rotation);
     largest(&|unknown| whole[(unknown, 0)])

@@ -44,10 +44,8 @@ fn a_rigid_plane_is_a_body_that_is_held_everywhere() {
             ..sliding(&mesh, stiffness)
         };
         let on_rigid = assembled(&mesh, on_rigid, &[]).unwrap();
-        let pressures = [&held, &on_rigid].map(|assembly| {
-            let range = assembly.range(&[0.4]).unwrap();
-            range.states[range.state_of[0]].normal_forces(0.4)
-        });
+        let pressures =
+            [&held, &on_rigid].map(|assembly| assembly.state(0.4).unwrap().normal_forces(0.4));
         if stiffness.is_none() {
             let largest = pressures[0].iter().copied().fold(0.0, f64::max);
             assert!(largest > 0.0);
@@ -91,8 +89,7 @@ fn a_shaft_presses_a_bush_evenly_whatever_its_axis() {
             let outward: f64 = (0..3).map(|k| arm[k] * site.normal[k]).sum();
             assert!(outward > 0.9 * radius);
         }
-        let range = assembly.range(&[0.0]).unwrap();
-        let forces = range.states[0].normal_forces(0.0);
+        let forces = assembly.state(0.0).unwrap().normal_forces(0.0);
         for (force, point) in forces.iter().zip(&surface.points) {
             assert!(force / point.weight > 1e6, "{force}");
         }

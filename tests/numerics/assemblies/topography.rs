@@ -61,8 +61,7 @@ fn a_measured_gap_presses_as_the_same_gap_of_the_mesh_and_opens_where_it_opens()
         };
         let pressures = |mesh: &Mesh, contact: SlidingSurfaces| -> Vec<(f64, bool)> {
             let assembly = assembled(mesh, contact, &[aside(mesh)]).unwrap();
-            let range = assembly.range(&[friction]).unwrap();
-            let state = &range.states[range.state_of[0]];
+            let state = assembly.state(friction).unwrap();
             let forces = state.normal_forces(friction);
             let points = &assembly.contacts()[0].1.points;
             let pressure = points.iter().zip(forces).map(|(point, force)| force / point.weight);

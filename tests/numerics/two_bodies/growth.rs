@@ -21,7 +21,7 @@ fn a_mode_of_two_bodies_whose_meshes_do_not_match_grows_as_its_eigenvalue_says()
         let limit = Lowest(12);
         let request = SweepRequest { shapes_at: &[0.3], ..sweep_request(&[0.3], limit) };
         let found = sweep(&tangent, &request, &|_| {}).unwrap().points.remove(0).modes;
-        let mode = found.iter().max_by(|a, b| a.eigenvalue.re.total_cmp(&b.eigenvalue.re)).unwrap();
+        let mode = fastest(&found);
         assert!(mode.eigenvalue.re > 0.0);
         let shape = mode.shape.as_ref().unwrap();
         let (record, harmonic) = run(&mesh, &materials, mode.eigenvalue, shape);

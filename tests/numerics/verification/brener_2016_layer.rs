@@ -69,10 +69,9 @@ fn annulus(a: f64) -> [[f64; 2]; 2] {
     let modes = table(&folder, "cea", case, &size, "eigenvalues.csv");
     [0.5, 1.0].map(|k| {
         let n = (k * a / HEIGHT).round();
-        let own = modes.iter().filter(|mode| mode["harmonic"] == n);
-        let fastest = own.max_by(|a, b| a["growth_rate_per_s"].total_cmp(&b["growth_rate_per_s"]));
-        let fastest = fastest.unwrap();
-        [fastest["growth_rate_per_s"], fastest["frequency_hz"]]
+        let own = modes.iter().filter(|mode| mode.number("harmonic") == n);
+        let own = own.map(|mode| mode.numbers(["growth_rate_per_s", "frequency_hz"]));
+        own.max_by(|a: &[f64; 2], b| a[0].total_cmp(&b[0])).unwrap()
     })
 }
 

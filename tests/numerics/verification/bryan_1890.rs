@@ -67,8 +67,8 @@ fn ring(sectors: usize) -> [[f64; 2]; 2] {
     let (folder, set) = (folder("bryan_1890", &mesh), format!("mesh.sectors={sectors}"));
     let modes = table(&folder, "cea", case, &set, "eigenvalues.csv");
     [2.0, 3.0].map(|n| {
-        let own = modes.iter().filter(|mode| mode["harmonic"] == n);
-        let found: Vec<f64> = own.map(|mode| mode["frequency_hz"]).collect();
+        let own = modes.iter().filter(|mode| mode.number("harmonic") == n);
+        let found: Vec<f64> = own.map(|mode| mode.number("frequency_hz")).collect();
         [0.5 * (found[0] + found[1]), (found[1] - found[0]) / 20.0]
     })
 }

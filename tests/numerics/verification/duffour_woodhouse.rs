@@ -27,8 +27,8 @@ fn duffour_woodhouse_critical_friction_is_a_root_of_two_responses() {
     let cea = "[cea]\nmodes = 6\nfriction_coefficients = { from = 0.0, to = 0.4, count = 5 }\n\
                geometric_stiffness = false\n";
     let onsets = table(&folder, "cea", &format!("{body}{cea}"), "", "stability.csv");
-    let pressed = super::rows(&folder.join("cea/prestress.csv"));
-    assert_eq!(pressed.iter().filter(|node| node["pressure_pa"] > 0.0).count(), 1);
+    let pressed = crate::program::rows(&folder.join("cea/prestress.csv"));
+    assert_eq!(pressed.iter().filter(|node| node.number("pressure_pa") > 0.0).count(), 1);
     assert!(!onsets.is_empty());
     for onset in &onsets {
         let response = |direction: &str| {
@@ -36,13 +36,13 @@ fn duffour_woodhouse_critical_friction_is_a_root_of_two_responses() {
                 "[frf]\nboundary = \"clamped\"\nforce_node = {{ x = 0.0, y = 0.0 }}\nforce_direction = \"{direction}\"\n\
                  response_node = {{ x = 0.0, y = 0.0 }}\nresponse_direction = \"y\"\nquantity = \"receptance\"\n\
                  method = \"direct\"\nfrequencies_hz = [{:?}]\n",
-                onset["frequency_hz"]
+                onset.number("frequency_hz")
             );
             let line = &table(&folder, "frf", &format!("{body}{frf}"), "", "frf.csv")[0];
-            faer::c64::new(line["receptance_real"], line["receptance_imaginary"])
+            faer::c64::new(line.number("receptance_real"), line.number("receptance_imaginary"))
         };
         let (normal, along) = (response("y"), response("x"));
-        let rest = normal + along * onset["critical_friction"];
+        let rest = normal + along * onset.number("critical_friction");
         assert!(rest.norm() < 1e-6 * normal.norm(), "{onset:?}: {normal} {along}");
     }
 }

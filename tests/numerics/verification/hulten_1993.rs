@@ -32,9 +32,10 @@ fn block(young_modulus: f64) -> [f64; 3] {
     );
     let onsets = table(&folder, "cea", case, &springs, "stability.csv");
     assert_eq!(onsets.len(), 1);
-    let growth = super::rows(&folder.join("cea/eigenvalues.csv"));
-    let growth = growth.iter().map(|row| row["growth_rate_per_s"]).fold(0.0, f64::max);
-    [onsets[0]["critical_friction"], onsets[0]["frequency_hz"], growth]
+    let growth = rows(&folder.join("cea/eigenvalues.csv"));
+    let growth = growth.iter().map(|row| row.number("growth_rate_per_s")).fold(0.0, f64::max);
+    let [critical, frequency] = onsets[0].numbers(["critical_friction", "frequency_hz"]);
+    [critical, frequency, growth]
 }
 
 #[test]

@@ -45,12 +45,12 @@ fn errors(step: f64) -> [f64; 2] {
     });
     let case = include_str!("../../cases/johnson-sliding-hertz.toml");
     let folder = folder("johnson_sliding_hertz", &mesh);
-    let mut nodes = table(&folder, "cea", case, "", "prestress.csv");
-    nodes.sort_by(|a, b| a["x_m"].total_cmp(&b["x_m"]));
-    let between = nodes.windows(2).map(|pair| {
-        let width = pair[1]["x_m"] - pair[0]["x_m"];
-        0.5 * width * (pair[0]["pressure_pa"] + pair[1]["pressure_pa"])
-    });
+    let nodes = table(&folder, "cea", case, "", "prestress.csv");
+    let mut nodes: Vec<[f64; 2]> =
+        nodes.iter().map(|node| node.numbers(["x_m", "pressure_pa"])).collect();
+    nodes.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    let between =
+        nodes.windows(2).map(|pair| 0.5 * (pair[1][0] - pair[0][0]) * (pair[0][1] + pair[1][1]));
     let force: f64 = between.sum();
     // The closed form under this force; friction pulls the body along +x, the patch lies behind.
     let (poisson, friction) = (0.3_f64, 0.5);
@@ -65,11 +65,11 @@ fn errors(step: f64) -> [f64; 2] {
         _ => 0.0,
     };
     let (mut off, mut total, mut largest) = (0.0, 0.0, 0.0_f64);
-    for node in &nodes {
-        let exact = pressure(node["x_m"]);
-        off += (node["pressure_pa"] - exact).powi(2);
+    for &[x, found] in &nodes {
+        let exact = pressure(x);
+        off += (found - exact).powi(2);
         total += exact * exact;
-        largest = largest.max(node["pressure_pa"]);
+        largest = largest.max(found);
     }
     // It is largest at s = -2 g a.
     let peak = pressure(-4.0 * g * half);

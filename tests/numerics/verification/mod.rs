@@ -15,12 +15,8 @@ mod sector_pads;
 use crate::prelude::*;
 use nalgebra::DVector;
 
-/// A row of a table of results by the names of its columns; what is no number is not a number.
-type Row = BTreeMap<String, f64>;
-
 fn folder(name: &str, mesh: &[u8]) -> PathBuf {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("verification").join(name);
-    fs::create_dir_all(&folder).unwrap();
+    let folder = kept(&format!("verification/{name}"));
     fs::write(folder.join("body.msh"), mesh).unwrap();
     folder
 }
@@ -29,14 +25,7 @@ fn folder(name: &str, mesh: &[u8]) -> PathBuf {
 fn table(folder: &Path, command: &str, case: &str, changes: &str, file: &str) -> Vec<Row> {
     let run = Run::of_text(command, folder, case).args(&["-qq", "--force"]).out(command);
     let changes = (!changes.is_empty()).then_some(changes);
-    rows(&run.set(changes.as_slice()).done().path(file))
-}
-
-/// The rows of a table of results.
-fn rows(path: &Path) -> Vec<Row> {
-    let number = |(head, cell): (String, String)| (head, cell.parse().unwrap_or(f64::NAN));
-    let rows = crate::program::rows(path).into_iter();
-    rows.map(|row| row.0.into_iter().map(number).collect()).collect()
+    run.set(changes.as_slice()).done().rows(file)
 }
 
 /// Integral of a smooth function by Simpson's rule on 400 intervals.

@@ -44,7 +44,7 @@ fn frequencies(n: usize) -> Vec<f64> {
     fs::write(folder.join("plate.inp"), plate(n)).unwrap();
     let case = "[mesh]\nfile = \"plate.inp\"\n[cea]\nmodes = 10\nfriction_coefficients = [0.0]\n";
     let modes = table(&folder, "cea", case, "", "eigenvalues.csv");
-    modes.iter().map(|mode| mode["frequency_hz"]).collect()
+    modes.iter().map(|mode| mode.number("frequency_hz")).collect()
 }
 
 #[test]

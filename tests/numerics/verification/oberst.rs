@@ -20,7 +20,8 @@ fn beam(elements: usize) -> [f64; 2] {
     let mesh = file_of(&[layer("metal", 0.0, 1e-3, 1), layer("layer", 1e-3, 2e-3, 2)], |p| p);
     let case = include_str!("../../cases/oberst.toml");
     let modes = table(&folder("oberst", &mesh), "cea", case, "", "eigenvalues.csv");
-    let lambda = c64::new(modes[0]["real_hz"], modes[0]["frequency_hz"]);
+    let [real, imaginary] = modes[0].numbers(["real_hz", "frequency_hz"]);
+    let lambda = c64::new(real, imaginary);
     // lambda^2 = -omega_0^2 (1 + i eta).
     let square = lambda * lambda;
     [lambda.im, square.im / square.re]

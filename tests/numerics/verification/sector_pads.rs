@@ -75,9 +75,9 @@ fn found(thickness: f64, count: usize) -> [f64; 2] {
     let case = include_str!("../../cases/sector-pads.toml");
     let folder = folder("sector_pads", &plate(thickness));
     let mut onsets = table(&folder, "cea", case, &set, "stability.csv");
-    onsets.sort_by(|a, b| a["frequency_hz"].total_cmp(&b["frequency_hz"]));
+    onsets.sort_by(|a, b| a.number("frequency_hz").total_cmp(&b.number("frequency_hz")));
     assert_eq!(onsets.len(), 2, "{onsets:?}");
-    [0, 1].map(|k| onsets[k]["critical_friction"])
+    [0, 1].map(|k| onsets[k].number("critical_friction"))
 }
 
 #[test]

@@ -54,6 +54,11 @@ pub fn error(name: &str, text: &str) -> String {
     read(name, text).expect_err("the file is wrong").to_string()
 }
 
+/// What is said of a case in a folder, a line each.
+pub fn said_of(folder: &Path, text: &str) -> String {
+    read_case(folder.join("case.toml"), text, AS_IT_IS).unwrap_err().messages().join("\n")
+}
+
 /// Lines `FROM => TO => SAID` of a change to a right file, and what must be said of it.
 fn check_errors(name: &str, text: &str, changes: &str) {
     for change in changes.trim_matches('\n').split('\n') {

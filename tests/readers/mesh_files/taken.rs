@@ -1,5 +1,6 @@
 //! What a case takes from its mesh file: units, sections, includes, and the case that `init --from` writes.
 
+use super::said_of as refused;
 use crate::prelude::*;
 use crate::program;
 
@@ -8,17 +9,8 @@ const BRICKS: &str = include_str!("../meshes/bricks-in-contact.inp");
 
 const CASE: &str = "[mesh]\nfile = \"bricks.inp\"\nunits = \"mm-t-s\"\n[cea]\nmodes = 3\n";
 
-fn case_of(folder: &Path, text: &str) -> Result<Case, CaseErrors> {
-    let path = folder.join("case.toml").display().to_string();
-    Case::parse(&path, text.as_bytes(), &[])
-}
-
 fn taken(folder: &Path, text: &str) -> Case {
-    case_of(folder, text).unwrap_or_else(|errors| panic!("{errors}\n{text}"))
-}
-
-fn refused(folder: &Path, text: &str) -> String {
-    case_of(folder, text).unwrap_err().messages().join("\n")
+    case_of(folder.join("case.toml"), text, AS_IT_IS)
 }
 
 fn folder_with(deck: &str) -> TempDir {
