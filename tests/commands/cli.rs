@@ -9,7 +9,7 @@ fn disc() -> String {
     shipped("polycarbonate-disc.toml")
 }
 
-fn run(folder: &TempDir, words: &[&str]) -> Run {
+pub fn run(folder: &TempDir, words: &[&str]) -> Run {
     Run::new(words).within(folder)
 }
 
@@ -365,12 +365,7 @@ fn tables_of_one_name_from_two_runs_have_a_folder_each() {
     for (name, frequency) in [("70rpm", 900.0), ("610rpm", 1100.0)] {
         let path = folder.path().join("results").join(name).join("transient");
         fs::create_dir_all(&path).unwrap();
-        let mut table = "time_s,v\n".to_owned();
-        for i in 0..400 {
-            let t = 1e-4 * f64::from(i);
-            table += &format!("{t},{}\n", (TAU * frequency * t).sin());
-        }
-        fs::write(path.join("probe-1.csv"), table).unwrap();
+        fs::write(path.join("probe-1.csv"), tones(1e4, 400, &[("v", frequency)])).unwrap();
         let signal = format!("results/{name}/transient/probe-1.csv");
         run(&folder, &["signal", &signal, "--no-figures"]).done();
     }

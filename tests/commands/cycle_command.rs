@@ -190,8 +190,7 @@ fn a_body_without_symmetry_says_what_it_does_not_use_and_where_nothing_grows() {
 
 /// A square of one element on a moving plane, whose friction falls with speed: from 1.28 to 2.15 m/s it squeals beside stable sliding.
 fn square(command: &str, folder: &Path, set: &[&str]) -> Run {
-    let edge = even(0.01, 1);
-    let square = quadrilaterals(&edge, &edge, ["face", "back", "body"], |x, y| [x, y]);
+    let square = plane_block([0.01; 2], [1; 2], ["face", "back", "body"]);
     fs::write(folder.join("square.msh"), square).unwrap();
     fs::write(folder.join("case.toml"), include_str!("../cases/oscillator.toml")).unwrap();
     let own = "contact.speed=1.5 ; transient.duration=1e-2 ; cycle.continuation={ \

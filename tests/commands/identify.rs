@@ -4,10 +4,7 @@
 //! here, never from the library's own modal model.
 
 use crate::prelude::*;
-use frictionsim::signal::{
-    Estimate, FrequencyResponse, Identification, ResonanceNote, ResponseQuantity, SignalError,
-    identify,
-};
+use frictionsim::signal::*;
 use rayon::prelude::*;
 
 const ALPHA: f64 = 40.0;
@@ -36,9 +33,12 @@ fn poles(response: &FrequencyResponse) -> Result<Identification, SignalError> {
     identify(std::slice::from_ref(response), None)
 }
 
+fn measured(f: &[f64], h: Vec<c64>) -> FrequencyResponse {
+    FrequencyResponse::new(f.to_vec(), h, ResponseQuantity::Accelerance).unwrap()
+}
+
 fn identified(f: &[f64], h: Vec<c64>) -> Identification {
-    let response = FrequencyResponse::new(f.to_vec(), h, ResponseQuantity::Accelerance).unwrap();
-    poles(&response).unwrap()
+    poles(&measured(f, h)).unwrap()
 }
 
 #[test]
@@ -159,8 +159,7 @@ fn a_response_without_phase_gives_the_same_damping() {
 #[test]
 fn identification_does_not_depend_on_the_quantity_measured() {
     let (f, h) = modal_sum(&SEPARATE, 1.0, 5000.0);
-    let response =
-        FrequencyResponse::new(f, noisy(&h, 0.01, 9), ResponseQuantity::Accelerance).unwrap();
+    let response = measured(&f, noisy(&h, 0.01, 9));
     let want = poles(&response).unwrap();
     for quantity in [ResponseQuantity::Mobility, ResponseQuantity::Receptance] {
         let converted = response.converted(quantity).unwrap();
@@ -179,10 +178,7 @@ fn two_responses_of_one_body_have_common_poles_with_smaller_errors() {
     let others =
         SEPARATE.map(|(f, zeta, residue)| (f, zeta, if f < 2000.0 { -residue } else { residue }));
     let (_, second) = modal_sum(&others, 1.0, 5000.0);
-    let response = |h: &[c64], seed| {
-        let h = noisy(h, 0.01, seed);
-        FrequencyResponse::new(f.clone(), h, ResponseQuantity::Accelerance).unwrap()
-    };
+    let response = |h: &[c64], seed| measured(&f, noisy(h, 0.01, seed));
     let both = [response(&first, 11), response(&second, 12)];
     let alone = identify(&both[..1], None).unwrap();
     let joint = identify(&both, None).unwrap();
@@ -201,13 +197,11 @@ fn two_responses_of_one_body_have_common_poles_with_smaller_errors() {
 #[test]
 fn coarse_lines_and_flat_noise_are_refused_with_the_reason() {
     let (f, h) = modal_sum(&SEPARATE, 24.0, 5000.0);
-    let response = FrequencyResponse::new(f, h, ResponseQuantity::Accelerance).unwrap();
-    let error = poles(&response).unwrap_err();
+    let error = poles(&measured(&f, h)).unwrap_err();
     assert!(matches!(error, SignalError::Unresolved { .. }), "{error}");
     let f: Vec<f64> = (1..2000).map(f64::from).collect();
     let flat = noisy(&vec![c64::new(1.0, 0.0); f.len()], 0.02, 1);
-    let response = FrequencyResponse::new(f, flat, ResponseQuantity::Accelerance).unwrap();
-    let error = poles(&response).unwrap_err();
+    let error = poles(&measured(&f, flat)).unwrap_err();
     assert!(matches!(error, SignalError::NoResonance { .. }), "{error}");
 }
 

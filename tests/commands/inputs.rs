@@ -1,5 +1,6 @@
 //! What is said of bad meshes, bad names and dangerous files, and that nothing of the user's is replaced.
 
+use crate::cli::run;
 use crate::prelude::*;
 
 /// A block of 4 x 4 mm on a plane, clamped at the top.
@@ -8,10 +9,6 @@ const MESH: &str = include_str!("refused/block.msh");
 
 fn block_in(mesh: &str, case: &str) -> TempDir {
     folder_with(&[("block.msh", mesh.as_bytes()), ("block.toml", case.as_bytes())])
-}
-
-fn run(folder: &TempDir, words: &[&str]) -> Run {
-    Run::new(words).within(folder)
 }
 
 fn on_block(mesh: &str, case: &str) -> Answer {
@@ -37,12 +34,7 @@ fn long_names_and_many_unknown_keys_are_bounded_in_time_and_in_what_is_said() {
 
 /// A sine of 1 kHz, 1,000 samples at 20 kHz.
 fn tone(channel: &str) -> String {
-    let mut text = format!("time_s,\"{channel}\"\n");
-    for i in 0..1000 {
-        let time = f64::from(i) / 20e3;
-        writeln!(text, "{time},{}", (TAU * 1e3 * time).sin()).unwrap();
-    }
-    text
+    tones(20e3, 1000, &[(&format!("\"{channel}\""), 1e3)])
 }
 
 #[test]

@@ -11,8 +11,7 @@ const ON_PLANE: &str = "contact={ boundary=\"left_z0\", counterface=\"plane\", s
     direction=[1.0, 0.0, 0.0], friction_coefficient=0.3 }";
 
 fn folder() -> TempDir {
-    let names = ["face", "back", "block"];
-    let block = quadrilaterals(&even(0.04, 6), &even(0.03, 4), names, |x, y| [x, y]);
+    let block = plane_block([0.04, 0.03], [6, 4], ["face", "back", "block"]);
     let pad = |name, left: f64| brick(name, [left, 0.0, 0.0], [0.02, 0.02, 0.01], [2, 2, 1]);
     let pads = [pad("left", 0.0), pad("right", 0.02)];
     folder_with(&[("block.msh", &block), ("pads.msh", &file_of(&pads, |point| point))])

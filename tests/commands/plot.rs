@@ -159,12 +159,7 @@ fn response_and_identification_are_drawn_again_to_the_same_bytes() {
 #[test]
 fn signal_figures_are_drawn_again_to_the_same_bytes() {
     let folder = folder();
-    let mut text = String::from("time_s,left,right\n");
-    for j in 0..4000 {
-        let t = f64::from(j) * 1e-5;
-        let [left, right] = [5000.0, 7000.0].map(|f| (TAU * f * t).sin());
-        text += &format!("{t:?},{left:?},{right:?}\n");
-    }
+    let text = tones(1e5, 4000, &[("left", 5000.0), ("right", 7000.0)]);
     fs::write(folder.path().join("signal.csv"), text).unwrap();
     let words = ["signal", "signal.csv", "--quiet", "--channel", "right", "--window", "0.002"];
     Run::new(&words).within(&folder).args(&FEW_DOTS).out("out").done();

@@ -48,10 +48,7 @@ fn a_squeal_is_named_by_its_mode_with_superharmonics_and_growth_rate() {
 
 #[test]
 fn a_steady_tone_beside_no_unstable_mode_is_given_none_and_can_be_heard() {
-    let tone = |k: u32| (TAU * 9433.0 * f64::from(k) / 2.5e5).sin();
-    let rows: String =
-        (0..20_000).map(|k| format!("{:.7},{:.9}\n", f64::from(k) / 2.5e5, tone(k))).collect();
-    let table = format!("time_s,x\n{rows}");
+    let table = tones(2.5e5, 20_000, &[("x", 9433.0)]);
     let folder = folder_with(&[("tone.csv", table.as_bytes()), ("disc.toml", disc().as_bytes())]);
     let run = |more: &[&str]| {
         Run::of("signal", "tone.csv").within(&folder).args(&["--case", "disc.toml"]).args(more)

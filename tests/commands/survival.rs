@@ -3,6 +3,7 @@
 #![cfg(unix)]
 
 use crate::prelude::*;
+use crate::sweep::table;
 use std::process::{Child, Stdio};
 use std::sync::OnceLock;
 
@@ -48,10 +49,6 @@ fn points(folder: &Path) -> BTreeMap<String, String> {
     let names = names.into_iter().filter(|name| name.starts_with("point-"));
     let points = names.map(|name| (name.clone(), fs::read_to_string(folder.join(name)).unwrap()));
     points.collect()
-}
-
-fn table(folder: &Path) -> String {
-    fs::read_to_string(folder.join("points.csv")).unwrap()
 }
 
 /// Time, table and points of a sweep that nothing happens to, run once.

@@ -3,9 +3,7 @@
 
 use crate::prelude::*;
 use frictionsim::app::Failure;
-use frictionsim::app::sweep::{
-    PointRunner, Shard, SweepPlan, SweepProgress, SweepRun, finished, gather,
-};
+use frictionsim::app::sweep::{SweepProgress, *};
 use frictionsim::results::FolderError;
 use frictionsim::results::sweep::{Start, SweepFolder};
 use serde_json::Map;
@@ -96,7 +94,7 @@ fn sweep(
     Ok(ran)
 }
 
-fn table(folder: &Path) -> String {
+pub fn table(folder: &Path) -> String {
     fs::read_to_string(folder.join("points.csv")).unwrap()
 }
 

@@ -2,6 +2,7 @@
 
 use frictionsim::case::{Case, CaseErrors};
 use frictionsim::signal::reader::MeasuredMode;
+use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};
 
 /// A case whose files lie beside `path`, or what is said of it.
@@ -52,6 +53,17 @@ pub fn case_beside<S: AsRef<str>>(
 /// What a case is warned of, a line each.
 pub fn warnings(case: &Case) -> String {
     case.warnings.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n")
+}
+
+/// A table of sines, each of a channel and its frequency, Hz: so many samples at a rate, Hz.
+pub fn tones(rate: f64, count: u32, channels: &[(&str, f64)]) -> String {
+    let names: String = channels.iter().map(|(name, _)| format!(",{name}")).collect();
+    let row = |k: u32| {
+        let time = f64::from(k) / rate;
+        let value = |(_, frequency): &(&str, f64)| format!(",{}", (TAU * frequency * time).sin());
+        format!("{time}{}\n", channels.iter().map(value).collect::<String>())
+    };
+    format!("time_s{names}\n{}", (0..count).map(row).collect::<String>())
 }
 
 /// A measured mode of a line of a table.

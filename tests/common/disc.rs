@@ -242,11 +242,10 @@ pub fn transient_settings(
     initial: InitialState,
     perturbation: Perturbation,
 ) -> TransientSettings {
-    let time_step = TimeStep::Auto;
     let [duration, sample_interval, expansion_time] = times;
     TransientSettings {
         duration,
-        time_step,
+        time_step: TimeStep::Auto,
         sample_interval,
         expansion_time,
         initial,

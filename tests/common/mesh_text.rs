@@ -91,6 +91,12 @@ pub fn quadrilaterals(
     }])
 }
 
+/// A rectangle of such elements, its corner at the origin.
+pub fn plane_block(size: [f64; 2], counts: [usize; 2], names: [&str; 3]) -> Vec<u8> {
+    let [xs, ys] = [0, 1].map(|axis| even(size[axis], counts[axis]));
+    quadrilaterals(&xs, &ys, names, |x, y| [x, y])
+}
+
 /// A ring around the origin between two radii; names of its inner and its outer edge.
 pub fn ring_grid<'a>(
     [inner, outer]: [f64; 2],

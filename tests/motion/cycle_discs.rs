@@ -9,13 +9,10 @@ fn ring(radii: [f64; 2], elements: [usize; 2]) -> AnnulusSpecification {
     crate::disc::ring(radii, Quad4, elements[0], elements[1])
 }
 
-fn metal(young_modulus: f64, poisson_ratio: f64, density: f64) -> ElasticMaterial {
-    elastic(young_modulus, poisson_ratio, density, PlaneStress)
-}
-
 /// Aluminium, 30 to 75 mm.
 fn aluminium(elements: [usize; 2]) -> (DiscModel, SlidingContact) {
-    let (material, damping) = (metal(70e9, 0.33, 2700.0), rayleigh_damping(0.0, 1.5e-7));
+    let material = elastic(70e9, 0.33, 2700.0, PlaneStress);
+    let damping = rayleigh_damping(0.0, 1.5e-7);
     let model = DiscModel { specification: ring([0.03, 0.075], elements), material, damping };
     (model, sliding_at(0.35, 10e-6, 900.0 * TAU / 60.0))
 }

@@ -11,8 +11,7 @@ struct PlaneBlock([f64; 2], [usize; 2], [f64; 2], [f64; 3]);
 impl PlaneBlock {
     fn cycles(&self, overrides: &[&str]) -> Vec<PeriodicResult> {
         let Self(size, counts, [normal, tangential], [damping, speed, interference]) = *self;
-        let [xs, ys] = [0, 1].map(|axis| even(size[axis], counts[axis]));
-        let mesh = quadrilaterals(&xs, &ys, ["face", "back", "block"], |x, y| [x, y]);
+        let mesh = plane_block(size, counts, ["face", "back", "block"]);
         let own = format!(
             "boundaries.back.normal_stiffness={normal:?} ; \
              boundaries.back.tangential_stiffness={tangential:?} ; \

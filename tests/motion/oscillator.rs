@@ -5,8 +5,7 @@ use crate::prelude::*;
 /// A square of one element on a moving plane, its far side held: two contact nodes that stick and slip under friction that
 /// falls with speed.
 pub fn oscillator(folder: &Path, overrides: &[&str]) -> Case {
-    let edge = even(0.01, 1);
-    let mesh = quadrilaterals(&edge, &edge, ["face", "back", "body"], |x, y| [x, y]);
+    let mesh = plane_block([0.01; 2], [1; 2], ["face", "back", "body"]);
     let text = include_str!("../cases/oscillator.toml");
     fs::write(folder.join("square.msh"), mesh).unwrap();
     let path = folder.join("case.toml");

@@ -125,11 +125,9 @@ fn sensitivities_of_an_oval_on_springs_are_differences_of_its_spectra() {
 #[test]
 fn sensitivities_of_a_block_whose_corner_lifts_are_differences_of_its_spectra() {
     let folder = folder();
-    let cases = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases");
-    let text = fs::read_to_string(cases.join("sliding-block.toml")).unwrap();
-    let mesh = cases.join("meshes/block.msh").display().to_string();
+    let text = fs::read_to_string(shipped("sliding-block.toml")).unwrap();
     let text = text
-        .replace("meshes/block.msh", &mesh)
+        .replace("meshes/block.msh", &shipped("meshes/block.msh"))
         .replace("[0.1, 0.3, 0.5]", "[0.5]")
         .replace("modes = 10", "modes = 3");
     let block = Body { folder, text };

@@ -4,9 +4,7 @@
 mod counts;
 
 use crate::prelude::*;
-use frictionsim::cea::sparse::{
-    Centre, Linearization, ShiftInverted, StiffnessFactors, StructureMatrices,
-};
+use frictionsim::cea::sparse::*;
 
 type Entries = Vec<(usize, usize, f64)>;
 

@@ -269,6 +269,15 @@ fn exported_matrices_hold_where_contact_that_stiffens_has_opened() {
     }
 }
 
+/// Header and data of an array of an archive.
+pub fn array_of(archive: &Path, name: &str) -> (String, Vec<u8>) {
+    let mut archive = zip::ZipArchive::new(fs::File::open(archive).unwrap()).unwrap();
+    let mut bytes = Vec::new();
+    archive.by_name(name).unwrap().read_to_end(&mut bytes).unwrap();
+    let header = 10 + usize::from(bytes[8]) + 256 * usize::from(bytes[9]);
+    (String::from_utf8_lossy(&bytes[10..header]).into_owned(), bytes[header..].to_vec())
+}
+
 /// The keys and types that `scipy.sparse.load_npz` asks for.
 #[test]
 fn archives_hold_compressed_rows_as_scipy_reads_them() {
@@ -278,14 +287,7 @@ fn archives_hold_compressed_rows_as_scipy_reads_them() {
     let out = folder.path().join("matrices");
     let matrix = fs::read_to_string(out.join("K.mtx")).unwrap();
     let (pointers, columns, _) = MarketMatrix::read(&matrix, usize::MAX).unwrap().compressed_rows();
-    let mut archive = zip::ZipArchive::new(fs::File::open(out.join("K.npz")).unwrap()).unwrap();
-    let mut entry = |name: &str| {
-        let mut bytes = Vec::new();
-        archive.by_name(name).unwrap().read_to_end(&mut bytes).unwrap();
-        let header = 10 + usize::from(bytes[8]) + 256 * usize::from(bytes[9]);
-        let text = String::from_utf8_lossy(&bytes[10..header]).into_owned();
-        (text, bytes[header..].to_vec())
-    };
+    let entry = |name: &str| array_of(&out.join("K.npz"), name);
     let (text, bytes) = entry("format.npy");
     assert!(text.contains("'descr': '|S3'") && text.contains("'shape': ()"), "{text}");
     assert_eq!(bytes, b"csr");

@@ -75,8 +75,8 @@ fn of_file(mesh: &[u8], text: &str) -> Case {
 
 fn part(slider: &Slider) -> Case {
     let (mesh, direction, formulation) = if slider.is_plane {
-        let [xs, ys] = [0, 1].map(|axis| even(slider.size[axis], slider.counts[axis]));
-        let mesh = quadrilaterals(&xs, &ys, ["part_z0", "part_z1", "part"], |x, y| [x, y]);
+        let ([x, y, _], [n, m, _]) = (slider.size, slider.counts);
+        let mesh = plane_block([x, y], [n, m], ["part_z0", "part_z1", "part"]);
         (mesh, "[1.0, 0.0]", "formulation = \"plane-strain\"\n")
     } else {
         let block = brick("part", [0.0; 3], slider.size, slider.counts);
@@ -289,10 +289,9 @@ fn of_two_modes_that_meet_one_has_an_onset() {
 /// The dense decomposition has it at 148.3 kHz.
 #[test]
 fn modes_that_friction_brings_below_a_limit_in_frequency_are_listed() {
-    let [xs, ys] = [0.020107041919607042, 0.021423467543813624].map(|edge| even(edge, 3));
-    let mesh = quadrilaterals(&xs, &ys, ["part_z0", "part_z1", "part"], |x, y| [x, y]);
-    let text = include_str!("../cases/plane-block-beyond-a-limit.toml");
-    let case = of_file(&mesh, text);
+    let size = [0.020107041919607042, 0.021423467543813624];
+    let mesh = plane_block(size, [3; 2], ["part_z0", "part_z1", "part"]);
+    let case = of_file(&mesh, include_str!("../cases/plane-block-beyond-a-limit.toml"));
     let found = modes_and_onsets(&case).unwrap();
     for point in &found.points {
         let problem = sums(&matrices(&case, Some(point.friction_coefficient)).unwrap());

@@ -7,7 +7,7 @@ use crate::prelude::*;
 type Check = fn(&Bench, Option<&Bench>) -> Verdict;
 
 pub const ALL: &[(&str, Check)] = &[
-    ("`check`", check),
+    ("`check`", |bench, _| done(bench.run("check", &[])).map(drop)),
     ("`mesh`", mesh),
     ("`cea`", cea),
     ("`cea`, cyclic", |bench, _| by_method(bench, "cyclic")),
@@ -81,11 +81,6 @@ fn lowest_onset(summary: &Value) -> Option<f64> {
     let onsets = summary["critical_frictions"].as_array()?.iter();
     let onsets = onsets.filter_map(|onset| onset["critical_friction"].as_f64());
     onsets.min_by(f64::total_cmp)
-}
-
-fn check(bench: &Bench, _: Option<&Bench>) -> Verdict {
-    done(bench.run("check", &[]))?;
-    Ok(())
 }
 
 fn mesh(bench: &Bench, twin: Option<&Bench>) -> Verdict {
@@ -204,6 +199,13 @@ fn response(bench: &Bench, boundary: &str, terminals: [[f64; 2]; 2], method: &st
 /// Two places within every body.
 const PLACES: [[f64; 2]; 2] = [[0.038, 0.002], [0.005, 0.0325]];
 
+/// Whether the magnitudes of two responses are the same.
+fn respond_alike(own: &Path, other: &Path, tolerance: f64) -> Verdict {
+    let (own, other) = (magnitudes(own), magnitudes(other));
+    let same = own.iter().zip(&other).all(|(a, b)| is_close(*a, *b, tolerance));
+    verdict(same, || format!("{own:?} and {other:?}"))
+}
+
 fn magnitudes(folder: &Path) -> Vec<f64> {
     let parts = ["accelerance_real", "accelerance_imaginary"];
     let rows = rows(&folder.join("frf.csv"));
@@ -214,9 +216,7 @@ fn magnitudes(folder: &Path) -> Vec<f64> {
 fn reciprocal(bench: &Bench, boundary: &str) -> Verdict {
     let (_, there) = done(response(bench, boundary, PLACES, "auto"))?;
     let (_, back) = needed(response(bench, boundary, [PLACES[1], PLACES[0]], "auto"))?;
-    let (there, back) = (magnitudes(&there), magnitudes(&back));
-    let same = there.iter().zip(&back).all(|(a, b)| is_close(*a, *b, 1e-7));
-    verdict(same, || format!("{there:?} there, {back:?} back"))
+    respond_alike(&there, &back, 1e-7)
 }
 
 /// In sliding contact friction breaks the symmetry: the twin or the direct solution is the other route.
@@ -230,9 +230,7 @@ fn frf_sliding(bench: &Bench, twin: Option<&Bench>) -> Verdict {
             found => needed(found)?,
         },
     };
-    let (own, other) = (magnitudes(&own), magnitudes(&other));
-    let same = own.iter().zip(&other).all(|(a, b)| is_close(*a, *b, 1e-6));
-    verdict(same, || format!("{own:?} and {other:?}"))
+    respond_alike(&own, &other, 1e-6)
 }
 
 /// Energy closes over the period; of motions of a whole mesh a transient stays on what is stable, and where nothing grows `cea`

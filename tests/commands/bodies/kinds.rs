@@ -92,8 +92,6 @@ normal_stiffness = 1e12\n[boundaries.bottom]\ncondition = \"guide\"\n";
     let coarse = [[2, 2, 1], [3, 2, 1], [2, 2, 1]];
     let small = [[[1, 2, 1], [2, 2, 1], [1, 2, 1]], [[1, 1, 1], [2, 1, 1], [1, 1, 1]]];
     let [slides, stiffens] = sized(small, [[[3, 2, 1], [4, 3, 1], [3, 3, 1]], coarse]);
-    let lines = (even(0.04, 10), even(0.06, 10));
-    let names = ["face", "back", "block"];
     // One sector of a ring around a cylinder, whose body is its six copies; its own friction lies above the onset at 0.12.
     let sector = brick("ring", [0.0205, 0.0, 0.0], [0.07, TAU / 6.0, 0.009], [3, 2, 1]);
     vec![
@@ -121,11 +119,10 @@ normal_stiffness = 1e12\n[boundaries.bottom]\ncondition = \"guide\"\n";
             .on(grids(&[Grid { is_cut: true, ..disc(&|_| "disc") }])),
         kind("two materials", FILE, &rim)
             .on(grids(&[disc(&|layer| if layer < 4 { "disc" } else { "rim" })])),
-        kind("block, contact opens in part", BLOCK, "").on(quadrilaterals(
-            &lines.0,
-            &lines.1,
-            names,
-            |x, y| [x, y],
+        kind("block, contact opens in part", BLOCK, "").on(plane_block(
+            [0.04, 0.06],
+            [10; 2],
+            ["face", "back", "block"],
         )),
         kind("two bodies, matching", FILE, &journal).on(two_bodies(32)).like("annulus and shaft"),
         kind("two bodies, not matching", FILE, &journal).on(two_bodies(24)),

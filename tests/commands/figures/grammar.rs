@@ -5,10 +5,7 @@
 use crate::figures::{check, check_texts, is_finite, texts};
 use crate::program::has;
 use crate::tier::sized;
-use frictionsim::chart::{
-    Axis, Bars, Cell, ChartError, ColourMap, Drawing, Field, Figure, Fill, Heat, Label, Line,
-    Marker, Mesh, Panel, Points, Rule, SERIES, Shapes, Side,
-};
+use frictionsim::chart::*;
 use proptest::prelude::*;
 use std::sync::Arc;
 

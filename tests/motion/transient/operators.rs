@@ -2,10 +2,7 @@
 
 use crate::prelude::*;
 use crate::transient::model::{Watch, disc, kicked, largest, largest_difference, model};
-use frictionsim::fem::operator::{
-    MotionFields, SectorStencil, SparseOperator, StepCoefficients, StiffnessOperator, gather,
-    largest_frequency, scatter,
-};
+use frictionsim::fem::operator::*;
 
 const LEVELS: [SimdLevel; 3] = [SimdLevel::Scalar, SimdLevel::Avx2, SimdLevel::Avx512];
 

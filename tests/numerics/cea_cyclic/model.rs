@@ -2,20 +2,13 @@
 
 use crate::prelude::*;
 
-pub fn paper_options() -> TangentOptions {
-    TangentOptions {
-        geometric_stiffness: true,
-        contact: ContactStiffness { normal_stiffness: Some(7.4e12), ..RIGID },
-        ..TANGENT
-    }
-}
-
 /// The disc on so many elements around and across.
 pub fn paper(element: ElementKind, around: usize, across: usize) -> AnnulusModel {
+    let springs = ContactStiffness { normal_stiffness: Some(7.4e12), ..RIGID };
     WaveModel {
         specification: annulus(element, around, across),
         material: POLYCARBONATE,
-        options: paper_options(),
+        options: TangentOptions { geometric_stiffness: true, contact: springs, ..TANGENT },
         contact: contact(610.0),
     }
 }

@@ -20,20 +20,15 @@ use radial::RadialElement;
 /// than round-off (asserted in `continuum_reference.rs`).
 pub const DEGREE: usize = 24;
 
-/// An isotropic annulus clamped at its outer edge (SI units, per metre of thickness).
+/// An isotropic annulus with radii `a` and `b`, clamped at the outer edge (SI units, per metre of thickness), in plane strain or in plane
+/// stress.
 #[derive(Clone, Copy, Debug)]
 pub struct Annulus {
-    /// Inner radius `a`, m.
     pub inner_radius: f64,
-    /// Outer radius `b`, m.
     pub outer_radius: f64,
-    /// Young's modulus `E`, Pa.
     pub young_modulus: f64,
-    /// Poisson's ratio `nu`.
     pub poisson_ratio: f64,
-    /// Density `rho`, kg/m3.
     pub density: f64,
-    /// `epsilon_zz = 0` if true, `sigma_zz = 0` if false.
     pub plane_strain: bool,
 }
 

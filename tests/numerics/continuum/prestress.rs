@@ -6,11 +6,8 @@ use std::f64::consts::TAU;
 /// Stress in the polar frame, Pa.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stress {
-    /// `sigma_rr`.
     pub radial: f64,
-    /// `sigma_theta theta`.
     pub circumferential: f64,
-    /// `sigma_r theta`.
     pub shear: f64,
 }
 

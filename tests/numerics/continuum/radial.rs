@@ -2,21 +2,16 @@
 
 use std::f64::consts::PI;
 
-/// Basis values at one quadrature point.
+/// A quadrature point with the weight of `dr`, m, and value and slope of each basis function, 1 and 1/m.
 pub struct RadialPoint {
-    /// Radius, m.
     pub radius: f64,
-    /// Weight of `dr`, m.
     pub weight: f64,
-    /// Value of each basis function.
     pub values: Vec<f64>,
-    /// Radial derivative of each basis function, 1/m.
     pub slopes: Vec<f64>,
 }
 
 /// The element: basis function 0 alone is not zero at the inner edge, the last alone at the outer.
 pub struct RadialElement {
-    /// Quadrature points.
     pub points: Vec<RadialPoint>,
 }
 

@@ -85,10 +85,8 @@ fn a_signal_is_named_by_the_modes_of_an_imported_body() {
     let rows = answer.rows("eigenvalues.csv");
     let unstable = rows.iter().find(|row| row["unstable"] == "true").unwrap();
     let [mode, frequency] = unstable.numbers(["mode", "frequency_hz"]);
-    let samples = (0..20_000).map(|k| f64::from(k) * 5e-6);
-    let rows: String =
-        samples.map(|t| format!("{t:e},{:e}\n", (TAU * frequency * t).sin())).collect();
-    fs::write(folder.path().join("tone.csv"), format!("time_s,a\n{rows}")).unwrap();
+    let tone = tones(2e5, 20_000, &[("a", frequency)]);
+    fs::write(folder.path().join("tone.csv"), tone).unwrap();
     let run = run(&folder, "signal", "tone.csv", &[]).args(&["--case", "body.toml"]).out("signal");
     let named = &run.done().summary()["channels"][0]["mode"];
     assert_eq!(named["mode"], mode as u64);

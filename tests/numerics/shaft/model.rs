@@ -1,5 +1,6 @@
 //! The paper's disc on a deformable shaft.
 
+pub use crate::friction_law::block::STEEL;
 use crate::prelude::*;
 
 /// Materials of an annulus, region 0, and of its deformable shaft, region 1.
@@ -27,8 +28,6 @@ impl MaterialField for AnnulusMaterials {
         self.shaft.as_ref().filter(|_| region == 1)?.damping
     }
 }
-
-pub const STEEL: ElasticMaterial = elastic(2.1e11, 0.3, 7850.0, PlaneStrain);
 
 /// The disc with a bore of 6 mm in its shaft.
 pub fn with_shaft(element: ElementKind, around: usize, radial: [usize; 2]) -> AnnulusSpecification {

@@ -2,9 +2,7 @@
 
 use super::{read_response, read_signal};
 use crate::prelude::*;
-use frictionsim::signal::reader::{
-    Channel, NamedResponse, SignalFile, write_response, write_signal, write_wav,
-};
+use frictionsim::signal::reader::*;
 use std::io::Write;
 
 /// Channels of these names at 50 kHz, all of the same samples.

@@ -4,10 +4,7 @@ use super::formats::{matlab, signal, wave};
 use super::{read_response, read_signal};
 use crate::prelude::*;
 use frictionsim::signal::reader::{NamedResponse, write_response, write_signal};
-use frictionsim::signal::{
-    SpectralResolution, SpectrogramOptions, exponential_stage, identify, spectral_lines,
-    spectrogram,
-};
+use frictionsim::signal::*;
 use proptest::prelude::*;
 
 /// What is done with a file of responses and with one of signals, to the end.
