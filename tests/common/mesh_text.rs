@@ -1,5 +1,6 @@
 //! Mesh files in MSH 2.2 of points and elements that a test makes.
 
+use std::collections::BTreeSet;
 use std::fmt::Write;
 
 /// Type of an element in the file, its group and its nodes, both from 0.
@@ -33,19 +34,50 @@ pub struct Grid<'a> {
     pub is_closed: bool,
     /// Whether every quadrilateral is cut into two triangles.
     pub is_cut: bool,
-    /// Names of the lower and the upper edge.
+    /// Names of the edges at the ends of `ys` and of `xs`; an edge without a name is no boundary.
     pub names: [&'a str; 2],
+    pub sides: [&'a str; 2],
+    /// Whether a quadrilateral is missing, and the name of the edges beside such ones.
+    pub is_missing: &'a dyn Fn(usize, usize) -> bool,
+    pub hole: &'a str,
     pub region_of_layer: &'a dyn Fn(usize) -> &'a str,
     pub place: &'a dyn Fn(f64, f64) -> [f64; 2],
+}
+
+/// Lines of a grid along and across.
+pub type Lines = [Vec<f64>; 2];
+
+impl<'a> Grid<'a> {
+    /// A whole grid on its lines.
+    pub fn of(
+        [xs, ys]: Lines,
+        names: [&'a str; 2],
+        region_of_layer: &'a dyn Fn(usize) -> &'a str,
+    ) -> Self {
+        let (is_closed, is_cut, sides, hole) = (false, false, [""; 2], "");
+        let is_missing = &|_: usize, _: usize| false;
+        let place = &|x: f64, y: f64| [x, y];
+        Self { xs, ys, is_closed, is_cut, names, sides, is_missing, hole, region_of_layer, place }
+    }
+
+    /// The name of an edge: that of the rim, or of the hole where what lies beside it is missing.
+    fn edge(&self, is_rim: bool, name: &'a str, [i, j]: [usize; 2]) -> &'a str {
+        match is_rim {
+            true => name,
+            false if (self.is_missing)(i, j) => self.hole,
+            false => "",
+        }
+    }
 }
 
 /// The file of such grids; nodes of different grids are different nodes.
 pub fn grids(all: &[Grid<'_>]) -> Vec<u8> {
     let (mut points, mut groups, mut elements) = (Vec::new(), Vec::new(), Vec::new());
     for grid in all {
-        let (first, last) = (points.len(), grid.ys.len() - 1);
+        let (first, columns, layers) = (points.len(), grid.xs.len() - 1, grid.ys.len() - 1);
         let around = grid.xs.len() - usize::from(grid.is_closed);
         let node = |i: usize, j: usize| first + i % around + around * j;
+        let corners = |i, j| [node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)];
         for &y in &grid.ys {
             points.extend(grid.xs[..around].iter().map(|&x| (grid.place)(x, y)));
         }
@@ -55,22 +87,36 @@ pub fn grids(all: &[Grid<'_>]) -> Vec<u8> {
             groups.extend((at == groups.len()).then_some(group));
             elements.push((kind, at, nodes.to_vec()));
         };
-        for i in 0..grid.xs.len() - 1 {
-            add(1, grid.names[0], &[node(i, 0), node(i + 1, 0)]);
-            add(1, grid.names[1], &[node(i + 1, last), node(i, last)]);
-            for j in 0..last {
-                let region = (grid.region_of_layer)(j);
-                let corners = [node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)];
-                let [a, b, c, d] = corners;
+        for i in 0..columns {
+            let there = || (0..layers).filter(|&j| !(grid.is_missing)(i, j));
+            for j in there() {
+                let [a, b, c, d] = corners(i, j);
+                let ([lower, upper], [left, right]) = (grid.names, grid.sides);
+                let edges = [
+                    (grid.edge(j == 0, lower, [i, j.wrapping_sub(1)]), [a, b]),
+                    (grid.edge(j + 1 == layers, upper, [i, j + 1]), [c, d]),
+                    (grid.edge(i == 0, left, [i.wrapping_sub(1), j]), [d, a]),
+                    (grid.edge(i + 1 == columns, right, [i + 1, j]), [b, c]),
+                ];
+                let named = edges.iter().filter(|(name, _)| !name.is_empty());
+                named.for_each(|(name, edge)| add(1, *name, edge));
+            }
+            for j in there() {
+                let ([a, b, c, d], region) = (corners(i, j), (grid.region_of_layer)(j));
                 match grid.is_cut {
                     true => [[a, b, c], [a, c, d]].iter().for_each(|own| add(2, region, own)),
-                    false => add(3, region, &corners),
+                    false => add(3, region, &[a, b, c, d]),
                 }
             }
         }
     }
-    let points: Vec<[f64; 3]> = points.into_iter().map(|[x, y]: [f64; 2]| [x, y, 0.0]).collect();
-    mesh_text(&points, &groups, &elements)
+    // Nodes of no element are left out.
+    let used: BTreeSet<usize> = elements.iter().flat_map(|own: &Listed| own.2.clone()).collect();
+    let used: Vec<usize> = used.into_iter().collect();
+    let nodes = elements.iter_mut().flat_map(|own| &mut own.2);
+    nodes.for_each(|node| *node = used.binary_search(node).unwrap());
+    let point = |&node: &usize| [points[node][0], points[node][1], 0.0];
+    mesh_text(&used.iter().map(point).collect::<Vec<_>>(), &groups, &elements)
 }
 
 /// One such grid of one region; names of its lower edge, its upper edge and its region.
@@ -80,15 +126,8 @@ pub fn quadrilaterals(
     [lower, upper, region]: [&str; 3],
     place: impl Fn(f64, f64) -> [f64; 2],
 ) -> Vec<u8> {
-    grids(&[Grid {
-        xs: xs.to_vec(),
-        ys: ys.to_vec(),
-        is_closed: false,
-        is_cut: false,
-        names: [lower, upper],
-        region_of_layer: &|_| region,
-        place: &place,
-    }])
+    let lines = [xs, ys].map(<[f64]>::to_vec);
+    grids(&[Grid { place: &place, ..Grid::of(lines, [lower, upper], &|_| region) }])
 }
 
 /// A rectangle of such elements, its corner at the origin.
@@ -104,15 +143,13 @@ pub fn ring_grid<'a>(
     names: [&'a str; 2],
     region_of_layer: &'a dyn Fn(usize) -> &'a str,
 ) -> Grid<'a> {
+    // Clockwise, so that elements outwards of it are counter-clockwise.
+    let angles = even(-std::f64::consts::TAU, around);
+    let radii = even(outer - inner, across).into_iter().map(|depth| inner + depth).collect();
     Grid {
-        // Clockwise, so that elements outwards of it are counter-clockwise.
-        xs: even(-std::f64::consts::TAU, around),
-        ys: even(outer - inner, across).into_iter().map(|depth| inner + depth).collect(),
         is_closed: true,
-        is_cut: false,
-        names,
-        region_of_layer,
         place: &|angle, radius| [radius * angle.cos(), radius * angle.sin()],
+        ..Grid::of([angles, radii], names, region_of_layer)
     }
 }
 

@@ -1,7 +1,9 @@
 //! The program as a user starts it: a command, its case and overrides, and what it says and leaves.
 
+use faer::c64;
 use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
+use std::f64::consts::TAU;
 use std::ffi::OsStr;
 use std::io::Write;
 use std::ops::Index;
@@ -260,11 +262,12 @@ impl Answer {
         rows(&self.path(name))
     }
 
-    /// Frequency, Hz, and growth rate, 1/s, of the modes at a friction coefficient.
-    pub fn modes(&self, friction: &str) -> Vec<[f64; 2]> {
+    /// Eigenvalues of the modes at a friction coefficient.
+    pub fn modes(&self, friction: &str) -> Vec<c64> {
         let rows = self.rows("eigenvalues.csv").into_iter();
         let own = rows.filter(|row| row["friction_coefficient"] == friction);
-        own.map(|row| row.numbers(["frequency_hz", "growth_rate_per_s"])).collect()
+        let own = own.map(|row| row.numbers(["growth_rate_per_s", "frequency_hz"]));
+        own.map(|[growth, hz]| c64::new(growth, TAU * hz)).collect()
     }
 
     /// Holds the run to files that it must have written, their names a space apart.

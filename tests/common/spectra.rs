@@ -1,6 +1,7 @@
 //! Spectra beside each other.
 
 use super::prelude::*;
+use nalgebra::DVector;
 
 pub fn eigenvalues_of(modes: &[ComplexMode]) -> Vec<c64> {
     modes.iter().map(|mode| mode.eigenvalue).collect()
@@ -81,6 +82,15 @@ pub fn dense_of(matrix: &MarketMatrix) -> Mat<f64> {
 pub fn quadratic_eigenvalues([mass, damping, stiffness]: [&Mat<f64>; 3]) -> Vec<c64> {
     let found = quadratic_modes(mass.as_ref(), damping.as_ref(), stiffness.as_ref()).unwrap();
     found.iter().map(|mode| mode.eigenvalue).collect()
+}
+
+/// Eigenvalues of `K x = kappa M x` by a dense decomposition, in any order, and their vectors as columns.
+pub fn pencil_modes(k: &DMatrix<f64>, m: &DMatrix<f64>) -> (DVector<f64>, DMatrix<f64>) {
+    let factor = m.clone().cholesky().unwrap().l();
+    let half = factor.solve_lower_triangular(k).unwrap();
+    let whole = factor.solve_lower_triangular(&half.transpose()).unwrap();
+    let eigen = ((&whole + whole.transpose()) * 0.5).symmetric_eigen();
+    (eigen.eigenvalues, factor.transpose().solve_upper_triangular(&eigen.eigenvectors).unwrap())
 }
 
 /// Prints an error, and holds it below a bound.

@@ -25,22 +25,28 @@ fn steel(elements: [usize; 2]) -> (DiscModel, SlidingContact) {
     (model, sliding_at(0.5, 40e-6, 750.0 * TAU / 60.0))
 }
 
-fn point(model: &DiscModel, contact: &SlidingContact) -> OperatingPoint {
-    OperatingPoint { contact: *contact, damping: model.damping }
+/// The cycle that is born at an onset on so many phases, with its solver.
+fn found(
+    (model, contact): &(DiscModel, SlidingContact),
+    onset: &Onset,
+    phases: Option<usize>,
+) -> (CycleSolver, LimitCycle) {
+    let family = Family::lowest(onset.harmonic);
+    let solver = CycleSolver::born_at(model, family, onset, phases).unwrap();
+    let point = OperatingPoint { contact: *contact, damping: model.damping };
+    let cycle = solver.find(&point).unwrap();
+    (solver, cycle)
 }
 
 #[test]
 fn every_unstable_wave_of_the_eigenvalue_analysis_has_its_family() {
-    let (model, contact) = aluminium([150, 24]);
-    let limit = Lowest(40);
-    let onsets = model.onsets(contact.friction_coefficient, limit).unwrap();
+    let disc = aluminium([150, 24]);
+    let onsets = disc.0.onsets(disc.1.friction_coefficient, Lowest(40)).unwrap();
     // Up to 66 kHz, far above what a fixed grid of frequencies would cover.
     assert_eq!(onsets.len(), 7, "{onsets:?}");
     assert!(onsets.iter().any(|onset| onset.frequency > TAU * 40e3));
     for onset in &onsets {
-        let family = Family::lowest(onset.harmonic);
-        let solver = CycleSolver::born_at(&model, family, onset, None).unwrap();
-        let cycle = solver.find(&point(&model, &contact)).unwrap();
+        let (_, cycle) = found(&disc, onset, None);
         // Born at the onset, a cycle has about its frequency.
         let ratio = cycle.state.frequency() / onset.frequency;
         assert!((0.85..1.15).contains(&ratio), "{onset:?}: {ratio}");
@@ -63,15 +69,12 @@ fn scaled_lengths_moduli_densities_and_times_scale_the_results() {
         rotation_speed: contact.rotation_speed / time,
         ..contact
     };
-    let find = |model: &DiscModel, contact: &SlidingContact| {
-        let onset = model.onsets(0.35, Lowest(20)).unwrap()[0];
-        let family = Family::lowest(onset.harmonic);
-        let solver = CycleSolver::born_at(model, family, &onset, None).unwrap();
-        let cycle = solver.find(&point(model, contact)).unwrap();
+    let [one, two] = [(model, contact), (other, other_contact)].map(|disc| {
+        let onset = disc.0.onsets(0.35, Lowest(20)).unwrap()[0];
+        let (solver, cycle) = found(&disc, &onset, None);
         let stepping = solver.stepping(SimdLevel::detect()).unwrap();
         (onset, stepping.settle(&cycle, None).unwrap())
-    };
-    let (one, two) = (find(&model, &contact), find(&other, &other_contact));
+    });
     assert_eq!(one.0.harmonic, two.0.harmonic);
     let ratio = |a: f64, b: f64| (a / b - 1.0).abs();
     assert!(ratio(one.0.friction_coefficient, two.0.friction_coefficient) < 1e-9);
@@ -93,13 +96,11 @@ fn scaled_lengths_moduli_densities_and_times_scale_the_results() {
 
 #[test]
 fn leading_exponent_does_not_depend_on_the_number_of_phases_beyond_its_uncertainty() {
-    let (model, contact) = steel([150, 24]);
-    let onset = model.onset_of(Family::lowest(1), Lowest(20)).unwrap();
+    let disc = steel([150, 24]);
+    let onset = disc.0.onset_of(Family::lowest(1), Lowest(20)).unwrap();
     let phases = sized(&[81, 121][..], &[81, 99, 121, 141, 181]).iter();
     let found = phases.map(|&phases| {
-        let family = Family::lowest(1);
-        let solver = CycleSolver::born_at(&model, family, &onset, Some(phases)).unwrap();
-        let cycle = solver.find(&point(&model, &contact)).unwrap();
+        let (solver, cycle) = found(&disc, &onset, Some(phases));
         let stability = crate::cycle::stability_of(&solver, &cycle);
         let leading = stability.leading().unwrap();
         (leading.growth_rate, leading.uncertainty)
@@ -113,12 +114,10 @@ fn leading_exponent_does_not_depend_on_the_number_of_phases_beyond_its_uncertain
 
 #[test]
 fn external_power_is_the_transients_and_the_verdict_is_what_transients_do() {
-    let (model, contact) = steel([150, 24]);
-    for harmonic in [1, 2, 3] {
-        let family = Family::lowest(harmonic);
-        let onset = model.onset_of(family, Lowest(30)).unwrap();
-        let solver = CycleSolver::born_at(&model, family, &onset, None).unwrap();
-        let cycle = solver.find(&point(&model, &contact)).unwrap();
+    let disc = steel([150, 24]);
+    for family in [1, 2, 3].map(Family::lowest) {
+        let onset = disc.0.onset_of(family, Lowest(30)).unwrap();
+        let (solver, cycle) = found(&disc, &onset, None);
         let stepping = solver.stepping(SimdLevel::detect()).unwrap();
         let settled = stepping.settle(&cycle, None).unwrap();
         // A hundred periods and more, seeded in the leading harmonic.

@@ -86,24 +86,8 @@ fn a_supported_rim_gives_the_sounds_of_the_prototype() {
 
 /// A rectangle of `nx` by `ny` four-node elements, its corner at the origin, with boundaries bottom, right, top, left.
 pub fn rectangle(width: f64, height: f64, nx: usize, ny: usize) -> Vec<u8> {
-    let node = |i: usize, j: usize| i + j * (nx + 1);
-    let (xs, ys) = (even(width, nx), even(height, ny));
-    let points: Vec<_> = ys.iter().flat_map(|&y| xs.iter().map(move |&x| [x, y, 0.0])).collect();
-    let mut elements = Vec::new();
-    for i in 0..nx {
-        elements.push((1, 0, vec![node(i, 0), node(i + 1, 0)]));
-        elements.push((1, 2, vec![node(i, ny), node(i + 1, ny)]));
-    }
-    for j in 0..ny {
-        elements.push((1, 3, vec![node(0, j), node(0, j + 1)]));
-        elements.push((1, 1, vec![node(nx, j), node(nx, j + 1)]));
-        for i in 0..nx {
-            let corners = [node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)];
-            elements.push((3, 4, corners.to_vec()));
-        }
-    }
-    let groups = [(1, "bottom"), (1, "right"), (1, "top"), (1, "left"), (2, "block")];
-    mesh_text(&points, &groups, &elements)
+    let grid = Grid::of([even(width, nx), even(height, ny)], ["bottom", "top"], &|_| "block");
+    grids(&[Grid { sides: ["left", "right"], ..grid }])
 }
 
 fn block_specification() -> BodySpecification {

@@ -11,7 +11,7 @@ pub mod rates;
 use crate::continuum::prestress::SteadyState;
 use crate::continuum::{Annulus, Contact, Eigenvalue, Rayleigh};
 use crate::prelude::*;
-use folded::{Discretisation, FORWARD, INTERFERENCE, Study, base_state, material};
+use folded::{Discretisation, FORWARD, INTERFERENCE, Study, base_states, material};
 use rates::{DISC, assert_rate, rate, refinements};
 
 const NORMAL_STIFFNESS: f64 = 7.4e12;
@@ -147,9 +147,7 @@ fn steady_sliding_converges_to_lame_and_the_shear_field() {
     const NAMES: [&str; 4] =
         ["radial displacement", "tangential displacement", "mean pressure", "torque"];
     for element in [Quad4, Quad8] {
-        let errors = refinements(element).map(|specification| {
-            let mesh = AnnulusMesh::generate(&specification).expect("a valid mesh");
-            let base = base_state(&mesh, &DISC, FORWARD);
+        let errors = base_states(element).map(|(mesh, base)| {
             let [radial, tangential] = displacement_errors(&mesh, &base.displacement(0.3), &exact);
             let (edge, forces) = (ContactInterface::of(&mesh.mesh), base.normal_forces(0.3));
             let force: f64 = forces.iter().sum();
@@ -186,9 +184,8 @@ fn nodal_pressure_converges_at_second_order_or_faster() {
     let exact = DISC.prestress(INTERFERENCE, 0.3).pressure;
     // Quad4: of the order of the squared angle of an element, (2 pi / 120)^2 = 2.7e-3.
     for (element, slope, bound) in [(Quad4, 1.9, 2.7e-3), (Quad8, 2.5, 1e-4)] {
-        let errors = refinements(element).map(|specification| {
-            let mesh = AnnulusMesh::generate(&specification).expect("a valid mesh");
-            let forces = base_state(&mesh, &DISC, FORWARD).normal_forces(0.3);
+        let errors = base_states(element).map(|(mesh, base)| {
+            let forces = base.normal_forces(0.3);
             let lengths = ContactInterface::of(&mesh.mesh).tributary_lengths;
             let pressures = forces.iter().zip(&lengths).map(|(force, length)| force / length);
             let errors = pressures.map(|p| (p / exact - 1.0).abs());
@@ -203,9 +200,8 @@ fn recovered_stress_converges_at_second_order_up_to_the_edges() {
     // The largest error over all nodes, the contact edge included.
     let exact = DISC.prestress(INTERFERENCE, 0.3);
     for element in [Quad4, Quad8] {
-        let errors = refinements(element).map(|specification| {
-            let mesh = AnnulusMesh::generate(&specification).expect("a valid mesh");
-            let displacement = base_state(&mesh, &DISC, FORWARD).displacement(0.3);
+        let errors = base_states(element).map(|(mesh, base)| {
+            let displacement = base.displacement(0.3);
             let recovered = nodal_stress(&mesh.mesh, &material(&DISC), &displacement);
             let mut largest = [0.0_f64; 3];
             for (node, stress) in recovered.iter().enumerate().take(mesh.sector_node_count()) {

@@ -9,46 +9,25 @@ use frictionsim::study::uncertainty::Sampler;
 /// One of `count` sectors of a disc as a file in MSH 2.2: bent cut faces, uneven elements, and a hole, the boundary "screw", off the
 /// middle.
 fn disc_sector(count: usize, [around, radial]: [usize; 2]) -> Vec<u8> {
-    let [inner, outer] = [0.0205, 0.0905];
-    let node = |i: usize, j: usize| i * (radial + 1) + j;
-    let (mut points, mut elements) = (Vec::new(), Vec::new());
-    let is_hole = |i: usize, j: usize| {
-        let [t, r] = [(i as f64 + 0.5) / around as f64, (j as f64 + 0.5) / radial as f64];
+    let [columns, layers] = [around, radial].map(|count| count as f64);
+    let place = |mut t: f64, mut r: f64| {
+        if 0.0 < r && r < layers && 0.0 < t && t < columns {
+            t += 0.15 * (7.0 * t + 3.0 * r).sin();
+            r += 0.15 * (5.0 * t - 2.0 * r).cos();
+        }
+        let share = r / layers;
+        let angle = TAU / count as f64 * (t / columns + 0.15 * share * share);
+        let radius = 0.0205 + 0.07 * share;
+        [radius * angle.cos(), radius * angle.sin()]
+    };
+    let is_missing = |i: usize, j: usize| {
+        let [t, r] = [1.0 - (i as f64 + 0.5) / columns, (j as f64 + 0.5) / layers];
         (0.3..0.55).contains(&t) && (0.6..0.8).contains(&r)
     };
-    for i in 0..=around {
-        for j in 0..=radial {
-            let (mut t, mut r) = (i as f64, j as f64);
-            if 0 < j && j < radial && 0 < i && i < around {
-                t += 0.15 * (7.0 * t + 3.0 * r).sin();
-                r += 0.15 * (5.0 * t - 2.0 * r).cos();
-            }
-            let share = r / radial as f64;
-            let angle = TAU / count as f64 * (t / around as f64 + 0.15 * share * share);
-            let radius = inner + (outer - inner) * share;
-            points.push([radius * angle.cos(), radius * angle.sin(), 0.0]);
-        }
-    }
-    let mut add =
-        |kind: u32, group: usize, list: &[usize]| elements.push((kind, group, list.to_vec()));
-    for i in 0..around {
-        add(1, 0, &[node(i, 0), node(i + 1, 0)]);
-        for j in (0..radial).filter(|&j| !is_hole(i, j)) {
-            let [a, b] = [i, i + 1];
-            add(3, 1, &[node(a, j), node(a, j + 1), node(b, j + 1), node(b, j)]);
-            // Edges towards the hole.
-            let sides = [
-                (i > 0 && is_hole(i - 1, j), [node(a, j), node(a, j + 1)]),
-                (is_hole(i + 1, j), [node(b, j), node(b, j + 1)]),
-                (j > 0 && is_hole(i, j - 1), [node(a, j), node(b, j)]),
-                (is_hole(i, j + 1), [node(a, j + 1), node(b, j + 1)]),
-            ];
-            for (_, edge) in sides.into_iter().filter(|side| side.0) {
-                add(1, 2, &edge);
-            }
-        }
-    }
-    mesh_text(&points, &[(1, "inner"), (2, "disc"), (1, "screw")], &elements)
+    // Clockwise, so that elements are counter-clockwise.
+    let lines = [even(columns, around).into_iter().rev().collect(), even(layers, radial)];
+    let whole = Grid::of(lines, ["inner", ""], &|_| "disc");
+    grids(&[Grid { is_missing: &is_missing, hole: "screw", place: &place, ..whole }])
 }
 
 fn read(name: &str, mesh: &[u8], text: &str, method: &str) -> Case {

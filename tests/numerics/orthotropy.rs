@@ -127,11 +127,9 @@ fn free_modes_of_an_orthotropic_cube_are_those_of_a_ritz_series() {
         Pencil::of_material(&mesh, &solid(lining(axes))).frequencies(12)
     };
     let found = turned(6);
-    for (rank, (found, series)) in found.iter().zip(&series).enumerate().skip(6) {
-        // Of fourth order in the elements for each wavelength.
-        let tolerance = if rank < 9 { 1e-3 } else { 3e-3 };
-        assert!((found / series - 1.0).abs() < tolerance, "{found} {series}");
-    }
+    // Of fourth order in the elements for each wavelength.
+    near_each(&found[6..9], &series[6..9], 1e-3);
+    near_each(&found[9..], &series[9..12], 3e-3);
     // Turning body and axes together changes nothing, whatever the mesh.
     let plain = Pencil::of_material(&cube(3, &|p| p), &solid(straight)).frequencies(12);
     near_each(&turned(3)[6..], &plain[6..], 1e-9);

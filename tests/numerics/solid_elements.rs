@@ -2,7 +2,7 @@
 
 use crate::prelude::*;
 use faer::sparse::{SparseColMat, Triplet};
-use nalgebra::{Matrix3, Rotation3, SymmetricEigen, Vector3};
+use nalgebra::{Matrix3, Rotation3, Vector3};
 use std::f64::consts::FRAC_PI_2;
 
 fn skewed([x, y, z]: [f64; 3]) -> [f64; 3] {
@@ -129,13 +129,9 @@ impl Pencil {
             let images = solve(&self.multiply(&self.mass, &vectors));
             let mass = images.transpose() * self.multiply(&self.mass, &images);
             let stiffness = images.transpose() * self.multiply(&self.stiffness, &images);
-            let factor = mass.cholesky().unwrap().unpack();
-            let half = factor.solve_lower_triangular(&stiffness).unwrap();
-            let whole = factor.solve_lower_triangular(&half.transpose()).unwrap();
-            let eigen = SymmetricEigen::new((&whole + whole.transpose()) * 0.5);
-            let turned = factor.transpose().solve_upper_triangular(&eigen.eigenvectors).unwrap();
+            let (found, turned) = pencil_modes(&stiffness, &mass);
             vectors = images * turned;
-            squares = eigen.eigenvalues.iter().copied().collect();
+            squares = found.as_slice().to_vec();
             squares.sort_by(f64::total_cmp);
         }
         let squares = squares[..count].iter();

@@ -147,10 +147,7 @@ fn sensitivities(bench: &Bench, _: Option<&Bench>) -> Verdict {
     let distance = |mode: &[f64; 2], [frequency, growth]: [f64; 2]| {
         (TAU * (mode[0] - frequency)).hypot(mode[1] - growth)
     };
-    let nearest = |modes: &[[f64; 2]], place: [f64; 2]| {
-        let near = |a: &&[f64; 2], b: &&[f64; 2]| distance(a, place).total_cmp(&distance(b, place));
-        modes.iter().min_by(near).expect("a mode")[0]
-    };
+    let nearest = |modes: &[[f64; 2]], place| nearest_by(modes, |mode| distance(mode, place))[0];
     // Waves that friction hardly tells apart cannot be recognised by their eigenvalues.
     let own = spectrum(&folder);
     let is_alone = |i: &usize| {

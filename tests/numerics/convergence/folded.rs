@@ -1,5 +1,6 @@
 //! The program's discrete problem, solved densely one circumferential harmonic at a time.
 
+use super::rates::{DISC, refinements};
 use crate::cea_cyclic::dense::fold;
 use crate::continuum::{Annulus, Contact, Eigenvalue, Rayleigh, damped, smallest_first};
 use crate::prelude::*;
@@ -15,11 +16,15 @@ pub fn material(annulus: &Annulus) -> ElasticMaterial {
 /// Counter-clockwise rotation, rad/s; linear sliding knows its sign only.
 pub const FORWARD: f64 = 60.0;
 
-/// Steady sliding of a rotor turning at `rotation_speed`.
-pub fn base_state(mesh: &AnnulusMesh, annulus: &Annulus, rotation_speed: f64) -> PressedState {
-    let (material, sliding) = (material(annulus), sliding_at(0.3, INTERFERENCE, rotation_speed));
-    let body = Assembly::of_edge(&mesh.mesh, &material, &sliding, RIGID).unwrap();
-    body.state(0.3).expect("the disc is pressed everywhere")
+/// The refined meshes of the disc with their steady sliding.
+pub fn base_states(element: ElementKind) -> [(AnnulusMesh, PressedState); 3] {
+    let (material, sliding) = (material(&DISC), sliding_at(0.3, INTERFERENCE, FORWARD));
+    refinements(element).map(|specification| {
+        let mesh = AnnulusMesh::generate(&specification).expect("a valid mesh");
+        let body = Assembly::of_edge(&mesh.mesh, &material, &sliding, RIGID).unwrap();
+        let base = body.state(0.3).expect("the disc is pressed everywhere");
+        (mesh, base)
+    })
 }
 
 /// What one convergence study covers: the two lowest branches of harmonics 0 to 4, both directions.
@@ -32,7 +37,7 @@ pub struct Study {
 
 impl Study {
     pub fn of(contact: Contact, rayleigh: Rayleigh) -> Self {
-        Self { annulus: super::rates::DISC, contact, mass: Consistent, rayleigh }
+        Self { annulus: DISC, contact, mass: Consistent, rayleigh }
     }
 }
 

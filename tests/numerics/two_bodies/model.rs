@@ -42,24 +42,10 @@ pub fn file_of(parts: &[Part<'_>]) -> Vec<u8> {
     mesh_text(&points, &groups, &elements)
 }
 
-/// Lines of a grid along and across.
-pub type Lines = [Vec<f64>; 2];
-
 /// A lower and an upper block in one file.
-pub fn blocks_of(blocks: [Lines; 2]) -> Vec<u8> {
-    let names = [("lower", ["floor", "track"]), ("upper", ["sole", "top"])];
-    let regions = names.map(|(region, _)| move |_| region);
-    let own = blocks.into_iter().zip(names).zip(&regions);
-    let own = own.map(|(([xs, ys], (_, names)), region_of_layer)| Grid {
-        xs,
-        ys,
-        is_closed: false,
-        is_cut: false,
-        names,
-        region_of_layer,
-        place: &|x, y| [x, y],
-    });
-    grids(&own.collect::<Vec<_>>())
+pub fn blocks_of([lower, upper]: [Lines; 2]) -> Vec<u8> {
+    let lower = Grid::of(lower, ["floor", "track"], &|_| "lower");
+    grids(&[lower, Grid::of(upper, ["sole", "top"], &|_| "upper")])
 }
 
 /// The same read, the lower one held at its floor, the upper one at its top.
@@ -101,8 +87,5 @@ pub fn ring(element: ElementKind, radii: [f64; 2], around: usize, radial: usize)
 
 /// A rectangle of so many elements with its lower left corner at `corner`.
 pub fn rectangle(corner: [f64; 2], size: [f64; 2], count: [usize; 2]) -> Lines {
-    [0, 1].map(|c| {
-        let shares = (0..=count[c]).map(|i| i as f64 / count[c] as f64);
-        shares.map(|share| corner[c] + size[c] * share).collect()
-    })
+    [0, 1].map(|c| even(size[c], count[c]).iter().map(|x| corner[c] + x).collect())
 }

@@ -40,13 +40,9 @@ fn integral(from: f64, to: f64, value: impl Fn(f64) -> f64) -> f64 {
 
 /// The lowest eigenvalue of `K x = kappa M x` and its vector: Ritz's method, the closed form's radial shape.
 fn ritz(stiffness: &DMatrix<f64>, mass: &DMatrix<f64>) -> (f64, DVector<f64>) {
-    let factor = mass.clone().cholesky().unwrap().l();
-    let half = factor.solve_lower_triangular(stiffness).unwrap();
-    let scaled = factor.solve_lower_triangular(&half.transpose()).unwrap();
-    let eigen = ((&scaled + scaled.transpose()) * 0.5).symmetric_eigen();
-    let lowest = eigen.eigenvalues.imin();
-    let vector = eigen.eigenvectors.column(lowest).into_owned();
-    (eigen.eigenvalues[lowest], factor.transpose().solve_upper_triangular(&vector).unwrap())
+    let (squares, shapes) = pencil_modes(stiffness, mass);
+    let lowest = squares.imin();
+    (squares[lowest], shapes.column(lowest).into_owned())
 }
 
 /// Observed order between two meshes, the second finer by `ratio`.
