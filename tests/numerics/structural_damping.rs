@@ -55,7 +55,7 @@ pub fn dense_eigenvalues(tangent: &SlidingTangent, mu: f64) -> Vec<c64> {
     let [mass, damping, stiffness] =
         [&tangent.mass, &tangent.damping, &tangent.stiffness].map(|p| dense(p, mu));
     let none = || Mat::zeros(mass.nrows(), mass.nrows());
-    let losses = tangent.structural.as_ref().map_or_else(none, |p| dense(p, mu));
+    let losses = tangent.structural().map_or_else(none, |p| dense(p, mu));
     let mut values = lossy_eigenvalues([&mass, &damping, &stiffness, &losses]);
     values.retain(|value| value.im > 0.0);
     values.sort_by(|a, b| a.im.total_cmp(&b.im));
@@ -122,8 +122,7 @@ fn the_response_with_loss_factors_is_that_of_the_dense_matrix() {
     let lines = [500.0, 4000.0, 7000.0];
     let found = direct_response(&system, &at, &seen, &lines, &|_| {}).unwrap();
     let [mass, stiffness, lost] =
-        [&tangent.mass, &tangent.stiffness, tangent.structural.as_ref().unwrap()]
-            .map(|p| dense(p, 0.3));
+        [&tangent.mass, &tangent.stiffness, tangent.structural().unwrap()].map(|p| dense(p, 0.3));
     let n = mass.nrows();
     for (frequency, found) in lines.iter().zip(found) {
         let square = (TAU * frequency).powi(2);
@@ -157,7 +156,7 @@ pub fn follow_differences(
         let value = pair.eigenvalue;
         let frozen = beside.each_ref().map(|tangent| {
             let there = tangent.at_frequency(value.im / TAU);
-            let lost = there.structural.as_ref().unwrap();
+            let lost = there.structural().unwrap();
             [&there.stiffness, &there.damping, &there.mass, lost].map(|matrix| matrix.evaluate(mu))
         });
         let [dk, dc, dm, dh] = [0, 1, 2, 3].map(|k| -> Vec<f64> {

@@ -64,9 +64,7 @@ pub fn matrices(case: &Case, friction: Option<f64>) -> Result<ExportedSystem, St
         ("M", Some(&tangent.mass), |friction_power| MatrixRole::Mass { friction_power }),
         ("C", Some(&tangent.damping), |friction_power| MatrixRole::Damping { friction_power }),
         ("K", Some(&tangent.stiffness), |friction_power| MatrixRole::Stiffness { friction_power }),
-        ("H", tangent.structural.as_ref(), |friction_power| MatrixRole::Structural {
-            friction_power,
-        }),
+        ("H", tangent.structural(), |friction_power| MatrixRole::Structural { friction_power }),
     ];
     for (name, polynomial, role) in parts {
         if let Some(polynomial) = polynomial {

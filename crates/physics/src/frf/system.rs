@@ -3,7 +3,7 @@
 use super::{Axis, Direction, FrfError, NodeFault, Port, Terminal};
 use crate::contact::Row;
 use crate::fem::{DofMap, MassKind, MaterialField, RayleighDamping, region_stiffness};
-use crate::linalg::{SparsityPattern, c64};
+use crate::linalg::{MatrixPolynomial, SparsityPattern, c64};
 use crate::mesh::Mesh;
 use crate::prestress::{ContactDofs, Elimination, LossGain, SlidingTangent, TangentOptions, Terms};
 use std::f64::consts::TAU;
@@ -62,16 +62,15 @@ impl FrfSystem {
     /// With rigid contact the normal displacement of the contact nodes is no unknown; the force of
     /// excitation acts on the body, not through the contact.
     pub fn sliding(tangent: &SlidingTangent, friction_coefficient: f64) -> Self {
-        let structural = tangent.structural.iter().map(|own| (LossGain(None), own));
-        let tabled = tangent.tabled.iter();
-        let tabled = tabled.map(|part| (LossGain(Some(part.gain.clone())), &part.stiffness));
-        let losses = structural.chain(tabled);
+        let of_loss = |(gain, own): &(LossGain, MatrixPolynomial)| {
+            (gain.clone(), own.evaluate(friction_coefficient))
+        };
         Self {
             pattern: Arc::clone(tangent.stiffness.pattern()),
             mass: tangent.mass.evaluate(friction_coefficient),
             damping: tangent.damping.evaluate(friction_coefficient),
             stiffness: tangent.stiffness.evaluate(friction_coefficient),
-            losses: losses.map(|(gain, own)| (gain, own.evaluate(friction_coefficient))).collect(),
+            losses: tangent.losses.iter().map(of_loss).collect(),
             proportional: tangent.proportional,
             is_symmetric: false,
             unknowns: tangent.unknowns.clone(),

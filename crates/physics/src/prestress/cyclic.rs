@@ -1,6 +1,6 @@
 //! Tangents of a body with cyclic symmetry, one for each number of nodal diameters.
 
-use super::{ContactDofs, SlidingTangent, TabledStiffness};
+use super::{ContactDofs, SlidingTangent};
 use crate::fem::DofMap;
 use crate::linalg::{MatrixPolynomial, SparsityPattern, c64};
 use crate::mesh::CyclicSymmetry;
@@ -69,10 +69,11 @@ impl<'a> CyclicTangent<'a> {
         let pattern = whole.stiffness.pattern();
         let viscous =
             [("mass", &whole.mass), ("damping", &whole.damping), ("stiffness", &whole.stiffness)];
-        let structural = whole.structural.iter().map(|own| ("structural damping", own));
-        let tabled = whole.tabled.iter().map(|own| &own.stiffness);
-        let tabled = tabled.map(|own| ("stiffness of a part with a table", own));
-        for (what, matrix) in viscous.into_iter().chain(structural).chain(tabled) {
+        let losses = whole.losses.iter().map(|(gain, own)| match gain.0 {
+            None => ("structural damping", own),
+            Some(_) => ("stiffness of a part with a table", own),
+        });
+        for (what, matrix) in viscous.into_iter().chain(losses) {
             let pairs = matrix.coefficients().iter().map(|values| {
                 turned_pair(size, total, |x| {
                     let row = |row| pattern.row(row).map(|(k, column)| values[k] * x[column]).sum();
@@ -145,16 +146,12 @@ impl<'a> CyclicTangent<'a> {
             let own = unknowns.iter().copied().filter(|unknown| *unknown < size);
             (0..blocks).flat_map(|block| own.clone().map(move |k| block * size + k)).collect()
         };
-        let tabled = whole.tabled.iter().map(|own| TabledStiffness {
-            gain: own.gain.clone(),
-            stiffness: of_waves(&own.stiffness),
-        });
+        let losses = whole.losses.iter().map(|(gain, own)| (gain.clone(), of_waves(own)));
         SlidingTangent {
             mass: of_waves(&whole.mass),
             damping: of_waves(&whole.damping),
             stiffness: of_waves(&whole.stiffness),
-            structural: whole.structural.as_ref().map(of_waves),
-            tabled: tabled.collect(),
+            losses: losses.collect(),
             proportional: whole.proportional,
             is_gyroscopic: whole.is_gyroscopic,
             unknowns: DofMap::excluding(blocks * size, []),

@@ -1,9 +1,8 @@
 //! The matrices of small motions around steady sliding.
 
 use super::elimination::{Elimination, ProjectedPolynomial, RigidFriction};
-use super::tabled::TabledStiffness;
-use super::terms::{Kind, Part, Term, Terms, of_kind};
-use super::{PrestressError, TangentOptions};
+use super::terms::{Kind, Term, Terms, of_kind};
+use super::{LossGain, PrestressError, TabledGain, TangentOptions};
 use crate::contact::{ContactStiffness, Point, PressedState, Row, Turning, linearized, turned};
 use crate::fem::{DofMap, MaterialField, RayleighDamping, Triplets, assemble_geometric_stiffness};
 use crate::linalg::{FrictionWeights, MatrixPolynomial, SparsityPattern, c64};
@@ -38,10 +37,9 @@ pub struct SlidingTangent {
     pub damping: MatrixPolynomial,
     /// `K_t(mu)`, Pa.
     pub stiffness: MatrixPolynomial,
-    /// Structural damping `H(mu)`, Pa, whose force is `i H q` at positive frequencies; `None` without.
-    pub structural: Option<MatrixPolynomial>,
-    /// Parts whose stiffness depends on frequency, at their reference; empty without.
-    pub tabled: Vec<TabledStiffness>,
+    /// Stiffness of loss factors and of tables over frequency, which `K_t` has beside it with these factors, Pa: first, where there
+    /// is one, structural damping `H(mu)`, whose force is `i H q` at positive frequencies.
+    pub losses: Vec<(LossGain, MatrixPolynomial)>,
     /// Coefficients with which `C = alpha_R M + beta_R K_t` exactly; `None` where damping is not
     /// proportional.
     pub proportional: Option<RayleighDamping>,
@@ -61,7 +59,23 @@ pub struct SlidingTangent {
 impl SlidingTangent {
     /// Whether damping is not viscous alone.
     pub fn is_lossy(&self) -> bool {
-        self.structural.is_some() || !self.tabled.is_empty()
+        !self.losses.is_empty()
+    }
+
+    /// Structural damping `H(mu)`, Pa.
+    pub fn structural(&self) -> Option<&MatrixPolynomial> {
+        let mut own = self.losses.iter().filter(|(gain, _)| gain.0.is_none());
+        own.next().map(|(_, own)| own)
+    }
+
+    /// Parts whose stiffness depends on frequency.
+    pub fn tabled(&self) -> impl Iterator<Item = (&TabledGain, &MatrixPolynomial)> {
+        self.losses.iter().filter_map(|(gain, own)| Some((gain.0.as_ref()?, own)))
+    }
+
+    /// Whether there are any.
+    pub fn is_tabled(&self) -> bool {
+        self.tabled().next().is_some()
     }
 
     /// Displacement of every dof from a vector over the unknowns.
@@ -160,18 +174,11 @@ impl SlidingTangent {
             MatrixPolynomial::from_coefficients(&pattern, summed(pattern.nonzero_count(), all))
                 .frozen_below(frozen)
         };
-        let has_losses = terms.laws().any(|law| law.loss_factor != 0.0);
-        let tabled = terms.bodies.iter().enumerate().filter_map(|(body, law)| {
-            let stiffness =
-                |own: &Term<_>| f64::from(u8::from(own.is(Part::Body(body), Kind::Stiffness)));
-            Some(TabledStiffness { gain: law.table.clone()?, stiffness: sum(&stiffness) })
-        });
         Ok(Self {
             mass: sum(&of_kind(Kind::Mass)),
             damping: sum(&|term| terms.factors(term)[1]),
             stiffness: sum(&|term| terms.factors(term)[0]),
-            structural: has_losses.then(|| sum(&|term| terms.factors(term)[2])),
-            tabled: tabled.collect(),
+            losses: terms.losses(sum),
             proportional: terms.is_proportional(options).then_some(options.damping),
             is_gyroscopic: terms.all.iter().any(|term| term.kind == Kind::Gyroscopic),
             contact: ContactDofs {

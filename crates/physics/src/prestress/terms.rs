@@ -206,6 +206,23 @@ impl<M> Terms<M> {
         }
     }
 
+    /// What `K` has beside it, `sum` adding up all terms with their factors: structural damping `sum eta K` of regions, supports
+    /// and the normal law of contacts, which friction follows; then each region with a table. Of a difference of tangents too,
+    /// whose matrices may be zero: all terms of a quotient have the same parts.
+    pub(super) fn losses<P>(
+        &self,
+        sum: impl Fn(&dyn Fn(&Term<M>) -> f64) -> P,
+    ) -> Vec<(LossGain, P)> {
+        let has_losses = self.laws().any(|law| law.loss_factor != 0.0);
+        let structural = has_losses.then(|| (LossGain(None), sum(&|term| self.factors(term)[2])));
+        let tabled = self.bodies.iter().enumerate().filter_map(|(body, law)| {
+            let table = LossGain(Some(law.table.clone()?));
+            let own = |term: &Term<M>| term.is(Part::Body(body), Kind::Stiffness);
+            Some((table, sum(&|term| f64::from(u8::from(own(term))))))
+        });
+        structural.into_iter().chain(tabled).collect()
+    }
+
     /// Whether some stiffness has losses, or depends on frequency.
     pub fn is_lossy(&self) -> bool {
         self.laws().any(|law| law.loss_factor != 0.0 || law.table.is_some())

@@ -1,13 +1,11 @@
 //! The small motions around steady sliding of a body of equal sectors, harmonic by harmonic, from the terms of one sector.
 
-mod losses;
-
 use super::terms::{Kind, Part, Term, Terms, of_kind};
 use super::wave_terms::WaveTerms;
-use super::{FrictionPolynomial, HarmonicTangent, TangentOptions};
+use super::{FrictionPolynomial, HarmonicTangent, TabledGain, TangentOptions};
 use crate::fem::fold::{MirrorParity, SectorMatrix, WaveDofs};
 use crate::fem::sector::Sectored;
-use crate::fem::{DofMap, MassKind, MaterialField, RayleighDamping};
+use crate::fem::{DofMap, MassKind, MaterialField, ModulusTable, RayleighDamping};
 use crate::linalg::banded::{BandedMatrix, CompactRows};
 use crate::linalg::c64;
 
@@ -234,6 +232,24 @@ impl WaveTangent {
         self.terms.is_proportional(&self.options)
     }
 
+    /// Whether the stiffness has losses, or depends on frequency.
+    pub fn is_lossy(&self) -> bool {
+        self.terms.is_lossy()
+    }
+
+    /// Moduli over frequency of regions.
+    pub fn tables(&self) -> impl Iterator<Item = &TabledGain> {
+        self.terms.bodies.iter().filter_map(|region| region.table.as_ref())
+    }
+
+    /// The same with the real stiffness of tables at other frequencies, Hz.
+    pub fn referred_to(&self, frequency_hz: impl Fn(&ModulusTable) -> f64) -> Self {
+        let mut other = self.clone();
+        let tables = other.terms.bodies.iter_mut().filter_map(|region| region.table.as_mut());
+        tables.for_each(|own| own.reference_hz = frequency_hz(&own.table));
+        other
+    }
+
     /// Whether regions have viscous damping other than that of the whole body.
     pub fn has_own_damping(&self) -> bool {
         self.terms.regions().iter().any(|law| law.damping != self.options.damping)
@@ -252,7 +268,7 @@ impl WaveTangent {
             stiffness: of(0),
             damping: (!self.is_proportional()).then(|| of(1)),
             friction_dashpots: has_dashpots.then(|| of_kind(Kind::FrictionDashpots)),
-            losses: self.losses(n),
+            losses: self.terms.losses(|factor| self.polynomial(n, factor)),
             shares: None,
             rayleigh: self.options.damping,
             contact: self.ascending(self.contact.places.iter().flatten().copied()),

@@ -97,7 +97,7 @@ impl<'a> BasisBuilder<'a> {
         model.extend(others.to_owned(), 1e-8);
         let has_symmetry = !tangent.contact.angles.is_empty();
         let unknowns = tangent.stiffness.dimension();
-        let is_whole = unknowns <= DENSE_UP_TO && tangent.tabled.is_empty();
+        let is_whole = unknowns <= DENSE_UP_TO && !tangent.is_tabled();
         if is_whole {
             model.extend(Mat::identity(unknowns, unknowns), SAME_SPACE);
         }

@@ -26,11 +26,11 @@ impl<'a> ModeCounter<'a> {
     /// # Errors
     /// Where stiffness depends on frequency: a table is no analytic function of `lambda`.
     pub fn new(tangent: &'a SlidingTangent) -> Result<Self, CeaError> {
-        if let Some(part) = tangent.tabled.first() {
+        if let Some((gain, _)) = tangent.tabled().next() {
             return Err(CeaError::Failed(format!(
                 "cea.count_modes needs matrices that are analytic in the eigenvalue: {} is a table \
                  over frequency",
-                part.gain.table.key
+                gain.table.key
             )));
         }
         Ok(Self { tangent, analysis: SharedAnalysis::default() })

@@ -20,13 +20,13 @@ pub struct Pencil<P> {
 impl<P> Pencil<P> {
     /// What is made of each matrix of `tangent`.
     pub fn of(tangent: &SlidingTangent, make: impl Fn(&MatrixPolynomial) -> P) -> Self {
-        let tabled = tangent.tabled.iter();
+        let tabled = tangent.tabled();
         Self {
             stiffness: make(&tangent.stiffness),
             damping: make(&tangent.damping),
             mass: make(&tangent.mass),
-            structural: tangent.structural.as_ref().map(&make),
-            tabled: tabled.map(|part| (part.gain.clone(), make(&part.stiffness))).collect(),
+            structural: tangent.structural().map(&make),
+            tabled: tabled.map(|(gain, own)| (gain.clone(), make(own))).collect(),
         }
     }
 

@@ -86,13 +86,13 @@ impl ReducedModel {
             Linearization::Reduced(..) => Vec::new(),
             Linearization::Companion { .. } => terms(&tangent.damping, !tangent.is_gyroscopic),
         };
-        let tabled = tangent.tabled.iter();
+        let tabled = tangent.tabled();
         let terms = Pencil {
             stiffness: terms(&tangent.stiffness, true),
             damping,
             mass: terms(&tangent.mass, true),
-            structural: tangent.structural.as_ref().map(|p| terms(p, true)),
-            tabled: tabled.map(|part| (part.gain.clone(), terms(&part.stiffness, true))).collect(),
+            structural: tangent.structural().map(|p| terms(p, true)),
+            tabled: tabled.map(|(gain, own)| (gain.clone(), terms(own, true))).collect(),
         };
         Self {
             linearization,

@@ -86,7 +86,7 @@ fn referred(
     tangent: &SlidingTangent,
     limit: ModeLimit,
 ) -> Result<Cow<'_, SlidingTangent>, CeaError> {
-    if tangent.tabled.is_empty() {
+    if !tangent.is_tabled() {
         return Ok(Cow::Borrowed(tangent));
     }
     limit.check()?;
@@ -273,9 +273,9 @@ impl<'a> SparseSweep<'a> {
                     return Err(CeaError::beyond_table(table, mu, frequency_hz));
                 }
                 let is_unsettled = !(check.residual <= RESIDUAL_BOUND);
-                if let Some(part) = self.tangent.tabled.first().filter(|_| is_unsettled) {
+                if let Some((gain, _)) = self.tangent.tabled().next().filter(|_| is_unsettled) {
                     let (mu, residual) = (point.friction_coefficient, check.residual);
-                    let key = &part.gain.table.key;
+                    let key = &gain.table.key;
                     return Err(CeaError::Failed(format!(
                         "at friction coefficient {mu} the mode at about {frequency_hz:.1} Hz does \
                          not settle at a frequency of its own (relative residual {residual:.1e}). \

@@ -86,7 +86,7 @@ impl Linearized {
     fn values(&self, place: usize, frequency_hz: f64) -> [Vec<f64>; 4] {
         let (tangent, mu) = (self.tangent(place), self.frictions[place]);
         let tangent = tangent.at_frequency(frequency_hz);
-        let structural = tangent.structural.as_ref();
+        let structural = tangent.structural();
         [
             tangent.stiffness.evaluate(mu),
             tangent.damping.evaluate(mu),
@@ -236,7 +236,7 @@ fn responses(place: &Place, k: usize, terms: &[(f64, Linearized)]) -> Vec<Option
         Some(pair.response(pattern, [stiffness, damping, mass], structural))
     };
     let modes = place.targets.iter().zip(&place.pairs);
-    if tangent.tabled.is_empty() {
+    if !tangent.is_tabled() {
         let changes = changes_at(c64::new(0.0, 0.0));
         return modes.map(|(_, pair)| response(pair, &changes)).collect();
     }

@@ -43,7 +43,7 @@ impl BasisBuilder<'_> {
     /// Takes up the modes without friction, where branches begin: where stiffness depends on frequency, each at its own. Else those
     /// without damping are near enough, or those of proportional damping.
     pub fn begin_at_rest(&mut self) -> Result<(), CeaError> {
-        if !self.tangent.tabled.is_empty() {
+        if self.tangent.is_tabled() {
             return self.improve_at(0.0).map(|_| ());
         }
         let modes = Mat::identity(self.model.dimension(), self.leading_count());

@@ -77,7 +77,7 @@ impl SparseSweep<'_> {
 
     /// Whether the stiffness at rest is known, and nothing moves rigidly.
     fn is_static(&self) -> bool {
-        self.builder.rigid == 0 && self.tangent.tabled.is_empty()
+        self.builder.rigid == 0 && !self.tangent.is_tabled()
     }
 
     /// `ln det K(mu)`; minus infinity where there are no factors.
@@ -100,6 +100,7 @@ mod tests {
     use crate::cea::sparse::sweep;
     use crate::cea::{ModeLimit, SweepRequest};
     use crate::linalg::MatrixPolynomial;
+    use crate::prestress::LossGain;
     use std::sync::Arc;
 
     /// Independent check: a string on springs that friction takes away, which grows beyond without oscillating. Losses of two of the
@@ -113,7 +114,8 @@ mod tests {
             let pair = [i, i + 1].into_iter().flat_map(move |j| [(i, j), (i + 1, j)]);
             pair.map(|(j, k)| (j, k, if j == k { 0.5 } else { -0.5 }))
         });
-        tangent.structural = Some(MatrixPolynomial::on_pattern(&pattern, &[springs.collect()]));
+        let lost = MatrixPolynomial::on_pattern(&pattern, &[springs.collect()]);
+        tangent.losses = vec![(LossGain(None), lost)];
         let softened = (20..40).map(|i| (i, i, -1.0)).collect();
         let added = MatrixPolynomial::on_pattern(&pattern, &[Vec::new(), softened]);
         tangent.stiffness = MatrixPolynomial::combination(1.0, &tangent.stiffness, 1.0, &added);
