@@ -15,8 +15,9 @@ pub(super) fn is_vibration(value: c64) -> bool {
     value.im > 0.0 && (value.re > 0.0 || value.im > STANDSTILL * value.norm())
 }
 
-/// Largest growth or decay that a count covers, at least, relative to the upper end of the frequencies (rad/s).
-const WIDTH: f64 = 0.2;
+/// Largest growth or decay that a count covers, at least, relative to the upper end of the frequencies (rad/s): faster motions die out,
+/// or grow, within a period.
+pub(super) const WIDEST_GROWTH: f64 = 0.2;
 /// The same relative to the modes listed.
 const BEYOND_LISTED: f64 = 1.5;
 
@@ -35,7 +36,7 @@ impl CountedRegion {
         let lowest = listed.iter().fold(f64::INFINITY, |m, own| m.min(own.im));
         let reach = |sign: f64| {
             let rates = listed.iter().map(|own| BEYOND_LISTED * sign * own.re);
-            factor * rates.fold(WIDTH * top, f64::max)
+            factor * rates.fold(WIDEST_GROWTH * top, f64::max)
         };
         let [left, right] = [reach(-1.0), reach(1.0)];
         // Below the line from zero through the lower left corner motions do not oscillate.

@@ -17,8 +17,6 @@ pub(super) trait Entry:
     const MOST_VECTORS: usize;
     /// `a^H b`.
     fn dot(a: &[Self], b: &[Self]) -> Self;
-    /// It times a factor.
-    fn times(self, factor: c64) -> c64;
 }
 
 impl Entry for f64 {
@@ -26,10 +24,6 @@ impl Entry for f64 {
 
     fn dot(a: &[f64], b: &[f64]) -> f64 {
         dot(a, b)
-    }
-
-    fn times(self, factor: c64) -> c64 {
-        factor * self
     }
 }
 
@@ -49,10 +43,6 @@ impl Entry for c64 {
             }
         }
         c64::new(re.iter().sum(), im.iter().sum()) + rest
-    }
-
-    fn times(self, factor: c64) -> c64 {
-        factor * self
     }
 }
 
@@ -96,7 +86,7 @@ impl<T: Entry> KrylovSpace<T> {
     pub fn combined(&self, coordinates: &[c64], count: usize) -> Vec<c64> {
         let mut sum = vec![c64::new(0.0, 0.0); count];
         for (coordinate, vector) in coordinates.iter().zip(&self.vectors) {
-            sum.iter_mut().zip(vector).for_each(|(sum, b)| *sum += b.times(*coordinate));
+            sum.iter_mut().zip(vector).for_each(|(sum, b)| *sum += (*b).into() * coordinate);
         }
         sum
     }

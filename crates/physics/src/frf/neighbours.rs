@@ -48,7 +48,8 @@ fn proportional(
     let factors = RealFactors::new(system, analyses, middle)?;
     let mut space = KrylovSpace::new(factors.solve(force.force(count)));
     let sigma = (TAU * middle).powi(2);
-    let distances: Vec<c64> = lines.iter().map(|f| shift(rayleigh, *f) - sigma).collect();
+    let distance = |f: &f64| rayleigh.kappa(c64::new(0.0, TAU * f)) - sigma;
+    let distances: Vec<c64> = lines.iter().map(distance).collect();
     let [mass, _, _] = system.matrices();
     let solved = space.solve(&distances, |v| factors.solve(system.multiply(mass, v, false)));
     let vectors = lines.iter().zip(solved).map(|(f, mut y)| {
@@ -127,11 +128,6 @@ impl RealFactors {
         }
         x
     }
-}
-
-/// `s` at a frequency.
-fn shift(rayleigh: RayleighDamping, frequency_hz: f64) -> c64 {
-    rayleigh.kappa(c64::new(0.0, TAU * frequency_hz))
 }
 
 #[cfg(test)]

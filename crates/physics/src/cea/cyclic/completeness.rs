@@ -3,17 +3,14 @@
 use super::definite::{self, Region};
 use super::paths::HarmonicPaths;
 use super::problem::{HarmonicProblem, I, Matrices};
+use crate::cea::counted::{STANDSTILL, WIDEST_GROWTH};
 use crate::linalg::{c64, count_zeros};
 use crate::prestress::WaveTangent;
 use std::convert::Infallible;
 
-/// Largest `|Re(lambda)|` of the modes that completeness speaks of, as a share of the frequency limit
-/// (rad/s).
-pub(super) const WIDEST_GROWTH: f64 = 0.2;
-
-/// Share of the limit below which no modes are searched for where damping is not proportional:
-/// there motions within [`WIDEST_GROWTH`] need not oscillate, see `STANDSTILL`.
-const SLOWEST: f64 = 0.0202;
+/// Share of the limit below which no modes are searched for where damping is not proportional: there motions within
+/// [`WIDEST_GROWTH`] need not oscillate; a little more, so that none lies on the edge.
+const SLOWEST: f64 = 1.01 * STANDSTILL * WIDEST_GROWTH;
 
 /// Distance of the two determinants that a slope is taken from, relative to the size of the range.
 const STEP: f64 = 1e-4;

@@ -11,7 +11,6 @@ use super::problem::{HarmonicProblem, Matrices};
 use crate::cea::CeaError;
 use crate::cea::counted::NEARLY_CRITICAL;
 use crate::linalg::dense_eigen::complex_eigenvalues;
-use crate::linalg::vectors::dot;
 use crate::linalg::{ComplexDenseLu, Mat, c64};
 use std::rc::Rc;
 
@@ -182,7 +181,7 @@ impl Course<'_> {
             tracked.reached = tracked.path.points.len();
             let points = &mut tracked.path.points;
             let control = shortened([before, friction]);
-            let has_come = self.follower.advance(points, friction, control, &mut matrices);
+            let has_come = self.follower.walk(points, friction, control, &mut matrices);
             tracked.is_open = has_come && !problem.is_ending(tracked.last().theta);
         }
     }
@@ -207,7 +206,8 @@ impl Course<'_> {
         let joined = was_open.iter().copied().find(|&index| {
             let tracked = &self.paths[index];
             let left = &tracked.path.points[tracked.reached - 1];
-            !tracked.is_open && is_same(left, &back[0])
+            let is_there = left.parameter == back[0].parameter;
+            !tracked.is_open && is_there && left.is_same(&back[0], SAME)
         });
         match joined {
             Some(index) => {
@@ -245,12 +245,6 @@ impl Course<'_> {
 /// Steps no shorter than a share of the step of friction.
 fn shortened([before, friction]: [f64; 2]) -> StepControl {
     StepControl { shortest: SHORTEST * (friction - before), ..StepControl::NORMAL }
-}
-
-/// Whether two pairs at the same friction coefficient are one.
-fn is_same(a: &Eigenpair, b: &Eigenpair) -> bool {
-    let is_close = (a.theta - b.theta).norm() <= SAME * a.theta.norm();
-    a.parameter == b.parameter && is_close && dot(&a.x, &b.x).norm() > 0.99
 }
 
 /// All eigenvalues of the quadratic problem, from those of `(lambda - sigma)^-1` with `sigma > 0`:

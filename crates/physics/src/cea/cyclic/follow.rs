@@ -133,20 +133,8 @@ impl<'a> Follower<'a> {
         Eigenpair::new(0.0, [theta, rate], [x, y], residual)
     }
 
-    /// Follows `path` (its last point) up to `target`, appending every accepted point; `matrices` gives
-    /// the problem along the way. `false` where the eigenpair is lost. A path beyond `target` stays as it is.
-    pub fn advance(
-        &mut self,
-        path: &mut Vec<Eigenpair>,
-        target: f64,
-        control: StepControl,
-        matrices: &mut impl FnMut(f64) -> Rc<Matrices>,
-    ) -> bool {
-        let is_there = path.last().is_none_or(|last| last.parameter >= target);
-        is_there || self.walk(path, target, control, matrices)
-    }
-
-    /// [`Self::advance`] in either sense of the parameter: appends points from the last one of `path` to `target`.
+    /// Follows `path` (its last point) to `target`, above or below, appending every accepted point; `matrices` gives the problem
+    /// along the way. `false` where the eigenpair is lost.
     pub fn walk(
         &mut self,
         path: &mut Vec<Eigenpair>,

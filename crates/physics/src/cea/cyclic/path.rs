@@ -1,6 +1,7 @@
 //! Known points of one branch.
 
 use crate::linalg::c64;
+use crate::linalg::vectors::dot;
 
 /// An eigenpair of `T(theta)` at one parameter value.
 #[derive(Clone, Debug)]
@@ -33,6 +34,12 @@ impl Eigenpair {
     ) -> Self {
         let [contact_share, axial_share, uncertainty] = [f64::NAN; 3];
         Self { parameter, theta, rate, x, y, residual, contact_share, axial_share, uncertainty }
+    }
+
+    /// Whether another is the same: their distance relative to it is within `near`, and their vectors are parallel.
+    pub fn is_same(&self, other: &Self, near: f64) -> bool {
+        let is_close = (self.theta - other.theta).norm() <= near * self.theta.norm();
+        is_close && dot(&self.x, &other.x).norm() > 0.99
     }
 }
 

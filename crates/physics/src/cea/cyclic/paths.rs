@@ -7,7 +7,7 @@ use super::problem::{HarmonicProblem, Matrices};
 use super::reduction::Reduction;
 use crate::cea::CeaError;
 use crate::linalg::c64;
-use crate::linalg::vectors::{dot, normalize};
+use crate::linalg::vectors::normalize;
 use std::rc::Rc;
 
 /// The followed branches of one harmonic.
@@ -135,7 +135,7 @@ fn follow_all(
         };
         let reached: Vec<usize> = paths.iter().map(|path| path.points.len()).collect();
         for index in 0..paths.len() {
-            while !follower.advance(&mut paths[index].points, friction, control, &mut matrices) {
+            while !follower.walk(&mut paths[index].points, friction, control, &mut matrices) {
                 if has_ended(&paths[index]) {
                     return Ok(paths);
                 }
@@ -143,16 +143,20 @@ fn follow_all(
                 if problem.is_solid() && control != StepControl::FINE {
                     let points = &mut paths[index].points;
                     points.truncate(reached[index]);
-                    if follower.advance(points, friction, StepControl::FINE, &mut matrices) {
+                    if follower.walk(points, friction, StepControl::FINE, &mut matrices) {
                         break;
                     }
                     if has_ended(&paths[index]) {
                         return Ok(paths);
                     }
                 }
-                let approach = |follower: &mut Follower<'_>, points: &mut Vec<_>, target: f64| {
-                    follower.advance(points, target, control, &mut matrices);
-                };
+                // One beyond it stays as it is.
+                let approach =
+                    |follower: &mut Follower<'_>, points: &mut Vec<Eigenpair>, target: f64| {
+                        if points.last().is_some_and(|last| last.parameter < target) {
+                            follower.walk(points, target, control, &mut matrices);
+                        }
+                    };
                 let may_meet = problem.tangent.is_standing && problem.is_proportional();
                 let passed = may_meet
                     .then(|| collision::pass(follower, &mut paths, index, friction, approach));
@@ -213,7 +217,7 @@ pub(super) fn start(
     let undamped = c64::new(0.0, kappa.max(0.0).sqrt());
     let mut damped = vec![follower.at_rest(&problem.at_damping(0.0), undamped, x)];
     let mut matrices = |share: f64| Rc::new(problem.at_damping(share));
-    if !follower.advance(&mut damped, 1.0, StepControl::NORMAL, &mut matrices) {
+    if !follower.walk(&mut damped, 1.0, StepControl::NORMAL, &mut matrices) {
         return None;
     }
     let last = damped.pop()?;
@@ -230,10 +234,5 @@ pub(super) fn start(
 /// Whether no two paths have come to the same eigenpair.
 pub(super) fn are_distinct(paths: &[Path]) -> bool {
     let ends: Vec<&Eigenpair> = paths.iter().filter_map(|path| path.points.last()).collect();
-    ends.iter().enumerate().all(|(i, a)| {
-        ends[..i].iter().all(|b| {
-            let is_close = (a.theta - b.theta).norm() <= 1e-9 * a.theta.norm();
-            !(is_close && dot(&a.x, &b.x).norm() > 0.99)
-        })
-    })
+    ends.iter().enumerate().all(|(i, a)| ends[..i].iter().all(|b| !a.is_same(b, 1e-9)))
 }

@@ -221,9 +221,7 @@ impl HarmonicProblem {
     /// How well rounded matrices determine an eigenvalue, see [`crate::cea::ComplexMode`].
     pub fn uncertainty(&self, at: &Matrices, pair: &Eigenpair) -> f64 {
         let lambda = self.eigenvalue(pair.theta);
-        let slope = dot(&pair.y, &self.apply_slope(at, pair.theta, &pair.x, false));
-        // dT/dlambda from dT/dtheta.
-        let slope = self.stretch(lambda) * slope / self.eigenvalue_slope(pair.theta);
+        let slope = dot(&pair.y, &at.now.apply_slope(lambda, &pair.x, false));
         f64::EPSILON * self.size(at, lambda, &pair.x) / (slope.norm() * lambda.norm())
     }
 
