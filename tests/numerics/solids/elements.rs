@@ -19,7 +19,7 @@ fn bricks_hold_every_constant_strain() {
     for element in [Quad4, Quad8] {
         let model = disc(element, [12, 3, 3]);
         let sector = SolidSector::generate(&model.specification).unwrap();
-        let elastic = stiffness(&sector, &model.material);
+        let elastic = stiffness(&sector, &model.material, None);
         let dofs = 3 * sector.node_count();
         let own = sector.wave_dofs();
         let all = WaveDofs::new(dofs, |_| false, own.half_bandwidth, own.sectors);

@@ -66,7 +66,7 @@ pub fn linearized(
         if stiffness.tangential_damping != 0.0 {
             let value = weight * stiffness.tangential_damping;
             for row in [&point.slip, &point.across] {
-                add_product(power(&mut terms.dashpots, 0), value, row, row);
+                power(&mut terms.dashpots, 0).push_product(value, row, row);
             }
         }
     }
@@ -83,7 +83,7 @@ pub fn linearized(
             let friction = point.friction;
             let mut add = |row: &Row, value: f64| {
                 for (term, factor) in following(p, frozen) {
-                    add_product(power(&mut terms.dashpots, term), factor * value, row, row);
+                    power(&mut terms.dashpots, term).push_product(factor * value, row, row);
                 }
             };
             if friction.slope != 0.0 {
@@ -121,10 +121,10 @@ fn add_normal_law(
     point: &Point,
     coefficient: f64,
 ) {
-    add_product(power(terms, alone(p, frozen)), coefficient, &point.normal, &point.normal);
+    power(terms, alone(p, frozen)).push_product(coefficient, &point.normal, &point.normal);
     for (term, factor) in following(p, frozen) {
         let follow = point.friction.drag * factor * coefficient;
-        add_product(power(terms, term), follow, &point.slip, &point.normal);
+        power(terms, term).push_product(follow, &point.slip, &point.normal);
     }
 }
 
@@ -134,16 +134,4 @@ pub(super) fn power(terms: &mut Vec<Triplets>, p: usize) -> &mut Triplets {
         terms.resize_with(p + 1, Triplets::default);
     }
     &mut terms[p]
-}
-
-/// `A += factor row column^T`.
-pub(super) fn add_product(terms: &mut Triplets, factor: f64, row: &Row, column: &Row) {
-    if factor == 0.0 {
-        return;
-    }
-    for &(i, along) in row {
-        for &(j, across) in column {
-            terms.push(i, j, factor * along * across);
-        }
-    }
 }

@@ -1,6 +1,6 @@
 //! How the forces of the base state turn with the surfaces.
 
-use super::linearized::{add_product, alone, following, merge_many, power};
+use super::linearized::{alone, following, merge_many, power};
 use super::{ContactInterface, ContactSurface, Counterpart, Point, PressedState, Row, row_along};
 use crate::fem::Triplets;
 use crate::mesh::Mesh;
@@ -71,15 +71,15 @@ fn of_unit_force(point: &Point, turning: &Turning) -> [Vec<(usize, usize, f64)>;
         ([&point.slip, &point.across], turning.curvature, point.friction.drag);
     for a in 0..2 {
         for b in 0..2 {
-            add_product(&mut normal, -curvature[a][b], moves[a], moves[b]);
+            normal.push_product(-curvature[a][b], moves[a], moves[b]);
         }
-        add_product(&mut normal, 1.0, moves[a], &turning.tilt[a]);
-        add_product(&mut normal, 1.0, &turning.tilt[a], moves[a]);
-        add_product(&mut friction, curvature[0][a] * drag, &point.normal, moves[a]);
-        add_product(&mut friction, drag, &turning.stretch[a], moves[a]);
+        normal.push_product(1.0, moves[a], &turning.tilt[a]);
+        normal.push_product(1.0, &turning.tilt[a], moves[a]);
+        friction.push_product(curvature[0][a] * drag, &point.normal, moves[a]);
+        friction.push_product(drag, &turning.stretch[a], moves[a]);
     }
-    add_product(&mut friction, -drag, &point.normal, &turning.tilt[0]);
-    add_product(&mut friction, -drag, &point.across, &turning.veer);
+    friction.push_product(-drag, &point.normal, &turning.tilt[0]);
+    friction.push_product(-drag, &point.across, &turning.veer);
     [normal, friction].map(|terms| {
         let mut sums = BTreeMap::new();
         terms.entries.iter().for_each(|&(i, j, value)| *sums.entry((i, j)).or_default() += value);

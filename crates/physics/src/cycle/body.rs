@@ -105,10 +105,10 @@ impl WaveBody {
             return Err(CycleError::Element);
         }
         let mesh = SectorMesh::generate(specification)?;
-        let stiffness = sector::stiffness(&mesh, material);
+        let stiffness = sector::stiffness(&mesh, material, None);
         let dofs = mesh.wave_dofs();
         let fold = |n: usize, matrix: &SectorMatrix| dofs.fold(n, MirrorParity::Even, &[matrix]);
-        let mass = fold(0, &sector::mass(&mesh, material, MassKind::Lumped));
+        let mass = fold(0, &sector::mass(&mesh, material, MassKind::Lumped, None));
         let block = |matrix: Triplets| {
             let mut block = Matrix2::zeros();
             matrix.entries.iter().for_each(|&(i, j, value)| block[(i % 2, j % 2)] = value);

@@ -5,7 +5,7 @@
 
 use super::assembly::assemble_congruent;
 use super::fold::{SectorMatrix, WaveDofs};
-use super::solid::{FaceRule, FaceTerm, face_matrix, whole_element};
+use super::solid::{FaceRule, WHOLE_ELEMENT, face_points};
 use super::{
     MassKind, MaterialField, RayleighDamping, Triplets, assemble_extra_damping,
     assemble_geometric_stiffness, assemble_support, element_mass, element_stiffness,
@@ -89,7 +89,7 @@ impl Sectored for SolidSector {
 }
 
 /// What a matrix of the strip is over the dofs of the sector, whose images its nodes are.
-fn folded<S: Sectored>(sector: &S, matrix: &Triplets) -> SectorMatrix {
+pub(crate) fn folded<S: Sectored>(sector: &S, matrix: &Triplets) -> SectorMatrix {
     let components = sector.strip().dimension;
     let place = |dof: usize| {
         let (node, half) = sector.place(dof / components);
@@ -109,7 +109,7 @@ pub fn stiffness_alike<S: Sectored>(
     mass: MassKind,
 ) -> Triplets {
     let [springs, _] = supports(sector, mass);
-    SectorMatrix::alike_in_all(&[&stiffness(sector, material), &springs])
+    SectorMatrix::alike_in_all(&[&stiffness(sector, material, None), &springs])
 }
 
 /// Springs and dashpots of all supports of a sector together.
@@ -133,7 +133,7 @@ fn assemble<S: Sectored>(
 }
 
 /// Elastic stiffness `K_e` of one sector without its supports, or of one of its regions: N/m, in the plane Pa.
-pub fn stiffness_of<S: Sectored>(
+pub fn stiffness<S: Sectored>(
     sector: &S,
     material: &dyn MaterialField,
     region: Option<usize>,
@@ -141,24 +141,14 @@ pub fn stiffness_of<S: Sectored>(
     assemble(sector, region, |strip, e| element_stiffness(strip, material, e))
 }
 
-/// [`stiffness_of`] all regions.
-pub fn stiffness<S: Sectored>(sector: &S, material: &dyn MaterialField) -> SectorMatrix {
-    stiffness_of(sector, material, None)
-}
-
 /// Mass of one sector or of one of its regions, consistent or lumped: kg, in the plane kg/m.
-pub fn mass_of<S: Sectored>(
+pub fn mass<S: Sectored>(
     sector: &S,
     material: &dyn MaterialField,
     kind: MassKind,
     region: Option<usize>,
 ) -> SectorMatrix {
     assemble(sector, region, |strip, e| element_mass(strip, material, kind, e))
-}
-
-/// [`mass_of`] all regions.
-pub fn mass<S: Sectored>(sector: &S, material: &dyn MaterialField, kind: MassKind) -> SectorMatrix {
-    mass_of(sector, material, kind, None)
 }
 
 /// Damping that regions have in place of the `common` one,
@@ -201,25 +191,27 @@ fn supported_faces(sector: &SolidSector, mass: MassKind) -> Vec<SectorSupport> {
         let BoundaryCondition::Support(own) = condition else {
             return None;
         };
-        let elements = sector.face_elements(face);
+        let elements = sector.face_elements(face).into_iter();
         // Across, a face is tangential like around; a cylinder has its own word for it.
         let [axial, axial_damping] = match (face.normal_component(), own.axial_stiffness) {
             (0, Some(axial)) => [axial, 0.0],
             _ => [own.tangential_stiffness, own.tangential_damping],
         };
-        let rows = [face.normal_component(), 1, face.across_component()];
-        let springs = [own.normal_stiffness, own.tangential_stiffness, axial];
-        let dashpots = [own.normal_damping, own.tangential_damping, axial_damping];
-        let terms = [springs, dashpots].map(|values| {
-            let along = rows.into_iter().zip(values).filter(|(_, value)| *value != 0.0);
-            let matrices = along.map(|(row, value)| {
-                let weight = &|_: &_, _, _| value;
-                let term = FaceTerm { row, column: row, weight, span: &whole_element, rule };
-                face_matrix(sector, &elements, &term)
-            });
-            matrices.fold(SectorMatrix::default(), |sum, own| sum.plus(&own))
-        });
-        let name = face.name().to_owned();
+        let laws = [
+            (face.normal_component(), [own.normal_stiffness, own.normal_damping]),
+            (1, [own.tangential_stiffness, own.tangential_damping]),
+            (face.across_component(), [axial, axial_damping]),
+        ];
+        let mut terms = <[Triplets; 2]>::default();
+        for point in elements.flat_map(|own| face_points(sector, &own, WHOLE_ELEMENT, rule)) {
+            for (component, values) in laws {
+                let row = &point.rows[component];
+                for (sum, value) in terms.iter_mut().zip(values) {
+                    sum.push_product(point.area * value, row, row);
+                }
+            }
+        }
+        let (name, terms) = (face.name().to_owned(), terms.map(|own| folded(sector, &own)));
         Some(SectorSupport { name, terms, loss_factor: own.loss_factor })
     });
     supported.collect()

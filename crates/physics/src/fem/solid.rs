@@ -1,21 +1,17 @@
-//! Terms on the faces of a body of revolution in three dimensions: contact, supports, pressure.
+//! Places on the faces of a body of revolution in three dimensions, at which contact, supports and pressure act.
 
-use super::fold::SectorMatrix;
 use crate::mesh::{BoundaryCondition, FaceElement, SolidFace, SolidSector, face_quadrature};
-use nalgebra::DMatrix;
 
-/// A term `∫ w d_row (d_column . u) dA` on a face: a force along one direction for each unit of motion along another.
-pub struct FaceTerm<'a> {
-    /// Component `(r, theta, z)` along which the force acts.
-    pub row: usize,
-    /// Component of the motion.
-    pub column: usize,
-    /// `w`, per unit of area, from the radius (m) and the place along the element, -1 to 1.
-    pub weight: &'a dyn Fn(&FaceElement, f64, f64) -> f64,
-    /// The part of an element that it acts on, from -1 to 1; of a lumped one the ends in it.
-    pub span: &'a dyn Fn(&FaceElement) -> [f64; 2],
-    /// How a linear element takes it.
-    pub rule: FaceRule,
+/// A place of a face.
+pub struct FacePoint {
+    /// Its share of the face, m2.
+    pub area: f64,
+    /// Its radius, m.
+    pub radius: f64,
+    /// Its place along the element, -1 to 1.
+    pub along: f64,
+    /// Rows of the displacement there along `(e_r, e_theta, e_z)`, over the dofs of the strip.
+    pub rows: [Vec<(usize, f64)>; 3],
 }
 
 /// How a linear element takes a term. Quadratic ones integrate it.
@@ -27,10 +23,8 @@ pub enum FaceRule {
     Nodal,
 }
 
-/// All of an element.
-pub fn whole_element(_: &FaceElement) -> [f64; 2] {
-    [-1.0, 1.0]
-}
+/// All of an element along the face.
+pub const WHOLE_ELEMENT: [f64; 2] = [-1.0, 1.0];
 
 /// Components in a node's frame of a unit vector along `component` at an angle `ahead` of the point.
 fn turned(component: usize, ahead: f64) -> [f64; 3] {
@@ -42,71 +36,54 @@ fn turned(component: usize, ahead: f64) -> [f64; 3] {
     }
 }
 
-/// Angle of each node ahead of a point at an angle from the middle of a face element, rad.
-fn angles_ahead(sector: &SolidSector, face: &FaceElement, angle: f64) -> Vec<f64> {
-    let ahead = |(_, half): &(usize, usize)| sector.half_angle() * (*half as f64 - 1.0) - angle;
-    face.nodes.iter().map(ahead).collect()
-}
-
-/// The matrix of a term over some elements of a face: linear ones by the term's rule.
-pub fn face_matrix(
+/// The places that stand for a part of an element, from -1 to 1 along the face: of a lumped one the nodes at the ends in it.
+pub fn face_points(
     sector: &SolidSector,
-    faces: &[FaceElement],
-    term: &FaceTerm<'_>,
-) -> SectorMatrix {
-    let matrix_of = |face: &FaceElement| {
-        let size = 3 * face.nodes.len();
-        let mut matrix = DMatrix::zeros(size, size);
-        let span = (term.span)(face);
-        let is_integrated = sector.is_quadratic() || term.rule == FaceRule::Integrated;
-        let (middle, half) = match is_integrated {
-            true => (0.5 * (span[0] + span[1]), 0.5 * (span[1] - span[0])),
-            false => (0.0, 1.0),
-        };
-        for ([x, y], share) in face_quadrature(sector.is_quadratic()) {
-            let point = ([x, middle + half * y], half * share);
-            let (values, area) = face.values_at(sector, point);
-            if !is_integrated {
-                for (a, value) in values.iter().enumerate() {
-                    // Corners 0 and 1 lie at the beginning of the element.
-                    let end = [-1.0, 1.0][a / 2];
-                    if span[a / 2].abs() == 1.0 {
-                        let radius = face.radius_at(sector, [0.0, end]);
-                        let weight = area * (term.weight)(face, radius, end);
-                        matrix[(3 * a + term.row, 3 * a + term.column)] += weight * value;
-                    }
-                }
-                continue;
-            }
-            let on_arc = [1.0, face.radius_at(sector, point.0), sector.half_angle() * point.0[0]];
-            let [share, radius, angle] =
-                if sector.is_quadratic() { on_arc } else { face.on_chord(sector, point.0) };
-            let weight = area * share * (term.weight)(face, radius, point.0[1]);
-            let ahead = angles_ahead(sector, face, angle);
-            let [rows, columns] = [term.row, term.column].map(|c| along(&values, &ahead, c));
-            for (j, column) in columns.iter().enumerate() {
-                for (i, row) in rows.iter().enumerate() {
-                    matrix[(i, j)] += weight * row * column;
-                }
-            }
-        }
-        matrix
+    face: &FaceElement,
+    span: [f64; 2],
+    rule: FaceRule,
+) -> Vec<FacePoint> {
+    let is_quadratic = sector.is_quadratic();
+    let in_strip = |&(node, half): &(usize, usize)| {
+        node + sector.node_count() * ((half - sector.nodes[node].half_step) / 2)
     };
-    let entries = faces.iter().flat_map(|face| {
-        let (matrix, place) = (matrix_of(face), |k: usize| (face.nodes[k / 3], k % 3));
-        (0..matrix.len()).map(move |k| {
-            let [((node, here), c), ((other, there), d)] =
-                [k % matrix.nrows(), k / matrix.nrows()].map(place);
-            (3 * node + c, 3 * other + d, there as isize - here as isize, matrix[k])
-        })
-    });
-    SectorMatrix::of_entries(3, entries)
-}
-
-/// Components in the nodes' frames of a unit vector along `component` at a point, times `values` of the nodes.
-fn along(values: &[f64], ahead: &[f64], component: usize) -> Vec<f64> {
-    let nodes = values.iter().zip(ahead);
-    nodes.flat_map(|(value, angle)| turned(component, *angle).map(|c| c * value)).collect()
+    let nodes: Vec<usize> = face.nodes.iter().map(in_strip).collect();
+    if !is_quadratic && rule == FaceRule::Nodal {
+        let mut areas = vec![0.0; nodes.len()];
+        for point in face_quadrature(is_quadratic) {
+            let (values, area) = face.values_at(sector, point);
+            areas.iter_mut().zip(values).for_each(|(sum, value)| *sum += area * value);
+        }
+        // Corners 0 and 1 lie at the beginning of the element.
+        let own = (0..nodes.len()).filter(|a| span[a / 2].abs() == 1.0);
+        let point = |a: usize| FacePoint {
+            area: areas[a],
+            radius: face.radius_at(sector, [0.0, WHOLE_ELEMENT[a / 2]]),
+            along: WHOLE_ELEMENT[a / 2],
+            rows: [0, 1, 2].map(|component| vec![(3 * nodes[a] + component, 1.0)]),
+        };
+        return own.map(point).collect();
+    }
+    let (middle, half) = (0.5 * (span[0] + span[1]), 0.5 * (span[1] - span[0]));
+    let point = |([x, y], share): ([f64; 2], f64)| {
+        let at = [x, middle + half * y];
+        let (values, area) = face.values_at(sector, (at, half * share));
+        let [share, radius, angle] = match is_quadratic {
+            true => [1.0, face.radius_at(sector, at), sector.half_angle() * x],
+            false => face.on_chord(sector, at),
+        };
+        let row = |component: usize| {
+            let nodes = nodes.iter().zip(&face.nodes).zip(&values);
+            let parts = nodes.flat_map(|((node, (_, half)), value)| {
+                let ahead = sector.half_angle() * (*half as f64 - 1.0) - angle;
+                let parts = turned(component, ahead).into_iter().enumerate();
+                parts.map(move |(c, part)| (3 * node + c, part * value))
+            });
+            parts.collect()
+        };
+        FacePoint { area: area * share, radius, along: at[1], rows: [0, 1, 2].map(row) }
+    };
+    face_quadrature(is_quadratic).map(point).collect()
 }
 
 /// Forces of the pressures on the faces, the same in every sector, N.
@@ -114,16 +91,11 @@ pub fn pressure_load(sector: &SolidSector) -> Vec<f64> {
     let mut load = vec![0.0; 3 * sector.node_count()];
     for (face, condition) in SolidFace::ALL.into_iter().zip(&sector.specification.conditions) {
         let BoundaryCondition::Pressure(pressure) = condition else { continue };
-        let (component, factor) = (face.normal_component(), pressure * face.inward_sign());
+        let factor = pressure * face.inward_sign();
         for element in sector.face_elements(face) {
-            for point in face_quadrature(sector.is_quadratic()) {
-                let (values, area) = element.values_at(sector, point);
-                let ahead = angles_ahead(sector, &element, sector.half_angle() * point.0[0]);
-                for (((node, _), value), angle) in element.nodes.iter().zip(values).zip(ahead) {
-                    let angle = if sector.is_quadratic() { angle } else { 0.0 };
-                    for (c, part) in turned(component, angle).into_iter().enumerate() {
-                        load[3 * node + c] += factor * area * value * part;
-                    }
+            for point in face_points(sector, &element, WHOLE_ELEMENT, FaceRule::Nodal) {
+                for &(dof, value) in &point.rows[face.normal_component()] {
+                    load[dof % (3 * sector.node_count())] += factor * point.area * value;
                 }
             }
         }

@@ -26,6 +26,15 @@ impl Triplets {
         }
     }
 
+    /// Adds `factor row column^T`.
+    pub fn push_product(&mut self, factor: f64, row: &[(usize, f64)], column: &[(usize, f64)]) {
+        for &(i, along) in row.iter().filter(|_| factor != 0.0) {
+            for &(j, across) in column {
+                self.push(i, j, factor * along * across);
+            }
+        }
+    }
+
     /// Sums the entries of one place, in their order; then they are in the order of rows and columns.
     pub fn merge(&mut self) {
         // Rows by counting; in each the sums of its columns in a row of all columns, of which those taken are then sorted.

@@ -6,10 +6,10 @@ use super::full_sliding::FullSliding;
 use super::solid::{OverRings, SolidSliding, friction};
 use crate::contact::{ContactStiffness, NormalLaw, Point, PressedState, SlidingContact};
 use crate::fem::fold::SectorMatrix;
-use crate::fem::sector::stiffness_alike;
-use crate::fem::solid::{FaceRule, FaceTerm, face_matrix, pressure_load};
+use crate::fem::sector::{folded, stiffness_alike};
+use crate::fem::solid::{FacePoint, FaceRule, face_points, pressure_load};
 use crate::fem::{MassKind, MaterialField, Triplets};
-use crate::mesh::{ContactRing, FaceElement, SolidSector};
+use crate::mesh::{ContactRing, SolidSector};
 
 /// Choices of what is pressed that are tried before the search is given up.
 const SETS: usize = 200;
@@ -252,13 +252,16 @@ impl Springs<'_> {
     fn matrix(&self, weight: &dyn Fn(f64) -> f64) -> Triplets {
         let OverRings { sector, rule, .. } = self.approaches;
         let component = sector.specification.contact.face().normal_component();
-        let weight = |element: &FaceElement, _: f64, along: f64| {
-            weight(self.approaches.along(element, along).max(0.0))
-        };
-        let span = |element: &FaceElement| self.approaches.pressed_span(element);
-        let (row, column) = (component, component);
-        let term = FaceTerm { row, column, weight: &weight, span: &span, rule };
-        SectorMatrix::alike_in_all(&[&face_matrix(sector, &sector.contact_elements(), &term)])
+        let mut sum = Triplets::default();
+        for element in sector.contact_elements() {
+            let span = self.approaches.pressed_span(&element);
+            for FacePoint { area, along, rows, .. } in face_points(sector, &element, span, rule) {
+                let approach = self.approaches.along(&element, along).max(0.0);
+                let row = &rows[component];
+                sum.push_product(area * weight(approach), row, row);
+            }
+        }
+        SectorMatrix::alike_in_all(&[&folded(sector, &sum)])
     }
 }
 

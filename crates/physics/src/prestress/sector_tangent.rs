@@ -4,10 +4,10 @@ use super::terms::{Kind, Part};
 use super::wave_tangent::WaveContact;
 use super::wave_terms::WaveTerms;
 use super::{PrestressError, SectorSliding, TangentOptions, WaveTangent};
-use crate::contact::{Point, SlidingContact, linearized};
+use crate::contact::{Point, SlidingContact};
+use crate::fem::MaterialField;
 use crate::fem::fold::SectorMatrix;
 use crate::fem::sector::Sectored;
-use crate::fem::{MaterialField, Triplets};
 use crate::mesh::SectorMesh;
 use std::f64::consts::PI;
 
@@ -72,17 +72,10 @@ impl Edge<'_> {
         let over_distance =
             |point: &Point| Point { normal: point.normal[..1].to_vec(), ..point.clone() };
         let points: Vec<Point> = self.base.points.iter().map(over_distance).collect();
-        let found = linearized(&points, (&self.base.state, 0), &options.contact);
-        // What acts from one component to the other is odd.
-        let part = |terms: &[Triplets], power: usize, is_odd: bool| {
-            let own = terms.get(power).into_iter().flat_map(|own| &own.entries);
-            let own = own.filter(|(row, column, _)| (row % 2 != column % 2) == is_odd);
-            SectorMatrix::of_entries(2, own.map(|&(row, column, value)| (row, column, 0, value)))
-        };
-        let both = |terms: &[Triplets]| [part(terms, 0, false), part(terms, 1, true)];
-        terms.add(Part::Contact(0), Kind::Stiffness, both(&found.stiffness));
-        terms.add(Part::Contact(0), Kind::Dashpots, both(&found.dashpots));
-        terms.add(Part::Contact(0), Kind::FrictionDashpots, [part(&found.dashpots, 1, false)]);
+        terms.add_points((&points, &self.base.state), &options.contact, |own| {
+            let entries = own.entries.iter().map(|&(row, column, value)| (row, column, 0, value));
+            SectorMatrix::of_entries(2, entries)
+        });
     }
 
     /// What the normal forces of the base state, and the friction `T = s mu N`, add to the stiffness as they turn and move with

@@ -1,7 +1,7 @@
 //! Steady sliding of a body of revolution in three dimensions, from one sector.
 
 use crate::contact::{NormalLaw, SlidingContact, SteadyFriction};
-use crate::fem::solid::{FaceRule, whole_element};
+use crate::fem::solid::{FaceRule, WHOLE_ELEMENT};
 use crate::mesh::{FaceElement, SolidSector};
 
 /// The state of steady sliding of a body of revolution, the same in every sector.
@@ -81,10 +81,11 @@ impl SolidSliding {
         self.approaches_over(sector).along(element, along).max(0.0)
     }
 
-    /// The part of an element of the face that is pressed, see [`span`](crate::fem::solid::FaceTerm::span). Of quadratic elements in rigid contact it is all.
+    /// The part of an element of the face that is pressed, see [`face_points`](crate::fem::solid::face_points). Of quadratic elements in
+    /// rigid contact it is all.
     pub fn pressed_span(&self, sector: &SolidSector, element: &FaceElement) -> [f64; 2] {
         match self.law {
-            None if self.rule == FaceRule::Integrated => whole_element(element),
+            None if self.rule == FaceRule::Integrated => WHOLE_ELEMENT,
             None => self.pressures_over(sector).pressed_span(element),
             Some(_) => self.approaches_over(sector).pressed_span(element),
         }

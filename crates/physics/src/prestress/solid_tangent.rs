@@ -4,12 +4,12 @@ use super::terms::{Kind, Part};
 use super::wave_tangent::WaveContact;
 use super::wave_terms::WaveTerms;
 use super::{PrestressError, SolidSliding, TangentOptions, WaveTangent};
-use crate::contact::{ContactStiffness, SlidingContact};
+use crate::contact::{Point, PressedState, SlidingContact};
 use crate::fem::MaterialField;
 use crate::fem::fold::SectorMatrix;
-use crate::fem::sector::Sectored;
-use crate::fem::solid::{FaceTerm, face_matrix};
-use crate::mesh::{FaceElement, SolidSector};
+use crate::fem::sector::{Sectored, folded};
+use crate::fem::solid::{FacePoint, face_points};
+use crate::mesh::SolidSector;
 
 impl WaveTangent {
     /// Finds the steady sliding state of a body of revolution and linearises around it.
@@ -34,7 +34,8 @@ impl WaveTangent {
             terms.take_stress(sector, material, displacements);
             terms.add(Part::Contact(0), Kind::Prestress, turning_forces(sector, &base));
         }
-        add_contact(&base, sector, &options.contact, &mut terms);
+        let (points, state) = points(&base, sector);
+        terms.add_points((&points, &state), &options.contact, |own| folded(sector, own));
         let (own, parts) = ((sector, sector.wave_dofs()), (terms, rings(sector, &base, options)));
         Ok(Self::new(own, parts, options, contact.sliding_direction()))
     }
@@ -75,67 +76,37 @@ fn turning_forces(sector: &SolidSector, base: &SolidSliding) -> [SectorMatrix; 2
     [SectorMatrix::of_entries(3, turning), SectorMatrix::of_entries(3, dragging)]
 }
 
-/// A weight from the element, the radius (m) and the place along the element.
-type Weight<'a> = &'a dyn Fn(&FaceElement, f64, f64) -> f64;
-
-/// Adds the matrices of the contact of a state.
-fn add_contact(
-    base: &SolidSliding,
-    sector: &SolidSector,
-    contact: &ContactStiffness,
-    terms: &mut WaveTerms,
-) {
+/// The places of the face as points over the dofs of the strip, and their state.
+fn points(base: &SolidSliding, sector: &SolidSector) -> (Vec<Point>, PressedState) {
     let face = sector.specification.contact.face();
-    let (normal, side) = (face.normal_component(), face.across_component());
-    let faces = sector.contact_elements();
-    let span = |element: &FaceElement| base.pressed_span(sector, element);
-    let term = |row, column, weight: Weight<'_>| {
-        let term = FaceTerm { row, column, weight, span: &span, rule: base.rule };
-        face_matrix(sector, &faces, &term)
-    };
-    let pressure = |element: &FaceElement, at| base.pressure_along(sector, element, at);
-    let pressed = |row, column, weight: Weight<'_>| {
-        term(row, column, &|element, r, at| match pressure(element, at) > 0.0 {
-            true => weight(element, r, at),
-            false => 0.0,
-        })
-    };
-
-    // What acts along the normal is dragged along by friction.
-    let drag = |r: f64| face.inward_sign() * base.friction(r).1.drag;
-    let normal_and_drag = |weight: Weight<'_>| {
-        let dragged = |element: &FaceElement, r: f64, at: f64| weight(element, r, at) * drag(r);
-        [pressed(normal, normal, weight), pressed(1, normal, &dragged)]
-    };
-    let mut dashpots: [SectorMatrix; 2] = match contact.normal_damping {
-        0.0 => Default::default(),
-        damping => normal_and_drag(&|_, _, _| damping),
-    };
-    let tangential = contact.tangential_damping;
-    if tangential != 0.0 {
-        for component in [1, side] {
-            dashpots[0] = dashpots[0].plus(&pressed(component, component, &|_, _, _| tangential));
+    let mut state = PressedState::default();
+    let (mut points, mut forces, mut springs) = (Vec::new(), Vec::new(), Vec::new());
+    for element in sector.contact_elements() {
+        let span = base.pressed_span(sector, &element);
+        for FacePoint { area, radius, along, rows } in
+            face_points(sector, &element, span, base.rule)
+        {
+            let (speed, friction) = base.friction(radius);
+            let pressure = base.pressure_along(sector, &element, along);
+            let normal = rows[face.normal_component()].iter();
+            points.push(Point {
+                weight: area,
+                normal: normal.map(|&(dof, value)| (dof, face.inward_sign() * value)).collect(),
+                slip: rows[1].clone(),
+                across: rows[face.across_component()].clone(),
+                speed,
+                friction,
+                ..Point::default()
+            });
+            state.is_pressed.push(pressure > 0.0);
+            forces.push(area * pressure);
+            springs.extend(
+                base.law
+                    .map(|law| area * law.stiffness(base.approach_along(sector, &element, along))),
+            );
         }
     }
-
-    // Coulomb's law as a vector, and its slope over the speed.
-    let mut friction_dashpots = term(side, side, &|element, r, at| {
-        let (speed, friction) = base.friction(r);
-        pressure(element, at) * friction.drag * base.contact.sliding_direction() / speed
-    });
-    if base.contact.decay.is_some() {
-        let slope = |r: f64| base.friction(r).1.slope;
-        let along = term(1, 1, &|element, r, at| pressure(element, at) * slope(r));
-        friction_dashpots = friction_dashpots.plus(&along);
-    }
-    let penalty = match (base.law, contact.normal_stiffness) {
-        (Some(law), _) => normal_and_drag(&|element, _, at| {
-            law.stiffness(base.approach_along(sector, element, at))
-        }),
-        (None, Some(own)) => normal_and_drag(&|_, _, _| own),
-        (None, None) => Default::default(),
-    };
-    terms.add(Part::Contact(0), Kind::Stiffness, penalty);
-    terms.add(Part::Contact(0), Kind::Dashpots, dashpots);
-    terms.add(Part::Contact(0), Kind::FrictionDashpots, [friction_dashpots]);
+    state.normal_forces = vec![forces];
+    state.stiffnesses = base.law.map(|_| springs).into_iter().collect();
+    (points, state)
 }

@@ -2,6 +2,7 @@
 
 use super::TangentOptions;
 use super::terms::{Kind, Part, PartLaw, Term, Terms};
+use crate::contact::{ContactStiffness, Point, PressedState, linearized};
 use crate::fem::fold::{MirrorParity, SectorMatrix};
 use crate::fem::sector::{self, SectorSupport, Sectored};
 use crate::fem::{MaterialField, Triplets};
@@ -26,8 +27,8 @@ impl WaveTerms {
     ) -> Self {
         let mut own = Self::new(options);
         for region in 0..sector.strip().regions.len().max(1) {
-            let mass = sector::mass_of(sector, material, options.mass, Some(region));
-            let elastic = sector::stiffness_of(sector, material, Some(region));
+            let mass = sector::mass(sector, material, options.mass, Some(region));
+            let elastic = sector::stiffness(sector, material, Some(region));
             own.add_region(PartLaw::of(material, region, options.damping), [mass, elastic]);
         }
         for SectorSupport { name, terms, loss_factor } in supports {
@@ -55,6 +56,26 @@ impl WaveTerms {
             let stress = states.map(|u| sector::geometric_stiffness(sector, material, region, u));
             self.add(Part::Body(region), Kind::Prestress, stress);
         }
+    }
+
+    /// Adds contact at points around a state that does not depend on friction; `fold` makes matrices of the sector of those over
+    /// the points' dofs. The dashpots of friction, which come with the first power of it, are of even parity and stand by themselves.
+    pub(super) fn add_points(
+        &mut self,
+        (points, state): (&[Point], &PressedState),
+        stiffness: &ContactStiffness,
+        fold: impl Fn(&Triplets) -> SectorMatrix,
+    ) {
+        let unloaded = PressedState { normal_forces: Vec::new(), ..state.clone() };
+        let law = linearized(points, (&unloaded, 0), stiffness);
+        let forces = PressedState { stiffnesses: Vec::new(), ..state.clone() };
+        let friction = linearized(points, (&forces, 0), &ContactStiffness::default()).dashpots;
+        let mut add = |kind, own: &[Triplets]| {
+            self.add(Part::Contact(0), kind, own.iter().map(&fold));
+        };
+        add(Kind::Stiffness, &law.stiffness);
+        add(Kind::Dashpots, &law.dashpots);
+        add(Kind::FrictionDashpots, friction.get(1..).unwrap_or_default());
     }
 
     /// [`super::WaveTangent::less`] of every matrix; `None` where factors differ.

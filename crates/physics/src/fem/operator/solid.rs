@@ -27,7 +27,7 @@ impl SectorStencil {
         }
         let layout = LineLayout::new(3, sector.sector_count(), sector.node_count());
         let node_masses = nodal_masses(sector, material)?;
-        let elastic = sector::stiffness(sector, material);
+        let elastic = sector::stiffness(sector, material, None);
         let entries = elastic.entries().chain(springs.entries());
         let blocks = sector_blocks(sector.node_count(), entries)?;
         let row = |(node, neighbours): (usize, &BTreeMap<usize, Blocks<3>>)| {
@@ -63,7 +63,7 @@ fn nodal_masses(
     material: &dyn MaterialField,
 ) -> Result<Vec<f64>, OperatorError> {
     let mut masses = vec![0.0; sector.node_count()];
-    let lumped = sector::mass(sector, material, MassKind::Lumped);
+    let lumped = sector::mass(sector, material, MassKind::Lumped, None);
     let own = lumped.entries().filter(|&(row, column, ..)| row == column && row % 3 == 0);
     for (row, _, _, mass) in own {
         masses[row / 3] += mass;
