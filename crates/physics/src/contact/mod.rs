@@ -42,7 +42,7 @@ pub use normal_law::NormalLaw;
 pub use opposite::OppositeMotion;
 pub use pair_error::PairError;
 pub use pairing::{ContactSite, ContactSurface, Motion, PairFriction, PointKind};
-pub use point::{Point, Row, row_along};
+pub use point::{Point, Row, row_along, scaled, summed};
 pub use surface::{SegmentPoint, SurfacePair, SurfacePoint};
 pub use topography::Topography;
 pub use turning::{Turning, turned};

@@ -3,9 +3,22 @@
 use super::SteadyFriction;
 use crate::mesh::Mesh;
 use nalgebra::Vector3;
+use std::collections::BTreeMap;
 
 /// Coefficients `(dof, coefficient)` of a linear form of the displacements.
 pub type Row = Vec<(usize, f64)>;
+
+/// A row times a factor.
+pub fn scaled(row: &[(usize, f64)], factor: f64) -> Row {
+    row.iter().map(|&(dof, value)| (dof, factor * value)).collect()
+}
+
+/// Coefficients of one dof added up, in the order of the dofs.
+pub fn summed(entries: impl IntoIterator<Item = (usize, f64)>) -> Row {
+    let mut sum: BTreeMap<usize, f64> = BTreeMap::new();
+    entries.into_iter().for_each(|(dof, value)| *sum.entry(dof).or_default() += value);
+    sum.into_iter().collect()
+}
 
 /// A point of contact: a node of an edge, a mortar point, or a quadrature point of a face.
 ///

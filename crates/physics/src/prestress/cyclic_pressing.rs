@@ -8,10 +8,9 @@ use super::elimination::Elimination;
 use super::penalty::PenaltyContact;
 use super::pressed_range::PressedRange;
 use super::pressed_state::Pressing;
-use crate::contact::{Point, PressedState, Row};
+use crate::contact::{Point, PressedState, Row, summed};
 use crate::fem::Triplets;
 use crate::mesh::Mesh;
-use std::collections::BTreeMap;
 
 /// Difference of loads, forces and places of points from sector to sector, over the largest ones, up to which they are copies.
 const ALIKE: f64 = 1e-7;
@@ -41,13 +40,7 @@ impl Pressing<'_> {
         let stiffness = Triplets { entries: entries.collect() };
         let unknowns = self.elimination.unknowns().unknown_of;
         let held = (0..size).filter(|&dof| unknowns[dof].is_none());
-        let folded = |row: &Row| -> Row {
-            let mut sum: BTreeMap<usize, f64> = BTreeMap::new();
-            for &(dof, value) in row {
-                *sum.entry(dof % size).or_default() += value;
-            }
-            sum.into_iter().collect()
-        };
+        let folded = |row: &Row| summed(row.iter().map(|&(dof, value)| (dof % size, value)));
 
         // One point of those that are copies of each other.
         let firsts = (0..first_of.len()).filter(|&i| first_of[i] == i);

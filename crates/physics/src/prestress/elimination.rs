@@ -1,7 +1,7 @@
 //! Unknowns of bodies that are held, tied and in contact.
 
 use super::PrestressError;
-use crate::contact::Row;
+use crate::contact::{Row, scaled, summed};
 use crate::fem::{DofMap, Triplets};
 use crate::linalg::FrictionWeights;
 use std::collections::{BTreeMap, BTreeSet};
@@ -80,17 +80,12 @@ impl Elimination {
     /// Puts the combination of a new pivot into those that have it.
     fn substitute(&mut self, pivot: usize, combination: Row) {
         for earlier in self.used_in.remove(&pivot).unwrap_or_default() {
-            let mut sum: BTreeMap<usize, f64> = BTreeMap::new();
-            for &(dof, value) in &self.combined[&earlier] {
-                if dof == pivot {
-                    for &(other, share) in &combination {
-                        *sum.entry(other).or_default() += value * share;
-                    }
-                } else {
-                    *sum.entry(dof).or_default() += value;
-                }
-            }
-            let row: Row = sum.into_iter().collect();
+            let parts =
+                self.combined[&earlier].iter().flat_map(|&(dof, value)| match dof == pivot {
+                    true => scaled(&combination, value),
+                    false => vec![(dof, value)],
+                });
+            let row = summed(parts);
             self.record(earlier, &row);
             self.combined.insert(earlier, row);
         }
@@ -123,18 +118,10 @@ impl Elimination {
 
     /// `T^T g`: the form `g . u` over `y`, sorted, those that vanish included.
     pub fn transposed(&self, row: &[(usize, f64)]) -> Row {
-        let mut sum: BTreeMap<usize, f64> = BTreeMap::new();
-        for &(dof, value) in row {
-            match self.combined.get(&dof) {
-                None => *sum.entry(dof).or_default() += value,
-                Some(combination) => {
-                    for &(other, share) in combination {
-                        *sum.entry(other).or_default() += value * share;
-                    }
-                }
-            }
-        }
-        sum.into_iter().collect()
+        summed(row.iter().flat_map(|&(dof, value)| match self.combined.get(&dof) {
+            None => vec![(dof, value)],
+            Some(combination) => scaled(combination, value),
+        }))
     }
 
     /// `T^T g` over the unknowns.

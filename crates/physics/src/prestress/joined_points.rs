@@ -3,7 +3,7 @@
 use super::PrestressError;
 use super::cholesky::CholeskySolver;
 use super::pressed_state::{ContactState, Pressing};
-use crate::contact::Row;
+use crate::contact::{Row, scaled};
 use crate::fem::{DofMap, Triplets};
 
 /// Bodies and the rows of their contact points over the unknowns. Bodies may be held by contact alone: what is factorized has
@@ -27,10 +27,9 @@ impl<'a> JoinedPoints<'a> {
         let unknowns = pressing.elimination.unknowns();
         let Pressing { elimination, points, .. } = pressing;
         let normals = points.iter().map(|point| elimination.over(&unknowns, &point.normal));
-        let drags = points.iter().map(|point| {
-            let slip = elimination.over(&unknowns, &point.slip).into_iter();
-            slip.map(|(dof, a)| (dof, point.friction.drag * a)).collect()
-        });
+        let drags = points
+            .iter()
+            .map(|point| scaled(&elimination.over(&unknowns, &point.slip), point.friction.drag));
         Self {
             normals: normals.collect(),
             drags: drags.collect(),

@@ -3,7 +3,9 @@
 use super::elimination::{Elimination, ProjectedPolynomial, RigidFriction};
 use super::terms::{Kind, Term, Terms, of_kind};
 use super::{LossGain, PrestressError, TabledGain, TangentOptions};
-use crate::contact::{ContactStiffness, Point, PressedState, Row, Turning, linearized, turned};
+use crate::contact::{
+    ContactStiffness, Point, PressedState, Row, Turning, linearized, scaled, turned,
+};
 use crate::fem::{DofMap, MaterialField, RayleighDamping, Triplets, assemble_geometric_stiffness};
 use crate::linalg::{FrictionWeights, MatrixPolynomial, SparsityPattern, c64};
 use crate::mesh::Mesh;
@@ -241,8 +243,7 @@ fn hold_rigid(
             let pivot = basis.require(&point.normal, "contact")?;
             if is_rigid && is_pressed {
                 basis.drop_unknown(pivot);
-                let drag = point.friction.drag;
-                let slip = point.slip.iter().map(|&(dof, along)| (dof, drag * along)).collect();
+                let slip = scaled(&point.slip, point.friction.drag);
                 friction.push(RigidFriction { lift: point.lift.clone(), slip });
             }
         }
