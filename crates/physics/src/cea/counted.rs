@@ -15,8 +15,8 @@ pub(super) fn is_vibration(value: c64) -> bool {
     value.im > 0.0 && (value.re > 0.0 || value.im > STANDSTILL * value.norm())
 }
 
-/// Largest growth or decay that a count covers, at least, relative to the upper end of the frequencies (rad/s): faster motions die out,
-/// or grow, within a period.
+/// Largest growth or decay that a count covers, at least, relative to the upper end of the frequencies (rad/s): wider, faster
+/// motions than any that sound would be counted; narrower, strongly growing modes would be left out.
 pub(super) const WIDEST_GROWTH: f64 = 0.2;
 /// The same relative to the modes listed.
 const BEYOND_LISTED: f64 = 1.5;

@@ -23,6 +23,11 @@ const REACH: usize = 2;
 /// How many differences of them there are.
 const STEPS: usize = 2 * REACH + 1;
 
+/// What stands in a row for one of the `dofs` of a sector so many halves of a sector ahead of the row's place.
+pub fn dof_ahead(dof: usize, ahead: isize, dofs: usize) -> usize {
+    dof + dofs * ahead.rem_euclid(STEPS as isize) as usize
+}
+
 /// A matrix over the dofs of one sector, `d k + c` for component `c` of sector node `k`, `d` components a node, that couples
 /// them to dofs of sectors beside it too.
 ///
@@ -57,6 +62,16 @@ impl SectorMatrix {
             terms.push(row, STEPS * column + REACH.wrapping_add_signed(ahead), value);
         }
         Self::merged(components, terms)
+    }
+
+    /// From products of rows over the `dofs` of a sector and of those beside it, see [`dof_ahead`].
+    pub fn of_places(components: usize, dofs: usize, products: &Triplets) -> Self {
+        let entries = products.entries.iter().map(|&(row, column, value)| {
+            let steps = STEPS + column / dofs - row / dofs;
+            let ahead = ((steps + REACH) % STEPS) as isize - REACH as isize;
+            (row % dofs, column % dofs, ahead, value)
+        });
+        Self::of_entries(components, entries)
     }
 
     /// From entries whose columns are `STEPS` times those of the matrix, plus the difference of angles.

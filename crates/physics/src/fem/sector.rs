@@ -89,7 +89,7 @@ impl Sectored for SolidSector {
 }
 
 /// What a matrix of the strip is over the dofs of the sector, whose images its nodes are.
-pub(crate) fn folded<S: Sectored>(sector: &S, matrix: &Triplets) -> SectorMatrix {
+fn folded<S: Sectored>(sector: &S, matrix: &Triplets) -> SectorMatrix {
     let components = sector.strip().dimension;
     let place = |dof: usize| {
         let (node, half) = sector.place(dof / components);
@@ -100,6 +100,11 @@ pub(crate) fn folded<S: Sectored>(sector: &S, matrix: &Triplets) -> SectorMatrix
         (row, column, there - here, value)
     });
     SectorMatrix::of_entries(components, entries)
+}
+
+/// The matrix of products of rows over places of a face, see [`face_points`].
+pub fn at_places(sector: &SolidSector, products: &Triplets) -> SectorMatrix {
+    SectorMatrix::of_places(3, 3 * sector.node_count(), products)
 }
 
 /// Stiffness over all dofs, springs included, that motions which are the same in every sector see.
@@ -211,7 +216,7 @@ fn supported_faces(sector: &SolidSector, mass: MassKind) -> Vec<SectorSupport> {
                 }
             }
         }
-        let (name, terms) = (face.name().to_owned(), terms.map(|own| folded(sector, &own)));
+        let (name, terms) = (face.name().to_owned(), terms.map(|own| at_places(sector, &own)));
         Some(SectorSupport { name, terms, loss_factor: own.loss_factor })
     });
     supported.collect()

@@ -1,5 +1,6 @@
 //! Places on the faces of a body of revolution in three dimensions, at which contact, supports and pressure act.
 
+use super::fold::dof_ahead;
 use crate::mesh::{BoundaryCondition, FaceElement, SolidFace, SolidSector, face_quadrature};
 
 /// A place of a face.
@@ -10,7 +11,7 @@ pub struct FacePoint {
     pub radius: f64,
     /// Its place along the element, -1 to 1.
     pub along: f64,
-    /// Rows of the displacement there along `(e_r, e_theta, e_z)`, over the dofs of the strip.
+    /// Rows of the displacement there along `(e_r, e_theta, e_z)`, see [`dof_ahead`].
     pub rows: [Vec<(usize, f64)>; 3],
 }
 
@@ -44,23 +45,21 @@ pub fn face_points(
     rule: FaceRule,
 ) -> Vec<FacePoint> {
     let is_quadratic = sector.is_quadratic();
-    let in_strip = |&(node, half): &(usize, usize)| {
-        node + sector.node_count() * ((half - sector.nodes[node].half_step) / 2)
-    };
-    let nodes: Vec<usize> = face.nodes.iter().map(in_strip).collect();
+    let dofs = 3 * sector.node_count();
+    let first = |(node, half): (usize, usize)| dof_ahead(3 * node, half as isize, dofs);
     if !is_quadratic && rule == FaceRule::Nodal {
-        let mut areas = vec![0.0; nodes.len()];
+        let mut areas = vec![0.0; face.nodes.len()];
         for point in face_quadrature(is_quadratic) {
             let (values, area) = face.values_at(sector, point);
             areas.iter_mut().zip(values).for_each(|(sum, value)| *sum += area * value);
         }
         // Corners 0 and 1 lie at the beginning of the element.
-        let own = (0..nodes.len()).filter(|a| span[a / 2].abs() == 1.0);
+        let own = (0..face.nodes.len()).filter(|a| span[a / 2].abs() == 1.0);
         let point = |a: usize| FacePoint {
             area: areas[a],
             radius: face.radius_at(sector, [0.0, WHOLE_ELEMENT[a / 2]]),
             along: WHOLE_ELEMENT[a / 2],
-            rows: [0, 1, 2].map(|component| vec![(3 * nodes[a] + component, 1.0)]),
+            rows: [0, 1, 2].map(|component| vec![(first(face.nodes[a]) + component, 1.0)]),
         };
         return own.map(point).collect();
     }
@@ -73,11 +72,10 @@ pub fn face_points(
             false => face.on_chord(sector, at),
         };
         let row = |component: usize| {
-            let nodes = nodes.iter().zip(&face.nodes).zip(&values);
-            let parts = nodes.flat_map(|((node, (_, half)), value)| {
-                let ahead = sector.half_angle() * (*half as f64 - 1.0) - angle;
+            let parts = face.nodes.iter().zip(&values).flat_map(|(&node, value)| {
+                let ahead = sector.half_angle() * (node.1 as f64 - 1.0) - angle;
                 let parts = turned(component, ahead).into_iter().enumerate();
-                parts.map(move |(c, part)| (3 * node + c, part * value))
+                parts.map(move |(c, part)| (first(node) + c, part * value))
             });
             parts.collect()
         };

@@ -3,10 +3,10 @@
 use super::PrestressError;
 use super::elimination::Elimination;
 use super::full_sliding::FullSliding;
-use super::solid::{OverRings, SolidSliding, friction};
+use super::solid::{OverRings, SolidSliding, friction, node_point};
 use crate::contact::{ContactStiffness, NormalLaw, Point, PressedState, SlidingContact};
 use crate::fem::fold::SectorMatrix;
-use crate::fem::sector::{folded, stiffness_alike};
+use crate::fem::sector::{at_places, stiffness_alike};
 use crate::fem::solid::{FacePoint, FaceRule, face_points, pressure_load};
 use crate::fem::{MassKind, MaterialField, Triplets};
 use crate::mesh::{ContactRing, SolidSector};
@@ -89,7 +89,7 @@ fn press_rigidly(
     for _ in 0..SETS {
         let pressed = rings.iter().zip(&is_pressed).filter(|(_, pressed)| **pressed);
         let nodes: Vec<usize> = pressed.flat_map(|(ring, _)| ring.nodes.iter().copied()).collect();
-        let points: Vec<Point> = nodes.iter().map(|&n| point(sector, n, contact)).collect();
+        let points: Vec<Point> = nodes.iter().map(|&n| node_point(sector, n, contact)).collect();
         let full = FullSliding::new(stiffness, without_contact(sector), &points)?;
         let PressedState { displacements, normal_forces, .. } =
             full.state(&load, contact.interference, None)?;
@@ -128,17 +128,6 @@ fn press_rigidly(
         });
     }
     Err(PrestressError::NoState { friction_coefficient: contact.friction_coefficient })
-}
-
-/// A node of the face as a contact point.
-fn point(sector: &SolidSector, node: usize, contact: &SlidingContact) -> Point {
-    let face = sector.specification.contact.face();
-    Point {
-        normal: vec![(3 * node + face.normal_component(), face.inward_sign())],
-        slip: vec![(3 * node + 1, 1.0)],
-        friction: friction(contact, sector.nodes[node].radius),
-        ..Point::default()
-    }
 }
 
 /// What holds the body without its contact.
@@ -261,7 +250,7 @@ impl Springs<'_> {
                 sum.push_product(area * weight(approach), row, row);
             }
         }
-        SectorMatrix::alike_in_all(&[&folded(sector, &sum)])
+        SectorMatrix::alike_in_all(&[&at_places(sector, &sum)])
     }
 }
 

@@ -1,6 +1,6 @@
 //! Steady sliding of a body of revolution in three dimensions, from one sector.
 
-use crate::contact::{NormalLaw, SlidingContact, SteadyFriction};
+use crate::contact::{NormalLaw, Point, SlidingContact, SteadyFriction};
 use crate::fem::solid::{FaceRule, WHOLE_ELEMENT};
 use crate::mesh::{FaceElement, SolidSector};
 
@@ -160,6 +160,18 @@ impl<'a> OverRings<'a> {
         let is_pressed = |part: &&[f64]| self.along(element, 0.5 * (part[0] + part[1])) > 0.0;
         let parts: Vec<&[f64]> = places.windows(2).filter(is_pressed).collect();
         parts.first().zip(parts.last()).map_or([0.0; 2], |(first, last)| [first[0], last[1]])
+    }
+}
+
+/// A node of the face as a contact point.
+pub(super) fn node_point(sector: &SolidSector, node: usize, contact: &SlidingContact) -> Point {
+    let face = sector.specification.contact.face();
+    Point {
+        normal: vec![(3 * node + face.normal_component(), face.inward_sign())],
+        slip: vec![(3 * node + 1, 1.0)],
+        across: vec![(3 * node + face.across_component(), 1.0)],
+        friction: friction(contact, sector.nodes[node].radius),
+        ..Point::default()
     }
 }
 

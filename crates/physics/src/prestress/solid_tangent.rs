@@ -1,14 +1,13 @@
 //! The terms of a body of revolution in three dimensions in steady sliding.
 
-use super::terms::{Kind, Part};
+use super::solid::node_point;
 use super::wave_tangent::WaveContact;
 use super::wave_terms::WaveTerms;
 use super::{PrestressError, SolidSliding, TangentOptions, WaveTangent};
-use crate::contact::{Point, PressedState, SlidingContact};
-use crate::fem::MaterialField;
-use crate::fem::fold::SectorMatrix;
-use crate::fem::sector::{Sectored, folded};
+use crate::contact::{Point, PressedState, SlidingContact, Turning, scaled};
+use crate::fem::sector::{Sectored, at_places};
 use crate::fem::solid::{FacePoint, face_points};
+use crate::fem::{MaterialField, Triplets};
 use crate::mesh::SolidSector;
 
 impl WaveTangent {
@@ -29,13 +28,15 @@ impl WaveTangent {
             WaveTerms::of_sector(sector, material, options, sector.supports(options.mass));
         let stiffness = &options.contact;
         let base = SolidSliding::of(sector, &terms.alike(), contact, stiffness, options.mass)?;
+        let fold = |own: &Triplets| at_places(sector, own);
         if options.geometric_stiffness {
             let displacements = [&base.pressed_displacement[..], &base.sheared_displacement];
             terms.take_stress(sector, material, displacements);
-            terms.add(Part::Contact(0), Kind::Prestress, turning_forces(sector, &base));
+            let (points, turnings, state) = nodes(&base, sector);
+            terms.add_turning((&points, &turnings, &state), fold);
         }
         let (points, state) = points(&base, sector);
-        terms.add_points((&points, &state), &options.contact, |own| folded(sector, own));
+        terms.add_points((&points, &state), &options.contact, fold);
         let (own, parts) = ((sector, sector.wave_dofs()), (terms, rings(sector, &base, options)));
         Ok(Self::new(own, parts, options, contact.sliding_direction()))
     }
@@ -62,21 +63,25 @@ fn rings(sector: &SolidSector, base: &SolidSliding, options: &TangentOptions) ->
     }
 }
 
-/// What forces of the contact do that turn with their nodes: `N e_theta / r` on a cylinder and, for each unit of friction,
-/// `-s N e_r / r` on both for each unit of `u_theta`.
-fn turning_forces(sector: &SolidSector, base: &SolidSliding) -> [SectorMatrix; 2] {
+/// The nodes of the contact as points with their forces, and how they turn: about the axis on a cylinder, while on a face it is the
+/// sliding that does.
+fn nodes(base: &SolidSliding, sector: &SolidSector) -> (Vec<Point>, Vec<Turning>, PressedState) {
     let is_cylinder = sector.specification.contact.face().normal_component() == 0;
-    let forces = base.normal_forces.iter().map(|&(node, force)| {
-        let radius = sector.nodes[node].radius;
-        (3 * node, force / radius, base.friction(radius).1.drag)
-    });
-    let turning = forces.clone().filter(|_| is_cylinder);
-    let turning = turning.map(|(dof, force, _)| (dof + 1, dof + 1, 0, -force));
-    let dragging = forces.map(|(dof, force, drag)| (dof, dof + 1, 0, drag * force));
-    [SectorMatrix::of_entries(3, turning), SectorMatrix::of_entries(3, dragging)]
+    let turning = |&(node, _): &(usize, f64)| {
+        let curvature = 1.0 / sector.nodes[node].radius;
+        match is_cylinder {
+            true => Turning { curvature: [[curvature, 0.0], [0.0; 2]], ..Turning::default() },
+            false => Turning { veer: vec![(3 * node + 1, -curvature)], ..Turning::default() },
+        }
+    };
+    let forces = base.normal_forces.iter();
+    let points = forces.clone().map(|(node, _)| node_point(sector, *node, &base.contact)).collect();
+    let normal_forces = vec![forces.clone().map(|own| own.1).collect()];
+    let state = PressedState { normal_forces, ..PressedState::default() };
+    (points, forces.map(turning).collect(), state)
 }
 
-/// The places of the face as points over the dofs of the strip, and their state.
+/// The places of the face as points, and their state.
 fn points(base: &SolidSliding, sector: &SolidSector) -> (Vec<Point>, PressedState) {
     let face = sector.specification.contact.face();
     let mut state = PressedState::default();
@@ -88,10 +93,9 @@ fn points(base: &SolidSliding, sector: &SolidSector) -> (Vec<Point>, PressedStat
         {
             let (speed, friction) = base.friction(radius);
             let pressure = base.pressure_along(sector, &element, along);
-            let normal = rows[face.normal_component()].iter();
             points.push(Point {
                 weight: area,
-                normal: normal.map(|&(dof, value)| (dof, face.inward_sign() * value)).collect(),
+                normal: scaled(&rows[face.normal_component()], face.inward_sign()),
                 slip: rows[1].clone(),
                 across: rows[face.across_component()].clone(),
                 speed,

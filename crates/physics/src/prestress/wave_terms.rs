@@ -2,7 +2,7 @@
 
 use super::TangentOptions;
 use super::terms::{Kind, Part, PartLaw, Term, Terms};
-use crate::contact::{ContactStiffness, Point, PressedState, linearized};
+use crate::contact::{ContactStiffness, Point, PressedState, Turning, linearized, turned};
 use crate::fem::fold::{MirrorParity, SectorMatrix};
 use crate::fem::sector::{self, SectorSupport, Sectored};
 use crate::fem::{MaterialField, Triplets};
@@ -56,6 +56,16 @@ impl WaveTerms {
             let stress = states.map(|u| sector::geometric_stiffness(sector, material, region, u));
             self.add(Part::Body(region), Kind::Prestress, stress);
         }
+    }
+
+    /// Adds what the forces of points do that turn with small motions, [`turned`].
+    pub(super) fn add_turning(
+        &mut self,
+        (points, turnings, state): (&[Point], &[Turning], &PressedState),
+        fold: impl Fn(&Triplets) -> SectorMatrix,
+    ) {
+        let own = turned(points, turnings, (state, 0));
+        self.add(Part::Contact(0), Kind::Prestress, own.iter().map(fold));
     }
 
     /// Adds contact at points around a state that does not depend on friction; `fold` makes matrices of the sector of those over
