@@ -199,15 +199,12 @@ impl HarmonicProblem {
     /// Residual of the quadratic problem in the largest-entry norm, see [`crate::cea::ComplexMode`].
     pub fn residual(&self, at: &Matrices, theta: c64, x: &[c64]) -> f64 {
         let (force, lambda) = (self.apply(at, theta, x), self.eigenvalue(theta));
-        self.stretch(lambda).norm() * largest(&force) / (self.size(at, lambda, x) * largest(x))
-    }
-
-    /// What `T(lambda)` is over `T(theta)`: `1 + beta lambda` of `T = K - kappa M`.
-    fn stretch(&self, lambda: c64) -> c64 {
-        match self.is_proportional() {
+        // What `T(lambda)` is over `T(theta)`: `1 + beta lambda` of `T = K - kappa M`.
+        let stretch = match self.is_proportional() {
             true => 1.0 + self.tangent.rayleigh.stiffness_coefficient * lambda,
             false => c64::ONE,
-        }
+        };
+        stretch.norm() * largest(&force) / (self.size(at, lambda, x) * largest(x))
     }
 
     /// `|lambda|^2 |M| + |lambda| |C| + |K|`.

@@ -112,10 +112,7 @@ impl WavePair {
         if change.mass.len() != self.right.len() * (2 * h + 1) {
             return None;
         }
-        let form = |band: &[c64]| form(band, h, &self.left, &self.right);
-        let [mass, damping, stiffness] =
-            [&change.mass[..], &change.damping, &change.stiffness_at(self.root)].map(form);
-        let changed = self.root * (self.root * mass + damping) + stiffness;
+        let changed = dot(&self.left, &change.apply(self.root, &self.right, false));
         let step = -changed / self.slope;
         let own = self.own_slope.map(|own| own_frequency_step(step, own));
         Some(self.waves.own(own.unwrap_or(step)))
@@ -146,16 +143,6 @@ fn combined(terms: &[(f64, MovingHarmonic)]) -> Option<MovingHarmonic> {
             gains.map(|(part, gain)| (gain, sum(&|own| &own.losses[part].1))).collect()
         },
     })
-}
-
-/// `y^H A x` of a band; changes are zero in most of it.
-fn form(band: &[c64], h: usize, y: &[c64], x: &[c64]) -> c64 {
-    let rows = band.chunks_exact(2 * h + 1).enumerate().zip(y);
-    let images = rows.map(|((row, band), y)| {
-        let entries = band.iter().enumerate().filter(|(_, value)| **value != ZERO);
-        y.conj() * entries.map(|(k, value)| value * x[row + k - h]).sum::<c64>()
-    });
-    images.sum()
 }
 
 /// The pair of a branch, by two-sided Rayleigh quotient iteration from its eigenvalue.
