@@ -24,6 +24,18 @@ pub struct Turning {
     pub curvature: [[f64; 2]; 2],
 }
 
+impl Turning {
+    /// On a line along the sliding with a curvature, 1/m, and the slopes of what the point meets there.
+    pub fn along(curvature: f64, [tilt, stretch]: [Row; 2]) -> Self {
+        Self {
+            tilt: [tilt, Row::new()],
+            stretch: [stretch, Row::new()],
+            veer: Row::new(),
+            curvature: [[curvature, 0.0], [0.0; 2]],
+        }
+    }
+}
+
 /// Forces at `points` of the base state, among whose points they begin at `first`, that turn as `turnings` say, by power of `mu`,
 /// moved to the left-hand side.
 ///
@@ -92,13 +104,7 @@ impl ContactInterface {
     pub fn turnings(&self) -> Vec<Turning> {
         let curvature = self.counterface.curvature();
         let turning = |i: usize| {
-            let [tilt, stretch] = self.opposite.get(i).cloned().unwrap_or_default().slopes;
-            Turning {
-                tilt: [tilt, Row::new()],
-                stretch: [stretch, Row::new()],
-                curvature: [[curvature, 0.0], [0.0; 2]],
-                ..Turning::default()
-            }
+            Turning::along(curvature, self.opposite.get(i).cloned().unwrap_or_default().slopes)
         };
         (0..self.len()).map(turning).collect()
     }

@@ -21,6 +21,9 @@ pub trait Sectored {
     /// Sector node of a node of the strip, and its angle in halves of a sector.
     fn place(&self, node: usize) -> (usize, usize);
 
+    /// Dofs of the sector.
+    fn dofs(&self) -> usize;
+
     /// The dofs that nothing holds.
     fn wave_dofs(&self) -> WaveDofs;
 
@@ -48,13 +51,17 @@ impl Sectored for SectorMesh {
         (self.sector_node_of[node], self.half_steps[node])
     }
 
+    fn dofs(&self) -> usize {
+        2 * self.node_count()
+    }
+
     fn wave_dofs(&self) -> WaveDofs {
         let free = 2 * self.free_node_count();
         let of_one_body = if self.specification.element.is_quadratic() { 9 } else { 3 };
         // Room for the contact of two bodies, in which a node of the shaft takes part in the motion of the pair.
         let pair = self.specification.shaft.map_or(0, |_| 2 * self.contact_count);
-        let (dofs, sectors) = (2 * self.node_count(), self.sector_count());
-        WaveDofs::new(dofs, |dof| dof >= free, of_one_body + pair, sectors)
+        let half_bandwidth = of_one_body + pair;
+        WaveDofs::new(self.dofs(), |dof| dof >= free, half_bandwidth, self.sector_count())
     }
 
     fn supports(&self, _: MassKind) -> Vec<SectorSupport> {
@@ -77,10 +84,14 @@ impl Sectored for SolidSector {
         (node, 2 * sector + self.nodes[node].half_step)
     }
 
+    fn dofs(&self) -> usize {
+        3 * self.node_count()
+    }
+
     fn wave_dofs(&self) -> WaveDofs {
         let half_bandwidth = 3 * self.node_bandwidth() + 2;
-        let (dofs, sectors) = (3 * self.node_count(), self.sector_count());
-        WaveDofs::new(dofs, |dof| self.is_held(dof), half_bandwidth, sectors)
+        let is_held = |dof| self.is_held(dof);
+        WaveDofs::new(self.dofs(), is_held, half_bandwidth, self.sector_count())
     }
 
     fn supports(&self, mass: MassKind) -> Vec<SectorSupport> {
@@ -102,9 +113,9 @@ fn folded<S: Sectored>(sector: &S, matrix: &Triplets) -> SectorMatrix {
     SectorMatrix::of_entries(components, entries)
 }
 
-/// The matrix of products of rows over places of a face, see [`face_points`].
-pub fn at_places(sector: &SolidSector, products: &Triplets) -> SectorMatrix {
-    SectorMatrix::of_places(3, 3 * sector.node_count(), products)
+/// The matrix of products of rows, see [`dof_ahead`](super::fold::dof_ahead).
+pub fn at_places<S: Sectored>(sector: &S, products: &Triplets) -> SectorMatrix {
+    SectorMatrix::of_places(sector.strip().dimension, sector.dofs(), products)
 }
 
 /// Stiffness over all dofs, springs included, that motions which are the same in every sector see.

@@ -4,7 +4,7 @@ use super::element::{ElementGeometry, Voigt, nodal_values};
 use super::recovery::{Degree, Recovery};
 use super::{ElasticMaterial, MaterialField};
 use crate::mesh::{Mesh, SolidSector};
-use nalgebra::{Matrix2, Matrix3, Rotation3, Vector3};
+use nalgebra::{Matrix3, Rotation3, Vector3};
 
 /// Stress at one node in the axes of [`Mesh::reported_angle`], Pa.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -169,15 +169,8 @@ fn recovered_stress(
 }
 
 fn in_frame(stress: Voigt, angle: f64, material: &ElasticMaterial) -> NodalStress {
-    let (sin, cos) = angle.sin_cos();
-    let frame = Matrix2::new(cos, -sin, sin, cos);
-    let global = Matrix2::new(stress[0], stress[3], stress[3], stress[1]);
-    let local = frame.transpose() * global * frame;
-    let (radial, hoop) = (local[(0, 0)], local[(1, 1)]);
-    NodalStress {
-        radial,
-        hoop,
-        shear: local[(0, 1)],
-        axial: material.out_of_plane_stress(radial, hoop).unwrap_or(stress[2]),
-    }
+    let frame = Rotation3::from_axis_angle(&Vector3::z_axis(), angle);
+    let [radial, hoop, axial, shear, ..] = SolidStress(stress).turned(frame.matrix()).0;
+    let axial = material.out_of_plane_stress(radial, hoop).unwrap_or(axial);
+    NodalStress { radial, hoop, shear, axial }
 }

@@ -46,12 +46,9 @@ impl<'a> JoinedPoints<'a> {
     pub fn factorize(&self, springs: &[f64]) -> Result<CholeskySolver, PrestressError> {
         let mut held = self.stiffness.clone();
         for (row, spring) in self.normals.iter().zip(springs) {
-            for &(j, along) in row {
-                for &(k, across) in row {
-                    let [j, k] = [self.unknowns.dofs[j], self.unknowns.dofs[k]];
-                    held.push(j, k, along * spring * across);
-                }
-            }
+            let row = row.iter().map(|&(unknown, along)| (self.unknowns.dofs[unknown], along));
+            let row: Row = row.collect();
+            held.push_product(*spring, &row, &row);
         }
         CholeskySolver::new(&held, &self.unknowns)
     }

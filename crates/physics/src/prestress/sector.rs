@@ -16,8 +16,6 @@ use crate::mesh::{AnnulusMesh, SectorMesh};
 pub struct SectorSliding {
     /// Displacement, normal forces and springs of the contact nodes of the sector.
     pub state: PressedState,
-    /// Friction at the sliding speed for each unit of friction coefficient and normal force.
-    pub friction: SteadyFriction,
     /// The contact nodes of the sector as contact points.
     pub points: Vec<Point>,
 }
@@ -57,7 +55,7 @@ impl SectorSliding {
             (sector.numbering[node] + 1, step * sector.half_step(node) as f64)
         };
         check_pressed(&points, (&state.normal_forces[0], sector.sector_count()), place)?;
-        Ok(Self { state, friction, points })
+        Ok(Self { state, points })
     }
 
     /// The state of the whole annulus: the same in the polar frames of each sector.

@@ -4,9 +4,9 @@ use super::wave_tangent::WaveContact;
 use super::wave_terms::WaveTerms;
 use super::{PrestressError, SectorSliding, TangentOptions, WaveTangent};
 use crate::contact::{Point, Row, SlidingContact, Turning, scaled};
-use crate::fem::fold::{SectorMatrix, dof_ahead};
+use crate::fem::MaterialField;
+use crate::fem::fold::dof_ahead;
 use crate::fem::sector::Sectored;
-use crate::fem::{MaterialField, Triplets};
 use crate::mesh::SectorMesh;
 use std::f64::consts::PI;
 
@@ -27,7 +27,7 @@ impl WaveTangent {
         let edge = Edge { sector, base: &base };
         if options.geometric_stiffness {
             terms.take_stress(sector, material, [0, 1].map(|p| &base.state.displacements[p][..]));
-            terms.add_turning((&base.points, &edge.turnings(), &base.state), |own| edge.fold(own));
+            terms.add_turning(sector, (&base.points, &edge.turnings(), &base.state));
         }
         edge.add_terms(options, &mut terms);
         let (own, parts) = ((sector, sector.wave_dofs()), (terms, edge.dofs(options)));
@@ -70,11 +70,7 @@ impl Edge<'_> {
         let over_distance =
             |point: &Point| Point { normal: point.normal[..1].to_vec(), ..point.clone() };
         let points: Vec<Point> = self.base.points.iter().map(over_distance).collect();
-        terms.add_points((&points, &self.base.state), &options.contact, |own| self.fold(own));
-    }
-
-    fn fold(&self, products: &Triplets) -> SectorMatrix {
-        SectorMatrix::of_places(2, 2 * self.sector.node_count(), products)
+        terms.add_points(self.sector, (&points, &self.base.state), &options.contact);
     }
 
     /// How the contact turns: on a rigid cylinder with the angle `u_t / a`. Of two bodies it stays normal to the common surface, at the
@@ -82,7 +78,7 @@ impl Edge<'_> {
     /// `u_t' + u_n / a`.
     fn turnings(&self) -> Vec<Turning> {
         let (sector, slopes) = (self.sector, self.slopes());
-        let (curvature, dofs) = (1.0 / sector.specification.inner_radius, 2 * sector.node_count());
+        let (curvature, dofs) = (1.0 / sector.specification.inner_radius, sector.dofs());
         let shaft = |i: usize| sector.opposite(sector.contact_start + i).map(|node| 2 * node);
         let turning = |i: usize| {
             let own = shaft(i).into_iter();
@@ -94,12 +90,7 @@ impl Edge<'_> {
                     stretch.push((dof_ahead(dof + 1, ahead, dofs), curvature * slope));
                 }
             }
-            Turning {
-                tilt: [tilt, Row::new()],
-                stretch: [stretch, Row::new()],
-                curvature: [[curvature, 0.0], [0.0; 2]],
-                ..Turning::default()
-            }
+            Turning::along(curvature, [tilt, stretch])
         };
         (0..sector.contact_count).map(turning).collect()
     }

@@ -5,9 +5,9 @@ use super::wave_tangent::WaveContact;
 use super::wave_terms::WaveTerms;
 use super::{PrestressError, SolidSliding, TangentOptions, WaveTangent};
 use crate::contact::{Point, PressedState, SlidingContact, Turning, scaled};
-use crate::fem::sector::{Sectored, at_places};
+use crate::fem::MaterialField;
+use crate::fem::sector::Sectored;
 use crate::fem::solid::{FacePoint, face_points};
-use crate::fem::{MaterialField, Triplets};
 use crate::mesh::SolidSector;
 
 impl WaveTangent {
@@ -28,15 +28,14 @@ impl WaveTangent {
             WaveTerms::of_sector(sector, material, options, sector.supports(options.mass));
         let stiffness = &options.contact;
         let base = SolidSliding::of(sector, &terms.alike(), contact, stiffness, options.mass)?;
-        let fold = |own: &Triplets| at_places(sector, own);
         if options.geometric_stiffness {
             let displacements = [&base.pressed_displacement[..], &base.sheared_displacement];
             terms.take_stress(sector, material, displacements);
             let (points, turnings, state) = nodes(&base, sector);
-            terms.add_turning((&points, &turnings, &state), fold);
+            terms.add_turning(sector, (&points, &turnings, &state));
         }
         let (points, state) = points(&base, sector);
-        terms.add_points((&points, &state), &options.contact, fold);
+        terms.add_points(sector, (&points, &state), &options.contact);
         let (own, parts) = ((sector, sector.wave_dofs()), (terms, rings(sector, &base, options)));
         Ok(Self::new(own, parts, options, contact.sliding_direction()))
     }
@@ -70,7 +69,7 @@ fn nodes(base: &SolidSliding, sector: &SolidSector) -> (Vec<Point>, Vec<Turning>
     let turning = |&(node, _): &(usize, f64)| {
         let curvature = 1.0 / sector.nodes[node].radius;
         match is_cylinder {
-            true => Turning { curvature: [[curvature, 0.0], [0.0; 2]], ..Turning::default() },
+            true => Turning::along(curvature, Default::default()),
             false => Turning { veer: vec![(3 * node + 1, -curvature)], ..Turning::default() },
         }
     };

@@ -4,7 +4,7 @@ use super::TangentOptions;
 use super::terms::{Kind, Part, PartLaw, Term, Terms};
 use crate::contact::{ContactStiffness, Point, PressedState, Turning, linearized, turned};
 use crate::fem::fold::{MirrorParity, SectorMatrix};
-use crate::fem::sector::{self, SectorSupport, Sectored};
+use crate::fem::sector::{self, SectorSupport, Sectored, at_places};
 use crate::fem::{MaterialField, Triplets};
 
 /// Matrices of a sector; of odd parity is what comes with each unit of friction.
@@ -59,29 +59,30 @@ impl WaveTerms {
     }
 
     /// Adds what the forces of points do that turn with small motions, [`turned`].
-    pub(super) fn add_turning(
+    pub(super) fn add_turning<S: Sectored>(
         &mut self,
+        sector: &S,
         (points, turnings, state): (&[Point], &[Turning], &PressedState),
-        fold: impl Fn(&Triplets) -> SectorMatrix,
     ) {
         let own = turned(points, turnings, (state, 0));
-        self.add(Part::Contact(0), Kind::Prestress, own.iter().map(fold));
+        let own = own.iter().map(|own| at_places(sector, own));
+        self.add(Part::Contact(0), Kind::Prestress, own);
     }
 
-    /// Adds contact at points around a state that does not depend on friction; `fold` makes matrices of the sector of those over
-    /// the points' dofs. The dashpots of friction, which come with the first power of it, are of even parity and stand by themselves.
-    pub(super) fn add_points(
+    /// Adds contact at points around a state that does not depend on friction. The dashpots of friction, which come with the first
+    /// power of it, are of even parity and stand by themselves.
+    pub(super) fn add_points<S: Sectored>(
         &mut self,
+        sector: &S,
         (points, state): (&[Point], &PressedState),
         stiffness: &ContactStiffness,
-        fold: impl Fn(&Triplets) -> SectorMatrix,
     ) {
         let unloaded = PressedState { normal_forces: Vec::new(), ..state.clone() };
         let law = linearized(points, (&unloaded, 0), stiffness);
         let forces = PressedState { stiffnesses: Vec::new(), ..state.clone() };
         let friction = linearized(points, (&forces, 0), &ContactStiffness::default()).dashpots;
         let mut add = |kind, own: &[Triplets]| {
-            self.add(Part::Contact(0), kind, own.iter().map(&fold));
+            self.add(Part::Contact(0), kind, own.iter().map(|own| at_places(sector, own)));
         };
         add(Kind::Stiffness, &law.stiffness);
         add(Kind::Dashpots, &law.dashpots);
