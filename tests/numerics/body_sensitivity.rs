@@ -143,7 +143,12 @@ fn sensitivities_of_an_assembly_are_differences_of_its_spectra() {
     ];
     let folder = folder_with(&[("blocks.msh", &file_of(&blocks, |point| point))]);
     let text = include_str!("../cases/two-blocks-under-pressure.toml").to_owned();
-    let body = Body { folder, text };
+    let (isotropic, orthotropic) = (
+        "young_modulus = 8e9\npoisson_ratio = 0.25\n",
+        "young_moduli = [8e9, 7e9, 3e9]\npoisson_ratios = [0.25, 0.15, 0.2]\n\
+         shear_moduli = [3e9, 1.2e9, 1e9]\n",
+    );
+    let mut body = Body { folder, text };
     body.check(&[
         ("materials.upper.young_modulus", "materials.upper.young_modulus"),
         ("boundaries.upper_z1.pressure", "boundaries.upper_z1.pressure"),
@@ -151,4 +156,9 @@ fn sensitivities_of_an_assembly_are_differences_of_its_spectra() {
         ("contacts.pad.normal_stiffness", "contacts.pad.normal_stiffness"),
         ("contacts.pad.friction_coefficient", "contacts.pad.friction_coefficient"),
     ]);
+    // The entries of lists.
+    body.text = body.text.replace(isotropic, orthotropic);
+    let entries = ["young_moduli[3]", "poisson_ratios[1]", "shear_moduli[2]"];
+    let entries = entries.map(|entry| format!("materials.upper.{entry}"));
+    body.check(&entries.each_ref().map(|entry| (entry.as_str(), entry.as_str())));
 }

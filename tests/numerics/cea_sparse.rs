@@ -68,13 +68,14 @@ fn an_unstable_mode_just_above_the_list_is_told() {
     let all = swept(&tangent, &values, Lowest(12));
     let last = &all.points[2].modes;
     assert!(!last[..2].iter().any(ComplexMode::is_unstable));
-    let beyond = swept(&tangent, &values, Lowest(2)).beyond.unwrap();
-    let apart = |mode: &&ComplexMode| (mode.frequency_hz() / beyond.frequency_hz - 1.0).abs();
+    let few = swept(&tangent, &values, Lowest(2));
+    let (friction, beyond) = few.beyond().unwrap();
+    let apart = |mode: &&ComplexMode| (mode.frequency_hz() / beyond.frequency_hz() - 1.0).abs();
     let listed = nearest_by(last, apart);
-    assert_eq!(beyond.friction_coefficient, 0.3);
-    let growth = listed.growth_rate() / beyond.growth_rate;
+    assert_eq!(friction, 0.3);
+    let growth = listed.growth_rate() / beyond.growth_rate();
     assert!(apart(&listed) < 1e-6 && (growth - 1.0).abs() < 1e-6, "{listed:?}");
-    assert!(swept(&tangent, &[0.0], Lowest(2)).beyond.is_none());
+    assert!(swept(&tangent, &[0.0], Lowest(2)).beyond().is_none());
 }
 
 /// `mu_c = (c^2 + ((A - B)/2)^2) / (c d)`: where the two eigenvalues of `K` meet.

@@ -184,7 +184,7 @@ impl super::Case {
         Self::read(raw)
     }
 
-    /// The continuous parameters of the model that the case gives as numbers, with these, by key; the friction
+    /// The continuous parameters of the model that the case gives as numbers, with these, by key, `KEY[2]` in a list; the friction
     /// coefficient of `[contact]`, which sweeps vary, and the thickness of a plane body, which scales results alone,
     /// are left out.
     pub fn model_numbers(&self) -> Vec<(String, f64)> {
@@ -194,7 +194,14 @@ impl super::Case {
             key == "contact.friction_coefficient"
                 || (key == "geometry.thickness" && self.body.dimension() == 2)
         };
-        let numbers = leaves.into_iter().filter_map(|(key, value)| {
+        let entries = leaves.into_iter().flat_map(|(key, value)| match value {
+            RawValue::Array(items) => (1..)
+                .zip(items)
+                .map(|(place, item)| (format!("{key}[{place}]"), &item.value))
+                .collect(),
+            value => vec![(key, value)],
+        });
+        let numbers = entries.filter_map(|(key, value)| {
             let kind = keys::find(&key).map(|known| known.kind);
             let is_continuous = matches!(kind, Some(Kind::Number(_) | Kind::NumberOr(..)));
             let is_varied = is_continuous && is_of_model(&key) && !is_left_out(&key);

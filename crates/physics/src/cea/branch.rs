@@ -1,6 +1,6 @@
 //! Eigenvalues as continuous functions of the friction coefficient.
 
-use super::UnstableInterval;
+use super::{ComplexMode, UnstableInterval};
 use crate::linalg::c64;
 
 /// A branch at one friction value.
@@ -36,6 +36,12 @@ pub struct ModeBranch {
 }
 
 impl ModeBranch {
+    /// Whether a mode is on it: both waves of a pair have one name, and opposite directions.
+    pub fn has(&self, mode: &ComplexMode) -> bool {
+        (self.harmonic, self.branch) == (mode.harmonic, mode.branch)
+            && self.direction * mode.direction >= 0
+    }
+
     /// `lambda` at any friction coefficient of the range, by the cubic between its neighbours; `None`
     /// outside.
     pub fn interpolate(&self, friction_coefficient: f64) -> Option<c64> {

@@ -71,16 +71,25 @@ pub enum CeaError {
         frequency_hz: f64,
     },
     /// A harmonic of which a branch could not be followed.
-    #[error(
-        "a branch of harmonic {harmonic} could not be followed up to friction {friction}: two \
-         branches meet there or a mode stops oscillating. Use cea.method = \"sparse\""
-    )]
+    #[error("a branch of harmonic {harmonic} {}. Use cea.method = \"sparse\"", lost(*friction))]
     LostHarmonic {
         /// Circumferential harmonic.
         harmonic: usize,
         /// Friction value of the grid that was not reached.
         friction: f64,
     },
+}
+
+/// Why a branch was not followed up to a friction coefficient.
+fn lost(friction: f64) -> String {
+    match friction {
+        0.0 => "does not oscillate at friction 0: it diverges, or is damped beyond the critical"
+            .to_owned(),
+        _ => format!(
+            "could not be followed up to friction {friction}: two branches meet there or a mode \
+             stops oscillating"
+        ),
+    }
 }
 
 impl CeaError {

@@ -21,7 +21,7 @@ pub use error::CeaError;
 pub use quadratic::{QuadraticMode, quadratic_modes};
 pub use request::{ModeLimit, SweepProgress, SweepRequest, SweepStage};
 pub use spectrum::{
-    BeyondMode, ComplexMode, EndedMode, FrictionPoint, FrictionSweep, ModeVectors, ModeWave,
-    UnconvergedMode, UnstableInterval, keeping_ties,
+    ComplexMode, EndedMode, FrictionPoint, FrictionSweep, ModeVectors, ModeWave, UnconvergedMode,
+    UnstableInterval, keeping_ties,
 };
 pub use watch::{PartWatch, SweepWatch, Unwatched};

@@ -201,8 +201,6 @@ pub struct FrictionSweep {
     pub ended: Vec<EndedMode>,
     /// Modes of a whole mesh that did not converge at a friction value, and are not listed there.
     pub unconverged: Vec<UnconvergedMode>,
-    /// The mode that grows fastest of those just above the listed ones, on a whole mesh.
-    pub beyond: Option<BeyondMode>,
     /// Rigid motions of the bodies, which are not listed.
     pub rigid_motions: usize,
     /// Counts of the modes of a whole mesh, where they were asked for.
@@ -228,6 +226,15 @@ impl FrictionSweep {
         point.map_or(&[][..], |point| &point.modes)
     }
 
+    /// The mode that grows fastest of those known just above the listed ones, at its friction coefficient.
+    pub fn beyond(&self) -> Option<(f64, &ComplexMode)> {
+        let above = self.points.iter().flat_map(|point| {
+            point.above.iter().map(move |mode| (point.friction_coefficient, mode))
+        });
+        let growing = above.filter(|(_, mode)| mode.is_unstable());
+        growing.max_by(|(_, a), (_, b)| a.growth_rate().total_cmp(&b.growth_rate()))
+    }
+
     /// The modes at the first friction coefficient.
     pub fn into_first_modes(self) -> Vec<ComplexMode> {
         self.points.into_iter().next().map_or_else(Vec::new, |point| point.modes)
@@ -246,30 +253,6 @@ pub struct UnconvergedMode {
 impl UnconvergedMode {
     pub(super) fn of(friction_coefficient: f64, frequency: f64) -> Self {
         Self { friction_coefficient, frequency_hz: frequency / TAU }
-    }
-}
-
-/// An unstable mode just above the listed ones.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct BeyondMode {
-    /// Friction coefficient.
-    pub friction_coefficient: f64,
-    /// Frequency, Hz.
-    pub frequency_hz: f64,
-    /// `Re lambda`, 1/s.
-    pub growth_rate: f64,
-}
-
-impl BeyondMode {
-    /// That of one eigenvalue.
-    pub fn of(friction_coefficient: f64, eigenvalue: c64) -> Self {
-        let (frequency_hz, growth_rate) = (eigenvalue.im / TAU, eigenvalue.re);
-        Self { friction_coefficient, frequency_hz, growth_rate }
-    }
-
-    /// The one that grows fastest.
-    pub fn fastest(all: impl Iterator<Item = Self>) -> Option<Self> {
-        all.max_by(|a, b| a.growth_rate.total_cmp(&b.growth_rate))
     }
 }
 

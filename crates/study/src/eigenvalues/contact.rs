@@ -103,7 +103,8 @@ impl SolidState {
                 ..ContactPlace::default()
             };
             let ((speed, friction), pressure) = (base.friction(ring.radius), base.pressures[i]);
-            let shear = friction_coefficient * friction.drag * pressure;
+            // Along the sliding, as that of points of a mesh.
+            let shear = friction_coefficient * friction.drag.abs() * pressure;
             ContactState { place, speed, pressure, shear, is_pressed: base.is_pressed[i] }
         };
         sector.rings.iter().enumerate().map(state).collect()

@@ -5,7 +5,7 @@ use super::contact::SteadyState;
 use super::solid::mean_friction;
 use frictionsim_case::{BodyKind, Case, Cea};
 use frictionsim_physics::cea::cyclic::{Coverage, Overdamped};
-use frictionsim_physics::cea::{BeyondMode, CeaError, FrictionSweep, ModeCount, UnstableInterval};
+use frictionsim_physics::cea::{CeaError, FrictionSweep, ModeCount, UnstableInterval};
 use frictionsim_physics::contact::ContactInterface;
 use frictionsim_results::number_ranges;
 use std::f64::consts::TAU;
@@ -70,6 +70,10 @@ pub(super) fn table_notes(case: &Case) -> Vec<String> {
 
 pub(super) fn instead_note(error: &CeaError) -> String {
     let why = match error {
+        CeaError::LostHarmonic { harmonic, friction: 0.0 } => format!(
+            "a motion of harmonic {harmonic} does not oscillate at friction 0: it diverges, or is \
+             damped beyond the critical"
+        ),
         CeaError::LostHarmonic { harmonic, friction } => format!(
             "a branch of harmonic {harmonic} could not be followed up to friction {friction}"
         ),
@@ -188,11 +192,12 @@ pub(super) fn ended_notes(sweep: &FrictionSweep) -> Vec<String> {
             "{which}, at frequency zero, not listed: nothing holds the body in those directions"
         )
     });
-    let beyond = sweep.beyond.map(|mode| {
-        let BeyondMode { friction_coefficient: friction, frequency_hz, growth_rate } = mode;
+    let beyond = sweep.beyond().map(|(friction, mode)| {
         format!(
-            "an unstable mode lies above those listed: {frequency_hz:.0} Hz at friction {friction}, \
-             growing at {growth_rate:.2} 1/s; more cea.modes, or a higher cea.max_frequency_hz, list it"
+            "an unstable mode lies above those listed: {:.0} Hz at friction {friction}, growing at \
+             {:.2} 1/s; more cea.modes, or a higher cea.max_frequency_hz, list it",
+            mode.frequency_hz(),
+            mode.growth_rate(),
         )
     });
     let statically = sweep.intervals.iter().find(|own| own.branch == 0).map(|own| {
@@ -251,11 +256,15 @@ pub(super) fn overdamped_note(
     let most = overdamped.iter().max_by_key(|own| own.count);
     let (most, solid) = (most.filter(|own| own.count > 0)?, model.solid()?);
     let [slowest, fastest] = most.decay;
+    let grows = match slowest < 0.0 {
+        true => " (a negative one grows: steady sliding is statically unstable)",
+        false => "",
+    };
     let friction = most.friction_coefficient;
     let (speed, law, pressure) = mean_friction(solid);
     Some(format!(
         "at friction {friction} {} motions (each wave of a pair counted) hardly oscillate. They \
-         decay at {slowest:.3e} to {fastest:.3e} 1/s, and are not listed. Friction across \
+         decay at {slowest:.3e} to {fastest:.3e} 1/s{grows}, and are not listed. Friction across \
          the sliding overdamps them: it is a dashpot of mu p / V = {:.3e} Pa s/m at the mean \
          pressure and radius. It grows as contact.rotation_speed_rpm = {} falls, and holds that \
          motion in the limit",

@@ -64,7 +64,7 @@ pub fn body_sensitivities(
 
     // The targets: the modes at the own friction coefficient, then the onsets of those that have one.
     let modes = match waves {
-        Some(waves) => waves_at(&waves.branches, friction),
+        Some(waves) => waves_at(&waves.branches, sweep, friction),
         None => modes_at(sweep, friction, case.body.has_sectors()),
     };
     let own = modes.iter().map(|m| (Target { friction, eigenvalue: m.eigenvalue }, m.of));
@@ -146,10 +146,15 @@ fn onset_of<'a>(mut intervals: impl Iterator<Item = &'a UnstableInterval>) -> Op
     })
 }
 
-/// The branches of waves that oscillate at a friction coefficient.
-fn waves_at(branches: &[ModeBranch], friction: f64) -> Vec<Listed<'_>> {
-    let of = |branch: &'_ ModeBranch| branch.interpolate(friction);
-    let there = branches.iter().filter_map(|branch| Some((branch, of(branch)?)));
+/// The branches of waves that have a mode in the list at a friction coefficient.
+fn waves_at<'a>(
+    branches: &'a [ModeBranch],
+    sweep: &FrictionSweep,
+    friction: f64,
+) -> Vec<Listed<'a>> {
+    let modes = sweep.modes_at(friction);
+    let listed = branches.iter().filter(|own| modes.iter().any(|mode| own.has(mode)));
+    let there = listed.filter_map(|branch| Some((branch, branch.interpolate(friction)?)));
     let listed = there.map(|(branch, eigenvalue)| Listed {
         diameters: Some(branch.harmonic),
         branch: branch.branch,

@@ -88,7 +88,7 @@ fn body_rates(
     waves: Option<&WaveSweep>,
 ) -> (Option<SensitivityReport>, Option<String>) {
     let friction = case.contact.sliding.friction_coefficient;
-    if waves.is_none() && sweep.modes_at(friction).is_empty() {
+    if sweep.modes_at(friction).is_empty() {
         let note = format!(
             "no sensitivities: there are no modes at contact.friction_coefficient = {friction}; name it in \
              cea.friction_coefficients"
@@ -185,6 +185,7 @@ fn is_lost(error: &CeaError) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::f64::consts::TAU;
 
     /// Harmonics that cannot be followed leave a body of revolution its whole mesh.
     #[test]
@@ -198,6 +199,7 @@ mod tests {
             "mesh.element=\"quad4\"",
             "cea.friction_coefficients=[0.0, 0.3]",
             "cea.max_frequency_hz=12000",
+            "contact.rotation_speed_rpm=-610",
         ];
         let case = Case::parse("disc", &bytes, &sets.map(str::to_owned)).unwrap();
         let cea = case.require_cea().unwrap();
@@ -208,6 +210,9 @@ mod tests {
         let note = "a branch of harmonic 3 could not be followed up to friction 0.3: \
                     the whole mesh was solved instead";
         assert!(whole.solution.notes[0].starts_with(note), "{:?}", whole.solution.notes);
+        // A friction traction in three dimensions is along the sliding, whatever its sense.
+        let shears = [&waves, &whole].map(|own| own.model.base_state(&case).shear_pa[0]);
+        assert!(shears[0] > 0.0 && (shears[1] / shears[0] - 1.0).abs() < 0.02, "{shears:?}");
         let points = waves.solution.sweep.points.iter().zip(&whole.solution.sweep.points);
         for (waves, whole) in points {
             assert_eq!(waves.modes.len(), whole.modes.len());
@@ -216,5 +221,36 @@ mod tests {
                 assert!(error < 1e-6 * mode.frequency_hz(), "{error}");
             }
         }
+    }
+
+    /// What lies above the list is in no table; of what grows there both ways to solve a body tell the same.
+    #[test]
+    fn modes_above_the_list_are_told_and_have_no_sensitivities() {
+        let cases = concat!(env!("CARGO_MANIFEST_DIR"), "/../../cases");
+        let bytes = std::fs::read(format!("{cases}/polycarbonate-disc.toml")).unwrap();
+        for method in ["cyclic", "sparse"] {
+            let sets = [
+                "mesh.circumferential_elements=24".to_owned(),
+                "mesh.radial_elements=4".to_owned(),
+                "cea.friction_coefficients=[0.0, 0.3]".to_owned(),
+                "cea.max_frequency_hz=9847".to_owned(),
+                "cea.sensitivities=true".to_owned(),
+                format!("cea.method=\"{method}\""),
+            ];
+            let case = Case::parse("disc", &bytes, &sets).unwrap();
+            let found = solved(&case, case.require_cea().unwrap(), Some(&Unwatched)).unwrap();
+            let Solution { sensitivities, notes, sweep, .. } = found.solution;
+            let above = "an unstable mode lies above those listed: 10540 Hz at friction 0.3";
+            assert!(notes.iter().any(|note| note.starts_with(above)), "{notes:?}");
+            let rows = sensitivities.unwrap().rows;
+            assert_eq!(rows.len(), sweep.modes_at(0.3).len());
+            assert!(rows.iter().all(|row| row.eigenvalue.im < TAU * 9847.0));
+        }
+    }
+
+    #[test]
+    fn a_motion_that_does_not_oscillate_at_rest_is_not_one_that_was_lost_on_the_way() {
+        let note = instead_note(&CeaError::LostHarmonic { harmonic: 0, friction: 0.0 });
+        assert!(note.starts_with("a motion of harmonic 0 does not oscillate at friction 0"));
     }
 }

@@ -143,6 +143,7 @@ fn together(
 ) -> (FrictionSweep, Vec<ModeBranch>) {
     let branches: Vec<Vec<ModeBranch>> =
         crate::parallel::map(followed, |paths| branches_of(paths, sliding_direction));
+    // Of a pair both waves, where one is listed: a whole mesh follows both from where they are one.
     let occurs = |branch: &ModeBranch| {
         let is_same =
             |mode: &ComplexMode| (mode.harmonic, mode.branch) == (branch.harmonic, branch.branch);

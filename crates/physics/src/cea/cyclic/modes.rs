@@ -37,13 +37,16 @@ fn point(
     modes.sort_by(|a, b| {
         a.eigenvalue.im.total_cmp(&b.eigenvalue.im).then_with(|| key(a).cmp(&key(b)))
     });
-    if let ModeLimit::Lowest(count) = wanted.request.limit {
-        modes.truncate(keeping_ties(modes.iter().map(|mode| mode.eigenvalue.im), count));
-    }
-    FrictionPoint { friction_coefficient: friction, modes, above: Vec::new() }
+    let frequencies = modes.iter().map(|mode| mode.eigenvalue.im);
+    let mut above = modes.split_off(match wanted.request.limit {
+        ModeLimit::Lowest(count) => keeping_ties(frequencies, count),
+        ModeLimit::MaxFrequency(limit) => frequencies.take_while(|own| *own <= TAU * limit).count(),
+    });
+    above.iter_mut().for_each(|mode| (mode.shape, mode.wave) = (None, None));
+    FrictionPoint { friction_coefficient: friction, modes, above }
 }
 
-/// One wave of a path at one friction value, if it oscillates below the limit.
+/// One wave of a path at one friction value, if it oscillates.
 fn mode(
     tangent: &WaveTangent,
     (paths, path): (&HarmonicPaths, &Path),
@@ -56,11 +59,6 @@ fn mode(
     let found = path.points.binary_search_by(|p| p.parameter.total_cmp(&friction)).ok()?;
     let pair = &path.points[found];
     let eigenvalue = problem.eigenvalue(waves.own(pair.theta));
-    if let ModeLimit::MaxFrequency(limit) = request.limit
-        && eigenvalue.im > TAU * limit
-    {
-        return None;
-    }
     if eigenvalue.im <= 0.0 || problem.is_ending(pair.theta) {
         return None;
     }

@@ -3,8 +3,8 @@
 use super::point::normalize;
 use super::{FrictionlessModes, sweep};
 use crate::cea::{
-    BeyondMode, CeaError, ComplexMode, FrictionPoint, FrictionSweep, ModeCount, ModeLimit,
-    ModeVectors, PartWatch, SweepProgress, SweepRequest, SweepStage, SweepWatch, keeping_ties,
+    CeaError, ComplexMode, FrictionPoint, FrictionSweep, ModeCount, ModeLimit, ModeVectors,
+    PartWatch, SweepProgress, SweepRequest, SweepStage, SweepWatch, keeping_ties,
 };
 use crate::linalg::c64;
 use crate::prestress::{CyclicTangent, SlidingTangent};
@@ -208,7 +208,6 @@ fn merged(mut parts: Vec<FrictionSweep>, limit: ModeLimit) -> FrictionSweep {
 
     // All modes at each friction coefficient, as many as are wanted.
     let count = parts.first().map_or(0, |part| part.points.len());
-    let mut beyond: Vec<BeyondMode> = parts.iter().filter_map(|part| part.beyond).collect();
     let points = (0..count).map(|k| {
         let friction_coefficient = parts[0].points[k].friction_coefficient;
         let own = parts.iter().flat_map(|part| part.points[k].modes.iter().cloned());
@@ -218,8 +217,6 @@ fn merged(mut parts: Vec<FrictionSweep>, limit: ModeLimit) -> FrictionSweep {
         if let ModeLimit::Lowest(wanted) = limit {
             let frequencies = modes.iter().map(|mode| mode.eigenvalue.im);
             above = modes.split_off(keeping_ties(frequencies, wanted));
-            let growing = above.iter().filter(|mode| mode.is_unstable());
-            beyond.extend(growing.map(|own| BeyondMode::of(friction_coefficient, own.eigenvalue)));
         }
         above.extend(parts.iter().flat_map(|part| part.points[k].above.iter().cloned()));
         FrictionPoint { friction_coefficient, modes, above }
@@ -231,7 +228,6 @@ fn merged(mut parts: Vec<FrictionSweep>, limit: ModeLimit) -> FrictionSweep {
         modes.any(|mode| mode.branch == branch)
     };
     let (mut found, mut ended, mut unconverged) = (Vec::new(), Vec::new(), Vec::new());
-    let beyond = BeyondMode::fastest(beyond.into_iter());
     let rigid_motions = parts.iter().map(|part| part.rigid_motions).sum();
     for (part, sweep) in parts.into_iter().enumerate() {
         ended.extend(sweep.ended);
@@ -249,7 +245,7 @@ fn merged(mut parts: Vec<FrictionSweep>, limit: ModeLimit) -> FrictionSweep {
         }
     }
     let joined = FrictionSweep::joined(points, found, ended);
-    FrictionSweep { counts, unconverged, beyond, rigid_motions, ..joined }
+    FrictionSweep { counts, unconverged, rigid_motions, ..joined }
 }
 
 /// Ranks the branches of all `parts` by their frequency where they begin: the rank of each part's branch.

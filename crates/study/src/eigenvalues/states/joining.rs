@@ -1,7 +1,7 @@
 //! One sweep from those of its base states.
 
 use frictionsim_physics::cea::{
-    BeyondMode, ComplexMode, FrictionPoint, FrictionSweep, ModeCount, UnstableInterval,
+    ComplexMode, FrictionPoint, FrictionSweep, ModeCount, UnstableInterval,
 };
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -142,11 +142,9 @@ pub fn joined(mut parts: Vec<Part>, frictions: &[f64]) -> FrictionSweep {
     counts.dedup_by(|b, a| a.friction_coefficient == b.friction_coefficient);
     let unconverged = parts.iter().flat_map(|part| part.unconverged.iter().copied());
     let unconverged = unconverged.filter(|own| is_asked(own.friction_coefficient)).collect();
-    let beyond = parts.iter().filter_map(|part| part.beyond);
-    let beyond = BeyondMode::fastest(beyond.filter(|own| is_asked(own.friction_coefficient)));
     let rigid_motions = parts.first().map_or(0, |part| part.rigid_motions);
     let joined = FrictionSweep::joined(points, found, ended);
-    FrictionSweep { counts, unconverged, beyond, rigid_motions, ..joined }
+    FrictionSweep { counts, unconverged, rigid_motions, ..joined }
 }
 
 /// Unstable intervals over all parts: those that go on across a change are one, and growth may jump across zero at it.

@@ -5,7 +5,7 @@ use super::{SETTLED, SparseSweep};
 use crate::cea::sparse::branches::{BranchLabel, TrackedBranch};
 use crate::cea::sparse::mode::ModeAt;
 use crate::cea::sparse::{MOST_ATTEMPTS, RESIDUAL_BOUND, SAME_EIGENVALUE};
-use crate::cea::{BeyondMode, CeaError, ComplexMode, FrictionPoint, FrictionSweep, SweepRequest};
+use crate::cea::{CeaError, ComplexMode, FrictionPoint, FrictionSweep, SweepRequest};
 use crate::cea::{EndedMode, UnconvergedMode, UnstableInterval};
 use crate::linalg::{LinalgError, c64};
 use std::f64::consts::TAU;
@@ -65,24 +65,9 @@ impl SparseSweep<'_> {
         let found = found.iter().map(crossed).chain(self.divergence(branches)?);
         Ok(FrictionSweep {
             unconverged: self.unconverged.clone(),
-            beyond: self.beyond(),
             rigid_motions: self.builder.rigid,
             ..FrictionSweep::joined(points, found.collect(), self.ended(branches))
         })
-    }
-
-    /// The mode that grows fastest of those that were computed beyond the wanted ones.
-    fn beyond(&self) -> Option<BeyondMode> {
-        let found = self.points[self.first_asked()..].iter().flat_map(|point| {
-            let beyond = point.modes.iter().zip(&point.checks).skip(point.wanted);
-            let growing = beyond.filter(|(mode, check)| {
-                let round_off = check.uncertainty * mode.eigenvalue.norm();
-                check.residual <= RESIDUAL_BOUND && mode.eigenvalue.re > round_off
-            });
-            let friction = point.friction_coefficient;
-            growing.map(move |(mode, _)| BeyondMode::of(friction, mode.eigenvalue))
-        });
-        BeyondMode::fastest(found)
     }
 
     /// The modes whose branches end.
