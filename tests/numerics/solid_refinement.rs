@@ -76,3 +76,24 @@ fn nodes_between_those_of_a_held_edge_are_held_too() {
         assert_eq!(boundary.nodes, own.collect::<Vec<u32>>());
     }
 }
+
+/// Consistency: a generated body keeps its distribution of sizes over the radius where its whole mesh is refined.
+#[test]
+fn a_graded_body_is_refined_alike_on_its_whole_mesh() {
+    let sets = [
+        "mesh.circumferential_elements=12",
+        "mesh.radial_elements=3",
+        "mesh.axial_elements=1",
+        "mesh.element=\"quad4\"",
+        "mesh.radial_grading=1.5",
+    ];
+    let case = shipped_case("disc-three-dimensions.toml", &sets);
+    let case = case.on_whole_mesh().unwrap().into_owned();
+    let radii = |case: &Case| -> Vec<f64> {
+        let body = case.body.assembly().unwrap();
+        body.mesh.nodes.iter().map(|[x, y, _]| x.hypot(*y)).collect()
+    };
+    let finer = radii(&case.refined(2.0).unwrap());
+    let is_kept = |own: f64| finer.iter().any(|other| (other - own).abs() < 1e-12);
+    assert!(radii(&case).into_iter().all(is_kept));
+}

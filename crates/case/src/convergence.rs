@@ -88,6 +88,10 @@ impl super::Case {
             let own = self.number(&key).unwrap_or(1.0);
             format!("{key}={:.0}", own * factor)
         });
+        // The same distribution of sizes, as in `Convergence::refined`.
+        let grading = self.number("mesh.radial_grading").map(|own| own.powf(1.0 / factor));
+        let grading = grading.map(|own| format!("mesh.radial_grading={own:?}"));
+        let finer: Vec<String> = finer.into_iter().chain(grading).collect();
         Self::read(self.raw.with_overrides(&finer)?)
     }
 

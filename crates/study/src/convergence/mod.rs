@@ -155,6 +155,12 @@ fn series(case: &Case, study: &Levels, outcomes: Vec<Timed>) -> Result<Vec<Serie
              divides output.sample_interval", levels.join(", ");
             "factors further apart")));
     }
+    let is_graded = case.number("mesh.radial_grading").is_some_and(|own| own != 1.0);
+    let grading = (is_graded && study.refinement == Refinement::Mesh).then(|| {
+        "mesh.radial_grading is that of the case's own mesh. Each other one has the root or power \
+         of it with which the largest element stays as many times the smallest"
+            .to_owned()
+    });
     let of = |analysis: &str, quantities: Vec<Quantity>, notes: Vec<String>| Series {
         analysis: analysis.to_owned(),
         refinement: study.refinement,
@@ -162,7 +168,7 @@ fn series(case: &Case, study: &Levels, outcomes: Vec<Timed>) -> Result<Vec<Serie
         sizes: sizes.clone(),
         quantities,
         wall_s: wall_s.clone(),
-        notes,
+        notes: notes.into_iter().chain(grading.clone()).collect(),
     };
     Ok(match study.analysis {
         Analysis::Cea => {
