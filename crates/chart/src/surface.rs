@@ -1,4 +1,4 @@
-//! The shaded surface of solid bodies, hidden parts hidden, coloured by values at its nodes.
+//! The surface of solid bodies, hidden parts hidden: coloured by values at its nodes, as the bar of colours has them, or shaded.
 
 use super::axis::Axis;
 use super::colour::{Colour, ColourMap};
@@ -144,8 +144,9 @@ impl Surface {
         }
     }
 
-    /// Brightness of a face by its angle to the light, as an index.
-    fn shade(&self, corners: &[u32; 3]) -> usize {
+    /// Brightness of a face, as an index, where it has a colour and where it has none: by its angle to the light, but
+    /// full for colours of values, which are those of their bar.
+    fn shade(&self, corners: &[u32; 3]) -> [usize; 2] {
         let [a, b, c] = corners.map(|node| self.positions[node as usize]);
         let [u, v] = [b, c].map(|p| [p[0] - a[0], p[1] - a[1], p[2] - a[2]]);
         let normal =
@@ -154,7 +155,11 @@ impl Surface {
         let facing: f64 = normal.iter().zip(LIGHT).map(|(n, l)| n * l).sum();
         // A face seen from behind is lit like its back.
         let lit = (facing / length.max(f64::MIN_POSITIVE)).abs();
-        ((lit * SHADES as f64) as usize).min(SHADES - 1)
+        let shade = ((lit * SHADES as f64) as usize).min(SHADES - 1);
+        match self.paint {
+            Paint::Values(..) => [SHADES - 1, shade],
+            Paint::Parts(..) => [shade; 2],
+        }
     }
 }
 
@@ -166,7 +171,7 @@ struct Canvas {
 
 impl Canvas {
     /// Fills a triangle of corners (x, y in pixels, depth) where nothing stands in front of it.
-    fn fill(&mut self, [a, b, c]: [[f64; 3]; 3], levels: [f64; 3], shade: usize) {
+    fn fill(&mut self, [a, b, c]: [[f64; 3]; 3], levels: [f64; 3], shades: [usize; 2]) {
         let (image, depths) = (&mut self.image, &mut self.depth);
         let corners = [a, b, c].map(|[x, y, _]| [x, y]);
         image.over_triangle(corners, |pixel, place, v, w| {
@@ -175,9 +180,9 @@ impl Canvas {
             if depth > depths[place] {
                 depths[place] = depth;
                 let level = at(levels);
-                let level = match level.is_finite() {
-                    true => level.clamp(0.0, (LEVELS - 1) as f64) as usize,
-                    false => LEVELS,
+                let (level, shade) = match level.is_finite() {
+                    true => (level.clamp(0.0, (LEVELS - 1) as f64) as usize, shades[0]),
+                    false => (LEVELS, shades[1]),
                 };
                 *pixel = (level * SHADES + shade) as u8;
             }
@@ -276,8 +281,10 @@ mod tests {
         for ends in &surface.mesh.edges {
             canvas.line(ends.map(place), 0.01);
         }
-        let level =
-            |column: usize, row: usize| canvas.image.pixels[row * 40 + column] as usize / SHADES;
+        let pixel = |column: usize, row: usize| canvas.image.pixels[row * 40 + column] as usize;
+        let level = |column: usize, row: usize| pixel(column, row) / SHADES;
+        // The colours of values are those of the bar, however a face lies.
+        assert!([(20, 20), (3, 10)].map(|(x, y)| pixel(x, y) % SHADES) == [SHADES - 1; 2]);
         assert_eq!((level(20, 20), level(3, 10)), (LEVELS - 1, 0));
         // The diagonal is an edge outside the small square.
         assert_eq!((level(3, 37), level(15, 25)), (LEVELS + 1, LEVELS - 1));
