@@ -78,6 +78,10 @@ fn probes_of_a_whole_mesh_move_along_x_y_and_z() {
     };
     let [[x, y, z], [ahead_x, ahead_y, ahead_z]] = [start(6), start(38)];
     assert!(x > 1e-6 && y > 1e-8, "{x:e} {y:e}");
+    let probes = &answer.summary()["probes"]["6"];
+    let has = |key: &str| probes.get(key).is_some();
+    assert!(["x", "y", "z"].into_iter().all(has), "{probes}");
+    assert!(!["radial", "tangential", "axial"].into_iter().any(has), "{probes}");
     for [a, b] in [[ahead_x, -y], [ahead_y, x], [ahead_z, z]] {
         assert!((a - b).abs() < 1e-9 * x, "{a:e} {b:e}");
     }

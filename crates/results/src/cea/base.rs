@@ -22,7 +22,7 @@ pub struct BaseState {
     pub open: usize,
     /// Contact pressure, smallest and largest, Pa.
     pub pressure_pa: [f64; 2],
-    /// Friction traction, smallest and largest, Pa.
+    /// Friction traction with the sign of that in `prestress.csv`, smallest and largest, Pa.
     pub shear_pa: [f64; 2],
     /// Friction torque on a cylinder, of the whole thickness, N m.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -128,7 +128,7 @@ columns! {
     /// Pressure and traction.
     pub(crate) TRACTIONS: own as ContactState;
     pressure_pa: "contact pressure" = own.pressure;
-    shear_pa: "friction traction on the body, along `u_theta`; of solid bodies of a mesh along the sliding"
+    shear_pa: "friction traction on the body: in the plane along `u_theta`, in three dimensions along the sliding"
         = own.shear;
 }
 

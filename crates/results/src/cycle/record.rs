@@ -74,7 +74,7 @@ finding! {
         slip: f64 = "share in which it slips";
         open: f64 = "share in which it is open";
         mean_pressure_pa: f64 = "mean contact pressure";
-        mean_shear_pa: f64 = "mean contact shear";
+        mean_shear_pa: f64 = "mean of `shear_pa`, the friction traction along the node's tangent";
         amplitude_n_m: f64 = "half the range of its displacement along the normal";
         amplitude_t_m: f64 = "half the range along the counterface";
     }

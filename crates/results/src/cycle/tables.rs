@@ -108,7 +108,7 @@ columns! {
     time_s: "time" = row.time;
     status: "stick, slip or open" = row.status.name();
     pressure_pa: "contact pressure" = row.pressure;
-    shear_pa: "contact shear" = row.shear;
+    shear_pa: "friction traction on the body, along the rotation or the node's tangent" = row.shear;
 }
 
 columns! {

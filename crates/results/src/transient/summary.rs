@@ -152,13 +152,27 @@ pub struct ProbeSummary {
     /// Where it is, if it was asked for by its place.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub place: Option<PlaceSummary>,
-    /// Radially.
-    pub radial: ProbeMotion,
-    /// Tangentially.
-    pub tangential: ProbeMotion,
-    /// Along the axis; absent in the plane.
+    /// Radially; absent on a plane counterface and of solid bodies of a mesh.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub radial: Option<ProbeMotion>,
+    /// Along the normal of a plane counterface; absent of other bodies.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub normal: Option<ProbeMotion>,
+    /// Tangentially; absent of solid bodies of a mesh.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub tangential: Option<ProbeMotion>,
+    /// Along the axis; absent in the plane and of solid bodies of a mesh.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub axial: Option<ProbeMotion>,
+    /// Along x, of solid bodies of a mesh.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub x: Option<ProbeMotion>,
+    /// Along y, of solid bodies of a mesh.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub y: Option<ProbeMotion>,
+    /// Along z, of solid bodies of a mesh.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub z: Option<ProbeMotion>,
 }
 
 /// A place that was asked for, and its nearest node.
@@ -253,11 +267,19 @@ fn probes(run: &RecordedRun<'_>) -> BTreeMap<String, ProbeSummary> {
                 let [x, y, _] = run.body.position(node);
                 PlaceSummary { asked_m, at_m: [x, y] }
             });
+            let along = |name: &str| {
+                let mut named = run.directions().into_iter().zip(motion);
+                named.find(|([own, _], _)| *own == name).map(|(_, own)| *own)
+            };
             let summary = ProbeSummary {
                 place,
-                radial: motion[0],
-                tangential: motion[1],
-                axial: motion.get(2).copied(),
+                radial: along("radial"),
+                normal: along("normal"),
+                tangential: along("tangential"),
+                axial: along("axial"),
+                x: along("x"),
+                y: along("y"),
+                z: along("z"),
             };
             (run.probe_label(probe).to_string(), summary)
         })

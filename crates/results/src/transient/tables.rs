@@ -179,10 +179,10 @@ fn facts(summary: &TransientSummary) -> Vec<(String, String)> {
 
 /// Accelerations of the probes over the last fifth of the run.
 fn motions(summary: &TransientSummary, run: &RecordedRun<'_>) -> Table {
-    let rows = summary.probes.iter().flat_map(|(node, motion)| {
-        let motions = [Some(motion.radial), Some(motion.tangential), motion.axial];
-        let along = run.directions().into_iter().zip(motions);
-        along.filter_map(|(along, motion)| Some((node.clone(), along[0], motion?)))
+    let rows = summary.probes.iter().flat_map(|(node, own)| {
+        let plane = [own.radial, own.normal, own.tangential, own.axial];
+        let motions = plane.into_iter().chain([own.x, own.y, own.z]).flatten();
+        run.directions().into_iter().zip(motions).map(|(along, own)| (node.clone(), along[0], own))
     });
     let rows: Vec<ProbeRow> = rows.collect();
     Table::new("", "Accelerations over the last fifth of the run").columns(PROBES, &rows)
