@@ -17,7 +17,7 @@ from __future__ import annotations
 import atexit
 
 from . import _native
-from ._case import Case, case_keys, shipped_cases, write_shipped_cases
+from ._case import Case, case_keys, columns, init, shipped_cases, write_shipped_cases
 from ._errors import (
     CaseError,
     CaseProblem,
@@ -63,6 +63,7 @@ from ._run import (
     matrices,
     mesh,
     open_results,
+    plot,
     signal,
     sweep,
     transient,
@@ -110,6 +111,7 @@ __all__ = [
     "cea",
     "check",
     "collect",
+    "columns",
     "compare",
     "convergence",
     "cycle",
@@ -117,10 +119,12 @@ __all__ = [
     "frf",
     "identify",
     "improve",
+    "init",
     "mac",
     "matrices",
     "mesh",
     "open_results",
+    "plot",
     "shipped_cases",
     "signal",
     "sweep",

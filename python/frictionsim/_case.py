@@ -217,3 +217,27 @@ def case_keys() -> list[dict[str, Any]]:
     """Every key of a case with its unit, default, bounds and meaning."""
     found: list[dict[str, Any]] = json.loads(_native.keys())
     return found
+
+
+def columns(word: str = "") -> list[dict[str, str]]:
+    """Columns of tables and keys of summaries whose name, meaning, file or command holds a word: with unit and meaning."""
+    found: list[dict[str, str]] = json.loads(_native.columns(word))
+    return found
+
+
+def init(mesh: PathOrText, *, force: bool = False) -> Case:
+    """The case that a mesh file suggests, written beside it; :meth:`Case.shipped` gives the shipped ones.
+
+    Raises:
+        FileExistsError: there is one already; ``force`` replaces it.
+        UsageError: a file that is no mesh.
+        CaseError: a mesh that leaves something to choose; the case is there.
+    """
+    path = Path(mesh).with_suffix(".toml")
+    try:
+        text = _native.case_from(os.fspath(mesh))
+    except _native.NativeFailure as failure:
+        translate(failure)
+    with path.open("w" if force else "x", encoding="utf-8") as out:
+        out.write(text)
+    return Case(path)

@@ -34,6 +34,12 @@ def check(path: str | PathLike[str], overrides: Sequence[str]) -> str:
 def keys() -> str:
     """Every key of a case, in JSON."""
 
+def columns(word: str) -> str:
+    """Columns of tables and keys of summaries that a word finds, in JSON."""
+
+def case_from(mesh: str | PathLike[str]) -> str:
+    """The text of a case that lies beside a mesh file."""
+
 def without(key: str) -> str:
     """The override that takes a key away."""
 

@@ -336,6 +336,19 @@ def collect(folder: PathOrText, *, figures: bool = True) -> SweepResult:
     return SweepResult(Path(folder), None)
 
 
+def plot(folder: PathOrText, *, options: Sequence[str] = ()) -> Result:
+    """Draw the figures of a results folder again.
+
+    Args:
+        options: further options of ``frictionsim plot``, such as ``["--dpi", "600"]``.
+    """
+    try:
+        _native.run(["plot", os.fspath(folder), "-qq", *options], 0, None)
+    except _native.NativeFailure as failure:
+        translate(failure)
+    return open_results(folder)
+
+
 def check(case: Case | PathOrText, **changes: Any) -> dict[str, Any]:
     """Validate a case without running it: unknowns, steps, memory and time of its runs, and warnings.
 

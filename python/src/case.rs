@@ -6,6 +6,7 @@ use frictionsim::app::check::examine;
 use frictionsim::app::embedded::EmbeddedRun;
 use frictionsim::app::shipped::{ShippedCase, all_cases, all_files};
 use frictionsim::case::{Case, KEYS, RawCase, RawTable, RawValue, reference, unset};
+use frictionsim::results::reference::objects;
 use pyo3::IntoPyObjectExt;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
@@ -70,6 +71,19 @@ pub fn check(py: Python<'_>, path: PathBuf, overrides: Vec<String>) -> PyResult<
 #[pyfunction]
 pub fn keys() -> String {
     serde_json::Value::from_iter(KEYS.iter().map(reference::object)).to_string()
+}
+
+/// Columns of tables and keys of summaries that a word finds, in JSON.
+#[pyfunction]
+pub fn columns(word: &str) -> String {
+    serde_json::Value::from(objects(word)).to_string()
+}
+
+/// The text of a case that lies beside a mesh file.
+#[pyfunction]
+pub fn case_from(mesh: PathBuf) -> PyResult<String> {
+    let name = mesh.file_name().unwrap_or_default().to_string_lossy();
+    frictionsim::case::case_from(&mesh, &name).map_err(usage_exception)
 }
 
 /// The override that takes a key away.
@@ -176,6 +190,8 @@ pub fn add_to(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(validate, module)?)?;
     module.add_function(wrap_pyfunction!(check, module)?)?;
     module.add_function(wrap_pyfunction!(keys, module)?)?;
+    module.add_function(wrap_pyfunction!(columns, module)?)?;
+    module.add_function(wrap_pyfunction!(case_from, module)?)?;
     module.add_function(wrap_pyfunction!(without, module)?)?;
     module.add_function(wrap_pyfunction!(edited, module)?)?;
     module.add_function(wrap_pyfunction!(shipped_cases, module)?)?;

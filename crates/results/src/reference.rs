@@ -21,6 +21,7 @@ use super::uncertainty::{self, UncertaintySummary};
 use frictionsim_output::{
     Column, Described, Entry, describe_field, entries, keys_of, parted, unit_of,
 };
+use serde_json::{Value, json};
 use std::fmt::Write as _;
 
 /// What one file of a command holds.
@@ -199,6 +200,22 @@ fn plain(comment: &str) -> String {
         Some(second) if second.is_uppercase() => first.chain(letters).collect(),
         _ => first.flat_map(char::to_lowercase).chain(letters).collect(),
     }
+}
+
+/// Columns and keys whose name, meaning, file or command holds a word, one object each.
+pub fn objects(word: &str) -> Vec<Value> {
+    let lower = word.to_lowercase();
+    let holds = |text: &str| text.to_lowercase().contains(&lower);
+    let mut found = Vec::new();
+    for FileReference { command, file, entries } in reference() {
+        let is_whole = holds(command) || holds(file);
+        let own = entries.iter().filter(|e| is_whole || holds(&e.key) || holds(&e.meaning));
+        found.extend(own.map(|Entry { key, meaning, .. }| {
+            let unit = unit_of(key).1;
+            json!({ "command": command, "file": file, "name": key, "unit": unit, "meaning": meaning })
+        }));
+    }
+    found
 }
 
 /// The guide's tables.
