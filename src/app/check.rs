@@ -212,7 +212,7 @@ fn object(name: &str, case: &Case, found: &Preflight) -> Value {
         "nodes": cost.nodes as u64,
         "elements": cost.elements as u64,
         "dofs": cost.dofs as u64,
-        "memory_bytes": found.memory_bytes,
+        "memory_bytes": found.memory_bytes as u64,
         "cea": cost.cea,
         "transient": cost.transient,
         "cycle": cost.cycle,
@@ -222,7 +222,7 @@ fn object(name: &str, case: &Case, found: &Preflight) -> Value {
         "uncertainty": found.uncertainty,
         "sweep": found.sweep.map(|own| json!({
             "points": own.runs,
-            "memory_bytes": own.run.memory_bytes,
+            "memory_bytes": own.run.memory_bytes as u64,
             "time": own.run.time(),
         })),
         "sweep_points": found.sweep.map(|sweep| sweep.runs),

@@ -1,9 +1,9 @@
 //! Assemblies of solid bodies: `[motion.*]`, `[contacts.*]`, `[ties.*]`.
 
 use super::contacts::{NamedContact, contact, short_form, unit};
+use super::description::Description;
 use super::imported::{FileParts, near_name};
 use super::modifications::Misfit;
-use super::tables::TableFiles;
 use super::value::quote;
 use super::{Case, Contact, Diagnostic, Section, refuse_if};
 use frictionsim_physics::contact::{
@@ -99,7 +99,8 @@ impl AssemblyParts {
 
 /// Reads the sections of an assembly; its first contact and motion give the common contact of the case: a sweep varies
 /// the friction coefficient of the first contact, and the others keep their ratio to it.
-pub(super) fn sections(root: &Section<'_>, tables: &TableFiles<'_>) -> (AssemblyParts, Contact) {
+pub(super) fn sections(own: &Description<'_>) -> (AssemblyParts, Contact) {
+    let (root, tables) = (own.root, &own.tables);
     let motions = root.each("motion", motion);
     let ties = root.each("ties", |section| [section.text("surface"), section.text("counter")]);
     let contacts = root.each("contacts", |section| contact(section, tables));
@@ -109,7 +110,8 @@ pub(super) fn sections(root: &Section<'_>, tables: &TableFiles<'_>) -> (Assembly
     };
     let mut contacts: Vec<NamedContact> = contacts.into_iter().map(named).collect();
     if root.has("contact") && !root.has("contacts") {
-        contacts.push(root.section("contact", true).closed(short_form));
+        let short = |section: &Section<'_>| short_form(section, own.is_pressed());
+        contacts.push(root.section("contact", true).closed(short));
     }
     let first = contacts.first();
     let base = first.map_or_else(BaseChoice::default, |contact| contact.base);

@@ -118,10 +118,7 @@ pub(super) fn contact(
         }
         plane_speed = None;
     }
-    let interference = interference(&section);
-    refuse_if!(is_pressed && section.has("normal_force"); section, "normal_force",
-        "contact.normal_force beside a boundary with a pressure"; "one of the two presses";
-        "leave the force out, or the pressure");
+    let interference = interference(&section, is_pressed);
     // A pressure on a face may press a three-dimensional body; on a plane annulus it is an error of its own.
     refuse_if!(!is_solid && interference == 0.0 && !is_pressed; section, "interference",
         "contact.interference = 0.0 must be positive and finite"; "must be positive and finite";
@@ -210,18 +207,21 @@ pub(super) fn friction_decay(section: &Section<'_>) -> Option<FrictionDecay> {
 /// Interference that the search begins with, m; any other leads to the same root.
 const START: f64 = 1e-6;
 
-/// The interference of a contact as a section gives it; a stand-in where a force presses, until the body is known.
-pub(super) fn interference(section: &Section<'_>) -> f64 {
-    let force = section.optional_number("normal_force");
-    if force.is_none() {
-        return section.number("interference");
+/// The interference of a contact as a section gives it; none where it is left out and a boundary pressure presses. Where a
+/// force presses, a stand-in until the body is known.
+pub(super) fn interference(section: &Section<'_>, is_pressed: bool) -> f64 {
+    let given = section.optional_number("interference");
+    if section.optional_number("normal_force").is_none() {
+        let otherwise = || if is_pressed { 0.0 } else { section.number("interference") };
+        return given.unwrap_or_else(otherwise);
     }
-    let _ = section.optional_number("interference");
     if section.has("interference") {
         let key = section.name("interference");
         refuse!(section, "normal_force" => "beside {key}"; "one of the two presses";
             "leave {key} out, or the force");
     }
+    refuse_if!(is_pressed; section, "normal_force" => "beside a boundary with a pressure";
+        "one of the two presses"; "leave the force out, or the pressure");
     START
 }
 

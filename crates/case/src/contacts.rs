@@ -23,8 +23,8 @@ pub(super) struct NamedContact {
     pub surfaces: SlidingSurfaces,
 }
 
-/// `[contact]` of solid bodies: one contact with a rigid counterface.
-pub(super) fn short_form(section: &Section<'_>) -> NamedContact {
+/// `[contact]` of solid bodies: one contact with a rigid counterface. `is_pressed`: a boundary has a pressure.
+pub(super) fn short_form(section: &Section<'_>, is_pressed: bool) -> NamedContact {
     for key in section.refused("ring_inner_radius ring_outer_radius counter_boundary") {
         refuse!(section, key => "has no meaning for a mesh of solid elements"; "of other bodies";
             "leave it out; surfaces that slide on each other are named under [contacts.NAME]");
@@ -33,7 +33,7 @@ pub(super) fn short_form(section: &Section<'_>) -> NamedContact {
     refuse_if!(section.has("base_state") && is_rigid_base; section, "base_state",
         "contact.base_state = \"rigid\": the springs of a contact of solid bodies carry their base \
          state"; "not of a body from a mesh of solid elements"; "leave it out");
-    let counterpart = Counterpart::Rigid(rigid_counterface(section));
+    let counterpart = Counterpart::Rigid(rigid_counterface(section, is_pressed));
     NamedContact {
         sides: [Some(section.text("boundary")), None],
         keys: ["contact.boundary".to_owned(), String::new()],
@@ -55,7 +55,7 @@ pub(super) fn contact(section: &Section<'_>, tables: &TableFiles<'_>) -> NamedCo
         "leave one of the two out");
     let counter = section.optional_text("counter");
     let counterpart = match section.has("counterface") {
-        true => Counterpart::Rigid(rigid_counterface(section)),
+        true => Counterpart::Rigid(rigid_counterface(section, false)),
         false => {
             refuse_idle(section);
             Counterpart::Surface(0)
@@ -105,7 +105,7 @@ fn sliding_surfaces(
 }
 
 /// Reads `counterface` with its place, motion and interference.
-pub(super) fn rigid_counterface(section: &Section<'_>) -> RigidCounterface {
+pub(super) fn rigid_counterface(section: &Section<'_>, is_pressed: bool) -> RigidCounterface {
     let word: CounterfaceWord = section.choice("counterface");
     let radius = section.optional_number("radius");
     let shape = match word {
@@ -127,7 +127,7 @@ pub(super) fn rigid_counterface(section: &Section<'_>) -> RigidCounterface {
         center: section.vector("center"),
         axis: unit(section, "axis"),
         motion: motion(section),
-        interference: interference(section),
+        interference: interference(section, is_pressed),
     }
 }
 

@@ -20,6 +20,7 @@ const RATE: f64 = 1e9;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct RunCost {
     /// Memory, bytes.
+    #[serde(serialize_with = "whole")]
     pub memory_bytes: f64,
     /// Multiplications and additions: the time on one thread, to its order of magnitude.
     #[serde(rename = "time", serialize_with = "in_words")]
@@ -45,10 +46,14 @@ impl RunCost {
         match self.seconds() {
             s if s < 60.0 => "seconds",
             s if s < 3600.0 => "minutes",
-            s if s < 2.0 * 86_400.0 => "hours",
-            _ => "days",
+            _ => "hours",
         }
     }
+}
+
+/// A count, without a point.
+fn whole<S: Serializer>(count: &f64, to: S) -> Result<S::Ok, S::Error> {
+    to.serialize_u64(*count as u64)
 }
 
 fn in_words<S: Serializer>(operations: &f64, to: S) -> Result<S::Ok, S::Error> {
@@ -78,6 +83,7 @@ pub struct TransientCost {
     #[serde(skip)]
     pub stable_step: f64,
     /// Steps.
+    #[serde(serialize_with = "whole")]
     pub steps: f64,
     /// Memory and time.
     #[serde(flatten)]

@@ -119,7 +119,7 @@ fn solid_joints(own: &Description<'_>, has_solids: bool) -> (AssemblyParts, Cont
             caution!(section, key => "is not used: the mesh is of solid elements"; "no effect");
         }
     }
-    let (parts, contact) = assembly::sections(root, &own.tables);
+    let (parts, contact) = assembly::sections(own);
     let cea = root.section("cea", false);
     caution_if!(cea.flag("geometric_stiffness") && parts.base == BaseChoice::Closed; cea,
         "geometric_stiffness",
