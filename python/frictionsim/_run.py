@@ -336,17 +336,24 @@ def collect(folder: PathOrText, *, figures: bool = True) -> SweepResult:
     return SweepResult(Path(folder), None)
 
 
-def plot(folder: PathOrText, *, options: Sequence[str] = ()) -> Result:
-    """Draw the figures of a results folder again.
+def plot(folder: PathOrText | Result, *, dpi: float | None = None, width: float | str | None = None) -> Result:
+    """Draw the figures of a results folder again, in another size where one is given.
 
     Args:
-        options: further options of ``frictionsim plot``, such as ``["--dpi", "600"]``.
+        dpi: resolution of the PNG figures, dots per inch.
+        width: ``"column"``, ``"page"`` or mm.
+
+    Raises:
+        UsageError: the folder keeps no figures.
     """
+    path = Path(folder.folder if isinstance(folder, Result) else folder)
+    sizes = [("--dpi", dpi), ("--width", width)]
+    options = [word for name, value in sizes if value is not None for word in (name, str(value))]
     try:
-        _native.run(["plot", os.fspath(folder), "-qq", *options], 0, None)
+        _native.run(["plot", os.fspath(path), "-qq", *options], 0, None)
     except _native.NativeFailure as failure:
         translate(failure)
-    return open_results(folder)
+    return folder if isinstance(folder, Result) else open_results(path)
 
 
 def check(case: Case | PathOrText, **changes: Any) -> dict[str, Any]:

@@ -238,6 +238,7 @@ def test_what_sets_runs_side_by_side_takes_folders_and_results(disc: frictionsim
     first, second = (frictionsim.cea(disc.changed({"contact.interference": value})) for value in (25e-6, 30e-6))
     compared = frictionsim.compare(first, second.folder, folder=tmp_path / "compared")
     assert len(compared.differences) > 0
+    assert "locus" in frictionsim.plot(first, width="column").figures
     study = disc.changed({"sweep": {"analyses": ["cea"], "material.density": [1200.0, 1300.0]}})
     points = frictionsim.sweep(study, folder=tmp_path / "study", figures=False).points
     gathered = frictionsim.collect(tmp_path / "study", figures=False).points

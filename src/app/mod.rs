@@ -206,9 +206,21 @@ fn with_common_options(command: clap::Command) -> clap::Command {
         count("quiet", 'q').help("No progress bar and no information messages"),
         count("verbose", 'v').conflicts_with("quiet").help("Full tables and progress messages"),
     ];
+    let flag = |name: &'static str, long: &'static str| {
+        Arg::new(name).long(long).action(ArgAction::SetTrue)
+    };
+    // What has nothing to do in a command that writes or draws nothing.
+    let [force, no_figures] = [flag("force", "force"), flag("no_figures", "no-figures")];
+    let idle = match command.get_name() {
+        "plot" => vec![force],
+        "check" => vec![force, no_figures, Arg::new("out").long("out").short('o')],
+        _ => vec![force, no_figures],
+    };
     let is_missing = |arg: &Arg| command.get_arguments().all(|own| own.get_id() != arg.get_id());
-    let missing: Vec<Arg> = common.into_iter().filter(is_missing).collect();
-    command.args(missing.into_iter().map(|arg| arg.hide_short_help(true)))
+    let idle = idle.into_iter().map(|arg| arg.hide(true));
+    let common = common.into_iter().map(|arg| arg.hide_short_help(true));
+    let missing: Vec<Arg> = common.chain(idle).filter(is_missing).collect();
+    command.args(missing)
 }
 
 /// Moves options that stand before the subcommand behind it, where they are declared.

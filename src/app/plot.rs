@@ -8,7 +8,7 @@ use crate::results::{
     read_summary,
 };
 use clap::{ArgAction, Args, ValueHint};
-use serde_json::Value;
+use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 
 /// Draw the figures of a results folder again
@@ -22,6 +22,9 @@ pub struct Arguments {
     folder: PathBuf,
     #[command(flatten)]
     figures: FigureOptions,
+    /// Print the folder and the names of its figures as one object on stdout
+    #[arg(long)]
+    json: bool,
     /// Worker threads [default: all cores]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     threads: Option<u16>,
@@ -43,7 +46,12 @@ pub(super) fn run(asked: &Arguments) -> Result<(), Failure> {
         );
     }
     let options = asked.figures.drawing();
-    redraw(path, &manifest, &options)?;
+    let names = redraw(path, &manifest, &options)?;
+    if asked.json {
+        return terminal::print_json(
+            &json!({ "command": "plot", "folder": path, "figures": names }),
+        );
+    }
     let figures = path.join("figures");
     match asked.quiet {
         0 | 1 => terminal::print(&format!("figures in {}\n", figures.display())),
@@ -51,22 +59,29 @@ pub(super) fn run(asked: &Arguments) -> Result<(), Failure> {
     }
 }
 
-/// Draws the page that a folder keeps as data.
+/// Draws the page that a folder keeps as data; gives the names of its figures.
 ///
 /// # Errors
 /// A folder without figures; those of the drawing and of the folder.
-pub fn redraw(path: &Path, manifest: &Manifest, options: &DrawingOptions) -> Result<(), Failure> {
+pub fn redraw(
+    path: &Path,
+    manifest: &Manifest,
+    options: &DrawingOptions,
+) -> Result<Vec<String>, Failure> {
     if !path.join(Page::FILE).exists() {
         let reason = format!("it has no {}: run it again, with figures", Page::FILE);
         return Err(FolderError::no_results(path, reason).into());
     }
     let page: Page = read_record(path)?;
+    let names = page.figures.iter().map(|figure| figure.name.clone()).collect();
     if let command @ ("sweep" | "uncertainty") = manifest.command.as_str() {
-        return Ok(page.draw(SweepFolder::find(path, command)?.output(), options)?);
+        page.draw(SweepFolder::find(path, command)?.output(), options)?;
+        return Ok(names);
     }
     // A run that is not finished has no summary.
     let _: Value = read_summary(path)?;
     let folder = OutputFolder::reopen(path)?;
     page.draw(&folder, options)?;
-    Ok(folder.finish()?)
+    folder.finish()?;
+    Ok(names)
 }

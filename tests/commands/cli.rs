@@ -288,6 +288,7 @@ fn completions_and_manual_name_every_subcommand() {
         // Every command takes the options of all.
         let own = run(&folder, &[name, "--help"]).done();
         own.says(&["--threads ; --simd ; --quiet ; --verbose"]);
+        run(&folder, &[name, "--force", "--nonesuch"]).refused(&["argument '--nonesuch'"]);
     }
 }
 

@@ -115,10 +115,13 @@ fn every_column_and_key_that_a_command_writes_is_declared() {
     let meshes = "convergence={factors=[0.5,0.75,1]} ; cea.friction_coefficients=[0.0,0.3]";
     let cycle = "mesh.circumferential_elements=90 ; mesh.radial_elements=18 ; cycle.frames=1 ; \
                  cycle.continuation.count=3 ; cycle.stability=point";
-    let rows: [(&str, &str, &[&str]); 8] = [
+    let short = "transient.duration=2e-3 ; output={ probes = [1] }";
+    let rows: [(&str, &str, &[&str]); 10] = [
         ("cea", "polycarbonate-disc.toml", &[coarse, few]),
         ("mesh", "polycarbonate-disc.toml", &[coarse]),
         ("mesh", "ring-on-disc.toml", &[coarse]),
+        ("mesh", "brake.toml", &[]),
+        ("transient", "polycarbonate-610rpm.toml", &[coarse, short]),
         ("matrices", "tread-block.toml", &[]),
         ("uncertainty", "squeal-probability.toml", &[coarse, samples]),
         ("convergence", "polycarbonate-disc.toml", &[coarse, meshes]),

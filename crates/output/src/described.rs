@@ -44,7 +44,7 @@ plain!(bool, i8, i64, u8, u32, u64, usize, f64, String, serde_json::Value);
 
 impl Described for serde_json::Map<String, serde_json::Value> {
     fn describe(path: &str, keys: &mut Vec<Entry>) {
-        keys.push(Entry::new(format!("{path}.KEY"), "value of the key"));
+        BTreeMap::<String, serde_json::Value>::describe(path, keys);
     }
 }
 
@@ -66,6 +66,8 @@ impl<T: Described, const N: usize> Described for [T; N] {
 
 impl<T: Described> Described for BTreeMap<String, T> {
     fn describe(path: &str, keys: &mut Vec<Entry>) {
-        T::describe(&format!("{path}.KEY"), keys);
+        let path = format!("{path}.KEY");
+        keys.push(Entry::new(path.clone(), "value of the key"));
+        T::describe(&path, keys);
     }
 }

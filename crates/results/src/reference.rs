@@ -11,7 +11,7 @@ use super::improve::{self, ImproveSummary};
 use super::mac::{self, MacSummary};
 use super::manifest::Manifest;
 use super::matrices::{self, MatricesSummary};
-use super::mesh::{MeshStatistics, MeshSummary};
+use super::mesh::{MeshStatistics, MeshSummary, SolidMeshStatistics};
 use super::response::ResponseSummary;
 use super::signal::{self, SignalSummary};
 use super::summary::STATUS as FRACTIONS;
@@ -76,6 +76,13 @@ pub fn reference() -> Vec<FileReference> {
         file!("cea", "coupling.csv"; cea::SHORT_NAMES, cea::COUPLINGS),
         file!("cea", "feed.csv"; cea::NUMBERS, cea::FEED),
         summary::<CeaSummary>("cea"),
+        file!("compare", "compare.csv"; pairs(&[
+            ("quantity", "dotted path in the summaries of the runs"),
+            ("unit", "its unit"),
+            ("KEY", "its value in the run of that name"),
+            ("difference KEY", "difference of that run from the first"),
+            ("relative difference KEY", "the same over the value of the first"),
+        ])),
         summary::<ComparisonSummary>("compare"),
         file!("convergence", "convergence.csv"; convergence::ROWS),
         summary::<ConvergenceSummary>("convergence"),
@@ -111,7 +118,7 @@ pub fn reference() -> Vec<FileReference> {
         file!("matrices", "unknowns.csv"; matrices::UNKNOWN),
         file!("matrices", "contact.csv"; matrices::PLANE_POINT, matrices::SOLID_POINT),
         summary::<MatricesSummary>("matrices"),
-        summary::<MeshSummary<MeshStatistics>>("mesh"),
+        mesh_summary(),
         file!("signal", "peaks.csv"; signal::PEAKS),
         file!("signal", "spectrum-N.csv"; signal::SPECTRUM),
         summary::<SignalSummary>("signal"),
@@ -190,6 +197,18 @@ fn summary<T: frictionsim_output::Described>(command: &'static str) -> FileRefer
         ("wall_s", "wall time, of a command that takes some"),
     ]);
     FileReference { command, file: "summary.json", entries: [head, keys].concat() }
+}
+
+/// The summary of `mesh`: what plane bodies and bodies of revolution have, then what solid bodies have beside it.
+fn mesh_summary() -> FileReference {
+    let mut all = summary::<MeshSummary<MeshStatistics>>("mesh");
+    let of_solids = summary::<MeshSummary<SolidMeshStatistics>>("mesh").entries;
+    let is_new = |own: &Entry| all.entries.iter().all(|known| known.key != own.key);
+    let more: Vec<Entry> = of_solids.into_iter().filter(is_new).collect();
+    let end = all.entries.iter().rposition(|own| own.key.starts_with("mesh."));
+    let end = end.map_or(0, |last| last + 1);
+    all.entries.splice(end..end, more);
+    all
 }
 
 /// The comment of a field as columns have their meaning: without its first capital and its full stop.

@@ -170,15 +170,15 @@ impl CycleSolver {
         value: f64,
         (reached, end): (f64, BranchEnd),
     ) -> CycleError {
-        let (family, sectors) = (self.family, self.body.sector_count);
         match end {
             BranchEnd::Unphysical => CycleError::NotFound(format!(
-                "{family}: the wave on {sectors} elements around is no motion of the disc: it \
-                 opens inside the cylinder or draws energy from normal contact. Refine the mesh \
-                 (mesh.circumferential_elements and radial_elements), or try another cycle.phases"
+                "the wave on {} elements around is no motion of the disc: it opens inside the \
+                 cylinder or draws energy from normal contact. Refine the mesh \
+                 (mesh.circumferential_elements and radial_elements), or try another cycle.phases",
+                self.body.sector_count
             )),
             _ => CycleError::NotReached {
-                family,
+                family: self.family,
                 key: parameter.key(),
                 value,
                 reached,

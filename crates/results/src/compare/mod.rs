@@ -26,8 +26,8 @@ pub struct ComparedRun {
 pub struct SharedQuantity {
     /// Dotted path in the summaries; entries of lists are named by what they are of.
     pub path: String,
-    /// Its value in each run.
-    pub values: Vec<f64>,
+    /// Its value in each run: a number, or whether something is so.
+    pub values: Vec<Value>,
 }
 
 /// `summary.json` of `frictionsim compare`.
@@ -65,15 +65,14 @@ const FIRST: [&str; 11] = [
 const MOST_OF_A_KIND: usize = 8;
 
 /// All numbers of a summary by their paths.
-fn numbers_of(summary: &Value) -> Vec<(String, f64)> {
-    fn visit(path: &str, value: &Value, out: &mut Vec<(String, f64)>) {
+fn numbers_of(summary: &Value) -> Vec<(String, &Value)> {
+    fn visit<'a>(path: &str, value: &'a Value, out: &mut Vec<(String, &'a Value)>) {
         let below = |key: &str| match path {
             "" => key.to_owned(),
             _ => format!("{path}.{key}"),
         };
         match value {
-            Value::Number(number) => out.extend(number.as_f64().map(|n| (path.to_owned(), n))),
-            Value::Bool(is_true) => out.push((path.to_owned(), f64::from(u8::from(*is_true)))),
+            Value::Number(_) | Value::Bool(_) => out.push((path.to_owned(), value)),
             Value::Object(entries) => {
                 let entries = entries.iter().filter(|(key, _)| *key != "manifest");
                 entries.for_each(|(key, value)| visit(&below(key), value, out));
@@ -102,12 +101,13 @@ fn numbers_of(summary: &Value) -> Vec<(String, f64)> {
 
 /// The numbers that all runs have, in the order of the first.
 pub fn shared(runs: &[ComparedRun]) -> Vec<SharedQuantity> {
-    let numbers: Vec<Vec<(String, f64)>> =
+    let numbers: Vec<Vec<(String, &Value)>> =
         runs.iter().map(|run| numbers_of(&run.summary)).collect();
-    let of =
-        |path: &str, run: &[(String, f64)]| run.iter().find(|own| own.0 == path).map(|own| own.1);
+    let of = |path: &str, run: &[(String, &Value)]| {
+        run.iter().find(|own| own.0 == path).map(|own| own.1.clone())
+    };
     let quantity = |path: &String| {
-        let values: Option<Vec<f64>> = numbers.iter().map(|run| of(path, run)).collect();
+        let values: Option<Vec<Value>> = numbers.iter().map(|run| of(path, run)).collect();
         Some(SharedQuantity { path: path.clone(), values: values? })
     };
     let paths = distinct(numbers.first().into_iter().flatten().map(|own| &own.0));
@@ -115,9 +115,29 @@ pub fn shared(runs: &[ComparedRun]) -> Vec<SharedQuantity> {
 }
 
 impl SharedQuantity {
+    /// The value in a run; 1 where something is so, else 0.
+    fn value(&self, run: usize) -> f64 {
+        let own = &self.values[run];
+        own.as_f64().unwrap_or_else(|| f64::from(u8::from(own == true)))
+    }
+
+    /// The same as it stands in tables.
+    fn cell(&self, run: usize) -> Cell {
+        let own = &self.values[run];
+        let count = own.as_i64().map(Cell::Count);
+        count.or(own.as_bool().map(Cell::Flag)).unwrap_or_else(|| self.value(run).into())
+    }
+
     /// Difference of a run from the first.
     fn difference(&self, run: usize) -> f64 {
-        self.values[run] - self.values[0]
+        self.value(run) - self.value(0)
+    }
+
+    /// The same as it stands in tables: whole of counts.
+    fn difference_cell(&self, run: usize) -> Cell {
+        let difference = self.difference(run);
+        let is_whole = [run, 0].iter().all(|&own| !self.values[own].is_f64());
+        if is_whole { Cell::Count(difference as i64) } else { difference.into() }
     }
 
     fn is_equal(&self) -> bool {
@@ -126,7 +146,7 @@ impl SharedQuantity {
 
     /// The same relative to the first.
     fn relative(&self, run: usize) -> Option<f64> {
-        let first = self.values[0];
+        let first = self.value(0);
         (first != 0.0).then(|| self.difference(run) / first.abs())
     }
 
@@ -169,13 +189,13 @@ fn table_of(
             table = std::mem::take(&mut table).column(key, look, cells);
         };
     for (at, run) in runs.iter().enumerate() {
-        add(&run.name, None, &|own| own.values[at].into());
-        add("", Some((&run.name, Format::Significant(7))), &|own| own.values[at].into());
+        add(&run.name, None, &|own| own.cell(at));
+        add("", Some((&run.name, Format::Significant(7))), &|own| own.cell(at));
     }
     for (at, run) in runs.iter().enumerate().skip(1) {
         let less = format!("{} less {}", run.name, runs[0].name);
-        add(&format!("difference {}", run.name), None, &|own| own.difference(at).into());
-        add("", Some((&less, Format::Significant(4))), &|own| own.difference(at).into());
+        add(&format!("difference {}", run.name), None, &|own| own.difference_cell(at));
+        add("", Some((&less, Format::Significant(4))), &|own| own.difference_cell(at));
     }
     for (at, run) in runs.iter().enumerate().skip(1) {
         let (key, off) =
@@ -333,11 +353,12 @@ mod tests {
         ];
         let found = shared(&runs);
         let of = |path: &str| found.iter().find(|q| q.path == path).unwrap();
-        assert!(of("dofs").is_equal());
+        // A count has no point.
+        assert!(of("dofs").is_equal() && of("dofs").cell(0) == Cell::Count(10));
         let second = of("critical_frictions.[harmonic=2 direction=-1].critical_friction");
-        assert_eq!(second.values, [0.2, 0.25]);
+        assert_eq!(second.values, [json!(0.2), json!(0.25)]);
         assert!((second.relative(1).unwrap() - 0.25).abs() < 1e-12);
         assert!(found.iter().all(|q| q.path != "more"));
-        assert_eq!(first_of(&found)[0].values, [0.1, 0.1]);
+        assert_eq!(first_of(&found)[0].values, [json!(0.1), json!(0.1)]);
     }
 }

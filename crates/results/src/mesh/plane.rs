@@ -4,7 +4,9 @@ use super::{Measured, MeshSize, condition_name, write_nodes};
 use crate::finding::finding;
 use crate::folder::{FolderError, OutputFolder};
 use frictionsim_output::{Described, Format, Section, Table};
-use frictionsim_physics::mesh::{AnnulusMesh, Mesh, MeshQuality, SolidContact, SolidSector};
+use frictionsim_physics::mesh::{
+    AnnulusMesh, BoundaryCondition, Mesh, MeshQuality, SolidContact, SolidFace, SolidSector,
+};
 use serde::Serialize;
 
 /// Size and quality of a mesh.
@@ -40,7 +42,7 @@ pub struct MeshStatistics {
     pub contact_nodes_per_wave: Option<f64>,
     /// Regions with their elements and areas.
     pub regions: Vec<RegionStatistics>,
-    /// Boundaries with their nodes and lengths.
+    /// Boundaries with their nodes and lengths; faces of a body of revolution with their areas.
     pub boundaries: Vec<BoundaryStatistics>,
 }
 
@@ -60,7 +62,11 @@ finding! {
     BoundaryStatistics, BOUNDARIES {
         name: String = "its name", Always "boundary" Plain;
         nodes: usize = "its nodes", Always "nodes" Count;
-        length_m: f64 = "its length", Always "length" Scientific(6);
+        length_m: Option<f64> = "its length, around a face of a body of revolution",
+            IfAny "length" Scientific(6);
+        #[serde(skip_serializing_if = "Option::is_none")]
+        area_m2: Option<f64> = "its area, of a face of a body of revolution",
+            IfAny "area" Scientific(6);
         condition: String = "what holds it, in a word", Always "condition" Plain;
     }
 }
@@ -117,6 +123,32 @@ impl MeshStatistics {
         if sector.specification.contact != SolidContact::Inner {
             self.contact_nodes_per_wave = None;
         }
+        let faces = SolidFace::ALL.iter().zip(&sector.specification.conditions);
+        self.boundaries =
+            faces.map(|(face, condition)| self.face(sector, *face, *condition)).collect();
+    }
+
+    /// A face of the body of revolution; around it the edge of the plane section of its name.
+    fn face(
+        &self,
+        sector: &SolidSector,
+        face: SolidFace,
+        condition: BoundaryCondition,
+    ) -> BoundaryStatistics {
+        let name = face.name();
+        let edge = self.boundaries.iter().find(|own| own.name == name);
+        let length_m = edge.and_then(|own| own.length_m);
+        let side = length_m.map(|length| length * sector.specification.thickness);
+        let is_contact = face == sector.specification.contact.face();
+        let condition = if is_contact { "contact" } else { condition_name(condition) };
+        let nodes = (0..sector.node_count()).filter(|&node| sector.is_on(node, face));
+        BoundaryStatistics {
+            name: name.to_owned(),
+            nodes: sector.sector_count() * nodes.count(),
+            length_m,
+            area_m2: Some(side.unwrap_or(self.area_m2)),
+            condition: condition.to_owned(),
+        }
     }
 
     /// Measures a mesh between its corner nodes; areas follow curved edges. `wavelength` is the shortest that the case
@@ -151,7 +183,8 @@ impl MeshStatistics {
             BoundaryStatistics {
                 name: boundary.name.clone(),
                 nodes: boundary.nodes.len(),
-                length_m: boundary.tributary_lengths.iter().sum(),
+                length_m: Some(boundary.tributary_lengths.iter().sum()),
+                area_m2: None,
                 condition: condition.to_owned(),
             }
         });
