@@ -65,12 +65,8 @@ pub(super) fn run(asked: &Arguments) -> Result<(), Failure> {
 /// # Errors
 /// Those of the case.
 pub fn examine(path: &Path, overrides: &[String]) -> Result<Value, Failure> {
-    if let Some(system) = described_system(path, overrides)? {
-        return Ok(superelement_object(&path.display().to_string(), &system));
-    }
-    let case = read_case(path, overrides)?;
-    let found = preflight(&case, machine_memory())?;
-    Ok(object(&path.display().to_string(), &case, &found))
+    let changes = CaseChanges { set: overrides.to_vec(), ..CaseChanges::default() };
+    Ok(check(path, &path.display().to_string(), &changes)?.1)
 }
 
 /// What is said of a case that is valid, for people and as an object.
@@ -95,10 +91,8 @@ fn check(path: &Path, name: &str, changes: &CaseChanges) -> Result<(String, Valu
 
 /// The first line on a valid case.
 fn valid(name: &str, title: &str) -> String {
-    match title {
-        "" => format!("{name}: valid\n"),
-        _ => format!("{name}: valid ({title})\n"),
-    }
+    let title = if title.is_empty() { String::new() } else { format!(" ({title})") };
+    format!("{name}: valid{title}\n")
 }
 
 fn describe_superelement(name: &str, system: &FreeSystem) -> String {
@@ -159,7 +153,7 @@ fn lines(case: &Case, found: &Preflight) -> Vec<(&'static str, String, RunCost)>
             ("cea", format!("{values}, about {} each", plural(modes, "mode", "modes")), own.run)
         }),
         transient.map(|own| {
-            let text = format!("time step {about}{:.4e} s, {:.0} steps", own.time_step, own.steps);
+            let text = format!("time step {about}{:.4e} s, {} steps", own.time_step, own.steps);
             ("transient", text, own.run)
         }),
         cycle.map(|own| {
@@ -167,9 +161,8 @@ fn lines(case: &Case, found: &Preflight) -> Vec<(&'static str, String, RunCost)>
             ("cycle", format!("{families} of {}", plural(own.cycles, "cycle", "cycles")), own.run)
         }),
         basin.map(|own| {
-            let memory_bytes = found.cost.mesh_memory_bytes;
-            let text = "one boundary between two limit cycles".to_owned();
-            ("basin", text, RunCost { memory_bytes, ..own })
+            let run = RunCost { memory_bytes: found.cost.mesh_memory_bytes, ..own };
+            ("basin", "one boundary between two limit cycles".to_owned(), run)
         }),
         frf.map(|own| ("frf", plural(own.lines, "frequency", "frequencies"), own.run)),
         study("convergence", found.convergence, &|runs| {
@@ -233,10 +226,7 @@ fn object(name: &str, case: &Case, found: &Preflight) -> Value {
 
 /// A count with its noun, of one and of several.
 fn plural(count: usize, one: &str, several: &str) -> String {
-    match count {
-        1 => format!("1 {one}"),
-        _ => format!("{count} {several}"),
-    }
+    format!("{count} {}", if count == 1 { one } else { several })
 }
 
 fn size(bytes: f64) -> String {

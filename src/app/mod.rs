@@ -206,18 +206,17 @@ fn with_common_options(command: clap::Command) -> clap::Command {
         count("quiet", 'q').help("No progress bar and no information messages"),
         count("verbose", 'v').conflicts_with("quiet").help("Full tables and progress messages"),
     ];
-    let flag = |name: &'static str, long: &'static str| {
-        Arg::new(name).long(long).action(ArgAction::SetTrue)
-    };
     // What has nothing to do in a command that writes or draws nothing.
-    let [force, no_figures] = [flag("force", "force"), flag("no_figures", "no-figures")];
-    let idle = match command.get_name() {
-        "plot" => vec![force],
-        "check" => vec![force, no_figures, Arg::new("out").long("out").short('o')],
-        _ => vec![force, no_figures],
+    let idle: &[_] = match command.get_name() {
+        "check" => &["force", "no-figures", "out"],
+        "plot" => &["force"],
+        _ => &["force", "no-figures"],
     };
-    let is_missing = |arg: &Arg| command.get_arguments().all(|own| own.get_id() != arg.get_id());
-    let idle = idle.into_iter().map(|arg| arg.hide(true));
+    let idle = idle.iter().map(|name| {
+        let action = if *name == "out" { ArgAction::Set } else { ArgAction::SetTrue };
+        Arg::new(*name).long(*name).action(action).hide(true)
+    });
+    let is_missing = |arg: &Arg| command.get_arguments().all(|a| a.get_long() != arg.get_long());
     let common = common.into_iter().map(|arg| arg.hide_short_help(true));
     let missing: Vec<Arg> = common.chain(idle).filter(is_missing).collect();
     command.args(missing)
@@ -273,8 +272,8 @@ pub fn run_arguments(given: Vec<OsString>) -> u8 {
     let given = options_behind_subcommand(&command, given);
     let matches = command.clone().try_get_matches_from(given);
     let parsed = matches.and_then(|found| {
-        let of_command = found.subcommand().map(|(_, own)| own);
-        let threads = of_command.and_then(|own| own.try_get_one::<u16>("threads").ok().flatten());
+        let threads =
+            found.subcommand().and_then(|own| own.1.try_get_one::<u16>("threads").ok()?);
         if threads.is_some() {
             start_threads(threads.copied());
         }

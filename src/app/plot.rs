@@ -22,12 +22,9 @@ pub struct Arguments {
     folder: PathBuf,
     #[command(flatten)]
     figures: FigureOptions,
-    /// Print the folder and the names of its figures as one object on stdout
+    /// Print the folder as one object on stdout
     #[arg(long)]
     json: bool,
-    /// Worker threads [default: all cores]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
-    threads: Option<u16>,
     /// No information; twice: errors only
     #[arg(long, short, action = ArgAction::Count)]
     quiet: u8,
@@ -35,7 +32,7 @@ pub struct Arguments {
 
 pub(super) fn run(asked: &Arguments) -> Result<(), Failure> {
     terminal::start_log(asked.quiet, 0);
-    start_threads(asked.threads);
+    start_threads(None);
     let path = &asked.folder;
     let manifest = read_manifest(path)?;
     if manifest.version != env!("CARGO_PKG_VERSION") {
@@ -45,43 +42,31 @@ pub(super) fn run(asked: &Arguments) -> Result<(), Failure> {
             manifest.version
         );
     }
-    let options = asked.figures.drawing();
-    let names = redraw(path, &manifest, &options)?;
-    if asked.json {
-        return terminal::print_json(
-            &json!({ "command": "plot", "folder": path, "figures": names }),
-        );
-    }
+    redraw(path, &manifest, &asked.figures.drawing())?;
     let figures = path.join("figures");
     match asked.quiet {
+        _ if asked.json => terminal::print_json(&json!({ "command": "plot", "figures": figures })),
         0 | 1 => terminal::print(&format!("figures in {}\n", figures.display())),
         _ => Ok(()),
     }
 }
 
-/// Draws the page that a folder keeps as data; gives the names of its figures.
+/// Draws the page that a folder keeps as data.
 ///
 /// # Errors
 /// A folder without figures; those of the drawing and of the folder.
-pub fn redraw(
-    path: &Path,
-    manifest: &Manifest,
-    options: &DrawingOptions,
-) -> Result<Vec<String>, Failure> {
+pub fn redraw(path: &Path, manifest: &Manifest, options: &DrawingOptions) -> Result<(), Failure> {
     if !path.join(Page::FILE).exists() {
         let reason = format!("it has no {}: run it again, with figures", Page::FILE);
         return Err(FolderError::no_results(path, reason).into());
     }
     let page: Page = read_record(path)?;
-    let names = page.figures.iter().map(|figure| figure.name.clone()).collect();
     if let command @ ("sweep" | "uncertainty") = manifest.command.as_str() {
-        page.draw(SweepFolder::find(path, command)?.output(), options)?;
-        return Ok(names);
+        return Ok(page.draw(SweepFolder::find(path, command)?.output(), options)?);
     }
     // A run that is not finished has no summary.
     let _: Value = read_summary(path)?;
     let folder = OutputFolder::reopen(path)?;
     page.draw(&folder, options)?;
-    folder.finish()?;
-    Ok(names)
+    Ok(folder.finish()?)
 }

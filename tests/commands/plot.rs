@@ -48,8 +48,7 @@ fn check_redrawn(folder: &TempDir, expected: &str) {
     }
     let answer = plot(folder, &FEW_DOTS).args(&["--threads", "1"]).done().says(&["figures in"]);
     assert_eq!(answer.stderr, "");
-    let names: Value = serde_json::from_str(&plot(folder, &["--json"]).done().stdout).unwrap();
-    assert_eq!(names["figures"].as_array().unwrap().len(), drawings);
+    plot(folder, &["--json"]).args(&FEW_DOTS).done().says(&["\"command\": \"plot\""]);
     assert_same(&first, &files(&out));
     fs::remove_dir_all(out.join("figures")).unwrap();
     fs::remove_file(out.join("report.html")).unwrap();

@@ -39,18 +39,17 @@ pub(super) struct Springs {
 impl Springs {
     /// The key that their stiffness without pressure belongs to.
     pub fn key(&self) -> String {
-        match self.law {
-            Some(NormalLaw::Exponential { .. }) => format!("{}.reference_pressure", self.section),
-            Some(NormalLaw::Cubic { .. }) | None => format!("{}.normal_stiffness", self.section),
-        }
+        let key = if self.is_exponential() { "reference_pressure" } else { "normal_stiffness" };
+        format!("{}.{key}", self.section)
     }
 
     /// What it is.
     pub fn name(&self) -> String {
-        match self.law {
-            Some(NormalLaw::Exponential { .. }) => format!("{} / height", self.key()),
-            Some(NormalLaw::Cubic { .. }) | None => self.key(),
-        }
+        self.key() + if self.is_exponential() { " / height" } else { "" }
+    }
+
+    fn is_exponential(&self) -> bool {
+        matches!(self.law, Some(NormalLaw::Exponential { .. }))
     }
 }
 

@@ -83,8 +83,7 @@ pub struct TransientCost {
     #[serde(skip)]
     pub stable_step: f64,
     /// Steps.
-    #[serde(serialize_with = "whole")]
-    pub steps: f64,
+    pub steps: u64,
     /// Memory and time.
     #[serde(flatten)]
     pub run: RunCost,
@@ -195,8 +194,7 @@ impl Case {
     pub fn sweep_cost(&self) -> Option<StudyCost> {
         let sweep = self.sweep.as_ref()?;
         let runs = sweep.point_count();
-        let last = runs.saturating_sub(1);
-        let tried = runs.min(TRIED_POINTS);
+        let (last, tried) = (runs.saturating_sub(1), runs.min(TRIED_POINTS));
         let points = (0..tried).map(|i| i * last / tried.max(2).saturating_sub(1));
         // A point that is no valid case fails at once and costs nothing.
         let costs = points.map(|point| {
@@ -226,10 +224,8 @@ impl Case {
     /// Estimates what the convergence study costs: every mesh and every time step.
     pub fn convergence_cost(&self) -> Option<StudyCost> {
         let study = self.convergence.as_ref()?;
-        let meshes = study.factors.iter().map(|factor| {
-            let cost = self.refined_cost(*factor);
-            (cost, study.analyses.clone(), 1.0)
-        });
+        let meshes = study.factors.iter();
+        let meshes = meshes.map(|factor| (self.refined_cost(*factor), study.analyses.clone(), 1.0));
         let steps = study.time_step_factors.iter();
         let steps = steps.map(|factor| (self.cost(), vec![Analysis::Transient], 1.0 / factor));
         let mut total = StudyCost::default();
@@ -247,8 +243,7 @@ impl Case {
 
     /// Memory that a command needs, bytes, and the key that asks for most of it.
     pub fn memory(&self, command: &str) -> (f64, &'static str) {
-        let cost = self.cost();
-        let mesh = self.larger_count();
+        let (cost, mesh) = (self.cost(), self.larger_count());
         let has_phases = self.cycle.as_ref().is_some_and(|cycle| cycle.phases.is_some());
         let of_phases = has_phases && self.has_rotating_waves();
         let (run, key) = match command {

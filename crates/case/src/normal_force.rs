@@ -42,19 +42,17 @@ pub(super) fn press(case: &mut Case) -> Result<(), CaseErrors> {
     }
     for own in &wanted {
         let pushed = interference_of(case, own.contact);
-        let note =
-            format!("{} = {}: the counterface is pushed in by {pushed:.6e} m", own.key, own.force);
-        case.taken.notes.push(note);
+        let told = format!("{} = {}: the counterface is pushed in", own.key, own.force);
+        case.taken.notes.push(format!("{told} by {pushed:.6e} m"));
     }
     Ok(())
 }
 
 fn wanted(case: &Case) -> Vec<Wanted> {
-    let sections = case.contact_sections().into_iter();
-    let keys = sections.map(|(section, _)| format!("{section}.normal_force"));
-    let found = keys.enumerate().filter_map(|(contact, key)| {
-        let force = case.number(&key)?;
-        Some(Wanted { key, contact, force })
+    let sections = case.contact_sections().into_iter().enumerate();
+    let found = sections.filter_map(|(contact, (section, _))| {
+        let key = format!("{section}.normal_force");
+        Some(Wanted { force: case.number(&key)?, key, contact })
     });
     found.collect()
 }

@@ -32,8 +32,8 @@ pub fn describe_field(
     // What several variants have is told once.
     if keys.iter().all(|own| own.key != path) {
         keys.push(Entry::new(path.clone(), meaning.trim()));
-        describe(&path, keys);
     }
+    describe(&path, keys);
 }
 
 macro_rules! plain {
@@ -66,8 +66,6 @@ impl<T: Described, const N: usize> Described for [T; N] {
 
 impl<T: Described> Described for BTreeMap<String, T> {
     fn describe(path: &str, keys: &mut Vec<Entry>) {
-        let path = format!("{path}.KEY");
-        keys.push(Entry::new(path.clone(), "value of the key"));
-        T::describe(&path, keys);
+        describe_field(T::describe, path, ("KEY", "value of the key", false), keys);
     }
 }

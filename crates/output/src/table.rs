@@ -384,12 +384,10 @@ impl Table {
             let cells = rows.iter().map(|row| row[at].chars().count());
             cells.chain([labels[at].chars().count()]).max().unwrap_or(0)
         };
-        let is_number = |at: usize| {
-            rows.iter()
-                .all(|row| row[at].is_empty() || row[at] == "-" || row[at].parse::<f64>().is_ok())
-        };
-        let looks: Vec<(usize, bool)> =
-            (0..labels.len()).map(|at| (width(at), is_number(at))).collect();
+        let is_number = |cell: &str| ["", "-"].contains(&cell) || cell.parse::<f64>().is_ok();
+        let looks =
+            (0..labels.len()).map(|at| (width(at), rows.iter().all(|row| is_number(&row[at]))));
+        let looks: Vec<(usize, bool)> = looks.collect();
         let mut out = String::new();
         for row in std::iter::once(&labels).chain(&rows) {
             let mut line = String::new();

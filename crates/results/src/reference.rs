@@ -118,7 +118,7 @@ pub fn reference() -> Vec<FileReference> {
         file!("matrices", "unknowns.csv"; matrices::UNKNOWN),
         file!("matrices", "contact.csv"; matrices::PLANE_POINT, matrices::SOLID_POINT),
         summary::<MatricesSummary>("matrices"),
-        mesh_summary(),
+        summary::<MeshSummary<AnyMesh>>("mesh"),
         file!("signal", "peaks.csv"; signal::PEAKS),
         file!("signal", "spectrum-N.csv"; signal::SPECTRUM),
         summary::<SignalSummary>("signal"),
@@ -186,7 +186,7 @@ fn rates() -> Vec<Entry> {
     ])
 }
 
-fn summary<T: frictionsim_output::Described>(command: &'static str) -> FileReference {
+fn summary<T: Described>(command: &'static str) -> FileReference {
     let mut keys = keys_of::<T>();
     let manifest = ("manifest", "what it was made from", false);
     describe_field(Manifest::describe, "", manifest, &mut keys);
@@ -199,16 +199,14 @@ fn summary<T: frictionsim_output::Described>(command: &'static str) -> FileRefer
     FileReference { command, file: "summary.json", entries: [head, keys].concat() }
 }
 
-/// The summary of `mesh`: what plane bodies and bodies of revolution have, then what solid bodies have beside it.
-fn mesh_summary() -> FileReference {
-    let mut all = summary::<MeshSummary<MeshStatistics>>("mesh");
-    let of_solids = summary::<MeshSummary<SolidMeshStatistics>>("mesh").entries;
-    let is_new = |own: &Entry| all.entries.iter().all(|known| known.key != own.key);
-    let more: Vec<Entry> = of_solids.into_iter().filter(is_new).collect();
-    let end = all.entries.iter().rposition(|own| own.key.starts_with("mesh."));
-    let end = end.map_or(0, |last| last + 1);
-    all.entries.splice(end..end, more);
-    all
+/// The mesh of any body: what plane bodies and bodies of revolution have, and solid bodies.
+enum AnyMesh {}
+
+impl Described for AnyMesh {
+    fn describe(path: &str, keys: &mut Vec<Entry>) {
+        MeshStatistics::describe(path, keys);
+        SolidMeshStatistics::describe(path, keys);
+    }
 }
 
 /// The comment of a field as columns have their meaning: without its first capital and its full stop.

@@ -227,7 +227,7 @@ impl Case {
                 + 2.0 * (samples + frames),
             operations: each * unknowns * steps,
         };
-        TransientCost { time_step, stable_step, steps, run }
+        TransientCost { time_step, stable_step, steps: steps as u64, run }
     }
 }
 

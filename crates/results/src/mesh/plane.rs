@@ -5,7 +5,7 @@ use crate::finding::finding;
 use crate::folder::{FolderError, OutputFolder};
 use frictionsim_output::{Described, Format, Section, Table};
 use frictionsim_physics::mesh::{
-    AnnulusMesh, BoundaryCondition, Mesh, MeshQuality, SolidContact, SolidFace, SolidSector,
+    AnnulusMesh, Mesh, MeshQuality, SolidContact, SolidFace, SolidSector,
 };
 use serde::Serialize;
 
@@ -123,32 +123,22 @@ impl MeshStatistics {
         if sector.specification.contact != SolidContact::Inner {
             self.contact_nodes_per_wave = None;
         }
-        let faces = SolidFace::ALL.iter().zip(&sector.specification.conditions);
-        self.boundaries =
-            faces.map(|(face, condition)| self.face(sector, *face, *condition)).collect();
-    }
-
-    /// A face of the body of revolution; around it the edge of the plane section of its name.
-    fn face(
-        &self,
-        sector: &SolidSector,
-        face: SolidFace,
-        condition: BoundaryCondition,
-    ) -> BoundaryStatistics {
-        let name = face.name();
-        let edge = self.boundaries.iter().find(|own| own.name == name);
-        let length_m = edge.and_then(|own| own.length_m);
-        let side = length_m.map(|length| length * sector.specification.thickness);
-        let is_contact = face == sector.specification.contact.face();
-        let condition = if is_contact { "contact" } else { condition_name(condition) };
-        let nodes = (0..sector.node_count()).filter(|&node| sector.is_on(node, face));
-        BoundaryStatistics {
-            name: name.to_owned(),
-            nodes: sector.sector_count() * nodes.count(),
-            length_m,
-            area_m2: Some(side.unwrap_or(self.area_m2)),
-            condition: condition.to_owned(),
-        }
+        let (own, edges) = (&sector.specification, std::mem::take(&mut self.boundaries));
+        let faces = SolidFace::ALL.into_iter().zip(own.conditions).map(|(face, condition)| {
+            let edge = edges.iter().find(|edge| edge.name == face.name());
+            let length_m = edge.and_then(|edge| edge.length_m);
+            let nodes = (0..sector.node_count()).filter(|&node| sector.is_on(node, face));
+            let is_contact = face == own.contact.face();
+            BoundaryStatistics {
+                name: face.name().to_owned(),
+                nodes: sectors * nodes.count(),
+                length_m,
+                area_m2: Some(length_m.map_or(self.area_m2, |length| length * own.thickness)),
+                condition: if is_contact { "contact" } else { condition_name(condition) }
+                    .to_owned(),
+            }
+        });
+        self.boundaries = faces.collect();
     }
 
     /// Measures a mesh between its corner nodes; areas follow curved edges. `wavelength` is the shortest that the case
