@@ -41,5 +41,7 @@ pub use modulus_table::{ModulusTable, own_frequency_step};
 pub use orthotropy::{Elasticity, Indefinite, MaterialAxes, Orthotropy, RATIOS};
 pub use rotation::{RotationFrame, RotationTerms, Spin, assemble_rotation};
 pub use stress::{NodalStress, SolidStress, nodal_stress, revolved_stress, solid_stress};
-pub use support::{assemble_attachments, assemble_pressures, assemble_support, assemble_supports};
+pub use support::{
+    assemble_attachments, assemble_pressures, assemble_support, assemble_supports, element_supports,
+};
 pub use triplets::Triplets;

@@ -3,6 +3,7 @@
 use super::Triplets;
 use crate::mesh::{Boundary, BoundaryCondition, BoundaryFace, ElasticSupport, FacePoint, Mesh};
 use nalgebra::{Matrix2, Matrix3, Vector3};
+use std::collections::BTreeMap;
 
 /// Visits the quadrature points of faces with the dofs of the nodes, each with the global direction in which it moves.
 fn at_points(
@@ -39,6 +40,38 @@ pub fn assemble_support(mesh: &Mesh, boundary: &Boundary) -> Option<([Triplets; 
     let (support, mut both) = (boundary.support()?, <[Triplets; 2]>::default());
     add_support(mesh, (boundary, support), &mut both);
     Some((both, support.loss_factor))
+}
+
+/// [`assemble_supports`] on the faces of each element that has some: what a body loses with the element.
+pub fn element_supports(mesh: &Mesh) -> BTreeMap<u32, [Triplets; 2]> {
+    let mut all = BTreeMap::<u32, [Triplets; 2]>::new();
+    for boundary in &mesh.boundaries {
+        let Some(support) = boundary.support() else { continue };
+        let mut faces: BTreeMap<u32, Vec<BoundaryFace>> = BTreeMap::new();
+        for face in &boundary.faces {
+            faces.entry(face.element).or_default().push(face.clone());
+        }
+        for (element, faces) in faces {
+            let mut lengths: BTreeMap<usize, f64> = BTreeMap::new();
+            at_points(mesh, &faces, |point, nodes| {
+                for ((node, _), value) in nodes.iter().zip(&point.values) {
+                    *lengths.entry(*node).or_default() += value * Vector3::from(point.area).norm();
+                }
+            });
+            let angle = |node: &u32| boundary.nodes.iter().position(|own| own == node);
+            let angle = |node: &u32| boundary.normal_angles.get(angle(node)?).copied();
+            let nodes: Vec<u32> = lengths.keys().map(|&node| node as u32).collect();
+            let part = Boundary {
+                normal_angles: nodes.iter().filter_map(angle).collect(),
+                tributary_lengths: lengths.into_values().collect(),
+                nodes,
+                faces,
+                ..Boundary::default()
+            };
+            add_support(mesh, (&part, support), all.entry(element).or_default());
+        }
+    }
+    all
 }
 
 /// [`assemble_supports`] of what is attached to single nodes.

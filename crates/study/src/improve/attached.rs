@@ -17,7 +17,7 @@
 //! Source: E. J. Grimme, Krylov projection methods for model reduction, thesis, University of Illinois (1997), chapter
 //! 3 (two-sided rational interpolation).
 
-use super::base::{Base, PairedMode};
+use super::base::{Base, PairedMode, REACH};
 use frictionsim_physics::linalg::dense::{dot, transpose_product};
 use frictionsim_physics::linalg::dense_eigen::real_eigenvalues;
 use frictionsim_physics::linalg::{ComplexSparseLu, FrictionWeights, LinalgError, Mat, c64};
@@ -28,10 +28,6 @@ const MOST_MODES: usize = 16;
 
 /// Part of its length that a response must keep beside the others.
 const LEAST_PART: f64 = 1e-8;
-
-/// Distance beyond the outermost mode of the space, relative to it, within which eigenvalues of the small problem are
-/// modes.
-const REACH: f64 = 1.02;
 
 /// The projected problem with what is attached, `[M, C, K]` by power of friction.
 pub(super) struct Attached {

@@ -5,16 +5,21 @@ use crate::eigenvalues::WholeMesh;
 use crate::tangent_options;
 use frictionsim_case::{Case, CaseErrors, Cea, refusal};
 use frictionsim_physics::cea::sparse::{ModePair, mode_pairs};
-use frictionsim_physics::cea::{CeaError, FrictionSweep, SweepRequest, Unwatched};
+use frictionsim_physics::cea::{CeaError, FrictionSweep, ModeLimit, SweepRequest, Unwatched};
+use frictionsim_physics::fem::{MassKind, Triplets, element_supports};
 use frictionsim_physics::linalg::c64;
 use frictionsim_physics::mesh::Mesh;
 use frictionsim_physics::prestress::{SlidingTangent, TangentOptions};
 use frictionsim_results::improve::{State, TargetMode};
+use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
 /// Steps of friction from 0 to that of the case, over which branches are followed.
 const STEPS: usize = 4;
+
+/// Distance beyond the highest mode, relative to it, up to which modes after a change are listed.
+pub(super) const REACH: f64 = 1.02;
 
 /// A mode with its vectors over the unknowns and over all dofs.
 pub(super) struct PairedMode {
@@ -78,6 +83,8 @@ pub(super) struct Base<'a> {
     /// Displacement of the base state there, with which elements have a geometric stiffness; none where it is free of
     /// stress.
     pub displacement: Option<Vec<f64>>,
+    /// Springs and dashpots of supports on the faces of each element.
+    pub supports: BTreeMap<u32, [Triplets; 2]>,
     pub window: Window,
     /// Eigenvalues of all listed modes, by frequency.
     pub listed: Vec<c64>,
@@ -90,11 +97,15 @@ pub(super) struct Base<'a> {
 }
 
 /// The model and the spectrum of a case over its whole mesh, from friction 0 to that of the case.
-pub(super) fn spectrum_of(case: &Case, cea: &Cea) -> Result<(WholeMesh, FrictionSweep), CeaError> {
+pub(super) fn spectrum_of(
+    case: &Case,
+    mass: MassKind,
+    modes: ModeLimit,
+) -> Result<(WholeMesh, FrictionSweep), CeaError> {
     let own = case.contact.sliding.friction_coefficient;
     let frictions: Vec<f64> = (0..=STEPS).map(|i| own * i as f64 / STEPS as f64).collect();
-    let whole = WholeMesh::solve(case, tangent_options(case, cea.mass), &frictions)?;
-    let request = SweepRequest::new(&frictions, cea.modes);
+    let whole = WholeMesh::solve(case, tangent_options(case, mass), &frictions)?;
+    let request = SweepRequest::new(&frictions, modes);
     let sweep = whole.sweep(case, &request, &Unwatched)?.sweep;
     Ok((whole, sweep))
 }
@@ -115,7 +126,7 @@ impl<'a> Base<'a> {
         refuse_bodies(case)?;
         let friction = case.contact.sliding.friction_coefficient;
         let window = Window(case.improve.frequencies_hz);
-        let (whole, sweep) = spectrum_of(case, cea)?;
+        let (whole, sweep) = spectrum_of(case, cea.mass, cea.modes)?;
         let own = sweep.modes_at(friction).iter();
         let targets: Vec<c64> = own.map(|mode| mode.eigenvalue).collect();
         let outlook = window.outlook(targets.iter().copied());
@@ -134,9 +145,11 @@ impl<'a> Base<'a> {
         });
         let modes: Vec<PairedMode> = modes.collect();
         let stressing = whole.assembly(case).stressing(whole.state());
+        let mesh = case.body.mesh()?;
         Ok(Self {
+            supports: element_supports(&mesh),
             displacement: stressing.map(|state| state.displacement(friction)),
-            mesh: case.body.mesh()?,
+            mesh,
             options: tangent_options(case, cea.mass),
             state: State { critical_friction: lowest_onset(&sweep, window), ..outlook },
             case,
@@ -154,6 +167,15 @@ impl<'a> Base<'a> {
     pub fn worst_frequency(&self) -> Option<f64> {
         let own = self.listed.iter().filter(|mode| self.window.holds(**mode));
         fastest(own).map(|mode| mode.im)
+    }
+
+    /// The modes that a body with a change is to list: a mass lets more of them into as many.
+    pub fn reach(&self) -> ModeLimit {
+        let highest = self.listed.iter().map(|mode| mode.im).fold(0.0, f64::max);
+        match self.cea.modes {
+            ModeLimit::Lowest(_) => ModeLimit::MaxFrequency(REACH * highest / TAU),
+            limit => limit,
+        }
     }
 
     /// The modes that are to be silenced.

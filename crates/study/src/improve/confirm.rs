@@ -74,8 +74,8 @@ pub(super) fn tangent_of(base: &Base<'_>, keys: &[String]) -> Result<SlidingTang
 /// Runs the case with some keys.
 pub(super) fn run_again(base: &Base<'_>, keys: &[String]) -> Result<State, String> {
     let case = changed(base, keys)?;
-    let cea = case.require_cea().map_err(|errors| errors.line())?;
-    let (_, sweep) = spectrum_of(&case, cea).map_err(|error| error.to_string())?;
+    let sweep = spectrum_of(&case, base.cea.mass, base.reach());
+    let (_, sweep) = sweep.map_err(|error| error.to_string())?;
     let modes = sweep.modes_at(base.friction).iter();
     Ok(State {
         critical_friction: lowest_onset(&sweep, base.window),

@@ -108,7 +108,7 @@ pub(super) fn matrices(base: &Base<'_>, element: usize) -> [DMatrix<f64>; 2] {
     element_matrices(&base.mesh, base.case.materials(), base.cea.mass, element)
 }
 
-/// What an element adds to `M`, `C` and `K` of the tangent.
+/// What an element and the supports on its faces add to `M`, `C` and `K` of the tangent.
 pub(super) fn element_terms(base: &Base<'_>, element: usize) -> [DMatrix<f64>; 3] {
     let materials = base.case.materials();
     let region = base.mesh.region(element);
@@ -128,6 +128,17 @@ pub(super) fn element_terms(base: &Base<'_>, element: usize) -> [DMatrix<f64>; 3
             damping += &geometric * common.stiffness_coefficient;
         }
         stiffness += geometric;
+    }
+    if let Some([springs, dashpots]) = base.supports.get(&(element as u32)) {
+        let dofs: Vec<usize> = base.mesh.element_dofs(element).collect();
+        let place = |dof: usize| dofs.iter().position(|own| *own == dof);
+        for (sum, own) in [(&mut stiffness, springs), (&mut damping, dashpots)] {
+            for &(row, column, value) in &own.entries {
+                if let (Some(i), Some(j)) = (place(row), place(column)) {
+                    sum[(i, j)] += value;
+                }
+            }
+        }
     }
     [mass, damping, stiffness]
 }

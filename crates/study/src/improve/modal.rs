@@ -53,8 +53,8 @@ pub(super) struct ModalModel<'a> {
     unknowns: [Mat<f64>; 2],
     /// What each power of friction from the first on multiplies.
     friction: Vec<Projected>,
-    /// Frequencies below, above and amid the targets, rad/s, and the factors of the full problem there.
-    dynamic: [(f64, ComplexSparseLu); 3],
+    /// Frequencies below, above and amid the targets and above all modes, rad/s, and the factors of the full problem there.
+    dynamic: [(f64, ComplexSparseLu); 4],
     near: NearModes<'a>,
 }
 
@@ -68,12 +68,13 @@ impl<'a> ModalModel<'a> {
         let conjugates = values.iter().map(|value| value.conj());
         let right = columns(base.modes.iter().map(|mode| mode.pair.right.as_slice()));
         let left = columns(base.modes.iter().map(|mode| mode.pair.left.as_slice()));
+        let near = NearModes::of(base);
         let mut model = Self {
             values: values.iter().copied().chain(conjugates).collect(),
             unknowns: [right, left],
             friction: Vec::new(),
-            dynamic: dynamic_factors(base)?,
-            near: NearModes::of(base),
+            dynamic: dynamic_factors(base, near.range[1])?,
+            near,
             base,
         };
         let tangent = &base.tangent;
@@ -321,8 +322,8 @@ impl<'a> ModalModel<'a> {
     }
 }
 
-/// Frequencies below, above and amid the targets, and the factors of `T(i omega)` there.
-fn dynamic_factors(base: &Base<'_>) -> Result<[(f64, ComplexSparseLu); 3], LinalgError> {
+/// Frequencies below, above and amid the targets and at the `end` of what is looked at, and the factors of `T(i omega)` there.
+fn dynamic_factors(base: &Base<'_>, end: f64) -> Result<[(f64, ComplexSparseLu); 4], LinalgError> {
     let targets = base.targets();
     let frequencies = || targets.iter().map(|mode| mode.eigenvalue().im);
     let low = frequencies().fold(f64::INFINITY, f64::min);
@@ -331,7 +332,7 @@ fn dynamic_factors(base: &Base<'_>) -> Result<[(f64, ComplexSparseLu); 3], Linal
     let factors = |omega: f64| Ok((omega, problem.factors(c64::new(0.0, omega))?));
     let [below, above] = [BESIDE[0] * low, BESIDE[1] * high];
     let amid = (below * above).sqrt();
-    Ok([factors(below)?, factors(above)?, factors(amid)?])
+    Ok([factors(below)?, factors(above)?, factors(amid)?, factors(end.max(BESIDE[1] * above))?])
 }
 
 /// One coefficient of a polynomial, if it has it.
