@@ -272,10 +272,9 @@ pub fn run_arguments(given: Vec<OsString>) -> u8 {
     let given = options_behind_subcommand(&command, given);
     let matches = command.clone().try_get_matches_from(given);
     let parsed = matches.and_then(|found| {
-        let threads =
-            found.subcommand().and_then(|own| own.1.try_get_one::<u16>("threads").ok()?);
-        if threads.is_some() {
-            start_threads(threads.copied());
+        let threads = found.subcommand().and_then(|own| own.1.try_get_one("threads").ok()?);
+        if let Some(threads) = threads {
+            start_threads(Some(*threads));
         }
         CommandLine::from_arg_matches(&found)
     });

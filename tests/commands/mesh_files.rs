@@ -44,16 +44,16 @@ fn the_statistics_of_a_brake_of_an_input_file_are_those_of_its_geometry() {
     has(&summary["notes"].to_string(), &[ties]);
 }
 
-/// Closed form: a polygon of 24 straight sides, all around and at its edges.
+/// Closed form: a polygon of 24 straight sides, around which each node has its share of the tangent.
 #[test]
 fn a_body_of_revolution_names_its_four_faces_and_the_one_that_a_ring_presses_on() {
     let coarse =
         "mesh.circumferential_elements=24 ; mesh.radial_elements=4 ; mesh.axial_elements=2";
     let run = Run::of("mesh", shipped("ring-on-layer.toml")).out("out");
     let summary = run.set(&[coarse, "mesh.element=quad4"]).done().summary();
-    let half_step = std::f64::consts::PI / 24.0;
-    let around = |radius: f64| 48.0 * radius * half_step.sin();
-    let face = 12.0 * (0.0905f64.powi(2) - 0.0205f64.powi(2)) * (2.0 * half_step).sin();
+    let sine = (std::f64::consts::PI / 12.0).sin();
+    let around = |radius: f64| 24.0 * radius * sine;
+    let face = 12.0 * (0.0905f64.powi(2) - 0.0205f64.powi(2)) * sine;
     let rows = [
         ("inner", "free", 72, around(0.0205) * 0.009),
         ("outer", "clamped", 72, around(0.0905) * 0.009),

@@ -206,8 +206,8 @@ pub(super) fn friction_decay(section: &Section<'_>) -> Option<FrictionDecay> {
 /// Interference that the search begins with, m; any other leads to the same root.
 const START: f64 = 1e-6;
 
-/// The interference of a contact as a section gives it; none where it is left out and a boundary pressure presses. Where a
-/// force presses, a stand-in until the body is known.
+/// The interference of a contact as a section gives it; none where it is left out and a boundary pressure presses.
+/// Where a force presses, a stand-in until the body is known.
 pub(super) fn interference(section: &Section<'_>, is_pressed: bool) -> f64 {
     let given = section.optional_number("interference");
     if section.optional_number("normal_force").is_none() {

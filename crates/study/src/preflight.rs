@@ -80,7 +80,7 @@ pub fn preflight(case: &Case, available: f64) -> Result<Preflight, StudyError> {
         let plan = TransientStudy::new(case, SimdLevel::detect());
         let plan = found.tolerate("transient", plan.and_then(|study| study.preflight()))?;
         if let (Some(run), Some(plan)) = (&mut found.cost.transient, plan) {
-            let steps = plan.total_steps() as u64;
+            let steps = plan.total_steps();
             run.run.operations *= steps as f64 / run.steps as f64;
             run.time_step = plan.time_step;
             run.steps = steps;
