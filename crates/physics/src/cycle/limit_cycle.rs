@@ -129,12 +129,6 @@ impl LimitCycle {
         is_outside && self.powers.contact.normal < 5e-3 * self.powers.contact.external.abs()
     }
 
-    /// Whether every point slips at every phase: the motion is linear then, nothing bounds it, and but for round-off and
-    /// waves of the grid it is steady sliding.
-    pub fn slips(&self) -> bool {
-        self.fractions[0] + self.fractions[2] <= 0.0
-    }
-
     /// `omega / 2 pi`, Hz: the main frequency of any point of the body.
     pub fn frequency_hz(&self) -> f64 {
         self.state.frequency() / TAU

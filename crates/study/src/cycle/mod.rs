@@ -185,22 +185,17 @@ impl<'a> CycleStudy<'a> {
         };
         // What the mesh's own time stepping makes of it.
         match solver.stepping(self.simd) {
-            Ok(stepping) => self.step(&stepping, &mut found)?,
+            Ok(stepping) => self.step(&stepping, &mut found),
             Err(error) => found.confirmation = Some(Err(error.to_string())),
         }
         Ok(found)
     }
 
-    /// Stability of a cycle and of its branch, and what a transient says of it; why it is none, if so.
-    fn step(&self, stepping: &MeshStepping<'_>, found: &mut FoundWave) -> Result<(), Absence> {
+    /// Stability of a cycle and of its branch, and what a transient says of it.
+    fn step(&self, stepping: &MeshStepping<'_>, found: &mut FoundWave) {
         let (choice, periods) = (self.choices.stability, self.choices.confirmation_periods);
         if choice != StabilityChoice::None {
             let settled = stepping.settle(&found.cycle, None).map_err(|error| error.to_string());
-            if settled.as_ref().is_ok_and(|settled| settled.cycle.slips()) {
-                let reason = "the time stepping of this mesh takes the wave back to steady sliding, \
-                    where every node slips. Refine the mesh, or let a transient tell";
-                return Err(Absence { reason: reason.to_owned(), is_stable: false });
-            }
             // The powers and fractions of the cycle become those of the transient.
             found.stability = Some(settled.map(|settled| {
                 found.cycle = settled.cycle;
@@ -216,7 +211,6 @@ impl<'a> CycleStudy<'a> {
             let stability = settled.into_iter().map(|own| Some(own.map(|own| own.stability)));
             found.branch_stability = stability.collect();
         }
-        Ok(())
     }
 }
 
