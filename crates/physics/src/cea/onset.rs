@@ -181,8 +181,16 @@ impl<B: BranchSolver> Search<'_, B> {
     }
 
     /// Root of `Re(lambda)` between states of opposite sign: Newton steps on the branch, kept inside the
-    /// bracket, from the root of the cubic; nothing where it jumps across zero.
+    /// bracket, from the root of the cubic; nothing where it jumps across zero. A branch that is neutral on one side begins to grow where
+    /// that exceeds round-off.
     fn root(&mut self, start: &B::State, end: &B::State) -> Result<Option<B::State>, B::Error> {
+        let falls = self.is_growing(start);
+        let calm = if falls { end } else { start };
+        let is_neutral = self.solver.point(calm).eigenvalue.re > -self.round_off(calm);
+        let height = |search: &Self, state: &B::State| match is_neutral {
+            true => search.growth(state),
+            false => search.solver.point(state).eigenvalue.re,
+        };
         let (first, last) = (self.solver.point(start), self.solver.point(end));
         let cubic = Cubic::between(&first, &last);
         let (mut low, mut high) = (start.clone(), end.clone());
@@ -199,12 +207,12 @@ impl<B: BranchSolver> Search<'_, B> {
             };
             let point = self.solver.point(&state);
             // The bracket closes from the side that the new state is on.
-            if self.is_growing(&state) == self.is_growing(&low) {
+            let growth = height(self, &state);
+            if (growth > 0.0) == falls {
                 (low, bottom) = (state.clone(), friction);
             } else {
                 (high, top) = (state.clone(), friction);
             }
-            let growth = self.growth(&state);
             best = state;
             let newton = friction - growth / point.rate.re;
             let is_inside = newton > bottom && newton < top;
@@ -216,7 +224,7 @@ impl<B: BranchSolver> Search<'_, B> {
         }
         let point = self.solver.point(&best);
         let steep = 10.0 * B::TOLERANCE * (1.0 + point.friction_coefficient) * point.rate.re.abs();
-        let has_root = self.growth(&best).abs() <= steep.max(JUMP * point.eigenvalue.norm());
+        let has_root = height(self, &best).abs() <= steep.max(JUMP * point.eigenvalue.norm());
         Ok(has_root.then_some(best))
     }
 }
