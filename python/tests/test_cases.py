@@ -57,6 +57,20 @@ def test_every_shipped_case_is_there_with_its_files(tmp_path: Path) -> None:
         Case.shipped("nothing")
 
 
+def test_a_mesh_file_suggests_a_case(tmp_path: Path) -> None:
+    frictionsim.write_shipped_cases(tmp_path)
+    mesh = tmp_path / "meshes" / "tread-block.msh"
+    assert frictionsim.init(mesh)["mesh.file"] == mesh.name
+    with pytest.raises(FileExistsError):
+        frictionsim.init(mesh)
+    frictionsim.init(mesh, force=True).validate()
+
+
+def test_columns_are_found_by_a_word() -> None:
+    found = frictionsim.columns("growth_rate_per_s")
+    assert any((own["file"], own["unit"]) == ("eigenvalues.csv", "1/s") for own in found)
+
+
 def test_an_error_in_the_file_says_line_key_and_remedy() -> None:
     text = Case.shipped("polycarbonate-disc").text.replace("shapes_at", "shape_at")
     case = Case.parse(text)
