@@ -165,11 +165,11 @@ fn lines(case: &Case, found: &Preflight) -> Vec<(&'static str, String, RunCost)>
             ("basin", "one boundary between two limit cycles".to_owned(), run)
         }),
         frf.map(|own| ("frf", plural(own.lines, "frequency", "frequencies"), own.run)),
-        study("convergence", found.convergence, &|runs| {
+        study("convergence", case.convergence_cost(), &|runs| {
             format!("{} ({})", plural(runs, "run", "runs"), meshes(case))
         }),
-        study("sweep", found.sweep, &|runs| plural(runs, "point", "points")),
-        study("uncertainty", found.uncertainty, &|runs| plural(runs, "run", "runs")),
+        study("sweep", case.sweep_cost(), &|runs| plural(runs, "point", "points")),
+        study("uncertainty", case.uncertainty_cost(), &|runs| plural(runs, "run", "runs")),
     ];
     all.into_iter().flatten().collect()
 }
@@ -195,7 +195,7 @@ fn meshes(case: &Case) -> String {
 }
 
 fn object(name: &str, case: &Case, found: &Preflight) -> Value {
-    let cost = &found.cost;
+    let (cost, sweep) = (&found.cost, case.sweep_cost());
     let warnings = case.warnings.iter().chain(&found.warnings);
     json!({
         "case": name,
@@ -211,14 +211,14 @@ fn object(name: &str, case: &Case, found: &Preflight) -> Value {
         "cycle": cost.cycle,
         "basin": cost.basin,
         "frf": cost.frf,
-        "convergence": found.convergence,
-        "uncertainty": found.uncertainty,
-        "sweep": found.sweep.map(|own| json!({
+        "convergence": case.convergence_cost(),
+        "uncertainty": case.uncertainty_cost(),
+        "sweep": sweep.map(|own| json!({
             "points": own.runs,
             "memory_bytes": own.run.memory_bytes as u64,
             "time": own.run.time(),
         })),
-        "sweep_points": found.sweep.map(|sweep| sweep.runs),
+        "sweep_points": sweep.map(|sweep| sweep.runs),
         "notes": case.taken.notes,
         "warnings": warnings.map(ToString::to_string).collect::<Vec<_>>(),
     })

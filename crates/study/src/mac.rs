@@ -56,13 +56,8 @@ pub fn assurance(case: &Case, shapes: &MeasuredShapes) -> Result<MacSummary, Stu
     // Before anything is solved.
     let placed = shapes.placed(case, &model.mesh)?;
     let solution = solve(case, &own, &model, None)?;
-    let modes: Vec<_> = solution
-        .sweep
-        .points
-        .iter()
-        .flat_map(|point| &point.modes)
-        .filter(|mode| mode.shape.is_some())
-        .collect();
+    let modes = solution.sweep.modes_at(friction).iter();
+    let modes: Vec<_> = modes.filter(|mode| mode.shape.is_some()).collect();
 
     // The matrix and the pairs.
     let matrix = shapes.criteria(&model.mesh, &modes, &placed);

@@ -67,9 +67,7 @@ pub fn matrices(case: &Case, friction: Option<f64>) -> Result<ExportedSystem, St
         ("H", tangent.structural(), |friction_power| MatrixRole::Structural { friction_power }),
     ];
     for (name, polynomial, role) in parts {
-        if let Some(polynomial) = polynomial {
-            matrices.extend(powers(name, polynomial, friction, role));
-        }
+        matrices.extend(polynomial.into_iter().flat_map(|own| powers(name, own, friction, role)));
     }
     contact_rows(&body, (case, tangent), &mut system);
     Ok(system)
@@ -139,10 +137,8 @@ fn contact_rows(
     (case, tangent): (&Case, &SlidingTangent),
     system: &mut ExportedSystem,
 ) {
-    let combined: BTreeMap<usize, &Row> = {
-        let distances = tangent.distances.iter();
-        distances.map(|(dof, row)| (*dof, row)).collect()
-    };
+    let distances = tangent.distances.iter();
+    let combined: BTreeMap<usize, &Row> = distances.map(|(dof, row)| (*dof, row)).collect();
     // A row over all dofs as one over the unknowns, without what cancels.
     let over_unknowns = |row: &Row| -> Row {
         let mut sum: BTreeMap<usize, f64> = BTreeMap::new();

@@ -6,7 +6,7 @@ use super::plan::SweepPlan;
 use super::response::FrequencyStudy;
 use super::transient::TransientStudy;
 use super::{StudyError, eigenvalues};
-use frictionsim_case::{Case, CaseErrors, Cea, CeaMethod, Cost, Diagnostic, Location, StudyCost};
+use frictionsim_case::{Case, CaseErrors, Cea, CeaMethod, Cost, Diagnostic, Location};
 use frictionsim_physics::fem::operator::SimdLevel;
 use frictionsim_physics::mesh::SolidSector;
 
@@ -23,12 +23,6 @@ pub struct Preflight {
     pub cost: Cost,
     /// Whether time step and number of steps are the run's own.
     pub is_step_exact: bool,
-    /// Cost of the parameter study.
-    pub sweep: Option<StudyCost>,
-    /// Cost of the convergence study.
-    pub convergence: Option<StudyCost>,
-    /// Cost of the samples of an uncertainty study.
-    pub uncertainty: Option<StudyCost>,
     /// Memory of the hungriest command, bytes.
     pub memory_bytes: f64,
     /// Keys that an analysis of the case ignores.
@@ -43,9 +37,6 @@ pub fn preflight(case: &Case, available: f64) -> Result<Preflight, StudyError> {
     let mut found = Preflight {
         cost: case.cost(),
         is_step_exact: false,
-        sweep: case.sweep_cost(),
-        convergence: case.convergence_cost(),
-        uncertainty: case.uncertainty_cost(),
         memory_bytes: 0.0,
         warnings: Vec::new(),
     };

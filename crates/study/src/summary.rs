@@ -10,7 +10,6 @@ use frictionsim_physics::cea::Unwatched;
 use frictionsim_physics::fem::operator::SimdLevel;
 use frictionsim_results::cycle::CycleSummary;
 use frictionsim_results::{self, Head, Manifest, object};
-use serde::Serialize;
 use serde_json::Value;
 use std::time::Instant;
 
@@ -29,15 +28,11 @@ pub fn summarize(
         Analysis::Basin => {
             let start = Instant::now();
             let found = basin::summary(case, manifest)?;
-            told("basin", Head::of(&case.title, start.elapsed().as_secs_f64()), &found)
+            let head = Head::of(&case.title, start.elapsed().as_secs_f64());
+            Ok(object("basin", head, &found)?)
         }
         Analysis::Cycle => cycle(case, manifest, refuse_nothing),
     }
-}
-
-/// What an analysis has found, without what it was made from.
-fn told(command: &str, head: Head<'_>, found: &impl Serialize) -> Result<Value, StudyError> {
-    Ok(object(command, head, found)?)
 }
 
 /// Mode shapes are not computed.
@@ -48,7 +43,8 @@ fn cea(case: &Case) -> Result<Value, StudyError> {
     eigenvalues::refuse_no_modes(&case, &cea, &solution.sweep)?;
     let wall_s = start.elapsed().as_secs_f64();
     let report = eigenvalues::report(&case, &cea, &model, &solution, wall_s);
-    told("cea", Head::of(report.title, wall_s), &frictionsim_results::cea::summary(&report))
+    let found = frictionsim_results::cea::summary(&report);
+    Ok(object("cea", Head::of(report.title, wall_s), &found)?)
 }
 
 fn transient(case: &Case, manifest: &Manifest) -> Result<Value, StudyError> {
@@ -56,7 +52,7 @@ fn transient(case: &Case, manifest: &Manifest) -> Result<Value, StudyError> {
     let study = TransientStudy::new(case, SimdLevel::choose(&manifest.simd)?)?;
     let solved = study.solve()?;
     let report = study.report(&solved, start.elapsed().as_secs_f64());
-    told("transient", report.head, &frictionsim_results::transient::summary(&report))
+    Ok(object("transient", report.head, &frictionsim_results::transient::summary(&report))?)
 }
 
 /// The limit cycles with their branches as `curves`, of which the command itself writes tables; `judge` may refuse what
@@ -78,5 +74,5 @@ pub(super) fn cycle(
     let head = Head::of(&case.title, start.elapsed().as_secs_f64());
     judge(&found)?;
     let curves = Some(found.families());
-    told("cycle", head, &CycleSummary { curves, ..found })
+    Ok(object("cycle", head, &CycleSummary { curves, ..found })?)
 }

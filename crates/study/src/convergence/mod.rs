@@ -172,7 +172,7 @@ fn series(case: &Case, study: &Levels, outcomes: Vec<Timed>) -> Result<Vec<Serie
     };
     Ok(match study.analysis {
         Analysis::Cea => {
-            let (quantities, notes) = quantities::of_sweeps(case, &sizes, &sweeps);
+            let (quantities, notes) = quantities::of_sweeps(case, &sizes, sweeps);
             vec![of("cea", quantities, notes)]
         }
         Analysis::Transient => {

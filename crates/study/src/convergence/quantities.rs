@@ -32,18 +32,12 @@ fn name_of((harmonic, branch, direction): ModeKey, has_harmonics: bool) -> Strin
 pub fn of_sweeps(
     case: &Case,
     sizes: &[f64],
-    sweeps: &[FrictionSweep],
+    mut sweeps: Vec<FrictionSweep>,
 ) -> (Vec<Quantity>, Vec<String>) {
     let friction = case.contact.sliding.friction_coefficient;
-    let mut named = Vec::new();
-    let sweeps = match case.body.has_sectors() {
-        true => sweeps,
-        false => {
-            named.extend_from_slice(sweeps);
-            name_by_rank(&mut named, friction);
-            &named
-        }
-    };
+    if !case.body.has_sectors() {
+        name_by_rank(&mut sweeps, friction);
+    }
     let modes: Vec<&[ComplexMode]> = sweeps.iter().map(|sweep| sweep.modes_at(friction)).collect();
     let everywhere = everywhere(&modes, key_of);
     let mut quantities = Vec::new();
@@ -59,7 +53,7 @@ pub fn of_sweeps(
             });
         }
     }
-    quantities.extend(onsets(sizes, sweeps, case.body.has_sectors()));
+    quantities.extend(onsets(sizes, &sweeps, case.body.has_sectors()));
     let mut notes = vec![format!("{} modes at friction coefficient {friction}", everywhere.len())];
     let most = modes.iter().map(|level| level.len()).max().unwrap_or(0);
     if most > everywhere.len() {

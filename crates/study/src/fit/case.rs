@@ -15,11 +15,6 @@ use frictionsim_results::fit::FitSummary;
 /// Modes are computed up to this much above the highest line.
 const MARGIN: f64 = 1.15;
 
-/// Modes are computed up to this frequency.
-fn limit_hz(lines: &[MeasuredMode]) -> f64 {
-    MARGIN * lines.iter().map(|line| line.frequency_hz).fold(0.0, f64::max)
-}
-
 /// Fits the parameters of a case to measured modes, with measured shapes of some of the lines. The name of the
 /// measurement is left open.
 ///
@@ -42,7 +37,7 @@ pub fn fit_case(
         }
         None => vec![None; lines.len()],
     };
-    let limit_hz = limit_hz(lines);
+    let limit_hz = MARGIN * lines.iter().map(|line| line.frequency_hz).fold(0.0, f64::max);
     let model = |values: &[f64], with_rates: bool| {
         modes(case, (wanted, shapes), values, limit_hz, with_rates)
     };

@@ -163,12 +163,6 @@ impl<'a> Base<'a> {
         })
     }
 
-    /// Angular frequency of the mode of the window that grows fastest, rad/s.
-    pub fn worst_frequency(&self) -> Option<f64> {
-        let own = self.listed.iter().filter(|mode| self.window.holds(**mode));
-        fastest(own).map(|mode| mode.im)
-    }
-
     /// The modes that a body with a change is to list: a mass lets more of them into as many.
     pub fn reach(&self) -> ModeLimit {
         let highest = self.listed.iter().map(|mode| mode.im).fold(0.0, f64::max);

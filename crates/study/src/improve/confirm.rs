@@ -14,13 +14,8 @@ const NAME: &str = "improve";
 
 /// The law of a spring along a direction, or in every one.
 pub(super) fn law(direction: Option<[f64; 3]>) -> Matrix3<f64> {
-    match direction {
-        None => Matrix3::identity(),
-        Some(direction) => {
-            let along = Vector3::from(direction);
-            along * along.transpose()
-        }
-    }
+    let along = direction.map(Vector3::from);
+    along.map_or_else(Matrix3::identity, |along| along * along.transpose())
 }
 
 /// The case keys that make a trial, `KEY=VALUE`.

@@ -37,6 +37,7 @@ use modal::{Change, ModalModel};
 use nalgebra::DMatrix;
 use places::Places;
 use std::collections::{BTreeMap, BTreeSet};
+use std::f64::consts::TAU;
 use std::sync::Arc;
 use trial::{Search, Target, Trial};
 
@@ -117,7 +118,7 @@ pub fn improve(case: &Case) -> Result<Improvement, StudyError> {
 /// its targets.
 fn sizes(base: &Base<'_>) -> Sizes {
     let asked = &base.case.improve;
-    let worst = base.worst_frequency().unwrap_or(1.0);
+    let worst = base.state.frequency_hz.map_or(1.0, |own| TAU * own);
     let masses = lumped_masses(&base.mesh, base.case.materials());
     let own = |asked: Option<f64>, usual: f64| asked.unwrap_or(rounded(usual, 4));
     let mass = own(asked.mass, 0.01 * base.case.depth() * masses.iter().sum::<f64>());

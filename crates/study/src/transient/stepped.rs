@@ -32,16 +32,10 @@ impl<'a> SteppedMesh<'a> {
         let (mut annulus, mut sector, mut assembly) = (None, None, None);
         let mesh = match &case.body.kind {
             BodyKind::Annulus(specification) => {
-                let generated = AnnulusMesh::generate(specification)?;
-                let mesh = Arc::new(generated.mesh.clone());
-                annulus = Some(generated);
-                mesh
+                Arc::new(annulus.insert(AnnulusMesh::generate(specification)?).mesh.clone())
             }
             BodyKind::Revolution(specification) => {
-                let generated = SolidSector::generate(specification)?;
-                let mesh = Arc::new(generated.section()?);
-                sector = Some(generated);
-                mesh
+                Arc::new(sector.insert(SolidSector::generate(specification)?).section()?)
             }
             BodyKind::Imported(imported) => Arc::clone(&imported.mesh),
             BodyKind::Assembly(body) => {
