@@ -57,25 +57,11 @@ impl SectorMatrix {
         components: usize,
         entries: impl IntoIterator<Item = (usize, usize, isize, f64)>,
     ) -> Self {
+        // Columns are `STEPS` times those of the matrix, plus the difference of angles.
         let mut terms = Triplets::default();
         for (row, column, ahead, value) in entries.into_iter().filter(|entry| entry.3 != 0.0) {
             terms.push(row, STEPS * column + REACH.wrapping_add_signed(ahead), value);
         }
-        Self::merged(components, terms)
-    }
-
-    /// From products of rows over the `dofs` of a sector and of those beside it, see [`dof_ahead`].
-    pub fn of_places(components: usize, dofs: usize, products: &Triplets) -> Self {
-        let entries = products.entries.iter().map(|&(row, column, value)| {
-            let steps = STEPS + column / dofs - row / dofs;
-            let ahead = ((steps + REACH) % STEPS) as isize - REACH as isize;
-            (row % dofs, column % dofs, ahead, value)
-        });
-        Self::of_entries(components, entries)
-    }
-
-    /// From entries whose columns are `STEPS` times those of the matrix, plus the difference of angles.
-    fn merged(components: usize, mut terms: Triplets) -> Self {
         if terms.entries.is_empty() {
             return Self::default();
         }
@@ -91,6 +77,16 @@ impl SectorMatrix {
         }
         starts.push(entries.len());
         Self { components, starts, entries }
+    }
+
+    /// From products of rows over the `dofs` of a sector and of those beside it, see [`dof_ahead`].
+    pub fn of_places(components: usize, dofs: usize, products: &Triplets) -> Self {
+        let entries = products.entries.iter().map(|&(row, column, value)| {
+            let steps = STEPS + column / dofs - row / dofs;
+            let ahead = ((steps + REACH) % STEPS) as isize - REACH as isize;
+            (row % dofs, column % dofs, ahead, value)
+        });
+        Self::of_entries(components, entries)
     }
 
     /// `(row, column, halves of a sector ahead, value)` of every entry.

@@ -73,14 +73,12 @@ pub fn nodal_stress(
     displacement: &[f64],
 ) -> Vec<NodalStress> {
     let nodes = recovered_stress(mesh, material, displacement).into_iter().enumerate();
-    nodes
-        .map(|(node, found)| match found {
-            Some((stress, region)) => {
-                in_frame(stress, mesh.reported_angle(node), material.of(region))
-            }
-            None => NodalStress::default(),
-        })
-        .collect()
+    let stress = |(node, found): (usize, Option<(Voigt, usize)>)| {
+        let own =
+            |(stress, region)| in_frame(stress, mesh.reported_angle(node), material.of(region));
+        found.map(own).unwrap_or_default()
+    };
+    nodes.map(stress).collect()
 }
 
 /// Stress at each node of a solid body, recovered as [`nodal_stress`] does.
@@ -92,9 +90,7 @@ pub fn solid_stress(
     displacement: &[f64],
 ) -> Vec<SolidStress> {
     let recovered = recovered_stress(mesh, material, displacement).into_iter();
-    recovered
-        .map(|found| found.map_or_else(SolidStress::default, |(stress, _)| SolidStress(stress)))
-        .collect()
+    recovered.map(|found| SolidStress(found.unwrap_or_default().0)).collect()
 }
 
 /// Stress at each node of a body of revolution in its nodal frames, components `(rr, tt, zz, rt, tz, zr)`, recovered as
@@ -120,14 +116,10 @@ pub fn revolved_stress(
         .map(|angle| Rotation3::from_axis_angle(&Vector3::z_axis(), angle))
         .collect();
     let of_node = |node: usize| &displacement[3 * node % displacement.len()..][..3];
-    let cartesian: Vec<f64> = frames
-        .iter()
-        .enumerate()
-        .flat_map(|(node, frame)| {
-            let [x, y, z] = (frame * Vector3::from_column_slice(of_node(node))).into();
-            [x, y, z]
-        })
-        .collect();
+    let cartesian = |(node, frame): (usize, &Rotation3<f64>)| -> [f64; 3] {
+        (frame * Vector3::from_column_slice(of_node(node))).into()
+    };
+    let cartesian: Vec<f64> = frames.iter().enumerate().flat_map(cartesian).collect();
     let found = solid_stress(&mesh, material, &cartesian);
     let shown = match given {
         1 => count / 2 * per_sector..(count / 2 + 1) * per_sector,
@@ -153,19 +145,15 @@ fn recovered_stress(
             geometry.stresses(&points, material.of(mesh.region(e)), &values)
         })
         .collect();
-    let value = |weights: &[(usize, f64)]| {
+    let stress = |node: usize| {
+        let (region, weights) = recovery.first(node)?;
         let mut sum = [0.0; 6];
         for (sample, weight) in weights {
             (0..6).for_each(|k| sum[k] += weight * samples[*sample][k]);
         }
-        sum
+        Some((sum, region))
     };
-    (0..mesh.node_count())
-        .map(|node| {
-            let (region, weights) = recovery.first(node)?;
-            Some((value(weights), region))
-        })
-        .collect()
+    (0..mesh.node_count()).map(stress).collect()
 }
 
 fn in_frame(stress: Voigt, angle: f64, material: &ElasticMaterial) -> NodalStress {

@@ -31,7 +31,9 @@ pub fn assemble_supports(mesh: &Mesh) -> [Triplets; 2] {
             add_support(mesh, (boundary, support), &mut both);
         }
     }
-    add_attachments(mesh, &mut both);
+    for (all, attached) in both.iter_mut().zip(assemble_attachments(mesh)) {
+        all.entries.extend(attached.entries);
+    }
     both
 }
 
@@ -72,13 +74,6 @@ pub fn element_supports(mesh: &Mesh) -> BTreeMap<u32, [Triplets; 2]> {
         }
     }
     all
-}
-
-/// [`assemble_supports`] of what is attached to single nodes.
-pub fn assemble_attachments(mesh: &Mesh) -> [Triplets; 2] {
-    let mut both = <[Triplets; 2]>::default();
-    add_attachments(mesh, &mut both);
-    both
 }
 
 /// Adds springs and dashpots of a boundary: of a solid `∫ N_I N_J F_I^T (k_n n n^T + k_t (1 - n n^T)) F_J dA`, in the plane node by
@@ -134,9 +129,9 @@ fn add_support(
     });
 }
 
-/// Adds springs and dashpots at single nodes.
-fn add_attachments(mesh: &Mesh, both: &mut [Triplets; 2]) {
-    let d = mesh.dimension;
+/// [`assemble_supports`] of what is attached to single nodes.
+pub fn assemble_attachments(mesh: &Mesh) -> [Triplets; 2] {
+    let (d, mut both) = (mesh.dimension, <[Triplets; 2]>::default());
     for attachment in &mesh.attachments {
         let laws = [&attachment.stiffness, &attachment.damping];
         for (triplets, law) in both.iter_mut().zip(laws) {
@@ -146,6 +141,7 @@ fn add_attachments(mesh: &Mesh, both: &mut [Triplets; 2]) {
             }
         }
     }
+    both
 }
 
 /// Forces of the dead boundary pressures over all dofs in nodal frames, `- ∫ N_I p F_I^T n dA`, N, in the plane for each metre of
