@@ -1,7 +1,7 @@
 //! The contact edge of a mesh.
 
 use super::opposite::{OppositeMotion, meetings};
-use super::{Point, Row, SlidingContact, SteadyFriction};
+use super::{Point, Row, SlidingContact, SteadyFriction, scaled};
 use crate::mesh::{BoundaryCondition, Counterface, Mesh};
 
 /// Contact nodes with their geometry, in order along the edge (of rising angle on the annulus).
@@ -91,8 +91,7 @@ impl ContactInterface {
 
     fn relative(&self, i: usize, dof: usize, direction: usize) -> Row {
         let opposite = self.opposite.get(i).map_or(&[][..], |own| &own.moves[direction]);
-        let opposite = opposite.iter().map(|&(dof, along)| (dof, -along));
-        std::iter::once((dof, 1.0)).chain(opposite).collect()
+        std::iter::once((dof, 1.0)).chain(scaled(opposite, -1.0)).collect()
     }
 
     /// Full dof of contact node `i`'s normal displacement.

@@ -17,20 +17,6 @@ impl CoulombFriction {
     /// within the step, the direction is that of `w*`.
     pub fn resolve_point(&self, point: &Slipping<[f64; 2]>, normal: f64) -> Friction<[f64; 2]> {
         let Slipping { inertia, free_slip: free, slip_before: before } = *point;
-        let along = |[a, b]: [f64; 2], inertia: f64| -> Option<Friction<[f64; 2]>> {
-            let length = a.hypot(b);
-            let [a, b] = if length > 0.0 { [a / length, b / length] } else { [1.0, 0.0] };
-            let part = |[x, y]: [f64; 2]| a * x + b * y;
-            let node = Slipping {
-                inertia: point.inertia,
-                free_slip: part(free),
-                slip_before: part(before),
-            };
-            let found = self.resolve(&node, normal);
-            let turns = inertia * length <= found.force.abs();
-            (!turns && found.status == ContactStatus::Slip && found.force > 0.0)
-                .then_some(found.with([found.force * a, found.force * b]))
-        };
         let size = free[0].hypot(free[1]);
         let whole = Slipping {
             inertia,
@@ -40,8 +26,14 @@ impl CoulombFriction {
         let end = self.resolve(&whole, normal);
         if end.status == ContactStatus::Slip {
             let mean = [0, 1].map(|c| 0.5 * (free[c] + before[c]));
-            if let Some(found) = along(mean, 2.0 * inertia) {
-                return found;
+            let length = mean[0].hypot(mean[1]);
+            let [a, b] = if length > 0.0 { mean.map(|c| c / length) } else { [1.0, 0.0] };
+            let part = |[x, y]: [f64; 2]| a * x + b * y;
+            let node = Slipping { inertia, free_slip: part(free), slip_before: part(before) };
+            let found = self.resolve(&node, normal);
+            let turns = 2.0 * inertia * length <= found.force.abs();
+            if !turns && found.status == ContactStatus::Slip && found.force > 0.0 {
+                return found.with([found.force * a, found.force * b]);
             }
         }
         let share = end.force / size.max(f64::MIN_POSITIVE);

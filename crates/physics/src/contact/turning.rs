@@ -133,11 +133,8 @@ impl ContactSurface {
             let turn = |a: Vector3<f64>, b: Vector3<f64>| match counterpart.rigid() {
                 Some(rigid) => rigid.curvature(site.position, n, [a, b]),
                 None => {
-                    let parts = site
-                        .slopes
-                        .iter()
-                        .map(|(node, g)| g.dot(&b) * Vector3::from(normals[node]).dot(&a));
-                    parts.sum()
+                    let slopes = site.slopes.iter();
+                    slopes.map(|(node, g)| g.dot(&b) * Vector3::from(normals[node]).dot(&a)).sum()
                 }
             };
             let [along, across] = [0, 1].map(|a| turn(directions[a], directions[a]));
