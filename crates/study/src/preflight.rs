@@ -108,8 +108,7 @@ impl Preflight {
             Err(error) => {
                 let message = format!("{command} would fail: {error}");
                 let at = Location::default();
-                let warning = Diagnostic::error(message, String::new(), at, None);
-                self.warnings.push(warning);
+                self.warnings.push(Diagnostic::error(message, String::new(), at, None));
                 Ok(None)
             }
         }

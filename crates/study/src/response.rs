@@ -215,8 +215,7 @@ fn cyclic(case: &Case, frf: &Frf) -> Result<System, StudyError> {
         (BodyKind::Revolution(own), _) => apart(case, frf, &SolidSector::generate(own)?),
     };
     for (terminal, key) in [(frf.force, "force_node"), (frf.response, "response_node")] {
-        let checked = system.check(terminal, key);
-        checked.map_err(|error| at_node(case, &error))?;
+        system.check(terminal, key).map_err(|error| at_node(case, &error))?;
     }
     Ok(System::Cyclic(Box::new(system)))
 }

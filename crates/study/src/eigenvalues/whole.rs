@@ -50,7 +50,10 @@ impl WholeMesh {
         let own = [case.contact.sliding.friction_coefficient];
         let start = start_of(assembly.contacts());
         let range = assembly.range(&[frictions, start, &own].concat())?;
-        let (symmetry, joined) = (used_symmetry(case, &mesh), assembly.joined);
+        // The eigenvalue analysis uses no symmetry where the whole mesh is asked for.
+        let is_whole = |cea: &Cea| cea.method == CeaMethod::Sparse;
+        let symmetry = mesh.symmetry.filter(|_| !case.cea.as_ref().is_some_and(is_whole));
+        let joined = assembly.joined;
         Ok(Self { symmetry, mesh, range, options, joined })
     }
 
@@ -83,7 +86,8 @@ impl WholeMesh {
 
     /// The state at the case's own friction coefficient.
     pub fn state(&self) -> &PressedState {
-        &self.range.states[place_of_own(&self.range)]
+        let place = self.range.state_of.last();
+        &self.range.states[*place.expect("the case's own friction coefficient comes last")]
     }
 
     /// The bodies with what ties them and what slides.
@@ -130,11 +134,6 @@ impl WholeMesh {
     }
 }
 
-/// Which state is that at the case's own friction coefficient.
-fn place_of_own(range: &PressedRange) -> usize {
-    *range.state_of.last().expect("the case's own friction coefficient comes last")
-}
-
 /// The bodies of a case on its whole mesh.
 fn assembled<'a>(
     case: &'a Case,
@@ -153,12 +152,6 @@ fn start_of(contacts: &[(SlidingSurfaces, ContactSurface)]) -> &'static [f64] {
     let mut solid = contacts.iter().filter(|(contact, _)| !contact.is_edge());
     let stiffens = solid.any(|(contact, _)| contact.stiffness.law.is_some());
     if stiffens { &[0.0] } else { &[] }
-}
-
-/// The symmetry of a mesh that the eigenvalue analysis of a case uses: none where the whole mesh is asked for.
-fn used_symmetry(case: &Case, mesh: &Mesh) -> Option<CyclicSymmetry> {
-    let is_whole = |cea: &Cea| cea.method == CeaMethod::Sparse;
-    mesh.symmetry.filter(|_| !case.cea.as_ref().is_some_and(is_whole))
 }
 
 /// What a base state without stress and the inertia of rotation leave out.

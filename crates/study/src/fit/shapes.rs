@@ -48,8 +48,7 @@ impl MeasuredShapes {
     /// Refuses a body without a whole mesh, and points off it.
     pub(super) fn check(&self, case: &Case) -> Result<(), StudyError> {
         refuse_revolution(case)?;
-        let mesh = case.body.mesh()?;
-        self.placed(case, &mesh)?;
+        self.placed(case, &*case.body.mesh()?)?;
         Ok(())
     }
 

@@ -111,12 +111,9 @@ impl<'a> Sampler<'a> {
         let (friction_coefficient, onsets, found) = found.unwrap_or_else(|_| {
             (case.contact.sliding.friction_coefficient, Vec::new(), OnsetSearch::default())
         });
-        let (number, mixed) = (index + 1, Vec::new());
-        let within = found.within;
-        (
-            Sample { number, values, friction_coefficient, onsets, within, error, mixed },
-            found.followed,
-        )
+        let (number, within, mixed) = (index + 1, found.within, Vec::new());
+        let sample = Sample { number, values, friction_coefficient, onsets, within, error, mixed };
+        (sample, found.followed)
     }
 
     /// Harmonics to look at beside a sample that holds modes in `followed`.

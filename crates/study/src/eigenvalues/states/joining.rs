@@ -43,7 +43,6 @@ fn name_of(interval: &UnstableInterval) -> Name {
 /// A branch whose stability is another on either side of the place where two parts meet.
 struct Jump<'a> {
     friction_coefficient: f64,
-    name: Name,
     /// The mode beyond.
     mode: &'a ComplexMode,
 }
@@ -56,11 +55,8 @@ fn jumps_between<'a>(before: &'a Part, after: &'a Part) -> impl Iterator<Item = 
             let mut old = last.known().enumerate();
             let (i, same) = old.find(|(_, other)| is_same(other, mode))?;
             let is_listed = i < last.modes.len() || j < first.modes.len();
-            (is_listed && same.is_unstable() != mode.is_unstable()).then(|| Jump {
-                friction_coefficient: first.friction_coefficient,
-                name: name(mode),
-                mode,
-            })
+            (is_listed && same.is_unstable() != mode.is_unstable())
+                .then(|| Jump { friction_coefficient: first.friction_coefficient, mode })
         })
     })
 }
@@ -160,7 +156,7 @@ fn joined_intervals(parts: &mut [Part], frictions: &[f64]) -> Vec<UnstableInterv
         let jumps: Vec<Jump<'_>> = jumps.into_iter().flatten().collect();
         // Where growth jumps to decay an interval ends.
         for jump in jumps.iter().filter(|jump| !jump.mode.is_unstable()) {
-            let own = found.iter_mut().rev().find(|known| is_open(known, jump.name));
+            let own = found.iter_mut().rev().find(|known| is_open(known, name(jump.mode)));
             if let Some(known) = own {
                 known.restabilized = Some((jump.friction_coefficient, jump.mode.frequency_hz()));
             }
