@@ -14,11 +14,6 @@ use nalgebra::{DMatrix, Matrix3, Vector3};
 /// Strain `(xx, yy, zz, 2 xy, 2 yz, 2 zx)` or stress `(xx, yy, zz, xy, yz, zx)`.
 pub type Voigt = [f64; 6];
 
-/// Components of strain and stress in the plane.
-const IN_PLANE: &[usize] = &[0, 1, 3];
-/// Components in space.
-const IN_SPACE: &[usize] = &[0, 1, 2, 3, 4, 5];
-
 /// One integration point of one element: shape values, Cartesian gradients, and `w det J`.
 pub struct IntegrationPoint {
     /// Its place in the parent element.
@@ -80,8 +75,8 @@ impl ElementGeometry {
     /// Components of strain that the element has.
     fn components(&self) -> &'static [usize] {
         match self.dimension() {
-            2 => IN_PLANE,
-            _ => IN_SPACE,
+            2 => &[0, 1, 3],
+            _ => &[0, 1, 2, 3, 4, 5],
         }
     }
 
@@ -207,8 +202,7 @@ impl ElementGeometry {
         values: &[f64],
     ) -> DMatrix<f64> {
         let points = self.stiffness_points();
-        let internal = self.internal_amplitudes(material, values);
-        let gradients = self.displacement_gradients(&points, values, internal.as_ref());
+        let gradients = self.displacement_gradients(&points, material, values);
         let deformed = self.upper_stiffness(material, Some(&gradients), 0);
         self.condensed(deformed) - self.stiffness(material)
     }
@@ -256,8 +250,7 @@ impl ElementGeometry {
     pub fn geometric_stiffness(&self, material: &ElasticMaterial, values: &[f64]) -> DMatrix<f64> {
         let count = self.node_count();
         let points = self.stiffness_points();
-        let internal = self.internal_amplitudes(material, values);
-        let gradients = self.displacement_gradients(&points, values, internal.as_ref());
+        let gradients = self.displacement_gradients(&points, material, values);
         let law = self.solid_aware(material);
         let mut scalar = DMatrix::<f64>::zeros(count, count);
         for (i, point) in points.iter().enumerate() {

@@ -43,17 +43,19 @@ impl ElementGeometry {
         gradient
     }
 
-    /// Displacement gradients at some points, incompatible modes of amplitudes `internal` included.
+    /// Displacement gradients at some points, from the values of the element's nodes in their frames and the amplitudes of the
+    /// incompatible modes that come with them.
     pub(super) fn displacement_gradients(
         &self,
         points: &[IntegrationPoint],
+        material: &ElasticMaterial,
         values: &[f64],
-        internal: Option<&DVector<f64>>,
     ) -> Vec<Matrix3<f64>> {
+        let internal = self.recovered(material).map(|own| own * DVector::from_column_slice(values));
         let modes = self.incompatible_gradients(points);
         let at_point = |(point, modes): (&IntegrationPoint, Vec<Vector3<f64>>)| {
             let mut gradient = self.nodal_gradient(point, values);
-            if let Some(internal) = internal {
+            if let Some(internal) = &internal {
                 for (k, mode) in modes.iter().enumerate() {
                     let amplitude = Vector3::from_fn(|axis, _| internal[3 * k + axis]);
                     gradient += amplitude * mode.transpose();
@@ -71,19 +73,9 @@ impl ElementGeometry {
         material: &ElasticMaterial,
         values: &[f64],
     ) -> Vec<Voigt> {
-        let internal = self.internal_amplitudes(material, values);
-        let gradients = self.displacement_gradients(points, values, internal.as_ref());
+        let gradients = self.displacement_gradients(points, material, values);
         let pairs = points.iter().zip(&gradients);
         pairs.map(|(point, gradient)| stress_of(material, gradient, self.position(point))).collect()
-    }
-
-    /// Amplitudes of the incompatible modes that come with nodal values.
-    pub(super) fn internal_amplitudes(
-        &self,
-        material: &ElasticMaterial,
-        values: &[f64],
-    ) -> Option<DVector<f64>> {
-        Some(self.recovered(material)? * DVector::from_column_slice(values))
     }
 
     /// Strain at a point of each nodal displacement along its axis, and of each amplitude of the incompatible `modes`; of a body that is
