@@ -84,8 +84,8 @@ impl BasinRequest {
         let mut runs = Vec::new();
         let mut bounds = [None, None];
         // The ends of the range first: one that wins at both has no rival.
-        let [mut low, mut high] = self.seed_ratios;
-        for ratio in [low, high] {
+        let mut range = self.seed_ratios;
+        for ratio in range {
             let run = run(ratio)?;
             let bound = &mut bounds[usize::from(run.winner == second)];
             // The second one's bound is its smallest ratio, the first's its largest.
@@ -95,16 +95,11 @@ impl BasinRequest {
             runs.push(run);
         }
         let is_contested = runs[0].winner == first && runs[1].winner == second;
-        while is_contested && high / low > self.tolerance {
-            let middle = (low * high).sqrt();
+        while is_contested && range[1] / range[0] > self.tolerance {
+            let middle = (range[0] * range[1]).sqrt();
             let run = run(middle)?;
-            if run.winner == second {
-                high = middle;
-                bounds[1] = run.saturation_ratio;
-            } else {
-                low = middle;
-                bounds[0] = run.saturation_ratio;
-            }
+            let side = usize::from(run.winner == second);
+            (range[side], bounds[side]) = (middle, run.saturation_ratio);
             runs.push(run);
         }
         Ok(BasinBoundary { low: bounds[0], high: bounds[1], runs })

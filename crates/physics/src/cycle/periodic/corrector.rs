@@ -255,7 +255,11 @@ impl<'b, 'a> Corrector<'b, 'a> {
             let state = guess.state.clone();
             let here = Iterate { state, place, residual: image.residual.clone() };
             if let Some(last) = last.take() {
-                self.learn(&last, &here, periods);
+                // Older changes go where the last one has gained nothing.
+                if periods > 1 && norm(&here.residual) > GAINED * norm(&last.residual) {
+                    self.secants.keep_latest(periods);
+                }
+                self.secants.push(Change::between(&last, &here));
             }
             last = Some(here);
             self.step(&mut guess, &image, closure);
@@ -263,14 +267,6 @@ impl<'b, 'a> Corrector<'b, 'a> {
                 guess.value = *value;
             }
         }
-    }
-
-    /// Adds the change from the iterate before, the older ones gone where that has gained nothing.
-    fn learn(&mut self, last: &Iterate, here: &Iterate, periods: usize) {
-        if periods > 1 && norm(&here.residual) > GAINED * norm(&last.residual) {
-            self.secants.keep_latest(periods);
-        }
-        self.secants.push(Change::between(last, here));
     }
 
     /// On to the next guess: by the secants, of which the older half goes as long as they lead too far.

@@ -120,15 +120,12 @@ impl Follower<'_, '_, '_> {
         let scales = self.corrector.scales;
         let amplitudes = [count - 3, count - 2].map(|i| self.points[i].place(scales)[1]);
         let own = fold.place(scales)[1];
-        let at = if (own - amplitudes[0]) * (own - amplitudes[1]) < 0.0 {
-            self.points.insert(count - 2, fold);
-            count - 2
-        } else if own == amplitudes[1] {
-            count - 2
-        } else {
-            self.points.insert(count - 1, fold);
-            count - 1
-        };
+        let is_known = own == amplitudes[1];
+        let is_before = (own - amplitudes[0]) * (own - amplitudes[1]) < 0.0;
+        let at = if is_known || is_before { count - 2 } else { count - 1 };
+        if !is_known {
+            self.points.insert(at, fold);
+        }
         self.points[at].is_fold = true;
     }
 

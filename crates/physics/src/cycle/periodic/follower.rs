@@ -40,7 +40,15 @@ impl Way for Follower<'_, '_, '_> {
 
     fn begin_block(&mut self) {
         self.corrector.forget();
-        self.rescale();
+        // The largest amplitude so far becomes the scale of amplitudes.
+        let amplitudes = self.points.iter().map(|own| own.found.image.amplitude);
+        self.corrector.scales[1] = amplitudes.fold(0.0, f64::max);
+        self.largest = 1.0;
+        self.length = self.length.min(STEPS[0]);
+        if let [.., before, here] = &self.points[..] {
+            let [from, to] = [before, here].map(|point| point.place(self.corrector.scales));
+            (self.tangent, _) = way(from, to);
+        }
     }
 
     fn columns(&self) -> Vec<Vec<f64>> {
@@ -108,18 +116,6 @@ impl<'c, 'b, 'a> Follower<'c, 'b, 'a> {
             points: vec![first],
             tangent: [direction, 0.0],
             length: STEPS[0],
-        }
-    }
-
-    /// Makes the largest amplitude so far the scale of amplitudes.
-    fn rescale(&mut self) {
-        let amplitudes = self.points.iter().map(|own| own.found.image.amplitude);
-        self.corrector.scales[1] = amplitudes.fold(0.0, f64::max);
-        self.largest = 1.0;
-        self.length = self.length.min(STEPS[0]);
-        if let [.., before, here] = &self.points[..] {
-            let [from, to] = [before, here].map(|point| point.place(self.corrector.scales));
-            (self.tangent, _) = way(from, to);
         }
     }
 
