@@ -59,6 +59,13 @@ pub fn assurance(case: &Case, shapes: &MeasuredShapes) -> Result<MacSummary, Stu
     let modes = solution.sweep.modes_at(friction).iter();
     let modes: Vec<_> = modes.filter(|mode| mode.shape.is_some()).collect();
 
+    let listed = |(index, mode): (usize, &&ComplexMode)| MacMode {
+        mode: index + 1,
+        frequency_hz: mode.frequency_hz(),
+        real_hz: mode.real_hz(),
+        harmonic: mode.diameters(case.body.has_sectors()),
+    };
+
     // The matrix and the pairs.
     let matrix = shapes.criteria(&model.mesh, &modes, &placed);
     notes.extend(placed.iter().filter_map(|own| own.note(case.body.size())));
@@ -67,16 +74,7 @@ pub fn assurance(case: &Case, shapes: &MeasuredShapes) -> Result<MacSummary, Stu
         friction_coefficient: friction,
         pairs: paired(&matrix),
         shapes: placed.into_iter().map(|own| own.shape).collect(),
-        modes: modes
-            .iter()
-            .enumerate()
-            .map(|(index, mode)| MacMode {
-                mode: index + 1,
-                frequency_hz: mode.frequency_hz(),
-                real_hz: mode.real_hz(),
-                harmonic: mode.diameters(case.body.has_sectors()),
-            })
-            .collect(),
+        modes: modes.iter().enumerate().map(listed).collect(),
         mac: matrix,
         notes,
     })

@@ -1,11 +1,10 @@
 //! Checks of a case without running it, through the code paths of the run.
 
 use super::eigenvalues::Solver;
-use super::improve;
 use super::plan::SweepPlan;
 use super::response::FrequencyStudy;
 use super::transient::TransientStudy;
-use super::{StudyError, eigenvalues};
+use super::{StudyError, eigenvalues, improve};
 use frictionsim_case::{Case, CaseErrors, Cea, CeaMethod, Cost, Diagnostic, Location};
 use frictionsim_physics::fem::operator::SimdLevel;
 use frictionsim_physics::mesh::SolidSector;

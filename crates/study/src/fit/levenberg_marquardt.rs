@@ -122,13 +122,12 @@ impl Squares<'_> {
             let residuals = DVector::from_vec(self.residuals(&trial));
             let gradient = jacobian.transpose() * &residuals;
             // A parameter that the gradient presses onto its bound stays there.
-            let free: Vec<usize> = (0..trial.places.len())
-                .filter(|&k| {
-                    let is_pressed = (trial.places[k] <= 0.0 && gradient[k] > 0.0)
-                        || (trial.places[k] >= 1.0 && gradient[k] < 0.0);
-                    !is_pressed
-                })
-                .collect();
+            let is_pressed = |k: usize| match trial.places[k] {
+                place if place <= 0.0 => gradient[k] > 0.0,
+                place => place >= 1.0 && gradient[k] < 0.0,
+            };
+            let free = (0..trial.places.len()).filter(|&k| !is_pressed(k));
+            let free: Vec<usize> = free.collect();
             let mut gained = None;
             while damping < 1e9 && !free.is_empty() {
                 let Some(step) = damped_step(&jacobian, &gradient, &free, damping) else {

@@ -48,7 +48,8 @@ impl MeasuredShapes {
     /// Refuses a body without a whole mesh, and points off it.
     pub(super) fn check(&self, case: &Case) -> Result<(), StudyError> {
         refuse_revolution(case)?;
-        self.placed(case, &*case.body.mesh()?)?;
+        let mesh = case.body.mesh()?;
+        self.placed(case, &mesh)?;
         Ok(())
     }
 

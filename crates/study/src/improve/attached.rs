@@ -82,7 +82,7 @@ impl<'a> NearModes<'a> {
         dynamic: &[(f64, ComplexSparseLu)],
     ) -> Attached {
         let unknown_of = &self.base.tangent.unknowns.unknown_of;
-        let free: Vec<usize> = (0..dofs.len()).filter(|&i| unknown_of[dofs[i]].is_some()).collect();
+        let free = self.base.free(dofs);
         let rows: Vec<usize> = free.iter().filter_map(|&i| unknown_of[dofs[i]]).collect();
         let [right, left] = self.space(&rows, dynamic);
 

@@ -172,6 +172,12 @@ impl<'a> Base<'a> {
         }
     }
 
+    /// Places of the dofs that are unknowns.
+    pub fn free(&self, dofs: &[usize]) -> Vec<usize> {
+        let unknown_of = &self.tangent.unknowns.unknown_of;
+        (0..dofs.len()).filter(|&i| unknown_of[dofs[i]].is_some()).collect()
+    }
+
     /// The modes that are to be silenced.
     pub fn targets(&self) -> Vec<&PairedMode> {
         let modes = self.modes.iter();
@@ -183,19 +189,16 @@ impl<'a> Base<'a> {
 
 /// The modes that are to be silenced, numbered as `cea` numbers them.
 pub(super) fn target_modes(base: &Base<'_>) -> Vec<TargetMode> {
-    let targets = base.targets();
     let number = |mode: &PairedMode| {
         let listed = base.listed.iter();
         1 + listed.filter(|other| other.im < mode.eigenvalue().im).count()
     };
-    targets
-        .into_iter()
-        .map(|mode| TargetMode {
-            mode: number(mode),
-            frequency_hz: mode.eigenvalue().im / TAU,
-            growth_rate_per_s: mode.eigenvalue().re,
-        })
-        .collect()
+    let target = |mode: &PairedMode| TargetMode {
+        mode: number(mode),
+        frequency_hz: mode.eigenvalue().im / TAU,
+        growth_rate_per_s: mode.eigenvalue().re,
+    };
+    base.targets().into_iter().map(target).collect()
 }
 
 /// Bodies whose changes break the symmetry that they are solved by, and damping without linear derivatives.

@@ -124,7 +124,7 @@ impl<'a> ModalModel<'a> {
     ///
     /// `D (1 + R D)^-1` at two frequencies is taken for a stiffness, a mass and a dashpot.
     pub fn yielding(&self, dofs: &[usize], [m, c, k]: [&DMatrix<f64>; 3]) -> Change {
-        let free = self.free(dofs);
+        let free = self.base.free(dofs);
         let own: Vec<usize> = free.iter().map(|&i| dofs[i]).collect();
         self.effective(&own, &|s| {
             Mat::from_fn(own.len(), own.len(), |i, j| {
@@ -154,7 +154,7 @@ impl<'a> ModalModel<'a> {
         (dofs, is_shared): (&[usize], &[bool]),
         [m, c, k]: [&DMatrix<f64>; 3],
     ) -> Option<Change> {
-        let free = self.free(dofs);
+        let free = self.base.free(dofs);
         let (shared, inner): (Vec<usize>, Vec<usize>) =
             free.into_iter().partition(|&i| is_shared[i]);
         if shared.is_empty() {
@@ -175,12 +175,6 @@ impl<'a> ModalModel<'a> {
             }
             -lost
         }))
-    }
-
-    /// Places of the dofs that are unknowns.
-    fn free(&self, dofs: &[usize]) -> Vec<usize> {
-        let unknown_of = &self.base.tangent.unknowns.unknown_of;
-        (0..dofs.len()).filter(|&i| unknown_of[dofs[i]].is_some()).collect()
     }
 
     /// The change that `D (1 + R D)^-1` of some dofs comes to about the targets.
