@@ -159,10 +159,8 @@ impl EdgeMotion {
         let displacement =
             [0, 1].map(|component| wave.values(self.displacement.iter().map(|u| u[component])));
         let velocity = [0, 1].map(|component| {
-            let harmonics = self.displacement.iter().enumerate();
-            wave.values(
-                harmonics.map(|(k, u)| u[component] * wave.contact_rate(k, state.frequencies())),
-            )
+            let rate = |k: usize| wave.contact_rate(k, state.frequencies());
+            wave.values(self.displacement.iter().enumerate().map(|(k, u)| u[component] * rate(k)))
         });
         let length = wave.body.tributary_length;
         let phases = (0..wave.points()).map(|i| TAU * i as f64 / wave.points() as f64);

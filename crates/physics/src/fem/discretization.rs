@@ -33,10 +33,8 @@ impl<'a> DiscretizationError<'a> {
     /// Prepares the recovery of a mesh.
     pub fn new(mesh: &'a Mesh, materials: &'a dyn MaterialField) -> Self {
         let mut kinds = (0..mesh.element_count()).map(|e| mesh.element_kind(e));
-        let degree = match kinds.any(|kind| kind.is_quadratic()) {
-            true => Degree::Quadratic,
-            false => Degree::Linear,
-        };
+        let is_quadratic = kinds.any(|kind| kind.is_quadratic());
+        let degree = if is_quadratic { Degree::Quadratic } else { Degree::Linear };
         Self { mesh, materials, recovery: Recovery::new(mesh, degree, true) }
     }
 

@@ -106,10 +106,8 @@ impl SectorMatrix {
 
     /// It times a factor.
     pub fn scaled(&self, factor: f64) -> Self {
-        Self::of_entries(
-            self.components,
-            self.entries().map(|(i, j, at, v)| (i, j, at, factor * v)),
-        )
+        let entries = self.entries().map(|(i, j, at, v)| (i, j, at, factor * v));
+        Self::of_entries(self.components, entries)
     }
 
     /// Over all dofs what motions that are the same in every sector see of a sum of terms of even parity: harmonic zero, whose

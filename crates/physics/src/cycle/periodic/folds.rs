@@ -88,8 +88,7 @@ impl Follower<'_, '_, '_> {
             self.points[count - 2].is_fold = true;
             return;
         }
-        let is_rising = place(&three[0])[1] < middle;
-        if !is_rising {
+        if place(&three[0])[1] > middle {
             three.reverse();
         }
         for turn in 0..REFINED {

@@ -146,13 +146,9 @@ impl<'c, 'b, 'a> Follower<'c, 'b, 'a> {
     fn guess(&self, goal: &Goal, reach: f64) -> Guess {
         let here = self.here();
         if self.points.len() == 1 {
+            let along = reach * self.tangent[0] * self.corrector.scales[0];
             let mut guess = here.towards(here, 0.0);
-            guess.value = match goal {
-                Goal::Value(value) => *value,
-                Goal::Length { .. } => {
-                    guess.value + reach * self.tangent[0] * self.corrector.scales[0]
-                }
-            };
+            guess.value = if let Goal::Value(value) = goal { *value } else { guess.value + along };
             return guess;
         }
         // A fold may be a corner: no point before it says anything of the way on.

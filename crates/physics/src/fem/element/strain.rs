@@ -31,14 +31,11 @@ impl ElementGeometry {
 
     /// Displacement gradient `du_i / dx_j` at a point, from the values of the element's nodes in their frames.
     fn nodal_gradient(&self, point: &IntegrationPoint, values: &[f64]) -> Matrix3<f64> {
-        let dimension = self.dimension();
         let mut gradient = Matrix3::zeros();
-        for (local, frame) in self.frames.iter().enumerate() {
-            let mut components = Vector3::zeros();
-            for axis in 0..dimension {
-                components[axis] = values[dimension * local + axis];
-            }
-            gradient += (frame * components) * point.gradients[local].transpose();
+        let nodes = values.chunks_exact(self.dimension()).zip(&self.frames);
+        for ((own, frame), slope) in nodes.zip(&point.gradients) {
+            let components = Vector3::from_fn(|axis, _| own.get(axis).copied().unwrap_or(0.0));
+            gradient += (frame * components) * slope.transpose();
         }
         gradient
     }
