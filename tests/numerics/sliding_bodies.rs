@@ -285,6 +285,26 @@ fn of_two_modes_that_meet_one_has_an_onset() {
     assert_eq!(growing.count(), found.intervals.len(), "{:?}", found.intervals);
 }
 
+/// Damping of one part keeps the six motions of the whole on soft springs from oscillating. They are no modes, and those asked for lie
+/// above them: none was found.
+#[test]
+fn overdamped_motions_of_soft_springs_take_no_places_of_modes() {
+    let part = |name, z| brick(name, [0.0, 0.0, z], [0.03, 0.02, 0.02], [2, 2, 1]);
+    let mesh = welded_file_of(&[part("low", 0.0), part("high", 0.02)], 1, |point| point);
+    let case = of_file(&mesh, include_str!("../cases/damped-part-on-soft-springs.toml"));
+    let problem = sums(&matrices(&case, Some(0.0)).unwrap());
+    let mut exact = lossy_eigenvalues(problem.each_ref());
+    exact.retain(|own| own.im > 1e-3 * own.norm());
+    exact.sort_by(|a, b| a.im.total_cmp(&b.im));
+    let found = modes_and_onsets(&case).unwrap();
+    let modes = &found.points[0].modes;
+    assert!(modes.len() == 5 && found.rigid_motions == 0, "{modes:?}");
+    for (mode, exact) in modes.iter().zip(&exact) {
+        let error = (mode.eigenvalue - exact).norm() / exact.norm();
+        assert!(error < 1e-8, "{} {exact}", mode.eigenvalue);
+    }
+}
+
 /// A plane block of four contact nodes, three of which have lifted: the eighth mode comes from above the limit in frequency as friction rises.
 /// The dense decomposition has it at 148.3 kHz.
 #[test]

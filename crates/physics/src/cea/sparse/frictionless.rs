@@ -103,17 +103,18 @@ impl FrictionlessModes {
             let request = (below.max(1) + beyond + GUARD_MODES + extra).min(unknowns);
             let found = inertia.lowest(request, &mut shift)?;
             let rigid = found.rigid;
+            let displaced = found.unheld + overdamped(tangent, &found);
             let wanted = match limit {
                 ModeLimit::Lowest(asked) if asked > unknowns - rigid => {
                     return Err(CeaError::too_many_modes(asked, unknowns - rigid));
                 }
-                ModeLimit::Lowest(count) => (count + found.unheld).min(unknowns - rigid),
+                ModeLimit::Lowest(count) => (count + displaced).min(unknowns - rigid),
                 ModeLimit::MaxFrequency(_) => below.saturating_sub(rigid),
             };
             // Rigid motions took places of modes.
             let elastic = request - rigid;
             if elastic < (wanted.max(1) + beyond + 1).min(unknowns - rigid) {
-                extra += rigid + found.unheld + 1;
+                extra += rigid + displaced + 1;
                 continue;
             }
             let frequencies: Vec<f64> =
@@ -147,6 +148,25 @@ impl FrictionlessModes {
             });
         }
     }
+}
+
+/// How many of the lowest motions, of a body on soft springs, damping at rest keeps from oscillating, `(x^T C x)^2 >= 4 x^T K x x^T M x`:
+/// others take their places. No more than a block of them, as stiff damping keeps all motions above some frequency from it, too.
+fn overdamped(tangent: &SlidingTangent, found: &Lowest) -> usize {
+    if tangent.proportional.is_some() {
+        return 0;
+    }
+    let form = |matrix: &MatrixPolynomial, x: MatRef<'_, f64>| {
+        let image = matrix.pattern().multiply(&matrix.evaluate(0.0), x);
+        dot(column(x, 0), column(image.as_ref(), 0))
+    };
+    let leading = (found.rigid..found.kappas.len()).take(BLOCK);
+    let is_overdamped = |j: &usize| {
+        let x = found.vectors.get(.., *j..*j + 1);
+        let [damping, inertia] = [&tangent.damping, &tangent.mass].map(|own| form(own, x));
+        damping >= 2.0 * found.kappas[*j].max(0.0).sqrt() * inertia
+    };
+    leading.take_while(is_overdamped).count()
 }
 
 /// The inertia contradicts what was found below a frequency (rad/s).
