@@ -56,7 +56,7 @@ fn jumps_between<'a>(before: &'a Part, after: &'a Part) -> impl Iterator<Item = 
             let (i, same) = old.find(|(_, other)| is_same(other, mode))?;
             let is_listed = i < last.modes.len() || j < first.modes.len();
             (is_listed && same.is_unstable() != mode.is_unstable())
-                .then(|| Jump { friction_coefficient: first.friction_coefficient, mode })
+                .then_some(Jump { friction_coefficient: first.friction_coefficient, mode })
         })
     })
 }
