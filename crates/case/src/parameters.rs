@@ -184,9 +184,9 @@ impl super::Case {
         Self::read(raw)
     }
 
-    /// The continuous parameters of the model that the case gives as numbers, with these, by key, `KEY[2]` in a list; the
-    /// friction coefficient of `[contact]`, which sweeps vary, and the thickness of a plane body, which scales results
-    /// alone, are left out.
+    /// The continuous parameters of the model that the case gives as numbers, with these, by key, `KEY[2]` in a list.
+    /// The friction coefficient of `[contact]`, which sweeps vary, and the thickness of a plane body, which scales
+    /// results alone, are left out.
     pub fn model_numbers(&self) -> Vec<(String, f64)> {
         let mut leaves = Vec::new();
         collect_leaves(&self.raw.root, "", str::to_owned, &mut leaves);

@@ -1,4 +1,4 @@
-//! The surface of solid bodies, hidden parts hidden: coloured by values at its nodes, as the bar of colours has them, or shaded.
+//! The surface of solid bodies, hidden parts hidden: shaded, or in the colours of values at its nodes.
 
 use super::axis::Axis;
 use super::colour::{Colour, ColourMap};

@@ -53,7 +53,7 @@ pub(super) struct ModalModel<'a> {
     unknowns: [Mat<f64>; 2],
     /// What each power of friction from the first on multiplies.
     friction: Vec<Projected>,
-    /// Frequencies below, above and amid the targets and above all modes, rad/s, and the factors of the full problem there.
+    /// Frequencies below, above, amid the targets and above all modes, rad/s, and factors of the full problem there.
     dynamic: [(f64, ComplexSparseLu); 4],
     near: NearModes<'a>,
 }
@@ -316,7 +316,7 @@ impl<'a> ModalModel<'a> {
     }
 }
 
-/// Frequencies below, above and amid the targets and at the `end` of what is looked at, and the factors of `T(i omega)` there.
+/// Frequencies below, above, amid the targets and at the `end` of what is looked at, and factors of `T(i omega)` there.
 fn dynamic_factors(base: &Base<'_>, end: f64) -> Result<[(f64, ComplexSparseLu); 4], LinalgError> {
     let targets = base.targets();
     let frequencies = || targets.iter().map(|mode| mode.eigenvalue().im);
