@@ -15,7 +15,8 @@ fn pole_beside(model: &SolidModel, mu: f64, lambda: c64, (poles, range): (usize,
     let [_, nz] = sector.divisions();
     let node = at(&sector, 2, [0, 2 * nz], 0, Tangential);
     let count = 2 * poles + 1;
-    let steps: Vec<f64> = (0..count).map(|k| k as f64 / poles as f64 - 1.0).collect();
+    // None of the lines is at the eigenvalue itself: at an onset there is no response.
+    let steps: Vec<f64> = (0..count).map(|k| (k as f64 + 0.25) / poles as f64 - 1.0).collect();
     let lines: Vec<f64> = steps.iter().map(|d| lambda.im / TAU + d * range).collect();
     let h = cyclic_response(&sliding(model, mu), node, node, &lines).unwrap();
     let largest = h.receptance.iter().fold(0.0_f64, |m, h| m.max(h.norm()));
