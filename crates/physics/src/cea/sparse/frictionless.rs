@@ -90,14 +90,14 @@ impl FrictionlessModes {
     ) -> Result<Self, CeaError> {
         let unknowns = tangent.stiffness.dimension();
         // Motions below the limit, rigid ones among them; those that a turning frame alone holds count twice.
-        let (below, mut shift) = match limit {
-            ModeLimit::Lowest(count) => (count, FIRST_SHIFT * inertia.largest_ratio()),
+        // One mode above a limit in frequency tells that none below it is missing under friction.
+        let (below, guard, mut shift) = match limit {
+            ModeLimit::Lowest(count) => (count, 0, FIRST_SHIFT * inertia.largest_ratio()),
             ModeLimit::MaxFrequency(hz) => {
-                (inertia.bound_below(tangent, TAU * hz)?, SHIFT * (TAU * hz).powi(2))
+                (inertia.bound_below(tangent, TAU * hz)?, 1, SHIFT * (TAU * hz).powi(2))
             }
         };
-        // One mode above tells that none below a frequency is missing under friction, and whether the next one grows.
-        let beyond = if tangent.is_lossy() { LOSSY_GUARD } else { 1 };
+        let beyond = if tangent.is_lossy() { LOSSY_GUARD } else { guard };
         let (mut extra, mut recounts) = (0, 0);
         loop {
             let request = (below.max(1) + beyond + GUARD_MODES + extra).min(unknowns);
