@@ -76,6 +76,10 @@ fn an_unstable_mode_just_above_the_list_is_told() {
     let growth = listed.growth_rate() / beyond.growth_rate();
     assert!(apart(&listed) < 1e-6 && (growth - 1.0).abs() < 1e-6, "{listed:?}");
     assert!(swept(&tangent, &[0.0], Lowest(2)).beyond().is_none());
+    // The next one is always known.
+    for count in (1..last.len()).filter(|&count| last[count].is_unstable()) {
+        assert!(swept(&tangent, &values, Lowest(count)).beyond().is_some(), "{count} modes");
+    }
 }
 
 /// `mu_c = (c^2 + ((A - B)/2)^2) / (c d)`: where the two eigenvalues of `K` meet.

@@ -247,10 +247,12 @@ fn equal_eigenvalues_that_friction_does_not_move_are_all_listed() {
     let case = of_file(&file_of(&[block], |point| point), text);
     let found = modes_and_onsets(&case).unwrap();
     assert!(found.ended.iter().all(|end| end.lost_before.is_none()), "{:?}", found.ended);
+    // Its three motions on soft springs grow by nothing but rounded matrices.
+    assert!(matches!(found.intervals[..], [ref one] if one.frequency_hz > 5e3), "{found:?}");
     for point in found.points {
         let frequencies: Vec<f64> = point.modes.iter().map(|mode| mode.frequency_hz()).collect();
         let equal = frequencies.iter().filter(|hz| (*hz / 3397.2346 - 1.0).abs() < 1e-6);
-        assert!(equal.count() >= 7 && frequencies.len() >= 26, "{frequencies:?}");
+        assert!(equal.count() == 8 && frequencies.len() == 27, "{frequencies:?}");
         assert!(point.modes.iter().all(|mode| mode.residual < 1e-9));
     }
 }

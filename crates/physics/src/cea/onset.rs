@@ -214,7 +214,9 @@ impl<B: BranchSolver> Search<'_, B> {
                 (high, top) = (state.clone(), friction);
             }
             best = state;
-            let newton = friction - growth / point.rate.re;
+            // Where two neutral branches meet the square of the growth rate is even in friction, not the rate itself.
+            let power = if is_neutral && growth > 0.0 { 2.0 } else { 1.0 };
+            let newton = friction - growth / (power * point.rate.re);
             let is_inside = newton > bottom && newton < top;
             let next = if is_inside { newton } else { 0.5 * (bottom + top) };
             if (next - friction).abs() <= B::TOLERANCE * (1.0 + friction) {

@@ -4,6 +4,9 @@ use super::ModeCount;
 use crate::linalg::c64;
 use std::f64::consts::TAU;
 
+/// Rounding errors of the terms of a sum up to which the sum is none but rounded.
+pub(super) const ROUNDING_ERRORS: f64 = 8.0;
+
 /// One eigenpair of `(lambda^2 M + lambda C + K_t) phi = 0`, equation (1) with the contact in it, with `Im(lambda) >= 0`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ComplexMode {
@@ -103,7 +106,8 @@ impl ComplexMode {
 
     /// Whether the mode grows, by more than rounded matrices leave open: [`Self::uncertainty`].
     pub fn is_unstable(&self) -> bool {
-        self.eigenvalue.re > self.uncertainty.max(0.0) * self.eigenvalue.norm()
+        let rounding = ROUNDING_ERRORS * self.uncertainty.max(0.0);
+        self.eigenvalue.re > rounding * self.eigenvalue.norm()
     }
 }
 

@@ -7,11 +7,9 @@
 use super::follow::Follower;
 use super::path::{Eigenpair, Path};
 use super::problem::Matrices;
+use super::reduced::NEAR;
 use crate::linalg::c64;
 use crate::linalg::vectors::{dot, normalize};
-
-/// Two branches closer than this, relative, may be about to meet.
-const NEAR: f64 = 1e-2;
 
 /// Lengths of the jumps tried.
 const JUMPS: [f64; 4] = [1e-5, 1e-4, 1e-3, 1e-2];

@@ -3,7 +3,7 @@
 use super::definite::{self, Region};
 use super::paths::HarmonicPaths;
 use super::problem::{HarmonicProblem, I, Matrices};
-use crate::cea::counted::{STANDSTILL, WIDEST_GROWTH};
+use crate::cea::counted::{STANDSTILL, STEP, WIDEST_GROWTH};
 use crate::linalg::{c64, count_zeros};
 use crate::prestress::WaveTangent;
 use std::convert::Infallible;
@@ -11,9 +11,6 @@ use std::convert::Infallible;
 /// Share of the limit below which no modes are searched for where damping is not proportional: there motions within
 /// [`WIDEST_GROWTH`] need not oscillate; a little more, so that none lies on the edge.
 const SLOWEST: f64 = 1.01 * STANDSTILL * WIDEST_GROWTH;
-
-/// Distance of the two determinants that a slope is taken from, relative to the size of the range.
-const STEP: f64 = 1e-4;
 
 /// Points on each side of the range from which the extent of `kappa` is taken.
 const SIDE_POINTS: usize = 16;

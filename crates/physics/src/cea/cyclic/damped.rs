@@ -10,12 +10,10 @@ use super::paths::{HarmonicPaths, Overdamped, Range, describe, start};
 use super::problem::{HarmonicProblem, Matrices};
 use crate::cea::CeaError;
 use crate::cea::counted::NEARLY_CRITICAL;
+use crate::cea::sparse::SAME_EIGENVALUE;
 use crate::linalg::dense_eigen::complex_eigenvalues;
 use crate::linalg::{ComplexDenseLu, Mat, c64};
 use std::rc::Rc;
-
-/// Distance of two eigenvalues relative to them up to which they are the same, found in two ways.
-const SAME: f64 = 1e-6;
 
 /// The shortest step of a branch over the step of friction: a branch that turns faster begins or ends there.
 const SHORTEST: f64 = 5e-3;
@@ -106,7 +104,7 @@ impl Course<'_> {
             let free = (0..all.len()).filter(|&k| !is_claimed[k]);
             let nearest =
                 free.min_by(|&a, &b| (all[a] - theta).norm().total_cmp(&(all[b] - theta).norm()));
-            match nearest.filter(|&k| (all[k] - theta).norm() <= SAME * theta.norm()) {
+            match nearest.filter(|&k| (all[k] - theta).norm() <= SAME_EIGENVALUE * theta.norm()) {
                 Some(k) => is_claimed[k] = true,
                 None => {
                     tracked.path.points.truncate(tracked.reached);
@@ -163,7 +161,7 @@ impl Course<'_> {
         });
         let mut all: Vec<c64> = Vec::new();
         for own in ends.into_iter().chain(found.collect::<Vec<c64>>()) {
-            if all.iter().all(|other| (other - own).norm() > SAME * own.norm()) {
+            if all.iter().all(|other| (other - own).norm() > SAME_EIGENVALUE * own.norm()) {
                 all.push(own);
             }
         }
@@ -190,7 +188,7 @@ impl Course<'_> {
     fn found(&mut self, value: c64, friction: f64, shared: &Matrices) -> Option<Eigenpair> {
         [1.0, 1.0 + 1e-7].into_iter().find_map(|shift| {
             let found = self.follower.find(shared, friction, value * shift)?;
-            let is_it = (found.theta - value).norm() <= SAME * value.norm();
+            let is_it = (found.theta - value).norm() <= SAME_EIGENVALUE * value.norm();
             is_it.then_some(found)
         })
     }
@@ -207,7 +205,7 @@ impl Course<'_> {
             let tracked = &self.paths[index];
             let left = &tracked.path.points[tracked.reached - 1];
             let is_there = left.parameter == back[0].parameter;
-            !tracked.is_open && is_there && left.is_same(&back[0], SAME)
+            !tracked.is_open && is_there && left.is_same(&back[0], SAME_EIGENVALUE)
         });
         match joined {
             Some(index) => {

@@ -1,5 +1,6 @@
 //! Modes of one harmonic without friction.
 
+use crate::cea::sparse::CONVERGED;
 use crate::linalg::banded::{BandedFactor, BandedMatrix, CompactRows};
 use crate::linalg::dense::column;
 use crate::linalg::{LanczosPairs, LanczosSettings, Mat, MatRef, SymmetricPencil, block_lanczos};
@@ -19,9 +20,6 @@ pub(super) type Modes = Vec<(f64, Vec<f64>)>;
 /// Smallest shift below zero, over the largest `K_ii / M_ii`, and how many are tried, each eight times the one before.
 const LEAST_SHIFT: f64 = 1e-9;
 const SHIFTS: i32 = 10;
-
-/// Largest residual of a mode relative to its eigenvalue.
-const SETTLED: f64 = 1e-11;
 
 /// Restarts of its iteration at most.
 const RESTARTS: usize = 30;
@@ -63,7 +61,7 @@ impl Pencil {
     /// The `count` modes of lowest frequency; fewer where the iteration does not settle.
     pub fn lowest(&self, count: usize) -> Modes {
         let settings =
-            LanczosSettings { count, tolerance: SETTLED, block: 1, max_restarts: RESTARTS };
+            LanczosSettings { count, tolerance: CONVERGED, block: 1, max_restarts: RESTARTS };
         let pairs = block_lanczos(self, &settings);
         let settled = pairs.ok().filter(|pairs| pairs.converged == pairs.values.len());
         let modes = |pairs: LanczosPairs| {

@@ -17,8 +17,8 @@ use crate::prestress::{HarmonicTangent, WaveTangent};
 /// Modes at rest up to this much above the followed ones span the reduced space.
 pub(super) const SPAN: f64 = 1.4;
 
-/// Largest distance of an eigenvalue from its guess, relative to it: beyond, it is another's.
-const NEAR: f64 = 1e-2;
+/// Relative distance up to which an eigenvalue may be the one guessed, and two branches may be about to meet.
+pub(super) const NEAR: f64 = 1e-2;
 
 /// Motions slower than this share of the largest creep against dashpots.
 const SLOW: f64 = 1e-2;

@@ -9,7 +9,10 @@ use super::open_residuals::OpenResiduals;
 use super::packed::PackedModes;
 use super::reduced::ReducedModel;
 use super::structure::{ShiftInverted, StiffnessFactors, StructureMatrices};
-use super::{CHANGE_PLACES, CONVERGED, GROUP_WIDTH, MOST_STEPS, SAME_SPACE, SEARCH_WIDTH};
+use super::{
+    CHANGE_PLACES, CONVERGED, GROUP_WIDTH, HALF_THE_DIGITS, MOST_STEPS, SAME_SPACE, SEARCH_WIDTH,
+    SETTLED,
+};
 use crate::cea::{CeaError, SweepProgress, SweepStage, SweepWatch};
 use crate::linalg::dense::{
     column, column_mut, column_norms, columns_of, dot, from_columns, join_columns, join_rows,
@@ -22,9 +25,6 @@ use crate::linalg::{Mat, Scale, c64};
 use crate::prestress::SlidingTangent;
 use std::borrow::Cow;
 
-/// Part of a block of corrections, relative to its longest: a longer one is a direction that the basis takes up, a shorter one is
-/// round-off.
-const VECTOR_TOLERANCE: f64 = 1e-10;
 /// The same for vectors of unit length whose span is compressed.
 const COMPRESSED: f64 = 5e-12;
 /// Krylov steps that follow a refinement, for each decade between its longest correction and [`CONVERGED`]: a step wins
@@ -34,9 +34,6 @@ const STEPS_PER_DECADE: f64 = 0.7;
 const KRYLOV_TOLERANCE: f64 = 1e-3;
 /// Friction values whose modes make up the compressed basis, besides the ends.
 const CHEBYSHEV_POINTS: usize = 5;
-/// Residual of the iteration whose vectors the basis takes up, relative to the shift-inverted operator. The ladder improves what is
-/// left of it where damping is not proportional; where it is, [`CONVERGED`] leaves nothing.
-const SAMPLE_RESIDUAL: f64 = 1e-8;
 /// Unknowns up to which dense decompositions cost no more than that iteration and what follows it.
 const DENSE_UP_TO: usize = 150;
 /// Start vectors of an iteration from the modes without friction: modes may come in pairs of equal eigenvalue, and factors are read once
@@ -202,7 +199,7 @@ impl<'a> BasisBuilder<'a> {
         let corrections =
             self.step(mu, |builder| Ok::<_, LinalgError>(builder.corrections(&modes, mu)))?;
         let longest = column_norms(corrections.as_ref()).into_iter().fold(0.0, f64::max);
-        let mut new = self.model.extend(corrections, VECTOR_TOLERANCE * longest);
+        let mut new = self.model.extend(corrections, SETTLED * longest);
         let has_added = new.ncols() > 0;
         let steps = STEPS_PER_DECADE * (longest / CONVERGED).log10();
         // `|kappa|`, or `|lambda|^2`, of the highest of the modes.
@@ -294,7 +291,8 @@ impl<'a> BasisBuilder<'a> {
             Linearization::Reduced(..) => (start[0].clone(), count, CONVERGED),
             Linearization::Companion { .. } => {
                 let [x, y] = start.each_ref().map(Mat::as_ref);
-                (join_rows(x, y), 2 * count, SAMPLE_RESIDUAL)
+                // The ladder improves what that leaves.
+                (join_rows(x, y), 2 * count, HALF_THE_DIGITS)
             }
         };
         let is_companion = matches!(self.linearization, Linearization::Companion { .. });

@@ -7,7 +7,7 @@ use super::point::SolvedPoint;
 use super::reduced::ReducedModel;
 use super::{CHANGE_PLACES, MULTIPLE, SAME, SAME_EIGENVALUE};
 use crate::cea::counted::NEARLY_CRITICAL;
-use crate::linalg::{ComplexDenseLu, LinalgError};
+use crate::linalg::LinalgError;
 use crate::linalg::{Mat, c64};
 
 /// Distance of an overlap from 1 within which two modes at neighbouring friction coefficients may be one.
@@ -117,51 +117,23 @@ fn split_degenerate(
     let mut first = 0;
     while first < count.min(modes.len()) {
         let lambda = modes[first].eigenvalue;
-        let size = modes[first..]
-            .iter()
-            .take_while(|m| (m.eigenvalue - lambda).norm() < MULTIPLE * lambda.norm())
-            .count();
+        let is_one = |m: &&ReducedMode| (m.eigenvalue - lambda).norm() < MULTIPLE * lambda.norm();
+        let size = modes[first..].iter().take_while(is_one).count().max(1);
         if size > 1 {
             let cluster = &mut modes[first..first + size];
-            let gram = ComplexDenseLu::factorize(at.overlaps(cluster, cluster));
-            let mut operator = -rate.pencil_forms(cluster, cluster);
-            gram.solve_in_place(operator.as_mut());
-            rotate(cluster, &operator, &gram)?;
-            // What each mode's own frequency does to it is a matter of single modes.
-            if !at.tabled.is_empty() {
-                model.complete(cluster, &at, *mu);
+            let eigen = (-rate.pencil_forms(cluster, cluster)).eigen();
+            let eigen = eigen.map_err(|_| LinalgError::DenseEigen { dimension: size })?;
+            let (values, parts) = (eigen.S().column_vector(), eigen.U());
+            let mut order: Vec<usize> = (0..size).collect();
+            crate::order::sort_by_number(&mut order, |&i| values[i].re);
+            let rights: Vec<Vec<c64>> = cluster.iter().map(|mode| mode.right.clone()).collect();
+            for (mode, j) in cluster.iter_mut().zip(order) {
+                let part = |row: usize| (0..size).map(|i| parts[(i, j)] * rights[i][row]).sum();
+                mode.right = (0..rights[0].len()).map(part).collect();
             }
+            model.complete(cluster, &at, *mu);
         }
-        first += size.max(1);
-    }
-    Ok(())
-}
-
-/// Replaces the vectors of a cluster by the eigenvectors of `operator`, biorthonormal ones.
-fn rotate(
-    cluster: &mut [ReducedMode],
-    operator: &Mat<c64>,
-    gram: &ComplexDenseLu,
-) -> Result<(), LinalgError> {
-    let size = cluster.len();
-    let eigen = operator.eigen().map_err(|_| LinalgError::DenseEigen { dimension: size })?;
-    let (values, vectors) = (eigen.S().column_vector(), eigen.U());
-    let mut order: Vec<usize> = (0..size).collect();
-    crate::order::sort_by_number(&mut order, |&i| values[i].re);
-    let vectors = Mat::from_fn(size, size, |i, j| vectors[(i, order[j])]);
-    // Left vectors: P^-1 G^-1 W^T, so that W'^T (2 lambda M + C) X P is the identity.
-    let mut left = Mat::<c64>::identity(size, size);
-    gram.solve_in_place(left.as_mut());
-    ComplexDenseLu::factorize(vectors.clone()).solve_in_place(left.as_mut());
-    let combine = |old: &[Vec<c64>], factor: &dyn Fn(usize) -> c64| -> Vec<c64> {
-        (0..old[0].len()).map(|row| (0..size).map(|i| factor(i) * old[i][row]).sum()).collect()
-    };
-    let rights: Vec<Vec<c64>> = cluster.iter().map(|m| m.right.clone()).collect();
-    let lefts: Vec<Vec<c64>> = cluster.iter().map(|m| m.left.clone()).collect();
-    for (j, mode) in cluster.iter_mut().enumerate() {
-        mode.right = combine(&rights, &|i| vectors[(i, j)]);
-        mode.left = combine(&lefts, &|i| left[(j, i)]);
-        mode.derivative = values[order[j]];
+        first += size;
     }
     Ok(())
 }

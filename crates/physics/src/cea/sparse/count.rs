@@ -1,14 +1,13 @@
 //! Eigenvalues in a part of the upper half plane, counted by the argument principle.
 
 use super::full_problem::{FullProblem, SharedAnalysis};
+use crate::cea::counted::STEP;
 use crate::cea::{CeaError, CountedRegion, ModeCount};
 use crate::linalg::{LinalgError, Uncounted, ZeroCount, c64, count_zeros};
 use crate::prestress::SlidingTangent;
 use std::f64::consts::TAU;
 
-/// Distance of the two determinants that a slope is taken from, relative to the upper end of the frequencies ...
-const STEP: f64 = 1e-4;
-/// ... and, near the real axis, to the frequency.
+/// Distance of the two determinants that a slope is taken from near the real axis, relative to the frequency.
 const STEP_BELOW: f64 = 0.02;
 
 /// Counts eigenvalues of `T(lambda; mu) = lambda^2 M + lambda C + K + i H` of a tangent.

@@ -5,6 +5,7 @@ use super::inertia::{counted, gyroscopic_count};
 use super::linearization::Centre;
 use super::structure::StiffnessFactors;
 use super::{CONVERGED, GUARD_MODES, LOSSY_GUARD, MOST_ATTEMPTS};
+use crate::cea::spectrum::ROUNDING_ERRORS;
 use crate::cea::{CeaError, ModeLimit, SweepWatch};
 use crate::linalg::dense::{column, columns_of, dot, from_columns, pick_columns};
 use crate::linalg::{
@@ -25,8 +26,6 @@ const SHIFT: f64 = 1e-3;
 const FARTHER: f64 = 10.0;
 /// Lowest eigenvalue, relative to the highest, above which factors of `K` itself serve all modes.
 const STIFFLY_HELD: f64 = 1e-5;
-/// Energy of a motion, in rounding errors of the terms that make it up, below which it is rigid.
-const ROUNDING_ERRORS: f64 = 8.0;
 /// Where the shift of the factors kept may lie between zero and the highest eigenvalue `kappa`.
 const AMID: std::ops::Range<f64> = 0.4..0.65;
 /// Distance of that shift from the frequencies about it, relative to the highest. At a pair of equal frequencies the factors would
@@ -90,14 +89,14 @@ impl FrictionlessModes {
     ) -> Result<Self, CeaError> {
         let unknowns = tangent.stiffness.dimension();
         // Motions below the limit, rigid ones among them; those that a turning frame alone holds count twice.
-        // One mode above a limit in frequency tells that none below it is missing under friction.
-        let (below, guard, mut shift) = match limit {
-            ModeLimit::Lowest(count) => (count, 0, FIRST_SHIFT * inertia.largest_ratio()),
+        let (below, mut shift) = match limit {
+            ModeLimit::Lowest(count) => (count, FIRST_SHIFT * inertia.largest_ratio()),
             ModeLimit::MaxFrequency(hz) => {
-                (inertia.bound_below(tangent, TAU * hz)?, 1, SHIFT * (TAU * hz).powi(2))
+                (inertia.bound_below(tangent, TAU * hz)?, SHIFT * (TAU * hz).powi(2))
             }
         };
-        let beyond = if tangent.is_lossy() { LOSSY_GUARD } else { guard };
+        // One mode above tells that none below a frequency is missing under friction, and whether the next one grows.
+        let beyond = if tangent.is_lossy() { LOSSY_GUARD } else { 1 };
         let (mut extra, mut recounts) = (0, 0);
         loop {
             let request = (below.max(1) + beyond + GUARD_MODES + extra).min(unknowns);
@@ -160,7 +159,7 @@ fn overdamped(tangent: &SlidingTangent, found: &Lowest) -> usize {
         let image = matrix.pattern().multiply(&matrix.evaluate(0.0), x);
         dot(column(x, 0), column(image.as_ref(), 0))
     };
-    let leading = (found.rigid..found.kappas.len()).take(BLOCK);
+    let leading = (found.rigid + found.unheld..found.kappas.len()).take(BLOCK);
     let is_overdamped = |j: &usize| {
         let x = found.vectors.get(.., *j..*j + 1);
         let [damping, inertia] = [&tangent.damping, &tangent.mass].map(|own| form(own, x));

@@ -4,15 +4,13 @@ use super::StiffnessFactors;
 use super::full_problem::FullProblem;
 use super::packed::{joined, side_by_side};
 use super::pencil::Pencil;
-use super::{BESIDE, GROUP_WIDTH, MOST_STEPS};
+use super::{BESIDE, GROUP_WIDTH, HALF_THE_DIGITS, MOST_STEPS};
 use crate::cea::ModeVectors;
 use crate::linalg::dense::{product, transpose_product};
 use crate::linalg::vectors::{dot, length};
 use crate::linalg::{ComplexDenseLu, Mat, c64};
 use crate::prestress::SlidingTangent;
 
-/// Energy of a correction, relative to that of the vector, below which no more are made.
-const NEGLIGIBLE: f64 = 1e-8;
 /// Modes that are corrected together: each is worked on by three vectors.
 const PAIRS_AT_A_TIME: usize = GROUP_WIDTH / 3;
 
@@ -136,7 +134,7 @@ fn correct_group(
     let energy = |[_, residual, correction]: &Mapped| dot(correction, residual).re.abs();
     let mut directions: Vec<Vec<Mapped>> = vec![Vec::new(); pairs.len()];
     for _ in 0..MOST_STEPS {
-        open.retain(|&k| energy(&lefts[k]) > NEGLIGIBLE * goals[k]);
+        open.retain(|&k| energy(&lefts[k]) > HALF_THE_DIGITS * goals[k]);
         if open.is_empty() {
             break;
         }

@@ -68,12 +68,17 @@ const TRACKING_MARGIN: usize = 6;
 /// each has a vector of its own.
 const MULTIPLE: f64 = 1e-7;
 /// Relative distance of eigenvalues up to which they are one where their vectors are, or where friction moves neither.
-const SAME_EIGENVALUE: f64 = 1e-6;
+pub(super) const SAME_EIGENVALUE: f64 = 1e-6;
 /// Distance of the overlap of two modes from 1 within which they are one branch beyond doubt.
 const SAME: f64 = 0.1;
 /// Residual, relative to what it is one of, or length of a correction of a mode of unit length, at which it has converged: below that
 /// corrections are round-off.
-const CONVERGED: f64 = 1e-11;
+pub(super) const CONVERGED: f64 = 1e-11;
+/// Change of a vector of unit length, of a block of them relative to its longest, or of a critical friction coefficient, below which no
+/// more corrections are made. Source: A. Neumaier, SIAM J. Numer. Anal. 22 (1985), residual inverse iteration.
+const SETTLED: f64 = 1e-10;
+/// Error whose square, or what one more step leaves of it, is round-off.
+const HALF_THE_DIGITS: f64 = 1e-8;
 /// What a vector of unit length has beyond a space: more makes the space wider, less is round-off. A part as short as this along the
 /// stiffest waves of a mesh moves the slowest modes, a thousandth as fast, by a relative 1e-9.
 const SAME_SPACE: f64 = 1e-13;

@@ -55,7 +55,12 @@ impl ReducedMode {
 
     /// Whether it grows by more than round-off.
     pub fn is_growing(&self) -> bool {
-        self.eigenvalue.re > self.round_off() * self.eigenvalue.norm()
+        !self.grows_at_most(self.round_off())
+    }
+
+    /// Whether its growth rate, relative to its frequency, is no more than this.
+    pub fn grows_at_most(&self, relative: f64) -> bool {
+        self.eigenvalue.re <= relative * self.eigenvalue.norm()
     }
 
     /// `-Re(lambda) / |lambda|`; 1 is critical.

@@ -4,17 +4,11 @@ use super::mode::ReducedMode;
 use super::packed::forms;
 use super::pencil::Pencil;
 use super::term::{Term, projected};
-use super::{LITTLE, MOST_STEPS};
+use super::{HALF_THE_DIGITS, LITTLE, MOST_STEPS, SETTLED};
 use crate::fem::own_frequency_step;
 use crate::linalg::dense::{column, column_mut, product, transpose_product};
 use crate::linalg::{ComplexDenseLu, FrictionWeights, Mat, Scale, c64};
 use std::f64::consts::TAU;
-
-/// Relative change of the eigenvalue that ends the iteration by factors at it: the error left is about the cube of that.
-const QUOTIENT_TOLERANCE: f64 = 1e-8;
-/// Change of the vectors, of length 1, that ends the iteration by factors from before; source: A. Neumaier, SIAM J. Numer. Anal. 22 (1985),
-/// residual inverse iteration.
-const VECTOR_TOLERANCE: f64 = 1e-10;
 
 /// `V^T P V` of the matrices `P`, or of their derivatives, at one friction coefficient.
 pub type ProjectedMatrices = Pencil<Mat<f64>>;
@@ -108,11 +102,11 @@ impl ProjectedMatrices {
                 return None;
             }
             let is_settled = match is_reused {
-                true => moved <= VECTOR_TOLERANCE,
+                true => moved <= SETTLED,
                 // Of two modes as close as that a combination passes for one, until its vectors stay.
                 false => {
-                    let is_near = step.norm() <= QUOTIENT_TOLERANCE * mode.eigenvalue.norm();
-                    is_near && moved <= QUOTIENT_TOLERANCE.sqrt()
+                    let is_near = step.norm() <= HALF_THE_DIGITS * mode.eigenvalue.norm();
+                    is_near && moved <= HALF_THE_DIGITS.sqrt()
                 }
             };
             if is_settled {

@@ -15,7 +15,7 @@ use crate::linalg::dense::{
 };
 use crate::linalg::gram::complement;
 use crate::linalg::vectors::length;
-use crate::linalg::{FrictionWeights, LinalgError, MatrixPolynomial};
+use crate::linalg::{ComplexDenseLu, FrictionWeights, LinalgError, MatrixPolynomial};
 use crate::linalg::{Mat, MatRef, Scale, c64};
 use crate::prestress::SlidingTangent;
 pub(super) use parts::inside;
@@ -51,6 +51,29 @@ fn combined(columns: &Mat<f64>, coordinates: &[c64]) -> Vec<c64> {
         }
     }
     sum
+}
+
+/// Makes of the left vectors of modes those that belong to their right ones, of which the decomposition leaves any basis of the space of a
+/// multiple eigenvalue: `W G^-T` with `G = W^T N X`, of which `overlaps` has the entries.
+fn pair_lefts(modes: &mut [ReducedMode], overlaps: &Mat<c64>) {
+    let values: Vec<c64> = modes.iter().map(|mode| mode.eigenvalue).collect();
+    let mut is_paired = vec![false; modes.len()];
+    for i in 0..modes.len() {
+        let is_one = |j: usize| (values[j] - values[i]).norm() <= MULTIPLE * values[i].norm();
+        let own: Vec<usize> = (i..modes.len()).filter(|&j| !is_paired[j] && is_one(j)).collect();
+        if is_paired[i] {
+            continue;
+        }
+        own.iter().for_each(|&j| is_paired[j] = true);
+        let size = own.len();
+        let gram = Mat::from_fn(size, size, |a, b| overlaps[(own[a], own[b])]);
+        let rows = modes[i].left.len();
+        let mut lefts = Mat::from_fn(size, rows, |a, row| modes[own[a]].left[row]);
+        ComplexDenseLu::factorize(gram).solve_in_place(lefts.as_mut());
+        for (a, &j) in own.iter().enumerate() {
+            modes[j].left = (0..rows).map(|row| lefts[(a, row)]).collect();
+        }
+    }
 }
 
 /// `V^T (lambda^2 M(mu) + lambda C(mu) + K(mu)) V` with an orthonormal `V` that holds the wanted right vectors
@@ -340,20 +363,17 @@ impl ReducedModel {
         (mode.eigenvalue.im > 0.0).then_some(mode)
     }
 
-    /// Normalizes vectors and computes `dlambda/dmu = -w^T T'(lambda) x` with
-    /// `w^T (2 lambda M + C) x = 1`; where stiffness depends on frequency, the mode's own follows
-    /// ([`own_frequency_step`]).
+    /// Normalizes vectors, so that `w_i^T (2 lambda M + C) x_j` is 1 for one mode and 0 for others of a multiple eigenvalue, and computes
+    /// `dlambda/dmu = -w^T T'(lambda) x`; where stiffness depends on frequency, the mode's own follows ([`own_frequency_step`]).
     pub(super) fn complete(&self, modes: &mut [ReducedMode], at: &ProjectedMatrices, mu: f64) {
         for mode in modes.iter_mut() {
             let length = length(&mode.right);
             mode.right.iter_mut().for_each(|v| *v /= length);
         }
+        pair_lefts(modes, &at.overlaps(modes, modes));
         let changes = self.derivative_at(mu).pencil_forms(modes, modes);
-        let slopes = at.overlaps(modes, modes);
         for (j, mode) in modes.iter_mut().enumerate() {
-            let (change, slope) = (changes[(j, j)], slopes[(j, j)]);
-            mode.derivative = at.followed(mode, -change / slope, slope);
-            mode.left.iter_mut().for_each(|v| *v /= slope);
+            mode.derivative = at.followed(mode, -changes[(j, j)], c64::new(1.0, 0.0));
         }
     }
 

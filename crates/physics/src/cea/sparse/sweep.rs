@@ -13,6 +13,7 @@ use super::edge::ContactEdge;
 use super::frictionless::FrictionlessModes;
 use super::linearization::Linearization;
 use super::point::SolvedPoint;
+use super::structure::StructureMatrices;
 use super::{GUARD_MODES, MOST_ATTEMPTS, RESIDUAL_BOUND, TRACKING_MARGIN};
 use crate::cea::{
     CeaError, FrictionSweep, ModeLimit, PartWatch, SweepRequest, SweepWatch, UnconvergedMode,
@@ -25,8 +26,6 @@ use std::f64::consts::TAU;
 const MIN_SAMPLES: usize = 6;
 /// Range of friction coefficients over which modes hardly change.
 const SHORT_RANGE: f64 = 0.05;
-/// Change of a critical friction coefficient below which its mode needs no more corrections, and width of the range that it is located in.
-const SETTLED: f64 = 1e-10;
 /// Relative change that is none of the frequency that stiffness is referred to where it depends on it.
 const REFERENCE_SETTLED: f64 = 0.02;
 
@@ -115,6 +114,8 @@ pub struct SparseSweep<'a> {
     linearization: Linearization,
     limit: ModeLimit,
     edge: ContactEdge,
+    /// Of `K`, `C` and `M` without friction, see [`StructureMatrices::norms`].
+    norms: [f64; 3],
     builder: BasisBuilder<'a>,
     /// Friction coefficients, ascending, 0 first unless the sweep is continued.
     grid: Vec<f64>,
@@ -155,6 +156,7 @@ impl<'a> SparseSweep<'a> {
             linearization,
             limit: request.limit,
             edge: ContactEdge::of(tangent),
+            norms: StructureMatrices::at(tangent, linearization, 0.0).norms(),
             builder: BasisBuilder::new(
                 tangent,
                 linearization,

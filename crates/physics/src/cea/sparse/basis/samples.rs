@@ -1,6 +1,6 @@
 //! A basis of the modes at a few friction coefficients, each from an iteration of its own.
 
-use super::{BasisBuilder, LOSSY_ROUNDS, VECTOR_TOLERANCE, scale_to_unit_length, turn_to_real};
+use super::{BasisBuilder, LOSSY_ROUNDS, scale_to_unit_length, turn_to_real};
 use crate::cea::CeaError;
 use crate::cea::sparse::full_problem::FullProblem;
 use crate::cea::sparse::linearization::Linearization;
@@ -8,7 +8,7 @@ use crate::cea::sparse::mode::ReducedMode;
 use crate::cea::sparse::packed::PackedModes;
 use crate::cea::sparse::structure::{StiffnessFactors, StructureMatrices};
 use crate::cea::sparse::{
-    BESIDE, CHANGE_PLACES, GROUP_WIDTH, MOST_ATTEMPTS, RESIDUAL_BOUND, SAME_SPACE,
+    BESIDE, CHANGE_PLACES, GROUP_WIDTH, MOST_ATTEMPTS, RESIDUAL_BOUND, SAME_SPACE, SETTLED,
 };
 use crate::linalg::dense::join_columns;
 use crate::linalg::{LinalgError, Mat, MatrixPolynomial, c64};
@@ -243,7 +243,7 @@ impl BasisBuilder<'_> {
         scale_to_unit_length(&mut corrections);
         let has_any = corrections.ncols() > 0;
         if has_any {
-            self.model.extend(corrections.clone(), VECTOR_TOLERANCE);
+            self.model.extend(corrections.clone(), SETTLED);
             self.model.hold_sample(mu, &corrections);
         }
         Ok(has_any)

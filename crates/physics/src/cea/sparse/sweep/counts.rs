@@ -4,7 +4,7 @@ use super::SparseSweep;
 use crate::cea::sparse::branches::TrackedBranch;
 use crate::cea::sparse::count::ModeCounter;
 use crate::cea::sparse::point::SolvedPoint;
-use crate::cea::sparse::{MOST_ATTEMPTS, RESIDUAL_BOUND, TRACKING_MARGIN};
+use crate::cea::sparse::{MOST_ATTEMPTS, RESIDUAL_BOUND, SAME_EIGENVALUE, TRACKING_MARGIN};
 use crate::cea::{CeaError, CountedRegion, ModeCount, ModeLimit, SweepRequest};
 use crate::linalg::c64;
 use std::f64::consts::TAU;
@@ -13,8 +13,6 @@ use std::f64::consts::TAU;
 const FARTHER: [f64; 3] = [1.0, 1.37, 0.83];
 /// Friction values up to which modes are counted at each.
 const FEW_VALUES: usize = 6;
-/// Relative distance of the upper end of a region from the nearest known frequency.
-const CLEARANCE: f64 = 1e-6;
 
 impl SparseSweep<'_> {
     /// Counts the modes by the argument principle: at each friction value asked for where these are few, else at the first, the middle
@@ -66,8 +64,7 @@ impl SparseSweep<'_> {
             let modes = &self.points[k].modes[..self.points[k].wanted];
             let uncertain = self.points[k].checks.iter().map(|check| check.uncertainty);
             let pairs = modes.iter().zip(uncertain);
-            let growing = pairs.filter(|(m, u)| m.eigenvalue.re > u * m.eigenvalue.norm());
-            growing.count()
+            pairs.filter(|(mode, relative)| !mode.grows_at_most(*relative)).count()
         };
         let (first, last) = (all[0], all[all.len() - 1]);
         let mut chosen = vec![first, all[all.len() / 2], last];
@@ -134,15 +131,15 @@ fn upper_end(point: &SolvedPoint, known: &[c64], limit: ModeLimit) -> f64 {
         ModeLimit::MaxFrequency(hz) => TAU * hz,
         ModeLimit::Lowest(_) => highest(point),
     };
-    let is_clear = |own: &c64| (own.im - limit).abs() > CLEARANCE * limit;
+    let is_clear = |own: &c64| (own.im - limit).abs() > SAME_EIGENVALUE * limit;
     if known.iter().all(is_clear) {
         return limit;
     }
     let mut above: Vec<f64> = point.modes.iter().map(|mode| mode.eigenvalue.im).collect();
-    above.retain(|own| *own >= limit * (1.0 - CLEARANCE));
+    above.retain(|own| *own >= limit * (1.0 - SAME_EIGENVALUE));
     above.sort_by(f64::total_cmp);
     let mut gaps = above.windows(2);
-    let gap = gaps.find(|pair| pair[1] - pair[0] > 4.0 * CLEARANCE * pair[1]);
+    let gap = gaps.find(|pair| pair[1] - pair[0] > 4.0 * SAME_EIGENVALUE * pair[1]);
     match gap {
         Some(pair) => 0.5 * (pair[0] + pair[1]),
         None => 1.02 * above.last().copied().unwrap_or(limit),

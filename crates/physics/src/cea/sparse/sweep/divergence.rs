@@ -1,6 +1,7 @@
 //! Where steady sliding loses its static stability: a motion grows there without oscillating.
 
-use super::{SETTLED, SparseSweep};
+use super::SparseSweep;
+use crate::cea::sparse::SETTLED;
 use crate::cea::sparse::branches::{BranchEnd, TrackedBranch};
 use crate::cea::sparse::mode::ReducedMode;
 use crate::cea::{CeaError, UnstableInterval};

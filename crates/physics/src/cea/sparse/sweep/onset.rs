@@ -1,10 +1,12 @@
 //! The projected problem as a solver of single branches, for the search of their onsets.
 
 use super::SparseSweep;
+use super::points::uncertainty;
 use crate::cea::onset::{BranchSolver, Instability, instabilities};
 use crate::cea::sparse::branches::{TrackedBranch, followed};
 use crate::cea::sparse::mode::{ModeAt, ReducedMode};
 use crate::cea::sparse::{RESIDUAL_BOUND, SAME};
+use crate::cea::spectrum::ROUNDING_ERRORS;
 use crate::cea::{BranchPoint, UnstableInterval};
 use crate::linalg::LinalgError;
 use crate::linalg::vectors::length;
@@ -67,6 +69,14 @@ impl SparseSweep<'_> {
         let states = states.chain(passed);
         let mut states: Vec<ModeAt> = states.filter(|state| state.mu >= self.lowest).collect();
         crate::order::sort_by_number(&mut states, |state| state.mu);
+        // What grows by no more than rounded matrices leave open crosses zero anywhere.
+        let growing = || states.iter().map(|state| &state.mode).filter(|mode| mode.is_growing());
+        let is_none = |mode: &ReducedMode| {
+            mode.grows_at_most(ROUNDING_ERRORS * uncertainty(self.norms, mode))
+        };
+        if growing().next().is_some() && growing().all(is_none) {
+            return Ok(Vec::new());
+        }
         let end = states.last().map_or(self.lowest, |state| state.mu);
         states.extend(last.filter(|state| state.mu > end));
         let begin = states.first().map_or(self.lowest, |state| state.mu);

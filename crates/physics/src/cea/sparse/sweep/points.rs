@@ -13,6 +13,18 @@ use crate::linalg::{LinalgError, Mat, c64};
 use std::f64::consts::TAU;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+/// `|lambda|^2 |M| + |lambda| |C| + |K|` with the `norms` of the three.
+fn magnitude([stiff, damped, inert]: [f64; 3], lambda: c64) -> f64 {
+    let modulus = lambda.norm();
+    modulus * modulus * inert + modulus * damped + stiff
+}
+
+/// See [`crate::cea::ComplexMode::uncertainty`]: of a mode with a right vector of unit length.
+pub(super) fn uncertainty(norms: [f64; 3], mode: &ReducedMode) -> f64 {
+    let lambda = mode.eigenvalue;
+    f64::EPSILON * magnitude(norms, lambda) * length(&mode.left) / lambda.norm()
+}
+
 impl SparseSweep<'_> {
     pub(super) fn solve_anew(&mut self, indices: &[usize]) -> Result<(), LinalgError> {
         for (k, point) in indices.iter().zip(self.solve_points(indices)?) {
@@ -99,16 +111,15 @@ impl SparseSweep<'_> {
             let (residuals, momenta) = matrices.residuals_and_momenta(&group.entries, x.as_ref());
             for &j in &group.modes {
                 let lambda = modes[j].eigenvalue;
-                let modulus = lambda.norm();
                 let [residual, momentum, shape] =
                     [&residuals, &momenta, &x].map(|mapped| packed.vector(j, &group, mapped));
                 let force = matrices.residual_factor(lambda) * residual.norm();
                 let inertia = self.linearization.inertia(lambda) * momentum.norm();
-                let scale = modulus * modulus * norms[2] + modulus * norms[1] + norms[0];
+                let scale = magnitude(norms, lambda);
                 let check = ModeCheck {
                     residual: force / (scale * shape.norm()),
                     force_residual: force / inertia,
-                    uncertainty: f64::EPSILON * scale * length(&modes[j].left) / modulus,
+                    uncertainty: uncertainty(norms, &modes[j]),
                     contact_share: self.contact_share(shape, momentum),
                     edge: self.edge.restrict(|unknown| shape.at(unknown)),
                     peak: shape.peak(),

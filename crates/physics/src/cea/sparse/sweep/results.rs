@@ -1,10 +1,10 @@
 //! What a sweep found: points, unstable intervals, shapes.
 
+use super::SparseSweep;
 use super::onset::FoundInterval;
-use super::{SETTLED, SparseSweep};
 use crate::cea::sparse::branches::{BranchLabel, TrackedBranch};
 use crate::cea::sparse::mode::ModeAt;
-use crate::cea::sparse::{MOST_ATTEMPTS, RESIDUAL_BOUND, SAME_EIGENVALUE};
+use crate::cea::sparse::{MOST_ATTEMPTS, RESIDUAL_BOUND, SAME_EIGENVALUE, SETTLED};
 use crate::cea::{CeaError, ComplexMode, FrictionPoint, FrictionSweep, SweepRequest};
 use crate::cea::{EndedMode, UnconvergedMode, UnstableInterval};
 use crate::linalg::{LinalgError, c64};
