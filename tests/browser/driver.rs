@@ -1,12 +1,10 @@
 //! A browser without a window, led through WebDriver.
 
+use crate::common::prelude::*;
 use base64::prelude::{BASE64_STANDARD, Engine};
-use serde_json::{Value, json};
 use std::io::{BufRead, BufReader, Read, Write};
 use std::net::{TcpListener, TcpStream};
-use std::path::Path;
 use std::process::{Child, Command, Stdio};
-use std::time::{Duration, Instant};
 
 /// One page in one browser; closed when dropped.
 pub struct Browser {

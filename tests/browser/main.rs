@@ -7,12 +7,10 @@ mod common;
 mod driver;
 mod page;
 
-use common::program;
+use common::prelude::*;
 use driver::Browser;
 use libtest_mimic::{Arguments, Trial};
 use page::*;
-use program::{Run, shipped};
-use serde_json::{Value, json};
 
 /// Tests by their names: whether there is a browser is known only when they run, too late for an attribute of theirs.
 macro_rules! tests {
@@ -72,7 +70,7 @@ fn eigenvalues_move_with_friction_and_modes_with_time() {
     play(&browser, figure);
     assert_ne!((phase(), picture()), first);
     let still = phase();
-    std::thread::sleep(std::time::Duration::from_millis(150));
+    std::thread::sleep(Duration::from_millis(150));
     assert_eq!(phase(), still);
     keep_screenshot(&browser, "motion-1280.png");
     check_page(&browser);
@@ -199,9 +197,7 @@ fn a_run_is_zoomed_read_heard_and_taken_along() {
     // The samples, against the table of the run.
     let taken = data_of(&browser, "overview-5");
     assert_eq!(taken[0][..2], ["time t (ms)", "tangential acceleration, node 5: aθ (m/s²)"]);
-    let rows = run.rows("probe-5.csv");
-    let rows: Vec<[f64; 2]> =
-        rows.iter().map(|row| row.numbers(["time_s", "a_theta_m_per_s2"])).collect();
+    let rows = columns(&run.rows("probe-5.csv"), ["time_s", "a_theta_m_per_s2"]);
     assert_eq!(taken.len() - 1, rows.len());
     let number = |text: &str| text.parse::<f64>().unwrap();
     let largest = rows.iter().map(|row| row[1].abs()).fold(0.0, f64::max);
@@ -276,7 +272,7 @@ fn without_scripts_numbers_and_pictures_are_there() {
     let html = run.text("report.html");
     // The same page, its scripts as text.
     let silent = run.path("silent.html");
-    std::fs::write(&silent, html.replace("<script>", "<script type=\"text/plain\">")).unwrap();
+    fs::write(&silent, html.replace("<script>", "<script type=\"text/plain\">")).unwrap();
     let browser = Browser::open(WIDE);
     browser.visit(&silent);
     assert_eq!(browser.run("return document.documentElement.dataset.ready ?? null"), Value::Null);
@@ -309,7 +305,7 @@ fn two_runs_are_compared_number_by_number_and_curve_over_curve() {
     // Curves of both runs in one panel.
     press(&browser, "pairs", "Zoom");
     let names = browser.run("return [...document.querySelectorAll('#pairs .series')].map(b => b.textContent.split(': ')[0])");
-    let names: std::collections::BTreeSet<&str> =
+    let names: BTreeSet<&str> =
         names.as_array().unwrap().iter().filter_map(Value::as_str).collect();
     assert_eq!(names.len(), 2, "{names:?}");
     check_page(&browser);

@@ -1,10 +1,7 @@
 //! Reports to look at, and what is checked on every page.
 
 use super::driver::Browser;
-use crate::common::cases::kept;
-use crate::program::{Answer, Run, folder_with, shipped};
-use serde_json::{Value, json};
-use tempfile::TempDir;
+use crate::common::prelude::*;
 
 /// Text that would become an element if it were not escaped.
 pub const MARKUP: &str = "</script><img src=x onerror=document.title='broken'>&amp;";
@@ -14,7 +11,7 @@ pub const PHONE: [usize; 2] = [400, 800];
 
 /// A run of a case of the collection, with a title that has markup in it, in a folder.
 pub fn report_of(command: &str, name: &str, set: &[&str]) -> (TempDir, Answer) {
-    let text = std::fs::read_to_string(shipped(name)).unwrap();
+    let text = fs::read_to_string(shipped(name)).unwrap();
     let title = text.lines().find(|line| line.starts_with("title")).unwrap();
     let text = text.replace(title, &format!("title = \"{MARKUP}\""));
     let folder = folder_with(&[("case.toml", text.as_bytes())]);
@@ -94,5 +91,5 @@ pub fn check_text_stays_text(browser: &Browser) {
 }
 
 pub fn keep_screenshot(browser: &Browser, name: &str) {
-    std::fs::write(kept("reports").join(name), browser.screenshot()).unwrap();
+    fs::write(kept("reports").join(name), browser.screenshot()).unwrap();
 }

@@ -127,10 +127,9 @@ fn mesh_writes_into_the_default_folder_and_prints_statistics_without_progress_or
 fn json_is_the_summary_alone_with_its_manifest() {
     let folder = folder();
     let words = ["--json", "--threads", "1", "--simd", "scalar"];
-    let printed = on_disc(&folder, "mesh", &words).done().value();
-    let path = folder.path().join("results/polycarbonate-disc/mesh/summary.json");
-    let written: Value = serde_json::from_slice(&fs::read(path).unwrap()).unwrap();
-    assert_eq!(printed, written);
+    let answer = on_disc(&folder, "mesh", &words).done();
+    let printed = answer.value();
+    assert_eq!(printed, answer.json("results/polycarbonate-disc/mesh/summary.json"));
     let manifest = &printed["manifest"];
     assert_eq!(manifest["version"], env!("CARGO_PKG_VERSION"));
     assert_eq!(manifest["case_text"], fs::read_to_string(disc()).unwrap());

@@ -4,7 +4,7 @@
 
 use crate::prelude::*;
 use frictionsim::study::eigenvalues::modes_below;
-use frictionsim::study::fit::fit_case;
+use frictionsim::study::fit::{FitProblem, ModelMode, fit, fit_case};
 
 fn fitted(name: &str, table: &str, set: &[&str]) -> Answer {
     let folder = folder_with(&[("modes.csv", table.as_bytes())]);
@@ -127,7 +127,6 @@ fn a_fit_on_its_bound_says_so() {
 /// frequencies, and only the shapes tell which. They mix a little where the modes are close.
 #[test]
 fn shapes_tell_modes_apart_that_cross() {
-    use frictionsim::study::fit::{FitProblem, ModelMode, fit};
     let truth = 1.2996_f64;
     let frequencies = |p: f64| [1000.0 * p.sqrt(), 1000.0 * (2.4 - p).sqrt()];
     let model = |values: &[f64], _: bool| -> Result<Vec<ModelMode>, String> {

@@ -60,13 +60,6 @@ fn free_disc_with_one_percent_noise_gives_back_its_coefficients_at_1_hz() {
     assert!(found.fit.modes.len() >= 6);
 }
 
-fn moments(values: &[f64]) -> (f64, f64) {
-    let n = values.len() as f64;
-    let mean = values.iter().sum::<f64>() / n;
-    let square: f64 = values.iter().map(|v| (v - mean).powi(2)).sum();
-    (mean, (square / (n - 1.0)).sqrt())
-}
-
 /// Distance of an estimate from the truth in standard errors, from its 95 % interval.
 fn pull(estimate: Estimate, truth: f64) -> f64 {
     1.96 * (estimate.value - truth) / (0.5 * (estimate.high - estimate.low))

@@ -110,11 +110,10 @@ fn the_lowest_modes_are_as_many_where_one_stops_oscillating() {
     let steep = "contact.static_friction_ratio=4.0 ; contact.decay_speed=0.4 ; \
          contact.rotation_speed_rpm=200 ; contact.normal_stiffness=1e12 ; \
          boundaries.outer={condition=\"support\",normal_stiffness=2e12,tangential_stiffness=1e7}";
-    let [cyclic, sparse] = ["cyclic", "sparse"].map(|method| {
-        let method = format!("cea.method=\"{method}\"");
+    let [cyclic, sparse] = METHODS.map(|method| {
         let run = Run::of("cea", "disc.toml").within(folder.path()).out("out").args(&["--force"]);
         let set = [steep, "material.loss_factor=0.01", "cea.friction_coefficients=[0.0, 0.3]"];
-        let found = run.set(&set).set(&[method.as_str()]).done().modes("0.3");
+        let found = run.set(&set).set(&[method]).done().modes("0.3");
         found.into_iter().map(|own| own.im).collect::<Vec<f64>>()
     });
     assert_eq!(cyclic.len(), 3);

@@ -10,9 +10,8 @@ fn run(folder: &Path, command: &str, case: &str, out: &str, sets: &[&str]) -> An
 }
 
 fn modes(answer: &Answer) -> Vec<[f64; 3]> {
-    let rows = answer.rows("eigenvalues.csv").into_iter();
-    let columns = ["friction_coefficient", "frequency_hz", "growth_rate_per_s"];
-    rows.map(|row| row.numbers(columns)).collect()
+    let wanted = ["friction_coefficient", "frequency_hz", "growth_rate_per_s"];
+    columns(&answer.rows("eigenvalues.csv"), wanted)
 }
 
 /// What a command leaves of the disc harmonic by harmonic, and on its whole mesh, as the key says.
@@ -72,11 +71,8 @@ fn probes_of_a_whole_mesh_move_along_x_y_and_z() {
     ];
     let folder = folder();
     let answer = run(folder.path(), "transient", DISC, "probes", &sets).code(0);
-    let start = |node| {
-        let rows = answer.rows(&format!("probe-{node}.csv"));
-        rows[0].numbers(["u_x_m", "u_y_m", "u_z_m"])
-    };
-    let [[x, y, z], [ahead_x, ahead_y, ahead_z]] = [start(6), start(38)];
+    let [[x, y, z], [ahead_x, ahead_y, ahead_z]] = ["probe-6.csv", "probe-38.csv"]
+        .map(|name| answer.rows(name)[0].numbers(["u_x_m", "u_y_m", "u_z_m"]));
     assert!(x > 1e-6 && y > 1e-8, "{x:e} {y:e}");
     let probes = &answer.summary()["probes"]["6"];
     let has = |key: &str| probes.get(key).is_some();
@@ -101,9 +97,7 @@ fn several_materials_of_a_body_of_revolution_are_those_of_its_whole_mesh() {
     let sets = [RING[0], RING[1], "transient={duration=3e-4,expansion_time=1e-4}"];
     let keys = ["transient", "transient.operator"];
     let motions = by_both(folder().path(), keys, &sets, |answer| {
-        let columns = ["kinetic_j", "strain_j", "material_damping_w"];
-        let energies = answer.rows("energy.csv").into_iter();
-        energies.map(|row| row.numbers(columns)).collect::<Vec<[f64; 3]>>()
+        columns(&answer.rows("energy.csv"), ["kinetic_j", "strain_j", "material_damping_w"])
     });
     assert_eq!(motions[0].len(), motions[1].len());
     for column in 0..3 {
@@ -136,9 +130,7 @@ fn losses_of_a_body_of_revolution_are_those_of_its_whole_mesh() {
             "contact.rotation_speed_rpm=1e12",
         ];
         let [waves, whole] = by_both(folder.path(), CEA, &[&sets[..], &further].concat(), |own| {
-            let onsets = own.rows("stability.csv");
-            let onsets = onsets.iter().map(|row| row.number("critical_friction"));
-            (modes(&own), onsets.collect::<Vec<f64>>(), own)
+            (modes(&own), column(&own.rows("stability.csv"), "critical_friction"), own)
         });
         assert_eq!(waves.2.summary()["method"], "cyclic");
         assert_eq!(waves.0.len(), whole.0.len());
@@ -186,8 +178,8 @@ fn the_response_of_a_lossy_body_of_revolution_is_that_of_its_whole_mesh() {
     );
     let sets = [&frf, "material.loss_factor=0.05"];
     let [waves, whole] = by_both(folder().path(), ["frf", "cea.method"], &sets, |answer| {
-        let columns = ["accelerance_real", "accelerance_imaginary"];
-        let lines = answer.rows("frf.csv").into_iter().map(|row| row.numbers(columns));
+        let parts = ["accelerance_real", "accelerance_imaginary"];
+        let lines = columns(&answer.rows("frf.csv"), parts).into_iter();
         lines.map(|[re, im]| c64::new(re, im)).collect::<Vec<c64>>()
     });
     assert_eq!(waves.len(), 3);
@@ -224,8 +216,7 @@ fn a_generated_body_of_revolution_takes_what_breaks_its_symmetry() {
         let notes = answer.summary()["notes"].to_string();
         let is_auto = answer.out.ends_with("improve-auto");
         assert_eq!(notes.contains("on its whole mesh"), is_auto, "{notes}");
-        let rows = answer.rows("candidates.csv");
-        rows.iter().map(|row| row.number("predicted_growth_rate_per_s")).collect::<Vec<f64>>()
+        column(&answer.rows("candidates.csv"), "predicted_growth_rate_per_s")
     });
     near_each(&sparse, &auto, 1e-6);
     let shapes = folder.path().join("shapes.csv");

@@ -45,19 +45,12 @@ impl Revolved {
     /// Nodes and elements of an input file.
     fn text(&self) -> (BTreeMap<Place, usize>, String) {
         let (nodes, elements) = self.mesh();
-        let mut text = "*NODE, NSET=Nall\n".to_owned();
-        for (&(radius, angle, height), number) in &nodes {
-            let (sin, cos) = (TAU * angle as f64 / (2 * self.around) as f64).sin_cos();
-            let [x, y, z] =
-                [radius as f64 * cos, radius as f64 * sin, height as f64].map(|x| x / 1e3);
-            writeln!(text, "{number}, {x:.15e}, {y:.15e}, {z:.15e}").unwrap();
-        }
-        text += "*ELEMENT, TYPE=C3D20R, ELSET=Eall\n";
-        for (i, nodes) in elements.iter().enumerate() {
-            let list: Vec<String> = nodes.iter().map(usize::to_string).collect();
-            let (first, rest) = list.split_at(10);
-            writeln!(text, "{}, {},\n{}", i + 1, first.join(", "), rest.join(", ")).unwrap();
-        }
+        let place = |(&(radius, angle, height), &number): (&Place, &usize)| {
+            let angle = TAU * angle as f64 / (2 * self.around) as f64;
+            (number, polar([radius as f64, angle, height as f64]).map(|x| x / 1e3))
+        };
+        let points: Vec<_> = nodes.iter().map(place).collect();
+        let mut text = abaqus_text(&points, "C3D20R, ELSET=Eall", &elements);
         text += "*SOLID SECTION, ELSET=Eall, MATERIAL=steel\n*MATERIAL, NAME=steel\n*ELASTIC\n210000., 0.3\n*DENSITY\n7.8e-9\n";
         (nodes, text)
     }

@@ -5,7 +5,6 @@
 use crate::prelude::*;
 use crate::sweep::table;
 use std::process::{Child, Stdio};
-use std::sync::OnceLock;
 
 /// A coarse disc: thirty transients of some five milliseconds each.
 const STUDY: &str = include_str!("../cases/sweep-of-short-runs.toml");
@@ -36,7 +35,7 @@ impl Study {
     /// Holds a folder to the table and the points of a sweep that nothing happened to.
     #[track_caller]
     fn is_whole(&self, folder: &str) {
-        let (_, expected, expected_points) = whole();
+        let (_, expected, expected_points) = &*WHOLE;
         assert!(table(&self.folder(folder)) == *expected, "{folder}");
         assert!(points(&self.folder(folder)) == *expected_points, "{folder}");
     }
@@ -52,20 +51,17 @@ fn points(folder: &Path) -> BTreeMap<String, String> {
 }
 
 /// Time, table and points of a sweep that nothing happens to, run once.
-fn whole() -> &'static (Duration, String, BTreeMap<String, String>) {
-    static WHOLE: OnceLock<(Duration, String, BTreeMap<String, String>)> = OnceLock::new();
-    WHOLE.get_or_init(|| {
-        let (study, clock) = (Study::new(), Instant::now());
-        study.sweep("whole", &[]).done();
-        let folder = study.folder("whole");
-        (clock.elapsed(), table(&folder), points(&folder))
-    })
-}
+static WHOLE: LazyLock<(Duration, String, BTreeMap<String, String>)> = LazyLock::new(|| {
+    let (study, clock) = (Study::new(), Instant::now());
+    study.sweep("whole", &[]).done();
+    let folder = study.folder("whole");
+    (clock.elapsed(), table(&folder), points(&folder))
+});
 
 #[test]
 fn killed_sweeps_resume_to_identical_results() {
     let study = Study::new();
-    let (whole_time, expected, expected_points) = whole();
+    let (whole_time, expected, expected_points) = &*WHOLE;
     assert_eq!(expected_points.len(), 30);
     assert!(!expected.contains("failed"));
     let (mut draw, mut kills, mut round) = (crate::draws::draws(2), 0, 0);

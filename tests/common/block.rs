@@ -43,6 +43,14 @@ pub fn meshed(
     file
 }
 
+/// Such a mesh as an input file of Abaqus, whose order of nodes it has.
+pub fn abaqus_of(file: &FileMesh, kind: &str) -> String {
+    let points: Vec<_> = file.labels.iter().copied().zip(file.points.iter().copied()).collect();
+    let label = |&node: &u32| file.labels[node as usize];
+    let elements = file.elements.iter().map(|own| own.nodes.iter().map(label).collect());
+    abaqus_text(&points, kind, &elements.collect::<Vec<_>>())
+}
+
 /// Every place of a grid of so many cells along x, y, z, that along x changing fastest.
 fn grid(counts: [usize; 3]) -> impl Iterator<Item = [usize; 3]> {
     (0..counts[2])

@@ -1,9 +1,6 @@
 //! Bodies of bricks side by side in one mesh file.
 
-use super::block::block;
-use super::mesh_text::{Listed, mesh_text};
-use frictionsim::mesh::ElementKind;
-use std::collections::BTreeMap;
+use super::prelude::*;
 
 /// A place, or a size along each axis, m.
 pub type Place = [f64; 3];
@@ -45,7 +42,7 @@ pub fn welded_file_of(blocks: &[Block], order: usize, place: impl Fn(Place) -> P
 }
 
 fn write(blocks: &[Block], order: usize, place: impl Fn(Place) -> Place, weld_it: bool) -> Vec<u8> {
-    let kind = [ElementKind::Hex8, ElementKind::Hex20][order - 1];
+    let kind = [Hex8, Hex20][order - 1];
     let middle_of = |ends: &[usize; 2]| {
         let same = |edge: &[usize; 2]| ends.iter().all(|end| edge.contains(end));
         8 + kind.edges().iter().position(same).unwrap()

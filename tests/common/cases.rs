@@ -1,9 +1,7 @@
 //! Cases that are read from a text, under changes of which several stand in one with ` ; ` between.
 
-use frictionsim::case::{Case, CaseErrors};
-use frictionsim::signal::reader::MeasuredMode;
-use std::f64::consts::TAU;
-use std::path::{Path, PathBuf};
+use super::prelude::*;
+pub use frictionsim::signal::reader::MeasuredMode;
 
 /// A case whose files lie beside `path`, or what is said of it.
 pub fn read_case<S: AsRef<str>>(
@@ -70,6 +68,9 @@ pub fn tones(rate: f64, count: u32, channels: &[(&str, f64)]) -> String {
 pub fn measured_mode(line: usize, frequency_hz: f64, real_hz: Option<f64>) -> MeasuredMode {
     MeasuredMode { line, frequency_hz, real_hz, harmonic: None, sigma_hz: None, is_unstable: false }
 }
+
+/// By waves around the body, and on its whole mesh.
+pub const METHODS: [&str; 2] = ["cea.method=cyclic", "cea.method=sparse"];
 
 /// No changes.
 pub const AS_IT_IS: &[&str] = &[];

@@ -1,7 +1,6 @@
 //! What a search or a sweep keeps of itself, to go on with after an interruption.
 
-use frictionsim::cea::{SweepProgress, SweepWatch};
-use std::collections::BTreeMap;
+use super::prelude::*;
 use std::sync::Mutex;
 
 /// Keeps every step of a search, and gives back those of an earlier one.

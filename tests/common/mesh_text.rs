@@ -1,7 +1,6 @@
 //! Mesh files in MSH 2.2 of points and elements that a test makes.
 
-use std::collections::BTreeSet;
-use std::fmt::Write;
+use super::prelude::*;
 
 /// Type of an element in the file, its group and its nodes, both from 0.
 pub type Listed = (u32, usize, Vec<usize>);
@@ -24,6 +23,23 @@ pub fn mesh_text(points: &[[f64; 3]], groups: &[(u32, &str)], elements: &[Listed
         writeln!(text, "{number} {kind} 2 {group} {group} {}", nodes.join(" ")).unwrap();
     }
     (text + "$EndElements\n").into_bytes()
+}
+
+/// Nodes by their numbers and elements of a type, from number 1, as an input file of Abaqus.
+pub fn abaqus_text(points: &[(usize, Place)], kind: &str, elements: &[Vec<usize>]) -> String {
+    let mut text = "*NODE, NSET=Nall\n".to_owned();
+    for (number, [x, y, z]) in points {
+        writeln!(text, "{number}, {x:?}, {y:?}, {z:?}").unwrap();
+    }
+    writeln!(text, "*Element, type={kind}").unwrap();
+    for (nodes, number) in elements.iter().zip(1_usize..) {
+        let words: Vec<String> =
+            [&[number], &nodes[..]].concat().iter().map(usize::to_string).collect();
+        // At most 15 numbers a line; a comma at its end.
+        let lines: Vec<String> = words.chunks(15).map(|line| line.join(", ")).collect();
+        writeln!(text, "{}", lines.join(",\n")).unwrap();
+    }
+    text
 }
 
 /// A grid of quadrilaterals over lines of two coordinates, which `place` takes to the body.

@@ -5,8 +5,7 @@
 pub mod block;
 pub mod bricks;
 pub mod cases;
-pub mod coarse_block;
-pub mod coarse_disc;
+pub mod coarse;
 pub mod disc;
 pub mod draws;
 pub mod kept;

@@ -19,6 +19,10 @@ pub fn plane_body(
 pub const CYLINDER: CounterfaceSpecification =
     CounterfaceSpecification::Cylinder { center: [0.0; 2], radius: None };
 
+/// A plane that slides along x.
+pub const ALONG_X: CounterfaceSpecification =
+    CounterfaceSpecification::Plane { direction: Some([1.0, 0.0]) };
+
 #[derive(Clone, Copy, Debug)]
 pub struct Form {
     pub is_new: bool,

@@ -3,17 +3,14 @@
 pub use super::block::*;
 pub use super::bricks::*;
 pub use super::cases::*;
-pub use super::coarse_block::coarse_block;
-pub use super::coarse_disc::{coarse_disc, disc_of};
+pub use super::coarse::*;
 pub use super::disc::linearized;
 pub use super::disc::*;
 pub use super::kept::Kept;
 pub use super::mesh_text::*;
 pub use super::msh::*;
-pub use super::program::{
-    Answer, Row, Run, files_below, folder, folder_with, has, names_in, repository, rows, shell,
-    shipped,
-};
+pub use super::program::Row;
+pub use super::program::*;
 pub use super::solids::*;
 pub use super::spectra::*;
 pub use super::table_1::TABLE_1;
@@ -29,8 +26,7 @@ pub use frictionsim::mesh::BoundaryCondition::{Clamped, Fixed, Free, Guide, Pres
 pub use frictionsim::mesh::ElementKind::{Hex8, Hex20, Pyramid5, Pyramid13, Quad4, Quad8};
 pub use frictionsim::mesh::ElementKind::{Tet4, Tet10, Tri3, Tri6, Wedge6, Wedge15};
 pub use frictionsim::prestress::DampingModel::{BodyOnly, WholeTangent};
-pub use frictionsim::results::cea::{BaseField, BaseState, CeaReport};
-pub use frictionsim::results::cea::{ContactPlace, ContactState};
+pub use frictionsim::results::cea::{BaseField, BaseState, CeaReport, ContactPlace, ContactState};
 pub use frictionsim::results::{BodyStress, Extent, Manifest, OutputFolder, Replace, ShownBody};
 pub use frictionsim::study::eigenvalues::modes_and_onsets;
 pub use frictionsim::{cea::*, contact::*, cycle::*, fem::*, frf::*, linalg::*, mesh::*};

@@ -1,15 +1,10 @@
 //! The program as a user starts it: a command, its case and overrides, and what it says and leaves.
 
-use faer::c64;
-use serde_json::Value;
-use std::collections::{BTreeMap, BTreeSet};
-use std::f64::consts::TAU;
+use super::prelude::*;
 use std::ffi::OsStr;
 use std::io::Write;
 use std::ops::Index;
-use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
-use std::time::{Duration, Instant};
 
 /// A run that is being put together.
 pub struct Run {
@@ -302,6 +297,15 @@ impl Index<&str> for Row {
 pub fn rows(path: &Path) -> Vec<Row> {
     let mut reader = csv::ReaderBuilder::new().comment(Some(b'#')).from_path(path).unwrap();
     reader.deserialize().map(|row| Row(row.unwrap())).collect()
+}
+
+/// The numbers of some columns, row by row.
+pub fn columns<const N: usize>(rows: &[Row], columns: [&str; N]) -> Vec<[f64; N]> {
+    rows.iter().map(|row| row.numbers(columns)).collect()
+}
+
+pub fn column(rows: &[Row], column: &str) -> Vec<f64> {
+    columns(rows, [column]).concat()
 }
 
 /// Holds a text to all of these parts, several of which stand in one with ` ; ` between; a part behind `!` must not be there.

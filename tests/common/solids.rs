@@ -1,10 +1,6 @@
 //! Solid bodies of a file that are tied together and slide on each other.
 
-use super::disc::RIGID;
-use frictionsim::contact::{ContactStiffness, Counterpart, PairFriction};
-use frictionsim::contact::{RigidCounterface, RigidMotion, RigidShape};
-use frictionsim::mesh::{BoundaryCondition, FileMesh, Mesh};
-use frictionsim::prestress::{SlidingSurfaces, TiedSurfaces};
+use super::prelude::*;
 
 pub fn mesh_of(bytes: &[u8], conditions: &[(&str, BoundaryCondition)]) -> Mesh {
     solids_of(&FileMesh::read(bytes).unwrap(), conditions)

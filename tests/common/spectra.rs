@@ -52,6 +52,20 @@ pub fn assert_same(ours: &FrictionSweep, theirs: &FrictionSweep, bounds: [f64; 2
     }
 }
 
+/// Mean and standard deviation.
+pub fn moments(values: &[f64]) -> (f64, f64) {
+    let n = values.len() as f64;
+    let mean = values.iter().sum::<f64>() / n;
+    let square: f64 = values.iter().map(|v| (v - mean).powi(2)).sum();
+    (mean, (square / (n - 1.0)).sqrt())
+}
+
+pub fn sorted(values: impl IntoIterator<Item = f64>) -> Vec<f64> {
+    let mut sorted: Vec<f64> = values.into_iter().collect();
+    sorted.sort_by(f64::total_cmp);
+    sorted
+}
+
 /// Rows of numbers, which stand in one text with ` ; ` between.
 pub fn rows_of<const N: usize>(text: &str) -> Vec<[f64; N]> {
     let row = |row: &str| row.split(' ').map(|word| word.parse().unwrap()).collect::<Vec<f64>>();

@@ -1,6 +1,5 @@
 //! Bodies that are solved harmonic by harmonic, with all that their analysis is made from.
 
-use super::disc::{linearized, sweep_request};
 use super::prelude::*;
 use frictionsim::cea::cyclic::{WaveSweep, wave_sweep};
 

@@ -22,10 +22,8 @@ fn solver(harmonic: usize) -> &'static CycleSolver {
 }
 
 /// Its double wave at 610 rpm, found once.
-fn double_wave() -> &'static LimitCycle {
-    static OWN: LazyLock<LimitCycle> = LazyLock::new(|| solver(2).find(&operating(610.0)).unwrap());
-    &OWN
-}
+static DOUBLE_WAVE: LazyLock<LimitCycle> =
+    LazyLock::new(|| solver(2).find(&operating(610.0)).unwrap());
 
 /// The solver of a family of a disc with such a damping, on so many phases.
 fn made(
@@ -80,7 +78,7 @@ fn cycles_along_a_branch_have_the_powers_of_each_alone() {
 #[test]
 fn signorini_and_coulomb_hold_at_every_point() {
     let point = operating(610.0);
-    let cycle = double_wave();
+    let cycle = &*DOUBLE_WAVE;
     let surface_speed = point.contact.rotation_speed * disc().inner_radius;
     let largest = cycle.points.iter().fold(0.0_f64, |m, p| m.max(p.pressure));
     for p in &cycle.points {
@@ -107,7 +105,7 @@ fn interference_and_speed_scaled_alike_scale_the_cycle() {
     let mut double = operating(610.0);
     double.contact.interference *= 2.0;
     double.contact.rotation_speed *= 2.0;
-    let (one, two) = (double_wave(), solver(2).find(&double).unwrap());
+    let (one, two) = (&*DOUBLE_WAVE, solver(2).find(&double).unwrap());
     // All laws are homogeneous of degree one: lengths and speeds double, powers grow fourfold.
     assert!((two.state.frequency() / one.state.frequency() - 1.0).abs() < 1e-9);
     assert!((two.powers.contact.external / one.powers.contact.external / 4.0 - 1.0).abs() < 1e-7);
@@ -148,7 +146,7 @@ fn cycle_without_stick_does_not_depend_on_the_speed() {
 
 #[test]
 fn branch_over_friction_is_born_at_the_onset_of_the_linear_theory() {
-    let (solver, cycle) = (solver(2), double_wave());
+    let (solver, cycle) = (solver(2), &*DOUBLE_WAVE);
     let onset = solver.onset;
     let critical = onset.friction_coefficient;
     let values = [critical - 2e-3, critical + 5e-4, critical + 2e-3, 0.3];
@@ -299,7 +297,7 @@ fn field_of_a_disc_with_a_supported_rim_has_the_nodes_of_its_mesh() {
 
 #[test]
 fn wave_travels_against_the_rotor_without_changing_its_shape() {
-    let (solver, cycle) = (solver(2), double_wave());
+    let (solver, cycle) = (solver(2), &*DOUBLE_WAVE);
     let sectors = solver.body.sector_count;
     // Phase n theta + omega t: after this time each sector has the state that the next one had.
     let passing = TAU * 2.0 / sectors as f64 / cycle.state.frequency();

@@ -104,10 +104,7 @@ fn single_wave_loses_stability_to_a_double_one_far_from_its_own_frequency() {
     let scatter = (8..20).map(|i| {
         let start = 5e-4 * f64::from(i);
         let values = amplitudes(&record, 2, start, start + 5e-4);
-        let count = values.len() as f64;
-        let mean = values.iter().map(|v| v.1).sum::<f64>() / count;
-        let square = values.iter().map(|v| (v.1 - mean).powi(2)).sum::<f64>() / count;
-        (start, square.sqrt())
+        (start, moments(&values.iter().map(|v| v.1).collect::<Vec<f64>>()).1)
     });
     let measured = rate(&scatter.collect::<Vec<_>>());
     assert!((measured / leading.growth_rate - 1.0).abs() < 0.1, "{measured} {leading:?}");

@@ -91,12 +91,7 @@ pub fn rectangle(width: f64, height: f64, nx: usize, ny: usize) -> Vec<u8> {
 }
 
 fn block_specification() -> BodySpecification {
-    plane_body(
-        "bottom",
-        CounterfaceSpecification::Plane { direction: Some([1.0, 0.0]) },
-        None,
-        &[("right", Guide), ("top", Pressure(1e6))],
-    )
+    plane_body("bottom", ALONG_X, None, &[("right", Guide), ("top", Pressure(1e6))])
 }
 
 fn plane(friction_coefficient: f64) -> SlidingContact {

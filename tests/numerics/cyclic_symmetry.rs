@@ -240,8 +240,7 @@ fn a_built_in_disc_that_turns_is_the_one_of_a_mesh_of_its_sector() {
 #[test]
 fn a_disc_of_linear_bricks_has_the_contact_of_its_whole_mesh() {
     let guided = "boundaries.bottom={ condition = \"guide\" }";
-    let [waves, whole] = ["cyclic", "sparse"]
-        .map(|method| under_a_ring(&[], &[guided, &format!("cea.method={method}")]));
+    let [waves, whole] = METHODS.map(|method| under_a_ring(&[], &[guided, method]));
     assert_equal(&waves, &whole, 1e-6);
 }
 
@@ -251,11 +250,9 @@ fn a_disc_of_linear_bricks_has_the_contact_of_its_whole_mesh() {
 fn a_disc_that_bends_away_from_its_ring_is_the_same_by_waves_and_as_a_whole() {
     for (divisions, tolerance) in [([20, 3], 0.02), ([40, 6], 0.01)] {
         let [around, radial] = divisions;
-        let mesh = format!(
-            "mesh.circumferential_elements={around} ; mesh.radial_elements={radial} ; cea.method="
-        );
-        let [waves, whole] = ["cyclic", "sparse"]
-            .map(|method| under_a_ring(&[], &[&format!("{mesh}{method}")]).sweep);
+        let mesh =
+            format!("mesh.circumferential_elements={around} ; mesh.radial_elements={radial}");
+        let [waves, whole] = METHODS.map(|method| under_a_ring(&[], &[&mesh, method]).sweep);
         let [own, other] = [&waves, &whole].map(|sweep| -> Vec<f64> {
             sweep.points[1].modes.iter().map(ComplexMode::frequency_hz).collect()
         });
@@ -269,7 +266,7 @@ fn a_disc_that_bends_away_from_its_ring_is_the_same_by_waves_and_as_a_whole() {
 /// A disc on a cylinder that turns, without friction, with some changes.
 fn on_a_cylinder(name: &str, change: &str, method: &str) -> Solution {
     let still = "cea.friction_coefficients=[0.0] ; contact.friction_coefficient=0.0";
-    let sets = [change, still, &format!("cea.method={method}")];
+    let sets = [change, still, method];
     let text = include_str!("../cases/solid-disc.toml");
     solution(&case_beside(&format!("sectors-{name}"), &[], text, &sets)).1
 }
@@ -286,8 +283,7 @@ fn a_disc_on_supports_is_its_whole_mesh() {
                   tangential_stiffness = 3e10, normal_damping = 1e4, tangential_damping = 2e4 }";
     // The small space that a harmonic is solved in leaves out 2e-7 of what dashpots of the first do to its modes.
     for (support, tolerance) in [(outer, 2e-6), (bottom, 1e-9)] {
-        let [waves, whole] =
-            ["cyclic", "sparse"].map(|method| on_a_cylinder("support", support, method));
+        let [waves, whole] = METHODS.map(|method| on_a_cylinder("support", support, method));
         assert_equal(&waves, &whole, tolerance);
     }
 }
@@ -298,7 +294,8 @@ fn a_disc_with_a_face_held_along_some_axes_is_its_whole_mesh() {
     for directions in ["\"z\"", "\"x\", \"y\"", "\"x\""] {
         let held =
             format!("boundaries.bottom={{ condition = \"fixed\", directions = [{directions}] }}");
-        let [own, whole] = ["auto", "sparse"].map(|method| on_a_cylinder("held", &held, method));
+        let [own, whole] =
+            ["cea.method=auto", METHODS[1]].map(|method| on_a_cylinder("held", &held, method));
         let method = if directions == "\"x\"" { "sparse" } else { "cyclic" };
         assert_eq!([own.method, whole.method], [method, "sparse"]);
         assert_equal(&own, &whole, 1e-9);

@@ -1,7 +1,6 @@
 //! Parts by themselves: free modes, and the constants of a material from them.
 
 use crate::prelude::*;
-use frictionsim::signal::reader::MeasuredMode;
 use frictionsim::study::StudyError;
 use frictionsim::study::fit::{FitError, fit_case};
 

@@ -88,8 +88,7 @@ impl Body {
     fn check_patch(&self, eigenvalue: c64, mesh: &Mesh, fields: &TargetFields) {
         let region = mesh.regions.iter().position(|name| name == "patch").unwrap();
         let own = || (0..mesh.element_count()).filter(|&e| mesh.region(e) == region);
-        let size = if mesh.dimension == 2 { Mesh::element_measure } else { brick_volume };
-        let size = |e: usize| size(mesh, e);
+        let size = |e: usize| mesh.element_measure(e);
         let sum = |field: &[f64]| own().map(|e| field[e] * size(e)).sum::<f64>();
         let case = self.case(AS_IT_IS);
         let elastic = *case.materials().of(region);
@@ -118,15 +117,6 @@ fn near(what: &str, derivative: f64, difference: f64, field: &[f64]) {
         (derivative - difference).abs() < TOLERANCE * difference.abs().max(0.02 * largest),
         "{what}: {derivative} {difference}, largest {largest}"
     );
-}
-
-fn brick_volume(mesh: &Mesh, element: usize) -> f64 {
-    let nodes = mesh.element_nodes(element);
-    let at = |k: usize| mesh.nodes[nodes[k] as usize];
-    let edge = |k: usize| [0, 1, 2].map(|axis| at(k)[axis] - at(0)[axis]);
-    let (a, b, c) = (edge(1), edge(3), edge(4));
-    let cross = [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
-    (0..3).map(|k| cross[k] * c[k]).sum::<f64>().abs()
 }
 
 /// A disc as a mesh file, some of whose elements are the region `patch`; its points moved by `place`.

@@ -9,9 +9,8 @@ use std::io::Read;
 
 /// The eigenvalues published with the problem.
 fn published() -> Vec<c64> {
-    let rows = rows(&public("eigenvalues.csv"));
-    let values = rows.iter().map(|row| row.numbers(["real", "imaginary"]));
-    values.map(|[re, im]| c64::new(re, im)).collect()
+    let values = columns(&rows(&public("eigenvalues.csv")), ["real", "imaginary"]);
+    values.into_iter().map(|[re, im]| c64::new(re, im)).collect()
 }
 
 /// Badly scaled on purpose: sizes of eigenvalues lie seven orders apart. A plain linearization loses the small ones.
@@ -49,22 +48,15 @@ fn solved(folder: &TempDir, set: &[&str]) -> Answer {
     run(folder, "matrices", set).done()
 }
 
-fn read(path: &Path) -> MarketMatrix {
-    MarketMatrix::read(&fs::read_to_string(path).unwrap(), usize::MAX).unwrap()
-}
-
 fn public(name: &str) -> PathBuf {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/numerics/nlevp");
     folder.join(format!("disk_brake100_{name}"))
 }
 
-fn json(path: &Path) -> Value {
-    serde_json::from_slice(&fs::read(path).unwrap()).unwrap()
-}
-
 /// The exported problem at a friction coefficient, put together as `matrices.json` says.
 fn assembled(folder: &Path, friction: f64) -> [Mat<f64>; 4] {
-    let description = json(&folder.join("matrices.json"));
+    let description = fs::read(folder.join("matrices.json")).unwrap();
+    let description: Value = serde_json::from_slice(&description).unwrap();
     let size = description["dofs"].as_u64().unwrap() as usize;
     let away = friction - description["friction_coefficient"].as_f64().unwrap();
     let mut sums = [0, 1, 2, 3].map(|_| Mat::<f64>::zeros(size, size));
@@ -119,20 +111,12 @@ fn modes_among(folder: &TempDir, friction: f64, matrices: &[Mat<f64>; 4]) -> usi
         quadratic_eigenvalues([mass, damping, stiffness])
     };
     let rows = rows(&folder.path().join("cea/eigenvalues.csv"));
-    let own = rows.iter().filter(|row| row.number("friction_coefficient") == friction);
-    let own = own.map(|row| row.numbers(["real_hz", "frequency_hz"]));
-    let listed: Vec<c64> = own.map(|[re, im]| TAU * c64::new(re, im)).collect();
+    let own = columns(&rows, ["friction_coefficient", "real_hz", "frequency_hz"]).into_iter();
+    let own = own.filter(|[at, ..]| *at == friction);
+    let listed: Vec<c64> = own.map(|[_, re, im]| TAU * c64::new(re, im)).collect();
     let error = largest_error(&found, &listed);
     assert!(error < 1e-9, "{listed:?}: {error:e}");
     listed.len()
-}
-
-/// Whether an unknown is a vertical motion of the upper block, whose nodes come second in the file.
-fn lifted(out: &Path, unknown: usize) -> f64 {
-    let unknowns = fs::read_to_string(out.join("unknowns.csv")).unwrap();
-    let row: Vec<&str> = unknowns.lines().nth(1 + unknown).unwrap().split(',').collect();
-    let is_high = row[1].parse::<usize>().unwrap() > 18;
-    if is_high { row[5].parse().unwrap() } else { 0.0 }
 }
 
 /// A block that is pressed on another, which turns under it.
@@ -150,21 +134,21 @@ fn exported_matrices_of_solid_bodies_have_the_eigenvalues_of_the_analysis() {
         "boundaries.high_x1.normal_stiffness=1e12 ; contacts.face.friction_coefficient=0.4";
     for contact in [&["contacts.face.normal_stiffness=1e13"][..], &[]] {
         let folder = folder_with(&files);
-        solved(&folder, &[&[stiffer], contact].concat());
+        let answer = solved(&folder, &[&[stiffer], contact].concat());
         assert!(listed_modes_found(&folder, 0.4) >= 6);
-        // Each point parts by one where the upper block is lifted by one; pressed rigid points do not part.
-        let out = folder.path().join("matrices");
-        let normal = read(&out.join("contact_normal.mtx"));
-        let mut parted = vec![0.0; normal.rows];
-        for &(point, unknown, share) in &normal.entries {
-            parted[point] += share * lifted(&out, unknown);
-        }
+        // Each point parts by one where the upper block, whose nodes come second in the file, is lifted by one; pressed rigid points do
+        // not part.
+        let unknowns = columns(&answer.rows("unknowns.csv"), ["node", "direction_z"]);
+        let lifted = Mat::from_fn(unknowns.len(), 1, |unknown, _| match unknowns[unknown] {
+            [node, along] if node > 18.0 => along,
+            _ => 0.0,
+        });
+        let parted = market_matrix(&answer.path("contact_normal.mtx")) * lifted;
         let expected = if contact.is_empty() { 0.0 } else { 1.0 };
-        assert!(parted.iter().all(|own| (own - expected).abs() < 1e-12), "{parted:?}");
-        let points = fs::read_to_string(out.join("contact.csv")).unwrap();
-        assert!(points.starts_with("point,contact,status,area_m2,normal_force_n,x_m,y_m,z_m\n"));
-        let rows = rows(&out.join("contact.csv"));
-        let sum: f64 = rows.iter().map(|row| row.number("normal_force_n")).sum();
+        assert!(parted.col(0).iter().all(|own| (own - expected).abs() < 1e-12), "{parted:?}");
+        let header = "point,contact,status,area_m2,normal_force_n,x_m,y_m,z_m";
+        assert_eq!(answer.header("contact.csv"), header);
+        let sum: f64 = column(&answer.rows("contact.csv"), "normal_force_n").iter().sum();
         // 1 MPa on 400 mm2, but for what the springs of the side bear.
         assert!((sum / 400.0 - 1.0).abs() < 0.02, "{sum}");
     }
@@ -206,9 +190,7 @@ fn exported_matrices_have_the_eigenvalues_of_the_analysis_where_contact_opens_or
         };
         let mut set: Vec<&str> = contact.iter().map(String::as_str).collect();
         set.extend(["cea.friction_coefficients=[0.1,0.4,0.7,0.9]", own]);
-        solved(&folder, &set);
-        let out = folder.path().join("matrices");
-        let description = json(&out.join("matrices.json"));
+        let description = solved(&folder, &set).json("matrices.json");
         let [low, high] = [0, 1].map(|end| description["friction_range"][end].as_f64().unwrap());
         let own = frictions.into_iter().filter(|own| (low..=high).contains(own));
         let held: usize = own.map(|friction| listed_modes_found(&folder, friction)).sum();
@@ -249,12 +231,11 @@ fn exported_matrices_hold_where_contact_that_stiffens_has_opened() {
     tall_block(&folder, law, "[0.1, 0.8]");
     for turning in ["-100.0", "100.0"] {
         let turning = format!("motion.low.rotation_speed_rpm={turning}");
-        solved(&folder, &[&turning]);
+        let answer = solved(&folder, &[&turning]);
         assert_eq!(listed_modes_found(&folder, 0.8), 6);
-        let read = |file: &str| json(&folder.path().join(file));
-        let range = &read("matrices/matrices.json")["friction_range"];
+        let range = &answer.json("matrices.json")["friction_range"];
         assert!(range[0].as_f64().unwrap() > 0.2, "nothing opens: {range}");
-        let base = &read("cea/summary.json")["base_state"];
+        let base = &answer.json("../cea/summary.json")["base_state"];
         assert!(base["open"].as_u64().unwrap() > sized(50, 100), "{base}");
         assert!(base["pressure_pa"][0].as_f64().unwrap() >= 0.0, "{base}");
     }
@@ -279,11 +260,10 @@ pub fn array_of(archive: &Path, name: &str) -> (String, Vec<u8>) {
 fn archives_hold_compressed_rows_as_scipy_reads_them() {
     let folder = folder();
     block(&folder);
-    run(&folder, "matrices", &[]).done();
-    let out = folder.path().join("matrices");
-    let matrix = fs::read_to_string(out.join("K.mtx")).unwrap();
-    let (pointers, columns, _) = MarketMatrix::read(&matrix, usize::MAX).unwrap().compressed_rows();
-    let entry = |name: &str| array_of(&out.join("K.npz"), name);
+    let answer = run(&folder, "matrices", &[]).done();
+    let matrix = MarketMatrix::read(&answer.text("K.mtx"), usize::MAX).unwrap();
+    let (pointers, columns, _) = matrix.compressed_rows();
+    let entry = |name: &str| array_of(&answer.path("K.npz"), name);
     let (text, bytes) = entry("format.npy");
     assert!(text.contains("'descr': '|S3'") && text.contains("'shape': ()"), "{text}");
     assert_eq!(bytes, b"csr");
@@ -296,9 +276,8 @@ fn archives_hold_compressed_rows_as_scipy_reads_them() {
             .collect();
         assert_eq!(read, values);
     }
-    let unknowns = fs::read_to_string(out.join("unknowns.csv")).unwrap();
-    let head = "unknown,node,kind,direction_x,direction_y,direction_z,x_m,y_m,z_m\n";
-    assert!(unknowns.starts_with(head));
+    let head = "unknown,node,kind,direction_x,direction_y,direction_z,x_m,y_m,z_m";
+    assert_eq!(answer.header("unknowns.csv"), head);
 }
 
 fn brake(folder: &TempDir, stiffness: &str) {
@@ -315,9 +294,8 @@ fn brake(folder: &TempDir, stiffness: &str) {
 fn cea_of_a_superelement_lists_the_oscillating_modes_of_its_matrices() {
     let folder = folder();
     brake(&folder, "K.mtx");
-    let found = run(&folder, "cea", &[]).done().rows("eigenvalues.csv");
-    let found = found.iter().map(|row| c64::new(0.0, TAU * row.number("frequency_hz")));
-    let found: Vec<c64> = found.collect();
+    let found = column(&run(&folder, "cea", &[]).done().rows("eigenvalues.csv"), "frequency_hz");
+    let found: Vec<c64> = found.iter().map(|hz| c64::new(0.0, TAU * hz)).collect();
     let exact = published().into_iter().filter(|own| own.im > 0.0);
     let exact: Vec<c64> = exact.map(|own| c64::new(0.0, own.im)).collect();
     assert_eq!(found.len(), exact.len());

@@ -1,7 +1,6 @@
 //! What the mesh makes of frequencies and of critical friction, against finer meshes.
 
 use crate::prelude::*;
-use frictionsim::study::eigenvalues::Solution;
 
 fn shipped(name: &str, modes: usize, frictions: &str) -> Case {
     let own = format!("cea.modes={modes} ; cea.friction_coefficients={frictions}");

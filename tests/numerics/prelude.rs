@@ -1,17 +1,17 @@
 //! What most of these tests name.
 
-pub use crate::cea_cyclic::model::paper;
+pub use crate::cea_cyclic::paper;
 pub use crate::common::prelude::*;
 pub use crate::common::waves::{AnnulusModel, WaveModel};
 pub use crate::matrices::lossy_eigenvalues;
-pub use crate::shaft::model::AnnulusMaterials;
+pub use crate::shaft::AnnulusMaterials;
 pub use crate::solids::model::SolidModel;
 pub use crate::structural_damping::{dense, dense_eigenvalues};
 pub use faer::linalg::solvers::Solve;
 pub use frictionsim::cea::cyclic::WaveSweep;
 pub use frictionsim::cea::sparse::sweep;
 pub use frictionsim::linalg::dense::random_columns;
-use frictionsim::study::eigenvalues::{SlidingModel, Solution, solve};
+pub use frictionsim::study::eigenvalues::{SlidingModel, Solution, solve};
 pub use frictionsim::study::matrices::matrices;
 
 /// A case's body in its base state, and its eigenvalue analysis.

@@ -5,7 +5,7 @@
 //! half of critical that lies below the highest one listed is listed, and what is listed is an eigenvalue.
 
 use crate::prelude::*;
-use frictionsim::results::matrices::{ExportedSystem, MatrixRole};
+use frictionsim::results::matrices::{ExportedSystem, FrictionPower, MatrixRole};
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
 
@@ -111,14 +111,15 @@ fn part(slider: &Slider) -> Case {
 
 /// Mass, damping, stiffness and structural damping of an export at one friction coefficient.
 pub fn sums(system: &ExportedSystem) -> [Mat<f64>; 4] {
+    const AT_ONE: FrictionPower = FrictionPower { friction_power: 0 };
     let size = system.matrices[0].matrix.rows;
     let mut sums = [(); 4].map(|()| Mat::zeros(size, size));
     for own in &system.matrices {
         let place = match own.role {
-            MatrixRole::Mass { friction_power: 0 } => 0,
-            MatrixRole::Damping { friction_power: 0 } => 1,
-            MatrixRole::Stiffness { friction_power: 0 } => 2,
-            MatrixRole::Structural { friction_power: 0 } => 3,
+            MatrixRole::Mass(AT_ONE) => 0,
+            MatrixRole::Damping(AT_ONE) => 1,
+            MatrixRole::Stiffness(AT_ONE) => 2,
+            MatrixRole::Structural(AT_ONE) => 3,
             _ => continue,
         };
         sums[place] += dense_of(&own.matrix);

@@ -49,9 +49,10 @@ fn distorted(kind: ElementKind, bend: f64) -> FileMesh {
 }
 
 /// A displacement field sampled in nodal frames.
-fn sample(mesh: &Mesh, field: impl Fn(Vector3<f64>) -> Vector3<f64>) -> Vec<f64> {
+pub fn sample(mesh: &Mesh, field: impl Fn(Vector3<f64>) -> Vector3<f64>) -> Vec<f64> {
     let at = |(node, &place)| mesh.frame(node).transpose() * field(Vector3::from(place));
-    mesh.nodes.iter().enumerate().map(at).flat_map(|u| [u.x, u.y, u.z]).collect()
+    let moved = mesh.nodes.iter().enumerate().map(at);
+    moved.flat_map(|u| u.iter().copied().take(mesh.dimension).collect::<Vec<f64>>()).collect()
 }
 
 /// The six rigid motions about a point inside.
@@ -131,8 +132,7 @@ impl Pencil {
             let stiffness = images.transpose() * self.multiply(&self.stiffness, &images);
             let (found, turned) = pencil_modes(&stiffness, &mass);
             vectors = images * turned;
-            squares = found.as_slice().to_vec();
-            squares.sort_by(f64::total_cmp);
+            squares = sorted(found.as_slice().to_vec());
         }
         let squares = squares[..count].iter();
         squares.map(|square| square.max(0.0).sqrt() / (2.0 * PI)).collect()

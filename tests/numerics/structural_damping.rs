@@ -2,7 +2,7 @@
 //! disc and shaft have their own.
 
 use crate::prelude::*;
-use crate::shaft::model::STEEL;
+use crate::shaft::STEEL;
 use frictionsim::cea::sparse::mode_pairs;
 
 fn tangent(losses: [f64; 2], damping: RayleighDamping) -> SlidingTangent {

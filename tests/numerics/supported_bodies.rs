@@ -70,9 +70,7 @@ pub fn dense(case: &Case) -> Vec<f64> {
     let [mass, _, stiffness, _] = sums(&matrices(case, None).unwrap());
     let full = |own: Mat<f64>| DMatrix::from_fn(own.nrows(), own.nrows(), |i, j| own[(i, j)]);
     let (squares, _) = pencil_modes(&full(stiffness), &full(mass));
-    let mut squares = squares.as_slice().to_vec();
-    squares.sort_by(f64::total_cmp);
-    squares
+    sorted(squares.as_slice().to_vec())
 }
 
 fn check(body: &Body, folder: &str) -> Result<(), TestCaseError> {

@@ -13,7 +13,7 @@ fn rubber(scale: f64) -> Vec<[f64; 3]> {
 fn tangent(rows: Vec<[f64; 3]>, contact_stiffness: ContactStiffness) -> SlidingTangent {
     let specification = on_shaft(annulus(Quad4, 16, 3), 1);
     let mesh = AnnulusMesh::generate(&specification).unwrap().mesh;
-    let steel = ElasticMaterial { loss_factor: 0.002, ..crate::shaft::model::STEEL };
+    let steel = ElasticMaterial { loss_factor: 0.002, ..crate::shaft::STEEL };
     let table = ModulusTable::new("materials.disc.table", "rubber.csv", rows);
     let disc = ElasticMaterial { young_modulus: table.static_modulus(), ..POLYCARBONATE };
     let disc = RegionMaterial { table: Some(Arc::new(table)), ..disc.into() };

@@ -10,7 +10,8 @@ use frictionsim_physics::mesh::Mesh;
 use frictionsim_physics::order::range;
 use frictionsim_physics::prestress::SlidingTangent;
 use frictionsim_results::matrices::{
-    ExportedContactPoint, ExportedMatrix, ExportedSystem, ExportedUnknown, MatrixRole,
+    ExportedContactPoint, ExportedMatrix, ExportedSystem, ExportedUnknown, FrictionPower,
+    MatrixRole,
 };
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -61,10 +62,10 @@ pub fn matrices(case: &Case, friction: Option<f64>) -> Result<ExportedSystem, St
     };
     let matrices = &mut system.matrices;
     let parts: [Part; 4] = [
-        ("M", Some(&tangent.mass), |friction_power| MatrixRole::Mass { friction_power }),
-        ("C", Some(&tangent.damping), |friction_power| MatrixRole::Damping { friction_power }),
-        ("K", Some(&tangent.stiffness), |friction_power| MatrixRole::Stiffness { friction_power }),
-        ("H", tangent.structural(), |friction_power| MatrixRole::Structural { friction_power }),
+        ("M", Some(&tangent.mass), MatrixRole::Mass),
+        ("C", Some(&tangent.damping), MatrixRole::Damping),
+        ("K", Some(&tangent.stiffness), MatrixRole::Stiffness),
+        ("H", tangent.structural(), MatrixRole::Structural),
     ];
     for (name, polynomial, role) in parts {
         matrices.extend(polynomial.into_iter().flat_map(|own| powers(name, own, friction, role)));
@@ -74,23 +75,22 @@ pub fn matrices(case: &Case, friction: Option<f64>) -> Result<ExportedSystem, St
 }
 
 /// Name, matrix by powers of friction, and what the matrix of a power is.
-type Part<'a> = (&'static str, Option<&'a MatrixPolynomial>, fn(usize) -> MatrixRole);
+type Part<'a> = (&'static str, Option<&'a MatrixPolynomial>, fn(FrictionPower) -> MatrixRole);
 
 /// The coefficients of a polynomial about a friction coefficient that are not zero, and always its value there.
 fn powers<'a>(
     name: &'a str,
     polynomial: &'a MatrixPolynomial,
     friction: f64,
-    role: fn(usize) -> MatrixRole,
+    role: fn(FrictionPower) -> MatrixRole,
 ) -> impl Iterator<Item = ExportedMatrix> + 'a {
     let (size, pattern) = (polynomial.dimension(), polynomial.pattern());
     let coefficients = polynomial.about(friction).into_iter().enumerate();
     coefficients.filter_map(move |(power, values)| {
-        let columns = (0..size).flat_map(|column| {
-            let nonzeros = pattern.column(column);
-            nonzeros.map(move |(position, row)| (row, column, position))
+        let entries = (0..size).flat_map(|column| {
+            let (nonzeros, values) = (pattern.column(column), &values);
+            nonzeros.map(move |(position, row)| (row, column, values[position]))
         });
-        let entries = columns.map(|(row, column, position)| (row, column, values[position]));
         let matrix = MarketMatrix {
             rows: size,
             columns: size,
@@ -101,7 +101,7 @@ fn powers<'a>(
                 0 => name.to_owned(),
                 power => format!("{name}_mu{power}"),
             },
-            role: role(power),
+            role: role(FrictionPower { friction_power: power }),
             matrix,
         })
     })

@@ -47,10 +47,6 @@ fn is_close(a: f64, b: f64, tolerance: f64) -> bool {
     (a - b).abs() <= tolerance * a.abs().max(b.abs())
 }
 
-fn column(folder: &Path, file: &str, name: &str) -> Vec<f64> {
-    rows(&folder.join(file)).iter().map(|row| row.number(name)).collect()
-}
-
 /// Frequency and growth rate of the modes at friction 0.3, by frequency.
 fn spectrum(folder: &Path) -> Vec<[f64; 2]> {
     let rows = rows(&folder.join("eigenvalues.csv"));
@@ -123,7 +119,7 @@ fn sensitivities(bench: &Bench, _: Option<&Bench>) -> Verdict {
         return Err(Cell::Refused("not computed for this body yet".to_owned()));
     }
     let table = rows(&folder.join("sensitivities.csv"));
-    let of = |name: &str| -> Vec<f64> { table.iter().map(|row| row.number(name)).collect() };
+    let of = |name: &str| column(&table, name);
     let (frequencies, growths) = (of("frequency_hz"), of("growth_rate_per_s"));
     // Where several materials have the key, its whole name heads the column.
     let slopes_by = |key: &str| {
@@ -176,7 +172,8 @@ fn transient(bench: &Bench, operator: &str) -> Verdict {
     let residual = own["max_balance_residual"].as_f64().unwrap();
     verdict(residual <= 1e-10, || format!("energy balance {residual:e}"))?;
     let (_, other) = needed(bench.run("transient", &[]))?;
-    let strain = |folder: &Path| *column(folder, "energy.csv", "strain_j").last().unwrap();
+    let strain =
+        |folder: &Path| *column(&rows(&folder.join("energy.csv")), "strain_j").last().unwrap();
     let (own, other) = (strain(&folder), strain(&other));
     verdict(is_close(own, other, 1e-8), || format!("strain energy {own} and {other}"))
 }
@@ -205,8 +202,7 @@ fn respond_alike(own: &Path, other: &Path, tolerance: f64) -> Verdict {
 
 fn magnitudes(folder: &Path) -> Vec<f64> {
     let parts = ["accelerance_real", "accelerance_imaginary"];
-    let rows = rows(&folder.join("frf.csv"));
-    rows.iter().map(|row| row.numbers(parts)).map(|[re, im]| re.hypot(im)).collect()
+    columns(&rows(&folder.join("frf.csv")), parts).iter().map(|[re, im]| re.hypot(*im)).collect()
 }
 
 /// Force and response change places without a change (Maxwell and Betti).
@@ -249,7 +245,7 @@ fn cycle(bench: &Bench, _: Option<&Bench>) -> Verdict {
     if summary["steady_sliding_stable"] == true {
         let lumped = [ALONE, "cea.mass=\"lumped\"", "cea.geometric_stiffness=false"];
         let (_, folder) = needed(bench.run("cea", &lumped))?;
-        let growth = column(&folder, "eigenvalues.csv", "growth_rate_per_s");
+        let growth = column(&rows(&folder.join("eigenvalues.csv")), "growth_rate_per_s");
         return verdict(growth.iter().all(|rate| *rate <= 0.0), || text.clone());
     }
     let closes = own["balance_residual"].as_f64().is_some_and(|left| left < 1e-5);
@@ -313,12 +309,10 @@ fn sweep(bench: &Bench, _: Option<&Bench>) -> Verdict {
     let sweep = "sweep={\"damping.stiffness_coefficient\"=[3e-7,4.5e-7],analyses=[\"cea\"]}";
     let (_, folder) = done(bench.run("sweep", &[&[sweep], &FEW[..]].concat()))?;
     let (alone, _) = needed(bench.run("cea", &FEW))?;
-    let modes = column(&folder, "points.csv", "modes");
-    let residual = column(&folder, "points.csv", "largest_residual");
-    let own = [alone["modes"].as_f64().unwrap(), alone["largest_residual"].as_f64().unwrap()];
-    verdict(modes[1] == own[0] && residual[1] == own[1], || {
-        format!("{modes:?} {residual:?} {own:?}")
-    })
+    let keys = ["modes", "largest_residual"];
+    let points = columns(&rows(&folder.join("points.csv")), keys);
+    let own = keys.map(|key| alone[key].as_f64().unwrap());
+    verdict(points[1] == own, || format!("{points:?} {own:?}"))
 }
 
 /// Fitted to its own frequencies, in the digits that a measurement has, the body gives its modulus back.
@@ -359,7 +353,7 @@ fn convergence(bench: &Bench, _: Option<&Bench>) -> Verdict {
     let factors = "convergence={factors=[1,2,4],analyses=[\"cea\"]}";
     let (_, folder) = done(bench.run("convergence", &[&[factors], &FEW[..]].concat()))?;
     let (_, alone) = needed(bench.run("cea", &FEW))?;
-    let values = column(&folder, "convergence.csv", "value");
+    let values = column(&rows(&folder.join("convergence.csv")), "value");
     let lowest = spectrum(&alone)[0][0];
     let found = values.iter().any(|value| is_close(*value, lowest, 1e-9));
     verdict(found, || format!("{lowest} is not among {values:?}"))

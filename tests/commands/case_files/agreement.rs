@@ -1,7 +1,6 @@
 //! Consistency check: what `check` says of a case is what its runs say.
 
-use super::RUN;
-use crate::prelude::*;
+use super::*;
 use frictionsim::case::Analysis;
 use frictionsim::study::{StudyError, preflight, summarize};
 

@@ -1,7 +1,6 @@
 //! Keys of friction that falls with speed.
 
-use super::{DISC, RUN, valid};
-use crate::prelude::*;
+use super::*;
 
 const RATIO: &str = "contact.static_friction_ratio=1.4";
 const SPEED: &str = "contact.decay_speed=0.2";
@@ -16,15 +15,13 @@ fn both_keys_make_a_falling_law_and_a_ratio_of_one_a_constant_one() {
 
 #[test]
 fn what_needs_constant_friction_says_so() {
-    const CYCLES: &str = include_str!("../../../cases/limit-cycle.toml");
-    const BASIN: &str = include_str!("../../../cases/basin.toml");
     let parts = ["constant friction", "static_friction_ratio"];
-    let cycles = valid(CYCLES, &[RATIO, SPEED]);
+    let cycles = shipped_case("limit-cycle.toml", &[RATIO, SPEED]);
     let waves = cycles.require_rotating_waves().unwrap_err();
     has(&waves.to_string(), &parts);
     assert!(cycles.require_cycle().is_ok() && !cycles.has_rotating_waves());
     // Modes compete instead of waves.
-    let basin = valid(BASIN, &[RATIO, SPEED]).require_basin().unwrap_err();
+    let basin = shipped_case("basin.toml", &[RATIO, SPEED]).require_basin().unwrap_err();
     has(&basin.to_string(), &["basin.harmonics is not used", "basin.modes"]);
 }
 

@@ -1,7 +1,6 @@
 //! Consistency checks of the declarations of keys: what readers, messages, schema and template make of them is one and the same.
 
-use super::{DISC, RUN, parse, report, valid};
-use crate::prelude::*;
+use super::*;
 use frictionsim::case::{Default, reference};
 
 fn whole() -> String {

@@ -11,6 +11,7 @@ use crate::prelude::*;
 use frictionsim::case::{CeaMethod, RawCase, Spacing, range_values};
 use proptest::prelude::*;
 
+const CYCLES: &str = include_str!("../../../cases/limit-cycle.toml");
 const DISC: &str = include_str!("../../../cases/polycarbonate-disc.toml");
 const RUN: &str = include_str!("../../../cases/polycarbonate-610rpm.toml");
 const STUDY: &str = include_str!("../../../cases/speed-friction-study.toml");
@@ -25,14 +26,6 @@ fn valid(text: &str, overrides: &[&str]) -> Case {
 
 fn report(text: &str, overrides: &[&str]) -> String {
     parse(text, overrides).expect_err("a valid case").to_string()
-}
-
-fn disc_with(key: &str, line: &str) -> String {
-    let is_key = |text: &str| text.split('=').next().map(str::trim) == Some(key);
-    assert_eq!(DISC.lines().filter(|text| is_key(text)).count(), 1, "{key}");
-    let lines: Vec<&str> =
-        DISC.lines().map(|text| if is_key(text) { line } else { text }).collect();
-    lines.join("\n")
 }
 
 #[test]
@@ -144,7 +137,8 @@ fn canonical_text_is_a_case_of_the_same_hash() {
 
 #[test]
 fn all_errors_of_a_case_are_reported_at_once() {
-    let text = disc_with("density", "density = -1\ncolour = \"red\"")
+    let text = DISC
+        .replace("density = 1228.0", "density = -1\ncolour = \"red\"")
         .replace("inner_radius = 0.0205", "inner_radius = 0.1")
         .replace("[damping]", "[dampng]");
     let errors = parse(&text, &["contact.interference=0"]).unwrap_err();
@@ -202,7 +196,6 @@ proptest! {
 
 #[test]
 fn a_start_on_a_limit_cycle_names_its_harmonic_and_onset() {
-    use frictionsim::transient::InitialState;
     for (harmonic, onset, more) in [(2, 1, ""), (1, 2, " ; transient.limit_cycle_onset=2")] {
         let start = "transient.initial=\"limit-cycle\" ; transient.limit_cycle_harmonic";
         let case = valid(RUN, &[&format!("{start}={harmonic}{more}")]);

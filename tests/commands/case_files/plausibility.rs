@@ -1,7 +1,6 @@
 //! Consistency checks of warnings: what is possible but hardly meant is said, with the reason.
 
-use super::{DISC, RUN, STUDY, report, valid};
-use frictionsim::case::KEYS;
+use super::*;
 
 #[test]
 fn shipped_cases_are_plausible() {
@@ -15,8 +14,7 @@ fn shipped_cases_are_plausible() {
 
 #[test]
 fn keys_that_an_analysis_ignores_are_said() {
-    const CYCLES: &str = include_str!("../../../cases/limit-cycle.toml");
-    let case = valid(CYCLES, &["contact.normal_stiffness=7e12"]);
+    let case = shipped_case("limit-cycle.toml", &["contact.normal_stiffness=7e12"]);
     let said = "contact.normal_stiffness is not used by cycle: its contact is rigid";
     assert_eq!(case.ignored_by("cycle")[0].message, said);
     assert!(case.ignored_by("cea").is_empty());

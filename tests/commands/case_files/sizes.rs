@@ -1,7 +1,6 @@
 //! Consistency checks of sizes: what a case asks for is weighed before anything of it is made.
 
-use super::{RUN, STUDY, parse, valid};
-use crate::prelude::*;
+use super::*;
 use std::process::Stdio;
 
 fn seconds_to_read(text: &str, overrides: &[&str]) -> Duration {
@@ -37,7 +36,6 @@ fn no_override_is_costly() {
 
 #[test]
 fn memory_is_refused_at_the_key_that_asks_for_it() {
-    const CYCLES: &str = include_str!("../../../cases/limit-cycle.toml");
     let fine = ["mesh.circumferential_elements=100000", "mesh.radial_elements=10000"];
     for (text, overrides, command, key) in [
         (RUN, vec!["output.sample_interval=1e-12"], "transient", "output.sample_interval"),

@@ -7,6 +7,7 @@
 
 mod changes;
 
+use crate::columns::visit_all;
 use crate::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::process::Command;
@@ -87,7 +88,14 @@ fn read_folder(folder: &Path) -> Result {
             Some("json") if !name.contains("manifest") => {
                 let text = fs::read_to_string(&path).unwrap();
                 let keys = result.entry(name).or_default();
-                read_value("", &serde_json::from_str(&text).unwrap(), keys);
+                visit_all("", &serde_json::from_str(&text).unwrap(), &mut |path, own| match own {
+                    Value::Object(_) => {}
+                    Value::Array(_) => _ = keys.entry(format!("{path}[]")).or_default(),
+                    _ => {
+                        let numbers = keys.entry(path.to_owned()).or_default();
+                        own.as_f64().into_iter().for_each(|number| numbers.add(number));
+                    }
+                });
             }
             _ => {}
         }
@@ -109,27 +117,6 @@ fn read_table(path: &Path) -> BTreeMap<String, Numbers> {
         }
     }
     names.into_iter().zip(columns).collect()
-}
-
-fn read_value(path: &str, value: &Value, keys: &mut BTreeMap<String, Numbers>) {
-    match value {
-        Value::Object(object) => {
-            for (key, value) in object {
-                let dot = if path.is_empty() { "" } else { "." };
-                read_value(&format!("{path}{dot}{key}"), value, keys);
-            }
-        }
-        Value::Array(list) => {
-            keys.entry(format!("{path}[]")).or_default();
-            for value in list {
-                read_value(&format!("{path}[]"), value, keys);
-            }
-        }
-        _ => {
-            let numbers = keys.entry(path.to_owned()).or_default();
-            value.as_f64().into_iter().for_each(|number| numbers.add(number));
-        }
-    }
 }
 
 fn compare(case: &str, frozen: &Result, now: &Result) -> Vec<String> {

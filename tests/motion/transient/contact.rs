@@ -1,7 +1,6 @@
 //! The contact law, the steady start, and an exact impact.
 
-use crate::prelude::*;
-use crate::transient::model::{LAWS, Watch, disc, kicked, model, on_contact, settings};
+use super::*;
 
 /// Theory: the laws of Signorini and Coulomb at every node of every step.
 #[test]

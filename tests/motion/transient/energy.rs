@@ -1,7 +1,6 @@
 //! The energy balance.
 
-use crate::prelude::*;
-use crate::transient::model::{LAWS, Watch, disc, free, kicked, on_contact};
+use super::*;
 
 /// Theory: the discrete energy identity is exact, whatever contact, its springs and dashpots, its laws and damping do, for one body
 /// and for a disc on its shaft.

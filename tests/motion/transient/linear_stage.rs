@@ -1,7 +1,6 @@
 //! The linear stage against the complex eigenvalues of the same model.
 
-use crate::prelude::*;
-use crate::transient::model::{LAWS, disc, kicked, on_contact};
+use super::*;
 use frictionsim::cea::cyclic::sweep;
 
 /// Eigenvalue of a harmonic with the largest real part as the time loop has it: lumped mass, no geometric stiffness.

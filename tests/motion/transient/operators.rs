@@ -1,7 +1,6 @@
 //! The two operators against the assembled matrix, each other and the scalar kernels.
 
-use crate::prelude::*;
-use crate::transient::model::{Watch, disc, kicked, largest, largest_difference, model};
+use super::*;
 use frictionsim::fem::operator::*;
 
 const LEVELS: [SimdLevel; 3] = [SimdLevel::Scalar, SimdLevel::Avx2, SimdLevel::Avx512];
@@ -124,7 +123,6 @@ fn coefficients(model: &TransientModel<'_>, time_step: f64) -> StepCoefficients 
 /// The stability limit is sharp: free motion stays bounded just below it and explodes just above.
 #[test]
 fn steps_are_stable_below_the_limit_and_unstable_above() {
-    use frictionsim::transient::stable_step_limit;
     let annulus = disc(24, 6);
     let model = model(&annulus, 0.0);
     let operator = model.operator(OperatorChoice::Cyclic, SimdLevel::detect()).unwrap();

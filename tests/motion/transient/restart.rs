@@ -1,7 +1,6 @@
 //! Saved and restored states.
 
-use crate::prelude::*;
-use crate::transient::model::{disc, kicked, model};
+use super::*;
 
 struct StopAt {
     record: Recorder,

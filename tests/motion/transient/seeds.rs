@@ -1,7 +1,6 @@
 //! Seeds: the velocity that is added to the body's.
 
-use crate::prelude::*;
-use crate::transient::model::{Watch, disc, kicked, model, settings};
+use super::*;
 
 fn record(annulus: &AnnulusMesh, settings: &TransientSettings) -> Recorder {
     recorded(model(annulus, 610.0), OperatorChoice::Auto, settings).0
@@ -46,11 +45,10 @@ fn noise_has_its_standard_deviation_in_both_directions_and_spares_the_clamped_ed
         let free = (0..annulus.mesh.node_count()).filter(|&node| !clamped(node));
         let values: Vec<f64> = free.map(|node| field[2 * node + component]).collect();
         let count = values.len() as f64;
-        let mean = values.iter().sum::<f64>() / count;
-        let square = values.iter().map(|v| v * v).sum::<f64>() / count;
-        // Five standard deviations of the mean and of the mean square of 2700 normal numbers.
+        let (mean, deviation) = moments(&values);
+        // Five standard deviations of the mean and of the variance of 2700 normal numbers.
         assert!(mean.abs() < 5.0 * 2e-3 / count.sqrt());
-        assert!((square / 4e-6 - 1.0).abs() < 5.0 * (2.0 / count).sqrt());
+        assert!((deviation.powi(2) / 4e-6 - 1.0).abs() < 5.0 * (2.0 / count).sqrt());
     }
     assert!((0..annulus.mesh.node_count()).all(|n| !clamped(n) || field[2 * n] == 0.0));
     assert_eq!(field, noise(1));

@@ -1,7 +1,6 @@
 //! Settings that make no run, and runs that break.
 
-use crate::prelude::*;
-use crate::transient::model::{Watch, disc, kicked, model, settings};
+use super::*;
 
 #[test]
 fn the_step_divides_the_sample_interval_and_stays_below_the_limit() {

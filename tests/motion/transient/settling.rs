@@ -1,7 +1,6 @@
 //! When a run has settled, and what is kept of it.
 
-use crate::prelude::*;
-use crate::transient::model::{disc, kicked, model, settings};
+use super::*;
 
 fn run(rpm: f64, settings: &TransientSettings, wanted: &RecorderSettings) -> (Recorder, RunEnd) {
     let annulus = disc(45, 9);

@@ -1,7 +1,6 @@
 //! Order of the time integration.
 
-use crate::prelude::*;
-use crate::transient::model::{Watch, disc, free, largest_difference, settings};
+use super::*;
 
 /// Displacement and velocity of free undamped vibration after 0.2 ms with this many steps.
 fn end(steps: u32) -> (Vec<f64>, Vec<f64>) {

@@ -1,7 +1,6 @@
 //! Contact that stiffens with pressure.
 
-use super::{aside, assembled, bar, eigenvalues, patch_error, sliding};
-use crate::prelude::*;
+use super::*;
 
 const LAWS: [NormalLaw; 2] = [exponential(2e6, 5e-6), cubic(1e12, 4e22)];
 

@@ -1,10 +1,8 @@
 //! The stress of the base state in small motions of solid bodies: geometric stiffness, and contact forces that turn.
 
 use super::rigid_counterface::plane;
-use super::{OPTIONS, assembled, on_rigid, sliding, stacked, tangent_at, turning};
-use crate::prelude::*;
+use super::*;
 use crate::solids::parts::SOLID_RING;
-use BaseChoice::Solved;
 use nalgebra::Vector3;
 
 const STRESSED: TangentOptions = TangentOptions { geometric_stiffness: true, ..OPTIONS };

@@ -1,8 +1,7 @@
 //! Frequency responses of assemblies against their eigenvalues (cross-method: the response knows no modes).
 
-use super::rotation::{ring, turning as spinning};
-use super::{OPTIONS, aside, assembled, bar, sliding, tangent_at};
-use crate::prelude::*;
+use super::rotation::{ring, spinning};
+use super::*;
 
 const DAMPED: TangentOptions = TangentOptions { damping: rayleigh_damping(30.0, 2e-8), ..OPTIONS };
 
@@ -95,10 +94,7 @@ fn tied_halves_respond_like_the_whole() {
 fn a_turning_ring_responds_like_the_dense_system_of_its_matrices() {
     for frame in [RotationFrame::Rest, RotationFrame::Turning] {
         let (mesh, seam) = ring([2, 24, 1], Clamped);
-        let motion = spinning(300.0, [0.0; 3], frame);
-        let (ties, motions, closed) = ([seam], [motion], BaseChoice::Closed);
-        let assembly = Assembly::new(&mesh, &STEEL, &ties, &[], &motions, closed).unwrap();
-        let tangent = tangent_at(&assembly, 0.0, &OPTIONS);
+        let tangent = tangent_at(&spinning(&mesh, &seam, 300.0, frame), 0.0, &OPTIONS);
         let system = FrfSystem::tied(&tangent);
         let node = node_at(&mesh, [0.0, 0.15, 0.005]);
         let ports = [Direction::X, Direction::Y].map(|direction| {

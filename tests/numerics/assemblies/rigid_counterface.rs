@@ -1,7 +1,6 @@
 //! Solid bodies on a rigid counterface: a block that is held at every node is one, and the program has another route for it.
 
-use super::{aside, assembled, eigenvalues, on_rigid, sliding, stacked};
-use crate::prelude::*;
+use super::*;
 
 /// How far the counterface is pushed in, m.
 const INTERFERENCE: f64 = 2e-6;

@@ -1,8 +1,6 @@
 //! Rings that turn, in both frames.
 
-use super::{OPTIONS, eigenvalues, tangent_at};
-use crate::prelude::*;
-use BaseChoice::Closed;
+use super::*;
 
 const SOFT: ElasticSupport = springs([2e6, 3e6, 0.0], [0.0, 0.0]);
 
@@ -19,11 +17,19 @@ pub(super) fn turning(rotation_speed: f64, center: [f64; 3], frame: RotationFram
     Motion { regions: vec![0], axis: [0.0, 0.0, 1.0], center, rotation_speed, inertia: Some(frame) }
 }
 
+/// A ring that turns about its own axis.
+pub(super) fn spinning<'a>(
+    mesh: &'a Mesh,
+    seam: &TiedSurfaces,
+    speed: f64,
+    frame: RotationFrame,
+) -> Assembly<'a> {
+    let motions = [turning(speed, [0.0; 3], frame)];
+    Assembly::new(mesh, &STEEL, std::slice::from_ref(seam), &[], &motions, Closed).unwrap()
+}
+
 fn frequencies(mesh: &Mesh, seam: &TiedSurfaces, speed: f64, count: usize) -> Vec<f64> {
-    let motions = [turning(speed, [0.0; 3], RotationFrame::Rest)];
-    let ties = std::slice::from_ref(seam);
-    let assembly = Assembly::new(mesh, &STEEL, ties, &[], &motions, Closed).unwrap();
-    let found = eigenvalues(&assembly, 0.0, count);
+    let found = eigenvalues(&spinning(mesh, seam, speed, RotationFrame::Rest), 0.0, count);
     // A gyroscopic system takes no power.
     assert!(found.iter().all(|lambda| lambda.re.abs() < 1e-7 * lambda.im));
     found.iter().map(|lambda| lambda.im).collect()
@@ -51,8 +57,7 @@ fn a_rotor_on_soft_springs_tilts_as_a_rigid_gyroscope() {
     let motions: [fn([f64; 3]) -> [f64; 3]; 4] =
         [|_| [1.0, 0.0, 0.0], |_| [0.0, 1.0, 0.0], |_| [0.0, 0.0, 1.0], spin];
     let along = motions.map(|motion| (form(&springs, motion) / form(&mass, motion)).sqrt());
-    let mut expected = [&tilts[..], &along].concat();
-    expected.sort_by(f64::total_cmp);
+    let expected = sorted(tilts.into_iter().chain(along));
     let found = frequencies(&mesh, &seam, speed, 6);
     // The ring bends a little: its lowest mode is at 3e3 rad/s.
     near_each(&found, &expected, 5e-3);
@@ -65,10 +70,7 @@ fn a_free_ring_turns_and_both_frames_tell_the_same_of_its_waves() {
     let (mesh, seam) = ring([2, 40, 1], Free);
     let speed = 60.0;
     let lowest = |frame: RotationFrame| -> [f64; 2] {
-        let motion = turning(speed, [0.0; 3], frame);
-        let ties = std::slice::from_ref(&seam);
-        let assembly = Assembly::new(&mesh, &STEEL, ties, &[], &[motion], Closed).unwrap();
-        let tangent = tangent_at(&assembly, 0.0, &OPTIONS);
+        let tangent = tangent_at(&spinning(&mesh, &seam, speed, frame), 0.0, &OPTIONS);
         let found = swept(&tangent, &[0.0], Lowest(8));
         assert!(found.intervals.is_empty(), "{:?}", found.intervals);
         let own = found.points[0].modes.iter().map(|mode| mode.eigenvalue.im);

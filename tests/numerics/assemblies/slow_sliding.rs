@@ -2,7 +2,6 @@
 //! imaginary part, too.
 
 use super::*;
-use crate::prelude::*;
 
 /// Damping factor below which no mode may be missing.
 const LIGHT: f64 = 0.5;

@@ -1,8 +1,6 @@
 //! Gaps of a measured surface. Independent: the same bodies meshed with that gap; a plane of gaps.
 
 use super::*;
-use frictionsim::contact::Topography;
-use std::sync::Arc;
 
 /// The upper block tilted over `x`: opens by `SLOPE` at its far end, beyond what the pressure closes.
 const SLOPE: f64 = 1e-3;

@@ -1,6 +1,6 @@
 use crate::normal_law::LAWS;
 use crate::prelude::*;
-use crate::shaft::model::{STEEL, model as on_shaft, on, rigid_contact, with_shaft};
+use crate::shaft::{STEEL, model as on_shaft, on, rigid_contact, with_shaft};
 
 /// Eigenvalues, directions, branches, onsets and contact shares by harmonics and on the whole mesh.
 fn agree<M: MaterialField + Clone>(

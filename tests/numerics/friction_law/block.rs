@@ -27,12 +27,8 @@ fn contact(speed: f64) -> SlidingContact {
 /// 4 by 3 square elements; the plane below, the spring on the right, the pressure above.
 pub fn block(pressure: f64) -> Mesh {
     let mounting = springs([SPRING / HEIGHT, 0.0, 0.0], [DASHPOT / HEIGHT, 0.0]);
-    let specification = plane_body(
-        "bottom",
-        CounterfaceSpecification::Plane { direction: Some([1.0, 0.0]) },
-        None,
-        &[("right", Support(mounting)), ("top", Pressure(pressure))],
-    );
+    let held = [("right", Support(mounting)), ("top", Pressure(pressure))];
+    let specification = plane_body("bottom", ALONG_X, None, &held);
     Mesh::from_gmsh(&FileMesh::read(&rectangle(0.04, 0.03, 4, 3)).unwrap(), &specification).unwrap()
 }
 

@@ -1,7 +1,6 @@
 //! The base state that both bodies share.
 
-use crate::prelude::*;
-use crate::shaft::model::{STEEL, on, with_shaft};
+use super::*;
 
 /// Radial compliance `u_r / p` at `r` of a ring pressed there, its other edge, of radius `held`, clamped.
 ///

@@ -1,7 +1,6 @@
 //! The stencil that steps disc and shaft, and the contact between its rows; their energy is held in `motion transient/energy.rs`.
 
-use crate::prelude::*;
-use crate::shaft::model::{STEEL, model, on, rigid_contact, with_shaft};
+use super::*;
 
 /// Cross-method check: the eigenvalue analysis of both bodies.
 #[test]

@@ -1,7 +1,6 @@
 //! The disc of the source paper with its thickness.
 
-use crate::prelude::*;
-use crate::solids::model::{base, disc, modes};
+use super::*;
 
 /// Independent prototype, exact in theta: good to 2e-4 in plane; torsion is that of the plane.
 #[test]

@@ -1,7 +1,6 @@
 //! Bricks: constant strain, objectivity, bending.
 
-use crate::prelude::*;
-use crate::solids::model::{disc, modes};
+use super::*;
 use frictionsim::fem::fold::{MirrorParity, WaveDofs};
 use frictionsim::fem::sector::{Sectored, stiffness};
 

@@ -1,7 +1,6 @@
 //! Three dimensions where the plane program knows the answer.
 
-use crate::prelude::*;
-use crate::solids::model::{disc, guided, modes};
+use super::*;
 
 fn plane(model: &SolidModel, formulation: PlaneFormulation, limit_hz: f64) -> Vec<ComplexMode> {
     let plane = WaveModel {

@@ -16,3 +16,6 @@ mod slow_sliding;
 mod studies;
 mod transient;
 mod whole_ring;
+
+use crate::prelude::*;
+use model::{base, bending, body, disc, guided, modes};

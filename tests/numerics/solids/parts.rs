@@ -13,15 +13,9 @@ fn case(parts: &str) -> Case {
     case_of("disc.toml", &format!("{SOLID_RING}{parts}"), AS_IT_IS)
 }
 
-fn frequencies(modes: &[ComplexMode]) -> Vec<f64> {
-    let mut all: Vec<f64> = modes.iter().map(|mode| mode.eigenvalue.im).collect();
-    all.sort_by(f64::total_cmp);
-    all
-}
-
 fn whole(parts: &str) -> Vec<f64> {
     let points = modes_and_onsets(&case(parts)).unwrap().points;
-    frequencies(&points[0].modes)
+    sorted(points[0].modes.iter().map(|mode| mode.eigenvalue.im))
 }
 
 /// Consistency check: a part of the material of the rest changes nothing; one of steel does.

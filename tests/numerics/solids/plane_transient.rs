@@ -1,7 +1,6 @@
 //! The transient of a guided body, `u_z = 0` at every node, beside that of plane strain.
 
-use crate::prelude::*;
-use crate::solids::model::{body, guided};
+use super::*;
 
 /// Statuses, tangential displacements and normal forces of the contact nodes at every sample.
 #[derive(Default)]

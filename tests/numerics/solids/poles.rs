@@ -1,8 +1,7 @@
 //! Poles of the frequency response of sliding bodies of revolution against the eigenvalues of `cea`. Cross-method: the response
 //! knows no modes.
 
-use crate::prelude::*;
-use crate::solids::model::{disc, modes};
+use super::*;
 use crate::solids::response::{at, sliding};
 use frictionsim::frf::Direction::Tangential;
 

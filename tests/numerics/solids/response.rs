@@ -1,7 +1,6 @@
 //! Frequency responses of bodies of revolution.
 
-use crate::prelude::*;
-use crate::solids::model::disc;
+use super::*;
 use crate::solids::whole_ring::WholeRing;
 
 use Direction::{Axial, Radial, Tangential};

@@ -1,7 +1,6 @@
 //! Frequency responses of bodies of revolution where theory or the plane program knows the answer.
 
-use crate::prelude::*;
-use crate::solids::model::{disc, guided};
+use super::*;
 use crate::solids::response::{FREQUENCIES, at, body, sliding};
 use frictionsim::frf::Direction::{Axial, Radial, Tangential};
 

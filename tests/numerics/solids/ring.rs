@@ -1,7 +1,6 @@
 //! A flat ring that presses on the face of a disc.
 
-use crate::prelude::*;
-use crate::solids::model::{base, disc, modes};
+use super::*;
 
 /// A ring on the outer half of the top face.
 fn ringed(element: ElementKind, divisions: [usize; 3]) -> SolidModel {
@@ -148,10 +147,7 @@ fn reaction_of_the_ground_balances_the_friction_of_the_ring() {
 fn bricks_of_8_and_20_nodes_agree_on_a_disc_under_a_ring() {
     let unstable = |model: &SolidModel| {
         let found = modes(model, 0.5, 9000.0);
-        let own = found.iter().filter(|mode| mode.harmonic < 4);
-        let mut own: Vec<f64> = own.map(ComplexMode::frequency_hz).collect();
-        own.sort_by(f64::total_cmp);
-        own
+        sorted(found.iter().filter(|mode| mode.harmonic < 4).map(ComplexMode::frequency_hz))
     };
     let fine = unstable(&ringed(Quad8, [36, 14, 2]));
     near_each(&fine, &unstable(&ringed(Quad4, [72, 28, 4])), 0.01);

@@ -3,8 +3,7 @@
 //! Independent check: all eigenvalues of a coarse whole harmonic by a dense decomposition, at finite speed and with the motion across the
 //! sliding held.
 
-use crate::prelude::*;
-use crate::solids::model::disc;
+use super::*;
 
 const FRICTION: f64 = 0.3;
 const LIMIT: f64 = 9000.0;
@@ -168,11 +167,9 @@ fn creep_without_vectors_of_its_own_leaves_the_other_modes() {
     let set = "contact.rotation_speed_rpm=1.0 ; mesh.element=quad4 ; mesh.radial_elements=3 ; \
                mesh.circumferential_elements=24 ; cea.friction_coefficients=[0.0, 0.4, 0.8] ; \
                cea.shapes_at=[] ; cea.max_frequency_hz=9700.0";
-    let [waves, whole] = ["cyclic", "sparse"].map(|method| {
-        let method = format!("cea.method={method}");
-        let run = Run::of("cea", shipped("disc-three-dimensions.toml")).set(&[set, &method]);
-        let rows = run.out("out").done().rows("stability.csv");
-        rows.iter().map(|row| row.number("critical_friction")).collect::<Vec<f64>>()
+    let [waves, whole] = METHODS.map(|method| {
+        let run = Run::of("cea", shipped("disc-three-dimensions.toml")).set(&[set, method]);
+        column(&run.out("out").done().rows("stability.csv"), "critical_friction")
     });
     assert_eq!(waves.len(), 5, "{waves:?}");
     near_each(&waves, &whole, 2e-3);

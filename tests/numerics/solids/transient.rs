@@ -1,7 +1,6 @@
 //! The transient of a body of revolution against its eigenvalue analysis and against itself.
 
-use crate::prelude::*;
-use crate::solids::model::{base, bending, body, disc, modes};
+use super::*;
 
 /// A run of a model, recorded.
 fn run(model: &SolidModel, settings: &TransientSettings) -> Recorder {
@@ -73,14 +72,11 @@ fn friction_across_the_sliding_is_that_of_each_node() {
     let (sector, base) = base(&model).unwrap();
     let wave = model.tangent().harmonic(1).at(0.3);
     let diagonal = wave.damping.chunks_exact(2 * wave.half_bandwidth + 1);
-    let mut found: Vec<f64> = diagonal.map(|row| row[wave.half_bandwidth].re).collect();
-    found.retain(|own| *own != 0.0);
-    found.sort_by(f64::total_cmp);
-    let nodes = base.normal_forces.iter().map(|&(node, force)| {
+    let found = diagonal.map(|row| row[wave.half_bandwidth].re);
+    let found = sorted(found.filter(|own| *own != 0.0));
+    let exact = sorted(base.normal_forces.iter().map(|&(node, force)| {
         0.3 * force / (model.contact.rotation_speed * sector.nodes[node].radius)
-    });
-    let mut exact: Vec<f64> = nodes.collect();
-    exact.sort_by(f64::total_cmp);
+    }));
     assert!(exact.len() > 2);
     near_each(&found, &exact, 1e-12);
 }

@@ -1,7 +1,6 @@
 //! Dense matrices of a whole ring of bricks, put together without harmonics.
 
-use crate::prelude::*;
-use crate::solids::model::body;
+use super::*;
 
 /// `M`, `C`, `K` over the dofs `3 (s n + k) + c` in nodal frames, and the dofs that move.
 pub struct WholeRing {

@@ -2,9 +2,8 @@
 //!
 //! Glue is what the contact says of sticking pairs, `u_n = sum P u` and `u_t = sum P u`, for good and in both directions.
 
+use super::*;
 use crate::cea_sparse::bare;
-use crate::prelude::*;
-use crate::two_bodies::model::{held_blocks, rectangle, ring, rings, rings_of};
 use frictionsim::cea::sparse::FrictionlessModes;
 
 /// `u = T y`: for each glued dof the dofs that it follows, with their weights.

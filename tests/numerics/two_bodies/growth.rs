@@ -1,8 +1,6 @@
 //! The linear stage of the transient between meshes that do not match, against the eigenvalues of the same bodies.
 
-use crate::body::options;
-use crate::prelude::*;
-use crate::two_bodies::model::rings;
+use super::*;
 
 /// Size of the seeded mode, m: a slip speed a thousandth of the sliding, and far above the short waves, which grow faster, out
 /// of round-off.

@@ -7,7 +7,7 @@ mod sweeps;
 
 use crate::body::options;
 use crate::prelude::*;
-use model::{held_blocks, rectangle, rings};
+use model::{blocks_of, held_blocks, rectangle, ring, rings, rings_of};
 
 /// Disc and shaft as built in, by sectors.
 fn built_in(

@@ -1,6 +1,5 @@
 //! Two bodies of a mesh file, four-node elements, their meshes matching or not.
 
-use crate::disc;
 use crate::prelude::*;
 
 /// A body with the names that its boundaries have in the file.
@@ -82,7 +81,7 @@ pub fn rings_of(
 
 /// One ring of even elements.
 pub fn ring(element: ElementKind, radii: [f64; 2], around: usize, radial: usize) -> Mesh {
-    AnnulusMesh::generate(&disc::ring(radii, element, around, radial)).unwrap().mesh
+    AnnulusMesh::generate(&crate::disc::ring(radii, element, around, radial)).unwrap().mesh
 }
 
 /// A rectangle of so many elements with its lower left corner at `corner`.

@@ -1,7 +1,6 @@
 //! Steps whose sweeps over the contact between two bodies end before the forces have converged: consistency of what is said.
 
-use crate::prelude::*;
-use crate::two_bodies::model::{blocks_of, rectangle};
+use super::*;
 
 /// A heavy block on a light one, so many elements along the contact.
 fn write_case(folder: &Path, along: [usize; 2]) {

@@ -8,12 +8,8 @@
 //!
 //! nu 0.3, f 0.3, H 50 mm, steel; as the layer of an annulus with radius `a`, `n = k a`, errors fall with `H / a`.
 
-use super::{folder, order, table};
-use crate::prelude::*;
+use super::*;
 
-const YOUNG: f64 = 2.1e11;
-const POISSON: f64 = 0.3;
-const DENSITY: f64 = 7850.0;
 const FRICTION: f64 = 0.3;
 const HEIGHT: f64 = 0.05;
 

@@ -10,13 +10,9 @@
 //! A ring of 80 to 120 mm radius in plane strain, steel, on springs of 1e8 Pa/m along its bore, which hold it and are part of
 //! the shape; 600 rpm.
 
-use super::{folder, integral, order, ritz, table};
-use crate::prelude::*;
+use super::*;
 
 const RADII: [f64; 2] = [0.08, 0.12];
-const YOUNG: f64 = 2.1e11;
-const POISSON: f64 = 0.3;
-const DENSITY: f64 = 7850.0;
 const SPRING: f64 = 1e8;
 
 /// Frequency (Hz) and `eta` of the lowest wave of `n` nodal diameters, with polynomials of degree 7 for `U` and `V`.

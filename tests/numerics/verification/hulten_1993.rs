@@ -11,8 +11,7 @@
 //! Here the mass is a block of bricks that slides on a wall and a floor at once. It turns, too, but its rotation takes no net
 //! force from either plane. What is left is its elasticity: errors fall with one over Young's modulus.
 
-use super::{folder, order, table};
-use crate::prelude::*;
+use super::*;
 
 /// Frequencies on the two springs, Hz.
 const OWN: [f64; 2] = [1000.0, 750.0];
@@ -32,8 +31,8 @@ fn block(young_modulus: f64) -> [f64; 3] {
     );
     let onsets = table(&folder, "cea", case, &springs, "stability.csv");
     assert_eq!(onsets.len(), 1);
-    let growth = rows(&folder.join("cea/eigenvalues.csv"));
-    let growth = growth.iter().map(|row| row.number("growth_rate_per_s")).fold(0.0, f64::max);
+    let growth = column(&rows(&folder.join("cea/eigenvalues.csv")), "growth_rate_per_s");
+    let growth = growth.into_iter().fold(0.0, f64::max);
     let [critical, frequency] = onsets[0].numbers(["critical_friction", "frequency_hz"]);
     [critical, frequency, growth]
 }

@@ -10,9 +10,7 @@
 //! with `s` from the middle of the patch, which lies `2 g a` against the friction on the body. R 0.1 m, steel, friction 0.5; the
 //! force is the computed one, as the block of 800 x 200 mm above the patch is pushed down.
 
-use super::{folder, order, table};
-use crate::mesh_text::quadrilaterals;
-use std::f64::consts::PI;
+use super::*;
 
 const RADIUS: f64 = 0.1;
 
@@ -46,8 +44,7 @@ fn errors(step: f64) -> [f64; 2] {
     let case = include_str!("../../cases/johnson-sliding-hertz.toml");
     let folder = folder("johnson_sliding_hertz", &mesh);
     let nodes = table(&folder, "cea", case, "", "prestress.csv");
-    let mut nodes: Vec<[f64; 2]> =
-        nodes.iter().map(|node| node.numbers(["x_m", "pressure_pa"])).collect();
+    let mut nodes = columns(&nodes, ["x_m", "pressure_pa"]);
     nodes.sort_by(|a, b| a[0].total_cmp(&b[0]));
     let between =
         nodes.windows(2).map(|pair| 0.5 * (pair[1][0] - pair[0][0]) * (pair[0][1] + pair[1][1]));

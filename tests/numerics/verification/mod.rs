@@ -12,6 +12,7 @@ mod nafems_fv52;
 mod oberst;
 mod sector_pads;
 
+use crate::continuum::radial::gauss_legendre;
 use crate::prelude::*;
 use nalgebra::DVector;
 
@@ -28,14 +29,16 @@ fn table(folder: &Path, command: &str, case: &str, changes: &str, file: &str) ->
     run.set(changes.as_slice()).done().rows(file)
 }
 
-/// Integral of a smooth function by Simpson's rule on 400 intervals.
+/// Young's modulus, Poisson's ratio and density of steel.
+const YOUNG: f64 = 2.1e11;
+const POISSON: f64 = 0.3;
+const DENSITY: f64 = 7850.0;
+
+/// Integral of a smooth function by Gauss's rule.
 fn integral(from: f64, to: f64, value: impl Fn(f64) -> f64) -> f64 {
-    let step = (to - from) / 400.0;
-    let weight = |k: usize| match k {
-        0 | 400 => 1.0,
-        k => 2.0 + 2.0 * (k % 2) as f64,
-    };
-    (0..=400).map(|k| weight(k) * value(from + k as f64 * step)).sum::<f64>() * step / 3.0
+    let half = 0.5 * (to - from);
+    let points = gauss_legendre(24).into_iter();
+    points.map(|(x, weight)| half * weight * value(from + half * (1.0 + x))).sum()
 }
 
 /// The lowest eigenvalue of `K x = kappa M x` and its vector: Ritz's method, the closed form's radial shape.

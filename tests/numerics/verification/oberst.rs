@@ -9,8 +9,7 @@
 //!
 //! 1 mm of 210 GPa under 2 mm of 3 GPa with a loss factor of 0.5, 200 mm long, one end clamped: the first bending mode.
 
-use super::{folder, table};
-use crate::prelude::*;
+use super::*;
 
 /// Frequency (Hz) and loss factor of the first mode on so many elements along the beam.
 fn beam(elements: usize) -> [f64; 2] {

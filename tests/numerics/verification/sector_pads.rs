@@ -12,8 +12,7 @@
 //! whatever `k`, the material and the number of faces are. r 50 to 100 mm, bore clamped, pads from 75 mm on, +-37.5 degrees, steel:
 //! bricks of 20 nodes, 4 x 48 x 1. Errors fall with the square of the thickness, as shear and rotation do.
 
-use super::{folder, integral, order, ritz, table};
-use crate::prelude::*;
+use super::*;
 
 const RADII: [f64; 2] = [0.05, 0.1];
 const PAD: f64 = 0.075;

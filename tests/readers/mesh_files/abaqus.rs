@@ -1,7 +1,6 @@
 //! Input files of Abaqus and CalculiX: parts, sets, surfaces, model data, errors.
 
-use super::{area, body, check_errors, error, is_that_material, isotropic_stiffness, read};
-use crate::prelude::*;
+use super::*;
 use frictionsim::mesh::MaterialAxes;
 
 /// A brick of 1 x 2 x 3 as a part, twice in the assembly: as it is, and moved by 10 along x, then turned by 90 degrees about the z

@@ -1,7 +1,6 @@
 //! Nastran bulk data: fields, coordinate systems, model data, errors.
 
-use super::{area, body, check_errors, error, is_that_material, isotropic_stiffness, read};
-use crate::prelude::*;
+use super::*;
 
 /// A brick of 1 x 2 x 3 whose nodes stand in a system moved by (5, 0, 0) and turned by 90 degrees about z, one of them in cylindrical
 /// coordinates in that; in small, large and free fields.

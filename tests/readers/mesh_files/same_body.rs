@@ -1,7 +1,6 @@
 //! One body in every format (independent checks: node orders of the manuals, and files that Gmsh wrote).
 
-use super::{area, body};
-use crate::prelude::*;
+use super::*;
 
 /// Sides of the block that the files name.
 const SIDES: [&str; 2] = ["x0", "z1"];
@@ -51,21 +50,9 @@ fn abaqus_face(faces: &str, corners: &[usize]) -> usize {
 }
 
 fn inp(file: &FileMesh) -> String {
-    let mut out = String::from("*Heading\n a block\n*NODE, NSET=Nall\n");
-    for (label, [x, y, z]) in file.labels.iter().zip(&file.points) {
-        writeln!(out, "{label}, {x:?}, {y:?}, {z:?}").unwrap();
-    }
     let [name, faces, ..] = kind_in_files(file.elements[0].kind);
-    writeln!(out, "*Element, type={name}, elset=body").unwrap();
-    for element in &file.elements {
-        write!(out, "{}", element.label).unwrap();
-        for (i, &node) in element.nodes.iter().enumerate() {
-            // At most 15 numbers a line; a comma at its end.
-            let separator = if i == 14 { ",\n" } else { ", " };
-            write!(out, "{separator}{}", file.labels[node as usize]).unwrap();
-        }
-        out.push('\n');
-    }
+    let mut out =
+        format!("*Heading\n a block\n{}", abaqus_of(file, &format!("{name}, elset=body")));
     for side in SIDES {
         writeln!(out, "*SURFACE, NAME={side}").unwrap();
         for (element, corners, _) in faces_of(file, side) {

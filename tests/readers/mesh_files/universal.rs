@@ -1,7 +1,6 @@
 //! Universal files: groups and errors.
 
-use super::{area, body, check_errors, read};
-use crate::prelude::*;
+use super::*;
 
 /// A brick of 1 x 2 x 3, its bottom a group of nodes, its top a group of one shell; a dataset that is not known before it.
 pub const BRICK: &str = include_str!("../meshes/brick.unv");

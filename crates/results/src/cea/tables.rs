@@ -5,7 +5,7 @@ use super::coupling::sentences;
 use super::summary::{CriticalFriction, ModeSummary, ONSETS, friction_values, onsets};
 use super::{BRANCH, BaseField, CeaReport, DIRECTION, HARMONIC, SensitivityReport, Solution};
 use super::{direction_name, feed};
-use frictionsim_output::{Document, Section, Table, columns, fixed};
+use frictionsim_output::{Document, Format, Section, Table, columns, fixed};
 use frictionsim_physics::cea::{ComplexMode, FrictionPoint};
 use std::f64::consts::TAU;
 
@@ -86,12 +86,6 @@ columns! {
 }
 
 columns! {
-    /// The friction value of a mode, for people.
-    FRICTION: row as ModeRow;
-    friction = row.friction, Always "friction" Plain;
-}
-
-columns! {
     /// An onset in words.
     ONSET_WORDS: onset as CriticalFriction;
     travels = onset.direction.map(direction_name), IfAny "travels" Plain;
@@ -139,7 +133,9 @@ fn stability(report: &CeaReport<'_>) -> Table {
 /// The table of modes at some friction values.
 fn modes(caption: String, rows: &[ModeRow], with_friction: bool) -> Table {
     let table = Table::new("", caption);
-    let table = if with_friction { table.columns(FRICTION, rows) } else { table };
+    let friction = rows.iter().map(|row| row.friction);
+    let look = Some(("friction", Format::Plain));
+    let table = if with_friction { table.column("", look, friction) } else { table };
     table.columns(PLACES, rows).columns(MODES, rows).columns(MODE_WORDS, rows)
 }
 

@@ -4,6 +4,7 @@ mod figures;
 
 pub use figures::overlaid;
 
+use super::sweep::{cell, join};
 use super::{Manifest, Page, distinct};
 use frictionsim_output::{Cell, Described, Document, Format, Section, Table, columns, unit_of};
 use serde::Serialize;
@@ -67,15 +68,11 @@ const MOST_OF_A_KIND: usize = 8;
 /// All numbers of a summary by their paths.
 fn numbers_of(summary: &Value) -> Vec<(String, &Value)> {
     fn visit<'a>(path: &str, value: &'a Value, out: &mut Vec<(String, &'a Value)>) {
-        let below = |key: &str| match path {
-            "" => key.to_owned(),
-            _ => format!("{path}.{key}"),
-        };
         match value {
             Value::Number(_) | Value::Bool(_) => out.push((path.to_owned(), value)),
             Value::Object(entries) => {
                 let entries = entries.iter().filter(|(key, _)| *key != "manifest");
-                entries.for_each(|(key, value)| visit(&below(key), value, out));
+                entries.for_each(|(key, value)| visit(&join(path, key), value, out));
             }
             Value::Array(entries) => {
                 for (index, entry) in entries.iter().enumerate() {
@@ -88,7 +85,7 @@ fn numbers_of(summary: &Value) -> Vec<(String, &Value)> {
                         true => index.to_string(),
                         false => format!("[{}]", names.join(" ")),
                     };
-                    visit(&below(&key), entry, out);
+                    visit(&join(path, &key), entry, out);
                 }
             }
             Value::Null | Value::String(_) => {}
@@ -121,13 +118,6 @@ impl SharedQuantity {
         own.as_f64().unwrap_or_else(|| f64::from(u8::from(own == true)))
     }
 
-    /// The same as it stands in tables.
-    fn cell(&self, run: usize) -> Cell {
-        let own = &self.values[run];
-        let count = own.as_i64().map(Cell::Count);
-        count.or(own.as_bool().map(Cell::Flag)).unwrap_or_else(|| self.value(run).into())
-    }
-
     /// Difference of a run from the first.
     fn difference(&self, run: usize) -> f64 {
         self.value(run) - self.value(0)
@@ -156,8 +146,9 @@ impl SharedQuantity {
         (1..self.values.len()).map(off).fold(0.0, f64::max)
     }
 
-    fn last_key(&self) -> &str {
-        self.path.rsplit('.').next().unwrap_or(&self.path)
+    /// Whether it decides nothing.
+    fn is_cost(&self) -> bool {
+        self.path.rsplit('.').next().is_some_and(|key| COSTS.contains(&key))
     }
 }
 
@@ -189,8 +180,8 @@ fn table_of(
             table = std::mem::take(&mut table).column(key, look, cells);
         };
     for (at, run) in runs.iter().enumerate() {
-        add(&run.name, None, &|own| own.cell(at));
-        add("", Some((&run.name, Format::Significant(7))), &|own| own.cell(at));
+        add(&run.name, None, &|own| cell(&own.values[at]));
+        add("", Some((&run.name, Format::Significant(7))), &|own| cell(&own.values[at]));
     }
     for (at, run) in runs.iter().enumerate().skip(1) {
         let less = format!("{} less {}", run.name, runs[0].name);
@@ -221,8 +212,7 @@ const ROUND_OFF: f64 = 1e-9;
 /// The numbers that differ, but for costs: what a person asks first, then the others, the largest relative difference
 /// first.
 fn differing(quantities: &[SharedQuantity]) -> Vec<&SharedQuantity> {
-    let is_cost = |shared: &SharedQuantity| COSTS.contains(&shared.last_key());
-    let differs = |shared: &&SharedQuantity| !shared.is_equal() && !is_cost(shared);
+    let differs = |shared: &&SharedQuantity| !shared.is_equal() && !shared.is_cost();
     let mut found: Vec<&SharedQuantity> =
         first_of(quantities).into_iter().filter(differs).collect();
     let mut others: Vec<&SharedQuantity> = quantities
@@ -241,9 +231,7 @@ pub fn print(runs: &[ComparedRun], quantities: &[SharedQuantity]) -> String {
         differing(quantities).into_iter().partition(|own| own.largest_relative() < ROUND_OFF);
     let shown = &differing[..differing.len().min(MOST_PRINTED)];
     let mut out = table_of(("", ""), runs, shown).text();
-    let costs = quantities.iter();
-    let costs = costs.filter(|shared| COSTS.contains(&shared.last_key()));
-    let total = quantities.len() - costs.count();
+    let total = quantities.iter().filter(|shared| !shared.is_cost()).count();
     let beyond = match differing.len() - shown.len() {
         0 => String::new(),
         more => format!("; {more} more are in compare.csv"),
@@ -279,10 +267,8 @@ columns! {
 /// The page: what decides, the figures over each other, every shared number, what the runs were made from.
 pub fn document(runs: &[ComparedRun], quantities: &[SharedQuantity]) -> Document {
     let names: Vec<&str> = runs.iter().map(|run| run.name.as_str()).collect();
-    let (differing, equal): (Vec<_>, Vec<_>) = quantities
-        .iter()
-        .filter(|shared| !COSTS.contains(&shared.last_key()))
-        .partition(|shared| !shared.is_equal());
+    let decisive = quantities.iter().filter(|shared| !shared.is_cost());
+    let (differing, equal): (Vec<_>, Vec<_>) = decisive.partition(|shared| !shared.is_equal());
     let without = runs.iter().filter(|run| run.page.is_none());
     let results = Section::new("Results")
         .facts([
@@ -354,7 +340,7 @@ mod tests {
         let found = shared(&runs);
         let of = |path: &str| found.iter().find(|q| q.path == path).unwrap();
         // A count has no point.
-        assert!(of("dofs").is_equal() && of("dofs").cell(0) == Cell::Count(10));
+        assert!(of("dofs").is_equal() && cell(&of("dofs").values[0]) == Cell::Count(10));
         let second = of("critical_frictions.[harmonic=2 direction=-1].critical_friction");
         assert_eq!(second.values, [json!(0.2), json!(0.25)]);
         assert!((second.relative(1).unwrap() - 0.25).abs() < 1e-12);

@@ -1,7 +1,7 @@
 //! Tables and sentences of `improve`.
 
 use super::{Candidate, ImproveSummary, PREDICTED, STATES, critical};
-use frictionsim_output::{Document, Section, Table, columns, significant};
+use frictionsim_output::{Document, Format, Section, Table, columns, significant};
 
 columns! {
     /// A modification and its place.
@@ -13,12 +13,6 @@ columns! {
     x_m: "where it is; the way of the hole for an offset" = own.position_m[0];
     y_m: "where it is; the way of the hole for an offset" = own.position_m[1];
     z_m: "where it is; the way of the hole for an offset" = own.position_m[2];
-}
-
-columns! {
-    /// Where a modification is, in words.
-    PLACE: own as Candidate;
-    place = own.place(), Always "where" Plain;
 }
 
 columns! {
@@ -56,7 +50,7 @@ fn candidates(summary: &ImproveSummary) -> Table {
         "Modifications, the best first; no critical friction: none up to that of the case",
     )
     .columns(CANDIDATES, all())
-    .shown_only(PLACE, all())
+    .column("", Some(("where", Format::Plain)), all().iter().map(Candidate::place))
     .columns(EFFECTS, all())
     .group("predicted_", "predicted ", PREDICTED, all().iter().map(|own| Some(own.predicted)))
     .group("confirmed_", "confirmed ", STATES, all().iter().map(|own| own.confirmed))

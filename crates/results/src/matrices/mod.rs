@@ -41,31 +41,26 @@ pub struct ExportedMatrix {
     pub matrix: MarketMatrix,
 }
 
+/// Power of the distance from the friction coefficient of the export.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub struct FrictionPower {
+    /// The power.
+    pub friction_power: usize,
+}
+
 /// What a matrix is in the problem.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum MatrixRole {
     /// Coefficient of `(mu - mu_0)^power`, `mu_0` the friction coefficient of the export, in the mass `M`, kg/m; of
     /// solid bodies kg.
-    Mass {
-        /// Power of the distance from that friction coefficient.
-        friction_power: usize,
-    },
+    Mass(FrictionPower),
     /// In the damping `C`, Pa s; N s/m.
-    Damping {
-        /// Power of the distance from that friction coefficient.
-        friction_power: usize,
-    },
+    Damping(FrictionPower),
     /// In the stiffness `K`, Pa; N/m.
-    Stiffness {
-        /// Power of the distance from that friction coefficient.
-        friction_power: usize,
-    },
+    Stiffness(FrictionPower),
     /// In the imaginary part `H` of the stiffness, from structural damping: `K + i H` where `Im lambda > 0`, Pa; N/m.
-    Structural {
-        /// Power of the distance from that friction coefficient.
-        friction_power: usize,
-    },
+    Structural(FrictionPower),
     /// Motion of each contact point along the normal of the counterface, out of the unknowns.
     ContactNormal,
     /// Motion of each contact point along the sliding.
@@ -191,13 +186,12 @@ impl MatrixRole {
     /// What it is, its units of plane and of solid bodies, and the power of a part of the problem; none of contact
     /// rows.
     fn told(self) -> (&'static str, [&'static str; 2], Option<usize>) {
+        let power = |own: FrictionPower| Some(own.friction_power);
         match self {
-            Self::Mass { friction_power: power } => ("mass", ["kg/m", "kg"], Some(power)),
-            Self::Damping { friction_power: power } => ("damping", ["Pa s", "N s/m"], Some(power)),
-            Self::Stiffness { friction_power: power } => ("stiffness", ["Pa", "N/m"], Some(power)),
-            Self::Structural { friction_power: power } => {
-                ("structural damping", ["Pa", "N/m"], Some(power))
-            }
+            Self::Mass(own) => ("mass", ["kg/m", "kg"], power(own)),
+            Self::Damping(own) => ("damping", ["Pa s", "N s/m"], power(own)),
+            Self::Stiffness(own) => ("stiffness", ["Pa", "N/m"], power(own)),
+            Self::Structural(own) => ("structural damping", ["Pa", "N/m"], power(own)),
             Self::ContactNormal => {
                 ("motion of the contact points along the normal", ["1"; 2], None)
             }
@@ -234,7 +228,7 @@ impl MatricesSummary {
             npz: (!system.is_at_one_friction).then(|| format!("{}.npz", own.name)),
         };
         let beside = |file: &str| (!system.is_at_one_friction).then(|| file.to_owned());
-        let is_lossy = |own: &ExportedMatrix| matches!(own.role, MatrixRole::Structural { .. });
+        let is_lossy = |own: &ExportedMatrix| matches!(own.role, MatrixRole::Structural(_));
         let is_lossy = system.matrices.iter().any(is_lossy);
         let equation = if is_lossy { LOSSY } else { LOSSLESS };
         Self {

@@ -22,3 +22,4 @@ pub(super) use matrix_figure::operating_matrix;
 pub(super) use record::listed;
 pub(super) use report::{TWO_FREQUENCY, UNSETTLED};
 pub(super) use swept::{by_other_keys, printed};
+pub(super) use table::{cell, join};

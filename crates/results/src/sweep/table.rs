@@ -144,7 +144,8 @@ fn item_name(item: &Value) -> Option<String> {
     Some(name)
 }
 
-fn join(path: &str, key: &str) -> String {
+/// A dotted path.
+pub(crate) fn join(path: &str, key: &str) -> String {
     match path {
         "" => key.to_owned(),
         _ => format!("{path}.{key}"),
@@ -152,7 +153,7 @@ fn join(path: &str, key: &str) -> String {
 }
 
 /// A value as a table cell: text without quotes, lists as JSON.
-pub(super) fn cell(value: &Value) -> Cell {
+pub(crate) fn cell(value: &Value) -> Cell {
     match value {
         Value::Null => Cell::None,
         Value::Bool(flag) => Cell::Flag(*flag),
