@@ -1,7 +1,7 @@
 //! Assembly of element matrices.
 
 use super::element::{self, ElementGeometry};
-use super::{MaterialField, RayleighDamping, Triplets};
+use super::{ElasticMaterial, MaterialField, RayleighDamping, Triplets};
 use crate::mesh::Mesh;
 use nalgebra::DMatrix;
 
@@ -145,11 +145,7 @@ pub fn assemble_geometric_stiffness(
     base: &[f64],
     region: Option<usize>,
 ) -> Triplets {
-    let is_own = |e: usize| region.is_none_or(|region| mesh.region(e) == region);
-    sum_of_elements(mesh, &is_own, |e| {
-        let values = element::nodal_values(mesh, e, base);
-        ElementGeometry::new(mesh, e).geometric_stiffness(material.of(mesh.region(e)), &values)
-    })
+    sum_around((mesh, material), base, region, ElementGeometry::geometric_stiffness)
 }
 
 /// What the displacements `base` (all dofs, nodal frames, m) add to the elastic stiffness of the elements, N/m: beside
@@ -159,49 +155,47 @@ pub fn assemble_displacement_stiffness(
     material: &dyn MaterialField,
     base: &[f64],
 ) -> Triplets {
-    sum_of_elements(mesh, &|_| true, |e| {
-        let values = element::nodal_values(mesh, e, base);
-        let elastic = material.of(mesh.region(e));
-        ElementGeometry::new(mesh, e).displacement_stiffness(elastic, &values)
-    })
+    sum_around((mesh, material), base, None, ElementGeometry::displacement_stiffness)
 }
 
-fn sum_of_elements(
-    mesh: &Mesh,
-    keep: &dyn Fn(usize) -> bool,
-    compute: impl Fn(usize) -> DMatrix<f64>,
+/// Sums matrices of elements that follow from the displacements of their nodes.
+fn sum_around(
+    (mesh, material): (&Mesh, &dyn MaterialField),
+    base: &[f64],
+    region: Option<usize>,
+    of: impl Fn(&ElementGeometry, &ElasticMaterial, &[f64]) -> DMatrix<f64>,
 ) -> Triplets {
-    let mut sum = ElementSum::new(mesh, keep);
-    (0..mesh.element_count()).filter(|&e| keep(e)).for_each(|e| sum.add(e, &compute(e)));
+    let is_own = |e: usize| region.is_none_or(|region| mesh.region(e) == region);
+    let mut sum = ElementSum::new(mesh, &is_own);
+    for e in (0..mesh.element_count()).filter(|&e| is_own(e)) {
+        let values = element::nodal_values(mesh, e, base);
+        sum.add(e, &of(&ElementGeometry::new(mesh, e), material.of(mesh.region(e)), &values));
+    }
     sum.finish()
 }
 
 /// What damping coefficients of their own, of regions and of patches, add to `alpha_R M + beta_R K_e` of the whole body, Pa s,
-/// over all dofs; `None` where nothing has its own.
+/// over all dofs.
 ///
 /// ```text
-/// sum_e (alpha_e - alpha_R) M_e + (beta_e - beta_R) K_e  +  sum_patch (alpha_p M_e + beta_p K_e)
+/// sum_r (alpha_r - alpha_R) M_r + (beta_r - beta_R) K_r  +  sum_patch (alpha_p M_e + beta_p K_e)
 /// ```
 pub fn assemble_extra_damping(
     mesh: &Mesh,
     material: &dyn MaterialField,
     kind: MassKind,
     common: RayleighDamping,
-) -> Option<Triplets> {
-    let own: Vec<_> = (0..mesh.regions.len()).map(|region| material.own_damping(region)).collect();
-    if own.iter().all(Option::is_none) && mesh.patches.is_empty() {
-        return None;
-    }
+) -> Triplets {
     let mut triplets = assemble_patch_damping(mesh, material, kind);
-    for e in 0..mesh.element_count() {
-        if let Some(damping) = own[mesh.region(e)] {
-            let [mass, stiffness] = element_matrices(mesh, material, kind, e);
-            let alpha = damping.mass_coefficient - common.mass_coefficient;
-            let beta = damping.stiffness_coefficient - common.stiffness_coefficient;
-            scatter(&mut triplets, mesh, e, &(mass * alpha + stiffness * beta));
-        }
+    for region in 0..mesh.regions.len() {
+        let Some(own) = material.own_damping(region) else { continue };
+        let alpha = own.mass_coefficient - common.mass_coefficient;
+        let beta = own.stiffness_coefficient - common.stiffness_coefficient;
+        let mass = region_mass(mesh, material, kind, region).scaled(alpha);
+        let stiffness = region_stiffness(mesh, material, region).scaled(beta);
+        triplets.entries.extend(mass.entries.into_iter().chain(stiffness.entries));
     }
-    Some(triplets)
+    triplets
 }
 
 /// Damping of the patches alone over all dofs.

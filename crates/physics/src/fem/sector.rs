@@ -175,8 +175,7 @@ pub fn extra_damping<S: Sectored>(
     kind: MassKind,
     common: RayleighDamping,
 ) -> SectorMatrix {
-    let own = assemble_extra_damping(sector.strip(), material, kind, common);
-    folded(sector, &own.unwrap_or_default())
+    folded(sector, &assemble_extra_damping(sector.strip(), material, kind, common))
 }
 
 /// Geometric stiffness `∫ (grad N_I . sigma . grad N_J) I dV` of a region for the stress that a displacement, the same in every

@@ -1,7 +1,6 @@
 //! Sparse solution of the whole mesh at each frequency.
 
-use super::factors::{Analyses, factorized};
-use super::neighbours::solve_together;
+use super::driven::Driven;
 use super::system::check_frequencies;
 use super::{FrfError, FrfSystem, Port};
 use crate::linalg::c64;
@@ -33,8 +32,7 @@ pub fn direct_response(
 ) -> Result<Vec<c64>, FrfError> {
     check_frequencies(frequencies_hz)?;
     let first = frequencies_hz.first().copied().unwrap_or(0.0);
-    let fail = |source| FrfError::Factorization { frequency_hz: first, source };
-    let analyses = Analyses::of(system).map_err(fail)?;
+    let driven = Driven::of(system, [force, response], first)?;
     let at_once = match system.proportional {
         Some(_) => LINES_AT_ONCE,
         None => GENERAL_LINES_AT_ONCE,
@@ -44,14 +42,14 @@ pub fn direct_response(
             // A stiffness of each line's own leaves nothing to share.
             let shared = match system.is_tabled() {
                 true => vec![None; lines.len()],
-                false => solve_together(system, &analyses, force, response, lines),
+                false => driven.solve_together(lines),
             };
             let solved = lines
                 .iter()
                 .zip(shared)
                 .map(|(f, known)| match known {
                     Some(value) => Ok(value),
-                    None => factorized(system, &analyses.lu, force, response, *f),
+                    None => driven.factorized(*f),
                 })
                 .collect::<Result<Vec<c64>, FrfError>>();
             done(lines.len());

@@ -12,8 +12,8 @@
 mod cyclic;
 mod cyclic_system;
 mod direct;
+mod driven;
 mod error;
-mod factors;
 mod krylov;
 mod neighbours;
 mod port;

@@ -1,10 +1,11 @@
 //! Response of a projected model.
 
-use super::factors::factorized;
+use super::driven::Driven;
 use super::system::check_frequencies;
 use super::{FrfError, FrfSystem, Port};
 use crate::linalg::dense::{join_columns, orthonormalize, transpose_product};
-use crate::linalg::{ComplexDenseLu, LuAnalysis, Mat, SparseLu, c64};
+use crate::linalg::{ComplexDenseLu, Mat, c64};
+use crate::order::range;
 use std::f64::consts::TAU;
 
 /// Krylov vectors taken at each shift, for force and response each.
@@ -52,27 +53,25 @@ pub fn reduced_response(
     frequencies_hz: &[f64],
 ) -> Result<ReducedResponse, FrfError> {
     check_frequencies(frequencies_hz)?;
-    let (low, high) = range(frequencies_hz);
+    let [low, high] = range(frequencies_hz.iter().copied());
     if frequencies_hz.is_empty() {
         return Ok(ReducedResponse::default());
     }
-    let analysis = LuAnalysis::new(&system.pattern)
-        .map_err(|source| FrfError::Factorization { frequency_hz: low, source })?;
+    let driven = Driven::of(system, [force, response], low)?;
     let mut shifts: Vec<f64> =
         (0..SHIFTS).map(|j| low + (high - low) * (j as f64 + 0.5) / SHIFTS as f64).collect();
     let mut basis = Mat::<f64>::zeros(system.dimension(), 0);
     for shift in &shifts {
-        basis = extended(system, &analysis, basis, force, response, *shift)?;
+        basis = extended(&driven, basis, *shift)?;
     }
     let mut checks: Vec<(f64, c64)> = Vec::new();
     loop {
-        let model = ReducedModel::project(system, &basis, force, response);
+        let model = ReducedModel::project(&driven, &basis);
         let receptance: Vec<c64> = frequencies_hz.iter().map(|f| model.receptance(*f)).collect();
         let wanted = check_lines(frequencies_hz, &receptance, &shifts);
         for f in wanted {
             if checks.iter().all(|(known, _)| *known != f) {
-                let solved = factorized(system, &analysis, force, response, f)?;
-                checks.push((f, solved));
+                checks.push((f, driven.factorized(f)?));
             }
         }
         let error = |(f, h): &(f64, c64)| (model.receptance(*f) - h).norm() / h.norm();
@@ -99,21 +98,14 @@ pub fn reduced_response(
             });
         }
         shifts.push(worst.0);
-        basis = extended(system, &analysis, basis, force, response, worst.0)?;
+        basis = extended(&driven, basis, worst.0)?;
     }
-}
-
-/// Least and largest frequency.
-fn range(frequencies_hz: &[f64]) -> (f64, f64) {
-    let low = frequencies_hz.iter().copied().fold(f64::INFINITY, f64::min);
-    let high = frequencies_hz.iter().copied().fold(0.0, f64::max);
-    (low, high)
 }
 
 /// Lines at which the reduction is checked: both ends, midway between neighbouring shifts, and the
 /// largest response.
 fn check_lines(frequencies_hz: &[f64], receptance: &[c64], shifts: &[f64]) -> Vec<f64> {
-    let (low, high) = range(frequencies_hz);
+    let [low, high] = range(frequencies_hz.iter().copied());
     let mut sorted = shifts.to_vec();
     sorted.sort_by(f64::total_cmp);
     let mut lines = vec![low, high];
@@ -129,44 +121,18 @@ fn check_lines(frequencies_hz: &[f64], receptance: &[c64], shifts: &[f64]) -> Ve
 }
 
 /// The basis with the Krylov vectors of one more shift.
-fn extended(
-    system: &FrfSystem,
-    analysis: &LuAnalysis,
-    basis: Mat<f64>,
-    force: &Port,
-    response: &Port,
-    shift_hz: f64,
-) -> Result<Mat<f64>, FrfError> {
-    let mut frequency_hz = shift_hz;
-    let mut attempt = 0;
-    let lu = loop {
-        match SparseLu::factorize(analysis, system.undamped_stiffness(frequency_hz)) {
-            Ok(lu) => break lu,
-            Err(source) if attempt == 3 => {
-                return Err(FrfError::Factorization { frequency_hz, source });
-            }
-            Err(_) => {
-                // On an undamped resonance: beside it, the space is the same.
-                attempt += 1;
-                frequency_hz *= 1.001;
-            }
-        }
-    };
+fn extended(driven: &Driven<'_>, mut basis: Mat<f64>, shift_hz: f64) -> Result<Mat<f64>, FrfError> {
+    let (system, factors) = (driven.system, driven.real_factors(shift_hz)?);
     let [mass, _, _] = system.matrices();
     let n = system.dimension();
-    let mut basis = basis;
-    for (start, is_transposed) in [(force, false), (response, true)] {
+    for (start, is_transposed) in [(driven.force, false), (driven.response, true)] {
         // Each chain is orthogonalized in itself alone: with vectors of the other chain mixed in, the
         // recursion would leave its Krylov space.
         let mut chain = Mat::<f64>::zeros(n, 0);
         let mut right = start.force(n);
         for _ in 0..MOMENTS {
-            let mut x = Mat::from_fn(n, 1, |i, _| right[i]);
-            if is_transposed {
-                lu.solve_transpose_in_place(x.as_mut());
-            } else {
-                lu.solve_in_place(x.as_mut());
-            }
+            let solved = factors.solve(right, is_transposed);
+            let x = Mat::from_fn(n, 1, |i, _| solved[i]);
             let new = orthonormalize(chain.as_ref(), x, DROP).columns;
             if new.ncols() == 0 {
                 break;
@@ -190,7 +156,8 @@ struct ReducedModel {
 }
 
 impl ReducedModel {
-    fn project(system: &FrfSystem, basis: &Mat<f64>, force: &Port, response: &Port) -> Self {
+    fn project(driven: &Driven<'_>, basis: &Mat<f64>) -> Self {
+        let system = driven.system;
         let count = basis.ncols();
         let [mass, damping, stiffness] = system.matrices().map(|values| {
             let mut image = Mat::<f64>::zeros(basis.nrows(), count);
@@ -204,8 +171,8 @@ impl ReducedModel {
             mass,
             damping,
             stiffness,
-            force: force.row_of(basis.as_ref()),
-            response: response.row_of(basis.as_ref()),
+            force: driven.force.row_of(basis.as_ref()),
+            response: driven.response.row_of(basis.as_ref()),
         }
     }
 

@@ -223,13 +223,16 @@ impl<'a> TransientModel<'a> {
             damping.entries.extend(springs.scaled(-beta).entries);
         }
         let (material, kind, common) = (self.material, MassKind::Lumped, self.damping);
-        let own = match (self.body, self.mesh()) {
-            (SteppedBody::Revolution(sector), _) => {
-                Some(everywhere(sector, &extra_damping(sector, material, kind, common)))
+        let own = match self.body {
+            SteppedBody::Revolution(sector) => {
+                everywhere(sector, &extra_damping(sector, material, kind, common))
             }
-            (_, mesh) => mesh.and_then(|mesh| assemble_extra_damping(mesh, material, kind, common)),
+            SteppedBody::Plane { mesh, .. }
+            | SteppedBody::Assembly { assembly: &Assembly { mesh, .. }, .. } => {
+                assemble_extra_damping(mesh, material, kind, common)
+            }
         };
-        damping.entries.extend(own.unwrap_or_default().entries);
+        damping.entries.extend(own.entries);
         let pressure = match self.body {
             SteppedBody::Plane { mesh, .. } => assemble_pressures(mesh),
             SteppedBody::Revolution(sector) => {

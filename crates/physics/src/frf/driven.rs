@@ -1,0 +1,76 @@
+//! A system between two ports, and its sparse factorizations.
+
+use super::{FrfError, FrfSystem, Port};
+use crate::linalg::{
+    ComplexSparseLu, LdlAnalysis, LinalgError, LuAnalysis, MatMut, SparseLdl, SparseLu, c64,
+};
+
+/// Factors of a frequency by which a real factorization evades an undamped resonance: beside it it serves as well.
+const BESIDE: [f64; 3] = [1.0, 1.000_7, 0.999_1];
+
+/// A system that is excited at one port and observed at another, with the symbolic factorizations of its pattern.
+pub(super) struct Driven<'a> {
+    pub system: &'a FrfSystem,
+    pub force: &'a Port,
+    pub response: &'a Port,
+    pub lu: LuAnalysis,
+    ldl: LdlAnalysis,
+}
+
+impl<'a> Driven<'a> {
+    pub fn of(
+        system: &'a FrfSystem,
+        [force, response]: [&'a Port; 2],
+        frequency_hz: f64,
+    ) -> Result<Self, FrfError> {
+        let fail = |source| FrfError::Factorization { frequency_hz, source };
+        let lu = LuAnalysis::new(&system.pattern).map_err(fail)?;
+        let ldl = LdlAnalysis::new(&system.pattern).map_err(fail)?;
+        Ok(Self { system, force, response, lu, ldl })
+    }
+
+    /// One line by a complex factorization of its own.
+    pub fn factorized(&self, frequency_hz: f64) -> Result<c64, FrfError> {
+        let values = self.system.dynamic_stiffness(frequency_hz);
+        let lu = ComplexSparseLu::factorize(&self.lu, values)
+            .map_err(|source| FrfError::Factorization { frequency_hz, source })?;
+        let force = self.force.complex_force(self.system.dimension());
+        Ok(self.response.observe(&lu.solve_refined(&force)))
+    }
+
+    /// Real factors of `K - omega^2 M`, at or beside a frequency.
+    pub fn real_factors(&self, frequency_hz: f64) -> Result<RealFactors, FrfError> {
+        let factorized = |moved: f64| -> Result<RealFactors, LinalgError> {
+            let values = self.system.undamped_stiffness(frequency_hz * moved);
+            Ok(match self.system.is_symmetric {
+                true => RealFactors::Symmetric(SparseLdl::factorize(&self.ldl, &values)?),
+                false => RealFactors::General(Box::new(SparseLu::factorize(&self.lu, values)?)),
+            })
+        };
+        let [first, others @ ..] = BESIDE;
+        let found = others
+            .iter()
+            .fold(factorized(first), |found, moved| found.or_else(|_| factorized(*moved)));
+        found.map_err(|source| FrfError::Factorization { frequency_hz, source })
+    }
+}
+
+/// Real factors, of a symmetric matrix where it is one.
+pub(super) enum RealFactors {
+    Symmetric(SparseLdl),
+    General(Box<SparseLu>),
+}
+
+impl RealFactors {
+    /// The solution of the system, or of the transposed one.
+    pub fn solve(&self, mut x: Vec<f64>, is_transposed: bool) -> Vec<f64> {
+        let count = x.len();
+        let column = MatMut::from_column_major_slice_mut(&mut x, count, 1);
+        match self {
+            Self::Symmetric(ldl) => ldl.solve_in_place(column),
+            Self::General(lu) if is_transposed => lu.solve_transpose_in_place(column),
+            Self::General(lu) => lu.solve_in_place(column),
+        }
+        x
+    }
+}
