@@ -1,6 +1,6 @@
 //! Linear systems of operators near the identity.
 
-use super::dense::dot;
+use super::dense::{add, difference, dot, orthogonalize};
 
 /// Directions that are kept before the iteration begins anew.
 const MOST_DIRECTIONS: usize = 100;
@@ -22,7 +22,7 @@ pub fn gmres(
         // The true residual, not that of the recurrence, decides.
         let image = apply(x);
         products += 1;
-        let mut residual: Vec<f64> = right_side.iter().zip(&image).map(|(b, a)| b - a).collect();
+        let mut residual = difference(right_side, &image);
         let left = norm(&residual);
         // A residual that does not fall to a tenth has reached round-off.
         if left <= tolerance * size || !(left < 0.1 * last) {
@@ -38,16 +38,7 @@ pub fn gmres(
         for k in 0..MOST_DIRECTIONS {
             let mut direction = apply(&basis[k]);
             products += 1;
-            let mut column = vec![0.0; k + 1];
-            // Gram-Schmidt twice.
-            for _ in 0..2 {
-                for (known, share) in basis.iter().zip(&mut column) {
-                    let along = dot(known, &direction);
-                    *share += along;
-                    let pairs = direction.iter_mut().zip(known);
-                    pairs.for_each(|(d, q)| *d -= along * q);
-                }
-            }
+            let mut column = orthogonalize(&mut direction, &basis);
             let length = norm(&direction);
             for (i, [c, s]) in rotations.iter().enumerate() {
                 let (upper, lower) = (column[i], column[i + 1]);
@@ -77,8 +68,7 @@ pub fn gmres(
             }
         }
         for (direction, share) in basis.iter().zip(&shares) {
-            let pairs = x.iter_mut().zip(direction);
-            pairs.for_each(|(value, d)| *value += share * d);
+            add(x, *share, direction);
         }
     }
 }

@@ -46,22 +46,12 @@ impl SparsityPattern {
     /// `A x` for each column of `x`, with `A` given by its nonzero `values`.
     #[inline]
     pub fn multiply(&self, values: &[f64], x: MatRef<'_, f64>) -> Mat<f64> {
-        let [y] = self.multiply_each([values], x);
+        let [y] = self.multiply_sorted([&self.by_rows(values)], x);
         y
     }
 
-    /// `A x` for each column of `x` and each of several matrices of this pattern, given by their nonzero `values`.
-    #[inline]
-    pub fn multiply_each<const N: usize>(
-        &self,
-        values: [&[f64]; N],
-        x: MatRef<'_, f64>,
-    ) -> [Mat<f64>; N] {
-        let sorted = values.map(|values| self.by_rows(values));
-        self.multiply_sorted(sorted.each_ref().map(Vec::as_slice), x)
-    }
-
-    /// [`Self::multiply_each`] of nonzeros sorted by rows ([`Self::by_rows`]); indices are read once for all matrices.
+    /// `A x` for each column of `x` and each of several matrices, given by their nonzeros sorted by rows ([`Self::by_rows`]); indices
+    /// are read once for all matrices.
     pub fn multiply_sorted<const N: usize>(
         &self,
         values: [&[f64]; N],

@@ -1,6 +1,6 @@
 //! Leading multipliers of small perturbations over one period, by Arnoldi's process on the map of the period.
 
-use super::vector::{dot, norm, orthogonalize};
+use crate::linalg::dense::{dot, norm, orthogonalize};
 use crate::linalg::dense_eigen::{RealEigen, real_eigen};
 use crate::linalg::{Mat, c64};
 

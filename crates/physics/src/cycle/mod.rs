@@ -37,7 +37,6 @@ mod state;
 mod stepping;
 mod system;
 mod two_waves;
-mod vector;
 mod wave;
 
 pub use basin::{BasinBoundary, BasinRequest, BasinRun};

@@ -2,8 +2,8 @@
 
 use super::parameter::Parameter;
 use super::state::{Event, WaveState};
-use super::vector::{add, difference};
 use super::wave::Linearization;
+use crate::linalg::dense::{add, difference};
 use crate::linalg::{DenseLu, Mat, MatMut, c64};
 
 /// A change of forces, frequencies and parameter.

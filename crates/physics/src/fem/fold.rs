@@ -52,7 +52,8 @@ struct Entry {
 }
 
 impl SectorMatrix {
-    /// From entries `(row, column, halves of a sector from the row's node to the column's, value)`, which add up.
+    /// From entries `(row, column, halves of a sector from the row's node to the column's, value)`, which add up; halves count modulo
+    /// `STEPS`, see [`dof_ahead`].
     pub fn of_entries(
         components: usize,
         entries: impl IntoIterator<Item = (usize, usize, isize, f64)>,
@@ -60,7 +61,8 @@ impl SectorMatrix {
         // Columns are `STEPS` times those of the matrix, plus the difference of angles.
         let mut terms = Triplets::default();
         for (row, column, ahead, value) in entries.into_iter().filter(|entry| entry.3 != 0.0) {
-            terms.push(row, STEPS * column + REACH.wrapping_add_signed(ahead), value);
+            let place = (REACH as isize + ahead).rem_euclid(STEPS as isize);
+            terms.push(row, STEPS * column + place as usize, value);
         }
         if terms.entries.is_empty() {
             return Self::default();
@@ -77,16 +79,6 @@ impl SectorMatrix {
         }
         starts.push(entries.len());
         Self { components, starts, entries }
-    }
-
-    /// From products of rows over the `dofs` of a sector and of those beside it, see [`dof_ahead`].
-    pub fn of_places(components: usize, dofs: usize, products: &Triplets) -> Self {
-        let entries = products.entries.iter().map(|&(row, column, value)| {
-            let steps = STEPS + column / dofs - row / dofs;
-            let ahead = ((steps + REACH) % STEPS) as isize - REACH as isize;
-            (row % dofs, column % dofs, ahead, value)
-        });
-        Self::of_entries(components, entries)
     }
 
     /// `(row, column, halves of a sector ahead, value)` of every entry.

@@ -83,10 +83,9 @@ impl Recovery {
         &self.places[self.first_sample[element]..self.first_sample[element + 1]]
     }
 
-    /// Region of the first element around a node and its weights; `None` for a node without elements.
-    pub fn first(&self, node: usize) -> Option<(usize, &[(usize, f64)])> {
-        let first = self.nodes[node].first()?;
-        Some((first.region, &first.weights))
+    /// The weights of the region of the first element around a node; none for a node without elements.
+    pub fn first(&self, node: usize) -> &[(usize, f64)] {
+        self.nodes[node].first().map_or(&[], |first| &first.weights)
     }
 
     /// The regions that meet at a node, each with its weights.

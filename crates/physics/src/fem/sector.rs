@@ -102,20 +102,29 @@ impl Sectored for SolidSector {
 /// What a matrix of the strip is over the dofs of the sector, whose images its nodes are.
 fn folded<S: Sectored>(sector: &S, matrix: &Triplets) -> SectorMatrix {
     let components = sector.strip().dimension;
-    let place = |dof: usize| {
+    placed(sector, matrix, |dof| {
         let (node, half) = sector.place(dof / components);
         (components * node + dof % components, half as isize)
-    };
+    })
+}
+
+/// A matrix over places, each of which is a dof of the sector with an angle in halves of a sector.
+fn placed<S: Sectored>(
+    sector: &S,
+    matrix: &Triplets,
+    place: impl Fn(usize) -> (usize, isize),
+) -> SectorMatrix {
     let entries = matrix.entries.iter().map(|&(row, column, value)| {
         let ((row, here), (column, there)) = (place(row), place(column));
         (row, column, there - here, value)
     });
-    SectorMatrix::of_entries(components, entries)
+    SectorMatrix::of_entries(sector.strip().dimension, entries)
 }
 
 /// The matrix of products of rows, see [`dof_ahead`](super::fold::dof_ahead).
 pub fn at_places<S: Sectored>(sector: &S, products: &Triplets) -> SectorMatrix {
-    SectorMatrix::of_places(sector.strip().dimension, sector.dofs(), products)
+    let dofs = sector.dofs();
+    placed(sector, products, |place| (place % dofs, (place / dofs) as isize))
 }
 
 /// Stiffness over all dofs, springs included, that motions which are the same in every sector see.

@@ -1,8 +1,8 @@
 //! Stress recovery at the nodes.
 
+use super::MaterialField;
 use super::element::{ElementGeometry, Voigt, nodal_values};
 use super::recovery::{Degree, Recovery};
-use super::{ElasticMaterial, MaterialField};
 use crate::mesh::{Mesh, SolidSector};
 use nalgebra::{Matrix3, Rotation3, Vector3};
 
@@ -73,12 +73,7 @@ pub fn nodal_stress(
     displacement: &[f64],
 ) -> Vec<NodalStress> {
     let nodes = recovered_stress(mesh, material, displacement).into_iter().enumerate();
-    let stress = |(node, found): (usize, Option<(Voigt, usize)>)| {
-        let own =
-            |(stress, region)| in_frame(stress, mesh.reported_angle(node), material.of(region));
-        found.map(own).unwrap_or_default()
-    };
-    nodes.map(stress).collect()
+    nodes.map(|(node, found)| in_frame(found, mesh.reported_angle(node))).collect()
 }
 
 /// Stress at each node of a solid body, recovered as [`nodal_stress`] does.
@@ -89,8 +84,7 @@ pub fn solid_stress(
     material: &dyn MaterialField,
     displacement: &[f64],
 ) -> Vec<SolidStress> {
-    let recovered = recovered_stress(mesh, material, displacement).into_iter();
-    recovered.map(|found| SolidStress(found.unwrap_or_default().0)).collect()
+    recovered_stress(mesh, material, displacement).into_iter().map(SolidStress).collect()
 }
 
 /// Stress at each node of a body of revolution in its nodal frames, components `(rr, tt, zz, rt, tz, zr)`, recovered as
@@ -128,13 +122,8 @@ pub fn revolved_stress(
     shown.map(|node| found[node].turned(frames[node].matrix())).collect()
 }
 
-/// Recovered stress at each node in global axes and the region whose material it is of: that of its first element, where several meet;
-/// `None` for a node without elements.
-fn recovered_stress(
-    mesh: &Mesh,
-    material: &dyn MaterialField,
-    displacement: &[f64],
-) -> Vec<Option<(Voigt, usize)>> {
+/// Recovered stress at each node in global axes, of the first element's material where several meet; none of a node without elements.
+fn recovered_stress(mesh: &Mesh, material: &dyn MaterialField, displacement: &[f64]) -> Vec<Voigt> {
     let recovery = Recovery::new(mesh, Degree::Linear, false);
     let samples: Vec<Voigt> = (0..mesh.element_count())
         .flat_map(|e| {
@@ -146,19 +135,17 @@ fn recovered_stress(
         })
         .collect();
     let stress = |node: usize| {
-        let (region, weights) = recovery.first(node)?;
         let mut sum = [0.0; 6];
-        for (sample, weight) in weights {
+        for (sample, weight) in recovery.first(node) {
             (0..6).for_each(|k| sum[k] += weight * samples[*sample][k]);
         }
-        Some((sum, region))
+        sum
     };
     (0..mesh.node_count()).map(stress).collect()
 }
 
-fn in_frame(stress: Voigt, angle: f64, material: &ElasticMaterial) -> NodalStress {
+fn in_frame(stress: Voigt, angle: f64) -> NodalStress {
     let frame = Rotation3::from_axis_angle(&Vector3::z_axis(), angle);
     let [radial, hoop, axial, shear, ..] = SolidStress(stress).turned(frame.matrix()).0;
-    let axial = material.out_of_plane_stress(radial, hoop).unwrap_or(axial);
     NodalStress { radial, hoop, shear, axial }
 }

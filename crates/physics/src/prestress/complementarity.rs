@@ -56,7 +56,7 @@ pub(super) fn range(
     let lowest = |asked: &[f64]| asked.iter().copied().fold(f64::INFINITY, f64::min);
     let begins = changes.iter().enumerate().map(|(k, &change)| {
         let (set, between) = (&sets[k + 1], [lowest(&asked_of(k + 1)), change]);
-        let known = bodies.pressing().known.and_then(|known| known.begin_of(set, between));
+        let known = bodies.pressing().known.and_then(|known| known.end_of(set, between));
         Ok(known.map_or_else(|| end_between(bodies, set, between), Ok)?.max(change))
     });
     let begins = begins.collect::<Result<Vec<f64>, PrestressError>>()?;

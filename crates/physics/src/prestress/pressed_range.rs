@@ -55,20 +55,14 @@ impl PressedRange {
         Some(&self.states[self.state_of[place]].is_pressed)
     }
 
-    /// Where a set that holds at `inside` ends on the way up to `outside`, if it does before.
+    /// Where a set that holds at `inside` ends on the way to `outside`, up or down, if it does before.
     pub(super) fn end_of(&self, set: &[bool], [inside, outside]: [f64; 2]) -> Option<f64> {
-        let mut ends = self.changes.iter().zip(&self.states);
-        let is_between = |end: f64| (inside..outside).contains(&end);
-        ends.find(|(end, own)| is_between(**end) && own.is_pressed == set).map(|(end, _)| *end)
-    }
-
-    /// Where it begins on the way down to `outside`, if it does before.
-    pub(super) fn begin_of(&self, set: &[bool], [inside, outside]: [f64; 2]) -> Option<f64> {
-        let mut begins = self.begins.iter().zip(&self.states[1..]);
-        let is_between = |begin: f64| (outside..=inside).contains(&begin);
-        begins
-            .find(|(begin, own)| is_between(**begin) && own.is_pressed == set)
-            .map(|(own, _)| *own)
+        let ends = self.changes.iter().zip(&self.states).filter(|_| outside > inside);
+        let begins = self.begins.iter().zip(self.states.iter().skip(1));
+        let begins = begins.filter(|_| outside <= inside);
+        let is_between = |at: f64| at != outside && (at - inside) * (at - outside) <= 0.0;
+        let mut all = ends.chain(begins);
+        all.find(|(at, own)| is_between(**at) && own.is_pressed == set).map(|own| *own.0)
     }
 
     /// The state of a set whose polynomials hold over a range with all their digits.

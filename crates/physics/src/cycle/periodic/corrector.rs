@@ -4,7 +4,7 @@ use super::map::{PeriodImage, PeriodMap, PeriodicState};
 use super::search::{ACCEPTED, Found};
 use super::secants::{Change, Iterate, NEW_ALONG, SecantSpace};
 use crate::cycle::CycleError;
-use crate::cycle::vector::{add, difference, norm};
+use crate::linalg::dense::{add, difference, norm};
 use crate::transient::TransientError;
 
 /// Residual of a point, relative to the amplitude of the vibration.

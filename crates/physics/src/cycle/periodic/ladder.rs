@@ -4,9 +4,9 @@ use super::map::{PeriodMap, PeriodicState};
 use super::search::{Found, find, find_settled};
 use super::two_frequencies::transient_from;
 use crate::cycle::CycleError;
-use crate::cycle::vector::{add, difference, norm};
 use crate::fem::operator::scatter;
 use crate::linalg::c64;
+use crate::linalg::dense::{add, difference, norm};
 use std::f64::consts::TAU;
 
 /// Difference of a cycle's frequency from its mode's, relative, from which on another start may know a cycle nearer to the mode.

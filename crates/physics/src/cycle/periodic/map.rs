@@ -3,8 +3,8 @@
 use crate::contact::SlidingContact;
 use crate::cycle::CyclePowers;
 use crate::cycle::moving::MovingDofs;
-use crate::cycle::vector::{add, difference, dot, norm};
 use crate::fem::operator::{StiffnessOperator, scatter};
+use crate::linalg::dense::{add, difference, dot, norm};
 use crate::linalg::interruption;
 use crate::transient::{
     CentralDifference, SAFETY, StatusCounts, TimeStep, TransientError, TransientModel,

@@ -2,8 +2,8 @@
 
 use super::map::{PeriodMap, PeriodicState};
 use crate::cycle::arnoldi::{MultiplierSearch, Ritz, unit};
-use crate::cycle::vector::{difference, norm};
 use crate::cycle::{CycleError, FloquetMultiplier, FloquetMultipliers};
+use crate::linalg::dense::{difference, norm};
 use crate::linalg::{GaussianNoise, c64};
 
 /// Multipliers kept, and the residual of one that is worth listing.

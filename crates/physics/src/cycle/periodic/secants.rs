@@ -1,7 +1,7 @@
 //! Newton's method on the differences of past iterates, plain periods on what they do not hold.
 
 use super::map::{PeriodImage, PeriodicState};
-use crate::cycle::vector::{add, difference, dot, norm};
+use crate::linalg::dense::{add, difference, dot, norm};
 use std::collections::VecDeque;
 
 /// Share of a difference that must lie beyond later ones, lest it says nothing new.
