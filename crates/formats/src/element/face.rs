@@ -1,5 +1,6 @@
 //! Faces of elements: lines in the plane, triangles and quadrilaterals of solids.
 
+use super::ElementKind;
 use super::rule::{self, QuadraturePoint};
 use super::shapes::{self, Shape};
 
@@ -65,40 +66,39 @@ impl FaceKind {
     /// Nodes of one face.
     #[inline]
     pub fn node_count(self) -> usize {
+        let corners = self.corner_count();
+        let sides = if corners == 2 { 1 } else { corners };
+        corners + if self.is_quadratic() { sides } else { 0 }
+    }
+
+    /// The plane element of its shape; a line has none.
+    fn plane(self) -> Option<ElementKind> {
         match self {
-            Self::Line2 => 2,
-            Self::Line3 | Self::Tri3 => 3,
-            Self::Quad4 => 4,
-            Self::Tri6 => 6,
-            Self::Quad8 => 8,
+            Self::Line2 | Self::Line3 => None,
+            Self::Tri3 => Some(ElementKind::Tri3),
+            Self::Tri6 => Some(ElementKind::Tri6),
+            Self::Quad4 => Some(ElementKind::Quad4),
+            Self::Quad8 => Some(ElementKind::Quad8),
         }
     }
 
     /// Shape functions at a point of the face, in the order of its nodes.
     #[inline]
     pub fn shape_functions(self, [xi, eta]: [f64; 2]) -> Vec<Shape> {
-        match self {
-            Self::Line2 => shapes::line(false, xi),
-            Self::Line3 => shapes::line(true, xi),
-            Self::Tri3 => shapes::triangle(xi, eta).to_vec(),
-            Self::Tri6 => {
-                shapes::quadratic_simplex(&shapes::triangle(xi, eta), &shapes::TRIANGLE_EDGES)
-            }
-            Self::Quad4 => shapes::bilinear(xi, eta),
-            Self::Quad8 => shapes::serendipity(xi, eta),
+        let edges: &[[usize; 2]] = if self.is_quadratic() { &[[0, 1]] } else { &[] };
+        match self.plane() {
+            Some(kind) => kind.shape_functions([xi, eta, 0.0]),
+            None => shapes::tensor(1, &shapes::LINE, edges, [xi, 0.0, 0.0]),
         }
     }
 
     /// Quadrature that is exact for products of two shape functions on a flat, undistorted face.
     #[inline]
     pub fn quadrature(self) -> Vec<QuadraturePoint> {
-        match self {
-            Self::Line2 => rule::line(&rule::TWO),
-            Self::Line3 => rule::line(&rule::THREE),
-            Self::Tri3 => rule::triangle_three(),
-            Self::Tri6 => rule::triangle_six(),
-            Self::Quad4 => rule::square(&rule::TWO),
-            Self::Quad8 => rule::square(&rule::THREE),
+        match self.plane() {
+            Some(kind) => kind.quadrature(),
+            None if self.is_quadratic() => rule::line(&rule::THREE),
+            None => rule::line(&rule::TWO),
         }
     }
 

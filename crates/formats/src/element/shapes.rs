@@ -35,43 +35,20 @@ pub(super) const BRICK: [[f64; 3]; 8] = [
     [-1.0, -1.0, 1.0], [1.0, -1.0, 1.0], [1.0, 1.0, 1.0], [-1.0, 1.0, 1.0],
 ];
 
-/// Middles of its edges in both layers, then between them.
-#[rustfmt::skip]
-const BRICK_MIDDLES: [[f64; 3]; 12] = [
-    [0.0, -1.0, -1.0], [1.0, 0.0, -1.0], [0.0, 1.0, -1.0], [-1.0, 0.0, -1.0],
-    [0.0, -1.0, 1.0], [1.0, 0.0, 1.0], [0.0, 1.0, 1.0], [-1.0, 0.0, 1.0],
-    [-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [1.0, 1.0, 0.0], [-1.0, 1.0, 0.0],
-];
+/// Ends of a line.
+pub(super) const LINE: [[f64; 3]; 2] = [[-1.0, 0.0, 0.0], [1.0, 0.0, 0.0]];
 
-/// Linear and quadratic functions of a line, `-1 <= s <= 1`: its ends, then its middle.
+/// Area coordinates of a triangle, `N = 3`, volume coordinates of a tetrahedron, `N = 4`.
 #[inline]
-pub(super) fn line(is_quadratic: bool, s: f64) -> Vec<Shape> {
-    let shape = |value: f64, slope: f64| (value, [slope, 0.0, 0.0]);
-    if is_quadratic {
-        return vec![
-            shape(0.5 * s * (s - 1.0), s - 0.5),
-            shape(0.5 * s * (s + 1.0), s + 0.5),
-            shape(1.0 - s * s, -2.0 * s),
-        ];
-    }
-    vec![shape(0.5 * (1.0 - s), -0.5), shape(0.5 * (1.0 + s), 0.5)]
-}
-
-/// Area coordinates.
-#[inline]
-pub(super) fn triangle(xi: f64, eta: f64) -> [Shape; 3] {
-    [(1.0 - xi - eta, [-1.0, -1.0, 0.0]), (xi, [1.0, 0.0, 0.0]), (eta, [0.0, 1.0, 0.0])]
-}
-
-/// Volume coordinates.
-#[inline]
-pub(super) fn tetrahedron([xi, eta, zeta]: [f64; 3]) -> [Shape; 4] {
-    [
-        (1.0 - xi - eta - zeta, [-1.0, -1.0, -1.0]),
-        (xi, [1.0, 0.0, 0.0]),
-        (eta, [0.0, 1.0, 0.0]),
-        (zeta, [0.0, 0.0, 1.0]),
-    ]
+pub(super) fn simplex<const N: usize>(at: [f64; 3]) -> [Shape; N] {
+    let is_own = |axis: usize| axis + 1 < N;
+    std::array::from_fn(|node| match node {
+        0 => {
+            let rest = at.iter().take(N - 1).fold(1.0, |rest, x| rest - x);
+            (rest, [0, 1, 2].map(|axis| if is_own(axis) { -1.0 } else { 0.0 }))
+        }
+        _ => (at[node - 1], [0, 1, 2].map(|axis| f64::from(u8::from(axis + 1 == node)))),
+    })
 }
 
 /// `L (2 L - 1)` at corners, `4 L_I L_J` at the middle of the edge from I to J, of area or volume coordinates `L`.
@@ -88,83 +65,53 @@ pub(super) fn quadratic_simplex(linear: &[Shape], edges: &[[usize; 2]]) -> Vec<S
     linear.iter().map(corner).chain(edges.iter().map(middle)).collect()
 }
 
-/// Bilinear functions of the square.
-#[inline]
-pub(super) fn bilinear(xi: f64, eta: f64) -> Vec<Shape> {
-    let shape = |[a, b, _]: [f64; 3]| {
-        let (p, q) = (1.0 + a * xi, 1.0 + b * eta);
-        (0.25 * p * q, [0.25 * a * q, 0.25 * b * p, 0.0])
-    };
-    SQUARE.map(shape).to_vec()
-}
-
-/// Serendipity functions of the square.
-pub(super) fn serendipity(xi: f64, eta: f64) -> Vec<Shape> {
-    let corner = SQUARE.iter().map(|&[a, b, _]| {
-        let (p, q) = (1.0 + a * xi, 1.0 + b * eta);
-        let s = a * xi + b * eta - 1.0;
-        let slopes = [0.25 * a * q * (s + p), 0.25 * b * p * (s + q), 0.0];
-        (0.25 * p * q * s, slopes)
-    });
-    let along_xi = |b: f64| {
-        let (p, q) = (1.0 - xi * xi, 1.0 + b * eta);
-        (0.5 * p * q, [-xi * q, 0.5 * b * p, 0.0])
-    };
-    let along_eta = |a: f64| {
-        let (p, q) = (1.0 + a * xi, 1.0 - eta * eta);
-        (0.5 * p * q, [0.5 * a * q, -eta * p, 0.0])
-    };
-    let middle = [along_xi(-1.0), along_eta(1.0), along_xi(1.0), along_eta(-1.0)];
-    corner.chain(middle).collect()
-}
-
-/// Trilinear functions of a brick, or the serendipity functions
-/// `N = (1 + xi_I xi)(1 + eta_I eta)(1 + zeta_I zeta)(xi_I xi + eta_I eta + zeta_I zeta - 2) / 8` at corners and
-/// `(1 - xi^2)(1 + eta_I eta)(1 + zeta_I zeta) / 4` at the middle of edges along `xi`.
-pub(super) fn brick(is_quadratic: bool, at: [f64; 3]) -> Vec<Shape> {
+/// Functions of a line, a square or a brick by its corners, linear along each of its `d` axes, or, with middles of its `edges`, the
+/// serendipity functions: with `P` the product of `1 + xi_I xi` over the axes,
+/// `N = P (xi_I xi + eta_I eta + zeta_I zeta - d + 1) / 2^d` at corners; at the middle of an edge along `xi` the product that has
+/// `1 - xi^2` there, over `2^(d - 1)`.
+pub(super) fn tensor(
+    dimension: usize,
+    corners: &[[f64; 3]],
+    edges: &[[usize; 2]],
+    at: [f64; 3],
+) -> Vec<Shape> {
     let shape = |sign: [f64; 3]| {
-        let factor: [f64; 3] = std::array::from_fn(|k| match sign[k] {
-            0.0 => 1.0 - at[k] * at[k],
-            sign => 1.0 + sign * at[k],
-        });
-        let slope: [f64; 3] = std::array::from_fn(|k| match sign[k] {
-            0.0 => -2.0 * at[k],
-            sign => sign,
-        });
-        let product = factor[0] * factor[1] * factor[2];
-        let others = [factor[1] * factor[2], factor[0] * factor[2], factor[0] * factor[1]];
-        let scaled = |scale: f64| {
-            let slopes = std::array::from_fn(|k| scale * slope[k] * others[k]);
-            (scale * product, slopes)
+        let of_axis = |k: usize| match sign[k] {
+            _ if k >= dimension => [1.0, 0.0],
+            0.0 => [1.0 - at[k] * at[k], -2.0 * at[k]],
+            sign => [1.0 + sign * at[k], sign],
         };
-        if !is_quadratic {
-            return scaled(0.125);
+        let [[f, df], [g, dg], [h, dh]] = [0, 1, 2].map(of_axis);
+        let (product, others, slopes) = (f * g * h, [g * h, f * h, f * g], [df, dg, dh]);
+        let is_middle = sign[..dimension].contains(&0.0);
+        let scale = 0.5_f64.powi(dimension as i32 - i32::from(is_middle));
+        if is_middle || edges.is_empty() {
+            return (scale * product, [0, 1, 2].map(|k| scale * slopes[k] * others[k]));
         }
-        if sign.contains(&0.0) {
-            return scaled(0.25);
-        }
-        let s = (0..3).map(|k| sign[k] * at[k]).sum::<f64>() - 2.0;
-        let gradient = |k: usize| 0.125 * sign[k] * (others[k] * s + product);
-        (0.125 * product * s, std::array::from_fn(gradient))
+        let s = (0..dimension).map(|k| sign[k] * at[k]).sum::<f64>() - (dimension - 1) as f64;
+        let gradient = |k: usize| scale * sign[k] * (others[k] * s + product);
+        (scale * product * s, [0, 1, 2].map(gradient))
     };
-    let middles = BRICK_MIDDLES.iter().filter(|_| is_quadratic);
-    BRICK.iter().chain(middles).copied().map(shape).collect()
+    let middle = |&[start, end]: &[usize; 2]| {
+        [0, 1, 2].map(|axis| 0.5 * (corners[start][axis] + corners[end][axis]))
+    };
+    corners.iter().copied().chain(edges.iter().map(middle)).map(shape).collect()
 }
 
 /// Linear functions of a wedge, `L_I (1 -+ zeta) / 2`.
 #[inline]
-pub(super) fn wedge([xi, eta, zeta]: [f64; 3]) -> Vec<Shape> {
+pub(super) fn wedge(at: [f64; 3]) -> Vec<Shape> {
     let layer = |sign: f64| {
-        let along = 0.5 * (1.0 + sign * zeta);
-        triangle(xi, eta).map(|(l, d)| (l * along, [d[0] * along, d[1] * along, 0.5 * sign * l]))
+        let along = 0.5 * (1.0 + sign * at[2]);
+        simplex::<3>(at).map(|(l, d)| (l * along, [d[0] * along, d[1] * along, 0.5 * sign * l]))
     };
     [layer(-1.0), layer(1.0)].concat()
 }
 
 /// Serendipity functions of a wedge: `L ((2 L - 1)(1 -+ zeta) - (1 - zeta^2)) / 2` at corners, `2 L_I L_J (1 -+ zeta)` at the
 /// middle of edges of the triangles, `L (1 - zeta^2)` at the middle of edges between them.
-pub(super) fn quadratic_wedge([xi, eta, zeta]: [f64; 3]) -> Vec<Shape> {
-    let area = triangle(xi, eta);
+pub(super) fn quadratic_wedge(at: [f64; 3]) -> Vec<Shape> {
+    let (zeta, area) = (at[2], simplex::<3>(at));
     let bubble = 1.0 - zeta * zeta;
     let corners = |sign: f64| {
         let along = 1.0 + sign * zeta;

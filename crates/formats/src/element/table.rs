@@ -143,7 +143,7 @@ const TRI3: Row = Row {
     is_quadratic: false,
     edges: &shapes::TRIANGLE_EDGES,
     faces: &[&[0, 1], &[1, 2], &[2, 0]],
-    shapes: |[xi, eta, _]| shapes::triangle(xi, eta).to_vec(),
+    shapes: |at| shapes::simplex::<3>(at).to_vec(),
     quadrature: rule::triangle_three,
     stiffness_quadrature: None,
     superconvergent: || vec![[THIRD, THIRD, 0.0]],
@@ -156,9 +156,7 @@ const TRI3: Row = Row {
 };
 const TRI6: Row = Row {
     is_quadratic: true,
-    shapes: |[xi, eta, _]| {
-        shapes::quadratic_simplex(&shapes::triangle(xi, eta), &shapes::TRIANGLE_EDGES)
-    },
+    shapes: |at| shapes::quadratic_simplex(&shapes::simplex::<3>(at), &shapes::TRIANGLE_EDGES),
     quadrature: rule::triangle_six,
     superconvergent: || vec![[0.5, 0.0, 0.0], [0.5, 0.5, 0.0], [0.0, 0.5, 0.0]],
     name: "tri6",
@@ -174,7 +172,7 @@ const QUAD4: Row = Row {
     is_quadratic: false,
     edges: &SQUARE_EDGES,
     faces: &[&[0, 1], &[1, 2], &[2, 3], &[3, 0]],
-    shapes: |[xi, eta, _]| shapes::bilinear(xi, eta),
+    shapes: |at| shapes::tensor(2, &shapes::SQUARE, &[], at),
     quadrature: || rule::square(&rule::TWO),
     stiffness_quadrature: None,
     superconvergent: || vec![[0.0; 3]],
@@ -187,11 +185,9 @@ const QUAD4: Row = Row {
 };
 const QUAD8: Row = Row {
     is_quadratic: true,
-    shapes: |[xi, eta, _]| shapes::serendipity(xi, eta),
+    shapes: |at| shapes::tensor(2, &shapes::SQUARE, &SQUARE_EDGES, at),
     quadrature: || rule::square(&rule::THREE),
-    superconvergent: || {
-        vec![[-GAUSS, -GAUSS, 0.0], [GAUSS, -GAUSS, 0.0], [GAUSS, GAUSS, 0.0], [-GAUSS, GAUSS, 0.0]]
-    },
+    superconvergent: || rule::places(rule::square(&rule::TWO)),
     name: "quad8",
     vtk: 23,
     gmsh: listed(&[16]),
@@ -205,7 +201,7 @@ const TET4: Row = Row {
     is_quadratic: false,
     edges: &TETRAHEDRON_EDGES,
     faces: &[&[0, 2, 1], &[0, 1, 3], &[1, 2, 3], &[0, 3, 2]],
-    shapes: |at| shapes::tetrahedron(at).to_vec(),
+    shapes: |at| shapes::simplex::<4>(at).to_vec(),
     quadrature: rule::tetrahedron_four,
     stiffness_quadrature: Some(rule::tetrahedron_one),
     superconvergent: || vec![[0.25; 3]],
@@ -218,7 +214,7 @@ const TET4: Row = Row {
 };
 const TET10: Row = Row {
     is_quadratic: true,
-    shapes: |at| shapes::quadratic_simplex(&shapes::tetrahedron(at), &TETRAHEDRON_EDGES),
+    shapes: |at| shapes::quadratic_simplex(&shapes::simplex::<4>(at), &TETRAHEDRON_EDGES),
     quadrature: rule::tetrahedron_fourteen,
     stiffness_quadrature: Some(rule::tetrahedron_four),
     superconvergent: || rule::places(rule::tetrahedron_four()),
@@ -242,7 +238,7 @@ const HEX8: Row = Row {
         &[2, 3, 7, 6],
         &[3, 0, 4, 7],
     ],
-    shapes: |at| shapes::brick(false, at),
+    shapes: |at| shapes::tensor(3, &shapes::BRICK, &[], at),
     quadrature: || rule::cube(&rule::TWO),
     stiffness_quadrature: None,
     superconvergent: || vec![[0.0; 3]],
@@ -255,7 +251,7 @@ const HEX8: Row = Row {
 };
 const HEX20: Row = Row {
     is_quadratic: true,
-    shapes: |at| shapes::brick(true, at),
+    shapes: |at| shapes::tensor(3, &shapes::BRICK, &BRICK_EDGES, at),
     quadrature: || rule::cube(&rule::THREE),
     superconvergent: || rule::places(rule::cube(&rule::TWO)),
     name: "hex20",

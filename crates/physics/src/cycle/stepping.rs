@@ -129,11 +129,7 @@ impl MeshStepping<'_> {
         let (law, fields) = (run.contact(), run.fields());
         let mut period = Period {
             stepping: self,
-            coefficients: StepCoefficients {
-                time_step,
-                mass_coefficient: point.damping.mass_coefficient,
-                stiffness_coefficient: point.damping.stiffness_coefficient,
-            },
+            coefficients: StepCoefficients::of(&point.damping, time_step),
             friction_coefficient: point.contact.friction_coefficient,
             places: (0..law.status.len()).map(|i| law.places(i)).collect(),
             contact: Vec::with_capacity(steps * law.status.len()),

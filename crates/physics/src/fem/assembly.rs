@@ -178,7 +178,7 @@ fn sum_around(
 /// over all dofs.
 ///
 /// ```text
-/// sum_r (alpha_r - alpha_R) M_r + (beta_r - beta_R) K_r  +  sum_patch (alpha_p M_e + beta_p K_e)
+/// sum_e (alpha_e - alpha_R) M_e + (beta_e - beta_R) K_e  +  sum_patch (alpha_p M_e + beta_p K_e)
 /// ```
 pub fn assemble_extra_damping(
     mesh: &Mesh,
@@ -187,13 +187,15 @@ pub fn assemble_extra_damping(
     common: RayleighDamping,
 ) -> Triplets {
     let mut triplets = assemble_patch_damping(mesh, material, kind);
-    for region in 0..mesh.regions.len() {
-        let Some(own) = material.own_damping(region) else { continue };
-        let alpha = own.mass_coefficient - common.mass_coefficient;
-        let beta = own.stiffness_coefficient - common.stiffness_coefficient;
-        let mass = region_mass(mesh, material, kind, region).scaled(alpha);
-        let stiffness = region_stiffness(mesh, material, region).scaled(beta);
-        triplets.entries.extend(mass.entries.into_iter().chain(stiffness.entries));
+    let own: Vec<_> = (0..mesh.regions.len()).map(|region| material.own_damping(region)).collect();
+    for e in 0..mesh.element_count() {
+        // Nothing of a mesh without regions.
+        if let Some(Some(damping)) = own.get(mesh.region(e)) {
+            let [mass, stiffness] = element_matrices(mesh, material, kind, e);
+            let alpha = damping.mass_coefficient - common.mass_coefficient;
+            let beta = damping.stiffness_coefficient - common.stiffness_coefficient;
+            scatter(&mut triplets, mesh, e, &(mass * alpha + stiffness * beta));
+        }
     }
     triplets
 }

@@ -195,10 +195,21 @@ impl ElasticMaterial {
         ]
     }
 
-    /// Stress `(xx, yy, zz, xy, yz, zx)`, Pa, of a strain `(xx, yy, zz, 2 xy, 2 yz, 2 zx)` at a place: `sigma = D epsilon`.
+    /// Stress `(xx, yy, zz, xy, yz, zx)`, Pa, of a strain `(xx, yy, zz, 2 xy, 2 yz, 2 zx)` at a place: `sigma = D epsilon`, of
+    /// an isotropic material `lambda tr(epsilon) I + 2 G epsilon`.
     pub fn stress(&self, strain: &[f64; 6], place: [f64; 3]) -> [f64; 6] {
-        let law = self.elasticity_at(place);
-        law.map(|row| row.iter().zip(strain).map(|(d, e)| d * e).sum())
+        if self.orthotropy.is_some() {
+            let law = self.elasticity_at(place);
+            return law.map(|row| row.iter().zip(strain).map(|(d, e)| d * e).sum());
+        }
+        let [lambda, g] = self.lame_constants();
+        let volume = lambda * (strain[0] + strain[1] + strain[2]);
+        let normal = |k: usize| volume + 2.0 * g * strain[k];
+        let across = match self.formulation {
+            PlaneFormulation::PlaneStress => 0.0,
+            _ => normal(2),
+        };
+        [normal(0), normal(1), across, g * strain[3], g * strain[4], g * strain[5]]
     }
 }
 

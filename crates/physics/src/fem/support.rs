@@ -12,13 +12,10 @@ fn at_points(
     mut visit: impl FnMut(&FacePoint, &[(usize, Matrix3<f64>)]),
 ) {
     for face in faces {
-        let points = mesh.face_points(face);
         let nodes = face.nodes.iter().map(|&node| node as usize);
         let nodes: Vec<(usize, Matrix3<f64>)> =
             nodes.map(|node| (node, mesh.frame(node))).collect();
-        for point in face.kind.quadrature() {
-            visit(&face.kind.at(&points, point), &nodes);
-        }
+        mesh.quadrature(face).for_each(|point| visit(&point, &nodes));
     }
 }
 

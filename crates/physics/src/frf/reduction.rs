@@ -148,9 +148,8 @@ fn extended(driven: &Driven<'_>, mut basis: Mat<f64>, shift_hz: f64) -> Result<M
 
 /// The projected system.
 struct ReducedModel {
-    mass: Mat<f64>,
-    damping: Mat<f64>,
-    stiffness: Mat<f64>,
+    /// Mass, damping and stiffness.
+    matrices: [Mat<f64>; 3],
     force: Vec<f64>,
     response: Vec<f64>,
 }
@@ -159,7 +158,7 @@ impl ReducedModel {
     fn project(driven: &Driven<'_>, basis: &Mat<f64>) -> Self {
         let system = driven.system;
         let count = basis.ncols();
-        let [mass, damping, stiffness] = system.matrices().map(|values| {
+        let matrices = system.matrices().map(|values| {
             let mut image = Mat::<f64>::zeros(basis.nrows(), count);
             for j in 0..count {
                 let y = system.multiply(values, basis.col_as_slice(j), false);
@@ -168,20 +167,18 @@ impl ReducedModel {
             transpose_product(basis.as_ref(), image.as_ref())
         });
         Self {
-            mass,
-            damping,
-            stiffness,
+            matrices,
             force: driven.force.row_of(basis.as_ref()),
             response: driven.response.row_of(basis.as_ref()),
         }
     }
 
     fn receptance(&self, frequency_hz: f64) -> c64 {
-        let omega = TAU * frequency_hz;
+        let (omega, [mass, damping, stiffness]) = (TAU * frequency_hz, &self.matrices);
         let n = self.force.len();
         let matrix = Mat::<c64>::from_fn(n, n, |i, j| {
-            let real = self.stiffness[(i, j)] - omega * omega * self.mass[(i, j)];
-            c64::new(real, omega * self.damping[(i, j)])
+            let real = stiffness[(i, j)] - omega * omega * mass[(i, j)];
+            c64::new(real, omega * damping[(i, j)])
         });
         let mut x = Mat::from_fn(n, 1, |i, _| c64::new(self.force[i], 0.0));
         ComplexDenseLu::factorize(matrix).solve_in_place(x.as_mut());

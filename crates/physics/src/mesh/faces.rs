@@ -1,6 +1,6 @@
 //! Faces on the surface of a body, edges on the rim of a plane one.
 
-use super::{BoundaryFace, ElementKind, Mesh};
+use super::{BoundaryFace, ElementKind, FacePoint, Mesh};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Corners of a face in ascending order: what names it whichever side it is seen from.
@@ -89,19 +89,16 @@ impl Mesh {
         nodes.map(|&node| self.nodes[node as usize]).collect()
     }
 
+    /// The points of a face's quadrature.
+    pub fn quadrature(&self, face: &BoundaryFace) -> impl Iterator<Item = FacePoint> + use<> {
+        let (kind, points) = (face.kind, self.face_points(face));
+        kind.quadrature().into_iter().map(move |point| kind.at(&points, point))
+    }
+
     /// Area of faces, m2; length of edges, m.
     pub fn face_area(&self, faces: &[BoundaryFace]) -> f64 {
-        let area = |face: &BoundaryFace| -> f64 {
-            let points = self.face_points(face);
-            let quadrature = face.kind.quadrature().into_iter();
-            quadrature
-                .map(|point| {
-                    let [x, y, z] = face.kind.at(&points, point).area;
-                    x.hypot(y).hypot(z)
-                })
-                .sum()
-        };
-        faces.iter().map(area).sum()
+        let size = |FacePoint { area: [x, y, z], .. }| -> f64 { x.hypot(y).hypot(z) };
+        faces.iter().map(|face| self.quadrature(face).map(size).sum::<f64>()).sum()
     }
 
     /// Unit normal out of a solid body at each node of a surface: the mean of its faces there, by area. Nodes ascend.

@@ -300,9 +300,7 @@ fn beyond(sector: &Mesh, face: &BoundaryFace) -> [f64; 3] {
 
 /// Unit vector out of the body at a face, away from its element's middle where the face is bent.
 fn outward(sector: &Mesh, face: &BoundaryFace) -> Vector3<f64> {
-    let points = sector.face_points(face);
-    let areas = face.kind.quadrature().into_iter();
-    let areas = areas.map(|point| Vector3::from(face.kind.at(&points, point).area));
+    let areas = sector.quadrature(face).map(|point| Vector3::from(point.area));
     areas.fold(Vector3::zeros(), |sum, area| sum + area).normalize()
 }
 

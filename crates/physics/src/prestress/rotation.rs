@@ -118,9 +118,7 @@ fn check_revolution(mesh: &Mesh, motion: &Motion, seams: &[usize]) -> Result<(),
         if !is_own || glued.contains(&(face.element, face.nodes.as_slice())) {
             continue;
         }
-        let points = mesh.face_points(&face);
-        for point in face.kind.quadrature() {
-            let there = face.kind.at(&points, point);
+        for there in mesh.quadrature(&face) {
             let velocity = motion.velocity(there.position);
             let dot = |a: [f64; 3], b: [f64; 3]| (0..3).map(|k| a[k] * b[k]).sum::<f64>();
             let along = dot(there.area, motion.axis);

@@ -15,6 +15,8 @@ mod solid;
 mod sparse;
 mod stencil;
 
+use super::RayleighDamping;
+
 pub use field::{AlignedVector, MotionFields};
 pub use largest_frequency::{largest_frequency, largest_frequency_of};
 pub use simd::{SimdError, SimdLevel};
@@ -30,6 +32,14 @@ pub struct StepCoefficients {
     pub mass_coefficient: f64,
     /// `beta_R`, s.
     pub stiffness_coefficient: f64,
+}
+
+impl StepCoefficients {
+    /// Those of a time step, s.
+    pub fn of(damping: &RayleighDamping, time_step: f64) -> Self {
+        let RayleighDamping { mass_coefficient, stiffness_coefficient } = *damping;
+        Self { time_step, mass_coefficient, stiffness_coefficient }
+    }
 }
 
 /// A mesh that an operator cannot represent.

@@ -120,18 +120,14 @@ impl<'a> CentralDifference<'a> {
         if let Some(found) = fields.iter().map(|field| field.len()).find(|&own| own != expected) {
             return Err(TransientError::ForeignState { found, expected });
         }
-        let (interface, damping) = (model.interface(), model.damping);
+        let interface = model.interface();
         let zeros = || AlignedVector::zeros(operator.field_length());
         let kick = Kick {
             step: (settings.perturbation.time / plan.time_step).round() as u64,
             velocity: model.perturbed(&settings.perturbation)?,
         };
         Ok(Self {
-            coefficients: StepCoefficients {
-                time_step: plan.time_step,
-                mass_coefficient: damping.mass_coefficient,
-                stiffness_coefficient: damping.stiffness_coefficient,
-            },
+            coefficients: StepCoefficients::of(&model.damping, plan.time_step),
             fields: MotionFields::zeros(operator.field_length()),
             contact: model.lagrange_contact(operator, &interface)?,
             boundary: model.boundary_forces(operator),
