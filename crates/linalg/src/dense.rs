@@ -179,6 +179,7 @@ pub fn difference(a: &[f64], b: &[f64]) -> Vec<f64> {
 }
 
 /// `a += factor b`.
+#[inline]
 pub fn add(a: &mut [f64], factor: f64, b: &[f64]) {
     a.iter_mut().zip(b).for_each(|(a, b)| *a += factor * b);
 }
@@ -289,9 +290,7 @@ fn orthonormalize_down_to(
                 let (q, v) = two_columns(&mut w, k, j);
                 let overlap = dot(q, v);
                 within[(slot, j)] += overlap;
-                for (a, b) in v.iter_mut().zip(q.iter()) {
-                    *a -= overlap * b;
-                }
+                add(v, -overlap, q);
             }
         }
         let norm = norm(column(w.as_ref(), j));
@@ -350,9 +349,7 @@ fn independent_directions(mut w: Mat<f64>, drop_below: f64) -> Mat<f64> {
         for (j, estimate, reference) in &mut remaining {
             let remainder = column_mut(&mut w, *j);
             let overlap = dot(&direction, remainder);
-            for (r, d) in remainder.iter_mut().zip(&direction) {
-                *r -= overlap * d;
-            }
+            add(remainder, -overlap, &direction);
             *estimate -= overlap * overlap;
             if *estimate < 1e-6 * *reference {
                 *estimate = dot(remainder, remainder);

@@ -12,23 +12,13 @@ pub fn dot(y: &[c64], x: &[c64]) -> c64 {
 
 /// `a^T x` in four fixed sums, which do not wait for one another.
 pub fn product(a: &[c64], x: &[c64]) -> c64 {
-    product_of(a, x, |a| *a)
-}
-
-/// `a^H x` so.
-pub fn conjugate_product(a: &[c64], x: &[c64]) -> c64 {
-    product_of(a, x, c64::conj)
-}
-
-#[inline(always)]
-fn product_of(a: &[c64], x: &[c64], taken: impl Fn(&c64) -> c64) -> c64 {
     let mut sums = [ZERO; 4];
     let (a_chunks, x_chunks) = (a.chunks_exact(4), x.chunks_exact(4));
     let rest = a_chunks.remainder().iter().zip(x_chunks.remainder());
-    let tail: c64 = rest.map(|(a, x)| taken(a) * x).sum();
+    let tail: c64 = rest.map(|(a, x)| a * x).sum();
     for (a, x) in a_chunks.zip(x_chunks) {
         for lane in 0..4 {
-            sums[lane] += taken(&a[lane]) * x[lane];
+            sums[lane] += a[lane] * x[lane];
         }
     }
     sums.iter().sum::<c64>() + tail
