@@ -4,6 +4,11 @@ use super::ModeCount;
 use crate::linalg::c64;
 use std::f64::consts::TAU;
 
+/// Relative distance of eigenvalues up to which they are one where their vectors are, or where friction moves neither.
+pub(super) const SAME_EIGENVALUE: f64 = 1e-6;
+/// Residual, relative to what it is one of, or length of a correction of a mode of unit length, at which it has converged: below that
+/// corrections are round-off.
+pub(super) const CONVERGED: f64 = 1e-11;
 /// Rounding errors of the terms of a sum up to which the sum is none but rounded.
 pub(super) const ROUNDING_ERRORS: f64 = 8.0;
 

@@ -5,9 +5,8 @@
 //! exists at that point; both are followed on the far side.
 
 use super::follow::Follower;
-use super::path::{Eigenpair, Path};
+use super::path::{Eigenpair, NEAR, Path};
 use super::problem::Matrices;
-use super::reduced::NEAR;
 use crate::linalg::c64;
 use crate::linalg::vectors::{dot, normalize};
 

@@ -10,7 +10,7 @@ use super::paths::{HarmonicPaths, Overdamped, Range, describe, start};
 use super::problem::{HarmonicProblem, Matrices};
 use crate::cea::CeaError;
 use crate::cea::counted::NEARLY_CRITICAL;
-use crate::cea::sparse::SAME_EIGENVALUE;
+use crate::cea::spectrum::SAME_EIGENVALUE;
 use crate::linalg::dense_eigen::complex_eigenvalues;
 use crate::linalg::{ComplexDenseLu, Mat, c64};
 use std::rc::Rc;

@@ -1,6 +1,6 @@
 //! Modes of one harmonic without friction.
 
-use crate::cea::sparse::CONVERGED;
+use crate::cea::spectrum::CONVERGED;
 use crate::linalg::banded::{BandedFactor, BandedMatrix, CompactRows};
 use crate::linalg::dense::column;
 use crate::linalg::{LanczosPairs, LanczosSettings, Mat, MatRef, SymmetricPencil, block_lanczos};

@@ -4,7 +4,7 @@ use super::across::Across;
 use super::damped::follow_damped;
 use super::follow::Follower;
 use super::modes_below::AtRest;
-use super::path::Eigenpair;
+use super::path::{Eigenpair, NEAR};
 use super::paths::{HarmonicPaths, Range, are_distinct, describe, follow_pairs};
 use super::pencil::{Modes, Pencil};
 use super::problem::HarmonicProblem;
@@ -16,9 +16,6 @@ use crate::prestress::{HarmonicTangent, WaveTangent};
 
 /// Modes at rest up to this much above the followed ones span the reduced space.
 pub(super) const SPAN: f64 = 1.4;
-
-/// Relative distance up to which an eigenvalue may be the one guessed, and two branches may be about to meet.
-pub(super) const NEAR: f64 = 1e-2;
 
 /// Motions slower than this share of the largest creep against dashpots.
 const SLOW: f64 = 1e-2;

@@ -43,6 +43,7 @@ mod structure;
 mod sweep;
 mod term;
 
+use crate::cea::spectrum::{CONVERGED, SAME_EIGENVALUE};
 pub use basis::BasisBuilder;
 pub use branches::{BranchLabel, TrackedBranch, label_first, track};
 pub use count::ModeCounter;
@@ -67,13 +68,8 @@ const TRACKING_MARGIN: usize = 6;
 /// Relative distance of eigenvalues up to which they are one multiple eigenvalue, whose vectors are any basis of one space; farther apart
 /// each has a vector of its own.
 const MULTIPLE: f64 = 1e-7;
-/// Relative distance of eigenvalues up to which they are one where their vectors are, or where friction moves neither.
-pub(super) const SAME_EIGENVALUE: f64 = 1e-6;
 /// Distance of the overlap of two modes from 1 within which they are one branch beyond doubt.
 const SAME: f64 = 0.1;
-/// Residual, relative to what it is one of, or length of a correction of a mode of unit length, at which it has converged: below that
-/// corrections are round-off.
-pub(super) const CONVERGED: f64 = 1e-11;
 /// Change of a vector of unit length, of a block of them relative to its longest, or of a critical friction coefficient, below which no
 /// more corrections are made. Source: A. Neumaier, SIAM J. Numer. Anal. 22 (1985), residual inverse iteration.
 const SETTLED: f64 = 1e-10;
