@@ -36,8 +36,9 @@ fn check_refuses_what_a_run_refuses_and_nothing_else() {
     let simd = frictionsim::fem::operator::SimdLevel::detect();
     let manifest = Manifest { simd: simd.to_string(), ..Manifest::new("transient") };
     let mut counts = [0, 0];
-    for seed in 1..=160 {
-        let overrides = overrides(seed);
+    // Fewer modes than asked for, which none of these seeds has.
+    let few = [&overrides(1)[..1], &["mesh.radial_elements=1 ; cea.modes=40".to_owned()]].concat();
+    for overrides in (1..=160).map(overrides).chain([few]) {
         // A case that cannot be read is refused by every command alike.
         let Ok(case) = read_case("case.toml", RUN, &overrides) else {
             continue;
@@ -47,7 +48,7 @@ fn check_refuses_what_a_run_refuses_and_nothing_else() {
         let runs = case.require_transient().is_ok();
         let run = (runs && is_refused(summarize(&case, Analysis::Transient, &manifest)))
             || is_refused(summarize(&case, Analysis::Cea, &manifest));
-        assert_eq!(checked, run, "seed {seed}: {overrides:?}");
+        assert_eq!(checked, run, "{overrides:?}");
         counts[usize::from(run)] += 1;
     }
     assert!(counts.iter().all(|count| *count > 5), "{counts:?}");

@@ -86,8 +86,9 @@ const MOST_TABLED: usize = 3_000;
 /// As [`SlidingModel::new`] and [`refuse_no_modes`].
 pub fn preflight(case: &Case, cea: &Cea) -> Result<(), StudyError> {
     let SlidingModel { model, mesh, .. } = SlidingModel::new(case, cea)?;
-    if case.body.tables().next().is_some() && mesh.dof_count() <= MOST_TABLED {
-        // Tables hold the frequencies of all modes, or not.
+    // Tables hold the frequencies of all modes, or not. There may be fewer modes than asked for where these are many.
+    let is_many = matches!(cea.modes, ModeLimit::Lowest(count) if 5 * count > mesh.dof_count());
+    if (is_many || case.body.tables().next().is_some()) && mesh.dof_count() <= MOST_TABLED {
         let one =
             Cea { friction_coefficients: vec![cea.friction_coefficients[0]], ..cea.of_tables() };
         let solution = solve(case, &one, &SlidingModel::new(case, &one)?, None)?;
