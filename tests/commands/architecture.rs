@@ -48,7 +48,7 @@ pub fn rust_files(folder: impl AsRef<Path>) -> Vec<PathBuf> {
 /// after a merge that conflicts here, the failure names the numbers to write.
 const BUDGETS: &[(&str, usize)] = &[
     ("crates/bounds", 188),
-    ("crates/case", 10_972),
+    ("crates/case", 10_971),
     ("crates/chart", 4_727),
     ("crates/described", 107),
     ("crates/formats", 6_214),
@@ -64,9 +64,9 @@ const BUDGETS: &[(&str, usize)] = &[
     ("crates/physics/src/order.rs", 34),
     ("crates/physics/src/parallel.rs", 26),
     ("crates/physics/src/prestress", 4_867),
-    ("crates/physics/src/transient", 4_707),
+    ("crates/physics/src/transient", 4_691),
     ("crates/results", 18_218),
-    ("crates/signal", 6_074),
+    ("crates/signal", 6_073),
     ("crates/study", 10_801),
     ("src/app", 4_573),
     ("src/guide", 70),

@@ -13,6 +13,7 @@ mod cycle_solids;
 mod cycle_steps;
 mod cycle_transient;
 mod cycle_two_waves;
+mod from_a_mode;
 mod oscillator;
 mod prelude;
 mod transient;

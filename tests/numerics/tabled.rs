@@ -137,7 +137,7 @@ fn a_sandwich_beam_loses_what_ross_kerwin_and_ungar_say() {
     let materials: Vec<RegionMaterial> =
         regions.map(|name| if name == "core" { core.clone() } else { face.clone() }).collect();
     let closed = BaseChoice::Closed;
-    let assembly = Assembly::new(&mesh, &materials, &[], &[], &[], closed).unwrap();
+    let assembly = Assembly::new(&mesh, &materials, (&[], &[]), (&[], closed), Consistent).unwrap();
     let options = TangentOptions { damping: RayleighDamping::default(), ..TANGENT };
     let tangent = crate::assemblies::tangent_at(&assembly, 0.0, &options);
     let found = eigenvalues_of(&modes_at(&tangent, 0.0, Lowest(5)));

@@ -7,9 +7,11 @@ use super::modifications::Misfit;
 use super::value::quote;
 use super::{Case, Contact, Diagnostic, Section, refuse_if};
 use frictionsim_physics::contact::{
-    ContactStiffness, Counterpart, Motion, PointKind, RigidCounterface, RigidMotion, SlidingContact,
+    Counterpart, Motion, RigidCounterface, RigidMotion, SlidingContact,
 };
-use frictionsim_physics::fem::{MaterialField, PlaneFormulation, RegionMaterial, RotationFrame};
+use frictionsim_physics::fem::{
+    MassKind, MaterialField, PlaneFormulation, RegionMaterial, RotationFrame,
+};
 use frictionsim_physics::mesh::Mesh;
 use frictionsim_physics::prestress::{
     Assembly, BaseChoice, PrestressError, SlidingSurfaces, TiedSurfaces,
@@ -33,18 +35,17 @@ pub struct AssemblyBody {
 }
 
 impl AssemblyBody {
-    /// The bodies of some materials with their surfaces paired. All contact points are of one kind where that is given:
-    /// steps in time need them at nodes.
+    /// The bodies of some materials with their surfaces paired: at nodes where the mass is lumped.
     ///
     /// # Errors
     /// [`PrestressError::Pair`] names the tie or contact whose surfaces do not meet.
     pub fn assembled<'a>(
         &'a self,
         materials: &'a dyn MaterialField,
-        points: Option<PointKind>,
+        mass: MassKind,
     ) -> Result<Assembly<'a>, PrestressError> {
         let surfaces = (&self.ties[..], &self.contacts[..]);
-        Assembly::with_points(&self.mesh, materials, surfaces, (&self.motions, self.base), points)
+        Assembly::new(&self.mesh, materials, surfaces, (&self.motions, self.base), mass)
     }
 
     /// Regions whose rotation has its inertia.
@@ -70,8 +71,7 @@ impl AssemblyBody {
         let own = self.motions.first().map(|motion| [motion.center, motion.axis]);
         own.or_else(|| {
             let rigid = self.rigid_counterface()?;
-            let turns = matches!(rigid.motion, RigidMotion::Turning(_));
-            turns.then_some([rigid.center, rigid.axis])
+            matches!(rigid.motion, RigidMotion::Turning(_)).then_some([rigid.center, rigid.axis])
         })
     }
 }
@@ -132,8 +132,7 @@ pub(super) fn sections(own: &Description<'_>) -> (AssemblyParts, Contact) {
                 first.map_or(0.0, |motion| motion.1.rotation_speed)
             }),
         },
-        stiffness: first
-            .map_or_else(ContactStiffness::default, |contact| contact.surfaces.stiffness),
+        stiffness: first.map(|contact| contact.surfaces.stiffness).unwrap_or_default(),
     };
     let parts = AssemblyParts { motions, contacts, ties, base };
     (parts, common)

@@ -150,7 +150,7 @@ impl Case {
     pub fn normal_forces(&self) -> Result<Vec<f64>, String> {
         let contact = SlidingContact { friction_coefficient: 0.0, ..self.contact.sliding };
         let law = self.contact.stiffness.law;
-        let materials = &self.body.materials;
+        let (materials, mass) = (&self.body.materials, self.mass());
         let pressed = match &self.body.kind {
             BodyKind::Annulus(annulus) => {
                 let mesh = SectorMesh::generate(annulus).map_err(in_words)?;
@@ -161,7 +161,7 @@ impl Case {
             BodyKind::Revolution(specification) => {
                 let mesh = SolidSector::generate(specification).map_err(in_words)?;
                 let stiffness = &self.contact.stiffness;
-                let base = SolidSliding::solve(&mesh, materials, &contact, stiffness, self.mass());
+                let base = SolidSliding::solve(&mesh, materials, &contact, stiffness, mass);
                 let whole = mesh.sector_count() as f64;
                 let sum =
                     |base: SolidSliding| base.normal_forces.iter().map(|own| own.1).sum::<f64>();
@@ -173,7 +173,7 @@ impl Case {
                 let forces = body.and_then(|body| Ok(body.state(0.0)?.normal_forces(0.0)));
                 forces.map(|forces| vec![self.thickness * forces.iter().sum::<f64>()])
             }
-            BodyKind::Assembly(body) => body.assembled(materials, None).and_then(|assembly| {
+            BodyKind::Assembly(body) => body.assembled(materials, mass).and_then(|assembly| {
                 let mut rest = assembly.state(0.0)?.normal_forces(0.0).into_iter();
                 let contacts = assembly.contacts().iter().map(|(_, surface)| surface.points.len());
                 Ok(contacts.map(|count| rest.by_ref().take(count).sum()).collect())

@@ -269,7 +269,7 @@ fn held(case: &Case, frf: &Frf) -> Result<(FrfSystem, Arc<Mesh>), StudyError> {
             boundary.condition = BoundaryCondition::Free;
         }
     }
-    let assembly = apart.assembled(case.materials(), None)?;
+    let assembly = apart.assembled(case.materials(), frf.mass)?;
     let tangent = assembly.tangent(&assembly.state(0.0)?, &options)?;
     Ok((FrfSystem::tied(&tangent), Arc::clone(&body.mesh)))
 }

@@ -67,7 +67,7 @@ fn assembled<'a>(
     contact: SlidingSurfaces,
     motions: &[Motion],
 ) -> Result<Assembly<'a>, PrestressError> {
-    Assembly::new(mesh, &STEEL, &[], &[contact], motions, Solved)
+    Assembly::new(mesh, &STEEL, (&[], &[contact]), (motions, Solved), Consistent)
 }
 
 /// Far from its axis the lower block moves nearly straight on.
@@ -115,7 +115,7 @@ fn constant_pressure_passes_a_contact_and_a_tie_between_meshes_that_do_not_match
         assert!(state.is_pressed.iter().all(|is_pressed| *is_pressed));
     }
     let glue = tie(&mesh, "upper_z0", "lower_z1");
-    let assembly = Assembly::new(&mesh, &STEEL, &[glue], &[], &[], Solved).unwrap();
+    let assembly = Assembly::new(&mesh, &STEEL, (&[glue], &[]), (&[], Solved), Consistent).unwrap();
     let error = patch_error(&mesh, &assembly.state(0.0).unwrap().displacements[0], 0.0);
     below(error / SHORTER, 1e-11, "tied");
 }
@@ -130,14 +130,14 @@ fn a_tie_of_two_halves_has_the_spectrum_of_the_whole() {
     let clamped = [("whole_z0", Clamped)];
     let whole = [brick("whole", [0.0; 3], [0.05, 0.04, 0.04], [4, 3, 4])];
     let whole = mesh_of(&file_of(&whole, |point| point), &clamped);
-    let expected = Assembly::new(&whole, &STEEL, &[], &[], &[], Closed).unwrap();
+    let expected = Assembly::new(&whole, &STEEL, (&[], &[]), (&[], Closed), Consistent).unwrap();
     let half = |name: &'static str, height: f64| {
         brick(name, [0.0, 0.0, height], [0.05, 0.04, 0.02], [4, 3, 2])
     };
     let halves = file_of(&[half("lower", 0.0), half("upper", 0.02)], |point| point);
     let halves = mesh_of(&halves, &[("lower_z0", Clamped)]);
     let glue = tie(&halves, "upper_z0", "lower_z1");
-    let tied = Assembly::new(&halves, &STEEL, &[glue], &[], &[], Closed).unwrap();
+    let tied = Assembly::new(&halves, &STEEL, (&[glue], &[]), (&[], Closed), Consistent).unwrap();
     let [whole, halves] = [&expected, &tied].map(|own| eigenvalues(own, 0.0, 8));
     below(largest_difference(&whole, &halves), 1e-9, "tied halves");
 }
@@ -166,7 +166,8 @@ fn an_assembly_turned_in_space_keeps_its_spectrum() {
             contact.stiffness.tangential_damping = 1e7;
             let motion = turning(&mesh, place([0.0, 0.0, 1.0]), place(center));
             let assembly =
-                Assembly::new(&mesh, &STEEL, &[], &[contact], &[motion], Closed).unwrap();
+                Assembly::new(&mesh, &STEEL, (&[], &[contact]), (&[motion], Closed), Consistent)
+                    .unwrap();
             eigenvalues(&assembly, 0.4, 8)
         };
         let [straight, turned] = [spectrum(|point| point), spectrum(turned)];

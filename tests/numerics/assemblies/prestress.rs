@@ -135,7 +135,7 @@ fn a_column_buckles_under_the_load_of_euler() {
         let pressure = Pressure(share * euler / (side * side));
         let conditions = [("column_z0", Clamped), ("column_z1", pressure)];
         let mesh = mesh_of(&bytes, &conditions);
-        let assembly = Assembly::new(&mesh, &STEEL, &[], &[], &[], Solved).unwrap();
+        let assembly = Assembly::new(&mesh, &STEEL, (&[], &[]), (&[], Solved), Consistent).unwrap();
         let tangent = tangent_at(&assembly, 0.0, &STRESSED);
         let modes = modes_at(&tangent, 0.0, Lowest(2));
         modes[0].eigenvalue.im.powi(2)

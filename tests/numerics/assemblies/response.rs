@@ -66,7 +66,9 @@ fn tied_halves_respond_like_the_whole() {
         let mesh = mesh_of(&file_of(blocks, |point| point), &clamped(held));
         let ties: Vec<TiedSurfaces> =
             (blocks.len() == 2).then(|| tie(&mesh, "right_x0", "left_x1")).into_iter().collect();
-        let assembly = Assembly::new(&mesh, &STEEL, &ties, &[], &[], BaseChoice::Closed).unwrap();
+        let assembly =
+            Assembly::new(&mesh, &STEEL, (&ties, &[]), (&[], BaseChoice::Closed), Consistent)
+                .unwrap();
         let tangent = tangent_at(&assembly, 0.0, &DAMPED);
         let system = FrfSystem::tied(&tangent);
         let tip = terminal(node_at(&mesh, [0.12, 0.02, 0.02]), Direction::Z);

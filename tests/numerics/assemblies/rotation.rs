@@ -25,7 +25,8 @@ pub(super) fn spinning<'a>(
     frame: RotationFrame,
 ) -> Assembly<'a> {
     let motions = [turning(speed, [0.0; 3], frame)];
-    Assembly::new(mesh, &STEEL, std::slice::from_ref(seam), &[], &motions, Closed).unwrap()
+    let ties = (std::slice::from_ref(seam), &[][..]);
+    Assembly::new(mesh, &STEEL, ties, (&motions, Closed), Consistent).unwrap()
 }
 
 fn frequencies(mesh: &Mesh, seam: &TiedSurfaces, speed: f64, count: usize) -> Vec<f64> {

@@ -22,7 +22,9 @@ fn lists_of_lossy_modes_have_no_gaps_however_slow_the_sliding() {
         contact.stiffness.loss_factor = loss_factor;
         let motion = Motion { rotation_speed, ..aside(&mesh) };
         let steel = ElasticMaterial { loss_factor: 0.3 * loss_factor, ..STEEL };
-        let assembly = Assembly::new(&mesh, &steel, &[], &[contact], &[motion], Solved).unwrap();
+        let assembly =
+            Assembly::new(&mesh, &steel, (&[], &[contact]), (&[motion], Solved), Consistent)
+                .unwrap();
         let options = TangentOptions { damping: rayleigh_damping(100.0, 1e-8), ..OPTIONS };
         let tangent = tangent_at(&assembly, 0.5, &options);
         let exact = dense_eigenvalues(&tangent, 0.5);

@@ -57,9 +57,9 @@ pub struct PairFriction {
 /// Where the points of a contact of two surfaces are taken.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PointKind {
-    /// Quadrature points of the segments: for penalty contact.
+    /// Quadrature points of the segments: for penalty contact with consistent mass.
     Segments,
-    /// Nodes of the own surface with dual mortar weights, each with dofs of its own: for rigid contact.
+    /// Nodes of the own surface with dual mortar weights, each with dofs of its own: for rigid contact, and with lumped mass.
     Nodes,
 }
 

@@ -15,7 +15,7 @@ use crate::contact::{
     PressedState, SlidingContact, SurfacePair, Turning, mortar_nodes,
 };
 use crate::fem::{
-    MaterialField, Triplets, assemble_pressures, assemble_supports, region_stiffness,
+    MassKind, MaterialField, Triplets, assemble_pressures, assemble_supports, region_stiffness,
 };
 use crate::mesh::Mesh;
 use std::sync::Arc;
@@ -82,35 +82,20 @@ impl<'a> Assembly<'a> {
         stiffness: ContactStiffness,
     ) -> Result<Self, PrestressError> {
         let edge = SlidingSurfaces::of_edge(mesh, contact, stiffness);
-        Self::new(mesh, materials, &[], &[edge], &[], BaseChoice::Solved)
+        Self::new(mesh, materials, (&[], &[edge]), (&[], BaseChoice::Solved), MassKind::Consistent)
     }
 
-    /// Pairs the surfaces of `ties` and `contacts`, and eliminates the ties.
+    /// Pairs the surfaces of `ties` and `contacts`, and eliminates the ties. With lumped mass all contact points are nodes of the
+    /// finer surface: a time step tells the forces of points that stick apart.
     ///
     /// # Errors
     /// [`PrestressError::Pair`] names the tie or contact whose surfaces do not meet.
     pub fn new(
         mesh: &'a Mesh,
         materials: &'a dyn MaterialField,
-        ties: &[TiedSurfaces],
-        contacts: &[SlidingSurfaces],
-        motions: &[Motion],
-        base: BaseChoice,
-    ) -> Result<Self, PrestressError> {
-        Self::with_points(mesh, materials, (ties, contacts), (motions, base), None)
-    }
-
-    /// The same with all contact points of one kind. A time step needs them at nodes of the finer
-    /// surface, so that the forces of points that stick are told apart.
-    ///
-    /// # Errors
-    /// As [`Self::new`].
-    pub fn with_points(
-        mesh: &'a Mesh,
-        materials: &'a dyn MaterialField,
         (ties, contacts): (&[TiedSurfaces], &[SlidingSurfaces]),
         (motions, base): (&[Motion], BaseChoice),
-        kind: Option<PointKind>,
+        mass: MassKind,
     ) -> Result<Self, PrestressError> {
         let mut basis = Elimination::holding(mesh.dof_count(), mesh.held_dofs());
         for tie in ties {
@@ -132,13 +117,12 @@ impl<'a> Assembly<'a> {
             .iter()
             .map(|contact| {
                 let sides = (&mesh.boundaries[contact.surface], &contact.counter);
-                let own = match contact.stiffness.normal_stiffness {
-                    Some(_) => PointKind::Segments,
-                    None => PointKind::Nodes,
+                let kind = match contact.stiffness.normal_stiffness {
+                    Some(_) if mass == MassKind::Consistent => PointKind::Segments,
+                    _ => PointKind::Nodes,
                 };
-                let (friction, kind) = (contact.friction, kind.unwrap_or(own));
-                let measured = contact.topography.as_deref();
-                let surface = ContactSurface::of(mesh, sides, motions, friction, (kind, measured));
+                let kind = (kind, contact.topography.as_deref());
+                let surface = ContactSurface::of(mesh, sides, motions, contact.friction, kind);
                 let surface = surface.map_err(|error| match contact.is_short_form() {
                     true => unpaired(contact.name.clone(), error),
                     false => named("contacts", &contact.name, error),
@@ -320,6 +304,10 @@ impl<'a> Assembly<'a> {
     pub fn terms(&self, options: &TangentOptions) -> Terms<Triplets> {
         let (bodies, elastic) = ((self.mesh, self.materials), self.joined.elastic.clone());
         let mut terms = Terms::of_mesh(bodies, elastic, false, options);
+        if options.mass == MassKind::Lumped {
+            let masses = terms.all.iter_mut().filter(|term| term.kind == Kind::Mass);
+            masses.for_each(|term| term.matrix = self.joined.basis.gathered(&term.matrix));
+        }
         if let Some(Rotation { terms: [transport, gyroscopic], .. }) = self.joined.rotation.clone()
         {
             let own = [(Kind::Transport, transport), (Kind::Gyroscopic, gyroscopic)];

@@ -177,6 +177,18 @@ impl Elimination {
         Triplets { entries }
     }
 
+    /// A diagonal matrix over the dofs that move by themselves: what another dof has goes to those that it follows, by the size
+    /// of their shares.
+    pub fn gathered(&self, diagonal: &Triplets) -> Triplets {
+        let gather = |&(dof, _, value): &(usize, usize, f64)| {
+            let mut row = self.transposed(&[(dof, 1.0)]);
+            row.retain(|(other, share)| !self.is_dropped[*other] && *share != 0.0);
+            let total: f64 = row.iter().map(|(_, share)| share.abs()).sum();
+            row.into_iter().map(move |(other, share)| (other, other, value * share.abs() / total))
+        };
+        Triplets { entries: diagonal.entries.iter().flat_map(gather).collect() }
+    }
+
     /// A matrix of small motions that comes with a power of `mu` over the unknowns: `T^T A T` without what vanishes, where
     /// `friction` adds `-mu` times the work of a lift, the normal force of rigid contact, to the rows of its slip.
     /// Coefficients have the given weights.

@@ -23,16 +23,13 @@ pub(super) struct Demodulated {
 
 /// `z(t) = sum_j w_j x_j e^{-2 pi i f t_j}` over windows of the length of `taper`, `hop` samples apart;
 /// the weights are scaled to sum 1.
-pub(super) fn demodulate<T>(
+pub(super) fn demodulate<T: Copy + Mul<c64, Output = c64>>(
     series: &[T],
     sampling_rate: f64,
     frequency_hz: f64,
     taper: &[f64],
     hop: usize,
-) -> Demodulated
-where
-    T: Copy + Mul<c64, Output = c64>,
-{
+) -> Demodulated {
     let block = taper.len();
     let step = TAU * frequency_hz / sampling_rate;
     let sum = taper.iter().sum::<f64>();
@@ -71,9 +68,8 @@ impl Demodulated {
     /// What the window makes of an exponential of the given rate and distance from the demodulation
     /// frequency, rad/s: the modulus of its mean over that at mid-window.
     fn growth_gain(&self, rate: f64, drift: f64) -> f64 {
-        let weighted =
-            (self.taper.iter()).map(|(t, w)| c64::from_polar(w * (rate * t).exp(), drift * t));
-        weighted.sum::<c64>().norm()
+        let weigh = |(t, w): &(f64, f64)| c64::from_polar(w * (rate * t).exp(), drift * t);
+        self.taper.iter().map(weigh).sum::<c64>().norm()
     }
 
     /// Rate and frequency over windows `first..last`, at least two window lengths.

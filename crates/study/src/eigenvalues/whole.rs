@@ -141,7 +141,7 @@ fn assembled<'a>(
     options: &TangentOptions,
 ) -> Result<Assembly<'a>, CeaError> {
     Ok(match case.body.assembly() {
-        Some(body) => body.assembled(case.materials(), None)?,
+        Some(body) => body.assembled(case.materials(), options.mass)?,
         None => Assembly::of_edge(mesh, case.materials(), &case.contact.sliding, options.contact)?,
     })
 }

@@ -13,11 +13,11 @@ pub(super) fn free_part(case: &Case) -> Option<&AssemblyBody> {
     let body = case.body.assembly()?;
     let rayleigh = case.damping.rayleigh;
     let is_damped = rayleigh.mass_coefficient != 0.0 || rayleigh.stiffness_coefficient != 0.0;
-    let mut own = case.body.materials.iter().map(|material| material.damping);
-    let is_plain = !is_damped && own.all(|damping| damping.is_none());
-    let is_plain = is_plain && !case.has_structural_damping();
+    let has_own = case.body.materials.iter().any(|material| material.damping.is_some());
+    let is_plain = !is_damped && !has_own && !case.has_structural_damping();
+    let is_plain = is_plain && (body.ties.is_empty() || case.mass() == MassKind::Consistent);
     let is_plain = is_plain && body.mesh.attachments.is_empty() && body.mesh.patches.is_empty();
-    let assembled = || body.assembled(case.materials(), None);
+    let assembled = || body.assembled(case.materials(), MassKind::Consistent);
     (is_plain && assembled().is_ok_and(|own| own.is_free())).then_some(body)
 }
 

@@ -3,8 +3,8 @@
 use crate::StudyError;
 use crate::cycle::operating_point;
 use frictionsim_case::{AssemblyBody, BodyKind, Case};
-use frictionsim_physics::contact::PointKind;
 use frictionsim_physics::cycle::OperatingPoint;
+use frictionsim_physics::fem::MassKind;
 use frictionsim_physics::mesh::{AnnulusMesh, Mesh, SolidSector};
 use frictionsim_physics::prestress::Assembly;
 use frictionsim_physics::transient::{SteppedBody, TransientModel};
@@ -39,7 +39,7 @@ impl<'a> SteppedMesh<'a> {
             }
             BodyKind::Imported(imported) => Arc::clone(&imported.mesh),
             BodyKind::Assembly(body) => {
-                assembly = Some(body.assembled(case.materials_in_time(), Some(PointKind::Nodes))?);
+                assembly = Some(body.assembled(case.materials_in_time(), MassKind::Lumped)?);
                 Arc::clone(&body.mesh)
             }
         };
