@@ -136,4 +136,20 @@ fn a_body_of_revolution_on_its_whole_mesh_stays_round_when_it_is_refined() {
         case_of("disc.toml", &text, &set.collect::<Vec<_>>())
     };
     assert_eq!(read([12, 2, 1]).refined(2.0).unwrap().body, read([24, 4, 2]).body);
+
+    // Its modes are recognised on finer meshes, whose nodes stand in another order: frequencies are those by harmonics.
+    let set = ["mesh.circumferential_elements=12 ; mesh.radial_elements=2"];
+    let [whole, waves] = ["sparse", "auto"].map(|method| {
+        let text = text.replace("sparse", method);
+        let found =
+            study(folder().path(), &text).args(&["--json", "--no-figures"]).set(&set).done();
+        let found = found.value();
+        let own = quantities(&found["series"][0]).iter().filter(|own| own["unit"] == "Hz");
+        own.map(|own| own["values"][2].as_f64().unwrap()).collect::<Vec<f64>>()
+    });
+    assert!(whole.len() >= 6, "{whole:?}");
+    for value in whole {
+        let nearest = *nearest_by(&waves, |own| (*own - value).abs());
+        assert!((nearest - value).abs() < 1e-6 * value.abs(), "{value} {waves:?}");
+    }
 }
