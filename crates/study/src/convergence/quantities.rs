@@ -61,7 +61,7 @@ pub fn of_sweeps(
     let most = modes.iter().map(|level| level.len()).max().unwrap_or(0);
     if most > everywhere.len() {
         notes.push(format!(
-            "left out: {} of {most} modes, for which some mesh has no like one in the range asked for",
+            "left out: {} of {most} modes, which some mesh does not have in the range asked for",
             most - everywhere.len()
         ));
     }
@@ -120,8 +120,8 @@ fn name_by_rank(
     Ok(())
 }
 
-/// Degrees of freedom of nodes that two meshes have in the same place, of the coarser and of the finer one: the first ones
-/// of a mesh that was split.
+/// Degrees of freedom of nodes in the same place on the coarser and on the finer of two meshes: the first ones of a mesh
+/// that was split.
 fn common_dofs(coarse: &Mesh, fine: &Mesh, distance: f64) -> Vec<[usize; 2]> {
     let (count, dimension) = (coarse.node_count(), coarse.dimension);
     let nodes: Vec<[usize; 2]> = if fine.nodes.starts_with(&coarse.nodes) {
