@@ -33,8 +33,8 @@ from ._result import (
 _R = TypeVar("_R", bound=Result)
 _R_co = TypeVar("_R_co", bound=Result, covariant=True)
 
-# Commands whose interrupted folders are worth keeping.
-_RESUMABLE = {"transient", "sweep", "uncertainty"}
+# Commands that go on where they were interrupted.
+_RESUMABLE = {"cea", "cycle", "sweep", "transient", "uncertainty"}
 
 
 def _run(
@@ -155,6 +155,8 @@ def _analysis(kind: type[_R], command: str, meaning: str) -> Analysis[_R]:
         progress: ProgressChoice = None,
         **changes: Any,
     ) -> _R:
+        if resume and command not in _RESUMABLE:
+            raise TypeError(f"{command} cannot be resumed: it has nothing to go on from")
         return _run(
             kind, command, case, changes, options=["--resume"] if resume else [],
             folder=folder, figures=figures, force=force, threads=threads, progress=progress,

@@ -5,6 +5,8 @@ from __future__ import annotations
 import ctypes
 import gc
 import os
+import re
+import shutil
 import signal
 import subprocess
 import sys
@@ -20,6 +22,7 @@ import pytest
 from conftest import COARSE, LONG, assert_same_files, command_line, options
 
 import frictionsim
+from frictionsim import _run
 
 
 class Enough(Exception):
@@ -137,7 +140,8 @@ import sys, frictionsim
 case = frictionsim.Case(sys.argv[1], eval(sys.argv[2]))
 print("begin", flush=True)
 try:
-    getattr(frictionsim, sys.argv[3])(case, folder=sys.argv[4], figures=False, progress=lambda *told: print("told", flush=True))
+    run, folder = getattr(frictionsim, sys.argv[3]), sys.argv[4] or None
+    run(case, folder=folder, figures=False, progress=lambda *told: print("told", flush=True))
 except KeyboardInterrupt as interrupt:
     print("interrupted:", interrupt, flush=True)
 """
@@ -148,7 +152,7 @@ except KeyboardInterrupt as interrupt:
 LONGEST = 1.0 if os.environ.get("FRICTIONSIM_PROMPT") else 20.0
 
 
-def interrupted(case: frictionsim.Case, command: str, folder: Path) -> str:
+def interrupted(case: frictionsim.Case, command: str, folder: Path | str) -> str:
     """Interrupt a run on its way, hold its return to the limit, and give what it says."""
     changes = repr(case._changes)
     words = [sys.executable, "-c", textwrap.dedent(SCRIPT), str(case.path), changes, command, str(folder)]
@@ -192,9 +196,24 @@ def test_ctrl_c_ends_a_sweep_at_once_and_keeps_its_folder(long_transient: fricti
         frictionsim.sweep(long_transient.changed(short), folder=tmp_path / "study", figures=False)
 
 
-def test_ctrl_c_ends_an_eigenvalue_analysis_at_once(tmp_path: Path) -> None:
+def test_ctrl_c_ends_an_eigenvalue_analysis_at_once_and_keeps_its_folder() -> None:
     case = frictionsim.Case.shipped("polycarbonate-disc").changed({"cea.method": "sparse"})
-    assert "interrupted" in interrupted(case, "cea", tmp_path / "cea")
+    said = interrupted(case, "cea", "")
+    kept = re.search("pass folder='(.+)' with resume=True", said)
+    assert kept and Path(kept[1]).is_dir(), said
+    shutil.rmtree(kept[1])
+
+
+def test_commands_are_resumed_as_on_the_command_line_and_others_say_so(disc: frictionsim.Case) -> None:
+    def help_of(command: str) -> str:
+        words = [sys.executable, "-m", "frictionsim", command, "--help"]
+        return subprocess.run(words, capture_output=True, text=True, check=True).stdout
+
+    for command in ("basin", "cea", "convergence", "cycle", "frf", "improve", "mesh", "sweep", "transient", "uncertainty"):
+        assert ("--resume" in help_of(command)) == (command in _run._RESUMABLE), command
+        if command not in _run._RESUMABLE:
+            with pytest.raises(TypeError, match="cannot be resumed"):
+                getattr(frictionsim, command)(disc, resume=True)
 
 
 def test_progress_is_told_and_may_stop_the_run(long_transient: frictionsim.Case) -> None:

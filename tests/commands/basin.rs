@@ -34,3 +34,12 @@ fn a_study_of_basins_has_columns_and_a_map() {
     let answer = answer.says(&["ratio below", "ratio above"]).wrote("figures/basins.svg");
     assert!(answer.header("points.csv").contains("boundary.low,boundary.high"));
 }
+
+/// Sixty modes are looked at for the onsets of the waves: this mesh has 36.
+#[test]
+fn a_mesh_of_few_modes_has_a_basin() {
+    let folder = folder();
+    fs::write(folder.path().join("case.toml"), disc_of([12, 2], "[basin]\n")).unwrap();
+    let run = Run::new(&["basin", "case.toml", "--no-figures"]).within(&folder).end();
+    has(&run.said(), &["!cea.modes"]);
+}

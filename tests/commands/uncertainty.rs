@@ -145,3 +145,12 @@ fn uncertain_friction_is_no_single_value() {
     let known = found(&["uncertainty.samples=2 ; uncertainty.index_samples=0"]);
     assert!(known["friction_coefficient"].is_number(), "{known}");
 }
+
+#[test]
+fn where_no_sample_turns_unstable_no_parameter_decides() {
+    let stable =
+        found(&["contact.friction_coefficient=0.01 ; cea.friction_coefficients=[0.0,0.01] ; \
+        uncertainty.samples=8 ; uncertainty.index_samples=4"]);
+    assert_eq!(stable["probability_unstable"]["value"], 0.0);
+    assert_eq!(stable["decisive"], Value::Null);
+}

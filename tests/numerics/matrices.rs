@@ -331,3 +331,15 @@ fn superelements_that_cannot_be_solved_are_refused_with_matrix_and_reason() {
     brake(&folder, "nowhere.mtx");
     run(&folder, "cea", &[]).end().warns(&["superelements.brake.stiffness: nowhere.mtx"]);
 }
+
+#[test]
+fn what_needs_a_body_says_what_superelements_have() {
+    let folder = folder();
+    brake(&folder, "K.mtx");
+    for command in ["matrices", "mesh", "frf", "transient", "sweep"] {
+        let words = ["superelements have eigenvalues alone ; block.toml:1:2 ; !missing section"];
+        run(&folder, command, &[]).refused(&words);
+    }
+    let beside = run(&folder, "cea", &["mesh.file=disc.msh"]);
+    beside.refused(&["superelements are solved free-standing ; beside a body"]);
+}

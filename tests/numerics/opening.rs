@@ -91,16 +91,17 @@ fn a_branch_that_leaves_the_list_as_contact_opens_keeps_its_name() {
 /// A rubber strut that leans against the sliding: its foot is pressed the more, the larger friction is, until it buckles or digs in.
 const STRUT: &str = include_str!("../cases/leaning-strut.toml");
 
-fn strut() -> TempDir {
+/// It, or one that leans less.
+fn strut(lean: f64) -> TempDir {
     let (xs, ys) = (even(0.01, 2), even(0.06, 10));
-    let mesh = quadrilaterals(&xs, &ys, ["foot", "head", "strut"], |x, y| [x + 0.3 * y, y]);
+    let mesh = quadrilaterals(&xs, &ys, ["foot", "head", "strut"], |x, y| [x + lean * y, y]);
     folder_with(&[("strut.msh", &mesh)])
 }
 
 /// Positive real eigenvalues of the matrices at one friction coefficient, 1/s, by a dense decomposition (independent check).
-fn static_growth(folder: &TempDir, friction: f64) -> Vec<f64> {
+fn static_growth(text: &str, folder: &TempDir, friction: f64) -> Vec<f64> {
     let name = folder.path().join("case.toml").display().to_string();
-    let case = case_of(name, STRUT, &[format!("contact.friction_coefficient={friction:?}")]);
+    let case = case_of(name, text, &[format!("contact.friction_coefficient={friction:?}")]);
     let [mass, damping, stiffness, losses] = sums(&matrices(&case, Some(friction)).unwrap());
     let values = lossy_eigenvalues([&mass, &damping, &stiffness, &losses]);
     let real = values.iter().filter(|own| own.re > 0.0 && own.im.abs() < 1e-6 * own.re);
@@ -111,7 +112,7 @@ fn static_growth(folder: &TempDir, friction: f64) -> Vec<f64> {
 /// that it had.
 #[test]
 fn static_stability_is_lost_where_a_real_eigenvalue_passes_zero() {
-    let folder = strut();
+    let folder = strut(0.3);
     let mut places = Vec::new();
     for last in [0.34, 0.38] {
         let found = sweep_of(STRUT, &folder, &[0.0, 0.2, last]);
@@ -123,10 +124,26 @@ fn static_stability_is_lost_where_a_real_eigenvalue_passes_zero() {
         assert!(lists.clone().all(|count| count == 8), "{:?}", lists.collect::<Vec<_>>());
     }
     assert!((places[0] - places[1]).abs() < 1e-8, "{places:?}");
-    let around = [-1e-6, 1e-6].map(|step| static_growth(&folder, places[0] + step).len());
+    let around = [-1e-6, 1e-6].map(|step| static_growth(STRUT, &folder, places[0] + step).len());
     assert_eq!(around, [0, 1]);
-    assert_eq!(static_growth(&folder, 0.38).len(), 2);
+    assert_eq!(static_growth(STRUT, &folder, 0.38).len(), 2);
     // Below, there is nothing to tell.
     let below = sweep_of(STRUT, &folder, &[0.0, 0.2, 0.3]);
     assert!(below.intervals.is_empty(), "{:?}", below.intervals);
+}
+
+/// A straight strut that is pressed beyond its buckling load: no branch leads to what grows there.
+#[test]
+fn what_is_statically_unstable_without_friction_is_told_from_the_first_value_on() {
+    let folder = strut(0.0);
+    for (interference, growing, frictions) in
+        [("5e-4", 0, [0.0, 0.05]), ("2e-3", 1, [0.0, 0.05]), ("2e-3", 1, [0.03, 0.05])]
+    {
+        let text = STRUT.replace("1e-3", interference);
+        let found = sweep_of(&text, &folder, &frictions);
+        let statically = found.intervals.iter().filter(|own| own.branch == 0);
+        let from: Vec<f64> = statically.map(|own| own.critical_friction).collect();
+        assert_eq!(static_growth(&text, &folder, frictions[0]).len(), growing);
+        assert_eq!(from, vec![frictions[0]; growing], "{interference}");
+    }
 }

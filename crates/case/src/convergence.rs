@@ -115,12 +115,10 @@ pub(super) fn read(
         "[modifications] are places of one mesh: a finer one would have others";
         "not beside [convergence]";
         "leave one of the two sections out, and compare meshes by hand");
-    let factors = match section.numbers("factors") {
-        _ if body.is_some_and(|body| !body.has_sectors()) && !section.has("factors") => {
-            SPLITS.to_vec()
-        }
-        given => given.unwrap_or_default(),
-    };
+    let mut factors = section.numbers("factors").unwrap_or_default();
+    if body.is_some_and(|body| !body.has_sectors()) && !section.has("factors") {
+        factors = SPLITS.to_vec();
+    }
     if has_enough(section, "factors", &factors) && is_ordered(section, "factors", &factors, 1.0) {
         let solid = body.and_then(Body::revolution);
         match (body.and_then(Body::whole_mesh), body.and_then(Body::grid)) {
@@ -129,8 +127,7 @@ pub(super) fn read(
             (None, None) => {}
         }
     }
-    let steps = section.numbers("time_step_factors");
-    let time_step_factors = steps.unwrap_or_default();
+    let time_step_factors = section.numbers("time_step_factors").unwrap_or_default();
     if section.has("time_step_factors")
         && has_enough(section, "time_step_factors", &time_step_factors)
     {
@@ -149,21 +146,20 @@ pub(super) fn read(
 
 /// Refuses fewer than three values.
 fn has_enough(section: &Section<'_>, key: &'static str, values: &[f64]) -> bool {
-    let is_enough = values.len() >= FEWEST;
-    refuse_if!(!is_enough; section, key =>
-        "has {} values; observing an order takes {FEWEST} or more", values.len();
+    let given = section.list_length(key).unwrap_or(values.len());
+    refuse_if!(given < FEWEST; section, key =>
+        "has {given} values; observing an order takes {FEWEST} or more";
         "at least {FEWEST} values");
-    is_enough
+    values.len() >= FEWEST
 }
 
 /// Refuses values that do not strictly rise (`sign` 1) or fall (-1).
 fn is_ordered(section: &Section<'_>, key: &'static str, values: &[f64], sign: f64) -> bool {
     let pair = values.windows(2).find(|pair| sign * (pair[1] - pair[0]) <= 0.0);
     if let Some(pair) = pair {
-        let (word, why) = if sign > 0.0 {
-            ("rise", "each mesh finer than the one before")
-        } else {
-            ("fall", "each step shorter than the one before")
+        let (word, why) = match sign > 0.0 {
+            true => ("rise", "each mesh finer than the one before"),
+            false => ("fall", "each step shorter than the one before"),
         };
         refuse!(section, key, "{} must {word}, but {} follows {}", section.name(key), pair[1],
             pair[0]; "{why}");

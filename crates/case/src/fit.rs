@@ -87,8 +87,8 @@ fn bounds(section: &Section<'_>, parameter: VariedKey, entry: &RawEntry) -> FitP
                 .map(|end| number(section, entry, table.get(end).map(|entry| &entry.item.value)))
         }
         other => {
-            refuse_at!(section, at, "the bounds of {key} are {}", other.kind(); "not bounds";
-                "{help}");
+            refuse_at!(section, at, "the bounds of {key} are {}, not two numbers", other.kind();
+                "not bounds"; "{help}");
             [f64::NAN; 2]
         }
     };

@@ -164,6 +164,7 @@ impl Case {
     /// # Errors
     /// [`CaseErrors`] with every error found.
     pub fn read(mut raw: RawCase) -> Result<Self, CaseErrors> {
+        superelements::refuse_body(&raw)?;
         let (effective, taken) = taken::effective(&mut raw);
         let findings = Findings::of(&effective);
         let root = Section::root(&findings, &effective, raw.end());
@@ -196,7 +197,8 @@ impl Case {
         let uncertainty = root.read_section("uncertainty", uncertainty::uncertainty);
         let improve = root.section("improve", false).closed(improve::improve);
         let sweep = sweep::read(&root);
-        superelements::refuse_attached(&root);
+        // A section of other cases, which a word may mean.
+        root.section("superelements", false);
         root.close();
         let (mut errors, mut warnings) = findings.into_parts();
         taken.name_places(&mut errors);

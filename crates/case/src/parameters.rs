@@ -58,7 +58,7 @@ fn check(section: &Section<'_>, name: &str) -> Result<(), String> {
         Kind::Number(_) | Kind::NumberOr(..) => {
             Err(format!("it is no parameter of the model, which has {MODEL}"))
         }
-        _ => Err(format!("its values are {}: it must be a number", key.values())),
+        _ => Err(format!("its values are {}: what varies must be continuous", key.values())),
     }
 }
 

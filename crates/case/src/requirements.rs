@@ -200,7 +200,7 @@ impl Case {
     ) -> Result<&'a T, CaseErrors> {
         own.as_ref().ok_or_else(|| {
             self.raw.errors(vec![placed!(self.raw.end(),
-                "the case has no [{section}] section, so there is no {analysis} to run";
+                "the case has no [{section}] section, so it asks for no {analysis}";
                 "the case ends here"; "add\n{remedy}")])
         })
     }

@@ -2,7 +2,7 @@
 
 use super::cea::mode_selection;
 use super::raw::hex;
-use super::{CaseErrors, Findings, ModeLimit, RawCase, Section, refuse, refuse_if};
+use super::{CaseErrors, Findings, ModeLimit, RawCase, Section, placed, refuse, refuse_if};
 use frictionsim_bounds::{MATRIX, SUPERELEMENT_UNKNOWNS};
 use frictionsim_physics::linalg::MarketMatrix;
 use sha2::{Digest, Sha256};
@@ -81,16 +81,21 @@ impl FreeSystem {
     }
 }
 
-/// Refuses superelements beside a body.
-pub(super) fn refuse_attached(root: &Section<'_>) {
-    let all = root.section("superelements", false);
-    if !all.is_given() {
-        return;
+/// Refuses superelements where a body is read.
+pub(super) fn refuse_body(raw: &RawCase) -> Result<(), CaseErrors> {
+    if !raw.root.contains_key("superelements") {
+        return Ok(());
     }
-    refuse!(root, "superelements",
-        "superelements are solved free-standing; joining them to a mesh at interface nodes is not \
-         supported"; "beside a body";
-        "leave [geometry] and [mesh] out, or solve the superelement in a case of its own");
+    let at = raw.place("superelements");
+    let error = match FreeSystem::is_described_by(raw) {
+        true => placed!(at, "superelements have eigenvalues alone: `frictionsim cea` lists them, \
+            `frictionsim check` reads them. They have no mesh, contact or friction"; "no body";
+            "for any other command describe the body itself, with [mesh], [material], [contact]"),
+        false => placed!(at, "superelements are solved free-standing; joining them to a mesh at \
+            interface nodes is not supported"; "beside a body";
+            "leave [geometry] and [mesh] out, or solve the superelement in a case of its own"),
+    };
+    Err(raw.errors(vec![error]))
 }
 
 /// One superelement; `None` where something is wrong with it, which is reported.
@@ -100,14 +105,12 @@ fn superelement(
     folder: &Path,
     digest: &mut Sha256,
 ) -> Option<Superelement> {
-    let read = |key: &str, digest: &mut Sha256| {
-        let file = match key {
-            "damping" => section.optional_text(key),
-            _ => Some(section.text(key)).filter(|_| section.has(key)),
-        };
-        file.map(|file| matrix(section, key, &folder.join(file), digest))
-    };
-    let [mass, damping, stiffness] = MATRICES.map(|key| read(key, digest));
+    section.needs("mass");
+    section.needs("stiffness");
+    let [mass, damping, stiffness] = MATRICES.map(|key| {
+        let file = section.optional_text(key)?;
+        Some(matrix(section, key, &folder.join(file), digest))
+    });
     let (mass, stiffness) = (mass??, stiffness??);
     let none = MarketMatrix { entries: Vec::new(), ..mass.clone() };
     let damping = damping.unwrap_or(Some(none))?;

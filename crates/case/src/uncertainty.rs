@@ -101,7 +101,8 @@ fn distribution(
     };
     // One of the three, with a list of two numbers.
     let Some(table) = entry.item.value.table() else {
-        return refuse(format!("{key} is {}", entry.item.value.kind()), "no distribution");
+        let kind = entry.item.value.kind();
+        return refuse(format!("{key} is {kind}, not a distribution"), "no distribution");
     };
     only(section, table, &["normal", "log_normal", "uniform", "also"]);
     let words = ["normal", "log_normal", "uniform"].into_iter();
@@ -115,31 +116,28 @@ fn distribution(
     let RawValue::Array(items) = &inner.item.value else {
         return refuse(format!("{word} of {key} is no list"), "two numbers");
     };
-    if items.len() != 2 {
-        return refuse(format!("{word} of {key} has {} numbers", items.len()), "two numbers");
+    let count = items.len();
+    if count != 2 {
+        return refuse(format!("{word} of {key} takes two numbers, not {count}"), "two numbers");
     }
     let [a, b] = [0, 1].map(|i| number(section, inner, items.get(i).map(|item| &item.value)));
     let (distribution, is_valid, needs) = match word {
         "normal" => {
-            let (mean, deviation) = (a, b);
-            (Distribution::Normal { mean, deviation }, b > 0.0, "a positive deviation")
+            (Distribution::Normal { mean: a, deviation: b }, b > 0.0, "a positive deviation")
         }
         "log_normal" => {
             let (median, deviation) = (a, b);
             let is_valid = a > 0.0 && b > 0.0;
             (Distribution::LogNormal { median, deviation }, is_valid, "two positive numbers")
         }
-        _ => {
-            let (from, to) = (a, b);
-            (Distribution::Uniform { from, to }, a < b, "two rising ends")
-        }
+        _ => (Distribution::Uniform { from: a, to: b }, a < b, "two rising ends"),
     };
     if !(a.is_finite() && b.is_finite()) {
         // What is no number has been reported.
         return None;
     }
     if !is_valid {
-        return refuse(format!("{word} = [{a}, {b}] of {key}"), needs);
+        return refuse(format!("{word} = [{a}, {b}] of {key} needs {needs}"), needs);
     }
     if word == "log_normal" && b > LARGEST_LOG_DEVIATION {
         refuse_at!(section, at,

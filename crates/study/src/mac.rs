@@ -202,8 +202,7 @@ fn off_body(
 fn nearest_node(mesh: &Mesh, point: [f64; 3]) -> (usize, f64) {
     let d = mesh.dimension;
     let away = |node: &[f64; 3]| -> f64 { (0..d).map(|k| (node[k] - point[k]).powi(2)).sum() };
-    let all = mesh.nodes.iter().map(away).enumerate();
-    let nearest = all.min_by(|a, b| a.1.total_cmp(&b.1));
+    let nearest = mesh.nodes.iter().map(away).enumerate().min_by(|a, b| a.1.total_cmp(&b.1));
     nearest.map_or((0, f64::INFINITY), |(node, square)| (node, square.sqrt()))
 }
 

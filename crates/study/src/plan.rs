@@ -83,8 +83,7 @@ impl<'a> SweepPlan<'a> {
 
     /// Swept keys, with those that take the same values.
     pub fn keys(&self) -> Vec<String> {
-        let keys = self.sweep.keys.iter();
-        keys.flat_map(|key| key.varied.names().cloned()).collect()
+        self.sweep.keys.iter().flat_map(|key| key.varied.names().cloned()).collect()
     }
 
     /// Names of the analyses.

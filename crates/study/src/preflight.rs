@@ -127,8 +127,7 @@ fn commands(case: &Case) -> Vec<&'static str> {
         ("convergence", case.convergence.is_some()),
         ("sweep", case.sweep.is_some()),
     ];
-    let here = has.into_iter().filter(|pair| pair.1);
-    here.map(|pair| pair.0).collect()
+    has.into_iter().filter(|pair| pair.1).map(|pair| pair.0).collect()
 }
 
 /// Refuses a command that takes more bytes than are available.

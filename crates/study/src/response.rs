@@ -239,8 +239,7 @@ fn whole(case: &Case, frf: &Frf, method: FrfMethod) -> Result<System, StudyError
     let axis = case.body.assembly().and_then(AssemblyBody::axis);
     let axis = axis.map(|[center, direction]| Axis { center, direction });
     let port = |terminal, key| {
-        let found = system.port(&mesh, axis, terminal, key);
-        found.map_err(|error| at_node(case, &error))
+        system.port(&mesh, axis, terminal, key).map_err(|error| at_node(case, &error))
     };
     let force = port(frf.force, "force_node")?;
     let response = port(frf.response, "response_node")?;

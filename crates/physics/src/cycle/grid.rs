@@ -40,10 +40,9 @@ impl PhaseGrid {
     /// resonate: there fewer phases are taken.
     pub fn new(frequency: f64, node: f64, nodes: f64, points: Option<usize>) -> Self {
         let wanted = landing_share(frequency, node);
-        let wished = points.unwrap_or_else(|| {
-            let points = (RESOLVED / wanted).round() as usize;
-            points.clamp(POINTS.0, POINTS.1)
-        }) as f64;
+        let wished = points
+            .unwrap_or_else(|| ((RESOLVED / wanted).round() as usize).clamp(POINTS.0, POINTS.1))
+            as f64;
         let period = 2.0 * nodes;
         let clearance = CLEARANCE.min(0.25 * period);
         let resonant = period * (wished / period).round().max(1.0);

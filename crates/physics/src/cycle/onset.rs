@@ -6,7 +6,7 @@ use super::state::{Event, Phase, PointState, WaveState};
 use super::wave::Wave;
 use super::{CycleError, Family, LARGEST_FRICTION};
 use crate::cea::cyclic;
-use crate::cea::{ModeLimit, SweepRequest};
+use crate::cea::{ModeLimit, SweepRequest, UnstableInterval};
 use crate::contact::{ContactStiffness, SlidingContact};
 use crate::fem::{ElasticMaterial, MassKind, RayleighDamping};
 use crate::linalg::c64;
@@ -63,20 +63,25 @@ impl DiscModel {
             contact: ContactStiffness::default(),
         };
         let contact = unloaded(&self.specification);
+        let (mesh, material) = (&self.specification, &self.material);
+        // As many as it has at least.
+        let least = mesh.circumferential_elements * (2 * mesh.radial_elements - 1);
+        let limit = match limit {
+            ModeLimit::Lowest(count) => ModeLimit::Lowest(count.min(least)),
+            below => below,
+        };
         let frictions = [highest_friction];
         let request = SweepRequest::new(&frictions, limit);
-        let (specification, material) = (&self.specification, &self.material);
-        let found = cyclic::sweep(specification, material, &options, &contact, &request)
+        let found = cyclic::sweep(mesh, material, &options, &contact, &request)
             .map_err(|error| CycleError::NotFound(format!("onsets of limit cycles: {error}")))?;
         let travelling = found.sweep.intervals.iter().filter(|i| i.direction != 0);
-        Ok(travelling
-            .map(|interval| Onset {
-                harmonic: interval.harmonic,
-                direction: interval.direction,
-                friction_coefficient: interval.critical_friction,
-                frequency: TAU * interval.frequency_hz,
-            })
-            .collect())
+        let onset = |interval: &UnstableInterval| Onset {
+            harmonic: interval.harmonic,
+            direction: interval.direction,
+            friction_coefficient: interval.critical_friction,
+            frequency: TAU * interval.frequency_hz,
+        };
+        Ok(travelling.map(onset).collect())
     }
 
     /// The onset of a family, sought up to ever larger friction coefficients.
@@ -84,18 +89,14 @@ impl DiscModel {
     /// # Errors
     /// [`CycleError::NoOnset`] if there is none up to a friction coefficient of two.
     pub fn onset_of(&self, family: Family, limit: ModeLimit) -> Result<Onset, CycleError> {
-        let mut highest = 0.125 * LARGEST_FRICTION;
-        loop {
-            let found = self.onsets(highest, limit)?;
-            let own = found.into_iter().filter(|o| o.harmonic == family.harmonic);
-            if let Some(onset) = own.into_iter().nth(family.onset - 1) {
+        for share in [0.125, 0.25, 0.5, 1.0] {
+            let found = self.onsets(share * LARGEST_FRICTION, limit)?;
+            let mut own = found.into_iter().filter(|o| o.harmonic == family.harmonic);
+            if let Some(onset) = own.nth(family.onset - 1) {
                 return Ok(onset);
             }
-            if highest >= LARGEST_FRICTION {
-                return Err(CycleError::NoOnset(family));
-            }
-            highest *= 2.0;
         }
+        Err(CycleError::NoOnset(family))
     }
 }
 

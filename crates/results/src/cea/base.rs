@@ -207,9 +207,9 @@ impl BaseField {
         let is_round = !matches!(body.mesh.counterface, Counterface::Plane { .. });
         let angles = along.iter().map(|own| is_round.then_some(own.1));
         let nodes = all().map(label).zip(angles);
-        let table = table.columns(NODES, nodes).columns(TRACTIONS, all());
-        // On an annulus every node slips, at its angle.
-        if has_harmonics { table } else { table.columns(STATUS, all()).columns(PLANE, all()) }
+        let table = table.columns(NODES, nodes).columns(TRACTIONS, all()).columns(STATUS, all());
+        // On an annulus the angle is the place.
+        if has_harmonics { table } else { table.columns(PLANE, all()) }
     }
 
     /// Displacement and stress of all nodes, and the contact: of solid bodies pressure, traction and closed share of

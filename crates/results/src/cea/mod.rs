@@ -128,13 +128,13 @@ impl<'a> CeaReport<'a> {
         }
     }
 
-    /// The friction values of the tables.
-    pub fn tabulated(&self) -> impl Iterator<Item = &FrictionPoint> {
-        self.solution
-            .sweep
-            .points
-            .iter()
-            .filter(|point| self.friction_coefficients.contains(&point.friction_coefficient))
+    /// The friction values of the tables: those of the sweep, and the case's own.
+    pub fn tabulated(&self) -> impl Iterator<Item = &'a FrictionPoint> {
+        let own = self.base.friction_coefficient;
+        let is_listed =
+            move |friction| friction == own || self.friction_coefficients.contains(&friction);
+        let points = self.solution.sweep.points.iter();
+        points.filter(move |point| is_listed(point.friction_coefficient))
     }
 
     /// Largest relative residual of any eigenpair, that of the quadratic problem.

@@ -262,7 +262,7 @@ pub fn summary(report: &CeaReport<'_>) -> CeaSummary {
         method: (*method).to_owned(),
         selection: report.selection.clone(),
         modes: report.mode_counts().1,
-        friction_values: report.friction_coefficients.len(),
+        friction_values: report.tabulated().count(),
         unstable_counts: report.tabulated().map(of_point).collect(),
         critical_frictions: onsets(report),
         largest_residual: present(report.largest_residual()),

@@ -107,14 +107,8 @@ pub enum View {
 
 /// `eigenvalues.csv`: one row for each mode and friction value, sorted by frequency within a value.
 fn eigenvalues(report: &CeaReport<'_>) -> Table {
-    // The case's own friction beside those of the sweep.
-    let is_listed = |point: &&FrictionPoint| {
-        let friction = point.friction_coefficient;
-        report.friction_coefficients.contains(&friction)
-            || friction == report.base.friction_coefficient
-    };
-    let points = report.solution.sweep.points.iter().filter(is_listed);
-    let rows: Vec<ModeRow> = points.flat_map(|point| ModeRow::all(report, point)).collect();
+    let rows: Vec<ModeRow> =
+        report.tabulated().flat_map(|point| ModeRow::all(report, point)).collect();
     let table = Table::new("eigenvalues.csv", "").columns(PLACES, &rows).columns(MODES, &rows);
     if report.body.sector.is_some() { table.columns(AXIAL, &rows) } else { table }
 }
@@ -229,7 +223,7 @@ fn words(report: &CeaReport<'_>, view: View) -> Vec<String> {
     let solved = format!(
         "{count} modes ({}) at {}, {} unknowns, {} method; largest residual {:.1e}.",
         report.selection,
-        friction_values(report.friction_coefficients.len()),
+        friction_values(report.tabulated().count()),
         report.solution.dofs,
         report.solution.method,
         report.largest_residual(),

@@ -86,10 +86,8 @@ pub fn solve(
     manifest: &Manifest,
     done: &(dyn Fn() + Sync),
 ) -> Result<Vec<Series>, StudyError> {
-    let jobs = levels.iter().flat_map(|study| {
-        let cases = study.cases.iter();
-        cases.map(|case| (study.analysis, case))
-    });
+    let jobs =
+        levels.iter().flat_map(|study| study.cases.iter().map(|case| (study.analysis, case)));
     // Finest meshes and shortest steps stand last in each study.
     let jobs: Vec<(Analysis, &Case)> = jobs.collect();
     let solved: Vec<Result<Timed, StudyError>> =
@@ -172,7 +170,7 @@ fn series(case: &Case, study: &Levels, outcomes: Vec<Timed>) -> Result<Vec<Serie
     };
     Ok(match study.analysis {
         Analysis::Cea => {
-            let (quantities, notes) = quantities::of_sweeps(case, &sizes, sweeps);
+            let (quantities, notes) = quantities::of_sweeps((case, &study.cases), &sizes, sweeps)?;
             vec![of("cea", quantities, notes)]
         }
         Analysis::Transient => {

@@ -1,13 +1,16 @@
 //! Quantities compared between the levels of a convergence study.
 
+use crate::StudyError;
 use frictionsim_case::Case;
 use frictionsim_physics::cea::{ComplexMode, FrictionSweep, UnstableInterval};
 use frictionsim_physics::cycle::Family;
 use frictionsim_physics::linalg::c64;
+use frictionsim_physics::mesh::{Mesh, coincident_nodes};
 use frictionsim_results::cea::mode_name;
 use frictionsim_results::convergence::Quantity;
 use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 
 /// Harmonic, branch and direction: what a mode is known by on every mesh.
 type ModeKey = (usize, usize, i8);
@@ -30,13 +33,13 @@ fn name_of((harmonic, branch, direction): ModeKey, has_harmonics: bool) -> Strin
 /// Frequency and real part of every mode at the case's friction coefficient, and every first onset,
 /// that all levels have; notes name those that some level lacks.
 pub fn of_sweeps(
-    case: &Case,
+    (case, levels): (&Case, &[Case]),
     sizes: &[f64],
     mut sweeps: Vec<FrictionSweep>,
-) -> (Vec<Quantity>, Vec<String>) {
+) -> Result<(Vec<Quantity>, Vec<String>), StudyError> {
     let friction = case.contact.sliding.friction_coefficient;
     if !case.body.has_sectors() {
-        name_by_rank(&mut sweeps, friction);
+        name_by_rank(levels, &mut sweeps, friction)?;
     }
     let modes: Vec<&[ComplexMode]> = sweeps.iter().map(|sweep| sweep.modes_at(friction)).collect();
     let everywhere = everywhere(&modes, key_of);
@@ -58,11 +61,11 @@ pub fn of_sweeps(
     let most = modes.iter().map(|level| level.len()).max().unwrap_or(0);
     if most > everywhere.len() {
         notes.push(format!(
-            "left out: {} modes that not every mesh has in the range asked for",
+            "left out: {} of {most} modes, which some mesh does not have in the range asked for",
             most - everywhere.len()
         ));
     }
-    (quantities, notes)
+    Ok((quantities, notes))
 }
 
 /// Least likeness (modal assurance criterion) of the shapes of one mode on two meshes.
@@ -72,24 +75,29 @@ const SAME_MODE: f64 = 0.5;
 const FOREIGN: usize = 1 << 20;
 
 /// Gives the branches of a body without symmetry the rank that their mode has by frequency on the finest mesh, from 1;
-/// from mesh to mesh the likest shapes at `friction` belong together, `|x^H y|^2 / (|x|^2 |y|^2)` over the nodes of the
-/// coarser mesh, which come first on the finer one.
-fn name_by_rank(sweeps: &mut [FrictionSweep], friction: f64) {
+/// from mesh to mesh the likest shapes at `friction` belong together.
+fn name_by_rank(
+    levels: &[Case],
+    sweeps: &mut [FrictionSweep],
+    friction: f64,
+) -> Result<(), StudyError> {
     type Shapes = Vec<(Vec<c64>, usize)>;
     let own = |sweep: &FrictionSweep| -> Shapes {
         let modes = sweep.modes_at(friction).iter();
         modes.map(|mode| (mode.shape.clone().unwrap_or_default(), mode.branch)).collect()
     };
-    let mut finer: Option<Shapes> = None;
-    for sweep in sweeps.iter_mut().rev() {
-        let modes = own(sweep);
+    let mut finer: Option<(Shapes, Arc<Mesh>)> = None;
+    for (case, sweep) in levels.iter().zip(sweeps).rev() {
+        let (modes, mesh) = (own(sweep), case.body.mesh()?);
         let mut rank_of = BTreeMap::new();
         let mut pairs = Vec::new();
         match &finer {
             None => rank_of.extend(modes.iter().enumerate().map(|(i, mode)| (mode.1, i + 1))),
-            Some(finer) => {
+            Some((finer, fine)) => {
+                let common = common_dofs(&mesh, fine, 1e-6 * case.body.size());
                 for (x, branch) in &modes {
-                    pairs.extend(finer.iter().map(|(y, rank)| (-likeness(x, y), *branch, *rank)));
+                    let likeness = finer.iter().map(|(y, rank)| (likeness(x, y, &common), *rank));
+                    pairs.extend(likeness.map(|(own, rank)| (-own, *branch, rank)));
                 }
             }
         }
@@ -107,13 +115,30 @@ fn name_by_rank(sweeps: &mut [FrictionSweep], friction: f64) {
             rename(&mut interval.branch);
             (interval.harmonic, interval.direction) = (0, 0);
         }
-        finer = Some(own(sweep));
+        finer = Some((own(sweep), mesh));
     }
+    Ok(())
 }
 
-/// `|x^H y|^2 / (|x|^2 |y|^2)` over the leading entries that both have.
-fn likeness(x: &[c64], y: &[c64]) -> f64 {
-    let pairs = || x.iter().zip(y);
+/// Degrees of freedom of nodes in the same place on the coarser and on the finer of two meshes: the first ones of a mesh
+/// that was split.
+fn common_dofs(coarse: &Mesh, fine: &Mesh, distance: f64) -> Vec<[usize; 2]> {
+    let (count, dimension) = (coarse.node_count(), coarse.dimension);
+    let nodes: Vec<[usize; 2]> = if fine.nodes.starts_with(&coarse.nodes) {
+        (0..count).map(|i| [i, i]).collect()
+    } else {
+        let all = [&coarse.nodes[..], &fine.nodes].concat();
+        let pairs = coincident_nodes(&all, distance).into_iter();
+        let pairs = pairs.map(|(i, j)| [i as usize, j as usize]);
+        pairs.filter(|&[i, j]| i < count && j >= count).map(|[i, j]| [i, j - count]).collect()
+    };
+    let dofs = |node: [usize; 2]| (0..dimension).map(move |k| node.map(|own| dimension * own + k));
+    nodes.into_iter().flat_map(dofs).collect()
+}
+
+/// `|x^H y|^2 / (|x|^2 |y|^2)` over the entries that both have.
+fn likeness(x: &[c64], y: &[c64], common: &[[usize; 2]]) -> f64 {
+    let pairs = || common.iter().filter_map(|&[i, j]| Some((x.get(i)?, y.get(j)?)));
     let product: c64 = pairs().map(|(a, b)| a.conj() * b).sum();
     let size = |v: f64, part: c64| v + part.norm_sqr();
     let sizes = pairs().fold((0.0, 0.0), |(p, q), (a, b)| (size(p, *a), size(q, *b)));

@@ -202,9 +202,9 @@ pub(super) fn ended_notes(sweep: &FrictionSweep) -> Vec<String> {
     });
     let statically = sweep.intervals.iter().find(|own| own.branch == 0).map(|own| {
         format!(
-            "steady sliding loses its static stability at friction {:.6}: beyond, a motion grows \
-             without oscillating, as in a part that digs in. It is branch 0 at 0 Hz, and none of \
-             the modes listed",
+            "steady sliding is statically unstable from friction {:.6} on: a motion grows without \
+             oscillating, as in a part that digs in or buckles. It is branch 0 at 0 Hz, and none \
+             of the modes listed",
             own.critical_friction
         )
     });

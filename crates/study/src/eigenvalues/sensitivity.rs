@@ -232,6 +232,5 @@ fn lost_note(target: &Target) -> String {
 /// Keys of the sections that every case has, without the section.
 fn short_name(key: &str) -> String {
     let sections = ["material.", "damping.", "contact."];
-    let short = sections.iter().find_map(|section| key.strip_prefix(section));
-    short.unwrap_or(key).to_owned()
+    sections.iter().find_map(|section| key.strip_prefix(section)).unwrap_or(key).to_owned()
 }

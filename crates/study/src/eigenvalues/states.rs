@@ -221,6 +221,5 @@ fn contact_notes(range: &PressedRange, parts: &[Part]) -> Vec<String> {
             range.left_out
         )
     });
-    let all = opening.into_iter().chain(jump).chain(unknown);
-    all.chain(coarse).collect()
+    opening.into_iter().chain(jump).chain(unknown).chain(coarse).collect()
 }

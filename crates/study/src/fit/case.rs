@@ -93,8 +93,7 @@ pub fn refuse_too_few(case: &Case, lines: &[MeasuredMode]) -> Result<(), StudyEr
     }
     let message = FitError::too_few_data(parameters, data).to_string();
     let label = format!("{data} numbers are measured");
-    let errors = case.error_at("fit.parameters", message, label, None);
-    Err(errors.into())
+    Err(case.error_at("fit.parameters", message, label, None).into())
 }
 
 /// The modes of the case with its parameters at some values, with their derivatives by each parameter and their

@@ -52,10 +52,8 @@ pub(super) fn rates<'p>(
     let own = matrices(case);
     let by_parameter = parameters.map(|(parameter, value)| {
         let step = STEP * value;
-        let side = |sign: f64| {
-            let moved = case.with_parameters([(parameter, value + sign * step)]);
-            matrices(&moved.ok()?)
-        };
+        let side =
+            |sign: f64| matrices(&case.with_parameters([(parameter, value + sign * step)]).ok()?);
         let sides = side(1.0).zip(side(-1.0));
         let rate = |mode: &ComplexMode| {
             let (above, below) = sides.as_ref()?;

@@ -171,8 +171,7 @@ fn same<'m>(mode: &ModelMode, weights: &Weights, modes: &'m [ModelMode]) -> Opti
     let nearest = |a: &&ModelMode, b: &&ModelMode| distance(a).total_cmp(&distance(b));
     let named =
         modes.iter().filter(|other| mode.told.harmonic.is_some() && other.name() == mode.name());
-    let found = named.min_by(nearest);
-    found.or_else(|| modes.iter().min_by(nearest))
+    named.min_by(nearest).or_else(|| modes.iter().min_by(nearest))
 }
 
 /// Solves `(J^T J + damping diag) step = -gradient` over the free parameters.

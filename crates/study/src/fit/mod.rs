@@ -112,8 +112,7 @@ impl FitProblem<'_> {
 
     /// What the parameters have, by their keys.
     fn by_key<T>(&self, each: impl IntoIterator<Item = T>) -> BTreeMap<String, T> {
-        let keys = self.wanted.parameters.iter().map(|own| own.parameter.key.clone());
-        keys.zip(each).collect()
+        self.wanted.parameters.iter().map(|own| own.parameter.key.clone()).zip(each).collect()
     }
 
     /// Real numbers measured.

@@ -27,8 +27,7 @@ impl MeasuredShapes {
                 return Err(refuse(shape, "it has no frequency".to_owned()));
             };
             let away = |line: &MeasuredMode| (frequency / line.frequency_hz - 1.0).abs();
-            let all = lines.iter().enumerate();
-            let near = all.filter(|(_, line)| away(line) <= WITHIN);
+            let near = lines.iter().enumerate().filter(|(_, line)| away(line) <= WITHIN);
             pairs.extend(near.map(|(place, line)| (away(line), index, place)));
         }
         let mut shape_of = vec![None; lines.len()];

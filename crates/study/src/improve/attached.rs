@@ -54,8 +54,7 @@ impl<'a> NearModes<'a> {
         let targets: Vec<f64> = base.targets().iter().map(|t| t.eigenvalue().im).collect();
         let away = |mode: &PairedMode| {
             let own = mode.eigenvalue().im;
-            let distances = targets.iter().map(|target| (own / target).ln().abs());
-            distances.fold(f64::INFINITY, f64::min)
+            targets.iter().map(|target| (own / target).ln().abs()).fold(f64::INFINITY, f64::min)
         };
         let mut modes: Vec<&PairedMode> = base.modes.iter().collect();
         frictionsim_physics::order::sort_by_number(&mut modes, |a| away(a));

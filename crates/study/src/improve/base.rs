@@ -190,8 +190,7 @@ impl<'a> Base<'a> {
 /// The modes that are to be silenced, numbered as `cea` numbers them.
 pub(super) fn target_modes(base: &Base<'_>) -> Vec<TargetMode> {
     let number = |mode: &PairedMode| {
-        let listed = base.listed.iter();
-        1 + listed.filter(|other| other.im < mode.eigenvalue().im).count()
+        1 + base.listed.iter().filter(|other| other.im < mode.eigenvalue().im).count()
     };
     let target = |mode: &PairedMode| TargetMode {
         mode: number(mode),

@@ -62,8 +62,7 @@ fn changed(base: &Base<'_>, keys: &[String]) -> Result<Case, String> {
 pub(super) fn tangent_of(base: &Base<'_>, keys: &[String]) -> Result<SlidingTangent, String> {
     let case = changed(base, keys)?;
     let whole = WholeMesh::solve(&case, base.options, &[base.friction]);
-    let tangent = whole.and_then(|whole| whole.own_tangent(&case));
-    tangent.map_err(|error| error.to_string())
+    whole.and_then(|whole| whole.own_tangent(&case)).map_err(|error| error.to_string())
 }
 
 /// Runs the case with some keys.

@@ -329,8 +329,7 @@ fn promote(candidates: &mut [Candidate]) {
         _ => 3,
     };
     let onset = |own: &Candidate| {
-        let state = own.confirmed.unwrap_or(own.predicted);
-        -state.critical_friction.unwrap_or(f64::INFINITY)
+        -own.confirmed.unwrap_or(own.predicted).critical_friction.unwrap_or(f64::INFINITY)
     };
     candidates.sort_by(|a, b| class(a).cmp(&class(b)).then(onset(a).total_cmp(&onset(b))));
     for (place, own) in candidates.iter_mut().enumerate() {

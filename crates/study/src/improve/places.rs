@@ -94,8 +94,7 @@ fn contact_nodes(base: &Base<'_>) -> BTreeSet<u32> {
         }
         None => std::iter::once(mesh.contact).chain(mesh.opposite).collect(),
     };
-    let nodes = boundaries.iter().flat_map(|&b| &mesh.boundaries[b].nodes);
-    nodes.copied().collect()
+    boundaries.iter().flat_map(|&b| &mesh.boundaries[b].nodes).copied().collect()
 }
 
 /// Whether the contact curve of a plane body is a hole of one body with a rigid cylinder in it, and not its only curve.

@@ -68,8 +68,9 @@ impl Search<'_> {
 
     /// The target that grows fastest.
     fn fastest(&self) -> &Derivatives {
-        let all = self.derivatives.iter();
-        all.max_by(|a, b| a.eigenvalue.re.total_cmp(&b.eigenvalue.re))
+        self.derivatives
+            .iter()
+            .max_by(|a, b| a.eigenvalue.re.total_cmp(&b.eigenvalue.re))
             .expect("there are targets, or nothing would be improved")
     }
 

@@ -28,8 +28,7 @@ impl TransientStudy<'_> {
             self.beyond_modes(analysis),
             coarse_step(record, analysis, time_step),
         ];
-        let found = found.into_iter().flatten();
-        found.chain(self.chains()).collect()
+        found.into_iter().flatten().chain(self.chains()).collect()
     }
 
     /// What stands in time for stiffness that belongs to frequencies.
@@ -94,8 +93,7 @@ impl TransientStudy<'_> {
         let stiffness: f64 =
             sizes.map(|(region, size)| size * materials.of(region).young_modulus).sum();
         let depth = self.stepped.sector.as_ref().map_or(1.0, |_| self.case.thickness);
-        let energies = record.rows.iter().map(|row| row.strain_energy);
-        let energy = energies.fold(0.0, f64::max);
+        let energy = record.rows.iter().map(|row| row.strain_energy).fold(0.0, f64::max);
         let strain = (2.0 * energy / (stiffness * depth)).sqrt();
         if displacement < SMALL_DISPLACEMENT * size && strain < SMALL_STRAIN {
             return None;

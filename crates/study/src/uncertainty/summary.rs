@@ -111,7 +111,9 @@ pub fn summarize(case: &Case, samples: &[Sample]) -> UncertaintySummary {
         [friction, p.value, p.low, p.high]
     });
     let (sobol, index_samples) = sobol_of(&keys, &solved, largest_friction);
-    let decisive = sobol.iter().max_by(|a, b| a.1.total.total_cmp(&b.1.total));
+    // Where no sample turns unstable nothing decides.
+    let varying = sobol.iter().filter(|own| own.1.total > 0.0);
+    let decisive = varying.max_by(|a, b| a.1.total.total_cmp(&b.1.total));
     let failed = samples.len() - count;
     let mut notes = Vec::new();
     if let Some(sample) = samples.iter().find(|sample| sample.error.is_some()) {

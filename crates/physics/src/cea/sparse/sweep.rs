@@ -123,6 +123,8 @@ pub struct SparseSweep<'a> {
     lowest: f64,
     /// Whether branches begin at the first friction coefficient asked for.
     is_continued: bool,
+    /// Whether at rest a stiffness that is not positive leaves motions unheld.
+    is_unheld: bool,
     points: Vec<SolvedPoint>,
     /// Points where motions near critical damping that do not converge are left out.
     leaves_out: Vec<bool>,
@@ -150,25 +152,20 @@ impl<'a> SparseSweep<'a> {
         }
         let highest = modes.frequencies.last().copied().unwrap_or(1.0);
         let linearization = Linearization::of(tangent, highest, modes.centre);
-        let leaves_out = vec![false; grid.len()];
+        let rest = (&modes.vectors, modes.rigid);
         Ok(Self {
             tangent,
             linearization,
             limit: request.limit,
             edge: ContactEdge::of(tangent),
             norms: StructureMatrices::at(tangent, linearization, 0.0).norms(),
-            builder: BasisBuilder::new(
-                tangent,
-                linearization,
-                (&modes.vectors, modes.rigid),
-                modes.factors,
-                watch,
-            ),
+            builder: BasisBuilder::new(tangent, linearization, rest, modes.factors, watch),
+            leaves_out: vec![false; grid.len()],
             grid,
             lowest,
             is_continued,
+            is_unheld: modes.frequencies.first() == Some(&0.0),
             points: Vec::new(),
-            leaves_out,
             unconverged: Vec::new(),
             labels: Vec::new(),
             watch,

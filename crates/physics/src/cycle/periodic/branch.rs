@@ -102,8 +102,7 @@ impl PeriodicBranch {
     /// The smallest of several cycles at the kept value, where stable sliding lies inside it: what a kick must exceed to tip sliding
     /// into the largest.
     pub fn threshold(&self) -> Option<&PeriodicMotion> {
-        let mut both = self.coexistence().into_iter();
-        both.find(|[from, to]| (*from..=*to).contains(&self.own))?;
+        self.coexistence().into_iter().find(|[from, to]| (*from..=*to).contains(&self.own))?;
         let here = self.motions.iter().filter(|own| own.value == self.own);
         let mut motions: Vec<&PeriodicMotion> = here.map(|own| &own.motion).collect();
         crate::order::sort_by_number(&mut motions, |a| a.amplitude);

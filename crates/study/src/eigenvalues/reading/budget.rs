@@ -109,8 +109,7 @@ impl Parts<'_> {
             None => vec![fed],
             Some(balance) => self.feeds(shapes, (i, mode), (&balance[i], sums.kinetic[i], fed)),
         };
-        let names = self.contacts.iter().map(|(name, _)| name.clone());
-        names.zip(shares).collect()
+        self.contacts.iter().map(|(name, _)| name.clone()).zip(shares).collect()
     }
 
     /// `Im(phi^H f) / (2 omega m)` of the forces on the surfaces of each contact; what forces on nodes of two contacts
@@ -123,8 +122,7 @@ impl Parts<'_> {
     ) -> Vec<f64> {
         let (re, im) = (shapes.columns.col_as_slice(2 * i), shapes.columns.col_as_slice(2 * i + 1));
         let work = |dof: &usize| (c64::new(re[*dof], -im[*dof]) * balance[*dof]).im;
-        let contacts = self.contacts.iter();
-        let works = contacts.map(|(_, dofs)| dofs.iter().map(work).sum::<f64>());
+        let works = self.contacts.iter().map(|(_, dofs)| dofs.iter().map(work).sum::<f64>());
         let rates: Vec<f64> =
             works.map(|work| work / (2.0 * mode.eigenvalue.im * kinetic)).collect();
         let left = (fed - rates.iter().sum::<f64>()) / rates.len() as f64;

@@ -107,8 +107,7 @@ fn terms(own: &BasePoint<'_>, state: (&PressedState, usize), friction: f64) -> P
     let at = |powers: &[Triplets]| -> Vec<(usize, usize, f64)> {
         let each = powers.iter().enumerate().flat_map(|(power, terms)| {
             let factor = friction.powi(power as i32);
-            let entries = terms.entries.iter();
-            entries.map(move |&(row, column, value)| (row, column, factor * value))
+            terms.entries.iter().map(move |&(row, column, value)| (row, column, factor * value))
         });
         each.collect()
     };

@@ -38,8 +38,7 @@ pub fn lefts_needed(case: &Case, mass: MassKind, shown: &[f64], modes: f64) -> V
     let own = case.contact.sliding.friction_coefficient;
     let is_wanted =
         |mu: &f64| modes * shown.len() as f64 <= MOST_MODES || [least, most, own].contains(mu);
-    let wanted = shown.iter().copied().filter(|mu| is_made(case, mass) && is_wanted(mu));
-    wanted.collect()
+    shown.iter().copied().filter(|mu| is_made(case, mass) && is_wanted(mu)).collect()
 }
 
 /// Gives its error to each mode that has both vectors, and to each critical friction of the sweep.

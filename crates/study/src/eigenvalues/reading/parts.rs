@@ -124,6 +124,5 @@ fn contact_dofs(mesh: &Mesh, contacts: &[(String, Vec<usize>)]) -> Vec<(String, 
         let d = mesh.dimension;
         dofs[owner].extend((0..d).map(|k| d * node + k));
     }
-    let names = contacts.iter().map(|(name, _)| name.clone());
-    names.zip(dofs).collect()
+    contacts.iter().map(|(name, _)| name.clone()).zip(dofs).collect()
 }

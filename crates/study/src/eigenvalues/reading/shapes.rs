@@ -102,8 +102,7 @@ impl<'a> Shapes<'a> {
     /// A mode over all dofs.
     pub fn column(&self, i: usize) -> Vec<c64> {
         let [re, im] = [2 * i, 2 * i + 1].map(|column| self.columns.col_as_slice(column));
-        let parts = re.iter().zip(im);
-        parts.map(|(&re, &im)| c64::new(re, im)).collect()
+        re.iter().zip(im).map(|(&re, &im)| c64::new(re, im)).collect()
     }
 
     /// Adds `factor A phi` of each mode to its balance.

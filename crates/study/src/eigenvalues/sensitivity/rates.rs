@@ -161,8 +161,7 @@ pub(super) fn rates_of(case: &Case, cea: &Cea, pairs: &Pairs, (key, value): (&st
     let step = step_of(key, value);
     let found = match pairs {
         Pairs::Waves(all, pressed) => {
-            let found = rates_of_waves((case, cea), (all, pressed), step, &moved);
-            found.map(|rates| (rates, None))
+            rates_of_waves((case, cea), (all, pressed), step, &moved).map(|rates| (rates, None))
         }
         Pairs::Whole(base, places) => {
             let last = key.rsplit('.').next().unwrap_or(key);
@@ -172,8 +171,7 @@ pub(super) fn rates_of(case: &Case, cea: &Cea, pairs: &Pairs, (key, value): (&st
                 // The first place is the case's own operating point, which a friction coefficient of a pair moves.
                 let mut frictions = base.frictions.clone();
                 frictions[0] = moved.contact.sliding.friction_coefficient;
-                let own = Linearized::of(&moved, cea, &frictions, like);
-                own.map_err(|error| error.to_string())
+                Linearized::of(&moved, cea, &frictions, like).map_err(|error| error.to_string())
             };
             quotient(step, beside).map(|terms| whole_rates(base, places, &terms))
         }

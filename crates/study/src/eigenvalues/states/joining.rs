@@ -52,8 +52,7 @@ fn jumps_between<'a>(before: &'a Part, after: &'a Part) -> impl Iterator<Item = 
     let ends = before.last().zip(after.first());
     ends.into_iter().flat_map(|(last, first)| {
         first.known().enumerate().filter_map(move |(j, mode)| {
-            let mut old = last.known().enumerate();
-            let (i, same) = old.find(|(_, other)| is_same(other, mode))?;
+            let (i, same) = last.known().enumerate().find(|(_, other)| is_same(other, mode))?;
             let is_listed = i < last.modes.len() || j < first.modes.len();
             (is_listed && same.is_unstable() != mode.is_unstable())
                 .then_some(Jump { friction_coefficient: first.friction_coefficient, mode })

@@ -11,7 +11,7 @@ impl SparseSweep<'_> {
     /// From where on a motion grows without oscillating, as an interval of the branch 0 and the frequency 0.
     ///
     /// `det K(mu)` has the sign of `(-1)^n` with `n` positive real eigenvalues: it changes where one passes zero. A mode that friction
-    /// takes to frequency zero becomes two of them, so the ends of branches are where to look; a sweep that is continued may begin so.
+    /// takes to frequency zero becomes two of them, so the ends of branches are where to look; a sweep may begin so.
     ///
     /// # Errors
     /// If the analysis of the pattern fails.
@@ -24,7 +24,7 @@ impl SparseSweep<'_> {
         }
         let first = self.grid[self.first_asked()];
         // Of two the determinant has no sign.
-        let is_unstable = self.is_continued
+        let is_unstable = (self.is_continued || self.is_unheld)
             && (self.static_determinant(first, 0.0)? < 0.0
                 || self.builder.model.static_growth(first)? > 1);
         let ends = branches.iter().filter_map(|branch| branch.end.as_ref()?.diverges_at);
