@@ -64,10 +64,6 @@ fn what_cannot_be_found_says_why_and_what_to_change() {
     let coarse =
         ["mesh.circumferential_elements=60", "mesh.radial_elements=12", "cycle.harmonics=[2]"];
     end(&coarse).code(1).warns(&["Refine the mesh", "mesh.circumferential_elements"]);
-    // A wave whose only nonlinearity is one open phase, by which normal contact feeds it: 0.1 um, and no motion of the disc.
-    let coarse =
-        ["mesh.circumferential_elements=36 ; mesh.radial_elements=8 ; cycle.harmonics=[2]"];
-    end(&coarse).code(1).warns(&["draws energy from normal contact ; Refine the mesh"]);
 }
 
 #[test]
@@ -80,10 +76,10 @@ fn below_every_onset_steady_sliding_is_said_to_be_stable_once_and_that_is_no_fai
 
 #[test]
 fn a_wave_that_the_transient_does_not_confirm_is_said_to_be_none() {
-    // So few elements carry a wave that opens and lands, of which the disc's time steps make another one.
+    // On so few elements a wave is found whose only nonlinearity is one open phase; the disc has no such motion.
     let coarse =
-        ["mesh.circumferential_elements=60 ; mesh.radial_elements=12 ; cycle.harmonics=[1] ; \
-         contact.friction_coefficient=0.9 ; cycle.stability=none ; cycle.continuation.count=2 ; \
+        ["mesh.circumferential_elements=36 ; mesh.radial_elements=8 ; cycle.harmonics=[2] ; \
+         cycle.stability=none ; cycle.continuation.count=2 ; \
          cycle.continuation.from=600 ; cycle.continuation.to=620"];
     let run = || waves("cycle", &coarse).args(&["--json"]);
     let summary = run().end().warns(&["NOT CONFIRMED", "refine the mesh"]).value();

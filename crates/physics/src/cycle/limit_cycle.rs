@@ -114,7 +114,7 @@ impl LimitCycle {
     }
 
     /// Whether open points lie outside the cylinder, within a fiftieth of interference and motion, and landing takes
-    /// energy, within a two-hundredth of the external power and a tenth of what the vibration loses in the body.
+    /// energy, within a two-hundredth of the external power.
     ///
     /// The contact law looks ahead of the gap; on meshes too coarse for a wave it can be met by one that is neither.
     pub fn is_physical(&self) -> bool {
@@ -125,9 +125,7 @@ impl LimitCycle {
             (deepest.min(gap), widest.max(gap))
         });
         let is_outside = -deepest < 0.02 * (interference + widest);
-        let external = self.powers.contact.external.abs();
-        let most = (0.1 * self.powers.material_damping).min(5e-3 * external).max(1e-9 * external);
-        is_outside && self.powers.contact.normal < most
+        is_outside && self.powers.contact.normal < 5e-3 * self.powers.contact.external.abs()
     }
 
     /// `omega / 2 pi`, Hz: the main frequency of any point of the body.
