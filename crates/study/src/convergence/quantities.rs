@@ -120,8 +120,8 @@ fn name_by_rank(
     Ok(())
 }
 
-/// Degrees of freedom of nodes in the same place on the coarser and on the finer of two meshes: the first ones of a mesh
-/// that was split.
+/// Degrees of freedom of nodes in the same place on the coarser and on the finer of two meshes: of a mesh that was
+/// split the first ones.
 fn common_dofs(coarse: &Mesh, fine: &Mesh, distance: f64) -> Vec<[usize; 2]> {
     let (count, dimension) = (coarse.node_count(), coarse.dimension);
     let nodes: Vec<[usize; 2]> = if fine.nodes.starts_with(&coarse.nodes) {
