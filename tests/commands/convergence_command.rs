@@ -30,9 +30,8 @@ fn quantities(series: &Value) -> &Vec<Value> {
 fn eigenvalues_converge_with_twice_the_degree_of_the_elements() {
     let coarse =
         ["mesh.element=quad8", "mesh.circumferential_elements=16", "mesh.radial_elements=4"];
-    for (factors, set, wanted, bound) in
-        [("[1, 2, 4]", &[][..], 2.0, 0.2), ("[1, 1.5, 2.25]", &coarse, 4.0, 0.5)]
-    {
+    let levels = [("[1, 2, 4]", &[][..], 2.0, 0.2), ("[1, 1.5, 2.25]", &coarse, 4.0, 0.5)];
+    for (factors, set, wanted, bound) in levels {
         let text = disc(&format!("{CEA}[convergence]\nfactors = {factors}\n"));
         let summary = summary(folder().path(), &text, set);
         let all = quantities(&summary["series"][0]);
@@ -121,8 +120,7 @@ fn limit_cycles_are_compared_harmonic_by_harmonic_and_doubtful_levels_are_named(
     assert_eq!(verdict, "missing");
 }
 
-/// A body of revolution on its whole mesh is refined as it is generated: split elements have straight edges, and no cylinder fits
-/// into their bore.
+/// A body of revolution on its whole mesh is refined as it is generated: no cylinder fits into the straight edges of split elements.
 #[test]
 fn a_body_of_revolution_on_its_whole_mesh_stays_round_when_it_is_refined() {
     let sections = "[cea]\nmethod = \"sparse\"\nmodes = 4\n[convergence]\nfactors = [1, 2, 4]\n";

@@ -1,5 +1,4 @@
-//! README and guide: every command that they show runs, every printed result that they show is printed, and sentences and
-//! lines have the length of the house.
+//! README and guide: every command shown runs, every result shown is printed, sentences and lines have the house's length.
 
 use crate::architecture::rust_files;
 use crate::prelude::*;

@@ -105,9 +105,8 @@ fn a_line_that_no_mode_can_be_is_named() {
 
 #[test]
 fn more_parameters_than_data_and_bad_tables_are_refused_before_anything_runs() {
-    for (rows, said) in
-        [("5857\n7655", &["3 parameters", "2 measured"][..]), ("abc", &["modes.csv:2:1"])]
-    {
+    let tables = [("5857\n7655", &["3 parameters", "2 measured"][..]), ("abc", &["modes.csv:2:1"])];
+    for (rows, said) in tables {
         let table = format!("frequency_hz\n{rows}\n");
         fitted("fit-table-1.toml", &table, &COARSE_DISC).code(2).warns(said);
     }

@@ -176,8 +176,8 @@ fn two_responses_of_one_body_have_common_poles_with_smaller_errors() {
     let alone = identify(&both[..1], None).unwrap();
     let joint = identify(&both, None).unwrap();
     assert_eq!(joint.fit.modes.len(), 4);
-    for ((a, b), (frequency, zeta, _)) in joint.fit.modes.iter().zip(&alone.fit.modes).zip(SEPARATE)
-    {
+    let pairs = joint.fit.modes.iter().zip(&alone.fit.modes);
+    for ((a, b), (frequency, zeta, _)) in pairs.zip(SEPARATE) {
         let miss = (a.damping_factor.value - zeta).abs();
         assert!(miss < 5.0 * a.standard_error, "{a:?}");
         assert!((a.frequency_hz.value / frequency - 1.0).abs() < 1e-4);

@@ -60,9 +60,8 @@ fn a_body_of_revolution_names_its_four_faces_and_the_one_that_a_ring_presses_on(
         ("top", "contact", 120, face),
         ("bottom", "guide", 120, face),
     ];
-    for ((name, condition, nodes, area), found) in
-        rows.iter().zip(summary["mesh"]["boundaries"].as_array().unwrap())
-    {
+    let boundaries = summary["mesh"]["boundaries"].as_array().unwrap();
+    for ((name, condition, nodes, area), found) in rows.iter().zip(boundaries) {
         assert_eq!((&found["name"], &found["condition"]), (&(*name).into(), &(*condition).into()));
         assert_eq!(found["nodes"], *nodes);
         near_each(&[found["area_m2"].as_f64().unwrap()], &[*area], 1e-12);

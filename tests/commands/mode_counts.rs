@@ -57,8 +57,7 @@ fn harmonics_hold_as_many_modes_as_the_whole_mesh() {
     }
 }
 
-/// A disc without damping on a soft contact: every branch that friction feeds grows, by a part of a thousand million. With little damping
-/// none does, and nothing is said.
+/// An undamped disc on a soft contact: every branch that friction feeds grows by a billionth. With little damping none does.
 #[test]
 fn branches_that_hardly_grow_are_told_from_squeal() {
     let run = |damping: &str| {
@@ -102,8 +101,7 @@ fn modes_near_jamming_are_listed_as_far_as_rounding_lets_them() {
     }
 }
 
-/// Independent: the whole mesh. Friction that falls steeply ends the oscillation of the lowest mode, and the third lowest
-/// comes from far above those at rest.
+/// Independent: the whole mesh. Friction that falls steeply overdamps the lowest mode; the third comes from far above at rest.
 #[test]
 fn the_lowest_modes_are_as_many_where_one_stops_oscillating() {
     let folder = folder_with(&[("disc.toml", disc_of([18, 3], "[cea]\nmodes = 3\n").as_bytes())]);

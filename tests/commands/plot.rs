@@ -77,8 +77,7 @@ const SHORT: [&str; 3] = [
 ];
 const CYCLE_MESH: &str = "mesh.circumferential_elements=90 ; mesh.radial_elements=18";
 
-/// Holds the figures of a run to be there and to be drawn again: the command on a shipped case, the changes to it, the figures,
-/// one of them and the words in it.
+/// Holds figures of a run to be there and to be drawn again: command, shipped case, changes, figures, one of them and its words.
 macro_rules! drawn_again {
     ($($name:ident: $command:literal on $case:literal with $set:expr;
        $expected:literal, of which $figure:literal says $words:expr;)*) => {$(

@@ -90,8 +90,7 @@ const RING: [&str; 2] = [
     "mesh.axial_elements=2",
 ];
 
-/// Independent, as above: parts of several materials are those of the whole mesh in steps: energies and losses of every one, from a
-/// press that reaches both materials.
+/// Independent, as above: energies and losses of several materials are those of the whole mesh in steps, pressed onto both.
 #[test]
 fn several_materials_of_a_body_of_revolution_are_those_of_its_whole_mesh() {
     let sets = [RING[0], RING[1], "transient={duration=3e-4,expansion_time=1e-4}"];

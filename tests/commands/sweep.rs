@@ -235,8 +235,7 @@ fn sweeps_and_other_commands_keep_out_of_each_others_folder() {
     assert!(SweepFolder::find(folder.path(), "sweep").is_err());
 }
 
-/// Frictions, directions of rotation and moduli of a coarse disc: reversed rotation mirrors the disc, so that each condition has the
-/// modes of its mirror image.
+/// Frictions, directions and moduli of a coarse disc: reversed rotation mirrors it, so each condition has modes of its mirror image.
 #[test]
 fn the_operating_matrix_lists_every_unstable_mode_and_reversed_rotation_mirrors_it() {
     let sections = "[cea]\nmodes = 8\nfriction_coefficients = [0.1, 0.3]\n[sweep]\nanalyses = [\"cea\"]\n\

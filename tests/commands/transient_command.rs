@@ -239,9 +239,8 @@ fn a_refused_continuation_leaves_the_finished_folder_as_it_was() {
 
 #[test]
 fn no_number_that_is_none_is_printed_or_written() {
-    for (name, set) in
-        [("still", "contact.rotation_speed_rpm=0"), ("short", "transient.duration=0.0006")]
-    {
+    let cases = [("still", "contact.rotation_speed_rpm=0"), ("short", "transient.duration=0.0006")];
+    for (name, set) in cases {
         let answer = transient("out".as_ref(), &[set]).done();
         let files = ["summary.json", "energy.csv", "contact.csv", "harmonics.csv", "probe-1.csv"];
         for text in files.map(|file| answer.text(file)).iter().chain([&answer.stdout]) {
@@ -277,9 +276,8 @@ fn a_damaged_checkpoint_is_refused_with_the_reason_and_left_alone() {
 
 #[test]
 fn shipped_cases_end_in_the_limit_cycles_that_their_titles_say() {
-    for (name, harmonic, lifts_off) in
-        [("polycarbonate-610rpm.toml", 2, true), ("polycarbonate-70rpm.toml", 1, false)]
-    {
+    let cases = [("polycarbonate-610rpm.toml", 2, true), ("polycarbonate-70rpm.toml", 1, false)];
+    for (name, harmonic, lifts_off) in cases {
         let run = coarse("transient", name, "out".as_ref(), &["transient.duration=0.04"]);
         let summary = run.args(&["--no-figures"]).done().summary();
         assert_eq!(summary["main_harmonic"], harmonic, "{name}");

@@ -58,8 +58,7 @@ impl Out {
     }
 }
 
-/// `mesh` with its boundaries and its regions as physical groups; node `i` gets the number `numbers[i]`, or `i + 1`, and the place
-/// `place(x, y)`.
+/// `mesh` with boundaries and regions as physical groups; node `i` has the number `numbers[i]`, or `i + 1`, and the place `place(x, y)`.
 pub fn write_msh(
     mesh: &Mesh,
     form: Form,

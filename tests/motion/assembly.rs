@@ -1,6 +1,5 @@
 //! Transients of solid bodies that are tied together and slide on each other.
 
-use crate::from_a_mode::grows_from;
 use crate::prelude::*;
 
 const DAMPING: RayleighDamping = rayleigh_damping(50.0, 1e-7);
@@ -152,8 +151,7 @@ fn the_energy_of_an_assembly_closes_from_rest_to_sliding() {
     }
 }
 
-/// Independent, as for two bodies: the base state under load and interference is at rest, and what the pushing of a rigid plane
-/// does is in the energy.
+/// Independent: the base state under load and interference is at rest; what pushing a rigid plane does is in the energy.
 #[test]
 fn a_block_on_a_rigid_plane_rests_in_its_base_state_and_its_energy_closes() {
     let mesh = bodies([[4, 3, 2], [5, 4, 2], [4, 3, 1]], false);
@@ -170,8 +168,7 @@ fn a_block_on_a_rigid_plane_rests_in_its_base_state_and_its_energy_closes() {
     }
 }
 
-/// Theory (Gershgorin): dashpots of a support that outweigh the frequencies of the body bound the automatic step, by the sums of
-/// the rows of their matrix.
+/// Theory (Gershgorin): dashpots that outweigh the frequencies of the body bound the step, by the sums of their rows.
 #[test]
 fn heavy_dashpots_of_a_support_bound_the_step() {
     let mut mesh = mesh([4, 3, 1]);
@@ -241,8 +238,7 @@ fn nearest(modes: &[ComplexMode], frequency_hz: f64) -> [f64; 2] {
 /// Band of the losses, Hz.
 const BAND: [f64; 2] = [200.0, 2e5];
 
-/// Materials in time, a chain in place of the losses of the upper block, and those of the eigenvalue analysis, which have the
-/// modulus of that chain as a table.
+/// Materials in time, a chain for the losses of the upper block, and those of the eigenvalue analysis, with its modulus as a table.
 fn losing(mesh: &Mesh) -> [Vec<RegionMaterial>; 2] {
     let upper = mesh.regions.iter().position(|name| name == "upper");
     let chain = || MaxwellChain::fit(&|_| c64::new(1.0, 0.01), BAND);

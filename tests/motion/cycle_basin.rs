@@ -1,7 +1,6 @@
 //! Which of two motions wins on a body without symmetry.
 //!
-//! Independent: the unstable cycle between stable sliding and a stable cycle, from its branch; waves of the annulus seeded and
-//! read by their harmonics.
+//! Independent: the unstable cycle between stable sliding and a stable cycle; waves of the annulus, read by their harmonics.
 
 use crate::cycle_branch::over_speed;
 use crate::prelude::*;
@@ -37,8 +36,7 @@ fn a_kick_tips_sliding_into_its_cycle_at_the_amplitude_of_the_unstable_cycle() {
     assert!(low < 1.1 * expected && high > 0.9 * expected, "{low} {high} {expected}");
 }
 
-/// Two waves of the annulus, once seeded along their harmonics and told apart by them, once by their modes: the ratio at which the
-/// first node sticks decides in both.
+/// Two waves of the annulus, seeded and told apart by harmonics or by modes: the ratio at which the first node sticks decides in both.
 #[test]
 fn modes_of_an_annulus_compete_as_its_waves_do() {
     let coarse = "mesh.circumferential_elements=48 ; mesh.radial_elements=10 ; \

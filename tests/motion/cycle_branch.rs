@@ -42,8 +42,7 @@ fn a_branch_bends_back_at_the_speed_at_which_integration_from_event_to_event_los
     assert_eq!(folds.len(), 1, "{folds:?} {:?}", branch.ends);
     let (fold, onset) = (folds[0], branch.onsets[0]);
     assert!(fold > 1.02 * onset, "{fold} {onset}");
-    // From a large start the motion goes on for hundreds of periods below the fold, and dies above it; just below it few starts
-    // end on the cycle.
+    // A large start goes on for hundreds of periods below the fold, and dies above it; just below it few end on the cycle.
     let lives = |speed: f64| at_speed(folder.path(), speed).run(LARGE, 1.2e-8, 300, 20);
     assert!(lives(1.02 * fold).is_none());
     let (frequency, stick) = lives(0.9 * fold).expect("a cycle below the fold");

@@ -22,8 +22,7 @@ pub fn found(result: &PeriodicResult) -> &FoundCycle {
     result.outcome.as_ref().unwrap()
 }
 
-/// Holds the first cycle of a case to the end of its transient, which has a step of its own: frequency 1e-3, statuses 0.02, powers
-/// 2 % of the external one.
+/// Holds a case's first cycle to the end of its transient with another step: frequency 1e-3, statuses 0.02, powers 2 % of the external.
 pub fn hold_to_transient(case: &Case) -> PeriodicResult {
     let result = cycles(case).remove(0);
     let motion = &found(&result).motion;

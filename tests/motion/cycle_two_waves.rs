@@ -1,5 +1,4 @@
-//! Motions of two frequencies: balance on both phases against a transient of the mesh, energy, and birth where the cycle loses
-//! its stability.
+//! Motions of two frequencies against a transient of the mesh, their energy, and birth where the cycle loses its stability.
 
 use crate::prelude::*;
 

@@ -2,8 +2,7 @@
 
 use crate::prelude::*;
 
-/// A square of one element on a moving plane, its far side held: two contact nodes that stick and slip under friction that
-/// falls with speed.
+/// A square of one element on a moving plane, its far side held: two nodes stick and slip under friction that falls with speed.
 pub fn oscillator(folder: &Path, overrides: &[&str]) -> Case {
     let mesh = plane_block([0.01; 2], [1; 2], ["face", "back", "body"]);
     let text = include_str!("../cases/oscillator.toml");

@@ -189,9 +189,8 @@ fn exact_modes(tangent: &SlidingTangent, of: Linearization, mu: f64, wanted: usi
 #[test]
 fn sweep_agrees_with_krylov_schur_at_every_friction() {
     let many = (0..9).map(|i| f64::from(i) * 0.075).collect();
-    for (damping_model, values, count, wanted, residual) in
-        [(WholeTangent, vec![0.6], 24, 30, 1e-12), (BodyOnly, many, 8, 24, 1e-9)]
-    {
+    let kinds = [(WholeTangent, vec![0.6], 24, 30, 1e-12), (BodyOnly, many, 8, 24, 1e-9)];
+    for (damping_model, values, count, wanted, residual) in kinds {
         let tangent = disc(48, 10, damping_model);
         let linearization = Linearization::of(&tangent, 1e5, Centre::default());
         let points = swept(&tangent, &values, Lowest(count)).points.into_iter();

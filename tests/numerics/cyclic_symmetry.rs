@@ -6,8 +6,7 @@ use frictionsim::results::cea::{self, View};
 use frictionsim::study::eigenvalues::{self, Solution};
 use frictionsim::study::uncertainty::Sampler;
 
-/// One of `count` sectors of a disc as a file in MSH 2.2: bent cut faces, uneven elements, and a hole, the boundary "screw", off the
-/// middle.
+/// One of `count` sectors of a disc in MSH 2.2: bent cut faces, uneven elements, and a hole, the boundary "screw", off the middle.
 fn disc_sector(count: usize, [around, radial]: [usize; 2]) -> Vec<u8> {
     let [columns, layers] = [around, radial].map(|count| count as f64);
     let place = |mut t: f64, mut r: f64| {
@@ -75,8 +74,7 @@ fn assert_same(name: &str, mesh: &[u8], text: &str) {
     assert!(worst[0] < 1e-9 && worst[1] < 5e-9 && worst[2] < 0.2, "{worst:?}");
 }
 
-/// Consistency check: waves around the body against its whole mesh, with rigid contact and with a springy one, of an odd and an even
-/// number of sectors.
+/// Consistency check: waves around the body against its whole mesh, with rigid and springy contact, of odd and even numbers of sectors.
 #[test]
 fn waves_around_a_plane_body_have_the_spectrum_of_its_whole_mesh() {
     let analysis = "[cea]\nmodes = 20\nfriction_coefficients = [0.0, 0.2, 0.4, 0.6]\n";
@@ -153,8 +151,7 @@ fn a_body_with_one_mass_is_solved_whole() {
     assert!(note.unwrap().contains("mass of sector"), "{note:?}");
 }
 
-/// A body of sectors says its nodal diameters in every table, and its samples have the onset of the analysis although the case's own
-/// friction lies above it.
+/// A body of sectors says its nodal diameters in every table; its samples have the onset of the analysis, above which is its friction.
 #[test]
 fn every_table_of_a_body_of_sectors_has_its_nodal_diameters_and_samples_have_its_onsets() {
     let more = "[cea]\nmodes = 8\nfriction_coefficients = [0.0, 0.2, 0.4]\n[uncertainty]\nsamples = 2\nindex_samples = 0\n\

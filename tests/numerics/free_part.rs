@@ -84,8 +84,7 @@ fn measured(case: &Case, modes: usize, noise: f64, seed: u64) -> Vec<MeasuredMod
     lines.map(|(i, omega)| measured_mode(i + 2, omega / TAU * off(), None)).collect()
 }
 
-/// Statistics: of nine constants fitted to thirty free modes with errors of 0.1 %, nine in ten and more lie inside their 95 %
-/// intervals, seed by seed.
+/// Statistics: of nine constants fitted to thirty free modes with errors of 0.1 % nine in ten lie inside their 95 % intervals.
 #[test]
 fn nine_constants_of_a_lining_come_out_of_its_free_modes() {
     let case = lining("nine", &fitted(&CONSTANTS), &[]);

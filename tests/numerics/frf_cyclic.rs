@@ -59,9 +59,8 @@ fn harmonics_of_a_free_and_a_clamped_body_sum_to_the_response_of_the_whole_mesh(
     for specification in &meshes() {
         let mesh = AnnulusMesh::generate(specification).unwrap().mesh;
         let sector = SectorMesh::generate(specification).unwrap();
-        for (is_clamped, mass) in
-            [(false, Consistent), (false, Lumped), (true, Consistent), (true, Lumped)]
-        {
+        let bodies = [(false, Consistent), (false, Lumped), (true, Consistent), (true, Lumped)];
+        for (is_clamped, mass) in bodies {
             let whole = FrfSystem::body(&mesh, &POLYCARBONATE, mass, DAMPING, is_clamped);
             let cyclic = CyclicSystem::body(&sector, &POLYCARBONATE, mass, DAMPING, is_clamped);
             let what = format!("{:?}, clamped {is_clamped}, {mass:?}", specification.element);
@@ -94,12 +93,11 @@ fn a_support_of_dashpots_alone_damps_the_response() {
 #[test]
 fn harmonics_in_sliding_contact_sum_to_the_response_of_the_whole_mesh() {
     for specification in meshes() {
-        for (damping_model, contact) in
-            [(WholeTangent, contact(610.0)), (BodyOnly, contact(610.0)), (BodyOnly, falling(610.0))]
-        {
-            for (normal_stiffness, loss_factor) in
-                [(None, 0.0), (Some(7.4e12), 0.0), (None, 0.02), (Some(7.4e12), 0.05)]
-            {
+        let rigid = contact(610.0);
+        let kinds = [(WholeTangent, rigid), (BodyOnly, rigid), (BodyOnly, falling(610.0))];
+        for (damping_model, contact) in kinds {
+            let contacts = [(None, 0.0), (Some(7.4e12), 0.0), (None, 0.02), (Some(7.4e12), 0.05)];
+            for (normal_stiffness, loss_factor) in contacts {
                 let material = ElasticMaterial { loss_factor, ..POLYCARBONATE };
                 let own = if normal_stiffness.is_some() { loss_factor } else { 0.0 };
                 let options = TangentOptions {

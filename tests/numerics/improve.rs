@@ -23,15 +23,13 @@ impl Body {
         nearest(&(friction, sweep), eigenvalue)
     }
 
-    /// `d growth / d p` at `p = 0`, where the eigenvalue is the given one, by the second-order difference over `0`, `h`, `2 h`; `keys`
-    /// make a value of `p`.
+    /// `d growth / d p` at `p = 0`, near the given eigenvalue, by the difference over `0`, `h`, `2 h`; `keys` make a value of `p`.
     fn difference(&self, eigenvalue: c64, step: f64, keys: &dyn Fn(f64) -> Vec<String>) -> f64 {
         let [one, two] = [step, 2.0 * step].map(|p| self.nearest(&keys(p), eigenvalue).re);
         (4.0 * one - two - 3.0 * eigenvalue.re) / (2.0 * step)
     }
 
-    /// Holds the fields of the fastest mode to differences at some nodes, and in the region `patch`; steps are of mass, kg,
-    /// stiffness, N/m, and damping, N s/m.
+    /// Holds fields of the fastest mode to differences at some nodes and in the region `patch`; steps in kg, N/m and N s/m.
     fn check_fields(&self, nodes: &[usize], [mass, spring, dashpot]: [f64; 3]) {
         let found = self.improved();
         let modes = found.summary.modes.iter().enumerate();

@@ -136,8 +136,7 @@ fn exported_matrices_of_solid_bodies_have_the_eigenvalues_of_the_analysis() {
         let folder = folder_with(&files);
         let answer = solved(&folder, &[&[stiffer], contact].concat());
         assert!(listed_modes_found(&folder, 0.4) >= 6);
-        // Each point parts by one where the upper block, whose nodes come second in the file, is lifted by one; pressed rigid points do
-        // not part.
+        // Points part by one where the upper block, second in the file, is lifted by one; pressed rigid points do not part.
         let unknowns = columns(&answer.rows("unknowns.csv"), ["node", "direction_z"]);
         let lifted = Mat::from_fn(unknowns.len(), 1, |unknown, _| match unknowns[unknown] {
             [node, along] if node > 18.0 => along,

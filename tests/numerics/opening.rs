@@ -108,8 +108,7 @@ fn static_growth(text: &str, folder: &TempDir, friction: f64) -> Vec<f64> {
     real.map(|own| own.re).collect()
 }
 
-/// Where it is lost a mode has come to frequency zero. Beyond 0.376 a second one has, and the determinant of the stiffness has the sign
-/// that it had.
+/// There a mode has come to frequency zero; beyond 0.376 so has a second, and the determinant of the stiffness has its sign again.
 #[test]
 fn static_stability_is_lost_where_a_real_eigenvalue_passes_zero() {
     let folder = strut(0.3);
@@ -136,9 +135,8 @@ fn static_stability_is_lost_where_a_real_eigenvalue_passes_zero() {
 #[test]
 fn what_is_statically_unstable_without_friction_is_told_from_the_first_value_on() {
     let folder = strut(0.0);
-    for (interference, growing, frictions) in
-        [("5e-4", 0, [0.0, 0.05]), ("2e-3", 1, [0.0, 0.05]), ("2e-3", 1, [0.03, 0.05])]
-    {
+    let struts = [("5e-4", 0, [0.0, 0.05]), ("2e-3", 1, [0.0, 0.05]), ("2e-3", 1, [0.03, 0.05])];
+    for (interference, growing, frictions) in struts {
         let text = STRUT.replace("1e-3", interference);
         let found = sweep_of(&text, &folder, &frictions);
         let statically = found.intervals.iter().filter(|own| own.branch == 0);

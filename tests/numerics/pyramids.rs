@@ -59,8 +59,7 @@ fn bodies_of_mixed_shapes_are_refined_without_cracks() {
     }
 }
 
-/// A pyramid of thirteen nodes with the parabolic edges of a bulging base; Gmsh's reference manual numbers the middles by the
-/// edges 01, 03, 04, 12, 14, 23, 24, 34.
+/// A pyramid of thirteen nodes with a bulging base; Gmsh's manual numbers the middles by edges 01, 03, 04, 12, 14, 23, 24, 34.
 #[test]
 fn pyramids_of_gmsh_are_read_in_the_order_of_its_manual() {
     let corners =

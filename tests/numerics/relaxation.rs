@@ -40,8 +40,7 @@ fn eigenvalue() -> f64 {
     fastest(modes.iter().filter(|mode| mode.harmonic == HARMONIC)).growth_rate()
 }
 
-/// Cross-method: a seeded wave grows as the eigenvalue at its own frequency says; the energy of springs and what dashpots take of it
-/// are in the balance.
+/// Cross-method: a seeded wave grows as the eigenvalue at its frequency says; springs and dashpots are in the balance of energy.
 #[test]
 fn a_wave_grows_as_its_eigenvalue_says_with_a_chain_in_place_of_a_loss_factor() {
     let (disc, materials) = (disc(), relaxed());

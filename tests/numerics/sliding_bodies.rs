@@ -288,8 +288,7 @@ fn of_two_modes_that_meet_one_has_an_onset() {
     assert_eq!(growing.count(), found.intervals.len(), "{:?}", found.intervals);
 }
 
-/// Damping of one part keeps the six motions of the whole on soft springs from oscillating. They are no modes, and those asked for lie
-/// above them: none was found.
+/// Damping of one part keeps six motions of the whole on soft springs from oscillating: no modes. Of those above them none was found.
 #[test]
 fn overdamped_motions_of_soft_springs_take_no_places_of_modes() {
     let part = |name, z| brick(name, [0.0, 0.0, z], [0.03, 0.02, 0.02], [2, 2, 1]);

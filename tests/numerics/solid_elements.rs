@@ -275,8 +275,7 @@ fn the_lame_mode_of_a_cube_converges_with_the_order_of_the_kind() {
         let (cells, expected) = if kind.is_quadratic() { ([4, 6], 4.0) } else { (linear, 2.0) };
         let errors = cells.map(|cells| error(kind, cells));
         let order = (errors[0] / errors[1]).ln() / (cells[1] as f64 / cells[0] as f64).ln();
-        // Split cells have not lost their next term yet (1.60 and 3.62 here, 1.76 with 8 and 14 cells, 1.37 and 3.2 with half as
-        // many); bricks have.
+        // Split cells have not lost their next term yet (1.60 and 3.62 here, 1.37 and 3.2 with half as many); bricks have.
         let shortfall = if [Hex8, Hex20].contains(&kind) { 0.02 } else { 0.4 };
         assert!(order > expected - shortfall, "{kind:?} {errors:?} order {order}");
     }

@@ -1,5 +1,4 @@
-//! Structural damping `K (1 + i eta)`: closed form where one loss factor holds for the whole body, dense complex matrices where
-//! disc and shaft have their own.
+//! Structural damping `K (1 + i eta)`: closed form for one loss factor, dense complex matrices where disc and shaft have their own.
 
 use crate::prelude::*;
 use crate::shaft::STEEL;

@@ -1,7 +1,6 @@
 //! Bodies held in any way: random blocks on springs from 1e3 to 1e13 Pa/m, held in some directions, or free.
 //!
-//! Independent check: a dense decomposition of the exported matrices. What both leave is round-off of the stiffest waves of the mesh:
-//! that much a frequency may differ.
+//! Independent check: a dense decomposition of the exported matrices; frequencies may differ by round-off of the stiffest waves.
 
 use crate::prelude::*;
 use crate::sliding_bodies::{holds_for_all, sums};

@@ -178,8 +178,7 @@ fn mount(name: &str, table: &str) -> Case {
     case_beside(name, &files, include_str!("../commands/refused/mount.toml"), AS_IT_IS)
 }
 
-/// Closed form: `lambda^2 m + k(f) (1 + i eta(f)) = 0` with `k = E A / h` and a third of the rubber's mass, from a file; its hash
-/// follows the file.
+/// Closed form: `lambda^2 m + k(f) (1 + i eta(f)) = 0`, `k = E A / h` and a third of the rubber's mass; the file's hash follows it.
 #[test]
 fn a_rubber_mounted_mass_moves_at_the_modulus_of_its_own_frequency() {
     let case = mount("mount", RUBBER);

@@ -60,8 +60,7 @@ fn a_flat_table_of_a_shaft_is_its_material() {
     near_each(&tabled, &constant, 1e-8);
 }
 
-/// Independent: losses of disc, shaft, springs of the contact and support, and a modulus over frequency, harmonic by harmonic and
-/// on the whole mesh.
+/// Independent: losses of disc, shaft, contact and support, and a modulus over frequency, by harmonics and on the whole mesh.
 #[test]
 fn losses_of_an_annulus_by_harmonics_are_those_of_its_whole_mesh() {
     let lossy = "young_modulus = 2.5e9\nloss_factor = 0.02";

@@ -35,8 +35,7 @@ pub fn is_of(pair: &WavePair) -> impl Fn(&&ModeBranch) -> bool {
 pub struct Differences {
     /// Below these the branches are compared, and looked for beside the value of a parameter, Hz.
     pub limits_hz: [f64; 2],
-    /// Whether eigenvalues are those of the whole harmonics: what a small space leaves out of them, up to 1e-5 on coarse meshes,
-    /// changes with the parameters.
+    /// Whether eigenvalues are those of whole harmonics: what a small space leaves out, up to 1e-5, changes with parameters.
     pub is_whole: bool,
     /// Steps over those of the table.
     pub factor: f64,

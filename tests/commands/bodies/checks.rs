@@ -226,8 +226,7 @@ fn frf_sliding(bench: &Bench, twin: Option<&Bench>) -> Verdict {
     respond_alike(&own, &other, 1e-6)
 }
 
-/// Energy closes over the period; of motions of a whole mesh a transient stays on what is stable, and where nothing grows `cea`
-/// knows no mode that does.
+/// Energy closes over the period; a transient stays on what is stable; where nothing grows `cea` knows no mode that does.
 fn cycle(bench: &Bench, _: Option<&Bench>) -> Verdict {
     // The wave of the lowest onset may be none on a mesh as coarse as this one: others are.
     let lowest = "cycle={harmonics=[2],onsets=\"lowest\"}";

@@ -75,8 +75,7 @@ fn gap_and_velocity_of_a_node_between_two_bodies_are_those_over_the_other_body()
     assert!(seen.iter().all(|&count| count > 0), "{seen:?}");
 }
 
-/// Cross-method: the static solver's sliding state is a rest point of the time loop, on contact that stiffens too; springs of the
-/// contact change nothing of it.
+/// Cross-method: the static solver's sliding state is a rest point of the time loop, on springs and contact that stiffens too.
 #[test]
 fn steady_sliding_start_stays_in_equilibrium() {
     let annulus = disc(36, 7);

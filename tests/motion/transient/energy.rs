@@ -2,8 +2,7 @@
 
 use super::*;
 
-/// Theory: the discrete energy identity is exact, whatever contact, its springs and dashpots, its laws and damping do, for one body
-/// and for a disc on its shaft.
+/// Theory: the discrete energy identity is exact whatever contact and damping do, for one body and for a disc on its shaft.
 #[test]
 fn every_joule_is_accounted_for_through_stick_slip_and_separation() {
     use OperatorChoice::{Cyclic, Sparse};

@@ -9,8 +9,7 @@ const STRESSED: TangentOptions = TangentOptions { geometric_stiffness: true, ..O
 
 const SPRINGS: ElasticSupport = springs([1e12, 1e12, 0.0], [0.0; 2]);
 
-/// The forces on inner nodes that a rotation of everything about the axis of the sliding costs beside elastic ones, over those that
-/// the stress alone has there.
+/// What a rotation about the axis of the sliding costs inner nodes beside elastic forces, over what the stress alone has there.
 fn forces_of_a_rotation(mesh: &Mesh, contact: SlidingSurfaces, motions: &[Motion]) -> f64 {
     let friction = 0.3;
     let axis = match (&contact.counter, motions) {

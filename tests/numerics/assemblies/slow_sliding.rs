@@ -1,5 +1,4 @@
-//! Lossy assemblies that slide slowly: friction across the sliding damps motions beyond the critical damping, and losses give these an
-//! imaginary part, too.
+//! Lossy assemblies that slide slowly: friction across the sliding overdamps motions, and losses give these an imaginary part, too.
 
 use super::*;
 

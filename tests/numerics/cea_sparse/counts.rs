@@ -40,8 +40,7 @@ fn missing(of: &SlidingTangent, mu: f64, known: &[c64], top: f64) -> (i64, Optio
     (found.missing.unwrap(), found.near, found.determinants)
 }
 
-/// Exact: with friction, flutter and dashpots as many modes are counted as a dense decomposition has, from whichever part of them
-/// is known; of double eigenvalues both.
+/// Exact: with friction, flutter and dashpots as many modes are counted as a dense decomposition has, whichever are known; double ones twice.
 #[test]
 fn counts_are_those_of_a_dense_spectrum() {
     for (size, parts) in [(40, chain(40)), (60, twice(30))] {
@@ -113,8 +112,7 @@ fn determinant_of_a_disc_is_that_of_dense_elimination() {
     }
 }
 
-/// The sweep of a disc with flutter counts its own modes: proportional damping and damping of the body alone, the lowest modes and
-/// those below a limit.
+/// The sweep of a disc with flutter counts its own modes: both models of damping, the lowest modes and those below a limit.
 #[test]
 fn sweep_of_a_disc_is_complete_by_count() {
     for damping_model in [WholeTangent, BodyOnly] {

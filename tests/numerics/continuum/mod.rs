@@ -20,8 +20,7 @@ use radial::RadialElement;
 /// than round-off (asserted in `continuum_reference.rs`).
 pub const DEGREE: usize = 24;
 
-/// An isotropic annulus with radii `a` and `b`, clamped at the outer edge (SI units, per metre of thickness), in plane strain or in plane
-/// stress.
+/// An isotropic annulus with radii `a` and `b`, clamped outside (SI units, per metre of thickness), in plane strain or plane stress.
 #[derive(Clone, Copy, Debug)]
 pub struct Annulus {
     pub inner_radius: f64,

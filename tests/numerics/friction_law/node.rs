@@ -52,9 +52,8 @@ fn a_law_too_steep_for_the_inertia_is_reported_and_keeps_stick_and_slip_apart() 
     let slip = 1.37 - moving.force / inertia;
     let law = 0.3 * normal * DECAY.share(slip);
     assert!(slip > 0.0 && (moving.force / law - 1.0).abs() < 1e-12);
-    for (free, before, status) in
-        [(1.41, 0.0, ContactStatus::Slip), (1.3, 0.5, ContactStatus::Stick)]
-    {
+    let starts = [(1.41, 0.0, ContactStatus::Slip), (1.3, 0.5, ContactStatus::Stick)];
+    for (free, before, status) in starts {
         let found = resolve(inertia, free, before, normal);
         assert_eq!(found.status, status);
         assert!(!found.is_ambiguous);

@@ -3,8 +3,7 @@
 use crate::plane_body::studies::MODEL as MATERIAL;
 use crate::prelude::*;
 
-/// A folder with the same coarse disc twice: `annulus.toml`, and `body.toml` with a mesh file in millimetres whose node
-/// numbers begin at 1001.
+/// A folder with a coarse disc twice: `annulus.toml`, and `body.toml` with a mesh file in millimetres, nodes from 1001.
 fn folder() -> TempDir {
     let mesh = AnnulusMesh::generate(&annulus(Quad4, 24, 4)).unwrap().mesh;
     let numbers: Vec<usize> = (1001..=1000 + mesh.node_count()).collect();

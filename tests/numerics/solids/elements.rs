@@ -39,8 +39,7 @@ fn bricks_hold_every_constant_strain() {
     }
 }
 
-/// Independent check (objectivity): a rigid rotation costs no force, prestress and the contact forces that turn with the edge
-/// or the face included.
+/// Independent check (objectivity): a rigid rotation costs no force, with prestress and contact forces that turn with the body.
 #[test]
 fn rigid_rotation_leaves_the_prestressed_body_in_balance() {
     let ring = SolidContact::Ring { inner_radius: 0.04, outer_radius: 0.07 };

@@ -25,9 +25,8 @@ fn damping_is_identified_from_the_response_of_a_disc_with_thickness() {
     has(summary["description"].as_str().unwrap(), &["node 63 axial"]);
     let identify = Run::of("identify", "frf/frf.csv").within(&folder).args(&["--json"]);
     let found = identify.done().value();
-    for (key, exact, bound) in
-        [("mass_coefficient", 40.0, 0.1), ("stiffness_coefficient", 4.5e-7, 0.05)]
-    {
+    let coefficients = [("mass_coefficient", 40.0, 0.1), ("stiffness_coefficient", 4.5e-7, 0.05)];
+    for (key, exact, bound) in coefficients {
         // Noise of 1 %: a few standard errors of the estimates of a dozen modes.
         let value = found[key]["value"].as_f64().unwrap();
         assert!((value / exact - 1.0).abs() < bound, "{key}: {value}");

@@ -55,8 +55,7 @@ fn course(body: TransientModel<'_>, is_solid: bool) -> Course {
     course
 }
 
-/// Share of statuses that differ, and the largest differences of displacement, normal force and kinetic energy, relative to the
-/// largest values.
+/// Share of statuses that differ, and the largest relative differences of displacement, normal force and kinetic energy.
 fn differences(divisions: [usize; 2]) -> [f64; 4] {
     let [thick, flat] = courses(divisions);
     assert_eq!(thick.largest_axial, 0.0);

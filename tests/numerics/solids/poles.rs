@@ -1,5 +1,4 @@
-//! Poles of the frequency response of sliding bodies of revolution against the eigenvalues of `cea`. Cross-method: the response
-//! knows no modes.
+//! Poles of the response of sliding bodies of revolution against eigenvalues of `cea`. Cross-method: the response knows no modes.
 
 use super::*;
 use crate::solids::response::{at, sliding};
@@ -7,8 +6,7 @@ use frictionsim::frf::Direction::Tangential;
 
 /// Distance of the response's nearest pole from `lambda / 2 pi`, Hz, from lines up to `range` (Hz) around `Im lambda / 2 pi`.
 ///
-/// Beside `poles` poles `h q(x) = p(x)`, `x = i (f - f_0)`, with `q` of that degree and leading one, `p` of that degree: as many
-/// equations as lines.
+/// Beside `poles` poles `h q(x) = p(x)`, `x = i (f - f_0)`, of that degree, `q` with leading one: as many equations as lines.
 fn pole_beside(model: &SolidModel, mu: f64, lambda: c64, (poles, range): (usize, f64)) -> c64 {
     let sector = SolidSector::generate(&model.specification).unwrap();
     let [_, nz] = sector.divisions();

@@ -39,8 +39,7 @@ pub fn at(
 
 pub const FREQUENCIES: [f64; 6] = [700.0, 1999.0, 4321.0, 7000.0, 9100.0, 15_000.0];
 
-/// One force and several motions by harmonics and by a dense solution of the whole ring; of those on the top only those that it
-/// leaves free.
+/// A force and several motions by harmonics and by a dense solution of the ring; on the top only motions that it leaves free.
 fn agrees(cyclic: &CyclicSystem, whole: &WholeRing, force: Terminal, is_free: bool, what: &str) {
     let sector = &whole.sector;
     let quadratic = usize::from(sector.is_quadratic());

@@ -22,9 +22,8 @@ fn plane_and_guided(around: usize, is_sliding: bool) -> Vec<(c64, c64)> {
         (flat, body(&model, true))
     };
     let mut pairs = Vec::new();
-    for (turn, place, direction) in
-        [(1, 0, Tangential), (3, 3, Radial), (7, 4, Tangential), (11, 2, Radial)]
-    {
+    let motions = [(1, 0, Tangential), (3, 3, Radial), (7, 4, Tangential), (11, 2, Radial)];
+    for (turn, place, direction) in motions {
         // A ray has its nodes by rising radius in the plane.
         let s = turn * around / 16;
         let plane_node = |s: usize, i: usize| s * plane.node_count() + i;

@@ -43,9 +43,8 @@ fn a_layer_shares_the_distance_with_the_contact_that_presses_it() {
     let angle: f64 = TAU / 24.0;
     let (chord, parabola) = (angle.powi(2) / 6.0, angle.powi(4));
     // Of the layer alone, on springs, and on laws.
-    for (element, [rigid, spring, law]) in
-        [(Quad4, [chord; 3]), (Quad8, [1e-4, parabola / 2.0, parabola])]
-    {
+    let bounds = [(Quad4, [chord; 3]), (Quad8, [1e-4, parabola / 2.0, parabola])];
+    for (element, [rigid, spring, law]) in bounds {
         let model = layer(element);
         let [lambda, shear] = model.material.lame_constants();
         let stiffness = (lambda + 2.0 * shear) / 0.009;

@@ -1,7 +1,6 @@
 //! Slow sliding in three dimensions: the dashpot `mu p / V` of friction across the sliding grows without bound.
 //!
-//! Independent check: all eigenvalues of a coarse whole harmonic by a dense decomposition, at finite speed and with the motion across the
-//! sliding held.
+//! Independent check: all eigenvalues of a coarse harmonic by a dense decomposition, at finite speed and with motion across held.
 
 use super::*;
 
@@ -104,9 +103,9 @@ fn assert_equal(found: &WaveSweep, n: usize, exact: &[c64], what: &str) {
 #[test]
 fn slow_sliding_has_the_eigenvalues_of_a_dense_solution_of_the_whole_harmonic() {
     for (element, divisions) in [(Quad4, [24, 6, 2]), (Quad8, [24, 4, 1])] {
-        for (rpm, loss_factor) in
-            [(0.1, 0.0), (1.0, 0.0), (10.0, 0.0), (100.0, 0.0), (10.0, 0.1), (100.0, 0.05)]
-        {
+        let speeds =
+            [(0.1, 0.0), (1.0, 0.0), (10.0, 0.0), (100.0, 0.0), (10.0, 0.1), (100.0, 0.05)];
+        for (rpm, loss_factor) in speeds {
             let mut model = turning(element, divisions, rpm);
             model.material.loss_factor = loss_factor;
             let found = solved(&model);

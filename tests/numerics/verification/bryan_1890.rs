@@ -7,8 +7,7 @@
 //! omega = omega_0 +- Omega eta,    eta = 2 int U V r dr / int (U^2 + V^2) r dr
 //! ```
 //!
-//! A ring of 80 to 120 mm radius in plane strain, steel, on springs of 1e8 Pa/m along its bore, which hold it and are part of
-//! the shape; 600 rpm.
+//! A steel ring of 80 to 120 mm in plane strain on springs of 1e8 Pa/m along its bore, which are part of the shape; 600 rpm.
 
 use super::*;
 

@@ -122,9 +122,8 @@ fn says_the_same(bytes: &[u8], original: &[u8]) -> bool {
 fn a_damaged_manifest_or_summary_is_never_used() {
     let scratch = folder();
     let [mesh, convergence] = ["mesh", "convergence"].map(|name| finished(scratch.path(), name));
-    for (folder, name) in
-        [(&mesh, "manifest.json"), (&mesh, "summary.json"), (&convergence, "summary.json")]
-    {
+    let files = [(&mesh, "manifest.json"), (&mesh, "summary.json"), (&convergence, "summary.json")];
+    for (folder, name) in files {
         let original = fs::read(folder.join(name)).unwrap();
         let make = |random: &mut Random| text(random, std::slice::from_ref(&original));
         hold(name, make, |bytes| {

@@ -3,8 +3,7 @@
 use super::*;
 use frictionsim::mesh::MaterialAxes;
 
-/// A brick of 1 x 2 x 3 as a part, twice in the assembly: as it is, and moved by 10 along x, then turned by 90 degrees about the z
-/// axis through (10, 0, 0).
+/// A brick of 1 x 2 x 3, twice in the assembly: as it is, and moved by 10 along x, then turned by 90 degrees about z through (10, 0, 0).
 pub const ASSEMBLY: &str = include_str!("../meshes/assembly.inp");
 
 /// Closed form: places and areas of two bricks.
@@ -15,9 +14,8 @@ fn instances_stand_where_their_translation_and_rotation_put_them() {
     for volume in mesh.region_measures() {
         assert!((volume - 6.0).abs() < 1e-12);
     }
-    for (name, exact) in
-        [("One_Top", 2.0), ("Two_Top", 2.0), ("Two_Skin", 22.0), ("Both_feet", 4.0)]
-    {
+    let areas = [("One_Top", 2.0), ("Two_Top", 2.0), ("Two_Skin", 22.0), ("Both_feet", 4.0)];
+    for (name, exact) in areas {
         assert!((area(&mesh, name) - exact).abs() < 1e-12, "{name}");
     }
     // Node 3 of the second instance, (1, 2, 0): moved to (11, 2, 0), turned to (8, 1, 0). Its number follows those of the first.

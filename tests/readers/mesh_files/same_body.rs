@@ -24,8 +24,7 @@ fn faces_of(file: &FileMesh, side: &str) -> Vec<(usize, Vec<usize>, Vec<u32>)> {
     found
 }
 
-/// What `kinds.txt` says of a kind of element: its type and faces in Abaqus, its card and order of nodes in Nastran, its descriptor
-/// and order in universal files.
+/// What `kinds.txt` says of a kind: type and faces in Abaqus, card and order in Nastran, descriptor and order in universal files.
 fn kind_in_files(kind: ElementKind) -> [&'static str; 6] {
     let mut lines = include_str!("../meshes/kinds.txt").lines();
     let own = format!("{kind:?} | ");

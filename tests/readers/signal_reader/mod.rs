@@ -141,9 +141,8 @@ fn every_refusal_names_file_line_column_and_remedy() {
         assert!(said.starts_with(&format!("FRF.csv:12:{begin}")), "{said}");
     }
     let commas = rows(",", ",", "\n");
-    for (rows, begin) in
-        [("10,x,2\n20,1,2\n", "4: `x`"), (&commas, "1: 6 fields separated by commas")]
-    {
+    let texts = [("10,x,2\n20,1,2\n", "4: `x`"), (&commas, "1: 6 fields separated by commas")];
+    for (rows, begin) in texts {
         let said = message(&format!("{head}{rows}"));
         assert!(said.starts_with(&format!("FRF.csv:2:{begin}")), "{said}");
     }
