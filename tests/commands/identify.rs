@@ -60,11 +60,6 @@ fn free_disc_with_one_percent_noise_gives_back_its_coefficients_at_1_hz() {
     assert!(found.fit.modes.len() >= 6);
 }
 
-/// Distance of an estimate from the truth in standard errors, from its 95 % interval.
-fn pull(estimate: Estimate, truth: f64) -> f64 {
-    1.96 * (estimate.value - truth) / (0.5 * (estimate.high - estimate.low))
-}
-
 #[test]
 fn over_noise_seeds_the_errors_are_as_large_as_stated_and_the_intervals_hold_the_truth() {
     // Ten seeds bound the mean by four of its standard errors, 0.32, and the deviation by four of 0.22.
@@ -90,7 +85,9 @@ fn over_noise_seeds_the_errors_are_as_large_as_stated_and_the_intervals_hold_the
         let pulls = found.iter().map(|r| {
             let fitted = r.fit.modes[k];
             let omega = TAU * fitted.frequency_hz.value;
-            pull(fitted.damping_factor, 0.5 * (ALPHA / omega + BETA * omega))
+            let (own, exact) = (fitted.damping_factor, 0.5 * (ALPHA / omega + BETA * omega));
+            // Distance from the truth in standard errors, from the 95 % interval.
+            1.96 * (own.value - exact) / (0.5 * (own.high - own.low))
         });
         let (mean, deviation) = moments(&pulls.collect::<Vec<_>>());
         assert!(mean.abs() < mean_bound, "mode {k}: {mean}");

@@ -176,8 +176,7 @@ fn decode(bytes: &[u8], name: &str) -> Vec<u8> {
 }
 
 fn floats(bytes: &[u8]) -> Vec<f64> {
-    let words = bytes.chunks_exact(8);
-    words.map(|word| f64::from_le_bytes(word.try_into().unwrap())).collect()
+    bytes.as_chunks().0.iter().map(|word| f64::from_le_bytes(*word)).collect()
 }
 
 #[test]

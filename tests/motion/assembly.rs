@@ -6,6 +6,9 @@ const DAMPING: RayleighDamping = rayleigh_damping(50.0, 1e-7);
 
 const FRICTION: f64 = 0.4;
 
+/// Normal stiffness and law; none in rigid contact.
+type Springs = (Option<f64>, Option<NormalLaw>);
+
 /// A block with a plate of `plate` elements glued to it, pressed onto another block that moves under it.
 fn mesh(plate: [usize; 3]) -> Mesh {
     bodies([[4, 3, 2], [5, 4, 2], plate], true)
@@ -26,11 +29,7 @@ fn bodies([lower, upper, plate]: [[usize; 3]; 3], with_lower: bool) -> Mesh {
 }
 
 /// The upper block and its plate on a rigid plane that turns as the lower block does, pushed in by twice what the load presses.
-fn on_rigid_plane<'a>(
-    mesh: &'a Mesh,
-    springs: (Option<f64>, Option<NormalLaw>),
-    speed: f64,
-) -> Assembly<'a> {
+fn on_rigid_plane(mesh: &Mesh, springs: Springs, speed: f64) -> Assembly<'_> {
     let plane = flat(RigidMotion::Turning(speed), [0.02, -0.2, 0.0], 5e-7);
     between(mesh, &STEEL, Counterpart::Rigid(plane), springs, (None, &[]))
 }
@@ -38,7 +37,7 @@ fn on_rigid_plane<'a>(
 fn assembly<'a>(
     mesh: &'a Mesh,
     materials: &'a dyn MaterialField,
-    (normal_stiffness, law): (Option<f64>, Option<NormalLaw>),
+    springs: Springs,
     decay: Option<FrictionDecay>,
     speed: f64,
 ) -> Assembly<'a> {
@@ -47,7 +46,7 @@ fn assembly<'a>(
     let regions = vec![region.unwrap()];
     let motion = Motion { regions, axis, center, rotation_speed: speed, inertia: None };
     let lower = Counterpart::Surface(boundary(mesh, "lower_z1"));
-    between(mesh, materials, lower, (normal_stiffness, law), (decay, &[motion]))
+    between(mesh, materials, lower, springs, (decay, &[motion]))
 }
 
 /// The upper block on what it slides on, glued to the plate.
@@ -55,7 +54,7 @@ fn between<'a>(
     mesh: &'a Mesh,
     materials: &'a dyn MaterialField,
     counter: Counterpart,
-    (normal_stiffness, law): (Option<f64>, Option<NormalLaw>),
+    (normal_stiffness, law): Springs,
     (decay, motions): (Option<FrictionDecay>, &[Motion]),
 ) -> Assembly<'a> {
     let mut contact = contact_of(mesh, "upper_z0", counter, normal_stiffness);
@@ -111,7 +110,7 @@ fn an_assembly_of_meshes_that_do_not_match_grows_from_its_mode() {
 }
 
 /// Rigid contact, constant springs, and springs that stiffen to about the same at the pressure of 2 MPa.
-const SPRINGS: [(Option<f64>, Option<NormalLaw>); 3] =
+const SPRINGS: [Springs; 3] =
     [(None, None), (Some(5e12), None), (Some(1e6 / 6e-7), Some(exponential(1e6, 6e-7)))];
 
 /// Independent: the base state of the eigenvalue analysis, through a tie and a contact whose meshes do not match, is at rest.

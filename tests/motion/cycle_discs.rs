@@ -5,23 +5,21 @@
 
 use crate::prelude::*;
 
-fn ring(radii: [f64; 2], elements: [usize; 2]) -> AnnulusSpecification {
-    crate::disc::ring(radii, Quad4, elements[0], elements[1])
-}
-
 /// Aluminium, 30 to 75 mm.
-fn aluminium(elements: [usize; 2]) -> (DiscModel, SlidingContact) {
+fn aluminium([around, across]: [usize; 2]) -> (DiscModel, SlidingContact) {
     let material = elastic(70e9, 0.33, 2700.0, PlaneStress);
     let damping = rayleigh_damping(0.0, 1.5e-7);
-    let model = DiscModel { specification: ring([0.03, 0.075], elements), material, damping };
+    let specification = ring([0.03, 0.075], Quad4, around, across);
+    let model = DiscModel { specification, material, damping };
     (model, sliding_at(0.35, 10e-6, 900.0 * TAU / 60.0))
 }
 
 /// Steel, 100 to 240 mm.
-fn steel(elements: [usize; 2]) -> (DiscModel, SlidingContact) {
+fn steel([around, across]: [usize; 2]) -> (DiscModel, SlidingContact) {
     let material = elastic(210e9, 0.3, 7850.0, PlaneStrain);
     let damping = rayleigh_damping(100.0, 4e-7);
-    let model = DiscModel { specification: ring([0.1, 0.24], elements), material, damping };
+    let specification = ring([0.1, 0.24], Quad4, around, across);
+    let model = DiscModel { specification, material, damping };
     (model, sliding_at(0.5, 40e-6, 750.0 * TAU / 60.0))
 }
 

@@ -58,7 +58,9 @@ impl Body {
                 };
                 onsets += 1;
                 let friction = onset.critical_friction;
-                let found = sides.each_ref().map(|s| nearest_onset(&s.1, friction).into());
+                let distance = |other: &f64| (other - friction).abs();
+                let near = |own: &FrictionSweep| nearest_by(criticals(&own.intervals), distance);
+                let found = sides.each_ref().map(|side| near(&side.1).into());
                 hold(friction.into(), onset.derivatives[at].unwrap().into(), found, 1e-5);
             }
         }
@@ -72,10 +74,6 @@ pub fn nearest((friction, sweep): &(f64, FrictionSweep), eigenvalue: c64) -> c64
     let point = points.filter(|point| point.friction_coefficient == *friction);
     let all = point.flat_map(|point| &point.modes).map(|mode| mode.eigenvalue);
     nearest_by(all, |other| (other - eigenvalue).norm())
-}
-
-fn nearest_onset(sweep: &FrictionSweep, friction: f64) -> f64 {
-    nearest_by(criticals(&sweep.intervals), |other| (other - friction).abs())
 }
 
 /// Takes a disc to a body without symmetry: its hub stays round, its outer edge is an oval about another centre.

@@ -35,11 +35,6 @@ fn table_1_reference(annulus: &Annulus, contact: &Contact) -> Vec<Eigenvalue> {
     TABLE_1.iter().map(of_row).collect()
 }
 
-fn undamped_hz(annulus: &Annulus, harmonic: usize, contact: &Contact) -> Vec<f64> {
-    let kappas = annulus.kappas(harmonic, contact);
-    kappas.iter().map(|kappa| kappa.re.sqrt() / TAU).collect()
-}
-
 #[test]
 fn frictionless_frequencies_are_roots_of_the_bessel_determinant() {
     // The determinant changes sign within 1e-10 of every spectral frequency: far above the 1e-13
@@ -52,7 +47,8 @@ fn frictionless_frequencies_are_roots_of_the_bessel_determinant() {
             Contact::penalty(0.0, NORMAL_STIFFNESS),
         ] {
             for harmonic in 0..=6 {
-                for hz in undamped_hz(&annulus, harmonic, &contact).iter().take(4) {
+                for kappa in annulus.kappas(harmonic, &contact).iter().take(4) {
+                    let hz = kappa.re.sqrt() / TAU;
                     let [below, above] = [-1e-10, 1e-10].map(|shift| {
                         let omega = c64::new(TAU * hz * (1.0 + shift), 0.0);
                         determinant(&annulus, harmonic, &contact, omega, of_real_argument).re

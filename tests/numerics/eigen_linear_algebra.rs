@@ -39,11 +39,6 @@ impl BlockOperator for Inverse {
     }
 }
 
-fn inverse_of(p: &MatrixPolynomial) -> Inverse {
-    let analysis = LuAnalysis::new(p.pattern()).unwrap();
-    Inverse(SparseLu::factorize(&analysis, p.evaluate(0.0)).unwrap())
-}
-
 pub fn settings(wanted: usize) -> KrylovSchurSettings {
     let (tolerance, max_applications) = (1e-12, 2000);
     KrylovSchurSettings { wanted, tie: 1.0, tolerance, max_applications, dense_up_to: 0 }
@@ -51,7 +46,9 @@ pub fn settings(wanted: usize) -> KrylovSchurSettings {
 
 fn largest(p: &MatrixPolynomial, wanted: usize) -> RealPairs {
     let start = random_columns(p.dimension(), 4, 0x5eed);
-    let pairs = krylov_schur(&inverse_of(p), start, &|_| true, &settings(wanted)).unwrap();
+    let analysis = LuAnalysis::new(p.pattern()).unwrap();
+    let inverse = Inverse(SparseLu::factorize(&analysis, p.evaluate(0.0)).unwrap());
+    let pairs = krylov_schur(&inverse, start, &|_| true, &settings(wanted)).unwrap();
     assert!(pairs.residuals.iter().all(|residual| *residual <= 1e-12));
     pairs
 }

@@ -98,15 +98,14 @@ fn steady_sliding_start_stays_in_equilibrium() {
         let exact = body.state(0.3).unwrap().normal_forces(0.3);
         let torque = ContactInterface::of(mesh).torque(&contact, 0.3, &exact);
         let power = torque * contact.rotation_speed;
-        run.run(&mut Watch(|sample: &Sample<'_>| {
+        watch(&mut run, |sample| {
             for (found, exact) in sample.contact().normal_force.iter().zip(&exact) {
                 let error = (found / exact - 1.0).abs();
                 assert!(error < bound, "{contact:?} {stiffness:?}: {found} {exact}");
             }
             assert_eq!([sample.row.counts.stick, sample.row.counts.open], [0, 0]);
             assert!((sample.row.powers.external / power - 1.0).abs() < bound);
-        }))
-        .unwrap();
+        });
     }
 }
 

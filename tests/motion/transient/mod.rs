@@ -53,15 +53,6 @@ pub fn kicked(duration: f64, harmonics: &[usize], velocity: f64) -> TransientSet
     TransientSettings { perturbation, ..settings(duration, harmonics) }
 }
 
-pub struct Watch<F>(pub F);
-
-impl<F: FnMut(&Sample<'_>)> Observer for Watch<F> {
-    fn observe(&mut self, sample: &Sample<'_>) -> ControlFlow<()> {
-        (self.0)(sample);
-        ControlFlow::Continue(())
-    }
-}
-
 pub fn largest(values: &[f64]) -> f64 {
     values.iter().fold(0.0, |m, v| m.max(v.abs()))
 }

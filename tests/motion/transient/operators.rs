@@ -51,12 +51,11 @@ fn end_state(choice: OperatorChoice, level: SimdLevel) -> (TransientState, [u64;
     let settings = kicked(4e-3, &[1, 2], 2.0);
     let mut run = CentralDifference::start(model, operator.as_ref(), &settings).unwrap();
     let mut counts = [0; 3];
-    run.run(&mut Watch(|sample: &Sample<'_>| {
+    watch(&mut run, |sample| {
         counts[0] += sample.row.counts.stick;
         counts[1] += sample.row.counts.slip;
         counts[2] += sample.row.counts.open;
-    }))
-    .unwrap();
+    });
     (run.state(), counts)
 }
 

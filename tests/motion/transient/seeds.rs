@@ -92,17 +92,16 @@ fn a_run_stopped_before_its_kick_goes_on_to_the_same_bits() {
     settings.perturbation.noise = 1e-3;
     let mut states = Vec::new();
     let mut run = CentralDifference::start(model, operator.as_ref(), &settings).unwrap();
-    run.run(&mut Watch(|sample: &Sample<'_>| {
+    watch(&mut run, |sample| {
         if [249, 250, 251].contains(&sample.index) {
             states.push(sample.state());
         }
-    }))
-    .unwrap();
+    });
     assert_eq!(states.len(), 3);
     for state in &states {
         let mut again =
             CentralDifference::resume(model, operator.as_ref(), &settings, state).unwrap();
-        again.run(&mut Watch(|_: &Sample<'_>| {})).unwrap();
+        watch(&mut again, |_| {});
         assert_eq!(again.state(), run.state());
     }
 }

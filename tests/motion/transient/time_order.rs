@@ -12,10 +12,9 @@ fn end(steps: u32) -> (Vec<f64>, Vec<f64>) {
     settings.time_step = TimeStep::Seconds(2e-4 / f64::from(steps));
     let mut run = started(model, OperatorChoice::Cyclic, &settings);
     let mut last = None;
-    run.run(&mut Watch(|sample: &Sample<'_>| {
+    watch(&mut run, |sample| {
         last = Some((sample.displacement(), sample.velocity()));
-    }))
-    .unwrap();
+    });
     last.unwrap()
 }
 

@@ -30,11 +30,6 @@ pub fn refinements(element: ElementKind) -> [AnnulusSpecification; 3] {
     })
 }
 
-/// Theoretical rate of eigenvalues (twice that of the strains): 2 for Quad4, 4 for Quad8.
-pub fn expected_rate(element: ElementKind) -> f64 {
-    if element.is_quadratic() { 4.0 } else { 2.0 }
-}
-
 /// Slope of the least-squares line through `ln |error|` over `ln` of the mesh size.
 pub fn rate(errors: [f64; 3]) -> f64 {
     let x = SIZES.map(f64::ln);
@@ -49,7 +44,8 @@ pub fn rate(errors: [f64; 3]) -> f64 {
 }
 
 pub fn assert_rate(element: ElementKind, what: &str, errors: [f64; 3]) {
-    let expected = expected_rate(element);
+    // In theory twice that of the strains.
+    let expected = if element.is_quadratic() { 4.0 } else { 2.0 };
     let slope = rate(errors);
     let said = format!("{element:?} {what}: slope {slope:.3}, errors {errors:.3?}");
     assert!((slope - expected).abs() <= 0.1, "{said}");

@@ -9,12 +9,9 @@ pub const SOLID_RING: &str = include_str!("../../cases/solid-ring.toml");
 const RING: &str = "[materials.ring]\nradii = [0.03, 0.04]\nheights = [0.0, 0.005]\n\
      young_modulus = 2e11\npoisson_ratio = 0.3\ndensity = 7850.0\n";
 
-fn case(parts: &str) -> Case {
-    case_of("disc.toml", &format!("{SOLID_RING}{parts}"), AS_IT_IS)
-}
-
 fn whole(parts: &str) -> Vec<f64> {
-    let points = modes_and_onsets(&case(parts)).unwrap().points;
+    let case = case_of("disc.toml", &format!("{SOLID_RING}{parts}"), AS_IT_IS);
+    let points = modes_and_onsets(&case).unwrap().points;
     sorted(points[0].modes.iter().map(|mode| mode.eigenvalue.im))
 }
 

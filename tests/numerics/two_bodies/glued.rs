@@ -98,20 +98,16 @@ fn glued_bodies_whose_meshes_do_not_match_converge_to_one_body_at_second_order()
     assert!((rate - 2.0).abs() < 0.1, "{found:?}, order {rate}");
 }
 
-/// A block on a block, one as wide as the other, of `along` elements each (lower, upper).
-fn blocks(along: [usize; 2]) -> Mesh {
-    let lower = rectangle([0.0, -0.02], [0.04, 0.02], [along[0], 3]);
-    let upper = rectangle([0.0, 0.0], [0.04, 0.03], [along[1], 4]);
-    held_blocks([lower, upper], Clamped).unwrap()
-}
-
 /// Patch test: every state of constant strain passes glue between any two meshes: it is continuous, and with what it
 /// pulls at the free sides no node between floor and top needs a force.
 #[test]
 fn every_constant_strain_passes_glue_between_meshes_that_do_not_match() {
     let [lambda, shear] = POLYCARBONATE.lame_constants();
     for along in [[6, 4], [7, 5], [13, 4], [5, 11]] {
-        let mesh = blocks(along);
+        // A block on a block, one as wide as the other.
+        let lower = rectangle([0.0, -0.02], [0.04, 0.02], [along[0], 3]);
+        let upper = rectangle([0.0, 0.0], [0.04, 0.03], [along[1], 4]);
+        let mesh = held_blocks([lower, upper], Clamped).unwrap();
         let glue = glue(&mesh);
         let stiffness = assemble_stiffness(&mesh, &POLYCARBONATE);
         // Into the frame of a node.

@@ -21,11 +21,12 @@ fn body(name: &str, text: &str) -> Mesh {
     Mesh::from_solids(&file, 1.0, &[]).unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// Area of a named boundary, m2.
-fn area(mesh: &Mesh, name: &str) -> f64 {
-    let names: Vec<&str> = mesh.boundaries.iter().map(|b| b.name.as_str()).collect();
-    let boundary = mesh.boundary(name).unwrap_or_else(|| panic!("{name} of {names:?}"));
-    mesh.face_area(&boundary.faces)
+/// Holds named boundaries to their areas, m2.
+fn has_areas(mesh: &Mesh, areas: &[(&str, f64)]) {
+    for (name, exact) in areas {
+        let found = mesh.face_area(&mesh.boundaries[boundary(mesh, name)].faces);
+        assert!((found - exact).abs() < 1e-12, "{name}");
+    }
 }
 
 /// An isotropic material, E 2e5, nu 0.3, as the stiffness of an orthotropic one: Lamé's constants and the diagonal, lambda + 2 G.

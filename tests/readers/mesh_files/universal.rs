@@ -10,8 +10,7 @@ fn groups_are_regions_surfaces_and_sets_of_nodes() {
     let mesh = body("brick.unv", BRICK);
     assert_eq!(mesh.regions, ["iron"]);
     assert!((mesh.region_measures()[0] - 6.0).abs() < 1e-12);
-    assert!((area(&mesh, "foot") - 2.0).abs() < 1e-12);
-    assert!((area(&mesh, "head") - 2.0).abs() < 1e-12);
+    has_areas(&mesh, &[("foot", 2.0), ("head", 2.0)]);
     let model = read("brick.unv", BRICK).unwrap().model;
     assert_eq!(model.left_out[0].to_string(), "dataset 151 (line 2)");
     assert!(model.remarks[0].contains("divided by 1000"), "{:?}", model.remarks);
