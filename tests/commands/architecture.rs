@@ -56,7 +56,7 @@ const BUDGETS: &[(&str, usize)] = &[
     ("crates/output", 801),
     ("crates/physics/src/cea", 10_279),
     ("crates/physics/src/contact", 2_746),
-    ("crates/physics/src/cycle", 7_826),
+    ("crates/physics/src/cycle", 7_824),
     ("crates/physics/src/fem", 4_765),
     ("crates/physics/src/frf", 1_389),
     ("crates/physics/src/lib.rs", 23),
