@@ -59,16 +59,18 @@ fn pair_lefts(modes: &mut [ReducedMode], overlaps: &Mat<c64>) {
     let values: Vec<c64> = modes.iter().map(|mode| mode.eigenvalue).collect();
     let mut is_paired = vec![false; modes.len()];
     for i in 0..modes.len() {
-        let is_one = |j: usize| (values[j] - values[i]).norm() <= MULTIPLE * values[i].norm();
-        let own: Vec<usize> = (i..modes.len()).filter(|&j| !is_paired[j] && is_one(j)).collect();
         if is_paired[i] {
             continue;
         }
+        let is_one = |j: usize| (values[j] - values[i]).norm() <= MULTIPLE * values[i].norm();
+        let own: Vec<usize> = (i..modes.len()).filter(|&j| !is_paired[j] && is_one(j)).collect();
         own.iter().for_each(|&j| is_paired[j] = true);
-        let size = own.len();
-        let gram = Mat::from_fn(size, size, |a, b| overlaps[(own[a], own[b])]);
-        let rows = modes[i].left.len();
-        let mut lefts = Mat::from_fn(size, rows, |a, row| modes[own[a]].left[row]);
+        let gram = Mat::from_fn(own.len(), own.len(), |a, b| overlaps[(own[a], own[b])]);
+        // Coordinates of an earlier basis are shorter.
+        let rows = own.iter().map(|&j| modes[j].left.len()).max().unwrap_or(0);
+        let mut lefts = Mat::from_fn(own.len(), rows, |a, row| {
+            modes[own[a]].left.get(row).copied().unwrap_or_default()
+        });
         ComplexDenseLu::factorize(gram).solve_in_place(lefts.as_mut());
         for (a, &j) in own.iter().enumerate() {
             modes[j].left = (0..rows).map(|row| lefts[(a, row)]).collect();

@@ -69,12 +69,10 @@ impl SparseSweep<'_> {
         let states = states.chain(passed);
         let mut states: Vec<ModeAt> = states.filter(|state| state.mu >= self.lowest).collect();
         crate::order::sort_by_number(&mut states, |state| state.mu);
-        // What grows by no more than rounded matrices leave open crosses zero anywhere.
+        // Growth by no more than the rounding of the matrices crosses zero anywhere: no onset is sought.
         let growing = || states.iter().map(|state| &state.mode).filter(|mode| mode.is_growing());
-        let is_none = |mode: &ReducedMode| {
-            mode.grows_at_most(ROUNDING_ERRORS * uncertainty(self.norms, mode))
-        };
-        if growing().next().is_some() && growing().all(is_none) {
+        let rounding = |mode: &ReducedMode| ROUNDING_ERRORS * uncertainty(self.norms, mode);
+        if growing().next().is_some() && growing().all(|own| own.grows_at_most(rounding(own))) {
             return Ok(Vec::new());
         }
         let end = states.last().map_or(self.lowest, |state| state.mu);
