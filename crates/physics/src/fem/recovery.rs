@@ -178,8 +178,8 @@ fn elements_around(mesh: &Mesh) -> Vec<Vec<u32>> {
 const FLAT: f64 = 1e-4;
 /// The same where elements are sampled across their thickness: what lies below is round-off.
 const ROUND_OFF: f64 = 1e-12;
-/// Eigenvalue of the normal equations, relative to the largest, below which the samples do not determine a term.
-const UNDETERMINED: f64 = 1e-6;
+/// Eigenvalue of the normal equations, relative to the largest, below which a term would magnify what samples are wrong by tenfold.
+const UNDETERMINED: f64 = 1e-2;
 
 /// Whether places lie on a plane or a line.
 fn is_flat(places: &[[f64; 3]]) -> bool {
