@@ -42,6 +42,8 @@ pub(super) struct Instability<S> {
     pub from_start: bool,
     /// Friction coefficient after which it jumped to `onset`.
     pub lost_after: Option<f64>,
+    /// Whether growth crosses zero at its ends: a neutral branch begins to grow where it meets another one.
+    pub crosses: bool,
 }
 
 impl<S> Instability<S> {
@@ -84,21 +86,32 @@ pub(super) fn instabilities<B: BranchSolver>(
     let mut was_growing = search.is_growing(first) || search.grows_from_zero(first);
     if was_growing {
         let onset = first.clone();
-        found.push(Instability { onset, restabilized: None, from_start: true, lost_after: None });
+        found.push(Instability {
+            onset,
+            restabilized: None,
+            from_start: true,
+            lost_after: None,
+            crosses: true,
+        });
     }
     for pair in states.windows(2) {
         let mut start = pair[0].clone();
         for end in search.with_turning_points(&pair[0], &pair[1])? {
             if search.is_growing(&end) != was_growing {
-                let root = search.root(&start, &end)?;
+                let is_neutral = search.is_neutral(&start, &end);
+                let root = search.root(&start, &end, is_neutral)?;
                 let before = search.solver.point(&start).friction_coefficient;
                 match found.last_mut().filter(|_| was_growing) {
-                    Some(open) => open.restabilized = root,
+                    Some(open) => {
+                        open.restabilized = root;
+                        open.crosses &= !is_neutral;
+                    }
                     None => found.push(Instability {
                         lost_after: root.is_none().then_some(before),
                         onset: root.unwrap_or_else(|| end.clone()),
                         restabilized: None,
                         from_start: false,
+                        crosses: !is_neutral,
                     }),
                 }
                 was_growing = !was_growing;
@@ -180,13 +193,22 @@ impl<B: BranchSolver> Search<'_, B> {
         Ok(states)
     }
 
+    /// Whether a branch that grows at one of two states is neutral at the other.
+    fn is_neutral(&self, start: &B::State, end: &B::State) -> bool {
+        let calm = if self.is_growing(start) { end } else { start };
+        self.solver.point(calm).eigenvalue.re > -self.round_off(calm)
+    }
+
     /// Root of `Re(lambda)` between states of opposite sign: Newton steps on the branch, kept inside the
     /// bracket, from the root of the cubic; nothing where it jumps across zero. A branch that is neutral on one side begins to grow where
     /// that exceeds round-off.
-    fn root(&mut self, start: &B::State, end: &B::State) -> Result<Option<B::State>, B::Error> {
+    fn root(
+        &mut self,
+        start: &B::State,
+        end: &B::State,
+        is_neutral: bool,
+    ) -> Result<Option<B::State>, B::Error> {
         let falls = self.is_growing(start);
-        let calm = if falls { end } else { start };
-        let is_neutral = self.solver.point(calm).eigenvalue.re > -self.round_off(calm);
         let height = |search: &Self, state: &B::State| match is_neutral {
             true => search.growth(state),
             false => search.solver.point(state).eigenvalue.re,

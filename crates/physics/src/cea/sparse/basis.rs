@@ -330,7 +330,7 @@ pub(super) fn scale_to_unit_length(columns: &mut Mat<f64>) {
 
 /// Scales complex vectors, real and imaginary parts in neighbouring columns, to unit length and turns their phase so
 /// that the imaginary part is as short as can be: what friction and damping do to a mode then stands alone.
-fn turn_to_real(vectors: &mut Mat<f64>) {
+pub(super) fn turn_to_real(vectors: &mut Mat<f64>) {
     for j in (0..vectors.ncols()).step_by(2) {
         let (p, q) = (column(vectors.as_ref(), j), column(vectors.as_ref(), j + 1));
         let (pp, pq, qq) = (dot(p, p), dot(p, q), dot(q, q));

@@ -245,7 +245,7 @@ fn match_modes(
     let is_clear = needed_links.all(|(link, mode)| link.is_some() || may_vanish(mode, step));
     if !is_clear && depth < MAX_BISECTIONS && *solved < MOST_BETWEEN {
         *solved += 1;
-        let modes = model.solve_between(middle, from.1.len().max(to.1.len()))?;
+        let modes = model.solve_between(middle, [from.1, to.1])?;
         let first = match_modes(from, (middle, &modes), needed, model, (depth + 1, solved))?;
         let reached = first.iter().take(needed).flatten().map(|(i, _)| i + 1).max().unwrap_or(0);
         let second = match_modes((middle, &modes), to, reached, model, (depth + 1, solved))?;

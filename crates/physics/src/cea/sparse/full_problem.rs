@@ -60,6 +60,19 @@ impl<'a> FullProblem<'a> {
         pencil
     }
 
+    /// `T(lambda) x` and `T(lambda)^T w`.
+    pub fn residuals(&self, lambda: c64, x: &[c64], w: &[c64]) -> [Vec<c64>; 2] {
+        let pencil = self.pencil(lambda);
+        let [mut right, mut left] = [(); 2].map(|()| vec![c64::new(0.0, 0.0); self.dimension()]);
+        for j in 0..self.dimension() {
+            for (at, i) in self.pattern.column(j) {
+                right[i] += pencil[at] * x[j];
+                left[j] += pencil[at] * w[i];
+            }
+        }
+        [right, left]
+    }
+
     /// LU factors of `T(lambda)`.
     pub fn factors(&self, lambda: c64) -> Result<ComplexSparseLu, LinalgError> {
         ComplexSparseLu::factorize(self.analysis.of(self.pattern)?, self.pencil(lambda))

@@ -93,7 +93,7 @@ pub fn grown_between(
                 continue;
             };
             // Of the two modes that are combinations of both there, nearest to the mean, one may grow.
-            let modes = model.solve_between(place, from.1.len().max(to.1.len()))?;
+            let modes = model.solve_between(place, [from.1, to.1])?;
             let [overlaps, _] = model.overlaps_at(place, &pair.map(|own| own.1[0].clone()), &modes);
             let parts = |j: usize| [0, 1].map(|i| overlaps[(i, j)].norm_sqr());
             let mut mixed: Vec<usize> =

@@ -4,8 +4,10 @@ mod dense;
 mod parts;
 
 use super::NEIGHBOURS;
+use super::basis::turn_to_real;
 use super::linearization::Linearization;
-use super::mode::ReducedMode;
+use super::mode::{NEAR, ReducedMode};
+use super::packed::side_by_side;
 use super::pencil::Pencil;
 use super::projected::{ProjectedMatrices, summed};
 use super::term::Term;
@@ -229,12 +231,23 @@ impl ReducedModel {
         self.solve_in(self.span_of_nearest(mu, self.neighbours()), &at, count, false)
     }
 
-    /// The same for matching modes between solved points, with left vectors of the whole basis: in the span of the two nearest samples.
-    pub fn solve_between(&self, mu: f64, count: usize) -> Result<Vec<ReducedMode>, LinalgError> {
-        let at = self.at(mu);
-        let mut modes = self.solve_in(self.span_of_nearest(mu, 2), &at, count, true)?;
+    /// The same for matching modes at the `ends` of a range of friction, as many as there are: in the span of these where the basis is made
+    /// of samples, without the small imaginary parts that light damping gives them, whose square is what eigenvalues are wrong by.
+    pub fn solve_between(
+        &self,
+        mu: f64,
+        ends: [&[ReducedMode]; 2],
+    ) -> Result<Vec<ReducedMode>, LinalgError> {
+        let (at, rows) = (self.at(mu), self.dimension());
+        let span = (!self.samples.is_empty()).then(|| {
+            let modes = ends.into_iter().flatten().map(|mode| &mode.right).collect::<Vec<_>>();
+            let mut parts = side_by_side(rows, &modes);
+            turn_to_real(&mut parts);
+            orthonormal_complement(Mat::zeros(rows, 0).as_ref(), parts, NEAR)
+        });
+        let count = ends.map(<[_]>::len).into_iter().fold(0, usize::max);
+        let mut modes = self.solve_in(span, &at, count, true)?;
         self.complete(&mut modes, &at, mu);
-        self.refine_lefts(&mut modes, mu);
         Ok(modes)
     }
 

@@ -4,13 +4,14 @@ use super::{BasisBuilder, LOSSY_ROUNDS, scale_to_unit_length, turn_to_real};
 use crate::cea::CeaError;
 use crate::cea::sparse::full_problem::FullProblem;
 use crate::cea::sparse::linearization::Linearization;
-use crate::cea::sparse::mode::ReducedMode;
-use crate::cea::sparse::packed::PackedModes;
+use crate::cea::sparse::mode::{ModeAt, ReducedMode};
+use crate::cea::sparse::packed::{PackedModes, joined, side_by_side};
 use crate::cea::sparse::structure::{StiffnessFactors, StructureMatrices};
 use crate::cea::sparse::{
     BESIDE, CHANGE_PLACES, GROUP_WIDTH, MOST_ATTEMPTS, RESIDUAL_BOUND, SAME_SPACE, SETTLED,
 };
 use crate::linalg::dense::join_columns;
+use crate::linalg::vectors::length;
 use crate::linalg::{LinalgError, Mat, MatrixPolynomial, c64};
 use crate::prestress::SlidingTangent;
 
@@ -158,12 +159,56 @@ impl BasisBuilder<'_> {
     /// If the analysis of the matrices fails.
     pub fn shift(&mut self, mu: f64, modes: &[ReducedMode]) -> Result<bool, CeaError> {
         let vectors = self.step(mu, |builder| builder.shifted_corrections(mu, modes))?;
-        let has_grown = self.model.extend(vectors.clone(), SAME_SPACE).ncols() > 0;
+        Ok(self.hold(mu, &vectors))
+    }
+
+    /// Takes up corrections of modes at `mu`; whether the basis grew.
+    fn hold(&mut self, mu: f64, corrections: &Mat<f64>) -> bool {
+        let has_grown = self.model.extend(corrections.clone(), SAME_SPACE).ncols() > 0;
         match self.is_sampled(mu) {
-            true => self.model.hold_sample(mu, &vectors),
-            false => self.model.hold_correction(mu, &vectors),
+            true => self.model.hold_sample(mu, corrections),
+            false => self.model.hold_correction(mu, corrections),
         }
-        Ok(has_grown)
+        has_grown
+    }
+
+    /// Corrects one mode, nearly that at `mu`, and its left vector, of which a basis of right ones holds less: its eigenvalue is wrong by
+    /// the product of what both lack. By factors beside it as [`Self::shift`] has them or, `is_at_rest`, by those without friction, which
+    /// cost next to nothing and leave more; whether the basis grew.
+    ///
+    /// # Errors
+    /// If the factors cannot be computed.
+    pub fn correct_both(
+        &mut self,
+        ModeAt { mu, mode }: &ModeAt,
+        is_at_rest: bool,
+    ) -> Result<bool, CeaError> {
+        let vectors = self.step(*mu, |builder| {
+            let problem = FullProblem::at(builder.tangent, *mu).sharing(&builder.analysis);
+            let [x, w] = [&mode.right, &mode.left].map(|own| {
+                let own = side_by_side(builder.model.dimension(), &[own]);
+                joined(&builder.model.expand(own.as_ref()), 0)
+            });
+            let size = length(&w);
+            let mut residuals = problem.residuals(mode.eigenvalue, &x, &w);
+            residuals[1].iter_mut().for_each(|v| *v /= size);
+            let mut parts = side_by_side(x.len(), &residuals);
+            let beside = mode.eigenvalue * (1.0 + BESIDE);
+            let factors = (!is_at_rest).then(|| problem.factors(beside).ok()).flatten();
+            match factors {
+                None => builder.factors.solve_in_place(&mut parts),
+                Some(factors) => {
+                    let [mut right, mut left] =
+                        residuals.map(|own| Mat::from_fn(own.len(), 1, |i, _| own[i]));
+                    factors.solve_in_place(right.as_mut());
+                    factors.solve_transpose_in_place(left.as_mut());
+                    parts = join_columns(parts_of(&right).as_ref(), parts_of(&left).as_ref());
+                }
+            }
+            turn_to_real(&mut parts);
+            Ok::<_, LinalgError>(parts)
+        })?;
+        Ok(self.hold(*mu, &vectors))
     }
 
     /// The corrections of [`Self::shift`], two real columns each. Neighbours in frequency share factors.

@@ -5,7 +5,7 @@ use super::points::uncertainty;
 use crate::cea::onset::{BranchSolver, Instability, instabilities};
 use crate::cea::sparse::branches::{TrackedBranch, followed};
 use crate::cea::sparse::mode::{ModeAt, ReducedMode};
-use crate::cea::sparse::{RESIDUAL_BOUND, SAME};
+use crate::cea::sparse::{MOST_STEPS, RESIDUAL_BOUND, SAME, SETTLED};
 use crate::cea::spectrum::ROUNDING_ERRORS;
 use crate::cea::{BranchPoint, UnstableInterval};
 use crate::linalg::LinalgError;
@@ -13,6 +13,13 @@ use crate::linalg::vectors::length;
 
 /// Steps over the whole range, at least, in which a branch is led back: a crossing lies between two of them.
 const STEPS_BACK: usize = 8;
+/// Change of a critical friction coefficient up to which it is the same one.
+const NEARBY: f64 = 1e-3;
+
+/// What round-off of a mode's growth rate may move a crossing by: much where friction hardly feeds the mode.
+pub fn doubt(ModeAt { mode, .. }: &ModeAt) -> f64 {
+    mode.round_off() * mode.eigenvalue.norm() / mode.derivative.re.abs()
+}
 
 /// An unstable interval, and the modes where it begins and ends between the points of a sweep.
 pub struct FoundInterval {
@@ -87,7 +94,8 @@ impl SparseSweep<'_> {
                 is_led_back = earlier.is_some();
                 match earlier {
                     Some(earlier) => {
-                        found = Instability { restabilized: found.restabilized, ..earlier }
+                        let crosses = found.crosses && earlier.crosses;
+                        found = Instability { restabilized: found.restabilized, crosses, ..earlier }
                     }
                     None => {
                         let mut points = self.points.iter().map(|p| p.friction_coefficient);
@@ -122,6 +130,57 @@ impl SparseSweep<'_> {
             }
         }
         Ok(instabilities(&mut solver, &states)?.pop())
+    }
+
+    /// The intervals of a branch, once found, in a basis that holds more of them: its crossings by Newton's method from where they were; all
+    /// anew where that does not settle, or two neutral branches meet.
+    pub(super) fn intervals_again(
+        &self,
+        branch: &TrackedBranch,
+        known: &[FoundInterval],
+    ) -> Result<Vec<FoundInterval>, LinalgError> {
+        let again = |own: &FoundInterval| {
+            let Instability { onset, restabilized, .. } = &own.found;
+            let found = own.found.crosses.then(|| Instability {
+                onset: onset.clone(),
+                restabilized: restabilized.clone(),
+                ..own.found
+            });
+            let mut found = found?;
+            if own.interval.is_located() {
+                found.onset = self.crossing_near(onset)?;
+            }
+            if let Some(end) = restabilized {
+                found.restabilized = Some(self.crossing_near(end)?);
+            }
+            Some(FoundInterval { is_led_back: own.is_led_back, ..self.report(branch, found) })
+        };
+        match known.iter().map(again).collect() {
+            Some(found) => Ok(found),
+            None => self.intervals_of(branch),
+        }
+    }
+
+    /// Where the growth of a mode crosses zero, by Newton's method from nearby.
+    fn crossing_near(&self, ModeAt { mu, mode }: &ModeAt) -> Option<ModeAt> {
+        let (mut mu, mut guess, mut is_there) = (*mu, mode.clone(), false);
+        for _ in 0..MOST_STEPS {
+            let mode = self.builder.model.mode_near(mu, &guess)?;
+            let at = ModeAt { mu, mode };
+            if is_there {
+                return Some(at);
+            }
+            // What the basis lacked moves a crossing by less.
+            let step = at.mode.eigenvalue.re / at.mode.derivative.re;
+            if !(step.abs() <= NEARBY) {
+                return None;
+            }
+            is_there = step.abs() <= SETTLED.max(doubt(&at));
+            mu -= step;
+            guess = at.mode;
+            guess.eigenvalue -= guess.derivative * step;
+        }
+        None
     }
 
     fn report(&self, branch: &TrackedBranch, found: Instability<ModeAt>) -> FoundInterval {
@@ -188,7 +247,10 @@ impl BranchSolver for &SparseSweep<'_> {
         if let Some(mode) = followed(&self.builder.model, (growing.mu, &growing.mode), mu) {
             return Ok(Some(ModeAt { mu, mode }));
         }
-        let mut modes = self.builder.model.solve_between(mu, self.points[0].modes.len())?;
+        let next = self.points.partition_point(|point| point.friction_coefficient < mu);
+        let around = [next.saturating_sub(1), next.min(self.points.len() - 1)];
+        let around = around.map(|k| &self.points[k].modes[..]);
+        let mut modes = self.builder.model.solve_between(mu, around)?;
         let ends = [from, to].map(|end| end.mode.clone());
         let [overlaps, _] = self.builder.model.overlaps_at(mu, &ends, &modes);
         let overlap = |end: usize, j: usize| {

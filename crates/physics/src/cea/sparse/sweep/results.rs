@@ -1,7 +1,7 @@
 //! What a sweep found: points, unstable intervals, shapes.
 
 use super::SparseSweep;
-use super::onset::FoundInterval;
+use super::onset::{FoundInterval, doubt};
 use crate::cea::sparse::branches::{BranchLabel, TrackedBranch};
 use crate::cea::sparse::mode::ModeAt;
 use crate::cea::sparse::{MOST_ATTEMPTS, RESIDUAL_BOUND, SAME_EIGENVALUE, SETTLED};
@@ -9,11 +9,6 @@ use crate::cea::{CeaError, ComplexMode, FrictionPoint, FrictionSweep, SweepReque
 use crate::cea::{EndedMode, UnconvergedMode, UnstableInterval};
 use crate::linalg::{LinalgError, c64};
 use std::f64::consts::TAU;
-
-/// What round-off of a mode's growth rate may move a crossing by: much where friction hardly feeds the mode.
-fn doubt(ModeAt { mode, .. }: &ModeAt) -> f64 {
-    mode.round_off() * mode.eigenvalue.norm() / mode.derivative.re.abs()
-}
 
 impl SparseSweep<'_> {
     /// The result, with shapes and critical friction coefficients.
@@ -92,10 +87,13 @@ impl SparseSweep<'_> {
         let all = || (0..branches.len()).collect::<Vec<usize>>();
         let mut found: Vec<Vec<FoundInterval>> = branches.iter().map(|_| Vec::new()).collect();
         let mut before: Vec<Vec<f64>> = vec![Vec::new(); branches.len()];
-        let mut sought = all();
+        let (mut sought, mut searches) = (all(), true);
         for round in 0.. {
             let own: Result<Vec<_>, LinalgError> =
-                crate::parallel::map(&sought, |&i| self.intervals_of(&branches[i]));
+                crate::parallel::map(&sought, |&i| match searches {
+                    true => self.intervals_of(&branches[i]),
+                    false => self.intervals_again(&branches[i], &found[i]),
+                });
             sought.iter().zip(own?).for_each(|(&i, own)| found[i] = own);
             // Crossings that moved since the last round, all in the first one.
             let mut open: Vec<&ModeAt> = Vec::new();
@@ -117,7 +115,8 @@ impl SparseSweep<'_> {
             }
             // Then those whose residual is too large: what that basis says about other branches is worth no more.
             let missed = || found.iter().flatten().filter_map(FoundInterval::missed);
-            if open.is_empty() {
+            searches = open.is_empty();
+            if searches {
                 open.extend(missed());
                 moved = all();
             }
@@ -125,8 +124,10 @@ impl SparseSweep<'_> {
                 open.clear();
             }
             let mut has_grown = false;
-            for ModeAt { mu, mode } in open {
-                has_grown |= self.builder.shift(*mu, std::slice::from_ref(mode))?;
+            // By turns: factors beside a mode leave little, which those at rest then show to be little.
+            for state in open {
+                let is_at_rest = !searches && round % 2 == 1;
+                has_grown |= self.builder.correct_both(state, is_at_rest)?;
             }
             if !has_grown {
                 let open = missed().map(|s| UnconvergedMode::of(s.mu, s.mode.eigenvalue.im));
