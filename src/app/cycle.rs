@@ -1,8 +1,6 @@
 //! `frictionsim cycle`: limit cycles found directly, and followed over a parameter.
 
-use super::session::{available_memory, gibibytes};
 use super::{Failure, ResumedRun, Session, Told, terminal};
-use crate::case::{Case, refusal};
 use crate::results::cea::KeptSteps;
 use crate::results::cycle::{CycleSummary, SoughtCycle};
 use crate::results::{OutputFolder, ShownBody};
@@ -30,7 +28,6 @@ pub(super) fn run(asked: &ResumedRun) -> Result<(), Failure> {
 
 /// Searches for rotating waves.
 fn waves(session: &Session, is_continued: bool) -> Result<(), Failure> {
-    check_memory(&session.case)?;
     let study = CycleStudy::new(&session.case, session.simd)?;
     let folder = session.open_folder(is_continued)?;
     let families = study.solvers.len() as u64;
@@ -95,23 +92,4 @@ fn written(
         let surfaces = surfaces.map(|own| (own.name.clone(), own.surface)).collect();
         found.figures(body, surfaces, session.case.materials())
     })
-}
-
-/// Refuses phases whose dense matrices do not fit the machine's memory.
-///
-/// # Errors
-/// [`Failure::Case`] at `cycle.phases`.
-pub fn check_memory(case: &Case) -> Result<(), Failure> {
-    let bytes = case.cost().cycle.map_or(0.0, |cycle| cycle.run.memory_bytes);
-    let available = available_memory().unwrap_or(f64::INFINITY);
-    if bytes <= available {
-        return Ok(());
-    }
-    if !case.has_rotating_waves() {
-        return Err(Failure::Case(case.memory_error("cycle", bytes, available)));
-    }
-    Err(Failure::Case(refusal!(case, "cycle.phases",
-        "the search for limit cycles needs about {:.1} GiB of memory, {:.1} GiB are \
-         available", gibibytes(bytes), gibibytes(available);
-        "too many phases for this machine"; "lower cycle.phases, or leave it out")))
 }

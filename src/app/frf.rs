@@ -1,7 +1,7 @@
 //! `frictionsim frf`: frequency response of the model between two nodes.
 
 use super::{Failure, RunOptions, Session, terminal};
-use crate::results::{response_figure, write_response, write_universal_response};
+use crate::results::{response_figure, write_response};
 use crate::signal::FrequencyResponse;
 use crate::study::response::FrequencyStudy;
 
@@ -17,10 +17,8 @@ pub(super) fn run(options: &RunOptions) -> Result<(), Failure> {
     })?;
     bar.finish_and_clear();
     let values = computed.observed(frf);
-    write_response(&folder, frf.quantity, &frf.frequencies_hz, &values)?;
-    if case.output.universal {
-        write_universal_response(&folder, frf.quantity, &frf.frequencies_hz, &values)?;
-    }
+    let is_universal = case.output.universal;
+    write_response(&folder, frf.quantity, &frf.frequencies_hz, &values, is_universal)?;
     let response = FrequencyResponse::new(frf.frequencies_hz.clone(), values, frf.quantity);
     // A few lines are numbers, but no curve.
     let figures = || response.iter().map(response_figure).collect();

@@ -155,9 +155,13 @@ pub fn start_threads(asked: Option<u16>) -> usize {
     rayon::current_num_threads()
 }
 
-/// Memory that this process may still take, bytes, where the system says so: what the kernel holds
-/// available, within the limit of the control group.
-pub fn available_memory() -> Option<f64> {
+/// Memory that this process may still take, bytes: what the kernel holds available, within the limit of the control
+/// group. Where the system does not say, more than any workstation has.
+pub fn machine_memory() -> f64 {
+    available_memory().unwrap_or(1e12)
+}
+
+fn available_memory() -> Option<f64> {
     let text = std::fs::read_to_string("/proc/meminfo").ok()?;
     let line = text.lines().find(|line| line.starts_with("MemAvailable:"))?;
     let kibibytes: f64 = line.split_whitespace().nth(1)?.parse().ok()?;
@@ -166,11 +170,6 @@ pub fn available_memory() -> Option<f64> {
         .and_then(|text| text.trim().parse().ok())
         .unwrap_or(f64::INFINITY);
     Some((1024.0 * kibibytes).min(limit))
-}
-
-/// As [`available_memory`]; where the system does not say, more than any workstation has.
-pub fn machine_memory() -> f64 {
-    available_memory().unwrap_or(1e12)
 }
 
 /// Bytes in GiB.

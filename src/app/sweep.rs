@@ -5,9 +5,10 @@ mod workers;
 pub use crate::study::{Shard, SweepPlan};
 pub use workers::{PointRunner, SweepProgress, SweepRun};
 
+use super::session::machine_memory;
 use super::share::ShareOptions;
 use super::transient::linear_stage;
-use super::{Failure, RunOptions, Session, cycle, terminal};
+use super::{Failure, RunOptions, Session, terminal};
 use crate::case::{Analysis, Case};
 use crate::chart::Figure;
 use crate::results::sweep::{FailedPoint, Found, SweepFolder, SweepReport, SweepSummary};
@@ -16,7 +17,7 @@ use crate::results::sweep_figures::draw_sweep;
 use crate::results::{
     DrawingOptions, Head, Manifest, summary_of, write_page, write_summary, write_table,
 };
-use crate::study::summarize;
+use crate::study::{refuse_memory, summarize};
 use clap::Args;
 use serde_json::{Map, Value};
 
@@ -149,7 +150,7 @@ fn run_point(
     let mut summaries = Map::new();
     for &analysis in analyses {
         if analysis == Analysis::Cycle {
-            cycle::check_memory(case)?;
+            refuse_memory(case, "cycle", case.memory("cycle").0, machine_memory())?;
         }
         let summary = summarize(case, analysis, manifest)?;
         summaries.insert(analysis.word().to_owned(), summary);

@@ -317,3 +317,20 @@ fn keys_of_one_short_name_have_heads_of_their_own() {
         assert_eq!(distinct.len(), heads.len(), "{heads:?}");
     }
 }
+
+/// Files over all points are known beforehand: processes that share a folder write them.
+#[test]
+fn nothing_of_a_study_stays_where_another_one_takes_its_folder() {
+    let folder = folder();
+    let text = coarse_disc(
+        "[cea]\nmax_frequency_hz = 12000\nfriction_coefficients = [0.0, 0.5]\n\
+         [sweep]\nanalyses = [\"cea\"]\n\"contact.interference\" = [25e-6, 30e-6]\n",
+    );
+    fs::write(folder.path().join("disc.toml"), text).unwrap();
+    let run = || Run::new(&["sweep", "disc.toml", "-q"]).within(&folder).out("out");
+    let [table, figure] = ["unstable_modes.csv", "figures/operating-matrix.svg"];
+    let first = run().done().wrote(table).wrote(figure);
+    let other = "transient.duration=1e-3 ; sweep.analyses=[\"transient\"]";
+    run().set(&[other]).args(&["--force", "--no-figures"]).done();
+    assert!(![table, figure].map(|name| first.path(name).exists()).contains(&true));
+}

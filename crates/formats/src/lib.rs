@@ -30,6 +30,7 @@ pub use model_data::{
     FileTie, LeftOut, MaterialAxes, ModelData,
 };
 pub use symmetry::CyclicSymmetry;
+pub use universal::{universal_fields, universal_node};
 
 /// A sum of displacements that vanishes: nodes with an axis and a coefficient.
 pub type Equation = Vec<(u32, usize, f64)>;

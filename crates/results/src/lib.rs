@@ -42,7 +42,7 @@ pub use extent::Extent;
 pub use finding::{Finding, write_page, write_table, write_tables};
 pub use pvd::{PvdEntry, write_pvd};
 pub use report::Page;
-pub use response::{ResponseSummary, response_figure, write_response, write_universal_response};
+pub use response::{ResponseSummary, response_figure, write_response};
 pub use shown_body::{BodyStress, ShownBody};
 pub use store::{
     FolderError, MESH, Manifest, OutputFolder, Record, Replace, is_result, read_manifest,

@@ -37,28 +37,23 @@ pub struct ResponseSummary {
 /// Name of the table of a response in its folder; `frictionsim identify` reads it.
 const RESPONSE_TABLE: &str = "frf.csv";
 
-/// Writes frequency, real and imaginary part.
+/// Writes frequency, real and imaginary part; as a universal file (dataset 58), too, where that is asked for.
 pub fn write_response(
     folder: &OutputFolder,
     quantity: ResponseQuantity,
     frequencies_hz: &[f64],
     values: &[c64],
+    is_universal: bool,
 ) -> Result<(), FolderError> {
     let name = quantity.name();
     let table = Table::new(RESPONSE_TABLE, "")
         .column("frequency_hz", None, frequencies_hz.iter().copied())
         .column(&format!("{name}_real"), None, values.iter().map(|h| h.re))
         .column(&format!("{name}_imaginary"), None, values.iter().map(|h| h.im));
-    write_table(folder, &table)
-}
-
-/// Writes the response as a universal file, dataset 58.
-pub fn write_universal_response(
-    folder: &OutputFolder,
-    quantity: ResponseQuantity,
-    frequencies_hz: &[f64],
-    values: &[c64],
-) -> Result<(), FolderError> {
+    write_table(folder, &table)?;
+    if !is_universal {
+        return Ok(());
+    }
     folder.write("frf.unv", |out| {
         let response = FrequencyResponse::new(frequencies_hz.to_vec(), values.to_vec(), quantity);
         let response = response.map_err(io::Error::other)?;

@@ -16,6 +16,26 @@ fn groups_are_regions_surfaces_and_sets_of_nodes() {
     assert!(model.remarks[0].contains("divided by 1000"), "{:?}", model.remarks);
 }
 
+/// Dataset 15 has three numbers of 13 characters each: a minus may be all that parts them.
+#[test]
+fn coordinates_that_touch_are_three() {
+    let (head, tail) = BRICK.split_once("  2411\n").unwrap();
+    let (nodes, tail) = tail.split_once("    -1\n").unwrap();
+    let lines: Vec<&str> = nodes.lines().collect();
+    let line = |node: &[&str]| {
+        let label = node[0].split_whitespace().next().unwrap();
+        let numbers =
+            node[1].split_whitespace().map(|x| x.replace('D', "e").parse::<f64>().unwrap());
+        let place: String =
+            numbers.map(|x| format!("{:>13}", format!("{:.6}E+00", x - 5.0))).collect();
+        format!("{label:>10}         0         0        11{place}\n")
+    };
+    let nodes: String = lines.chunks(2).map(line).collect();
+    assert!(nodes.contains("E+00-"), "{nodes}");
+    let mesh = body("brick.unv", &format!("{head}    15\n{nodes}    -1\n{tail}"));
+    has_areas(&mesh, &[("foot", 2.0), ("head", 2.0)]);
+}
+
 #[test]
 fn wrong_universal_files_are_told_by_line() {
     check_errors("brick.unv", BRICK, include_str!("../meshes/wrong-universal.txt"));

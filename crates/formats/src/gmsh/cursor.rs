@@ -5,6 +5,7 @@ use crate::deck::quoted;
 use frictionsim_bounds::{MESSAGE, shortened};
 
 /// A position in the bytes of a file, with what it takes to name it.
+#[derive(Default)]
 pub(super) struct Cursor<'a> {
     bytes: &'a [u8],
     at: usize,
@@ -17,7 +18,7 @@ pub(super) struct Cursor<'a> {
 
 impl<'a> Cursor<'a> {
     pub fn new(bytes: &'a [u8]) -> Self {
-        Self { bytes, at: 0, line: 1, is_binary: false, is_swapped: false }
+        Self { bytes, line: 1, ..Self::default() }
     }
 
     /// An error here.

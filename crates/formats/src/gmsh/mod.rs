@@ -47,34 +47,28 @@ impl FileMesh {
             };
         }
         cursor.end("MeshFormat")?;
-        let mut reader = Reader::default();
+        let mut reader = Reader { cursor, ..Reader::default() };
         let is_new = words[0] == "4.1";
-        while let Some(section) = cursor.section() {
-            cursor.refuse_end()?;
+        while let Some(section) = reader.cursor.section() {
+            reader.cursor.refuse_end()?;
             match section.as_str() {
-                "PhysicalNames" => reader.physical_names(&mut cursor)?,
-                "Entities" if is_new => reader.entities(&mut cursor)?,
-                "Nodes" if is_new => reader.nodes_4(&mut cursor)?,
-                "Nodes" => reader.nodes_2(&mut cursor)?,
-                "Elements" if is_new => reader.elements_4(&mut cursor)?,
-                "Elements" => reader.elements_2(&mut cursor)?,
+                "PhysicalNames" => reader.physical_names()?,
+                "Entities" if is_new => reader.entities()?,
+                "Nodes" if is_new => reader.nodes_4()?,
+                "Nodes" => reader.nodes_2()?,
+                "Elements" if is_new => reader.elements_4()?,
+                "Elements" => reader.elements_2()?,
                 _ => {
-                    cursor.skip_section(&section)?;
+                    reader.cursor.skip_section(&section)?;
                     continue;
                 }
             }
-            cursor.end(&section)?;
+            reader.cursor.end(&section)?;
         }
         if reader.file.points.is_empty() {
-            refuse!(cursor; "the file has no $Nodes");
+            refuse!(reader.cursor; "the file has no $Nodes");
         }
-        let file = reader.finished();
-        if file.elements.is_empty() {
-            refuse!(cursor;
-                "the file has no triangles or quadrilaterals: mesh the surfaces (gmsh -2), and put \
-                 them in a physical group if the file has any");
-        }
-        Ok(file)
+        reader.finished()
     }
 }
 
@@ -109,7 +103,8 @@ const LONGEST_NAME: usize = 4096;
 
 /// What is gathered on the way through the file.
 #[derive(Default)]
-struct Reader {
+struct Reader<'a> {
+    cursor: Cursor<'a>,
     file: FileMesh,
     /// Names by dimension and tag.
     names: BTreeMap<(i64, i64), Arc<str>>,
@@ -121,9 +116,9 @@ struct Reader {
     surfaces: BTreeMap<String, Vec<SurfaceFace>>,
 }
 
-impl Reader {
+impl Reader<'_> {
     /// The file, of solid elements where there are any: plane ones are then faces of its physical surfaces.
-    fn finished(self) -> FileMesh {
+    fn finished(self) -> Result<FileMesh, MeshFileError> {
         let mut file = self.file;
         let dimensions = file.elements.iter().map(|element| element.kind.dimension());
         let dimension = dimensions.max().unwrap_or(2);
@@ -131,43 +126,45 @@ impl Reader {
         if dimension == 3 {
             file.surfaces = self.surfaces;
         }
-        FileMesh { dimension, ..file }
+        if file.elements.is_empty() {
+            refuse!(self.cursor;
+                "the file has no triangles or quadrilaterals: mesh the surfaces (gmsh -2), and put \
+                 them in a physical group if the file has any");
+        }
+        Ok(FileMesh { dimension, ..file })
     }
 
-    fn physical_names(&mut self, cursor: &mut Cursor<'_>) -> Result<(), MeshFileError> {
+    fn physical_names(&mut self) -> Result<(), MeshFileError> {
         // Text in binary files too.
-        let is_binary = std::mem::replace(&mut cursor.is_binary, false);
-        let count = cursor.count("physical names", 5)?;
-        cursor.text_line();
+        let is_binary = std::mem::replace(&mut self.cursor.is_binary, false);
+        let count = self.cursor.count("physical names", 5)?;
+        self.cursor.text_line();
         for _ in 0..count {
-            let line = cursor.text_line().unwrap_or_default();
+            let line = self.cursor.text_line().unwrap_or_default();
             let mut parts = line.splitn(3, char::is_whitespace);
             let mut number = || parts.next().and_then(|word| word.parse::<i64>().ok());
             let (dimension, tag) = (number(), number());
             let name = parts.next().map(|name| name.trim().trim_matches('"').to_owned());
             let (Some(dimension), Some(tag), Some(name)) = (dimension, tag, name) else {
-                refuse!(cursor; "dimension, tag and \"name\" of a physical group expected");
+                refuse!(self.cursor; "dimension, tag and \"name\" of a physical group expected");
             };
             if name.len() > LONGEST_NAME {
-                refuse!(cursor;
+                refuse!(self.cursor;
                     "the name of a physical group has {} bytes, more than {LONGEST_NAME}",
                     name.len());
             }
             self.names.insert((dimension, tag), name.into());
         }
-        cursor.is_binary = is_binary;
+        self.cursor.is_binary = is_binary;
         Ok(())
     }
 
-    fn node(
-        &mut self,
-        cursor: &Cursor<'_>,
-        label: usize,
-        point: [f64; 3],
-    ) -> Result<(), MeshFileError> {
+    fn node(&mut self, label: usize) -> Result<(), MeshFileError> {
+        let [x, y, z] = [0; 3].map(|_| self.cursor.number("coordinate"));
+        let point = [x?, y?, z?];
         let index = self.file.points.len() as u32;
         if self.index_of.insert(label, index).is_some() {
-            refuse!(cursor; "node {label} is given twice");
+            refuse!(self.cursor; "node {label} is given twice");
         }
         self.file.labels.push(label);
         self.file.points.push(point);
@@ -189,18 +186,17 @@ impl Reader {
     /// Takes one element in; `groups` are its physical tags.
     fn element(
         &mut self,
-        cursor: &Cursor<'_>,
         number: i64,
         label: usize,
         entity: i64,
         groups: &[i64],
         labels: &[usize],
     ) -> Result<(), MeshFileError> {
-        let (dimension, _, kind) = shape_of(cursor, number, label)?;
+        let (dimension, _, kind) = self.shape_of(number, label)?;
         let mut nodes = Vec::with_capacity(labels.len());
         for node in labels {
             let Some(&index) = self.index_of.get(node) else {
-                refuse!(cursor; "element {label} names node {node}, which the file does not have");
+                refuse!(self.cursor; "element {label} names node {node}, which the file does not have");
             };
             self.file.is_used[index as usize] = true;
             nodes.push(index);
@@ -229,36 +225,36 @@ impl Reader {
         }
         Ok(())
     }
-}
 
-/// Dimension, node count and, for plane and solid elements, the kind of an element type that can be used.
-fn shape_of(
-    cursor: &Cursor<'_>,
-    number: i64,
-    label: usize,
-) -> Result<(i64, usize, Option<ElementKind>), MeshFileError> {
-    let known =
-        ElementKind::listed(|row| row.gmsh.names.iter().any(|&kind| i64::from(kind) == number));
-    if let Some(kind) = known {
-        return Ok((kind.dimension() as i64, kind.node_count(), Some(kind)));
-    }
-    match number {
-        1 => Ok((1, 2, None)),
-        8 => Ok((1, 3, None)),
-        15 => Ok((0, 1, None)),
-        10 => Err(cursor.error(format!(
-            "element {label} is a quadrilateral of nine nodes (type 10), which is not supported: set \
-             Mesh.SecondOrderIncomplete = 1 for eight"
-        ))),
-        12..=14 => Err(cursor.error(format!(
-            "element {label} has nodes inside its faces (type {number}), which is not supported. \
-             Set Mesh.SecondOrderIncomplete = 1 for bricks of 20, wedges of 15 and pyramids of 13 \
-             nodes"
-        ))),
-        _ => Err(cursor.error(format!(
-            "element {label} has type {number}, which is not supported: triangles, quadrilaterals, {} of first and second \
-             order are",
-            ElementKind::SOLID_SHAPES
-        ))),
+    /// Dimension, node count and, for plane and solid elements, the kind of an element type that can be used.
+    fn shape_of(
+        &self,
+        number: i64,
+        label: usize,
+    ) -> Result<(i64, usize, Option<ElementKind>), MeshFileError> {
+        let known =
+            ElementKind::listed(|row| row.gmsh.names.iter().any(|&kind| i64::from(kind) == number));
+        if let Some(kind) = known {
+            return Ok((kind.dimension() as i64, kind.node_count(), Some(kind)));
+        }
+        match number {
+            1 => Ok((1, 2, None)),
+            8 => Ok((1, 3, None)),
+            15 => Ok((0, 1, None)),
+            10 => Err(self.cursor.error(format!(
+                "element {label} is a quadrilateral of nine nodes (type 10), which is not supported: set \
+                 Mesh.SecondOrderIncomplete = 1 for eight"
+            ))),
+            12..=14 => Err(self.cursor.error(format!(
+                "element {label} has nodes inside its faces (type {number}), which is not supported. \
+                 Set Mesh.SecondOrderIncomplete = 1 for bricks of 20, wedges of 15 and pyramids of 13 \
+                 nodes"
+            ))),
+            _ => Err(self.cursor.error(format!(
+                "element {label} has type {number}, which is not supported: triangles, quadrilaterals, {} of first and second \
+                 order are",
+                ElementKind::SOLID_SHAPES
+            ))),
+        }
     }
 }

@@ -1,72 +1,63 @@
 //! Nodes and elements of MSH 2.2.
 
-use super::cursor::Cursor;
-use super::{MeshFileError, Reader, shape_of};
+use super::{MeshFileError, Reader};
 
-impl Reader {
-    pub(super) fn nodes_2(&mut self, cursor: &mut Cursor<'_>) -> Result<(), MeshFileError> {
-        let count = cursor.text_count("nodes", 8)?;
+impl Reader<'_> {
+    pub(super) fn nodes_2(&mut self) -> Result<(), MeshFileError> {
+        let count = self.cursor.text_count("nodes", 8)?;
         for _ in 0..count {
-            let label = node_number(cursor)?;
-            let point = [0; 3].map(|_| cursor.number("coordinate"));
-            let [x, y, z] = point;
-            self.node(cursor, label, [x?, y?, z?])?;
+            let label = self.node_number()?;
+            self.node(label)?;
         }
         Ok(())
     }
 
-    pub(super) fn elements_2(&mut self, cursor: &mut Cursor<'_>) -> Result<(), MeshFileError> {
-        let count = cursor.text_count("elements", 6)?;
+    pub(super) fn elements_2(&mut self) -> Result<(), MeshFileError> {
+        let count = self.cursor.text_count("elements", 6)?;
         let mut read = 0;
         while read < count {
             // A binary file groups elements of one type under a header; text has one header for each.
-            let (kind, group, tags, label) = if cursor.is_binary {
-                let kind = cursor.int("element type")?;
-                let group = cursor.int("number of elements")?;
-                (kind, group, cursor.int("number of tags")?, None)
+            let (kind, group, tags, label) = if self.cursor.is_binary {
+                let kind = self.cursor.int("element type")?;
+                let group = self.cursor.int("number of elements")?;
+                (kind, group, self.cursor.int("number of tags")?, None)
             } else {
-                let label = cursor.int("element number")?;
-                let kind = cursor.int("element type")?;
-                (kind, 1, cursor.int("number of tags")?, Some(label))
+                let label = self.cursor.int("element number")?;
+                let kind = self.cursor.int("element type")?;
+                (kind, 1, self.cursor.int("number of tags")?, Some(label))
             };
             if group < 1 || group > (count - read) as i64 || !(0..=64).contains(&tags) {
-                refuse!(cursor; "a group of {group} elements with {tags} tags is not valid here");
+                refuse!(self.cursor; "a group of {group} elements with {tags} tags is not valid here");
             }
             for _ in 0..group {
                 let label = match label {
                     Some(label) => label,
-                    None => cursor.int("element number")?,
+                    None => self.cursor.int("element number")?,
                 };
-                self.element_2(cursor, kind, label.unsigned_abs() as usize, tags)?;
+                self.element_2(kind, label.unsigned_abs() as usize, tags)?;
                 read += 1;
             }
         }
         Ok(())
     }
 
-    fn element_2(
-        &mut self,
-        cursor: &mut Cursor<'_>,
-        kind: i64,
-        label: usize,
-        tags: i64,
-    ) -> Result<(), MeshFileError> {
-        let tags: Result<Vec<i64>, _> = (0..tags).map(|_| cursor.int("tag")).collect();
+    fn element_2(&mut self, kind: i64, label: usize, tags: i64) -> Result<(), MeshFileError> {
+        let tags: Result<Vec<i64>, _> = (0..tags).map(|_| self.cursor.int("tag")).collect();
         let tags = tags?;
-        let (_, node_count, _) = shape_of(cursor, kind, label)?;
-        let nodes: Result<Vec<usize>, _> = (0..node_count).map(|_| node_number(cursor)).collect();
+        let (_, node_count, _) = self.shape_of(kind, label)?;
+        let nodes: Result<Vec<usize>, _> = (0..node_count).map(|_| self.node_number()).collect();
         // The first tag is the physical group, 0 for none; the second the entity.
         let physical: Vec<i64> =
             tags.first().copied().filter(|&tag| tag != 0).into_iter().collect();
         let entity = tags.get(1).copied().unwrap_or(0);
-        self.element(cursor, kind, label, entity, &physical, &nodes?)
+        self.element(kind, label, entity, &physical, &nodes?)
     }
-}
 
-fn node_number(cursor: &mut Cursor<'_>) -> Result<usize, MeshFileError> {
-    let number = cursor.int("node number")?;
-    usize::try_from(number)
-        .ok()
-        .filter(|&number| number > 0)
-        .ok_or_else(|| cursor.error(format!("node number {number} is not positive")))
+    fn node_number(&mut self) -> Result<usize, MeshFileError> {
+        let number = self.cursor.int("node number")?;
+        usize::try_from(number)
+            .ok()
+            .filter(|&number| number > 0)
+            .ok_or_else(|| self.cursor.error(format!("node number {number} is not positive")))
+    }
 }

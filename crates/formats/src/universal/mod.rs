@@ -6,6 +6,9 @@
 //! Source: Siemens SDRC, universal file format, datasets 164, 2411, 2412, 2467.
 
 mod groups;
+mod nodes;
+
+pub use nodes::{universal_fields, universal_node};
 
 use super::ElementKind;
 use super::collection::{CollectedElement, dimension, finished, outer_faces, sorted};
@@ -131,8 +134,8 @@ impl<'a> Reader<'_, 'a> {
             };
             let number = number.trim();
             match number.parse::<usize>() {
-                Ok(15) => self.nodes_on_one_line()?,
-                Ok(781 | 2411) => self.nodes()?,
+                Ok(15) => self.nodes(1)?,
+                Ok(781 | 2411) => self.nodes(2)?,
                 Ok(2412) => self.elements()?,
                 Ok(number) if GROUPS.contains(&number) => self.groups(number)?,
                 Ok(164) => self.units()?,
@@ -163,47 +166,19 @@ impl<'a> Reader<'_, 'a> {
         Ok(())
     }
 
-    fn node(&mut self, place: Place, label: usize, point: &[f64]) -> Result<(), MeshFileError> {
-        let Some(&point) = point.first_chunk::<3>() else {
-            refuse!(self.deck, place; "node {label} needs three coordinates");
-        };
-        let next = self.file.points.len() as u32;
-        if self.nodes.insert(label, next).is_some() {
-            refuse!(self.deck, place; "node {label} is given twice");
-        }
-        self.file.points.push(point);
-        self.file.labels.push(label);
-        Ok(())
-    }
-
-    fn coordinates(&self, place: Place, words: &[&str]) -> Result<Vec<f64>, MeshFileError> {
-        let parsed = words.iter().map(|word| {
-            real(word).ok_or_else(
-                || fault!(self.deck, place; "a coordinate expected, found {}", quoted(word)),
-            )
-        });
-        parsed.collect()
-    }
-
-    fn nodes(&mut self) -> Result<(), MeshFileError> {
-        while let Some(head) = self.inner()? {
-            let label = self.must(self.ints(head)?.first().copied())?;
-            let next = self.inner()?;
-            let (place, line) = self.must(next)?;
-            let words: Vec<&str> = line.split_whitespace().collect();
-            let point = self.coordinates(place, &words)?;
-            self.node(place, label, &point)?;
-        }
-        Ok(())
-    }
-
-    fn nodes_on_one_line(&mut self) -> Result<(), MeshFileError> {
-        while let Some((place, line)) = self.inner()? {
-            let words: Vec<&str> = line.split_whitespace().collect();
-            let label = words.first().and_then(|word| word.parse().ok());
-            let label = self.must(label)?;
-            let point = self.coordinates(place, words.get(4..).unwrap_or_default())?;
-            self.node(place, label, &point)?;
+    /// Nodes, one line for each or two.
+    fn nodes(&mut self, lines: usize) -> Result<(), MeshFileError> {
+        while let Some(first) = self.inner()? {
+            let next = if lines == 1 { Some(first) } else { self.inner()? };
+            let (place, last) = self.must(next)?;
+            let node = universal_node(&[first.1, last][2 - lines..]);
+            let (label, point) = node.map_err(|problem| self.deck.error(place, problem))?;
+            let next = self.file.points.len() as u32;
+            if self.nodes.insert(label, next).is_some() {
+                refuse!(self.deck, place; "node {label} is given twice");
+            }
+            self.file.points.push(point);
+            self.file.labels.push(label);
         }
         Ok(())
     }

@@ -15,10 +15,11 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Files over all points.
-const OVER_ALL: [&str; 8] = [
+const OVER_ALL: [&str; 9] = [
     "points.csv",
     "samples.csv",
     "stability.csv",
+    "unstable_modes.csv",
     "modes.csv",
     "branches.csv",
     "summary.json",
@@ -26,11 +27,13 @@ const OVER_ALL: [&str; 8] = [
     "figures.bin",
 ];
 /// Figures over all points.
-const FIGURES: [&str; 8] = [
+const FIGURES: [&str; 10] = [
     "uncertainty",
     "indices",
     "robust",
+    "basins",
     "critical-friction",
+    "operating-matrix",
     "frequencies",
     "status",
     "branch-frequencies",

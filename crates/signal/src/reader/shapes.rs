@@ -9,6 +9,7 @@ use super::text::{decode, first_of, shortened};
 use super::uff::{Lines, numbers};
 use faer::c64;
 use frictionsim_bounds::{LARGEST_COORDINATE, LARGEST_DISPLACEMENT};
+use frictionsim_formats::universal_node;
 use std::collections::BTreeMap;
 
 /// A measured shape.
@@ -144,20 +145,30 @@ impl Row<'_> {
 /// The shapes of a universal file.
 fn universal(bytes: &[u8], source: &str) -> Result<Vec<MeasuredShape>, ReadError> {
     let mut lines = Lines::of(bytes);
-    let mut nodes: BTreeMap<u64, [f64; 3]> = BTreeMap::new();
+    let mut nodes: BTreeMap<usize, [f64; 3]> = BTreeMap::new();
     let mut found: Vec<Shape> = Vec::new();
     while let Some(words) = lines.dataset() {
         let (number, first) = (words.join(" "), lines.count);
         let body = lines.body();
-        let damaged = |(line, reason): (usize, &str)| {
+        let damaged = |line: usize, reason: &str| {
             let problem = format!("universal file: dataset {number}: {reason}");
             ReadError::at(source, first + line + 1, 1, problem)
         };
-        match number.as_str() {
-            "15" => nodes_of(&body, 1, &mut nodes).map_err(damaged)?,
-            "2411" | "781" => nodes_of(&body, 2, &mut nodes).map_err(damaged)?,
-            "55" => found.push(shape_of(&body).map_err(damaged)?),
-            _ => {}
+        let lines = match number.as_str() {
+            "15" => 1,
+            "2411" | "781" => 2,
+            "55" => {
+                found.push(shape_of(&body).map_err(|(line, reason)| damaged(line, reason))?);
+                continue;
+            }
+            _ => continue,
+        };
+        for (k, record) in body.chunks(lines).enumerate() {
+            let node = universal_node(record).map_err(|reason| damaged(k * lines, &reason))?;
+            if !node.1.iter().all(|x| x.abs() <= LARGEST_COORDINATE) {
+                return Err(damaged(k * lines, "a coordinate is beyond 1e12"));
+            }
+            nodes.extend([node]);
         }
     }
     let shapes = found.into_iter().enumerate().map(|(k, (name, frequency_hz, rows))| {
@@ -177,32 +188,8 @@ fn universal(bytes: &[u8], source: &str) -> Result<Vec<MeasuredShape>, ReadError
     shapes.collect()
 }
 
-/// Nodes of a dataset, whose coordinates stand on the last of so many lines, at its end.
-fn nodes_of(
-    body: &[String],
-    lines: usize,
-    nodes: &mut BTreeMap<u64, [f64; 3]>,
-) -> Result<(), (usize, &'static str)> {
-    for (k, record) in body.chunks(lines).enumerate() {
-        let short = (k * lines, "a node ends early");
-        let (head, last) = (numbers(&record[0]), numbers(record.last().ok_or(short)?));
-        let (Some(label), Some(from)) = (head.first(), last.len().checked_sub(3)) else {
-            return Err(short);
-        };
-        if record.len() < lines || (lines == 1 && last.len() < 7) {
-            return Err(short);
-        }
-        let place = [last[from], last[from + 1], last[from + 2]];
-        if place.iter().any(|x| !(x.abs() <= LARGEST_COORDINATE)) {
-            return Err((k * lines, "a coordinate is not finite, or beyond 1e12"));
-        }
-        nodes.insert(*label as u64, place);
-    }
-    Ok(())
-}
-
 /// One shape: its name, its frequency, the motion of each node.
-type Shape = (String, Option<f64>, Vec<(u64, [Option<c64>; 3])>);
+type Shape = (String, Option<f64>, Vec<(usize, [Option<c64>; 3])>);
 
 /// Dataset 55: five lines of text, the form of the data, the mode, then nodes.
 fn shape_of(body: &[String]) -> Result<Shape, (usize, &'static str)> {
@@ -255,7 +242,7 @@ fn shape_of(body: &[String]) -> Result<Shape, (usize, &'static str)> {
             true => c64::new(own[2 * axis], own[2 * axis + 1]),
             false => c64::new(own[axis], 0.0),
         };
-        rows.push((label as u64, [0, 1, 2].map(|axis| (axis < each).then(|| value(axis)))));
+        rows.push((label as usize, [0, 1, 2].map(|axis| (axis < each).then(|| value(axis)))));
     }
     Ok((format!("{mode}"), frequency.filter(|f| *f > 0.0), rows))
 }

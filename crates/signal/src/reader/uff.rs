@@ -10,6 +10,7 @@ use super::error::{NO_RATE, ReadError};
 use super::mat::whole;
 use super::text::first_of;
 use faer::c64;
+use frictionsim_formats::universal_fields;
 use std::collections::BTreeSet;
 
 /// Function types: time response, frequency response, coherence.
@@ -186,17 +187,8 @@ fn function(lines: &mut Lines, binary: Option<(usize, bool)>) -> Result<Function
 
 /// Numbers of a record, also where a sign is all that separates them.
 pub(super) fn numbers(line: &str) -> Vec<f64> {
-    let mut spread = String::with_capacity(line.len() + 8);
-    let mut before = ' ';
-    for c in line.chars() {
-        if matches!(c, '-' | '+') && before.is_ascii_digit() {
-            spread.push(' ');
-        }
-        spread.push(if matches!(c, 'd' | 'D') { 'E' } else { c });
-        before = c;
-    }
-    let words = spread.split_whitespace();
-    words.map_while(|word| word.parse().ok()).collect()
+    let fields = universal_fields(line);
+    fields.split_whitespace().map_while(|word| word.parse().ok()).collect()
 }
 
 /// The numbers of a binary dataset, each of so many bytes in turn: 4 in single precision, 8 in double.

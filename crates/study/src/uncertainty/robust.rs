@@ -2,7 +2,7 @@
 
 use super::{Sampler, wilson};
 use crate::StudyError;
-use frictionsim_case::Case;
+use frictionsim_case::{Case, CaseErrors};
 use frictionsim_results::uncertainty::{DesignCurve, Onset, RobustSummary};
 use std::str::FromStr;
 
@@ -46,14 +46,12 @@ impl FromStr for Design {
 }
 
 impl Design {
-    /// The case with a value of the design parameter.
+    /// The case with a value of the design parameter, without what is studied of it.
     ///
     /// # Errors
-    /// [`StudyError::Case`] for a value that makes no valid case.
-    pub fn case(&self, case: &Case, value: f64) -> Result<Case, StudyError> {
-        let overrides = [format!("{}={value:?}", self.key)];
-        let raw = case.raw.with_overrides(&overrides)?;
-        Ok(Case::read(raw)?)
+    /// A value that makes no valid case.
+    pub fn case(&self, case: &Case, value: f64) -> Result<Case, CaseErrors> {
+        case.with_keys(&[format!("{}={value:?}", self.key)])
     }
 }
 

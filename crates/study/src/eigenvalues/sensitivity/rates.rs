@@ -155,8 +155,7 @@ pub(crate) fn rates_of_waves(
 pub(super) fn rates_of(case: &Case, cea: &Cea, pairs: &Pairs, (key, value): (&str, f64)) -> Rates {
     let moved = |offset: f64| -> Result<Case, String> {
         let set = [format!("{key}={:?}", value + offset)];
-        let raw = case.raw.with_overrides(&set).map_err(|errors| errors.line())?;
-        Case::read(raw).map_err(|errors| errors.line())
+        case.with_keys(&set).map_err(|errors| errors.line())
     };
     let step = step_of(key, value);
     let found = match pairs {
