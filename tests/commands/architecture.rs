@@ -67,7 +67,7 @@ const BUDGETS: &[(&str, usize)] = &[
     ("crates/physics/src/transient", 4_691),
     ("crates/results", 18_210),
     ("crates/signal", 6_052),
-    ("crates/study", 10_797),
+    ("crates/study", 10_652),
     ("src/app", 4_549),
     ("src/guide", 70),
     ("src/lib.rs", 100),

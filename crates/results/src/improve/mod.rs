@@ -6,7 +6,7 @@ mod tables;
 
 use super::Extent;
 use super::finding::finding;
-use frictionsim_output::{Column, Described, parted};
+use frictionsim_output::{Column, Described, parted, significant};
 use frictionsim_physics::mesh::Mesh;
 use serde::Serialize;
 use std::sync::Arc;
@@ -84,7 +84,7 @@ finding! {
         /// Its frequency, Hz.
         frequency_hz: Option<f64>;
         critical_friction: Option<f64>
-            = "lowest critical friction of the window; empty where none is below the case's own",
+            = "lowest critical friction of the window, of a run; empty where none is below the case's own",
             Always "critical friction" Fixed(4);
         /// Unstable modes there.
         unstable: usize;
@@ -95,7 +95,7 @@ finding! {
 }
 
 /// Those that a prediction has too.
-pub(super) const PREDICTED: &[Column<State>] = parted(STATES, "unstable_beside").0;
+pub(super) const PREDICTED: &[Column<State>] = parted(STATES, "critical_friction").0;
 
 /// Sizes of the modifications.
 #[derive(Clone, Copy, Debug, Described, Serialize)]
@@ -170,17 +170,17 @@ impl ImproveSummary {
     /// What was found, in a sentence.
     pub fn answer(&self) -> String {
         let friction = self.friction_coefficient;
-        let base = critical(self.base.critical_friction, friction);
-        let change = |own: &Candidate, state: Option<State>| {
-            let critical = critical(state.and_then(|state| state.critical_friction), friction);
-            format!("{} ({}): critical friction {base} -> {critical}", own.kind, own.place())
-        };
+        let onset = |state: State| critical(state.critical_friction, friction);
+        let place = |own: &Candidate| format!("{} ({})", own.kind, own.place());
         match (self.best(), self.candidates.first()) {
             (Some(own), _) => {
-                format!("{}, run again and {}", change(own, own.confirmed), own.verdict)
+                let [from, to] = [self.base, own.confirmed.unwrap_or_default()].map(onset);
+                let change = format!("{}: critical friction {from} -> {to}", place(own));
+                format!("{change}, run again and {}", own.verdict)
             }
             (None, Some(own)) if own.confirmed.is_none() => {
-                format!("{} as predicted; none was run again", change(own, Some(own.predicted)))
+                let growth = significant(own.predicted.growth_rate_per_s.unwrap_or(0.0), 4);
+                format!("{}: growth {growth} 1/s predicted; none was run again", place(own))
             }
             (None, Some(_)) => "none of the candidates that were run again holds".to_owned(),
             (None, None) => "no modification of these sizes helps".to_owned(),

@@ -9,7 +9,7 @@
 //! derivative, and has its poles. The small problem
 //!
 //! ```text
-//! W^T (s^2 M(mu) + s C(mu) + K(mu) + E D(s) E^T) X q = 0
+//! W^T (s^2 M + s C + K + E D(s) E^T) X q = 0
 //! ```
 //!
 //! is solved with all of its eigenvalues, whatever the size of `D`.
@@ -20,7 +20,7 @@
 use super::base::{Base, PairedMode, REACH};
 use frictionsim_physics::linalg::dense::{dot, transpose_product};
 use frictionsim_physics::linalg::dense_eigen::real_eigenvalues;
-use frictionsim_physics::linalg::{ComplexSparseLu, FrictionWeights, LinalgError, Mat, c64};
+use frictionsim_physics::linalg::{ComplexSparseLu, LinalgError, Mat, c64};
 use nalgebra::DMatrix;
 
 /// Modes taken into the space, the nearest to the targets.
@@ -29,13 +29,10 @@ const MOST_MODES: usize = 16;
 /// Part of its length that a response must keep beside the others.
 const LEAST_PART: f64 = 1e-8;
 
-/// The projected problem with what is attached, `[M, C, K]` by power of friction.
+/// The projected problem with what is attached.
 pub(super) struct Attached {
-    matrices: [Vec<DMatrix<f64>>; 3],
-    /// What each power weighs.
-    weights: FrictionWeights,
-    /// What is attached, projected.
-    added: [DMatrix<f64>; 3],
+    /// `[M, C, K]`.
+    matrices: [DMatrix<f64>; 3],
     /// Frequencies within which it is to be believed, rad/s.
     pub range: [f64; 2],
 }
@@ -87,22 +84,20 @@ impl<'a> NearModes<'a> {
 
         // The whole problem and what is attached, in the space.
         let tangent = &self.base.tangent;
-        let project = |values: &[f64]| {
-            let image = tangent.stiffness.pattern().multiply(values, right.as_ref());
-            let form = transpose_product(left.as_ref(), image.as_ref());
-            DMatrix::from_fn(form.nrows(), form.ncols(), |i, j| form[(i, j)])
-        };
-        let all = [&tangent.mass, &tangent.damping, &tangent.stiffness];
-        let matrices = all.map(|p| p.coefficients().iter().map(|values| project(values)).collect());
+        let whole = [&tangent.mass, &tangent.damping, &tangent.stiffness];
         let at = |basis: &Mat<f64>| {
             DMatrix::from_fn(rows.len(), basis.ncols(), |i, j| basis[(rows[i], j)])
         };
-        let (right, left) = (at(&right), at(&left));
-        let added = attached.map(|own| {
-            let own = own.select_rows(&free).select_columns(&free);
-            left.transpose() * own * &right
+        let (right_there, left_there) = (at(&right), at(&left));
+        let matrices = [0, 1, 2].map(|i| {
+            let values = whole[i].evaluate(self.base.friction);
+            let image = tangent.stiffness.pattern().multiply(&values, right.as_ref());
+            let form = transpose_product(left.as_ref(), image.as_ref());
+            let own = attached[i].select_rows(&free).select_columns(&free);
+            DMatrix::from_fn(form.nrows(), form.ncols(), |i, j| form[(i, j)])
+                + left_there.transpose() * own * &right_there
         });
-        Attached { matrices, weights: tangent.stiffness.weights(), added, range: self.range }
+        Attached { matrices, range: self.range }
     }
 
     /// Right and left bases: modes and residual responses, real and imaginary parts, as many on either side.
@@ -164,19 +159,12 @@ fn add_column(
 }
 
 impl Attached {
-    /// Eigenvalues with `Im > 0` within the range at a friction coefficient; without what is attached if `is_bare`.
-    pub fn spectrum(&self, mu: f64, is_bare: bool) -> Result<Vec<c64>, LinalgError> {
-        let at = |kind: usize| {
-            let powers = self.matrices[kind].iter().enumerate();
-            let sum = powers.map(|(power, own)| own * self.weights.at(power, mu));
-            let sum = sum.reduce(|a, b| a + b);
-            let sum = sum.unwrap_or_else(|| &self.added[kind] * 0.0);
-            if is_bare { sum } else { sum + &self.added[kind] }
-        };
-        let [mass, damping, stiffness] = [0, 1, 2].map(at);
+    /// Eigenvalues with `Im > 0` within the range.
+    pub fn spectrum(&self) -> Result<Vec<c64>, LinalgError> {
+        let [mass, damping, stiffness] = &self.matrices;
         let n = mass.nrows();
-        let lu = mass.lu();
-        let (Some(c), Some(k)) = (lu.solve(&damping), lu.solve(&stiffness)) else {
+        let lu = mass.clone().lu();
+        let (Some(c), Some(k)) = (lu.solve(damping), lu.solve(stiffness)) else {
             return Ok(Vec::new());
         };
         // Unknowns (q, s q / omega): rows of one size.

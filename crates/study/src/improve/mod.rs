@@ -76,7 +76,7 @@ pub fn improve(case: &Case) -> Result<Improvement, StudyError> {
         }
         listed.extend(predicted.into_iter().enumerate());
     }
-    sort(&mut listed);
+    frictionsim_physics::order::sort_by_number(&mut listed, |(_, own)| predicted_growth(own));
 
     // The best of each kind before the second best of any.
     let mut order: Vec<usize> = (0..listed.len()).collect();
@@ -154,26 +154,17 @@ fn predictions(
     }
     let changes: Vec<(Change, Trial)> = changes.into_iter().flatten().collect();
 
-    // By the growth of all modes together first; onsets only of those that are listed.
+    // By the growth of all modes together.
     let outlooks: Result<Vec<State>, _> =
-        frictionsim_physics::parallel::map(&changes, |(own, _)| modal.outlook(Some(own)));
+        frictionsim_physics::parallel::map(&changes, |(own, _)| modal.outlook(own));
     let outlooks = outlooks.map_err(CeaError::from)?;
     let mut order: Vec<usize> = (0..changes.len()).collect();
     let growth = |i: usize| outlooks[i].growth_rate_per_s.unwrap_or(f64::NEG_INFINITY);
     frictionsim_physics::order::sort_by_number(&mut order, |&a| growth(a));
-    let base = &search.base.state;
-    let before = base.growth_rate_per_s.unwrap_or(f64::INFINITY);
+    let before = search.base.state.growth_rate_per_s.unwrap_or(f64::INFINITY);
     order.retain(|&i| growth(i) < before);
     order.truncate(count);
-
-    let predicted: Result<Vec<Candidate>, frictionsim_physics::linalg::LinalgError> =
-        frictionsim_physics::parallel::map(&order, |&i| {
-            let onset = modal.corrected_onset(&changes[i].0, base.critical_friction)?;
-            let critical_friction = onset.filter(|mu| *mu < search.base.friction);
-            let state = State { critical_friction, ..outlooks[i] };
-            Ok(candidate(search, &changes[i].1, state))
-        });
-    Ok(predicted.map_err(CeaError::from)?)
+    Ok(order.into_iter().map(|i| candidate(search, &changes[i].1, outlooks[i])).collect())
 }
 
 /// What a trial changes in the space of the modes.
@@ -229,7 +220,7 @@ fn shortlist(
         };
         let (dofs, own) = patch_matrices(search.base, elements, trial.kind, 0.0);
         let [m, c, k] = own.map(|matrix| -matrix);
-        let outlook = modal.outlook(Some(&modal.local(&dofs, [&m, &c, &k])))?;
+        let outlook = modal.outlook(&modal.local(&dofs, [&m, &c, &k]))?;
         Ok((outlook.growth_rate_per_s.unwrap_or(f64::NEG_INFINITY), trial))
     };
     let ranked: Result<Vec<(f64, Trial)>, _> = frictionsim_physics::parallel::map(trials, growth);
@@ -287,18 +278,6 @@ fn patch_matrices(
     (own, sums)
 }
 
-/// The best first: by critical friction, then by growth.
-fn sort(listed: &mut [(usize, Candidate)]) {
-    let merit = |own: &Candidate| {
-        let onset = own.predicted.critical_friction.unwrap_or(f64::INFINITY);
-        (-onset, own.predicted.growth_rate_per_s.unwrap_or(f64::INFINITY))
-    };
-    listed.sort_by(|(_, a), (_, b)| {
-        let (a, b) = (merit(a), merit(b));
-        a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1))
-    });
-}
-
 /// A trial with what all modes together make of it, before it is run again.
 fn candidate(search: &Search<'_>, trial: &Trial, predicted: State) -> Candidate {
     let (node, direction) = match &trial.target {
@@ -320,7 +299,12 @@ fn candidate(search: &Search<'_>, trial: &Trial, predicted: State) -> Candidate 
     }
 }
 
-/// Puts what was struck off behind what was not, and ranks all.
+/// The growth rate that all modes together predict, 1/s.
+fn predicted_growth(own: &Candidate) -> f64 {
+    own.predicted.growth_rate_per_s.unwrap_or(f64::NEG_INFINITY)
+}
+
+/// Puts what was struck off behind what was not, and ranks all: by the critical friction of the runs, else by growth.
 fn promote(candidates: &mut [Candidate]) {
     let class = |own: &Candidate| match own.verdict.as_str() {
         "silenced" => 0,
@@ -328,10 +312,11 @@ fn promote(candidates: &mut [Candidate]) {
         "not run again" => 2,
         _ => 3,
     };
-    let onset = |own: &Candidate| {
-        -own.confirmed.unwrap_or(own.predicted).critical_friction.unwrap_or(f64::INFINITY)
+    let merit = |own: &Candidate| match own.confirmed {
+        Some(state) => -state.critical_friction.unwrap_or(f64::INFINITY),
+        None => predicted_growth(own),
     };
-    candidates.sort_by(|a, b| class(a).cmp(&class(b)).then(onset(a).total_cmp(&onset(b))));
+    candidates.sort_by(|a, b| class(a).cmp(&class(b)).then(merit(a).total_cmp(&merit(b))));
     for (place, own) in candidates.iter_mut().enumerate() {
         own.rank = place + 1;
     }

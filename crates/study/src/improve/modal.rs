@@ -9,14 +9,12 @@
 //! m_ij = w_i^T dM x_j,  c_ij and k_ij alike,
 //! ```
 //!
-//! exact to the second order but for what modes beyond the listed ones give way. Friction is such a change too.
+//! exact to the second order but for what modes beyond the listed ones give way.
 //!
 //! What they give way at some dofs is the residual compliance `R`. It is that of the full problem
 //! at frequencies about the targets less that of the modes, `sum_k x_k w_k^T / (s - lambda_k)` over
 //! modes and conjugates. With it a change `D(s)` of these dofs is one of `D (1 + R D)^-1` in the
 //! space of the modes. It is a spring in series with what it stands on.
-
-mod onset;
 
 use super::attached::{Attached, NearModes, unit_loads};
 use super::base::{Base, PairedMode};
@@ -24,9 +22,7 @@ use crate::eigenvalues::is_like;
 use frictionsim_physics::cea::sparse::FullProblem;
 use frictionsim_physics::linalg::dense::transpose_product;
 use frictionsim_physics::linalg::dense_eigen::complex_eigenvalues;
-use frictionsim_physics::linalg::{
-    ComplexDenseLu, ComplexSparseLu, LinalgError, Mat, MatrixPolynomial, SparsityPattern, c64,
-};
+use frictionsim_physics::linalg::{ComplexDenseLu, ComplexSparseLu, LinalgError, Mat, c64};
 use frictionsim_physics::prestress::SlidingTangent;
 use frictionsim_results::improve::State;
 use nalgebra::DMatrix;
@@ -37,9 +33,9 @@ const BESIDE: [f64; 2] = [0.97, 1.03];
 /// Changes of `M`, `C`, `K` over modes and conjugates.
 type Projected = [Mat<c64>; 3];
 
-/// A change of the matrices in the space of the modes, by power of friction.
+/// A change of the matrices in the space of the modes.
 pub(super) struct Change {
-    projected: Vec<Projected>,
+    projected: Projected,
     /// A closer model of something attached to a node, for the modes in its range.
     attached: Option<Attached>,
 }
@@ -51,8 +47,6 @@ pub(super) struct ModalModel<'a> {
     values: Vec<c64>,
     /// Vectors over the unknowns, real parts of all modes before the imaginary ones: right and left.
     unknowns: [Mat<f64>; 2],
-    /// What each power of friction from the first on multiplies.
-    friction: Vec<Projected>,
     /// Frequencies below, above, amid the targets and above all modes, rad/s, and factors of the full problem there.
     dynamic: [(f64, ComplexSparseLu); 4],
     near: NearModes<'a>,
@@ -69,34 +63,12 @@ impl<'a> ModalModel<'a> {
         let right = columns(base.modes.iter().map(|mode| mode.pair.right.as_slice()));
         let left = columns(base.modes.iter().map(|mode| mode.pair.left.as_slice()));
         let near = NearModes::of(base);
-        let mut model = Self {
+        Ok(Self {
             values: values.iter().copied().chain(conjugates).collect(),
             unknowns: [right, left],
-            friction: Vec::new(),
             dynamic: dynamic_factors(base, near.range[1])?,
             near,
             base,
-        };
-        let tangent = &base.tangent;
-        model.friction = model.by_power([&tangent.mass, &tangent.damping, &tangent.stiffness], 1);
-        Ok(model)
-    }
-
-    /// [`Self::projected`] of the coefficient of each power of friction from the `first` on.
-    fn by_power(&self, all: [&MatrixPolynomial; 3], first: usize) -> Vec<Projected> {
-        let highest = all.iter().map(|p| p.coefficients().len()).max().unwrap_or(first);
-        (first..highest).map(|power| self.projected(all.map(|p| coefficient(p, power)))).collect()
-    }
-
-    /// `w_i^T A x_j` for matrices over the unknowns; none is zero.
-    fn projected(&self, matrices: [Option<(&SparsityPattern, &[f64])>; 3]) -> Projected {
-        let [right, left] = &self.unknowns;
-        matrices.map(|matrix| match matrix {
-            Some((pattern, values)) => {
-                let image = pattern.multiply(values, right.as_ref());
-                paired(&transpose_product(left.as_ref(), image.as_ref()))
-            }
-            None => Mat::zeros(self.values.len(), self.values.len()),
         })
     }
 
@@ -116,7 +88,7 @@ impl<'a> ModalModel<'a> {
             let form = left.transpose() * (change * &right);
             paired(&Mat::from_fn(form.nrows(), form.ncols(), |i, j| form[(i, j)]))
         });
-        Change { projected: vec![projected], attached: None }
+        Change { projected, attached: None }
     }
 
     /// As [`Self::local`], with what modes beyond the listed ones give way at these dofs, none of which touches a
@@ -237,63 +209,46 @@ impl<'a> ModalModel<'a> {
     /// The change to the tangent of another body with the same unknowns; `None` where they are others.
     pub fn to(&self, other: &SlidingTangent) -> Option<Change> {
         let own = &self.base.tangent;
-        if !is_like(own, other) || own.stiffness.weights() != other.stiffness.weights() {
+        if !is_like(own, other) {
             return None;
         }
-        // Both have the same nonzeros, of which there is one pattern for each.
-        let shared = |p: &MatrixPolynomial| {
-            let coefficients = p.coefficients().to_vec();
-            MatrixPolynomial::from_coefficients(own.stiffness.pattern(), coefficients)
-        };
         let pairs = [
             (&own.mass, &other.mass),
             (&own.damping, &other.damping),
             (&own.stiffness, &other.stiffness),
         ];
-        let changes =
-            pairs.map(|(a, b)| MatrixPolynomial::combination(1.0, &shared(b), -1.0, &shared(a)));
-        Some(Change { projected: self.by_power(changes.each_ref(), 0), attached: None })
+        let [right, left] = &self.unknowns;
+        let projected = pairs.map(|(a, b)| {
+            // Both have the same nonzeros.
+            let [a, b] = [a, b].map(|p| p.evaluate(self.base.friction));
+            let change: Vec<f64> = b.iter().zip(&a).map(|(b, a)| b - a).collect();
+            let image = own.stiffness.pattern().multiply(&change, right.as_ref());
+            paired(&transpose_product(left.as_ref(), image.as_ref()))
+        });
+        Some(Change { projected, attached: None })
     }
 
-    /// Eigenvalues with `Im > 0` at a friction coefficient.
-    pub fn spectrum(&self, mu: f64, change: Option<&Change>) -> Result<Vec<c64>, LinalgError> {
-        let Some(attached) = change.and_then(|change| change.attached.as_ref()) else {
-            return self.of_listed(mu, change);
+    /// Eigenvalues with `Im > 0` after a change.
+    fn spectrum(&self, change: &Change) -> Result<Vec<c64>, LinalgError> {
+        let Some(attached) = &change.attached else {
+            return self.of_listed(change);
         };
         // Modes beyond its range by the listed ones alone.
         let [low, high] = attached.range;
         let mut found = match self.near.holds_all() {
             true => Vec::new(),
-            false => self.of_listed(mu, change)?,
+            false => self.of_listed(change)?,
         };
         found.retain(|value| !(low..=high).contains(&value.im));
-        found.extend(attached.spectrum(mu, false)?);
+        found.extend(attached.spectrum()?);
         frictionsim_physics::order::sort_by_number(&mut found, |a| a.im);
         Ok(found)
     }
 
     /// Eigenvalues in the space of the listed modes.
-    fn of_listed(&self, mu: f64, change: Option<&Change>) -> Result<Vec<c64>, LinalgError> {
+    fn of_listed(&self, change: &Change) -> Result<Vec<c64>, LinalgError> {
         let size = self.values.len();
-        let mut sums = [0, 1, 2].map(|_| Mat::<c64>::zeros(size, size));
-        let mut add = |factor: f64, matrices: &Projected| {
-            for (sum, matrix) in sums.iter_mut().zip(matrices) {
-                for (j, i) in (0..size * size).map(|k| (k / size, k % size)) {
-                    sum[(i, j)] += matrix[(i, j)] * factor;
-                }
-            }
-        };
-        let weights = self.base.tangent.stiffness.weights();
-        for (place, matrices) in self.friction.iter().enumerate() {
-            let [own, base] = [mu, self.base.friction].map(|mu| weights.at(place + 1, mu));
-            add(own - base, matrices);
-        }
-        for (power, matrices) in
-            change.iter().flat_map(|change| change.projected.iter().enumerate())
-        {
-            add(weights.at(power, mu), matrices);
-        }
-        let [m, c, k] = &sums;
+        let [m, c, k] = &change.projected;
         let lambda = &self.values;
         let unit = |i: usize, j: usize| f64::from(u8::from(i == j));
         let left = Mat::from_fn(size, size, |i, j| {
@@ -309,10 +264,9 @@ impl<'a> ModalModel<'a> {
         Ok(found)
     }
 
-    /// What the modes come to after a change, at the friction coefficient of the base.
-    pub fn outlook(&self, change: Option<&Change>) -> Result<State, LinalgError> {
-        let modes = self.spectrum(self.base.friction, change)?;
-        Ok(self.base.window.outlook(modes))
+    /// What the modes come to after a change.
+    pub fn outlook(&self, change: &Change) -> Result<State, LinalgError> {
+        Ok(self.base.window.outlook(self.spectrum(change)?))
     }
 }
 
@@ -327,12 +281,6 @@ fn dynamic_factors(base: &Base<'_>, end: f64) -> Result<[(f64, ComplexSparseLu);
     let [below, above] = [BESIDE[0] * low, BESIDE[1] * high];
     let amid = (below * above).sqrt();
     Ok([factors(below)?, factors(above)?, factors(amid)?, factors(end.max(BESIDE[1] * above))?])
-}
-
-/// One coefficient of a polynomial, if it has it.
-fn coefficient(p: &MatrixPolynomial, power: usize) -> Option<(&SparsityPattern, &[f64])> {
-    let values = p.coefficients().get(power)?;
-    Some((&**p.pattern(), values.as_slice()))
 }
 
 /// Real parts of some complex vectors as columns, then their imaginary parts.
