@@ -162,3 +162,20 @@ fn bar_rebounds_from_a_rigid_wall_as_one_dimensional_theory_says() {
         assert!((share - 1.0).abs() < bound, "pressure, impulse, contact time: {found:?}");
     }
 }
+
+/// Cross-method: a node that a guide holds along the sliding slips on the plane that moves under it, and the plane takes the power of its
+/// friction, as in the base state of the eigenvalue analysis.
+#[test]
+fn a_node_that_is_held_along_the_sliding_slips_with_its_friction() {
+    let set = ["boundaries.side.condition=guide ; contact.friction_coefficient=0.1 ; \
+         cea.friction_coefficients=[0.1] ; transient.duration=2e-5 ; transient.initial=steady-sliding"];
+    let run = |command: &str| {
+        Run::of(command, shipped("sliding-block.toml")).out("out").set(&set).done().summary()
+    };
+    let (base, transient) = (run("cea"), run("transient"));
+    assert_eq!(base["base_state"]["slipping"], 33);
+    assert_eq!(transient["status"]["slip"], 1.0);
+    let base = base["base_state"]["power_w"].as_f64().unwrap();
+    let power = transient["power_w"]["external"].as_f64().unwrap();
+    assert!((power / base - 1.0).abs() < 1e-9, "{power} {base}");
+}

@@ -85,10 +85,6 @@ impl TouchingSurfaces {
             forces.status = status;
             return forces;
         }
-        // What cannot slip sticks without friction.
-        if mass == 0.0 {
-            return PointForces { status: ContactStatus::Stick, ..forces };
-        }
         // The dashpot acts on the mean of both velocities: half of it is inertia.
         let (inertia, half) = (mass / dt, 0.5 * point.dashpot);
         let damped = inertia + half;

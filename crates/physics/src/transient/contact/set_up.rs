@@ -20,6 +20,9 @@ pub(in crate::transient) struct ContactPart {
     pub stiffness: ContactStiffness,
 }
 
+/// Mass along the surface of what is held: it slides on what moves under it. Its forces per step stay finite.
+const HELD: f64 = 1e200;
+
 impl LagrangeContact {
     /// All points of `parts` open; `bound` takes what follows other dofs out of a row. Rows of slip are `tangents`: 1 in the
     /// plane, 2 in space.
@@ -98,7 +101,7 @@ impl LagrangeContact {
         self.ends.push(self.entries.len());
     }
 
-    /// What a force moves along the normal of point `i`, and along its surface where that yields most; zero where nothing moves.
+    /// What a force moves along the normal of point `i`, zero where nothing moves, and along its surface where that yields most.
     fn masses_of(&self, i: usize) -> [f64; 2] {
         let mass = |c: usize| match &self.entries[self.row(i, c)] {
             // As it is, without the rounding of its inverse.
@@ -113,7 +116,7 @@ impl LagrangeContact {
             }
         };
         let surface = (1..=self.tangents).map(mass).filter(|mass| *mass > 0.0);
-        [mass(0), surface.reduce(f64::min).unwrap_or(0.0)]
+        [mass(0), surface.reduce(f64::min).unwrap_or(HELD)]
     }
 
     /// The points are complete: how they hang together, and room for their steps.
