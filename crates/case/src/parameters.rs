@@ -47,12 +47,21 @@ impl VariedKey {
     }
 }
 
+/// A case key; else what is meant, of those that may be.
+pub(super) fn known(
+    section: &Section<'_>,
+    name: &str,
+    may_be: fn(&CaseKey) -> bool,
+) -> Result<&'static CaseKey, String> {
+    keys::find(name).ok_or_else(|| {
+        let near = section.findings.scope.hint(name, may_be);
+        near.unwrap_or_else(|| "must be a dotted case key in quotes".to_owned())
+    })
+}
+
 /// Whether a key is a continuous parameter of the model; else why not.
 fn check(section: &Section<'_>, name: &str) -> Result<(), String> {
-    let Some(key) = keys::find(name) else {
-        let near = section.findings.scope.hint(name, CaseKey::is_numeric);
-        return Err(near.unwrap_or_else(|| "must be a dotted case key in quotes".to_owned()));
-    };
+    let key = known(section, name, CaseKey::is_numeric)?;
     match key.kind {
         Kind::Number(_) | Kind::NumberOr(..) if is_of_model(name) => Ok(()),
         Kind::Number(_) | Kind::NumberOr(..) => {
@@ -70,11 +79,7 @@ pub(super) fn read_all<T>(
     parameter_of: impl Fn(&T) -> &VariedKey,
 ) -> Vec<T> {
     let table = section.section(key, true);
-    let mut entries = Vec::new();
-    for (name, entry) in table.remaining() {
-        collect(&table, name.to_owned(), entry, &mut entries);
-    }
-    let entries = entries.into_iter();
+    let entries = collect(&table, check).into_iter();
     let found: Vec<T> = entries.map(|(own, entry)| read(&table, own, entry)).collect();
     refuse_twice(&table, found.iter().map(parameter_of));
     refuse_if!(table.is_given() && table.remaining().is_empty(); section, key => "is empty";
@@ -82,30 +87,35 @@ pub(super) fn read_all<T>(
     found
 }
 
-/// Finds the keys that an entry names; a table that is no entry is dotted keys written without quotes.
-fn collect<'a>(
-    section: &Section<'a>,
-    name: String,
-    entry: &'a RawEntry,
-    found: &mut Vec<(VariedKey, &'a RawEntry)>,
-) {
-    match (&entry.item.value, check(section, &name)) {
-        (_, Ok(())) => {
-            let also = also(section, &name, entry);
-            found.push((VariedKey { key: name, also, at: entry.key_at.clone() }, entry));
-        }
-        (RawValue::Table(inner), Err(_)) if keys::is_section(&name) => {
-            for (key, entry) in inner {
-                collect(section, format!("{name}.{key}"), entry, found);
+/// Whether a key may be varied; else why not.
+type Check = fn(&Section<'_>, &str) -> Result<(), String>;
+
+/// The keys that the entries of a section name; a table that is no entry is dotted keys written without quotes.
+pub(super) fn collect<'a>(section: &Section<'a>, check: Check) -> Vec<(VariedKey, &'a RawEntry)> {
+    let mut found = Vec::new();
+    let given = section.remaining().into_iter().rev();
+    let mut rest: Vec<(String, &RawEntry)> =
+        given.map(|(key, own)| (key.to_owned(), own)).collect();
+    while let Some((key, entry)) = rest.pop() {
+        match (&entry.item.value, check(section, &key)) {
+            (_, Ok(())) => {
+                let also = also(section, &key, entry, check);
+                found.push((VariedKey { key, also, at: entry.key_at.clone() }, entry));
             }
+            (RawValue::Table(inner), Err(_)) if keys::is_section(&key) => {
+                let inner = inner.iter().rev();
+                rest.extend(inner.map(|(name, entry)| (format!("{key}.{name}"), entry)));
+            }
+            (_, Err(reason)) => refuse_at!(section, &entry.key_at,
+                "\"{key}\" in {} cannot be varied", section.name("").trim_end_matches('.');
+                "not a key to vary"; "{reason}"),
         }
-        (_, Err(reason)) => refuse_at!(section, &entry.key_at, "\"{name}\" in {} cannot be varied",
-            section.name("").trim_end_matches('.'); "no continuous parameter"; "{reason}"),
     }
+    found
 }
 
 /// The keys that `also` names.
-fn also(section: &Section<'_>, name: &str, entry: &RawEntry) -> Vec<String> {
+fn also(section: &Section<'_>, name: &str, entry: &RawEntry, check: Check) -> Vec<String> {
     let given = entry.item.value.table().and_then(|table| table.get("also"));
     let mut keys = Vec::new();
     for item in given.into_iter().flat_map(|given| given.item.listed()) {

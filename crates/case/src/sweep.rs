@@ -2,9 +2,10 @@
 
 use super::value::range_count;
 use super::{
-    Analysis, Bound, Case, CaseErrors, Combination, RawEntry, RawValue, Section, VariedKey, keys,
-    parameters, refuse_at,
+    Analysis, Bound, Case, CaseErrors, Combination, Diagnostic, Location, RawEntry, RawValue,
+    Section, VariedKey, parameters, placed, refuse_at,
 };
+use std::collections::BTreeSet;
 
 /// A swept key and its values.
 #[derive(Clone, Debug, PartialEq)]
@@ -62,16 +63,13 @@ pub(super) fn read(root: &Section<'_>) -> Option<Sweep> {
     }
     let combination = section.choice("combine");
     let analyses = section.choices("analyses");
-    let mut entries = Vec::new();
-    for (name, entry) in section.remaining() {
-        swept(&section, name.to_owned(), entry, &mut entries);
-    }
+    let entries = parameters::collect(&section, check);
     // Sizes are known before a single value is made.
     if !fits(&section, combination, &entries) {
         return None;
     }
     let keys: Vec<SweptKey> =
-        entries.into_iter().map(|(name, entry)| values(&section, name, entry)).collect();
+        entries.into_iter().map(|own| values(&section, combination, own)).collect();
     parameters::refuse_twice(&section, keys.iter().map(|key| &key.varied));
     if keys.is_empty() {
         refuse_at!(section, &section.place(""), "[sweep] sweeps nothing"; "no key with values";
@@ -92,31 +90,15 @@ pub(super) fn read(root: &Section<'_>) -> Option<Sweep> {
 /// Most points of a study, and most values of its keys together.
 const MOST_POINTS: usize = 1_000_000;
 
-/// Finds the swept keys; tables that are no range are dotted keys written without quotes.
-fn swept<'a>(
-    section: &Section<'_>,
-    name: String,
-    entry: &'a RawEntry,
-    entries: &mut Vec<(String, &'a RawEntry)>,
-) {
-    match (&entry.item.value, keys::find(&name)) {
-        (_, Some(_)) if !name.starts_with("sweep.") => entries.push((name, entry)),
-        (RawValue::Table(inner), None) => {
-            for (key, entry) in inner {
-                swept(section, format!("{name}.{key}"), entry, entries);
-            }
-        }
-        _ => {
-            let near = section.findings.scope.hint(&name, |_| true);
-            let help = near.as_deref().unwrap_or("a swept key is a dotted case key in quotes");
-            refuse_at!(section, &entry.key_at, "unknown key `{name}` in [sweep]";
-                "not a case key that can be swept"; "{help}");
-        }
-    }
-}
+/// Sections that no analysis of a sweep uses.
+const UNUSED: [&str; 6] = ["sweep", "frf", "improve", "convergence", "fit", "uncertainty"];
 
-/// Keys of a table that ties further keys to a swept one.
-const TIED: [&str; 2] = ["values", "also"];
+/// Whether a key can be swept; else why not.
+fn check(section: &Section<'_>, name: &str) -> Result<(), String> {
+    parameters::known(section, name, |_| true)?;
+    let unused = UNUSED.iter().find(|own| name.split('.').next() == Some(own));
+    unused.map_or(Ok(()), |own| Err(format!("no analysis of a sweep uses [{own}]")))
+}
 
 /// The values of an entry: its own, or those beside `also`.
 fn listed(entry: &RawEntry) -> &RawEntry {
@@ -133,7 +115,11 @@ fn length(entry: &RawEntry) -> usize {
 }
 
 /// Refuses studies of too many points or values.
-fn fits(section: &Section<'_>, combination: Combination, entries: &[(String, &RawEntry)]) -> bool {
+fn fits(
+    section: &Section<'_>,
+    combination: Combination,
+    entries: &[(VariedKey, &RawEntry)],
+) -> bool {
     let lengths = entries.iter().map(|(_, entry)| length(entry));
     let (count, what) = match combination {
         Combination::Grid => (lengths.fold(1, usize::saturating_mul), "points"),
@@ -142,49 +128,29 @@ fn fits(section: &Section<'_>, combination: Combination, entries: &[(String, &Ra
     if count <= MOST_POINTS {
         return true;
     }
-    let longest = entries.iter().max_by_key(|(_, entry)| length(entry));
-    if let Some((name, entry)) = longest {
+    if let Some((varied, entry)) = entries.iter().max_by_key(|(_, entry)| length(entry)) {
         refuse_at!(section, &entry.item.at,
-            "[sweep] has {count} {what}, most of them for \"{name}\""; "at most {MOST_POINTS}";
-            "sweep fewer values");
+            "[sweep] has {count} {what}, most of them for \"{}\"", varied.key;
+            "at most {MOST_POINTS}"; "sweep fewer values");
     }
     false
 }
 
-/// The keys that `also` names.
-fn also(section: &Section<'_>, key: &str, entry: &RawEntry) -> Vec<String> {
-    let tied = entry.item.value.table().filter(|table| table.contains_key("values"));
-    let Some(table) = tied else {
-        return Vec::new();
-    };
-    parameters::only(section, table, &TIED);
-    let given = table.get("also");
-    let items = given.into_iter().flat_map(|given| given.item.listed());
-    let names = items.filter_map(|item| {
-        let name = match &item.value {
-            RawValue::String(name) => name.clone(),
-            other => other.to_string(),
-        };
-        let is_key = keys::find(&name).is_some() && !name.starts_with("sweep.");
-        if !is_key {
-            let near = section.findings.scope.hint(&name, |_| true);
-            let help = near.as_deref().unwrap_or("`also` names keys that take the same values");
-            refuse_at!(section, &item.at, "\"{key}\" in [sweep] also sets {name}";
-                "not a case key that can be swept"; "{help}");
-        }
-        is_key.then_some(name)
-    });
-    names.collect()
-}
-
 /// The values of a swept key.
-fn values(section: &Section<'_>, key: String, entry: &RawEntry) -> SweptKey {
-    let also = also(section, &key, entry);
+fn values(
+    section: &Section<'_>,
+    combination: Combination,
+    (varied, entry): (VariedKey, &RawEntry),
+) -> SweptKey {
+    let key = &varied.key;
+    if let Some(table) = entry.item.value.table().filter(|table| table.contains_key("values")) {
+        parameters::only(section, table, &["values", "also"]);
+    }
     let entry = listed(entry);
     let values: Vec<String> = match &entry.item.value {
         RawValue::Array(items) => items.iter().map(|item| item.value.to_string()).collect(),
         RawValue::Table(table) => section
-            .range(&key, table, &entry.item, Bound::Finite)
+            .range(key, table, &entry.item, Bound::Finite)
             .into_iter()
             .map(|value| RawValue::Float(value).to_string())
             .collect(),
@@ -194,7 +160,13 @@ fn values(section: &Section<'_>, key: String, entry: &RawEntry) -> SweptKey {
         refuse_at!(section, &entry.item.at, "\"{key}\" in [sweep] has no values";
             "at least one value"; "list its values or give a range {{ from, to, count }}");
     }
-    SweptKey { varied: VariedKey { key, also, at: entry.item.at.clone() }, values }
+    let mut seen = BTreeSet::new();
+    let twice = values.iter().find(|value| !seen.insert(*value));
+    if let Some(value) = twice.filter(|_| combination == Combination::Grid) {
+        refuse_at!(section, &entry.item.at, "\"{key}\" in [sweep] has the value {value} twice";
+            "its points would run twice"; "list each value once");
+    }
+    SweptKey { varied: VariedKey { at: entry.item.at.clone(), ..varied }, values }
 }
 
 /// Tries each value of a study on its own, all others as the case has them, so that a bad one is
@@ -218,13 +190,31 @@ pub(super) fn check_values(case: &Case) -> Result<(), CaseErrors> {
         ("uncertain", overrides, own.parameter.at.clone())
     });
     let mut errors = Vec::new();
+    // The value before of the same key, and the case with it.
+    let mut before: Option<(String, Location, Case)> = None;
     for (what, changes, at) in swept.chain(uncertain) {
-        let result = point.with_overrides(&changes).and_then(Case::read);
-        for mut error in result.err().into_iter().flat_map(|bad| bad.diagnostics) {
-            error.message = format!("{what} value {}: {}", changes[0], error.message);
-            error.at = at.clone();
-            errors.push(error);
+        let found = match point.with_overrides(&changes).and_then(Case::read) {
+            // What it was read from differs at any rate.
+            Ok(read) => Case { raw: point.clone(), warnings: Vec::new(), ..read },
+            Err(bad) => {
+                errors.extend(bad.diagnostics.into_iter().map(|error| Diagnostic {
+                    message: format!("{what} value {}: {}", changes[0], error.message),
+                    at: at.clone(),
+                    ..error
+                }));
+                continue;
+            }
+        };
+        let now = changes.into_iter().next().unwrap_or_default();
+        if let Some((other, place, case)) = &before
+            && *place == at
+            && *other != now
+            && *case == found
+        {
+            errors.push(placed!(at.clone(), "{what} values {other} and {now} make the same case";
+                "nothing depends on this key"; "leave it out: this body does not use it"));
         }
+        before = Some((now, at, found));
     }
     if errors.is_empty() { Ok(()) } else { Err(case.raw.errors(errors)) }
 }
