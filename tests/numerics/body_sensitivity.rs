@@ -117,6 +117,11 @@ fn sensitivities_of_an_oval_on_springs_are_differences_of_its_spectra() {
         ("boundaries.outer.normal_stiffness", "boundaries.outer.normal_stiffness"),
         ("boundaries.outer.normal_damping", "boundaries.outer.normal_damping"),
     ]);
+    // Losses of the body and of the contact: two keys that end in one word.
+    let mut lossy = supported_oval("normal_stiffness = 5e12\nloss_factor = 0.05\n");
+    lossy.text = lossy.text.replace("density = 1228.0\n", "density = 1228.0\nloss_factor = 0.02\n");
+    let keys = ["material.loss_factor", "contact.loss_factor"];
+    lossy.check(&keys.map(|key| (key, key)));
 }
 
 /// Some contact nodes are open at friction 0.5.

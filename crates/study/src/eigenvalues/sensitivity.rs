@@ -120,7 +120,14 @@ pub fn body_sensitivities(
         });
     }
     let own = ("friction_coefficient".to_owned(), friction);
-    let others = parameters.iter().map(|(key, value)| (short_name(key), *value));
+    // Two losses, of body and contact, keep their sections.
+    let is_twice = |key: &str| {
+        parameters.iter().filter(|(other, _)| short_name(other) == short_name(key)).count() > 1
+    };
+    let others = parameters.iter().map(|(key, value)| {
+        let name = if is_twice(key) { key } else { short_name(key) };
+        (name.to_owned(), *value)
+    });
     let parameters = std::iter::once(own).chain(others).collect();
     Ok((SensitivityReport { parameters, rows }, missing))
 }
@@ -230,7 +237,7 @@ fn lost_note(target: &Target) -> String {
 }
 
 /// Keys of the sections that every case has, without the section.
-fn short_name(key: &str) -> String {
+fn short_name(key: &str) -> &str {
     let sections = ["material.", "damping.", "contact."];
-    sections.iter().find_map(|section| key.strip_prefix(section)).unwrap_or(key).to_owned()
+    sections.iter().find_map(|section| key.strip_prefix(section)).unwrap_or(key)
 }
