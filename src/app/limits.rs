@@ -35,22 +35,27 @@ pub fn read_input(path: &Path, limits: Limits) -> Result<Vec<u8>, Failure> {
     let name = input_name(path);
     read.map_err(|refusal| match refusal {
         Refusal::Bytes { most, .. } => {
-            let most = most >> 20;
-            Failure::usage(format!("{name} is larger than {most} MiB, the limit for such files"))
+            format!("{name} is larger than {} MiB, the limit for such files", most >> 20)
         }
-        _ if path.is_dir() => Failure::usage(format!("cannot read {name}: it is a folder")),
-        other => {
-            let near = near_file(path).filter(|_| !path.exists());
-            let near = near.map_or(String::new(), |near| format!("; did you mean {near}?"));
-            Failure::usage(format!("cannot read {name}: {other}{near}"))
-        }
+        _ if path.is_dir() => format!("cannot read {name}: it is a folder"),
+        _ if !path.exists() => format!("cannot read {name}: {}", missing(path)),
+        other => format!("cannot read {name}: {other}"),
     })
+    .map_err(Failure::usage)
+}
+
+/// Where a file was looked for, and what may be meant.
+fn missing(path: &Path) -> String {
+    let place = std::path::absolute(path).unwrap_or(path.to_owned());
+    let near = near_file(path).map(|near| format!("; did you mean {near}?"));
+    let begin = || "; `frictionsim init cea -o FILE` writes a case to begin with".to_owned();
+    let help = near.or_else(|| (path.extension()? == "toml").then(begin)).unwrap_or_default();
+    format!("there is no file {}{help}", place.display())
 }
 
 /// The file beside a path whose name is nearest to its own, if one is near enough to be meant.
 fn near_file(path: &Path) -> Option<String> {
-    let folder = path.parent().filter(|folder| *folder != Path::new(""));
-    let files = std::fs::read_dir(folder.unwrap_or(Path::new("."))).ok()?;
+    let files = std::fs::read_dir(std::path::absolute(path).ok()?.parent()?).ok()?;
     let names = files.filter_map(|file| file.ok()?.file_name().into_string().ok());
     // The same one of two that are as near, whatever their order in the folder.
     let names: BTreeSet<String> = names.collect();

@@ -21,10 +21,9 @@ pub(super) fn run(options: &RunOptions) -> Result<(), Failure> {
     let mesh = case.body.mesh().map_err(Failure::usage)?;
     let revolution = case.body.revolution();
     let grid = revolution.map(|own| own.plane()).or(case.body.grid().copied());
-    let annulus = grid.map(|grid| AnnulusMesh::generate(&grid).map_err(Failure::usage));
-    let annulus = annulus.transpose()?;
-    let solid = revolution.map(|solid| SolidSector::generate(solid).map_err(Failure::usage));
-    let solid = solid.transpose()?;
+    let annulus = grid.map(|grid| AnnulusMesh::generate(&grid)).transpose();
+    let annulus = annulus.map_err(Failure::usage)?;
+    let solid = revolution.map(SolidSector::generate).transpose().map_err(Failure::usage)?;
     match &solid {
         Some(sector) => write_revolution(&folder, sector)?,
         None => write_mesh(&folder, &mesh, mesh.contact_edge().nodes.iter().copied())?,
@@ -38,14 +37,10 @@ pub(super) fn run(options: &RunOptions) -> Result<(), Failure> {
 }
 
 /// The mesh of solid bodies.
-fn run_solid(
-    session: &Session,
-    folder: OutputFolder,
-    assembly: &AssemblyBody,
-) -> Result<(), Failure> {
+fn run_solid(session: &Session, folder: OutputFolder, body: &AssemblyBody) -> Result<(), Failure> {
     let case = &session.case;
-    let mesh = &assembly.mesh;
-    let roles = roles(assembly);
+    let mesh = &body.mesh;
+    let roles = roles(body);
     let materials = case.body.materials.iter();
     let densities: Vec<f64> = materials.map(|material| material.elastic.density).collect();
     let contacts = roles.iter().filter(|role| *role.1 == "contact");

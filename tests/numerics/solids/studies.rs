@@ -71,3 +71,12 @@ fn the_contact_file_of_a_body_with_thickness_has_both_parts_of_the_shear() {
     assert_eq!(across, header("shear_pa.npy"));
     assert!(across.contains(",48,)"), "{across}");
 }
+
+/// One ring of nodes on springs that carry the base state is pressed over a part of an element, not along a line.
+#[test]
+fn a_ring_on_springs_of_the_base_state_is_no_line() {
+    let set = ["mesh.element=quad4 ; mesh.circumferential_elements=12 ; mesh.radial_elements=3 ; \
+         mesh.axial_elements=1 ; cea.friction_coefficients=[0.4]"];
+    let run = Run::of("cea", shipped("ring-on-disc.toml")).out("out").set(&set);
+    run.done().says(&["1 of 2 rings of contact nodes are open", "!has shrunk"]);
+}
