@@ -41,7 +41,7 @@ fn predicted_candidates_are_those_that_run_again() {
     let run_again: Vec<&String> = run_again.filter(|own| !own.is_empty()).collect();
     assert!(!run_again.is_empty() && run_again.iter().all(|own| own.parse::<usize>().is_ok()));
     // Heads have units, and the digits of a case are those that somebody would write.
-    assert!(!rows[0].contains_key("predicted_critical_friction"));
+    assert!(!rows[0].0.contains_key("predicted_critical_friction"));
     has(said, &["mass (kg)", "growth, first order (1/s)", "confirmed critical friction"]);
     let marks: &[char] = &['[', ']', ',', ' ', '=', ';'];
     for word in rows.iter().flat_map(|row| row["keys"].split(marks)) {

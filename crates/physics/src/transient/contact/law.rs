@@ -1,7 +1,7 @@
 //! The laws of normal contact and friction at one point.
 
 use super::{ContactPoint, PointForces, Step, TouchingSurfaces};
-use crate::contact::{ContactStatus, Slipping};
+use crate::contact::Slipping;
 use crate::transient::compliance::CompressedNode;
 
 /// A point before its forces are known.
