@@ -194,8 +194,8 @@ pub(super) fn check_values(case: &Case) -> Result<(), CaseErrors> {
     let mut before: Option<(String, Location, Case)> = None;
     for (what, changes, at) in swept.chain(uncertain) {
         let found = match point.with_overrides(&changes).and_then(Case::read) {
-            // What it was read from differs at any rate.
-            Ok(read) => Case { raw: point.clone(), warnings: Vec::new(), ..read },
+            // What it was read from differs at any rate, and so the title.
+            Ok(read) => Case { raw: point.clone(), title: String::new(), warnings: vec![], ..read },
             Err(bad) => {
                 errors.extend(bad.diagnostics.into_iter().map(|error| Diagnostic {
                     message: format!("{what} value {}: {}", changes[0], error.message),
