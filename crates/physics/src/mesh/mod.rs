@@ -16,6 +16,7 @@ mod plane_body;
 mod quality;
 mod refinement;
 mod repetition;
+mod revolution;
 mod rim;
 mod sector;
 mod sectors;
@@ -43,10 +44,11 @@ pub use modification::{Attachment, DampedPatch};
 pub use quality::MeshQuality;
 pub use refinement::refined_file;
 pub use repetition::repeated_file;
+pub use revolution::{SheetElement, SheetNode, Strip};
 pub use sector::SectorMesh;
 pub use solid::{
-    ContactRing, FaceElement, SheetNode, SolidContact, SolidFace, SolidPart, SolidSector,
-    SolidSpecification, face_quadrature,
+    ContactRing, FaceElement, SolidContact, SolidFace, SolidPart, SolidSector, SolidSpecification,
+    face_quadrature,
 };
 pub use specification::{AnnulusSpecification, MeshError, ShaftSpecification};
 

@@ -9,15 +9,12 @@ use super::relaxation::Relaxation;
 use super::settings::{check_times, stable_step_limit, stiffening};
 use super::{Perturbation, StepPlan, TransientError, TransientSettings};
 use crate::contact::{ContactInterface, ContactStiffness, SlidingContact};
-use crate::fem::fold::SectorMatrix;
 use crate::fem::operator::{StiffnessOperator, largest_frequency_of};
-use crate::fem::sector::{extra_damping, supports};
-use crate::fem::solid::pressure_load;
 use crate::fem::{
     MassKind, MaterialField, RayleighDamping, Triplets, assemble_extra_damping, assemble_pressures,
     assemble_supports,
 };
-use crate::mesh::{AnnulusMesh, BoundaryCondition, Mesh, SolidFace, SolidSector};
+use crate::mesh::{AnnulusMesh, BoundaryCondition, Mesh, SolidFace, SolidSector, Strip};
 use crate::prestress::Assembly;
 use nalgebra::Vector3;
 
@@ -114,9 +111,8 @@ impl<'a> TransientModel<'a> {
     fn supports(&self) -> [Triplets; 2] {
         match self.body {
             SteppedBody::Plane { mesh, .. } => assemble_supports(mesh),
-            SteppedBody::Revolution(sector) => {
-                supports(sector, MassKind::Lumped).map(|matrix| everywhere(sector, &matrix))
-            }
+            SteppedBody::Revolution(sector) => assemble_supports(&sector.strip.mesh)
+                .map(|matrix| everywhere(&sector.strip, &matrix)),
             SteppedBody::Assembly { assembly, .. } => assembly.joined.supports.clone(),
         }
     }
@@ -198,7 +194,7 @@ impl<'a> TransientModel<'a> {
         };
         let mesh = match self.body {
             SteppedBody::Plane { mesh, .. } => mesh,
-            SteppedBody::Revolution(sector) => &sector.strip,
+            SteppedBody::Revolution(sector) => &sector.strip.mesh,
             SteppedBody::Assembly { assembly, .. } => assembly.mesh,
         };
         let first_dof = |e: usize| mesh.dimension * mesh.element_nodes(e)[0] as usize;
@@ -224,8 +220,8 @@ impl<'a> TransientModel<'a> {
         }
         let (material, kind, common) = (self.material, MassKind::Lumped, self.damping);
         let own = match self.body {
-            SteppedBody::Revolution(sector) => {
-                everywhere(sector, &extra_damping(sector, material, kind, common))
+            SteppedBody::Revolution(SolidSector { strip, .. }) => {
+                everywhere(strip, &assemble_extra_damping(&strip.mesh, material, kind, common))
             }
             SteppedBody::Plane { mesh, .. }
             | SteppedBody::Assembly { assembly: &Assembly { mesh, .. }, .. } => {
@@ -235,8 +231,8 @@ impl<'a> TransientModel<'a> {
         damping.entries.extend(own.entries);
         let pressure = match self.body {
             SteppedBody::Plane { mesh, .. } => assemble_pressures(mesh),
-            SteppedBody::Revolution(sector) => {
-                Some(pressure_load(sector).repeat(sector.sector_count()))
+            SteppedBody::Revolution(SolidSector { strip, .. }) => {
+                Some(strip.pressure_load().repeat(strip.count))
             }
             SteppedBody::Assembly { assembly, .. } => assemble_pressures(assembly.mesh)
                 .map(|load| assembly.joined.basis.transposed_forces(&load)),
@@ -288,9 +284,9 @@ impl<'a> TransientModel<'a> {
         match self.body {
             SteppedBody::Plane { mesh, .. } => mesh.held_dofs().for_each(|dof| velocity[dof] = 0.0),
             SteppedBody::Revolution(sector) => {
-                let count = 3 * sector.node_count();
-                let held = (0..velocity.len()).filter(|dof| sector.is_held(dof % count));
-                held.for_each(|dof| velocity[dof] = 0.0);
+                for own in velocity.chunks_exact_mut(sector.strip.dof_count()) {
+                    sector.strip.held_dofs().for_each(|dof| own[dof] = 0.0);
+                }
             }
             SteppedBody::Assembly { assembly, .. } => {
                 let unknowns = assembly.joined.basis.unknowns();
@@ -334,10 +330,11 @@ impl<'a> TransientModel<'a> {
 }
 
 /// A matrix of bricks with 8 nodes, in all sectors.
-fn everywhere(sector: &SolidSector, matrix: &SectorMatrix) -> Triplets {
-    let (dofs, count) = (3 * sector.node_count(), sector.sector_count());
+fn everywhere(strip: &Strip, matrix: &Triplets) -> Triplets {
+    let (dofs, count, matrix) = (strip.dof_count(), strip.count, strip.folded(matrix));
     let all = (0..count).flat_map(|s| {
-        matrix.entries().map(move |(i, j, halves_ahead, value)| {
+        let entries = matrix.entries();
+        entries.map(move |(i, j, halves_ahead, value)| {
             let other = (s + count).wrapping_add_signed(halves_ahead / 2) % count;
             (dofs * s + i, dofs * other + j, value)
         })

@@ -56,12 +56,12 @@ impl FaceElement {
 impl SolidSector {
     /// The elements of a face.
     pub fn face_elements(&self, face: SolidFace) -> Vec<FaceElement> {
-        let [nr, nz] = self.divisions();
+        let [nr, nz] = self.specification.divisions();
         let count = if face.normal_component() == 0 { nz } else { nr };
         let places = self.specification.annulus.element.node_places();
         let find = |place: [usize; 2], half: usize| {
             let is_here =
-                |node: &super::SheetNode| node.place == place && node.half_step == half % 2;
+                |node: &crate::mesh::SheetNode| node.place == place && node.half_step == half % 2;
             self.nodes.iter().position(is_here).unwrap_or(0)
         };
         (0..count)

@@ -64,7 +64,7 @@ impl TransientModel<'_> {
         Ok(match self.body {
             SteppedBody::Plane { mesh, .. } => self.sliding_edge(mesh)?.displacement(friction),
             SteppedBody::Revolution(sector) => {
-                let own = self.sliding_face(sector)?.displacement(friction);
+                let own = self.sliding_face(sector)?.sliding.state.displacement(friction);
                 own.repeat(sector.sector_count())
             }
             SteppedBody::Assembly { assembly, .. } => {
@@ -208,14 +208,14 @@ impl TransientModel<'_> {
         area: f64,
     ) -> PressedPoint {
         let face = sector.specification.contact.face();
-        let normal = base.pressed_displacement[3 * node + face.normal_component()];
+        let normal = base.sliding.state.displacements[0][3 * node + face.normal_component()];
         // What the springs of a compliant base state have given way already is in its displacement.
         let given_way = match base.law {
             Some(_) => self.contact.interference - face.inward_sign() * normal,
             None => 0.0,
         };
         let spring = self.stiffness.law.map_or(0.0, |law| law.stiffness(given_way.max(0.0)));
-        let force = base.normal_forces.iter().find(|(own, _)| *own == node);
+        let force = base.normal_forces().find(|(own, _)| *own == node);
         PressedPoint { force: force.map_or(0.0, |own| own.1), spring: area * spring, given_way }
     }
 }
