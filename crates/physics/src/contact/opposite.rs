@@ -44,9 +44,8 @@ pub(super) fn meetings(mesh: &Mesh) -> Option<Vec<Meeting>> {
 }
 
 fn pairs(mesh: &Mesh, nodes: &[u32]) -> Vec<Meeting> {
-    let count = nodes.len();
-    let (lengths, curvature) =
-        (&mesh.contact_edge().tributary_lengths, mesh.counterface.curvature());
+    let lengths = &mesh.contact_edge().tributary_lengths;
+    let (count, curvature) = (nodes.len(), mesh.counterface.curvature());
     let is_quadratic = lengths[0] != lengths[1];
     let per_arc = count as f64 / std::f64::consts::TAU * curvature;
     let pair = |i: usize| {
@@ -64,8 +63,7 @@ fn pairs(mesh: &Mesh, nodes: &[u32]) -> Vec<Meeting> {
     (0..count).map(pair).collect()
 }
 
-/// Derivative by the place at node `i` of a closed curve, with corners at even ones where it has mid-side nodes, the mean of both
-/// elements' at a corner: how many nodes ahead, and the weight.
+/// Derivative along a closed curve at node `i`, of both elements' mean at a corner: how many nodes ahead, and the weight.
 pub fn arc_stencil(is_quadratic: bool, i: usize) -> &'static [(isize, f64)] {
     match (is_quadratic, i % 2) {
         (true, 0) => &[(-2, 0.25), (-1, -1.0), (1, 1.0), (2, -0.25)],
@@ -96,7 +94,7 @@ impl<'a> Edge<'a> {
     /// Shape functions and their derivatives by the arc at a share `0..1` of the way from the first to the second end.
     fn shapes(&self, share: f64) -> Vec<(u32, f64, f64)> {
         let (s, slope) = (2.0 * share - 1.0, 2.0 / self.extent);
-        let nodes = self.face.nodes.iter().zip(self.face.kind.shape_functions([s, 0.0]));
+        let nodes = self.face.nodes.iter().zip(self.face.kind.shape_functions([s, 0.0, 0.0]));
         nodes.map(|(&node, (value, rates))| (node, value, rates[0] * slope)).collect()
     }
 

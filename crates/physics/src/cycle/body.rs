@@ -3,8 +3,8 @@
 use super::CycleError;
 use crate::fem::fold::{MirrorParity, SectorMatrix};
 use crate::fem::{
-    ElasticMaterial, MassKind, RayleighDamping, Triplets, assemble_congruent, assemble_stiffness,
-    assemble_supports, element_mass,
+    ElasticMaterial, MassKind, RayleighDamping, Triplets, assemble_mass, assemble_stiffness,
+    assemble_supports,
 };
 use crate::linalg::banded::BandedMatrix;
 use crate::linalg::c64;
@@ -110,8 +110,7 @@ impl WaveBody {
         let stiffness = strip.folded(&assemble_stiffness(&strip.mesh, material));
         let dofs = strip.wave_dofs();
         let fold = |n: usize, matrix: &SectorMatrix| dofs.fold(n, MirrorParity::Even, &[matrix]);
-        let lumped = |e| element_mass(&strip.mesh, material, MassKind::Lumped, e);
-        let mass = assemble_congruent(&strip.mesh, &|_| true, lumped);
+        let mass = assemble_mass(&strip.mesh, material, MassKind::Lumped);
         let mass = fold(0, &strip.folded(&mass));
         let block = |matrix: Triplets| {
             let mut block = Matrix2::zeros();
@@ -122,16 +121,13 @@ impl WaveBody {
             BoundaryCondition::Support(_) => Some(assemble_supports(&strip.mesh).map(block)),
             _ => None,
         };
-        let sectors = strip.count as isize;
         // Neighbours turn the node's own stiffness by `cos(2 pi n / N)`: opposite at n = 0 and N / 2.
         let own = [0, strip.count / 2].map(|n| fold(n, &stiffness).get(0, 0));
         let node_frequency = (0.5 * (own[0] + own[1]) / mass.get(0, 0)).sqrt();
-        let harmonics = circumferential_harmonics
-            .into_iter()
-            .map(|n| HarmonicStiffness::new(&fold(n.rem_euclid(sectors) as usize, &stiffness)))
-            .collect();
+        let of = |n: isize| fold(n.rem_euclid(strip.count as isize) as usize, &stiffness);
+        let all = circumferential_harmonics.into_iter().map(|n| HarmonicStiffness::new(&of(n)));
         Ok(Self {
-            harmonics,
+            harmonics: all.collect(),
             masses: (0..dofs.count / 2).map(|i| mass.get(2 * i, 2 * i)).collect(),
             support,
             harmonic,

@@ -224,7 +224,7 @@ pub fn assemble_patch_damping(
 }
 
 /// Sums the element matrices of those that are kept, each kind of them computed once.
-pub(crate) fn assemble_congruent(
+fn assemble_congruent(
     mesh: &Mesh,
     keep: &dyn Fn(usize) -> bool,
     compute: impl Fn(usize) -> DMatrix<f64>,

@@ -24,7 +24,6 @@ mod stress;
 mod support;
 mod triplets;
 
-pub(crate) use assembly::assemble_congruent;
 pub use assembly::{
     MassKind, assemble_displacement_stiffness, assemble_extra_damping,
     assemble_geometric_stiffness, assemble_mass, assemble_patch_damping, assemble_point_masses,

@@ -35,10 +35,10 @@ pub use counterface::Counterface;
 pub use error::{BodyError, BodyPart};
 pub use frames::NodalFrames;
 pub use frictionsim_formats::{
-    CurveEdge, CyclicSymmetry, ElementKind, Equation, FaceKind, FacePoint, FileCondition,
-    FileConditionKind, FileContact, FileElasticity, FileElement, FileMaterial, FileMesh,
-    FileMotion, FileTie, LeftOut, MaterialAxes, MeshFileError, MeshFormat, ModelData,
-    QuadraturePoint, Shape, SurfaceFace, included_text,
+    CurveEdge, CyclicSymmetry, ElementKind, Equation, FacePoint, FileCondition, FileConditionKind,
+    FileContact, FileElasticity, FileElement, FileMaterial, FileMesh, FileMotion, FileTie, LeftOut,
+    MaterialAxes, MeshFileError, MeshFormat, ModelData, QuadraturePoint, Shape, SurfaceFace,
+    included_text,
 };
 pub use modification::{Attachment, DampedPatch};
 pub use quality::MeshQuality;

@@ -251,8 +251,7 @@ impl<'a> Assembly<'a> {
                 let basis = self.joined.basis.clone();
                 let full = FullSliding::new(pressing.stiffness, basis, pressing.points)?;
                 let none = vec![0.0; self.mesh.dof_count()];
-                let interference = self.contacts()[0].0.counter.interference();
-                let state = full.state(&none, interference, None)?;
+                let state = full.state(&none, &pressing.pushed);
                 PressedRange::of_one(state, friction_coefficients)
             }
         };

@@ -91,7 +91,7 @@ fn press_rigidly(
         let nodes = pressed.flat_map(|(ring, _)| &ring.nodes);
         let points: Vec<Point> = nodes.map(|&n| node_point(sector, n, contact)).collect();
         let full = FullSliding::new(stiffness, without_contact(sector), &points)?;
-        let state = full.state(&load, contact.interference, None)?;
+        let state = full.state(&load, &vec![contact.interference; points.len()]);
 
         // The conditions of all rings.
         let mut forces = state.normal_forces[0].iter();

@@ -3,6 +3,8 @@
 use super::PrestressError;
 use super::elimination::Elimination;
 use super::full_sliding::{FullSliding, check_pressed};
+use super::penalty::PenaltyContact;
+use super::pressed_state::{PressedBodies, Pressing};
 use crate::contact::{NormalLaw, Point, PressedState, Row, SlidingContact, SteadyFriction};
 use crate::fem::{MaterialField, Triplets};
 use crate::mesh::SectorMesh;
@@ -45,12 +47,31 @@ impl SectorSliding {
         let friction = contact.steady_friction(contact.sliding_direction(), surface_speed);
         let points = points(sector, friction);
         let (strip, first) = (&sector.strip, sector.contact_nodes().start);
-        let full = FullSliding::new(
+        let pressing = Pressing {
             stiffness,
-            Elimination::holding(strip.dof_count(), strip.held_dofs()),
-            &points,
-        )?;
-        let state = full.state(&vec![0.0; strip.dof_count()], contact.interference, law)?;
+            load: vec![0.0; strip.dof_count()],
+            elimination: Elimination::holding(strip.dof_count(), strip.held_dofs()),
+            points: &points,
+            contacts: Vec::new(),
+            pushed: vec![contact.interference; points.len()],
+            stiffnesses: points.iter().map(|own| Some(own.weight * law?.stiffness(0.0))).collect(),
+            laws: vec![law; points.len()],
+            known: None,
+        };
+        // Without friction, on which the normal forces do not depend.
+        let all = vec![true; points.len()];
+        let (separations, springs) = match PenaltyContact::new(&pressing)? {
+            Some(mut bodies) => {
+                let own = bodies.state_of(0.0, &all)?;
+                (own.separations, own.stiffnesses)
+            }
+            None => (pressing.pushed.clone(), None),
+        };
+        let full = FullSliding::new(stiffness, pressing.elimination.clone(), &points)?;
+        let state = PressedState {
+            stiffnesses: springs.into_iter().collect(),
+            ..full.state(&pressing.load, &separations)
+        };
         let step = 180.0 / strip.count as f64;
         let place = |i: usize| {
             let node = sector.numbering[first + i];

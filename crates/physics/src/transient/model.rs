@@ -93,9 +93,8 @@ impl<'a> TransientModel<'a> {
     /// The mesh of all dofs; a body of revolution has none.
     pub fn mesh(&self) -> Option<&'a Mesh> {
         match self.body {
-            SteppedBody::Plane { mesh, .. } => Some(mesh),
             SteppedBody::Revolution(_) => None,
-            SteppedBody::Assembly { assembly, .. } => Some(assembly.mesh),
+            SteppedBody::Plane { .. } | SteppedBody::Assembly { .. } => Some(self.own_mesh()),
         }
     }
 
@@ -107,14 +106,26 @@ impl<'a> TransientModel<'a> {
         }
     }
 
+    /// The mesh that its matrices are made of: of a body of revolution that of a sector.
+    fn own_mesh(&self) -> &'a Mesh {
+        match self.body {
+            SteppedBody::Plane { mesh, .. } => mesh,
+            SteppedBody::Revolution(sector) => &sector.strip.mesh,
+            SteppedBody::Assembly { assembly, .. } => assembly.mesh,
+        }
+    }
+
+    /// A matrix of [`Self::own_mesh`] over all dofs, of a body of revolution in all its sectors.
+    fn everywhere(&self, matrix: Triplets) -> Triplets {
+        match self.body {
+            SteppedBody::Revolution(sector) => in_all_sectors(&sector.strip, &matrix),
+            SteppedBody::Plane { .. } | SteppedBody::Assembly { .. } => matrix,
+        }
+    }
+
     /// Springs (N/m) and dashpots (N s/m) of the supports over all dofs.
     fn supports(&self) -> [Triplets; 2] {
-        match self.body {
-            SteppedBody::Plane { mesh, .. } => assemble_supports(mesh),
-            SteppedBody::Revolution(sector) => assemble_supports(&sector.strip.mesh)
-                .map(|matrix| everywhere(&sector.strip, &matrix)),
-            SteppedBody::Assembly { assembly, .. } => assembly.joined.supports.clone(),
-        }
+        assemble_supports(self.own_mesh()).map(|matrix| self.everywhere(matrix))
     }
 
     /// Distance of a node from the axis, of a plane body from the origin (m), and its angle about it (rad).
@@ -192,11 +203,7 @@ impl<'a> TransientModel<'a> {
             bound.stiffness_coefficient =
                 bound.stiffness_coefficient.max(own.stiffness_coefficient);
         };
-        let mesh = match self.body {
-            SteppedBody::Plane { mesh, .. } => mesh,
-            SteppedBody::Revolution(sector) => &sector.strip.mesh,
-            SteppedBody::Assembly { assembly, .. } => assembly.mesh,
-        };
+        let mesh = self.own_mesh();
         let first_dof = |e: usize| mesh.dimension * mesh.element_nodes(e)[0] as usize;
         for e in (0..mesh.element_count()).filter(|&e| is_part(first_dof(e))) {
             cover(self.material.own_damping(mesh.region(e)).unwrap_or(self.damping));
@@ -218,16 +225,8 @@ impl<'a> TransientModel<'a> {
         if beta != 0.0 {
             damping.entries.extend(springs.scaled(-beta).entries);
         }
-        let (material, kind, common) = (self.material, MassKind::Lumped, self.damping);
-        let own = match self.body {
-            SteppedBody::Revolution(SolidSector { strip, .. }) => {
-                everywhere(strip, &assemble_extra_damping(&strip.mesh, material, kind, common))
-            }
-            SteppedBody::Plane { mesh, .. }
-            | SteppedBody::Assembly { assembly: &Assembly { mesh, .. }, .. } => {
-                assemble_extra_damping(mesh, material, kind, common)
-            }
-        };
+        let (mesh, kind) = (self.own_mesh(), MassKind::Lumped);
+        let own = self.everywhere(assemble_extra_damping(mesh, self.material, kind, self.damping));
         damping.entries.extend(own.entries);
         let pressure = match self.body {
             SteppedBody::Plane { mesh, .. } => assemble_pressures(mesh),
@@ -330,7 +329,7 @@ impl<'a> TransientModel<'a> {
 }
 
 /// A matrix of bricks with 8 nodes, in all sectors.
-fn everywhere(strip: &Strip, matrix: &Triplets) -> Triplets {
+fn in_all_sectors(strip: &Strip, matrix: &Triplets) -> Triplets {
     let (dofs, count, matrix) = (strip.dof_count(), strip.count, strip.folded(matrix));
     let all = (0..count).flat_map(|s| {
         let entries = matrix.entries();
