@@ -30,10 +30,11 @@ impl AnnulusSheet {
     /// Adds a body along a radius with its corner nodes at some radii: those of the corner ray, then those of the middle one.
     fn add(&mut self, radii: &[f64], kind: ElementKind, region: usize) {
         let (count, first) = (radii.len() - 1, self.nodes.len());
-        let node = |i: usize, half_step: usize| {
-            let radius =
-                if i % 2 == 0 { radii[i / 2] } else { 0.5 * (radii[i / 2] + radii[i / 2 + 1]) };
-            SheetNode { radius, height: 0.0, half_step, place: [i, 1] }
+        let node = |i: usize, half_step: usize| SheetNode {
+            radius: radius_at(radii, i),
+            height: 0.0,
+            half_step,
+            place: [i, 1],
         };
         let is_quadratic = kind.is_quadratic();
         let corner_ray = (0..=2 * count).step_by(if is_quadratic { 1 } else { 2 });
@@ -44,6 +45,14 @@ impl AnnulusSheet {
         elements.iter_mut().flat_map(|own| &mut own.nodes).for_each(|node| node.0 += first);
         self.nodes.extend(nodes);
         self.elements.extend(elements);
+    }
+}
+
+/// Radius at place `i` in halves of an element, between corner nodes at some radii.
+pub(super) fn radius_at(radii: &[f64], i: usize) -> f64 {
+    match i % 2 {
+        0 => radii[i / 2],
+        _ => 0.5 * (radii[i / 2] + radii[i / 2 + 1]),
     }
 }
 

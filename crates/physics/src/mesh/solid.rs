@@ -1,7 +1,7 @@
 //! One sector of a body of revolution in three dimensions.
 
 use super::revolution::{SheetElement, SheetNode, Strip, elements_between, revolved};
-use super::sectors::graded_radii;
+use super::sectors::{graded_radii, radius_at};
 use super::specification::validate;
 use super::{
     AnnulusMesh, AnnulusSpecification, Boundary, BoundaryCondition, ElementKind, Mesh, MeshError,
@@ -345,10 +345,6 @@ fn fit(radii: &mut [f64], inner: f64, outer: f64) -> Result<(), MeshError> {
 fn sheet_nodes(specification: &SolidSpecification, radii: &[f64]) -> Vec<SheetNode> {
     let (nr, nz) = (specification.annulus.radial_elements, specification.axial_elements);
     let is_quadratic = specification.annulus.element.is_quadratic();
-    let radius = |i: usize| match i % 2 {
-        0 => radii[i / 2],
-        _ => 0.5 * (radii[i / 2] + radii[i / 2 + 1]),
-    };
     let height = |j: usize| specification.thickness * j as f64 / (2 * nz) as f64;
     let mut nodes = Vec::new();
     let (slow, fast) = if nr >= nz { (nr, nz) } else { (nz, nr) };
@@ -364,7 +360,7 @@ fn sheet_nodes(specification: &SolidSpecification, radii: &[f64]) -> Vec<SheetNo
                     _ => false,
                 };
                 if exists {
-                    let (radius, height, place) = (radius(i), height(j), [i, j]);
+                    let (radius, height, place) = (radius_at(radii, i), height(j), [i, j]);
                     nodes.push(SheetNode { radius, height, half_step, place });
                 }
             }
